@@ -1,0 +1,36 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "wpg/convex_body.h"
+
+namespace halfstep {
+
+/// Triangle mesh: not assumed convex or closed.
+struct TriangleMesh {
+  Eigen::Matrix3Xd vertices;   ///< [m] (3×n)
+  Eigen::Matrix3Xi triangles;  ///< (3×m), vertex indices.
+};
+
+struct Obstacle {
+  std::string name;                              ///< unique in its scene.
+  std::variant<ConvexBody, TriangleMesh> shape;  ///< in its own frame.
+  Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();
+};
+
+/// What the robot walks among. The floor z = 0 is no obstacle: the floor margin watches it.
+struct Scene {
+  std::string name;
+  std::vector<Obstacle> obstacles;
+  std::vector<Eigen::Matrix2Xd>
+      no_step;  ///< simple polygons on the floor (2×n) that no sole may touch [m].
+};
+
+/// Reads experiments/scenes/*.yaml (format: planner/README.md, "Scenes"). Throws InputError.
+Scene LoadScene(const std::string& yaml_path);
+
+}  // namespace halfstep

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace halfstep {
+
+/// A convex body in its own frame: the Minkowski sum of
+///   the convex hull of `vertices`, a disc of `disc_radius` in the local xy plane, and a ball of
+///   `ball_radius`.
+/// So a sphere is one vertex and a ball, a capsule two vertices and a ball, a cylinder two vertices
+/// and a disc, a box eight vertices, a mesh the vertices of its hull: all exact, one support
+/// function.
+struct ConvexBody {
+  Eigen::Matrix3Xd vertices;  ///< [m] (3×n), n ≥ 1, extreme points only.
+  Eigen::Matrix3Xd normals;   ///< outward unit face normals (3×m); empty when n < 4.
+  std::vector<Eigen::Vector3i>
+      triangles;                    ///< faces, counter-clockwise from outside; empty when n < 4.
+  double disc_radius = 0.0;         ///< [m] ≥ 0
+  double ball_radius = 0.0;         ///< [m] ≥ 0
+  Eigen::Vector3d center{0, 0, 0};  ///< centre of a sphere that contains the body [m].
+  double radius = 0.0;              ///< its radius [m].
+};
+
+/// h(d) = max over the body of d·x [m] for a unit direction d in the body's frame.
+double Support(const ConvexBody& body, const Eigen::Vector3d& direction);
+/// A point of the body where d·x is largest [m].
+Eigen::Vector3d SupportPoint(const ConvexBody& body, const Eigen::Vector3d& direction);
+
+/// Axis-aligned box of full edge lengths `size` [m], centred at the origin.
+ConvexBody MakeBox(const Eigen::Vector3d& size);
+ConvexBody MakeSphere(double radius);
+/// Cylinder of `length` [m] along z, centred at the origin.
+ConvexBody MakeCylinder(double radius, double length);
+/// Capsule along z: the two ball centres are `length` [m] apart.
+ConvexBody MakeCapsule(double radius, double length);
+/// Convex hull of `points` (3×n). Throws std::runtime_error with a sentence when they are fewer
+/// than four, not finite, or (nearly) coplanar.
+ConvexBody MakeHull(const Eigen::Matrix3Xd& points);
+
+}  // namespace halfstep

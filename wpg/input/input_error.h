@@ -1,0 +1,38 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace halfstep {
+
+/// Bad input of a user: every complaint is one line "file:line:column: key: what is wrong (valid:
+/// …)". The command line prints them all and exits with status 2.
+class InputError : public std::runtime_error {
+ public:
+  explicit InputError(std::vector<std::string> complaints);
+  const std::vector<std::string>& complaints() const { return complaints_; }
+
+ private:
+  std::vector<std::string> complaints_;
+};
+
+/// Gathers complaints, so that all mistakes of a file are reported at once.
+class Complaints {
+ public:
+  /// line and column count from 1; 0 leaves them out.
+  void Add(const std::string& file, int line, int column, const std::string& key,
+           const std::string& what);
+  bool empty() const { return lines_.empty(); }
+  const std::vector<std::string>& lines() const { return lines_; }
+  /// Throws InputError when there is any complaint.
+  void ThrowIfAny() const;
+
+ private:
+  std::vector<std::string> lines_;
+};
+
+/// The choice nearest to `word` by edit distance when it is near enough to be a slip, else "".
+std::string NearestWord(const std::string& word, const std::vector<std::string>& choices);
+
+}  // namespace halfstep

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <vector>
+
+#include "wpg/robot_model.h"
+
+namespace halfstep {
+
+/// Outcome of the closed-form leg inverse kinematics.
+enum class LegIkStatus {
+  kSolved,                  ///< the sole is where it was asked to be, to rounding.
+  kOutOfReach,              ///< hip and ankle are farther apart (or nearer) than the knee allows.
+  kUnreachableOrientation,  ///< ankle or hip axes, not orthogonal, cannot give the rotation.
+};
+
+struct LegIkSolution {
+  LegIkStatus status = LegIkStatus::kOutOfReach;
+  Vector6d q = Vector6d::Zero();  ///< [rad], each wrapped to (−π, π]; meaningless unless solved.
+  double reach_margin =
+      0.0;  ///< stretched length − hip–ankle distance [m]; negative: out of reach.
+};
+
+/// Joint angles of `leg` that bring its sole to X_BSole, in the leg's standing branch. Closed form:
+/// knee from the hip–ankle distance, ankles from the hip's direction seen from the foot, hip from
+/// the rotation that remains (Paden–Kahan subproblems 3, 2, 2 and 1).
+/// Source: [Murray1994] §3.3; README of wpg, "Leg inverse kinematics".
+LegIkSolution SolveLegIk(const Leg& leg, const Eigen::Isometry3d& X_BSole);
+/// The same in a given branch.
+LegIkSolution SolveLegIk(const Leg& leg, const Eigen::Isometry3d& X_BSole, const LegBranch& branch);
+
+/// All solutions (at most 8), each with its branch; empty when out of reach.
+struct LegIkBranchSolution {
+  LegBranch branch;
+  Vector6d q;
+};
+std::vector<LegIkBranchSolution> SolveLegIkAll(const Leg& leg, const Eigen::Isometry3d& X_BSole);
+
+/// Geometric Jacobian (6×6) of the sole in B: rows (angular velocity [rad/s], velocity of the point
+/// of the sole frame's origin [m/s]), both expressed in B, per joint speed.
+Matrix6d LegJacobian(const Leg& leg, const Vector6d& q);
+
+/// Columns of dq/d(·) (6×8) for an upright waist and a flat sole, both moving in x, y, z [m] and
+/// yaw [rad] of the world: (waist x y z yaw, sole x y z yaw). `X_WB` and `X_WSole` upright. Returns
+/// false when the Jacobian is singular (stretched knee), then `dq` is not written.
+[[nodiscard]] bool LegIkDerivative(const Leg& leg, const Vector6d& q, const Eigen::Isometry3d& X_WB,
+                                   const Eigen::Isometry3d& X_WSole,
+                                   Eigen::Matrix<double, 6, 8>* dq);
+
+}  // namespace halfstep

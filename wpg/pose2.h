@@ -1,0 +1,48 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cmath>
+
+namespace halfstep {
+
+/// Planar pose X_AB of frame B in frame A: position (x, y) [m] and yaw [rad] (not wrapped: yaw is a
+/// real number, so that differences of yaw keep their number of turns).
+struct Pose2 {
+  double x = 0.0;
+  double y = 0.0;
+  double yaw = 0.0;
+
+  Eigen::Vector2d position() const { return {x, y}; }
+  Eigen::Matrix2d rotation() const { return Eigen::Rotation2Dd(yaw).toRotationMatrix(); }
+
+  /// p_A = X_AB · p_B [m].
+  Eigen::Vector2d operator*(const Eigen::Vector2d& p_B) const {
+    const double c = std::cos(yaw), s = std::sin(yaw);
+    return {x + c * p_B.x() - s * p_B.y(), y + s * p_B.x() + c * p_B.y()};
+  }
+  /// X_AC = X_AB · X_BC.
+  Pose2 operator*(const Pose2& X_BC) const {
+    const Eigen::Vector2d p = *this * X_BC.position();
+    return {p.x(), p.y(), yaw + X_BC.yaw};
+  }
+  /// X_BA.
+  Pose2 Inverse() const {
+    const double c = std::cos(yaw), s = std::sin(yaw);
+    return {-c * x - s * y, s * x - c * y, -yaw};
+  }
+  /// Reflection in the xz plane: left becomes right.
+  Pose2 Mirrored() const { return {x, -y, -yaw}; }
+
+  friend bool operator==(const Pose2&, const Pose2&) = default;
+};
+
+/// X_AB in space, at height z [m], upright.
+inline Eigen::Isometry3d ToIsometry(const Pose2& X_AB, double z) {
+  Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
+  X.linear() = Eigen::AngleAxisd(X_AB.yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  X.translation() = Eigen::Vector3d(X_AB.x, X_AB.y, z);
+  return X;
+}
+
+}  // namespace halfstep
