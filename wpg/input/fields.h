@@ -1,18 +1,21 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <functional>
 #include <limits>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace halfstep {
 
 /// What a number may be. Reading refuses anything outside [min, max] and anything not finite.
+/// unit, min and max are those of the text: of a key in `_deg` they are in degrees.
 struct NumberSpec {
   const char* meaning = "";
-  const char* unit = "";  ///< "s", "m", "rad" …; "" for a pure number.
+  const char* unit = "";  ///< "s", "m", "rad", "deg" …; "" for a pure number.
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
   bool required = false;
@@ -31,8 +34,9 @@ struct GroupSpec {
 
 /// One declaration of a group of keys serves reading, writing back and explaining: a struct's keys
 /// are declared by a function `void DeclareFields(Fields& fields, X* x)` that names each key once.
-/// The value that a pointer holds before reading is the key's default.
-/// A key that ends in `_deg` is stored in radians: the visitor converts.
+/// The value that a pointer holds before reading is the key's default; an absent or refused value
+/// leaves it as it is. A key that ends in `_deg` is stored in radians: the visitor converts.
+/// Declaring one key twice in a group is a broken precondition (std::logic_error).
 class Fields {
  public:
   virtual ~Fields() = default;
@@ -47,16 +51,35 @@ class Fields {
   /// A list of exactly `count` numbers (count 0: any number of them).
   virtual void Numbers(const char* key, std::vector<double>* value, size_t count,
                        const NumberSpec& spec) = 0;
-  /// A nested map. `declare` runs on it; when it is absent and not required, on an empty map.
-  /// Returns whether the key was present.
+  /// A list of points in the plane, `[[x, y], …]` as the columns of a 2×n matrix; `list` bounds n,
+  /// `number` every coordinate.
+  virtual void Points(const char* key, Eigen::Matrix2Xd* value, const GroupSpec& list,
+                      const NumberSpec& number) = 0;
+  /// A nested map. `declare` runs on it; when it is absent and not required, on an empty map where
+  /// no key is required. Returns whether the key was present. Writing always writes the group.
   virtual bool Group(const char* key, const GroupSpec& spec,
                      const std::function<void(Fields&)>& declare) = 0;
-  /// A list of maps: `resize(n)`, then `declare(fields, i)` for each item.
-  virtual void List(const char* key, const GroupSpec& spec,
-                    const std::function<void(size_t)>& resize,
-                    const std::function<void(Fields&, size_t)>& declare) = 0;
+  /// A nested map that there need not be: reading sets `present`, writing leaves the group out
+  /// unless `present`. So "exactly one of" is a row of optional groups and a Complain().
+  virtual void OptionalGroup(const char* key, bool* present, const GroupSpec& spec,
+                             const std::function<void(Fields&)>& declare) {
+    *present = Group(key, spec, declare);
+  }
+  /// A list of maps, `declare(fields, &item)` for each; items read replace those held before.
+  template <typename Item>
+  void List(const char* key, const GroupSpec& spec, std::vector<Item>* items,
+            const std::type_identity_t<std::function<void(Fields&, Item*)>>& declare) {
+    Items(
+        key, spec, items->size(), [items](size_t n) { *items = std::vector<Item>(n); },
+        [items, &declare](Fields& fields, size_t i) { declare(fields, &(*items)[i]); });
+  }
+  /// What List() stands on: `size` items are held now, `resize(n)` replaces them by n fresh ones.
+  virtual void Items(const char* key, const GroupSpec& spec, size_t size,
+                     const std::function<void(size_t)>& resize,
+                     const std::function<void(Fields&, size_t)>& declare) = 0;
   /// A complaint about the value of `key` of this group ("" for the group itself) that a range
-  /// cannot express, reported at its place. Ignored by visitors that do not read.
+  /// cannot express, reported at its place. Ignored by visitors that do not read, in an absent
+  /// group, and where `key` has been complained about already.
   virtual void Complain(const char* key, const std::string& what) = 0;
   /// Directory of the file being read, for relative paths; "" otherwise.
   virtual std::string directory() const = 0;
