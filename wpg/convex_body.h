@@ -24,18 +24,24 @@ struct ConvexBody {
 
 /// h(d) = max over the body of d·x [m] for a unit direction d in the body's frame.
 double Support(const ConvexBody& body, const Eigen::Vector3d& direction);
-/// A point of the body where d·x is largest [m].
+/// A point of the body where d·x is largest [m]; any d ≠ 0.
 Eigen::Vector3d SupportPoint(const ConvexBody& body, const Eigen::Vector3d& direction);
 
-/// Axis-aligned box of full edge lengths `size` [m], centred at the origin.
+/// Recomputes `center` and `radius` from the other members: small, not minimal, and containing
+/// (relative margin 1e-12).
+void BoundBySphere(ConvexBody* body);
+
+/// Axis-aligned box of full edge lengths `size` [m], centred at the origin. Precondition, here and
+/// below: finite positive sizes (std::logic_error).
 ConvexBody MakeBox(const Eigen::Vector3d& size);
 ConvexBody MakeSphere(double radius);
 /// Cylinder of `length` [m] along z, centred at the origin.
 ConvexBody MakeCylinder(double radius, double length);
 /// Capsule along z: the two ball centres are `length` [m] apart.
 ConvexBody MakeCapsule(double radius, double length);
-/// Convex hull of `points` (3×n). Throws std::runtime_error with a sentence when they are fewer
-/// than four, not finite, or (nearly) coplanar.
+/// Convex hull of `points` (3×n) [m]. Contains every point up to 1e-9 of the hull's size; points
+/// nearer than 1e-12 of it to another are merged. Throws std::runtime_error with a sentence when
+/// they are fewer than four, not finite, or (nearly) coplanar: thinner than 1e-9 of their size.
 ConvexBody MakeHull(const Eigen::Matrix3Xd& points);
 
 }  // namespace halfstep
