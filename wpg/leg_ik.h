@@ -16,8 +16,9 @@ enum class LegIkStatus {
 struct LegIkSolution {
   LegIkStatus status = LegIkStatus::kOutOfReach;
   Vector6d q = Vector6d::Zero();  ///< [rad], each wrapped to (−π, π]; meaningless unless solved.
-  double reach_margin =
-      0.0;  ///< stretched length − hip–ankle distance [m]; negative: out of reach.
+  /// Stretched length − hip–ankle distance [m]. Negative if and only if the status is kOutOfReach;
+  /// when hip and ankle are too near each other: their distance − the least one of the knee.
+  double reach_margin = 0.0;
 };
 
 /// Joint angles of `leg` that bring its sole to X_BSole, in the leg's standing branch. Closed form:
@@ -27,6 +28,10 @@ struct LegIkSolution {
 LegIkSolution SolveLegIk(const Leg& leg, const Eigen::Isometry3d& X_BSole);
 /// The same in a given branch.
 LegIkSolution SolveLegIk(const Leg& leg, const Eigen::Isometry3d& X_BSole, const LegBranch& branch);
+
+/// The branch to which the posture q belongs. At a singularity (stretched knee, aligned hip or
+/// ankle axes), where two branches meet, one of them.
+LegBranch LegBranchOf(const Leg& leg, const Vector6d& q);
 
 /// All solutions (at most 8), each with its branch; empty when out of reach.
 struct LegIkBranchSolution {
@@ -40,8 +45,9 @@ std::vector<LegIkBranchSolution> SolveLegIkAll(const Leg& leg, const Eigen::Isom
 Matrix6d LegJacobian(const Leg& leg, const Vector6d& q);
 
 /// Columns of dq/d(·) (6×8) for an upright waist and a flat sole, both moving in x, y, z [m] and
-/// yaw [rad] of the world: (waist x y z yaw, sole x y z yaw). `X_WB` and `X_WSole` upright. Returns
-/// false when the Jacobian is singular (stretched knee), then `dq` is not written.
+/// yaw [rad] of the world: (waist x y z yaw, sole x y z yaw). `X_WB` and `X_WSole` upright, and q
+/// the posture that joins them. Returns false when the Jacobian is singular (stretched knee: |det|
+/// below 1e-7 of the stretched length cubed), then `dq` is not written.
 [[nodiscard]] bool LegIkDerivative(const Leg& leg, const Vector6d& q, const Eigen::Isometry3d& X_WB,
                                    const Eigen::Isometry3d& X_WSole,
                                    Eigen::Matrix<double, 6, 8>* dq);
