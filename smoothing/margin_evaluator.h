@@ -1,0 +1,72 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "planner/collision_world.h"
+#include "planner/scene.h"
+#include "smoothing/margins.h"
+#include "smoothing/posture.h"
+#include "smoothing/superposed_walk.h"
+#include "wpg/robot_model.h"
+
+namespace halfstep {
+
+/// How often a margin evaluator was asked.
+struct MarginCounts {
+  long instants = 0;           ///< instants evaluated
+  long collision_queries = 0;  ///< body against scene, or body pair
+};
+
+/// Every margin of a walk of one robot among one scene's obstacles, at single instants. What holds
+/// between instants is for others to say (FeasibilityTest). Const; scratch is the caller's.
+class MarginEvaluator {
+ public:
+  /// Separating directions remembered from instant to instant, and counters. One for each thread.
+  struct Scratch {
+    std::vector<CollisionWorld::Scratch> bodies;
+    std::vector<Eigen::Vector3d> pair_normals_W;
+    MarginCounts counts;
+  };
+
+  /// `robot` and `scene` are copied.
+  MarginEvaluator(RobotModel robot, Scene scene, MarginLimits limits);
+
+  const RobotModel& robot() const { return robot_; }
+  const Scene& scene() const { return scene_; }
+  const MarginLimits& limits() const { return limits_; }
+  Scratch MakeScratch() const;
+
+  /// All margins at an instant. When a leg does not reach, joint and clearance margins are −∞.
+  MarginSet At(const SuperposedWalk& walk, const LocalTime& at, Scratch* scratch) const;
+
+  /// The first margin found below what is demanded, cheapest families first; none: all are met.
+  /// Clearances are only compared with what is demanded, so this is much cheaper than At.
+  std::optional<Margin> FirstViolation(const SuperposedWalk& walk, const LocalTime& at,
+                                       Scratch* scratch) const;
+
+  /// "clearance of right foot (RLEG_LINK5) to 'bar' 0.0032 m at half-step 3, τ = 0.412 s".
+  std::string Describe(const Margin& margin) const;
+  /// What a margin belongs to: "RLEG_LINK5 – bar", "right foot", "LLEG_JOINT3".
+  std::string Subject(const Margin& margin) const;
+
+ private:
+  void FootMargins(const SuperposedWalk& walk, const LocalTime& at, const WalkJet& jet,
+                   MarginSet* margins) const;
+  void ZmpMargin(const SuperposedWalk& walk, const LocalTime& at, const WalkJet& jet,
+                 MarginSet* margins) const;
+  void JointSpeedMargins(const WalkJet& jet, Posture* posture, MarginSet* margins) const;
+  void JointMargins(const Posture& posture, MarginSet* margins) const;
+  void Clearances(const Posture& posture, Scratch* scratch, MarginSet* margins) const;
+  std::optional<Margin> FirstCollision(const Posture& posture, Scratch* scratch) const;
+
+  RobotModel robot_;
+  Scene scene_;
+  MarginLimits limits_;
+  CollisionWorld world_;
+  std::vector<CollisionShape> shapes_;  // of the robot's bodies
+};
+
+}  // namespace halfstep

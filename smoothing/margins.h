@@ -1,0 +1,72 @@
+#pragma once
+
+#include <array>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "smoothing/superposed_walk.h"
+
+namespace halfstep {
+
+/// The statements that a walk must satisfy. Each margin says how far inside its limit the walk is,
+/// in its natural unit; positive is inside.
+enum class MarginFamily : int {
+  kFloor,          ///< height of a sole above the floor while it moves horizontally [m]
+  kFootSpeed,      ///< limit − speed of the swing sole's centre [m/s]
+  kFootYawRate,    ///< limit − |yaw rate| of the swing sole [rad/s]
+  kZmp,            ///< distance of the ZMP inside the support polygon [m]
+  kReach,          ///< stretched leg length − hip–ankle distance [m]
+  kJoint,          ///< distance to the nearest joint limit [rad]
+  kJointSpeed,     ///< joint speed limit − |q̇| [rad/s]
+  kSelfClearance,  ///< distance between the robot's own bodies [m]
+  kClearance,      ///< distance from the robot to the obstacles [m]
+};
+constexpr int kNumMarginFamilies = 9;
+
+std::string_view Name(MarginFamily family);  ///< "zmp", "joint_speed" … as in YAML and CSV
+std::string_view Unit(MarginFamily family);  ///< "m", "rad" …
+/// What counts as a clear change of a margin; compares margins of different units [its unit].
+double Scale(MarginFamily family);
+constexpr std::array<MarginFamily, kNumMarginFamilies> AllMarginFamilies() {
+  std::array<MarginFamily, kNumMarginFamilies> all{};
+  for (int i = 0; i < kNumMarginFamilies; ++i) all[static_cast<size_t>(i)] = MarginFamily{i};
+  return all;
+}
+
+/// The value of one margin, and what it belongs to.
+struct Margin {
+  MarginFamily family = MarginFamily::kZmp;
+  double value = std::numeric_limits<double>::infinity();
+  LocalTime at;
+  double t = 0.0;  ///< absolute time in the walk where it was found [s]
+  /// Zmp: step in the air or −1. Foot families: Index(Side). Reach, joints: 6·Index(Side) + joint.
+  /// Clearances: index into RobotModel::bodies.
+  int subject = -1;
+  int other = -1;  ///< clearance: obstacle; self-clearance: second body
+};
+
+/// Limits of the quantities that the robot model does not bound, and what is demanded of each
+/// margin.
+struct MarginLimits {
+  std::optional<double> foot_speed = 1.0;     ///< [m/s]; none: no limit
+  std::optional<double> foot_yaw_rate = 2.0;  ///< [rad/s]
+  double joint_speed_scale = 1.0;             ///< of the robot's joint speed limits, ∈ (0, 1]
+  /// Demanded margin δ by family, in its unit: feasible means margin ≥ δ.
+  std::array<double, kNumMarginFamilies> demanded = {0.005, 0, 0, 0.01, 0, 0, 0, 0.005, 0.005};
+  /// Distances beyond this are not told apart: a clearance reads at most this [m].
+  double clearance_horizon = 0.3;
+
+  double demanded_of(MarginFamily f) const { return demanded[static_cast<size_t>(f)]; }
+  double& demanded_of(MarginFamily f) { return demanded[static_cast<size_t>(f)]; }
+  /// (value − demanded) / Scale: negative when infeasible; comparable between families.
+  double Slack(const Margin& margin) const {
+    return (margin.value - demanded_of(margin.family)) / Scale(margin.family);
+  }
+};
+
+/// One margin of each family.
+using MarginSet = std::array<Margin, kNumMarginFamilies>;
+
+}  // namespace halfstep

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+
+#include "wpg/leg_ik.h"
+#include "wpg/robot_model.h"
+#include "wpg/walk_vector.h"
+
+namespace halfstep {
+
+/// What the robot's body does at one instant of a walk: upright waist, flat soles, leg joints.
+struct Posture {
+  Eigen::Isometry3d X_WB = Eigen::Isometry3d::Identity();
+  std::array<Eigen::Isometry3d, 2> X_WSole;                 ///< by Index(Side)
+  std::array<LegIkSolution, 2> ik;                          ///< joint angles and reach
+  std::array<Vector6d, 2> speeds;                           ///< q̇ [rad/s]
+  std::array<std::array<Eigen::Isometry3d, 7>, 2> X_WLink;  ///< leg links, and the sole last
+  bool reachable = false;                                   ///< both legs solved
+
+  const Eigen::Isometry3d& OfBody(const RobotBody& body) const {
+    return body.leg < 0 ? X_WB
+                        : X_WLink[static_cast<size_t>(body.leg)][static_cast<size_t>(body.link)];
+  }
+};
+
+/// Waist pose, sole poses, joint angles. The CoM is rigid in the waist frame: p_WB = c −
+/// R(yaw)·p_BC. When a leg does not reach, `reachable` is false and that leg's joints mean nothing.
+Posture SolvePosture(const RobotModel& robot, const WalkVector& x);
+
+/// Fills `speeds` from the walk's first derivative. False when a leg is stretched to the
+/// singularity, where joint speeds have no bound. Precondition: reachable.
+[[nodiscard]] bool SolveJointSpeeds(const RobotModel& robot, const WalkJet& jet, Posture* posture);
+
+/// Fills `X_WLink`. Precondition: reachable.
+void PlaceLinks(const RobotModel& robot, Posture* posture);
+
+}  // namespace halfstep

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+
+#include "smoothing/feasibility_test.h"
+
+namespace halfstep {
+
+/// Checks margins at instants no more than `period` apart, both ends of the window included, coarse
+/// ones first. Feasible means: at these instants, nothing about the motion between them.
+class SampledFeasibility : public FeasibilityTest {
+ public:
+  /// period [s] > 0. `evaluator` is borrowed and must outlive this.
+  SampledFeasibility(const MarginEvaluator& evaluator, double period);
+
+  Evidence evidence() const override { return Evidence::kSampled; }
+  std::string Description() const override;
+  const MarginEvaluator& evaluator() const override { return evaluator_; }
+  Feasibility Check(const SuperposedWalk& walk, const TimeWindow& window,
+                    MarginEvaluator::Scratch* scratch) const override;
+
+ private:
+  const MarginEvaluator& evaluator_;
+  double period_;
+};
+
+/// Smallest value of each margin at instants no more than `period` [s] apart over the whole walk,
+/// both ends included: values, not only verdicts, so slower than Check.
+MarginSet SampleMargins(const MarginEvaluator& evaluator, const SuperposedWalk& walk, double period,
+                        MarginEvaluator::Scratch* scratch);
+
+/// The margin with the least slack (MarginLimits::Slack).
+const Margin& WorstOf(const MarginSet& margins, const MarginLimits& limits);
+
+}  // namespace halfstep

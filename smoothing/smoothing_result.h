@@ -1,0 +1,58 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "smoothing/feasibility_test.h"
+#include "smoothing/homotopy_parameters.h"
+#include "smoothing/margins.h"
+
+namespace halfstep {
+
+enum class SmoothingStatus {
+  kNotRun,
+  kFinished,         ///< the method came to its end
+  kInterrupted,      ///< stopped from outside; the parameters are the last accepted ones
+  kStartInfeasible,  ///< the planned motion itself misses a margin; the parameters are the start
+};
+std::string_view Name(SmoothingStatus status);  ///< "finished" …
+
+/// What holds one overlap where it is.
+struct JunctionResult {
+  JunctionKind kind = JunctionKind::kUpDown;
+  double overlap = 0.0;      ///< accepted Δ [s]
+  double upper_bound = 0.0;  ///< largest that was allowed [s]
+  /// The margin that refused the smallest infeasible overlap tried; none: the upper bound holds.
+  std::optional<Margin> limited_by = std::nullopt;
+};
+
+/// One candidate that a method tried.
+struct SmoothingIterate {
+  double wall = 0.0;                ///< since the method began [s]
+  long evaluations = 0;             ///< instants evaluated so far
+  double candidate_duration = 0.0;  ///< [s]
+  std::optional<double> candidate_slack =
+      std::nullopt;  ///< MarginLimits::Slack where it failed; none: feasible
+  bool accepted = false;
+  double lambda = 0.0;  ///< how far from incumbent to candidate it was accepted, ∈ [0, 1]
+  double incumbent_duration = 0.0;  ///< after this iterate [s]
+};
+
+/// What a smoothing method found. `parameters` were found feasible in the sense of `evidence`,
+/// unless the start itself was infeasible.
+struct SmoothingResult {
+  SmoothingStatus status = SmoothingStatus::kNotRun;
+  std::string message = "Smooth was not called.";
+  Evidence evidence = Evidence::kSampled;
+  HomotopyParameters parameters;
+  std::vector<JunctionResult> junctions;
+  std::vector<SmoothingIterate> iterates;
+  MarginCounts counts;
+  double wall = 0.0;  ///< [s]
+  /// Until the first accepted improvement [s]; none when nothing was improved.
+  std::optional<double> time_to_first_improvement;
+};
+
+}  // namespace halfstep

@@ -1,0 +1,38 @@
+#pragma once
+
+namespace halfstep {
+
+/// A profile F(σ, θ) from 0 to 1 in dimensionless time σ = τ/T ∈ [0, 1], with θ = ω·T: its
+/// derivatives that a jet in time needs. Subscripts are partial derivatives.
+struct UnitJet {
+  double value = 0.0;
+  double s = 0.0, ss = 0.0, sss = 0.0;  ///< F_σ, F_σσ, F_σσσ (the last piecewise).
+  double theta = 0.0, theta_s = 0.0, theta_ss = 0.0;  ///< F_θ, F_σθ, F_σσθ.
+};
+
+/// A profile π(τ; T) of local time τ ∈ [0, T] [s]: value, first and second time derivative, and the
+/// derivatives of these three with respect to the duration T at fixed τ. Exact everywhere;
+/// `second_T` jumps where the third time derivative does.
+struct ProfileJet {
+  double value = 0.0;     ///< π
+  double first = 0.0;     ///< π̇ [1/s]
+  double second = 0.0;    ///< π̈ [1/s²]
+  double third = 0.0;     ///< d³π/dτ³ [1/s³], piecewise
+  double value_T = 0.0;   ///< ∂π/∂T [1/s]
+  double first_T = 0.0;   ///< ∂π̇/∂T [1/s²]
+  double second_T = 0.0;  ///< ∂π̈/∂T [1/s³]
+};
+
+/// π(τ; T) = F(τ/T, ω·T) by the chain rule; `f` taken at σ = τ/T.
+inline ProfileJet ToTime(const UnitJet& f, double sigma, double duration, double omega) {
+  const double r = 1.0 / duration;
+  return {.value = f.value,
+          .first = f.s * r,
+          .second = f.ss * r * r,
+          .third = f.sss * r * r * r,
+          .value_T = -sigma * r * f.s + omega * f.theta,
+          .first_T = (-f.s - sigma * f.ss) * r * r + omega * r * f.theta_s,
+          .second_T = (-2.0 * f.ss - sigma * f.sss) * r * r * r + omega * r * r * f.theta_ss};
+}
+
+}  // namespace halfstep
