@@ -26,11 +26,12 @@ struct Obstacle {
 struct Scene {
   std::string name;
   std::vector<Obstacle> obstacles;
-  std::vector<Eigen::Matrix2Xd>
-      no_step;  ///< simple polygons on the floor (2×n) that no sole may touch [m].
+  /// Simple polygons on the floor (2×n, counter-clockwise) that no sole may touch [m].
+  std::vector<Eigen::Matrix2Xd> no_step;
 };
 
-/// Reads experiments/scenes/*.yaml (format: planner/README.md, "Scenes"). Throws InputError.
+/// Reads experiments/scenes/*.yaml (format: planner/README.md, "Scenes"). The name defaults to the
+/// file's, without its extension. Throws InputError with every complaint, also about mesh files.
 Scene LoadScene(const std::string& yaml_path);
 
 }  // namespace halfstep

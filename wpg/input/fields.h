@@ -23,7 +23,7 @@ struct NumberSpec {
 struct TextSpec {
   const char* meaning = "";
   bool required = false;
-  std::vector<std::string> choices;  ///< empty: any text.
+  std::vector<std::string> choices{};  ///< empty: any text.
 };
 struct GroupSpec {
   const char* meaning = "";

@@ -32,7 +32,8 @@ class Complaints {
   std::vector<std::string> lines_;
 };
 
-/// The choice nearest to `word` by edit distance when it is near enough to be a slip, else "".
+/// The choice nearest to `word` by edit distance (swapped neighbours count as one slip) when at
+/// most every third character is wrong, else ""; the first of several equally near.
 std::string NearestWord(const std::string& word, const std::vector<std::string>& choices);
 
 }  // namespace halfstep

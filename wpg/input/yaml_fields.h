@@ -15,9 +15,13 @@ struct YamlOverride {
 };
 
 /// Reads a YAML file strictly through a declaration of its keys. Throws InputError with every
-/// complaint at once: unknown key (with the nearest known one and the list), duplicate key, wrong
-/// type, missing required key, not finite, out of range, more than one document, too large or too
-/// many alias expansions. Overrides are checked as the file is; their place is "--set key".
+/// complaint at once, in the order of the file: unknown key (with the nearest known one and the
+/// list), duplicate key, wrong type, missing required key, not finite, out of range, tags. What
+/// leaves no tree to read is one complaint: a file that cannot be read or exceeds 4 MiB, bytes that
+/// are not UTF-8, broken YAML, no or more than one document, an alias inside its own value, more
+/// than 64 levels or 200,000 values (aliases expanded). Overrides are checked as the file is; their
+/// place is "--set key".
+/// Numbers are decimal and without quotes; what `declare` wrote is meaningless after a throw.
 void ReadYaml(const std::string& path, const std::vector<YamlOverride>& overrides,
               const std::function<void(Fields&)>& declare);
 /// The same for text; `name` stands for the file in complaints, `directory` for its folder.

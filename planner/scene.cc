@@ -1,0 +1,185 @@
+#include "planner/scene.h"
+
+#include <filesystem>
+#include <map>
+#include <utility>
+
+#include "planner/simple_polygon.h"
+#include "wpg/input/input_error.h"
+#include "wpg/input/mesh_file.h"
+#include "wpg/input/text.h"
+#include "wpg/input/yaml_fields.h"
+
+namespace halfstep {
+namespace {
+
+constexpr double kFarthest = 1000.0;    // of anything from the origin [m]
+constexpr double kSmallest = 1e-6;      // of any size [m]
+constexpr size_t kMostVertices = 1000;  // of a polygon
+
+NumberSpec Size(const char* meaning) {
+  return {.meaning = meaning, .unit = "m", .min = kSmallest, .max = kFarthest, .required = true};
+}
+
+// What the text says of an obstacle; exactly one of the shapes is present.
+struct ObstacleFields {
+  std::string name;
+  bool has_box = false, has_cylinder = false, has_sphere = false, has_capsule = false,
+       has_mesh = false;
+  std::vector<double> size;
+  double radius = 0.0;
+  double length = 0.0;
+  TriangleMesh mesh;
+  std::vector<double> xyz{0.0, 0.0, 0.0};
+  std::vector<double> rpy{0.0, 0.0, 0.0};
+};
+
+struct NoStepFields {
+  std::string name;
+  Eigen::Matrix2Xd polygon;
+};
+
+// Names become parts of paths and CSV cells.
+void DeclareName(Fields& fields, std::string* name, bool required, const std::string& item,
+                 std::map<std::string, std::string>* taken) {
+  fields.Text("name", name, {.meaning = "unique name", .required = required});
+  if (!required && name->empty()) return;
+  if (name->empty() || name->front() == '.' || name->find('/') != std::string::npos) {
+    fields.Complain("name", "unfit as a name: " + Quote(*name) +
+                                " (valid: text without '/' that does not begin with '.')");
+    return;
+  }
+  if (taken == nullptr) return;
+  const auto [first, is_new] = taken->emplace(*name, item);
+  if (!is_new) fields.Complain("name", Quote(*name) + " is the name of " + first->second + " too");
+}
+
+void DeclareMesh(Fields& fields, TriangleMesh* mesh) {
+  std::string file;
+  double scale = 1.0;
+  fields.Text("file", &file, {.meaning = "STL or OBJ file, beside the scene", .required = true});
+  fields.Number("scale", &scale,
+                {.meaning = "metres per unit of the file", .min = 1e-6, .max = 1e6});
+  if (file.empty()) {
+    fields.Complain("file", "no file name (valid: an STL or OBJ file)");
+    return;
+  }
+  try {
+    const std::filesystem::path path = std::filesystem::path(fields.directory()) / file;
+    LoadedMesh loaded = LoadMesh(path.string());
+    mesh->vertices = scale * loaded.vertices;
+    mesh->triangles = std::move(loaded.triangles);
+  } catch (const InputError& error) {
+    for (const std::string& complaint : error.complaints()) fields.Complain("file", complaint);
+  }
+}
+
+void DeclareShape(Fields& fields, ObstacleFields* obstacle) {
+  fields.OptionalGroup("box", &obstacle->has_box, {.meaning = "box"}, [&](Fields& box) {
+    box.Numbers("size_m", &obstacle->size, 3, Size("full edge lengths"));
+  });
+  fields.OptionalGroup("cylinder", &obstacle->has_cylinder, {.meaning = "cylinder along z"},
+                       [&](Fields& cylinder) {
+                         cylinder.Number("radius_m", &obstacle->radius, Size("radius"));
+                         cylinder.Number("length_m", &obstacle->length, Size("length"));
+                       });
+  fields.OptionalGroup("sphere", &obstacle->has_sphere, {.meaning = "ball"}, [&](Fields& sphere) {
+    sphere.Number("radius_m", &obstacle->radius, Size("radius"));
+  });
+  fields.OptionalGroup(
+      "capsule", &obstacle->has_capsule, {.meaning = "capsule along z"}, [&](Fields& capsule) {
+        capsule.Number("radius_m", &obstacle->radius, Size("radius"));
+        capsule.Number("length_m", &obstacle->length, Size("distance of the ball centres"));
+      });
+  fields.OptionalGroup("mesh", &obstacle->has_mesh, {.meaning = "triangle mesh"},
+                       [&](Fields& mesh) { DeclareMesh(mesh, &obstacle->mesh); });
+  const int shapes = obstacle->has_box + obstacle->has_cylinder + obstacle->has_sphere +
+                     obstacle->has_capsule + obstacle->has_mesh;
+  if (shapes != 1) {
+    fields.Complain("", std::to_string(shapes) +
+                            " shapes (valid: exactly one of box, cylinder, sphere, capsule, mesh)");
+  }
+}
+
+void DeclareObstacle(Fields& fields, ObstacleFields* obstacle) {
+  DeclareShape(fields, obstacle);
+  fields.Group("pose", {.meaning = "of the shape in the world"}, [&](Fields& pose) {
+    pose.Numbers("xyz", &obstacle->xyz, 3,
+                 {.meaning = "position", .unit = "m", .min = -kFarthest, .max = kFarthest});
+    pose.Numbers("rpy_deg", &obstacle->rpy, 3,
+                 {.meaning = "turns about the fixed axes x, then y, then z",
+                  .unit = "deg",
+                  .min = -360.0,
+                  .max = 360.0});
+  });
+}
+
+void DeclareNoStep(Fields& fields, NoStepFields* area) {
+  fields.Points("polygon_m", &area->polygon,
+                {.meaning = "vertices of a simple polygon in order",
+                 .required = true,
+                 .min_items = 3,
+                 .max_items = kMostVertices},
+                {.unit = "m", .min = -kFarthest, .max = kFarthest});
+  if (area->polygon.cols() == 0) return;
+  const std::string mistake = WhyNotSimple(area->polygon);
+  if (!mistake.empty()) {
+    fields.Complain("polygon_m", mistake + " (valid: a simple polygon of at least 1 mm²)");
+  }
+}
+
+std::variant<ConvexBody, TriangleMesh> MakeShape(ObstacleFields* from) {
+  if (from->has_box) return MakeBox({from->size[0], from->size[1], from->size[2]});
+  if (from->has_cylinder) return MakeCylinder(from->radius, from->length);
+  if (from->has_sphere) return MakeSphere(from->radius);
+  if (from->has_capsule) return MakeCapsule(from->radius, from->length);
+  return std::move(from->mesh);
+}
+
+// X_WO of a position and turns about the fixed axes: R = Rz·Ry·Rx.
+Eigen::Isometry3d MakePose(const std::vector<double>& xyz, const std::vector<double>& rpy) {
+  Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
+  X.linear() = (Eigen::AngleAxisd(rpy[2], Eigen::Vector3d::UnitZ()) *
+                Eigen::AngleAxisd(rpy[1], Eigen::Vector3d::UnitY()) *
+                Eigen::AngleAxisd(rpy[0], Eigen::Vector3d::UnitX()))
+                   .toRotationMatrix();
+  X.translation() = Eigen::Vector3d(xyz[0], xyz[1], xyz[2]);
+  return X;
+}
+
+}  // namespace
+
+Scene LoadScene(const std::string& yaml_path) {
+  Scene scene;
+  std::vector<ObstacleFields> obstacles;
+  std::vector<NoStepFields> areas;
+  std::map<std::string, std::string> obstacle_names, area_names;
+  ReadYaml(yaml_path, {}, [&](Fields& fields) {
+    DeclareName(fields, &scene.name, false, "", nullptr);
+    fields.List("obstacles", {.meaning = "bodies in the way"}, &obstacles,
+                [&](Fields& item, ObstacleFields* obstacle) {
+                  const auto index = obstacle - obstacles.data();
+                  DeclareName(item, &obstacle->name, true,
+                              "obstacles[" + std::to_string(index) + "]", &obstacle_names);
+                  DeclareObstacle(item, obstacle);
+                });
+    fields.List("no_step", {.meaning = "areas of the floor that no sole may touch"}, &areas,
+                [&](Fields& item, NoStepFields* area) {
+                  const auto index = area - areas.data();
+                  DeclareName(item, &area->name, true, "no_step[" + std::to_string(index) + "]",
+                              &area_names);
+                  DeclareNoStep(item, area);
+                });
+  });
+  if (scene.name.empty()) scene.name = std::filesystem::path(yaml_path).stem().string();
+  for (ObstacleFields& from : obstacles) {
+    scene.obstacles.push_back({from.name, MakeShape(&from), MakePose(from.xyz, from.rpy)});
+  }
+  for (NoStepFields& area : areas) {
+    if (SignedArea(area.polygon) < 0.0) area.polygon = area.polygon.rowwise().reverse().eval();
+    scene.no_step.push_back(std::move(area.polygon));
+  }
+  return scene;
+}
+
+}  // namespace halfstep

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+
+namespace halfstep {
+
+/// Signed area [m²] of a polygon (2×n vertices in order): positive when counter-clockwise.
+double SignedArea(const Eigen::Matrix2Xd& vertices);
+
+/// What keeps the vertices (2×n [m]) from being a simple polygon of at least 1 mm² (fewer than
+/// three, two that coincide, edges that cross or touch, hardly any area), or "".
+std::string WhyNotSimple(const Eigen::Matrix2Xd& vertices);
+
+}  // namespace halfstep

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace halfstep {
+
+/// Byte offset of the first byte that is no part of valid UTF-8 (overlong forms and surrogates are
+/// invalid), or npos.
+size_t FindInvalidUtf8(std::string_view text);
+
+/// Whether valid UTF-8 text holds a control character (U+0000 … U+001F, U+007F … U+009F).
+bool HasControlCharacter(std::string_view text);
+
+/// The text between single quotes, fit for a complaint: control characters and invalid bytes shown
+/// as \xNN, and cut after 60 bytes.
+std::string Quote(std::string_view text);
+
+}  // namespace halfstep

@@ -1,0 +1,67 @@
+#include <algorithm>
+#include <charconv>
+#include <system_error>
+
+#include "wpg/input/text.h"
+#include "wpg/input/yaml_node.h"
+
+namespace halfstep {
+namespace {
+
+// The item of a list, or the (new) value of a map; nullptr after a complaint.
+YamlNode* Child(const std::string& part, const std::string& parent_path, const YamlPlace& place,
+                YamlNode* parent, YamlComplaints* complaints) {
+  const std::string name = parent_path.empty() ? "the document" : parent_path;
+  if (parent->kind == YamlNode::Kind::kList) {
+    size_t index = 0;
+    const char* const end = part.data() + part.size();
+    const auto [stop, error] = std::from_chars(part.data(), end, index);
+    if (error == std::errc() && stop == end && index < parent->items.size()) {
+      return &parent->items[index];
+    }
+    const std::string valid = parent->items.empty()
+                                  ? "none, the list is empty"
+                                  : "0 … " + std::to_string(parent->items.size() - 1);
+    complaints->Add(place, "", name + " has no item " + Quote(part) + " (valid: " + valid + ")");
+    return nullptr;
+  }
+  if (parent->kind == YamlNode::Kind::kScalar) {
+    complaints->Add(place, "", name + " is " + Describe(*parent) + ", not a map or a list");
+    return nullptr;
+  }
+  if (parent->kind == YamlNode::Kind::kNull) {
+    parent->kind = YamlNode::Kind::kMap;
+    parent->place = place;
+  }
+  if (YamlNode* const child = parent->Find(part)) return child;
+  parent->items.push_back({.key = part, .key_place = place, .place = place});
+  return &parent->items.back();
+}
+
+}  // namespace
+
+void OverrideYaml(const std::string& dotted_key, const std::string& value_text, YamlNode* root,
+                  YamlComplaints* complaints) {
+  const YamlPlace place{0, 0, dotted_key.empty() ? "''" : KeyPath("", dotted_key)};
+  YamlNode value = ParseYaml(value_text, place.override_key, complaints);
+  YamlNode* node = root;
+  std::string path;
+  for (size_t begin = 0; begin <= dotted_key.size();) {
+    const size_t end = std::min(dotted_key.find('.', begin), dotted_key.size());
+    const std::string part = dotted_key.substr(begin, end - begin);
+    if (part.empty()) {
+      complaints->Add(place, "", "an empty key (valid: dotted keys, as smoothing.method)");
+      return;
+    }
+    const bool in_list = node->kind == YamlNode::Kind::kList;
+    node = Child(part, path, place, node, complaints);
+    if (node == nullptr) return;
+    path = in_list ? path + "[" + part + "]" : KeyPath(path, part);
+    begin = end + 1;
+  }
+  value.key = node->key;
+  value.key_place = place;
+  *node = std::move(value);
+}
+
+}  // namespace halfstep
