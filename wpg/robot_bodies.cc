@@ -1,0 +1,195 @@
+#include "wpg/robot_bodies.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <set>
+#include <stdexcept>
+
+#include "wpg/input/mesh_file.h"
+
+namespace halfstep {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+constexpr std::string_view kPackage = "package://";
+
+std::string PackageOf(const std::string& mesh) {
+  if (!mesh.starts_with(kPackage)) return "";
+  const std::string path = mesh.substr(kPackage.size());
+  return path.substr(0, path.find('/'));
+}
+
+// File of a mesh named in a URDF. Throws std::runtime_error with a sentence.
+std::string MeshPath(const std::string& mesh, const std::string& urdf_file,
+                     const std::map<std::string, std::string>& packages) {
+  if (const std::string package = PackageOf(mesh); !package.empty()) {
+    const auto folder = packages.find(package);
+    if (folder == packages.end()) {
+      throw std::runtime_error("package `" + package + "` of " + mesh +
+                               " has no folder: name it under `packages` of the robot file");
+    }
+    return folder->second + mesh.substr(kPackage.size() + package.size());
+  }
+  if (mesh.find("://") != std::string::npos) {
+    throw std::runtime_error(mesh +
+                             " is no mesh path (valid: package://…, or a path relative to "
+                             "the URDF)");
+  }
+  return (std::filesystem::path(urdf_file).parent_path() / mesh).string();
+}
+
+// Hull of the prism of 32 sides around a cylinder along z: at most 0.5 % of the radius larger.
+ConvexBody PrismAround(double radius, double length) {
+  constexpr int kSides = 32;
+  const double outer = radius / std::cos(std::numbers::pi / kSides);
+  Eigen::Matrix3Xd points(3, 2 * kSides);
+  for (int i = 0; i < kSides; ++i) {
+    const double angle = 2 * std::numbers::pi * i / kSides;
+    const double x = outer * std::cos(angle), y = outer * std::sin(angle);
+    points.col(2 * i) = Vector3d(x, y, length / 2);
+    points.col(2 * i + 1) = Vector3d(x, y, -length / 2);
+  }
+  return MakeHull(points);
+}
+
+ConvexBody Moved(const Isometry3d& X, ConvexBody body) {
+  body.vertices = (X.linear() * body.vertices).colwise() + X.translation();
+  body.normals = X.linear() * body.normals;
+  body.center = X * body.center;
+  return body;
+}
+
+ConvexBody ShapeOf(const UrdfCollision& collision, const Isometry3d& X, const std::string& file,
+                   const std::map<std::string, std::string>& packages) {
+  switch (collision.kind) {
+    case UrdfCollision::Kind::kBox:
+      return Moved(X, MakeBox(collision.size));
+    case UrdfCollision::Kind::kSphere:
+      return Moved(X, MakeSphere(collision.size.x()));
+    case UrdfCollision::Kind::kCylinder: {
+      // The disc of a ConvexBody lies in its xy plane.
+      const bool upright = X.linear().col(2).head<2>().norm() < 1e-12;
+      return Moved(X, upright ? MakeCylinder(collision.size.x(), collision.size.y())
+                              : PrismAround(collision.size.x(), collision.size.y()));
+    }
+    case UrdfCollision::Kind::kMesh:
+      break;
+  }
+  const Eigen::Matrix3Xd vertices = LoadMesh(MeshPath(collision.mesh, file, packages)).vertices;
+  return Moved(X, MakeHull(collision.scale.asDiagonal() * vertices));
+}
+
+// On which leg link (or the waist) each link is rigid while walking.
+struct Anchor {
+  int leg = -1;
+  int link = -1;
+  int urdf_link = -1;
+};
+
+std::vector<Anchor> FindAnchors(const UrdfTree& urdf, const BodyRequest& request) {
+  std::vector<Anchor> anchors(urdf.links.size(), Anchor{-1, -1, request.waist});
+  for (size_t i = 1; i < urdf.links.size(); ++i) {
+    const int joint = urdf.links[i].joint;
+    anchors[i] = anchors[static_cast<size_t>(urdf.joints[static_cast<size_t>(joint)].parent)];
+    for (int leg = 0; leg < 2; ++leg) {
+      const auto& joints = request.leg_joints[static_cast<size_t>(leg)];
+      const auto found = std::find(joints.begin(), joints.end(), joint);
+      if (found != joints.end()) {
+        anchors[i] = {leg, static_cast<int>(found - joints.begin()), static_cast<int>(i)};
+      }
+    }
+  }
+  return anchors;
+}
+
+// Number of moving joints on the way between two links.
+int JointsBetween(const UrdfTree& urdf, int a, int b) {
+  // links are sorted from the root: the later one is never above the earlier one.
+  int count = 0;
+  while (a != b) {
+    int& lower = a > b ? a : b;
+    const UrdfJoint& joint =
+        urdf.joints[static_cast<size_t>(urdf.links[static_cast<size_t>(lower)].joint)];
+    if (joint.kind != UrdfJoint::Kind::kFixed) ++count;
+    lower = joint.parent;
+  }
+  return count;
+}
+
+}  // namespace
+
+std::vector<std::string> MeshPackages(const UrdfTree& urdf) {
+  std::set<std::string> names;
+  for (const UrdfLink& link : urdf.links) {
+    for (const UrdfCollision& collision : link.collisions) {
+      if (const std::string name = PackageOf(collision.mesh); !name.empty()) names.insert(name);
+    }
+  }
+  return {names.begin(), names.end()};
+}
+
+LinkBodies BuildBodies(const UrdfTree& urdf, const BodyRequest& request, Complaints* complaints) {
+  const std::vector<Anchor> anchors = FindAnchors(urdf, request);
+  std::vector<double> q = request.posture;
+  for (const auto& joints : request.leg_joints) {
+    for (const int joint : joints) q[static_cast<size_t>(joint)] = 0.0;
+  }
+  const std::vector<Isometry3d> X = urdf.LinkPoses(q);
+  LinkBodies all;
+  for (size_t i = 0; i < urdf.links.size(); ++i) {
+    const UrdfLink& link = urdf.links[i];
+    const Anchor& anchor = anchors[i];
+    // Exactly the identity for a leg's own links, so that upright cylinders stay so.
+    const bool own = anchor.urdf_link == static_cast<int>(i);
+    const Isometry3d X_AnchorLink =
+        own ? Isometry3d::Identity() : X[static_cast<size_t>(anchor.urdf_link)].inverse() * X[i];
+    for (size_t k = 0; k < link.collisions.size(); ++k) {
+      const UrdfCollision& collision = link.collisions[k];
+      RobotBody body;
+      body.name = link.name + (k == 0 ? "" : "#" + std::to_string(k + 1));
+      body.leg = anchor.leg;
+      body.link = anchor.link;
+      try {
+        body.shape =
+            ShapeOf(collision, X_AnchorLink * collision.X_LinkShape, urdf.file, request.packages);
+        all.bodies.push_back(std::move(body));
+        all.links.push_back(static_cast<int>(i));
+      } catch (const InputError& error) {
+        for (const std::string& line : error.complaints()) {
+          complaints->Add(urdf.file, collision.place.line, collision.place.column, body.name, line);
+        }
+      } catch (const std::runtime_error& error) {
+        complaints->Add(urdf.file, collision.place.line, collision.place.column, body.name,
+                        error.what());
+      }
+    }
+  }
+  return all;
+}
+
+std::vector<std::array<int, 2>> BuildSelfPairs(const UrdfTree& urdf, const BodyRequest& request,
+                                               const LinkBodies& all) {
+  std::vector<std::array<int, 2>> pairs;
+  for (size_t a = 0; a < all.bodies.size(); ++a) {
+    for (size_t b = a + 1; b < all.bodies.size(); ++b) {
+      if (all.bodies[a].leg == all.bodies[b].leg) continue;
+      const int link_a = all.links[a], link_b = all.links[b];
+      const bool excluded =
+          std::any_of(request.excluded_links.begin(), request.excluded_links.end(),
+                      [&](const std::array<int, 2>& pair) {
+                        return (pair[0] == link_a && pair[1] == link_b) ||
+                               (pair[0] == link_b && pair[1] == link_a);
+                      });
+      if (!excluded && JointsBetween(urdf, link_a, link_b) > 2) {
+        pairs.push_back({static_cast<int>(a), static_cast<int>(b)});
+      }
+    }
+  }
+  return pairs;
+}
+
+}  // namespace halfstep

@@ -1,0 +1,169 @@
+#include "wpg/urdf_file.h"
+
+#include <console_bridge/console.h>
+#include <urdf_parser/urdf_parser.h>
+
+#include <fstream>
+#include <mutex>
+#include <sstream>
+
+namespace halfstep {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+// Keeps what urdfdom would print. console_bridge has one handler a process, so one listener at a
+// time.
+class Listener : public console_bridge::OutputHandler {
+ public:
+  Listener() : lock_(Mutex()) { console_bridge::useOutputHandler(this); }
+  ~Listener() override { console_bridge::restorePreviousOutputHandler(); }
+  Listener(const Listener&) = delete;
+  Listener& operator=(const Listener&) = delete;
+
+  void log(const std::string& text, console_bridge::LogLevel level, const char*, int) override {
+    if (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR) {
+      text_ += (text_.empty() ? "" : "; ") + text;
+    }
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  static std::mutex& Mutex() {
+    static std::mutex mutex;
+    return mutex;
+  }
+  std::lock_guard<std::mutex> lock_;
+  std::string text_;
+};
+
+Vector3d ToEigen(const urdf::Vector3& v) { return {v.x, v.y, v.z}; }
+
+Isometry3d ToEigen(const urdf::Pose& pose) {
+  const urdf::Rotation& r = pose.rotation;
+  Isometry3d X = Isometry3d::Identity();
+  X.linear() = Eigen::Quaterniond(r.w, r.x, r.y, r.z).normalized().toRotationMatrix();
+  X.translation() = ToEigen(pose.position);
+  return X;
+}
+
+UrdfCollision ToCollision(const urdf::Collision& collision) {
+  UrdfCollision out;
+  out.X_LinkShape = ToEigen(collision.origin);
+  const urdf::Geometry& geometry = *collision.geometry;
+  switch (geometry.type) {
+    case urdf::Geometry::BOX:
+      out.kind = UrdfCollision::Kind::kBox;
+      out.size = ToEigen(static_cast<const urdf::Box&>(geometry).dim);
+      break;
+    case urdf::Geometry::SPHERE:
+      out.kind = UrdfCollision::Kind::kSphere;
+      out.size.x() = static_cast<const urdf::Sphere&>(geometry).radius;
+      break;
+    case urdf::Geometry::CYLINDER: {
+      const auto& cylinder = static_cast<const urdf::Cylinder&>(geometry);
+      out.kind = UrdfCollision::Kind::kCylinder;
+      out.size = {cylinder.radius, cylinder.length, 0};
+      break;
+    }
+    case urdf::Geometry::MESH: {
+      const auto& mesh = static_cast<const urdf::Mesh&>(geometry);
+      out.kind = UrdfCollision::Kind::kMesh;
+      out.mesh = mesh.filename;
+      out.scale = ToEigen(mesh.scale);
+      break;
+    }
+  }
+  return out;
+}
+
+UrdfJoint ToJoint(const urdf::Joint& joint, const UrdfPlaces& places) {
+  UrdfJoint out;
+  out.name = joint.name;
+  out.X_ParentChild = ToEigen(joint.parent_to_joint_origin_transform);
+  out.place = places.joints.at(joint.name);
+  if (joint.type == urdf::Joint::FIXED) return out;
+  out.kind =
+      joint.type == urdf::Joint::REVOLUTE ? UrdfJoint::Kind::kRevolute : UrdfJoint::Kind::kOther;
+  if (out.kind == UrdfJoint::Kind::kRevolute) {
+    out.axis = ToEigen(joint.axis).normalized();
+    out.lower = joint.limits->lower;
+    out.upper = joint.limits->upper;
+    out.max_speed = joint.limits->velocity;
+  }
+  return out;
+}
+
+// Appends the link and all that hangs on it.
+void AddLink(const urdf::Link& link, int joint, const UrdfPlaces& places, UrdfTree* tree) {
+  const int index = static_cast<int>(tree->links.size());
+  UrdfLink& out = tree->links.emplace_back();
+  out.name = link.name;
+  out.joint = joint;
+  out.place = places.links.at(link.name);
+  if (joint >= 0) tree->joints[static_cast<size_t>(joint)].child = index;
+  if (link.inertial) {
+    out.mass = link.inertial->mass;
+    out.com = ToEigen(link.inertial->origin.position);
+  }
+  for (const auto& collision : link.collision_array) {
+    UrdfCollision shape = ToCollision(*collision);
+    shape.place = places.collisions.at(link.name).at(out.collisions.size());
+    out.collisions.push_back(std::move(shape));
+  }
+  for (size_t i = 0; i < link.child_links.size(); ++i) {
+    tree->joints.push_back(ToJoint(*link.child_joints[i], places));
+    tree->joints.back().parent = index;
+    AddLink(*link.child_links[i], static_cast<int>(tree->joints.size()) - 1, places, tree);
+  }
+}
+
+std::string ReadText(const std::string& path) {
+  std::ifstream stream(path, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  if (!stream || text.str().empty()) throw InputError({path + ": the file cannot be read"});
+  return text.str();
+}
+
+}  // namespace
+
+int UrdfTree::FindLink(const std::string& name) const {
+  for (size_t i = 0; i < links.size(); ++i) {
+    if (links[i].name == name) return static_cast<int>(i);
+  }
+  return -1;
+}
+
+std::vector<Isometry3d> UrdfTree::LinkPoses(const std::vector<double>& q) const {
+  std::vector<Isometry3d> X(links.size(), Isometry3d::Identity());
+  for (size_t i = 1; i < links.size(); ++i) {
+    const auto j = static_cast<size_t>(links[i].joint);
+    const UrdfJoint& joint = joints[j];
+    X[i] = X[static_cast<size_t>(joint.parent)] * joint.X_ParentChild;
+    if (joint.kind == UrdfJoint::Kind::kRevolute) {
+      X[i].rotate(Eigen::AngleAxisd(q[j], joint.axis));
+    }
+  }
+  return X;
+}
+
+UrdfTree ReadUrdf(const std::string& path) {
+  const std::string text = ReadText(path);
+  Complaints complaints;
+  const UrdfPlaces places = CheckUrdf(text, path, &complaints);
+  complaints.ThrowIfAny();
+  UrdfTree tree;
+  tree.file = path;
+  const Listener listener;
+  const urdf::ModelInterfaceSharedPtr model = urdf::parseURDF(text);
+  if (!model || !model->getRoot()) {
+    complaints.Add(path, 0, 0, "robot", "urdfdom refuses it: " + listener.text());
+    complaints.ThrowIfAny();
+  }
+  AddLink(*model->getRoot(), -1, places, &tree);
+  return tree;
+}
+
+}  // namespace halfstep
