@@ -38,27 +38,38 @@ YamlNode* Child(const std::string& part, const std::string& parent_path, const Y
   return &parent->items.back();
 }
 
+std::vector<std::string> Split(const std::string& dotted_key) {
+  std::vector<std::string> parts(1);
+  for (const char c : dotted_key) {
+    if (c == '.') {
+      parts.emplace_back();
+    } else {
+      parts.back() += c;
+    }
+  }
+  return parts;
+}
+
 }  // namespace
 
 void OverrideYaml(const std::string& dotted_key, const std::string& value_text, YamlNode* root,
                   YamlComplaints* complaints) {
   const YamlPlace place{0, 0, dotted_key.empty() ? "''" : KeyPath("", dotted_key)};
+  const std::vector<std::string> parts = Split(dotted_key);
+  if (std::find(parts.begin(), parts.end(), "") != parts.end()) {
+    complaints->Add(place, "", "an empty key (valid: dotted keys, as smoothing.method)");
+    return;
+  }
   YamlNode value = ParseYaml(value_text, place.override_key, complaints);
   YamlNode* node = root;
   std::string path;
-  for (size_t begin = 0; begin <= dotted_key.size();) {
-    const size_t end = std::min(dotted_key.find('.', begin), dotted_key.size());
-    const std::string part = dotted_key.substr(begin, end - begin);
-    if (part.empty()) {
-      complaints->Add(place, "", "an empty key (valid: dotted keys, as smoothing.method)");
-      return;
-    }
+  for (const std::string& part : parts) {
     const bool in_list = node->kind == YamlNode::Kind::kList;
     node = Child(part, path, place, node, complaints);
     if (node == nullptr) return;
     path = in_list ? path + "[" + part + "]" : KeyPath(path, part);
-    begin = end + 1;
   }
+  value.place = place;
   value.key = node->key;
   value.key_place = place;
   *node = std::move(value);

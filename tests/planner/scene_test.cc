@@ -1,0 +1,122 @@
+#include "planner/scene.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <variant>
+
+#include "planner/simple_polygon.h"
+#include "tests/fixture_check.h"
+
+namespace halfstep {
+namespace {
+
+// A scene file (and a mesh beside it) in a folder of this test's own.
+class SceneTest : public testing::Test {
+ protected:
+  SceneTest()
+      : folder_(std::filesystem::temp_directory_path() /
+                ("halfstep_scene_test_" + std::to_string(::getpid()))) {
+    std::filesystem::create_directories(folder_);
+  }
+  ~SceneTest() override { std::filesystem::remove_all(folder_); }
+
+  std::string Write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name) << text;
+    return (folder_ / name).string();
+  }
+
+ private:
+  const std::filesystem::path folder_;
+};
+
+TEST_F(SceneTest, ReadsEveryShape) {
+  Write("table.obj", "v 0 0 0\nv 10 0 0\nv 0 10 0\nf 1 2 3\n");
+  const Scene scene = LoadScene(Write("room.yaml", R"(
+obstacles:
+  - name: bar
+    box: {size_m: [0.08, 2.0, 0.06]}
+    pose: {xyz: [0.4, 0, 0.04], rpy_deg: [0, 0, 90]}
+  - {name: post, cylinder: {radius_m: 0.03, length_m: 0.5}, pose: {xyz: [1, 0, 0.25]}}
+  - {name: ball, sphere: {radius_m: 0.1}}
+  - {name: rail, capsule: {radius_m: 0.01, length_m: 1.0}}
+  - {name: table, mesh: {file: table.obj, scale: 0.1}}
+)"));
+  EXPECT_EQ(scene.name, "room");
+  ASSERT_EQ(scene.obstacles.size(), 5u);
+  EXPECT_EQ(scene.obstacles[0].name, "bar");
+
+  const auto support = [&scene](size_t i, const Eigen::Vector3d& direction) {
+    return Support(std::get<ConvexBody>(scene.obstacles[i].shape), direction);
+  };
+  EXPECT_NEAR(support(0, Eigen::Vector3d::UnitX()), 0.04, 1e-15);
+  EXPECT_NEAR(support(0, Eigen::Vector3d::UnitY()), 1.0, 1e-15);
+  EXPECT_NEAR(support(0, Eigen::Vector3d::UnitZ()), 0.03, 1e-15);
+  EXPECT_NEAR(support(1, Eigen::Vector3d::UnitX()), 0.03, 1e-15);
+  EXPECT_NEAR(support(1, Eigen::Vector3d::UnitZ()), 0.25, 1e-15);
+  EXPECT_NEAR(support(2, Eigen::Vector3d::UnitY()), 0.1, 1e-15);
+  EXPECT_NEAR(support(3, Eigen::Vector3d::UnitZ()), 0.51, 1e-15);
+  const auto& mesh = std::get<TriangleMesh>(scene.obstacles[4].shape);
+  ASSERT_EQ(mesh.triangles.cols(), 1);
+  EXPECT_NEAR(mesh.vertices.maxCoeff(), 1.0, 1e-6);
+  EXPECT_TRUE(scene.obstacles[2].X_WO.isApprox(Eigen::Isometry3d::Identity()));
+  EXPECT_TRUE((scene.obstacles[0].X_WO * Eigen::Vector3d::UnitX())
+                  .isApprox(Eigen::Vector3d(0.4, 1.0, 0.04), 1e-12));
+}
+
+TEST_F(SceneTest, TurnsAboutFixedAxesXThenYThenZ) {
+  const Scene scene = LoadScene(Write("turned.yaml", R"(
+name: turned
+obstacles: [{name: a, sphere: {radius_m: 1}, pose: {rpy_deg: [90, 0, 90]}}]
+)"));
+  EXPECT_EQ(scene.name, "turned");
+  // y goes to z by the turn about x and stays there; z goes to -y, then to x.
+  const Eigen::Matrix3d R = scene.obstacles[0].X_WO.linear();
+  EXPECT_TRUE((R * Eigen::Vector3d::UnitY()).isApprox(Eigen::Vector3d::UnitZ(), 1e-12));
+  EXPECT_TRUE((R * Eigen::Vector3d::UnitZ()).isApprox(Eigen::Vector3d::UnitX(), 1e-12));
+}
+
+TEST_F(SceneTest, TurnsNoStepPolygonsCounterClockwise) {
+  const Scene scene = LoadScene(Write("hole.yaml", R"(
+no_step:
+  - {name: clockwise, polygon_m: [[0, 0], [0, 1], [2, 1], [2, 0]]}
+  - {name: counter-clockwise, polygon_m: [[0, 0], [2, 0], [2, 1], [0, 1]]}
+)"));
+  ASSERT_EQ(scene.no_step.size(), 2u);
+  EXPECT_DOUBLE_EQ(SignedArea(scene.no_step[0]), 2.0);
+  EXPECT_DOUBLE_EQ(SignedArea(scene.no_step[1]), 2.0);
+  EXPECT_TRUE(scene.obstacles.empty());
+}
+
+TEST_F(SceneTest, ComplainsAboutAFileThatIsNotThere) {
+  EXPECT_THROW(LoadScene("no_such_scene.yaml"), InputError);
+}
+
+TEST(SimplePolygon, SeesWhereEdgesTouch) {
+  Eigen::Matrix2Xd square(2, 4);
+  square << 0, 1, 1, 0, 0, 0, 1, 1;
+  EXPECT_EQ(WhyNotSimple(square), "");
+  EXPECT_EQ(WhyNotSimple(square.leftCols(2)), "fewer than three vertices");
+
+  Eigen::Matrix2Xd straight_corner(2, 5);  // a vertex in the middle of an edge is allowed
+  straight_corner << 0, 0.5, 1, 1, 0, 0, 0, 0, 1, 1;
+  EXPECT_EQ(WhyNotSimple(straight_corner), "");
+
+  Eigen::Matrix2Xd pinched(2, 5);  // vertex 3 lies on edge 0–1
+  pinched << 0, 2, 2, 1, 0, 0, 0, 1, 0, 1;
+  EXPECT_EQ(WhyNotSimple(pinched), "edges 0–1 and 2–3 meet");
+}
+
+class SceneFixture : public testing::TestWithParam<std::string> {};
+
+TEST_P(SceneFixture, IsRefused) {
+  CheckFixture(GetParam(), [](const std::string& path) { (void)LoadScene(path); });
+}
+
+INSTANTIATE_TEST_SUITE_P(Bad, SceneFixture, testing::ValuesIn(Fixtures("scene")), FixtureName);
+
+}  // namespace
+}  // namespace halfstep
