@@ -20,6 +20,7 @@ namespace halfstep {
 namespace {
 
 constexpr double kThinnest = 1e-9;     // of the size: below it a hull counts as flat.
+constexpr double kCutOff = 1e-11;      // of the size: points may lie this far outside their hull.
 constexpr double kMerged = 1e-12;      // of the size: below it two points are one.
 constexpr double kSameNormal = 1e-18;  // squared distance of unit normals of coplanar faces.
 
@@ -147,32 +148,31 @@ Eigen::Matrix3Xd Merged(const Eigen::Matrix3Xd& points, double tolerance) {
 
 double Support(const ConvexBody& body, const Eigen::Vector3d& direction) {
   const double x = direction.x(), y = direction.y(), z = direction.z();
-  const double* p = body.vertices.data();
-  const double* const end = p + body.vertices.size();
+  const auto& v = body.vertices;
+  double farthest = (v.row(0) * x + v.row(1) * y + v.row(2) * z).maxCoeff();
+  if (body.disc_radius > 0) farthest += body.disc_radius * std::sqrt(x * x + y * y);
+  return farthest + body.ball_radius;
+}
+
+int FarthestVertex(const ConvexBody& body, const Eigen::Vector3d& direction) {
+  const double x = direction.x(), y = direction.y(), z = direction.z();
+  const Eigen::Index n = body.vertices.cols();
+  const double *xs = body.vertices.data(), *ys = xs + n, *zs = ys + n;
   double best = -std::numeric_limits<double>::infinity();
-  for (; p != end; p += 3) {
-    const double along = p[0] * x + p[1] * y + p[2] * z;
-    best = along > best ? along : best;
+  Eigen::Index farthest = 0;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double along = xs[i] * x + ys[i] * y + zs[i] * z;
+    if (along > best) {
+      best = along;
+      farthest = i;
+    }
   }
-  if (body.disc_radius > 0) best += body.disc_radius * std::sqrt(x * x + y * y);
-  return best + body.ball_radius;
+  return static_cast<int>(farthest);
 }
 
 Eigen::Vector3d SupportPoint(const ConvexBody& body, const Eigen::Vector3d& direction) {
-  const double x = direction.x(), y = direction.y(), z = direction.z();
-  const double* p = body.vertices.data();
-  const double* const end = p + body.vertices.size();
-  const double* farthest = p;
-  double best = -std::numeric_limits<double>::infinity();
-  for (; p != end; p += 3) {
-    const double along = p[0] * x + p[1] * y + p[2] * z;
-    if (along > best) {
-      best = along;
-      farthest = p;
-    }
-  }
-  Eigen::Vector3d point(farthest[0], farthest[1], farthest[2]);
-  const double radial = std::hypot(x, y);
+  Eigen::Vector3d point = body.vertices.col(FarthestVertex(body, direction));
+  const double radial = direction.head<2>().norm();
   if (body.disc_radius > 0 && radial > 0) {
     point.head<2>() += body.disc_radius / radial * direction.head<2>();
   }
@@ -275,7 +275,7 @@ ConvexBody MakeHull(const Eigen::Matrix3Xd& points) {
   for (const Eigen::Vector3d& n : body.normals.colwise()) {
     const double reach = Support(body, n);
     if (reach + Support(body, -n) < kThinnest) Refuse("the points are (nearly) coplanar");
-    if ((n.transpose() * local).maxCoeff() > reach + kThinnest) {
+    if ((n.transpose() * local).maxCoeff() > reach + kCutOff) {
       Refuse("rounding would cut off points; they are (nearly) coplanar");
     }
   }

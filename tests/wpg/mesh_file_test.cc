@@ -1,0 +1,116 @@
+#include "wpg/input/mesh_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "wpg/input/input_error.h"
+
+namespace halfstep {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+const std::string kFolder = std::string(HALFSTEP_SOURCE_DIR) + "/tests/fixtures/mesh/";
+
+// A file with these bytes, removed again at the end.
+class TemporaryFile {
+ public:
+  TemporaryFile(const std::string& name, const std::string& bytes)
+      : path_(testing::TempDir() + name) {
+    std::ofstream(path_, std::ios::binary) << bytes;
+  }
+  ~TemporaryFile() { std::filesystem::remove(path_); }
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+std::string Complaint(const std::string& path) {
+  try {
+    LoadMesh(path);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no complaint";
+}
+
+TEST(MeshFile, EveryFormOfTheCubeIsTheCube) {
+  int files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(kFolder + "good")) {
+    SCOPED_TRACE(entry.path().filename().string());
+    const LoadedMesh mesh = LoadMesh(entry.path().string());
+    ++files;
+    EXPECT_EQ(mesh.vertices.cols(), 8);
+    ASSERT_EQ(mesh.triangles.cols(), 12);
+    double volume = 0;
+    for (const Eigen::Vector3i& t : mesh.triangles.colwise()) {
+      const Eigen::Vector3d a = mesh.vertices.col(t[0]), b = mesh.vertices.col(t[1]);
+      volume += a.dot(b.cross(mesh.vertices.col(t[2]))) / 6;
+    }
+    EXPECT_NEAR(volume, 1, 1e-12);
+  }
+  EXPECT_EQ(files, 4);
+}
+
+// Each bad file says in its first line (a binary one in its header) what the complaint must hold.
+TEST(MeshFile, BadFilesAreRefusedWithTheirPlace) {
+  int files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(kFolder + "bad")) {
+    const std::string path = entry.path().string();
+    SCOPED_TRACE(entry.path().filename().string());
+    ++files;
+    std::string first_line;
+    std::getline(std::ifstream(path), first_line);
+    const size_t start = first_line.find("expect: ");
+    ASSERT_NE(start, std::string::npos);
+    std::string expected = first_line.substr(start + 8);
+    expected = expected.substr(0, expected.find('\0'));
+    EXPECT_THAT(Complaint(path), HasSubstr(expected));
+    EXPECT_THAT(Complaint(path), StartsWith(path + ":"));
+  }
+  EXPECT_EQ(files, 26);
+}
+
+// No beginning of a file may crash the reader or, for STL, pass for a whole one.
+TEST(MeshFile, EveryTruncationIsRefused) {
+  for (const std::string name : {"cube_ascii.stl", "cube_binary.stl", "cube_quads.obj"}) {
+    std::ifstream file(kFolder + "good/" + name, std::ios::binary);
+    const std::string whole((std::istreambuf_iterator<char>(file)), {});
+    const bool is_stl = name.ends_with(".stl");
+    // The name after the last "endsolid" may be cut.
+    const size_t last = name == "cube_ascii.stl" ? whole.rfind("endsolid") + 7 : whole.size() - 1;
+    for (size_t length = 0; length <= last; length += 7) {
+      const TemporaryFile cut("halfstep_cut_" + name, whole.substr(0, length));
+      const std::string complaint = Complaint(cut.path());
+      EXPECT_TRUE(!is_stl || complaint != "no complaint") << name << " cut to " << length;
+    }
+  }
+}
+
+TEST(MeshFile, CoordinatesAreReadInDoublePrecision) {
+  const TemporaryFile file("halfstep_precise.obj",
+                           "v 0.1 1e-300 1e-400\nv +1.5 0 0\nv 0 123456.789012345 0\nf 1 2 3\n");
+  const LoadedMesh mesh = LoadMesh(file.path());
+  EXPECT_EQ(mesh.vertices.col(0), Eigen::Vector3d(0.1, 1e-300, 0));
+  EXPECT_EQ(mesh.vertices(0, 1), 1.5);
+  EXPECT_EQ(mesh.vertices(1, 2), 123456.789012345);
+}
+
+TEST(MeshFile, MissingFilesAndFoldersAreRefused) {
+  EXPECT_THAT(Complaint(kFolder + "none.stl"), HasSubstr("no such file"));
+  std::filesystem::create_directories(testing::TempDir() + "halfstep_folder.stl");
+  EXPECT_THAT(Complaint(testing::TempDir() + "halfstep_folder.stl"),
+              HasSubstr("not a regular file"));
+  const TemporaryFile empty("halfstep_empty.obj", "");
+  EXPECT_THAT(Complaint(empty.path()), HasSubstr("is empty"));
+}
+
+}  // namespace
+}  // namespace halfstep

@@ -1,0 +1,79 @@
+#include "wpg/input/mesh_file.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <system_error>
+
+#include "wpg/input/input_error.h"
+#include "wpg/input/mesh_text.h"
+
+namespace halfstep {
+namespace {
+
+constexpr std::uintmax_t kMaxBytes = std::uintmax_t{1} << 30;
+constexpr size_t kStlHeader = 80, kStlStart = 84, kStlTriangle = 50;
+
+[[noreturn]] void Refuse(const std::string& path, const std::string& what) {
+  Complaints complaints;
+  complaints.Add(path, 0, 0, "", what);
+  throw InputError(complaints.lines());
+}
+
+std::string ReadWhole(const std::string& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) {
+    Refuse(path, std::filesystem::exists(path, error) ? "is not a regular file" : "no such file");
+  }
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  if (error) Refuse(path, "cannot be read: " + error.message());
+  if (size > kMaxBytes) {
+    Refuse(path, "has " + std::to_string(size) + " bytes (valid: at most 1 GiB)");
+  }
+  std::ifstream file(path, std::ios::binary);
+  std::string bytes(static_cast<size_t>(size), '\0');
+  if (!file.read(bytes.data(), static_cast<std::streamsize>(size))) {
+    Refuse(path, "cannot be read");
+  }
+  return bytes;
+}
+
+// Binary files may start with "solid" too; what they cannot help is the size or bytes that no text
+// has.
+bool IsBinaryStl(const std::string& bytes) {
+  if (bytes.size() >= kStlStart) {
+    std::uint32_t count = 0;
+    std::memcpy(&count, bytes.data() + kStlHeader, sizeof(count));
+    if (bytes.size() == kStlStart + std::uintmax_t{count} * kStlTriangle) return true;
+  }
+  const size_t start = bytes.find_first_not_of(" \t\r\n");
+  std::string word = start == std::string::npos ? "" : bytes.substr(start, 5);
+  std::transform(word.begin(), word.end(), word.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string_view beginning = std::string_view(bytes).substr(0, 1024);
+  const bool begins_as_text = word == "solid" || beginning.starts_with("\xEF\xBB\xBF");
+  return !begins_as_text || beginning.find('\0') != std::string_view::npos;
+}
+
+}  // namespace
+
+LoadedMesh LoadMesh(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (extension != ".stl" && extension != ".obj") {
+    Refuse(path, "unknown kind of mesh (valid: .stl, .obj)");
+  }
+  const std::string bytes = ReadWhole(path);
+  if (bytes.empty()) Refuse(path, "is empty");
+  const LoadedMesh mesh = extension == ".obj"  ? ReadObj(path, bytes)
+                          : IsBinaryStl(bytes) ? ReadBinaryStl(path, bytes)
+                                               : ReadAsciiStl(path, bytes);
+  if (mesh.triangles.cols() == 0) Refuse(path, "has no triangle");
+  return mesh;
+}
+
+}  // namespace halfstep
