@@ -60,15 +60,17 @@ class Builder {
 
  private:
   void CheckPostureInLimits() {
+    std::string faults;
     for (size_t i = 0; i < urdf_.joints.size(); ++i) {
       if (urdf_.joints[i].kind != UrdfJoint::Kind::kRevolute) continue;
       if (leg_.posture[i] < leg_.lower[i] - 1e-9 || leg_.posture[i] > leg_.upper[i] + 1e-9) {
-        char text[128];
-        std::snprintf(text, sizeof text, ": %.9g is outside its limits (valid: %.9g … %.9g)",
-                      file_.posture_deg[i], leg_.lower[i] / kDegree, leg_.upper[i] / kDegree);
-        fields_.Complain("standing_posture_deg", urdf_.joints[i].name + text);
+        faults += (faults.empty() ? "" : "; ") + urdf_.joints[i].name + ": " +
+                  Text("%.9g", file_.posture_deg[i]) +
+                  " is outside its limits (valid: " + Text("%.9g", leg_.lower[i] / kDegree) +
+                  " … " + Text("%.9g", leg_.upper[i] / kDegree) + ")";
       }
     }
+    if (!faults.empty()) fields_.Complain("standing_posture_deg", faults);
   }
 
   bool BuildLegs() {

@@ -218,10 +218,10 @@ class Checker {
                  "link `" + name + "` hangs on another joint already");
       }
     }
-    std::vector<std::string> roots;
+    std::set<std::string> roots;
     for (const TiXmlElement* link : ChildrenOf(robot, "link")) {
       const std::string name = Attribute(*link, "name");
-      if (!parent_of.contains(name)) roots.push_back(name);
+      if (!parent_of.contains(name)) roots.insert(name);
       std::set<std::string> above;
       for (auto up = parent_of.find(name); up != parent_of.end(); up = parent_of.find(up->second)) {
         if (!above.insert(up->first).second) {

@@ -1,0 +1,321 @@
+#include "wpg/robot_model.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <numbers>
+#include <set>
+#include <string>
+
+#include "tests/fixture_check.h"
+#include "tests/wpg/generated_robots.h"
+#include "wpg/input/input_error.h"
+#include "wpg/leg_ik.h"
+#include "wpg/urdf_file.h"
+
+namespace halfstep {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+using testing::HasSubstr;
+
+const std::string kHrp2 = std::string(HALFSTEP_SOURCE_DIR) + "/wpg/robots/hrp2.yaml";
+constexpr double kDegree = std::numbers::pi / 180;
+
+std::string Replaced(std::string text, const std::string& from, const std::string& to) {
+  const size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return at == std::string::npos ? text : text.replace(at, from.size(), to);
+}
+
+// All complaints of a robot, or "" when it is accepted.
+std::string RefusalOf(const TemporaryRobot& robot) {
+  try {
+    (void)robot.Load();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+std::string RefusalOf(const GeneratedRobot& robot) { return RefusalOf(TemporaryRobot(robot)); }
+
+TEST(Hrp2, HasThePublishedNumbers) {
+  const RobotModel robot = LoadRobot(kHrp2);
+  EXPECT_EQ(robot.name, "hrp2");
+  EXPECT_NEAR(robot.mass, 56.87, 0.005);
+  EXPECT_NEAR(robot.com_x_B, 0.0136, 0.00005);
+  EXPECT_EQ(robot.com_height, 0.814);
+  EXPECT_NEAR(robot.waist_height, 0.648702, 5e-7);
+  EXPECT_NEAR(robot.waist_height,
+              0.105 + 0.3 * std::cos(26 * kDegree) + 0.3 * std::cos(24 * kDegree), 1e-12);
+  EXPECT_NEAR(robot.standing_width, 0.21, 1e-12);
+  EXPECT_EQ(robot.sole_size, Eigen::Vector2d(0.2172, 0.137));
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    const Leg& leg = robot.legs[static_cast<size_t>(Index(side))];
+    EXPECT_LT((leg.hip_B - Vector3d(0, Sign(side) * 0.06, 0)).norm(), 1e-12);
+    const Isometry3d X_BSole = LegForwardKinematics(leg, leg.standing_q)[6];
+    const Vector3d ankle = X_BSole * (leg.X_BSole.inverse() * leg.ankle_B);
+    EXPECT_NEAR(ankle.x(), 0.0095, 0.0001);
+    EXPECT_NEAR(ankle.y(), Sign(side) * 0.095, 1e-12);
+    EXPECT_NEAR(leg.joints[3].lower, 2 * kDegree, 1e-12);
+    EXPECT_EQ(leg.joints[0].max_speed, 3.54108);
+    EXPECT_EQ(LegBranchOf(leg, leg.standing_q), leg.branch);
+  }
+}
+
+TEST(Hrp2, ComHeightOfTheModelWhenTheFileGivesNone) {
+  const std::string folder = std::string(HALFSTEP_SOURCE_DIR) + "/wpg/robots/";
+  std::ifstream file(kHrp2);
+  std::string yaml{std::istreambuf_iterator<char>(file), {}};
+  yaml = Replaced(yaml, "com_height_m: 0.814", "com_height_m: none");
+  yaml = Replaced(yaml, "urdf: hrp2.urdf", "urdf: " + folder + "hrp2.urdf");
+  yaml = Replaced(yaml, "./hrp2}", folder + "hrp2}");
+  const RobotModel robot = TemporaryRobot("com", "", yaml).Load();
+  EXPECT_NEAR(robot.com_height, 0.8077, 0.00005);
+}
+
+TEST(Hrp2, BodiesFillTheirExtents) {
+  const RobotModel robot = LoadRobot(kHrp2);
+  struct Extents {
+    std::string name;
+    Vector3d low, high;
+  };
+  for (const Extents& e : {Extents{"RLEG_LINK2", {-0.050, -0.136, -0.337}, {0.057, 0.001, 0.040}},
+                           Extents{"RLEG_LINK3", {-0.077, -0.126, -0.336}, {0.106, 0.015, 0.104}},
+                           Extents{"LLEG_LINK3", {-0.077, -0.015, -0.336}, {0.106, 0.126, 0.104}},
+                           Extents{"RLEG_LINK5", {-0.106, -0.079, -0.105}, {0.136, 0.058, 0.035}},
+                           Extents{"WAIST", {-0.173, -0.164, 0.065}, {0.123, 0.164, 0.330}}}) {
+    const auto body = std::find_if(robot.bodies.begin(), robot.bodies.end(),
+                                   [&](const RobotBody& b) { return b.name == e.name; });
+    ASSERT_NE(body, robot.bodies.end()) << e.name;
+    EXPECT_LT((body->shape.vertices.rowwise().minCoeff() - e.low).norm(), 1e-12) << e.name;
+    EXPECT_LT((body->shape.vertices.rowwise().maxCoeff() - e.high).norm(), 1e-12) << e.name;
+  }
+  EXPECT_EQ(robot.bodies.size(), 23u);
+}
+
+TEST(Hrp2, HeadIsOnTopAndHandsAreBesideTheWaist) {
+  const RobotModel robot = LoadRobot(kHrp2);
+  for (const RobotBody& body : robot.bodies) {
+    if (body.name == "HEAD_LINK1") {
+      EXPECT_NEAR(body.shape.vertices.row(2).maxCoeff() + robot.waist_height, 1.507, 1e-3);
+    }
+    if (body.name == "RARM_LINK5") {
+      EXPECT_EQ(body.leg, -1);
+      EXPECT_LT(body.shape.vertices.row(1).maxCoeff(), -0.25);
+      EXPECT_LT(body.shape.vertices.row(2).maxCoeff(), 0.1);
+    }
+  }
+}
+
+TEST(Hrp2, SelfPairsJoinBodiesThatCanMeet) {
+  const RobotModel robot = LoadRobot(kHrp2);
+  std::set<std::pair<std::string, std::string>> pairs;
+  for (const auto& [a, b] : robot.self_pairs) {
+    const RobotBody &first = robot.bodies[static_cast<size_t>(a)],
+                    &second = robot.bodies[static_cast<size_t>(b)];
+    EXPECT_NE(first.leg, second.leg);
+    pairs.insert(std::minmax(first.name, second.name));
+  }
+  EXPECT_EQ(pairs.size(), robot.self_pairs.size());
+  EXPECT_TRUE(pairs.contains({"LLEG_LINK5", "RLEG_LINK5"}));
+  EXPECT_TRUE(pairs.contains({"LARM_LINK5", "LLEG_LINK2"}));
+  EXPECT_TRUE(pairs.contains({"LLEG_LINK1", "RLEG_LINK1"}));
+  EXPECT_FALSE(pairs.contains({"LLEG_LINK0", "RLEG_LINK0"})) << "two joints apart";
+  EXPECT_FALSE(pairs.contains({"RLEG_LINK1", "WAIST"})) << "two joints apart";
+  EXPECT_FALSE(pairs.contains({"RLEG_LINK2", "WAIST"})) << "excluded by the file";
+  EXPECT_TRUE(pairs.contains({"RLEG_LINK3", "WAIST"}));
+}
+
+TEST(GeneratedRobot, LegsAreFoundInTheUrdf) {
+  for (const GeneratedRobot& generated : GeneratedRobots()) {
+    const RobotModel robot = TemporaryRobot(generated).Load();
+    for (const Side side : {Side::kLeft, Side::kRight}) {
+      const Leg& leg = robot.legs[static_cast<size_t>(Index(side))];
+      const Leg expected = MakeLeg(generated, side);
+      EXPECT_LT((leg.hip_B - expected.hip_B).norm(), 1e-9) << generated.name;
+      EXPECT_LT((leg.ankle_B - expected.ankle_B).norm(), 1e-9);
+      EXPECT_LT((leg.X_BSole.matrix() - expected.X_BSole.matrix()).norm(), 1e-9);
+      EXPECT_LT((leg.standing_q - expected.standing_q).norm(), 1e-9);
+      EXPECT_EQ(leg.branch, expected.branch);
+      for (size_t i = 0; i < 6; ++i) {
+        EXPECT_LT((leg.joints[i].axis_B - expected.joints[i].axis_B).norm(), 1e-9);
+        EXPECT_LT((leg.joints[i].X_BLink.matrix() - expected.joints[i].X_BLink.matrix()).norm(),
+                  1e-9);
+        EXPECT_NEAR(leg.joints[i].lower, expected.joints[i].lower, 1e-12);
+      }
+    }
+    EXPECT_NEAR(robot.mass, 20 + 12 * 1.5, 1e-9);
+    EXPECT_GT(robot.com_height, 0.3);
+    EXPECT_EQ(robot.bodies.size(), 9u);
+  }
+}
+
+TEST(GeneratedRobot, ShapesStandUprightAtZeroWhateverTheLinkFrames) {
+  const RobotModel robot = TemporaryRobot(GeneratedRobots()[2]).Load();
+  const Leg& leg = robot.legs[0];
+  for (const RobotBody& body : robot.bodies) {
+    if (body.name != "left_link3" && body.name != "left_link5") continue;
+    const Isometry3d X_BLink = leg.joints[static_cast<size_t>(body.link)].X_BLink;
+    const auto extent = [&](const Vector3d& d_B) {
+      const Vector3d d = X_BLink.linear().transpose() * d_B;
+      return Support(body.shape, d) + Support(body.shape, -d);
+    };
+    if (body.name == "left_link5") {
+      EXPECT_NEAR(extent({1, 0, 0}), 0.2, 1e-9);
+      EXPECT_NEAR(extent({0, 0, 1}), 0.04, 1e-9);
+    } else {  // a tilted cylinder: a prism around it
+      EXPECT_NEAR(extent({0, 0, 1}), 0.24, 1e-9);
+      for (int k = 0; k < 100; ++k) {
+        const double diameter = extent({std::cos(0.01 * k), std::sin(0.01 * k), 0});
+        EXPECT_GE(diameter, 0.08 - 1e-12);
+        EXPECT_LE(diameter, 0.08 * 1.005);
+      }
+    }
+  }
+}
+
+TEST(GeneratedRobot, FixedJointsAreFoldedIn) {
+  const GeneratedRobot generated = GeneratedRobots()[0];
+  // A fixed link between waist and left hip, and a toe plate fixed on the left foot.
+  std::string urdf =
+      Replaced(GeneratedUrdf(generated), "<parent link='waist'/>", "<parent link='bracket'/>");
+  urdf = Replaced(urdf, "</robot>",
+                  "<link name='bracket'/><joint name='b' type='fixed'><parent link='waist'/><child "
+                  "link='bracket'/></joint><link name='toe'><collision><geometry><sphere "
+                  "radius='0.01'/></geometry></collision></link><joint name='t' type='fixed'>"
+                  "<origin xyz='0.1 0 0'/><parent link='left_link5'/><child link='toe'/></joint>"
+                  "</robot>");
+  const RobotModel robot =
+      TemporaryRobot("fixed", urdf, GeneratedYaml(generated, "robot.urdf")).Load();
+  EXPECT_LT((robot.legs[0].hip_B - MakeLeg(generated, Side::kLeft).hip_B).norm(), 1e-9);
+  const auto toe = std::find_if(robot.bodies.begin(), robot.bodies.end(),
+                                [](const RobotBody& body) { return body.name == "toe"; });
+  ASSERT_NE(toe, robot.bodies.end());
+  EXPECT_EQ(toe->leg, 0);
+  EXPECT_EQ(toe->link, 5);
+  EXPECT_LT((toe->shape.center - Vector3d(0.1, 0, 0)).norm(), 1e-12);
+}
+
+TEST(RobotRefusal, HipAxesThatPassEachOther) {
+  GeneratedRobot robot = GeneratedRobots()[0];
+  const std::string urdf = GeneratedUrdf(robot);
+  const std::string yaml = GeneratedYaml(robot, "robot.urdf");
+  // The left hip's third axis (z) 12 mm ahead of the first (x) and second (y).
+  const std::string joint = "<child link='left_link2'/><origin xyz='0 0 0'";
+  const std::string refusal = RefusalOf(
+      {"apart", Replaced(urdf, joint, "<child link='left_link2'/><origin xyz='0 0.012 0'"), yaml});
+  EXPECT_THAT(refusal, HasSubstr("left_joint2: hip axes left_joint0 and left_joint2 pass each "
+                                 "other at 12.0 mm; a closed-form leg needs all three hip axes "
+                                 "through one point"));
+}
+
+TEST(RobotRefusal, LegsThatAreNoClosedFormLegs) {
+  const GeneratedRobot good = GeneratedRobots()[0];
+  const std::string urdf = GeneratedUrdf(good), yaml = GeneratedYaml(good, "robot.urdf");
+  EXPECT_EQ(RefusalOf(good), "");
+  const auto with_axis = [&](const std::string& child, const std::string& axis) {
+    const size_t at = urdf.find("<axis", urdf.find("<child link='" + child + "'/>"));
+    std::string changed = urdf;
+    changed.replace(at, urdf.find("/>", at) - at, "<axis xyz='" + axis + "'");
+    return RefusalOf({"axis", changed, yaml});
+  };
+  EXPECT_THAT(with_axis("left_link5", "0 1 0"),
+              HasSubstr("ankle axes left_joint4 and left_joint5 are parallel"));
+  EXPECT_THAT(with_axis("left_link1", "1 0 0"),
+              HasSubstr("hip axes left_joint0 and left_joint1 are parallel"));
+  const Vector3d to_ankle = good.shank.normalized();
+  EXPECT_THAT(with_axis("left_link3", generated::Text(to_ankle)),
+              HasSubstr("the knee axis passes the ankle at"));
+  EXPECT_THAT(RefusalOf({"type", Replaced(urdf, "type='revolute'", "type='continuous'"),
+                         Replaced(yaml, "  left_joint0:", "#")}),
+              HasSubstr("left_joint0: a leg's joint must be revolute, with limits, or fixed"));
+  EXPECT_THAT(RefusalOf({"five", Replaced(urdf, "type='revolute'", "type='fixed'"),
+                         Replaced(yaml, "  left_joint0:", "#")}),
+              HasSubstr("left_link5: is 5 revolute joints away from the waist (valid: 6)"));
+  EXPECT_THAT(
+      RefusalOf({"foot", urdf, Replaced(yaml, "waist_link: waist", "waist_link: right_link0")}),
+      HasSubstr("left_link5: does not hang on right_link0"));
+  EXPECT_THAT(RefusalOf({"mirror",
+                         Replaced(urdf, "<child link='left_link3'/><origin xyz='0.02",
+                                  "<child link='left_link3'/><origin xyz='0.0201"),
+                         yaml}),
+              HasSubstr("mirror image"));
+  EXPECT_THAT(
+      RefusalOf({"mesh",
+                 Replaced(urdf, "<sphere radius='0.035'/>", "<mesh filename='file:///ankle.stl'/>"),
+                 yaml}),
+      HasSubstr("left_link4: file:///ankle.stl is no mesh path"));
+  EXPECT_THAT(RefusalOf({"package",
+                         Replaced(urdf, "<sphere radius='0.035'/>",
+                                  "<mesh filename='package://p/ankle.stl'/>"),
+                         yaml}),
+              HasSubstr("left_link4: package `p` of package://p/ankle.stl has no folder"));
+}
+
+TEST(RobotRefusal, StretchedStandingPosture) {
+  const GeneratedRobot good = GeneratedRobots()[0];
+  std::string yaml = GeneratedYaml(good, "robot.urdf");
+  yaml.erase(yaml.find("standing_posture_deg"));
+  GeneratedRobot straight = good;
+  straight.thigh = {0, 0, -0.3};
+  straight.shank = {0, 0, -0.3};
+  const std::string refusal =
+      RefusalOf({"straight", GeneratedUrdf(straight), GeneratedYaml(straight, "robot.urdf")});
+  EXPECT_EQ(refusal, "");
+  EXPECT_THAT(RefusalOf({"straight", GeneratedUrdf(straight), yaml}), HasSubstr("singular"));
+}
+
+TEST(RobotRefusal, MissingUrdf) {
+  const TemporaryRobot robot("gone", "", GeneratedYaml(GeneratedRobots()[0], "gone.urdf"));
+  EXPECT_THAT(RefusalOf(robot), HasSubstr("gone.urdf: the file cannot be read"));
+}
+
+class RobotFixture : public testing::TestWithParam<std::string> {};
+
+TEST_P(RobotFixture, IsRefusedWithItsComplaints) { CheckFixture(GetParam(), LoadRobot); }
+
+INSTANTIATE_TEST_SUITE_P(Yaml, RobotFixture, testing::ValuesIn(Fixtures("robot")), FixtureName);
+
+// tests/fixtures/robot/*.urdf begin with a line `<!-- expect: … -->` for each complaint.
+TEST(UrdfFixtures, AreRefusedWithTheirComplaintsInSilence) {
+  const std::filesystem::path folder =
+      std::filesystem::path(HALFSTEP_SOURCE_DIR) / "tests" / "fixtures" / "robot";
+  const std::string begin = "<!-- expect: ", end = " -->";
+  int files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().extension() != ".urdf") continue;
+    SCOPED_TRACE(entry.path().filename().string());
+    ++files;
+    std::vector<std::string> expected;
+    std::ifstream file(entry.path());
+    for (std::string line; std::getline(file, line) && line.starts_with(begin);) {
+      expected.push_back(line.substr(begin.size(), line.size() - begin.size() - end.size()));
+    }
+    EXPECT_FALSE(expected.empty());
+    std::vector<std::string> complaints;
+    testing::internal::CaptureStderr();
+    testing::internal::CaptureStdout();
+    try {
+      (void)ReadUrdf(entry.path().string());
+    } catch (const InputError& error) {
+      complaints = error.complaints();
+    }
+    EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+    EXPECT_EQ(complaints.size(), expected.size()) << testing::PrintToString(complaints);
+    for (size_t i = 0; i < std::min(complaints.size(), expected.size()); ++i) {
+      EXPECT_THAT(complaints[i], HasSubstr(expected[i]));
+      EXPECT_THAT(complaints[i], testing::ContainsRegex("\\.urdf:[0-9]+:[0-9]+: "));
+    }
+  }
+  EXPECT_GE(files, 15);
+}
+
+}  // namespace
+}  // namespace halfstep
