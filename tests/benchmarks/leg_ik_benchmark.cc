@@ -1,0 +1,84 @@
+#include <benchmark/benchmark.h>
+
+#include <random>
+#include <string>
+#include <vector>
+
+#include "wpg/leg_ik.h"
+
+namespace halfstep {
+namespace {
+
+// Random postures of HRP-2's right leg within its limits, and where its sole is in them.
+struct Postures {
+  Postures() : leg(LoadRobot(std::string(HALFSTEP_SOURCE_DIR) + "/wpg/robots/hrp2.yaml").legs[1]) {
+    std::mt19937 random(1);
+    for (int k = 0; k < 1024; ++k) {
+      Vector6d posture;
+      for (size_t i = 0; i < 6; ++i) {
+        posture[static_cast<Eigen::Index>(i)] =
+            std::uniform_real_distribution<>(leg.joints[i].lower, leg.joints[i].upper)(random);
+      }
+      q.push_back(posture);
+      X_BSole.push_back(LegForwardKinematics(leg, posture)[6]);
+    }
+  }
+  Leg leg;
+  std::vector<Vector6d> q;
+  std::vector<Eigen::Isometry3d> X_BSole;
+};
+
+void BM_SolveLegIk(benchmark::State& state) {
+  const Postures postures;
+  size_t k = 0;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(SolveLegIk(postures.leg, postures.X_BSole[k++ % 1024]));
+  }
+}
+BENCHMARK(BM_SolveLegIk);
+
+void BM_SolveLegIkAll(benchmark::State& state) {
+  const Postures postures;
+  size_t k = 0;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(SolveLegIkAll(postures.leg, postures.X_BSole[k++ % 1024]));
+  }
+}
+BENCHMARK(BM_SolveLegIkAll);
+
+void BM_LegForwardKinematics(benchmark::State& state) {
+  const Postures postures;
+  size_t k = 0;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(LegForwardKinematics(postures.leg, postures.q[k++ % 1024]));
+  }
+}
+BENCHMARK(BM_LegForwardKinematics);
+
+void BM_LegJacobian(benchmark::State& state) {
+  const Postures postures;
+  size_t k = 0;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(LegJacobian(postures.leg, postures.q[k++ % 1024]));
+  }
+}
+BENCHMARK(BM_LegJacobian);
+
+void BM_LegIkDerivative(benchmark::State& state) {
+  const Postures postures;
+  const Eigen::Isometry3d X_WB = Eigen::Isometry3d::Identity();
+  Eigen::Matrix<double, 6, 8> dq = Eigen::Matrix<double, 6, 8>::Zero();
+  size_t k = 0;
+  for (auto _ : state) {
+    const size_t i = k++ % 1024;
+    benchmark::DoNotOptimize(
+        LegIkDerivative(postures.leg, postures.q[i], X_WB, postures.X_BSole[i], &dq));
+    benchmark::DoNotOptimize(dq);
+  }
+}
+BENCHMARK(BM_LegIkDerivative);
+
+}  // namespace
+}  // namespace halfstep
+
+BENCHMARK_MAIN();
