@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
+#include <vector>
 
 namespace halfstep {
 namespace {
@@ -13,6 +15,8 @@ using Eigen::Vector3d;
 constexpr double kConverged = 1e-10;  // [m] gap of the two bounds at which the search stops.
 constexpr double kTouching = 1e-11;   // [m] below it the cores count as overlapping.
 constexpr int kMaxIterations = 128;
+constexpr size_t kClimbs = 4;       // local searches for the least penetration.
+constexpr double kNeighbour = 0.9;  // cosine between directions that climb to the same place.
 
 // The core of a body is what remains without its ball. Farthest core point along d.
 Vector3d CoreSupport(const ConvexBody& body, const Vector3d& d) {
@@ -200,39 +204,66 @@ class Search {
   }
   ConvexDistance Overlapping(double enough) {
     if (enough > -balls_) return Result(best_.a, best_.b);  // out of reach
-    TryCandidates();
-    if (!(slab_ - balls_ >= enough)) Refine();
+    // Climb from the best candidates that are not neighbours: the slab has many local maxima.
+    std::vector<Start> starts = Candidates();
+    std::sort(starts.begin(), starts.end(),
+              [](const Start& s, const Start& t) { return s.slab > t.slab; });
+    std::vector<Vector3d> climbed;
+    for (const Start& start : starts) {
+      if (climbed.size() == kClimbs || slab_ - balls_ >= enough) break;
+      const bool neighbour = std::any_of(climbed.begin(), climbed.end(), [&](const Vector3d& n) {
+        return n.dot(start.normal) > kNeighbour;
+      });
+      if (!neighbour) climbed.push_back(Climb(start));
+    }
     return Result(best_.a, best_.b);
   }
-  void TryCandidates() {
-    for (const Vector3d& n : a_.normals.colwise()) Try(-n);
-    for (const Vector3d& n : b_.normals.colwise()) Try(R_ * n);
+
+  struct Start {
+    double slab;
+    Vector3d normal;
+  };
+  std::vector<Start> Candidates() {
+    std::vector<Start> starts;
+    const auto add = [&](const Vector3d& v) {
+      if (v.norm() < kTouching) return;
+      const Vector3d n = v.normalized();
+      starts.push_back({Try(n).w.dot(n), n});
+    };
+    for (const Vector3d& n : a_.normals.colwise()) add(-n);
+    for (const Vector3d& n : b_.normals.colwise()) add(R_ * n);
     for (int axis = 0; axis < 3; ++axis) {
-      for (const Vector3d& n : {Vector3d(Vector3d::Unit(axis)), Vector3d(R_.col(axis))}) {
-        Try(n);
-        Try(-n);
+      for (const double sign : {1.0, -1.0}) {
+        add(sign * Vector3d::Unit(axis));
+        add(sign * R_.col(axis));
       }
     }
     const Vector3d centers = a_.center - (p_ + R_ * b_.center);
-    if (centers.norm() > kTouching) Try(centers);
-    const Vector3d radial_a(centers.x(), centers.y(), 0);
-    if (radial_a.norm() > kTouching) Try(radial_a);
-    const Vector3d radial_b = centers - centers.dot(R_.col(2)) * R_.col(2);
-    if (radial_b.norm() > kTouching) Try(radial_b);
+    add(centers);
+    add({centers.x(), centers.y(), 0});
+    add(centers - centers.dot(R_.col(2)) * R_.col(2));
+    return starts;
   }
-  // Compass search on the sphere of directions.
-  void Refine() {
-    for (double step = 0.3; step > 1e-7; step /= 3) {
+  // Compass search on the sphere of directions; the compass turns, so that no ridge stops it.
+  Vector3d Climb(Start here) {
+    double turn = 0;
+    for (double step = 0.3; step > 1e-6; step /= 3) {
       for (int round = 0; round < 8; ++round) {
-        const double before = slab_;
-        const Vector3d n = normal_, t = n.unitOrthogonal(), s = n.cross(t);
-        for (int k = 0; k < 8; ++k) {
-          const double angle = k * M_PI / 4;
-          Try(n + step * (std::cos(angle) * t + std::sin(angle) * s));
+        const Vector3d n = here.normal, t = n.unitOrthogonal(), s = n.cross(t);
+        bool higher = false;
+        turn += 0.3;
+        for (int k = 0; k < 6; ++k) {
+          const double angle = turn + k * std::numbers::pi / 3;
+          const Vector3d m = (n + step * (std::cos(angle) * t + std::sin(angle) * s)).normalized();
+          const double slab = Try(m).w.dot(m);
+          if (slab <= here.slab) continue;
+          here = {slab, m};
+          higher = true;
         }
-        if (slab_ <= before) break;
+        if (!higher) break;
       }
     }
+    return here.normal;
   }
 
   const ConvexBody& a_;

@@ -1,0 +1,178 @@
+#include "planner/collision_world.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace halfstep {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+double Uniform(std::mt19937* random, double lower, double upper) {
+  return std::uniform_real_distribution<double>(lower, upper)(*random);
+}
+
+Isometry3d RandomPose(double reach, std::mt19937* random) {
+  const double x = Uniform(random, -reach, reach), y = Uniform(random, -reach, reach);
+  const double roll = Uniform(random, -1, 1), yaw = Uniform(random, -3, 3);
+  return Eigen::Translation3d(x, y, Uniform(random, 0, 0.5)) *
+         Eigen::AngleAxisd(yaw, Vector3d::UnitZ()) * Eigen::AngleAxisd(roll, Vector3d::UnitX());
+}
+
+TriangleMesh MeshOfBox(const Vector3d& size) {
+  const ConvexBody box = MakeBox(size);
+  TriangleMesh mesh{box.vertices, Eigen::Matrix3Xi(3, 12)};
+  for (int i = 0; i < 12; ++i) mesh.triangles.col(i) = box.triangles[static_cast<size_t>(i)];
+  return mesh;
+}
+
+// A room of 2 × 2 m with boxes, cylinders, capsules, spheres and meshes in turn.
+Scene RandomRoom(int count, std::mt19937* random) {
+  Scene scene;
+  for (int i = 0; i < count; ++i) {
+    Obstacle obstacle;
+    obstacle.name = "obstacle " + std::to_string(i);
+    const double r = Uniform(random, 0.01, 0.1), l = Uniform(random, 0.05, 0.4);
+    if (i % 5 == 0) obstacle.shape = MakeBox({r, l, 0.1});
+    if (i % 5 == 1) obstacle.shape = MakeCylinder(r, l);
+    if (i % 5 == 2) obstacle.shape = MakeCapsule(r, l);
+    if (i % 5 == 3) obstacle.shape = MakeSphere(r);
+    if (i % 5 == 4) obstacle.shape = MeshOfBox({l, r, 0.2});
+    obstacle.X_WO = RandomPose(1, random);
+    scene.obstacles.push_back(obstacle);
+  }
+  return scene;
+}
+
+TEST(CollisionWorld, NearestIsTheSmallestSeparationOfAll) {
+  std::mt19937 random(21);
+  int found = 0;
+  for (int i = 0; i < 30; ++i) {
+    const Scene scene = RandomRoom(20, &random);
+    const CollisionWorld world(scene);
+    std::vector<CollisionShape> shapes;
+    for (const Obstacle& obstacle : scene.obstacles) {
+      shapes.push_back(std::visit([](const auto& s) { return CollisionShape(s); }, obstacle.shape));
+    }
+    const CollisionShape body(i % 2 ? MakeBox({0.2, 0.1, 0.3}) : MakeCapsule(0.05, 0.3));
+    for (int k = 0; k < 10; ++k) {
+      const Isometry3d X_WB = RandomPose(1, &random);
+      double smallest = 0.3;
+      for (size_t o = 0; o < shapes.size(); ++o) {
+        smallest =
+            std::min(smallest, Separate(body, X_WB, shapes[o], scene.obstacles[o].X_WO).distance);
+      }
+      const auto nearest = world.FindNearest(body, X_WB, 0.3);
+      EXPECT_EQ(nearest.separation.distance, smallest);
+      EXPECT_EQ(nearest.obstacle < 0, smallest == 0.3);
+      found += nearest.obstacle >= 0 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(found, 100);
+}
+
+TEST(CollisionWorld, ClearsEqualsTheVerdictOfFindNearestAlongAMotion) {
+  std::mt19937 random(22);
+  int verdicts[2] = {0, 0};
+  for (int i = 0; i < 10; ++i) {
+    const CollisionWorld world(RandomRoom(25, &random));
+    const CollisionShape body(i % 2 ? MakeBox({0.2, 0.1, 0.3}) : MakeCylinder(0.05, 0.3));
+    const Isometry3d from = RandomPose(1, &random), to = RandomPose(1, &random);
+    CollisionWorld::Scratch scratch;
+    for (int k = 0; k <= 60; ++k) {
+      Isometry3d X_WB = from;
+      X_WB.translation() += k / 60.0 * (to.translation() - from.translation());
+      X_WB.rotate(Eigen::AngleAxisd(0.02 * k, Vector3d::UnitZ()));
+      const double distance = world.FindNearest(body, X_WB, 1).separation.distance;
+      if (std::abs(distance - 0.01) < 1e-6) continue;
+      const bool clears = world.Clears(body, X_WB, 0.01, &scratch);
+      EXPECT_EQ(clears, distance >= 0.01);
+      ++verdicts[clears ? 1 : 0];
+    }
+    EXPECT_EQ(scratch.normals_W.size(), 25u);
+  }
+  EXPECT_GT(verdicts[0], 50);
+  EXPECT_GT(verdicts[1], 50);
+}
+
+TEST(CollisionWorld, AnotherObstacleNeverRaisesTheNearestDistance) {
+  std::mt19937 random(23);
+  const Scene all = RandomRoom(25, &random);
+  const CollisionShape body(MakeBox({0.2, 0.1, 0.3}));
+  for (int k = 0; k < 10; ++k) {
+    const Isometry3d X_WB = RandomPose(1, &random);
+    double before = 2;
+    Scene scene;
+    for (const Obstacle& obstacle : all.obstacles) {
+      scene.obstacles.push_back(obstacle);
+      const double distance = CollisionWorld(scene).FindNearest(body, X_WB, 2).separation.distance;
+      EXPECT_LE(distance, before + 1e-9);
+      before = distance;
+    }
+  }
+}
+
+TEST(CollisionWorld, EmptyAndFarWorldsAreFree) {
+  const CollisionShape body(MakeSphere(0.1));
+  CollisionWorld::Scratch scratch;
+  Scene scene;
+  EXPECT_TRUE(CollisionWorld(scene).Clears(body, Isometry3d::Identity(), 0.1, &scratch));
+  EXPECT_EQ(CollisionWorld(scene).FindNearest(body, Isometry3d::Identity(), 1).obstacle, -1);
+  scene.obstacles.push_back({"far", MakeSphere(0.5), Isometry3d(Eigen::Translation3d(3, 0, 0))});
+  const CollisionWorld world(scene);
+  const auto none = world.FindNearest(body, Isometry3d::Identity(), 1);
+  EXPECT_EQ(none.obstacle, -1);
+  EXPECT_EQ(none.separation.distance, 1);
+  const auto far = world.FindNearest(body, Isometry3d::Identity(), 5);
+  EXPECT_EQ(far.obstacle, 0);
+  EXPECT_NEAR(far.separation.distance, 2.4, 1e-12);
+  EXPECT_NEAR(far.separation.normal_W.x(), -1, 1e-12);
+  EXPECT_NEAR(far.separation.point_b_W.x(), 2.5, 1e-9);
+  EXPECT_TRUE(world.Clears(body, Isometry3d::Identity(), 2.39, &scratch));
+  EXPECT_FALSE(world.Clears(body, Isometry3d::Identity(), 2.41, &scratch));
+}
+
+TEST(CollisionWorld, PosesThatAreNotFiniteThrow) {
+  std::mt19937 random(24);
+  Scene scene = RandomRoom(3, &random);
+  const CollisionWorld world(scene);
+  const CollisionShape body(MakeSphere(0.1));
+  Isometry3d bad = Isometry3d::Identity();
+  bad.linear()(1, 2) = std::numeric_limits<double>::quiet_NaN();
+  CollisionWorld::Scratch scratch;
+  EXPECT_THROW(world.Clears(body, bad, 0.1, &scratch), std::logic_error);
+  EXPECT_THROW(world.FindNearest(body, bad, 1), std::logic_error);
+  scene.obstacles[1].X_WO = bad;
+  EXPECT_THROW(CollisionWorld{scene}, std::logic_error);
+}
+
+TEST(CollisionWorld, ThreadsShareOneWorldAndOneBody) {
+  std::mt19937 random(25);
+  const CollisionWorld world(RandomRoom(20, &random));
+  const CollisionShape body(MakeCylinder(0.05, 0.3));
+  std::vector<Isometry3d> poses;
+  for (int i = 0; i < 50; ++i) poses.push_back(RandomPose(1, &random));
+  std::vector<double> distances[2];
+  {
+    std::vector<std::jthread> threads;
+    for (auto& mine : distances) {
+      threads.emplace_back([&] {
+        for (const Isometry3d& X_WB : poses) {
+          mine.push_back(world.FindNearest(body, X_WB, 1).separation.distance);
+        }
+      });
+    }
+  }
+  EXPECT_EQ(distances[0], distances[1]);
+}
+
+}  // namespace
+}  // namespace halfstep
