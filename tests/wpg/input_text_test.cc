@@ -1,0 +1,55 @@
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <random>
+
+#include "wpg/input/input_error.h"
+#include "wpg/input/number_text.h"
+#include "wpg/input/text.h"
+
+namespace halfstep {
+namespace {
+
+TEST(NumberText, ReadsBackEveryDouble) {
+  std::mt19937_64 random(1);
+  for (int i = 0; i < 20000; ++i) {
+    const double value = std::bit_cast<double>(random());
+    if (!std::isfinite(value)) continue;
+    const NumberText number = ParseNumber(ShortestText(value));
+    ASSERT_EQ(number.kind, NumberText::Kind::kNumber) << ShortestText(value);
+    ASSERT_EQ(std::bit_cast<uint64_t>(number.value), std::bit_cast<uint64_t>(value));
+  }
+}
+
+TEST(NumberText, ReadsBackRadiansWrittenInDegrees) {
+  std::mt19937_64 random(2);
+  std::uniform_real_distribution<double> angle(-4.0, 4.0);
+  for (int i = 0; i < 20000; ++i) {
+    const double radians = angle(random);
+    const std::string text = ShortestDegrees(radians);
+    ASSERT_EQ(DegreesToRadians(ParseNumber(text).extended), radians) << text;
+  }
+  for (int degrees = -360; degrees <= 360; ++degrees) {
+    EXPECT_EQ(ShortestDegrees(DegreesToRadians(degrees)), std::to_string(degrees));
+  }
+}
+
+TEST(NearestWord, FindsSlipsOnly) {
+  const std::vector<std::string> words{"overlap_max_s", "clearance_m", "x"};
+  EXPECT_EQ(NearestWord("ovrlap_max_s", words), "overlap_max_s");
+  EXPECT_EQ(NearestWord("claerance_m", words), "clearance_m");
+  EXPECT_EQ(NearestWord("duration_s", words), "");
+  EXPECT_EQ(NearestWord("y", words), "");
+  EXPECT_EQ(NearestWord("", words), "");
+  EXPECT_EQ(NearestWord(std::string(1000, 'x'), words), "");
+}
+
+TEST(Quote, ShowsWhatATerminalMustNotSee) {
+  EXPECT_EQ(Quote("a\x1B[2J\xFFé"), "'a\\x1B[2J\\xFFé'");
+  EXPECT_EQ(Quote(std::string(100, 'x')), "'" + std::string(60, 'x') + "…'");
+}
+
+}  // namespace
+}  // namespace halfstep
