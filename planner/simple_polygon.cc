@@ -29,6 +29,19 @@ bool Meet(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vecto
          (cda == 0 && InBoundsOf(c, d, a)) || (cdb == 0 && InBoundsOf(c, d, b));
 }
 
+// Parity of the crossings of a ray from p along +x; p is not on the boundary.
+bool Contains(const Eigen::Matrix2Xd& polygon, const Eigen::Vector2d& p) {
+  bool inside = false;
+  for (Eigen::Index i = 0; i < polygon.cols(); ++i) {
+    const Eigen::Vector2d a = polygon.col(i), b = polygon.col((i + 1) % polygon.cols());
+    if ((a.y() > p.y()) != (b.y() > p.y()) &&
+        p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x())) {
+      inside = !inside;
+    }
+  }
+  return inside;
+}
+
 std::string Edge(Eigen::Index i, Eigen::Index n) {
   return std::to_string(i) + "–" + std::to_string((i + 1) % n);
 }
@@ -70,6 +83,18 @@ std::string WhyNotSimple(const Eigen::Matrix2Xd& vertices) {
   }
   if (std::abs(SignedArea(vertices)) < kLeastArea) return "an area of less than 1 mm²";
   return "";
+}
+
+bool PolygonsTouch(const Eigen::Matrix2Xd& a, const Eigen::Matrix2Xd& b) {
+  for (Eigen::Index i = 0; i < a.cols(); ++i) {
+    for (Eigen::Index j = 0; j < b.cols(); ++j) {
+      if (Meet(a.col(i), a.col((i + 1) % a.cols()), b.col(j), b.col((j + 1) % b.cols()))) {
+        return true;
+      }
+    }
+  }
+  // No edges meet: one contains the other, and then any of its vertices, or they are apart.
+  return Contains(a, b.col(0)) || Contains(b, a.col(0));
 }
 
 }  // namespace halfstep

@@ -12,4 +12,7 @@ double SignedArea(const Eigen::Matrix2Xd& vertices);
 /// three, two that coincide, edges that cross or touch, hardly any area), or "".
 std::string WhyNotSimple(const Eigen::Matrix2Xd& vertices);
 
+/// Whether two simple polygons (2×n, 2×m) share a point; touching counts.
+bool PolygonsTouch(const Eigen::Matrix2Xd& a, const Eigen::Matrix2Xd& b);
+
 }  // namespace halfstep

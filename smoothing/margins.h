@@ -39,7 +39,7 @@ constexpr std::array<MarginFamily, kNumMarginFamilies> AllMarginFamilies() {
 struct Margin {
   MarginFamily family = MarginFamily::kZmp;
   double value = std::numeric_limits<double>::infinity();
-  LocalTime at;
+  LocalTime at = {};
   double t = 0.0;  ///< absolute time in the walk where it was found [s]
   /// Zmp: step in the air or −1. Foot families: Index(Side). Reach, joints: 6·Index(Side) + joint.
   /// Clearances: index into RobotModel::bodies.

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "wpg/input/yaml_fields.h"
+
+namespace halfstep {
+
+/// Exit statuses of every command.
+enum ExitStatus : int {
+  kSuccess = 0,
+  kFailed = 1,        ///< the command's purpose failed: infeasible plan, full disk …
+  kBadInput = 2,      ///< something that the user wrote is wrong; nothing was written
+  kInterrupted = 130  ///< stopped by Ctrl-C; what is there is whole and feasible
+};
+
+struct RunCommand {
+  std::string config;
+  std::vector<YamlOverride> overrides;
+  std::optional<std::string> out;  ///< run folder
+  bool overwrite = false;
+  bool quiet = false;
+  bool json = false;  ///< prints the summary as one JSON object instead of a table
+};
+
+/// `halfstep run`: plan, smooth with each method, write the run folder, print the table.
+/// Throws InputError for bad input, std::runtime_error when files cannot be written.
+ExitStatus Run(const RunCommand& command);
+
+/// `halfstep list robots|scenes|solvers|methods`. Precondition: `what` is one of these.
+ExitStatus List(const std::string& what, bool json);
+
+}  // namespace halfstep

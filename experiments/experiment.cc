@@ -1,0 +1,84 @@
+#include "experiments/experiment.h"
+
+#include <cstdlib>
+
+#include "planner/simple_polygon.h"
+#include "wpg/support_polygon.h"
+
+namespace halfstep {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path DataFolder() {
+  const char* folder = std::getenv("HALFSTEP_DATA");
+  return folder != nullptr ? fs::path(folder) : fs::path(HALFSTEP_DATA_DIR);
+}
+
+// A bare word is a shipped robot, anything else a path relative to the config.
+fs::path RobotPath(const ExperimentConfig& config) {
+  const fs::path written(config.robot);
+  if (!written.has_parent_path() && !written.has_extension()) {
+    return RobotsFolder() / (config.robot + ".yaml");
+  }
+  return fs::path(config.directory) / written;
+}
+
+std::array<Pose2, 2> StartOf(const ExperimentConfig& config, const RobotModel& robot) {
+  if (config.has_start) return {config.start_left, config.start_right};
+  const double y = 0.5 * robot.standing_width;
+  return {Pose2{0.0, y, 0.0}, Pose2{0.0, -y, 0.0}};
+}
+
+}  // namespace
+
+fs::path RobotsFolder() { return DataFolder() / "wpg" / "robots"; }
+fs::path ScenesFolder() { return DataFolder() / "experiments" / "scenes"; }
+
+Experiment Prepare(const ExperimentConfig& config) {
+  Experiment experiment{.config = config, .robot = {}, .scene = {}, .sequence = {}};
+  experiment.robot = LoadRobot(RobotPath(config).lexically_normal().string());
+  if (config.scene == "none") {
+    experiment.scene.name = "none";
+  } else {
+    experiment.scene =
+        LoadScene((fs::path(config.directory) / config.scene).lexically_normal().string());
+  }
+  std::vector<Footstep> footsteps;
+  for (const FootstepConfig& step : config.footsteps) {
+    footsteps.push_back({.side = step.foot == "left" ? Side::kLeft : Side::kRight,
+                         .X_WF = step.X_WF,
+                         .via_height = step.via_height.value_or(config.half_step.via_height),
+                         .duration = step.duration.value_or(config.half_step.duration)});
+  }
+  const HalfStepShape shape{.shift = config.half_step.zmp_shift / config.half_step.duration,
+                            .horizontal_delay = config.half_step.horizontal_delay};
+  experiment.sequence =
+      MakeSequence(StartOf(config, experiment.robot), footsteps, config.half_step.via_lateral,
+                   shape, {.com_height = experiment.robot.com_height});
+  return experiment;
+}
+
+std::optional<std::string> FootprintOnNoStep(const Experiment& experiment) {
+  const auto touches = [&](const Pose2& X_WF) {
+    const Eigen::Matrix2Xd sole = SoleCorners(X_WF, experiment.robot.sole_size);
+    for (const Eigen::Matrix2Xd& polygon : experiment.scene.no_step) {
+      if (PolygonsTouch(sole, polygon)) return true;
+    }
+    return false;
+  };
+  const std::array<Pose2, 2> start = StartOf(experiment.config, experiment.robot);
+  for (Side side : {Side::kLeft, Side::kRight}) {
+    if (touches(start[static_cast<size_t>(Index(side))])) {
+      return "the " + std::string(Name(side)) + " foot starts on a no-step area";
+    }
+  }
+  for (size_t i = 0; i < experiment.config.footsteps.size(); ++i) {
+    if (touches(experiment.config.footsteps[i].X_WF)) {
+      return "footstep " + std::to_string(i + 1) + " is on a no-step area";
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace halfstep

@@ -1,0 +1,172 @@
+#include "experiments/experiment_config.h"
+
+#include <filesystem>
+#include <numbers>
+
+#include "experiments/methods.h"
+
+namespace halfstep {
+namespace {
+
+void DeclarePose(Fields& fields, Pose2* pose) {
+  const NumberSpec position{.unit = "m", .min = -1000, .max = 1000, .required = true};
+  fields.Number("x_m", &pose->x, position);
+  fields.Number("y_m", &pose->y, position);
+  fields.Number(
+      "yaw_deg", &pose->yaw,
+      {.meaning = "not wrapped: 350 is not −10", .unit = "deg", .min = -3600, .max = 3600});
+}
+
+void DeclareFootstep(Fields& fields, FootstepConfig* step) {
+  fields.Text("foot", &step->foot,
+              {.meaning = "the foot that steps", .required = true, .choices = {"left", "right"}});
+  DeclarePose(fields, &step->X_WF);
+  fields.OptionalNumber(
+      "via_height_m", &step->via_height,
+      {.meaning = "instead of half_step.via_height_m", .unit = "m", .min = 0.01, .max = 1});
+  fields.OptionalNumber(
+      "duration_s", &step->duration,
+      {.meaning = "instead of half_step.duration_s", .unit = "s", .min = 0.6, .max = 6});
+}
+
+void DeclareHalfStep(Fields& fields, HalfStepConfig* c) {
+  fields.Number("duration_s", &c->duration,
+                {.meaning = "T of an isolated half-step", .unit = "s", .min = 0.6, .max = 6});
+  fields.Number(
+      "zmp_shift_s", &c->zmp_shift,
+      {.meaning = "t2 − t1: how long the ZMP takes to shift", .unit = "s", .min = 0.02, .max = 2});
+  if (c->zmp_shift < 0.01 * c->duration || c->zmp_shift > 0.5 * c->duration) {
+    fields.Complain("zmp_shift_s", "does not fit duration_s (valid: 0.01 … 0.5 of it)");
+  }
+  fields.Number("via_height_m", &c->via_height,
+                {.meaning = "height of the via point", .unit = "m", .min = 0.01, .max = 1});
+  fields.Number("via_lateral_m", &c->via_lateral,
+                {.meaning = "distance of the via point from the support sole's centre",
+                 .unit = "m",
+                 .min = 0.05,
+                 .max = 1});
+  fields.Number("horizontal_delay", &c->horizontal_delay,
+                {.meaning = "fraction of T between take-off and the foot's horizontal motion",
+                 .min = 0,
+                 .max = 0.2});
+}
+
+void DeclareDichotomy(Fields& fields, DichotomyOptions* o) {
+  fields.Number("tolerance_s", &o->tolerance,
+                {.meaning = "bisection of an overlap ends below this (published: 0.05)",
+                 .unit = "s",
+                 .min = 1e-6,
+                 .max = 1});
+  std::string order =
+      o->order == DichotomyOptions::Order::kLeftToRight ? "left_to_right" : "right_to_left";
+  fields.Text("order", &order,
+              {.meaning = "of the junctions", .choices = {"left_to_right", "right_to_left"}});
+  o->order = order == "left_to_right" ? DichotomyOptions::Order::kLeftToRight
+                                      : DichotomyOptions::Order::kRightToLeft;
+  fields.Integer("passes", &o->passes, {.meaning = "over all junctions", .min = 1, .max = 100});
+  fields.Number("up_down_cap", &o->up_down_cap,
+                {.meaning = "largest overlap as a fraction of its natural bound (published: 0.8)",
+                 .min = 0,
+                 .max = 1});
+  fields.Number("down_up_cap", &o->down_up_cap,
+                {.meaning = "largest overlap as a fraction of its natural bound (published: 0.76)",
+                 .min = 0,
+                 .max = 1});
+}
+
+void DeclareLimits(Fields& fields, MarginLimits* l) {
+  fields.OptionalNumber("foot_speed_m_s", &l->foot_speed,
+                        {.meaning = "of the swing sole's centre; none: no limit",
+                         .unit = "m/s",
+                         .min = 0.01,
+                         .max = 20});
+  fields.OptionalNumber(
+      "foot_yaw_rate_rad_s", &l->foot_yaw_rate,
+      {.meaning = "of the swing sole; none: no limit", .unit = "rad/s", .min = 0.01, .max = 50});
+  fields.Number("joint_speed_scale", &l->joint_speed_scale,
+                {.meaning = "fraction of the robot's joint speed limits", .min = 0.01, .max = 1});
+}
+
+void DeclareMargins(Fields& fields, MarginLimits* l) {
+  const auto margin = [&](const char* key, MarginFamily family, const char* unit,
+                          const char* meaning) {
+    fields.Number(key, &l->demanded_of(family),
+                  {.meaning = meaning, .unit = unit, .min = 0, .max = 0.5});
+  };
+  margin("floor_m", MarginFamily::kFloor, "m", "height of the sole while it moves horizontally");
+  margin("zmp_m", MarginFamily::kZmp, "m", "ZMP inside the support polygon");
+  margin("reach_m", MarginFamily::kReach, "m", "leg shorter than stretched");
+  margin("joint_rad", MarginFamily::kJoint, "rad", "inside the joint limits");
+  margin("joint_speed_rad_s", MarginFamily::kJointSpeed, "rad/s", "inside the joint speed limits");
+  margin("foot_speed_m_s", MarginFamily::kFootSpeed, "m/s", "inside the foot speed limit");
+  margin("foot_yaw_rate_rad_s", MarginFamily::kFootYawRate, "rad/s",
+         "inside the foot yaw rate limit");
+  margin("clearance_m", MarginFamily::kClearance, "m", "robot to obstacles");
+  margin("self_clearance_m", MarginFamily::kSelfClearance, "m", "between the robot's own bodies");
+}
+
+void DeclareSmoothing(Fields& fields, SmoothingConfig* c) {
+  fields.Texts(
+      "methods", &c->methods,
+      {.meaning = "to run and compare; `raw` is always written", .choices = MethodNames()});
+  fields.Text("acceptance", &c->acceptance,
+              {.meaning = "what makes a candidate acceptable", .choices = {"sampled"}});
+  fields.Number("sampling_s", &c->sampling,
+                {.meaning = "period of the sampled checks", .unit = "s", .min = 1e-4, .max = 0.1});
+  fields.Group("dichotomy", {.meaning = "options of the method `dichotomy`"},
+               [&](Fields& f) { DeclareDichotomy(f, &c->dichotomy); });
+  fields.Group("limits", {.meaning = "what the robot file does not limit"},
+               [&](Fields& f) { DeclareLimits(f, &c->limits); });
+  fields.Group("margins", {.meaning = "demanded margins: feasible means at least this far inside"},
+               [&](Fields& f) { DeclareMargins(f, &c->limits); });
+}
+
+}  // namespace
+
+void DeclareFields(Fields& fields, ExperimentConfig* c) {
+  fields.Text("name", &c->name, {.meaning = "of the run and its folder; default: the file's name"});
+  if (c->name.find('/') != std::string::npos || c->name.starts_with('.')) {
+    fields.Complain("name",
+                    "'" + c->name + "' cannot name a folder (valid: no '/', no leading '.')");
+  }
+  fields.Text("robot", &c->robot,
+              {.meaning = "a shipped robot's name, or the path of a robot file", .required = true});
+  fields.Text("scene", &c->scene,
+              {.meaning = "path of a scene file, or `none` for an empty floor", .required = true});
+  fields.OptionalGroup(
+      "start", &c->has_start,
+      {.meaning = "the soles at the start; default: standing about the origin"}, [&](Fields& f) {
+        const GroupSpec sole{.meaning = "sole centre in the world", .required = true};
+        f.Group("left", sole, [&](Fields& g) { DeclarePose(g, &c->start_left); });
+        f.Group("right", sole, [&](Fields& g) { DeclarePose(g, &c->start_right); });
+      });
+  fields.List("footsteps",
+              {.meaning = "sole centres in the world, in the order of stepping",
+               .required = true,
+               .min_items = 1,
+               .max_items = 10000},
+              &c->footsteps, DeclareFootstep);
+  fields.Group("half_step", {.meaning = "the isolated half-step"},
+               [&](Fields& f) { DeclareHalfStep(f, &c->half_step); });
+  fields.Group("smoothing", {.meaning = "the homotopy"},
+               [&](Fields& f) { DeclareSmoothing(f, &c->smoothing); });
+  fields.Group("output", {.meaning = "what is written"}, [&](Fields& f) {
+    f.Text("directory", &c->output_directory, {.meaning = "the run folder; default: runs/<name>"});
+    f.Number("period_s", &c->output_period,
+             {.meaning = "between rows of trajectory.csv", .unit = "s", .min = 1e-4, .max = 1});
+  });
+  fields.Integer("seed", &c->seed,
+                 {.meaning = "of everything random", .min = 0, .max = 2147483647});
+}
+
+ExperimentConfig LoadConfig(const std::string& path, const std::vector<YamlOverride>& overrides) {
+  ExperimentConfig config;
+  config.name = std::filesystem::path(path).stem().string();
+  ReadYaml(path, overrides, [&](Fields& fields) {
+    DeclareFields(fields, &config);
+    config.directory = fields.directory();
+  });
+  return config;
+}
+
+}  // namespace halfstep

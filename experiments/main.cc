@@ -1,0 +1,72 @@
+#include <CLI/CLI.hpp>
+#include <iostream>
+
+#include "experiments/build_info.h"
+#include "experiments/commands.h"
+#include "wpg/input/input_error.h"
+
+namespace {
+
+using namespace halfstep;
+
+YamlOverride ParseOverride(const std::string& text) {
+  const size_t equals = text.find('=');
+  if (equals == std::string::npos || equals == 0) {
+    throw InputError(
+        {"--set " + text + ": not an assignment (valid: --set smoothing.sampling_s=0.002)"});
+  }
+  return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{
+      "Plans and smooths humanoid walks made of half-steps.\n\n"
+      "  example: halfstep run experiments/configs/bar_8cm.yaml"};
+  app.set_version_flag("--version", std::string(kVersion) + " (" + std::string(kCommit) + ")");
+  app.require_subcommand(1);
+
+  RunCommand run;
+  std::vector<std::string> sets;
+  CLI::App* run_app =
+      app.add_subcommand("run",
+                         "Concatenate, smooth with each method, write the run folder.\n\n"
+                         "  example: halfstep run experiments/configs/bar_8cm.yaml --set "
+                         "smoothing.margins.clearance_m=0.02");
+  run_app->add_option("CONFIG", run.config, "experiment, a YAML file")->required();
+  run_app->add_option("--set", sets, "override a key of the config: KEY=VALUE")
+      ->allow_extra_args(false);
+  run_app->add_option("--out", run.out, "run folder (default: output.directory, or runs/NAME)");
+  run_app->add_flag("--overwrite", run.overwrite, "replace an older run");
+  run_app->add_flag("--quiet", run.quiet, "print nothing but errors");
+  run_app->add_flag("--json", run.json, "print the summary as JSON");
+
+  std::string what;
+  bool list_json = false;
+  CLI::App* list_app =
+      app.add_subcommand("list", "What there is.\n\n  example: halfstep list methods");
+  list_app->add_option("WHAT", what, "robots, scenes, solvers or methods")
+      ->required()
+      ->check(CLI::IsMember({"robots", "scenes", "solvers", "methods"}));
+  list_app->add_flag("--json", list_json, "print JSON");
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kSuccess : kBadInput;
+  }
+  try {
+    if (*run_app) {
+      for (const std::string& set : sets) run.overrides.push_back(ParseOverride(set));
+      return Run(run);
+    }
+    return List(what, list_json);
+  } catch (const InputError& error) {
+    for (const std::string& complaint : error.complaints()) std::cerr << complaint << '\n';
+    return kBadInput;
+  } catch (const std::exception& error) {
+    std::cerr << "halfstep: " << error.what() << '\n';
+    return kFailed;
+  }
+}

@@ -1,0 +1,86 @@
+#include "experiments/manifest.h"
+
+#include <openssl/evp.h>
+#include <sys/utsname.h>
+
+#include <array>
+#include <chrono>
+#include <ctime>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "experiments/build_info.h"
+#include "smoothing/sampled_feasibility.h"
+
+namespace halfstep {
+namespace {
+
+using nlohmann::ordered_json;
+
+std::string UtcNow() {
+  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  std::array<char, 32> text{};
+  std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &utc);
+  return text.data();
+}
+
+ordered_json Host() {
+  utsname names{};
+  uname(&names);
+  return {{"system", names.sysname},
+          {"release", names.release},
+          {"machine", names.machine},
+          {"cores", std::thread::hardware_concurrency()}};
+}
+
+ordered_json MethodJson(const MethodRun& run) {
+  return {{"name", run.method},
+          {"status", Name(run.result.status)},
+          {"message", run.result.message},
+          {"evidence", Name(run.result.evidence)},
+          {"duration_s", run.duration},
+          {"wall_s", run.result.wall}};
+}
+
+}  // namespace
+
+std::string Sha256(const std::string& text) {
+  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
+  unsigned int size = 0;
+  EVP_Digest(text.data(), text.size(), digest.data(), &size, EVP_sha256(), nullptr);
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string hex;
+  for (unsigned int i = 0; i < size; ++i) {
+    hex += kDigits[digest[i] >> 4];
+    hex += kDigits[digest[i] & 15];
+  }
+  return hex;
+}
+
+std::string ManifestJson(const Experiment& experiment, const std::string& resolved_config,
+                         const std::string& acceptance, const std::vector<MethodRun>& runs,
+                         double total_wall) {
+  ordered_json manifest = {{"format", 1},
+                           {"program", "halfstep"},
+                           {"version", kVersion},
+                           {"commit", kCommit},
+                           {"build_type", kBuildType},
+                           {"compiler", kCompiler},
+                           {"written", UtcNow()},
+                           {"name", experiment.config.name},
+                           {"config_sha256", Sha256(resolved_config)},
+                           {"seed", experiment.config.seed},
+                           {"robot", experiment.robot.name},
+                           {"scene", experiment.scene.name},
+                           {"half_steps", experiment.sequence.size()},
+                           {"acceptance", acceptance},
+                           {"host", Host()},
+                           {"wall_s", total_wall}};
+  for (const auto& [library, version] : kLibraries) manifest["libraries"][library] = version;
+  for (const MethodRun& run : runs) manifest["methods"].push_back(MethodJson(run));
+  return manifest.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace halfstep

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "experiments/experiment.h"
+#include "experiments/result_tables.h"
+
+namespace halfstep {
+
+/// Text of manifest.json: what made a run. Commit and library versions of this program, SHA-256 of
+/// the resolved config, of the robot's and of the scene's files, seed, host, timings, and per
+/// method its status, message and requested options.
+std::string ManifestJson(const Experiment& experiment, const std::string& resolved_config,
+                         const std::string& acceptance, const std::vector<MethodRun>& runs,
+                         double total_wall);
+
+/// Lower-case hexadecimal SHA-256 of a text.
+std::string Sha256(const std::string& text);
+
+}  // namespace halfstep

@@ -1,0 +1,38 @@
+#include "experiments/methods.h"
+
+#include "wpg/check.h"
+
+namespace halfstep {
+
+const std::vector<Method>& Methods() {
+  static const std::vector<Method> methods = {
+      {"dichotomy", "bisect each overlap in turn, with the options of smoothing.dichotomy",
+       [](const HalfStepSequence& sequence, const FeasibilityTest& test,
+          const DichotomyOptions& options, const std::function<void(double)>& progress,
+          std::stop_token stop) { return Dichotomy(sequence, test, options, progress, stop); }},
+      {"dichotomy/published", "the same as published: 0.05 s, one pass, caps 0.8 and 0.76",
+       [](const HalfStepSequence& sequence, const FeasibilityTest& test, const DichotomyOptions&,
+          const std::function<void(double)>& progress, std::stop_token stop) {
+         const DichotomyOptions published{
+             .tolerance = 0.05, .up_down_cap = 0.8, .down_up_cap = 0.76};
+         return Dichotomy(sequence, test, published, progress, stop);
+       }},
+  };
+  return methods;
+}
+
+std::vector<std::string> MethodNames() {
+  std::vector<std::string> names;
+  for (const Method& method : Methods()) names.push_back(method.name);
+  return names;
+}
+
+const Method& FindMethod(const std::string& name) {
+  for (const Method& method : Methods()) {
+    if (method.name == name) return method;
+  }
+  HALFSTEP_CHECK(false, "no method '" << name << "'");
+  return Methods().front();
+}
+
+}  // namespace halfstep

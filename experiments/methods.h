@@ -1,0 +1,31 @@
+#pragma once
+
+#include <functional>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "smoothing/dichotomy.h"
+#include "smoothing/feasibility_test.h"
+#include "smoothing/smoothing_result.h"
+#include "wpg/half_step_sequence.h"
+
+namespace halfstep {
+
+/// A smoothing method by the name that a config gives it.
+struct Method {
+  std::string name;
+  std::string meaning;  ///< one line, for `halfstep list methods`
+  std::function<SmoothingResult(const HalfStepSequence&, const FeasibilityTest&,
+                                const DichotomyOptions&, const std::function<void(double)>&,
+                                std::stop_token)>
+      smooth;
+};
+
+/// Every method there is. To add one, add a row.
+const std::vector<Method>& Methods();
+std::vector<std::string> MethodNames();
+/// Throws std::logic_error when there is none: configs are checked when they are read.
+const Method& FindMethod(const std::string& name);
+
+}  // namespace halfstep

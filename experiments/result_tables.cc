@@ -1,0 +1,76 @@
+#include "experiments/result_tables.h"
+
+#include "experiments/csv_writer.h"
+#include "smoothing/sampled_feasibility.h"
+
+namespace halfstep {
+namespace {
+
+std::string Active(const MarginEvaluator& evaluator, const JunctionResult& junction) {
+  if (junction.limited_by) return evaluator.Describe(*junction.limited_by);
+  return junction.overlap < junction.upper_bound ? "not bisected" : "upper bound";
+}
+
+}  // namespace
+
+std::string FootstepsCsv(const HalfStepSequence& sequence) {
+  CsvWriter csv({"footstep", "foot", "x_m", "y_m", "yaw_rad", "via_height_m", "duration_s"});
+  const auto row = [&](int index, Side side, const Pose2& X_WF, double height, double duration) {
+    csv.Cell(index).Cell(Name(side)).Cell(X_WF.x).Cell(X_WF.y).Cell(X_WF.yaw);
+    csv.Cell(height).Cell(duration).EndRow();
+  };
+  for (Side side : {Side::kLeft, Side::kRight}) {
+    row(0, side, sequence.start[static_cast<size_t>(Index(side))], 0.0, 0.0);
+  }
+  for (int step = 0; step < sequence.num_steps(); ++step) {
+    const PlacedHalfStep& down = sequence.half_steps[static_cast<size_t>(2 * step + 1)];
+    row(step + 1, down.half_step.swing(), down.X_WS * down.half_step.X_SF,
+        down.half_step.via_height, down.half_step.duration);
+  }
+  return csv.text();
+}
+
+std::string OverlapsCsv(const MarginEvaluator& evaluator, const MethodRun& run) {
+  CsvWriter csv({"junction", "kind", "overlap_s", "upper_bound_s", "active"});
+  int index = 0;
+  for (const JunctionResult& junction : run.result.junctions) {
+    csv.Cell(++index).Cell(junction.kind == JunctionKind::kUpDown ? "up_down" : "down_up");
+    csv.Cell(junction.overlap).Cell(junction.upper_bound);
+    csv.Cell(Active(evaluator, junction)).EndRow();
+  }
+  return csv.text();
+}
+
+std::string IteratesCsv(const MethodRun& run) {
+  CsvWriter csv({"iteration", "wall_s", "evaluations", "candidate_duration_s",
+                 "candidate_worst_margin", "accepted", "lambda", "incumbent_duration_s",
+                 "incumbent_worst_margin"});
+  int index = 0;
+  for (const SmoothingIterate& iterate : run.result.iterates) {
+    csv.Cell(++index).Cell(iterate.wall).Cell(iterate.evaluations).Cell(iterate.candidate_duration);
+    iterate.candidate_slack ? csv.Cell(*iterate.candidate_slack) : csv.Empty();
+    csv.Cell(iterate.accepted).Cell(iterate.lambda).Cell(iterate.incumbent_duration).Empty();
+    csv.EndRow();
+  }
+  return csv.text();
+}
+
+std::string SummaryCsv(const MarginEvaluator& evaluator, const std::vector<MethodRun>& runs) {
+  CsvWriter csv({"method", "status", "certified", "duration_s", "speedup", "cost", "worst_margin",
+                 "worst_margin_name", "iterations", "margin_evaluations", "collision_queries",
+                 "wall_s", "time_to_first_improvement_s", "gap_to_reference"});
+  for (const MethodRun& run : runs) {
+    const SmoothingResult& result = run.result;
+    const Margin& worst = WorstOf(run.margins, evaluator.limits());
+    csv.Cell(run.method).Cell(Name(result.status)).Cell(result.evidence == Evidence::kCertified);
+    csv.Cell(run.duration).Cell(runs.front().duration / run.duration).Cell(run.duration);
+    csv.Cell(worst.value).Cell(Name(worst.family));
+    csv.Cell(static_cast<long>(result.iterates.size())).Cell(result.counts.instants);
+    csv.Cell(result.counts.collision_queries).Cell(result.wall);
+    result.time_to_first_improvement ? csv.Cell(*result.time_to_first_improvement) : csv.Empty();
+    csv.Empty().EndRow();
+  }
+  return csv.text();
+}
+
+}  // namespace halfstep

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "experiments/experiment.h"
+#include "smoothing/margin_evaluator.h"
+#include "smoothing/smoothing_result.h"
+#include "smoothing/superposed_walk.h"
+
+namespace halfstep {
+
+/// What one method made of an experiment, and what its walk looks like.
+struct MethodRun {
+  explicit MethodRun(std::string name) : method(std::move(name)) {}
+
+  std::string method;
+  SmoothingResult result;
+  double duration = 0.0;     ///< of the walk [s]
+  double lowest_apex = 0.0;  ///< least of the steps' highest sole heights [m]
+  MarginSet margins;         ///< smallest of each family, at the trajectory's instants
+  std::string trajectory;    ///< text of trajectory.csv
+};
+
+/// The text of each table of a run folder; columns: experiments/README.md.
+std::string FootstepsCsv(const HalfStepSequence& sequence);
+std::string OverlapsCsv(const MarginEvaluator& evaluator, const MethodRun& run);
+std::string IteratesCsv(const MethodRun& run);
+/// One row a method; speed-up against the first run, which is the planned motion.
+std::string SummaryCsv(const MarginEvaluator& evaluator, const std::vector<MethodRun>& runs);
+
+/// Columns of trajectory.csv for a robot.
+std::vector<std::string> TrajectoryColumns(const RobotModel& robot);
+
+/// Samples the walk of `run->result.parameters` at a fixed period [s], the last row exactly at its
+/// end, and fills the walk's part of `run`. Where a leg does not reach, its joint angles are nan.
+void SampleTrajectory(const MarginEvaluator& evaluator, const HalfStepSequence& sequence,
+                      double period, MethodRun* run);
+
+}  // namespace halfstep

@@ -1,0 +1,108 @@
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "experiments/commands.h"
+#include "experiments/experiment.h"
+#include "experiments/interrupt.h"
+#include "experiments/manifest.h"
+#include "experiments/methods.h"
+#include "experiments/progress_bar.h"
+#include "experiments/result_tables.h"
+#include "experiments/run_folder.h"
+#include "experiments/run_screen.h"
+#include "smoothing/sampled_feasibility.h"
+
+namespace halfstep {
+namespace {
+
+// The planned motion as the first row of every comparison.
+MethodRun PlannedRun(const Experiment& experiment, const FeasibilityTest& test) {
+  MethodRun run("raw");
+  MarginEvaluator::Scratch scratch = test.evaluator().MakeScratch();
+  const SuperposedWalk walk(experiment.sequence, PlannedMotion(experiment.sequence));
+  const Feasibility answer = test.Check(walk, {0.0, walk.duration()}, &scratch);
+  run.result.parameters = walk.parameters();
+  run.result.evidence = test.evidence();
+  run.result.counts = scratch.counts;
+  const bool feasible = answer.verdict == Verdict::kFeasible;
+  run.result.status = feasible ? SmoothingStatus::kFinished : SmoothingStatus::kStartInfeasible;
+  run.result.message = feasible ? "the isolated half-steps, one after the other"
+                                : test.evaluator().Describe(answer.witness);
+  return run;
+}
+
+// dichotomy/published is a name; its folder is dichotomy_published.
+std::string FolderOf(std::string method) {
+  std::replace(method.begin(), method.end(), '/', '_');
+  return method;
+}
+
+void WriteRun(const MarginEvaluator& evaluator, const MethodRun& run, RunFolder* folder) {
+  const std::string place = FolderOf(run.method) + "/";
+  folder->Write(place + "trajectory.csv", run.trajectory);
+  if (run.result.junctions.empty()) return;
+  folder->Write(place + "overlaps.csv", OverlapsCsv(evaluator, run));
+  folder->Write(place + "iterates.csv", IteratesCsv(run));
+}
+
+std::filesystem::path OutputFolder(const RunCommand& command, const ExperimentConfig& config) {
+  if (command.out) return *command.out;
+  if (!config.output_directory.empty()) {
+    return std::filesystem::path(config.directory) / config.output_directory;
+  }
+  return std::filesystem::path("runs") / config.name;
+}
+
+}  // namespace
+
+ExitStatus Run(const RunCommand& command) {
+  const auto begin = std::chrono::steady_clock::now();
+  InterruptGuard interrupt;
+  ExperimentConfig config = LoadConfig(command.config, command.overrides);
+  const Experiment experiment = Prepare(config);
+  if (const auto stepped_on = FootprintOnNoStep(experiment)) {
+    std::cerr << "halfstep: the plan is not feasible: " << *stepped_on << '\n';
+    return kFailed;
+  }
+  RunFolder folder(OutputFolder(command, config), command.overwrite);
+
+  const MarginEvaluator evaluator(experiment.robot, experiment.scene, config.smoothing.limits);
+  const SampledFeasibility test(evaluator, config.smoothing.sampling);
+  std::vector<MethodRun> runs = {PlannedRun(experiment, test)};
+  for (const std::string& name : config.smoothing.methods) {
+    ProgressBar bar(name, command.quiet || command.json);
+    MethodRun run(name);
+    run.result = FindMethod(name).smooth(
+        experiment.sequence, test, config.smoothing.dichotomy,
+        [&bar](double done) { bar.Update(done); }, interrupt.token());
+    runs.push_back(std::move(run));
+  }
+  for (MethodRun& run : runs) {
+    SampleTrajectory(evaluator, experiment.sequence, config.output_period, &run);
+    WriteRun(evaluator, run, &folder);
+  }
+  const std::string resolved = WriteYaml([&](Fields& fields) { DeclareFields(fields, &config); });
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
+  folder.Write("config.yaml", resolved);
+  folder.Write("footsteps.csv", FootstepsCsv(experiment.sequence));
+  folder.Write("summary.csv", SummaryCsv(evaluator, runs));
+  folder.Write("manifest.json",
+               ManifestJson(experiment, resolved, test.Description(), runs, wall.count()));
+  folder.Publish();
+
+  if (command.json) {
+    std::cout << RunJson(evaluator, runs, folder.path().string());
+  } else if (!command.quiet) {
+    std::cout << RunTable(experiment, evaluator, test, runs, folder.path().string());
+  }
+  if (interrupt.requested()) return kInterrupted;
+  const bool feasible = std::all_of(runs.begin(), runs.end(), [](const MethodRun& run) {
+    return run.result.status != SmoothingStatus::kStartInfeasible;
+  });
+  return feasible ? kSuccess : kFailed;
+}
+
+}  // namespace halfstep

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace halfstep {
+
+/// A folder of results that appears under its name whole or not at all: files are written and
+/// synced in a hidden sibling, which Publish() renames. Anything that ends earlier (an exception, a
+/// full disk, SIGKILL) leaves nothing under the final name; an ordinary end also removes the
+/// sibling, and the next run of the same name removes one that a killed run left behind.
+class RunFolder {
+ public:
+  /// Throws std::runtime_error when `path` exists and `overwrite` is false, when it exists and is
+  /// not a run folder (has no manifest.json), or when its parent cannot be made.
+  RunFolder(std::filesystem::path path, bool overwrite);
+  ~RunFolder();
+  RunFolder(const RunFolder&) = delete;
+  RunFolder& operator=(const RunFolder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+
+  /// Writes a file, "dichotomy/overlaps.csv", with its folders. Throws std::runtime_error that
+  /// names the file and the system's reason, e.g. "No space left on device".
+  void Write(const std::string& relative, std::string_view content);
+
+  /// Moves everything to its final name, in place of an older run when overwriting.
+  void Publish();
+
+ private:
+  std::filesystem::path path_;
+  std::filesystem::path staging_;
+  bool published_ = false;
+};
+
+}  // namespace halfstep
