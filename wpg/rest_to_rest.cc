@@ -59,7 +59,7 @@ UnitJet Reflected(const UnitJet& f) {
 
 RestToRest::RestToRest(double theta, double shift_fraction)
     : theta_(theta), first_(0.5 - 0.5 * shift_fraction) {
-  HALFSTEP_CHECK(theta >= 1.0 && theta <= 40.0, "theta = " << theta);
+  HALFSTEP_CHECK(theta >= 0.5 && theta <= 60.0, "theta = " << theta);
   HALFSTEP_CHECK(shift_fraction >= 0.01 && shift_fraction <= 0.5,
                  "shift_fraction = " << shift_fraction);
   const double delta = 0.5 * shift_fraction;

@@ -22,7 +22,7 @@ namespace halfstep {
 /// Source: wpg/README.md, "Rest to rest".
 class RestToRest {
  public:
-  /// theta = ω·T ∈ [1, 40]; shift_fraction = 2δ = (t2 − t1)/T ∈ [0.01, 0.5].
+  /// theta = ω·T ∈ [0.5, 60]; shift_fraction = 2δ = (t2 − t1)/T ∈ [0.01, 0.5].
   RestToRest(double theta, double shift_fraction);
 
   UnitJet Com(double sigma) const;
