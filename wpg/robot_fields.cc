@@ -1,15 +1,12 @@
 #include "wpg/robot_fields.h"
 
-#include <cstdio>
 #include <filesystem>
-#include <numbers>
 
+#include "wpg/input/number_text.h"
 #include "wpg/robot_bodies.h"
 
 namespace halfstep {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 std::vector<std::string> LinkNames(const RobotFile& file) {
   std::vector<std::string> names;
@@ -58,13 +55,11 @@ void DeclareJoints(Fields& fields, RobotFile* file) {
                    if (limits.empty()) continue;
                    if (!(limits[0] < limits[1]))
                      f.Complain(name, "the lower limit is not below the upper");
-                   if (limits[0] * kDegree < joints[i].lower - 1e-9 ||
-                       limits[1] * kDegree > joints[i].upper + 1e-9) {
-                     char text[96];
-                     std::snprintf(text, sizeof text,
-                                   "reaches beyond the URDF's limits (valid: %.9g … %.9g)",
-                                   joints[i].lower / kDegree, joints[i].upper / kDegree);
-                     f.Complain(name, text);
+                   if (DegreesToRadians(limits[0]) < joints[i].lower - 1e-9 ||
+                       DegreesToRadians(limits[1]) > joints[i].upper + 1e-9) {
+                     f.Complain(name, "reaches beyond the URDF's limits (valid: " +
+                                          ShortestDegrees(joints[i].lower) + " … " +
+                                          ShortestDegrees(joints[i].upper) + ")");
                    }
                  }
                });

@@ -3,6 +3,7 @@
 #include <numbers>
 #include <optional>
 
+#include "wpg/input/number_text.h"
 #include "wpg/input/yaml_fields.h"
 #include "wpg/robot_bodies.h"
 #include "wpg/robot_fields.h"
@@ -42,9 +43,9 @@ class Builder {
     model_.sole_size = {file_.sole_size[0], file_.sole_size[1]};
     for (size_t i = 0; i < urdf_.joints.size(); ++i) {
       const bool own = !file_.limits_deg[i].empty();
-      leg_.lower.push_back(own ? file_.limits_deg[i][0] * kDegree : urdf_.joints[i].lower);
-      leg_.upper.push_back(own ? file_.limits_deg[i][1] * kDegree : urdf_.joints[i].upper);
-      leg_.posture.push_back(file_.posture_deg[i] * kDegree);
+      leg_.lower.push_back(own ? DegreesToRadians(file_.limits_deg[i][0]) : urdf_.joints[i].lower);
+      leg_.upper.push_back(own ? DegreesToRadians(file_.limits_deg[i][1]) : urdf_.joints[i].upper);
+      leg_.posture.push_back(DegreesToRadians(file_.posture_deg[i]));
     }
     CheckPostureInLimits();
     leg_.waist = urdf_.FindLink(file_.waist_link);
@@ -66,8 +67,8 @@ class Builder {
       if (leg_.posture[i] < leg_.lower[i] - 1e-9 || leg_.posture[i] > leg_.upper[i] + 1e-9) {
         faults += (faults.empty() ? "" : "; ") + urdf_.joints[i].name + ": " +
                   Text("%.9g", file_.posture_deg[i]) +
-                  " is outside its limits (valid: " + Text("%.9g", leg_.lower[i] / kDegree) +
-                  " … " + Text("%.9g", leg_.upper[i] / kDegree) + ")";
+                  " is outside its limits (valid: " + ShortestDegrees(leg_.lower[i]) + " … " +
+                  ShortestDegrees(leg_.upper[i]) + ")";
       }
     }
     if (!faults.empty()) fields_.Complain("standing_posture_deg", faults);

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -209,8 +210,9 @@ class TemporaryRobot {
   explicit TemporaryRobot(const GeneratedRobot& robot)
       : TemporaryRobot(robot.name, GeneratedUrdf(robot), GeneratedYaml(robot, "robot.urdf")) {}
   TemporaryRobot(const std::string& name, const std::string& urdf, const std::string& yaml)
-      : folder_(std::filesystem::temp_directory_path() /
-                ("halfstep_" + name + "_" + std::to_string(getpid()))) {
+      : folder_(
+            std::filesystem::temp_directory_path() /
+            ("halfstep_" + name + "_" + std::to_string(getpid()) + "_" + std::to_string(Count()))) {
     std::filesystem::create_directories(folder_);
     std::ofstream(folder_ / "robot.urdf") << urdf;
     std::ofstream(folder_ / "robot.yaml") << yaml;
@@ -221,6 +223,12 @@ class TemporaryRobot {
   }
   TemporaryRobot(const TemporaryRobot&) = delete;
   TemporaryRobot& operator=(const TemporaryRobot&) = delete;
+
+  /// How many there were before, so that robots of one name do not share a folder.
+  static int Count() {
+    static std::atomic<int> count = 0;
+    return count++;
+  }
 
   std::string yaml_path() const { return (folder_ / "robot.yaml").string(); }
   RobotModel Load() const { return LoadRobot(yaml_path()); }

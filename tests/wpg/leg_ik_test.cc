@@ -162,6 +162,26 @@ TEST_P(LegIkTest, JacobianIsTheDerivativeOfForwardKinematics) {
   }
 }
 
+// wpg/README.md, "Branches": |det J| is the product of the functions whose signs name the branch.
+TEST_P(LegIkTest, JacobianIsSingularExactlyWhereBranchesMeet) {
+  for (const Leg& leg : legs_) {
+    const auto& j = leg.joints;
+    const auto turned = [&](size_t i, double angle, const Vector3d& v) {
+      return Vector3d(Eigen::AngleAxisd(angle, j[i].axis_B) * v);
+    };
+    for (int k = 0; k < 200; ++k) {
+      const Vector6d q = RandomPosture(leg);
+      const Vector3d hip = leg.hip_B - j[3].point_B, ankle = leg.ankle_B - j[3].point_B;
+      const double knee = j[3].axis_B.dot(hip.cross(turned(3, q[3], ankle)));
+      const Vector3d hip_seen = turned(4, -q[4], turned(3, -q[3], hip) - ankle);
+      const double ankles = j[5].axis_B.cross(j[4].axis_B).dot(hip_seen);
+      const double hips = j[0].axis_B.cross(j[1].axis_B).dot(turned(1, q[1], j[2].axis_B));
+      EXPECT_NEAR(std::abs(LegJacobian(leg, q).determinant()), std::abs(knee * ankles * hips),
+                  1e-14);
+    }
+  }
+}
+
 Isometry3d Upright(const Eigen::Vector4d& xyz_yaw) {
   Isometry3d X = Isometry3d::Identity();
   X.translation() = xyz_yaw.head<3>();
