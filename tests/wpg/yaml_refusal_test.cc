@@ -76,6 +76,8 @@ const Refusal kOthers[] = {
     {"steps:", "c.yaml:1:1: steps: not a list: nothing (valid: 0 … 3 items)"},
     {"steps: [{x_m: 0}, {x_m: 0}, {x_m: 0}, {x_m: 0}]",
      "c.yaml:1:8: steps: 4 items (valid: 0 … 3 items)"},
+    {"steps:\n  - x_m: 0\n  - x_m: 0\n  - x_m: 0\n  - x_m: 0",
+     "c.yaml:1:1: steps: 4 items (valid: 0 … 3 items)"},
     {"goal: {}", "c.yaml:1:7: goal.x_m: a required key is missing (valid: a finite number [m])"},
     {"goal:\n  y_m: 1\n  x_m: 0",
      "c.yaml:2:3: goal.y_m: unknown key (did you mean 'x_m'? valid: x_m)"},
@@ -131,6 +133,9 @@ TEST(YamlFields, EndsOnHostileText) {
   anchors += std::string(60, ']');
   EXPECT_THAT(ComplaintsAbout(anchors), ElementsAre(HasSubstr(too_much)));
 
+  // Refused before the parser, which would queue them all, sees the first.
+  EXPECT_THAT(ComplaintsAbout(std::string(3000, '[')),
+              ElementsAre("c.yaml:1:1001: nested too deeply (valid: at most 64 levels)"));
   for (const char* opening : {"[", "{", "[a: ", "- ", "? ", "{a: "}) {
     std::string text;
     for (int i = 0; i < 3000; ++i) text += opening;

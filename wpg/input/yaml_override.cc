@@ -67,7 +67,11 @@ void OverrideYaml(const std::string& dotted_key, const std::string& value_text, 
     const bool in_list = node->kind == YamlNode::Kind::kList;
     node = Child(part, path, place, node, complaints);
     if (node == nullptr) return;
-    path = in_list ? path + "[" + part + "]" : KeyPath(path, part);
+    if (in_list) {
+      path.append("[").append(part).append("]");
+    } else {
+      path = KeyPath(path, part);
+    }
   }
   value.place = place;
   value.key = node->key;
