@@ -230,6 +230,7 @@ class Search {
       const Vector3d n = v.normalized();
       starts.push_back({Try(n).w.dot(n), n});
     };
+    add(Vector3d(normal_));  // the widest slab on the way here: near the best in a shallow overlap
     for (const Vector3d& n : a_.normals.colwise()) add(-n);
     for (const Vector3d& n : b_.normals.colwise()) add(R_ * n);
     for (int axis = 0; axis < 3; ++axis) {
