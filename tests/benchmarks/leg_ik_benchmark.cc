@@ -80,5 +80,3 @@ BENCHMARK(BM_LegIkDerivative);
 
 }  // namespace
 }  // namespace halfstep
-
-BENCHMARK_MAIN();
