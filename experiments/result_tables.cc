@@ -65,8 +65,8 @@ std::string SummaryCsv(const MarginEvaluator& evaluator, const std::vector<Metho
     csv.Cell(run.method).Cell(Name(result.status)).Cell(result.evidence == Evidence::kCertified);
     csv.Cell(run.duration).Cell(runs.front().duration / run.duration).Cell(run.duration);
     csv.Cell(worst.value).Cell(Name(worst.family));
-    csv.Cell(static_cast<long>(result.iterates.size())).Cell(result.counts.instants);
-    csv.Cell(result.counts.collision_queries).Cell(result.wall);
+    csv.Cell(static_cast<long>(result.iterates.size())).Cell(result.instants);
+    csv.Cell(result.collision_queries).Cell(result.wall);
     result.time_to_first_improvement ? csv.Cell(*result.time_to_first_improvement) : csv.Empty();
     csv.Empty().EndRow();
   }

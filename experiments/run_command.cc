@@ -26,7 +26,8 @@ MethodRun PlannedRun(const Experiment& experiment, const FeasibilityTest& test) 
   const Feasibility answer = test.Check(walk, {0.0, walk.duration()}, &scratch);
   run.result.parameters = walk.parameters();
   run.result.evidence = test.evidence();
-  run.result.counts = scratch.counts;
+  run.result.instants = scratch.instants;
+  run.result.collision_queries = scratch.bodies.queries;
   const bool feasible = answer.verdict == Verdict::kFeasible;
   run.result.status = feasible ? SmoothingStatus::kFinished : SmoothingStatus::kStartInfeasible;
   run.result.message = feasible ? "the isolated half-steps, one after the other"

@@ -80,7 +80,7 @@ std::string RunTable(const Experiment& experiment, const MarginEvaluator& evalua
       continue;
     out << "\n"
         << run.method
-        << Format(" (%.2f s, %ld instants)\n", run.result.wall, run.result.counts.instants)
+        << Format(" (%.2f s, %ld instants)\n", run.result.wall, run.result.instants)
         << Holders(evaluator, run, JunctionKind::kUpDown)
         << Holders(evaluator, run, JunctionKind::kDownUp);
   }

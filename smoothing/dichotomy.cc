@@ -94,7 +94,7 @@ class Bisection {
     const bool accepted = answer.verdict == Verdict::kFeasible;
     SmoothingIterate iterate{
         .wall = Elapsed(),
-        .evaluations = scratch_.counts.instants,
+        .evaluations = scratch_.instants,
         .candidate_duration = walk_.duration(),
         .accepted = accepted,
         .lambda = accepted ? 1.0 : 0.0,
@@ -111,7 +111,8 @@ class Bisection {
 
   SmoothingResult Finish() {
     result_.parameters = walk_.parameters();
-    result_.counts = scratch_.counts;
+    result_.instants = scratch_.instants;
+    result_.collision_queries = scratch_.bodies.queries;
     result_.wall = Elapsed();
     return std::move(result_);
   }

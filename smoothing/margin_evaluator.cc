@@ -35,16 +35,10 @@ MarginSet Unlimited() {
 }  // namespace
 
 MarginEvaluator::MarginEvaluator(RobotModel robot, Scene scene, MarginLimits limits)
-    : robot_(std::move(robot)), scene_(std::move(scene)), limits_(limits), world_(scene_) {
-  for (const RobotBody& body : robot_.bodies) shapes_.emplace_back(body.shape);
-}
-
-MarginEvaluator::Scratch MarginEvaluator::MakeScratch() const {
-  Scratch scratch;
-  scratch.bodies.resize(robot_.bodies.size());
-  scratch.pair_normals_W.assign(robot_.self_pairs.size(), Eigen::Vector3d::UnitY());
-  return scratch;
-}
+    : robot_(std::move(robot)),
+      scene_(std::move(scene)),
+      limits_(limits),
+      clearances_(robot_, scene_) {}
 
 void MarginEvaluator::FootMargins(const SuperposedWalk& walk, const LocalTime& at,
                                   const WalkJet& jet, MarginSet* margins) const {
@@ -93,68 +87,9 @@ void MarginEvaluator::JointMargins(const Posture& posture, MarginSet* margins) c
   }
 }
 
-std::optional<Margin> MarginEvaluator::FirstCollision(const Posture& posture,
-                                                      Scratch* scratch) const {
-  const double clearance = limits_.demanded_of(MarginFamily::kClearance);
-  for (size_t b = 0; b < shapes_.size(); ++b) {
-    const Eigen::Isometry3d& X_WB = posture.OfBody(robot_.bodies[b]);
-    ++scratch->counts.collision_queries;
-    if (world_.Clears(shapes_[b], X_WB, clearance, &scratch->bodies[b])) continue;
-    const auto nearest = world_.FindNearest(shapes_[b], X_WB, std::max(clearance, 1e-6));
-    return Margin{.family = MarginFamily::kClearance,
-                  .value = nearest.separation.distance,
-                  .subject = static_cast<int>(b),
-                  .other = nearest.obstacle};
-  }
-  const double self = limits_.demanded_of(MarginFamily::kSelfClearance);
-  for (size_t p = 0; p < robot_.self_pairs.size(); ++p) {
-    const auto [i, j] = robot_.self_pairs[p];
-    const size_t a = static_cast<size_t>(i), b = static_cast<size_t>(j);
-    const Eigen::Isometry3d& X_Wa = posture.OfBody(robot_.bodies[a]);
-    const Eigen::Isometry3d& X_Wb = posture.OfBody(robot_.bodies[b]);
-    ++scratch->counts.collision_queries;
-    if (ClearsAlongCached(shapes_[a], X_Wa, shapes_[b], X_Wb, self, &scratch->pair_normals_W[p])) {
-      continue;
-    }
-    return Margin{.family = MarginFamily::kSelfClearance,
-                  .value = Separate(shapes_[a], X_Wa, shapes_[b], X_Wb).distance,
-                  .subject = i,
-                  .other = j};
-  }
-  return std::nullopt;
-}
-
-void MarginEvaluator::Clearances(const Posture& posture, Scratch* scratch,
-                                 MarginSet* margins) const {
-  double horizon = limits_.clearance_horizon;
-  Lower(margins, MarginFamily::kClearance, horizon, -1);
-  for (size_t b = 0; b < shapes_.size(); ++b) {
-    ++scratch->counts.collision_queries;
-    const auto nearest = world_.FindNearest(shapes_[b], posture.OfBody(robot_.bodies[b]), horizon);
-    if (nearest.obstacle < 0) continue;
-    Lower(margins, MarginFamily::kClearance, nearest.separation.distance, static_cast<int>(b),
-          nearest.obstacle);
-    horizon = std::min(horizon, std::max(nearest.separation.distance, 1e-9));
-  }
-  double best = limits_.clearance_horizon;
-  Lower(margins, MarginFamily::kSelfClearance, best, -1);
-  for (const auto& [i, j] : robot_.self_pairs) {
-    const size_t a = static_cast<size_t>(i), b = static_cast<size_t>(j);
-    const Eigen::Isometry3d& X_Wa = posture.OfBody(robot_.bodies[a]);
-    const Eigen::Isometry3d& X_Wb = posture.OfBody(robot_.bodies[b]);
-    const double apart = (X_Wa * shapes_[a].center() - X_Wb * shapes_[b].center()).norm() -
-                         shapes_[a].radius() - shapes_[b].radius();
-    if (apart >= best) continue;
-    ++scratch->counts.collision_queries;
-    const double distance = Separate(shapes_[a], X_Wa, shapes_[b], X_Wb).distance;
-    best = std::min(best, distance);
-    Lower(margins, MarginFamily::kSelfClearance, distance, i, j);
-  }
-}
-
 MarginSet MarginEvaluator::At(const SuperposedWalk& walk, const LocalTime& at,
                               Scratch* scratch) const {
-  ++scratch->counts.instants;
+  ++scratch->instants;
   const WalkJet jet = walk.At(at);
   MarginSet margins = Unlimited();
   FootMargins(walk, at, jet, &margins);
@@ -164,7 +99,11 @@ MarginSet MarginEvaluator::At(const SuperposedWalk& walk, const LocalTime& at,
   if (posture.reachable) {
     PlaceLinks(robot_, &posture);
     JointSpeedMargins(jet, &posture, &margins);
-    Clearances(posture, scratch, &margins);
+    const double horizon = limits_.clearance_horizon;
+    Of(&margins, MarginFamily::kClearance) =
+        clearances_.NearestObstacle(posture, horizon, &scratch->bodies);
+    Of(&margins, MarginFamily::kSelfClearance) =
+        clearances_.NearestPair(posture, horizon, &scratch->bodies);
   } else {
     for (MarginFamily family :
          {MarginFamily::kJointSpeed, MarginFamily::kClearance, MarginFamily::kSelfClearance}) {
@@ -181,7 +120,7 @@ MarginSet MarginEvaluator::At(const SuperposedWalk& walk, const LocalTime& at,
 
 std::optional<Margin> MarginEvaluator::FirstViolation(const SuperposedWalk& walk,
                                                       const LocalTime& at, Scratch* scratch) const {
-  ++scratch->counts.instants;
+  ++scratch->instants;
   const WalkJet jet = walk.At(at);
   MarginSet margins = Unlimited();
   const auto located = [&](Margin margin) {
@@ -204,7 +143,10 @@ std::optional<Margin> MarginEvaluator::FirstViolation(const SuperposedWalk& walk
   PlaceLinks(robot_, &posture);
   JointSpeedMargins(jet, &posture, &margins);
   if (const auto margin = violated()) return margin;
-  if (const auto margin = FirstCollision(posture, scratch)) return located(*margin);
+  const auto touching =
+      clearances_.FirstBelow(posture, limits_.demanded_of(MarginFamily::kClearance),
+                             limits_.demanded_of(MarginFamily::kSelfClearance), &scratch->bodies);
+  if (touching) return located(*touching);
   return std::nullopt;
 }
 

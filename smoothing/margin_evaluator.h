@@ -1,12 +1,10 @@
 #pragma once
 
-#include <Eigen/Geometry>
 #include <optional>
 #include <string>
-#include <vector>
 
-#include "planner/collision_world.h"
 #include "planner/scene.h"
+#include "smoothing/body_clearances.h"
 #include "smoothing/margins.h"
 #include "smoothing/posture.h"
 #include "smoothing/superposed_walk.h"
@@ -14,30 +12,26 @@
 
 namespace halfstep {
 
-/// How often a margin evaluator was asked.
-struct MarginCounts {
-  long instants = 0;           ///< instants evaluated
-  long collision_queries = 0;  ///< body against scene, or body pair
-};
-
 /// Every margin of a walk of one robot among one scene's obstacles, at single instants. What holds
 /// between instants is for others to say (FeasibilityTest). Const; scratch is the caller's.
 class MarginEvaluator {
  public:
-  /// Separating directions remembered from instant to instant, and counters. One for each thread.
+  /// What the clearances remember, and how many instants were evaluated. One for each thread.
   struct Scratch {
-    std::vector<CollisionWorld::Scratch> bodies;
-    std::vector<Eigen::Vector3d> pair_normals_W;
-    MarginCounts counts;
+    BodyClearances::Scratch bodies;
+    long instants = 0;
   };
 
   /// `robot` and `scene` are copied.
   MarginEvaluator(RobotModel robot, Scene scene, MarginLimits limits);
 
+  MarginEvaluator(const MarginEvaluator&) = delete;
+  MarginEvaluator& operator=(const MarginEvaluator&) = delete;
+
   const RobotModel& robot() const { return robot_; }
   const Scene& scene() const { return scene_; }
   const MarginLimits& limits() const { return limits_; }
-  Scratch MakeScratch() const;
+  Scratch MakeScratch() const { return {clearances_.MakeScratch()}; }
 
   /// All margins at an instant. When a leg does not reach, joint and clearance margins are −∞.
   MarginSet At(const SuperposedWalk& walk, const LocalTime& at, Scratch* scratch) const;
@@ -59,14 +53,11 @@ class MarginEvaluator {
                  MarginSet* margins) const;
   void JointSpeedMargins(const WalkJet& jet, Posture* posture, MarginSet* margins) const;
   void JointMargins(const Posture& posture, MarginSet* margins) const;
-  void Clearances(const Posture& posture, Scratch* scratch, MarginSet* margins) const;
-  std::optional<Margin> FirstCollision(const Posture& posture, Scratch* scratch) const;
 
   RobotModel robot_;
   Scene scene_;
   MarginLimits limits_;
-  CollisionWorld world_;
-  std::vector<CollisionShape> shapes_;  // of the robot's bodies
+  BodyClearances clearances_;  // borrows robot_
 };
 
 }  // namespace halfstep

@@ -49,8 +49,9 @@ struct SmoothingResult {
   HomotopyParameters parameters;
   std::vector<JunctionResult> junctions;
   std::vector<SmoothingIterate> iterates;
-  MarginCounts counts;
-  double wall = 0.0;  ///< [s]
+  long instants = 0;           ///< evaluated
+  long collision_queries = 0;  ///< body against scene, or body pair, not culled
+  double wall = 0.0;           ///< [s]
   /// Until the first accepted improvement [s]; none when nothing was improved.
   std::optional<double> time_to_first_improvement;
 };

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "planner/collision_world.h"
+#include "planner/scene.h"
+#include "smoothing/margins.h"
+#include "smoothing/posture.h"
+#include "wpg/robot_model.h"
+
+namespace halfstep {
+
+/// Distances of a robot's bodies, in one posture, to a scene's obstacles and to each other. Const;
+/// scratch is the caller's.
+class BodyClearances {
+ public:
+  /// Separating directions remembered from posture to posture. One for each thread.
+  struct Scratch {
+    std::vector<CollisionWorld::Scratch> bodies;
+    std::vector<Eigen::Vector3d> pair_normals_W;
+    std::vector<Eigen::Vector3d> centers_W;  // of the bodies' bounding spheres
+    std::vector<double> lateral;             // of each leg body: inner end along the waist's y axis
+    long queries = 0;                        ///< body against scene, or body pair, not culled
+  };
+
+  /// `robot` is borrowed and must outlive this.
+  BodyClearances(const RobotModel& robot, const Scene& scene);
+
+  Scratch MakeScratch() const;
+
+  /// The first clearance found below what is demanded: obstacles [m], then self pairs [m].
+  /// Precondition: the posture's links are placed.
+  std::optional<Margin> FirstBelow(const Posture& posture, double obstacle_clearance,
+                                   double self_clearance, Scratch* scratch) const;
+
+  /// Smallest clearance to the obstacles, and between bodies; `horizon` [m] when none is nearer.
+  Margin NearestObstacle(const Posture& posture, double horizon, Scratch* scratch) const;
+  Margin NearestPair(const Posture& posture, double horizon, Scratch* scratch) const;
+
+ private:
+  // Fills centers_W and lateral.
+  void Place(const Posture& posture, Scratch* scratch) const;
+  // A lower bound of the distance of a pair, from Place's numbers alone [m].
+  double QuickBound(size_t a, size_t b, const Scratch& scratch) const;
+
+  const RobotModel& robot_;
+  CollisionWorld world_;
+  std::vector<CollisionShape> shapes_;  // of the robot's bodies
+};
+
+}  // namespace halfstep

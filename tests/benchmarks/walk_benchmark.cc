@@ -1,0 +1,126 @@
+// What one half-step costs. Run: build/release/tests/walk_benchmark --benchmark_repetitions=7
+// --benchmark_report_aggregates_only=true. Figures are quoted in smoothing/README.md.
+
+#include <benchmark/benchmark.h>
+
+#include "experiments/experiment.h"
+#include "smoothing/dichotomy.h"
+#include "smoothing/margin_evaluator.h"
+#include "smoothing/posture.h"
+#include "smoothing/sampled_feasibility.h"
+
+namespace halfstep {
+namespace {
+
+Experiment Load(const std::string& name) {
+  return Prepare(LoadConfig(HALFSTEP_SOURCE_DIR "/experiments/configs/" + name + ".yaml", {}));
+}
+
+HomotopyParameters Overlapped(const HalfStepSequence& sequence, double fraction) {
+  HomotopyParameters parameters = PlannedMotion(sequence);
+  for (int i = 0; i < sequence.num_junctions(); ++i) {
+    parameters.overlaps[static_cast<size_t>(i)] =
+        fraction * NaturalOverlapBound(sequence, parameters.durations, i);
+  }
+  return parameters;
+}
+
+// Instants that go through the walk again and again.
+class Instants {
+ public:
+  explicit Instants(const SuperposedWalk& walk) : walk_(walk), period_(walk.duration() / 997) {}
+  LocalTime Next() {
+    i_ = (i_ + 1) % 998;
+    return walk_.Locate(period_ * i_);
+  }
+
+ private:
+  const SuperposedWalk& walk_;
+  double period_;
+  int i_ = 0;
+};
+
+void WalkAndJoints(benchmark::State& state) {
+  const Experiment e = Load("bar_8cm");
+  const SuperposedWalk walk(e.sequence, Overlapped(e.sequence, 0.7));
+  Instants instants(walk);
+  for (auto _ : state) {
+    const WalkJet jet = walk.At(instants.Next());
+    benchmark::DoNotOptimize(SolvePosture(e.robot, jet.value));
+  }
+}
+BENCHMARK(WalkAndJoints);
+
+void WalkAndJointsWithDerivatives(benchmark::State& state) {
+  const Experiment e = Load("bar_8cm");
+  const SuperposedWalk walk(e.sequence, Overlapped(e.sequence, 0.7));
+  Instants instants(walk);
+  std::vector<WalkSensitivity> sensitivities;
+  for (auto _ : state) {
+    const LocalTime at = instants.Next();
+    const WalkJet jet = walk.At(at);
+    Posture posture = SolvePosture(e.robot, jet.value);
+    benchmark::DoNotOptimize(SolveJointSpeeds(e.robot, jet, &posture));
+    walk.Sensitivities(at, &sensitivities);
+    benchmark::DoNotOptimize(sensitivities.data());
+  }
+}
+BENCHMARK(WalkAndJointsWithDerivatives);
+
+// Verdict only, then all values, at one instant.
+void MarginVerdict(benchmark::State& state) {
+  const Experiment e = Load("bar_8cm");
+  const MarginEvaluator evaluator(e.robot, e.scene, e.config.smoothing.limits);
+  const SuperposedWalk walk(e.sequence, Overlapped(e.sequence, 0.6));
+  Instants instants(walk);
+  MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(evaluator.FirstViolation(walk, instants.Next(), &scratch));
+  }
+}
+BENCHMARK(MarginVerdict);
+
+void MarginValues(benchmark::State& state) {
+  const Experiment e = Load("bar_8cm");
+  const MarginEvaluator evaluator(e.robot, e.scene, e.config.smoothing.limits);
+  const SuperposedWalk walk(e.sequence, Overlapped(e.sequence, 0.6));
+  Instants instants(walk);
+  MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(evaluator.At(walk, instants.Next(), &scratch));
+  }
+}
+BENCHMARK(MarginValues);
+
+void MarginPass(benchmark::State& state) {
+  const Experiment e = Load("bar_8cm");
+  const MarginEvaluator evaluator(e.robot, e.scene, e.config.smoothing.limits);
+  const SampledFeasibility test(evaluator, 0.005);
+  const SuperposedWalk walk(e.sequence, PlannedMotion(e.sequence));
+  MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(test.Check(walk, {0.0, walk.duration()}, &scratch));
+  }
+  state.counters["per_half_step_s"] =
+      benchmark::Counter(e.sequence.size(), benchmark::Counter::kIsIterationInvariantRate |
+                                                benchmark::Counter::kInvert);
+}
+BENCHMARK(MarginPass)->Unit(benchmark::kMillisecond);
+
+void DichotomyFine(benchmark::State& state, const char* name) {
+  const Experiment e = Load(name);
+  const MarginEvaluator evaluator(e.robot, e.scene, e.config.smoothing.limits);
+  const SampledFeasibility test(evaluator, 0.005);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(Dichotomy(e.sequence, test, {.tolerance = 0.001}));
+  }
+  state.counters["per_half_step_s"] =
+      benchmark::Counter(e.sequence.size(), benchmark::Counter::kIsIterationInvariantRate |
+                                                benchmark::Counter::kInvert);
+}
+BENCHMARK_CAPTURE(DichotomyFine, bar_8cm, "bar_8cm")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(DichotomyFine, fig4_raw_sequence, "fig4_raw_sequence")
+    ->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace halfstep
