@@ -1,5 +1,6 @@
 #include "experiments/experiment.h"
 
+#include <algorithm>
 #include <cstdlib>
 
 #include "planner/simple_polygon.h"
@@ -16,13 +17,7 @@ fs::path DataFolder() {
 }
 
 // A bare word is a shipped robot, anything else a path relative to the config.
-fs::path RobotPath(const ExperimentConfig& config) {
-  const fs::path written(config.robot);
-  if (!written.has_parent_path() && !written.has_extension()) {
-    return RobotsFolder() / (config.robot + ".yaml");
-  }
-  return fs::path(config.directory) / written;
-}
+bool IsShipped(const fs::path& robot) { return !robot.has_parent_path() && !robot.has_extension(); }
 
 std::array<Pose2, 2> StartOf(const ExperimentConfig& config, const RobotModel& robot) {
   if (config.has_start) return {config.start_left, config.start_right};
@@ -35,14 +30,43 @@ std::array<Pose2, 2> StartOf(const ExperimentConfig& config, const RobotModel& r
 fs::path RobotsFolder() { return DataFolder() / "wpg" / "robots"; }
 fs::path ScenesFolder() { return DataFolder() / "experiments" / "scenes"; }
 
+std::vector<fs::path> YamlFiles(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code ignored;
+  for (const auto& file : fs::directory_iterator(folder, ignored)) {
+    if (file.path().extension() == ".yaml") files.push_back(file.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+fs::path RobotPath(const ExperimentConfig& config) {
+  const fs::path path = IsShipped(config.robot) ? RobotsFolder() / (config.robot + ".yaml")
+                                                : fs::path(config.directory) / config.robot;
+  return path.lexically_normal();
+}
+
+std::optional<fs::path> ScenePath(const ExperimentConfig& config) {
+  if (config.scene == "none") return std::nullopt;
+  return (fs::path(config.directory) / config.scene).lexically_normal();
+}
+
+ExperimentConfig MovedTo(const fs::path& folder, const ExperimentConfig& config) {
+  ExperimentConfig moved = config;
+  moved.directory = folder.string();
+  if (!IsShipped(config.robot)) moved.robot = fs::proximate(RobotPath(config), folder).string();
+  if (const auto scene = ScenePath(config)) moved.scene = fs::proximate(*scene, folder).string();
+  if (!config.output_directory.empty()) moved.output_directory = ".";
+  return moved;
+}
+
 Experiment Prepare(const ExperimentConfig& config) {
   Experiment experiment{.config = config, .robot = {}, .scene = {}, .sequence = {}};
-  experiment.robot = LoadRobot(RobotPath(config).lexically_normal().string());
-  if (config.scene == "none") {
-    experiment.scene.name = "none";
+  experiment.robot = LoadRobot(RobotPath(config).string());
+  if (const auto scene = ScenePath(config)) {
+    experiment.scene = LoadScene(scene->string());
   } else {
-    experiment.scene =
-        LoadScene((fs::path(config.directory) / config.scene).lexically_normal().string());
+    experiment.scene.name = "none";
   }
   std::vector<Footstep> footsteps;
   for (const FootstepConfig& step : config.footsteps) {

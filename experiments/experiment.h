@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "experiments/experiment_config.h"
 #include "planner/scene.h"
@@ -20,6 +21,14 @@ struct Experiment {
   HalfStepSequence sequence;
 };
 
+/// The files that a config names; no scene: an empty floor. They need not exist.
+std::filesystem::path RobotPath(const ExperimentConfig& config);
+std::optional<std::filesystem::path> ScenePath(const ExperimentConfig& config);
+
+/// The same config with its paths relative to another folder, where it can be run from as well. An
+/// output directory becomes that folder itself.
+ExperimentConfig MovedTo(const std::filesystem::path& folder, const ExperimentConfig& config);
+
 /// Loads the robot and the scene and makes the sequence. Throws InputError.
 Experiment Prepare(const ExperimentConfig& config);
 
@@ -31,5 +40,7 @@ std::optional<std::string> FootprintOnNoStep(const Experiment& experiment);
 /// what the environment variable HALFSTEP_DATA says (it holds wpg/robots and experiments/scenes).
 std::filesystem::path RobotsFolder();
 std::filesystem::path ScenesFolder();
+/// Paths of a folder's *.yaml, sorted; none when it cannot be read.
+std::vector<std::filesystem::path> YamlFiles(const std::filesystem::path& folder);
 
 }  // namespace halfstep

@@ -1,9 +1,11 @@
 #include "experiments/experiment_config.h"
 
+#include <algorithm>
 #include <filesystem>
-#include <numbers>
 
+#include "experiments/experiment.h"
 #include "experiments/methods.h"
+#include "wpg/input/text.h"
 
 namespace halfstep {
 namespace {
@@ -109,10 +111,22 @@ void DeclareSmoothing(Fields& fields, SmoothingConfig* c) {
   fields.Texts(
       "methods", &c->methods,
       {.meaning = "to run and compare; `raw` is always written", .choices = MethodNames()});
-  fields.Text("acceptance", &c->acceptance,
-              {.meaning = "what makes a candidate acceptable", .choices = {"sampled"}});
+  for (auto method = c->methods.begin(); method != c->methods.end(); ++method) {
+    if (std::find(c->methods.begin(), method, *method) != method) {
+      fields.Complain("methods", Quote(*method) + " is there twice (valid: each method once)");
+      break;
+    }
+  }
+  fields.Text(
+      "acceptance", &c->acceptance,
+      {.meaning = "what makes a candidate acceptable", .choices = {"certified", "sampled"}});
   fields.Number("sampling_s", &c->sampling,
                 {.meaning = "period of the sampled checks", .unit = "s", .min = 1e-4, .max = 0.1});
+  fields.Number("resolution_s", &c->certification.resolution,
+                {.meaning = "certification gives up on intervals shorter than this",
+                 .unit = "s",
+                 .min = 1e-7,
+                 .max = 0.01});
   fields.Group("dichotomy", {.meaning = "options of the method `dichotomy`"},
                [&](Fields& f) { DeclareDichotomy(f, &c->dichotomy); });
   fields.Group("limits", {.meaning = "what the robot file does not limit"},
@@ -125,9 +139,10 @@ void DeclareSmoothing(Fields& fields, SmoothingConfig* c) {
 
 void DeclareFields(Fields& fields, ExperimentConfig* c) {
   fields.Text("name", &c->name, {.meaning = "of the run and its folder; default: the file's name"});
-  if (c->name.find('/') != std::string::npos || c->name.starts_with('.')) {
-    fields.Complain("name",
-                    "'" + c->name + "' cannot name a folder (valid: no '/', no leading '.')");
+  if (c->name.empty() || c->name.find('/') != std::string::npos || c->name.starts_with('.')) {
+    fields.Complain("name", Quote(c->name) +
+                                " cannot name a folder (valid: text without '/' that does not "
+                                "begin with '.')");
   }
   fields.Text("robot", &c->robot,
               {.meaning = "a shipped robot's name, or the path of a robot file", .required = true});
@@ -159,12 +174,33 @@ void DeclareFields(Fields& fields, ExperimentConfig* c) {
                  {.meaning = "of everything random", .min = 0, .max = 2147483647});
 }
 
+namespace {
+
+// Complains here, at the place that names it, about a file that is not there.
+void DeclareFilesThere(Fields& fields, const ExperimentConfig& config) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(RobotPath(config), ignored)) {
+    std::string shipped;
+    for (const auto& path : YamlFiles(RobotsFolder())) shipped += path.stem().string() + ", ";
+    fields.Complain("robot", "no such robot: " + Quote(config.robot) + " (valid: " + shipped +
+                                 "or the path of a robot file, relative to this file)");
+  }
+  const std::optional<std::filesystem::path> scene = ScenePath(config);
+  if (scene && !std::filesystem::is_regular_file(*scene, ignored)) {
+    fields.Complain("scene", "no such file: " + Quote(scene->string()) +
+                                 " (valid: `none`, or a path relative to this file)");
+  }
+}
+
+}  // namespace
+
 ExperimentConfig LoadConfig(const std::string& path, const std::vector<YamlOverride>& overrides) {
   ExperimentConfig config;
   config.name = std::filesystem::path(path).stem().string();
   ReadYaml(path, overrides, [&](Fields& fields) {
     DeclareFields(fields, &config);
     config.directory = fields.directory();
+    DeclareFilesThere(fields, config);
   });
   return config;
 }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "smoothing/certificate.h"
 #include "smoothing/dichotomy.h"
 #include "smoothing/margins.h"
 #include "wpg/input/fields.h"
@@ -31,8 +32,9 @@ struct HalfStepConfig {
 
 struct SmoothingConfig {
   std::vector<std::string> methods = {"dichotomy"};
-  std::string acceptance = "sampled";
-  double sampling = 0.005;  ///< [s]
+  std::string acceptance = "certified";
+  double sampling = 0.005;  ///< [s], of acceptance `sampled`
+  CertificationOptions certification;
   DichotomyOptions dichotomy;
   MarginLimits limits;
 };

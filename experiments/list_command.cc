@@ -14,22 +14,17 @@ struct Entry {
   std::string meaning;
 };
 
-std::vector<Entry> YamlFiles(const std::filesystem::path& folder) {
+std::vector<Entry> FilesOf(const std::filesystem::path& folder) {
   std::vector<Entry> entries;
-  std::error_code error;
-  for (const auto& file : std::filesystem::directory_iterator(folder, error)) {
-    if (file.path().extension() == ".yaml") {
-      entries.push_back({file.path().stem().string(), file.path().string()});
-    }
+  for (const std::filesystem::path& path : YamlFiles(folder)) {
+    entries.push_back({path.stem().string(), path.string()});
   }
-  std::sort(entries.begin(), entries.end(),
-            [](const Entry& a, const Entry& b) { return a.name < b.name; });
   return entries;
 }
 
 std::vector<Entry> Entries(const std::string& what) {
-  if (what == "robots") return YamlFiles(RobotsFolder());
-  if (what == "scenes") return YamlFiles(ScenesFolder());
+  if (what == "robots") return FilesOf(RobotsFolder());
+  if (what == "scenes") return FilesOf(ScenesFolder());
   if (what == "solvers") return {{"none", "no optimization solver is part of this version"}};
   std::vector<Entry> entries = {{"raw", "the planned motion itself; written by every run"}};
   for (const Method& method : Methods()) entries.push_back({method.name, method.meaning});

@@ -25,7 +25,7 @@ int main(int argc, char** argv) {
       "Plans and smooths humanoid walks made of half-steps.\n\n"
       "  example: halfstep run experiments/configs/bar_8cm.yaml"};
   app.set_version_flag("--version", std::string(kVersion) + " (" + std::string(kCommit) + ")");
-  app.require_subcommand(1);
+  app.require_subcommand(0, 1);  // none at all is told below, so that a misspelt one is named
 
   RunCommand run;
   std::vector<std::string> sets;
@@ -56,12 +56,17 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? kSuccess : kBadInput;
   }
+  if (app.get_subcommands().empty()) {
+    std::cerr << "halfstep: which command? (valid: run, list; `halfstep -h` explains)\n";
+    return kBadInput;
+  }
   try {
     if (*run_app) {
       for (const std::string& set : sets) run.overrides.push_back(ParseOverride(set));
-      return Run(run);
     }
-    return List(what, list_json);
+    const int status = *run_app ? Run(run) : List(what, list_json);
+    if (!std::cout.flush()) throw std::runtime_error("standard output cannot be written");
+    return status;
   } catch (const InputError& error) {
     for (const std::string& complaint : error.complaints()) std::cerr << complaint << '\n';
     return kBadInput;

@@ -6,6 +6,8 @@
 #include <array>
 #include <chrono>
 #include <ctime>
+#include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -33,6 +35,11 @@ ordered_json Host() {
           {"release", names.release},
           {"machine", names.machine},
           {"cores", std::thread::hardware_concurrency()}};
+}
+
+std::string FileSha256(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return Sha256(std::string(std::istreambuf_iterator<char>(file), {}));
 }
 
 ordered_json MethodJson(const MethodRun& run) {
@@ -73,11 +80,14 @@ std::string ManifestJson(const Experiment& experiment, const std::string& resolv
                            {"config_sha256", Sha256(resolved_config)},
                            {"seed", experiment.config.seed},
                            {"robot", experiment.robot.name},
+                           {"robot_sha256", FileSha256(RobotPath(experiment.config))},
                            {"scene", experiment.scene.name},
                            {"half_steps", experiment.sequence.size()},
                            {"acceptance", acceptance},
                            {"host", Host()},
                            {"wall_s", total_wall}};
+  if (const auto scene = ScenePath(experiment.config))
+    manifest["scene_sha256"] = FileSha256(*scene);
   for (const auto& [library, version] : kLibraries) manifest["libraries"][library] = version;
   for (const MethodRun& run : runs) manifest["methods"].push_back(MethodJson(run));
   return manifest.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";

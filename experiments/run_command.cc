@@ -2,6 +2,7 @@
 #include <chrono>
 #include <filesystem>
 #include <iostream>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "experiments/commands.h"
@@ -13,7 +14,9 @@
 #include "experiments/result_tables.h"
 #include "experiments/run_folder.h"
 #include "experiments/run_screen.h"
+#include "smoothing/certified_feasibility.h"
 #include "smoothing/sampled_feasibility.h"
+#include "wpg/input/input_error.h"
 
 namespace halfstep {
 namespace {
@@ -49,7 +52,18 @@ void WriteRun(const MarginEvaluator& evaluator, const MethodRun& run, RunFolder*
   folder->Write(place + "iterates.csv", IteratesCsv(run));
 }
 
+std::unique_ptr<FeasibilityTest> MakeTest(const MarginEvaluator& evaluator,
+                                          const SmoothingConfig& config) {
+  if (config.acceptance == "sampled") {
+    return std::make_unique<SampledFeasibility>(evaluator, config.sampling);
+  }
+  return std::make_unique<CertifiedFeasibility>(evaluator, config.certification);
+}
+
 std::filesystem::path OutputFolder(const RunCommand& command, const ExperimentConfig& config) {
+  if (command.out && command.out->empty()) {
+    throw InputError({"--out: no folder is named (valid: a path)"});
+  }
   if (command.out) return *command.out;
   if (!config.output_directory.empty()) {
     return std::filesystem::path(config.directory) / config.output_directory;
@@ -62,7 +76,7 @@ std::filesystem::path OutputFolder(const RunCommand& command, const ExperimentCo
 ExitStatus Run(const RunCommand& command) {
   const auto begin = std::chrono::steady_clock::now();
   InterruptGuard interrupt;
-  ExperimentConfig config = LoadConfig(command.config, command.overrides);
+  const ExperimentConfig config = LoadConfig(command.config, command.overrides);
   const Experiment experiment = Prepare(config);
   if (const auto stepped_on = FootprintOnNoStep(experiment)) {
     std::cerr << "halfstep: the plan is not feasible: " << *stepped_on << '\n';
@@ -71,7 +85,8 @@ ExitStatus Run(const RunCommand& command) {
   RunFolder folder(OutputFolder(command, config), command.overwrite);
 
   const MarginEvaluator evaluator(experiment.robot, experiment.scene, config.smoothing.limits);
-  const SampledFeasibility test(evaluator, config.smoothing.sampling);
+  const std::unique_ptr<FeasibilityTest> accepts = MakeTest(evaluator, config.smoothing);
+  const FeasibilityTest& test = *accepts;
   std::vector<MethodRun> runs = {PlannedRun(experiment, test)};
   for (const std::string& name : config.smoothing.methods) {
     ProgressBar bar(name, command.quiet || command.json);
@@ -85,7 +100,8 @@ ExitStatus Run(const RunCommand& command) {
     SampleTrajectory(evaluator, experiment.sequence, config.output_period, &run);
     WriteRun(evaluator, run, &folder);
   }
-  const std::string resolved = WriteYaml([&](Fields& fields) { DeclareFields(fields, &config); });
+  ExperimentConfig moved = MovedTo(folder.path(), config);
+  const std::string resolved = WriteYaml([&](Fields& fields) { DeclareFields(fields, &moved); });
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
   folder.Write("config.yaml", resolved);
   folder.Write("footsteps.csv", FootstepsCsv(experiment.sequence));
@@ -99,11 +115,12 @@ ExitStatus Run(const RunCommand& command) {
   } else if (!command.quiet) {
     std::cout << RunTable(experiment, evaluator, test, runs, folder.path().string());
   }
-  if (interrupt.requested()) return kInterrupted;
-  const bool feasible = std::all_of(runs.begin(), runs.end(), [](const MethodRun& run) {
-    return run.result.status != SmoothingStatus::kStartInfeasible;
-  });
-  return feasible ? kSuccess : kFailed;
+  for (const MethodRun& run : runs) {
+    if (run.result.status != SmoothingStatus::kStartInfeasible) continue;
+    std::cerr << "halfstep: the plan is not feasible: " << runs.front().result.message << '\n';
+    return kFailed;
+  }
+  return interrupt.requested() ? kInterrupted : kSuccess;
 }
 
 }  // namespace halfstep

@@ -44,19 +44,40 @@ void RemoveAbandoned(const fs::path& path) {
   }
 }
 
+// Sets errno; EINVAL where the file system (NFS) knows no flags.
+bool Rename(const fs::path& from, const fs::path& to, unsigned flags) {
+  return renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), flags) == 0;
+}
+
+bool IsThere(const fs::path& path) { return fs::exists(fs::symlink_status(path)); }
+
+// Gives `from` the name `to`, which nothing has; false when something has it.
+bool TakeName(const fs::path& from, const fs::path& to) {
+  if (Rename(from, to, RENAME_NOREPLACE)) return true;
+  if (errno == EINVAL && !IsThere(to) && Rename(from, to, 0)) return true;
+  if (errno != EEXIST && !IsThere(to)) Fail("cannot be given its name", to, errno);
+  return false;
+}
+
+// Lets `from` and `to` change places.
+void Exchange(const fs::path& from, const fs::path& to) {
+  if (Rename(from, to, RENAME_EXCHANGE)) return;
+  const fs::path aside = from.string() + "-older";
+  if (errno != EINVAL || !Rename(to, aside, 0)) Fail("cannot replace the older run", to, errno);
+  if (!Rename(from, to, 0)) {
+    const int reason = errno;
+    Rename(aside, to, 0);
+    Fail("cannot replace the older run", to, reason);
+  }
+  if (!Rename(aside, from, 0)) Fail("cannot remove the older run", aside, errno);
+}
+
 }  // namespace
 
 RunFolder::RunFolder(fs::path path, bool overwrite)
-    : path_(fs::absolute(std::move(path)).lexically_normal()) {
+    : path_(fs::absolute(std::move(path)).lexically_normal()), overwrite_(overwrite) {
   if (!path_.has_filename()) path_ = path_.parent_path();  // a trailing slash
-  if (fs::exists(fs::symlink_status(path_))) {
-    if (!overwrite) {
-      throw std::runtime_error(path_.string() + ": is there already (--overwrite replaces it)");
-    }
-    if (!fs::exists(path_ / "manifest.json")) {
-      throw std::runtime_error(path_.string() + ": is not a run folder, so it is not overwritten");
-    }
-  }
+  if (IsThere(path_)) CheckReplaceable();
   std::error_code error;
   fs::create_directories(path_.parent_path(), error);
   if (error) Fail("cannot make the folder", path_.parent_path(), error.value());
@@ -65,6 +86,15 @@ RunFolder::RunFolder(fs::path path, bool overwrite)
   fs::remove_all(staging_, error);
   if (!fs::create_directory(staging_, error))
     Fail("cannot make the folder", staging_, error.value());
+}
+
+void RunFolder::CheckReplaceable() const {
+  if (!overwrite_) {
+    throw std::runtime_error(path_.string() + ": is there already (--overwrite replaces it)");
+  }
+  if (!fs::exists(path_ / "manifest.json")) {
+    throw std::runtime_error(path_.string() + ": is not a run folder, so it is not overwritten");
+  }
 }
 
 RunFolder::~RunFolder() {
@@ -100,15 +130,11 @@ void RunFolder::Publish() {
     if (entry.is_directory()) Sync(entry.path());
   }
   Sync(staging_);
-  if (fs::exists(path_)) {
-    // The older run and the new one change places in one step.
-    if (renameat2(AT_FDCWD, staging_.c_str(), AT_FDCWD, path_.c_str(), RENAME_EXCHANGE) != 0) {
-      Fail("cannot replace the older run", path_, errno);
-    }
-    fs::remove_all(staging_);
-  } else if (renameat2(AT_FDCWD, staging_.c_str(), AT_FDCWD, path_.c_str(), RENAME_NOREPLACE) !=
-             0) {
-    Fail("cannot be given its name", path_, errno);
+  if (!TakeName(staging_, path_)) {
+    CheckReplaceable();
+    Exchange(staging_, path_);
+    std::error_code ignored;
+    fs::remove_all(staging_, ignored);
   }
   published_ = true;
   Sync(path_.parent_path());

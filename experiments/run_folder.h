@@ -25,11 +25,16 @@ class RunFolder {
   /// names the file and the system's reason, e.g. "No space left on device".
   void Write(const std::string& relative, std::string_view content);
 
-  /// Moves everything to its final name, in place of an older run when overwriting.
+  /// Moves everything to its final name, in place of an older run when overwriting. On a file
+  /// system that cannot exchange two folders (NFS) the name is absent for a moment. Throws
+  /// std::runtime_error when something else took the name meanwhile.
   void Publish();
 
  private:
+  void CheckReplaceable() const;
+
   std::filesystem::path path_;
+  bool overwrite_;
   std::filesystem::path staging_;
   bool published_ = false;
 };

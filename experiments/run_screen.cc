@@ -1,5 +1,7 @@
 #include "experiments/run_screen.h"
 
+#include <array>
+#include <cmath>
 #include <cstdio>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -66,7 +68,8 @@ std::string RunTable(const Experiment& experiment, const MarginEvaluator& evalua
     out << Format("%-22s %-16s %8.3f s %7.2fx %6.1f cm ", run.method.c_str(),
                   std::string(Name(run.result.status)).c_str(), run.duration,
                   runs.front().duration / run.duration, 100.0 * run.lowest_apex)
-        << (clearance.other < 0
+        << (!std::isfinite(clearance.value) ? Format("%10s", "-")
+            : clearance.other < 0
                 ? Format("   > %2.0f cm", 100.0 * evaluator.limits().clearance_horizon)
                 : Format("%7.1f cm", 100.0 * clearance.value))
         << Format(" %s %.4g %s\n", std::string(Name(worst.family)).c_str(), worst.value,
@@ -79,8 +82,7 @@ std::string RunTable(const Experiment& experiment, const MarginEvaluator& evalua
     if (run.result.junctions.empty() || run.result.status == SmoothingStatus::kStartInfeasible)
       continue;
     out << "\n"
-        << run.method
-        << Format(" (%.2f s, %ld instants)\n", run.result.wall, run.result.instants)
+        << run.method << Format(" (%.2f s, %ld instants)\n", run.result.wall, run.result.instants)
         << Holders(evaluator, run, JunctionKind::kUpDown)
         << Holders(evaluator, run, JunctionKind::kDownUp);
   }
@@ -103,7 +105,7 @@ std::string RunJson(const MarginEvaluator& evaluator, const std::vector<MethodRu
                                {"worst_margin", worst.value},
                                {"worst_margin_name", Name(worst.family)}});
   }
-  return json.dump(2) + "\n";
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace halfstep
