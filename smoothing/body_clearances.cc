@@ -44,35 +44,64 @@ double BodyClearances::QuickBound(size_t a, size_t b, const Scratch& scratch) co
   return std::max(spheres, leg_a == Index(Side::kLeft) ? gap : -gap);
 }
 
+bool BodyClearances::BodyClears(size_t body, const Posture& posture, double clearance,
+                                Scratch* scratch) const {
+  ++scratch->queries;
+  return world_.Clears(shapes_[body], posture.OfBody(robot_.bodies[body]), clearance,
+                       &scratch->bodies[body]);
+}
+
+bool BodyClearances::PairClears(size_t pair, const Posture& posture, double clearance,
+                                Scratch* scratch) const {
+  const auto [i, j] = robot_.self_pairs[pair];
+  const size_t a = static_cast<size_t>(i), b = static_cast<size_t>(j);
+  if (QuickBound(a, b, *scratch) >= clearance) return true;
+  ++scratch->queries;
+  return ClearsAlongCached(shapes_[a], posture.OfBody(robot_.bodies[a]), shapes_[b],
+                           posture.OfBody(robot_.bodies[b]), clearance,
+                           &scratch->pair_normals_W[pair]);
+}
+
+Margin BodyClearances::OfBody(size_t body, const Posture& posture, double horizon,
+                              Scratch* scratch) const {
+  ++scratch->queries;
+  const auto nearest = world_.FindNearest(shapes_[body], posture.OfBody(robot_.bodies[body]),
+                                          std::max(horizon, 1e-9));
+  Margin margin{
+      .family = MarginFamily::kClearance, .value = horizon, .subject = static_cast<int>(body)};
+  if (nearest.obstacle >= 0 && nearest.separation.distance < horizon) {
+    margin.value = nearest.separation.distance;
+    margin.other = nearest.obstacle;
+  }
+  return margin;
+}
+
+Margin BodyClearances::OfPair(size_t pair, const Posture& posture, double horizon,
+                              Scratch* scratch) const {
+  const auto [i, j] = robot_.self_pairs[pair];
+  const size_t a = static_cast<size_t>(i), b = static_cast<size_t>(j);
+  Margin margin{.family = MarginFamily::kSelfClearance, .value = horizon, .subject = i, .other = j};
+  if (QuickBound(a, b, *scratch) >= horizon) return margin;
+  ++scratch->queries;
+  const Separation separation = Separate(shapes_[a], posture.OfBody(robot_.bodies[a]), shapes_[b],
+                                         posture.OfBody(robot_.bodies[b]));
+  margin.value = std::min(horizon, separation.distance);
+  return margin;
+}
+
 std::optional<Margin> BodyClearances::FirstBelow(const Posture& posture, double obstacle_clearance,
                                                  double self_clearance, Scratch* scratch) const {
-  for (size_t b = 0; b < shapes_.size(); ++b) {
-    const Eigen::Isometry3d& X_WBody = posture.OfBody(robot_.bodies[b]);
-    ++scratch->queries;
-    if (world_.Clears(shapes_[b], X_WBody, obstacle_clearance, &scratch->bodies[b])) continue;
-    const auto nearest =
-        world_.FindNearest(shapes_[b], X_WBody, std::max(obstacle_clearance, 1e-6));
-    return Margin{.family = MarginFamily::kClearance,
-                  .value = nearest.separation.distance,
-                  .subject = static_cast<int>(b),
-                  .other = nearest.obstacle};
+  constexpr double kFar = 1.0;  // [m] beyond what is demanded: more than any refused distance
+  for (size_t b = 0; b < num_bodies(); ++b) {
+    if (!BodyClears(b, posture, obstacle_clearance, scratch)) {
+      return OfBody(b, posture, obstacle_clearance + kFar, scratch);
+    }
   }
   Place(posture, scratch);
-  for (size_t p = 0; p < robot_.self_pairs.size(); ++p) {
-    const auto [i, j] = robot_.self_pairs[p];
-    const size_t a = static_cast<size_t>(i), b = static_cast<size_t>(j);
-    if (QuickBound(a, b, *scratch) >= self_clearance) continue;
-    const Eigen::Isometry3d& X_Wa = posture.OfBody(robot_.bodies[a]);
-    const Eigen::Isometry3d& X_Wb = posture.OfBody(robot_.bodies[b]);
-    ++scratch->queries;
-    if (ClearsAlongCached(shapes_[a], X_Wa, shapes_[b], X_Wb, self_clearance,
-                          &scratch->pair_normals_W[p])) {
-      continue;
+  for (size_t p = 0; p < num_pairs(); ++p) {
+    if (!PairClears(p, posture, self_clearance, scratch)) {
+      return OfPair(p, posture, self_clearance + kFar, scratch);
     }
-    return Margin{.family = MarginFamily::kSelfClearance,
-                  .value = Separate(shapes_[a], X_Wa, shapes_[b], X_Wb).distance,
-                  .subject = i,
-                  .other = j};
   }
   return std::nullopt;
 }
@@ -80,14 +109,9 @@ std::optional<Margin> BodyClearances::FirstBelow(const Posture& posture, double 
 Margin BodyClearances::NearestObstacle(const Posture& posture, double horizon,
                                        Scratch* scratch) const {
   Margin nearest{.family = MarginFamily::kClearance, .value = horizon};
-  for (size_t b = 0; b < shapes_.size(); ++b) {
-    ++scratch->queries;
-    const auto found = world_.FindNearest(shapes_[b], posture.OfBody(robot_.bodies[b]),
-                                          std::max(nearest.value, 1e-9));
-    if (found.obstacle < 0 || found.separation.distance >= nearest.value) continue;
-    nearest.value = found.separation.distance;
-    nearest.subject = static_cast<int>(b);
-    nearest.other = found.obstacle;
+  for (size_t b = 0; b < num_bodies(); ++b) {
+    const Margin margin = OfBody(b, posture, nearest.value, scratch);
+    if (margin.value < nearest.value) nearest = margin;
   }
   return nearest;
 }
@@ -95,17 +119,9 @@ Margin BodyClearances::NearestObstacle(const Posture& posture, double horizon,
 Margin BodyClearances::NearestPair(const Posture& posture, double horizon, Scratch* scratch) const {
   Margin nearest{.family = MarginFamily::kSelfClearance, .value = horizon};
   Place(posture, scratch);
-  for (const auto& [i, j] : robot_.self_pairs) {
-    const size_t a = static_cast<size_t>(i), b = static_cast<size_t>(j);
-    if (QuickBound(a, b, *scratch) >= nearest.value) continue;
-    ++scratch->queries;
-    const double distance = Separate(shapes_[a], posture.OfBody(robot_.bodies[a]), shapes_[b],
-                                     posture.OfBody(robot_.bodies[b]))
-                                .distance;
-    if (distance >= nearest.value) continue;
-    nearest.value = distance;
-    nearest.subject = i;
-    nearest.other = j;
+  for (size_t p = 0; p < num_pairs(); ++p) {
+    const Margin margin = OfPair(p, posture, nearest.value, scratch);
+    if (margin.value < nearest.value) nearest = margin;
   }
   return nearest;
 }

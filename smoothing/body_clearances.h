@@ -29,19 +29,27 @@ class BodyClearances {
   BodyClearances(const RobotModel& robot, const Scene& scene);
 
   Scratch MakeScratch() const;
+  size_t num_bodies() const { return shapes_.size(); }
+  size_t num_pairs() const { return robot_.self_pairs.size(); }
+
+  /// Takes note of a posture; the queries below are about it. Precondition: its links are placed.
+  void Place(const Posture& posture, Scratch* scratch) const;
+
+  /// Whether a body keeps `clearance` [m] from every obstacle; whether a pair of bodies does.
+  bool BodyClears(size_t body, const Posture& posture, double clearance, Scratch* scratch) const;
+  bool PairClears(size_t pair, const Posture& posture, double clearance, Scratch* scratch) const;
+  /// Clearance of one body, of one pair; `horizon` [m] when nothing is nearer.
+  Margin OfBody(size_t body, const Posture& posture, double horizon, Scratch* scratch) const;
+  Margin OfPair(size_t pair, const Posture& posture, double horizon, Scratch* scratch) const;
 
   /// The first clearance found below what is demanded: obstacles [m], then self pairs [m].
-  /// Precondition: the posture's links are placed.
   std::optional<Margin> FirstBelow(const Posture& posture, double obstacle_clearance,
                                    double self_clearance, Scratch* scratch) const;
-
-  /// Smallest clearance to the obstacles, and between bodies; `horizon` [m] when none is nearer.
+  /// The smallest clearance to the obstacles, and between bodies.
   Margin NearestObstacle(const Posture& posture, double horizon, Scratch* scratch) const;
   Margin NearestPair(const Posture& posture, double horizon, Scratch* scratch) const;
 
  private:
-  // Fills centers_W and lateral.
-  void Place(const Posture& posture, Scratch* scratch) const;
   // A lower bound of the distance of a pair, from Place's numbers alone [m].
   double QuickBound(size_t a, size_t b, const Scratch& scratch) const;
 

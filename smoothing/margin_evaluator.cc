@@ -62,12 +62,9 @@ void MarginEvaluator::FootMargins(const SuperposedWalk& walk, const LocalTime& a
 
 void MarginEvaluator::ZmpMargin(const SuperposedWalk& walk, const LocalTime& at, const WalkJet& jet,
                                 MarginSet* margins) const {
-  const int step = walk.StepInAir(at);
-  const SupportPolygon polygon =
-      step >= 0 ? SupportPolygon(walk.X_WS(2 * step), robot_.sole_size)
-                : SupportPolygon(FootPose(jet.value, Side::kLeft),
-                                 FootPose(jet.value, Side::kRight), robot_.sole_size);
-  Lower(margins, MarginFamily::kZmp, polygon.Margin(jet.value.segment<2>(kZmpX)), step);
+  const SupportPolygon polygon = SupportAt(walk, at, jet.value, robot_.sole_size);
+  Lower(margins, MarginFamily::kZmp, polygon.Margin(jet.value.segment<2>(kZmpX)),
+        walk.StepInAir(at));
 }
 
 void MarginEvaluator::JointMargins(const Posture& posture, MarginSet* margins) const {

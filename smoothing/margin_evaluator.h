@@ -31,6 +31,7 @@ class MarginEvaluator {
   const RobotModel& robot() const { return robot_; }
   const Scene& scene() const { return scene_; }
   const MarginLimits& limits() const { return limits_; }
+  const BodyClearances& clearances() const { return clearances_; }
   Scratch MakeScratch() const { return {clearances_.MakeScratch()}; }
 
   /// All margins at an instant. When a leg does not reach, joint and clearance margins are −∞.

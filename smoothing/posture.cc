@@ -22,6 +22,7 @@ bool SolveJointSpeeds(const RobotModel& robot, const WalkJet& jet, Posture* post
   Eigen::Matrix<double, 8, 1> rates;
   const double yaw_rate = jet.first[kWaistYaw];
   rates.head<2>() = jet.first.segment<2>(kComX) - yaw_rate * robot.com_x_B * y_W.head<2>();
+  posture->waist_velocity << rates.head<2>(), 0.0;
   rates[2] = 0.0;
   rates[3] = yaw_rate;
   for (Side side : {Side::kLeft, Side::kRight}) {
@@ -39,8 +40,10 @@ bool SolveJointSpeeds(const RobotModel& robot, const WalkJet& jet, Posture* post
 
 void PlaceLinks(const RobotModel& robot, Posture* posture) {
   for (size_t s = 0; s < 2; ++s) {
-    posture->X_WLink[s] = LegForwardKinematics(robot.legs[s], posture->ik[s].q);
-    for (Eigen::Isometry3d& X : posture->X_WLink[s]) X = posture->X_WB * X;
+    posture->frames[s] = PlaceLeg(robot.legs[s], posture->ik[s].q);
+    for (size_t i = 0; i < 7; ++i) {
+      posture->X_WLink[s][i] = posture->X_WB * posture->frames[s].X_BLink[i];
+    }
   }
 }
 

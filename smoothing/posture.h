@@ -15,6 +15,8 @@ struct Posture {
   std::array<Eigen::Isometry3d, 2> X_WSole;                 ///< by Index(Side)
   std::array<LegIkSolution, 2> ik;                          ///< joint angles and reach
   std::array<Vector6d, 2> speeds;                           ///< q̇ [rad/s]
+  Eigen::Vector3d waist_velocity{0, 0, 0};                  ///< of B's origin [m/s]
+  std::array<LegFrames, 2> frames;                          ///< seen from B
   std::array<std::array<Eigen::Isometry3d, 7>, 2> X_WLink;  ///< leg links, and the sole last
   bool reachable = false;                                   ///< both legs solved
 
@@ -28,11 +30,11 @@ struct Posture {
 /// R(yaw)·p_BC. When a leg does not reach, `reachable` is false and that leg's joints mean nothing.
 Posture SolvePosture(const RobotModel& robot, const WalkVector& x);
 
-/// Fills `speeds` from the walk's first derivative. False when a leg is stretched to the
-/// singularity, where joint speeds have no bound. Precondition: reachable.
+/// Fills `speeds` and `waist_velocity` from the walk's first derivative. False when a leg is
+/// stretched to the singularity, where joint speeds have no bound. Precondition: reachable.
 [[nodiscard]] bool SolveJointSpeeds(const RobotModel& robot, const WalkJet& jet, Posture* posture);
 
-/// Fills `X_WLink`. Precondition: reachable.
+/// Fills `frames` and `X_WLink`. Precondition: reachable.
 void PlaceLinks(const RobotModel& robot, Posture* posture);
 
 }  // namespace halfstep

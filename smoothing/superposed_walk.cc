@@ -1,6 +1,7 @@
 #include "smoothing/superposed_walk.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "wpg/check.h"
 
@@ -93,6 +94,19 @@ WalkJet SuperposedWalk::At(const LocalTime& at) const {
   return jet;
 }
 
+WalkVector SuperposedWalk::SecondBounds(double begin, double end) const {
+  WalkVector bounds = WalkVector::Zero();
+  const int first = FirstActive(Locate(begin)), last = LastActive(Locate(end));
+  for (int i = first; i <= last; ++i) {
+    const Piece& p = piece(i);
+    const HalfStepJet second = p.profiles.SecondBounds(begin - p.start, end - p.start);
+    for (int q = 0; q < kNumQuantities; ++q) {
+      bounds[q] += second.of(q).second * std::abs(p.delta_W[q]);
+    }
+  }
+  return bounds;
+}
+
 void SuperposedWalk::Sensitivities(const LocalTime& at, std::vector<WalkSensitivity>* out) const {
   using Family = HomotopyParameter::Family;
   out->clear();
@@ -148,6 +162,13 @@ bool SuperposedWalk::MovesHorizontally(int step, const LocalTime& at) const {
 bool SuperposedWalk::InAir(const LocalTime& at, Side foot) const {
   const int step = StepInAir(at);
   return step >= 0 && half_step(2 * step).swing() == foot;
+}
+
+SupportPolygon SupportAt(const SuperposedWalk& walk, const LocalTime& at, const WalkVector& x,
+                         const Eigen::Vector2d& sole_size) {
+  const int step = walk.StepInAir(at);
+  if (step >= 0) return {walk.X_WS(2 * step), sole_size};
+  return {FootPose(x, Side::kLeft), FootPose(x, Side::kRight), sole_size};
 }
 
 }  // namespace halfstep

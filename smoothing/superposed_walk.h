@@ -4,6 +4,7 @@
 
 #include "smoothing/homotopy_parameters.h"
 #include "wpg/half_step_sequence.h"
+#include "wpg/support_polygon.h"
 #include "wpg/walk_vector.h"
 
 namespace halfstep {
@@ -59,6 +60,10 @@ class SuperposedWalk {
   /// depends: the half-steps under way there and the junctions between them. Replaces `out`.
   void Sensitivities(const LocalTime& at, std::vector<WalkSensitivity>* out) const;
 
+  /// Bounds of |second derivative| of every quantity over the absolute times [begin, end] [s]: each
+  /// under-way half-step's own bound, added up. Hold for all t there.
+  WalkVector SecondBounds(double begin, double end) const;
+
   /// Which feet stand on the floor. A foot is in the air from t2 of its up half-step to t1 of the
   /// down half-step that follows, both instants included.
   bool InAir(const LocalTime& at, Side foot) const;
@@ -94,5 +99,10 @@ class SuperposedWalk {
   HomotopyParameters parameters_;
   Lipm lipm_;
 };
+
+/// What supports the robot at an instant where its quantities are `x`: one sole, or the hull of
+/// two.
+SupportPolygon SupportAt(const SuperposedWalk& walk, const LocalTime& at, const WalkVector& x,
+                         const Eigen::Vector2d& sole_size);
 
 }  // namespace halfstep

@@ -82,6 +82,19 @@ HalfStepJet HalfStepProfiles::At(double tau) const {
           .height = to_time(height_.At(sigma))};
 }
 
+HalfStepJet HalfStepProfiles::SecondBounds(double from, double to) const {
+  const double a = from / duration_, b = to / duration_;
+  const double r = 1.0 / (duration_ * duration_);
+  HalfStepJet bounds;
+  if (b <= 0.0 || a >= 1.0) return bounds;
+  bounds.com.second = r * shift_.ComSecondBound();
+  bounds.zmp.second = r * shift_.ZmpSecondBound(a, b);
+  bounds.yaw.second = r * Smoothstep{}.SecondBound(a, b);
+  bounds.foot.second = r * foot_.SecondBound(a, b);
+  bounds.height.second = r * height_.SecondBound(a, b);
+  return bounds;
+}
+
 WalkJet Evaluate(const HalfStep& half_step, const HalfStepProfiles& profiles, double tau) {
   const WalkVector start = half_step.Start();
   const WalkVector delta = half_step.End() - start;

@@ -73,6 +73,9 @@ class HalfStepProfiles {
   /// At local time τ [s], clamped to [0, T]: 0 and at rest before, 1 and at rest after.
   HalfStepJet At(double tau) const;
 
+  /// sup |π̈| [1/s²] of each profile over local times [from, to] [s]; only `second` is filled.
+  HalfStepJet SecondBounds(double from, double to) const;
+
   double duration() const { return duration_; }
   double t1() const { return shape_.t1() * duration_; }  ///< end of the ZMP's first rest [s]
   double t2() const { return shape_.t2() * duration_; }  ///< begin of its second rest [s]

@@ -152,27 +152,17 @@ LegBranch LegBranchOf(const Leg& leg, const Vector6d& q) {
           .hip = ChoiceOf(j[0].axis_B.cross(j[1].axis_B).dot(axis2_between))};
 }
 
-Matrix6d LegJacobian(const Leg& leg, const Vector6d& q) {
-  std::array<Vector3d, 6> axes, points;
-  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
-  Vector3d t = Vector3d::Zero();
-  for (size_t i = 0; i < 6; ++i) {
-    const LegJoint& joint = leg.joints[i];
-    axes[i] = R * joint.axis_B;
-    points[i] = R * joint.point_B + t;
-    const Turn turn = Turn::FromAngle(q[static_cast<Eigen::Index>(i)]);
-    for (int column = 0; column < 3; ++column) {  // R ← R(turned axis) R
-      R.col(column) = Rotate(axes[i], turn, Vector3d(R.col(column)));
-    }
-    t = points[i] - R * joint.point_B;
-  }
-  const Vector3d sole = R * leg.X_BSole.translation() + t;
+Matrix6d LegJacobian(const LegFrames& frames) {
+  const Vector3d sole = frames.X_BLink[6].translation();
   Matrix6d J;
   for (size_t i = 0; i < 6; ++i) {
-    J.col(static_cast<Eigen::Index>(i)) << axes[i], axes[i].cross(sole - points[i]);
+    J.col(static_cast<Eigen::Index>(i)) << frames.axis_B[i],
+        frames.axis_B[i].cross(sole - frames.point_B[i]);
   }
   return J;
 }
+
+Matrix6d LegJacobian(const Leg& leg, const Vector6d& q) { return LegJacobian(PlaceLeg(leg, q)); }
 
 bool LegIkDerivative(const Leg& leg, const Vector6d& q, const Isometry3d& X_WB,
                      const Isometry3d& X_WSole, Eigen::Matrix<double, 6, 8>* dq) {

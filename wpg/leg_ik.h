@@ -42,6 +42,7 @@ std::vector<LegIkBranchSolution> SolveLegIkAll(const Leg& leg, const Eigen::Isom
 
 /// Geometric Jacobian (6×6) of the sole in B: rows (angular velocity [rad/s], velocity of the point
 /// of the sole frame's origin [m/s]), both expressed in B, per joint speed.
+Matrix6d LegJacobian(const LegFrames& frames);
 Matrix6d LegJacobian(const Leg& leg, const Vector6d& q);
 
 /// Columns of dq/d(·) (6×8) for an upright waist and a flat sole, both moving in x, y, z [m] and

@@ -5,6 +5,7 @@
 #include <unsupported/Eigen/AutoDiff>
 
 #include "wpg/check.h"
+#include "wpg/smoothstep.h"
 
 namespace halfstep {
 namespace {
@@ -128,6 +129,13 @@ UnitJet RestToRest::Zmp(double sigma) const {
   if (sigma >= 1.0) return {.value = 1.0};
   if (sigma > 0.5) return Reflected(Zmp(1.0 - sigma));
   return zmp_[sigma < first_ ? 0 : 1].At(sigma);
+}
+
+double RestToRest::ZmpSecondBound(double from, double to) const {
+  if (to <= 0.0 || from >= 1.0) return 0.0;
+  const double on_shift = Smoothstep{first_, 1.0 - first_}.SecondBound(from, to);
+  const bool touches_bump = from < first_ || to > 1.0 - first_;
+  return std::max(on_shift, touches_bump ? 24.0 * bump_.value / (first_ * first_) : 0.0);
 }
 
 }  // namespace halfstep

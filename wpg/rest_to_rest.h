@@ -28,6 +28,11 @@ class RestToRest {
   UnitJet Com(double sigma) const;
   UnitJet Zmp(double sigma) const;
 
+  /// sup |c_σσ| over all σ: θ²·(½ + a), since |c − p| ≤ ½ + a (wpg/README.md, "Rest to rest").
+  double ComSecondBound() const { return theta_ * theta_ * (0.5 + bump_.value); }
+  /// sup |p_σσ| on [from, to]: exact on the shift, 24·a/σ₁² where the bumps are touched.
+  double ZmpSecondBound(double from, double to) const;
+
   /// a: how far the ZMP goes beyond either end of the shift, as a fraction of it.
   double bump() const { return bump_.value; }
 

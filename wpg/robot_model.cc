@@ -4,8 +4,8 @@
 
 namespace halfstep {
 
-std::array<Eigen::Isometry3d, 7> LegForwardKinematics(const Leg& leg, const Vector6d& q) {
-  std::array<Eigen::Isometry3d, 7> X_B;
+LegFrames PlaceLeg(const Leg& leg, const Vector6d& q) {
+  LegFrames frames;
   // x ↦ R x + t: the displacement from the zero posture of what joints 0 … i move.
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
   Eigen::Vector3d t = Eigen::Vector3d::Zero();
@@ -24,10 +24,12 @@ std::array<Eigen::Isometry3d, 7> LegForwardKinematics(const Leg& leg, const Vect
       R.col(column) = Rotate(axis, turn, Eigen::Vector3d(R.col(column)));
     }
     t = point - R * joint.point_B;
-    X_B[i] = displaced(joint.X_BLink);
+    frames.axis_B[i] = axis;
+    frames.point_B[i] = point;
+    frames.X_BLink[i] = displaced(joint.X_BLink);
   }
-  X_B[6] = displaced(leg.X_BSole);
-  return X_B;
+  frames.X_BLink[6] = displaced(leg.X_BSole);
+  return frames;
 }
 
 }  // namespace halfstep

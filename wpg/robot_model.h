@@ -71,7 +71,17 @@ struct RobotModel {
 /// "Robots". Throws InputError (wpg/input/input_error.h) with every complaint as file:line:column.
 RobotModel LoadRobot(const std::string& yaml_path);
 
-/// Poses X_BLink (6) of the links of a leg and, last, of its sole, for joint angles q [rad].
-std::array<Eigen::Isometry3d, 7> LegForwardKinematics(const Leg& leg, const Vector6d& q);
+/// Where the parts of a leg are, seen from the waist B.
+struct LegFrames {
+  std::array<Eigen::Vector3d, 6> axis_B;     ///< joint axes, unit vectors.
+  std::array<Eigen::Vector3d, 6> point_B;    ///< a point on each axis [m].
+  std::array<Eigen::Isometry3d, 7> X_BLink;  ///< the six links and, last, the sole.
+};
+LegFrames PlaceLeg(const Leg& leg, const Vector6d& q);
+
+/// Poses X_BLink of the links of a leg and, last, of its sole, for joint angles q [rad].
+inline std::array<Eigen::Isometry3d, 7> LegForwardKinematics(const Leg& leg, const Vector6d& q) {
+  return PlaceLeg(leg, q).X_BLink;
+}
 
 }  // namespace halfstep

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "wpg/profile_jet.h"
 
 namespace halfstep {
@@ -23,6 +26,20 @@ struct Smoothstep {
             .s = 30.0 * x * x * y * y * r,
             .ss = 60.0 * x * y * (1.0 - 2.0 * x) * r * r,
             .sss = 60.0 * (1.0 - 6.0 * x * y) * r * r * r};
+  }
+
+  /// sup |S_σσ| on [from, to]: exact. S_σσ is extremal at x = ½ ± 1/√12, where it is ∓10/√3 /
+  /// width².
+  double SecondBound(double from, double to) const {
+    const double r = 1.0 / (end - begin);
+    const double a = std::clamp((from - begin) * r, 0.0, 1.0);
+    const double b = std::clamp((to - begin) * r, 0.0, 1.0);
+    if (a >= b) return 0.0;
+    constexpr double kLow = 0.21132486540518713, kHigh = 0.78867513459481287,
+                     kPeak = 5.7735026918962582;
+    const auto at = [](double x) { return std::abs(60.0 * x * (1.0 - x) * (1.0 - 2.0 * x)); };
+    const bool peak = (a <= kLow && kLow <= b) || (a <= kHigh && kHigh <= b);
+    return (peak ? kPeak : std::max(at(a), at(b))) * r * r;
   }
 };
 

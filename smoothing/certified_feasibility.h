@@ -1,0 +1,49 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "smoothing/certificate.h"
+#include "smoothing/feasibility_test.h"
+#include "smoothing/interval_statements.h"
+
+namespace halfstep {
+
+/// Decides for every instant of a window whether the demanded margins are kept. An interval is
+/// settled by its midpoint and a bound on the motion around it, else bisected; what is still open
+/// at the resolution is undecided. Feasible is a proof; violated has a witness; what keeps every
+/// margin with a little to spare is never undecided at a fine enough resolution.
+/// Source: [Schwarzer2005]; bounds: smoothing/README.md, "Certificates".
+class CertifiedFeasibility : public FeasibilityTest {
+ public:
+  /// `evaluator` is borrowed and must outlive this.
+  CertifiedFeasibility(const MarginEvaluator& evaluator, const CertificationOptions& options);
+
+  Evidence evidence() const override { return Evidence::kCertified; }
+  std::string Description() const override;
+  const MarginEvaluator& evaluator() const override { return evaluator_; }
+  Feasibility Check(const SuperposedWalk& walk, const TimeWindow& window,
+                    MarginEvaluator::Scratch* scratch) const override;
+
+  /// The same over the whole walk, with the proof: `certificate` holds what was proved before a
+  /// verdict was reached, all of it when feasible, in the order of begin, end and family.
+  Feasibility Certify(const SuperposedWalk& walk, MarginEvaluator::Scratch* scratch,
+                      Certificate* certificate) const;
+
+  /// How many statements a family has at every instant.
+  int CountOf(MarginFamily family) const { return statements_.CountOf(family); }
+
+ private:
+  Feasibility Decide(const SuperposedWalk& walk, const TimeWindow& window,
+                     MarginEvaluator::Scratch* scratch, Certificate* certificate) const;
+
+  const MarginEvaluator& evaluator_;
+  CertificationOptions options_;
+  IntervalStatements statements_;
+};
+
+/// Instants strictly inside a window at which a foot lands or lifts off, starts or stops moving
+/// horizontally, or a half-step begins or ends, in order [s].
+std::vector<double> KnotsInside(const SuperposedWalk& walk, const TimeWindow& window);
+
+}  // namespace halfstep

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "smoothing/leg_motion_bound.h"
+#include "smoothing/margins.h"
+#include "smoothing/posture.h"
+#include "smoothing/superposed_walk.h"
+#include "wpg/robot_model.h"
+
+namespace halfstep {
+
+/// How far a walk can be, over an interval of time, from where it is at the interval's midpoint m.
+/// Everything holds for all t in [m − h, m + h]; rates are sups. World frame unless said.
+struct IntervalMotion {
+  double half_width = 0.0;  ///< h [s]
+  LocalTime mid;
+  WalkJet jet;                              ///< at m
+  Posture posture;                          ///< at m, links placed, joint speeds solved
+  WalkVector second;                        ///< sup |ẍ| of every quantity [1/s²]
+  std::array<JointBounds, 2> joints;        ///< by Index(Side)
+  std::array<double, 2> leg_length_change;  ///< of the hip–ankle distance [m]
+  std::vector<double> displacement;         ///< of any point of a body from its place at m [m]
+  std::vector<double> displacement_B;       ///< the same, as seen from the waist [m]
+  /// No bound: a leg does not reach at m, or comes too near to stretched within the interval.
+  bool bounded = false;
+
+  /// |x(t) − x(m)| of a quantity.
+  double Change(int quantity) const {
+    return half_width * (std::abs(jet.first[quantity]) + 0.5 * half_width * second[quantity]);
+  }
+  /// sup |ẋ(t) − ẋ(m)| of a quantity.
+  double RateChange(int quantity) const { return half_width * second[quantity]; }
+};
+
+/// Bounds the motion of one robot. Const and thread-safe; results are the caller's.
+class MotionBounds {
+ public:
+  /// `robot` is borrowed and must outlive this.
+  explicit MotionBounds(const RobotModel& robot);
+
+  /// Over the absolute times [begin, end] [s] of a walk. Every profile bound is exact or an upper
+  /// bound on that stretch, so intervals may be of any length; short ones are tight.
+  /// Source: smoothing/README.md, "Motion bounds".
+  void Bound(const SuperposedWalk& walk, double begin, double end, IntervalMotion* motion) const;
+
+ private:
+  // Motion of the waist or of a sole over the interval: sups of its rates.
+  struct BaseRates {
+    double speed = 0.0;             // of the frame's origin [m/s], horizontal for the waist
+    double acceleration = 0.0;      // [m/s²]
+    double yaw_rate = 0.0;          // [rad/s]
+    double yaw_acceleration = 0.0;  // [rad/s²]
+  };
+  static BaseRates SoleRates(const IntervalMotion& motion, Side side);
+  BaseRates WaistRates(const IntervalMotion& motion) const;
+  // sup ‖P̈‖ in W of a point that is moved by `relative` in a base that moves by `base`, at most
+  // `lever` [m] from the base's vertical axis.
+  static double WorldAcceleration(const BaseRates& base, const PointBound& relative, double lever);
+  static double LegLengthChange(const Leg& leg, const LegFrames& frames, double knee_change);
+  bool BoundLeg(Side side, const BaseRates& waist, IntervalMotion* motion) const;
+  void BoundBody(size_t body, const BaseRates& waist, IntervalMotion* motion) const;
+
+  const RobotModel& robot_;
+  std::array<LegExtents, 2> extents_;
+};
+
+}  // namespace halfstep
