@@ -1,0 +1,246 @@
+#include "wpg/half_step.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <stdexcept>
+#include <vector>
+
+#include "opt/derivative_check.h"
+
+namespace halfstep {
+namespace {
+
+constexpr HalfStepKind kKinds[] = {HalfStepKind::kUp, HalfStepKind::kDown};
+
+class HalfStepTest : public testing::Test {
+ protected:
+  double Uniform(double lower, double upper) {
+    return std::uniform_real_distribution<double>(lower, upper)(random_);
+  }
+  HalfStepShape Shape() {
+    return {.shift = Uniform(0.03, 0.4), .horizontal_delay = Uniform(0.0, 0.2)};
+  }
+  HalfStep Random() {
+    HalfStep half_step;
+    half_step.support = Uniform(0, 1) < 0.5 ? Side::kLeft : Side::kRight;
+    half_step.kind = Uniform(0, 1) < 0.5 ? HalfStepKind::kUp : HalfStepKind::kDown;
+    const double x = Uniform(-0.3, 0.3), y = Sign(half_step.swing()) * Uniform(0.16, 0.3);
+    half_step.X_SF = {x, y, Uniform(-0.5, 0.5)};
+    half_step.duration = Uniform(1.0, 3.0);
+    half_step.via_height = Uniform(0.05, 0.25);
+    half_step.via_lateral = Uniform(0.19, 0.24);
+    half_step.shape = Shape();
+    return half_step;
+  }
+  Lipm RandomLipm() { return {.com_height = Uniform(0.6, 1.0)}; }
+  static HalfStepProfiles Profiles(const HalfStep& h, const Lipm& lipm) {
+    return {h.kind, h.shape, h.duration, lipm};
+  }
+
+ private:
+  std::mt19937 random_{4};
+};
+
+// 5 profiles × (value, first, second).
+Eigen::VectorXd Stacked(const HalfStepJet& jet) {
+  Eigen::VectorXd all(15);
+  int i = 0;
+  for (const ProfileJet* p : {&jet.com, &jet.zmp, &jet.yaw, &jet.foot, &jet.height}) {
+    all.segment<3>(i) << p->value, p->first, p->second;
+    i += 3;
+  }
+  return all;
+}
+
+// Their derivatives in τ and in T.
+Eigen::MatrixXd Derivatives(const HalfStepJet& jet) {
+  Eigen::MatrixXd all(15, 2);
+  int i = 0;
+  for (const ProfileJet* p : {&jet.com, &jet.zmp, &jet.yaw, &jet.foot, &jet.height}) {
+    all.block<3, 1>(i, 0) << p->first, p->second, p->third;
+    all.block<3, 1>(i, 1) << p->value_T, p->first_T, p->second_T;
+    i += 3;
+  }
+  return all;
+}
+
+TEST_F(HalfStepTest, DerivativesInTimeAndDuration) {
+  double worst = 0;
+  int checked = 0;
+  for (int i = 0; i < 400; ++i) {
+    const HalfStep h = Random();
+    const Lipm lipm = RandomLipm();
+    const HalfStepProfiles profiles = Profiles(h, lipm);
+    const double tau = Uniform(0, h.duration);
+    bool near_knot = false;
+    for (double knot : {0.0, h.duration, profiles.t1(), profiles.t2(), profiles.horizontal_begin(),
+                        profiles.horizontal_end()}) {
+      near_knot = near_knot || std::abs(knot - tau) < 5e-4;
+    }
+    if (near_knot) continue;
+    ++checked;
+    const auto function = [&](const Eigen::VectorXd& d) {
+      return Stacked(HalfStepProfiles(h.kind, h.shape, h.duration + d[1], lipm).At(tau + d[0]));
+    };
+    const Eigen::MatrixXd jacobian = Derivatives(profiles.At(tau));
+    const DerivativeReport report = CheckJacobian(function, Eigen::Vector2d::Zero(), jacobian);
+    worst = std::max(worst, report.worst_error);
+    EXPECT_TRUE(report.Passed(1e-6)) << "tau " << tau << " of " << h.duration << ", shift "
+                                     << h.shape.shift << ": " << report.Describe();
+  }
+  EXPECT_GT(checked, 350);
+  EXPECT_LT(worst, 1e-7);
+}
+
+TEST_F(HalfStepTest, OnePercentOrASignInOneDerivativeIsCaught) {
+  HalfStep h;
+  h.X_SF = {0.2, -0.21, 0.2};
+  const HalfStepProfiles profiles = Profiles(h, {});
+  const double tau = 1.5;  // every profile but the ZMP's second rest moves
+  const auto function = [&](const Eigen::VectorXd& d) {
+    return Stacked(HalfStepProfiles(h.kind, h.shape, h.duration + d[1], {}).At(tau + d[0]));
+  };
+  const Eigen::MatrixXd jacobian = Derivatives(profiles.At(tau));
+  ASSERT_TRUE(CheckJacobian(function, Eigen::Vector2d::Zero(), jacobian).Passed(1e-6));
+  for (int i = 0; i < 15; ++i) {
+    for (int j = 0; j < 2; ++j) {
+      if (std::abs(jacobian(i, j)) < 1e-2) continue;
+      for (double factor : {1.01, -1.0}) {
+        Eigen::MatrixXd wrong = jacobian;
+        wrong(i, j) *= factor;
+        const auto report = CheckJacobian(function, Eigen::Vector2d::Zero(), wrong);
+        EXPECT_FALSE(report.Passed(1e-6)) << report.Describe();
+        EXPECT_EQ(report.row, i);
+        EXPECT_EQ(report.column, j);
+      }
+    }
+  }
+}
+
+TEST_F(HalfStepTest, RestsAtBothEnds) {
+  for (int i = 0; i < 300; ++i) {
+    const HalfStep h = Random();
+    const HalfStepProfiles profiles = Profiles(h, RandomLipm());
+    for (double end : {0.0, 1.0}) {
+      // At the end itself, beyond it, and a microsecond inside.
+      const double inside = end == 0.0 ? 1e-9 : h.duration - 1e-9;
+      for (double tau : {end * h.duration, 3 * end * h.duration - h.duration, inside}) {
+        const WalkJet x = Evaluate(h, profiles, tau);
+        const WalkVector expected = end == 0.0 ? h.Start() : h.End();
+        EXPECT_LT((x.value - expected).cwiseAbs().maxCoeff(), 1e-12);
+        EXPECT_LT(std::abs(x.value[kComX] - x.value[kZmpX]), 1e-12);
+        EXPECT_LT(std::abs(x.value[kComY] - x.value[kZmpY]), 1e-12);
+        EXPECT_LT(x.first.cwiseAbs().maxCoeff(), 1e-12);
+        EXPECT_LT(x.second.cwiseAbs().maxCoeff(), tau == inside ? 1e-4 : 1e-15);
+      }
+    }
+  }
+}
+
+TEST_F(HalfStepTest, GoesFromMidFeetToAboveTheSupportSoleAndBack) {
+  HalfStep h;
+  h.X_SF = {0.1, -0.2, 0.4};
+  h.via_height = 0.12;
+  h.via_lateral = 0.22;
+  WalkVector floor, via;
+  // CoM, ZMP, waist yaw, left foot, right foot.
+  floor << 0.05, -0.1, 0.05, -0.1, 0.2, 0, 0, 0, 0, 0.1, -0.2, 0, 0.4;
+  via << 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, -0.22, 0.12, 0;
+  EXPECT_EQ(h.Start(), floor);
+  EXPECT_EQ(h.End(), via);
+  h.kind = HalfStepKind::kDown;
+  EXPECT_EQ(h.Start(), via);
+  EXPECT_EQ(h.End(), floor);
+}
+
+TEST_F(HalfStepTest, TheFootIsInTheAirOnlyWhileTheZmpRestsOnTheSupportSide) {
+  for (int i = 0; i < 100; ++i) {
+    const HalfStep h = Random();
+    const HalfStepProfiles profiles = Profiles(h, RandomLipm());
+    const bool up = h.kind == HalfStepKind::kUp;
+    const int z = FootIndex(h.swing()) + 2;
+    for (int k = 1; k < 200; ++k) {
+      const double tau = h.duration * k / 200;
+      const WalkJet x = Evaluate(h, profiles, tau);
+      const bool flight = up ? tau > profiles.t2() : tau < profiles.t1();
+      if (!flight) {
+        EXPECT_EQ(x.value[z], 0.0);
+      } else {
+        EXPECT_GT(x.value[z], 0.0);
+        EXPECT_LE(x.value[z], h.via_height);
+        // On the support side of the shift: beyond it by the bump at most.
+        const double p = profiles.At(tau).zmp.value;
+        EXPECT_GE(up ? p : 1 - p, 1.0 - 1e-15);
+        EXPECT_LE(up ? p : 1 - p, 1.0 + profiles.bump() + 1e-15);
+      }
+      const double speed = x.first.segment<2>(FootIndex(h.swing())).norm();
+      if (tau <= profiles.horizontal_begin() || tau >= profiles.horizontal_end()) {
+        EXPECT_EQ(speed, 0.0);
+      } else {
+        EXPECT_GT(speed, 0.0);
+      }
+      EXPECT_TRUE(x.value.segment<4>(FootIndex(h.support)).isZero(0));
+    }
+    // The delay is kept at the end on the floor.
+    const double delay = up ? profiles.horizontal_begin() - profiles.t2()
+                            : profiles.t1() - profiles.horizontal_end();
+    EXPECT_NEAR(delay, h.shape.horizontal_delay * h.duration, 1e-14);
+    EXPECT_NEAR(up ? profiles.horizontal_end() : profiles.horizontal_begin(), up ? h.duration : 0.0,
+                1e-15);
+  }
+}
+
+TEST_F(HalfStepTest, DownIsUpInReversedTime) {
+  for (int i = 0; i < 100; ++i) {
+    HalfStep up = Random();
+    up.kind = HalfStepKind::kUp;
+    HalfStep down = up;
+    down.kind = HalfStepKind::kDown;
+    const Lipm lipm = RandomLipm();
+    const double tau = Uniform(0, up.duration);
+    const WalkJet forth = Evaluate(up, Profiles(up, lipm), tau);
+    const WalkJet back = Evaluate(down, Profiles(down, lipm), up.duration - tau);
+    EXPECT_LT((forth.value - back.value).cwiseAbs().maxCoeff(), 1e-13);
+    EXPECT_LT((forth.first + back.first).cwiseAbs().maxCoeff(), 1e-11);
+    EXPECT_LT((forth.second - back.second).cwiseAbs().maxCoeff(), 1e-9);
+  }
+}
+
+TEST_F(HalfStepTest, LeftAndRightAreMirrorImagesExactly) {
+  for (int i = 0; i < 100; ++i) {
+    const HalfStep h = Random(), m = h.Mirrored();
+    EXPECT_EQ(m.support, h.swing());
+    EXPECT_EQ(m.Mirrored(), h);
+    const HalfStepProfiles profiles = Profiles(h, RandomLipm());
+    const double tau = Uniform(0, h.duration);
+    const WalkJet a = Evaluate(h, profiles, tau), b = Evaluate(m, profiles, tau);
+    EXPECT_EQ(b.value, Mirrored(a.value));
+    EXPECT_EQ(b.first, Mirrored(a.first));
+    EXPECT_EQ(b.second, Mirrored(a.second));
+  }
+}
+
+TEST_F(HalfStepTest, AScaledDurationKeepsTheFractionsOfTime) {
+  const HalfStepShape shape{.shift = 0.05, .horizontal_delay = 0.1};
+  for (HalfStepKind kind : kKinds) {
+    const HalfStepProfiles two(kind, shape, 2.0, {}), three(kind, shape, 3.0, {});
+    EXPECT_NEAR(two.t1(), 0.95, 1e-15);
+    EXPECT_NEAR(two.t2(), 1.05, 1e-15);
+    EXPECT_NEAR(three.t1(), 1.425, 1e-15);
+    for (double sigma : {0.1, 0.3, 0.6, 0.9}) {  // Smoothsteps do not know of the LIPM.
+      EXPECT_NEAR(two.At(2 * sigma).foot.value, three.At(3 * sigma).foot.value, 1e-15);
+      EXPECT_NEAR(two.At(2 * sigma).height.first, 1.5 * three.At(3 * sigma).height.first, 1e-14);
+    }
+  }
+}
+
+TEST_F(HalfStepTest, RefusesADelayThatLeavesNoTimeToMove) {
+  const HalfStepShape shape{.shift = 0.4, .horizontal_delay = 0.3};
+  EXPECT_THROW(HalfStepProfiles(HalfStepKind::kUp, shape, 2.0, {}), std::logic_error);
+}
+
+}  // namespace
+}  // namespace halfstep

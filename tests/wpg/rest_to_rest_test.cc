@@ -1,0 +1,185 @@
+#include "wpg/rest_to_rest.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <stdexcept>
+
+#include "opt/derivative_check.h"
+#include "wpg/lipm.h"
+#include "wpg/smoothstep.h"
+
+namespace halfstep {
+namespace {
+
+// Value and its first two derivatives in σ.
+Eigen::Vector3d Jet(const UnitJet& f) { return {f.value, f.s, f.ss}; }
+
+class RestToRestTest : public testing::Test {
+ protected:
+  double Uniform(double lower, double upper) {
+    return std::uniform_real_distribution<double>(lower, upper)(random_);
+  }
+  // θ from 0.5 to 60 and shifts from 0.01 to 0.5, the ends more often than their share.
+  double Theta() { return 0.5 * std::pow(120.0, Clamped()); }
+  double Shift() { return 0.01 * std::pow(50.0, Clamped()); }
+
+ private:
+  double Clamped() { return std::clamp(Uniform(-0.1, 1.1), 0.0, 1.0); }
+  std::mt19937 random_{3};
+};
+
+TEST_F(RestToRestTest, SatisfiesTheLipmEverywhere) {
+  double worst = 0, worst_slope = 0;
+  for (int i = 0; i < 300; ++i) {
+    const double theta = Theta();
+    const RestToRest shift(theta, Shift());
+    for (int k = 0; k < 40; ++k) {
+      const double sigma = Uniform(0, 1);
+      const UnitJet c = shift.Com(sigma), p = shift.Zmp(sigma);
+      // Rounding in the power series grows with θ. T = 3 s and z_c = 0.6 m are θ = 12.
+      const double rounding = (theta < 30 ? 1e-13 : 3e-12) * (1 + shift.bump());
+      worst = std::max(worst, std::abs(c.value - c.ss / (theta * theta) - p.value) / rounding);
+      // Differentiated once: a jet that only fits its value would not.
+      const double slope = 30 * theta * rounding + 1e-13 * std::abs(p.s);
+      worst_slope = std::max(worst_slope, std::abs(c.s - c.sss / (theta * theta) - p.s) / slope);
+    }
+  }
+  EXPECT_LT(worst, 1.0);
+  EXPECT_LT(worst_slope, 1.0);
+}
+
+TEST_F(RestToRestTest, BeginsAndEndsAtRestAsALimit) {
+  for (int i = 0; i < 300; ++i) {
+    const double theta = Theta();
+    const RestToRest shift(theta, Shift());
+    const double scale = (1 + theta * theta) * (1 + shift.bump());
+    for (const bool com : {true, false}) {
+      const auto at = [&](double s) { return com ? shift.Com(s) : shift.Zmp(s); };
+      EXPECT_EQ(Jet(at(0)), Eigen::Vector3d(0, 0, 0));
+      EXPECT_EQ(Jet(at(1)), Eigen::Vector3d(1, 0, 0));
+      // The slope near the ends is what their second derivative, 0 there, lets it be.
+      const double e = 1e-9;
+      EXPECT_LT(std::abs(at(e).value), 1e-12 * scale);
+      EXPECT_LT(std::abs(at(1 - e).value - 1), 1e-12 * scale);
+      EXPECT_LT(std::abs(at(e).s), 1e-12 * scale);
+      EXPECT_LT(std::abs(at(1 - e).s), 1e-12 * scale);
+    }
+  }
+}
+
+TEST_F(RestToRestTest, ValueAndTwoDerivativesAreContinuous) {
+  for (int i = 0; i < 300; ++i) {
+    const double theta = Theta(), width = Shift();
+    const RestToRest shift(theta, width);
+    const double r = 1 / width;
+    // How much the jets change across 2e over the seam, at most: e times the next derivative.
+    const double e = 1e-10;
+    // Of the shift, 15/8, 10/√3 and 60; of the bump, at most 384 for each order.
+    const double b = 384 * shift.bump() / std::pow(0.5 - 0.5 * width, 3);
+    const Eigen::Vector3d zmp_change(2 * r + b, 6 * r * r + b, 60 * r * r * r + b);
+    const double s = theta * theta * (1 + shift.bump());
+    const Eigen::Vector3d com_change(s, s, s * (10 * r + theta));
+    for (double seam : {0.0, 0.5 - 0.5 * width, 0.5, 0.5 + 0.5 * width, 1.0}) {
+      const Eigen::Vector3d zmp = Jet(shift.Zmp(seam + e)) - Jet(shift.Zmp(seam - e));
+      const Eigen::Vector3d com = Jet(shift.Com(seam + e)) - Jet(shift.Com(seam - e));
+      for (int d = 0; d < 3; ++d) {
+        EXPECT_LT(std::abs(zmp[d]), 2 * e * zmp_change[d] + 1e-12 * (zmp_change[d] + 1))
+            << "derivative " << d << " of the ZMP at " << seam;
+        EXPECT_LT(std::abs(com[d]), 4 * e * com_change[d] + 1e-11 * (1 + com_change[d]))
+            << "derivative " << d << " of the CoM at " << seam;
+      }
+    }
+  }
+}
+
+TEST_F(RestToRestTest, IsAntisymmetric) {
+  const RestToRest shift(7.0, 0.05);
+  for (int i = 0; i < 100; ++i) {
+    const double sigma = Uniform(0, 1);
+    EXPECT_NEAR(shift.Com(sigma).value + shift.Com(1 - sigma).value, 1, 1e-14);
+    EXPECT_NEAR(shift.Zmp(sigma).value + shift.Zmp(1 - sigma).value, 1, 1e-14);
+    EXPECT_NEAR(shift.Com(sigma).s, shift.Com(1 - sigma).s, 1e-13);
+  }
+}
+
+// Figures of wpg/README.md: about 18, 9 and 5 % for z_c = 0.8 m.
+TEST_F(RestToRestTest, BumpOfThreeDurations) {
+  const double omega = Lipm{.com_height = 0.8}.omega();
+  for (const auto& [duration, percent] : {std::pair{1.6, 18}, {2.0, 9}, {2.4, 5}}) {
+    const RestToRest shift(omega * duration, 0.1 / duration);
+    EXPECT_NEAR(100 * shift.bump(), percent, 0.6) << duration;
+    double least = 0, most = 0;
+    for (int k = 0; k <= 10000; ++k) {
+      const double p = shift.Zmp(k / 10000.0).value;
+      least = std::min(least, p), most = std::max(most, p);
+    }
+    EXPECT_NEAR(-least, shift.bump(), 1e-6);
+    EXPECT_NEAR(most - 1, shift.bump(), 1e-6);
+  }
+}
+
+TEST_F(RestToRestTest, DerivativesInSigmaAndTheta) {
+  for (int i = 0; i < 300; ++i) {
+    // Beyond, the differences are worth less than the derivatives.
+    const double theta = std::clamp(Theta(), 0.51, 30.0), width = Shift();
+    const RestToRest shift(theta, width);
+    const double x[] = {Uniform(0.01, 0.99), theta};
+    const double knot = std::abs(std::abs(x[0] - 0.5) - 0.5 * width);
+    const double step = std::min(1e-3 * width, 1e-4);
+    if (knot < 3 * step) continue;
+    for (const bool com : {true, false}) {
+      // Scaled by powers of the width, so that derivatives of all orders count alike.
+      const double w = width;
+      const auto function = [&](const Eigen::VectorXd& y) -> Eigen::VectorXd {
+        const RestToRest moved(x[1] + y[1], width);
+        const UnitJet f = com ? moved.Com(x[0] + w * y[0]) : moved.Zmp(x[0] + w * y[0]);
+        return Eigen::Vector3d(f.value, w * f.s, w * w * f.ss);
+      };
+      const UnitJet f = com ? shift.Com(x[0]) : shift.Zmp(x[0]);
+      Eigen::MatrixXd jacobian(3, 2);
+      jacobian << w * f.s, f.theta, w * w * f.ss, w * f.theta_s, w * w * w * f.sss,
+          w * w * f.theta_ss;
+      const DerivativeReport report =
+          CheckJacobian(function, Eigen::Vector2d::Zero(), jacobian, 1e-3);
+      EXPECT_TRUE(report.Passed(1e-8))
+          << (com ? "com, theta " : "zmp, theta ") << x[1] << ", shift " << width << ", sigma "
+          << x[0] << ": " << report.Describe();
+    }
+  }
+}
+
+TEST_F(RestToRestTest, RefusesWhatItCannotSum) {
+  EXPECT_THROW(RestToRest(0.4, 0.1), std::logic_error);
+  EXPECT_THROW(RestToRest(61, 0.1), std::logic_error);
+  EXPECT_THROW(RestToRest(7, 0.009), std::logic_error);
+  EXPECT_THROW(RestToRest(7, 0.6), std::logic_error);
+  EXPECT_THROW(RestToRest(std::numeric_limits<double>::quiet_NaN(), 0.1), std::logic_error);
+}
+
+TEST(SmoothstepTest, IsC2FromZeroToOneAndAntisymmetric) {
+  const Smoothstep step{0.2, 0.7};
+  for (double sigma : {-1.0, 0.0, 0.2}) EXPECT_EQ(Jet(step.At(sigma)), Eigen::Vector3d(0, 0, 0));
+  for (double sigma : {0.7, 1.0, 2.0}) EXPECT_EQ(Jet(step.At(sigma)), Eigen::Vector3d(1, 0, 0));
+  const double e = 1e-7;  // jets change by e times the next derivative, at most 60/0.5³ here
+  EXPECT_LT((Jet(step.At(0.2 + e)) - Eigen::Vector3d(0, 0, 0)).norm(), 500 * e);
+  EXPECT_LT((Jet(step.At(0.7 - e)) - Eigen::Vector3d(1, 0, 0)).norm(), 500 * e);
+  EXPECT_DOUBLE_EQ(step.At(0.45).value, 0.5);
+  for (int k = 1; k < 100; ++k) {
+    const double sigma = 0.2 + 0.005 * k;
+    EXPECT_NEAR(step.At(sigma).value + step.At(0.9 - sigma).value, 1, 1e-15);
+    EXPECT_LT(step.At(sigma - 0.005).value, step.At(sigma).value);
+    const auto function = [&](const Eigen::VectorXd& s) -> Eigen::VectorXd {
+      return Jet(step.At(s[0]));
+    };
+    const UnitJet f = step.At(sigma);
+    const DerivativeReport report = CheckJacobian(function, Eigen::VectorXd::Constant(1, sigma),
+                                                  Eigen::Vector3d(f.s, f.ss, f.sss), 1e-4);
+    EXPECT_TRUE(report.Passed(1e-9)) << report.Describe();
+  }
+}
+
+}  // namespace
+}  // namespace halfstep
