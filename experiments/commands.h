@@ -29,6 +29,16 @@ struct RunCommand {
 /// Throws InputError for bad input, std::runtime_error when files cannot be written.
 ExitStatus Run(const RunCommand& command);
 
+struct CertifyCommand {
+  std::string run;  ///< a run folder
+  std::vector<YamlOverride> overrides;
+  bool quiet = false;
+};
+
+/// `halfstep certify`: makes the certificates of a run's walks anew, from its config and overlaps,
+/// in place. kFailed when a walk is not certified. Throws InputError for a run that cannot be read.
+ExitStatus Certify(const CertifyCommand& command);
+
 /// `halfstep list robots|scenes|solvers|methods`. Precondition: `what` is one of these.
 ExitStatus List(const std::string& what, bool json);
 

@@ -42,6 +42,17 @@ int main(int argc, char** argv) {
   run_app->add_flag("--quiet", run.quiet, "print nothing but errors");
   run_app->add_flag("--json", run.json, "print the summary as JSON");
 
+  CertifyCommand certify;
+  std::vector<std::string> certify_sets;
+  CLI::App* certify_app = app.add_subcommand(
+      "certify",
+      "Prove the walks of a run for all time and write the certificates.\n\n"
+      "  example: halfstep certify runs/bar_8cm --set smoothing.resolution_s=1e-5");
+  certify_app->add_option("RUN", certify.run, "run folder")->required();
+  certify_app->add_option("--set", certify_sets, "override a key of the run's config: KEY=VALUE")
+      ->allow_extra_args(false);
+  certify_app->add_flag("--quiet", certify.quiet, "print nothing but errors");
+
   std::string what;
   bool list_json = false;
   CLI::App* list_app =
@@ -57,14 +68,17 @@ int main(int argc, char** argv) {
     return app.exit(error) == 0 ? kSuccess : kBadInput;
   }
   if (app.get_subcommands().empty()) {
-    std::cerr << "halfstep: which command? (valid: run, list; `halfstep -h` explains)\n";
+    std::cerr << "halfstep: which command? (valid: run, certify, list; `halfstep -h` explains)\n";
     return kBadInput;
   }
   try {
     if (*run_app) {
       for (const std::string& set : sets) run.overrides.push_back(ParseOverride(set));
     }
-    const int status = *run_app ? Run(run) : List(what, list_json);
+    for (const std::string& set : certify_sets) certify.overrides.push_back(ParseOverride(set));
+    const int status = *run_app       ? Run(run)
+                       : *certify_app ? Certify(certify)
+                                      : List(what, list_json);
     if (!std::cout.flush()) throw std::runtime_error("standard output cannot be written");
     return status;
   } catch (const InputError& error) {

@@ -62,7 +62,9 @@ std::string SummaryCsv(const MarginEvaluator& evaluator, const std::vector<Metho
   for (const MethodRun& run : runs) {
     const SmoothingResult& result = run.result;
     const Margin& worst = WorstOf(run.margins, evaluator.limits());
-    csv.Cell(run.method).Cell(Name(result.status)).Cell(result.evidence == Evidence::kCertified);
+    csv.Cell(run.method)
+        .Cell(Name(result.status))
+        .Cell(run.certified.answer.verdict == Verdict::kFeasible);
     csv.Cell(run.duration).Cell(runs.front().duration / run.duration).Cell(run.duration);
     csv.Cell(worst.value).Cell(Name(worst.family));
     csv.Cell(static_cast<long>(result.iterates.size())).Cell(result.instants);

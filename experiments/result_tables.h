@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "experiments/certificate_files.h"
 #include "experiments/experiment.h"
 #include "smoothing/margin_evaluator.h"
 #include "smoothing/smoothing_result.h"
@@ -21,6 +22,7 @@ struct MethodRun {
   double duration = 0.0;     ///< of the walk [s]
   double lowest_apex = 0.0;  ///< least of the steps' highest sole heights [m]
   MarginSet margins;         ///< smallest of each family, at the trajectory's instants
+  CertifiedWalk certified;   ///< verdict on the walk and its proof
   std::string trajectory;    ///< text of trajectory.csv
 };
 

@@ -38,15 +38,12 @@ MethodRun PlannedRun(const Experiment& experiment, const FeasibilityTest& test) 
   return run;
 }
 
-// dichotomy/published is a name; its folder is dichotomy_published.
-std::string FolderOf(std::string method) {
-  std::replace(method.begin(), method.end(), '/', '_');
-  return method;
-}
-
-void WriteRun(const MarginEvaluator& evaluator, const MethodRun& run, RunFolder* folder) {
-  const std::string place = FolderOf(run.method) + "/";
+void WriteRun(const Experiment& experiment, const CertifiedFeasibility& certifier,
+              const MethodRun& run, RunFolder* folder) {
+  const MarginEvaluator& evaluator = certifier.evaluator();
+  const std::string place = MethodFolder(run.method) + "/";
   folder->Write(place + "trajectory.csv", run.trajectory);
+  WriteCertificate(experiment, certifier, run.certified, run.trajectory, place, folder);
   if (run.result.junctions.empty()) return;
   folder->Write(place + "overlaps.csv", OverlapsCsv(evaluator, run));
   folder->Write(place + "iterates.csv", IteratesCsv(run));
@@ -87,6 +84,7 @@ ExitStatus Run(const RunCommand& command) {
   const MarginEvaluator evaluator(experiment.robot, experiment.scene, config.smoothing.limits);
   const std::unique_ptr<FeasibilityTest> accepts = MakeTest(evaluator, config.smoothing);
   const FeasibilityTest& test = *accepts;
+  const CertifiedFeasibility certifier(evaluator, config.smoothing.certification);
   std::vector<MethodRun> runs = {PlannedRun(experiment, test)};
   for (const std::string& name : config.smoothing.methods) {
     ProgressBar bar(name, command.quiet || command.json);
@@ -98,7 +96,8 @@ ExitStatus Run(const RunCommand& command) {
   }
   for (MethodRun& run : runs) {
     SampleTrajectory(evaluator, experiment.sequence, config.output_period, &run);
-    WriteRun(evaluator, run, &folder);
+    run.certified = CertifyWalk(certifier, experiment.sequence, run.result.parameters);
+    WriteRun(experiment, certifier, run, &folder);
   }
   ExperimentConfig moved = MovedTo(folder.path(), config);
   const std::string resolved = WriteYaml([&](Fields& fields) { DeclareFields(fields, &moved); });

@@ -125,6 +125,12 @@ void RunFolder::Write(const std::string& relative, std::string_view content) {
   if (close(fd) != 0 || synced != 0) Fail("cannot be written", shown, synced != 0 ? reason : errno);
 }
 
+void RunFolder::CopyOlder() {
+  std::error_code error;
+  fs::copy(path_, staging_, fs::copy_options::recursive, error);
+  if (error) Fail("cannot be copied", path_, error.value());
+}
+
 void RunFolder::Publish() {
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(staging_)) {
     if (entry.is_directory()) Sync(entry.path());

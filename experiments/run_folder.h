@@ -25,6 +25,10 @@ class RunFolder {
   /// names the file and the system's reason, e.g. "No space left on device".
   void Write(const std::string& relative, std::string_view content);
 
+  /// Begins with a copy of what stands under the final name, so that Publish() replaces only what
+  /// is written after.
+  void CopyOlder();
+
   /// Moves everything to its final name, in place of an older run when overwriting. On a file
   /// system that cannot exchange two folders (NFS) the name is absent for a moment. Throws
   /// std::runtime_error when something else took the name meanwhile.

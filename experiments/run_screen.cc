@@ -60,13 +60,14 @@ std::string RunTable(const Experiment& experiment, const MarginEvaluator& evalua
   out << experiment.config.name << ": " << experiment.robot.name << ", "
       << experiment.sequence.size() << " half-steps, " << experiment.scene.obstacles.size()
       << " obstacles; feasible means " << test.Description() << "\n\n";
-  out << Format("%-22s %-16s %10s %8s %9s %10s %s\n", "method", "status", "duration", "speed-up",
-                "low apex", "clearance", "worst margin");
+  out << Format("%-22s %-16s %-10s %10s %8s %9s %10s %s\n", "method", "status", "for all t",
+                "duration", "speed-up", "low apex", "clearance", "worst margin");
   for (const MethodRun& run : runs) {
     const Margin& worst = WorstOf(run.margins, evaluator.limits());
     const Margin& clearance = Of(run, MarginFamily::kClearance);
-    out << Format("%-22s %-16s %8.3f s %7.2fx %6.1f cm ", run.method.c_str(),
-                  std::string(Name(run.result.status)).c_str(), run.duration,
+    out << Format("%-22s %-16s %-10s %8.3f s %7.2fx %6.1f cm ", run.method.c_str(),
+                  std::string(Name(run.result.status)).c_str(),
+                  std::string(VerdictName(run.certified.answer.verdict)).c_str(), run.duration,
                   runs.front().duration / run.duration, 100.0 * run.lowest_apex)
         << (!std::isfinite(clearance.value) ? Format("%10s", "-")
             : clearance.other < 0
@@ -99,6 +100,7 @@ std::string RunJson(const MarginEvaluator& evaluator, const std::vector<MethodRu
                                {"status", Name(run.result.status)},
                                {"message", run.result.message},
                                {"evidence", Name(run.result.evidence)},
+                               {"verdict", VerdictName(run.certified.answer.verdict)},
                                {"duration_s", run.duration},
                                {"speedup", runs.front().duration / run.duration},
                                {"lowest_apex_m", run.lowest_apex},

@@ -67,6 +67,7 @@ void DeclareMesh(Fields& fields, TriangleMesh* mesh) {
   try {
     const std::filesystem::path path = std::filesystem::path(fields.directory()) / file;
     LoadedMesh loaded = LoadMesh(path.string());
+    mesh->file = path.string();
     mesh->vertices = scale * loaded.vertices;
     mesh->triangles = std::move(loaded.triangles);
   } catch (const InputError& error) {
@@ -172,8 +173,12 @@ Scene LoadScene(const std::string& yaml_path) {
                 });
   });
   if (scene.name.empty()) scene.name = std::filesystem::path(yaml_path).stem().string();
+  scene.files = {yaml_path};
   for (ObstacleFields& from : obstacles) {
     scene.obstacles.push_back({from.name, MakeShape(&from), MakePose(from.xyz, from.rpy)});
+    if (const auto* mesh = std::get_if<TriangleMesh>(&scene.obstacles.back().shape)) {
+      scene.files.push_back(mesh->file);
+    }
   }
   for (NoStepFields& area : areas) {
     if (SignedArea(area.polygon) < 0.0) area.polygon = area.polygon.rowwise().reverse().eval();

@@ -12,6 +12,7 @@ namespace halfstep {
 
 /// Triangle mesh: not assumed convex or closed.
 struct TriangleMesh {
+  std::string file;            ///< where it was read from; "" when made otherwise.
   Eigen::Matrix3Xd vertices;   ///< [m] (3×n)
   Eigen::Matrix3Xi triangles;  ///< (3×m), vertex indices.
 };
@@ -25,6 +26,7 @@ struct Obstacle {
 /// What the robot walks among. The floor z = 0 is no obstacle: the floor margin watches it.
 struct Scene {
   std::string name;
+  std::vector<std::string> files;  ///< every file that it was read from: YAML, meshes.
   std::vector<Obstacle> obstacles;
   /// Simple polygons on the floor (2×n, counter-clockwise) that no sole may touch [m].
   std::vector<Eigen::Matrix2Xd> no_step;

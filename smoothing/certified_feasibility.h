@@ -30,6 +30,7 @@ class CertifiedFeasibility : public FeasibilityTest {
   Feasibility Certify(const SuperposedWalk& walk, MarginEvaluator::Scratch* scratch,
                       Certificate* certificate) const;
 
+  const CertificationOptions& options() const { return options_; }
   /// How many statements a family has at every instant.
   int CountOf(MarginFamily family) const { return statements_.CountOf(family); }
 

@@ -140,6 +140,7 @@ LinkBodies BuildBodies(const UrdfTree& urdf, const BodyRequest& request, Complai
   }
   const std::vector<Isometry3d> X = urdf.LinkPoses(q);
   LinkBodies all;
+  std::set<std::string> meshes;
   for (size_t i = 0; i < urdf.links.size(); ++i) {
     const UrdfLink& link = urdf.links[i];
     const Anchor& anchor = anchors[i];
@@ -158,6 +159,9 @@ LinkBodies BuildBodies(const UrdfTree& urdf, const BodyRequest& request, Complai
             ShapeOf(collision, X_AnchorLink * collision.X_LinkShape, urdf.file, request.packages);
         all.bodies.push_back(std::move(body));
         all.links.push_back(static_cast<int>(i));
+        if (collision.kind == UrdfCollision::Kind::kMesh) {
+          meshes.insert(MeshPath(collision.mesh, urdf.file, request.packages));
+        }
       } catch (const InputError& error) {
         for (const std::string& line : error.complaints()) {
           complaints->Add(urdf.file, collision.place.line, collision.place.column, body.name, line);
@@ -168,6 +172,7 @@ LinkBodies BuildBodies(const UrdfTree& urdf, const BodyRequest& request, Complai
       }
     }
   }
+  all.meshes.assign(meshes.begin(), meshes.end());
   return all;
 }
 

@@ -25,6 +25,7 @@ std::vector<std::string> MeshPackages(const UrdfTree& urdf);
 
 /// Bodies and, in the same order, the URDF links that they belong to.
 struct LinkBodies {
+  std::vector<std::string> meshes;  ///< files read, sorted.
   std::vector<RobotBody> bodies;
   std::vector<int> links;
 };

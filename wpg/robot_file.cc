@@ -157,6 +157,7 @@ class Builder {
     LinkBodies all = BuildBodies(urdf_, body_, complaints_);
     model_.self_pairs = BuildSelfPairs(urdf_, body_, all);
     model_.bodies = std::move(all.bodies);
+    model_.files = std::move(all.meshes);
   }
 
   static std::string Text(const char* format, double value) {
@@ -187,6 +188,7 @@ RobotModel LoadRobot(const std::string& yaml_path) {
     DeclareFields(fields, &file);
     model = Builder(file, fields, &of_urdf).Build();
   });
+  model.files.insert(model.files.begin(), {yaml_path, file.urdf->file});
   of_urdf.ThrowIfAny();
   return model;
 }

@@ -1,0 +1,124 @@
+#include "experiments/certificate_files.h"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "experiments/csv_writer.h"
+#include "experiments/manifest.h"
+
+namespace halfstep {
+namespace {
+
+using nlohmann::ordered_json;
+
+std::string HashOfFiles(const std::vector<std::string>& files) {
+  std::string bytes;
+  for (const std::string& file : files) {
+    std::ifstream in(file, std::ios::binary);
+    bytes.append(std::istreambuf_iterator<char>(in), {});
+  }
+  return Sha256(bytes);
+}
+
+ordered_json OrNull(const std::optional<double>& value) {
+  return value ? ordered_json(*value) : ordered_json(nullptr);
+}
+
+}  // namespace
+
+const char* const kCertificateStatement =
+    "Guaranteed for every instant of the walk whose overlaps stand in overlaps.csv, not only for "
+    "sampled ones: every margin of certificate.json (height of the moving sole, speed and yaw rate "
+    "of the swing foot, ZMP inside the support polygon, leg reach, joint limits, joint speeds, "
+    "clearance between the robot's own bodies, clearance to the obstacles of the scene) is at "
+    "least "
+    "the delta demanded there. trajectory.csv samples that walk; `halfstep verify` checks, without "
+    "the smoothing code, the motion that interpolates its rows linearly, with the same deltas less "
+    "its tolerance. Not guaranteed: that robot and scene are as their files describe them, that a "
+    "controller tracks the motion, and any dynamics beyond the linear inverted pendulum.";
+
+CertifiedWalk CertifyWalk(const CertifiedFeasibility& test, const HalfStepSequence& sequence,
+                          const HomotopyParameters& parameters) {
+  const SuperposedWalk walk(sequence, parameters);
+  MarginEvaluator::Scratch scratch = test.evaluator().MakeScratch();
+  CertifiedWalk certified;
+  certified.duration = walk.duration();
+  certified.answer = test.Certify(walk, &scratch, &certified.rows);
+  return certified;
+}
+
+std::string_view VerdictName(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kFeasible:
+      return "certified";
+    case Verdict::kViolated:
+      return "violated";
+    case Verdict::kUndecided:
+      return "undecided";
+  }
+  return "";
+}
+
+std::string CertificateCsv(const MarginEvaluator& evaluator, const Certificate& rows) {
+  CsvWriter csv(
+      {"begin_s", "end_s", "family", "statements", "subject", "margin", "bound", "demanded"});
+  for (const CertificateRow& row : rows) {
+    csv.Cell(row.begin).Cell(row.end).Cell(Name(row.family)).Cell(row.count);
+    csv.Cell(evaluator.Subject(row.margin)).Cell(row.margin.value).Cell(row.bound);
+    csv.Cell(evaluator.limits().demanded_of(row.family)).EndRow();
+  }
+  return csv.text();
+}
+
+std::string CertificateJson(const Experiment& experiment, const CertifiedFeasibility& test,
+                            const CertifiedWalk& walk, const std::filesystem::path& run_folder,
+                            const std::string& trajectory_csv, const std::string& certificate_csv) {
+  const MarginLimits& limits = test.evaluator().limits();
+  ordered_json demanded, statements;
+  for (MarginFamily family : AllMarginFamilies()) {
+    demanded[std::string(Name(family))] = limits.demanded_of(family);
+    statements[std::string(Name(family))] = test.CountOf(family);
+  }
+  const bool certified = walk.answer.verdict == Verdict::kFeasible;
+  const auto scene = ScenePath(experiment.config);
+  const ordered_json json = {
+      {"format", 1},
+      {"verdict", VerdictName(walk.answer.verdict)},
+      {"message", certified ? "every margin is kept at all times"
+                            : test.evaluator().Describe(walk.answer.witness)},
+      {"statement", kCertificateStatement},
+      {"duration_s", walk.duration},
+      {"resolution_s", test.options().resolution},
+      {"demanded", demanded},
+      {"limits",
+       {{"foot_speed_m_s", OrNull(limits.foot_speed)},
+        {"foot_yaw_rate_rad_s", OrNull(limits.foot_yaw_rate)},
+        {"joint_speed_scale", limits.joint_speed_scale}}},
+      {"statements", statements},
+      {"robot", std::filesystem::proximate(RobotPath(experiment.config), run_folder).string()},
+      {"scene", scene ? std::filesystem::proximate(*scene, run_folder).string() : "none"},
+      {"sha256",
+       {{"trajectory.csv", Sha256(trajectory_csv)},
+        {"certificate.csv", Sha256(certificate_csv)},
+        {"robot", HashOfFiles(experiment.robot.files)},
+        {"scene", HashOfFiles(experiment.scene.files)}}}};
+  return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+void WriteCertificate(const Experiment& experiment, const CertifiedFeasibility& test,
+                      const CertifiedWalk& walk, const std::string& trajectory_csv,
+                      const std::string& place, RunFolder* folder) {
+  const std::string csv = CertificateCsv(test.evaluator(), walk.rows);
+  folder->Write(place + "certificate.csv", csv);
+  folder->Write(place + "certificate.json",
+                CertificateJson(experiment, test, walk, folder->path(), trajectory_csv, csv));
+}
+
+std::string MethodFolder(std::string method) {
+  std::replace(method.begin(), method.end(), '/', '_');
+  return method;
+}
+
+}  // namespace halfstep

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "experiments/experiment.h"
+#include "experiments/run_folder.h"
+#include "smoothing/certified_feasibility.h"
+
+namespace halfstep {
+
+/// The proof about one method's walk, and its verdict.
+struct CertifiedWalk {
+  Feasibility answer;
+  Certificate rows;
+  double duration = 0.0;  ///< [s]
+};
+
+/// Certifies the walk of `parameters` over all its time.
+CertifiedWalk CertifyWalk(const CertifiedFeasibility& test, const HalfStepSequence& sequence,
+                          const HomotopyParameters& parameters);
+
+/// "certified", "violated" or "undecided".
+std::string_view VerdictName(Verdict verdict);
+
+/// Text of certificate.csv. Columns: experiments/README.md.
+std::string CertificateCsv(const MarginEvaluator& evaluator, const Certificate& rows);
+
+/// Text of certificate.json: verdict, the statement, what was demanded, counts of statements, and
+/// SHA-256 of everything that the certificate is about. Paths relative to `run_folder`.
+std::string CertificateJson(const Experiment& experiment, const CertifiedFeasibility& test,
+                            const CertifiedWalk& walk, const std::filesystem::path& run_folder,
+                            const std::string& trajectory_csv, const std::string& certificate_csv);
+
+/// Writes both into a method's folder, `place` ("dichotomy/"), of a run.
+void WriteCertificate(const Experiment& experiment, const CertifiedFeasibility& test,
+                      const CertifiedWalk& walk, const std::string& trajectory_csv,
+                      const std::string& place, RunFolder* folder);
+
+/// dichotomy/published is a method's name; its folder in a run is dichotomy_published.
+std::string MethodFolder(std::string method);
+
+/// What a certificate guarantees, for which file, with which δ, and what not; the same words in
+/// smoothing/README.md, "The statement".
+extern const char* const kCertificateStatement;
+
+}  // namespace halfstep

@@ -1,0 +1,89 @@
+#include <fstream>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "experiments/certificate_files.h"
+#include "experiments/commands.h"
+#include "experiments/csv_reader.h"
+#include "experiments/experiment.h"
+#include "experiments/result_tables.h"
+#include "experiments/run_folder.h"
+#include "wpg/input/input_error.h"
+
+namespace halfstep {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string ReadWhole(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw InputError({path.string() + ": cannot be read"});
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+// The methods of a run, from its manifest.
+std::vector<std::string> MethodsOf(const fs::path& run) {
+  const fs::path path = run / "manifest.json";
+  std::vector<std::string> methods;
+  try {
+    const nlohmann::json manifest = nlohmann::json::parse(ReadWhole(path));
+    for (const auto& method : manifest.at("methods")) {
+      methods.push_back(method.at("name").get<std::string>());
+    }
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError({path.string() + ": is not a run's manifest: " + error.what()});
+  }
+  return methods;
+}
+
+// The homotopy's point that a method of a run ended at.
+HomotopyParameters ParametersOf(const fs::path& folder, const HalfStepSequence& sequence) {
+  HomotopyParameters parameters = PlannedMotion(sequence);
+  const fs::path path = folder / "overlaps.csv";
+  if (!fs::exists(path)) return parameters;  // the planned motion itself
+  parameters.overlaps = ReadCsv(path.string()).Numbers("overlap_s");
+  try {
+    CheckParameters(sequence, parameters);
+  } catch (const std::logic_error& error) {
+    throw InputError({path.string() + ": does not fit the run's config: " + error.what()});
+  }
+  return parameters;
+}
+
+}  // namespace
+
+ExitStatus Certify(const CertifyCommand& command) {
+  const fs::path run(command.run);
+  if (!fs::is_directory(run)) {
+    throw InputError(
+        {command.run + ": no such run folder (valid: a folder that `halfstep run` wrote)"});
+  }
+  ExperimentConfig config = LoadConfig((run / "config.yaml").string(), command.overrides);
+  const Experiment experiment = Prepare(config);
+  const MarginEvaluator evaluator(experiment.robot, experiment.scene, config.smoothing.limits);
+  const CertifiedFeasibility test(evaluator, config.smoothing.certification);
+  RunFolder folder(run, /*overwrite=*/true);
+  folder.CopyOlder();
+  bool all_certified = true;
+  for (const std::string& method : MethodsOf(run)) {
+    const std::string place = MethodFolder(method) + "/";
+    const CertifiedWalk walk =
+        CertifyWalk(test, experiment.sequence, ParametersOf(run / place, experiment.sequence));
+    WriteCertificate(experiment, test, walk, ReadWhole(run / place / "trajectory.csv"), place,
+                     &folder);
+    const bool certified = walk.answer.verdict == Verdict::kFeasible;
+    all_certified = all_certified && certified;
+    if (command.quiet) continue;
+    std::cout << method << ": " << VerdictName(walk.answer.verdict);
+    if (certified) {
+      std::cout << ", " << walk.rows.size() << " rows for " << walk.duration << " s\n";
+    } else {
+      std::cout << ": " << evaluator.Describe(walk.answer.witness) << '\n';
+    }
+  }
+  folder.Publish();
+  if (!command.quiet) std::cout << '\n' << kCertificateStatement << '\n';
+  return all_certified ? kSuccess : kFailed;
+}
+
+}  // namespace halfstep

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace halfstep {
+
+/// A CSV file in memory, as CsvWriter writes it.
+struct CsvTable {
+  std::string path;
+  std::vector<std::string> header;
+  std::vector<std::vector<std::string>> rows;
+
+  /// A column of numbers. Throws InputError, with the line, for what is not a number, and when
+  /// there is no such column.
+  std::vector<double> Numbers(const std::string& column) const;
+};
+
+/// Throws InputError as path:line: when a row has not as many cells as the header, when a quote is
+/// left open, or when the file cannot be read.
+CsvTable ReadCsv(const std::string& path);
+
+}  // namespace halfstep
