@@ -1,0 +1,46 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "smoothing/feasibility_test.h"
+#include "smoothing/homotopy_parameters.h"
+
+namespace halfstep {
+
+/// Answers by a rule on the homotopy parameters instead of the motion, and remembers what it was
+/// asked.
+class FakeFeasibility : public FeasibilityTest {
+ public:
+  using Rule = std::function<Verdict(const HomotopyParameters&)>;
+  struct Question {
+    HomotopyParameters parameters;
+    TimeWindow window;
+    Verdict verdict;
+  };
+
+  FakeFeasibility(const MarginEvaluator& evaluator, Rule rule)
+      : evaluator_(evaluator), rule_(std::move(rule)) {}
+
+  Evidence evidence() const override { return Evidence::kCertified; }
+  std::string Description() const override { return "fake"; }
+  const MarginEvaluator& evaluator() const override { return evaluator_; }
+  Feasibility Check(const SuperposedWalk& walk, const TimeWindow& window,
+                    MarginEvaluator::Scratch* scratch) const override {
+    ++scratch->instants;
+    const Verdict verdict = rule_(walk.parameters());
+    questions.push_back({walk.parameters(), window, verdict});
+    Margin witness{.family = MarginFamily::kZmp, .value = -0.02};
+    witness.t = static_cast<double>(questions.size());  // to tell witnesses apart
+    return {verdict, Evidence::kCertified, witness};
+  }
+
+  mutable std::vector<Question> questions;
+
+ private:
+  const MarginEvaluator& evaluator_;
+  Rule rule_;
+};
+
+}  // namespace halfstep

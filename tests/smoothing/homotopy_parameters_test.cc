@@ -1,0 +1,99 @@
+#include "smoothing/homotopy_parameters.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+#include <stdexcept>
+
+#include "tests/smoothing/test_walks.h"
+
+namespace halfstep {
+namespace {
+
+using Family = HomotopyParameter::Family;
+
+// Three steps of 2.0, 1.0 and 3.0 s a half-step; t1 = 0.45 T, t2 = 0.55 T.
+HalfStepSequence ThreeSteps() {
+  std::vector<Footstep> footsteps = {{.side = Side::kRight, .X_WF = {0.2, -0.105, 0}},
+                                     {.side = Side::kLeft, .X_WF = {0.2, 0.105, 0}},
+                                     {.side = Side::kRight, .X_WF = {0.2, -0.105, 0}}};
+  footsteps[1].duration = 1.0;
+  footsteps[2].duration = 3.0;
+  return MakeSequence(StandingFeet(), footsteps, 0.24, {.shift = 0.1}, {});
+}
+
+TEST(HomotopyParameters, PlannedMotionHasNoOverlapFullHeightAndThePlannedDurations) {
+  const HomotopyParameters planned = PlannedMotion(ThreeSteps());
+  EXPECT_EQ(planned.overlaps, std::vector<double>(5, 0.0));
+  EXPECT_EQ(planned.height_scales, std::vector<double>(3, 1.0));
+  EXPECT_EQ(planned.durations, (std::vector<double>{2, 2, 1, 1, 3, 3}));
+}
+
+TEST(HomotopyParameters, EachParameterIsNamedOnceAndReachesItsOwnValue) {
+  const HalfStepSequence sequence = ThreeSteps();
+  const std::vector<HomotopyParameter> all = AllParameters(sequence);
+  ASSERT_EQ(all.size(), 5u + 3u + 6u);
+  HomotopyParameters parameters = PlannedMotion(sequence);
+  for (size_t i = 0; i < all.size(); ++i) all[i].in(parameters) = static_cast<double>(i);
+  EXPECT_EQ(parameters.overlaps, (std::vector<double>{0, 1, 2, 3, 4}));
+  EXPECT_EQ(parameters.height_scales, (std::vector<double>{5, 6, 7}));
+  EXPECT_EQ(parameters.durations, (std::vector<double>{8, 9, 10, 11, 12, 13}));
+  const HomotopyParameter beyond{Family::kHeightScale, 3};
+  EXPECT_THROW(beyond.in(parameters), std::out_of_range);
+}
+
+TEST(NaturalOverlapBound, ByHand) {
+  const HalfStepSequence sequence = ThreeSteps();
+  const std::vector<double> planned = PlannedMotion(sequence).durations;
+  const double expected[] = {0.9, 1.0, 0.45, 1.0, 1.35};
+  for (int i = 0; i < 5; ++i) {
+    EXPECT_EQ(KindOfJunction(i), i % 2 == 0 ? JunctionKind::kUpDown : JunctionKind::kDownUp);
+    EXPECT_NEAR(NaturalOverlapBound(sequence, planned, i), expected[i], 1e-15);
+  }
+  // The durations given count, not the planned ones.
+  const std::vector<double> given = {2, 1, 0.5, 4, 4, 4};
+  const double changed[] = {0.45, 0.5, 0.225, 4, 1.8};
+  for (int i = 0; i < 5; ++i) {
+    EXPECT_NEAR(NaturalOverlapBound(sequence, given, i), changed[i], 1e-15);
+  }
+}
+
+TEST(CheckParameters, AcceptsAllThatIsInBoundsBothEndsIncluded) {
+  WalkDraw draw(10);
+  for (int i = 0; i < 200; ++i) {
+    const HalfStepSequence sequence = draw.Sequence(3);
+    EXPECT_NO_THROW(CheckParameters(sequence, draw.ExtremeParameters(sequence)));
+    EXPECT_NO_THROW(CheckParameters(sequence, PlannedMotion(sequence)));
+  }
+}
+
+TEST(CheckParameters, RefusesEachSingleFault) {
+  const HalfStepSequence sequence = ThreeSteps();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinity = std::numeric_limits<double>::infinity();
+  const std::vector<std::function<void(HomotopyParameters*)>> faults = {
+      [](auto* p) { p->overlaps.pop_back(); },
+      [](auto* p) { p->height_scales.push_back(1); },
+      [](auto* p) { p->durations.pop_back(); },
+      [](auto* p) { p->overlaps[0] = -1e-3; },
+      [](auto* p) { p->overlaps[0] = 0.9 + 1e-9; },
+      [](auto* p) { p->overlaps[1] = 1.0 + 1e-9; },
+      [](auto* p) { p->overlaps[4] = 1.35 + 1e-9; },
+      [=](auto* p) { p->overlaps[2] = nan; },
+      [](auto* p) { p->height_scales[1] = -0.1; },
+      [=](auto* p) { p->height_scales[1] = nan; },
+      [=](auto* p) { p->height_scales[1] = infinity; },
+      [](auto* p) { p->durations[3] = 0; },
+      [](auto* p) { p->durations[3] = -1; },
+      [=](auto* p) { p->durations[3] = nan; },
+      [](auto* p) { p->overlaps[0] = 0.5, p->durations[1] = 1.1; }};
+  for (size_t i = 0; i < faults.size(); ++i) {
+    HomotopyParameters parameters = PlannedMotion(sequence);
+    faults[i](&parameters);
+    EXPECT_THROW(CheckParameters(sequence, parameters), std::logic_error) << "fault " << i;
+  }
+}
+
+}  // namespace
+}  // namespace halfstep

@@ -1,0 +1,331 @@
+#include "smoothing/margin_evaluator.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "experiments/experiment.h"
+#include "planner/separation.h"
+#include "tests/smoothing/test_scenes.h"
+#include "tests/smoothing/test_walks.h"
+
+namespace halfstep {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+const Margin& Of(const MarginSet& margins, MarginFamily family) {
+  return margins[static_cast<size_t>(family)];
+}
+
+// One step of the right foot, 0.2 m ahead.
+HalfStepSequence OneStep(const RobotModel& robot) {
+  return MakeSequence(StandingFeet(), {{.side = Side::kRight, .X_WF = {0.2, -0.105, 0.1}}}, 0.24,
+                      {}, {.com_height = robot.com_height});
+}
+
+class MarginEvaluatorTest : public testing::Test {
+ protected:
+  MarginSet At(const SuperposedWalk& walk, const LocalTime& at, const Scene& scene = {},
+               const MarginLimits& limits = {}) const {
+    const MarginEvaluator evaluator(robot_, scene, limits);
+    MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
+    return evaluator.At(walk, at, &scratch);
+  }
+
+  const RobotModel robot_ = Hrp2();
+  const HalfStepSequence sequence_ = OneStep(robot_);
+  const SuperposedWalk walk_{sequence_, PlannedMotion(sequence_)};
+};
+
+// Soles 0.2172 × 0.137 m, 0.105 m to either side: both together reach 0.1735 m to the side.
+TEST_F(MarginEvaluatorTest, ZmpMarginByHand) {
+  const auto zmp = [&](double tau) { return Of(At(walk_, {0, tau}), MarginFamily::kZmp); };
+  EXPECT_NEAR(zmp(0.0).value, 0.1086, 1e-12);  // mid-feet: the front and the back are nearest
+  EXPECT_EQ(zmp(0.0).subject, -1);
+  EXPECT_NEAR(zmp(1.0).value, 0.1086, 1e-12);  // half-way of the shift, y = 0.0525
+  EXPECT_NEAR(zmp(2.0).value, 0.0685, 1e-12);  // at the centre of the support sole
+  EXPECT_EQ(zmp(2.0).subject, 0);
+  // At the peak of the bump after the shift it is beyond the centre, by that part of 0.105 m.
+  const HalfStepProfiles& profiles = walk_.profiles(0);
+  const double peak = 2.0 - 0.5 * profiles.t1();
+  EXPECT_NEAR(zmp(peak).value, 0.0685 - 0.105 * profiles.bump(), 1e-12);
+  EXPECT_GT(0.105 * profiles.bump(), 0.005);
+  // From lift-off on the support sole alone counts: a jump, also at the instant itself.
+  EXPECT_NEAR(zmp(profiles.t2()).value, 0.0685, 1e-9);
+  EXPECT_GT(zmp(profiles.t2() - 1e-9).value, 0.068);
+  EXPECT_EQ(zmp(profiles.t2() - 1e-9).subject, -1);
+}
+
+TEST_F(MarginEvaluatorTest, FloorMarginIsTheHeightOfTheSoleWhileItMovesHorizontally) {
+  const SuperposedWalk walk(sequence_, Overlapped(sequence_, 0.6));
+  const double begin = walk.profiles(0).horizontal_begin();
+  const double end = walk.start_of(1) + walk.profiles(1).horizontal_end();
+  int moving = 0;
+  for (int n = 0; n <= 400; ++n) {
+    const double t = walk.duration() * n / 400;
+    const Margin floor = Of(At(walk, walk.Locate(t)), MarginFamily::kFloor);
+    if (t < begin - 1e-9 || t > end + 1e-9) {
+      EXPECT_EQ(floor.value, kInfinity) << t;
+    } else {
+      EXPECT_EQ(floor.value, walk.At(t).value[kRightZ]) << t;
+      EXPECT_EQ(floor.subject, Index(Side::kRight));
+      ++moving;
+    }
+  }
+  EXPECT_GT(moving, 50);
+}
+
+TEST_F(MarginEvaluatorTest, FootSpeedsAreThoseOfTheSwingSole) {
+  const MarginLimits limits{.foot_speed = 0.9, .foot_yaw_rate = 1.5};
+  MarginLimits none;
+  none.foot_speed.reset(), none.foot_yaw_rate.reset();
+  const SuperposedWalk walk(sequence_, Overlapped(sequence_, 0.5));
+  for (int n = 1; n < 100; ++n) {
+    const double t = walk.duration() * n / 100, h = 1e-5;
+    const LocalTime at = walk.Locate(t);
+    const MarginSet margins = At(walk, at, {}, limits);
+    if (!walk.InAir(at, Side::kRight)) {
+      EXPECT_EQ(Of(margins, MarginFamily::kFootSpeed).value, kInfinity);
+      continue;
+    }
+    const Eigen::Vector4d rate =
+        (walk.At(t + h).value - walk.At(t - h).value).segment<4>(kRightX) / (2 * h);
+    EXPECT_NEAR(Of(margins, MarginFamily::kFootSpeed).value, 0.9 - rate.head<3>().norm(), 1e-6);
+    EXPECT_NEAR(Of(margins, MarginFamily::kFootYawRate).value, 1.5 - std::abs(rate[3]), 1e-6);
+    EXPECT_EQ(Of(At(walk, at, {}, none), MarginFamily::kFootSpeed).value, kInfinity);
+    EXPECT_EQ(Of(At(walk, at, {}, none), MarginFamily::kFootYawRate).value, kInfinity);
+  }
+}
+
+TEST_F(MarginEvaluatorTest, JointMarginsAreTheLeastOverAllTwelveJoints) {
+  const MarginLimits limits{.joint_speed_scale = 0.5};
+  for (int n = 0; n <= 50; ++n) {
+    const double t = walk_.duration() * n / 50;
+    Posture posture = SolvePosture(robot_, walk_.At(t).value);
+    ASSERT_TRUE(posture.reachable);
+    ASSERT_TRUE(SolveJointSpeeds(robot_, walk_.At(t), &posture));
+    double joint = kInfinity, speed = kInfinity;
+    for (size_t s = 0; s < 2; ++s) {
+      for (int j = 0; j < 6; ++j) {
+        const LegJoint& limit = robot_.legs[s].joints[static_cast<size_t>(j)];
+        const double q = posture.ik[s].q[j];
+        joint = std::min({joint, q - limit.lower, limit.upper - q});
+        speed = std::min(speed, 0.5 * limit.max_speed - std::abs(posture.speeds[s][j]));
+      }
+    }
+    const MarginSet margins = At(walk_, walk_.Locate(t), {}, limits);
+    EXPECT_EQ(Of(margins, MarginFamily::kJoint).value, joint);
+    EXPECT_EQ(Of(margins, MarginFamily::kJointSpeed).value, speed);
+    EXPECT_EQ(Of(margins, MarginFamily::kReach).value,
+              std::min(posture.ik[0].reach_margin, posture.ik[1].reach_margin));
+  }
+}
+
+TEST_F(MarginEvaluatorTest, OutOfReachEveryMarginOfTheBodyIsLost) {
+  const HalfStepSequence far =
+      MakeSequence(StandingFeet(), {{.side = Side::kRight, .X_WF = {0.9, -0.105, 0}}}, 0.24, {},
+                   {.com_height = robot_.com_height});
+  const SuperposedWalk walk(far, PlannedMotion(far));
+  const MarginSet margins = At(walk, {1, 2.0});
+  EXPECT_LT(Of(margins, MarginFamily::kReach).value, 0.0);
+  for (MarginFamily family : {MarginFamily::kJoint, MarginFamily::kJointSpeed,
+                              MarginFamily::kClearance, MarginFamily::kSelfClearance}) {
+    EXPECT_EQ(Of(margins, family).value, -kInfinity) << Name(family);
+  }
+  const MarginEvaluator evaluator(robot_, {}, {});
+  MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
+  const auto violation = evaluator.FirstViolation(walk, {1, 2.0}, &scratch);
+  ASSERT_TRUE(violation);
+  EXPECT_EQ(violation->family, MarginFamily::kReach);
+}
+
+// Before a wall as large as the room: its distance is that of the foremost point of the robot.
+TEST_F(MarginEvaluatorTest, ClearanceFromAWallByHand) {
+  Scene scene;
+  scene.obstacles.push_back(
+      {"wall", MakeBox({0.2, 6, 6}), Eigen::Isometry3d(Eigen::Translation3d(0.6, 0, 0))});
+  for (int n = 0; n <= 40; ++n) {
+    const double t = walk_.duration() * n / 40;
+    Posture posture = SolvePosture(robot_, walk_.At(t).value);
+    PlaceLinks(robot_, &posture);
+    double foremost = -kInfinity;
+    for (const RobotBody& body : robot_.bodies) {
+      const Eigen::Isometry3d& X = posture.OfBody(body);
+      foremost = std::max(foremost,
+                          X.translation().x() + Support(body.shape, X.linear().transpose().col(0)));
+    }
+    const Margin clearance = Of(At(walk_, walk_.Locate(t), scene), MarginFamily::kClearance);
+    EXPECT_NEAR(clearance.value, std::min(0.3, 0.5 - foremost), 1e-9);
+    if (clearance.value < 0.3) {
+      EXPECT_EQ(clearance.other, 0);
+      EXPECT_GE(clearance.subject, 0);
+    }
+  }
+}
+
+TEST_F(MarginEvaluatorTest, SelfClearanceIsTheLeastOfAllPairs) {
+  WalkDraw draw(60);
+  int checked = 0;
+  for (int i = 0; i < Draws(150); ++i) {
+    const HalfStepSequence sequence = draw.Sequence(2);
+    const SuperposedWalk walk(sequence, draw.ExtremeParameters(sequence));
+    const LocalTime at = walk.Locate(draw.Uniform(0, walk.duration()));
+    Posture posture = SolvePosture(robot_, walk.At(at).value);
+    if (!posture.reachable) continue;
+    PlaceLinks(robot_, &posture);
+    double least = 0.3;
+    for (const auto& [a, b] : robot_.self_pairs) {
+      const RobotBody& body_a = robot_.bodies[static_cast<size_t>(a)];
+      const RobotBody& body_b = robot_.bodies[static_cast<size_t>(b)];
+      least = std::min(least, Separate(CollisionShape(body_a.shape), posture.OfBody(body_a),
+                                       CollisionShape(body_b.shape), posture.OfBody(body_b))
+                                  .distance);
+    }
+    const Margin margin = Of(At(walk, at), MarginFamily::kSelfClearance);
+    ++checked;
+    EXPECT_NEAR(margin.value, least, least > 0 ? 1e-9 : 1e-6);
+  }
+  EXPECT_GT(checked, Draws(50));
+}
+
+TEST_F(MarginEvaluatorTest, AnotherObstacleNeverRaisesAMarginAndTouchesClearanceOnly) {
+  WalkDraw draw(61);
+  int lowered = 0;
+  for (int i = 0; i < Draws(100); ++i) {
+    const SuperposedWalk walk(sequence_, Overlapped(sequence_, draw.Uniform(0, 1)));
+    const LocalTime at = walk.Locate(draw.Uniform(0, walk.duration()));
+    Scene scene;
+    scene.obstacles.push_back(RandomObstacle(&draw));
+    const MarginSet before = At(walk, at, scene);
+    scene.obstacles.push_back(RandomObstacle(&draw));
+    const MarginSet after = At(walk, at, scene);
+    for (MarginFamily family : AllMarginFamilies()) {
+      if (family == MarginFamily::kClearance) continue;
+      EXPECT_EQ(Of(before, family).value, Of(after, family).value);
+    }
+    const double a = Of(before, MarginFamily::kClearance).value;
+    const double b = Of(after, MarginFamily::kClearance).value;
+    EXPECT_LE(b, a);
+    if (b < a) ++lowered;
+  }
+  EXPECT_GT(lowered, Draws(100) / 10);
+}
+
+TEST_F(MarginEvaluatorTest, MarginsDoNotDependOnWhereAndOnWhichSide) {
+  WalkDraw draw(62);
+  int compared = 0;
+  for (int i = 0; i < Draws(100); ++i) {
+    const HalfStepSequence sequence = draw.Sequence(2);
+    const HomotopyParameters parameters = draw.ExtremeParameters(sequence);
+    const SuperposedWalk walk(sequence, parameters);
+    const double t = draw.Uniform(0, walk.duration());
+    if (NearKnot(walk, t, 1e-9)) continue;
+    const WalkVector x = walk.At(t).value;
+    Scene scene;
+    scene.obstacles.push_back(RandomObstacle(&draw));
+    scene = Moved({x[kComX], x[kComY], x[kWaistYaw]}, scene);
+    const Pose2 X_VW = draw.Pose(2, 3);
+    const MarginSet plain = At(walk, walk.Locate(t), scene);
+    const SuperposedWalk mirrored(Mirrored(sequence), parameters);
+    const SuperposedWalk moved(Moved(X_VW, sequence), parameters);
+    const MarginSet m = At(mirrored, mirrored.Locate(t), Mirrored(scene));
+    const MarginSet v = At(moved, moved.Locate(t), Moved(X_VW, scene));
+    for (MarginFamily family : AllMarginFamilies()) {
+      const double value = Of(plain, family).value;
+      if (!std::isfinite(value)) {
+        EXPECT_EQ(Of(m, family).value, value);
+        EXPECT_EQ(Of(v, family).value, value);
+        continue;
+      }
+      ++compared;
+      // Deep overlaps have no exact depth: it is found by local search.
+      const bool overlap = Name(family).find("clearance") != std::string::npos && value < 0;
+      const double tolerance = overlap ? 1e-2 : 1e-9 * (1 + std::abs(value));
+      EXPECT_NEAR(Of(m, family).value, value, tolerance) << Name(family);
+      EXPECT_NEAR(Of(v, family).value, value, tolerance) << Name(family);
+    }
+  }
+  EXPECT_GT(compared, Draws(100) * 4);
+}
+
+// On the scenes of stepping over a bar, at overlaps that violate one margin or another, or none.
+TEST(FirstViolation, IsFoundExactlyWhenAMarginIsBelowWhatIsDemanded) {
+  WalkDraw draw(63);
+  std::array<int, kNumMarginFamilies> seen{};
+  int clear = 0;
+  for (const char* name : {"bar_5cm", "bar_8cm", "bar_10cm"}) {
+    const Experiment e = LoadExperiment(name);
+    MarginLimits limits = e.config.smoothing.limits;
+    limits.demanded_of(MarginFamily::kZmp) = 0.045;  // so that this family is met too
+    const MarginEvaluator evaluator(e.robot, e.scene, limits);
+    MarginEvaluator::Scratch slow = evaluator.MakeScratch(), fast = evaluator.MakeScratch();
+    for (int i = 0; i < Draws(60); ++i) {
+      const SuperposedWalk walk(e.sequence, draw.Uniform(0, 1) < 0.3
+                                                ? draw.ExtremeParameters(e.sequence)
+                                                : draw.Parameters(e.sequence, 0, 0.9));
+      double t = draw.Uniform(0, walk.duration());
+      for (int n = 0; n < 20; ++n) {
+        // In turn far away and a little later, as a sweep does: both use what is remembered.
+        t = n % 2 == 0 ? draw.Uniform(0, walk.duration()) : t + 0.01;
+        const LocalTime at = walk.Locate(t);
+        const MarginSet margins = evaluator.At(walk, at, &slow);
+        const auto violation = evaluator.FirstViolation(walk, at, &fast);
+        const Margin& worst = *std::min_element(
+            margins.begin(), margins.end(),
+            [&](const Margin& a, const Margin& b) { return limits.Slack(a) < limits.Slack(b); });
+        if (std::abs(limits.Slack(worst)) < 1e-7) continue;
+        ASSERT_EQ(violation.has_value(), limits.Slack(worst) < 0)
+            << name << ": " << evaluator.Describe(worst);
+        if (!violation) {
+          ++clear;
+          continue;
+        }
+        ++seen[static_cast<size_t>(violation->family)];
+        EXPECT_LT(violation->value, limits.demanded_of(violation->family));
+        EXPECT_LT(Of(margins, violation->family).value, limits.demanded_of(violation->family));
+        EXPECT_GE(violation->value, Of(margins, violation->family).value - 1e-6);
+        EXPECT_EQ(violation->t, walk.Absolute(at));
+      }
+    }
+  }
+  EXPECT_GT(clear, Draws(500));
+  for (MarginFamily family : {MarginFamily::kFloor, MarginFamily::kFootSpeed, MarginFamily::kZmp,
+                              MarginFamily::kJointSpeed, MarginFamily::kClearance}) {
+    EXPECT_GT(seen[static_cast<size_t>(family)], 0) << Name(family);
+  }
+}
+
+TEST_F(MarginEvaluatorTest, DescribesAMarginWithItsOwnerPlaceAndDemand) {
+  Scene scene;
+  scene.obstacles.push_back(
+      {"bar", MakeSphere(0.05), Eigen::Isometry3d(Eigen::Translation3d(0.1, -0.135, 0.3))});
+  const MarginEvaluator evaluator(robot_, scene, {});
+  MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
+  const auto violation = evaluator.FirstViolation(walk_, {0, 2.0}, &scratch);
+  ASSERT_TRUE(violation);
+  const std::string text = evaluator.Describe(*violation);
+  for (const char* part :
+       {"clearance of ", "RLEG_LINK", " - bar", "demanded 0.005", "half-step 1, tau = 2 s"}) {
+    EXPECT_NE(text.find(part), std::string::npos) << text;
+  }
+  EXPECT_EQ(evaluator.Subject({.family = MarginFamily::kJoint, .subject = 6}), "RLEG_JOINT0");
+  EXPECT_EQ(evaluator.Subject({.family = MarginFamily::kFootSpeed, .subject = 1}), "right foot");
+  EXPECT_EQ(evaluator.Subject({.family = MarginFamily::kReach, .subject = 3}), "left leg");
+}
+
+TEST(MarginFamilies, HaveNamesUnitsAndScales) {
+  for (MarginFamily family : AllMarginFamilies()) {
+    EXPECT_FALSE(Name(family).empty());
+    EXPECT_FALSE(Unit(family).empty());
+    EXPECT_GT(Scale(family), 0.0);
+  }
+  EXPECT_EQ(Name(MarginFamily::kClearance), "clearance");
+  EXPECT_EQ(Unit(MarginFamily::kJointSpeed), "rad/s");
+}
+
+}  // namespace
+}  // namespace halfstep

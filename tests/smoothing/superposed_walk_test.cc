@@ -1,0 +1,397 @@
+#include "smoothing/superposed_walk.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "opt/derivative_check.h"
+#include "tests/smoothing/test_walks.h"
+
+namespace halfstep {
+namespace {
+
+double Largest(const WalkVector& x) { return x.cwiseAbs().maxCoeff(); }
+double Largest(const WalkJet& x) {
+  return std::max({Largest(x.value), Largest(x.first), Largest(x.second)});
+}
+WalkJet operator-(const WalkJet& a, const WalkJet& b) {
+  return {a.value - b.value, a.first - b.first, a.second - b.second};
+}
+
+// Directions of W in a moved frame V.
+WalkVector Rotated(const Pose2& X_VW, const WalkVector& x_W) {
+  WalkVector x_V = x_W;
+  for (int i : {kComX, kZmpX, kLeftX, kRightX}) {
+    x_V.segment<2>(i) = X_VW.rotation() * x_W.segment<2>(i);
+  }
+  return x_V;
+}
+
+TEST(SuperposedWalk, CoMAndZmpSatisfyTheLipmAtRandomInstants) {
+  WalkDraw draw(20);
+  double worst = 0;
+  for (int i = 0; i < 100; ++i) {
+    const HalfStepSequence sequence = draw.Sequence(4);
+    const SuperposedWalk walk(sequence, draw.ExtremeParameters(sequence));
+    for (int k = 0; k < 100; ++k) {
+      const WalkJet x = walk.At(draw.Uniform(0, walk.duration()));
+      for (int axis = 0; axis < 2; ++axis) {
+        const int c = kComX + axis, p = kZmpX + axis;
+        const double zmp = walk.lipm().Zmp(x.value[c], x.second[c]);
+        worst = std::max(worst, std::abs(zmp - x.value[p]));
+      }
+    }
+  }
+  EXPECT_LT(worst, 1e-12);
+  RecordProperty("worst_1e18", static_cast<int>(1e18 * worst));
+}
+
+TEST(SuperposedWalk, DerivativesInTimeAgreeWithDifferences) {
+  WalkDraw draw(21);
+  double worst = 0;
+  int checked = 0;
+  for (int i = 0; i < 100; ++i) {
+    const HalfStepSequence sequence = draw.Sequence(4);
+    const SuperposedWalk walk(sequence, draw.ExtremeParameters(sequence));
+    for (int k = 0; k < Draws(30); ++k) {
+      const double t = draw.Uniform(0, walk.duration());
+      if (NearKnot(walk, t, 3e-4)) continue;
+      ++checked;
+      const auto function = [&](const Eigen::VectorXd& dt) -> Eigen::VectorXd {
+        const WalkJet x = walk.At(t + dt[0]);
+        Eigen::VectorXd both(2 * kNumQuantities);
+        both << x.value, x.first;
+        return both;
+      };
+      const WalkJet x = walk.At(t);
+      Eigen::VectorXd slope(2 * kNumQuantities);
+      slope << x.first, x.second;
+      const auto report = CheckJacobian(function, Eigen::VectorXd::Zero(1), slope);
+      worst = std::max(worst, report.worst_error);
+    }
+  }
+  EXPECT_GT(checked, Draws(2000));
+  EXPECT_LT(worst, 1e-8);
+  RecordProperty("worst_1e15", static_cast<int>(1e15 * worst));
+}
+
+TEST(SuperposedWalk, BeginsAndEndsAtRest) {
+  WalkDraw draw(22);
+  for (int i = 0; i < 300; ++i) {
+    const HalfStepSequence sequence = draw.Sequence(3);
+    const SuperposedWalk walk(sequence, draw.ExtremeParameters(sequence));
+    const PlacedHalfStep& first = sequence.half_steps.front();
+    const PlacedHalfStep& last = sequence.half_steps.back();
+    const WalkVector from = Transformed(first.X_WS, first.half_step.Start());
+    const WalkVector to = Transformed(last.X_WS, last.half_step.End());
+    for (double inside : {0.0, 1e-9}) {
+      for (const auto& [t, x] : {std::pair{inside, from}, {walk.duration() - inside, to}}) {
+        const WalkJet jet = walk.At(t);
+        EXPECT_LT(Largest(jet.value - x), 1e-12);
+        EXPECT_LT((jet.value.segment<2>(kComX) - jet.value.segment<2>(kZmpX)).norm(), 1e-12);
+        EXPECT_LT(Largest(jet.first), 1e-12);
+      }
+    }
+    // Times outside are clamped to the walk.
+    EXPECT_LT(Largest(walk.At(-1.0).value - from), 1e-14);
+    EXPECT_LT(Largest(walk.At(walk.duration() + 1).value - to), 1e-14);
+  }
+}
+
+TEST(SuperposedWalk, IsC1EverywhereAndZmpC2) {
+  WalkDraw draw(23);
+  for (int i = 0; i < 100; ++i) {
+    const HalfStepSequence sequence = draw.Sequence(4);
+    const SuperposedWalk walk(sequence, draw.ExtremeParameters(sequence));
+    const double e = 1e-9;
+    for (double t : Knots(walk)) {
+      const WalkJet before = walk.At(t - e), after = walk.At(t + e);
+      const double second = std::max(Largest(before.second), Largest(after.second));
+      EXPECT_LT(Largest(after.value - before.value - 2 * e * before.first), 1e-13);
+      EXPECT_LT(Largest(after.first - before.first), 1e-13 + 3 * e * second);
+      // Third derivatives are at most 60·(length/(0.03·0.8 s)³).
+      EXPECT_LT(Largest(after.second - before.second), 2 * e * 60 * 0.5 / std::pow(0.024, 3));
+    }
+  }
+}
+
+TEST(SuperposedWalk, WithoutOverlapItIsTheConcatenationOfIsolatedHalfSteps) {
+  WalkDraw draw(24);
+  for (int i = 0; i < 50; ++i) {
+    const HalfStepSequence sequence = draw.Sequence(4);
+    const SuperposedWalk walk(sequence, PlannedMotion(sequence));
+    double start = 0;
+    for (int k = 0; k < sequence.size(); ++k) {
+      const auto& [h, X_WS] = sequence.half_steps[static_cast<size_t>(k)];
+      const HalfStepProfiles profiles(h.kind, h.shape, h.duration, sequence.lipm);
+      EXPECT_NEAR(walk.start_of(k), start, 1e-13);
+      for (int n = 0; n < 20; ++n) {
+        const double tau = n == 0 ? 0 : n == 1 ? h.duration : draw.Uniform(0, h.duration);
+        const WalkJet isolated = Evaluate(h, profiles, tau), x = walk.At({k, tau});
+        EXPECT_LT(Largest(x.value - Transformed(X_WS, isolated.value)), 4e-15);
+        // The seams are where they are to 1e-15 s: third derivatives times that.
+        EXPECT_LT(Largest(x.first - Rotated(X_WS, isolated.first)), 1e-13);
+        EXPECT_LT(Largest(x.second - Rotated(X_WS, isolated.second)), 1e-11);
+      }
+      start += h.duration;
+    }
+    EXPECT_NEAR(walk.duration(), start, 1e-13);
+  }
+}
+
+TEST(SuperposedWalk, WithoutOverlapOnASupportSoleAtTheOriginItIsTheHalfStepBitForBit) {
+  WalkDraw draw(25);
+  for (int i = 0; i < 100; ++i) {
+    const std::array<Pose2, 2> start = {Pose2{}, Pose2{0, -0.21, 0}};
+    const Pose2 X_WF{draw.Uniform(-0.1, 0.2), draw.Uniform(-0.3, -0.2), draw.Uniform(-0.3, 0.3)};
+    const HalfStepSequence sequence =
+        MakeSequence(start, {{.side = Side::kRight, .X_WF = X_WF}}, 0.24, {}, {});
+    const SuperposedWalk walk(sequence, PlannedMotion(sequence));
+    for (int k = 0; k < 2; ++k) {
+      const HalfStep& h = sequence.half_steps[static_cast<size_t>(k)].half_step;
+      const HalfStepProfiles profiles(h.kind, h.shape, h.duration, sequence.lipm);
+      for (int n = 0; n <= 20; ++n) {
+        const double tau = h.duration * n / 20;
+        const WalkJet isolated = Evaluate(h, profiles, tau), x = walk.At({k, tau});
+        EXPECT_EQ(x.value, isolated.value);
+        EXPECT_EQ(x.first, isolated.first);
+        EXPECT_EQ(x.second, isolated.second);
+      }
+    }
+  }
+}
+
+TEST(SuperposedWalk, StartsEndsAndDurationFollowTheFormulaInOrder) {
+  WalkDraw draw(26);
+  for (int i = 0; i < 200; ++i) {
+    const HalfStepSequence sequence = draw.Sequence(4);
+    const HomotopyParameters p = draw.ExtremeParameters(sequence);
+    const SuperposedWalk walk(sequence, p);
+    double start = 0;
+    for (int k = 0; k < sequence.size(); ++k) {
+      const size_t s = static_cast<size_t>(k);
+      EXPECT_NEAR(walk.start_of(k), start, 1e-13);
+      EXPECT_NEAR(walk.end_of(k), start + p.durations[s], 1e-13);
+      if (k > 0) {
+        EXPECT_GE(walk.start_of(k), walk.start_of(k - 1) - 1e-13);
+        EXPECT_GE(walk.end_of(k), walk.end_of(k - 1) - 1e-13);
+      }
+      if (k + 1 < sequence.size()) start += p.durations[s] - p.overlaps[s];
+    }
+    EXPECT_NEAR(walk.duration(), start + p.durations.back(), 1e-13);
+  }
+}
+
+// The sum of the definition, over all half-steps whether under way or not.
+TEST(SuperposedWalk, IsTheSumOverAllHalfSteps) {
+  WalkDraw draw(27);
+  for (int i = 0; i < 100; ++i) {
+    const HalfStepSequence sequence = draw.Sequence(4);
+    const HomotopyParameters parameters = draw.ExtremeParameters(sequence);
+    const SuperposedWalk walk(sequence, parameters);
+    for (int n = 0; n < 30; ++n) {
+      const double t = draw.Uniform(0, walk.duration());
+      WalkJet sum;
+      for (int k = 0; k < sequence.size(); ++k) {
+        auto [h, X_WS] = sequence.half_steps[static_cast<size_t>(k)];
+        h.duration = parameters.durations[static_cast<size_t>(k)];
+        h.via_height *= parameters.height_scales[static_cast<size_t>(k / 2)];
+        const HalfStepProfiles profiles(h.kind, h.shape, h.duration, sequence.lipm);
+        const WalkJet own = Evaluate(h, profiles, t - walk.start_of(k));
+        const WalkVector from = Transformed(X_WS, h.Start());
+        if (k == 0) sum.value = from;
+        sum.value += Transformed(X_WS, own.value) - from;
+        sum.first += Rotated(X_WS, own.first);
+        sum.second += Rotated(X_WS, own.second);
+      }
+      EXPECT_LT(Largest(walk.At(t).value - sum.value), 1e-13);
+      EXPECT_LT(Largest(walk.At(t).first - sum.first), 1e-11);
+      EXPECT_LT(Largest(walk.At(t).second - sum.second), 1e-9);
+    }
+  }
+}
+
+TEST(SuperposedWalk, AllNamesOfAnInstantGiveTheSameWalk) {
+  WalkDraw draw(28);
+  double worst = 0;
+  for (int i = 0; i < 100; ++i) {
+    const HalfStepSequence sequence = draw.Sequence(4);
+    const SuperposedWalk walk(sequence, draw.ExtremeParameters(sequence));
+    for (int n = 0; n < 30; ++n) {
+      const double t = draw.Uniform(0, walk.duration());
+      const LocalTime located = walk.Locate(t);
+      EXPECT_GE(located.tau, 0.0);
+      EXPECT_NEAR(walk.Absolute(located), t, 1e-13);
+      if (located.half_step + 1 < walk.num_half_steps()) {
+        EXPECT_LT(t, walk.start_of(located.half_step + 1));
+      }
+      const WalkJet x = walk.At(located);
+      const double scale = 1 + 1e-2 * Largest(x.first) + 1e-4 * Largest(x.second);
+      const bool near_knot = NearKnot(walk, t, 1e-12);
+      for (int k = 0; k < walk.num_half_steps(); ++k) {
+        const LocalTime named{k, t - walk.start_of(k)};
+        const WalkJet y = walk.At(named);
+        worst = std::max(worst, Largest(x.value - y.value) / scale);
+        EXPECT_LT(Largest(x - y), 1e-12 * (1 + 100 * Largest(x)));
+        if (near_knot) continue;
+        EXPECT_EQ(walk.StepInAir(located), walk.StepInAir(named));
+        for (Side side : {Side::kLeft, Side::kRight}) {
+          EXPECT_EQ(walk.InAir(located, side), walk.InAir(named, side));
+        }
+      }
+    }
+  }
+  EXPECT_LT(worst, 1e-13);
+}
+
+TEST(SuperposedWalk, FeetLandExactlyOnTheFootstepsAndStayThere) {
+  WalkDraw draw(29);
+  for (int i = 0; i < 200; ++i) {
+    const std::vector<Footstep> footsteps = draw.Footsteps(5);
+    const HalfStepSequence sequence =
+        MakeSequence(StandingFeet(), footsteps, 0.24, {.shift = draw.Uniform(0.03, 0.3)}, {});
+    const SuperposedWalk walk(sequence, draw.ExtremeParameters(sequence));
+    std::array<Pose2, 2> feet = StandingFeet();
+    for (int step = 0; step < 5; ++step) {
+      const Footstep& footstep = footsteps[static_cast<size_t>(step)];
+      const auto at_rest = [&](const LocalTime& at, Side side) {
+        const Pose2& expected = feet[static_cast<size_t>(Index(side))];
+        const WalkJet x = walk.At(at);
+        const Pose2 foot = FootPose(x.value, side);
+        EXPECT_LT((foot.position() - expected.position()).norm(), 1e-14);
+        EXPECT_NEAR(foot.yaw, expected.yaw, 1e-14);
+        EXPECT_NEAR(x.value[FootIndex(side) + 2], 0.0, 1e-15);
+        EXPECT_LT(x.first.segment<4>(FootIndex(side)).norm(), 1e-12);
+      };
+      const int up = 2 * step, down = up + 1;
+      const double take_off = walk.start_of(up) + walk.profiles(up).t2();
+      const double landing = walk.start_of(down) + walk.profiles(down).t1();
+      ASSERT_LE(take_off, landing);
+      at_rest({up, walk.profiles(up).t2()}, footstep.side);
+      for (int n = 0; n <= 10; ++n) {  // the support foot does not move while the other is up
+        const double t = take_off + (landing - take_off) * n / 10;
+        at_rest({up, t - walk.start_of(up)}, Opposite(footstep.side));
+      }
+      feet[static_cast<size_t>(Index(footstep.side))] = footstep.X_WF;
+      at_rest({down, walk.profiles(down).t1()}, footstep.side);
+    }
+  }
+}
+
+TEST(SuperposedWalk, NoFootGoesBelowTheFloorAndAtMostOneIsInTheAir) {
+  WalkDraw draw(30);
+  int in_air = 0;
+  for (int i = 0; i < 300; ++i) {
+    const HalfStepSequence sequence = draw.Sequence(4);
+    const SuperposedWalk walk(sequence, draw.ExtremeParameters(sequence));
+    for (int n = 0; n < 60; ++n) {
+      const LocalTime at = walk.Locate(draw.Uniform(0, walk.duration()));
+      const WalkJet x = walk.At(at);
+      EXPECT_FALSE(walk.InAir(at, Side::kLeft) && walk.InAir(at, Side::kRight));
+      for (Side side : {Side::kLeft, Side::kRight}) {
+        const int foot = FootIndex(side);
+        EXPECT_GE(x.value[foot + 2], -1e-15);
+        if (walk.InAir(at, side)) {
+          ++in_air;
+          EXPECT_EQ(side, walk.half_step(2 * walk.StepInAir(at)).swing());
+        } else {
+          EXPECT_LT(std::abs(x.value[foot + 2]), 1e-15);
+          EXPECT_LT(x.first.segment<4>(foot).norm(), 1e-12);
+        }
+      }
+    }
+  }
+  EXPECT_GT(in_air, 2000);
+}
+
+TEST(SuperposedWalk, BeyondTheUpDownBoundTheFootWouldGoUnderTheFloor) {
+  // So the bound is not only enough but needed: no further overlap can be offered.
+  const HalfStepSequence sequence = MakeSequence(
+      StandingFeet(), {{.side = Side::kRight, .X_WF = {0.2, -0.105, 0}}}, 0.24, {}, {});
+  SuperposedWalk walk(sequence, Overlapped(sequence, 1.0));
+  walk.SetOverlap(0, walk.parameters().overlaps[0] + 0.05);
+  double lowest = 0;
+  for (int n = 0; n <= 1000; ++n) {
+    lowest = std::min(lowest, walk.At(walk.duration() * n / 1000).value[kRightZ]);
+  }
+  EXPECT_LT(lowest, -0.01);
+}
+
+TEST(SuperposedWalk, SetOverlapGivesTheWalkOfTheChangedParameters) {
+  WalkDraw draw(31);
+  const HalfStepSequence sequence = draw.Sequence(4);
+  SuperposedWalk walk(sequence, PlannedMotion(sequence));
+  for (int i = 0; i < 100; ++i) {
+    const int junction = static_cast<int>(draw.Uniform(0, 7));
+    const double bound = NaturalOverlapBound(sequence, walk.parameters().durations, junction);
+    walk.SetOverlap(junction, draw.Uniform(0, 1) * bound);
+    const SuperposedWalk fresh(sequence, walk.parameters());
+    for (int k = 0; k < walk.num_half_steps(); ++k) EXPECT_EQ(walk.start_of(k), fresh.start_of(k));
+    const double t = draw.Uniform(0, fresh.duration());
+    EXPECT_EQ(walk.At(t).value, fresh.At(t).value);
+  }
+  EXPECT_THROW(walk.SetOverlap(-1, 0.1), std::logic_error);
+  EXPECT_THROW(walk.SetOverlap(7, 0.1), std::logic_error);
+  EXPECT_THROW(walk.SetOverlap(0, -0.1), std::logic_error);
+}
+
+TEST(SuperposedWalk, AnOverlapChangesNothingBeforeItsStretchAndOnlyTheTimeAfterIt) {
+  WalkDraw draw(32);
+  for (int i = 0; i < 100; ++i) {
+    const HalfStepSequence sequence = draw.Sequence(4);
+    const SuperposedWalk before(sequence, draw.ExtremeParameters(sequence));
+    SuperposedWalk after = before;
+    const int junction = static_cast<int>(draw.Uniform(0, 7));
+    const double bound = NaturalOverlapBound(sequence, before.parameters().durations, junction);
+    after.SetOverlap(junction, draw.Uniform(0, 1) * bound);
+    const double begin = std::min(before.start_of(junction + 1), after.start_of(junction + 1));
+    const double end = before.end_of(junction);  // of all half-steps up to the junction
+    EXPECT_EQ(end, after.end_of(junction));
+    const double shift = after.duration() - before.duration();
+    for (int n = 0; n < 20; ++n) {
+      double t = draw.Uniform(0, begin);
+      EXPECT_LT(Largest(before.At(t) - after.At(t)), 1e-12);
+      // After the later of the two ends, seen from either walk.
+      t = draw.Uniform(end + std::max(0.0, -shift), before.duration());
+      if (t >= before.duration()) continue;
+      EXPECT_LT(Largest(before.At(t).value - after.At(t + shift).value), 1e-12);
+      EXPECT_LT(Largest(before.At(t).first - after.At(t + shift).first), 1e-10);
+    }
+  }
+}
+
+TEST(SuperposedWalk, MirroredAndMovedSequencesWalkMirroredAndMoved) {
+  WalkDraw draw(33);
+  for (int i = 0; i < 100; ++i) {
+    const HalfStepSequence sequence = draw.Sequence(4);
+    const HomotopyParameters parameters = draw.ExtremeParameters(sequence);
+    const Pose2 X_VW = draw.Pose(2, 3);
+    const SuperposedWalk walk(sequence, parameters);
+    const SuperposedWalk mirrored(Mirrored(sequence), parameters);
+    const SuperposedWalk moved(Moved(X_VW, sequence), parameters);
+    EXPECT_EQ(walk.duration(), mirrored.duration());
+    EXPECT_EQ(walk.duration(), moved.duration());
+    for (int n = 0; n < 30; ++n) {
+      const double t = draw.Uniform(0, walk.duration());
+      const WalkJet x = walk.At(t), m = mirrored.At(t), v = moved.At(t);
+      EXPECT_EQ(m.value, Mirrored(x.value));
+      EXPECT_EQ(m.first, Mirrored(x.first));
+      EXPECT_EQ(m.second, Mirrored(x.second));
+      EXPECT_LT(Largest(v.value - Transformed(X_VW, x.value)), 1e-14);
+      EXPECT_LT(Largest(v.first - Rotated(X_VW, x.first)), 1e-13);
+      EXPECT_LT(Largest(v.second - Rotated(X_VW, x.second)), 1e-14 * (100 + Largest(x.second)));
+    }
+  }
+}
+
+TEST(SuperposedWalk, RefusesParametersOutOfBounds) {
+  const HalfStepSequence sequence = WalkDraw(34).Sequence(2);
+  HomotopyParameters parameters = Overlapped(sequence, 1.0);
+  parameters.overlaps[1] += 1e-6;
+  EXPECT_THROW(SuperposedWalk(sequence, parameters), std::logic_error);
+}
+
+}  // namespace
+}  // namespace halfstep
