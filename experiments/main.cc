@@ -33,7 +33,7 @@ int main(int argc, char** argv) {
       app.add_subcommand("run",
                          "Concatenate, smooth with each method, write the run folder.\n\n"
                          "  example: halfstep run experiments/configs/bar_8cm.yaml --set "
-                         "smoothing.margins.clearance_m=0.02");
+                         "smoothing.margins.clearance_m=0.004");
   run_app->add_option("CONFIG", run.config, "experiment, a YAML file")->required();
   run_app->add_option("--set", sets, "override a key of the config: KEY=VALUE")
       ->allow_extra_args(false);

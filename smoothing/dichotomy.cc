@@ -101,7 +101,7 @@ class Bisection {
         .incumbent_duration = accepted ? walk_.duration() : incumbent_duration};
     if (accepted) {
       if (!result_.time_to_first_improvement) result_.time_to_first_improvement = iterate.wall;
-    } else {
+    } else if (answer.verdict == Verdict::kViolated) {
       iterate.candidate_slack = test_.evaluator().limits().Slack(answer.witness);
     }
     result_.iterates.push_back(iterate);

@@ -94,7 +94,6 @@ MarginSet MarginEvaluator::At(const SuperposedWalk& walk, const LocalTime& at,
   Posture posture = SolvePosture(robot_, jet.value);
   JointMargins(posture, &margins);
   if (posture.reachable) {
-    PlaceLinks(robot_, &posture);
     JointSpeedMargins(jet, &posture, &margins);
     const double horizon = limits_.clearance_horizon;
     Of(&margins, MarginFamily::kClearance) =
@@ -137,7 +136,6 @@ std::optional<Margin> MarginEvaluator::FirstViolation(const SuperposedWalk& walk
   Posture posture = SolvePosture(robot_, jet.value);
   JointMargins(posture, &margins);
   if (const auto margin = violated()) return margin;
-  PlaceLinks(robot_, &posture);
   JointSpeedMargins(jet, &posture, &margins);
   if (const auto margin = violated()) return margin;
   const auto touching =
@@ -195,10 +193,15 @@ std::string MarginEvaluator::Subject(const Margin& margin) const {
 
 std::string MarginEvaluator::Describe(const Margin& margin) const {
   std::ostringstream out;
-  out.precision(4);
-  out << Name(margin.family) << " of " << Subject(margin) << " " << margin.value << " "
-      << Unit(margin.family) << " (demanded " << limits_.demanded_of(margin.family)
-      << ") at half-step " << margin.at.half_step + 1 << ", tau = " << margin.at.tau << " s";
+  out.precision(6);
+  out << Name(margin.family) << " of " << Subject(margin);
+  if (std::isnan(margin.value)) {
+    out << " could not be decided";
+  } else {
+    out << " " << margin.value << " " << Unit(margin.family) << " (demanded "
+        << limits_.demanded_of(margin.family) << ")";
+  }
+  out << " at half-step " << margin.at.half_step + 1 << ", tau = " << margin.at.tau << " s";
   return out.str();
 }
 

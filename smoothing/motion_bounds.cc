@@ -1,6 +1,5 @@
 #include "smoothing/motion_bounds.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -69,9 +68,8 @@ bool MotionBounds::BoundLeg(Side side, const BaseRates& waist, IntervalMotion* m
       .linear = sole.acceleration + waist.acceleration +
                 (waist.yaw_acceleration + waist.yaw_rate * waist.yaw_rate) * distance +
                 2.0 * waist.yaw_rate * relative_speed};
-  const Eigen::PartialPivLU<Matrix6d> lu(LegJacobian(motion->posture.frames[s]));
-  const auto bounds =
-      BoundJoints(extents_[s], lu.inverse(), motion->posture.speeds[s], twist_rate, h);
+  const auto bounds = BoundJoints(extents_[s], motion->posture.jacobian_inverse[s],
+                                  motion->posture.speeds[s], twist_rate, h);
   if (!bounds) return false;
   motion->joints[s] = *bounds;
   const double knee_change =
@@ -158,7 +156,6 @@ void MotionBounds::Bound(const SuperposedWalk& walk, double begin, double end,
   motion->posture = SolvePosture(robot_, motion->jet.value);
   motion->bounded = motion->posture.reachable;
   if (!motion->bounded) return;
-  PlaceLinks(robot_, &motion->posture);
   motion->bounded = SolveJointSpeeds(robot_, motion->jet, &motion->posture);
   const BaseRates waist = WaistRates(*motion);
   for (Side side : {Side::kLeft, Side::kRight}) {

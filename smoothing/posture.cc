@@ -12,39 +12,38 @@ Posture SolvePosture(const RobotModel& robot, const WalkVector& x) {
     const size_t s = static_cast<size_t>(Index(side));
     posture.X_WSole[s] = ToIsometry(FootPose(x, side), x[FootIndex(side) + 2]);
     posture.ik[s] = SolveLegIk(robot.legs[s], X_BW * posture.X_WSole[s]);
-    posture.reachable = posture.reachable && posture.ik[s].status == LegIkStatus::kSolved;
+    if (posture.ik[s].status != LegIkStatus::kSolved) {
+      posture.reachable = false;
+      continue;
+    }
+    posture.frames[s] = PlaceLeg(robot.legs[s], posture.ik[s].q);
+    for (size_t i = 0; i < 7; ++i) {
+      posture.X_WLink[s][i] = posture.X_WB * posture.frames[s].X_BLink[i];
+    }
   }
   return posture;
 }
 
 bool SolveJointSpeeds(const RobotModel& robot, const WalkJet& jet, Posture* posture) {
-  const Eigen::Vector3d y_W = posture->X_WB.linear().col(1);
-  Eigen::Matrix<double, 8, 1> rates;
+  const Eigen::Matrix3d R_BW = posture->X_WB.linear().transpose();
   const double yaw_rate = jet.first[kWaistYaw];
-  rates.head<2>() = jet.first.segment<2>(kComX) - yaw_rate * robot.com_x_B * y_W.head<2>();
-  posture->waist_velocity << rates.head<2>(), 0.0;
-  rates[2] = 0.0;
-  rates[3] = yaw_rate;
+  const Eigen::Vector3d z{0, 0, 1};
+  posture->waist_velocity << jet.first.segment<2>(kComX), 0.0;
+  posture->waist_velocity -= yaw_rate * robot.com_x_B * posture->X_WB.linear().col(1);
   for (Side side : {Side::kLeft, Side::kRight}) {
     const size_t s = static_cast<size_t>(Index(side));
-    rates.tail<4>() = jet.first.segment<4>(FootIndex(side));
-    Eigen::Matrix<double, 6, 8> dq;
-    if (!LegIkDerivative(robot.legs[s], posture->ik[s].q, posture->X_WB, posture->X_WSole[s],
-                         &dq)) {
+    if (!InvertLegJacobian(robot.legs[s], posture->frames[s], &posture->jacobian_inverse[s])) {
       return false;
     }
-    posture->speeds[s] = dq * rates;
+    const int foot = FootIndex(side);
+    const Eigen::Vector3d lever_W = posture->X_WSole[s].translation() - posture->X_WB.translation();
+    const Eigen::Vector3d velocity_W =
+        jet.first.segment<3>(foot) - posture->waist_velocity - yaw_rate * z.cross(lever_W);
+    Vector6d twist;
+    twist << (jet.first[foot + 3] - yaw_rate) * z, R_BW * velocity_W;
+    posture->speeds[s] = posture->jacobian_inverse[s] * twist;
   }
   return true;
-}
-
-void PlaceLinks(const RobotModel& robot, Posture* posture) {
-  for (size_t s = 0; s < 2; ++s) {
-    posture->frames[s] = PlaceLeg(robot.legs[s], posture->ik[s].q);
-    for (size_t i = 0; i < 7; ++i) {
-      posture->X_WLink[s][i] = posture->X_WB * posture->frames[s].X_BLink[i];
-    }
-  }
 }
 
 }  // namespace halfstep

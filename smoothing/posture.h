@@ -12,13 +12,14 @@ namespace halfstep {
 /// What the robot's body does at one instant of a walk: upright waist, flat soles, leg joints.
 struct Posture {
   Eigen::Isometry3d X_WB = Eigen::Isometry3d::Identity();
-  std::array<Eigen::Isometry3d, 2> X_WSole;                 ///< by Index(Side)
+  std::array<Eigen::Isometry3d, 2> X_WSole;                 ///< by Index(Side), as are the others
   std::array<LegIkSolution, 2> ik;                          ///< joint angles and reach
-  std::array<Vector6d, 2> speeds;                           ///< q̇ [rad/s]
-  Eigen::Vector3d waist_velocity{0, 0, 0};                  ///< of B's origin [m/s]
   std::array<LegFrames, 2> frames;                          ///< seen from B
   std::array<std::array<Eigen::Isometry3d, 7>, 2> X_WLink;  ///< leg links, and the sole last
-  bool reachable = false;                                   ///< both legs solved
+  std::array<Matrix6d, 2> jacobian_inverse;  ///< joint speeds per twist of the sole in B
+  std::array<Vector6d, 2> speeds;            ///< q̇ [rad/s]
+  Eigen::Vector3d waist_velocity{0, 0, 0};   ///< of B's origin [m/s]
+  bool reachable = false;                    ///< both legs solved
 
   const Eigen::Isometry3d& OfBody(const RobotBody& body) const {
     return body.leg < 0 ? X_WB
@@ -26,15 +27,13 @@ struct Posture {
   }
 };
 
-/// Waist pose, sole poses, joint angles. The CoM is rigid in the waist frame: p_WB = c −
-/// R(yaw)·p_BC. When a leg does not reach, `reachable` is false and that leg's joints mean nothing.
+/// Poses and joint angles. The CoM is rigid in the waist frame: p_WB = c − R(yaw)·p_BC. When a leg
+/// does not reach, `reachable` is false and that leg's joints and links mean nothing.
 Posture SolvePosture(const RobotModel& robot, const WalkVector& x);
 
-/// Fills `speeds` and `waist_velocity` from the walk's first derivative. False when a leg is
-/// stretched to the singularity, where joint speeds have no bound. Precondition: reachable.
+/// Fills `speeds`, `jacobian_inverse` and `waist_velocity` from the walk's first derivative. False
+/// when a leg is stretched to the singularity, where joint speeds have no bound. Precondition:
+/// reachable.
 [[nodiscard]] bool SolveJointSpeeds(const RobotModel& robot, const WalkJet& jet, Posture* posture);
-
-/// Fills `frames` and `X_WLink`. Precondition: reachable.
-void PlaceLinks(const RobotModel& robot, Posture* posture);
 
 }  // namespace halfstep

@@ -34,7 +34,7 @@ struct SmoothingIterate {
   long evaluations = 0;             ///< instants evaluated so far
   double candidate_duration = 0.0;  ///< [s]
   std::optional<double> candidate_slack =
-      std::nullopt;  ///< MarginLimits::Slack where it failed; none: feasible
+      std::nullopt;  ///< MarginLimits::Slack where it was violated
   bool accepted = false;
   double lambda = 0.0;  ///< how far from incumbent to candidate it was accepted, ∈ [0, 1]
   double incumbent_duration = 0.0;  ///< after this iterate [s]

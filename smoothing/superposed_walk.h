@@ -27,7 +27,7 @@ struct WalkSensitivity {
 ///
 ///     f(t) = f_0(0) + Σ_i [ f_i(clamp(t − t_i, 0, T_i)) − f_i(0) ].
 ///
-/// For all t: the walk is C¹, its CoM and ZMP satisfy the LIPM, and Δ = 0 is the concatenation of
+/// For all t: the walk is C², its CoM and ZMP satisfy the LIPM, and Δ = 0 is the concatenation of
 /// the isolated half-steps. Starts and ends of half-steps are in order, whatever the overlaps.
 /// Source: [Perrin2011] §IV; smoothing/README.md, "The homotopy".
 class SuperposedWalk {

@@ -68,7 +68,7 @@ HalfStepProfiles::HalfStepProfiles(HalfStepKind kind, const HalfStepShape& shape
       foot_(FootWindow(kind, shape)),
       height_(FlightWindow(kind, shape)),
       shift_(omega_ * duration, shape.shift) {
-  HALFSTEP_CHECK(shape.horizontal_delay >= 0.0 && shape.horizontal_delay <= 0.9 * shape.t1(),
+  HALFSTEP_CHECK(shape.horizontal_delay >= 0.0 && shape.horizontal_delay <= 0.3,
                  "horizontal_delay = " << shape.horizontal_delay);
 }
 

@@ -164,16 +164,42 @@ Matrix6d LegJacobian(const LegFrames& frames) {
 
 Matrix6d LegJacobian(const Leg& leg, const Vector6d& q) { return LegJacobian(PlaceLeg(leg, q)); }
 
+bool InvertLegJacobian(const Leg& leg, const LegFrames& frames, Matrix6d* inverse) {
+  Eigen::Matrix3d A, B, C;
+  for (size_t i = 0; i < 3; ++i) {
+    const Eigen::Index column = static_cast<Eigen::Index>(i);
+    A.col(column) = frames.axis_B[i];
+    B.col(column) = frames.axis_B[i + 3];
+    C.col(column) = frames.axis_B[i + 3].cross(leg.hip_B - frames.point_B[i + 3]);
+  }
+  const double length = KneeTriangle(leg).farthest();
+  if (!(std::abs(A.determinant() * C.determinant()) > 1e-7 * length * length * length)) {
+    return false;
+  }
+  // The sole's twist (ω, v) has the velocity v + ω × (hip − sole) at the hip.
+  const Vector3d lever = leg.hip_B - frames.X_BLink[6].translation();
+  Eigen::Matrix3d cross;
+  cross << 0, lever.z(), -lever.y(),  //
+      -lever.z(), 0, lever.x(),       //
+      lever.y(), -lever.x(), 0;
+  const Eigen::Matrix3d A_inverse = A.inverse(), C_inverse = C.inverse();
+  const Eigen::Matrix3d hip = -A_inverse * B * C_inverse;
+  inverse->topLeftCorner<3, 3>() = A_inverse + hip * cross;
+  inverse->topRightCorner<3, 3>() = hip;
+  inverse->bottomLeftCorner<3, 3>() = C_inverse * cross;
+  inverse->bottomRightCorner<3, 3>() = C_inverse;
+  return true;
+}
+
 bool LegIkDerivative(const Leg& leg, const Vector6d& q, const Isometry3d& X_WB,
                      const Isometry3d& X_WSole, Eigen::Matrix<double, 6, 8>* dq) {
-  const Eigen::PartialPivLU<Matrix6d> lu(LegJacobian(leg, q));
-  const double length = KneeTriangle(leg).farthest();
-  if (!(std::abs(lu.determinant()) > 1e-7 * length * length * length)) return false;
+  Matrix6d inverse;
+  if (!InvertLegJacobian(leg, PlaceLeg(leg, q), &inverse)) return false;
   // Twists of the sole relative to the waist, in B, for a sole that moves along x, y, z and yaws.
   const Eigen::Matrix3d R_BW = X_WB.linear().transpose();
   Eigen::Matrix<double, 6, 4> twists;
   twists << Eigen::Matrix3d::Zero(), R_BW.col(2), R_BW, Vector3d::Zero();
-  const Eigen::Matrix<double, 6, 4> of_sole = lu.solve(twists);
+  const Eigen::Matrix<double, 6, 4> of_sole = inverse * twists;
   // Moving the waist is moving the sole the other way; a yaw of the waist also carries it around.
   const Vector3d lever = X_WSole.translation() - X_WB.translation();
   const Vector3d carried = Vector3d::UnitZ().cross(lever);

@@ -45,6 +45,11 @@ std::vector<LegIkBranchSolution> SolveLegIkAll(const Leg& leg, const Eigen::Isom
 Matrix6d LegJacobian(const LegFrames& frames);
 Matrix6d LegJacobian(const Leg& leg, const Vector6d& q);
 
+/// Its inverse (6×6). Referred to the hip, where the three hip axes meet, J = [A B; 0 C] with 3×3
+/// blocks: two small inverses. Returns false when J is singular (|det J| < 1e-7·L³, L the stretched
+/// leg's length), then `inverse` is not written.
+[[nodiscard]] bool InvertLegJacobian(const Leg& leg, const LegFrames& frames, Matrix6d* inverse);
+
 /// Columns of dq/d(·) (6×8) for an upright waist and a flat sole, both moving in x, y, z [m] and
 /// yaw [rad] of the world: (waist x y z yaw, sole x y z yaw). `X_WB` and `X_WSole` upright, and q
 /// the posture that joins them. Returns false when the Jacobian is singular (stretched knee: |det|
