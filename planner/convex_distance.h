@@ -26,8 +26,7 @@ inline constexpr double kConverge = std::numeric_limits<double>::quiet_NaN();
 /// locally, so `lower` may undercut the true (negative) signed distance.
 /// It stops early once `lower` ≥ `enough` or `upper` < `enough` [m] answers the caller's question;
 /// kConverge asks for the distance itself.
-/// Source: Gilbert, Johnson & Keerthi 1988, IEEE J. Robotics and Automation 4(2); the closest point
-/// of a triangle after Ericson 2005, Real-Time Collision Detection, 5.1.5.
+/// Source: [Gilbert1988]; the closest point of a triangle after [Ericson2005] §5.1.5.
 ConvexDistance FindConvexDistance(const ConvexBody& a, const ConvexBody& b,
                                   const Eigen::Isometry3d& X_AB,
                                   const Eigen::Vector3d& first_normal_A, double enough);

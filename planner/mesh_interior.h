@@ -13,8 +13,7 @@ std::vector<Eigen::Vector3d> ComponentPoints(const TriangleMesh& mesh);
 /// How many times the surface winds around `point` (mesh frame): 1 inside a closed mesh with
 /// outward triangles (−1 with inward ones), 0 outside, in between near the holes of an open one. Not defined on the
 /// surface.
-/// Source: Jacobson, Kavan & Sorkine-Hornung 2013, ACM Trans. Graphics 32(4), eq. 5–6; the solid
-/// angle of a triangle after Van Oosterom & Strackee 1983, IEEE Trans. Biomed. Eng. 30(2).
+/// Source: [Jacobson2013] eq. 5–6; the solid angle of a triangle after [VanOosterom1983].
 double WindingNumber(const TriangleMesh& mesh, const Eigen::Vector3d& point);
 
 }  // namespace halfstep

@@ -34,7 +34,7 @@ SupportPolygon::SupportPolygon(const Pose2& X_WL, const Pose2& X_WR,
   std::sort(points.begin(), points.end(), [](const auto& a, const auto& b) {
     return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
   });
-  // Andrew's monotone chain: lower hull, then upper hull.
+  // Monotone chain: lower hull, then upper hull. Source: [Andrew1979].
   std::array<Eigen::Vector2d, 17> hull;
   size_t n = 0;
   const auto add = [&](const Eigen::Vector2d& p, size_t base) {

@@ -17,7 +17,7 @@ std::string Joined(const std::vector<std::string>& lines) {
 }
 
 // Optimal-string-alignment distance: insertions, deletions, substitutions and swaps of neighbours
-// cost 1 each. Source: Damerau 1964, in its restricted form (no substring edited twice).
+// cost 1 each. Source: [Damerau1964], in its restricted form (no substring edited twice).
 size_t EditDistance(const std::string& a, const std::string& b) {
   std::vector<size_t> before_last(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
   std::iota(last.begin(), last.end(), size_t{0});

@@ -5,7 +5,7 @@ namespace {
 
 unsigned Byte(std::string_view text, size_t i) { return static_cast<unsigned char>(text[i]); }
 
-// Length of the UTF-8 sequence at i, 0 when it is invalid. Source: Unicode 15, table 3-7.
+// Length of the UTF-8 sequence at i, 0 when it is invalid. Source: [Unicode15] table 3-7.
 size_t SequenceLength(std::string_view text, size_t i) {
   const unsigned lead = Byte(text, i);
   if (lead < 0x80) return 1;
