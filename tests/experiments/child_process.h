@@ -1,0 +1,104 @@
+#pragma once
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace halfstep {
+
+/// How a process ended: `status` when it exited, else −1 and the signal that killed it.
+struct Outcome {
+  int status = -1;
+  int signal = 0;
+  std::string out, err;
+};
+
+/// The command `halfstep` as a child of its own.
+class Child {
+ public:
+  struct Options {
+    std::filesystem::path working_directory;
+    int standard_output = -1;                ///< a file descriptor; −1: captured
+    int standard_error = -1;                 ///< the same
+    std::function<bool()> before_exec = {};  ///< in the child; false: exits with 77
+    std::vector<std::pair<std::string, std::string>> environment = {};
+  };
+  static constexpr int kNotPossible = 77;
+
+  Child(const std::vector<std::string>& arguments, const Options& options)
+      : out_(memfd_create("out", MFD_CLOEXEC)), err_(memfd_create("err", MFD_CLOEXEC)) {
+    std::vector<std::string> words = {HALFSTEP_COMMAND};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    std::vector<char*> argv;
+    for (std::string& word : words) argv.push_back(word.data());
+    argv.push_back(nullptr);
+    pid_ = fork();
+    if (pid_ < 0) throw std::runtime_error("cannot fork");
+    if (pid_ > 0) return;
+    dup2(options.standard_output >= 0 ? options.standard_output : out_, STDOUT_FILENO);
+    dup2(options.standard_error >= 0 ? options.standard_error : err_, STDERR_FILENO);
+    if (!options.working_directory.empty() && chdir(options.working_directory.c_str()) != 0) {
+      _exit(kNotPossible);
+    }
+    for (const auto& [name, value] : options.environment) setenv(name.c_str(), value.c_str(), 1);
+    if (options.before_exec && !options.before_exec()) _exit(kNotPossible);
+    execv(argv[0], argv.data());
+    _exit(kNotPossible);
+  }
+  ~Child() {
+    if (pid_ > 0) {
+      kill(pid_, SIGKILL);
+      waitpid(pid_, nullptr, 0);
+    }
+    close(out_);
+    close(err_);
+  }
+  Child(const Child&) = delete;
+  Child& operator=(const Child&) = delete;
+
+  void Signal(int number) const { kill(pid_, number); }
+
+  Outcome Wait() {
+    int status = 0;
+    while (waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
+    }
+    pid_ = -1;
+    return {.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1,
+            .signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0,
+            .out = Content(out_),
+            .err = Content(err_)};
+  }
+
+ private:
+  static std::string Content(int fd) {
+    std::string text(static_cast<size_t>(lseek(fd, 0, SEEK_END)), '\0');
+    lseek(fd, 0, SEEK_SET);
+    const ssize_t n = read(fd, text.data(), text.size());
+    text.resize(n < 0 ? 0 : static_cast<size_t>(n));
+    return text;
+  }
+
+  pid_t pid_ = -1;
+  int out_, err_;
+};
+
+/// Runs `halfstep` to its end in a working directory.
+inline Outcome Halfstep(const std::filesystem::path& working_directory,
+                        const std::vector<std::string>& arguments) {
+  return Child(arguments, {.working_directory = working_directory}).Wait();
+}
+
+/// Path of a shipped config.
+inline std::string ShippedConfig(const std::string& name) {
+  return std::string(HALFSTEP_SOURCE_DIR) + "/experiments/configs/" + name + ".yaml";
+}
+
+}  // namespace halfstep

@@ -1,0 +1,298 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "experiments/commands.h"
+#include "tests/experiments/child_process.h"
+#include "tests/experiments/run_check.h"
+#include "tests/experiments/temporary_folder.h"
+
+namespace halfstep {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+namespace fs = std::filesystem;
+
+std::string Columns(const fs::path& csv) {
+  const std::string text = ReadText(csv);
+  return text.substr(0, text.find('\n'));
+}
+
+// Columns of a table that say how long something took.
+const std::vector<std::string> kWall = {"wall_s", "time_to_first_improvement_s"};
+
+TEST(RunCommand, WritesEveryFileAndColumn) {
+  const TemporaryFolder place;
+  const Outcome outcome = Halfstep(place.path(), {"run", ShippedConfig("bar_8cm")});
+  EXPECT_EQ(outcome.status, kSuccess) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_THAT(outcome.out, HasSubstr("written: "));
+  EXPECT_THAT(NamesIn(place.path()), testing::ElementsAre("runs"));
+  EXPECT_THAT(NamesIn(place / "runs"), testing::ElementsAre("bar_8cm"));
+  const fs::path run = place / "runs/bar_8cm";
+  CheckRunIsWhole(run, {"dichotomy", "dichotomy_published"});
+
+  EXPECT_EQ(Columns(run / "dichotomy/trajectory.csv"),
+            "t_s,half_step,support,com_x_m,com_y_m,com_z_m,com_vx_m_s,com_vy_m_s,com_ax_m_s2,"
+            "com_ay_m_s2,zmp_x_m,zmp_y_m,waist_x_m,waist_y_m,waist_z_m,waist_yaw_rad,"
+            "left_foot_x_m,left_foot_y_m,left_foot_z_m,left_foot_yaw_rad,"
+            "right_foot_x_m,right_foot_y_m,right_foot_z_m,right_foot_yaw_rad,"
+            "q_LLEG_JOINT0_rad,q_LLEG_JOINT1_rad,q_LLEG_JOINT2_rad,q_LLEG_JOINT3_rad,"
+            "q_LLEG_JOINT4_rad,q_LLEG_JOINT5_rad,q_RLEG_JOINT0_rad,q_RLEG_JOINT1_rad,"
+            "q_RLEG_JOINT2_rad,q_RLEG_JOINT3_rad,q_RLEG_JOINT4_rad,q_RLEG_JOINT5_rad,"
+            "zmp_margin_m,joint_margin_rad,joint_speed_margin_rad_s,foot_speed_margin_m_s,"
+            "clearance_m,self_clearance_m");
+  EXPECT_EQ(Columns(run / "dichotomy/overlaps.csv"),
+            "junction,kind,overlap_s,upper_bound_s,active");
+  EXPECT_EQ(Columns(run / "dichotomy/iterates.csv"),
+            "iteration,wall_s,evaluations,candidate_duration_s,candidate_worst_margin,accepted,"
+            "lambda,incumbent_duration_s,incumbent_worst_margin");
+  EXPECT_EQ(Columns(run / "summary.csv"),
+            "method,status,certified,duration_s,speedup,cost,worst_margin,worst_margin_name,"
+            "iterations,margin_evaluations,collision_queries,wall_s,time_to_first_improvement_s,"
+            "gap_to_reference");
+  EXPECT_EQ(Columns(run / "footsteps.csv"),
+            "footstep,foot,x_m,y_m,yaw_rad,via_height_m,duration_s");
+
+  const auto manifest = nlohmann::json::parse(ReadText(run / "manifest.json"));
+  EXPECT_EQ(manifest["config_sha256"].get<std::string>().size(), 64u);
+  EXPECT_EQ(manifest["half_steps"], 8);
+  ASSERT_EQ(manifest["methods"].size(), 3u);
+  EXPECT_EQ(manifest["methods"][2]["name"], "dichotomy/published");
+  for (const auto& [library, version] : manifest["libraries"].items()) {
+    EXPECT_NE(version, "") << library;
+  }
+}
+
+TEST(RunCommand, RowsComeAtAFixedRateAndEndWithTheWalk) {
+  const TemporaryFolder place;
+  const double period = 0.004;
+  const Outcome outcome =
+      Halfstep(place.path(), {"run", ShippedConfig("fig3_two_half_steps"), "--set",
+                              "output.period_s=0.004", "--out", "here"});
+  ASSERT_EQ(outcome.status, kSuccess) << outcome.err;
+  const ParsedCsv summary(ReadText(place / "here/summary.csv"));
+  const std::string folders[] = {"raw", "dichotomy", "dichotomy_published"};
+  for (size_t method = 0; method < 3; ++method) {
+    SCOPED_TRACE(folders[method]);
+    const ParsedCsv table(ReadText(place / "here" / folders[method] / "trajectory.csv"));
+    const size_t last = table.size() - 1;
+    for (size_t i = 0; i < last; ++i) {
+      EXPECT_NEAR(table.Number(i, "t_s"), static_cast<double>(i) * period, 1e-12);
+      EXPECT_LE(table.Number(i, "half_step"), table.Number(i + 1, "half_step"));
+      const std::string& support = table.Text(i, "support");
+      EXPECT_TRUE(support == "left" || support == "both") << support;  // the right foot steps
+    }
+    EXPECT_EQ(table.Text(last, "t_s"), summary.Text(method, "duration_s"));
+    const double rest = table.Number(last, "t_s") - table.Number(last - 1, "t_s");
+    EXPECT_GT(rest, 1e-9);
+    EXPECT_LE(rest, period + 1e-12);
+    EXPECT_EQ(table.Text(0, "half_step"), "1");
+    EXPECT_EQ(table.Text(last, "half_step"), "2");
+    EXPECT_NEAR(table.Number(last, "right_foot_x_m"), 0.2, 1e-12);
+    EXPECT_NEAR(table.Number(last, "right_foot_z_m"), 0.0, 1e-12);
+  }
+}
+
+TEST(RunCommand, TwoRunsDifferInWallTimesOnly) {
+  const TemporaryFolder place;
+  for (const std::string name : {"a", "b"}) {
+    const Outcome outcome =
+        Halfstep(place.path(), {"run", ShippedConfig("fig5_box"), "--out", name, "--quiet"});
+    ASSERT_EQ(outcome.status, kSuccess) << outcome.err;
+  }
+  const std::set<std::string> files = FilesBelow(place / "a");
+  EXPECT_EQ(files, FilesBelow(place / "b"));
+  for (const std::string& file : files) {
+    SCOPED_TRACE(file);
+    const std::string a = ReadText(place / "a" / file), b = ReadText(place / "b" / file);
+    if (file == "manifest.json") continue;
+    if (file == "summary.csv" || file.ends_with("iterates.csv")) {
+      EXPECT_EQ(ParsedCsv(a).Without(kWall), ParsedCsv(b).Without(kWall));
+    } else {
+      EXPECT_TRUE(a == b);
+    }
+  }
+}
+
+TEST(RunCommand, ResolvedConfigRunsAgainToTheSameResult) {
+  const TemporaryFolder place;
+  ASSERT_EQ(Halfstep(place.path(), {"run", ShippedConfig("fig5_box"), "--out", "first", "--set",
+                                    "smoothing.margins.clearance_m=0.006"})
+                .status,
+            kSuccess);
+  ASSERT_EQ(Halfstep(place.path(), {"run", "first/config.yaml", "--out", "second"}).status,
+            kSuccess);
+  for (const std::string file : {"config.yaml", "dichotomy/trajectory.csv"}) {
+    EXPECT_TRUE(ReadText(place / "first" / file) == ReadText(place / "second" / file)) << file;
+  }
+}
+
+TEST(RunCommand, JsonIsOneValidObject) {
+  const TemporaryFolder place;
+  const Outcome outcome =
+      Halfstep(place.path(), {"run", ShippedConfig("fig3_two_half_steps"), "--json"});
+  EXPECT_EQ(outcome.status, kSuccess);
+  EXPECT_EQ(outcome.err, "");
+  const auto json = nlohmann::json::parse(outcome.out);
+  EXPECT_TRUE(fs::exists(fs::path(json["folder"].get<std::string>()) / "manifest.json"));
+  ASSERT_EQ(json["methods"].size(), 3u);
+  EXPECT_EQ(json["methods"][0]["method"], "raw");
+  EXPECT_EQ(json["methods"][1]["status"], "finished");
+  EXPECT_GT(json["methods"][1]["speedup"].get<double>(), 1.0);
+}
+
+TEST(RunCommand, JsonIsValidWhenMarginsAreInfinite) {
+  const TemporaryFolder place;
+  const Outcome outcome = Halfstep(place.path(), {"run", ShippedConfig("fig3_two_half_steps"),
+                                                  "--json", "--set", "footsteps.0.x_m=5"});
+  EXPECT_EQ(outcome.status, kFailed);
+  const auto json = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(json["methods"][0]["status"], "start_infeasible");
+}
+
+TEST(RunCommand, QuietPrintsNothing) {
+  const TemporaryFolder place;
+  const Outcome outcome =
+      Halfstep(place.path(), {"run", ShippedConfig("fig3_two_half_steps"), "--quiet"});
+  EXPECT_EQ(outcome.status, kSuccess);
+  EXPECT_EQ(outcome.out + outcome.err, "");
+}
+
+TEST(RunCommand, RefusesAnExistingFolder) {
+  const TemporaryFolder place;
+  const std::vector<std::string> run = {"run", ShippedConfig("fig3_two_half_steps"), "--out", "a"};
+  ASSERT_EQ(Halfstep(place.path(), run).status, kSuccess);
+  const std::string before = ReadText(place / "a/manifest.json");
+  const Outcome outcome = Halfstep(place.path(), run);
+  EXPECT_EQ(outcome.status, kFailed);
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_THAT(outcome.err, HasSubstr("a: is there already (--overwrite replaces it)"));
+  EXPECT_EQ(ReadText(place / "a/manifest.json"), before);
+  EXPECT_THAT(NamesIn(place.path()), testing::ElementsAre("a"));
+  std::vector<std::string> again = run;
+  again.push_back("--overwrite");
+  EXPECT_EQ(Halfstep(place.path(), again).status, kSuccess);
+  CheckRunIsWhole(place / "a", {"dichotomy", "dichotomy_published"});
+}
+
+TEST(RunCommand, InfeasiblePlanIsWrittenAndFails) {
+  const TemporaryFolder place;
+  const Outcome outcome = Halfstep(place.path(), {"run", ShippedConfig("bar_8cm"), "--quiet",
+                                                  "--set", "half_step.via_height_m=0.05"});
+  EXPECT_EQ(outcome.status, kFailed);
+  EXPECT_THAT(outcome.err, testing::MatchesRegex(
+                               "halfstep: the plan is not feasible: clearance of .LEG_LINK5 - bar "
+                               "[^\n]*\n"));
+  const fs::path run = place / "runs/bar_8cm";
+  CheckRunIsWhole(run, {"dichotomy", "dichotomy_published"});
+  const ParsedCsv summary(ReadText(run / "summary.csv"));
+  for (size_t i = 0; i < 3; ++i) EXPECT_EQ(summary.Text(i, "status"), "start_infeasible");
+  EXPECT_LT(summary.Number(0, "worst_margin"), 0.0);
+  EXPECT_EQ(ReadText(run / "raw/trajectory.csv"), ReadText(run / "dichotomy/trajectory.csv"));
+}
+
+TEST(RunCommand, FootstepOnANoStepAreaWritesNothing) {
+  const TemporaryFolder place;
+  const std::string scene = WriteText(
+      place / "scene.yaml",
+      "no_step: [{name: hole, polygon_m: [[0.25, -0.2], [0.5, -0.2], [0.5, 0], [0.25, 0]]}]");
+  fs::create_directory(place / "here");
+  const auto run = [&](const std::string& key) {
+    return Halfstep(place / "here", {"run", ShippedConfig("fig3_two_half_steps"), "--set",
+                                     "scene=" + scene, "--set", key});
+  };
+  const Outcome outcome = run("seed=1");
+  EXPECT_EQ(outcome.status, kFailed);
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_EQ(outcome.err, "halfstep: the plan is not feasible: footstep 1 is on a no-step area\n");
+  EXPECT_THAT(NamesIn(place / "here"), IsEmpty());
+  // The sole reaches 10.86 cm ahead of its centre: 5 cm further back it is clear of the hole.
+  EXPECT_EQ(run("footsteps.0.x_m=0.141").status, kSuccess);
+}
+
+TEST(RunCommand, SaysWhenTheScreenIsFull) {
+  const int full = open("/dev/full", O_WRONLY | O_CLOEXEC);
+  if (full < 0) GTEST_SKIP() << "no /dev/full here";
+  const TemporaryFolder place;
+  const Outcome outcome = Child({"run", ShippedConfig("fig3_two_half_steps"), "--json"},
+                                {.working_directory = place.path(), .standard_output = full})
+                              .Wait();
+  close(full);
+  EXPECT_EQ(outcome.status, kFailed);
+  EXPECT_EQ(outcome.err, "halfstep: standard output cannot be written\n");
+}
+
+struct BadInput {
+  std::string name;
+  std::vector<std::string> arguments;
+  std::string complaint;  // a part of it
+};
+
+std::string Fixture(const std::string& file) {
+  return std::string(HALFSTEP_SOURCE_DIR) + "/tests/fixtures/" + file;
+}
+
+void PrintTo(const BadInput& input, std::ostream* out) { *out << input.name; }
+
+class BadInputTest : public testing::TestWithParam<BadInput> {};
+
+TEST_P(BadInputTest, ExitsWithTwoAndWritesNothing) {
+  const TemporaryFolder place;
+  const Outcome outcome = Halfstep(place.path(), GetParam().arguments);
+  EXPECT_EQ(outcome.status, kBadInput);
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_THAT(outcome.err, HasSubstr(GetParam().complaint));
+  EXPECT_THAT(NamesIn(place.path()), IsEmpty());
+}
+
+const std::string kGood = ShippedConfig("fig3_two_half_steps");
+
+INSTANTIATE_TEST_SUITE_P(
+    Command, BadInputTest,
+    testing::ValuesIn(std::vector<BadInput>{
+        {"NoCommand", {}, "(valid: run, "},
+        {"UnknownCommand", {"walk"}, "walk"},
+        {"NoConfig", {"run"}, "CONFIG is required"},
+        {"UnknownOption", {"run", kGood, "--outt", "a"}, "--outt"},
+        {"TwoConfigs", {"run", kGood, kGood}, "fig3"},
+        {"MissingFile", {"run", "nowhere.yaml"}, "nowhere.yaml: cannot be opened"},
+        {"FolderAsFile", {"run", "."}, "a folder"},
+        {"UnknownKey", {"run", Fixture("config/unknown_key.yaml")}, ":5:1: colour: unknown key"},
+        {"BadScene",
+         {"run", kGood, "--set", "scene=" + Fixture("scene/misspelt_key.yaml")},
+         "misspelt_key.yaml:5:5: obstacles[0].psoe: unknown key"},
+        {"BadRobot",
+         {"run", kGood, "--set", "robot=" + Fixture("robot/same_foot.yaml")},
+         "same_foot.yaml:"},
+        {"NoSuchRobot", {"run", kGood, "--set", "robot=asimo"}, "--set robot: no such robot"},
+        {"SetWithoutValue", {"run", kGood, "--set", "seed"}, "not an assignment"},
+        {"SetUnknownKey", {"run", kGood, "--set", "sede=1"}, "did you mean 'seed'?"},
+        {"SetOutOfRange", {"run", kGood, "--set", "output.period_s=-1"}, "output.period_s: -1"},
+        {"SetBrokenYaml", {"run", kGood, "--set", "seed=[1"}, "--set seed"},
+        {"SetItemThatIsNot", {"run", kGood, "--set", "footsteps.1.x_m=0"}, "footsteps.1"},
+        {"EmptyOut", {"run", kGood, "--out", ""}, "--out: no folder"},
+        {"ListOfWhat", {"list", "shoes"}, "shoes"},
+    }),
+    [](const auto& info) { return info.param.name; });
+
+TEST(ListCommand, NamesWhatThereIs) {
+  const TemporaryFolder place;
+  for (const auto& [what, name] : std::vector<std::pair<std::string, std::string>>{
+           {"robots", "hrp2"}, {"scenes", "bar_8cm"}, {"methods", "dichotomy/published"}}) {
+    EXPECT_THAT(Halfstep(place.path(), {"list", what}).out, HasSubstr(name + "  "));
+    const auto json = nlohmann::json::parse(Halfstep(place.path(), {"list", what, "--json"}).out);
+    EXPECT_TRUE(std::any_of(json.begin(), json.end(),
+                            [&](const auto& entry) { return entry["name"] == name; }));
+  }
+  EXPECT_EQ(Halfstep(place.path(), {"list", "solvers", "--json"}).status, kSuccess);
+  EXPECT_EQ(Halfstep(place.path(), {"--version"}).status, kSuccess);
+  EXPECT_THAT(Halfstep(place.path(), {"run", "--help"}).out, HasSubstr("example: halfstep run"));
+}
+
+}  // namespace
+}  // namespace halfstep

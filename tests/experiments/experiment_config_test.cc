@@ -1,0 +1,170 @@
+#include "experiments/experiment_config.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <numbers>
+
+#include "experiments/experiment.h"
+#include "tests/experiments/temporary_folder.h"
+#include "tests/fixture_check.h"
+
+namespace halfstep {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kConfigs = fs::path(HALFSTEP_SOURCE_DIR) / "experiments" / "configs";
+
+std::string Written(ExperimentConfig config) {
+  return WriteYaml([&config](Fields& fields) { DeclareFields(fields, &config); });
+}
+
+class RefusedConfig : public testing::TestWithParam<std::string> {};
+TEST_P(RefusedConfig, SaysWhy) {
+  CheckFixture(GetParam(), [](const std::string& path) { LoadConfig(path, {}); });
+}
+INSTANTIATE_TEST_SUITE_P(Config, RefusedConfig, testing::ValuesIn(Fixtures("config")), FixtureName);
+
+std::vector<std::string> ShippedConfigs() {
+  std::vector<std::string> paths;
+  for (const fs::path& path : YamlFiles(kConfigs)) paths.push_back(path.string());
+  return paths;
+}
+
+class ShippedConfigTest : public testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Config, ShippedConfigTest, testing::ValuesIn(ShippedConfigs()),
+                         FixtureName);
+
+TEST_P(ShippedConfigTest, LoadsWithItsRobotAndScene) {
+  const ExperimentConfig config = LoadConfig(GetParam(), {});
+  EXPECT_EQ(config.name, fs::path(GetParam()).stem());
+  const Experiment experiment = Prepare(config);
+  EXPECT_EQ(experiment.robot.name, "hrp2");
+  EXPECT_EQ(experiment.scene.obstacles.empty(), config.scene == "none");
+  EXPECT_EQ(experiment.sequence.size(), static_cast<int>(2 * config.footsteps.size()));
+  EXPECT_EQ(FootprintOnNoStep(experiment), std::nullopt);
+}
+
+// What a run writes as its config.yaml, read in the run's folder, is the same experiment.
+TEST_P(ShippedConfigTest, ReadsBackFromAnotherFolder) {
+  const TemporaryFolder place;
+  const ExperimentConfig config = LoadConfig(GetParam(), {{"smoothing.sampling_s", "0.0123"}});
+  const std::string text = Written(MovedTo(place.path(), config));
+  const std::string path = WriteText(place / "config.yaml", text);
+  const ExperimentConfig again = LoadConfig(path, {});
+  EXPECT_EQ(Written(again), text);
+  EXPECT_EQ(again.name, config.name);
+  EXPECT_EQ(again.smoothing.sampling, 0.0123);
+  EXPECT_EQ(again.footsteps.size(), config.footsteps.size());
+  EXPECT_EQ(RobotPath(again), RobotPath(config));
+  EXPECT_EQ(ScenePath(again).has_value(), ScenePath(config).has_value());
+  if (ScenePath(config)) {
+    EXPECT_TRUE(fs::equivalent(*ScenePath(again), *ScenePath(config)));
+  }
+  const Experiment a = Prepare(config), b = Prepare(again);
+  for (int i = 0; i < a.sequence.size(); ++i) {
+    const size_t k = static_cast<size_t>(i);
+    EXPECT_EQ(a.sequence.half_steps[k].X_WS, b.sequence.half_steps[k].X_WS);
+    EXPECT_EQ(a.sequence.half_steps[k].half_step.X_SF, b.sequence.half_steps[k].half_step.X_SF);
+  }
+}
+
+constexpr const char* kAllKeys = R"(name: everything
+robot: hrp2
+scene: none
+start:
+  left: {x_m: 0.01, y_m: 0.11, yaw_deg: 5}
+  right: {x_m: -0.01, y_m: -0.12, yaw_deg: 0}
+footsteps:
+  - {foot: left, x_m: 0.2, y_m: 0.1, yaw_deg: -30, via_height_m: 0.2, duration_s: 1.5}
+half_step: {duration_s: 1.75, zmp_shift_s: 0.2, via_height_m: 0.22, via_lateral_m: 0.25,
+            horizontal_delay: 0.125}
+smoothing:
+  methods: [dichotomy/published]
+  acceptance: sampled
+  sampling_s: 0.004
+  dichotomy: {tolerance_s: 0.002, order: right_to_left, passes: 3, up_down_cap: 0.9,
+              down_up_cap: 0.7}
+  limits: {foot_speed_m_s: none, foot_yaw_rate_rad_s: 1.5, joint_speed_scale: 0.75}
+  margins: {floor_m: 0.001, zmp_m: 0.002, reach_m: 0.003, joint_rad: 0.004,
+            joint_speed_rad_s: 0.005, foot_speed_m_s: 0.006, foot_yaw_rate_rad_s: 0.007,
+            clearance_m: 0.008, self_clearance_m: 0.009}
+output: {directory: ../out, period_s: 0.02}
+seed: 42
+)";
+
+TEST(ExperimentConfig, EveryKeyReachesItsField) {
+  const TemporaryFolder place;
+  const ExperimentConfig c = LoadConfig(WriteText(place / "c.yaml", kAllKeys), {});
+  constexpr double kDegree = std::numbers::pi / 180;
+  EXPECT_EQ(c.name, "everything");
+  EXPECT_TRUE(c.has_start);
+  EXPECT_EQ(c.start_left, (Pose2{0.01, 0.11, 5 * kDegree}));
+  EXPECT_EQ(c.start_right, (Pose2{-0.01, -0.12, 0}));
+  ASSERT_EQ(c.footsteps.size(), 1u);
+  EXPECT_EQ(c.footsteps[0].foot, "left");
+  EXPECT_NEAR(c.footsteps[0].X_WF.yaw, -30 * kDegree, 1e-15);
+  EXPECT_EQ(c.footsteps[0].via_height, 0.2);
+  EXPECT_EQ(c.footsteps[0].duration, 1.5);
+  EXPECT_EQ(c.half_step.duration, 1.75);
+  EXPECT_EQ(c.half_step.zmp_shift, 0.2);
+  EXPECT_EQ(c.half_step.via_height, 0.22);
+  EXPECT_EQ(c.half_step.via_lateral, 0.25);
+  EXPECT_EQ(c.half_step.horizontal_delay, 0.125);
+  const SmoothingConfig& s = c.smoothing;
+  EXPECT_THAT(s.methods, testing::ElementsAre("dichotomy/published"));
+  EXPECT_EQ(s.sampling, 0.004);
+  EXPECT_EQ(s.dichotomy.tolerance, 0.002);
+  EXPECT_EQ(s.dichotomy.order, DichotomyOptions::Order::kRightToLeft);
+  EXPECT_EQ(s.dichotomy.passes, 3);
+  EXPECT_EQ(s.dichotomy.up_down_cap, 0.9);
+  EXPECT_EQ(s.dichotomy.down_up_cap, 0.7);
+  EXPECT_EQ(s.limits.foot_speed, std::nullopt);
+  EXPECT_EQ(s.limits.foot_yaw_rate, 1.5);
+  EXPECT_EQ(s.limits.joint_speed_scale, 0.75);
+  EXPECT_EQ(s.limits.demanded_of(MarginFamily::kFloor), 0.001);
+  EXPECT_EQ(s.limits.demanded_of(MarginFamily::kZmp), 0.002);
+  EXPECT_EQ(s.limits.demanded_of(MarginFamily::kReach), 0.003);
+  EXPECT_EQ(s.limits.demanded_of(MarginFamily::kJoint), 0.004);
+  EXPECT_EQ(s.limits.demanded_of(MarginFamily::kJointSpeed), 0.005);
+  EXPECT_EQ(s.limits.demanded_of(MarginFamily::kFootSpeed), 0.006);
+  EXPECT_EQ(s.limits.demanded_of(MarginFamily::kFootYawRate), 0.007);
+  EXPECT_EQ(s.limits.demanded_of(MarginFamily::kClearance), 0.008);
+  EXPECT_EQ(s.limits.demanded_of(MarginFamily::kSelfClearance), 0.009);
+  EXPECT_EQ(c.output_directory, "../out");
+  EXPECT_EQ(c.output_period, 0.02);
+  EXPECT_EQ(c.seed, 42);
+  EXPECT_EQ(MovedTo(place / "out", c).output_directory, ".");
+  const std::string text = Written(c);
+  EXPECT_EQ(Written(LoadConfig(WriteText(place / "again.yaml", text), {})), text);
+}
+
+TEST(ExperimentConfig, DefaultsAreThoseOfTheReadme) {
+  const TemporaryFolder place;
+  const ExperimentConfig c = LoadConfig(
+      WriteText(place / "short.yaml",
+                "{robot: hrp2, scene: none, footsteps: [{foot: right, x_m: 0.2, y_m: -0.1}]}"),
+      {});
+  EXPECT_EQ(c.name, "short");
+  EXPECT_FALSE(c.has_start);
+  EXPECT_THAT(c.smoothing.methods, testing::ElementsAre("dichotomy"));
+  EXPECT_EQ(c.output_period, 0.005);
+  const Experiment experiment = Prepare(c);
+  EXPECT_EQ(experiment.sequence.start[0], (Pose2{0, 0.5 * experiment.robot.standing_width, 0}));
+  EXPECT_EQ(experiment.sequence.start[1], experiment.sequence.start[0].Mirrored());
+}
+
+// A longer half-step keeps the proportions of its phases.
+TEST(ExperimentConfig, AFootstepsOwnDurationScalesTheShift) {
+  const ExperimentConfig c =
+      LoadConfig((kConfigs / "fig4_raw_sequence.yaml").string(), {{"footsteps.2.duration_s", "4"}});
+  const HalfStepSequence sequence = Prepare(c).sequence;
+  EXPECT_EQ(sequence.half_steps[4].half_step.duration, 4.0);
+  EXPECT_EQ(sequence.half_steps[4].half_step.shape.shift, 0.05);
+  EXPECT_EQ(sequence.half_steps[6].half_step.duration, 2.0);
+}
+
+}  // namespace
+}  // namespace halfstep

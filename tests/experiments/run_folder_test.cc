@@ -1,0 +1,191 @@
+#include "experiments/run_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <stdexcept>
+#include <string>
+#include <thread>
+
+#include "tests/experiments/temporary_folder.h"
+
+namespace halfstep {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+namespace fs = std::filesystem;
+
+// A run of two files.
+void WriteRun(RunFolder* folder, const std::string& text) {
+  folder->Write("dichotomy/overlaps.csv", text);
+  folder->Write("manifest.json", text);
+}
+
+void MakeRun(const fs::path& path, const std::string& text, bool overwrite = false) {
+  RunFolder folder(path, overwrite);
+  WriteRun(&folder, text);
+  folder.Publish();
+}
+
+std::string RefusalOf(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+// The id of a process that has ended.
+pid_t DeadProcess() {
+  const pid_t pid = fork();
+  if (pid == 0) _exit(0);
+  waitpid(pid, nullptr, 0);
+  return pid;
+}
+
+TEST(RunFolder, AppearsWholeAndOnlyWhenPublished) {
+  const TemporaryFolder place;
+  RunFolder folder(place / "runs/here/a", false);
+  WriteRun(&folder, "one");
+  EXPECT_FALSE(fs::exists(place / "runs/here/a"));
+  folder.Publish();
+  EXPECT_THAT(FilesBelow(place.path()),
+              ElementsAre("runs/here/a/dichotomy/overlaps.csv", "runs/here/a/manifest.json"));
+  EXPECT_EQ(ReadText(place / "runs/here/a/manifest.json"), "one");
+  EXPECT_EQ(folder.path(), place / "runs/here/a");
+}
+
+TEST(RunFolder, LeavesNothingWhenNotPublished) {
+  const TemporaryFolder place;
+  {
+    RunFolder folder(place / "a", false);
+    WriteRun(&folder, "one");
+    EXPECT_EQ(NamesIn(place.path()).size(), 1u);
+  }
+  EXPECT_THAT(NamesIn(place.path()), IsEmpty());
+}
+
+TEST(RunFolder, ATrailingSlashIsNoName) {
+  const TemporaryFolder place;
+  MakeRun(place.path() / "a/", "one");
+  MakeRun(place.path() / "b/../b/.", "two");
+  EXPECT_THAT(NamesIn(place.path()), ElementsAre("a", "b"));
+}
+
+TEST(RunFolder, WritesAllOfALargeFile) {
+  const TemporaryFolder place;
+  std::string large;
+  while (large.size() < 5'000'000) large += std::to_string(large.size()) + "\n";
+  MakeRun(place / "a", large);
+  EXPECT_TRUE(ReadText(place / "a/manifest.json") == large);
+}
+
+TEST(RunFolder, RefusesAnExistingFolderAndLeavesItAlone) {
+  const TemporaryFolder place;
+  MakeRun(place / "a", "old");
+  EXPECT_THAT(RefusalOf([&] { RunFolder(place / "a", false); }),
+              HasSubstr("a: is there already (--overwrite replaces it)"));
+  EXPECT_EQ(ReadText(place / "a/manifest.json"), "old");
+  EXPECT_THAT(NamesIn(place.path()), ElementsAre("a"));
+}
+
+TEST(RunFolder, OverwritingLeavesNothingOfTheOlderRun) {
+  const TemporaryFolder place;
+  MakeRun(place / "a", "old");
+  WriteText(place / "a/more/left.csv", "old");
+  MakeRun(place / "a", "new", true);
+  EXPECT_THAT(FilesBelow(place.path()), ElementsAre("a/dichotomy/overlaps.csv", "a/manifest.json"));
+  EXPECT_EQ(ReadText(place / "a/manifest.json"), "new");
+}
+
+TEST(RunFolder, OverwritingWhatIsNotThereIsFine) {
+  const TemporaryFolder place;
+  MakeRun(place / "a", "new", true);
+  EXPECT_EQ(ReadText(place / "a/manifest.json"), "new");
+}
+
+TEST(RunFolder, NeverOverwritesWhatIsNoRun) {
+  const TemporaryFolder place;
+  WriteText(place / "thesis/chapter.tex", "years of work");
+  WriteText(place / "file", "text");
+  fs::create_symlink("nowhere", place / "link");
+  for (const std::string name : {"thesis", "file", "link"}) {
+    EXPECT_THAT(RefusalOf([&] { RunFolder(place / name, true); }),
+                HasSubstr(name + ": is not a run folder"));
+  }
+  EXPECT_THAT(NamesIn(place.path()), ElementsAre("file", "link", "thesis"));
+  EXPECT_EQ(ReadText(place / "thesis/chapter.tex"), "years of work");
+}
+
+TEST(RunFolder, NeverReplacesARunThatAppearedMeanwhile) {
+  const TemporaryFolder place;
+  {
+    RunFolder folder(place / "a", false);
+    WriteRun(&folder, "late");
+    WriteText(place / "a/manifest.json", "early");
+    EXPECT_THAT(RefusalOf([&] { folder.Publish(); }), HasSubstr("is there already"));
+  }
+  {
+    RunFolder folder(place / "b", true);
+    WriteRun(&folder, "late");
+    WriteText(place / "b/notes.txt", "no run");
+    EXPECT_THAT(RefusalOf([&] { folder.Publish(); }), HasSubstr("is not a run folder"));
+  }
+  EXPECT_THAT(FilesBelow(place.path()), ElementsAre("a/manifest.json", "b/notes.txt"));
+  EXPECT_EQ(ReadText(place / "a/manifest.json"), "early");
+}
+
+TEST(RunFolder, RemovesWhatKilledRunsOfTheSameNameLeft) {
+  const TemporaryFolder place;
+  const std::string dead = std::to_string(DeadProcess());
+  const std::string living = std::to_string(getppid());
+  const std::string kept[] = {".a.partial-" + living, ".b.partial-" + dead, ".a.partial-x"};
+  WriteText(place / (".a.partial-" + dead) / "raw/trajectory.csv", "half a li");
+  WriteText(place / (".a.partial-" + dead + "-older") / "manifest.json", "older");
+  for (const std::string& name : kept) WriteText(place / name / "f", "");
+  MakeRun(place / "a", "one");
+  EXPECT_THAT(NamesIn(place.path()), testing::UnorderedElementsAre("a", kept[0], kept[1], kept[2]));
+}
+
+TEST(RunFolder, SaysWhatCannotBeWritten) {
+  const TemporaryFolder place;
+  RunFolder folder(place / "a", false);
+  folder.Write("raw", "a file where a folder should be");
+  EXPECT_THAT(RefusalOf([&] { folder.Write("raw/trajectory.csv", "x"); }),
+              testing::AllOf(HasSubstr((place / "a/raw/trajectory.csv").string()),
+                             HasSubstr("Not a directory")));
+  WriteText(place / "file", "");
+  EXPECT_THAT(RefusalOf([&] { RunFolder(place / "file/a", false); }), HasSubstr("Not a directory"));
+}
+
+// While runs replace one another, the name is never absent.
+TEST(RunFolder, ReplacesInOneStep) {
+  const TemporaryFolder place;
+  const fs::path path = place / "a";
+  MakeRun(path, "0");
+  std::atomic<bool> done = false;
+  std::atomic<long> looks = 0, absences = 0;
+  std::thread watcher([&] {
+    struct stat unused {};
+    while (!done) {
+      ++looks;
+      if (stat(path.c_str(), &unused) != 0) ++absences;
+    }
+  });
+  while (looks == 0) std::this_thread::yield();
+  for (int i = 1; i <= 25; ++i) MakeRun(path, std::to_string(i), true);
+  done = true;
+  watcher.join();
+  EXPECT_EQ(absences, 0) << "of " << looks << " looks";
+  EXPECT_EQ(ReadText(path / "manifest.json"), "25");
+}
+
+}  // namespace
+}  // namespace halfstep
