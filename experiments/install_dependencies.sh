@@ -1,0 +1,29 @@
+#!/bin/sh
+# Installs those Debian packages that halfstep needs and that are missing; arguments name further
+# ones. Where none is missing it needs neither network nor rights.
+set -eu
+
+packages="g++ cmake ninja-build git pkg-config libeigen3-dev libfcl-dev liburdfdom-dev
+  libconsole-bridge-dev libtinyxml-dev libyaml-cpp-dev libqhull-dev libcli11-dev
+  nlohmann-json3-dev libssl-dev libgtest-dev libgmock-dev libbenchmark-dev $*"
+
+if ! command -v dpkg-query >/dev/null; then
+  echo "Not a Debian system: the packages are left to you. Debian calls them" $packages >&2
+  exit 0
+fi
+missing=""
+for package in $packages; do
+  status=$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null || true)
+  [ "$status" = installed ] || missing="$missing $package"
+done
+[ -n "$missing" ] || exit 0
+
+if [ "$(id -u)" -ne 0 ]; then
+  echo "These packages are missing, and only root can install them. Run as root:" >&2
+  echo "  apt-get install --no-install-recommends$missing" >&2
+  exit 1
+fi
+echo "Installing$missing"
+export DEBIAN_FRONTEND="${DEBIAN_FRONTEND:-noninteractive}"
+apt-get update -qq
+apt-get install -qq -y --no-install-recommends $missing >/dev/null

@@ -1,0 +1,32 @@
+#!/bin/sh
+# Builds halfstep, runs the shipped scenarios into runs/, prints one table and draws one figure.
+# JOBS: how many compilers at once (2).
+set -eu
+cd "$(dirname "$0")/.."
+
+experiments/install_dependencies.sh gnuplot-nox
+
+echo "Building (log: build/quickstart.log)"
+mkdir -p build
+# The preset as it is: tests/run.sh builds the rest in the same tree.
+if ! { cmake --preset release &&
+       cmake --build --preset release --target halfstep -j "${JOBS:-2}"; } >build/quickstart.log 2>&1
+then
+  tail -n 40 build/quickstart.log >&2
+  exit 1
+fi
+
+# Of what each run prints, the table: its header once, its rows under the scenario's name.
+header=1
+for scenario in fig3_two_half_steps fig4_raw_sequence fig5_box bar_5cm bar_8cm bar_10cm; do
+  build/release/experiments/halfstep run "experiments/configs/$scenario.yaml" \
+    --out "runs/$scenario" --overwrite >"build/$scenario.txt"
+  awk -v scenario="$scenario" -v header="$header" '
+    /^method / { table = 1; if (header) printf "\n%-20s %s\n", "scenario", $0; next }
+    table && /^$/ { exit }
+    table { printf "%-20s %s\n", scenario, $0; scenario = "" }' "build/$scenario.txt"
+  header=0
+done
+
+gnuplot -e "run='runs/fig4_raw_sequence'" notebooks-data/plot_walk.gp
+printf '\nResults: runs/<scenario>/. Figure: runs/fig4_raw_sequence/walk.png\n'

@@ -1,0 +1,33 @@
+#!/bin/sh
+# Builds and tests everything twice: release, then debug with AddressSanitizer and UBSan.
+# JOBS: how many compilers and tests at once (2).
+set -eu
+cd "$(dirname "$0")/.."
+jobs="${JOBS:-2}"
+
+experiments/install_dependencies.sh
+mkdir -p build
+
+# Runs a command; its output goes to a log, and to the screen only when it fails.
+quietly() {
+  log=$1
+  shift
+  if ! "$@" >"$log" 2>&1; then
+    echo "Failed: $*" >&2
+    tail -n "${LINES_SHOWN:-200}" "$log" >&2
+    exit 1
+  fi
+}
+
+for preset in release debug; do
+  start=$(date +%s)
+  options=""
+  [ "$preset" = release ] || options="-DHALFSTEP_BENCHMARKS=OFF"
+  quietly "build/$preset-configure.log" cmake --preset "$preset" $options
+  quietly "build/$preset-build.log" cmake --build --preset "$preset" -j "$jobs"
+  built=$(date +%s)
+  quietly "build/$preset-test.log" ctest --preset "$preset" -j "$jobs"
+  echo "$preset: $(grep 'tests passed' "build/$preset-test.log"); built in $((built - start)) s," \
+    "tested in $(($(date +%s) - built)) s"
+  grep -A 1000 'did not run' "build/$preset-test.log" || true  # tests that this machine cannot do
+done
