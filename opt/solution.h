@@ -1,0 +1,69 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <limits>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace halfstep::opt {
+
+/// How a solve ended. x of the Solution is the best point seen in every case but kNotRun and
+/// kInvalidInput.
+enum class SolveStatus {
+  kNotRun,
+  kConverged,       ///< the solver's test of optimality held, at a point feasible to the tolerance
+  kAcceptable,      ///< feasible to the tolerance; the solver's weaker test held or it got stuck
+  kIterationLimit,  ///< max_iterations or max_evaluations
+  kTimeLimit,
+  kStopped,       ///< stop token or on_iterate
+  kInfeasible,    ///< ended at a point that violates constraints, with nothing feasible seen
+  kInvalidInput,  ///< problem not supported, wrong option, non-finite start; nothing was optimized
+  kFailed,        ///< exception in a callback, breakdown of the solver, unbounded cost
+};
+
+/// "converged", "time_limit", …
+std::string ToString(SolveStatus status);
+
+struct HistoryEntry {
+  int iteration;
+  double cost;
+  double violation;
+  double wall;  ///< [s] since Solve began
+};
+
+/// What came out of a solve. x, cost, max_violation and worst_row belong together and were
+/// evaluated by us: the solver's word is not taken for any of them.
+struct Solution {
+  SolveStatus status = SolveStatus::kNotRun;
+  std::string message = "Solve was not called.";
+  std::string solver;  ///< "nlopt/ccsaq"
+  /// The best point seen (n): the cheapest among those feasible to the tolerance, else the least
+  /// violated.
+  Eigen::VectorXd x;
+  double cost = std::numeric_limits<double>::quiet_NaN();
+  double max_violation = std::numeric_limits<double>::infinity();  ///< natural unit of worst_row
+  std::string worst_row;                                           ///< "" when nothing is violated
+  int iterations = 0;
+  long cost_evaluations = 0;
+  long gradient_evaluations = 0;
+  long constraint_evaluations = 0;
+  long jacobian_evaluations = 0;
+  double wall = 0.0;  ///< [s]
+  std::vector<HistoryEntry> history;
+  std::map<std::string, std::string> requested_options;
+  std::map<std::string, std::string> used_options;  ///< as handed to the library
+
+  /// Where the solver itself ended, which may be worse than x.
+  Eigen::VectorXd final_x;
+  double final_cost = std::numeric_limits<double>::quiet_NaN();
+  double final_violation = std::numeric_limits<double>::infinity();
+
+  /// x is feasible to the tolerance of the solve.
+  bool feasible = false;
+
+  std::string BriefReport() const;  ///< one line
+  std::string FullReport() const;   ///< a page: counts, times, options
+};
+
+}  // namespace halfstep::opt
