@@ -12,9 +12,9 @@ namespace halfstep {
 
 /// Triangle mesh: not assumed convex or closed.
 struct TriangleMesh {
-  std::string file;            ///< where it was read from; "" when made otherwise.
   Eigen::Matrix3Xd vertices;   ///< [m] (3×n)
   Eigen::Matrix3Xi triangles;  ///< (3×m), vertex indices.
+  std::string file;            ///< where it was read from; "" when made otherwise.
 };
 
 struct Obstacle {
