@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <exception>
 #include <limits>
 #include <map>
 #include <string>
@@ -59,8 +60,8 @@ struct Solution {
   double final_cost = std::numeric_limits<double>::quiet_NaN();
   double final_violation = std::numeric_limits<double>::infinity();
 
-  /// x is feasible to the tolerance of the solve.
-  bool feasible = false;
+  bool feasible = false;         ///< x is, to the tolerance of the solve
+  std::exception_ptr exception;  ///< what a block or on_iterate threw; null when nothing
 
   std::string BriefReport() const;  ///< one line
   std::string FullReport() const;   ///< a page: counts, times, options

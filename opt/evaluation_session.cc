@@ -1,0 +1,258 @@
+#include "opt/evaluation_session.h"
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace halfstep::opt {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// Below this a cost counts as unbounded (Ipopt's diverging_iterates_tol is of the same size).
+constexpr double kUnboundedCost = -1e20;
+
+}  // namespace
+
+EvaluationSession::EvaluationSession(const Problem& problem, const SolverOptions& options,
+                                     Iterations iterations)
+    : problem_(problem), options_(options), counting_(iterations), highest_cost_(-kInfinity) {}
+
+double EvaluationSession::Wall() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+}
+
+double EvaluationSession::RemainingTime() const { return options_.deadline - Wall(); }
+
+void EvaluationSession::Stop(SolveStatus status, const std::string& message) {
+  if (stop_status_ != SolveStatus::kNotRun) return;  // the first reason stands
+  stop_status_ = status;
+  stop_message_ = message;
+}
+
+bool EvaluationSession::MayGoOn() {
+  if (options_.stop.stop_requested()) {
+    Stop(SolveStatus::kStopped, "Stopped by request.");
+  } else if (Wall() >= options_.deadline) {
+    Stop(SolveStatus::kTimeLimit,
+         "The deadline of " + std::to_string(options_.deadline) + " s passed.");
+  } else if (points_ > options_.max_evaluations) {
+    Stop(SolveStatus::kIterationLimit,
+         "max_evaluations = " + std::to_string(options_.max_evaluations) + " reached.");
+  }
+  return stop_status_ == SolveStatus::kNotRun;
+}
+
+bool EvaluationSession::Guard(const std::function<void()>& evaluate) {
+  if (stop_status_ != SolveStatus::kNotRun || (!beginning_ && !MayGoOn())) return false;
+  try {
+    evaluate();
+    return true;
+  } catch (const std::exception& error) {
+    counted_.exception = std::current_exception();
+    Stop(SolveStatus::kFailed, std::string("A callback threw: ") + error.what());
+  } catch (...) {
+    counted_.exception = std::current_exception();
+    Stop(SolveStatus::kFailed, "A callback threw something that is no std::exception.");
+  }
+  return false;
+}
+
+void EvaluationSession::MoveTo(const Eigen::VectorXd& x) {
+  if (point_.x.size() == x.size() && point_.x == x) return;
+  point_ = Point{};
+  point_.x = x;
+  ++points_;
+}
+
+bool EvaluationSession::EvaluateCost() {
+  if (!point_.cost) {
+    double value = 0.0;
+    if (!Guard([&] { value = problem_.Cost(point_.x); })) return false;
+    ++counted_.cost_evaluations;
+    point_.cost = value;
+    if (!std::isfinite(value)) non_finite_ = "The cost is not finite.";
+    Consider();
+  }
+  return std::isfinite(*point_.cost) && stop_status_ == SolveStatus::kNotRun;
+}
+
+bool EvaluationSession::EvaluateConstraints() {
+  if (!point_.constraints) {
+    Eigen::VectorXd values;
+    if (!Guard([&] { values = problem_.Constraints(point_.x); })) return false;
+    if (values.size() > 0) ++counted_.constraint_evaluations;
+    point_.violation = problem_.MaxViolation(point_.x, values);
+    if (!values.allFinite())
+      non_finite_ = "The value of " + point_.violation.row + " is not finite.";
+    point_.constraints = std::move(values);
+    Consider();
+  }
+  return point_.constraints->allFinite() && stop_status_ == SolveStatus::kNotRun;
+}
+
+bool EvaluationSession::Cost(const Eigen::VectorXd& x, double* cost) {
+  MoveTo(x);
+  if (!EvaluateCost()) return false;
+  *cost = *point_.cost;
+  return true;
+}
+
+bool EvaluationSession::Constraints(const Eigen::VectorXd& x, Eigen::VectorXd* values) {
+  MoveTo(x);
+  if (!EvaluateConstraints()) return false;
+  *values = *point_.constraints;
+  return true;
+}
+
+bool EvaluationSession::Gradient(const Eigen::VectorXd& x, Eigen::VectorXd* gradient) {
+  MoveTo(x);
+  if (!point_.gradient) {
+    Eigen::VectorXd value;
+    if (!Guard([&] { value = problem_.Gradient(point_.x); })) return false;
+    ++counted_.gradient_evaluations;
+    point_.gradient = std::move(value);
+    if (!point_.gradient->allFinite()) non_finite_ = "The gradient of the cost is not finite.";
+  }
+  if (!point_.gradient->allFinite()) return false;
+  *gradient = *point_.gradient;
+  return true;
+}
+
+bool EvaluationSession::Jacobian(const Eigen::VectorXd& x, std::vector<double>* nonzeros) {
+  MoveTo(x);
+  if (!point_.jacobian) {
+    std::vector<double> values;
+    if (!Guard([&] { values = problem_.Jacobian(point_.x); })) return false;
+    ++counted_.jacobian_evaluations;
+    point_.jacobian = std::move(values);
+  }
+  for (size_t k = 0; k < point_.jacobian->size(); ++k) {
+    if (std::isfinite((*point_.jacobian)[k])) continue;
+    non_finite_ =
+        "The derivative of " + problem_.RowName(problem_.pattern().rows[k]) + " is not finite.";
+    return false;
+  }
+  *nonzeros = *point_.jacobian;
+  return true;
+}
+
+bool EvaluationSession::Better(const Point& a, const Point& b) const {
+  if (!a.complete || !b.complete) return a.complete;
+  const bool a_feasible = a.feasible(options_.feasibility_tolerance);
+  const bool b_feasible = b.feasible(options_.feasibility_tolerance);
+  if (a_feasible != b_feasible) return a_feasible;
+  if (a_feasible || a.violation.amount == b.violation.amount) return *a.cost < *b.cost;
+  return a.violation.amount < b.violation.amount;
+}
+
+void EvaluationSession::Consider() {
+  if (!point_.cost || !point_.constraints) return;
+  point_.complete = std::isfinite(*point_.cost) && point_.constraints->allFinite();
+  if (!point_.complete) return;
+  highest_cost_ = std::max(highest_cost_, *point_.cost);
+  if (!Better(point_, best_)) return;
+  best_ = point_;
+  if (*best_.cost < kUnboundedCost && best_.feasible(options_.feasibility_tolerance)) {
+    Stop(SolveStatus::kFailed, "The cost is unbounded below: it fell under -1e20.");
+  }
+  if (counting_ == Iterations::kImprovements && !beginning_) CountIterate(best_);
+}
+
+void EvaluationSession::CountIterate(const Point& point) {
+  const int iteration = counted_.history.empty() ? 0 : ++iterations_;
+  counted_.history.push_back({iteration, *point.cost, point.violation.amount, Wall()});
+  if (!options_.on_iterate) return;
+  bool go_on = true;
+  const Iterate iterate{iteration, point.x, *point.cost, point.violation.amount, Wall()};
+  if (Guard([&] { go_on = options_.on_iterate(iterate); }) && !go_on) {
+    Stop(SolveStatus::kStopped,
+         "on_iterate stopped at iteration " + std::to_string(iteration) + ".");
+  }
+}
+
+bool EvaluationSession::ReportIterate(const Eigen::VectorXd& x) {
+  MoveTo(x);
+  if (EvaluateCost() && EvaluateConstraints()) {
+    CountIterate(point_);
+  } else {
+    ++iterations_;
+  }
+  if (counting_ == Iterations::kTold && iterations_ >= options_.max_iterations) {
+    Stop(SolveStatus::kIterationLimit,
+         "max_iterations = " + std::to_string(options_.max_iterations) + " reached.");
+  }
+  return MayGoOn();
+}
+
+bool EvaluationSession::Begin(const Eigen::VectorXd& start) {
+  beginning_ = true;
+  MoveTo(start);
+  const bool evaluated = EvaluateCost() && EvaluateConstraints();
+  if (evaluated) {
+    CountIterate(point_);
+  } else {
+    Stop(SolveStatus::kInvalidInput, "At the start: " + non_finite_);
+  }
+  beginning_ = false;
+  return evaluated && MayGoOn();
+}
+
+Solution EvaluationSession::Finish(SolveStatus claim, std::string message,
+                                   const Eigen::VectorXd& final_x) {
+  if (final_x.size() == problem_.num_variables() && final_x.allFinite()) {
+    MoveTo(final_x);
+    if (EvaluateCost()) EvaluateConstraints();
+  }
+  const Point end = point_;
+  Solution solution = std::move(counted_);
+  if (best_.complete) {
+    solution.x = best_.x;
+    solution.cost = *best_.cost;
+    solution.max_violation = best_.violation.amount;
+    solution.worst_row = best_.violation.row;
+    solution.feasible = best_.feasible(options_.feasibility_tolerance);
+  }
+  solution.final_x = end.x;
+  if (end.complete) {
+    solution.final_cost = *end.cost;
+    solution.final_violation = end.violation.amount;
+  }
+  Judge(claim, message, end, &solution);
+  solution.iterations = iterations_;
+  solution.requested_options = options_.solver_options;
+  solution.used_options = used_;
+  solution.wall = Wall();
+  return solution;
+}
+
+void EvaluationSession::Judge(SolveStatus claim, const std::string& message, const Point& end,
+                              Solution* solution) {
+  solution->status = claim;
+  solution->message = message;
+  if (stop_status_ != SolveStatus::kNotRun) {
+    solution->status = stop_status_;
+    solution->message = stop_message_;
+    return;
+  }
+  const bool success = claim == SolveStatus::kConverged || claim == SolveStatus::kAcceptable;
+  if (success && !end.complete) {
+    solution->status = SolveStatus::kFailed;
+    solution->message = message + " But there: " + non_finite_;
+  } else if (success && !end.feasible(options_.feasibility_tolerance)) {
+    solution->status = solution->feasible ? SolveStatus::kFailed : SolveStatus::kInfeasible;
+    solution->message = message + " But it ended at a point that violates " + end.violation.row +
+                        " by " + std::to_string(end.violation.amount) + " " + end.violation.unit +
+                        (solution->feasible ? "; the best feasible point seen is returned." : ".");
+  } else if (claim == SolveStatus::kInfeasible && solution->feasible) {
+    solution->status = SolveStatus::kFailed;
+    solution->message = message + " The best feasible point seen is returned.";
+  } else if (claim == SolveStatus::kConverged &&
+             *end.cost - solution->cost > 1e-3 * std::max(1.0, std::abs(solution->cost))) {
+    solution->status = SolveStatus::kAcceptable;
+    solution->message = message + " But a cheaper feasible point had been seen; it is returned.";
+  } else if (claim == SolveStatus::kFailed && saw_non_finite()) {
+    solution->message = message + " Not finite on the way: " + non_finite_;
+  }
+}
+
+}  // namespace halfstep::opt

@@ -1,0 +1,113 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <chrono>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "opt/problem.h"
+#include "opt/solution.h"
+#include "opt/solver.h"
+#include "opt/solver_options.h"
+
+namespace halfstep::opt {
+
+/// All that one solve has in common, whatever the library: evaluates on demand, remembers the last
+/// point, counts, keeps the best point seen and what blocks throw, and looks at the limits before
+/// each evaluation. Not thread-safe; lives for one solve.
+class EvaluationSession {
+ public:
+  enum class Iterations {
+    kTold,          ///< the adapter calls ReportIterate
+    kImprovements,  ///< each point better than all before it is an iteration
+  };
+
+  EvaluationSession(const Problem& problem, const SolverOptions& options, Iterations iterations);
+
+  /// Evaluates the start, whatever the limits, as iteration 0. False: it has no finite cost and
+  /// constraints, a block threw or on_iterate stopped; Finish then says so.
+  bool Begin(const Eigen::VectorXd& start);
+
+  /// False, with the result untouched, when stopped, when the block threw or when a value is not
+  /// finite. An x like the last one is not evaluated again.
+  bool Cost(const Eigen::VectorXd& x, double* cost);
+  bool Gradient(const Eigen::VectorXd& x, Eigen::VectorXd* gradient);
+  bool Constraints(const Eigen::VectorXd& x, Eigen::VectorXd* values);
+  bool Jacobian(const Eigen::VectorXd& x, std::vector<double>* nonzeros);
+
+  /// The next iteration ended at x. False: stop.
+  bool ReportIterate(const Eigen::VectorXd& x);
+
+  /// False once anything asks to stop: limits, stop token, on_iterate, an exception.
+  bool MayGoOn();
+
+  double RemainingTime() const;  ///< [s], inf without a deadline
+  const Problem& problem() const { return problem_; }
+  const SolverOptions& options() const { return options_; }
+  int iterations() const { return iterations_; }
+  bool saw_non_finite() const { return !non_finite_.empty(); }
+  double highest_cost() const { return highest_cost_; }  ///< finite ones seen; −inf before any
+  /// For Solution::used_options.
+  void Use(const std::string& option, const std::string& value) { used_[option] = value; }
+
+  /// The solver ended at `final_x` and claims `claim`; what is true of it goes into the Solution.
+  Solution Finish(SolveStatus claim, std::string message, const Eigen::VectorXd& final_x);
+
+ private:
+  struct Point {
+    Eigen::VectorXd x;
+    std::optional<double> cost;
+    std::optional<Eigen::VectorXd> constraints, gradient;
+    std::optional<std::vector<double>> jacobian;
+    Violation violation;
+    bool complete = false;  ///< cost and constraints are there and finite
+
+    bool feasible(double tolerance) const { return complete && violation.amount <= tolerance; }
+  };
+
+  double Wall() const;
+  void MoveTo(const Eigen::VectorXd& x);
+  bool EvaluateCost();
+  bool EvaluateConstraints();
+  void Consider();
+  bool Better(const Point& a, const Point& b) const;
+  void Stop(SolveStatus status, const std::string& message);
+  /// Runs `evaluate`; what it throws is kept and stops the session.
+  bool Guard(const std::function<void()>& evaluate);
+  void CountIterate(const Point& point);
+  void Judge(SolveStatus claim, const std::string& message, const Point& end, Solution* solution);
+
+  const Problem& problem_;
+  const SolverOptions& options_;
+  const Iterations counting_;
+  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+
+  Point point_, best_;
+  bool beginning_ = false;  ///< the start is evaluated whatever the limits
+  int points_ = 0;
+  int iterations_ = 0;
+  double highest_cost_;
+  std::string non_finite_;  ///< a sentence about the last value that was not finite
+  SolveStatus stop_status_ = SolveStatus::kNotRun;
+  std::string stop_message_;
+  Solution counted_;  ///< counts, history and exception so far
+  std::map<std::string, std::string> used_;
+};
+
+/// How an adapter's run ended, in the solver's own opinion.
+struct Ending {
+  SolveStatus status;
+  std::string message;
+  Eigen::VectorXd x;
+};
+
+/// The frame of every Solver::Solve: refuses what the solver cannot take, projects and evaluates
+/// the start, calls `run` if that went well, and judges the ending.
+Solution SolveInSession(
+    const Solver& solver, const Problem& problem, const Eigen::VectorXd& x0,
+    const SolverOptions& options, EvaluationSession::Iterations counting,
+    const std::function<Ending(EvaluationSession&, const Eigen::VectorXd&)>& run);
+
+}  // namespace halfstep::opt

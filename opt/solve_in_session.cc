@@ -1,0 +1,50 @@
+#include <cmath>
+#include <exception>
+
+#include "opt/evaluation_session.h"
+#include "opt/require.h"
+
+namespace halfstep::opt {
+namespace {
+
+std::string WhyRefused(const Solver& solver, const Problem& problem, const Eigen::VectorXd& x0,
+                       const SolverOptions& options) {
+  if (!solver.available()) return solver.WhyUnavailable();
+  if (problem.num_variables() == 0) return "The problem has no variables.";
+  for (Eigen::Index j = 0; j < x0.size(); ++j) {
+    if (std::isfinite(x0[j])) continue;
+    return "At the start: " + problem.VariableName(static_cast<int>(j)) + " is not finite.";
+  }
+  if (!(options.feasibility_tolerance > 0.0)) return "feasibility_tolerance must be positive.";
+  if (!(options.optimality_tolerance > 0.0)) return "optimality_tolerance must be positive.";
+  if (options.max_iterations < 1) return "max_iterations must be at least 1.";
+  if (options.max_evaluations < 1) return "max_evaluations must be at least 1.";
+  if (!(options.deadline >= 0.0)) return "deadline must not be negative.";
+  return solver.WhyUnsupported(problem);
+}
+
+}  // namespace
+
+Solution SolveInSession(
+    const Solver& solver, const Problem& problem, const Eigen::VectorXd& x0,
+    const SolverOptions& options, EvaluationSession::Iterations counting,
+    const std::function<Ending(EvaluationSession&, const Eigen::VectorXd&)>& run) {
+  Require(x0.size() == problem.num_variables(), "x0 has " + std::to_string(x0.size()) +
+                                                    " entries, not " +
+                                                    std::to_string(problem.num_variables()));
+  EvaluationSession session(problem, options, counting);
+  Ending ending{SolveStatus::kInvalidInput, WhyRefused(solver, problem, x0, options), {}};
+  if (ending.message.empty()) {
+    const Eigen::VectorXd start = x0.cwiseMax(problem.lower()).cwiseMin(problem.upper());
+    try {
+      if (session.Begin(start)) ending = run(session, start);
+    } catch (const std::exception& error) {
+      ending = {SolveStatus::kFailed, std::string("The solver threw: ") + error.what(), {}};
+    }
+  }
+  Solution solution = session.Finish(ending.status, ending.message, ending.x);
+  solution.solver = solver.name();
+  return solution;
+}
+
+}  // namespace halfstep::opt
