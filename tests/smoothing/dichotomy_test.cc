@@ -18,10 +18,6 @@ namespace {
 
 using Order = DichotomyOptions::Order;
 
-double Total(const std::vector<double>& values) {
-  return std::accumulate(values.begin(), values.end(), 0.0);
-}
-
 class DichotomyTest : public testing::Test {
  protected:
   // Feasible while every overlap is at most `limit` [s].
@@ -176,8 +172,9 @@ TEST_F(DichotomyTest, WithSharedLimitsTheOrderDecidesWhoTakesItAndLaterPassesLos
       const auto& overlaps = result.parameters.overlaps;
       EXPECT_NEAR(overlaps[order == Order::kLeftToRight ? 0 : 4], 0.3, 1e-4);
       EXPECT_LT(overlaps[order == Order::kLeftToRight ? 1 : 3], 1e-4 * passes + 1e-9);
-      EXPECT_GE(Total(overlaps), total);
-      total = Total(overlaps);
+      const double now = std::accumulate(overlaps.begin(), overlaps.end(), 0.0);
+      EXPECT_GE(now, total);
+      total = now;
     }
   }
 }

@@ -151,7 +151,6 @@ TEST_F(MarginEvaluatorTest, ClearanceFromAWallByHand) {
   for (int n = 0; n <= 40; ++n) {
     const double t = walk_.duration() * n / 40;
     Posture posture = SolvePosture(robot_, walk_.At(t).value);
-    PlaceLinks(robot_, &posture);
     double foremost = -kInfinity;
     for (const RobotBody& body : robot_.bodies) {
       const Eigen::Isometry3d& X = posture.OfBody(body);
@@ -176,7 +175,6 @@ TEST_F(MarginEvaluatorTest, SelfClearanceIsTheLeastOfAllPairs) {
     const LocalTime at = walk.Locate(draw.Uniform(0, walk.duration()));
     Posture posture = SolvePosture(robot_, walk.At(at).value);
     if (!posture.reachable) continue;
-    PlaceLinks(robot_, &posture);
     double least = 0.3;
     for (const auto& [a, b] : robot_.self_pairs) {
       const RobotBody& body_a = robot_.bodies[static_cast<size_t>(a)];
@@ -250,53 +248,6 @@ TEST_F(MarginEvaluatorTest, MarginsDoNotDependOnWhereAndOnWhichSide) {
     }
   }
   EXPECT_GT(compared, Draws(100) * 4);
-}
-
-// On the scenes of stepping over a bar, at overlaps that violate one margin or another, or none.
-TEST(FirstViolation, IsFoundExactlyWhenAMarginIsBelowWhatIsDemanded) {
-  WalkDraw draw(63);
-  std::array<int, kNumMarginFamilies> seen{};
-  int clear = 0;
-  for (const char* name : {"bar_5cm", "bar_8cm", "bar_10cm"}) {
-    const Experiment e = LoadExperiment(name);
-    MarginLimits limits = e.config.smoothing.limits;
-    limits.demanded_of(MarginFamily::kZmp) = 0.045;  // so that this family is met too
-    const MarginEvaluator evaluator(e.robot, e.scene, limits);
-    MarginEvaluator::Scratch slow = evaluator.MakeScratch(), fast = evaluator.MakeScratch();
-    for (int i = 0; i < Draws(60); ++i) {
-      const SuperposedWalk walk(e.sequence, draw.Uniform(0, 1) < 0.3
-                                                ? draw.ExtremeParameters(e.sequence)
-                                                : draw.Parameters(e.sequence, 0, 0.9));
-      double t = draw.Uniform(0, walk.duration());
-      for (int n = 0; n < 20; ++n) {
-        // In turn far away and a little later, as a sweep does: both use what is remembered.
-        t = n % 2 == 0 ? draw.Uniform(0, walk.duration()) : t + 0.01;
-        const LocalTime at = walk.Locate(t);
-        const MarginSet margins = evaluator.At(walk, at, &slow);
-        const auto violation = evaluator.FirstViolation(walk, at, &fast);
-        const Margin& worst = *std::min_element(
-            margins.begin(), margins.end(),
-            [&](const Margin& a, const Margin& b) { return limits.Slack(a) < limits.Slack(b); });
-        if (std::abs(limits.Slack(worst)) < 1e-7) continue;
-        ASSERT_EQ(violation.has_value(), limits.Slack(worst) < 0)
-            << name << ": " << evaluator.Describe(worst);
-        if (!violation) {
-          ++clear;
-          continue;
-        }
-        ++seen[static_cast<size_t>(violation->family)];
-        EXPECT_LT(violation->value, limits.demanded_of(violation->family));
-        EXPECT_LT(Of(margins, violation->family).value, limits.demanded_of(violation->family));
-        EXPECT_GE(violation->value, Of(margins, violation->family).value - 1e-6);
-        EXPECT_EQ(violation->t, walk.Absolute(at));
-      }
-    }
-  }
-  EXPECT_GT(clear, Draws(500));
-  for (MarginFamily family : {MarginFamily::kFloor, MarginFamily::kFootSpeed, MarginFamily::kZmp,
-                              MarginFamily::kJointSpeed, MarginFamily::kClearance}) {
-    EXPECT_GT(seen[static_cast<size_t>(family)], 0) << Name(family);
-  }
 }
 
 TEST_F(MarginEvaluatorTest, DescribesAMarginWithItsOwnerPlaceAndDemand) {

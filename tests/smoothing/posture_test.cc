@@ -64,7 +64,6 @@ TEST_F(PostureTest, TheStandingPostureIsTheRobotsOwn) {
 TEST_F(PostureTest, LinksJoinTheWaistToTheSolesOfTheWalk) {
   const int reached =
       ForRandomInstants(1000, 0.0, [&](const SuperposedWalk& walk, double t, Posture posture) {
-        PlaceLinks(robot_, &posture);
         const WalkVector x = walk.At(t).value;
         for (Side side : {Side::kLeft, Side::kRight}) {
           const size_t s = static_cast<size_t>(Index(side));

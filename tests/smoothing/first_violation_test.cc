@@ -1,0 +1,63 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "smoothing/margin_evaluator.h"
+#include "tests/smoothing/test_scenes.h"
+#include "tests/smoothing/test_walks.h"
+
+namespace halfstep {
+namespace {
+
+// On the scenes of stepping over a bar, at overlaps that violate one margin or another, or none.
+TEST(FirstViolation, IsFoundExactlyWhenAMarginIsBelowWhatIsDemanded) {
+  WalkDraw draw(63);
+  std::array<int, kNumMarginFamilies> seen{};
+  int clear = 0;
+  for (const char* name : {"bar_5cm", "bar_8cm", "bar_10cm"}) {
+    const Experiment e = LoadExperiment(name);
+    MarginLimits limits = e.config.smoothing.limits;
+    limits.demanded_of(MarginFamily::kZmp) = 0.045;  // so that this family is met too
+    const MarginEvaluator evaluator(e.robot, e.scene, limits);
+    MarginEvaluator::Scratch slow = evaluator.MakeScratch(), fast = evaluator.MakeScratch();
+    for (int i = 0; i < Draws(60); ++i) {
+      const SuperposedWalk walk(e.sequence, draw.Uniform(0, 1) < 0.3
+                                                ? draw.ExtremeParameters(e.sequence)
+                                                : draw.Parameters(e.sequence, 0, 0.9));
+      double t = draw.Uniform(0, walk.duration());
+      for (int n = 0; n < 20; ++n) {
+        // In turn far away and a little later, as a sweep does: both use what is remembered.
+        t = n % 2 == 0 ? draw.Uniform(0, walk.duration()) : t + 0.01;
+        const LocalTime at = walk.Locate(t);
+        const MarginSet margins = evaluator.At(walk, at, &slow);
+        const auto violation = evaluator.FirstViolation(walk, at, &fast);
+        const Margin& worst = *std::min_element(
+            margins.begin(), margins.end(),
+            [&](const Margin& a, const Margin& b) { return limits.Slack(a) < limits.Slack(b); });
+        if (std::abs(limits.Slack(worst)) < 1e-7) continue;
+        ASSERT_EQ(violation.has_value(), limits.Slack(worst) < 0)
+            << name << ": " << evaluator.Describe(worst);
+        if (!violation) {
+          ++clear;
+          continue;
+        }
+        ++seen[static_cast<size_t>(violation->family)];
+        EXPECT_LT(violation->value, limits.demanded_of(violation->family));
+        EXPECT_LT(margins[static_cast<size_t>(violation->family)].value,
+                  limits.demanded_of(violation->family));
+        EXPECT_GE(violation->value, margins[static_cast<size_t>(violation->family)].value - 1e-6);
+        EXPECT_EQ(violation->t, walk.Absolute(at));
+      }
+    }
+  }
+  EXPECT_GT(clear, Draws(500));
+  for (MarginFamily family : {MarginFamily::kFloor, MarginFamily::kFootSpeed, MarginFamily::kZmp,
+                              MarginFamily::kJointSpeed, MarginFamily::kClearance}) {
+    EXPECT_GT(seen[static_cast<size_t>(family)], 0) << Name(family);
+  }
+}
+
+}  // namespace
+}  // namespace halfstep
