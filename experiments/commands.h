@@ -13,6 +13,7 @@ enum ExitStatus : int {
   kSuccess = 0,
   kFailed = 1,        ///< the command's purpose failed: infeasible plan, full disk …
   kBadInput = 2,      ///< something that the user wrote is wrong; nothing was written
+  kNotVerified = 3,   ///< `halfstep verify` disagrees with a certificate
   kInterrupted = 130  ///< stopped by Ctrl-C; what is there is whole and feasible
 };
 

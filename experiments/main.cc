@@ -3,6 +3,7 @@
 
 #include "experiments/build_info.h"
 #include "experiments/commands.h"
+#include "experiments/verify/verify_run.h"
 #include "wpg/input/input_error.h"
 
 namespace {
@@ -16,6 +17,21 @@ YamlOverride ParseOverride(const std::string& text) {
         {"--set " + text + ": not an assignment (valid: --set smoothing.sampling_s=0.002)"});
   }
   return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+// `halfstep verify`: nothing of the smoothing takes part.
+ExitStatus Verify(const verify::VerifyOptions& options, bool quiet) {
+  ExitStatus status = kSuccess;
+  for (const verify::MethodVerification& result : verify::VerifyRun(options)) {
+    if (!quiet) std::cout << verify::Describe(result);
+    for (const std::string& complaint : result.complaints) std::cerr << complaint << '\n';
+    if (quiet && result.disagreements > 0) {
+      std::cerr << result.method << ": NOT verified: " << result.reasons.front() << '\n';
+    }
+    if (!result.readable) status = kBadInput;
+    if (!result.verified && status == kSuccess) status = kNotVerified;
+  }
+  return status;
 }
 
 }  // namespace
@@ -53,6 +69,21 @@ int main(int argc, char** argv) {
       ->allow_extra_args(false);
   certify_app->add_flag("--quiet", certify.quiet, "print nothing but errors");
 
+  verify::VerifyOptions verify;
+  bool verify_quiet = false;
+  CLI::App* verify_app = app.add_subcommand(
+      "verify",
+      "Check a run's certificates independently: played motion, forward kinematics, triangle\n"
+      "distances; none of the code that smoothed. Exit status 3 when it disagrees.\n\n"
+      "  example: halfstep verify runs/bar_8cm --method dichotomy");
+  verify_app->add_option("RUN", verify.run, "run folder")->required();
+  verify_app->add_option("--method", verify.method, "only this one (default: all)");
+  verify_app->add_option("--tolerance", verify.tolerance,
+                         "between the certified walk and its trajectory, 0.001 by default [m]");
+  verify_app->add_option("--robot", verify.robot, "robot file in place of the certificate's");
+  verify_app->add_option("--scene", verify.scene, "scene file in place of it, or none");
+  verify_app->add_flag("--quiet", verify_quiet, "print nothing but what is wrong");
+
   std::string what;
   bool list_json = false;
   CLI::App* list_app =
@@ -68,7 +99,8 @@ int main(int argc, char** argv) {
     return app.exit(error) == 0 ? kSuccess : kBadInput;
   }
   if (app.get_subcommands().empty()) {
-    std::cerr << "halfstep: which command? (valid: run, certify, list; `halfstep -h` explains)\n";
+    std::cerr
+        << "halfstep: which command? (valid: run, certify, verify, list; `halfstep -h` explains)\n";
     return kBadInput;
   }
   try {
@@ -78,6 +110,7 @@ int main(int argc, char** argv) {
     for (const std::string& set : certify_sets) certify.overrides.push_back(ParseOverride(set));
     const int status = *run_app       ? Run(run)
                        : *certify_app ? Certify(certify)
+                       : *verify_app  ? Verify(verify, verify_quiet)
                                       : List(what, list_json);
     if (!std::cout.flush()) throw std::runtime_error("standard output cannot be written");
     return status;

@@ -27,10 +27,10 @@ constexpr int kDiscSides = 64;
 // [m] taken off FCL's triangle distances for rounding.
 constexpr double kTriangleRounding = 1e-10;
 
-std::shared_ptr<const Bvh> MakeBvh(const Eigen::Matrix3Xd& vertices, const auto& triangles) {
-  std::vector<fcl::Vector3d> points(vertices.colwise().begin(), vertices.colwise().end());
+std::shared_ptr<const Bvh> MakeBvh(const TriangleMesh& mesh) {
+  std::vector<fcl::Vector3d> points(mesh.vertices.colwise().begin(), mesh.vertices.colwise().end());
   std::vector<fcl::Triangle> faces;
-  for (const Eigen::Vector3i& t : triangles) {
+  for (const Eigen::Vector3i& t : mesh.triangles.colwise()) {
     faces.emplace_back(static_cast<size_t>(t[0]), static_cast<size_t>(t[1]),
                        static_cast<size_t>(t[2]));
   }
@@ -41,17 +41,32 @@ std::shared_ptr<const Bvh> MakeBvh(const Eigen::Matrix3Xd& vertices, const auto&
   return bvh;
 }
 
+// Corners of the polygon around a disc: at most 0.1 mm of it stands out, or 1/800 of the radius.
+int DiscSides(double radius) {
+  constexpr double kExcess = 1e-4;  // [m] of r(1/cos(π/n) − 1) ≈ r(π/n)²/2
+  const double sides = std::numbers::pi * std::sqrt(radius / (2 * kExcess));
+  return 4 * static_cast<int>(std::ceil(std::clamp(sides, 1.0 * kDiscSides, 512.0) / 4));
+}
+
 // Triangles around the core of a convex body (the body without its ball).
-std::shared_ptr<const Bvh> MakeCoreBvh(const ConvexBody& body) {
-  if (body.disc_radius == 0 && !body.triangles.empty()) {
-    return MakeBvh(body.vertices, body.triangles);
-  }
+TriangleMesh MakeCore(const ConvexBody& body) {
+  const auto as_mesh = [](const ConvexBody& from) {
+    TriangleMesh mesh;
+    mesh.vertices = from.vertices;
+    mesh.triangles.resize(3, static_cast<Eigen::Index>(from.triangles.size()));
+    for (size_t i = 0; i < from.triangles.size(); ++i) {
+      mesh.triangles.col(static_cast<Eigen::Index>(i)) = from.triangles[i];
+    }
+    return mesh;
+  };
+  if (body.disc_radius == 0 && !body.triangles.empty()) return as_mesh(body);
   // What each vertex is widened by: a polygon around the disc, else an octahedron.
   std::vector<Eigen::Vector3d> around;
   if (body.disc_radius > 0) {
-    const double reach = body.disc_radius / std::cos(std::numbers::pi / kDiscSides) * (1 + 1e-12);
-    for (int i = 0; i < kDiscSides; ++i) {
-      const double angle = 2 * std::numbers::pi * i / kDiscSides;
+    const int sides = DiscSides(body.disc_radius);
+    const double reach = body.disc_radius / std::cos(std::numbers::pi / sides) * (1 + 1e-12);
+    for (int i = 0; i < sides; ++i) {
+      const double angle = 2 * std::numbers::pi * i / sides;
       around.emplace_back(reach * std::cos(angle), reach * std::sin(angle), 0);
     }
   } else {
@@ -65,8 +80,7 @@ std::shared_ptr<const Bvh> MakeCoreBvh(const ConvexBody& body) {
   for (Eigen::Index i = 0; i < points.cols(); ++i) {
     points.col(i) = body.vertices.col(i / n) + around[static_cast<size_t>(i % n)];
   }
-  const ConvexBody enclosing = MakeHull(points);
-  return MakeBvh(enclosing.vertices, enclosing.triangles);
+  return as_mesh(MakeHull(points));
 }
 
 ConvexBody Enclosing(const TriangleMesh& mesh) {
@@ -102,23 +116,31 @@ struct CollisionShape::Impl {
       : convex(Enclosing(triangles)),
         mesh(std::move(triangles)),
         components(ComponentPoints(*mesh)),
-        bvh_(MakeBvh(mesh->vertices, mesh->triangles.colwise())) {}
+        hollow_{*mesh, MakeBvh(*mesh)} {}
 
+  // The surface of the core, and what FCL needs.
+  struct Hollow {
+    TriangleMesh mesh;
+    std::shared_ptr<const Bvh> bvh;
+  };
   // Of a convex body it is built when the body first comes near a mesh.
-  const Bvh& bvh() const {
-    std::call_once(bvh_once_, [this] {
-      if (bvh_ == nullptr) bvh_ = MakeCoreBvh(convex);
+  const Hollow& hollow() const {
+    std::call_once(hollow_once_, [this] {
+      if (hollow_.bvh != nullptr) return;
+      hollow_.mesh = MakeCore(convex);
+      hollow_.bvh = MakeBvh(hollow_.mesh);
     });
-    return *bvh_;
+    return hollow_;
   }
+  const Bvh& bvh() const { return *hollow().bvh; }
 
   const ConvexBody convex;
   const std::optional<TriangleMesh> mesh;
   const std::vector<Eigen::Vector3d> components;
 
  private:
-  mutable std::once_flag bvh_once_;
-  mutable std::shared_ptr<const Bvh> bvh_;
+  mutable std::once_flag hollow_once_;
+  mutable Hollow hollow_;
 };
 
 CollisionShape::CollisionShape(ConvexBody body) {
@@ -189,6 +211,19 @@ Separation SeparateFromMesh(const CollisionShape& body, const Eigen::Isometry3d&
   }
 }
 
+// Whether a part of `inner`, which meets no triangle of `outer`, lies inside it.
+bool Encloses(const CollisionShape& outer, const CollisionShape& inner,
+              const Eigen::Isometry3d& X_OI) {
+  const auto inside = [&](const Eigen::Vector3d& p_I) {
+    const Eigen::Vector3d p = X_OI * p_I;
+    return (p - outer.center()).norm() <= outer.radius() &&
+           std::abs(WindingNumber(outer.impl().hollow().mesh, p)) > 0.5;
+  };
+  if (!inner.is_mesh()) return inside(inner.impl().hollow().mesh.vertices.col(0));
+  const auto& parts = inner.impl().components;
+  return std::any_of(parts.begin(), parts.end(), inside);
+}
+
 Separation Swapped(const Separation& s) {
   return {s.distance, -s.normal_W, s.point_b_W, s.point_a_W};
 }
@@ -213,6 +248,23 @@ Separation Separate(const CollisionShape& a, const Eigen::Isometry3d& X_Wa, cons
   if (b.is_mesh()) return SeparateFromMesh(a, X_Wa, b, X_Wb, slab);
   if (a.is_mesh()) return Swapped(SeparateFromMesh(b, X_Wb, a, X_Wa, Swapped(slab)));
   return slab;
+}
+
+double TriangleDistance(const CollisionShape& a, const Eigen::Isometry3d& X_Wa,
+                        const CollisionShape& b, const Eigen::Isometry3d& X_Wb) {
+  HALFSTEP_CHECK(IsFinite(X_Wa) && IsFinite(X_Wb), "a pose is not finite");
+  try {
+    const fcl::DistanceRequestd request(/*enable_nearest_points=*/false);
+    fcl::DistanceResultd result;
+    fcl::distance(&a.impl().bvh(), X_Wa, &b.impl().bvh(), X_Wb, request, result);
+    const double cores = result.min_distance - kTriangleRounding;
+    if (!(cores > 0)) return 0;
+    const Eigen::Isometry3d X_AB = X_Wa.inverse(Eigen::Isometry) * X_Wb;
+    if (Encloses(a, b, X_AB) || Encloses(b, a, X_AB.inverse(Eigen::Isometry))) return 0;
+    return cores - a.convex().ball_radius - b.convex().ball_radius;
+  } catch (const std::exception&) {
+    return 0;
+  }
 }
 
 bool ClearsAlongCached(const CollisionShape& a, const Eigen::Isometry3d& X_Wa,

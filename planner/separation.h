@@ -13,8 +13,8 @@ namespace halfstep {
 /// `normal_W`, computed from their support functions. Zero or negative: contact or overlap; then it
 /// is a lower bound of minus the penetration depth.
 /// With a mesh: the largest of the slab to the mesh's hull and the distance of the triangles from
-/// the body's core (the body without its ball; a disc is enclosed by a 64-gon, a core without
-/// volume by one 1e-6 m thick) less the ball's radius.
+/// the body's core (the body without its ball; a disc is enclosed by a polygon of at least 64
+/// sides, a core without volume by one 1e-6 m thick) less the ball's radius.
 struct Separation {
   double distance = 0.0;               ///< [m]
   Eigen::Vector3d normal_W{0, 0, 1};   ///< unit, from b towards a.
@@ -54,6 +54,15 @@ double SeparationAlong(const ConvexBody& a, const Eigen::Isometry3d& X_Wa, const
 /// for one in eight (up to 28 mm), and the bounds of FindConvexDistance never 1e-6 m apart.
 Separation Separate(const CollisionShape& a, const Eigen::Isometry3d& X_Wa, const CollisionShape& b,
                     const Eigen::Isometry3d& X_Wb);
+
+/// Distance of two bodies by their triangles alone, any of them meshes, without the support
+/// functions that Separate stands on: of the cores' surfaces, enclosed as for Separation, less the
+/// balls [m]. It exceeds the true distance by nothing and falls short of it by at most 1e-6 m and
+/// 0.1 mm (1/800 of the radius below 8 cm) a disc. Zero or negative: contact, or one body
+/// lies inside the other (by winding number). Precondition: finite poses (std::logic_error). An
+/// exception inside FCL counts as contact.
+double TriangleDistance(const CollisionShape& a, const Eigen::Isometry3d& X_Wa,
+                        const CollisionShape& b, const Eigen::Isometry3d& X_Wb);
 
 /// Whether the bodies are at least `clearance` [m] apart, by the same lower bound as Separate.
 /// `normal_W` is the direction that separated them last (zero: none yet); it is tried first and

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace halfstep::verify {
+
+/// The families of a certificate, in the order of the program's own list.
+enum Family : int {
+  kFloor,
+  kFootSpeed,
+  kFootYawRate,
+  kZmp,
+  kReach,
+  kJoint,
+  kJointSpeed,
+  kSelfClearance,
+  kClearance
+};
+constexpr int kNumFamilies = 9;
+/// As in certificate.csv and certificate.json, and the key that config.yaml demands it under.
+constexpr std::array<const char*, kNumFamilies> kFamilyNames = {
+    "floor", "foot_speed",  "foot_yaw_rate",  "zmp",      "reach",
+    "joint", "joint_speed", "self_clearance", "clearance"};
+constexpr std::array<const char*, kNumFamilies> kMarginKeys = {
+    "floor_m",   "foot_speed_m_s",    "foot_yaw_rate_rad_s", "zmp_m",      "reach_m",
+    "joint_rad", "joint_speed_rad_s", "self_clearance_m",    "clearance_m"};
+constexpr std::array<const char*, kNumFamilies> kUnits = {"m",   "m/s",   "rad/s", "m", "m",
+                                                          "rad", "rad/s", "m",     "m"};
+
+/// A row of certificate.csv.
+struct ClaimRow {
+  int line = 0;  ///< in its file.
+  double begin = 0, end = 0;
+  Family family = kFloor;
+  int statements = 0;
+  std::string subject;
+  double margin = 0, bound = 0, demanded = 0;
+};
+
+/// What certificate.json and certificate.csv claim; nothing of it is believed.
+struct CertificateText {
+  std::string verdict, message, statement;
+  double duration = 0;  ///< [s]
+  std::array<double, kNumFamilies> demanded{};
+  std::array<long, kNumFamilies> statements{};
+  std::optional<double> foot_speed, foot_yaw_rate;
+  double joint_speed_scale = 1;
+  std::string robot, scene;  ///< paths relative to the run folder; scene: or "none".
+  std::string trajectory_hash, certificate_hash, robot_hash, scene_hash;
+};
+
+/// Throws InputError for what is not such a file.
+CertificateText ReadCertificateJson(const std::string& path, const std::string& text);
+std::vector<ClaimRow> ReadCertificateCsv(const std::string& path, const std::string& text);
+
+/// What a run's config.yaml demands. Throws InputError for what is no YAML; absent keys are absent.
+struct ConfigDemands {
+  std::array<std::optional<double>, kNumFamilies> demanded;
+  std::optional<double> foot_speed, foot_yaw_rate;  ///< none: no limit
+  std::optional<double> joint_speed_scale;
+};
+ConfigDemands ReadConfigDemands(const std::string& path, const std::string& text);
+
+}  // namespace halfstep::verify

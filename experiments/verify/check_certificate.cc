@@ -1,0 +1,140 @@
+#include "experiments/verify/check_certificate.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "wpg/input/text.h"
+
+namespace halfstep::verify {
+namespace {
+
+long CountOf(Family family, const RobotModel& robot) {
+  switch (family) {
+    case kReach:
+      return std::ssize(robot.legs);
+    case kJoint:
+    case kJointSpeed:
+      return std::ssize(robot.legs[0].joints) + std::ssize(robot.legs[1].joints);
+    case kSelfClearance:
+      return std::ssize(robot.self_pairs);
+    case kClearance:
+      return std::ssize(robot.bodies);
+    default:
+      return 1;
+  }
+}
+
+// What is wrong with a row by itself; "": nothing.
+std::string Fault(const ClaimRow& row, const CertificateText& certificate) {
+  const bool may_watch_nothing =
+      row.family == kFloor || row.family == kFootSpeed || row.family == kFootYawRate;
+  if (!std::isfinite(row.begin) || !std::isfinite(row.end) || !std::isfinite(row.bound) ||
+      !std::isfinite(row.demanded) || std::isnan(row.margin)) {
+    return "a number is not finite";
+  }
+  if (std::isinf(row.margin) && !may_watch_nothing) return "the margin is not finite";
+  if (!(row.begin < row.end)) return "the interval is empty";
+  if (!(row.begin >= 0) || !(row.end <= certificate.duration)) return "outside [0, D]";
+  if (!(row.bound >= 0)) return "the bound is negative";
+  if (row.demanded != certificate.demanded[row.family]) {
+    return Text("demanded %.9g, certificate.json %.9g", row.demanded,
+                certificate.demanded[row.family]);
+  }
+  if (!(row.margin - row.bound >= row.demanded)) {
+    return Text("margin − bound = %.9g < demanded %.9g", row.margin - row.bound, row.demanded);
+  }
+  return "";
+}
+
+// Whether the statements of one family's rows add up to `count` at every instant of [0, end].
+// Returns where they do not; "": nowhere.
+std::string GapIn(const std::vector<const ClaimRow*>& rows, long count, double end) {
+  std::vector<std::pair<double, long>> changes = {{0.0, 0}, {end, 0}};
+  for (const ClaimRow* row : rows) {
+    changes.emplace_back(row->begin, row->statements);
+    changes.emplace_back(row->end, -long{row->statements});
+  }
+  std::sort(changes.begin(), changes.end());
+  long covered = 0;
+  for (size_t i = 0; i + 1 < changes.size(); ++i) {
+    covered += changes[i].second;
+    const double from = changes[i].first, to = changes[i + 1].first;
+    if (from < to && covered != count) {
+      return Text("%ld statements instead of %ld on [%.9g, %.9g] s", covered, count, from, to);
+    }
+  }
+  return "";
+}
+
+}  // namespace
+
+void CheckArithmetic(const CertificateText& certificate, const std::vector<ClaimRow>& rows,
+                     const RobotModel& robot, double end, Findings* findings) {
+  if (certificate.verdict != "certified") {
+    findings->Disagree("the certificate's verdict is " + Quote(certificate.verdict) + ": " +
+                       Quote(certificate.message));
+  }
+  if (certificate.duration != end) {
+    findings->Disagree(Text("the certificate ends at %.17g s, the trajectory at %.17g s",
+                            certificate.duration, end));
+  }
+  const double scale = certificate.joint_speed_scale;
+  if (!(scale > 0 && scale <= 1)) {
+    findings->Disagree(Text("joint_speed_scale is %.9g (valid: above 0, at most 1)", scale));
+  }
+  for (const auto& limit : {certificate.foot_speed, certificate.foot_yaw_rate}) {
+    if (limit && !(*limit > 0)) findings->Disagree(Text("a foot's limit is %.9g", *limit));
+  }
+  for (const double demanded : certificate.demanded) {
+    if (!(demanded >= 0)) findings->Disagree(Text("a demanded margin is %.9g", demanded));
+  }
+  double smallest = std::numeric_limits<double>::infinity();
+  std::string where;
+  std::array<std::vector<const ClaimRow*>, kNumFamilies> by_family;
+  for (const ClaimRow& row : rows) {
+    const std::string fault = Fault(row, certificate);
+    if (!fault.empty()) findings->Disagree(Text("certificate.csv:%d: ", row.line) + fault);
+    if (row.margin - row.bound - row.demanded < smallest) {
+      smallest = row.margin - row.bound - row.demanded;
+      where = Text("line %d, %s", row.line, kFamilyNames[row.family]);
+    }
+    by_family[row.family].push_back(&row);
+  }
+  findings->Say("certificate: " + Count(std::ssize(rows)) + " rows" +
+                (rows.empty() ? "" : Text(", least to spare %.3g (%s)", smallest, where.c_str())));
+  std::string counts;
+  for (size_t f = 0; f < kNumFamilies; ++f) {
+    const long count = CountOf(static_cast<Family>(f), robot);
+    counts += std::string(f == 0 ? "" : ", ") + kFamilyNames[f] + " " + std::to_string(count);
+    if (certificate.statements[f] != count) {
+      findings->Disagree(Text("%s: certificate.json has %ld statements, the robot %ld",
+                              kFamilyNames[f], certificate.statements[f], count));
+    }
+    const std::string gap = GapIn(by_family[f], count, end);
+    if (!gap.empty()) findings->Disagree(std::string(kFamilyNames[f]) + ": " + gap);
+  }
+  findings->Say("statements at every instant: " + counts);
+}
+
+void CheckAgainstConfig(const CertificateText& certificate, const ConfigDemands& config,
+                        Findings* findings) {
+  for (size_t f = 0; f < kNumFamilies; ++f) {
+    if (config.demanded[f] && certificate.demanded[f] < *config.demanded[f]) {
+      findings->Disagree(Text("%s: the certificate demands %.9g, config.yaml %.9g", kFamilyNames[f],
+                              certificate.demanded[f], *config.demanded[f]));
+    }
+  }
+  const auto looser = [&](const char* name, const std::optional<double>& claimed,
+                          const std::optional<double>& of_config) {
+    if (of_config && (!claimed || *claimed > *of_config)) {
+      findings->Disagree(std::string(name) + ": the certificate's limit is looser than " +
+                         Text("config.yaml's, %.9g", *of_config));
+    }
+  };
+  looser("foot_speed_m_s", certificate.foot_speed, config.foot_speed);
+  looser("foot_yaw_rate_rad_s", certificate.foot_yaw_rate, config.foot_yaw_rate);
+  looser("joint_speed_scale", certificate.joint_speed_scale, config.joint_speed_scale);
+  findings->Say("config.yaml: demands no more and allows no less than the certificate");
+}
+
+}  // namespace halfstep::verify

@@ -1,0 +1,102 @@
+#include "experiments/verify/check_clearance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace halfstep::verify {
+namespace {
+
+constexpr double kFinest = 1.0 / 256;  // of the time between two rows
+// Bounding volumes this far beyond what is required save the triangles the question [m].
+constexpr double kQuick = 0.02;
+
+// Time at which a path that grows linearly between rows first has length u.
+double TimeOf(const std::vector<double>& path, const std::vector<PlayedRow>& rows, double u) {
+  const auto after = std::upper_bound(path.begin(), path.end(), u);
+  if (after == path.end()) return rows.back().t;
+  const size_t i = static_cast<size_t>(std::max<std::ptrdiff_t>(after - path.begin() - 1, 0));
+  const double s = (u - path[i]) / (path[i + 1] - path[i]);
+  return rows[i].t + std::clamp(s, 0.0, 1.0) * (rows[i + 1].t - rows[i].t);
+}
+
+// Length of the path in 1/256 of the row pair that begins at length u.
+double FinestStep(const std::vector<double>& path, double u) {
+  const auto after = std::upper_bound(path.begin(), path.end(), u);
+  if (after == path.end() || after == path.begin()) return 0;
+  return kFinest * (*after - *(after - 1));
+}
+
+// Keeps one pair of bodies apart over all time; false: not shown. With d the distance at the
+// instant of length u, all of [u − (d − required), u + (d − required)] is covered.
+bool Keep(const std::vector<double>& path, const PlayedMotion& motion, const std::string& name,
+          const std::function<Distances::Result(const Placement&, double)>& distance,
+          Check* check) {
+  const double required = check->required();
+  const double last = path.back();
+  double covered = 0, ahead = 0;
+  for (bool first = true; first || covered < last;) {
+    const double u = std::min(covered + ahead, last);
+    const double t = TimeOf(path, motion.rows(), u);
+    const auto [d, exact] = distance(motion.Place(t), required + kQuick);
+    const double slack = d - required;
+    if (exact) check->Add(d, [&] { return name + Text(" at t = %.6g s", t); });
+    if (!(slack >= 0)) {
+      if (!exact) check->Open(name + Text(" at t = %.6g s", t));
+      return false;
+    }
+    // Rounding of u and of the time keeps off the last 1e-12.
+    if (const double usable = slack - 1e-12; usable >= u - covered && (usable > 0 || last == 0)) {
+      first = false;
+      if (u + usable < last && u + usable - covered < FinestStep(path, covered)) {
+        check->Open(name + Text(" open at t = %.6g s: %.3g m left for the motion", t, slack));
+        return false;
+      }
+      covered = u + usable;
+      ahead = 0.9 * usable;
+      continue;
+    }
+    ahead = std::min(0.5 * (u - covered), slack);
+    if (u - covered < FinestStep(path, covered) || u == covered) {
+      check->Open(name + Text(" open at t = %.6g s: %.3g m left for the motion", t, slack));
+      return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+void CheckClearances(const PlayedMotion& motion, const CertificateText& certificate,
+                     double tolerance, Distances* distances, Findings* findings) {
+  const RobotModel& robot = motion.robot();
+  Check obstacles("clearance", "m", certificate.demanded[kClearance], tolerance);
+  for (size_t b = 0; b < robot.bodies.size() && distances->num_obstacles() > 0; ++b) {
+    const std::vector<double> path = motion.PathInWorld(robot.bodies[b]);
+    for (size_t o = 0; o < distances->num_obstacles(); ++o) {
+      Keep(
+          path, motion, distances->NameOfObstaclePair(b, o),
+          [&](const Placement& at, double enough) {
+            return distances->FromObstacle(b, o, at, enough);
+          },
+          &obstacles);
+    }
+  }
+  obstacles.Conclude(findings);
+
+  Check selves("self clearance", "m", certificate.demanded[kSelfClearance], tolerance);
+  std::vector<std::vector<double>> paths;
+  for (const RobotBody& body : robot.bodies) paths.push_back(motion.PathInWaist(body));
+  for (const auto& [i, j] : robot.self_pairs) {
+    const size_t a = static_cast<size_t>(i), b = static_cast<size_t>(j);
+    std::vector<double> path = paths[a];
+    for (size_t k = 0; k < path.size(); ++k) path[k] += paths[b][k];
+    Keep(
+        path, motion, distances->NameOfPair(a, b),
+        [&](const Placement& at, double enough) { return distances->OfPair(a, b, at, enough); },
+        &selves);
+  }
+  selves.Conclude(findings);
+}
+
+}  // namespace halfstep::verify

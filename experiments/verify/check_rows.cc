@@ -1,0 +1,235 @@
+#include "experiments/verify/check_rows.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "planner/simple_polygon.h"
+#include "wpg/lipm.h"
+#include "wpg/support_polygon.h"
+
+namespace halfstep::verify {
+namespace {
+
+// Numbers beyond this are no walk: [m], [rad], [m/s²] …
+constexpr double kHuge = 1e4;
+// What rounding may do to a number that is computed twice [m], [rad].
+constexpr double kRounding = 1e-9;
+// Sole by forward kinematics against the foot columns [m], [rad].
+constexpr double kSolePlace = 1e-6;
+// Residual of z_c/g·c̈ − c + p [m].
+constexpr double kPendulum = 1e-8;
+// [m], [rad]: a foot that stands may move this much between two rows by rounding.
+constexpr double kStill = 1e-9;
+
+std::string At(double t) { return Text("at t = %.6g s", t); }
+const char* SideName(int side) { return side == 0 ? "left" : "right"; }
+size_t Of(int side) { return static_cast<size_t>(side); }
+
+bool OfHumanSize(const PlayedRow& row) {
+  const auto most = [](const auto& v) { return v.cwiseAbs().maxCoeff(); };
+  double largest = std::max({std::abs(row.t), most(row.com), most(row.com_velocity),
+                             most(row.com_acceleration), most(row.zmp), most(row.waist)});
+  for (size_t s = 0; s < 2; ++s) largest = std::max({largest, most(row.soles[s]), most(row.q[s])});
+  return largest <= kHuge;
+}
+
+}  // namespace
+
+bool CheckIsMotion(const std::vector<PlayedRow>& rows, Findings* findings) {
+  const long before = findings->disagreements();
+  findings->Say("rows: " + Count(std::ssize(rows)) + ", times from 0, increasing; finite numbers");
+  if (rows.size() < 2) findings->Disagree("rows: fewer than two");
+  for (size_t i = 0; i < rows.size(); ++i) {
+    const std::string line = Text("trajectory.csv:%zu: ", i + 2);
+    if (!rows[i].AllFinite()) {
+      findings->Disagree(line + "a number is not finite");
+    } else if (!OfHumanSize(rows[i])) {
+      findings->Disagree(line + "a number is beyond 10,000");
+    }
+    if (i == 0 ? rows[i].t != 0 : !(rows[i].t > rows[i - 1].t)) {
+      findings->Disagree(line + "the times do not increase from 0");
+    }
+    if (i > 0 && rows[i].half_step < rows[i - 1].half_step) {
+      findings->Disagree(line + "the half-steps do not increase");
+    }
+  }
+  return findings->disagreements() == before;
+}
+
+bool MovesHorizontally(const PlayedMotion& motion, size_t i, int side) {
+  const Eigen::Vector4d d = motion.rows()[i + 1].soles[Of(side)] - motion.rows()[i].soles[Of(side)];
+  return d.head<2>().norm() > kStill || std::abs(d[3]) > kStill;
+}
+
+double FootSpeed(const PlayedMotion& motion, size_t i, int side) {
+  const PlayedRow &a = motion.rows()[i], &b = motion.rows()[i + 1];
+  return (b.soles[Of(side)] - a.soles[Of(side)]).head<3>().norm() / (b.t - a.t);
+}
+
+double FootYawRate(const PlayedMotion& motion, size_t i, int side) {
+  const PlayedRow &a = motion.rows()[i], &b = motion.rows()[i + 1];
+  return std::abs(b.soles[Of(side)][3] - a.soles[Of(side)][3]) / (b.t - a.t);
+}
+
+double ZmpMargin(const PlayedRow& row, const RobotModel& robot) {
+  const SupportPolygon polygon =
+      row.support == Support::kBoth
+          ? SupportPolygon(row.X_WS(0), row.X_WS(1), robot.sole_size)
+          : SupportPolygon(row.X_WS(static_cast<int>(row.support)), robot.sole_size);
+  return polygon.Margin(row.zmp);
+}
+
+// Hip, knee axis and ankle: stretched when both lie in one half-plane pair of the knee axis.
+double ReachMargin(const PlayedMotion& motion, const PlayedRow& row, int side) {
+  const Leg& leg = motion.robot().legs[Of(side)];
+  const LegJoint& knee = leg.joints[3];
+  const Eigen::Vector3d hip = leg.hip_B - knee.point_B, ankle = leg.ankle_B - knee.point_B;
+  const double along = knee.axis_B.dot(ankle - hip);
+  const double stretched =
+      std::hypot(knee.axis_B.cross(hip).norm() + knee.axis_B.cross(ankle).norm(), along);
+  const auto frames = LegForwardKinematics(leg, row.q[Of(side)]);
+  const Eigen::Vector3d at_B = frames[5] * (leg.joints[5].X_BLink.inverse() * leg.ankle_B);
+  return stretched - (at_B - leg.hip_B).norm();
+}
+
+double JointMargin(const RobotModel& robot, const PlayedRow& row, int side, int joint) {
+  const LegJoint& of = robot.legs[Of(side)].joints[Of(joint)];
+  const double q = row.q[Of(side)][joint];
+  return std::min(q - of.lower, of.upper - q);
+}
+
+double JointSpeedMargin(const PlayedMotion& motion, size_t i, int side, int joint, double scale) {
+  const PlayedRow &a = motion.rows()[i], &b = motion.rows()[i + 1];
+  const double limit = scale * motion.robot().legs[Of(side)].joints[Of(joint)].max_speed;
+  return limit - std::abs(b.q[Of(side)][joint] - a.q[Of(side)][joint]) / (b.t - a.t);
+}
+
+void CheckConsistency(const PlayedMotion& motion, const Scene& scene, double tolerance,
+                      Findings* findings) {
+  const RobotModel& robot = motion.robot();
+  const std::vector<PlayedRow>& rows = motion.rows();
+  const double k = robot.com_height / Lipm{}.gravity;  // z_c/g
+  Check soles("soles by forward kinematics", "m or rad", 0, kSolePlace);
+  Check waist("waist under the CoM", "m", 0, kSolePlace);
+  Check pendulum("pendulum", "m", 0, kPendulum);
+  Check velocity("CoM velocity", "m/s", 0, tolerance / std::sqrt(k));
+  Check acceleration("CoM acceleration", "m/s²", 0, tolerance / k);
+  Check standing("standing feet", "m or rad", 0, kStill);
+  Check areas("no-step areas", "", 0, 0);
+  std::array<std::optional<Pose2>, 2> footprint;
+  for (size_t i = 0; i < rows.size(); ++i) {
+    const PlayedRow& row = rows[i];
+    const auto here = [&row] { return At(row.t); };
+    const Placement at = motion.PlaceRow(row);
+    for (int side = 0; side < 2; ++side) {
+      const Eigen::Isometry3d X_WSole = at.X_WB * at.X_BLink[Of(side)][6];
+      const Eigen::Isometry3d stated = ToIsometry(row.X_WS(side), row.soles[Of(side)][2]);
+      const double apart = (X_WSole.translation() - stated.translation()).norm();
+      // For small angles the Frobenius norm is √2 times the angle.
+      const double turned = (X_WSole.linear() - stated.linear()).norm() / std::sqrt(2.0);
+      const auto where = [&] { return std::string(SideName(side)) + " foot " + At(row.t); };
+      soles.Add(-std::max(apart, turned), where);
+      if (!row.Stands(side)) continue;
+      standing.Add(-std::abs(row.soles[Of(side)][2]), where);
+      if (i > 0 && rows[i - 1].Stands(side)) {
+        const Eigen::Vector4d slid = row.soles[Of(side)] - rows[i - 1].soles[Of(side)];
+        standing.Add(-slid.cwiseAbs().maxCoeff(), where);
+      }
+      if (scene.no_step.empty() || footprint[Of(side)] == row.X_WS(side)) continue;
+      footprint[Of(side)] = row.X_WS(side);
+      const Eigen::Matrix2Xd corners = SoleCorners(row.X_WS(side), robot.sole_size);
+      for (const Eigen::Matrix2Xd& area : scene.no_step) {
+        areas.Add(PolygonsTouch(corners, area) ? -1 : 0, where);
+      }
+    }
+    const Eigen::Vector2d forward(std::cos(row.waist[3]), std::sin(row.waist[3]));
+    const Eigen::Vector2d under = row.com.head<2>() - robot.com_x_B * forward;
+    waist.Add(-std::max({(row.waist.head<2>() - under).norm(),
+                         std::abs(row.waist[2] - robot.waist_height),
+                         std::abs(row.com.z() - robot.com_height)}),
+              here);
+    const Eigen::Vector2d residual = k * row.com_acceleration - row.com.head<2>() + row.zmp;
+    pendulum.Add(-residual.norm(), here);
+    if (i == 0) continue;
+    // Trapezoidal rule against the difference of the rows.
+    const PlayedRow& last = rows[i - 1];
+    const double dt = row.t - last.t;
+    const Eigen::Vector2d v = (row.com - last.com).head<2>() / dt;
+    const Eigen::Vector2d a = (row.com_velocity - last.com_velocity) / dt;
+    // Differences of rounded numbers say nothing over a short last interval.
+    const double rounding = 1e-14 / dt;
+    velocity.Add(rounding - (v - (row.com_velocity + last.com_velocity) / 2).norm(), here);
+    acceleration.Add(rounding - (a - (row.com_acceleration + last.com_acceleration) / 2).norm(),
+                     here);
+  }
+  for (const Check* check : {&soles, &waist, &pendulum, &velocity, &acceleration, &standing}) {
+    check->Conclude(findings);
+  }
+  if (!scene.no_step.empty()) areas.Conclude(findings);
+}
+
+void CheckRowMargins(const PlayedMotion& motion, const CertificateText& certificate,
+                     double tolerance, Findings* findings) {
+  const RobotModel& robot = motion.robot();
+  const std::vector<PlayedRow>& rows = motion.rows();
+  const auto make = [&](Family family, const char* name, double slack) {
+    return Check(name, kUnits[family], certificate.demanded[family], slack);
+  };
+  Check joint = make(kJoint, "joint limits", kRounding);
+  Check joint_speed = make(kJointSpeed, "joint speeds", 1e-6);
+  Check reach = make(kReach, "leg reach", kRounding);
+  Check floor = make(kFloor, "height of a moving sole", tolerance);
+  Check foot_speed = make(kFootSpeed, "foot speed", 1e-6);
+  Check foot_yaw_rate = make(kFootYawRate, "foot yaw rate", 1e-6);
+  Check zmp = make(kZmp, "ZMP", kRounding);
+  Check change("ZMP where the support changes", "m", std::min(0.0, certificate.demanded[kZmp]),
+               tolerance);
+  Check above("soles above the floor", "m", 0, kRounding);
+  for (size_t i = 0; i < rows.size(); ++i) {
+    const PlayedRow& row = rows[i];
+    zmp.Add(ZmpMargin(row, robot), [&] { return At(row.t); });
+    for (int side = 0; side < 2; ++side) {
+      const auto leg_at = [&] { return std::string(SideName(side)) + " leg " + At(row.t); };
+      reach.Add(ReachMargin(motion, row, side), leg_at);
+      above.Add(row.soles[Of(side)][2], leg_at);
+      const bool paired = i + 1 < rows.size();
+      // Rounded angles say little over a short last interval.
+      const double rounding = paired ? 1e-12 / (rows[i + 1].t - row.t) : 0;
+      for (int j = 0; j < 6; ++j) {
+        const auto where = [&] {
+          return robot.legs[Of(side)].joints[Of(j)].name + " " + At(row.t);
+        };
+        joint.Add(JointMargin(robot, row, side, j), where);
+        if (!paired) continue;
+        joint_speed.Add(
+            rounding + JointSpeedMargin(motion, i, side, j, certificate.joint_speed_scale), where);
+      }
+      if (!paired) continue;
+      if (certificate.foot_speed) {
+        foot_speed.Add(*certificate.foot_speed + rounding - FootSpeed(motion, i, side), leg_at);
+      }
+      if (certificate.foot_yaw_rate) {
+        foot_yaw_rate.Add(*certificate.foot_yaw_rate + rounding - FootYawRate(motion, i, side),
+                          leg_at);
+      }
+      // The horizontal motion may begin or end between the rows: then the higher one counts.
+      if (MovesHorizontally(motion, i, side)) {
+        floor.Add(std::max(row.soles[Of(side)][2], rows[i + 1].soles[Of(side)][2]), leg_at);
+      }
+    }
+    if (i + 1 == rows.size() || row.support == rows[i + 1].support) continue;
+    // What supports the robot between the rows is in both polygons.
+    PlayedRow a = row, b = rows[i + 1];
+    std::swap(a.support, b.support);
+    for (const PlayedRow* crossed : {&a, &b}) {
+      change.Add(ZmpMargin(*crossed, robot), [&] { return At(row.t); });
+    }
+  }
+  for (const Check* check :
+       {&joint, &joint_speed, &reach, &above, &floor, &foot_speed, &foot_yaw_rate, &zmp, &change}) {
+    check->Conclude(findings);
+  }
+}
+
+}  // namespace halfstep::verify

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "experiments/verify/certificate_text.h"
+#include "experiments/verify/findings.h"
+#include "experiments/verify/played_motion.h"
+#include "planner/scene.h"
+
+namespace halfstep::verify {
+
+/// Whether the rows are a motion at all: numbers finite and of human size, times increasing from 0.
+/// The other checks need it.
+bool CheckIsMotion(const std::vector<PlayedRow>& rows, Findings* findings);
+
+/// What the rows say against each other, whoever made them: soles where forward kinematics puts
+/// them, CoM rigid above the waist, CoM, its derivatives and the ZMP a linear inverted pendulum,
+/// standing feet on the floor and at rest, no standing foot on a no-step area. `tolerance` [m].
+void CheckConsistency(const PlayedMotion& motion, const Scene& scene, double tolerance,
+                      Findings* findings);
+
+/// Joint limits and speeds, reach, foot speed, height while moving, ZMP against what
+/// `certificate` demands.
+void CheckRowMargins(const PlayedMotion& motion, const CertificateText& certificate,
+                     double tolerance, Findings* findings);
+
+/// Margins of one family and side, leg or joint at a row (reach: of both legs, …); +∞: nothing to
+/// watch. Speeds: between row i and the next one.
+double ZmpMargin(const PlayedRow& row, const RobotModel& robot);
+double ReachMargin(const PlayedMotion& motion, const PlayedRow& row, int side);
+double JointMargin(const RobotModel& robot, const PlayedRow& row, int side, int joint);
+double JointSpeedMargin(const PlayedMotion& motion, size_t i, int side, int joint, double scale);
+/// Of the sole's centre [m/s] and of its yaw [rad/s], between row i and the next one.
+double FootSpeed(const PlayedMotion& motion, size_t i, int side);
+double FootYawRate(const PlayedMotion& motion, size_t i, int side);
+/// Whether a sole moves horizontally or turns between row i and the next one.
+bool MovesHorizontally(const PlayedMotion& motion, size_t i, int side);
+
+}  // namespace halfstep::verify

@@ -1,0 +1,127 @@
+#include "experiments/verify/csv_text.h"
+
+#include <openssl/evp.h>
+
+#include <array>
+#include <charconv>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string_view>
+#include <system_error>
+
+#include "experiments/verify/findings.h"
+#include "wpg/input/input_error.h"
+#include "wpg/input/text.h"
+
+namespace halfstep::verify {
+namespace {
+
+// Cells of a line; false: a quote out of place.
+bool Split(std::string_view line, std::vector<std::string>* cells) {
+  cells->assign(1, "");
+  bool quoted = false, closed = false;
+  for (size_t i = 0; i < line.size(); ++i) {
+    const char c = line[i];
+    if (quoted) {
+      if (c != '"') {
+        cells->back() += c;
+      } else if (i + 1 < line.size() && line[i + 1] == '"') {
+        cells->back() += line[++i];
+      } else {
+        quoted = false;
+        closed = true;
+      }
+    } else if (c == ',') {
+      cells->emplace_back();
+      closed = false;
+    } else if (c == '"' && cells->back().empty() && !closed) {
+      quoted = true;
+    } else if (c == '"' || closed) {
+      return false;
+    } else {
+      cells->back() += c;
+    }
+  }
+  return !quoted;
+}
+
+}  // namespace
+
+std::string ReadBytes(const std::string& path) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) throw InputError({path + ": is a folder"});
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw InputError({path + ": cannot be read"});
+  std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  if (in.bad()) throw InputError({path + ": cannot be read to its end"});
+  return bytes;
+}
+
+std::string Sha256(const std::string& bytes) {
+  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
+  unsigned int size = 0;
+  if (EVP_Digest(bytes.data(), bytes.size(), digest.data(), &size, EVP_sha256(), nullptr) != 1) {
+    throw std::runtime_error("SHA-256 is not available");
+  }
+  std::string hex;
+  for (unsigned int i = 0; i < size; ++i) hex += Text("%02x", digest[i]);
+  return hex;
+}
+
+CsvText::CsvText(std::string path, const std::string& text, const std::vector<std::string>& header)
+    : path_(std::move(path)), header_(header) {
+  std::string_view rest = text;
+  std::vector<std::string> cells;
+  for (long line = 1; !rest.empty(); ++line) {
+    const auto fail = [&](const std::string& what) {
+      throw InputError({path_ + ":" + std::to_string(line) + ": " + what});
+    };
+    const size_t end = rest.find('\n');
+    if (end == std::string_view::npos) fail("the last line has no end: the file is cut off");
+    if (!Split(rest.substr(0, end), &cells)) fail("a quote is open or out of place");
+    rest.remove_prefix(end + 1);
+    if (line > 1) {
+      if (cells.size() != header_.size()) {
+        fail(Text("%zu cells (valid: %zu)", cells.size(), header_.size()));
+      }
+      rows_.push_back(cells);
+      continue;
+    }
+    for (size_t i = 0; i < std::max(cells.size(), header_.size()); ++i) {
+      const std::string found = i < cells.size() ? Quote(cells[i]) : "nothing";
+      const std::string wanted = i < header_.size() ? header_[i] : "no further column";
+      if (i >= cells.size() || i >= header_.size() || cells[i] != header_[i]) {
+        fail(Text("column %zu is %s (valid: %s)", i + 1, found.c_str(), wanted.c_str()));
+      }
+    }
+  }
+  if (text.empty()) throw InputError({path_ + ":1: the file is empty"});
+}
+
+void CsvText::Refuse(size_t row, size_t column, const std::string& what) const {
+  throw InputError({path_ + ":" + std::to_string(row + 2) + ": " + header_[column] + ": " +
+                    Quote(rows_[row][column]) + " " + what});
+}
+
+double CsvText::Number(size_t row, size_t column) const {
+  const std::string& text = rows_[row][column];
+  double value = 0.0;
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  if (error != std::errc() || stop != end) Refuse(row, column, "is not a number");
+  return value;
+}
+
+int CsvText::Positive(size_t row, size_t column) const {
+  const std::string& text = rows_[row][column];
+  int value = 0;
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  if (error != std::errc() || stop != end || value < 1 || value > 1000000000) {
+    Refuse(row, column, "is not a whole number from 1 on");
+  }
+  return value;
+}
+
+}  // namespace halfstep::verify

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace halfstep::verify {
+
+/// Bytes of a file. Throws InputError when it cannot be read.
+std::string ReadBytes(const std::string& path);
+
+/// Lower-case hexadecimal SHA-256.
+std::string Sha256(const std::string& bytes);
+
+/// A CSV table, strict: every line ends in \n, every row has as many cells as the header, cells may
+/// be quoted as in RFC 4180 but hold no line breaks.
+class CsvText {
+ public:
+  /// Throws InputError "path:line: …" for text that is no such table, or whose header is not
+  /// `header`.
+  CsvText(std::string path, const std::string& text, const std::vector<std::string>& header);
+
+  size_t size() const { return rows_.size(); }
+  const std::string& Cell(size_t row, size_t column) const { return rows_[row][column]; }
+  /// A decimal number, inf, -inf or nan. Throws InputError.
+  double Number(size_t row, size_t column) const;
+  /// A whole number in [1, 1e9]. Throws InputError.
+  int Positive(size_t row, size_t column) const;
+  /// Throws InputError about a cell.
+  [[noreturn]] void Refuse(size_t row, size_t column, const std::string& what) const;
+
+ private:
+  std::string path_;
+  std::vector<std::string> header_;
+  std::vector<std::vector<std::string>> rows_;
+};
+
+}  // namespace halfstep::verify

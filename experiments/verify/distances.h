@@ -1,0 +1,52 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "experiments/verify/played_motion.h"
+#include "planner/scene.h"
+#include "planner/separation.h"
+
+namespace halfstep::verify {
+
+/// Distances of the robot's bodies from obstacles and from each other, by triangle meshes.
+/// Borrows robot and scene. Const but for the count of queries.
+class Distances {
+ public:
+  Distances(const RobotModel& robot, const Scene& scene);
+
+  size_t num_bodies() const { return bodies_.size(); }
+  size_t num_obstacles() const { return obstacles_.size(); }
+  long queries() const { return queries_; }
+
+  /// A distance, or something below it. `exact`: the triangles were asked.
+  struct Result {
+    double distance = 0;
+    bool exact = false;
+  };
+  /// Distance of a body from an obstacle; or, if the bounding volumes are at least `enough` apart,
+  /// how far they are [m].
+  Result FromObstacle(size_t body, size_t obstacle, const Placement& at, double enough);
+  /// The same of two bodies of the robot.
+  Result OfPair(size_t a, size_t b, const Placement& at, double enough);
+
+  /// "RLEG_LINK5 - bar", "LLEG_LINK5 - RLEG_LINK5".
+  std::string NameOfObstaclePair(size_t body, size_t obstacle) const;
+  std::string NameOfPair(size_t a, size_t b) const;
+
+ private:
+  struct Shape {
+    CollisionShape shape;
+    Eigen::Vector3d lower, upper;  // bounds in its own frame [m]
+  };
+  static Shape Prepare(CollisionShape shape);
+  static double QuickBound(const Shape& a, const Eigen::Isometry3d& X_a, const Shape& b,
+                           const Eigen::Isometry3d& X_b);
+
+  const RobotModel& robot_;
+  const Scene& scene_;
+  std::vector<Shape> bodies_, obstacles_;
+  long queries_ = 0;
+};
+
+}  // namespace halfstep::verify

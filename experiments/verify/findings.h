@@ -1,0 +1,73 @@
+#pragma once
+
+#include <algorithm>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace halfstep::verify {
+
+/// What a verification found: one line a check, and why it disagrees.
+class Findings {
+ public:
+  void Say(std::string line) { lines_.push_back(std::move(line)); }
+  void Disagree(const std::string& reason) {
+    if (reasons_.size() < kKept) reasons_.push_back(reason);
+    ++disagreements_;
+  }
+  const std::vector<std::string>& lines() const { return lines_; }
+  /// The first reasons; `disagreements()` counts them all.
+  const std::vector<std::string>& reasons() const { return reasons_; }
+  long disagreements() const { return disagreements_; }
+
+ private:
+  static constexpr size_t kKept = 10;
+  std::vector<std::string> lines_;
+  std::vector<std::string> reasons_;
+  long disagreements_ = 0;
+};
+
+/// printf into a string; %s takes a C string.
+[[gnu::format(printf, 1, 2)]] std::string Text(const char* format, ...);
+/// "41,230".
+std::string Count(long n);
+
+/// One check over many instants: how many values, the smallest, and where it is. Disagrees at
+/// the first value below what is demanded, and counts the others.
+class Check {
+ public:
+  /// `name` and `unit` as they are printed; a value counts when it is at least demanded −
+  /// tolerance.
+  Check(std::string name, std::string unit, double demanded, double tolerance)
+      : name_(std::move(name)),
+        unit_(std::move(unit)),
+        demanded_(demanded),
+        tolerance_(tolerance) {}
+
+  /// `where` is called for values that are kept: "RLEG_LINK5 – bar at t = 3.215 s".
+  template <typename Where>
+  void Add(double value, const Where& where) {
+    ++count_;
+    if (value < smallest_ || !(value == value)) {
+      smallest_ = value;
+      where_ = where();
+    }
+    if (!(value >= demanded_ - tolerance_) && failures_++ == 0) first_failure_ = where();
+  }
+  /// Something that could not be settled, in words.
+  void Open(const std::string& what) {
+    if (failures_++ == 0) first_failure_ = what;
+  }
+  double required() const { return demanded_ - tolerance_; }
+  long failures() const { return failures_; }
+  void Conclude(Findings* findings) const;
+
+ private:
+  std::string name_, unit_;
+  double demanded_, tolerance_;
+  long count_ = 0, failures_ = 0;
+  double smallest_ = std::numeric_limits<double>::infinity();
+  std::string where_, first_failure_;
+};
+
+}  // namespace halfstep::verify

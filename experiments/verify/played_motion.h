@@ -1,0 +1,94 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <string>
+#include <vector>
+
+#include "wpg/pose2.h"
+#include "wpg/robot_model.h"
+
+namespace halfstep::verify {
+
+/// Which feet stand, as trajectory.csv says it. Single supports have the values of Index(Side).
+enum class Support : int { kLeft = 0, kRight = 1, kBoth = 2 };
+
+/// A row of trajectory.csv; its last six columns, margins, are not read.
+struct PlayedRow {
+  double t = 0;  ///< [s]
+  int half_step = 0;
+  Support support = Support::kBoth;
+  Eigen::Vector3d com{0, 0, 0};
+  Eigen::Vector2d com_velocity{0, 0}, com_acceleration{0, 0}, zmp{0, 0};
+  Eigen::Vector4d waist{0, 0, 0, 0};     ///< x, y, z [m], yaw [rad]
+  std::array<Eigen::Vector4d, 2> soles;  ///< the same of the sole frames, by Index(Side)
+  std::array<Vector6d, 2> q;             ///< joint angles [rad], by Index(Side)
+
+  Pose2 X_WS(int side) const {
+    const Eigen::Vector4d& s = soles[static_cast<size_t>(side)];
+    return {s[0], s[1], s[3]};
+  }
+  bool Stands(int side) const {
+    return support == Support::kBoth || static_cast<int>(support) == side;
+  }
+  bool AllFinite() const;
+};
+
+/// Columns of trajectory.csv for a robot.
+std::vector<std::string> TrajectoryHeader(const RobotModel& robot);
+
+/// Throws InputError for what is no trajectory of this robot.
+std::vector<PlayedRow> ReadTrajectory(const std::string& path, const std::string& text,
+                                      const RobotModel& robot);
+
+/// Where the robot is at an instant.
+struct Placement {
+  Eigen::Isometry3d X_WB;
+  std::array<std::array<Eigen::Isometry3d, 7>, 2> X_BLink;  ///< links and, last, the sole.
+
+  Eigen::Isometry3d OfBody(const RobotBody& body) const {
+    return body.leg < 0 ? X_WB : X_WB * OfBody_B(body);
+  }
+  Eigen::Isometry3d OfBody_B(const RobotBody& body) const {
+    return body.leg < 0 ? Eigen::Isometry3d::Identity()
+                        : X_BLink[static_cast<size_t>(body.leg)][static_cast<size_t>(body.link)];
+  }
+};
+
+/// The motion that a robot plays from a trajectory: waist (x, y, z, yaw) and joint angles linear
+/// between rows. Borrows robot and rows. Precondition: at least two rows, increasing times, finite.
+class PlayedMotion {
+ public:
+  PlayedMotion(const RobotModel& robot, const std::vector<PlayedRow>& rows);
+
+  const RobotModel& robot() const { return robot_; }
+  const std::vector<PlayedRow>& rows() const { return rows_; }
+  double end() const { return rows_.back().t; }
+
+  /// The row i with t_i ≤ t < t_{i+1} (the last but one at the end), and (t − t_i)/(t_{i+1} − t_i).
+  std::pair<size_t, double> Locate(double t) const;
+  /// Linear between the two rows around an instant; half-step and support of the earlier one.
+  PlayedRow At(double t) const;
+  Placement Place(double t) const { return PlaceRow(At(t)); }
+  Placement PlaceRow(const PlayedRow& row) const;
+
+  /// For each row, how far any point of a body can have moved from row 0 to it, at most [m]:
+  /// Σ |Δwaist| + |Δyaw|·lever + Σ_j |Δq_j|·r_j, r_j the largest distance of the body's points
+  /// from a point of joint j's axis over all postures (sum of link lengths); linear between
+  /// rows. So C(t') − C(t) bounds the body's motion on [t, t'].
+  /// Source: [Schwarzer2005] §4.
+  std::vector<double> PathInWorld(const RobotBody& body) const;
+  /// The same as seen from the waist: its leg's joints only.
+  std::vector<double> PathInWaist(const RobotBody& body) const;
+
+ private:
+  std::array<double, 6> Radii(const RobotBody& body) const;
+
+  const RobotModel& robot_;
+  const std::vector<PlayedRow>& rows_;
+};
+
+/// Largest distance of a body's points from `point`, both in the body's frame, at most [m].
+double FarthestFrom(const ConvexBody& body, const Eigen::Vector3d& point);
+
+}  // namespace halfstep::verify
