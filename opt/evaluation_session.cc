@@ -177,7 +177,7 @@ bool EvaluationSession::ReportIterate(const Eigen::VectorXd& x) {
   } else {
     ++iterations_;
   }
-  if (counting_ == Iterations::kTold && iterations_ >= options_.max_iterations) {
+  if (counting_ == Iterations::kTold && iterations_ > options_.max_iterations) {
     Stop(SolveStatus::kIterationLimit,
          "max_iterations = " + std::to_string(options_.max_iterations) + " reached.");
   }

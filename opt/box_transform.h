@@ -1,0 +1,37 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace halfstep::opt {
+
+/// Coordinate-wise smooth map z ∈ Rⁿ → x ∈ [lower, upper], so that a minimizer that knows no bounds
+/// never leaves them:
+///
+///     both finite:   x = l + (u − l)·(1 + sin z)/2
+///     only lower:    x = l − 1 + √(z² + 1)
+///     only upper:    x = u + 1 − √(z² + 1)
+///     none:          x = z
+///
+/// At a bound dx/dz = 0: a minimum on the bound is an ordinary stationary point in z, but so is any
+/// other point on it; a start belongs a little inside.
+/// Source: F. James, MINUIT Reference Manual, CERN D506, §1.2.1.
+class BoxTransform {
+ public:
+  BoxTransform(Eigen::VectorXd lower, Eigen::VectorXd upper);
+
+  Eigen::VectorXd ToBox(const Eigen::VectorXd& z) const;
+  /// An inverse image of x, which must lie in the box.
+  Eigen::VectorXd FromBox(const Eigen::VectorXd& x) const;
+  /// dx_j/dz_j (n).
+  Eigen::VectorXd Slope(const Eigen::VectorXd& z) const;
+  /// x with each coordinate that is nearer than `fraction` of the width (of max(1, |bound|) where
+  /// only one side is bounded) to a bound from which −gradient points inwards moved to that
+  /// distance.
+  Eigen::VectorXd OffTheBounds(const Eigen::VectorXd& x, const Eigen::VectorXd& gradient,
+                               double fraction) const;
+
+ private:
+  Eigen::VectorXd lower_, upper_;
+};
+
+}  // namespace halfstep::opt

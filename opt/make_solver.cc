@@ -1,0 +1,28 @@
+#include <stdexcept>
+
+#include "opt/ceres_solver.h"
+#include "opt/ipopt_solver.h"
+#include "opt/nlopt_solver.h"
+#include "opt/solver.h"
+
+namespace halfstep::opt {
+
+std::vector<std::string> SolverNames() {
+  std::vector<std::string> names = {"ipopt"};
+  for (const NloptMethod& method : NloptMethods()) names.push_back(method.name);
+  names.push_back("ceres/auglag");
+  return names;
+}
+
+std::unique_ptr<Solver> MakeSolver(const std::string& name) {
+  if (name == "ipopt") return MakeIpoptSolver();
+  if (name == "ceres/auglag") return MakeCeresSolver();
+  for (const NloptMethod& method : NloptMethods()) {
+    if (method.name == name) return MakeNloptSolver(method);
+  }
+  std::string valid;
+  for (const std::string& known : SolverNames()) valid += (valid.empty() ? "" : ", ") + known;
+  throw std::invalid_argument("unknown solver `" + name + "` (valid: " + valid + ")");
+}
+
+}  // namespace halfstep::opt

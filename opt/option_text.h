@@ -1,0 +1,21 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace halfstep::opt {
+
+/// The whole text as a number; nullopt when it is not one.
+std::optional<double> ParseNumber(const std::string& text);
+std::optional<int> ParseInteger(const std::string& text);
+
+/// "ipopt: unknown option `tool` (valid: tol, …)": of many valid names only the nearest are told.
+std::string UnknownOption(const std::string& solver, const std::string& option,
+                          std::vector<std::string> valid);
+
+/// "ipopt: option tol = abc was refused: …".
+std::string RefusedOption(const std::string& solver, const std::string& option,
+                          const std::string& value, const std::string& why);
+
+}  // namespace halfstep::opt
