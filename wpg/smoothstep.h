@@ -34,7 +34,6 @@ struct Smoothstep {
     const double r = 1.0 / (end - begin);
     const double a = std::clamp((from - begin) * r, 0.0, 1.0);
     const double b = std::clamp((to - begin) * r, 0.0, 1.0);
-    if (a >= b) return 0.0;
     constexpr double kLow = 0.21132486540518713, kHigh = 0.78867513459481287,
                      kPeak = 5.7735026918962582;
     const auto at = [](double x) { return std::abs(60.0 * x * (1.0 - x) * (1.0 - 2.0 * x)); };

@@ -1,0 +1,213 @@
+#include "smoothing/certified_feasibility.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+#include "smoothing/dichotomy.h"
+#include "smoothing/sampled_feasibility.h"
+#include "tests/smoothing/certificate_draws.h"
+
+namespace halfstep {
+namespace {
+
+constexpr double kAnyClearance = -10.0;  // [m] below every margin of a walk within reach
+
+// Only obstacles count.
+MarginLimits ObstaclesOnly() {
+  MarginLimits limits;
+  limits.foot_speed.reset();
+  limits.foot_yaw_rate.reset();
+  limits.demanded.fill(-100.0);
+  limits.demanded_of(MarginFamily::kSelfClearance) = kAnyClearance;
+  limits.demanded_of(MarginFamily::kClearance) = 0.0;
+  return limits;
+}
+
+Scene With(ConvexBody shape, const Eigen::Isometry3d& X_WO) {
+  Scene scene;
+  scene.obstacles.push_back({.name = "obstacle", .shape = std::move(shape), .X_WO = X_WO});
+  return scene;
+}
+
+Feasibility Certified(const RobotModel& robot, const Scene& scene, const MarginLimits& limits,
+                      const SuperposedWalk& walk) {
+  const MarginEvaluator evaluator(robot, scene, limits);
+  MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
+  return CertifiedFeasibility(evaluator, {}).Check(walk, {0.0, walk.duration()}, &scratch);
+}
+
+Feasibility Sampled(const RobotModel& robot, const Scene& scene, const MarginLimits& limits,
+                    const SuperposedWalk& walk, double period) {
+  const MarginEvaluator evaluator(robot, scene, limits);
+  MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
+  return SampledFeasibility(evaluator, period).Check(walk, {0.0, walk.duration()}, &scratch);
+}
+
+// One fast step of the right foot, from behind the left one to before it.
+struct FastStep {
+  RobotModel robot = Hrp2();
+  double y = 0.5 * robot.standing_width;
+  HalfStepSequence sequence = MakeSequence(
+      {Pose2{0, y, 0}, Pose2{-0.12, -y, 0}},
+      {{.side = Side::kRight, .X_WF = {0.12, -y, 0}, .via_height = 0.12, .duration = 0.8}}, 0.24,
+      {.shift = 0.1, .horizontal_delay = 0.05}, {.com_height = robot.com_height});
+  SuperposedWalk walk{sequence, Overlapped(sequence, 0.8)};
+  double middle = 0.5 * walk.duration();
+
+  WalkVector At(double t) const { return walk.At(t).value; }
+};
+
+// A plate of 0.1 mm stands across the way of the foot, beside the leg, at the height of the foot's
+// middle; its inner edge is where the foot passes it on the way out.
+Scene Fence(double x, double inner_y, double z) {
+  const Eigen::Vector3d size(1e-4, 0.2, 0.05);
+  return With(MakeBox(size), ToIsometry({x, inner_y - 0.5 * size.y(), 0}, z));
+}
+
+TEST(CertifiedFeasibility, RefusesTheFenceThatSamplingEvery15MsMisses) {
+  const FastStep step;
+  const MarginLimits limits = ObstaclesOnly();
+  const WalkJet jet = step.walk.At(step.middle);
+  const double z = jet.value[kRightZ] + 0.02;
+  const auto check = [&](const Scene& scene, double period) {
+    return Sampled(step.robot, scene, limits, step.walk, period);
+  };
+  const auto violated = [&](const Scene& scene, double period) {
+    return check(scene, period).verdict == Verdict::kViolated;
+  };
+  int missed = 0;
+  for (double ahead : {-0.20, -0.19, 0.19, 0.20, 0.21}) {
+    // How far out the foot reaches there, by bisection; the plate stands 0.2 mm farther in, where
+    // only a corner of the foot comes, for some milliseconds.
+    const double x = jet.value[kRightX] + ahead;
+    double hit = jet.value[kRightY], clear = jet.value[kRightY] - 0.2;
+    ASSERT_TRUE(violated(Fence(x, hit, z), 1e-3));
+    while (hit - clear > 5e-5) {
+      const double middle = 0.5 * (hit + clear);
+      (violated(Fence(x, middle, z), 1e-3) ? hit : clear) = middle;
+    }
+    const Scene fence = Fence(x, hit + 2e-4, z);
+    const Feasibility dense = check(fence, 2.5e-4);
+    ASSERT_EQ(dense.verdict, Verdict::kViolated);
+    const Feasibility certified = Certified(step.robot, fence, limits, step.walk);
+    EXPECT_EQ(certified.verdict, Verdict::kViolated) << ahead;
+    const Eigen::Vector2d velocity = step.walk.At(dense.witness.t).first.segment<2>(kRightX);
+    missed += velocity.norm() > 0.8 && !violated(fence, 0.015);
+  }
+  EXPECT_GE(missed, 1);
+}
+
+TEST(CertifiedFeasibility, FindsSmallObstaclesInsideWhatABodySweeps) {
+  const FastStep step;
+  const MarginLimits limits = ObstaclesOnly();
+  const WalkVector mid = step.At(step.middle), begin = step.At(0.0);
+  const double waist = step.robot.waist_height;
+  const Pose2 X_WC{begin[kComX], begin[kComY], begin[kWaistYaw]};
+  struct Case {
+    const char* what;
+    Eigen::Isometry3d X_WO;
+  };
+  for (const Case& c : std::array<Case, 4>{
+           {{"in the foot on its way",
+             ToIsometry(FootPose(mid, Side::kRight), mid[kRightZ] + 0.03)},
+            {"in the foot at rest", ToIsometry(FootPose(begin, Side::kRight), 0.03)},
+            {"in the support foot", ToIsometry(FootPose(begin, Side::kLeft), 0.03)},
+            {"in the waist", ToIsometry(X_WC * Pose2{-step.robot.com_x_B, 0, 0}, waist)}}}) {
+    const Scene scene = With(MakeSphere(0.0025), c.X_WO);
+    EXPECT_EQ(Certified(step.robot, scene, limits, step.walk).verdict, Verdict::kViolated)
+        << c.what;
+  }
+  const Scene beside = With(MakeSphere(0.0025), ToIsometry({0.0, -1.0, 0.0}, 0.03));
+  EXPECT_EQ(Certified(step.robot, beside, limits, step.walk).verdict, Verdict::kFeasible);
+}
+
+TEST(CertifiedFeasibility, IsNeverContradictedBySampling) {
+  const RobotModel robot = Hrp2();
+  WalkDraw draw(11);
+  int certified = 0, walks = 0;
+  while (walks < Draws(40)) {
+    const SceneKind kind = static_cast<SceneKind>(walks % 3);
+    const bool at_limit = walks % 2 == 0;
+    const auto drawn = DrawNearLimit(robot, kind, {}, at_limit ? 0.0 : 0.1, &draw);
+    if (!drawn) continue;
+    ++walks;
+    const SuperposedWalk walk(drawn->sequence, drawn->parameters);
+    const Verdict verdict = Certified(robot, drawn->scene, {}, walk).verdict;
+    const Verdict sampled = Sampled(robot, drawn->scene, {}, walk, 1e-3).verdict;
+    certified += verdict == Verdict::kFeasible;
+    if (verdict == Verdict::kFeasible) {
+      EXPECT_EQ(sampled, Verdict::kFeasible) << walks;
+    }
+    if (!at_limit) {  // 1 mm to spare is enough
+      EXPECT_EQ(verdict, Verdict::kFeasible) << walks;
+    }
+  }
+  EXPECT_GE(certified, walks / 2);
+}
+
+// Every statement of every family holds at every instant, by rows that say so.
+TEST(CertifiedFeasibility, CertificateCoversTheWholeWalk) {
+  const RobotModel robot = Hrp2();
+  WalkDraw draw(12);
+  const MarginLimits limits;
+  int walks = 0;
+  while (walks < Draws(10)) {
+    const auto drawn = DrawNearLimit(robot, SceneKind::kClutter, limits, 0.1, &draw);
+    if (!drawn) continue;
+    ++walks;
+    const SuperposedWalk walk(drawn->sequence, drawn->parameters);
+    const MarginEvaluator evaluator(robot, drawn->scene, limits);
+    const CertifiedFeasibility test(evaluator, {});
+    MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
+    Certificate certificate;
+    ASSERT_EQ(test.Certify(walk, &scratch, &certificate).verdict, Verdict::kFeasible);
+    std::set<double> ends = {0.0, walk.duration()};
+    for (const CertificateRow& row : certificate) {
+      ASSERT_LT(row.begin, row.end);
+      ASSERT_GE(row.bound, 0.0);
+      ASSERT_GE(row.margin.value - row.bound, limits.demanded_of(row.family))
+          << Name(row.family) << " in [" << row.begin << ", " << row.end << "]";
+      ends.insert({row.begin, row.end});
+    }
+    ASSERT_EQ(*ends.begin(), 0.0);
+    ASSERT_EQ(*ends.rbegin(), walk.duration());
+    for (auto next = ends.begin(), end = next++; next != ends.end(); end = next++) {
+      std::array<int, kNumMarginFamilies> counts{};
+      for (const CertificateRow& row : certificate) {
+        if (row.begin <= *end && *next <= row.end) {
+          counts[static_cast<size_t>(row.family)] += row.count;
+        }
+      }
+      for (MarginFamily family : AllMarginFamilies()) {
+        ASSERT_EQ(counts[static_cast<size_t>(family)], test.CountOf(family)) << Name(family);
+      }
+    }
+  }
+}
+
+// What the dichotomy accepted window by window holds for the walk as a whole.
+TEST(CertifiedFeasibility, DichotomyEndsCertified) {
+  const RobotModel robot = Hrp2();
+  WalkDraw draw(13);
+  int walks = 0;
+  while (walks < Draws(10)) {
+    const auto drawn = DrawNearLimit(robot, SceneKind::kCylinders, {}, 0.1, &draw);
+    if (!drawn) continue;
+    ++walks;
+    const MarginEvaluator evaluator(robot, drawn->scene, {});
+    const CertifiedFeasibility test(evaluator, {});
+    const SmoothingResult result = Dichotomy(drawn->sequence, test, {});
+    ASSERT_EQ(result.status, SmoothingStatus::kFinished);
+    EXPECT_EQ(result.evidence, Evidence::kCertified);
+    const SuperposedWalk walk(drawn->sequence, result.parameters);
+    EXPECT_EQ(Certified(robot, drawn->scene, {}, walk).verdict, Verdict::kFeasible) << walks;
+    EXPECT_EQ(Sampled(robot, drawn->scene, {}, walk, 1e-3).verdict, Verdict::kFeasible) << walks;
+  }
+}
+
+}  // namespace
+}  // namespace halfstep

@@ -1,0 +1,146 @@
+#include "smoothing/motion_bounds.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+#include "tests/smoothing/certificate_draws.h"
+#include "tests/smoothing/motion_truth.h"
+
+namespace halfstep {
+namespace {
+
+// Bounds at work on random intervals of random walks of one robot.
+struct Tally {
+  long intervals = 0;
+  long bounded = 0;
+  long compared = 0;
+  std::array<double, kNumBounded> excess;  // largest truth − bound
+};
+
+Tally CompareRandomIntervals(const RobotModel& robot, int intervals, unsigned seed) {
+  constexpr int kIntervalsPerWalk = 20;
+  const std::vector<Eigen::Matrix3Xd> points = OuterPoints(robot);
+  const MotionBounds bounds(robot);
+  WalkDraw draw(seed);
+  Tally tally;
+  tally.excess.fill(-1.0);
+  IntervalMotion motion;
+  for (int i = 0; i < intervals; i += kIntervalsPerWalk) {
+    const HalfStepSequence sequence = DrawSequence(robot, 2, {}, &draw);
+    const SuperposedWalk walk(sequence, draw.ExtremeParameters(sequence));
+    for (int k = 0; k < kIntervalsPerWalk; ++k) {
+      ++tally.intervals;
+      const double length = 1e-4 * std::pow(2000.0, draw.Uniform(0, 1));
+      const double begin = draw.Uniform(0.0, walk.duration() - length);
+      bounds.Bound(walk, begin, begin + length, &motion);
+      if (!motion.bounded) continue;
+      ++tally.bounded;
+      for (const double part : {0.0, draw.Uniform(0, 1), 1.0}) {
+        const bool reached = CompareWithTruth(robot, points, walk, motion, begin + part * length,
+                                              [&](Bounded kind, int, double truth, double bound) {
+                                                ++tally.compared;
+                                                double& worst =
+                                                    tally.excess[static_cast<size_t>(kind)];
+                                                worst = std::max(worst, truth - bound);
+                                              });
+        EXPECT_TRUE(reached) << robot.name << " at " << begin + part * length << " s";
+      }
+    }
+  }
+  return tally;
+}
+
+TEST(MotionBounds, AreNeverExceededOnRandomIntervals) {
+  unsigned seed = 1;
+  for (const RobotModel& robot : RobotsOfAllKinds()) {
+    const Tally tally = CompareRandomIntervals(robot, Draws(2000), seed++);
+    // Half of the intervals are longer than 4 ms, and some walks nearly stretch a leg.
+    EXPECT_GT(tally.bounded, tally.intervals / 2) << robot.name;
+    for (size_t kind = 0; kind < kNumBounded; ++kind) {
+      // What is left is the rounding of inverse and forward kinematics, not of the bound.
+      EXPECT_LT(tally.excess[kind], 1e-10) << robot.name << ": " << kBoundedNames[kind];
+    }
+  }
+}
+
+TEST(MotionBounds, AreTightOnShortIntervals) {
+  const RobotModel robot = Hrp2();
+  const std::vector<Eigen::Matrix3Xd> points = OuterPoints(robot);
+  const MotionBounds bounds(robot);
+  WalkDraw draw(5);
+  IntervalMotion motion;
+  std::vector<double> ratios;
+  for (int i = 0; i < Draws(200); ++i) {
+    const HalfStepSequence sequence = DrawSequence(robot, 2, {.stride = 0.7}, &draw);
+    const SuperposedWalk walk(sequence, draw.Parameters(sequence, 0.0, 0.6));
+    const double begin = draw.Uniform(0.0, walk.duration() - 0.02);
+    bounds.Bound(walk, begin, begin + 0.02, &motion);
+    if (!motion.bounded) continue;
+    std::vector<double> truth(robot.bodies.size(), 0.0);
+    for (int k = 0; k <= 8; ++k) {
+      CompareWithTruth(robot, points, walk, motion, begin + 0.02 * k / 8,
+                       [&](Bounded kind, int body, double there, double) {
+                         if (kind != Bounded::kDisplacement) return;
+                         double& sup = truth[static_cast<size_t>(body)];
+                         sup = std::max(sup, there);
+                       });
+    }
+    for (size_t b = 0; b < truth.size(); ++b) {
+      if (truth[b] > 1e-5) ratios.push_back(motion.displacement[b] / truth[b]);
+    }
+  }
+  ASSERT_GT(ratios.size(), 50u);
+  std::nth_element(ratios.begin(), ratios.begin() + static_cast<long>(ratios.size() / 2),
+                   ratios.end());
+  EXPECT_LT(ratios[ratios.size() / 2], 2.0);
+}
+
+TEST(MotionBounds, SpanKnotsAndBothEndsOfTheWalk) {
+  const RobotModel robot = Hrp2();
+  const std::vector<Eigen::Matrix3Xd> points = OuterPoints(robot);
+  const MotionBounds bounds(robot);
+  WalkDraw draw(6);
+  IntervalMotion motion;
+  for (int i = 0; i < Draws(20); ++i) {
+    const HalfStepSequence sequence = DrawSequence(robot, 2, {.stride = 0.7}, &draw);
+    const SuperposedWalk walk(sequence, draw.ExtremeParameters(sequence));
+    for (double knot : Knots(walk)) {
+      // Around a knot, from it, up to it, and of no length.
+      for (const auto& [before, after] :
+           std::array<std::pair<double, double>, 4>{{{5e-3, 5e-3}, {0, 1e-2}, {1e-2, 0}, {0, 0}}}) {
+        const double begin = std::max(0.0, knot - before);
+        const double end = std::max(begin, std::min(walk.duration(), knot + after));
+        bounds.Bound(walk, begin, end, &motion);
+        if (!motion.bounded) continue;
+        for (double t : {begin, 0.5 * (begin + end), end}) {
+          CompareWithTruth(robot, points, walk, motion, t,
+                           [&](Bounded kind, int index, double truth, double bound) {
+                             EXPECT_LT(truth, bound + 1e-10)
+                                 << kBoundedNames[static_cast<size_t>(kind)] << " " << index
+                                 << " in [" << begin << ", " << end << "]";
+                           });
+        }
+      }
+    }
+  }
+}
+
+TEST(MotionBounds, AreNoneWhereALegIsStretched) {
+  const RobotModel robot = Hrp2();
+  const double width = robot.standing_width;
+  const std::array<Pose2, 2> start = {Pose2{0, 0.5 * width, 0}, Pose2{0, -0.5 * width, 0}};
+  const HalfStepSequence sequence =
+      MakeSequence(start, {{.side = Side::kLeft, .X_WF = {0.9, 0.5 * width, 0}}}, 0.24, {},
+                   {.com_height = robot.com_height});
+  const SuperposedWalk walk(sequence, PlannedMotion(sequence));
+  const MotionBounds bounds(robot);
+  IntervalMotion motion;
+  bounds.Bound(walk, walk.duration() - 0.01, walk.duration(), &motion);
+  EXPECT_FALSE(motion.bounded);
+  bounds.Bound(walk, 0.0, 0.01, &motion);
+  EXPECT_TRUE(motion.bounded);
+}
+
+}  // namespace
+}  // namespace halfstep

@@ -1,0 +1,92 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "wpg/half_step.h"
+#include "wpg/rest_to_rest.h"
+#include "wpg/smoothstep.h"
+
+namespace halfstep {
+namespace {
+
+double Uniform(std::mt19937& random, double lower, double upper) {
+  return std::uniform_real_distribution<double>(lower, upper)(random);
+}
+
+// A window of σ that may reach beyond [0, 1], from 10⁻⁴ long.
+struct Window {
+  explicit Window(std::mt19937& random)
+      : from(Uniform(random, -0.2, 1.1)), to(from + std::pow(10.0, Uniform(random, -4, 0))) {}
+  double from, to;
+  template <typename Function>
+  double Sup(const Function& f) const {
+    constexpr int kInstants = 200;
+    double sup = 0.0;
+    for (int i = 0; i <= kInstants; ++i) {
+      sup = std::max(sup, std::abs(f(from + (to - from) * i / kInstants)));
+    }
+    return sup;
+  }
+};
+
+TEST(ProfileBounds, SmoothstepSecondIsExact) {
+  std::mt19937 random(1);
+  for (int i = 0; i < 2000; ++i) {
+    const Window window(random);
+    const double begin = Uniform(random, -0.1, 0.8);
+    const Smoothstep step{begin, begin + Uniform(random, 0.05, 1.0)};
+    const double sup = window.Sup([&](double x) { return step.At(x).ss; });
+    const double bound = step.SecondBound(window.from, window.to);
+    const double scale = 6.0 / ((step.end - step.begin) * (step.end - step.begin));
+    ASSERT_LE(sup, bound + 1e-13 * scale) << window.from << " " << window.to;
+    ASSERT_LE(bound, sup + 0.01 * scale);  // 200 instants miss the extremum by no more
+  }
+}
+
+TEST(ProfileBounds, SmoothstepSecondOfOneInstant) {
+  const Smoothstep step{0.2, 0.9};
+  for (double x = 0.0; x <= 1.0; x += 0.0625) {
+    EXPECT_GE(step.SecondBound(x, x), std::abs(step.At(x).ss) * (1 - 1e-14)) << x;
+  }
+}
+
+TEST(ProfileBounds, RestToRestSecondsHoldAndTheShiftIsExact) {
+  std::mt19937 random(2);
+  for (int i = 0; i < 1000; ++i) {
+    const RestToRest profile(std::exp(Uniform(random, std::log(0.5), std::log(60.0))),
+                             Uniform(random, 0.01, 0.5));
+    // The CoM's bound takes the pre-bump to go backward.
+    ASSERT_GT(profile.bump(), 0.0);
+    const Window window(random);
+    const double com = window.Sup([&](double x) { return profile.Com(x).ss; });
+    ASSERT_LE(com, profile.ComSecondBound() * (1 + 1e-9));
+    const double zmp = window.Sup([&](double x) { return profile.Zmp(x).ss; });
+    const double bound = profile.ZmpSecondBound(window.from, window.to);
+    ASSERT_LE(zmp, bound * (1 + 1e-9) + 1e-9) << window.from << " " << window.to;
+  }
+}
+
+TEST(ProfileBounds, HalfStepSecondsHoldInLocalTime) {
+  std::mt19937 random(3);
+  for (int i = 0; i < 500; ++i) {
+    const double shift = Uniform(random, 0.01, 0.5);
+    const HalfStepShape shape{.shift = shift,
+                              .horizontal_delay = Uniform(random, 0.0, 0.9 * 0.5 * (1 - shift))};
+    const HalfStepKind kind = i % 2 == 0 ? HalfStepKind::kUp : HalfStepKind::kDown;
+    const double duration = Uniform(random, 0.4, 4.0);
+    const HalfStepProfiles profiles(kind, shape, duration, {});
+    const Window window(random);
+    const HalfStepJet bounds = profiles.SecondBounds(window.from * duration, window.to * duration);
+    for (int quantity : {kComX, kZmpX, kWaistYaw, kLeftX, kLeftZ}) {
+      const double sup =
+          window.Sup([&](double x) { return profiles.At(x * duration).of(quantity).second; });
+      ASSERT_LE(sup, bounds.of(quantity).second * (1 + 1e-9) + 1e-9)
+          << quantity << " on [" << window.from << ", " << window.to << "]";
+    }
+  }
+}
+
+}  // namespace
+}  // namespace halfstep
