@@ -42,6 +42,11 @@ HomotopyParameters ParametersOf(const fs::path& folder, const HalfStepSequence& 
   const fs::path path = folder / "overlaps.csv";
   if (!fs::exists(path)) return parameters;  // the planned motion itself
   parameters.overlaps = ReadCsv(path.string()).Numbers("overlap_s");
+  const CsvTable half_steps = ReadCsv((folder / "half_steps.csv").string());
+  parameters.durations = half_steps.Numbers("duration_s");
+  const std::vector<double> scales = half_steps.Numbers("height_scale");
+  parameters.height_scales.clear();
+  for (size_t i = 0; i < scales.size(); i += 2) parameters.height_scales.push_back(scales[i]);
   try {
     CheckParameters(sequence, parameters);
   } catch (const std::logic_error& error) {

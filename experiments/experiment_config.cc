@@ -76,6 +76,19 @@ void DeclareDichotomy(Fields& fields, DichotomyOptions* o) {
                  .max = 1});
 }
 
+void DeclareOptimizer(Fields& fields, OptimizerOptions* o) {
+  fields.Boolean("heights", &o->program.heights,
+                 {.meaning = "foot-height scales are variables beside the overlaps"});
+  fields.Boolean("durations", &o->program.durations,
+                 {.meaning = "durations of half-steps are variables beside the overlaps"});
+  fields.Integer("instants", &o->program.instants,
+                 {.meaning = "per half-step at which the program looks", .min = 2, .max = 1000});
+  fields.Integer("max_iterations", &o->max_iterations,
+                 {.meaning = "of the solver", .min = 1, .max = 100000});
+  fields.Number("deadline_s", &o->deadline,
+                {.meaning = "of the solver", .unit = "s", .min = 0.001, .max = 86400});
+}
+
 void DeclareLimits(Fields& fields, MarginLimits* l) {
   fields.OptionalNumber("foot_speed_m_s", &l->foot_speed,
                         {.meaning = "of the swing sole's centre; none: no limit",
@@ -129,6 +142,8 @@ void DeclareSmoothing(Fields& fields, SmoothingConfig* c) {
                  .max = 0.01});
   fields.Group("dichotomy", {.meaning = "options of the method `dichotomy`"},
                [&](Fields& f) { DeclareDichotomy(f, &c->dichotomy); });
+  fields.Group("optimizer", {.meaning = "options of the methods that are solvers"},
+               [&](Fields& f) { DeclareOptimizer(f, &c->optimizer); });
   fields.Group("limits", {.meaning = "what the robot file does not limit"},
                [&](Fields& f) { DeclareLimits(f, &c->limits); });
   fields.Group("margins", {.meaning = "demanded margins: feasible means at least this far inside"},

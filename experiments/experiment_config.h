@@ -7,6 +7,7 @@
 #include "smoothing/certificate.h"
 #include "smoothing/dichotomy.h"
 #include "smoothing/margins.h"
+#include "smoothing/overlap_optimizer.h"
 #include "wpg/input/fields.h"
 #include "wpg/input/yaml_fields.h"
 #include "wpg/pose2.h"
@@ -36,6 +37,7 @@ struct SmoothingConfig {
   double sampling = 0.005;  ///< [s], of acceptance `sampled`
   CertificationOptions certification;
   DichotomyOptions dichotomy;
+  OptimizerOptions optimizer;
   MarginLimits limits;
 };
 

@@ -7,17 +7,23 @@
 
 #include "smoothing/dichotomy.h"
 #include "smoothing/feasibility_test.h"
+#include "smoothing/overlap_optimizer.h"
 #include "smoothing/smoothing_result.h"
 #include "wpg/half_step_sequence.h"
 
 namespace halfstep {
+
+struct MethodOptions {
+  DichotomyOptions dichotomy;
+  OptimizerOptions optimizer;
+};
 
 /// A smoothing method by the name that a config gives it.
 struct Method {
   std::string name;
   std::string meaning;  ///< one line, for `halfstep list methods`
   std::function<SmoothingResult(const HalfStepSequence&, const FeasibilityTest&,
-                                const DichotomyOptions&, const std::function<void(double)>&,
+                                const MethodOptions&, const std::function<void(double)>&,
                                 std::stop_token)>
       smooth;
 };

@@ -30,6 +30,20 @@ std::string FootstepsCsv(const HalfStepSequence& sequence) {
   return csv.text();
 }
 
+std::string HalfStepsCsv(const HalfStepSequence& sequence, const MethodRun& run) {
+  CsvWriter csv({"half_step", "kind", "support", "start_s", "duration_s", "height_scale"});
+  const HomotopyParameters& parameters = run.result.parameters;
+  double start = 0.0;
+  for (size_t i = 0; i < sequence.half_steps.size(); ++i) {
+    const HalfStep& half_step = sequence.half_steps[i].half_step;
+    csv.Cell(static_cast<long>(i) + 1).Cell(half_step.kind == HalfStepKind::kUp ? "up" : "down");
+    csv.Cell(Name(half_step.support)).Cell(start).Cell(parameters.durations[i]);
+    csv.Cell(parameters.height_scales[i / 2]).EndRow();
+    if (i < parameters.overlaps.size()) start += parameters.durations[i] - parameters.overlaps[i];
+  }
+  return csv.text();
+}
+
 std::string OverlapsCsv(const MarginEvaluator& evaluator, const MethodRun& run) {
   CsvWriter csv({"junction", "kind", "overlap_s", "upper_bound_s", "active"});
   int index = 0;

@@ -28,6 +28,8 @@ struct MethodRun {
 
 /// The text of each table of a run folder; columns: experiments/README.md.
 std::string FootstepsCsv(const HalfStepSequence& sequence);
+/// One row a half-step: where the homotopy ended in its duration and height.
+std::string HalfStepsCsv(const HalfStepSequence& sequence, const MethodRun& run);
 std::string OverlapsCsv(const MarginEvaluator& evaluator, const MethodRun& run);
 std::string IteratesCsv(const MethodRun& run);
 /// One row a method; speed-up against the first run, which is the planned motion.

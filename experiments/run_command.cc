@@ -43,6 +43,7 @@ void WriteRun(const Experiment& experiment, const CertifiedFeasibility& certifie
   const MarginEvaluator& evaluator = certifier.evaluator();
   const std::string place = MethodFolder(run.method) + "/";
   folder->Write(place + "trajectory.csv", run.trajectory);
+  folder->Write(place + "half_steps.csv", HalfStepsCsv(experiment.sequence, run));
   WriteCertificate(experiment, certifier, run.certified, run.trajectory, place, folder);
   if (run.result.junctions.empty()) return;
   folder->Write(place + "overlaps.csv", OverlapsCsv(evaluator, run));
@@ -90,7 +91,7 @@ ExitStatus Run(const RunCommand& command) {
     ProgressBar bar(name, command.quiet || command.json);
     MethodRun run(name);
     run.result = FindMethod(name).smooth(
-        experiment.sequence, test, config.smoothing.dichotomy,
+        experiment.sequence, test, {config.smoothing.dichotomy, config.smoothing.optimizer},
         [&bar](double done) { bar.Update(done); }, interrupt.token());
     runs.push_back(std::move(run));
   }

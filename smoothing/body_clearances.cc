@@ -62,11 +62,25 @@ bool BodyClearances::PairClears(size_t pair, const Posture& posture, double clea
                            &scratch->pair_normals_W[pair]);
 }
 
+CollisionWorld::Nearest BodyClearances::NearestTo(size_t body, const Posture& posture,
+                                                  double horizon, Scratch* scratch) const {
+  ++scratch->queries;
+  return world_.FindNearest(shapes_[body], posture.OfBody(robot_.bodies[body]),
+                            std::max(horizon, 1e-9));
+}
+
+Separation BodyClearances::SeparationOf(size_t pair, const Posture& posture,
+                                        Scratch* scratch) const {
+  const auto [i, j] = robot_.self_pairs[pair];
+  const size_t a = static_cast<size_t>(i), b = static_cast<size_t>(j);
+  ++scratch->queries;
+  return Separate(shapes_[a], posture.OfBody(robot_.bodies[a]), shapes_[b],
+                  posture.OfBody(robot_.bodies[b]));
+}
+
 Margin BodyClearances::OfBody(size_t body, const Posture& posture, double horizon,
                               Scratch* scratch) const {
-  ++scratch->queries;
-  const auto nearest = world_.FindNearest(shapes_[body], posture.OfBody(robot_.bodies[body]),
-                                          std::max(horizon, 1e-9));
+  const auto nearest = NearestTo(body, posture, horizon, scratch);
   Margin margin{
       .family = MarginFamily::kClearance, .value = horizon, .subject = static_cast<int>(body)};
   if (nearest.obstacle >= 0 && nearest.separation.distance < horizon) {
@@ -82,10 +96,7 @@ Margin BodyClearances::OfPair(size_t pair, const Posture& posture, double horizo
   const size_t a = static_cast<size_t>(i), b = static_cast<size_t>(j);
   Margin margin{.family = MarginFamily::kSelfClearance, .value = horizon, .subject = i, .other = j};
   if (QuickBound(a, b, *scratch) >= horizon) return margin;
-  ++scratch->queries;
-  const Separation separation = Separate(shapes_[a], posture.OfBody(robot_.bodies[a]), shapes_[b],
-                                         posture.OfBody(robot_.bodies[b]));
-  margin.value = std::min(horizon, separation.distance);
+  margin.value = std::min(horizon, SeparationOf(pair, posture, scratch).distance);
   return margin;
 }
 

@@ -42,6 +42,17 @@ class BodyClearances {
   Margin OfBody(size_t body, const Posture& posture, double horizon, Scratch* scratch) const;
   Margin OfPair(size_t pair, const Posture& posture, double horizon, Scratch* scratch) const;
 
+  /// The same with witness points and normals, for derivatives: of a body, the nearest obstacle
+  /// within `horizon` [m]; of a pair, its first body is `a`.
+  CollisionWorld::Nearest NearestTo(size_t body, const Posture& posture, double horizon,
+                                    Scratch* scratch) const;
+  Separation SeparationOf(size_t pair, const Posture& posture, Scratch* scratch) const;
+  /// A cheap lower bound of a pair's distance [m].
+  double PairBound(size_t pair, const Scratch& scratch) const {
+    const auto [i, j] = robot_.self_pairs[pair];
+    return QuickBound(static_cast<size_t>(i), static_cast<size_t>(j), scratch);
+  }
+
   /// The first clearance found below what is demanded: obstacles [m], then self pairs [m].
   std::optional<Margin> FirstBelow(const Posture& posture, double obstacle_clearance,
                                    double self_clearance, Scratch* scratch) const;

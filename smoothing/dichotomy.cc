@@ -17,14 +17,15 @@ class Bisection {
         test_(test),
         options_(options),
         stop_(std::move(stop)),
-        walk_(sequence, PlannedMotion(sequence)),
+        walk_(sequence, options.start.value_or(PlannedMotion(sequence))),
         scratch_(test.evaluator().MakeScratch()),
         begin_(std::chrono::steady_clock::now()) {
     for (int i = 0; i < sequence.num_junctions(); ++i) {
       const JunctionKind kind = KindOfJunction(i);
       const double cap = kind == JunctionKind::kUpDown ? options.up_down_cap : options.down_up_cap;
       const double bound = NaturalOverlapBound(sequence, walk_.parameters().durations, i);
-      result_.junctions.push_back({.kind = kind, .upper_bound = cap * bound});
+      const double overlap = walk_.parameters().overlaps[static_cast<size_t>(i)];
+      result_.junctions.push_back({.kind = kind, .overlap = overlap, .upper_bound = cap * bound});
     }
     result_.evidence = test.evidence();
   }
@@ -33,8 +34,8 @@ class Bisection {
     const Feasibility start = test_.Check(walk_, {0.0, walk_.duration()}, &scratch_);
     if (start.verdict != Verdict::kFeasible) {
       result_.status = SmoothingStatus::kStartInfeasible;
-      result_.message =
-          "the planned motion is not feasible: " + test_.evaluator().Describe(start.witness);
+      result_.message = std::string(options_.start ? "the start" : "the planned motion") +
+                        " is not feasible: " + test_.evaluator().Describe(start.witness);
       return Finish();
     }
     const int n = sequence_.num_junctions();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <stop_token>
 
 #include "smoothing/feasibility_test.h"
@@ -20,6 +21,8 @@ struct DichotomyOptions {
   /// Upper bounds as fractions of the natural ones, ∈ [0, 1]. Published: 0.8 and 0.76.
   double up_down_cap = 1.0;
   double down_up_cap = 1.0;
+  /// Where to begin, instead of at the planned motion.
+  std::optional<HomotopyParameters> start = std::nullopt;
 };
 
 /// The paper's smoother: each junction's overlap in turn is bisected between the largest value

@@ -12,6 +12,10 @@ constexpr std::array<MarginFamily, 7> kScalarFamilies = {
     MarginFamily::kFloor, MarginFamily::kFootSpeed, MarginFamily::kFootYawRate, MarginFamily::kZmp,
     MarginFamily::kReach, MarginFamily::kJoint,     MarginFamily::kJointSpeed};
 
+// Added to every bound, in its unit, for the rounding of postures and margins: on random intervals
+// the truth exceeded the bounds of places, which can be zero, by up to 2e-15 m.
+constexpr double kRounding = 1e-12;
+
 }  // namespace
 
 IntervalStatements::IntervalStatements(const MarginEvaluator& evaluator)
@@ -46,7 +50,9 @@ int IntervalStatements::CountOf(MarginFamily family) const {
 }
 
 void IntervalStatements::Tightest::Add(const Margin& added, double change) {
-  if (count++ == 0 || added.value - change < margin.value - bound) {
+  const double spare = added.value - change;
+  // What is not a number stays, and meets no demand.
+  if (count++ == 0 || std::isnan(spare) || spare < margin.value - bound) {
     margin = added;
     bound = change;
   }
@@ -66,7 +72,7 @@ IntervalStatements::Tightest IntervalStatements::Scalar(MarginFamily family,
   const int subject = step >= 0 ? Index(swing) : -1;
   Tightest tightest;
   const auto add = [&](double value, double change, int of) {
-    tightest.Add({.family = family, .value = value, .subject = of}, change);
+    tightest.Add({.family = family, .value = value, .subject = of}, change + kRounding);
   };
   switch (family) {
     case MarginFamily::kFloor:
@@ -172,7 +178,7 @@ std::optional<Margin> IntervalStatements::Prove(const SuperposedWalk& walk, doub
   const double obstacle_demanded = limits.demanded_of(MarginFamily::kClearance);
   std::erase_if(pending->bodies, [&](uint16_t body) {
     if (violated) return false;
-    const double bound = motion.displacement[body];
+    const double bound = motion.displacement[body] + kRounding;
     if (clearances.BodyClears(body, motion.posture, obstacle_demanded + bound, &bodies)) {
       if (rows != nullptr) {
         const double enough = std::max(horizon, obstacle_demanded + bound);
@@ -195,7 +201,8 @@ std::optional<Margin> IntervalStatements::Prove(const SuperposedWalk& walk, doub
     const auto [i, j] = evaluator_.robot().self_pairs[pair];
     const size_t a = static_cast<size_t>(i), b = static_cast<size_t>(j);
     const double bound = std::min(motion.displacement[a] + motion.displacement[b],
-                                  motion.displacement_B[a] + motion.displacement_B[b]);
+                                  motion.displacement_B[a] + motion.displacement_B[b]) +
+                         kRounding;
     if (clearances.PairClears(pair, motion.posture, self_demanded + bound, &bodies)) {
       if (rows != nullptr) {
         const double enough = std::max(horizon, self_demanded + bound);

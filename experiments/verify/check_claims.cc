@@ -83,16 +83,27 @@ class Claims {
     mid_ = 0.5 * (row.begin + row.end);
   }
 
-  // A margin without a value is one of a foot that stands, or that has no limit.
+  bool Moves(Family family, size_t i, int side) const {
+    return family == kFloor       ? MovesHorizontally(motion_, i, side)
+           : family == kFootSpeed ? FootSpeed(motion_, i, side) > 1e-6
+                                  : FootYawRate(motion_, i, side) > 1e-6;
+  }
+
+  // A margin without a value is one of a foot that stands, or that has no limit. A foot moves at an
+  // instant inside when it moves between two rows inside, or in the pair of rows around the instant
+  // and in both beside it.
   std::string MovesUnwatched(const ClaimRow& row) const {
     if (row.family == kFootSpeed && !certificate_.foot_speed) return "";
     if (row.family == kFootYawRate && !certificate_.foot_yaw_rate) return "";
-    for (size_t i = first_; i + 1 < last_; ++i) {
+    const size_t pairs = motion_.rows().size() - 1;
+    for (size_t i = first_ == 0 ? 0 : first_ - 1; i < std::min(last_, pairs); ++i) {
+      const bool inside = i >= first_ && i + 1 < last_;
       for (int side = 0; side < 2; ++side) {
-        const bool moves = row.family == kFloor       ? MovesHorizontally(motion_, i, side)
-                           : row.family == kFootSpeed ? FootSpeed(motion_, i, side) > 1e-6
-                                                      : FootYawRate(motion_, i, side) > 1e-6;
-        if (moves) return Text("a foot moves at t = %.6g s", motion_.rows()[i].t);
+        const auto around = [&](size_t k) { return k >= pairs || Moves(row.family, k, side); };
+        if (Moves(row.family, i, side) &&
+            (inside || ((i == 0 || around(i - 1)) && around(i + 1)))) {
+          return Text("a foot moves at t = %.6g s", motion_.rows()[i].t);
+        }
       }
     }
     return "";

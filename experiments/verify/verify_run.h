@@ -7,11 +7,11 @@
 namespace halfstep::verify {
 
 struct VerifyOptions {
-  std::string run;                    ///< run folder
-  std::optional<std::string> method;  ///< none: every one that has a certificate
-  double tolerance = 0.001;           ///< of clearances [m]; what follows for others: README
-  std::optional<std::string> robot;   ///< YAML instead of the certificate's
-  std::optional<std::string> scene;
+  std::string run;                         ///< run folder
+  std::optional<std::string> method = {};  ///< none: every one that has a certificate
+  double tolerance = 0.001;                ///< of clearances [m]; what follows for others: README
+  std::optional<std::string> robot = {};   ///< YAML instead of the certificate's
+  std::optional<std::string> scene = {};
 };
 
 /// What was found about one method of a run.
@@ -27,7 +27,8 @@ struct MethodVerification {
 };
 
 /// Checks the certificates of a run against its trajectories, the robot and the scene, by forward
-/// kinematics and triangle distances only. Throws InputError when there is nothing to check.
+/// kinematics and triangle distances only; distances only of the very files that the certificate is
+/// about. Throws InputError when there is nothing to check.
 std::vector<MethodVerification> VerifyRun(const VerifyOptions& options);
 
 /// The result as `halfstep verify` prints it.
