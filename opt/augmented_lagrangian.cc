@@ -69,8 +69,10 @@ bool AugmentedLagrangian::Update(const Eigen::VectorXd& x) {
   if (!session_.Constraints(x, &g)) return false;
   const Eigen::VectorXd updated = Multipliers(g);
   const double before = infeasibility_;
-  infeasibility_ =
-      g.size() == 0 ? 0.0 : ((updated - multipliers_) / penalty_).lpNorm<Eigen::Infinity>();
+  infeasibility_ = g.size() == 0 ? 0.0
+                                 : ((updated - multipliers_) / penalty_)
+                                       .cwiseQuotient(row_scale_)
+                                       .lpNorm<Eigen::Infinity>();
   multipliers_ = updated.cwiseMax(-kLargestMultiplier).cwiseMin(kLargestMultiplier);
   if (infeasibility_ > 0.5 * before) penalty_ = std::min(10.0 * penalty_, kLargestPenalty);
   return true;

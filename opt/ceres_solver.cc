@@ -143,7 +143,7 @@ Ending Run(EvaluationSession& session, const Eigen::VectorXd& start) {
       problem.num_variables() <= kDenseBfgs ? ceres::BFGS : ceres::LBFGS;
   inner.use_approximate_eigenvalue_bfgs_scaling = true;
   inner.max_num_iterations = session.options().max_iterations;
-  inner.function_tolerance = 0.0;
+  inner.function_tolerance = 1e-14;
   inner.parameter_tolerance = 1e-14;
   inner.update_state_every_iteration = true;
   int max_outer = 60;

@@ -2,7 +2,10 @@
 
 #include <cmath>
 #include <limits>
+#include <sstream>
 #include <utility>
+
+#include "opt/stationarity.h"
 
 namespace halfstep::opt {
 namespace {
@@ -225,34 +228,61 @@ Solution EvaluationSession::Finish(SolveStatus claim, std::string message,
   return solution;
 }
 
+bool EvaluationSession::EstimateStationarity(Solution* solution) {
+  Eigen::VectorXd gradient;
+  std::vector<double> jacobian;
+  if (!Gradient(best_.x, &gradient) || !Jacobian(best_.x, &jacobian)) return false;
+  Stationarity estimate =
+      EstimateMultipliers(problem_, best_.x, gradient, *best_.constraints, jacobian);
+  solution->stationarity = estimate.residual;
+  solution->multipliers = std::move(estimate.multipliers);
+  solution->bound_multipliers = std::move(estimate.bound_multipliers);
+  return true;
+}
+
 void EvaluationSession::Judge(SolveStatus claim, const std::string& message, const Point& end,
                               Solution* solution) {
+  // Loose: solvers test scaled quantities, and a coarse test suffices to unmask false claims.
+  const double stationary = std::max(1e-3, std::sqrt(options_.optimality_tolerance));
+  const double nearly_stationary = 30.0 * stationary;
+  const double tolerance = options_.feasibility_tolerance;
   solution->status = claim;
   solution->message = message;
+  const bool judged = claim == SolveStatus::kConverged || claim == SolveStatus::kAcceptable ||
+                      claim == SolveStatus::kInfeasible || claim == SolveStatus::kFailed;
+  const bool estimated = stop_status_ == SolveStatus::kNotRun && judged && solution->feasible &&
+                         EstimateStationarity(solution);
   if (stop_status_ != SolveStatus::kNotRun) {
     solution->status = stop_status_;
     solution->message = stop_message_;
     return;
   }
+  if (!judged) return;
+  std::ostringstream more;
   const bool success = claim == SolveStatus::kConverged || claim == SolveStatus::kAcceptable;
   if (success && !end.complete) {
-    solution->status = SolveStatus::kFailed;
-    solution->message = message + " But there: " + non_finite_;
-  } else if (success && !end.feasible(options_.feasibility_tolerance)) {
-    solution->status = solution->feasible ? SolveStatus::kFailed : SolveStatus::kInfeasible;
-    solution->message = message + " But it ended at a point that violates " + end.violation.row +
-                        " by " + std::to_string(end.violation.amount) + " " + end.violation.unit +
-                        (solution->feasible ? "; the best feasible point seen is returned." : ".");
-  } else if (claim == SolveStatus::kInfeasible && solution->feasible) {
-    solution->status = SolveStatus::kFailed;
-    solution->message = message + " The best feasible point seen is returned.";
-  } else if (claim == SolveStatus::kConverged &&
-             *end.cost - solution->cost > 1e-3 * std::max(1.0, std::abs(solution->cost))) {
-    solution->status = SolveStatus::kAcceptable;
-    solution->message = message + " But a cheaper feasible point had been seen; it is returned.";
-  } else if (claim == SolveStatus::kFailed && saw_non_finite()) {
-    solution->message = message + " Not finite on the way: " + non_finite_;
+    more << " But there: " << non_finite_;
+  } else if (success && !end.feasible(tolerance)) {
+    more << " But it ended at a point that violates " << end.violation.row << " by "
+         << end.violation.amount << " " << end.violation.unit << ".";
+  } else if (success && *end.cost - solution->cost > 1e-3 * std::max(1.0, std::abs(*end.cost))) {
+    more << " But a cheaper feasible point had been seen.";
+  } else if (success && estimated && solution->stationarity <= stationary) {
+    return;
   }
+  if (!solution->feasible) {
+    solution->status = success ? SolveStatus::kInfeasible : claim;
+    if (claim == SolveStatus::kFailed && saw_non_finite()) {
+      more << " Not finite on the way: " << non_finite_;
+    }
+  } else {
+    const bool near = estimated && solution->stationarity <= nearly_stationary;
+    solution->status = near ? SolveStatus::kAcceptable : SolveStatus::kFailed;
+    more << " The best feasible point seen "
+         << (near ? "satisfies the first-order conditions nearly" : "is not stationary")
+         << " (residual " << solution->stationarity << ").";
+  }
+  solution->message += more.str();
 }
 
 }  // namespace halfstep::opt

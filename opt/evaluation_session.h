@@ -77,6 +77,8 @@ class EvaluationSession {
   /// Runs `evaluate`; what it throws is kept and stops the session.
   bool Guard(const std::function<void()>& evaluate);
   void CountIterate(const Point& point);
+  /// Estimates stationarity and multipliers at the best point. False: it could not be evaluated.
+  bool EstimateStationarity(Solution* solution);
   void Judge(SolveStatus claim, const std::string& message, const Point& end, Solution* solution);
 
   const Problem& problem_;

@@ -115,6 +115,7 @@ class Settings {
     values_["ftol_abs"] = 0.0;
     values_["xtol_rel"] = method.finite_bounds ? 0.0 : 1e-2 * tolerance;
     values_["xtol_abs"] = 0.0;
+    if (ccsa()) values_["dual_maxeval"] = 2000.0;  // NLopt's 100000 may take seconds per iteration
     values_["initial_step"] = 0.0;
     values_["population"] = 0.0;
     values_["vector_storage"] = 0.0;
@@ -122,11 +123,9 @@ class Settings {
 
   /// "" or why an option is refused.
   std::string Read() {
-    const bool ccsa = (method_.algorithm + method_.subsidiary).find("MMA") != std::string::npos ||
-                      (method_.algorithm + method_.subsidiary).find("CCSAQ") != std::string::npos;
     std::vector<std::string> valid;
     for (const auto& [name, value] : values_) valid.push_back(name);
-    if (ccsa) valid.insert(valid.end(), {"inner_maxeval", "dual_ftol_rel", "dual_maxeval"});
+    if (ccsa()) valid.insert(valid.end(), {"inner_maxeval", "dual_ftol_rel"});
     for (const auto& [name, text] : session_->options().solver_options) {
       if (std::find(valid.begin(), valid.end(), name) == valid.end()) {
         return UnknownOption(method_.name, name, valid);
@@ -168,6 +167,11 @@ class Settings {
   }
 
  private:
+  bool ccsa() const {
+    const std::string both = method_.algorithm + method_.subsidiary;
+    return both.find("MMA") != std::string::npos || both.find("CCSAQ") != std::string::npos;
+  }
+
   const NloptMethod& method_;
   EvaluationSession* session_;
   std::map<std::string, double> values_;
@@ -189,8 +193,6 @@ Ending Translate(nlopt_result result, nlopt_opt opt, Eigen::VectorXd x) {
       return {SolveStatus::kIterationLimit, message, std::move(x)};
     case NLOPT_MAXTIME_REACHED:
       return {SolveStatus::kTimeLimit, message, std::move(x)};
-    case NLOPT_INVALID_ARGS:
-      return {SolveStatus::kInvalidInput, message, std::move(x)};
     default:
       return {SolveStatus::kFailed, message, std::move(x)};
   }

@@ -13,14 +13,18 @@ namespace halfstep::opt {
 /// kInvalidInput.
 enum class SolveStatus {
   kNotRun,
-  kConverged,       ///< the solver's test of optimality held, at a point feasible to the tolerance
-  kAcceptable,      ///< feasible to the tolerance; the solver's weaker test held or it got stuck
+  /// The solver's test of optimality held, x is feasible to the tolerance, and by our own estimate
+  /// it satisfies the first-order conditions.
+  kConverged,
+  /// x is feasible and near the first-order conditions, but the solver's own test was weaker, or it
+  /// broke off, or ended elsewhere.
+  kAcceptable,
   kIterationLimit,  ///< max_iterations or max_evaluations
   kTimeLimit,
   kStopped,       ///< stop token or on_iterate
-  kInfeasible,    ///< ended at a point that violates constraints, with nothing feasible seen
+  kInfeasible,    ///< ended at a point that violates constraints, and nothing feasible was seen
   kInvalidInput,  ///< problem not supported, wrong option, non-finite start; nothing was optimized
-  kFailed,        ///< exception in a callback, breakdown of the solver, unbounded cost
+  kFailed,        ///< exception in a callback, breakdown, a false claim, unbounded cost
 };
 
 /// "converged", "time_limit", …
@@ -59,6 +63,13 @@ struct Solution {
   Eigen::VectorXd final_x;
   double final_cost = std::numeric_limits<double>::quiet_NaN();
   double final_violation = std::numeric_limits<double>::infinity();
+
+  /// How far x is from the first-order conditions, and the multipliers (m, n) that fit them best,
+  /// all by our own estimate (stationarity.h). NaN and empty where it was not made: at limits,
+  /// stops and exceptions, and where x is not feasible.
+  double stationarity = std::numeric_limits<double>::quiet_NaN();
+  Eigen::VectorXd multipliers;
+  Eigen::VectorXd bound_multipliers;
 
   bool feasible = false;         ///< x is, to the tolerance of the solve
   std::exception_ptr exception;  ///< what a block or on_iterate threw; null when nothing

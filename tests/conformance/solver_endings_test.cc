@@ -1,0 +1,244 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <stdexcept>
+#include <stop_token>
+#include <string>
+#include <thread>
+
+#include "opt/problem_derivatives.h"
+#include "opt/solver.h"
+#include "tests/problems/constructed_problems.h"
+#include "tests/problems/hock_schittkowski.h"
+#include "tests/problems/solver_test.h"
+
+// How every solver ends where things go wrong: with a true status and a sentence.
+
+namespace halfstep::testing {
+namespace {
+
+using opt::SolveStatus;
+using ::testing::AnyOf;
+using ::testing::HasSubstr;
+
+/// HS65 with finite bounds, whose cost calls `hook` with the number of the evaluation, from 1.
+struct Hooked {
+  explicit Hooked(std::function<void(int)> hook)
+      : problem(ProblemBuilder(Vector({-5, 5, 0}), Vector({-4.5, -4.5, -5}), Vector({4.5, 4.5, 5}))
+                    .Minimize([this, hook](const auto& x) {
+                      hook(++evaluations);
+                      return (x[0] - x[1]) * (x[0] - x[1]) + (x[2] - 5.0) * (x[2] - 5.0) +
+                             (x[0] + x[1] - 10.0) * (x[0] + x[1] - 10.0) / 9.0;
+                    })
+                    .Build()) {}
+  Hooked(const Hooked&) = delete;
+
+  int evaluations = 0;
+  opt::Problem problem;
+};
+
+class Ending : public SolverTest {};
+
+TEST_P(Ending, InfeasibleProblemIsNeverSolved) {
+  const opt::Problem problem = InfeasibleProblem();
+  if (!solver().WhyUnsupported(problem).empty()) GTEST_SKIP();
+  opt::SolverOptions options;
+  options.max_evaluations = 3000;
+  const opt::Solution solution = solver().Solve(problem, problem.initial(), options);
+  SCOPED_TRACE(solution.BriefReport());
+  ExpectTrue(problem, options, solution);
+  EXPECT_THAT(solution.status,
+              AnyOf(SolveStatus::kInfeasible, SolveStatus::kIterationLimit, SolveStatus::kFailed));
+  EXPECT_FALSE(solution.feasible);
+  EXPECT_GT(solution.max_violation, 0.5);  // the sets are 1 apart
+  EXPECT_FALSE(solution.worst_row.empty());
+}
+
+TEST_P(Ending, UnboundedProblemEndsAtALimit) {
+  const opt::Problem problem = UnboundedProblem();
+  if (!solver().WhyUnsupported(problem).empty()) GTEST_SKIP();
+  opt::SolverOptions options;
+  options.max_evaluations = 3000;
+  options.max_iterations = 200;
+  const opt::Solution solution = solver().Solve(problem, problem.initial(), options);
+  SCOPED_TRACE(solution.BriefReport());
+  ExpectTrue(problem, options, solution);
+  EXPECT_THAT(solution.status, AnyOf(SolveStatus::kIterationLimit, SolveStatus::kFailed));
+  EXPECT_LE(solution.cost, -2.0);  // no worse than the start
+}
+
+TEST_P(Ending, NanAtTheStartIsInvalidInput) {
+  const opt::Problem problem = NanAtStart();
+  const opt::Solution solution = solver().Solve(problem, problem.initial(), {});
+  EXPECT_EQ(solution.status, SolveStatus::kInvalidInput) << solution.BriefReport();
+  EXPECT_THAT(solution.message, HasSubstr("cost is not finite"));
+
+  const opt::Solution of_nan = solver().Solve(problem, Constant(2, std::nan("")), {});
+  EXPECT_EQ(of_nan.status, SolveStatus::kInvalidInput);
+  EXPECT_THAT(of_nan.message, HasSubstr("x[0]"));
+}
+
+TEST_P(Ending, CostThatIsNanEverywhereElseDoesNotSpin) {
+  const opt::Problem problem =
+      ProblemBuilder(Constant(2, 0.5), Constant(2, -1.0), Constant(2, 1.0))
+          .Minimize([](const auto& x) {
+            using std::sqrt;
+            return x[0] + sqrt(-1e-12 - (x[0] - 0.5) * (x[0] - 0.5) + 2e-12);
+          })
+          .Build();
+  opt::SolverOptions options;
+  options.max_evaluations = 500;
+  const opt::Solution solution = solver().Solve(problem, problem.initial(), options);
+  SCOPED_TRACE(solution.BriefReport());
+  ExpectTrue(problem, options, solution);
+  EXPECT_NE(solution.status, SolveStatus::kConverged);
+  EXPECT_NEAR(solution.x[0], 0.5, 1e-5);
+}
+
+TEST_P(Ending, ExceptionInACallbackIsKept) {
+  for (const int when : {1, 2, 4}) {
+    Hooked hooked([when](int evaluation) {
+      if (evaluation >= when) throw std::runtime_error("the leg fell off");
+    });
+    const opt::Solution solution = solver().Solve(hooked.problem, hooked.problem.initial(), {});
+    EXPECT_EQ(solution.status, SolveStatus::kFailed) << solution.BriefReport();
+    EXPECT_THAT(solution.message, HasSubstr("the leg fell off"));
+    ASSERT_TRUE(solution.exception);
+    EXPECT_THROW(std::rethrow_exception(solution.exception), std::runtime_error);
+    EXPECT_EQ(hooked.evaluations, when) << "evaluated again after the exception";
+  }
+}
+
+TEST_P(Ending, ThrownIntegersAreKeptAsWell) {
+  Hooked hooked([](int evaluation) {
+    if (evaluation == 3) throw 7;
+  });
+  const opt::Solution solution = solver().Solve(hooked.problem, hooked.problem.initial(), {});
+  EXPECT_EQ(solution.status, SolveStatus::kFailed);
+  EXPECT_THROW(std::rethrow_exception(solution.exception), int);
+}
+
+TEST_P(Ending, DeadlineIsKeptWithinOneEvaluation) {
+  Hooked hooked([](int) { std::this_thread::sleep_for(std::chrono::milliseconds(2)); });
+  opt::SolverOptions options;
+  options.deadline = 1e-3;
+  const opt::Solution solution = solver().Solve(hooked.problem, hooked.problem.initial(), options);
+  EXPECT_EQ(solution.status, SolveStatus::kTimeLimit) << solution.BriefReport();
+  EXPECT_EQ(hooked.evaluations, 1);
+  ExpectTrue(hooked.problem, options, solution);
+}
+
+TEST_P(Ending, StopTokenIsHeardBeforeTheNextEvaluation) {
+  for (const int when : {1, 3, 6}) {
+    std::stop_source source;
+    Hooked hooked([&source, when](int evaluation) {
+      if (evaluation == when) source.request_stop();
+    });
+    opt::SolverOptions options;
+    options.stop = source.get_token();
+    const opt::Solution solution =
+        solver().Solve(hooked.problem, hooked.problem.initial(), options);
+    EXPECT_EQ(solution.status, SolveStatus::kStopped) << solution.BriefReport();
+    EXPECT_EQ(hooked.evaluations, when);
+    hooked.problem.Cost(solution.x);
+  }
+}
+
+TEST_P(Ending, OnIterateStopsAtIterationThree) {
+  const ProblemCard card = Hs65();
+  const ProblemCard unconstrained{
+      "bounds only", "",
+      ProblemBuilder(Vector({-1.2, 1}), Constant(2, -3.0), Constant(2, 3.0))
+          .Minimize([](const auto& x) {
+            return 100.0 * (x[1] - x[0] * x[0]) * (x[1] - x[0] * x[0]) +
+                   (1.0 - x[0]) * (1.0 - x[0]);
+          })
+          .Build(),
+      0.0};
+  for (const ProblemCard* each : {&card, &unconstrained}) {
+    if (!solver().WhyUnsupported(each->problem).empty()) continue;
+    std::vector<int> seen;
+    opt::SolverOptions options;
+    options.on_iterate = [&](const opt::Iterate& iterate) {
+      EXPECT_EQ(iterate.cost, each->problem.Cost(iterate.x));
+      EXPECT_EQ(iterate.violation, each->problem.MaxViolation(iterate.x).amount);
+      seen.push_back(iterate.iteration);
+      return iterate.iteration < 3;
+    };
+    const opt::Solution solution = solver().Solve(each->problem, each->problem.initial(), options);
+    SCOPED_TRACE(solution.BriefReport());
+    EXPECT_EQ(solution.status, SolveStatus::kStopped);
+    EXPECT_THAT(seen, ::testing::ElementsAre(0, 1, 2, 3));
+    EXPECT_EQ(solution.iterations, 3);
+    EXPECT_EQ(solution.history.size(), 4u);
+    ExpectTrue(each->problem, options, solution);
+  }
+}
+
+TEST_P(Ending, ExceptionInOnIterateIsKept) {
+  const ProblemCard card = Hs1();
+  opt::SolverOptions options;
+  options.on_iterate = [](const opt::Iterate& iterate) -> bool {
+    if (iterate.iteration == 1) throw std::runtime_error("observer");
+    return true;
+  };
+  Hooked hooked([](int) {});
+  const opt::Solution solution = solver().Solve(hooked.problem, hooked.problem.initial(), options);
+  EXPECT_EQ(solution.status, SolveStatus::kFailed) << solution.BriefReport();
+  EXPECT_TRUE(solution.exception);
+}
+
+TEST_P(Ending, WrongOptionsAreInvalidInput) {
+  Hooked hooked([](int) {});
+  opt::SolverOptions options;
+  options.solver_options = {{"no_such_option", "1"}};
+  opt::Solution solution = solver().Solve(hooked.problem, hooked.problem.initial(), options);
+  EXPECT_EQ(solution.status, SolveStatus::kInvalidInput);
+  EXPECT_THAT(solution.message, HasSubstr("no_such_option"));
+  EXPECT_THAT(solution.message, AnyOf(HasSubstr("valid: "), HasSubstr("nearest: ")));
+  EXPECT_EQ(hooked.evaluations, 1) << "nothing is optimized";
+
+  const std::string known = GetParam() == "ipopt"          ? "mu_init"
+                            : GetParam() == "ceres/auglag" ? "max_lbfgs_rank"
+                                                           : "xtol_abs";
+  options.solver_options = {{known, "much"}};
+  solution = solver().Solve(hooked.problem, hooked.problem.initial(), options);
+  EXPECT_EQ(solution.status, SolveStatus::kInvalidInput);
+  EXPECT_THAT(solution.message, HasSubstr(known + " = much"));
+
+  options.solver_options = {};
+  options.feasibility_tolerance = 0.0;
+  solution = solver().Solve(hooked.problem, hooked.problem.initial(), options);
+  EXPECT_EQ(solution.status, SolveStatus::kInvalidInput);
+  EXPECT_THAT(solution.message, HasSubstr("feasibility_tolerance"));
+}
+
+TEST_P(Ending, AcceptedOptionsAreReported) {
+  Hooked hooked([](int) {});
+  const std::string known = GetParam() == "ipopt"          ? "mu_init"
+                            : GetParam() == "ceres/auglag" ? "max_lbfgs_rank"
+                                                           : "xtol_abs";
+  opt::SolverOptions options;
+  options.max_evaluations = 100;
+  options.solver_options = {{known, "5"}};
+  const opt::Solution solution = solver().Solve(hooked.problem, hooked.problem.initial(), options);
+  EXPECT_EQ(solution.requested_options, options.solver_options);
+  ASSERT_TRUE(solution.used_options.contains(known));
+  EXPECT_EQ(std::stod(solution.used_options.at(known)), 5.0);
+}
+
+TEST_P(Ending, EvaluationLimitIsKept) {
+  Hooked hooked([](int) {});
+  opt::SolverOptions options;
+  options.max_evaluations = 3;
+  const opt::Solution solution = solver().Solve(hooked.problem, hooked.problem.initial(), options);
+  EXPECT_EQ(solution.status, SolveStatus::kIterationLimit) << solution.BriefReport();
+  EXPECT_LE(solution.cost_evaluations, 4);
+  EXPECT_THROW((void)solver().Solve(hooked.problem, Constant(2, 0.0), options), std::logic_error);
+}
+
+INSTANTIATE_TEST_SUITE_P(Solvers, Ending, ::testing::ValuesIn(opt::SolverNames()), SolverTestName);
+
+}  // namespace
+}  // namespace halfstep::testing

@@ -1,0 +1,115 @@
+#include "opt/solver.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+#include <thread>
+#include <vector>
+
+#include "opt/box_transform.h"
+#include "opt/option_text.h"
+#include "tests/problems/hock_schittkowski.h"
+
+namespace halfstep::testing {
+namespace {
+
+using ::testing::HasSubstr;
+
+TEST(MakeSolver, KnowsEveryNameAndListsThemForAnUnknownOne) {
+  for (const std::string& name : opt::SolverNames()) {
+    const auto solver = opt::MakeSolver(name);
+    EXPECT_EQ(solver->name(), name);
+    EXPECT_EQ(solver->available(), solver->WhyUnavailable().empty());
+  }
+  try {
+    (void)opt::MakeSolver("simplex");
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_THAT(error.what(), HasSubstr("`simplex` (valid: ipopt, nlopt/ccsaq"));
+  }
+}
+
+TEST(MakeSolver, AnAbsentSolverRefusesWithItsReason) {
+  const ProblemCard card = Hs1();
+  for (const std::string& name : opt::SolverNames()) {
+    const auto solver = opt::MakeSolver(name);
+    if (solver->available()) continue;
+    const opt::Solution solution = solver->Solve(card.problem, card.problem.initial(), {});
+    EXPECT_EQ(solution.status, opt::SolveStatus::kInvalidInput);
+    EXPECT_EQ(solution.message, solver->WhyUnavailable());
+  }
+}
+
+TEST(Solution, SaysThatNothingRan) {
+  const opt::Solution solution;
+  EXPECT_EQ(solution.status, opt::SolveStatus::kNotRun);
+  EXPECT_EQ(solution.BriefReport(), "no solver: not_run. Solve was not called.");
+  EXPECT_FALSE(solution.feasible);
+}
+
+TEST(Solution, ReportsOnOneLineAndOnAPage) {
+  opt::Solution solution;
+  solution.solver = "ipopt";
+  solution.status = opt::SolveStatus::kInfeasible;
+  solution.message = "Why.";
+  solution.x = Vector({1});
+  solution.cost = 2.0;
+  solution.max_violation = 0.5;
+  solution.worst_row = "disk";
+  solution.used_options = {{"tol", "1e-6"}};
+  EXPECT_THAT(solution.BriefReport(),
+              HasSubstr("ipopt: infeasible, cost 2, violated by 0.5 in disk"));
+  EXPECT_EQ(solution.BriefReport().find('\n'), std::string::npos);
+  EXPECT_THAT(solution.FullReport(), HasSubstr("used       tol = 1e-6"));
+}
+
+TEST(Solver, SolvesInSeveralThreadsAtOnce) {
+  const ProblemCard card = Hs65();
+  for (const std::string& name : opt::SolverNames()) {
+    const auto solver = opt::MakeSolver(name);
+    if (!solver->available() || !solver->WhyUnsupported(card.problem).empty()) continue;
+    if (name == "nlopt/isres") continue;  // slow, and nothing of its own to race
+    std::vector<double> costs(4);
+    std::vector<std::thread> threads;
+    for (double& cost : costs) {
+      threads.emplace_back(
+          [&] { cost = solver->Solve(card.problem, card.problem.initial(), {}).cost; });
+    }
+    for (std::thread& thread : threads) thread.join();
+    for (const double cost : costs) EXPECT_EQ(cost, costs.front()) << name;
+  }
+}
+
+TEST(BoxTransform, StaysInsideAndInverts) {
+  const opt::BoxTransform box(Vector({-1, -kInfinity, 2, -kInfinity, 3}),
+                              Vector({4, kInfinity, kInfinity, 5, 3}));
+  const Eigen::VectorXd z = Vector({1.1, -7, 0.4, 2, 9});
+  const Eigen::VectorXd x = box.ToBox(z);
+  EXPECT_TRUE(box.ToBox(box.FromBox(x)).isApprox(x, 1e-12));
+  EXPECT_EQ(x[4], 3.0);
+  const double h = 1e-6;
+  for (int j = 0; j < 5; ++j) {
+    const Eigen::VectorXd step = h * Eigen::VectorXd::Unit(5, j);
+    const double numeric = (box.ToBox(z + step)[j] - box.ToBox(z - step)[j]) / (2 * h);
+    EXPECT_NEAR(box.Slope(z)[j], numeric, 1e-8) << j;
+  }
+  EXPECT_EQ(box.ToBox(Vector({1e3, 0, 0, 0, 0})).cwiseMin(Vector({4, 0, 2, 5, 3}))[3], 5.0);
+}
+
+TEST(OptionText, TellsTheNearestOfMany) {
+  std::vector<std::string> valid;
+  for (char c = 'a'; c < 'z'; ++c) valid.push_back(std::string("option_") + c);
+  valid.push_back("max_iter");
+  EXPECT_THAT(opt::UnknownOption("ipopt", "max_itr", valid), HasSubstr("(nearest: max_iter, "));
+  EXPECT_EQ(opt::UnknownOption("s", "x", {"a", "b"}), "s: unknown option `x` (valid: a, b).");
+  EXPECT_EQ(opt::ParseNumber("1e-3"), 1e-3);
+  EXPECT_FALSE(opt::ParseNumber("1e-3 "));
+  EXPECT_FALSE(opt::ParseNumber(""));
+  EXPECT_FALSE(opt::ParseInteger("1.5"));
+  EXPECT_EQ(opt::ParseInteger("-7"), -7);
+}
+
+}  // namespace
+}  // namespace halfstep::testing
