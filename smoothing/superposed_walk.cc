@@ -155,8 +155,10 @@ int SuperposedWalk::StepInAir(const LocalTime& at) const {
 
 bool SuperposedWalk::MovesHorizontally(int step, const LocalTime& at) const {
   const int up = 2 * step, down = up + 1;
-  return LocalTo(up, at) >= piece(up).profiles.horizontal_begin() &&
-         LocalTo(down, at) <= piece(down).profiles.horizontal_end();
+  const double in_up = LocalTo(up, at), in_down = LocalTo(down, at);
+  return (in_up >= piece(up).profiles.horizontal_begin() || in_down >= 0.0) &&
+         (in_down <= piece(down).profiles.horizontal_end() ||
+          in_up <= piece(up).profiles.duration());
 }
 
 bool SuperposedWalk::InAir(const LocalTime& at, Side foot) const {

@@ -71,7 +71,8 @@ class SuperposedWalk {
   int StepInAir(const LocalTime& at) const;
 
   /// Whether the swing foot of `step` is in its horizontal motion: from the beginning of the up
-  /// half-step's to the end of the down half-step's, both instants included.
+  /// half-step's, or of the down half-step if that overlaps so far that it begins earlier, to the
+  /// end of the down half-step's, or of the up half-step if that is later; both instants included.
   bool MovesHorizontally(int step, const LocalTime& at) const;
 
   /// Changes one overlap. Precondition: within [0, NaturalOverlapBound].
