@@ -58,8 +58,9 @@ TEST(MotionBounds, AreNeverExceededOnRandomIntervals) {
     // Half of the intervals are longer than 4 ms, and some walks nearly stretch a leg.
     EXPECT_GT(tally.bounded, tally.intervals / 2) << robot.name;
     for (size_t kind = 0; kind < kNumBounded; ++kind) {
-      // What is left is the rounding of inverse and forward kinematics, not of the bound.
-      EXPECT_LT(tally.excess[kind], 1e-10) << robot.name << ": " << kBoundedNames[kind];
+      // Places: what the certificate adds for rounding. Second derivatives are near 10² and larger.
+      const double rounding = kind <= static_cast<size_t>(Bounded::kJointAngle) ? 1e-12 : 1e-10;
+      EXPECT_LT(tally.excess[kind], rounding) << robot.name << ": " << kBoundedNames[kind];
     }
   }
 }
