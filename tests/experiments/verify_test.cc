@@ -1,0 +1,376 @@
+#include "experiments/verify/verify_run.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "experiments/commands.h"
+#include "experiments/csv_writer.h"
+#include "tests/experiments/verify_mutation.h"
+
+namespace halfstep {
+namespace {
+
+using testing::HasSubstr;
+using Table = TamperedRun::Table;
+using Json = nlohmann::ordered_json;
+
+double Number(const std::string& text) { return std::stod(text); }
+std::string Shortest(double value) {
+  const std::string text = CsvWriter({"x"}).Cell(value).text();
+  return text.substr(2);
+}
+size_t Column(const Table& table, const std::string& name) {
+  const auto& header = table.front();
+  return static_cast<size_t>(std::find(header.begin(), header.end(), name) - header.begin());
+}
+void Add(std::string* cell, double change) { *cell = Shortest(Number(*cell) + change); }
+
+// certificate.csv
+enum : size_t { kBegin, kEnd, kFamily, kStatements, kSubject, kMargin, kBound, kDemanded };
+
+// The row of a family with the largest bound and a finite margin.
+std::vector<std::string>& Loosest(Table& table, const std::string& family) {
+  std::vector<std::string>* found = nullptr;
+  for (auto& row : table) {
+    if (row[kFamily] != family || row[kMargin] == "inf") continue;
+    if (found == nullptr || Number(row[kBound]) > Number((*found)[kBound])) found = &row;
+  }
+  return *found;
+}
+
+struct Mutation {
+  std::string name;
+  std::function<void(TamperedRun&)> tamper;
+  std::string reason;    ///< part of what must be said
+  bool rehashed = true;  ///< the hashes follow the change
+  int status = kNotVerified;
+};
+void PrintTo(const Mutation& mutation, std::ostream* out) { *out << mutation.name; }
+
+std::function<void(TamperedRun&)> Certificate(std::function<void(Table&)> edit) {
+  return [edit](TamperedRun& run) { run.EditCertificate(edit); };
+}
+std::function<void(TamperedRun&)> Trajectory(std::function<void(Table&)> edit) {
+  return [edit](TamperedRun& run) { run.EditTrajectory(edit); };
+}
+std::function<void(TamperedRun&)> InJson(std::function<void(Json&)> edit) {
+  return [edit](TamperedRun& run) { run.EditJson(edit); };
+}
+// Adds to a column of trajectory.csv at a row (1: the first).
+std::function<void(TamperedRun&)> Nudge(const std::string& column, size_t row, double change) {
+  return Trajectory([=](Table& table) { Add(&table[row][Column(table, column)], change); });
+}
+std::function<void(TamperedRun&)> InScene(const std::string& old, const std::string& by) {
+  return [=](TamperedRun& run) { TamperedRun::Replace(run.scene(), old, by); };
+}
+
+void Widen(Table& table) { Add(&table[100][kEnd], 0.01); }
+void DropRow(Table& table) { table.erase(table.begin() + 200); }
+void RaiseClearance(Table& table) { Add(&Loosest(table, "clearance")[kMargin], 0.05); }
+void LowerBoundsOf(Table& table, const std::string& family) {
+  for (auto& row : table) {
+    if (row[kFamily] == family) row[kBound] = "0";
+  }
+}
+
+// Everything twice as fast: speeds, accelerations and times fit each other no longer.
+void PlayTwiceAsFast(TamperedRun& run) {
+  run.EditTrajectory([](Table& table) {
+    for (size_t i = 1; i < table.size(); ++i) table[i][0] = Shortest(0.5 * Number(table[i][0]));
+  });
+  run.EditCertificate([](Table& table) {
+    for (size_t i = 1; i < table.size(); ++i) {
+      for (size_t c : {kBegin, kEnd}) table[i][c] = Shortest(0.5 * Number(table[i][c]));
+    }
+  });
+  run.EditJson([](Json& json) { json["duration_s"] = 0.5 * json["duration_s"].get<double>(); });
+}
+
+// One body fewer everywhere in the certificate.
+void LeaveOutABody(TamperedRun& run) {
+  run.EditJson([](Json& json) { json["statements"]["clearance"] = 22; });
+  run.EditCertificate([](Table& table) {
+    double covered = -1;
+    for (auto& row : table) {
+      if (row[kFamily] != "clearance" || Number(row[kBegin]) < covered) continue;
+      covered = Number(row[kEnd]);
+      if (row[kStatements] == "23") row[kStatements] = "22";
+    }
+  });
+}
+
+void LowerDemand(TamperedRun& run) {
+  run.EditJson([](Json& json) { json["demanded"]["clearance"] = 0.001; });
+  run.EditCertificate([](Table& table) {
+    for (auto& row : table) {
+      if (row[kFamily] == "clearance") row[kDemanded] = "0.001";
+    }
+  });
+}
+
+// The ZMP a centimetre aside for an instant, and the CoM's acceleration with it.
+void MoveZmp(Table& table) {
+  Add(&table[300][Column(table, "zmp_x_m")], 0.01);
+  Add(&table[300][Column(table, "com_ax_m_s2")], -0.01 * 9.81 / 0.814);
+}
+
+const char kCertificateRow[] = "certificate.csv:";
+const char kDiffers[] = "SHA-256 differs";
+
+std::vector<Mutation> Mutations() {
+  return {
+      {"IntervalWidenedAfterTheRun", Certificate(Widen), kDiffers, false},
+      {"IntervalWidened", Certificate(Widen), "statements instead of"},
+      {"IntervalTurnedAround",
+       Certificate([](Table& t) { std::swap(t[100][kBegin], t[100][kEnd]); }), "is empty"},
+      {"ClearanceRaisedAfterTheRun", Certificate(RaiseClearance), kDiffers, false},
+      {"ClearanceRaised", Certificate(RaiseClearance), "by the trajectory"},
+      {"ZmpMarginRaised", Certificate([](Table& t) { Add(&Loosest(t, "zmp")[kMargin], 0.01); }),
+       kCertificateRow},
+      {"ReachRaised", Certificate([](Table& t) { Add(&Loosest(t, "reach")[kMargin], 0.01); }),
+       kCertificateRow},
+      {"JointSpeedMarginRaised",
+       Certificate([](Table& t) { Add(&Loosest(t, "joint_speed")[kMargin], 2); }), kCertificateRow},
+      {"FootSpeedUnwatched",
+       Certificate([](Table& t) { Loosest(t, "foot_speed")[kMargin] = "inf"; }), "a foot moves"},
+      {"FloorUnwatched", Certificate([](Table& t) { Loosest(t, "floor")[kMargin] = "inf"; }),
+       "a foot moves"},
+      {"ClearanceUnwatched",
+       Certificate([](Table& t) { Loosest(t, "clearance")[kMargin] = "inf"; }), "not finite"},
+      {"ClearanceBoundLowered", Certificate([](Table& t) { LowerBoundsOf(t, "clearance"); }),
+       kCertificateRow},
+      {"ZmpBoundLowered", Certificate([](Table& t) { LowerBoundsOf(t, "zmp"); }), "beyond"},
+      {"JointBoundLowered", Certificate([](Table& t) { LowerBoundsOf(t, "joint"); }), "beyond"},
+      {"BoundNegative", Certificate([](Table& t) { t[100][kBound] = "-1"; }), "negative"},
+      {"BoundTooLarge", Certificate([](Table& t) { t[100][kMargin] = t[100][kBound] = "1"; }),
+       "margin − bound"},
+      {"SubjectUnknown", Certificate([](Table& t) { t[100][kSubject] = "tail"; }),
+       "nothing is called"},
+      {"NotANumberInTheCertificate", Certificate([](Table& t) { t[100][kMargin] = "nan"; }),
+       "not finite"},
+      {"RowDroppedAfterTheRun", Certificate(DropRow), kDiffers, false},
+      {"RowDropped", Certificate(DropRow), "statements instead of"},
+      {"RowTwice", Certificate([](Table& t) { t.push_back(t.back()); }), "statements instead of"},
+      {"StatementsOfARowChanged", Certificate([](Table& t) { Add(&t[9][kStatements], 1); }),
+       "statements instead of"},
+      {"AllRowsDropped", Certificate([](Table& t) { t.resize(1); }), "statements instead of"},
+      {"BodyLeftOut", LeaveOutABody, "the robot 23"},
+      {"BodyGoneFromTheUrdf",
+       [](TamperedRun& run) {
+         TamperedRun::Replace(run.urdf(),
+                              "<collision><geometry><mesh filename=\"package://hrp2_bodies/"
+                              "chest.obj\"/></geometry></collision>",
+                              "");
+       },
+       "the robot 22"},
+      {"JointLimitTightened",
+       [](TamperedRun& run) {
+         TamperedRun::Replace(run.urdf().parent_path() / "hrp2.yaml", "RLEG_JOINT3: [2, 150]",
+                              "RLEG_JOINT3: [2, 60]");
+         TamperedRun::Replace(run.urdf().parent_path() / "hrp2.yaml", "LLEG_JOINT3: [2, 150]",
+                              "LLEG_JOINT3: [2, 60]");
+       },
+       "joint limits"},
+      {"RobotEditedAfterTheRun",
+       [](TamperedRun& run) { TamperedRun::Replace(run.urdf(), "<robot", " <robot"); },
+       "robot: not the one", false},
+      {"ObstacleMovedAfterTheRun", InScene("0.137, -0.13", "0.147, -0.13"), "scene: not the one",
+       false},
+      {"ObstacleMoved", InScene("0.137, -0.13", "0.147, -0.13"), "clearance: RLEG_LINK5 - box"},
+      {"ObstacleBesideTheBodies", InScene("0.137, -0.13, 0.04", "0, 0, 1.2"), "CHEST_LINK1 - box"},
+      {"PlateInTheWay",
+       [](TamperedRun& run) {
+         WriteText(run.scene(), ReadText(run.scene()) +
+                                    "  - name: plate\n    box: {size_m: [0.0001, 1, 1]}\n"
+                                    "    pose: {xyz: [0.05, -0.7, 0.6]}\n");
+       },
+       "clearance: "},
+      {"FootprintForbidden",
+       [](TamperedRun& run) {
+         WriteText(run.scene(),
+                   ReadText(run.scene()) +
+                       "no_step:\n  - name: area\n    polygon_m: [[0.25, -0.12], [0.3, -0.12], "
+                       "[0.3, -0.08]]\n");
+       },
+       "no-step"},
+      {"JointNudgedIntoTheObstacle", Nudge("q_RLEG_JOINT4_rad", 288, -0.3),
+       "clearance: RLEG_LINK5 - box"},
+      {"JointNudgedAfterTheRun", Nudge("q_RLEG_JOINT4_rad", 288, -0.3), kDiffers, false},
+      {"JointNudgedByAMilliradian", Nudge("q_LLEG_JOINT2_rad", 50, 0.001),
+       "soles by forward kinematics"},
+      {"WaistLowered", Nudge("waist_z_m", 50, -0.001), "waist under the CoM"},
+      {"FootColumnMoved", Nudge("left_foot_x_m", 50, 0.001), "soles by forward kinematics"},
+      {"ZmpMovedAlone", Nudge("zmp_x_m", 300, 0.01), "pendulum"},
+      {"ZmpAndAccelerationMoved", Trajectory(MoveZmp), "CoM acceleration"},
+      {"FootInTheAirCalledSupport",
+       Trajectory([](Table& t) { t[288][Column(t, "support")] = "both"; }), "standing feet"},
+      {"PlayedTwiceAsFast", PlayTwiceAsFast, "CoM velocity"},
+      {"RowsSwapped", Trajectory([](Table& t) { std::swap(t[40], t[41]); }),
+       "the times do not increase"},
+      {"RowRemoved", Trajectory([](Table& t) { t.erase(t.begin() + 300, t.begin() + 320); }),
+       "CoM velocity"},
+      {"LastRowCut", Trajectory([](Table& t) { t.pop_back(); }), "the certificate ends at"},
+      {"LastRowCutEverywhere",
+       [](TamperedRun& run) {
+         double end = 0;
+         run.EditTrajectory([&](Table& t) {
+           t.pop_back();
+           end = Number(t.back()[0]);
+         });
+         run.EditJson([&](Json& json) { json["duration_s"] = end; });
+       },
+       "outside [0, D]"},
+      {"NotANumberInserted", Trajectory([](Table& t) { t[20][30] = "nan"; }), "not finite"},
+      {"InfinityInserted", Trajectory([](Table& t) { t[20][4] = "inf"; }), "not finite"},
+      {"NumberOfNoSense", Trajectory([](Table& t) { t[20][30] = "1e300"; }), "beyond"},
+      {"NoRows", Trajectory([](Table& t) { t.resize(1); }), "fewer than two"},
+      {"HeaderChanged", Trajectory([](Table& t) { t[0][5] = "com_z"; }), "com_z_m", true,
+       kBadInput},
+      {"HeaderOfTheCertificateChanged", Certificate([](Table& t) { t[0][5] = "m"; }), "margin",
+       true, kBadInput},
+      {"CellMissing", Trajectory([](Table& t) { t[77].pop_back(); }), "trajectory.csv:78: ", true,
+       kBadInput},
+      {"TextForANumber", Trajectory([](Table& t) { t[77][4] = "1.2x"; }),
+       "trajectory.csv:78: ", true, kBadInput},
+      {"DemandLowered", LowerDemand, "config.yaml 0.005"},
+      {"FootSpeedLimitRaised", InJson([](Json& j) { j["limits"]["foot_speed_m_s"] = 2.0; }),
+       "foot_speed_m_s"},
+      {"FootSpeedLimitRemoved", InJson([](Json& j) { j["limits"]["foot_speed_m_s"] = nullptr; }),
+       "foot_speed_m_s"},
+      {"JointSpeedScaleRaised", InJson([](Json& j) { j["limits"]["joint_speed_scale"] = 3.0; }),
+       "joint_speed_scale"},
+      {"VerdictUndecided", InJson([](Json& j) { j["verdict"] = "undecided"; }), "undecided"},
+      {"AnotherRobotNamed", InJson([](Json& j) { j["robot"] = "../robots/none.yaml"; }),
+       "none.yaml", false, kBadInput},
+      {"MemberMissing", InJson([](Json& j) { j["demanded"].erase("zmp"); }), "demanded.zmp", false,
+       kBadInput},
+  };
+}
+
+class Tampered : public testing::TestWithParam<Mutation> {};
+
+TEST_P(Tampered, IsRejected) {
+  TamperedRun run;
+  GetParam().tamper(run);
+  if (GetParam().rehashed) run.Rehash();
+  const Outcome outcome = run.Verify();
+  EXPECT_EQ(outcome.status, GetParam().status) << outcome.out << outcome.err;
+  EXPECT_THAT(outcome.out + outcome.err, HasSubstr(GetParam().reason));
+}
+
+INSTANTIATE_TEST_SUITE_P(Verify, Tampered, testing::ValuesIn(Mutations()),
+                         [](const auto& info) { return info.param.name; });
+
+TEST(Verify, AcceptsARunAndSaysWhatIsGuaranteed) {
+  TamperedRun run;
+  Outcome outcome = run.Verify();
+  EXPECT_EQ(outcome.status, kSuccess) << outcome.out << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("\n  verified\n"));
+  EXPECT_THAT(outcome.out, HasSubstr("Guaranteed for every instant"));
+  // The tampering itself, without a change, spoils nothing.
+  run.EditTrajectory([](Table&) {});
+  run.EditCertificate([](Table&) {});
+  run.Rehash();
+  EXPECT_EQ(run.Verify().status, kSuccess);
+}
+
+TEST(Verify, AcceptsEveryMethodOfAWalkOverABar) {
+  const TemporaryFolder place;
+  const Outcome run = Halfstep(place.path(), {"run", ShippedConfig("bar_8cm"), "--out", "run",
+                                              "--quiet", "--set", "output.period_s=0.004"});
+  ASSERT_EQ(run.status, kSuccess) << run.err;
+  const auto results = verify::VerifyRun({.run = (place / "run").string()});
+  ASSERT_EQ(results.size(), 3u);
+  for (const auto& result : results) EXPECT_TRUE(result.verified) << verify::Describe(result);
+}
+
+TEST(Verify, ToleranceIsWhatSeparatesTheTrajectoryFromTheWalk) {
+  const TamperedRun run;
+  verify::VerifyOptions options{.run = run.run().string(), .method = "dichotomy"};
+  options.tolerance = 0;
+  EXPECT_FALSE(verify::VerifyRun(options).front().verified);
+}
+
+TEST(Verify, TakesAnotherSceneOnlyWhenItIsTheSame) {
+  const TamperedRun run;
+  const TemporaryFolder elsewhere;
+  const std::string copy = WriteText(elsewhere / "box.yaml", ReadText(run.scene()));
+  verify::VerifyOptions options{.run = run.run().string(), .method = "dichotomy", .scene = copy};
+  EXPECT_TRUE(verify::VerifyRun(options).front().verified);
+  options.scene = "none";
+  EXPECT_FALSE(verify::VerifyRun(options).front().verified);
+}
+
+TEST(Verify, BadInputIsStatusTwo) {
+  const TemporaryFolder place;
+  EXPECT_EQ(Halfstep(place.path(), {"verify", "nowhere"}).status, kBadInput);
+  EXPECT_EQ(Halfstep(place.path(), {"verify", "."}).status, kBadInput);
+  TamperedRun run;
+  EXPECT_EQ(Halfstep(run.run(), {"verify", ".", "--method", "magic"}).status, kBadInput);
+  EXPECT_EQ(Halfstep(run.run(), {"verify", ".", "--tolerance", "nan"}).status, kBadInput);
+  for (const std::string& text :
+       {std::string(), std::string("{"), std::string("[]"), std::string("{\"format\": 1e999}"),
+        std::string(100000, '['), std::string("\0\xff", 2)}) {
+    WriteText(run.json(), text);
+    const Outcome outcome = run.Verify();
+    EXPECT_EQ(outcome.status, kBadInput) << text.substr(0, 20);
+    EXPECT_THAT(outcome.err, HasSubstr("certificate.json"));
+  }
+  for (const auto& path : {run.json(), run.certificate()}) {
+    std::filesystem::remove(path);
+    EXPECT_EQ(run.Verify().status, kBadInput);
+  }
+}
+
+// One character of a file becomes another one.
+void MutateOneCharacter(const std::filesystem::path& path, std::mt19937* random) {
+  std::string text = ReadText(path);
+  const std::string by = "0123456789.,-+e\n\"naif {}x";
+  char& c = text[std::uniform_int_distribution<size_t>(0, text.size() - 1)(*random)];
+  char other = c;
+  while (other == c) other = by[std::uniform_int_distribution<size_t>(0, by.size() - 1)(*random)];
+  c = other;
+  WriteText(path, text);
+}
+
+// Every file below is covered by a hash: whatever changes is refused.
+class OneCharacter : public testing::TestWithParam<unsigned> {};
+
+TEST_P(OneCharacter, IsNeverAcceptedAndNeverCrashes) {
+  const TamperedRun run;
+  std::mt19937 random(GetParam());
+  const std::vector<std::filesystem::path> files = {run.trajectory(), run.certificate(),
+                                                    run.scene(), run.urdf()};
+  for (int i = 0; i < 40; ++i) {
+    const auto& path = files[static_cast<size_t>(i) % files.size()];
+    const std::string before = ReadText(path);
+    MutateOneCharacter(path, &random);
+    const auto results = verify::VerifyRun({.run = run.run().string(), .method = "dichotomy"});
+    EXPECT_FALSE(results.front().verified) << path << " " << i;
+    WriteText(path, before);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Verify, OneCharacter, testing::Values(1u, 2u, 3u, 4u, 5u));
+
+TEST(Verify, OneCharacterBehindTheHashNeverCrashes) {
+  TamperedRun run;
+  std::mt19937 random(6);
+  for (int i = 0; i < 24; ++i) {
+    const auto path =
+        std::vector{run.trajectory(), run.certificate(), run.json()}[static_cast<size_t>(i) % 3];
+    const std::string before = ReadText(path), json = ReadText(run.json());
+    MutateOneCharacter(path, &random);
+    if (path != run.json()) run.Rehash();
+    EXPECT_NO_THROW((void)verify::VerifyRun({.run = run.run().string(), .method = "dichotomy"}));
+    WriteText(path, before);
+    WriteText(run.json(), json);
+  }
+}
+
+}  // namespace
+}  // namespace halfstep
