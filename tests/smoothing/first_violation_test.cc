@@ -22,7 +22,7 @@ TEST(FirstViolation, IsFoundExactlyWhenAMarginIsBelowWhatIsDemanded) {
     limits.demanded_of(MarginFamily::kZmp) = 0.045;  // so that this family is met too
     const MarginEvaluator evaluator(e.robot, e.scene, limits);
     MarginEvaluator::Scratch slow = evaluator.MakeScratch(), fast = evaluator.MakeScratch();
-    for (int i = 0; i < Draws(60); ++i) {
+    for (int i = 0; i < 60; ++i) {
       const SuperposedWalk walk(e.sequence, draw.Uniform(0, 1) < 0.3
                                                 ? draw.ExtremeParameters(e.sequence)
                                                 : draw.Parameters(e.sequence, 0, 0.9));
@@ -52,7 +52,7 @@ TEST(FirstViolation, IsFoundExactlyWhenAMarginIsBelowWhatIsDemanded) {
       }
     }
   }
-  EXPECT_GT(clear, Draws(500));
+  EXPECT_GT(clear, 500);
   for (MarginFamily family : {MarginFamily::kFloor, MarginFamily::kFootSpeed, MarginFamily::kZmp,
                               MarginFamily::kJointSpeed, MarginFamily::kClearance}) {
     EXPECT_GT(seen[static_cast<size_t>(family)], 0) << Name(family);
