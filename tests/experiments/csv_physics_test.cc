@@ -16,6 +16,9 @@
 #include "wpg/robot_model.h"
 
 namespace halfstep {
+
+void PrintTo(const GeneratedRobot& robot, std::ostream* out) { *out << robot.name; }
+
 namespace {
 
 namespace fs = std::filesystem;

@@ -15,12 +15,12 @@ namespace halfstep {
 
 /// Files of a run folder whose methods have the folders `methods`.
 inline std::set<std::string> RunFiles(const std::vector<std::string>& methods) {
-  std::set<std::string> files = {"config.yaml",       "footsteps.csv",       "manifest.json",
-                                 "summary.csv",       "raw/certificate.csv", "raw/certificate.json",
-                                 "raw/trajectory.csv"};
+  std::set<std::string> files = {
+      "config.yaml",         "footsteps.csv",        "manifest.json",      "summary.csv",
+      "raw/certificate.csv", "raw/certificate.json", "raw/half_steps.csv", "raw/trajectory.csv"};
   for (const std::string& method : methods) {
-    for (const std::string file : {"certificate.csv", "certificate.json", "iterates.csv",
-                                   "overlaps.csv", "trajectory.csv"}) {
+    for (const std::string file : {"certificate.csv", "certificate.json", "half_steps.csv",
+                                   "iterates.csv", "overlaps.csv", "trajectory.csv"}) {
       files.insert(method + "/" + file);
     }
   }
