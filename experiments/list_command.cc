@@ -1,10 +1,13 @@
 #include <algorithm>
 #include <iostream>
+#include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "experiments/commands.h"
 #include "experiments/experiment.h"
 #include "experiments/methods.h"
+#include "opt/solver.h"
 
 namespace halfstep {
 namespace {
@@ -12,6 +15,7 @@ namespace {
 struct Entry {
   std::string name;
   std::string meaning;
+  std::optional<bool> available = std::nullopt;  // of solvers only
 };
 
 std::vector<Entry> FilesOf(const std::filesystem::path& folder) {
@@ -22,10 +26,20 @@ std::vector<Entry> FilesOf(const std::filesystem::path& folder) {
   return entries;
 }
 
+std::vector<Entry> Solvers() {
+  std::vector<Entry> entries;
+  for (const std::string& name : opt::SolverNames()) {
+    const std::unique_ptr<opt::Solver> solver = opt::MakeSolver(name);
+    entries.push_back(
+        {name, solver->available() ? "available" : solver->WhyUnavailable(), solver->available()});
+  }
+  return entries;
+}
+
 std::vector<Entry> Entries(const std::string& what) {
   if (what == "robots") return FilesOf(RobotsFolder());
   if (what == "scenes") return FilesOf(ScenesFolder());
-  if (what == "solvers") return {{"none", "no optimization solver is part of this version"}};
+  if (what == "solvers") return Solvers();
   std::vector<Entry> entries = {{"raw", "the planned motion itself; written by every run"}};
   for (const Method& method : Methods()) entries.push_back({method.name, method.meaning});
   return entries;
@@ -37,8 +51,10 @@ ExitStatus List(const std::string& what, bool json) {
   const std::vector<Entry> entries = Entries(what);
   if (json) {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
-    for (const Entry& entry : entries)
+    for (const Entry& entry : entries) {
       list.push_back({{"name", entry.name}, {"meaning", entry.meaning}});
+      if (entry.available) list.back()["available"] = *entry.available;
+    }
     std::cout << list.dump(2) << '\n';
     return kSuccess;
   }

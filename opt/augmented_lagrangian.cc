@@ -33,7 +33,7 @@ bool AugmentedLagrangian::Begin(const Eigen::VectorXd& x) {
   multipliers_ = Eigen::VectorXd::Zero(problem.num_constraints());
   const Eigen::VectorXd scaled = g.cwiseProduct(row_scale_);
   const double outside = (scaled - scaled.cwiseMax(lower_).cwiseMin(upper_)).squaredNorm();
-  // Source: Birgin & Martínez 2014, §12.4: the penalty as large as the cost, within limits.
+  // As large as the cost beside the violation, within limits: the rule of [Birgin2014]'s ALGENCAN.
   penalty_ = std::clamp(
       10.0 * std::max(1.0, std::abs(cost_scale_ * cost)) / std::max(1.0, 0.5 * outside), 1e-1, 1e3);
   return true;

@@ -15,8 +15,7 @@ namespace halfstep::opt {
 ///     λ_i ← ρ·(G_i + λ_i/ρ − p_i)
 ///
 /// The scales are 1/max(1, largest |derivative| at the start). Bounds of variables are not in it.
-/// Source: E. Birgin, J. M. Martínez, Practical Augmented Lagrangian Methods for Constrained
-/// Optimization, SIAM 2014, chapter 4 (the two-sided form follows from their slack variables).
+/// Source: [Birgin2014], chapter 4; the two-sided form follows from their form with slacks.
 class AugmentedLagrangian {
  public:
   explicit AugmentedLagrangian(EvaluationSession* session) : session_(*session) {}

@@ -14,7 +14,7 @@ namespace halfstep::opt {
 ///
 /// At a bound dx/dz = 0: a minimum on the bound is an ordinary stationary point in z, but so is any
 /// other point on it; a start belongs a little inside.
-/// Source: F. James, MINUIT Reference Manual, CERN D506, §1.2.1.
+/// Source: [James1994], section 1.2.
 class BoxTransform {
  public:
   BoxTransform(Eigen::VectorXd lower, Eigen::VectorXd upper);

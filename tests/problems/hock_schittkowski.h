@@ -5,13 +5,12 @@
 #include "tests/problems/auto_blocks.h"
 #include "tests/problems/problem_card.h"
 
-// Source of all: W. Hock, K. Schittkowski, Test Examples for Nonlinear Programming Codes, Lecture
-// Notes in Economics and Mathematical Systems 187, Springer 1981, by problem number. Statement,
-// start and optimum as there (starts outside the bounds are projected by the solvers).
+// Source of all: [Hock1981], by problem number; statement, start and optimum as there. Starts
+// outside the bounds are projected by the solvers.
 
 namespace halfstep::testing {
 
-inline constexpr char kHockSchittkowski[] = "Hock & Schittkowski 1981";
+inline constexpr char kHockSchittkowski[] = "Hock and Schittkowski 1981";
 
 /// Rosenbrock's valley with one bound.
 inline ProblemCard Hs1() {
