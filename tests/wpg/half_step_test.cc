@@ -238,8 +238,18 @@ TEST_F(HalfStepTest, AScaledDurationKeepsTheFractionsOfTime) {
 }
 
 TEST_F(HalfStepTest, RefusesADelayThatLeavesNoTimeToMove) {
-  const HalfStepShape shape{.shift = 0.4, .horizontal_delay = 0.3};
-  EXPECT_THROW(HalfStepProfiles(HalfStepKind::kUp, shape, 2.0, {}), std::logic_error);
+  // The flight lasts t1: 0.25, 0.3 and 0.475 of T.
+  for (const auto& [shift, delay] : {std::pair{0.5, 0.3}, {0.4, 0.3}, {0.05, 0.31}, {0.05, -0.1}}) {
+    const HalfStepShape shape{.shift = shift, .horizontal_delay = delay};
+    for (HalfStepKind kind : kKinds) {
+      EXPECT_THROW(HalfStepProfiles(kind, shape, 2.0, {}), std::logic_error) << shift;
+    }
+  }
+  // The longest one allowed still lets the foot arrive.
+  const HalfStepProfiles profiles(HalfStepKind::kUp, {.shift = 0.5, .horizontal_delay = 0.22}, 2.0,
+                                  {});
+  EXPECT_GT(profiles.horizontal_end(), profiles.horizontal_begin());
+  EXPECT_NEAR(profiles.At(2.0 - 1e-6).foot.value, 1.0, 1e-9);
 }
 
 }  // namespace
