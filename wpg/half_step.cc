@@ -68,8 +68,10 @@ HalfStepProfiles::HalfStepProfiles(HalfStepKind kind, const HalfStepShape& shape
       foot_(FootWindow(kind, shape)),
       height_(FlightWindow(kind, shape)),
       shift_(omega_ * duration, shape.shift) {
-  HALFSTEP_CHECK(shape.horizontal_delay >= 0.0 && shape.horizontal_delay <= 0.9 * shape.t1(),
-                 "horizontal_delay = " << shape.horizontal_delay);
+  // Of the flight, t1 long, a tenth at least must be left to move in.
+  HALFSTEP_CHECK(shape.horizontal_delay >= 0.0 && shape.horizontal_delay <= 0.3 &&
+                     shape.horizontal_delay <= 0.9 * shape.t1(),
+                 "horizontal_delay = " << shape.horizontal_delay << ", t1 = " << shape.t1());
 }
 
 HalfStepJet HalfStepProfiles::At(double tau) const {

@@ -16,7 +16,7 @@ enum class HalfStepKind { kUp, kDown };
 struct HalfStepShape {
   double shift = 0.05;  ///< (t2 − t1)/T: the ZMP shifts on [t1, t2], centred at T/2. ∈ [0.01, 0.5]
   double horizontal_delay = 0.1;  ///< the foot moves horizontally only this fraction of T after
-                                  ///< take-off and before landing. ∈ [0, 0.9·t1]
+                                  ///< take-off and before landing. ∈ [0, 0.3], ≤ 0.9·t1
 
   double t1() const { return 0.5 - 0.5 * shift; }  ///< of T
   double t2() const { return 0.5 + 0.5 * shift; }  ///< of T
