@@ -6,10 +6,16 @@
 
 namespace halfstep::verify {
 
+/// `tolerance` is how far the played motion, straight between rows, may leave the certified walk
+/// (chord against curve: about 0.3 mm at rows every 5 ms). It is taken off the clearances and the
+/// height of a moving sole [m], and off margins at the midpoints of certificate rows [m, rad; 20
+/// times as much for speeds]. By it also hang how well c, ċ, c̈ of the rows must fit each other:
+/// tolerance·√(g/z_c) [m/s] and tolerance·g/z_c [m/s²]. Everything else is compared at the rows
+/// themselves, where only rounding is allowed for (check_rows.cc).
 struct VerifyOptions {
   std::string run;                         ///< run folder
   std::optional<std::string> method = {};  ///< none: every one that has a certificate
-  double tolerance = 0.001;                ///< of clearances [m]; what follows for others: README
+  double tolerance = 0.001;                ///< see above; 0 … 1
   std::optional<std::string> robot = {};   ///< YAML instead of the certificate's
   std::optional<std::string> scene = {};
 };
