@@ -19,7 +19,7 @@ Margin& Of(MarginSet* margins, MarginFamily family) {
 // Keeps the smaller of the margin there and a new one.
 void Lower(MarginSet* margins, MarginFamily family, double value, int subject, int other = -1) {
   Margin& margin = Of(margins, family);
-  if (value < margin.value || !std::isfinite(value)) {
+  if (!(value >= margin.value)) {
     margin.value = std::isnan(value) ? -kInfinity : value;
     margin.subject = subject;
     margin.other = other;
@@ -95,7 +95,9 @@ MarginSet MarginEvaluator::At(const SuperposedWalk& walk, const LocalTime& at,
   JointMargins(posture, &margins);
   if (posture.reachable) {
     JointSpeedMargins(jet, &posture, &margins);
-    const double horizon = limits_.clearance_horizon;
+    const double horizon =
+        std::max({limits_.clearance_horizon, 2.0 * limits_.demanded_of(MarginFamily::kClearance),
+                  2.0 * limits_.demanded_of(MarginFamily::kSelfClearance)});
     Of(&margins, MarginFamily::kClearance) =
         clearances_.NearestObstacle(posture, horizon, &scratch->bodies);
     Of(&margins, MarginFamily::kSelfClearance) =

@@ -72,8 +72,8 @@ TEST(ProfileBounds, HalfStepSecondsHoldInLocalTime) {
   std::mt19937 random(3);
   for (int i = 0; i < 500; ++i) {
     const double shift = Uniform(random, 0.01, 0.5);
-    const HalfStepShape shape{.shift = shift,
-                              .horizontal_delay = Uniform(random, 0.0, 0.9 * 0.5 * (1 - shift))};
+    const double longest = std::min(0.3, 0.9 * 0.5 * (1 - shift));
+    const HalfStepShape shape{.shift = shift, .horizontal_delay = Uniform(random, 0.0, longest)};
     const HalfStepKind kind = i % 2 == 0 ? HalfStepKind::kUp : HalfStepKind::kDown;
     const double duration = Uniform(random, 0.4, 4.0);
     const HalfStepProfiles profiles(kind, shape, duration, {});
