@@ -14,7 +14,7 @@ namespace halfstep {
 struct TriangleMesh {
   Eigen::Matrix3Xd vertices;   ///< [m] (3×n)
   Eigen::Matrix3Xi triangles;  ///< (3×m), vertex indices.
-  std::string file;            ///< where it was read from; "" when made otherwise.
+  std::string file = {};       ///< where it was read from; "" when made otherwise.
 };
 
 struct Obstacle {

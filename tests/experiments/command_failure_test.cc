@@ -43,7 +43,7 @@ std::string LongConfig() {
     yaml << "  - {foot: " << (left ? "left" : "right") << ", x_m: " << 0.1 * i
          << ", y_m: " << (left ? 0.105 : -0.105) << "}\n";
   }
-  yaml << "smoothing: {methods: [dichotomy], acceptance: sampled, sampling_s: 0.02,\n"
+  yaml << "smoothing: {methods: [dichotomy], acceptance: sampled, sampling_s: 0.002,\n"
           "            dichotomy: {passes: 100, tolerance_s: 1e-6}}\n"
           "output: {period_s: 0.2}\n";
   return yaml.str();
