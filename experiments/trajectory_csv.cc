@@ -3,7 +3,7 @@
 
 #include "experiments/csv_writer.h"
 #include "experiments/result_tables.h"
-#include "smoothing/posture.h"
+#include "wpg/posture.h"
 
 namespace halfstep {
 namespace {

@@ -7,7 +7,7 @@
 #include "planner/collision_world.h"
 #include "planner/scene.h"
 #include "smoothing/margins.h"
-#include "smoothing/posture.h"
+#include "wpg/posture.h"
 #include "wpg/robot_model.h"
 
 namespace halfstep {

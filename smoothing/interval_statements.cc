@@ -60,13 +60,14 @@ void IntervalStatements::Tightest::Add(const Margin& added, double change) {
 
 IntervalStatements::Tightest IntervalStatements::Scalar(MarginFamily family,
                                                         const SuperposedWalk& walk,
+                                                        const LocalTime& mid,
                                                         const IntervalMotion& motion) const {
   constexpr double kUnlimited = std::numeric_limits<double>::infinity();
   const RobotModel& robot = evaluator_.robot();
   const MarginLimits& limits = evaluator_.limits();
   const WalkJet& jet = motion.jet;
   const double h = motion.half_width;
-  const int step = walk.StepInAir(motion.mid);
+  const int step = walk.StepInAir(mid);
   const Side swing = step >= 0 ? walk.half_step(2 * step).swing() : Side::kLeft;
   const int foot = FootIndex(swing);
   const int subject = step >= 0 ? Index(swing) : -1;
@@ -76,7 +77,7 @@ IntervalStatements::Tightest IntervalStatements::Scalar(MarginFamily family,
   };
   switch (family) {
     case MarginFamily::kFloor:
-      if (step >= 0 && walk.MovesHorizontally(step, motion.mid)) {
+      if (step >= 0 && walk.MovesHorizontally(step, mid)) {
         add(jet.value[foot + 2], motion.Change(foot + 2), subject);
       } else {
         add(kUnlimited, 0.0, -1);
@@ -99,7 +100,7 @@ IntervalStatements::Tightest IntervalStatements::Scalar(MarginFamily family,
       }
       break;
     case MarginFamily::kZmp: {
-      const SupportPolygon polygon = SupportAt(walk, motion.mid, jet.value, robot.sole_size);
+      const SupportPolygon polygon = SupportAt(walk, mid, jet.value, robot.sole_size);
       add(polygon.Margin(jet.value.segment<2>(kZmpX)),
           h * (jet.first.segment<2>(kZmpX).norm() +
                0.5 * h * motion.second.segment<2>(kZmpX).norm()),
@@ -143,14 +144,15 @@ std::optional<Margin> IntervalStatements::Prove(const SuperposedWalk& walk, doub
                                                 Certificate* rows) const {
   ++scratch->instants;
   IntervalMotion motion;
-  bounds_.Bound(walk, begin, end, &motion);
+  BoundMotion(bounds_, walk, begin, end, &motion);
+  const LocalTime mid = walk.Locate(0.5 * (begin + end));
   if (!motion.bounded) {
     // Out of reach, or stretched: is it so at the midpoint, or only perhaps around it?
-    return evaluator_.FirstViolation(walk, motion.mid, scratch);
+    return evaluator_.FirstViolation(walk, mid, scratch);
   }
   const MarginLimits& limits = evaluator_.limits();
   const auto located = [&](Margin margin) {
-    margin.at = motion.mid;
+    margin.at = mid;
     margin.t = 0.5 * (begin + end);
     return margin;
   };
@@ -162,7 +164,7 @@ std::optional<Margin> IntervalStatements::Prove(const SuperposedWalk& walk, doub
 
   std::optional<Margin> violated;
   std::erase_if(pending->families, [&](MarginFamily family) {
-    const Tightest tightest = Scalar(family, walk, motion);
+    const Tightest tightest = Scalar(family, walk, mid, motion);
     const double demanded = limits.demanded_of(family);
     if (tightest.margin.value < demanded && !violated) violated = located(tightest.margin);
     const bool holds = tightest.margin.value - tightest.bound >= demanded;
@@ -217,6 +219,12 @@ std::optional<Margin> IntervalStatements::Prove(const SuperposedWalk& walk, doub
   });
   record(pairs);
   return violated;
+}
+
+void BoundMotion(const MotionBounds& bounds, const SuperposedWalk& walk, double begin, double end,
+                 IntervalMotion* motion) {
+  bounds.Bound(walk.At(0.5 * (begin + end)), walk.SecondBounds(begin, end), 0.5 * (end - begin),
+               motion);
 }
 
 }  // namespace halfstep

@@ -6,7 +6,7 @@
 
 #include "smoothing/certificate.h"
 #include "smoothing/margin_evaluator.h"
-#include "smoothing/motion_bounds.h"
+#include "wpg/motion_bounds.h"
 
 namespace halfstep {
 
@@ -45,11 +45,15 @@ class IntervalStatements {
     int count = 0;
     void Add(const Margin& added, double change);
   };
-  Tightest Scalar(MarginFamily family, const SuperposedWalk& walk,
+  Tightest Scalar(MarginFamily family, const SuperposedWalk& walk, const LocalTime& mid,
                   const IntervalMotion& motion) const;
 
   const MarginEvaluator& evaluator_;
   MotionBounds bounds_;
 };
+
+/// The motion of a walk over the absolute times [begin, end] [s].
+void BoundMotion(const MotionBounds& bounds, const SuperposedWalk& walk, double begin, double end,
+                 IntervalMotion* motion);
 
 }  // namespace halfstep

@@ -6,8 +6,8 @@
 #include "planner/scene.h"
 #include "smoothing/body_clearances.h"
 #include "smoothing/margins.h"
-#include "smoothing/posture.h"
 #include "smoothing/superposed_walk.h"
+#include "wpg/posture.h"
 #include "wpg/robot_model.h"
 
 namespace halfstep {

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 
-#include "smoothing/posture.h"
+#include "wpg/posture.h"
 
 namespace halfstep {
 

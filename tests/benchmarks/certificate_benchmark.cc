@@ -137,7 +137,7 @@ void BoundMotion(benchmark::State& state) {
   IntervalMotion motion;
   double t = 0.0;
   for (auto _ : state) {
-    bounds.Bound(*among.walk, t, t + 0.02, &motion);
+    BoundMotion(bounds, *among.walk, t, t + 0.02, &motion);
     benchmark::DoNotOptimize(motion.bounded);
     t = t + 0.04 < among.walk->duration() ? t + 0.02 : 0.0;
   }

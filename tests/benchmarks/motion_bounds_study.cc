@@ -10,10 +10,11 @@
 #include <string>
 #include <vector>
 
+#include "smoothing/interval_statements.h"
 #include "smoothing/margin_evaluator.h"
-#include "smoothing/motion_bounds.h"
 #include "tests/smoothing/certificate_draws.h"
 #include "tests/smoothing/motion_truth.h"
+#include "wpg/motion_bounds.h"
 
 namespace halfstep {
 namespace {
@@ -53,7 +54,7 @@ void NeverExceeded(const std::vector<RobotModel>& robots, long draws) {
         ++drawn;
         const double length = 1e-4 * std::pow(2000.0, draw.Uniform(0, 1));
         const double begin = draw.Uniform(0.0, walk.duration() - length);
-        bounds.Bound(walk, begin, begin + length, &motion);
+        BoundMotion(bounds, walk, begin, begin + length, &motion);
         if (!motion.bounded) continue;
         ++bounded;
         const double choice = draw.Uniform(0, 4);
@@ -94,7 +95,7 @@ void Tightness(const RobotModel& robot, double length, bool feasible, int interv
     const LocalTime mid = walk.Locate(begin + 0.5 * length);
     if (feasible && evaluator.FirstViolation(walk, mid, &scratch)) continue;
     IntervalMotion motion;
-    bounds.Bound(walk, begin, begin + length, &motion);
+    BoundMotion(bounds, walk, begin, begin + length, &motion);
     if (!motion.posture.reachable) continue;
     ++drawn;
     bounded += motion.bounded;
@@ -111,7 +112,7 @@ void Tightness(const RobotModel& robot, double length, bool feasible, int interv
                          most[f][j] = motion.bounded ? bound : kNone;
                        });
     }
-    const int step = walk.StepInAir(motion.mid);
+    const int step = walk.StepInAir(walk.Locate(0.5 * (begin + begin + length)));
     for (size_t f = 0; f < kNumBounded; ++f) {
       for (size_t j = 0; j < sup[f].size(); ++j) {
         if (sup[f][j] < 1e-5) continue;  // at rest

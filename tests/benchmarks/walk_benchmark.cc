@@ -6,8 +6,8 @@
 #include "experiments/experiment.h"
 #include "smoothing/dichotomy.h"
 #include "smoothing/margin_evaluator.h"
-#include "smoothing/posture.h"
 #include "smoothing/sampled_feasibility.h"
+#include "wpg/posture.h"
 
 namespace halfstep {
 namespace {

@@ -1,4 +1,5 @@
-#include "smoothing/motion_bounds.h"
+#include "wpg/motion_bounds.h"
+#include "smoothing/interval_statements.h"
 
 #include <gtest/gtest.h>
 
@@ -33,7 +34,7 @@ Tally CompareRandomIntervals(const RobotModel& robot, int intervals, unsigned se
       ++tally.intervals;
       const double length = 1e-4 * std::pow(2000.0, draw.Uniform(0, 1));
       const double begin = draw.Uniform(0.0, walk.duration() - length);
-      bounds.Bound(walk, begin, begin + length, &motion);
+      BoundMotion(bounds, walk, begin, begin + length, &motion);
       if (!motion.bounded) continue;
       ++tally.bounded;
       for (const double part : {0.0, draw.Uniform(0, 1), 1.0}) {
@@ -76,7 +77,7 @@ TEST(MotionBounds, AreTightOnShortIntervals) {
     const HalfStepSequence sequence = DrawSequence(robot, 2, {.stride = 0.7}, &draw);
     const SuperposedWalk walk(sequence, draw.Parameters(sequence, 0.0, 0.6));
     const double begin = draw.Uniform(0.0, walk.duration() - 0.02);
-    bounds.Bound(walk, begin, begin + 0.02, &motion);
+    BoundMotion(bounds, walk, begin, begin + 0.02, &motion);
     if (!motion.bounded) continue;
     std::vector<double> truth(robot.bodies.size(), 0.0);
     for (int k = 0; k <= 8; ++k) {
@@ -112,7 +113,7 @@ TEST(MotionBounds, SpanKnotsAndBothEndsOfTheWalk) {
            std::array<std::pair<double, double>, 4>{{{5e-3, 5e-3}, {0, 1e-2}, {1e-2, 0}, {0, 0}}}) {
         const double begin = std::max(0.0, knot - before);
         const double end = std::max(begin, std::min(walk.duration(), knot + after));
-        bounds.Bound(walk, begin, end, &motion);
+        BoundMotion(bounds, walk, begin, end, &motion);
         if (!motion.bounded) continue;
         for (double t : {begin, 0.5 * (begin + end), end}) {
           CompareWithTruth(robot, points, walk, motion, t,
@@ -137,9 +138,9 @@ TEST(MotionBounds, AreNoneWhereALegIsStretched) {
   const SuperposedWalk walk(sequence, PlannedMotion(sequence));
   const MotionBounds bounds(robot);
   IntervalMotion motion;
-  bounds.Bound(walk, walk.duration() - 0.01, walk.duration(), &motion);
+  BoundMotion(bounds, walk, walk.duration() - 0.01, walk.duration(), &motion);
   EXPECT_FALSE(motion.bounded);
-  bounds.Bound(walk, 0.0, 0.01, &motion);
+  BoundMotion(bounds, walk, 0.0, 0.01, &motion);
   EXPECT_TRUE(motion.bounded);
 }
 

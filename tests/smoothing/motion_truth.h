@@ -7,10 +7,10 @@
 #include <string_view>
 #include <vector>
 
-#include "smoothing/motion_bounds.h"
-#include "smoothing/posture.h"
 #include "smoothing/superposed_walk.h"
 #include "wpg/convex_body.h"
+#include "wpg/motion_bounds.h"
+#include "wpg/posture.h"
 #include "wpg/robot_model.h"
 
 namespace halfstep {

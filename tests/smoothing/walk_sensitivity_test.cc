@@ -7,9 +7,9 @@
 #include <limits>
 
 #include "opt/derivative_check.h"
-#include "smoothing/posture.h"
 #include "smoothing/superposed_walk.h"
 #include "tests/smoothing/test_walks.h"
+#include "wpg/posture.h"
 
 namespace halfstep {
 namespace {

@@ -1,4 +1,4 @@
-#include "smoothing/posture.h"
+#include "wpg/posture.h"
 
 namespace halfstep {
 

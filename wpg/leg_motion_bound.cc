@@ -1,4 +1,4 @@
-#include "smoothing/leg_motion_bound.h"
+#include "wpg/leg_motion_bound.h"
 
 namespace halfstep {
 

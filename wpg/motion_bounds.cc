@@ -1,4 +1,4 @@
-#include "smoothing/motion_bounds.h"
+#include "wpg/motion_bounds.h"
 
 #include <algorithm>
 #include <cmath>
@@ -144,13 +144,12 @@ void MotionBounds::BoundBody(size_t index, const BaseRates& waist, IntervalMotio
   motion->displacement_B[index] = h * (speed_B + 0.5 * h * from_waist.acceleration);
 }
 
-void MotionBounds::Bound(const SuperposedWalk& walk, double begin, double end,
+void MotionBounds::Bound(const WalkJet& mid, const WalkVector& second, double half_width,
                          IntervalMotion* motion) const {
-  HALFSTEP_CHECK(end >= begin, "[" << begin << ", " << end << "]");
-  motion->half_width = 0.5 * (end - begin);
-  motion->mid = walk.Locate(0.5 * (begin + end));
-  motion->jet = walk.At(motion->mid);
-  motion->second = walk.SecondBounds(begin, end);
+  HALFSTEP_CHECK(half_width >= 0.0, "half_width = " << half_width);
+  motion->half_width = half_width;
+  motion->jet = mid;
+  motion->second = second;
   motion->displacement.resize(robot_.bodies.size());
   motion->displacement_B.resize(robot_.bodies.size());
   motion->posture = SolvePosture(robot_, motion->jet.value);

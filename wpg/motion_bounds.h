@@ -4,19 +4,17 @@
 #include <array>
 #include <vector>
 
-#include "smoothing/leg_motion_bound.h"
-#include "smoothing/margins.h"
-#include "smoothing/posture.h"
-#include "smoothing/superposed_walk.h"
+#include "wpg/leg_motion_bound.h"
+#include "wpg/posture.h"
 #include "wpg/robot_model.h"
+#include "wpg/walk_vector.h"
 
 namespace halfstep {
 
-/// How far a walk can be, over an interval of time, from where it is at the interval's midpoint m.
+/// How far a robot can be, over an interval of time, from where it is at the interval's midpoint m.
 /// Everything holds for all t in [m − h, m + h]; rates are sups. World frame unless said.
 struct IntervalMotion {
-  double half_width = 0.0;  ///< h [s]
-  LocalTime mid;
+  double half_width = 0.0;                  ///< h [s]
   WalkJet jet;                              ///< at m
   Posture posture;                          ///< at m, links placed, joint speeds solved
   WalkVector second;                        ///< sup |ẍ| of every quantity [1/s²]
@@ -41,10 +39,11 @@ class MotionBounds {
   /// `robot` is borrowed and must outlive this.
   explicit MotionBounds(const RobotModel& robot);
 
-  /// Over the absolute times [begin, end] [s] of a walk. Every profile bound is exact or an upper
-  /// bound on that stretch, so intervals may be of any length; short ones are tight.
+  /// Of a motion whose quantities are `mid` at m and have |second derivatives| of at most `second`
+  /// for all t in [m − h, m + h], h = `half_width` ≥ 0 [s]. Holds for any h; short ones are tight.
   /// Source: smoothing/README.md, "Motion bounds".
-  void Bound(const SuperposedWalk& walk, double begin, double end, IntervalMotion* motion) const;
+  void Bound(const WalkJet& mid, const WalkVector& second, double half_width,
+             IntervalMotion* motion) const;
 
  private:
   // Motion of the waist or of a sole over the interval: sups of its rates.
