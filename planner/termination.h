@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <stop_token>
+#include <vector>
+
+namespace halfstep {
+
+/// How far a planner has come.
+struct PlanProgress {
+  std::int64_t nodes = 0;                                 ///< so far
+  double cost = std::numeric_limits<double>::infinity();  ///< of the best plan; ∞: none yet
+  std::int64_t nodes_since_improvement = 0;  ///< since a plan got better; 0 while there is none
+  bool has_plan() const { return cost < std::numeric_limits<double>::infinity(); }
+};
+
+/// Why a planner shall stop.
+enum class StopReason {
+  kGoOn,
+  kEnough,       ///< the plan is good enough
+  kBudget,       ///< time or nodes are used up
+  kInterrupted,  ///< somebody asked for it
+};
+
+/// Asked before every node. A value that can be copied; reasons are combined with AnyOf.
+using Termination = std::function<StopReason(const PlanProgress&)>;
+
+/// Now [s], since whenever; does not go backwards. Libraries read no clock of their own.
+using Clock = std::function<double()>;
+
+/// kBudget when `clock` shows `end` [s] or more.
+Termination AtTime(Clock clock, double end);
+/// kBudget after that many nodes; 0: at once.
+Termination AfterNodes(std::int64_t nodes);
+/// kEnough when there is a plan.
+Termination AtFirstPlan();
+/// kEnough when there is a plan and that many nodes did not improve it.
+Termination WhenNotImprovedFor(std::int64_t nodes);
+/// kInterrupted when a stop was requested.
+Termination OnRequest(std::stop_token token);
+/// The first of them that says something else than kGoOn.
+Termination AnyOf(std::vector<Termination> terminations);
+
+}  // namespace halfstep
