@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <limits>
+#include <numeric>
 
 namespace halfstep {
 namespace {
@@ -40,7 +41,7 @@ class Builder {
     int left = -1, right = -1;  // both −1: solid
   };
 
-  int Split(const CellBox& within) {
+  int Split(const CellBox& within, int depth) {
     const Slices slices = Slice(within);
     if (slices.occupied == 0) return -1;
     CellBox box = kNothing;
@@ -48,10 +49,11 @@ class Builder {
     const int index = static_cast<int>(branches_.size());
     branches_.push_back({box});
     if (slices.occupied == Cells(box)) return index;
-    const auto [axis, at] = BestCut(slices, within, box);
+    // Halving ends within 48 more.
+    const auto [axis, at] = depth < 36 ? BestCut(slices, within, box) : Halves(box);
     CellBox left = box, right = box;
     left.upper[axis] = right.lower[axis] = at;
-    const int l = Split(left), r = Split(right);
+    const int l = Split(left, depth + 1), r = Split(right, depth + 1);
     branches_[static_cast<size_t>(index)].left = l;
     branches_[static_cast<size_t>(index)].right = r;
     return index;
@@ -166,6 +168,11 @@ class Builder {
   struct Cut {
     int axis = 0, at = 0;
   };
+  static Cut Halves(const CellBox& box) {
+    int axis = 0;
+    (box.upper - box.lower).maxCoeff(&axis);
+    return {axis, (box.lower[axis] + box.upper[axis]) / 2};
+  }
   // The cut whose two sides' bounds hold the fewest cells; of equal ones the most even.
   static Cut BestCut(const Slices& slices, const CellBox& within, const CellBox& box) {
     Cut best;
@@ -200,6 +207,54 @@ class Builder {
   std::vector<Branch> branches_;
 };
 
+// The middle of one solid box of each part.
+std::vector<Vector3d> FindParts(const BoxTree& tree, const Vector3i& size) {
+  const std::vector<CellBox> boxes = tree.SolidBoxes();
+  const auto index = [&](int x, int y, int z) {
+    return (static_cast<size_t>(x) * static_cast<size_t>(size.y()) + static_cast<size_t>(y)) *
+               static_cast<size_t>(size.z()) +
+           static_cast<size_t>(z);
+  };
+  std::vector<int> owner(index(size.x(), 0, 0), -1), parent(boxes.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&](int i) {
+    while (parent[static_cast<size_t>(i)] != i) {
+      int& up = parent[static_cast<size_t>(i)];
+      i = up = parent[static_cast<size_t>(up)];
+    }
+    return i;
+  };
+  for (size_t b = 0; b < boxes.size(); ++b) {
+    const auto& [lower, upper] = boxes[b];
+    for (int x = lower.x(); x < upper.x(); ++x) {
+      for (int y = lower.y(); y < upper.y(); ++y) {
+        const auto column = owner.begin() + static_cast<std::ptrdiff_t>(index(x, y, 0));
+        std::fill(column + lower.z(), column + upper.z(), static_cast<int>(b));
+      }
+    }
+  }
+  const auto join = [&](size_t cell, size_t next) {
+    if (owner[cell] < 0 || owner[next] < 0 || owner[cell] == owner[next]) return;
+    parent[static_cast<size_t>(root(owner[cell]))] = root(owner[next]);
+  };
+  for (int x = 0; x < size.x(); ++x) {
+    for (int y = 0; y < size.y(); ++y) {
+      for (int z = 0; z < size.z(); ++z) {
+        const size_t cell = index(x, y, z);
+        if (x + 1 < size.x()) join(cell, index(x + 1, y, z));
+        if (y + 1 < size.y()) join(cell, index(x, y + 1, z));
+        if (z + 1 < size.z()) join(cell, cell + 1);
+      }
+    }
+  }
+  std::vector<Vector3d> parts;
+  for (size_t b = 0; b < boxes.size(); ++b) {
+    if (root(static_cast<int>(b)) != static_cast<int>(b)) continue;
+    parts.push_back(0.5 * (tree.Corner(boxes[b].lower) + tree.Corner(boxes[b].upper)));
+  }
+  return parts;
+}
+
 CellBox ChildBox(const BoxNode& node, int c) {
   return {{node.lower[0][c], node.lower[1][c], node.lower[2][c]},
           {node.upper[0][c], node.upper[1][c], node.upper[2][c]}};
@@ -212,14 +267,16 @@ BoxTree BoxTree::Build(const VoxelGrid& grid) {
   tree.origin = grid.origin();
   tree.cell = grid.cell();
   Builder builder(grid);
-  const int root = builder.Split({Vector3i::Zero(), grid.size()});
+  const int root = builder.Split({Vector3i::Zero(), grid.size()}, 0);
   if (root >= 0) builder.Emit(root, &tree.nodes);
+  tree.parts = FindParts(tree, grid.size());
   return tree;
 }
 
 bool BoxTree::IsSound() const {
   const int count = static_cast<int>(nodes.size());
   std::vector<bool> named(nodes.size(), false);
+  std::vector<int> level(nodes.size(), 1);
   for (int i = 0; i < count; ++i) {
     if (i > 0 && !named[static_cast<size_t>(i)]) return false;
     const BoxNode& node = nodes[static_cast<size_t>(i)];
@@ -235,6 +292,8 @@ bool BoxTree::IsSound() const {
       if (child == BoxNode::kSolid) continue;
       if (child <= i || child >= count || named[static_cast<size_t>(child)]) return false;
       named[static_cast<size_t>(child)] = true;
+      level[static_cast<size_t>(child)] = level[static_cast<size_t>(i)] + 1;
+      if (3 * level[static_cast<size_t>(child)] + 1 > kStack) return false;
       for (int g = 0; g < 4; ++g) {
         const BoxNode& inner = nodes[static_cast<size_t>(child)];
         if (inner.child[g] == BoxNode::kAbsent) continue;

@@ -23,16 +23,21 @@ static_assert(sizeof(BoxNode) == 64);
 /// A region as a union of solid, closed, axis-aligned boxes, in a tree whose nodes lie in one
 /// array; node 0 is the root and children come after their parents.
 struct BoxTree {
+  /// Nodes that a depth-first walk keeps at most, three a level and one; levels at most 85.
+  static constexpr int kStack = 256;
+
   Eigen::Vector3d origin{0, 0, 0};  ///< of the lattice [m]
   double cell = 0.01;               ///< its spacing [m]
   std::vector<BoxNode> nodes;       ///< empty: the empty region
+  /// One point of each connected part of the region [m] (boxes that share a face are connected).
+  std::vector<Eigen::Vector3d> parts;
 
   /// The occupied cells, exactly. Splits where the children's bounds leave out most; a node is
   /// solid as soon as its bounds are full.
   static BoxTree Build(const VoxelGrid& grid);
 
   /// Whether it can be walked without harm: children after parents and in range, each node named
-  /// once, boxes that are not turned round and lie within their parents'.
+  /// once, not too deep for kStack, boxes that are not turned round and lie within their parents'.
   bool IsSound() const;
 
   /// A solid box of cells [lower, upper).

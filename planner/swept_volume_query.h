@@ -1,0 +1,93 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <memory>
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "planner/box_tree_query.h"
+#include "planner/half_step_query.h"
+#include "planner/half_step_set.h"
+#include "planner/mesh_winding.h"
+#include "planner/scene.h"
+
+namespace halfstep {
+
+/// The swept volumes of a set: of its down and of its up half-steps, as they are on a left support.
+/// None: the motion has no bound; such a half-step is never free.
+struct SweptVolumes {
+  HalfStepSet set;
+  std::vector<std::optional<BoxTree>> down;  ///< of set.Down(i, Side::kLeft)
+  std::vector<std::optional<BoxTree>>
+      up;  ///< of set.Up(i, Side::kRight), which a left foot supports
+};
+
+/// Swept volumes against a scene. A half-step is free when its volume meets no obstacle, and then
+/// the robot is at least the baked clearance from all of them for all t. Queries are const and
+/// thread-safe; SetObstaclePose is not.
+/// Exact for boxes, spheres, capsules, cylinders and triangles, all but for rounding (1e-5); a mesh
+/// is its surface and what it winds around.
+class SweptVolumeQuery : public HalfStepQuery {
+ public:
+  /// `volumes` is borrowed and must outlive this. `sole_size`: length and width [m] of the sole
+  /// that keeps off the no-step areas. Precondition: finite poses, volumes for each element.
+  SweptVolumeQuery(const SweptVolumes& volumes, const Eigen::Vector2d& sole_size,
+                   const Scene& scene);
+
+  bool DownIsFree(int i, Side support, const Pose2& X_WS) const override;
+  bool UpIsFree(int i, Side support, const Pose2& X_WS) const override;
+
+  /// A distance [m] from the volume (so from the robot: the baked clearance more) that is free of
+  /// obstacles in all directions of the axes; 0 when the half-step is not free. Found by halving to
+  /// 1 mm; at most `horizon` [m]. No-step areas do not count.
+  double DownClearance(int i, Side support, const Pose2& X_WS, double horizon) const;
+  double UpClearance(int i, Side support, const Pose2& X_WS, double horizon) const;
+
+  /// Moves one obstacle of the scene; the others stay as they are prepared.
+  void SetObstaclePose(int obstacle, const Eigen::Isometry3d& X_WO);
+
+ private:
+  struct Mesh {
+    TriangleTree triangles;
+    MeshWinding winding;
+  };
+  struct Prepared {
+    OrientedBox around;  // in its own frame; of a box, itself
+    std::variant<std::monostate, RoundBody, std::shared_ptr<const Mesh>> shape;  // none: the box
+    OrientedBox around_W;
+    Eigen::Isometry3d X_WO;
+  };
+  // Upright cylinders around four obstacles, side by side.
+  struct Cylinders {
+    float x[4], y[4], radius[4], z[4], half_height[4];
+  };
+  struct Placed {
+    const std::optional<BoxTree>& volume;
+    bool mirrored;
+    Pose2 X_WS;
+  };
+
+  static Prepared Prepare(const Obstacle& obstacle);
+  Placed Down(int i, Side support, const Pose2& X_WS) const;
+  Placed Up(int i, Side support, const Pose2& X_WS) const;
+  bool IsFree(const Placed& placed, double extra) const;
+  bool MeetsObstacle(const BoxTree& tree, const Placed& placed, const Prepared& obstacle,
+                     double extra) const;
+  double Clearance(const Placed& placed, double horizon) const;
+
+  struct Area {
+    Eigen::Matrix2Xd polygon;
+    Eigen::Vector2d center;
+    double radius = 0.0;
+  };
+
+  const SweptVolumes& volumes_;
+  Eigen::Vector2d sole_size_;
+  std::vector<Prepared> obstacles_;
+  std::vector<Cylinders> cylinders_;
+  double farthest_ = 0.0;  // coordinate of an obstacle [m]
+  std::vector<Area> no_step_;
+};
+
+}  // namespace halfstep
