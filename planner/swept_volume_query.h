@@ -8,20 +8,11 @@
 
 #include "planner/box_tree_query.h"
 #include "planner/half_step_query.h"
-#include "planner/half_step_set.h"
 #include "planner/mesh_winding.h"
 #include "planner/scene.h"
+#include "planner/swept_volumes.h"
 
 namespace halfstep {
-
-/// The swept volumes of a set: of its down and of its up half-steps, as they are on a left support.
-/// None: the motion has no bound; such a half-step is never free.
-struct SweptVolumes {
-  HalfStepSet set;
-  std::vector<std::optional<BoxTree>> down;  ///< of set.Down(i, Side::kLeft)
-  std::vector<std::optional<BoxTree>>
-      up;  ///< of set.Up(i, Side::kRight), which a left foot supports
-};
 
 /// Swept volumes against a scene. A half-step is free when its volume meets no obstacle, and then
 /// the robot is at least the baked clearance from all of them for all t. Queries are const and

@@ -1,0 +1,162 @@
+#include "planner/checked_file.h"
+
+#include <fcntl.h>
+#include <openssl/evp.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <bit>
+#include <cerrno>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <stdexcept>
+#include <system_error>
+
+namespace halfstep {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "files are written as memory holds them");
+
+constexpr std::string_view kMagic = "halfstep file 1\n";
+constexpr size_t kDigest = 32;  // bytes of SHA-256
+
+class Hash {
+ public:
+  Hash() : context_(EVP_MD_CTX_new(), EVP_MD_CTX_free) {
+    if (!context_ || EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr) != 1) Fail();
+  }
+  void Add(std::string_view bytes) {
+    if (EVP_DigestUpdate(context_.get(), bytes.data(), bytes.size()) != 1) Fail();
+  }
+  std::string Finish() {
+    std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
+    unsigned int size = 0;
+    if (EVP_DigestFinal_ex(context_.get(), digest.data(), &size) != 1 || size != kDigest) Fail();
+    return {digest.begin(), digest.begin() + size};
+  }
+
+ private:
+  static void Fail() { throw std::runtime_error("OpenSSL has no SHA-256"); }
+  std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context_;
+};
+
+std::string LengthBytes(uint64_t length) {
+  std::string bytes(sizeof length, '\0');
+  std::memcpy(bytes.data(), &length, sizeof length);
+  return bytes;
+}
+
+// "line 3 is `a`, not `b`".
+std::string FirstDifference(std::string_view found, std::string_view wanted) {
+  for (int line = 1;; ++line) {
+    const std::string_view a = found.substr(0, found.find('\n'));
+    const std::string_view b = wanted.substr(0, wanted.find('\n'));
+    if (a != b) {
+      return "line " + std::to_string(line) + " of its header is `" +
+             std::string(a.substr(0, 120)) + "`, not `" + std::string(b.substr(0, 120)) + "`";
+    }
+    if (a.size() == found.size() || b.size() == wanted.size())
+      return "its header has another length";
+    found.remove_prefix(a.size() + 1);
+    wanted.remove_prefix(b.size() + 1);
+  }
+}
+
+[[noreturn]] void FailToWrite(const std::string& path, int error) {
+  throw std::runtime_error(path + ": cannot be written: " + std::generic_category().message(error));
+}
+
+void WriteAll(int fd, std::string_view bytes, const std::string& path) {
+  while (!bytes.empty()) {
+    const ssize_t written = write(fd, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) FailToWrite(path, errno);
+    bytes.remove_prefix(static_cast<size_t>(written));
+  }
+}
+
+// Closes the file, and removes it unless it was renamed.
+struct Temporary {
+  std::string path;
+  int fd = -1;
+  bool kept = false;
+  ~Temporary() {
+    if (fd >= 0) close(fd);
+    if (!kept && fd >= 0) unlink(path.c_str());
+  }
+};
+
+}  // namespace
+
+std::string HexSha256(std::string_view bytes) {
+  Hash hash;
+  hash.Add(bytes);
+  std::string hex;
+  for (const char byte : hash.Finish()) {
+    const unsigned value = static_cast<unsigned char>(byte);
+    hex += "0123456789abcdef"[value >> 4];
+    hex += "0123456789abcdef"[value & 15];
+  }
+  return hex;
+}
+
+CheckedFile ReadCheckedFile(const std::string& path, std::string_view header) {
+  const auto refuse = [&](const std::string& why) {
+    return CheckedFile{std::nullopt, path + ": refused: " + why};
+  };
+  std::error_code error;
+  const auto size = std::filesystem::file_size(path, error);
+  if (error == std::errc::no_such_file_or_directory) return {};
+  if (error) return refuse("it cannot be read (" + error.message() + ")");
+  std::ifstream file(path, std::ios::binary);
+  std::string bytes(size, '\0');
+  file.read(bytes.data(), static_cast<std::streamsize>(size));
+  if (!file) return refuse("it cannot be read");
+  const size_t before_header = kMagic.size() + sizeof(uint64_t);
+  const std::string_view all = bytes;
+  if (all.size() < before_header + kDigest) return refuse("it is cut short");
+  if (all.substr(0, kMagic.size()) != kMagic)
+    return refuse("it is damaged, or no file of this kind");
+  Hash hash;
+  hash.Add(all.substr(0, all.size() - kDigest));
+  if (hash.Finish() != all.substr(all.size() - kDigest)) {
+    return refuse("it is damaged: its checksum does not fit");
+  }
+  uint64_t length = 0;
+  std::memcpy(&length, bytes.data() + kMagic.size(), sizeof length);
+  if (length > all.size() - before_header - kDigest) return refuse("its header is too long");
+  const std::string_view found = all.substr(before_header, length);
+  if (found != header) return refuse("it is stale: " + FirstDifference(found, header));
+  bytes.erase(bytes.size() - kDigest);
+  bytes.erase(0, before_header + length);
+  return {std::move(bytes), ""};
+}
+
+void WriteCheckedFile(const std::string& path, std::string_view header, std::string_view body) {
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::path(path).parent_path();
+  std::error_code error;
+  if (!folder.empty()) fs::create_directories(folder, error);
+  if (error) FailToWrite(folder.string(), error.value());
+  static std::atomic<unsigned> counter{0};
+  Temporary temporary{.path = path + "." + std::to_string(getpid()) + "." +
+                              std::to_string(counter++) + ".tmp"};
+  temporary.fd = open(temporary.path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  if (temporary.fd < 0) FailToWrite(temporary.path, errno);
+  Hash hash;
+  const std::string length = LengthBytes(header.size());
+  for (const std::string_view part : {kMagic, std::string_view(length), header, body}) {
+    hash.Add(part);
+    WriteAll(temporary.fd, part, temporary.path);
+  }
+  WriteAll(temporary.fd, hash.Finish(), temporary.path);
+  if (fsync(temporary.fd) != 0) FailToWrite(temporary.path, errno);
+  if (rename(temporary.path.c_str(), path.c_str()) != 0) FailToWrite(path, errno);
+  temporary.kept = true;
+}
+
+}  // namespace halfstep

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace halfstep {
+
+/// A file that is whole and says what it was made from:
+///   "halfstep file 1\n", length of the header (8 bytes), header (text), body, SHA-256 of all
+///   before.
+/// Numbers are little-endian.
+
+/// What a reader gets: the body, or a sentence why the file was refused.
+struct CheckedFile {
+  std::optional<std::string> body;
+  std::string refused;  ///< "": there is no such file, or it was read
+};
+
+/// Reads a file whose header must be `header`. Anything else is refused, never thrown: another
+/// header (the first line that differs is told), a file that is cut or changed in any bit.
+CheckedFile ReadCheckedFile(const std::string& path, std::string_view header);
+
+/// Writes it under a temporary name of its own beside `path`, syncs it and renames it: `path` is
+/// whole or as before, also when several programs write it at once. Makes the folder. Throws
+/// std::runtime_error with the system's reason.
+void WriteCheckedFile(const std::string& path, std::string_view header, std::string_view body);
+
+/// Lower-case hexadecimal SHA-256.
+std::string HexSha256(std::string_view bytes);
+
+}  // namespace halfstep

@@ -1,0 +1,245 @@
+#include "planner/swept_volume_cache.h"
+
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <mutex>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "planner/checked_file.h"
+
+namespace halfstep {
+namespace {
+
+constexpr int kFormat = 1;     // of the file: change when the bytes change
+constexpr int kGenerator = 1;  // change when the same input bakes another volume
+constexpr uint32_t kNone = 0xffffffff;
+
+std::string Exactly(double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%a", value);
+  return text;
+}
+
+template <typename Matrix>
+void Append(const Matrix& matrix, std::string* text) {
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+    for (Eigen::Index j = 0; j < matrix.cols(); ++j) *text += Exactly(matrix(i, j)) + " ";
+  }
+  *text += "\n";
+}
+
+// Everything of a robot that moves its bodies' points.
+std::string RobotText(const RobotModel& robot) {
+  std::string text;
+  for (const Leg& leg : robot.legs) {
+    for (const LegJoint& joint : leg.joints) {
+      Append(joint.axis_B, &text);
+      Append(joint.point_B, &text);
+      Append(joint.X_BLink.matrix(), &text);
+    }
+    Append(leg.hip_B, &text);
+    Append(leg.ankle_B, &text);
+    Append(leg.X_BSole.matrix(), &text);
+    for (int sign : {leg.branch.knee, leg.branch.ankle, leg.branch.hip}) {
+      text += std::to_string(sign) + " ";
+    }
+  }
+  for (double value : {robot.waist_height, robot.com_height, robot.com_x_B}) {
+    text += Exactly(value) + "\n";
+  }
+  for (const RobotBody& body : robot.bodies) {
+    text += std::to_string(body.leg) + " " + std::to_string(body.link) + "\n";
+    Append(body.shape.vertices, &text);
+    Append(body.shape.normals, &text);
+    text += Exactly(body.shape.disc_radius) + " " + Exactly(body.shape.ball_radius) + "\n";
+  }
+  return text;
+}
+
+class Reader {
+ public:
+  explicit Reader(std::string_view bytes) : rest_(bytes) {}
+
+  template <typename T>
+  bool Take(T* values, size_t count) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    if (count > rest_.size() / sizeof(T)) return false;
+    if (count > 0) std::memcpy(values, rest_.data(), count * sizeof(T));
+    rest_.remove_prefix(count * sizeof(T));
+    return true;
+  }
+  bool Holds(size_t bytes) const { return bytes <= rest_.size(); }
+  bool AtEnd() const { return rest_.empty(); }
+
+ private:
+  std::string_view rest_;
+};
+
+bool TakeVolume(Reader* reader, double cell, std::optional<BoxTree>* volume) {
+  uint32_t nodes = 0, parts = 0;
+  if (!reader->Take(&nodes, 1)) return false;
+  volume->reset();
+  if (nodes == kNone) return true;
+  BoxTree tree;
+  tree.cell = cell;
+  if (!reader->Take(&parts, 1) || !reader->Take(tree.origin.data(), 3)) return false;
+  if (!reader->Holds(size_t{parts} * sizeof(double) * 3)) return false;
+  tree.parts.resize(parts);
+  for (Eigen::Vector3d& part : tree.parts) {
+    if (!reader->Take(part.data(), 3) || !part.allFinite()) return false;
+  }
+  if (!reader->Holds(size_t{nodes} * sizeof(BoxNode))) return false;
+  tree.nodes.resize(nodes);
+  if (!reader->Take(tree.nodes.data(), nodes)) return false;
+  if (!tree.origin.allFinite() || !tree.IsSound()) return false;
+  *volume = std::move(tree);
+  return true;
+}
+
+template <typename T>
+void AppendBytes(const T* values, size_t count, std::string* bytes) {
+  if (count > 0) bytes->append(reinterpret_cast<const char*>(values), count * sizeof(T));
+}
+
+std::string PartHeader(const std::string& provenance, int element) {
+  return provenance + "element " + std::to_string(element) + "\n";
+}
+
+// Whether all volumes were read; `volumes` then holds them.
+bool ReadAll(std::string_view body, double cell, SweptVolumes* volumes) {
+  Reader reader(body);
+  const size_t size = static_cast<size_t>(volumes->set.size());
+  volumes->down.resize(size);
+  volumes->up.resize(size);
+  for (size_t i = 0; i < size; ++i) {
+    if (!TakeVolume(&reader, cell, &volumes->down[i])) return false;
+    if (!TakeVolume(&reader, cell, &volumes->up[i])) return false;
+  }
+  return reader.AtEnd();
+}
+
+}  // namespace
+
+std::string DefaultCacheFolder() {
+  if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache != nullptr && *cache == '/') {
+    return std::string(cache) + "/halfstep";
+  }
+  const char* home = std::getenv("HOME");
+  return home != nullptr && *home != '\0' ? std::string(home) + "/.cache/halfstep" : "";
+}
+
+std::string SweptVolumeProvenance(const RobotModel& robot, const Lipm& lipm, const HalfStepSet& set,
+                                  const SweptVolumeOptions& options) {
+  std::string placements;
+  for (const Pose2& X_SF : set.placements)
+    Append(Eigen::Vector3d(X_SF.x, X_SF.y, X_SF.yaw), &placements);
+  std::string text = "swept volumes, format " + std::to_string(kFormat) + "\n";
+  const auto line = [&](const char* key, const std::string& value) {
+    text += std::string(key) + " " + value + "\n";
+  };
+  line("generator", std::to_string(kGenerator));
+  line("robot", HexSha256(RobotText(robot)));
+  line("lipm_com_height", Exactly(lipm.com_height));
+  line("lipm_omega", Exactly(lipm.omega()));
+  line("duration", Exactly(set.prototype.duration));
+  line("via_height", Exactly(set.prototype.via_height));
+  line("via_lateral", Exactly(set.prototype.via_lateral));
+  line("shift", Exactly(set.prototype.shape.shift));
+  line("horizontal_delay", Exactly(set.prototype.shape.horizontal_delay));
+  line("elements", std::to_string(set.size()));
+  line("placements", HexSha256(placements));
+  line("cell", Exactly(options.cell));
+  line("displacement", Exactly(options.displacement));
+  line("clearance", Exactly(options.clearance));
+  line("shortest_interval", Exactly(options.shortest_interval));
+  return text;
+}
+
+std::string VolumeBytes(const std::optional<BoxTree>& volume) {
+  std::string bytes;
+  const uint32_t nodes = volume ? static_cast<uint32_t>(volume->nodes.size()) : kNone;
+  AppendBytes(&nodes, 1, &bytes);
+  if (!volume) return bytes;
+  const uint32_t parts = static_cast<uint32_t>(volume->parts.size());
+  AppendBytes(&parts, 1, &bytes);
+  AppendBytes(volume->origin.data(), 3, &bytes);
+  for (const Eigen::Vector3d& part : volume->parts) AppendBytes(part.data(), 3, &bytes);
+  AppendBytes(volume->nodes.data(), volume->nodes.size(), &bytes);
+  return bytes;
+}
+
+std::string PartPath(const std::string& cache_path, int element) {
+  return cache_path + ".parts/" + std::to_string(element);
+}
+
+CachedVolumes LoadOrBakeSweptVolumes(const RobotModel& robot, const Lipm& lipm,
+                                     const HalfStepSet& set, const SweptVolumeOptions& options,
+                                     const std::string& folder, BakeHooks hooks) {
+  const std::string provenance = SweptVolumeProvenance(robot, lipm, set, options);
+  CachedVolumes result;
+  result.path = (std::filesystem::path(folder) /
+                 (robot.name + "-" + HexSha256(provenance).substr(0, 16) + ".swept"))
+                    .string();
+  {
+    CheckedFile file = ReadCheckedFile(result.path, provenance);
+    result.refused = file.refused;
+    if (file.body) {
+      SweptVolumes volumes{.set = set, .down = {}, .up = {}};
+      if (ReadAll(*file.body, options.cell, &volumes)) {
+        result.volumes = std::move(volumes);
+        return result;
+      }
+      result.refused = result.path + ": refused: its volumes make no sense";
+    }
+  }
+  std::mutex mutex;  // of not_kept
+  const auto try_to_write = [&](const std::string& path, const std::string& header,
+                                const std::string& body) {
+    try {
+      WriteCheckedFile(path, header, body);
+      return true;
+    } catch (const std::runtime_error& error) {
+      const std::lock_guard lock(mutex);
+      if (result.not_kept.empty()) result.not_kept = error.what();
+      return false;
+    }
+  };
+  hooks.recall = [&](int i) -> std::optional<ElementVolumes> {
+    const CheckedFile part = ReadCheckedFile(PartPath(result.path, i), PartHeader(provenance, i));
+    if (!part.body) return std::nullopt;
+    Reader reader(*part.body);
+    ElementVolumes element;
+    if (!TakeVolume(&reader, options.cell, &element.down) ||
+        !TakeVolume(&reader, options.cell, &element.up) || !reader.AtEnd()) {
+      return std::nullopt;
+    }
+    return element;
+  };
+  hooks.keep = [&](int i, const ElementVolumes& element) {
+    try_to_write(PartPath(result.path, i), PartHeader(provenance, i),
+                 VolumeBytes(element.down) + VolumeBytes(element.up));
+  };
+  result.volumes = BakeSweptVolumes(robot, lipm, set, options, hooks);
+  if (!result.volumes) return result;
+  result.baked = true;
+  std::string body;
+  for (size_t i = 0; i < result.volumes->down.size(); ++i) {
+    body += VolumeBytes(result.volumes->down[i]);
+    body += VolumeBytes(result.volumes->up[i]);
+  }
+  // Another bake may have removed the parts' folder under us; only the whole file matters.
+  result.not_kept.clear();
+  if (try_to_write(result.path, provenance, body)) {
+    std::error_code ignored;
+    std::filesystem::remove_all(result.path + ".parts", ignored);
+  }
+  return result;
+}
+
+}  // namespace halfstep

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "planner/box_tree.h"
+#include "planner/half_step_set.h"
+
+namespace halfstep {
+
+/// The swept volumes of a set: of its down and of its up half-steps, as they are on a left support.
+/// None: the motion has no bound; such a half-step is never free.
+struct SweptVolumes {
+  HalfStepSet set;
+  std::vector<std::optional<BoxTree>> down;  ///< of set.Down(i, Side::kLeft)
+  std::vector<std::optional<BoxTree>> up;    ///< of set.Up(i, Side::kRight), on a left support
+};
+
+}  // namespace halfstep
