@@ -17,7 +17,7 @@ PlanResult FootstepAStar::Plan(const PlanRequest& request, std::mt19937_64&) con
           return StepsToGo{.bound = static_cast<double>(graph->LeastSteps(state)),
                            .guess = graph->SteadySteps(state)};
         };
-        return SearchSteps(starts, to_go, options_, graph, monitor);
+        return SearchEnd{.exhausted = SearchSteps(starts, to_go, options_, graph, monitor)};
       });
 }
 

@@ -52,7 +52,7 @@ enum class PlanStatus {
   kNotRun,
   kSolved,        ///< there is a plan
   kNoPlan,        ///< all was searched, as far as the planner's resolution tells them apart
-  kStartBlocked,  ///< no foot can leave the floor, or the box stands in an obstacle
+  kStartBlocked,  ///< no foot can leave the floor
   kBudget,        ///< time or nodes were used up before a plan was found
   kInterrupted,   ///< stopped before a plan was found
   kRefused,       ///< there were plans, but `accepts` refused them

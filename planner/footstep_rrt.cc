@@ -77,13 +77,13 @@ PlanResult FootstepRrt::Plan(const PlanRequest& request, std::mt19937_64& random
       request, AllElements(request.set),
       [&](const std::vector<StepState>& starts, StepGraph* graph, PlanMonitor* monitor) {
         const TreeEnd end = GrowTree(starts, options_, graph, monitor, random);
-        if (end != TreeEnd::kPlan) return end == TreeEnd::kExhausted;
+        if (end != TreeEnd::kPlan) return SearchEnd{.exhausted = end == TreeEnd::kExhausted};
         while (!IsCheapest(monitor->best_cost(), starts, *graph)) {
-          if (monitor->Stop()) return false;
+          if (monitor->Stop()) return SearchEnd{};
           const StepPlan best = monitor->plans().back();
           TryShortcut(best, starts, options_.cells, graph, monitor, random);
         }
-        return true;
+        return SearchEnd{.exhausted = true};
       });
 }
 

@@ -14,10 +14,10 @@ struct RrtOptions {
   PoseCells cells = {.position = 0.03, .yaw = 0.1};
 };
 
-/// Rapidly-exploring random tree over a discrete set of elements, after [Perrin2012]: the node
-/// nearest to a random pose takes the free element that leads nearest to it. When it has a plan it
-/// goes on: a stretch of the plan between two random states is planned anew; the rest follows its
-/// old places as closely as free elements can; what is cheaper is kept.
+/// Rapidly-exploring random tree over a discrete set of elements, after [LaValle2001] and
+/// [Perrin2012]: the node nearest to a random pose takes the free element that leads nearest to it.
+/// When it has a plan it goes on: a stretch of the plan between two random states is planned anew;
+/// the rest follows its old places as closely as free elements can; what is cheaper is kept.
 class FootstepRrt : public FootstepPlanner {
  public:
   explicit FootstepRrt(const RrtOptions& options) : options_(options) {}

@@ -63,19 +63,22 @@ void Solve(const PlanRequest& request, const StepGraph& graph, const StepPlan& p
   result->sentence = sentence.str();
 }
 
-void Fail(PlanStatus status, const char* sentence, PlanResult* result) {
+void Fail(PlanStatus status, const std::string& sentence, PlanResult* result) {
   result->status = status;
   result->sentence = sentence;
 }
 
 // Without a plan that was accepted.
-void Explain(PlanResult* result) {
+void Explain(const SearchEnd& end, PlanResult* result) {
   if (result->refusals > 0) {
     Fail(PlanStatus::kRefused, "every plan found was refused by the check of the whole walk",
          result);
   } else if (result->exhausted) {
     Fail(PlanStatus::kNoPlan,
-         "no plan: all that the half-steps reach inside the workspace was searched", result);
+         end.sentence.empty()
+             ? "no plan: all that the half-steps reach inside the workspace was searched"
+             : end.sentence,
+         result);
   } else if (result->stop == StopReason::kInterrupted) {
     Fail(PlanStatus::kInterrupted, "interrupted before a plan was found", result);
   } else {
@@ -131,6 +134,7 @@ PlanResult PlanWith(const PlanRequest& request, const std::vector<int>& elements
   StepGraph graph(request, elements);
   std::vector<StepState> starts;
   const StepPlan* plan = nullptr;
+  SearchEnd end;
   if (!monitor.Stop()) {
     starts = graph.FreeStarts();
     if (starts.empty()) {
@@ -139,7 +143,8 @@ PlanResult PlanWith(const PlanRequest& request, const std::vector<int>& elements
       return result;
     }
     while (true) {
-      result.exhausted = search(starts, &graph, &monitor);
+      end = search(starts, &graph, &monitor);
+      result.exhausted = end.exhausted;
       if (monitor.plans().empty()) break;
       plan = FirstAccepted(request, monitor, &graph, &result.refusals);
       const bool hard =
@@ -156,7 +161,7 @@ PlanResult PlanWith(const PlanRequest& request, const std::vector<int>& elements
   if (plan != nullptr) {
     Solve(request, graph, *plan, &result);
   } else {
-    Explain(&result);
+    Explain(end, &result);
   }
   return result;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "planner/footstep_planner.h"
@@ -44,10 +45,15 @@ class PlanMonitor {
   double time_to_first_ = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// Searches from `starts` and offers plans to the monitor until it says stop (false) or nothing is
-/// left to search (true).
-using PlanSearch = std::function<bool(const std::vector<StepState>& starts, StepGraph* graph,
-                                      PlanMonitor* monitor)>;
+/// Why a search ended.
+struct SearchEnd {
+  bool exhausted = false;     ///< nothing is left to search; else the monitor said stop
+  std::string sentence = {};  ///< why there is no plan when exhausted; empty: the common one
+};
+
+/// Searches from `starts` and offers plans to the monitor.
+using PlanSearch = std::function<SearchEnd(const std::vector<StepState>& starts, StepGraph* graph,
+                                           PlanMonitor* monitor)>;
 
 /// What all planners share: preconditions, a start that is a goal or blocked, asking `accepts`,
 /// searching again without what was refused, and the sentence of the result.

@@ -1,0 +1,281 @@
+#include "planner/footstep_planner.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <set>
+
+#include "planner/footstep_astar.h"
+#include "planner/footstep_rrt.h"
+#include "planner/plan_shortcut.h"
+#include "planner/state_buckets.h"
+#include "planner/step_graph.h"
+#include "tests/planner/flat_world.h"
+
+namespace halfstep {
+namespace {
+
+PlanRequest RequestTo(const Pose2& goal, const HalfStepSet& set, const HalfStepQuery& query) {
+  PlanRequest request{.start = {Pose2{0.0, 0.1, 0.0}, Pose2{0.0, -0.1, 0.0}},
+                      .goal = {},
+                      .set = set,
+                      .query = query};
+  request.goal.X_WG = goal;
+  request.stop = AnyOf({AtFirstPlan(), AfterNodes(20000)});
+  return request;
+}
+
+TEST(GoalRegion, ContainsItsBorderAndTurnsWithItsFrame) {
+  GoalRegion goal;
+  goal.X_WG = {1.0, 2.0, 0.5};
+  goal.radius = 0.25;
+  EXPECT_TRUE(goal.Contains({1.25, 2.0, 3.0}));
+  EXPECT_FALSE(goal.Contains({1.2501, 2.0, 3.0}));
+  EXPECT_NEAR(goal.Distance({1.0, 3.0}), 0.75, 1e-15);
+  goal.box = Eigen::Vector2d(1.0, 0.1);
+  const Eigen::Vector2d corner = goal.X_WG * Eigen::Vector2d(0.4999, 0.0499);
+  const Eigen::Vector2d outside = goal.X_WG * Eigen::Vector2d(0.0499, 0.4999);
+  EXPECT_TRUE(goal.Contains({corner.x(), corner.y(), 0.0}));
+  EXPECT_FALSE(goal.Contains({outside.x(), outside.y(), 0.0}));
+  EXPECT_NEAR(goal.Distance(outside), 0.4499, 1e-12);
+}
+
+TEST(GoalRegion, ComparesYawsModuloATurn) {
+  GoalRegion goal;
+  goal.X_WG = {0.0, 0.0, 3.1};
+  goal.yaw_tolerance = 0.2;
+  EXPECT_TRUE(goal.Contains({0.0, 0.0, -3.1}));
+  EXPECT_TRUE(goal.Contains({0.0, 0.0, 3.1 + 4.0 * std::numbers::pi}));
+  EXPECT_FALSE(goal.Contains({0.0, 0.0, 2.8}));
+  EXPECT_NEAR(goal.Turn(2.8), 0.1, 1e-12);
+}
+
+TEST(GoalRegion, AsksTheFootThatCounts) {
+  GoalRegion goal;
+  goal.X_WG = {0.0, 0.1, 0.0};
+  goal.radius = 0.01;
+  const std::array<Pose2, 2> feet = {Pose2{0.0, 0.1, 0.0}, Pose2{0.0, -0.1, 0.0}};
+  const auto contains = [&](GoalPart part) {
+    goal.part = part;
+    return goal.ContainsStance(feet);
+  };
+  EXPECT_TRUE(contains(GoalPart::kLeftFoot));
+  EXPECT_TRUE(contains(GoalPart::kEitherFoot));
+  EXPECT_FALSE(contains(GoalPart::kRightFoot));
+  EXPECT_FALSE(contains(GoalPart::kMidFeet));
+  goal.X_WG.y = 0.0;
+  EXPECT_TRUE(contains(GoalPart::kMidFeet));
+}
+
+TEST(Termination, TheFirstReasonCounts) {
+  std::stop_source source;
+  const Termination stop =
+      AnyOf({AtFirstPlan(), AfterNodes(10), WhenNotImprovedFor(3), OnRequest(source.get_token())});
+  EXPECT_EQ(stop({.nodes = 9}), StopReason::kGoOn);
+  EXPECT_EQ(stop({.nodes = 10}), StopReason::kBudget);
+  EXPECT_EQ(stop({.nodes = 10, .cost = 5.0}), StopReason::kEnough);
+  const Termination improving = WhenNotImprovedFor(3);
+  EXPECT_EQ(improving({.nodes = 9, .nodes_since_improvement = 9}), StopReason::kGoOn);
+  EXPECT_EQ(improving({.nodes = 9, .cost = 5.0, .nodes_since_improvement = 3}),
+            StopReason::kEnough);
+  source.request_stop();
+  EXPECT_EQ(stop({}), StopReason::kInterrupted);
+}
+
+TEST(StepReach, NoSequenceOfElementsLeadsFarther) {
+  const HalfStepSet set = PlausibleSet();
+  const std::vector<int> all = AllElements(set);
+  const StepReach reach(set, all, StepCost{}.OfElements(set));
+  std::mt19937_64 random(3);
+  double nearest_to_bound = 0.0;
+  for (int trial = 0; trial < 20000; ++trial) {
+    Pose2 X_WS;
+    Side support = Side::kLeft;
+    for (int n = 1; n <= 6; ++n) {
+      X_WS = X_WS * set.Placement(Pick(set.size(), random), support);
+      support = Opposite(support);
+      const double distance = X_WS.position().norm();
+      ASSERT_LE(distance, reach.Distance(n) + 1e-12);
+      ASSERT_LE(reach.Steps(distance, std::fabs(X_WS.yaw)), n + 1e-9);
+      nearest_to_bound = std::max(nearest_to_bound, distance / reach.Distance(n));
+    }
+  }
+  EXPECT_GT(nearest_to_bound, 0.95);  // the bound says something
+}
+
+TEST(StateBuckets, FindTheNearestOfAll) {
+  std::mt19937_64 random(5);
+  const Eigen::AlignedBox2d area(Eigen::Vector2d(-1, -2), Eigen::Vector2d(3, 1));
+  StateBuckets buckets(area);
+  EXPECT_EQ(buckets.FindNearest({}, Side::kLeft, true), -1);
+  std::vector<StepState> states;
+  std::vector<bool> there;
+  const auto pose = [&] {
+    const double x = Uniform(-1, 3, random), y = Uniform(-2, 1, random);
+    return Pose2{x, y, Uniform(-7, 7, random)};
+  };
+  for (int i = 0; i < 300; ++i) {
+    states.push_back({pose(), Pick(2, random) == 0 ? Side::kLeft : Side::kRight});
+    there.push_back(true);
+    buckets.Insert(i, states.back());
+  }
+  for (int i = 0; i < 300; ++i) {
+    const Pose2 wanted = pose();
+    for (bool with_yaw : {false, true}) {
+      int nearest = -1;
+      for (int j = 0; j < 300; ++j) {
+        const auto at = static_cast<size_t>(j);
+        if (!there[at] || states[at].support != Side::kRight) continue;
+        if (nearest < 0 ||
+            StateDistance(states[at].X_WS, wanted, with_yaw) <
+                StateDistance(states[static_cast<size_t>(nearest)].X_WS, wanted, with_yaw)) {
+          nearest = j;
+        }
+      }
+      ASSERT_EQ(buckets.FindNearest(wanted, Side::kRight, with_yaw), nearest);
+    }
+    if (i % 2 == 0) {
+      there[static_cast<size_t>(i)] = false;
+      buckets.Remove(i, states[static_cast<size_t>(i)]);
+    }
+  }
+}
+
+TEST(StepGraph, LandsAllElementsWhereItLandsEach) {
+  const HalfStepSet set = PlausibleSet();
+  const FlatQuery query(set, {});
+  const PlanRequest request = RequestTo({2.0, 0.0, 0.0}, set, query);
+  const StepGraph graph(request, AllElements(set));
+  std::vector<Pose2> landings;
+  for (Side support : {Side::kLeft, Side::kRight}) {
+    const StepState from{{0.3, -0.7, 1.234}, support};
+    graph.Landings(from, &landings);
+    ASSERT_EQ(landings.size(), set.placements.size());
+    for (int k = 0; k < graph.size(); ++k) {
+      EXPECT_EQ(landings[static_cast<size_t>(k)], graph.Landing(from, k));
+    }
+  }
+}
+
+TEST(ClassicSubset, HasTwelveToSixteenElementsOfTheSet) {
+  const HalfStepSet set = PlausibleSet();
+  const std::vector<int> classic = ClassicSubset(set);
+  EXPECT_GE(classic.size(), 12u);
+  EXPECT_LE(classic.size(), 16u);
+  EXPECT_TRUE(std::is_sorted(classic.begin(), classic.end()));
+  EXPECT_GE(classic.front(), 0);
+  EXPECT_LT(classic.back(), set.size());
+}
+
+// The least number of footsteps by trying all sequences, level by level, without cells.
+int LeastByTrying(const PlanRequest& request, int most) {
+  StepGraph graph(request, ClassicSubset(request.set));
+  std::vector<StepState> level = graph.FreeStarts();
+  for (int n = 1; n <= most; ++n) {
+    std::vector<StepState> next;
+    for (const StepState& state : level) {
+      for (int k = 0; k < graph.size(); ++k) {
+        const StepState after = graph.After(state, k);
+        if (!graph.DownIsFree(state, k)) continue;
+        if (graph.IsGoal(state, after.X_WS)) return n;
+        if (n < most && graph.UpIsFree(state, k)) next.push_back(after);
+      }
+    }
+    level = next;
+  }
+  return -1;
+}
+
+TEST(FootstepAStar, EndsWithTheLeastNumberOfFootsteps) {
+  const HalfStepSet set = PlausibleSet();
+  const FlatQuery query(set, {.poles = {{{0.35, 0.0}, 0.1}}, .no_step = {}});
+  const FootstepAStar planner(FootstepAStar::Elements::kClassic, {});
+  int tried = 0;
+  for (const Pose2& goal : {Pose2{0.4, 0.35, 0.0}, Pose2{-0.4, 0.3, 0.0}, Pose2{0.2, -0.45, 0.0}}) {
+    PlanRequest request = RequestTo(goal, set, query);
+    request.stop = AfterNodes(200000);
+    const int least = LeastByTrying(request, 4);
+    if (least < 0) continue;
+    std::mt19937_64 random(1);
+    const PlanResult result = planner.Plan(request, random);
+    ASSERT_EQ(result.status, PlanStatus::kSolved) << result.sentence;
+    EXPECT_TRUE(result.exhausted);
+    EXPECT_EQ(static_cast<int>(result.footsteps.size()), least);
+    ++tried;
+  }
+  EXPECT_EQ(tried, 3);
+}
+
+TEST(FootstepAStar, LaterPlansAreCheaper) {
+  const HalfStepSet set = PlausibleSet();
+  const FlatQuery query(set, WallWithGap(0.6, 0.6));
+  const FootstepAStar planner(FootstepAStar::Elements::kClassic, {});
+  PlanRequest request = RequestTo({1.6, 0.0, 0.0}, set, query);
+  std::mt19937_64 random(1);
+  const PlanResult first = planner.Plan(request, random);
+  request.stop = AfterNodes(2 * first.nodes + 3000);
+  const PlanResult later = planner.Plan(request, random);
+  ASSERT_EQ(first.status, PlanStatus::kSolved);
+  ASSERT_EQ(later.status, PlanStatus::kSolved);
+  EXPECT_LE(later.cost, first.cost);
+}
+
+TEST(FootstepRrt, ShortensItsPlanWhenThereIsTime) {
+  const HalfStepSet set = PlausibleSet();
+  const FlatQuery query(set, WallWithGap(0.8, 0.6));
+  const FootstepRrt planner({});
+  int shorter = 0;
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    PlanRequest request = RequestTo({2.0, 0.0, 0.0}, set, query);
+    std::mt19937_64 random(seed);
+    const PlanResult first = planner.Plan(request, random);
+    request.stop = AnyOf({WhenNotImprovedFor(500), AfterNodes(20000)});
+    random.seed(seed);
+    const PlanResult later = planner.Plan(request, random);
+    ASSERT_EQ(first.status, PlanStatus::kSolved);
+    ASSERT_EQ(later.status, PlanStatus::kSolved);
+    ASSERT_LE(later.cost, first.cost);
+    if (later.cost < first.cost) ++shorter;
+  }
+  EXPECT_GE(shorter, 8);
+}
+
+TEST(FootstepRrt, LeavesAnIslandWithEverySeed) {
+  const HalfStepSet set = PlausibleSet();
+  const FlatQuery query(set, Island(0.35, 0.06));
+  const FootstepRrt planner({});
+  const PlanRequest request = RequestTo({1.2, 0.3, 0.0}, set, query);
+  for (std::uint64_t seed = 0; seed < 25; ++seed) {
+    std::mt19937_64 random(seed);
+    EXPECT_EQ(planner.Plan(request, random).status, PlanStatus::kSolved) << "seed " << seed;
+  }
+}
+
+TEST(FootstepRrt, DoesNotLeaveARingThatIsTooWide) {
+  const HalfStepSet set = PlausibleSet();
+  const FlatQuery query(set, Island(0.35, 0.5));
+  const FootstepRrt planner({});
+  PlanRequest request = RequestTo({1.5, 0.0, 0.0}, set, query);
+  request.stop = AfterNodes(1500);
+  std::mt19937_64 random(1);
+  EXPECT_NE(planner.Plan(request, random).status, PlanStatus::kSolved);
+}
+
+TEST(FootstepRrt, DifferentSeedsFindDifferentWays) {
+  const HalfStepSet set = PlausibleSet();
+  const FlatQuery query(set, {});
+  const FootstepRrt planner({});
+  const PlanRequest request = RequestTo({1.5, 0.5, 0.0}, set, query);
+  std::set<std::vector<int>> plans;
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    std::mt19937_64 random(seed);
+    plans.insert(planner.Plan(request, random).elements);
+  }
+  EXPECT_GT(plans.size(), 3u);
+}
+
+}  // namespace
+}  // namespace halfstep
