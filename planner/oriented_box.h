@@ -25,7 +25,7 @@ class LatticeBoxTest {
   /// Boxes with these axes, of a tree's lattice. `extra`: the tree's boxes count as larger by this
   /// on every side [m].
   LatticeBoxTest(const BoxTree& tree, const Eigen::Matrix3d& axes, double extra)
-      : origin_(tree.origin), scale_(2.0 / tree.cell), extra_(scale_ * extra) {
+      : origin_(tree.origin), scale_(2.0 / tree.cell), extra_(static_cast<float>(scale_ * extra)) {
     upright_ = axes.row(2).head<2>().isZero(1e-12) && axes.col(2).head<2>().isZero(1e-12);
     for (int i = 0; i < 3; ++i) {
       for (int j = 0; j < 3; ++j) {
@@ -44,7 +44,7 @@ class LatticeBoxTest {
       sum += a_[i];
       far = std::max(far, std::abs(T_[i]));
     }
-    const float slack = 2e-6f * (far + sum + 512.0f) + static_cast<float>(extra_);
+    const float slack = 2e-6f * (far + sum + 512.0f + extra_);
     for (int i = 0; i < 3; ++i) {
       reach_[i] = A_[i][0] * a_[0] + A_[i][1] * a_[1] + A_[i][2] * a_[2] + slack;
       from_center_[i] = a_[i] + 2.0f * slack;
@@ -64,7 +64,8 @@ class LatticeBoxTest {
     const Four z0 = Four::Load(node.lower[2]), z1 = Four::Load(node.upper[2]);
     const Four dx = Four(T_[0]) - (x0 + x1), dy = Four(T_[1]) - (y0 + y1);
     const Four dz = Four(T_[2]) - (z0 + z1);
-    const Four ex = x1 - x0, ey = y1 - y0, ez = z1 - z0;
+    const Four extra(extra_);
+    const Four ex = x1 - x0 + extra, ey = y1 - y0 + extra, ez = z1 - z0 + extra;
     int mask = dx.Abs().Within(ex + Four(reach_[0])) & dy.Abs().Within(ey + Four(reach_[1])) &
                dz.Abs().Within(ez + Four(reach_[2]));
     if (mask == 0) return 0;
@@ -98,7 +99,8 @@ class LatticeBoxTest {
   }
 
   Eigen::Vector3d origin_;
-  double scale_, extra_;
+  double scale_;
+  float extra_;
   bool upright_;
   float R_[3][3], A_[3][3];
   float T_[3] = {}, a_[3] = {}, reach_[3] = {}, from_center_[3] = {};

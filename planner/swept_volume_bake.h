@@ -16,14 +16,14 @@ struct ElementVolumes {
 
 /// How the work of a bake is done; none of it changes the result.
 struct BakeHooks {
-  int threads = 0;       ///< 0: as many as the machine has
-  std::stop_token stop;  ///< ends the bake early
+  int threads = 0;            ///< 0: as many as the machine has
+  std::stop_token stop = {};  ///< ends the bake early
   /// Told the fraction done, never by two threads at once; false stops the bake. May be empty.
-  std::function<bool(double)> progress;
+  std::function<bool(double)> progress = {};
   /// An element that was baked before, or none; and where to put one that was baked now. Called by
   /// several threads at once. May be empty.
-  std::function<std::optional<ElementVolumes>(int)> recall;
-  std::function<void(int, const ElementVolumes&)> keep;
+  std::function<std::optional<ElementVolumes>(int)> recall = {};
+  std::function<void(int, const ElementVolumes&)> keep = {};
 };
 
 /// Bakes all elements of a set, or none when stopped. What a hook throws ends the bake and is

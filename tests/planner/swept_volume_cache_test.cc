@@ -1,0 +1,272 @@
+#include "planner/swept_volume_cache.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <thread>
+
+#include "planner/checked_file.h"
+#include "tests/planner/swept_volume_draws.h"
+
+namespace halfstep {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+const SweptVolumeOptions kVeryCoarse{.cell = 0.08, .displacement = 0.05};
+
+// HRP-2's feet alone: quickly baked.
+const RobotModel& SmallRobot() {
+  static const RobotModel robot = [] {
+    RobotModel small = SweptRobot();
+    std::erase_if(small.bodies, [](const RobotBody& b) { return b.leg < 0 || b.link < 5; });
+    small.self_pairs.clear();
+    return small;
+  }();
+  return robot;
+}
+
+std::string Read(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+void Write(const std::string& path, const std::string& bytes) {
+  std::ofstream(path, std::ios::binary) << bytes;
+}
+
+std::string Bytes(const SweptVolumes& volumes) {
+  std::string bytes;
+  for (const auto& volume : volumes.down) bytes += VolumeBytes(volume);
+  for (const auto& volume : volumes.up) bytes += VolumeBytes(volume);
+  return bytes;
+}
+
+class SweptVolumeCacheTest : public ::testing::Test {
+ protected:
+  SweptVolumeCacheTest() {
+    static std::atomic<int> counter{0};
+    folder_ = fs::temp_directory_path() /
+              ("halfstep-swept-" + std::to_string(getpid()) + "-" + std::to_string(counter++));
+    fs::create_directories(folder_);
+  }
+  ~SweptVolumeCacheTest() override {
+    std::error_code ignored;
+    fs::remove_all(folder_, ignored);
+  }
+  CachedVolumes Get(BakeHooks hooks = {.threads = 1}, const RobotModel& robot = SmallRobot(),
+                    const SweptVolumeOptions& options = kVeryCoarse) const {
+    return LoadOrBakeSweptVolumes(robot, LipmOf(robot), FewHalfSteps(), options, folder_.string(),
+                                  hooks);
+  }
+  static const std::string& Truth() {
+    static const std::string bytes = Bytes(*BakeSweptVolumes(
+        SmallRobot(), LipmOf(SmallRobot()), FewHalfSteps(), kVeryCoarse, {.threads = 1}));
+    return bytes;
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(SweptVolumeCacheTest, SecondTimeIsReadAndTheSame) {
+  const CachedVolumes first = Get();
+  ASSERT_TRUE(first.volumes);
+  EXPECT_TRUE(first.baked);
+  EXPECT_EQ(first.refused + first.not_kept, "");
+  EXPECT_EQ(Bytes(*first.volumes), Truth());
+  const CachedVolumes second = Get();
+  ASSERT_TRUE(second.volumes);
+  EXPECT_FALSE(second.baked);
+  EXPECT_EQ(second.path, first.path);
+  EXPECT_EQ(Bytes(*second.volumes), Truth());
+  // Only the file itself is left.
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1);
+}
+
+TEST_F(SweptVolumeCacheTest, AnyNumberOfThreadsBakesTheSame) {
+  const auto volumes = BakeSweptVolumes(SmallRobot(), LipmOf(SmallRobot()), FewHalfSteps(),
+                                        kVeryCoarse, {.threads = 3});
+  EXPECT_EQ(Bytes(*volumes), Truth());
+}
+
+TEST_F(SweptVolumeCacheTest, OtherRobotOptionsOrPlacementsAreAnotherFile) {
+  const std::string path = Get().path;
+  RobotModel robot = SmallRobot();
+  robot.bodies.back().shape.vertices(0, 0) += 1e-12;
+  EXPECT_NE(Get({.threads = 1}, robot).path, path);
+  SweptVolumeOptions options = kVeryCoarse;
+  options.clearance = 0.006;
+  const CachedVolumes other = Get({.threads = 1}, SmallRobot(), options);
+  EXPECT_NE(other.path, path);
+  // A file under a name that is not its own is stale.
+  fs::rename(other.path, path);
+  const CachedVolumes again = Get();
+  EXPECT_TRUE(again.baked);
+  EXPECT_THAT(again.refused, HasSubstr("stale"));
+  EXPECT_THAT(again.refused, HasSubstr("`clearance "));
+  EXPECT_EQ(Bytes(*again.volumes), Truth());
+}
+
+TEST_F(SweptVolumeCacheTest, BitFlipsEverywhereAreRefused) {
+  const std::string path = Get().path;
+  const std::string whole = Read(path);
+  const std::string provenance =
+      SweptVolumeProvenance(SmallRobot(), LipmOf(SmallRobot()), FewHalfSteps(), kVeryCoarse);
+  ASSERT_TRUE(ReadCheckedFile(path, provenance).body);
+  SweptDraw draw(1);
+  // Magic, length, header, body, checksum: each byte at either end, and many between.
+  for (int k = 0; k < 250; ++k) {
+    const int size = static_cast<int>(whole.size());
+    const int at = k < 60 ? k : k < 100 ? size - 1 - (k - 60) : draw.Index(size);
+    std::string damaged = whole;
+    damaged[static_cast<size_t>(at)] =
+        static_cast<char>(damaged[static_cast<size_t>(at)] ^ (1 << draw.Index(8)));
+    Write(path, damaged);
+    const CheckedFile file = ReadCheckedFile(path, provenance);
+    EXPECT_FALSE(file.body) << "byte " << at;
+    EXPECT_THAT(file.refused, HasSubstr("refused")) << "byte " << at;
+    EXPECT_EQ(file.refused.find('\n'), std::string::npos);
+  }
+  const CachedVolumes again = Get();
+  EXPECT_TRUE(again.baked);
+  EXPECT_THAT(again.refused, HasSubstr("checksum"));
+  EXPECT_EQ(Bytes(*again.volumes), Truth());
+  EXPECT_EQ(Read(path), whole);
+}
+
+TEST_F(SweptVolumeCacheTest, CutFilesAreRefused) {
+  const std::string path = Get().path;
+  const std::string whole = Read(path);
+  for (const size_t size :
+       {size_t{0}, size_t{1}, size_t{20}, size_t{60}, whole.size() / 2, whole.size() - 1}) {
+    Write(path, whole.substr(0, size));
+    const CachedVolumes again = Get();
+    EXPECT_TRUE(again.baked) << size;
+    EXPECT_THAT(again.refused, HasSubstr("refused")) << size;
+    EXPECT_EQ(Bytes(*again.volumes), Truth());
+  }
+}
+
+// A right checksum over wrong volumes: written by a mistaken program.
+TEST_F(SweptVolumeCacheTest, VolumesThatMakeNoSenseAreRefused) {
+  const std::string path = Get().path;
+  const std::string provenance =
+      SweptVolumeProvenance(SmallRobot(), LipmOf(SmallRobot()), FewHalfSteps(), kVeryCoarse);
+  const std::string body = *ReadCheckedFile(path, provenance).body;
+  SweptDraw draw(2);
+  int refused = 0;
+  for (int k = 0; k < 12; ++k) {
+    std::string damaged = body;
+    const size_t at = k == 0 ? 3 : static_cast<size_t>(draw.Index(static_cast<int>(body.size())));
+    damaged[at] = static_cast<char>(damaged[at] ^ (1 << draw.Index(8)));
+    WriteCheckedFile(path, provenance, damaged);
+    const CachedVolumes again = Get();
+    ASSERT_TRUE(again.volumes);
+    refused += again.baked;
+  }
+  EXPECT_GT(refused, 2);
+}
+
+TEST_F(SweptVolumeCacheTest, AStoppedBakeGoesOnWhereItWas) {
+  BakeHooks hooks{.threads = 1};
+  hooks.progress = [](double done) { return done < 0.5; };
+  EXPECT_FALSE(Get(hooks).volumes);
+  std::vector<double> seen;
+  hooks.progress = [&](double done) { return seen.push_back(done), true; };
+  // A damaged part is baked again.
+  std::string path;
+  for (const auto& entry : fs::directory_iterator(folder_)) path = entry.path().string();
+  ASSERT_TRUE(path.ends_with(".parts"));
+  const std::string part = path + "/0";
+  std::string bytes = Read(part);
+  ASSERT_GT(bytes.size(), 100u);
+  bytes[bytes.size() / 2] ^= 1;
+  Write(part, bytes);
+  const CachedVolumes whole = Get(hooks);
+  EXPECT_EQ(Bytes(*whole.volumes), Truth());
+  EXPECT_EQ(seen.size(), 3u);
+  EXPECT_EQ(seen.back(), 1.0);
+}
+
+TEST_F(SweptVolumeCacheTest, ElementsAreRecalledNotBakedAgain) {
+  std::atomic<int> kept{0};
+  BakeHooks hooks{.threads = 1};
+  const ElementVolumes empty{.down = BoxTree{}, .up = std::nullopt};
+  hooks.recall = [&](int i) { return i == 1 ? std::optional(empty) : std::nullopt; };
+  hooks.keep = [&](int, const ElementVolumes&) { ++kept; };
+  const auto volumes =
+      BakeSweptVolumes(SmallRobot(), LipmOf(SmallRobot()), FewHalfSteps(), kVeryCoarse, hooks);
+  ASSERT_TRUE(volumes);
+  EXPECT_EQ(kept, 2);
+  EXPECT_TRUE(volumes->down[1]->nodes.empty());
+  EXPECT_FALSE(volumes->up[1]);
+}
+
+TEST_F(SweptVolumeCacheTest, StopTokenStops) {
+  std::stop_source source;
+  source.request_stop();
+  BakeHooks hooks{.threads = 2};
+  hooks.stop = source.get_token();
+  EXPECT_FALSE(Get(hooks).volumes);
+}
+
+TEST_F(SweptVolumeCacheTest, WhatAHookThrowsEndsTheBake) {
+  BakeHooks hooks{.threads = 2};
+  hooks.progress = [](double) -> bool { throw std::runtime_error("enough"); };
+  EXPECT_THROW(Get(hooks), std::runtime_error);
+}
+
+TEST_F(SweptVolumeCacheTest, SeveralBakesAtOnceAgree) {
+  std::vector<CachedVolumes> results(4);
+  {
+    std::vector<std::jthread> bakes;
+    for (CachedVolumes& result : results) bakes.emplace_back([&] { result = Get(); });
+  }
+  for (const CachedVolumes& result : results) {
+    ASSERT_TRUE(result.volumes);
+    EXPECT_EQ(Bytes(*result.volumes), Truth());
+    EXPECT_EQ(result.refused + result.not_kept, "");
+  }
+  EXPECT_FALSE(Get().baked);
+}
+
+TEST_F(SweptVolumeCacheTest, KilledBakesNeverLeaveAWrongVolume) {
+  (void)Truth();  // before the processes part
+  SweptDraw draw(3);
+  for (int trial = 0; trial < 6; ++trial) {
+    const pid_t child = fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+      (void)Get();
+      _exit(0);
+    }
+    std::this_thread::sleep_for(std::chrono::microseconds(draw.Index(30000)));
+    kill(child, SIGKILL);
+    waitpid(child, nullptr, 0);
+  }
+  const CachedVolumes whole = Get();
+  ASSERT_TRUE(whole.volumes);
+  EXPECT_EQ(Bytes(*whole.volumes), Truth());
+  EXPECT_EQ(whole.refused, "");
+}
+
+TEST_F(SweptVolumeCacheTest, AFolderThatCannotBeWrittenCostsTheCacheOnly) {
+  Write((folder_ / "file").string(), "x");
+  const CachedVolumes result =
+      LoadOrBakeSweptVolumes(SmallRobot(), LipmOf(SmallRobot()), FewHalfSteps(), kVeryCoarse,
+                             (folder_ / "file" / "below").string(), {.threads = 1});
+  ASSERT_TRUE(result.volumes);
+  EXPECT_EQ(Bytes(*result.volumes), Truth());
+  EXPECT_THAT(result.not_kept, HasSubstr("cannot be written"));
+}
+
+}  // namespace
+}  // namespace halfstep

@@ -1,0 +1,265 @@
+#include "planner/swept_volume_query.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <stdexcept>
+
+#include "planner/collision_world.h"
+#include "planner/mesh_interior.h"
+#include "tests/planner/swept_volume_draws.h"
+
+namespace halfstep {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+const Eigen::Vector2d kSole(0.22, 0.14);
+
+TriangleMesh AsMesh(const ConvexBody& body) {
+  TriangleMesh mesh;
+  mesh.vertices = body.vertices;
+  mesh.triangles.resize(3, static_cast<Eigen::Index>(body.triangles.size()));
+  for (size_t i = 0; i < body.triangles.size(); ++i) {
+    mesh.triangles.col(static_cast<Eigen::Index>(i)) = body.triangles[i];
+  }
+  return mesh;
+}
+
+Scene One(std::variant<ConvexBody, TriangleMesh> shape, const Isometry3d& X_WO) {
+  Scene scene;
+  scene.obstacles.push_back({"o", std::move(shape), X_WO});
+  return scene;
+}
+
+struct Asked {
+  int element;
+  Side support;
+  Pose2 X_WS;
+};
+Asked DrawQuery(double reach, SweptDraw* draw) {
+  const int element = draw->Index(CoarseVolumes().set.size());
+  const Side support = draw->AnySide();
+  return {element, support, draw->Floor(reach)};
+}
+
+// Boxes, balls, capsules and cylinders.
+Scene Mixed(int count, SweptDraw* draw) {
+  Scene scene = DrawBoxes(count, 1.5, false, draw);
+  for (int i = 0; i < count; ++i) {
+    Obstacle& o = scene.obstacles[static_cast<size_t>(i)];
+    const double radius = draw->Uniform(0.01, 0.15), length = draw->Uniform(0.05, 0.5);
+    if (i % 4 == 1) o.shape = MakeSphere(radius);
+    if (i % 4 == 2) o.shape = MakeCapsule(radius, length);
+    if (i % 4 == 3) o.shape = MakeCylinder(radius, length);
+  }
+  return scene;
+}
+
+// The robot is posed at many instants of what was called free: no body is nearer than δ.
+TEST(SweptVolumeQueryTest, FreeHalfStepsKeepTheClearanceOnBothSidesUpAndDown) {
+  const RobotModel& robot = SweptRobot();
+  const SweptVolumes& volumes = CoarseVolumes();
+  SweptDraw draw(1);
+  std::vector<CollisionShape> shapes;
+  for (const RobotBody& body : robot.bodies) shapes.emplace_back(body.shape);
+  int free = 0, taken = 0;
+  for (int room = 0; room < 3; ++room) {
+    const Scene scene = Mixed(12, &draw);
+    const CollisionWorld world(scene);
+    const SweptVolumeQuery query(volumes, kSole, scene);
+    for (int k = 0; k < 30; ++k) {
+      const auto [i, support, X_WS] = DrawQuery(1.5, &draw);
+      const bool down = k % 2 == 0;
+      if (!(down ? query.DownIsFree(i, support, X_WS) : query.UpIsFree(i, support, X_WS))) {
+        ++taken;
+        continue;
+      }
+      ++free;
+      const HalfStep half_step = down ? volumes.set.Down(i, support) : volumes.set.Up(i, support);
+      const Pose2 X_WFoot = down ? X_WS : X_WS * volumes.set.Placement(i, support);
+      const HalfStepProfiles profiles(half_step.kind, half_step.shape, half_step.duration,
+                                      LipmOf(robot));
+      for (int n = 0; n <= 6; ++n) {
+        const double tau = half_step.duration * n / 6;
+        const WalkVector x_W = Transformed(X_WFoot, Evaluate(half_step, profiles, tau).value);
+        const Posture posture = SolvePosture(robot, x_W);
+        for (size_t b = 0; b < robot.bodies.size(); ++b) {
+          CollisionWorld::Scratch scratch;
+          EXPECT_TRUE(world.Clears(shapes[b], posture.OfBody(robot.bodies[b]),
+                                   CoarseOptions().clearance, &scratch))
+              << "room " << room << ", query " << k << ", body " << robot.bodies[b].name;
+        }
+      }
+    }
+  }
+  EXPECT_GT(free, 10);
+  EXPECT_GT(taken, 10);
+}
+
+TEST(SweptVolumeQueryTest, MirroredAndMovedScenesGiveTheSameAnswers) {
+  SweptDraw draw(2);
+  const Scene scene = DrawBoxes(20, 1.5, false, &draw);
+  const Pose2 X_VW = draw.Floor(2);
+  Scene mirrored = scene, moved = scene;
+  const Eigen::Vector3d flip(1, -1, 1);
+  for (size_t i = 0; i < scene.obstacles.size(); ++i) {
+    // A box reflected by M is a box at M·R·M.
+    Isometry3d& X = mirrored.obstacles[i].X_WO;
+    X.linear() = flip.asDiagonal() * X.linear() * flip.asDiagonal();
+    X.translation() = flip.cwiseProduct(X.translation());
+    moved.obstacles[i].X_WO = ToIsometry(X_VW, 0) * scene.obstacles[i].X_WO;
+  }
+  const SweptVolumes& volumes = CoarseVolumes();
+  const SweptVolumeQuery query(volumes, kSole, scene), in_mirror(volumes, kSole, mirrored),
+      elsewhere(volumes, kSole, moved);
+  int free = 0;
+  for (int k = 0; k < 300; ++k) {
+    const auto [i, support, X_WS] = DrawQuery(1.5, &draw);
+    const bool down = query.DownIsFree(i, support, X_WS), up = query.UpIsFree(i, support, X_WS);
+    EXPECT_EQ(in_mirror.DownIsFree(i, Opposite(support), X_WS.Mirrored()), down);
+    EXPECT_EQ(in_mirror.UpIsFree(i, Opposite(support), X_WS.Mirrored()), up);
+    EXPECT_EQ(elsewhere.DownIsFree(i, support, X_VW * X_WS), down);
+    EXPECT_EQ(elsewhere.UpIsFree(i, support, X_VW * X_WS), up);
+    free += down + up;
+  }
+  EXPECT_GT(free, 50);
+  EXPECT_LT(free, 550);
+}
+
+TEST(SweptVolumeQueryTest, AMovedObstacleAnswersLikeANewScene) {
+  SweptDraw draw(3);
+  Scene scene = Mixed(12, &draw);
+  const SweptVolumes& volumes = CoarseVolumes();
+  SweptVolumeQuery query(volumes, kSole, scene);
+  int changed = 0;
+  for (int move = 0; move < 12; ++move) {
+    Isometry3d X_WO = Isometry3d::Identity();
+    X_WO.linear() = draw.Turn(false);
+    X_WO.translation() = draw.Point({-1, -1, 0}, {1, 1, 0.5});
+    const SweptVolumeQuery before = query;
+    query.SetObstaclePose(move, X_WO);
+    scene.obstacles[static_cast<size_t>(move)].X_WO = X_WO;
+    const SweptVolumeQuery fresh(volumes, kSole, scene);
+    for (int k = 0; k < 60; ++k) {
+      const auto [i, support, X_WS] = DrawQuery(1.2, &draw);
+      EXPECT_EQ(query.DownIsFree(i, support, X_WS), fresh.DownIsFree(i, support, X_WS));
+      changed += query.DownIsFree(i, support, X_WS) != before.DownIsFree(i, support, X_WS);
+    }
+  }
+  EXPECT_GT(changed, 5);
+}
+
+TEST(SweptVolumeQueryTest, ABoxAsAMeshAndAsAHullAnswersLikeTheBox) {
+  SweptDraw draw(4);
+  const SweptVolumes& volumes = CoarseVolumes();
+  for (int trial = 0; trial < 100; ++trial) {
+    const ConvexBody box = MakeBox(draw.Point({0.05, 0.05, 0.05}, {1, 1, 1}));
+    Isometry3d X_WO = Isometry3d::Identity();
+    X_WO.linear() = draw.Turn(trial % 2 == 0);
+    X_WO.translation() = draw.Point({-1, -1, 0}, {1, 1, 0.5});
+    ConvexBody hull = box;
+    hull.vertices = 1.0000001 * box.vertices;
+    hull.vertices.col(0) *= 1.0000001;  // no box any more
+    const auto [i, support, X_WS] = DrawQuery(0.3, &draw);
+    const bool free = SweptVolumeQuery(volumes, kSole, One(box, X_WO)).DownIsFree(i, support, X_WS);
+    EXPECT_EQ(SweptVolumeQuery(volumes, kSole, One(AsMesh(box), X_WO)).DownIsFree(i, support, X_WS),
+              free);
+    EXPECT_EQ(SweptVolumeQuery(volumes, kSole, One(hull, X_WO)).DownIsFree(i, support, X_WS), free);
+  }
+}
+
+TEST(SweptVolumeQueryTest, SmallObstaclesInsideAndHollowOnesAroundAreMet) {
+  const SweptVolumes& volumes = CoarseVolumes();
+  const auto is_free = [&](std::variant<ConvexBody, TriangleMesh> shape, const Vector3d& p_W) {
+    return SweptVolumeQuery(volumes, kSole, One(shape, Isometry3d(Eigen::Translation3d(p_W))))
+        .DownIsFree(0, Side::kLeft, {});
+  };
+  for (const auto& box : volumes.down[0]->SolidBoxes()) {
+    if ((box.upper - box.lower).minCoeff() < 2) continue;
+    const Vector3d middle =
+        0.5 * (volumes.down[0]->Corner(box.lower) + volumes.down[0]->Corner(box.upper));
+    EXPECT_FALSE(is_free(MakeBox({1e-3, 1e-3, 1e-3}), middle));
+    EXPECT_FALSE(is_free(AsMesh(MakeBox({1e-3, 1e-3, 1e-3})), middle));
+    EXPECT_FALSE(is_free(MakeSphere(1e-3), middle));
+  }
+  EXPECT_FALSE(is_free(MakeBox({10, 10, 10}), {0, 0, 0}));
+  EXPECT_FALSE(is_free(MakeSphere(10), {0, 0, 0}));
+  EXPECT_FALSE(is_free(AsMesh(MakeBox({10, 10, 10})), {0, 0, 0}));
+  EXPECT_TRUE(is_free(AsMesh(MakeBox({10, 10, 10})), {0, 0, -10}));
+  EXPECT_TRUE(is_free(AsMesh(MakeBox({10, 10, 10})), {11, 0, 0}));
+}
+
+TEST(SweptVolumeQueryTest, ClearanceIsFreeAndKnownToTheMillimetre) {
+  SweptDraw draw(5);
+  const SweptVolumes& volumes = CoarseVolumes();
+  const double face = volumes.down[0]->Upper().x();
+  // A wall 0.2 m ahead of the volume.
+  Isometry3d X_WO(Eigen::Translation3d(face + 0.2 + 0.05, 0, 1));
+  const SweptVolumeQuery query(volumes, kSole, One(MakeBox({0.1, 4, 4}), X_WO));
+  EXPECT_NEAR(query.DownClearance(0, Side::kLeft, {}, 1.0), 0.2, 2e-3);
+  EXPECT_LE(query.DownClearance(0, Side::kLeft, {}, 1.0), 0.2);
+  EXPECT_EQ(query.DownClearance(0, Side::kLeft, {}, 0.1), 0.1);
+  EXPECT_EQ(query.DownClearance(0, Side::kLeft, {0.3, 0, 0}, 0.1), 0.0);
+}
+
+TEST(SweptVolumeQueryTest, OnlyTheLandingSoleKeepsOffNoStepAreas) {
+  const SweptVolumes& volumes = CoarseVolumes();
+  Scene scene;
+  Eigen::Matrix2Xd area(2, 4);
+  area << -0.02, 0.02, 0.02, -0.02, -0.02, -0.02, 0.02, 0.02;
+  scene.no_step.push_back(area);
+  const SweptVolumeQuery query(volumes, kSole, scene);
+  for (const Side support : {Side::kLeft, Side::kRight}) {
+    const Pose2 X_SF = volumes.set.Placement(0, support);
+    EXPECT_FALSE(query.DownIsFree(0, support, X_SF.Inverse()));
+    EXPECT_TRUE(query.UpIsFree(0, support, X_SF.Inverse()));
+    EXPECT_TRUE(query.DownIsFree(0, support, {}));
+    const Pose2 beside = Pose2{0.5 * kSole.x() + 0.03, 0, 0} * X_SF.Inverse();
+    EXPECT_TRUE(query.DownIsFree(0, support, beside));
+  }
+}
+
+TEST(SweptVolumeQueryTest, AnElementWithoutVolumeIsNeverFree) {
+  SweptVolumes volumes = CoarseVolumes();
+  volumes.down[1].reset();
+  const SweptVolumeQuery query(volumes, kSole, Scene{});
+  EXPECT_FALSE(query.DownIsFree(1, Side::kLeft, {}));
+  EXPECT_TRUE(query.UpIsFree(1, Side::kLeft, {}));
+}
+
+TEST(SweptVolumeQueryTest, PosesThatAreNotFiniteAreRefused) {
+  SweptVolumeQuery query(CoarseVolumes(), kSole, One(MakeSphere(1), Isometry3d::Identity()));
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW((void)query.DownIsFree(0, Side::kLeft, {nan, 0, 0}), std::logic_error);
+  Isometry3d X_WO = Isometry3d::Identity();
+  X_WO.translation().x() = nan;
+  EXPECT_THROW(query.SetObstaclePose(0, X_WO), std::logic_error);
+}
+
+TEST(MeshWindingTest, AgreesWithTheSumOverAllTriangles) {
+  SweptDraw draw(6);
+  // Two closed hulls and an open one.
+  TriangleMesh mesh;
+  for (int part = 0; part < 3; ++part) {
+    Eigen::Matrix3Xd points(3, 60);
+    for (int i = 0; i < 60; ++i) points.col(i) = draw.Direction() + Vector3d(part, 0.5 * part, 0);
+    const TriangleMesh hull = AsMesh(MakeHull(points));
+    const Eigen::Index keep = hull.triangles.cols() - (part == 2 ? 10 : 0);
+    const Eigen::Index v = mesh.vertices.cols(), t = mesh.triangles.cols();
+    mesh.vertices.conservativeResize(3, v + hull.vertices.cols());
+    mesh.vertices.rightCols(hull.vertices.cols()) = hull.vertices;
+    mesh.triangles.conservativeResize(3, t + keep);
+    mesh.triangles.rightCols(keep) = hull.triangles.leftCols(keep).array() + static_cast<int>(v);
+  }
+  const TriangleTree tree(mesh);
+  const MeshWinding winding(tree);
+  for (int k = 0; k < 300; ++k) {
+    const Vector3d p = draw.Point({-2, -2, -2}, {4, 3, 2});
+    EXPECT_NEAR(winding.At(tree, p), WindingNumber(mesh, p), 1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace halfstep

@@ -1,0 +1,119 @@
+#include "planner/swept_volume.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/planner/swept_volume_draws.h"
+
+namespace halfstep {
+namespace {
+
+using Eigen::Vector3d;
+
+// How many of random points of the moving robot, pushed outwards by at most δ, lie outside.
+int CountOutside(const BoxTree& tree, const HalfStep& half_step, double clearance, int draws,
+                 SweptDraw* draw) {
+  const RobotModel& robot = SweptRobot();
+  const HalfStepProfiles profiles(half_step.kind, half_step.shape, half_step.duration,
+                                  LipmOf(robot));
+  int outside = 0;
+  for (int i = 0; i < draws; ++i) {
+    const BodyPoint point = DrawBodyPoint(robot, half_step, profiles, draw);
+    outside += !tree.Contains(point.p_S + clearance * draw->Direction());
+  }
+  return outside;
+}
+
+TEST(SweptVolumeTest, ContainsTheRobotAndItsClearanceAtAllTimes) {
+  const SweptVolumes& volumes = CoarseVolumes();
+  SweptDraw draw(1);
+  for (int i = 0; i < volumes.set.size(); ++i) {
+    const size_t e = static_cast<size_t>(i);
+    ASSERT_TRUE(volumes.down[e] && volumes.up[e]);
+    const double clearance = CoarseOptions().clearance;
+    EXPECT_EQ(
+        CountOutside(*volumes.down[e], volumes.set.Down(i, Side::kLeft), clearance, 1500, &draw),
+        0);
+    EXPECT_EQ(CountOutside(*volumes.up[e], volumes.set.Up(i, Side::kRight), clearance, 1500, &draw),
+              0);
+  }
+}
+
+TEST(SweptVolumeTest, ControlVolumeLessItsOutermostCellsDoesNot) {
+  const SweptVolumes& volumes = CoarseVolumes();
+  SweptDraw draw(2);
+  const BoxTree less = Eroded(*volumes.down[0]);
+  EXPECT_TRUE(less.IsSound());
+  EXPECT_LT(less.Volume(), volumes.down[0]->Volume());
+  EXPECT_GT(CountOutside(less, volumes.set.Down(0, Side::kLeft), 0.005, 1500, &draw), 15);
+}
+
+// Time reversal changes nothing.
+TEST(SweptVolumeTest, UpAndDownOfOnePlaceSweepTheSame) {
+  const SweptVolumeBaker baker(SweptRobot(), CoarseOptions());
+  HalfStep half_step = FewHalfSteps().Down(0, Side::kLeft);
+  const auto down = baker.Bake(half_step, LipmOf(SweptRobot()));
+  half_step.kind = HalfStepKind::kUp;
+  const auto up = baker.Bake(half_step, LipmOf(SweptRobot()));
+  ASSERT_TRUE(up && down);
+  EXPECT_NEAR(up->Volume() / down->Volume(), 1.0, 0.01);
+  SweptDraw draw(3);
+  EXPECT_EQ(CountOutside(*down, half_step, 0.005, 1000, &draw), 0);
+}
+
+TEST(SweptVolumeTest, FinerBakesAreSmaller) {
+  const Lipm lipm = LipmOf(SweptRobot());
+  const HalfStep half_step = FewHalfSteps().Down(0, Side::kLeft);
+  double last = 1e9;
+  for (const double cell : {0.08, 0.04, 0.02}) {
+    const SweptVolumeBaker baker(SweptRobot(), {.cell = cell, .displacement = 0.3 * cell});
+    const auto volume = baker.Bake(half_step, lipm);
+    ASSERT_TRUE(volume);
+    EXPECT_LT(volume->Volume(), last);
+    last = volume->Volume();
+  }
+}
+
+TEST(SweptVolumeTest, OutOfReachHasNone) {
+  const SweptVolumeBaker baker(SweptRobot(), CoarseOptions());
+  HalfStep half_step;
+  half_step.X_SF = {0.9, -0.2, 0.0};
+  EXPECT_FALSE(baker.Bake(half_step, LipmOf(SweptRobot())).has_value());
+}
+
+TEST(SweptVolumeTest, IntervalsCoverAllTimeForEachBody) {
+  const SweptVolumeBaker baker(SweptRobot(), CoarseOptions());
+  const auto placements = baker.Cover(FewHalfSteps().Down(0, Side::kLeft), LipmOf(SweptRobot()));
+  ASSERT_TRUE(placements);
+  std::vector<int> count(SweptRobot().bodies.size(), 0);
+  for (const auto& placement : *placements) {
+    EXPECT_LE(placement.displacement, CoarseOptions().displacement);
+    ++count[placement.body];
+  }
+  for (int c : count) EXPECT_GT(c, 0);
+}
+
+TEST(VoxelGridTest, FillsEveryCellThatARegionMeets) {
+  SweptDraw draw(4);
+  for (int trial = 0; trial < 20; ++trial) {
+    const Eigen::Matrix3d R = draw.Turn(trial % 4 == 0);
+    const Vector3d half = draw.Point({0.02, 0.02, 0.02}, {0.2, 0.2, 0.2});
+    HalfSpaces region;
+    region.normals.resize(3, 6);
+    region.normals << R, -R;
+    region.offsets.resize(6);
+    region.offsets << half, half;
+    const Vector3d reach = R.cwiseAbs() * half;
+    region.lower = -reach;
+    region.upper = reach;
+    VoxelGrid grid(-reach, reach, 0.03);
+    grid.Fill(region);
+    const BoxTree tree = BoxTree::Build(grid);
+    for (int k = 0; k < 200; ++k) {
+      EXPECT_TRUE(tree.Contains(R * draw.Point(-half, half)));
+    }
+    EXPECT_LT(tree.Volume(), (2 * half.array() + 4 * 0.03).prod());
+  }
+}
+
+}  // namespace
+}  // namespace halfstep
