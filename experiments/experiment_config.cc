@@ -81,7 +81,7 @@ void DeclareOptimizer(Fields& fields, OptimizerOptions* o) {
                  {.meaning = "foot-height scales are variables beside the overlaps"});
   fields.Boolean("durations", &o->program.durations,
                  {.meaning = "durations of half-steps are variables beside the overlaps"});
-  fields.Integer("instants", &o->program.instants,
+  fields.Integer("instants", &o->program.table.instants,
                  {.meaning = "per half-step at which the program looks", .min = 2, .max = 1000});
   fields.Integer("max_iterations", &o->max_iterations,
                  {.meaning = "of the solver", .min = 1, .max = 100000});

@@ -1,5 +1,6 @@
 #include <stdexcept>
 
+#include "opt/barrier_solver.h"
 #include "opt/ceres_solver.h"
 #include "opt/ipopt_solver.h"
 #include "opt/nlopt_solver.h"
@@ -11,11 +12,13 @@ std::vector<std::string> SolverNames() {
   std::vector<std::string> names = {"ipopt"};
   for (const NloptMethod& method : NloptMethods()) names.push_back(method.name);
   names.push_back("ceres/auglag");
+  names.push_back("halfstep/barrier");
   return names;
 }
 
 std::unique_ptr<Solver> MakeSolver(const std::string& name) {
   if (name == "ipopt") return MakeIpoptSolver();
+  if (name == "halfstep/barrier") return MakeBarrierSolver();
   if (name == "ceres/auglag") return MakeCeresSolver();
   for (const NloptMethod& method : NloptMethods()) {
     if (method.name == name) return MakeNloptSolver(method);

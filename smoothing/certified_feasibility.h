@@ -22,6 +22,9 @@ class CertifiedFeasibility : public FeasibilityTest {
   Evidence evidence() const override { return Evidence::kCertified; }
   std::string Description() const override;
   const MarginEvaluator& evaluator() const override { return evaluator_; }
+  std::unique_ptr<FeasibilityTest> Over(const MarginEvaluator& evaluator) const override {
+    return std::make_unique<CertifiedFeasibility>(evaluator, options_);
+  }
   Feasibility Check(const SuperposedWalk& walk, const TimeWindow& window,
                     MarginEvaluator::Scratch* scratch) const override;
 

@@ -39,6 +39,8 @@ class FeasibilityTest {
   /// "sampled every 5 ms".
   virtual std::string Description() const = 0;
   virtual const MarginEvaluator& evaluator() const = 0;
+  /// The same kind of test with the demands of another evaluator, which is borrowed.
+  virtual std::unique_ptr<FeasibilityTest> Over(const MarginEvaluator& evaluator) const = 0;
   virtual Feasibility Check(const SuperposedWalk& walk, const TimeWindow& window,
                             MarginEvaluator::Scratch* scratch) const = 0;
 };

@@ -1,26 +1,20 @@
 #include "smoothing/feasible_path.h"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
+#include "smoothing/changed_windows.h"
 #include "smoothing/superposed_walk.h"
 
 namespace halfstep {
 
-double DurationOf(const HomotopyParameters& parameters) {
-  return std::accumulate(parameters.durations.begin(), parameters.durations.end(), 0.0) -
-         std::accumulate(parameters.overlaps.begin(), parameters.overlaps.end(), 0.0);
-}
-
-FeasiblePath::FeasiblePath(const HalfStepSequence& sequence, const FeasibilityTest& test,
-                           HomotopyParameters start, Cost cost)
+FeasiblePath::FeasiblePath(const HalfStepSequence& sequence, Rules rules, HomotopyParameters start,
+                           double cost, MarginEvaluator::Scratch scratch)
     : sequence_(sequence),
-      test_(test),
-      cost_(std::move(cost)),
+      rules_(std::move(rules)),
       incumbent_(std::move(start)),
-      cost_of_incumbent_(cost_(incumbent_)),
-      scratch_(test.evaluator().MakeScratch()) {}
+      cost_(cost),
+      scratch_(std::move(scratch)) {}
 
 HomotopyParameters FeasiblePath::Between(const HomotopyParameters& candidate, double lambda) const {
   const auto mix = [lambda](const std::vector<double>& a, const std::vector<double>& b) {
@@ -39,31 +33,43 @@ HomotopyParameters FeasiblePath::Between(const HomotopyParameters& candidate, do
 }
 
 bool FeasiblePath::Accept(const HomotopyParameters& point) {
-  constexpr double kImprovement = 1e-9;
-  const double cost = cost_(point);
-  if (!(cost < cost_of_incumbent_ - kImprovement)) return false;
-  const SuperposedWalk walk(sequence_, point);
-  if (test_.Check(walk, {0.0, walk.duration()}, &scratch_).verdict != Verdict::kFeasible) {
+  const double cost = rules_.cost(point);
+  if (!(cost < cost_ - rules_.improvement)) return false;
+  const Feasibility answer =
+      rules_.prove(SuperposedWalk(sequence_, point), cost, incumbent_, &scratch_);
+  if (answer.verdict != Verdict::kFeasible) {
     ++refused_;
+    if (!refusal_) refusal_ = answer.witness;
     return false;
   }
+  ++accepted_;
   incumbent_ = point;
-  cost_of_incumbent_ = cost;
+  cost_ = cost;
   return true;
 }
 
-double FeasiblePath::Toward(const HomotopyParameters& candidate) {
-  constexpr int kBisections = 5;
-  if (!(cost_(Between(candidate, 1.0)) < cost_of_incumbent_)) return 0.0;
-  if (Accept(Between(candidate, 1.0))) return 1.0;
+double FeasiblePath::Toward(const HomotopyParameters& candidate, int bisections) {
+  refusal_.reset();
+  const HomotopyParameters whole = Between(candidate, 1.0);
+  if (!(rules_.cost(whole) < cost_ - rules_.improvement)) return 0.0;
+  if (Accept(whole)) return 1.0;
   double feasible = 0.0, infeasible = 1.0;
-  for (int k = 0; k < kBisections; ++k) {
+  for (int k = 0; k < bisections; ++k) {
     const double middle = 0.5 * (feasible + infeasible);
     // The incumbent is at `feasible` of the way by now.
     const double onwards = (middle - feasible) / (1.0 - feasible);
     (Accept(Between(candidate, onwards)) ? feasible : infeasible) = middle;
   }
   return feasible;
+}
+
+Feasibility CheckChanges(const FeasibilityTest& test, const SuperposedWalk& walk,
+                         const HomotopyParameters& incumbent, MarginEvaluator::Scratch* scratch) {
+  for (const TimeWindow& window : ChangedWindows(incumbent, walk)) {
+    const Feasibility answer = test.Check(walk, window, scratch);
+    if (answer.verdict != Verdict::kFeasible) return answer;
+  }
+  return {Verdict::kFeasible, test.evidence(), {}};
 }
 
 }  // namespace halfstep

@@ -34,11 +34,17 @@ MarginSet Unlimited() {
 
 }  // namespace
 
+MarginEvaluator::Place::Place(RobotModel r, Scene s)
+    : robot(std::move(r)), scene(std::move(s)), clearances(robot, scene) {}
+
 MarginEvaluator::MarginEvaluator(RobotModel robot, Scene scene, MarginLimits limits)
-    : robot_(std::move(robot)),
-      scene_(std::move(scene)),
-      limits_(limits),
-      clearances_(robot_, scene_) {}
+    : place_(std::make_shared<const Place>(std::move(robot), std::move(scene))), limits_(limits) {}
+
+MarginEvaluator MarginEvaluator::WithLimits(const MarginLimits& limits) const {
+  MarginEvaluator other = *this;
+  other.limits_ = limits;
+  return other;
+}
 
 void MarginEvaluator::FootMargins(const SuperposedWalk& walk, const LocalTime& at,
                                   const WalkJet& jet, MarginSet* margins) const {
@@ -62,14 +68,14 @@ void MarginEvaluator::FootMargins(const SuperposedWalk& walk, const LocalTime& a
 
 void MarginEvaluator::ZmpMargin(const SuperposedWalk& walk, const LocalTime& at, const WalkJet& jet,
                                 MarginSet* margins) const {
-  const SupportPolygon polygon = SupportAt(walk, at, jet.value, robot_.sole_size);
+  const SupportPolygon polygon = SupportAt(walk, at, jet.value, robot().sole_size);
   Lower(margins, MarginFamily::kZmp, polygon.Margin(jet.value.segment<2>(kZmpX)),
         walk.StepInAir(at));
 }
 
 void MarginEvaluator::JointMargins(const Posture& posture, MarginSet* margins) const {
   for (int s = 0; s < 2; ++s) {
-    const Leg& leg = robot_.legs[static_cast<size_t>(s)];
+    const Leg& leg = robot().legs[static_cast<size_t>(s)];
     const LegIkSolution& ik = posture.ik[static_cast<size_t>(s)];
     Lower(margins, MarginFamily::kReach, ik.reach_margin, 6 * s + 3);
     if (ik.status != LegIkStatus::kSolved) {
@@ -91,7 +97,7 @@ MarginSet MarginEvaluator::At(const SuperposedWalk& walk, const LocalTime& at,
   MarginSet margins = Unlimited();
   FootMargins(walk, at, jet, &margins);
   ZmpMargin(walk, at, jet, &margins);
-  Posture posture = SolvePosture(robot_, jet.value);
+  Posture posture = SolvePosture(robot(), jet.value);
   JointMargins(posture, &margins);
   if (posture.reachable) {
     JointSpeedMargins(jet, &posture, &margins);
@@ -99,9 +105,9 @@ MarginSet MarginEvaluator::At(const SuperposedWalk& walk, const LocalTime& at,
         std::max({limits_.clearance_horizon, 2.0 * limits_.demanded_of(MarginFamily::kClearance),
                   2.0 * limits_.demanded_of(MarginFamily::kSelfClearance)});
     Of(&margins, MarginFamily::kClearance) =
-        clearances_.NearestObstacle(posture, horizon, &scratch->bodies);
+        clearances().NearestObstacle(posture, horizon, &scratch->bodies);
     Of(&margins, MarginFamily::kSelfClearance) =
-        clearances_.NearestPair(posture, horizon, &scratch->bodies);
+        clearances().NearestPair(posture, horizon, &scratch->bodies);
   } else {
     for (MarginFamily family :
          {MarginFamily::kJointSpeed, MarginFamily::kClearance, MarginFamily::kSelfClearance}) {
@@ -135,27 +141,27 @@ std::optional<Margin> MarginEvaluator::FirstViolation(const SuperposedWalk& walk
   FootMargins(walk, at, jet, &margins);
   ZmpMargin(walk, at, jet, &margins);
   if (const auto margin = violated()) return margin;
-  Posture posture = SolvePosture(robot_, jet.value);
+  Posture posture = SolvePosture(robot(), jet.value);
   JointMargins(posture, &margins);
   if (const auto margin = violated()) return margin;
   JointSpeedMargins(jet, &posture, &margins);
   if (const auto margin = violated()) return margin;
   const auto touching =
-      clearances_.FirstBelow(posture, limits_.demanded_of(MarginFamily::kClearance),
-                             limits_.demanded_of(MarginFamily::kSelfClearance), &scratch->bodies);
+      clearances().FirstBelow(posture, limits_.demanded_of(MarginFamily::kClearance),
+                              limits_.demanded_of(MarginFamily::kSelfClearance), &scratch->bodies);
   if (touching) return located(*touching);
   return std::nullopt;
 }
 
 void MarginEvaluator::JointSpeedMargins(const WalkJet& jet, Posture* posture,
                                         MarginSet* margins) const {
-  if (!SolveJointSpeeds(robot_, jet, posture)) {
+  if (!SolveJointSpeeds(robot(), jet, posture)) {
     Lower(margins, MarginFamily::kJointSpeed, -kInfinity, -1);
     return;
   }
   for (int s = 0; s < 2; ++s) {
     for (int j = 0; j < 6; ++j) {
-      const LegJoint& joint = robot_.legs[static_cast<size_t>(s)].joints[static_cast<size_t>(j)];
+      const LegJoint& joint = robot().legs[static_cast<size_t>(s)].joints[static_cast<size_t>(j)];
       const double speed = std::abs(posture->speeds[static_cast<size_t>(s)][j]);
       Lower(margins, MarginFamily::kJointSpeed, limits_.joint_speed_scale * joint.max_speed - speed,
             6 * s + j);
@@ -165,7 +171,7 @@ void MarginEvaluator::JointSpeedMargins(const WalkJet& jet, Posture* posture,
 
 std::string MarginEvaluator::Subject(const Margin& margin) const {
   const auto body = [&](int b) {
-    return b < 0 ? std::string("robot") : robot_.bodies[static_cast<size_t>(b)].name;
+    return b < 0 ? std::string("robot") : robot().bodies[static_cast<size_t>(b)].name;
   };
   switch (margin.family) {
     case MarginFamily::kFloor:
@@ -180,7 +186,8 @@ std::string MarginEvaluator::Subject(const Margin& margin) const {
     case MarginFamily::kJoint:
     case MarginFamily::kJointSpeed:
       if (margin.subject < 0) return "legs";
-      return robot_.legs[static_cast<size_t>(margin.subject / 6)]
+      return robot()
+          .legs[static_cast<size_t>(margin.subject / 6)]
           .joints[static_cast<size_t>(margin.subject % 6)]
           .name;
     case MarginFamily::kSelfClearance:
@@ -188,7 +195,7 @@ std::string MarginEvaluator::Subject(const Margin& margin) const {
     case MarginFamily::kClearance:
       return margin.other < 0 ? body(margin.subject)
                               : body(margin.subject) + " - " +
-                                    scene_.obstacles[static_cast<size_t>(margin.other)].name;
+                                    scene().obstacles[static_cast<size_t>(margin.other)].name;
   }
   return "";
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -25,14 +26,14 @@ class MarginEvaluator {
   /// `robot` and `scene` are copied.
   MarginEvaluator(RobotModel robot, Scene scene, MarginLimits limits);
 
-  MarginEvaluator(const MarginEvaluator&) = delete;
-  MarginEvaluator& operator=(const MarginEvaluator&) = delete;
+  /// The same robot and scene, shared, with other limits.
+  MarginEvaluator WithLimits(const MarginLimits& limits) const;
 
-  const RobotModel& robot() const { return robot_; }
-  const Scene& scene() const { return scene_; }
+  const RobotModel& robot() const { return place_->robot; }
+  const Scene& scene() const { return place_->scene; }
   const MarginLimits& limits() const { return limits_; }
-  const BodyClearances& clearances() const { return clearances_; }
-  Scratch MakeScratch() const { return {clearances_.MakeScratch()}; }
+  const BodyClearances& clearances() const { return place_->clearances; }
+  Scratch MakeScratch() const { return {clearances().MakeScratch()}; }
 
   /// All margins at an instant. When a leg does not reach, joint and clearance margins are −∞.
   MarginSet At(const SuperposedWalk& walk, const LocalTime& at, Scratch* scratch) const;
@@ -55,10 +56,15 @@ class MarginEvaluator {
   void JointSpeedMargins(const WalkJet& jet, Posture* posture, MarginSet* margins) const;
   void JointMargins(const Posture& posture, MarginSet* margins) const;
 
-  RobotModel robot_;
-  Scene scene_;
+  struct Place {
+    Place(RobotModel robot, Scene scene);
+    RobotModel robot;
+    Scene scene;
+    BodyClearances clearances;  // borrows robot
+  };
+
+  std::shared_ptr<const Place> place_;
   MarginLimits limits_;
-  BodyClearances clearances_;  // borrows robot_
 };
 
 }  // namespace halfstep

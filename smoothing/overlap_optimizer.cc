@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <random>
 #include <utility>
 
 #include "opt/solver.h"
@@ -9,64 +10,238 @@
 #include "smoothing/feasible_path.h"
 
 namespace halfstep {
+namespace {
+
+// Bisections towards a candidate, while the solver is under way and where it ended.
+constexpr int kQuick = 2, kThorough = 6;
+// A candidate whose rows are violated by more than this is not worth a proof.
+constexpr double kHopeless = 0.5;
+// Rows grow sharper by this factor from round to round.
+constexpr double kSharpen = 3.0;
+// A round that gains less than this ends the rounds (relative).
+constexpr double kGain = 1e-4;
+
+class Optimization {
+ public:
+  Optimization(const HalfStepSequence& sequence, const FeasibilityTest& test,
+               const OptimizerOptions& options, const std::function<void(double)>& progress,
+               std::stop_token stop)
+      : sequence_(sequence),
+        test_(test),
+        options_(options),
+        progress_(progress),
+        stop_(std::move(stop)),
+        begin_(std::chrono::steady_clock::now()) {}
+
+  SmoothingResult Run() {
+    DichotomyOptions dichotomy{.tolerance = options_.tolerance};
+    result_ = Dichotomy(sequence_, test_, dichotomy, Part(0.0, 0.2), stop_);
+    result_.cost = DurationOf(result_.parameters);
+    if (result_.status != SmoothingStatus::kFinished) return std::move(result_);
+
+    const double limit =
+        options_.duration_limit > 0.0 ? options_.duration_limit : DurationOf(result_.parameters);
+    OverlapProgram program(sequence_, test_.evaluator(), options_.program, limit);
+    const bool safest = options_.program.kind == ProgramKind::kSafest;
+    // `safest` within a limit that the dichotomy does not meet begins with nothing: the dichotomy's
+    // own walk is kept until a shorter one is proved.
+    FeasiblePath path(sequence_, RulesOf(program), result_.parameters,
+                      safest ? StartCost(program) : program.Cost(result_.parameters),
+                      test_.evaluator().MakeScratch());
+    Search(program, &path);
+    return Finish(program, path, dichotomy);
+  }
+
+ private:
+  std::function<void(double)> Part(double from, double to) const {
+    return [this, from, to](double done) {
+      if (progress_) progress_(from + (to - from) * done);
+    };
+  }
+
+  double Elapsed() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+  }
+
+  // The dichotomy's walk is proved with what is demanded: slack 0.
+  double StartCost(const OverlapProgram& program) const {
+    return DurationOf(result_.parameters) <= program.duration_limit() + 1e-9
+               ? 0.0
+               : std::numeric_limits<double>::max();
+  }
+
+  FeasiblePath::Rules RulesOf(const OverlapProgram& program) const {
+    if (options_.program.kind != ProgramKind::kSafest) {
+      return {.cost = [&program](const HomotopyParameters& p) { return program.Cost(p); },
+              .prove =
+                  [this](const SuperposedWalk& walk, double, const HomotopyParameters& incumbent,
+                         MarginEvaluator::Scratch* scratch) {
+                    return CheckChanges(test_, walk, incumbent, scratch);
+                  }};
+    }
+    // What lies between the table's instants may be a little worse than what they show.
+    constexpr double kBetween = 0.01;
+    return {.cost = [&program](const HomotopyParameters& p) { return program.Cost(p) + kBetween; },
+            .prove =
+                [this](const SuperposedWalk& walk, double cost, const HomotopyParameters&,
+                       MarginEvaluator::Scratch* scratch) {
+                  MarginLimits limits = test_.evaluator().limits();
+                  for (MarginFamily family : AllMarginFamilies()) {
+                    if (!Raised()[static_cast<size_t>(family)]) continue;
+                    limits.demanded_of(family) -= cost * Scale(family);
+                  }
+                  const MarginEvaluator evaluator = test_.evaluator().WithLimits(limits);
+                  return test_.Over(evaluator)->Check(walk, {0.0, walk.duration()}, scratch);
+                },
+            .improvement = 1e-3};
+  }
+
+  // The dichotomy's result, then random points of the variables' box.
+  std::vector<HomotopyParameters> Starts(const OverlapProgram& program) const {
+    std::vector<HomotopyParameters> starts = {result_.parameters};
+    std::mt19937_64 random(options_.seed);
+    const opt::Problem problem = program.MakeProblem();
+    for (int i = 0; i < options_.random_starts; ++i) {
+      Eigen::VectorXd x(problem.num_variables());
+      for (Eigen::Index v = 0; v < x.size(); ++v) {
+        x[v] =
+            std::uniform_real_distribution<double>(problem.lower()[v], problem.upper()[v])(random);
+      }
+      starts.push_back(program.ToParameters(x));
+    }
+    return starts;
+  }
+
+  void Search(OverlapProgram& program, FeasiblePath* path) {
+    const std::vector<HomotopyParameters> starts = Starts(program);
+    for (size_t s = 0; s < starts.size() && !stop_.stop_requested(); ++s) {
+      program.table().SetSharpness(options_.program.table.sharpness);
+      Eigen::VectorXd x = program.ToVariables(starts[s]);
+      for (int round = 0; round < options_.rounds; ++round) {
+        const double before = path->cost();
+        const double remaining = options_.deadline - Elapsed();
+        if (remaining <= 0.0 || stop_.stop_requested()) return;
+        solution_ = Solve(program, x, remaining, path);
+        if (solution_.x.size() != x.size()) return;
+        x = solution_.x;
+        const HomotopyParameters end = program.ToParameters(x);
+        const bool whole = path->Toward(end, kThorough) == 1.0;
+        result_.raw_end_feasible = whole || !path->refusal();
+        bool learned = false;
+        if (path->refusal()) {
+          learned = program.table().Look(SuperposedWalk(sequence_, end), path->refusal()->at);
+        }
+        const double gain = before - path->cost();
+        if (!learned && round > 0 && gain < kGain * std::abs(before)) break;
+        program.table().SetSharpness(program.table().sharpness() * kSharpen);
+        Part(0.2, 0.9)((static_cast<double>(s) + (round + 1.0) / options_.rounds) /
+                       static_cast<double>(starts.size()));
+      }
+    }
+  }
+
+  opt::Solution Solve(const OverlapProgram& program, const Eigen::VectorXd& x, double deadline,
+                      FeasiblePath* path) {
+    const opt::Problem problem = program.MakeProblem();
+    opt::SolverOptions solver_options;
+    solver_options.max_iterations = options_.max_iterations;
+    solver_options.deadline = deadline;
+    solver_options.stop = stop_;
+    solver_options.optimality_tolerance = 1e-4;
+    solver_options.on_iterate = [&](const opt::Iterate& iterate) {
+      Consider(program, iterate, path);
+      return true;
+    };
+    return opt::MakeSolver(options_.solver)->Solve(problem, x, solver_options);
+  }
+
+  void Consider(const OverlapProgram& program, const opt::Iterate& iterate, FeasiblePath* path) {
+    const HomotopyParameters candidate = program.ToParameters(iterate.x);
+    const bool hopeless = iterate.violation > kHopeless;
+    const double lambda = hopeless ? 0.0 : path->Toward(candidate, kQuick);
+    if (hopeless || (lambda < 1.0 && path->refusal())) ++result_.raw_infeasible;
+    if (lambda > 0.0 && !result_.time_to_first_improvement) {
+      result_.time_to_first_improvement = Elapsed();
+    }
+    SmoothingIterate record{.wall = Elapsed(),
+                            .evaluations = result_.instants + path->scratch().instants,
+                            .candidate_duration = DurationOf(candidate),
+                            .accepted = lambda > 0.0,
+                            .lambda = lambda,
+                            .incumbent_duration = DurationOf(path->incumbent()),
+                            .incumbent_cost = path->cost()};
+    if (iterate.violation > 0.0) record.candidate_slack = -iterate.violation;
+    result_.iterates.push_back(record);
+  }
+
+  SmoothingResult Finish(const OverlapProgram& program, const FeasiblePath& path,
+                         DichotomyOptions dichotomy) {
+    result_.instants += path.scratch().instants;
+    result_.collision_queries += path.scratch().bodies.queries;
+    result_.parameters = path.incumbent();
+    result_.cost = path.cost();
+    if (options_.program.kind == ProgramKind::kFastest && !stop_.stop_requested()) {
+      dichotomy.start = path.incumbent();
+      SmoothingResult polished = Dichotomy(sequence_, test_, dichotomy, Part(0.9, 1.0), stop_);
+      for (SmoothingIterate& iterate : polished.iterates) {
+        iterate.wall += Elapsed() - polished.wall;
+        result_.iterates.push_back(iterate);
+      }
+      result_.parameters = polished.parameters;
+      result_.junctions = polished.junctions;
+      result_.cost = DurationOf(polished.parameters);
+      result_.instants += polished.instants;
+      result_.collision_queries += polished.collision_queries;
+    } else {
+      for (size_t i = 0; i < result_.junctions.size(); ++i) {
+        JunctionResult& junction = result_.junctions[i];
+        junction.overlap = result_.parameters.overlaps[i];
+        junction.upper_bound =
+            NaturalOverlapBound(sequence_, result_.parameters.durations, static_cast<int>(i));
+        junction.limited_by.reset();
+      }
+    }
+    result_.wall = Elapsed();
+    AddMultipliers(program);
+    result_.message =
+        options_.solver + " ended " + opt::ToString(solution_.status) + ": " + solution_.message;
+    if (stop_.stop_requested()) {
+      result_.status = SmoothingStatus::kInterrupted;
+      result_.message = "stopped from outside; the parameters are the best that were proved";
+    }
+    return std::move(result_);
+  }
+
+  void AddMultipliers(const OverlapProgram& program) {
+    if (solution_.multipliers.size() < program.table().rows()) return;
+    for (size_t i = 0; i < result_.junctions.size(); ++i) {
+      JunctionResult& junction = result_.junctions[i];
+      if (!junction.limited_by) continue;
+      double sum = 0.0;
+      for (int k : {static_cast<int>(i), static_cast<int>(i) + 1}) {
+        sum += std::abs(solution_.multipliers[SlackTable::RowOf(k, junction.limited_by->family)]);
+      }
+      junction.multiplier = sum;
+    }
+  }
+
+  const HalfStepSequence& sequence_;
+  const FeasibilityTest& test_;
+  const OptimizerOptions& options_;
+  const std::function<void(double)>& progress_;
+  std::stop_token stop_;
+  std::chrono::steady_clock::time_point begin_;
+  SmoothingResult result_;
+  opt::Solution solution_;  // the last one
+};
+
+}  // namespace
 
 SmoothingResult OptimizeOverlaps(const HalfStepSequence& sequence, const FeasibilityTest& test,
                                  const OptimizerOptions& options,
                                  const std::function<void(double)>& progress,
                                  std::stop_token stop) {
-  const auto begin = std::chrono::steady_clock::now();
-  const auto elapsed = [begin] {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  };
-  const auto part = [&progress](double from, double to) {
-    return [&progress, from, to](double done) {
-      if (progress) progress(from + (to - from) * done);
-    };
-  };
-  DichotomyOptions dichotomy{.tolerance = options.tolerance};
-  SmoothingResult result = Dichotomy(sequence, test, dichotomy, part(0.0, 0.2), stop);
-  if (result.status != SmoothingStatus::kFinished) return result;
-
-  const OverlapProgram program(sequence, test.evaluator(), options.program);
-  FeasiblePath path(sequence, test, result.parameters, DurationOf);
-  const opt::Problem problem = program.MakeProblem();
-  opt::SolverOptions solver_options;
-  solver_options.max_iterations = options.max_iterations;
-  solver_options.deadline = options.deadline;
-  solver_options.stop = stop;
-  int seen = 0;
-  solver_options.on_iterate = [&](const opt::Iterate& iterate) {
-    const double lambda = path.Toward(program.ToParameters(iterate.x));
-    SmoothingIterate record{.wall = elapsed(),
-                            .evaluations = result.instants + path.scratch().instants,
-                            .candidate_duration = program.Duration(iterate.x),
-                            .accepted = lambda > 0.0,
-                            .lambda = lambda,
-                            .incumbent_duration = path.cost()};
-    if (iterate.violation > 0.0) record.candidate_slack = -iterate.violation;
-    result.iterates.push_back(record);
-    part(0.2, 0.9)(std::min(1.0, ++seen / static_cast<double>(options.max_iterations)));
-    return true;
-  };
-  const opt::Solution solution =
-      opt::MakeSolver(options.solver)
-          ->Solve(problem, program.ToVariables(result.parameters), solver_options);
-  if (solution.x.size() == program.num_variables()) path.Toward(program.ToParameters(solution.x));
-
-  dichotomy.start = path.incumbent();
-  SmoothingResult polished = Dichotomy(sequence, test, dichotomy, part(0.9, 1.0), stop);
-  for (SmoothingIterate& iterate : polished.iterates) {
-    iterate.wall += elapsed();
-    result.iterates.push_back(iterate);
-  }
-  polished.iterates = std::move(result.iterates);
-  polished.time_to_first_improvement = result.time_to_first_improvement;
-  polished.instants += result.instants + path.scratch().instants;
-  polished.collision_queries += result.collision_queries + path.scratch().bodies.queries;
-  polished.wall = elapsed();
-  polished.message =
-      options.solver + " ended " + opt::ToString(solution.status) + ": " + solution.message;
-  return polished;
+  return Optimization(sequence, test, options, progress, std::move(stop)).Run();
 }
 
 }  // namespace halfstep

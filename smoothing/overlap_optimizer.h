@@ -13,18 +13,25 @@ namespace halfstep {
 struct OptimizerOptions {
   std::string solver = "ipopt";  ///< opt::SolverNames
   ProgramOptions program;
-  int max_iterations = 100;  ///< of the solver
-  double deadline = 30.0;    ///< of the solver [s]
+  /// Of `safest`: D is at most this [s]; 0: the dichotomy's own duration.
+  double duration_limit = 0.0;
+  int random_starts = 0;     ///< solves from random points, after the one from the dichotomy's
+  unsigned seed = 1;         ///< of the random starts
+  int rounds = 4;            ///< ≥ 1: solves from each start, with more instants and sharper rows
+  int max_iterations = 100;  ///< of the solver, each round
+  double deadline = 30.0;    ///< of all solves together [s]
   double tolerance = 0.001;  ///< of the dichotomies before and after [s]
 };
 
 /// Smooths a whole sequence by a nonlinear program. Whatever the solver does, what is returned was
-/// found feasible by `test`:
+/// found feasible by `test`, and its cost with it:
 ///   1. the planned motion is the first incumbent, the dichotomy's result the next;
-///   2. the solver starts from the dichotomy's result; each of its iterates is a candidate for the
-///      FeasiblePath;
-///   3. polish: dichotomy passes from the incumbent over all junctions.
-/// So no method ends worse than the dichotomy. Statuses as for Dichotomy.
+///   2. from each start the solver solves the program, each of its iterates a candidate for the
+///      FeasiblePath; where the test refuses the solver's end, the program learns that instant and
+///      is solved again from there, with sharper rows;
+///   3. `fastest`: dichotomy passes from the incumbent over all junctions.
+/// So no method ends worse than the dichotomy. Statuses as for Dichotomy; the message says how the
+/// solver ended.
 SmoothingResult OptimizeOverlaps(const HalfStepSequence& sequence, const FeasibilityTest& test,
                                  const OptimizerOptions& options,
                                  const std::function<void(double)>& progress = {},

@@ -16,6 +16,9 @@ class SampledFeasibility : public FeasibilityTest {
   Evidence evidence() const override { return Evidence::kSampled; }
   std::string Description() const override;
   const MarginEvaluator& evaluator() const override { return evaluator_; }
+  std::unique_ptr<FeasibilityTest> Over(const MarginEvaluator& evaluator) const override {
+    return std::make_unique<SampledFeasibility>(evaluator, period_);
+  }
   Feasibility Check(const SuperposedWalk& walk, const TimeWindow& window,
                     MarginEvaluator::Scratch* scratch) const override;
 

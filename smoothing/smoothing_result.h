@@ -26,6 +26,9 @@ struct JunctionResult {
   double upper_bound = 0.0;  ///< largest that was allowed [s]
   /// The margin that refused the smallest infeasible overlap tried; none: the upper bound holds.
   std::optional<Margin> limited_by = std::nullopt;
+  /// Of the rows of the half-steps on both sides, in the family that limits: dD per unit of slack
+  /// [s]; none: the solver gave no multipliers.
+  std::optional<double> multiplier = std::nullopt;
 };
 
 /// One candidate that a method tried.
@@ -38,6 +41,7 @@ struct SmoothingIterate {
   bool accepted = false;
   double lambda = 0.0;  ///< how far from incumbent to candidate it was accepted, ∈ [0, 1]
   double incumbent_duration = 0.0;  ///< after this iterate [s]
+  double incumbent_cost = 0.0;      ///< of the program, after this iterate
 };
 
 /// What a smoothing method found. `parameters` were found feasible in the sense of `evidence`,
@@ -47,11 +51,14 @@ struct SmoothingResult {
   std::string message = "Smooth was not called.";
   Evidence evidence = Evidence::kSampled;
   HomotopyParameters parameters;
+  double cost = 0.0;  ///< of the program [s]; for `safest` minus the proved least slack
   std::vector<JunctionResult> junctions;
   std::vector<SmoothingIterate> iterates;
-  long instants = 0;           ///< evaluated
-  long collision_queries = 0;  ///< body against scene, or body pair, not culled
-  double wall = 0.0;           ///< [s]
+  long instants = 0;             ///< evaluated
+  long raw_infeasible = 0;       ///< candidates of a solver that were not feasible themselves
+  bool raw_end_feasible = true;  ///< whether the point at which the solver ended was
+  long collision_queries = 0;    ///< body against scene, or body pair, not culled
+  double wall = 0.0;             ///< [s]
   /// Until the first accepted improvement [s]; none when nothing was improved.
   std::optional<double> time_to_first_improvement;
 };

@@ -26,6 +26,9 @@ class FakeFeasibility : public FeasibilityTest {
   Evidence evidence() const override { return Evidence::kCertified; }
   std::string Description() const override { return "fake"; }
   const MarginEvaluator& evaluator() const override { return evaluator_; }
+  std::unique_ptr<FeasibilityTest> Over(const MarginEvaluator& evaluator) const override {
+    return std::make_unique<FakeFeasibility>(evaluator, rule_);
+  }
   Feasibility Check(const SuperposedWalk& walk, const TimeWindow& window,
                     MarginEvaluator::Scratch* scratch) const override {
     ++scratch->instants;

@@ -1,0 +1,164 @@
+#include "smoothing/slack_table.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace halfstep {
+namespace {
+
+using Family = HomotopyParameter::Family;
+
+// Σ e^{−ρ·slack} and its gradient, both times e^{ρ·least}: no overflow, whatever the slacks.
+struct SoftMinimum {
+  double least;
+  double sum;
+  Eigen::VectorXd gradient;
+
+  // Weight of a further slack in the sum.
+  double Add(double slack, double sharpness) {
+    if (slack < least) {
+      const double shrink = std::exp(-sharpness * (least - slack));
+      sum *= shrink;
+      gradient *= shrink;
+      least = slack;
+    }
+    const double weight = std::exp(-sharpness * (slack - least));
+    sum += weight;
+    return weight;
+  }
+};
+
+double StretchOf(const SuperposedWalk& walk, int half_step) {
+  const bool last = half_step + 1 == walk.num_half_steps();
+  return (last ? walk.duration() : walk.start_of(half_step + 1)) - walk.start_of(half_step);
+}
+
+// Fractions of T just inside the times at which a statement begins or ends to count.
+std::vector<double> Events(const HalfStep& half_step) {
+  constexpr double kInside = 1e-9;
+  const HalfStepShape& shape = half_step.shape;
+  const double delay = shape.horizontal_delay;
+  if (half_step.kind == HalfStepKind::kUp) {
+    return {shape.t2() + kInside, shape.t2() + delay + kInside, 1.0 - kInside};
+  }
+  return {kInside, shape.t1() - delay - kInside, shape.t1() - kInside};
+}
+
+}  // namespace
+
+SlackTable::SlackTable(const OverlapVariables& variables, const MarginEvaluator& evaluator,
+                       const SlackTableOptions& options)
+    : variables_(variables), evaluator_(evaluator), options_(options) {
+  const int n = variables.sequence().size();
+  for (int k = 0; k < n; ++k) {
+    std::vector<Instant> instants;
+    for (int m = 0; m < options.instants; ++m) {
+      instants.push_back({(m + 0.5) / options.instants, true});
+    }
+    for (double v : Events(variables.sequence().half_steps[static_cast<size_t>(k)].half_step)) {
+      instants.push_back({v, false});
+    }
+    instants_.push_back(std::move(instants));
+    bands_.push_back(variables.Band(k));
+    num_nonzeros_ += bands_.back().size() * kNumMarginFamilies;
+  }
+}
+
+LocalTime SlackTable::At(const SuperposedWalk& walk, int k, const Instant& instant,
+                         std::vector<std::pair<HomotopyParameter, double>>* moving) {
+  moving->clear();
+  moving->push_back({{Family::kDuration, k}, instant.fraction});
+  if (!instant.of_stretch) return {k, instant.fraction * walk.profiles(k).duration()};
+  if (k + 1 < walk.num_half_steps()) {
+    moving->push_back({{Family::kOverlap, k}, -instant.fraction});
+  }
+  return {k, instant.fraction * StretchOf(walk, k)};
+}
+
+bool SlackTable::Look(const SuperposedWalk& walk, const LocalTime& at) {
+  constexpr double kNear = 1e-3;  // of T
+  const double v = at.tau / walk.profiles(at.half_step).duration();
+  std::vector<Instant>& instants = instants_[static_cast<size_t>(at.half_step)];
+  for (const Instant& known : instants) {
+    if (!known.of_stretch && std::abs(known.fraction - v) < kNear) return false;
+  }
+  instants.push_back({std::clamp(v, 0.0, 1.0), false});
+  return true;
+}
+
+void SlackTable::EvaluateHalfStep(const SuperposedWalk& walk, const Eigen::VectorXd& x, int k,
+                                  SlackEvaluator* slacks, Eigen::VectorXd* values,
+                                  double* nonzeros) const {
+  const double rho = options_.sharpness;
+  const std::vector<int>& columns = band(k);
+  const Eigen::Index width = static_cast<Eigen::Index>(columns.size());
+  std::array<SoftMinimum, kNumMarginFamilies> minima;
+  minima.fill({options_.cutoff, 1.0, Eigen::VectorXd::Zero(nonzeros ? width : 0)});
+  std::vector<std::pair<HomotopyParameter, double>> moving;
+  InstantSlacks instant;
+  Eigen::MatrixXd pull;  // ∂parameter/∂x on the band (parameters × width)
+  for (const Instant& where : instants_[static_cast<size_t>(k)]) {
+    const LocalTime at = At(walk, k, where, &moving);
+    slacks->At(walk, at, moving, nonzeros != nullptr, &instant);
+    if (instant.rows.empty()) continue;
+    if (nonzeros) {
+      pull.setZero(static_cast<Eigen::Index>(instant.parameters.size()), width);
+      for (size_t p = 0; p < instant.parameters.size(); ++p) {
+        variables_.Pull(instant.parameters[p], 1.0, x, walk.parameters().durations,
+                        [&](int variable, double value) {
+                          const auto column =
+                              std::find(columns.begin(), columns.end(), variable) - columns.begin();
+                          pull(static_cast<Eigen::Index>(p), column) += value;
+                        });
+      }
+    }
+    for (size_t r = 0; r < instant.rows.size(); ++r) {
+      SoftMinimum& minimum = minima[static_cast<size_t>(instant.rows[r].family)];
+      const double weight = minimum.Add(instant.rows[r].slack, rho);
+      if (!nonzeros || weight < 1e-9) continue;
+      minimum.gradient.noalias() +=
+          weight *
+          (pull.transpose() * instant.gradient.row(static_cast<Eigen::Index>(r)).transpose());
+    }
+  }
+  for (size_t f = 0; f < kNumMarginFamilies; ++f) {
+    const SoftMinimum& minimum = minima[f];
+    (*values)[k * kNumMarginFamilies + static_cast<int>(f)] =
+        minimum.least - std::log(minimum.sum) / rho;
+    if (!nonzeros) continue;
+    for (Eigen::Index c = 0; c < width; ++c) *nonzeros++ = minimum.gradient[c] / minimum.sum;
+  }
+}
+
+void SlackTable::Evaluate(const Eigen::VectorXd& x, Eigen::VectorXd* values,
+                          std::vector<double>* nonzeros) const {
+  const SuperposedWalk walk(variables_.sequence(), variables_.ToParameters(x));
+  SlackEvaluator slacks(evaluator_, options_.cutoff + 20.0 / options_.sharpness);
+  values->resize(rows());
+  if (nonzeros) nonzeros->resize(num_nonzeros_);
+  size_t first = 0;
+  for (int k = 0; k < walk.num_half_steps(); ++k) {
+    EvaluateHalfStep(walk, x, k, &slacks, values, nonzeros ? nonzeros->data() + first : nullptr);
+    first += band(k).size() * kNumMarginFamilies;
+  }
+}
+
+double SlackTable::LeastSlack(const HomotopyParameters& parameters,
+                              const std::array<bool, kNumMarginFamilies>& of) const {
+  const SuperposedWalk walk(variables_.sequence(), parameters);
+  SlackEvaluator slacks(evaluator_, options_.cutoff);
+  double least = options_.cutoff;
+  InstantSlacks instant;
+  std::vector<std::pair<HomotopyParameter, double>> moving;
+  for (int k = 0; k < walk.num_half_steps(); ++k) {
+    for (const Instant& where : instants_[static_cast<size_t>(k)]) {
+      slacks.At(walk, At(walk, k, where, &moving), moving, false, &instant);
+      for (const SlackRow& row : instant.rows) {
+        if (of[static_cast<size_t>(row.family)]) least = std::min(least, row.slack);
+      }
+    }
+  }
+  return least;
+}
+
+}  // namespace halfstep

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "smoothing/overlap_variables.h"
+#include "smoothing/slack_rows.h"
+
+namespace halfstep {
+
+struct SlackTableOptions {
+  int instants = 32;      ///< per half-step, evenly spread over its own stretch
+  double sharpness = 60;  ///< ρ > 0: a row lies at most log(count)/ρ below its least slack
+  double cutoff = 3.0;    ///< c: statements with more slack do not count
+};
+
+/// The slacks of a walk, gathered by half-step and family. Half-step k is looked at
+///   - on its own stretch [t_k, t_{k+1}], at τ = u·(T_k − Δ_k) for fixed u ∈ (0, 1);
+///   - where statements begin or end to count, at τ = v·T_k: lift-off or landing, begin or end of
+///     the horizontal motion of its foot;
+///   - where a proof failed before (Look), at τ = v·T_k.
+/// Row (k, family) is
+///
+///     −log(e^{−ρc} + Σ e^{−ρ·slack})/ρ ≤ min(c, least slack at these instants).
+///
+/// 9n smooth rows; those of k depend on the variables of Band(k) only. Cost: linear in n.
+/// Source: smoothing/README.md, "Overlap program".
+class SlackTable {
+ public:
+  /// Both are borrowed.
+  SlackTable(const OverlapVariables& variables, const MarginEvaluator& evaluator,
+             const SlackTableOptions& options);
+
+  int rows() const { return variables_.sequence().size() * kNumMarginFamilies; }
+  static int RowOf(int half_step, MarginFamily family) {
+    return half_step * kNumMarginFamilies + static_cast<int>(family);
+  }
+  /// Variables of the rows of a half-step.
+  const std::vector<int>& band(int half_step) const {
+    return bands_[static_cast<size_t>(half_step)];
+  }
+  /// Entries of the Jacobian: all rows times their band.
+  size_t num_nonzeros() const { return num_nonzeros_; }
+
+  double sharpness() const { return options_.sharpness; }
+  void SetSharpness(double sharpness) { options_.sharpness = sharpness; }
+
+  /// Looks at one more instant, where a slack turned out to be small. False: it is, or nearly is,
+  /// there already.
+  bool Look(const SuperposedWalk& walk, const LocalTime& at);
+
+  /// Rows at x (rows), and the Jacobian, row by row in the order of its band, when asked for.
+  void Evaluate(const Eigen::VectorXd& x, Eigen::VectorXd* values,
+                std::vector<double>* nonzeros) const;
+
+  /// The least slack at the instants, of the families in `of`, at most the cutoff.
+  double LeastSlack(const HomotopyParameters& parameters,
+                    const std::array<bool, kNumMarginFamilies>& of) const;
+
+ private:
+  struct Instant {
+    double fraction;
+    bool of_stretch;  // of T_k − Δ_k, else of T_k
+  };
+  // (k, τ) of an instant, and dτ along the parameters that move it.
+  static LocalTime At(const SuperposedWalk& walk, int half_step, const Instant& instant,
+                      std::vector<std::pair<HomotopyParameter, double>>* moving);
+  void EvaluateHalfStep(const SuperposedWalk& walk, const Eigen::VectorXd& x, int half_step,
+                        SlackEvaluator* slacks, Eigen::VectorXd* values, double* nonzeros) const;
+
+  const OverlapVariables& variables_;
+  const MarginEvaluator& evaluator_;
+  SlackTableOptions options_;
+  std::vector<std::vector<int>> bands_;
+  std::vector<std::vector<Instant>> instants_;  // by half-step
+  size_t num_nonzeros_ = 0;
+};
+
+}  // namespace halfstep
