@@ -40,7 +40,22 @@ struct CertifyCommand {
 /// in place. kFailed when a walk is not certified. Throws InputError for a run that cannot be read.
 ExitStatus Certify(const CertifyCommand& command);
 
-/// `halfstep list robots|scenes|solvers|methods`. Precondition: `what` is one of these.
+struct PlanCommand {
+  std::string config;
+  std::vector<YamlOverride> overrides;
+  bool quiet = false;
+  bool json = false;
+};
+
+/// `halfstep plan`: the footsteps to the goal, as YAML that can replace it, or as JSON. kFailed
+/// when there is no plan. Throws InputError.
+ExitStatus Plan(const PlanCommand& command);
+/// `halfstep bake`: certifies the set of half-steps and bakes their volumes into the cache.
+ExitStatus Bake(const PlanCommand& command);
+/// `halfstep list half-steps CONFIG`.
+ExitStatus ListHalfSteps(const PlanCommand& command);
+
+/// `halfstep list robots|scenes|solvers|methods|planners`. Precondition: `what` is one of these.
 ExitStatus List(const std::string& what, bool json);
 
 }  // namespace halfstep

@@ -19,12 +19,6 @@ fs::path DataFolder() {
 // A bare word is a shipped robot, anything else a path relative to the config.
 bool IsShipped(const fs::path& robot) { return !robot.has_parent_path() && !robot.has_extension(); }
 
-std::array<Pose2, 2> StartOf(const ExperimentConfig& config, const RobotModel& robot) {
-  if (config.has_start) return {config.start_left, config.start_right};
-  const double y = 0.5 * robot.standing_width;
-  return {Pose2{0.0, y, 0.0}, Pose2{0.0, -y, 0.0}};
-}
-
 }  // namespace
 
 fs::path RobotsFolder() { return DataFolder() / "wpg" / "robots"; }
@@ -60,14 +54,28 @@ ExperimentConfig MovedTo(const fs::path& folder, const ExperimentConfig& config)
   return moved;
 }
 
+Place LoadPlace(const ExperimentConfig& config) {
+  Place place;
+  place.robot = LoadRobot(RobotPath(config).string());
+  if (const auto scene = ScenePath(config)) {
+    place.scene = LoadScene(scene->string());
+  } else {
+    place.scene.name = "none";
+  }
+  return place;
+}
+
+std::array<Pose2, 2> StartOf(const ExperimentConfig& config, const RobotModel& robot) {
+  if (config.has_start) return {config.start_left, config.start_right};
+  const double y = 0.5 * robot.standing_width;
+  return {Pose2{0.0, y, 0.0}, Pose2{0.0, -y, 0.0}};
+}
+
 Experiment Prepare(const ExperimentConfig& config) {
   Experiment experiment{.config = config, .robot = {}, .scene = {}, .sequence = {}};
-  experiment.robot = LoadRobot(RobotPath(config).string());
-  if (const auto scene = ScenePath(config)) {
-    experiment.scene = LoadScene(scene->string());
-  } else {
-    experiment.scene.name = "none";
-  }
+  Place place = LoadPlace(config);
+  experiment.robot = std::move(place.robot);
+  experiment.scene = std::move(place.scene);
   std::vector<Footstep> footsteps;
   for (const FootstepConfig& step : config.footsteps) {
     footsteps.push_back({.side = step.foot == "left" ? Side::kLeft : Side::kRight,

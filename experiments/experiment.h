@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -29,7 +30,18 @@ std::optional<std::filesystem::path> ScenePath(const ExperimentConfig& config);
 /// output directory becomes that folder itself.
 ExperimentConfig MovedTo(const std::filesystem::path& folder, const ExperimentConfig& config);
 
-/// Loads the robot and the scene and makes the sequence. Throws InputError.
+/// Where a config's walk takes place.
+struct Place {
+  RobotModel robot;
+  Scene scene;
+};
+/// Loads the robot and the scene. Throws InputError.
+Place LoadPlace(const ExperimentConfig& config);
+/// The soles at the start, by Index(Side).
+std::array<Pose2, 2> StartOf(const ExperimentConfig& config, const RobotModel& robot);
+
+/// Loads the robot and the scene and makes the sequence. Throws InputError. Precondition: there are
+/// footsteps (std::logic_error).
 Experiment Prepare(const ExperimentConfig& config);
 
 /// The first footprint of the plan that touches a no-step polygon, as a sentence; none: all are

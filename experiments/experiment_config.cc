@@ -170,12 +170,25 @@ void DeclareFields(Fields& fields, ExperimentConfig* c) {
         f.Group("left", sole, [&](Fields& g) { DeclarePose(g, &c->start_left); });
         f.Group("right", sole, [&](Fields& g) { DeclarePose(g, &c->start_right); });
       });
-  fields.List("footsteps",
-              {.meaning = "sole centres in the world, in the order of stepping",
-               .required = true,
-               .min_items = 1,
-               .max_items = 10000},
-              &c->footsteps, DeclareFootstep);
+  fields.OptionalGroup("goal", &c->has_goal,
+                       {.meaning = "where the walk shall end; planned in place of `footsteps`"},
+                       [&](Fields& f) { DeclareGoal(f, &c->goal); });
+  fields.List(
+      "footsteps",
+      {.meaning = "sole centres in the world, in the order of stepping", .max_items = 10000},
+      &c->footsteps, DeclareFootstep);
+  if (c->footsteps.empty() && !c->has_goal) {
+    fields.Complain("footsteps", "there are none (valid: at least one, or a `goal`)");
+  }
+  if (!c->footsteps.empty() && c->has_goal) {
+    fields.Complain("goal", "there are footsteps as well (valid: either of them)");
+  }
+  fields.Group("planner", {.meaning = "of the way to the goal"},
+               [&](Fields& f) { DeclarePlanner(f, &c->planner); });
+  fields.Group("half_steps", {.meaning = "places that the planner chooses from"},
+               [&](Fields& f) { DeclareHalfStepSet(f, &c->half_step_grid); });
+  fields.Group("swept_volumes", {.meaning = "that are baked of them"},
+               [&](Fields& f) { DeclareSweptVolumes(f, &c->swept_volumes); });
   fields.Group("half_step", {.meaning = "the isolated half-step"},
                [&](Fields& f) { DeclareHalfStep(f, &c->half_step); });
   fields.Group("smoothing", {.meaning = "the homotopy"},

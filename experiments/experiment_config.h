@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/planning_config.h"
 #include "smoothing/certificate.h"
 #include "smoothing/dichotomy.h"
 #include "smoothing/margins.h"
@@ -48,7 +49,12 @@ struct ExperimentConfig {
   std::string scene;  ///< a path; "none": empty floor
   bool has_start = false;
   Pose2 start_left, start_right;  ///< X_WF of the soles, when has_start
+  bool has_goal = false;          ///< else there are footsteps
+  GoalConfig goal;
   std::vector<FootstepConfig> footsteps;
+  PlannerConfig planner;
+  HalfStepGrid half_step_grid;
+  SweptVolumesConfig swept_volumes;
   HalfStepConfig half_step;
   SmoothingConfig smoothing;
   std::string output_directory;  ///< "": runs/<name> in the working directory

@@ -36,10 +36,18 @@ std::vector<Entry> Solvers() {
   return entries;
 }
 
+std::vector<Entry> Planners() {
+  return {{"rrt", "random tree over all half-steps, then short-cuts"},
+          {"astar", "weighted A* over all half-steps, anytime"},
+          {"astar/classic", "the same over 14 classic ones"},
+          {"bounding_box", "a box around the robot finds the way: a baseline"}};
+}
+
 std::vector<Entry> Entries(const std::string& what) {
   if (what == "robots") return FilesOf(RobotsFolder());
   if (what == "scenes") return FilesOf(ScenesFolder());
   if (what == "solvers") return Solvers();
+  if (what == "planners") return Planners();
   std::vector<Entry> entries = {{"raw", "the planned motion itself; written by every run"}};
   for (const Method& method : Methods()) entries.push_back({method.name, method.meaning});
   return entries;

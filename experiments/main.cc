@@ -3,6 +3,7 @@
 
 #include "experiments/build_info.h"
 #include "experiments/commands.h"
+#include "experiments/random_scenes.h"
 #include "experiments/verify/verify_run.h"
 #include "wpg/input/input_error.h"
 
@@ -84,13 +85,46 @@ int main(int argc, char** argv) {
   verify_app->add_option("--scene", verify.scene, "scene file in place of it, or none");
   verify_app->add_flag("--quiet", verify_quiet, "print nothing but what is wrong");
 
+  PlanCommand plan;
+  std::vector<std::string> plan_sets;
+  CLI::App* plan_app = app.add_subcommand(
+      "plan",
+      "Plan footsteps to the goal of a config and print them as YAML.\n\n"
+      "  example: halfstep plan experiments/configs/island.yaml --set planner.name=astar");
+  CLI::App* bake_app = app.add_subcommand(
+      "bake",
+      "Certify a config's set of half-steps and bake their swept volumes into the cache.\n\n"
+      "  example: halfstep bake experiments/configs/island.yaml");
+  for (CLI::App* planning : {plan_app, bake_app}) {
+    planning->add_option("CONFIG", plan.config, "experiment, a YAML file")->required();
+    planning->add_option("--set", plan_sets, "override a key of the config: KEY=VALUE")
+        ->allow_extra_args(false);
+    planning->add_flag("--quiet", plan.quiet, "print nothing but errors");
+    planning->add_flag("--json", plan.json, "print JSON");
+  }
+
+  std::string draw_name;
+  int draw_count = 40, draw_seed = 1;
+  CLI::App* draw_app = app.add_subcommand("draw",
+                                          "Print a scene that is drawn at random, as YAML.\n\n"
+                                          "  example: halfstep draw cylinders --count 40 --seed 1");
+  draw_app->add_option("WHAT", draw_name, "cylinders or random_room")
+      ->required()
+      ->check(CLI::IsMember(RandomSceneNames()));
+  draw_app->add_option("--count", draw_count, "obstacles (default: 40)")
+      ->check(CLI::Range(0, 100000));
+  draw_app->add_option("--seed", draw_seed, "of the draw (default: 1)")
+      ->check(CLI::Range(0, 2147483647));
+
   std::string what;
+  std::string list_config;
   bool list_json = false;
   CLI::App* list_app =
       app.add_subcommand("list", "What there is.\n\n  example: halfstep list methods");
-  list_app->add_option("WHAT", what, "robots, scenes, solvers or methods")
+  list_app->add_option("WHAT", what, "robots, scenes, solvers, methods, planners or half-steps")
       ->required()
-      ->check(CLI::IsMember({"robots", "scenes", "solvers", "methods"}));
+      ->check(CLI::IsMember({"robots", "scenes", "solvers", "methods", "planners", "half-steps"}));
+  list_app->add_option("CONFIG", list_config, "whose half-steps (half-steps only)");
   list_app->add_flag("--json", list_json, "print JSON");
 
   try {
@@ -99,8 +133,8 @@ int main(int argc, char** argv) {
     return app.exit(error) == 0 ? kSuccess : kBadInput;
   }
   if (app.get_subcommands().empty()) {
-    std::cerr
-        << "halfstep: which command? (valid: run, certify, verify, list; `halfstep -h` explains)\n";
+    std::cerr << "halfstep: which command? (valid: run, plan, bake, draw, certify, verify, list; "
+                 "`halfstep -h` explains)\n";
     return kBadInput;
   }
   try {
@@ -108,10 +142,25 @@ int main(int argc, char** argv) {
       for (const std::string& set : sets) run.overrides.push_back(ParseOverride(set));
     }
     for (const std::string& set : certify_sets) certify.overrides.push_back(ParseOverride(set));
-    const int status = *run_app       ? Run(run)
-                       : *certify_app ? Certify(certify)
-                       : *verify_app  ? Verify(verify, verify_quiet)
-                                      : List(what, list_json);
+    if (*draw_app) {
+      std::cout << DrawScene(draw_name, draw_count, static_cast<std::uint64_t>(draw_seed));
+      return std::cout.flush() ? kSuccess : kFailed;
+    }
+    for (const std::string& set : plan_sets) plan.overrides.push_back(ParseOverride(set));
+    if (*list_app && what == "half-steps") {
+      if (list_config.empty()) {
+        throw InputError({"list half-steps: of which config? (valid: a YAML file)"});
+      }
+      plan.config = list_config;
+      plan.json = list_json;
+    }
+    const int status = *run_app               ? Run(run)
+                       : *plan_app            ? Plan(plan)
+                       : *bake_app            ? Bake(plan)
+                       : !plan.config.empty() ? ListHalfSteps(plan)
+                       : *certify_app         ? Certify(certify)
+                       : *verify_app          ? Verify(verify, verify_quiet)
+                                              : List(what, list_json);
     if (!std::cout.flush()) throw std::runtime_error("standard output cannot be written");
     return status;
   } catch (const InputError& error) {

@@ -10,6 +10,7 @@
 #include "experiments/interrupt.h"
 #include "experiments/manifest.h"
 #include "experiments/methods.h"
+#include "experiments/planning.h"
 #include "experiments/progress_bar.h"
 #include "experiments/result_tables.h"
 #include "experiments/run_folder.h"
@@ -58,6 +59,14 @@ std::unique_ptr<FeasibilityTest> MakeTest(const MarginEvaluator& evaluator,
   return std::make_unique<CertifiedFeasibility>(evaluator, config.certification);
 }
 
+PlannedWalk PlanForRun(const ExperimentConfig& config, const RunCommand& command,
+                       std::stop_token stop) {
+  ProgressBar bar("plan", command.quiet || command.json);
+  return PlanWalk(config,
+                  {.progress = [&bar](const std::string&, double done) { bar.Update(done); },
+                   .stop = std::move(stop)});
+}
+
 std::filesystem::path OutputFolder(const RunCommand& command, const ExperimentConfig& config) {
   if (command.out && command.out->empty()) {
     throw InputError({"--out: no folder is named (valid: a path)"});
@@ -74,7 +83,16 @@ std::filesystem::path OutputFolder(const RunCommand& command, const ExperimentCo
 ExitStatus Run(const RunCommand& command) {
   const auto begin = std::chrono::steady_clock::now();
   InterruptGuard interrupt;
-  const ExperimentConfig config = LoadConfig(command.config, command.overrides);
+  ExperimentConfig config = LoadConfig(command.config, command.overrides);
+  std::optional<PlannedWalk> planned;
+  if (config.has_goal) {
+    planned = PlanForRun(config, command, interrupt.token());
+    if (planned->plan.footsteps.empty()) {
+      std::cerr << "halfstep: no walk: " << planned->plan.sentence << '\n';
+      return interrupt.requested() ? kInterrupted : kFailed;
+    }
+    config = planned->config;
+  }
   const Experiment experiment = Prepare(config);
   if (const auto stepped_on = FootprintOnNoStep(experiment)) {
     std::cerr << "halfstep: the plan is not feasible: " << *stepped_on << '\n';
@@ -104,6 +122,7 @@ ExitStatus Run(const RunCommand& command) {
   const std::string resolved = WriteYaml([&](Fields& fields) { DeclareFields(fields, &moved); });
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
   folder.Write("config.yaml", resolved);
+  if (planned) folder.Write("plan.json", PlanJson(*planned));
   folder.Write("footsteps.csv", FootstepsCsv(experiment.sequence));
   folder.Write("summary.csv", SummaryCsv(evaluator, runs));
   folder.Write("manifest.json",
