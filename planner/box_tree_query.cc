@@ -26,6 +26,7 @@ bool Descend(const BoxTree& tree, const LatticeBoxTest& test, const Accept& acce
       const int32_t child = node.child[c];
       if (child >= 0) {
         stack[top++] = child;
+        __builtin_prefetch(&tree.nodes[static_cast<size_t>(child)]);
       } else if (child == BoxNode::kSolid && accept(node, c)) {
         return true;
       }

@@ -26,7 +26,8 @@ class LatticeBoxTest {
   /// on every side [m].
   LatticeBoxTest(const BoxTree& tree, const Eigen::Matrix3d& axes, double extra)
       : origin_(tree.origin), scale_(2.0 / tree.cell), extra_(static_cast<float>(scale_ * extra)) {
-    upright_ = axes.row(2).head<2>().isZero(1e-12) && axes.col(2).head<2>().isZero(1e-12);
+    upright_ = std::abs(axes(2, 0)) + std::abs(axes(2, 1)) < 1e-9 &&
+               std::abs(axes(0, 2)) + std::abs(axes(1, 2)) < 1e-9;
     for (int i = 0; i < 3; ++i) {
       for (int j = 0; j < 3; ++j) {
         R_[i][j] = static_cast<float>(axes(i, j));

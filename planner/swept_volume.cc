@@ -13,18 +13,20 @@ namespace {
 using Eigen::Vector3d;
 
 // Directions of the planes around a body: those of its faces, and of a cube's faces, edges and
-// corners. Face normals nearer than this to one that is taken are left out [cosine of 3°].
+// corners. One that is nearer than this to another is left out [cosine of 3°].
 constexpr double kSameDirection = 0.9986;
 
 Eigen::Matrix3Xd Directions(const ConvexBody& body) {
   std::vector<Vector3d> all;
-  for (const Vector3d& normal : body.normals.colwise()) {
-    const bool near = std::any_of(
-        all.begin(), all.end(), [&](const Vector3d& n) { return n.dot(normal) > kSameDirection; });
-    if (!near) all.push_back(normal.normalized());
-  }
+  const auto add = [&](const Vector3d& direction) {
+    const bool near = std::any_of(all.begin(), all.end(), [&](const Vector3d& n) {
+      return n.dot(direction) > kSameDirection;
+    });
+    if (!near) all.push_back(direction);
+  };
+  for (const Vector3d& normal : body.normals.colwise()) add(normal.normalized());
   for (int k = 0; k < 27; ++k) {
-    if (k != 13) all.push_back(Vector3d(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1).normalized());
+    if (k != 13) add(Vector3d(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1).normalized());
   }
   Eigen::Matrix3Xd directions(3, static_cast<Eigen::Index>(all.size()));
   for (size_t i = 0; i < all.size(); ++i) directions.col(static_cast<Eigen::Index>(i)) = all[i];

@@ -89,7 +89,10 @@ SweptVolumeQuery::Prepared SweptVolumeQuery::Prepare(const Obstacle& obstacle) {
 
 SweptVolumeQuery::SweptVolumeQuery(const SweptVolumes& volumes, const Eigen::Vector2d& sole_size,
                                    const Scene& scene)
-    : volumes_(volumes), sole_size_(sole_size) {
+    : volumes_(volumes),
+      down_bounds_(BoundsOf(volumes.down)),
+      up_bounds_(BoundsOf(volumes.up)),
+      sole_size_(sole_size) {
   const size_t size = static_cast<size_t>(volumes.set.size());
   HALFSTEP_CHECK(volumes.down.size() == size && volumes.up.size() == size,
                  volumes.down.size() << " and " << volumes.up.size() << " volumes of " << size);
@@ -145,8 +148,7 @@ void SweptVolumeQuery::SetObstaclePose(int obstacle, const Isometry3d& X_WO) {
 bool SweptVolumeQuery::MeetsObstacle(const BoxTree& tree, const Placed& placed,
                                      const Prepared& obstacle, double extra) const {
   // Seen from the support sole, and in the mirror for a right support.
-  const double c = std::cos(placed.X_WS.yaw), s = std::sin(placed.X_WS.yaw);
-  const double sign = placed.mirrored ? -1.0 : 1.0;
+  const double c = placed.cos, s = placed.sin, sign = placed.mirrored ? -1.0 : 1.0;
   Matrix3d R;
   R << c, s, 0, -sign * s, sign * c, 0, 0, 0, 1;
   const Vector3d p_WS(placed.X_WS.x, placed.X_WS.y, 0.0);
@@ -173,18 +175,17 @@ bool SweptVolumeQuery::MeetsObstacle(const BoxTree& tree, const Placed& placed,
 bool SweptVolumeQuery::IsFree(const Placed& placed, double extra) const {
   HALFSTEP_CHECK(IsFinite(placed.X_WS), "the sole's pose is not finite");
   if (!placed.volume) return false;
-  const BoxTree& tree = *placed.volume;
-  if (tree.nodes.empty()) return true;
   const double sign = placed.mirrored ? -1.0 : 1.0;
-  const double c = std::cos(placed.X_WS.yaw), s = std::sin(placed.X_WS.yaw);
-  const Vector3d lower = tree.Lower(), upper = tree.Upper();
-  const Vector3d middle = 0.5 * (lower + upper);
+  const auto& [middle, bounds, root] = placed.bounds;
+  __builtin_prefetch(root);
+  __builtin_prefetch(&*placed.volume);
   // For the rounding of float coordinates.
   const double slack =
       extra + 1e-6 * (1.0 + farthest_ + std::abs(placed.X_WS.x) + std::abs(placed.X_WS.y));
-  const Vector3d half = 0.5 * (upper - lower).array() + slack;
+  const Vector3d half = bounds.array() + slack;
   const auto four = [](double value) { return Four(static_cast<float>(value)); };
-  const Four X = four(placed.X_WS.x), Y = four(placed.X_WS.y), C = four(c), S = four(s);
+  const Four X = four(placed.X_WS.x), Y = four(placed.X_WS.y), C = four(placed.cos),
+             S = four(placed.sin);
   const Four mx = four(middle.x()), my = four(sign * middle.y()), mz = four(middle.z());
   const Four hx = four(half.x()), hy = four(half.y()), hz = four(half.z());
   for (size_t block = 0; block < cylinders_.size(); ++block) {
@@ -195,20 +196,41 @@ bool SweptVolumeQuery::IsFree(const Placed& placed, double extra) const {
                (Four::Load(o.z) - mz).Abs().Within(hz + Four::Load(o.half_height));
     for (; near != 0; near &= near - 1) {
       const size_t k = static_cast<size_t>(std::countr_zero(static_cast<unsigned>(near)));
-      if (MeetsObstacle(tree, placed, obstacles_[4 * block + k], extra)) return false;
+      if (MeetsObstacle(*placed.volume, placed, obstacles_[4 * block + k], extra)) return false;
     }
   }
   return true;
 }
 
 SweptVolumeQuery::Placed SweptVolumeQuery::Down(int i, Side support, const Pose2& X_WS) const {
-  return {volumes_.down[static_cast<size_t>(i)], support == Side::kRight, X_WS};
+  const size_t e = static_cast<size_t>(i);
+  return {volumes_.down[e],   down_bounds_[e],   support == Side::kRight, X_WS,
+          std::cos(X_WS.yaw), std::sin(X_WS.yaw)};
 }
 
 SweptVolumeQuery::Placed SweptVolumeQuery::Up(int i, Side support, const Pose2& X_WS) const {
   // The foot that has landed supports.
-  return {volumes_.up[static_cast<size_t>(i)], support == Side::kLeft,
-          X_WS * volumes_.set.Placement(i, support)};
+  const size_t e = static_cast<size_t>(i);
+  const Pose2 X_WF = X_WS * volumes_.set.Placement(i, support);
+  return {volumes_.up[e], up_bounds_[e],      support == Side::kLeft,
+          X_WF,           std::cos(X_WF.yaw), std::sin(X_WF.yaw)};
+}
+
+std::vector<SweptVolumeQuery::Bounds> SweptVolumeQuery::BoundsOf(
+    const std::vector<std::optional<BoxTree>>& volumes) {
+  std::vector<Bounds> all;
+  for (const auto& tree : volumes) {
+    // Of nothing: a box that none reaches.
+    Bounds bounds{.middle = Vector3d::Constant(1e30), .half = Vector3d::Zero(), .root = nullptr};
+    if (tree && !tree->nodes.empty()) {
+      const Vector3d lower = tree->Lower(), upper = tree->Upper();
+      bounds = {.middle = 0.5 * (lower + upper),
+                .half = 0.5 * (upper - lower),
+                .root = tree->nodes.data()};
+    }
+    all.push_back(bounds);
+  }
+  return all;
 }
 
 bool SweptVolumeQuery::DownIsFree(int i, Side support, const Pose2& X_WS) const {

@@ -53,13 +53,21 @@ class SweptVolumeQuery : public HalfStepQuery {
   struct Cylinders {
     float x[4], y[4], radius[4], z[4], half_height[4];
   };
+  // A volume's bounds, apart from its tree: most queries read nothing else.
+  struct Bounds {
+    Eigen::Vector3d middle, half;
+    const BoxNode* root = nullptr;  // to be fetched while obstacles are culled
+  };
   struct Placed {
     const std::optional<BoxTree>& volume;
+    const Bounds& bounds;
     bool mirrored;
     Pose2 X_WS;
+    double cos, sin;  // of its yaw
   };
 
   static Prepared Prepare(const Obstacle& obstacle);
+  static std::vector<Bounds> BoundsOf(const std::vector<std::optional<BoxTree>>& volumes);
   Placed Down(int i, Side support, const Pose2& X_WS) const;
   Placed Up(int i, Side support, const Pose2& X_WS) const;
   bool IsFree(const Placed& placed, double extra) const;
@@ -74,6 +82,7 @@ class SweptVolumeQuery : public HalfStepQuery {
   };
 
   const SweptVolumes& volumes_;
+  std::vector<Bounds> down_bounds_, up_bounds_;
   Eigen::Vector2d sole_size_;
   std::vector<Prepared> obstacles_;
   std::vector<Cylinders> cylinders_;

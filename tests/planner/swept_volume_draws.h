@@ -22,8 +22,10 @@ inline Lipm LipmOf(const RobotModel& robot) { return {.com_height = robot.com_he
 
 /// A few elements of HRP-2, to the front, aside, behind and turned.
 inline HalfStepSet FewHalfSteps() {
-  return {.prototype = {.duration = 1.6},
-          .placements = {{0.2, -0.2, 0.25}, {-0.15, -0.25, 0.0}, {0.05, -0.3, -0.25}}};
+  HalfStepSet set;
+  set.prototype.duration = 1.6;
+  set.placements = {{0.2, -0.2, 0.25}, {-0.15, -0.25, 0.0}, {0.05, -0.3, -0.25}};
+  return set;
 }
 /// Coarse, so that tests are quick; sound all the same.
 inline SweptVolumeOptions CoarseOptions() { return {.cell = 0.03, .displacement = 0.01}; }
@@ -125,6 +127,32 @@ inline BoxTree Eroded(const BoxTree& tree) {
     }
   }
   return BoxTree::Build(less);
+}
+
+/// Whether the legs reach and keep their joint limits at 60 instants: a sampled stand-in for the
+/// certificate of robot-only margins, of which smoothing knows.
+inline bool SeemsWalkable(const RobotModel& robot, const HalfStep& half_step) {
+  const HalfStepProfiles profiles(half_step.kind, half_step.shape, half_step.duration,
+                                  LipmOf(robot));
+  for (int k = 0; k < 60; ++k) {
+    const double tau = half_step.duration * k / 59;
+    const Posture posture = SolvePosture(robot, Evaluate(half_step, profiles, tau).value);
+    if (!posture.reachable) return false;
+    for (size_t s = 0; s < 2; ++s) {
+      for (size_t j = 0; j < 6; ++j) {
+        const double q = posture.ik[s].q[static_cast<Eigen::Index>(j)];
+        if (q < robot.legs[s].joints[j].lower || q > robot.legs[s].joints[j].upper) return false;
+      }
+    }
+  }
+  return true;
+}
+/// Elements of the published grid that seem walkable and whose soles do not overlap.
+inline HalfStepSet WalkableSet(const RobotModel& robot) {
+  return MakeHalfStepSet(HalfStepGrid{}, HalfStep{}, [&](const HalfStep& half_step) {
+    return std::abs(half_step.X_SF.y) > 1.1 * robot.sole_size.y() &&
+           SeemsWalkable(robot, half_step);
+  });
 }
 
 /// `count` upright or tilted boxes in a room of 2·reach, half of those on the floor.
