@@ -92,7 +92,7 @@ std::optional<std::vector<SweptVolumeBaker::Placement>> SweptVolumeBaker::Cover(
   return placements;
 }
 
-HalfSpaces SweptVolumeBaker::Inflated(const Placement& placement) const {
+HalfSpaces SweptVolumeBaker::Inflated(const Placement& placement, bool mirrored) const {
   const Outline& outline = outlines_[placement.body];
   const ConvexBody& shape = robot_.bodies[placement.body].shape;
   const double inflation = options_.clearance + placement.displacement;
@@ -106,18 +106,26 @@ HalfSpaces SweptVolumeBaker::Inflated(const Placement& placement) const {
     region.upper[axis] = p[axis] + Support(shape, direction) + inflation;
     region.lower[axis] = p[axis] - Support(shape, -direction) - inflation;
   }
+  if (mirrored) {
+    region.normals.row(1) *= -1.0;
+    std::swap(region.lower.y(), region.upper.y());
+    region.lower.y() *= -1.0;
+    region.upper.y() *= -1.0;
+  }
   return region;
 }
 
 std::optional<BoxTree> SweptVolumeBaker::Bake(const HalfStep& half_step, const Lipm& lipm) const {
-  const auto placements = Cover(half_step, lipm);
-  if (!placements) return std::nullopt;
   std::vector<HalfSpaces> regions;
   Vector3d lower = Vector3d::Constant(1e9), upper = -lower;
-  for (const Placement& placement : *placements) {
-    regions.push_back(Inflated(placement));
-    lower = lower.cwiseMin(regions.back().lower);
-    upper = upper.cwiseMax(regions.back().upper);
+  for (const bool mirrored : {false, true}) {
+    const auto placements = Cover(mirrored ? half_step.Mirrored() : half_step, lipm);
+    if (!placements) return std::nullopt;
+    for (const Placement& placement : *placements) {
+      regions.push_back(Inflated(placement, mirrored));
+      lower = lower.cwiseMin(regions.back().lower);
+      upper = upper.cwiseMax(regions.back().upper);
+    }
   }
   if (regions.empty()) return BoxTree{};
   VoxelGrid grid(lower, upper, options_.cell);

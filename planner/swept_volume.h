@@ -42,7 +42,9 @@ class SweptVolumeBaker {
   std::optional<std::vector<Placement>> Cover(const HalfStep& half_step, const Lipm& lipm) const;
 
   /// Contains every point that is within `clearance` of a body of the robot at any time of the
-  /// half-step, in the frame S of its support sole. None as for Cover.
+  /// half-step, in the frame S of its support sole; and the mirror images of those of the mirrored
+  /// half-step, so that one volume serves both sides of a robot that is not quite symmetric. None as
+  /// for Cover, of either.
   /// Source: planner/README.md, "Swept volumes".
   std::optional<BoxTree> Bake(const HalfStep& half_step, const Lipm& lipm) const;
 
@@ -53,7 +55,8 @@ class SweptVolumeBaker {
     Eigen::Matrix3Xd normals;  // in the body's link frame, unit
     Eigen::VectorXd offsets;   // of the body's supporting planes [m]
   };
-  HalfSpaces Inflated(const Placement& placement) const;
+  // Around a placed body and all that is near enough; its mirror image when `mirrored`.
+  HalfSpaces Inflated(const Placement& placement, bool mirrored) const;
 
   const RobotModel& robot_;
   SweptVolumeOptions options_;

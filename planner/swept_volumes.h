@@ -8,7 +8,8 @@
 
 namespace halfstep {
 
-/// The swept volumes of a set: of its down and of its up half-steps, as they are on a left support.
+/// The swept volumes of a set: of its down and of its up half-steps, as they are on a left support;
+/// on a right one their mirror images.
 /// None: the motion has no bound; such a half-step is never free.
 struct SweptVolumes {
   HalfStepSet set;

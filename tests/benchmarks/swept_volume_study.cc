@@ -88,11 +88,14 @@ void Contain(long draws) {
   long outside = 0, outside_clearance = 0, done = 0;
   while (done < draws) {
     const BoxTree* tree = nullptr;
-    const HalfStep half_step = Choose(volumes, &draw, &tree);
+    HalfStep half_step = Choose(volumes, &draw, &tree);
+    const bool mirrored = draw.Index(2) == 0;  // a right support
+    if (mirrored) half_step = half_step.Mirrored();
     const HalfStepProfiles profiles(half_step.kind, half_step.shape, half_step.duration,
                                     LipmOf(robot));
     for (int k = 0; k < 100 && done < draws; ++k, ++done) {
-      const BodyPoint point = DrawBodyPoint(robot, half_step, profiles, &draw);
+      BodyPoint point = DrawBodyPoint(robot, half_step, profiles, &draw);
+      if (mirrored) point.p_S.y() = -point.p_S.y();
       outside += !tree->Contains(point.p_S);
       outside_clearance += !tree->Contains(point.p_S + options.clearance * draw.Direction());
     }

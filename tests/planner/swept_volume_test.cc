@@ -11,8 +11,7 @@ using Eigen::Vector3d;
 
 // How many of random points of the moving robot, pushed outwards by at most δ, lie outside.
 int CountOutside(const BoxTree& tree, const HalfStep& half_step, double clearance, int draws,
-                 SweptDraw* draw) {
-  const RobotModel& robot = SweptRobot();
+                 SweptDraw* draw, const RobotModel& robot = SweptRobot()) {
   const HalfStepProfiles profiles(half_step.kind, half_step.shape, half_step.duration,
                                   LipmOf(robot));
   int outside = 0;
@@ -36,6 +35,31 @@ TEST(SweptVolumeTest, ContainsTheRobotAndItsClearanceAtAllTimes) {
     EXPECT_EQ(CountOutside(*volumes.up[e], volumes.set.Up(i, Side::kRight), clearance, 1500, &draw),
               0);
   }
+}
+
+// A robot with one heavy hand, walking on its other foot.
+TEST(SweptVolumeTest, ContainsTheMirroredHalfStepOfAnAsymmetricRobot) {
+  RobotModel robot = SweptRobot();
+  robot.bodies.resize(1);
+  const Eigen::Vector3d hand(0.1, 0.4, 0.3);
+  robot.bodies[0].shape.vertices.col(0) += hand;
+  robot.bodies[0].shape = MakeHull(robot.bodies[0].shape.vertices);
+  const SweptVolumeBaker baker(robot, CoarseOptions());
+  const HalfStep half_step = FewHalfSteps().Down(0, Side::kLeft);
+  const auto tree = baker.Bake(half_step, LipmOf(robot));
+  ASSERT_TRUE(tree);
+  SweptDraw draw(5);
+  EXPECT_EQ(CountOutside(*tree, half_step, 0.005, 500, &draw, robot), 0);
+  const HalfStep mirrored = half_step.Mirrored();
+  const HalfStepProfiles profiles(mirrored.kind, mirrored.shape, mirrored.duration, LipmOf(robot));
+  int right_hand = 0;
+  for (int i = 0; i < 500; ++i) {
+    Vector3d p = DrawBodyPoint(robot, mirrored, profiles, &draw).p_S;
+    right_hand += p.y() > 0.3;
+    p.y() = -p.y();
+    EXPECT_TRUE(tree->Contains(p));
+  }
+  EXPECT_GT(right_hand, 5);
 }
 
 TEST(SweptVolumeTest, ControlVolumeLessItsOutermostCellsDoesNot) {
