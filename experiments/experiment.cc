@@ -51,6 +51,10 @@ ExperimentConfig MovedTo(const fs::path& folder, const ExperimentConfig& config)
   if (!IsShipped(config.robot)) moved.robot = fs::proximate(RobotPath(config), folder).string();
   if (const auto scene = ScenePath(config)) moved.scene = fs::proximate(*scene, folder).string();
   if (!config.output_directory.empty()) moved.output_directory = ".";
+  if (const std::string& cache = config.swept_volumes.cache; !cache.empty()) {
+    const fs::path path = (fs::path(config.directory) / cache).lexically_normal();
+    moved.swept_volumes.cache = fs::proximate(path, folder).string();
+  }
   return moved;
 }
 
@@ -76,6 +80,11 @@ Experiment Prepare(const ExperimentConfig& config) {
   Place place = LoadPlace(config);
   experiment.robot = std::move(place.robot);
   experiment.scene = std::move(place.scene);
+  const Lipm lipm{.com_height = experiment.robot.com_height};
+  if (config.footsteps.empty()) {
+    experiment.sequence = {StartOf(config, experiment.robot), {}, lipm};
+    return experiment;
+  }
   std::vector<Footstep> footsteps;
   for (const FootstepConfig& step : config.footsteps) {
     footsteps.push_back({.side = step.foot == "left" ? Side::kLeft : Side::kRight,
@@ -85,9 +94,8 @@ Experiment Prepare(const ExperimentConfig& config) {
   }
   const HalfStepShape shape{.shift = config.half_step.zmp_shift / config.half_step.duration,
                             .horizontal_delay = config.half_step.horizontal_delay};
-  experiment.sequence =
-      MakeSequence(StartOf(config, experiment.robot), footsteps, config.half_step.via_lateral,
-                   shape, {.com_height = experiment.robot.com_height});
+  experiment.sequence = MakeSequence(StartOf(config, experiment.robot), footsteps,
+                                     config.half_step.via_lateral, shape, lipm);
   return experiment;
 }
 

@@ -12,16 +12,6 @@
 namespace halfstep {
 namespace {
 
-// Of the whole concatenation; a refusal names the footstep whose element is to blame.
-Acceptance CertifyPlan(const CertifiedFeasibility& test, const HalfStepSequence& sequence) {
-  const SuperposedWalk walk(sequence, PlannedMotion(sequence));
-  MarginEvaluator::Scratch scratch = test.evaluator().MakeScratch();
-  const Feasibility answer = test.Check(walk, {0.0, walk.duration()}, &scratch);
-  if (answer.verdict == Verdict::kFeasible) return true;
-  // Element j serves half-steps 2j + 1, down, and 2j + 2, up.
-  return {false, std::max(0, (answer.witness.at.half_step - 1) / 2)};
-}
-
 FootstepConfig ToConfig(const Footstep& footstep) {
   FootstepConfig config;
   config.foot = Name(footstep.side);
@@ -79,6 +69,15 @@ HalfStepSet CertifiedHalfSteps(const RobotModel& robot, const ExperimentConfig& 
   return MakeHalfStepSet(
       config.half_step_grid, PrototypeOf(config),
       [&](const HalfStep& half_step) { return certifier.Certifies(half_step, {}); }, progress);
+}
+
+Acceptance CertifyPlan(const CertifiedFeasibility& test, const HalfStepSequence& sequence) {
+  const SuperposedWalk walk(sequence, PlannedMotion(sequence));
+  MarginEvaluator::Scratch scratch = test.evaluator().MakeScratch();
+  const Feasibility answer = test.Check(walk, {0.0, walk.duration()}, &scratch);
+  if (answer.verdict == Verdict::kFeasible) return true;
+  // Element j serves half-steps 2j + 1, down, and 2j + 2, up.
+  return {false, std::max(0, (answer.witness.at.half_step - 1) / 2)};
 }
 
 double SteadySeconds() {

@@ -34,6 +34,10 @@ class HalfStepCertifier {
 HalfStepSet CertifiedHalfSteps(const RobotModel& robot, const ExperimentConfig& config,
                                const std::function<bool(double)>& progress = {});
 
+/// Whether the concatenation keeps every demanded margin for all t; a refusal names the footstep
+/// whose half-steps are to blame.
+Acceptance CertifyPlan(const CertifiedFeasibility& test, const HalfStepSequence& sequence);
+
 /// Seconds of a steady clock.
 double SteadySeconds();
 

@@ -42,7 +42,9 @@ TEST_P(ShippedConfigTest, LoadsWithItsRobotAndScene) {
   EXPECT_EQ(config.name, fs::path(GetParam()).stem());
   const Experiment experiment = Prepare(config);
   EXPECT_EQ(experiment.robot.name, "hrp2");
-  EXPECT_EQ(experiment.scene.obstacles.empty(), config.scene == "none");
+  EXPECT_EQ(experiment.scene.obstacles.empty() && experiment.scene.no_step.empty(),
+            config.scene == "none");
+  EXPECT_NE(config.has_goal, !config.footsteps.empty());
   EXPECT_EQ(experiment.sequence.size(), static_cast<int>(2 * config.footsteps.size()));
   EXPECT_EQ(FootprintOnNoStep(experiment), std::nullopt);
 }

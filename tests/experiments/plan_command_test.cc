@@ -1,0 +1,122 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "experiments/commands.h"
+#include "experiments/planning.h"
+#include "experiments/random_scenes.h"
+#include "planner/scene.h"
+#include "tests/experiments/child_process.h"
+#include "tests/experiments/run_check.h"
+#include "tests/experiments/temporary_folder.h"
+
+namespace halfstep {
+namespace {
+
+using testing::HasSubstr;
+namespace fs = std::filesystem;
+
+// Two half-steps on coarse cells: baked in a moment.
+std::string ConfigText(const std::string& scene, const std::string& more) {
+  return "robot: hrp2\nscene: " + scene +
+         "\n"
+         "half_steps: {x_min_m: 0, x_max_m: 0.2, y_min_m: -0.21, y_max_m: -0.21,\n"
+         "             spacing_m: 0.2, yaws_rad: [0]}\n"
+         "swept_volumes: {cell_m: 0.05, displacement_m: 0.05, cache: cache}\n"
+         "planner: {unimproved_nodes: 0, max_nodes: 2000}\n"
+         "smoothing: {methods: []}\n" +
+         more;
+}
+
+constexpr const char* kGoal = "goal: {x_m: 0.6, y_m: 0.1, radius_m: 0.05}\n";
+
+TEST(PlanCommand, PrintsFootstepsThatCanReplaceTheGoal) {
+  const TemporaryFolder place;
+  const std::string config = WriteText(place / "walk.yaml", ConfigText("none", kGoal));
+  const Outcome planned = Halfstep(place.path(), {"plan", config});
+  ASSERT_EQ(planned.status, kSuccess) << planned.err;
+  EXPECT_THAT(planned.out, HasSubstr("footsteps:\n"));
+  const std::string given = WriteText(place / "given.yaml", ConfigText("none", planned.out));
+  const Outcome again = Halfstep(place.path(), {"plan", config});
+  EXPECT_EQ(again.out.substr(again.out.find("footsteps:")),
+            planned.out.substr(planned.out.find("footsteps:")));
+  const Outcome run = Halfstep(place.path(), {"run", given, "--quiet"});
+  EXPECT_EQ(run.status, kSuccess) << run.err;
+}
+
+TEST(PlanCommand, RunPlansAndItsConfigRunsAgain) {
+  const TemporaryFolder place;
+  const std::string config = WriteText(place / "walk.yaml", ConfigText("none", kGoal));
+  const Outcome first = Halfstep(place.path(), {"run", config, "--quiet", "--out", "first"});
+  ASSERT_EQ(first.status, kSuccess) << first.err;
+  const auto plan = nlohmann::json::parse(ReadText(place / "first/plan.json"));
+  EXPECT_EQ(plan.at("status"), "solved");
+  EXPECT_EQ(plan.at("half_steps"), 2);
+  EXPECT_GE(plan.at("footsteps"), 3);
+  EXPECT_EQ(plan.at("elements").size(), plan.at("footsteps"));
+  const Outcome second = Halfstep(
+      place.path(), {"run", (place / "first/config.yaml").string(), "--quiet", "--out", "second"});
+  ASSERT_EQ(second.status, kSuccess) << second.err;
+  for (const char* file : {"footsteps.csv", "raw/trajectory.csv", "raw/certificate.csv"}) {
+    EXPECT_EQ(ReadText(place / "first" / file), ReadText(place / "second" / file)) << file;
+  }
+  EXPECT_FALSE(fs::exists(place / "second/plan.json"));
+  EXPECT_EQ(Halfstep(place.path(), {"certify", "first", "--quiet"}).status, kSuccess);
+}
+
+TEST(PlanCommand, SaysWhyThereIsNoPlanAndWritesNothing) {
+  const TemporaryFolder place;
+  const std::string config = WriteText(
+      place / "walk.yaml", ConfigText("none", "goal: {x_m: -3, y_m: 0, radius_m: 0.05}\n"));
+  const Outcome run = Halfstep(place.path(), {"run", config, "--out", "run"});
+  EXPECT_EQ(run.status, kFailed);
+  EXPECT_THAT(run.err, HasSubstr("no walk: no plan"));
+  EXPECT_FALSE(fs::exists(place / "run"));
+  const Outcome standing = Halfstep(place.path(), {"run", config, "--out", "run", "--set",
+                                                   "goal.x_m=0", "--set", "goal.y_m=0.1"});
+  EXPECT_EQ(standing.status, kFailed);
+  EXPECT_THAT(standing.err, HasSubstr("the start is a goal"));
+}
+
+TEST(PlanCommand, BakesOnceAndListsTheHalfSteps) {
+  const TemporaryFolder place;
+  const std::string config = WriteText(place / "walk.yaml", ConfigText("none", kGoal));
+  const Outcome first = Halfstep(place.path(), {"bake", config, "--json"});
+  ASSERT_EQ(first.status, kSuccess) << first.err;
+  EXPECT_EQ(nlohmann::json::parse(first.out).at("baked"), true);
+  const Outcome second = Halfstep(place.path(), {"bake", config, "--json"});
+  EXPECT_EQ(nlohmann::json::parse(second.out).at("baked"), false);
+  EXPECT_EQ(nlohmann::json::parse(second.out).at("half_steps"), 2);
+  const Outcome list = Halfstep(place.path(), {"list", "half-steps", config});
+  EXPECT_EQ(list.out, "half_step,x_m,y_m,yaw_rad\n1,0,-0.21,0\n2,0.2,-0.21,0\n");
+}
+
+TEST(PlanCommand, RefusesAPlanWithoutAGoal) {
+  const TemporaryFolder place;
+  const Outcome outcome = Halfstep(place.path(), {"plan", ShippedConfig("bar_5cm")});
+  EXPECT_EQ(outcome.status, kBadInput);
+  EXPECT_THAT(outcome.err, HasSubstr("goal: is missing"));
+}
+
+TEST(DrawCommand, DrawsTheSameSceneFromTheSameSeed) {
+  const TemporaryFolder place;
+  for (const std::string& name : RandomSceneNames()) {
+    const Outcome drawn = Halfstep(place.path(), {"draw", name, "--count", "30", "--seed", "5"});
+    EXPECT_EQ(drawn.status, kSuccess);
+    EXPECT_EQ(drawn.out, DrawScene(name, 30, 5));
+    EXPECT_NE(drawn.out, DrawScene(name, 30, 6));
+    const Scene scene = LoadScene(WriteText(place / (name + ".yaml"), drawn.out));
+    EXPECT_EQ(scene.obstacles.size(), 30u);
+    EXPECT_TRUE(LoadScene(WriteText(place / "none.yaml", DrawScene(name, 0, 5))).obstacles.empty());
+  }
+}
+
+TEST(DrawCommand, TheShippedScenesAreThoseThatTheirFirstLineSays) {
+  const fs::path scenes = fs::path(HALFSTEP_SOURCE_DIR) / "experiments/scenes";
+  EXPECT_EQ(ReadText(scenes / "cylinders.yaml"), DrawScene("cylinders", 40, 1));
+  EXPECT_EQ(ReadText(scenes / "random_room.yaml"), DrawScene("random_room", 14, 1));
+}
+
+}  // namespace
+}  // namespace halfstep
