@@ -4,6 +4,7 @@
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "opt/evaluation_session.h"
@@ -21,6 +22,7 @@ constexpr double kPush = 1e-2;        // how far the start is pushed off its bou
 constexpr double kToBoundary = 0.01;  // of a slack that a step leaves at least
 constexpr double kArmijo = 1e-4;
 constexpr double kDualRange = 1e6;  // multipliers stay within this factor of μ/slack
+constexpr double kReduction = 0.2;  // of μ, when its problem is nearly solved
 constexpr int kBacktracks = 25;
 
 // One inequality sign·(value − bound) ≥ 0 of a row, or of a variable.
@@ -42,13 +44,14 @@ std::vector<Side> SidesOf(const VectorXd& lower, const VectorXd& upper) {
 
 class Barrier {
  public:
-  Barrier(EvaluationSession* session, const VectorXd& start)
+  Barrier(EvaluationSession* session, const VectorXd& start, double mu_init, size_t memory)
       : session_(*session),
         problem_(session->problem()),
         rows_(SidesOf(problem_.constraint_lower(), problem_.constraint_upper())),
         bounds_(SidesOf(problem_.lower(), problem_.upper())),
         x_(start),
-        hessian_(12) {
+        hessian_(memory),
+        mu_(mu_init) {
     for (int v = 0; v < x_.size(); ++v) {
       const double lower = problem_.lower()[v], upper = problem_.upper()[v];
       const double width = std::isfinite(upper - lower) ? upper - lower : 1.0;
@@ -59,8 +62,8 @@ class Barrier {
 
   Ending Run() {
     if (!EvaluateAt(x_)) return Broken();
-    mu_ = 0.1 * std::max(1.0, std::abs(cost_)) /
-          static_cast<double>(std::max<size_t>(1, rows_.size() + bounds_.size()));
+    mu_ *= std::max(1.0, std::abs(cost_)) /
+           static_cast<double>(std::max<size_t>(1, rows_.size() + bounds_.size()));
     row_duals_ = VectorXd::Ones(static_cast<Eigen::Index>(rows_.size()));
     bound_duals_ = VectorXd::Ones(static_cast<Eigen::Index>(bounds_.size()));
     ResetDuals();
@@ -71,7 +74,8 @@ class Barrier {
       if (!outside_ && Error(0.0) <= tolerance) {
         return {SolveStatus::kConverged, "Barrier: first-order conditions hold.", x_};
       }
-      if (Error(mu_) <= 10.0 * mu_ || stalled > 0) {
+      if (Error(mu_) <= 10.0 * mu_ || decrement_ <= 0.3 * mu_ || stalled > 0) {
+        decrement_ = std::numeric_limits<double>::infinity();
         const double least = 0.01 * tolerance;
         if (stalled > 0 && mu_ <= least) {
           return {outside_ ? SolveStatus::kInfeasible : SolveStatus::kAcceptable,
@@ -79,7 +83,7 @@ class Barrier {
                            : "Barrier: no step improves any more.",
                   x_};
         }
-        mu_ = std::max(least, std::min(0.2 * mu_, std::pow(mu_, 1.5)));
+        mu_ = std::max(least, kReduction * mu_);
         ResetDuals();
       }
       const bool moved = Step();
@@ -272,7 +276,8 @@ class Barrier {
           if (!session_.Constraints(x, &constraints) || !session_.Cost(x, &cost)) continue;
           const double there = Merit(cost, constraints, x);
           if (!(there <= merit + kArmijo * alpha * d.dot(g))) continue;
-          damping_ = alpha > 0.3 ? 0.3 * damping_ : std::max(damping_, 1e-8);
+          damping_ = alpha > 0.3 ? std::max(0.3 * damping_, 1e-12) : damping_;
+          decrement_ = -d.dot(g);
           return MoveTo(x, alpha, d, Jd);
         }
       }
@@ -315,8 +320,9 @@ class Barrier {
   SparseMatrix jacobian_;
   VectorXd row_duals_, bound_duals_;
   LimitedMemoryHessian hessian_;
-  double mu_ = 0.1;
+  double mu_;  // first of the cost per inequality
   double damping_ = 1e-4;
+  double decrement_ = std::numeric_limits<double>::infinity();  // −g·d of the last step
   bool outside_ = false;
 };
 
@@ -330,17 +336,37 @@ class BarrierSolver : public Solver {
                ? "halfstep/barrier takes inequalities only; the problem has equalities"
                : "";
   }
+  // `mu_init`: the first μ as a fraction of the cost per inequality; `memory`: steps that the
+  // Hessian's estimate remembers.
+  Ending RunWithOptions(EvaluationSession& session, const VectorXd& start) const {
+    double mu_init = 0.1;
+    int memory = 12;
+    for (const auto& [option, value] : session.options().solver_options) {
+      const auto refuse = [&](const char* why) -> Ending {
+        return {SolveStatus::kInvalidInput, RefusedOption(name(), option, value, why), {}};
+      };
+      if (option == "mu_init") {
+        const auto number = ParseNumber(value);
+        if (!number || !(*number > 0.0)) return refuse("a number above 0");
+        mu_init = *number;
+      } else if (option == "memory") {
+        const auto number = ParseInteger(value);
+        if (!number || *number < 1 || *number > 1000) return refuse("an integer from 1 to 1000");
+        memory = *number;
+      } else {
+        return {
+            SolveStatus::kInvalidInput, UnknownOption(name(), option, {"memory", "mu_init"}), {}};
+      }
+      session.Use(option, value);
+    }
+    return Barrier(&session, start, mu_init, static_cast<size_t>(memory)).Run();
+  }
+
   Solution Solve(const Problem& problem, const Eigen::VectorXd& x0,
                  const SolverOptions& options) const override {
     return SolveInSession(*this, problem, x0, options, EvaluationSession::Iterations::kTold,
-                          [this](EvaluationSession& session, const VectorXd& start) -> Ending {
-                            const auto& unknown = session.options().solver_options;
-                            if (!unknown.empty()) {
-                              return {SolveStatus::kInvalidInput,
-                                      UnknownOption(name(), unknown.begin()->first, {"none"}),
-                                      {}};
-                            }
-                            return Barrier(&session, start).Run();
+                          [this](EvaluationSession& session, const VectorXd& start) {
+                            return RunWithOptions(session, start);
                           });
   }
 };

@@ -16,11 +16,9 @@ void LimitedMemoryHessian::Update(const Eigen::VectorXd& s, Eigen::VectorXd y) {
   const double ss = s.squaredNorm();
   if (!(ss > 1e-24) || !y.allFinite()) return;
   if (s_.empty()) {
-    const double curvature = s.dot(y);
     // Nothing is curved so far: B stays 0.
     if (y.norm() <= 1e-12 * std::sqrt(ss)) return;
-    sigma_ = std::clamp(curvature > 0.0 ? y.squaredNorm() / curvature : y.norm() / std::sqrt(ss),
-                        1e-8, 1e8);
+    sigma_ = std::clamp(y.norm() / std::sqrt(ss), 1e-8, 1e8);
   }
   // Powell's damping keeps B positive definite.
   const Eigen::VectorXd Bs = Times(s);
@@ -36,7 +34,7 @@ void LimitedMemoryHessian::Update(const Eigen::VectorXd& s, Eigen::VectorXd y) {
     s_.pop_front();
     y_.pop_front();
   }
-  sigma_ = std::clamp(y_.back().squaredNorm() / s_.back().dot(y_.back()), 1e-8, 1e8);
+  sigma_ = std::clamp(s_.back().dot(y_.back()) / s_.back().squaredNorm(), 1e-8, 1e8);
   Assemble();
 }
 

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 #include <random>
 #include <utility>
+#include <vector>
 
 #include "opt/solver.h"
 #include "smoothing/dichotomy.h"
@@ -16,10 +18,16 @@ namespace {
 constexpr int kQuick = 2, kThorough = 6;
 // A candidate whose rows are violated by more than this is not worth a proof.
 constexpr double kHopeless = 0.5;
+// After a refusal a candidate is worth a proof when it costs less by this (relative), or after so
+// many others.
+constexpr double kProgress = 0.01;
+constexpr int kPatience = 5;
+// Where the program looks after a refusal: instants this far apart [s], slacks below this.
+constexpr double kLookPeriod = 0.005, kLookSlack = 0.1;
 // Rows grow sharper by this factor from round to round.
 constexpr double kSharpen = 3.0;
-// A round that gains less than this ends the rounds (relative).
-constexpr double kGain = 1e-4;
+// Two rounds that gain less than this end the rounds (relative).
+constexpr double kGain = 1e-3;
 
 class Optimization {
  public:
@@ -76,7 +84,7 @@ class Optimization {
               .prove =
                   [this](const SuperposedWalk& walk, double, const HomotopyParameters& incumbent,
                          MarginEvaluator::Scratch* scratch) {
-                    return CheckChanges(test_, walk, incumbent, scratch);
+                    return Prove(walk, incumbent, scratch);
                   }};
     }
     // What lies between the table's instants may be a little worse than what they show.
@@ -94,6 +102,24 @@ class Optimization {
                   return test_.Over(evaluator)->Check(walk, {0.0, walk.duration()}, scratch);
                 },
             .improvement = 1e-3};
+  }
+
+  Feasibility Prove(const SuperposedWalk& walk, const HomotopyParameters& incumbent,
+                    MarginEvaluator::Scratch* scratch) const {
+    constexpr size_t kMostSuspects = 32;
+    for (const auto& [half_step, fraction] : suspects_) {
+      const LocalTime at{half_step, fraction * walk.profiles(half_step).duration()};
+      if (const auto violated = test_.evaluator().FirstViolation(walk, at, scratch)) {
+        return {Verdict::kViolated, test_.evidence(), *violated};
+      }
+    }
+    const Feasibility answer = CheckChanges(test_, walk, incumbent, scratch);
+    if (answer.verdict != Verdict::kFeasible) {
+      const LocalTime& at = answer.witness.at;
+      if (suspects_.size() == kMostSuspects) suspects_.erase(suspects_.begin());
+      suspects_.emplace_back(at.half_step, at.tau / walk.profiles(at.half_step).duration());
+    }
+    return answer;
   }
 
   // The dichotomy's result, then random points of the variables' box.
@@ -117,6 +143,7 @@ class Optimization {
     for (size_t s = 0; s < starts.size() && !stop_.stop_requested(); ++s) {
       program.table().SetSharpness(options_.program.table.sharpness);
       Eigen::VectorXd x = program.ToVariables(starts[s]);
+      int poor = 0;  // rounds in a row that gained next to nothing
       for (int round = 0; round < options_.rounds; ++round) {
         const double before = path->cost();
         const double remaining = options_.deadline - Elapsed();
@@ -129,10 +156,13 @@ class Optimization {
         result_.raw_end_feasible = whole || !path->refusal();
         bool learned = false;
         if (path->refusal()) {
-          learned = program.table().Look(SuperposedWalk(sequence_, end), path->refusal()->at);
+          const SuperposedWalk walk(sequence_, end);
+          learned = program.table().Look(walk, path->refusal()->at);
+          learned = program.table().LookAround(walk, kLookPeriod, kLookSlack) > 0 || learned;
         }
         const double gain = before - path->cost();
-        if (!learned && round > 0 && gain < kGain * std::abs(before)) break;
+        poor = gain < kGain * std::abs(before) ? poor + 1 : 0;
+        if (poor == 2 || (poor > 0 && !learned)) break;
         program.table().SetSharpness(program.table().sharpness() * kSharpen);
         Part(0.2, 0.9)((static_cast<double>(s) + (round + 1.0) / options_.rounds) /
                        static_cast<double>(starts.size()));
@@ -157,9 +187,17 @@ class Optimization {
 
   void Consider(const OverlapProgram& program, const opt::Iterate& iterate, FeasiblePath* path) {
     const HomotopyParameters candidate = program.ToParameters(iterate.x);
-    const bool hopeless = iterate.violation > kHopeless;
-    const double lambda = hopeless ? 0.0 : path->Toward(candidate, kQuick);
-    if (hopeless || (lambda < 1.0 && path->refusal())) ++result_.raw_infeasible;
+    double lambda = 0.0;
+    if (iterate.violation > kHopeless) {
+      ++result_.raw_infeasible;
+    } else if (iterate.cost < worth_a_proof_ || ++skipped_ >= kPatience) {
+      skipped_ = 0;
+      lambda = path->Toward(candidate, kQuick);
+      const bool refused = lambda < 1.0 && path->refusal();
+      if (refused) ++result_.raw_infeasible;
+      worth_a_proof_ = refused ? iterate.cost - kProgress * std::abs(iterate.cost)
+                               : std::numeric_limits<double>::infinity();
+    }
     if (lambda > 0.0 && !result_.time_to_first_improvement) {
       result_.time_to_first_improvement = Elapsed();
     }
@@ -232,7 +270,11 @@ class Optimization {
   std::stop_token stop_;
   std::chrono::steady_clock::time_point begin_;
   SmoothingResult result_;
-  opt::Solution solution_;  // the last one
+  opt::Solution solution_;                                          // the last one
+  double worth_a_proof_ = std::numeric_limits<double>::infinity();  // a cost
+  int skipped_ = 0;                                                 // candidates
+  // Where proofs failed: half-step, and τ as a fraction of its T. Looked at first.
+  mutable std::vector<std::pair<int, double>> suspects_;
 };
 
 }  // namespace

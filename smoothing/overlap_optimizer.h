@@ -17,7 +17,7 @@ struct OptimizerOptions {
   double duration_limit = 0.0;
   int random_starts = 0;     ///< solves from random points, after the one from the dichotomy's
   unsigned seed = 1;         ///< of the random starts
-  int rounds = 4;            ///< ≥ 1: solves from each start, with more instants and sharper rows
+  int rounds = 6;            ///< ≥ 1: solves from each start, with more instants and sharper rows
   int max_iterations = 100;  ///< of the solver, each round
   double deadline = 30.0;    ///< of all solves together [s]
   double tolerance = 0.001;  ///< of the dichotomies before and after [s]

@@ -86,6 +86,42 @@ bool SlackTable::Look(const SuperposedWalk& walk, const LocalTime& at) {
   return true;
 }
 
+int SlackTable::LookAround(const SuperposedWalk& walk, double period, double slack) {
+  // The minimum moves with the parameters: its neighbourhood, in periods, is looked at as well.
+  constexpr std::array<double, 7> kAround = {0.0, -0.5, 0.5, -1.0, 1.0, -2.0, 2.0};
+  std::array<std::array<double, 2>, kNumMarginFamilies> before;  // at the last two samples
+  for (auto& values : before) values.fill(options_.cutoff);
+  SlackEvaluator slacks(evaluator_, options_.cutoff);
+  InstantSlacks instant;
+  int learned = 0;
+  const int n = static_cast<int>(std::ceil(walk.duration() / period));
+  for (int i = 0; i <= n + 1; ++i) {  // one beyond the end, where nothing is small
+    std::array<double, kNumMarginFamilies> least;
+    least.fill(options_.cutoff);
+    const LocalTime at = walk.Locate(std::min(i * period, walk.duration()));
+    if (i <= n) {
+      slacks.At(walk, at, {}, false, &instant);
+      for (const SlackRow& row : instant.rows) {
+        double& value = least[static_cast<size_t>(row.family)];
+        value = std::min(value, row.slack);
+      }
+    }
+    bool minimum = false;
+    for (size_t f = 0; f < kNumMarginFamilies; ++f) {
+      auto& [older, newer] = before[f];
+      minimum = minimum || (newer < slack && newer < older && newer <= least[f]);
+      older = newer;
+      newer = least[f];
+    }
+    for (double around : kAround) {
+      if (!minimum) break;
+      const double t = std::clamp((i - 1 + around) * period, 0.0, walk.duration());
+      learned += Look(walk, walk.Locate(t));
+    }
+  }
+  return learned;
+}
+
 void SlackTable::EvaluateHalfStep(const SuperposedWalk& walk, const Eigen::VectorXd& x, int k,
                                   SlackEvaluator* slacks, Eigen::VectorXd* values,
                                   double* nonzeros) const {
@@ -123,8 +159,8 @@ void SlackTable::EvaluateHalfStep(const SuperposedWalk& walk, const Eigen::Vecto
   }
   for (size_t f = 0; f < kNumMarginFamilies; ++f) {
     const SoftMinimum& minimum = minima[f];
-    (*values)[k * kNumMarginFamilies + static_cast<int>(f)] =
-        minimum.least - std::log(minimum.sum) / rho;
+    const int row = k * kNumMarginFamilies + static_cast<int>(f);
+    (*values)[row] = minimum.least - std::log(minimum.sum) / rho;
     if (!nonzeros) continue;
     for (Eigen::Index c = 0; c < width; ++c) *nonzeros++ = minimum.gradient[c] / minimum.sum;
   }

@@ -19,7 +19,7 @@ struct SlackTableOptions {
 ///   - on its own stretch [t_k, t_{k+1}], at τ = u·(T_k − Δ_k) for fixed u ∈ (0, 1);
 ///   - where statements begin or end to count, at τ = v·T_k: lift-off or landing, begin or end of
 ///     the horizontal motion of its foot;
-///   - where a proof failed before (Look), at τ = v·T_k.
+///   - where a proof failed before (Look, LookAround), at τ = v·T_k.
 /// Row (k, family) is
 ///
 ///     −log(e^{−ρc} + Σ e^{−ρ·slack})/ρ ≤ min(c, least slack at these instants).
@@ -49,6 +49,9 @@ class SlackTable {
   /// Looks at one more instant, where a slack turned out to be small. False: it is, or nearly is,
   /// there already.
   bool Look(const SuperposedWalk& walk, const LocalTime& at);
+  /// Looks where and around where a family's least slack, sampled every `period` [s], has a local
+  /// minimum in time below `slack`. Returns how many instants are new.
+  int LookAround(const SuperposedWalk& walk, double period, double slack);
 
   /// Rows at x (rows), and the Jacobian, row by row in the order of its band, when asked for.
   void Evaluate(const Eigen::VectorXd& x, Eigen::VectorXd* values,

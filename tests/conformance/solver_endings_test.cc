@@ -191,6 +191,11 @@ TEST_P(Ending, ExceptionInOnIterateIsKept) {
   EXPECT_TRUE(solution.exception);
 }
 
+std::string KnownOption(const std::string& solver) {
+  if (solver == "ipopt" || solver == "halfstep/barrier") return "mu_init";
+  return solver == "ceres/auglag" ? "max_lbfgs_rank" : "xtol_abs";
+}
+
 TEST_P(Ending, WrongOptionsAreInvalidInput) {
   Hooked hooked([](int) {});
   opt::SolverOptions options;
@@ -201,9 +206,7 @@ TEST_P(Ending, WrongOptionsAreInvalidInput) {
   EXPECT_THAT(solution.message, AnyOf(HasSubstr("valid: "), HasSubstr("nearest: ")));
   EXPECT_EQ(hooked.evaluations, 1) << "nothing is optimized";
 
-  const std::string known = GetParam() == "ipopt"          ? "mu_init"
-                            : GetParam() == "ceres/auglag" ? "max_lbfgs_rank"
-                                                           : "xtol_abs";
+  const std::string known = KnownOption(GetParam());
   options.solver_options = {{known, "much"}};
   solution = solver().Solve(hooked.problem, hooked.problem.initial(), options);
   EXPECT_EQ(solution.status, SolveStatus::kInvalidInput);
@@ -256,9 +259,7 @@ TEST_P(Ending, WrongGradientIsForTheCheckerButTheSolutionStaysTrue) {
 
 TEST_P(Ending, AcceptedOptionsAreReported) {
   Hooked hooked([](int) {});
-  const std::string known = GetParam() == "ipopt"          ? "mu_init"
-                            : GetParam() == "ceres/auglag" ? "max_lbfgs_rank"
-                                                           : "xtol_abs";
+  const std::string known = KnownOption(GetParam());
   opt::SolverOptions options;
   options.max_evaluations = 100;
   options.solver_options = {{known, "5"}};
