@@ -30,6 +30,26 @@ struct RunCommand {
 /// Throws InputError for bad input, std::runtime_error when files cannot be written.
 ExitStatus Run(const RunCommand& command);
 
+struct SmoothCommand {
+  RunCommand run;                    ///< `config` may be a run folder too; then its config.yaml
+  std::vector<std::string> methods;  ///< in place of smoothing.methods when not empty
+};
+
+/// `halfstep smooth`: what `run` does, footsteps given. Of a run folder RUN, into RUN-smooth unless
+/// `out` says otherwise. Throws as Run.
+ExitStatus Smooth(const SmoothCommand& command);
+
+struct CompareCommand {
+  std::vector<std::string> runs;   ///< RUN or LABEL=RUN
+  std::optional<std::string> out;  ///< folder for the tables; none: the screen only
+  bool overwrite = false;
+  bool quiet = false;
+};
+
+/// `halfstep compare`: methods against each other over runs. Throws InputError for what is no run,
+/// or cannot be compared; then nothing is written.
+ExitStatus CompareRuns(const CompareCommand& command);
+
 struct CertifyCommand {
   std::string run;  ///< a run folder
   std::vector<YamlOverride> overrides;

@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "wpg/input/input_error.h"
+#include "wpg/input/text.h"
 
 namespace halfstep {
 namespace {
@@ -59,21 +60,43 @@ CsvTable ReadCsv(const std::string& path) {
   return table;
 }
 
-std::vector<double> CsvTable::Numbers(const std::string& column) const {
+size_t CsvTable::Index(const std::string& column) const {
   const auto found = std::find(header.begin(), header.end(), column);
   if (found == header.end()) Refuse(path, 1, "no column '" + column + "'");
-  const size_t index = static_cast<size_t>(found - header.begin());
+  return static_cast<size_t>(found - header.begin());
+}
+
+double CsvTable::Number(size_t row, size_t column) const {
+  const std::string& cell = rows[row][column];
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  if (error != std::errc() || end != cell.data() + cell.size()) {
+    Refuse(path, row + 2, header[column] + ": not a number: " + Quote(cell));
+  }
+  return value;
+}
+
+std::vector<double> CsvTable::Numbers(const std::string& column) const {
+  const size_t index = Index(column);
   std::vector<double> numbers;
+  for (size_t i = 0; i < rows.size(); ++i) numbers.push_back(Number(i, index));
+  return numbers;
+}
+
+std::vector<std::optional<double>> CsvTable::NumbersOrEmpty(const std::string& column) const {
+  const size_t index = Index(column);
+  std::vector<std::optional<double>> numbers;
   for (size_t i = 0; i < rows.size(); ++i) {
-    const std::string& cell = rows[i][index];
-    double value = 0.0;
-    const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-    if (error != std::errc() || end != cell.data() + cell.size()) {
-      Refuse(path, i + 2, column + ": not a number: '" + cell + "'");
-    }
-    numbers.push_back(value);
+    numbers.push_back(rows[i][index].empty() ? std::nullopt : std::optional(Number(i, index)));
   }
   return numbers;
+}
+
+std::vector<std::string> CsvTable::Texts(const std::string& column) const {
+  const size_t index = Index(column);
+  std::vector<std::string> texts;
+  for (const std::vector<std::string>& row : rows) texts.push_back(row[index]);
+  return texts;
 }
 
 }  // namespace halfstep

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,14 @@ struct CsvTable {
   /// A column of numbers. Throws InputError, with the line, for what is not a number, and when
   /// there is no such column.
   std::vector<double> Numbers(const std::string& column) const;
+  /// The same where an empty cell is no number.
+  std::vector<std::optional<double>> NumbersOrEmpty(const std::string& column) const;
+  /// A column as it stands. Throws InputError when there is no such column.
+  std::vector<std::string> Texts(const std::string& column) const;
+
+ private:
+  size_t Index(const std::string& column) const;
+  double Number(size_t row, size_t column) const;
 };
 
 /// Throws InputError as path:line: when a row has not as many cells as the header, when a quote is

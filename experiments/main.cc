@@ -59,6 +59,34 @@ int main(int argc, char** argv) {
   run_app->add_flag("--quiet", run.quiet, "print nothing but errors");
   run_app->add_flag("--json", run.json, "print the summary as JSON");
 
+  SmoothCommand smooth;
+  std::vector<std::string> smooth_sets;
+  CLI::App* smooth_app = app.add_subcommand(
+      "smooth",
+      "Smooth given footsteps with each method, write a run folder.\n\n"
+      "  example: halfstep smooth runs/bar_8cm --method ipopt --method halfstep/barrier");
+  smooth_app->add_option("CONFIG", smooth.run.config, "config with footsteps, or a run folder")
+      ->required();
+  smooth_app->add_option("--method", smooth.methods, "in place of smoothing.methods; repeatable")
+      ->allow_extra_args(false);
+  smooth_app->add_option("--set", smooth_sets, "override a key of the config: KEY=VALUE")
+      ->allow_extra_args(false);
+  smooth_app->add_option("--out", smooth.run.out,
+                         "run folder (default: as `run`; RUN-smooth of a run folder)");
+  smooth_app->add_flag("--overwrite", smooth.run.overwrite, "replace an older run");
+  smooth_app->add_flag("--quiet", smooth.run.quiet, "print nothing but errors");
+  smooth_app->add_flag("--json", smooth.run.json, "print the summary as JSON");
+
+  CompareCommand compare;
+  CLI::App* compare_app =
+      app.add_subcommand("compare",
+                         "Compare the methods of runs; failures count as failures.\n\n"
+                         "  example: halfstep compare runs/bar_5cm runs/bar_8cm --out runs/bars");
+  compare_app->add_option("RUN", compare.runs, "run folder, or LABEL=RUN")->required();
+  compare_app->add_option("--out", compare.out, "folder for the tables as CSV");
+  compare_app->add_flag("--overwrite", compare.overwrite, "replace an older comparison");
+  compare_app->add_flag("--quiet", compare.quiet, "print nothing but errors");
+
   CertifyCommand certify;
   std::vector<std::string> certify_sets;
   CLI::App* certify_app = app.add_subcommand(
@@ -133,7 +161,8 @@ int main(int argc, char** argv) {
     return app.exit(error) == 0 ? kSuccess : kBadInput;
   }
   if (app.get_subcommands().empty()) {
-    std::cerr << "halfstep: which command? (valid: run, plan, bake, draw, certify, verify, list; "
+    std::cerr << "halfstep: which command? (valid: run, smooth, compare, plan, bake, draw, "
+                 "certify, verify, list; "
                  "`halfstep -h` explains)\n";
     return kBadInput;
   }
@@ -141,6 +170,7 @@ int main(int argc, char** argv) {
     if (*run_app) {
       for (const std::string& set : sets) run.overrides.push_back(ParseOverride(set));
     }
+    for (const std::string& set : smooth_sets) smooth.run.overrides.push_back(ParseOverride(set));
     for (const std::string& set : certify_sets) certify.overrides.push_back(ParseOverride(set));
     if (*draw_app) {
       std::cout << DrawScene(draw_name, draw_count, static_cast<std::uint64_t>(draw_seed));
@@ -155,6 +185,8 @@ int main(int argc, char** argv) {
       plan.json = list_json;
     }
     const int status = *run_app               ? Run(run)
+                       : *smooth_app          ? Smooth(smooth)
+                       : *compare_app         ? CompareRuns(compare)
                        : *plan_app            ? Plan(plan)
                        : *bake_app            ? Bake(plan)
                        : !plan.config.empty() ? ListHalfSteps(plan)

@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "experiments/build_info.h"
+#include "experiments/methods.h"
 #include "smoothing/sampled_feasibility.h"
 
 namespace halfstep {
@@ -42,8 +43,40 @@ std::string FileSha256(const std::filesystem::path& path) {
   return Sha256(std::string(std::istreambuf_iterator<char>(file), {}));
 }
 
-ordered_json MethodJson(const MethodRun& run) {
+// The options that a method was asked to work with; `raw` has none.
+ordered_json Requested(const std::string& method, const SmoothingConfig& config) {
+  if (method == "raw") return ordered_json::object();
+  const DichotomyOptions& dichotomy = config.dichotomy;
+  const OptimizerOptions& optimizer = config.optimizer;
+  const ProgramOptions& program = optimizer.program;
+  switch (FindMethod(method).options) {
+    case OptionGroup::kNone:
+      break;
+    case OptionGroup::kDichotomy:
+      return {{"variables", "overlaps"},
+              {"tolerance_s", dichotomy.tolerance},
+              {"order", dichotomy.order == DichotomyOptions::Order::kLeftToRight ? "left_to_right"
+                                                                                 : "right_to_left"},
+              {"passes", dichotomy.passes},
+              {"up_down_cap", dichotomy.up_down_cap},
+              {"down_up_cap", dichotomy.down_up_cap}};
+    case OptionGroup::kOptimizer:
+      return {{"variables", std::string("overlaps") + (program.heights ? "+heights" : "") +
+                                (program.durations ? "+durations" : "")},
+              {"duration_limit_s", optimizer.duration_limit},
+              {"instants", program.table.instants},
+              {"random_starts", optimizer.random_starts},
+              {"rounds", optimizer.rounds},
+              {"max_iterations", optimizer.max_iterations},
+              {"deadline_s", optimizer.deadline},
+              {"tolerance_s", optimizer.tolerance}};
+  }
+  return {{"variables", "overlaps"}};
+}
+
+ordered_json MethodJson(const MethodRun& run, const SmoothingConfig& config) {
   return {{"name", run.method},
+          {"requested", Requested(run.method, config)},
           {"status", Name(run.result.status)},
           {"message", run.result.message},
           {"evidence", Name(run.result.evidence)},
@@ -83,13 +116,16 @@ std::string ManifestJson(const Experiment& experiment, const std::string& resolv
                            {"robot_sha256", FileSha256(RobotPath(experiment.config))},
                            {"scene", experiment.scene.name},
                            {"half_steps", experiment.sequence.size()},
+                           {"objective", Name(experiment.config.smoothing.optimizer.program.kind)},
                            {"acceptance", acceptance},
                            {"host", Host()},
                            {"wall_s", total_wall}};
   if (const auto scene = ScenePath(experiment.config))
     manifest["scene_sha256"] = FileSha256(*scene);
   for (const auto& [library, version] : kLibraries) manifest["libraries"][library] = version;
-  for (const MethodRun& run : runs) manifest["methods"].push_back(MethodJson(run));
+  for (const MethodRun& run : runs) {
+    manifest["methods"].push_back(MethodJson(run, experiment.config.smoothing));
+  }
   return manifest.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 

@@ -16,7 +16,8 @@ Method SolverMethod(const std::string& solver) {
             OptimizerOptions optimizer = options.optimizer;
             optimizer.solver = solver;
             return OptimizeOverlaps(sequence, test, optimizer, progress, stop);
-          }};
+          },
+          OptionGroup::kOptimizer};
 }
 
 std::vector<Method> MakeMethods() {
@@ -25,7 +26,8 @@ std::vector<Method> MakeMethods() {
        [](const HalfStepSequence& sequence, const FeasibilityTest& test,
           const MethodOptions& options, const Progress& progress, std::stop_token stop) {
          return Dichotomy(sequence, test, options.dichotomy, progress, stop);
-       }},
+       },
+       OptionGroup::kDichotomy},
       {"dichotomy/published", "the same as published: 0.05 s, one pass, caps 0.8 and 0.76",
        [](const HalfStepSequence& sequence, const FeasibilityTest& test, const MethodOptions&,
           const Progress& progress, std::stop_token stop) {

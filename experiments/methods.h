@@ -18,6 +18,9 @@ struct MethodOptions {
   OptimizerOptions optimizer;
 };
 
+/// The group of smoothing.* whose options a method takes.
+enum class OptionGroup { kNone, kDichotomy, kOptimizer };
+
 /// A smoothing method by the name that a config gives it.
 struct Method {
   std::string name;
@@ -26,6 +29,7 @@ struct Method {
                                 const MethodOptions&, const std::function<void(double)>&,
                                 std::stop_token)>
       smooth;
+  OptionGroup options = OptionGroup::kNone;
 };
 
 /// Every method there is. To add one, add a row.

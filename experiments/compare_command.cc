@@ -1,0 +1,56 @@
+#include <filesystem>
+#include <iostream>
+
+#include "experiments/commands.h"
+#include "experiments/comparison_tables.h"
+#include "experiments/run_folder.h"
+#include "wpg/input/input_error.h"
+
+namespace halfstep {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A comparison never takes the place of a run.
+void CheckPlace(const CompareCommand& command) {
+  if (!command.out) return;
+  if (command.out->empty()) throw InputError({"--out: no folder is named (valid: a path)"});
+  if (fs::exists(fs::path(*command.out) / "manifest.json") &&
+      !fs::exists(fs::path(*command.out) / "comparison.csv")) {
+    throw InputError({"--out: " + *command.out +
+                      " is a run folder (valid: a new folder, or one of an older comparison)"});
+  }
+}
+
+}  // namespace
+
+ExitStatus CompareRuns(const CompareCommand& command) {
+  CheckPlace(command);
+  std::vector<RunRecord> runs;
+  std::vector<std::string> complaints;
+  for (const std::string& run : command.runs) {
+    try {
+      runs.push_back(ReadRun(run));
+    } catch (const InputError& error) {
+      complaints.insert(complaints.end(), error.complaints().begin(), error.complaints().end());
+    }
+  }
+  if (!complaints.empty()) throw InputError(complaints);
+  const Comparison comparison = Compare(runs);
+  if (command.out) {
+    RunFolder folder(*command.out, command.overwrite);
+    folder.Write("comparison.csv", ComparisonCsv(comparison));
+    folder.Write("performance_profile.csv", PerformanceProfileCsv(comparison));
+    folder.Write("anytime.csv", AnytimeCsv(comparison));
+    folder.Write("means.csv", MeansCsv(comparison));
+    folder.Write("manifest.json", ComparisonManifest(runs));
+    folder.Publish();
+  }
+  if (!command.quiet) {
+    std::cout << ComparisonScreen(comparison);
+    if (command.out) std::cout << "\nwritten: " << *command.out << '\n';
+  }
+  return kSuccess;
+}
+
+}  // namespace halfstep
