@@ -43,7 +43,12 @@ class Optimization {
 
   SmoothingResult Run() {
     DichotomyOptions dichotomy{.tolerance = options_.tolerance};
+    if (options_.start) {
+      dichotomy.start = options_.start;
+      dichotomy.passes = 0;
+    }
     result_ = Dichotomy(sequence_, test_, dichotomy, Part(0.0, 0.2), stop_);
+    dichotomy.passes = 1;
     result_.cost = DurationOf(result_.parameters);
     if (result_.status != SmoothingStatus::kFinished) return std::move(result_);
 
@@ -223,6 +228,7 @@ class Optimization {
       SmoothingResult polished = Dichotomy(sequence_, test_, dichotomy, Part(0.9, 1.0), stop_);
       for (SmoothingIterate& iterate : polished.iterates) {
         iterate.wall += Elapsed() - polished.wall;
+        iterate.evaluations += result_.instants;
         result_.iterates.push_back(iterate);
       }
       result_.parameters = polished.parameters;
