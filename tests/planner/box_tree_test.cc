@@ -128,7 +128,7 @@ void ExpectExact(unsigned seed, bool upright, double extra, const ConvexBody& bo
   SweptDraw draw(seed);
   const BoxTree tree = BoxTree::Build(Lump(&draw, 0.1));
   int met = 0, missed = 0;
-  for (int trial = 0; trial < 120; ++trial) {
+  for (int trial = 0; trial < 70; ++trial) {
     Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
     X.linear() = draw.Turn(upright);
     X.translation() = draw.Point({-0.7, -0.7, 0.0}, {0.7, 0.7, 1.1});
@@ -142,8 +142,8 @@ void ExpectExact(unsigned seed, bool upright, double extra, const ConvexBody& bo
       ++met;
     }
   }
-  EXPECT_GT(met, 5);
-  EXPECT_GT(missed, 5);
+  EXPECT_GT(met, 3);
+  EXPECT_GT(missed, 3);
 }
 
 TEST(BoxTreeQueryTest, BoxesMeetExactlyWhatTheSolidBoxesMeet) {

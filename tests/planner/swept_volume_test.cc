@@ -88,7 +88,7 @@ TEST(SweptVolumeTest, FinerBakesAreSmaller) {
   const Lipm lipm = LipmOf(SweptRobot());
   const HalfStep half_step = FewHalfSteps().Down(0, Side::kLeft);
   double last = 1e9;
-  for (const double cell : {0.08, 0.04, 0.02}) {
+  for (const double cell : {0.1, 0.05, 0.03}) {
     const SweptVolumeBaker baker(SweptRobot(), {.cell = cell, .displacement = 0.3 * cell});
     const auto volume = baker.Bake(half_step, lipm);
     ASSERT_TRUE(volume);
