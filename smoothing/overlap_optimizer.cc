@@ -43,12 +43,7 @@ class Optimization {
 
   SmoothingResult Run() {
     DichotomyOptions dichotomy{.tolerance = options_.tolerance};
-    if (options_.start) {
-      dichotomy.start = options_.start;
-      dichotomy.passes = 0;
-    }
     result_ = Dichotomy(sequence_, test_, dichotomy, Part(0.0, 0.2), stop_);
-    dichotomy.passes = 1;
     result_.cost = DurationOf(result_.parameters);
     if (result_.status != SmoothingStatus::kFinished) return std::move(result_);
 
