@@ -1,0 +1,66 @@
+// What the references find: uniform scan, coordinate ascent, dynamic programming. Not a test.
+// Run: reference_study CONFIG METHOD VARIABLES
+//      METHOD: uniform, coordinate, reference; VARIABLES: o, oh, ot or oht (overlaps, heights,
+//      durations)
+
+#include <cstdio>
+#include <string>
+
+#include "experiments/experiment.h"
+#include "smoothing/certified_feasibility.h"
+#include "smoothing/coordinate_ascent.h"
+#include "smoothing/dichotomy.h"
+#include "smoothing/grid_reference.h"
+#include "smoothing/overlap_optimizer.h"
+#include "smoothing/uniform_scan.h"
+
+namespace halfstep {
+namespace {
+
+SmoothingResult Smooth(const HalfStepSequence& sequence, const FeasibilityTest& test,
+                       const std::string& method, bool heights, bool durations) {
+  if (method == "dichotomy") return Dichotomy(sequence, test, {});
+  const UniformScanOptions scan{.heights = heights, .durations = durations};
+  if (method == "uniform") return UniformScan(sequence, test, scan);
+  const CoordinateAscentOptions ascent{.heights = heights, .durations = durations};
+  if (method == "coordinate") return CoordinateAscent(sequence, test, ascent);
+  GridReferenceOptions options{.heights = heights, .durations = durations};
+  if (heights || durations) {
+    options.starts.push_back(UniformScan(sequence, test, scan).parameters);
+    options.starts.push_back(CoordinateAscent(sequence, test, ascent).parameters);
+    OptimizerOptions optimizer;
+    optimizer.program.heights = heights;
+    optimizer.program.durations = durations;
+    options.starts.push_back(OptimizeOverlaps(sequence, test, optimizer).parameters);
+  }
+  return GridReference(sequence, test, options);
+}
+
+void Study(const std::string& config, const std::string& method, const std::string& variables) {
+  const Experiment e = Prepare(LoadConfig(
+      std::string(HALFSTEP_SOURCE_DIR) + "/experiments/configs/" + config + ".yaml", {}));
+  const MarginEvaluator evaluator(e.robot, e.scene, e.config.smoothing.limits);
+  const CertifiedFeasibility test(evaluator, {});
+  const SmoothingResult result =
+      Smooth(e.sequence, test, method, variables.find('h') != std::string::npos,
+             variables.find('t') != std::string::npos);
+  MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
+  const SuperposedWalk walk(e.sequence, result.parameters);
+  const bool certified =
+      test.Check(walk, {0.0, walk.duration()}, &scratch).verdict == Verdict::kFeasible;
+  std::printf("%-20s %-11s %-4s D %.4f s, %s, %s, %.1f s, %ld instants, %s\n", config.c_str(),
+              method.c_str(), variables.c_str(), walk.duration(),
+              certified ? "certified" : "NOT CERTIFIED", std::string(Name(result.status)).c_str(),
+              result.wall, result.instants, result.message.c_str());
+}
+
+}  // namespace
+}  // namespace halfstep
+
+int main(int argc, char** argv) {
+  if (argc != 4) {
+    std::fprintf(stderr, "usage: reference_study CONFIG METHOD VARIABLES\n");
+    return 2;
+  }
+  halfstep::Study(argv[1], argv[2], argv[3]);
+}
