@@ -23,6 +23,9 @@ struct Four {
   friend Four operator+(Four a, Four b) { return Four(_mm_add_ps(a.v, b.v)); }
   friend Four operator-(Four a, Four b) { return Four(_mm_sub_ps(a.v, b.v)); }
   friend Four operator*(Four a, Four b) { return Four(_mm_mul_ps(a.v, b.v)); }
+  friend Four Min(Four a, Four b) { return Four(_mm_min_ps(a.v, b.v)); }
+  friend Four Max(Four a, Four b) { return Four(_mm_max_ps(a.v, b.v)); }
+  void Store(float* to) const { _mm_storeu_ps(to, v); }
   Four Abs() const { return Four(_mm_andnot_ps(_mm_set1_ps(-0.0f), v)); }
   /// Bit c: component c is at most that of `most`.
   int Within(Four most) const { return _mm_movemask_ps(_mm_cmple_ps(v, most.v)); }
@@ -39,6 +42,9 @@ struct Four {
   friend Four operator+(const Four& a, const Four& b) { return Four(a.v + b.v); }
   friend Four operator-(const Four& a, const Four& b) { return Four(a.v - b.v); }
   friend Four operator*(const Four& a, const Four& b) { return Four(a.v * b.v); }
+  friend Four Min(const Four& a, const Four& b) { return Four(a.v.min(b.v)); }
+  friend Four Max(const Four& a, const Four& b) { return Four(a.v.max(b.v)); }
+  void Store(float* to) const { Eigen::Map<Eigen::Array4f>(to) = v; }
   Four Abs() const { return Four(v.abs()); }
   int Within(const Four& most) const {
     int mask = 0;

@@ -17,7 +17,7 @@ namespace halfstep {
 namespace {
 
 constexpr int kFormat = 1;     // of the file: change when the bytes change
-constexpr int kGenerator = 2;  // change when the same input bakes another volume
+constexpr int kGenerator = 3;  // change when the same input bakes another volume
 constexpr uint32_t kNone = 0xffffffff;
 
 std::string Exactly(double value) {

@@ -3,13 +3,23 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/four_floats.h"
 #include "wpg/check.h"
 
 namespace halfstep {
 namespace {
 
-constexpr double kRounding = 1e-9;  // [m] by which cells and regions count as larger
-constexpr double kUpright = 1e-6;   // |n_z| below which a half-space bounds columns, not z
+// By which regions count as larger, of their size and height: half-spaces are cut in float, where a
+// metre over kSteep is off by 1e-5 m.
+constexpr double kRounding = 4e-5;
+// Least |n_z| of a half-space that cuts z as it is. Of a steeper one only its least bound over the
+// region's height is kept.
+constexpr double kSteep = 0.01;
+
+// Above or below a column: z ≤ (or ≥) at + per_x·i + per_y·j, i and j counted in cells.
+struct Cut {
+  float at, per_x, per_y;
+};
 
 }  // namespace
 
@@ -35,45 +45,59 @@ void VoxelGrid::OccupyRange(int i, int j, int from, int to) {
 }
 
 void VoxelGrid::Fill(const HalfSpaces& region) {
-  const Eigen::Vector3d slack = Eigen::Vector3d::Constant(kRounding);
+  const double size = (region.upper - region.lower).maxCoeff() +
+                      std::max(std::abs(region.lower.z()), std::abs(region.upper.z()));
+  const double rounding = kRounding * std::max(1.0, size);  // [m]
+  const Eigen::Vector3d slack = Eigen::Vector3d::Constant(rounding);
+  const Eigen::Vector3d lower = region.lower - slack, upper = region.upper + slack;
   const auto index = [&](const Eigen::Vector3d& p) -> Eigen::Vector3i {
     return ((p - origin_) / cell_).array().floor().matrix().cast<int>();
   };
-  const Eigen::Vector3i first = index(region.lower - slack), last = index(region.upper + slack);
+  const Eigen::Vector3i first = index(lower), last = index(upper);
   HALFSTEP_CHECK((first.array() >= 0).all() && (last.array() < size_.array()).all(),
                  "the region leaves the grid: " << first.transpose() << " … " << last.transpose());
-  const Eigen::Index columns = last.x() - first.x() + 1;
-  const Eigen::ArrayXd steps =
-      Eigen::ArrayXd::LinSpaced(columns, 0.0, static_cast<double>(columns - 1));
-  const double x0 = origin_.x() + first.x() * cell_;
-  Eigen::ArrayXd low(columns), high(columns);
-  const Eigen::Index planes = region.normals.cols();
-  for (int j = first.y(); j <= last.y(); ++j) {
-    const double y0 = origin_.y() + j * cell_;
-    low.setConstant(region.lower.z() - kRounding);
-    high.setConstant(region.upper.z() + kRounding);
-    for (Eigen::Index p = 0; p < planes; ++p) {
-      const Eigen::Vector3d& n = region.normals.col(p);
-      // What is left for n_z·z in the column that begins at x0, at the best corner of its
-      // rectangle.
-      const double room = region.offsets[p] + kRounding - n.x() * (n.x() > 0 ? x0 : x0 + cell_) -
-                          n.y() * (n.y() > 0 ? y0 : y0 + cell_);
-      const double slope = -n.x() * cell_;
-      if (n.z() > kUpright) {
-        high = high.min(room / n.z() + slope / n.z() * steps);
-      } else if (n.z() < -kUpright) {
-        low = low.max(room / n.z() + slope / n.z() * steps);
-      } else {
-        const double most = room - std::min(n.z() * region.lower.z(), n.z() * region.upper.z());
-        high = (most + slope * steps < 0.0).select(-std::numeric_limits<double>::infinity(), high);
-      }
+  const Eigen::Vector3d corner = origin_ + cell_ * first.cast<double>();
+  std::vector<Cut> above, below;
+  for (Eigen::Index p = 0; p < region.normals.cols(); ++p) {
+    const Eigen::Vector3d& n = region.normals.col(p);
+    // What the half-space leaves for n_z·z in the first column, at the best corner of its
+    // rectangle.
+    double room = region.offsets[p] - n.x() * (corner.x() + (n.x() > 0 ? 0 : cell_)) -
+                  n.y() * (corner.y() + (n.y() > 0 ? 0 : cell_));
+    double slope = n.z();
+    if (std::abs(n.z()) < kSteep) {
+      // room − min n_z·z ≥ 0 in each column that is met; so upper.z and more of it bounds z.
+      slope = kSteep;
+      room += slope * upper.z() - std::min(n.z() * lower.z(), n.z() * upper.z());
     }
-    for (Eigen::Index c = 0; c < columns; ++c) {
-      if (!(low[c] <= high[c])) continue;
-      const double from = std::floor((low[c] - kRounding - origin_.z()) / cell_);
-      const double to = std::floor((high[c] + kRounding - origin_.z()) / cell_);
-      OccupyRange(first.x() + static_cast<int>(c), j, std::max(static_cast<int>(from), 0),
-                  std::min(static_cast<int>(to), size_.z() - 1));
+    const double at = room / slope + (slope > 0 ? rounding : -rounding);
+    (slope > 0 ? above : below)
+        .push_back({static_cast<float>(at), static_cast<float>(-n.x() * cell_ / slope),
+                    static_cast<float>(-n.y() * cell_ / slope)});
+  }
+  const Four top(static_cast<float>(upper.z())), bottom(static_cast<float>(lower.z()));
+  const float offsets[4] = {0, 1, 2, 3};
+  for (int j = 0; first.y() + j <= last.y(); ++j) {
+    for (int i = 0; first.x() + i <= last.x(); i += 4) {
+      const Four columns = Four(static_cast<float>(i)) + Four::Load(offsets);
+      const float row = static_cast<float>(j);
+      Four high = top, low = bottom;
+      for (const Cut& cut : above) {
+        high = Min(high, Four(cut.at + row * cut.per_y) + Four(cut.per_x) * columns);
+      }
+      for (const Cut& cut : below) {
+        low = Max(low, Four(cut.at + row * cut.per_y) + Four(cut.per_x) * columns);
+      }
+      float from[4], to[4];
+      low.Store(from);
+      high.Store(to);
+      for (int c = 0; c < 4 && first.x() + i + c <= last.x(); ++c) {
+        if (!(from[c] <= to[c])) continue;
+        const double k0 = std::floor((from[c] - rounding - origin_.z()) / cell_);
+        const double k1 = std::floor((to[c] + rounding - origin_.z()) / cell_);
+        OccupyRange(first.x() + i + c, first.y() + j, std::max(static_cast<int>(k0), 0),
+                    std::min(static_cast<int>(k1), size_.z() - 1));
+      }
     }
   }
 }

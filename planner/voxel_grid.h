@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 namespace halfstep {
