@@ -127,6 +127,11 @@ PlannedWalk PlanWalk(const ExperimentConfig& config, const PlanningHooks& hooks)
     walk.plan.sentence = "interrupted while half-steps were baked";
     return walk;
   }
+  if (const auto on_area = FootprintOnNoStep({config, place.robot, place.scene, {}})) {
+    walk.plan.status = PlanStatus::kStartBlocked;
+    walk.plan.sentence = *on_area;
+    return walk;
+  }
   const SweptVolumes& volumes = *walk.half_steps.cached.volumes;
   const SweptVolumeQuery query(volumes, place.robot.sole_size, place.scene);
   const HalfStepCertifier certifier(place.robot, place.scene, config);

@@ -15,7 +15,7 @@ struct Node {
   int parent = -1;
   int k = -1;  // element that led here
   double cost = 0.0;
-  std::vector<std::uint16_t> order;
+  std::vector<std::uint32_t> order;
 };
 
 // The next edge of a node to look at.
@@ -81,9 +81,9 @@ class WeightedSearch {
     for (int k = 0; k < graph_.size(); ++k) {
       const Pose2& X_WF = landings_[static_cast<size_t>(k)];
       promises_.push_back(Promises(node, k, X_WF));
-      if (promises_.back().wanted) node.order.push_back(static_cast<std::uint16_t>(k));
+      if (promises_.back().wanted) node.order.push_back(static_cast<std::uint32_t>(k));
     }
-    std::sort(node.order.begin(), node.order.end(), [this](std::uint16_t a, std::uint16_t b) {
+    std::sort(node.order.begin(), node.order.end(), [this](std::uint32_t a, std::uint32_t b) {
       return std::tie(promises_[a].key, promises_[a].guess, a) <
              std::tie(promises_[b].key, promises_[b].guess, b);
     });
