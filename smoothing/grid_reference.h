@@ -22,7 +22,7 @@ struct GridReferenceOptions {
   int global_values = 10;
   double widest = 0.1;       ///< first step of the corridor: Δ [s], T and η relative
   double narrowest = 0.002;  ///< the corridor ends when its step is smaller
-  int choices = 4;           ///< ≥ 2: of each half-step in the corridor when η or T are searched
+  int choices = 3;           ///< ≥ 2: of each half-step in the corridor when η or T are searched
   int patience = 3;          ///< ≥ 1: rounds without gain before the step is halved
   unsigned seed = 1;         ///< of the corridor's directions when η or T are searched
   int max_rounds = 400;      ///< of each corridor
