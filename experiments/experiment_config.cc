@@ -76,17 +76,58 @@ void DeclareDichotomy(Fields& fields, DichotomyOptions* o) {
                  .max = 1});
 }
 
-void DeclareOptimizer(Fields& fields, OptimizerOptions* o) {
+void DeclareWeights(Fields& fields, EffortWeights* w) {
+  const auto weight = [&](const char* key, double* value, const char* meaning, const char* unit) {
+    fields.Number(key, value, {.meaning = meaning, .unit = unit, .min = 0, .max = 1000});
+  };
+  weight("com_acceleration", &w->com_acceleration, "of ∫‖c̈‖² dt", "s⁴/m²");
+  weight("com_jerk", &w->com_jerk, "of ∫‖c⃛‖² dt", "s⁶/m²");
+  weight("foot_speed", &w->foot_speed, "of ∫‖v‖² dt of both soles", "s²/m²");
+}
+
+void DeclareOptimizer(Fields& fields, OptimizerConfig* c) {
+  OptimizerOptions* o = &c->options;
+  fields.Text("program", &c->program,
+              {.meaning = "what is optimized: duration; duration and effort; the least slack for a "
+                          "duration; that for a range of durations",
+               .choices = {"fastest", "smooth", "safest", "pareto"}});
+  for (ProgramKind kind : {ProgramKind::kFastest, ProgramKind::kSmooth, ProgramKind::kSafest}) {
+    if (c->program == Name(kind)) o->program.kind = kind;
+  }
   fields.Boolean("heights", &o->program.heights,
                  {.meaning = "foot-height scales are variables beside the overlaps"});
   fields.Boolean("durations", &o->program.durations,
                  {.meaning = "durations of half-steps are variables beside the overlaps"});
+  fields.Number("least_height_scale", &o->program.least_height_scale,
+                {.meaning = "of the planned height", .min = 0.01, .max = 1});
+  fields.Number("least_duration", &o->program.least_duration,
+                {.meaning = "of the planned duration of a half-step", .min = 0.2, .max = 1});
+  fields.Number("most_duration", &o->program.most_duration,
+                {.meaning = "of the planned duration of a half-step", .min = 1, .max = 5});
+  fields.Number("duration_s", &o->duration_limit,
+                {.meaning = "`safest`: of the walk at most; 0: the dichotomy's own",
+                 .unit = "s",
+                 .min = 0,
+                 .max = 100000});
+  fields.Integer("pareto_points", &c->pareto.points,
+                 {.meaning = "`pareto`: durations", .min = 2, .max = 200});
+  fields.Number(
+      "pareto_longest", &c->pareto.most_duration,
+      {.meaning = "`pareto`: longest duration, of the planned motion's", .min = 0.1, .max = 3});
+  fields.Group("weights", {.meaning = "`smooth`: of the effort beside the duration"},
+               [&](Fields& f) { DeclareWeights(f, &o->program.weights); });
   fields.Integer("instants", &o->program.table.instants,
                  {.meaning = "per half-step at which the program looks", .min = 2, .max = 1000});
+  fields.Integer("rounds", &o->rounds,
+                 {.meaning = "solves from each start, each looking closer", .min = 1, .max = 100});
+  fields.Integer("random_starts", &o->random_starts,
+                 {.meaning = "further starts, drawn from `seed`", .min = 0, .max = 1000});
   fields.Integer("max_iterations", &o->max_iterations,
-                 {.meaning = "of the solver", .min = 1, .max = 100000});
+                 {.meaning = "of the solver in the first round; a third of it in later ones",
+                  .min = 1,
+                  .max = 100000});
   fields.Number("deadline_s", &o->deadline,
-                {.meaning = "of the solver", .unit = "s", .min = 0.001, .max = 86400});
+                {.meaning = "of all solves together", .unit = "s", .min = 0.001, .max = 86400});
 }
 
 void DeclareLimits(Fields& fields, MarginLimits* l) {

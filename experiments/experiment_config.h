@@ -9,6 +9,7 @@
 #include "smoothing/dichotomy.h"
 #include "smoothing/margins.h"
 #include "smoothing/overlap_optimizer.h"
+#include "smoothing/pareto.h"
 #include "wpg/input/fields.h"
 #include "wpg/input/yaml_fields.h"
 #include "wpg/pose2.h"
@@ -32,13 +33,20 @@ struct HalfStepConfig {
   double horizontal_delay = 0.1;  ///< of T
 };
 
+/// Options of the methods that are solvers.
+struct OptimizerConfig {
+  std::string program = "fastest";
+  OptimizerOptions options;
+  ParetoOptions pareto;
+};
+
 struct SmoothingConfig {
   std::vector<std::string> methods = {"dichotomy"};
   std::string acceptance = "certified";
   double sampling = 0.005;  ///< [s], of acceptance `sampled`
   CertificationOptions certification;
   DichotomyOptions dichotomy;
-  OptimizerOptions optimizer;
+  OptimizerConfig optimizer;
   MarginLimits limits;
 };
 

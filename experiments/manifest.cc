@@ -47,7 +47,7 @@ std::string FileSha256(const std::filesystem::path& path) {
 ordered_json Requested(const std::string& method, const SmoothingConfig& config) {
   if (method == "raw") return ordered_json::object();
   const DichotomyOptions& dichotomy = config.dichotomy;
-  const OptimizerOptions& optimizer = config.optimizer;
+  const OptimizerOptions& optimizer = config.optimizer.options;
   const ProgramOptions& program = optimizer.program;
   switch (FindMethod(method).options) {
     case OptionGroup::kNone:
@@ -116,7 +116,7 @@ std::string ManifestJson(const Experiment& experiment, const std::string& resolv
                            {"robot_sha256", FileSha256(RobotPath(experiment.config))},
                            {"scene", experiment.scene.name},
                            {"half_steps", experiment.sequence.size()},
-                           {"objective", Name(experiment.config.smoothing.optimizer.program.kind)},
+                           {"objective", experiment.config.smoothing.optimizer.program},
                            {"acceptance", acceptance},
                            {"host", Host()},
                            {"wall_s", total_wall}};

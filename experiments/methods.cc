@@ -13,11 +13,14 @@ namespace {
 using Progress = std::function<void(double)>;
 
 Method SolverMethod(const std::string& solver) {
-  return {solver, "the program `fastest` by this solver, between two dichotomies",
+  return {solver, "smoothing.optimizer.program by this solver, from the dichotomy's result",
           [solver](const HalfStepSequence& sequence, const FeasibilityTest& test,
                    const MethodOptions& options, const Progress& progress, std::stop_token stop) {
             OptimizerOptions optimizer = options.optimizer;
             optimizer.solver = solver;
+            if (options.pareto) {
+              return ParetoCurve(sequence, test, optimizer, *options.pareto, progress, stop);
+            }
             return OptimizeOverlaps(sequence, test, optimizer, progress, stop);
           },
           OptionGroup::kOptimizer};

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "smoothing/dichotomy.h"
 #include "smoothing/feasibility_test.h"
 #include "smoothing/overlap_optimizer.h"
+#include "smoothing/pareto.h"
 #include "smoothing/smoothing_result.h"
 #include "wpg/half_step_sequence.h"
 
@@ -16,6 +18,7 @@ namespace halfstep {
 struct MethodOptions {
   DichotomyOptions dichotomy;
   OptimizerOptions optimizer;
+  std::optional<ParetoOptions> pareto;  ///< the program is `pareto`
 };
 
 /// The group of smoothing.* whose options a method takes.

@@ -1,5 +1,7 @@
 #include "experiments/result_tables.h"
 
+#include <algorithm>
+
 #include "experiments/csv_writer.h"
 #include "smoothing/sampled_feasibility.h"
 
@@ -45,12 +47,48 @@ std::string HalfStepsCsv(const HalfStepSequence& sequence, const MethodRun& run)
 }
 
 std::string OverlapsCsv(const MarginEvaluator& evaluator, const MethodRun& run) {
-  CsvWriter csv({"junction", "kind", "overlap_s", "upper_bound_s", "active"});
+  CsvWriter csv({"junction", "kind", "overlap_s", "upper_bound_s", "active", "limit_family",
+                 "limit_scale", "price_s", "multiplier_s", "duration_before_s", "duration_after_s",
+                 "height_scale_before", "height_scale_after"});
+  const HomotopyParameters& parameters = run.result.parameters;
   int index = 0;
   for (const JunctionResult& junction : run.result.junctions) {
     csv.Cell(++index).Cell(junction.kind == JunctionKind::kUpDown ? "up_down" : "down_up");
     csv.Cell(junction.overlap).Cell(junction.upper_bound);
-    csv.Cell(Active(evaluator, junction)).EndRow();
+    csv.Cell(Active(evaluator, junction));
+    if (junction.limited_by) {
+      csv.Cell(Name(junction.limited_by->family)).Cell(Scale(junction.limited_by->family));
+    } else {
+      csv.Empty().Empty();
+    }
+    junction.price ? csv.Cell(*junction.price) : csv.Empty();
+    junction.multiplier ? csv.Cell(*junction.multiplier) : csv.Empty();
+    const size_t after = static_cast<size_t>(index), before = after - 1;
+    csv.Cell(parameters.durations[before]).Cell(parameters.durations[after]);
+    csv.Cell(parameters.height_scales[before / 2]).Cell(parameters.height_scales[after / 2]);
+    csv.EndRow();
+  }
+  return csv.text();
+}
+
+std::string ParetoCsv(const MarginEvaluator& evaluator, const HalfStepSequence& sequence,
+                      const MethodRun& run) {
+  constexpr double kPeriod = 0.005;
+  std::vector<std::string> columns = {"duration_s", "least_slack"};
+  for (MarginFamily family : AllMarginFamilies()) {
+    std::string unit(Unit(family));
+    std::replace(unit.begin(), unit.end(), '/', '_');
+    columns.push_back(std::string(Name(family)) + "_" + unit);
+  }
+  CsvWriter csv(columns);
+  MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
+  for (const ParetoPoint& point : run.result.pareto) {
+    csv.Cell(point.duration).Cell(point.least_slack);
+    const SuperposedWalk walk(sequence, point.parameters);
+    for (const Margin& margin : SampleMargins(evaluator, walk, kPeriod, &scratch)) {
+      csv.Cell(margin.value);
+    }
+    csv.EndRow();
   }
   return csv.text();
 }
@@ -73,18 +111,23 @@ std::string SummaryCsv(const MarginEvaluator& evaluator, const std::vector<Metho
   CsvWriter csv({"method", "status", "certified", "duration_s", "speedup", "cost", "worst_margin",
                  "worst_margin_name", "iterations", "margin_evaluations", "collision_queries",
                  "wall_s", "time_to_first_improvement_s", "gap_to_reference"});
+  std::optional<double> reference;
+  for (const MethodRun& run : runs) {
+    if (run.method == "reference") reference = run.duration;
+  }
   for (const MethodRun& run : runs) {
     const SmoothingResult& result = run.result;
     const Margin& worst = WorstOf(run.margins, evaluator.limits());
     csv.Cell(run.method)
         .Cell(Name(result.status))
         .Cell(run.certified.answer.verdict == Verdict::kFeasible);
-    csv.Cell(run.duration).Cell(runs.front().duration / run.duration).Cell(run.duration);
+    csv.Cell(run.duration).Cell(runs.front().duration / run.duration).Cell(result.cost);
     csv.Cell(worst.value).Cell(Name(worst.family));
     csv.Cell(static_cast<long>(result.iterates.size())).Cell(result.instants);
     csv.Cell(result.collision_queries).Cell(result.wall);
     result.time_to_first_improvement ? csv.Cell(*result.time_to_first_improvement) : csv.Empty();
-    csv.Empty().EndRow();
+    reference ? csv.Cell(run.duration / *reference - 1.0) : csv.Empty();
+    csv.EndRow();
   }
   return csv.text();
 }

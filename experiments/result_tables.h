@@ -31,6 +31,10 @@ std::string FootstepsCsv(const HalfStepSequence& sequence);
 /// One row a half-step: where the homotopy ended in its duration and height.
 std::string HalfStepsCsv(const HalfStepSequence& sequence, const MethodRun& run);
 std::string OverlapsCsv(const MarginEvaluator& evaluator, const MethodRun& run);
+/// One row a point of a Pareto curve: duration, proved least slack, and each family's least margin
+/// sampled every 5 ms (inf: it is nowhere watched).
+std::string ParetoCsv(const MarginEvaluator& evaluator, const HalfStepSequence& sequence,
+                      const MethodRun& run);
 std::string IteratesCsv(const MethodRun& run);
 /// One row a method; speed-up against the first run, which is the planned motion.
 std::string SummaryCsv(const MarginEvaluator& evaluator, const std::vector<MethodRun>& runs);

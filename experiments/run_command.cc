@@ -16,6 +16,7 @@
 #include "experiments/run_folder.h"
 #include "experiments/run_screen.h"
 #include "smoothing/certified_feasibility.h"
+#include "smoothing/explain.h"
 #include "smoothing/sampled_feasibility.h"
 #include "wpg/input/input_error.h"
 
@@ -29,6 +30,7 @@ MethodRun PlannedRun(const Experiment& experiment, const FeasibilityTest& test) 
   const SuperposedWalk walk(experiment.sequence, PlannedMotion(experiment.sequence));
   const Feasibility answer = test.Check(walk, {0.0, walk.duration()}, &scratch);
   run.result.parameters = walk.parameters();
+  run.result.cost = walk.duration();
   run.result.evidence = test.evidence();
   run.result.instants = scratch.instants;
   run.result.collision_queries = scratch.bodies.queries;
@@ -49,6 +51,8 @@ void WriteRun(const Experiment& experiment, const CertifiedFeasibility& certifie
   if (run.result.junctions.empty()) return;
   folder->Write(place + "overlaps.csv", OverlapsCsv(evaluator, run));
   folder->Write(place + "iterates.csv", IteratesCsv(run));
+  if (run.result.pareto.empty()) return;
+  folder->Write(place + "pareto.csv", ParetoCsv(evaluator, experiment.sequence, run));
 }
 
 std::unique_ptr<FeasibilityTest> MakeTest(const MarginEvaluator& evaluator,
@@ -65,6 +69,14 @@ PlannedWalk PlanForRun(const ExperimentConfig& config, const RunCommand& command
   return PlanWalk(config,
                   {.progress = [&bar](const std::string&, double done) { bar.Update(done); },
                    .stop = std::move(stop)});
+}
+
+MethodOptions OptionsOf(const ExperimentConfig& config) {
+  const OptimizerConfig& optimizer = config.smoothing.optimizer;
+  MethodOptions options{config.smoothing.dichotomy, optimizer.options, {}};
+  options.optimizer.seed = static_cast<unsigned>(config.seed);
+  if (optimizer.program == "pareto") options.pareto = optimizer.pareto;
+  return options;
 }
 
 std::filesystem::path OutputFolder(const RunCommand& command, const ExperimentConfig& config) {
@@ -109,8 +121,10 @@ ExitStatus Run(const RunCommand& command) {
     ProgressBar bar(name, command.quiet || command.json);
     MethodRun run(name);
     run.result = FindMethod(name).smooth(
-        experiment.sequence, test, {config.smoothing.dichotomy, config.smoothing.optimizer},
-        [&bar](double done) { bar.Update(done); }, interrupt.token());
+        experiment.sequence, test, OptionsOf(config), [&bar](double done) { bar.Update(done); },
+        interrupt.token());
+    AddPrices(SuperposedWalk(experiment.sequence, run.result.parameters), evaluator,
+              &run.result.junctions);
     runs.push_back(std::move(run));
   }
   for (MethodRun& run : runs) {

@@ -1,5 +1,6 @@
 #include "experiments/run_screen.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -33,10 +34,11 @@ std::string Holders(const MarginEvaluator& evaluator, const MethodRun& run, Junc
     ++count;
     overlap += junction.overlap;
     bound += junction.upper_bound;
-    const std::string what = junction.limited_by
-                                 ? std::string(Name(junction.limited_by->family)) + " of " +
-                                       evaluator.Subject(*junction.limited_by)
-                                 : "their upper bound";
+    const std::string what =
+        junction.limited_by ? std::string(Name(junction.limited_by->family)) + " of " +
+                                  evaluator.Subject(*junction.limited_by)
+        : junction.overlap < junction.upper_bound - 1e-9 ? "the balance of the program"
+                                                         : "their upper bound";
     ++holders[what];
   }
   if (count == 0) return "";
@@ -49,6 +51,43 @@ std::string Holders(const MarginEvaluator& evaluator, const MethodRun& run, Junc
     separator = ", ";
   }
   return text + "\n";
+}
+
+// The junctions where a little less demanded would save most: "junction 5 (up→down), 0.612 s …".
+std::string Prices(const MarginEvaluator& evaluator, const MethodRun& run) {
+  constexpr size_t kMost = 3;
+  std::vector<std::pair<double, size_t>> dearest;
+  for (size_t j = 0; j < run.result.junctions.size(); ++j) {
+    if (run.result.junctions[j].price) dearest.push_back({-*run.result.junctions[j].price, j});
+  }
+  std::sort(dearest.begin(), dearest.end());
+  std::string text;
+  for (size_t k = 0; k < std::min(kMost, dearest.size()); ++k) {
+    const JunctionResult& junction = run.result.junctions[dearest[k].second];
+    const Margin& limit = *junction.limited_by;
+    text +=
+        Format("  junction %zu (%s), %.3f s: ", dearest[k].second + 1,
+               junction.kind == JunctionKind::kUpDown ? "up→down" : "down→up", junction.overlap) +
+        std::string(Name(limit.family)) + " of " + evaluator.Subject(limit) +
+        Format(" at half-step %d, τ = %.3f s; %g %s less demanded would save %.3f s",
+               limit.at.half_step + 1, limit.at.tau, Scale(limit.family),
+               std::string(Unit(limit.family)).c_str(), *junction.price);
+    if (junction.multiplier && *junction.multiplier > 0.0) {
+      text += Format(" (%.3f s with all parameters adapting)", *junction.multiplier);
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+// Rows of a Pareto curve.
+std::string Curve(const MethodRun& run) {
+  std::string text;
+  for (const ParetoPoint& point : run.result.pareto) {
+    text += Format("  %8.3f s: every margin at least %.2f of its scale inside\n", point.duration,
+                   point.least_slack);
+  }
+  return text;
 }
 
 }  // namespace
@@ -85,7 +124,8 @@ std::string RunTable(const Experiment& experiment, const MarginEvaluator& evalua
     out << "\n"
         << run.method << Format(" (%.2f s, %ld instants)\n", run.result.wall, run.result.instants)
         << Holders(evaluator, run, JunctionKind::kUpDown)
-        << Holders(evaluator, run, JunctionKind::kDownUp);
+        << Holders(evaluator, run, JunctionKind::kDownUp) << Prices(evaluator, run) << Curve(run)
+        << "  " << run.result.message << "\n";
   }
   out << "\nwritten: " << folder << "\n";
   return out.str();

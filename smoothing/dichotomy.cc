@@ -112,6 +112,7 @@ class Bisection {
 
   SmoothingResult Finish() {
     result_.parameters = walk_.parameters();
+    result_.cost = walk_.duration();
     result_.instants = scratch_.instants;
     result_.collision_queries = scratch_.bodies.queries;
     result_.wall = Elapsed();
@@ -151,7 +152,7 @@ std::string_view Name(SmoothingStatus status) {
 SmoothingResult Dichotomy(const HalfStepSequence& sequence, const FeasibilityTest& test,
                           const DichotomyOptions& options,
                           const std::function<void(double)>& progress, std::stop_token stop) {
-  HALFSTEP_CHECK(options.tolerance > 0.0 && options.passes >= 1,
+  HALFSTEP_CHECK(options.tolerance > 0.0 && options.passes >= 0,
                  "tolerance = " << options.tolerance << ", passes = " << options.passes);
   HALFSTEP_CHECK(options.up_down_cap >= 0.0 && options.up_down_cap <= 1.0 &&
                      options.down_up_cap >= 0.0 && options.down_up_cap <= 1.0,

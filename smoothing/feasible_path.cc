@@ -45,6 +45,7 @@ bool FeasiblePath::Accept(const HomotopyParameters& point) {
   ++accepted_;
   incumbent_ = point;
   cost_ = cost;
+  if (rules_.accepted) rules_.accepted(point);
   return true;
 }
 

@@ -22,6 +22,8 @@ class FeasiblePath {
     std::function<Feasibility(const SuperposedWalk& walk, double cost,
                               const HomotopyParameters& incumbent, MarginEvaluator::Scratch*)>
         prove;
+    /// Told every new incumbent; may be empty.
+    std::function<void(const HomotopyParameters&)> accepted = {};
     /// Candidates must cost less than the incumbent by more than this.
     double improvement = 1e-9;
   };

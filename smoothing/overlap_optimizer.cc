@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "opt/solver.h"
+#include "opt/stationarity.h"
 #include "smoothing/dichotomy.h"
 #include "smoothing/feasible_path.h"
 
@@ -43,7 +44,12 @@ class Optimization {
 
   SmoothingResult Run() {
     DichotomyOptions dichotomy{.tolerance = options_.tolerance};
+    if (options_.start) {
+      dichotomy.start = options_.start;
+      dichotomy.passes = 0;
+    }
     result_ = Dichotomy(sequence_, test_, dichotomy, Part(0.0, 0.2), stop_);
+    dichotomy.passes = 1;
     result_.cost = DurationOf(result_.parameters);
     if (result_.status != SmoothingStatus::kFinished) return std::move(result_);
 
@@ -80,12 +86,12 @@ class Optimization {
 
   FeasiblePath::Rules RulesOf(const OverlapProgram& program) const {
     if (options_.program.kind != ProgramKind::kSafest) {
-      return {.cost = [&program](const HomotopyParameters& p) { return program.Cost(p); },
-              .prove =
-                  [this](const SuperposedWalk& walk, double, const HomotopyParameters& incumbent,
-                         MarginEvaluator::Scratch* scratch) {
-                    return Prove(walk, incumbent, scratch);
-                  }};
+      return {
+          .cost = [&program](const HomotopyParameters& p) { return program.Cost(p); },
+          .prove =
+              [this](const SuperposedWalk& walk, double, const HomotopyParameters& incumbent,
+                     MarginEvaluator::Scratch* scratch) { return Prove(walk, incumbent, scratch); },
+          .accepted = options_.on_accept};
     }
     // What lies between the table's instants may be a little worse than what they show.
     constexpr double kBetween = 0.01;
@@ -101,6 +107,7 @@ class Optimization {
                   const MarginEvaluator evaluator = test_.evaluator().WithLimits(limits);
                   return test_.Over(evaluator)->Check(walk, {0.0, walk.duration()}, scratch);
                 },
+            .accepted = options_.on_accept,
             .improvement = 1e-3};
   }
 
@@ -148,7 +155,7 @@ class Optimization {
         const double before = path->cost();
         const double remaining = options_.deadline - Elapsed();
         if (remaining <= 0.0 || stop_.stop_requested()) return;
-        solution_ = Solve(program, x, remaining, path);
+        solution_ = Solve(program, x, round, remaining, path);
         if (solution_.x.size() != x.size()) return;
         x = solution_.x;
         const HomotopyParameters end = program.ToParameters(x);
@@ -170,11 +177,13 @@ class Optimization {
     }
   }
 
-  opt::Solution Solve(const OverlapProgram& program, const Eigen::VectorXd& x, double deadline,
-                      FeasiblePath* path) {
+  opt::Solution Solve(const OverlapProgram& program, const Eigen::VectorXd& x, int round,
+                      double deadline, FeasiblePath* path) {
     const opt::Problem problem = program.MakeProblem();
     opt::SolverOptions solver_options;
-    solver_options.max_iterations = options_.max_iterations;
+    // Later rounds begin near their end.
+    solver_options.max_iterations =
+        round == 0 ? options_.max_iterations : std::max(1, options_.max_iterations / 3);
     solver_options.deadline = deadline;
     solver_options.stop = stop_;
     solver_options.optimality_tolerance = 1e-4;
@@ -251,14 +260,21 @@ class Optimization {
     return std::move(result_);
   }
 
+  // By our own estimate at the result, whatever the solver: rows nearly active count.
   void AddMultipliers(const OverlapProgram& program) {
-    if (solution_.multipliers.size() < program.table().rows()) return;
+    if (options_.program.kind == ProgramKind::kSafest) return;  // its cost is no time
+    constexpr double kActive = 0.05;
+    const opt::Problem problem = program.MakeProblem();
+    const Eigen::VectorXd x = program.ToVariables(result_.parameters);
+    const opt::Stationarity at = opt::EstimateMultipliers(
+        problem, x, problem.Gradient(x), problem.Constraints(x), problem.Jacobian(x), kActive);
     for (size_t i = 0; i < result_.junctions.size(); ++i) {
       JunctionResult& junction = result_.junctions[i];
       if (!junction.limited_by) continue;
+      const MarginFamily family = junction.limited_by->family;
       double sum = 0.0;
       for (int k : {static_cast<int>(i), static_cast<int>(i) + 1}) {
-        sum += std::abs(solution_.multipliers[SlackTable::RowOf(k, junction.limited_by->family)]);
+        sum += std::abs(at.multipliers[SlackTable::RowOf(k, family)]);
       }
       junction.multiplier = sum;
     }

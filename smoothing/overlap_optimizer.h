@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <stop_token>
 #include <string>
 
@@ -13,19 +14,24 @@ namespace halfstep {
 struct OptimizerOptions {
   std::string solver = "ipopt";  ///< opt::SolverNames
   ProgramOptions program;
-  /// Of `safest`: D is at most this [s]; 0: the dichotomy's own duration.
+  /// Where to begin, instead of at the dichotomy's result.
+  std::optional<HomotopyParameters> start = std::nullopt;
+  /// Of `safest`: D is at most this [s]; 0: the duration of where it begins.
   double duration_limit = 0.0;
   int random_starts = 0;     ///< solves from random points, after the one from the dichotomy's
   unsigned seed = 1;         ///< of the random starts
   int rounds = 6;            ///< ≥ 1: solves from each start, with more instants and sharper rows
-  int max_iterations = 100;  ///< of the solver, each round
+  int max_iterations = 100;  ///< of the solver in the first round; a third of it in later ones
   double deadline = 30.0;    ///< of all solves together [s]
   double tolerance = 0.001;  ///< of the dichotomies before and after [s]
+  /// Told every point that the solver's search made the incumbent; may be empty.
+  std::function<void(const HomotopyParameters&)> on_accept = {};
 };
 
 /// Smooths a whole sequence by a nonlinear program. Whatever the solver does, what is returned was
 /// found feasible by `test`, and its cost with it:
-///   1. the planned motion is the first incumbent, the dichotomy's result the next;
+///   1. the planned motion is the first incumbent, the dichotomy's result the next, unless a
+///      feasible `start` is given;
 ///   2. from each start the solver solves the program, each of its iterates a candidate for the
 ///      FeasiblePath; where the test refuses the solver's end, the program learns that instant and
 ///      is solved again from there, with sharper rows;

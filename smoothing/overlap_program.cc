@@ -1,5 +1,6 @@
 #include "smoothing/overlap_program.h"
 
+#include <algorithm>
 #include <limits>
 #include <memory>
 #include <numeric>
@@ -69,6 +70,13 @@ class SlackBlock : public opt::ConstraintBlock {
   bool raises_ = false;
   opt::SparsityPattern pattern_;
 };
+
+// `safest` raises the least slack far beyond what the other programs need to see.
+SlackTableOptions Seeing(const ProgramOptions& options) {
+  SlackTableOptions table = options.table;
+  if (options.kind == ProgramKind::kSafest) table.cutoff = std::max(table.cutoff, 12.0);
+  return table;
+}
 
 // ∂D/∂parameter.
 ParameterGradient DurationGradient(const HalfStepSequence& sequence) {
@@ -199,7 +207,9 @@ OverlapProgram::OverlapProgram(const HalfStepSequence& sequence, const MarginEva
     : options_(options),
       duration_limit_(duration_limit),
       variables_(sequence, options.heights, options.durations),
-      table_(variables_, evaluator, options.table) {}
+      table_(variables_, evaluator, Seeing(options)) {
+  options_.table = Seeing(options);
+}
 
 opt::Problem OverlapProgram::MakeProblem() const {
   opt::Problem problem;

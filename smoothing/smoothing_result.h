@@ -26,9 +26,20 @@ struct JunctionResult {
   double upper_bound = 0.0;  ///< largest that was allowed [s]
   /// The margin that refused the smallest infeasible overlap tried; none: the upper bound holds.
   std::optional<Margin> limited_by = std::nullopt;
-  /// Of the rows of the half-steps on both sides, in the family that limits: dD per unit of slack
-  /// [s]; none: the solver gave no multipliers.
+  /// Multipliers of the program's rows of the half-steps on both sides, in the family that limits:
+  /// what one unit of its scale less demanded there would save, all parameters adapting, to first
+  /// order [s]; none: no program was solved.
   std::optional<double> multiplier = std::nullopt;
+  /// What one unit of the limiting family's scale less demanded would shorten the walk by, to first
+  /// order and by this overlap alone [s]; none: nothing limits, or it does not depend on Δ.
+  std::optional<double> price = std::nullopt;
+};
+
+/// A walk of a ParetoCurve: no safer one was found that lasts no longer.
+struct ParetoPoint {
+  double duration = 0.0;     ///< [s]
+  double least_slack = 0.0;  ///< proved for the families of Raised(), of their scales
+  HomotopyParameters parameters;
 };
 
 /// One candidate that a method tried.
@@ -54,11 +65,12 @@ struct SmoothingResult {
   double cost = 0.0;  ///< of the program [s]; for `safest` minus the proved least slack
   std::vector<JunctionResult> junctions;
   std::vector<SmoothingIterate> iterates;
-  long instants = 0;             ///< evaluated
-  long raw_infeasible = 0;       ///< candidates of a solver that were not feasible themselves
-  bool raw_end_feasible = true;  ///< whether the point at which the solver ended was
-  long collision_queries = 0;    ///< body against scene, or body pair, not culled
-  double wall = 0.0;             ///< [s]
+  std::vector<ParetoPoint> pareto;  ///< by duration; empty but for ParetoCurve
+  long instants = 0;                ///< evaluated
+  long raw_infeasible = 0;          ///< candidates of a solver that were not feasible themselves
+  bool raw_end_feasible = true;     ///< whether the point at which the solver ended was
+  long collision_queries = 0;       ///< body against scene, or body pair, not culled
+  double wall = 0.0;                ///< [s]
   /// Until the first accepted improvement [s]; none when nothing was improved.
   std::optional<double> time_to_first_improvement;
 };

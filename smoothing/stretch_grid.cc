@@ -127,6 +127,7 @@ void StretchGrid::Extend(int k) {
       const double overlap = Overlap(k + 1, last, c);
       if (T - overlap > violated + kRounding || violated <= 0.0) continue;
       const double cost = state.cost + choice(k + 1, c).duration - overlap;
+      if (cost + remaining_[static_cast<size_t>(k) + 1] > duration_ + kRounding) continue;
       const State candidate{
           cost, {state.indices[1], state.indices[2], last, c}, static_cast<long>(s)};
       const auto [place, is_new] =

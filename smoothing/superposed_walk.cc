@@ -52,8 +52,15 @@ void SuperposedWalk::UpdateStarts(int from) {
 }
 
 void SuperposedWalk::SetOverlap(int junction, double overlap) {
-  HALFSTEP_CHECK(junction >= 0 && junction + 1 < num_half_steps() && overlap >= 0.0,
-                 "junction " << junction << ", overlap " << overlap);
+  HALFSTEP_CHECK(junction >= 0 && junction + 1 < num_half_steps(), "junction " << junction);
+  const HalfStepProfiles& before = profiles(junction);
+  const HalfStepProfiles& after = profiles(junction + 1);
+  const double bound = KindOfJunction(junction) == JunctionKind::kUpDown
+                           ? std::min(before.duration() - before.t2(), after.t1())
+                           : std::min(before.duration(), after.duration());
+  HALFSTEP_CHECK(
+      overlap >= 0.0 && overlap <= bound + 1e-9,
+      "overlap " << overlap << " s of junction " << junction << ", bound " << bound << " s");
   parameters_.overlaps[static_cast<size_t>(junction)] = overlap;
   UpdateStarts(junction + 1);
 }

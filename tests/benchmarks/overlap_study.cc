@@ -1,15 +1,21 @@
 // What the overlap programs find, and what they cost. Prints the tables of smoothing/README.md,
 // "Overlap program". Not a test.
-// Run: overlap_study solve CONFIG METHOD VARIABLES KIND [DEADLINE]
+// Run: overlap_study table DEADLINE METHOD…          (CSV: every scenario, variables and program)
+//      overlap_study grow METHOD N…                 (a straight walk of N half-steps)
+//      overlap_study solve CONFIG METHOD VARIABLES KIND [DEADLINE]
 //      overlap_study rows CONFIG
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
+#include <vector>
 
 #include "experiments/experiment.h"
+#include "experiments/methods.h"
 #include "opt/problem_derivatives.h"
+#include "opt/solver.h"
 #include "smoothing/certified_feasibility.h"
 #include "smoothing/dichotomy.h"
 #include "smoothing/overlap_optimizer.h"
@@ -56,6 +62,148 @@ void Solve(const std::string& config, const std::string& method, const std::stri
   std::printf("%s %s %s %s: D %.4f cost %.4f, %.2f s, raw infeasible %ld, %s\n", config.c_str(),
               method.c_str(), variables.c_str(), kind.c_str(), DurationOf(result.parameters),
               result.cost, Now() - begin, result.raw_infeasible, result.message.c_str());
+}
+
+const std::vector<std::string>& Scenarios() {
+  static const std::vector<std::string> names = {
+      "fig3_two_half_steps", "fig4_raw_sequence", "fig5_box", "bar_5cm", "bar_8cm", "bar_10cm"};
+  return names;
+}
+
+// First wall time at which the incumbent was within `gap` of `best`; −1: never.
+double TimeToWithin(const SmoothingResult& result, double best, double gap) {
+  for (const SmoothingIterate& i : result.iterates) {
+    if (i.incumbent_duration <= best * (1.0 + gap)) return i.wall;
+  }
+  return -1.0;
+}
+
+struct Case {
+  std::string method;
+  SmoothingResult result;
+  long accepted = 0, refuted = 0;  // incumbents of the search, and those not certified again
+  bool certified = false;
+};
+
+Case SolveCase(const Experiment& e, const MarginEvaluator& evaluator, const std::string& method,
+               const std::string& variables, const std::string& kind, double deadline) {
+  const CertifiedFeasibility test(evaluator, {});
+  Case done{.method = method, .result = {}};
+  std::vector<HomotopyParameters> incumbents;
+  MethodOptions options;
+  options.optimizer.program.kind = KindOf(kind);
+  options.optimizer.program.heights = variables.find('h') != std::string::npos;
+  options.optimizer.program.durations = variables.find('t') != std::string::npos;
+  options.optimizer.deadline = deadline;
+  options.optimizer.on_accept = [&](const HomotopyParameters& p) { incumbents.push_back(p); };
+  done.result = FindMethod(method).smooth(e.sequence, test, options, {}, {});
+  incumbents.push_back(done.result.parameters);
+  for (const HomotopyParameters& p : incumbents) {
+    const SuperposedWalk walk(e.sequence, p);
+    MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
+    done.certified =
+        test.Check(walk, {0.0, walk.duration()}, &scratch).verdict == Verdict::kFeasible;
+    done.refuted += !done.certified;
+  }
+  done.accepted = static_cast<long>(incumbents.size()) - 1;
+  return done;
+}
+
+void Table(double deadline, const std::vector<std::string>& methods) {
+  std::printf(
+      "scenario,variables,program,method,status,certified,duration_s,cost,gap_to_best,"
+      "instants,candidates,raw_infeasible,raw_end_feasible,incumbents,incumbents_refuted,"
+      "wall_s,to_5_percent_s,to_1_percent_s\n");
+  for (const std::string& config : Scenarios()) {
+    const Experiment e = Load(config);
+    const MarginEvaluator evaluator(e.robot, e.scene, e.config.smoothing.limits);
+    for (const std::string variables : {"o", "oh", "oht"}) {
+      for (const std::string kind : {"fastest", "smooth", "safest"}) {
+        std::vector<Case> cases;
+        double best = 1e9, shortest = 1e9;
+        for (const std::string& method : methods) {
+          const bool solver = FindMethod(method).options == OptionGroup::kOptimizer;
+          if (kind != "fastest" && !solver) continue;
+          cases.push_back(SolveCase(e, evaluator, method, variables, kind, deadline));
+          best = std::min(best, cases.back().result.cost);
+          shortest = std::min(shortest, DurationOf(cases.back().result.parameters));
+        }
+        for (const Case& c : cases) {
+          const SmoothingResult& r = c.result;
+          const double gap =
+              kind == "safest" ? r.cost - best : r.cost / best - 1.0;  // of a slack: no ratio
+          std::printf("%s,%s,%s,%s,%s,%s,%.4f,%.4f,%.5f,%ld,%zu,%ld,%s,%ld,%ld,%.3f",
+                      config.c_str(), variables.c_str(), kind.c_str(), c.method.c_str(),
+                      std::string(Name(r.status)).c_str(), c.certified ? "true" : "false",
+                      DurationOf(r.parameters), r.cost, gap, r.instants, r.iterates.size(),
+                      r.raw_infeasible, r.raw_end_feasible ? "true" : "false", c.accepted,
+                      c.refuted, r.wall);
+          if (kind == "fastest") {
+            std::printf(",%.3f,%.3f\n", TimeToWithin(r, shortest, 0.05),
+                        TimeToWithin(r, shortest, 0.01));
+          } else {
+            std::printf(",,\n");
+          }
+          std::fflush(stdout);
+        }
+      }
+    }
+  }
+}
+
+// n half-steps forward on an empty floor or, with `bar`, over the bars of a long scene.
+void Grow(const std::string& method, int n) {
+  Experiment e = Load("bar_8cm");
+  std::vector<FootstepConfig> footsteps;
+  const Obstacle bar = e.scene.obstacles.front();
+  e.scene.obstacles.clear();
+  // The four steps of bar_8cm again and again, each time 0.454 m further, over a bar of its own.
+  for (int i = 0; i < n / 2; ++i) {
+    FootstepConfig step = e.config.footsteps[static_cast<size_t>(i % 4)];
+    step.X_WF.x += 0.454 * (i / 4);
+    footsteps.push_back(step);
+    if (i % 4 == 0) {
+      Obstacle another = bar;
+      another.name += std::to_string(i / 4);
+      another.X_WO.translation().x() += 0.454 * (i / 4);
+      e.scene.obstacles.push_back(another);
+    }
+  }
+  e.config.footsteps = footsteps;
+  Scene scene = e.scene;
+  e = Prepare(e.config);
+  e.scene = scene;
+  const MarginEvaluator evaluator(e.robot, e.scene, e.config.smoothing.limits);
+  const CertifiedFeasibility test(evaluator, {});
+  OptimizerOptions options;
+  options.solver = method;
+  options.program.heights = options.program.durations = true;
+  options.deadline = 120.0;
+  const double begin = Now();
+  const SmoothingResult start = Dichotomy(e.sequence, test, {});
+  const double dichotomy = Now() - begin;
+  const OverlapProgram program(e.sequence, evaluator, options.program, 0.0);
+  const opt::Problem problem = program.MakeProblem();
+  const Eigen::VectorXd x = program.ToVariables(start.parameters);
+  double both = 1e9;
+  for (int repeat = 0; repeat < 3; ++repeat) {
+    const double at = Now();
+    problem.Jacobian(x);
+    both = std::min(both, Now() - at);
+  }
+  opt::SolverOptions solver;
+  solver.max_iterations = 20;
+  solver.optimality_tolerance = 1e-4;
+  const opt::Solution solution = opt::MakeSolver(method)->Solve(problem, x, solver);
+  const SmoothingResult r = OptimizeOverlaps(e.sequence, test, options);
+  const double shortest = DurationOf(r.parameters);
+  std::printf(
+      "%-18s n %4d  dichotomy %.3f s (%.2f s)  Jacobian %7.2f ms  %7.2f ms an iteration of 20  "
+      "D %8.3f  within 5%% %.2f s, 1%% %.2f s, all %.2f s, %ld instants\n",
+      method.c_str(), n, DurationOf(start.parameters), dichotomy, 1e3 * both,
+      1e3 * solution.wall / std::max(1, solution.iterations), shortest,
+      TimeToWithin(r, shortest, 0.05), TimeToWithin(r, shortest, 0.01), r.wall, r.instants);
+  std::fflush(stdout);
 }
 
 // Cost of the rows and of their derivatives, and whether they are right.
@@ -106,6 +254,11 @@ int main(int argc, char** argv) {
   if (part == "solve") {
     halfstep::Solve(arg(2, "bar_8cm"), arg(3, "ipopt"), arg(4, "oht"), arg(5, "fastest"),
                     std::atof(arg(6, "30").c_str()));
+  } else if (part == "table") {
+    std::vector<std::string> methods(argv + std::min(argc, 3), argv + argc);
+    halfstep::Table(std::atof(arg(2, "3").c_str()), methods);
+  } else if (part == "grow") {
+    for (int i = 3; i < argc; ++i) halfstep::Grow(argv[2], std::atoi(argv[i]));
   } else if (part == "rows") {
     halfstep::Rows(arg(2, "bar_8cm"));
   } else {

@@ -288,7 +288,7 @@ TEST_F(DichotomyTest, ProgressRisesToOneByJunctions) {
 TEST_F(DichotomyTest, RefusesOptionsThatMeanNothing) {
   const FakeFeasibility test = UpTo(0.3);
   for (const DichotomyOptions& options :
-       {DichotomyOptions{.tolerance = 0}, DichotomyOptions{.passes = 0},
+       {DichotomyOptions{.tolerance = 0}, DichotomyOptions{.passes = -1},
         DichotomyOptions{.up_down_cap = 1.1}, DichotomyOptions{.down_up_cap = -0.1}}) {
     EXPECT_THROW(Dichotomy(sequence_, test, options), std::logic_error);
   }
