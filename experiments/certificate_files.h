@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <string>
 
+#include "experiments/certificate_statement.h"
 #include "experiments/experiment.h"
 #include "experiments/run_folder.h"
 #include "smoothing/certified_feasibility.h"
@@ -39,9 +40,5 @@ void WriteCertificate(const Experiment& experiment, const CertifiedFeasibility& 
 
 /// dichotomy/published is a method's name; its folder in a run is dichotomy_published.
 std::string MethodFolder(std::string method);
-
-/// What a certificate guarantees, for which file, with which δ, and what not; the same words in
-/// smoothing/README.md, "The statement".
-extern const char* const kCertificateStatement;
 
 }  // namespace halfstep

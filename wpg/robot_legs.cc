@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 
 #include "wpg/leg_ik.h"
 
@@ -153,6 +154,12 @@ std::optional<Leg> BuildLeg(const UrdfTree& urdf, const LegRequest& request,
     out.point_B = out.X_BLink.translation();
     out.lower = request.lower[index];
     out.upper = request.upper[index];
+    if (out.upper - out.lower > 2.0 * std::numbers::pi + 1e-9) {
+      complaints->Add(urdf.file, joint.place.line, joint.place.column, joint.name,
+                      "its limits are more than a turn apart (valid: at most 360 deg, where need "
+                      "be by joint_limits_deg of the robot file)");
+      return std::nullopt;
+    }
     out.max_speed = joint.max_speed;
     leg.standing_q[static_cast<Eigen::Index>(i)] = request.posture[index];
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/certificate_statement.h"
 #include "wpg/input/text.h"
 
 namespace halfstep::verify {
@@ -73,6 +74,9 @@ void CheckArithmetic(const CertificateText& certificate, const std::vector<Claim
   if (certificate.verdict != "certified") {
     findings->Disagree("the certificate's verdict is " + Quote(certificate.verdict) + ": " +
                        Quote(certificate.message));
+  }
+  if (certificate.statement != kCertificateStatement) {
+    findings->Disagree("the certificate's statement is not the one that is verified");
   }
   if (certificate.duration != end) {
     findings->Disagree(Text("the certificate ends at %.17g s, the trajectory at %.17g s",

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "experiments/verify/check_certificate.h"
 #include "experiments/verify/check_claims.h"
@@ -86,39 +87,57 @@ void Verify(const VerifyOptions& options, const fs::path& folder, Findings* find
   findings->Say("triangle distances: " + Count(distances.queries()));
 }
 
+bool HasCertificate(const fs::path& folder) {
+  return fs::exists(folder / "certificate.json") || fs::exists(folder / "certificate.csv");
+}
+
+// What the manifest calls the run's methods, as names of folders; none when it cannot be read.
+std::vector<fs::path> FoldersOfManifest(const fs::path& run) {
+  std::vector<fs::path> folders;
+  const fs::path path = run / "manifest.json";
+  if (!fs::exists(path)) return folders;
+  using nlohmann::json;
+  const json manifest = json::parse(ReadBytes(path.string()), nullptr, /*allow_exceptions=*/false);
+  if (!manifest.is_object() || !manifest.contains("methods")) return folders;
+  for (const json& method : manifest["methods"]) {
+    if (!method.is_object() || !method.contains("name") || !method["name"].is_string()) continue;
+    std::string name = method["name"].get<std::string>();
+    std::replace(name.begin(), name.end(), '/', '_');
+    if (!name.empty() && !name.starts_with('.')) folders.push_back(run / name);
+  }
+  return folders;
+}
+
+// The methods of a run, whether they have a certificate or not.
 std::vector<fs::path> Folders(const VerifyOptions& options) {
   const fs::path run(options.run);
   if (!fs::is_directory(run)) {
     throw InputError(
         {options.run + ": no such run folder (valid: a folder that `halfstep run` wrote)"});
   }
-  std::vector<fs::path> folders;
+  std::vector<fs::path> folders = FoldersOfManifest(run);
   for (const auto& entry : fs::directory_iterator(run)) {
     if (!entry.is_directory()) continue;
-    if (fs::exists(entry.path() / "certificate.json") ||
-        fs::exists(entry.path() / "certificate.csv")) {
+    if (HasCertificate(entry.path()) || fs::exists(entry.path() / "trajectory.csv")) {
       folders.push_back(entry.path());
     }
   }
   std::sort(folders.begin(), folders.end());
-  if (options.method) {
-    std::string name = *options.method;
-    std::replace(name.begin(), name.end(), '/', '_');
-    std::string names;
-    for (const fs::path& folder : folders) {
-      names += (names.empty() ? "" : ", ") + folder.filename().string();
-    }
-    std::erase_if(folders, [&](const fs::path& folder) { return folder.filename() != name; });
-    if (folders.empty()) {
-      throw InputError({options.run + ": no certificate of the method " + Quote(*options.method) +
-                        " (valid: " + (names.empty() ? "none; run `halfstep certify`" : names) +
-                        ")"});
-    }
-  }
-  if (folders.empty()) {
+  folders.erase(std::unique(folders.begin(), folders.end()), folders.end());
+  if (std::none_of(folders.begin(), folders.end(), HasCertificate)) {
     throw InputError({options.run + ": no certificate in it (`halfstep certify` makes them)"});
   }
-  return folders;
+  if (!options.method) return folders;
+  std::string name = *options.method;
+  std::replace(name.begin(), name.end(), '/', '_');
+  std::string names;
+  for (const fs::path& folder : folders) {
+    if (!HasCertificate(folder)) continue;
+    if (folder.filename() == name) return {folder};
+    names += (names.empty() ? "" : ", ") + folder.filename().string();
+  }
+  throw InputError({options.run + ": no certificate of the method " + Quote(*options.method) +
+                    " (valid: " + names + ")"});
 }
 
 }  // namespace
@@ -133,7 +152,11 @@ std::vector<MethodVerification> VerifyRun(const VerifyOptions& options) {
     result.method = folder.filename().string();
     Findings findings;
     try {
-      Verify(options, folder, &findings, &result.statement);
+      if (HasCertificate(folder)) {
+        Verify(options, folder, &findings, &result.statement);
+      } else {
+        findings.Disagree("there is no certificate (`halfstep certify` makes it)");
+      }
       result.verified = findings.disagreements() == 0;
     } catch (const InputError& error) {
       result.readable = false;
@@ -161,6 +184,7 @@ std::string Describe(const MethodVerification& result) {
     const long more = result.disagreements - std::ssize(result.reasons);
     if (more > 0) text += "    … and " + Count(more) + " more\n";
   }
+  if (result.statement.empty()) return text;
   // A statement that could write anything on a terminal is not repeated.
   const bool clean = FindInvalidUtf8(result.statement) == std::string::npos &&
                      !HasControlCharacter(result.statement);

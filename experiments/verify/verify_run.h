@@ -14,7 +14,7 @@ namespace halfstep::verify {
 /// themselves, where only rounding is allowed for (check_rows.cc).
 struct VerifyOptions {
   std::string run;                         ///< run folder
-  std::optional<std::string> method = {};  ///< none: every one that has a certificate
+  std::optional<std::string> method = {};  ///< none: every one of the run
   double tolerance = 0.001;                ///< see above; 0 … 1
   std::optional<std::string> robot = {};   ///< YAML instead of the certificate's
   std::optional<std::string> scene = {};
@@ -34,7 +34,7 @@ struct MethodVerification {
 
 /// Checks the certificates of a run against its trajectories, the robot and the scene, by forward
 /// kinematics and triangle distances only; distances only of the very files that the certificate is
-/// about. Throws InputError when there is nothing to check.
+/// about. A method without a certificate is not verified. Throws InputError when no method has one.
 std::vector<MethodVerification> VerifyRun(const VerifyOptions& options);
 
 /// The result as `halfstep verify` prints it.

@@ -243,6 +243,9 @@ std::vector<Mutation> Mutations() {
        "foot_speed_m_s"},
       {"JointSpeedScaleRaised", InJson([](Json& j) { j["limits"]["joint_speed_scale"] = 3.0; }),
        "joint_speed_scale"},
+      {"StatementPromisesMore",
+       InJson([](Json& j) { j["statement"] = j["statement"].get<std::string>() + " And speed."; }),
+       "the certificate's statement is not the one that is verified"},
       {"VerdictUndecided", InJson([](Json& j) { j["verdict"] = "undecided"; }), "undecided"},
       {"AnotherRobotNamed", InJson([](Json& j) { j["robot"] = "../robots/none.yaml"; }),
        "none.yaml", false, kBadInput},
@@ -303,6 +306,23 @@ TEST(Verify, TakesAnotherSceneOnlyWhenItIsTheSame) {
   EXPECT_TRUE(verify::VerifyRun(options).front().verified);
   options.scene = "none";
   EXPECT_FALSE(verify::VerifyRun(options).front().verified);
+}
+
+TEST(Verify, MethodWithoutCertificateIsNamedAndNotVerified) {
+  const TamperedRun run;
+  for (const std::string file : {"certificate.csv", "certificate.json"}) {
+    std::filesystem::remove(run.run() / "raw" / file);
+  }
+  std::vector<std::string> without;
+  for (const auto& result : verify::VerifyRun({.run = run.run().string()})) {
+    if (result.verified) continue;
+    without.push_back(result.method);
+    EXPECT_THAT(verify::Describe(result), HasSubstr("there is no certificate"));
+  }
+  EXPECT_THAT(without, testing::ElementsAre("raw"));
+  // A method of the manifest whose whole folder is gone is missed as well.
+  std::filesystem::remove_all(run.run() / "raw");
+  EXPECT_EQ(verify::VerifyRun({.run = run.run().string()}).size(), 2u);
 }
 
 TEST(Verify, BadInputIsStatusTwo) {

@@ -29,6 +29,11 @@ TEST(WalkOverlap, SetOverlapGivesTheWalkOfTheChangedParameters) {
   EXPECT_THROW(walk.SetOverlap(-1, 0.1), std::logic_error);
   EXPECT_THROW(walk.SetOverlap(7, 0.1), std::logic_error);
   EXPECT_THROW(walk.SetOverlap(0, -0.1), std::logic_error);
+  for (int junction = 0; junction < 7; ++junction) {
+    const double bound = NaturalOverlapBound(sequence, walk.parameters().durations, junction);
+    EXPECT_NO_THROW(walk.SetOverlap(junction, bound));
+    EXPECT_THROW(walk.SetOverlap(junction, bound + 1e-6), std::logic_error);
+  }
 }
 
 TEST(WalkOverlap, AnOverlapChangesNothingBeforeItsStretchAndOnlyTheTimeAfterIt) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <fstream>
 #include <numbers>
+#include <regex>
 #include <set>
 #include <string>
 
@@ -200,6 +201,26 @@ TEST(GeneratedRobot, FixedJointsAreFoldedIn) {
   EXPECT_EQ(toe->leg, 0);
   EXPECT_EQ(toe->link, 5);
   EXPECT_LT((toe->shape.center - Vector3d(0.1, 0, 0)).norm(), 1e-12);
+}
+
+TEST(RobotRefusal, JointLimitsMoreThanATurnApart) {
+  const GeneratedRobot robot = GeneratedRobots()[0];
+  const std::string yaml = GeneratedYaml(robot, "robot.urdf");
+  const auto with_limits = [&](const std::string& limit) {
+    const std::string lower = std::regex_replace(GeneratedUrdf(robot), std::regex("lower='[^']*'"),
+                                                 "lower='-" + limit + "'");
+    return std::regex_replace(lower, std::regex("upper='[^']*'"), "upper='" + limit + "'");
+  };
+  EXPECT_THAT(RefusalOf({"wide", with_limits("3.2"), yaml}),
+              HasSubstr("left_joint0: its limits are more than a turn apart (valid: at most 360 "));
+  EXPECT_NO_THROW((void)TemporaryRobot("turn", with_limits("3.14159"), yaml).Load());
+  std::string narrowed = yaml + "joint_limits_deg:\n";
+  for (const std::string side : {"left", "right"}) {
+    for (int i = 0; i < 6; ++i) {
+      narrowed += "  " + side + "_joint" + std::to_string(i) + ": [-180, 180]\n";
+    }
+  }
+  EXPECT_NO_THROW((void)TemporaryRobot("narrowed", with_limits("3.2"), narrowed).Load());
 }
 
 TEST(RobotRefusal, HipAxesThatPassEachOther) {

@@ -1,0 +1,127 @@
+// SIGINT at any moment of a run leaves a certified walk no worse than the start.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <random>
+#include <thread>
+
+#include "experiments/commands.h"
+#include "experiments/methods.h"
+#include "tests/experiments/child_process.h"
+#include "tests/experiments/run_check.h"
+#include "tests/experiments/temporary_folder.h"
+
+namespace halfstep {
+namespace {
+
+namespace fs = std::filesystem;
+using std::chrono::duration;
+using std::chrono::steady_clock;
+
+// The optimizing methods of this build among those that the test wants.
+std::vector<std::string> OptimizingMethods() {
+  std::vector<std::string> methods;
+  const std::vector<std::string> known = MethodNames();
+  for (const std::string wanted : {"ipopt", "halfstep/barrier"}) {
+    if (std::find(known.begin(), known.end(), wanted) != known.end()) methods.push_back(wanted);
+  }
+  return methods;
+}
+
+std::vector<std::string> OptimizingRun(const std::string& name, const std::string& method) {
+  return {"run",
+          ShippedConfig("bar_8cm"),
+          "--quiet",
+          "--out",
+          name,
+          "--set",
+          "smoothing.optimizer.heights=true",
+          "--set",
+          "smoothing.optimizer.durations=true",
+          "--set",
+          "smoothing.optimizer.deadline_s=600",
+          "--set",
+          "output.period_s=0.02",
+          "--set",
+          "smoothing.methods=[" + method + "]"};
+}
+
+std::vector<std::string> FoldersOf(std::vector<std::string> methods) {
+  for (std::string& method : methods) std::replace(method.begin(), method.end(), '/', '_');
+  return methods;
+}
+
+TEST(InterruptedRun, LeavesACertifiedWalkAtLeastAsGoodAsTheStart) {
+  const std::vector<std::string> methods = OptimizingMethods();
+  if (methods.empty()) GTEST_SKIP() << "no optimizing method in this build";
+  const TemporaryFolder place;
+  const auto begin = steady_clock::now();
+  ASSERT_EQ(Halfstep(place.path(), OptimizingRun("none", "")).status, kSuccess);
+  const duration<double> shortest = steady_clock::now() - begin;
+
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> moment(0.0, 1.6);
+  int whole = 0, interrupted = 0, improved = 0;
+  for (int i = 0; i < 20; ++i) {
+    const std::string name = "run" + std::to_string(i);
+    SCOPED_TRACE(name);
+    const std::vector<std::string> one = {methods[static_cast<size_t>(i) % methods.size()]};
+    Child child(OptimizingRun(name, one.front()), {.working_directory = place.path()});
+    std::this_thread::sleep_for(moment(random) * shortest);
+    child.Signal(SIGINT);
+    const Outcome outcome = child.Wait();
+    if (outcome.signal != 0) {  // before the program began to listen
+      EXPECT_EQ(outcome.signal, SIGINT);
+      EXPECT_FALSE(fs::exists(place / name));
+      continue;
+    }
+    EXPECT_EQ(outcome.status, kInterrupted) << outcome.err;
+    CheckRunIsWhole(place / name, FoldersOf(one));
+    if (testing::Test::HasFatalFailure()) return;
+    ++whole;
+    const ParsedCsv summary(ReadText(place / name / "summary.csv"));
+    for (size_t row = 0; row < summary.size(); ++row) {
+      SCOPED_TRACE(summary.Text(row, "method"));
+      EXPECT_EQ(summary.Text(row, "certified"), "true");
+      EXPECT_LE(summary.Number(row, "duration_s"), summary.Number(0, "duration_s"));
+      if (row == 0) continue;
+      EXPECT_THAT(summary.Text(row, "status"), testing::AnyOf("interrupted", "finished"));
+      if (summary.Text(row, "status") == "interrupted") ++interrupted;
+      if (summary.Number(row, "speedup") > 1.0) ++improved;
+    }
+    EXPECT_EQ(summary.Text(summary.size() - 1, "status"), "interrupted");
+  }
+  EXPECT_GT(whole, 0);
+  EXPECT_GT(interrupted, 0);
+  EXPECT_GT(improved, 0) << "no moment after the first improvement was drawn";
+  EXPECT_THAT(NamesIn(place.path()), testing::Each(testing::Not(testing::StartsWith("."))));
+}
+
+TEST(InterruptedRun, SecondSignalEndsAtOnce) {
+  const TemporaryFolder place;
+  // Rows so dense that writing what there is would take long.
+  std::vector<std::string> run = OptimizingRun("a", "dichotomy");
+  run.insert(run.end(),
+             {"--set", "output.period_s=0.0001", "--set", "smoothing.dichotomy.tolerance_s=1e-6",
+              "--set", "smoothing.dichotomy.passes=100"});
+  int ended = 0;
+  for (int i = 0; i < 10 && ended == 0; ++i) {
+    Child child(run, {.working_directory = place.path()});
+    std::this_thread::sleep_for(std::chrono::milliseconds(100 << (i / 2)));
+    child.Signal(SIGINT);
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    child.Signal(SIGINT);
+    const Outcome outcome = child.Wait();
+    EXPECT_FALSE(fs::exists(place / "a")) << "it went on to the end";
+    if (outcome.signal == SIGINT) continue;  // the first was too early
+    EXPECT_EQ(outcome.status, kInterrupted);
+    ++ended;
+  }
+  EXPECT_EQ(ended, 1);
+}
+
+}  // namespace
+}  // namespace halfstep
