@@ -1,0 +1,170 @@
+// The programs and the optimizer on shipped experiments.
+
+#include "smoothing/overlap_optimizer.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stop_token>
+
+#include "opt/solver.h"
+#include "smoothing/certified_feasibility.h"
+#include "smoothing/dichotomy.h"
+#include "tests/smoothing/test_scenes.h"
+#include "tests/smoothing/test_walks.h"
+
+namespace halfstep {
+namespace {
+
+// Remembers the walks of which nothing was refused.
+class Recorder : public FeasibilityTest {
+ public:
+  explicit Recorder(const FeasibilityTest& test) : test_(test) {}
+  Evidence evidence() const override { return test_.evidence(); }
+  std::string Description() const override { return test_.Description(); }
+  const MarginEvaluator& evaluator() const override { return test_.evaluator(); }
+  std::unique_ptr<FeasibilityTest> Over(const MarginEvaluator& evaluator) const override {
+    return test_.Over(evaluator);
+  }
+  Feasibility Check(const SuperposedWalk& walk, const TimeWindow& window,
+                    MarginEvaluator::Scratch* scratch) const override {
+    const Feasibility answer = test_.Check(walk, window, scratch);
+    const bool same = !walks.empty() && walks.back() == walk.parameters();
+    if (answer.verdict == Verdict::kFeasible && !same) walks.push_back(walk.parameters());
+    if (answer.verdict != Verdict::kFeasible && same) walks.pop_back();
+    return answer;
+  }
+
+  mutable std::vector<HomotopyParameters> walks;
+
+ private:
+  const FeasibilityTest& test_;
+};
+
+OptimizerOptions Quick(const std::string& solver) {
+  OptimizerOptions options;
+  options.solver = solver;
+  options.program.heights = options.program.durations = true;
+  options.program.table.instants = 8;
+  options.rounds = 2;
+  options.max_iterations = 15;
+  options.deadline = 20;
+  options.tolerance = 0.01;
+  return options;
+}
+
+std::string ASolver() {
+  for (const char* name : {"ipopt", "halfstep/barrier", "nlopt/ccsaq"}) {
+    if (opt::MakeSolver(name)->available()) return name;
+  }
+  return "";
+}
+
+class OptimizerTest : public testing::Test {
+ protected:
+  const Experiment e_ = LoadExperiment("fig3_two_half_steps");
+  const MarginEvaluator evaluator_{e_.robot, e_.scene, e_.config.smoothing.limits};
+  const CertifiedFeasibility test_{evaluator_, {}};
+};
+
+TEST_F(OptimizerTest, IsNeverWorseThanTheDichotomyAndAllItAcceptsIsCertifiedOnItsOwn) {
+  if (ASolver().empty()) GTEST_SKIP() << "no solver";
+  const Recorder recorder(test_);
+  const SmoothingResult dichotomy = Dichotomy(e_.sequence, test_, {.tolerance = 0.01});
+  const SmoothingResult result = OptimizeOverlaps(e_.sequence, recorder, Quick(ASolver()));
+  EXPECT_EQ(result.status, SmoothingStatus::kFinished) << result.message;
+  EXPECT_LT(DurationOf(result.parameters), DurationOf(dichotomy.parameters) - 0.3);
+  const CertifiedFeasibility independent(evaluator_, {});
+  MarginEvaluator::Scratch scratch = evaluator_.MakeScratch();
+  EXPECT_GT(recorder.walks.size(), 5u);
+  recorder.walks.push_back(result.parameters);
+  for (const HomotopyParameters& parameters : recorder.walks) {
+    const SuperposedWalk walk(e_.sequence, parameters);
+    EXPECT_EQ(independent.Check(walk, {0.0, walk.duration()}, &scratch).verdict,
+              Verdict::kFeasible);
+  }
+  double incumbent = 1e9;
+  for (const SmoothingIterate& iterate : result.iterates) {
+    EXPECT_LE(iterate.incumbent_duration, incumbent + 1e-9);
+    incumbent = iterate.incumbent_duration;
+  }
+}
+
+TEST_F(OptimizerTest, StoppedAtAnyMomentItKeepsACertifiedWalk) {
+  if (ASolver().empty()) GTEST_SKIP() << "no solver";
+  MarginEvaluator::Scratch scratch = evaluator_.MakeScratch();
+  for (double moment : {0.0, 0.1, 0.3}) {
+    std::stop_source source;
+    const auto stop = [&](double done) {
+      if (done >= moment) source.request_stop();
+    };
+    const SmoothingResult result =
+        OptimizeOverlaps(e_.sequence, test_, Quick(ASolver()), stop, source.get_token());
+    EXPECT_EQ(result.status, SmoothingStatus::kInterrupted) << moment;
+    const SuperposedWalk walk(e_.sequence, result.parameters);
+    EXPECT_EQ(test_.Check(walk, {0.0, walk.duration()}, &scratch).verdict, Verdict::kFeasible);
+    EXPECT_LE(walk.duration(), DurationOf(PlannedMotion(e_.sequence)));
+  }
+}
+
+class ProgramDerivatives : public testing::TestWithParam<std::string> {};
+
+// Along random directions at a random point. Clearances have kinks where the nearest feature
+// changes; there differences with two steps disagree. In a straight walk with equal parameters
+// whole edges are parallel to the bar, which is why the point is random.
+TEST_P(ProgramDerivatives, AgreeWithDifferencesForEveryKind) {
+  const Experiment e = LoadExperiment(GetParam());
+  const MarginEvaluator evaluator(e.robot, e.scene, e.config.smoothing.limits);
+  WalkDraw draw(370);
+  for (ProgramKind kind : {ProgramKind::kFastest, ProgramKind::kSmooth, ProgramKind::kSafest}) {
+    ProgramOptions options;
+    options.kind = kind;
+    options.heights = options.durations = true;
+    options.weights = {0.05, 0.001, 0.02};
+    options.table.instants = 3;
+    const OverlapProgram program(e.sequence, evaluator, options, 10.0);
+    const opt::Problem problem = program.MakeProblem();
+    Eigen::VectorXd x = program.ToVariables(draw.Parameters(e.sequence, 0.6, 0.85));
+    const Eigen::VectorXd room = problem.upper() - problem.lower();
+    x = x.cwiseMax(problem.lower() + 0.05 * room).cwiseMin(problem.upper() - 0.05 * room);
+    Eigen::VectorXd direction(x.size());
+    for (Eigen::Index v = 0; v < x.size(); ++v) direction[v] = draw.Uniform(-1, 1);
+    const Eigen::VectorXd rows = problem.DenseJacobian(x) * direction;
+    const double cost = problem.Gradient(x).dot(direction);
+    const auto slope = [&](double h) {
+      return Eigen::VectorXd(
+          (problem.Constraints(x + h * direction) - problem.Constraints(x - h * direction)) /
+          (2 * h));
+    };
+    const Eigen::VectorXd coarse = slope(1e-5), fine = slope(2e-6);
+    int kinks = 0, caught = 0;
+    for (Eigen::Index r = 0; r < rows.size(); ++r) {
+      const std::string name = problem.RowName(static_cast<int>(r));
+      const double size = 1 + std::abs(fine[r]);
+      if (name.find("clearance") != std::string::npos &&
+          std::abs(coarse[r] - fine[r]) > 1e-3 * size) {
+        ++kinks;
+        continue;
+      }
+      EXPECT_NEAR(rows[r], fine[r], 5e-3 * size) << name;
+      caught += std::abs(-rows[r] - fine[r]) > 5e-3 * size;
+    }
+    EXPECT_LE(kinks, rows.size() / 10);
+    EXPECT_GT(caught, rows.size() / 20);
+    const double h = 1e-5;
+    EXPECT_NEAR(cost, (problem.Cost(x + h * direction) - problem.Cost(x - h * direction)) / (2 * h),
+                1e-5 * (1 + std::abs(cost)))
+        << Name(kind);
+  }
+}
+
+std::vector<std::string> Configs() {
+  if (kSanitized) return {"fig3_two_half_steps", "bar_8cm"};
+  return {"fig3_two_half_steps", "bar_8cm", "fig4_raw_sequence"};
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ProgramDerivatives, testing::ValuesIn(Configs()),
+                         [](const auto& name) { return name.param; });
+
+}  // namespace
+}  // namespace halfstep
