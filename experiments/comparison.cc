@@ -34,9 +34,9 @@ void Add(const MethodRecord& record, ComparedCase* one) {
   one->methods.push_back({.record = record, .gap = 0.0, .reached = {}});
 }
 
-ComparedCase& CaseOf(const RunRecord& run, Comparison* comparison) {
+ComparedCase& CaseOf(const RunRecord& run, const std::string& objective, Comparison* comparison) {
   for (ComparedCase& one : comparison->cases) {
-    if (one.scenario != run.scenario || one.objective != run.objective) continue;
+    if (one.scenario != run.scenario || one.objective != objective) continue;
     if (one.problem != run.problem) {
       throw InputError({run.run + ": is called " + Quote(run.scenario) + " like " +
                         one.methods.front().record.run +
@@ -47,9 +47,10 @@ ComparedCase& CaseOf(const RunRecord& run, Comparison* comparison) {
   }
   ComparedCase& one = comparison->cases.emplace_back();
   one.scenario = run.scenario;
-  one.objective = run.objective;
+  one.objective = objective;
   one.problem = run.problem;
   one.half_steps = run.half_steps;
+  Add(run.methods.front(), &one);
   return one;
 }
 
@@ -74,15 +75,25 @@ std::optional<Effort> Reached(const ComparedCase& one, const MethodRecord& recor
   return Within(record.cost, *one.best_cost, target) ? std::optional(end) : std::nullopt;
 }
 
+bool HasCost(const ComparedCase& one, const MethodRecord& record) {
+  return !record.raw() || one.objective == "fastest";
+}
+
 void Measure(ComparedCase* one) {
   for (const ComparedMethod& method : one->methods) {
     const MethodRecord& record = method.record;
-    if (!record.certified || (one->best_cost && *one->best_cost <= record.cost)) continue;
+    if (!HasCost(*one, record) || !record.certified ||
+        (one->best_cost && *one->best_cost <= record.cost))
+      continue;
     one->best_cost = record.cost;
     one->best_method = record.name;
   }
   for (ComparedMethod& method : one->methods) {
     method.gap = std::numeric_limits<double>::infinity();
+    if (!HasCost(*one, method.record)) {
+      method.gap = std::nan("");
+      continue;
+    }
     if (method.record.certified) {
       const double above = method.record.cost - *one->best_cost;
       method.gap = above == 0.0 ? 0.0 : above / std::abs(*one->best_cost);
@@ -144,13 +155,14 @@ const ComparedMethod* Find(const ComparedCase& one, const MethodKey& method) {
 Comparison Compare(const std::vector<RunRecord>& runs) {
   Comparison comparison;
   for (const RunRecord& run : runs) {
-    ComparedCase& one = CaseOf(run, &comparison);
+    if (run.methods.size() == 1) CaseOf(run, "fastest", &comparison);
     for (const MethodRecord& record : run.methods) {
-      Add(record, &one);
+      if (record.raw()) continue;
+      Add(record, &CaseOf(run, record.objective, &comparison));
       const MethodKey key = KeyOf(record);
       const bool known = std::find(comparison.methods.begin(), comparison.methods.end(), key) !=
                          comparison.methods.end();
-      if (!record.raw() && !known) comparison.methods.push_back(key);
+      if (!known) comparison.methods.push_back(key);
     }
   }
   for (ComparedCase& one : comparison.cases) Measure(&one);

@@ -25,7 +25,8 @@ struct Effort {
 
 struct ComparedMethod {
   MethodRecord record;
-  /// (cost − best)/|best|; +inf when the walk is not certified.
+  /// (cost − best)/|best|; +inf when the walk is not certified; nan for raw where the objective is
+  /// not `fastest`: run folders do not hold its cost.
   double gap = 0.0;
   /// Until each target was first met; none: a failure.
   std::array<std::optional<Effort>, kNumTargets> reached;
@@ -35,7 +36,8 @@ struct ComparedMethod {
 struct ComparedCase {
   std::string scenario, objective, problem;
   int half_steps = 0;
-  /// The cheapest certified walk of any method, raw included; none: nothing was certified.
+  /// The cheapest certified walk of any method, raw included for `fastest`; none: nothing was
+  /// certified.
   std::optional<double> best_cost;
   std::string best_method;
   std::vector<ComparedMethod> methods;  ///< raw first
@@ -52,10 +54,10 @@ struct Comparison {
   std::vector<MethodKey> methods;  ///< of all cases, in the order of appearance, without raw
 };
 
-/// Brings the runs together by scenario and objective. Durations are what the targets of `fastest`
-/// look at along the way; iterates.csv has no costs, so other objectives know the end only.
-/// Throws InputError when runs of one scenario are not about the same problem, or when a method is
-/// there twice with different options or results.
+/// Brings the methods together by scenario and the objective that each pursued. Durations are what
+/// the targets of `fastest` look at along the way; iterates.csv has no costs, so other objectives
+/// know the end only. Throws InputError when runs of one scenario are not about the same problem,
+/// or when a method is there twice with different options or results.
 Comparison Compare(const std::vector<RunRecord>& runs);
 
 /// The record of a case for a method; null: it was not run there, which counts as a failure.

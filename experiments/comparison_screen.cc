@@ -61,8 +61,10 @@ std::string CaseTable(const ComparedCase& one, const Widths& widths) {
             Left(record.status, widths.status) +
             Format("%-9s %8.3f s %7.2fx ", record.certified ? "yes" : "no", record.duration,
                    record.speedup);
-    text += record.certified ? Format("%7.2f %% ", 100.0 * method.gap) : Format("%9s ", "-");
-    text += Format("%11.4f %11.0f %9.3f s ", record.cost, record.evaluations, record.wall);
+    text +=
+        std::isfinite(method.gap) ? Format("%7.2f %% ", 100.0 * method.gap) : Format("%9s ", "-");
+    text += std::isnan(method.gap) ? Format("%11s ", "-") : Format("%11.4f ", record.cost);
+    text += Format("%11.0f %9.3f s ", record.evaluations, record.wall);
     text += record.raw() ? Format("%11s %11s\n", "-", "-")
                          : Seconds(method.reached[1]) + " " + Seconds(method.reached[0]) + "\n";
   }

@@ -53,9 +53,10 @@ std::string ComparisonCsv(const Comparison& comparison) {
       const MethodRecord& record = method.record;
       csv.Cell(one.scenario).Cell(one.objective).Cell(one.half_steps).Cell(record.name);
       csv.Cell(record.variables).Cell(record.status).Cell(record.certified).Cell(record.duration);
-      csv.Cell(record.speedup).Cell(record.cost);
+      csv.Cell(record.speedup);
+      std::isnan(method.gap) ? csv.Empty() : csv.Cell(record.cost);
       one.best_cost ? csv.Cell(*one.best_cost) : csv.Empty();
-      csv.Cell(method.gap);
+      std::isnan(method.gap) ? csv.Empty() : csv.Cell(method.gap);
       record.gap_to_reference ? csv.Cell(*record.gap_to_reference) : csv.Empty();
       csv.Cell(record.evaluations).Cell(record.collision_queries).Cell(record.wall);
       for (bool by_wall : {true, false}) {

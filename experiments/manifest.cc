@@ -63,6 +63,7 @@ ordered_json Requested(const std::string& method, const SmoothingConfig& config)
     case OptionGroup::kOptimizer:
       return {{"variables", std::string("overlaps") + (program.heights ? "+heights" : "") +
                                 (program.durations ? "+durations" : "")},
+              {"objective", config.optimizer.program},
               {"duration_limit_s", optimizer.duration_limit},
               {"instants", program.table.instants},
               {"random_starts", optimizer.random_starts},

@@ -163,6 +163,9 @@ void AddRequested(const json& manifest, const fs::path& path, const std::string&
     if (method.raw()) continue;
     method.variables = TextOf(requested, "variables", path);
     CheckWord(method.variables, "variables", path);
+    // Dichotomies and the like know no other objective than their default.
+    if (requested.contains("objective")) method.objective = TextOf(requested, "objective", path);
+    CheckWord(method.objective, "an objective", path);
   }
 }
 
@@ -204,7 +207,7 @@ RunRecord ReadRun(const std::string& argument) {
   AddRequested(manifest, path, label, &record.methods);
   for (MethodRecord& method : record.methods) {
     method.run = folder;
-    if (record.objective == "fastest") method.cost = method.duration;  // by definition
+    if (method.objective == "fastest") method.cost = method.duration;  // by definition
   }
   return record;
 }

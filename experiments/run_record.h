@@ -15,10 +15,11 @@ struct IncumbentRecord {
 
 /// What one method made of a scenario, as a run folder tells it.
 struct MethodRecord {
-  std::string run;        ///< the run folder, as it was named
-  std::string name;       ///< "ipopt", or "LABEL:ipopt"
-  std::string variables;  ///< "overlaps+heights+durations"; "" for raw
-  std::string requested;  ///< its options, as JSON text
+  std::string run;                    ///< the run folder, as it was named
+  std::string name;                   ///< "ipopt", or "LABEL:ipopt"
+  std::string variables;              ///< "overlaps+heights+durations"; "" for raw
+  std::string objective = "fastest";  ///< that it pursued
+  std::string requested;              ///< its options, as JSON text
   std::string status;
   bool certified = false;
   double duration = 0.0;  ///< [s]

@@ -145,6 +145,21 @@ TEST(Comparison, SameMethodWithOtherOptionsIsRefused) {
   EXPECT_EQ(Compare(runs).cases[0].methods.size(), 4u);
 }
 
+TEST(Comparison, MethodsCompeteForTheObjectiveThatTheyPursued) {
+  std::vector<RunRecord> runs = TwoScenarios();
+  runs.pop_back();
+  MethodRecord& good = runs[0].methods[2];
+  good.objective = "safest";
+  good.cost = -0.2;
+  const Comparison comparison = Compare(runs);
+  ASSERT_EQ(comparison.cases.size(), 2u);
+  EXPECT_EQ(comparison.cases[0].best_method, "quick");
+  EXPECT_EQ(comparison.cases[1].objective, "safest");
+  EXPECT_EQ(*comparison.cases[1].best_cost, -0.2);
+  EXPECT_TRUE(std::isnan(comparison.cases[1].methods[0].gap)) << "raw's cost is not known";
+  EXPECT_EQ(comparison.cases[1].methods[1].gap, 0.0);
+}
+
 class CompareCommandTest : public testing::Test {
  protected:
   static void SetUpTestSuite() {
