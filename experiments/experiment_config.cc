@@ -120,6 +120,9 @@ void DeclareOptimizer(Fields& fields, OptimizerConfig* c) {
                  {.meaning = "per half-step at which the program looks", .min = 2, .max = 1000});
   fields.Integer("rounds", &o->rounds,
                  {.meaning = "solves from each start, each looking closer", .min = 1, .max = 100});
+  fields.Boolean("planned_start", &o->planned_start,
+                 {.meaning = "solve also from the planned motion, not only from the dichotomy's "
+                             "result"});
   fields.Integer("random_starts", &o->random_starts,
                  {.meaning = "further starts, drawn from `seed`", .min = 0, .max = 1000});
   fields.Integer("max_iterations", &o->max_iterations,

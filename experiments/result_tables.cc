@@ -101,7 +101,8 @@ std::string IteratesCsv(const MethodRun& run) {
   for (const SmoothingIterate& iterate : run.result.iterates) {
     csv.Cell(++index).Cell(iterate.wall).Cell(iterate.evaluations).Cell(iterate.candidate_duration);
     iterate.candidate_slack ? csv.Cell(*iterate.candidate_slack) : csv.Empty();
-    csv.Cell(iterate.accepted).Cell(iterate.lambda).Cell(iterate.incumbent_duration).Empty();
+    csv.Cell(iterate.accepted).Cell(iterate.lambda).Cell(iterate.incumbent_duration);
+    iterate.incumbent_slack ? csv.Cell(*iterate.incumbent_slack) : csv.Empty();
     csv.EndRow();
   }
   return csv.text();

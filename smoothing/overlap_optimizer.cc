@@ -1,6 +1,7 @@
 #include "smoothing/overlap_optimizer.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <limits>
 #include <random>
@@ -129,9 +130,10 @@ class Optimization {
     return answer;
   }
 
-  // The dichotomy's result, then random points of the variables' box.
+  // The dichotomy's result, the planned motion, random points of the variables' box.
   std::vector<HomotopyParameters> Starts(const OverlapProgram& program) const {
     std::vector<HomotopyParameters> starts = {result_.parameters};
+    if (options_.planned_start) starts.push_back(PlannedMotion(sequence_));
     std::mt19937_64 random(options_.seed);
     const opt::Problem problem = program.MakeProblem();
     for (int i = 0; i < options_.random_starts; ++i) {
@@ -218,6 +220,12 @@ class Optimization {
                             .incumbent_duration = DurationOf(path->incumbent()),
                             .incumbent_cost = path->cost()};
     if (iterate.violation > 0.0) record.candidate_slack = -iterate.violation;
+    if (record.accepted) {
+      std::array<bool, kNumMarginFamilies> all;
+      all.fill(true);
+      incumbent_slack_ = program.table().LeastSlack(path->incumbent(), all);
+    }
+    record.incumbent_slack = incumbent_slack_;
     result_.iterates.push_back(record);
   }
 
@@ -289,6 +297,7 @@ class Optimization {
   SmoothingResult result_;
   opt::Solution solution_;                                          // the last one
   double worth_a_proof_ = std::numeric_limits<double>::infinity();  // a cost
+  std::optional<double> incumbent_slack_;                           // at the table's instants
   int skipped_ = 0;                                                 // candidates
   // Where proofs failed: half-step, and τ as a fraction of its T. Looked at first.
   mutable std::vector<std::pair<int, double>> suspects_;

@@ -18,8 +18,9 @@ struct OptimizerOptions {
   std::optional<HomotopyParameters> start = std::nullopt;
   /// Of `safest`: D is at most this [s]; 0: the duration of where it begins.
   double duration_limit = 0.0;
-  int random_starts = 0;     ///< solves from random points, after the one from the dichotomy's
-  unsigned seed = 1;         ///< of the random starts
+  bool planned_start = false;  ///< solve also from the planned motion, after the dichotomy's result
+  int random_starts = 0;       ///< and from random points of the variables' box
+  unsigned seed = 1;           ///< of the random starts
   int rounds = 6;            ///< ≥ 1: solves from each start, with more instants and sharper rows
   int max_iterations = 100;  ///< of the solver in the first round; a third of it in later ones
   double deadline = 30.0;    ///< of all solves together [s]

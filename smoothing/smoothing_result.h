@@ -52,7 +52,9 @@ struct SmoothingIterate {
   bool accepted = false;
   double lambda = 0.0;  ///< how far from incumbent to candidate it was accepted, ∈ [0, 1]
   double incumbent_duration = 0.0;  ///< after this iterate [s]
-  double incumbent_cost = 0.0;      ///< of the program, after this iterate
+  /// Least slack of the incumbent at the program's instants; none: not evaluated.
+  std::optional<double> incumbent_slack = std::nullopt;
+  double incumbent_cost = 0.0;  ///< of the program, after this iterate
 };
 
 /// What a smoothing method found. `parameters` were found feasible in the sense of `evidence`,

@@ -1,6 +1,6 @@
 // What the overlap programs find, and what they cost. Prints the tables of smoothing/README.md,
 // "Overlap program". Not a test.
-// Run: overlap_study table DEADLINE METHOD…          (CSV: every scenario, variables and program)
+// Run: overlap_study table SCENARIO DEADLINE METHOD… (CSV: all variables and programs)
 //      overlap_study grow METHOD N…                 (a straight walk of N half-steps)
 //      overlap_study solve CONFIG METHOD VARIABLES KIND [DEADLINE]
 //      overlap_study rows CONFIG
@@ -64,12 +64,6 @@ void Solve(const std::string& config, const std::string& method, const std::stri
               result.cost, Now() - begin, result.raw_infeasible, result.message.c_str());
 }
 
-const std::vector<std::string>& Scenarios() {
-  static const std::vector<std::string> names = {
-      "fig3_two_half_steps", "fig4_raw_sequence", "fig5_box", "bar_5cm", "bar_8cm", "bar_10cm"};
-  return names;
-}
-
 // First wall time at which the incumbent was within `gap` of `best`; −1: never.
 double TimeToWithin(const SmoothingResult& result, double best, double gap) {
   for (const SmoothingIterate& i : result.iterates) {
@@ -109,43 +103,42 @@ Case SolveCase(const Experiment& e, const MarginEvaluator& evaluator, const std:
   return done;
 }
 
-void Table(double deadline, const std::vector<std::string>& methods) {
+void Table(const std::string& config, double deadline, const std::vector<std::string>& methods) {
   std::printf(
       "scenario,variables,program,method,status,certified,duration_s,cost,gap_to_best,"
       "instants,candidates,raw_infeasible,raw_end_feasible,incumbents,incumbents_refuted,"
       "wall_s,to_5_percent_s,to_1_percent_s\n");
-  for (const std::string& config : Scenarios()) {
-    const Experiment e = Load(config);
-    const MarginEvaluator evaluator(e.robot, e.scene, e.config.smoothing.limits);
-    for (const std::string variables : {"o", "oh", "oht"}) {
-      for (const std::string kind : {"fastest", "smooth", "safest"}) {
-        std::vector<Case> cases;
-        double best = 1e9, shortest = 1e9;
-        for (const std::string& method : methods) {
-          const bool solver = FindMethod(method).options == OptionGroup::kOptimizer;
-          if (kind != "fastest" && !solver) continue;
-          cases.push_back(SolveCase(e, evaluator, method, variables, kind, deadline));
-          best = std::min(best, cases.back().result.cost);
-          shortest = std::min(shortest, DurationOf(cases.back().result.parameters));
+  const Experiment e = Load(config);
+  const MarginEvaluator evaluator(e.robot, e.scene, e.config.smoothing.limits);
+  for (const std::string variables : {"o", "oh", "oht"}) {
+    for (const std::string kind : {"fastest", "smooth", "safest"}) {
+      std::vector<Case> cases;
+      double best = 1e9, shortest = 1e9;
+      for (const std::string& method : methods) {
+        const std::vector<std::string> solvers = opt::SolverNames();
+        const bool solver = std::find(solvers.begin(), solvers.end(), method) != solvers.end();
+        if (kind != "fastest" && !solver) continue;
+        cases.push_back(SolveCase(e, evaluator, method, variables, kind, deadline));
+        best = std::min(best, cases.back().result.cost);
+        shortest = std::min(shortest, DurationOf(cases.back().result.parameters));
+      }
+      for (const Case& c : cases) {
+        const SmoothingResult& r = c.result;
+        const double gap =
+            kind == "safest" ? r.cost - best : r.cost / best - 1.0;  // of a slack: no ratio
+        std::printf("%s,%s,%s,%s,%s,%s,%.4f,%.4f,%.5f,%ld,%zu,%ld,%s,%ld,%ld,%.3f", config.c_str(),
+                    variables.c_str(), kind.c_str(), c.method.c_str(),
+                    std::string(Name(r.status)).c_str(), c.certified ? "true" : "false",
+                    DurationOf(r.parameters), r.cost, gap, r.instants, r.iterates.size(),
+                    r.raw_infeasible, r.raw_end_feasible ? "true" : "false", c.accepted, c.refuted,
+                    r.wall);
+        if (kind == "fastest") {
+          std::printf(",%.3f,%.3f\n", TimeToWithin(r, shortest, 0.05),
+                      TimeToWithin(r, shortest, 0.01));
+        } else {
+          std::printf(",,\n");
         }
-        for (const Case& c : cases) {
-          const SmoothingResult& r = c.result;
-          const double gap =
-              kind == "safest" ? r.cost - best : r.cost / best - 1.0;  // of a slack: no ratio
-          std::printf("%s,%s,%s,%s,%s,%s,%.4f,%.4f,%.5f,%ld,%zu,%ld,%s,%ld,%ld,%.3f",
-                      config.c_str(), variables.c_str(), kind.c_str(), c.method.c_str(),
-                      std::string(Name(r.status)).c_str(), c.certified ? "true" : "false",
-                      DurationOf(r.parameters), r.cost, gap, r.instants, r.iterates.size(),
-                      r.raw_infeasible, r.raw_end_feasible ? "true" : "false", c.accepted,
-                      c.refuted, r.wall);
-          if (kind == "fastest") {
-            std::printf(",%.3f,%.3f\n", TimeToWithin(r, shortest, 0.05),
-                        TimeToWithin(r, shortest, 0.01));
-          } else {
-            std::printf(",,\n");
-          }
-          std::fflush(stdout);
-        }
+        std::fflush(stdout);
       }
     }
   }
@@ -255,8 +248,8 @@ int main(int argc, char** argv) {
     halfstep::Solve(arg(2, "bar_8cm"), arg(3, "ipopt"), arg(4, "oht"), arg(5, "fastest"),
                     std::atof(arg(6, "30").c_str()));
   } else if (part == "table") {
-    std::vector<std::string> methods(argv + std::min(argc, 3), argv + argc);
-    halfstep::Table(std::atof(arg(2, "3").c_str()), methods);
+    std::vector<std::string> methods(argv + std::min(argc, 4), argv + argc);
+    halfstep::Table(arg(2, "bar_8cm"), std::atof(arg(3, "3").c_str()), methods);
   } else if (part == "grow") {
     for (int i = 3; i < argc; ++i) halfstep::Grow(argv[2], std::atoi(argv[i]));
   } else if (part == "rows") {
