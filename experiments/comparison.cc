@@ -14,7 +14,9 @@ constexpr Effort kLeast = {.wall = 0.001, .evaluations = 1.0};
 constexpr Effort kShift = {.wall = 0.1, .evaluations = 1000.0};
 constexpr double kPenalty = 10.0;
 
-MethodKey KeyOf(const MethodRecord& record) { return {record.name, record.variables}; }
+MethodKey KeyOf(const MethodRecord& record) {
+  return {record.name, record.variables, record.objective};
+}
 
 double Of(const Effort& effort, bool by_wall) { return by_wall ? effort.wall : effort.evaluations; }
 
@@ -119,7 +121,7 @@ std::vector<double> Ratios(const Comparison& comparison, const MethodKey& key, s
                            bool by_wall) {
   std::vector<double> ratios;
   for (const ComparedCase& one : comparison.cases) {
-    const ComparedMethod* method = Find(one, key);
+    const ComparedMethod* method = Find(one, key);  // none of another objective
     if (method == nullptr || !method->reached[target]) continue;
     ratios.push_back(std::max(Of(*method->reached[target], by_wall), Of(kLeast, by_wall)) /
                      *Extreme(one, target, by_wall, /*least=*/true));
@@ -132,6 +134,7 @@ double MeanEffort(const Comparison& comparison, const MethodKey& key, size_t tar
   double sum = 0.0;
   int count = 0;
   for (const ComparedCase& one : comparison.cases) {
+    if (one.objective != key.objective) continue;
     const std::optional<double> most = Extreme(one, target, by_wall, /*least=*/false);
     if (!most) continue;
     const ComparedMethod* method = Find(one, key);
@@ -171,13 +174,17 @@ Comparison Compare(const std::vector<RunRecord>& runs) {
 
 std::vector<ProfileCurve> PerformanceProfiles(const Comparison& comparison) {
   std::vector<ProfileCurve> curves;
-  const double all = static_cast<double>(comparison.cases.size());
+  const auto cases = [&](const MethodKey& key) {
+    return std::count_if(comparison.cases.begin(), comparison.cases.end(),
+                         [&](const ComparedCase& one) { return one.objective == key.objective; });
+  };
   for (size_t target = 0; target < kNumTargets; ++target) {
     for (bool by_wall : {true, false}) {
       const size_t first = curves.size();
       double largest = 1.0;
       for (const MethodKey& key : comparison.methods) {
         ProfileCurve curve{static_cast<int>(target), by_wall, key, {{1.0, 0.0}}};
+        const double all = static_cast<double>(cases(key));
         double solved = 0.0;
         for (double ratio : Ratios(comparison, key, target, by_wall)) {
           const double fraction = ++solved / all;
@@ -206,6 +213,7 @@ std::vector<MethodMeans> Means(const Comparison& comparison) {
     mean.method = key;
     double logs = 0.0;
     for (const ComparedCase& one : comparison.cases) {
+      if (one.objective != key.objective) continue;
       ++mean.cases;
       const ComparedMethod* method = Find(one, key);
       if (method == nullptr) {

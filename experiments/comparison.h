@@ -43,9 +43,10 @@ struct ComparedCase {
   std::vector<ComparedMethod> methods;  ///< raw first
 };
 
-/// A method as it is compared over cases: the same solver with other variables is another one.
+/// A method as it is compared over cases: the same solver with other variables or
+/// another objective is another one. Only cases of its objective count for it.
 struct MethodKey {
-  std::string name, variables;
+  std::string name, variables, objective;
   bool operator==(const MethodKey&) const = default;
 };
 

@@ -70,12 +70,13 @@ std::string ComparisonCsv(const Comparison& comparison) {
 }
 
 std::string PerformanceProfileCsv(const Comparison& comparison) {
-  CsvWriter csv({"gap", "effort", "method", "variables", "ratio", "fraction"});
+  CsvWriter csv({"gap", "effort", "method", "variables", "objective", "ratio", "fraction"});
   for (const ProfileCurve& curve : PerformanceProfiles(comparison)) {
     for (const auto& [ratio, fraction] : curve.points) {
       csv.Cell(kTargets[static_cast<size_t>(curve.target)]);
       csv.Cell(curve.by_wall ? "wall_s" : "evaluations");
-      csv.Cell(curve.method.name).Cell(curve.method.variables).Cell(ratio).Cell(fraction).EndRow();
+      csv.Cell(curve.method.name).Cell(curve.method.variables).Cell(curve.method.objective);
+      csv.Cell(ratio).Cell(fraction).EndRow();
     }
   }
   return csv.text();
@@ -108,12 +109,13 @@ std::string AnytimeCsv(const Comparison& comparison) {
 }
 
 std::string MeansCsv(const Comparison& comparison) {
-  CsvWriter csv({"method", "variables", "cases", "missing", "certified", "within_1pct",
+  CsvWriter csv({"method", "variables", "objective", "cases", "missing", "certified", "within_1pct",
                  "within_5pct", "finished", "speedup_mean", "time_to_1pct_mean_s",
                  "time_to_5pct_mean_s", "time_to_end_mean_s", "evaluations_to_1pct_mean",
                  "evaluations_to_5pct_mean", "evaluations_to_end_mean"});
   for (const MethodMeans& mean : Means(comparison)) {
-    csv.Cell(mean.method.name).Cell(mean.method.variables).Cell(mean.cases).Cell(mean.missing);
+    csv.Cell(mean.method.name).Cell(mean.method.variables).Cell(mean.method.objective);
+    csv.Cell(mean.cases).Cell(mean.missing);
     csv.Cell(mean.certified);
     for (int solved : mean.solved) csv.Cell(solved);
     csv.Cell(mean.speedup);

@@ -12,8 +12,8 @@ if (!exists("out")) out = comparison . "/comparison.png"
 profile = comparison . "/performance_profile.csv"
 anytime = comparison . "/anytime.csv"
 
-# METHOD,VARIABLES of each curve: words without blanks, as the program makes sure.
-curves = system("tail -n +2 '" . comparison . "/means.csv' | cut -d, -f1,2 | tr '\n' ' '")
+# METHOD,VARIABLES of each curve of the objective `fastest`: words without blanks, as the program makes sure.
+curves = system("tail -n +2 '" . comparison . "/means.csv' | grep ',fastest,' | cut -d, -f1,2 | tr '\n' ' '")
 comma(c) = strstrt(c, ",")
 method(c) = c[1:comma(c) - 1]
 variables(c) = c[comma(c) + 1:*]
@@ -30,7 +30,7 @@ if (!exists("scenario")) {
 }
 
 mine(c) = strcol("method") eq method(c) && strcol("variables") eq variables(c)
-ratio(c, gap) = mine(c) && strcol("gap") eq gap && strcol("effort") eq effort ? column("ratio") : NaN
+ratio(c, gap) = mine(c) && strcol("objective") eq "fastest" && strcol("gap") eq gap && strcol("effort") eq effort ? column("ratio") : NaN
 here(c) = mine(c) && strcol("scenario") eq scenario && strcol("objective") eq "fastest"
 spent(c, what, least) = here(c) ? (column(what) > least ? column(what) : least) : NaN
 
