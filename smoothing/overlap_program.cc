@@ -74,7 +74,7 @@ class SlackBlock : public opt::ConstraintBlock {
 // `safest` raises the least slack far beyond what the other programs need to see.
 SlackTableOptions Seeing(const ProgramOptions& options) {
   SlackTableOptions table = options.table;
-  if (options.kind == ProgramKind::kSafest) table.cutoff = std::max(table.cutoff, 12.0);
+  if (options.kind == ProgramKind::kSafest) table.cutoff = std::max(table.cutoff, 5.0);
   return table;
 }
 

@@ -230,7 +230,7 @@ void Rows(const std::string& config) {
     std::printf("%-20s %-8s rows %.3f ms, Jacobian %.3f ms a half-step, ratio %.2f\n",
                 config.c_str(), std::string(Name(kind)).c_str(), 1e3 * value / n, 1e3 * both / n,
                 both / value);
-    const opt::ProblemDerivativeReport report = opt::CheckDerivatives(problem, x, 1e-6);
+    const opt::ProblemDerivativeReport report = opt::CheckDerivatives(problem, x, 1e-5);
     std::printf("  worst derivative: cost %.1e, rows %.1e (%s)\n", report.cost.worst_error,
                 report.constraints.worst_error, report.message.c_str());
   }

@@ -47,7 +47,9 @@ TEST(RunCommand, WritesEveryFileAndColumn) {
             "zmp_margin_m,joint_margin_rad,joint_speed_margin_rad_s,foot_speed_margin_m_s,"
             "clearance_m,self_clearance_m");
   EXPECT_EQ(Columns(run / "dichotomy/overlaps.csv"),
-            "junction,kind,overlap_s,upper_bound_s,active");
+            "junction,kind,overlap_s,upper_bound_s,active,limit_family,limit_scale,price_s,"
+            "multiplier_s,duration_before_s,duration_after_s,height_scale_before,"
+            "height_scale_after");
   EXPECT_EQ(Columns(run / "dichotomy/iterates.csv"),
             "iteration,wall_s,evaluations,candidate_duration_s,candidate_worst_margin,accepted,"
             "lambda,incumbent_duration_s,incumbent_worst_margin");
