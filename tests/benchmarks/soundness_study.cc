@@ -1,0 +1,116 @@
+// Whether what the query calls free is certified: random elements of the certified set at random
+// places among random boxes, cylinders, spheres and capsules.
+//   soundness_study [N [SEED]]     default: 100000 half-steps, seed 1
+// Prints the figures of planner/README.md, "Swept volumes". Exit status 1: a contradiction. Swept
+// volumes of HRP-2 from the user's cache, baked when they are not there. Not a test.
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+#include "experiments/experiment.h"
+#include "experiments/planning.h"
+#include "planner/swept_volume_query.h"
+#include "tests/planner/swept_volume_draws.h"
+
+namespace {
+
+using namespace halfstep;
+
+constexpr double kReach = 3.0;       // half the edge of the room [m]
+constexpr double kDisplaced = 0.05;  // of the control [m]
+constexpr int kHalfStepsInAScene = 200;
+
+ConvexBody DrawShape(int kind, SweptDraw* draw) {
+  const double radius = draw->Uniform(0.02, 0.2), length = draw->Uniform(0.05, 1.0);
+  switch (kind) {
+    case 0:
+      return MakeBox(draw->Point({0.05, 0.05, 0.05}, {0.4, 0.4, 1.0}));
+    case 1:
+      return MakeCylinder(radius, length);
+    case 2:
+      return MakeSphere(radius);
+    default:
+      return MakeCapsule(radius, length);
+  }
+}
+
+// As many of each shape; every second one upright on the floor (a ball half sunk), the others
+// tilted, up to 0.8 m above it.
+Scene DrawMixed(int count, SweptDraw* draw) {
+  Scene scene;
+  for (int i = 0; i < count; ++i) {
+    const bool upright = draw->Index(2) == 0;
+    Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();
+    X_WO.linear() = draw->Turn(upright);
+    X_WO.translation() = draw->Point({-kReach, -kReach, 0}, {kReach, kReach, upright ? 0.3 : 0.8});
+    scene.obstacles.push_back({"obstacle " + std::to_string(i), DrawShape(i % 4, draw), X_WO});
+  }
+  return scene;
+}
+
+struct Counts {
+  long asked = 0, free = 0, certified_free = 0;
+  long refused = 0, certified_refused = 0;
+  long controls = 0, refuted_controls = 0;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const long wanted = argc > 1 ? std::atol(argv[1]) : 100000;
+  SweptDraw draw(argc > 2 ? std::strtoul(argv[2], nullptr, 10) : 1);
+  const ExperimentConfig config =
+      LoadConfig(std::string(HALFSTEP_SOURCE_DIR) + "/experiments/configs/island.yaml", {});
+  const RobotModel robot = LoadPlace(config).robot;
+  const BakedHalfSteps baked = BakeHalfSteps(robot, config, {});
+  const SweptVolumes& volumes = *baked.cached.volumes;
+  Counts n;
+  while (n.asked < wanted) {
+    const Scene scene = DrawMixed(50, &draw);
+    const SweptVolumeQuery query(volumes, robot.sole_size, scene);
+    const HalfStepCertifier certifier(robot, scene, config);
+    for (int k = 0; k < kHalfStepsInAScene && n.asked < wanted; ++k) {
+      const int i = draw.Index(volumes.set.size());
+      const bool down = draw.Index(2) == 0;
+      const Side side = draw.AnySide();  // of the foot on which the element lands the other
+      const Pose2 X_WS = draw.Floor(kReach);
+      const auto free_at = [&](const Pose2& at) {
+        return down ? query.DownIsFree(i, side, at) : query.UpIsFree(i, side, at);
+      };
+      const HalfStep half_step = down ? volumes.set.Down(i, side) : volumes.set.Up(i, side);
+      const Pose2 X_WSupport = down ? X_WS : X_WS * volumes.set.Placement(i, side);
+      ++n.asked;
+      if (free_at(X_WS)) {
+        ++n.free;
+        if (certifier.Certifies(half_step, X_WSupport)) {
+          ++n.certified_free;
+        } else {
+          std::printf("contradiction: element %d, %s, %s, x %.17g y %.17g yaw %.17g\n", i,
+                      down ? "down" : "up", std::string(Name(side)).c_str(), X_WS.x, X_WS.y,
+                      X_WS.yaw);
+        }
+      } else if (n.asked % 10 == 0) {
+        ++n.refused;
+        n.certified_refused += certifier.Certifies(half_step, X_WSupport);
+      }
+      // A control: the same asked beside the place must be wrong now and then.
+      if (n.asked % 20 == 0 && free_at({X_WS.x + kDisplaced, X_WS.y, X_WS.yaw})) {
+        ++n.controls;
+        n.refuted_controls += !certifier.Certifies(half_step, X_WSupport);
+      }
+    }
+  }
+  const double free_share = static_cast<double>(n.free) / static_cast<double>(n.asked);
+  const double refused_free = (1.0 - free_share) * static_cast<double>(n.certified_refused) /
+                              static_cast<double>(std::max(n.refused, 1L));
+  std::printf(
+      "%ld half-steps of %d elements, 50 obstacles: %ld called free, %ld of them not certified\n",
+      n.asked, volumes.set.size(), n.free, n.free - n.certified_free);
+  std::printf("of %ld refused ones looked at, %ld are certified: %.2f %% of what is free\n",
+              n.refused, n.certified_refused, 100.0 * refused_free / (free_share + refused_free));
+  std::printf("control: of %ld called free %.0f mm beside, %ld not certified\n", n.controls,
+              1e3 * kDisplaced, n.refuted_controls);
+  return n.free == n.certified_free ? 0 : 1;
+}
