@@ -56,6 +56,24 @@ std::vector<double> KnotsInside(const SuperposedWalk& walk, const TimeWindow& wi
   return knots;
 }
 
+TimeWindow ExtendedToKnots(const SuperposedWalk& walk, const TimeWindow& window) {
+  TimeWindow extended = window;
+  const int before = walk.Locate(std::nextafter(window.begin, -1.0)).half_step;
+  const double earliest = walk.start_of(before);
+  if (earliest < window.begin) {
+    const std::vector<double> knots = KnotsInside(walk, {earliest, window.begin});
+    extended.begin = knots.empty() ? earliest : knots.back();
+  }
+  const int last = walk.Locate(window.end).half_step;
+  double latest = walk.end_of(last);
+  if (last + 1 < walk.num_half_steps()) latest = std::min(latest, walk.start_of(last + 1));
+  if (latest > window.end) {
+    const std::vector<double> knots = KnotsInside(walk, {window.end, latest});
+    extended.end = knots.empty() ? latest : knots.front();
+  }
+  return extended;
+}
+
 CertifiedFeasibility::CertifiedFeasibility(const MarginEvaluator& evaluator,
                                            const CertificationOptions& options)
     : evaluator_(evaluator), options_(options), statements_(evaluator) {
@@ -105,7 +123,7 @@ Feasibility CertifiedFeasibility::Decide(const SuperposedWalk& walk, const TimeW
 
 Feasibility CertifiedFeasibility::Check(const SuperposedWalk& walk, const TimeWindow& window,
                                         MarginEvaluator::Scratch* scratch) const {
-  return Decide(walk, window, scratch, nullptr);
+  return Decide(walk, ExtendedToKnots(walk, window), scratch, nullptr);
 }
 
 Feasibility CertifiedFeasibility::Certify(const SuperposedWalk& walk,

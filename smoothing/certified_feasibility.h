@@ -46,6 +46,11 @@ class CertifiedFeasibility : public FeasibilityTest {
   IntervalStatements statements_;
 };
 
+/// The window and, on either side, what lies between it and the next knot: where an overlap's
+/// change puts a knot, the intervals beside it are cut anew. With these in every check, walks whose
+/// windows were proved one after the other are proved as a whole, by the same intervals.
+TimeWindow ExtendedToKnots(const SuperposedWalk& walk, const TimeWindow& window);
+
 /// Instants strictly inside a window at which a foot lands or lifts off, starts or stops moving
 /// horizontally, or a half-step begins or ends, in order [s].
 std::vector<double> KnotsInside(const SuperposedWalk& walk, const TimeWindow& window);

@@ -209,5 +209,58 @@ TEST(CertifiedFeasibility, DichotomyEndsCertified) {
   }
 }
 
+// Lengths of the intervals from knot to knot of a stretch, which certification starts from.
+std::vector<double> Gaps(const SuperposedWalk& walk, const TimeWindow& stretch) {
+  std::vector<double> knots = KnotsInside(walk, stretch);
+  knots.insert(knots.begin(), stretch.begin);
+  knots.push_back(stretch.end);
+  std::vector<double> gaps;
+  for (size_t i = 0; i + 1 < knots.size(); ++i) {
+    if (knots[i + 1] - knots[i] > 1e-9) gaps.push_back(knots[i + 1] - knots[i]);
+  }
+  return gaps;
+}
+
+bool StartsWith(const std::vector<double>& all, const std::vector<double>& part) {
+  return part.size() <= all.size() &&
+         std::equal(part.begin(), part.end(), all.begin(),
+                    [](double a, double b) { return std::abs(a - b) < 1e-9; });
+}
+
+// Regression: knots move with an overlap, and the intervals beside its window are cut anew. A walk
+// that was proved window by window could then be undecided as a whole.
+TEST(CertifiedFeasibility, OutsideOfACheckedWindowIntervalsAreTheOldOnes) {
+  const RobotModel robot = Hrp2();
+  WalkDraw draw(29);
+  int cut_without = 0;
+  for (int i = 0; i < 50; ++i) {
+    const auto drawn = DrawNearLimit(robot, SceneKind::kCylinders, {}, 0.1, &draw);
+    if (!drawn) continue;
+    SuperposedWalk walk(drawn->sequence, drawn->parameters);
+    const int j = static_cast<int>(draw.Uniform(0, drawn->sequence.num_junctions()));
+    const double overlap = drawn->parameters.overlaps[static_cast<size_t>(j)];
+    walk.SetOverlap(j, 0.5 * overlap);
+    const std::vector<double> old_gaps = Gaps(walk, {0.0, walk.duration()});
+    walk.SetOverlap(j, overlap);
+    const TimeWindow window{walk.start_of(j + 1), walk.end_of(j)};
+    const auto old_before = [&](double begin) {
+      return StartsWith(old_gaps, Gaps(walk, {0.0, begin}));
+    };
+    const auto old_after = [&](double end) {
+      std::vector<double> reversed(old_gaps.rbegin(), old_gaps.rend());
+      std::vector<double> after = Gaps(walk, {end, walk.duration()});
+      std::reverse(after.begin(), after.end());
+      return StartsWith(reversed, after);
+    };
+    const TimeWindow checked = ExtendedToKnots(walk, window);
+    EXPECT_LE(checked.begin, window.begin);
+    EXPECT_GE(checked.end, window.end);
+    EXPECT_TRUE(old_before(checked.begin)) << i;
+    EXPECT_TRUE(old_after(checked.end)) << i;
+    cut_without += !old_before(window.begin) || !old_after(window.end);
+  }
+  EXPECT_GT(cut_without, 0) << "the case that this is about";
+}
+
 }  // namespace
 }  // namespace halfstep
