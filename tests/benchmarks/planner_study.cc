@@ -1,5 +1,5 @@
 // Planners in the shipped and drawn scenes: success, time to the first plan, footsteps.
-//   planner_study [RUNS [SCENARIO...]]     default: 100 runs, all scenarios
+//   planner_study [RUNS [SCENARIO|PLANNER...]]     default: 100 runs, all scenarios and planners
 // Swept volumes of HRP-2 from the user's cache, baked when they are not there. `flat_*`: the query
 // of the tests, poles and areas only.
 
@@ -171,12 +171,13 @@ void StudySwept(const Scenario& scenario, const std::string& planner, const Swep
   Print(scenario.name, planner, row);
 }
 
-void StudyFlat(const std::string& name, const FlatWorld& world, const Pose2& goal, int runs) {
+void StudyFlat(const std::string& name, const FlatWorld& world, const Pose2& goal,
+               const std::vector<std::string>& planners, int runs) {
   const HalfStepSet set = PlausibleSet();
   const FlatQuery query(set, world);
   Problem problem{world.ToScene(), {Pose2{0.0, 0.1, 0.0}, Pose2{0.0, -0.1, 0.0}}, {}, {}};
   problem.goal.X_WG = goal;
-  for (const std::string& planner : PlannerNames()) {
+  for (const std::string& planner : planners) {
     Row row;
     for (int seed = 1; seed <= (planner == "rrt" ? runs : 1); ++seed) {
       std::mt19937_64 random(static_cast<std::uint64_t>(seed));
@@ -192,14 +193,24 @@ void StudyFlat(const std::string& name, const FlatWorld& world, const Pose2& goa
 int main(int argc, char** argv) {
   const int runs = argc > 1 ? std::atoi(argv[1]) : 100;
   const std::vector<std::string> chosen(argv + std::min(argc, 2), argv + argc);
-  const auto wanted = [&chosen](const std::string& name) {
-    return chosen.empty() || std::find(chosen.begin(), chosen.end(), name) != chosen.end();
+  // Names of planners choose among the planners, others among the scenarios; none: all.
+  std::vector<std::string> planners, scenario_names;
+  for (const std::string& name : chosen) {
+    const std::vector<std::string> all = PlannerNames();
+    (std::find(all.begin(), all.end(), name) != all.end() ? planners : scenario_names)
+        .push_back(name);
+  }
+  if (planners.empty()) planners = PlannerNames();
+  const auto wanted = [&names = scenario_names](const std::string& name) {
+    return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
   };
   std::printf("%-12s %-14s %7s %9s %10s %10s %7s %7s %8s\n", "scenario", "planner", "solved",
               "certified", "median ms", "p95 ms", "steps", "nodes", "queries");
-  if (wanted("flat_open")) StudyFlat("flat_open", {}, {4.0, 0.0, 0.0}, runs);
-  if (wanted("flat_wall")) StudyFlat("flat_wall", WallWithGap(0.6, 1.2), {2.0, 0.0, 0.0}, runs);
-  if (wanted("flat_island")) StudyFlat("flat_island", Island(0.6, 0.05), {2.0, 0.3, 0.0}, runs);
+  if (wanted("flat_open")) StudyFlat("flat_open", {}, {4.0, 0.0, 0.0}, planners, runs);
+  if (wanted("flat_wall"))
+    StudyFlat("flat_wall", WallWithGap(0.6, 1.2), {2.0, 0.0, 0.0}, planners, runs);
+  if (wanted("flat_island"))
+    StudyFlat("flat_island", Island(0.6, 0.05), {2.0, 0.3, 0.0}, planners, runs);
 
   std::vector<Scenario> scenarios;
   for (const char* name : {"island", "clutter", "fence"}) {
@@ -219,7 +230,7 @@ int main(int argc, char** argv) {
   for (const Scenario& scenario : scenarios) {
     if (!wanted(scenario.name)) continue;
     if (!baked) baked = BakeHalfSteps(robot, config, {});
-    for (const std::string& planner : PlannerNames()) {
+    for (const std::string& planner : planners) {
       StudySwept(scenario, planner, *baked->cached.volumes, config, robot, runs);
     }
   }
