@@ -48,6 +48,7 @@ OverlapVariables::Bound OverlapVariables::OverlapBound(int junction,
     b = sequence_.half_steps[i + 1].half_step.shape.t1();
   }
   const double u = a * durations[i], v = b * durations[i + 1];
+  if (!durations_) return {std::min(u, v), 0.0, 0.0};
   // (u + v)/2 − √((u − v)²/4 + ε²) ≤ min(u, v)
   const double half = 0.5 * (u - v);
   const double root = std::sqrt(half * half + kBoundSmoothing * kBoundSmoothing);

@@ -11,8 +11,9 @@ namespace halfstep {
 using ParameterGradient = std::vector<std::pair<HomotopyParameter, double>>;
 
 /// The variables x of a program over a sequence: first s_i = Δ_i/B_i(T), then, when they are
-/// variables, the height scales η and the durations T. B_i(T) is a smooth lower bound, by at most
-/// 1 ms, of the natural overlap bound, so 0 ≤ s_i ≤ 1 are simple bounds at all T. Families that are
+/// variables, the height scales η and the durations T. B_i(T) is the natural overlap bound or, when
+/// T are variables, a smooth lower bound of it by at most 1 ms, so 0 ≤ s_i ≤ 1 are simple bounds at
+/// all T. Families that are
 /// no variables keep the values of `planned`.
 /// Source: smoothing/README.md, "Overlap program".
 class OverlapVariables {

@@ -1,6 +1,7 @@
 // What the overlap programs find, and what they cost. Prints the tables of smoothing/README.md,
 // "Overlap program". Not a test.
 // Run: overlap_study table SCENARIO DEADLINE METHOD… (CSV: all variables and programs)
+//      overlap_study table SCENARIO:VARIABLES:PROGRAM DEADLINE METHOD…
 //      overlap_study grow METHOD N…                 (a straight walk of N half-steps)
 //      overlap_study solve CONFIG METHOD VARIABLES KIND [DEADLINE]
 //      overlap_study rows CONFIG
@@ -103,7 +104,9 @@ Case SolveCase(const Experiment& e, const MarginEvaluator& evaluator, const std:
   return done;
 }
 
-void Table(const std::string& config, double deadline, const std::vector<std::string>& methods) {
+void Table(const std::string& what, double deadline, const std::vector<std::string>& methods) {
+  const std::string config = what.substr(0, what.find(':'));
+  const std::string only = what.substr(config.size());
   std::printf(
       "scenario,variables,program,method,status,certified,duration_s,cost,gap_to_best,"
       "instants,candidates,raw_infeasible,raw_end_feasible,incumbents,incumbents_refuted,"
