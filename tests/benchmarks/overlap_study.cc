@@ -115,6 +115,7 @@ void Table(const std::string& what, double deadline, const std::vector<std::stri
   const MarginEvaluator evaluator(e.robot, e.scene, e.config.smoothing.limits);
   for (const std::string variables : {"o", "oh", "oht"}) {
     for (const std::string kind : {"fastest", "smooth", "safest"}) {
+      if (!only.empty() && only != ":" + variables + ":" + kind) continue;
       std::vector<Case> cases;
       double best = 1e9, shortest = 1e9;
       for (const std::string& method : methods) {
