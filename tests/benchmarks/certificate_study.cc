@@ -139,7 +139,7 @@ void Walks(long walks, unsigned seed) {
 void Dichotomies() {
   std::printf("\n%-22s %9s | %9s %9s %8s | %9s %9s %8s | %8s  %s\n", "config", "planned", "sampled",
               "instants", "wall", "certified", "intervals", "wall", "longer", "whole walk again");
-  for (const auto& path : YamlFiles(std::string(HALFSTEP_SOURCE_DIR) + "/experiments/configs")) {
+  for (const auto& path : YamlFiles(HALFSTEP_SOURCE_DIR "/experiments/configs")) {
     const Experiment e = Prepare(LoadConfig(path.string(), {}));
     const MarginEvaluator evaluator(e.robot, e.scene, e.config.smoothing.limits);
     const SampledFeasibility sampled(evaluator, 0.005);

@@ -11,7 +11,7 @@ namespace {
 
 // Random postures of HRP-2's right leg within its limits, and where its sole is in them.
 struct Postures {
-  Postures() : leg(LoadRobot(std::string(HALFSTEP_SOURCE_DIR) + "/wpg/robots/hrp2.yaml").legs[1]) {
+  Postures() : leg(LoadRobot(HALFSTEP_SOURCE_DIR "/wpg/robots/hrp2.yaml").legs[1]) {
     std::mt19937 random(1);
     for (int k = 0; k < 1024; ++k) {
       Vector6d posture;

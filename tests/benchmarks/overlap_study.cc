@@ -29,8 +29,7 @@ double Now() {
 }
 
 Experiment Load(const std::string& name) {
-  return Prepare(
-      LoadConfig(std::string(HALFSTEP_SOURCE_DIR) + "/experiments/configs/" + name + ".yaml", {}));
+  return Prepare(LoadConfig(HALFSTEP_SOURCE_DIR "/experiments/configs/" + name + ".yaml", {}));
 }
 
 ProgramKind KindOf(const std::string& name) {
@@ -175,7 +174,7 @@ void Grow(const std::string& method, int n) {
   OptimizerOptions options;
   options.solver = method;
   options.program.heights = options.program.durations = true;
-  options.deadline = 120.0;
+  options.deadline = 20.0;
   const double begin = Now();
   const SmoothingResult start = Dichotomy(e.sequence, test, {});
   const double dichotomy = Now() - begin;
@@ -192,14 +191,18 @@ void Grow(const std::string& method, int n) {
   solver.max_iterations = 20;
   solver.optimality_tolerance = 1e-4;
   const opt::Solution solution = opt::MakeSolver(method)->Solve(problem, x, solver);
-  const SmoothingResult r = OptimizeOverlaps(e.sequence, test, options);
-  const double shortest = DurationOf(r.parameters);
-  std::printf(
-      "%-18s n %4d  dichotomy %.3f s (%.2f s)  Jacobian %7.2f ms  %7.2f ms an iteration of 20  "
-      "D %8.3f  within 5%% %.2f s, 1%% %.2f s, all %.2f s, %ld instants\n",
-      method.c_str(), n, DurationOf(start.parameters), dichotomy, 1e3 * both,
-      1e3 * solution.wall / std::max(1, solution.iterations), shortest,
-      TimeToWithin(r, shortest, 0.05), TimeToWithin(r, shortest, 0.01), r.wall, r.instants);
+  std::printf("%-18s n %4d  dichotomy %.3f s (%.2f s)  Jacobian %7.2f ms  %7.2f ms an iteration",
+              method.c_str(), n, DurationOf(start.parameters), dichotomy, 1e3 * both,
+              1e3 * solution.wall / std::max(1, solution.iterations));
+  constexpr int kWhole = 40;  // longer ones are not solved to their end
+  if (n <= kWhole) {
+    const SmoothingResult r = OptimizeOverlaps(e.sequence, test, options);
+    const double shortest = DurationOf(r.parameters);
+    std::printf("  D %.3f, within 5%% %.2f s, 1%% %.2f s, all %.2f s, %ld instants", shortest,
+                TimeToWithin(r, shortest, 0.05), TimeToWithin(r, shortest, 0.01), r.wall,
+                r.instants);
+  }
+  std::printf("\n");
   std::fflush(stdout);
 }
 

@@ -41,7 +41,7 @@ struct Scenario {
 
 Problem Shipped(const std::string& name) {
   const ExperimentConfig config =
-      LoadConfig(std::string(HALFSTEP_SOURCE_DIR) + "/experiments/configs/" + name + ".yaml", {});
+      LoadConfig(HALFSTEP_SOURCE_DIR "/experiments/configs/" + name + ".yaml", {});
   const Place place = LoadPlace(config);
   Problem problem{place.scene, StartOf(config, place.robot), config.goal.Region(), {}};
   if (const auto& w = config.planner.workspace; !w.empty()) {
@@ -223,8 +223,7 @@ int main(int argc, char** argv) {
                        }});
   scenarios.push_back({"random_room", true, RandomRoom});
   scenarios.push_back({"meshes", true, Meshes, 3});
-  ExperimentConfig config =
-      LoadConfig(std::string(HALFSTEP_SOURCE_DIR) + "/experiments/configs/island.yaml", {});
+  ExperimentConfig config = LoadConfig(HALFSTEP_SOURCE_DIR "/experiments/configs/island.yaml", {});
   const RobotModel robot = LoadPlace(config).robot;
   std::optional<BakedHalfSteps> baked;
   for (const Scenario& scenario : scenarios) {

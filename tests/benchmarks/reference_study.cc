@@ -37,8 +37,8 @@ SmoothingResult Smooth(const HalfStepSequence& sequence, const FeasibilityTest& 
 }
 
 void Study(const std::string& config, const std::string& method, const std::string& variables) {
-  const Experiment e = Prepare(LoadConfig(
-      std::string(HALFSTEP_SOURCE_DIR) + "/experiments/configs/" + config + ".yaml", {}));
+  const Experiment e =
+      Prepare(LoadConfig(HALFSTEP_SOURCE_DIR "/experiments/configs/" + config + ".yaml", {}));
   const MarginEvaluator evaluator(e.robot, e.scene, e.config.smoothing.limits);
   const CertifiedFeasibility test(evaluator, {});
   const SmoothingResult result =

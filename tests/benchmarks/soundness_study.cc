@@ -62,7 +62,7 @@ int main(int argc, char** argv) {
   const long wanted = argc > 1 ? std::atol(argv[1]) : 100000;
   SweptDraw draw(argc > 2 ? std::strtoul(argv[2], nullptr, 10) : 1);
   const ExperimentConfig config =
-      LoadConfig(std::string(HALFSTEP_SOURCE_DIR) + "/experiments/configs/island.yaml", {});
+      LoadConfig(HALFSTEP_SOURCE_DIR "/experiments/configs/island.yaml", {});
   const RobotModel robot = LoadPlace(config).robot;
   const BakedHalfSteps baked = BakeHalfSteps(robot, config, {});
   const SweptVolumes& volumes = *baked.cached.volumes;

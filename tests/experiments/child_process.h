@@ -98,7 +98,7 @@ inline Outcome Halfstep(const std::filesystem::path& working_directory,
 
 /// Path of a shipped config.
 inline std::string ShippedConfig(const std::string& name) {
-  return std::string(HALFSTEP_SOURCE_DIR) + "/experiments/configs/" + name + ".yaml";
+  return HALFSTEP_SOURCE_DIR "/experiments/configs/" + name + ".yaml";
 }
 
 }  // namespace halfstep

@@ -236,7 +236,7 @@ struct BadInput {
 };
 
 std::string Fixture(const std::string& file) {
-  return std::string(HALFSTEP_SOURCE_DIR) + "/tests/fixtures/" + file;
+  return HALFSTEP_SOURCE_DIR "/tests/fixtures/" + file;
 }
 
 void PrintTo(const BadInput& input, std::ostream* out) { *out << input.name; }

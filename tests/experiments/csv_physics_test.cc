@@ -106,8 +106,7 @@ void CheckPhysics(const std::string& config, const std::vector<YamlOverride>& ov
 }
 
 TEST(CsvPhysics, Hrp2) {
-  const std::string config =
-      std::string(HALFSTEP_SOURCE_DIR) + "/experiments/configs/fig4_raw_sequence.yaml";
+  const std::string config = HALFSTEP_SOURCE_DIR "/experiments/configs/fig4_raw_sequence.yaml";
   CheckPhysics(config, {{"output.period_s", "0.01"}},
                LoadRobot((RobotsFolder() / "hrp2.yaml").string()));
 }

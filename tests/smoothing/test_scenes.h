@@ -12,7 +12,7 @@ namespace halfstep {
 
 /// A shipped experiment, by the name of its config.
 inline Experiment LoadExperiment(const std::string& name) {
-  const std::string folder = std::string(HALFSTEP_SOURCE_DIR) + "/experiments/configs/";
+  const std::string folder = HALFSTEP_SOURCE_DIR "/experiments/configs/";
   return Prepare(LoadConfig(folder + name + ".yaml", {}));
 }
 

@@ -24,9 +24,7 @@ constexpr bool kSanitized = false;
 /// `count`, or a tenth of it (at least 1) when sanitized.
 constexpr int Draws(int count) { return kSanitized ? std::max(1, count / 10) : count; }
 
-inline RobotModel Hrp2() {
-  return LoadRobot(std::string(HALFSTEP_SOURCE_DIR) + "/wpg/robots/hrp2.yaml");
-}
+inline RobotModel Hrp2() { return LoadRobot(HALFSTEP_SOURCE_DIR "/wpg/robots/hrp2.yaml"); }
 
 /// Soles side by side, 0.21 m apart.
 inline std::array<Pose2, 2> StandingFeet() { return {Pose2{0, 0.105, 0}, Pose2{0, -0.105, 0}}; }

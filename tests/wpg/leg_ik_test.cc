@@ -16,7 +16,7 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-const std::string kHrp2 = std::string(HALFSTEP_SOURCE_DIR) + "/wpg/robots/hrp2.yaml";
+const std::string kHrp2 = HALFSTEP_SOURCE_DIR "/wpg/robots/hrp2.yaml";
 
 double Difference(const Isometry3d& a, const Isometry3d& b) {
   return (a.matrix() - b.matrix()).cwiseAbs().maxCoeff();

@@ -16,7 +16,7 @@ namespace {
 using testing::HasSubstr;
 using testing::StartsWith;
 
-const std::string kFolder = std::string(HALFSTEP_SOURCE_DIR) + "/tests/fixtures/mesh/";
+const std::string kFolder = HALFSTEP_SOURCE_DIR "/tests/fixtures/mesh/";
 
 // A file with these bytes, removed again at the end.
 class TemporaryFile {

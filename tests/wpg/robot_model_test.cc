@@ -24,7 +24,7 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using testing::HasSubstr;
 
-const std::string kHrp2 = std::string(HALFSTEP_SOURCE_DIR) + "/wpg/robots/hrp2.yaml";
+const std::string kHrp2 = HALFSTEP_SOURCE_DIR "/wpg/robots/hrp2.yaml";
 constexpr double kDegree = std::numbers::pi / 180;
 
 std::string Replaced(std::string text, const std::string& from, const std::string& to) {
@@ -70,7 +70,7 @@ TEST(Hrp2, HasThePublishedNumbers) {
 }
 
 TEST(Hrp2, ComHeightOfTheModelWhenTheFileGivesNone) {
-  const std::string folder = std::string(HALFSTEP_SOURCE_DIR) + "/wpg/robots/";
+  const std::string folder = HALFSTEP_SOURCE_DIR "/wpg/robots/";
   std::ifstream file(kHrp2);
   std::string yaml{std::istreambuf_iterator<char>(file), {}};
   yaml = Replaced(yaml, "com_height_m: 0.814", "com_height_m: none");
