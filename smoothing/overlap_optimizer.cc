@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <limits>
 #include <random>
 #include <utility>
@@ -57,11 +58,8 @@ class Optimization {
     const double limit =
         options_.duration_limit > 0.0 ? options_.duration_limit : DurationOf(result_.parameters);
     OverlapProgram program(sequence_, test_.evaluator(), options_.program, limit);
-    const bool safest = options_.program.kind == ProgramKind::kSafest;
-    // `safest` within a limit that the dichotomy does not meet begins with nothing: the dichotomy's
-    // own walk is kept until a shorter one is proved.
     FeasiblePath path(sequence_, RulesOf(program), result_.parameters,
-                      safest ? StartCost(program) : program.Cost(result_.parameters),
+                      Safest() ? SafestStartCost(program) : program.Cost(result_.parameters),
                       test_.evaluator().MakeScratch());
     Search(program, &path);
     return Finish(program, path, dichotomy);
@@ -78,15 +76,17 @@ class Optimization {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
   }
 
-  // The dichotomy's walk is proved with what is demanded: slack 0.
-  double StartCost(const OverlapProgram& program) const {
-    return DurationOf(result_.parameters) <= program.duration_limit() + 1e-9
-               ? 0.0
-               : std::numeric_limits<double>::max();
+  bool Safest() const { return options_.program.kind == ProgramKind::kSafest; }
+
+  // The dichotomy's walk is proved with what is demanded: slack 0. Beyond the limit it is kept
+  // until a shorter one is proved.
+  double SafestStartCost(const OverlapProgram& program) {
+    within_limit_ = DurationOf(result_.parameters) <= program.duration_limit() + 1e-9;
+    return within_limit_ ? 0.0 : std::numeric_limits<double>::infinity();
   }
 
-  FeasiblePath::Rules RulesOf(const OverlapProgram& program) const {
-    if (options_.program.kind != ProgramKind::kSafest) {
+  FeasiblePath::Rules RulesOf(const OverlapProgram& program) {
+    if (!Safest()) {
       return {
           .cost = [&program](const HomotopyParameters& p) { return program.Cost(p); },
           .prove =
@@ -96,7 +96,14 @@ class Optimization {
     }
     // What lies between the table's instants may be a little worse than what they show.
     constexpr double kBetween = 0.01;
-    return {.cost = [&program](const HomotopyParameters& p) { return program.Cost(p) + kBetween; },
+    return {.cost =
+                [this, &program](const HomotopyParameters& p) {
+                  const double cost = program.Cost(p);
+                  // Never is less proved than what is demanded, and of the first walk within the
+                  // limit no more.
+                  if (cost > 0.0) return std::numeric_limits<double>::infinity();
+                  return within_limit_ ? std::min(0.0, cost + kBetween) : 0.0;
+                },
             .prove =
                 [this](const SuperposedWalk& walk, double cost, const HomotopyParameters&,
                        MarginEvaluator::Scratch* scratch) {
@@ -108,7 +115,11 @@ class Optimization {
                   const MarginEvaluator evaluator = test_.evaluator().WithLimits(limits);
                   return test_.Over(evaluator)->Check(walk, {0.0, walk.duration()}, scratch);
                 },
-            .accepted = options_.on_accept,
+            .accepted =
+                [this](const HomotopyParameters& p) {
+                  within_limit_ = true;
+                  if (options_.on_accept) options_.on_accept(p);
+                },
             .improvement = 1e-3};
   }
 
@@ -169,8 +180,9 @@ class Optimization {
           learned = program.table().Look(walk, path->refusal()->at);
           learned = program.table().LookAround(walk, kLookPeriod, kLookSlack) > 0 || learned;
         }
-        const double gain = before - path->cost();
-        poor = gain < kGain * std::abs(before) ? poor + 1 : 0;
+        const bool gained = std::isinf(before) ? std::isfinite(path->cost())
+                                               : before - path->cost() >= kGain * std::abs(before);
+        poor = gained ? 0 : poor + 1;
         if (poor == 2 || (poor > 0 && !learned)) break;
         program.table().SetSharpness(program.table().sharpness() * kSharpen);
         Part(0.2, 0.9)((static_cast<double>(s) + (round + 1.0) / options_.rounds) /
@@ -233,10 +245,13 @@ class Optimization {
                          DichotomyOptions dichotomy) {
     result_.instants += path.scratch().instants;
     result_.collision_queries += path.scratch().bodies.queries;
-    result_.parameters = path.incumbent();
-    result_.cost = path.cost();
+    // Safest walks were proved whole, the others change by change.
+    if (Safest() || path.accepted() == 0 || HoldsWhole(path.incumbent())) {
+      result_.parameters = path.incumbent();
+      result_.cost = path.cost();
+    }
     if (options_.program.kind == ProgramKind::kFastest && !stop_.stop_requested()) {
-      dichotomy.start = path.incumbent();
+      dichotomy.start = result_.parameters;
       SmoothingResult polished = Dichotomy(sequence_, test_, dichotomy, Part(0.9, 1.0), stop_);
       for (SmoothingIterate& iterate : polished.iterates) {
         iterate.wall += Elapsed() - polished.wall;
@@ -261,6 +276,10 @@ class Optimization {
     AddMultipliers(program);
     result_.message =
         options_.solver + " ended " + opt::ToString(solution_.status) + ": " + solution_.message;
+    if (Safest() && !std::isfinite(result_.cost)) {
+      result_.message += "; no walk of at most " + std::to_string(program.duration_limit()) +
+                         " s was proved, the dichotomy's is kept";
+    }
     if (stop_.stop_requested()) {
       result_.status = SmoothingStatus::kInterrupted;
       result_.message = "stopped from outside; the parameters are the best that were proved";
@@ -268,9 +287,15 @@ class Optimization {
     return std::move(result_);
   }
 
+  bool HoldsWhole(const HomotopyParameters& parameters) const {
+    const SuperposedWalk walk(sequence_, parameters);
+    MarginEvaluator::Scratch scratch = test_.evaluator().MakeScratch();
+    return test_.Check(walk, {0.0, walk.duration()}, &scratch).verdict == Verdict::kFeasible;
+  }
+
   // By our own estimate at the result, whatever the solver: rows nearly active count.
   void AddMultipliers(const OverlapProgram& program) {
-    if (options_.program.kind == ProgramKind::kSafest) return;  // its cost is no time
+    if (Safest()) return;  // its cost is no time
     constexpr double kActive = 0.05;
     const opt::Problem problem = program.MakeProblem();
     const Eigen::VectorXd x = program.ToVariables(result_.parameters);
@@ -298,7 +323,8 @@ class Optimization {
   opt::Solution solution_;                                          // the last one
   double worth_a_proof_ = std::numeric_limits<double>::infinity();  // a cost
   std::optional<double> incumbent_slack_;                           // at the table's instants
-  int skipped_ = 0;                                                 // candidates
+  bool within_limit_ = true;  // `safest`: the incumbent lasts no longer than it may
+  int skipped_ = 0;           // candidates
   // Where proofs failed: half-step, and τ as a fraction of its T. Looked at first.
   mutable std::vector<std::pair<int, double>> suspects_;
 };

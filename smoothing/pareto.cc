@@ -37,7 +37,7 @@ SmoothingResult ParetoCurve(const HalfStepSequence& sequence, const FeasibilityT
       total.iterates.push_back(iterate);
     }
     total.wall += result.wall;
-    if (kind == ProgramKind::kSafest && result.cost < 1e300) {
+    if (kind == ProgramKind::kSafest && std::isfinite(result.cost)) {
       total.pareto.push_back({DurationOf(result.parameters), -result.cost, result.parameters});
     }
     return result;

@@ -64,13 +64,15 @@ struct SmoothingResult {
   std::string message = "Smooth was not called.";
   Evidence evidence = Evidence::kSampled;
   HomotopyParameters parameters;
-  double cost = 0.0;  ///< of the program [s]; for `safest` minus the proved least slack
+  /// Of the program [s]; for `safest` minus the proved least slack, +inf when no walk within its
+  /// duration was proved.
+  double cost = 0.0;
   std::vector<JunctionResult> junctions;
   std::vector<SmoothingIterate> iterates;
   std::vector<ParetoPoint> pareto;  ///< by duration; empty but for ParetoCurve
   long instants = 0;                ///< evaluated
   long raw_infeasible = 0;          ///< candidates of a solver that were not feasible themselves
-  bool raw_end_feasible = true;     ///< whether the point at which the solver ended was
+  bool raw_end_feasible = true;     ///< the solver's end was accepted, or not better and not tried
   long collision_queries = 0;       ///< body against scene, or body pair, not culled
   double wall = 0.0;                ///< [s]
   /// Until the first accepted improvement [s]; none when nothing was improved.

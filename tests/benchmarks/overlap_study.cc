@@ -3,6 +3,7 @@
 // Run: overlap_study table SCENARIO DEADLINE METHOD… (CSV: all variables and programs)
 //      overlap_study table SCENARIO:VARIABLES:PROGRAM DEADLINE METHOD…
 //      overlap_study grow METHOD N…                 (a straight walk of N half-steps)
+//      overlap_study reach METHOD DEADLINE SCENE…   (a config, or bars:N)
 //      overlap_study solve CONFIG METHOD VARIABLES KIND [DEADLINE]
 //      overlap_study rows CONFIG
 
@@ -10,6 +11,7 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <string>
 #include <vector>
 
@@ -147,13 +149,14 @@ void Table(const std::string& what, double deadline, const std::vector<std::stri
   }
 }
 
-// n half-steps forward on an empty floor or, with `bar`, over the bars of a long scene.
-void Grow(const std::string& method, int n) {
+// The four steps of bar_8cm again and again, n half-steps, each time 0.454 m further, over a bar of
+// their own.
+Experiment Bars(int n) {
   Experiment e = Load("bar_8cm");
   std::vector<FootstepConfig> footsteps;
   const Obstacle bar = e.scene.obstacles.front();
-  e.scene.obstacles.clear();
-  // The four steps of bar_8cm again and again, each time 0.454 m further, over a bar of its own.
+  Scene scene = e.scene;
+  scene.obstacles.clear();
   for (int i = 0; i < n / 2; ++i) {
     FootstepConfig step = e.config.footsteps[static_cast<size_t>(i % 4)];
     step.X_WF.x += 0.454 * (i / 4);
@@ -162,13 +165,43 @@ void Grow(const std::string& method, int n) {
       Obstacle another = bar;
       another.name += std::to_string(i / 4);
       another.X_WO.translation().x() += 0.454 * (i / 4);
-      e.scene.obstacles.push_back(another);
+      scene.obstacles.push_back(another);
     }
   }
   e.config.footsteps = footsteps;
-  Scene scene = e.scene;
   e = Prepare(e.config);
   e.scene = scene;
+  return e;
+}
+
+// When a method's incumbent is within 5 % and 1 % of what it ends with, all variables free.
+void Reach(const std::string& what, const std::string& method, double deadline) {
+  const bool bars = what.rfind("bars:", 0) == 0;
+  const Experiment e = bars ? Bars(std::atoi(what.c_str() + 5)) : Load(what);
+  const MarginEvaluator evaluator(e.robot, e.scene, e.config.smoothing.limits);
+  const CertifiedFeasibility test(evaluator, {});
+  OptimizerOptions options;
+  options.solver = method;
+  options.program.heights = options.program.durations = true;
+  options.deadline = deadline;
+  const double begin = Now();
+  const double start = DurationOf(Dichotomy(e.sequence, test, {}).parameters);
+  const double dichotomy = Now() - begin;
+  const std::clock_t cpu = std::clock();
+  const SmoothingResult r = OptimizeOverlaps(e.sequence, test, options);
+  const double own = static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC;
+  const double end = DurationOf(r.parameters);
+  std::printf(
+      "%-14s %-18s n %4d  dichotomy %8.4f s in %6.3f s; %8.4f s in %7.3f s (CPU %7.3f s), to 5 %% "
+      "%6.3f s, to 1 %% %6.3f s; %ld instants, %zu candidates, %ld refused\n",
+      what.c_str(), method.c_str(), e.sequence.size(), start, dichotomy, end, r.wall, own,
+      TimeToWithin(r, end, 0.05), TimeToWithin(r, end, 0.01), r.instants, r.iterates.size(),
+      r.raw_infeasible);
+}
+
+// What an iteration costs over n half-steps.
+void Grow(const std::string& method, int n) {
+  const Experiment e = Bars(n);
   const MarginEvaluator evaluator(e.robot, e.scene, e.config.smoothing.limits);
   const CertifiedFeasibility test(evaluator, {});
   OptimizerOptions options;
@@ -259,6 +292,8 @@ int main(int argc, char** argv) {
     halfstep::Table(arg(2, "bar_8cm"), std::atof(arg(3, "3").c_str()), methods);
   } else if (part == "grow") {
     for (int i = 3; i < argc; ++i) halfstep::Grow(argv[2], std::atoi(argv[i]));
+  } else if (part == "reach") {
+    for (int i = 4; i < argc; ++i) halfstep::Reach(argv[i], argv[2], std::atof(argv[3]));
   } else if (part == "rows") {
     halfstep::Rows(arg(2, "bar_8cm"));
   } else {

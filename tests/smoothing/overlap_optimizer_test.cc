@@ -2,6 +2,7 @@
 
 #include "smoothing/overlap_optimizer.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,6 +11,7 @@
 #include "opt/solver.h"
 #include "smoothing/certified_feasibility.h"
 #include "smoothing/dichotomy.h"
+#include "smoothing/pareto.h"
 #include "tests/smoothing/test_scenes.h"
 #include "tests/smoothing/test_walks.h"
 
@@ -105,6 +107,56 @@ TEST_F(OptimizerTest, StoppedAtAnyMomentItKeepsACertifiedWalk) {
     EXPECT_EQ(test_.Check(walk, {0.0, walk.duration()}, &scratch).verdict, Verdict::kFeasible);
     EXPECT_LE(walk.duration(), DurationOf(PlannedMotion(e_.sequence)));
   }
+}
+
+// Once a candidate that misses what is demanded was "proved" with lowered demands, for want of a
+// walk within the limit.
+TEST_F(OptimizerTest, SafestWithinLessThanTheDichotomysDurationStillKeepsWhatIsDemanded) {
+  if (ASolver().empty()) GTEST_SKIP() << "no solver";
+  const SmoothingResult dichotomy = Dichotomy(e_.sequence, test_, {.tolerance = 0.01});
+  const double own = DurationOf(dichotomy.parameters);
+  MarginEvaluator::Scratch scratch = evaluator_.MakeScratch();
+  OptimizerOptions options = Quick(ASolver());
+  options.program.kind = ProgramKind::kSafest;
+  for (const double part : {0.75, 0.3}) {
+    options.duration_limit = part * own;
+    const SmoothingResult result = OptimizeOverlaps(e_.sequence, test_, options);
+    const SuperposedWalk walk(e_.sequence, result.parameters);
+    EXPECT_EQ(test_.Check(walk, {0.0, walk.duration()}, &scratch).verdict, Verdict::kFeasible);
+    // A third of the dichotomy's time is faster than the feet may move.
+    EXPECT_EQ(std::isfinite(result.cost), part > 0.5) << result.message;
+    if (std::isfinite(result.cost)) {
+      EXPECT_LE(walk.duration(), options.duration_limit + 1e-9);
+      EXPECT_LE(result.cost, 0.0);
+    } else {
+      EXPECT_EQ(result.parameters, dichotomy.parameters);
+      EXPECT_THAT(result.message, testing::HasSubstr("no walk of at most"));
+    }
+  }
+}
+
+TEST_F(OptimizerTest, EveryPointOfAParetoCurveHoldsAtItsLevelAndSafetyGrowsWithTime) {
+  if (ASolver().empty()) GTEST_SKIP() << "no solver";
+  const SmoothingResult result = ParetoCurve(e_.sequence, test_, Quick(ASolver()), {.points = 3});
+  EXPECT_EQ(result.status, SmoothingStatus::kFinished) << result.message;
+  ASSERT_GE(result.pareto.size(), 3u);
+  MarginEvaluator::Scratch scratch = evaluator_.MakeScratch();
+  for (size_t i = 0; i < result.pareto.size(); ++i) {
+    const ParetoPoint& point = result.pareto[i];
+    MarginLimits limits = evaluator_.limits();
+    for (MarginFamily family : AllMarginFamilies()) {
+      if (!Raised()[static_cast<size_t>(family)]) continue;
+      limits.demanded_of(family) += point.least_slack * Scale(family);
+    }
+    const SuperposedWalk walk(e_.sequence, point.parameters);
+    EXPECT_NEAR(walk.duration(), point.duration, 1e-9);
+    const MarginEvaluator raised = evaluator_.WithLimits(limits);
+    EXPECT_EQ(
+        CertifiedFeasibility(raised, {}).Check(walk, {0.0, walk.duration()}, &scratch).verdict,
+        Verdict::kFeasible);
+    EXPECT_GE(point.least_slack, 0.0);
+  }
+  EXPECT_GT(result.pareto.back().least_slack, result.pareto.front().least_slack + 0.1);
 }
 
 class ProgramDerivatives : public testing::TestWithParam<std::string> {};
