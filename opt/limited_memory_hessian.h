@@ -15,6 +15,7 @@ class LimitedMemoryHessian {
   /// A step s ≠ 0 (n) changed the gradient by y (n).
   void Update(const Eigen::VectorXd& s, Eigen::VectorXd y);
   void Clear();
+  Eigen::VectorXd Times(const Eigen::VectorXd& v) const;  ///< B v (n)
 
   double sigma() const { return sigma_; }
   bool empty() const { return s_.empty(); }
@@ -22,7 +23,6 @@ class LimitedMemoryHessian {
   const Eigen::MatrixXd& C() const { return C_; }  ///< (2·pairs × 2·pairs)
 
  private:
-  Eigen::VectorXd Times(const Eigen::VectorXd& v) const;
   void Assemble();
 
   size_t memory_;

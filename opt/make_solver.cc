@@ -5,6 +5,7 @@
 #include "opt/ipopt_solver.h"
 #include "opt/nlopt_solver.h"
 #include "opt/solver.h"
+#include "opt/sqp_solver.h"
 
 namespace halfstep::opt {
 
@@ -13,12 +14,14 @@ std::vector<std::string> SolverNames() {
   for (const NloptMethod& method : NloptMethods()) names.push_back(method.name);
   names.push_back("ceres/auglag");
   names.push_back("halfstep/barrier");
+  names.push_back("halfstep/sqp");
   return names;
 }
 
 std::unique_ptr<Solver> MakeSolver(const std::string& name) {
   if (name == "ipopt") return MakeIpoptSolver();
   if (name == "halfstep/barrier") return MakeBarrierSolver();
+  if (name == "halfstep/sqp") return MakeSqpSolver();
   if (name == "ceres/auglag") return MakeCeresSolver();
   for (const NloptMethod& method : NloptMethods()) {
     if (method.name == name) return MakeNloptSolver(method);

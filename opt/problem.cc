@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
 #include <utility>
 
 #include "opt/require.h"
@@ -34,16 +33,22 @@ void RequirePattern(const ConstraintBlock& block, int num_variables) {
   const SparsityPattern& pattern = block.pattern();
   Require(pattern.rows.size() == pattern.cols.size(),
           block.name() + ": pattern with unequal numbers of rows and columns");
-  std::set<std::pair<int, int>> seen;
+  const auto refuse = [&block](const std::pair<int, int>& at, const std::string& what) {
+    Require(false, block.name() + ": pattern entry (" + std::to_string(at.first) + ", " +
+                       std::to_string(at.second) + ") " + what);
+  };
+  std::vector<std::pair<int, int>> entries;
+  entries.reserve(pattern.rows.size());
   for (size_t k = 0; k < pattern.rows.size(); ++k) {
-    const int row = pattern.rows[k], col = pattern.cols[k];
-    const std::string entry =
-        block.name() + ": pattern entry (" + std::to_string(row) + ", " + std::to_string(col) + ")";
-    Require(row >= 0 && row < block.rows() && col >= 0 && col < num_variables,
-            entry + " is outside " + std::to_string(block.rows()) + " rows and " +
-                std::to_string(num_variables) + " variables");
-    Require(seen.emplace(row, col).second, entry + " stands twice");
+    entries.emplace_back(pattern.rows[k], pattern.cols[k]);
+    const auto& [row, col] = entries.back();
+    if (row >= 0 && row < block.rows() && col >= 0 && col < num_variables) continue;
+    refuse(entries.back(), "is outside " + std::to_string(block.rows()) + " rows and " +
+                               std::to_string(num_variables) + " variables");
   }
+  std::sort(entries.begin(), entries.end());
+  const auto twice = std::adjacent_find(entries.begin(), entries.end());
+  if (twice != entries.end()) refuse(*twice, "stands twice");
 }
 
 /// Outside [lower, upper] by how much; infinite for a value that is not finite.

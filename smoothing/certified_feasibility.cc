@@ -57,6 +57,10 @@ std::vector<double> KnotsInside(const SuperposedWalk& walk, const TimeWindow& wi
 }
 
 TimeWindow ExtendedToKnots(const SuperposedWalk& walk, const TimeWindow& window) {
+  const auto begins_stretch = [&walk](double t) {
+    return t == walk.duration() || t == walk.start_of(walk.Locate(t).half_step);
+  };
+  if (begins_stretch(window.begin) && begins_stretch(window.end)) return window;
   TimeWindow extended = window;
   const int before = walk.Locate(std::nextafter(window.begin, -1.0)).half_step;
   const double earliest = walk.start_of(before);

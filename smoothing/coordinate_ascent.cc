@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
-#include "smoothing/feasible_path.h"
 #include "smoothing/overlap_program.h"
+#include "smoothing/stretch_proofs.h"
 #include "smoothing/superposed_walk.h"
 #include "wpg/check.h"
 
@@ -27,6 +27,7 @@ class Ascent {
         planned_(PlannedMotion(sequence)),
         point_(options.start.value_or(planned_)),
         scratch_(test.evaluator().MakeScratch()),
+        proofs_(test, sequence.size()),
         begin_(std::chrono::steady_clock::now()) {
     result_.evidence = test.evidence();
     for (int i = 0; i < sequence.num_junctions(); ++i) {
@@ -165,10 +166,10 @@ class Ascent {
   }
 
   std::optional<Margin> Refusal(const HomotopyParameters& candidate) {
-    const Feasibility answer =
-        CheckChanges(test_, SuperposedWalk(sequence_, candidate), point_, &scratch_);
-    if (answer.verdict == Verdict::kFeasible) return std::nullopt;
-    return answer.witness;
+    const std::vector<Margin> refusals =
+        proofs_.Refusals(SuperposedWalk(sequence_, candidate), &scratch_);
+    if (refusals.empty()) return std::nullopt;
+    return refusals.front();
   }
 
   void TryHeights(int step) {
@@ -229,6 +230,7 @@ class Ascent {
   HomotopyParameters planned_;
   HomotopyParameters point_;  // always found feasible
   MarginEvaluator::Scratch scratch_;
+  StretchProofs proofs_;
   std::chrono::steady_clock::time_point begin_;
   SmoothingResult result_;
 };

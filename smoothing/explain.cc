@@ -1,8 +1,10 @@
 #include "smoothing/explain.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
+#include "opt/stationarity.h"
 #include "smoothing/slack_rows.h"
 
 namespace halfstep {
@@ -29,6 +31,26 @@ void AddPrices(const SuperposedWalk& walk, const MarginEvaluator& evaluator,
       slope = instant.gradient(static_cast<Eigen::Index>(r), column - instant.parameters.begin());
     }
     if (slope < -kSteep) junction.price = -1.0 / slope;
+  }
+}
+
+void AddMultipliers(const OverlapProgram& program, const HomotopyParameters& parameters,
+                    std::vector<JunctionResult>* junctions) {
+  constexpr double kActive = 0.05;
+  const opt::Problem problem = program.MakeProblem();
+  const Eigen::VectorXd x = program.ToVariables(parameters);
+  const opt::Stationarity at = opt::EstimateMultipliers(
+      problem, x, problem.Gradient(x), problem.Constraints(x), problem.Jacobian(x), kActive);
+  for (size_t j = 0; j < junctions->size(); ++j) {
+    JunctionResult& junction = (*junctions)[j];
+    if (!junction.limited_by) continue;
+    double sum = 0.0;
+    for (int row = 0; row < program.table().rows(); ++row) {
+      const int after = program.table().half_step_of(row) - static_cast<int>(j);
+      const bool same = SlackTable::family_of(row) == junction.limited_by->family;
+      if (same && (after == 0 || after == 1)) sum += std::abs(at.multipliers[row]);
+    }
+    junction.multiplier = sum;
   }
 }
 

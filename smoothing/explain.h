@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "smoothing/margin_evaluator.h"
+#include "smoothing/overlap_program.h"
 #include "smoothing/smoothing_result.h"
 #include "smoothing/superposed_walk.h"
 
@@ -15,5 +16,11 @@ namespace halfstep {
 /// Source: smoothing/README.md, "What an overlap costs".
 void AddPrices(const SuperposedWalk& walk, const MarginEvaluator& evaluator,
                std::vector<JunctionResult>* junctions);
+
+/// Fills `multiplier` of every junction that a margin limits: the program's multipliers at
+/// `parameters`, by our own estimate whatever the solver, of the rows of that family in the
+/// half-steps on both sides. Rows nearly active count.
+void AddMultipliers(const OverlapProgram& program, const HomotopyParameters& parameters,
+                    std::vector<JunctionResult>* junctions);
 
 }  // namespace halfstep

@@ -1,9 +1,9 @@
 #include "smoothing/feasible_path.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
-#include "smoothing/changed_windows.h"
 #include "smoothing/superposed_walk.h"
 
 namespace halfstep {
@@ -16,15 +16,21 @@ FeasiblePath::FeasiblePath(const HalfStepSequence& sequence, Rules rules, Homoto
       cost_(cost),
       scratch_(std::move(scratch)) {}
 
-HomotopyParameters FeasiblePath::Between(const HomotopyParameters& candidate, double lambda) const {
-  const auto mix = [lambda](const std::vector<double>& a, const std::vector<double>& b) {
-    std::vector<double> c(a.size());
-    for (size_t i = 0; i < a.size(); ++i) c[i] = a[i] + lambda * (b[i] - a[i]);
-    return c;
-  };
-  HomotopyParameters point{mix(incumbent_.overlaps, candidate.overlaps),
-                           mix(incumbent_.height_scales, candidate.height_scales),
-                           mix(incumbent_.durations, candidate.durations)};
+HomotopyParameters FeasiblePath::Between(const HomotopyParameters& candidate,
+                                         const std::vector<double>& lambda) const {
+  HomotopyParameters point = incumbent_;
+  const auto move = [](double to, double part, double* value) { *value += part * (to - *value); };
+  const size_t n = lambda.size();
+  for (size_t k = 0; k < n; ++k) {
+    move(candidate.durations[k], lambda[k], &point.durations[k]);
+    if (k % 2 == 0) {
+      const double part = k + 1 < n ? std::min(lambda[k], lambda[k + 1]) : lambda[k];
+      move(candidate.height_scales[k / 2], part, &point.height_scales[k / 2]);
+    }
+    if (k + 1 < n) {
+      move(candidate.overlaps[k], std::min(lambda[k], lambda[k + 1]), &point.overlaps[k]);
+    }
+  }
   for (int i = 0; i < sequence_.num_junctions(); ++i) {
     double& overlap = point.overlaps[static_cast<size_t>(i)];
     overlap = std::clamp(overlap, 0.0, NaturalOverlapBound(sequence_, point.durations, i));
@@ -32,45 +38,37 @@ HomotopyParameters FeasiblePath::Between(const HomotopyParameters& candidate, do
   return point;
 }
 
-bool FeasiblePath::Accept(const HomotopyParameters& point) {
-  const double cost = rules_.cost(point);
-  if (!(cost < cost_ - rules_.improvement)) return false;
-  const Feasibility answer =
-      rules_.prove(SuperposedWalk(sequence_, point), cost, incumbent_, &scratch_);
-  if (answer.verdict != Verdict::kFeasible) {
+double FeasiblePath::Toward(const HomotopyParameters& candidate, int attempts) {
+  constexpr double kLeastPart = 0.4;  // below it: none
+  refusals_.clear();
+  const size_t n = candidate.durations.size();
+  std::vector<double> lambda(n, 1.0);
+  for (int attempt = 0; attempt < attempts; ++attempt) {
+    const HomotopyParameters point = Between(candidate, lambda);
+    const double cost = rules_.cost(point);
+    if (!(cost < cost_ - rules_.improvement)) return 0.0;
+    const std::vector<Margin> refusals =
+        rules_.prove(SuperposedWalk(sequence_, point), cost, &scratch_);
+    if (refusals.empty()) {
+      ++accepted_;
+      incumbent_ = point;
+      cost_ = cost;
+      if (rules_.accepted) rules_.accepted(point);
+      return std::accumulate(lambda.begin(), lambda.end(), 0.0) / static_cast<double>(n);
+    }
     ++refused_;
-    if (!refusal_) refusal_ = answer.witness;
-    return false;
+    if (attempt == 0) refusals_ = refusals;
+    std::vector<bool> held(n, !rules_.local);
+    for (const Margin& refusal : refusals) {
+      const size_t k = static_cast<size_t>(refusal.at.half_step);
+      for (size_t i = k > 0 ? k - 1 : 0; i < std::min(n, k + 2); ++i) held[i] = true;
+    }
+    for (size_t i = 0; i < n; ++i) {
+      if (held[i]) lambda[i] *= 0.5;
+      if (rules_.local && lambda[i] < kLeastPart) lambda[i] = 0.0;
+    }
   }
-  ++accepted_;
-  incumbent_ = point;
-  cost_ = cost;
-  if (rules_.accepted) rules_.accepted(point);
-  return true;
-}
-
-double FeasiblePath::Toward(const HomotopyParameters& candidate, int bisections) {
-  refusal_.reset();
-  const HomotopyParameters whole = Between(candidate, 1.0);
-  if (!(rules_.cost(whole) < cost_ - rules_.improvement)) return 0.0;
-  if (Accept(whole)) return 1.0;
-  double feasible = 0.0, infeasible = 1.0;
-  for (int k = 0; k < bisections; ++k) {
-    const double middle = 0.5 * (feasible + infeasible);
-    // The incumbent is at `feasible` of the way by now.
-    const double onwards = (middle - feasible) / (1.0 - feasible);
-    (Accept(Between(candidate, onwards)) ? feasible : infeasible) = middle;
-  }
-  return feasible;
-}
-
-Feasibility CheckChanges(const FeasibilityTest& test, const SuperposedWalk& walk,
-                         const HomotopyParameters& incumbent, MarginEvaluator::Scratch* scratch) {
-  for (const TimeWindow& window : ChangedWindows(incumbent, walk)) {
-    const Feasibility answer = test.Check(walk, window, scratch);
-    if (answer.verdict != Verdict::kFeasible) return answer;
-  }
-  return {Verdict::kFeasible, test.evidence(), {}};
+  return 0.0;
 }
 
 }  // namespace halfstep

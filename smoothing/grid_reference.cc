@@ -11,12 +11,13 @@
 #include "smoothing/feasible_path.h"
 #include "smoothing/overlap_program.h"
 #include "smoothing/stretch_grid.h"
+#include "smoothing/stretch_proofs.h"
 #include "wpg/check.h"
 
 namespace halfstep {
 namespace {
 
-constexpr int kBisections = 5;  // towards a grid's optimum that the test refuses
+constexpr int kAttempts = 6;    // towards a grid's optimum that the test refuses
 constexpr double kGain = 1e-4;  // a round that gains less counts as none [s]
 
 class Reference {
@@ -31,6 +32,7 @@ class Reference {
         stop_(std::move(stop)),
         planned_(PlannedMotion(sequence)),
         grid_(sequence, test.evaluator(), options.period),
+        proofs_(test, sequence.size()),
         random_(options.seed),
         begin_(std::chrono::steady_clock::now()) {}
 
@@ -78,12 +80,11 @@ class Reference {
     if (DurationOf(point) < DurationOf(best_)) best_ = point;
   }
 
-  FeasiblePath::Rules Rules() const {
+  FeasiblePath::Rules Rules() {
     return {.cost = [](const HomotopyParameters& p) { return DurationOf(p); },
             .prove =
-                [this](const SuperposedWalk& walk, double, const HomotopyParameters& incumbent,
-                       MarginEvaluator::Scratch* scratch) {
-                  return CheckChanges(test_, walk, incumbent, scratch);
+                [this](const SuperposedWalk& walk, double, MarginEvaluator::Scratch* scratch) {
+                  return proofs_.Refusals(walk, scratch);
                 }};
   }
 
@@ -152,9 +153,9 @@ class Reference {
     if (!indices.empty()) {
       const HomotopyParameters candidate = grid_.ParametersOf(choices, indices);
       iterate.candidate_duration = DurationOf(candidate);
-      iterate.lambda = path->Toward(candidate, kBisections);
+      iterate.lambda = path->Toward(candidate, kAttempts);
       iterate.accepted = iterate.lambda > 0.0;
-      if (path->refusal()) ++result_.raw_infeasible;
+      if (!path->refusals().empty()) ++result_.raw_infeasible;
     }
     Keep(path->incumbent());
     iterate.wall = Elapsed();
@@ -222,6 +223,7 @@ class Reference {
   HomotopyParameters planned_;
   HomotopyParameters best_;  // found feasible
   StretchGrid grid_;
+  StretchProofs proofs_;
   std::mt19937_64 random_;
   std::chrono::steady_clock::time_point begin_;
   double finest_ = 0.0;

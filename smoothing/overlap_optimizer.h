@@ -21,8 +21,10 @@ struct OptimizerOptions {
   bool planned_start = false;  ///< solve also from the planned motion, after the dichotomy's result
   int random_starts = 0;       ///< and from random points of the variables' box
   unsigned seed = 1;           ///< of the random starts
-  int rounds = 6;            ///< ≥ 1: solves from each start, with more instants and sharper rows
-  int max_iterations = 100;  ///< of the solver in the first round; a third of it in later ones
+  int rounds = 40;  ///< ≥ 1: solves from each start, with more instants and sharper rows
+  /// Of the solver in a round; 0: what suits it, 4 of `halfstep/sqp`, 30 of others. NLopt tells
+  /// none.
+  int max_iterations = 0;
   double deadline = 30.0;    ///< of all solves together [s]
   double tolerance = 0.001;  ///< of the dichotomies before and after [s]
   /// Told every point that the solver's search made the incumbent; may be empty.
@@ -33,10 +35,10 @@ struct OptimizerOptions {
 /// found feasible by `test`, and its cost with it:
 ///   1. the planned motion is the first incumbent, the dichotomy's result the next, unless a
 ///      feasible `start` is given;
-///   2. from each start the solver solves the program, each of its iterates a candidate for the
-///      FeasiblePath; where the test refuses the solver's end, the program learns that instant and
-///      is solved again from there, with sharper rows;
-///   3. `fastest`: dichotomy passes from the incumbent over all junctions.
+///   2. in rounds from each start the solver takes a few steps; where they end is a candidate for
+///      the FeasiblePath, and the program learns to look where the test refused it and where
+///      sampling finds small slacks;
+///   3. `fastest`: a dichotomy's pass from the incumbent over all junctions, with `tolerance`.
 /// So no method ends worse than the dichotomy. Statuses as for Dichotomy; the message says how the
 /// solver ended.
 SmoothingResult OptimizeOverlaps(const HalfStepSequence& sequence, const FeasibilityTest& test,

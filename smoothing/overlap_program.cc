@@ -20,7 +20,7 @@ class SlackBlock : public opt::ConstraintBlock {
     const int z = program.variables().size();
     raises_ = program.options().kind == ProgramKind::kSafest;
     for (int row = 0; row < rows(); ++row) {
-      for (int variable : program.table().band(row / kNumMarginFamilies)) {
+      for (int variable : program.table().band(program.table().half_step_of(row))) {
         pattern_.rows.push_back(row);
         pattern_.cols.push_back(variable);
       }
@@ -53,18 +53,20 @@ class SlackBlock : public opt::ConstraintBlock {
     program_.table().Evaluate(x, &slacks, &band);
     size_t from = 0, to = 0;
     for (int row = 0; row < rows(); ++row) {
-      const size_t width = program_.table().band(row / kNumMarginFamilies).size();
+      const size_t width = program_.table().band(program_.table().half_step_of(row)).size();
       for (size_t c = 0; c < width; ++c) nonzeros[to++] = band[from++];
       if (raises_ && IsRaised(row)) nonzeros[to++] = -1.0;
     }
   }
   std::string RowName(int row) const override {
-    return std::string(Name(static_cast<MarginFamily>(row % kNumMarginFamilies))) +
-           " in half-step " + std::to_string(row / kNumMarginFamilies + 1);
+    return std::string(Name(SlackTable::family_of(row))) + " in half-step " +
+           std::to_string(program_.table().half_step_of(row) + 1);
   }
 
  private:
-  static bool IsRaised(int row) { return Raised()[static_cast<size_t>(row % kNumMarginFamilies)]; }
+  static bool IsRaised(int row) {
+    return Raised()[static_cast<size_t>(SlackTable::family_of(row))];
+  }
 
   const OverlapProgram& program_;
   bool raises_ = false;

@@ -8,6 +8,8 @@ namespace {
 
 using Family = HomotopyParameter::Family;
 
+constexpr double kReserve = 3.0;
+
 // Σ e^{−ρ·slack} and its gradient, both times e^{ρ·least}: no overflow, whatever the slacks.
 struct SoftMinimum {
   double least;
@@ -60,8 +62,29 @@ SlackTable::SlackTable(const OverlapVariables& variables, const MarginEvaluator&
     }
     instants_.push_back(std::move(instants));
     bands_.push_back(variables.Band(k));
-    num_nonzeros_ += bands_.back().size() * kNumMarginFamilies;
   }
+  CountRows();
+}
+
+void SlackTable::CountRows() {
+  first_rows_.assign(1, 0);
+  for (const std::vector<Instant>& instants : instants_) {
+    const int groups = options_.row_per_instant ? static_cast<int>(instants.size()) : 1;
+    first_rows_.push_back(first_rows_.back() + groups * kNumMarginFamilies);
+  }
+}
+
+int SlackTable::half_step_of(int row) const {
+  const auto after = std::upper_bound(first_rows_.begin(), first_rows_.end(), row);
+  return static_cast<int>(after - first_rows_.begin()) - 1;
+}
+
+size_t SlackTable::num_nonzeros() const {
+  size_t sum = 0;
+  for (size_t k = 0; k < bands_.size(); ++k) {
+    sum += bands_[k].size() * static_cast<size_t>(first_rows_[k + 1] - first_rows_[k]);
+  }
+  return sum;
 }
 
 LocalTime SlackTable::At(const SuperposedWalk& walk, int k, const Instant& instant,
@@ -83,6 +106,7 @@ bool SlackTable::Look(const SuperposedWalk& walk, const LocalTime& at) {
     if (!known.of_stretch && std::abs(known.fraction - v) < kNear) return false;
   }
   instants.push_back({std::clamp(v, 0.0, 1.0), false});
+  CountRows();
   return true;
 }
 
@@ -128,16 +152,26 @@ void SlackTable::EvaluateHalfStep(const SuperposedWalk& walk, const Eigen::Vecto
   const double rho = options_.sharpness;
   const std::vector<int>& columns = band(k);
   const Eigen::Index width = static_cast<Eigen::Index>(columns.size());
+  const SoftMinimum nothing{options_.cutoff, 1.0, Eigen::VectorXd::Zero(nonzeros ? width : 0)};
   std::array<SoftMinimum, kNumMarginFamilies> minima;
-  minima.fill({options_.cutoff, 1.0, Eigen::VectorXd::Zero(nonzeros ? width : 0)});
+  minima.fill(nothing);
+  double* value = values->data() + first_rows_[static_cast<size_t>(k)];
+  const auto write = [&] {
+    for (SoftMinimum& minimum : minima) {
+      *value++ = minimum.least - (std::log(minimum.sum) + kReserve) / rho;
+      for (Eigen::Index c = 0; nonzeros && c < width; ++c) {
+        *nonzeros++ = minimum.gradient[c] / minimum.sum;
+      }
+      minimum = nothing;
+    }
+  };
   std::vector<std::pair<HomotopyParameter, double>> moving;
   InstantSlacks instant;
   Eigen::MatrixXd pull;  // ∂parameter/∂x on the band (parameters × width)
   for (const Instant& where : instants_[static_cast<size_t>(k)]) {
     const LocalTime at = At(walk, k, where, &moving);
     slacks->At(walk, at, moving, nonzeros != nullptr, &instant);
-    if (instant.rows.empty()) continue;
-    if (nonzeros) {
+    if (nonzeros && !instant.rows.empty()) {
       pull.setZero(static_cast<Eigen::Index>(instant.parameters.size()), width);
       for (size_t p = 0; p < instant.parameters.size(); ++p) {
         variables_.Pull(instant.parameters[p], 1.0, x, walk.parameters().durations,
@@ -156,14 +190,9 @@ void SlackTable::EvaluateHalfStep(const SuperposedWalk& walk, const Eigen::Vecto
           weight *
           (pull.transpose() * instant.gradient.row(static_cast<Eigen::Index>(r)).transpose());
     }
+    if (options_.row_per_instant) write();
   }
-  for (size_t f = 0; f < kNumMarginFamilies; ++f) {
-    const SoftMinimum& minimum = minima[f];
-    const int row = k * kNumMarginFamilies + static_cast<int>(f);
-    (*values)[row] = minimum.least - std::log(minimum.sum) / rho;
-    if (!nonzeros) continue;
-    for (Eigen::Index c = 0; c < width; ++c) *nonzeros++ = minimum.gradient[c] / minimum.sum;
-  }
+  if (!options_.row_per_instant) write();
 }
 
 void SlackTable::Evaluate(const Eigen::VectorXd& x, Eigen::VectorXd* values,
@@ -171,11 +200,12 @@ void SlackTable::Evaluate(const Eigen::VectorXd& x, Eigen::VectorXd* values,
   const SuperposedWalk walk(variables_.sequence(), variables_.ToParameters(x));
   SlackEvaluator slacks(evaluator_, options_.cutoff + 20.0 / options_.sharpness);
   values->resize(rows());
-  if (nonzeros) nonzeros->resize(num_nonzeros_);
+  if (nonzeros) nonzeros->resize(num_nonzeros());
   size_t first = 0;
   for (int k = 0; k < walk.num_half_steps(); ++k) {
     EvaluateHalfStep(walk, x, k, &slacks, values, nonzeros ? nonzeros->data() + first : nullptr);
-    first += band(k).size() * kNumMarginFamilies;
+    first += band(k).size() * static_cast<size_t>(first_rows_[static_cast<size_t>(k) + 1] -
+                                                  first_rows_[static_cast<size_t>(k)]);
   }
 }
 

@@ -12,7 +12,9 @@ namespace halfstep {
 struct SlackTableOptions {
   int instants = 32;      ///< per half-step, evenly spread over its own stretch
   double sharpness = 60;  ///< ρ > 0: a row lies at most log(count)/ρ below its least slack
-  double cutoff = 3.0;    ///< c: statements with more slack do not count
+  double cutoff = 1.5;    ///< c: statements with more slack do not count
+  /// One row an instant and family instead of one a half-step and family.
+  bool row_per_instant = false;
 };
 
 /// The slacks of a walk, gathered by half-step and family. Half-step k is looked at
@@ -20,11 +22,12 @@ struct SlackTableOptions {
 ///   - where statements begin or end to count, at τ = v·T_k: lift-off or landing, begin or end of
 ///     the horizontal motion of its foot;
 ///   - where a proof failed before (Look, LookAround), at τ = v·T_k.
-/// Row (k, family) is
+/// Row (k, family), or with `row_per_instant` (k, instant, family), is
 ///
-///     −log(e^{−ρc} + Σ e^{−ρ·slack})/ρ ≤ min(c, least slack at these instants).
+///     −(3 + log(e^{−ρc} + Σ e^{−ρ·slack}))/ρ ≤ min(c, least slack at these instants) − 3/ρ,
 ///
-/// 9n smooth rows; those of k depend on the variables of Band(k) only. Cost: linear in n.
+/// so that a point that keeps it has something in reserve for what lies between the instants.
+/// Smooth; rows of k depend on the variables of Band(k) only. Cost: linear in n.
 /// Source: smoothing/README.md, "Overlap program".
 class SlackTable {
  public:
@@ -32,16 +35,17 @@ class SlackTable {
   SlackTable(const OverlapVariables& variables, const MarginEvaluator& evaluator,
              const SlackTableOptions& options);
 
-  int rows() const { return variables_.sequence().size() * kNumMarginFamilies; }
-  static int RowOf(int half_step, MarginFamily family) {
-    return half_step * kNumMarginFamilies + static_cast<int>(family);
+  int rows() const { return first_rows_.back(); }
+  int half_step_of(int row) const;
+  static MarginFamily family_of(int row) {
+    return static_cast<MarginFamily>(row % kNumMarginFamilies);
   }
   /// Variables of the rows of a half-step.
   const std::vector<int>& band(int half_step) const {
     return bands_[static_cast<size_t>(half_step)];
   }
   /// Entries of the Jacobian: all rows times their band.
-  size_t num_nonzeros() const { return num_nonzeros_; }
+  size_t num_nonzeros() const;
 
   double sharpness() const { return options_.sharpness; }
   void SetSharpness(double sharpness) { options_.sharpness = sharpness; }
@@ -69,6 +73,7 @@ class SlackTable {
   // (k, τ) of an instant, and dτ along the parameters that move it.
   static LocalTime At(const SuperposedWalk& walk, int half_step, const Instant& instant,
                       std::vector<std::pair<HomotopyParameter, double>>* moving);
+  void CountRows();
   void EvaluateHalfStep(const SuperposedWalk& walk, const Eigen::VectorXd& x, int half_step,
                         SlackEvaluator* slacks, Eigen::VectorXd* values, double* nonzeros) const;
 
@@ -77,7 +82,7 @@ class SlackTable {
   SlackTableOptions options_;
   std::vector<std::vector<int>> bands_;
   std::vector<std::vector<Instant>> instants_;  // by half-step
-  size_t num_nonzeros_ = 0;
+  std::vector<int> first_rows_;                 // of each half-step, and the number of all
 };
 
 }  // namespace halfstep

@@ -3,7 +3,7 @@
 // Run: overlap_study table SCENARIO DEADLINE METHOD… (CSV: all variables and programs)
 //      overlap_study table SCENARIO:VARIABLES:PROGRAM DEADLINE METHOD…
 //      overlap_study grow METHOD N…                 (a straight walk of N half-steps)
-//      overlap_study reach METHOD DEADLINE SCENE…   (a config, or bars:N)
+//      overlap_study reach METHOD[:ITERATIONS] DEADLINE SCENE…   (a config, or bars:N)
 //      overlap_study solve CONFIG METHOD VARIABLES KIND [DEADLINE]
 //      overlap_study rows CONFIG
 
@@ -181,7 +181,9 @@ void Reach(const std::string& what, const std::string& method, double deadline) 
   const MarginEvaluator evaluator(e.robot, e.scene, e.config.smoothing.limits);
   const CertifiedFeasibility test(evaluator, {});
   OptimizerOptions options;
-  options.solver = method;
+  options.solver = method.substr(0, method.find(':'));
+  if (options.solver != method)
+    options.max_iterations = std::atoi(method.c_str() + options.solver.size() + 1);
   options.program.heights = options.program.durations = true;
   options.deadline = deadline;
   const double begin = Now();

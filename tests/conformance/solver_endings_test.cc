@@ -193,6 +193,7 @@ TEST_P(Ending, ExceptionInOnIterateIsKept) {
 
 std::string KnownOption(const std::string& solver) {
   if (solver == "ipopt" || solver == "halfstep/barrier") return "mu_init";
+  if (solver == "halfstep/sqp") return "radius";
   return solver == "ceres/auglag" ? "max_lbfgs_rank" : "xtol_abs";
 }
 

@@ -1,0 +1,261 @@
+#include "opt/sqp_solver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "opt/elastic_subproblem.h"
+#include "opt/evaluation_session.h"
+#include "opt/option_text.h"
+#include "opt/scaled_rows.h"
+
+namespace halfstep::opt {
+namespace {
+
+using Eigen::VectorXd;
+using SparseMatrix = Eigen::SparseMatrix<double>;
+
+constexpr double kAccept = 1e-4;              // of the predicted reduction
+constexpr double kPoor = 0.25, kGood = 0.75;  // below it the region shrinks, above it grows
+constexpr double kLeastRadius = 1e-12;
+constexpr double kMostPenalty = 1e8;
+constexpr int kMostRaises = 6;  // of the penalty in one iteration
+
+class Sqp {
+ public:
+  Sqp(EvaluationSession* session, const VectorXd& start, double radius, size_t memory)
+      : session_(*session),
+        problem_(session->problem()),
+        x_(start),
+        radius_(radius),
+        hessian_(memory) {
+    width_ = problem_.upper() - problem_.lower();
+    for (int v = 0; v < x_.size(); ++v) {
+      if (!std::isfinite(width_[v])) width_[v] = std::max(1.0, std::abs(x_[v]));
+    }
+  }
+
+  Ending Run() {
+    if (!session_.Constraints(x_, &values_) || !session_.Cost(x_, &cost_) || !Derive()) {
+      return Broken();
+    }
+    rows_.emplace(problem_, jacobian_);
+    const SolverOptions& options = session_.options();
+    while (session_.MayGoOn()) {
+      const VectorXd c = rows_->Values(values_);
+      const SparseMatrix A = rows_->Jacobian(jacobian_);
+      const ElasticStep step = Step(c, A);
+      const double violation = TotalViolation(c);
+      const double predicted = Predicted(step.d, c, A);
+      const bool feasible =
+          problem_.MaxViolation(x_, values_).amount <= options.feasibility_tolerance;
+      if (feasible && Stationary(step.duals, A) <= options.optimality_tolerance) {
+        return {SolveStatus::kConverged, "SQP: first-order conditions hold.", x_};
+      }
+      const double size = std::max(1.0, std::abs(cost_) + penalty_ * violation);
+      if (radius_ < kLeastRadius || predicted <= 1e-14 * size) {
+        if (!feasible) {
+          return {SolveStatus::kInfeasible, "SQP: the violation has a local minimum.", x_};
+        }
+        return {SolveStatus::kAcceptable, "SQP: no step improves any more.", x_};
+      }
+      if (!Try(step, c, A, predicted)) return Broken();
+    }
+    return Broken();
+  }
+
+ private:
+  Ending Broken() const { return {SolveStatus::kFailed, "SQP: broke off.", x_}; }
+
+  bool Derive() { return session_.Gradient(x_, &gradient_) && session_.Jacobian(x_, &jacobian_); }
+
+  bool Fixed(int v) const { return problem_.lower()[v] == problem_.upper()[v]; }
+
+  // The step within the region, of those rows that it can violate.
+  ElasticStep Restricted(const VectorXd& c, const SparseMatrix& A, double penalty) const {
+    ElasticSubproblem sub{.hessian = hessian_,
+                          .g = gradient_,
+                          .A = {},
+                          .c = {},
+                          .lower = {},
+                          .upper = {},
+                          .penalty = penalty};
+    sub.lower = (problem_.lower() - x_).cwiseMax(-radius_ * width_);
+    sub.upper = (problem_.upper() - x_).cwiseMin(radius_ * width_);
+    for (int v = 0; v < x_.size(); ++v) {
+      if (!Fixed(v)) continue;
+      sub.g[v] = 0.0;
+      sub.lower[v] = -radius_;
+      sub.upper[v] = radius_;
+    }
+    const VectorXd reach = A.cwiseAbs() * sub.lower.cwiseAbs().cwiseMax(sub.upper.cwiseAbs());
+    std::vector<Eigen::Index> kept;
+    for (Eigen::Index i = 0; i < c.size(); ++i) {
+      if (c[i] < reach[i] || c[i] < 0.0) kept.push_back(i);
+    }
+    SparseMatrix choose(static_cast<Eigen::Index>(kept.size()), c.size());
+    std::vector<Eigen::Triplet<double>> ones;
+    for (size_t k = 0; k < kept.size(); ++k) {
+      ones.emplace_back(static_cast<int>(k), static_cast<int>(kept[k]), 1.0);
+    }
+    choose.setFromTriplets(ones.begin(), ones.end());
+    sub.A = choose * A;
+    sub.c = choose * c;
+    ElasticStep step = Solve(sub);
+    step.duals = choose.transpose() * step.duals;
+    for (int v = 0; v < x_.size(); ++v) {
+      if (Fixed(v)) step.d[v] = 0.0;
+    }
+    return step;
+  }
+
+  // Raises the penalty while that makes the linearized rows' violation much smaller.
+  ElasticStep Step(const VectorXd& c, const SparseMatrix& A) {
+    ElasticStep step = Restricted(c, A, penalty_);
+    double left = TotalViolation(c + A * step.d);
+    for (int i = 0; i < kMostRaises && penalty_ < kMostPenalty; ++i) {
+      if (left <= 1e-9 || left <= 0.1 * TotalViolation(c)) break;
+      ElasticStep other = Restricted(c, A, 10.0 * penalty_);
+      const double then = TotalViolation(c + A * other.d);
+      if (then > 0.9 * left) break;
+      penalty_ *= 10.0;
+      step = std::move(other);
+      left = then;
+    }
+    return step;
+  }
+
+  double Predicted(const VectorXd& d, const VectorXd& c, const SparseMatrix& A) const {
+    return -gradient_.dot(d) - 0.5 * d.dot(hessian_.Times(d)) +
+           penalty_ * (TotalViolation(c) - TotalViolation(c + A * d));
+  }
+
+  // The largest entry of the Lagrangian's gradient that no bound's multiplier takes, and
+  // complementarity.
+  double Stationary(const VectorXd& duals, const SparseMatrix& A) const {
+    VectorXd r = gradient_ - A.transpose() * duals;
+    for (int v = 0; v < x_.size(); ++v) {
+      if (x_[v] <= problem_.lower()[v]) r[v] = std::min(r[v], 0.0);
+      if (x_[v] >= problem_.upper()[v]) r[v] = std::max(r[v], 0.0);
+      if (Fixed(v)) r[v] = 0.0;
+    }
+    const double slack = duals.dot(rows_->Values(values_).cwiseMax(0.0));
+    return std::max(r.lpNorm<Eigen::Infinity>(), slack) /
+           std::max(1.0, gradient_.lpNorm<Eigen::Infinity>());
+  }
+
+  double Merit(double cost, const VectorXd& c) const { return cost + penalty_ * TotalViolation(c); }
+
+  struct Trial {
+    VectorXd x, values, c;
+    double cost = 0.0, merit = std::numeric_limits<double>::infinity();
+  };
+  Trial At(const VectorXd& d) {
+    Trial trial;
+    trial.x = (x_ + d).cwiseMax(problem_.lower()).cwiseMin(problem_.upper());
+    if (session_.Constraints(trial.x, &trial.values) && session_.Cost(trial.x, &trial.cost)) {
+      trial.c = rows_->Values(trial.values);
+      trial.merit = Merit(trial.cost, trial.c);
+    }
+    return trial;
+  }
+
+  // Goes there if the merit falls as predicted, and adapts the region. False: the session ends.
+  bool Try(const ElasticStep& step, const VectorXd& c, const SparseMatrix& A, double predicted) {
+    const double merit = Merit(cost_, c);
+    const double rounding = 1e-14 * std::max(1.0, std::abs(merit));
+    Trial trial = At(step.d);
+    if (!session_.MayGoOn()) return false;
+    VectorXd d = step.d;
+    double ratio = (merit - trial.merit + rounding) / (predicted + rounding);
+    // Curved rows: the step is corrected by what they turned out to be.
+    if (ratio < kPoor && trial.c.size() > 0 &&
+        TotalViolation(trial.c) > TotalViolation(c + A * d)) {
+      const ElasticStep corrected = Restricted(trial.c - A * d, A, penalty_);
+      Trial second = At(corrected.d);
+      if (!session_.MayGoOn()) return false;
+      if (second.merit < trial.merit) {
+        trial = std::move(second);
+        d = corrected.d;
+        ratio = (merit - trial.merit + rounding) / (predicted + rounding);
+      }
+    }
+    const double reach = d.cwiseQuotient(width_).lpNorm<Eigen::Infinity>();
+    if (ratio < kPoor || !std::isfinite(trial.merit)) {
+      radius_ = 0.3 * std::min(radius_, std::max(reach, 0.1 * radius_));
+    } else if (ratio > kGood && reach > 0.9 * radius_) {
+      radius_ = std::min(1e3, 2.0 * radius_);
+    }
+    if (!(ratio > kAccept)) return true;
+    const VectorXd moved = trial.x - x_;
+    const VectorXd before = gradient_ - A.transpose() * step.duals;
+    x_ = trial.x;
+    values_ = trial.values;
+    cost_ = trial.cost;
+    if (!Derive()) return false;
+    hessian_.Update(moved,
+                    gradient_ - rows_->Jacobian(jacobian_).transpose() * step.duals - before);
+    return session_.ReportIterate(x_);
+  }
+
+  EvaluationSession& session_;
+  const Problem& problem_;
+  VectorXd x_, width_, values_, gradient_;
+  double cost_ = 0.0;
+  std::vector<double> jacobian_;
+  std::optional<ScaledRows> rows_;  // after the first evaluation
+  double radius_;                   // of the region, in widths of the variables
+  double penalty_ = 10.0;
+  LimitedMemoryHessian hessian_;
+};
+
+class SqpSolver : public Solver {
+ public:
+  std::string name() const override { return "halfstep/sqp"; }
+  bool available() const override { return true; }
+  std::string WhyUnavailable() const override { return ""; }
+  std::string WhyUnsupported(const Problem&) const override { return ""; }
+
+  // `radius`: the first trust region, of the variables' widths; `memory`: steps that the Hessian's
+  // estimate remembers.
+  Ending RunWithOptions(EvaluationSession& session, const VectorXd& start) const {
+    double radius = 0.1;
+    int memory = 12;
+    for (const auto& [option, value] : session.options().solver_options) {
+      const auto refuse = [&](const char* why) -> Ending {
+        return {SolveStatus::kInvalidInput, RefusedOption(name(), option, value, why), {}};
+      };
+      if (option == "radius") {
+        const auto number = ParseNumber(value);
+        if (!number || !(*number > 0.0)) return refuse("a number above 0");
+        radius = *number;
+      } else if (option == "memory") {
+        const auto number = ParseInteger(value);
+        if (!number || *number < 1 || *number > 1000) return refuse("an integer from 1 to 1000");
+        memory = *number;
+      } else {
+        return {
+            SolveStatus::kInvalidInput, UnknownOption(name(), option, {"memory", "radius"}), {}};
+      }
+      session.Use(option, value);
+    }
+    return Sqp(&session, start, radius, static_cast<size_t>(memory)).Run();
+  }
+
+  Solution Solve(const Problem& problem, const VectorXd& x0,
+                 const SolverOptions& options) const override {
+    return SolveInSession(*this, problem, x0, options, EvaluationSession::Iterations::kTold,
+                          [this](EvaluationSession& session, const VectorXd& start) {
+                            return RunWithOptions(session, start);
+                          });
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Solver> MakeSqpSolver() { return std::make_unique<SqpSolver>(); }
+
+}  // namespace halfstep::opt
