@@ -26,13 +26,13 @@ constexpr double kHopeless = 0.5;
 constexpr int kPatience = 10;
 // Where the program looks: instants this far apart [s], slacks below this.
 constexpr double kLookPeriod = 0.005, kLookSlack = 0.1;
-// Rows grow sharper by these factors after a round whose end was refused, and was not; up to a
-// bound.
-constexpr double kSharpen = 1.2, kSharpenMore = 2.0, kSharpest = 3000.0;
+// After a round whose end was proved rows grow sharper by a factor, up to a bound; after one whose
+// end was refused they grow softer, so that more is left in reserve.
+constexpr double kSharpen = 2.0, kSoften = 0.7, kSharpest = 3000.0;
 // A round that gains less, for the incumbent and for the solver, is poor (relative); so many in a
 // row end the search.
 constexpr double kGain = 1e-3;
-constexpr int kPoorRounds = 3;
+constexpr int kPoorRounds = 5;
 
 bool Gained(double before, double after) {
   if (!std::isfinite(before)) return std::isfinite(after);
@@ -140,7 +140,7 @@ class Optimization {
         poor = Gained(before, path->cost()) || Gained(solved, cost) ? 0 : poor + 1;
         solved = std::min(solved, cost);
         if (poor > 0 && !learned) break;
-        const double sharpen = path->refusals().empty() ? kSharpenMore : kSharpen;
+        const double sharpen = path->refusals().empty() ? kSharpen : kSoften;
         program.table().SetSharpness(std::min(kSharpest, sharpen * program.table().sharpness()));
         Part(0.2, 0.9)((static_cast<double>(s) + (round + 1.0) / options_.rounds) /
                        static_cast<double>(starts.size()));
