@@ -9,7 +9,7 @@
 
 #include "opt/evaluation_session.h"
 #include "opt/limited_memory_hessian.h"
-#include "opt/option_text.h"
+#include "opt/own_options.h"
 
 namespace halfstep::opt {
 namespace {
@@ -339,27 +339,9 @@ class BarrierSolver : public Solver {
   // `mu_init`: the first μ as a fraction of the cost per inequality; `memory`: steps that the
   // Hessian's estimate remembers.
   Ending RunWithOptions(EvaluationSession& session, const VectorXd& start) const {
-    double mu_init = 0.1;
-    int memory = 12;
-    for (const auto& [option, value] : session.options().solver_options) {
-      const auto refuse = [&](const char* why) -> Ending {
-        return {SolveStatus::kInvalidInput, RefusedOption(name(), option, value, why), {}};
-      };
-      if (option == "mu_init") {
-        const auto number = ParseNumber(value);
-        if (!number || !(*number > 0.0)) return refuse("a number above 0");
-        mu_init = *number;
-      } else if (option == "memory") {
-        const auto number = ParseInteger(value);
-        if (!number || *number < 1 || *number > 1000) return refuse("an integer from 1 to 1000");
-        memory = *number;
-      } else {
-        return {
-            SolveStatus::kInvalidInput, UnknownOption(name(), option, {"memory", "mu_init"}), {}};
-      }
-      session.Use(option, value);
-    }
-    return Barrier(&session, start, mu_init, static_cast<size_t>(memory)).Run();
+    std::vector<OwnOption> options = {{"mu_init", false, 0.1}, {"memory", true, 12}};
+    if (const auto refused = ReadOwnOptions(name(), &session, &options)) return *refused;
+    return Barrier(&session, start, options[0].value, static_cast<size_t>(options[1].value)).Run();
   }
 
   Solution Solve(const Problem& problem, const Eigen::VectorXd& x0,

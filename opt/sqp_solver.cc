@@ -9,7 +9,7 @@
 
 #include "opt/elastic_subproblem.h"
 #include "opt/evaluation_session.h"
-#include "opt/option_text.h"
+#include "opt/own_options.h"
 #include "opt/scaled_rows.h"
 
 namespace halfstep::opt {
@@ -222,27 +222,9 @@ class SqpSolver : public Solver {
   // `radius`: the first trust region, of the variables' widths; `memory`: steps that the Hessian's
   // estimate remembers.
   Ending RunWithOptions(EvaluationSession& session, const VectorXd& start) const {
-    double radius = 0.1;
-    int memory = 12;
-    for (const auto& [option, value] : session.options().solver_options) {
-      const auto refuse = [&](const char* why) -> Ending {
-        return {SolveStatus::kInvalidInput, RefusedOption(name(), option, value, why), {}};
-      };
-      if (option == "radius") {
-        const auto number = ParseNumber(value);
-        if (!number || !(*number > 0.0)) return refuse("a number above 0");
-        radius = *number;
-      } else if (option == "memory") {
-        const auto number = ParseInteger(value);
-        if (!number || *number < 1 || *number > 1000) return refuse("an integer from 1 to 1000");
-        memory = *number;
-      } else {
-        return {
-            SolveStatus::kInvalidInput, UnknownOption(name(), option, {"memory", "radius"}), {}};
-      }
-      session.Use(option, value);
-    }
-    return Sqp(&session, start, radius, static_cast<size_t>(memory)).Run();
+    std::vector<OwnOption> options = {{"radius", false, 0.1}, {"memory", true, 12}};
+    if (const auto refused = ReadOwnOptions(name(), &session, &options)) return *refused;
+    return Sqp(&session, start, options[0].value, static_cast<size_t>(options[1].value)).Run();
   }
 
   Solution Solve(const Problem& problem, const VectorXd& x0,

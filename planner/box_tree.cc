@@ -10,11 +10,6 @@ using Eigen::Vector3i;
 
 using CellBox = BoxTree::CellBox;
 
-int64_t Cells(const CellBox& box) {
-  const Eigen::Matrix<int64_t, 3, 1> size = (box.upper - box.lower).cast<int64_t>();
-  return (size.array() <= 0).any() ? 0 : size.prod();
-}
-
 CellBox ChildBox(const BoxNode& node, int c) {
   return {{node.lower[0][c], node.lower[1][c], node.lower[2][c]},
           {node.upper[0][c], node.upper[1][c], node.upper[2][c]}};
@@ -85,7 +80,7 @@ Vector3d BoxTree::Upper() const {
 
 double BoxTree::Volume() const {
   int64_t cells = 0;
-  for (const CellBox& box : SolidBoxes()) cells += Cells(box);
+  for (const CellBox& box : SolidBoxes()) cells += box.Cells();
   return static_cast<double>(cells) * cell * cell * cell;
 }
 

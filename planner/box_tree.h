@@ -43,6 +43,10 @@ struct BoxTree {
   /// A solid box of cells [lower, upper).
   struct CellBox {
     Eigen::Vector3i lower, upper;
+    int64_t Cells() const {  ///< 0 when it is empty or turned round
+      const Eigen::Matrix<int64_t, 3, 1> size = (upper - lower).cast<int64_t>();
+      return (size.array() <= 0).any() ? 0 : size.prod();
+    }
   };
   /// All solid boxes; they do not overlap.
   std::vector<CellBox> SolidBoxes() const;

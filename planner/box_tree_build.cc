@@ -14,11 +14,6 @@ using Eigen::Vector3i;
 
 using CellBox = BoxTree::CellBox;
 
-int64_t Cells(const CellBox& box) {
-  const Eigen::Matrix<int64_t, 3, 1> size = (box.upper - box.lower).cast<int64_t>();
-  return (size.array() <= 0).any() ? 0 : size.prod();
-}
-
 // Bounds of the occupied cells of each slice across an axis; empty slices: lower > upper.
 struct Slices {
   std::array<std::vector<CellBox>, 3> of;
@@ -48,7 +43,7 @@ class Builder {
     for (const CellBox& slice : slices.of[0]) box = Join(box, slice);
     const int index = static_cast<int>(branches_.size());
     branches_.push_back({box});
-    if (slices.occupied == Cells(box)) return index;
+    if (slices.occupied == box.Cells()) return index;
     // Halving ends within 48 more.
     const auto [axis, at] = depth < 36 ? BestCut(slices, within, box) : Halves(box);
     CellBox left = box, right = box;
@@ -67,7 +62,7 @@ class Builder {
       auto largest = open.end();
       for (auto i = open.begin(); i != open.end(); ++i) {
         if (At(*i).left < 0) continue;
-        if (largest == open.end() || Cells(At(*i).box) > Cells(At(*largest).box)) largest = i;
+        if (largest == open.end() || At(*i).box.Cells() > At(*largest).box.Cells()) largest = i;
       }
       if (largest == open.end()) break;
       const Branch& opened = At(*largest);
@@ -184,14 +179,14 @@ class Builder {
       CellBox rest = kNothing;
       for (size_t i = of.size(); i-- > 0;) {
         rest = Join(rest, of[i]);
-        above[i] = rest.lower.x() > rest.upper.x() ? 0 : Cells(rest);
+        above[i] = rest.lower.x() > rest.upper.x() ? 0 : rest.Cells();
       }
       CellBox below = kNothing;
       for (int at = within.lower[axis] + 1; at < within.upper[axis]; ++at) {
         const size_t i = static_cast<size_t>(at - within.lower[axis]);
         below = Join(below, of[i - 1]);
         if (at <= box.lower[axis] || at >= box.upper[axis]) continue;
-        const int64_t cells = Cells(below) + above[i];
+        const int64_t cells = below.Cells() + above[i];
         const int even = std::min(at - box.lower[axis], box.upper[axis] - at);
         if (cells < least || (cells == least && even > evenness)) {
           least = cells;

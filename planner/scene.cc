@@ -150,6 +150,16 @@ Eigen::Isometry3d MakePose(const std::vector<double>& xyz, const std::vector<dou
 
 }  // namespace
 
+TriangleMesh FacesOf(const ConvexBody& body) {
+  TriangleMesh mesh;
+  mesh.vertices = body.vertices;
+  mesh.triangles.resize(3, static_cast<Eigen::Index>(body.triangles.size()));
+  for (size_t i = 0; i < body.triangles.size(); ++i) {
+    mesh.triangles.col(static_cast<Eigen::Index>(i)) = body.triangles[i];
+  }
+  return mesh;
+}
+
 Scene LoadScene(const std::string& yaml_path) {
   Scene scene;
   std::vector<ObstacleFields> obstacles;

@@ -17,6 +17,10 @@ struct TriangleMesh {
   std::string file = {};       ///< where it was read from; "" when made otherwise.
 };
 
+/// The faces of a convex body's core, the body without its ball; none when it has fewer than 4
+/// vertices.
+TriangleMesh FacesOf(const ConvexBody& body);
+
 struct Obstacle {
   std::string name;                              ///< unique in its scene.
   std::variant<ConvexBody, TriangleMesh> shape;  ///< in its own frame.

@@ -50,16 +50,7 @@ int DiscSides(double radius) {
 
 // Triangles around the core of a convex body (the body without its ball).
 TriangleMesh MakeCore(const ConvexBody& body) {
-  const auto as_mesh = [](const ConvexBody& from) {
-    TriangleMesh mesh;
-    mesh.vertices = from.vertices;
-    mesh.triangles.resize(3, static_cast<Eigen::Index>(from.triangles.size()));
-    for (size_t i = 0; i < from.triangles.size(); ++i) {
-      mesh.triangles.col(static_cast<Eigen::Index>(i)) = from.triangles[i];
-    }
-    return mesh;
-  };
-  if (body.disc_radius == 0 && !body.triangles.empty()) return as_mesh(body);
+  if (body.disc_radius == 0 && !body.triangles.empty()) return FacesOf(body);
   // What each vertex is widened by: a polygon around the disc, else an octahedron.
   std::vector<Eigen::Vector3d> around;
   if (body.disc_radius > 0) {
@@ -80,7 +71,7 @@ TriangleMesh MakeCore(const ConvexBody& body) {
   for (Eigen::Index i = 0; i < points.cols(); ++i) {
     points.col(i) = body.vertices.col(i / n) + around[static_cast<size_t>(i % n)];
   }
-  return as_mesh(MakeHull(points));
+  return FacesOf(MakeHull(points));
 }
 
 ConvexBody Enclosing(const TriangleMesh& mesh) {

@@ -43,9 +43,8 @@ class SweptVolumeBaker {
 
   /// Contains every point that is within `clearance` of a body of the robot at any time of the
   /// half-step, in the frame S of its support sole; and the mirror images of those of the mirrored
-  /// half-step, so that one volume serves both sides of a robot that is not quite symmetric. None as
-  /// for Cover, of either.
-  /// Source: planner/README.md, "Swept volumes".
+  /// half-step, so that one volume serves both sides of a robot that is not quite symmetric. None
+  /// as for Cover, of either. Source: planner/README.md, "Swept volumes".
   std::optional<BoxTree> Bake(const HalfStep& half_step, const Lipm& lipm) const;
 
   const SweptVolumeOptions& options() const { return options_; }

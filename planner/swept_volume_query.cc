@@ -48,16 +48,6 @@ bool IsRound(const ConvexBody& body) {
          std::abs(body.vertices.row(2).sum()) <= 1e-12 * body.vertices.cwiseAbs().sum();
 }
 
-TriangleMesh Faces(const ConvexBody& body) {
-  TriangleMesh mesh;
-  mesh.vertices = body.vertices;
-  mesh.triangles.resize(3, static_cast<Eigen::Index>(body.triangles.size()));
-  for (size_t i = 0; i < body.triangles.size(); ++i) {
-    mesh.triangles.col(static_cast<Eigen::Index>(i)) = body.triangles[i];
-  }
-  return mesh;
-}
-
 }  // namespace
 
 SweptVolumeQuery::Prepared SweptVolumeQuery::Prepare(const Obstacle& obstacle) {
@@ -82,7 +72,7 @@ SweptVolumeQuery::Prepared SweptVolumeQuery::Prepare(const Obstacle& obstacle) {
                                .disc_radius = body.disc_radius,
                                .ball_radius = body.ball_radius};
   } else if (body.disc_radius == 0 && body.ball_radius == 0 && !body.triangles.empty()) {
-    as_mesh(Faces(body));
+    as_mesh(FacesOf(body));
   }  // else: the box around it
   return prepared;
 }

@@ -1,11 +1,11 @@
 #include "smoothing/coordinate_ascent.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <utility>
 
 #include "smoothing/overlap_program.h"
+#include "smoothing/stopwatch.h"
 #include "smoothing/stretch_proofs.h"
 #include "smoothing/superposed_walk.h"
 #include "wpg/check.h"
@@ -27,8 +27,7 @@ class Ascent {
         planned_(PlannedMotion(sequence)),
         point_(options.start.value_or(planned_)),
         scratch_(test.evaluator().MakeScratch()),
-        proofs_(test, sequence.size()),
-        begin_(std::chrono::steady_clock::now()) {
+        proofs_(test, sequence.size()) {
     result_.evidence = test.evidence();
     for (int i = 0; i < sequence.num_junctions(); ++i) {
       result_.junctions.push_back({.kind = KindOfJunction(i)});
@@ -57,7 +56,7 @@ class Ascent {
         }
       }
       const double now = DurationOf(point_);
-      result_.iterates.push_back({.wall = Elapsed(),
+      result_.iterates.push_back({.wall = stopwatch_.Seconds(),
                                   .evaluations = scratch_.instants,
                                   .candidate_duration = now,
                                   .accepted = now < before,
@@ -65,7 +64,7 @@ class Ascent {
                                   .incumbent_duration = now,
                                   .incumbent_cost = now});
       if (now < before && !result_.time_to_first_improvement) {
-        result_.time_to_first_improvement = Elapsed();
+        result_.time_to_first_improvement = stopwatch_.Seconds();
       }
       if (before - now < options_.tolerance) {
         result_.message = "a pass gained less than " + std::to_string(options_.tolerance) + " s";
@@ -215,12 +214,8 @@ class Ascent {
     result_.cost = DurationOf(point_);
     result_.instants = scratch_.instants;
     result_.collision_queries = scratch_.bodies.queries;
-    result_.wall = Elapsed();
+    result_.wall = stopwatch_.Seconds();
     return std::move(result_);
-  }
-
-  double Elapsed() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
   }
 
   const HalfStepSequence& sequence_;
@@ -231,7 +226,7 @@ class Ascent {
   HomotopyParameters point_;  // always found feasible
   MarginEvaluator::Scratch scratch_;
   StretchProofs proofs_;
-  std::chrono::steady_clock::time_point begin_;
+  Stopwatch stopwatch_;
   SmoothingResult result_;
 };
 

@@ -1,8 +1,8 @@
 #include "smoothing/dichotomy.h"
 
-#include <chrono>
 #include <optional>
 
+#include "smoothing/stopwatch.h"
 #include "smoothing/superposed_walk.h"
 #include "wpg/check.h"
 
@@ -18,8 +18,7 @@ class Bisection {
         options_(options),
         stop_(std::move(stop)),
         walk_(sequence, options.start.value_or(PlannedMotion(sequence))),
-        scratch_(test.evaluator().MakeScratch()),
-        begin_(std::chrono::steady_clock::now()) {
+        scratch_(test.evaluator().MakeScratch()) {
     for (int i = 0; i < sequence.num_junctions(); ++i) {
       const JunctionKind kind = KindOfJunction(i);
       const double cap = kind == JunctionKind::kUpDown ? options.up_down_cap : options.down_up_cap;
@@ -94,7 +93,7 @@ class Bisection {
     const Feasibility answer = test_.Check(walk_, window, &scratch_);
     const bool accepted = answer.verdict == Verdict::kFeasible;
     SmoothingIterate iterate{
-        .wall = Elapsed(),
+        .wall = stopwatch_.Seconds(),
         .evaluations = scratch_.instants,
         .candidate_duration = walk_.duration(),
         .accepted = accepted,
@@ -115,12 +114,8 @@ class Bisection {
     result_.cost = walk_.duration();
     result_.instants = scratch_.instants;
     result_.collision_queries = scratch_.bodies.queries;
-    result_.wall = Elapsed();
+    result_.wall = stopwatch_.Seconds();
     return std::move(result_);
-  }
-
-  double Elapsed() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
   }
 
   const HalfStepSequence& sequence_;
@@ -129,7 +124,7 @@ class Bisection {
   std::stop_token stop_;
   SuperposedWalk walk_;
   MarginEvaluator::Scratch scratch_;
-  std::chrono::steady_clock::time_point begin_;
+  Stopwatch stopwatch_;
   SmoothingResult result_;
 };
 

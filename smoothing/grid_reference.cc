@@ -1,7 +1,6 @@
 #include "smoothing/grid_reference.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <random>
 #include <sstream>
@@ -10,6 +9,7 @@
 #include "smoothing/dichotomy.h"
 #include "smoothing/feasible_path.h"
 #include "smoothing/overlap_program.h"
+#include "smoothing/stopwatch.h"
 #include "smoothing/stretch_grid.h"
 #include "smoothing/stretch_proofs.h"
 #include "wpg/check.h"
@@ -33,8 +33,7 @@ class Reference {
         planned_(PlannedMotion(sequence)),
         grid_(sequence, test.evaluator(), options.period),
         proofs_(test, sequence.size()),
-        random_(options.seed),
-        begin_(std::chrono::steady_clock::now()) {}
+        random_(options.seed) {}
 
   SmoothingResult Run() {
     std::vector<HomotopyParameters> starts = Starts();
@@ -158,7 +157,7 @@ class Reference {
       if (!path->refusals().empty()) ++result_.raw_infeasible;
     }
     Keep(path->incumbent());
-    iterate.wall = Elapsed();
+    iterate.wall = stopwatch_.Seconds();
     iterate.evaluations = result_.instants + grid_.scratch().instants + path->scratch().instants;
     iterate.incumbent_duration = iterate.incumbent_cost = DurationOf(best_);
     result_.iterates.push_back(iterate);
@@ -207,12 +206,8 @@ class Reference {
     }
     result_.instants += grid_.scratch().instants;
     result_.collision_queries += grid_.scratch().bodies.queries;
-    result_.wall = Elapsed();
+    result_.wall = stopwatch_.Seconds();
     return std::move(result_);
-  }
-
-  double Elapsed() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
   }
 
   const HalfStepSequence& sequence_;
@@ -225,7 +220,7 @@ class Reference {
   StretchGrid grid_;
   StretchProofs proofs_;
   std::mt19937_64 random_;
-  std::chrono::steady_clock::time_point begin_;
+  Stopwatch stopwatch_;
   double finest_ = 0.0;
   bool exhausted_ = false;
   SmoothingResult result_;

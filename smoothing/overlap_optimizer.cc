@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -13,6 +12,7 @@
 #include "smoothing/dichotomy.h"
 #include "smoothing/explain.h"
 #include "smoothing/path_rules.h"
+#include "smoothing/stopwatch.h"
 
 namespace halfstep {
 namespace {
@@ -49,7 +49,6 @@ class Optimization {
         options_(options),
         progress_(progress),
         stop_(std::move(stop)),
-        begin_(std::chrono::steady_clock::now()),
         proofs_(test, sequence.size()) {}
 
   SmoothingResult Run() {
@@ -94,10 +93,6 @@ class Optimization {
     };
   }
 
-  double Elapsed() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
-  }
-
   // The dichotomy's result, the planned motion, random points of the variables' box.
   std::vector<HomotopyParameters> Starts(const OverlapProgram& program) const {
     std::vector<HomotopyParameters> starts = {start_};
@@ -124,7 +119,7 @@ class Optimization {
       int poor = 0;
       for (int round = 0; round < options_.rounds && poor < kPoorRounds; ++round) {
         const double before = path->cost();
-        const double remaining = options_.deadline - Elapsed();
+        const double remaining = options_.deadline - stopwatch_.Seconds();
         if (remaining <= 0.0 || stop_.stop_requested()) return;
         solution_ = Solve(program, x, remaining, path);
         if (solution_.x.size() != x.size()) return;
@@ -186,7 +181,8 @@ class Optimization {
     if (violation <= kHopeless) lambda = path->Toward(candidate, kAttempts);
     if (violation > kHopeless || !path->refusals().empty()) ++result_.raw_infeasible;
     if (lambda > 0.0) {
-      if (!result_.time_to_first_improvement) result_.time_to_first_improvement = Elapsed();
+      if (!result_.time_to_first_improvement)
+        result_.time_to_first_improvement = stopwatch_.Seconds();
       std::array<bool, kNumMarginFamilies> all;
       all.fill(true);
       incumbent_slack_ = program.table().LeastSlack(path->incumbent(), all);
@@ -196,7 +192,7 @@ class Optimization {
 
   void Record(const HomotopyParameters& candidate, double violation, double lambda,
               const FeasiblePath& path) {
-    SmoothingIterate record{.wall = Elapsed(),
+    SmoothingIterate record{.wall = stopwatch_.Seconds(),
                             .evaluations = result_.instants + path.scratch().instants,
                             .candidate_duration = DurationOf(candidate),
                             .accepted = lambda > 0.0,
@@ -227,7 +223,7 @@ class Optimization {
         junction.limited_by.reset();
       }
     }
-    result_.wall = Elapsed();
+    result_.wall = stopwatch_.Seconds();
     if (!Safest()) AddMultipliers(program, result_.parameters, &result_.junctions);
     result_.message =
         options_.solver + " ended " + opt::ToString(solution_.status) + ": " + solution_.message;
@@ -248,7 +244,7 @@ class Optimization {
         Dichotomy(sequence_, test_, {.tolerance = options_.tolerance, .start = result_.parameters},
                   Part(0.9, 1.0), stop_);
     for (SmoothingIterate& iterate : polished.iterates) {
-      iterate.wall += Elapsed() - polished.wall;
+      iterate.wall += stopwatch_.Seconds() - polished.wall;
       iterate.evaluations += result_.instants;
       result_.iterates.push_back(iterate);
     }
@@ -270,7 +266,7 @@ class Optimization {
   const OptimizerOptions& options_;
   const std::function<void(double)>& progress_;
   std::stop_token stop_;
-  std::chrono::steady_clock::time_point begin_;
+  Stopwatch stopwatch_;
   StretchProofs proofs_;
   SmoothingResult result_;
   HomotopyParameters start_;               // the dichotomy's result

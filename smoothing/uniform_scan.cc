@@ -1,7 +1,6 @@
 #include "smoothing/uniform_scan.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <sstream>
 #include <utility>
@@ -9,6 +8,7 @@
 
 #include "smoothing/dichotomy.h"
 #include "smoothing/overlap_program.h"
+#include "smoothing/stopwatch.h"
 #include "wpg/check.h"
 
 namespace halfstep {
@@ -34,11 +34,7 @@ class Scan {
  public:
   Scan(const HalfStepSequence& sequence, const FeasibilityTest& test,
        const UniformScanOptions& options, std::stop_token stop)
-      : sequence_(sequence),
-        test_(test),
-        options_(options),
-        stop_(std::move(stop)),
-        begin_(std::chrono::steady_clock::now()) {}
+      : sequence_(sequence), test_(test), options_(options), stop_(std::move(stop)) {}
 
   SmoothingResult Run(const std::function<void(double)>& progress) {
     result_.evidence = test_.evidence();
@@ -90,7 +86,7 @@ class Scan {
     const bool feasible = smoothed.status != SmoothingStatus::kStartInfeasible;
     smoothed.cost = DurationOf(smoothed.parameters);
     const bool better = feasible && (!found_ || smoothed.cost < result_.cost);
-    SmoothingIterate iterate{.wall = Elapsed(),
+    SmoothingIterate iterate{.wall = stopwatch_.Seconds(),
                              .evaluations = result_.instants,
                              .candidate_duration = smoothed.cost,
                              .accepted = better,
@@ -101,7 +97,8 @@ class Scan {
       result_.cost = smoothed.cost;
       result_.junctions = smoothed.junctions;
       best_ = {point.duration, point.height, {}};
-      if (!result_.time_to_first_improvement) result_.time_to_first_improvement = Elapsed();
+      if (!result_.time_to_first_improvement)
+        result_.time_to_first_improvement = stopwatch_.Seconds();
     }
     iterate.incumbent_duration = iterate.incumbent_cost =
         found_ ? result_.cost : DurationOf(result_.parameters);
@@ -111,7 +108,7 @@ class Scan {
   }
 
   SmoothingResult Finish() {
-    result_.wall = Elapsed();
+    result_.wall = stopwatch_.Seconds();
     if (!found_) {
       result_.cost = DurationOf(result_.parameters);
       // Also when interrupted: there is no feasible walk to keep.
@@ -130,15 +127,11 @@ class Scan {
     return std::move(result_);
   }
 
-  double Elapsed() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
-  }
-
   const HalfStepSequence& sequence_;
   const FeasibilityTest& test_;
   const UniformScanOptions& options_;
   std::stop_token stop_;
-  std::chrono::steady_clock::time_point begin_;
+  Stopwatch stopwatch_;
   std::vector<GridPoint> points_;
   GridPoint best_;
   bool found_ = false;

@@ -17,16 +17,6 @@ using Eigen::Vector3d;
 
 const Eigen::Vector2d kSole(0.22, 0.14);
 
-TriangleMesh AsMesh(const ConvexBody& body) {
-  TriangleMesh mesh;
-  mesh.vertices = body.vertices;
-  mesh.triangles.resize(3, static_cast<Eigen::Index>(body.triangles.size()));
-  for (size_t i = 0; i < body.triangles.size(); ++i) {
-    mesh.triangles.col(static_cast<Eigen::Index>(i)) = body.triangles[i];
-  }
-  return mesh;
-}
-
 Scene One(std::variant<ConvexBody, TriangleMesh> shape, const Isometry3d& X_WO) {
   Scene scene;
   scene.obstacles.push_back({"o", std::move(shape), X_WO});
@@ -164,8 +154,9 @@ TEST(SweptVolumeQueryTest, ABoxAsAMeshAndAsAHullAnswersLikeTheBox) {
     hull.vertices.col(0) *= 1.0000001;  // no box any more
     const auto [i, support, X_WS] = DrawQuery(0.3, &draw);
     const bool free = SweptVolumeQuery(volumes, kSole, One(box, X_WO)).DownIsFree(i, support, X_WS);
-    EXPECT_EQ(SweptVolumeQuery(volumes, kSole, One(AsMesh(box), X_WO)).DownIsFree(i, support, X_WS),
-              free);
+    EXPECT_EQ(
+        SweptVolumeQuery(volumes, kSole, One(FacesOf(box), X_WO)).DownIsFree(i, support, X_WS),
+        free);
     EXPECT_EQ(SweptVolumeQuery(volumes, kSole, One(hull, X_WO)).DownIsFree(i, support, X_WS), free);
   }
 }
@@ -181,14 +172,14 @@ TEST(SweptVolumeQueryTest, SmallObstaclesInsideAndHollowOnesAroundAreMet) {
     const Vector3d middle =
         0.5 * (volumes.down[0]->Corner(box.lower) + volumes.down[0]->Corner(box.upper));
     EXPECT_FALSE(is_free(MakeBox({1e-3, 1e-3, 1e-3}), middle));
-    EXPECT_FALSE(is_free(AsMesh(MakeBox({1e-3, 1e-3, 1e-3})), middle));
+    EXPECT_FALSE(is_free(FacesOf(MakeBox({1e-3, 1e-3, 1e-3})), middle));
     EXPECT_FALSE(is_free(MakeSphere(1e-3), middle));
   }
   EXPECT_FALSE(is_free(MakeBox({10, 10, 10}), {0, 0, 0}));
   EXPECT_FALSE(is_free(MakeSphere(10), {0, 0, 0}));
-  EXPECT_FALSE(is_free(AsMesh(MakeBox({10, 10, 10})), {0, 0, 0}));
-  EXPECT_TRUE(is_free(AsMesh(MakeBox({10, 10, 10})), {0, 0, -10}));
-  EXPECT_TRUE(is_free(AsMesh(MakeBox({10, 10, 10})), {11, 0, 0}));
+  EXPECT_FALSE(is_free(FacesOf(MakeBox({10, 10, 10})), {0, 0, 0}));
+  EXPECT_TRUE(is_free(FacesOf(MakeBox({10, 10, 10})), {0, 0, -10}));
+  EXPECT_TRUE(is_free(FacesOf(MakeBox({10, 10, 10})), {11, 0, 0}));
 }
 
 TEST(SweptVolumeQueryTest, ClearanceIsFreeAndKnownToTheMillimetre) {
@@ -245,7 +236,7 @@ TEST(MeshWindingTest, AgreesWithTheSumOverAllTriangles) {
   for (int part = 0; part < 3; ++part) {
     Eigen::Matrix3Xd points(3, 60);
     for (int i = 0; i < 60; ++i) points.col(i) = draw.Direction() + Vector3d(part, 0.5 * part, 0);
-    const TriangleMesh hull = AsMesh(MakeHull(points));
+    const TriangleMesh hull = FacesOf(MakeHull(points));
     const Eigen::Index keep = hull.triangles.cols() - (part == 2 ? 10 : 0);
     const Eigen::Index v = mesh.vertices.cols(), t = mesh.triangles.cols();
     mesh.vertices.conservativeResize(3, v + hull.vertices.cols());

@@ -15,17 +15,6 @@ using Eigen::Vector3d;
 
 Isometry3d At(const Vector3d& p) { return Isometry3d(Eigen::Translation3d(p)); }
 
-// The surface of a convex body with faces.
-TriangleMesh Surface(const ConvexBody& body) {
-  TriangleMesh mesh;
-  mesh.vertices = body.vertices;
-  mesh.triangles.resize(3, static_cast<Eigen::Index>(body.triangles.size()));
-  for (size_t i = 0; i < body.triangles.size(); ++i) {
-    mesh.triangles.col(static_cast<Eigen::Index>(i)) = body.triangles[i];
-  }
-  return mesh;
-}
-
 TEST(TriangleDistance, OfShapesWithKnownDistances) {
   const CollisionShape box(MakeBox({2, 2, 2})), ball(MakeSphere(0.5));
   const CollisionShape capsule(MakeCapsule(0.25, 1)), cylinder(MakeCylinder(0.02, 1));
@@ -55,9 +44,9 @@ TEST(TriangleDistance, EnclosesLargeDiscsTightly) {
 }
 
 TEST(TriangleDistance, FindsOneInsideTheOtherBothWays) {
-  const CollisionShape large(MakeBox({2, 2, 2})), hollow(Surface(MakeBox({2, 2, 2})));
+  const CollisionShape large(MakeBox({2, 2, 2})), hollow(FacesOf(MakeBox({2, 2, 2})));
   const CollisionShape small(MakeBox({0.1, 0.1, 0.1})),
-      small_hollow(Surface(MakeBox({0.1, 0.1, 0.1})));
+      small_hollow(FacesOf(MakeBox({0.1, 0.1, 0.1})));
   const CollisionShape ball(MakeSphere(0.1));
   const Isometry3d inside = At({0.3, 0.2, 0.1}), beside = At({0, 0, 5});
   for (const CollisionShape* outer : {&large, &hollow}) {

@@ -1,0 +1,34 @@
+#include "opt/own_options.h"
+
+#include <algorithm>
+
+#include "opt/option_text.h"
+
+namespace halfstep::opt {
+
+std::optional<Ending> ReadOwnOptions(const std::string& solver, EvaluationSession* session,
+                                     std::vector<OwnOption>* known) {
+  constexpr double kMost = 1000;
+  for (const auto& [option, value] : session->options().solver_options) {
+    const auto found = std::find_if(known->begin(), known->end(),
+                                    [&](const OwnOption& own) { return own.name == option; });
+    if (found == known->end()) {
+      std::vector<std::string> names;
+      for (const OwnOption& own : *known) names.push_back(own.name);
+      return Ending{SolveStatus::kInvalidInput, UnknownOption(solver, option, names), {}};
+    }
+    const auto number =
+        found->integer ? std::optional<double>(ParseInteger(value)) : ParseNumber(value);
+    const bool right =
+        number && (found->integer ? *number >= 1.0 && *number <= kMost : *number > 0.0);
+    if (!right) {
+      const char* why = found->integer ? "an integer from 1 to 1000" : "a number above 0";
+      return Ending{SolveStatus::kInvalidInput, RefusedOption(solver, option, value, why), {}};
+    }
+    found->value = *number;
+    session->Use(option, value);
+  }
+  return std::nullopt;
+}
+
+}  // namespace halfstep::opt
