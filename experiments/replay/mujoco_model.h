@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+
+#include "wpg/robot_model.h"
+#include "wpg/robot_tree.h"
+
+namespace halfstep::replay {
+
+/// What the simulated robot is made of beside its URDF. Documented in experiments/README.md,
+/// "Replay".
+struct ModelOptions {
+  double timestep = 0.0005;     ///< [s]
+  double friction = 0.7;        ///< of soles on the floor; below 0.4 the feet slip
+  double stiffness = 30000.0;   ///< of the joints' servos [N m/rad]; 3000 sags by centimetres
+  double damping = 300.0;       ///< [N m s/rad]
+  double armature = 0.1;        ///< rotor inertia at the joints [kg m²]
+  double contact_time = 0.005;  ///< of the contacts' spring [s]; ≥ 2 time steps
+};
+
+/// The robot as a MuJoCo model (MJCF), standing on the floor z = 0: the URDF's links with their
+/// masses and inertias, a free base, hinges in the legs with servos (actuators: left leg from the
+/// hip, then right), every other joint welded in the standing posture, and soles as boxes that
+/// touch the floor and nothing else. Names are the URDF's; soles are "left_sole", "right_sole".
+std::string MujocoModel(const RobotModel& robot, const RobotTree& tree,
+                        const ModelOptions& options);
+
+}  // namespace halfstep::replay
