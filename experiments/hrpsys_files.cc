@@ -16,21 +16,6 @@ void AppendLine(double t, const Eigen::Ref<const Eigen::VectorXd>& numbers, std:
   *text += '\n';
 }
 
-// Angles of a row by URDF joint index.
-std::vector<double> AnglesOf(const RobotModel& robot, const RobotTree& tree,
-                             const TrajectoryRow& row) {
-  std::vector<double> angles = tree.posture;
-  for (size_t i = 0; i < angles.size(); ++i) {
-    for (size_t leg = 0; leg < 2; ++leg) {
-      for (size_t j = 0; j < 6; ++j) {
-        if (robot.legs[leg].joints[j].name != tree.urdf.joints[i].name) continue;
-        angles[i] = row.q[leg][static_cast<Eigen::Index>(j)];
-      }
-    }
-  }
-  return angles;
-}
-
 }  // namespace
 
 HrpsysFiles WriteHrpsys(const RobotModel& robot, const RobotTree& tree,
@@ -44,7 +29,7 @@ HrpsysFiles WriteHrpsys(const RobotModel& robot, const RobotTree& tree,
   for (size_t line = 0;; ++line) {
     const TrajectoryRow& row = rows[std::min(line * stride, last)];
     const double t = static_cast<double>(line) * period;
-    const std::vector<double> angles = AnglesOf(robot, tree, row);
+    const std::vector<double> angles = JointAngles(robot, tree, row.q);
     Eigen::VectorXd q(static_cast<Eigen::Index>(joints.size()));
     for (size_t j = 0; j < joints.size(); ++j) {
       q[static_cast<Eigen::Index>(j)] = angles[static_cast<size_t>(joints[j])];

@@ -123,7 +123,7 @@ void AddPlan(const json& plan, std::vector<LoggedPlanner>* planners) {
   LoggedPlanner& planner = PlannerOf("plan/" + Word(Member(plan, "planner")), planners);
   planner.settings = {"cost = " + Member(plan, "cost_kind")};
   planner.properties = {"status ENUM",       "solved BOOLEAN",
-                        "time REAL",         "best cost REAL",
+                        "time REAL",         "plan cost REAL",
                         "footsteps INTEGER", "graph states INTEGER",
                         "queries INTEGER",   "time to first solution REAL"};
   const std::string status = Member(plan, "status");

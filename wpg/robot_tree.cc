@@ -20,6 +20,20 @@ RobotTree LoadRobotTree(const std::string& yaml_path) {
   return tree;
 }
 
+std::vector<double> JointAngles(const RobotModel& robot, const RobotTree& tree,
+                                const std::array<Vector6d, 2>& q) {
+  std::vector<double> angles = tree.posture;
+  for (size_t i = 0; i < angles.size(); ++i) {
+    for (size_t leg = 0; leg < 2; ++leg) {
+      for (size_t j = 0; j < 6; ++j) {
+        if (robot.legs[leg].joints[j].name != tree.urdf.joints[i].name) continue;
+        angles[i] = q[leg][static_cast<Eigen::Index>(j)];
+      }
+    }
+  }
+  return angles;
+}
+
 std::vector<int> JointsInFileOrder(const UrdfTree& urdf) {
   std::vector<int> joints;
   for (size_t i = 0; i < urdf.joints.size(); ++i) {

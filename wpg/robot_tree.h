@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "wpg/robot_model.h"
 #include "wpg/urdf_file.h"
 
 namespace halfstep {
@@ -19,6 +20,11 @@ struct RobotTree {
 
 /// Reads a robot file and its URDF. Throws InputError. LoadRobot of the same file refuses more.
 RobotTree LoadRobotTree(const std::string& yaml_path);
+
+/// Angles of all joints by index [rad]: `q` for the legs' by Index(Side), the standing posture for
+/// the others.
+std::vector<double> JointAngles(const RobotModel& robot, const RobotTree& tree,
+                                const std::array<Vector6d, 2>& q);
 
 /// Indices of the revolute joints in the order in which the URDF file has them.
 std::vector<int> JointsInFileOrder(const UrdfTree& urdf);

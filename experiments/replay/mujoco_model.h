@@ -13,7 +13,7 @@ struct ModelOptions {
   double timestep = 0.0005;     ///< [s]
   double friction = 0.7;        ///< of soles on the floor; below 0.4 the feet slip
   double stiffness = 30000.0;   ///< of the joints' servos [N m/rad]; 3000 sags by centimetres
-  double damping = 300.0;       ///< [N m s/rad]
+  double damping = 1000.0;      ///< [N m s/rad]
   double armature = 0.1;        ///< rotor inertia at the joints [kg m²]
   double contact_time = 0.005;  ///< of the contacts' spring [s]; ≥ 2 time steps
 };

@@ -20,7 +20,7 @@ using Json = nlohmann::ordered_json;
 
 double Number(const std::string& text) { return std::stod(text); }
 std::string Shortest(double value) {
-  const std::string text = CsvWriter({"x"}).Cell(value).text();
+  const std::string text = CsvWriter({{"x"}}).Cell(value).text();
   return text.substr(2);
 }
 size_t Column(const Table& table, const std::string& name) {
