@@ -9,8 +9,7 @@ constexpr double kGravity = 9.81;  // [m/s²]
 // CoMs of all links in W.
 std::vector<Vector3d> LinkCentres(const RobotModel& robot, const RobotTree& tree,
                                   const TrajectoryRow& row) {
-  const std::vector<Eigen::Isometry3d> X = 
-      tree.urdf.LinkPoses(JointAngles(robot, tree, row.q));
+  const std::vector<Eigen::Isometry3d> X = tree.urdf.LinkPoses(JointAngles(robot, tree, row.q));
   const Eigen::Isometry3d X_WRoot = row.X_WB() * X[static_cast<size_t>(tree.waist)].inverse();
   std::vector<Vector3d> centres;
   for (size_t i = 0; i < X.size(); ++i) centres.push_back(X_WRoot * X[i] * tree.urdf.links[i].com);

@@ -1,10 +1,12 @@
 #include "experiments/replay/replay.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
 #include "experiments/csv_writer.h"
+#include "experiments/replay/mass_model_zmp.h"
 
 namespace halfstep::replay {
 namespace {
@@ -64,6 +66,19 @@ ReplayResult Play(const Simulation& robot, const ReferenceMotion& motion,
   if (measured > 0) result.zmp_rms = std::sqrt(squares / static_cast<double>(measured));
   if (walked > 0) result.weight_share = vertical / static_cast<double>(walked) / robot.weight();
   return result;
+}
+
+void CompareMassModel(const RobotModel& robot, const RobotTree& tree, const ReferenceMotion& motion,
+                      ReplayResult* result) {
+  const std::vector<TrajectoryRow>& rows = motion.rows();
+  const std::vector<Eigen::Vector2d> zmp = MassModelZmp(robot, tree, rows);
+  double squares = 0.0;
+  for (size_t i = 0; i < rows.size(); ++i) {
+    const double error = (zmp[i] - rows[i].zmp).norm();
+    squares += error * error;
+    result->model_largest = std::max(result->model_largest, error);
+  }
+  result->model_rms = std::sqrt(squares / static_cast<double>(rows.size()));
 }
 
 std::vector<PushLimit> FindPushLimits(const Simulation& robot, const ReferenceMotion& motion,

@@ -6,6 +6,7 @@
 
 #include "experiments/csv_columns.h"
 #include "experiments/replay/player.h"
+#include "wpg/robot_tree.h"
 
 namespace halfstep::replay {
 
@@ -16,15 +17,21 @@ struct ReplayResult {
   double largest_tilt = 0.0;    ///< of the waist, until then [rad]
   double zmp_rms = 0.0;         ///< of the ZMP's error during the walk [m]
   double zmp_largest = 0.0;     ///< [m]
+  double model_rms = 0.0;       ///< of the mass model's ZMP against the planned one [m]
+  double model_largest = 0.0;   ///< [m]
   double slip = 0.0;            ///< largest of a carrying sole [m]
   double drift = 0.0;           ///< of the waist on the floor, at the end [m]
   double weight_share = 0.0;    ///< mean vertical force during the walk, of the weight
   std::vector<ReplayRow> rows;  ///< from t = 0
 };
 
-/// Plays a motion to its end or until the robot has fallen.
+/// Plays a motion to its end or until the robot has fallen. Leaves out the mass model's ZMP.
 ReplayResult Play(const Simulation& robot, const ReferenceMotion& motion,
                   const PlayOptions& options);
+
+/// Fills what the mass model says of the motion by itself (MassModelZmp).
+void CompareMassModel(const RobotModel& robot, const RobotTree& tree, const ReferenceMotion& motion,
+                      ReplayResult* result);
 
 /// The largest push survived in a direction.
 struct PushLimit {

@@ -58,7 +58,9 @@ void Print(const Replayed& replayed) {
             << ", walk of " << Text("%.3f s", replayed.duration) << ", largest tilt "
             << Text("%.1f deg", result.largest_tilt / kDegree) << ", ZMP off by "
             << Text("%.1f", 1e3 * result.zmp_rms) << " (rms) and "
-            << Text("%.1f mm", 1e3 * result.zmp_largest) << " (largest), slip "
+            << Text("%.1f mm", 1e3 * result.zmp_largest) << " (largest; mass model alone "
+            << Text("%.1f", 1e3 * result.model_rms) << " and "
+            << Text("%.1f mm", 1e3 * result.model_largest) << "), slip "
             << Text("%.1f mm", 1e3 * result.slip) << ", drift "
             << Text("%.1f mm", 1e3 * result.drift) << '\n';
   for (const replay::PushLimit& push : replayed.pushes) {
@@ -78,6 +80,8 @@ ordered_json Json(const Replayed& replayed) {
                        {"largest_tilt_rad", result.largest_tilt},
                        {"zmp_rms_m", result.zmp_rms},
                        {"zmp_largest_m", result.zmp_largest},
+                       {"zmp_model_rms_m", result.model_rms},
+                       {"zmp_model_largest_m", result.model_largest},
                        {"slip_m", result.slip},
                        {"drift_m", result.drift},
                        {"weight_share", result.weight_share}};
@@ -133,6 +137,7 @@ ExitStatus Replay(const ReplayCommand& command) {
     replayed.method = method;
     replayed.duration = motion.end();
     replayed.result = replay::Play(simulation, motion, {});
+    replay::CompareMassModel(robot, tree, motion, &replayed.result);
     if (command.push && replayed.result.stayed_up) {
       ProgressBar bar("pushes of " + method, command.quiet || command.json);
       replayed.pushes = replay::FindPushLimits(
