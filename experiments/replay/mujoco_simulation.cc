@@ -63,6 +63,7 @@ struct Simulation::State {
 };
 
 std::string WhyNoSimulation() { return ""; }
+std::string EngineVersion() { return mj_versionString(); }
 
 Simulation::Simulation(const std::string& mjcf, const RobotModel& robot,
                        const std::string& waist_link)

@@ -9,6 +9,8 @@ struct Simulation::State {};
 
 std::string WhyNoSimulation() { return HALFSTEP_WHY_NO_MUJOCO; }
 
+std::string EngineVersion() { return ""; }
+
 Simulation::Simulation(const std::string&, const RobotModel&, const std::string&) {
   throw std::logic_error(WhyNoSimulation());
 }

@@ -156,7 +156,9 @@ ExitStatus Replay(const ReplayCommand& command) {
     folder.Publish();
   }
   bool stayed_up = true;
-  ordered_json json = {{"run", command.run}, {"engine", "mujoco"}, {"statement", kDisclaimer}};
+  ordered_json json = {{"run", command.run},
+                       {"engine", "mujoco " + replay::EngineVersion()},
+                       {"statement", kDisclaimer}};
   for (const Replayed& replayed : all) {
     json["methods"].push_back(Json(replayed));
     stayed_up = stayed_up && replayed.result.stayed_up;

@@ -12,6 +12,8 @@ namespace halfstep::replay {
 
 /// Why robots cannot be simulated in this build, a sentence; "": they can.
 std::string WhyNoSimulation();
+/// Version of the engine, "" without one.
+std::string EngineVersion();
 
 /// Joint angles of both legs by Index(Side) [rad], and their speeds [rad/s].
 struct JointTargets {
