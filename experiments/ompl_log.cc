@@ -1,6 +1,7 @@
 #include "experiments/ompl_log.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -65,25 +66,23 @@ std::string Word(std::string text) {
 }
 
 // Both programs' endings in one enumeration: a log knows one of the name `status`.
-const std::vector<std::string>& Statuses() {
-  static const std::vector<std::string> statuses = [] {
-    std::vector<std::string> names;
-    for (const auto status : {SmoothingStatus::kNotRun, SmoothingStatus::kFinished,
-                              SmoothingStatus::kInterrupted, SmoothingStatus::kStartInfeasible}) {
-      names.emplace_back(Name(status));
-    }
-    for (const auto status : {PlanStatus::kSolved, PlanStatus::kNoPlan, PlanStatus::kStartBlocked,
-                              PlanStatus::kBudget, PlanStatus::kRefused}) {
-      names.emplace_back(Name(status));
-    }
-    return names;
-  }();
-  return statuses;
+std::vector<std::string> Statuses() {
+  std::vector<std::string> names;
+  for (const auto status : {SmoothingStatus::kNotRun, SmoothingStatus::kFinished,
+                            SmoothingStatus::kInterrupted, SmoothingStatus::kStartInfeasible}) {
+    names.emplace_back(Name(status));
+  }
+  for (const auto status : {PlanStatus::kSolved, PlanStatus::kNoPlan, PlanStatus::kStartBlocked,
+                            PlanStatus::kBudget, PlanStatus::kRefused}) {
+    names.emplace_back(Name(status));
+  }
+  return names;
 }
 
 std::string StatusIndex(const std::string& name) {
-  const auto found = std::find(Statuses().begin(), Statuses().end(), name);
-  return std::to_string(found == Statuses().end() ? 0 : found - Statuses().begin());
+  const std::vector<std::string> statuses = Statuses();
+  const auto found = std::find(statuses.begin(), statuses.end(), name);
+  return std::to_string(found == statuses.end() ? 0 : found - statuses.begin());
 }
 
 std::string ValueLine(const std::vector<std::string>& values) {

@@ -106,24 +106,45 @@ std::vector<double> Instants(const ReplayCommand& command, double duration) {
   return command.push_at;
 }
 
-}  // namespace
+/// A method's walk as the servos follow it.
+struct NamedMotion {
+  std::string method;
+  replay::ReferenceMotion motion;
+  std::vector<double> push_at;
+};
 
-ExitStatus Replay(const ReplayCommand& command) {
+std::vector<NamedMotion> ReadMotions(const ReplayCommand& command, const RobotModel& robot) {
   if (!command.push_at.empty() && !command.push) {
     throw InputError({"--push-at: without --push it says nothing"});
   }
-  const std::vector<std::string> methods = MethodsOfRun(command.run, command.method);
-  const fs::path run(command.run);
-  const ExperimentConfig config = LoadConfig((run / "config.yaml").string(), {});
-  const std::string robot_file = RobotPath(config).string();
+  std::vector<NamedMotion> motions;
+  for (const std::string& method : MethodsOfRun(command.run, command.method)) {
+    const fs::path path = fs::path(command.run) / MethodFolder(method) / "trajectory.csv";
+    replay::ReferenceMotion motion(ReadTrajectory(path, robot));
+    const std::vector<double> push_at = Instants(command, motion.end());
+    motions.push_back({method, std::move(motion), push_at});
+  }
+  return motions;
+}
+
+void WriteRows(const std::vector<Replayed>& all, const std::string& run) {
+  RunFolder folder(run, /*overwrite=*/true);
+  folder.CopyOlder();
+  for (const Replayed& replayed : all) {
+    WriteCsv(MethodFolder(replayed.method) + "/replay", ReplayCsv(replayed.result), &folder);
+  }
+  folder.Publish();
+}
+
+}  // namespace
+
+ExitStatus Replay(const ReplayCommand& command) {
+  const fs::path config_file = fs::path(command.run) / "config.yaml";
+  MethodsOfRun(command.run, command.method);  // is it a run at all?
+  const std::string robot_file = RobotPath(LoadConfig(config_file.string(), {})).string();
   const RobotModel robot = LoadRobot(robot_file);
   const RobotTree tree = LoadRobotTree(robot_file);
-  std::vector<std::pair<std::string, replay::ReferenceMotion>> motions;
-  for (const std::string& method : methods) {
-    const fs::path trajectory = run / MethodFolder(method) / "trajectory.csv";
-    motions.emplace_back(method, replay::ReferenceMotion(ReadTrajectory(trajectory, robot)));
-    Instants(command, motions.back().second.end());
-  }
+  const std::vector<NamedMotion> motions = ReadMotions(command, robot);
   if (const std::string why = replay::WhyNoSimulation(); !why.empty()) {
     std::cerr << "halfstep: replay: " << why << '\n';
     return kFailed;
@@ -132,38 +153,29 @@ ExitStatus Replay(const ReplayCommand& command) {
   const replay::Simulation simulation(replay::MujocoModel(robot, tree, {}), robot,
                                       tree.urdf.links[static_cast<size_t>(tree.waist)].name);
   std::vector<Replayed> all;
-  for (const auto& [method, motion] : motions) {
+  bool stayed_up = true;
+  for (const auto& [method, motion, push_at] : motions) {
     Replayed& replayed = all.emplace_back();
     replayed.method = method;
     replayed.duration = motion.end();
     replayed.result = replay::Play(simulation, motion, {});
     replay::CompareMassModel(robot, tree, motion, &replayed.result);
+    stayed_up = stayed_up && replayed.result.stayed_up;
     if (command.push && replayed.result.stayed_up) {
       ProgressBar bar("pushes of " + method, command.quiet || command.json);
       replayed.pushes = replay::FindPushLimits(
-          simulation, motion, {}, {}, Instants(command, motion.end()),
-          [&bar](double done) { bar.Update(done); }, interrupt.token());
+          simulation, motion, {}, {}, push_at, [&bar](double done) { bar.Update(done); },
+          interrupt.token());
     }
     if (interrupt.requested()) return kInterrupted;
     if (!command.quiet && !command.json) Print(replayed);
   }
-  if (command.out) {
-    RunFolder folder(run, /*overwrite=*/true);
-    folder.CopyOlder();
-    for (const Replayed& replayed : all) {
-      WriteCsv(MethodFolder(replayed.method) + "/replay", ReplayCsv(replayed.result), &folder);
-    }
-    folder.Publish();
-  }
-  bool stayed_up = true;
-  ordered_json json = {{"run", command.run},
-                       {"engine", "mujoco " + replay::EngineVersion()},
-                       {"statement", kDisclaimer}};
-  for (const Replayed& replayed : all) {
-    json["methods"].push_back(Json(replayed));
-    stayed_up = stayed_up && replayed.result.stayed_up;
-  }
+  if (command.out) WriteRows(all, command.run);
   if (command.json) {
+    ordered_json json = {{"run", command.run},
+                         {"engine", "mujoco " + replay::EngineVersion()},
+                         {"statement", kDisclaimer}};
+    for (const Replayed& replayed : all) json["methods"].push_back(Json(replayed));
     std::cout << json.dump(2) << '\n';
   } else if (!command.quiet) {
     std::cout << '\n' << kDisclaimer << '\n';
