@@ -10,10 +10,12 @@
 #include "experiments/experiment.h"
 #include "experiments/replay/mass_model_zmp.h"
 #include "experiments/replay/mujoco_model.h"
+#include "smoothing/superposed_walk.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/parsed_csv.h"
 #include "tests/experiments/temporary_folder.h"
 #include "wpg/leg_ik.h"
+#include "wpg/posture.h"
 
 namespace halfstep::replay {
 namespace {
@@ -22,26 +24,30 @@ using testing::HasSubstr;
 
 constexpr double kDegree = M_PI / 180;
 
-/// HRP-2 and the rows of a shipped walk, shifted sideways with the feet left where they are.
+/// HRP-2 and two half-steps one after the other, every 5 ms.
 class ReplayTest : public testing::Test {
  protected:
+  /// The waist shifted sideways, the feet where they are.
   std::vector<TrajectoryRow> Walk(double shift) const {
-    const TemporaryFolder place;
-    const std::string run = (place / "run").string();
-    RunCommand command;
-    command.config = ShippedConfig("fig3_two_half_steps");
-    command.out = run;
-    command.quiet = true;
-    EXPECT_EQ(halfstep::Run(command), kSuccess);
-    std::vector<TrajectoryRow> rows =
-        ReadTrajectory(place / "run/dichotomy/trajectory.csv", robot_);
-    for (TrajectoryRow& row : rows) {
-      row.waist[1] += shift;
-      for (size_t side = 0; side < 2; ++side) {
-        const LegIkSolution leg = SolveLegIk(
-            robot_.legs[side], row.X_WB().inverse() * TrajectoryRow::Upright(row.soles[side]));
+    const Experiment experiment = Prepare(LoadConfig(ShippedConfig("fig3_two_half_steps"), {}));
+    const SuperposedWalk walk(experiment.sequence, PlannedMotion(experiment.sequence));
+    std::vector<TrajectoryRow> rows;
+    for (int i = 0; i <= 800; ++i) {
+      const LocalTime at = walk.Locate(0.005 * i);
+      const WalkVector x = walk.At(at).value;
+      TrajectoryRow& row = rows.emplace_back();
+      row.t = 0.005 * i;
+      row.stands = {true, walk.StepInAir(at) < 0};  // the right foot steps
+      row.zmp = {x[kZmpX], x[kZmpY]};
+      const Eigen::Vector3d p_WB = SolvePosture(robot_, x).X_WB.translation();
+      row.waist = {p_WB.x(), p_WB.y() + shift, p_WB.z(), x[kWaistYaw]};
+      for (const Side side : {Side::kLeft, Side::kRight}) {
+        const auto s = static_cast<size_t>(Index(side));
+        row.soles[s] = x.segment<4>(FootIndex(side));
+        const LegIkSolution leg =
+            SolveLegIk(robot_.legs[s], row.X_WB().inverse() * TrajectoryRow::Upright(row.soles[s]));
         EXPECT_EQ(leg.status, LegIkStatus::kSolved);
-        row.q[side] = leg.q;
+        row.q[s] = leg.q;
       }
     }
     return rows;
