@@ -50,15 +50,25 @@ std::string_view VerdictName(Verdict verdict) {
   return "";
 }
 
-std::string CertificateCsv(const MarginEvaluator& evaluator, const Certificate& rows) {
-  CsvWriter csv(
-      {"begin_s", "end_s", "family", "statements", "subject", "margin", "bound", "demanded"});
+CsvFile CertificateCsv(const MarginEvaluator& evaluator, const Certificate& rows) {
+  using enum CsvType;
+  const std::string unit = "unit of the family";
+  CsvWriter csv({
+      {"begin_s", kNumber, "s", "begin of the interval"},
+      {"end_s", kNumber, "s", "its end"},
+      {"family", kString, "", "of margins"},
+      {"statements", kInteger, "", "of the family that hold on the whole interval by this row"},
+      {"subject", kString, "", "of the statement with the least to spare"},
+      {"margin", kNumber, unit, "its value at the midpoint"},
+      {"bound", kNumber, unit, "by how much at most it changes from there within the interval"},
+      {"demanded", kNumber, unit, "margin - bound is at least this"},
+  });
   for (const CertificateRow& row : rows) {
     csv.Cell(row.begin).Cell(row.end).Cell(Name(row.family)).Cell(row.count);
     csv.Cell(evaluator.Subject(row.margin)).Cell(row.margin.value).Cell(row.bound);
     csv.Cell(evaluator.limits().demanded_of(row.family)).EndRow();
   }
-  return csv.text();
+  return csv.file();
 }
 
 std::string CertificateJson(const Experiment& experiment, const CertifiedFeasibility& test,
@@ -99,10 +109,10 @@ std::string CertificateJson(const Experiment& experiment, const CertifiedFeasibi
 void WriteCertificate(const Experiment& experiment, const CertifiedFeasibility& test,
                       const CertifiedWalk& walk, const std::string& trajectory_csv,
                       const std::string& place, RunFolder* folder) {
-  const std::string csv = CertificateCsv(test.evaluator(), walk.rows);
-  folder->Write(place + "certificate.csv", csv);
+  const CsvFile csv = CertificateCsv(test.evaluator(), walk.rows);
+  WriteCsv(place + "certificate", csv, folder);
   folder->Write(place + "certificate.json",
-                CertificateJson(experiment, test, walk, folder->path(), trajectory_csv, csv));
+                CertificateJson(experiment, test, walk, folder->path(), trajectory_csv, csv.text));
 }
 
 std::string MethodFolder(std::string method) {

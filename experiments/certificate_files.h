@@ -4,6 +4,7 @@
 #include <string>
 
 #include "experiments/certificate_statement.h"
+#include "experiments/csv_columns.h"
 #include "experiments/experiment.h"
 #include "experiments/run_folder.h"
 #include "smoothing/certified_feasibility.h"
@@ -24,8 +25,8 @@ CertifiedWalk CertifyWalk(const CertifiedFeasibility& test, const HalfStepSequen
 /// "certified", "violated" or "undecided".
 std::string_view VerdictName(Verdict verdict);
 
-/// Text of certificate.csv. Columns: experiments/README.md.
-std::string CertificateCsv(const MarginEvaluator& evaluator, const Certificate& rows);
+/// certificate.csv. Columns: experiments/README.md.
+CsvFile CertificateCsv(const MarginEvaluator& evaluator, const Certificate& rows);
 
 /// Text of certificate.json: verdict, the statement, what was demanded, counts of statements, and
 /// SHA-256 of everything that the certificate is about. Paths relative to `run_folder`.
@@ -33,7 +34,7 @@ std::string CertificateJson(const Experiment& experiment, const CertifiedFeasibi
                             const CertifiedWalk& walk, const std::filesystem::path& run_folder,
                             const std::string& trajectory_csv, const std::string& certificate_csv);
 
-/// Writes both into a method's folder, `place` ("dichotomy/"), of a run.
+/// Writes both, and the CSV's schema, into a method's folder, `place` ("dichotomy/"), of a run.
 void WriteCertificate(const Experiment& experiment, const CertifiedFeasibility& test,
                       const CertifiedWalk& walk, const std::string& trajectory_csv,
                       const std::string& place, RunFolder* folder);

@@ -60,6 +60,35 @@ struct CertifyCommand {
 /// in place. kFailed when a walk is not certified. Throws InputError for a run that cannot be read.
 ExitStatus Certify(const CertifyCommand& command);
 
+struct ExportCommand {
+  std::vector<std::string> runs;  ///< one run folder; several for "ompl"
+  std::string format;             ///< "csv", "hrpsys" or "ompl"
+  std::optional<std::string> method;
+  std::optional<std::string> out;    ///< folder; else RUN-FORMAT
+  std::optional<double> period;      ///< between rows [s], a multiple of the run's
+  std::vector<std::string> columns;  ///< globs, csv: none: all
+  std::vector<std::string> joints;   ///< globs, hrpsys: the joints' order; none: the URDF's
+  bool overwrite = false;
+  bool quiet = false;
+};
+
+/// `halfstep export`: walks of a run in other programs' formats. Throws InputError.
+ExitStatus Export(const ExportCommand& command);
+
+struct ReplayCommand {
+  std::string run;  ///< a run folder
+  std::optional<std::string> method;
+  bool push = false;            ///< look for the largest push that is survived
+  std::vector<double> push_at;  ///< instants [s]; none: a quarter, half, three quarters
+  bool out = false;             ///< write METHOD/replay.csv into the run folder
+  bool quiet = false;
+  bool json = false;
+};
+
+/// `halfstep replay`: plays the walks of a run on a simulated robot. kFailed when one falls, and
+/// where no engine is compiled in. Throws InputError.
+ExitStatus Replay(const ReplayCommand& command);
+
 struct PlanCommand {
   std::string config;
   std::vector<YamlOverride> overrides;

@@ -39,10 +39,10 @@ ExitStatus CompareRuns(const CompareCommand& command) {
   const Comparison comparison = Compare(runs);
   if (command.out) {
     RunFolder folder(*command.out, command.overwrite);
-    folder.Write("comparison.csv", ComparisonCsv(comparison));
-    folder.Write("performance_profile.csv", PerformanceProfileCsv(comparison));
-    folder.Write("anytime.csv", AnytimeCsv(comparison));
-    folder.Write("means.csv", MeansCsv(comparison));
+    WriteCsv("comparison", ComparisonCsv(comparison), &folder);
+    WriteCsv("performance_profile", PerformanceProfileCsv(comparison), &folder);
+    WriteCsv("anytime", AnytimeCsv(comparison), &folder);
+    WriteCsv("means", MeansCsv(comparison), &folder);
     folder.Write("manifest.json", ComparisonManifest(runs));
     folder.Publish();
   }

@@ -9,10 +9,16 @@
 namespace halfstep {
 namespace {
 
+using enum CsvType;
 constexpr size_t kOnePercent = 0, kFivePercent = 1;
 
 void EffortCell(const std::optional<Effort>& effort, bool by_wall, CsvWriter* csv) {
   effort ? csv->Cell(by_wall ? effort->wall : effort->evaluations) : csv->Empty();
+}
+
+// An empty cell would make a column of them something else to pandas.
+std::string_view OrNone(const std::string& variables) {
+  return variables.empty() ? std::string_view("none") : variables;
 }
 
 // Gap of an incumbent, by duration; none where there is no best or another objective.
@@ -26,33 +32,40 @@ void DurationGapCell(const ComparedCase& one, double duration, CsvWriter* csv) {
 
 }  // namespace
 
-std::string ComparisonCsv(const Comparison& comparison) {
-  CsvWriter csv({"scenario",
-                 "objective",
-                 "half_steps",
-                 "method",
-                 "variables",
-                 "status",
-                 "certified",
-                 "duration_s",
-                 "speedup",
-                 "cost",
-                 "best_cost",
-                 "gap_to_best",
-                 "gap_to_reference",
-                 "margin_evaluations",
-                 "collision_queries",
-                 "wall_s",
-                 "time_to_5pct_s",
-                 "time_to_1pct_s",
-                 "evaluations_to_5pct",
-                 "evaluations_to_1pct",
-                 "run"});
+CsvFile ComparisonCsv(const Comparison& comparison) {
+  CsvWriter csv({
+      {"scenario", kString, "", "name of the experiment"},
+      {"objective", kString, "", "what the methods pursued"},
+      {"half_steps", kInteger, "", "of the walk"},
+      {"method", kString, "", "its name, with the label of its run"},
+      {"variables", kString, "", "of the method, none for raw"},
+      {"status", kString, "", "how it ended"},
+      {"certified", kBoolean, "", "whether its walk is proved"},
+      {"duration_s", kNumber, "s", "of the walk"},
+      {"speedup", kNumber, "1", "duration of raw divided by this one's"},
+      {"cost", kNumber, "", "what is compared; empty: raw with another objective than `fastest`"},
+      {"best_cost", kNumber, "", "of the scenario; empty: nothing was certified"},
+      {"gap_to_best", kNumber, "1", "(cost - best)/|best|; inf: not certified"},
+      {"gap_to_reference", kNumber, "1", "as in summary.csv"},
+      {"margin_evaluations", kNumber, "", "instants evaluated by the method"},
+      {"collision_queries", kNumber, "", "pairs of bodies that were not culled"},
+      {"wall_s", kNumber, "s", "of the method"},
+      {"time_to_5pct_s", kNumber, "s",
+       "until a certified walk within 5 % of the best cost; empty: never"},
+      {"time_to_1pct_s", kNumber, "s",
+       "until a certified walk within 1 % of the best cost; empty: never"},
+      {"evaluations_to_5pct", kNumber, "", "evaluations until then; empty: never"},
+      {"evaluations_to_1pct", kNumber, "", "evaluations until then; empty: never"},
+      {"run", kString, "", "run folder, as it was named"},
+  });
   for (const ComparedCase& one : comparison.cases) {
     for (const ComparedMethod& method : one.methods) {
       const MethodRecord& record = method.record;
       csv.Cell(one.scenario).Cell(one.objective).Cell(one.half_steps).Cell(record.name);
-      csv.Cell(record.variables).Cell(record.status).Cell(record.certified).Cell(record.duration);
+      csv.Cell(OrNone(record.variables))
+          .Cell(record.status)
+          .Cell(record.certified)
+          .Cell(record.duration);
       csv.Cell(record.speedup);
       std::isnan(method.gap) ? csv.Empty() : csv.Cell(record.cost);
       one.best_cost ? csv.Cell(*one.best_cost) : csv.Empty();
@@ -66,31 +79,49 @@ std::string ComparisonCsv(const Comparison& comparison) {
       csv.Cell(record.run).EndRow();
     }
   }
-  return csv.text();
+  return csv.file();
 }
 
-std::string PerformanceProfileCsv(const Comparison& comparison) {
-  CsvWriter csv({"gap", "effort", "method", "variables", "objective", "ratio", "fraction"});
+CsvFile PerformanceProfileCsv(const Comparison& comparison) {
+  CsvWriter csv({
+      {"gap", kNumber, "1", "a method solves a scenario by a certified walk within it"},
+      {"effort", kString, "", "wall_s or evaluations"},
+      {"method", kString, "", "its name, with the label of its run"},
+      {"variables", kString, "", "of the method, none for raw"},
+      {"objective", kString, "", "what the method pursued"},
+      {"ratio", kNumber, "1", "effort divided by the least of any method in that scenario"},
+      {"fraction", kNumber, "1", "of the scenarios that were solved within this ratio", "",
+       CsvInterpolation::kPiecewiseConstant},
+  });
   for (const ProfileCurve& curve : PerformanceProfiles(comparison)) {
     for (const auto& [ratio, fraction] : curve.points) {
       csv.Cell(kTargets[static_cast<size_t>(curve.target)]);
       csv.Cell(curve.by_wall ? "wall_s" : "evaluations");
-      csv.Cell(curve.method.name).Cell(curve.method.variables).Cell(curve.method.objective);
+      csv.Cell(curve.method.name).Cell(OrNone(curve.method.variables)).Cell(curve.method.objective);
       csv.Cell(ratio).Cell(fraction).EndRow();
     }
   }
-  return csv.text();
+  return csv.file();
 }
 
-std::string AnytimeCsv(const Comparison& comparison) {
-  CsvWriter csv({"scenario", "objective", "method", "variables", "wall_s", "evaluations",
-                 "duration_s", "gap_to_best"});
+CsvFile AnytimeCsv(const Comparison& comparison) {
+  CsvWriter csv({
+      {"scenario", kString, "", "name of the experiment"},
+      {"objective", kString, "", "what the method pursued"},
+      {"method", kString, "", "its name, with the label of its run"},
+      {"variables", kString, "", "of the method"},
+      {"wall_s", kNumber, "s", "since the method began"},
+      {"evaluations", kNumber, "", "since the method began"},
+      {"duration_s", kNumber, "s", "of the incumbent", "", CsvInterpolation::kPiecewiseConstant},
+      {"gap_to_best", kNumber, "1", "by duration; empty: no best, or another objective", "",
+       CsvInterpolation::kPiecewiseConstant},
+  });
   for (const ComparedCase& one : comparison.cases) {
     for (const ComparedMethod& method : one.methods) {
       const MethodRecord& record = method.record;
       if (record.raw()) continue;
       const auto row = [&](const IncumbentRecord& incumbent) {
-        csv.Cell(one.scenario).Cell(one.objective).Cell(record.name).Cell(record.variables);
+        csv.Cell(one.scenario).Cell(one.objective).Cell(record.name).Cell(OrNone(record.variables));
         csv.Cell(incumbent.wall).Cell(incumbent.evaluations).Cell(incumbent.duration);
         DurationGapCell(one, incumbent.duration, &csv);
         csv.EndRow();
@@ -105,16 +136,32 @@ std::string AnytimeCsv(const Comparison& comparison) {
       row({record.wall, record.evaluations, record.duration});
     }
   }
-  return csv.text();
+  return csv.file();
 }
 
-std::string MeansCsv(const Comparison& comparison) {
-  CsvWriter csv({"method", "variables", "objective", "cases", "missing", "certified", "within_1pct",
-                 "within_5pct", "finished", "speedup_mean", "time_to_1pct_mean_s",
-                 "time_to_5pct_mean_s", "time_to_end_mean_s", "evaluations_to_1pct_mean",
-                 "evaluations_to_5pct_mean", "evaluations_to_end_mean"});
+CsvFile MeansCsv(const Comparison& comparison) {
+  CsvColumns columns = {
+      {"method", kString, "", "its name, with the label of its run"},
+      {"variables", kString, "", "of the method, none for raw"},
+      {"objective", kString, "", "what the method pursued"},
+      {"cases", kInteger, "", "scenarios"},
+      {"missing", kInteger, "", "scenarios where it was not run"},
+      {"certified", kInteger, "", "scenarios that it left with a certified walk"},
+      {"within_1pct", kInteger, "", "scenarios solved to 1 % of the best cost"},
+      {"within_5pct", kInteger, "", "scenarios solved to 5 %"},
+      {"finished", kInteger, "", "scenarios with a certified walk at its own end"},
+      {"speedup_mean", kNumber, "1", "geometric mean; a failure counts as 1"},
+  };
+  for (const std::string target : {"1pct", "5pct", "end"}) {
+    columns.push_back({"time_to_" + target + "_mean_s", kNumber, "s", "shifted geometric mean"});
+  }
+  for (const std::string target : {"1pct", "5pct", "end"}) {
+    columns.push_back(
+        {"evaluations_to_" + target + "_mean", kNumber, "", "shifted geometric mean"});
+  }
+  CsvWriter csv(columns);
   for (const MethodMeans& mean : Means(comparison)) {
-    csv.Cell(mean.method.name).Cell(mean.method.variables).Cell(mean.method.objective);
+    csv.Cell(mean.method.name).Cell(OrNone(mean.method.variables)).Cell(mean.method.objective);
     csv.Cell(mean.cases).Cell(mean.missing);
     csv.Cell(mean.certified);
     for (int solved : mean.solved) csv.Cell(solved);
@@ -123,7 +170,7 @@ std::string MeansCsv(const Comparison& comparison) {
     for (const Effort& effort : mean.effort) csv.Cell(effort.evaluations);
     csv.EndRow();
   }
-  return csv.text();
+  return csv.file();
 }
 
 std::string ComparisonManifest(const std::vector<RunRecord>& runs) {

@@ -4,15 +4,16 @@
 #include <vector>
 
 #include "experiments/comparison.h"
+#include "experiments/csv_columns.h"
 
 namespace halfstep {
 
-/// The text of each table of a comparison; columns: experiments/README.md.
-std::string ComparisonCsv(const Comparison& comparison);
-std::string PerformanceProfileCsv(const Comparison& comparison);
+/// Each table of a comparison; columns: experiments/README.md.
+CsvFile ComparisonCsv(const Comparison& comparison);
+CsvFile PerformanceProfileCsv(const Comparison& comparison);
 /// The incumbents of every method, from the planned motion to its end.
-std::string AnytimeCsv(const Comparison& comparison);
-std::string MeansCsv(const Comparison& comparison);
+CsvFile AnytimeCsv(const Comparison& comparison);
+CsvFile MeansCsv(const Comparison& comparison);
 
 /// Which runs were compared, each with the SHA-256 of its manifest, and by which program.
 std::string ComparisonManifest(const std::vector<RunRecord>& runs);

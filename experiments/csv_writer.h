@@ -2,33 +2,39 @@
 
 #include <string>
 #include <string_view>
-#include <vector>
+
+#include "experiments/csv_columns.h"
 
 namespace halfstep {
 
-/// A CSV table in memory: one header, rows of the same number of cells. Numbers in the shortest
-/// form that reads back to the same double; "inf", "-inf" and "nan" as pandas reads them. Texts
-/// with a comma, a quote or a line break are quoted (RFC 4180).
+/// A CSV table in memory: one header, rows of the same number of cells, each of its column's type
+/// (std::logic_error otherwise), so that `pandas.read_csv(path)` gives every column its type.
+/// Numbers in the shortest form that reads back to the same double, with a point or an exponent;
+/// "inf", "-inf" and "nan". Texts with a comma, a quote or a line break are quoted (RFC 4180).
 class CsvWriter {
  public:
-  explicit CsvWriter(const std::vector<std::string>& header);
+  explicit CsvWriter(CsvColumns columns);
 
   CsvWriter& Cell(double value);
   CsvWriter& Cell(long value);
   CsvWriter& Cell(int value) { return Cell(static_cast<long>(value)); }
-  CsvWriter& Cell(bool value) { return Cell(std::string_view(value ? "true" : "false")); }
+  CsvWriter& Cell(bool value);
   CsvWriter& Cell(std::string_view text);
   CsvWriter& Cell(const char* text) { return Cell(std::string_view(text)); }
-  CsvWriter& Empty() { return Cell(std::string_view()); }
+  /// Does not apply. In columns of numbers only: elsewhere it would change what pandas reads.
+  CsvWriter& Empty();
   /// Ends a row. Throws std::logic_error when its number of cells is not the header's.
   void EndRow();
 
   const std::string& text() const { return text_; }
+  /// The table, whole.
+  CsvFile file() const { return {columns_, text_}; }
 
  private:
-  void Separate();
+  void Begin(CsvType type);
+  void Append(std::string_view text);
 
-  size_t columns_;
+  CsvColumns columns_;
   size_t cells_ = 0;
   std::string text_;
 };

@@ -113,6 +113,40 @@ int main(int argc, char** argv) {
   verify_app->add_option("--scene", verify.scene, "scene file in place of it, or none");
   verify_app->add_flag("--quiet", verify_quiet, "print nothing but what is wrong");
 
+  ExportCommand exported;
+  CLI::App* export_app = app.add_subcommand(
+      "export",
+      "Write the walks of a run in other programs' formats.\n\n"
+      "  example: halfstep export runs/bar_8cm --format hrpsys --method dichotomy\n"
+      "  example: halfstep export runs/bar_8cm --format csv --columns 'com_*' 'q_R*'");
+  export_app->add_option("RUN", exported.runs, "run folder; several for ompl")->required();
+  export_app->add_option("--format", exported.format, "csv, hrpsys or ompl")
+      ->required()
+      ->check(CLI::IsMember({"csv", "hrpsys", "ompl"}));
+  export_app->add_option("--method", exported.method, "only this one (default: all)");
+  export_app->add_option("--out", exported.out, "folder (default: RUN-FORMAT)");
+  export_app->add_option("--period", exported.period, "between rows [s] (default: the run's)");
+  export_app->add_option("--columns", exported.columns, "csv: patterns of columns (default: all)");
+  export_app->add_option("--joints", exported.joints,
+                         "hrpsys: patterns of joints in their order (default: the URDF's)");
+  export_app->add_flag("--overwrite", exported.overwrite, "replace an older export");
+  export_app->add_flag("--quiet", exported.quiet, "print nothing but errors");
+
+  ReplayCommand replay;
+  std::string engine = "mujoco";
+  CLI::App* replay_app = app.add_subcommand(
+      "replay",
+      "Play the walks of a run on a robot with masses and contacts, by simulation.\n\n"
+      "  example: halfstep replay runs/bar_8cm --method dichotomy --push");
+  replay_app->add_option("RUN", replay.run, "run folder")->required();
+  replay_app->add_option("--engine", engine, "mujoco")->check(CLI::IsMember({"mujoco"}));
+  replay_app->add_option("--method", replay.method, "only this one (default: all)");
+  replay_app->add_flag("--push", replay.push, "find the largest push that each walk survives");
+  replay_app->add_option("--push-at", replay.push_at, "instants of the push [s]");
+  replay_app->add_flag("--out", replay.out, "write METHOD/replay.csv into the run folder");
+  replay_app->add_flag("--quiet", replay.quiet, "print nothing but errors");
+  replay_app->add_flag("--json", replay.json, "print JSON");
+
   PlanCommand plan;
   std::vector<std::string> plan_sets;
   CLI::App* plan_app = app.add_subcommand(
@@ -162,7 +196,7 @@ int main(int argc, char** argv) {
   }
   if (app.get_subcommands().empty()) {
     std::cerr << "halfstep: which command? (valid: run, smooth, compare, plan, bake, draw, "
-                 "certify, verify, list; "
+                 "certify, verify, export, replay, list; "
                  "`halfstep -h` explains)\n";
     return kBadInput;
   }
@@ -192,6 +226,8 @@ int main(int argc, char** argv) {
                        : !plan.config.empty() ? ListHalfSteps(plan)
                        : *certify_app         ? Certify(certify)
                        : *verify_app          ? Verify(verify, verify_quiet)
+                       : *export_app          ? Export(exported)
+                       : *replay_app          ? Replay(replay)
                                               : List(what, list_json);
     if (!std::cout.flush()) throw std::runtime_error("standard output cannot be written");
     return status;

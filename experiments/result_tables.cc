@@ -8,6 +8,8 @@
 namespace halfstep {
 namespace {
 
+using enum CsvType;
+
 std::string Active(const MarginEvaluator& evaluator, const JunctionResult& junction) {
   if (junction.limited_by) return evaluator.Describe(*junction.limited_by);
   return junction.overlap < junction.upper_bound ? "not bisected" : "upper bound";
@@ -15,8 +17,16 @@ std::string Active(const MarginEvaluator& evaluator, const JunctionResult& junct
 
 }  // namespace
 
-std::string FootstepsCsv(const HalfStepSequence& sequence) {
-  CsvWriter csv({"footstep", "foot", "x_m", "y_m", "yaw_rad", "via_height_m", "duration_s"});
+CsvFile FootstepsCsv(const HalfStepSequence& sequence) {
+  CsvWriter csv({
+      {"footstep", kInteger, "", "0 twice: the feet at the start; then 1, 2, ..."},
+      {"foot", kString, "", "left or right"},
+      {"x_m", kNumber, "m", "sole's centre, x", "W"},
+      {"y_m", kNumber, "m", "sole's centre, y", "W"},
+      {"yaw_rad", kNumber, "rad", "sole's yaw, not wrapped", "W"},
+      {"via_height_m", kNumber, "m", "height of the via point of the step there; 0 at the start"},
+      {"duration_s", kNumber, "s", "T of each of the step's half-steps; 0 at the start"},
+  });
   const auto row = [&](int index, Side side, const Pose2& X_WF, double height, double duration) {
     csv.Cell(index).Cell(Name(side)).Cell(X_WF.x).Cell(X_WF.y).Cell(X_WF.yaw);
     csv.Cell(height).Cell(duration).EndRow();
@@ -29,11 +39,18 @@ std::string FootstepsCsv(const HalfStepSequence& sequence) {
     row(step + 1, down.half_step.swing(), down.X_WS * down.half_step.X_SF,
         down.half_step.via_height, down.half_step.duration);
   }
-  return csv.text();
+  return csv.file();
 }
 
-std::string HalfStepsCsv(const HalfStepSequence& sequence, const MethodRun& run) {
-  CsvWriter csv({"half_step", "kind", "support", "start_s", "duration_s", "height_scale"});
+CsvFile HalfStepsCsv(const HalfStepSequence& sequence, const MethodRun& run) {
+  CsvWriter csv({
+      {"half_step", kInteger, "", "from 1"},
+      {"kind", kString, "", "up or down"},
+      {"support", kString, "", "foot that carries: left or right"},
+      {"start_s", kNumber, "s", "when it begins"},
+      {"duration_s", kNumber, "s", "T"},
+      {"height_scale", kNumber, "1", "scale of the foot's height in its step"},
+  });
   const HomotopyParameters& parameters = run.result.parameters;
   double start = 0.0;
   for (size_t i = 0; i < sequence.half_steps.size(); ++i) {
@@ -43,13 +60,28 @@ std::string HalfStepsCsv(const HalfStepSequence& sequence, const MethodRun& run)
     csv.Cell(parameters.height_scales[i / 2]).EndRow();
     if (i < parameters.overlaps.size()) start += parameters.durations[i] - parameters.overlaps[i];
   }
-  return csv.text();
+  return csv.file();
 }
 
-std::string OverlapsCsv(const MarginEvaluator& evaluator, const MethodRun& run) {
-  CsvWriter csv({"junction", "kind", "overlap_s", "upper_bound_s", "active", "limit_family",
-                 "limit_scale", "price_s", "multiplier_s", "duration_before_s", "duration_after_s",
-                 "height_scale_before", "height_scale_after"});
+CsvFile OverlapsCsv(const MarginEvaluator& evaluator, const MethodRun& run) {
+  CsvWriter csv({
+      {"junction", kInteger, "", "from 1: between half-steps `junction` and `junction` + 1"},
+      {"kind", kString, "", "up_down or down_up"},
+      {"overlap_s", kNumber, "s", "how long both half-steps are under way"},
+      {"upper_bound_s", kNumber, "s", "largest overlap that was allowed"},
+      {"active", kString, "", "what holds the overlap"},
+      {"limit_family", kString, "", "family of the margin that holds it, or none"},
+      {"limit_scale", kNumber, "", "that family's scale in its unit; empty: none limits"},
+      {"price_s", kNumber, "s",
+       "how much shorter the walk for limit_scale less demanded, by this overlap alone, to first "
+       "order; empty: it does not depend on it"},
+      {"multiplier_s", kNumber, "s",
+       "the same, all parameters adapting, from the program; empty: none was solved"},
+      {"duration_before_s", kNumber, "s", "T of the half-step before"},
+      {"duration_after_s", kNumber, "s", "T of the half-step after"},
+      {"height_scale_before", kNumber, "1", "height scale of the step before"},
+      {"height_scale_after", kNumber, "1", "height scale of the step after"},
+  });
   const HomotopyParameters& parameters = run.result.parameters;
   int index = 0;
   for (const JunctionResult& junction : run.result.junctions) {
@@ -59,7 +91,7 @@ std::string OverlapsCsv(const MarginEvaluator& evaluator, const MethodRun& run) 
     if (junction.limited_by) {
       csv.Cell(Name(junction.limited_by->family)).Cell(Scale(junction.limited_by->family));
     } else {
-      csv.Empty().Empty();
+      csv.Cell("none").Empty();
     }
     junction.price ? csv.Cell(*junction.price) : csv.Empty();
     junction.multiplier ? csv.Cell(*junction.multiplier) : csv.Empty();
@@ -68,17 +100,21 @@ std::string OverlapsCsv(const MarginEvaluator& evaluator, const MethodRun& run) 
     csv.Cell(parameters.height_scales[before / 2]).Cell(parameters.height_scales[after / 2]);
     csv.EndRow();
   }
-  return csv.text();
+  return csv.file();
 }
 
-std::string ParetoCsv(const MarginEvaluator& evaluator, const HalfStepSequence& sequence,
-                      const MethodRun& run) {
+CsvFile ParetoCsv(const MarginEvaluator& evaluator, const HalfStepSequence& sequence,
+                  const MethodRun& run) {
   constexpr double kPeriod = 0.005;
-  std::vector<std::string> columns = {"duration_s", "least_slack"};
+  CsvColumns columns = {
+      {"duration_s", kNumber, "s", "of the walk"},
+      {"least_slack", kNumber, "1", "proved for all families but floor, of their scales"}};
   for (MarginFamily family : AllMarginFamilies()) {
-    std::string unit(Unit(family));
-    std::replace(unit.begin(), unit.end(), '/', '_');
-    columns.push_back(std::string(Name(family)) + "_" + unit);
+    const std::string unit(Unit(family));
+    std::string ending = unit;
+    std::replace(ending.begin(), ending.end(), '/', '_');
+    columns.push_back({std::string(Name(family)) + "_" + ending, kNumber, unit,
+                       "least margin of the family, sampled every 5 ms; inf: nowhere watched"});
   }
   CsvWriter csv(columns);
   MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
@@ -90,13 +126,24 @@ std::string ParetoCsv(const MarginEvaluator& evaluator, const HalfStepSequence& 
     }
     csv.EndRow();
   }
-  return csv.text();
+  return csv.file();
 }
 
-std::string IteratesCsv(const MethodRun& run) {
-  CsvWriter csv({"iteration", "wall_s", "evaluations", "candidate_duration_s",
-                 "candidate_worst_margin", "accepted", "lambda", "incumbent_duration_s",
-                 "incumbent_worst_margin"});
+CsvFile IteratesCsv(const MethodRun& run) {
+  CsvWriter csv({
+      {"iteration", kInteger, "", "from 1"},
+      {"wall_s", kNumber, "s", "since the method began"},
+      {"evaluations", kInteger, "", "instants evaluated so far"},
+      {"candidate_duration_s", kNumber, "s", "of the candidate's whole walk"},
+      {"candidate_worst_margin", kNumber, "1",
+       "(margin - demanded)/scale of the margin that refused the candidate; empty: feasible or "
+       "undecided"},
+      {"accepted", kBoolean, "", "whether the incumbent moved"},
+      {"lambda", kNumber, "1", "how far from the incumbent to the candidate the walk went"},
+      {"incumbent_duration_s", kNumber, "s", "of the incumbent's walk after this row", "",
+       CsvInterpolation::kPiecewiseConstant},
+      {"incumbent_worst_margin", kNumber, "1", "of the incumbent; empty: not computed"},
+  });
   int index = 0;
   for (const SmoothingIterate& iterate : run.result.iterates) {
     csv.Cell(++index).Cell(iterate.wall).Cell(iterate.evaluations).Cell(iterate.candidate_duration);
@@ -105,13 +152,30 @@ std::string IteratesCsv(const MethodRun& run) {
     iterate.incumbent_slack ? csv.Cell(*iterate.incumbent_slack) : csv.Empty();
     csv.EndRow();
   }
-  return csv.text();
+  return csv.file();
 }
 
-std::string SummaryCsv(const MarginEvaluator& evaluator, const std::vector<MethodRun>& runs) {
-  CsvWriter csv({"method", "status", "certified", "duration_s", "speedup", "cost", "worst_margin",
-                 "worst_margin_name", "iterations", "margin_evaluations", "collision_queries",
-                 "wall_s", "time_to_first_improvement_s", "gap_to_reference"});
+CsvFile SummaryCsv(const MarginEvaluator& evaluator, const std::vector<MethodRun>& runs) {
+  CsvWriter csv({
+      {"method", kString, "", "raw first"},
+      {"status", kString, "", "finished, interrupted or start_infeasible"},
+      {"certified", kBoolean, "", "whether the walk is proved for all its time"},
+      {"duration_s", kNumber, "s", "of the walk"},
+      {"speedup", kNumber, "1", "duration of raw divided by this one's"},
+      {"cost", kNumber, "", "what the method minimized; the duration for `fastest`"},
+      {"worst_margin", kNumber, "",
+       "with the least (margin - demanded)/scale among the rows of trajectory.csv, in its own "
+       "unit"},
+      {"worst_margin_name", kString, "", "its family"},
+      {"iterations", kInteger, "", "rows of iterates.csv"},
+      {"margin_evaluations", kInteger, "", "instants evaluated by the method"},
+      {"collision_queries", kInteger, "", "pairs of bodies that were not culled"},
+      {"wall_s", kNumber, "s", "time of the method; 0 for raw"},
+      {"time_to_first_improvement_s", kNumber, "s",
+       "until the first candidate was accepted; empty: none was"},
+      {"gap_to_reference", kNumber, "1",
+       "duration divided by that of the method `reference`, less 1; empty: it was not run"},
+  });
   std::optional<double> reference;
   for (const MethodRun& run : runs) {
     if (run.method == "reference") reference = run.duration;
@@ -130,7 +194,7 @@ std::string SummaryCsv(const MarginEvaluator& evaluator, const std::vector<Metho
     reference ? csv.Cell(run.duration / *reference - 1.0) : csv.Empty();
     csv.EndRow();
   }
-  return csv.text();
+  return csv.file();
 }
 
 }  // namespace halfstep

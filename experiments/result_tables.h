@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "experiments/certificate_files.h"
+#include "experiments/csv_columns.h"
 #include "experiments/experiment.h"
 #include "smoothing/margin_evaluator.h"
 #include "smoothing/smoothing_result.h"
@@ -23,24 +24,24 @@ struct MethodRun {
   double lowest_apex = 0.0;  ///< least of the steps' highest sole heights [m]
   MarginSet margins;         ///< smallest of each family, at the trajectory's instants
   CertifiedWalk certified;   ///< verdict on the walk and its proof
-  std::string trajectory;    ///< text of trajectory.csv
+  CsvFile trajectory;        ///< trajectory.csv
 };
 
-/// The text of each table of a run folder; columns: experiments/README.md.
-std::string FootstepsCsv(const HalfStepSequence& sequence);
+/// Each table of a run folder; columns: experiments/README.md.
+CsvFile FootstepsCsv(const HalfStepSequence& sequence);
 /// One row a half-step: where the homotopy ended in its duration and height.
-std::string HalfStepsCsv(const HalfStepSequence& sequence, const MethodRun& run);
-std::string OverlapsCsv(const MarginEvaluator& evaluator, const MethodRun& run);
+CsvFile HalfStepsCsv(const HalfStepSequence& sequence, const MethodRun& run);
+CsvFile OverlapsCsv(const MarginEvaluator& evaluator, const MethodRun& run);
 /// One row a point of a Pareto curve: duration, proved least slack, and each family's least margin
 /// sampled every 5 ms (inf: it is nowhere watched).
-std::string ParetoCsv(const MarginEvaluator& evaluator, const HalfStepSequence& sequence,
-                      const MethodRun& run);
-std::string IteratesCsv(const MethodRun& run);
+CsvFile ParetoCsv(const MarginEvaluator& evaluator, const HalfStepSequence& sequence,
+                  const MethodRun& run);
+CsvFile IteratesCsv(const MethodRun& run);
 /// One row a method; speed-up against the first run, which is the planned motion.
-std::string SummaryCsv(const MarginEvaluator& evaluator, const std::vector<MethodRun>& runs);
+CsvFile SummaryCsv(const MarginEvaluator& evaluator, const std::vector<MethodRun>& runs);
 
 /// Columns of trajectory.csv for a robot.
-std::vector<std::string> TrajectoryColumns(const RobotModel& robot);
+CsvColumns TrajectoryColumns(const RobotModel& robot);
 
 /// Samples the walk of `run->result.parameters` at a fixed period [s], the last row exactly at its
 /// end, and fills the walk's part of `run`. Where a leg does not reach, its joint angles are nan.

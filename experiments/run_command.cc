@@ -45,14 +45,14 @@ void WriteRun(const Experiment& experiment, const CertifiedFeasibility& certifie
               const MethodRun& run, RunFolder* folder) {
   const MarginEvaluator& evaluator = certifier.evaluator();
   const std::string place = MethodFolder(run.method) + "/";
-  folder->Write(place + "trajectory.csv", run.trajectory);
-  folder->Write(place + "half_steps.csv", HalfStepsCsv(experiment.sequence, run));
-  WriteCertificate(experiment, certifier, run.certified, run.trajectory, place, folder);
+  WriteCsv(place + "trajectory", run.trajectory, folder);
+  WriteCsv(place + "half_steps", HalfStepsCsv(experiment.sequence, run), folder);
+  WriteCertificate(experiment, certifier, run.certified, run.trajectory.text, place, folder);
   if (run.result.junctions.empty()) return;
-  folder->Write(place + "overlaps.csv", OverlapsCsv(evaluator, run));
-  folder->Write(place + "iterates.csv", IteratesCsv(run));
+  WriteCsv(place + "overlaps", OverlapsCsv(evaluator, run), folder);
+  WriteCsv(place + "iterates", IteratesCsv(run), folder);
   if (run.result.pareto.empty()) return;
-  folder->Write(place + "pareto.csv", ParetoCsv(evaluator, experiment.sequence, run));
+  WriteCsv(place + "pareto", ParetoCsv(evaluator, experiment.sequence, run), folder);
 }
 
 std::unique_ptr<FeasibilityTest> MakeTest(const MarginEvaluator& evaluator,
@@ -137,8 +137,8 @@ ExitStatus Run(const RunCommand& command) {
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
   folder.Write("config.yaml", resolved);
   if (planned) folder.Write("plan.json", PlanJson(*planned));
-  folder.Write("footsteps.csv", FootstepsCsv(experiment.sequence));
-  folder.Write("summary.csv", SummaryCsv(evaluator, runs));
+  WriteCsv("footsteps", FootstepsCsv(experiment.sequence), &folder);
+  WriteCsv("summary", SummaryCsv(evaluator, runs), &folder);
   folder.Write("manifest.json",
                ManifestJson(experiment, resolved, test.Description(), runs, wall.count()));
   folder.Publish();

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "experiments/csv_writer.h"
 #include "experiments/result_tables.h"
@@ -8,15 +9,31 @@
 namespace halfstep {
 namespace {
 
+using enum CsvType;
+constexpr CsvInterpolation kConstant = CsvInterpolation::kPiecewiseConstant;
+constexpr CsvInterpolation kLinear = CsvInterpolation::kLinear;
+
 // In the order of the margin columns.
 constexpr std::array<std::pair<MarginFamily, const char*>, 6> kMarginColumns = {{
-    {MarginFamily::kZmp, "zmp_margin_m"},
-    {MarginFamily::kJoint, "joint_margin_rad"},
-    {MarginFamily::kJointSpeed, "joint_speed_margin_rad_s"},
-    {MarginFamily::kFootSpeed, "foot_speed_margin_m_s"},
-    {MarginFamily::kClearance, "clearance_m"},
-    {MarginFamily::kSelfClearance, "self_clearance_m"},
+    {MarginFamily::kZmp, "zmp_margin"},
+    {MarginFamily::kJoint, "joint_margin"},
+    {MarginFamily::kJointSpeed, "joint_speed_margin"},
+    {MarginFamily::kFootSpeed, "foot_speed_margin"},
+    {MarginFamily::kClearance, "clearance"},
+    {MarginFamily::kSelfClearance, "self_clearance"},
 }};
+
+// Columns of a place on the floor's axes, "com" …, in W.
+void AddPlace(const std::string& name, const std::string& what, bool with_z, bool with_yaw,
+              CsvColumns* columns) {
+  for (const char* axis : {"x", "y", "z"}) {
+    if (*axis == 'z' && !with_z) continue;
+    columns->push_back({name + "_" + axis + "_m", kNumber, "m", what + ", " + axis, "W", kLinear});
+  }
+  if (with_yaw) {
+    columns->push_back({name + "_yaw_rad", kNumber, "rad", what + ", yaw", "W", kLinear});
+  }
+}
 
 std::string_view SupportName(const SuperposedWalk& walk, const LocalTime& at) {
   const int step = walk.StepInAir(at);
@@ -47,35 +64,39 @@ void WriteRow(const MarginEvaluator& evaluator, const SuperposedWalk& walk, doub
 
 }  // namespace
 
-std::vector<std::string> TrajectoryColumns(const RobotModel& robot) {
-  std::vector<std::string> columns = {"t_s",
-                                      "half_step",
-                                      "support",
-                                      "com_x_m",
-                                      "com_y_m",
-                                      "com_z_m",
-                                      "com_vx_m_s",
-                                      "com_vy_m_s",
-                                      "com_ax_m_s2",
-                                      "com_ay_m_s2",
-                                      "zmp_x_m",
-                                      "zmp_y_m",
-                                      "waist_x_m",
-                                      "waist_y_m",
-                                      "waist_z_m",
-                                      "waist_yaw_rad",
-                                      "left_foot_x_m",
-                                      "left_foot_y_m",
-                                      "left_foot_z_m",
-                                      "left_foot_yaw_rad",
-                                      "right_foot_x_m",
-                                      "right_foot_y_m",
-                                      "right_foot_z_m",
-                                      "right_foot_yaw_rad"};
-  for (const Leg& leg : robot.legs) {
-    for (const LegJoint& joint : leg.joints) columns.push_back("q_" + joint.name + "_rad");
+CsvColumns TrajectoryColumns(const RobotModel& robot) {
+  CsvColumns columns = {
+      {"t_s", kNumber, "s", "time since the start", "", kLinear},
+      {"half_step", kInteger, "", "latest half-step that has begun, from 1", "", kConstant},
+      {"support", kString, "", "sole that carries: left, right or both", "", kConstant}};
+  AddPlace("com", "CoM", true, false, &columns);
+  for (const auto& [letter, what, unit] :
+       {std::tuple{"v", "velocity", "m/s"}, std::tuple{"a", "acceleration", "m/s2"}}) {
+    for (const std::string axis : {"x", "y"}) {
+      std::string ending = unit;
+      std::replace(ending.begin(), ending.end(), '/', '_');
+      columns.push_back({"com_" + std::string(letter) + axis + "_" + ending, kNumber, unit,
+                         "CoM's " + std::string(what) + ", " + axis, "W", kLinear});
+    }
   }
-  for (const auto& [family, column] : kMarginColumns) columns.emplace_back(column);
+  AddPlace("zmp", "ZMP, on the floor", false, false, &columns);
+  AddPlace("waist", "waist frame B, upright", true, true, &columns);
+  AddPlace("left_foot", "centre of the left sole", true, true, &columns);
+  AddPlace("right_foot", "centre of the right sole", true, true, &columns);
+  for (const Leg& leg : robot.legs) {
+    for (const LegJoint& joint : leg.joints) {
+      columns.push_back({"q_" + joint.name + "_rad", kNumber, "rad",
+                         "angle of joint " + joint.name + "; nan: the leg does not reach", "",
+                         kLinear});
+    }
+  }
+  for (const auto& [family, column] : kMarginColumns) {
+    const std::string unit(Unit(family));
+    std::string ending = unit;
+    std::replace(ending.begin(), ending.end(), '/', '_');
+    columns.push_back({std::string(column) + "_" + ending, kNumber, unit,
+                       "smallest margin of " + std::string(Name(family)) + " at this instant"});
+  }
   return columns;
 }
 
@@ -107,7 +128,7 @@ void SampleTrajectory(const MarginEvaluator& evaluator, const HalfStepSequence& 
     WriteRow(evaluator, walk, t, margins, &csv);
   }
   run->lowest_apex = *std::min_element(apex.begin(), apex.end());
-  run->trajectory = csv.text();
+  run->trajectory = csv.file();
 }
 
 }  // namespace halfstep

@@ -95,6 +95,15 @@ UrdfJoint ToJoint(const urdf::Joint& joint, const UrdfPlaces& places) {
   return out;
 }
 
+Eigen::Matrix3d InertiaInLink(const urdf::Inertial& inertial) {
+  Eigen::Matrix3d inertia;
+  inertia << inertial.ixx, inertial.ixy, inertial.ixz,  //
+      inertial.ixy, inertial.iyy, inertial.iyz,         //
+      inertial.ixz, inertial.iyz, inertial.izz;
+  const Eigen::Matrix3d R = ToEigen(inertial.origin).linear();
+  return R * inertia * R.transpose();
+}
+
 // Appends the link and all that hangs on it.
 void AddLink(const urdf::Link& link, int joint, const UrdfPlaces& places, UrdfTree* tree) {
   const int index = static_cast<int>(tree->links.size());
@@ -106,6 +115,7 @@ void AddLink(const urdf::Link& link, int joint, const UrdfPlaces& places, UrdfTr
   if (link.inertial) {
     out.mass = link.inertial->mass;
     out.com = ToEigen(link.inertial->origin.position);
+    out.inertia = InertiaInLink(*link.inertial);
   }
   for (const auto& collision : link.collision_array) {
     UrdfCollision shape = ToCollision(*collision);

@@ -22,9 +22,10 @@ struct UrdfCollision {
 
 struct UrdfLink {
   std::string name;
-  double mass = 0.0;             ///< [kg]
-  Eigen::Vector3d com{0, 0, 0};  ///< in the link frame [m].
-  int joint = -1;                ///< the joint that moves it; −1: root.
+  double mass = 0.0;                                  ///< [kg]
+  Eigen::Vector3d com{0, 0, 0};                       ///< in the link frame [m].
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< about the CoM, link's axes [kg m²].
+  int joint = -1;                                     ///< the joint that moves it; −1: root.
   std::vector<UrdfCollision> collisions;
   UrdfPlace place;
 };

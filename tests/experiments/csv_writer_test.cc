@@ -14,23 +14,43 @@
 namespace halfstep {
 namespace {
 
+using enum CsvType;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 TEST(CsvWriter, WritesEachKindOfCell) {
-  CsvWriter csv({"a", "b", "c", "d", "e", "f"});
+  CsvWriter csv({{"a"}, {"b", kInteger}, {"c", kInteger}, {"d", kBoolean}, {"e", kString}, {"f"}});
   csv.Cell(0.1).Cell(7).Cell(-8L).Cell(true).Cell("x").Empty().EndRow();
   EXPECT_EQ(csv.text(), "a,b,c,d,e,f\n0.1,7,-8,true,x,\n");
+  EXPECT_EQ(csv.file().text, csv.text());
+}
+
+// So that pandas takes a column of whole numbers for float64 too.
+TEST(CsvWriter, ANumberLooksLikeOne) {
+  CsvWriter csv({{"x"}});
+  for (const double value : {2.0, -0.0, 1e22, 5e-324, 0.25}) csv.Cell(value).EndRow();
+  EXPECT_EQ(csv.text(), "x\n2.0\n-0.0\n1e+22\n5e-324\n0.25\n");
+}
+
+TEST(CsvWriter, RefusesACellOfAnotherType) {
+  const CsvColumns columns = {{"n"}, {"i", kInteger}, {"b", kBoolean}, {"s", kString}};
+  EXPECT_THROW(CsvWriter(columns).Cell(1), std::logic_error);
+  EXPECT_THROW(CsvWriter(columns).Cell(true), std::logic_error);
+  EXPECT_THROW(CsvWriter(columns).Cell("1"), std::logic_error);
+  EXPECT_THROW(CsvWriter(columns).Cell(1.0).Cell(1.0), std::logic_error);
+  EXPECT_THROW(CsvWriter(columns).Cell(1.0).Empty(), std::logic_error);
+  EXPECT_THROW(CsvWriter(columns).Cell(1.0).Cell(1).Empty(), std::logic_error);
+  EXPECT_THROW(CsvWriter(columns).Cell(1.0).Cell(1).Cell(true).Cell(""), std::logic_error);
 }
 
 TEST(CsvWriter, WritesNumbersThatAreNone) {
-  CsvWriter csv({"a", "b", "c", "d"});
+  CsvWriter csv({{"a"}, {"b"}, {"c"}, {"d"}});
   csv.Cell(kInfinity).Cell(-kInfinity).Cell(std::nan("")).Cell(-std::nan("")).EndRow();
   EXPECT_EQ(csv.text(), "a,b,c,d\ninf,-inf,nan,nan\n");
 }
 
 TEST(CsvWriter, NumbersReadBackToTheSameBits) {
   std::mt19937_64 random(1);
-  CsvWriter csv({"x"});
+  CsvWriter csv({{"x"}});
   std::vector<double> values = {0.0, -0.0, 5e-324, std::numeric_limits<double>::max(), 1.0 / 3};
   while (values.size() < 2000) {
     const double value = std::bit_cast<double>(random());
@@ -46,9 +66,8 @@ TEST(CsvWriter, NumbersReadBackToTheSameBits) {
 }
 
 TEST(CsvWriter, QuotesWhatWouldBreakATable) {
-  const std::vector<std::string> texts = {"a,b", "say \"no\"", "two\nlines", "\r", "\"", "plain #",
-                                          ""};
-  CsvWriter csv({"left, right", "n"});
+  const std::vector<std::string> texts = {"a,b", "say \"no\"", "two\nlines", "\r", "\"", "plain #"};
+  CsvWriter csv({{"left, right", kString}, {"n", kInteger}});
   for (const std::string& text : texts) csv.Cell(std::string_view(text)).Cell(1).EndRow();
   EXPECT_TRUE(csv.text().starts_with("\"left, right\",n\n\"a,b\",1\n\"say \"\"no\"\"\",1\n"));
   const ParsedCsv table(csv.text());
@@ -57,12 +76,12 @@ TEST(CsvWriter, QuotesWhatWouldBreakATable) {
 }
 
 TEST(CsvWriter, RefusesARowOfAnotherLength) {
-  CsvWriter csv({"a", "b"});
+  CsvWriter csv({{"a", kInteger}, {"b", kInteger}});
   EXPECT_THROW(csv.EndRow(), std::logic_error);
   csv.Cell(1);
   EXPECT_THROW(csv.EndRow(), std::logic_error);
-  csv.Cell(2).Cell(3);
-  EXPECT_THROW(csv.EndRow(), std::logic_error);
+  csv.Cell(2);
+  EXPECT_THROW(csv.Cell(3), std::logic_error);
 }
 
 }  // namespace

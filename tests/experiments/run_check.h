@@ -13,6 +13,17 @@
 
 namespace halfstep {
 
+/// The same files, and beside every CSV its schema.
+inline std::set<std::string> WithSchemas(std::set<std::string> files) {
+  const std::set<std::string> all = files;
+  for (const std::string& file : all) {
+    if (file.ends_with(".csv")) {
+      files.insert(file.substr(0, file.size() - 4) + ".schema.json");
+    }
+  }
+  return files;
+}
+
 /// Files of a run folder whose methods have the folders `methods`.
 inline std::set<std::string> RunFiles(const std::vector<std::string>& methods) {
   std::set<std::string> files = {
@@ -24,7 +35,7 @@ inline std::set<std::string> RunFiles(const std::vector<std::string>& methods) {
       files.insert(method + "/" + file);
     }
   }
-  return files;
+  return WithSchemas(files);
 }
 
 /// Checks that a run folder has all its files and that each of them is whole.

@@ -8,8 +8,8 @@
 #include <random>
 
 #include "experiments/commands.h"
-#include "experiments/csv_writer.h"
 #include "tests/experiments/verify_mutation.h"
+#include "wpg/input/number_text.h"
 
 namespace halfstep {
 namespace {
@@ -19,15 +19,11 @@ using Table = TamperedRun::Table;
 using Json = nlohmann::ordered_json;
 
 double Number(const std::string& text) { return std::stod(text); }
-std::string Shortest(double value) {
-  const std::string text = CsvWriter({"x"}).Cell(value).text();
-  return text.substr(2);
-}
 size_t Column(const Table& table, const std::string& name) {
   const auto& header = table.front();
   return static_cast<size_t>(std::find(header.begin(), header.end(), name) - header.begin());
 }
-void Add(std::string* cell, double change) { *cell = Shortest(Number(*cell) + change); }
+void Add(std::string* cell, double change) { *cell = ShortestText(Number(*cell) + change); }
 
 // certificate.csv
 enum : size_t { kBegin, kEnd, kFamily, kStatements, kSubject, kMargin, kBound, kDemanded };
@@ -80,11 +76,11 @@ void LowerBoundsOf(Table& table, const std::string& family) {
 // Everything twice as fast: speeds, accelerations and times fit each other no longer.
 void PlayTwiceAsFast(TamperedRun& run) {
   run.EditTrajectory([](Table& table) {
-    for (size_t i = 1; i < table.size(); ++i) table[i][0] = Shortest(0.5 * Number(table[i][0]));
+    for (size_t i = 1; i < table.size(); ++i) table[i][0] = ShortestText(0.5 * Number(table[i][0]));
   });
   run.EditCertificate([](Table& table) {
     for (size_t i = 1; i < table.size(); ++i) {
-      for (size_t c : {kBegin, kEnd}) table[i][c] = Shortest(0.5 * Number(table[i][c]));
+      for (size_t c : {kBegin, kEnd}) table[i][c] = ShortestText(0.5 * Number(table[i][c]));
     }
   });
   run.EditJson([](Json& json) { json["duration_s"] = 0.5 * json["duration_s"].get<double>(); });

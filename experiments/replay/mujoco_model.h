@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+
+#include "wpg/robot_model.h"
+#include "wpg/robot_tree.h"
+
+namespace halfstep::replay {
+
+/// What the simulated robot is made of beside its URDF. Documented in experiments/README.md,
+/// "Replay".
+struct ModelOptions {
+  double timestep = 0.0005;  ///< [s]; half or twice of it changes the ZMP's error by a millimetre
+  /// Of soles on the floor. At 0.2 the walks are the same; at 0.05 soles slip by centimetres.
+  double friction = 0.7;
+  /// Of the joints' servos [N m/rad]. Higher: nearer to the plan, until the contacts are what
+  /// gives way. 3000: bar_8cm drifts by centimetres; 700: it falls.
+  double stiffness = 30000.0;
+  double damping = 1000.0;      ///< [N m s/rad]; at 300 the robot sways for a second
+  double armature = 0.1;        ///< rotor inertia at the joints [kg m²]; 0.01: soles slip more
+  double contact_time = 0.005;  ///< of the contacts' spring [s], at least 2 time steps
+};
+
+/// The robot as a MuJoCo model (MJCF), standing on the floor z = 0: the URDF's links with their
+/// masses and inertias, a free base, hinges in the legs with servos (actuators: left leg from the
+/// hip, then right), every other joint welded in the standing posture, and soles as boxes that
+/// touch the floor and nothing else. Names are the URDF's; soles are "left_sole", "right_sole".
+std::string MujocoModel(const RobotModel& robot, const RobotTree& tree,
+                        const ModelOptions& options);
+
+}  // namespace halfstep::replay

@@ -1,0 +1,31 @@
+// Stands in for mujoco_simulation.cc where MuJoCo is absent or unwanted.
+#include <stdexcept>
+
+#include "experiments/replay/simulation.h"
+
+namespace halfstep::replay {
+
+struct Simulation::State {};
+
+std::string WhyNoSimulation() { return HALFSTEP_WHY_NO_MUJOCO; }
+
+std::string EngineVersion() { return ""; }
+
+Simulation::Simulation(const std::string&, const RobotModel&, const std::string&) {
+  throw std::logic_error(WhyNoSimulation());
+}
+Simulation::~Simulation() = default;
+Simulation::Simulation(const Simulation&) { throw std::logic_error(WhyNoSimulation()); }
+double Simulation::timestep() const { throw std::logic_error(WhyNoSimulation()); }
+double Simulation::weight() const { throw std::logic_error(WhyNoSimulation()); }
+void Simulation::Place(const Eigen::Isometry3d&, const std::array<Vector6d, 2>&) {
+  throw std::logic_error(WhyNoSimulation());
+}
+FloorForces Simulation::Step(const JointTargets&, const Eigen::Vector3d&) {
+  throw std::logic_error(WhyNoSimulation());
+}
+Eigen::Isometry3d Simulation::X_WB() const { throw std::logic_error(WhyNoSimulation()); }
+Eigen::Isometry3d Simulation::X_WSole(Side) const { throw std::logic_error(WhyNoSimulation()); }
+Eigen::Vector3d Simulation::com() const { throw std::logic_error(WhyNoSimulation()); }
+
+}  // namespace halfstep::replay

@@ -1,0 +1,94 @@
+#include "experiments/replay/player.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "wpg/pose2.h"
+
+namespace halfstep::replay {
+namespace {
+
+// A sole carries when this share of the weight is on it.
+constexpr double kCarries = 0.05;
+
+Pose2 OnFloor(const Eigen::Isometry3d& X) {
+  return {X.translation().x(), X.translation().y(), std::atan2(X(1, 0), X(0, 0))};
+}
+
+// A point of W as seen from a pose on the floor.
+Eigen::Vector2d SeenFrom(const Pose2& X_WF, const Eigen::Vector2d& p_W) {
+  const Eigen::Vector2d d = p_W - Eigen::Vector2d(X_WF.x, X_WF.y);
+  return Eigen::Rotation2Dd(-X_WF.yaw) * d;
+}
+
+}  // namespace
+
+Player::Player(const Simulation& robot, const ReferenceMotion& motion, const PlayOptions& options)
+    : robot_(robot), motion_(&motion), options_(options) {
+  const TrajectoryRow& first = motion.rows().front();
+  robot_.Place(first.X_WB(), first.q);
+  const JointTargets targets = motion.TargetsAt(0.0);
+  const long steps = std::lround(options.settle / robot_.timestep());
+  for (long i = 0; i < steps; ++i) robot_.Step(targets, Eigen::Vector3d::Zero());
+}
+
+double Player::SlipOf(Side side, bool carries) {
+  std::optional<Eigen::Vector2d>& anchor = anchors_[static_cast<size_t>(Index(side))];
+  const Eigen::Vector2d here = robot_.X_WSole(side).translation().head<2>();
+  if (!carries) anchor.reset();
+  if (carries && !anchor) anchor = here;
+  return carries ? (here - *anchor).norm() : 0.0;
+}
+
+double Player::drift() const {
+  const TrajectoryRow planned = motion_->RowAt(t_);
+  return (robot_.X_WB().translation().head<2>() - planned.waist.head<2>()).norm();
+}
+
+ReplayRow Player::Advance(const std::optional<Push>& push) {
+  const double dt = robot_.timestep();
+  const double begin = static_cast<double>(row_) * options_.row_period;
+  const long steps = std::lround(options_.row_period / dt);
+  Eigen::Vector2d moment(0, 0);
+  ReplayRow row;
+  for (long i = 0; i < steps; ++i) {
+    // The targets of where the step ends.
+    const double t = begin + static_cast<double>(i + 1) * dt;
+    Eigen::Vector3d force(0, 0, 0);
+    if (push && t > push->at && t <= push->at + push->duration + 1e-9) {
+      force = push->impulse_W / push->duration;
+    }
+    const FloorForces floor = robot_.Step(motion_->TargetsAt(t), force);
+    moment += floor.moment;
+    for (size_t side = 0; side < 2; ++side) row.vertical[side] += floor.vertical[side];
+  }
+  t_ = static_cast<double>(++row_) * options_.row_period;
+  const TrajectoryRow planned = motion_->RowAt(t_ - options_.row_period / 2);
+  const Eigen::Isometry3d X_WB = robot_.X_WB();
+  row.t = t_;
+  row.tilt = std::acos(std::clamp(X_WB(2, 2), -1.0, 1.0));
+  row.waist = X_WB.translation();
+  row.fallen = row.tilt > options_.fallen_tilt;
+  row.zmp_planned = planned.zmp;
+  row.zmp_measured.setConstant(std::numeric_limits<double>::quiet_NaN());
+  row.zmp_error = row.zmp_measured;
+  const double total = row.vertical[0] + row.vertical[1];
+  if (total > 0) {
+    row.zmp_measured = moment / total;
+    const Side side = row.vertical[0] >= row.vertical[1] ? Side::kLeft : Side::kRight;
+    const Eigen::Vector4d& sole = planned.soles[static_cast<size_t>(Index(side))];
+    row.zmp_error = SeenFrom(OnFloor(robot_.X_WSole(side)), row.zmp_measured) -
+                    SeenFrom({sole[0], sole[1], sole[3]}, row.zmp_planned);
+  }
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    double& force = row.vertical[static_cast<size_t>(Index(side))];
+    force /= static_cast<double>(steps);
+    const bool carries =
+        planned.stands[static_cast<size_t>(Index(side))] && force > kCarries * robot_.weight();
+    row.slip = std::max(row.slip, SlipOf(side, carries));
+  }
+  return row;
+}
+
+}  // namespace halfstep::replay

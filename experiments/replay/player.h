@@ -1,0 +1,63 @@
+#pragma once
+
+#include <optional>
+
+#include "experiments/replay/reference_motion.h"
+
+namespace halfstep::replay {
+
+/// How a walk is played. Documented in experiments/README.md, "Replay".
+struct PlayOptions {
+  double settle = 0.5;        ///< standing in the first row's posture before t = 0 [s]
+  double hold = 1.0;          ///< standing in the last row's posture after the walk [s]
+  double row_period = 0.005;  ///< what is measured is averaged over it [s]
+  double fallen_tilt = 0.7;   ///< the waist leans by more: fallen [rad]
+};
+
+/// A push: a constant force on the waist.
+struct Push {
+  double at = 0.0;                     ///< when it begins [s]
+  double duration = 0.1;               ///< [s]
+  Eigen::Vector3d impulse_W{0, 0, 0};  ///< [N s]
+};
+
+/// What was measured until an instant, over one row period.
+struct ReplayRow {
+  double t = 0.0;                      ///< [s]
+  double tilt = 0.0;                   ///< of the waist from upright [rad]
+  Eigen::Vector3d waist{0, 0, 0};      ///< origin of B in W [m]
+  Eigen::Vector2d zmp_planned{0, 0};   ///< in W [m]
+  Eigen::Vector2d zmp_measured{0, 0};  ///< in W [m]; nan in flight
+  /// Measured less planned ZMP, each seen from the sole that carries more; nan in flight.
+  Eigen::Vector2d zmp_error{0, 0};
+  std::array<double, 2> vertical{};  ///< force on each sole, by Index(Side) [N]
+  /// How far a carrying sole's centre is from where it took up load, the larger of both [m].
+  double slip = 0.0;
+  bool fallen = false;
+};
+
+/// Plays a motion on a simulated robot, one row period after the other. A copy goes on by itself.
+class Player {
+ public:
+  /// Places the robot in the first row's posture and lets it settle. Borrows `motion`.
+  Player(const Simulation& robot, const ReferenceMotion& motion, const PlayOptions& options);
+
+  double time() const { return t_; }
+  double end() const { return motion_->end() + options_.hold; }
+  /// How far the waist is from its plan on the floor [m].
+  double drift() const;
+  /// The next row period, with the part of the push that falls into it.
+  ReplayRow Advance(const std::optional<Push>& push);
+
+ private:
+  double SlipOf(Side side, bool carries);
+
+  Simulation robot_;
+  const ReferenceMotion* motion_;
+  PlayOptions options_;
+  long row_ = 0;
+  double t_ = 0.0;
+  std::array<std::optional<Eigen::Vector2d>, 2> anchors_;  // where each carrying sole took up load
+};
+
+}  // namespace halfstep::replay

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <vector>
+
+#include "experiments/replay/simulation.h"
+#include "experiments/trajectory_file.h"
+
+namespace halfstep::replay {
+
+/// The rows of a trajectory as what the servos shall follow at any time: cubic between rows, with
+/// the slopes of central differences, at rest before the first and after the last.
+class ReferenceMotion {
+ public:
+  /// Precondition: at least two rows, times that increase.
+  explicit ReferenceMotion(std::vector<TrajectoryRow> rows);
+
+  const std::vector<TrajectoryRow>& rows() const { return rows_; }
+  double end() const { return rows_.back().t; }
+  JointTargets TargetsAt(double t) const;
+  /// Planned ZMP, waist and soles, linear between rows; support of the earlier row.
+  TrajectoryRow RowAt(double t) const;
+
+ private:
+  // The row i with t_i ≤ t < t_{i+1}, the last but one at the end.
+  size_t Find(double t) const;
+
+  std::vector<TrajectoryRow> rows_;
+  std::vector<std::array<Vector6d, 2>> speeds_;
+};
+
+}  // namespace halfstep::replay

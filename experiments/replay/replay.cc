@@ -1,0 +1,134 @@
+#include "experiments/replay/replay.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "experiments/csv_writer.h"
+#include "experiments/replay/mass_model_zmp.h"
+
+namespace halfstep::replay {
+namespace {
+
+// Whether the robot is up at the end after a push.
+bool Survives(Player player, const Push& push) {
+  while (player.time() < player.end()) {
+    if (player.Advance(push).fallen) return false;
+  }
+  return true;
+}
+
+PushLimit FindLimit(const Player& player, double at, double yaw, double direction,
+                    const PushOptions& options) {
+  PushLimit limit{at, direction, 0.0, std::numeric_limits<double>::infinity()};
+  const Eigen::Vector3d forward(std::cos(yaw + direction), std::sin(yaw + direction), 0.0);
+  const auto survives = [&](double impulse) {
+    return Survives(player, {at, options.duration, impulse * forward});
+  };
+  if (survives(options.largest)) {
+    limit.survived = options.largest;
+    return limit;
+  }
+  limit.fell = options.largest;
+  while (limit.fell - limit.survived > options.tolerance) {
+    const double impulse = 0.5 * (limit.survived + limit.fell);
+    (survives(impulse) ? limit.survived : limit.fell) = impulse;
+  }
+  return limit;
+}
+
+}  // namespace
+
+ReplayResult Play(const Simulation& robot, const ReferenceMotion& motion,
+                  const PlayOptions& options) {
+  Player player(robot, motion, options);
+  ReplayResult result;
+  double squares = 0.0, vertical = 0.0;
+  long measured = 0, walked = 0;
+  while (player.time() < player.end() && result.stayed_up) {
+    const ReplayRow row = player.Advance(std::nullopt);
+    result.rows.push_back(row);
+    result.stayed_up = !row.fallen;
+    result.largest_tilt = std::max(result.largest_tilt, row.tilt);
+    result.slip = std::max(result.slip, row.slip);
+    if (row.t > motion.end()) continue;
+    ++walked;
+    vertical += row.vertical[0] + row.vertical[1];
+    const double error = row.zmp_error.norm();
+    if (std::isnan(error)) continue;
+    ++measured;
+    squares += error * error;
+    result.zmp_largest = std::max(result.zmp_largest, error);
+  }
+  result.ended = player.time();
+  result.drift = player.drift();
+  if (measured > 0) result.zmp_rms = std::sqrt(squares / static_cast<double>(measured));
+  if (walked > 0) result.weight_share = vertical / static_cast<double>(walked) / robot.weight();
+  return result;
+}
+
+void CompareMassModel(const RobotModel& robot, const RobotTree& tree, const ReferenceMotion& motion,
+                      ReplayResult* result) {
+  const std::vector<TrajectoryRow>& rows = motion.rows();
+  const std::vector<Eigen::Vector2d> zmp = MassModelZmp(robot, tree, rows);
+  double squares = 0.0;
+  for (size_t i = 0; i < rows.size(); ++i) {
+    const double error = (zmp[i] - rows[i].zmp).norm();
+    squares += error * error;
+    result->model_largest = std::max(result->model_largest, error);
+  }
+  result->model_rms = std::sqrt(squares / static_cast<double>(rows.size()));
+}
+
+std::vector<PushLimit> FindPushLimits(const Simulation& robot, const ReferenceMotion& motion,
+                                      const PlayOptions& options, const PushOptions& pushes,
+                                      const std::vector<double>& instants,
+                                      const std::function<void(double)>& progress,
+                                      std::stop_token stop) {
+  std::vector<PushLimit> limits;
+  const double all = static_cast<double>(instants.size()) * pushes.directions;
+  for (const double at : instants) {
+    Player player(robot, motion, options);
+    while (player.time() + options.row_period <= at + 1e-9) player.Advance(std::nullopt);
+    const double yaw = motion.RowAt(at).waist[3];
+    for (int i = 0; i < pushes.directions; ++i) {
+      if (stop.stop_requested()) return {};
+      const double direction = 2 * std::numbers::pi * i / pushes.directions;
+      limits.push_back(FindLimit(player, at, yaw, direction, pushes));
+      progress(static_cast<double>(limits.size()) / all);
+    }
+  }
+  return limits;
+}
+
+CsvFile ReplayCsv(const ReplayResult& result) {
+  using enum CsvType;
+  const std::string mean = ", mean of the row's period";
+  CsvWriter csv({
+      {"t_s", kNumber, "s", "time since the walk's start: end of the row's period"},
+      {"tilt_rad", kNumber, "rad", "of the waist from upright", "W", CsvInterpolation::kLinear},
+      {"waist_x_m", kNumber, "m", "waist frame B, x", "W", CsvInterpolation::kLinear},
+      {"waist_y_m", kNumber, "m", "waist frame B, y", "W", CsvInterpolation::kLinear},
+      {"waist_z_m", kNumber, "m", "waist frame B, z", "W", CsvInterpolation::kLinear},
+      {"zmp_planned_x_m", kNumber, "m", "planned ZMP at the row's middle, x", "W"},
+      {"zmp_planned_y_m", kNumber, "m", "planned ZMP at the row's middle, y", "W"},
+      {"zmp_measured_x_m", kNumber, "m", "from the contact forces, x; nan: in flight", "W"},
+      {"zmp_measured_y_m", kNumber, "m", "from the contact forces, y; nan: in flight", "W"},
+      {"zmp_error_x_m", kNumber, "m", "measured less planned ZMP, x", "carrying sole"},
+      {"zmp_error_y_m", kNumber, "m", "measured less planned ZMP, y", "carrying sole"},
+      {"left_foot_force_n", kNumber, "N", "vertical force on the left sole" + mean, "W"},
+      {"right_foot_force_n", kNumber, "N", "vertical force on the right sole" + mean, "W"},
+      {"slip_m", kNumber, "m", "of a carrying sole since it took up load, the larger of both"},
+  });
+  for (const ReplayRow& row : result.rows) {
+    csv.Cell(row.t).Cell(row.tilt).Cell(row.waist.x()).Cell(row.waist.y()).Cell(row.waist.z());
+    for (const Eigen::Vector2d& p : {row.zmp_planned, row.zmp_measured, row.zmp_error}) {
+      csv.Cell(p.x()).Cell(p.y());
+    }
+    csv.Cell(row.vertical[0]).Cell(row.vertical[1]).Cell(row.slip).EndRow();
+  }
+  return csv.file();
+}
+
+}  // namespace halfstep::replay

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <functional>
+#include <stop_token>
+#include <vector>
+
+#include "experiments/csv_columns.h"
+#include "experiments/replay/player.h"
+#include "wpg/robot_tree.h"
+
+namespace halfstep::replay {
+
+/// What became of a walk that was played.
+struct ReplayResult {
+  bool stayed_up = true;        ///< to the end, the time of standing after the walk included
+  double ended = 0.0;           ///< when the waist had fallen, else the end [s]
+  double largest_tilt = 0.0;    ///< of the waist, until then [rad]
+  double zmp_rms = 0.0;         ///< of the ZMP's error during the walk [m]
+  double zmp_largest = 0.0;     ///< [m]
+  double model_rms = 0.0;       ///< of the mass model's ZMP against the planned one [m]
+  double model_largest = 0.0;   ///< [m]
+  double slip = 0.0;            ///< largest of a carrying sole [m]
+  double drift = 0.0;           ///< of the waist on the floor, at the end [m]
+  double weight_share = 0.0;    ///< mean vertical force during the walk, of the weight
+  std::vector<ReplayRow> rows;  ///< from t = 0
+};
+
+/// Plays a motion to its end or until the robot has fallen. Leaves out the mass model's ZMP.
+ReplayResult Play(const Simulation& robot, const ReferenceMotion& motion,
+                  const PlayOptions& options);
+
+/// Fills what the mass model says of the motion by itself (MassModelZmp).
+void CompareMassModel(const RobotModel& robot, const RobotTree& tree, const ReferenceMotion& motion,
+                      ReplayResult* result);
+
+/// The largest push survived in a direction.
+struct PushLimit {
+  double at = 0.0;         ///< begin of the push [s]
+  double direction = 0.0;  ///< yaw in W [rad]
+  double survived = 0.0;   ///< [N s]
+  double fell = 0.0;       ///< least impulse tried that made it fall; inf: none did [N s]
+};
+
+struct PushOptions {
+  double largest = 80.0;   ///< tried [N s]
+  double tolerance = 1.0;  ///< [N s]
+  double duration = 0.1;   ///< of a push [s]
+  int directions = 4;      ///< evenly around, from the robot's forward
+};
+
+/// Bisects the impulse for each instant and direction (relative to the planned waist's yaw there).
+/// It takes for granted that a harder push is not easier to survive. Empty when stopped.
+std::vector<PushLimit> FindPushLimits(const Simulation& robot, const ReferenceMotion& motion,
+                                      const PlayOptions& options, const PushOptions& pushes,
+                                      const std::vector<double>& instants,
+                                      const std::function<void(double)>& progress,
+                                      std::stop_token stop);
+
+/// replay.csv.
+CsvFile ReplayCsv(const ReplayResult& result);
+
+}  // namespace halfstep::replay

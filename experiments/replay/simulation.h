@@ -1,0 +1,62 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "wpg/robot_model.h"
+
+namespace halfstep::replay {
+
+/// Why robots cannot be simulated in this build, a sentence; "": they can.
+std::string WhyNoSimulation();
+/// Version of the engine, "" without one.
+std::string EngineVersion();
+
+/// Joint angles of both legs by Index(Side) [rad], and their speeds [rad/s].
+struct JointTargets {
+  std::array<Vector6d, 2> q;
+  std::array<Vector6d, 2> speed;
+};
+
+/// What the floor does to the robot during a time step, in W.
+struct FloorForces {
+  std::array<double, 2> vertical{};  ///< on each sole, by Index(Side) [N]
+  Eigen::Vector2d moment{0, 0};  ///< Σ vertical · place [N m]; / Σ vertical: the measured ZMP
+  double total() const { return vertical[0] + vertical[1]; }
+};
+
+/// A simulated robot of MujocoModel. A copy goes on by itself from the same state.
+class Simulation {
+ public:
+  /// Precondition: WhyNoSimulation() is "". Throws std::runtime_error with MuJoCo's reason for a
+  /// model that it refuses.
+  Simulation(const std::string& mjcf, const RobotModel& robot, const std::string& waist_link);
+  ~Simulation();
+  Simulation(const Simulation& other);
+  Simulation& operator=(const Simulation&) = delete;
+
+  double timestep() const;
+  /// Of the model, gravity included: what it weighs [N].
+  double weight() const;
+
+  /// At rest with the waist at X_WB.
+  void Place(const Eigen::Isometry3d& X_WB, const std::array<Vector6d, 2>& q);
+  /// One time step; the servos follow `targets`, `push` [N] in W acts on the waist's CoM.
+  /// Throws std::runtime_error when the simulation becomes unstable.
+  FloorForces Step(const JointTargets& targets, const Eigen::Vector3d& push);
+
+  Eigen::Isometry3d X_WB() const;
+  /// Centre of a sole.
+  Eigen::Isometry3d X_WSole(Side side) const;
+  /// Of all links, in W [m].
+  Eigen::Vector3d com() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace halfstep::replay

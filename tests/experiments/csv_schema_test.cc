@@ -1,0 +1,126 @@
+// Every CSV has a schema beside it that says of its columns what they are.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+#include "experiments/commands.h"
+#include "experiments/csv_columns.h"
+#include "tests/experiments/child_process.h"
+#include "tests/experiments/parsed_csv.h"
+#include "tests/experiments/temporary_folder.h"
+
+namespace halfstep {
+namespace {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+// Unit that a column's name ends in.
+std::string UnitInName(const std::string& name) {
+  for (const auto& [ending, unit] :
+       std::vector<std::pair<std::string, std::string>>{{"_m_s2", "m/s2"},
+                                                        {"_rad_s", "rad/s"},
+                                                        {"_m_s", "m/s"},
+                                                        {"_rad", "rad"},
+                                                        {"_m", "m"},
+                                                        {"_s", "s"}}) {
+    if (name.ends_with(ending)) return unit;
+  }
+  return "";
+}
+
+bool Parses(const std::string& cell, const std::string& type) {
+  if (type == "string") return !cell.empty();
+  if (type == "boolean") return cell == "true" || cell == "false";
+  if (type == "integer") return cell.find_first_not_of("-0123456789") == std::string::npos;
+  if (cell.empty() || cell == "nan" || cell == "inf" || cell == "-inf") return type == "number";
+  char* end = nullptr;
+  return std::isfinite(std::strtod(cell.c_str(), &end)) && *end == '\0' &&
+         cell.find_first_of(".e") != std::string::npos;
+}
+
+void CheckSchema(const fs::path& path) {
+  SCOPED_TRACE(path.string());
+  const ParsedCsv table(ReadText(path));
+  const json schema = json::parse(ReadText(fs::path(path).replace_extension("schema.json")));
+  EXPECT_EQ(schema["missingValues"], json::array({""}));
+  std::vector<std::string> names;
+  for (const json& field : schema["fields"]) {
+    const std::string name = field["name"], type = field["type"];
+    names.push_back(name);
+    EXPECT_NE(field["description"], "") << name;
+    EXPECT_THAT(field["interpolation"], testing::AnyOf("none", "linear", "piecewise constant"));
+    if (const std::string unit = UnitInName(name); !unit.empty()) {
+      EXPECT_EQ(field["unit"], unit) << name;
+    }
+    for (size_t row = 0; row < table.size(); ++row) {
+      ASSERT_TRUE(Parses(table.Text(row, name), type))
+          << name << ": '" << table.Text(row, name) << "' is no " << type;
+    }
+  }
+  EXPECT_EQ(names, table.header());
+}
+
+// A run with every table that there is, and a comparison of it.
+void MakeTables(const TemporaryFolder& place) {
+  const Outcome run = Halfstep(
+      place.path(), {"run", ShippedConfig("fig3_two_half_steps"), "--out", "run", "--quiet",
+                     "--set", "smoothing.methods=[dichotomy, halfstep/barrier]", "--set",
+                     "smoothing.optimizer.program=pareto", "--set",
+                     "smoothing.optimizer.pareto_points=2", "--set", "output.period_s=0.02"});
+  ASSERT_EQ(run.status, kSuccess) << run.err;
+  const Outcome plain =
+      Halfstep(place.path(), {"run", ShippedConfig("fig3_two_half_steps"), "--out", "raw",
+                              "--quiet", "--set", "smoothing.methods=[]"});
+  ASSERT_EQ(plain.status, kSuccess) << plain.err;
+  for (const std::string name : {"run", "raw"}) {
+    const Outcome compared =
+        Halfstep(place.path(), {"compare", name, "--out", "compared-" + name, "--quiet"});
+    ASSERT_EQ(compared.status, kSuccess) << compared.err;
+  }
+}
+
+TEST(CsvSchema, StandsBesideEveryCsvAndFitsIt) {
+  const TemporaryFolder place;
+  MakeTables(place);
+  int files = 0;
+  for (const std::string& file : FilesBelow(place.path())) {
+    if (!file.ends_with(".csv")) continue;
+    CheckSchema(place / file);
+    ++files;
+  }
+  EXPECT_EQ(files, (2 + 3 + 5 + 6) + (2 + 3) + 2 * 4);  // run, raw, comparisons
+}
+
+TEST(CsvSchema, CertifyWritesItAnew) {
+  const TemporaryFolder place;
+  ASSERT_EQ(Halfstep(place.path(), {"run", ShippedConfig("fig3_two_half_steps"), "--out", "run",
+                                    "--quiet", "--set", "smoothing.methods=[]"})
+                .status,
+            kSuccess);
+  fs::remove(place / "run/raw/certificate.schema.json");
+  ASSERT_EQ(Halfstep(place.path(), {"certify", "run", "--quiet"}).status, kSuccess);
+  CheckSchema(place / "run/raw/certificate.csv");
+}
+
+// With the Python that has pandas, in one plain read_csv.
+TEST(CsvSchema, PandasGivesEveryColumnItsType) {
+  std::string python;
+  for (const std::string candidate : {"/usr/bin/python3", "python3"}) {
+    const std::string look = candidate + " -c 'import pandas' >/dev/null 2>&1";
+    if (python.empty() && std::system(look.c_str()) == 0) python = candidate;
+  }
+  if (python.empty()) GTEST_SKIP() << "no Python with pandas";
+  const TemporaryFolder place;
+  MakeTables(place);
+  const std::string check = python + " " HALFSTEP_SOURCE_DIR "/tests/experiments/check_types.py " +
+                            place.path().string() + " >" + (place / "said").string() + " 2>&1";
+  EXPECT_EQ(std::system(check.c_str()), 0) << ReadText(place / "said");
+}
+
+}  // namespace
+}  // namespace halfstep
