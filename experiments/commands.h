@@ -60,6 +60,18 @@ struct CertifyCommand {
 /// in place. kFailed when a walk is not certified. Throws InputError for a run that cannot be read.
 ExitStatus Certify(const CertifyCommand& command);
 
+struct ReportCommand {
+  std::string run;                 ///< a run folder
+  std::optional<std::string> out;  ///< the page; none: report.html in the run folder, renewed
+  bool overwrite = false;          ///< replaces `out` when it is there
+  bool quiet = false;
+};
+
+/// `halfstep report`: the page of a run (report/report.h). kFailed when this build has none. Throws
+/// InputError for a run that cannot be read, also when robot or scene are no longer those of the
+/// run.
+ExitStatus Report(const ReportCommand& command);
+
 struct PlanCommand {
   std::string config;
   std::vector<YamlOverride> overrides;

@@ -113,6 +113,16 @@ int main(int argc, char** argv) {
   verify_app->add_option("--scene", verify.scene, "scene file in place of it, or none");
   verify_app->add_flag("--quiet", verify_quiet, "print nothing but what is wrong");
 
+  ReportCommand report;
+  CLI::App* report_app =
+      app.add_subcommand("report",
+                         "Write a run's report anew: one HTML file that shows its walks.\n\n"
+                         "  example: halfstep report runs/bar_8cm --out bar_8cm.html");
+  report_app->add_option("RUN", report.run, "run folder")->required();
+  report_app->add_option("--out", report.out, "the file (default: report.html in the run folder)");
+  report_app->add_flag("--overwrite", report.overwrite, "replace --out");
+  report_app->add_flag("--quiet", report.quiet, "print nothing but errors");
+
   PlanCommand plan;
   std::vector<std::string> plan_sets;
   CLI::App* plan_app = app.add_subcommand(
@@ -162,7 +172,7 @@ int main(int argc, char** argv) {
   }
   if (app.get_subcommands().empty()) {
     std::cerr << "halfstep: which command? (valid: run, smooth, compare, plan, bake, draw, "
-                 "certify, verify, list; "
+                 "certify, verify, report, list; "
                  "`halfstep -h` explains)\n";
     return kBadInput;
   }
@@ -191,6 +201,7 @@ int main(int argc, char** argv) {
                        : *bake_app            ? Bake(plan)
                        : !plan.config.empty() ? ListHalfSteps(plan)
                        : *certify_app         ? Certify(certify)
+                       : *report_app          ? Report(report)
                        : *verify_app          ? Verify(verify, verify_quiet)
                                               : List(what, list_json);
     if (!std::cout.flush()) throw std::runtime_error("standard output cannot be written");
