@@ -22,10 +22,12 @@ export function footprints(footsteps, sole) {
   return group;
 }
 
+// Seen through the feet that stand on it.
 function dot(radius, colour, order) {
   const group = new THREE.Group();
   group.add(mark(new THREE.CircleGeometry(radius * 1.45, 32), "#ffffff", 1, order));
   group.add(mark(new THREE.CircleGeometry(radius, 32), colour, 1, order + 1));
+  for (const part of group.children) part.material.depthTest = false;
   return group;
 }
 
@@ -62,7 +64,7 @@ export class Actor {
       const made = {
         paths: () => paths(this.walk),
         soles: () => soleTraces(this.walk, this.shapes.json.sole),
-        strobe: () => strobe(this.walk, this.shapes).group,
+        strobe: () => strobe(this.walk, this.shapes),
       }[what]();
       this.extras[what] = onLayer(made, this.layer);
       this.group.add(made);
@@ -89,7 +91,9 @@ export class Actor {
     for (const old of this.polygon.children) old.geometry.dispose();
     this.polygon.clear();
     this.polygon.add(mark(polygonGeometry(hull, 0.003), palette.com, 0.2, 7));
-    this.polygon.add(mark(ribbonGeometry(hull, 0.007, 0.003, true), palette.com, 0.95, 8));
+    const outline = mark(ribbonGeometry(hull, 0.007, 0.003, true), palette.com, 0.95, 8);
+    outline.material.depthTest = false;
+    this.polygon.add(outline);
     onLayer(this.polygon, this.layer);
   }
 }

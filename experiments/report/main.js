@@ -6,6 +6,7 @@ import { plotList } from "./series.js";
 import { Stage } from "./stage.js";
 import { guarantee, junctionTable, scenarioTable, summaryTable } from "./tables.js";
 import { Timeline } from "./timeline.js";
+import { instants } from "./traces.js";
 import { Walk } from "./walk.js";
 
 const byId = (id) => document.getElementById(id);
@@ -14,17 +15,18 @@ const cases = report.cases.map((one) => ({ ...one, walks: one.walks.map((walk) =
 
 const layers = [
   ["footprints", "footprints", true],
-  ["balance", "ZMP, support polygon, CoM", true],
-  ["paths", "paths of CoM and ZMP", false],
-  ["soles", "traces of the swing soles (sampled)", false],
-  ["strobe", "body at equal times (sampled)", false],
+  ["balance", "ZMP, CoM, support polygon", true],
+  ["paths", "paths", false],
+  ["soles", "sole traces (sampled)", false],
+  ["strobe", `body at ${instants} instants`, false],
 ];
 
 let stage = null;
 try {
   stage = new Stage(byId("canvas"), () => redraw());
 } catch {
-  byId("view").replaceChildren("This browser has no WebGL: the walk is not drawn in 3D.");
+  byId("canvas").hidden = byId("scale").hidden = true;
+  byId("no-webgl").hidden = false;
 }
 
 const shapes = report.robots.map((robot) => (stage ? new RobotShapes(robot) : null));
@@ -35,13 +37,22 @@ let walks = []; // A, and B when there is one
 let actors = [];
 let pending = false;
 
+function waistNow(walk) {
+  const at = walk.locate(timeline.t);
+  return [walk.value("waist_x_m", at), walk.value("waist_y_m", at)];
+}
+
 function redraw() {
   if (!stage || pending || actors.length === 0) return;
   pending = true;
   requestAnimationFrame(() => {
     pending = false;
     const beside = actors.length === 2 && byId("layout").value === "beside";
-    stage.draw(beside ? [[1], [2]] : [[1, 2]]);
+    if (!beside) return stage.draw([{ layers: [1, 2], shift: [0, 0] }]);
+    // Each view follows its own robot.
+    const [a, b] = walks.map(waistNow);
+    const shift = byId("follow").checked ? [b[0] - a[0], b[1] - a[1]] : [0, 0];
+    stage.draw([{ layers: [1], shift: [0, 0] }, { layers: [2], shift }]);
   });
 }
 
@@ -49,8 +60,7 @@ function showTime() {
   const t = timeline.t;
   for (const actor of actors) actor.pose(t);
   if (actors.length > 0 && byId("follow").checked) {
-    const at = walks[0].locate(t);
-    stage.followTo(walks[0].value("waist_x_m", at), walks[0].value("waist_y_m", at));
+    stage.followTo(...waistNow(walks[0]));
   }
   ["a", "b"].forEach((name, i) => {
     const walk = walks[i];
@@ -72,9 +82,7 @@ function look() {
   const [x0, x1, y0, y1] = [Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)];
   const extent = Math.hypot(x1 - x0, y1 - y0);
   if (byId("follow").checked) {
-    const at = walks[0].locate(timeline.t);
-    stage.look(byId("camera").value,
-               [walks[0].value("waist_x_m", at), walks[0].value("waist_y_m", at)], 2.75);
+    stage.look(byId("camera").value, waistNow(walks[0]), 2.75);
   } else {
     stage.look(byId("camera").value, [(x0 + x1) / 2, (y0 + y1) / 2], 2.35 + 0.75 * extent);
   }
@@ -117,6 +125,10 @@ function chooseWalks() {
   timeline.setDuration(Math.max(...walks.map((walk) => walk.duration)));
   timeline.showPhases(walks);
   junctionTable(byId("junctions"), walks);
+  const { duration_s: duration, speedup } = a.summary;
+  byId("outcome").textContent = `A: ${duration.toFixed(3)} s` +
+    (a.method === "raw" ? "" : `, ${speedup.toFixed(2)} × as fast as raw`) +
+    (a.certified ? ", proved for all t" : ", not proved");
 }
 
 // The fastest proved walk beside the planned motion.

@@ -9,10 +9,10 @@ export const sky = "#56B4E9";
 export const ink = "#1d2733";
 
 // Muted, for the robot: what is rigid with the waist, and the links of its legs.
-export const trunk = "#c4cad2";
-export const head = "#56606d";
-export const arm = "#a9b2bd";
-export const legs = ["#9dbdd3", "#e9cf9d"];
+export const trunk = "#e1e5ea";
+export const head = "#5d6875";
+export const arm = "#c3cbd4";
+export const legs = ["#a9cbe2", "#f0d9ac"];
 export const feet = [left, right];
 
 /** The colour with an opacity from 0 to 1. */

@@ -23,7 +23,8 @@ function sampled(curve, walk, times) {
 }
 
 class Plot {
-  constructor(parent, spec, walks, onSeek, onZoom) {
+  constructor(parent, spec, walks, last, onSeek, onZoom) {
+    this.last = last; // with the numbers of the time axis
     this.spec = spec;
     this.walks = walks;
     const head = element("div", "plot-head");
@@ -49,7 +50,7 @@ class Plot {
     this.note = element("span", "note");
     head.append(this.note);
     this.body = element("div", "plot-body");
-    this.root = element("div", "plot");
+    this.root = element("div", last ? "plot last" : "plot");
     this.root.append(head, this.body);
     parent.append(this.root);
     this.make(onSeek, onZoom);
@@ -91,7 +92,7 @@ class Plot {
         cursor: { show: false },
         scales: { x: { time: false }, y: { range } },
         axes: [
-          { ...axis, size: 20 },
+          this.last ? { ...axis, size: 20 } : { ...axis, size: 5, values: (_, s) => s.map(() => "") },
           { ...axis, size: 44, space: 22 },
         ],
         series,
@@ -148,7 +149,7 @@ class Plot {
     const at = walk.locate(t);
     for (const { curve, value } of this.keys) {
       const number = curve.value(walk, at);
-      value.textContent = Number.isFinite(number) ? curve.text(number) : "–";
+      if (curve.text) value.textContent = Number.isFinite(number) ? curve.text(number) : "–";
     }
     if (this.spec.note) this.note.textContent = this.spec.note(walk, at);
     const x = this.u.valToPos(t, "x");
@@ -175,7 +176,8 @@ export class Plots {
         plot.showTime(plot.t);
       }
     };
-    this.plots = specs.map((spec) => new Plot(this.parent, spec, walks, this.onSeek, zoom));
+    this.plots = specs.map((spec, i) =>
+      new Plot(this.parent, spec, walks, i === specs.length - 1, this.onSeek, zoom));
     const axisLabel = element("div", "axis-label", "time [s]");
     this.parent.append(axisLabel);
     this.resize();

@@ -24,11 +24,11 @@ function jointSpeeds(robot, limits) {
   const highest = (walk, at) => {
     const ratios = joints.map((joint) => ratio(joint)(walk, at));
     const i = ratios.indexOf(Math.max(...ratios));
-    return i < 0 ? "" : `${joints[i].name} ${(ratios[i] * joints[i].limit).toFixed(2)} of ` +
+    return i < 0 ? "" : `highest: ${joints[i].name} ${(ratios[i] * joints[i].limit).toFixed(2)} of ` +
       `${joints[i].limit.toFixed(2)} rad/s`;
   };
   return {
-    title: "Joint speeds, of their limits [–]",
+    title: "Joint speeds / limits [–]",
     level: { value: 1, colour: palette.limit },
     least: [0, 1.05],
     curves: joints.map((joint) => ({
@@ -48,15 +48,15 @@ const marginColumns = [
   ["clearance", "clearance_m", "obstacles", palette.ink],
   ["self_clearance", "self_clearance_m", "self", palette.second],
   ["joint", "joint_margin_rad", "joints", palette.com],
-  ["joint_speed", "joint_speed_margin_rad_s", "joint speeds", palette.sky],
+  ["joint_speed", "joint_speed_margin_rad_s", "joint speed", palette.sky],
   ["foot_speed", "foot_speed_margin_m_s", "foot speed", palette.right],
 ];
 
 function margins(families, demanded) {
   const unitOf = Object.fromEntries(families.map((family) => [family.name, family]));
   return {
-    title: "Margins beyond what is demanded [scales]",
-    hint: marginColumns.map(([name, , label]) =>
+    title: "Slack [scales]",
+    hint: "(margin − demanded) / scale; " + marginColumns.map(([name, , label]) =>
       `${label}: 1 = ${unitOf[name].scale} ${unitOf[name].unit}`).join(", "),
     level: { value: 0, colour: palette.limit },
     fixed: [-0.6, 6],
@@ -65,7 +65,6 @@ function margins(families, demanded) {
       colour,
       value: (walk, at) =>
         (walk.value(column, at) - (demanded[name] ?? 0)) / unitOf[name].scale,
-      text: (v) => `${(v * unitOf[name].scale).toPrecision(2)} ${unitOf[name].unit}`,
     })),
     onlyFirst: true,
   };

@@ -13,35 +13,40 @@ export function onLayer(object, layer) {
   return object;
 }
 
+// Shadows and a grid; else the floor has the colour of the sky.
 function floor() {
   const group = new THREE.Group();
-  const plane = new THREE.Mesh(
-    new THREE.PlaneGeometry(60, 60),
-    new THREE.MeshStandardMaterial({
-      color: "#fbfcfd", roughness: 1, polygonOffset: true, polygonOffsetFactor: 2,
-      polygonOffsetUnits: 2,
-    }),
-  );
+  const shadows = new THREE.ShadowMaterial({ color: "#2b3a4d", opacity: 0.2 });
+  const plane = new THREE.Mesh(new THREE.PlaneGeometry(60, 60), shadows);
   plane.receiveShadow = true;
+  plane.position.z = -0.002;
+  plane.renderOrder = -2;
   group.add(plane);
-  for (const [size, count, colour] of [[16, 160, "#e3e7ec"], [60, 60, "#c3cad3"]]) {
-    const grid = new THREE.GridHelper(size, count, colour, colour);
+  for (const [size, count, opacity] of [[16, 160, 0.16], [60, 60, 0.42]]) {
+    const grid = new THREE.GridHelper(size, count, "#5f7084", "#5f7084");
+    Object.assign(grid.material, { transparent: true, opacity, depthWrite: false });
     grid.rotation.x = Math.PI / 2;
-    grid.material.depthWrite = false;
+    grid.renderOrder = -1;
     group.add(grid);
   }
   return group;
 }
 
+// Drawn last, so that they hide what is seen through the feet; robots show faintly through them.
 function obstacles(json) {
   const group = new THREE.Group();
-  const material = new THREE.MeshStandardMaterial({ color: "#b7a58c", roughness: 0.85 });
+  const material = new THREE.MeshStandardMaterial({
+    color: "#b7a58c", roughness: 0.85, transparent: true, opacity: 0.84,
+  });
   const edges = new THREE.LineBasicMaterial({ color: "#6d5f4b", transparent: true, opacity: 0.7 });
   for (const obstacle of json.obstacles) {
     const geometry = meshGeometry(obstacle);
     const mesh = new THREE.Mesh(geometry, material);
     mesh.castShadow = mesh.receiveShadow = true;
-    mesh.add(new THREE.LineSegments(new THREE.EdgesGeometry(geometry, 32), edges));
+    mesh.renderOrder = 20;
+    const lines = new THREE.LineSegments(new THREE.EdgesGeometry(geometry, 32), edges);
+    lines.renderOrder = 21;
+    mesh.add(lines);
     group.add(mesh);
   }
   for (const polygon of json.no_step) {
@@ -70,8 +75,8 @@ export class Stage {
     this.scene = new THREE.Scene();
     this.scene.background = new THREE.Color(sky);
     this.scene.fog = new THREE.Fog(sky, 9, 22);
-    this.scene.add(new THREE.HemisphereLight("#ffffff", "#b9c0c9", 1.9));
-    this.sun = new THREE.DirectionalLight("#ffffff", 1.9);
+    this.scene.add(new THREE.HemisphereLight("#ffffff", "#b3bac4", 2.1));
+    this.sun = new THREE.DirectionalLight("#fffaf2", 1.7);
     this.sun.castShadow = true;
     this.sun.shadow.mapSize.set(2048, 2048);
     this.sun.shadow.radius = 3;
@@ -102,7 +107,6 @@ export class Stage {
     this.controls.target.set(x, y, name === "top" ? 0 : 0.68);
     this.camera.position.copy(this.controls.target).addScaledVector(direction, distance);
     this.controls.update();
-    this.light();
   }
 
   /** Moves what the camera looks at to another point of the floor. */
@@ -113,16 +117,17 @@ export class Stage {
     this.controls.target.y += dy;
     this.camera.position.x += dx;
     this.camera.position.y += dy;
-    this.light();
   }
 
-  light() {
-    const { x, y } = this.controls.target;
+  light({ x, y }) {
     this.sun.target.position.set(x, y, 0.4);
-    this.sun.position.set(x - 1.6, y - 2.4, 5);
+    this.sun.position.set(x + 2.6, y - 2.0, 5);
   }
 
-  /** Draws the layers of each view, side by side. */
+  /**
+   * Draws views side by side: each has its layers, and may be moved by [x, y] along the floor from
+   * where the camera is.
+   */
   draw(views) {
     const width = this.canvas.clientWidth;
     const height = this.canvas.clientHeight;
@@ -132,12 +137,18 @@ export class Stage {
     const part = width / views.length;
     this.camera.aspect = part / height;
     this.camera.updateProjectionMatrix();
-    views.forEach((layers, i) => {
+    const home = this.camera.position.clone();
+    views.forEach(({ layers, shift: [x, y] }, i) => {
+      this.camera.position.set(home.x + x, home.y + y, home.z);
+      this.camera.updateMatrixWorld();
+      this.light({ x: this.controls.target.x + x, y: this.controls.target.y + y });
       this.camera.layers.set(0);
       for (const layer of layers) this.camera.layers.enable(layer);
       this.renderer.setViewport(i * part, 0, part, height);
       this.renderer.setScissor(i * part, 0, part, height);
       this.renderer.render(this.scene, this.camera);
     });
+    this.camera.position.copy(home);
+    this.camera.updateMatrixWorld();
   }
 }

@@ -1,4 +1,5 @@
 // The tables below the stage. Everything is set as text.
+const seconds = (value) => value.toFixed(3);
 const number = (value, digits = 4) =>
   typeof value === "number" ? String(Number(value.toPrecision(digits))) : value ?? "–";
 
@@ -21,12 +22,13 @@ function table(header, rows) {
     element("table", {}, element("thead", {}, head), element("tbody", {}, ...body)));
 }
 
-function bar(fraction, className, text = "") {
+function bar(fraction, className) {
   const fill = element("i", { className });
   fill.style.width = `${Math.max(0, Math.min(1, fraction)) * 100}%`;
-  return element("span", { className: "meter" }, fill, element("em", { text }));
+  return element("span", { className: "meter" }, fill);
 }
 
+const family = (name) => name.replaceAll("_", " ");
 const verdict = (walk) =>
   walk.certified ? element("span", { className: "yes", text: "✓ proved" })
     : element("span", { className: "no", text: "✗ not proved" });
@@ -40,15 +42,15 @@ export function summaryTable(parent, walks, families) {
     const s = walk.summary;
     const last = compared
       ? [walk.gap === null || walk.gap === undefined ? "–" : `${number(100 * walk.gap, 3)} %`]
-      : [`${number(s.worst_margin, 3)} ${unit[s.worst_margin_name] ?? ""} ${s.worst_margin_name}`,
+      : [`${family(s.worst_margin_name)} ${number(s.worst_margin, 3)} ${unit[s.worst_margin_name] ?? ""}`,
          number(s.iterations), number(s.margin_evaluations)];
     return [walk.label, s.status, verdict(walk),
-            bar(s.duration_s / longest, "a", number(s.duration_s)), number(s.speedup, 3),
+            seconds(s.duration_s), bar(s.duration_s / longest, "a"), s.speedup.toFixed(2),
             ...last, number(s.wall_s, 3)];
   });
   parent.replaceChildren(
     element("h2", { text: "Methods" }),
-    table(["method", "status", "for all t", "duration [s]", "speed-up",
+    table(["method", "status", "for all t", "duration [s]", "", "speed-up",
            ...(compared ? ["gap to the best"] : ["worst margin", "candidates", "instants evaluated"]),
            "run time [s]"], rows),
   );
@@ -65,7 +67,7 @@ export function scenarioTable(cases) {
       if (!walk) return "–";
       if (!walk.certified) return element("span", { className: "no", text: "✗" });
       const isBest = walk.summary.cost === best;
-      return element("span", { text: number(walk.summary.duration_s), className: isBest ? "best" : "" });
+      return element("span", { text: seconds(walk.summary.duration_s), className: isBest ? "best" : "" });
     })];
   });
   return [element("h2", { text: "Scenarios: durations [s] of the proved walks" }),
@@ -93,12 +95,12 @@ export function junctionTable(parent, [a, b]) {
       meter.append(second);
     }
     return [number(row.junction), row.kind === "up_down" ? "up → down" : "down → up", meter,
-            number(row.overlap_s, 3), number(row.upper_bound_s, 3), row.active,
-            row.price_s === null ? "" : number(row.price_s, 2)];
+            seconds(row.overlap_s), seconds(row.upper_bound_s),
+            row.price_s === null ? "" : seconds(row.price_s), row.active];
   });
   parent.replaceChildren(title,
     table(["junction", "kind", "overlap and its bound", "overlap [s]", "bound [s]",
-           "held by", "price [s]"], rows),
+           "price [s]", "held by"], rows),
     element("p", { className: "small", text: "Price: how much shorter the walk would be if one scale " +
       "less were demanded of what holds the overlap, by this overlap alone, to first order." }));
 }
@@ -109,17 +111,17 @@ export function guarantee(parent, statement, walks) {
   const list = shown.map((walk) => {
     const c = walk.certificate;
     const count = Object.values(c.statements).reduce((a, b) => a + b, 0);
-    return [walk.label, verdict(walk), c.message, number(count)];
+    return [walk.label, verdict(walk), number(count), c.message];
   });
   const one = shown[0]?.certificate;
   const limits = { foot_speed: one?.limits.foot_speed_m_s, foot_yaw_rate: one?.limits.foot_yaw_rate_rad_s };
-  const demanded = Object.entries(one?.demanded ?? {}).map(([family, value]) =>
-    `${family.replaceAll("_", " ")} ≥ ${number(value)}` +
-    (limits[family] ? ` (limit ${number(limits[family])})` : ""));
+  const demanded = Object.entries(one?.demanded ?? {}).map(([name, value]) =>
+    `${family(name)} ≥ ${number(value)}` +
+    (limits[name] ? ` (limit ${number(limits[name])})` : ""));
   parent.replaceChildren(
     element("h2", { text: "What is guaranteed" }),
     element("p", { text: statement }),
-    table(["method", "verdict", "", "statements at every instant"], list),
+    table(["method", "verdict", "statements at every instant", ""], list),
     element("p", { className: "small", text: demanded.length ? `Demanded [m, rad, s]: ${demanded.join(", ")}.` : "" }),
   );
 }

@@ -45,15 +45,16 @@ export function soleTraces(walk, [, width]) {
   return group;
 }
 
-/** The whole robot at equal times, at most 40 of them; `period` [s] is how far they are apart. */
+export const instants = 40;
+
+/** The whole robot at so many equally spaced instants. */
 export function strobe(walk, shapes) {
   const group = new THREE.Group();
-  const period = Math.max(0.25, Math.ceil(walk.duration / 40 / 0.25) * 0.25);
   const material = ghostMaterial(palette.sky, 0.12);
-  for (let t = 0; t <= walk.duration; t += period) {
+  for (let i = 0; i < instants; ++i) {
     const figure = new RobotFigure(shapes, material);
-    figure.pose(walk, walk.locate(t));
+    figure.pose(walk, walk.locate((walk.duration * i) / (instants - 1)));
     group.add(figure.group);
   }
-  return { group, period };
+  return group;
 }

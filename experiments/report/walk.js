@@ -30,7 +30,9 @@ export class Walk {
 
   get label() {
     const plain = this.variables === "" || this.variables === "overlaps";
-    return plain ? this.method : `${this.method} (${this.variables.replaceAll("+", ", ")})`;
+    const symbols = this.variables.split("+").map((name) =>
+      ({ overlaps: "Δ", heights: "η", durations: "T" })[name] ?? name);
+    return plain ? this.method : `${this.method} (${symbols.join(", ")})`;
   }
 
   column(name) {

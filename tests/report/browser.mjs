@@ -16,8 +16,8 @@ const flags = [
 ];
 
 export class Browser {
-  /** A window whose page is `width` times `height` pixels. */
-  static async open(width, height) {
+  /** A window whose page is `width` times `height` pixels. `more`: further flags. */
+  static async open(width, height, more = []) {
     const browser = new Browser();
     browser.profile = mkdtempSync(join(tmpdir(), "halfstep_browser_"));
     browser.driver = spawn("chromedriver", ["--port=0"], { stdio: ["ignore", "pipe", "ignore"] });
@@ -31,7 +31,7 @@ export class Browser {
       browser.driver.on("exit", () => reject(new Error(`chromedriver ended: ${text}`)));
     });
     browser.url = `http://127.0.0.1:${port}/session`;
-    const options = { args: [...flags, `--user-data-dir=${browser.profile}`] };
+    const options = { args: [...flags, ...more, `--user-data-dir=${browser.profile}`] };
     const session = await browser.send("POST", "", {
       capabilities: {
         alwaysMatch: {
