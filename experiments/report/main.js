@@ -84,7 +84,7 @@ function look() {
   if (byId("follow").checked) {
     stage.look(byId("camera").value, waistNow(walks[0]), 2.75);
   } else {
-    stage.look(byId("camera").value, [(x0 + x1) / 2, (y0 + y1) / 2], 2.35 + 0.75 * extent);
+    stage.look(byId("camera").value, [(x0 + x1) / 2, (y0 + y1) / 2], 2.3 + 0.62 * extent);
   }
   redraw();
 }
