@@ -72,6 +72,14 @@ export class Actor {
     if (this.extras[what]) this.extras[what].visible = visible;
   }
 
+  /** Frees what the graphics card holds; shapes that others share come back when they are drawn. */
+  dispose() {
+    this.group.traverse((part) => {
+      part.geometry?.dispose();
+      part.material?.dispose();
+    });
+  }
+
   /** At a time [s]; after its end the walk stands. */
   pose(t) {
     const at = this.walk.locate(t);

@@ -36,7 +36,8 @@ const licences = ["three", "uplot"]
   .join("\n\n\n");
 
 // Only this script and this style run, and nothing is fetched: whatever a run's files are named.
-const policy = `default-src 'none'; script-src ${hash(script)}; style-src ${hash(style)}; img-src data:`;
+const policy = `default-src 'none'; script-src ${hash(script)}; style-src ${hash(style)}; ` +
+  "img-src data:; base-uri 'none'; form-action 'none'";
 
 const parts = {
   "@POLICY@": policy,

@@ -1,5 +1,6 @@
 #include "experiments/report/drawn_mesh.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -100,7 +101,7 @@ TriangleMesh Coarsened(const TriangleMesh& mesh, int most) {
   if (mesh.triangles.cols() <= most) return mesh;
   const Eigen::Vector3d size =
       mesh.vertices.rowwise().maxCoeff() - mesh.vertices.rowwise().minCoeff();
-  for (double cell = size.maxCoeff() / 256.0;; cell *= 1.25) {
+  for (double cell = std::max(size.maxCoeff() / 256.0, 1e-6);; cell *= 1.25) {
     const TriangleMesh joined = Joined(mesh, cell);
     if (joined.triangles.cols() <= most) return joined;
   }

@@ -1,5 +1,6 @@
 // Brings a report's data and the page together.
 import { Actor, footprints } from "./actor.js";
+import { anytimePlot } from "./anytime.js";
 import { Plots } from "./plots.js";
 import { RobotShapes } from "./robot.js";
 import { plotList } from "./series.js";
@@ -91,7 +92,10 @@ function look() {
 
 function stageWalks() {
   if (!stage) return;
-  for (const actor of actors) stage.scene.remove(actor.group);
+  for (const actor of actors) {
+    stage.scene.remove(actor.group);
+    actor.dispose();
+  }
   const ghost = byId("layout").value === "ghost";
   actors = walks.map((walk, i) =>
     new Actor(walk, shapes[current.robot], i + 1, ghost && i === 1));
@@ -150,9 +154,8 @@ function chooseCase(index) {
   const raw = drawn.findIndex((walk) => walk.method === "raw");
   byId("method-b").selectedIndex = raw === first ? 0 : raw + 1;
   summaryTable(byId("summary"), current.walks, report.families);
-  if (cases.length > 1 || report.kind === "comparison") {
-    byId("summary").append(...scenarioTable(cases));
-  }
+  if (cases.length > 1) byId("summary").append(...scenarioTable(cases));
+  anytimePlot(byId("anytime"), current.walks);
   guarantee(byId("guarantee"), report.statement, current.walks);
   byId("stage").hidden = byId("plots").hidden = drawn.length === 0;
   const halfSteps = drawn[0]?.halfSteps.length;
@@ -175,7 +178,8 @@ function chooseCase(index) {
 }
 
 function start() {
-  const title = report.name ?? `Comparison of ${cases.length} scenario${cases.length === 1 ? "" : "s"}`;
+  const title = report.name ??
+    (cases.length === 1 ? `${cases[0].scenario}, compared` : `Comparison of ${cases.length} scenarios`);
   document.title = `${title} – halfstep`;
   byId("title").textContent = title;
   for (const [name, label, checked] of layers) {

@@ -15,6 +15,9 @@ export const arm = "#c3cbd4";
 export const legs = ["#a9cbe2", "#f0d9ac"];
 export const feet = [left, right];
 
+/** For things that have no order, one after the other. */
+export const sequence = [left, zmp, com, second, right, sky, "#000000"];
+
 /** The colour with an opacity from 0 to 1. */
 export function faded(colour, opacity) {
   return colour + Math.round(255 * opacity).toString(16).padStart(2, "0");

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "experiments/certificate_files.h"
 #include "experiments/certificate_statement.h"
 #include "experiments/csv_reader.h"
-#include "experiments/experiment.h"
 #include "experiments/report/report_page.h"
 #include "experiments/report/report_place.h"
 #include "experiments/report/report_walk.h"
@@ -57,8 +57,7 @@ json CaseOf(const std::string& scenario, const fs::path& run, const RobotModel& 
   return {{"scenario", scenario},
           {"robot", IndexIn(&(*report)["robots"], RobotJson(robot))},
           {"scene", IndexIn(&(*report)["scenes"], SceneJson(scene))},
-          {"footsteps", RowsJson(run / "footsteps.csv")},
-          {"walks", json::array()}};
+          {"footsteps", RowsJson(run / "footsteps.csv")}};
 }
 
 json SummaryOf(const MethodRecord& record) {
@@ -71,35 +70,72 @@ json SummaryOf(const MethodRecord& record) {
           {"wall_s", Shortened(record.wall, 6)}};
 }
 
+// Walks are drawn with today's files; these must be those that they were made for.
+void CheckSame(const std::vector<std::string>& files, const std::string& what,
+               const fs::path& run) {
+  const fs::path path = run / "raw" / "certificate.json";
+  const json hash = ReadJsonObject(path).value(json::json_pointer("/sha256/" + what), json());
+  if (hash == HashOfFiles(files)) return;
+  throw InputError({path.string() + ": the files of the " + what +
+                    " are not those of this run (valid: as they were when it was made)"});
+}
+
 // The method's folder in its run, of a name that may have a label.
 fs::path FolderOf(const MethodRecord& record) {
   const std::string name = record.name.substr(record.name.find(':') + 1);
   return fs::path(record.run) / MethodFolder(name);
 }
 
-json CaseOf(const ComparedCase& one, double spacing, json* report) {
-  const fs::path run(one.methods.front().record.run);
-  json result;
-  bool drawn = true;
-  try {
-    const Place place = LoadPlace(LoadConfig((run / "config.yaml").string(), {}));
-    result = CaseOf(one.scenario, run, place.robot, place.scene, report);
-  } catch (const InputError& error) {
-    drawn = false;
-    result = {{"scenario", one.scenario}, {"walks", json::array()}, {"not_drawn", error.what()}};
+// [wall time, duration] of each incumbent that is shorter than the one before [s].
+json ImprovementsOf(const MethodRecord& record) {
+  json improvements = json::array();
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const IncumbentRecord& incumbent : record.incumbents) {
+    if (!(incumbent.duration < shortest)) continue;
+    shortest = incumbent.duration;
+    improvements.push_back({Shortened(incumbent.wall), Shortened(incumbent.duration, 6)});
+  }
+  return improvements;
+}
+
+// A case with what is drawn of each walk; empty: nothing is.
+json WithTables(json result, const ComparedCase& one, std::vector<json> drawn) {
+  drawn.resize(one.methods.size(), json::object());
+  for (size_t i = 0; i < drawn.size(); ++i) {
+    const ComparedMethod& method = one.methods[i];
+    drawn[i]["summary"] = SummaryOf(method.record);
+    drawn[i]["variables"] = method.record.variables;
+    drawn[i]["improvements"] = ImprovementsOf(method.record);
+    drawn[i]["gap"] = std::isfinite(method.gap) ? json(Shortened(method.gap)) : json(nullptr);
   }
   result["objective"] = one.objective;
-  for (const ComparedMethod& method : one.methods) {
-    json walk = drawn ? WalkJson(FolderOf(method.record), spacing) : json::object();
-    walk["summary"] = SummaryOf(method.record);
-    walk["variables"] = method.record.variables;
-    walk["gap"] = std::isfinite(method.gap) ? json(Shortened(method.gap)) : json(nullptr);
-    result["walks"].push_back(std::move(walk));
-  }
+  result["walks"] = std::move(drawn);
   return result;
 }
 
+json CaseOf(const ComparedCase& one, double spacing, json* report) {
+  const fs::path run(one.methods.front().record.run);
+  try {
+    const Place place = PlaceOfRun(run);
+    std::vector<json> walks;
+    for (const ComparedMethod& method : one.methods) {
+      walks.push_back(WalkJson(FolderOf(method.record), spacing));
+    }
+    return WithTables(CaseOf(one.scenario, run, place.robot, place.scene, report), one,
+                      std::move(walks));
+  } catch (const InputError& error) {
+    return WithTables({{"scenario", one.scenario}, {"not_drawn", error.what()}}, one, {});
+  }
+}
+
 }  // namespace
+
+Place PlaceOfRun(const fs::path& run) {
+  Place place = LoadPlace(LoadConfig((run / "config.yaml").string(), {}));
+  CheckSame(place.robot.files, "robot", run);
+  CheckSame(place.scene.files, "scene", run);
+  return place;
+}
 
 std::string RunReport(const RobotModel& robot, const Scene& scene, const fs::path& folder) {
   const json manifest = ReadJsonObject(folder / "manifest.json");

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "experiments/comparison.h"
+#include "experiments/experiment.h"
 #include "experiments/run_folder.h"
 #include "planner/scene.h"
 #include "wpg/robot_model.h"
@@ -20,8 +21,12 @@ std::string RunReport(const RobotModel& robot, const Scene& scene,
 /// HasReport().
 void WriteReport(const RobotModel& robot, const Scene& scene, RunFolder* folder);
 
-/// report.html of a comparison: all walks of all its scenarios. A scenario whose robot or scene can
-/// no longer be read keeps its tables; the page says why it is not drawn.
+/// The robot and the scene of a run. Throws InputError when they cannot be read, or when their
+/// files are not those that the run's certificate names by their hash.
+Place PlaceOfRun(const std::filesystem::path& run);
+
+/// report.html of a comparison: all walks of all its scenarios. A scenario that can no longer be
+/// drawn (robot, scene or trajectories are gone or changed) keeps its tables; the page says why.
 std::string ComparisonReport(const Comparison& comparison);
 
 }  // namespace halfstep

@@ -2,32 +2,15 @@
 #include <iostream>
 #include <stdexcept>
 
-#include "experiments/certificate_files.h"
 #include "experiments/commands.h"
-#include "experiments/experiment.h"
 #include "experiments/report/report.h"
 #include "experiments/report/report_page.h"
-#include "experiments/report/report_walk.h"
 #include "planner/whole_file.h"
 #include "wpg/input/input_error.h"
 
 namespace halfstep {
-namespace {
 
 namespace fs = std::filesystem;
-
-// The walks are drawn with today's files; these must be those that they were made for.
-void CheckSame(const std::vector<std::string>& files, const std::string& what,
-               const fs::path& run) {
-  const fs::path path = run / "raw" / "certificate.json";
-  const nlohmann::json hash =
-      ReadJsonObject(path).value(nlohmann::json::json_pointer("/sha256/" + what), nlohmann::json());
-  if (hash == HashOfFiles(files)) return;
-  throw InputError({path.string() + ": the files of the " + what +
-                    " are not those of this run (valid: as they were when it was made)"});
-}
-
-}  // namespace
 
 ExitStatus Report(const ReportCommand& command) {
   const fs::path run(command.run);
@@ -45,9 +28,7 @@ ExitStatus Report(const ReportCommand& command) {
   if (command.out && !command.overwrite && fs::exists(fs::symlink_status(out))) {
     throw std::runtime_error(out.string() + ": is there already (--overwrite replaces it)");
   }
-  const Place place = LoadPlace(LoadConfig((run / "config.yaml").string(), {}));
-  CheckSame(place.robot.files, "robot", run);
-  CheckSame(place.scene.files, "scene", run);
+  const Place place = PlaceOfRun(run);
   WriteWholeFile(out.string(), {RunReport(place.robot, place.scene, run)});
   if (!command.quiet) std::cout << "written: " << out.string() << '\n';
   return kSuccess;

@@ -16,6 +16,7 @@ export class Walk {
     this.method = json.summary.method;
     this.variables = json.variables ?? "";
     this.gap = json.gap;
+    this.improvements = json.improvements ?? [];
     this.overlaps = json.overlaps ?? [];
     this.halfSteps = json.half_steps ?? [];
     this.certificate = json.certificate;

@@ -158,16 +158,16 @@ TEST_F(ReportTest, RefusesWhatIsNoLongerTheRun) {
   EXPECT_THAT(refusal(), HasSubstr("run: no such run folder"));
 }
 
-TEST_F(ReportTest, ComparisonWithoutItsSceneKeepsItsTables) {
+TEST_F(ReportTest, ComparisonWithAnotherSceneKeepsItsTables) {
   MakeRun();
   ASSERT_EQ(Halfstep(place_.path(), {"compare", "run", "--out", "one"}).status, kSuccess);
   const json drawn = DataOf(ReadText(place_ / "one/report.html"))["cases"][0];
   EXPECT_EQ(drawn["walks"].size(), 3u);
   EXPECT_TRUE(drawn["walks"][2].contains("columns"));
-  fs::remove(place_ / "box.yaml");
+  WriteText(place_ / "box.yaml", ReadText(place_ / "box.yaml") + "# changed\n");
   ASSERT_EQ(Halfstep(place_.path(), {"compare", "run", "--out", "two"}).status, kSuccess);
   const json tables = DataOf(ReadText(place_ / "two/report.html"))["cases"][0];
-  EXPECT_THAT(tables["not_drawn"].get<std::string>(), HasSubstr("box.yaml"));
+  EXPECT_THAT(tables["not_drawn"].get<std::string>(), HasSubstr("the files of the scene"));
   EXPECT_EQ(tables["walks"][1]["summary"], drawn["walks"][1]["summary"]);
   EXPECT_FALSE(tables["walks"][2].contains("columns"));
 }
