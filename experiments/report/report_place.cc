@@ -1,5 +1,6 @@
 #include "experiments/report/report_place.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -12,8 +13,8 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kDecimals = 1e4;  // of metres
-constexpr int kMostTriangles = 20000;
+constexpr double kDecimals = 1e4;      // of metres
+constexpr int kMostTriangles = 20000;  // of all meshes of a scene
 
 json Vector(const Eigen::Vector3d& v, int digits) {
   return {Shortened(v.x(), digits), Shortened(v.y(), digits), Shortened(v.z(), digits)};
@@ -74,13 +75,16 @@ json RobotJson(const RobotModel& robot) {
 
 json SceneJson(const Scene& scene) {
   json obstacles = json::array(), areas = json::array();
+  const auto meshes = std::count_if(
+      scene.obstacles.begin(), scene.obstacles.end(),
+      [](const Obstacle& o) { return std::holds_alternative<TriangleMesh>(o.shape); });
+  const int most = kMostTriangles / std::max(1, static_cast<int>(meshes));
   for (const Obstacle& obstacle : scene.obstacles) {
     const auto* mesh = std::get_if<TriangleMesh>(&obstacle.shape);
-    json drawn = MeshJson(mesh != nullptr ? Coarsened(*mesh, kMostTriangles)
-                                          : DrawnMesh(std::get<ConvexBody>(obstacle.shape)),
-                          obstacle.X_WO);
+    json drawn = MeshJson(
+        mesh != nullptr ? Coarsened(*mesh, most) : DrawnMesh(std::get<ConvexBody>(obstacle.shape)),
+        obstacle.X_WO);
     drawn["name"] = obstacle.name;
-    if (mesh != nullptr && mesh->triangles.cols() > kMostTriangles) drawn["coarser"] = true;
     obstacles.push_back(std::move(drawn));
   }
   for (const Eigen::Matrix2Xd& polygon : scene.no_step) {
