@@ -13,15 +13,6 @@ namespace {
 
 using nlohmann::ordered_json;
 
-std::string HashOfFiles(const std::vector<std::string>& files) {
-  std::string bytes;
-  for (const std::string& file : files) {
-    std::ifstream in(file, std::ios::binary);
-    bytes.append(std::istreambuf_iterator<char>(in), {});
-  }
-  return Sha256(bytes);
-}
-
 ordered_json OrNull(const std::optional<double>& value) {
   return value ? ordered_json(*value) : ordered_json(nullptr);
 }
@@ -113,6 +104,15 @@ void WriteCertificate(const Experiment& experiment, const CertifiedFeasibility& 
   WriteCsv(place + "certificate", csv, folder);
   folder->Write(place + "certificate.json",
                 CertificateJson(experiment, test, walk, folder->path(), trajectory_csv, csv.text));
+}
+
+std::string HashOfFiles(const std::vector<std::string>& files) {
+  std::string bytes;
+  for (const std::string& file : files) {
+    std::ifstream in(file, std::ios::binary);
+    bytes.append(std::istreambuf_iterator<char>(in), {});
+  }
+  return Sha256(bytes);
 }
 
 std::string MethodFolder(std::string method) {

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "experiments/certificate_statement.h"
 #include "experiments/csv_columns.h"
@@ -38,6 +39,10 @@ std::string CertificateJson(const Experiment& experiment, const CertifiedFeasibi
 void WriteCertificate(const Experiment& experiment, const CertifiedFeasibility& test,
                       const CertifiedWalk& walk, const std::string& trajectory_csv,
                       const std::string& place, RunFolder* folder);
+
+/// SHA-256 of the bytes of files, one after the other, as certificate.json has it of the robot's
+/// and of the scene's.
+std::string HashOfFiles(const std::vector<std::string>& files);
 
 /// dichotomy/published is a method's name; its folder in a run is dichotomy_published.
 std::string MethodFolder(std::string method);

@@ -6,6 +6,7 @@
 #include "experiments/commands.h"
 #include "experiments/csv_reader.h"
 #include "experiments/experiment.h"
+#include "experiments/report/report.h"
 #include "experiments/result_tables.h"
 #include "experiments/run_folder.h"
 #include "wpg/input/input_error.h"
@@ -86,6 +87,7 @@ ExitStatus Certify(const CertifyCommand& command) {
       std::cout << ": " << evaluator.Describe(walk.answer.witness) << '\n';
     }
   }
+  WriteReport(experiment.robot, experiment.scene, &folder);
   folder.Publish();
   if (!command.quiet) std::cout << '\n' << kCertificateStatement << '\n';
   return all_certified ? kSuccess : kFailed;

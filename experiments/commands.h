@@ -88,6 +88,17 @@ struct ReplayCommand {
 /// `halfstep replay`: plays the walks of a run on a simulated robot. kFailed when one falls, and
 /// where no engine is compiled in. Throws InputError.
 ExitStatus Replay(const ReplayCommand& command);
+struct ReportCommand {
+  std::string run;                 ///< a run folder
+  std::optional<std::string> out;  ///< the page; none: report.html in the run folder, renewed
+  bool overwrite = false;          ///< replaces `out` when it is there
+  bool quiet = false;
+};
+
+/// `halfstep report`: the page of a run (report/report.h). kFailed when this build has none. Throws
+/// InputError for a run that cannot be read, also when robot or scene are no longer those of the
+/// run.
+ExitStatus Report(const ReportCommand& command);
 
 struct PlanCommand {
   std::string config;

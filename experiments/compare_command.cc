@@ -3,6 +3,8 @@
 
 #include "experiments/commands.h"
 #include "experiments/comparison_tables.h"
+#include "experiments/report/report.h"
+#include "experiments/report/report_page.h"
 #include "experiments/run_folder.h"
 #include "wpg/input/input_error.h"
 
@@ -44,6 +46,7 @@ ExitStatus CompareRuns(const CompareCommand& command) {
     WriteCsv("anytime", AnytimeCsv(comparison), &folder);
     WriteCsv("means", MeansCsv(comparison), &folder);
     folder.Write("manifest.json", ComparisonManifest(runs));
+    if (HasReport()) folder.Write("report.html", ComparisonReport(comparison));
     folder.Publish();
   }
   if (!command.quiet) {

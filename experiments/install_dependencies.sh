@@ -8,6 +8,9 @@ packages="g++ cmake ninja-build git pkg-config libeigen3-dev libfcl-dev liburdfd
   nlohmann-json3-dev libssl-dev libgtest-dev libgmock-dev libbenchmark-dev
   coinor-libipopt-dev libnlopt-dev libceres-dev $*"
 
+# For the report; a node from elsewhere does as well.
+command -v npm >/dev/null || packages="$packages nodejs npm"
+
 if ! command -v dpkg-query >/dev/null; then
   echo "Not a Debian system: the packages are left to you. Debian calls them" $packages >&2
   exit 0

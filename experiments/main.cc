@@ -146,6 +146,15 @@ int main(int argc, char** argv) {
   replay_app->add_flag("--out", replay.out, "write METHOD/replay.csv into the run folder");
   replay_app->add_flag("--quiet", replay.quiet, "print nothing but errors");
   replay_app->add_flag("--json", replay.json, "print JSON");
+  ReportCommand report;
+  CLI::App* report_app =
+      app.add_subcommand("report",
+                         "Write a run's report anew: one HTML file that shows its walks.\n\n"
+                         "  example: halfstep report runs/bar_8cm --out bar_8cm.html");
+  report_app->add_option("RUN", report.run, "run folder")->required();
+  report_app->add_option("--out", report.out, "the file (default: report.html in the run folder)");
+  report_app->add_flag("--overwrite", report.overwrite, "replace --out");
+  report_app->add_flag("--quiet", report.quiet, "print nothing but errors");
 
   PlanCommand plan;
   std::vector<std::string> plan_sets;
@@ -196,7 +205,7 @@ int main(int argc, char** argv) {
   }
   if (app.get_subcommands().empty()) {
     std::cerr << "halfstep: which command? (valid: run, smooth, compare, plan, bake, draw, "
-                 "certify, verify, export, replay, list; "
+                 "certify, verify, report, export, replay, list; "
                  "`halfstep -h` explains)\n";
     return kBadInput;
   }
@@ -225,6 +234,7 @@ int main(int argc, char** argv) {
                        : *bake_app            ? Bake(plan)
                        : !plan.config.empty() ? ListHalfSteps(plan)
                        : *certify_app         ? Certify(certify)
+                       : *report_app          ? Report(report)
                        : *verify_app          ? Verify(verify, verify_quiet)
                        : *export_app          ? Export(exported)
                        : *replay_app          ? Replay(replay)

@@ -12,6 +12,7 @@
 #include "experiments/methods.h"
 #include "experiments/planning.h"
 #include "experiments/progress_bar.h"
+#include "experiments/report/report.h"
 #include "experiments/result_tables.h"
 #include "experiments/run_folder.h"
 #include "experiments/run_screen.h"
@@ -141,6 +142,7 @@ ExitStatus Run(const RunCommand& command) {
   WriteCsv("summary", SummaryCsv(evaluator, runs), &folder);
   folder.Write("manifest.json",
                ManifestJson(experiment, resolved, test.Description(), runs, wall.count()));
+  WriteReport(experiment.robot, experiment.scene, &folder);
   folder.Publish();
 
   if (command.json) {

@@ -21,6 +21,9 @@ class RunFolder {
 
   const std::filesystem::path& path() const { return path_; }
 
+  /// Where the files are until Publish(): a sibling of path(), so relative paths lead to the same.
+  const std::filesystem::path& staging() const { return staging_; }
+
   /// Writes a file, "dichotomy/overlaps.csv", with its folders. Throws std::runtime_error that
   /// names the file and the system's reason, e.g. "No space left on device".
   void Write(const std::string& relative, std::string_view content);

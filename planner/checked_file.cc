@@ -1,13 +1,9 @@
 #include "planner/checked_file.h"
 
-#include <fcntl.h>
 #include <openssl/evp.h>
-#include <unistd.h>
 
 #include <array>
-#include <atomic>
 #include <bit>
-#include <cerrno>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
@@ -15,6 +11,9 @@
 #include <memory>
 #include <stdexcept>
 #include <system_error>
+#include <vector>
+
+#include "planner/whole_file.h"
 
 namespace halfstep {
 namespace {
@@ -66,30 +65,6 @@ std::string FirstDifference(std::string_view found, std::string_view wanted) {
   }
 }
 
-[[noreturn]] void FailToWrite(const std::string& path, int error) {
-  throw std::runtime_error(path + ": cannot be written: " + std::generic_category().message(error));
-}
-
-void WriteAll(int fd, std::string_view bytes, const std::string& path) {
-  while (!bytes.empty()) {
-    const ssize_t written = write(fd, bytes.data(), bytes.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) FailToWrite(path, errno);
-    bytes.remove_prefix(static_cast<size_t>(written));
-  }
-}
-
-// Closes the file, and removes it unless it was renamed.
-struct Temporary {
-  std::string path;
-  int fd = -1;
-  bool kept = false;
-  ~Temporary() {
-    if (fd >= 0) close(fd);
-    if (!kept && fd >= 0) unlink(path.c_str());
-  }
-};
-
 }  // namespace
 
 std::string HexSha256(std::string_view bytes) {
@@ -137,26 +112,13 @@ CheckedFile ReadCheckedFile(const std::string& path, std::string_view header) {
 }
 
 void WriteCheckedFile(const std::string& path, std::string_view header, std::string_view body) {
-  namespace fs = std::filesystem;
-  const fs::path folder = fs::path(path).parent_path();
-  std::error_code error;
-  if (!folder.empty()) fs::create_directories(folder, error);
-  if (error) FailToWrite(folder.string(), error.value());
-  static std::atomic<unsigned> counter{0};
-  Temporary temporary{.path = path + "." + std::to_string(getpid()) + "." +
-                              std::to_string(counter++) + ".tmp"};
-  temporary.fd = open(temporary.path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-  if (temporary.fd < 0) FailToWrite(temporary.path, errno);
-  Hash hash;
   const std::string length = LengthBytes(header.size());
-  for (const std::string_view part : {kMagic, std::string_view(length), header, body}) {
-    hash.Add(part);
-    WriteAll(temporary.fd, part, temporary.path);
-  }
-  WriteAll(temporary.fd, hash.Finish(), temporary.path);
-  if (fsync(temporary.fd) != 0) FailToWrite(temporary.path, errno);
-  if (rename(temporary.path.c_str(), path.c_str()) != 0) FailToWrite(path, errno);
-  temporary.kept = true;
+  std::vector<std::string_view> parts = {kMagic, length, header, body};
+  Hash hash;
+  for (const std::string_view part : parts) hash.Add(part);
+  const std::string digest = hash.Finish();
+  parts.push_back(digest);
+  WriteWholeFile(path, parts);
 }
 
 }  // namespace halfstep

@@ -21,9 +21,7 @@ struct CheckedFile {
 /// header (the first line that differs is told), a file that is cut or changed in any bit.
 CheckedFile ReadCheckedFile(const std::string& path, std::string_view header);
 
-/// Writes it under a temporary name of its own beside `path`, syncs it and renames it: `path` is
-/// whole or as before, also when several programs write it at once. Makes the folder. Throws
-/// std::runtime_error with the system's reason.
+/// As WriteWholeFile. Throws std::runtime_error with the system's reason.
 void WriteCheckedFile(const std::string& path, std::string_view header, std::string_view body);
 
 /// Lower-case hexadecimal SHA-256.

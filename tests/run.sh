@@ -6,7 +6,7 @@ set -eu
 cd "$(dirname "$0")/.."
 jobs="${JOBS:-2}"
 
-experiments/install_dependencies.sh
+experiments/install_dependencies.sh chromium chromium-driver  # these for the report's test
 mkdir -p build
 
 # Runs a command; its output goes to a log, and to the screen only when it fails.

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/report/report_page.h"
 #include "tests/experiments/parsed_csv.h"
 #include "tests/experiments/temporary_folder.h"
 
@@ -29,6 +30,7 @@ inline std::set<std::string> RunFiles(const std::vector<std::string>& methods) {
   std::set<std::string> files = {
       "config.yaml",         "footsteps.csv",        "manifest.json",      "summary.csv",
       "raw/certificate.csv", "raw/certificate.json", "raw/half_steps.csv", "raw/trajectory.csv"};
+  if (HasReport()) files.insert("report.html");
   for (const std::string& method : methods) {
     for (const std::string file : {"certificate.csv", "certificate.json", "half_steps.csv",
                                    "iterates.csv", "overlaps.csv", "trajectory.csv"}) {

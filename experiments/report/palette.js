@@ -1,0 +1,24 @@
+// Colours of Okabe and Ito, told apart with any colour vision.
+export const left = "#0072B2";
+export const right = "#E69F00";
+export const com = "#009E73";
+export const zmp = "#D55E00";
+export const limit = "#D55E00";
+export const second = "#CC79A7"; // walk B
+export const sky = "#56B4E9";
+export const ink = "#1d2733";
+
+// Muted, for the robot: what is rigid with the waist, and the links of its legs.
+export const trunk = "#e1e5ea";
+export const head = "#5d6875";
+export const arm = "#c3cbd4";
+export const legs = ["#a9cbe2", "#f0d9ac"];
+export const feet = [left, right];
+
+/** For things that have no order, one after the other. */
+export const sequence = [left, zmp, com, second, right, sky, "#000000"];
+
+/** The colour with an opacity from 0 to 1. */
+export function faded(colour, opacity) {
+  return colour + Math.round(255 * opacity).toString(16).padStart(2, "0");
+}

@@ -1,0 +1,181 @@
+#include "experiments/report/report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "experiments/certificate_files.h"
+#include "experiments/certificate_statement.h"
+#include "experiments/csv_reader.h"
+#include "experiments/report/report_page.h"
+#include "experiments/report/report_place.h"
+#include "experiments/report/report_walk.h"
+#include "smoothing/margins.h"
+#include "wpg/input/input_error.h"
+
+namespace halfstep {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+// Instants of all walks together, so that the page stays below 5 MB.
+constexpr double kMostInstants = 14000;
+constexpr double kFinestSpacing = 0.02;  // [s]
+
+double SpacingFor(double total_duration) {
+  return std::max(kFinestSpacing, total_duration / kMostInstants);
+}
+
+// Index of a value in a list, added when it is not there: scenarios share robots and scenes.
+size_t IndexIn(json* list, json value) {
+  const auto found = std::find(list->begin(), list->end(), value);
+  const auto index = static_cast<size_t>(found - list->begin());
+  if (found == list->end()) list->push_back(std::move(value));
+  return index;
+}
+
+json FamiliesJson() {
+  json families = json::array();
+  for (MarginFamily family : AllMarginFamilies()) {
+    families.push_back({{"name", Name(family)}, {"unit", Unit(family)}, {"scale", Scale(family)}});
+  }
+  return families;
+}
+
+json EmptyReport(const char* kind) {
+  return {{"kind", kind},
+          {"families", FamiliesJson()},
+          {"statement", kCertificateStatement},
+          {"robots", json::array()},
+          {"scenes", json::array()},
+          {"cases", json::array()}};
+}
+
+json CaseOf(const std::string& scenario, const fs::path& run, const RobotModel& robot,
+            const Scene& scene, json* report) {
+  return {{"scenario", scenario},
+          {"robot", IndexIn(&(*report)["robots"], RobotJson(robot))},
+          {"scene", IndexIn(&(*report)["scenes"], SceneJson(scene))},
+          {"footsteps", RowsJson(run / "footsteps.csv")}};
+}
+
+json SummaryOf(const MethodRecord& record) {
+  return {{"method", record.name},
+          {"status", record.status},
+          {"certified", record.certified},
+          {"duration_s", Shortened(record.duration, 6)},
+          {"speedup", Shortened(record.speedup, 6)},
+          {"cost", Shortened(record.cost, 6)},
+          {"wall_s", Shortened(record.wall, 6)}};
+}
+
+// Walks are drawn with today's files; these must be those that they were made for.
+void CheckSame(const std::vector<std::string>& files, const std::string& what,
+               const fs::path& run) {
+  const fs::path path = run / "raw" / "certificate.json";
+  const json hash = ReadJsonObject(path).value(json::json_pointer("/sha256/" + what), json());
+  if (hash == HashOfFiles(files)) return;
+  throw InputError({path.string() + ": the files of the " + what +
+                    " are not those of this run (valid: as they were when it was made)"});
+}
+
+// The method's folder in its run, of a name that may have a label.
+fs::path FolderOf(const MethodRecord& record) {
+  const std::string name = record.name.substr(record.name.find(':') + 1);
+  return fs::path(record.run) / MethodFolder(name);
+}
+
+// [wall time, duration] of each incumbent that is shorter than the one before [s].
+json ImprovementsOf(const MethodRecord& record) {
+  json improvements = json::array();
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const IncumbentRecord& incumbent : record.incumbents) {
+    if (!(incumbent.duration < shortest)) continue;
+    shortest = incumbent.duration;
+    improvements.push_back({Shortened(incumbent.wall), Shortened(incumbent.duration, 6)});
+  }
+  return improvements;
+}
+
+// A case with what is drawn of each walk; empty: nothing is.
+json WithTables(json result, const ComparedCase& one, std::vector<json> drawn) {
+  drawn.resize(one.methods.size(), json::object());
+  for (size_t i = 0; i < drawn.size(); ++i) {
+    const ComparedMethod& method = one.methods[i];
+    drawn[i]["summary"] = SummaryOf(method.record);
+    drawn[i]["variables"] = method.record.variables;
+    drawn[i]["improvements"] = ImprovementsOf(method.record);
+    drawn[i]["gap"] = std::isfinite(method.gap) ? json(Shortened(method.gap)) : json(nullptr);
+  }
+  result["objective"] = one.objective;
+  result["walks"] = std::move(drawn);
+  return result;
+}
+
+json CaseOf(const ComparedCase& one, double spacing, json* report) {
+  const fs::path run(one.methods.front().record.run);
+  try {
+    const Place place = PlaceOfRun(run);
+    std::vector<json> walks;
+    for (const ComparedMethod& method : one.methods) {
+      walks.push_back(WalkJson(FolderOf(method.record), spacing));
+    }
+    return WithTables(CaseOf(one.scenario, run, place.robot, place.scene, report), one,
+                      std::move(walks));
+  } catch (const InputError& error) {
+    return WithTables({{"scenario", one.scenario}, {"not_drawn", error.what()}}, one, {});
+  }
+}
+
+}  // namespace
+
+Place PlaceOfRun(const fs::path& run) {
+  Place place = LoadPlace(LoadConfig((run / "config.yaml").string(), {}));
+  CheckSame(place.robot.files, "robot", run);
+  CheckSame(place.scene.files, "scene", run);
+  return place;
+}
+
+std::string RunReport(const RobotModel& robot, const Scene& scene, const fs::path& folder) {
+  const json manifest = ReadJsonObject(folder / "manifest.json");
+  json report = EmptyReport("run");
+  for (const char* key : {"name", "version", "commit", "objective", "acceptance"}) {
+    if (!manifest.contains(key)) {
+      throw InputError({(folder / "manifest.json").string() + ": no '" + key + "'"});
+    }
+    report[key] = manifest[key];
+  }
+  json one = CaseOf(report["name"], folder, robot, scene, &report);
+  const json summary = RowsJson(folder / "summary.csv");
+  double total = 0.0;
+  for (double duration : ReadCsv((folder / "summary.csv").string()).Numbers("duration_s")) {
+    total += duration;
+  }
+  for (const json& row : summary) {
+    const auto method = row.at("method").get<std::string>();
+    json walk = WalkJson(folder / MethodFolder(method), SpacingFor(total));
+    walk["summary"] = row;
+    one["walks"].push_back(std::move(walk));
+  }
+  report["cases"].push_back(std::move(one));
+  return ReportPage(report);
+}
+
+void WriteReport(const RobotModel& robot, const Scene& scene, RunFolder* folder) {
+  if (HasReport()) folder->Write("report.html", RunReport(robot, scene, folder->staging()));
+}
+
+std::string ComparisonReport(const Comparison& comparison) {
+  double total = 0.0;
+  for (const ComparedCase& one : comparison.cases) {
+    for (const ComparedMethod& method : one.methods) total += method.record.duration;
+  }
+  json report = EmptyReport("comparison");
+  for (const ComparedCase& one : comparison.cases) {
+    report["cases"].push_back(CaseOf(one, SpacingFor(total), &report));
+  }
+  return ReportPage(report);
+}
+
+}  // namespace halfstep

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "experiments/comparison.h"
+#include "experiments/experiment.h"
+#include "experiments/run_folder.h"
+#include "planner/scene.h"
+#include "wpg/robot_model.h"
+
+namespace halfstep {
+
+/// report.html of a run: one page that shows its walks, needs no other file and no network.
+/// `folder` holds the run's files; robot and scene are those of the run. The same files give the
+/// same bytes. Throws InputError for files that are missing or damaged. Precondition: HasReport().
+std::string RunReport(const RobotModel& robot, const Scene& scene,
+                      const std::filesystem::path& folder);
+
+/// Writes it as report.html into a folder that has all its other files; nothing without
+/// HasReport().
+void WriteReport(const RobotModel& robot, const Scene& scene, RunFolder* folder);
+
+/// The robot and the scene of a run. Throws InputError when they cannot be read, or when their
+/// files are not those that the run's certificate names by their hash.
+Place PlaceOfRun(const std::filesystem::path& run);
+
+/// report.html of a comparison: all walks of all its scenarios. A scenario that can no longer be
+/// drawn (robot, scene or trajectories are gone or changed) keeps its tables; the page says why.
+std::string ComparisonReport(const Comparison& comparison);
+
+}  // namespace halfstep

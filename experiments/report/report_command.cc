@@ -1,0 +1,37 @@
+#include <filesystem>
+#include <iostream>
+#include <stdexcept>
+
+#include "experiments/commands.h"
+#include "experiments/report/report.h"
+#include "experiments/report/report_page.h"
+#include "planner/whole_file.h"
+#include "wpg/input/input_error.h"
+
+namespace halfstep {
+
+namespace fs = std::filesystem;
+
+ExitStatus Report(const ReportCommand& command) {
+  const fs::path run(command.run);
+  if (!fs::is_directory(run) || !fs::exists(run / "manifest.json")) {
+    throw InputError(
+        {command.run + ": no such run folder (valid: a folder that `halfstep run` wrote)"});
+  }
+  if (!HasReport()) {
+    throw std::runtime_error(
+        "this build has no report: npm was not there or could not fetch its packages when it was "
+        "configured, or HALFSTEP_REPORT was OFF");
+  }
+  const fs::path out = command.out ? fs::path(*command.out) : run / "report.html";
+  if (out.empty()) throw InputError({"--out: no file is named (valid: a path)"});
+  if (command.out && !command.overwrite && fs::exists(fs::symlink_status(out))) {
+    throw std::runtime_error(out.string() + ": is there already (--overwrite replaces it)");
+  }
+  const Place place = PlaceOfRun(run);
+  WriteWholeFile(out.string(), {RunReport(place.robot, place.scene, run)});
+  if (!command.quiet) std::cout << "written: " << out.string() << '\n';
+  return kSuccess;
+}
+
+}  // namespace halfstep

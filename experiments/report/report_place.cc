@@ -1,0 +1,100 @@
+#include "experiments/report/report_place.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+#include "experiments/report/drawn_mesh.h"
+
+namespace halfstep {
+namespace {
+
+using nlohmann::json;
+
+constexpr double kDecimals = 1e4;      // of metres
+constexpr int kMostTriangles = 20000;  // of all meshes of a scene
+
+json Vector(const Eigen::Vector3d& v, int digits) {
+  return {Shortened(v.x(), digits), Shortened(v.y(), digits), Shortened(v.z(), digits)};
+}
+
+// Coordinates as integers of 0.1 mm: x, y, z of each vertex in a row.
+json MeshJson(const TriangleMesh& mesh, const Eigen::Isometry3d& X) {
+  json vertices = json::array(), triangles = json::array();
+  for (const auto& vertex : mesh.vertices.colwise()) {
+    const Eigen::Vector3d p = X * vertex;
+    for (int k = 0; k < 3; ++k) vertices.push_back(std::lround(p[k] * kDecimals));
+  }
+  for (const auto& triangle : mesh.triangles.colwise()) {
+    for (int k = 0; k < 3; ++k) triangles.push_back(triangle[k]);
+  }
+  return {{"vertices", std::move(vertices)}, {"triangles", std::move(triangles)}};
+}
+
+}  // namespace
+
+double Shortened(double value, int digits) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.*g", digits, value);
+  return std::strtod(text.data(), nullptr);
+}
+
+json RobotJson(const RobotModel& robot) {
+  json legs = json::array(), bodies = json::array();
+  for (const Leg& leg : robot.legs) {
+    json joints = json::array();
+    for (const LegJoint& joint : leg.joints) {
+      joints.push_back({{"name", joint.name},
+                        {"axis", Vector(joint.axis_B, 12)},
+                        {"point", Vector(joint.point_B, 12)},
+                        {"lower", Shortened(joint.lower)},
+                        {"upper", Shortened(joint.upper)},
+                        {"speed", Shortened(joint.max_speed)}});
+    }
+    legs.push_back(std::move(joints));
+  }
+  for (const RobotBody& body : robot.bodies) {
+    Eigen::Isometry3d X_BBody = Eigen::Isometry3d::Identity();
+    if (body.leg >= 0) {
+      const Leg& leg = robot.legs[static_cast<size_t>(body.leg)];
+      X_BBody = leg.joints[static_cast<size_t>(body.link)].X_BLink;
+    }
+    json drawn = MeshJson(DrawnMesh(body.shape), X_BBody);
+    drawn["name"] = body.name;
+    drawn["leg"] = body.leg;
+    drawn["link"] = body.link;
+    bodies.push_back(std::move(drawn));
+  }
+  return {{"name", robot.name},
+          {"sole", {Shortened(robot.sole_size.x()), Shortened(robot.sole_size.y())}},
+          {"legs", std::move(legs)},
+          {"bodies", std::move(bodies)}};
+}
+
+json SceneJson(const Scene& scene) {
+  json obstacles = json::array(), areas = json::array();
+  const auto meshes = std::count_if(
+      scene.obstacles.begin(), scene.obstacles.end(),
+      [](const Obstacle& o) { return std::holds_alternative<TriangleMesh>(o.shape); });
+  const int most = kMostTriangles / std::max(1, static_cast<int>(meshes));
+  for (const Obstacle& obstacle : scene.obstacles) {
+    const auto* mesh = std::get_if<TriangleMesh>(&obstacle.shape);
+    json drawn = MeshJson(
+        mesh != nullptr ? Coarsened(*mesh, most) : DrawnMesh(std::get<ConvexBody>(obstacle.shape)),
+        obstacle.X_WO);
+    drawn["name"] = obstacle.name;
+    obstacles.push_back(std::move(drawn));
+  }
+  for (const Eigen::Matrix2Xd& polygon : scene.no_step) {
+    json corners = json::array();
+    for (const auto& corner : polygon.colwise()) {
+      corners.push_back({Shortened(corner.x(), 6), Shortened(corner.y(), 6)});
+    }
+    areas.push_back(std::move(corners));
+  }
+  return {{"name", scene.name}, {"obstacles", std::move(obstacles)}, {"no_step", std::move(areas)}};
+}
+
+}  // namespace halfstep

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "planner/scene.h"
+#include "wpg/robot_model.h"
+
+namespace halfstep {
+
+/// What the page needs to draw a robot at any joint angles: the axes of its legs and the surfaces
+/// of its bodies, all in the waist frame B at q = 0; [m], to 0.1 mm.
+nlohmann::json RobotJson(const RobotModel& robot);
+
+/// The obstacles' surfaces and the no-step polygons in W; [m], to 0.1 mm. Large meshes are drawn
+/// coarser.
+nlohmann::json SceneJson(const Scene& scene);
+
+/// The double whose shortest decimal form has at most `digits` significant digits.
+double Shortened(double value, int digits = 5);
+
+}  // namespace halfstep

@@ -1,0 +1,129 @@
+#include "experiments/report/report_walk.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <vector>
+
+#include "experiments/csv_reader.h"
+#include "experiments/report/report_place.h"
+#include "wpg/input/input_error.h"
+
+namespace halfstep {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+constexpr double kFine = 1e-5;    // of lengths and angles [m, rad]
+constexpr double kSpeeds = 1e-4;  // of speeds [m/s, rad/s]
+
+// Every stride-th row, and the last one.
+std::vector<size_t> RowsToShow(const std::vector<double>& times, double spacing) {
+  std::vector<size_t> rows;
+  const double period = times.size() > 2 ? times[1] - times[0] : spacing;
+  const double ratio = std::ceil(spacing / std::max(period, 1e-6) - 1e-6);
+  const auto stride = static_cast<size_t>(std::max(1.0, ratio));
+  for (size_t i = 0; i + 1 < times.size(); i += stride) rows.push_back(i);
+  rows.push_back(times.size() - 1);
+  return rows;
+}
+
+json ColumnJson(const std::vector<double>& values, const std::vector<size_t>& rows, double step) {
+  json deltas = json::array();
+  long before = 0;
+  for (size_t row : rows) {
+    const double value = values[row];
+    if (!std::isfinite(value)) {
+      deltas.push_back(nullptr);
+      continue;
+    }
+    const long now = std::lround(value / step);
+    deltas.push_back(now - before);
+    before = now;
+  }
+  return {{"step", step}, {"delta", std::move(deltas)}};
+}
+
+std::vector<double> Differences(const std::vector<double>& times,
+                                const std::vector<double>& values) {
+  std::vector<double> speeds(times.size(), 0.0);
+  for (size_t i = 0; i < times.size() && times.size() > 1; ++i) {
+    const size_t from = i == 0 ? 0 : i - 1, to = std::min(i + 1, times.size() - 1);
+    speeds[i] = (values[to] - values[from]) / (times[to] - times[from]);
+  }
+  return speeds;
+}
+
+bool IsSpeed(const std::string& column) {
+  return column.ends_with("_m_s") || column.ends_with("_rad_s");
+}
+
+json TrajectoryJson(const fs::path& path, double spacing) {
+  const CsvTable table = ReadCsv(path.string());
+  const std::vector<double> times = table.Numbers("t_s");
+  if (times.empty()) throw InputError({path.string() + ": no rows"});
+  const std::vector<size_t> rows = RowsToShow(times, spacing);
+  json columns = json::object();
+  for (const std::string& column : table.header) {
+    if (column == "support" || column.starts_with("com_v") || column.starts_with("com_a")) continue;
+    const std::vector<double> values = table.Numbers(column);
+    columns[column] = ColumnJson(values, rows, IsSpeed(column) ? kSpeeds : kFine);
+    if (!column.starts_with("q_") || !column.ends_with("_rad")) continue;
+    const std::string joint = column.substr(2, column.size() - 6);
+    columns["speed_" + joint + "_rad_s"] = ColumnJson(Differences(times, values), rows, kSpeeds);
+  }
+  std::string support;
+  const std::vector<std::string> supports = table.Texts("support");
+  for (size_t row : rows) support += supports[row].empty() ? '?' : supports[row].front();
+  return {{"columns", std::move(columns)}, {"support", support}};
+}
+
+json CellJson(const std::string& cell) {
+  if (cell.empty()) return nullptr;
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  const bool is_number = error == std::errc() && end == cell.data() + cell.size();
+  return is_number && std::isfinite(value) ? json(Shortened(value, 6)) : json(cell);
+}
+
+}  // namespace
+
+json RowsJson(const fs::path& csv) {
+  const CsvTable table = ReadCsv(csv.string());
+  json rows = json::array();
+  for (const std::vector<std::string>& cells : table.rows) {
+    json row = json::object();
+    for (size_t i = 0; i < cells.size(); ++i) row[table.header[i]] = CellJson(cells[i]);
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+json ReadJsonObject(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  json value = json::parse(std::string(std::istreambuf_iterator<char>(in), {}), nullptr,
+                           /*allow_exceptions=*/false);
+  if (!value.is_object()) throw InputError({path.string() + ": is no JSON object"});
+  return value;
+}
+
+json WalkJson(const fs::path& folder, double spacing) {
+  const fs::path overlaps = folder / "overlaps.csv";
+  const json certificate = ReadJsonObject(folder / "certificate.json");
+  json walk = TrajectoryJson(folder / "trajectory.csv", spacing);
+  walk["half_steps"] = RowsJson(folder / "half_steps.csv");
+  walk["overlaps"] = fs::exists(overlaps) ? RowsJson(overlaps) : json::array();
+  for (const char* key : {"verdict", "message", "statement", "demanded", "limits", "statements"}) {
+    if (!certificate.contains(key)) {
+      throw InputError({(folder / "certificate.json").string() + ": no '" + key + "'"});
+    }
+    walk["certificate"][key] = certificate[key];
+  }
+  return walk;
+}
+
+}  // namespace halfstep

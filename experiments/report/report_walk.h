@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace halfstep {
+
+/// What the page shows of one method's walk, from its folder in a run (trajectory.csv,
+/// half_steps.csv, overlaps.csv, certificate.json). Of the trajectory's rows those about `spacing`
+/// [s] apart, and the last. A column is {"step": s, "delta": [...]}: integers whose
+/// running sum times s is the value; null where it is not finite. Beside the columns of
+/// trajectory.csv: `speed_<joint>_rad_s`, central differences of its rows.
+/// Throws InputError for what is no such folder.
+nlohmann::json WalkJson(const std::filesystem::path& folder, double spacing);
+
+/// Rows of a CSV file as objects: what reads as a number is one, to 6 digits; an empty cell null.
+nlohmann::json RowsJson(const std::filesystem::path& csv);
+
+/// Throws InputError when there is no such file, or when it is no JSON object.
+nlohmann::json ReadJsonObject(const std::filesystem::path& path);
+
+}  // namespace halfstep

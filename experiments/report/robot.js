@@ -1,0 +1,98 @@
+// A robot's bodies, moved by the joint angles of a walk.
+import * as THREE from "three";
+import { toCreasedNormals } from "three/addons/utils/BufferGeometryUtils.js";
+import * as palette from "./palette.js";
+
+/** Coordinates of the data are integers of 0.1 mm. */
+export function meshGeometry({ vertices, triangles }) {
+  const geometry = new THREE.BufferGeometry();
+  const positions = Float32Array.from(vertices, (v) => v * 1e-4);
+  geometry.setAttribute("position", new THREE.BufferAttribute(positions, 3));
+  geometry.setIndex(triangles);
+  return toCreasedNormals(geometry, 0.65);
+}
+
+function colourOf(body) {
+  if (body.leg >= 0) return body.link === 5 ? palette.feet[body.leg] : palette.legs[body.leg];
+  if (/head/i.test(body.name)) return palette.head;
+  return /arm|hand/i.test(body.name) ? palette.arm : palette.trunk;
+}
+
+function solidMaterial(colour) {
+  return new THREE.MeshStandardMaterial({ color: colour, roughness: 0.62, metalness: 0.05 });
+}
+
+export function ghostMaterial(colour, opacity) {
+  return new THREE.MeshStandardMaterial({
+    color: colour, roughness: 0.8, transparent: true, opacity, depthWrite: false,
+  });
+}
+
+/** The parts that every figure of one robot shares. */
+export class RobotShapes {
+  constructor(json) {
+    this.json = json;
+    this.bodies = json.bodies.map((body) => {
+      const geometry = meshGeometry(body);
+      return { ...body, geometry, edges: new THREE.EdgesGeometry(geometry, 32) };
+    });
+    this.joints = json.legs.map((leg) =>
+      leg.map((joint) => ({
+        ...joint,
+        axis: new THREE.Vector3(...joint.axis).normalize(),
+        point: new THREE.Vector3(...joint.point),
+        column: `q_${joint.name}_rad`,
+      })),
+    );
+  }
+}
+
+const edgeMaterial = new THREE.LineBasicMaterial({
+  color: "#2b3540", transparent: true, opacity: 0.38,
+});
+const rotated = new THREE.Vector3();
+
+/** One robot: `group` is posed by pose(). */
+export class RobotFigure {
+  /** Without `material` in the robot's own colours. */
+  constructor(shapes, material = null) {
+    this.shapes = shapes;
+    this.group = new THREE.Group(); // the waist
+    this.links = shapes.joints.map((leg) => {
+      let parent = this.group;
+      return leg.map(() => {
+        const link = new THREE.Group();
+        link.matrixAutoUpdate = false;
+        parent.add(link);
+        return (parent = link);
+      });
+    });
+    for (const body of shapes.bodies) {
+      const mesh = new THREE.Mesh(body.geometry, material ?? solidMaterial(colourOf(body)));
+      mesh.castShadow = material === null;
+      mesh.receiveShadow = material === null;
+      const parent = body.leg < 0 ? this.group : this.links[body.leg][body.link];
+      parent.add(mesh);
+      if (material === null) mesh.add(new THREE.LineSegments(body.edges, edgeMaterial));
+    }
+  }
+
+  /** As `walk` has it at a place of locate(). A leg that does not reach is not shown. */
+  pose(walk, at) {
+    const of = (name) => walk.value(name, at);
+    this.group.position.set(of("waist_x_m"), of("waist_y_m"), of("waist_z_m"));
+    this.group.rotation.z = of("waist_yaw_rad");
+    this.shapes.joints.forEach((leg, side) => {
+      const reaches = leg.every((joint) => Number.isFinite(of(joint.column)));
+      this.links[side][0].visible = reaches;
+      if (!reaches) return;
+      leg.forEach((joint, i) => {
+        const link = this.links[side][i];
+        link.matrix.makeRotationAxis(joint.axis, of(joint.column));
+        rotated.copy(joint.point).applyMatrix4(link.matrix);
+        link.matrix.setPosition(joint.point.clone().sub(rotated));
+        link.matrixWorldNeedsUpdate = true;
+      });
+    });
+  }
+}

@@ -1,0 +1,88 @@
+// Which curves each plot has. A curve: label, colour, value(walk, place) and how to write it.
+import * as palette from "./palette.js";
+
+const metres = (v) => `${v.toFixed(3)} m`;
+const of = (column) => (walk, at) => walk.value(column, at);
+
+function axisPlot(axis) {
+  return {
+    title: `CoM and ZMP, ${axis} [m]`,
+    curves: [
+      { label: "CoM", colour: palette.com, value: of(`com_${axis}_m`), text: metres },
+      { label: "ZMP", colour: palette.zmp, value: of(`zmp_${axis}_m`), text: metres },
+    ],
+  };
+}
+
+function jointSpeeds(robot, limits) {
+  const scale = limits.joint_speed_scale ?? 1;
+  const joints = robot.legs.flatMap((leg, side) =>
+    leg.map((joint) => ({ ...joint, side, limit: joint.speed * scale })),
+  );
+  const ratio = (joint) => (walk, at) =>
+    Math.abs(walk.value(`speed_${joint.name}_rad_s`, at)) / joint.limit;
+  const highest = (walk, at) => {
+    const ratios = joints.map((joint) => ratio(joint)(walk, at));
+    const i = ratios.indexOf(Math.max(...ratios));
+    return i < 0 ? "" : `highest: ${joints[i].name} ${(ratios[i] * joints[i].limit).toFixed(2)} of ` +
+      `${joints[i].limit.toFixed(2)} rad/s`;
+  };
+  return {
+    title: "Joint speeds / limits [–]",
+    level: { value: 1, colour: palette.limit },
+    least: [0, 1.05],
+    curves: joints.map((joint) => ({
+      label: joint.name,
+      colour: palette.faded(palette.feet[joint.side], 0.85),
+      value: ratio(joint),
+      quiet: true,
+    })),
+    keys: [["left leg", palette.left], ["right leg", palette.right]],
+    note: highest,
+    onlyFirst: true,
+  };
+}
+
+const marginColumns = [
+  ["zmp", "zmp_margin_m", "ZMP", palette.zmp],
+  ["clearance", "clearance_m", "obstacles", palette.ink],
+  ["self_clearance", "self_clearance_m", "self", palette.second],
+  ["joint", "joint_margin_rad", "joints", palette.com],
+  ["joint_speed", "joint_speed_margin_rad_s", "joint speed", palette.sky],
+  ["foot_speed", "foot_speed_margin_m_s", "foot speed", palette.right],
+];
+
+function margins(families, demanded) {
+  const unitOf = Object.fromEntries(families.map((family) => [family.name, family]));
+  return {
+    title: "Slack [scales]",
+    hint: "(margin − demanded) / scale; " + marginColumns.map(([name, , label]) =>
+      `${label}: 1 = ${unitOf[name].scale} ${unitOf[name].unit}`).join(", "),
+    level: { value: 0, colour: palette.limit },
+    fixed: [-0.6, 6],
+    curves: marginColumns.map(([name, column, label, colour]) => ({
+      label,
+      colour,
+      value: (walk, at) =>
+        (walk.value(column, at) - (demanded[name] ?? 0)) / unitOf[name].scale,
+    })),
+    onlyFirst: true,
+  };
+}
+
+/** All plots for a robot and the demands of a certificate. */
+export function plotList(robot, certificate, families) {
+  return [
+    axisPlot("x"),
+    axisPlot("y"),
+    {
+      title: "Heights of the soles [m]",
+      curves: [
+        { label: "left", colour: palette.left, value: of("left_foot_z_m"), text: metres },
+        { label: "right", colour: palette.right, value: of("right_foot_z_m"), text: metres },
+      ],
+    },
+    jointSpeeds(robot, certificate.limits),
+    margins(families, certificate.demanded),
+  ];
+}

@@ -1,0 +1,154 @@
+// The stage: floor, obstacles, lights, cameras; draws one view, or two side by side.
+import * as THREE from "three";
+import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import * as palette from "./palette.js";
+import { mark, polygonGeometry, ribbonGeometry } from "./floor_marks.js";
+import { meshGeometry } from "./robot.js";
+
+const sky = "#f3f5f8";
+
+/** Objects of layer 0 are seen in every view, of layer 1 and 2 in A's and in B's. */
+export function onLayer(object, layer) {
+  object.traverse((part) => part.layers.set(layer));
+  return object;
+}
+
+// Shadows and a grid; else the floor has the colour of the sky.
+function floor() {
+  const group = new THREE.Group();
+  const shadows = new THREE.ShadowMaterial({ color: "#2b3a4d", opacity: 0.2 });
+  const plane = new THREE.Mesh(new THREE.PlaneGeometry(60, 60), shadows);
+  plane.receiveShadow = true;
+  plane.position.z = -0.002;
+  plane.renderOrder = -2;
+  group.add(plane);
+  for (const [size, count, opacity] of [[16, 160, 0.16], [60, 60, 0.42]]) {
+    const grid = new THREE.GridHelper(size, count, "#5f7084", "#5f7084");
+    Object.assign(grid.material, { transparent: true, opacity, depthWrite: false });
+    grid.rotation.x = Math.PI / 2;
+    grid.renderOrder = -1;
+    group.add(grid);
+  }
+  return group;
+}
+
+// Drawn last, so that they hide what is seen through the feet; robots show faintly through them.
+function obstacles(json) {
+  const group = new THREE.Group();
+  const material = new THREE.MeshStandardMaterial({
+    color: "#b7a58c", roughness: 0.85, transparent: true, opacity: 0.84,
+  });
+  const edges = new THREE.LineBasicMaterial({ color: "#6d5f4b", transparent: true, opacity: 0.7 });
+  for (const obstacle of json.obstacles) {
+    const geometry = meshGeometry(obstacle);
+    const mesh = new THREE.Mesh(geometry, material);
+    mesh.castShadow = mesh.receiveShadow = true;
+    mesh.renderOrder = 20;
+    const lines = new THREE.LineSegments(new THREE.EdgesGeometry(geometry, 32), edges);
+    lines.renderOrder = 21;
+    mesh.add(lines);
+    group.add(mesh);
+  }
+  for (const polygon of json.no_step) {
+    group.add(mark(polygonGeometry(polygon, 0.001), palette.limit, 0.22, 1));
+    group.add(mark(ribbonGeometry(polygon, 0.008, 0.001, true), palette.limit, 0.8, 1));
+  }
+  return group;
+}
+
+// Directions from which the cameras look, in units of the distance.
+const directions = {
+  corner: [0.72, -0.92, 0.42],
+  side: [0.02, -1.25, 0.12],
+  front: [1.25, 0.01, 0.12],
+  top: [-0.001, 0, 1.3],
+};
+
+export class Stage {
+  constructor(canvas, onChange) {
+    this.canvas = canvas;
+    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true });
+    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
+    this.renderer.shadowMap.enabled = true;
+    this.renderer.shadowMap.type = THREE.PCFShadowMap;
+    this.renderer.setScissorTest(true);
+    this.scene = new THREE.Scene();
+    this.scene.background = new THREE.Color(sky);
+    this.scene.fog = new THREE.Fog(sky, 9, 22);
+    this.scene.add(new THREE.HemisphereLight("#ffffff", "#b3bac4", 2.1));
+    this.sun = new THREE.DirectionalLight("#fffaf2", 1.7);
+    this.sun.castShadow = true;
+    this.sun.shadow.mapSize.set(2048, 2048);
+    this.sun.shadow.radius = 3;
+    this.sun.shadow.bias = -0.0005;
+    this.sun.shadow.normalBias = 0.01;
+    Object.assign(this.sun.shadow.camera, {
+      left: -2.5, right: 2.5, top: 2.5, bottom: -2.5, near: 0.5, far: 12,
+    });
+    this.scene.add(this.sun, this.sun.target, floor());
+    this.place = new THREE.Group();
+    this.scene.add(this.place);
+    this.camera = new THREE.PerspectiveCamera(36, 1, 0.05, 60);
+    this.camera.up.set(0, 0, 1);
+    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.maxPolarAngle = 0.495 * Math.PI;
+    this.controls.zoomToCursor = false;
+    this.controls.addEventListener("change", onChange);
+  }
+
+  setScene(json) {
+    this.place.clear();
+    this.place.add(obstacles(json));
+  }
+
+  /** A direction of `directions`, at a point on the floor, `distance` [m] away. */
+  look(name, [x, y], distance) {
+    const direction = new THREE.Vector3(...directions[name]);
+    this.controls.target.set(x, y, name === "top" ? 0 : 0.68);
+    this.camera.position.copy(this.controls.target).addScaledVector(direction, distance);
+    this.controls.update();
+  }
+
+  /** Moves what the camera looks at to another point of the floor. */
+  followTo(x, y) {
+    const dx = x - this.controls.target.x;
+    const dy = y - this.controls.target.y;
+    this.controls.target.x += dx;
+    this.controls.target.y += dy;
+    this.camera.position.x += dx;
+    this.camera.position.y += dy;
+  }
+
+  light({ x, y }) {
+    this.sun.target.position.set(x, y, 0.4);
+    this.sun.position.set(x + 2.6, y - 2.0, 5);
+  }
+
+  /**
+   * Draws views side by side: each has its layers, and may be moved by [x, y] along the floor from
+   * where the camera is.
+   */
+  draw(views) {
+    const width = this.canvas.clientWidth;
+    const height = this.canvas.clientHeight;
+    if (width === 0 || height === 0) return;
+    const size = this.renderer.getSize(new THREE.Vector2());
+    if (size.x !== width || size.y !== height) this.renderer.setSize(width, height, false);
+    const part = width / views.length;
+    this.camera.aspect = part / height;
+    this.camera.updateProjectionMatrix();
+    const home = this.camera.position.clone();
+    views.forEach(({ layers, shift: [x, y] }, i) => {
+      this.camera.position.set(home.x + x, home.y + y, home.z);
+      this.camera.updateMatrixWorld();
+      this.light({ x: this.controls.target.x + x, y: this.controls.target.y + y });
+      this.camera.layers.set(0);
+      for (const layer of layers) this.camera.layers.enable(layer);
+      this.renderer.setViewport(i * part, 0, part, height);
+      this.renderer.setScissor(i * part, 0, part, height);
+      this.renderer.render(this.scene, this.camera);
+    });
+    this.camera.position.copy(home);
+    this.camera.updateMatrixWorld();
+  }
+}

@@ -1,0 +1,127 @@
+// The tables below the stage. Everything is set as text.
+const seconds = (value) => value.toFixed(3);
+const number = (value, digits = 4) =>
+  typeof value === "number" ? String(Number(value.toPrecision(digits))) : value ?? "–";
+
+function element(name, { text, className, title } = {}, ...children) {
+  const made = document.createElement(name);
+  if (text !== undefined) made.textContent = text;
+  if (className) made.className = className;
+  if (title) made.title = title;
+  made.append(...children);
+  return made;
+}
+
+function table(header, rows) {
+  const head = element("tr", {}, ...header.map((text) => element("th", { text })));
+  const body = rows.map((cells) =>
+    element("tr", {}, ...cells.map((cell) =>
+      cell instanceof Node ? element("td", {}, cell) : element("td", { text: cell }))),
+  );
+  return element("div", { className: "scroll" },
+    element("table", {}, element("thead", {}, head), element("tbody", {}, ...body)));
+}
+
+function bar(fraction, className) {
+  const fill = element("i", { className });
+  fill.style.width = `${Math.max(0, Math.min(1, fraction)) * 100}%`;
+  return element("span", { className: "meter" }, fill);
+}
+
+const family = (name) => name.replaceAll("_", " ");
+const verdict = (walk) =>
+  walk.certified ? element("span", { className: "yes", text: "✓ proved" })
+    : element("span", { className: "no", text: "✗ not proved" });
+
+/** One row a method. */
+export function summaryTable(parent, walks, families) {
+  const longest = Math.max(...walks.map((walk) => walk.summary.duration_s));
+  const unit = Object.fromEntries(families.map((family) => [family.name, family.unit]));
+  const compared = walks.some((walk) => walk.gap !== undefined);
+  const rows = walks.map((walk) => {
+    const s = walk.summary;
+    const last = compared
+      ? [walk.gap === null || walk.gap === undefined ? "–" : `${number(100 * walk.gap, 3)} %`]
+      : [`${family(s.worst_margin_name)} ${number(s.worst_margin, 3)} ${unit[s.worst_margin_name] ?? ""}`,
+         number(s.iterations), number(s.margin_evaluations)];
+    return [walk.label, s.status, verdict(walk),
+            seconds(s.duration_s), bar(s.duration_s / longest, "a"), s.speedup.toFixed(2),
+            ...last, number(s.wall_s, 3)];
+  });
+  parent.replaceChildren(
+    element("h2", { text: "Methods" }),
+    table(["method", "status", "for all t", "duration [s]", "", "speed-up",
+           ...(compared ? ["gap to the best"] : ["worst margin", "candidates", "instants evaluated"]),
+           "run time [s]"], rows),
+  );
+}
+
+/** Durations of every method in every scenario of a comparison. */
+export function scenarioTable(cases) {
+  const methods = [...new Set(cases.flatMap((one) => one.walks.map((walk) => walk.label)))];
+  const rows = cases.map((one) => {
+    const proved = one.walks.filter((walk) => walk.certified);
+    const best = Math.min(...proved.map((walk) => walk.summary.cost));
+    return [one.scenario, one.objective, ...methods.map((method) => {
+      const walk = one.walks.find((w) => w.label === method);
+      if (!walk) return "–";
+      if (!walk.certified) return element("span", { className: "no", text: "✗" });
+      const isBest = walk.summary.cost === best;
+      return element("span", { text: seconds(walk.summary.duration_s), className: isBest ? "best" : "" });
+    })];
+  });
+  return [element("h2", { text: "Scenarios: durations [s] of the proved walks" }),
+          table(["scenario", "objective", ...methods], rows)];
+}
+
+/** Overlaps of walk A, junction by junction, and what holds each; B's as a thin bar below. */
+export function junctionTable(parent, [a, b]) {
+  const title = element("h2", { text: `Overlaps of A, ${a.label}` });
+  if (a.overlaps.length === 0) {
+    parent.replaceChildren(title, element("p", { text: "None: half-steps one after the other." }));
+    return;
+  }
+  const widest = Math.max(...a.overlaps.map((row) => row.upper_bound_s));
+  const other = b?.overlaps.length === a.overlaps.length ? b.overlaps : null;
+  if (other) title.append(element("small", {}, element("i", { className: "swatch b" }), ` B, ${b.label}`));
+  const rows = a.overlaps.map((row, i) => {
+    const bound = element("i", { className: "bound" });
+    bound.style.width = `${(row.upper_bound_s / widest) * 100}%`;
+    const meter = bar(row.overlap_s / widest, "a");
+    meter.prepend(bound);
+    if (other) {
+      const second = element("i", { className: "b" });
+      second.style.width = `${(other[i].overlap_s / widest) * 100}%`;
+      meter.append(second);
+    }
+    return [number(row.junction), row.kind === "up_down" ? "up → down" : "down → up", meter,
+            seconds(row.overlap_s), seconds(row.upper_bound_s),
+            row.price_s === null ? "" : seconds(row.price_s), row.active];
+  });
+  parent.replaceChildren(title,
+    table(["junction", "kind", "overlap and its bound", "overlap [s]", "bound [s]",
+           "price [s]", "held by"], rows),
+    element("p", { className: "small", text: "Price: how much shorter the walk would be if one scale " +
+      "less were demanded of what holds the overlap, by this overlap alone, to first order." }));
+}
+
+/** The statement, and the verdict on each walk. */
+export function guarantee(parent, statement, walks) {
+  const shown = walks.filter((walk) => walk.certificate);
+  const list = shown.map((walk) => {
+    const c = walk.certificate;
+    const count = Object.values(c.statements).reduce((a, b) => a + b, 0);
+    return [walk.label, verdict(walk), number(count), c.message];
+  });
+  const one = shown[0]?.certificate;
+  const limits = { foot_speed: one?.limits.foot_speed_m_s, foot_yaw_rate: one?.limits.foot_yaw_rate_rad_s };
+  const demanded = Object.entries(one?.demanded ?? {}).map(([name, value]) =>
+    `${family(name)} ≥ ${number(value)}` +
+    (limits[name] ? ` (limit ${number(limits[name])})` : ""));
+  parent.replaceChildren(
+    element("h2", { text: "What is guaranteed" }),
+    element("p", { text: statement }),
+    table(["method", "verdict", "statements at every instant", ""], list),
+    element("p", { className: "small", text: demanded.length ? `Demanded [m, rad, s]: ${demanded.join(", ")}.` : "" }),
+  );
+}

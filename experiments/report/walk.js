@@ -1,0 +1,78 @@
+// One walk: columns over time, read at any instant.
+
+function decoded({ step, delta }) {
+  const values = new Float64Array(delta.length);
+  let sum = 0;
+  delta.forEach((change, i) => {
+    if (change !== null) sum += change;
+    values[i] = change === null ? NaN : sum * step;
+  });
+  return values;
+}
+
+export class Walk {
+  constructor(json) {
+    this.summary = json.summary;
+    this.method = json.summary.method;
+    this.variables = json.variables ?? "";
+    this.gap = json.gap;
+    this.improvements = json.improvements ?? [];
+    this.overlaps = json.overlaps ?? [];
+    this.halfSteps = json.half_steps ?? [];
+    this.certificate = json.certificate;
+    this.certified = json.summary.certified === "true" || json.summary.certified === true;
+    this.support = json.support ?? "";
+    this.encoded = json.columns;
+    this.columns = {};
+    this.drawn = json.columns !== undefined;
+    this.times = this.drawn ? this.column("t_s") : new Float64Array([0]);
+    this.duration = this.times[this.times.length - 1];
+  }
+
+  get label() {
+    const plain = this.variables === "" || this.variables === "overlaps";
+    const symbols = this.variables.split("+").map((name) =>
+      ({ overlaps: "Δ", heights: "η", durations: "T" })[name] ?? name);
+    return plain ? this.method : `${this.method} (${symbols.join(", ")})`;
+  }
+
+  column(name) {
+    return (this.columns[name] ??= decoded(this.encoded[name]));
+  }
+
+  /** The row before t and how far t is from it to the next one, from 0 to 1. */
+  locate(t) {
+    const times = this.times;
+    let low = 0;
+    let high = times.length - 1;
+    if (t >= times[high]) return { row: high, part: 0 };
+    while (high - low > 1) {
+      const middle = (low + high) >> 1;
+      if (times[middle] <= t) low = middle;
+      else high = middle;
+    }
+    const part = Math.max(0, (t - times[low]) / (times[high] - times[low]));
+    return { row: low, part };
+  }
+
+  /** A column's value at a place that locate() told. */
+  value(name, { row, part }) {
+    const values = this.column(name);
+    return part === 0 ? values[row] : values[row] + part * (values[row + 1] - values[row]);
+  }
+
+  /** "left", "right" or "both". */
+  supportAt({ row }) {
+    return { l: "left", r: "right" }[this.support[row]] ?? "both";
+  }
+
+  sole(side, at) {
+    const of = (what) => this.value(`${side}_foot_${what}`, at);
+    return { x: of("x_m"), y: of("y_m"), z: of("z_m"), yaw: of("yaw_rad") };
+  }
+
+  /** The latest half-step that has begun. */
+  halfStepAt(at) {
+    return this.halfSteps[Math.round(this.column("half_step")[at.row]) - 1];
+  }
+}

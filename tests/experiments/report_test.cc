@@ -1,0 +1,176 @@
+#include "experiments/report/report.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "experiments/commands.h"
+#include "experiments/report/drawn_mesh.h"
+#include "experiments/report/report_page.h"
+#include "experiments/report/report_walk.h"
+#include "tests/experiments/child_process.h"
+#include "tests/experiments/run_check.h"
+#include "tests/experiments/temporary_folder.h"
+
+namespace halfstep {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+namespace fs = std::filesystem;
+
+// Volume inside a closed surface whose triangles are counter-clockwise from outside [m³].
+double Volume(const TriangleMesh& mesh) {
+  double volume = 0.0;
+  for (const auto& t : mesh.triangles.colwise()) {
+    const Eigen::Vector3d a = mesh.vertices.col(t[0]), b = mesh.vertices.col(t[1]);
+    volume += a.cross(b).dot(mesh.vertices.col(t[2])) / 6.0;
+  }
+  return volume;
+}
+
+TEST(DrawnMesh, IsInscribedAndNearlyAsLargeAsTheBody) {
+  const double pi = std::acos(-1.0), ball = 4.0 / 3.0 * pi * 0.001, disc = pi * 0.01;
+  const std::vector<std::pair<ConvexBody, double>> bodies = {
+      {MakeBox({0.1, 0.2, 0.3}), 0.006},
+      {MakeSphere(0.1), ball},
+      {MakeCylinder(0.1, 0.5), 0.5 * disc},
+      {MakeCapsule(0.1, 0.5), ball + 0.5 * disc}};
+  for (const auto& [body, volume] : bodies) {
+    const TriangleMesh mesh = DrawnMesh(body);
+    EXPECT_LE(Volume(mesh), volume * (1.0 + 1e-9));
+    EXPECT_GE(Volume(mesh), volume * 0.975);
+    for (const auto& vertex : mesh.vertices.colwise()) {
+      for (const auto& normal : body.normals.colwise()) {
+        EXPECT_LE(normal.dot(vertex), Support(body, normal) + 1e-9);
+      }
+    }
+  }
+}
+
+TEST(DrawnMesh, CoarsenedHasAtMostSoManyTrianglesAndStaysWhereItIs) {
+  const TriangleMesh mesh = DrawnMesh(MakeSphere(0.5));
+  ASSERT_GT(mesh.triangles.cols(), 400);
+  const TriangleMesh coarse = Coarsened(mesh, 200);
+  EXPECT_LE(coarse.triangles.cols(), 200);
+  EXPECT_GE(coarse.triangles.cols(), 40);
+  EXPECT_LT(coarse.triangles.maxCoeff(), coarse.vertices.cols());
+  EXPECT_GE(Volume(coarse), 0.5 * Volume(mesh));
+  EXPECT_EQ(Coarsened(mesh, 10000).triangles, mesh.triangles);
+}
+
+// The data of a page.
+json DataOf(const std::string& page) {
+  const std::string begin = "id=\"data\">";
+  const size_t from = page.find(begin) + begin.size();
+  return json::parse(page.substr(from, page.find("</script", from) - from));
+}
+
+size_t Count(const std::string& text, const std::string& part) {
+  size_t count = 0;
+  for (size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+  return count;
+}
+
+class ReportTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!HasReport()) GTEST_SKIP() << "this build has no report";
+  }
+  // A short run in `run`, its scene beside it.
+  std::string MakeRun(const std::string& obstacle = "box") {
+    std::string scene = ReadText(HALFSTEP_SOURCE_DIR "/experiments/scenes/box.yaml");
+    scene.replace(scene.find("- name: box"), 11, "- name: " + json(obstacle).dump());
+    WriteText(place_ / "box.yaml", scene);
+    const Outcome outcome =
+        Halfstep(place_.path(), {"run", ShippedConfig("fig5_box"), "--out", "run", "--quiet",
+                                 "--set", "scene=" + (place_ / "box.yaml").string()});
+    EXPECT_EQ(outcome.status, kSuccess) << outcome.err;
+    return ReadText(place_ / "run/report.html");
+  }
+  TemporaryFolder place_;
+};
+
+TEST_F(ReportTest, TextsCannotLeaveTheirPlace) {
+  const std::string hostile = "</script><script>alert(1)</script><!--\"'\\\n\u2028&amp;\xff";
+  const std::string page = ReportPage({{hostile, hostile}}), plain = ReportPage({{"a", "b"}});
+  EXPECT_EQ(Count(page, "<"), Count(plain, "<"));
+  const json data = DataOf(page);
+  EXPECT_EQ(data.begin().value(), hostile.substr(0, hostile.size() - 1) + "\uFFFD");
+}
+
+TEST_F(ReportTest, HoldsTheWalksOfTheRun) {
+  const std::string obstacle = "<img src=x onerror=alert(1)> \"&'";
+  const json data = DataOf(MakeRun(obstacle));
+  ASSERT_EQ(data["cases"].size(), 1u);
+  EXPECT_EQ(data["cases"][0]["walks"].size(), 3u);
+  EXPECT_EQ(data["scenes"][0]["obstacles"][0]["name"], obstacle);
+  const json& walk = data["cases"][0]["walks"][1];
+  EXPECT_EQ(walk["summary"]["method"], "dichotomy");
+  EXPECT_EQ(walk["certificate"]["verdict"], "certified");
+  EXPECT_THAT(walk["overlaps"][0]["active"].get<std::string>(), HasSubstr(obstacle));
+  // Columns add up to the trajectory's rows, every fourth and the last.
+  const ParsedCsv rows(ReadText(place_ / "run/dichotomy/trajectory.csv"));
+  for (const std::string column : {"t_s", "com_x_m", "right_foot_z_m", "q_RLEG_JOINT3_rad"}) {
+    const json& shown = walk["columns"][column];
+    ASSERT_EQ(shown["delta"].size(), (rows.size() - 1 + 3) / 4 + 1);
+    long sum = 0;
+    for (size_t i = 0; i < shown["delta"].size(); ++i) {
+      sum += shown["delta"][i].get<long>();
+      EXPECT_NEAR(static_cast<double>(sum) * 1e-5,
+                  rows.Number(std::min(4 * i, rows.size() - 1), column), 0.51e-5);
+    }
+  }
+}
+
+TEST_F(ReportTest, IsMadeAnewWithTheSameBytes) {
+  const std::string page = MakeRun();
+  EXPECT_LT(page.size(), 2'000'000u);
+  fs::remove(place_ / "run/report.html");
+  const Outcome outcome = Halfstep(place_.path(), {"report", "run"});
+  ASSERT_EQ(outcome.status, kSuccess) << outcome.err;
+  EXPECT_EQ(outcome.out, "written: run/report.html\n");
+  EXPECT_TRUE(ReadText(place_ / "run/report.html") == page);
+  ASSERT_EQ(Halfstep(place_.path(), {"report", "run", "--out", "a.html"}).status, kSuccess);
+  EXPECT_TRUE(ReadText(place_ / "a.html") == page);
+  const Outcome again = Halfstep(place_.path(), {"report", "run", "--out", "a.html"});
+  EXPECT_EQ(again.status, kFailed);
+  EXPECT_THAT(again.err, HasSubstr("a.html: is there already (--overwrite replaces it)"));
+}
+
+TEST_F(ReportTest, RefusesWhatIsNoLongerTheRun) {
+  MakeRun();
+  const auto refusal = [&] {
+    const Outcome outcome = Halfstep(place_.path(), {"report", "run", "--out", "a.html"});
+    EXPECT_EQ(outcome.status, kBadInput);
+    EXPECT_FALSE(fs::exists(place_ / "a.html"));
+    return outcome.err;
+  };
+  const std::string rows = ReadText(place_ / "run/dichotomy/trajectory.csv");
+  WriteText(place_ / "run/dichotomy/trajectory.csv", rows.substr(0, rows.size() - 9));
+  EXPECT_THAT(refusal(), HasSubstr("trajectory.csv"));
+  WriteText(place_ / "run/dichotomy/trajectory.csv", rows);
+  WriteText(place_ / "box.yaml", ReadText(place_ / "box.yaml") + "# changed\n");
+  EXPECT_THAT(refusal(), HasSubstr("the files of the scene are not those of this run"));
+  fs::remove(place_ / "run/manifest.json");
+  EXPECT_THAT(refusal(), HasSubstr("run: no such run folder"));
+}
+
+TEST_F(ReportTest, ComparisonWithAnotherSceneKeepsItsTables) {
+  MakeRun();
+  ASSERT_EQ(Halfstep(place_.path(), {"compare", "run", "--out", "one"}).status, kSuccess);
+  const json drawn = DataOf(ReadText(place_ / "one/report.html"))["cases"][0];
+  EXPECT_EQ(drawn["walks"].size(), 3u);
+  EXPECT_TRUE(drawn["walks"][2].contains("columns"));
+  WriteText(place_ / "box.yaml", ReadText(place_ / "box.yaml") + "# changed\n");
+  ASSERT_EQ(Halfstep(place_.path(), {"compare", "run", "--out", "two"}).status, kSuccess);
+  const json tables = DataOf(ReadText(place_ / "two/report.html"))["cases"][0];
+  EXPECT_THAT(tables["not_drawn"].get<std::string>(), HasSubstr("the files of the scene"));
+  EXPECT_EQ(tables["walks"][1]["summary"], drawn["walks"][1]["summary"]);
+  EXPECT_FALSE(tables["walks"][2].contains("columns"));
+}
+
+}  // namespace
+}  // namespace halfstep

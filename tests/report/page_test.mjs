@@ -1,0 +1,148 @@
+// Opens report.html in Chromium: node page_test.mjs HALFSTEP SOURCE_FOLDER
+// Exit status 77, which ctest counts as skipped, when there is no Chromium or no report.
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { Browser, hasBrowser, pause } from "./browser.mjs";
+import { countColours, partThatDiffers, readPng } from "./png.mjs";
+
+const [halfstep, source] = process.argv.slice(2);
+const hostile = "<img src=x onerror=alert(1)> \"&'";
+const place = mkdtempSync(join(tmpdir(), "halfstep_page_"));
+
+// A run whose name, obstacle and a joint have names that are HTML.
+function makeRun() {
+  const read = (name) => readFileSync(join(source, name), "utf8");
+  const scene = read("experiments/scenes/box.yaml");
+  writeFileSync(join(place, "box.yaml"), scene.replace("- name: box", `- name: ${JSON.stringify(hostile)}`));
+  const robots = join(source, "wpg/robots");
+  const joint = "<b>KNEE";
+  writeFileSync(join(place, "robot.yaml"), read("wpg/robots/hrp2.yaml")
+    .replaceAll("RLEG_JOINT3", `"${joint}"`)
+    .replaceAll(/urdf: (\S+)/g, "urdf: robot.urdf").replaceAll("./hrp2}", `${robots}/hrp2}`));
+  writeFileSync(join(place, "robot.urdf"),
+                read("wpg/robots/hrp2.urdf").replaceAll("RLEG_JOINT3", joint.replace("<", "&lt;")));
+  execFileSync(halfstep, [
+    "run", join(source, "experiments/configs/fig5_box.yaml"), "--out", "run", "--quiet",
+    "--set", `scene=${place}/box.yaml`, "--set", `robot=${place}/robot.yaml`,
+    "--set", `name=${JSON.stringify(hostile)}`,
+  ], { cwd: place });
+  execFileSync(halfstep, ["compare", "run", "--out", "comparison", "--quiet"], { cwd: place });
+}
+
+// The view once it satisfies `condition`, or as it is after 20 s: a slow machine draws late.
+async function view(browser, condition) {
+  const deadline = Date.now() + 20000;
+  for (;;) {
+    const picture = readPng(await browser.picture("#canvas"));
+    if (condition(picture) || Date.now() > deadline) return picture;
+    await pause(100);
+  }
+}
+const isDrawn = (picture) => countColours(picture) > 100;
+const clock = async (browser) =>
+  Number.parseFloat(await browser.run("return document.getElementById('clock').textContent"));
+
+// What does not fit where it stands: rows that would run over their end.
+const overflows = (browser) => browser.run(`
+  const rows = [document.documentElement, ...document.querySelectorAll("header, .bar, .plot-head")];
+  const wide = rows.filter((e) => e.scrollWidth > e.clientWidth + 1).map((e) => e.textContent);
+  const bottom = document.querySelector("main").getBoundingClientRect().bottom;
+  return bottom <= window.innerHeight ? wide : [...wide, "main: " + bottom];`);
+
+async function testRun(browser) {
+  const url = `file://${place}/run/report.html`;
+  await browser.load(url);
+  assert.deepEqual(await overflows(browser), [], "everything fits at 1366 x 768");
+  const texts = await browser.run(`return {
+    title: document.getElementById("title").textContent,
+    held: document.getElementById("junctions").textContent,
+    elements: document.querySelectorAll("img, b *, script:not([type])").length,
+    plots: document.querySelectorAll(".uplot").length,
+    verdicts: document.querySelectorAll("#guarantee .yes").length,
+    policy: document.querySelector("meta[http-equiv]").content };`);
+  assert.equal(texts.title, hostile);
+  assert.ok(texts.held.includes(hostile), texts.held);
+  assert.equal(texts.elements, 1, "no element comes from a name");
+  assert.equal(texts.plots, 5);
+  assert.equal(texts.verdicts, 3);
+  assert.match(texts.policy, /^default-src 'none'; script-src 'sha256-/);
+
+  const standing = await view(browser, isDrawn);
+  assert.ok(isDrawn(standing), `the view is drawn: ${countColours(standing)} colours`);
+
+  await browser.run("document.getElementById('play').click()");
+  const deadline = Date.now() + 20000;
+  while ((await clock(browser)) < 0.2 && Date.now() < deadline) await pause(50);
+  await browser.key(" ");
+  const paused = await clock(browser);
+  assert.ok(paused >= 0.2, `it plays: ${paused} s`);
+  await pause(200);
+  assert.equal(await clock(browser), paused, "space pauses");
+
+  await browser.set("scrub", "1.5");
+  assert.equal(await clock(browser), 1.5);
+  await browser.key("\uE014");
+  assert.equal(await clock(browser), 1.55, "an arrow moves");
+  const cursors = await browser.run(
+    "return [...document.querySelectorAll('.cursor')].map((c) => c.style.transform)");
+  assert.equal(new Set(cursors).size, 1, "one time in all plots");
+  const hasMoved = (picture) => partThatDiffers(standing, picture) > 0.01;
+  assert.ok(hasMoved(await view(browser, hasMoved)), "the robot has moved");
+
+  for (const [id, value] of [
+    ["layout", "ghost"], ["camera", "top"], ["show-paths", true], ["show-soles", true],
+    ["show-strobe", true], ["show-footprints", false], ["follow", true], ["method-b", "-1"],
+    ["method-a", "0"], ["camera", "front"],
+  ]) await browser.set(id, value);
+  assert.ok(isDrawn(await view(browser, isDrawn)));
+  assert.deepEqual(await browser.console(), [], "the console is empty");
+  assert.deepEqual((await browser.requests()).filter((asked) => !asked.startsWith("chrome")), [url],
+                   "nothing else is fetched");
+}
+
+async function testComparison(browser) {
+  await browser.load(`file://${place}/comparison/report.html`);
+  const rows = await browser.run("return document.querySelectorAll('#summary tbody tr').length");
+  assert.equal(rows, 3, "three methods");
+  const plots = await browser.run("return document.querySelectorAll('.uplot').length");
+  assert.equal(plots, 6, "with the durations over run time");
+  assert.deepEqual(await overflows(browser), []);
+  assert.deepEqual(await browser.console(), []);
+}
+
+async function testWithoutWebGl(browser) {
+  await browser.load(`file://${place}/run/report.html`);
+  const page = await browser.run(`return { view: document.getElementById("view").innerText,
+    plots: document.querySelectorAll(".uplot").length }`);
+  assert.match(page.view, /no WebGL/);
+  assert.equal(page.plots, 5);
+  await browser.set("scrub", "1.5");
+  assert.equal(await clock(browser), 1.5);
+}
+
+if (!hasBrowser()) {
+  console.log("Skipped: there is no chromium and chromedriver (packages chromium, chromium-driver)");
+  process.exit(77);
+}
+try {
+  makeRun();
+  if (!existsSync(join(place, "run/report.html"))) {
+    console.log("Skipped: this build of halfstep has no report");
+    process.exitCode = 77;
+  } else {
+    for (const [flags, tests] of [[[], [testRun, testComparison]],
+                                  [["--disable-3d-apis"], [testWithoutWebGl]]]) {
+      const browser = await Browser.open(1366, 768, flags);
+      try {
+        for (const test of tests) await test(browser);
+      } finally {
+        await browser.close();
+      }
+    }
+  }
+} finally {
+  rmSync(place, { recursive: true, force: true });
+}
