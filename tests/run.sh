@@ -7,6 +7,9 @@ cd "$(dirname "$0")/.."
 jobs="${JOBS:-2}"
 
 experiments/install_dependencies.sh
+# The notebooks' packages: without them their tests are skipped.
+experiments/install_dependencies.sh python3-nbconvert python3-ipykernel python3-pandas \
+  python3-matplotlib || echo "The notebooks will not be tested" >&2
 mkdir -p build
 
 # Runs a command; its output goes to a log, and to the screen only when it fails.
