@@ -15,7 +15,6 @@ import time
 
 from paper_claims import CLAIMS, ROOT, DoesNotHold, hold
 
-README = ROOT / "README.md"
 BEGIN, END = "<!-- reproduced: begin -->", "<!-- reproduced: end -->"
 
 
@@ -52,16 +51,16 @@ class Commands:
         return self.done[command]
 
 
-def run(number, what, paper, commands, function, execute):
+def run(what, paper, commands, function, execute):
     """The claim's row, and whether nothing failed."""
-    print(f"{number:2}/{len(CLAIMS)}  {what} … ", end="", file=sys.stderr, flush=True)
     seconds, ours, fine = 0.0, "–", True
     try:
-        printed = ""
+        printed = []
         for command in commands:
-            printed, took = execute(command)
+            text, took = execute(command)
+            printed.append(text)
             seconds += took
-        ours, status = function(printed)
+        ours, status = function(*printed)
     except NotThere as reason:
         status = str(reason)
     except (DoesNotHold, OSError, LookupError, ValueError, AttributeError, StopIteration) as reason:
@@ -72,30 +71,33 @@ def run(number, what, paper, commands, function, execute):
     return f"| {what} | {listed} | {took} | {paper} | {ours} | {status} |", fine
 
 
-def write(table):
+def write(table, readme):
     """Between the markers, whole or not at all."""
-    text = README.read_text()
+    text = readme.read_text()
     begin, end = text.index(BEGIN) + len(BEGIN), text.index(END)
-    partial = README.with_suffix(".md.partial")
+    partial = readme.with_suffix(".md.partial")
     partial.write_text(f"{text[:begin]}\n{table}\n{text[end:]}")
-    partial.replace(README)
+    partial.replace(readme)
 
 
-def main():
+def main(claims=CLAIMS, readme=ROOT / "README.md"):
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     load, start = os.getloadavg()[0], time.monotonic()
+    results = []
     with tempfile.TemporaryDirectory() as cache:
         execute = Commands(cache)
-        results = [run(number, *entry, execute) for number, entry in enumerate(CLAIMS, 1)]
+        for number, entry in enumerate(claims, 1):
+            print(f"{number:2}/{len(claims)}  {entry[0]} … ", end="", file=sys.stderr, flush=True)
+            results.append(run(*entry, execute))
     version = subprocess.run(["git", "describe", "--always"], cwd=ROOT, text=True,
                              capture_output=True).stdout.strip() or "no commit"
-    lines = ["", "| figure or claim | command | time [s] | paper | ours | status |",
-             "|---|---|---|---|---|---|", *(row for row, _ in results), "",
-             f"*{version}, {os.cpu_count()} cores at a load of {load:.1f} when it began; "
-             f"{time.monotonic() - start:.0f} s in all.*", ""]
-    write("\n".join(lines))
+    write("\n".join([
+        "", "| figure or claim | command | time [s] | paper | ours | status |",
+        "|---|---|---|---|---|---|", *(row for row, _ in results), "",
+        f"*{version}, {os.cpu_count()} cores at a load of {load:.1f} when it began; "
+        f"{time.monotonic() - start:.0f} s in all.*", ""]), readme)
     failed = sum(not fine for _, fine in results)
-    print(f"README.md: {len(results)} rows, {failed} that do not hold", file=sys.stderr)
+    print(f"{readme.name}: {len(results)} rows, {failed} that do not hold", file=sys.stderr)
     return 1 if failed else 0
 
 
