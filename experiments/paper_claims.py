@@ -206,7 +206,7 @@ def half_step_set(printed):
                          "([why](planner/README.md#half-step-set))")
 
 
-@claim("a swept volume for each half-step", "276, 20 to 40 s each, no proof of containment",
+@claim("a swept volume for each half-step", "276, 20 to 40 s each",
        f"halfstep bake {CONFIGS}/island.yaml --json")
 def swept_volumes(printed):
     bake = json.loads(printed)
@@ -216,7 +216,7 @@ def swept_volumes(printed):
             f"{bake['bytes'] / 1e6:.0f} MB"), "better"
 
 
-@claim("what a swept volume calls free is free", "small obstacles inside are missed; no proof",
+@claim("what a swept volume calls free is free", "no proof",
        "soundness_study 5000")
 def volumes_are_sound(printed):
     counts = re.search(r"(\d+) called free, (\d+) of them not certified", printed)
@@ -289,7 +289,7 @@ def fig6(_):
 
 
 @claim("Fig. 7: a bar is moved while the robot walks",
-       "a new plan takes effect after 2 steps, 2.5 s")
+       "a new goal takes effect after two steps, 2.5 s")
 def fig7():
     return "–", "out of scope: hardware; replanning while walking is not there"
 

@@ -83,14 +83,14 @@ def write(table, readme):
 def main(claims=CLAIMS, readme=ROOT / "README.md"):
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     load, start = os.getloadavg()[0], time.monotonic()
+    version = subprocess.run(["git", "describe", "--always"], cwd=ROOT, text=True,
+                             capture_output=True).stdout.strip() or "no commit"
     results = []
     with tempfile.TemporaryDirectory() as cache:
         execute = Commands(cache)
         for number, entry in enumerate(claims, 1):
             print(f"{number:2}/{len(claims)}  {entry[0]} … ", end="", file=sys.stderr, flush=True)
             results.append(run(*entry, execute))
-    version = subprocess.run(["git", "describe", "--always"], cwd=ROOT, text=True,
-                             capture_output=True).stdout.strip() or "no commit"
     write("\n".join([
         "", "| figure or claim | command | time [s] | paper | ours | status |",
         "|---|---|---|---|---|---|", *(row for row, _ in results), "",
