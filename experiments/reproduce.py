@@ -13,7 +13,8 @@ import sys
 import tempfile
 import time
 
-from paper_claims import CLAIMS, ROOT, DoesNotHold, hold
+from paper_claims import CLAIMS
+from run_tables import ROOT, DoesNotHold, hold
 
 BEGIN, END = "<!-- reproduced: begin -->", "<!-- reproduced: end -->"
 

@@ -16,5 +16,6 @@ then
   tail -n 40 build/reproduce.log >&2
   exit 1
 fi
-build planner_study soundness_study || echo "The studies cannot be built; their rows stay open" >&2
+build planner_study soundness_study swept_volume_benchmark ||
+  echo "The studies cannot be built; their rows stay open" >&2
 exec python3 experiments/reproduce.py

@@ -10,12 +10,12 @@ import unittest
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "experiments"))
 
-import paper_claims  # noqa: E402
 import reproduce  # noqa: E402
+import run_tables  # noqa: E402
 
 
 def not_holding(_):
-    paper_claims.hold(False, "3 is not 4")
+    run_tables.hold(False, "3 is not 4")
 
 
 HOLDS = ("holds", "theirs", ("printf 7",), lambda printed: (printed, "reproduced"))
@@ -60,7 +60,7 @@ class Reproduce(unittest.TestCase):
         self.assertIn("not run: no_such_study is not built", text)
 
     def test_the_readme_has_the_markers(self):
-        text = (paper_claims.ROOT / "README.md").read_text()
+        text = (run_tables.ROOT / "README.md").read_text()
         self.assertLess(text.index(reproduce.BEGIN), text.index(reproduce.END))
 
 
