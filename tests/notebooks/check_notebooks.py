@@ -15,6 +15,7 @@ import io
 import os
 import pathlib
 import sys
+import tempfile
 
 try:
     import matplotlib.image
@@ -72,6 +73,13 @@ def main():
     parser.add_argument("--refused", default="")
     parser.add_argument("notebooks", nargs="+", type=pathlib.Path)
     options = parser.parse_args()
+    with tempfile.TemporaryDirectory() as scratch:  # not the user's folders
+        os.environ["IPYTHONDIR"] = os.environ["JUPYTER_RUNTIME_DIR"] = scratch
+        return check(options)
+
+
+def check(options):
+    """Exit status."""
     failures = 0
     paths = [path for given in options.notebooks
              for path in (sorted(given.glob("*.ipynb")) if given.is_dir() else [given])]
