@@ -1,0 +1,161 @@
+#!/bin/sh
+# Makes the CSV sets of this folder anew:  notebooks-data/make_data.sh [SET]...
+# Sets: fig3 fig4 fig5 sweep methods certificate planners; all by default. Runs take minutes.
+# HALFSTEP: the command (build/release/experiments/halfstep). The sets `planners` and `certificate`
+# also need planner_study and motion_bounds_study, built beside it with -DHALFSTEP_BENCHMARKS=ON.
+set -eu
+cd "$(dirname "$0")/.."
+halfstep="${HALFSTEP:-build/release/experiments/halfstep}"
+studies="${STUDIES:-build/release/tests}"
+configs=experiments/configs
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+trap 'exit 130' INT TERM
+
+run() {  # CONFIG OPTION...: a run folder in $work/run
+  config=$1
+  shift
+  "$halfstep" run "$configs/$config.yaml" --quiet --overwrite --out "$work/run" "$@"
+}
+
+# FILE COLUMN...: those columns, numbers to six digits, without the header; `value=text` is a
+# column of that text.
+pick() {
+  file=$1
+  shift
+  awk -F, -v wanted="$*" '
+    BEGIN { n = split(wanted, column, " ") }
+    NR == 1 { for (i = 1; i <= NF; ++i) at[$i] = i; next }
+    { line = ""
+      for (i = 1; i <= n; ++i) {
+        cell = column[i] in at ? $(at[column[i]]) : substr(column[i], index(column[i], "=") + 1)
+        if (cell ~ /^-?[0-9.]+(e[-+]?[0-9]+)?$/) cell = sprintf("%.6g", cell)
+        line = line (i > 1 ? "," : "") cell
+      }
+      print line }' "$file"
+}
+
+header() {  # COLUMN...
+  echo "$*" | tr ' ' ','
+}
+
+keep() {  # SET/FILE: $work/table, which is whole by now
+  mkdir -p "notebooks-data/$(dirname "$1")"
+  mv "$work/table" "notebooks-data/$1"
+  echo "notebooks-data/$1: $(($(wc -l <"notebooks-data/$1") - 1)) rows"
+}
+
+make_fig3() {  # Two half-steps at growing overlaps; a cap of 1 ends where the floor margin holds it.
+  { header overlap_s t_s com_y_m zmp_y_m right_foot_z_m
+    for cap in 0 0.25 0.5 0.75 1; do
+      run fig3_two_half_steps --set 'smoothing.methods=[dichotomy]' --set output.period_s=0.02 \
+        --set "smoothing.dichotomy.up_down_cap=$cap"
+      overlap=$(pick "$work/run/dichotomy/overlaps.csv" overlap_s)
+      pick "$work/run/dichotomy/trajectory.csv" "overlap=$overlap" t_s com_y_m zmp_y_m right_foot_z_m
+    done; } >"$work/table"
+  keep fig3/walks.csv
+}
+
+make_fig4() {  # The curved walk, raw and smoothed.
+  run fig4_raw_sequence --set 'smoothing.methods=[dichotomy]' --set output.period_s=0.02
+  { header footstep foot x_m y_m yaw_rad
+    pick "$work/run/footsteps.csv" footstep foot x_m y_m yaw_rad; } >"$work/table"
+  keep fig4/footsteps.csv
+  { header method t_s support com_x_m com_y_m zmp_x_m zmp_y_m
+    for method in raw dichotomy; do
+      pick "$work/run/$method/trajectory.csv" "method=$method" t_s support com_x_m com_y_m zmp_x_m zmp_y_m
+    done; } >"$work/table"
+  keep fig4/walks.csv
+}
+
+make_fig5() {  # The foot over the box; and how low it gets at any overlap, without the box.
+  run fig5_box --set 'smoothing.methods=[dichotomy]' --set output.period_s=0.01
+  { header method t_s right_foot_x_m right_foot_z_m clearance_m
+    for method in raw dichotomy; do
+      pick "$work/run/$method/trajectory.csv" "method=$method" t_s right_foot_x_m right_foot_z_m clearance_m
+    done; } >"$work/table"
+  keep fig5/foot.csv
+  { header overlap_s apex_m
+    for cap in 0 0.1 0.2 0.3 0.4 0.5 0.6 0.7 0.8 0.9 1; do
+      run fig3_two_half_steps --set 'smoothing.methods=[dichotomy]' \
+        --set smoothing.margins.floor_m=0 --set "smoothing.dichotomy.up_down_cap=$cap"
+      pick "$work/run/dichotomy/overlaps.csv" overlap_s | tr '\n' ,
+      pick "$work/run/dichotomy/trajectory.csv" right_foot_z_m | sort -g | tail -n 1
+    done; } >"$work/table"
+  keep fig5/apex.csv
+}
+
+make_sweep() {  # 200 cases of the box, by overlaps alone and with durations.
+  columns="method status certified duration_s speedup wall_s"
+  { header smoothing.limits.foot_speed_m_s smoothing.margins.clearance_m $columns
+    for speed in $(seq 0.9 0.025 1.375); do
+      for clearance in $(seq 0 0.0007 0.0063); do
+        run fig5_box --set "smoothing.limits.foot_speed_m_s=$speed" \
+          --set "smoothing.margins.clearance_m=$clearance" --set output.period_s=0.1 \
+          --set 'smoothing.methods=[dichotomy, halfstep/barrier]' \
+          --set smoothing.optimizer.durations=true --set smoothing.optimizer.least_duration=0.2 \
+          --set smoothing.optimizer.deadline_s=2 2>"$work/said" || {
+            grep -q 'plan is not feasible' "$work/said" || { cat "$work/said" >&2; exit 1; }; }
+        pick "$work/run/summary.csv" "v=$speed" "c=$clearance" $columns
+      done
+    done; } >"$work/table"
+  keep sweep/runs.csv
+}
+
+make_methods() {  # Nine methods on six scenarios, over overlaps, heights and durations.
+  runs=""
+  for scenario in fig3_two_half_steps fig4_raw_sequence fig5_box bar_5cm bar_8cm bar_10cm; do
+    "$halfstep" run "$configs/$scenario.yaml" --quiet --out "$work/$scenario" --set output.period_s=0.1 \
+      --set 'smoothing.methods=[dichotomy, dichotomy/published, dichotomy/uniform, coordinate, ipopt,
+             nlopt/ccsaq, nlopt/slsqp, halfstep/barrier, halfstep/sqp]' \
+      --set smoothing.optimizer.heights=true --set smoothing.optimizer.durations=true \
+      --set smoothing.optimizer.deadline_s=5
+    runs="$runs $work/$scenario"
+  done
+  "$halfstep" compare $runs --quiet --out "$work/comparison"
+  columns="scenario objective half_steps method variables status certified duration_s gap_to_best wall_s"
+  { header $columns; pick "$work/comparison/comparison.csv" $columns; } >"$work/table"
+  keep methods/comparison.csv
+  columns="gap effort method variables objective ratio fraction"
+  { header $columns; pick "$work/comparison/performance_profile.csv" $columns; } >"$work/table"
+  keep methods/performance_profile.csv
+  columns="scenario objective method variables wall_s evaluations duration_s gap_to_best"
+  { header $columns; pick "$work/comparison/anytime.csv" $columns; } >"$work/table"
+  keep methods/anytime.csv
+}
+
+make_certificate() {  # What a proof rests on along one walk; bounds against the truth.
+  run bar_8cm --set 'smoothing.methods=[dichotomy]' --set output.period_s=0.1
+  columns="begin_s end_s family margin bound demanded"
+  { header $columns
+    pick "$work/run/dichotomy/certificate.csv" $columns | grep -v ',inf,'; } >"$work/table"
+  keep certificate/bar_8cm.csv
+  "$studies/motion_bounds_study" 1000 >"$work/bounds"
+  { header robot interval_ms at quantity number q05 q25 q50 q75 q95 largest
+    awk '
+      / intervals bounded$/ { split($0, part, ", "); robot = part[1]; ms = part[2] + 0
+        at = part[3]; sub(/:.*/, "", at) }
+      /^bound . true sup/ || NF == 0 || / intervals bounded$/ { table = /true sup/ ? 1 : 0; next }
+      table { name = $1; for (i = 2; i <= NF - 7; ++i) name = name " " $i
+        gsub(/,/, "", name)
+        printf "%s,%g,%s,%s", robot, ms, at, name
+        for (i = NF - 6; i <= NF; ++i) printf ",%s", $i
+        print "" }' "$work/bounds"; } >"$work/table"
+  keep certificate/tightness.csv
+}
+
+make_planners() {  # Twenty problems of each kind, four planners.
+  "$studies/planner_study" 20 island clutter fence cylinders random_room >"$work/plans"
+  { header scenario planner solved runs median_ms p95_ms footsteps nodes queries
+    awk 'NR > 1 { split($3, solved, "/")
+      print $1 "," $2 "," solved[1] "," solved[2] "," $5 "," $6 "," $7 "," $8 "," $9 }' "$work/plans"
+  } >"$work/table"
+  keep planners/plans.csv
+}
+
+for set in ${*:-fig3 fig4 fig5 sweep methods certificate planners}; do
+  case $set in
+    fig3 | fig4 | fig5 | sweep | methods | certificate | planners) "make_$set" ;;
+    *) echo "$0: no set $set" >&2; exit 2 ;;
+  esac
+done
