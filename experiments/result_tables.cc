@@ -108,10 +108,25 @@ std::string IteratesCsv(const MethodRun& run) {
   return csv.text();
 }
 
+std::vector<std::string> SummaryColumns() {
+  return {"method",
+          "status",
+          "certified",
+          "duration_s",
+          "speedup",
+          "cost",
+          "worst_margin",
+          "worst_margin_name",
+          "iterations",
+          "margin_evaluations",
+          "collision_queries",
+          "wall_s",
+          "time_to_first_improvement_s",
+          "gap_to_reference"};
+}
+
 std::string SummaryCsv(const MarginEvaluator& evaluator, const std::vector<MethodRun>& runs) {
-  CsvWriter csv({"method", "status", "certified", "duration_s", "speedup", "cost", "worst_margin",
-                 "worst_margin_name", "iterations", "margin_evaluations", "collision_queries",
-                 "wall_s", "time_to_first_improvement_s", "gap_to_reference"});
+  CsvWriter csv(SummaryColumns());
   std::optional<double> reference;
   for (const MethodRun& run : runs) {
     if (run.method == "reference") reference = run.duration;

@@ -36,6 +36,7 @@ std::string OverlapsCsv(const MarginEvaluator& evaluator, const MethodRun& run);
 std::string ParetoCsv(const MarginEvaluator& evaluator, const HalfStepSequence& sequence,
                       const MethodRun& run);
 std::string IteratesCsv(const MethodRun& run);
+std::vector<std::string> SummaryColumns();
 /// One row a method; speed-up against the first run, which is the planned motion.
 std::string SummaryCsv(const MarginEvaluator& evaluator, const std::vector<MethodRun>& runs);
 

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+
+#include "experiments/experiment_run.h"
+#include "experiments/sweep_config.h"
+
+namespace halfstep {
+
+/// The first line of runs.csv: case, the keys that vary, the columns of summary.csv that hold no
+/// times of a run, message. So the same sweep gives the same bytes.
+std::string SweepRunsHeader(const SweepConfig& sweep);
+/// The first line of timings.csv: what runs.csv leaves out.
+std::string SweepTimingsHeader();
+
+/// A case's runs.csv and timings.csv, with their first lines.
+struct SweepTables {
+  std::string runs, timings;
+};
+/// One row a method. `wall` is of the whole case [s].
+SweepTables TablesOf(const SweepConfig& sweep, const SweepCase& one, const ExperimentRun& run,
+                     double wall);
+/// One row of a case that came to nothing: no method, a status and why.
+SweepTables TablesOfFailure(const SweepConfig& sweep, const SweepCase& one,
+                            const std::string& status, const std::string& message, double wall);
+
+}  // namespace halfstep
