@@ -5,6 +5,7 @@
 
 #include "experiments/build_info.h"
 #include "experiments/commands.h"
+#include "experiments/printable_stream.h"
 #include "experiments/random_scenes.h"
 #include "experiments/verify/verify_run.h"
 #include "wpg/input/input_error.h"
@@ -40,6 +41,7 @@ ExitStatus Verify(const verify::VerifyOptions& options, bool quiet) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  const PrintableStream out(&std::cout), err(&std::cerr);
   CLI::App app{
       "Plans and smooths humanoid walks made of half-steps.\n\n"
       "  example: halfstep run experiments/configs/bar_8cm.yaml"};

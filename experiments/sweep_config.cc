@@ -78,8 +78,8 @@ void DeclareAxis(Fields& fields, SweepAxis* axis) {
     axis->from = axis->to = axis->step = std::nullopt;
     axis->count = 0;
   } else {
-    fields.Complain(range ? key : "",
-                    range ? mistake : "no values (valid: values, or from and to)");
+    fields.Complain(range ? key : "values",
+                    range ? mistake : "there are none (valid: values, or from and to)");
   }
 }
 

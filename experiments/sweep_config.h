@@ -13,11 +13,11 @@ namespace halfstep {
 
 /// A key of the config and the values that it takes.
 struct SweepAxis {
-  std::string key;                  ///< dotted, as after --set
-  std::vector<std::string> values;  ///< YAML texts; reading fills them from a range
-  std::optional<double> from, to, step;
-  int count = 0;    ///< of a range; 0: by step
-  std::string zip;  ///< axes with the same word advance together; "": by itself
+  std::string key;                    ///< dotted, as after --set
+  std::vector<std::string> values{};  ///< YAML texts; reading fills them from a range
+  std::optional<double> from{}, to{}, step{};
+  int count = 0;      ///< of a range; 0: by step
+  std::string zip{};  ///< axes with the same word advance together; "": by itself
 };
 
 /// A sweep as its YAML file says it (experiments/README.md).
