@@ -174,20 +174,22 @@ TEST(HostileNames, ThatAreAcceptedReadBackFromEveryTable) {
   const std::string meant = Meant(name.yaml);
   RenamedRobot(place, name);
   WriteText(place / "s.yaml", "obstacles:\n  - {name: \"" + name.yaml +
-                                  "\", box: {size_m: [0.05, 0.4, 0.05]},\n"
-                                  "     pose: {xyz: [0.12, -0.2, 0.025]}}\n");
+                                  "\", box: {size_m: [0.05, 0.05, 0.05]},\n"
+                                  "     pose: {xyz: [0.55, -0.1, 0.025]}}\n");
   WriteText(place / "c.yaml", "name: \"" + name.yaml +
                                   "\"\nrobot: robots/hrp2.yaml\nscene: s.yaml\n" +
-                                  "footsteps: [{foot: right, x_m: 0.27, y_m: -0.105}]\n");
+                                  "footsteps: [{foot: right, x_m: 0.2, y_m: -0.105}]\n");
   const Outcome run = Halfstep(place.path(), {"run", "c.yaml", "--out", "r"});
-  ASSERT_THAT(run.status, testing::AnyOf(kSuccess, kFailed)) << run.err;
+  ASSERT_EQ(run.status, kSuccess) << run.err;
   ExpectFitForATerminal(run.out + run.err);
   EXPECT_THAT(run.out, HasSubstr(meant + ": hrp2, 2 half-steps, 1 obstacles"));
   for (const std::string& file : FilesBelow(place / "r")) {
     SCOPED_TRACE(file);
     const std::string text = ReadText(place / "r" / file);
-    if (file.ends_with(".json")) EXPECT_TRUE(json::accept(text));
-    if (file.ends_with(".csv")) EXPECT_NO_THROW(ParsedCsv{text});
+    EXPECT_TRUE(!file.ends_with(".json") || json::accept(text));
+    if (file.ends_with(".csv")) {
+      EXPECT_NO_THROW(ParsedCsv{text});
+    }
   }
   EXPECT_EQ(json::parse(ReadText(place / "r/manifest.json"))["name"], meant);
   const ParsedCsv trajectory(ReadText(place / "r/raw/trajectory.csv"));
@@ -202,7 +204,7 @@ TEST(HostileNames, ThatAreAcceptedReadBackFromEveryTable) {
   ASSERT_EQ(Halfstep(place.path(), {"compare", "r", "--out", "c"}).status, kSuccess);
   EXPECT_EQ(ParsedCsv(ReadText(place / "c/comparison.csv")).Text(0, "scenario"), meant);
   const Outcome verified = Halfstep(place.path(), {"verify", "r"});
-  EXPECT_NE(verified.status, kBadInput) << verified.err;
+  EXPECT_EQ(verified.status, kSuccess) << verified.out << verified.err;
 }
 
 TEST(HostileNames, OfArgumentsDoNotReachTheTerminal) {
