@@ -109,14 +109,14 @@ std::string AnytimeCsv(const Comparison& comparison) {
 }
 
 std::string MeansCsv(const Comparison& comparison) {
-  CsvWriter csv({"method", "variables", "objective", "cases", "missing", "certified", "within_1pct",
-                 "within_5pct", "finished", "speedup_mean", "time_to_1pct_mean_s",
+  CsvWriter csv({"method", "variables", "objective", "cases", "missing", "certified", "failed",
+                 "within_1pct", "within_5pct", "finished", "speedup_mean", "time_to_1pct_mean_s",
                  "time_to_5pct_mean_s", "time_to_end_mean_s", "evaluations_to_1pct_mean",
                  "evaluations_to_5pct_mean", "evaluations_to_end_mean"});
   for (const MethodMeans& mean : Means(comparison)) {
     csv.Cell(mean.method.name).Cell(mean.method.variables).Cell(mean.method.objective);
     csv.Cell(mean.cases).Cell(mean.missing);
-    csv.Cell(mean.certified);
+    csv.Cell(mean.certified).Cell(mean.failed());
     for (int solved : mean.solved) csv.Cell(solved);
     csv.Cell(mean.speedup);
     for (const Effort& effort : mean.effort) csv.Cell(effort.wall);

@@ -83,6 +83,7 @@ class SweepCommandTest : public testing::Test {
               "0.5]]}]\n");
     WriteText(*place_ / "base.yaml",
               "{robot: hrp2, scene: hole.yaml, footsteps: [{foot: right, x_m: 0.2, y_m: -0.105}],\n"
+              " smoothing: {dichotomy: {tolerance_s: 0.1}},\n"
               " output: {period_s: 0.05, directory: elsewhere}}\n");
     WriteText(*place_ / "sweep.yaml",
               "config: base.yaml\nvary:\n"
