@@ -31,6 +31,16 @@ std::vector<std::string> TimingsColumns() {
   return columns;
 }
 
+// What a case without a walk says in a column: cells of numbers are empty, and no cell changes what
+// type its column is read as.
+std::string NothingIn(const std::string& column) {
+  if (column == "method" || column == "worst_margin_name") return "none";
+  if (column == "certified") return "false";
+  const bool counts =
+      column == "iterations" || column == "margin_evaluations" || column == "collision_queries";
+  return counts ? "0" : "";
+}
+
 void BeginRow(const SweepCase& one, CsvWriter* csv) {
   csv->Cell(one.id);
   for (const YamlOverride& set : one.overrides) csv->Cell(set.value);
@@ -65,10 +75,10 @@ SweepTables TablesOfFailure(const SweepConfig& sweep, const SweepCase& one,
                             const std::string& status, const std::string& message, double wall) {
   CsvWriter runs(RunsColumns(sweep)), timings(TimingsColumns());
   BeginRow(one, &runs);
-  timings.Cell(one.id).Empty();
+  timings.Cell(one.id).Cell(NothingIn("method"));
   for (const std::string& column : SummaryColumns()) {
     CsvWriter& csv = HoldsTime(column) ? timings : runs;
-    column == "status" ? csv.Cell(status) : csv.Empty();
+    csv.Cell(column == "status" ? status : NothingIn(column));
   }
   runs.Cell(message).EndRow();
   timings.Cell(wall).EndRow();
