@@ -231,9 +231,10 @@ void DeclareFields(Fields& fields, ExperimentConfig* c) {
        .otherwise =
            "feet side by side about the origin, `standing_width` apart (HRP-2: y = ±0.105 m)"},
       [&](Fields& f) {
-        const GroupSpec sole{.required = true};
-        f.Group("left", sole, [&](Fields& g) { DeclarePose(g, &c->start_left); });
-        f.Group("right", sole, [&](Fields& g) { DeclarePose(g, &c->start_right); });
+        f.Group("left", {.meaning = "the left sole", .required = true},
+                [&](Fields& g) { DeclarePose(g, &c->start_left); });
+        f.Group("right", {.meaning = "the right sole", .required = true},
+                [&](Fields& g) { DeclarePose(g, &c->start_right); });
       });
   fields.OptionalGroup(
       "goal", &c->has_goal,

@@ -81,7 +81,11 @@ StepCost PlannerConfig::Cost() const {
 void DeclareGoal(Fields& fields, GoalConfig* c) {
   fields.Text("part", &c->part,
               {.meaning = "what shall be in the region", .choices = NamesOf(kParts)});
-  const NumberSpec position{.unit = "m", .min = -1000, .max = 1000, .required = true};
+  const NumberSpec position{.meaning = "of the region's centre in the world",
+                            .unit = "m",
+                            .min = -1000,
+                            .max = 1000,
+                            .required = true};
   fields.Number("x_m", &c->X_WG.x, position);
   fields.Number("y_m", &c->X_WG.y, position);
   fields.Number("yaw_deg", &c->X_WG.yaw,
