@@ -138,12 +138,8 @@ void DeclareOptimizer(Fields& fields, OptimizerConfig* c) {
   fields.Integer(
       "max_iterations", &o->max_iterations,
       {.meaning = "of the solver in a round; 0: what suits it", .min = 0, .max = 100000});
-  a third of it in later ones ",
-      .min = 1,
-    .max = 100000
-});
-fields.Number("deadline_s", &o->deadline,
-              {.meaning = "of all solves together", .unit = "s", .min = 0.001, .max = 86400});
+  fields.Number("deadline_s", &o->deadline,
+                {.meaning = "of all solves together", .unit = "s", .min = 0.001, .max = 86400});
 }
 
 void DeclareLimits(Fields& fields, MarginLimits* l) {
