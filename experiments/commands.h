@@ -115,6 +115,31 @@ ExitStatus Bake(const PlanCommand& command);
 /// `halfstep list half-steps CONFIG`.
 ExitStatus ListHalfSteps(const PlanCommand& command);
 
+struct SweepCommand {
+  std::string sweep;                    ///< a sweep file
+  std::vector<YamlOverride> overrides;  ///< of its keys
+  std::optional<std::string> out;       ///< folder; none: sweeps/NAME
+  int jobs = 1;                         ///< worker processes
+  bool list_cases = false;              ///< prints the cases and does nothing
+  std::string one_case;                 ///< does this one only, here; "": all
+  bool collect = false;                 ///< writes runs.csv from cases that are done
+  bool quiet = false;
+};
+
+/// `halfstep sweep`: every case of a sweep, each by a process of its own, then runs.csv. What is
+/// done already is not done again. Throws InputError for bad input and for a folder of something
+/// else, std::runtime_error when files cannot be written.
+int Sweep(const SweepCommand& command);
+
+struct ExplainCommand {
+  std::string key;  ///< or the end of one; "": all
+  bool json_schema = false, markdown = false;
+};
+
+/// `halfstep explain-config`: the keys of a config as its reader declares them. Throws InputError
+/// for a key that there is not.
+ExitStatus ExplainConfig(const ExplainCommand& command);
+
 /// `halfstep list robots|scenes|solvers|methods|planners`. Precondition: `what` is one of these.
 ExitStatus List(const std::string& what, bool json);
 

@@ -82,6 +82,8 @@ struct MethodMeans {
   MethodKey method;
   int cases = 0, missing = 0, certified = 0;
   std::array<int, kNumTargets> solved{};
+  /// Cases that it did not bring to its own end with a certified walk.
+  int failed() const { return cases - solved.back(); }
   double speedup = 1.0;  ///< geometric mean
   /// Shifted geometric means exp(mean log(v + s)) − s with s = 0.1 s and 1000 evaluations; nan
   /// when no case counts.

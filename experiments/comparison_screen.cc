@@ -79,18 +79,19 @@ std::string ComparisonScreen(const Comparison& comparison) {
   for (const ComparedCase& one : comparison.cases) text += CaseTable(one, widths);
   const std::vector<MethodMeans> means = Means(comparison);
   if (means.empty()) return text;
-  text += Format(
-              "all %zu cases; shifted geometric means, a failure as ten times the slowest "
-              "success\n\n",
-              comparison.cases.size()) +
-          Left("method", widths.name) + Left("variables", widths.variables) + Left("objective", 9) +
-          Format("%5s %8s %9s %8s %8s %8s %8s %11s %11s %11s\n", "cases", "missing", "certified",
-                 "ended", "in 5 %", "in 1 %", "speed-up", "to its end", "to 5 %", "to 1 %");
+  text +=
+      Format(
+          "all %zu cases; shifted geometric means, a failure as ten times the slowest "
+          "success\n\n",
+          comparison.cases.size()) +
+      Left("method", widths.name) + Left("variables", widths.variables) + Left("objective", 9) +
+      Format("%5s %8s %9s %6s %8s %8s %8s %8s %11s %11s %11s\n", "cases", "missing", "certified",
+             "failed", "ended", "in 5 %", "in 1 %", "speed-up", "to its end", "to 5 %", "to 1 %");
   for (const MethodMeans& mean : means) {
     text += Left(mean.method.name, widths.name) + Left(mean.method.variables, widths.variables) +
             Left(mean.method.objective, 9) +
-            Format("%5d %8d %9d %8d %8d %8d %7.2fx", mean.cases, mean.missing, mean.certified,
-                   mean.solved[2], mean.solved[1], mean.solved[0], mean.speedup);
+            Format("%5d %8d %9d %6d %8d %8d %8d %7.2fx", mean.cases, mean.missing, mean.certified,
+                   mean.failed(), mean.solved[2], mean.solved[1], mean.solved[0], mean.speedup);
     for (size_t target : {2, 1, 0}) text += " " + Mean(mean.effort[target].wall, "%9.3f s");
     text += "\n";
   }

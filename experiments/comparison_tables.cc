@@ -147,6 +147,7 @@ CsvFile MeansCsv(const Comparison& comparison) {
       {"cases", kInteger, "", "scenarios"},
       {"missing", kInteger, "", "scenarios where it was not run"},
       {"certified", kInteger, "", "scenarios that it left with a certified walk"},
+      {"failed", kInteger, "", "scenarios that it did not bring to its own end with one"},
       {"within_1pct", kInteger, "", "scenarios solved to 1 % of the best cost"},
       {"within_5pct", kInteger, "", "scenarios solved to 5 %"},
       {"finished", kInteger, "", "scenarios with a certified walk at its own end"},
@@ -163,7 +164,7 @@ CsvFile MeansCsv(const Comparison& comparison) {
   for (const MethodMeans& mean : Means(comparison)) {
     csv.Cell(mean.method.name).Cell(OrNone(mean.method.variables)).Cell(mean.method.objective);
     csv.Cell(mean.cases).Cell(mean.missing);
-    csv.Cell(mean.certified);
+    csv.Cell(mean.certified).Cell(mean.failed());
     for (int solved : mean.solved) csv.Cell(solved);
     csv.Cell(mean.speedup);
     for (const Effort& effort : mean.effort) csv.Cell(effort.wall);

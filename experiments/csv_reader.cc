@@ -20,7 +20,10 @@ namespace {
 CsvTable ReadCsv(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   if (!in) throw InputError({path + ": cannot be read"});
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  return ParseCsv({std::istreambuf_iterator<char>(in), {}}, path);
+}
+
+CsvTable ParseCsv(const std::string& text, const std::string& path) {
   CsvTable table{path, {}, {}};
   std::vector<std::string> row(1);
   bool quoted = false;

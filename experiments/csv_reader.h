@@ -28,5 +28,7 @@ struct CsvTable {
 /// Throws InputError as path:line: when a row has not as many cells as the header, when a quote is
 /// left open, or when the file cannot be read.
 CsvTable ReadCsv(const std::string& path);
+/// The same of a text; `path` stands for it in complaints.
+CsvTable ParseCsv(const std::string& text, const std::string& path);
 
 }  // namespace halfstep

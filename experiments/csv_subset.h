@@ -6,6 +6,7 @@
 
 #include "experiments/csv_columns.h"
 #include "experiments/csv_reader.h"
+#include "experiments/csv_writer.h"
 
 namespace halfstep {
 
@@ -14,5 +15,10 @@ namespace halfstep {
 /// Throws InputError for a pattern that matches nothing, and when the declaration does not fit.
 CsvFile CsvSubset(const CsvTable& table, const CsvColumns& columns,
                   const std::vector<std::string>& patterns, size_t stride);
+
+/// Writes a cell as a CSV has it into a column of that declaration. Throws InputError, at `place`,
+/// for what is no number.
+void CopyCell(const std::string& cell, const CsvColumn& column, const std::string& place,
+              CsvWriter* csv);
 
 }  // namespace halfstep

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "experiments/experiment.h"
+#include "experiments/folder_name.h"
 #include "experiments/methods.h"
 #include "wpg/input/text.h"
 
@@ -11,7 +12,11 @@ namespace halfstep {
 namespace {
 
 void DeclarePose(Fields& fields, Pose2* pose) {
-  const NumberSpec position{.unit = "m", .min = -1000, .max = 1000, .required = true};
+  const NumberSpec position{.meaning = "of the sole's centre in the world",
+                            .unit = "m",
+                            .min = -1000,
+                            .max = 1000,
+                            .required = true};
   fields.Number("x_m", &pose->x, position);
   fields.Number("y_m", &pose->y, position);
   fields.Number(
@@ -34,9 +39,12 @@ void DeclareFootstep(Fields& fields, FootstepConfig* step) {
 void DeclareHalfStep(Fields& fields, HalfStepConfig* c) {
   fields.Number("duration_s", &c->duration,
                 {.meaning = "T of an isolated half-step", .unit = "s", .min = 0.6, .max = 6});
-  fields.Number(
-      "zmp_shift_s", &c->zmp_shift,
-      {.meaning = "t2 − t1: how long the ZMP takes to shift", .unit = "s", .min = 0.02, .max = 2});
+  fields.Number("zmp_shift_s", &c->zmp_shift,
+                {.meaning = "t2 − t1, the ZMP's shift, at that T: 0.01 … 0.5 of `duration_s`; a "
+                            "footstep's own `duration_s` scales it",
+                 .unit = "s",
+                 .min = 0.02,
+                 .max = 2});
   if (c->zmp_shift < 0.01 * c->duration || c->zmp_shift > 0.5 * c->duration) {
     fields.Complain("zmp_shift_s", "does not fit duration_s (valid: 0.01 … 0.5 of it)");
   }
@@ -47,10 +55,11 @@ void DeclareHalfStep(Fields& fields, HalfStepConfig* c) {
                  .unit = "m",
                  .min = 0.05,
                  .max = 1});
-  fields.Number("horizontal_delay", &c->horizontal_delay,
-                {.meaning = "fraction of T between take-off and the foot's horizontal motion",
-                 .min = 0,
-                 .max = 0.2});
+  fields.Number(
+      "horizontal_delay", &c->horizontal_delay,
+      {.meaning = "fraction of T between take-off (landing) and the foot's horizontal motion",
+       .min = 0,
+       .max = 0.2});
 }
 
 void DeclareDichotomy(Fields& fields, DichotomyOptions* o) {
@@ -109,8 +118,9 @@ void DeclareOptimizer(Fields& fields, OptimizerConfig* c) {
                  .unit = "s",
                  .min = 0,
                  .max = 100000});
-  fields.Integer("pareto_points", &c->pareto.points,
-                 {.meaning = "`pareto`: durations", .min = 2, .max = 200});
+  fields.Integer(
+      "pareto_points", &c->pareto.points,
+      {.meaning = "`pareto`: durations, from the fastest to the longest", .min = 2, .max = 200});
   fields.Number(
       "pareto_longest", &c->pareto.most_duration,
       {.meaning = "`pareto`: longest duration, of the planned motion's", .min = 0.1, .max = 3});
@@ -164,9 +174,10 @@ void DeclareMargins(Fields& fields, MarginLimits* l) {
 }
 
 void DeclareSmoothing(Fields& fields, SmoothingConfig* c) {
-  fields.Texts(
-      "methods", &c->methods,
-      {.meaning = "to run and compare; `raw` is always written", .choices = MethodNames()});
+  fields.Texts("methods", &c->methods,
+               {.meaning = "to run and compare, each once; `raw` is always written",
+                .choices = MethodNames(),
+                .listed_by = "halfstep list methods"});
   for (auto method = c->methods.begin(); method != c->methods.end(); ++method) {
     if (std::find(c->methods.begin(), method, *method) != method) {
       fields.Complain("methods", Quote(*method) + " is there twice (valid: each method once)");
@@ -177,16 +188,22 @@ void DeclareSmoothing(Fields& fields, SmoothingConfig* c) {
       "acceptance", &c->acceptance,
       {.meaning = "what makes a candidate acceptable", .choices = {"certified", "sampled"}});
   fields.Number("sampling_s", &c->sampling,
-                {.meaning = "period of the sampled checks", .unit = "s", .min = 1e-4, .max = 0.1});
+                {.meaning = "period of the sampled checks (`sampled` only)",
+                 .unit = "s",
+                 .min = 1e-4,
+                 .max = 0.1});
   fields.Number("resolution_s", &c->certification.resolution,
-                {.meaning = "certification gives up on intervals shorter than this",
+                {.meaning = "certification gives up on shorter intervals: undecided",
                  .unit = "s",
                  .min = 1e-7,
                  .max = 0.01});
   fields.Group("dichotomy", {.meaning = "options of the method `dichotomy`"},
                [&](Fields& f) { DeclareDichotomy(f, &c->dichotomy); });
-  fields.Group("optimizer", {.meaning = "options of the methods that are solvers"},
-               [&](Fields& f) { DeclareOptimizer(f, &c->optimizer); });
+  fields.Group(
+      "optimizer",
+      {.meaning =
+           "options of the methods that are solvers (smoothing/README.md, \"Overlap program\")"},
+      [&](Fields& f) { DeclareOptimizer(f, &c->optimizer); });
   fields.Group("limits", {.meaning = "what the robot file does not limit"},
                [&](Fields& f) { DeclareLimits(f, &c->limits); });
   fields.Group("margins", {.meaning = "demanded margins: feasible means at least this far inside"},
@@ -196,30 +213,37 @@ void DeclareSmoothing(Fields& fields, SmoothingConfig* c) {
 }  // namespace
 
 void DeclareFields(Fields& fields, ExperimentConfig* c) {
-  fields.Text("name", &c->name, {.meaning = "of the run and its folder; default: the file's name"});
-  if (c->name.empty() || c->name.find('/') != std::string::npos || c->name.starts_with('.')) {
-    fields.Complain("name", Quote(c->name) +
-                                " cannot name a folder (valid: text without '/' that does not "
-                                "begin with '.')");
-  }
-  fields.Text("robot", &c->robot,
-              {.meaning = "a shipped robot's name, or the path of a robot file", .required = true});
+  fields.Text("name", &c->name,
+              {.meaning = "of the run and its folder: no `/`, at most 100 bytes, not begun with "
+                          "`.`, `-`, `=`, `+`, `@`",
+               .otherwise = "the file's name without extension"});
+  CheckName(fields, c->name);
+  fields.Text(
+      "robot", &c->robot,
+      {.meaning = "a shipped robot's name (`halfstep list robots`), or the path of a robot file",
+       .required = true});
   fields.Text("scene", &c->scene,
-              {.meaning = "path of a scene file, or `none` for an empty floor", .required = true});
+              {.meaning = "path of a scene file, or `none`: an empty floor", .required = true});
   fields.OptionalGroup(
       "start", &c->has_start,
-      {.meaning = "the soles at the start; default: standing about the origin"}, [&](Fields& f) {
-        const GroupSpec sole{.meaning = "sole centre in the world", .required = true};
-        f.Group("left", sole, [&](Fields& g) { DeclarePose(g, &c->start_left); });
-        f.Group("right", sole, [&](Fields& g) { DeclarePose(g, &c->start_right); });
+      {.meaning = "where the soles stand at the start",
+       .otherwise =
+           "feet side by side about the origin, `standing_width` apart (HRP-2: y = ±0.105 m)"},
+      [&](Fields& f) {
+        f.Group("left", {.meaning = "the left sole", .required = true},
+                [&](Fields& g) { DeclarePose(g, &c->start_left); });
+        f.Group("right", {.meaning = "the right sole", .required = true},
+                [&](Fields& g) { DeclarePose(g, &c->start_right); });
       });
-  fields.OptionalGroup("goal", &c->has_goal,
-                       {.meaning = "where the walk shall end; planned in place of `footsteps`"},
-                       [&](Fields& f) { DeclareGoal(f, &c->goal); });
-  fields.List(
-      "footsteps",
-      {.meaning = "sole centres in the world, in the order of stepping", .max_items = 10000},
-      &c->footsteps, DeclareFootstep);
+  fields.OptionalGroup(
+      "goal", &c->has_goal,
+      {.meaning =
+           "where the walk shall end; planned in place of `footsteps`, one of them is required"},
+      [&](Fields& f) { DeclareGoal(f, &c->goal); });
+  fields.List("footsteps",
+              {.meaning = "in the order of stepping, at least one unless there is a `goal`",
+               .max_items = 10000},
+              &c->footsteps, DeclareFootstep);
   if (c->footsteps.empty() && !c->has_goal) {
     fields.Complain("footsteps", "there are none (valid: at least one, or a `goal`)");
   }
@@ -237,12 +261,16 @@ void DeclareFields(Fields& fields, ExperimentConfig* c) {
   fields.Group("smoothing", {.meaning = "the homotopy"},
                [&](Fields& f) { DeclareSmoothing(f, &c->smoothing); });
   fields.Group("output", {.meaning = "what is written"}, [&](Fields& f) {
-    f.Text("directory", &c->output_directory, {.meaning = "the run folder; default: runs/<name>"});
+    f.Text("directory", &c->output_directory,
+           {.meaning = "the run folder, relative to the config",
+            .otherwise = "`runs/NAME` in the working directory"});
     f.Number("period_s", &c->output_period,
              {.meaning = "between rows of trajectory.csv", .unit = "s", .min = 1e-4, .max = 1});
   });
   fields.Integer("seed", &c->seed,
-                 {.meaning = "of everything random", .min = 0, .max = 2147483647});
+                 {.meaning = "of the planner's random numbers and of random starts",
+                  .min = 0,
+                  .max = 2147483647});
 }
 
 namespace {
@@ -264,6 +292,11 @@ void DeclareFilesThere(Fields& fields, const ExperimentConfig& config) {
 }
 
 }  // namespace
+
+std::vector<KeyDescription> ConfigKeys() {
+  ExperimentConfig config;
+  return DescribeKeys([&config](Fields& fields) { DeclareFields(fields, &config); });
+}
 
 ExperimentConfig LoadConfig(const std::string& path, const std::vector<YamlOverride>& overrides) {
   ExperimentConfig config;

@@ -11,6 +11,7 @@
 #include "smoothing/overlap_optimizer.h"
 #include "smoothing/pareto.h"
 #include "wpg/input/fields.h"
+#include "wpg/input/key_description.h"
 #include "wpg/input/yaml_fields.h"
 #include "wpg/pose2.h"
 #include "wpg/side.h"
@@ -73,6 +74,9 @@ struct ExperimentConfig {
 
 /// Declares every key of a config once: reading, writing back and explaining all use this.
 void DeclareFields(Fields& fields, ExperimentConfig* config);
+
+/// The same declaration as data.
+std::vector<KeyDescription> ConfigKeys();
 
 /// Reads a config file strictly. Throws InputError with every complaint at once.
 ExperimentConfig LoadConfig(const std::string& path, const std::vector<YamlOverride>& overrides);

@@ -1,8 +1,11 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <iostream>
+#include <thread>
 
 #include "experiments/build_info.h"
 #include "experiments/commands.h"
+#include "experiments/printable_stream.h"
 #include "experiments/random_scenes.h"
 #include "experiments/verify/verify_run.h"
 #include "wpg/input/input_error.h"
@@ -38,6 +41,7 @@ ExitStatus Verify(const verify::VerifyOptions& options, bool quiet) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  const PrintableStream out(&std::cout), err(&std::cerr);
   CLI::App app{
       "Plans and smooths humanoid walks made of half-steps.\n\n"
       "  example: halfstep run experiments/configs/bar_8cm.yaml"};
@@ -187,6 +191,39 @@ int main(int argc, char** argv) {
   draw_app->add_option("--seed", draw_seed, "of the draw (default: 1)")
       ->check(CLI::Range(0, 2147483647));
 
+  SweepCommand sweep;
+  std::vector<std::string> sweep_sets;
+  CLI::App* sweep_app = app.add_subcommand(
+      "sweep",
+      "Run a config with every combination of some keys; the same command goes on where it was\n"
+      "stopped.\n\n"
+      "  example: halfstep sweep experiments/sweeps/bar_8cm_speed_clearance.yaml --jobs 2");
+  sweep.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  sweep_app->add_option("SWEEP", sweep.sweep, "sweep, a YAML file")->required();
+  sweep_app->add_option("--set", sweep_sets, "override a key of the sweep file: KEY=VALUE")
+      ->allow_extra_args(false);
+  sweep_app->add_option("--out", sweep.out, "folder (default: sweeps/NAME)");
+  sweep_app->add_option("--jobs", sweep.jobs, "cases at a time (default: as many as cores)")
+      ->check(CLI::Range(1, 1024));
+  CLI::Option* list_cases =
+      sweep_app->add_flag("--list-cases", sweep.list_cases, "print the cases and their keys");
+  CLI::Option* one_case =
+      sweep_app->add_option("--case", sweep.one_case, "do this one only, for schedulers")
+          ->excludes(list_cases);
+  sweep_app->add_flag("--collect", sweep.collect, "write runs.csv from cases that are done")
+      ->excludes(list_cases)
+      ->excludes(one_case);
+  sweep_app->add_flag("--quiet", sweep.quiet, "print nothing but errors");
+
+  ExplainCommand explain;
+  CLI::App* explain_app =
+      app.add_subcommand("explain-config",
+                         "Every key of a config: type, unit, default, range, meaning.\n\n"
+                         "  example: halfstep explain-config smoothing.margins");
+  explain_app->add_option("KEY", explain.key, "a key or its last part (default: all)");
+  explain_app->add_flag("--json-schema", explain.json_schema, "print a JSON schema, for editors");
+  explain_app->add_flag("--markdown", explain.markdown, "print a Markdown table");
+
   std::string what;
   std::string list_config;
   bool list_json = false;
@@ -205,7 +242,7 @@ int main(int argc, char** argv) {
   }
   if (app.get_subcommands().empty()) {
     std::cerr << "halfstep: which command? (valid: run, smooth, compare, plan, bake, draw, "
-                 "certify, verify, report, export, replay, list; "
+                 "certify, verify, sweep, explain-config, report, export, replay, list; "
                  "`halfstep -h` explains)\n";
     return kBadInput;
   }
@@ -219,6 +256,7 @@ int main(int argc, char** argv) {
       std::cout << DrawScene(draw_name, draw_count, static_cast<std::uint64_t>(draw_seed));
       return std::cout.flush() ? kSuccess : kFailed;
     }
+    for (const std::string& set : sweep_sets) sweep.overrides.push_back(ParseOverride(set));
     for (const std::string& set : plan_sets) plan.overrides.push_back(ParseOverride(set));
     if (*list_app && what == "half-steps") {
       if (list_config.empty()) {
@@ -235,6 +273,8 @@ int main(int argc, char** argv) {
                        : !plan.config.empty() ? ListHalfSteps(plan)
                        : *certify_app         ? Certify(certify)
                        : *report_app          ? Report(report)
+                       : *sweep_app           ? Sweep(sweep)
+                       : *explain_app         ? ExplainConfig(explain)
                        : *verify_app          ? Verify(verify, verify_quiet)
                        : *export_app          ? Export(exported)
                        : *replay_app          ? Replay(replay)

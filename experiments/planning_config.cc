@@ -81,30 +81,41 @@ StepCost PlannerConfig::Cost() const {
 void DeclareGoal(Fields& fields, GoalConfig* c) {
   fields.Text("part", &c->part,
               {.meaning = "what shall be in the region", .choices = NamesOf(kParts)});
-  const NumberSpec position{.unit = "m", .min = -1000, .max = 1000, .required = true};
+  const NumberSpec position{.meaning = "of the region's centre in the world",
+                            .unit = "m",
+                            .min = -1000,
+                            .max = 1000,
+                            .required = true};
   fields.Number("x_m", &c->X_WG.x, position);
   fields.Number("y_m", &c->X_WG.y, position);
   fields.Number("yaw_deg", &c->X_WG.yaw,
-                {.meaning = "turns the box, and the middle of the yaws",
+                {.meaning = "turns the box; the middle of the yaws, modulo a turn",
                  .unit = "deg",
                  .min = -3600,
                  .max = 3600});
   fields.Number("radius_m", &c->radius,
                 {.meaning = "of the disc", .unit = "m", .min = 0, .max = 1000});
-  fields.Numbers(
-      "box_m", &c->box, 0,
-      {.meaning = "edge lengths, in place of the disc", .unit = "m", .min = 0, .max = 1000});
+  fields.Numbers("box_m", &c->box, 0,
+                 {.meaning = "edge lengths of a box in place of the disc; []: the disc",
+                  .unit = "m",
+                  .min = 0,
+                  .max = 1000});
   if (c->box.size() != 0 && c->box.size() != 2) {
     fields.Complain("box_m", "has " + std::to_string(c->box.size()) +
                                  " numbers (valid: [length, width], or [])");
   }
-  fields.OptionalNumber("yaw_tolerance_deg", &c->yaw_tolerance,
-                        {.meaning = "none: any yaw", .unit = "deg", .min = 0, .max = 180});
+  fields.OptionalNumber(
+      "yaw_tolerance_deg", &c->yaw_tolerance,
+      {.meaning = "either way; none: any yaw", .unit = "deg", .min = 0, .max = 180});
 }
 
 void DeclarePlanner(Fields& fields, PlannerConfig* c) {
-  fields.Text("name", &c->name, {.meaning = "which planner", .choices = PlannerNames()});
-  fields.Text("cost", &c->cost, {.meaning = "of a plan", .choices = NamesOf(kCosts)});
+  fields.Text("name", &c->name,
+              {.meaning = "which planner",
+               .choices = PlannerNames(),
+               .listed_by = "halfstep list planners"});
+  fields.Text("cost", &c->cost,
+              {.meaning = "of a plan; the last is an estimate", .choices = NamesOf(kCosts)});
   fields.Integer("max_nodes", &c->max_nodes,
                  {.meaning = "the search ends after them", .min = 0, .max = 1000000000});
   fields.Integer("unimproved_nodes", &c->unimproved_nodes,
@@ -112,26 +123,28 @@ void DeclarePlanner(Fields& fields, PlannerConfig* c) {
                   .min = 0,
                   .max = 1000000000});
   fields.Number("deadline_s", &c->deadline,
-                {.meaning = "it ends then; what it finds would depend on the machine",
+                {.meaning = "it ends then; a plan that it ends depends on the machine",
                  .unit = "s",
                  .min = 0,
                  .max = 86400});
-  fields.Integer("max_refusals", &c->max_refusals,
-                 {.meaning = "plans that may fail to be certified", .min = 1, .max = 1000});
-  fields.Numbers("workspace_m", &c->workspace, 0,
-                 {.meaning = "x_min, y_min, x_max, y_max of supporting soles; none: 2 m around",
-                  .unit = "m",
-                  .min = -1000,
-                  .max = 1000});
+  fields.Integer(
+      "max_refusals", &c->max_refusals,
+      {.meaning = "plans whose concatenation may fail to be certified", .min = 1, .max = 1000});
+  fields.Numbers(
+      "workspace_m", &c->workspace, 0,
+      {.meaning = "x_min, y_min, x_max, y_max of supporting soles; []: 2 m around start and goal",
+       .unit = "m",
+       .min = -1000,
+       .max = 1000});
   const auto& w = c->workspace;
   if (!w.empty() && (w.size() != 4 || !(w[0] < w[2]) || !(w[1] < w[3]))) {
     fields.Complain("workspace_m", "is no box (valid: [x_min, y_min, x_max, y_max], or [])");
   }
-  fields.Group("estimate", {.meaning = "of the duration of a smoothed step"}, [&](Fields& f) {
+  fields.Group("estimate", {.meaning = "`smoothed_duration` of a step"}, [&](Fields& f) {
     f.Number("step_s", &c->estimate.step_time,
              {.meaning = "at least", .unit = "s", .min = 0.01, .max = 100});
     f.Number("per_metre_s", &c->estimate.time_per_metre,
-             {.meaning = "more for the way of the foot", .unit = "s/m", .min = 0, .max = 100});
+             {.meaning = "more for the way of its foot", .unit = "s/m", .min = 0, .max = 100});
     f.Number("per_radian_s", &c->estimate.time_per_radian,
              {.meaning = "more for its turn", .unit = "s/rad", .min = 0, .max = 100});
   });
@@ -156,10 +169,10 @@ void DeclareHalfStepSet(Fields& fields, HalfStepGrid* g) {
   const auto bound = [&](const char* key, double* value, const char* meaning) {
     fields.Number(key, value, {.meaning = meaning, .unit = "m", .min = -2, .max = 2});
   };
-  bound("x_min_m", &g->x_min, "of the landing sole beside a left support");
-  bound("x_max_m", &g->x_max, "");
-  bound("y_min_m", &g->y_min, "");
-  bound("y_max_m", &g->y_max, "");
+  bound("x_min_m", &g->x_min, "places of the landing sole beside a left support that are tried");
+  bound("x_max_m", &g->x_max, "not below x_min_m");
+  bound("y_min_m", &g->y_min, "the same across");
+  bound("y_max_m", &g->y_max, "not below y_min_m");
   if (g->x_min > g->x_max) fields.Complain("x_max_m", "is below x_min_m (valid: not below it)");
   if (g->y_min > g->y_max) fields.Complain("y_max_m", "is below y_min_m (valid: not below it)");
   fields.Number("spacing_m", &g->spacing,
@@ -176,12 +189,13 @@ void DeclareSweptVolumes(Fields& fields, SweptVolumesConfig* c) {
                  .min = 0.001,
                  .max = 0.1});
   fields.Number("displacement_m", &c->options.displacement,
-                {.meaning = "what a body may move within an interval of time",
+                {.meaning = "what a body may move within an interval of time of the bake",
                  .unit = "m",
                  .min = 1e-4,
                  .max = 0.1});
   fields.Text("cache", &c->cache,
-              {.meaning = "folder of the baked volumes; empty: the user's cache folder"});
+              {.meaning = "folder of the baked volumes, relative to the config",
+               .otherwise = "the user's cache folder"});
 }
 
 }  // namespace halfstep

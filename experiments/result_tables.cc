@@ -155,8 +155,8 @@ CsvFile IteratesCsv(const MethodRun& run) {
   return csv.file();
 }
 
-CsvFile SummaryCsv(const MarginEvaluator& evaluator, const std::vector<MethodRun>& runs) {
-  CsvWriter csv({
+CsvColumns SummaryColumns() {
+  return {
       {"method", kString, "", "raw first"},
       {"status", kString, "", "finished, interrupted or start_infeasible"},
       {"certified", kBoolean, "", "whether the walk is proved for all its time"},
@@ -175,7 +175,11 @@ CsvFile SummaryCsv(const MarginEvaluator& evaluator, const std::vector<MethodRun
        "until the first candidate was accepted; empty: none was"},
       {"gap_to_reference", kNumber, "1",
        "duration divided by that of the method `reference`, less 1; empty: it was not run"},
-  });
+  };
+}
+
+CsvFile SummaryCsv(const MarginEvaluator& evaluator, const std::vector<MethodRun>& runs) {
+  CsvWriter csv(SummaryColumns());
   std::optional<double> reference;
   for (const MethodRun& run : runs) {
     if (run.method == "reference") reference = run.duration;

@@ -37,6 +37,7 @@ CsvFile OverlapsCsv(const MarginEvaluator& evaluator, const MethodRun& run);
 CsvFile ParetoCsv(const MarginEvaluator& evaluator, const HalfStepSequence& sequence,
                   const MethodRun& run);
 CsvFile IteratesCsv(const MethodRun& run);
+CsvColumns SummaryColumns();
 /// One row a method; speed-up against the first run, which is the planned motion.
 CsvFile SummaryCsv(const MarginEvaluator& evaluator, const std::vector<MethodRun>& runs);
 

@@ -1,15 +1,15 @@
 #include "experiments/run_folder.h"
 
 #include <fcntl.h>
-#include <signal.h>
 #include <stdio.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <charconv>
 #include <cstring>
 #include <stdexcept>
 #include <utility>
+
+#include "planner/whole_file.h"
 
 namespace halfstep {
 namespace {
@@ -25,23 +25,6 @@ void Sync(const fs::path& folder) {
   if (fd < 0) return;
   fsync(fd);  // some file systems cannot sync a folder; the rename is atomic all the same
   close(fd);
-}
-
-std::string StagingPrefix(const fs::path& path) {
-  return "." + path.filename().string() + ".partial-";
-}
-
-// Folders that killed runs of the same name left behind: those whose process is gone.
-void RemoveAbandoned(const fs::path& path) {
-  const std::string prefix = StagingPrefix(path);
-  std::error_code ignored;
-  for (const fs::directory_entry& entry : fs::directory_iterator(path.parent_path(), ignored)) {
-    const std::string name = entry.path().filename().string();
-    if (!name.starts_with(prefix)) continue;
-    pid_t pid = 0;
-    std::from_chars(name.data() + prefix.size(), name.data() + name.size(), pid);
-    if (pid > 0 && kill(pid, 0) != 0 && errno == ESRCH) fs::remove_all(entry.path(), ignored);
-  }
 }
 
 // Sets errno; EINVAL where the file system (NFS) knows no flags.
@@ -81,8 +64,8 @@ RunFolder::RunFolder(fs::path path, bool overwrite)
   std::error_code error;
   fs::create_directories(path_.parent_path(), error);
   if (error) Fail("cannot make the folder", path_.parent_path(), error.value());
-  RemoveAbandoned(path_);
-  staging_ = path_.parent_path() / (StagingPrefix(path_) + std::to_string(getpid()));
+  RemoveAbandonedSiblings(path_);
+  staging_ = PartialSibling(path_);
   fs::remove_all(staging_, error);
   if (!fs::create_directory(staging_, error))
     Fail("cannot make the folder", staging_, error.value());
@@ -108,21 +91,7 @@ void RunFolder::Write(const std::string& relative, std::string_view content) {
   fs::create_directories(target.parent_path(), error);
   const fs::path shown = path_ / relative;
   if (error) Fail("cannot make its folder", shown, error.value());
-  const int fd = open(target.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-  if (fd < 0) Fail("cannot be written", shown, errno);
-  while (!content.empty()) {
-    const ssize_t n = write(fd, content.data(), content.size());
-    if (n < 0 && errno == EINTR) continue;
-    if (n < 0) {
-      const int reason = errno;
-      close(fd);
-      Fail("cannot be written", shown, reason);
-    }
-    content.remove_prefix(static_cast<size_t>(n));
-  }
-  const int synced = fsync(fd);
-  const int reason = errno;
-  if (close(fd) != 0 || synced != 0) Fail("cannot be written", shown, synced != 0 ? reason : errno);
+  WriteSynced(target, {content}, shown);
 }
 
 void RunFolder::CopyOlder() {

@@ -118,7 +118,7 @@ void WriteCheckedFile(const std::string& path, std::string_view header, std::str
   for (const std::string_view part : parts) hash.Add(part);
   const std::string digest = hash.Finish();
   parts.push_back(digest);
-  WriteWholeFile(path, parts);
+  WriteWhole(path, parts);
 }
 
 }  // namespace halfstep

@@ -21,7 +21,7 @@ struct CheckedFile {
 /// header (the first line that differs is told), a file that is cut or changed in any bit.
 CheckedFile ReadCheckedFile(const std::string& path, std::string_view header);
 
-/// As WriteWholeFile. Throws std::runtime_error with the system's reason.
+/// As WriteWhole. Throws std::runtime_error with the system's reason.
 void WriteCheckedFile(const std::string& path, std::string_view header, std::string_view body);
 
 /// Lower-case hexadecimal SHA-256.

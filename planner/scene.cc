@@ -49,6 +49,9 @@ void DeclareName(Fields& fields, std::string* name, bool required, const std::st
                                 " (valid: text without '/' that does not begin with '.')");
     return;
   }
+  if (const std::string mistake = NameMistake(*name); !mistake.empty()) {
+    fields.Complain("name", mistake);
+  }
   if (taken == nullptr) return;
   const auto [first, is_new] = taken->emplace(*name, item);
   if (!is_new) fields.Complain("name", Quote(*name) + " is the name of " + first->second + " too");

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "wpg/input/number_text.h"
+#include "wpg/input/text.h"
 #include "wpg/robot_bodies.h"
 
 namespace halfstep {
@@ -94,6 +95,9 @@ void DeclareExcluded(Fields& fields, const std::vector<std::string>& links, Robo
 
 void DeclareFields(Fields& fields, RobotFile* file) {
   fields.Text("name", &file->name, {.meaning = "name of the robot", .required = true});
+  if (const std::string mistake = NameMistake(file->name); !mistake.empty()) {
+    fields.Complain("name", mistake);
+  }
   fields.Text("urdf", &file->urdf_path, {.meaning = "URDF file", .required = true});
   if (!file->urdf && !file->urdf_path.empty()) {
     file->urdf = ReadUrdf((std::filesystem::path(fields.directory()) / file->urdf_path).string());

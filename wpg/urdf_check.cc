@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "wpg/input/number_text.h"
+#include "wpg/input/text.h"
 
 namespace halfstep {
 namespace {
@@ -96,10 +97,12 @@ class Checker {
     }
   }
 
-  // Registers a name; complains when it is empty or taken.
+  // Registers a name; complains when it is empty, unfit or taken.
   std::string Name(const TiXmlElement& element, std::map<std::string, UrdfPlace>* places) {
     const std::string name = Attribute(element, "name");
+    const std::string mistake = NameMistake(name);
     if (name.empty()) Complain(element, element.ValueStr() + " name", "is missing");
+    if (!mistake.empty()) Complain(element, element.ValueStr() + " name", mistake);
     if (!places->emplace(name, UrdfPlace{element.Row(), element.Column()}).second) {
       Complain(element, name, "a second " + element.ValueStr() + " of this name");
     }

@@ -44,16 +44,6 @@ std::vector<Eigen::Vector3d> Sum(const std::vector<Eigen::Vector3d>& a,
   return sum;
 }
 
-TriangleMesh FacesOf(const ConvexBody& body) {
-  TriangleMesh mesh;
-  mesh.vertices = body.vertices;
-  mesh.triangles.resize(3, static_cast<Eigen::Index>(body.triangles.size()));
-  for (size_t i = 0; i < body.triangles.size(); ++i) {
-    mesh.triangles.col(static_cast<Eigen::Index>(i)) = body.triangles[i];
-  }
-  return mesh;
-}
-
 // The mesh with vertices in the same cell of a lattice joined in their first one.
 TriangleMesh Joined(const TriangleMesh& mesh, double cell) {
   std::map<std::array<long, 3>, int> cells;

@@ -29,7 +29,7 @@ ExitStatus Report(const ReportCommand& command) {
     throw std::runtime_error(out.string() + ": is there already (--overwrite replaces it)");
   }
   const Place place = PlaceOfRun(run);
-  WriteWholeFile(out.string(), {RunReport(place.robot, place.scene, run)});
+  WriteWhole(out, {RunReport(place.robot, place.scene, run)});
   if (!command.quiet) std::cout << "written: " << out.string() << '\n';
   return kSuccess;
 }

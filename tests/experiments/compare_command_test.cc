@@ -103,6 +103,7 @@ TEST(Comparison, FailureCountsAsTenTimesTheSlowestSuccess) {
   EXPECT_EQ(means[1].method.name, "good");
   EXPECT_THAT(means[1].solved, ElementsAre(1, 1, 1));
   EXPECT_EQ(means[1].certified, 1);
+  EXPECT_EQ(means[1].failed(), 1);
   // In a 2 s; in b 10 · 0.25 s.
   EXPECT_NEAR(means[1].effort[1].wall, std::sqrt(2.1 * 2.6) - 0.1, 1e-12);
   EXPECT_NEAR(means[1].speedup, std::sqrt(1.6 * 1.0), 1e-12);

@@ -51,5 +51,10 @@ TEST(Quote, ShowsWhatATerminalMustNotSee) {
   EXPECT_EQ(Quote(std::string(100, 'x')), "'" + std::string(60, 'x') + "…'");
 }
 
+TEST(Printable, KeepsLineBreaksAndShowsOtherControls) {
+  EXPECT_EQ(Printable("a\nb\r\x1B[2J\xC2\x9Bm\xC3é"), "a\nb\\x0D\\x1B[2J\\xC2\\x9Bm\\xC3é");
+  EXPECT_EQ(Printable(std::string(1, '\0')), "\\x00");
+}
+
 }  // namespace
 }  // namespace halfstep

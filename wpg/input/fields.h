@@ -24,12 +24,15 @@ struct TextSpec {
   const char* meaning = "";
   bool required = false;
   std::vector<std::string> choices{};  ///< empty: any text.
+  const char* listed_by = "";          ///< the command that lists choices that depend on the build
+  const char* otherwise = "";          ///< what holds when the key is absent, if no value says so
 };
 struct GroupSpec {
   const char* meaning = "";
   bool required = false;
-  size_t min_items = 0;       ///< lists only
-  size_t max_items = 100000;  ///< lists only
+  size_t min_items = 0;        ///< lists only
+  size_t max_items = 100000;   ///< lists only
+  const char* otherwise = "";  ///< as of texts
 };
 
 /// One declaration of a group of keys serves reading, writing back and explaining: a struct's keys

@@ -1,5 +1,7 @@
 #include "wpg/input/text.h"
 
+#include <algorithm>
+
 namespace halfstep {
 namespace {
 
@@ -28,6 +30,22 @@ bool IsControl(std::string_view text, size_t i) {
   return byte == 0xC2 && i + 1 < text.size() && Byte(text, i + 1) < 0xA0;
 }
 
+// Appends the character at *i and goes on to the next: control characters and invalid bytes as
+// \xNN.
+void AppendShown(std::string_view text, size_t* i, std::string* shown) {
+  constexpr std::string_view kHex = "0123456789ABCDEF";
+  const size_t length = SequenceLength(text, *i);
+  if (length > 0 && !IsControl(text, *i)) {
+    *shown += text.substr(*i, length);
+    *i += length;
+    return;
+  }
+  for (const size_t end = *i + std::max<size_t>(length, 1); *i < end; ++*i) {
+    const unsigned byte = Byte(text, *i);
+    *shown += {'\\', 'x', kHex[byte / 16], kHex[byte % 16]};
+  }
+}
+
 }  // namespace
 
 size_t FindInvalidUtf8(std::string_view text) {
@@ -48,26 +66,40 @@ bool HasControlCharacter(std::string_view text) {
 
 std::string Quote(std::string_view text) {
   constexpr size_t kLongest = 60;
-  constexpr std::string_view kHex = "0123456789ABCDEF";
   std::string quoted = "'";
   for (size_t i = 0; i < text.size();) {
     if (i >= kLongest) return quoted + "…'";
-    const size_t length = SequenceLength(text, i);
-    if (length == 0 || IsControl(text, i)) {
-      const unsigned byte = Byte(text, i);
-      quoted += {'\\', 'x', kHex[byte / 16], kHex[byte % 16]};
-      i += 1;
-      if (length == 2) {  // a two-byte control character: show both
-        const unsigned next = Byte(text, i);
-        quoted += {'\\', 'x', kHex[next / 16], kHex[next % 16]};
-        i += 1;
-      }
-    } else {
-      quoted += text.substr(i, length);
-      i += length;
-    }
+    AppendShown(text, &i, &quoted);
   }
   return quoted + "'";
+}
+
+std::string Printable(std::string_view text) {
+  std::string shown;
+  for (size_t i = 0; i < text.size();) {
+    if (text[i] == '\n') {
+      shown += text[i++];
+    } else {
+      AppendShown(text, &i, &shown);
+    }
+  }
+  return shown;
+}
+
+std::string NameMistake(std::string_view name) {
+  constexpr size_t kLongest = 100;
+  if (FindInvalidUtf8(name) != std::string_view::npos || HasControlCharacter(name)) {
+    return Quote(name) + " holds a control character or invalid bytes (valid: text of one line)";
+  }
+  if (name.size() > kLongest) {
+    return Quote(name) + " is too long (valid: at most " + std::to_string(kLongest) + " bytes)";
+  }
+  if (!name.empty() && std::string_view("-=+@").find(name[0]) != std::string_view::npos) {
+    return Quote(name) +
+           " would be taken for an option or a formula (valid: text that does not begin with '-', "
+           "'=', '+' or '@')";
+  }
+  return "";
 }
 
 }  // namespace halfstep

@@ -17,4 +17,13 @@ bool HasControlCharacter(std::string_view text);
 /// as \xNN, and cut after 60 bytes.
 std::string Quote(std::string_view text);
 
+/// The text with control characters other than line breaks and invalid bytes shown as \xNN: fit for
+/// a terminal.
+std::string Printable(std::string_view text);
+
+/// What makes a text unfit as the name of a thing in tables, folders and messages, with what is
+/// valid; "" if nothing: control characters, invalid UTF-8, more than 100 bytes, or a first
+/// character that a shell or a spreadsheet takes for an option or a formula.
+std::string NameMistake(std::string_view name);
+
 }  // namespace halfstep

@@ -1,0 +1,18 @@
+#include "experiments/folder_name.h"
+
+#include "wpg/input/text.h"
+
+namespace halfstep {
+
+void CheckName(Fields& fields, const std::string& name) {
+  if (name.empty() || name.find('/') != std::string::npos || name.starts_with('.')) {
+    fields.Complain("name", Quote(name) +
+                                " cannot name a folder (valid: text without '/' that does not "
+                                "begin with '.')");
+  }
+  if (const std::string mistake = NameMistake(name); !mistake.empty()) {
+    fields.Complain("name", mistake);
+  }
+}
+
+}  // namespace halfstep

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "wpg/input/fields.h"
+
+namespace halfstep {
+
+/// Complains about a `name` that cannot name a folder, or that a shell or a spreadsheet would take
+/// for something else.
+void CheckName(Fields& fields, const std::string& name);
+
+}  // namespace halfstep

@@ -1,0 +1,80 @@
+#include "experiments/sweep_case.h"
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include "experiments/experiment_run.h"
+#include "experiments/run_folder.h"
+#include "experiments/sweep_tables.h"
+
+namespace halfstep {
+namespace {
+
+ExperimentConfig ConfigOf(const SweepFolder& folder, const SweepCase& one) {
+  ExperimentConfig config = LoadConfig(folder.sweep().ConfigPath().string(), one.overrides);
+  config.name += "-" + one.id;  // a scenario of its own for `halfstep compare`
+  config.output_directory.clear();
+  return config;
+}
+
+// Writes a case's folder in place of a damaged one.
+void Publish(const SweepFolder& folder, const SweepCase& one, const ExperimentConfig& config,
+             const SweepTables& tables, const ExperimentRun* kept) {
+  std::filesystem::remove_all(folder.CasePath(one));
+  RunFolder place(folder.CasePath(one), /*overwrite=*/false);
+  if (kept != nullptr) {
+    kept->Write(&place);
+  } else {
+    place.Write("config.yaml", ResolvedConfig(place.path(), config));
+  }
+  place.Write("timings.csv", tables.timings);
+  place.Write("runs.csv", tables.runs);
+  try {
+    place.Publish();
+  } catch (const std::runtime_error&) {
+    if (!folder.IsDone(one)) throw;  // else another process did the same case meanwhile
+  }
+}
+
+}  // namespace
+
+ExitStatus DoSweepCase(const SweepFolder& folder, const SweepCase& one, std::stop_token stop) {
+  if (folder.IsDone(one)) return kSuccess;
+  const auto begin = std::chrono::steady_clock::now();
+  const auto wall = [begin] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  };
+  const ExperimentConfig config = ConfigOf(folder, one);
+  const RunHooks hooks{.progress = [](const std::string&, double) {}, .stop = stop};
+  std::optional<ExperimentRun> run;
+  SweepTables tables;
+  bool smoothed = false;
+  try {
+    run.emplace(config, hooks);
+    if (run->refusal()) {
+      tables = TablesOfFailure(folder.sweep(), one, run->refusal()->status,
+                               run->refusal()->sentence, wall());
+    } else {
+      run->Smooth(hooks);
+      smoothed = true;
+    }
+  } catch (const std::logic_error& error) {  // a mistake of ours: the other cases go on
+    tables = TablesOfFailure(folder.sweep(), one, "error", error.what(), wall());
+  }
+  if (stop.stop_requested()) return kInterrupted;
+  if (smoothed) tables = TablesOf(folder.sweep(), one, *run, wall());
+  const bool keep = smoothed && folder.sweep().keep == "all";
+  Publish(folder, one, smoothed ? run->config() : config, tables, keep ? &*run : nullptr);
+  return kSuccess;
+}
+
+void WriteSweepFailure(const SweepFolder& folder, const SweepCase& one, const std::string& status,
+                       const std::string& message, double wall) {
+  Publish(folder, one, ConfigOf(folder, one),
+          TablesOfFailure(folder.sweep(), one, status, message, wall), nullptr);
+}
+
+}  // namespace halfstep

@@ -1,0 +1,149 @@
+// What explain-config prints is what the reader reads.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "experiments/commands.h"
+#include "experiments/experiment.h"
+#include "experiments/key_tables.h"
+#include "experiments/sweep_config.h"
+#include "tests/experiments/child_process.h"
+#include "tests/experiments/schema_check.h"
+#include "tests/experiments/temporary_folder.h"
+#include "wpg/input/yaml_node.h"
+
+namespace halfstep {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+namespace fs = std::filesystem;
+
+const fs::path kSource = HALFSTEP_SOURCE_DIR;
+
+YamlNode Parsed(const std::string& text) {
+  YamlComplaints complaints("");
+  const YamlNode node = ParseYaml(text, "", &complaints);
+  complaints.ThrowIfAny();
+  return node;
+}
+
+// Every value of a tree by its path, items of a list of maps as N.
+void Collect(const YamlNode& node, const std::string& path,
+             std::map<std::string, const YamlNode*>* values) {
+  for (const YamlNode& item : node.items) {
+    const bool in_list = node.kind == YamlNode::Kind::kList;
+    const std::string below = in_list ? path + ".N" : KeyPath(path, item.key);
+    if (!in_list) (*values)[below] = &item;
+    Collect(item, below, values);
+  }
+}
+
+void Collect(const std::vector<KeyDescription>& keys,
+             std::map<std::string, const KeyDescription*>* all) {
+  for (const KeyDescription& key : keys) {
+    (*all)[key.path] = &key;
+    Collect(key.keys, all);
+  }
+}
+
+bool SameValue(const YamlNode& a, const YamlNode& b) {
+  if (a.text != b.text || a.items.size() != b.items.size()) return false;
+  for (size_t i = 0; i < a.items.size(); ++i) {
+    if (!SameValue(a.items[i], b.items[i])) return false;
+  }
+  return true;
+}
+
+TEST(ExplainConfig, ReadmeHasItsTable) {
+  const std::string readme = ReadText(kSource / "experiments/README.md");
+  EXPECT_TRUE(readme.find(KeyMarkdown(ConfigKeys())) != std::string::npos)
+      << "put the output of `halfstep explain-config --markdown` into experiments/README.md";
+  EXPECT_TRUE(readme.find(KeyMarkdown(SweepKeys())) != std::string::npos)
+      << "put this into experiments/README.md:\n"
+      << KeyMarkdown(SweepKeys());
+}
+
+TEST(ExplainConfig, DefaultsAndKeysAreThoseOfAResolvedConfig) {
+  const TemporaryFolder place;
+  ExperimentConfig config = LoadConfig(
+      WriteText(place / "short.yaml",
+                "{robot: hrp2, scene: none, footsteps: [{foot: right, x_m: 0.2, y_m: -0.1}],\n"
+                " start: {left: {x_m: 0, y_m: 0.1}, right: {x_m: 0, y_m: -0.1}}}"),
+      {});
+  config.has_goal = true;  // so that its keys are written
+  const YamlNode resolved =
+      Parsed(WriteYaml([&config](Fields& fields) { DeclareFields(fields, &config); }));
+  std::map<std::string, const YamlNode*> values;
+  Collect(resolved, "", &values);
+  const std::vector<KeyDescription> described = ConfigKeys();
+  std::map<std::string, const KeyDescription*> keys;
+  Collect(described, &keys);
+  EXPECT_EQ(values.size(), keys.size());
+  EXPECT_GT(keys.size(), 100u);
+  int defaults = 0;
+  for (const auto& [path, key] : keys) {
+    SCOPED_TRACE(path);
+    ASSERT_TRUE(values.contains(path));
+    EXPECT_NE(key->meaning, "");
+    if (key->default_text.empty() || !key->otherwise.empty() || path == "footsteps") continue;
+    ++defaults;
+    EXPECT_TRUE(SameValue(*values[path], Parsed(key->default_text))) << key->default_text;
+  }
+  EXPECT_GT(defaults, 80);
+}
+
+TEST(ExplainConfig, SchemaAcceptsEveryShippedConfigAsWrittenAndAsResolved) {
+  const json schema = json::parse(KeySchema("halfstep config", ConfigKeys()));
+  for (const fs::path& path : YamlFiles(kSource / "experiments/configs")) {
+    SCOPED_TRACE(path);
+    EXPECT_EQ(SchemaComplaint(schema, JsonOfYaml(Parsed(ReadText(path)))), "");
+    ExperimentConfig config = LoadConfig(path.string(), {});
+    const std::string resolved =
+        WriteYaml([&config](Fields& fields) { DeclareFields(fields, &config); });
+    EXPECT_EQ(SchemaComplaint(schema, JsonOfYaml(Parsed(resolved))), "");
+  }
+}
+
+TEST(ExplainConfig, SchemaRefusesWhatTheReaderRefuses) {
+  const json schema = json::parse(KeySchema("halfstep config", ConfigKeys()));
+  const auto complaint = [&](const std::string& fixture) {
+    const fs::path path = kSource / "tests/fixtures/config" / (fixture + ".yaml");
+    return SchemaComplaint(schema, JsonOfYaml(Parsed(ReadText(path))));
+  };
+  EXPECT_EQ(complaint("margin_negative"), "/smoothing/margins/clearance_m: minimum");
+  EXPECT_EQ(complaint("misspelt_key"), "/footstep: additionalProperties");
+  EXPECT_EQ(complaint("method_unknown"), "/smoothing/methods/0: enum");
+  EXPECT_EQ(complaint("robot_missing"), ": required robot");
+  EXPECT_EQ(complaint("smoothing_as_list"), "/smoothing: type");
+  EXPECT_EQ(complaint("limits_none_where_needed"), "/smoothing/limits/foot_yaw_rate_rad_s: anyOf");
+}
+
+TEST(ExplainConfig, FindsAKeyByItsPathOrItsEnd) {
+  const TemporaryFolder place;
+  const auto explained = [&](const std::vector<std::string>& arguments) {
+    std::vector<std::string> words = {"explain-config"};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    return Halfstep(place.path(), words);
+  };
+  EXPECT_EQ(explained({"clearance_m"}).out,
+            "smoothing.margins.clearance_m: number [m], default 0.005, valid: 0 … 0.5\n"
+            "    robot to obstacles\n");
+  EXPECT_THAT(explained({"footsteps.3.foot"}).out,
+              HasSubstr("footsteps.N.foot: text, required, valid: left, right\n"));
+  EXPECT_THAT(explained({"smoothing.dichotomy"}).out,
+              HasSubstr("smoothing.dichotomy.passes: integer, default 1, valid: 1 … 100\n"));
+  const Outcome unknown = explained({"smothing.margins"});
+  EXPECT_EQ(unknown.status, kBadInput);
+  EXPECT_THAT(unknown.err, HasSubstr("'smothing.margins': no such key (did you mean "
+                                     "'smoothing.margins'?"));
+  EXPECT_EQ(explained({"--markdown"}).out, KeyMarkdown(ConfigKeys()));
+  EXPECT_EQ(explained({"--json-schema"}).out, KeySchema("halfstep config", ConfigKeys()));
+}
+
+}  // namespace
+}  // namespace halfstep
