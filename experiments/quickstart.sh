@@ -29,4 +29,5 @@ for scenario in fig3_two_half_steps fig4_raw_sequence fig5_box bar_5cm bar_8cm b
 done
 
 gnuplot -e "run='runs/fig4_raw_sequence'" notebooks-data/plot_walk.gp
-printf '\nResults: runs/<scenario>/. Figure: runs/fig4_raw_sequence/walk.png\n'
+printf '\nResults: runs/<scenario>/, in a browser: runs/<scenario>/report.html.\n'
+printf 'Figure: runs/fig4_raw_sequence/walk.png\n'
