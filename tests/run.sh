@@ -7,9 +7,10 @@ cd "$(dirname "$0")/.."
 jobs="${JOBS:-2}"
 
 experiments/install_dependencies.sh
-# For the tests of the report and of the notebooks: without them they are skipped.
-experiments/install_dependencies.sh chromium chromium-driver python3-nbconvert python3-ipykernel \
-  python3-pandas python3-matplotlib || echo "Reports and notebooks will not be tested" >&2
+# For the tests of report, notebooks and replay: without them they are skipped.
+experiments/install_dependencies.sh chromium chromium-driver libmujoco-dev python3-nbconvert \
+  python3-ipykernel python3-pandas python3-matplotlib ||
+  echo "Report, notebooks and replay will not be tested" >&2
 mkdir -p build
 
 # Runs a command; its output goes to a log, and to the screen only when it fails.
