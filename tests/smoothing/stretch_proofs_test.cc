@@ -86,10 +86,14 @@ TEST(StretchProofs, RefusesWhereTheWalkIsRefused) {
   const HomotopyParameters good = Dichotomy(e.sequence, test, {.tolerance = 0.01}).parameters;
   StretchProofs proofs(test, e.sequence.size());
   EXPECT_TRUE(proofs.Refusals(SuperposedWalk(e.sequence, good), &scratch).empty());
+  HomotopyParameters shorter = good;
+  for (double& overlap : shorter.overlaps) overlap *= 0.5;
+  std::vector<HomotopyParameters> candidates = {good, shorter, Overlapped(e.sequence, 0.99)};
   WalkDraw draw(7);
+  for (int i = 0; i < Draws(10); ++i) candidates.push_back(Changed(e.sequence, good, &draw));
   int refused = 0, proved = 0;
-  for (int i = 0; i < Draws(20); ++i) {
-    const SuperposedWalk walk(e.sequence, Changed(e.sequence, good, &draw));
+  for (const HomotopyParameters& candidate : candidates) {
+    const SuperposedWalk walk(e.sequence, candidate);
     const std::vector<Margin> refusals = proofs.Refusals(walk, &scratch);
     const Verdict whole = test.Check(walk, {0.0, walk.duration()}, &scratch).verdict;
     EXPECT_EQ(refusals.empty(), whole == Verdict::kFeasible);
