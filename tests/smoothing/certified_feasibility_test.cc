@@ -242,7 +242,7 @@ TEST(CertifiedFeasibility, OutsideOfACheckedWindowIntervalsAreTheOldOnes) {
     walk.SetOverlap(j, 0.5 * overlap);
     const std::vector<double> old_gaps = Gaps(walk, {0.0, walk.duration()});
     walk.SetOverlap(j, overlap);
-    const TimeWindow window{walk.start_of(j + 1), walk.end_of(j)};
+    const TimeWindow window{std::nextafter(walk.start_of(j + 1), -1.0), walk.end_of(j)};
     const auto old_before = [&](double begin) {
       return StartsWith(old_gaps, Gaps(walk, {0.0, begin}));
     };
@@ -260,6 +260,23 @@ TEST(CertifiedFeasibility, OutsideOfACheckedWindowIntervalsAreTheOldOnes) {
     cut_without += !old_before(window.begin) || !old_after(window.end);
   }
   EXPECT_GT(cut_without, 0) << "the case that this is about";
+}
+
+// Regression: a down half-step that overlaps all of the next one ends where the one after that
+// begins. Its window was taken for a whole stretch, beside which nothing is cut.
+TEST(CertifiedFeasibility, OnlyWholeStretchesAreCheckedAsTheyAre) {
+  const HalfStepSequence sequence = WalkDraw(30).Sequence(3);
+  SuperposedWalk walk(sequence, PlannedMotion(sequence));
+  const int j = 1;  // down → up
+  walk.SetOverlap(j, walk.parameters().durations[2]);
+  ASSERT_EQ(walk.end_of(j), walk.start_of(j + 2));
+  const TimeWindow stretch{walk.start_of(j + 1), walk.start_of(j + 2)};
+  const TimeWindow alone = ExtendedToKnots(walk, stretch);
+  EXPECT_EQ(alone.begin, stretch.begin);
+  EXPECT_EQ(alone.end, stretch.end);
+  const TimeWindow changed{std::nextafter(stretch.begin, -1.0), stretch.end};
+  EXPECT_LT(ExtendedToKnots(walk, changed).begin, stretch.begin - 1e-3);
+  EXPECT_GT(ExtendedToKnots(walk, changed).end, stretch.end + 1e-3);
 }
 
 }  // namespace

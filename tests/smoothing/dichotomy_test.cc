@@ -122,7 +122,7 @@ TEST_F(DichotomyTest, AsksNoMoreThanBisectionNeedsAndOnlyAboutTheStretchThatChan
     junction = which;
     const SuperposedWalk walk(sequence_, question.parameters);
     const int i = static_cast<int>(which);
-    EXPECT_EQ(question.window.begin, walk.start_of(i + 1));
+    EXPECT_EQ(question.window.begin, std::nextafter(walk.start_of(i + 1), -1.0));
     EXPECT_EQ(question.window.end, walk.end_of(i));
     EXPECT_GT(question.window.end, question.window.begin);
     if (question.verdict == Verdict::kFeasible) incumbent = question.parameters;
