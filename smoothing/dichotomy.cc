@@ -89,8 +89,8 @@ class Bisection {
     walk_.SetOverlap(junction, incumbent);
     const double incumbent_duration = walk_.duration();
     walk_.SetOverlap(junction, candidate);
-    // Just before t_{i+1}: an interval that ends there is cut anew, also where e_i = t_{i+2} and the
-    // window would be a whole stretch.
+    // Just before t_{i+1}: an interval that ends there is cut anew, also where e_i = t_{i+2} and
+    // the window would be a whole stretch.
     const TimeWindow window{std::nextafter(walk_.start_of(junction + 1), -1.0),
                             walk_.end_of(junction)};
     const Feasibility answer = test_.Check(walk_, window, &scratch_);

@@ -266,9 +266,11 @@ TEST(CertifiedFeasibility, OutsideOfACheckedWindowIntervalsAreTheOldOnes) {
 // begins. Its window was taken for a whole stretch, beside which nothing is cut.
 TEST(CertifiedFeasibility, OnlyWholeStretchesAreCheckedAsTheyAre) {
   const HalfStepSequence sequence = WalkDraw(30).Sequence(3);
-  SuperposedWalk walk(sequence, PlannedMotion(sequence));
   const int j = 1;  // down → up
-  walk.SetOverlap(j, walk.parameters().durations[2]);
+  HomotopyParameters parameters = PlannedMotion(sequence);
+  for (double& duration : parameters.durations) duration = 2.0;
+  parameters.overlaps[1] = 2.0;
+  const SuperposedWalk walk(sequence, parameters);
   ASSERT_EQ(walk.end_of(j), walk.start_of(j + 2));
   const TimeWindow stretch{walk.start_of(j + 1), walk.start_of(j + 2)};
   const TimeWindow alone = ExtendedToKnots(walk, stretch);
