@@ -4,7 +4,7 @@
 //      overlap_study table SCENARIO:VARIABLES:PROGRAM DEADLINE METHOD…
 //      overlap_study grow METHOD N…                 (a straight walk of N half-steps)
 //      overlap_study reach METHOD[:ITERATIONS] DEADLINE SCENE…   (a config, or bars:N)
-//      overlap_study solve CONFIG METHOD VARIABLES KIND [DEADLINE]
+//      overlap_study solve SCENE METHOD VARIABLES KIND [DEADLINE]
 //      overlap_study rows CONFIG
 
 #include <algorithm>
@@ -34,6 +34,37 @@ Experiment Load(const std::string& name) {
   return Prepare(LoadConfig(HALFSTEP_SOURCE_DIR "/experiments/configs/" + name + ".yaml", {}));
 }
 
+// The four steps of bar_8cm again and again, n half-steps, each time 0.454 m further, over a bar of
+// their own.
+Experiment Bars(int n) {
+  Experiment e = Load("bar_8cm");
+  std::vector<FootstepConfig> footsteps;
+  const Obstacle bar = e.scene.obstacles.front();
+  Scene scene = e.scene;
+  scene.obstacles.clear();
+  for (int i = 0; i < n / 2; ++i) {
+    FootstepConfig step = e.config.footsteps[static_cast<size_t>(i % 4)];
+    step.X_WF.x += 0.454 * (i / 4);
+    footsteps.push_back(step);
+    if (i % 4 == 0) {
+      Obstacle another = bar;
+      another.name += std::to_string(i / 4);
+      another.X_WO.translation().x() += 0.454 * (i / 4);
+      scene.obstacles.push_back(another);
+    }
+  }
+  e.config.footsteps = footsteps;
+  e = Prepare(e.config);
+  e.scene = scene;
+  return e;
+}
+
+// A config's name, or bars:N.
+Experiment LoadScene(const std::string& what) {
+  const bool bars = what.rfind("bars:", 0) == 0;
+  return bars ? Bars(std::atoi(what.c_str() + 5)) : Load(what);
+}
+
 ProgramKind KindOf(const std::string& name) {
   for (ProgramKind kind : {ProgramKind::kFastest, ProgramKind::kSmooth, ProgramKind::kSafest}) {
     if (name == Name(kind)) return kind;
@@ -44,7 +75,7 @@ ProgramKind KindOf(const std::string& name) {
 
 void Solve(const std::string& config, const std::string& method, const std::string& variables,
            const std::string& kind, double deadline) {
-  const Experiment e = Load(config);
+  const Experiment e = LoadScene(config);
   const MarginEvaluator evaluator(e.robot, e.scene, e.config.smoothing.limits);
   const CertifiedFeasibility test(evaluator, {});
   OptimizerOptions options;
@@ -149,35 +180,9 @@ void Table(const std::string& what, double deadline, const std::vector<std::stri
   }
 }
 
-// The four steps of bar_8cm again and again, n half-steps, each time 0.454 m further, over a bar of
-// their own.
-Experiment Bars(int n) {
-  Experiment e = Load("bar_8cm");
-  std::vector<FootstepConfig> footsteps;
-  const Obstacle bar = e.scene.obstacles.front();
-  Scene scene = e.scene;
-  scene.obstacles.clear();
-  for (int i = 0; i < n / 2; ++i) {
-    FootstepConfig step = e.config.footsteps[static_cast<size_t>(i % 4)];
-    step.X_WF.x += 0.454 * (i / 4);
-    footsteps.push_back(step);
-    if (i % 4 == 0) {
-      Obstacle another = bar;
-      another.name += std::to_string(i / 4);
-      another.X_WO.translation().x() += 0.454 * (i / 4);
-      scene.obstacles.push_back(another);
-    }
-  }
-  e.config.footsteps = footsteps;
-  e = Prepare(e.config);
-  e.scene = scene;
-  return e;
-}
-
 // When a method's incumbent is within 5 % and 1 % of what it ends with, all variables free.
 void Reach(const std::string& what, const std::string& method, double deadline) {
-  const bool bars = what.rfind("bars:", 0) == 0;
-  const Experiment e = bars ? Bars(std::atoi(what.c_str() + 5)) : Load(what);
+  const Experiment e = LoadScene(what);
   const MarginEvaluator evaluator(e.robot, e.scene, e.config.smoothing.limits);
   const CertifiedFeasibility test(evaluator, {});
   OptimizerOptions options;
@@ -299,10 +304,9 @@ int main(int argc, char** argv) {
   } else if (part == "rows") {
     halfstep::Rows(arg(2, "bar_8cm"));
   } else {
-    std::fprintf(
-        stderr,
-        "usage: overlap_study solve CONFIG METHOD VARIABLES KIND [DEADLINE] | rows CONFIG\n"
-        "VARIABLES: o, oh, ot or oht (overlaps, heights, durations)\n");
+    std::fprintf(stderr,
+                 "usage: overlap_study solve SCENE METHOD VARIABLES KIND [DEADLINE] | rows CONFIG\n"
+                 "VARIABLES: o, oh, ot or oht (overlaps, heights, durations)\n");
     return 2;
   }
 }
