@@ -83,14 +83,19 @@ bool EvaluationSession::EvaluateConstraints() {
   if (!point_.constraints) {
     Eigen::VectorXd values;
     if (!Guard([&] { values = problem_.Constraints(point_.x); })) return false;
-    if (values.size() > 0) ++counted_.constraint_evaluations;
-    point_.violation = problem_.MaxViolation(point_.x, values);
-    if (!values.allFinite())
-      non_finite_ = "The value of " + point_.violation.row + " is not finite.";
-    point_.constraints = std::move(values);
-    Consider();
+    KeepConstraints(std::move(values));
   }
   return point_.constraints->allFinite() && stop_status_ == SolveStatus::kNotRun;
+}
+
+void EvaluationSession::KeepConstraints(Eigen::VectorXd values) {
+  if (values.size() > 0) ++counted_.constraint_evaluations;
+  point_.violation = problem_.MaxViolation(point_.x, values);
+  if (!values.allFinite()) {
+    non_finite_ = "The value of " + point_.violation.row + " is not finite.";
+  }
+  point_.constraints = std::move(values);
+  Consider();
 }
 
 bool EvaluationSession::Cost(const Eigen::VectorXd& x, double* cost) {
@@ -124,10 +129,19 @@ bool EvaluationSession::Gradient(const Eigen::VectorXd& x, Eigen::VectorXd* grad
 bool EvaluationSession::Jacobian(const Eigen::VectorXd& x, std::vector<double>* nonzeros) {
   MoveTo(x);
   if (!point_.jacobian) {
-    std::vector<double> values;
-    if (!Guard([&] { values = problem_.Jacobian(point_.x); })) return false;
+    std::vector<double> slopes;
+    std::optional<Eigen::VectorXd> values;
+    const bool evaluated = Guard([&] {
+      if (point_.constraints) {
+        slopes = problem_.Jacobian(point_.x);
+      } else {
+        values = problem_.ConstraintsWithJacobian(point_.x, &slopes);
+      }
+    });
+    if (!evaluated) return false;
     ++counted_.jacobian_evaluations;
-    point_.jacobian = std::move(values);
+    point_.jacobian = std::move(slopes);
+    if (values) KeepConstraints(*std::move(values));
   }
   for (size_t k = 0; k < point_.jacobian->size(); ++k) {
     if (std::isfinite((*point_.jacobian)[k])) continue;

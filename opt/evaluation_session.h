@@ -35,6 +35,7 @@ class EvaluationSession {
   bool Cost(const Eigen::VectorXd& x, double* cost);
   bool Gradient(const Eigen::VectorXd& x, Eigen::VectorXd* gradient);
   bool Constraints(const Eigen::VectorXd& x, Eigen::VectorXd* values);
+  /// Evaluates the constraints with it when they are not known at x.
   bool Jacobian(const Eigen::VectorXd& x, std::vector<double>* nonzeros);
 
   /// The next iteration ended at x. False: stop.
@@ -71,6 +72,7 @@ class EvaluationSession {
   void MoveTo(const Eigen::VectorXd& x);
   bool EvaluateCost();
   bool EvaluateConstraints();
+  void KeepConstraints(Eigen::VectorXd values);
   void Consider();
   bool Better(const Point& a, const Point& b) const;
   void Stop(SolveStatus status, const std::string& message);

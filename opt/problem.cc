@@ -139,6 +139,19 @@ std::vector<double> Problem::Jacobian(const Eigen::VectorXd& x) const {
   return nonzeros;
 }
 
+Eigen::VectorXd Problem::ConstraintsWithJacobian(const Eigen::VectorXd& x,
+                                                 std::vector<double>* nonzeros) const {
+  RequireSize(x);
+  Eigen::VectorXd values(num_constraints());
+  nonzeros->resize(pattern_.rows.size());
+  for (const PlacedConstraint& c : constraints_) {
+    c.block->EvaluateWithJacobian(
+        x, values.segment(c.first_row, c.block->rows()),
+        std::span(*nonzeros).subspan(c.first_nonzero, c.block->pattern().rows.size()));
+  }
+  return values;
+}
+
 Eigen::MatrixXd Problem::DenseJacobian(const Eigen::VectorXd& x) const {
   const std::vector<double> nonzeros = Jacobian(x);
   Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(num_constraints(), num_variables());

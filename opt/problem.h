@@ -52,6 +52,9 @@ class Problem {
   Eigen::VectorXd Gradient(const Eigen::VectorXd& x) const;       ///< (n)
   Eigen::VectorXd Constraints(const Eigen::VectorXd& x) const;    ///< (m)
   std::vector<double> Jacobian(const Eigen::VectorXd& x) const;   ///< in the order of pattern()
+  /// Constraints (m), and the Jacobian into `nonzeros`.
+  Eigen::VectorXd ConstraintsWithJacobian(const Eigen::VectorXd& x,
+                                          std::vector<double>* nonzeros) const;
   Eigen::MatrixXd DenseJacobian(const Eigen::VectorXd& x) const;  ///< (m×n), for checks and reports
 
   /// The largest violation of rows and of variable bounds, each in its natural unit.

@@ -40,17 +40,18 @@ class SlackBlock : public opt::ConstraintBlock {
   void Evaluate(const Eigen::VectorXd& x, Eigen::Ref<Eigen::VectorXd> values) const override {
     Eigen::VectorXd slacks;
     program_.table().Evaluate(x, &slacks, nullptr);
-    if (raises_) {
-      for (int row = 0; row < rows(); ++row) {
-        if (IsRaised(row)) slacks[row] -= x[x.size() - 1];
-      }
-    }
-    values = slacks;
+    values = Lowered(slacks, x);
   }
   void Jacobian(const Eigen::VectorXd& x, std::span<double> nonzeros) const override {
+    Eigen::VectorXd values(rows());
+    EvaluateWithJacobian(x, values, nonzeros);
+  }
+  void EvaluateWithJacobian(const Eigen::VectorXd& x, Eigen::Ref<Eigen::VectorXd> values,
+                            std::span<double> nonzeros) const override {
     Eigen::VectorXd slacks;
     std::vector<double> band;
     program_.table().Evaluate(x, &slacks, &band);
+    values = Lowered(slacks, x);
     size_t from = 0, to = 0;
     for (int row = 0; row < rows(); ++row) {
       const size_t width = program_.table().band(program_.table().half_step_of(row)).size();
@@ -66,6 +67,14 @@ class SlackBlock : public opt::ConstraintBlock {
  private:
   static bool IsRaised(int row) {
     return Raised()[static_cast<size_t>(SlackTable::family_of(row))];
+  }
+
+  // Raised slacks less z.
+  Eigen::VectorXd Lowered(Eigen::VectorXd slacks, const Eigen::VectorXd& x) const {
+    for (int row = 0; raises_ && row < rows(); ++row) {
+      if (IsRaised(row)) slacks[row] -= x[x.size() - 1];
+    }
+    return slacks;
   }
 
   const OverlapProgram& program_;
