@@ -59,6 +59,8 @@ ExitStatus DoSweepCase(const SweepFolder& folder, const SweepCase& one, std::sto
                                run->refusal()->sentence, wall());
     } else {
       run->Smooth(hooks);
+      if (stop.stop_requested()) return kInterrupted;
+      run->Certify(stop);
       smoothed = true;
     }
   } catch (const std::logic_error& error) {  // a mistake of ours: the other cases go on
