@@ -65,6 +65,8 @@ TEST(SweepCases, RangesAreWrittenAsOneWouldWriteThem) {
   EXPECT_THAT(values("key: half_step.duration_s, from: 1, to: 2, count: 1"), ElementsAre("1"));
   EXPECT_THAT(values("key: smoothing.limits.foot_speed_m_s, values: [none, 2]"),
               ElementsAre("none", "2"));
+  EXPECT_THAT(values("key: smoothing.limits.foot_speed_m_s, values: [none, +2]"),
+              ElementsAre("none", "+2"));
 }
 
 TEST(SweepCases, OfShippedSweepsCanBeRead) {
