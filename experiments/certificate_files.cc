@@ -20,12 +20,12 @@ ordered_json OrNull(const std::optional<double>& value) {
 }  // namespace
 
 CertifiedWalk CertifyWalk(const CertifiedFeasibility& test, const HalfStepSequence& sequence,
-                          const HomotopyParameters& parameters) {
+                          const HomotopyParameters& parameters, const std::stop_token& stop) {
   const SuperposedWalk walk(sequence, parameters);
   MarginEvaluator::Scratch scratch = test.evaluator().MakeScratch();
   CertifiedWalk certified;
   certified.duration = walk.duration();
-  certified.answer = test.Certify(walk, &scratch, &certified.rows);
+  certified.answer = test.Certify(walk, &scratch, &certified.rows, stop);
   return certified;
 }
 
@@ -76,8 +76,9 @@ std::string CertificateJson(const Experiment& experiment, const CertifiedFeasibi
   const ordered_json json = {
       {"format", 1},
       {"verdict", VerdictName(walk.answer.verdict)},
-      {"message", certified ? "every margin is kept at all times"
-                            : test.evaluator().Describe(walk.answer.witness)},
+      {"message", certified             ? "every margin is kept at all times"
+                  : walk.answer.stopped ? "interrupted before all of it was proved"
+                                        : test.evaluator().Describe(walk.answer.witness)},
       {"statement", kCertificateStatement},
       {"duration_s", walk.duration},
       {"resolution_s", test.options().resolution},

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -19,9 +20,9 @@ struct CertifiedWalk {
   double duration = 0.0;  ///< [s]
 };
 
-/// Certifies the walk of `parameters` over all its time.
+/// Certifies the walk of `parameters` over all its time; undecided when stopped before.
 CertifiedWalk CertifyWalk(const CertifiedFeasibility& test, const HalfStepSequence& sequence,
-                          const HomotopyParameters& parameters);
+                          const HomotopyParameters& parameters, const std::stop_token& stop);
 
 /// "certified", "violated" or "undecided".
 std::string_view VerdictName(Verdict verdict);

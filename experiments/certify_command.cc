@@ -6,6 +6,7 @@
 #include "experiments/commands.h"
 #include "experiments/csv_reader.h"
 #include "experiments/experiment.h"
+#include "experiments/interrupt.h"
 #include "experiments/report/report.h"
 #include "experiments/result_tables.h"
 #include "experiments/run_folder.h"
@@ -59,6 +60,7 @@ HomotopyParameters ParametersOf(const fs::path& folder, const HalfStepSequence& 
 }  // namespace
 
 ExitStatus Certify(const CertifyCommand& command) {
+  InterruptGuard interrupt;
   const fs::path run(command.run);
   if (!fs::is_directory(run)) {
     throw InputError(
@@ -74,7 +76,9 @@ ExitStatus Certify(const CertifyCommand& command) {
   for (const std::string& method : MethodsOf(run)) {
     const std::string place = MethodFolder(method) + "/";
     const CertifiedWalk walk =
-        CertifyWalk(test, experiment.sequence, ParametersOf(run / place, experiment.sequence));
+        CertifyWalk(test, experiment.sequence, ParametersOf(run / place, experiment.sequence),
+                    interrupt.token());
+    if (walk.answer.stopped) break;
     WriteCertificate(experiment, test, walk, ReadWhole(run / place / "trajectory.csv"), place,
                      &folder);
     const bool certified = walk.answer.verdict == Verdict::kFeasible;
@@ -86,6 +90,10 @@ ExitStatus Certify(const CertifyCommand& command) {
     } else {
       std::cout << ": " << evaluator.Describe(walk.answer.witness) << '\n';
     }
+  }
+  if (interrupt.requested()) {
+    std::cerr << "halfstep: interrupted; the run is as it was\n";
+    return kInterrupted;
   }
   WriteReport(experiment.robot, experiment.scene, &folder);
   folder.Publish();

@@ -5,6 +5,7 @@
 
 #include "experiments/build_info.h"
 #include "experiments/csv_writer.h"
+#include "wpg/input/text.h"
 
 namespace halfstep {
 namespace {
@@ -56,7 +57,7 @@ CsvFile ComparisonCsv(const Comparison& comparison) {
        "until a certified walk within 1 % of the best cost; empty: never"},
       {"evaluations_to_5pct", kNumber, "", "evaluations until then; empty: never"},
       {"evaluations_to_1pct", kNumber, "", "evaluations until then; empty: never"},
-      {"run", kString, "", "run folder, as it was named"},
+      {"run", kString, "", "run folder, as it was named; after ./ where it begins like a formula"},
   });
   for (const ComparedCase& one : comparison.cases) {
     for (const ComparedMethod& method : one.methods) {
@@ -76,7 +77,7 @@ CsvFile ComparisonCsv(const Comparison& comparison) {
         EffortCell(method.reached[kFivePercent], by_wall, &csv);
         EffortCell(method.reached[kOnePercent], by_wall, &csv);
       }
-      csv.Cell(record.run).EndRow();
+      csv.Cell(LooksLikeFormula(record.run) ? "./" + record.run : record.run).EndRow();
     }
   }
   return csv.file();

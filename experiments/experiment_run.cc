@@ -76,9 +76,12 @@ void ExperimentRun::Smooth(const RunHooks& hooks) {
               &run.result.junctions);
     runs_.push_back(std::move(run));
   }
+}
+
+void ExperimentRun::Certify(const std::stop_token& stop) {
   for (MethodRun& run : runs_) {
     SampleTrajectory(*evaluator_, experiment_->sequence, config_.output_period, &run);
-    run.certified = CertifyWalk(*certifier_, experiment_->sequence, run.result.parameters);
+    run.certified = CertifyWalk(*certifier_, experiment_->sequence, run.result.parameters, stop);
   }
 }
 

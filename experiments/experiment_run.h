@@ -39,9 +39,11 @@ class ExperimentRun {
 
   const std::optional<RunRefusal>& refusal() const { return refusal_; }
 
-  /// Runs and certifies every method. Precondition of this and what follows: no refusal; of what
-  /// follows: this.
+  /// Runs every method. Precondition of this and what follows: no refusal; of what follows: this.
   void Smooth(const RunHooks& hooks);
+  /// Samples and certifies every walk; those whose turn comes after a stop are undecided.
+  /// Precondition of Write().
+  void Certify(const std::stop_token& stop);
 
   /// The config with planned footsteps in place of a goal.
   const ExperimentConfig& config() const { return config_; }

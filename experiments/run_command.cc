@@ -63,6 +63,8 @@ ExitStatus Run(const RunCommand& command) {
   RunFolder folder(OutputFolder(command, config), command.overwrite);
   run.Smooth(hooks);
   bars.End();
+  // What smoothing had found when it was stopped is proved all the same.
+  run.Certify(interrupt.requested() ? std::stop_token() : interrupt.token());
   run.Write(&folder);
   WriteReport(run.experiment().robot, run.experiment().scene, &folder);
   folder.Publish();

@@ -55,21 +55,23 @@ std::pair<std::string, std::string> LabelAndRun(const std::string& argument) {
   const size_t equals = argument.find('=');
   if (equals == std::string::npos || fs::is_directory(argument)) return {"", argument};
   const std::string label = argument.substr(0, equals);
-  const bool plain = !label.empty() && std::all_of(label.begin(), label.end(), [](unsigned char c) {
-    return (c < 128 && std::isalnum(c)) || c == '_' || c == '.' || c == '-';
-  });
+  const bool plain = !label.empty() && !LooksLikeFormula(label) &&
+                     std::all_of(label.begin(), label.end(), [](unsigned char c) {
+                       return (c < 128 && std::isalnum(c)) || c == '_' || c == '.' || c == '-';
+                     });
   if (!plain) {
     throw InputError({argument + ": the label " + Quote(label) +
-                      " is not plain (valid: letters, digits, '_', '.', '-')"});
+                      " is not plain (valid: letters, digits, '_', '.', '-', but '-' not first)"});
   }
   return {label, argument.substr(equals + 1)};
 }
 
 // Names go into folder names, tables and scripts.
 void CheckWord(const std::string& word, const char* what, const fs::path& path) {
-  const bool plain = !word.empty() && std::all_of(word.begin(), word.end(), [](unsigned char c) {
-    return c > 32 && c < 127 && c != ',' && c != '"' && c != '\'' && c != '\\';
-  });
+  const bool plain = !word.empty() && !LooksLikeFormula(word) &&
+                     std::all_of(word.begin(), word.end(), [](unsigned char c) {
+                       return c > 32 && c < 127 && c != ',' && c != '"' && c != '\'' && c != '\\';
+                     });
   if (!plain || word.find("..") != std::string::npos || word.front() == '/') {
     Refuse(path, Quote(word) + " cannot be " + what);
   }
@@ -196,6 +198,7 @@ RunRecord ReadRun(const std::string& argument) {
   record.run = folder;
   record.scenario = TextOf(manifest, "name", path);
   if (HasControlCharacter(record.scenario)) Refuse(path, "'name' holds a control character");
+  if (LooksLikeFormula(record.scenario)) Refuse(path, "'name' would be taken for a formula");
   record.objective = TextOf(manifest, "objective", path);
   CheckWord(record.objective, "an objective", path);
   const json& half_steps = Member(manifest, "half_steps", path);

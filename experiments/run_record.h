@@ -47,8 +47,8 @@ struct RunRecord {
 
 /// Reads a run folder that `halfstep run` wrote: manifest.json, summary.csv, footsteps.csv,
 /// raw/certificate.json and each method's iterates.csv. `argument` is RUN or LABEL=RUN; the label
-/// (letters, digits, "_", ".", "-") goes before the names of its methods but raw. Throws InputError
-/// for whatever is missing, damaged or contradicts itself.
+/// (letters, digits, "_", ".", "-", "-" not first) goes before the names of its methods but raw.
+/// Throws InputError for whatever is missing, damaged or contradicts itself.
 RunRecord ReadRun(const std::string& argument);
 
 }  // namespace halfstep

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "experiments/csv_columns.h"
 #include "experiments/experiment_run.h"
 #include "experiments/run_folder.h"
 #include "experiments/sweep_tables.h"
@@ -30,8 +31,8 @@ void Publish(const SweepFolder& folder, const SweepCase& one, const ExperimentCo
   } else {
     place.Write("config.yaml", ResolvedConfig(place.path(), config));
   }
-  place.Write("timings.csv", tables.timings);
-  place.Write("runs.csv", tables.runs);
+  WriteCsv("timings", tables.timings, &place);
+  WriteCsv("runs", tables.runs, &place);
   try {
     place.Publish();
   } catch (const std::runtime_error&) {
@@ -59,6 +60,8 @@ ExitStatus DoSweepCase(const SweepFolder& folder, const SweepCase& one, std::sto
                                run->refusal()->sentence, wall());
     } else {
       run->Smooth(hooks);
+      if (stop.stop_requested()) return kInterrupted;
+      run->Certify(stop);
       smoothed = true;
     }
   } catch (const std::logic_error& error) {  // a mistake of ours: the other cases go on

@@ -9,6 +9,7 @@
 #include "experiments/folder_name.h"
 #include "experiments/manifest.h"
 #include "wpg/input/input_error.h"
+#include "wpg/input/number_text.h"
 #include "wpg/input/text.h"
 
 namespace halfstep {
@@ -68,6 +69,13 @@ void DeclareAxis(Fields& fields, SweepAxis* axis) {
   fields.Text("zip", &axis->zip,
               {.meaning = "axes with the same word advance together", .otherwise = "by itself"});
   const bool range = axis->from || axis->to || axis->step || axis->count > 0;
+  for (const std::string& value : axis->values) {
+    if (!LooksLikeFormula(value) || ParseNumber(value).kind == NumberText::Kind::kNumber) continue;
+    fields.Complain("values",
+                    Quote(value) +
+                        " would be taken for a formula where a spreadsheet shows runs.csv "
+                        "(valid: a number, a text that begins otherwise, ./ before a path)");
+  }
   if (!axis->values.empty()) {
     if (range) fields.Complain("values", "there is a range as well (valid: either)");
     return;

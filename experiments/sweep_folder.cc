@@ -140,12 +140,13 @@ SweepFolder::SweepFolder(const fs::path& path, const SweepConfig& sweep)
 bool SweepFolder::IsDone(const SweepCase& one) const {
   const fs::path place = CasePath(one);
   if (!fs::exists(place / "config.yaml")) return false;
-  for (const auto& [file, header] :
-       {std::pair{"runs.csv", &runs_.text}, std::pair{"timings.csv", &timings_.text}}) {
-    const std::string text = Content(place / file);
-    if (!text.starts_with(*header)) return false;
+  for (const auto& [name, empty] : {std::pair{"runs", &runs_}, std::pair{"timings", &timings_}}) {
+    const std::string file = (place / name).string();
+    const std::string text = Content(file + ".csv");
+    if (!text.starts_with(empty->text)) return false;
+    if (Content(file + ".schema.json") != SchemaJson(empty->columns)) return false;
     try {
-      const CsvTable table = ParseCsv(text, (place / file).string());
+      const CsvTable table = ParseCsv(text, file + ".csv");
       if (table.rows.empty()) return false;
       for (const std::string& id : table.Texts("case")) {
         if (id != one.id) return false;

@@ -93,7 +93,7 @@ SweepTables TablesOf(const SweepConfig& sweep, const SweepCase& one, const Exper
     runs.Cell(method.result.message.empty() ? "none" : method.result.message).EndRow();
     timings.Cell(wall).EndRow();
   }
-  return {runs.text(), timings.text()};
+  return {runs.file(), timings.file()};
 }
 
 SweepTables TablesOfFailure(const SweepConfig& sweep, const SweepCase& one,
@@ -107,7 +107,7 @@ SweepTables TablesOfFailure(const SweepConfig& sweep, const SweepCase& one,
   }
   runs.Cell(message).EndRow();
   timings.Cell(wall).EndRow();
-  return {runs.text(), timings.text()};
+  return {runs.file(), timings.file()};
 }
 
 }  // namespace halfstep

@@ -14,9 +14,9 @@ CsvFile EmptyRuns(const SweepConfig& sweep);
 /// timings.csv without rows: what runs.csv leaves out.
 CsvFile EmptyTimings();
 
-/// A case's runs.csv and timings.csv, with their first lines.
+/// A case's runs.csv and timings.csv.
 struct SweepTables {
-  std::string runs, timings;
+  CsvFile runs, timings;
 };
 /// One row a method. `wall` is of the whole case [s].
 SweepTables TablesOf(const SweepConfig& sweep, const SweepCase& one, const ExperimentRun& run,

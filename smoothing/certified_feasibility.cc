@@ -93,7 +93,8 @@ std::string CertifiedFeasibility::Description() const {
 
 Feasibility CertifiedFeasibility::Decide(const SuperposedWalk& walk, const TimeWindow& window,
                                          MarginEvaluator::Scratch* scratch,
-                                         Certificate* certificate) const {
+                                         Certificate* certificate,
+                                         const std::stop_token& stop) const {
   // Coarse intervals of the whole window first: a violation that lasts is met early.
   std::deque<Open> open;
   std::vector<double> knots = KnotsInside(walk, window);
@@ -109,6 +110,10 @@ Feasibility CertifiedFeasibility::Decide(const SuperposedWalk& walk, const TimeW
     begin = end;
   }
   while (!open.empty()) {
+    if (stop.stop_requested()) {
+      return {Verdict::kUndecided, Evidence::kCertified,
+              OpenStatement(open.front(), evaluator_, walk), /*stopped=*/true};
+    }
     Open now = std::move(open.front());
     open.pop_front();
     const auto violated =
@@ -127,14 +132,15 @@ Feasibility CertifiedFeasibility::Decide(const SuperposedWalk& walk, const TimeW
 
 Feasibility CertifiedFeasibility::Check(const SuperposedWalk& walk, const TimeWindow& window,
                                         MarginEvaluator::Scratch* scratch) const {
-  return Decide(walk, ExtendedToKnots(walk, window), scratch, nullptr);
+  return Decide(walk, ExtendedToKnots(walk, window), scratch, nullptr, {});
 }
 
 Feasibility CertifiedFeasibility::Certify(const SuperposedWalk& walk,
                                           MarginEvaluator::Scratch* scratch,
-                                          Certificate* certificate) const {
+                                          Certificate* certificate,
+                                          const std::stop_token& stop) const {
   certificate->clear();
-  const Feasibility answer = Decide(walk, {0.0, walk.duration()}, scratch, certificate);
+  const Feasibility answer = Decide(walk, {0.0, walk.duration()}, scratch, certificate, stop);
   std::sort(certificate->begin(), certificate->end(),
             [](const CertificateRow& a, const CertificateRow& b) {
               return std::tie(a.begin, a.end, a.family) < std::tie(b.begin, b.end, b.family);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -29,9 +30,10 @@ class CertifiedFeasibility : public FeasibilityTest {
                     MarginEvaluator::Scratch* scratch) const override;
 
   /// The same over the whole walk, with the proof: `certificate` holds what was proved before a
-  /// verdict was reached, all of it when feasible, in the order of begin, end and family.
+  /// verdict was reached, all of it when feasible, in the order of begin, end and family. `stop` is
+  /// looked at before each interval; what is stopped is undecided.
   Feasibility Certify(const SuperposedWalk& walk, MarginEvaluator::Scratch* scratch,
-                      Certificate* certificate) const;
+                      Certificate* certificate, const std::stop_token& stop = {}) const;
 
   const CertificationOptions& options() const { return options_; }
   /// How many statements a family has at every instant.
@@ -39,7 +41,8 @@ class CertifiedFeasibility : public FeasibilityTest {
 
  private:
   Feasibility Decide(const SuperposedWalk& walk, const TimeWindow& window,
-                     MarginEvaluator::Scratch* scratch, Certificate* certificate) const;
+                     MarginEvaluator::Scratch* scratch, Certificate* certificate,
+                     const std::stop_token& stop) const;
 
   const MarginEvaluator& evaluator_;
   CertificationOptions options_;

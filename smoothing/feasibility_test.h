@@ -29,6 +29,7 @@ struct Feasibility {
   Evidence evidence = Evidence::kSampled;
   /// Violated: a margin below what is demanded. Undecided: the one that could not be decided.
   Margin witness;
+  bool stopped = false;  ///< undecided because it was told to stop
 };
 
 /// Whether a walk meets every demanded margin on a window of time.

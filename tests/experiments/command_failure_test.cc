@@ -15,11 +15,11 @@
 #include <chrono>
 #include <cstddef>
 #include <random>
-#include <sstream>
 #include <thread>
 
 #include "experiments/commands.h"
 #include "tests/experiments/child_process.h"
+#include "tests/experiments/long_walk.h"
 #include "tests/experiments/run_check.h"
 #include "tests/experiments/temporary_folder.h"
 
@@ -34,19 +34,11 @@ const std::string kConfig = ShippedConfig("fig3_two_half_steps");
 const std::string kOneMethod = "smoothing.methods=[dichotomy]";
 const std::vector<std::string> kMethods = {"dichotomy", "dichotomy_published"};
 
-// A straight walk of 40 footsteps, smoothed in so many passes that it would last for a minute.
+// A walk smoothed in so many passes that it would last for a minute.
 std::string LongConfig() {
-  std::ostringstream yaml;
-  yaml << "robot: hrp2\nscene: none\nfootsteps:\n";
-  for (int i = 1; i <= 40; ++i) {
-    const bool left = i % 2 == 0;
-    yaml << "  - {foot: " << (left ? "left" : "right") << ", x_m: " << 0.1 * i
-         << ", y_m: " << (left ? 0.105 : -0.105) << "}\n";
-  }
-  yaml << "smoothing: {methods: [dichotomy], acceptance: sampled, sampling_s: 0.002,\n"
-          "            dichotomy: {passes: 100, tolerance_s: 1e-6}}\n"
-          "output: {period_s: 0.2}\n";
-  return yaml.str();
+  return LongWalk() +
+         "smoothing: {methods: [dichotomy], acceptance: sampled, sampling_s: 0.002,\n"
+         "            dichotomy: {passes: 100, tolerance_s: 1e-6}}\n";
 }
 
 // Reads a terminal until `text` has come (true) or the process at the other end is gone.

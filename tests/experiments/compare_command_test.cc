@@ -230,6 +230,27 @@ TEST_F(CompareCommandTest, LabelsTellTheSameMethodApart) {
   EXPECT_THAT(outcome.out, HasSubstr("again:dichotomy/published"));
 }
 
+TEST_F(CompareCommandTest, FoldersThatBeginLikeFormulasStillNameTheRun) {
+  const TemporaryFolder here;
+  for (const std::string name : {"=1+1", "+1", "@SUM(A1)", "-rf"}) {
+    SCOPED_TRACE(name);
+    fs::copy(*place_ / "fig5_box", here / name, fs::copy_options::recursive);
+    const std::string out = "of" + name;
+    const Outcome outcome =
+        Halfstep(here.path(), {"compare", "--out", out, "--", name, "again=" + name});
+    ASSERT_EQ(outcome.status, kSuccess) << outcome.err;
+    const ParsedCsv table(ReadText(here / out / "comparison.csv"));
+    ASSERT_EQ(table.size(), 5u);
+    for (size_t row = 0; row < table.size(); ++row) {
+      EXPECT_EQ(table.Text(row, "run"), "./" + name);
+      EXPECT_TRUE(fs::exists(here / table.Text(row, "run") / "manifest.json"));
+    }
+  }
+  const Outcome label = Halfstep(here.path(), {"compare", "--", "-x==1+1"});
+  EXPECT_EQ(label.status, kBadInput);
+  EXPECT_THAT(label.err, HasSubstr("the label '-x' is not plain"));
+}
+
 TEST_F(CompareCommandTest, NeverReplacesARun) {
   const std::string before = ReadText(*place_ / "fig5_box/manifest.json");
   const Outcome outcome =
@@ -247,6 +268,9 @@ TEST_F(CompareCommandTest, RefusesDamagedRunsAndWritesNothing) {
            {"summary.csv", "true", "maybe", "certified: 'maybe' (valid: true, false)"},
            {"summary.csv", "certified", "certain", "no column 'certified'"},
            {"summary.csv", "\ndichotomy,", "\n../etc,", "cannot be a method's name"},
+           {"summary.csv", "\ndichotomy,", "\n=1+1,", "'=1+1' cannot be a method's name"},
+           {"summary.csv", ",finished,", ",@finished,", "'@finished' cannot be a status"},
+           {"manifest.json", "\"name\": \"fig5_box\"", "\"name\": \"=1+1\"", "for a formula"},
            {"summary.csv", "\ndichotomy,finished,true,", "\ndichotomy,finished,true,-", "out of"},
            {"summary.csv", "\ndichotomy,", "\nraw,", "raw is not the first"},
            {"manifest.json", "\"objective\"", "\"target\"", "no 'objective'"},

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <random>
 #include <thread>
@@ -11,6 +12,7 @@
 #include "experiments/commands.h"
 #include "experiments/methods.h"
 #include "tests/experiments/child_process.h"
+#include "tests/experiments/long_walk.h"
 #include "tests/experiments/run_check.h"
 #include "tests/experiments/temporary_folder.h"
 
@@ -121,6 +123,66 @@ TEST(InterruptedRun, SecondSignalEndsAtOnce) {
     ++ended;
   }
   EXPECT_EQ(ended, 1);
+}
+
+// A run of which certification takes most of the time, and how long it lasts.
+duration<double> MakeLongRun(const TemporaryFolder& place) {
+  WriteText(place / "c.yaml", LongWalk() + "smoothing: {methods: []}\n");
+  const auto begin = steady_clock::now();
+  EXPECT_EQ(Halfstep(place.path(), {"run", "c.yaml", "--out", "whole", "--quiet"}).status,
+            kSuccess);
+  return steady_clock::now() - begin;
+}
+
+// Where in a run to interrupt it, until it was at the right moment.
+constexpr std::array kMoments = {0.7, 0.6, 0.8, 0.5, 0.9, 0.4, 0.75, 0.65, 0.55, 0.85, 0.45};
+
+TEST(InterruptedCertification, IsUndecidedAndTheRunIsWhole) {
+  const TemporaryFolder place;
+  const duration<double> whole = MakeLongRun(place);
+  bool undecided = false;
+  for (size_t i = 0; i < kMoments.size() && !undecided; ++i) {
+    const std::string name = "run" + std::to_string(i);
+    Child child({"run", "c.yaml", "--out", name, "--quiet"}, {.working_directory = place.path()});
+    std::this_thread::sleep_for(kMoments[i] * whole);
+    child.Signal(SIGINT);
+    const Outcome outcome = child.Wait();
+    if (outcome.status == kSuccess || outcome.signal != 0) continue;  // too late, too early
+    EXPECT_EQ(outcome.status, kInterrupted) << outcome.err;
+    CheckRunIsWhole(place / name, {});
+    const auto certificate = [&] {
+      return nlohmann::json::parse(ReadText(place / name / "raw/certificate.json"));
+    };
+    undecided = certificate()["verdict"] == "undecided";
+    const ParsedCsv summary(ReadText(place / name / "summary.csv"));
+    EXPECT_EQ(summary.Text(0, "certified"), undecided ? "false" : "true");
+    if (!undecided) continue;
+    EXPECT_EQ(certificate()["message"], "interrupted before all of it was proved");
+    EXPECT_EQ(Halfstep(place.path(), {"verify", name, "--quiet"}).status, kNotVerified);
+    EXPECT_EQ(Halfstep(place.path(), {"certify", name, "--quiet"}).status, kSuccess);
+    EXPECT_EQ(certificate()["verdict"], "certified");
+  }
+  EXPECT_TRUE(undecided) << "certification was never interrupted";
+}
+
+TEST(InterruptedCertification, OfARunLeavesItAsItWas) {
+  const TemporaryFolder place;
+  const duration<double> whole = MakeLongRun(place);
+  const std::string older = "begin_s\n";
+  int interrupted = 0;
+  for (size_t i = 0; i < kMoments.size() && interrupted == 0; ++i) {
+    WriteText(place / "whole/raw/certificate.csv", older);
+    Child child({"certify", "whole"}, {.working_directory = place.path()});
+    std::this_thread::sleep_for(kMoments[i] * whole);
+    child.Signal(SIGINT);
+    const Outcome outcome = child.Wait();
+    if (outcome.status != kInterrupted) continue;
+    ++interrupted;
+    EXPECT_EQ(outcome.err, "halfstep: interrupted; the run is as it was\n");
+    EXPECT_EQ(ReadText(place / "whole/raw/certificate.csv"), older);
+    EXPECT_THAT(NamesIn(place.path()), testing::ElementsAre("c.yaml", "whole"));
+  }
+  EXPECT_EQ(interrupted, 1);
 }
 
 }  // namespace

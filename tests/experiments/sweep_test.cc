@@ -65,6 +65,8 @@ TEST(SweepCases, RangesAreWrittenAsOneWouldWriteThem) {
   EXPECT_THAT(values("key: half_step.duration_s, from: 1, to: 2, count: 1"), ElementsAre("1"));
   EXPECT_THAT(values("key: smoothing.limits.foot_speed_m_s, values: [none, 2]"),
               ElementsAre("none", "2"));
+  EXPECT_THAT(values("key: smoothing.limits.foot_speed_m_s, values: [none, +2]"),
+              ElementsAre("none", "+2"));
 }
 
 TEST(SweepCases, OfShippedSweepsCanBeRead) {
@@ -115,7 +117,7 @@ class SweepCommandTest : public testing::Test {
   }
   static void ExpectAsReference(const std::string& out) {
     EXPECT_TRUE(Bytes(out) == Bytes("reference")) << out;
-    EXPECT_EQ(FilesBelow(Folder(out)).size(), 6u * 3 + 6);
+    EXPECT_EQ(FilesBelow(Folder(out)).size(), 6u * 5 + 6);
   }
   static size_t Done(const std::string& out) {
     size_t done = 0;
@@ -155,6 +157,20 @@ TEST_F(SweepCommandTest, OneRowACaseAndMethodWithItsKeysAndFailures) {
   EXPECT_EQ(timings.size(), runs.size());
   EXPECT_GT(timings.Number(3, "wall_s"), 0.0);
   EXPECT_FALSE(fs::exists(Folder("elsewhere"))) << "output.directory is not the sweep's";
+}
+
+TEST_F(SweepCommandTest, EveryTableHasItsSchema) {
+  const fs::path sweep = Folder("reference");
+  for (const std::string name : {"runs", "timings"}) {
+    const std::string text = ReadText(sweep / (name + ".schema.json"));
+    const nlohmann::json schema = nlohmann::json::parse(text);
+    std::vector<std::string> fields;
+    for (const auto& field : schema["fields"]) fields.push_back(field["name"]);
+    EXPECT_EQ(fields, ParsedCsv(ReadText(sweep / (name + ".csv"))).header());
+    for (const std::string& one : NamesIn(sweep / "cases")) {
+      EXPECT_EQ(ReadText(sweep / "cases" / one / (name + ".schema.json")), text);
+    }
+  }
 }
 
 TEST_F(SweepCommandTest, TheNumberOfWorkersDoesNotMatter) {
@@ -198,14 +214,15 @@ TEST_F(SweepCommandTest, WhatIsNotWholeIsDoneAgainAndNothingElse) {
   fs::remove(cases[2] / "config.yaml");
   fs::remove_all(cases[3]);
   fs::create_directory(cases[3]);
-  const std::string untouched = ReadText(cases[4] / "timings.csv");
+  fs::resize_file(cases[4] / "runs.schema.json", 100);
+  const std::string untouched = ReadText(cases[5] / "timings.csv");
   fs::remove(Folder("damaged") / "runs.csv");
   const Outcome outcome =
       Halfstep(place_->path(), {"sweep", "sweep.yaml", "--out", "damaged", "--jobs", "2"});
   ASSERT_EQ(outcome.status, kSuccess) << outcome.err;
-  EXPECT_THAT(outcome.out, HasSubstr("2 of 6 cases are done already\n"));
+  EXPECT_THAT(outcome.out, HasSubstr("1 of 6 cases are done already\n"));
   ExpectAsReference("damaged");
-  EXPECT_EQ(ReadText(cases[4] / "timings.csv"), untouched);
+  EXPECT_EQ(ReadText(cases[5] / "timings.csv"), untouched);
 }
 
 TEST_F(SweepCommandTest, CasesAloneThenCollectedAreTheSame) {

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <set>
+#include <stop_token>
 
 #include "smoothing/dichotomy.h"
 #include "smoothing/sampled_feasibility.h"
@@ -186,6 +187,28 @@ TEST(CertifiedFeasibility, CertificateCoversTheWholeWalk) {
         ASSERT_EQ(counts[static_cast<size_t>(family)], test.CountOf(family)) << Name(family);
       }
     }
+  }
+}
+
+// Also one that would be certified, or violated at once.
+TEST(CertifiedFeasibility, StoppedIsUndecided) {
+  const FastStep step;
+  MarginLimits violated;
+  violated.demanded.fill(100.0);
+  for (const MarginLimits& limits : {ObstaclesOnly(), violated}) {
+    const MarginEvaluator evaluator(step.robot, {}, limits);
+    const CertifiedFeasibility test(evaluator, {});
+    MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
+    Certificate certificate;
+    std::stop_source source;
+    const Feasibility whole = test.Certify(step.walk, &scratch, &certificate, source.get_token());
+    EXPECT_NE(whole.verdict, Verdict::kUndecided);
+    EXPECT_FALSE(whole.stopped);
+    source.request_stop();
+    const Feasibility stopped = test.Certify(step.walk, &scratch, &certificate, source.get_token());
+    EXPECT_EQ(stopped.verdict, Verdict::kUndecided);
+    EXPECT_TRUE(stopped.stopped);
+    EXPECT_TRUE(certificate.empty());
   }
 }
 

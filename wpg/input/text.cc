@@ -86,6 +86,10 @@ std::string Printable(std::string_view text) {
   return shown;
 }
 
+bool LooksLikeFormula(std::string_view text) {
+  return !text.empty() && std::string_view("-=+@\t\r").find(text[0]) != std::string_view::npos;
+}
+
 std::string NameMistake(std::string_view name) {
   constexpr size_t kLongest = 100;
   if (FindInvalidUtf8(name) != std::string_view::npos || HasControlCharacter(name)) {
@@ -94,7 +98,7 @@ std::string NameMistake(std::string_view name) {
   if (name.size() > kLongest) {
     return Quote(name) + " is too long (valid: at most " + std::to_string(kLongest) + " bytes)";
   }
-  if (!name.empty() && std::string_view("-=+@").find(name[0]) != std::string_view::npos) {
+  if (LooksLikeFormula(name)) {
     return Quote(name) +
            " would be taken for an option or a formula (valid: text that does not begin with '-', "
            "'=', '+' or '@')";

@@ -21,6 +21,9 @@ std::string Quote(std::string_view text);
 /// a terminal.
 std::string Printable(std::string_view text);
 
+/// Whether a spreadsheet takes a cell with this text for a formula, by its first character.
+bool LooksLikeFormula(std::string_view text);
+
 /// What makes a text unfit as the name of a thing in tables, folders and messages, with what is
 /// valid; "" if nothing: control characters, invalid UTF-8, more than 100 bytes, or a first
 /// character that a shell or a spreadsheet takes for an option or a formula.
