@@ -81,9 +81,7 @@ bool EvaluationSession::EvaluateCost() {
 
 bool EvaluationSession::EvaluateConstraints() {
   if (!point_.constraints) {
-    Eigen::VectorXd values;
-    if (!Guard([&] { values = problem_.Constraints(point_.x); })) return false;
-    KeepConstraints(std::move(values));
+    if (!Guard([&] { KeepConstraints(problem_.Constraints(point_.x)); })) return false;
   }
   return point_.constraints->allFinite() && stop_status_ == SolveStatus::kNotRun;
 }
@@ -204,6 +202,8 @@ bool EvaluationSession::ReportIterate(const Eigen::VectorXd& x) {
 bool EvaluationSession::Begin(const Eigen::VectorXd& start) {
   beginning_ = true;
   MoveTo(start);
+  std::vector<double> slopes;
+  if (counting_ == Iterations::kTold) Jacobian(start, &slopes);
   const bool evaluated = EvaluateCost() && EvaluateConstraints();
   if (evaluated) {
     CountIterate(point_);

@@ -20,7 +20,7 @@ namespace halfstep::opt {
 class EvaluationSession {
  public:
   enum class Iterations {
-    kTold,          ///< the adapter calls ReportIterate
+    kTold,          ///< the adapter calls ReportIterate; it starts with derivatives
     kImprovements,  ///< each point better than all before it is an iteration
   };
 
@@ -105,6 +105,7 @@ struct Ending {
   SolveStatus status;
   std::string message;
   Eigen::VectorXd x;
+  std::shared_ptr<const WarmStart> warm_start = nullptr;
 };
 
 /// The frame of every Solver::Solve: refuses what the solver cannot take, projects and evaluates

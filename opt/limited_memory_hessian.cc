@@ -14,7 +14,7 @@ Eigen::VectorXd LimitedMemoryHessian::Times(const Eigen::VectorXd& v) const {
 
 void LimitedMemoryHessian::Update(const Eigen::VectorXd& s, Eigen::VectorXd y) {
   const double ss = s.squaredNorm();
-  if (!(ss > 1e-24) || !y.allFinite()) return;
+  if (memory_ == 0 || !(ss > 1e-24) || !y.allFinite()) return;
   if (s_.empty()) {
     // Nothing is curved so far: B stays 0.
     if (y.norm() <= 1e-12 * std::sqrt(ss)) return;

@@ -10,6 +10,7 @@ namespace halfstep::opt {
 /// Source: [Nocedal2006], sections 7.2 and 18.3.
 class LimitedMemoryHessian {
  public:
+  /// `memory`: the pairs that count; 0: B stays 0.
   explicit LimitedMemoryHessian(size_t memory) : memory_(memory) {}
 
   /// A step s ≠ 0 (n) changed the gradient by y (n).

@@ -20,9 +20,9 @@ std::optional<Ending> ReadOwnOptions(const std::string& solver, EvaluationSessio
     const auto number =
         found->integer ? std::optional<double>(ParseInteger(value)) : ParseNumber(value);
     const bool right =
-        number && (found->integer ? *number >= 1.0 && *number <= kMost : *number > 0.0);
+        number && (found->integer ? *number >= 0.0 && *number <= kMost : *number > 0.0);
     if (!right) {
-      const char* why = found->integer ? "an integer from 1 to 1000" : "a number above 0";
+      const char* why = found->integer ? "an integer from 0 to 1000" : "a number above 0";
       return Ending{SolveStatus::kInvalidInput, RefusedOption(solver, option, value, why), {}};
     }
     found->value = *number;

@@ -8,7 +8,7 @@
 
 namespace halfstep::opt {
 
-/// An option of one of our own solvers: a number above 0, or an integer from 1 to 1000.
+/// An option of one of our own solvers: a number above 0, or an integer from 0 to 1000.
 struct OwnOption {
   std::string name;
   bool integer;

@@ -49,9 +49,9 @@ class Problem {
   const SparsityPattern& pattern() const { return pattern_; }  ///< of the stacked Jacobian
 
   double Cost(const Eigen::VectorXd& x) const;
-  Eigen::VectorXd Gradient(const Eigen::VectorXd& x) const;       ///< (n)
-  Eigen::VectorXd Constraints(const Eigen::VectorXd& x) const;    ///< (m)
-  std::vector<double> Jacobian(const Eigen::VectorXd& x) const;   ///< in the order of pattern()
+  Eigen::VectorXd Gradient(const Eigen::VectorXd& x) const;      ///< (n)
+  Eigen::VectorXd Constraints(const Eigen::VectorXd& x) const;   ///< (m)
+  std::vector<double> Jacobian(const Eigen::VectorXd& x) const;  ///< in the order of pattern()
   /// Constraints (m), and the Jacobian into `nonzeros`.
   Eigen::VectorXd ConstraintsWithJacobian(const Eigen::VectorXd& x,
                                           std::vector<double>* nonzeros) const;

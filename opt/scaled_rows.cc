@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace halfstep::opt {
 
@@ -17,6 +18,18 @@ ScaledRows::ScaledRows(const Problem& problem, const std::vector<double>& jacobi
     const double lower = problem.constraint_lower()[row], upper = problem.constraint_upper()[row];
     if (std::isfinite(lower)) sides_.push_back({row, scale, lower});
     if (std::isfinite(upper)) sides_.push_back({row, -scale, upper});
+  }
+  std::vector<std::vector<int>> columns(static_cast<size_t>(problem.num_constraints()));
+  for (size_t k = 0; k < jacobian.size(); ++k) {
+    columns[static_cast<size_t>(problem.pattern().rows[k])].push_back(problem.pattern().cols[k]);
+  }
+  std::map<std::vector<int>, int> known;
+  for (const Side& side : sides_) {
+    std::vector<int>& own = columns[static_cast<size_t>(side.row)];
+    std::sort(own.begin(), own.end());
+    const auto [at, added] = known.try_emplace(own, static_cast<int>(variables_.size()));
+    if (added) variables_.push_back(own);
+    groups_.push_back(at->second);
   }
 }
 

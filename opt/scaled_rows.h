@@ -16,6 +16,10 @@ class ScaledRows {
   ScaledRows(const Problem& problem, const std::vector<double>& jacobian);
 
   Eigen::Index size() const { return static_cast<Eigen::Index>(sides_.size()); }
+  /// Rows with derivatives along the same variables are a group: of each row (m).
+  const std::vector<int>& groups() const { return groups_; }
+  /// Of each group, in order.
+  const std::vector<std::vector<int>>& variables() const { return variables_; }
   /// c (m) from the problem's values.
   Eigen::VectorXd Values(const Eigen::VectorXd& values) const;
   /// ∂c/∂x (m×n); nothing along fixed variables.
@@ -30,6 +34,8 @@ class ScaledRows {
 
   const Problem& problem_;
   std::vector<Side> sides_;
+  std::vector<int> groups_;
+  std::vector<std::vector<int>> variables_;
 };
 
 }  // namespace halfstep::opt

@@ -4,8 +4,11 @@
 #include <exception>
 #include <limits>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
+
+#include "opt/warm_start.h"
 
 namespace halfstep::opt {
 
@@ -56,6 +59,7 @@ struct Solution {
   long jacobian_evaluations = 0;
   double wall = 0.0;  ///< [s]
   std::vector<HistoryEntry> history;
+  std::shared_ptr<const WarmStart> warm_start;  ///< null: the solver has none to give
   std::map<std::string, std::string> requested_options;
   std::map<std::string, std::string> used_options;  ///< as handed to the library
 

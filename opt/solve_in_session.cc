@@ -44,6 +44,7 @@ Solution SolveInSession(
   }
   Solution solution = session.Finish(ending.status, ending.message, ending.x);
   solution.solver = solver.name();
+  solution.warm_start = ending.warm_start;
   return solution;
 }
 

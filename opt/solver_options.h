@@ -4,8 +4,11 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <memory>
 #include <stop_token>
 #include <string>
+
+#include "opt/warm_start.h"
 
 namespace halfstep::opt {
 
@@ -37,6 +40,8 @@ struct SolverOptions {
   std::function<bool(const Iterate&)> on_iterate;  ///< false: stop
   /// Passed through to the solver; an unknown or refused one ends in kInvalidInput.
   std::map<std::string, std::string> solver_options;
+  /// Solution::warm_start of a solve before; null or another solver's: begins anew.
+  std::shared_ptr<const WarmStart> warm_start = nullptr;
   unsigned seed = 1;  ///< of the solvers that draw (nlopt/isres)
 };
 

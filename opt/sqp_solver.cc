@@ -20,26 +20,50 @@ using SparseMatrix = Eigen::SparseMatrix<double>;
 
 constexpr double kAccept = 1e-4;              // of the predicted reduction
 constexpr double kPoor = 0.25, kGood = 0.75;  // below it the region shrinks, above it grows
-constexpr double kLeastRadius = 1e-12;
+constexpr double kShrink = 0.3;
+constexpr double kLeastRegion = 1e-12, kMostRegion = 1e3;  // of the variables' widths
+constexpr double kFirstRegion = 0.03;                      // at least, of a later solve
 constexpr double kMostPenalty = 1e8;
 constexpr int kMostRaises = 6;  // of the penalty in one iteration
 
+struct SqpMemory : WarmStart {
+  explicit SqpMemory(size_t memory) : hessian(memory) {}
+
+  VectorXd region;        // how far a step goes along each variable; empty: not known
+  double penalty = 10.0;  // ν
+  LimitedMemoryHessian hessian;
+};
+
 class Sqp {
  public:
-  Sqp(EvaluationSession* session, const VectorXd& start, double radius, size_t memory)
+  Sqp(EvaluationSession* session, const VectorXd& start, double radius, const SqpMemory& memory)
       : session_(*session),
         problem_(session->problem()),
         x_(start),
-        radius_(radius),
-        hessian_(memory) {
+        penalty_(memory.penalty),
+        hessian_(memory.hessian) {
     width_ = problem_.upper() - problem_.lower();
     for (int v = 0; v < x_.size(); ++v) {
       if (!std::isfinite(width_[v])) width_[v] = std::max(1.0, std::abs(x_[v]));
     }
+    region_ = radius * width_;
+    if (memory.region.size() == x_.size()) region_ = memory.region.cwiseMax(kFirstRegion * width_);
   }
 
   Ending Run() {
-    if (!session_.Constraints(x_, &values_) || !session_.Cost(x_, &cost_) || !Derive()) {
+    Ending ending = Iterate();
+    auto memory = std::make_shared<SqpMemory>(0);
+    memory->region = region_;
+    memory->penalty = penalty_;
+    memory->hessian = std::move(hessian_);
+    ending.warm_start = std::move(memory);
+    return ending;
+  }
+
+ private:
+  Ending Iterate() {
+    if (!session_.Jacobian(x_, &jacobian_) || !session_.Constraints(x_, &values_) ||
+        !session_.Cost(x_, &cost_) || !session_.Gradient(x_, &gradient_)) {
       return Broken();
     }
     rows_.emplace(problem_, jacobian_);
@@ -56,7 +80,7 @@ class Sqp {
         return {SolveStatus::kConverged, "SQP: first-order conditions hold.", x_};
       }
       const double size = std::max(1.0, std::abs(cost_) + penalty_ * violation);
-      if (radius_ < kLeastRadius || predicted <= 1e-14 * size) {
+      if ((region_.array() < kLeastRegion * width_.array()).all() || predicted <= 1e-14 * size) {
         if (!feasible) {
           return {SolveStatus::kInfeasible, "SQP: the violation has a local minimum.", x_};
         }
@@ -67,10 +91,7 @@ class Sqp {
     return Broken();
   }
 
- private:
   Ending Broken() const { return {SolveStatus::kFailed, "SQP: broke off.", x_}; }
-
-  bool Derive() { return session_.Gradient(x_, &gradient_) && session_.Jacobian(x_, &jacobian_); }
 
   bool Fixed(int v) const { return problem_.lower()[v] == problem_.upper()[v]; }
 
@@ -83,13 +104,13 @@ class Sqp {
                           .lower = {},
                           .upper = {},
                           .penalty = penalty};
-    sub.lower = (problem_.lower() - x_).cwiseMax(-radius_ * width_);
-    sub.upper = (problem_.upper() - x_).cwiseMin(radius_ * width_);
+    sub.lower = (problem_.lower() - x_).cwiseMax(-region_);
+    sub.upper = (problem_.upper() - x_).cwiseMin(region_);
     for (int v = 0; v < x_.size(); ++v) {
       if (!Fixed(v)) continue;
       sub.g[v] = 0.0;
-      sub.lower[v] = -radius_;
-      sub.upper[v] = radius_;
+      sub.lower[v] = -region_[v];
+      sub.upper[v] = region_[v];
     }
     const VectorXd reach = A.cwiseAbs() * sub.lower.cwiseAbs().cwiseMax(sub.upper.cwiseAbs());
     std::vector<Eigen::Index> kept;
@@ -151,16 +172,52 @@ class Sqp {
 
   struct Trial {
     VectorXd x, values, c;
+    std::vector<double> jacobian;
     double cost = 0.0, merit = std::numeric_limits<double>::infinity();
   };
+  // With derivatives: most trials are taken.
   Trial At(const VectorXd& d) {
     Trial trial;
     trial.x = (x_ + d).cwiseMax(problem_.lower()).cwiseMin(problem_.upper());
-    if (session_.Constraints(trial.x, &trial.values) && session_.Cost(trial.x, &trial.cost)) {
+    if (session_.Jacobian(trial.x, &trial.jacobian) &&
+        session_.Constraints(trial.x, &trial.values) && session_.Cost(trial.x, &trial.cost)) {
       trial.c = rows_->Values(trial.values);
       trial.merit = Merit(trial.cost, trial.c);
     }
     return trial;
+  }
+
+  // The region shrinks along the variables of rows that turned out worse than the model said, and
+  // grows along those of other rows, if the step is taken.
+  void Adapt(const VectorXd& d, const VectorXd& c, const SparseMatrix& A, const Trial& trial,
+             double ratio) {
+    if (!std::isfinite(trial.merit)) {
+      region_ *= kShrink;
+      return;
+    }
+    const VectorXd before = (-c).cwiseMax(0.0), expected = (-c - A * d).cwiseMax(0.0);
+    const VectorXd after = (-trial.c).cwiseMax(0.0);
+    const std::vector<std::vector<int>>& variables = rows_->variables();
+    std::vector<double> surprise(variables.size(), 0.0), gain(variables.size(), 1e-12);
+    for (Eigen::Index i = 0; i < c.size(); ++i) {
+      const size_t k = static_cast<size_t>(rows_->groups()[static_cast<size_t>(i)]);
+      surprise[k] += penalty_ * std::max(0.0, after[i] - expected[i]);
+      gain[k] += penalty_ * std::max(0.0, before[i] - expected[i]);
+    }
+    VectorXd worst = VectorXd::Ones(x_.size());
+    for (size_t k = 0; k < variables.size(); ++k) {
+      for (int v : variables[k]) gain[k] += std::abs(gradient_[v] * d[v]);
+      for (int v : variables[k]) worst[v] = std::min(worst[v], 1.0 - surprise[k] / gain[k]);
+    }
+    const bool all = ratio < kPoor && worst.minCoeff() >= kPoor;  // no row is to blame
+    for (int v = 0; v < x_.size(); ++v) {
+      const double moved = std::abs(d[v]);
+      if (all || worst[v] < kPoor) {
+        region_[v] = kShrink * std::clamp(moved, kShrink * region_[v], region_[v]);
+      } else if (ratio > kAccept && worst[v] > kGood && moved > 0.9 * region_[v]) {
+        region_[v] = std::min(kMostRegion * width_[v], 2.0 * region_[v]);
+      }
+    }
   }
 
   // Goes there if the merit falls as predicted, and adapts the region. False: the session ends.
@@ -183,19 +240,15 @@ class Sqp {
         ratio = (merit - trial.merit + rounding) / (predicted + rounding);
       }
     }
-    const double reach = d.cwiseQuotient(width_).lpNorm<Eigen::Infinity>();
-    if (ratio < kPoor || !std::isfinite(trial.merit)) {
-      radius_ = 0.3 * std::min(radius_, std::max(reach, 0.1 * radius_));
-    } else if (ratio > kGood && reach > 0.9 * radius_) {
-      radius_ = std::min(1e3, 2.0 * radius_);
-    }
+    Adapt(d, c, A, trial, ratio);
     if (!(ratio > kAccept)) return true;
     const VectorXd moved = trial.x - x_;
     const VectorXd before = gradient_ - A.transpose() * step.duals;
     x_ = trial.x;
     values_ = trial.values;
+    jacobian_ = trial.jacobian;
     cost_ = trial.cost;
-    if (!Derive()) return false;
+    if (!session_.Gradient(x_, &gradient_)) return false;
     hessian_.Update(moved,
                     gradient_ - rows_->Jacobian(jacobian_).transpose() * step.duals - before);
     return session_.ReportIterate(x_);
@@ -203,12 +256,11 @@ class Sqp {
 
   EvaluationSession& session_;
   const Problem& problem_;
-  VectorXd x_, width_, values_, gradient_;
+  VectorXd x_, width_, region_, values_, gradient_;
   double cost_ = 0.0;
   std::vector<double> jacobian_;
   std::optional<ScaledRows> rows_;  // after the first evaluation
-  double radius_;                   // of the region, in widths of the variables
-  double penalty_ = 10.0;
+  double penalty_;                  // as in SqpMemory
   LimitedMemoryHessian hessian_;
 };
 
@@ -224,7 +276,11 @@ class SqpSolver : public Solver {
   Ending RunWithOptions(EvaluationSession& session, const VectorXd& start) const {
     std::vector<OwnOption> options = {{"radius", false, 0.1}, {"memory", true, 12}};
     if (const auto refused = ReadOwnOptions(name(), &session, &options)) return *refused;
-    return Sqp(&session, start, options[0].value, static_cast<size_t>(options[1].value)).Run();
+    SqpMemory memory(static_cast<size_t>(options[1].value));
+    if (const auto* before = dynamic_cast<const SqpMemory*>(session.options().warm_start.get())) {
+      memory = *before;
+    }
+    return Sqp(&session, start, options[0].value, memory).Run();
   }
 
   Solution Solve(const Problem& problem, const VectorXd& x0,

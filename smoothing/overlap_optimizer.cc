@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <random>
 #include <utility>
 #include <vector>
 
@@ -17,6 +16,9 @@
 namespace halfstep {
 namespace {
 
+constexpr char kSqp[] = "halfstep/sqp";
+// Of the dichotomy before a search that is to shorten the walk anyway [s].
+constexpr double kStartTolerance = 0.1;
 // Points tried towards a candidate.
 constexpr int kAttempts = 8;
 // A candidate whose rows are violated by more than this is not worth a proof, nor a place to go on
@@ -24,11 +26,12 @@ constexpr int kAttempts = 8;
 constexpr double kHopeless = 0.5;
 // A solver's iterates between two proofs.
 constexpr int kPatience = 10;
-// Where the program looks: instants this far apart [s], slacks below this.
-constexpr double kLookPeriod = 0.005, kLookSlack = 0.1;
+constexpr double kLookPeriod = 0.005;  // [s]: how far apart the program looks for small slacks
+// A point where less slack is seen is not worth a proof.
+constexpr double kPromising = -0.02;
 // After a round whose end was proved rows grow sharper by a factor, up to a bound; after one whose
 // end was refused they grow softer, so that more is left in reserve.
-constexpr double kSharpen = 2.0, kSoften = 0.7, kSharpest = 3000.0;
+constexpr double kSharpen = 1.5, kSoften = 0.85, kSharpest = 3000.0;
 // A round that gains less, for the incumbent and for the solver, is poor (relative); so many in a
 // row end the search.
 constexpr double kGain = 1e-3;
@@ -52,7 +55,7 @@ class Optimization {
         proofs_(test, sequence.size()) {}
 
   SmoothingResult Run() {
-    DichotomyOptions dichotomy{.tolerance = options_.tolerance};
+    DichotomyOptions dichotomy{.tolerance = StartTolerance()};
     if (options_.start) {
       dichotomy.start = options_.start;
       dichotomy.passes = 0;
@@ -87,33 +90,29 @@ class Optimization {
   bool Safest() const { return options_.program.kind == ProgramKind::kSafest; }
   bool Fastest() const { return options_.program.kind == ProgramKind::kFastest; }
 
+  // Of the dichotomy before the search. `safest` and `smooth` compare with the fine one's result.
+  double StartTolerance() const {
+    return Fastest() ? std::max(options_.tolerance, kStartTolerance) : options_.tolerance;
+  }
+
   std::function<void(double)> Part(double from, double to) const {
     return [this, from, to](double done) {
       if (progress_) progress_(from + (to - from) * done);
     };
   }
 
-  // The dichotomy's result, the planned motion, random points of the variables' box.
-  std::vector<HomotopyParameters> Starts(const OverlapProgram& program) const {
-    std::vector<HomotopyParameters> starts = {start_};
-    if (options_.planned_start) starts.push_back(PlannedMotion(sequence_));
-    std::mt19937_64 random(options_.seed);
-    const opt::Problem problem = program.MakeProblem();
-    for (int i = 0; i < options_.random_starts; ++i) {
-      Eigen::VectorXd x(problem.num_variables());
-      for (Eigen::Index v = 0; v < x.size(); ++v) {
-        x[v] =
-            std::uniform_real_distribution<double>(problem.lower()[v], problem.upper()[v])(random);
-      }
-      starts.push_back(program.ToParameters(x));
-    }
-    return starts;
+  // The slack that the program asks for at x: z ≥ 0 of `safest`.
+  double Level(const Eigen::VectorXd& x) const {
+    return Safest() ? std::max(0.0, x.tail(1)[0]) : 0;
   }
 
   void Search(OverlapProgram& program, FeasiblePath* path) {
-    const std::vector<HomotopyParameters> starts = Starts(program);
+    std::vector<HomotopyParameters> starts = {start_};
+    if (options_.planned_start) starts.push_back(PlannedMotion(sequence_));
+    AddRandomPoints(program, options_.random_starts, options_.seed, &starts);
     for (size_t s = 0; s < starts.size(); ++s) {
       program.table().SetSharpness(options_.program.table.sharpness);
+      solution_.warm_start = nullptr;
       Eigen::VectorXd x = program.ToVariables(starts[s]);
       double solved = std::numeric_limits<double>::infinity();  // cost of the last end
       int poor = 0;
@@ -128,30 +127,25 @@ class Optimization {
             solution_.final_x.size() == x.size() && solution_.final_violation < kHopeless;
         x = near ? solution_.final_x : solution_.x;
         const HomotopyParameters end = program.ToParameters(x);
-        Try(end, near ? solution_.final_violation : solution_.max_violation, program, path);
-        result_.raw_end_feasible = path->refusals().empty();
-        const bool learned = Learn(end, *path, &program);
+        const SuperposedWalk walk(sequence_, end);
+        const double seen = program.table().Focus(walk, kLookPeriod, Level(x));
+        const bool last = stopwatch_.Seconds() >= options_.deadline || round + 1 == options_.rounds;
+        if (seen >= kPromising || last) {
+          Try(end, near ? solution_.final_violation : solution_.max_violation, program, path);
+          result_.raw_end_feasible = path->refusals().empty();
+          for (const Margin& refusal : path->refusals()) {
+            program.table().Learn(walk, refusal.at);
+          }
+        }
         const double cost = near ? solution_.final_cost : solution_.cost;
         poor = Gained(before, path->cost()) || Gained(solved, cost) ? 0 : poor + 1;
         solved = std::min(solved, cost);
-        if (poor > 0 && !learned) break;
-        const double sharpen = path->refusals().empty() ? kSharpen : kSoften;
+        const double sharpen = seen >= kPromising && path->refusals().empty() ? kSharpen : kSoften;
         program.table().SetSharpness(std::min(kSharpest, sharpen * program.table().sharpness()));
         Part(0.2, 0.9)((static_cast<double>(s) + (round + 1.0) / options_.rounds) /
                        static_cast<double>(starts.size()));
       }
     }
-  }
-
-  // Looks where the proof failed and where sampling finds small slacks. False: nothing new.
-  bool Learn(const HomotopyParameters& parameters, const FeasiblePath& path,
-             OverlapProgram* program) const {
-    const SuperposedWalk walk(sequence_, parameters);
-    bool learned = false;
-    for (const Margin& refusal : path.refusals()) {
-      learned = program->table().Look(walk, refusal.at) || learned;
-    }
-    return program->table().LookAround(walk, kLookPeriod, kLookSlack) > 0 || learned;
   }
 
   opt::Solution Solve(const OverlapProgram& program, const Eigen::VectorXd& x, double deadline,
@@ -162,6 +156,11 @@ class Optimization {
     solver_options.deadline = deadline;
     solver_options.stop = stop_;
     solver_options.optimality_tolerance = 1e-4;
+    solver_options.warm_start = solution_.warm_start;
+    // Nearly linear: what curvature a few steps show of it does more harm than good.
+    if (options_.solver == kSqp && options_.program.kind != ProgramKind::kSmooth) {
+      solver_options.solver_options["memory"] = "0";
+    }
     solver_options.on_iterate = [&](const opt::Iterate& iterate) {
       const HomotopyParameters candidate = program.ToParameters(iterate.x);
       if (++since_proof_ < kPatience) {
@@ -213,7 +212,11 @@ class Optimization {
       result_.cost = path.cost();
     }
     if (Fastest() && !stop_.stop_requested()) {
-      Polish();
+      AddDichotomy(result_.parameters);
+      // Had the first dichotomy been as fine, it might have found as much.
+      const double found = DurationOf(start_) - result_.cost;
+      const bool much = found > StartTolerance() * sequence_.num_junctions();
+      if (!options_.start && !much) AddDichotomy(PlannedMotion(sequence_));
     } else {
       for (size_t i = 0; i < result_.junctions.size(); ++i) {
         JunctionResult& junction = result_.junctions[i];
@@ -238,21 +241,23 @@ class Optimization {
     return std::move(result_);
   }
 
-  // A dichotomy's pass over all junctions.
-  void Polish() {
-    SmoothingResult polished =
-        Dichotomy(sequence_, test_, {.tolerance = options_.tolerance, .start = result_.parameters},
-                  Part(0.9, 1.0), stop_);
-    for (SmoothingIterate& iterate : polished.iterates) {
-      iterate.wall += stopwatch_.Seconds() - polished.wall;
-      iterate.evaluations += result_.instants;
+  // A dichotomy's pass over all junctions, which counts if it ends with a shorter walk.
+  void AddDichotomy(const HomotopyParameters& start) {
+    SmoothingResult added = Dichotomy(
+        sequence_, test_, {.tolerance = options_.tolerance, .start = start}, Part(0.9, 1.0), stop_);
+    result_.instants += added.instants;
+    result_.collision_queries += added.collision_queries;
+    const bool first = result_.parameters == start;
+    if (!first && !(added.cost < result_.cost)) return;
+    for (SmoothingIterate& iterate : added.iterates) {
+      if (iterate.incumbent_duration > result_.cost) continue;
+      iterate.wall += stopwatch_.Seconds() - added.wall;
+      iterate.evaluations += result_.instants - added.instants;
       result_.iterates.push_back(iterate);
     }
-    result_.parameters = polished.parameters;
-    result_.junctions = polished.junctions;
-    result_.cost = DurationOf(polished.parameters);
-    result_.instants += polished.instants;
-    result_.collision_queries += polished.collision_queries;
+    result_.parameters = added.parameters;
+    result_.junctions = added.junctions;
+    result_.cost = added.cost;
   }
 
   bool HoldsWhole(const HomotopyParameters& parameters) const {
@@ -282,9 +287,9 @@ SmoothingResult OptimizeOverlaps(const HalfStepSequence& sequence, const Feasibi
                                  const std::function<void(double)>& progress,
                                  std::stop_token stop) {
   OptimizerOptions own = options;
-  const bool sqp = options.solver == "halfstep/sqp";
+  const bool sqp = options.solver == kSqp;
   own.program.table.row_per_instant = sqp;
-  if (own.max_iterations == 0) own.max_iterations = sqp ? 4 : 30;
+  if (own.max_iterations == 0) own.max_iterations = sqp ? 2 : 30;
   return Optimization(sequence, test, own, progress, std::move(stop)).Run();
 }
 

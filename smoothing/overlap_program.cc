@@ -4,6 +4,7 @@
 #include <limits>
 #include <memory>
 #include <numeric>
+#include <random>
 #include <string>
 
 namespace halfstep {
@@ -292,6 +293,19 @@ double OverlapProgram::Cost(const HomotopyParameters& parameters) const {
       return -table_.LeastSlack(parameters, Raised());
   }
   return std::numeric_limits<double>::infinity();
+}
+
+void AddRandomPoints(const OverlapProgram& program, int count, unsigned seed,
+                     std::vector<HomotopyParameters>* points) {
+  std::mt19937_64 random(seed);
+  const opt::Problem problem = program.MakeProblem();
+  for (int i = 0; i < count; ++i) {
+    Eigen::VectorXd x(problem.num_variables());
+    for (Eigen::Index v = 0; v < x.size(); ++v) {
+      x[v] = std::uniform_real_distribution<double>(problem.lower()[v], problem.upper()[v])(random);
+    }
+    points->push_back(program.ToParameters(x));
+  }
 }
 
 }  // namespace halfstep

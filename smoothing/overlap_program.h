@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <string_view>
+#include <vector>
 
 #include "opt/problem.h"
 #include "smoothing/overlap_variables.h"
@@ -79,6 +80,10 @@ class OverlapProgram {
   OverlapVariables variables_;
   SlackTable table_;  // borrows variables_
 };
+
+/// Appends `count` points, uniformly distributed in the box of the program's variables.
+void AddRandomPoints(const OverlapProgram& program, int count, unsigned seed,
+                     std::vector<HomotopyParameters>* points);
 
 /// D = Σ T − Σ Δ [s].
 double DurationOf(const HomotopyParameters& parameters);

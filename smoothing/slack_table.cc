@@ -9,6 +9,8 @@ namespace {
 using Family = HomotopyParameter::Family;
 
 constexpr double kReserve = 3.0;
+// Slacks that are near the level, and that are far from it.
+constexpr double kNear = 0.3, kFar = 1.0;
 
 // Σ e^{−ρ·slack} and its gradient, both times e^{ρ·least}: no overflow, whatever the slacks.
 struct SoftMinimum {
@@ -46,6 +48,40 @@ std::vector<double> Events(const HalfStep& half_step) {
   return {kInside, shape.t1() - delay - kInside, shape.t1() - kInside};
 }
 
+using LeastSlacks = std::array<double, kNumMarginFamilies>;  // by family, at most a cutoff
+
+// At 0, period, … and at the end.
+std::vector<LeastSlacks> Sampled(const SuperposedWalk& walk, const MarginEvaluator& evaluator,
+                                 double period, double cutoff) {
+  SlackEvaluator slacks(evaluator, cutoff);
+  InstantSlacks instant;
+  const int n = static_cast<int>(std::ceil(walk.duration() / period));
+  std::vector<LeastSlacks> samples(static_cast<size_t>(n) + 1);
+  for (int i = 0; i <= n; ++i) {
+    LeastSlacks& sample = samples[static_cast<size_t>(i)];
+    sample.fill(cutoff);
+    slacks.At(walk, walk.Locate(std::min(i * period, walk.duration())), {}, false, &instant);
+    for (const SlackRow& row : instant.rows) {
+      double& least = sample[static_cast<size_t>(row.family)];
+      least = std::min(least, row.slack);
+    }
+  }
+  return samples;
+}
+
+// The least slack of the families that have a local minimum in time at sample i; none: `otherwise`.
+double LocalMinimum(const std::vector<LeastSlacks>& samples, int i, double otherwise) {
+  const size_t at = static_cast<size_t>(i);
+  double lowest = otherwise;
+  for (size_t f = 0; f < kNumMarginFamilies; ++f) {
+    const double slack = samples[at][f];
+    const bool falls = i == 0 || slack < samples[at - 1][f];
+    const bool rises = at + 1 == samples.size() || slack <= samples[at + 1][f];
+    if (falls && rises) lowest = std::min(lowest, slack);
+  }
+  return lowest;
+}
+
 }  // namespace
 
 SlackTable::SlackTable(const OverlapVariables& variables, const MarginEvaluator& evaluator,
@@ -69,7 +105,9 @@ SlackTable::SlackTable(const OverlapVariables& variables, const MarginEvaluator&
 void SlackTable::CountRows() {
   first_rows_.assign(1, 0);
   for (const std::vector<Instant>& instants : instants_) {
-    const int groups = options_.row_per_instant ? static_cast<int>(instants.size()) : 1;
+    const int groups = options_.row_per_instant
+                           ? static_cast<int>(std::ranges::count(instants, false, &Instant::far))
+                           : 1;
     first_rows_.push_back(first_rows_.back() + groups * kNumMarginFamilies);
   }
 }
@@ -98,52 +136,56 @@ LocalTime SlackTable::At(const SuperposedWalk& walk, int k, const Instant& insta
   return {k, instant.fraction * StretchOf(walk, k)};
 }
 
-bool SlackTable::Look(const SuperposedWalk& walk, const LocalTime& at) {
-  constexpr double kNear = 1e-3;  // of T
+bool SlackTable::Learn(const SuperposedWalk& walk, const LocalTime& at) {
+  const bool learned = Look(walk, at, Instant::Why::kLearned);
+  CountRows();
+  return learned;
+}
+
+bool SlackTable::Look(const SuperposedWalk& walk, const LocalTime& at, Instant::Why why) {
+  constexpr double kSame = 1e-3;  // of T
   const double v = at.tau / walk.profiles(at.half_step).duration();
   std::vector<Instant>& instants = instants_[static_cast<size_t>(at.half_step)];
   for (const Instant& known : instants) {
-    if (!known.of_stretch && std::abs(known.fraction - v) < kNear) return false;
+    if (!known.of_stretch && !known.far && std::abs(known.fraction - v) < kSame) return false;
   }
-  instants.push_back({std::clamp(v, 0.0, 1.0), false});
-  CountRows();
+  instants.push_back({std::clamp(v, 0.0, 1.0), false, why});
   return true;
 }
 
-int SlackTable::LookAround(const SuperposedWalk& walk, double period, double slack) {
-  // The minimum moves with the parameters: its neighbourhood, in periods, is looked at as well.
-  constexpr std::array<double, 7> kAround = {0.0, -0.5, 0.5, -1.0, 1.0, -2.0, 2.0};
-  std::array<std::array<double, 2>, kNumMarginFamilies> before;  // at the last two samples
-  for (auto& values : before) values.fill(options_.cutoff);
-  SlackEvaluator slacks(evaluator_, options_.cutoff);
-  InstantSlacks instant;
-  int learned = 0;
-  const int n = static_cast<int>(std::ceil(walk.duration() / period));
-  for (int i = 0; i <= n + 1; ++i) {  // one beyond the end, where nothing is small
-    std::array<double, kNumMarginFamilies> least;
-    least.fill(options_.cutoff);
-    const LocalTime at = walk.Locate(std::min(i * period, walk.duration()));
-    if (i <= n) {
-      slacks.At(walk, at, {}, false, &instant);
-      for (const SlackRow& row : instant.rows) {
-        double& value = least[static_cast<size_t>(row.family)];
-        value = std::min(value, row.slack);
-      }
-    }
-    bool minimum = false;
-    for (size_t f = 0; f < kNumMarginFamilies; ++f) {
-      auto& [older, newer] = before[f];
-      minimum = minimum || (newer < slack && newer < older && newer <= least[f]);
-      older = newer;
-      newer = least[f];
-    }
-    for (double around : kAround) {
-      if (!minimum) break;
-      const double t = std::clamp((i - 1 + around) * period, 0.0, walk.duration());
-      learned += Look(walk, walk.Locate(t));
+double SlackTable::Focus(const SuperposedWalk& walk, double period, double level) {
+  const double far = level + kFar;
+  // Rows by half-step cost no more for looking at more instants; long rounds need them.
+  const bool forgets = options_.row_per_instant;
+  const std::vector<LeastSlacks> samples = Sampled(walk, evaluator_, period, far);
+  const int last = static_cast<int>(samples.size()) - 1;
+  const auto lowest = [&samples](int i) {
+    return std::ranges::min(samples[static_cast<size_t>(i)]);
+  };
+  std::vector<std::pair<HomotopyParameter, double>> moving;
+  for (int k = 0; forgets && k < walk.num_half_steps(); ++k) {
+    std::vector<Instant>& instants = instants_[static_cast<size_t>(k)];
+    std::erase_if(instants, [](const Instant& i) { return i.why == Instant::Why::kMinimum; });
+    for (Instant& instant : instants) {
+      const double t = walk.start_of(k) + At(walk, k, instant, &moving).tau;
+      const int i = std::clamp(static_cast<int>(t / period), 0, last);
+      instant.far = lowest(i) >= far && lowest(std::min(i + 1, last)) >= far;
     }
   }
-  return learned;
+  double least = far;
+  for (int i = 0; i <= last; ++i) {
+    least = std::min(least, lowest(i));
+    const double minimum = LocalMinimum(samples, i, far);
+    if (minimum >= far) continue;
+    // It moves with the parameters.
+    const int around = minimum < level + kNear ? 2 : 0;
+    for (int j = -around; j <= around; ++j) {
+      const double t = std::clamp((i + j) * period, 0.0, walk.duration());
+      Look(walk, walk.Locate(t), Instant::Why::kMinimum);
+    }
+  }
+  CountRows();
+  return least;
 }
 
 void SlackTable::EvaluateHalfStep(const SuperposedWalk& walk, const Eigen::VectorXd& x, int k,
@@ -169,6 +211,7 @@ void SlackTable::EvaluateHalfStep(const SuperposedWalk& walk, const Eigen::Vecto
   InstantSlacks instant;
   Eigen::MatrixXd pull;  // ∂parameter/∂x on the band (parameters × width)
   for (const Instant& where : instants_[static_cast<size_t>(k)]) {
+    if (where.far) continue;
     const LocalTime at = At(walk, k, where, &moving);
     slacks->At(walk, at, moving, nonzeros != nullptr, &instant);
     if (nonzeros && !instant.rows.empty()) {

@@ -21,7 +21,7 @@ struct SlackTableOptions {
 ///   - on its own stretch [t_k, t_{k+1}], at τ = u·(T_k − Δ_k) for fixed u ∈ (0, 1);
 ///   - where statements begin or end to count, at τ = v·T_k: lift-off or landing, begin or end of
 ///     the horizontal motion of its foot;
-///   - where a proof failed before (Look, LookAround), at τ = v·T_k.
+///   - where a proof failed before (Learn) or samples show small slacks (Focus), at τ = v·T_k.
 /// Row (k, family), or with `row_per_instant` (k, instant, family), is
 ///
 ///     −(3 + log(e^{−ρc} + Σ e^{−ρ·slack}))/ρ ≤ min(c, least slack at these instants) − 3/ρ,
@@ -52,10 +52,12 @@ class SlackTable {
 
   /// Looks at one more instant, where a slack turned out to be small. False: it is, or nearly is,
   /// there already.
-  bool Look(const SuperposedWalk& walk, const LocalTime& at);
-  /// Looks where and around where a family's least slack, sampled every `period` [s], has a local
-  /// minimum in time below `slack`. Returns how many instants are new.
-  int LookAround(const SuperposedWalk& walk, double period, double slack);
+  bool Learn(const SuperposedWalk& walk, const LocalTime& at);
+  /// Looks where samples of `walk`, every `period` [s], show that it matters: where a family's
+  /// least slack has a local minimum in time, and around it where it is near the `level` that all
+  /// slacks are to reach. With `row_per_instant` forgets what was found so in walks before, and
+  /// instants at which nothing is near the level have no row. Returns the least slack sampled.
+  double Focus(const SuperposedWalk& walk, double period, double level);
 
   /// Rows at x (rows), and the Jacobian, row by row in the order of its band, when asked for.
   void Evaluate(const Eigen::VectorXd& x, Eigen::VectorXd* values,
@@ -67,12 +69,16 @@ class SlackTable {
 
  private:
   struct Instant {
+    enum class Why { kGrid, kLearned, kMinimum };
     double fraction;
     bool of_stretch;  // of T_k − Δ_k, else of T_k
+    Why why = Why::kGrid;
+    bool far = false;  // nothing there is near its limit: no row
   };
   // (k, τ) of an instant, and dτ along the parameters that move it.
   static LocalTime At(const SuperposedWalk& walk, int half_step, const Instant& instant,
                       std::vector<std::pair<HomotopyParameter, double>>* moving);
+  bool Look(const SuperposedWalk& walk, const LocalTime& at, Instant::Why why);
   void CountRows();
   void EvaluateHalfStep(const SuperposedWalk& walk, const Eigen::VectorXd& x, int half_step,
                         SlackEvaluator* slacks, Eigen::VectorXd* values, double* nonzeros) const;

@@ -104,6 +104,22 @@ TEST_P(EverySolver, GivesTheSameTwice) {
   EXPECT_EQ(first.cost_evaluations, second.cost_evaluations);
 }
 
+TEST_P(EverySolver, AWarmStartFromAnySolverChangesNoOptimum) {
+  const ProblemCard card = BandedQuadratic(10);
+  if (MayMiss(GetParam(), card.name) || !solver().WhyUnsupported(card.problem).empty()) {
+    GTEST_SKIP();
+  }
+  for (const std::string& name : {GetParam(), std::string("halfstep/sqp")}) {
+    const opt::Solution first =
+        opt::MakeSolver(name)->Solve(card.problem, card.problem.initial(), {});
+    opt::SolverOptions options;
+    options.warm_start = first.warm_start;
+    const opt::Solution second = solver().Solve(card.problem, card.problem.initial(), options);
+    EXPECT_TRUE(second.feasible) << second.BriefReport();
+    EXPECT_NEAR(second.cost, card.optimum, 1e-4);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Solvers, EverySolver, ::testing::ValuesIn(opt::SolverNames()),
                          SolverTestName);
 

@@ -82,6 +82,31 @@ TEST(Solver, SolvesInSeveralThreadsAtOnce) {
   }
 }
 
+// Where it ended, what the solver knew of curvature brings it back in fewer steps.
+TEST(Sqp, GoesOnFromAWarmStart) {
+  const ProblemCard card = Hs65();
+  const auto solver = opt::MakeSolver("halfstep/sqp");
+  const opt::Solution first = solver->Solve(card.problem, card.problem.initial(), {});
+  ASSERT_NE(first.warm_start, nullptr);
+  const Eigen::VectorXd near = first.x + Eigen::VectorXd::Constant(first.x.size(), 0.01);
+  opt::SolverOptions warm;
+  warm.warm_start = first.warm_start;
+  const opt::Solution cold = solver->Solve(card.problem, near, {});
+  const opt::Solution again = solver->Solve(card.problem, near, warm);
+  EXPECT_NEAR(again.cost, card.optimum, 1e-4);
+  EXPECT_LT(again.iterations, cold.iterations);
+}
+
+TEST(Sqp, WithoutMemoryItSolvesLinearProgramsOnly) {
+  opt::SolverOptions options;
+  options.solver_options["memory"] = "0";
+  const auto solver = opt::MakeSolver("halfstep/sqp");
+  const ProblemCard curved = Hs65();
+  const opt::Solution solution = solver->Solve(curved.problem, curved.problem.initial(), options);
+  EXPECT_NE(solution.status, opt::SolveStatus::kInvalidInput) << solution.message;
+  EXPECT_TRUE(solution.feasible);
+}
+
 TEST(BoxTransform, StaysInsideAndInverts) {
   const opt::BoxTransform box(Vector({-1, -kInfinity, 2, -kInfinity, 3}),
                               Vector({4, kInfinity, kInfinity, 5, 3}));

@@ -124,9 +124,29 @@ TEST_F(SlackTableTest, JacobianAlongRandomDirectionsAgreesWithDifferences) {
 TEST_F(SlackTableTest, AnInstantIsLearnedOnce) {
   SlackTable table(variables_, evaluator_, {.instants = 4});
   const SuperposedWalk walk(e_.sequence, PlannedMotion(e_.sequence));
-  EXPECT_TRUE(table.Look(walk, {2, 0.4321}));
-  EXPECT_FALSE(table.Look(walk, {2, 0.4321}));
-  EXPECT_TRUE(table.Look(walk, {3, 0.4321}));
+  EXPECT_TRUE(table.Learn(walk, {2, 0.4321}));
+  EXPECT_FALSE(table.Learn(walk, {2, 0.4321}));
+  EXPECT_TRUE(table.Learn(walk, {3, 0.4321}));
+}
+
+// What Focus leaves out is far from its limit, and what it adds is not missed by dense sampling.
+TEST_F(SlackTableTest, FocusSeesTheLeastSlackWithFewerRows) {
+  SlackTable table(variables_, evaluator_, {.instants = 32, .row_per_instant = true});
+  const int rows = table.rows();
+  HomotopyParameters parameters = PlannedMotion(e_.sequence);
+  for (double& duration : parameters.durations) duration *= 0.8;
+  const SuperposedWalk walk(e_.sequence, parameters);
+  const double least = table.Focus(walk, 0.002, 0.0);
+  EXPECT_LT(table.rows(), rows);
+  std::array<bool, kNumMarginFamilies> all;
+  all.fill(true);
+  EXPECT_NEAR(table.LeastSlack(parameters, all), least, 1e-3);
+  Eigen::VectorXd values;
+  table.Evaluate(variables_.ToVariables(parameters), &values, nullptr);
+  EXPECT_NEAR(values.minCoeff() + (3.0 + std::log(2.0)) / table.sharpness(), least, 0.02);
+  const int focused = table.rows();
+  table.Focus(walk, 0.002, 0.0);
+  EXPECT_EQ(table.rows(), focused);  // nothing piles up
 }
 
 }  // namespace
