@@ -18,7 +18,7 @@ struct OptimizerOptions {
   std::optional<HomotopyParameters> start = std::nullopt;
   /// Of `safest`: D is at most this [s]; 0: the duration of where it begins.
   double duration_limit = 0.0;
-  bool planned_start = false;  ///< solve also from the planned motion, after the dichotomy's result
+  bool planned_start = true;  ///< solve also from the planned motion, after the dichotomy's result
   int random_starts = 0;       ///< and from random points of the variables' box
   unsigned seed = 1;           ///< of the random starts
   int rounds = 40;  ///< ≥ 1: solves from each start, with more instants and sharper rows
