@@ -47,7 +47,7 @@ class Sqp {
       if (!std::isfinite(width_[v])) width_[v] = std::max(1.0, std::abs(x_[v]));
     }
     region_ = radius * width_;
-    if (memory.region.size() == x_.size()) region_ = memory.region.cwiseMax(kFirstRegion * width_);
+    if (memory.region.size() > 0) region_ = memory.region.cwiseMax(kFirstRegion * width_);
   }
 
   Ending Run() {
@@ -277,9 +277,8 @@ class SqpSolver : public Solver {
     std::vector<OwnOption> options = {{"radius", false, 0.1}, {"memory", true, 12}};
     if (const auto refused = ReadOwnOptions(name(), &session, &options)) return *refused;
     SqpMemory memory(static_cast<size_t>(options[1].value));
-    if (const auto* before = dynamic_cast<const SqpMemory*>(session.options().warm_start.get())) {
-      memory = *before;
-    }
+    const auto* before = dynamic_cast<const SqpMemory*>(session.options().warm_start.get());
+    if (before && before->region.size() == start.size()) memory = *before;
     return Sqp(&session, start, options[0].value, memory).Run();
   }
 

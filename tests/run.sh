@@ -26,7 +26,9 @@ quietly() {
 
 # Tests that run the whole command many times, or many walks: with sanitizers they take minutes.
 release_only='InterruptedRun|StoppedRun|KilledRun|CsvSchema|SweepCommand|CsvPhysics.Hrp2'
-release_only="$release_only|OutsideOfACheckedWindow|ThePriceIsWhat"
+release_only="$release_only|OutsideOfACheckedWindow|ThePriceIsWhat|InterruptedCertification"
+release_only="$release_only|EveryPointOfAPareto|SafestWithinLess|AcceptsEveryMethodOfAWalk"
+release_only="$release_only|OneCharacter|GeneratedRobotPhysics|FindsKnownOptima/nlopt_auglag"
 
 for preset in release debug; do
   start=$(date +%s)

@@ -10,6 +10,7 @@
 
 #include "opt/box_transform.h"
 #include "opt/option_text.h"
+#include "tests/problems/constructed_problems.h"
 #include "tests/problems/hock_schittkowski.h"
 
 namespace halfstep::testing {
@@ -95,6 +96,9 @@ TEST(Sqp, GoesOnFromAWarmStart) {
   const opt::Solution again = solver->Solve(card.problem, near, warm);
   EXPECT_NEAR(again.cost, card.optimum, 1e-4);
   EXPECT_LT(again.iterations, cold.iterations);
+  const ProblemCard other = BandedQuadratic(7);  // of another size: begins anew
+  const opt::Solution anew = solver->Solve(other.problem, other.problem.initial(), warm);
+  EXPECT_NEAR(anew.cost, other.optimum, 1e-4);
 }
 
 TEST(Sqp, WithoutMemoryItSolvesLinearProgramsOnly) {
