@@ -136,6 +136,9 @@ class Optimization {
           for (const Margin& refusal : path->refusals()) {
             program.table().Learn(walk, refusal.at);
           }
+        } else {  // violated where it was sampled
+          ++result_.raw_infeasible;
+          result_.raw_end_feasible = false;
         }
         const double cost = near ? solution_.final_cost : solution_.cost;
         poor = Gained(before, path->cost()) || Gained(solved, cost) ? 0 : poor + 1;

@@ -19,8 +19,8 @@ struct OptimizerOptions {
   /// Of `safest`: D is at most this [s]; 0: the duration of where it begins.
   double duration_limit = 0.0;
   bool planned_start = true;  ///< solve also from the planned motion, after the dichotomy's result
-  int random_starts = 0;       ///< and from random points of the variables' box
-  unsigned seed = 1;           ///< of the random starts
+  int random_starts = 0;      ///< and from random points of the variables' box
+  unsigned seed = 1;          ///< of the random starts
   int rounds = 40;  ///< ≥ 1: solves from each start, with more instants and sharper rows
   /// Of the solver in a round; 0: what suits it, 2 of `halfstep/sqp`, 30 of others. NLopt tells
   /// none.
