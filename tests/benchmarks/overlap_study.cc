@@ -3,7 +3,7 @@
 // Run: overlap_study table SCENARIO DEADLINE METHOD… (CSV: all variables and programs)
 //      overlap_study table SCENARIO:VARIABLES:PROGRAM DEADLINE METHOD…
 //      overlap_study grow METHOD N…                 (a straight walk of N half-steps)
-//      overlap_study reach METHOD[:ITERATIONS] DEADLINE SCENE…   (a config, or bars:N)
+//      overlap_study reach METHOD[:ITERATIONS] DEADLINE SCENE…   (a config, bars:N or FILE.yaml:N)
 //      overlap_study solve SCENE METHOD VARIABLES KIND [DEADLINE]
 //      overlap_study rows CONFIG
 
@@ -59,10 +59,16 @@ Experiment Bars(int n) {
   return e;
 }
 
-// A config's name, or bars:N.
+// A config's name, bars:N, or FILE.yaml:N: the first N half-steps of a config with footsteps, such
+// as that in the folder of a planned run.
 Experiment LoadScene(const std::string& what) {
-  const bool bars = what.rfind("bars:", 0) == 0;
-  return bars ? Bars(std::atoi(what.c_str() + 5)) : Load(what);
+  const size_t colon = what.find(':');
+  if (colon == std::string::npos) return Load(what);
+  const int n = std::atoi(what.c_str() + colon + 1);
+  if (what.substr(0, colon) == "bars") return Bars(n);
+  ExperimentConfig config = LoadConfig(what.substr(0, colon), {});
+  config.footsteps.resize(std::min(config.footsteps.size(), static_cast<size_t>(n / 2)));
+  return Prepare(config);
 }
 
 ProgramKind KindOf(const std::string& name) {
