@@ -23,23 +23,24 @@ constexpr double kPoor = 0.25, kGood = 0.75;  // below it the region shrinks, ab
 constexpr double kShrink = 0.3;
 constexpr double kLeastRegion = 1e-12, kMostRegion = 1e3;  // of the variables' widths
 constexpr double kFirstRegion = 0.03;                      // at least, of a later solve
-constexpr double kMostPenalty = 1e8;
-constexpr int kMostRaises = 6;  // of the penalty in one iteration
+constexpr int kMostRaises = 6;                             // of the penalty in one iteration
 
 struct SqpMemory : WarmStart {
   explicit SqpMemory(size_t memory) : hessian(memory) {}
 
-  VectorXd region;        // how far a step goes along each variable; empty: not known
-  double penalty = 10.0;  // ν
+  VectorXd region;       // how far a step goes along each variable; empty: not known
+  double penalty = 0.0;  // ν
   LimitedMemoryHessian hessian;
 };
 
 class Sqp {
  public:
-  Sqp(EvaluationSession* session, const VectorXd& start, double radius, const SqpMemory& memory)
+  Sqp(EvaluationSession* session, const VectorXd& start, double radius, double most_penalty,
+      const SqpMemory& memory)
       : session_(*session),
         problem_(session->problem()),
         x_(start),
+        most_penalty_(most_penalty),
         penalty_(memory.penalty),
         hessian_(memory.hessian) {
     width_ = problem_.upper() - problem_.lower();
@@ -137,12 +138,13 @@ class Sqp {
   ElasticStep Step(const VectorXd& c, const SparseMatrix& A) {
     ElasticStep step = Restricted(c, A, penalty_);
     double left = TotalViolation(c + A * step.d);
-    for (int i = 0; i < kMostRaises && penalty_ < kMostPenalty; ++i) {
+    for (int i = 0; i < kMostRaises && penalty_ < most_penalty_; ++i) {
       if (left <= 1e-9 || left <= 0.1 * TotalViolation(c)) break;
-      ElasticStep other = Restricted(c, A, 10.0 * penalty_);
+      const double raised = std::min(10.0 * penalty_, most_penalty_);
+      ElasticStep other = Restricted(c, A, raised);
       const double then = TotalViolation(c + A * other.d);
       if (then > 0.9 * left) break;
-      penalty_ *= 10.0;
+      penalty_ = raised;
       step = std::move(other);
       left = then;
     }
@@ -187,16 +189,15 @@ class Sqp {
     return trial;
   }
 
-  // The region shrinks along the variables of rows that turned out worse than the model said, and
-  // grows along those of other rows, if the step is taken.
-  void Adapt(const VectorXd& d, const VectorXd& c, const SparseMatrix& A, const Trial& trial,
+  // The region shrinks along the variables of rows that turned out worse than `expected`, the
+  // violations in the model, and grows along those of other rows, if the step is taken.
+  void Adapt(const VectorXd& d, const VectorXd& c, const VectorXd& expected, const Trial& trial,
              double ratio) {
     if (!std::isfinite(trial.merit)) {
       region_ *= kShrink;
       return;
     }
-    const VectorXd before = (-c).cwiseMax(0.0), expected = (-c - A * d).cwiseMax(0.0);
-    const VectorXd after = (-trial.c).cwiseMax(0.0);
+    const VectorXd before = (-c).cwiseMax(0.0), after = (-trial.c).cwiseMax(0.0);
     const std::vector<std::vector<int>>& variables = rows_->variables();
     std::vector<double> surprise(variables.size(), 0.0), gain(variables.size(), 1e-12);
     for (Eigen::Index i = 0; i < c.size(); ++i) {
@@ -240,7 +241,7 @@ class Sqp {
         ratio = (merit - trial.merit + rounding) / (predicted + rounding);
       }
     }
-    Adapt(d, c, A, trial, ratio);
+    Adapt(d, c, (-c - A * step.d).cwiseMax(0.0), trial, ratio);
     if (!(ratio > kAccept)) return true;
     const VectorXd moved = trial.x - x_;
     const VectorXd before = gradient_ - A.transpose() * step.duals;
@@ -260,7 +261,8 @@ class Sqp {
   double cost_ = 0.0;
   std::vector<double> jacobian_;
   std::optional<ScaledRows> rows_;  // after the first evaluation
-  double penalty_;                  // as in SqpMemory
+  double most_penalty_;
+  double penalty_;  // as in SqpMemory
   LimitedMemoryHessian hessian_;
 };
 
@@ -272,14 +274,18 @@ class SqpSolver : public Solver {
   std::string WhyUnsupported(const Problem&) const override { return ""; }
 
   // `radius`: the first trust region, of the variables' widths; `memory`: steps that the Hessian's
-  // estimate remembers.
+  // estimate remembers; `penalty`, `most_penalty`: of a row's violation, first and at most.
   Ending RunWithOptions(EvaluationSession& session, const VectorXd& start) const {
-    std::vector<OwnOption> options = {{"radius", false, 0.1}, {"memory", true, 12}};
+    std::vector<OwnOption> options = {{"radius", false, 0.1},
+                                      {"memory", true, 12},
+                                      {"penalty", false, 10.0},
+                                      {"most_penalty", false, 1e8}};
     if (const auto refused = ReadOwnOptions(name(), &session, &options)) return *refused;
     SqpMemory memory(static_cast<size_t>(options[1].value));
+    memory.penalty = options[2].value;
     const auto* before = dynamic_cast<const SqpMemory*>(session.options().warm_start.get());
     if (before && before->region.size() == start.size()) memory = *before;
-    return Sqp(&session, start, options[0].value, memory).Run();
+    return Sqp(&session, start, options[0].value, options[3].value, memory).Run();
   }
 
   Solution Solve(const Problem& problem, const VectorXd& x0,

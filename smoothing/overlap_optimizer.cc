@@ -11,14 +11,16 @@
 #include "smoothing/dichotomy.h"
 #include "smoothing/explain.h"
 #include "smoothing/path_rules.h"
+#include "smoothing/sampled_feasibility.h"
 #include "smoothing/stopwatch.h"
 
 namespace halfstep {
 namespace {
 
 constexpr char kSqp[] = "halfstep/sqp";
-// Of the dichotomy before a search that is to shorten the walk anyway [s].
-constexpr double kStartTolerance = 0.1;
+// Where a search that shortens the walk anyway begins: a dichotomy's result, by samples, not proved
+// [s]. Linear programs move fast where there is room, others are better off near the end.
+constexpr double kStartPeriod = 0.02, kStartTolerance = 0.1, kSqpStartTolerance = 0.5;
 // Points tried towards a candidate.
 constexpr int kAttempts = 8;
 // A candidate whose rows are violated by more than this is not worth a proof, nor a place to go on
@@ -32,6 +34,8 @@ constexpr double kPromising = -0.02;
 // After a round whose end was proved rows grow sharper by a factor, up to a bound; after one whose
 // end was refused they grow softer, so that more is left in reserve.
 constexpr double kSharpen = 1.5, kSoften = 0.85, kSharpest = 3000.0;
+// Of the rows of single instants, from the first round on.
+constexpr double kSqpSharpness = 200.0;
 // A round that gains less, for the incumbent and for the solver, is poor (relative); so many in a
 // row end the search.
 constexpr double kGain = 1e-3;
@@ -55,8 +59,8 @@ class Optimization {
         proofs_(test, sequence.size()) {}
 
   SmoothingResult Run() {
-    DichotomyOptions dichotomy{.tolerance = StartTolerance()};
-    if (options_.start) {
+    DichotomyOptions dichotomy{.tolerance = options_.tolerance};
+    if (options_.start || Fastest()) {
       dichotomy.start = options_.start;
       dichotomy.passes = 0;
     }
@@ -90,11 +94,6 @@ class Optimization {
   bool Safest() const { return options_.program.kind == ProgramKind::kSafest; }
   bool Fastest() const { return options_.program.kind == ProgramKind::kFastest; }
 
-  // Of the dichotomy before the search. `safest` and `smooth` compare with the fine one's result.
-  double StartTolerance() const {
-    return Fastest() ? std::max(options_.tolerance, kStartTolerance) : options_.tolerance;
-  }
-
   std::function<void(double)> Part(double from, double to) const {
     return [this, from, to](double done) {
       if (progress_) progress_(from + (to - from) * done);
@@ -106,8 +105,16 @@ class Optimization {
     return Safest() ? std::max(0.0, x.tail(1)[0]) : 0;
   }
 
+  // Where the first search begins.
+  HomotopyParameters FirstGuess() const {
+    if (options_.start || !Fastest()) return start_;
+    const SampledFeasibility sampled(test_.evaluator(), kStartPeriod);
+    const double tolerance = options_.solver == kSqp ? kSqpStartTolerance : kStartTolerance;
+    return Dichotomy(sequence_, sampled, {.tolerance = tolerance}, {}, stop_).parameters;
+  }
+
   void Search(OverlapProgram& program, FeasiblePath* path) {
-    std::vector<HomotopyParameters> starts = {start_};
+    std::vector<HomotopyParameters> starts = {FirstGuess()};
     if (options_.planned_start) starts.push_back(PlannedMotion(sequence_));
     AddRandomPoints(program, options_.random_starts, options_.seed, &starts);
     for (size_t s = 0; s < starts.size(); ++s) {
@@ -160,9 +167,12 @@ class Optimization {
     solver_options.stop = stop_;
     solver_options.optimality_tolerance = 1e-4;
     solver_options.warm_start = solution_.warm_start;
-    // Nearly linear: what curvature a few steps show of it does more harm than good.
+    // Nearly linear: what curvature a few steps show of it does more harm than good. A row costs
+    // less than one second a second: a small penalty is exact, and does not jam.
     if (options_.solver == kSqp && options_.program.kind != ProgramKind::kSmooth) {
       solver_options.solver_options["memory"] = "0";
+      solver_options.solver_options["penalty"] = "2";
+      solver_options.solver_options["most_penalty"] = "2";
     }
     solver_options.on_iterate = [&](const opt::Iterate& iterate) {
       const HomotopyParameters candidate = program.ToParameters(iterate.x);
@@ -216,10 +226,7 @@ class Optimization {
     }
     if (Fastest() && !stop_.stop_requested()) {
       AddDichotomy(result_.parameters);
-      // Had the first dichotomy been as fine, it might have found as much.
-      const double found = DurationOf(start_) - result_.cost;
-      const bool much = found > StartTolerance() * sequence_.num_junctions();
-      if (!options_.start && !much) AddDichotomy(PlannedMotion(sequence_));
+      if (!options_.start) AddDichotomy(PlannedMotion(sequence_));
     } else {
       for (size_t i = 0; i < result_.junctions.size(); ++i) {
         JunctionResult& junction = result_.junctions[i];
@@ -292,7 +299,8 @@ SmoothingResult OptimizeOverlaps(const HalfStepSequence& sequence, const Feasibi
   OptimizerOptions own = options;
   const bool sqp = options.solver == kSqp;
   own.program.table.row_per_instant = sqp;
-  if (own.max_iterations == 0) own.max_iterations = sqp ? 2 : 30;
+  if (sqp) own.program.table.sharpness = std::max(own.program.table.sharpness, kSqpSharpness);
+  if (own.max_iterations == 0) own.max_iterations = sqp ? 3 : 30;
   return Optimization(sequence, test, own, progress, std::move(stop)).Run();
 }
 
