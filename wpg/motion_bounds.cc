@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "wpg/check.h"
 
@@ -22,7 +21,11 @@ double Planar(const WalkVector& x, int quantity) {
 }  // namespace
 
 MotionBounds::MotionBounds(const RobotModel& robot)
-    : robot_(robot), extents_{LegExtents(robot.legs[0]), LegExtents(robot.legs[1])} {}
+    : robot_(robot), anchors_{LegAnchors(robot.legs[0]), LegAnchors(robot.legs[1])} {
+  for (const RobotBody& body : robot.bodies) {
+    reach_.push_back(body.leg < 0 ? 0.0 : anchors_[static_cast<size_t>(body.leg)].Reach(body));
+  }
+}
 
 MotionBounds::BaseRates MotionBounds::SoleRates(const IntervalMotion& motion, Side side) {
   const int i = FootIndex(side);
@@ -48,50 +51,76 @@ MotionBounds::BaseRates MotionBounds::WaistRates(const IntervalMotion& motion) c
   return rates;
 }
 
-double MotionBounds::WorldAcceleration(const BaseRates& base, const PointBound& relative,
-                                       double lever) {
+double MotionBounds::AccelerationFrom(const BaseRates& base, const TurnBound& turn, double reach,
+                                      double lever) {
   return base.acceleration + (base.yaw_acceleration + base.yaw_rate * base.yaw_rate) * lever +
-         2.0 * base.yaw_rate * relative.speed + relative.acceleration;
+         (2.0 * base.yaw_rate * turn.speed + turn.acceleration + turn.speed * turn.speed) * reach;
+}
+
+// Seen from the turning waist: ẍ − ψ̈ẑ×d − 2ψ̇ẑ×ḋ + ψ̇²d.
+MotionBounds::BaseRates MotionBounds::SoleFromWaist(const IntervalMotion& motion, Side side,
+                                                    const BaseRates& waist) {
+  const size_t s = static_cast<size_t>(Index(side));
+  const BaseRates sole = SoleRates(motion, side);
+  const double speed = sole.speed + waist.speed;
+  const Eigen::Vector3d lever =
+      motion.posture.X_WSole[s].translation() - motion.posture.X_WB.translation();
+  const double distance = lever.head<2>().norm() + motion.half_width * speed;
+  BaseRates rates;
+  rates.yaw_acceleration = sole.yaw_acceleration + waist.yaw_acceleration;
+  rates.yaw_rate = std::abs(motion.jet.first[FootIndex(side) + 3] - motion.jet.first[kWaistYaw]) +
+                   motion.half_width * rates.yaw_acceleration;
+  rates.acceleration = sole.acceleration + waist.acceleration +
+                       (waist.yaw_acceleration + waist.yaw_rate * waist.yaw_rate) * distance +
+                       2.0 * waist.yaw_rate * speed;
+  return rates;
 }
 
 bool MotionBounds::BoundLeg(Side side, const BaseRates& waist, IntervalMotion* motion) const {
   const size_t s = static_cast<size_t>(Index(side));
-  const BaseRates sole = SoleRates(*motion, side);
+  const int foot = FootIndex(side);
+  const LegAnchors& anchors = anchors_[s];
+  const Posture& posture = motion->posture;
+  const WalkVector& first = motion->jet.first;
   const double h = motion->half_width;
-  const double relative_speed = sole.speed + waist.speed;
-  const Eigen::Vector3d lever =
-      motion->posture.X_WSole[s].translation() - motion->posture.X_WB.translation();
-  const double distance = lever.head<2>().norm() + h * relative_speed;
-  // Seen from the turning waist: ẍ − ψ̈ẑ×d − 2ψ̇ẑ×ḋ + ψ̇²d.
-  const TwistRateBound twist_rate{
-      .angular = sole.yaw_acceleration + waist.yaw_acceleration,
-      .linear = sole.acceleration + waist.acceleration +
-                (waist.yaw_acceleration + waist.yaw_rate * waist.yaw_rate) * distance +
-                2.0 * waist.yaw_rate * relative_speed};
-  const auto bounds = BoundJoints(extents_[s], motion->posture.jacobian_inverse[s],
-                                  motion->posture.speeds[s], twist_rate, h);
+  const BaseRates sole = SoleRates(*motion, side);
+  const BaseRates relative = SoleFromWaist(*motion, side, waist);
+  const auto turning = [](const BaseRates& base) {
+    return base.yaw_acceleration + base.yaw_rate * base.yaw_rate;
+  };
+
+  // w = hip − ankle, in W.
+  const Eigen::Vector3d z = Eigen::Vector3d::UnitZ();
+  const Eigen::Vector3d hip_W = posture.X_WB.linear() * anchors.hip_B();
+  const Eigen::Vector3d ankle_W = posture.X_WSole[s].linear() * anchors.ankle_S();
+  const Eigen::Vector3d w =
+      posture.X_WB.translation() + hip_W - posture.X_WSole[s].translation() - ankle_W;
+  const Eigen::Vector3d w_rate = posture.waist_velocity + first[kWaistYaw] * z.cross(hip_W) -
+                                 first.segment<3>(foot) - first[foot + 3] * z.cross(ankle_W);
+  const double hip_lever = std::hypot(anchors.hip_B().x() - robot_.com_x_B, anchors.hip_B().y());
+  const double ankle_lever = anchors.ankle_S().head<2>().norm();
+  Eigen::Vector3d second = motion->second.segment<3>(foot);
+  second.head<2>() +=
+      motion->second.segment<2>(kComX) +
+      Eigen::Vector2d::Constant(turning(waist) * hip_lever + turning(sole) * ankle_lever);
+  const Eigen::Vector3d rate = w_rate.cwiseAbs() + h * second;
+  const Eigen::Vector3d most = w.cwiseAbs() + h * (w_rate.cwiseAbs() + 0.5 * h * second);
+  const LegDemand demand{.half_square = rate.squaredNorm() + most.dot(second),
+                         // Seen from the turning sole: ẅ − ψ̈ẑ×w − 2ψ̇ẑ×ẇ − ψ̇²w.
+                         .horizontal = second.head<2>().norm() +
+                                       turning(sole) * most.head<2>().norm() +
+                                       2.0 * sole.yaw_rate * rate.head<2>().norm(),
+                         .vertical = second.z(),
+                         .yaw_rate = relative.yaw_rate,
+                         .yaw_acceleration = relative.yaw_acceleration};
+  const auto bounds = BoundJoints(anchors, posture.frames[s], posture.speeds[s],
+                                  first[foot + 3] - first[kWaistYaw], demand, h);
   if (!bounds) return false;
   motion->joints[s] = *bounds;
-  const double knee_change =
-      h * (std::abs(motion->posture.speeds[s][3]) + 0.5 * h * bounds->acceleration[3]);
-  motion->leg_length_change[s] =
-      LegLengthChange(robot_.legs[s], motion->posture.frames[s], knee_change);
+  const double change = 2.0 * h * (std::abs(w.dot(w_rate)) + 0.5 * h * demand.half_square);
+  const double nearest2 = std::max(0.0, w.squaredNorm() - change);
+  motion->leg_length_change[s] = change / (w.norm() + std::sqrt(nearest2));
   return true;
-}
-
-// With a, b from the knee to hip and ankle, d = ‖b − a‖: d' = ω·(a × b)/d and
-// |d''| ≤ (‖a‖‖b‖ + d'²)/d, where |d'| ≤ min(‖a‖, ‖b‖).
-double MotionBounds::LegLengthChange(const Leg& leg, const LegFrames& frames, double knee_change) {
-  const Eigen::Isometry3d& X_BShank = frames.X_BLink[3];
-  const Eigen::Vector3d ankle_B = X_BShank * (leg.joints[3].X_BLink.inverse() * leg.ankle_B);
-  const Eigen::Vector3d a = leg.hip_B - frames.point_B[3], b = ankle_B - frames.point_B[3];
-  const double least = std::min(a.norm(), b.norm());
-  const double distance = (b - a).norm();
-  const double shortest = distance - least * knee_change;
-  if (!(shortest > 0.0)) return std::numeric_limits<double>::infinity();
-  const double first = std::abs(frames.axis_B[3].dot(a.cross(b))) / distance;
-  const double second = (a.norm() * b.norm() + least * least) / shortest;
-  return knee_change * (first + 0.5 * knee_change * second);
 }
 
 void MotionBounds::BoundBody(size_t index, const BaseRates& waist, IntervalMotion* motion) const {
@@ -100,37 +129,34 @@ void MotionBounds::BoundBody(size_t index, const BaseRates& waist, IntervalMotio
   const double h = motion->half_width;
   const double radius = body.shape.radius;
 
-  // Velocity at m of the body's sphere, exact, seen from the waist; and bounds along the leg.
+  // Velocity at m of the body's sphere, exact, seen from the waist; and sups from where it hangs.
   Eigen::Vector3d center_B = body.shape.center, velocity_B{0, 0, 0}, omega_B{0, 0, 0};
-  PointBound from_waist;
-  double world = std::numeric_limits<double>::infinity();
-  if (body.leg >= 0) {
+  double world, from_waist = 0.0;
+  if (body.leg < 0) {
+    world = AccelerationFrom(waist, {}, 0.0, Lever(center_B, radius));
+  } else {
     const size_t s = static_cast<size_t>(body.leg);
     const LegFrames& frames = posture.frames[s];
-    const JointBounds& joints = motion->joints[s];
     center_B = frames.X_BLink[static_cast<size_t>(body.link)] * body.shape.center;
-    std::array<ChainJoint, 6> chain;
-    const auto joint = [&](int j) {
-      return ChainJoint{joints.speed[j], joints.acceleration[j], extents_[s].ToBody(j, body)};
-    };
     for (int j = 0; j <= body.link; ++j) {
       const size_t i = static_cast<size_t>(j);
       const Eigen::Vector3d turn = posture.speeds[s][j] * frames.axis_B[i];
       omega_B += turn;
       velocity_B += turn.cross(center_B - frames.point_B[i]);
-      chain[i] = joint(j);
     }
-    from_waist = BoundChain({chain.data(), static_cast<size_t>(body.link) + 1});
-    // The same point, carried by the sole and the joints below it.
-    size_t n = 0;
-    for (int j = 5; j > body.link; --j) chain[n++] = joint(j);
-    const PointBound from_sole = BoundChain({chain.data(), n});
-    const Eigen::Vector3d center_S = frames.X_BLink[6].inverse() * center_B;
-    world = WorldAcceleration(SoleRates(*motion, static_cast<Side>(body.leg)), from_sole,
-                              Lever(center_S, radius) + h * from_sole.speed);
+    const TurnBound& turn = motion->joints[s].turns[static_cast<size_t>(body.link)];
+    const double reach = reach_[index];
+    const double moved = h * turn.speed * reach;
+    if (LegAnchors::OnHip(body.link)) {
+      from_waist = AccelerationFrom({}, turn, reach, 0.0);
+      world = AccelerationFrom(waist, turn, reach, Lever(center_B, radius) + moved);
+    } else {
+      const Side side = static_cast<Side>(body.leg);
+      const double lever = Lever(frames.X_BLink[6].inverse() * center_B, radius) + moved;
+      from_waist = AccelerationFrom(SoleFromWaist(*motion, side, waist), turn, reach, lever);
+      world = AccelerationFrom(SoleRates(*motion, side), turn, reach, lever);
+    }
   }
-  world = std::min(
-      world, WorldAcceleration(waist, from_waist, Lever(center_B, radius) + h * from_waist.speed));
 
   const Eigen::Matrix3d& R = posture.X_WB.linear();
   const Eigen::Vector3d omega_W =
@@ -141,7 +167,7 @@ void MotionBounds::BoundBody(size_t index, const BaseRates& waist, IntervalMotio
   const double speed_W = velocity_W.norm() + omega_W.norm() * radius;
   const double speed_B = velocity_B.norm() + omega_B.norm() * radius;
   motion->displacement[index] = h * (speed_W + 0.5 * h * world);
-  motion->displacement_B[index] = h * (speed_B + 0.5 * h * from_waist.acceleration);
+  motion->displacement_B[index] = h * (speed_B + 0.5 * h * from_waist);
 }
 
 void MotionBounds::Bound(const WalkJet& mid, const WalkVector& second, double half_width,

@@ -46,7 +46,7 @@ class MotionBounds {
              IntervalMotion* motion) const;
 
  private:
-  // Motion of the waist or of a sole over the interval: sups of its rates.
+  // Motion of the waist or of a sole over the interval: sups of its rates, in W unless said.
   struct BaseRates {
     double speed = 0.0;             // of the frame's origin [m/s], horizontal for the waist
     double acceleration = 0.0;      // [m/s²]
@@ -55,15 +55,17 @@ class MotionBounds {
   };
   static BaseRates SoleRates(const IntervalMotion& motion, Side side);
   BaseRates WaistRates(const IntervalMotion& motion) const;
-  // sup ‖P̈‖ in W of a point that is moved by `relative` in a base that moves by `base`, at most
-  // `lever` [m] from the base's vertical axis.
-  static double WorldAcceleration(const BaseRates& base, const PointBound& relative, double lever);
-  static double LegLengthChange(const Leg& leg, const LegFrames& frames, double knee_change);
+  static BaseRates SoleFromWaist(const IntervalMotion& motion, Side side, const BaseRates& waist);
+  // sup ‖P̈‖ of a point that turns about a point of a base, at most `reach` [m] from it, where the
+  // base moves by `base` and P is at most `lever` [m] from the base's vertical axis.
+  static double AccelerationFrom(const BaseRates& base, const TurnBound& turn, double reach,
+                                 double lever);
   bool BoundLeg(Side side, const BaseRates& waist, IntervalMotion* motion) const;
   void BoundBody(size_t body, const BaseRates& waist, IntervalMotion* motion) const;
 
   const RobotModel& robot_;
-  std::array<LegExtents, 2> extents_;
+  std::array<LegAnchors, 2> anchors_;
+  std::vector<double> reach_;  // of a leg's body: from its link's anchor to its farthest point [m]
 };
 
 }  // namespace halfstep

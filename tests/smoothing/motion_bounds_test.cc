@@ -144,23 +144,5 @@ TEST(MotionBounds, AreNoneWhereALegIsStretched) {
   EXPECT_TRUE(motion.bounded);
 }
 
-// A straight chain whose joints all turn the same way at constant speeds pulls its tip inward by
-// Σ l_i·(Σ_{k≤i} q̇_k)², and that is what the bound says.
-TEST(MotionBounds, ChainIsAttainedByAStraightOne) {
-  const std::array<double, 4> lengths = {0.3, 0.1, 0.25, 0.05}, speeds = {1.0, 0.5, 2.0, 0.7};
-  std::array<ChainJoint, 4> chain;
-  double inward = 0.0, tip_speed = 0.0, turning = 0.0;
-  for (size_t i = 0; i < 4; ++i) {
-    turning += speeds[i];
-    inward += lengths[i] * turning * turning;
-    tip_speed += lengths[i] * turning;
-    chain[i].speed = speeds[i];
-    for (size_t k = i; k < 4; ++k) chain[i].reach += lengths[k];
-  }
-  const PointBound bound = BoundChain(chain);
-  EXPECT_NEAR(bound.speed, tip_speed, 1e-12);
-  EXPECT_NEAR(bound.acceleration, inward, 1e-12);
-}
-
 }  // namespace
 }  // namespace halfstep
