@@ -13,6 +13,11 @@ double Lever(const Eigen::Vector3d& center, double radius) {
   return center.head<2>().norm() + radius;
 }
 
+// Yaw rate of a sole seen from the waist.
+double YawRate(const WalkJet& jet, Side side) {
+  return jet.first[FootIndex(side) + 3] - jet.first[kWaistYaw];
+}
+
 // √(x² + y²) of two quantities' sups.
 double Planar(const WalkVector& x, int quantity) {
   return std::hypot(x[quantity], x[quantity + 1]);
@@ -44,50 +49,57 @@ MotionBounds::BaseRates MotionBounds::WaistRates(const IntervalMotion& motion) c
   rates.yaw_acceleration = motion.second[kWaistYaw];
   rates.yaw_rate = std::abs(motion.jet.first[kWaistYaw]) + motion.RateChange(kWaistYaw);
   const double arm = std::abs(robot_.com_x_B);
-  rates.acceleration = Planar(motion.second, kComX) +
-                       arm * (rates.yaw_acceleration + rates.yaw_rate * rates.yaw_rate);
+  rates.acceleration = Planar(motion.second, kComX) + arm * Turning(rates);
   rates.speed = Planar(motion.jet.first, kComX) + motion.half_width * Planar(motion.second, kComX) +
                 arm * rates.yaw_rate;
   return rates;
 }
 
+double MotionBounds::Turning(const BaseRates& base) {
+  return base.yaw_acceleration + base.yaw_rate * base.yaw_rate;
+}
+
 double MotionBounds::AccelerationFrom(const BaseRates& base, const TurnBound& turn, double reach,
                                       double lever) {
-  return base.acceleration + (base.yaw_acceleration + base.yaw_rate * base.yaw_rate) * lever +
+  return base.acceleration + Turning(base) * lever +
          (2.0 * base.yaw_rate * turn.speed + turn.acceleration + turn.speed * turn.speed) * reach;
 }
 
-// Seen from the turning waist: ẍ − ψ̈ẑ×d − 2ψ̇ẑ×ḋ + ψ̇²d.
-MotionBounds::BaseRates MotionBounds::SoleFromWaist(const IntervalMotion& motion, Side side,
-                                                    const BaseRates& waist) {
+MotionBounds::LegRates MotionBounds::RatesOfLeg(const IntervalMotion& motion, Side side,
+                                                const BaseRates& waist) {
   const size_t s = static_cast<size_t>(Index(side));
-  const BaseRates sole = SoleRates(motion, side);
-  const double speed = sole.speed + waist.speed;
-  const Eigen::Vector3d lever =
-      motion.posture.X_WSole[s].translation() - motion.posture.X_WB.translation();
-  const double distance = lever.head<2>().norm() + motion.half_width * speed;
-  BaseRates rates;
-  rates.yaw_acceleration = sole.yaw_acceleration + waist.yaw_acceleration;
-  rates.yaw_rate = std::abs(motion.jet.first[FootIndex(side) + 3] - motion.jet.first[kWaistYaw]) +
-                   motion.half_width * rates.yaw_acceleration;
-  rates.acceleration = sole.acceleration + waist.acceleration +
-                       (waist.yaw_acceleration + waist.yaw_rate * waist.yaw_rate) * distance +
-                       2.0 * waist.yaw_rate * speed;
+  const Posture& posture = motion.posture;
+  LegRates rates;
+  rates.sole = SoleRates(motion, side);
+  // Seen from the turning waist: d̈ − ψ̈ẑ×d − 2ψ̇ẑ×ḋ + ψ̇²ẑ×(ẑ×d).
+  const Eigen::Vector3d lever = posture.X_WSole[s].translation() - posture.X_WB.translation();
+  const double speed = rates.sole.speed + waist.speed;
+  rates.sole_B.acceleration =
+      rates.sole.acceleration + waist.acceleration +
+      Turning(waist) * (lever.head<2>().norm() + motion.half_width * speed) +
+      2.0 * waist.yaw_rate * speed;
+  rates.sole_B.yaw_acceleration = rates.sole.yaw_acceleration + waist.yaw_acceleration;
+  rates.sole_B.yaw_rate =
+      std::abs(YawRate(motion.jet, side)) + motion.half_width * rates.sole_B.yaw_acceleration;
+  Eigen::Vector3d omega{0, 0, 0}, velocity{0, 0, 0};
+  for (size_t i = 0; i < 6; ++i) {
+    const Eigen::Vector3d turn =
+        posture.speeds[s][static_cast<Eigen::Index>(i)] * posture.frames[s].axis_B[i];
+    rates.omega_B[i] = omega += turn;
+    rates.velocity_B[i] = velocity += posture.frames[s].point_B[i].cross(turn);
+  }
   return rates;
 }
 
-bool MotionBounds::BoundLeg(Side side, const BaseRates& waist, IntervalMotion* motion) const {
+bool MotionBounds::BoundLeg(Side side, const BaseRates& waist, const LegRates& rates,
+                            IntervalMotion* motion) const {
   const size_t s = static_cast<size_t>(Index(side));
   const int foot = FootIndex(side);
   const LegAnchors& anchors = anchors_[s];
   const Posture& posture = motion->posture;
   const WalkVector& first = motion->jet.first;
   const double h = motion->half_width;
-  const BaseRates sole = SoleRates(*motion, side);
-  const BaseRates relative = SoleFromWaist(*motion, side, waist);
-  const auto turning = [](const BaseRates& base) {
-    return base.yaw_acceleration + base.yaw_rate * base.yaw_rate;
-  };
+  const BaseRates& sole = rates.sole;
 
   // w = hip − ankle, in W.
   const Eigen::Vector3d z = Eigen::Vector3d::UnitZ();
@@ -102,19 +114,19 @@ bool MotionBounds::BoundLeg(Side side, const BaseRates& waist, IntervalMotion* m
   Eigen::Vector3d second = motion->second.segment<3>(foot);
   second.head<2>() +=
       motion->second.segment<2>(kComX) +
-      Eigen::Vector2d::Constant(turning(waist) * hip_lever + turning(sole) * ankle_lever);
+      Eigen::Vector2d::Constant(Turning(waist) * hip_lever + Turning(sole) * ankle_lever);
   const Eigen::Vector3d rate = w_rate.cwiseAbs() + h * second;
   const Eigen::Vector3d most = w.cwiseAbs() + h * (w_rate.cwiseAbs() + 0.5 * h * second);
   const LegDemand demand{.half_square = rate.squaredNorm() + most.dot(second),
-                         // Seen from the turning sole: ẅ − ψ̈ẑ×w − 2ψ̇ẑ×ẇ − ψ̇²w.
+                         // Seen from the turning sole, in the same way.
                          .horizontal = second.head<2>().norm() +
-                                       turning(sole) * most.head<2>().norm() +
+                                       Turning(sole) * most.head<2>().norm() +
                                        2.0 * sole.yaw_rate * rate.head<2>().norm(),
                          .vertical = second.z(),
-                         .yaw_rate = relative.yaw_rate,
-                         .yaw_acceleration = relative.yaw_acceleration};
+                         .yaw_rate = rates.sole_B.yaw_rate,
+                         .yaw_acceleration = rates.sole_B.yaw_acceleration};
   const auto bounds = BoundJoints(anchors, posture.frames[s], posture.speeds[s],
-                                  first[foot + 3] - first[kWaistYaw], demand, h);
+                                  YawRate(motion->jet, side), demand, h);
   if (!bounds) return false;
   motion->joints[s] = *bounds;
   const double change = 2.0 * h * (std::abs(w.dot(w_rate)) + 0.5 * h * demand.half_square);
@@ -123,38 +135,35 @@ bool MotionBounds::BoundLeg(Side side, const BaseRates& waist, IntervalMotion* m
   return true;
 }
 
-void MotionBounds::BoundBody(size_t index, const BaseRates& waist, IntervalMotion* motion) const {
+void MotionBounds::BoundBody(size_t index, const BaseRates& waist,
+                             const std::array<LegRates, 2>& legs, IntervalMotion* motion) const {
   const RobotBody& body = robot_.bodies[index];
   const Posture& posture = motion->posture;
   const double h = motion->half_width;
   const double radius = body.shape.radius;
 
-  // Velocity at m of the body's sphere, exact, seen from the waist; and sups from where it hangs.
+  // Velocity at m of the body's sphere, exact, seen from the waist; and sups of accelerations.
   Eigen::Vector3d center_B = body.shape.center, velocity_B{0, 0, 0}, omega_B{0, 0, 0};
-  double world, from_waist = 0.0;
+  double world = 0.0, from_waist = 0.0;
   if (body.leg < 0) {
     world = AccelerationFrom(waist, {}, 0.0, Lever(center_B, radius));
   } else {
-    const size_t s = static_cast<size_t>(body.leg);
-    const LegFrames& frames = posture.frames[s];
-    center_B = frames.X_BLink[static_cast<size_t>(body.link)] * body.shape.center;
-    for (int j = 0; j <= body.link; ++j) {
-      const size_t i = static_cast<size_t>(j);
-      const Eigen::Vector3d turn = posture.speeds[s][j] * frames.axis_B[i];
-      omega_B += turn;
-      velocity_B += turn.cross(center_B - frames.point_B[i]);
-    }
-    const TurnBound& turn = motion->joints[s].turns[static_cast<size_t>(body.link)];
+    const size_t s = static_cast<size_t>(body.leg), link = static_cast<size_t>(body.link);
+    const LegRates& leg = legs[s];
+    center_B = posture.frames[s].X_BLink[link] * body.shape.center;
+    omega_B = leg.omega_B[link];
+    velocity_B = leg.velocity_B[link] + omega_B.cross(center_B);
+    const TurnBound& turn = motion->joints[s].turns[link];
     const double reach = reach_[index];
     const double moved = h * turn.speed * reach;
     if (LegAnchors::OnHip(body.link)) {
       from_waist = AccelerationFrom({}, turn, reach, 0.0);
       world = AccelerationFrom(waist, turn, reach, Lever(center_B, radius) + moved);
     } else {
-      const Side side = static_cast<Side>(body.leg);
-      const double lever = Lever(frames.X_BLink[6].inverse() * center_B, radius) + moved;
-      from_waist = AccelerationFrom(SoleFromWaist(*motion, side, waist), turn, reach, lever);
-      world = AccelerationFrom(SoleRates(*motion, side), turn, reach, lever);
+      const Eigen::Vector3d from_sole = center_B - posture.frames[s].X_BLink[6].translation();
+      const double lever = Lever(from_sole, radius) + moved;
+      from_waist = AccelerationFrom(leg.sole_B, turn, reach, lever);
+      world = AccelerationFrom(leg.sole, turn, reach, lever);
     }
   }
 
@@ -182,12 +191,16 @@ void MotionBounds::Bound(const WalkJet& mid, const WalkVector& second, double ha
   motion->bounded = motion->posture.reachable;
   if (!motion->bounded) return;
   motion->bounded = SolveJointSpeeds(robot_, motion->jet, &motion->posture);
-  const BaseRates waist = WaistRates(*motion);
-  for (Side side : {Side::kLeft, Side::kRight}) {
-    motion->bounded = motion->bounded && BoundLeg(side, waist, motion);
-  }
   if (!motion->bounded) return;
-  for (size_t b = 0; b < robot_.bodies.size(); ++b) BoundBody(b, waist, motion);
+  const BaseRates waist = WaistRates(*motion);
+  std::array<LegRates, 2> legs;
+  for (Side side : {Side::kLeft, Side::kRight}) {
+    LegRates& leg = legs[static_cast<size_t>(Index(side))];
+    leg = RatesOfLeg(*motion, side, waist);
+    motion->bounded = BoundLeg(side, waist, leg, motion);
+    if (!motion->bounded) return;
+  }
+  for (size_t b = 0; b < robot_.bodies.size(); ++b) BoundBody(b, waist, legs, motion);
 }
 
 }  // namespace halfstep

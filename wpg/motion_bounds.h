@@ -53,15 +53,24 @@ class MotionBounds {
     double yaw_rate = 0.0;          // [rad/s]
     double yaw_acceleration = 0.0;  // [rad/s²]
   };
+  struct LegRates {
+    BaseRates sole;
+    BaseRates sole_B;  // seen from the waist
+    // At m, of link i, seen from the waist: angular velocity, and velocity where B's origin is.
+    std::array<Eigen::Vector3d, 6> omega_B, velocity_B;
+  };
   static BaseRates SoleRates(const IntervalMotion& motion, Side side);
+  static double Turning(const BaseRates& base);  // sup |ψ̈ẑ×x − ψ̇²x| at distance 1 [1/s²]
   BaseRates WaistRates(const IntervalMotion& motion) const;
-  static BaseRates SoleFromWaist(const IntervalMotion& motion, Side side, const BaseRates& waist);
+  static LegRates RatesOfLeg(const IntervalMotion& motion, Side side, const BaseRates& waist);
   // sup ‖P̈‖ of a point that turns about a point of a base, at most `reach` [m] from it, where the
   // base moves by `base` and P is at most `lever` [m] from the base's vertical axis.
   static double AccelerationFrom(const BaseRates& base, const TurnBound& turn, double reach,
                                  double lever);
-  bool BoundLeg(Side side, const BaseRates& waist, IntervalMotion* motion) const;
-  void BoundBody(size_t body, const BaseRates& waist, IntervalMotion* motion) const;
+  bool BoundLeg(Side side, const BaseRates& waist, const LegRates& rates,
+                IntervalMotion* motion) const;
+  void BoundBody(size_t body, const BaseRates& waist, const std::array<LegRates, 2>& legs,
+                 IntervalMotion* motion) const;
 
   const RobotModel& robot_;
   std::array<LegAnchors, 2> anchors_;
