@@ -66,6 +66,63 @@ TEST(MotionBounds, AreNeverExceededOnRandomIntervals) {
   }
 }
 
+// A motion with constant second derivatives, faster than any walk in all directions; some of its
+// quantities rest.
+WalkJet DrawMotion(const RobotModel& robot, WalkDraw* draw) {
+  WalkJet jet;
+  jet.value[kLeftY] = 0.5 * robot.standing_width;
+  jet.value[kRightY] = -0.5 * robot.standing_width;
+  const double fast = draw->Uniform(0, 1), pushed = draw->Uniform(0, 1);
+  for (int q = 0; q < kNumQuantities; ++q) {
+    const bool yaw = q == kWaistYaw || q == kLeftYaw || q == kRightYaw;
+    const bool height = q == kLeftZ || q == kRightZ;
+    jet.value[q] += height ? draw->Uniform(0.0, 0.2) : (yaw ? 3.0 : 1.0) * draw->Uniform(-0.2, 0.2);
+    if (draw->Uniform(0, 1) < 0.5) jet.first[q] = fast * draw->Uniform(-2, 2);
+    if (draw->Uniform(0, 1) < 0.5) jet.second[q] = pushed * draw->Uniform(-20, 20);
+  }
+  return jet;
+}
+
+TEST(MotionBounds, AreNeverExceededByMotionsThatAreNoWalks) {
+  unsigned seed = 21;
+  for (const RobotModel& robot : RobotsOfAllKinds()) {
+    const std::vector<Eigen::Matrix3Xd> points = OuterPoints(robot);
+    const MotionBounds bounds(robot);
+    WalkDraw draw(seed++);
+    IntervalMotion motion;
+    std::array<double, kNumBounded> excess, nearest;
+    excess.fill(-1.0);
+    nearest.fill(0.0);
+    int bounded = 0;
+    for (int i = 0; i < Draws(4000); ++i) {
+      const WalkJet mid = DrawMotion(robot, &draw);
+      const double h = 1e-5 * std::pow(5000.0, draw.Uniform(0, 1));
+      bounds.Bound(mid, mid.second.cwiseAbs(), h, &motion);
+      if (!motion.bounded) continue;
+      ++bounded;
+      for (const double t : {-h, draw.Uniform(-h, h), h}) {
+        WalkJet jet = mid;
+        jet.value += t * mid.first + 0.5 * t * t * mid.second;
+        jet.first += t * mid.second;
+        const bool reached = CompareWithTruth(robot, points, jet, motion,
+                                              [&](Bounded kind, int, double truth, double bound) {
+                                                const size_t k = static_cast<size_t>(kind);
+                                                excess[k] = std::max(excess[k], truth - bound);
+                                                if (truth > 1e-6)
+                                                  nearest[k] = std::max(nearest[k], truth / bound);
+                                              });
+        EXPECT_TRUE(reached) << robot.name;
+      }
+    }
+    EXPECT_GT(bounded, Draws(4000) / 4) << robot.name;
+    for (size_t kind = 0; kind < kNumBounded; ++kind) {
+      EXPECT_LT(excess[kind], 1e-9) << robot.name << ": " << kBoundedNames[kind];
+      // So near that a term forgotten would show.
+      EXPECT_GT(nearest[kind], 0.9) << robot.name << ": " << kBoundedNames[kind];
+    }
+  }
+}
+
 // Bound over true supremum of all bodies and joints that move, on random intervals.
 struct Tightness {
   long intervals = 0;

@@ -86,13 +86,12 @@ inline double LargestDisplacement(const RobotBody& body, const Eigen::Matrix3Xd&
   return (X1 * points - X0 * points).colwise().norm().maxCoeff();
 }
 
-/// Calls visit(kind, index, truth, bound) for everything that `motion` bounds, at the instant t of
-/// its interval. False when the legs do not reach at t, which contradicts `motion.bounded`.
+/// Calls visit(kind, index, truth, bound) for everything that `motion` bounds, at an instant of its
+/// interval when the quantities are `jet`. False when the legs do not reach then, which contradicts
+/// `motion.bounded`.
 template <typename Visit>
 bool CompareWithTruth(const RobotModel& robot, const std::vector<Eigen::Matrix3Xd>& points,
-                      const SuperposedWalk& walk, const IntervalMotion& motion, double t,
-                      const Visit& visit) {
-  const WalkJet jet = walk.At(t);
+                      const WalkJet& jet, const IntervalMotion& motion, const Visit& visit) {
   const auto posture = PostureAt(robot, jet);
   if (!posture) return false;
   for (int q = 0; q < kNumQuantities; ++q) {
@@ -133,6 +132,14 @@ bool CompareWithTruth(const RobotModel& robot, const std::vector<Eigen::Matrix3X
           motion.displacement_B[b]);
   }
   return true;
+}
+
+/// The same at the instant t of a walk.
+template <typename Visit>
+bool CompareWithTruth(const RobotModel& robot, const std::vector<Eigen::Matrix3Xd>& points,
+                      const SuperposedWalk& walk, const IntervalMotion& motion, double t,
+                      const Visit& visit) {
+  return CompareWithTruth(robot, points, walk.At(t), motion, visit);
 }
 
 }  // namespace halfstep
