@@ -16,6 +16,9 @@ using Eigen::Vector3d;
 // corners. One that is nearer than this to another is left out [cosine of 3°].
 constexpr double kSameDirection = 0.9986;
 
+// Placements stand for at most this long [s]: longer ones would all be inflated to the limit.
+constexpr double kLongest = 0.006;
+
 Eigen::Matrix3Xd Directions(const ConvexBody& body) {
   std::vector<Vector3d> all;
   const auto add = [&](const Vector3d& direction) {
@@ -75,14 +78,14 @@ std::optional<std::vector<SweptVolumeBaker::Placement>> SweptVolumeBaker::Cover(
     // A little wider, for the rounding of the interval's ends.
     bounds_.Bound(Evaluate(half_step, profiles, mid), second, 0.5 * width * (1 + 1e-9), &motion);
     const bool last = width <= options_.shortest_interval;
-    if (motion.bounded) {
+    if (motion.bounded && (width <= kLongest || last)) {
       std::erase_if(task.bodies, [&](size_t b) {
         const double displacement = motion.displacement[b];
         if (!(displacement <= options_.displacement) && !last) return false;
         placements.push_back({b, motion.posture.OfBody(robot_.bodies[b]), displacement});
         return true;
       });
-    } else if (last) {
+    } else if (!motion.bounded && last) {
       return std::nullopt;
     }
     if (task.bodies.empty()) continue;

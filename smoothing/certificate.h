@@ -25,7 +25,7 @@ using Certificate = std::vector<CertificateRow>;
 /// When the adaptive certification gives up, and how it begins.
 struct CertificationOptions {
   double resolution = 1e-4;  ///< shorter intervals are not bisected: undecided [s] > 0
-  double longest = 0.2;      ///< intervals begin at most this long [s]
+  double longest = 0.07;     ///< intervals begin at most this long [s]
 };
 
 }  // namespace halfstep

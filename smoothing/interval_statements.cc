@@ -183,7 +183,7 @@ std::optional<Margin> IntervalStatements::Prove(const SuperposedWalk& walk, doub
     const double bound = motion.displacement[body] + kRounding;
     if (clearances.BodyClears(body, motion.posture, obstacle_demanded + bound, &bodies)) {
       if (rows != nullptr) {
-        const double enough = std::max(horizon, obstacle_demanded + bound);
+        const double enough = std::max(horizon, obstacle_demanded + bound + kRounding);
         obstacles.Add(clearances.OfBody(body, motion.posture, enough, &bodies), bound);
       }
       return true;
@@ -207,7 +207,7 @@ std::optional<Margin> IntervalStatements::Prove(const SuperposedWalk& walk, doub
                          kRounding;
     if (clearances.PairClears(pair, motion.posture, self_demanded + bound, &bodies)) {
       if (rows != nullptr) {
-        const double enough = std::max(horizon, self_demanded + bound);
+        const double enough = std::max(horizon, self_demanded + bound + kRounding);
         pairs.Add(clearances.OfPair(pair, motion.posture, enough, &bodies), bound);
       }
       return true;

@@ -3,65 +3,61 @@
 #include <Eigen/Core>
 #include <array>
 #include <optional>
-#include <span>
 
 #include "wpg/leg_ik.h"
 #include "wpg/robot_model.h"
 
 namespace halfstep {
 
-/// Distances [m] along a leg that no posture exceeds. Joint i's origin is the hip for joints 0–2,
-/// the knee, the ankle for joints 4 and 5.
-class LegExtents {
+/// What stays where it is on the links of a leg: the hip on links 0–2, the ankle on links 3–5 and
+/// on the sole.
+class LegAnchors {
  public:
-  explicit LegExtents(const Leg& leg);
+  explicit LegAnchors(const Leg& leg);
 
-  /// From joint i's origin to the sole frame's origin.
-  double ToSole(int joint) const { return to_sole_[static_cast<size_t>(joint)]; }
-  /// From joint i's origin to any point of a body of this leg: along the links between them, down
-  /// the leg when i ≤ body.link, up the leg otherwise.
-  double ToBody(int joint, const RobotBody& body) const;
+  /// Hip or ankle: what rests on a link, whatever the joints do.
+  static bool OnHip(int link) { return link <= 2; }
+  Eigen::Vector3d Ankle(const LegFrames& frames) const { return frames.X_BLink[6] * ankle_S_; }
+  const Eigen::Vector3d& hip_B() const { return hip_B_; }
+  const Eigen::Vector3d& ankle_S() const { return ankle_S_; }
+  /// From the anchor of a body's link to the farthest point of the body [m].
+  double Reach(const RobotBody& body) const;
 
  private:
-  std::array<Eigen::Vector3d, 6> origin_B_;  // at q = 0
-  std::array<Eigen::Isometry3d, 6> X_BLink_;
-  std::array<double, 6> to_sole_;
+  Eigen::Vector3d hip_B_, ankle_S_;
+  std::array<Eigen::Vector3d, 6> anchor_L_;  // in the link's frame
+};
+
+/// What is demanded of a leg: sups over [m − h, m + h], with w = hip − ankle.
+struct LegDemand {
+  double half_square = 0.0;       ///< |d²(½‖w‖²)/dt²| [m²/s²]
+  double horizontal = 0.0;        ///< horizontal part of ẅ, seen from the sole [m/s²]
+  double vertical = 0.0;          ///< vertical part of ẅ [m/s²]
+  double yaw_rate = 0.0;          ///< of the sole, seen from the waist [rad/s]
+  double yaw_acceleration = 0.0;  ///< [rad/s²]
+};
+
+/// Sups of how fast something turns.
+struct TurnBound {
+  double speed = 0.0;         ///< ‖ω‖ [rad/s]
+  double acceleration = 0.0;  ///< ‖ω̇‖ [rad/s²]
 };
 
 /// Bounds of joint motion for all t in [m − h, m + h].
 struct JointBounds {
   Vector6d speed;         ///< sup |q̇_i| [rad/s]
   Vector6d acceleration;  ///< sup |q̈_i| [rad/s²]
+  /// Of the links: 0–2 seen from the waist, 3–5 seen from the sole.
+  std::array<TurnBound, 6> turns;
 };
 
-/// Bounds of the rate of change of the twist of the sole relative to the waist, seen from the
-/// waist.
-struct TwistRateBound {
-  double angular = 0.0;  ///< sup ‖ω̇‖ [rad/s²]
-  double linear = 0.0;   ///< sup ‖v̇‖ of the sole's origin [m/s²]
-};
-
-/// Joint bounds from the inverse Jacobian and the joint speeds at the midpoint: q̈ = J⁻¹(V̇ − J̇q̇),
-/// with J(t)⁻¹ bounded by J(m)⁻¹ and how far J can have turned. A bootstrap: assumed bounds of |q̇|
-/// imply smaller ones, which proves them. None when that does not close: h too long, or a leg too
-/// nearly stretched. Source: smoothing/README.md, "Motion bounds".
-std::optional<JointBounds> BoundJoints(const LegExtents& extents, const Matrix6d& jacobian_inverse,
-                                       const Vector6d& speeds, const TwistRateBound& twist_rate,
-                                       double half_width);
-
-/// One joint of a chain, as seen from the chain's base.
-struct ChainJoint {
-  double speed = 0.0;         ///< sup |q̇| [rad/s]
-  double acceleration = 0.0;  ///< sup |q̈| [rad/s²]
-  double reach = 0.0;         ///< sup distance from the joint's origin to the point [m]
-};
-/// Bounds of a point's motion relative to the base of a chain.
-struct PointBound {
-  double speed = 0.0;         ///< [m/s]
-  double acceleration = 0.0;  ///< [m/s²]
-};
-/// Joints in order from the base: v = Σ q̇ρ, a = Σ_i (q̈_i + q̇_i²)ρ_i + 2q̇_i·Σ_{j>i} q̇_jρ_j (Euler,
-/// centripetal and Coriolis acceleration, frame by frame).
-PointBound BoundChain(std::span<const ChainJoint> joints);
+/// Joint bounds from the frames (waist and sole upright), the joint speeds and the sole's yaw rate
+/// seen from the waist, all at m: knee from the hip–ankle distance, then ankle, then hip. A
+/// bootstrap: assumed bounds of the speeds imply smaller ones, which proves them. None when that
+/// does not close: h too long, or a leg too nearly stretched. While there is a bound, the leg
+/// reaches and stays in its branch. Source: smoothing/README.md, "Motion bounds".
+std::optional<JointBounds> BoundJoints(const LegAnchors& anchors, const LegFrames& frames,
+                                       const Vector6d& speeds, double yaw_rate,
+                                       const LegDemand& demand, double half_width);
 
 }  // namespace halfstep

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "wpg/check.h"
 
@@ -14,6 +13,11 @@ double Lever(const Eigen::Vector3d& center, double radius) {
   return center.head<2>().norm() + radius;
 }
 
+// Yaw rate of a sole seen from the waist.
+double YawRate(const WalkJet& jet, Side side) {
+  return jet.first[FootIndex(side) + 3] - jet.first[kWaistYaw];
+}
+
 // √(x² + y²) of two quantities' sups.
 double Planar(const WalkVector& x, int quantity) {
   return std::hypot(x[quantity], x[quantity + 1]);
@@ -22,7 +26,11 @@ double Planar(const WalkVector& x, int quantity) {
 }  // namespace
 
 MotionBounds::MotionBounds(const RobotModel& robot)
-    : robot_(robot), extents_{LegExtents(robot.legs[0]), LegExtents(robot.legs[1])} {}
+    : robot_(robot), anchors_{LegAnchors(robot.legs[0]), LegAnchors(robot.legs[1])} {
+  for (const RobotBody& body : robot.bodies) {
+    reach_.push_back(body.leg < 0 ? 0.0 : anchors_[static_cast<size_t>(body.leg)].Reach(body));
+  }
+}
 
 MotionBounds::BaseRates MotionBounds::SoleRates(const IntervalMotion& motion, Side side) {
   const int i = FootIndex(side);
@@ -41,96 +49,123 @@ MotionBounds::BaseRates MotionBounds::WaistRates(const IntervalMotion& motion) c
   rates.yaw_acceleration = motion.second[kWaistYaw];
   rates.yaw_rate = std::abs(motion.jet.first[kWaistYaw]) + motion.RateChange(kWaistYaw);
   const double arm = std::abs(robot_.com_x_B);
-  rates.acceleration = Planar(motion.second, kComX) +
-                       arm * (rates.yaw_acceleration + rates.yaw_rate * rates.yaw_rate);
+  rates.acceleration = Planar(motion.second, kComX) + arm * Turning(rates);
   rates.speed = Planar(motion.jet.first, kComX) + motion.half_width * Planar(motion.second, kComX) +
                 arm * rates.yaw_rate;
   return rates;
 }
 
-double MotionBounds::WorldAcceleration(const BaseRates& base, const PointBound& relative,
-                                       double lever) {
-  return base.acceleration + (base.yaw_acceleration + base.yaw_rate * base.yaw_rate) * lever +
-         2.0 * base.yaw_rate * relative.speed + relative.acceleration;
+double MotionBounds::Turning(const BaseRates& base) {
+  return base.yaw_acceleration + base.yaw_rate * base.yaw_rate;
 }
 
-bool MotionBounds::BoundLeg(Side side, const BaseRates& waist, IntervalMotion* motion) const {
+double MotionBounds::AccelerationFrom(const BaseRates& base, const TurnBound& turn, double reach,
+                                      double lever) {
+  return base.acceleration + Turning(base) * lever +
+         (2.0 * base.yaw_rate * turn.speed + turn.acceleration + turn.speed * turn.speed) * reach;
+}
+
+MotionBounds::LegRates MotionBounds::RatesOfLeg(const IntervalMotion& motion, Side side,
+                                                const BaseRates& waist) {
   const size_t s = static_cast<size_t>(Index(side));
-  const BaseRates sole = SoleRates(*motion, side);
+  const Posture& posture = motion.posture;
+  LegRates rates;
+  rates.sole = SoleRates(motion, side);
+  // Seen from the turning waist: d̈ − ψ̈ẑ×d − 2ψ̇ẑ×ḋ + ψ̇²ẑ×(ẑ×d).
+  const Eigen::Vector3d lever = posture.X_WSole[s].translation() - posture.X_WB.translation();
+  const double speed = rates.sole.speed + waist.speed;
+  rates.sole_B.acceleration =
+      rates.sole.acceleration + waist.acceleration +
+      Turning(waist) * (lever.head<2>().norm() + motion.half_width * speed) +
+      2.0 * waist.yaw_rate * speed;
+  rates.sole_B.yaw_acceleration = rates.sole.yaw_acceleration + waist.yaw_acceleration;
+  rates.sole_B.yaw_rate =
+      std::abs(YawRate(motion.jet, side)) + motion.half_width * rates.sole_B.yaw_acceleration;
+  Eigen::Vector3d omega{0, 0, 0}, velocity{0, 0, 0};
+  for (size_t i = 0; i < 6; ++i) {
+    const Eigen::Vector3d turn =
+        posture.speeds[s][static_cast<Eigen::Index>(i)] * posture.frames[s].axis_B[i];
+    rates.omega_B[i] = omega += turn;
+    rates.velocity_B[i] = velocity += posture.frames[s].point_B[i].cross(turn);
+  }
+  return rates;
+}
+
+bool MotionBounds::BoundLeg(Side side, const BaseRates& waist, const LegRates& rates,
+                            IntervalMotion* motion) const {
+  const size_t s = static_cast<size_t>(Index(side));
+  const int foot = FootIndex(side);
+  const LegAnchors& anchors = anchors_[s];
+  const Posture& posture = motion->posture;
+  const WalkVector& first = motion->jet.first;
   const double h = motion->half_width;
-  const double relative_speed = sole.speed + waist.speed;
-  const Eigen::Vector3d lever =
-      motion->posture.X_WSole[s].translation() - motion->posture.X_WB.translation();
-  const double distance = lever.head<2>().norm() + h * relative_speed;
-  // Seen from the turning waist: ẍ − ψ̈ẑ×d − 2ψ̇ẑ×ḋ + ψ̇²d.
-  const TwistRateBound twist_rate{
-      .angular = sole.yaw_acceleration + waist.yaw_acceleration,
-      .linear = sole.acceleration + waist.acceleration +
-                (waist.yaw_acceleration + waist.yaw_rate * waist.yaw_rate) * distance +
-                2.0 * waist.yaw_rate * relative_speed};
-  const auto bounds = BoundJoints(extents_[s], motion->posture.jacobian_inverse[s],
-                                  motion->posture.speeds[s], twist_rate, h);
+  const BaseRates& sole = rates.sole;
+
+  // w = hip − ankle, in W.
+  const Eigen::Vector3d z = Eigen::Vector3d::UnitZ();
+  const Eigen::Vector3d hip_W = posture.X_WB.linear() * anchors.hip_B();
+  const Eigen::Vector3d ankle_W = posture.X_WSole[s].linear() * anchors.ankle_S();
+  const Eigen::Vector3d w =
+      posture.X_WB.translation() + hip_W - posture.X_WSole[s].translation() - ankle_W;
+  const Eigen::Vector3d w_rate = posture.waist_velocity + first[kWaistYaw] * z.cross(hip_W) -
+                                 first.segment<3>(foot) - first[foot + 3] * z.cross(ankle_W);
+  const double hip_lever = std::hypot(anchors.hip_B().x() - robot_.com_x_B, anchors.hip_B().y());
+  const double ankle_lever = anchors.ankle_S().head<2>().norm();
+  Eigen::Vector3d second = motion->second.segment<3>(foot);
+  second.head<2>() +=
+      motion->second.segment<2>(kComX) +
+      Eigen::Vector2d::Constant(Turning(waist) * hip_lever + Turning(sole) * ankle_lever);
+  const Eigen::Vector3d rate = w_rate.cwiseAbs() + h * second;
+  const Eigen::Vector3d most = w.cwiseAbs() + h * (w_rate.cwiseAbs() + 0.5 * h * second);
+  const LegDemand demand{.half_square = rate.squaredNorm() + most.dot(second),
+                         // Seen from the turning sole, in the same way.
+                         .horizontal = second.head<2>().norm() +
+                                       Turning(sole) * most.head<2>().norm() +
+                                       2.0 * sole.yaw_rate * rate.head<2>().norm(),
+                         .vertical = second.z(),
+                         .yaw_rate = rates.sole_B.yaw_rate,
+                         .yaw_acceleration = rates.sole_B.yaw_acceleration};
+  const auto bounds = BoundJoints(anchors, posture.frames[s], posture.speeds[s],
+                                  YawRate(motion->jet, side), demand, h);
   if (!bounds) return false;
   motion->joints[s] = *bounds;
-  const double knee_change =
-      h * (std::abs(motion->posture.speeds[s][3]) + 0.5 * h * bounds->acceleration[3]);
-  motion->leg_length_change[s] =
-      LegLengthChange(robot_.legs[s], motion->posture.frames[s], knee_change);
+  const double change = 2.0 * h * (std::abs(w.dot(w_rate)) + 0.5 * h * demand.half_square);
+  const double nearest2 = std::max(0.0, w.squaredNorm() - change);
+  motion->leg_length_change[s] = change / (w.norm() + std::sqrt(nearest2));
   return true;
 }
 
-// With a, b from the knee to hip and ankle, d = ‖b − a‖: d' = ω·(a × b)/d and
-// |d''| ≤ (‖a‖‖b‖ + d'²)/d, where |d'| ≤ min(‖a‖, ‖b‖).
-double MotionBounds::LegLengthChange(const Leg& leg, const LegFrames& frames, double knee_change) {
-  const Eigen::Isometry3d& X_BShank = frames.X_BLink[3];
-  const Eigen::Vector3d ankle_B = X_BShank * (leg.joints[3].X_BLink.inverse() * leg.ankle_B);
-  const Eigen::Vector3d a = leg.hip_B - frames.point_B[3], b = ankle_B - frames.point_B[3];
-  const double least = std::min(a.norm(), b.norm());
-  const double distance = (b - a).norm();
-  const double shortest = distance - least * knee_change;
-  if (!(shortest > 0.0)) return std::numeric_limits<double>::infinity();
-  const double first = std::abs(frames.axis_B[3].dot(a.cross(b))) / distance;
-  const double second = (a.norm() * b.norm() + least * least) / shortest;
-  return knee_change * (first + 0.5 * knee_change * second);
-}
-
-void MotionBounds::BoundBody(size_t index, const BaseRates& waist, IntervalMotion* motion) const {
+void MotionBounds::BoundBody(size_t index, const BaseRates& waist,
+                             const std::array<LegRates, 2>& legs, IntervalMotion* motion) const {
   const RobotBody& body = robot_.bodies[index];
   const Posture& posture = motion->posture;
   const double h = motion->half_width;
   const double radius = body.shape.radius;
 
-  // Velocity at m of the body's sphere, exact, seen from the waist; and bounds along the leg.
+  // Velocity at m of the body's sphere, exact, seen from the waist; and sups of accelerations.
   Eigen::Vector3d center_B = body.shape.center, velocity_B{0, 0, 0}, omega_B{0, 0, 0};
-  PointBound from_waist;
-  double world = std::numeric_limits<double>::infinity();
-  if (body.leg >= 0) {
-    const size_t s = static_cast<size_t>(body.leg);
-    const LegFrames& frames = posture.frames[s];
-    const JointBounds& joints = motion->joints[s];
-    center_B = frames.X_BLink[static_cast<size_t>(body.link)] * body.shape.center;
-    std::array<ChainJoint, 6> chain;
-    const auto joint = [&](int j) {
-      return ChainJoint{joints.speed[j], joints.acceleration[j], extents_[s].ToBody(j, body)};
-    };
-    for (int j = 0; j <= body.link; ++j) {
-      const size_t i = static_cast<size_t>(j);
-      const Eigen::Vector3d turn = posture.speeds[s][j] * frames.axis_B[i];
-      omega_B += turn;
-      velocity_B += turn.cross(center_B - frames.point_B[i]);
-      chain[i] = joint(j);
+  double world = 0.0, from_waist = 0.0;
+  if (body.leg < 0) {
+    world = AccelerationFrom(waist, {}, 0.0, Lever(center_B, radius));
+  } else {
+    const size_t s = static_cast<size_t>(body.leg), link = static_cast<size_t>(body.link);
+    const LegRates& leg = legs[s];
+    center_B = posture.frames[s].X_BLink[link] * body.shape.center;
+    omega_B = leg.omega_B[link];
+    velocity_B = leg.velocity_B[link] + omega_B.cross(center_B);
+    const TurnBound& turn = motion->joints[s].turns[link];
+    const double reach = reach_[index];
+    const double moved = h * turn.speed * reach;
+    if (LegAnchors::OnHip(body.link)) {
+      from_waist = AccelerationFrom({}, turn, reach, 0.0);
+      world = AccelerationFrom(waist, turn, reach, Lever(center_B, radius) + moved);
+    } else {
+      const Eigen::Vector3d from_sole = center_B - posture.frames[s].X_BLink[6].translation();
+      const double lever = Lever(from_sole, radius) + moved;
+      from_waist = AccelerationFrom(leg.sole_B, turn, reach, lever);
+      world = AccelerationFrom(leg.sole, turn, reach, lever);
     }
-    from_waist = BoundChain({chain.data(), static_cast<size_t>(body.link) + 1});
-    // The same point, carried by the sole and the joints below it.
-    size_t n = 0;
-    for (int j = 5; j > body.link; --j) chain[n++] = joint(j);
-    const PointBound from_sole = BoundChain({chain.data(), n});
-    const Eigen::Vector3d center_S = frames.X_BLink[6].inverse() * center_B;
-    world = WorldAcceleration(SoleRates(*motion, static_cast<Side>(body.leg)), from_sole,
-                              Lever(center_S, radius) + h * from_sole.speed);
   }
-  world = std::min(
-      world, WorldAcceleration(waist, from_waist, Lever(center_B, radius) + h * from_waist.speed));
 
   const Eigen::Matrix3d& R = posture.X_WB.linear();
   const Eigen::Vector3d omega_W =
@@ -141,7 +176,7 @@ void MotionBounds::BoundBody(size_t index, const BaseRates& waist, IntervalMotio
   const double speed_W = velocity_W.norm() + omega_W.norm() * radius;
   const double speed_B = velocity_B.norm() + omega_B.norm() * radius;
   motion->displacement[index] = h * (speed_W + 0.5 * h * world);
-  motion->displacement_B[index] = h * (speed_B + 0.5 * h * from_waist.acceleration);
+  motion->displacement_B[index] = h * (speed_B + 0.5 * h * from_waist);
 }
 
 void MotionBounds::Bound(const WalkJet& mid, const WalkVector& second, double half_width,
@@ -156,12 +191,16 @@ void MotionBounds::Bound(const WalkJet& mid, const WalkVector& second, double ha
   motion->bounded = motion->posture.reachable;
   if (!motion->bounded) return;
   motion->bounded = SolveJointSpeeds(robot_, motion->jet, &motion->posture);
-  const BaseRates waist = WaistRates(*motion);
-  for (Side side : {Side::kLeft, Side::kRight}) {
-    motion->bounded = motion->bounded && BoundLeg(side, waist, motion);
-  }
   if (!motion->bounded) return;
-  for (size_t b = 0; b < robot_.bodies.size(); ++b) BoundBody(b, waist, motion);
+  const BaseRates waist = WaistRates(*motion);
+  std::array<LegRates, 2> legs;
+  for (Side side : {Side::kLeft, Side::kRight}) {
+    LegRates& leg = legs[static_cast<size_t>(Index(side))];
+    leg = RatesOfLeg(*motion, side, waist);
+    motion->bounded = BoundLeg(side, waist, leg, motion);
+    if (!motion->bounded) return;
+  }
+  for (size_t b = 0; b < robot_.bodies.size(); ++b) BoundBody(b, waist, legs, motion);
 }
 
 }  // namespace halfstep

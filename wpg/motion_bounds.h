@@ -46,24 +46,35 @@ class MotionBounds {
              IntervalMotion* motion) const;
 
  private:
-  // Motion of the waist or of a sole over the interval: sups of its rates.
+  // Motion of the waist or of a sole over the interval: sups of its rates, in W unless said.
   struct BaseRates {
     double speed = 0.0;             // of the frame's origin [m/s], horizontal for the waist
     double acceleration = 0.0;      // [m/s²]
     double yaw_rate = 0.0;          // [rad/s]
     double yaw_acceleration = 0.0;  // [rad/s²]
   };
+  struct LegRates {
+    BaseRates sole;
+    BaseRates sole_B;  // seen from the waist
+    // At m, of link i, seen from the waist: angular velocity, and velocity where B's origin is.
+    std::array<Eigen::Vector3d, 6> omega_B, velocity_B;
+  };
   static BaseRates SoleRates(const IntervalMotion& motion, Side side);
+  static double Turning(const BaseRates& base);  // sup |ψ̈ẑ×x − ψ̇²x| at distance 1 [1/s²]
   BaseRates WaistRates(const IntervalMotion& motion) const;
-  // sup ‖P̈‖ in W of a point that is moved by `relative` in a base that moves by `base`, at most
-  // `lever` [m] from the base's vertical axis.
-  static double WorldAcceleration(const BaseRates& base, const PointBound& relative, double lever);
-  static double LegLengthChange(const Leg& leg, const LegFrames& frames, double knee_change);
-  bool BoundLeg(Side side, const BaseRates& waist, IntervalMotion* motion) const;
-  void BoundBody(size_t body, const BaseRates& waist, IntervalMotion* motion) const;
+  static LegRates RatesOfLeg(const IntervalMotion& motion, Side side, const BaseRates& waist);
+  // sup ‖P̈‖ of a point that turns about a point of a base, at most `reach` [m] from it, where the
+  // base moves by `base` and P is at most `lever` [m] from the base's vertical axis.
+  static double AccelerationFrom(const BaseRates& base, const TurnBound& turn, double reach,
+                                 double lever);
+  bool BoundLeg(Side side, const BaseRates& waist, const LegRates& rates,
+                IntervalMotion* motion) const;
+  void BoundBody(size_t body, const BaseRates& waist, const std::array<LegRates, 2>& legs,
+                 IntervalMotion* motion) const;
 
   const RobotModel& robot_;
-  std::array<LegExtents, 2> extents_;
+  std::array<LegAnchors, 2> anchors_;
+  std::vector<double> reach_;  // of a leg's body: from its link's anchor to its farthest point [m]
 };
 
 }  // namespace halfstep

@@ -44,21 +44,35 @@ enum class Bounded {
   kJointAngle,     ///< change [rad]
   kJointRate,      ///< change of joint speed [rad/s]
   kJointSpeed,     ///< [rad/s]
+  kTurn,           ///< of a link, seen from the waist or the sole [rad/s]
+  kTurnRate,       ///< its change, as a vector there [rad/s]
   kLegLength,      ///< change of the hip-ankle distance [m]
   kValue,          ///< change of a walk quantity [m], [rad]
   kRate,           ///< change of its rate [m/s], [rad/s]
   kSecond,         ///< its second derivative [m/s²], [rad/s²]
 };
-constexpr size_t kNumBounded = 9;
+constexpr size_t kNumBounded = 11;
 constexpr std::array<std::string_view, kNumBounded> kBoundedNames = {
-    "displacement", "displacement_B", "joint angle", "joint rate", "joint speed",
-    "leg length",   "value",          "rate",        "second"};
+    "displacement", "displacement_B", "joint angle", "joint rate", "joint speed", "turn",
+    "turn rate",    "leg length",     "value",       "rate",       "second"};
 
 /// The posture at an instant, as the walk's inverse kinematics gives it, or none out of reach.
 inline std::optional<Posture> PostureAt(const RobotModel& robot, const WalkJet& jet) {
   Posture posture = SolvePosture(robot, jet.value);
   if (!posture.reachable || !SolveJointSpeeds(robot, jet, &posture)) return std::nullopt;
   return posture;
+}
+
+/// Angular velocity of a leg's link: of links 0–2 seen from the waist, of links 3–5 from the sole.
+inline Eigen::Vector3d LinkTurn(const Posture& posture, size_t leg, int link) {
+  Eigen::Vector3d omega_B(0, 0, 0);
+  const auto& axis_B = posture.frames[leg].axis_B;
+  const bool from_waist = LegAnchors::OnHip(link);
+  for (int j = from_waist ? 0 : link + 1; j < (from_waist ? link + 1 : 6); ++j) {
+    omega_B += (from_waist ? 1.0 : -1.0) * posture.speeds[leg][j] * axis_B[static_cast<size_t>(j)];
+  }
+  if (from_waist) return omega_B;
+  return posture.frames[leg].X_BLink[6].linear().transpose() * omega_B;
 }
 
 /// Largest distance of a body's points between two postures, in W or as seen from the waist [m].
@@ -72,13 +86,12 @@ inline double LargestDisplacement(const RobotBody& body, const Eigen::Matrix3Xd&
   return (X1 * points - X0 * points).colwise().norm().maxCoeff();
 }
 
-/// Calls visit(kind, index, truth, bound) for everything that `motion` bounds, at the instant t of
-/// its interval. False when the legs do not reach at t, which contradicts `motion.bounded`.
+/// Calls visit(kind, index, truth, bound) for everything that `motion` bounds, at an instant of its
+/// interval when the quantities are `jet`. False when the legs do not reach then, which contradicts
+/// `motion.bounded`.
 template <typename Visit>
 bool CompareWithTruth(const RobotModel& robot, const std::vector<Eigen::Matrix3Xd>& points,
-                      const SuperposedWalk& walk, const IntervalMotion& motion, double t,
-                      const Visit& visit) {
-  const WalkJet jet = walk.At(t);
+                      const WalkJet& jet, const IntervalMotion& motion, const Visit& visit) {
   const auto posture = PostureAt(robot, jet);
   if (!posture) return false;
   for (int q = 0; q < kNumQuantities; ++q) {
@@ -99,6 +112,11 @@ bool CompareWithTruth(const RobotModel& robot, const std::vector<Eigen::Matrix3X
             std::abs(posture->speeds[s][j] - motion.posture.speeds[s][j]), h * acceleration);
       visit(Bounded::kJointSpeed, index, std::abs(posture->speeds[s][j]),
             motion.joints[s].speed[j]);
+      const TurnBound& bound = motion.joints[s].turns[static_cast<size_t>(j)];
+      const Eigen::Vector3d link_turn = LinkTurn(*posture, s, j);
+      visit(Bounded::kTurn, index, link_turn.norm(), bound.speed);
+      visit(Bounded::kTurnRate, index, (link_turn - LinkTurn(motion.posture, s, j)).norm(),
+            h * bound.acceleration);
     }
     visit(Bounded::kLegLength, static_cast<int>(s),
           std::abs(posture->ik[s].reach_margin - motion.posture.ik[s].reach_margin),
@@ -114,6 +132,14 @@ bool CompareWithTruth(const RobotModel& robot, const std::vector<Eigen::Matrix3X
           motion.displacement_B[b]);
   }
   return true;
+}
+
+/// The same at the instant t of a walk.
+template <typename Visit>
+bool CompareWithTruth(const RobotModel& robot, const std::vector<Eigen::Matrix3Xd>& points,
+                      const SuperposedWalk& walk, const IntervalMotion& motion, double t,
+                      const Visit& visit) {
+  return CompareWithTruth(robot, points, walk.At(t), motion, visit);
 }
 
 }  // namespace halfstep
