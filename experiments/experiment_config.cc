@@ -126,8 +126,10 @@ void DeclareOptimizer(Fields& fields, OptimizerConfig* c) {
       {.meaning = "`pareto`: longest duration, of the planned motion's", .min = 0.1, .max = 3});
   fields.Group("weights", {.meaning = "`smooth`: of the effort beside the duration"},
                [&](Fields& f) { DeclareWeights(f, &o->program.weights); });
-  fields.Integer("instants", &o->program.table.instants,
-                 {.meaning = "per half-step at which the program looks", .min = 2, .max = 1000});
+  fields.Integer("instants", &o->instants,
+                 {.meaning = "per half-step at which the program looks; 0: what suits the solver",
+                  .min = 0,
+                  .max = 1000});
   fields.Integer("rounds", &o->rounds,
                  {.meaning = "solves from each start, each looking closer", .min = 1, .max = 100});
   fields.Boolean("planned_start", &o->planned_start,

@@ -20,9 +20,9 @@ using SparseMatrix = Eigen::SparseMatrix<double>;
 
 constexpr double kAccept = 1e-4;              // of the predicted reduction
 constexpr double kPoor = 0.25, kGood = 0.75;  // below it the region shrinks, above it grows
-constexpr double kShrink = 0.3;
+constexpr double kShrink = 0.3, kGrow = 1.5;
 constexpr double kLeastRegion = 1e-12, kMostRegion = 1e3;  // of the variables' widths
-constexpr double kFirstRegion = 0.03;                      // at least, of a later solve
+constexpr double kFirstRegion = 0.02;                      // at least, of a later solve
 constexpr int kMostRaises = 6;                             // of the penalty in one iteration
 
 struct SqpMemory : WarmStart {
@@ -216,7 +216,7 @@ class Sqp {
       if (all || worst[v] < kPoor) {
         region_[v] = kShrink * std::clamp(moved, kShrink * region_[v], region_[v]);
       } else if (ratio > kAccept && worst[v] > kGood && moved > 0.9 * region_[v]) {
-        region_[v] = std::min(kMostRegion * width_[v], 2.0 * region_[v]);
+        region_[v] = std::min(kMostRegion * width_[v], kGrow * region_[v]);
       }
     }
   }

@@ -11,31 +11,31 @@
 #include "smoothing/dichotomy.h"
 #include "smoothing/explain.h"
 #include "smoothing/path_rules.h"
-#include "smoothing/sampled_feasibility.h"
 #include "smoothing/stopwatch.h"
 
 namespace halfstep {
 namespace {
 
 constexpr char kSqp[] = "halfstep/sqp";
-// Where a search that shortens the walk anyway begins: a dichotomy's result, by samples, not proved
-// [s]. Linear programs move fast where there is room, others are better off near the end.
-constexpr double kStartPeriod = 0.02, kStartTolerance = 0.1, kSqpStartTolerance = 0.5;
+// Of the dichotomy before a search that is to shorten the walk anyway [s]. Linear programs move
+// fast where there is room, others are better off nearer to the end.
+constexpr double kStartTolerance = 0.1, kSqpStartTolerance = 0.5;
 // Points tried towards a candidate.
 constexpr int kAttempts = 8;
 // A candidate whose rows are violated by more than this is not worth a proof, nor a place to go on
 // from.
 constexpr double kHopeless = 0.5;
-// A solver's iterates between two proofs.
+// A solver's iterates between two proofs, in rounds that are longer.
 constexpr int kPatience = 10;
 constexpr double kLookPeriod = 0.005;  // [s]: how far apart the program looks for small slacks
 // A point where less slack is seen is not worth a proof.
 constexpr double kPromising = -0.02;
 // After a round whose end was proved rows grow sharper by a factor, up to a bound; after one whose
 // end was refused they grow softer, so that more is left in reserve.
-constexpr double kSharpen = 1.5, kSoften = 0.85, kSharpest = 3000.0;
-// Of the rows of single instants, from the first round on.
+constexpr double kSharpen = 1.5, kSoften = 0.75, kSharpest = 3000.0;
+// Of a table with rows by instant, from the first round on.
 constexpr double kSqpSharpness = 200.0;
+constexpr int kSqpInstants = 24;
 // A round that gains less, for the incumbent and for the solver, is poor (relative); so many in a
 // row end the search.
 constexpr double kGain = 1e-3;
@@ -59,8 +59,8 @@ class Optimization {
         proofs_(test, sequence.size()) {}
 
   SmoothingResult Run() {
-    DichotomyOptions dichotomy{.tolerance = options_.tolerance};
-    if (options_.start || Fastest()) {
+    DichotomyOptions dichotomy{.tolerance = StartTolerance()};
+    if (options_.start) {
       dichotomy.start = options_.start;
       dichotomy.passes = 0;
     }
@@ -92,7 +92,14 @@ class Optimization {
 
  private:
   bool Safest() const { return options_.program.kind == ProgramKind::kSafest; }
+  bool Sqp() const { return options_.solver == kSqp; }
   bool Fastest() const { return options_.program.kind == ProgramKind::kFastest; }
+
+  // Of the dichotomy before the search. `safest` and `smooth` compare with the fine one's result.
+  double StartTolerance() const {
+    if (!Fastest()) return options_.tolerance;
+    return std::max(options_.tolerance, Sqp() ? kSqpStartTolerance : kStartTolerance);
+  }
 
   std::function<void(double)> Part(double from, double to) const {
     return [this, from, to](double done) {
@@ -105,16 +112,8 @@ class Optimization {
     return Safest() ? std::max(0.0, x.tail(1)[0]) : 0;
   }
 
-  // Where the first search begins.
-  HomotopyParameters FirstGuess() const {
-    if (options_.start || !Fastest()) return start_;
-    const SampledFeasibility sampled(test_.evaluator(), kStartPeriod);
-    const double tolerance = options_.solver == kSqp ? kSqpStartTolerance : kStartTolerance;
-    return Dichotomy(sequence_, sampled, {.tolerance = tolerance}, {}, stop_).parameters;
-  }
-
   void Search(OverlapProgram& program, FeasiblePath* path) {
-    std::vector<HomotopyParameters> starts = {FirstGuess()};
+    std::vector<HomotopyParameters> starts = {start_};
     if (options_.planned_start) starts.push_back(PlannedMotion(sequence_));
     AddRandomPoints(program, options_.random_starts, options_.seed, &starts);
     for (size_t s = 0; s < starts.size(); ++s) {
@@ -169,14 +168,15 @@ class Optimization {
     solver_options.warm_start = solution_.warm_start;
     // Nearly linear: what curvature a few steps show of it does more harm than good. A row costs
     // less than one second a second: a small penalty is exact, and does not jam.
-    if (options_.solver == kSqp && options_.program.kind != ProgramKind::kSmooth) {
+    if (Sqp() && options_.program.kind != ProgramKind::kSmooth) {
       solver_options.solver_options["memory"] = "0";
       solver_options.solver_options["penalty"] = "2";
       solver_options.solver_options["most_penalty"] = "2";
     }
     solver_options.on_iterate = [&](const opt::Iterate& iterate) {
       const HomotopyParameters candidate = program.ToParameters(iterate.x);
-      if (++since_proof_ < kPatience) {
+      const bool wait = options_.max_iterations < kPatience || ++since_proof_ < kPatience;
+      if (wait) {
         Record(candidate, iterate.violation, 0.0, *path);
       } else {
         Try(candidate, iterate.violation, program, path);
@@ -298,8 +298,11 @@ SmoothingResult OptimizeOverlaps(const HalfStepSequence& sequence, const Feasibi
                                  std::stop_token stop) {
   OptimizerOptions own = options;
   const bool sqp = options.solver == kSqp;
-  own.program.table.row_per_instant = sqp;
-  if (sqp) own.program.table.sharpness = std::max(own.program.table.sharpness, kSqpSharpness);
+  SlackTableOptions& table = own.program.table;
+  table.row_per_instant = sqp;
+  if (sqp) table.sharpness = std::max(table.sharpness, kSqpSharpness);
+  if (sqp) table.instants = kSqpInstants;
+  if (own.instants > 0) table.instants = own.instants;
   if (own.max_iterations == 0) own.max_iterations = sqp ? 3 : 30;
   return Optimization(sequence, test, own, progress, std::move(stop)).Run();
 }

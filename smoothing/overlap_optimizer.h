@@ -22,6 +22,9 @@ struct OptimizerOptions {
   int random_starts = 0;      ///< and from random points of the variables' box
   unsigned seed = 1;          ///< of the random starts
   int rounds = 40;  ///< ≥ 1: solves from each start, with more instants and sharper rows
+  /// Per half-step at which the program looks; 0: what suits the solver, 24 of `halfstep/sqp`, those
+  /// of `program` of others.
+  int instants = 0;
   /// Of the solver in a round; 0: what suits it, 3 of `halfstep/sqp`, 30 of others. NLopt tells
   /// none.
   int max_iterations = 0;
@@ -33,9 +36,8 @@ struct OptimizerOptions {
 
 /// Smooths a whole sequence by a nonlinear program. Whatever the solver does, what is returned was
 /// found feasible by `test`, and its cost with it:
-///   1. the planned motion is the first incumbent, and but for `fastest` the result of a dichotomy
-///      the next, unless a feasible `start` is given; `fastest` begins its search where a coarse
-///      dichotomy by samples ends, which nobody has to prove;
+///   1. the planned motion is the first incumbent, the result of a dichotomy the next (a coarse one
+///      for `fastest`), unless a feasible `start` is given;
 ///   2. in rounds from each start the solver takes a few steps; where they end is a candidate for
 ///      the FeasiblePath, and the program learns to look where the test refused it and where
 ///      sampling finds small slacks;
