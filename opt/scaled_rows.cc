@@ -16,9 +16,11 @@ ScaledRows::ScaledRows(const Problem& problem, const std::vector<double>& jacobi
   for (int row = 0; row < problem.num_constraints(); ++row) {
     const double scale = 1.0 / slope[static_cast<size_t>(row)];
     const double lower = problem.constraint_lower()[row], upper = problem.constraint_upper()[row];
+    first_sides_.push_back(sides_.size());
     if (std::isfinite(lower)) sides_.push_back({row, scale, lower});
     if (std::isfinite(upper)) sides_.push_back({row, -scale, upper});
   }
+  first_sides_.push_back(sides_.size());
   std::vector<std::vector<int>> columns(static_cast<size_t>(problem.num_constraints()));
   for (size_t k = 0; k < jacobian.size(); ++k) {
     columns[static_cast<size_t>(problem.pattern().rows[k])].push_back(problem.pattern().cols[k]);
@@ -26,7 +28,12 @@ ScaledRows::ScaledRows(const Problem& problem, const std::vector<double>& jacobi
   std::map<std::vector<int>, int> known;
   for (const Side& side : sides_) {
     std::vector<int>& own = columns[static_cast<size_t>(side.row)];
-    std::sort(own.begin(), own.end());
+    if (!std::is_sorted(own.begin(), own.end())) std::sort(own.begin(), own.end());
+    // Neighbours often are of the same group.
+    if (!groups_.empty() && variables_[static_cast<size_t>(groups_.back())] == own) {
+      groups_.push_back(groups_.back());
+      continue;
+    }
     const auto [at, added] = known.try_emplace(own, static_cast<int>(variables_.size()));
     if (added) variables_.push_back(own);
     groups_.push_back(at->second);
@@ -47,17 +54,10 @@ Eigen::SparseMatrix<double> ScaledRows::Jacobian(const std::vector<double>& jaco
   std::vector<Eigen::Triplet<double>> entries;
   for (size_t k = 0; k < jacobian.size(); ++k) {
     const int v = pattern.cols[k];
-    const bool fixed = problem_.lower()[v] == problem_.upper()[v];
-    if (!fixed && jacobian[k] != 0.0) entries.emplace_back(pattern.rows[k], v, jacobian[k]);
-  }
-  Eigen::SparseMatrix<double, Eigen::RowMajor> by_row(problem_.num_constraints(),
-                                                      problem_.num_variables());
-  by_row.setFromTriplets(entries.begin(), entries.end());
-  entries.clear();
-  for (Eigen::Index i = 0; i < size(); ++i) {
-    const Side& side = sides_[static_cast<size_t>(i)];
-    for (decltype(by_row)::InnerIterator it(by_row, side.row); it; ++it) {
-      entries.emplace_back(static_cast<int>(i), it.col(), side.factor * it.value());
+    if (jacobian[k] == 0.0 || problem_.lower()[v] == problem_.upper()[v]) continue;
+    const size_t row = static_cast<size_t>(pattern.rows[k]);
+    for (size_t i = first_sides_[row]; i < first_sides_[row + 1]; ++i) {
+      entries.emplace_back(static_cast<int>(i), v, sides_[i].factor * jacobian[k]);
     }
   }
   Eigen::SparseMatrix<double> A(size(), problem_.num_variables());

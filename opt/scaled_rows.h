@@ -34,6 +34,7 @@ class ScaledRows {
 
   const Problem& problem_;
   std::vector<Side> sides_;
+  std::vector<size_t> first_sides_;  // of each row, and the number of all
   std::vector<int> groups_;
   std::vector<std::vector<int>> variables_;
 };

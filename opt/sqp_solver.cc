@@ -63,15 +63,16 @@ class Sqp {
 
  private:
   Ending Iterate() {
-    if (!session_.Jacobian(x_, &jacobian_) || !session_.Constraints(x_, &values_) ||
+    std::vector<double> jacobian;
+    if (!session_.Jacobian(x_, &jacobian) || !session_.Constraints(x_, &values_) ||
         !session_.Cost(x_, &cost_) || !session_.Gradient(x_, &gradient_)) {
       return Broken();
     }
-    rows_.emplace(problem_, jacobian_);
+    rows_.emplace(problem_, jacobian);
+    SparseMatrix A = rows_->Jacobian(jacobian);
     const SolverOptions& options = session_.options();
     while (session_.MayGoOn()) {
       const VectorXd c = rows_->Values(values_);
-      const SparseMatrix A = rows_->Jacobian(jacobian_);
       const ElasticStep step = Step(c, A);
       const double violation = TotalViolation(c);
       const double predicted = Predicted(step.d, c, A);
@@ -87,7 +88,7 @@ class Sqp {
         }
         return {SolveStatus::kAcceptable, "SQP: no step improves any more.", x_};
       }
-      if (!Try(step, c, A, predicted)) return Broken();
+      if (!Try(step, c, predicted, &A)) return Broken();
     }
     return Broken();
   }
@@ -221,8 +222,11 @@ class Sqp {
     }
   }
 
-  // Goes there if the merit falls as predicted, and adapts the region. False: the session ends.
-  bool Try(const ElasticStep& step, const VectorXd& c, const SparseMatrix& A, double predicted) {
+  // Goes there, with the derivatives there, if the merit falls as predicted, and adapts the region.
+  // False: the session ends.
+  bool Try(const ElasticStep& step, const VectorXd& c, double predicted,
+           SparseMatrix* derivatives) {
+    const SparseMatrix& A = *derivatives;
     const double merit = Merit(cost_, c);
     const double rounding = 1e-14 * std::max(1.0, std::abs(merit));
     Trial trial = At(step.d);
@@ -247,11 +251,10 @@ class Sqp {
     const VectorXd before = gradient_ - A.transpose() * step.duals;
     x_ = trial.x;
     values_ = trial.values;
-    jacobian_ = trial.jacobian;
+    *derivatives = rows_->Jacobian(trial.jacobian);
     cost_ = trial.cost;
     if (!session_.Gradient(x_, &gradient_)) return false;
-    hessian_.Update(moved,
-                    gradient_ - rows_->Jacobian(jacobian_).transpose() * step.duals - before);
+    hessian_.Update(moved, gradient_ - A.transpose() * step.duals - before);
     return session_.ReportIterate(x_);
   }
 
@@ -259,7 +262,6 @@ class Sqp {
   const Problem& problem_;
   VectorXd x_, width_, region_, values_, gradient_;
   double cost_ = 0.0;
-  std::vector<double> jacobian_;
   std::optional<ScaledRows> rows_;  // after the first evaluation
   double most_penalty_;
   double penalty_;  // as in SqpMemory
