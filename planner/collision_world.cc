@@ -14,10 +14,10 @@ void CheckFinite(const Eigen::Isometry3d& X) {
                                                                    << X.matrix());
 }
 
-// Distance of a point from a box, 0 inside [m].
-double DistanceToBox(const Eigen::Vector3d& p, const Eigen::Vector3d& lower,
-                     const Eigen::Vector3d& upper) {
-  return (lower - p).cwiseMax(p - upper).cwiseMax(0.0).norm();
+// From a point to a box along each axis, 0 where it is beside or inside [m].
+Eigen::Vector3d ToBox(const Eigen::Vector3d& p, const Eigen::Vector3d& lower,
+                      const Eigen::Vector3d& upper) {
+  return (lower - p).cwiseMax(p - upper).cwiseMax(0.0);
 }
 
 }  // namespace
@@ -52,7 +52,7 @@ CollisionWorld::Nearest CollisionWorld::FindNearest(const CollisionShape& body,
   std::vector<std::pair<double, int>> candidates;  // lower bound of the distance, obstacle
   for (size_t i = 0; i < bounds_.size(); ++i) {
     const double bound =
-        DistanceToBox(center_W, bounds_[i].lower_W, bounds_[i].upper_W) - body.radius();
+        ToBox(center_W, bounds_[i].lower_W, bounds_[i].upper_W).norm() - body.radius();
     // A negative bound says nothing about how deep the overlap may be.
     if (bound < std::max(horizon, 0.0)) candidates.emplace_back(bound, static_cast<int>(i));
   }
@@ -75,8 +75,9 @@ bool CollisionWorld::Clears(const CollisionShape& body, const Eigen::Isometry3d&
   const Eigen::Vector3d center_W = X_WB * body.center();
   const double reach = body.radius() + clearance;
   for (size_t i = 0; i < bounds_.size(); ++i) {
-    const double distance = DistanceToBox(center_W, bounds_[i].lower_W, bounds_[i].upper_W);
-    if (distance >= reach && distance > 0) continue;
+    const Eigen::Vector3d gap = ToBox(center_W, bounds_[i].lower_W, bounds_[i].upper_W);
+    const double distance2 = gap.squaredNorm();
+    if (distance2 > 0 && (reach <= 0 || distance2 >= reach * reach)) continue;
     if (!ClearsAlongCached(body, X_WB, entries_[i].shape, entries_[i].X_WO, clearance,
                            &scratch->normals_W[i])) {
       return false;

@@ -9,6 +9,13 @@ namespace halfstep {
 BodyClearances::BodyClearances(const RobotModel& robot, const Scene& scene)
     : robot_(robot), world_(scene) {
   for (const RobotBody& body : robot_.bodies) shapes_.emplace_back(body.shape);
+  for (const auto& [i, j] : robot_.self_pairs) {
+    const size_t a = static_cast<size_t>(i), b = static_cast<size_t>(j);
+    const int leg_a = robot_.bodies[a].leg, leg_b = robot_.bodies[b].leg;
+    const bool both = leg_a >= 0 && leg_b >= 0 && leg_a != leg_b;
+    const int legs = !both ? 0 : leg_a == Index(Side::kLeft) ? 1 : -1;
+    quick_.push_back({a, b, shapes_[a].radius() + shapes_[b].radius(), legs});
+  }
 }
 
 BodyClearances::Scratch BodyClearances::MakeScratch() const {
@@ -35,13 +42,21 @@ void BodyClearances::Place(const Posture& posture, Scratch* scratch) const {
   }
 }
 
-double BodyClearances::QuickBound(size_t a, size_t b, const Scratch& scratch) const {
-  const double spheres = (scratch.centers_W[a] - scratch.centers_W[b]).norm() -
-                         shapes_[a].radius() - shapes_[b].radius();
-  const int leg_a = robot_.bodies[a].leg, leg_b = robot_.bodies[b].leg;
-  if (leg_a < 0 || leg_b < 0 || leg_a == leg_b) return spheres;
-  const double gap = scratch.lateral[a] - scratch.lateral[b];
-  return std::max(spheres, leg_a == Index(Side::kLeft) ? gap : -gap);
+double BodyClearances::QuickBound(size_t pair, const Scratch& scratch) const {
+  const Quick& quick = quick_[pair];
+  const double spheres =
+      (scratch.centers_W[quick.a] - scratch.centers_W[quick.b]).norm() - quick.radii;
+  if (quick.legs == 0) return spheres;
+  return std::max(spheres, quick.legs * (scratch.lateral[quick.a] - scratch.lateral[quick.b]));
+}
+
+bool BodyClearances::QuickClears(size_t pair, double clearance, const Scratch& scratch) const {
+  const Quick& quick = quick_[pair];
+  const double gap = quick.legs * (scratch.lateral[quick.a] - scratch.lateral[quick.b]);
+  if (quick.legs != 0 && gap >= clearance) return true;
+  const double apart = quick.radii + clearance;
+  const double distance2 = (scratch.centers_W[quick.a] - scratch.centers_W[quick.b]).squaredNorm();
+  return apart <= 0.0 || distance2 >= apart * apart;
 }
 
 bool BodyClearances::BodyClears(size_t body, const Posture& posture, double clearance,
@@ -53,9 +68,9 @@ bool BodyClearances::BodyClears(size_t body, const Posture& posture, double clea
 
 bool BodyClearances::PairClears(size_t pair, const Posture& posture, double clearance,
                                 Scratch* scratch) const {
+  if (QuickClears(pair, clearance, *scratch)) return true;
   const auto [i, j] = robot_.self_pairs[pair];
   const size_t a = static_cast<size_t>(i), b = static_cast<size_t>(j);
-  if (QuickBound(a, b, *scratch) >= clearance) return true;
   ++scratch->queries;
   return ClearsAlongCached(shapes_[a], posture.OfBody(robot_.bodies[a]), shapes_[b],
                            posture.OfBody(robot_.bodies[b]), clearance,
@@ -93,9 +108,8 @@ Margin BodyClearances::OfBody(size_t body, const Posture& posture, double horizo
 Margin BodyClearances::OfPair(size_t pair, const Posture& posture, double horizon,
                               Scratch* scratch) const {
   const auto [i, j] = robot_.self_pairs[pair];
-  const size_t a = static_cast<size_t>(i), b = static_cast<size_t>(j);
   Margin margin{.family = MarginFamily::kSelfClearance, .value = horizon, .subject = i, .other = j};
-  if (QuickBound(a, b, *scratch) >= horizon) return margin;
+  if (QuickBound(pair, *scratch) >= horizon) return margin;
   margin.value = std::min(horizon, SeparationOf(pair, posture, scratch).distance);
   return margin;
 }

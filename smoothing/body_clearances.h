@@ -47,11 +47,6 @@ class BodyClearances {
   CollisionWorld::Nearest NearestTo(size_t body, const Posture& posture, double horizon,
                                     Scratch* scratch) const;
   Separation SeparationOf(size_t pair, const Posture& posture, Scratch* scratch) const;
-  /// A cheap lower bound of a pair's distance [m].
-  double PairBound(size_t pair, const Scratch& scratch) const {
-    const auto [i, j] = robot_.self_pairs[pair];
-    return QuickBound(static_cast<size_t>(i), static_cast<size_t>(j), scratch);
-  }
 
   /// The first clearance found below what is demanded: obstacles [m], then self pairs [m].
   std::optional<Margin> FirstBelow(const Posture& posture, double obstacle_clearance,
@@ -61,11 +56,20 @@ class BodyClearances {
   Margin NearestPair(const Posture& posture, double horizon, Scratch* scratch) const;
 
  private:
-  // A lower bound of the distance of a pair, from Place's numbers alone [m].
-  double QuickBound(size_t a, size_t b, const Scratch& scratch) const;
+  // A lower bound of the distance of a pair, from Place's numbers alone [m]; whether it tells that
+  // a pair keeps a clearance [m].
+  double QuickBound(size_t pair, const Scratch& scratch) const;
+  bool QuickClears(size_t pair, double clearance, const Scratch& scratch) const;
+
+  struct Quick {
+    size_t a, b;
+    double radii;  // of both spheres [m]
+    int legs;      // 1: a is of the left leg, b of the right one; −1: the other way; 0: else
+  };
 
   const RobotModel& robot_;
   CollisionWorld world_;
+  std::vector<Quick> quick_;            // of each pair
   std::vector<CollisionShape> shapes_;  // of the robot's bodies
 };
 

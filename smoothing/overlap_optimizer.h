@@ -22,8 +22,8 @@ struct OptimizerOptions {
   int random_starts = 0;      ///< and from random points of the variables' box
   unsigned seed = 1;          ///< of the random starts
   int rounds = 40;  ///< ≥ 1: solves from each start, with more instants and sharper rows
-  /// Per half-step at which the program looks; 0: what suits the solver, 24 of `halfstep/sqp`, those
-  /// of `program` of others.
+  /// Per half-step at which the program looks; 0: what suits the solver, 24 of `halfstep/sqp`,
+  /// those of `program` of others.
   int instants = 0;
   /// Of the solver in a round; 0: what suits it, 3 of `halfstep/sqp`, 30 of others. NLopt tells
   /// none.
