@@ -111,6 +111,20 @@ TEST(Sqp, WithoutMemoryItSolvesLinearProgramsOnly) {
   EXPECT_TRUE(solution.feasible);
 }
 
+TEST(Sqp, ABoundOnThePenaltyIsKeptAndViolatedRowsAreNoSuccess) {
+  opt::SolverOptions options;
+  options.solver_options["penalty"] = options.solver_options["most_penalty"] = "1e-6";
+  const auto solver = opt::MakeSolver("halfstep/sqp");
+  const ProblemCard card = Hs65();
+  const opt::Solution cheap = solver->Solve(card.problem, card.problem.initial(), options);
+  EXPECT_GT(cheap.final_violation, 1.0) << cheap.BriefReport();
+  EXPECT_NE(cheap.status, opt::SolveStatus::kConverged);
+  options.solver_options["most_penalty"] = "1e8";  // may grow
+  const opt::Solution grown = solver->Solve(card.problem, card.problem.initial(), options);
+  EXPECT_LT(grown.final_violation, 1e-4) << grown.BriefReport();
+  EXPECT_NEAR(grown.cost, card.optimum, 1e-4);
+}
+
 TEST(BoxTransform, StaysInsideAndInverts) {
   const opt::BoxTransform box(Vector({-1, -kInfinity, 2, -kInfinity, 3}),
                               Vector({4, kInfinity, kInfinity, 5, 3}));

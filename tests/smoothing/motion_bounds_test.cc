@@ -177,7 +177,7 @@ double Median(std::vector<double> values) {
 
 TEST(MotionBounds, AreTightOnShortIntervals) {
   const Tightness tightness = CompareSups(0.02);
-  ASSERT_GT(tightness.intervals, 50);
+  ASSERT_GT(tightness.intervals, Draws(100));
   EXPECT_GE(tightness.bounded, 0.99 * static_cast<double>(tightness.intervals));
   EXPECT_LT(Median(tightness.bodies), 1.2);
   EXPECT_LT(Median(tightness.joints), 1.4);
@@ -185,7 +185,7 @@ TEST(MotionBounds, AreTightOnShortIntervals) {
 
 TEST(MotionBounds, ExistOnLongIntervals) {
   const Tightness tightness = CompareSups(0.05);
-  ASSERT_GT(tightness.intervals, 50);
+  ASSERT_GT(tightness.intervals, Draws(100));
   EXPECT_GE(tightness.bounded, 0.95 * static_cast<double>(tightness.intervals));
   EXPECT_LT(Median(tightness.bodies), 1.5);
   EXPECT_LT(Median(tightness.joints), 2.0);
