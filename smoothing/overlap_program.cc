@@ -111,7 +111,7 @@ Eigen::VectorXd Pulled(const OverlapVariables& variables, const ParameterGradien
   return pulled;
 }
 
-// `safest`: D stays within its limit.
+// `safest`: D stays within its limit, by a little more than solvers exceed their rows.
 class DurationRow : public opt::ConstraintBlock {
  public:
   explicit DurationRow(const OverlapProgram& program) : program_(program) {
@@ -129,7 +129,8 @@ class DurationRow : public opt::ConstraintBlock {
     return Eigen::VectorXd::Constant(1, -std::numeric_limits<double>::infinity());
   }
   Eigen::VectorXd upper() const override {
-    return Eigen::VectorXd::Constant(1, program_.duration_limit());
+    constexpr double kReserve = 1e-4;
+    return Eigen::VectorXd::Constant(1, (1.0 - kReserve) * program_.duration_limit());
   }
   void Evaluate(const Eigen::VectorXd& x, Eigen::Ref<Eigen::VectorXd> values) const override {
     values[0] = DurationOf(program_.ToParameters(x));
