@@ -53,8 +53,12 @@ Stationarity EstimateMultipliers(const Problem& problem, const Eigen::VectorXd& 
     const auto [least, most] = Signs(x[j], problem.lower()[j], problem.upper()[j], activity);
     active.push_back({&result.bound_multipliers[j], least, most, 1.0, {{j, 1.0}}});
   }
-  std::erase_if(active, [](const Active& a) {
-    return (a.least == 0.0 && a.most == 0.0) || !(a.square > 0.0);
+  // A derivative of rounding alone would get any multiplier.
+  constexpr double kRounding = 1e-9;
+  double steepest = 0.0;
+  for (const Active& a : active) steepest = std::max(steepest, a.square);
+  std::erase_if(active, [&](const Active& a) {
+    return (a.least == 0.0 && a.most == 0.0) || !(a.square > kRounding * kRounding * steepest);
   });
 
   const double scale = std::max(1.0, gradient.lpNorm<Eigen::Infinity>());

@@ -40,6 +40,19 @@ TEST(Stationarity, SignsFollowTheActiveSide) {
   EXPECT_EQ(there.bound_multipliers[2], 0.0);
 }
 
+// A statement near its limit that no variable moves: what differences of roundings are left of its
+// derivatives explain nothing.
+TEST(Stationarity, ARowWithoutSlopeGetsNoMultiplier) {
+  const ProblemCard card = Hs36();
+  const Eigen::VectorXd x = Vector({20, 11, 15});
+  std::vector<double> jacobian = card.problem.Jacobian(x);
+  for (double& derivative : jacobian) derivative *= 1e-13;
+  const opt::Stationarity there = opt::EstimateMultipliers(
+      card.problem, x, card.problem.Gradient(x), card.problem.Constraints(x), jacobian);
+  EXPECT_EQ(there.multipliers[0], 0.0);
+  EXPECT_GT(there.residual, 0.1);
+}
+
 TEST(Stationarity, AWrongSignIsNoMultiplier) {
   // Minimizing x on x ≥ 0 is stationary at 0; maximizing is not.
   for (const double sign : {1.0, -1.0}) {
