@@ -17,7 +17,7 @@ using Eigen::Vector3d;
 constexpr double kSameDirection = 0.9986;
 
 // Placements stand for at most this long [s]: longer ones would all be inflated to the limit.
-constexpr double kLongest = 0.006;
+constexpr double kLongest = 0.008;
 
 Eigen::Matrix3Xd Directions(const ConvexBody& body) {
   std::vector<Vector3d> all;
