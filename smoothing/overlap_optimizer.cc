@@ -166,8 +166,9 @@ class Optimization {
     solver_options.stop = stop_;
     solver_options.optimality_tolerance = 1e-4;
     solver_options.warm_start = solution_.warm_start;
-    // Nearly linear: what curvature a few steps show of it does more harm than good. A row costs
-    // less than one second a second: a small penalty is exact, and does not jam.
+    // Nearly linear: what curvature a few steps show of it does more harm than good. Nor does a
+    // small penalty jam at curved rows; where it is not exact, proofs refuse what it leaves
+    // violated.
     if (Sqp() && options_.program.kind != ProgramKind::kSmooth) {
       solver_options.solver_options["memory"] = "0";
       solver_options.solver_options["penalty"] = "2";
