@@ -44,9 +44,13 @@ int IntervalStatements::CountOf(MarginFamily family) const {
       return static_cast<int>(evaluator_.clearances().num_bodies());
     case MarginFamily::kSelfClearance:
       return static_cast<int>(evaluator_.clearances().num_pairs());
-    default:
+    case MarginFamily::kFloor:
+    case MarginFamily::kFootSpeed:
+    case MarginFamily::kFootYawRate:
+    case MarginFamily::kZmp:
       return 1;
   }
+  return 0;
 }
 
 void IntervalStatements::Tightest::Add(const Margin& added, double change) {
@@ -132,8 +136,9 @@ IntervalStatements::Tightest IntervalStatements::Scalar(MarginFamily family,
         }
       }
       break;
-    default:
-      break;
+    case MarginFamily::kSelfClearance:
+    case MarginFamily::kClearance:
+      break;  // body by body and pair by pair, in Prove
   }
   return tightest;
 }

@@ -20,9 +20,13 @@ long CountOf(Family family, const RobotModel& robot) {
       return std::ssize(robot.self_pairs);
     case kClearance:
       return std::ssize(robot.bodies);
-    default:
+    case kFloor:
+    case kFootSpeed:
+    case kFootYawRate:
+    case kZmp:
       return 1;
   }
+  return 0;
 }
 
 // What is wrong with a row by itself; "": nothing.

@@ -128,9 +128,13 @@ class Claims {
         return ReachMargin(motion_, row, s.first);
       case kJoint:
         return JointMargin(robot_, row, s.first, s.second);
-      default:
+      case kJointSpeed:
         return JointSpeedMargin(motion_, i, s.first, s.second, certificate_.joint_speed_scale);
+      case kSelfClearance:
+      case kClearance:
+        break;  // OfDistance
     }
+    return std::nan("");
   }
 
   std::string OfScalar(const ClaimRow& row, Subject subject) const {
