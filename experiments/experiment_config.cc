@@ -301,9 +301,15 @@ std::vector<KeyDescription> ConfigKeys() {
 }
 
 ExperimentConfig LoadConfig(const std::string& path, const std::vector<YamlOverride>& overrides) {
+  return ParseConfig(path, ReadYamlFile(path), overrides);
+}
+
+ExperimentConfig ParseConfig(const std::string& path, const std::string& text,
+                             const std::vector<YamlOverride>& overrides) {
+  const std::filesystem::path file(path);
   ExperimentConfig config;
-  config.name = std::filesystem::path(path).stem().string();
-  ReadYaml(path, overrides, [&](Fields& fields) {
+  config.name = file.stem().string();
+  ReadYamlText(text, path, file.parent_path().string(), overrides, [&](Fields& fields) {
     DeclareFields(fields, &config);
     config.directory = fields.directory();
     DeclareFilesThere(fields, config);

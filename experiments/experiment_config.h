@@ -80,5 +80,8 @@ std::vector<KeyDescription> ConfigKeys();
 
 /// Reads a config file strictly. Throws InputError with every complaint at once.
 ExperimentConfig LoadConfig(const std::string& path, const std::vector<YamlOverride>& overrides);
+/// The same of a config file's text.
+ExperimentConfig ParseConfig(const std::string& path, const std::string& text,
+                             const std::vector<YamlOverride>& overrides);
 
 }  // namespace halfstep

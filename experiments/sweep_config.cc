@@ -7,7 +7,7 @@
 
 #include "experiments/experiment_config.h"
 #include "experiments/folder_name.h"
-#include "experiments/manifest.h"
+#include "planner/checked_file.h"
 #include "wpg/input/input_error.h"
 #include "wpg/input/number_text.h"
 #include "wpg/input/text.h"
@@ -186,7 +186,7 @@ std::vector<SweepCase> SweepCases(const SweepConfig& config) {
   for (size_t i = 0; i < cases.size(); ++i) {
     std::array<char, 24> number{};
     std::snprintf(number.data(), number.size(), "%04zu-", i + 1);
-    cases[i].id = number.data() + Sha256(OverrideText(cases[i])).substr(0, 8);
+    cases[i].id = number.data() + HexSha256(OverrideText(cases[i])).substr(0, 8);
   }
   return cases;
 }
@@ -201,9 +201,15 @@ std::string OverrideText(const SweepCase& one) {
 
 SweepConfig LoadSweep(const std::string& path, const std::vector<YamlOverride>& overrides,
                       bool check) {
+  return ParseSweep(path, ReadYamlFile(path), overrides, check);
+}
+
+SweepConfig ParseSweep(const std::string& path, const std::string& text,
+                       const std::vector<YamlOverride>& overrides, bool check) {
+  const std::filesystem::path file(path);
   SweepConfig config;
-  config.name = std::filesystem::path(path).stem().string();
-  ReadYaml(path, overrides, [&](Fields& fields) {
+  config.name = file.stem().string();
+  ReadYamlText(text, path, file.parent_path().string(), overrides, [&](Fields& fields) {
     DeclareFields(fields, &config);
     config.directory = fields.directory();
     std::error_code ignored;

@@ -91,6 +91,13 @@ CheckedFile ReadCheckedFile(const std::string& path, std::string_view header) {
   std::string bytes(size, '\0');
   file.read(bytes.data(), static_cast<std::streamsize>(size));
   if (!file) return refuse("it cannot be read");
+  return ParseCheckedFile(path, std::move(bytes), header);
+}
+
+CheckedFile ParseCheckedFile(const std::string& path, std::string bytes, std::string_view header) {
+  const auto refuse = [&](const std::string& why) {
+    return CheckedFile{std::nullopt, path + ": refused: " + why};
+  };
   const size_t before_header = kMagic.size() + sizeof(uint64_t);
   const std::string_view all = bytes;
   if (all.size() < before_header + kDigest) return refuse("it is cut short");

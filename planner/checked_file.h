@@ -20,6 +20,8 @@ struct CheckedFile {
 /// Reads a file whose header must be `header`. Anything else is refused, never thrown: another
 /// header (the first line that differs is told), a file that is cut or changed in any bit.
 CheckedFile ReadCheckedFile(const std::string& path, std::string_view header);
+/// The same of a file's bytes.
+CheckedFile ParseCheckedFile(const std::string& path, std::string bytes, std::string_view header);
 
 /// As WriteWhole. Throws std::runtime_error with the system's reason.
 void WriteCheckedFile(const std::string& path, std::string_view header, std::string_view body);

@@ -164,11 +164,16 @@ TriangleMesh FacesOf(const ConvexBody& body) {
 }
 
 Scene LoadScene(const std::string& yaml_path) {
+  return ParseScene(yaml_path, ReadYamlFile(yaml_path));
+}
+
+Scene ParseScene(const std::string& yaml_path, const std::string& text) {
+  const std::filesystem::path path(yaml_path);
   Scene scene;
   std::vector<ObstacleFields> obstacles;
   std::vector<NoStepFields> areas;
   std::map<std::string, std::string> obstacle_names, area_names;
-  ReadYaml(yaml_path, {}, [&](Fields& fields) {
+  ReadYamlText(text, yaml_path, path.parent_path().string(), {}, [&](Fields& fields) {
     DeclareName(fields, &scene.name, false, "", nullptr);
     fields.List("obstacles", {.meaning = "bodies in the way"}, &obstacles,
                 [&](Fields& item, ObstacleFields* obstacle) {
@@ -185,7 +190,7 @@ Scene LoadScene(const std::string& yaml_path) {
                   DeclareNoStep(item, area);
                 });
   });
-  if (scene.name.empty()) scene.name = std::filesystem::path(yaml_path).stem().string();
+  if (scene.name.empty()) scene.name = path.stem().string();
   scene.files = {yaml_path};
   for (ObstacleFields& from : obstacles) {
     scene.obstacles.push_back({from.name, MakeShape(&from), MakePose(from.xyz, from.rpy)});

@@ -39,5 +39,7 @@ struct Scene {
 /// Reads experiments/scenes/*.yaml (format: planner/README.md, "Scenes"). The name defaults to the
 /// file's, without its extension. Throws InputError with every complaint, also about mesh files.
 Scene LoadScene(const std::string& yaml_path);
+/// The same of the scene file's text.
+Scene ParseScene(const std::string& yaml_path, const std::string& text);
 
 }  // namespace halfstep

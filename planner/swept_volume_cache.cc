@@ -1,10 +1,8 @@
 #include "planner/swept_volume_cache.h"
 
 #include <cmath>
-#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <mutex>
 #include <string_view>
@@ -12,13 +10,13 @@
 #include <vector>
 
 #include "planner/checked_file.h"
+#include "planner/swept_volume_bytes.h"
 
 namespace halfstep {
 namespace {
 
 constexpr int kFormat = 1;     // of the file: change when the bytes change
 constexpr int kGenerator = 3;  // change when the same input bakes another volume
-constexpr uint32_t kNone = 0xffffffff;
 
 std::string Exactly(double value) {
   char text[40];
@@ -62,66 +60,8 @@ std::string RobotText(const RobotModel& robot) {
   return text;
 }
 
-class Reader {
- public:
-  explicit Reader(std::string_view bytes) : rest_(bytes) {}
-
-  template <typename T>
-  bool Take(T* values, size_t count) {
-    static_assert(std::is_trivially_copyable_v<T>);
-    if (count > rest_.size() / sizeof(T)) return false;
-    if (count > 0) std::memcpy(values, rest_.data(), count * sizeof(T));
-    rest_.remove_prefix(count * sizeof(T));
-    return true;
-  }
-  bool Holds(size_t bytes) const { return bytes <= rest_.size(); }
-  bool AtEnd() const { return rest_.empty(); }
-
- private:
-  std::string_view rest_;
-};
-
-bool TakeVolume(Reader* reader, double cell, std::optional<BoxTree>* volume) {
-  uint32_t nodes = 0, parts = 0;
-  if (!reader->Take(&nodes, 1)) return false;
-  volume->reset();
-  if (nodes == kNone) return true;
-  BoxTree tree;
-  tree.cell = cell;
-  if (!reader->Take(&parts, 1) || !reader->Take(tree.origin.data(), 3)) return false;
-  if (!reader->Holds(size_t{parts} * sizeof(double) * 3)) return false;
-  tree.parts.resize(parts);
-  for (Eigen::Vector3d& part : tree.parts) {
-    if (!reader->Take(part.data(), 3) || !part.allFinite()) return false;
-  }
-  if (!reader->Holds(size_t{nodes} * sizeof(BoxNode))) return false;
-  tree.nodes.resize(nodes);
-  if (!reader->Take(tree.nodes.data(), nodes)) return false;
-  if (!tree.origin.allFinite() || !tree.IsSound()) return false;
-  *volume = std::move(tree);
-  return true;
-}
-
-template <typename T>
-void AppendBytes(const T* values, size_t count, std::string* bytes) {
-  if (count > 0) bytes->append(reinterpret_cast<const char*>(values), count * sizeof(T));
-}
-
 std::string PartHeader(const std::string& provenance, int element) {
   return provenance + "element " + std::to_string(element) + "\n";
-}
-
-// Whether all volumes were read; `volumes` then holds them.
-bool ReadAll(std::string_view body, double cell, SweptVolumes* volumes) {
-  Reader reader(body);
-  const size_t size = static_cast<size_t>(volumes->set.size());
-  volumes->down.resize(size);
-  volumes->up.resize(size);
-  for (size_t i = 0; i < size; ++i) {
-    if (!TakeVolume(&reader, cell, &volumes->down[i])) return false;
-    if (!TakeVolume(&reader, cell, &volumes->up[i])) return false;
-  }
-  return reader.AtEnd();
 }
 
 }  // namespace
@@ -161,19 +101,6 @@ std::string SweptVolumeProvenance(const RobotModel& robot, const Lipm& lipm, con
   return text;
 }
 
-std::string VolumeBytes(const std::optional<BoxTree>& volume) {
-  std::string bytes;
-  const uint32_t nodes = volume ? static_cast<uint32_t>(volume->nodes.size()) : kNone;
-  AppendBytes(&nodes, 1, &bytes);
-  if (!volume) return bytes;
-  const uint32_t parts = static_cast<uint32_t>(volume->parts.size());
-  AppendBytes(&parts, 1, &bytes);
-  AppendBytes(volume->origin.data(), 3, &bytes);
-  for (const Eigen::Vector3d& part : volume->parts) AppendBytes(part.data(), 3, &bytes);
-  AppendBytes(volume->nodes.data(), volume->nodes.size(), &bytes);
-  return bytes;
-}
-
 std::string PartPath(const std::string& cache_path, int element) {
   return cache_path + ".parts/" + std::to_string(element);
 }
@@ -190,9 +117,13 @@ CachedVolumes LoadOrBakeSweptVolumes(const RobotModel& robot, const Lipm& lipm,
     CheckedFile file = ReadCheckedFile(result.path, provenance);
     result.refused = file.refused;
     if (file.body) {
-      SweptVolumes volumes{.set = set, .down = {}, .up = {}};
-      if (ReadAll(*file.body, options.cell, &volumes)) {
-        result.volumes = std::move(volumes);
+      const size_t size = static_cast<size_t>(set.size());
+      if (auto volumes = ParseVolumes(*file.body, 2 * size, options.cell)) {
+        result.volumes = {.set = set, .down = {}, .up = {}};
+        for (size_t i = 0; i < size; ++i) {
+          result.volumes->down.push_back(std::move((*volumes)[2 * i]));
+          result.volumes->up.push_back(std::move((*volumes)[2 * i + 1]));
+        }
         return result;
       }
       result.refused = result.path + ": refused: its volumes make no sense";
@@ -213,13 +144,9 @@ CachedVolumes LoadOrBakeSweptVolumes(const RobotModel& robot, const Lipm& lipm,
   hooks.recall = [&](int i) -> std::optional<ElementVolumes> {
     const CheckedFile part = ReadCheckedFile(PartPath(result.path, i), PartHeader(provenance, i));
     if (!part.body) return std::nullopt;
-    Reader reader(*part.body);
-    ElementVolumes element;
-    if (!TakeVolume(&reader, options.cell, &element.down) ||
-        !TakeVolume(&reader, options.cell, &element.up) || !reader.AtEnd()) {
-      return std::nullopt;
-    }
-    return element;
+    auto volumes = ParseVolumes(*part.body, 2, options.cell);
+    if (!volumes) return std::nullopt;
+    return ElementVolumes{std::move((*volumes)[0]), std::move((*volumes)[1])};
   };
   hooks.keep = [&](int i, const ElementVolumes& element) {
     try_to_write(PartPath(result.path, i), PartHeader(provenance, i),

@@ -34,9 +34,6 @@ CachedVolumes LoadOrBakeSweptVolumes(const RobotModel& robot, const Lipm& lipm,
                                      const HalfStepSet& set, const SweptVolumeOptions& options,
                                      const std::string& folder, BakeHooks hooks = {});
 
-/// A volume as the files hold it; equal volumes have equal bytes.
-std::string VolumeBytes(const std::optional<BoxTree>& volume);
-
 /// Where one element's part file is, while the bake is under way.
 std::string PartPath(const std::string& cache_path, int element);
 

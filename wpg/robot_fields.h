@@ -11,6 +11,8 @@
 
 namespace halfstep {
 
+struct RobotModel;
+
 /// The foot of one leg.
 struct LegFile {
   std::string foot_link;
@@ -42,5 +44,10 @@ struct RobotFile {
 /// Declares the keys of a robot file (wpg/README.md, "Robots") and reads the URDF on the way, since
 /// joints, links and packages are keys and choices. Throws InputError for a bad URDF.
 void DeclareFields(Fields& fields, RobotFile* file);
+
+/// LoadRobot of a robot file's text; `urdf`, unless it is null, is taken in place of the file that
+/// the text names.
+RobotModel ParseRobot(const std::string& yaml_path, const std::string& text,
+                      const UrdfTree* urdf = nullptr);
 
 }  // namespace halfstep

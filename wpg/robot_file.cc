@@ -1,5 +1,6 @@
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <numbers>
 #include <optional>
 
@@ -178,13 +179,20 @@ class Builder {
 }  // namespace
 
 RobotModel LoadRobot(const std::string& yaml_path) {
+  return ParseRobot(yaml_path, ReadYamlFile(yaml_path));
+}
+
+RobotModel ParseRobot(const std::string& yaml_path, const std::string& text, const UrdfTree* urdf) {
+  const std::string directory = std::filesystem::path(yaml_path).parent_path().string();
   RobotFile file;
-  ReadYaml(yaml_path, {}, [&file](Fields& fields) { DeclareFields(fields, &file); });
+  if (urdf != nullptr) file.urdf = *urdf;
+  ReadYamlText(text, yaml_path, directory, {},
+               [&file](Fields& fields) { DeclareFields(fields, &file); });
   // Every key is valid by itself. The second reading is for complaints about how they go together,
   // at their places.
   RobotModel model;
   Complaints of_urdf;
-  ReadYaml(yaml_path, {}, [&](Fields& fields) {
+  ReadYamlText(text, yaml_path, directory, {}, [&](Fields& fields) {
     DeclareFields(fields, &file);
     model = Builder(file, fields, &of_urdf).Build();
   });

@@ -159,8 +159,9 @@ std::vector<Isometry3d> UrdfTree::LinkPoses(const std::vector<double>& q) const 
   return X;
 }
 
-UrdfTree ReadUrdf(const std::string& path) {
-  const std::string text = ReadText(path);
+UrdfTree ReadUrdf(const std::string& path) { return ParseUrdf(path, ReadText(path)); }
+
+UrdfTree ParseUrdf(const std::string& path, const std::string& text) {
   Complaints complaints;
   const UrdfPlaces places = CheckUrdf(text, path, &complaints);
   complaints.ThrowIfAny();

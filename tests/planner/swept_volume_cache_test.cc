@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "planner/checked_file.h"
+#include "planner/swept_volume_bytes.h"
 #include "tests/planner/swept_volume_draws.h"
 
 namespace halfstep {

@@ -23,6 +23,17 @@ constexpr size_t kStlHeader = 80, kStlStart = 84, kStlTriangle = 50;
   throw InputError(complaints.lines());
 }
 
+// ".stl" or ".obj".
+std::string ExtensionOf(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (extension != ".stl" && extension != ".obj") {
+    Refuse(path, "unknown kind of mesh (valid: .stl, .obj)");
+  }
+  return extension;
+}
+
 std::string ReadWhole(const std::string& path) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) {
@@ -61,13 +72,12 @@ bool IsBinaryStl(const std::string& bytes) {
 }  // namespace
 
 LoadedMesh LoadMesh(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (extension != ".stl" && extension != ".obj") {
-    Refuse(path, "unknown kind of mesh (valid: .stl, .obj)");
-  }
-  const std::string bytes = ReadWhole(path);
+  (void)ExtensionOf(path);  // complains before anything is read
+  return ParseMesh(path, ReadWhole(path));
+}
+
+LoadedMesh ParseMesh(const std::string& path, const std::string& bytes) {
+  const std::string extension = ExtensionOf(path);
   if (bytes.empty()) Refuse(path, "is empty");
   const LoadedMesh mesh = extension == ".obj"  ? ReadObj(path, bytes)
                           : IsBinaryStl(bytes) ? ReadBinaryStl(path, bytes)

@@ -24,7 +24,11 @@ struct YamlOverride {
 /// Numbers are decimal and without quotes; what `declare` wrote is meaningless after a throw.
 void ReadYaml(const std::string& path, const std::vector<YamlOverride>& overrides,
               const std::function<void(Fields&)>& declare);
-/// The same for text; `name` stands for the file in complaints, `directory` for its folder.
+/// The text of a YAML file, for ReadYamlText. Throws InputError as ReadYaml for what cannot be
+/// read.
+std::string ReadYamlFile(const std::string& path);
+/// The same as ReadYaml for text; `name` stands for the file in complaints, `directory` for its
+/// folder.
 void ReadYamlText(const std::string& text, const std::string& name, const std::string& directory,
                   const std::vector<YamlOverride>& overrides,
                   const std::function<void(Fields&)>& declare);
