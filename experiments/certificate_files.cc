@@ -1,12 +1,11 @@
 #include "experiments/certificate_files.h"
 
-#include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "experiments/csv_writer.h"
-#include "experiments/manifest.h"
+#include "planner/checked_file.h"
 
 namespace halfstep {
 namespace {
@@ -91,8 +90,8 @@ std::string CertificateJson(const Experiment& experiment, const CertifiedFeasibi
       {"robot", std::filesystem::proximate(RobotPath(experiment.config), run_folder).string()},
       {"scene", scene ? std::filesystem::proximate(*scene, run_folder).string() : "none"},
       {"sha256",
-       {{"trajectory.csv", Sha256(trajectory_csv)},
-        {"certificate.csv", Sha256(certificate_csv)},
+       {{"trajectory.csv", HexSha256(trajectory_csv)},
+        {"certificate.csv", HexSha256(certificate_csv)},
         {"robot", HashOfFiles(experiment.robot.files)},
         {"scene", HashOfFiles(experiment.scene.files)}}}};
   return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
@@ -113,12 +112,7 @@ std::string HashOfFiles(const std::vector<std::string>& files) {
     std::ifstream in(file, std::ios::binary);
     bytes.append(std::istreambuf_iterator<char>(in), {});
   }
-  return Sha256(bytes);
-}
-
-std::string MethodFolder(std::string method) {
-  std::replace(method.begin(), method.end(), '/', '_');
-  return method;
+  return HexSha256(bytes);
 }
 
 }  // namespace halfstep

@@ -45,7 +45,4 @@ void WriteCertificate(const Experiment& experiment, const CertifiedFeasibility& 
 /// and of the scene's.
 std::string HashOfFiles(const std::vector<std::string>& files);
 
-/// dichotomy/published is a method's name; its folder in a run is dichotomy_published.
-std::string MethodFolder(std::string method);
-
 }  // namespace halfstep

@@ -6,6 +6,7 @@
 #include "experiments/commands.h"
 #include "experiments/csv_reader.h"
 #include "experiments/experiment.h"
+#include "experiments/folder_name.h"
 #include "experiments/interrupt.h"
 #include "experiments/report/report.h"
 #include "experiments/result_tables.h"

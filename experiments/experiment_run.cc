@@ -1,5 +1,6 @@
 #include "experiments/experiment_run.h"
 
+#include "experiments/folder_name.h"
 #include "experiments/manifest.h"
 #include "experiments/methods.h"
 #include "smoothing/explain.h"

@@ -8,6 +8,7 @@
 #include "experiments/commands.h"
 #include "experiments/csv_subset.h"
 #include "experiments/experiment.h"
+#include "experiments/folder_name.h"
 #include "experiments/hrpsys_files.h"
 #include "experiments/ompl_log.h"
 #include "experiments/result_tables.h"

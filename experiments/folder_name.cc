@@ -1,5 +1,7 @@
 #include "experiments/folder_name.h"
 
+#include <algorithm>
+
 #include "wpg/input/text.h"
 
 namespace halfstep {
@@ -13,6 +15,11 @@ void CheckName(Fields& fields, const std::string& name) {
   if (const std::string mistake = NameMistake(name); !mistake.empty()) {
     fields.Complain("name", mistake);
   }
+}
+
+std::string MethodFolder(std::string method) {
+  std::replace(method.begin(), method.end(), '/', '_');
+  return method;
 }
 
 }  // namespace halfstep

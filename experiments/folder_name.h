@@ -10,4 +10,7 @@ namespace halfstep {
 /// for something else.
 void CheckName(Fields& fields, const std::string& name);
 
+/// dichotomy/published is a method's name; its folder in a run is dichotomy_published.
+std::string MethodFolder(std::string method);
+
 }  // namespace halfstep

@@ -1,6 +1,5 @@
 #include "experiments/manifest.h"
 
-#include <openssl/evp.h>
 #include <sys/utsname.h>
 
 #include <array>
@@ -13,6 +12,7 @@
 
 #include "experiments/build_info.h"
 #include "experiments/methods.h"
+#include "planner/checked_file.h"
 #include "smoothing/sampled_feasibility.h"
 
 namespace halfstep {
@@ -40,7 +40,7 @@ ordered_json Host() {
 
 std::string FileSha256(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
-  return Sha256(std::string(std::istreambuf_iterator<char>(file), {}));
+  return HexSha256(std::string(std::istreambuf_iterator<char>(file), {}));
 }
 
 // The options that a method was asked to work with; `raw` has none.
@@ -87,19 +87,6 @@ ordered_json MethodJson(const MethodRun& run, const SmoothingConfig& config) {
 
 }  // namespace
 
-std::string Sha256(const std::string& text) {
-  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
-  unsigned int size = 0;
-  EVP_Digest(text.data(), text.size(), digest.data(), &size, EVP_sha256(), nullptr);
-  constexpr std::string_view kDigits = "0123456789abcdef";
-  std::string hex;
-  for (unsigned int i = 0; i < size; ++i) {
-    hex += kDigits[digest[i] >> 4];
-    hex += kDigits[digest[i] & 15];
-  }
-  return hex;
-}
-
 std::string ManifestJson(const Experiment& experiment, const std::string& resolved_config,
                          const std::string& acceptance, const std::vector<MethodRun>& runs,
                          double total_wall) {
@@ -111,7 +98,7 @@ std::string ManifestJson(const Experiment& experiment, const std::string& resolv
                            {"compiler", kCompiler},
                            {"written", UtcNow()},
                            {"name", experiment.config.name},
-                           {"config_sha256", Sha256(resolved_config)},
+                           {"config_sha256", HexSha256(resolved_config)},
                            {"seed", experiment.config.seed},
                            {"robot", experiment.robot.name},
                            {"robot_sha256", FileSha256(RobotPath(experiment.config))},

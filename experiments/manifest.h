@@ -15,7 +15,4 @@ std::string ManifestJson(const Experiment& experiment, const std::string& resolv
                          const std::string& acceptance, const std::vector<MethodRun>& runs,
                          double total_wall);
 
-/// Lower-case hexadecimal SHA-256 of a text.
-std::string Sha256(const std::string& text);
-
 }  // namespace halfstep

@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "experiments/certificate_files.h"
 #include "experiments/csv_reader.h"
-#include "experiments/manifest.h"
+#include "experiments/folder_name.h"
+#include "planner/checked_file.h"
 #include "wpg/input/input_error.h"
 #include "wpg/input/text.h"
 
@@ -180,7 +180,7 @@ std::string ProblemOf(const json& manifest, const fs::path& run, const fs::path&
   text += manifest.contains("scene_sha256") ? TextOf(manifest, "scene_sha256", path) : "none";
   text += Member(certificate, "demanded", claims).dump();
   text += Member(certificate, "limits", claims).dump();
-  return Sha256(text);
+  return HexSha256(text);
 }
 
 }  // namespace
@@ -204,7 +204,7 @@ RunRecord ReadRun(const std::string& argument) {
   const json& half_steps = Member(manifest, "half_steps", path);
   if (!half_steps.is_number_integer()) Refuse(path, "'half_steps' is no integer");
   record.half_steps = half_steps.get<int>();
-  record.manifest_sha256 = Sha256(text);
+  record.manifest_sha256 = HexSha256(text);
   record.problem = ProblemOf(manifest, run, path);
   record.methods = ReadSummary(run, label);
   AddRequested(manifest, path, label, &record.methods);

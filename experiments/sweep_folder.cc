@@ -11,8 +11,8 @@
 #include "experiments/csv_reader.h"
 #include "experiments/csv_writer.h"
 #include "experiments/experiment.h"
-#include "experiments/manifest.h"
 #include "experiments/sweep_tables.h"
+#include "planner/checked_file.h"
 #include "planner/whole_file.h"
 #include "wpg/input/input_error.h"
 
@@ -38,8 +38,8 @@ ordered_json FilesOf(const SweepConfig& sweep) {
   std::map<std::string, std::string> hashes;
   for (const std::vector<YamlOverride>& overrides : variants) {
     const ExperimentConfig config = LoadConfig(sweep.ConfigPath().string(), overrides);
-    hashes[config.robot] = Sha256(Content(RobotPath(config)));
-    if (const auto scene = ScenePath(config)) hashes[config.scene] = Sha256(Content(*scene));
+    hashes[config.robot] = HexSha256(Content(RobotPath(config)));
+    if (const auto scene = ScenePath(config)) hashes[config.scene] = HexSha256(Content(*scene));
   }
   return hashes;
 }
@@ -62,8 +62,8 @@ std::string Definition(const SweepConfig& sweep) {
                            {"keep", sweep.keep},
                            {"keys", keys},
                            {"cases", all.size()},
-                           {"cases_sha256", Sha256(cases)},
-                           {"config_sha256", Sha256(Content(sweep.ConfigPath()))},
+                           {"cases_sha256", HexSha256(cases)},
+                           {"config_sha256", HexSha256(Content(sweep.ConfigPath()))},
                            {"files_sha256", FilesOf(sweep)}};
   for (const auto& [library, version] : kLibraries) manifest["libraries"][library] = version;
   return manifest.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";

@@ -9,6 +9,7 @@
 #include "experiments/certificate_files.h"
 #include "experiments/commands.h"
 #include "experiments/experiment.h"
+#include "experiments/folder_name.h"
 #include "experiments/interrupt.h"
 #include "experiments/progress_bar.h"
 #include "experiments/replay/mujoco_model.h"

@@ -7,9 +7,11 @@
 #include "experiments/certificate_files.h"
 #include "experiments/certificate_statement.h"
 #include "experiments/csv_reader.h"
+#include "experiments/folder_name.h"
 #include "experiments/report/report_page.h"
 #include "experiments/report/report_place.h"
 #include "experiments/report/report_walk.h"
+#include "experiments/report/shortened.h"
 #include "smoothing/margins.h"
 #include "wpg/input/input_error.h"
 

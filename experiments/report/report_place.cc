@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 
 #include "experiments/report/drawn_mesh.h"
+#include "experiments/report/shortened.h"
 
 namespace halfstep {
 namespace {
@@ -34,12 +33,6 @@ json MeshJson(const TriangleMesh& mesh, const Eigen::Isometry3d& X) {
 }
 
 }  // namespace
-
-double Shortened(double value, int digits) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.*g", digits, value);
-  return std::strtod(text.data(), nullptr);
-}
 
 json RobotJson(const RobotModel& robot) {
   json legs = json::array(), bodies = json::array();

@@ -15,7 +15,4 @@ nlohmann::json RobotJson(const RobotModel& robot);
 /// coarser.
 nlohmann::json SceneJson(const Scene& scene);
 
-/// The double whose shortest decimal form has at most `digits` significant digits.
-double Shortened(double value, int digits = 5);
-
 }  // namespace halfstep

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "experiments/csv_reader.h"
-#include "experiments/report/report_place.h"
+#include "experiments/report/shortened.h"
 #include "wpg/input/input_error.h"
 
 namespace halfstep {

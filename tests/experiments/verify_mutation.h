@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/manifest.h"
+#include "planner/checked_file.h"
 #include "planner/scene.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/temporary_folder.h"
@@ -90,11 +90,11 @@ class TamperedRun {
       const auto of = [](const std::vector<std::string>& files) {
         std::string bytes;
         for (const std::string& file : files) bytes += ReadText(file);
-        return Sha256(bytes);
+        return HexSha256(bytes);
       };
       nlohmann::ordered_json& hashes = document["sha256"];
-      hashes["trajectory.csv"] = Sha256(ReadText(trajectory()));
-      hashes["certificate.csv"] = Sha256(ReadText(certificate()));
+      hashes["trajectory.csv"] = HexSha256(ReadText(trajectory()));
+      hashes["certificate.csv"] = HexSha256(ReadText(certificate()));
       hashes["robot"] = of(LoadRobot((place_ / "robots/hrp2.yaml").string()).files);
       hashes["scene"] = of(LoadScene(scene().string()).files);
     });
