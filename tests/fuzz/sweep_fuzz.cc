@@ -1,0 +1,23 @@
+// A sweep file, what is written back, and its cases.
+
+#include "experiments/sweep_config.h"
+#include "tests/fuzz/fuzz.h"
+
+using namespace halfstep;
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  static const std::string path = HALFSTEP_SOURCE_DIR "/experiments/sweeps/fuzz.yaml";
+  const auto write = [](SweepConfig sweep) {
+    return WriteYaml([&sweep](Fields& fields) { DeclareFields(fields, &sweep); });
+  };
+  SweepConfig sweep;
+  const std::string text = fuzz::Text(data, size);
+  if (!fuzz::Reads(path, [&] { sweep = ParseSweep(path, text, {}, /*check=*/false); })) return 0;
+  const std::string written = write(sweep);
+  fuzz::Require(write(ParseSweep(path, written, {}, false)) == written, "written and read differs",
+                written);
+  size_t values = 1;
+  for (const SweepAxis& axis : sweep.vary) values *= axis.values.size();
+  if (values <= 100) fuzz::Require(SweepCases(sweep).size() <= values, "too many cases", written);
+  return 0;
+}

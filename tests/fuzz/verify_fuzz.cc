@@ -1,0 +1,34 @@
+// What `verify` reads, and the checks that look at numbers only: the robot is loaded once, and
+// distances are not asked.
+
+#include "experiments/verify/check_certificate.h"
+#include "experiments/verify/check_rows.h"
+#include "tests/fuzz/files.h"
+#include "tests/fuzz/fuzz.h"
+
+using namespace halfstep;
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  static const RobotModel robot = LoadRobot(HALFSTEP_SOURCE_DIR "/wpg/robots/hrp2.yaml");
+  static const Scene scene;
+  auto files = fuzz::Files(fuzz::Text(data, size));
+  verify::CertificateText certificate;
+  std::vector<verify::ClaimRow> claims;
+  std::vector<verify::PlayedRow> rows;
+  verify::ConfigDemands demands;
+  const bool all = fuzz::Reads("", [&] {
+    certificate = verify::ReadCertificateJson("certificate.json", files["certificate.json"]);
+    claims = verify::ReadCertificateCsv("certificate.csv", files["certificate.csv"]);
+    rows = verify::ReadTrajectory("trajectory.csv", files["trajectory.csv"], robot);
+    demands = verify::ReadConfigDemands("config.yaml", files["config.yaml"]);
+  });
+  if (!all) return 0;
+  verify::Findings findings;
+  verify::CheckAgainstConfig(certificate, demands, &findings);
+  verify::CheckArithmetic(certificate, claims, robot, rows.empty() ? 0 : rows.back().t, &findings);
+  if (!verify::CheckIsMotion(rows, &findings)) return 0;
+  const verify::PlayedMotion motion(robot, rows);
+  verify::CheckConsistency(motion, scene, 0.001, &findings);
+  verify::CheckRowMargins(motion, certificate, 0.001, &findings);
+  return 0;
+}
