@@ -8,6 +8,7 @@
 #include <set>
 #include <sstream>
 
+#include "wpg/input/nesting.h"
 #include "wpg/input/number_text.h"
 #include "wpg/input/text.h"
 
@@ -250,6 +251,12 @@ class Checker {
 }  // namespace
 
 UrdfPlaces CheckUrdf(const std::string& text, const std::string& file, Complaints* complaints) {
+  if (XmlDepth(text) > kMostXmlLevels) {
+    complaints->Add(file, 0, 0, "",
+                    "nests too deeply, or its XML declaration is not plain (valid: at most " +
+                        std::to_string(kMostXmlLevels) + " levels)");
+    return {};
+  }
   TiXmlDocument document;
   document.Parse(text.c_str(), nullptr, TIXML_ENCODING_UTF8);
   if (document.Error()) {
