@@ -11,6 +11,7 @@
 #include "experiments/experiment.h"
 #include "experiments/sweep_tables.h"
 #include "planner/checked_file.h"
+#include "planner/partial_sibling.h"
 #include "planner/whole_file.h"
 #include "wpg/input/input_error.h"
 #include "wpg/input/nesting.h"
@@ -164,9 +165,7 @@ std::string SweepFolder::Collect(const std::vector<SweepCase>& cases) const {
     runs += Content(CasePath(one) / "runs.csv").substr(runs_.text.size());
     timings += Content(CasePath(one) / "timings.csv").substr(timings_.text.size());
   }
-  for (const auto& entry : fs::directory_iterator(path_ / "cases")) {
-    if (entry.path().filename().string().starts_with('.')) fs::remove_all(entry.path());
-  }
+  RemoveAbandonedSiblings(path_ / "cases", "");
   WriteWhole(path_ / "runs.schema.json", {SchemaJson(runs_.columns)});
   WriteWhole(path_ / "timings.schema.json", {SchemaJson(timings_.columns)});
   WriteWhole(path_ / "timings.csv", {timings});
