@@ -5,10 +5,6 @@
 #include <limits>
 #include <string>
 
-#include "tests/experiments/temporary_folder.h"
-#include "wpg/input/input_error.h"
-#include "wpg/urdf_file.h"
-
 namespace halfstep {
 namespace {
 
@@ -47,23 +43,6 @@ TEST(XmlDepth, AnOddDeclarationCountsAsEndless) {
   EXPECT_EQ(XmlDepth("<?xml version=\"><!--\"?><a><a/></a>"), kEndless);
   EXPECT_EQ(XmlDepth("<?XML x' version='>'?><a/>"), kEndless);
   EXPECT_EQ(XmlDepth("<?xml version='1.0'" + std::string(300, ' ') + "?><a/>"), kEndless);
-}
-
-TEST(ReadUrdf, RefusesDeepElementsBeforeTheyAreParsed) {
-  const TemporaryFolder place;
-  for (const int levels : {65, 40'000, 400'000}) {
-    const std::string path =
-        WriteText(place / "deep.urdf", "<robot name='r'>" + Repeated("<a>", levels) +
-                                           Repeated("</a>", levels) + "</robot>");
-    try {
-      ReadUrdf(path);
-      FAIL() << levels;
-    } catch (const InputError& error) {
-      EXPECT_EQ(error.what(), path +
-                                  ": nests too deeply, or its XML declaration is not plain "
-                                  "(valid: at most 64 levels)");
-    }
-  }
 }
 
 }  // namespace
