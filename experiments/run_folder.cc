@@ -85,7 +85,8 @@ void RunFolder::Write(const std::string& relative, std::string_view content) {
   fs::create_directories(target.parent_path(), error);
   const fs::path shown = path_ / relative;
   if (error) Fail("cannot make its folder", shown, error.value());
-  fs::remove(target, error);  // of the older run; what else is wrong, writing says
+  fs::remove(target, error);  // of the older run
+  if (error) Fail("cannot be written", shown, error.value());
   WriteSynced(target, {content}, shown);
 }
 
@@ -110,9 +111,9 @@ void RunFolder::CopyOlder() {
 
 void RunFolder::Publish() {
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(staging())) {
-    if (entry.is_directory()) SyncFolder(entry.path());
+    if (entry.is_directory()) SyncFolder(entry.path(), path_);
   }
-  SyncFolder(staging());
+  SyncFolder(staging(), path_);
   if (TakeName(staging(), path_)) {
     staging_->Release();
   } else {
@@ -124,7 +125,7 @@ void RunFolder::Publish() {
       CheckReplaceable();
     }
   }
-  SyncFolder(path_.parent_path());
+  SyncFolder(path_.parent_path(), path_);
   staging_.reset();  // removes the older run
 }
 

@@ -79,7 +79,7 @@ void WriteWhole(const fs::path& path, const std::vector<std::string_view>& parts
   WriteAll(partial.descriptor(), parts, path);
   if (rename(partial.path().c_str(), path.c_str()) != 0) Fail(path, errno);
   partial.Release();
-  SyncFolder(folder);
+  SyncFolder(folder, path);
 }
 
 void CopySynced(const fs::path& from, const fs::path& to, const fs::path& shown) {
@@ -90,12 +90,12 @@ void CopySynced(const fs::path& from, const fs::path& to, const fs::path& shown)
   Sync(file.get(), shown);
 }
 
-void SyncFolder(const fs::path& folder) {
+void SyncFolder(const fs::path& folder, const fs::path& shown) {
   const Descriptor opened(folder, O_RDONLY | O_DIRECTORY);
   if (opened.get() < 0 || fsync(opened.get()) == 0) return;
   // What some file systems say of any folder.
   if (errno == EINVAL || errno == EBADF || errno == EROFS || errno == ENOTSUP) return;
-  Fail(folder, errno);
+  Fail(shown, errno);
 }
 
 }  // namespace halfstep

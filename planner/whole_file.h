@@ -22,8 +22,8 @@ void WriteWhole(const std::filesystem::path& path, const std::vector<std::string
 void CopySynced(const std::filesystem::path& from, const std::filesystem::path& to,
                 const std::filesystem::path& shown);
 
-/// Syncs the names in a folder. Throws std::runtime_error with the system's reason, but not where
-/// the file system knows no syncing of folders.
-void SyncFolder(const std::filesystem::path& folder);
+/// Syncs the names in a folder. Throws as WriteSynced, but not where the file system knows no
+/// syncing of folders.
+void SyncFolder(const std::filesystem::path& folder, const std::filesystem::path& shown);
 
 }  // namespace halfstep
