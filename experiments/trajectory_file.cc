@@ -36,18 +36,7 @@ void ReadPlace(const CsvTable& table, const std::string& name, const Member& mem
   }
 }
 
-}  // namespace
-
-Eigen::Isometry3d TrajectoryRow::Upright(const Eigen::Vector4d& place) {
-  Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
-  X.linear() = Eigen::AngleAxisd(place[3], Eigen::Vector3d::UnitZ()).toRotationMatrix();
-  X.translation() = place.head<3>();
-  return X;
-}
-
-std::vector<TrajectoryRow> ReadTrajectory(const std::filesystem::path& path,
-                                          const RobotModel& robot) {
-  const CsvTable table = ReadCsv(path.string());
+std::vector<TrajectoryRow> Rows(const CsvTable& table, const RobotModel& robot) {
   std::vector<TrajectoryRow> rows(table.rows.size());
   if (rows.size() < 2) throw InputError({table.path + ": fewer than two rows"});
   const std::vector<double> t = Finite(table, "t_s"), zmp_x = Finite(table, "zmp_x_m"),
@@ -74,6 +63,25 @@ std::vector<TrajectoryRow> ReadTrajectory(const std::filesystem::path& path,
     }
   }
   return rows;
+}
+
+}  // namespace
+
+Eigen::Isometry3d TrajectoryRow::Upright(const Eigen::Vector4d& place) {
+  Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
+  X.linear() = Eigen::AngleAxisd(place[3], Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  X.translation() = place.head<3>();
+  return X;
+}
+
+std::vector<TrajectoryRow> ReadTrajectory(const std::filesystem::path& path,
+                                          const RobotModel& robot) {
+  return Rows(ReadCsv(path.string()), robot);
+}
+
+std::vector<TrajectoryRow> ParseTrajectory(const std::string& path, const std::string& text,
+                                           const RobotModel& robot) {
+  return Rows(ParseCsv(text, path), robot);
 }
 
 std::vector<std::string> MethodsOfRun(const std::string& run,

@@ -28,6 +28,9 @@ struct TrajectoryRow {
 /// Throws InputError as path:line: column: … .
 std::vector<TrajectoryRow> ReadTrajectory(const std::filesystem::path& path,
                                           const RobotModel& robot);
+/// The same of a file's text; `path` stands for it in complaints.
+std::vector<TrajectoryRow> ParseTrajectory(const std::string& path, const std::string& text,
+                                           const RobotModel& robot);
 
 /// The methods of a run folder by their names, raw first; only `method` when it is given. Throws
 /// InputError for what is no whole run folder, and for a method that it does not have.

@@ -9,6 +9,10 @@ namespace halfstep {
 namespace {
 
 constexpr uint32_t kNone = 0xffffffff;
+constexpr double kFarthest = 1000.0;  // of a volume from its support sole [m]; far beyond any robot
+
+// Nor NaN.
+bool IsNear(const Eigen::Vector3d& p) { return (p.array().abs() <= kFarthest).all(); }
 
 class Reader {
  public:
@@ -40,12 +44,12 @@ bool TakeVolume(Reader* reader, double cell, std::optional<BoxTree>* volume) {
   if (!reader->Holds(size_t{parts} * sizeof(double) * 3)) return false;
   tree.parts.resize(parts);
   for (Eigen::Vector3d& part : tree.parts) {
-    if (!reader->Take(part.data(), 3) || !part.allFinite()) return false;
+    if (!reader->Take(part.data(), 3) || !IsNear(part)) return false;
   }
   if (!reader->Holds(size_t{nodes} * sizeof(BoxNode))) return false;
   tree.nodes.resize(nodes);
   if (!reader->Take(tree.nodes.data(), nodes)) return false;
-  if (!tree.origin.allFinite() || !tree.IsSound()) return false;
+  if (!IsNear(tree.origin) || !tree.IsSound()) return false;
   *volume = std::move(tree);
   return true;
 }

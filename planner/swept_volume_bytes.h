@@ -14,8 +14,8 @@ namespace halfstep {
 std::string VolumeBytes(const std::optional<BoxTree>& volume);
 
 /// The `count` volumes that `bytes` hold one after the other and nothing else; `cell` [m] is their
-/// lattice's spacing. None when they make no sense: too few or too many bytes, numbers that are not
-/// finite, a tree that is not sound.
+/// lattice's spacing. None when they make no sense: too few or too many bytes, points beyond 1 km
+/// or not finite, a tree that is not sound.
 std::optional<std::vector<std::optional<BoxTree>>> ParseVolumes(std::string_view bytes,
                                                                 size_t count, double cell);
 

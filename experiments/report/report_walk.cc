@@ -19,6 +19,8 @@ using nlohmann::json;
 
 constexpr double kFine = 1e-5;    // of lengths and angles [m, rad]
 constexpr double kSpeeds = 1e-4;  // of speeds [m/s, rad/s]
+// Of a number that is drawn; sums of differences stay exact in JavaScript's doubles.
+constexpr double kMostSteps = 4e15;
 
 // Every stride-th row, and the last one.
 std::vector<size_t> RowsToShow(const std::vector<double>& times, double spacing) {
@@ -35,12 +37,12 @@ json ColumnJson(const std::vector<double>& values, const std::vector<size_t>& ro
   json deltas = json::array();
   long before = 0;
   for (size_t row : rows) {
-    const double value = values[row];
-    if (!std::isfinite(value)) {
+    const double steps = values[row] / step;
+    if (!(std::abs(steps) <= kMostSteps)) {
       deltas.push_back(nullptr);
       continue;
     }
-    const long now = std::lround(value / step);
+    const long now = std::lround(steps);
     deltas.push_back(now - before);
     before = now;
   }

@@ -68,6 +68,19 @@ json DataOf(const std::string& page) {
   return json::parse(page.substr(from, page.find("</script", from) - from));
 }
 
+TEST(WalkJson, NumbersTooLargeToDrawAreGaps) {
+  const TemporaryFolder place;
+  WriteText(place / "certificate.json",
+            R"({"verdict": 0, "message": 0, "statement": 0, "demanded": 0, "limits": 0,
+                "statements": 0})");
+  WriteText(place / "half_steps.csv", "half_step\n1\n");
+  WriteText(place / "trajectory.csv",
+            "t_s,support,zmp_x_m\n0,both,-1e300\n0.02,both,0.5\n0.04,both,nan\n0.06,both,1e12\n"
+            "0.08,both,0.25\n");
+  const json walk = WalkJson(place.path(), 0.02);
+  EXPECT_EQ(walk["columns"]["zmp_x_m"]["delta"], json({nullptr, 50000, nullptr, nullptr, -25000}));
+}
+
 size_t Count(const std::string& text, const std::string& part) {
   size_t count = 0;
   for (size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;

@@ -43,19 +43,24 @@ class Folder {
   Folder& operator=(const Folder&) = delete;
   const std::filesystem::path& path() const { return path_; }
 
-  /// Writes one of `names` as `files` has it, or removes it.
-  void Put(const std::string& name, const std::map<std::string, std::string>& files) const {
+  /// Writes the file `name` as `files` has it, or removes it; nothing when it is so already.
+  void Put(const std::string& name, const std::map<std::string, std::string>& files) {
     const auto file = files.find(name);
+    const auto before = there_.find(name);
     if (file == files.end()) {
+      if (before == there_.end()) return;
       std::filesystem::remove(path_ / name);
-    } else {
+      there_.erase(before);
+    } else if (before == there_.end() || before->second != file->second) {
       std::filesystem::create_directories((path_ / name).parent_path());
       std::ofstream(path_ / name, std::ios::binary) << file->second;
+      there_[name] = file->second;
     }
   }
 
  private:
   std::filesystem::path path_;
+  std::map<std::string, std::string> there_;
 };
 
 }  // namespace halfstep::fuzz

@@ -39,6 +39,7 @@ longest() {
   esac
 }
 
+experiments/install_dependencies.sh clang libclang-rt-14-dev
 mkdir -p build
 [ -f build/fuzz/build.ninja ] || cmake --preset fuzz >build/fuzz-configure.log 2>&1 ||
   { cat build/fuzz-configure.log >&2; exit 1; }

@@ -8,7 +8,7 @@
 using namespace halfstep;
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-  static const fuzz::Folder folder;
+  static fuzz::Folder folder;
   const auto files = fuzz::Files(fuzz::Text(data, size));
   for (const char* name : {"manifest.json", "summary.csv", "footsteps.csv", "raw/certificate.json",
                            "raw/trajectory.csv", "raw/half_steps.csv", "m/iterates.csv"}) {
@@ -19,7 +19,10 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (fuzz::Reads(path, [&] { record = ReadRun(path); })) {
     fuzz::Require(!record.methods.empty() && record.methods.front().raw(), "raw is not the first");
   }
-  fuzz::Reads(path, [&] { (void)RowsJson(folder.path() / "summary.csv").dump(); });
-  fuzz::Reads(path, [&] { (void)WalkJson(folder.path() / "raw", 0.02).dump(); });
+  const auto dump = [](const nlohmann::json& json) {
+    (void)json.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+  };
+  fuzz::Reads(path, [&] { dump(RowsJson(folder.path() / "summary.csv")); });
+  fuzz::Reads(path, [&] { dump(WalkJson(folder.path() / "raw", 0.02)); });
   return 0;
 }

@@ -1,6 +1,7 @@
-// What `verify` reads, and the checks that look at numbers only: the robot is loaded once, and
-// distances are not asked.
+// What `verify` reads (`export` and `replay` read the trajectory too), and the checks that look at
+// numbers only: the robot is loaded once, and distances are not asked.
 
+#include "experiments/trajectory_file.h"
 #include "experiments/verify/check_certificate.h"
 #include "experiments/verify/check_rows.h"
 #include "tests/fuzz/files.h"
@@ -12,6 +13,11 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   static const RobotModel robot = LoadRobot(HALFSTEP_SOURCE_DIR "/wpg/robots/hrp2.yaml");
   static const Scene scene;
   auto files = fuzz::Files(fuzz::Text(data, size));
+  const std::string& trajectory = files["trajectory.csv"];
+  fuzz::Reads("trajectory.csv", [&] {
+    const std::vector<TrajectoryRow> rows = ParseTrajectory("trajectory.csv", trajectory, robot);
+    fuzz::Require(rows.size() > 1 && rows[0].t < rows[1].t, "no motion", trajectory);
+  });
   verify::CertificateText certificate;
   std::vector<verify::ClaimRow> claims;
   std::vector<verify::PlayedRow> rows;
@@ -19,7 +25,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const bool all = fuzz::Reads("", [&] {
     certificate = verify::ReadCertificateJson("certificate.json", files["certificate.json"]);
     claims = verify::ReadCertificateCsv("certificate.csv", files["certificate.csv"]);
-    rows = verify::ReadTrajectory("trajectory.csv", files["trajectory.csv"], robot);
+    rows = verify::ReadTrajectory("trajectory.csv", trajectory, robot);
     demands = verify::ReadConfigDemands("config.yaml", files["config.yaml"]);
   });
   if (!all) return 0;

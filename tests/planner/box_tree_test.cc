@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <map>
 #include <random>
 #include <sstream>
@@ -11,6 +12,7 @@
 #include "planner/box_tree_obj.h"
 #include "planner/box_tree_query.h"
 #include "planner/convex_distance.h"
+#include "planner/swept_volume_bytes.h"
 #include "tests/planner/swept_volume_draws.h"
 
 namespace halfstep {
@@ -63,6 +65,20 @@ TEST(BoxTreeTest, SolidBoxesAreTheOccupiedCellsEachOnce) {
     }
     EXPECT_EQ(covered.size(), occupied);
     EXPECT_LT(tree.SolidBoxes().size(), occupied);
+  }
+}
+
+TEST(BoxTreeTest, BytesOfVolumesTooFarAwayToTellCellsApartAreRefused) {
+  SweptDraw draw(2);
+  const BoxTree near = BoxTree::Build(Lump(&draw));
+  ASSERT_TRUE(ParseVolumes(VolumeBytes(near), 1, near.cell));
+  for (const double far : {1e4, 1e280, std::numeric_limits<double>::quiet_NaN()}) {
+    BoxTree moved = near;
+    moved.origin.y() = far;
+    EXPECT_FALSE(ParseVolumes(VolumeBytes(moved), 1, near.cell)) << far;
+    moved = near;
+    moved.parts[0].z() = -far;
+    EXPECT_FALSE(ParseVolumes(VolumeBytes(moved), 1, near.cell)) << far;
   }
 }
 

@@ -277,5 +277,48 @@ TEST(FootstepRrt, DifferentSeedsFindDifferentWays) {
   EXPECT_GT(plans.size(), 3u);
 }
 
+// Short-cuts go on along the old landings from a state that is only near the old one: there every
+// half-step must be asked about again. Poles all about, so that many are not free.
+TEST(FootstepRrt, EveryHalfStepOfAPlanThatWasShortenedIsFree) {
+  const HalfStepSet set = PlausibleSet();
+  std::mt19937_64 random(11);
+  const FootstepRrt planner({});
+  int solved = 0;
+  for (int trial = 0; trial < 12; ++trial) {
+    FlatWorld world;
+    for (int i = 0; i < 60; ++i) {
+      const double x = Uniform(0.3, 2.6, random), y = Uniform(-1.2, 1.2, random);
+      world.poles.push_back({{x, y}, 0.01});
+    }
+    const FlatQuery query(set, world);
+    PlanRequest request = RequestTo({3.0, 0.0, 0.0}, set, query);
+    request.stop = AnyOf({WhenNotImprovedFor(2000), AfterNodes(20000)});
+    // Every plan that was kept, the best first.
+    request.accepts = [&](const std::vector<Footstep>& footsteps) -> Acceptance {
+      std::array<Pose2, 2> feet = request.start;
+      for (size_t i = 0; i < footsteps.size(); ++i) {
+        const Side support = Opposite(footsteps[i].side);
+        const Pose2 X_WS = feet[static_cast<size_t>(Index(support))];
+        const Pose2 X_SF = X_WS.Inverse() * footsteps[i].X_WF;
+        int element = -1;
+        for (int k = 0; k < set.size(); ++k) {
+          const Pose2 off = set.Placement(k, support).Inverse() * X_SF;
+          if (off.position().norm() < 1e-9 && std::abs(off.yaw) < 1e-9) element = k;
+        }
+        EXPECT_GE(element, 0);
+        if (element < 0) return false;
+        EXPECT_TRUE(query.DownIsFree(element, support, X_WS)) << "footstep " << i;
+        if (i + 1 < footsteps.size()) {
+          EXPECT_TRUE(query.UpIsFree(element, support, X_WS)) << "footstep " << i;
+        }
+        feet[static_cast<size_t>(Index(footsteps[i].side))] = footsteps[i].X_WF;
+      }
+      return true;
+    };
+    solved += planner.Plan(request, random).status == PlanStatus::kSolved;
+  }
+  EXPECT_GE(solved, 6);
+}
+
 }  // namespace
 }  // namespace halfstep

@@ -281,5 +281,58 @@ TEST_F(SweptVolumeCacheTest, AFolderThatCannotBeWrittenCostsTheCacheOnly) {
   EXPECT_THAT(result.not_kept, HasSubstr("cannot be written"));
 }
 
+// One after the other, everything that shapes a volume is changed by the least that can be.
+TEST_F(SweptVolumeCacheTest, WhateverShapesAVolumeIsInItsKey) {
+  struct Key {
+    RobotModel robot = SmallRobot();
+    Lipm lipm = LipmOf(SmallRobot());
+    HalfStepSet set = TwoHalfSteps();
+    SweptVolumeOptions options = kVeryCoarse;
+    std::string Text() const { return SweptVolumeProvenance(robot, lipm, set, options); }
+  };
+  const auto more = [](double& value) { value = std::nextafter(value, 1e9); };
+  using Change = std::function<void(Key*)>;
+  const std::vector<std::pair<const char*, Change>> changes = {
+      {"lipm", [&](Key* k) { more(k->lipm.com_height); }},
+      {"gravity", [&](Key* k) { k->lipm.gravity *= 1.0 + 1e-12; }},
+      {"duration", [&](Key* k) { more(k->set.prototype.duration); }},
+      {"via height", [&](Key* k) { more(k->set.prototype.via_height); }},
+      {"via lateral", [&](Key* k) { more(k->set.prototype.via_lateral); }},
+      {"shift", [&](Key* k) { more(k->set.prototype.shape.shift); }},
+      {"delay", [&](Key* k) { more(k->set.prototype.shape.horizontal_delay); }},
+      {"x", [&](Key* k) { more(k->set.placements[1].x); }},
+      {"y", [&](Key* k) { more(k->set.placements[1].y); }},
+      {"yaw", [&](Key* k) { more(k->set.placements[1].yaw); }},
+      {"order", [&](Key* k) { std::swap(k->set.placements[0], k->set.placements[1]); }},
+      {"cell", [&](Key* k) { more(k->options.cell); }},
+      {"displacement", [&](Key* k) { more(k->options.displacement); }},
+      {"clearance", [&](Key* k) { more(k->options.clearance); }},
+      {"shortest interval", [&](Key* k) { more(k->options.shortest_interval); }},
+      {"axis", [&](Key* k) { more(k->robot.legs[1].joints[4].axis_B.y()); }},
+      {"point", [&](Key* k) { more(k->robot.legs[1].joints[4].point_B.z()); }},
+      {"link", [&](Key* k) { more(k->robot.legs[0].joints[5].X_BLink(2, 3)); }},
+      {"hip", [&](Key* k) { more(k->robot.legs[0].hip_B.x()); }},
+      {"ankle", [&](Key* k) { more(k->robot.legs[0].ankle_B.x()); }},
+      {"sole", [&](Key* k) { more(k->robot.legs[0].X_BSole(0, 3)); }},
+      {"knee", [&](Key* k) { k->robot.legs[0].branch.knee ^= 1; }},
+      {"ankle branch", [&](Key* k) { k->robot.legs[0].branch.ankle ^= 1; }},
+      {"hip branch", [&](Key* k) { k->robot.legs[0].branch.hip ^= 1; }},
+      {"waist", [&](Key* k) { more(k->robot.waist_height); }},
+      {"com", [&](Key* k) { more(k->robot.com_x_B); }},
+      {"body's leg", [&](Key* k) { k->robot.bodies[0].leg ^= 1; }},
+      {"body's link", [&](Key* k) { --k->robot.bodies[0].link; }},
+      {"vertex", [&](Key* k) { more(k->robot.bodies[0].shape.vertices(1, 2)); }},
+      {"normal", [&](Key* k) { more(k->robot.bodies[0].shape.normals(1, 2)); }},
+      {"disc", [&](Key* k) { more(k->robot.bodies[0].shape.disc_radius); }},
+      {"ball", [&](Key* k) { more(k->robot.bodies[0].shape.ball_radius); }},
+  };
+  const std::string text = Key().Text();
+  for (const auto& [what, change] : changes) {
+    Key key;
+    change(&key);
+    EXPECT_NE(key.Text(), text) << what;
+  }
+}
+
 }  // namespace
 }  // namespace halfstep

@@ -139,5 +139,37 @@ TEST(VoxelGridTest, FillsEveryCellThatARegionMeets) {
   }
 }
 
+// Cells so fine, and no clearance: neither hides what a body moves within its interval of time.
+// Points where a body is farthest along its own velocity, which is where it would stand out.
+TEST(SweptVolumeTest, ContainsWhatABodyMovesWithinItsIntervals) {
+  RobotModel robot = SweptRobot();
+  std::erase_if(robot.bodies, [](const RobotBody& b) { return b.leg < 0 || b.link < 5; });
+  const SweptVolumeBaker baker(robot, {.cell = 2.5e-3, .displacement = 0.02, .clearance = 0.0});
+  HalfStep half_step = FewHalfSteps().Down(0, Side::kLeft);
+  half_step.duration = 0.7;
+  const auto tree = baker.Bake(half_step, LipmOf(robot));
+  ASSERT_TRUE(tree);
+  const HalfStepProfiles profiles(half_step.kind, half_step.shape, half_step.duration,
+                                  LipmOf(robot));
+  SweptDraw draw(6);
+  double fastest = 0.0;
+  int outside = 0;
+  for (int i = 0; i < 5000; ++i) {
+    const double tau = draw.Uniform(0, half_step.duration);
+    const RobotBody& body = robot.bodies[static_cast<size_t>(draw.Index(2))];
+    const WalkJet jet = Evaluate(half_step, profiles, tau);
+    const Vector3d velocity =
+        jet.first.segment<3>(FootIndex(body.leg == 0 ? Side::kLeft : Side::kRight));
+    const Vector3d ahead = velocity.norm() > 1e-3 ? velocity.normalized() : draw.Direction();
+    const Posture posture = SolvePosture(robot, jet.value);
+    const Eigen::Isometry3d& X_SBody = posture.OfBody(body);
+    const Vector3d direction = X_SBody.linear().transpose() * (ahead + 0.2 * draw.Direction());
+    outside += !tree->Contains(X_SBody * SupportPoint(body.shape, direction));
+    fastest = std::max(fastest, velocity.norm());
+  }
+  EXPECT_EQ(outside, 0);
+  EXPECT_GT(fastest, 1.0);  // 4 ms of it are more than a cell
+}
+
 }  // namespace
 }  // namespace halfstep

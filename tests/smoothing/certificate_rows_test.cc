@@ -259,5 +259,50 @@ TEST(CertificateRows, HoldForEveryJoint) {
   }
 }
 
+// A statement is proved when margin − bound is what is demanded, and not when it is less, though
+// the margin at the midpoint be more.
+TEST(CertificateRows, AreGivenWhereTheyKeepWhatIsDemandedAndOnlyThere) {
+  const RobotModel robot = Hrp2();
+  WalkDraw draw(45);
+  std::array<int, kNumMarginFamilies> refused{};
+  const auto pending_of = [&](MarginFamily family) {
+    Pending pending;
+    if (family == MarginFamily::kClearance) {
+      pending.bodies = {static_cast<uint16_t>(draw.Uniform(0, 20))};
+    } else if (family == MarginFamily::kSelfClearance) {
+      pending.pairs = {static_cast<uint16_t>(draw.Uniform(0, 100))};
+    } else {
+      pending.families = {family};
+    }
+    return pending;
+  };
+  for (int i = 0; i < Draws(100); ++i) {
+    const HalfStepSequence sequence = DrawQuickSequence(robot, &draw);
+    const SuperposedWalk walk(sequence, Overlapped(sequence, draw.Uniform(0.2, 0.9)));
+    const Scene scene = DrawScene(walk, static_cast<SceneKind>(i % 3), 5, &draw);
+    const auto [begin, end] = DrawInterval(walk, &draw);
+    MarginLimits limits = Undemanding();
+    const MarginEvaluator undemanding(robot, scene, limits);
+    for (MarginFamily family : AllMarginFamilies()) {
+      const Pending pending = pending_of(family);
+      const CertificateRow row = RowOf(undemanding, walk, begin, end, pending);
+      // Where little changes, and where an overlap or the horizon hides the margin, nothing is
+      // told.
+      if (row.count == 0 || row.bound < 1e-6 || row.margin.value <= 0.0) continue;
+      if (Unit(family) == "m" && row.margin.value >= kHorizon) continue;
+      limits.demanded_of(family) = row.margin.value - 1.01 * row.bound;
+      EXPECT_GT(RowOf(undemanding.WithLimits(limits), walk, begin, end, pending).count, 0)
+          << Name(family);
+      limits.demanded_of(family) = row.margin.value - 0.5 * row.bound;
+      EXPECT_EQ(RowOf(undemanding.WithLimits(limits), walk, begin, end, pending).count, 0)
+          << Name(family);
+      ++refused[static_cast<size_t>(family)];
+    }
+  }
+  for (MarginFamily family : AllMarginFamilies()) {
+    EXPECT_GT(refused[static_cast<size_t>(family)], Draws(10)) << Name(family);
+  }
+}
+
 }  // namespace
 }  // namespace halfstep

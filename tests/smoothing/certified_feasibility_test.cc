@@ -304,5 +304,28 @@ TEST(CertifiedFeasibility, OnlyWholeStretchesAreCheckedAsTheyAre) {
   EXPECT_GT(ExtendedToKnots(walk, changed).end, stretch.end + 1e-3);
 }
 
+// What lies between a window and the next knots is checked as well: where an overlap's change puts
+// a knot, intervals beside the window are cut anew.
+TEST(CertifiedFeasibility, ChecksAWindowUpToTheKnotsAroundIt) {
+  const FastStep step;
+  const MarginLimits limits = ObstaclesOnly();
+  const WalkVector mid = step.At(step.middle);
+  const Scene scene =
+      With(MakeSphere(0.0025), ToIsometry(FootPose(mid, Side::kRight), mid[kRightZ] + 0.03));
+  std::vector<double> knots = KnotsInside(step.walk, {0.0, step.walk.duration()});
+  const auto after = std::upper_bound(knots.begin(), knots.end(), step.middle);
+  ASSERT_TRUE(after != knots.begin() && after != knots.end());
+  const double begin = *(after - 1), end = *after;
+  const MarginEvaluator evaluator(step.robot, scene, limits);
+  MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
+  for (const TimeWindow& window :
+       {TimeWindow{begin + 1e-4, begin + 2e-4}, TimeWindow{end - 2e-4, end - 1e-4}}) {
+    ASSERT_EQ(SampledFeasibility(evaluator, 1e-5).Check(step.walk, window, &scratch).verdict,
+              Verdict::kFeasible);
+    EXPECT_EQ(CertifiedFeasibility(evaluator, {}).Check(step.walk, window, &scratch).verdict,
+              Verdict::kViolated);
+  }
+}
+
 }  // namespace
 }  // namespace halfstep

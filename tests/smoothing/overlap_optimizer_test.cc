@@ -6,7 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <stop_token>
+#include <utility>
 
 #include "opt/solver.h"
 #include "smoothing/certified_feasibility.h"
@@ -212,6 +214,42 @@ std::vector<std::string> Configs() {
 
 INSTANTIATE_TEST_SUITE_P(All, ProgramDerivatives, testing::ValuesIn(Configs()),
                          [](const auto& name) { return name.param; });
+
+// Certifies, and refuses every walk of other durations than planned when asked about all of it.
+class RefusesNewWholes : public FeasibilityTest {
+ public:
+  RefusesNewWholes(const FeasibilityTest& certified, std::vector<double> planned)
+      : certified_(certified), planned_(std::move(planned)) {}
+
+  Evidence evidence() const override { return Evidence::kCertified; }
+  std::string Description() const override { return "refuses new wholes"; }
+  const MarginEvaluator& evaluator() const override { return certified_.evaluator(); }
+  std::unique_ptr<FeasibilityTest> Over(const MarginEvaluator&) const override { return nullptr; }
+  Feasibility Check(const SuperposedWalk& walk, const TimeWindow& window,
+                    MarginEvaluator::Scratch* scratch) const override {
+    const bool whole = window.begin <= 0.0 && window.end >= walk.duration();
+    if (whole && walk.parameters().durations != planned_) {
+      return {Verdict::kUndecided, Evidence::kCertified, {}};
+    }
+    return certified_.Check(walk, window, scratch);
+  }
+
+ private:
+  const FeasibilityTest& certified_;
+  std::vector<double> planned_;
+};
+
+// Stretches were proved one after the other; what is returned is proved once more as a whole.
+TEST_F(OptimizerTest, WhatCannotBeProvedAsAWholeIsNotReturned) {
+  const std::vector<double> planned = PlannedMotion(e_.sequence).durations;
+  const RefusesNewWholes test(test_, planned);
+  OptimizerOptions options = Quick("halfstep/sqp");
+  int accepted = 0;
+  options.on_accept = [&](const HomotopyParameters& p) { accepted += p.durations != planned; };
+  const SmoothingResult result = OptimizeOverlaps(e_.sequence, test, options);
+  EXPECT_GT(accepted, 0);
+  EXPECT_EQ(result.parameters.durations, planned);
+}
 
 }  // namespace
 }  // namespace halfstep

@@ -267,6 +267,9 @@ TEST(RobotRefusal, LegsThatAreNoClosedFormLegs) {
                                   "<child link='left_link3'/><origin xyz='0.0201"),
                          yaml}),
               HasSubstr("mirror image"));
+  // The left leg's joints come first in the URDF.
+  EXPECT_THAT(RefusalOf({"speed", Replaced(urdf, "velocity='4.5'", "velocity='4.4'"), yaml}),
+              HasSubstr("is not the mirror image of left_joint1: its speed limit differs"));
   EXPECT_THAT(
       RefusalOf({"mesh",
                  Replaced(urdf, "<sphere radius='0.035'/>", "<mesh filename='file:///ankle.stl'/>"),

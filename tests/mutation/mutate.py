@@ -1,0 +1,291 @@
+#!/usr/bin/env python3
+"""Puts wrong lines into what soundness rests on, one at a time, and tells which tests notice them.
+
+The lists (*.mutants, format: README.md) say where, what and which tests. Every listed source is
+copied once with all its wrong lines behind a switch, `kMutant == n ? wrong : right`, compiled
+by the command of the build tree and linked before the libraries into the test executables; then the
+tests run once for each n. Standard library only; needs a build tree of Ninja whose tests are built.
+"""
+
+import argparse
+import collections
+import concurrent.futures
+import json
+import os
+import pathlib
+import re
+import resource
+import shlex
+import subprocess
+import sys
+import time
+
+HERE = pathlib.Path(__file__).resolve().parent
+ROOT = HERE.parent.parent
+
+
+class Mutant:
+    """A wrong line: `new` in place of `old`, looked for by `tests` [(executable, filter)]."""
+
+    def __init__(self, place, file, tests):
+        self.place, self.file, self.tests = place, file, list(tests)
+        self.old, self.new, self.why = [], [], []
+        self.number, self.line, self.span = 0, 0, (0, 0)  # the number counts within the file
+
+    @property
+    def name(self):
+        return f"{pathlib.Path(self.file).stem}.{self.number}"
+
+    def text(self, lines):
+        return "\n".join(lines).strip()
+
+
+def read_list(path):
+    """The mutants of one list; stops at what it cannot read."""
+    mutants, file, tests, fresh, mutant = [], None, [], True, None
+    for number, line in enumerate(path.read_text().splitlines(), 1):
+        place = f"{path.name}:{number}"
+        word, _, rest = line.partition(" ")
+        if word == "file":
+            file, tests, fresh, mutant = rest.strip(), [], True, None
+        elif word == "tests":
+            if not fresh:
+                tests, fresh = [], True
+            executable, _, test_filter = rest.strip().partition(" ")
+            tests.append((executable, test_filter.strip()))
+            mutant = None
+        elif word == "-":
+            if mutant is None or mutant.new or mutant.why:
+                if not tests:
+                    sys.exit(f"{place}: no tests named before it")
+                mutant = Mutant(place, file, tests)
+                mutants.append(mutant)
+                fresh = False
+            mutant.old.append(rest)
+        elif word in ("+", "?") and mutant is not None:
+            (mutant.new if word == "+" else mutant.why).append(rest)
+        elif line.strip() and not line.startswith("#"):
+            sys.exit(f"{place}: neither file, tests, -, +, ? nor a comment")
+        elif not line.strip():
+            mutant = None
+    return mutants
+
+
+def locate(mutant, source):
+    """Finds the old text, white space apart; exactly one place is right."""
+    parts = mutant.text(mutant.old).split("@@")
+    before, old, after = parts if len(parts) == 3 else ("", parts[0], "")
+
+    def pattern(text):
+        return r"\s+".join(re.escape(word) for word in text.split())
+
+    expression = pattern(before) + r"\s*(" + pattern(old) + r")\s*" + pattern(after)
+    found = [m.span(1) for m in re.finditer(expression, source)]
+    if len(found) != 1:
+        return f"{mutant.place}: {len(found)} places in {mutant.file}: {mutant.text(mutant.old)}"
+    mutant.span = found[0]
+    mutant.line = source.count("\n", 0, mutant.span[0]) + 1
+    return None
+
+
+def rewritten(file, source, mutants):
+    """The source with every mutant behind its switch; spans must nest or be apart."""
+
+    def emit(begin, end, inside):
+        out, at = [], begin
+        while inside:
+            first = inside[0]
+            a, b = first.span
+            children = [m for m in inside[1:] if m.span[0] < b]
+            inside = [m for m in inside[1:] if m.span[0] >= b]
+            for child in children:
+                if child.span[1] > b:
+                    sys.exit(f"{child.place} and {first.place} overlap, and neither holds the other")
+            out.append(source[at:a])
+            right, wrong = emit(a, b, children), first.text(first.new)
+            if source[b - 1] in ";}":
+                out.append(f"if (kMutant == {first.number}) {{ {wrong} }} else {{ {right} }}")
+            else:
+                out.append(f"(kMutant == {first.number} ? ({wrong}) : ({right}))")
+            at = b
+        return "".join(out) + source[at:end]
+
+    ordered = sorted(mutants, key=lambda m: (m.span[0], -m.span[1]))
+    switch = f'static const int kMutant = HalfstepMutantOf("{file}");'
+    return f'#include "halfstep_mutant.h"\n{switch}\n#line 1\n' + emit(0, len(source), ordered)
+
+
+class Build:
+    """Compiles rewritten sources and links them into executables beside a build tree."""
+
+    def __init__(self, tree, place):
+        self.tree, self.place = tree, place
+        commands = json.loads((tree / "compile_commands.json").read_text())
+        self.compile = {os.path.relpath(c["file"], ROOT): c for c in commands}
+        self.objects = {}  # file: (object, archive of the library that it is of)
+
+    def compile_file(self, file, source):
+        command = self.compile[file]
+        words = shlex.split(command["command"])
+        built = words[words.index("-o") + 1]
+        library = re.search(r"CMakeFiles/([^/]+)\.dir/", built).group(1)
+        copy, output = self.place / file, (self.place / file).with_suffix(".o")
+        copy.parent.mkdir(parents=True, exist_ok=True)
+        unchanged = copy.exists() and copy.read_text() == source and output.exists()
+        newer = unchanged and output.stat().st_mtime > (self.tree / built).stat().st_mtime
+        self.objects[file] = (output, f"lib{library}.a")
+        if newer:
+            return
+        copy.write_text(source)
+        words[words.index("-o") + 1] = str(output)
+        words[words.index("-c") + 1] = str(copy)
+        words += ["-w", f"-I{HERE}"]
+        done = subprocess.run(words, cwd=command["directory"], capture_output=True, text=True)
+        if done.returncode != 0:
+            output.unlink(missing_ok=True)
+            sys.exit(f"{file} does not compile with its mutants:\n{done.stderr[:4000]}")
+
+    def link(self, target):
+        """The executable `target` with all rewritten objects of the libraries that it links."""
+        lines = subprocess.run(["ninja", "-C", str(self.tree), "-t", "commands", target],
+                               capture_output=True, text=True, check=True).stdout.splitlines()
+        links = [line for line in lines if f" -o {target} " in line]
+        words = shlex.split(links[-1].split("&&")[1])
+        archives = {os.path.basename(word) for word in words if word.endswith(".a")}
+        objects = [str(o) for o, archive in self.objects.values() if archive in archives]
+        first = next(i for i, word in enumerate(words) if word.endswith(".a"))
+        output = self.place / os.path.basename(target)
+        words[words.index("-o") + 1] = str(output)
+        words[first:first] = objects
+        subprocess.run(words, cwd=self.tree, check=True)
+        return output
+
+
+Outcome = collections.namedtuple("Outcome", "noticed how test seconds")
+
+
+def run(executable, test_filter, mutant, limit, command):
+    """Runs tests under one mutant ("": none) up to the first that fails."""
+    environment = dict(os.environ, HALFSTEP_MUTANT=mutant, HALFSTEP_COMMAND=str(command))
+    words = [str(executable), f"--gtest_filter={test_filter}", "--gtest_break_on_failure"]
+    begin = time.monotonic()
+    process = subprocess.Popen(words, env=environment, text=True, errors="replace",
+                               stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
+                               start_new_session=True)
+    try:
+        text, _ = process.communicate(timeout=limit)
+        how = "fails" if ": Failure" in text else "ends by a signal or a throw"
+        noticed = process.returncode != 0
+    except subprocess.TimeoutExpired:
+        os.killpg(process.pid, 9)  # the test and what it started
+        text, _ = process.communicate()
+        noticed, how = True, "hangs"
+    begun = re.findall(r"\[ RUN      \] (\S+)", text)
+    if not begun and not noticed:
+        sys.exit(f"{executable.name}: no test of the filter {test_filter}")
+    return Outcome(noticed, how, begun[-1] if begun else "", time.monotonic() - begin)
+
+
+def try_mutant(mutant, executables, expected, command):
+    seconds = 0.0
+    for name, test_filter in mutant.tests:
+        limit = 10.0 + 6.0 * expected[name, test_filter]
+        outcome = run(executables[name], test_filter, f"{mutant.file}:{mutant.number}", limit,
+                      command)
+        seconds += outcome.seconds
+        if outcome.noticed:
+            return outcome._replace(seconds=seconds)
+    return Outcome(False, "", "", seconds)
+
+
+def cell(text):
+    text = " ".join(text.split())
+    return "`" + text.replace("|", "\\|") + "`" if text else "(nothing)"
+
+
+def table(mutants, outcomes):
+    lines = ["| mutant | where | line | wrong line | noticed by |", "|---|---|---|---|---|"]
+    for m in mutants:
+        o = outcomes[m.name]
+        by = f"{o.test}" + ("" if o.how == "fails" else f" ({o.how})")
+        if not o.noticed:
+            by = "**survives**: " + (m.text(m.why) or "not explained")
+        lines.append(f"| {m.name} | {m.file}:{m.line} | {cell(m.text(m.old).replace('@@', ''))} | "
+                     f"{cell(m.text(m.new))} | {by} |")
+    shares = collections.defaultdict(lambda: [0, 0, 0])
+    for m in mutants:
+        for key in (m.file.rpartition("/")[0], "all"):
+            shares[key][0] += 1
+            shares[key][1] += outcomes[m.name].noticed
+            shares[key][2] += not outcomes[m.name].noticed and bool(m.why)
+    head = ["| folder | mutants | noticed | share | survivors explained |", "|---|---|---|---|---|"]
+    for folder in sorted(shares, key=lambda f: (f == "all", f)):
+        count, noticed, explained = shares[folder]
+        head.append(f"| {folder} | {count} | {noticed} | {100 * noticed / count:.1f} % | "
+                    f"{explained} of {count - noticed} |")
+    return "\n".join(head) + "\n\n" + "\n".join(lines) + "\n"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
+    parser.add_argument("--build", default=str(ROOT / "build/release"), help="tree of Ninja")
+    parser.add_argument("--only", default="", help="regular expression on names and files")
+    parser.add_argument("--list", action="store_true", help="check and print the list, run nothing")
+    parser.add_argument("--out", help="the table's file (default: standard output)")
+    parser.add_argument("--jobs", type=int, default=1, help="compilations and mutants at a time")
+    options = parser.parse_args()
+    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+
+    mutants = [m for path in sorted(HERE.glob("*.mutants")) for m in read_list(path)]
+    by_file, complaints = collections.defaultdict(list), []
+    for mutant in mutants:
+        by_file[mutant.file].append(mutant)
+        mutant.number = len(by_file[mutant.file])
+    sources = {file: (ROOT / file).read_text() for file in by_file}
+    complaints = [c for c in (locate(m, sources[m.file]) for m in mutants) if c]
+    if complaints:
+        sys.exit("\n".join(complaints))
+    chosen = [m for m in mutants if re.search(options.only, f"{m.name} {m.file}")]
+    if options.list:
+        print("\n".join(f"{m.name:28} {m.file}:{m.line}" for m in chosen))
+        print(f"{len(chosen)} mutants")
+        return
+
+    tree = pathlib.Path(options.build).resolve()
+    build = Build(tree, tree / "mutation")
+    files = sorted({m.file for m in chosen})
+    texts = {file: rewritten(file, sources[file], by_file[file]) for file in files}
+    with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
+        list(pool.map(lambda file: build.compile_file(file, texts[file]), files))
+    names = {name for m in chosen for name, _ in m.tests}
+    executables = {name: build.link(f"tests/{name}_tests") for name in names}
+    command = build.link("experiments/halfstep") if "experiments" in names else ""
+    expected = {}
+    for name, test_filter in sorted({test for m in chosen for test in m.tests}):
+        outcome = run(executables[name], test_filter, "", 600.0, command)
+        if outcome.noticed:
+            sys.exit(f"without a mutant {outcome.test} {outcome.how}: {name} {test_filter}")
+        expected[name, test_filter] = outcome.seconds
+    print(f"{sum(expected.values()):.0f} s without a mutant", file=sys.stderr)
+
+    def one(mutant):
+        outcome = try_mutant(mutant, executables, expected, command)
+        print(f"{mutant.name:28} {outcome.seconds:6.1f} s  "
+              f"{outcome.test + ' ' + outcome.how if outcome.noticed else 'SURVIVES'}",
+              file=sys.stderr, flush=True)
+        return outcome
+
+    with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
+        outcomes = dict(zip([m.name for m in chosen], pool.map(one, chosen)))
+    text = table(chosen, outcomes)
+    if options.out:
+        pathlib.Path(options.out).write_text(text)
+    else:
+        print(text)
+    lost = [m for m in chosen if not outcomes[m.name].noticed and not m.why]
+    if lost:
+        sys.exit("not noticed and not explained: " + ", ".join(m.name for m in lost))
+
+
+if __name__ == "__main__":
+    main()

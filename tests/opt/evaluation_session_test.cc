@@ -1,0 +1,58 @@
+#include "opt/evaluation_session.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/problems/hock_schittkowski.h"
+
+namespace halfstep::opt {
+namespace {
+
+// On the ray through (1, 1, 1), where the ball ends at (4, 4, 4), so far outside that its row is
+// violated by `violation`.
+Eigen::VectorXd Outside(double violation) {
+  return Eigen::VectorXd::Constant(3, std::sqrt((48.0 + violation) / 3.0));
+}
+
+Solution EndedAt(const Eigen::VectorXd& x, const SolverOptions& options) {
+  const testing::ProblemCard card = testing::Hs65();
+  EvaluationSession session(card.problem, options, EvaluationSession::Iterations::kImprovements);
+  EXPECT_TRUE(session.Begin(x));
+  return session.Finish(SolveStatus::kConverged, "claimed", x);
+}
+
+// A claim of success counts as far as x is feasible to the tolerance asked for, and no farther.
+TEST(EvaluationSession, FeasibleIsToTheToleranceAskedFor) {
+  for (const double tolerance : {1e-6, 1e-3}) {
+    SolverOptions options;
+    options.feasibility_tolerance = tolerance;
+    const Solution within = EndedAt(Outside(0.9 * tolerance), options);
+    EXPECT_TRUE(within.feasible);
+    const Solution beyond = EndedAt(Outside(1.1 * tolerance), options);
+    EXPECT_FALSE(beyond.feasible);
+    EXPECT_NE(beyond.status, SolveStatus::kConverged);
+    EXPECT_NEAR(beyond.max_violation, 1.1 * tolerance, 1e-9);
+  }
+}
+
+// Of two points the feasible one is better, whatever they cost.
+TEST(EvaluationSession, KeepsTheCheapestFeasiblePoint) {
+  const testing::ProblemCard card = testing::Hs65();
+  const SolverOptions options;
+  EvaluationSession session(card.problem, options, EvaluationSession::Iterations::kImprovements);
+  const Eigen::VectorXd feasible = Outside(-1.0), cheaper = Outside(1e-4);
+  ASSERT_TRUE(session.Begin(feasible));
+  double cost = 0.0, of_feasible = 0.0;
+  Eigen::VectorXd values;
+  ASSERT_TRUE(session.Cost(cheaper, &cost) && session.Constraints(cheaper, &values));
+  ASSERT_TRUE(session.Cost(feasible, &of_feasible));
+  ASSERT_LT(cost, of_feasible);
+  const Solution solution = session.Finish(SolveStatus::kConverged, "claimed", cheaper);
+  EXPECT_EQ(solution.x, feasible);
+  EXPECT_TRUE(solution.feasible);
+  EXPECT_NE(solution.status, SolveStatus::kConverged);
+}
+
+}  // namespace
+}  // namespace halfstep::opt
