@@ -1,4 +1,3 @@
-#include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
@@ -8,6 +7,7 @@
 #include "experiments/experiment.h"
 #include "experiments/folder_name.h"
 #include "experiments/interrupt.h"
+#include "experiments/json_file.h"
 #include "experiments/report/report.h"
 #include "experiments/result_tables.h"
 #include "experiments/run_folder.h"
@@ -18,18 +18,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string ReadWhole(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw InputError({path.string() + ": cannot be read"});
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 // The methods of a run, from its manifest.
 std::vector<std::string> MethodsOf(const fs::path& run) {
   const fs::path path = run / "manifest.json";
   std::vector<std::string> methods;
   try {
-    const nlohmann::json manifest = nlohmann::json::parse(ReadWhole(path));
+    const nlohmann::json manifest = ReadJsonObject(path);
     for (const auto& method : manifest.at("methods")) {
       methods.push_back(method.at("name").get<std::string>());
     }
@@ -80,8 +74,8 @@ ExitStatus Certify(const CertifyCommand& command) {
         CertifyWalk(test, experiment.sequence, ParametersOf(run / place, experiment.sequence),
                     interrupt.token());
     if (walk.answer.stopped) break;
-    WriteCertificate(experiment, test, walk, ReadWhole(run / place / "trajectory.csv"), place,
-                     &folder);
+    WriteCertificate(experiment, test, walk, ReadCsvText((run / place / "trajectory.csv").string()),
+                     place, &folder);
     const bool certified = walk.answer.verdict == Verdict::kFeasible;
     all_certified = all_certified && certified;
     if (command.quiet) continue;

@@ -110,7 +110,8 @@ struct PlanCommand {
 /// `halfstep plan`: the footsteps to the goal, as YAML that can replace it, or as JSON. kFailed
 /// when there is no plan. Throws InputError.
 ExitStatus Plan(const PlanCommand& command);
-/// `halfstep bake`: certifies the set of half-steps and bakes their volumes into the cache.
+/// `halfstep bake`: certifies the set of half-steps and bakes their volumes into the cache. kFailed
+/// when they cannot be kept there.
 ExitStatus Bake(const PlanCommand& command);
 /// `halfstep list half-steps CONFIG`.
 ExitStatus ListHalfSteps(const PlanCommand& command);

@@ -2,14 +2,15 @@
 
 #include <algorithm>
 #include <charconv>
-#include <fstream>
-#include <iterator>
 
 #include "wpg/input/input_error.h"
+#include "wpg/input/regular_file.h"
 #include "wpg/input/text.h"
 
 namespace halfstep {
 namespace {
+
+constexpr std::uint64_t kMostBytes = 1 << 30;
 
 [[noreturn]] void Refuse(const std::string& path, size_t line, const std::string& what) {
   throw InputError({path + ":" + std::to_string(line) + ": " + what});
@@ -17,11 +18,9 @@ namespace {
 
 }  // namespace
 
-CsvTable ReadCsv(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw InputError({path + ": cannot be read"});
-  return ParseCsv({std::istreambuf_iterator<char>(in), {}}, path);
-}
+CsvTable ReadCsv(const std::string& path) { return ParseCsv(ReadCsvText(path), path); }
+
+std::string ReadCsvText(const std::string& path) { return ReadRegularFile(path, kMostBytes); }
 
 CsvTable ParseCsv(const std::string& text, const std::string& path) {
   CsvTable table{path, {}, {}};

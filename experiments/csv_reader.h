@@ -26,8 +26,10 @@ struct CsvTable {
 };
 
 /// Throws InputError as path:line: when a row has not as many cells as the header, when a quote is
-/// left open, or when the file cannot be read.
+/// left open, or when the file cannot be read or exceeds 1 GiB.
 CsvTable ReadCsv(const std::string& path);
+/// The text alone, which may be anything.
+std::string ReadCsvText(const std::string& path);
 /// The same of a text; `path` stands for it in complaints.
 CsvTable ParseCsv(const std::string& text, const std::string& path);
 

@@ -28,11 +28,11 @@ MethodRun PlannedRun(const Experiment& experiment, const FeasibilityTest& test) 
 }
 
 std::unique_ptr<FeasibilityTest> MakeTest(const MarginEvaluator& evaluator,
-                                          const SmoothingConfig& config) {
+                                          const SmoothingConfig& config, std::stop_token stop) {
   if (config.acceptance == "sampled") {
-    return std::make_unique<SampledFeasibility>(evaluator, config.sampling);
+    return std::make_unique<SampledFeasibility>(evaluator, config.sampling, std::move(stop));
   }
-  return std::make_unique<CertifiedFeasibility>(evaluator, config.certification);
+  return std::make_unique<CertifiedFeasibility>(evaluator, config.certification, std::move(stop));
 }
 
 MethodOptions OptionsOf(const ExperimentConfig& config) {
@@ -65,9 +65,10 @@ ExperimentRun::ExperimentRun(const ExperimentConfig& config, const RunHooks& hoo
 
 void ExperimentRun::Smooth(const RunHooks& hooks) {
   evaluator_.emplace(experiment_->robot, experiment_->scene, config_.smoothing.limits);
-  test_ = MakeTest(*evaluator_, config_.smoothing);
+  test_ = MakeTest(*evaluator_, config_.smoothing, hooks.stop_step);
   certifier_.emplace(*evaluator_, config_.smoothing.certification);
   runs_ = {PlannedRun(*experiment_, *test_)};
+  if (hooks.keep && runs_.front().result.status == SmoothingStatus::kFinished) hooks.keep();
   for (const std::string& name : config_.smoothing.methods) {
     MethodRun run(name);
     run.result = FindMethod(name).smooth(

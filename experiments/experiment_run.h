@@ -20,6 +20,9 @@ namespace halfstep {
 struct RunHooks {
   std::function<void(const std::string& what, double done)> progress;
   std::stop_token stop;
+  std::stop_token stop_step = {};  ///< later: also ends what the search is looking at
+  /// Told when the planned motion is found feasible: from then on there is something to keep.
+  std::function<void()> keep = {};
 };
 
 /// Why there is nothing to smooth.

@@ -1,22 +1,37 @@
 #pragma once
 
+#include <atomic>
 #include <stop_token>
 #include <thread>
 
 namespace halfstep {
 
-/// Turns Ctrl-C (SIGINT) and SIGTERM into a stop request while it lives; a second one ends the
-/// process at once. Make it before any other thread, so that they inherit the blocked signals.
+/// Turns Ctrl-C (SIGINT) and SIGTERM into a stop request while it lives. The process ends soon
+/// after the first signal, whatever it is doing: what does not obey the request is ended with exit
+/// status 130, after a second when there is nothing to keep (files are loaded, a scene is
+/// prepared), after 20 once there is. A second signal ends it at once. Make it before any other
+/// thread, so that they inherit the blocked signals.
 class InterruptGuard {
  public:
   InterruptGuard();
 
-  std::stop_token token() const { return source_.get_token(); }
-  bool requested() const { return source_.stop_requested(); }
+  std::stop_token token() const { return stop_.get_token(); }
+  bool requested() const { return stop_.stop_requested(); }
+
+  /// Requested a second later: for whatever one step of a search takes that long.
+  std::stop_token step_token() const { return step_.get_token(); }
+  /// Requested 10 s later: for proofs of what was found before; the rest stays undecided.
+  std::stop_token proof_token() const { return proof_.get_token(); }
+
+  /// From now on there is something to keep.
+  void Keep() { keep_ = true; }
 
  private:
-  std::stop_source source_;
-  std::jthread waiter_;
+  void WaitForSignals(const std::stop_token& ended);
+
+  std::stop_source stop_, step_, proof_;
+  std::atomic<bool> keep_ = false;
+  std::jthread waiter_;  // the last: uses what is above
 };
 
 }  // namespace halfstep

@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
+#include <new>
 #include <thread>
 
 #include "experiments/build_info.h"
@@ -284,6 +285,9 @@ int main(int argc, char** argv) {
   } catch (const InputError& error) {
     for (const std::string& complaint : error.complaints()) std::cerr << complaint << '\n';
     return kBadInput;
+  } catch (const std::bad_alloc&) {
+    std::cerr << "halfstep: out of memory (smaller input, a coarser period or fewer obstacles)\n";
+    return kFailed;
   } catch (const std::exception& error) {
     std::cerr << "halfstep: " << error.what() << '\n';
     return kFailed;

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "experiments/json_file.h"
 #include "experiments/run_record.h"
 #include "planner/footstep_planner.h"
 #include "smoothing/smoothing_result.h"
@@ -35,17 +35,10 @@ struct LoggedPlanner {
   std::vector<std::string> progress;
 };
 
-json ReadJson(const fs::path& path) {
-  std::ifstream in(path);
-  json value = json::parse(in, nullptr, /*allow_exceptions=*/false);
-  if (!value.is_object()) throw InputError({path.string() + ": is no JSON object"});
-  return value;
-}
-
 LoggedRun ReadLogged(const std::string& run) {
-  LoggedRun logged{ReadRun(run), ReadJson(fs::path(run) / "manifest.json"), nullptr};
+  LoggedRun logged{ReadRun(run), ReadJsonObject(fs::path(run) / "manifest.json"), nullptr};
   const fs::path plan = fs::path(run) / "plan.json";
-  if (fs::exists(plan)) logged.plan = ReadJson(plan);
+  if (fs::exists(plan)) logged.plan = ReadJsonObject(plan);
   return logged;
 }
 

@@ -103,7 +103,8 @@ ExitStatus Bake(const PlanCommand& command) {
   }
   WarnAboutCache(baked->cached);
   if (!baked->cached.volumes) {
-    std::cerr << "halfstep: interrupted; what was baked is kept\n";
+    std::cerr << "halfstep: interrupted; what was baked is "
+              << (baked->cached.not_kept.empty() ? "kept\n" : "not kept\n");
     return kInterrupted;
   }
   if (command.json) {
@@ -121,7 +122,7 @@ ExitStatus Bake(const PlanCommand& command) {
               << static_cast<double>(SizeOf(baked->cached.path)) * 1e-6
               << " MB: " << baked->cached.path << '\n';
   }
-  return kSuccess;
+  return baked->cached.not_kept.empty() ? kSuccess : kFailed;  // to keep them is its purpose
 }
 
 ExitStatus ListHalfSteps(const PlanCommand& command) {

@@ -52,7 +52,9 @@ ExitStatus Run(const RunCommand& command) {
   ProgressBars bars(command.quiet || command.json);
   const RunHooks hooks{
       .progress = [&bars](const std::string& what, double done) { bars.Update(what, done); },
-      .stop = interrupt.token()};
+      .stop = interrupt.token(),
+      .stop_step = interrupt.step_token(),
+      .keep = [&interrupt] { interrupt.Keep(); }};
   const ExperimentConfig config = LoadConfig(command.config, command.overrides);
   ExperimentRun run(config, hooks);
   if (run.refusal()) {
@@ -64,7 +66,7 @@ ExitStatus Run(const RunCommand& command) {
   run.Smooth(hooks);
   bars.End();
   // What smoothing had found when it was stopped is proved all the same.
-  run.Certify(interrupt.requested() ? std::stop_token() : interrupt.token());
+  run.Certify(interrupt.requested() ? interrupt.proof_token() : interrupt.token());
   run.Write(&folder);
   WriteReport(run.experiment().robot, run.experiment().scene, &folder);
   folder.Publish();

@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <stdio.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
@@ -20,13 +19,6 @@ namespace fs = std::filesystem;
   throw std::runtime_error(path.string() + ": " + what + ": " + std::strerror(error));
 }
 
-void Sync(const fs::path& folder) {
-  const int fd = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (fd < 0) return;
-  fsync(fd);  // some file systems cannot sync a folder; the rename is atomic all the same
-  close(fd);
-}
-
 // Sets errno; EINVAL where the file system (NFS) knows no flags.
 bool Rename(const fs::path& from, const fs::path& to, unsigned flags) {
   return renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), flags) == 0;
@@ -42,6 +34,10 @@ bool TakeName(const fs::path& from, const fs::path& to) {
   return false;
 }
 
+bool IsRun(const fs::path& path) {
+  return fs::is_directory(fs::symlink_status(path)) && fs::exists(path / "manifest.json");
+}
+
 // Lets `from` and `to` change places.
 void Exchange(const fs::path& from, const fs::path& to) {
   if (Rename(from, to, RENAME_EXCHANGE)) return;
@@ -52,7 +48,9 @@ void Exchange(const fs::path& from, const fs::path& to) {
     Rename(aside, to, 0);
     Fail("cannot replace the older run", to, reason);
   }
-  if (!Rename(aside, from, 0)) Fail("cannot remove the older run", aside, errno);
+  if (Rename(aside, from, 0)) return;
+  std::error_code ignored;
+  fs::remove_all(aside, ignored);
 }
 
 }  // namespace
@@ -64,55 +62,71 @@ RunFolder::RunFolder(fs::path path, bool overwrite)
   std::error_code error;
   fs::create_directories(path_.parent_path(), error);
   if (error) Fail("cannot make the folder", path_.parent_path(), error.value());
-  RemoveAbandonedSiblings(path_);
-  staging_ = PartialSibling(path_);
-  fs::remove_all(staging_, error);
-  if (!fs::create_directory(staging_, error))
-    Fail("cannot make the folder", staging_, error.value());
+  RemoveAbandonedSiblings(path_.parent_path(), path_.filename().string());
+  staging_.emplace(path_, PartialSibling::Kind::kFolder);
 }
 
 void RunFolder::CheckReplaceable() const {
+  if (fs::is_symlink(fs::symlink_status(path_))) {
+    throw std::runtime_error(path_.string() +
+                             ": is a link, which is not followed (name the folder itself)");
+  }
   if (!overwrite_) {
     throw std::runtime_error(path_.string() + ": is there already (--overwrite replaces it)");
   }
-  if (!fs::exists(path_ / "manifest.json")) {
+  if (!IsRun(path_)) {
     throw std::runtime_error(path_.string() + ": is not a run folder, so it is not overwritten");
   }
 }
 
-RunFolder::~RunFolder() {
-  std::error_code ignored;
-  if (!published_) fs::remove_all(staging_, ignored);
-}
-
 void RunFolder::Write(const std::string& relative, std::string_view content) {
-  const fs::path target = staging_ / relative;
+  const fs::path target = staging() / relative;
   std::error_code error;
   fs::create_directories(target.parent_path(), error);
   const fs::path shown = path_ / relative;
   if (error) Fail("cannot make its folder", shown, error.value());
+  fs::remove(target, error);  // of the older run
+  if (error) Fail("cannot be written", shown, error.value());
   WriteSynced(target, {content}, shown);
 }
 
 void RunFolder::CopyOlder() {
-  std::error_code error;
-  fs::copy(path_, staging_, fs::copy_options::recursive, error);
-  if (error) Fail("cannot be copied", path_, error.value());
+  for (auto entry = fs::recursive_directory_iterator(path_);
+       entry != fs::recursive_directory_iterator(); ++entry) {
+    const fs::path relative = entry->path().lexically_relative(path_);
+    const fs::file_type type = entry->symlink_status().type();
+    std::error_code error;
+    if (type == fs::file_type::directory) {
+      fs::create_directory(staging() / relative, error);
+      if (error) Fail("cannot make its folder", path_ / relative, error.value());
+    } else if (type == fs::file_type::regular) {
+      CopySynced(entry->path(), staging() / relative, path_ / relative);
+    } else {
+      throw std::runtime_error(entry->path().string() +
+                               ": is a link, a pipe or a device: a run that holds one is not "
+                               "rewritten");
+    }
+  }
 }
 
 void RunFolder::Publish() {
-  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(staging_)) {
-    if (entry.is_directory()) Sync(entry.path());
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(staging())) {
+    if (entry.is_directory()) SyncFolder(entry.path(), path_);
   }
-  Sync(staging_);
-  if (!TakeName(staging_, path_)) {
+  SyncFolder(staging(), path_);
+  if (TakeName(staging(), path_)) {
+    staging_->Release();
+  } else {
     CheckReplaceable();
-    Exchange(staging_, path_);
-    std::error_code ignored;
-    fs::remove_all(staging_, ignored);
+    Exchange(staging(), path_);
+    if (IsThere(staging()) &&
+        !IsRun(staging())) {  // something else took the name after it was looked at
+      Exchange(staging(), path_);
+      CheckReplaceable();
+    }
   }
-  published_ = true;
-  Sync(path_.parent_path());
+  SyncFolder(path_.parent_path(), path_);
+  staging_.reset();  // removes the older run
 }
 
 }  // namespace halfstep

@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "experiments/csv_reader.h"
 #include "experiments/folder_name.h"
+#include "experiments/json_file.h"
 #include "planner/checked_file.h"
 #include "wpg/input/input_error.h"
 #include "wpg/input/text.h"
@@ -22,19 +21,6 @@ using nlohmann::json;
 
 [[noreturn]] void Refuse(const fs::path& path, const std::string& what) {
   throw InputError({path.string() + ": " + what});
-}
-
-std::string ReadWhole(const fs::path& path) {
-  std::error_code ignored;
-  std::ifstream in(path, std::ios::binary);
-  if (!in || fs::is_directory(path, ignored)) Refuse(path, "cannot be read");
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-json ReadJson(const fs::path& path) {
-  json value = json::parse(ReadWhole(path), nullptr, /*allow_exceptions=*/false);
-  if (!value.is_object()) Refuse(path, "is no JSON object");
-  return value;
 }
 
 const json& Member(const json& object, const char* key, const fs::path& path) {
@@ -174,8 +160,8 @@ void AddRequested(const json& manifest, const fs::path& path, const std::string&
 // See RunRecord::problem.
 std::string ProblemOf(const json& manifest, const fs::path& run, const fs::path& path) {
   const fs::path claims = run / "raw" / "certificate.json";
-  const json certificate = ReadJson(claims);
-  std::string text = ReadWhole(run / "footsteps.csv");
+  const json certificate = ReadJsonObject(claims);
+  std::string text = ReadCsvText((run / "footsteps.csv").string());
   text += TextOf(manifest, "robot_sha256", path);
   text += manifest.contains("scene_sha256") ? TextOf(manifest, "scene_sha256", path) : "none";
   text += Member(certificate, "demanded", claims).dump();
@@ -192,8 +178,8 @@ RunRecord ReadRun(const std::string& argument) {
   if (!fs::is_directory(run) || !fs::exists(path)) {
     throw InputError({folder + ": no such run folder (valid: a folder that `halfstep run` wrote)"});
   }
-  const std::string text = ReadWhole(path);
-  const json manifest = ReadJson(path);
+  const std::string text = ReadJsonText(path);
+  const json manifest = ParseJsonObject(text, path);
   RunRecord record;
   record.run = folder;
   record.scenario = TextOf(manifest, "name", path);

@@ -24,7 +24,9 @@ ExperimentConfig ConfigOf(const SweepFolder& folder, const SweepCase& one) {
 // Writes a case's folder in place of a damaged one.
 void Publish(const SweepFolder& folder, const SweepCase& one, const ExperimentConfig& config,
              const SweepTables& tables, const ExperimentRun* kept) {
-  std::filesystem::remove_all(folder.CasePath(one));
+  if (folder.IsDone(one)) return;  // another process did it meanwhile
+  const std::filesystem::path path = folder.CasePath(one);
+  if (!std::filesystem::is_symlink(path)) std::filesystem::remove_all(path);
   RunFolder place(folder.CasePath(one), /*overwrite=*/false);
   if (kept != nullptr) {
     kept->Write(&place);

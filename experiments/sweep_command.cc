@@ -72,13 +72,14 @@ int Finish(const SweepCommand& command, const SweepFolder& folder,
 }
 
 int RunAll(const SweepCommand& command, const SweepFolder& folder,
-           const std::vector<SweepCase>& cases, const InterruptGuard& interrupt) {
+           const std::vector<SweepCase>& cases, InterruptGuard& interrupt) {
   const std::vector<SweepCase> missing = Missing(folder, cases);
   if (!command.quiet && missing.size() < cases.size()) {
     std::cout << cases.size() - missing.size() << " of " << cases.size()
               << " cases are done already\n"
               << std::flush;
   }
+  interrupt.Keep();  // the cases that are under way end first
   std::vector<std::vector<std::string>> arguments;
   for (const SweepCase& one : missing) arguments.push_back(CaseArguments(command, folder, one));
   size_t done = 0;

@@ -1,7 +1,5 @@
 #include "experiments/sweep_folder.h"
 
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -13,8 +11,11 @@
 #include "experiments/experiment.h"
 #include "experiments/sweep_tables.h"
 #include "planner/checked_file.h"
+#include "planner/partial_sibling.h"
 #include "planner/whole_file.h"
 #include "wpg/input/input_error.h"
+#include "wpg/input/nesting.h"
+#include "wpg/input/regular_file.h"
 
 namespace halfstep {
 namespace {
@@ -24,8 +25,7 @@ using nlohmann::ordered_json;
 
 // "" when it cannot be read.
 std::string Content(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
+  return TryReadRegularFile(path.string(), std::uint64_t{1} << 30).bytes;
 }
 
 // SHA-256 of the robot and scene files that any case names.
@@ -70,6 +70,7 @@ std::string Definition(const SweepConfig& sweep) {
 }
 
 std::string Difference(const std::string& there, const std::string& wanted) {
+  if (JsonDepth(there) > kMostJsonLevels) return "is the folder of no sweep";
   const ordered_json a = ordered_json::parse(there, nullptr, /*allow_exceptions=*/false);
   const ordered_json b = ordered_json::parse(wanted);
   if (!a.is_object() || a.value("kind", "") != "sweep") return "is the folder of no sweep";
@@ -164,9 +165,7 @@ std::string SweepFolder::Collect(const std::vector<SweepCase>& cases) const {
     runs += Content(CasePath(one) / "runs.csv").substr(runs_.text.size());
     timings += Content(CasePath(one) / "timings.csv").substr(timings_.text.size());
   }
-  for (const auto& entry : fs::directory_iterator(path_ / "cases")) {
-    if (entry.path().filename().string().starts_with('.')) fs::remove_all(entry.path());
-  }
+  RemoveAbandonedSiblings(path_ / "cases", "");
   WriteWhole(path_ / "runs.schema.json", {SchemaJson(runs_.columns)});
   WriteWhole(path_ / "timings.schema.json", {SchemaJson(timings_.columns)});
   WriteWhole(path_ / "timings.csv", {timings});

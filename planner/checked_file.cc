@@ -6,14 +6,13 @@
 #include <bit>
 #include <cstdint>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <memory>
 #include <stdexcept>
-#include <system_error>
+#include <utility>
 #include <vector>
 
 #include "planner/whole_file.h"
+#include "wpg/input/regular_file.h"
 
 namespace halfstep {
 namespace {
@@ -21,6 +20,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "files are written as memory holds them");
 
 constexpr std::string_view kMagic = "halfstep file 1\n";
+constexpr std::uint64_t kMostBytes = std::uint64_t{4} << 30;
 constexpr size_t kDigest = 32;  // bytes of SHA-256
 
 class Hash {
@@ -83,15 +83,10 @@ CheckedFile ReadCheckedFile(const std::string& path, std::string_view header) {
   const auto refuse = [&](const std::string& why) {
     return CheckedFile{std::nullopt, path + ": refused: " + why};
   };
-  std::error_code error;
-  const auto size = std::filesystem::file_size(path, error);
-  if (error == std::errc::no_such_file_or_directory) return {};
-  if (error) return refuse("it cannot be read (" + error.message() + ")");
-  std::ifstream file(path, std::ios::binary);
-  std::string bytes(size, '\0');
-  file.read(bytes.data(), static_cast<std::streamsize>(size));
-  if (!file) return refuse("it cannot be read");
-  return ParseCheckedFile(path, std::move(bytes), header);
+  FileBytes file = TryReadRegularFile(path, kMostBytes);
+  if (file.missing) return {};
+  if (!file.refused.empty()) return refuse(file.refused);
+  return ParseCheckedFile(path, std::move(file.bytes), header);
 }
 
 CheckedFile ParseCheckedFile(const std::string& path, std::string bytes, std::string_view header) {

@@ -18,7 +18,8 @@ struct CheckedFile {
 };
 
 /// Reads a file whose header must be `header`. Anything else is refused, never thrown: another
-/// header (the first line that differs is told), a file that is cut or changed in any bit.
+/// header (the first line that differs is told), a file that is cut or changed in any bit, one
+/// above 4 GiB.
 CheckedFile ReadCheckedFile(const std::string& path, std::string_view header);
 /// The same of a file's bytes.
 CheckedFile ParseCheckedFile(const std::string& path, std::string bytes, std::string_view header);

@@ -71,7 +71,7 @@ std::string DefaultCacheFolder() {
     return std::string(cache) + "/halfstep";
   }
   const char* home = std::getenv("HOME");
-  return home != nullptr && *home != '\0' ? std::string(home) + "/.cache/halfstep" : "";
+  return home != nullptr && *home == '/' ? std::string(home) + "/.cache/halfstep" : "";
 }
 
 std::string SweptVolumeProvenance(const RobotModel& robot, const Lipm& lipm, const HalfStepSet& set,
@@ -110,6 +110,14 @@ CachedVolumes LoadOrBakeSweptVolumes(const RobotModel& robot, const Lipm& lipm,
                                      const std::string& folder, BakeHooks hooks) {
   const std::string provenance = SweptVolumeProvenance(robot, lipm, set, options);
   CachedVolumes result;
+  if (folder.empty()) {
+    result.volumes = BakeSweptVolumes(robot, lipm, set, options, hooks);
+    result.baked = result.volumes.has_value();
+    result.not_kept =
+        "swept volumes are not kept: neither XDG_CACHE_HOME nor HOME is the path of a folder from "
+        "/ (valid: one of them, or the config's swept_volumes.cache)";
+    return result;
+  }
   result.path = (std::filesystem::path(folder) /
                  (robot.name + "-" + HexSha256(provenance).substr(0, 16) + ".swept"))
                     .string();

@@ -7,7 +7,7 @@
 
 namespace halfstep {
 
-/// $XDG_CACHE_HOME/halfstep, or ~/.cache/halfstep; "" when neither variable is set.
+/// $XDG_CACHE_HOME/halfstep, or $HOME/.cache/halfstep; "" when neither variable is a path from /.
 std::string DefaultCacheFolder();
 
 /// All that swept volumes depend on, as text, one thing a line: versions of format and generator,
@@ -29,7 +29,7 @@ struct CachedVolumes {
 /// there. Each element that is done is written to a part file, so that a bake that was stopped or
 /// killed goes on where it was; several bakes at once share them. Files of another provenance, cut
 /// or damaged ones are refused and baked again. Hooks `recall` and `keep` shall be empty. A folder
-/// that cannot be written costs the cache, not the result.
+/// that cannot be written, or is "", costs the cache, not the result.
 CachedVolumes LoadOrBakeSweptVolumes(const RobotModel& robot, const Lipm& lipm,
                                      const HalfStepSet& set, const SweptVolumeOptions& options,
                                      const std::string& folder, BakeHooks hooks = {});

@@ -1,16 +1,15 @@
 #include "planner/whole_file.h"
 
 #include <fcntl.h>
-#include <signal.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cerrno>
-#include <charconv>
 #include <cstdio>
 #include <cstring>
 #include <stdexcept>
 #include <string>
+
+#include "planner/partial_sibling.h"
 
 namespace halfstep {
 namespace {
@@ -21,66 +20,82 @@ namespace fs = std::filesystem;
   throw std::runtime_error(path.string() + ": cannot be written: " + std::strerror(error));
 }
 
-std::string Prefix(const fs::path& path) { return "." + path.filename().string() + ".partial-"; }
+class Descriptor {
+ public:
+  Descriptor(const fs::path& path, int flags) : fd_(open(path.c_str(), flags | O_CLOEXEC, 0644)) {}
+  ~Descriptor() {
+    if (fd_ >= 0) close(fd_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  int get() const { return fd_; }
+
+ private:
+  int fd_;
+};
+
+void Sync(int fd, const fs::path& shown) {
+  if (fsync(fd) != 0) Fail(shown, errno);
+}
+
+void WriteAll(int fd, const std::vector<std::string_view>& parts, const fs::path& shown) {
+  for (std::string_view content : parts) {
+    while (!content.empty()) {
+      const ssize_t n = write(fd, content.data(), content.size());
+      if (n < 0 && errno == EINTR) continue;
+      if (n < 0) Fail(shown, errno);
+      content.remove_prefix(static_cast<size_t>(n));
+    }
+  }
+  Sync(fd, shown);
+}
+
+void CheckReplaceable(const fs::path& path) {
+  const fs::file_type type = fs::symlink_status(path).type();
+  if (type == fs::file_type::not_found || type == fs::file_type::regular) return;
+  throw std::runtime_error(path.string() + (type == fs::file_type::symlink
+                                                ? ": is a link, which is not followed (name the "
+                                                  "file that it leads to)"
+                                                : ": is no regular file, so it is not replaced"));
+}
 
 }  // namespace
 
 void WriteSynced(const fs::path& path, const std::vector<std::string_view>& parts,
                  const fs::path& shown) {
-  const int fd = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-  if (fd < 0) Fail(shown, errno);
-  for (std::string_view content : parts) {
-    while (!content.empty()) {
-      const ssize_t n = write(fd, content.data(), content.size());
-      if (n < 0 && errno == EINTR) continue;
-      if (n < 0) {
-        const int reason = errno;
-        close(fd);
-        Fail(shown, reason);
-      }
-      content.remove_prefix(static_cast<size_t>(n));
-    }
-  }
-  const int synced = fsync(fd);
-  const int reason = errno;
-  if (close(fd) != 0 || synced != 0) Fail(shown, synced != 0 ? reason : errno);
+  const Descriptor file(path, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW);
+  if (file.get() < 0) Fail(shown, errno);
+  WriteAll(file.get(), parts, shown);
 }
 
 void WriteWhole(const fs::path& path, const std::vector<std::string_view>& parts) {
-  static std::atomic<unsigned> counter{0};
   std::error_code error;
-  if (path.has_parent_path()) fs::create_directories(path.parent_path(), error);
-  if (error) Fail(path.parent_path(), error.value());
-  RemoveAbandonedSiblings(path);
-  const fs::path partial = PartialSibling(path).string() + "-" + std::to_string(counter++);
-  try {
-    WriteSynced(partial, parts, path);
-  } catch (...) {
-    unlink(partial.c_str());
-    throw;
-  }
-  if (rename(partial.c_str(), path.c_str()) != 0) {
-    const int reason = errno;
-    unlink(partial.c_str());
-    Fail(path, reason);
-  }
-}
-
-fs::path PartialSibling(const fs::path& path) {
-  return path.parent_path() / (Prefix(path) + std::to_string(getpid()));
-}
-
-void RemoveAbandonedSiblings(const fs::path& path) {
-  const std::string prefix = Prefix(path);
   const fs::path folder = path.has_parent_path() ? path.parent_path() : ".";
-  std::error_code ignored;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
-    const std::string name = entry.path().filename().string();
-    if (!name.starts_with(prefix)) continue;
-    pid_t pid = 0;
-    std::from_chars(name.data() + prefix.size(), name.data() + name.size(), pid);
-    if (pid > 0 && kill(pid, 0) != 0 && errno == ESRCH) fs::remove_all(entry.path(), ignored);
-  }
+  fs::create_directories(folder, error);
+  if (error) Fail(folder, error.value());
+  CheckReplaceable(path);
+  RemoveAbandonedSiblings(folder, path.filename().string());
+  PartialSibling partial(path, PartialSibling::Kind::kFile);
+  WriteAll(partial.descriptor(), parts, path);
+  if (rename(partial.path().c_str(), path.c_str()) != 0) Fail(path, errno);
+  partial.Release();
+  SyncFolder(folder, path);
+}
+
+void CopySynced(const fs::path& from, const fs::path& to, const fs::path& shown) {
+  std::error_code error;
+  if (!fs::copy_file(from, to, fs::copy_options::none, error)) Fail(shown, error.value());
+  const Descriptor file(to, O_RDONLY | O_NOFOLLOW);
+  if (file.get() < 0) Fail(shown, errno);
+  Sync(file.get(), shown);
+}
+
+void SyncFolder(const fs::path& folder, const fs::path& shown) {
+  const Descriptor opened(folder, O_RDONLY | O_DIRECTORY);
+  if (opened.get() < 0 || fsync(opened.get()) == 0) return;
+  // What some file systems say of any folder.
+  if (errno == EINVAL || errno == EBADF || errno == EROFS || errno == ENOTSUP) return;
+  Fail(shown, errno);
 }
 
 }  // namespace halfstep

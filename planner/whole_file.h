@@ -6,19 +6,24 @@
 
 namespace halfstep {
 
-/// Writes a file's content, its parts one after the other, and syncs it to the disk. Throws
-/// std::runtime_error that names `shown` and the system's reason, e.g. "No space left on device".
+/// Writes a new file's content, its parts one after the other, and syncs it to the disk; nothing
+/// may have the name yet. Throws std::runtime_error that names `shown` and the system's reason,
+/// e.g. "No space left on device".
 void WriteSynced(const std::filesystem::path& path, const std::vector<std::string_view>& parts,
                  const std::filesystem::path& shown);
 
 /// Writes a file that appears under its name whole or not at all, in place of an older one, also
-/// when several threads or programs write it at once: by way of a hidden sibling. Makes the folder.
-/// Removes siblings that killed processes left behind. Throws as WriteSynced.
+/// when several threads or programs write it at once: by way of a PartialSibling. Makes the folder.
+/// Removes siblings that killed processes left behind. Throws as WriteSynced, also when the name is
+/// a link or anything else but a regular file: these are neither followed nor replaced.
 void WriteWhole(const std::filesystem::path& path, const std::vector<std::string_view>& parts);
 
-/// Name of this process' hidden sibling of `path`: ".NAME.partial-PID".
-std::filesystem::path PartialSibling(const std::filesystem::path& path);
-/// Removes the siblings of `path` whose processes are gone.
-void RemoveAbandonedSiblings(const std::filesystem::path& path);
+/// Copies a file to a name that nothing has, and syncs it. Throws as WriteSynced.
+void CopySynced(const std::filesystem::path& from, const std::filesystem::path& to,
+                const std::filesystem::path& shown);
+
+/// Syncs the names in a folder. Throws as WriteSynced, but not where the file system knows no
+/// syncing of folders.
+void SyncFolder(const std::filesystem::path& folder, const std::filesystem::path& shown);
 
 }  // namespace halfstep

@@ -79,8 +79,9 @@ TimeWindow ExtendedToKnots(const SuperposedWalk& walk, const TimeWindow& window)
 }
 
 CertifiedFeasibility::CertifiedFeasibility(const MarginEvaluator& evaluator,
-                                           const CertificationOptions& options)
-    : evaluator_(evaluator), options_(options), statements_(evaluator) {
+                                           const CertificationOptions& options,
+                                           std::stop_token stop)
+    : evaluator_(evaluator), options_(options), statements_(evaluator), stop_(std::move(stop)) {
   HALFSTEP_CHECK(options.resolution > 0.0 && options.longest >= options.resolution,
                  "resolution " << options.resolution << ", longest " << options.longest);
 }
@@ -132,7 +133,7 @@ Feasibility CertifiedFeasibility::Decide(const SuperposedWalk& walk, const TimeW
 
 Feasibility CertifiedFeasibility::Check(const SuperposedWalk& walk, const TimeWindow& window,
                                         MarginEvaluator::Scratch* scratch) const {
-  return Decide(walk, ExtendedToKnots(walk, window), scratch, nullptr, {});
+  return Decide(walk, ExtendedToKnots(walk, window), scratch, nullptr, stop_);
 }
 
 Feasibility CertifiedFeasibility::Certify(const SuperposedWalk& walk,

@@ -17,14 +17,16 @@ namespace halfstep {
 /// Source: [Schwarzer2005]; bounds: smoothing/README.md, "Certificates".
 class CertifiedFeasibility : public FeasibilityTest {
  public:
-  /// `evaluator` is borrowed and must outlive this.
-  CertifiedFeasibility(const MarginEvaluator& evaluator, const CertificationOptions& options);
+  /// `evaluator` is borrowed and must outlive this. `stop` is looked at before each interval of a
+  /// check; what is stopped is undecided.
+  CertifiedFeasibility(const MarginEvaluator& evaluator, const CertificationOptions& options,
+                       std::stop_token stop = {});
 
   Evidence evidence() const override { return Evidence::kCertified; }
   std::string Description() const override;
   const MarginEvaluator& evaluator() const override { return evaluator_; }
   std::unique_ptr<FeasibilityTest> Over(const MarginEvaluator& evaluator) const override {
-    return std::make_unique<CertifiedFeasibility>(evaluator, options_);
+    return std::make_unique<CertifiedFeasibility>(evaluator, options_, stop_);
   }
   Feasibility Check(const SuperposedWalk& walk, const TimeWindow& window,
                     MarginEvaluator::Scratch* scratch) const override;
@@ -47,6 +49,7 @@ class CertifiedFeasibility : public FeasibilityTest {
   const MarginEvaluator& evaluator_;
   CertificationOptions options_;
   IntervalStatements statements_;
+  std::stop_token stop_;
 };
 
 /// The window and, on either side, what lies between it and the next knot: where an overlap's

@@ -37,6 +37,10 @@ class Ascent {
   SmoothingResult Run(const std::function<void(double)>& progress) {
     const SuperposedWalk walk(sequence_, point_);
     const Feasibility start = test_.Check(walk, {0.0, walk.duration()}, &scratch_);
+    if (start.stopped) {
+      result_.message = "stopped from outside before the start was looked at";
+      return Finish(SmoothingStatus::kInterrupted);
+    }
     if (start.verdict != Verdict::kFeasible) {
       result_.message = std::string(options_.start ? "the start" : "the planned motion") +
                         " is not feasible: " + test_.evaluator().Describe(start.witness);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 #include "wpg/check.h"
 
@@ -29,8 +30,9 @@ std::string_view Name(Evidence evidence) {
   return evidence == Evidence::kSampled ? "sampled" : "certified";
 }
 
-SampledFeasibility::SampledFeasibility(const MarginEvaluator& evaluator, double period)
-    : evaluator_(evaluator), period_(period) {
+SampledFeasibility::SampledFeasibility(const MarginEvaluator& evaluator, double period,
+                                       std::stop_token stop)
+    : evaluator_(evaluator), period_(period), stop_(std::move(stop)) {
   HALFSTEP_CHECK(period > 0.0, "period = " << period);
 }
 
@@ -49,6 +51,12 @@ Feasibility SampledFeasibility::Check(const SuperposedWalk& walk, const TimeWind
   for (long stride = kCoarsest; stride >= 1; stride /= 2) {
     for (long i = 0; i <= grid.n; i += stride) {
       if (stride < kCoarsest && i % (2 * stride) == 0) continue;
+      if (stop_.stop_requested()) {
+        Margin open{.family = MarginFamily::kClearance, .value = std::nan("")};
+        open.t = grid.at(i);
+        open.at = walk.Locate(open.t);
+        return {Verdict::kUndecided, Evidence::kSampled, open, /*stopped=*/true};
+      }
       const auto violation = evaluator_.FirstViolation(walk, walk.Locate(grid.at(i)), scratch);
       if (violation) return {Verdict::kViolated, Evidence::kSampled, *violation};
     }

@@ -28,6 +28,7 @@ quietly() {
 release_only='InterruptedRun|StoppedRun|KilledRun|CsvSchema|SweepCommand|CsvPhysics.Hrp2'
 release_only="$release_only|OutsideOfACheckedWindow|ThePriceIsWhat|InterruptedCertification"
 release_only="$release_only|EveryPointOfAPareto|SafestWithinLess|AcceptsEveryMethodOfAWalk"
+release_only="$release_only|StoppedCommand|FaultyCommand"
 release_only="$release_only|OneCharacter|GeneratedRobotPhysics|FindsKnownOptima/nlopt_auglag"
 
 for preset in release debug; do

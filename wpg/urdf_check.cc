@@ -8,11 +8,16 @@
 #include <set>
 #include <sstream>
 
+#include "wpg/input/nesting.h"
 #include "wpg/input/number_text.h"
 #include "wpg/input/text.h"
 
 namespace halfstep {
 namespace {
+
+// urdfdom and what reads its tree call themselves at each link of a chain.
+constexpr size_t kMostLinks = 5000;
+constexpr int kMostSuggestions = 20;  // each is a look at all names
 
 using Elements = std::vector<const TiXmlElement*>;
 
@@ -38,7 +43,14 @@ class Checker {
       Complain(robot, robot.ValueStr(), "the top element must be <robot>");
       return places_;
     }
-    for (const TiXmlElement* link : ChildrenOf(robot, "link")) CheckLink(*link);
+    const Elements links = ChildrenOf(robot, "link");
+    if (links.size() > kMostLinks) {
+      Complain(robot, "robot",
+               "has " + std::to_string(links.size()) + " links (valid: at most " +
+                   std::to_string(kMostLinks) + ")");
+      return places_;
+    }
+    for (const TiXmlElement* link : links) CheckLink(*link);
     for (const TiXmlElement* joint : ChildrenOf(robot, "joint")) CheckJoint(*joint);
     CheckTree(robot);
     return places_;
@@ -186,7 +198,8 @@ class Checker {
     }
   }
 
-  std::string Suggestion(const std::string& word) const {
+  std::string Suggestion(const std::string& word) {
+    if (++suggestions_ > kMostSuggestions) return "";
     std::vector<std::string> names;
     for (const auto& [name, place] : places_.links) names.push_back(name);
     const std::string nearest = NearestWord(word, names);
@@ -209,6 +222,27 @@ class Checker {
     Bounded(*limit, "effort", 1, true);
   }
 
+  // Whether the way up from a link never ends; `known` remembers it of all links on the way.
+  static bool LeadsToARing(const std::string& link,
+                           const std::map<std::string, std::string>& parent_of,
+                           std::map<std::string, bool>* known) {
+    std::vector<std::string> way;
+    bool ring = false;
+    for (std::string at = link;;) {
+      const auto [judged, is_new] = known->emplace(at, true);  // true: until it is known better
+      if (!is_new) {
+        ring = judged->second;
+        break;
+      }
+      way.push_back(at);
+      const auto up = parent_of.find(at);
+      if (up == parent_of.end()) break;
+      at = up->second;
+    }
+    for (const std::string& passed : way) (*known)[passed] = ring;
+    return ring;
+  }
+
   void CheckTree(const TiXmlElement& robot) {
     std::map<std::string, std::string> parent_of;  // by child link
     for (const TiXmlElement* joint : ChildrenOf(robot, "joint")) {
@@ -222,15 +256,12 @@ class Checker {
       }
     }
     std::set<std::string> roots;
+    std::map<std::string, bool> in_ring;
     for (const TiXmlElement* link : ChildrenOf(robot, "link")) {
       const std::string name = Attribute(*link, "name");
       if (!parent_of.contains(name)) roots.insert(name);
-      std::set<std::string> above;
-      for (auto up = parent_of.find(name); up != parent_of.end(); up = parent_of.find(up->second)) {
-        if (!above.insert(up->first).second) {
-          Complain(*link, name, "hangs on itself through a ring of joints");
-          break;
-        }
+      if (LeadsToARing(name, parent_of, &in_ring)) {
+        Complain(*link, name, "hangs on itself through a ring of joints");
       }
     }
     if (roots.empty()) Complain(robot, "robot", "has no root link");
@@ -245,11 +276,18 @@ class Checker {
   const std::string& file_;
   Complaints* complaints_;
   UrdfPlaces places_;
+  int suggestions_ = 0;
 };
 
 }  // namespace
 
 UrdfPlaces CheckUrdf(const std::string& text, const std::string& file, Complaints* complaints) {
+  if (XmlDepth(text) > kMostXmlLevels) {
+    complaints->Add(file, 0, 0, "",
+                    "nests too deeply, or its XML declaration is not plain (valid: at most " +
+                        std::to_string(kMostXmlLevels) + " levels)");
+    return {};
+  }
   TiXmlDocument document;
   document.Parse(text.c_str(), nullptr, TIXML_ENCODING_UTF8);
   if (document.Error()) {

@@ -23,7 +23,7 @@ struct UrdfPlaces {
 
 /// Complains about everything in a URDF text that urdfdom would accept, drop or repair in silence:
 /// numbers that are missing or not finite, negative masses, limits that are missing, reversed or
-/// without speed, zero axes, unknown or repeated names, several roots, cycles.
+/// without speed, zero axes, unknown or repeated names, several roots, cycles, more than 5000 links.
 /// `file` stands for the text in complaints.
 UrdfPlaces CheckUrdf(const std::string& text, const std::string& file, Complaints* complaints);
 

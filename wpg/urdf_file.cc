@@ -3,15 +3,17 @@
 #include <console_bridge/console.h>
 #include <urdf_parser/urdf_parser.h>
 
-#include <fstream>
 #include <mutex>
-#include <sstream>
+
+#include "wpg/input/regular_file.h"
 
 namespace halfstep {
 namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
+
+constexpr std::uint64_t kMostBytes = 16 << 20;
 
 // Keeps what urdfdom would print. console_bridge has one handler a process, so one listener at a
 // time.
@@ -130,11 +132,9 @@ void AddLink(const urdf::Link& link, int joint, const UrdfPlaces& places, UrdfTr
 }
 
 std::string ReadText(const std::string& path) {
-  std::ifstream stream(path, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  if (!stream || text.str().empty()) throw InputError({path + ": the file cannot be read"});
-  return text.str();
+  std::string text = ReadRegularFile(path, kMostBytes);
+  if (text.empty()) throw InputError({path + ": is empty"});
+  return text;
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "experiments/certificate_statement.h"
 #include "experiments/csv_reader.h"
 #include "experiments/folder_name.h"
+#include "experiments/json_file.h"
 #include "experiments/report/report_page.h"
 #include "experiments/report/report_place.h"
 #include "experiments/report/report_walk.h"

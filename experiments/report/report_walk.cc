@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <optional>
 #include <vector>
 
 #include "experiments/csv_reader.h"
+#include "experiments/json_file.h"
 #include "experiments/report/shortened.h"
 #include "wpg/input/input_error.h"
 
@@ -103,14 +102,6 @@ json RowsJson(const fs::path& csv) {
     rows.push_back(std::move(row));
   }
   return rows;
-}
-
-json ReadJsonObject(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  json value = json::parse(std::string(std::istreambuf_iterator<char>(in), {}), nullptr,
-                           /*allow_exceptions=*/false);
-  if (!value.is_object()) throw InputError({path.string() + ": is no JSON object"});
-  return value;
 }
 
 json WalkJson(const fs::path& folder, double spacing) {

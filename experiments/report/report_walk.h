@@ -17,7 +17,4 @@ nlohmann::json WalkJson(const std::filesystem::path& folder, double spacing);
 /// Rows of a CSV file as objects: what reads as a number is one, to 6 digits; an empty cell null.
 nlohmann::json RowsJson(const std::filesystem::path& csv);
 
-/// Throws InputError when there is no such file, or when it is no JSON object.
-nlohmann::json ReadJsonObject(const std::filesystem::path& path);
-
 }  // namespace halfstep

@@ -6,6 +6,7 @@
 #include "experiments/verify/csv_text.h"
 #include "experiments/verify/findings.h"
 #include "wpg/input/input_error.h"
+#include "wpg/input/nesting.h"
 #include "wpg/input/number_text.h"
 #include "wpg/input/text.h"
 #include "wpg/input/yaml_node.h"
@@ -65,6 +66,10 @@ class Member {
 }  // namespace
 
 CertificateText ReadCertificateJson(const std::string& path, const std::string& text) {
+  if (JsonDepth(text) > kMostJsonLevels) {
+    throw InputError({path + ": nests too deeply (valid: at most " +
+                      std::to_string(kMostJsonLevels) + " levels)"});
+  }
   json document;
   try {
     document = json::parse(text);

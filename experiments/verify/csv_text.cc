@@ -4,14 +4,11 @@
 
 #include <array>
 #include <charconv>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string_view>
-#include <system_error>
 
 #include "experiments/verify/findings.h"
 #include "wpg/input/input_error.h"
+#include "wpg/input/regular_file.h"
 #include "wpg/input/text.h"
 
 namespace halfstep::verify {
@@ -49,13 +46,7 @@ bool Split(std::string_view line, std::vector<std::string>* cells) {
 }  // namespace
 
 std::string ReadBytes(const std::string& path) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) throw InputError({path + ": is a folder"});
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw InputError({path + ": cannot be read"});
-  std::string bytes{std::istreambuf_iterator<char>(in), {}};
-  if (in.bad()) throw InputError({path + ": cannot be read to its end"});
-  return bytes;
+  return ReadRegularFile(path, std::uint64_t{1} << 30);
 }
 
 std::string Sha256(const std::string& bytes) {

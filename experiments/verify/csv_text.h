@@ -5,7 +5,7 @@
 
 namespace halfstep::verify {
 
-/// Bytes of a file. Throws InputError when it cannot be read.
+/// Bytes of a file. Throws InputError when it cannot be read, is no regular file or exceeds 1 GiB.
 std::string ReadBytes(const std::string& path);
 
 /// Lower-case hexadecimal SHA-256.

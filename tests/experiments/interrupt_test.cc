@@ -81,6 +81,10 @@ TEST(InterruptedRun, LeavesACertifiedWalkAtLeastAsGoodAsTheStart) {
       continue;
     }
     EXPECT_EQ(outcome.status, kInterrupted) << outcome.err;
+    if (outcome.err == "halfstep: interrupted\n") {  // on a busy machine: nothing to keep yet
+      EXPECT_FALSE(fs::exists(place / name));
+      continue;
+    }
     CheckRunIsWhole(place / name, FoldersOf(one));
     if (testing::Test::HasFatalFailure()) return;
     ++whole;

@@ -92,6 +92,50 @@ TEST(PlanCommand, BakesOnceAndListsTheHalfSteps) {
   EXPECT_EQ(list.out, "half_step,x_m,y_m,yaw_rad\n1,0,-0.21,0\n2,0.2,-0.21,0\n");
 }
 
+TEST(PlanCommand, ABakeThatKeepsNothingFails) {
+  const TemporaryFolder place;
+  const std::string config = WriteText(place / "walk.yaml", ConfigText("none", kGoal));
+  WriteText(place / "file", "");
+  const std::vector<std::string> bake = {"bake", config, "--set", "swept_volumes.cache=file/below"};
+  const Outcome outcome = Halfstep(place.path(), bake);
+  EXPECT_EQ(outcome.status, kFailed);
+  EXPECT_THAT(outcome.err, testing::AllOf(HasSubstr("file/below"), HasSubstr("Not a directory")));
+  std::vector<std::string> plan = bake;
+  plan[0] = "plan";  // to keep volumes is not its purpose
+  EXPECT_EQ(Halfstep(place.path(), plan).status, kSuccess);
+}
+
+TEST(PlanCommand, WithoutAHomeNothingIsKeptInTheWorkingDirectory) {
+  const TemporaryFolder place;
+  std::string text = ConfigText("none", kGoal);
+  text.replace(text.find(", cache: cache"), 14, "");
+  const std::string config = WriteText(place / "walk.yaml", text);
+  for (const std::string home : {"", "relative"}) {
+    for (const std::string command : {"bake", "plan"}) {
+      const Outcome outcome = Child({command, config, "--quiet"},
+                                    {.working_directory = place.path(),
+                                     .environment = {{"HOME", home}, {"XDG_CACHE_HOME", "cache"}}})
+                                  .Wait();
+      EXPECT_EQ(outcome.status, command == "bake" ? kFailed : kSuccess);
+      EXPECT_THAT(outcome.err, HasSubstr("neither XDG_CACHE_HOME nor HOME"));
+      EXPECT_THAT(NamesIn(place.path()), testing::ElementsAre("walk.yaml"));
+    }
+  }
+}
+
+TEST(PlanCommand, AnEndlessCacheFileIsRefusedByItsSize) {
+  const TemporaryFolder place;
+  const std::string config = WriteText(place / "walk.yaml", ConfigText("none", kGoal));
+  const Outcome first = Halfstep(place.path(), {"bake", config, "--json"});
+  ASSERT_EQ(first.status, kSuccess) << first.err;
+  const std::string file = nlohmann::json::parse(first.out).at("file");
+  fs::resize_file(file, std::uintmax_t{1} << 40);
+  const Outcome second = Halfstep(place.path(), {"bake", config, "--json"});
+  EXPECT_EQ(second.status, kSuccess);
+  EXPECT_THAT(second.err, HasSubstr("refused: too large: 1099511627776 bytes"));
+  EXPECT_EQ(nlohmann::json::parse(second.out).at("baked"), true);
+}
+
 TEST(PlanCommand, RefusesAPlanWithoutAGoal) {
   const TemporaryFolder place;
   const Outcome outcome = Halfstep(place.path(), {"plan", ShippedConfig("bar_5cm")});

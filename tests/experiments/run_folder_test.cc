@@ -2,11 +2,13 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sched.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <atomic>
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -40,14 +42,6 @@ std::string RefusalOf(const std::function<void()>& action) {
     return error.what();
   }
   return "";
-}
-
-// The id of a process that has ended.
-pid_t DeadProcess() {
-  const pid_t pid = fork();
-  if (pid == 0) _exit(0);
-  waitpid(pid, nullptr, 0);
-  return pid;
 }
 
 TEST(RunFolder, AppearsWholeAndOnlyWhenPublished) {
@@ -115,12 +109,11 @@ TEST(RunFolder, NeverOverwritesWhatIsNoRun) {
   const TemporaryFolder place;
   WriteText(place / "thesis/chapter.tex", "years of work");
   WriteText(place / "file", "text");
-  fs::create_symlink("nowhere", place / "link");
-  for (const std::string name : {"thesis", "file", "link"}) {
+  for (const std::string name : {"thesis", "file"}) {
     EXPECT_THAT(RefusalOf([&] { RunFolder(place / name, true); }),
                 HasSubstr(name + ": is not a run folder"));
   }
-  EXPECT_THAT(NamesIn(place.path()), ElementsAre("file", "link", "thesis"));
+  EXPECT_THAT(NamesIn(place.path()), ElementsAre("file", "thesis"));
   EXPECT_EQ(ReadText(place / "thesis/chapter.tex"), "years of work");
 }
 
@@ -144,14 +137,109 @@ TEST(RunFolder, NeverReplacesARunThatAppearedMeanwhile) {
 
 TEST(RunFolder, RemovesWhatKilledRunsOfTheSameNameLeft) {
   const TemporaryFolder place;
-  const std::string dead = std::to_string(DeadProcess());
-  const std::string living = std::to_string(getppid());
-  const std::string kept[] = {".a.partial-" + living, ".b.partial-" + dead, ".a.partial-x"};
-  WriteText(place / (".a.partial-" + dead) / "raw/trajectory.csv", "half a li");
-  WriteText(place / (".a.partial-" + dead + "-older") / "manifest.json", "older");
+  const std::string digits = "0123456789abcdef";
+  const std::string kept[] = {".a.partial-123", ".b.partial-" + digits, ".a.partial-x"};
+  WriteText(place / (".a.partial-" + digits) / "raw/trajectory.csv", "half a li");
   for (const std::string& name : kept) WriteText(place / name / "f", "");
   MakeRun(place / "a", "one");
   EXPECT_THAT(NamesIn(place.path()), testing::UnorderedElementsAre("a", kept[0], kept[1], kept[2]));
+}
+
+TEST(RunFolder, NeitherFollowsNorReplacesALink) {
+  const TemporaryFolder place;
+  MakeRun(place / "precious", "old");
+  fs::create_directory_symlink("precious", place / "link");
+  fs::create_symlink("nowhere", place / "dangling");
+  for (const std::string name : {"link", "dangling"}) {
+    for (const bool overwrite : {false, true}) {
+      EXPECT_THAT(RefusalOf([&] { RunFolder(place / name, overwrite); }),
+                  HasSubstr(name + ": is a link, which is not followed"));
+    }
+    EXPECT_TRUE(fs::is_symlink(place / name));
+  }
+  {
+    RunFolder folder(place / "late", true);
+    WriteRun(&folder, "new");
+    fs::create_directory_symlink("precious", place / "late");
+    EXPECT_THAT(RefusalOf([&] { folder.Publish(); }), HasSubstr("is a link"));
+  }
+  EXPECT_EQ(ReadText(place / "precious/manifest.json"), "old");
+}
+
+TEST(RunFolder, ARunThatHoldsALinkIsNotRewritten) {
+  const TemporaryFolder place;
+  MakeRun(place / "a", "old");
+  WriteText(place / "precious", "years of work");
+  fs::create_symlink("../../precious", place / "a/dichotomy/certificate.csv");
+  RunFolder folder(place / "a", true);
+  EXPECT_THAT(RefusalOf([&] { folder.CopyOlder(); }), HasSubstr("certificate.csv: is a link"));
+  EXPECT_EQ(ReadText(place / "precious"), "years of work");
+}
+
+// Runs `action` as process 1 of a PID namespace of its own; ends with 77 when that is not allowed.
+pid_t InPidNamespace(const std::function<void()>& action) {
+  const pid_t outer = fork();
+  if (outer == 0) {
+    if (unshare(CLONE_NEWPID) != 0) _exit(77);
+    const pid_t first = fork();
+    if (first == 0) {
+      try {
+        action();
+      } catch (const std::exception&) {
+        _exit(1);
+      }
+      _exit(0);
+    }
+    int status = 0;
+    waitpid(first, &status, 0);
+    _exit(WIFEXITED(status) ? WEXITSTATUS(status) : 99);
+  }
+  return outer;
+}
+
+int StatusOf(pid_t child) {
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 99;
+}
+
+// In containers, or on hosts that share a folder, two processes may have the same number.
+TEST(RunFolder, RunsOfTwoPidNamespacesNeverMix) {
+  const TemporaryFolder place;
+  int to_a[2], to_b[2];
+  ASSERT_EQ(pipe(to_a) + pipe(to_b), 0);
+  const auto tell = [](const int* end) { (void)!write(end[1], "x", 1); };
+  const auto await = [](const int* end) {
+    char one = 0;
+    (void)!read(end[0], &one, 1);
+  };
+  const auto a = InPidNamespace([&] {
+    RunFolder folder(place / "run", true);
+    tell(to_b);
+    await(to_a);  // b has begun
+    WriteRun(&folder, "a");
+    tell(to_b);
+    await(to_a);  // b is there
+    folder.Publish();
+  });
+  const auto b = InPidNamespace([&] {
+    await(to_b);
+    RunFolder folder(place / "run", true);
+    folder.Write("only_b.csv", "b");
+    tell(to_a);
+    await(to_b);
+    WriteRun(&folder, "b");
+    folder.Publish();
+    tell(to_a);
+  });
+  const int status_a = StatusOf(a), status_b = StatusOf(b);
+  if (status_a == 77) GTEST_SKIP() << "needs the right to make PID namespaces";
+  EXPECT_EQ(status_a, 0);
+  EXPECT_EQ(status_b, 0);
+  EXPECT_THAT(FilesBelow(place.path()),
+              ElementsAre("run/dichotomy/overlaps.csv", "run/manifest.json"));
+  EXPECT_EQ(ReadText(place / "run/manifest.json"), "a");
+  EXPECT_EQ(ReadText(place / "run/dichotomy/overlaps.csv"), "a");
 }
 
 TEST(RunFolder, SaysWhatCannotBeWritten) {

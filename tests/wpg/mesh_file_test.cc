@@ -104,10 +104,10 @@ TEST(MeshFile, CoordinatesAreReadInDoublePrecision) {
 }
 
 TEST(MeshFile, MissingFilesAndFoldersAreRefused) {
-  EXPECT_THAT(Complaint(kFolder + "none.stl"), HasSubstr("no such file"));
+  EXPECT_THAT(Complaint(kFolder + "none.stl"), HasSubstr("No such file"));
   std::filesystem::create_directories(testing::TempDir() + "halfstep_folder.stl");
   EXPECT_THAT(Complaint(testing::TempDir() + "halfstep_folder.stl"),
-              HasSubstr("not a regular file"));
+              HasSubstr("is a folder, not a file"));
   const TemporaryFile empty("halfstep_empty.obj", "");
   EXPECT_THAT(Complaint(empty.path()), HasSubstr("is empty"));
 }

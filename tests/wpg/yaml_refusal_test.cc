@@ -164,7 +164,7 @@ TEST(YamlFiles, ThatCannotBeRead) {
   std::ofstream(good) << "{}";
   EXPECT_EQ(complaint(missing), missing + ": cannot be opened: No such file or directory");
   EXPECT_EQ(complaint(folder.string()), folder.string() + ": is a folder, not a file");
-  EXPECT_EQ(complaint(large), large + ": too large (valid: at most 4 MiB)");
+  EXPECT_EQ(complaint(large), large + ": too large: 4194305 bytes (valid: at most 4 MiB)");
   EXPECT_EQ(complaint(good), "");
   ReadYaml(good, {}, [&folder](Fields& fields) { EXPECT_EQ(fields.directory(), folder.string()); });
   std::filesystem::remove_all(folder);

@@ -5,16 +5,16 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <system_error>
+#include <utility>
 
 #include "wpg/input/input_error.h"
 #include "wpg/input/mesh_text.h"
+#include "wpg/input/regular_file.h"
 
 namespace halfstep {
 namespace {
 
-constexpr std::uintmax_t kMaxBytes = std::uintmax_t{1} << 30;
+constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 30;
 constexpr size_t kStlHeader = 80, kStlStart = 84, kStlTriangle = 50;
 
 [[noreturn]] void Refuse(const std::string& path, const std::string& what) {
@@ -35,21 +35,9 @@ std::string ExtensionOf(const std::string& path) {
 }
 
 std::string ReadWhole(const std::string& path) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) {
-    Refuse(path, std::filesystem::exists(path, error) ? "is not a regular file" : "no such file");
-  }
-  const std::uintmax_t size = std::filesystem::file_size(path, error);
-  if (error) Refuse(path, "cannot be read: " + error.message());
-  if (size > kMaxBytes) {
-    Refuse(path, "has " + std::to_string(size) + " bytes (valid: at most 1 GiB)");
-  }
-  std::ifstream file(path, std::ios::binary);
-  std::string bytes(static_cast<size_t>(size), '\0');
-  if (!file.read(bytes.data(), static_cast<std::streamsize>(size))) {
-    Refuse(path, "cannot be read");
-  }
-  return bytes;
+  FileBytes file = TryReadRegularFile(path, kMaxBytes);
+  if (!file.refused.empty()) Refuse(path, file.refused);
+  return std::move(file.bytes);
 }
 
 // Binary files may start with "solid" too; what they cannot help is the size or bytes that no text

@@ -1,10 +1,9 @@
 #include "wpg/input/yaml_fields.h"
 
-#include <cerrno>
 #include <filesystem>
-#include <fstream>
-#include <system_error>
+#include <utility>
 
+#include "wpg/input/regular_file.h"
 #include "wpg/input/yaml_node.h"
 #include "wpg/input/yaml_reader.h"
 
@@ -12,29 +11,15 @@ namespace halfstep {
 namespace {
 
 // yaml-cpp needs up to 240 bytes of memory for one of text.
-constexpr size_t kMostBytes = 4 << 20;
+constexpr std::uint64_t kMostBytes = 4 << 20;
 
 }  // namespace
 
 std::string ReadYamlFile(const std::string& path) {
   YamlComplaints complaints(path);
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) {
-    complaints.Fail({}, "", "is a folder, not a file");
-  }
-  errno = 0;
-  std::ifstream file(path, std::ios::binary);
-  if (!file) complaints.Fail({}, "", "cannot be opened: " + std::generic_category().message(errno));
-  std::string text(kMostBytes + 1, '\0');
-  file.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (file.bad())
-    complaints.Fail({}, "", "cannot be read: " + std::generic_category().message(errno));
-  text.resize(static_cast<size_t>(file.gcount()));
-  if (text.size() > kMostBytes) {
-    complaints.Fail({}, "",
-                    "too large (valid: at most " + std::to_string(kMostBytes >> 20) + " MiB)");
-  }
-  return text;
+  FileBytes file = TryReadRegularFile(path, kMostBytes);
+  if (!file.refused.empty()) complaints.Fail({}, "", file.refused);
+  return std::move(file.bytes);
 }
 
 void ReadYaml(const std::string& path, const std::vector<YamlOverride>& overrides,
