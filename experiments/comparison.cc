@@ -26,7 +26,7 @@ void Add(const MethodRecord& record, ComparedCase* one) {
     if (KeyOf(there.record) != KeyOf(record)) continue;
     const bool same =
         there.record.requested == record.requested && there.record.duration == record.duration &&
-        there.record.certified == record.certified && there.record.status == record.status;
+        there.record.certified == record.certified && there.record.ending == record.ending;
     if (same) return;
     throw InputError({record.run + ": " + record.name + " on " + Quote(one->scenario) + " is in " +
                       there.record.run +
@@ -62,9 +62,11 @@ bool Within(double value, double best, double target) {
 
 // When a method's incumbent first met a finite target; along the way `fastest` is looked at only.
 std::optional<Effort> Reached(const ComparedCase& one, const MethodRecord& record, double target) {
-  if (!record.certified || !one.best_cost) return std::nullopt;
+  if (!record.solved() || !one.best_cost) return std::nullopt;
   const Effort end{record.wall, record.evaluations};
-  if (std::isinf(target)) return record.status == "finished" ? std::optional(end) : std::nullopt;
+  if (std::isinf(target)) {
+    return record.ending == opt::Ending::kInterrupted ? std::nullopt : std::optional(end);
+  }
   if (one.objective == "fastest") {
     const MethodRecord& raw = one.methods.front().record;
     if (raw.certified && Within(raw.duration, *one.best_cost, target)) return Effort{};
@@ -84,7 +86,7 @@ bool HasCost(const ComparedCase& one, const MethodRecord& record) {
 void Measure(ComparedCase* one) {
   for (const ComparedMethod& method : one->methods) {
     const MethodRecord& record = method.record;
-    if (!HasCost(*one, record) || !record.certified ||
+    if (!HasCost(*one, record) || !record.solved() ||
         (one->best_cost && *one->best_cost <= record.cost))
       continue;
     one->best_cost = record.cost;
@@ -96,7 +98,7 @@ void Measure(ComparedCase* one) {
       method.gap = std::nan("");
       continue;
     }
-    if (method.record.certified) {
+    if (method.record.solved()) {
       const double above = method.record.cost - *one->best_cost;
       method.gap = above == 0.0 ? 0.0 : above / std::abs(*one->best_cost);
     }
@@ -220,10 +222,8 @@ std::vector<MethodMeans> Means(const Comparison& comparison) {
         ++mean.missing;
         continue;
       }
-      if (method->record.certified) {
-        ++mean.certified;
-        logs += std::log(method->record.speedup);
-      }
+      if (method->record.certified) ++mean.certified;
+      if (method->record.solved()) logs += std::log(method->record.speedup);
       for (size_t k = 0; k < kNumTargets; ++k) mean.solved[k] += method->reached[k] ? 1 : 0;
     }
     mean.speedup = std::exp(logs / mean.cases);

@@ -11,8 +11,8 @@
 
 namespace halfstep {
 
-/// What counts as solved, by the gap to the best: within 1 %, within 5 %, and ∞: the method came to
-/// its own end with a certified walk.
+/// What counts as solved, by the gap to the best: within 1 %, within 5 %, and ∞: the method was not
+/// interrupted. The walk is certified and the method's own (MethodRecord::solved).
 constexpr int kNumTargets = 3;
 constexpr std::array<double, kNumTargets> kTargets = {0.01, 0.05,
                                                       std::numeric_limits<double>::infinity()};
@@ -25,8 +25,8 @@ struct Effort {
 
 struct ComparedMethod {
   MethodRecord record;
-  /// (cost − best)/|best|; +inf when the walk is not certified; nan for raw where the objective is
-  /// not `fastest`: run folders do not hold its cost.
+  /// (cost − best)/|best|; +inf when the walk is not certified or not the method's own; nan for raw
+  /// where the objective is not `fastest`: run folders do not hold its cost.
   double gap = 0.0;
   /// Until each target was first met; none: a failure.
   std::array<std::optional<Effort>, kNumTargets> reached;
@@ -36,8 +36,8 @@ struct ComparedMethod {
 struct ComparedCase {
   std::string scenario, objective, problem;
   int half_steps = 0;
-  /// The cheapest certified walk of any method, raw included for `fastest`; none: nothing was
-  /// certified.
+  /// The cheapest certified walk of its own that any method has, raw included for `fastest`; none:
+  /// there is none.
   std::optional<double> best_cost;
   std::string best_method;
   std::vector<ComparedMethod> methods;  ///< raw first
@@ -82,7 +82,7 @@ struct MethodMeans {
   MethodKey method;
   int cases = 0, missing = 0, certified = 0;
   std::array<int, kNumTargets> solved{};
-  /// Cases that it did not bring to its own end with a certified walk.
+  /// Cases where it was interrupted, or has no certified walk of its own.
   int failed() const { return cases - solved.back(); }
   double speedup = 1.0;  ///< geometric mean
   /// Shifted geometric means exp(mean log(v + s)) − s with s = 0.1 s and 1000 evaluations; nan

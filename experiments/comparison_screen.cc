@@ -38,7 +38,7 @@ Widths WidthsOf(const Comparison& comparison) {
     for (const ComparedMethod& method : one.methods) {
       widths.name = std::max(widths.name, method.record.name.size());
       widths.variables = std::max(widths.variables, method.record.variables.size());
-      widths.status = std::max(widths.status, method.record.status.size());
+      widths.status = std::max(widths.status, Name(method.record.ending).size());
     }
   }
   return widths;
@@ -49,7 +49,7 @@ std::string CaseTable(const ComparedCase& one, const Widths& widths) {
       one.scenario + ", " + one.objective + Format(", %d half-steps", one.half_steps);
   text += one.best_cost
               ? Format("; best certified: cost %.4f by ", *one.best_cost) + one.best_method
-              : "; nothing was certified";
+              : "; no method has a certified walk of its own";
   text += "\n\n" + Left("method", widths.name) + Left("variables", widths.variables) +
           Left("status", widths.status) +
           Format("%-9s %10s %8s %9s %11s %11s %11s %11s %11s\n", "certified", "duration",
@@ -58,7 +58,7 @@ std::string CaseTable(const ComparedCase& one, const Widths& widths) {
     const MethodRecord& record = method.record;
     text += Left(record.name, widths.name) +
             Left(record.raw() ? "-" : record.variables, widths.variables) +
-            Left(record.status, widths.status) +
+            Left(std::string(Name(record.ending)), widths.status) +
             Format("%-9s %8.3f s %7.2fx ", record.certified ? "yes" : "no", record.duration,
                    record.speedup);
     text +=

@@ -40,13 +40,14 @@ CsvFile ComparisonCsv(const Comparison& comparison) {
       {"half_steps", kInteger, "", "of the walk"},
       {"method", kString, "", "its name, with the label of its run"},
       {"variables", kString, "", "of the method, none for raw"},
-      {"status", kString, "", "how it ended"},
+      {"status", kString, "", "how it ended: " + opt::EndingNames()},
       {"certified", kBoolean, "", "whether its walk is proved"},
       {"duration_s", kNumber, "s", "of the walk"},
       {"speedup", kNumber, "1", "duration of raw divided by this one's"},
       {"cost", kNumber, "", "what is compared; empty: raw with another objective than `fastest`"},
-      {"best_cost", kNumber, "", "of the scenario; empty: nothing was certified"},
-      {"gap_to_best", kNumber, "1", "(cost - best)/|best|; inf: not certified"},
+      {"best_cost", kNumber, "",
+       "of the scenario; empty: no method has a certified walk of its own"},
+      {"gap_to_best", kNumber, "1", "(cost - best)/|best|; inf: no certified walk of its own"},
       {"gap_to_reference", kNumber, "1", "as in summary.csv"},
       {"margin_evaluations", kNumber, "", "instants evaluated by the method"},
       {"collision_queries", kNumber, "", "pairs of bodies that were not culled"},
@@ -64,7 +65,7 @@ CsvFile ComparisonCsv(const Comparison& comparison) {
       const MethodRecord& record = method.record;
       csv.Cell(one.scenario).Cell(one.objective).Cell(one.half_steps).Cell(record.name);
       csv.Cell(OrNone(record.variables))
-          .Cell(record.status)
+          .Cell(Name(record.ending))
           .Cell(record.certified)
           .Cell(record.duration);
       csv.Cell(record.speedup);
@@ -148,10 +149,10 @@ CsvFile MeansCsv(const Comparison& comparison) {
       {"cases", kInteger, "", "scenarios"},
       {"missing", kInteger, "", "scenarios where it was not run"},
       {"certified", kInteger, "", "scenarios that it left with a certified walk"},
-      {"failed", kInteger, "", "scenarios that it did not bring to its own end with one"},
+      {"failed", kInteger, "", "scenarios where it was interrupted, or has none of its own"},
       {"within_1pct", kInteger, "", "scenarios solved to 1 % of the best cost"},
       {"within_5pct", kInteger, "", "scenarios solved to 5 %"},
-      {"finished", kInteger, "", "scenarios with a certified walk at its own end"},
+      {"ended", kInteger, "", "scenarios with a certified walk of its own, not interrupted"},
       {"speedup_mean", kNumber, "1", "geometric mean; a failure counts as 1"},
   };
   for (const std::string target : {"1pct", "5pct", "end"}) {

@@ -21,7 +21,8 @@ MethodRun PlannedRun(const Experiment& experiment, const FeasibilityTest& test) 
   run.result.instants = scratch.instants;
   run.result.collision_queries = scratch.bodies.queries;
   const bool feasible = answer.verdict == Verdict::kFeasible;
-  run.result.status = feasible ? SmoothingStatus::kFinished : SmoothingStatus::kStartInfeasible;
+  run.result.feasible = feasible;
+  run.result.ending = feasible ? opt::Ending::kConverged : opt::Ending::kFailed;
   run.result.message = feasible ? "the isolated half-steps, one after the other"
                                 : test.evaluator().Describe(answer.witness);
   return run;

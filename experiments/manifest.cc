@@ -78,7 +78,7 @@ ordered_json Requested(const std::string& method, const SmoothingConfig& config)
 ordered_json MethodJson(const MethodRun& run, const SmoothingConfig& config) {
   return {{"name", run.method},
           {"requested", Requested(run.method, config)},
-          {"status", Name(run.result.status)},
+          {"status", Name(run.result.ending)},
           {"message", run.result.message},
           {"evidence", Name(run.result.evidence)},
           {"duration_s", run.duration},

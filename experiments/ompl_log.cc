@@ -12,6 +12,7 @@
 #include "smoothing/smoothing_result.h"
 #include "wpg/input/input_error.h"
 #include "wpg/input/number_text.h"
+#include "wpg/input/text.h"
 
 namespace halfstep {
 namespace {
@@ -61,10 +62,7 @@ std::string Word(std::string text) {
 // Both programs' endings in one enumeration: a log knows one of the name `status`.
 std::vector<std::string> Statuses() {
   std::vector<std::string> names;
-  for (const auto status : {SmoothingStatus::kNotRun, SmoothingStatus::kFinished,
-                            SmoothingStatus::kInterrupted, SmoothingStatus::kStartInfeasible}) {
-    names.emplace_back(Name(status));
-  }
+  for (const opt::Ending ending : opt::kEndings) names.emplace_back(Name(ending));
   for (const auto status : {PlanStatus::kSolved, PlanStatus::kNoPlan, PlanStatus::kStartBlocked,
                             PlanStatus::kBudget, PlanStatus::kRefused}) {
     names.emplace_back(Name(status));
@@ -75,7 +73,12 @@ std::vector<std::string> Statuses() {
 std::string StatusIndex(const std::string& name) {
   const std::vector<std::string> statuses = Statuses();
   const auto found = std::find(statuses.begin(), statuses.end(), name);
-  return std::to_string(found == statuses.end() ? 0 : found - statuses.begin());
+  if (found == statuses.end()) {
+    std::string valid;
+    for (const std::string& status : statuses) valid += (valid.empty() ? "" : ", ") + status;
+    throw InputError({"status: " + Quote(name) + " (valid: " + valid + ")"});
+  }
+  return std::to_string(found - statuses.begin());
 }
 
 std::string ValueLine(const std::vector<std::string>& values) {
@@ -139,10 +142,10 @@ void AddMethods(const RunRecord& record, std::vector<LoggedPlanner>* planners) {
                           "speedup REAL",
                           "margin evaluations INTEGER",
                           "collision queries INTEGER"};
-    planner.runs.push_back(
-        ValueLine({StatusIndex(method.status), method.certified ? "1" : "0", Number(method.wall),
-                   Number(method.cost), Number(method.duration), Number(method.speedup),
-                   Number(method.evaluations), Number(method.collision_queries)}));
+    planner.runs.push_back(ValueLine(
+        {StatusIndex(std::string(Name(method.ending))), method.solved() ? "1" : "0",
+         Number(method.wall), Number(method.cost), Number(method.duration), Number(method.speedup),
+         Number(method.evaluations), Number(method.collision_queries)}));
     if (!method.raw()) planner.progress.push_back(ProgressLine(method, raw_duration));
   }
 }

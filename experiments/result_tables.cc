@@ -158,7 +158,7 @@ CsvFile IteratesCsv(const MethodRun& run) {
 CsvColumns SummaryColumns() {
   return {
       {"method", kString, "", "raw first"},
-      {"status", kString, "", "finished, interrupted or start_infeasible"},
+      {"status", kString, "", "how it ended: " + opt::EndingNames()},
       {"certified", kBoolean, "", "whether the walk is proved for all its time"},
       {"duration_s", kNumber, "s", "of the walk"},
       {"speedup", kNumber, "1", "duration of raw divided by this one's"},
@@ -188,7 +188,7 @@ CsvFile SummaryCsv(const MarginEvaluator& evaluator, const std::vector<MethodRun
     const SmoothingResult& result = run.result;
     const Margin& worst = WorstOf(run.margins, evaluator.limits());
     csv.Cell(run.method)
-        .Cell(Name(result.status))
+        .Cell(Name(result.ending))
         .Cell(run.certified.answer.verdict == Verdict::kFeasible);
     csv.Cell(run.duration).Cell(runs.front().duration / run.duration).Cell(result.cost);
     csv.Cell(worst.value).Cell(Name(worst.family));

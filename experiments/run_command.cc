@@ -45,6 +45,18 @@ class ProgressBars {
   std::optional<ProgressBar> bar_;
 };
 
+// A sentence on standard error for each method that never searched or broke down.
+bool TellWhatDidNotWork(const std::vector<MethodRun>& runs) {
+  bool told = false;
+  for (const MethodRun& run : runs) {
+    if (!DidNotWork(run.result.ending)) continue;
+    std::cerr << "halfstep: " << run.method << ": " << Name(run.result.ending) << ": "
+              << run.result.message << '\n';
+    told = true;
+  }
+  return told;
+}
+
 }  // namespace
 
 ExitStatus Run(const RunCommand& command) {
@@ -77,13 +89,13 @@ ExitStatus Run(const RunCommand& command) {
   } else if (!command.quiet) {
     std::cout << RunTable(run.experiment(), run.evaluator(), run.test(), run.runs(), place);
   }
-  for (const MethodRun& method : run.runs()) {
-    if (method.result.status != SmoothingStatus::kStartInfeasible) continue;
+  if (!run.runs().front().result.feasible) {
     std::cerr << "halfstep: the plan is not feasible: " << run.runs().front().result.message
               << '\n';
     return kFailed;
   }
-  return interrupt.requested() ? kInterrupted : kSuccess;
+  if (interrupt.requested()) return kInterrupted;
+  return TellWhatDidNotWork(run.runs()) ? kFailed : kSuccess;
 }
 
 }  // namespace halfstep

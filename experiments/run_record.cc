@@ -101,7 +101,9 @@ std::vector<MethodRecord> ReadSummary(const fs::path& run, const std::string& la
   for (size_t i = 0; i < names.size(); ++i) {
     const std::string line = table.path + ":" + std::to_string(i + 2);
     CheckWord(names[i], "a method's name", line);
-    CheckWord(statuses[i], "a status", line);
+    const std::optional<opt::Ending> ending = opt::EndingOf(statuses[i]);
+    if (!ending)
+      Refuse(line, "status: " + Quote(statuses[i]) + " (valid: " + opt::EndingNames() + ")");
     if (certified[i] != "true" && certified[i] != "false") {
       Refuse(line, "certified: " + Quote(certified[i]) + " (valid: true, false)");
     }
@@ -110,7 +112,7 @@ std::vector<MethodRecord> ReadSummary(const fs::path& run, const std::string& la
     if (!std::isfinite(costs[i])) Refuse(line, "cost: not finite");
     MethodRecord& method = methods.emplace_back();
     method.name = label.empty() || names[i] == "raw" ? names[i] : label + ":" + names[i];
-    method.status = statuses[i];
+    method.ending = *ending;
     method.certified = certified[i] == "true";
     method.duration = durations[i];
     method.speedup = speedups[i];

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "opt/ending.h"
+
 namespace halfstep {
 
 /// The incumbent of a method after one of its candidates, as iterates.csv has it.
@@ -20,7 +22,7 @@ struct MethodRecord {
   std::string variables;              ///< "overlaps+heights+durations"; "" for raw
   std::string objective = "fastest";  ///< that it pursued
   std::string requested;              ///< its options, as JSON text
-  std::string status;
+  opt::Ending ending = opt::Ending::kNotRun;
   bool certified = false;
   double duration = 0.0;  ///< [s]
   double speedup = 0.0;
@@ -31,6 +33,8 @@ struct MethodRecord {
   std::vector<IncumbentRecord> incumbents;
 
   bool raw() const { return name == "raw"; }
+  /// Whether it has a proved walk of its own; no other is the best of a scenario or has solved it.
+  bool solved() const { return certified && HasOwnResult(ending); }
 };
 
 /// A run folder in memory.

@@ -105,7 +105,7 @@ std::string RunTable(const Experiment& experiment, const MarginEvaluator& evalua
     const Margin& worst = WorstOf(run.margins, evaluator.limits());
     const Margin& clearance = Of(run, MarginFamily::kClearance);
     out << Format("%-22s %-16s %-10s %8.3f s %7.2fx %6.1f cm ", run.method.c_str(),
-                  std::string(Name(run.result.status)).c_str(),
+                  std::string(Name(run.result.ending)).c_str(),
                   std::string(VerdictName(run.certified.answer.verdict)).c_str(), run.duration,
                   runs.front().duration / run.duration, 100.0 * run.lowest_apex)
         << (!std::isfinite(clearance.value) ? Format("%10s", "-")
@@ -116,11 +116,12 @@ std::string RunTable(const Experiment& experiment, const MarginEvaluator& evalua
                   std::string(Unit(worst.family)).c_str());
   }
   for (const MethodRun& run : runs) {
-    if (run.result.status != SmoothingStatus::kFinished) {
-      out << "\n" << run.method << ": " << run.result.message << "\n";
+    if (!HasOwnResult(run.result.ending)) {
+      out << "\n"
+          << run.method << ": " << Name(run.result.ending) << ": " << run.result.message << "\n";
+      continue;  // what follows would be about another method's walk
     }
-    if (run.result.junctions.empty() || run.result.status == SmoothingStatus::kStartInfeasible)
-      continue;
+    if (run.result.junctions.empty()) continue;
     out << "\n"
         << run.method << Format(" (%.2f s, %ld instants)\n", run.result.wall, run.result.instants)
         << Holders(evaluator, run, JunctionKind::kUpDown)
@@ -137,7 +138,7 @@ std::string RunJson(const MarginEvaluator& evaluator, const std::vector<MethodRu
   for (const MethodRun& run : runs) {
     const Margin& worst = WorstOf(run.margins, evaluator.limits());
     json["methods"].push_back({{"method", run.method},
-                               {"status", Name(run.result.status)},
+                               {"status", Name(run.result.ending)},
                                {"message", run.result.message},
                                {"evidence", Name(run.result.evidence)},
                                {"verdict", VerdictName(run.certified.answer.verdict)},

@@ -95,7 +95,7 @@ make_sweep() {  # 200 cases of the box, by overlaps alone and with durations.
           --set 'smoothing.methods=[dichotomy, halfstep/barrier]' \
           --set smoothing.optimizer.durations=true --set smoothing.optimizer.least_duration=0.2 \
           --set smoothing.optimizer.deadline_s=2 2>"$work/said" || {
-            grep -q 'plan is not feasible' "$work/said" || { cat "$work/said" >&2; exit 1; }; }
+            grep -qE 'plan is not feasible|: (not_run|invalid_input|failed): ' "$work/said" || { cat "$work/said" >&2; exit 1; }; }
         pick "$work/run/summary.csv" "v=$speed" "c=$clearance" $columns
       done
     done; } >"$work/table"
@@ -109,7 +109,7 @@ make_methods() {  # Nine methods on six scenarios, over overlaps, heights and du
       --set 'smoothing.methods=[dichotomy, dichotomy/published, dichotomy/uniform, coordinate, ipopt,
              nlopt/ccsaq, nlopt/slsqp, halfstep/barrier, halfstep/sqp]' \
       --set smoothing.optimizer.heights=true --set smoothing.optimizer.durations=true \
-      --set smoothing.optimizer.deadline_s=5
+      --set smoothing.optimizer.deadline_s=5 || [ $? -eq 1 ]  # 1: a method failed
     runs="$runs $work/$scenario"
   done
   "$halfstep" compare $runs --quiet --out "$work/comparison"

@@ -41,7 +41,7 @@ class Barrier {
     }
   }
 
-  Ending Run() {
+  SolverEnd Run() {
     if (!EvaluateAt(x_)) return Broken();
     mu_ *= std::max(1.0, std::abs(cost_)) /
            static_cast<double>(std::max<size_t>(1, rows_.size() + bounds_.size()));
@@ -51,13 +51,13 @@ class Barrier {
     while (true) {
       UpdatePhase();
       if (!outside_ && Error(0.0) <= tolerance) {
-        return {SolveStatus::kConverged, "Barrier: first-order conditions hold.", x_};
+        return {Ending::kConverged, "Barrier: first-order conditions hold.", x_};
       }
       if (Error(mu_) <= 10.0 * mu_ || decrement_ <= 0.3 * mu_ || stalled > 0) {
         decrement_ = std::numeric_limits<double>::infinity();
         const double least = 0.01 * tolerance;
         if (stalled > 0 && mu_ <= least) {
-          return {outside_ ? SolveStatus::kInfeasible : SolveStatus::kAcceptable,
+          return {Ending::kFailed,
                   outside_ ? "Barrier: the violation has a local minimum."
                            : "Barrier: no step improves any more.",
                   x_};
@@ -75,7 +75,7 @@ class Barrier {
   }
 
  private:
-  Ending Broken() const { return {SolveStatus::kFailed, "Barrier: broke off.", x_}; }
+  SolverEnd Broken() const { return {Ending::kFailed, "Barrier: broke off.", x_}; }
 
   bool EvaluateAt(const VectorXd& x) {
     return session_.Constraints(x, &constraints_) && session_.Cost(x, &cost_) &&
@@ -234,7 +234,7 @@ class BarrierSolver : public Solver {
   }
   // `mu_init`: the first μ as a fraction of the cost per inequality; `memory`: steps that the
   // Hessian's estimate remembers.
-  Ending RunWithOptions(EvaluationSession& session, const VectorXd& start) const {
+  SolverEnd RunWithOptions(EvaluationSession& session, const VectorXd& start) const {
     std::vector<OwnOption> options = {{"mu_init", false, 0.1}, {"memory", true, 12}};
     if (const auto refused = ReadOwnOptions(name(), &session, &options)) return *refused;
     return Barrier(&session, start, options[0].value, static_cast<size_t>(options[1].value)).Run();

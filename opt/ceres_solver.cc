@@ -129,7 +129,7 @@ std::string SetOptions(EvaluationSession& session, InnerOptions* inner, int* max
   return "";
 }
 
-Ending Run(EvaluationSession& session, const Eigen::VectorXd& start) {
+SolverEnd Run(EvaluationSession& session, const Eigen::VectorXd& start) {
   constexpr int kDenseBfgs = 100;         // up to here an n×n matrix costs nothing
   constexpr double kOffTheBounds = 1e-3;  // of the width; a start on a bound would stay there
   constexpr int kMostFailures = 5;        // inner minimizations without any step, in a row
@@ -148,14 +148,14 @@ Ending Run(EvaluationSession& session, const Eigen::VectorXd& start) {
   inner.update_state_every_iteration = true;
   int max_outer = 60;
   if (std::string why = SetOptions(session, &inner, &max_outer); !why.empty()) {
-    return {SolveStatus::kInvalidInput, std::move(why), {}};
+    return {Ending::kInvalidInput, std::move(why), {}};
   }
 
   const QuietGlog quiet;
   const BoxTransform box(problem.lower(), problem.upper());
   AugmentedLagrangian lagrangian(&session);
   if (!lagrangian.Begin(start)) {
-    return {SolveStatus::kFailed, "A derivative at the start is not finite.", start};
+    return {Ending::kFailed, "A derivative at the start is not finite.", start};
   }
   Eigen::VectorXd x = start;
   Eigen::VectorXd z = box.FromBox(x);
@@ -180,13 +180,13 @@ Ending Run(EvaluationSession& session, const Eigen::VectorXd& start) {
                    ? failures + 1
                    : 0;
     if (failures == kMostFailures) {
-      return {SolveStatus::kAcceptable, "Ceres: " + summary.message, x};
+      return {Ending::kFailed, "Ceres: " + summary.message, x};
     }
     if (!lagrangian.Update(x)) break;
     const bool inner_done = summary.termination_type == ceres::CONVERGENCE;
     const double violation = problem.num_constraints() > 0 ? lagrangian.infeasibility() : 0.0;
     if (inner_done && inner.gradient_tolerance <= optimality && violation <= feasibility) {
-      return {SolveStatus::kConverged,
+      return {Ending::kConverged,
               "Augmented Lagrangian converged after " + std::to_string(outer + 1) +
                   " minimizations by Ceres.",
               x};
@@ -194,12 +194,12 @@ Ending Run(EvaluationSession& session, const Eigen::VectorXd& start) {
     inner.gradient_tolerance = std::max(optimality, 0.1 * inner.gradient_tolerance);
   }
   if (!lagrangian.Update(x)) {
-    return {SolveStatus::kFailed, "Ceres: the cost or a constraint is not finite.", x};
+    return {Ending::kFailed, "Ceres: the cost or a constraint is not finite.", x};
   }
   if (lagrangian.infeasibility() > std::sqrt(feasibility)) {
-    return {SolveStatus::kInfeasible, "The augmented Lagrangian stays infeasible.", x};
+    return {Ending::kFailed, "The augmented Lagrangian stays infeasible.", x};
   }
-  return {SolveStatus::kIterationLimit, "max_outer_iterations reached.", x};
+  return {Ending::kLimit, "max_outer_iterations reached.", x};
 }
 
 class CeresSolver : public Solver {

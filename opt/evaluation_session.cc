@@ -26,36 +26,35 @@ double EvaluationSession::Wall() const {
 
 double EvaluationSession::RemainingTime() const { return options_.deadline - Wall(); }
 
-void EvaluationSession::Stop(SolveStatus status, const std::string& message) {
-  if (stop_status_ != SolveStatus::kNotRun) return;  // the first reason stands
-  stop_status_ = status;
+void EvaluationSession::Stop(Ending ending, const std::string& message) {
+  if (stopped_) return;  // the first reason stands
+  stopped_ = ending;
   stop_message_ = message;
 }
 
 bool EvaluationSession::MayGoOn() {
   if (options_.stop.stop_requested()) {
-    Stop(SolveStatus::kStopped, "Stopped by request.");
+    Stop(Ending::kInterrupted, "Stopped by request.");
   } else if (Wall() >= options_.deadline) {
-    Stop(SolveStatus::kTimeLimit,
-         "The deadline of " + std::to_string(options_.deadline) + " s passed.");
+    Stop(Ending::kDeadline, "The deadline of " + std::to_string(options_.deadline) + " s passed.");
   } else if (points_ > options_.max_evaluations) {
-    Stop(SolveStatus::kIterationLimit,
+    Stop(Ending::kLimit,
          "max_evaluations = " + std::to_string(options_.max_evaluations) + " reached.");
   }
-  return stop_status_ == SolveStatus::kNotRun;
+  return !stopped_;
 }
 
 bool EvaluationSession::Guard(const std::function<void()>& evaluate) {
-  if (stop_status_ != SolveStatus::kNotRun || (!beginning_ && !MayGoOn())) return false;
+  if (stopped_ || (!beginning_ && !MayGoOn())) return false;
   try {
     evaluate();
     return true;
   } catch (const std::exception& error) {
     counted_.exception = std::current_exception();
-    Stop(SolveStatus::kFailed, std::string("A callback threw: ") + error.what());
+    Stop(Ending::kFailed, std::string("A callback threw: ") + error.what());
   } catch (...) {
     counted_.exception = std::current_exception();
-    Stop(SolveStatus::kFailed, "A callback threw something that is no std::exception.");
+    Stop(Ending::kFailed, "A callback threw something that is no std::exception.");
   }
   return false;
 }
@@ -76,14 +75,14 @@ bool EvaluationSession::EvaluateCost() {
     if (!std::isfinite(value)) non_finite_ = "The cost is not finite.";
     Consider();
   }
-  return std::isfinite(*point_.cost) && stop_status_ == SolveStatus::kNotRun;
+  return std::isfinite(*point_.cost) && !stopped_;
 }
 
 bool EvaluationSession::EvaluateConstraints() {
   if (!point_.constraints) {
     if (!Guard([&] { KeepConstraints(problem_.Constraints(point_.x)); })) return false;
   }
-  return point_.constraints->allFinite() && stop_status_ == SolveStatus::kNotRun;
+  return point_.constraints->allFinite() && !stopped_;
 }
 
 void EvaluationSession::KeepConstraints(Eigen::VectorXd values) {
@@ -168,7 +167,7 @@ void EvaluationSession::Consider() {
   if (!Better(point_, best_)) return;
   best_ = point_;
   if (*best_.cost < kUnboundedCost && best_.feasible(options_.feasibility_tolerance)) {
-    Stop(SolveStatus::kFailed, "The cost is unbounded below: it fell under -1e20.");
+    Stop(Ending::kFailed, "The cost is unbounded below: it fell under -1e20.");
   }
   if (counting_ == Iterations::kImprovements && !beginning_) CountIterate(best_);
 }
@@ -180,7 +179,7 @@ void EvaluationSession::CountIterate(const Point& point) {
   bool go_on = true;
   const Iterate iterate{iteration, point.x, *point.cost, point.violation.amount, Wall()};
   if (Guard([&] { go_on = options_.on_iterate(iterate); }) && !go_on) {
-    Stop(SolveStatus::kStopped,
+    Stop(Ending::kInterrupted,
          "on_iterate stopped at iteration " + std::to_string(iteration) + ".");
   }
 }
@@ -193,7 +192,7 @@ bool EvaluationSession::ReportIterate(const Eigen::VectorXd& x) {
     ++iterations_;
   }
   if (counting_ == Iterations::kTold && iterations_ > options_.max_iterations) {
-    Stop(SolveStatus::kIterationLimit,
+    Stop(Ending::kLimit,
          "max_iterations = " + std::to_string(options_.max_iterations) + " reached.");
   }
   return MayGoOn();
@@ -208,13 +207,13 @@ bool EvaluationSession::Begin(const Eigen::VectorXd& start) {
   if (evaluated) {
     CountIterate(point_);
   } else {
-    Stop(SolveStatus::kInvalidInput, "At the start: " + non_finite_);
+    Stop(Ending::kInvalidInput, "At the start: " + non_finite_);
   }
   beginning_ = false;
   return evaluated && MayGoOn();
 }
 
-Solution EvaluationSession::Finish(SolveStatus claim, std::string message,
+Solution EvaluationSession::Finish(Ending claim, std::string message,
                                    const Eigen::VectorXd& final_x) {
   if (final_x.size() == problem_.num_variables() && final_x.allFinite()) {
     MoveTo(final_x);
@@ -254,26 +253,25 @@ bool EvaluationSession::EstimateStationarity(Solution* solution) {
   return true;
 }
 
-void EvaluationSession::Judge(SolveStatus claim, const std::string& message, const Point& end,
+void EvaluationSession::Judge(Ending claim, const std::string& message, const Point& end,
                               Solution* solution) {
   // Loose: solvers test scaled quantities, and a coarse test suffices to unmask false claims.
   const double stationary = std::max(1e-3, std::sqrt(options_.optimality_tolerance));
   const double nearly_stationary = 30.0 * stationary;
   const double tolerance = options_.feasibility_tolerance;
-  solution->status = claim;
+  solution->ending = claim;
   solution->message = message;
-  const bool judged = claim == SolveStatus::kConverged || claim == SolveStatus::kAcceptable ||
-                      claim == SolveStatus::kInfeasible || claim == SolveStatus::kFailed;
-  const bool estimated = stop_status_ == SolveStatus::kNotRun && judged && solution->feasible &&
-                         EstimateStationarity(solution);
-  if (stop_status_ != SolveStatus::kNotRun) {
-    solution->status = stop_status_;
+  const bool judged = claim == Ending::kConverged || claim == Ending::kFailed;
+  const bool estimated =
+      !stopped_ && judged && solution->feasible && EstimateStationarity(solution);
+  if (stopped_) {
+    solution->ending = *stopped_;
     solution->message = stop_message_;
     return;
   }
   if (!judged) return;
   std::ostringstream more;
-  const bool success = claim == SolveStatus::kConverged || claim == SolveStatus::kAcceptable;
+  const bool success = claim == Ending::kConverged;
   if (success && !end.complete) {
     more << " But there: " << non_finite_;
   } else if (success && !end.feasible(tolerance)) {
@@ -284,14 +282,13 @@ void EvaluationSession::Judge(SolveStatus claim, const std::string& message, con
   } else if (success && estimated && solution->stationarity <= stationary) {
     return;
   }
+  solution->ending = Ending::kFailed;
   if (!solution->feasible) {
-    solution->status = success ? SolveStatus::kInfeasible : claim;
-    if (claim == SolveStatus::kFailed && saw_non_finite()) {
-      more << " Not finite on the way: " << non_finite_;
-    }
+    more << " Nothing feasible was seen.";
+    if (!success && saw_non_finite()) more << " Not finite on the way: " << non_finite_;
   } else {
     const bool near = estimated && solution->stationarity <= nearly_stationary;
-    solution->status = near ? SolveStatus::kAcceptable : SolveStatus::kFailed;
+    if (near) solution->ending = Ending::kLimit;
     more << " The best feasible point seen "
          << (near ? "satisfies the first-order conditions nearly" : "is not stationary")
          << " (residual " << solution->stationarity << ").";

@@ -54,7 +54,7 @@ class EvaluationSession {
   void Use(const std::string& option, const std::string& value) { used_[option] = value; }
 
   /// The solver ended at `final_x` and claims `claim`; what is true of it goes into the Solution.
-  Solution Finish(SolveStatus claim, std::string message, const Eigen::VectorXd& final_x);
+  Solution Finish(Ending claim, std::string message, const Eigen::VectorXd& final_x);
 
  private:
   struct Point {
@@ -75,13 +75,13 @@ class EvaluationSession {
   void KeepConstraints(Eigen::VectorXd values);
   void Consider();
   bool Better(const Point& a, const Point& b) const;
-  void Stop(SolveStatus status, const std::string& message);
+  void Stop(Ending ending, const std::string& message);
   /// Runs `evaluate`; what it throws is kept and stops the session.
   bool Guard(const std::function<void()>& evaluate);
   void CountIterate(const Point& point);
   /// Estimates stationarity and multipliers at the best point. False: it could not be evaluated.
   bool EstimateStationarity(Solution* solution);
-  void Judge(SolveStatus claim, const std::string& message, const Point& end, Solution* solution);
+  void Judge(Ending claim, const std::string& message, const Point& end, Solution* solution);
 
   const Problem& problem_;
   const SolverOptions& options_;
@@ -93,16 +93,17 @@ class EvaluationSession {
   int points_ = 0;
   int iterations_ = 0;
   double highest_cost_;
-  std::string non_finite_;  ///< a sentence about the last value that was not finite
-  SolveStatus stop_status_ = SolveStatus::kNotRun;
+  std::string non_finite_;         ///< a sentence about the last value that was not finite
+  std::optional<Ending> stopped_;  ///< by what asked to stop first
   std::string stop_message_;
   Solution counted_;  ///< counts, history and exception so far
   std::map<std::string, std::string> used_;
 };
 
-/// How an adapter's run ended, in the solver's own opinion.
-struct Ending {
-  SolveStatus status;
+/// How an adapter's run ended, in the solver's own opinion. A test of optimality that held is
+/// kConverged, a weaker one or none at all kFailed: EvaluationSession says what is true of it.
+struct SolverEnd {
+  Ending claim;
   std::string message;
   Eigen::VectorXd x;
   std::shared_ptr<const WarmStart> warm_start = nullptr;
@@ -113,6 +114,6 @@ struct Ending {
 Solution SolveInSession(
     const Solver& solver, const Problem& problem, const Eigen::VectorXd& x0,
     const SolverOptions& options, EvaluationSession::Iterations counting,
-    const std::function<Ending(EvaluationSession&, const Eigen::VectorXd&)>& run);
+    const std::function<SolverEnd(EvaluationSession&, const Eigen::VectorXd&)>& run);
 
 }  // namespace halfstep::opt

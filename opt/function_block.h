@@ -16,7 +16,7 @@ struct SparsityPattern {
 };
 
 /// g: Rⁿ → Rᵐ with a sparse Jacobian. Evaluation is const: a block knows no current x. Any method
-/// may throw; a solver then ends in SolveStatus::kFailed with the exception's message.
+/// may throw; a solver then ends in Ending::kFailed with the exception's message.
 class FunctionBlock {
  public:
   virtual ~FunctionBlock() = default;

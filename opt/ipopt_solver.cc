@@ -175,25 +175,25 @@ std::string SetOptions(EvaluationSession& session, Ipopt::IpoptApplication& ipop
   return "";
 }
 
-Ending Translate(Ipopt::ApplicationReturnStatus status, Eigen::VectorXd x) {
-  using S = SolveStatus;
+SolverEnd Translate(Ipopt::ApplicationReturnStatus status, Eigen::VectorXd x) {
+  using S = Ending;
   switch (status) {
     case Ipopt::Solve_Succeeded:
       return {S::kConverged, "Ipopt: solved.", std::move(x)};
     case Ipopt::Solved_To_Acceptable_Level:
-      return {S::kAcceptable, "Ipopt: solved to its acceptable level.", std::move(x)};
+      return {S::kFailed, "Ipopt: solved to its acceptable level.", std::move(x)};
     case Ipopt::Feasible_Point_Found:
-      return {S::kAcceptable, "Ipopt: feasible point of a square problem found.", std::move(x)};
+      return {S::kFailed, "Ipopt: feasible point of a square problem found.", std::move(x)};
     case Ipopt::Search_Direction_Becomes_Too_Small:
-      return {S::kAcceptable, "Ipopt: the search direction became too small.", std::move(x)};
+      return {S::kFailed, "Ipopt: the search direction became too small.", std::move(x)};
     case Ipopt::Infeasible_Problem_Detected:
-      return {S::kInfeasible, "Ipopt: the violation has a local minimum.", std::move(x)};
+      return {S::kFailed, "Ipopt: the violation has a local minimum.", std::move(x)};
     case Ipopt::Diverging_Iterates:
       return {S::kFailed, "Ipopt: the iterates diverge; the cost may be unbounded.", std::move(x)};
     case Ipopt::Maximum_Iterations_Exceeded:
-      return {S::kIterationLimit, "Ipopt: max_iter reached.", std::move(x)};
+      return {S::kLimit, "Ipopt: max_iter reached.", std::move(x)};
     case Ipopt::Maximum_CpuTime_Exceeded:
-      return {S::kTimeLimit, "Ipopt: max_cpu_time reached.", std::move(x)};
+      return {S::kDeadline, "Ipopt: max_cpu_time reached.", std::move(x)};
     case Ipopt::Not_Enough_Degrees_Of_Freedom:
       return {S::kFailed, "Ipopt: fewer free variables than equalities.", std::move(x)};
     case Ipopt::Invalid_Option:
@@ -208,18 +208,18 @@ Ending Translate(Ipopt::ApplicationReturnStatus status, Eigen::VectorXd x) {
   }
 }
 
-Ending Run(EvaluationSession& session, const Eigen::VectorXd& start) {
+SolverEnd Run(EvaluationSession& session, const Eigen::VectorXd& start) {
   std::unique_lock lock(OneSolve(), std::defer_lock);
   while (!lock.try_lock_for(std::chrono::milliseconds(5))) {
-    if (!session.MayGoOn()) return {SolveStatus::kStopped, "Stopped in the queue.", start};
+    if (!session.MayGoOn()) return {Ending::kInterrupted, "Stopped in the queue.", start};
   }
   const Ipopt::SmartPtr<Ipopt::IpoptApplication> ipopt =
       new Ipopt::IpoptApplication(false);  // owned by the SmartPtr; no console
   if (std::string why = SetOptions(session, *ipopt); !why.empty()) {
-    return {SolveStatus::kInvalidInput, std::move(why), {}};
+    return {Ending::kInvalidInput, std::move(why), {}};
   }
   if (ipopt->Initialize("") != Ipopt::Solve_Succeeded) {  // "": no option file is read
-    return {SolveStatus::kInvalidInput, "Ipopt: the options cannot be used together.", {}};
+    return {Ending::kInvalidInput, "Ipopt: the options cannot be used together.", {}};
   }
   const Ipopt::SmartPtr<Adapter> adapter = new Adapter(&session, start);
   const Ipopt::ApplicationReturnStatus status =

@@ -177,7 +177,7 @@ class Settings {
   std::map<std::string, double> values_;
 };
 
-Ending Translate(nlopt_result result, nlopt_opt opt, Eigen::VectorXd x) {
+SolverEnd Translate(nlopt_result result, nlopt_opt opt, Eigen::VectorXd x) {
   const char* detail = nlopt_get_errmsg(opt);
   const std::string name = nlopt_result_to_string(result);
   const std::string message = "NLopt: " + name + (detail ? std::string(", ") + detail : "") + ".";
@@ -186,24 +186,24 @@ Ending Translate(nlopt_result result, nlopt_opt opt, Eigen::VectorXd x) {
     case NLOPT_STOPVAL_REACHED:
     case NLOPT_FTOL_REACHED:
     case NLOPT_XTOL_REACHED:
-      return {SolveStatus::kConverged, message, std::move(x)};
+      return {Ending::kConverged, message, std::move(x)};
     case NLOPT_ROUNDOFF_LIMITED:
-      return {SolveStatus::kAcceptable, message, std::move(x)};
+      return {Ending::kFailed, message, std::move(x)};
     case NLOPT_MAXEVAL_REACHED:
-      return {SolveStatus::kIterationLimit, message, std::move(x)};
+      return {Ending::kLimit, message, std::move(x)};
     case NLOPT_MAXTIME_REACHED:
-      return {SolveStatus::kTimeLimit, message, std::move(x)};
+      return {Ending::kDeadline, message, std::move(x)};
     default:
-      return {SolveStatus::kFailed, message, std::move(x)};
+      return {Ending::kFailed, message, std::move(x)};
   }
 }
 
-Ending Run(const NloptMethod& method, EvaluationSession& session, const Eigen::VectorXd& start) {
+SolverEnd Run(const NloptMethod& method, EvaluationSession& session, const Eigen::VectorXd& start) {
   const Problem& problem = session.problem();
   const auto n = static_cast<unsigned>(problem.num_variables());
   Settings settings(method, &session);
   if (std::string why = settings.Read(); !why.empty()) {
-    return {SolveStatus::kInvalidInput, std::move(why), {}};
+    return {Ending::kInvalidInput, std::move(why), {}};
   }
 
   const Handle opt(nlopt_create(nlopt_algorithm_from_string(method.algorithm.c_str()), n));

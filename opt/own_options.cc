@@ -6,8 +6,8 @@
 
 namespace halfstep::opt {
 
-std::optional<Ending> ReadOwnOptions(const std::string& solver, EvaluationSession* session,
-                                     std::vector<OwnOption>* known) {
+std::optional<SolverEnd> ReadOwnOptions(const std::string& solver, EvaluationSession* session,
+                                        std::vector<OwnOption>* known) {
   constexpr double kMost = 1000;
   for (const auto& [option, value] : session->options().solver_options) {
     const auto found = std::find_if(known->begin(), known->end(),
@@ -15,7 +15,7 @@ std::optional<Ending> ReadOwnOptions(const std::string& solver, EvaluationSessio
     if (found == known->end()) {
       std::vector<std::string> names;
       for (const OwnOption& own : *known) names.push_back(own.name);
-      return Ending{SolveStatus::kInvalidInput, UnknownOption(solver, option, names), {}};
+      return SolverEnd{Ending::kInvalidInput, UnknownOption(solver, option, names), {}};
     }
     const auto number =
         found->integer ? std::optional<double>(ParseInteger(value)) : ParseNumber(value);
@@ -23,7 +23,7 @@ std::optional<Ending> ReadOwnOptions(const std::string& solver, EvaluationSessio
         number && (found->integer ? *number >= 0.0 && *number <= kMost : *number > 0.0);
     if (!right) {
       const char* why = found->integer ? "an integer from 0 to 1000" : "a number above 0";
-      return Ending{SolveStatus::kInvalidInput, RefusedOption(solver, option, value, why), {}};
+      return SolverEnd{Ending::kInvalidInput, RefusedOption(solver, option, value, why), {}};
     }
     found->value = *number;
     session->Use(option, value);

@@ -17,7 +17,7 @@ struct OwnOption {
 
 /// Reads SolverOptions::solver_options into `known` and notes what was used. Returns an ending in
 /// kInvalidInput when one is unknown or out of range.
-std::optional<Ending> ReadOwnOptions(const std::string& solver, EvaluationSession* session,
-                                     std::vector<OwnOption>* known);
+std::optional<SolverEnd> ReadOwnOptions(const std::string& solver, EvaluationSession* session,
+                                        std::vector<OwnOption>* known);
 
 }  // namespace halfstep::opt

@@ -4,33 +4,9 @@
 
 namespace halfstep::opt {
 
-std::string ToString(SolveStatus status) {
-  switch (status) {
-    case SolveStatus::kNotRun:
-      return "not_run";
-    case SolveStatus::kConverged:
-      return "converged";
-    case SolveStatus::kAcceptable:
-      return "acceptable";
-    case SolveStatus::kIterationLimit:
-      return "iteration_limit";
-    case SolveStatus::kTimeLimit:
-      return "time_limit";
-    case SolveStatus::kStopped:
-      return "stopped";
-    case SolveStatus::kInfeasible:
-      return "infeasible";
-    case SolveStatus::kInvalidInput:
-      return "invalid_input";
-    case SolveStatus::kFailed:
-      return "failed";
-  }
-  return "unknown";
-}
-
 std::string Solution::BriefReport() const {
   std::ostringstream out;
-  out << (solver.empty() ? "no solver" : solver) << ": " << ToString(status);
+  out << (solver.empty() ? "no solver" : solver) << ": " << Name(ending);
   if (x.size() > 0) {
     out << ", cost " << cost;
     if (feasible) {

@@ -8,30 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "opt/ending.h"
 #include "opt/warm_start.h"
 
 namespace halfstep::opt {
-
-/// How a solve ended. x of the Solution is the best point seen in every case but kNotRun and
-/// kInvalidInput.
-enum class SolveStatus {
-  kNotRun,
-  /// The solver's test of optimality held, x is feasible to the tolerance, and by our own estimate
-  /// it satisfies the first-order conditions.
-  kConverged,
-  /// x is feasible and near the first-order conditions, but the solver's own test was weaker, or it
-  /// broke off, or ended elsewhere.
-  kAcceptable,
-  kIterationLimit,  ///< max_iterations or max_evaluations
-  kTimeLimit,
-  kStopped,       ///< stop token or on_iterate
-  kInfeasible,    ///< ended at a point that violates constraints, and nothing feasible was seen
-  kInvalidInput,  ///< problem not supported, wrong option, non-finite start; nothing was optimized
-  kFailed,        ///< exception in a callback, breakdown, a false claim, unbounded cost
-};
-
-/// "converged", "time_limit", …
-std::string ToString(SolveStatus status);
 
 struct HistoryEntry {
   int iteration;
@@ -41,13 +21,18 @@ struct HistoryEntry {
 };
 
 /// What came out of a solve. x, cost, max_violation and worst_row belong together and were
-/// evaluated by us: the solver's word is not taken for any of them.
+/// evaluated by us: the solver's word is not taken for any of them, nor for `ending`.
 struct Solution {
-  SolveStatus status = SolveStatus::kNotRun;
+  /// kConverged: x is feasible to the tolerance, and by our own estimate it satisfies the
+  /// first-order conditions. kLimit: limits, or x is feasible and near these conditions while the
+  /// solver's own test was weaker, or it broke off or ended elsewhere. kInterrupted: by stop token
+  /// or on_iterate. kFailed: also a claim that does not hold, nothing feasible found, unbounded
+  /// cost. Never kNoImprovement: that is for the caller to say, who knows what x0 was.
+  Ending ending = Ending::kNotRun;
   std::string message = "Solve was not called.";
   std::string solver;  ///< "nlopt/ccsaq"
   /// The best point seen (n): the cheapest among those feasible to the tolerance, else the least
-  /// violated.
+  /// violated; empty where none was evaluated.
   Eigen::VectorXd x;
   double cost = std::numeric_limits<double>::quiet_NaN();
   double max_violation = std::numeric_limits<double>::infinity();  ///< natural unit of worst_row

@@ -28,23 +28,23 @@ std::string WhyRefused(const Solver& solver, const Problem& problem, const Eigen
 Solution SolveInSession(
     const Solver& solver, const Problem& problem, const Eigen::VectorXd& x0,
     const SolverOptions& options, EvaluationSession::Iterations counting,
-    const std::function<Ending(EvaluationSession&, const Eigen::VectorXd&)>& run) {
+    const std::function<SolverEnd(EvaluationSession&, const Eigen::VectorXd&)>& run) {
   Require(x0.size() == problem.num_variables(), "x0 has " + std::to_string(x0.size()) +
                                                     " entries, not " +
                                                     std::to_string(problem.num_variables()));
   EvaluationSession session(problem, options, counting);
-  Ending ending{SolveStatus::kInvalidInput, WhyRefused(solver, problem, x0, options), {}};
-  if (ending.message.empty()) {
+  SolverEnd end{Ending::kInvalidInput, WhyRefused(solver, problem, x0, options), {}};
+  if (end.message.empty()) {
     const Eigen::VectorXd start = x0.cwiseMax(problem.lower()).cwiseMin(problem.upper());
     try {
-      if (session.Begin(start)) ending = run(session, start);
+      if (session.Begin(start)) end = run(session, start);
     } catch (const std::exception& error) {
-      ending = {SolveStatus::kFailed, std::string("The solver threw: ") + error.what(), {}};
+      end = {Ending::kFailed, std::string("The solver threw: ") + error.what(), {}};
     }
   }
-  Solution solution = session.Finish(ending.status, ending.message, ending.x);
+  Solution solution = session.Finish(end.claim, end.message, end.x);
   solution.solver = solver.name();
-  solution.warm_start = ending.warm_start;
+  solution.warm_start = end.warm_start;
   return solution;
 }
 

@@ -51,18 +51,18 @@ class Sqp {
     if (memory.region.size() > 0) region_ = memory.region.cwiseMax(kFirstRegion * width_);
   }
 
-  Ending Run() {
-    Ending ending = Iterate();
+  SolverEnd Run() {
+    SolverEnd end = Iterate();
     auto memory = std::make_shared<SqpMemory>(0);
     memory->region = region_;
     memory->penalty = penalty_;
     memory->hessian = std::move(hessian_);
-    ending.warm_start = std::move(memory);
-    return ending;
+    end.warm_start = std::move(memory);
+    return end;
   }
 
  private:
-  Ending Iterate() {
+  SolverEnd Iterate() {
     std::vector<double> jacobian;
     if (!session_.Jacobian(x_, &jacobian) || !session_.Constraints(x_, &values_) ||
         !session_.Cost(x_, &cost_) || !session_.Gradient(x_, &gradient_)) {
@@ -79,21 +79,21 @@ class Sqp {
       const bool feasible =
           problem_.MaxViolation(x_, values_).amount <= options.feasibility_tolerance;
       if (feasible && Stationary(step.duals, A) <= options.optimality_tolerance) {
-        return {SolveStatus::kConverged, "SQP: first-order conditions hold.", x_};
+        return {Ending::kConverged, "SQP: first-order conditions hold.", x_};
       }
       const double size = std::max(1.0, std::abs(cost_) + penalty_ * violation);
       if ((region_.array() < kLeastRegion * width_.array()).all() || predicted <= 1e-14 * size) {
         if (!feasible) {
-          return {SolveStatus::kInfeasible, "SQP: the violation has a local minimum.", x_};
+          return {Ending::kFailed, "SQP: the violation has a local minimum.", x_};
         }
-        return {SolveStatus::kAcceptable, "SQP: no step improves any more.", x_};
+        return {Ending::kFailed, "SQP: no step improves any more.", x_};
       }
       if (!Try(step, c, predicted, &A)) return Broken();
     }
     return Broken();
   }
 
-  Ending Broken() const { return {SolveStatus::kFailed, "SQP: broke off.", x_}; }
+  SolverEnd Broken() const { return {Ending::kFailed, "SQP: broke off.", x_}; }
 
   bool Fixed(int v) const { return problem_.lower()[v] == problem_.upper()[v]; }
 
@@ -277,7 +277,7 @@ class SqpSolver : public Solver {
 
   // `radius`: the first trust region, of the variables' widths; `memory`: steps that the Hessian's
   // estimate remembers; `penalty`, `most_penalty`: of a row's violation, first and at most.
-  Ending RunWithOptions(EvaluationSession& session, const VectorXd& start) const {
+  SolverEnd RunWithOptions(EvaluationSession& session, const VectorXd& start) const {
     std::vector<OwnOption> options = {{"radius", false, 0.1},
                                       {"memory", true, 12},
                                       {"penalty", false, 10.0},

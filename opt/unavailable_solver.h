@@ -22,7 +22,7 @@ class UnavailableSolver : public Solver {
                  const SolverOptions& options) const override {
     return SolveInSession(*this, problem, x0, options, EvaluationSession::Iterations::kTold,
                           [this](EvaluationSession&, const Eigen::VectorXd&) {
-                            return Ending{SolveStatus::kInvalidInput, why_, {}};
+                            return SolverEnd{Ending::kInvalidInput, why_, {}};
                           });
   }
 

@@ -13,6 +13,8 @@
 namespace halfstep {
 namespace {
 
+using opt::Ending;
+
 // Factors of η that are tried, besides the least allowed.
 constexpr double kHeightFactors[] = {0.5, 0.75, 0.9, 1.1, 1.3};
 
@@ -44,8 +46,9 @@ class Ascent {
     if (start.verdict != Verdict::kFeasible) {
       result_.message = std::string(options_.start ? "the start" : "the planned motion") +
                         " is not feasible: " + test_.evaluator().Describe(start.witness);
-      return Finish(SmoothingStatus::kStartInfeasible);
+      return Finish(Ending::kNotRun);
     }
+    result_.feasible = true;
     for (int pass = 0; pass < options_.passes; ++pass) {
       const double before = DurationOf(point_);
       for (int step = 0; step < sequence_.num_steps(); ++step) {
@@ -53,7 +56,7 @@ class Ascent {
         if (options_.heights) TryHeights(step);
         if (stop_.stop_requested()) {
           result_.message = "stopped from outside; the parameters found so far are feasible";
-          return Finish(SmoothingStatus::kInterrupted);
+          return Finish(Ending::kInterrupted);
         }
         if (progress) {
           progress((pass + (step + 1.0) / sequence_.num_steps()) / options_.passes);
@@ -72,11 +75,11 @@ class Ascent {
       }
       if (before - now < options_.tolerance) {
         result_.message = "a pass gained less than " + std::to_string(options_.tolerance) + " s";
-        return Finish(SmoothingStatus::kFinished);
+        return Finish(Ending::kConverged);
       }
     }
     result_.message = "all passes done, the last one still gained";
-    return Finish(SmoothingStatus::kFinished);
+    return Finish(Ending::kLimit);
   }
 
  private:
@@ -207,13 +210,16 @@ class Ascent {
     result_.junctions = best_junctions;
   }
 
-  SmoothingResult Finish(SmoothingStatus status) {
+  SmoothingResult Finish(Ending ending) {
+    const bool ran = ending != Ending::kNotRun;
+    const bool improved = DurationOf(point_) < DurationOf(options_.start.value_or(planned_));
+    if (ran && !improved) result_.message += "; no coordinate gained";
     for (int i = 0; i < sequence_.num_junctions(); ++i) {
       JunctionResult& junction = result_.junctions[static_cast<size_t>(i)];
       junction.overlap = point_.overlaps[static_cast<size_t>(i)];
       junction.upper_bound = NaturalOverlapBound(sequence_, point_.durations, i);
     }
-    result_.status = status;
+    result_.ending = ran && !improved ? Ending::kNoImprovement : ending;
     result_.parameters = point_;
     result_.cost = DurationOf(point_);
     result_.instants = scratch_.instants;

@@ -29,7 +29,7 @@ struct CoordinateAscentOptions {
 ///   - η by itself changes no duration. So each of a few values is tried with the overlaps and
 ///     durations of its step and its neighbours' junctions bisected again, and kept if that gains.
 /// Every point that is kept was found feasible by `test` and lasts no longer than the one before.
-/// It ends where no coordinate gains by itself, which need not be an optimum. Statuses as for
+/// It ends where no coordinate gains by itself, which need not be an optimum. Endings as for
 /// Dichotomy; one iterate for each pass.
 SmoothingResult CoordinateAscent(const HalfStepSequence& sequence, const FeasibilityTest& test,
                                  const CoordinateAscentOptions& options,

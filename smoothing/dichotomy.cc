@@ -9,6 +9,8 @@
 namespace halfstep {
 namespace {
 
+using opt::Ending;
+
 class Bisection {
  public:
   Bisection(const HalfStepSequence& sequence, const FeasibilityTest& test,
@@ -37,26 +39,24 @@ class Bisection {
       return Finish();
     }
     if (start.verdict != Verdict::kFeasible) {
-      result_.status = SmoothingStatus::kStartInfeasible;
       result_.message = std::string(options_.start ? "the start" : "the planned motion") +
                         " is not feasible: " + test_.evaluator().Describe(start.witness);
-      return Finish();
+      return Finish(Ending::kNotRun);
     }
+    result_.feasible = true;
     const int n = sequence_.num_junctions();
     for (int pass = 0; pass < options_.passes; ++pass) {
       for (int k = 0; k < n; ++k) {
         const bool forward = options_.order == DichotomyOptions::Order::kLeftToRight;
         if (!BisectJunction(forward ? k : n - 1 - k)) {
-          result_.status = SmoothingStatus::kInterrupted;
           result_.message = "stopped from outside; the overlaps found so far are feasible";
-          return Finish();
+          return Finish(result_.iterates.empty() ? Ending::kNotRun : Ending::kInterrupted);
         }
         if (progress) progress(static_cast<double>(pass * n + k + 1) / (options_.passes * n));
       }
     }
-    result_.status = SmoothingStatus::kFinished;
     result_.message = "every junction bisected to " + std::to_string(options_.tolerance) + " s";
-    return Finish();
+    return Finish(Ending::kConverged);
   }
 
  private:
@@ -117,7 +117,10 @@ class Bisection {
     return answer.witness;
   }
 
-  SmoothingResult Finish() {
+  SmoothingResult Finish(Ending ending) {
+    const bool improved = result_.time_to_first_improvement.has_value();
+    result_.ending = improved || ending == Ending::kNotRun ? ending : Ending::kNoImprovement;
+    if (result_.ending == Ending::kNoImprovement) result_.message += "; none could be made longer";
     result_.parameters = walk_.parameters();
     result_.cost = walk_.duration();
     result_.instants = scratch_.instants;
@@ -137,20 +140,6 @@ class Bisection {
 };
 
 }  // namespace
-
-std::string_view Name(SmoothingStatus status) {
-  switch (status) {
-    case SmoothingStatus::kNotRun:
-      return "not_run";
-    case SmoothingStatus::kFinished:
-      return "finished";
-    case SmoothingStatus::kInterrupted:
-      return "interrupted";
-    case SmoothingStatus::kStartInfeasible:
-      return "start_infeasible";
-  }
-  return "";
-}
 
 SmoothingResult Dichotomy(const HalfStepSequence& sequence, const FeasibilityTest& test,
                           const DichotomyOptions& options,

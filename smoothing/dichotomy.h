@@ -34,7 +34,7 @@ struct DichotomyOptions {
 /// Source: [Perrin2011] §IV.
 ///
 /// `progress` (may be empty) is told the fraction of junctions done. Never throws for expected
-/// failures: see SmoothingResult::status.
+/// failures: see SmoothingResult::ending.
 SmoothingResult Dichotomy(const HalfStepSequence& sequence, const FeasibilityTest& test,
                           const DichotomyOptions& options,
                           const std::function<void(double)>& progress = {},

@@ -17,6 +17,8 @@
 namespace halfstep {
 namespace {
 
+using opt::Ending;
+
 constexpr int kAttempts = 6;    // towards a grid's optimum that the test refuses
 constexpr double kGain = 1e-4;  // a round that gains less counts as none [s]
 
@@ -60,7 +62,7 @@ class Reference {
     std::vector<HomotopyParameters> starts;
     result_ = Dichotomy(sequence_, test_, {}, {}, stop_);
     result_.iterates.clear();
-    if (result_.status != SmoothingStatus::kStartInfeasible) starts.push_back(result_.parameters);
+    if (result_.feasible) starts.push_back(result_.parameters);
     MarginEvaluator::Scratch scratch = test_.evaluator().MakeScratch();
     for (const HomotopyParameters& start : options_.starts) {
       const SuperposedWalk walk(sequence_, start);
@@ -69,9 +71,11 @@ class Reference {
     }
     result_.instants += scratch.instants;
     result_.collision_queries += scratch.bodies.queries;
+    result_.feasible = !starts.empty();
     if (starts.empty()) return starts;
     best_ = starts[0];
     for (const HomotopyParameters& start : starts) Keep(start);
+    begun_ = DurationOf(best_);
     return starts;
   }
 
@@ -183,6 +187,13 @@ class Reference {
     exhausted_ = exhausted_ || rounds == options_.max_rounds;
   }
 
+  Ending EndingNow() const {
+    if (result_.iterates.empty()) return Ending::kNotRun;
+    if (!(result_.cost < begun_)) return Ending::kNoImprovement;
+    if (stop_.stop_requested()) return Ending::kInterrupted;
+    return exhausted_ ? Ending::kLimit : Ending::kConverged;
+  }
+
   SmoothingResult Finish() {
     result_.parameters = best_;
     result_.cost = DurationOf(best_);
@@ -198,11 +209,13 @@ class Reference {
             << grid_.passes() << " stretches";
     if (exhausted_) message << "; the last corridor was not finished";
     result_.message = message.str();
-    result_.status = SmoothingStatus::kFinished;
     if (stop_.stop_requested()) {
-      result_.status = SmoothingStatus::kInterrupted;
       result_.message =
           "stopped from outside; the parameters are the best that were found feasible";
+    }
+    result_.ending = EndingNow();
+    if (result_.ending == Ending::kNoImprovement) {
+      result_.message += "; no shorter than the shortest walk that it began with";
     }
     result_.instants += grid_.scratch().instants;
     result_.collision_queries += grid_.scratch().bodies.queries;
@@ -217,6 +230,7 @@ class Reference {
   std::stop_token stop_;
   HomotopyParameters planned_;
   HomotopyParameters best_;  // found feasible
+  double begun_ = 0.0;       // the shortest start's duration [s]
   StretchGrid grid_;
   StretchProofs proofs_;
   std::mt19937_64 random_;

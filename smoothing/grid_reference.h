@@ -39,7 +39,7 @@ struct GridReferenceOptions {
 ///
 /// The grid is sampled. Every incumbent was found feasible by `test`: a grid's optimum that it
 /// refuses is approached as FeasiblePath does. It is no proof of optimality: the corridor ends
-/// where no combination of its choices is shorter. Slow; statuses as for Dichotomy; the message
+/// where no combination of its choices is shorter. Slow; endings as for Dichotomy; the message
 /// says the resolution. One iterate for each round.
 SmoothingResult GridReference(const HalfStepSequence& sequence, const FeasibilityTest& test,
                               const GridReferenceOptions& options,

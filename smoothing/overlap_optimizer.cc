@@ -11,6 +11,7 @@
 #include "smoothing/dichotomy.h"
 #include "smoothing/explain.h"
 #include "smoothing/path_rules.h"
+#include "smoothing/search_ending.h"
 #include "smoothing/stopwatch.h"
 
 namespace halfstep {
@@ -40,6 +41,8 @@ constexpr int kSqpInstants = 24;
 // row end the search.
 constexpr double kGain = 1e-3;
 constexpr int kPoorRounds = 5;
+// A search that does not beat a plain dichotomy by this has found nothing [s].
+constexpr double kGainedTime = 1e-9;
 
 bool Gained(double before, double after) {
   if (!std::isfinite(before)) return std::isfinite(after);
@@ -56,7 +59,10 @@ class Optimization {
         options_(options),
         progress_(progress),
         stop_(std::move(stop)),
-        proofs_(test, sequence.size()) {}
+        proofs_(test, sequence.size()),
+        end_{.solver = options.solver,
+             .kept = options.start ? "the walk is what it started from"
+                                   : "the walk is a dichotomy's"} {}
 
   SmoothingResult Run() {
     DichotomyOptions dichotomy{.tolerance = StartTolerance()};
@@ -67,7 +73,12 @@ class Optimization {
     result_ = Dichotomy(sequence_, test_, dichotomy, Part(0.0, 0.2), stop_);
     start_ = result_.parameters;
     result_.cost = DurationOf(start_);
-    if (result_.status != SmoothingStatus::kFinished) return std::move(result_);
+    if (!result_.feasible || stop_.stop_requested()) {
+      end_.stopped = result_.feasible;
+      result_.ending = end_.Ending();
+      if (end_.stopped) result_.message = end_.Sentence();
+      return std::move(result_);
+    }
 
     const double own = DurationOf(start_);
     const double limit = options_.duration_limit > 0.0 ? options_.duration_limit : own;
@@ -125,9 +136,12 @@ class Optimization {
       for (int round = 0; round < options_.rounds && poor < kPoorRounds; ++round) {
         const double before = path->cost();
         const double remaining = options_.deadline - stopwatch_.Seconds();
-        if (remaining <= 0.0 || stop_.stop_requested()) return;
+        end_.deadline_passed = remaining <= 0.0;
+        if (end_.deadline_passed || stop_.stop_requested()) return;
         solution_ = Solve(program, x, remaining, path);
-        if (solution_.x.size() != x.size()) return;
+        end_.Note(solution_);
+        const bool refused = solution_.ending == opt::Ending::kInvalidInput;
+        if (refused || solution_.x.size() != x.size()) return;
         // Cheap and nearly feasible is a better place to go on from than the best feasible one.
         const bool near =
             solution_.final_x.size() == x.size() && solution_.final_violation < kHopeless;
@@ -154,6 +168,7 @@ class Optimization {
         Part(0.2, 0.9)((static_cast<double>(s) + (round + 1.0) / options_.rounds) /
                        static_cast<double>(starts.size()));
       }
+      end_.exhausted = end_.exhausted || poor < kPoorRounds;
     }
   }
 
@@ -221,13 +236,18 @@ class Optimization {
     result_.instants += path.scratch().instants;
     result_.collision_queries += path.scratch().bodies.queries;
     // Safest walks were proved whole, the others stretch by stretch.
-    if (Safest() || path.accepted() == 0 || HoldsWhole(path.incumbent())) {
+    if (path.accepted() > 0 && (Safest() || HoldsWhole(path.incumbent()))) {
       result_.parameters = path.incumbent();
-      result_.cost = path.cost();
+      end_.own = true;
     }
+    result_.cost = path.cost();
+    if (!end_.own && path.accepted() > 0) result_.cost = program.Cost(result_.parameters);
     if (Fastest() && !stop_.stop_requested()) {
       AddDichotomy(result_.parameters);
-      if (!options_.start) AddDichotomy(PlannedMotion(sequence_));
+      if (!options_.start) {
+        const double plain = AddDichotomy(PlannedMotion(sequence_));
+        end_.own = end_.own && result_.cost < plain - kGainedTime;
+      }
     } else {
       for (size_t i = 0; i < result_.junctions.size(); ++i) {
         JunctionResult& junction = result_.junctions[i];
@@ -239,27 +259,25 @@ class Optimization {
     }
     result_.wall = stopwatch_.Seconds();
     if (!Safest()) AddMultipliers(program, result_.parameters, &result_.junctions);
-    result_.message =
-        options_.solver + " ended " + opt::ToString(solution_.status) + ": " + solution_.message;
+    end_.stopped = stop_.stop_requested();
+    result_.ending = end_.Ending();
+    result_.message = end_.Sentence();
     if (Safest() && !std::isfinite(result_.cost)) {
       result_.message += "; no walk of at most " + std::to_string(program.duration_limit()) +
                          " s was proved, the dichotomy's is kept";
     }
-    if (stop_.stop_requested()) {
-      result_.status = SmoothingStatus::kInterrupted;
-      result_.message = "stopped from outside; the parameters are the best that were proved";
-    }
     return std::move(result_);
   }
 
-  // A dichotomy's pass over all junctions, which counts if it ends with a shorter walk.
-  void AddDichotomy(const HomotopyParameters& start) {
+  // A dichotomy's pass over all junctions, which counts if it ends with a shorter walk. Its
+  // duration [s].
+  double AddDichotomy(const HomotopyParameters& start) {
     SmoothingResult added = Dichotomy(
         sequence_, test_, {.tolerance = options_.tolerance, .start = start}, Part(0.9, 1.0), stop_);
     result_.instants += added.instants;
     result_.collision_queries += added.collision_queries;
     const bool first = result_.parameters == start;
-    if (!first && !(added.cost < result_.cost)) return;
+    if (!first && !(added.cost < result_.cost)) return added.cost;
     for (SmoothingIterate& iterate : added.iterates) {
       if (iterate.incumbent_duration > result_.cost) continue;
       iterate.wall += stopwatch_.Seconds() - added.wall;
@@ -269,6 +287,7 @@ class Optimization {
     result_.parameters = added.parameters;
     result_.junctions = added.junctions;
     result_.cost = added.cost;
+    return added.cost;
   }
 
   bool HoldsWhole(const HomotopyParameters& parameters) const {
@@ -289,6 +308,7 @@ class Optimization {
   opt::Solution solution_;                 // the last one
   std::optional<double> incumbent_slack_;  // at the table's instants
   int since_proof_ = 0;                    // candidates
+  SearchEnding end_;
 };
 
 }  // namespace

@@ -43,8 +43,10 @@ struct OptimizerOptions {
 ///      sampling finds small slacks;
 ///   3. `fastest`: a dichotomy's pass from the incumbent over all junctions, with `tolerance`, and
 ///      without a `start` one from the planned motion, too.
-/// So no method ends worse than the dichotomy. Statuses as for Dichotomy; the message says how the
-/// solver ended.
+/// So no method ends worse than the dichotomy. Ending: kConverged when rounds stopped to gain from
+/// every start; kLimit when all rounds were used, or the last solve broke down; kNoImprovement,
+/// kInvalidInput, kFailed (every solve did) and kNotRun when what is returned does not come from
+/// the search. The message says how the last solve ended.
 SmoothingResult OptimizeOverlaps(const HalfStepSequence& sequence, const FeasibilityTest& test,
                                  const OptimizerOptions& options,
                                  const std::function<void(double)>& progress = {},

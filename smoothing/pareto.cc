@@ -19,9 +19,13 @@ SmoothingResult ParetoCurve(const HalfStepSequence& sequence, const FeasibilityT
     if (progress) progress((part + done) / parts);
   };
   SmoothingResult total = Dichotomy(sequence, test, {.tolerance = options.tolerance}, {}, stop);
-  if (total.status != SmoothingStatus::kFinished) return total;
+  if (!total.feasible || stop.stop_requested()) {
+    total.ending = opt::Ending::kNotRun;
+    return total;
+  }
   const double own = DurationOf(total.parameters);
 
+  opt::Ending weakest = opt::Ending::kConverged;  // of the solves that found something
   const auto solve = [&](ProgramKind kind, double limit, const HomotopyParameters& start) {
     OptimizerOptions with = options;
     with.program.kind = kind;
@@ -29,6 +33,7 @@ SmoothingResult ParetoCurve(const HalfStepSequence& sequence, const FeasibilityT
     with.start = start;
     SmoothingResult result = OptimizeOverlaps(sequence, test, with, of_part, stop);
     ++part;
+    if (opt::HasOwnResult(result.ending)) weakest = std::max(weakest, result.ending);
     total.instants += result.instants;
     total.collision_queries += result.collision_queries;
     total.raw_infeasible += result.raw_infeasible;
@@ -63,7 +68,8 @@ SmoothingResult ParetoCurve(const HalfStepSequence& sequence, const FeasibilityT
       [](const ParetoPoint& a, const ParetoPoint& b) { return a.duration < b.duration; });
   total.message = options.solver + ": safest walks of " + std::to_string(total.pareto.size()) +
                   " durations from " + std::to_string(least) + " to " + std::to_string(most) + " s";
-  if (stop.stop_requested()) total.status = SmoothingStatus::kInterrupted;
+  total.ending = opt::HasOwnResult(same.ending) ? weakest : same.ending;
+  total.message += "; at the dichotomy's duration " + same.message;
   return total;
 }
 

@@ -2,22 +2,14 @@
 
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
+#include "opt/ending.h"
 #include "smoothing/feasibility_test.h"
 #include "smoothing/homotopy_parameters.h"
 #include "smoothing/margins.h"
 
 namespace halfstep {
-
-enum class SmoothingStatus {
-  kNotRun,
-  kFinished,         ///< the method came to its end
-  kInterrupted,      ///< stopped from outside; the parameters are the last accepted ones
-  kStartInfeasible,  ///< the planned motion itself misses a margin; the parameters are the start
-};
-std::string_view Name(SmoothingStatus status);  ///< "finished" …
 
 /// What holds one overlap where it is.
 struct JunctionResult {
@@ -57,11 +49,16 @@ struct SmoothingIterate {
   double incumbent_cost = 0.0;  ///< of the program, after this iterate
 };
 
-/// What a smoothing method found. `parameters` were found feasible in the sense of `evidence`,
-/// unless the start itself was infeasible.
+/// What a smoothing method found.
 struct SmoothingResult {
-  SmoothingStatus status = SmoothingStatus::kNotRun;
-  std::string message = "Smooth was not called.";
+  /// With kConverged, kLimit, kDeadline and kInterrupted the walk is one of the method's own and
+  /// costs less than what it was started from: the planned motion, for programs the dichotomy's
+  /// walk. With the others it is that start, or what a plain dichotomy makes of it.
+  opt::Ending ending = opt::Ending::kNotRun;
+  std::string message = "Smooth was not called.";  ///< a sentence on the ending
+  /// `parameters` were found feasible in the sense of `evidence`. False: the start misses a margin,
+  /// and they are the start.
+  bool feasible = false;
   Evidence evidence = Evidence::kSampled;
   HomotopyParameters parameters;
   /// Of the program [s]; for `safest` minus the proved least slack, +inf when no walk within its

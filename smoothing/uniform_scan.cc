@@ -14,6 +14,8 @@
 namespace halfstep {
 namespace {
 
+using opt::Ending;
+
 // Where the start is tried and found feasible.
 struct GridPoint {
   double duration = 1.0, height = 1.0;  // factors
@@ -71,6 +73,7 @@ class Scan {
     for (double& eta : start.height_scales) eta *= point.height;
     const bool planned = point.duration == 1.0 && point.height == 1.0;
     if (Smooth(point, start, options_.coarse)) {
+      planned_feasible_ = planned_feasible_ || planned;
       points_.push_back(std::move(point));
     } else if (planned) {
       result_.message = std::move(point.smoothed.message);
@@ -83,7 +86,7 @@ class Scan {
         Dichotomy(sequence_, test_, {.tolerance = tolerance, .start = start}, {}, stop_);
     result_.instants += smoothed.instants;
     result_.collision_queries += smoothed.collision_queries;
-    const bool feasible = smoothed.status != SmoothingStatus::kStartInfeasible;
+    const bool feasible = smoothed.feasible;
     smoothed.cost = DurationOf(smoothed.parameters);
     const bool better = feasible && (!found_ || smoothed.cost < result_.cost);
     SmoothingIterate iterate{.wall = stopwatch_.Seconds(),
@@ -109,21 +112,21 @@ class Scan {
 
   SmoothingResult Finish() {
     result_.wall = stopwatch_.Seconds();
+    result_.feasible = found_;
     if (!found_) {
       result_.cost = DurationOf(result_.parameters);
-      // Also when interrupted: there is no feasible walk to keep.
-      result_.status = SmoothingStatus::kStartInfeasible;
+      result_.ending = Ending::kNotRun;  // also when interrupted: there is no feasible walk to keep
       return std::move(result_);
     }
     std::ostringstream message;
     message << "best of " << points_.size() << " feasible grid points: durations times "
             << best_.duration << ", heights times " << best_.height;
-    result_.message = message.str();
-    result_.status = SmoothingStatus::kFinished;
-    if (stop_.stop_requested()) {
-      result_.status = SmoothingStatus::kInterrupted;
-      result_.message = "stopped from outside; " + result_.message;
-    }
+    result_.message = (stop_.stop_requested() ? "stopped from outside; " : "") + message.str();
+    const bool improved = !planned_feasible_ || result_.cost < DurationOf(PlannedMotion(sequence_));
+    result_.ending = !improved                ? Ending::kNoImprovement
+                     : stop_.stop_requested() ? Ending::kInterrupted
+                                              : Ending::kConverged;
+    if (!improved) result_.message += "; no shorter than the planned motion";
     return std::move(result_);
   }
 
@@ -134,7 +137,7 @@ class Scan {
   Stopwatch stopwatch_;
   std::vector<GridPoint> points_;
   GridPoint best_;
-  bool found_ = false;
+  bool found_ = false, planned_feasible_ = false;
   SmoothingResult result_;
 };
 

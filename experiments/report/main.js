@@ -138,7 +138,7 @@ function chooseWalks() {
 // The fastest proved walk beside the planned motion.
 function firstChoice(drawn) {
   const smoothed = drawn.filter((walk) => walk.method !== "raw");
-  const proved = smoothed.filter((walk) => walk.certified);
+  const proved = smoothed.filter((walk) => walk.certified && walk.summary.own);
   const list = proved.length ? proved : smoothed.length ? smoothed : drawn;
   return list.reduce((best, walk) => (walk.duration < best.duration ? walk : best), list[0]);
 }
@@ -153,7 +153,7 @@ function chooseCase(index) {
   byId("method-a").selectedIndex = first;
   const raw = drawn.findIndex((walk) => walk.method === "raw");
   byId("method-b").selectedIndex = raw === first ? 0 : raw + 1;
-  summaryTable(byId("summary"), current.walks, report.families);
+  summaryTable(byId("summary"), current.walks, report.families, report.endings);
   if (cases.length > 1) byId("summary").append(...scenarioTable(cases));
   anytimePlot(byId("anytime"), current.walks);
   guarantee(byId("guarantee"), report.statement, current.walks);

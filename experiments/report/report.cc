@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "experiments/certificate_files.h"
 #include "experiments/certificate_statement.h"
@@ -13,8 +14,10 @@
 #include "experiments/report/report_place.h"
 #include "experiments/report/report_walk.h"
 #include "experiments/report/shortened.h"
+#include "opt/ending.h"
 #include "smoothing/margins.h"
 #include "wpg/input/input_error.h"
+#include "wpg/input/text.h"
 
 namespace halfstep {
 namespace {
@@ -46,9 +49,17 @@ json FamiliesJson() {
   return families;
 }
 
+// What is shown of each status.
+json EndingsJson() {
+  json endings = json::object();
+  for (opt::Ending ending : opt::kEndings) endings[Name(ending)] = Meaning(ending);
+  return endings;
+}
+
 json EmptyReport(const char* kind) {
   return {{"kind", kind},
           {"families", FamiliesJson()},
+          {"endings", EndingsJson()},
           {"statement", kCertificateStatement},
           {"robots", json::array()},
           {"scenes", json::array()},
@@ -65,12 +76,25 @@ json CaseOf(const std::string& scenario, const fs::path& run, const RobotModel& 
 
 json SummaryOf(const MethodRecord& record) {
   return {{"method", record.name},
-          {"status", record.status},
+          {"status", Name(record.ending)},
+          {"own", HasOwnResult(record.ending)},
           {"certified", record.certified},
           {"duration_s", Shortened(record.duration, 6)},
           {"speedup", Shortened(record.speedup, 6)},
           {"cost", Shortened(record.cost, 6)},
           {"wall_s", Shortened(record.wall, 6)}};
+}
+
+// A row of a run's summary.csv, with whether the walk is the method's own.
+json WithOwn(json row, const fs::path& summary) {
+  const auto status = row.at("status").get<std::string>();
+  const std::optional<opt::Ending> ending = opt::EndingOf(status);
+  if (!ending) {
+    throw InputError(
+        {summary.string() + ": status: " + Quote(status) + " (valid: " + opt::EndingNames() + ")"});
+  }
+  row["own"] = HasOwnResult(*ending);
+  return row;
 }
 
 // Walks are drawn with today's files; these must be those that they were made for.
@@ -158,7 +182,7 @@ std::string RunReport(const RobotModel& robot, const Scene& scene, const fs::pat
   for (const json& row : summary) {
     const auto method = row.at("method").get<std::string>();
     json walk = WalkJson(folder / MethodFolder(method), SpacingFor(total));
-    walk["summary"] = row;
+    walk["summary"] = WithOwn(row, folder / "summary.csv");
     one["walks"].push_back(std::move(walk));
   }
   report["cases"].push_back(std::move(one));

@@ -34,7 +34,7 @@ const verdict = (walk) =>
     : element("span", { className: "no", text: "✗ not proved" });
 
 /** One row a method. */
-export function summaryTable(parent, walks, families) {
+export function summaryTable(parent, walks, families, endings) {
   const longest = Math.max(...walks.map((walk) => walk.summary.duration_s));
   const unit = Object.fromEntries(families.map((family) => [family.name, family.unit]));
   const compared = walks.some((walk) => walk.gap !== undefined);
@@ -44,7 +44,8 @@ export function summaryTable(parent, walks, families) {
       ? [walk.gap === null || walk.gap === undefined ? "–" : `${number(100 * walk.gap, 3)} %`]
       : [`${family(s.worst_margin_name)} ${number(s.worst_margin, 3)} ${unit[s.worst_margin_name] ?? ""}`,
          number(s.iterations), number(s.margin_evaluations)];
-    return [walk.label, s.status, verdict(walk),
+    const status = { text: s.status, title: endings[s.status], className: s.own ? "" : "no" };
+    return [walk.label, element("span", status), verdict(walk),
             seconds(s.duration_s), bar(s.duration_s / longest, "a"), s.speedup.toFixed(2),
             ...last, number(s.wall_s, 3)];
   });
@@ -60,12 +61,13 @@ export function summaryTable(parent, walks, families) {
 export function scenarioTable(cases) {
   const methods = [...new Set(cases.flatMap((one) => one.walks.map((walk) => walk.label)))];
   const rows = cases.map((one) => {
-    const proved = one.walks.filter((walk) => walk.certified);
+    const proved = one.walks.filter((walk) => walk.certified && walk.summary.own);
     const best = Math.min(...proved.map((walk) => walk.summary.cost));
     return [one.scenario, one.objective, ...methods.map((method) => {
       const walk = one.walks.find((w) => w.label === method);
       if (!walk) return "–";
       if (!walk.certified) return element("span", { className: "no", text: "✗" });
+      if (!walk.summary.own) return element("span", { className: "no", text: walk.summary.status });
       const isBest = walk.summary.cost === best;
       return element("span", { text: seconds(walk.summary.duration_s), className: isBest ? "best" : "" });
     })];

@@ -170,7 +170,7 @@ void Table(const std::string& what, double deadline, const std::vector<std::stri
             kind == "safest" ? r.cost - best : r.cost / best - 1.0;  // of a slack: no ratio
         std::printf("%s,%s,%s,%s,%s,%s,%.4f,%.4f,%.5f,%ld,%zu,%ld,%s,%ld,%ld,%.3f", config.c_str(),
                     variables.c_str(), kind.c_str(), c.method.c_str(),
-                    std::string(Name(r.status)).c_str(), c.certified ? "true" : "false",
+                    std::string(Name(r.ending)).c_str(), c.certified ? "true" : "false",
                     DurationOf(r.parameters), r.cost, gap, r.instants, r.iterates.size(),
                     r.raw_infeasible, r.raw_end_feasible ? "true" : "false", c.accepted, c.refuted,
                     r.wall);

@@ -22,7 +22,7 @@
 namespace halfstep::testing {
 namespace {
 
-using opt::SolveStatus;
+using opt::Ending;
 using ::testing::AnyOf;
 using ::testing::HasSubstr;
 
@@ -42,9 +42,9 @@ struct Hooked {
   opt::Problem problem;
 };
 
-class Ending : public SolverTest {};
+class SolverEndings : public SolverTest {};
 
-TEST_P(Ending, InfeasibleProblemIsNeverSolved) {
+TEST_P(SolverEndings, InfeasibleProblemIsNeverSolved) {
   const opt::Problem problem = InfeasibleProblem();
   if (!solver().WhyUnsupported(problem).empty()) GTEST_SKIP();
   opt::SolverOptions options;
@@ -52,14 +52,13 @@ TEST_P(Ending, InfeasibleProblemIsNeverSolved) {
   const opt::Solution solution = solver().Solve(problem, problem.initial(), options);
   SCOPED_TRACE(solution.BriefReport());
   ExpectTrue(problem, options, solution);
-  EXPECT_THAT(solution.status,
-              AnyOf(SolveStatus::kInfeasible, SolveStatus::kIterationLimit, SolveStatus::kFailed));
+  EXPECT_THAT(solution.ending, AnyOf(Ending::kLimit, Ending::kFailed));
   EXPECT_FALSE(solution.feasible);
   EXPECT_GT(solution.max_violation, 0.5);  // the sets are 1 apart
   EXPECT_FALSE(solution.worst_row.empty());
 }
 
-TEST_P(Ending, UnboundedProblemEndsAtALimit) {
+TEST_P(SolverEndings, UnboundedProblemEndsAtALimit) {
   const opt::Problem problem = UnboundedProblem();
   if (!solver().WhyUnsupported(problem).empty()) GTEST_SKIP();
   opt::SolverOptions options;
@@ -68,22 +67,22 @@ TEST_P(Ending, UnboundedProblemEndsAtALimit) {
   const opt::Solution solution = solver().Solve(problem, problem.initial(), options);
   SCOPED_TRACE(solution.BriefReport());
   ExpectTrue(problem, options, solution);
-  EXPECT_THAT(solution.status, AnyOf(SolveStatus::kIterationLimit, SolveStatus::kFailed));
+  EXPECT_THAT(solution.ending, AnyOf(Ending::kLimit, Ending::kFailed));
   EXPECT_LE(solution.cost, -2.0);  // no worse than the start
 }
 
-TEST_P(Ending, NanAtTheStartIsInvalidInput) {
+TEST_P(SolverEndings, NanAtTheStartIsInvalidInput) {
   const opt::Problem problem = NanAtStart();
   const opt::Solution solution = solver().Solve(problem, problem.initial(), {});
-  EXPECT_EQ(solution.status, SolveStatus::kInvalidInput) << solution.BriefReport();
+  EXPECT_EQ(solution.ending, Ending::kInvalidInput) << solution.BriefReport();
   EXPECT_THAT(solution.message, HasSubstr("cost is not finite"));
 
   const opt::Solution of_nan = solver().Solve(problem, Constant(2, std::nan("")), {});
-  EXPECT_EQ(of_nan.status, SolveStatus::kInvalidInput);
+  EXPECT_EQ(of_nan.ending, Ending::kInvalidInput);
   EXPECT_THAT(of_nan.message, HasSubstr("x[0]"));
 }
 
-TEST_P(Ending, CostThatIsNanEverywhereElseDoesNotSpin) {
+TEST_P(SolverEndings, CostThatIsNanEverywhereElseDoesNotSpin) {
   const opt::Problem problem =
       ProblemBuilder(Constant(2, 0.5), Constant(2, -1.0), Constant(2, 1.0))
           .Minimize([](const auto& x) {
@@ -96,17 +95,17 @@ TEST_P(Ending, CostThatIsNanEverywhereElseDoesNotSpin) {
   const opt::Solution solution = solver().Solve(problem, problem.initial(), options);
   SCOPED_TRACE(solution.BriefReport());
   ExpectTrue(problem, options, solution);
-  EXPECT_NE(solution.status, SolveStatus::kConverged);
+  EXPECT_NE(solution.ending, Ending::kConverged);
   EXPECT_NEAR(solution.x[0], 0.5, 1e-5);
 }
 
-TEST_P(Ending, ExceptionInACallbackIsKept) {
+TEST_P(SolverEndings, ExceptionInACallbackIsKept) {
   for (const int when : {1, 2, 4}) {
     Hooked hooked([when](int evaluation) {
       if (evaluation >= when) throw std::runtime_error("the leg fell off");
     });
     const opt::Solution solution = solver().Solve(hooked.problem, hooked.problem.initial(), {});
-    EXPECT_EQ(solution.status, SolveStatus::kFailed) << solution.BriefReport();
+    EXPECT_EQ(solution.ending, Ending::kFailed) << solution.BriefReport();
     EXPECT_THAT(solution.message, HasSubstr("the leg fell off"));
     ASSERT_TRUE(solution.exception);
     EXPECT_THROW(std::rethrow_exception(solution.exception), std::runtime_error);
@@ -114,26 +113,26 @@ TEST_P(Ending, ExceptionInACallbackIsKept) {
   }
 }
 
-TEST_P(Ending, ThrownIntegersAreKeptAsWell) {
+TEST_P(SolverEndings, ThrownIntegersAreKeptAsWell) {
   Hooked hooked([](int evaluation) {
     if (evaluation == 3) throw 7;
   });
   const opt::Solution solution = solver().Solve(hooked.problem, hooked.problem.initial(), {});
-  EXPECT_EQ(solution.status, SolveStatus::kFailed);
+  EXPECT_EQ(solution.ending, Ending::kFailed);
   EXPECT_THROW(std::rethrow_exception(solution.exception), int);
 }
 
-TEST_P(Ending, DeadlineIsKeptWithinOneEvaluation) {
+TEST_P(SolverEndings, DeadlineIsKeptWithinOneEvaluation) {
   Hooked hooked([](int) { std::this_thread::sleep_for(std::chrono::milliseconds(2)); });
   opt::SolverOptions options;
   options.deadline = 1e-3;
   const opt::Solution solution = solver().Solve(hooked.problem, hooked.problem.initial(), options);
-  EXPECT_EQ(solution.status, SolveStatus::kTimeLimit) << solution.BriefReport();
+  EXPECT_EQ(solution.ending, Ending::kDeadline) << solution.BriefReport();
   EXPECT_EQ(hooked.evaluations, 1);
   ExpectTrue(hooked.problem, options, solution);
 }
 
-TEST_P(Ending, StopTokenIsHeardBeforeTheNextEvaluation) {
+TEST_P(SolverEndings, StopTokenIsHeardBeforeTheNextEvaluation) {
   for (const int when : {1, 3, 6}) {
     std::stop_source source;
     Hooked hooked([&source, when](int evaluation) {
@@ -143,12 +142,12 @@ TEST_P(Ending, StopTokenIsHeardBeforeTheNextEvaluation) {
     options.stop = source.get_token();
     const opt::Solution solution =
         solver().Solve(hooked.problem, hooked.problem.initial(), options);
-    EXPECT_EQ(solution.status, SolveStatus::kStopped) << solution.BriefReport();
+    EXPECT_EQ(solution.ending, Ending::kInterrupted) << solution.BriefReport();
     EXPECT_EQ(hooked.evaluations, when);
   }
 }
 
-TEST_P(Ending, OnIterateStopsAtIterationThree) {
+TEST_P(SolverEndings, OnIterateStopsAtIterationThree) {
   const ProblemCard card = Hs65();
   const ProblemCard unconstrained{
       "bounds only", "",
@@ -171,7 +170,7 @@ TEST_P(Ending, OnIterateStopsAtIterationThree) {
     };
     const opt::Solution solution = solver().Solve(each->problem, each->problem.initial(), options);
     SCOPED_TRACE(solution.BriefReport());
-    EXPECT_EQ(solution.status, SolveStatus::kStopped);
+    EXPECT_EQ(solution.ending, Ending::kInterrupted);
     EXPECT_THAT(seen, ::testing::ElementsAre(0, 1, 2, 3));
     EXPECT_EQ(solution.iterations, 3);
     EXPECT_EQ(solution.history.size(), 4u);
@@ -179,7 +178,7 @@ TEST_P(Ending, OnIterateStopsAtIterationThree) {
   }
 }
 
-TEST_P(Ending, ExceptionInOnIterateIsKept) {
+TEST_P(SolverEndings, ExceptionInOnIterateIsKept) {
   opt::SolverOptions options;
   options.on_iterate = [](const opt::Iterate& iterate) -> bool {
     if (iterate.iteration == 1) throw std::runtime_error("observer");
@@ -187,7 +186,7 @@ TEST_P(Ending, ExceptionInOnIterateIsKept) {
   };
   Hooked hooked([](int) {});
   const opt::Solution solution = solver().Solve(hooked.problem, hooked.problem.initial(), options);
-  EXPECT_EQ(solution.status, SolveStatus::kFailed) << solution.BriefReport();
+  EXPECT_EQ(solution.ending, Ending::kFailed) << solution.BriefReport();
   EXPECT_TRUE(solution.exception);
 }
 
@@ -197,12 +196,12 @@ std::string KnownOption(const std::string& solver) {
   return solver == "ceres/auglag" ? "max_lbfgs_rank" : "xtol_abs";
 }
 
-TEST_P(Ending, WrongOptionsAreInvalidInput) {
+TEST_P(SolverEndings, WrongOptionsAreInvalidInput) {
   Hooked hooked([](int) {});
   opt::SolverOptions options;
   options.solver_options = {{"no_such_option", "1"}};
   opt::Solution solution = solver().Solve(hooked.problem, hooked.problem.initial(), options);
-  EXPECT_EQ(solution.status, SolveStatus::kInvalidInput);
+  EXPECT_EQ(solution.ending, Ending::kInvalidInput);
   EXPECT_THAT(solution.message, HasSubstr("no_such_option"));
   EXPECT_THAT(solution.message, AnyOf(HasSubstr("valid: "), HasSubstr("nearest: ")));
   EXPECT_EQ(hooked.evaluations, 1) << "nothing is optimized";
@@ -210,13 +209,13 @@ TEST_P(Ending, WrongOptionsAreInvalidInput) {
   const std::string known = KnownOption(GetParam());
   options.solver_options = {{known, "much"}};
   solution = solver().Solve(hooked.problem, hooked.problem.initial(), options);
-  EXPECT_EQ(solution.status, SolveStatus::kInvalidInput);
+  EXPECT_EQ(solution.ending, Ending::kInvalidInput);
   EXPECT_THAT(solution.message, HasSubstr(known + " = much"));
 
   options.solver_options = {};
   options.feasibility_tolerance = 0.0;
   solution = solver().Solve(hooked.problem, hooked.problem.initial(), options);
-  EXPECT_EQ(solution.status, SolveStatus::kInvalidInput);
+  EXPECT_EQ(solution.ending, Ending::kInvalidInput);
   EXPECT_THAT(solution.message, HasSubstr("feasibility_tolerance"));
 }
 
@@ -242,7 +241,7 @@ class WrongBall : public opt::ConstraintBlock {
   opt::SparsityPattern pattern_{{0, 0, 0}, {0, 1, 2}};
 };
 
-TEST_P(Ending, WrongGradientIsForTheCheckerButTheSolutionStaysTrue) {
+TEST_P(SolverEndings, WrongGradientIsForTheCheckerButTheSolutionStaysTrue) {
   Hooked hooked([](int) {});
   hooked.problem.AddConstraint(std::make_unique<WrongBall>());
   if (!solver().WhyUnsupported(hooked.problem).empty()) GTEST_SKIP();
@@ -258,7 +257,7 @@ TEST_P(Ending, WrongGradientIsForTheCheckerButTheSolutionStaysTrue) {
   ExpectTrue(hooked.problem, options, solution);
 }
 
-TEST_P(Ending, AcceptedOptionsAreReported) {
+TEST_P(SolverEndings, AcceptedOptionsAreReported) {
   Hooked hooked([](int) {});
   const std::string known = KnownOption(GetParam());
   opt::SolverOptions options;
@@ -270,17 +269,93 @@ TEST_P(Ending, AcceptedOptionsAreReported) {
   EXPECT_EQ(std::stod(solution.used_options.at(known)), 5.0);
 }
 
-TEST_P(Ending, EvaluationLimitIsKept) {
+TEST_P(SolverEndings, EvaluationLimitIsKept) {
   Hooked hooked([](int) {});
   opt::SolverOptions options;
   options.max_evaluations = 3;
   const opt::Solution solution = solver().Solve(hooked.problem, hooked.problem.initial(), options);
-  EXPECT_EQ(solution.status, SolveStatus::kIterationLimit) << solution.BriefReport();
+  EXPECT_EQ(solution.ending, Ending::kLimit) << solution.BriefReport();
   EXPECT_LE(solution.cost_evaluations, 4);
   EXPECT_THROW((void)solver().Solve(hooked.problem, Constant(2, 0.0), options), std::logic_error);
 }
 
-INSTANTIATE_TEST_SUITE_P(Solvers, Ending, ::testing::ValuesIn(opt::SolverNames()), SolverTestName);
+TEST_P(SolverEndings, ADeadlineOfZeroIsMetBeforeTheSolver) {
+  Hooked hooked([](int) {});
+  opt::SolverOptions options;
+  options.deadline = 0.0;
+  const opt::Solution solution = solver().Solve(hooked.problem, hooked.problem.initial(), options);
+  EXPECT_EQ(solution.ending, Ending::kDeadline) << solution.BriefReport();
+  EXPECT_EQ(hooked.evaluations, 1) << "the start only";
+}
+
+TEST_P(SolverEndings, AStopBeforehandInterrupts) {
+  std::stop_source source;
+  source.request_stop();
+  Hooked hooked([](int) {});
+  opt::SolverOptions options;
+  options.stop = source.get_token();
+  const opt::Solution solution = solver().Solve(hooked.problem, hooked.problem.initial(), options);
+  EXPECT_EQ(solution.ending, Ending::kInterrupted) << solution.BriefReport();
+  EXPECT_EQ(hooked.evaluations, 1) << "the start only";
+}
+
+TEST_P(SolverEndings, OneIterationIsALimit) {
+  Hooked hooked([](int) {});
+  opt::SolverOptions options;
+  options.max_iterations = 1;
+  options.max_evaluations = 6;  // NLopt tells no iterations
+  const opt::Solution solution = solver().Solve(hooked.problem, hooked.problem.initial(), options);
+  EXPECT_EQ(solution.ending, Ending::kLimit) << solution.BriefReport();
+}
+
+TEST_P(SolverEndings, AnUnsupportedProblemIsInvalidInput) {
+  int refused = 0;
+  for (const ProblemCard& card : {Hs6(), Hs35()}) {  // an equality; an inequality
+    const std::string why = solver().WhyUnsupported(card.problem);
+    if (why.empty()) continue;
+    ++refused;
+    const opt::Solution solution = solver().Solve(card.problem, card.problem.initial(), {});
+    EXPECT_EQ(solution.ending, Ending::kInvalidInput) << solution.BriefReport();
+    EXPECT_EQ(solution.message, why);
+    EXPECT_EQ(solution.cost_evaluations, 0);
+  }
+  if (GetParam() == "nlopt/bobyqa") {
+    EXPECT_EQ(refused, 2);
+  }
+}
+
+/// Variable 1 is fixed at 1, the start is elsewhere; the optimum is (2, 1, 0), of 2.
+opt::Problem WithAFixedVariable(bool row) {
+  ProblemBuilder builder(Vector({0.5, -0.84, 1}), Vector({-4, 1, -4}),
+                         Vector({row ? 4.0 : 2.0, 1, 4}));
+  builder.Minimize([](const auto& x) {
+    return (x[0] - 3.0) * (x[0] - 3.0) + (x[1] - 2.0) * (x[1] - 2.0) + x[2] * x[2];
+  });
+  if (row)
+    builder.Row(
+        "sum", -kInfinity, [](const auto& x) { return x[0] + x[1]; }, 3.0);
+  return builder.Build();
+}
+
+TEST_P(SolverEndings, ConvergedHoldsWithAFixedVariable) {
+  for (const bool row : {false, true}) {
+    const opt::Problem problem = WithAFixedVariable(row);
+    if (!solver().WhyUnsupported(problem).empty()) continue;
+    opt::SolverOptions options;
+    options.max_evaluations = 5000;
+    const opt::Solution solution = solver().Solve(problem, problem.initial(), options);
+    SCOPED_TRACE(solution.BriefReport());
+    ExpectTrue(problem, options, solution);
+    if (solution.ending != Ending::kConverged) continue;
+    EXPECT_NEAR(solution.x[1], 1.0, options.feasibility_tolerance);
+    EXPECT_NEAR(solution.cost, 2.0, 1e-3);
+    EXPECT_LE(solution.final_violation, options.feasibility_tolerance);
+    EXPECT_NEAR(solution.final_cost, 2.0, 1e-2);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Solvers, SolverEndings, ::testing::ValuesIn(opt::SolverNames()),
+                         SolverTestName);
 
 }  // namespace
 }  // namespace halfstep::testing

@@ -73,7 +73,7 @@ TEST(StoppedRun, CtrlCKeepsWhatIsAccepted) {
   CheckRunIsWhole(place / "a", {"dichotomy"});
   EXPECT_THAT(NamesIn(place.path()), testing::ElementsAre("a", "long.yaml"));
   const ParsedCsv summary(ReadText(place / "a/summary.csv"));
-  EXPECT_EQ(summary.Text(0, "status"), "finished");
+  EXPECT_EQ(summary.Text(0, "status"), "converged");
   EXPECT_EQ(summary.Text(1, "status"), "interrupted");
   EXPECT_GT(summary.Number(1, "speedup"), 1.0);
   EXPECT_GE(summary.Number(1, "worst_margin"), 0.0);

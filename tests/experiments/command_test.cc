@@ -158,7 +158,7 @@ TEST(RunCommand, JsonIsOneValidObject) {
   EXPECT_TRUE(fs::exists(fs::path(json["folder"].get<std::string>()) / "manifest.json"));
   ASSERT_EQ(json["methods"].size(), 3u);
   EXPECT_EQ(json["methods"][0]["method"], "raw");
-  EXPECT_EQ(json["methods"][1]["status"], "finished");
+  EXPECT_EQ(json["methods"][1]["status"], "converged");
   EXPECT_GT(json["methods"][1]["speedup"].get<double>(), 1.0);
 }
 
@@ -168,7 +168,8 @@ TEST(RunCommand, JsonIsValidWhenMarginsAreInfinite) {
                                                   "--json", "--set", "footsteps.0.x_m=5"});
   EXPECT_EQ(outcome.status, kFailed);
   const auto json = nlohmann::json::parse(outcome.out);
-  EXPECT_EQ(json["methods"][0]["status"], "start_infeasible");
+  EXPECT_EQ(json["methods"][0]["status"], "failed");
+  EXPECT_EQ(json["methods"][1]["status"], "not_run");
 }
 
 TEST(RunCommand, QuietPrintsNothing) {
@@ -207,7 +208,8 @@ TEST(RunCommand, InfeasiblePlanIsWrittenAndFails) {
   const fs::path run = place / "runs/bar_8cm";
   CheckRunIsWhole(run, {"dichotomy", "dichotomy_published"});
   const ParsedCsv summary(ReadText(run / "summary.csv"));
-  for (size_t i = 0; i < 3; ++i) EXPECT_EQ(summary.Text(i, "status"), "start_infeasible");
+  for (size_t i = 0; i < 3; ++i)
+    EXPECT_EQ(summary.Text(i, "status"), i == 0 ? "failed" : "not_run");
   EXPECT_LT(summary.Number(0, "worst_margin"), 0.0);
   EXPECT_EQ(ReadText(run / "raw/trajectory.csv"), ReadText(run / "dichotomy/trajectory.csv"));
 }

@@ -23,7 +23,7 @@ MethodRecord Method(const std::string& name, double duration, double wall,
   record.run = "run";
   record.name = name;
   record.variables = name == "raw" ? "" : "overlaps";
-  record.status = "finished";
+  record.ending = opt::Ending::kConverged;
   record.certified = true;
   record.duration = record.cost = duration;
   record.speedup = 16.0 / duration;
@@ -161,6 +161,41 @@ TEST(Comparison, MethodsCompeteForTheObjectiveThatTheyPursued) {
   EXPECT_EQ(comparison.cases[1].methods[1].gap, 0.0);
 }
 
+// A walk of a method that did not improve, or did not run, is another method's.
+TEST(Comparison, OnlyAMethodWithAWalkOfItsOwnIsBestOrSolvesAnything) {
+  for (const opt::Ending ending : opt::kEndings) {
+    SCOPED_TRACE(Name(ending));
+    std::vector<RunRecord> runs = {Scenario(
+        "a", {Method("other", 9.0, 1.0, {{0.5, 500.0, 9.0}}), Method("good", 9.0, 2.0, {})})};
+    runs[0].methods[1].ending = ending;
+    const Comparison comparison = Compare(runs);
+    const ComparedCase& one = comparison.cases[0];
+    const bool own = HasOwnResult(ending);
+    EXPECT_EQ(one.best_method, own ? "other" : "good");
+    EXPECT_EQ(std::isinf(one.methods[1].gap), !own);
+    for (size_t target = 0; target + 1 < kNumTargets; ++target) {
+      EXPECT_EQ(one.methods[1].reached[target].has_value(), own);
+    }
+    EXPECT_EQ(one.methods[1].reached.back().has_value(),
+              own && ending != opt::Ending::kInterrupted);
+    const MethodMeans mean = Means(comparison)[0];
+    EXPECT_EQ(mean.failed(), own && ending != opt::Ending::kInterrupted ? 0 : 1);
+    EXPECT_EQ(mean.certified, 1);
+    EXPECT_NEAR(mean.speedup, own ? 16.0 / 9.0 : 1.0, 1e-12);
+    for (const ProfileCurve& curve : PerformanceProfiles(comparison)) {
+      if (curve.method.name != "other" || curve.target == 2) continue;
+      EXPECT_EQ(curve.points.back().second, own ? 1.0 : 0.0);
+    }
+  }
+}
+
+TEST(Comparison, WhereNoMethodHasAWalkOfItsOwnRawIsBest) {
+  std::vector<RunRecord> runs = {Scenario("a", {Method("other", 9.0, 1.0, {})})};
+  runs[0].methods[1].ending = opt::Ending::kInvalidInput;
+  EXPECT_EQ(Compare(runs).cases[0].best_method, "raw");
+  EXPECT_EQ(*Compare(runs).cases[0].best_cost, 16.0);
+}
+
 class CompareCommandTest : public testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -269,9 +304,11 @@ TEST_F(CompareCommandTest, RefusesDamagedRunsAndWritesNothing) {
            {"summary.csv", "certified", "certain", "no column 'certified'"},
            {"summary.csv", "\ndichotomy,", "\n../etc,", "cannot be a method's name"},
            {"summary.csv", "\ndichotomy,", "\n=1+1,", "'=1+1' cannot be a method's name"},
-           {"summary.csv", ",finished,", ",@finished,", "'@finished' cannot be a status"},
+           {"summary.csv", ",converged,", ",finished,",
+            "summary.csv:2: status: 'finished' (valid: converged, limit, deadline, interrupted, "
+            "no_improvement, not_run, invalid_input, failed)"},
            {"manifest.json", "\"name\": \"fig5_box\"", "\"name\": \"=1+1\"", "for a formula"},
-           {"summary.csv", "\ndichotomy,finished,true,", "\ndichotomy,finished,true,-", "out of"},
+           {"summary.csv", "\ndichotomy,converged,true,", "\ndichotomy,converged,true,-", "out of"},
            {"summary.csv", "\ndichotomy,", "\nraw,", "raw is not the first"},
            {"manifest.json", "\"objective\"", "\"target\"", "no 'objective'"},
            {"manifest.json", "\"name\": \"dichotomy\"", "\"name\": \"ipopt\"", "not those of summ"},

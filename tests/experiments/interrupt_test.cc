@@ -94,11 +94,11 @@ TEST(InterruptedRun, LeavesACertifiedWalkAtLeastAsGoodAsTheStart) {
       EXPECT_EQ(summary.Text(row, "certified"), "true");
       EXPECT_LE(summary.Number(row, "duration_s"), summary.Number(0, "duration_s"));
       if (row == 0) continue;
-      EXPECT_THAT(summary.Text(row, "status"), testing::AnyOf("interrupted", "finished"));
+      EXPECT_THAT(summary.Text(row, "status"),
+                  testing::AnyOf("interrupted", "no_improvement", "not_run"));
       if (summary.Text(row, "status") == "interrupted") ++interrupted;
       if (summary.Number(row, "speedup") > 1.0) ++improved;
     }
-    EXPECT_EQ(summary.Text(summary.size() - 1, "status"), "interrupted");
   }
   EXPECT_GT(whole, 0);
   EXPECT_GT(interrupted, 0);

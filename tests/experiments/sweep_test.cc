@@ -94,7 +94,7 @@ class SweepCommandTest : public testing::Test {
     const Outcome outcome =
         Halfstep(place_->path(), {"sweep", "sweep.yaml", "--jobs", "1", "--out", "reference"});
     ASSERT_EQ(outcome.status, kSuccess) << outcome.err;
-    EXPECT_THAT(outcome.out, HasSubstr("sweep: 6 cases, 10 rows: 8 finished, 2 on_no_step_area; 8 "
+    EXPECT_THAT(outcome.out, HasSubstr("sweep: 6 cases, 10 rows: 8 converged, 2 on_no_step_area; 8 "
                                        "certified\n"));
   }
   static void TearDownTestSuite() {

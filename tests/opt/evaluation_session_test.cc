@@ -19,7 +19,7 @@ Solution EndedAt(const Eigen::VectorXd& x, const SolverOptions& options) {
   const testing::ProblemCard card = testing::Hs65();
   EvaluationSession session(card.problem, options, EvaluationSession::Iterations::kImprovements);
   EXPECT_TRUE(session.Begin(x));
-  return session.Finish(SolveStatus::kConverged, "claimed", x);
+  return session.Finish(Ending::kConverged, "claimed", x);
 }
 
 // A claim of success counts as far as x is feasible to the tolerance asked for, and no farther.
@@ -31,7 +31,7 @@ TEST(EvaluationSession, FeasibleIsToTheToleranceAskedFor) {
     EXPECT_TRUE(within.feasible);
     const Solution beyond = EndedAt(Outside(1.1 * tolerance), options);
     EXPECT_FALSE(beyond.feasible);
-    EXPECT_NE(beyond.status, SolveStatus::kConverged);
+    EXPECT_NE(beyond.ending, Ending::kConverged);
     EXPECT_NEAR(beyond.max_violation, 1.1 * tolerance, 1e-9);
   }
 }
@@ -48,10 +48,10 @@ TEST(EvaluationSession, KeepsTheCheapestFeasiblePoint) {
   ASSERT_TRUE(session.Cost(cheaper, &cost) && session.Constraints(cheaper, &values));
   ASSERT_TRUE(session.Cost(feasible, &of_feasible));
   ASSERT_LT(cost, of_feasible);
-  const Solution solution = session.Finish(SolveStatus::kConverged, "claimed", cheaper);
+  const Solution solution = session.Finish(Ending::kConverged, "claimed", cheaper);
   EXPECT_EQ(solution.x, feasible);
   EXPECT_TRUE(solution.feasible);
-  EXPECT_NE(solution.status, SolveStatus::kConverged);
+  EXPECT_NE(solution.ending, Ending::kConverged);
 }
 
 }  // namespace

@@ -38,14 +38,14 @@ TEST(MakeSolver, AnAbsentSolverRefusesWithItsReason) {
     const auto solver = opt::MakeSolver(name);
     if (solver->available()) continue;
     const opt::Solution solution = solver->Solve(card.problem, card.problem.initial(), {});
-    EXPECT_EQ(solution.status, opt::SolveStatus::kInvalidInput);
+    EXPECT_EQ(solution.ending, opt::Ending::kInvalidInput);
     EXPECT_EQ(solution.message, solver->WhyUnavailable());
   }
 }
 
 TEST(Solution, SaysThatNothingRan) {
   const opt::Solution solution;
-  EXPECT_EQ(solution.status, opt::SolveStatus::kNotRun);
+  EXPECT_EQ(solution.ending, opt::Ending::kNotRun);
   EXPECT_EQ(solution.BriefReport(), "no solver: not_run. Solve was not called.");
   EXPECT_FALSE(solution.feasible);
 }
@@ -53,7 +53,7 @@ TEST(Solution, SaysThatNothingRan) {
 TEST(Solution, ReportsOnOneLineAndOnAPage) {
   opt::Solution solution;
   solution.solver = "ipopt";
-  solution.status = opt::SolveStatus::kInfeasible;
+  solution.ending = opt::Ending::kFailed;
   solution.message = "Why.";
   solution.x = Vector({1});
   solution.cost = 2.0;
@@ -107,7 +107,7 @@ TEST(Sqp, WithoutMemoryItSolvesLinearProgramsOnly) {
   const auto solver = opt::MakeSolver("halfstep/sqp");
   const ProblemCard curved = Hs65();
   const opt::Solution solution = solver->Solve(curved.problem, curved.problem.initial(), options);
-  EXPECT_NE(solution.status, opt::SolveStatus::kInvalidInput) << solution.message;
+  EXPECT_NE(solution.ending, opt::Ending::kInvalidInput) << solution.message;
   EXPECT_TRUE(solution.feasible);
 }
 
@@ -118,7 +118,7 @@ TEST(Sqp, ABoundOnThePenaltyIsKeptAndViolatedRowsAreNoSuccess) {
   const ProblemCard card = Hs65();
   const opt::Solution cheap = solver->Solve(card.problem, card.problem.initial(), options);
   EXPECT_GT(cheap.final_violation, 1.0) << cheap.BriefReport();
-  EXPECT_NE(cheap.status, opt::SolveStatus::kConverged);
+  EXPECT_NE(cheap.ending, opt::Ending::kConverged);
   const opt::Solution dear = solver->Solve(card.problem, card.problem.initial(), {});
   EXPECT_LT(dear.final_violation, 1e-4) << dear.BriefReport();
   EXPECT_NEAR(dear.cost, card.optimum, 1e-4);

@@ -224,7 +224,7 @@ TEST(CertifiedFeasibility, DichotomyEndsCertified) {
     const MarginEvaluator evaluator(robot, drawn->scene, {});
     const CertifiedFeasibility test(evaluator, {});
     const SmoothingResult result = Dichotomy(drawn->sequence, test, {});
-    ASSERT_EQ(result.status, SmoothingStatus::kFinished);
+    ASSERT_EQ(result.ending, opt::Ending::kConverged);
     EXPECT_EQ(result.evidence, Evidence::kCertified);
     const SuperposedWalk walk(drawn->sequence, result.parameters);
     EXPECT_EQ(Certified(robot, drawn->scene, {}, walk).verdict, Verdict::kFeasible) << walks;

@@ -45,7 +45,9 @@ TEST_F(DichotomyTest, FindsTheLimitFromBelowWithinTheToleranceInEitherOrderAndAn
           const FakeFeasibility test = UpTo(limit);
           const DichotomyOptions options{.tolerance = tolerance, .order = order, .passes = passes};
           const SmoothingResult result = Dichotomy(sequence_, test, options);
-          EXPECT_EQ(result.status, SmoothingStatus::kFinished);
+          const bool moved = result.parameters != PlannedMotion(sequence_);
+          EXPECT_EQ(result.ending, moved ? opt::Ending::kConverged : opt::Ending::kNoImprovement);
+          EXPECT_TRUE(moved || limit < tolerance);
           EXPECT_EQ(result.evidence, Evidence::kCertified);
           for (size_t i = 0; i < 5; ++i) {
             EXPECT_LE(result.parameters.overlaps[i], limit);
@@ -64,7 +66,8 @@ TEST_F(DichotomyTest, FindsTheLimitFromBelowWithinTheToleranceInEitherOrderAndAn
 TEST_F(DichotomyTest, WhenNoOverlapIsFeasibleItStaysExactlyZero) {
   const FakeFeasibility test = UpTo(0.0);
   const SmoothingResult result = Dichotomy(sequence_, test, {.tolerance = 0.05});
-  EXPECT_EQ(result.status, SmoothingStatus::kFinished);
+  EXPECT_EQ(result.ending, opt::Ending::kNoImprovement);
+  EXPECT_TRUE(result.feasible);
   EXPECT_EQ(result.parameters, PlannedMotion(sequence_));
   EXPECT_FALSE(result.time_to_first_improvement);
   for (const SmoothingIterate& iterate : result.iterates) EXPECT_FALSE(iterate.accepted);
@@ -90,7 +93,8 @@ TEST_F(DichotomyTest, WithCapsOfZeroNothingIsTried) {
   const FakeFeasibility test = UpTo(100);
   const SmoothingResult result =
       Dichotomy(sequence_, test, {.up_down_cap = 0.0, .down_up_cap = 0.0});
-  EXPECT_EQ(result.status, SmoothingStatus::kFinished);
+  EXPECT_EQ(result.ending, opt::Ending::kNoImprovement);
+  EXPECT_TRUE(result.feasible);
   EXPECT_EQ(result.parameters, PlannedMotion(sequence_));
   EXPECT_EQ(test.questions.size(), 1u);
 }
@@ -138,7 +142,7 @@ TEST_F(DichotomyTest, UndecidedIsNotAccepted) {
   EXPECT_LE(result.parameters.overlaps[0], 0.2);
   EXPECT_GT(result.parameters.overlaps[0], 0.199);
   const FakeFeasibility never = Rule([](const HomotopyParameters&) { return Verdict::kUndecided; });
-  EXPECT_EQ(Dichotomy(sequence_, never, options_).status, SmoothingStatus::kStartInfeasible);
+  EXPECT_EQ(Dichotomy(sequence_, never, options_).ending, opt::Ending::kNotRun);
 }
 
 TEST_F(DichotomyTest, AFinerToleranceIsNeverWorse) {
@@ -237,8 +241,8 @@ TEST_F(DichotomyTest, AJunctionIsLimitedByWhatRefusedTheSmallestInfeasibleOverla
 TEST_F(DichotomyTest, AnInfeasibleStartIsToldInASentenceAndLeftAlone) {
   const FakeFeasibility test = UpTo(-1.0);
   const SmoothingResult result = Dichotomy(sequence_, test, options_);
-  EXPECT_EQ(result.status, SmoothingStatus::kStartInfeasible);
-  EXPECT_EQ(Name(result.status), "start_infeasible");
+  EXPECT_EQ(result.ending, opt::Ending::kNotRun);
+  EXPECT_FALSE(result.feasible);
   EXPECT_NE(result.message.find("the planned motion is not feasible: zmp of"), std::string::npos)
       << result.message;
   EXPECT_EQ(result.parameters, PlannedMotion(sequence_));
@@ -264,7 +268,10 @@ TEST_F(DichotomyTest, StoppedAtAnyQuestionItReturnsTheLastAcceptedParameters) {
     });
     const SmoothingResult result =
         Dichotomy(sequence_, test, {.tolerance = 0.01}, {}, source.get_token());
-    EXPECT_EQ(result.status, SmoothingStatus::kInterrupted);
+    EXPECT_EQ(result.ending, last != PlannedMotion(sequence_) ? opt::Ending::kInterrupted
+                             : result.iterates.empty()        ? opt::Ending::kNotRun
+                                                              : opt::Ending::kNoImprovement);
+    EXPECT_TRUE(result.feasible);
     EXPECT_FALSE(result.message.empty());
     EXPECT_EQ(result.parameters, last);
     EXPECT_LE(test.questions.size(), stop_after + 1);

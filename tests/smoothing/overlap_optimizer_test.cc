@@ -14,6 +14,7 @@
 #include "smoothing/certified_feasibility.h"
 #include "smoothing/dichotomy.h"
 #include "smoothing/pareto.h"
+#include "tests/smoothing/fake_feasibility.h"
 #include "tests/smoothing/test_scenes.h"
 #include "tests/smoothing/test_walks.h"
 
@@ -57,7 +58,7 @@ TEST_F(OptimizerTest, IsNeverWorseThanTheDichotomyAndAllItAcceptsIsCertifiedOnIt
     options.rounds = 5;
     options.on_accept = [&accepted](const HomotopyParameters& p) { accepted.push_back(p); };
     const SmoothingResult result = OptimizeOverlaps(e_.sequence, test_, options);
-    EXPECT_EQ(result.status, SmoothingStatus::kFinished) << result.message;
+    EXPECT_EQ(result.ending, opt::Ending::kLimit) << result.message;  // of rounds
     EXPECT_LT(DurationOf(result.parameters), DurationOf(dichotomy.parameters) - 0.3) << solver;
     accepted.push_back(result.parameters);
     walks += accepted.size();
@@ -84,6 +85,39 @@ TEST_F(OptimizerTest, WithoutASearchItEndsWhereAFineDichotomyEnds) {
   const SmoothingResult dichotomy = Dichotomy(e_.sequence, test_, {.tolerance = 0.001});
   const SmoothingResult result = OptimizeOverlaps(e_.sequence, test_, options);
   EXPECT_LE(DurationOf(result.parameters), DurationOf(dichotomy.parameters));
+  EXPECT_EQ(result.ending, opt::Ending::kNotRun);
+  EXPECT_EQ(result.message,
+            "the deadline passed before " + ASolver() + " was called; the walk is a dichotomy's");
+}
+
+TEST_F(OptimizerTest, ASolverThatRefusesTheProgramIsNotCreditedWithTheDichotomysWalk) {
+  if (!opt::MakeSolver("nlopt/bobyqa")->available()) GTEST_SKIP() << "no solver";
+  const SmoothingResult dichotomy = Dichotomy(e_.sequence, test_, {.tolerance = 0.01});
+  for (const ProgramKind kind :
+       {ProgramKind::kFastest, ProgramKind::kSmooth, ProgramKind::kSafest}) {
+    OptimizerOptions options = Quick("nlopt/bobyqa");
+    options.program.kind = kind;
+    const SmoothingResult result = OptimizeOverlaps(e_.sequence, test_, options);
+    EXPECT_EQ(result.ending, opt::Ending::kInvalidInput) << result.message;
+    EXPECT_THAT(result.message, testing::HasSubstr("nlopt/bobyqa refused the program; nothing of "
+                                                   "its own was better and proved"));
+    EXPECT_TRUE(result.feasible);
+    EXPECT_NEAR(DurationOf(result.parameters), DurationOf(dichotomy.parameters), 0.01);
+  }
+  EXPECT_EQ(ParetoCurve(e_.sequence, test_, Quick("nlopt/bobyqa"), {.points = 2}).ending,
+            opt::Ending::kInvalidInput);
+}
+
+// Whatever a solver proposes is refused but the planned motion.
+TEST_F(OptimizerTest, WithoutAProofOfAnythingNewItDidNotImprove) {
+  const HomotopyParameters planned = PlannedMotion(e_.sequence);
+  const FakeFeasibility nothing_else(evaluator_, [&](const HomotopyParameters& p) {
+    return p == planned ? Verdict::kFeasible : Verdict::kViolated;
+  });
+  const SmoothingResult result = OptimizeOverlaps(e_.sequence, nothing_else, Quick("halfstep/sqp"));
+  EXPECT_EQ(result.ending, opt::Ending::kNoImprovement) << result.message;
+  EXPECT_EQ(result.parameters, planned);
+  EXPECT_THAT(result.message, testing::HasSubstr("the walk is a dichotomy's"));
 }
 
 TEST_F(OptimizerTest, StoppedAtAnyMomentItKeepsACertifiedWalk) {
@@ -96,7 +130,12 @@ TEST_F(OptimizerTest, StoppedAtAnyMomentItKeepsACertifiedWalk) {
     };
     const SmoothingResult result =
         OptimizeOverlaps(e_.sequence, test_, Quick(ASolver()), stop, source.get_token());
-    EXPECT_EQ(result.status, SmoothingStatus::kInterrupted) << moment;
+    if (moment < 0.2) {  // within the dichotomy
+      EXPECT_EQ(result.ending, opt::Ending::kNotRun) << result.message;
+    } else {
+      EXPECT_EQ(result.ending, opt::Ending::kInterrupted) << result.message;
+    }
+    EXPECT_THAT(result.message, testing::HasSubstr("stopped from outside"));
     const SuperposedWalk walk(e_.sequence, result.parameters);
     EXPECT_EQ(test_.Check(walk, {0.0, walk.duration()}, &scratch).verdict, Verdict::kFeasible);
     EXPECT_LE(walk.duration(), DurationOf(PlannedMotion(e_.sequence)));
@@ -132,7 +171,7 @@ TEST_F(OptimizerTest, SafestWithinLessThanTheDichotomysDurationStillKeepsWhatIsD
 TEST_F(OptimizerTest, EveryPointOfAParetoCurveHoldsAtItsLevelAndSafetyGrowsWithTime) {
   if (ASolver().empty()) GTEST_SKIP() << "no solver";
   const SmoothingResult result = ParetoCurve(e_.sequence, test_, Quick(ASolver()), {.points = 3});
-  EXPECT_EQ(result.status, SmoothingStatus::kFinished) << result.message;
+  EXPECT_TRUE(HasOwnResult(result.ending)) << result.message;
   ASSERT_GE(result.pareto.size(), 3u);
   MarginEvaluator::Scratch scratch = evaluator_.MakeScratch();
   for (size_t i = 0; i < result.pareto.size(); ++i) {

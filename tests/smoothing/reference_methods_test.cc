@@ -47,7 +47,7 @@ TEST_F(ReferenceMethods, TheScanFindsTheBestUniformFactors) {
   const UniformScanOptions options{
       .least_height = 0.4, .height_step = 0.2, .duration_step = 0.15, .coarse = 0.1, .fine = 0.01};
   const SmoothingResult result = UniformScan(sequence_, test, options);
-  EXPECT_EQ(result.status, SmoothingStatus::kFinished);
+  EXPECT_EQ(result.ending, opt::Ending::kConverged);
   const HomotopyParameters planned = PlannedMotion(sequence_);
   for (size_t k = 0; k < 4; ++k) {
     EXPECT_NEAR(result.parameters.durations[k], 0.7 * planned.durations[k], 1e-9);
@@ -74,10 +74,11 @@ TEST_F(ReferenceMethods, WithoutFamiliesTheScanIsTheDichotomy) {
 TEST_F(ReferenceMethods, AnInfeasiblePlannedMotionIsOnlyOneGridPoint) {
   // All must be 5 % slower than planned.
   const SmoothingResult result = UniformScan(sequence_, LowFeetMayHurry(1.05), {.heights = false});
-  EXPECT_EQ(result.status, SmoothingStatus::kFinished);
+  EXPECT_EQ(result.ending, opt::Ending::kConverged);
   EXPECT_NEAR(result.parameters.durations[0] / PlannedMotion(sequence_).durations[0], 1.05, 1e-9);
   const SmoothingResult none = UniformScan(sequence_, LowFeetMayHurry(3.0), {});
-  EXPECT_EQ(none.status, SmoothingStatus::kStartInfeasible);
+  EXPECT_EQ(none.ending, opt::Ending::kNotRun);
+  EXPECT_FALSE(none.feasible);
   EXPECT_EQ(none.parameters, PlannedMotion(sequence_));
   EXPECT_FALSE(none.message.empty());
 }
@@ -86,7 +87,7 @@ TEST_F(ReferenceMethods, CoordinateAscentLowersTheFeetToHurry) {
   const FakeFeasibility test = LowFeetMayHurry(1.0);
   const SmoothingResult result =
       CoordinateAscent(sequence_, test, {.heights = true, .durations = true});
-  EXPECT_EQ(result.status, SmoothingStatus::kFinished);
+  EXPECT_EQ(result.ending, opt::Ending::kConverged);
   const HomotopyParameters planned = PlannedMotion(sequence_);
   for (size_t k = 0; k < 4; ++k) {  // η = 0.2
     EXPECT_NEAR(result.parameters.durations[k], 0.6 * planned.durations[k], 0.002);
@@ -113,15 +114,16 @@ TEST_F(ReferenceMethods, StoppedTheyKeepWhatWasFeasible) {
   const auto stop = [&](double) { source.request_stop(); };
   const SmoothingResult result = CoordinateAscent(
       sequence_, test, {.heights = true, .durations = true}, stop, source.get_token());
-  EXPECT_EQ(result.status, SmoothingStatus::kInterrupted);
+  EXPECT_EQ(result.ending, opt::Ending::kInterrupted);
   MarginEvaluator::Scratch scratch = evaluator_.MakeScratch();
   const SuperposedWalk walk(sequence_, result.parameters);
   EXPECT_EQ(test.Check(walk, {}, &scratch).verdict, Verdict::kFeasible);
   EXPECT_LT(result.cost, DurationOf(PlannedMotion(sequence_)));
   const SmoothingResult scan = UniformScan(sequence_, test, {}, {}, source.get_token());
-  EXPECT_NE(scan.status, SmoothingStatus::kFinished);
+  EXPECT_NE(scan.ending, opt::Ending::kConverged);
   const SmoothingResult grid = GridReference(sequence_, test, {}, {}, source.get_token());
-  EXPECT_EQ(grid.status, SmoothingStatus::kInterrupted);
+  EXPECT_EQ(grid.ending, opt::Ending::kNotRun);  // stopped before its first round
+  EXPECT_TRUE(grid.feasible);
 }
 
 // Every combination of a few values, each looked at as a whole.
@@ -208,7 +210,9 @@ TEST(GridReferenceTest, IsCertifiedAndNotWorseThanTheDichotomyOrAStart) {
   for (bool durations : {false, true}) {
     options.heights = options.durations = durations;
     const SmoothingResult result = GridReference(e.sequence, test, options);
-    EXPECT_EQ(result.status, SmoothingStatus::kFinished);
+    EXPECT_EQ(HasOwnResult(result.ending), result.cost < DurationOf(dichotomy.parameters))
+        << result.message;
+    EXPECT_NE(result.ending, opt::Ending::kNotRun);
     EXPECT_LE(result.cost, DurationOf(dichotomy.parameters));
     EXPECT_LT(result.cost, DurationOf(dichotomy.parameters) - (durations ? 0.05 : -1e-9));
     const SuperposedWalk walk(e.sequence, result.parameters);

@@ -63,7 +63,7 @@ class SmoothedScene : public testing::TestWithParam<std::string> {
 TEST_P(SmoothedScene, KeepsEveryMarginBetweenTheInstantsThatWereChecked) {
   const Experiment& e = experiment_;
   const auto [result, duration] = Smooth(e, e.sequence, e.scene, {});
-  ASSERT_EQ(result.status, SmoothingStatus::kFinished) << result.message;
+  ASSERT_EQ(result.ending, opt::Ending::kConverged) << result.message;
   EXPECT_EQ(Recheck(e, result.parameters, 0.005, kBetweenSamples).verdict, Verdict::kFeasible);
 
   const MarginEvaluator evaluator(e.robot, e.scene, e.config.smoothing.limits);
@@ -191,7 +191,7 @@ TEST(SmoothedBox, AnObstacleInThePlannedPathMakesTheStartInfeasible) {
   scene.obstacles.push_back(
       {"ball", MakeSphere(0.05), Eigen::Isometry3d(Eigen::Translation3d(0, -0.25, 0.25))});
   const SmoothingResult result = Smooth(e, e.sequence, scene, {}).result;
-  EXPECT_EQ(result.status, SmoothingStatus::kStartInfeasible);
+  EXPECT_EQ(result.ending, opt::Ending::kNotRun);
   EXPECT_NE(result.message.find("clearance of RLEG_LINK"), std::string::npos) << result.message;
   EXPECT_NE(result.message.find("ball"), std::string::npos) << result.message;
   EXPECT_EQ(result.parameters, PlannedMotion(e.sequence));
@@ -207,7 +207,7 @@ TEST(SmoothedBar, InterruptedHalfWayItHasAllMarginsAndSomethingGained) {
   };
   const SmoothingResult result = Dichotomy(e.sequence, SampledFeasibility(evaluator, 0.005), {},
                                            stop_at_half, source.get_token());
-  EXPECT_EQ(result.status, SmoothingStatus::kInterrupted);
+  EXPECT_EQ(result.ending, opt::Ending::kInterrupted);
   Recheck(e, result.parameters, 0.001, kBetweenSamples);
   EXPECT_GT(result.parameters.overlaps[0], 0.1);
   EXPECT_EQ(result.parameters.overlaps.back(), 0.0);
