@@ -30,7 +30,8 @@ std::string_view VerdictName(Verdict verdict);
 /// certificate.csv. Columns: experiments/README.md.
 CsvFile CertificateCsv(const MarginEvaluator& evaluator, const Certificate& rows);
 
-/// Text of certificate.json: verdict, the statement, what was demanded, counts of statements, and
+/// Text of certificate.json: verdict, the statement, what was demanded, counts of statements, the
+/// pairs of bodies that are not watched, and
 /// SHA-256 of everything that the certificate is about. Paths relative to `run_folder`.
 std::string CertificateJson(const Experiment& experiment, const CertifiedFeasibility& test,
                             const CertifiedWalk& walk, const std::filesystem::path& run_folder,

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "planner/simple_polygon.h"
-#include "wpg/support_polygon.h"
+#include "planner/no_step_areas.h"
 
 namespace halfstep {
 namespace {
@@ -100,13 +99,9 @@ Experiment Prepare(const ExperimentConfig& config) {
 }
 
 std::optional<std::string> FootprintOnNoStep(const Experiment& experiment) {
-  const auto touches = [&](const Pose2& X_WF) {
-    const Eigen::Matrix2Xd sole = SoleCorners(X_WF, experiment.robot.sole_size);
-    for (const Eigen::Matrix2Xd& polygon : experiment.scene.no_step) {
-      if (PolygonsTouch(sole, polygon)) return true;
-    }
-    return false;
-  };
+  const NoStepAreas areas(experiment.scene, experiment.robot.sole_outline);
+  const double apart = experiment.config.smoothing.limits.demanded_of(MarginFamily::kNoStep);
+  const auto touches = [&](const Pose2& X_WF) { return !areas.Clears(X_WF, apart); };
   const std::array<Pose2, 2> start = StartOf(experiment.config, experiment.robot);
   for (Side side : {Side::kLeft, Side::kRight}) {
     if (touches(start[static_cast<size_t>(Index(side))])) {

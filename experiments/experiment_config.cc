@@ -164,6 +164,10 @@ void DeclareMargins(Fields& fields, MarginLimits* l) {
                   {.meaning = meaning, .unit = unit, .min = 0, .max = 0.5});
   };
   margin("floor_m", MarginFamily::kFloor, "m", "height of the sole while it moves horizontally");
+  margin("ground_m", MarginFamily::kGround, "m",
+         "lowest point of a body above the floor; feet may touch it");
+  margin("no_step_m", MarginFamily::kNoStep, "m",
+         "standing sole to no-step areas; touching is never allowed");
   margin("zmp_m", MarginFamily::kZmp, "m", "ZMP inside the support polygon");
   margin("reach_m", MarginFamily::kReach, "m", "leg shorter than stretched");
   margin("joint_rad", MarginFamily::kJoint, "rad", "inside the joint limits");

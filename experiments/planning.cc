@@ -133,7 +133,8 @@ PlannedWalk PlanWalk(const ExperimentConfig& config, const PlanningHooks& hooks)
     return walk;
   }
   const SweptVolumes& volumes = *walk.half_steps.cached.volumes;
-  const SweptVolumeQuery query(volumes, place.robot.sole_size, place.scene);
+  const SweptVolumeQuery query(volumes, place.robot.sole_outline, place.scene,
+                               config.smoothing.limits.demanded_of(MarginFamily::kNoStep));
   const HalfStepCertifier certifier(place.robot, place.scene, config);
   const MarginEvaluator evaluator(place.robot, place.scene, config.smoothing.limits);
   const CertifiedFeasibility test(evaluator, config.smoothing.certification);

@@ -1,6 +1,8 @@
 #include "planner/simple_polygon.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace halfstep {
 namespace {
@@ -40,6 +42,27 @@ bool Contains(const Eigen::Matrix2Xd& polygon, const Eigen::Vector2d& p) {
     }
   }
   return inside;
+}
+
+// Distance of p from the boundary of a polygon.
+double FromBoundary(const Eigen::Matrix2Xd& polygon, const Eigen::Vector2d& p) {
+  double least = std::numeric_limits<double>::infinity();
+  for (Eigen::Index i = 0; i < polygon.cols(); ++i) {
+    const Eigen::Vector2d a = polygon.col(i);
+    const Eigen::Vector2d edge = polygon.col((i + 1) % polygon.cols()) - a;
+    const double along = std::clamp(edge.dot(p - a) / edge.squaredNorm(), 0.0, 1.0);
+    least = std::min(least, (p - a - along * edge).norm());
+  }
+  return least;
+}
+
+// How deep the deepest corner of `a` lies in `b`; 0: none does.
+double Depth(const Eigen::Matrix2Xd& a, const Eigen::Matrix2Xd& b) {
+  double deepest = 0.0;
+  for (Eigen::Index i = 0; i < a.cols(); ++i) {
+    if (Contains(b, a.col(i))) deepest = std::max(deepest, FromBoundary(b, a.col(i)));
+  }
+  return deepest;
 }
 
 std::string Edge(Eigen::Index i, Eigen::Index n) {
@@ -95,6 +118,16 @@ bool PolygonsTouch(const Eigen::Matrix2Xd& a, const Eigen::Matrix2Xd& b) {
   }
   // No edges meet: one contains the other, and then any of its vertices, or they are apart.
   return Contains(a, b.col(0)) || Contains(b, a.col(0));
+}
+
+double PolygonDistance(const Eigen::Matrix2Xd& a, const Eigen::Matrix2Xd& b) {
+  constexpr double kTouching = 1e-9;
+  if (PolygonsTouch(a, b)) return -std::max({kTouching, Depth(a, b), Depth(b, a)});
+  // Edges that do not meet are nearest at an end of one of them.
+  double least = std::numeric_limits<double>::infinity();
+  for (Eigen::Index i = 0; i < a.cols(); ++i) least = std::min(least, FromBoundary(b, a.col(i)));
+  for (Eigen::Index i = 0; i < b.cols(); ++i) least = std::min(least, FromBoundary(a, b.col(i)));
+  return least;
 }
 
 }  // namespace halfstep

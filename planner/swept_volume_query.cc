@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "planner/four_floats.h"
-#include "planner/simple_polygon.h"
 #include "wpg/check.h"
 
 namespace halfstep {
@@ -75,12 +74,14 @@ SweptVolumeQuery::Prepared SweptVolumeQuery::Prepare(const Obstacle& obstacle) {
   return prepared;
 }
 
-SweptVolumeQuery::SweptVolumeQuery(const SweptVolumes& volumes, const Eigen::Vector2d& sole_size,
-                                   const Scene& scene)
+SweptVolumeQuery::SweptVolumeQuery(const SweptVolumes& volumes,
+                                   const Eigen::Matrix2Xd& sole_outline, const Scene& scene,
+                                   double no_step)
     : volumes_(volumes),
       down_bounds_(BoundsOf(volumes.down)),
       up_bounds_(BoundsOf(volumes.up)),
-      sole_size_(sole_size) {
+      areas_(scene, sole_outline),
+      no_step_(no_step) {
   const size_t size = static_cast<size_t>(volumes.set.size());
   HALFSTEP_CHECK(volumes.down.size() == size && volumes.up.size() == size,
                  volumes.down.size() << " and " << volumes.up.size() << " volumes of " << size);
@@ -95,10 +96,6 @@ SweptVolumeQuery::SweptVolumeQuery(const SweptVolumes& volumes, const Eigen::Vec
   for (int i = 0; i < count; ++i) {
     obstacles_.push_back(Prepare(scene.obstacles[static_cast<size_t>(i)]));
     SetObstaclePose(i, scene.obstacles[static_cast<size_t>(i)].X_WO);
-  }
-  for (const Eigen::Matrix2Xd& polygon : scene.no_step) {
-    const Eigen::Vector2d center = polygon.rowwise().mean();
-    no_step_.push_back({polygon, center, (polygon.colwise() - center).colwise().norm().maxCoeff()});
   }
 }
 
@@ -222,16 +219,7 @@ std::vector<SweptVolumeQuery::Bounds> SweptVolumeQuery::BoundsOf(
 
 bool SweptVolumeQuery::DownIsFree(int i, Side support, const Pose2& X_WS) const {
   if (!IsFree(Down(i, support, X_WS), 0.0)) return false;
-  if (no_step_.empty()) return true;
-  const Pose2 X_WF = X_WS * volumes_.set.Placement(i, support);
-  const Eigen::Vector2d half = 0.5 * sole_size_;
-  Eigen::Matrix2Xd sole(2, 4);
-  sole << half.x(), -half.x(), -half.x(), half.x(), half.y(), half.y(), -half.y(), -half.y();
-  sole = (X_WF.rotation() * sole).colwise() + X_WF.position();
-  return std::none_of(no_step_.begin(), no_step_.end(), [&](const Area& area) {
-    return (area.center - X_WF.position()).norm() <= (area.radius + half.norm()) * (1 + 1e-9) &&
-           PolygonsTouch(sole, area.polygon);
-  });
+  return areas_.empty() || areas_.Clears(X_WS * volumes_.set.Placement(i, support), no_step_);
 }
 
 bool SweptVolumeQuery::UpIsFree(int i, Side support, const Pose2& X_WS) const {

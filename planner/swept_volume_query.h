@@ -9,6 +9,7 @@
 #include "planner/box_tree_query.h"
 #include "planner/half_step_query.h"
 #include "planner/mesh_interior.h"
+#include "planner/no_step_areas.h"
 #include "planner/scene.h"
 #include "planner/swept_volumes.h"
 
@@ -21,10 +22,11 @@ namespace halfstep {
 /// is its surface and what it winds around.
 class SweptVolumeQuery : public HalfStepQuery {
  public:
-  /// `volumes` is borrowed and must outlive this. `sole_size`: length and width [m] of the sole
-  /// that keeps off the no-step areas. Precondition: finite poses, volumes for each element.
-  SweptVolumeQuery(const SweptVolumes& volumes, const Eigen::Vector2d& sole_size,
-                   const Scene& scene);
+  /// `volumes` is borrowed and must outlive this. A landing sole, of the outline
+  /// RobotModel::sole_outline (2×k) [m], keeps `no_step` ≥ 0 [m] from the no-step areas and touches
+  /// none. Precondition: finite poses, volumes for each element.
+  SweptVolumeQuery(const SweptVolumes& volumes, const Eigen::Matrix2Xd& sole_outline,
+                   const Scene& scene, double no_step = 0.0);
 
   bool DownIsFree(int i, Side support, const Pose2& X_WS) const override;
   bool UpIsFree(int i, Side support, const Pose2& X_WS) const override;
@@ -75,19 +77,13 @@ class SweptVolumeQuery : public HalfStepQuery {
                      double extra) const;
   double Clearance(const Placed& placed, double horizon) const;
 
-  struct Area {
-    Eigen::Matrix2Xd polygon;
-    Eigen::Vector2d center;
-    double radius = 0.0;
-  };
-
   const SweptVolumes& volumes_;
   std::vector<Bounds> down_bounds_, up_bounds_;
-  Eigen::Vector2d sole_size_;
   std::vector<Prepared> obstacles_;
   std::vector<Cylinders> cylinders_;
   double farthest_ = 0.0;  // coordinate of an obstacle [m]
-  std::vector<Area> no_step_;
+  NoStepAreas areas_;
+  double no_step_ = 0.0;
 };
 
 }  // namespace halfstep

@@ -8,9 +8,10 @@
 namespace halfstep {
 namespace {
 
-constexpr std::array<MarginFamily, 7> kScalarFamilies = {
-    MarginFamily::kFloor, MarginFamily::kFootSpeed, MarginFamily::kFootYawRate, MarginFamily::kZmp,
-    MarginFamily::kReach, MarginFamily::kJoint,     MarginFamily::kJointSpeed};
+constexpr std::array<MarginFamily, 9> kScalarFamilies = {
+    MarginFamily::kFloor,      MarginFamily::kFootSpeed, MarginFamily::kFootYawRate,
+    MarginFamily::kZmp,        MarginFamily::kReach,     MarginFamily::kJoint,
+    MarginFamily::kJointSpeed, MarginFamily::kGround,    MarginFamily::kNoStep};
 
 // Added to every bound, in its unit, for the rounding of postures and margins: on random intervals
 // the truth exceeded the bounds of places, which can be zero, by up to 2e-15 m.
@@ -36,12 +37,14 @@ Pending IntervalStatements::All() const {
 int IntervalStatements::CountOf(MarginFamily family) const {
   switch (family) {
     case MarginFamily::kReach:
+    case MarginFamily::kNoStep:
       return 2;
     case MarginFamily::kJoint:
     case MarginFamily::kJointSpeed:
       return 12;
+    case MarginFamily::kGround:
     case MarginFamily::kClearance:
-      return static_cast<int>(evaluator_.clearances().num_bodies());
+      return static_cast<int>(evaluator_.robot().bodies.size());
     case MarginFamily::kSelfClearance:
       return static_cast<int>(evaluator_.clearances().num_pairs());
     case MarginFamily::kFloor:
@@ -60,6 +63,63 @@ void IntervalStatements::Tightest::Add(const Margin& added, double change) {
     margin = added;
     bound = change;
   }
+}
+
+bool IntervalStatements::Tightest::Pass(double spare) {
+  if (count == 0 || !(spare >= margin.value - bound)) return false;
+  ++count;
+  return true;
+}
+
+IntervalStatements::Tightest IntervalStatements::Ground(const SuperposedWalk& walk,
+                                                        const LocalTime& mid,
+                                                        const IntervalMotion& motion) const {
+  const BodyHeights& heights = evaluator_.heights();
+  const WalkVector& x = motion.jet.value;
+  const double h = motion.half_width, t = walk.Absolute(mid);
+  const int step = walk.StepInAir(mid);
+  Tightest tightest;
+  const auto add = [&](double value, double change, int body) {
+    tightest.Add({.family = MarginFamily::kGround, .value = value, .subject = body},
+                 change + kRounding);
+  };
+  for (int body : heights.on_feet()) {
+    const Side side = static_cast<Side>(evaluator_.robot().bodies[static_cast<size_t>(body)].leg);
+    const int z = FootIndex(side) + 2;
+    double least = x[z] - motion.Change(z);
+    if (step >= 0 && walk.half_step(2 * step).swing() == side) {
+      least = std::max(least, walk.LeastHeight(step, t - h, t + h));
+    }
+    // On the floor or above it for all t, below it at the midpoint, or neither is known.
+    const double margin = heights.OnFoot(body, x);
+    const bool open = least < -kSoleRounding && margin > 0.0;
+    add(open ? std::nan("") : margin, 0.0, body);
+  }
+  for (int body : heights.of_legs()) {
+    const double change = motion.displacement[static_cast<size_t>(body)];
+    const double possible = heights.LowestPossible(body, motion.posture);
+    if (tightest.Pass(possible - change - kRounding)) continue;
+    add(heights.LowestPoint(body, motion.posture).z(), change, body);
+  }
+  add(heights.of_waist().value, 0.0, heights.of_waist().subject);
+  tightest.count = CountOf(MarginFamily::kGround);  // the lowest of the waist's bodies for all
+  return tightest;
+}
+
+IntervalStatements::Tightest IntervalStatements::NoStep(const SuperposedWalk& walk,
+                                                        const LocalTime& mid,
+                                                        const IntervalMotion& motion,
+                                                        MarginEvaluator::Scratch* scratch) const {
+  Tightest tightest;
+  for (Side side : {Side::kLeft, Side::kRight}) {
+    // A sole that stands does not move: its quantities change by 0 and rounding.
+    const int foot = FootIndex(side);
+    const double moved = std::hypot(motion.Change(foot), motion.Change(foot + 1)) +
+                         evaluator_.no_step_areas().sole_reach() * motion.Change(foot + 3);
+    const Margin margin = evaluator_.NoStep(walk, mid, motion.jet.value, side, scratch);
+    tightest.Add(margin, (std::isinf(margin.value) ? 0.0 : moved) + kRounding);
+  }
+  return tightest;
 }
 
 IntervalStatements::Tightest IntervalStatements::Scalar(MarginFamily family,
@@ -136,9 +196,11 @@ IntervalStatements::Tightest IntervalStatements::Scalar(MarginFamily family,
         }
       }
       break;
+    case MarginFamily::kGround:
+    case MarginFamily::kNoStep:
     case MarginFamily::kSelfClearance:
     case MarginFamily::kClearance:
-      break;  // body by body and pair by pair, in Prove
+      break;  // in Prove
   }
   return tightest;
 }
@@ -169,7 +231,9 @@ std::optional<Margin> IntervalStatements::Prove(const SuperposedWalk& walk, doub
 
   std::optional<Margin> violated;
   std::erase_if(pending->families, [&](MarginFamily family) {
-    const Tightest tightest = Scalar(family, walk, mid, motion);
+    const Tightest tightest = family == MarginFamily::kGround   ? Ground(walk, mid, motion)
+                              : family == MarginFamily::kNoStep ? NoStep(walk, mid, motion, scratch)
+                                                                : Scalar(family, walk, mid, motion);
     const double demanded = limits.demanded_of(family);
     if (tightest.margin.value < demanded && !violated) violated = located(tightest.margin);
     const bool holds = tightest.margin.value - tightest.bound >= demanded;

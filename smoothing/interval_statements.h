@@ -44,8 +44,14 @@ class IntervalStatements {
     double bound = 0.0;
     int count = 0;
     void Add(const Margin& added, double change);
+    // One with at least `spare`, unless it may be the tightest: false.
+    bool Pass(double spare);
   };
   Tightest Scalar(MarginFamily family, const SuperposedWalk& walk, const LocalTime& mid,
+                  const IntervalMotion& motion) const;
+  Tightest NoStep(const SuperposedWalk& walk, const LocalTime& mid, const IntervalMotion& motion,
+                  MarginEvaluator::Scratch* scratch) const;
+  Tightest Ground(const SuperposedWalk& walk, const LocalTime& mid,
                   const IntervalMotion& motion) const;
 
   const MarginEvaluator& evaluator_;

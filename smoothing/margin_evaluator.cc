@@ -35,7 +35,11 @@ MarginSet Unlimited() {
 }  // namespace
 
 MarginEvaluator::Place::Place(RobotModel r, Scene s)
-    : robot(std::move(r)), scene(std::move(s)), clearances(robot, scene) {}
+    : robot(std::move(r)),
+      scene(std::move(s)),
+      clearances(robot, scene),
+      heights(robot),
+      areas(scene, robot.sole_outline) {}
 
 MarginEvaluator::MarginEvaluator(RobotModel robot, Scene scene, MarginLimits limits)
     : place_(std::make_shared<const Place>(std::move(robot), std::move(scene))), limits_(limits) {}
@@ -73,6 +77,29 @@ void MarginEvaluator::ZmpMargin(const SuperposedWalk& walk, const LocalTime& at,
         walk.StepInAir(at));
 }
 
+Margin MarginEvaluator::NoStep(const SuperposedWalk& walk, const LocalTime& at, const WalkVector& x,
+                               Side side, Scratch* scratch) const {
+  Margin margin{.family = MarginFamily::kNoStep, .subject = Index(side)};
+  if (no_step_areas().empty() || walk.InAir(at, side)) return margin;
+  Scratch::Standing& standing = scratch->standing[static_cast<size_t>(Index(side))];
+  const Pose2 X_WF = FootPose(x, side);
+  if (!standing.known || standing.X_WF != X_WF) {
+    standing = {X_WF, no_step_areas().NearestTo(X_WF), true};
+  }
+  margin.value = standing.nearest.distance;
+  margin.other = standing.nearest.area;
+  return margin;
+}
+
+void MarginEvaluator::NoStepMargins(const SuperposedWalk& walk, const LocalTime& at,
+                                    const WalkVector& x, Scratch* scratch,
+                                    MarginSet* margins) const {
+  for (Side side : {Side::kLeft, Side::kRight}) {
+    const Margin margin = NoStep(walk, at, x, side, scratch);
+    Lower(margins, MarginFamily::kNoStep, margin.value, margin.subject, margin.other);
+  }
+}
+
 void MarginEvaluator::JointMargins(const Posture& posture, MarginSet* margins) const {
   for (int s = 0; s < 2; ++s) {
     const Leg& leg = robot().legs[static_cast<size_t>(s)];
@@ -96,11 +123,13 @@ MarginSet MarginEvaluator::At(const SuperposedWalk& walk, const LocalTime& at,
   const WalkJet jet = walk.At(at);
   MarginSet margins = Unlimited();
   FootMargins(walk, at, jet, &margins);
+  NoStepMargins(walk, at, jet.value, scratch, &margins);
   ZmpMargin(walk, at, jet, &margins);
   Posture posture = SolvePosture(robot(), jet.value);
   JointMargins(posture, &margins);
   if (posture.reachable) {
     JointSpeedMargins(jet, &posture, &margins);
+    Of(&margins, MarginFamily::kGround) = heights().Least(posture, jet.value);
     const double horizon =
         std::max({limits_.clearance_horizon, 2.0 * limits_.demanded_of(MarginFamily::kClearance),
                   2.0 * limits_.demanded_of(MarginFamily::kSelfClearance)});
@@ -109,8 +138,8 @@ MarginSet MarginEvaluator::At(const SuperposedWalk& walk, const LocalTime& at,
     Of(&margins, MarginFamily::kSelfClearance) =
         clearances().NearestPair(posture, horizon, &scratch->bodies);
   } else {
-    for (MarginFamily family :
-         {MarginFamily::kJointSpeed, MarginFamily::kClearance, MarginFamily::kSelfClearance}) {
+    for (MarginFamily family : {MarginFamily::kJointSpeed, MarginFamily::kGround,
+                                MarginFamily::kClearance, MarginFamily::kSelfClearance}) {
       Lower(&margins, family, -kInfinity, -1);
     }
   }
@@ -139,12 +168,15 @@ std::optional<Margin> MarginEvaluator::FirstViolation(const SuperposedWalk& walk
     return std::nullopt;
   };
   FootMargins(walk, at, jet, &margins);
+  NoStepMargins(walk, at, jet.value, scratch, &margins);
   ZmpMargin(walk, at, jet, &margins);
   if (const auto margin = violated()) return margin;
   Posture posture = SolvePosture(robot(), jet.value);
   JointMargins(posture, &margins);
   if (const auto margin = violated()) return margin;
   JointSpeedMargins(jet, &posture, &margins);
+  Of(&margins, MarginFamily::kGround) =
+      heights().Least(posture, jet.value, limits_.demanded_of(MarginFamily::kGround));
   if (const auto margin = violated()) return margin;
   const auto touching =
       clearances().FirstBelow(posture, limits_.demanded_of(MarginFamily::kClearance),
@@ -192,6 +224,14 @@ std::string MarginEvaluator::Subject(const Margin& margin) const {
           .name;
     case MarginFamily::kSelfClearance:
       return body(margin.subject) + " - " + body(margin.other);
+    case MarginFamily::kNoStep: {
+      if (margin.subject < 0) return "both feet";
+      const std::string foot = std::string(Name(static_cast<Side>(margin.subject))) + " foot";
+      // As the scene file counts them.
+      return margin.other < 0 ? foot : foot + " - no_step[" + std::to_string(margin.other) + "]";
+    }
+    case MarginFamily::kGround:
+      return body(margin.subject);
     case MarginFamily::kClearance:
       return margin.other < 0 ? body(margin.subject)
                               : body(margin.subject) + " - " +

@@ -19,6 +19,8 @@ constexpr std::array<FamilyInfo, kNumMarginFamilies> kFamilies = {{
     {"joint_speed", "rad/s", 0.5},
     {"self_clearance", "m", 0.01},
     {"clearance", "m", 0.01},
+    {"ground", "m", 0.01},
+    {"no_step", "m", 0.01},
 }};
 
 const FamilyInfo& Info(MarginFamily family) { return kFamilies[static_cast<size_t>(family)]; }

@@ -22,8 +22,10 @@ enum class MarginFamily : int {
   kJointSpeed,     ///< joint speed limit − |q̇| [rad/s]
   kSelfClearance,  ///< distance between the robot's own bodies [m]
   kClearance,      ///< distance from the robot to the obstacles [m]
+  kGround,         ///< height of a body's lowest point above the floor [m]; a foot's may touch it
+  kNoStep,         ///< distance of a standing sole's outline from the no-step areas [m]
 };
-constexpr int kNumMarginFamilies = 9;
+constexpr int kNumMarginFamilies = 11;
 
 std::string_view Name(MarginFamily family);  ///< "zmp", "joint_speed" … as in YAML and CSV
 std::string_view Unit(MarginFamily family);  ///< "m", "rad" …
@@ -42,9 +44,9 @@ struct Margin {
   LocalTime at = {};
   double t = 0.0;  ///< absolute time in the walk where it was found [s]
   /// Zmp: step in the air or −1. Foot families: Index(Side). Reach, joints: 6·Index(Side) + joint.
-  /// Clearances: index into RobotModel::bodies.
+  /// Clearances and ground: index into RobotModel::bodies. No-step: Index(Side).
   int subject = -1;
-  int other = -1;  ///< clearance: obstacle; self-clearance: second body
+  int other = -1;  ///< clearance: obstacle; self-clearance: second body; no-step: area
 };
 
 /// Limits of the quantities that the robot model does not bound, and what is demanded of each
@@ -54,7 +56,8 @@ struct MarginLimits {
   std::optional<double> foot_yaw_rate = 2.0;  ///< [rad/s]
   double joint_speed_scale = 1.0;             ///< of the robot's joint speed limits, ∈ (0, 1]
   /// Demanded margin δ by family, in its unit: feasible means margin ≥ δ.
-  std::array<double, kNumMarginFamilies> demanded = {0.005, 0, 0, 0.01, 0, 0, 0, 0.005, 0.005};
+  std::array<double, kNumMarginFamilies> demanded = {0.005, 0,     0,     0.01, 0, 0,
+                                                     0,     0.005, 0.005, 0,    0};
   /// Distances beyond this are not told apart: a clearance reads at most this [m].
   double clearance_horizon = 0.3;
 

@@ -22,7 +22,7 @@ std::string_view Name(ProgramKind kind);  ///< "fastest" …
 /// The families whose least slack `safest` maximizes: ZMP, joints, joint and foot speeds, both
 /// clearances. The others are kept at what is demanded.
 constexpr std::array<bool, kNumMarginFamilies> Raised() {
-  return {false, true, false, true, false, true, true, true, true};
+  return {false, true, false, true, false, true, true, true, true, false, false};
 }
 
 /// Which nonlinear program over a sequence's homotopy parameters.

@@ -106,6 +106,20 @@ void SlackEvaluator::AddJoints(const Posture& posture, InstantSlacks* out) {
   }
 }
 
+void SlackEvaluator::AddGround(const Posture& posture, InstantSlacks* out) {
+  const BodyHeights& heights = evaluator_.heights();
+  const double horizon = evaluator_.limits().demanded_of(MarginFamily::kGround) +
+                         cutoff_ * Scale(MarginFamily::kGround);
+  for (int b : heights.of_legs()) {
+    if (heights.LowestPossible(b, posture) > horizon) continue;
+    const RobotBody& body = evaluator_.robot().bodies[static_cast<size_t>(b)];
+    const Eigen::Vector3d lowest = heights.LowestPoint(b, posture);
+    Add(
+        MarginFamily::kGround, lowest.z(),
+        [&](size_t i) { return PointTangent(body, posture, tangents_[i], lowest).z(); }, out);
+  }
+}
+
 void SlackEvaluator::AddClearances(const Posture& posture, InstantSlacks* out) {
   const RobotModel& robot = evaluator_.robot();
   const BodyClearances& clearances = evaluator_.clearances();
@@ -180,6 +194,7 @@ void SlackEvaluator::At(const SuperposedWalk& walk, const LocalTime& at,
   AddZmp(walk, at, jet, out);
   if (regular) {
     AddJoints(posture, out);
+    AddGround(posture, out);
     AddClearances(posture, out);
   } else {
     const double reach = std::min(posture.ik[0].reach_margin, posture.ik[1].reach_margin);

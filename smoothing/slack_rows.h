@@ -25,7 +25,7 @@ struct InstantSlacks {
 };
 
 /// Evaluates slacks and their analytic derivatives: superposition → leg inverse kinematics →
-/// witness points. One for each thread.
+/// witness points. No-step areas have no rows: no parameter moves a footstep. One for each thread.
 class SlackEvaluator {
  public:
   /// `evaluator` is borrowed. Statements with slack above `cutoff` are left out.
@@ -49,6 +49,7 @@ class SlackEvaluator {
   void AddZmp(const SuperposedWalk& walk, const LocalTime& at, const WalkJet& jet,
               InstantSlacks* out);
   void AddJoints(const Posture& posture, InstantSlacks* out);
+  void AddGround(const Posture& posture, InstantSlacks* out);
   void AddClearances(const Posture& posture, InstantSlacks* out);
 
   const MarginEvaluator& evaluator_;

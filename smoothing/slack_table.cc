@@ -108,7 +108,7 @@ void SlackTable::CountRows() {
     const int groups = options_.row_per_instant
                            ? static_cast<int>(std::ranges::count(instants, false, &Instant::far))
                            : 1;
-    first_rows_.push_back(first_rows_.back() + groups * kNumMarginFamilies);
+    first_rows_.push_back(first_rows_.back() + groups * kRowFamilies);
   }
 }
 
@@ -195,7 +195,7 @@ void SlackTable::EvaluateHalfStep(const SuperposedWalk& walk, const Eigen::Vecto
   const std::vector<int>& columns = band(k);
   const Eigen::Index width = static_cast<Eigen::Index>(columns.size());
   const SoftMinimum nothing{options_.cutoff, 1.0, Eigen::VectorXd::Zero(nonzeros ? width : 0)};
-  std::array<SoftMinimum, kNumMarginFamilies> minima;
+  std::array<SoftMinimum, kRowFamilies> minima;
   minima.fill(nothing);
   double* value = values->data() + first_rows_[static_cast<size_t>(k)];
   const auto write = [&] {
@@ -226,7 +226,7 @@ void SlackTable::EvaluateHalfStep(const SuperposedWalk& walk, const Eigen::Vecto
       }
     }
     for (size_t r = 0; r < instant.rows.size(); ++r) {
-      SoftMinimum& minimum = minima[static_cast<size_t>(instant.rows[r].family)];
+      SoftMinimum& minimum = minima[static_cast<size_t>(RowOf(instant.rows[r].family))];
       const double weight = minimum.Add(instant.rows[r].slack, rho);
       if (!nonzeros || weight < 1e-9) continue;
       minimum.gradient.noalias() +=

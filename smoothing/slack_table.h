@@ -37,8 +37,12 @@ class SlackTable {
 
   int rows() const { return first_rows_.back(); }
   int half_step_of(int row) const;
-  static MarginFamily family_of(int row) {
-    return static_cast<MarginFamily>(row % kNumMarginFamilies);
+  /// A half-step's rows are of the first families; `ground` shares the row of `floor`, for both are
+  /// heights, and `no_step` has none.
+  static constexpr int kRowFamilies = static_cast<int>(MarginFamily::kGround);
+  static MarginFamily family_of(int row) { return static_cast<MarginFamily>(row % kRowFamilies); }
+  static MarginFamily RowOf(MarginFamily family) {
+    return family == MarginFamily::kGround ? MarginFamily::kFloor : family;
   }
   /// Variables of the rows of a half-step.
   const std::vector<int>& band(int half_step) const {

@@ -168,6 +168,25 @@ bool SuperposedWalk::MovesHorizontally(int step, const LocalTime& at) const {
           in_up <= piece(up).profiles.duration());
 }
 
+double SuperposedWalk::LeastHeight(int step, double begin, double end) const {
+  constexpr double kSteepest = 15.0 / 8.0;  // S'(½)
+  const Piece &up = piece(2 * step), &down = piece(2 * step + 1);
+  // Fractions of the rise that is done, and of the sinking that is still to come.
+  const double lift_off = up.profiles.t2(), rise = up.profiles.duration() - lift_off;
+  const auto risen = [&](double t) {
+    return std::clamp((t - up.start - lift_off) / rise, 0.0, 1.0);
+  };
+  const auto left = [&](double t) {
+    return 1.0 - std::clamp((t - down.start) / down.profiles.t1(), 0.0, 1.0);
+  };
+  const double height = up.half_step.via_height;
+  const double monotone =
+      height * (Smoothstep{}.At(risen(begin)).value + Smoothstep{}.At(left(end)).value - 1.0);
+  // Both are affine in between, so their sum is least at an end.
+  const double sum = std::min(risen(begin) + left(begin), risen(end) + left(end));
+  return std::max(monotone, kSteepest * height * std::min(0.0, sum - 1.0));
+}
+
 bool SuperposedWalk::InAir(const LocalTime& at, Side foot) const {
   const int step = StepInAir(at);
   return step >= 0 && half_step(2 * step).swing() == foot;

@@ -75,6 +75,12 @@ class SuperposedWalk {
   /// end of the down half-step's, or of the up half-step if that is later; both instants included.
   bool MovesHorizontally(int step, const LocalTime& at) const;
 
+  /// A lower bound of the height of the swing sole of `step` for all t of [begin, end] [s], at most
+  /// its height there and, but for rounding, never below 0 while the overlap is within its natural
+  /// bound. Precondition: half-steps and flights begin and end outside of the interval, or at its
+  /// ends. Source: smoothing/README.md, "The foot never goes below the floor".
+  double LeastHeight(int step, double begin, double end) const;
+
   /// Changes one overlap. Precondition: within [0, NaturalOverlapBound].
   void SetOverlap(int junction, double overlap);
 

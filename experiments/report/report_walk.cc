@@ -110,7 +110,8 @@ json WalkJson(const fs::path& folder, double spacing) {
   json walk = TrajectoryJson(folder / "trajectory.csv", spacing);
   walk["half_steps"] = RowsJson(folder / "half_steps.csv");
   walk["overlaps"] = fs::exists(overlaps) ? RowsJson(overlaps) : json::array();
-  for (const char* key : {"verdict", "message", "statement", "demanded", "limits", "statements"}) {
+  for (const char* key : {"verdict", "message", "statement", "demanded", "limits", "statements",
+                          "not_watched"}) {
     if (!certificate.contains(key)) {
       throw InputError({(folder / "certificate.json").string() + ": no '" + key + "'"});
     }

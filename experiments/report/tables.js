@@ -107,6 +107,17 @@ export function junctionTable(parent, [a, b]) {
       "less were demanded of what holds the overlap, by this overlap alone, to first order." }));
 }
 
+/** Pairs of bodies that nothing is promised about, by the reason. */
+function notWatched(pairs) {
+  const reasons = [...new Set(pairs.map((pair) => pair.why))];
+  const rows = reasons.map((why) => [why, pairs.filter((pair) => pair.why === why)
+    .map((pair) => pair.bodies.join(" – ")).join(", ")]);
+  const details = element("details", {},
+    element("summary", { text: `Not watched: ${pairs.length} pairs of bodies` }),
+    table(["why", "bodies"], rows));
+  return pairs.length ? details : element("p", { text: "Every pair of bodies that move against each other is watched." });
+}
+
 /** The statement, and the verdict on each walk. */
 export function guarantee(parent, statement, walks) {
   const shown = walks.filter((walk) => walk.certificate);
@@ -120,10 +131,13 @@ export function guarantee(parent, statement, walks) {
   const demanded = Object.entries(one?.demanded ?? {}).map(([name, value]) =>
     `${family(name)} ≥ ${number(value)}` +
     (limits[name] ? ` (limit ${number(limits[name])})` : ""));
+  const [promised, excepted] = statement.split(/(?=Not guaranteed:)/);
   parent.replaceChildren(
     element("h2", { text: "What is guaranteed" }),
-    element("p", { text: statement }),
+    element("p", { text: promised }),
     table(["method", "verdict", "statements at every instant", ""], list),
     element("p", { className: "small", text: demanded.length ? `Demanded [m, rad, s]: ${demanded.join(", ")}.` : "" }),
+    element("p", { text: excepted ?? "" }),
+    notWatched(one?.not_watched ?? []),
   );
 }

@@ -44,6 +44,24 @@ class Member {
     if (!value.is_number_integer()) Member(*this, key).Fail("is not a whole number");
     return value.get<long>();
   }
+  std::vector<Member> List(const char* key) const {
+    const json& value = Of(key);
+    if (!value.is_array()) Member(*this, key).Fail("is not a list");
+    std::vector<Member> items;
+    for (const json& item : value) {
+      const std::string index = "[" + std::to_string(items.size()) + "]";
+      items.emplace_back(path_, item, Name(key) + index);
+    }
+    return items;
+  }
+  /// Of a list of two texts.
+  std::array<std::string, 2> TwoStrings(const char* key) const {
+    const json& value = Of(key);
+    if (!value.is_array() || value.size() != 2 || !value[0].is_string() || !value[1].is_string()) {
+      Member(*this, key).Fail("is not a list of two texts");
+    }
+    return {value[0].get<std::string>(), value[1].get<std::string>()};
+  }
   [[noreturn]] void Fail(const std::string& what) const {
     throw InputError({path_ + ": " + (name_.empty() ? "the document" : name_) + ": " + what});
   }
@@ -81,7 +99,7 @@ CertificateText ReadCertificateJson(const std::string& path, const std::string& 
     throw InputError({path + ": a number is out of range"});
   }
   const Member root(path, document, "");
-  if (root.Whole("format") != 1) root.Fail("format: only 1 is known");
+  if (root.Whole("format") != 2) root.Fail("format: only 2 is known");
   CertificateText c;
   c.verdict = root.String("verdict");
   c.message = root.String("message");
@@ -91,6 +109,10 @@ CertificateText ReadCertificateJson(const std::string& path, const std::string& 
   for (size_t f = 0; f < kNumFamilies; ++f) {
     c.demanded[f] = demanded.Number(kFamilyNames[f]);
     c.statements[f] = statements.Whole(kFamilyNames[f]);
+  }
+  for (const Member& pair : root.List("not_watched")) {
+    const auto [first, second] = pair.TwoStrings("bodies");
+    c.not_watched.push_back({first, second, pair.String("why")});
   }
   const Member limits = root.Object("limits");
   c.foot_speed = limits.NumberOrNull("foot_speed_m_s");

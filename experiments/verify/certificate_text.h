@@ -17,18 +17,21 @@ enum Family : int {
   kJoint,
   kJointSpeed,
   kSelfClearance,
-  kClearance
+  kClearance,
+  kGround,
+  kNoStep
 };
-constexpr int kNumFamilies = 9;
+constexpr int kNumFamilies = 11;
 /// As in certificate.csv and certificate.json, and the key that config.yaml demands it under.
 constexpr std::array<const char*, kNumFamilies> kFamilyNames = {
-    "floor", "foot_speed",  "foot_yaw_rate",  "zmp",      "reach",
-    "joint", "joint_speed", "self_clearance", "clearance"};
+    "floor",       "foot_speed",     "foot_yaw_rate", "zmp",    "reach",  "joint",
+    "joint_speed", "self_clearance", "clearance",     "ground", "no_step"};
 constexpr std::array<const char*, kNumFamilies> kMarginKeys = {
-    "floor_m",   "foot_speed_m_s",    "foot_yaw_rate_rad_s", "zmp_m",      "reach_m",
-    "joint_rad", "joint_speed_rad_s", "self_clearance_m",    "clearance_m"};
-constexpr std::array<const char*, kNumFamilies> kUnits = {"m",   "m/s",   "rad/s", "m", "m",
-                                                          "rad", "rad/s", "m",     "m"};
+    "floor_m",   "foot_speed_m_s",    "foot_yaw_rate_rad_s", "zmp_m",       "reach_m",
+    "joint_rad", "joint_speed_rad_s", "self_clearance_m",    "clearance_m", "ground_m",
+    "no_step_m"};
+constexpr std::array<const char*, kNumFamilies> kUnits = {"m",     "m/s", "rad/s", "m", "m", "rad",
+                                                          "rad/s", "m",   "m",     "m", "m"};
 
 /// A row of certificate.csv.
 struct ClaimRow {
@@ -40,12 +43,19 @@ struct ClaimRow {
   double margin = 0, bound = 0, demanded = 0;
 };
 
+/// Two bodies of the robot that the certificate says nothing about, and why.
+struct UnwatchedText {
+  std::string first, second, why;
+  friend bool operator==(const UnwatchedText&, const UnwatchedText&) = default;
+};
+
 /// What certificate.json and certificate.csv claim; nothing of it is believed.
 struct CertificateText {
   std::string verdict, message, statement;
   double duration = 0;  ///< [s]
   std::array<double, kNumFamilies> demanded{};
   std::array<long, kNumFamilies> statements{};
+  std::vector<UnwatchedText> not_watched;
   std::optional<double> foot_speed, foot_yaw_rate;
   double joint_speed_scale = 1;
   std::string robot, scene;  ///< paths relative to the run folder; scene: or "none".

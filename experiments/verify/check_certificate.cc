@@ -12,6 +12,7 @@ namespace {
 long CountOf(Family family, const RobotModel& robot) {
   switch (family) {
     case kReach:
+    case kNoStep:
       return std::ssize(robot.legs);
     case kJoint:
     case kJointSpeed:
@@ -19,6 +20,7 @@ long CountOf(Family family, const RobotModel& robot) {
     case kSelfClearance:
       return std::ssize(robot.self_pairs);
     case kClearance:
+    case kGround:
       return std::ssize(robot.bodies);
     case kFloor:
     case kFootSpeed:
@@ -31,8 +33,9 @@ long CountOf(Family family, const RobotModel& robot) {
 
 // What is wrong with a row by itself; "": nothing.
 std::string Fault(const ClaimRow& row, const CertificateText& certificate) {
-  const bool may_watch_nothing =
-      row.family == kFloor || row.family == kFootSpeed || row.family == kFootYawRate;
+  const bool may_watch_nothing = row.family == kFloor || row.family == kFootSpeed ||
+                                 row.family == kFootYawRate || row.family == kGround ||
+                                 row.family == kNoStep;  // a foot's bodies; a foot in the air
   if (!std::isfinite(row.begin) || !std::isfinite(row.end) || !std::isfinite(row.bound) ||
       !std::isfinite(row.demanded) || std::isnan(row.margin)) {
     return "a number is not finite";
@@ -69,6 +72,27 @@ std::string GapIn(const std::vector<const ClaimRow*>& rows, long count, double e
     }
   }
   return "";
+}
+
+// The pairs of bodies that the certificate leaves out, against those of the robot.
+void CheckNotWatched(const CertificateText& certificate, const RobotModel& robot,
+                     Findings* findings) {
+  std::vector<UnwatchedText> pairs;
+  for (const UnwatchedPair& pair : robot.unwatched_pairs) {
+    pairs.push_back({robot.bodies[static_cast<size_t>(pair.a)].name,
+                     robot.bodies[static_cast<size_t>(pair.b)].name, pair.why});
+  }
+  for (size_t i = 0; i < std::max(pairs.size(), certificate.not_watched.size()); ++i) {
+    const auto name = [i](const std::vector<UnwatchedText>& list) {
+      return i < list.size() ? Quote(list[i].first + " - " + list[i].second + ": " + list[i].why)
+                             : std::string("nothing more");
+    };
+    if (name(certificate.not_watched) == name(pairs)) continue;
+    findings->Disagree("not_watched: the certificate has " + name(certificate.not_watched) +
+                       ", the robot " + name(pairs));
+    break;
+  }
+  findings->Say("pairs of bodies that are not watched: " + Count(std::ssize(pairs)));
 }
 
 }  // namespace
@@ -122,6 +146,7 @@ void CheckArithmetic(const CertificateText& certificate, const std::vector<Claim
     if (!gap.empty()) findings->Disagree(std::string(kFamilyNames[f]) + ": " + gap);
   }
   findings->Say("statements at every instant: " + counts);
+  CheckNotWatched(certificate, robot, findings);
 }
 
 void CheckAgainstConfig(const CertificateText& certificate, const ConfigDemands& config,

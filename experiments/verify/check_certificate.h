@@ -6,7 +6,8 @@
 
 namespace halfstep::verify {
 
-/// Verdict, counts of statements (of the robot, not of the certificate), duration, and every row's
+/// Verdict, counts of statements and pairs that are not watched (those of the robot, whatever the
+/// certificate says), duration, and every row's
 /// arithmetic: begin < end, margin − bound ≥ demanded, finite where it must be. At every instant of
 /// [0, D] the statements of a family add up to its count, exactly. `end` is the trajectory's [s].
 void CheckArithmetic(const CertificateText& certificate, const std::vector<ClaimRow>& rows,

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "experiments/verify/check_rows.h"
+#include "experiments/verify/floor_distances.h"
 #include "wpg/input/text.h"
 
 namespace halfstep::verify {
@@ -42,10 +43,20 @@ class Claims {
       }
     }
     for (Family f : {kFloor, kFootSpeed, kFootYawRate}) subjects_[f]["both feet"] = {};
+    subjects_[kGround]["robot"] = {};
+    for (int s = 0; s < 2; ++s) {
+      const std::string foot = s == 0 ? "left foot" : "right foot";
+      subjects_[kNoStep][foot] = {s, -1};
+      for (size_t a = 0; a < distances_.scene().no_step.size(); ++a) {
+        subjects_[kNoStep][foot + " - no_step[" + std::to_string(a) + "]"] = {s,
+                                                                              static_cast<int>(a)};
+      }
+    }
     subjects_[kZmp]["both soles"] = subjects_[kZmp]["support sole"] = {};
     for (size_t b = 0; b < distances_.num_bodies(); ++b) {
       const int body = static_cast<int>(b);
       subjects_[kClearance][robot_.bodies[b].name] = {body, -1};
+      subjects_[kGround][robot_.bodies[b].name] = {body, 0};
       for (size_t o = 0; o < distances_.num_obstacles(); ++o) {
         subjects_[kClearance][distances_.NameOfObstaclePair(b, o)] = {body, static_cast<int>(o)};
       }
@@ -61,11 +72,21 @@ class Claims {
     const auto found = subjects_[row.family].find(row.subject);
     if (found == subjects_[row.family].end()) return "nothing is called " + Quote(row.subject);
     Window(row);
-    if (row.margin == kInfinity) return MovesUnwatched(row);
+    if (row.margin == kInfinity) {
+      return row.family == kGround || row.family == kNoStep ? StandsUnwatched(row)
+                                                            : MovesUnwatched(row);
+    }
     if (row.family == kClearance || row.family == kSelfClearance) {
       return OfDistance(row, found->second);
     }
     if (row.family <= kFootYawRate && found->second.first < 0) return "no foot is named";
+    if (row.family == kGround) {
+      if (found->second.first < 0) return "no body is named";
+      if (IsOnFoot(robot_.bodies[static_cast<size_t>(found->second.first)])) {
+        return "a foot may touch the floor: it has no margin";
+      }
+    }
+    if (row.family == kNoStep && found->second.second < 0) return "no area is named";
     return OfScalar(row, found->second);
   }
 
@@ -109,6 +130,17 @@ class Claims {
     return "";
   }
 
+  // Bodies that are on no foot have a height; a foot that stands has a distance where there are
+  // areas, and one always stands.
+  std::string StandsUnwatched(const ClaimRow& row) const {
+    if (row.family == kNoStep) {
+      return distances_.scene().no_step.empty() ? "" : "a foot stands, and there are areas";
+    }
+    return std::all_of(robot_.bodies.begin(), robot_.bodies.end(), IsOnFoot)
+               ? ""
+               : "bodies have a height";
+  }
+
   bool IsSpeed(Family family) const {
     return family == kFootSpeed || family == kFootYawRate || family == kJointSpeed;
   }
@@ -130,6 +162,13 @@ class Claims {
         return JointMargin(robot_, row, s.first, s.second);
       case kJointSpeed:
         return JointSpeedMargin(motion_, i, s.first, s.second, certificate_.joint_speed_scale);
+      case kGround:
+        return LowestPoint(robot_.bodies[static_cast<size_t>(s.first)], motion_.PlaceRow(row));
+      case kNoStep:
+        return row.Stands(s.first)
+                   ? FromArea(robot_, row.X_WS(s.first),
+                              distances_.scene().no_step[static_cast<size_t>(s.second)])
+                   : kInfinity;
       case kSelfClearance:
       case kClearance:
         break;  // OfDistance
@@ -173,10 +212,11 @@ class Claims {
     const PlayedRow middle = motion_.At(mid_);
     double value = Scalar(row.family, subject, middle, i);
     // Where the support changes within the pair of rows, either may be meant.
-    if (row.family == kZmp && rows[i].support != rows[i + 1].support) {
+    const bool of_support = row.family == kZmp || row.family == kNoStep;
+    if (of_support && rows[i].support != rows[i + 1].support) {
       PlayedRow other = middle;
       other.support = rows[i + 1].support;
-      const double there = ZmpMargin(other, robot_);
+      const double there = Scalar(row.family, subject, other, i);
       if (std::abs(there - row.margin) < std::abs(value - row.margin)) value = there;
     }
     if (!(std::abs(value - row.margin) <= tolerance_)) {

@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
-#include "planner/simple_polygon.h"
 #include "wpg/lipm.h"
 #include "wpg/support_polygon.h"
 
@@ -105,8 +103,7 @@ double JointSpeedMargin(const PlayedMotion& motion, size_t i, int side, int join
   return limit - std::abs(b.q[Of(side)][joint] - a.q[Of(side)][joint]) / (b.t - a.t);
 }
 
-void CheckConsistency(const PlayedMotion& motion, const Scene& scene, double tolerance,
-                      Findings* findings) {
+void CheckConsistency(const PlayedMotion& motion, double tolerance, Findings* findings) {
   const RobotModel& robot = motion.robot();
   const std::vector<PlayedRow>& rows = motion.rows();
   const double k = robot.com_height / Lipm{}.gravity;  // z_c/g
@@ -116,8 +113,6 @@ void CheckConsistency(const PlayedMotion& motion, const Scene& scene, double tol
   Check velocity("CoM velocity", "m/s", 0, tolerance / std::sqrt(k));
   Check acceleration("CoM acceleration", "m/s²", 0, tolerance / k);
   Check standing("standing feet", "m or rad", 0, kStill);
-  Check areas("no-step areas", "", 0, 0);
-  std::array<std::optional<Pose2>, 2> footprint;
   for (size_t i = 0; i < rows.size(); ++i) {
     const PlayedRow& row = rows[i];
     const auto here = [&row] { return At(row.t); };
@@ -135,12 +130,6 @@ void CheckConsistency(const PlayedMotion& motion, const Scene& scene, double tol
       if (i > 0 && rows[i - 1].Stands(side)) {
         const Eigen::Vector4d slid = row.soles[Of(side)] - rows[i - 1].soles[Of(side)];
         standing.Add(-slid.cwiseAbs().maxCoeff(), where);
-      }
-      if (scene.no_step.empty() || footprint[Of(side)] == row.X_WS(side)) continue;
-      footprint[Of(side)] = row.X_WS(side);
-      const Eigen::Matrix2Xd corners = SoleCorners(row.X_WS(side), robot.sole_size);
-      for (const Eigen::Matrix2Xd& area : scene.no_step) {
-        areas.Add(PolygonsTouch(corners, area) ? -1 : 0, where);
       }
     }
     const Eigen::Vector2d forward(std::cos(row.waist[3]), std::sin(row.waist[3]));
@@ -166,7 +155,6 @@ void CheckConsistency(const PlayedMotion& motion, const Scene& scene, double tol
   for (const Check* check : {&soles, &waist, &pendulum, &velocity, &acceleration, &standing}) {
     check->Conclude(findings);
   }
-  if (!scene.no_step.empty()) areas.Conclude(findings);
 }
 
 void CheckRowMargins(const PlayedMotion& motion, const CertificateText& certificate,

@@ -13,14 +13,18 @@ bool CheckIsMotion(const std::vector<PlayedRow>& rows, Findings* findings);
 
 /// What the rows say against each other, whoever made them: soles where forward kinematics puts
 /// them, CoM rigid above the waist, CoM, its derivatives and the ZMP a linear inverted pendulum,
-/// standing feet on the floor and at rest, no standing foot on a no-step area. `tolerance` [m].
-void CheckConsistency(const PlayedMotion& motion, const Scene& scene, double tolerance,
-                      Findings* findings);
+/// standing feet on the floor and at rest. `tolerance` [m].
+void CheckConsistency(const PlayedMotion& motion, double tolerance, Findings* findings);
 
 /// Joint limits and speeds, reach, foot speed, height while moving, ZMP against what
 /// `certificate` demands.
 void CheckRowMargins(const PlayedMotion& motion, const CertificateText& certificate,
                      double tolerance, Findings* findings);
+
+/// Bodies above the floor, a foot's at each row, all others at each row and between two; standing
+/// soles beside the no-step areas of the scene.
+void CheckFloor(const PlayedMotion& motion, const Scene& scene, const CertificateText& certificate,
+                double tolerance, Findings* findings);
 
 /// Margins of one family and side, leg or joint at a row (reach: of both legs, …); +∞: nothing to
 /// watch. Speeds: between row i and the next one.

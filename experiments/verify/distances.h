@@ -15,6 +15,7 @@ class Distances {
  public:
   Distances(const RobotModel& robot, const Scene& scene);
 
+  const Scene& scene() const { return scene_; }
   size_t num_bodies() const { return bodies_.size(); }
   size_t num_obstacles() const { return obstacles_.size(); }
   long queries() const { return queries_; }

@@ -143,6 +143,21 @@ std::vector<double> PlayedMotion::PathInWaist(const RobotBody& body) const {
   return path;
 }
 
+double PlayedMotion::Sag(const RobotBody& body, size_t i) const {
+  if (body.leg < 0) return 0;
+  const std::array<double, 6> radii = Radii(body);
+  const size_t side = static_cast<size_t>(body.leg);
+  const Vector6d turned = (rows_[i + 1].q[side] - rows_[i].q[side]).cwiseAbs();
+  double second = 0;
+  for (size_t j = 0; j < 6; ++j) {
+    for (size_t k = 0; k < 6; ++k) {
+      second += turned[static_cast<Eigen::Index>(j)] * turned[static_cast<Eigen::Index>(k)] *
+                radii[std::max(j, k)];
+    }
+  }
+  return second / 8;
+}
+
 std::vector<double> PlayedMotion::PathInWorld(const RobotBody& body) const {
   std::vector<double> path = PathInWaist(body);
   double lever = 0;  // of the body's points about the waist's vertical axis, at most

@@ -80,6 +80,10 @@ class PlayedMotion {
   std::vector<double> PathInWorld(const RobotBody& body) const;
   /// The same as seen from the waist: its leg's joints only.
   std::vector<double> PathInWaist(const RobotBody& body) const;
+  /// How far any point of a body is, between rows i and i + 1, from the straight line that it would
+  /// be on if it moved at a constant speed from row to row, seen from the waist, at most [m]:
+  /// Σ_jk |Δq_j||Δq_k| r_max(j,k) / 8, for ‖∂²p/∂q_j∂q_k‖ ≤ r of the outer joint.
+  double Sag(const RobotBody& body, size_t i) const;
 
  private:
   std::array<double, 6> Radii(const RobotBody& body) const;

@@ -72,8 +72,9 @@ void Verify(const VerifyOptions& options, const fs::path& folder, Findings* find
   if (!CheckIsMotion(rows, findings)) return;
   const PlayedMotion motion(robot, rows);
   Distances distances(robot, scene);
-  CheckConsistency(motion, scene, options.tolerance, findings);
+  CheckConsistency(motion, options.tolerance, findings);
   CheckRowMargins(motion, certificate, options.tolerance, findings);
+  CheckFloor(motion, scene, certificate, options.tolerance, findings);
   if (!same_files) {
     findings->Say("clearances: not examined, for these are not the certificate's files");
     return;

@@ -149,7 +149,7 @@ void StudySwept(const Scenario& scenario, const std::string& planner, const Swep
   if (!scenario.random && planner != "rrt") runs = 1;  // nothing in it is random
   for (int seed = 1; seed <= runs; ++seed) {
     const Problem problem = scenario.problem(seed);
-    const SweptVolumeQuery query(volumes, robot.sole_size, problem.scene);
+    const SweptVolumeQuery query(volumes, robot.sole_outline, problem.scene);
     const HalfStepCertifier certifier(robot, problem.scene, config);
     PlanRequest request = RequestFor(problem, volumes.set, query);
     request.start_is_free = [&](const HalfStep& up, const Pose2& X_WS) {

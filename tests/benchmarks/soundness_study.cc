@@ -69,7 +69,7 @@ int main(int argc, char** argv) {
   Counts n;
   while (n.asked < wanted) {
     const Scene scene = DrawMixed(50, &draw);
-    const SweptVolumeQuery query(volumes, robot.sole_size, scene);
+    const SweptVolumeQuery query(volumes, robot.sole_outline, scene);
     const HalfStepCertifier certifier(robot, scene, config);
     for (int k = 0; k < kHalfStepsInAScene && n.asked < wanted; ++k) {
       const int i = draw.Index(volumes.set.size());

@@ -115,7 +115,7 @@ void Report(benchmark::State& state, size_t free, size_t asked) {
 // Arguments: kind of room, cell [mm], few elements (as FCL) or the whole set.
 void BM_SweptVolumeQuery(benchmark::State& state) {
   const SweptVolumes& volumes = Volumes(1e-3 * static_cast<double>(state.range(1)), state.range(2));
-  const SweptVolumeQuery query(volumes, SweptRobot().sole_size,
+  const SweptVolumeQuery query(volumes, SweptRobot().sole_outline,
                                Room(static_cast<Kind>(state.range(0))));
   const auto questions = Questions(volumes.set.size(), 1 << 15);
   size_t asked = 0, free = 0;
@@ -278,7 +278,7 @@ BENCHMARK(BM_SampledQuery)->ArgName("room")->DenseRange(kBoxes, kMeshes);
 void BM_MoveOneObstacle(benchmark::State& state) {
   const SweptVolumes& volumes = Volumes(0.01, false);
   const Scene scene = Room(static_cast<Kind>(state.range(0)));
-  SweptVolumeQuery query(volumes, SweptRobot().sole_size, scene);
+  SweptVolumeQuery query(volumes, SweptRobot().sole_outline, scene);
   Isometry3d X_WO = scene.obstacles[3].X_WO;
   size_t asked = 0;
   for (auto _ : state) {

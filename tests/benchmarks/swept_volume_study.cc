@@ -244,7 +244,7 @@ void Refuse(long draws) {
     for (long done = 0; done < draws;) {
       const Scene scene = DrawBoxes(50, 3.0, draw.Index(2) == 0, &draw);
       const CollisionWorld world(scene);
-      const SweptVolumeQuery query(volumes, robot.sole_size, scene);
+      const SweptVolumeQuery query(volumes, robot.sole_outline, scene);
       for (int k = 0; k < 200 && done < draws; ++k, ++done) {
         const int i = draw.Index(few.size());
         const Side support = draw.AnySide();
@@ -291,7 +291,7 @@ void Exact(long questions) {
   double widest = 0;
   for (long done = 0; done < questions;) {
     const Scene scene = DrawBoxes(50, 3.0, draw.Index(2) == 0, &draw);
-    const SweptVolumeQuery query(volumes, robot.sole_size, scene);
+    const SweptVolumeQuery query(volumes, robot.sole_outline, scene);
     for (int k = 0; k < 200 && done < questions; ++k, ++done) {
       const int i = draw.Index(volumes.set.size());
       const Pose2 X_WS = draw.Floor(3.0);

@@ -229,8 +229,9 @@ TEST(RunCommand, FootstepOnANoStepAreaWritesNothing) {
   EXPECT_EQ(outcome.out, "");
   EXPECT_EQ(outcome.err, "halfstep: the plan is not feasible: footstep 1 is on a no-step area\n");
   EXPECT_THAT(NamesIn(place / "here"), IsEmpty());
-  // The sole reaches 10.86 cm ahead of its centre: 5 cm further back it is clear of the hole.
-  EXPECT_EQ(run("footsteps.0.x_m=0.141").status, kSuccess);
+  // What touches reaches 12.1 cm ahead of the centre, 1.24 cm more than the rectangle that carries.
+  EXPECT_EQ(run("footsteps.0.x_m=0.135").status, kFailed);
+  EXPECT_EQ(run("footsteps.0.x_m=0.128").status, kSuccess);
 }
 
 TEST(RunCommand, SaysWhenTheScreenIsFull) {

@@ -114,6 +114,10 @@ class TamperedRun {
     fs::copy(source / "wpg/robots", place / "robots", fs::copy_options::recursive);
     fs::create_directories(place / "scenes");
     fs::copy(source / "experiments/scenes/box.yaml", place / "scenes/box.yaml");
+    // An area that no sole may touch, 10 cm and more beside the feet.
+    WriteText(place / "scenes/box.yaml",
+              "no_step:\n  - name: aside\n    polygon_m: [[-0.5, 0.3], [0.7, 0.3], [0.7, 0.4], [-0.5, 0.4]]\n" +
+                  ReadText(place / "scenes/box.yaml"));
     fs::create_directories(place / "configs");
     fs::copy(source / "experiments/configs/fig5_box.yaml", place / "configs/fig5_box.yaml");
     const Outcome outcome =

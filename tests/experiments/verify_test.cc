@@ -187,12 +187,11 @@ std::vector<Mutation> Mutations() {
        "clearance: "},
       {"FootprintForbidden",
        [](TamperedRun& run) {
-         WriteText(run.scene(),
-                   ReadText(run.scene()) +
-                       "no_step:\n  - name: area\n    polygon_m: [[0.25, -0.12], [0.3, -0.12], "
-                       "[0.3, -0.08]]\n");
+         TamperedRun::Replace(run.scene(), "no_step:\n",
+                              "no_step:\n  - name: area\n    polygon_m: [[0.25, -0.12], [0.3, "
+                              "-0.12], [0.3, -0.08]]\n");
        },
-       "no-step"},
+       "no-step areas: right foot"},
       {"JointNudgedIntoTheObstacle", Nudge("q_RLEG_JOINT4_rad", 288, -0.3),
        "clearance: RLEG_LINK5 - box"},
       {"JointNudgedAfterTheRun", Nudge("q_RLEG_JOINT4_rad", 288, -0.3), kDiffers, false},
@@ -232,6 +231,50 @@ std::vector<Mutation> Mutations() {
        kBadInput},
       {"TextForANumber", Trajectory([](Table& t) { t[77][4] = "1.2x"; }),
        "trajectory.csv:78: ", true, kBadInput},
+      {"GroundMarginRaised",
+       Certificate([](Table& t) { Add(&Loosest(t, "ground")[kMargin], 0.01); }), kCertificateRow},
+      {"GroundBoundLowered", Certificate([](Table& t) { LowerBoundsOf(t, "ground"); }), "beyond"},
+      {"GroundUnwatched", Certificate([](Table& t) { Loosest(t, "ground")[kMargin] = "inf"; }),
+       "bodies have a height"},
+      {"GroundOfAFoot",
+       Certificate([](Table& t) { Loosest(t, "ground")[kSubject] = "LLEG_LINK5"; }),
+       "a foot may touch the floor"},
+      {"GroundOfNoBody", Certificate([](Table& t) { Loosest(t, "ground")[kSubject] = "robot"; }),
+       "no body is named"},
+      {"BodyBelowTheFloor",
+       [](TamperedRun& run) {
+         TamperedRun::Replace(run.urdf(),
+                              "<collision><geometry><mesh filename=\"package://hrp2_bodies/"
+                              "chest.obj\"/></geometry></collision>",
+                              "<collision><origin xyz=\"0 0 -1.2\"/><geometry><mesh "
+                              "filename=\"package://hrp2_bodies/chest.obj\"/></geometry>"
+                              "</collision>");
+       },
+       "bodies above the floor: CHEST_LINK1"},
+      {"NoStepUnwatched", Certificate([](Table& t) { Loosest(t, "no_step")[kMargin] = "inf"; }),
+       "there are areas"},
+      {"NoStepMarginRaised",
+       Certificate([](Table& t) { Add(&Loosest(t, "no_step")[kMargin], 0.001); }), kCertificateRow},
+      {"NoStepOfTheOtherFoot", Certificate([](Table& t) {
+         for (auto& row : t) {
+           if (row[kFamily] != "no_step") continue;
+           row[kSubject] = (row[kSubject].front() == 'l' ? "right" : "left") +
+                           std::string(" foot - no_step[0]");
+         }
+       }),
+       "no_step: "},
+      {"NoStepDemandRaised", InJson([](Json& j) { j["demanded"]["no_step"] = 0.2; }),
+       "no-step areas"},
+      {"PairLeftOutOfNotWatched", InJson([](Json& j) { j["not_watched"].erase(0); }),
+       "not_watched: "},
+      {"PairAddedToNotWatched", InJson([](Json& j) {
+         j["not_watched"].push_back({{"bodies", {"LLEG_LINK5", "RLEG_LINK5"}}, {"why", "far"}});
+       }),
+       "the robot nothing more"},
+      {"ReasonOfNotWatchedChanged",
+       InJson([](Json& j) { j["not_watched"][0]["why"] = "never near"; }), "never near"},
+      {"NotWatchedMissing", InJson([](Json& j) { j.erase("not_watched"); }), "not_watched", false,
+       kBadInput},
       {"DemandLowered", LowerDemand, "config.yaml 0.005"},
       {"FootSpeedLimitRaised", InJson([](Json& j) { j["limits"]["foot_speed_m_s"] = 2.0; }),
        "foot_speed_m_s"},

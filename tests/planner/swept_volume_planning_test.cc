@@ -21,7 +21,7 @@ Scene TwoBoxes() {
 
 PlanResult PlanBetween(const SweptVolumes& volumes, const Scene& scene, const char* planner,
                        std::uint64_t seed) {
-  const SweptVolumeQuery query(volumes, SweptRobot().sole_size, scene);
+  const SweptVolumeQuery query(volumes, SweptRobot().sole_outline, scene);
   PlanRequest request{.start = {Pose2{0.0, 0.1, 0.0}, Pose2{0.0, -0.1, 0.0}},
                       .goal = {},
                       .set = volumes.set,

@@ -8,6 +8,7 @@
 #include "planner/collision_world.h"
 #include "planner/mesh_interior.h"
 #include "tests/planner/swept_volume_draws.h"
+#include "wpg/support_polygon.h"
 
 namespace halfstep {
 namespace {
@@ -15,7 +16,8 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-const Eigen::Vector2d kSole(0.22, 0.14);
+const Eigen::Vector2d kSoleSize(0.22, 0.14);
+const Eigen::Matrix2Xd kSole = SoleCorners({}, kSoleSize);
 
 Scene One(std::variant<ConvexBody, TriangleMesh> shape, const Isometry3d& X_WO) {
   Scene scene;
@@ -207,8 +209,11 @@ TEST(SweptVolumeQueryTest, OnlyTheLandingSoleKeepsOffNoStepAreas) {
     EXPECT_FALSE(query.DownIsFree(0, support, X_SF.Inverse()));
     EXPECT_TRUE(query.UpIsFree(0, support, X_SF.Inverse()));
     EXPECT_TRUE(query.DownIsFree(0, support, {}));
-    const Pose2 beside = Pose2{0.5 * kSole.x() + 0.03, 0, 0} * X_SF.Inverse();
+    const Pose2 beside = Pose2{0.5 * kSoleSize.x() + 0.03, 0, 0} * X_SF.Inverse();
     EXPECT_TRUE(query.DownIsFree(0, support, beside));
+    // 1 cm apart: not enough where 2 cm are demanded.
+    EXPECT_TRUE(SweptVolumeQuery(volumes, kSole, scene, 0.009).DownIsFree(0, support, beside));
+    EXPECT_FALSE(SweptVolumeQuery(volumes, kSole, scene, 0.02).DownIsFree(0, support, beside));
   }
 }
 

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "experiments/verify/played_motion.h"
+
+namespace halfstep::verify {
+
+/// Height of a body's lowest point above the floor z = 0 [m].
+double LowestPoint(const RobotBody& body, const Placement& at);
+
+/// Whether a body is rigid with a foot, which may touch the floor.
+bool IsOnFoot(const RobotBody& body);
+
+/// Distance [m] of what of a foot touches the floor, its sole standing at X_WF, from an area of the
+/// floor, a simple polygon (2×n); −1 when they share a point. By clipping the area's edges with the
+/// convex outline, not as the planner does it.
+double FromArea(const RobotModel& robot, const Pose2& X_WF, const Eigen::Matrix2Xd& area);
+
+}  // namespace halfstep::verify

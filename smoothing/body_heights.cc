@@ -1,0 +1,54 @@
+#include "smoothing/body_heights.h"
+
+#include <algorithm>
+
+namespace halfstep {
+
+BodyHeights::BodyHeights(const RobotModel& robot)
+    : robot_(robot), of_waist_{.family = MarginFamily::kGround} {
+  for (int b = 0; b < static_cast<int>(robot.bodies.size()); ++b) {
+    if (body(b).leg >= 0) {
+      (IsOnFoot(body(b)) ? on_feet_ : of_legs_).push_back(b);
+      continue;
+    }
+    // The waist is upright, at a constant height.
+    const double height = robot.waist_height - Support(body(b).shape, -Eigen::Vector3d::UnitZ());
+    if (height < of_waist_.value) {
+      of_waist_.value = height;
+      of_waist_.subject = b;
+    }
+  }
+}
+
+Eigen::Vector3d BodyHeights::LowestPoint(int b, const Posture& posture) const {
+  const Eigen::Isometry3d& X = posture.OfBody(body(b));
+  return X * SupportPoint(body(b).shape, -X.linear().row(2).transpose());
+}
+
+double BodyHeights::LowestPossible(int b, const Posture& posture) const {
+  const Eigen::Isometry3d& X = posture.OfBody(body(b));
+  const ConvexBody& shape = body(b).shape;
+  return X.linear().row(2).dot(shape.center) + X.translation().z() - shape.radius;
+}
+
+double BodyHeights::OnFoot(int b, const WalkVector& x) const {
+  const double height = x[FootIndex(static_cast<Side>(body(b).leg)) + 2];
+  return height >= -kSoleRounding ? std::numeric_limits<double>::infinity() : height;
+}
+
+Margin BodyHeights::Least(const Posture& posture, const WalkVector& x, double enough) const {
+  Margin least = of_waist_;
+  const auto lower = [&](int b, double height) {
+    if (height >= least.value) return;
+    least.value = height;
+    least.subject = b;
+  };
+  for (int b : on_feet_) lower(b, OnFoot(b, x));
+  for (int b : of_legs_) {
+    if (LowestPossible(b, posture) >= std::min(enough, least.value)) continue;
+    lower(b, LowestPoint(b, posture).z());
+  }
+  return least;
+}
+
+}  // namespace halfstep

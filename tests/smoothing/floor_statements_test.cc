@@ -1,0 +1,368 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "smoothing/body_heights.h"
+#include "smoothing/certified_feasibility.h"
+#include "smoothing/sampled_feasibility.h"
+#include "smoothing/slack_rows.h"
+#include "tests/smoothing/test_walks.h"
+
+namespace halfstep {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+const Margin& Of(const MarginSet& margins, MarginFamily family) {
+  return margins[static_cast<size_t>(family)];
+}
+
+// Nothing is demanded but of one family.
+MarginLimits Only(MarginFamily family, double demanded) {
+  MarginLimits limits;
+  limits.demanded.fill(-100.0);
+  limits.demanded_of(family) = demanded;
+  return limits;
+}
+
+int BodyNamed(const RobotModel& robot, const std::string& name) {
+  const auto found = std::find_if(robot.bodies.begin(), robot.bodies.end(),
+                                  [&](const RobotBody& b) { return b.name == name; });
+  return static_cast<int>(found - robot.bodies.begin());
+}
+
+// A ball of `radius` [m] on a body's link, where it is `below` [m] under the body's lowest point
+// when the robot stands: such as a tool in a hand, or a guard before a shin.
+RobotModel WithBall(const std::string& body, double radius, double height) {
+  RobotModel robot = Hrp2();
+  const int of = BodyNamed(robot, body);
+  const HalfStepSequence sequence = MakeSequence(
+      {Pose2{0, 0.5 * robot.standing_width, 0}, Pose2{0, -0.5 * robot.standing_width, 0}},
+      {{.side = Side::kRight, .X_WF = {0, -0.5 * robot.standing_width, 0}}}, 0.24, {},
+      {.com_height = robot.com_height});
+  const SuperposedWalk standing(sequence, PlannedMotion(sequence));
+  const Posture posture = SolvePosture(robot, standing.At(0.0).value);
+  RobotBody ball = robot.bodies[static_cast<size_t>(of)];
+  ball.name = "BALL";
+  const Eigen::Isometry3d X = posture.OfBody(ball);
+  Eigen::Vector3d p_W = X * ball.shape.center;
+  p_W.z() = height + radius;
+  ball.shape = MakeSphere(radius);
+  ball.shape.vertices.col(0) = X.inverse() * p_W;
+  BoundBySphere(&ball.shape);
+  robot.bodies.push_back(ball);
+  return robot;
+}
+
+HalfStepSequence TwoSteps(const RobotModel& robot) {
+  const double y = 0.5 * robot.standing_width;
+  return MakeSequence({Pose2{0, y, 0}, Pose2{0, -y, 0}},
+                      {{.side = Side::kRight, .X_WF = {0.2, -y, 0}, .duration = 1.2},
+                       {.side = Side::kLeft, .X_WF = {0.2, y, 0}, .duration = 1.2}},
+                      0.24, {}, {.com_height = robot.com_height});
+}
+
+Feasibility Certify(const RobotModel& robot, const Scene& scene, const MarginLimits& limits,
+                    const SuperposedWalk& walk, Certificate* certificate) {
+  const MarginEvaluator evaluator(robot, scene, limits);
+  MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
+  return CertifiedFeasibility(evaluator, {}).Certify(walk, &scratch, certificate);
+}
+
+// The lemma of smoothing/README.md, "The foot never goes below the floor", interval by interval.
+TEST(LeastHeight, IsNeverAboveTheSoleAndNeverBelowTheFloor) {
+  WalkDraw draw(601);
+  int intervals = 0, tight = 0;
+  for (int i = 0; i < Draws(60); ++i) {
+    const HalfStepSequence sequence = draw.Sequence(3);
+    const SuperposedWalk walk(sequence, draw.ExtremeParameters(sequence));
+    std::vector<double> knots = KnotsInside(walk, {0.0, walk.duration()});
+    knots.push_back(walk.duration());
+    double begin = 0.0;
+    for (double end : knots) {
+      const int step = walk.StepInAir(walk.Locate(0.5 * (begin + end)));
+      for (int part = 0; part < 3 && step >= 0; ++part) {
+        double a = begin, b = end;
+        if (part > 0) a = draw.Uniform(begin, end), b = draw.Uniform(a, end);
+        const double least = walk.LeastHeight(step, a, b);
+        const int z = FootIndex(walk.half_step(2 * step).swing()) + 2;
+        double truth = kInfinity;
+        for (int k = 0; k <= 60; ++k) {
+          truth = std::min(truth, walk.At(a + (b - a) * k / 60.0).value[z]);
+        }
+        EXPECT_LE(least, truth + 1e-13) << "[" << a << ", " << b << "]";
+        EXPECT_GE(least, -1e-12);
+        EXPECT_LE(least, kSoleRounding + truth);
+        ++intervals;
+        tight += least > 0.0 && truth - least < 0.1 * truth;
+      }
+      begin = end;
+    }
+  }
+  EXPECT_GT(intervals, Draws(60) * 20);
+  EXPECT_GT(tight, intervals / 20);
+}
+
+// Nothing hides an overlap that is too long: the sole goes below the floor, and the bound with it.
+TEST(LeastHeight, OfAnOverlapBeyondItsBoundIsBelowTheFloor) {
+  const HalfStepSequence sequence = TwoSteps(Hrp2());
+  SuperposedWalk walk(sequence, Overlapped(sequence, 1.0));
+  walk.SetOverlap(0, walk.parameters().overlaps[0] + 9e-10);  // what SetOverlap grants
+  double lowest = kInfinity;
+  for (int k = 0; k <= 4000; ++k) {
+    lowest = std::min(lowest, walk.At(walk.duration() * k / 4000.0).value[kRightZ]);
+  }
+  EXPECT_LT(lowest, -1e-11);
+  EXPECT_GT(lowest, -kSoleRounding);
+  const std::vector<double> knots = KnotsInside(walk, {0.0, walk.duration()});
+  double least = kInfinity;
+  for (size_t k = 0; k + 1 < knots.size(); ++k) {
+    if (walk.StepInAir(walk.Locate(0.5 * (knots[k] + knots[k + 1]))) != 0) continue;
+    least = std::min(least, walk.LeastHeight(0, knots[k], knots[k + 1]));
+  }
+  EXPECT_LE(least, lowest);
+  EXPECT_GT(least, -kSoleRounding);
+}
+
+TEST(Ground, IsTheHeightOfTheLowestPointOfBodiesThatAreOnNoFoot) {
+  const RobotModel robot = WithBall("LLEG_LINK3", 0.03, 0.02);
+  const MarginEvaluator evaluator(robot, {}, {});
+  MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
+  WalkDraw draw(602);
+  const SuperposedWalk walk(TwoSteps(robot), Overlapped(TwoSteps(robot), 0.7));
+  for (int i = 0; i < Draws(100); ++i) {
+    const LocalTime at = walk.Locate(draw.Uniform(0, walk.duration()));
+    const Posture posture = SolvePosture(robot, walk.At(at).value);
+    ASSERT_TRUE(posture.reachable);
+    double lowest = kInfinity;
+    int which = -1;
+    for (size_t b = 0; b < robot.bodies.size(); ++b) {
+      const RobotBody& body = robot.bodies[b];
+      if (IsOnFoot(body)) continue;
+      ASSERT_EQ(body.shape.disc_radius, 0.0);
+      const Eigen::Matrix3Xd points_W =
+          posture.OfBody(body) * Eigen::Matrix3Xd(body.shape.vertices);
+      const double height = points_W.row(2).minCoeff() - body.shape.ball_radius;
+      if (height < lowest) which = static_cast<int>(b);
+      lowest = std::min(lowest, height);
+    }
+    const Margin ground = Of(evaluator.At(walk, at, &scratch), MarginFamily::kGround);
+    EXPECT_NEAR(ground.value, lowest, 1e-12);
+    EXPECT_EQ(ground.subject, which);
+  }
+}
+
+// A foot stands on the floor all the time, and is no worst margin for it.
+TEST(Ground, AFootThatTouchesTheFloorHasNoLimit) {
+  RobotModel robot = Hrp2();
+  std::erase_if(robot.bodies, [](const RobotBody& body) { return !IsOnFoot(body); });
+  robot.self_pairs.clear();
+  const SuperposedWalk walk(TwoSteps(robot), Overlapped(TwoSteps(robot), 0.9));
+  const MarginEvaluator evaluator(robot, {}, Only(MarginFamily::kGround, 0.0));
+  MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
+  EXPECT_EQ(Of(SampleMargins(evaluator, walk, 0.01, &scratch), MarginFamily::kGround).value,
+            kInfinity);
+  Certificate certificate;
+  EXPECT_EQ(CertifiedFeasibility(evaluator, {}).Certify(walk, &scratch, &certificate).verdict,
+            Verdict::kFeasible);
+  // But not below it.
+  WalkVector x = walk.At(0.0).value;
+  x[kRightZ] = -1e-6;
+  const Margin below = evaluator.heights().Least(SolvePosture(robot, x), x);
+  EXPECT_EQ(below.value, -1e-6);
+  EXPECT_EQ(evaluator.Subject(below), "RLEG_LINK5");
+}
+
+TEST(Ground, ABodyThatReachesBelowTheFloorIsAViolation) {
+  // A tool that a hand holds, 1 mm into the floor all the time; 1 mm above it.
+  for (double height : {-0.001, 0.001}) {
+    const RobotModel robot = WithBall("WAIST", 0.02, height);
+    const SuperposedWalk walk(TwoSteps(robot), Overlapped(TwoSteps(robot), 0.5));
+    Certificate certificate;
+    const Feasibility answer =
+        Certify(robot, {}, Only(MarginFamily::kGround, 0.0), walk, &certificate);
+    EXPECT_EQ(answer.verdict, height < 0 ? Verdict::kViolated : Verdict::kFeasible);
+    if (height < 0) {
+      EXPECT_EQ(answer.witness.family, MarginFamily::kGround);
+      EXPECT_NEAR(answer.witness.value, height, 1e-12);
+    }
+    EXPECT_NE(Certify(robot, {}, Only(MarginFamily::kGround, 0.0011), walk, &certificate).verdict,
+              Verdict::kFeasible);
+  }
+}
+
+// A guard on a shin dips below the floor for a moment in which the shin leans, and nowhere else.
+TEST(Ground, AShinThatDipsBelowTheFloorIsSeenAndOneThatDoesNotIsCertified) {
+  WalkDraw draw(603);
+  int violated = 0, certified = 0, undecided = 0;
+  for (int i = 0; i < Draws(40); ++i) {
+    const RobotModel robot =
+        WithBall(i % 2 == 0 ? "LLEG_LINK3" : "RLEG_LINK4", 0.01, draw.Uniform(-0.005, 0.03));
+    const SuperposedWalk walk(TwoSteps(robot), Overlapped(TwoSteps(robot), draw.Uniform(0, 0.9)));
+    const MarginEvaluator evaluator(robot, {}, Only(MarginFamily::kGround, 0.0));
+    MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
+    const double truth =
+        Of(SampleMargins(evaluator, walk, 5e-4, &scratch), MarginFamily::kGround).value;
+    Certificate certificate;
+    const Feasibility answer =
+        CertifiedFeasibility(evaluator, {}).Certify(walk, &scratch, &certificate);
+    if (truth < -1e-5) {
+      EXPECT_EQ(answer.verdict, Verdict::kViolated) << truth;
+    } else if (truth < 0.0) {
+      EXPECT_NE(answer.verdict, Verdict::kFeasible) << truth;
+    } else if (truth > 1e-4) {
+      EXPECT_EQ(answer.verdict, Verdict::kFeasible) << truth;
+    }
+    violated += answer.verdict == Verdict::kViolated;
+    certified += answer.verdict == Verdict::kFeasible;
+    undecided += answer.verdict == Verdict::kUndecided;
+  }
+  EXPECT_GT(violated, Draws(40) / 8);
+  EXPECT_GT(certified, Draws(40) / 4);
+  EXPECT_LE(undecided, Draws(40) / 8);
+}
+
+TEST(Ground, RowsHaveDerivatives) {
+  const RobotModel robot = WithBall("LLEG_LINK3", 0.01, 0.01);
+  const HalfStepSequence sequence = TwoSteps(robot);
+  const MarginEvaluator evaluator(robot, {}, Only(MarginFamily::kGround, 0.0));
+  SlackEvaluator slacks(evaluator, 6.0);
+  WalkDraw draw(604);
+  int compared = 0;
+  const auto row_of = [](const InstantSlacks& instant) {
+    size_t least = instant.rows.size();
+    for (size_t r = 0; r < instant.rows.size(); ++r) {
+      if (instant.rows[r].family != MarginFamily::kGround) continue;
+      if (least == instant.rows.size() || instant.rows[r].slack < instant.rows[least].slack) {
+        least = r;
+      }
+    }
+    return least;
+  };
+  for (int i = 0; i < Draws(60); ++i) {
+    const HomotopyParameters parameters = draw.Parameters(sequence, 0.1, 0.8);
+    const SuperposedWalk walk(sequence, parameters);
+    const double t = draw.Uniform(0, walk.duration());
+    if (NearKnot(walk, t, 1e-3)) continue;
+    const LocalTime at = walk.Locate(t);
+    InstantSlacks here, sides[2];
+    slacks.At(walk, at, {}, true, &here);
+    const size_t row = row_of(here);
+    ASSERT_LT(row, here.rows.size());
+    for (size_t p = 0; p < here.parameters.size(); ++p) {
+      constexpr double h = 1e-6;
+      for (int s : {0, 1}) {
+        HomotopyParameters moved = parameters;
+        here.parameters[p].in(moved) += s == 0 ? -h : h;
+        slacks.At(SuperposedWalk(sequence, moved), at, {}, false, &sides[s]);
+      }
+      const double slope =
+          (sides[1].rows[row_of(sides[1])].slack - sides[0].rows[row_of(sides[0])].slack) / (2 * h);
+      const double analytic =
+          here.gradient(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(p));
+      EXPECT_NEAR(analytic, slope, 1e-4 * (1 + std::abs(slope)));
+      compared += std::abs(slope) > 1e-3;
+    }
+  }
+  EXPECT_GT(compared, Draws(60));
+}
+
+// An area beside the place where the right foot lands, `gap` [m] ahead of what it touches there.
+Scene AheadOf(const RobotModel& robot, const Pose2& X_WF, double gap) {
+  Scene scene;
+  Eigen::Matrix2Xd area(2, 4);
+  const double x = X_WF.x + robot.sole_outline.row(0).maxCoeff() + gap;
+  area << x, x + 0.1, x + 0.1, x, -0.5, -0.5, 0.5, 0.5;
+  scene.no_step.push_back(area);
+  return scene;
+}
+
+TEST(NoStep, OnlyASoleThatStandsBesideAllAreasIsCertified) {
+  const RobotModel robot = Hrp2();
+  const HalfStepSequence sequence = TwoSteps(robot);
+  const SuperposedWalk walk(sequence, Overlapped(sequence, 0.6));
+  const Pose2 landing{0.2, -0.5 * robot.standing_width, 0};
+  const auto certify = [&](double gap, double demanded, Certificate* certificate) {
+    return Certify(robot, AheadOf(robot, landing, gap), Only(MarginFamily::kNoStep, demanded), walk,
+                   certificate);
+  };
+  Certificate certificate;
+  EXPECT_EQ(certify(1e-6, 0.0, &certificate).verdict, Verdict::kFeasible);
+  double least = kInfinity;
+  for (const CertificateRow& row : certificate) {
+    if (row.family != MarginFamily::kNoStep) continue;
+    EXPECT_EQ(row.count, 2);
+    EXPECT_LE(row.bound, 1e-11);  // a sole that stands does not move
+    least = std::min(least, row.margin.value);
+  }
+  EXPECT_NEAR(least, 1e-6, 1e-12);
+  EXPECT_NE(certify(0.0, 0.0, &certificate).verdict, Verdict::kFeasible);  // touching
+  EXPECT_EQ(certify(0.02, 0.019, &certificate).verdict, Verdict::kFeasible);
+  for (const auto& [gap, demanded] :
+       std::vector<std::pair<double, double>>{{-0.001, 0.0}, {0.0, 0.0}, {0.02, 0.021}}) {
+    const Feasibility answer = certify(gap, demanded, &certificate);
+    EXPECT_EQ(answer.verdict, Verdict::kViolated) << gap;
+    EXPECT_EQ(answer.witness.family, MarginFamily::kNoStep);
+    const MarginEvaluator evaluator(robot, AheadOf(robot, landing, gap), {});
+    EXPECT_EQ(evaluator.Subject(answer.witness).substr(5), " foot - no_step[0]")
+        << evaluator.Describe(answer.witness);
+  }
+}
+
+// What touches is the outline, not the smaller rectangle that the ZMP must stay in.
+TEST(NoStep, TheOutlineCountsWhereTheSoleRectangleIsClear) {
+  const RobotModel robot = Hrp2();
+  const double ahead = robot.sole_outline.row(0).maxCoeff(), rectangle = 0.5 * robot.sole_size.x();
+  ASSERT_GT(ahead, rectangle + 0.001);
+  const HalfStepSequence sequence = TwoSteps(robot);
+  const SuperposedWalk walk(sequence, Overlapped(sequence, 0.6));
+  const Pose2 landing{0.2, -0.5 * robot.standing_width, 0};
+  const Scene scene = AheadOf(robot, landing, 0.5 * (rectangle - ahead));
+  Certificate certificate;
+  const Feasibility answer =
+      Certify(robot, scene, Only(MarginFamily::kNoStep, 0.0), walk, &certificate);
+  EXPECT_EQ(answer.verdict, Verdict::kViolated);
+  EXPECT_EQ(answer.witness.family, MarginFamily::kNoStep);
+  RobotModel smaller = robot;
+  smaller.sole_outline.resize(2, 4);
+  smaller.sole_outline << rectangle, -rectangle, -rectangle, rectangle, 0.06, 0.06, -0.06, -0.06;
+  EXPECT_EQ(Certify(smaller, scene, Only(MarginFamily::kNoStep, 0.0), walk, &certificate).verdict,
+            Verdict::kFeasible);
+}
+
+// The moving foot may pass above an area, and scenes without areas have no limit.
+TEST(NoStep, CountsForSolesThatStandOnly) {
+  const RobotModel robot = Hrp2();
+  const double y = 0.5 * robot.standing_width;
+  const HalfStepSequence sequence =
+      MakeSequence({Pose2{0, y, 0}, Pose2{-0.2, -y, 0}},
+                   {{.side = Side::kRight, .X_WF = {0.2, -y, 0}, .duration = 2.0}}, 0.24, {},
+                   {.com_height = robot.com_height});
+  const SuperposedWalk walk(sequence, Overlapped(sequence, 0.3));
+  Scene scene;
+  Eigen::Matrix2Xd area(2, 4);
+  area << -0.04, 0.04, 0.04, -0.04, -0.3, -0.3, -0.15, -0.15;
+  scene.no_step.push_back(area);
+  const MarginEvaluator evaluator(robot, scene, {}), free(robot, {}, {});
+  MarginEvaluator::Scratch scratch = evaluator.MakeScratch(), other = free.MakeScratch();
+  int above = 0;
+  for (int k = 0; k <= 200; ++k) {
+    const double t = walk.duration() * k / 200.0;
+    const LocalTime at = walk.Locate(t);
+    const Margin margin = Of(evaluator.At(walk, at, &scratch), MarginFamily::kNoStep);
+    EXPECT_GT(margin.value, 0.0);
+    EXPECT_TRUE(std::isfinite(margin.value));  // of the left sole, when the right one is in the air
+    EXPECT_EQ(Of(free.At(walk, at, &other), MarginFamily::kNoStep).value, kInfinity);
+    const Pose2 right = FootPose(walk.At(at).value, Side::kRight);
+    above += NoStepAreas(scene, robot.sole_outline).NearestTo(right).distance < 0.0;
+  }
+  EXPECT_GT(above, 5);
+  Certificate certificate;
+  EXPECT_EQ(Certify(robot, scene, Only(MarginFamily::kNoStep, 0.0), walk, &certificate).verdict,
+            Verdict::kFeasible);
+}
+
+}  // namespace
+}  // namespace halfstep
