@@ -106,20 +106,6 @@ std::vector<Anchor> FindAnchors(const UrdfTree& urdf, const BodyRequest& request
   return anchors;
 }
 
-// Number of moving joints on the way between two links.
-int JointsBetween(const UrdfTree& urdf, int a, int b) {
-  // links are sorted from the root: the later one is never above the earlier one.
-  int count = 0;
-  while (a != b) {
-    int& lower = a > b ? a : b;
-    const UrdfJoint& joint =
-        urdf.joints[static_cast<size_t>(urdf.links[static_cast<size_t>(lower)].joint)];
-    if (joint.kind != UrdfJoint::Kind::kFixed) ++count;
-    lower = joint.parent;
-  }
-  return count;
-}
-
 }  // namespace
 
 std::vector<std::string> MeshPackages(const UrdfTree& urdf) {
@@ -174,27 +160,6 @@ LinkBodies BuildBodies(const UrdfTree& urdf, const BodyRequest& request, Complai
   }
   all.meshes.assign(meshes.begin(), meshes.end());
   return all;
-}
-
-std::vector<std::array<int, 2>> BuildSelfPairs(const UrdfTree& urdf, const BodyRequest& request,
-                                               const LinkBodies& all) {
-  std::vector<std::array<int, 2>> pairs;
-  for (size_t a = 0; a < all.bodies.size(); ++a) {
-    for (size_t b = a + 1; b < all.bodies.size(); ++b) {
-      if (all.bodies[a].leg == all.bodies[b].leg) continue;
-      const int link_a = all.links[a], link_b = all.links[b];
-      const bool excluded =
-          std::any_of(request.excluded_links.begin(), request.excluded_links.end(),
-                      [&](const std::array<int, 2>& pair) {
-                        return (pair[0] == link_a && pair[1] == link_b) ||
-                               (pair[0] == link_b && pair[1] == link_a);
-                      });
-      if (!excluded && JointsBetween(urdf, link_a, link_b) > 2) {
-        pairs.push_back({static_cast<int>(a), static_cast<int>(b)});
-      }
-    }
-  }
-  return pairs;
 }
 
 }  // namespace halfstep

@@ -13,11 +13,10 @@ namespace halfstep {
 
 /// How links become bodies.
 struct BodyRequest {
-  int waist = -1;                                  ///< link index.
-  std::array<std::array<int, 6>, 2> leg_joints;    ///< URDF joint indices by Index(Side).
-  std::vector<double> posture;                     ///< standing posture by URDF joint index [rad].
-  std::map<std::string, std::string> packages;     ///< package name → folder.
-  std::vector<std::array<int, 2>> excluded_links;  ///< link pairs that are not checked.
+  int waist = -1;                                ///< link index.
+  std::array<std::array<int, 6>, 2> leg_joints;  ///< URDF joint indices by Index(Side).
+  std::vector<double> posture;                   ///< standing posture by URDF joint index [rad].
+  std::map<std::string, std::string> packages;   ///< package name → folder.
 };
 
 /// Package names in the `package://` paths of the collision meshes, sorted.
@@ -35,10 +34,5 @@ struct LinkBodies {
 /// cylinder not parallel to its frame's z a prism of 32 sides around it. Complains about meshes
 /// that cannot be read or have no volume.
 LinkBodies BuildBodies(const UrdfTree& urdf, const BodyRequest& request, Complaints* complaints);
-
-/// Pairs of bodies that must not touch: left leg with right leg and either leg with the waist's
-/// bodies, except the excluded ones and those at most two moving joints apart.
-std::vector<std::array<int, 2>> BuildSelfPairs(const UrdfTree& urdf, const BodyRequest& request,
-                                               const LinkBodies& all);
 
 }  // namespace halfstep

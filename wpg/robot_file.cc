@@ -10,6 +10,8 @@
 #include "wpg/robot_fields.h"
 #include "wpg/robot_legs.h"
 #include "wpg/robot_model.h"
+#include "wpg/self_pairs.h"
+#include "wpg/sole_outline.h"
 
 namespace halfstep {
 namespace {
@@ -20,6 +22,7 @@ using Eigen::Vector3d;
 constexpr double kDegree = std::numbers::pi / 180;
 // How far the standing posture may be from flat, parallel and mirrored feet ([m] and [rad]).
 constexpr double kStanding = 1e-4;
+constexpr double kBelowSole = 1e-6;  // a foot's bodies may reach this far below its sole [m]
 
 Isometry3d SoleInFoot(const LegFile& leg) {
   Isometry3d X = Isometry3d::Identity();
@@ -151,14 +154,28 @@ class Builder {
     body_.waist = leg_.waist;
     body_.posture = leg_.posture;
     body_.packages = file_.packages;
-    for (const ExcludedPair& pair : file_.excluded) {
-      body_.excluded_links.push_back(
-          {urdf_.FindLink(pair.links[0]), urdf_.FindLink(pair.links[1])});
-    }
     LinkBodies all = BuildBodies(urdf_, body_, complaints_);
-    model_.self_pairs = BuildSelfPairs(urdf_, body_, all);
+    SelfPairs pairs = BuildSelfPairs(urdf_, file_.excluded, all, body_.leg_joints);
+    model_.self_pairs = std::move(pairs.watched);
+    model_.unwatched_pairs = std::move(pairs.unwatched);
     model_.bodies = std::move(all.bodies);
     model_.files = std::move(all.meshes);
+    model_.sole_outline = SoleOutline(model_);
+    CheckSoles();
+  }
+
+  void CheckSoles() {
+    std::string faults;
+    for (const Side side : {Side::kLeft, Side::kRight}) {
+      const double depth = DepthBelowSole(model_, side);
+      if (depth <= kBelowSole) continue;
+      faults += (faults.empty() ? "the " : "; the ") + std::string(Name(side)) + " foot reaches " +
+                Text("%.6g", 1e3 * depth) + " mm below its sole";
+    }
+    if (faults.empty()) return;
+    fields_.Complain("legs", faults +
+                                 " (valid: at most 0.001 mm; put sole_xyz on the lowest point "
+                                 "of the foot's bodies)");
   }
 
   static std::string Text(const char* format, double value) {

@@ -52,20 +52,29 @@ struct RobotBody {
   ConvexBody shape;  ///< in the frame of its link (leg) or of the waist.
 };
 
+/// Two bodies that move against each other and are not watched.
+struct UnwatchedPair {
+  int a = -1, b = -1;  ///< indices of RobotModel::bodies, a < b.
+  std::string why;     ///< such as "joined by LLEG_JOINT3"; never empty.
+};
+
 /// A robot as walking needs it; immutable after loading. Waist frame B: z up when standing.
 struct RobotModel {
   std::string name;
-  std::array<Leg, 2> legs;    ///< indexed by Index(Side).
-  Eigen::Vector2d sole_size;  ///< full length (x) and width (y) of the sole rectangle [m].
+  std::array<Leg, 2> legs;        ///< indexed by Index(Side).
+  Eigen::Vector2d sole_size;      ///< full length (x) and width (y) of the sole rectangle [m].
+  Eigen::Matrix2Xd sole_outline;  ///< of what touches the floor (wpg/sole_outline.h) [m].
   double waist_height =
       0.0;  ///< of B's origin above the floor in the standing posture, kept while walking [m].
   double com_height = 0.0;  ///< z_c above the floor [m].
   double com_x_B = 0.0;  ///< CoM ahead of B's origin [m]; its y is 0 by the generator's symmetry.
   double mass = 0.0;     ///< [kg]
-  double standing_width = 0.0;  ///< distance of the sole centres in the standing posture [m].
+  double standing_width = 0.0;     ///< distance of the sole centres in the standing posture [m].
   std::vector<std::string> files;  ///< every file that it was read from: YAML, URDF, meshes.
   std::vector<RobotBody> bodies;
   std::vector<std::array<int, 2>> self_pairs;  ///< pairs of `bodies` that must not touch.
+  /// All other pairs of bodies that move against each other (wpg/self_pairs.h).
+  std::vector<UnwatchedPair> unwatched_pairs;
 };
 
 /// Loads and validates a robot YAML file and the URDF that it names. Format: wpg/README.md,

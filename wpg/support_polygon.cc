@@ -1,7 +1,8 @@
 #include "wpg/support_polygon.h"
 
-#include <algorithm>
 #include <limits>
+
+#include "wpg/planar_hull.h"
 
 namespace halfstep {
 namespace {
@@ -31,20 +32,8 @@ SupportPolygon::SupportPolygon(const Pose2& X_WL, const Pose2& X_WR,
     points[static_cast<size_t>(i)] = left.col(i);
     points[static_cast<size_t>(i + 4)] = right.col(i);
   }
-  std::sort(points.begin(), points.end(), [](const auto& a, const auto& b) {
-    return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
-  });
-  // Monotone chain: lower hull, then upper hull. Source: [Andrew1979].
   std::array<Eigen::Vector2d, 17> hull;
-  size_t n = 0;
-  const auto add = [&](const Eigen::Vector2d& p, size_t base) {
-    while (n >= base + 2 && Cross(hull[n - 1] - hull[n - 2], p - hull[n - 2]) <= 0.0) --n;
-    hull[n++] = p;
-  };
-  for (size_t i = 0; i < 8; ++i) add(points[i], 0);
-  const size_t lower = n - 1;
-  for (size_t i = 7; i-- > 0;) add(points[i], lower);
-  size_ = static_cast<int>(n) - 1;  // the last point is the first again
+  size_ = static_cast<int>(PlanarHull(points, hull));
   for (int i = 0; i < size_; ++i) corners_.col(i) = hull[static_cast<size_t>(i)];
 }
 

@@ -19,7 +19,8 @@ class SupportPolygon {
   Eigen::Vector2d corner(int i) const { return corners_.col(i); }
 
   /// Least distance inside the edges' lines [m]: positive inside, where it is the distance to the
-  /// boundary; negative outside, where it is no more than minus the distance to the nearest edge line.
+  /// boundary; negative outside, where it is no more than minus the distance to the nearest edge
+  /// line.
   double Margin(const Eigen::Vector2d& p_W) const;
 
  private:

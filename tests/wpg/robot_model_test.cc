@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <numbers>
 #include <regex>
 #include <set>
@@ -114,23 +115,54 @@ TEST(Hrp2, HeadIsOnTopAndHandsAreBesideTheWaist) {
   }
 }
 
-TEST(Hrp2, SelfPairsJoinBodiesThatCanMeet) {
+TEST(Hrp2, EveryTwoBodiesThatMoveAgainstEachOtherAreWatchedOrSaidNotToBe) {
   const RobotModel robot = LoadRobot(kHrp2);
-  std::set<std::pair<std::string, std::string>> pairs;
-  for (const auto& [a, b] : robot.self_pairs) {
-    const RobotBody &first = robot.bodies[static_cast<size_t>(a)],
-                    &second = robot.bodies[static_cast<size_t>(b)];
-    EXPECT_NE(first.leg, second.leg);
-    pairs.insert(std::minmax(first.name, second.name));
+  const auto names = [&](int a, int b) {
+    return std::pair(std::minmax(robot.bodies[static_cast<size_t>(a)].name,
+                                 robot.bodies[static_cast<size_t>(b)].name));
+  };
+  std::set<std::pair<std::string, std::string>> watched, moving;
+  for (const auto& [a, b] : robot.self_pairs) watched.insert(names(a, b));
+  std::map<std::pair<std::string, std::string>, std::string> unwatched;
+  for (const UnwatchedPair& pair : robot.unwatched_pairs) {
+    EXPECT_LT(pair.a, pair.b);
+    unwatched[names(pair.a, pair.b)] = pair.why;
   }
-  EXPECT_EQ(pairs.size(), robot.self_pairs.size());
-  EXPECT_TRUE(pairs.contains({"LLEG_LINK5", "RLEG_LINK5"}));
-  EXPECT_TRUE(pairs.contains({"LARM_LINK5", "LLEG_LINK2"}));
-  EXPECT_TRUE(pairs.contains({"LLEG_LINK1", "RLEG_LINK1"}));
-  EXPECT_FALSE(pairs.contains({"LLEG_LINK0", "RLEG_LINK0"})) << "two joints apart";
-  EXPECT_FALSE(pairs.contains({"RLEG_LINK1", "WAIST"})) << "two joints apart";
-  EXPECT_FALSE(pairs.contains({"RLEG_LINK2", "WAIST"})) << "excluded by the file";
-  EXPECT_TRUE(pairs.contains({"RLEG_LINK3", "WAIST"}));
+  for (size_t a = 0; a < robot.bodies.size(); ++a) {
+    for (size_t b = 0; b < a; ++b) {
+      const RobotBody &first = robot.bodies[a], &second = robot.bodies[b];
+      if (first.leg == second.leg && first.link == second.link) continue;
+      const auto pair = names(static_cast<int>(a), static_cast<int>(b));
+      EXPECT_NE(watched.contains(pair), unwatched.contains(pair)) << pair.first << pair.second;
+      moving.insert(pair);
+    }
+  }
+  EXPECT_EQ(watched.size() + unwatched.size(), moving.size());
+  EXPECT_EQ(watched.size(), robot.self_pairs.size());
+  for (const std::pair<std::string, std::string> pair :
+       {std::pair{"LLEG_LINK5", "RLEG_LINK5"}, std::pair{"LARM_LINK5", "LLEG_LINK2"},
+        std::pair{"LLEG_LINK1", "RLEG_LINK1"}, std::pair{"LLEG_LINK0", "RLEG_LINK0"},
+        std::pair{"RLEG_LINK3", "WAIST"}, std::pair{"RLEG_LINK2", "RLEG_LINK4"},
+        std::pair{"RLEG_LINK2", "RLEG_LINK5"}, std::pair{"LLEG_LINK1", "LLEG_LINK3"}}) {
+    EXPECT_TRUE(watched.contains(pair)) << pair.first << " " << pair.second;
+  }
+  EXPECT_EQ((unwatched[{"RLEG_LINK2", "RLEG_LINK3"}]), "joined by RLEG_JOINT3");
+  EXPECT_EQ((unwatched[{"RLEG_LINK0", "WAIST"}]), "joined by RLEG_JOINT0");
+  EXPECT_EQ((unwatched[{"RLEG_LINK1", "WAIST"}]),
+            "joined at the hip by RLEG_JOINT0 and RLEG_JOINT1");
+  EXPECT_EQ((unwatched[{"LLEG_LINK3", "LLEG_LINK5"}]),
+            "joined at the ankle by LLEG_JOINT4 and LLEG_JOINT5");
+  EXPECT_EQ((unwatched[{"RLEG_LINK2", "WAIST"}]), "excluded by the robot file: joined at the hip");
+}
+
+TEST(Hrp2, SoleOutlineIsTheFootsBottomOfBothFeet) {
+  const RobotModel robot = LoadRobot(kHrp2);
+  // The feet's extents about the ankle, seen from the sole's centre; left and right mirrored.
+  ASSERT_EQ(robot.sole_outline.cols(), 4);
+  EXPECT_LT((robot.sole_outline.rowwise().maxCoeff() - Eigen::Vector2d(0.121, 0.069)).norm(),
+            1e-12);
+  EXPECT_LT((robot.sole_outline.rowwise().minCoeff() + Eigen::Vector2d(0.121, 0.069)).norm(),
+            1e-12);
 }
 
 TEST(GeneratedRobot, LegsAreFoundInTheUrdf) {
@@ -201,6 +233,39 @@ TEST(GeneratedRobot, FixedJointsAreFoldedIn) {
   EXPECT_EQ(toe->leg, 0);
   EXPECT_EQ(toe->link, 5);
   EXPECT_LT((toe->shape.center - Vector3d(0.1, 0, 0)).norm(), 1e-12);
+}
+
+// A foot whose box is replaced by another shape, which stands on the sole's plane.
+RobotModel WithFoot(const std::string& geometry, double center_height) {
+  const GeneratedRobot generated = GeneratedRobots()[0];
+  std::string urdf = GeneratedUrdf(generated);
+  for (const double side : {1.0, -1.0}) {
+    const Vector3d at(generated.foot.x(), side * generated.foot.y(),
+                      generated.foot.z() + center_height);
+    const std::string size = "<box size='0.2 0.11 0.04'/>";
+    const size_t end = urdf.find(size), begin = urdf.rfind("<collision>", end);
+    urdf.replace(begin, end + size.size() - begin,
+                 "<collision><origin xyz='" + generated::Text(at) + "'/><geometry>" + geometry);
+  }
+  return TemporaryRobot("foot", urdf, GeneratedYaml(generated, "robot.urdf")).Load();
+}
+
+TEST(GeneratedRobot, SoleOutlineHoldsEveryPointNearTheFloor) {
+  // Larger than the sole rectangle of 0.2 × 0.11 m where the shape is.
+  const auto reach = [](const RobotModel& robot) -> Eigen::Vector2d {
+    return robot.sole_outline.rowwise().maxCoeff();
+  };
+  EXPECT_LT(
+      (reach(WithFoot("<box size='0.24 0.1 0.04'/>", 0.02)) - Eigen::Vector2d(0.12, 0.055)).norm(),
+      1e-12);
+  EXPECT_LT(
+      (reach(WithFoot("<box size='0.24 0.1 0.04'/>", 0.0211)) - Eigen::Vector2d(0.1, 0.055)).norm(),
+      1e-12)
+      << "a body 1.1 mm above the sole does not touch";
+  EXPECT_NEAR(reach(WithFoot("<cylinder radius='0.15' length='0.04'/>", 0.02)).x(), 0.15, 2e-4);
+  EXPECT_GE(reach(WithFoot("<cylinder radius='0.15' length='0.04'/>", 0.02)).y(), 0.15 - 1e-12);
+  EXPECT_GE(reach(WithFoot("<sphere radius='0.15'/>", 0.15)).y(),
+            std::sqrt(0.15 * 0.15 - 0.149 * 0.149));
 }
 
 TEST(RobotRefusal, JointLimitsMoreThanATurnApart) {
