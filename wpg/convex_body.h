@@ -42,9 +42,12 @@ ConvexBody MakeSphere(double radius);
 ConvexBody MakeCylinder(double radius, double length);
 /// Capsule along z: the two ball centres are `length` [m] apart.
 ConvexBody MakeCapsule(double radius, double length);
-/// Convex hull of `points` (3×n) [m]. Contains every point up to 1e-11 of the hull's size; points
-/// nearer than 1e-12 of it to another are merged. Throws std::runtime_error with a sentence when
-/// they are fewer than four, not finite, or (nearly) coplanar: thinner than 1e-9 of their size.
+/// Convex hull of `points` (3×n) [m]: its vertices are points of them, exactly, and it contains all
+/// of them, for it is the hull of its vertices with a ball around whose radius is how far a point
+/// may lie outside. 0 when all points are vertices, else of the order of rounding (1e-15 of the
+/// coordinates), or 1e-12 of the size where points so near to each other were merged. Throws
+/// std::runtime_error with a sentence when the points are fewer than four, not finite, or (nearly)
+/// coplanar: thinner than 1e-9 of their size.
 ConvexBody MakeHull(const Eigen::Matrix3Xd& points);
 
 }  // namespace halfstep

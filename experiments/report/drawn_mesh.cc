@@ -77,7 +77,10 @@ TriangleMesh Joined(const TriangleMesh& mesh, double cell) {
 }  // namespace
 
 TriangleMesh DrawnMesh(const ConvexBody& body) {
-  if (body.disc_radius == 0.0 && body.ball_radius == 0.0) return FacesOf(body);
+  // The ball around a hull stands for its rounding.
+  constexpr double kUnseen = 1e-6;  // [m]
+  const bool sharp = !body.triangles.empty() && body.ball_radius < kUnseen;
+  if (body.disc_radius == 0.0 && (sharp || body.ball_radius == 0.0)) return FacesOf(body);
   std::vector<Eigen::Vector3d> points;
   for (const auto& vertex : body.vertices.colwise()) points.emplace_back(vertex);
   if (body.disc_radius > 0.0) points = Sum(points, Ring(body.disc_radius, 0.0));

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -139,6 +140,45 @@ TEST(ConvexBody, HullOfABoxWithFacePointsAndDuplicatesIsTheBox) {
   EXPECT_EQ(hull.vertices.cols(), 8);
   EXPECT_EQ(hull.normals.cols(), 6);
   EXPECT_EQ(hull.triangles.size(), 12u);
+}
+
+TEST(ConvexBody, HullOfNearAndFarPointsContainsThemAll) {
+  std::mt19937 random(7);
+  for (const double far : {1.0, 1e3, 1e7, 9e8, 9e14}) {
+    Eigen::Matrix3Xd points(3, 45);
+    points.leftCols(40) = RandomPoints(40, &random);
+    points.rightCols(5) << far, far, far, 0.9 * far, 0.8 * far,  //
+        0, far, -far, 0.5 * far, 0.1 * far,                      //
+        0, 0.3 * far, 0.1 * far, -far, far;
+    const ConvexBody hull = MakeHull(points);
+    double worst = 0;
+    for (int k = 0; k < 2000; ++k) {
+      const Vector3d n = RandomPoints(1, &random).col(0).normalized();
+      // In extended precision, so that only the hull counts.
+      const auto reach = [&](const auto& of) {
+        return (n.transpose().cast<long double>() * of.template cast<long double>()).maxCoeff();
+      };
+      const long double beyond = reach(points) - reach(hull.vertices);
+      worst = std::max(worst, static_cast<double>(beyond));
+      EXPECT_LE(beyond, hull.ball_radius) << far;
+    }
+    EXPECT_LE(hull.ball_radius, 1e-11 * far) << far << ", worst " << worst;
+    if (far == 1.0) {
+      EXPECT_LE(hull.ball_radius, 2e-14);
+    }
+    for (const Vector3d& v : hull.vertices.colwise()) {
+      const auto same = [&](const auto& p) { return p == v; };
+      EXPECT_TRUE(std::any_of(points.colwise().begin(), points.colwise().end(), same));
+    }
+  }
+}
+
+TEST(ConvexBody, HullWhoseVerticesAreAllPointsIsExact) {
+  std::mt19937 random(8);
+  Eigen::Matrix3Xd points = RandomPoints(40, &random);
+  points.colwise().normalize();
+  EXPECT_EQ(MakeHull(points).ball_radius, 0.0);
+  EXPECT_EQ(MakeHull(MakeBox({1, 2, 3}).vertices).ball_radius, 0.0);
 }
 
 TEST(ConvexBody, HullOfAThinPlateIsKept) {
