@@ -1,50 +1,44 @@
 #include "planner/mesh_interior.h"
 
-#include <Eigen/Geometry>
 #include <cmath>
-#include <numbers>
-#include <numeric>
+#include <utility>
+
+#include "planner/mesh_patches.h"
+#include "wpg/check.h"
 
 namespace halfstep {
+namespace {
 
-std::vector<Eigen::Vector3d> ComponentPoints(const TriangleMesh& mesh) {
-  std::vector<int> parent(static_cast<size_t>(mesh.vertices.cols()));
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](int i) {
-    while (parent[static_cast<size_t>(i)] != i) {
-      int& up = parent[static_cast<size_t>(i)];
-      up = parent[static_cast<size_t>(up)];
-      i = up;
-    }
-    return i;
-  };
-  for (const Eigen::Vector3i& t : mesh.triangles.colwise()) {
-    const int first = root(t[0]);
-    parent[static_cast<size_t>(root(t[1]))] = first;
-    parent[static_cast<size_t>(root(t[2]))] = first;
+constexpr double kRounding = 1e-6;  // of sums of winding numbers
+
+}  // namespace
+
+MeshInterior::MeshInterior(const TriangleMesh& mesh) {
+  HALFSTEP_CHECK(mesh.triangles.cols() > 0 && mesh.vertices.allFinite(), mesh.triangles.cols()
+                                                                             << " triangles");
+  for (const MeshPatch& found : FindPatches(mesh)) {
+    Patch patch{.triangles = TriangleTree(found.mesh), .winding = {}, .closed = found.closed};
+    patch.winding = MeshWinding(patch.triangles);
+    patches_.push_back(std::move(patch));
+    points_.emplace_back(found.mesh.vertices.col(0));
   }
-  std::vector<bool> seen(parent.size(), false);
-  std::vector<Eigen::Vector3d> points;
-  for (const Eigen::Vector3i& t : mesh.triangles.colwise()) {
-    const int component = root(t[0]);
-    if (seen[static_cast<size_t>(component)]) continue;
-    seen[static_cast<size_t>(component)] = true;
-    points.push_back(mesh.vertices.col(t[0]));
-  }
-  return points;
 }
 
-double WindingNumber(const TriangleMesh& mesh, const Eigen::Vector3d& point) {
-  double half_angles = 0;
-  for (const Eigen::Vector3i& t : mesh.triangles.colwise()) {
-    const Eigen::Vector3d a = mesh.vertices.col(t[0]) - point, b = mesh.vertices.col(t[1]) - point;
-    const Eigen::Vector3d c = mesh.vertices.col(t[2]) - point;
-    const double la = a.norm(), lb = b.norm(), lc = c.norm();
-    const double volume = a.dot(b.cross(c));
-    const double spread = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
-    half_angles += std::atan2(volume, spread);
+bool MeshInterior::Contains(const Eigen::Vector3d& point) const {
+  double sum = 0, absolute = 0;
+  for (const Patch& patch : patches_) {
+    const TriangleTree::Node& root = patch.triangles.nodes[0];
+    // A closed patch winds around nothing beyond its bounds.
+    if (patch.closed && ((point - root.center).cwiseAbs().array() > root.half.array()).any()) {
+      continue;
+    }
+    const double winding = patch.winding.At(patch.triangles, point);
+    if (!(std::abs(winding) <= 0.5)) return true;
+    if (patch.closed) continue;
+    sum += winding;
+    absolute += std::abs(winding);
   }
-  return half_angles / (2 * std::numbers::pi);
+  return std::abs(sum) > 0.5 || absolute > 1 - kRounding;
 }
 
 }  // namespace halfstep

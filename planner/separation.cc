@@ -24,8 +24,10 @@ using Bvh = fcl::BVHModel<fcl::OBBRSSd>;
 
 constexpr double kThickness = 1e-6;  // [m] given to a core without volume before it meets a mesh.
 constexpr int kDiscSides = 64;
-// [m] taken off FCL's triangle distances for rounding.
-constexpr double kTriangleRounding = 1e-10;
+// Taken off FCL's triangle distances for rounding: of the coordinates, and at least [m].
+constexpr double kTriangleRounding = 1e-12, kLeastRounding = 1e-10;
+// Taken off slabs to a mesh's hull for rounding: of the mesh's coordinates.
+constexpr double kSlabRounding = 4e-15;
 
 std::shared_ptr<const Bvh> MakeBvh(const TriangleMesh& mesh) {
   std::vector<fcl::Vector3d> points(mesh.vertices.colwise().begin(), mesh.vertices.colwise().end());
@@ -48,9 +50,14 @@ int DiscSides(double radius) {
   return 4 * static_cast<int>(std::ceil(std::clamp(sides, 1.0 * kDiscSides, 512.0) / 4));
 }
 
-// Triangles around the core of a convex body (the body without its ball).
-TriangleMesh MakeCore(const ConvexBody& body) {
-  if (body.disc_radius == 0 && !body.triangles.empty()) return FacesOf(body);
+// A convex body whose triangles are those around the core of another, the body without its ball;
+// that core reaches beyond them by at most the ball of this one.
+ConvexBody MakeCore(const ConvexBody& body) {
+  if (body.disc_radius == 0 && !body.triangles.empty()) {
+    ConvexBody core = body;
+    core.ball_radius = 0;
+    return core;
+  }
   // What each vertex is widened by: a polygon around the disc, else an octahedron.
   std::vector<Eigen::Vector3d> around;
   if (body.disc_radius > 0) {
@@ -71,9 +78,10 @@ TriangleMesh MakeCore(const ConvexBody& body) {
   for (Eigen::Index i = 0; i < points.cols(); ++i) {
     points.col(i) = body.vertices.col(i / n) + around[static_cast<size_t>(i % n)];
   }
-  return FacesOf(MakeHull(points));
+  return MakeHull(points);
 }
 
+// Convex and around the mesh, wide enough for the rounding of slabs.
 ConvexBody Enclosing(const TriangleMesh& mesh) {
   HALFSTEP_CHECK(mesh.triangles.cols() > 0, "a mesh without triangles");
   HALFSTEP_CHECK(mesh.vertices.allFinite(), "a vertex of the mesh is not finite");
@@ -81,20 +89,21 @@ ConvexBody Enclosing(const TriangleMesh& mesh) {
                  "vertex indices " << mesh.triangles.minCoeff() << " … "
                                    << mesh.triangles.maxCoeff() << " of " << mesh.vertices.cols()
                                    << " vertices");
+  ConvexBody around;
   try {
-    return MakeHull(mesh.vertices);
+    around = MakeHull(mesh.vertices);
   } catch (const std::runtime_error&) {  // flat: the axis-aligned bounds
     const Eigen::Vector3d lower = mesh.vertices.rowwise().minCoeff();
     const Eigen::Vector3d upper = mesh.vertices.rowwise().maxCoeff();
-    ConvexBody box;
-    box.vertices.resize(3, 8);
+    around.vertices.resize(3, 8);
     for (int i = 0; i < 8; ++i) {
-      box.vertices.col(i) << ((i & 1) ? upper : lower).x(), ((i & 2) ? upper : lower).y(),
+      around.vertices.col(i) << ((i & 1) ? upper : lower).x(), ((i & 2) ? upper : lower).y(),
           ((i & 4) ? upper : lower).z();
     }
-    BoundBySphere(&box);
-    return box;
   }
+  around.ball_radius += kSlabRounding * mesh.vertices.colwise().norm().maxCoeff();
+  BoundBySphere(&around);
+  return around;
 }
 
 bool IsFinite(const Eigen::Isometry3d& X) { return std::isfinite(X.matrix().topRows<3>().sum()); }
@@ -104,34 +113,43 @@ bool IsFinite(const Eigen::Isometry3d& X) { return std::isfinite(X.matrix().topR
 struct CollisionShape::Impl {
   explicit Impl(ConvexBody body) : convex(std::move(body)) {}
   explicit Impl(TriangleMesh triangles)
-      : convex(Enclosing(triangles)),
-        mesh(std::move(triangles)),
-        components(ComponentPoints(*mesh)),
-        hollow_{*mesh, MakeBvh(*mesh)} {}
+      : convex(Enclosing(triangles)), is_mesh(true), hollow_{std::move(triangles), nullptr} {
+    hollow_.bvh = MakeBvh(hollow_.mesh);
+  }
 
-  // The surface of the core, and what FCL needs.
+  // The surface of the core, and what FCL needs. The core reaches beyond it by at most `excess`.
   struct Hollow {
     TriangleMesh mesh;
     std::shared_ptr<const Bvh> bvh;
+    double excess = 0.0;  // [m]
   };
   // Of a convex body it is built when the body first comes near a mesh.
   const Hollow& hollow() const {
     std::call_once(hollow_once_, [this] {
       if (hollow_.bvh != nullptr) return;
-      hollow_.mesh = MakeCore(convex);
+      const ConvexBody core = MakeCore(convex);
+      hollow_.mesh = FacesOf(core);
       hollow_.bvh = MakeBvh(hollow_.mesh);
+      hollow_.excess = core.ball_radius;
     });
     return hollow_;
   }
   const Bvh& bvh() const { return *hollow().bvh; }
+  // How far the body reaches beyond the triangles.
+  double beyond() const { return hollow().excess + (is_mesh ? 0.0 : convex.ball_radius); }
+  // What the surface encloses; built when first asked for.
+  const MeshInterior& interior() const {
+    std::call_once(interior_once_, [this] { interior_.emplace(hollow().mesh); });
+    return *interior_;
+  }
 
   const ConvexBody convex;
-  const std::optional<TriangleMesh> mesh;
-  const std::vector<Eigen::Vector3d> components;
+  const bool is_mesh = false;
 
  private:
-  mutable std::once_flag hollow_once_;
+  mutable std::once_flag hollow_once_, interior_once_;
   mutable Hollow hollow_;
+  mutable std::optional<MeshInterior> interior_;
 };
 
 CollisionShape::CollisionShape(ConvexBody body) {
@@ -144,7 +162,7 @@ CollisionShape::CollisionShape(ConvexBody body) {
 CollisionShape::CollisionShape(TriangleMesh mesh)
     : impl_(std::make_shared<const Impl>(std::move(mesh))) {}
 
-bool CollisionShape::is_mesh() const { return impl_->mesh.has_value(); }
+bool CollisionShape::is_mesh() const { return impl_->is_mesh; }
 const ConvexBody& CollisionShape::convex() const { return impl_->convex; }
 const Eigen::Vector3d& CollisionShape::center() const { return impl_->convex.center; }
 double CollisionShape::radius() const { return impl_->convex.radius; }
@@ -162,19 +180,31 @@ Separation InWorld(const ConvexDistance& found, const Eigen::Isometry3d& X_Wa) {
           X_Wa * found.point_b_A};
 }
 
+// The distance of the triangles, less what FCL's rounding and what reaches beyond them may make up
+// for; zero or negative: contact. `result` gets the nearest points.
+double TrianglesApart(const CollisionShape& a, const Eigen::Isometry3d& X_Wa,
+                      const CollisionShape& b, const Eigen::Isometry3d& X_Wb, bool with_points,
+                      fcl::DistanceResultd* result) {
+  const fcl::DistanceRequestd request(with_points);
+  fcl::distance(&a.impl().bvh(), X_Wa, &b.impl().bvh(), X_Wb, request, *result);
+  const double coordinates = (X_Wa.translation() - X_Wb.translation()).norm() + a.center().norm() +
+                             a.radius() + b.center().norm() + b.radius();
+  return result->min_distance - std::max(kLeastRounding, kTriangleRounding * coordinates);
+}
+
 // Whether a body that meets no triangle of the mesh holds a part of it or lies inside it.
 bool Contains(const CollisionShape& body, const CollisionShape& mesh,
               const Eigen::Isometry3d& X_MB) {
   ConvexBody point;
   point.vertices.resize(3, 1);
-  for (const Eigen::Vector3d& p : mesh.impl().components) {
+  for (const Eigen::Vector3d& p : mesh.impl().interior().points()) {
     if ((X_MB * body.center() - p).norm() > body.radius()) continue;
     point.vertices.col(0) = point.center = p;
     const Eigen::Isometry3d X_BM = X_MB.inverse(Eigen::Isometry);
     const Eigen::Vector3d first = body.center() - X_BM * p;
     if (FindConvexDistance(body.convex(), point, X_BM, first, 0.0).lower < 0) return true;
   }
-  return std::abs(WindingNumber(*mesh.impl().mesh, X_MB * body.convex().vertices.col(0))) > 0.5;
+  return mesh.impl().interior().Contains(X_MB * body.convex().vertices.col(0));
 }
 
 // `to_hull` is the separation of the body from the mesh's hull; the normal points to the body.
@@ -184,15 +214,14 @@ Separation SeparateFromMesh(const CollisionShape& body, const Eigen::Isometry3d&
   Separation contact = to_hull;
   contact.distance = std::min(to_hull.distance, 0.0);
   try {
-    const fcl::DistanceRequestd request(/*enable_nearest_points=*/true);
     fcl::DistanceResultd result;
-    fcl::distance(&body.impl().bvh(), X_WB, &mesh.impl().bvh(), X_WM, request, result);
-    const double core_distance = result.min_distance - kTriangleRounding;
+    const double core_distance =
+        TrianglesApart(body, X_WB, mesh, X_WM, /*with_points=*/true, &result);
     if (!(core_distance > 0)) return contact;
     if (to_hull.distance <= 0 && Contains(body, mesh, X_WM.inverse(Eigen::Isometry) * X_WB)) {
       return contact;
     }
-    const double ball = body.convex().ball_radius;
+    const double ball = body.impl().beyond();
     if (to_hull.distance >= core_distance - ball) return to_hull;
     const Eigen::Vector3d &at_body = result.nearest_points[0], &at_mesh = result.nearest_points[1];
     const Eigen::Vector3d normal_W = (at_body - at_mesh).normalized();
@@ -207,11 +236,10 @@ bool Encloses(const CollisionShape& outer, const CollisionShape& inner,
               const Eigen::Isometry3d& X_OI) {
   const auto inside = [&](const Eigen::Vector3d& p_I) {
     const Eigen::Vector3d p = X_OI * p_I;
-    return (p - outer.center()).norm() <= outer.radius() &&
-           std::abs(WindingNumber(outer.impl().hollow().mesh, p)) > 0.5;
+    return (p - outer.center()).norm() <= outer.radius() && outer.impl().interior().Contains(p);
   };
   if (!inner.is_mesh()) return inside(inner.impl().hollow().mesh.vertices.col(0));
-  const auto& parts = inner.impl().components;
+  const auto& parts = inner.impl().interior().points();
   return std::any_of(parts.begin(), parts.end(), inside);
 }
 
@@ -245,14 +273,12 @@ double TriangleDistance(const CollisionShape& a, const Eigen::Isometry3d& X_Wa,
                         const CollisionShape& b, const Eigen::Isometry3d& X_Wb) {
   HALFSTEP_CHECK(IsFinite(X_Wa) && IsFinite(X_Wb), "a pose is not finite");
   try {
-    const fcl::DistanceRequestd request(/*enable_nearest_points=*/false);
     fcl::DistanceResultd result;
-    fcl::distance(&a.impl().bvh(), X_Wa, &b.impl().bvh(), X_Wb, request, result);
-    const double cores = result.min_distance - kTriangleRounding;
+    const double cores = TrianglesApart(a, X_Wa, b, X_Wb, /*with_points=*/false, &result);
     if (!(cores > 0)) return 0;
     const Eigen::Isometry3d X_AB = X_Wa.inverse(Eigen::Isometry) * X_Wb;
     if (Encloses(a, b, X_AB) || Encloses(b, a, X_AB.inverse(Eigen::Isometry))) return 0;
-    return cores - a.convex().ball_radius - b.convex().ball_radius;
+    return cores - a.impl().beyond() - b.impl().beyond();
   } catch (const std::exception&) {
     return 0;
   }

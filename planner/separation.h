@@ -12,9 +12,13 @@ namespace halfstep {
 /// (beyond rounding, 1e-14 of the coordinates): it is the width of the slab between them along
 /// `normal_W`, computed from their support functions. Zero or negative: contact or overlap; then it
 /// is a lower bound of minus the penetration depth.
-/// With a mesh: the largest of the slab to the mesh's hull and the distance of the triangles from
-/// the body's core (the body without its ball; a disc is enclosed by a polygon of at least 64
-/// sides, a core without volume by one 1e-6 m thick) less the ball's radius.
+/// With a mesh: the largest of two numbers, neither of which exceeds the true distance. The slab to
+/// a convex body around the mesh: its hull, wider by how far a vertex may lie outside it and by the
+/// slab's rounding (4e-15 of the mesh's coordinates). And the distance of the triangles from the
+/// body's core (the body without its ball; a disc is enclosed by a polygon of at least 64 sides, a
+/// core without volume by one 1e-6 m thick) less the ball's radius and FCL's rounding (1e-12 of the
+/// coordinates, at least 1e-10 m). A body that meets no triangle is in contact when it holds a part
+/// of the mesh or is inside it (planner/mesh_interior.h).
 struct Separation {
   double distance = 0.0;               ///< [m]
   Eigen::Vector3d normal_W{0, 0, 1};   ///< unit, from b towards a.
@@ -59,8 +63,8 @@ Separation Separate(const CollisionShape& a, const Eigen::Isometry3d& X_Wa, cons
 /// functions that Separate stands on: of the cores' surfaces, enclosed as for Separation, less the
 /// balls [m]. It exceeds the true distance by nothing and falls short of it by at most 1e-6 m and
 /// 0.1 mm (1/800 of the radius below 8 cm) a disc. Zero or negative: contact, or one body
-/// lies inside the other (by winding number). Precondition: finite poses (std::logic_error). An
-/// exception inside FCL counts as contact.
+/// lies inside the other (planner/mesh_interior.h). Precondition: finite poses (std::logic_error).
+/// An exception inside FCL counts as contact.
 double TriangleDistance(const CollisionShape& a, const Eigen::Isometry3d& X_Wa,
                         const CollisionShape& b, const Eigen::Isometry3d& X_Wb);
 

@@ -53,9 +53,7 @@ bool IsRound(const ConvexBody& body) {
 SweptVolumeQuery::Prepared SweptVolumeQuery::Prepare(const Obstacle& obstacle) {
   Prepared prepared;
   const auto as_mesh = [&](const TriangleMesh& mesh) {
-    auto shared = std::make_shared<Mesh>();
-    shared->triangles = TriangleTree(mesh);
-    shared->winding = MeshWinding(shared->triangles);
+    auto shared = std::make_shared<Mesh>(Mesh{TriangleTree(mesh), MeshInterior(mesh)});
     const TriangleTree::Node& root = shared->triangles.nodes[0];
     prepared.around = {.center = root.center, .half = root.half};
     prepared.shape = std::shared_ptr<const Mesh>(std::move(shared));
@@ -157,8 +155,7 @@ bool SweptVolumeQuery::MeetsObstacle(const BoxTree& tree, const Placed& placed,
   return std::any_of(tree.parts.begin(), tree.parts.end(), [&](const Vector3d& part) {
     const Vector3d p = axes.transpose() * (part - origin);
     const Eigen::Array3d off = (p - obstacle.around.center).cwiseAbs().array();
-    return (off <= obstacle.around.half.array()).all() &&
-           std::abs(mesh.winding.At(mesh.triangles, p)) > 0.5;
+    return (off <= obstacle.around.half.array()).all() && mesh.interior.Contains(p);
   });
 }
 

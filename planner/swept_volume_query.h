@@ -8,7 +8,7 @@
 
 #include "planner/box_tree_query.h"
 #include "planner/half_step_query.h"
-#include "planner/mesh_winding.h"
+#include "planner/mesh_interior.h"
 #include "planner/scene.h"
 #include "planner/swept_volumes.h"
 
@@ -41,7 +41,7 @@ class SweptVolumeQuery : public HalfStepQuery {
  private:
   struct Mesh {
     TriangleTree triangles;
-    MeshWinding winding;
+    MeshInterior interior;
   };
   struct Prepared {
     OrientedBox around;  // in its own frame; of a box, itself

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -10,7 +11,6 @@
 #include <vector>
 
 #include "planner/convex_distance.h"
-#include "planner/mesh_interior.h"
 #include "tests/planner/brute_force_distance.h"
 
 namespace halfstep {
@@ -290,12 +290,50 @@ TEST(Separation, FlatMeshesWork) {
   EXPECT_LE(Distance(box, At(0.5, 0.5, 0.05), shape, At(0, 0, 0)), 0);
 }
 
-TEST(Separation, WindingNumberTellsInsideFromOutside) {
-  const TriangleMesh mesh = AsMesh(MakeBox({2, 2, 2}));
-  EXPECT_NEAR(WindingNumber(mesh, {0.9, -0.9, 0.5}), 1, 1e-12);
-  EXPECT_NEAR(WindingNumber(mesh, {1.1, 0, 0}), 0, 1e-12);
-  EXPECT_EQ(ComponentPoints(mesh).size(), 1u);
-  EXPECT_EQ(ComponentPoints(LShape()).size(), 2u);
+// A plate of 1 cm across the way, 30 cm high, and five vertices far away in a triangle or two.
+TriangleMesh PlateWithFarVertices(double far) {
+  const TriangleMesh plate = AsMesh(MakeBox({0.01, 1.2, 0.3}));
+  TriangleMesh mesh{Eigen::Matrix3Xd(3, 13), Eigen::Matrix3Xi(3, 14)};
+  mesh.vertices.leftCols(8) = plate.vertices.colwise() + Vector3d(0, 0, 0.15);
+  mesh.vertices.rightCols(5) << far, far, far, 0.9 * far, 0.8 * far,  //
+      0, far, -far, 0.5 * far, 0.1 * far,                             //
+      0, 0.3 * far, 0.1 * far, -far, far;
+  mesh.triangles.leftCols(12) = plate.triangles;
+  mesh.triangles.rightCols(2) << 8, 9, 9, 10, 11, 12;
+  return mesh;
+}
+
+TEST(Separation, FarVerticesOfAMeshNeverAddToADistance) {
+  Draw draw(19);
+  for (const double far : {1e3, 1e7, 9e8, 9e14}) {
+    const TriangleMesh mesh = PlateWithFarVertices(far);
+    const CollisionShape shape(mesh);
+    const Isometry3d X = At(0, 0, 0);
+    const TriangleMesh near{mesh.vertices.leftCols(8), mesh.triangles.leftCols(12)};
+    int apart = 0;
+    for (int i = 0; i < 200; ++i) {
+      const ConvexBody body = MakeBox({0.1, 0.1, 0.3});
+      Isometry3d X_WB = draw.Pose(0.1);
+      X_WB.translation() += Vector3d(i % 2 ? -0.25 : 0.25, 0, 0.15);
+      const double truth = SurfaceDistance(Triangles(body, X_WB), Triangles(near, X));
+      const double found = Distance(CollisionShape(body), X_WB, shape, X);
+      EXPECT_LE(found, truth + 1e-12) << far;
+      EXPECT_LE(TriangleDistance(CollisionShape(body), X_WB, shape, X), truth + 1e-12) << far;
+      Vector3d normal_W = Vector3d::Zero();
+      EXPECT_FALSE(ClearsAlongCached(CollisionShape(body), X_WB, shape, X,
+                                     std::max(truth, 0.0) + 1e-9, &normal_W))
+          << far;
+      if (far < 1e4 && found > 0) {
+        EXPECT_GE(found, truth - 1e-8);
+      }
+      apart += found > 0;
+    }
+    if (far < 1e8) {
+      EXPECT_GT(apart, 100) << far;
+    }
+    // Through the plate.
+    EXPECT_LE(Distance(CollisionShape(MakeBox({0.1, 0.1, 0.3})), At(0, 0, 0.1), shape, X), 0);
+  }
 }
 
 TEST(Separation, PosesThatAreNotFiniteThrow) {
