@@ -1,5 +1,6 @@
 #include "planner/scene.h"
 
+#include <cstdio>
 #include <filesystem>
 #include <map>
 #include <utility>
@@ -13,7 +14,10 @@
 namespace halfstep {
 namespace {
 
-constexpr double kFarthest = 1000.0;    // of anything from the origin [m]
+constexpr double kFarthest = 1000.0;  // of anything from the origin [m]
+// Of a mesh's points from the world's origin [m]: a town fits. Doubles there are 2e-12 m apart, and
+// what is taken off distances for rounding, 1e-12 of the coordinates, is 1e-8 m.
+constexpr double kFarthestPoint = 10e3;
 constexpr double kSmallest = 1e-6;      // of any size [m]
 constexpr size_t kMostVertices = 1000;  // of a polygon
 
@@ -105,6 +109,32 @@ void DeclareShape(Fields& fields, ObstacleFields* obstacle) {
   }
 }
 
+// X_WO of a position and turns about the fixed axes: R = Rz·Ry·Rx.
+Eigen::Isometry3d MakePose(const std::vector<double>& xyz, const std::vector<double>& rpy) {
+  Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
+  X.linear() = (Eigen::AngleAxisd(rpy[2], Eigen::Vector3d::UnitZ()) *
+                Eigen::AngleAxisd(rpy[1], Eigen::Vector3d::UnitY()) *
+                Eigen::AngleAxisd(rpy[0], Eigen::Vector3d::UnitX()))
+                   .toRotationMatrix();
+  X.translation() = Eigen::Vector3d(xyz[0], xyz[1], xyz[2]);
+  return X;
+}
+
+// Complains about a mesh that reaches too far, scaled and posed.
+void CheckReach(Fields& fields, const ObstacleFields& obstacle) {
+  if (obstacle.mesh.vertices.cols() == 0) return;
+  const Eigen::Isometry3d X_WO = MakePose(obstacle.xyz, obstacle.rpy);
+  const Eigen::Matrix3Xd points_W =
+      (X_WO.linear() * obstacle.mesh.vertices).colwise() + X_WO.translation();
+  const double farthest = points_W.colwise().norm().maxCoeff();
+  if (farthest <= kFarthestPoint) return;
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", farthest);
+  fields.Complain("mesh", std::string("reaches ") + text +
+                              " m from the world's origin (valid: at most 10000 m; look at "
+                              "`scale`, and for stray vertices)");
+}
+
 void DeclareObstacle(Fields& fields, ObstacleFields* obstacle) {
   DeclareShape(fields, obstacle);
   fields.Group("pose", {.meaning = "of the shape in the world"}, [&](Fields& pose) {
@@ -116,6 +146,7 @@ void DeclareObstacle(Fields& fields, ObstacleFields* obstacle) {
                   .min = -360.0,
                   .max = 360.0});
   });
+  CheckReach(fields, *obstacle);
 }
 
 void DeclareNoStep(Fields& fields, NoStepFields* area) {
@@ -138,17 +169,6 @@ std::variant<ConvexBody, TriangleMesh> MakeShape(ObstacleFields* from) {
   if (from->has_sphere) return MakeSphere(from->radius);
   if (from->has_capsule) return MakeCapsule(from->radius, from->length);
   return std::move(from->mesh);
-}
-
-// X_WO of a position and turns about the fixed axes: R = Rz·Ry·Rx.
-Eigen::Isometry3d MakePose(const std::vector<double>& xyz, const std::vector<double>& rpy) {
-  Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
-  X.linear() = (Eigen::AngleAxisd(rpy[2], Eigen::Vector3d::UnitZ()) *
-                Eigen::AngleAxisd(rpy[1], Eigen::Vector3d::UnitY()) *
-                Eigen::AngleAxisd(rpy[0], Eigen::Vector3d::UnitX()))
-                   .toRotationMatrix();
-  X.translation() = Eigen::Vector3d(xyz[0], xyz[1], xyz[2]);
-  return X;
 }
 
 }  // namespace

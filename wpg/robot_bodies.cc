@@ -16,6 +16,7 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
 constexpr std::string_view kPackage = "package://";
+constexpr double kFarthest = 100.0;  // of a body from its link's frame, or the waist's [m]
 
 std::string PackageOf(const std::string& mesh) {
   if (!mesh.starts_with(kPackage)) return "";
@@ -143,6 +144,9 @@ LinkBodies BuildBodies(const UrdfTree& urdf, const BodyRequest& request, Complai
       try {
         body.shape =
             ShapeOf(collision, X_AnchorLink * collision.X_LinkShape, urdf.file, request.packages);
+        if (body.shape.center.norm() + body.shape.radius > kFarthest) {
+          throw std::runtime_error("reaches more than 100 m from its link (look at `scale`)");
+        }
         all.bodies.push_back(std::move(body));
         all.links.push_back(static_cast<int>(i));
         if (collision.kind == UrdfCollision::Kind::kMesh) {
