@@ -142,8 +142,9 @@ TEST(Hrp2, EveryTwoBodiesThatMoveAgainstEachOtherAreWatchedOrSaidNotToBe) {
   for (const std::pair<std::string, std::string> pair :
        {std::pair{"LLEG_LINK5", "RLEG_LINK5"}, std::pair{"LARM_LINK5", "LLEG_LINK2"},
         std::pair{"LLEG_LINK1", "RLEG_LINK1"}, std::pair{"LLEG_LINK0", "RLEG_LINK0"},
-        std::pair{"RLEG_LINK3", "WAIST"}, std::pair{"RLEG_LINK2", "RLEG_LINK4"},
-        std::pair{"RLEG_LINK2", "RLEG_LINK5"}, std::pair{"LLEG_LINK1", "LLEG_LINK3"}}) {
+        std::pair{"RLEG_LINK3", "WAIST"}, std::pair{"RLEG_LINK2", "WAIST"},
+        std::pair{"RLEG_LINK2", "RLEG_LINK4"}, std::pair{"RLEG_LINK2", "RLEG_LINK5"},
+        std::pair{"LLEG_LINK1", "LLEG_LINK3"}}) {
     EXPECT_TRUE(watched.contains(pair)) << pair.first << " " << pair.second;
   }
   EXPECT_EQ((unwatched[{"RLEG_LINK2", "RLEG_LINK3"}]), "joined by RLEG_JOINT3");
@@ -152,7 +153,7 @@ TEST(Hrp2, EveryTwoBodiesThatMoveAgainstEachOtherAreWatchedOrSaidNotToBe) {
             "joined at the hip by RLEG_JOINT0 and RLEG_JOINT1");
   EXPECT_EQ((unwatched[{"LLEG_LINK3", "LLEG_LINK5"}]),
             "joined at the ankle by LLEG_JOINT4 and LLEG_JOINT5");
-  EXPECT_EQ((unwatched[{"RLEG_LINK2", "WAIST"}]), "excluded by the robot file: joined at the hip");
+  EXPECT_EQ(unwatched.size(), 18u) << "of each leg: six joints, two pairs at the hip, one ankle";
 }
 
 TEST(Hrp2, SoleOutlineIsTheFootsBottomOfBothFeet) {
@@ -211,6 +212,21 @@ TEST(GeneratedRobot, ShapesStandUprightAtZeroWhateverTheLinkFrames) {
       }
     }
   }
+}
+
+TEST(GeneratedRobot, ExcludedPairsAreListedWithTheirReason) {
+  const GeneratedRobot generated = GeneratedRobots()[0];
+  const std::string yaml = GeneratedYaml(generated, "robot.urdf") +
+                           "excluded_self_pairs:\n"
+                           "  - {links: [waist, left_link2], why: padded}\n"
+                           "  - {links: [right_link2, waist]}\n";
+  const RobotModel robot = TemporaryRobot("excluded", GeneratedUrdf(generated), yaml).Load();
+  std::map<std::string, std::string> why;
+  for (const UnwatchedPair& pair : robot.unwatched_pairs) {
+    why[robot.bodies[static_cast<size_t>(pair.b)].name] += pair.why + "; ";
+  }
+  EXPECT_EQ(why["left_link2"], "excluded by the robot file: padded; ");
+  EXPECT_EQ(why["right_link2"], "excluded by the robot file; ");
 }
 
 TEST(GeneratedRobot, FixedJointsAreFoldedIn) {
@@ -345,6 +361,14 @@ TEST(RobotRefusal, LegsThatAreNoClosedFormLegs) {
                                   "<mesh filename='package://p/ankle.stl'/>"),
                          yaml}),
               HasSubstr("left_link4: package `p` of package://p/ankle.stl has no folder"));
+}
+
+TEST(RobotRefusal, BodiesThatReachTooFar) {
+  const GeneratedRobot good = GeneratedRobots()[0];
+  const std::string urdf =
+      Replaced(GeneratedUrdf(good), "<sphere radius='0.035'/>", "<sphere radius='101'/>");
+  EXPECT_THAT(RefusalOf({"far", urdf, GeneratedYaml(good, "robot.urdf")}),
+              HasSubstr("left_link4: reaches more than 100 m from its link"));
 }
 
 TEST(RobotRefusal, StretchedStandingPosture) {
