@@ -22,6 +22,11 @@ MethodRun PlannedRun(const Experiment& experiment, const FeasibilityTest& test) 
   run.result.collision_queries = scratch.bodies.queries;
   const bool feasible = answer.verdict == Verdict::kFeasible;
   run.result.feasible = feasible;
+  if (answer.stopped) {
+    run.result.ending = opt::Ending::kNotRun;
+    run.result.message = "stopped from outside before the start was looked at";
+    return run;
+  }
   run.result.ending = feasible ? opt::Ending::kConverged : opt::Ending::kFailed;
   run.result.message = feasible ? "the isolated half-steps, one after the other"
                                 : test.evaluator().Describe(answer.witness);
@@ -69,7 +74,7 @@ void ExperimentRun::Smooth(const RunHooks& hooks) {
   test_ = MakeTest(*evaluator_, config_.smoothing, hooks.stop_step);
   certifier_.emplace(*evaluator_, config_.smoothing.certification);
   runs_ = {PlannedRun(*experiment_, *test_)};
-  if (hooks.keep && runs_.front().result.status == SmoothingStatus::kFinished) hooks.keep();
+  if (hooks.keep && runs_.front().result.feasible) hooks.keep();
   for (const std::string& name : config_.smoothing.methods) {
     MethodRun run(name);
     run.result = FindMethod(name).smooth(

@@ -41,7 +41,7 @@ class Ascent {
     const Feasibility start = test_.Check(walk, {0.0, walk.duration()}, &scratch_);
     if (start.stopped) {
       result_.message = "stopped from outside before the start was looked at";
-      return Finish(SmoothingStatus::kInterrupted);
+      return Finish(Ending::kNotRun);
     }
     if (start.verdict != Verdict::kFeasible) {
       result_.message = std::string(options_.start ? "the start" : "the planned motion") +

@@ -34,9 +34,8 @@ class Bisection {
   SmoothingResult Run(const std::function<void(double)>& progress) {
     const Feasibility start = test_.Check(walk_, {0.0, walk_.duration()}, &scratch_);
     if (start.stopped) {
-      result_.status = SmoothingStatus::kInterrupted;
       result_.message = "stopped from outside before the start was looked at";
-      return Finish();
+      return Finish(Ending::kNotRun);
     }
     if (start.verdict != Verdict::kFeasible) {
       result_.message = std::string(options_.start ? "the start" : "the planned motion") +

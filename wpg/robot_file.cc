@@ -161,14 +161,21 @@ class Builder {
     model_.bodies = std::move(all.bodies);
     model_.files = std::move(all.meshes);
     model_.sole_outline = SoleOutline(model_);
+    CheckSoles();
+  }
+
+  void CheckSoles() {
+    std::string faults;
     for (const Side side : {Side::kLeft, Side::kRight}) {
       const double depth = DepthBelowSole(model_, side);
       if (depth <= kBelowSole) continue;
-      fields_.Complain("legs", "the " + std::string(Name(side)) + " foot reaches " +
-                                   Text("%.6g", 1e3 * depth) +
-                                   " mm below its sole (valid: at most 0.001 mm; put sole_xyz on "
-                                   "the lowest point of the foot's bodies)");
+      faults += (faults.empty() ? "the " : "; the ") + std::string(Name(side)) + " foot reaches " +
+                Text("%.6g", 1e3 * depth) + " mm below its sole";
     }
+    if (faults.empty()) return;
+    fields_.Complain("legs", faults +
+                                 " (valid: at most 0.001 mm; put sole_xyz on the lowest point "
+                                 "of the foot's bodies)");
   }
 
   static std::string Text(const char* format, double value) {

@@ -168,7 +168,9 @@ UrdfTree ParseUrdf(const std::string& path, const std::string& text) {
   UrdfTree tree;
   tree.file = path;
   const Listener listener;
-  const urdf::ModelInterfaceSharedPtr model = urdf::parseURDF(text);
+  // The byte order mark makes it UTF-8, whatever the file says of its encoding, as CheckUrdf takes
+  // it: else characters such as &#282; would make other names.
+  const urdf::ModelInterfaceSharedPtr model = urdf::parseURDF("\xEF\xBB\xBF" + text);
   if (!model || !model->getRoot()) {
     complaints.Add(path, 0, 0, "robot", "urdfdom refuses it: " + listener.text());
     complaints.ThrowIfAny();

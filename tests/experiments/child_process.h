@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <functional>
 #include <stdexcept>
@@ -35,7 +36,9 @@ class Child {
 
   Child(const std::vector<std::string>& arguments, const Options& options)
       : out_(memfd_create("out", MFD_CLOEXEC)), err_(memfd_create("err", MFD_CLOEXEC)) {
-    std::vector<std::string> words = {HALFSTEP_COMMAND};
+    // Another build of the command takes its place in the mutation table (tests/mutation).
+    const char* const instead = std::getenv("HALFSTEP_COMMAND");
+    std::vector<std::string> words = {instead != nullptr ? instead : HALFSTEP_COMMAND};
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> argv;
     for (std::string& word : words) argv.push_back(word.data());

@@ -54,5 +54,18 @@ TEST(EvaluationSession, KeepsTheCheapestFeasiblePoint) {
   EXPECT_NE(solution.ending, Ending::kConverged);
 }
 
+// That the best point seen is an optimum does not make a success of an end elsewhere.
+TEST(EvaluationSession, ASuccessThatEndedInfeasibleIsNone) {
+  const testing::ProblemCard card = testing::Hs65();
+  const SolverOptions options;
+  EvaluationSession session(card.problem, options, EvaluationSession::Iterations::kImprovements);
+  const Eigen::Vector3d optimum(3.6504618, 3.6504617, 4.6204170);
+  ASSERT_TRUE(session.Begin(optimum));
+  const Solution solution = session.Finish(SolveStatus::kConverged, "claimed", 1.001 * optimum);
+  EXPECT_EQ(solution.x, optimum);
+  EXPECT_LT(solution.stationarity, 1e-3);
+  EXPECT_NE(solution.status, SolveStatus::kConverged);
+}
+
 }  // namespace
 }  // namespace halfstep::opt

@@ -327,5 +327,24 @@ TEST(CertifiedFeasibility, ChecksAWindowUpToTheKnotsAroundIt) {
   }
 }
 
+// At the resolution what is neither proved nor violated is undecided, however near.
+TEST(CertifiedFeasibility, IsUndecidedAtACoarseResolution) {
+  const FastStep step;
+  MarginLimits limits = ObstaclesOnly();
+  const MarginEvaluator any(step.robot, {}, limits);
+  MarginEvaluator::Scratch scratch = any.MakeScratch();
+  const MarginSet least = SampleMargins(any, step.walk, 1e-3, &scratch);
+  limits.demanded_of(MarginFamily::kReach) =
+      least[static_cast<size_t>(MarginFamily::kReach)].value - 1e-5;
+  const MarginEvaluator evaluator(step.robot, {}, limits);
+  const TimeWindow whole{0.0, step.walk.duration()};
+  const auto verdict = [&](double resolution) {
+    const CertifiedFeasibility test(evaluator, {.resolution = resolution, .longest = 0.07});
+    return test.Check(step.walk, whole, &scratch).verdict;
+  };
+  EXPECT_EQ(verdict(0.07), Verdict::kUndecided);
+  EXPECT_EQ(verdict(1e-5), Verdict::kFeasible);
+}
+
 }  // namespace
 }  // namespace halfstep

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
+#include "planner/separation.h"
 #include "smoothing/margin_evaluator.h"
 #include "tests/smoothing/test_scenes.h"
 #include "tests/smoothing/test_walks.h"
@@ -56,6 +58,42 @@ TEST(FirstViolation, IsFoundExactlyWhenAMarginIsBelowWhatIsDemanded) {
   for (MarginFamily family : {MarginFamily::kFloor, MarginFamily::kFootSpeed, MarginFamily::kZmp,
                               MarginFamily::kJointSpeed, MarginFamily::kClearance}) {
     EXPECT_GT(seen[static_cast<size_t>(family)], 0) << Name(family);
+  }
+}
+
+// Every pair of bodies by itself, large ones and dots: below its distance, and not above.
+TEST(FirstViolation, SeesEveryPairOfBodies) {
+  RobotModel robot = Hrp2();
+  const int dots = static_cast<int>(robot.bodies.size());
+  for (int leg : {0, 1}) {
+    robot.bodies.push_back({.name = "dot", .leg = leg, .link = 5, .shape = MakeSphere(0.005)});
+  }
+  robot.self_pairs.push_back({dots, dots + 1});
+  robot.self_pairs.push_back({dots + 1, 0});
+  const std::vector<std::array<int, 2>> pairs = robot.self_pairs;
+  WalkDraw draw(72);
+  for (int i = 0; i < Draws(10); ++i) {
+    const HalfStepSequence sequence =
+        MakeSequence(StandingFeet(), draw.Footsteps(2), 0.24, {}, {.com_height = robot.com_height});
+    const SuperposedWalk walk(sequence, draw.Parameters(sequence, 0.0, 0.5));
+    const Posture posture = SolvePosture(robot, walk.At(draw.Uniform(0, walk.duration())).value);
+    if (!posture.reachable) continue;
+    for (const auto& [a, b] : pairs) {
+      RobotModel one = robot;
+      one.self_pairs = {{a, b}};
+      const RobotBody &first = robot.bodies[static_cast<size_t>(a)],
+                      &second = robot.bodies[static_cast<size_t>(b)];
+      const double distance = Separate(CollisionShape(first.shape), posture.OfBody(first),
+                                       CollisionShape(second.shape), posture.OfBody(second))
+                                  .distance;
+      if (distance <= 0.0) continue;
+      const BodyClearances clearances(one, {});
+      BodyClearances::Scratch scratch = clearances.MakeScratch();
+      EXPECT_TRUE(clearances.FirstBelow(posture, -10.0, distance + 1e-6, &scratch))
+          << first.name << " - " << second.name;
+      EXPECT_FALSE(clearances.FirstBelow(posture, -10.0, distance - 1e-6, &scratch))
+          << first.name << " - " << second.name;
+    }
   }
 }
 

@@ -15,6 +15,7 @@
 #include "smoothing/dichotomy.h"
 #include "smoothing/pareto.h"
 #include "tests/smoothing/fake_feasibility.h"
+#include "smoothing/path_rules.h"
 #include "tests/smoothing/test_scenes.h"
 #include "tests/smoothing/test_walks.h"
 
@@ -288,6 +289,24 @@ TEST_F(OptimizerTest, WhatCannotBeProvedAsAWholeIsNotReturned) {
   const SmoothingResult result = OptimizeOverlaps(e_.sequence, test, options);
   EXPECT_GT(accepted, 0);
   EXPECT_EQ(result.parameters.durations, planned);
+}
+
+// `safest` never trades what is demanded away: a walk of less slack costs infinitely much.
+TEST_F(OptimizerTest, SafestRefusesWalksBelowWhatIsDemanded) {
+  const HomotopyParameters planned = PlannedMotion(e_.sequence);
+  HomotopyParameters too_far = planned;
+  for (double& overlap : too_far.overlaps) overlap = 0.0;
+  for (double& duration : too_far.durations) duration *= 0.3;  // the ZMP's bumps leave the soles
+  ProgramOptions options;
+  options.kind = ProgramKind::kSafest;
+  const OverlapProgram program(e_.sequence, evaluator_, options, 1e3);
+  ASSERT_GT(program.Cost(too_far), 0.0);
+  ASSERT_LT(program.Cost(planned), 0.0);
+  for (const bool within : {false, true}) {
+    const FeasiblePath::Rules rules = SafestRules(program, test_, within);
+    EXPECT_TRUE(std::isinf(rules.cost(too_far))) << within;
+    EXPECT_LE(rules.cost(planned), 0.0);
+  }
 }
 
 }  // namespace

@@ -96,5 +96,75 @@ TEST_F(SlackRows, GradientsAgreeWithDifferences) {
   EXPECT_GT(caught, compared / 4);
 }
 
+// Feet that turn fast both ways, and joints that come near their upper limits: of a straight walk
+// neither is seen.
+TEST_F(SlackRows, OfTurningFeetAndUpperLimitsAgreeWithDifferences) {
+  RobotModel robot = e_.robot;
+  for (Leg& leg : robot.legs) {
+    for (size_t j = 0; j < 6; ++j) {
+      leg.joints[j].lower = -3.0;
+      leg.joints[j].upper = leg.standing_q[static_cast<Eigen::Index>(j)] + 0.5;
+    }
+  }
+  const MarginEvaluator evaluator(robot, {}, {});
+  SlackEvaluator slacks(evaluator, 30.0);
+  MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
+  WalkDraw draw(352);
+  int left = 0, right = 0;
+  for (int i = 0; i < Draws(150); ++i) {
+    const HalfStepSequence sequence =
+        MakeSequence(StandingFeet(), draw.Footsteps(2), 0.24, {}, {.com_height = robot.com_height});
+    const HomotopyParameters parameters = draw.Parameters(sequence, 0.05, 0.6);
+    const SuperposedWalk walk(sequence, parameters);
+    const double t = draw.Uniform(0, walk.duration());
+    if (NearKnot(walk, t, 1e-3)) continue;
+    const LocalTime at = walk.Locate(t);
+    InstantSlacks here;
+    slacks.At(walk, at, {}, true, &here);
+    const MarginSet margins = evaluator.At(walk, at, &scratch);
+    if (!(margins[static_cast<size_t>(MarginFamily::kReach)].value > 0)) continue;
+    double joint = 30.0;
+    for (size_t r = 0; r < here.rows.size(); ++r) {
+      if (here.rows[r].family == MarginFamily::kJoint) joint = std::min(joint, here.rows[r].slack);
+      if (here.rows[r].family != MarginFamily::kFootYawRate) continue;
+      const int step = walk.StepInAir(at);
+      const int yaw = FootIndex(walk.half_step(2 * step).swing()) + 3;
+      const double rate = walk.At(at).first[yaw];
+      if (std::abs(rate) < 1e-2) continue;
+      for (size_t p = 0; p < here.parameters.size(); ++p) {
+        const auto rate_with = [&](double change) {
+          HomotopyParameters moved = parameters;
+          here.parameters[p].in(moved) += change;
+          return std::abs(SuperposedWalk(sequence, moved).At(at).first[yaw]);
+        };
+        const double slope = -(rate_with(1e-6) - rate_with(-1e-6)) / 2e-6;
+        EXPECT_NEAR(here.gradient(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(p)),
+                    slope / Scale(MarginFamily::kFootYawRate), 1e-3 * (1 + std::abs(slope)));
+        if (std::abs(slope) > 1e-2) ++(rate > 0 ? left : right);
+      }
+    }
+    const double truth =
+        evaluator.limits().Slack(margins[static_cast<size_t>(MarginFamily::kJoint)]);
+    EXPECT_NEAR(joint, std::min(30.0, truth), 1e-7);
+  }
+  EXPECT_GT(left, kSanitized ? 0 : 10);
+  EXPECT_GT(right, kSanitized ? 0 : 10);
+}
+
+// Where a leg does not reach there is a row that says so, whatever the others are.
+TEST_F(SlackRows, OutOfReachIsARow) {
+  const double y = 0.5 * e_.robot.standing_width;
+  const HalfStepSequence sequence =
+      MakeSequence({Pose2{0, y, 0}, Pose2{0, -y, 0}}, {{.side = Side::kLeft, .X_WF = {1.2, y, 0}}},
+                   0.24, {}, {.com_height = e_.robot.com_height});
+  const SuperposedWalk walk(sequence, PlannedMotion(sequence));
+  SlackEvaluator slacks(evaluator_, 1.0);
+  InstantSlacks instant;
+  slacks.At(walk, walk.Locate(walk.duration()), {}, false, &instant);
+  EXPECT_TRUE(std::any_of(instant.rows.begin(), instant.rows.end(), [](const SlackRow& row) {
+    return row.family == MarginFamily::kReach && row.slack < 0.0;
+  }));
+}
+
 }  // namespace
 }  // namespace halfstep

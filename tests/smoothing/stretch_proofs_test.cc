@@ -108,5 +108,24 @@ TEST(StretchProofs, RefusesWhereTheWalkIsRefused) {
   EXPECT_GT(proved, 0);
 }
 
+TEST(StretchProofs, AsksAboutWholeStretchesAndUndecidedIsNoProof) {
+  const MarginEvaluator evaluator(Hrp2(), {}, {});
+  const HalfStepSequence sequence = WalkDraw(81).Sequence(3);
+  const SuperposedWalk walk(sequence, Overlapped(sequence, 0.3));
+  for (const Verdict verdict : {Verdict::kFeasible, Verdict::kUndecided, Verdict::kViolated}) {
+    const FakeFeasibility test(evaluator, [&](const HomotopyParameters&) { return verdict; });
+    StretchProofs proofs(test, sequence.size());
+    MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
+    const size_t refused = proofs.Refusals(walk, &scratch).size();
+    EXPECT_EQ(refused, verdict == Verdict::kFeasible ? 0u : static_cast<size_t>(sequence.size()));
+    double covered = 0.0;
+    for (const FakeFeasibility::Question& question : test.questions) {
+      EXPECT_EQ(question.window.begin, covered);
+      covered = question.window.end;
+    }
+    EXPECT_EQ(covered, walk.duration());
+  }
+}
+
 }  // namespace
 }  // namespace halfstep

@@ -277,5 +277,49 @@ TEST(SuperposedWalk, RefusesParametersOutOfBounds) {
   EXPECT_THROW(SuperposedWalk(sequence, parameters), std::logic_error);
 }
 
+// By absolute times, as the header defines them.
+TEST(SuperposedWalk, FeetAreInTheAirAndMoveHorizontallyWhenTheHalfStepsSaySo) {
+  WalkDraw draw(71);
+  int in_air = 0, horizontal = 0;
+  for (int i = 0; i < Draws(200); ++i) {
+    const HalfStepSequence sequence = draw.Sequence(3);
+    const SuperposedWalk walk(sequence, draw.ExtremeParameters(sequence));
+    for (int k = 0; k < 20; ++k) {
+      const double t = draw.Uniform(0, walk.duration());
+      if (NearKnot(walk, t, 1e-6)) continue;
+      const LocalTime at = walk.Locate(t);
+      int step_in_air = -1;
+      for (int step = 0; step < 3; ++step) {
+        const int up = 2 * step, down = up + 1;
+        const HalfStepProfiles &u = walk.profiles(up), &d = walk.profiles(down);
+        const double up_begin = walk.start_of(up), down_begin = walk.start_of(down);
+        if (t > up_begin + u.t2() && t < down_begin + d.t1()) step_in_air = step;
+        const double from = std::min(up_begin + u.horizontal_begin(), down_begin);
+        const double to = std::max(down_begin + d.horizontal_end(), walk.end_of(up));
+        EXPECT_EQ(walk.MovesHorizontally(step, at), t > from && t < to);
+        horizontal += t > from && t < to;
+      }
+      EXPECT_EQ(walk.StepInAir(at), step_in_air);
+      for (Side foot : {Side::kLeft, Side::kRight}) {
+        EXPECT_EQ(walk.InAir(at, foot),
+                  step_in_air >= 0 && walk.half_step(2 * step_in_air).swing() == foot);
+      }
+      in_air += step_in_air >= 0;
+      // One sole carries while a foot is in the air: the ZMP's margin is that of its rectangle.
+      const Eigen::Vector2d size(0.2, 0.1);
+      const WalkVector x = walk.At(at).value;
+      const SupportPolygon polygon = SupportAt(walk, at, x, size);
+      const SupportPolygon expected =
+          step_in_air >= 0
+              ? SupportPolygon(walk.X_WS(2 * step_in_air), size)
+              : SupportPolygon(FootPose(x, Side::kLeft), FootPose(x, Side::kRight), size);
+      const Eigen::Vector2d p = x.segment<2>(kZmpX);
+      EXPECT_EQ(polygon.Margin(p), expected.Margin(p));
+    }
+  }
+  EXPECT_GT(in_air, Draws(200));
+  EXPECT_GT(horizontal, Draws(200));
+}
+
 }  // namespace
 }  // namespace halfstep

@@ -26,6 +26,18 @@ TEST(RobotTree, HoldsEveryLinkAndTheStandingPosture) {
   EXPECT_EQ(name(joints[29]), "LARM_JOINT6");
 }
 
+// The check of a URDF and urdfdom are two readings; where they saw different names, the second
+// threw what is no InputError.
+TEST(RobotTree, NamesAreUtf8WhateverTheFileSaysOfItsEncoding) {
+  const std::string robot = R"(<robot name="r"><link name="a&#282;"/></robot>)";
+  for (const std::string before :
+       {"", "\xEF\xBB\xBF", R"(<?xml version="1.0" encoding="ISO-8859-1"?>)"}) {
+    const UrdfTree tree = ParseUrdf("r.urdf", before + robot);
+    ASSERT_EQ(tree.links.size(), 1u) << before;
+    EXPECT_EQ(tree.links[0].name, "a\xC4\x9A") << before;
+  }
+}
+
 TEST(RobotTree, JointAnglesAreTheLegsAndThePosture) {
   const RobotTree tree = LoadRobotTree(kHrp2);
   const RobotModel robot = LoadRobot(kHrp2);
