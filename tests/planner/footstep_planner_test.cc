@@ -339,5 +339,37 @@ TEST(Shortcut, EveryHalfStepOfAShortenedPlanIsFree) {
   EXPECT_GT(shortened, 10);
 }
 
+TEST(FootstepAStar, EveryHalfStepOfAPlanIsFree) {
+  const HalfStepSet set = PlausibleSet();
+  const CapriciousQuery query;
+  const FootstepAStar planner(FootstepAStar::Elements::kClassic, {});
+  std::mt19937_64 random(12);
+  for (int trial = 0; trial < 10; ++trial) {
+    const PlanRequest request = RequestTo({1.5, 0.1 * trial, 0.0}, set, query);
+    const PlanResult result = planner.Plan(request, random);
+    ASSERT_EQ(result.status, PlanStatus::kSolved);
+    StepGraph graph(request, AllElements(set));
+    const Side support = Opposite(result.footsteps[0].side);
+    StepState state{request.start[static_cast<size_t>(Index(support))], support};
+    for (size_t i = 0; i < result.elements.size(); ++i) {
+      const bool last = i + 1 == result.elements.size();
+      EXPECT_TRUE(graph.DownIsFree(state, result.elements[i])) << "footstep " << i;
+      EXPECT_TRUE(last || graph.UpIsFree(state, result.elements[i])) << "footstep " << i;
+      state = graph.After(state, result.elements[i]);
+    }
+  }
+}
+
+// An element is kept when both of its half-steps are.
+TEST(HalfStepSet, KeepsWhatIsKeptDownAndUp) {
+  const HalfStepGrid grid{.x_min = -0.1, .x_max = 0.1, .y_min = -0.3, .y_max = -0.2};
+  const int all = MakeHalfStepSet(grid, {}, [](const HalfStep&) { return true; }).size();
+  ASSERT_GT(all, 0);
+  for (const HalfStepKind refused : {HalfStepKind::kDown, HalfStepKind::kUp}) {
+    const auto keeps = [&](const HalfStep& half_step) { return half_step.kind != refused; };
+    EXPECT_EQ(MakeHalfStepSet(grid, {}, keeps).size(), 0);
+  }
+}
+
 }  // namespace
 }  // namespace halfstep
