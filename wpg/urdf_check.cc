@@ -145,7 +145,9 @@ class Checker {
   const TiXmlElement* Required(const TiXmlElement& parent, const char* tag) {
     const TiXmlElement* child = parent.FirstChildElement(tag);
     if (child == nullptr) {
-      Complain(parent, parent.ValueStr(), std::string("has no <") + tag + ">");
+      std::string what = "has no <";
+      what += tag;
+      Complain(parent, parent.ValueStr(), what += ">");
     }
     return child;
   }

@@ -61,10 +61,10 @@ TEST(EvaluationSession, ASuccessThatEndedInfeasibleIsNone) {
   EvaluationSession session(card.problem, options, EvaluationSession::Iterations::kImprovements);
   const Eigen::Vector3d optimum(3.6504618, 3.6504617, 4.6204170);
   ASSERT_TRUE(session.Begin(optimum));
-  const Solution solution = session.Finish(SolveStatus::kConverged, "claimed", 1.001 * optimum);
+  const Solution solution = session.Finish(Ending::kConverged, "claimed", 1.001 * optimum);
   EXPECT_EQ(solution.x, optimum);
   EXPECT_LT(solution.stationarity, 1e-3);
-  EXPECT_NE(solution.status, SolveStatus::kConverged);
+  EXPECT_NE(solution.ending, Ending::kConverged);
 }
 
 }  // namespace

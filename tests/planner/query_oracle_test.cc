@@ -14,6 +14,7 @@
 #include "planner/swept_volume_query.h"
 #include "planner/triangle_tree.h"
 #include "tests/planner/swept_volume_draws.h"
+#include "wpg/support_polygon.h"
 
 namespace halfstep {
 namespace {
@@ -99,7 +100,7 @@ TEST(QueryOracle, AnswersAsTheSolidBoxesDo) {
       placed.X_WO = ToIsometry(X_WS, 0.0) * X_SO;
       Scene with = scene;
       with.obstacles.push_back(placed);
-      const SweptVolumeQuery query(volumes, {0.22, 0.14}, with);
+      const SweptVolumeQuery query(volumes, SoleCorners({}, {0.22, 0.14}), with);
       return query.DownIsFree(0, mirrored ? Side::kRight : Side::kLeft, X_WS);
     };
     if (mirrored && trial % 6 >= 4) continue;
