@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <stdexcept>
@@ -15,6 +16,8 @@ namespace halfstep {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::uintmax_t kMostCopied = 1 << 30;  // bytes, as of a CSV that is read
 
 [[noreturn]] void Fail(const fs::path& path, int error) {
   throw std::runtime_error(path.string() + ": cannot be written: " + std::strerror(error));
@@ -84,6 +87,10 @@ void WriteWhole(const fs::path& path, const std::vector<std::string_view>& parts
 
 void CopySynced(const fs::path& from, const fs::path& to, const fs::path& shown) {
   std::error_code error;
+  if (const auto size = fs::file_size(from, error); !error && size > kMostCopied) {
+    throw std::runtime_error(shown.string() + ": too large: " + std::to_string(size) +
+                             " bytes (valid: at most 1 GiB)");
+  }
   if (!fs::copy_file(from, to, fs::copy_options::none, error)) Fail(shown, error.value());
   const Descriptor file(to, O_RDONLY | O_NOFOLLOW);
   if (file.get() < 0) Fail(shown, errno);

@@ -18,7 +18,7 @@ void WriteSynced(const std::filesystem::path& path, const std::vector<std::strin
 /// a link or anything else but a regular file: these are neither followed nor replaced.
 void WriteWhole(const std::filesystem::path& path, const std::vector<std::string_view>& parts);
 
-/// Copies a file to a name that nothing has, and syncs it. Throws as WriteSynced.
+/// Copies a file of at most 1 GiB to a name that nothing has, and syncs it. Throws as WriteSynced.
 void CopySynced(const std::filesystem::path& from, const std::filesystem::path& to,
                 const std::filesystem::path& shown);
 

@@ -102,9 +102,11 @@ TEST_F(Endings, ALoneSolverThatRefusedIsNotBest) {
 }
 
 TEST_F(Endings, OfASweepAreThoseOfItsRuns) {
+  WriteText(place_ / "base.yaml",
+            "{robot: hrp2, scene: none, footsteps: [{foot: right, x_m: 0.2, y_m: -0.105}],\n"
+            " smoothing: {methods: [dichotomy, nlopt/bobyqa], dichotomy: {tolerance_s: 0.1}}}\n");
   WriteText(place_ / "sweep.yaml",
-            "config: " + ShippedConfig("fig3_two_half_steps") +
-                "\nvary:\n  - {key: smoothing.methods, values: [[dichotomy, nlopt/bobyqa]]}\n");
+            "config: base.yaml\nvary:\n  - {key: half_step.via_height_m, values: [0.25]}\n");
   const Outcome sweep =
       Halfstep(place_.path(), {"sweep", "sweep.yaml", "--jobs", "1", "--out", "out"});
   ASSERT_EQ(sweep.status, kSuccess) << sweep.err;

@@ -82,7 +82,7 @@ std::vector<Scenario> Scenarios() {
       {"Certify", MakeRun, {"certify", "a", "--set", "smoothing.resolution_s=5e-5"}, "a"},
       {"Compare", MakeRun, {"compare", "a", "--out", "c", "--overwrite"}, "c"},
       {"Export", MakeRun, {"export", "a", "--format", "hrpsys", "--out", "e", "--overwrite"}, "e"},
-      {"Bake", WritePlanConfig, {"bake", "plan.yaml"}, "cache", false},
+      {"Bake", WritePlanConfig, {"bake", "plan.yaml"}, "cache", false, ".parts"},
       {"Plan", WritePlanConfig, {"plan", "plan.yaml"}, "cache", false, "/cache"},
       {"Sweep", WriteSweep, {"sweep", "sweep.yaml", "--out", "s", "--jobs", "1"}, "s", false},
       {"Draw", [](const fs::path&) {}, {"draw", "cylinders", "--count", "3"}, "."},

@@ -61,7 +61,7 @@ TEST(Solution, ReportsOnOneLineAndOnAPage) {
   solution.worst_row = "disk";
   solution.used_options = {{"tol", "1e-6"}};
   EXPECT_THAT(solution.BriefReport(),
-              HasSubstr("ipopt: infeasible, cost 2, violated by 0.5 in disk"));
+              HasSubstr("ipopt: failed, cost 2, violated by 0.5 in disk"));
   EXPECT_EQ(solution.BriefReport().find('\n'), std::string::npos);
   EXPECT_THAT(solution.FullReport(), HasSubstr("used       tol = 1e-6"));
 }

@@ -71,7 +71,7 @@ TEST(PolygonDistance, IsThatOfTheNearestPointsOfTheBoundaries) {
 }
 
 TEST(PolygonDistance, OfPolygonsThatShareAPointIsMinusTheDepth) {
-  EXPECT_NEAR(PolygonDistance(Square(0, 0, 1), Square(1.75, 0, 1)), -0.25, 1e-12);
+  EXPECT_NEAR(PolygonDistance(Square(0, 0, 1), Square(1.75, 0.5, 1)), -0.25, 1e-12);
   EXPECT_NEAR(PolygonDistance(Square(0, 0, 1), Square(0.2, 0, 0.1)), -0.9, 1e-12);
   EXPECT_EQ(PolygonDistance(Square(0, 0, 1), Square(2, 0, 1)), -1e-9);  // an edge only
   EXPECT_EQ(PolygonDistance(Square(0, 0, 1), Square(2, 2, 1)), -1e-9);  // a corner only

@@ -304,6 +304,8 @@ TEST(CertificateRows, AreGivenWhereTheyKeepWhatIsDemandedAndOnlyThere) {
     }
   }
   for (MarginFamily family : AllMarginFamilies()) {
+    // These scenes have no areas; soles that stand do not move, so there is nothing to bound.
+    if (family == MarginFamily::kNoStep) continue;
     EXPECT_GT(refused[static_cast<size_t>(family)], Draws(10)) << Name(family);
   }
 }
