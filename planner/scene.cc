@@ -104,8 +104,9 @@ void DeclareShape(Fields& fields, ObstacleFields* obstacle) {
   const int shapes = obstacle->has_box + obstacle->has_cylinder + obstacle->has_sphere +
                      obstacle->has_capsule + obstacle->has_mesh;
   if (shapes != 1) {
-    fields.Complain("", std::to_string(shapes) +
-                            " shapes (valid: exactly one of box, cylinder, sphere, capsule, mesh)");
+    std::string what = std::to_string(shapes);
+    what += " shapes (valid: exactly one of box, cylinder, sphere, capsule, mesh)";
+    fields.Complain("", what);
   }
 }
 

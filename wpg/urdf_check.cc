@@ -147,7 +147,8 @@ class Checker {
     if (child == nullptr) {
       std::string what = "has no <";
       what += tag;
-      Complain(parent, parent.ValueStr(), what += ">");
+      what += '>';
+      Complain(parent, parent.ValueStr(), what);
     }
     return child;
   }

@@ -184,7 +184,8 @@ class FaultyCommand : public testing::TestWithParam<Scenario> {
       return;
     }
     EXPECT_EQ(outcome.status, kFailed);
-    EXPECT_THAT(outcome.err, testing::AllOf(HasSubstr(reason), HasSubstr("work/"),
+    EXPECT_THAT(outcome.err, testing::AllOf(HasSubstr(reason),
+                                            testing::ContainsRegex("(work|cache)/"),
                                             testing::Not(HasSubstr(".partial-"))));
     EXPECT_TRUE(StateOf(Output()).hidden.empty()) << "tidied up";
   }
