@@ -1,11 +1,9 @@
 #include "experiments/certificate_files.h"
 
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "experiments/csv_writer.h"
-#include "planner/checked_file.h"
+#include "wpg/input/sha256.h"
 
 namespace halfstep {
 namespace {
@@ -73,7 +71,7 @@ std::string CertificateJson(const Experiment& experiment, const CertifiedFeasibi
   const bool certified = walk.answer.verdict == Verdict::kFeasible;
   const auto scene = ScenePath(experiment.config);
   const ordered_json json = {
-      {"format", 1},
+      {"format", 2},
       {"verdict", VerdictName(walk.answer.verdict)},
       {"message", certified             ? "every margin is kept at all times"
                   : walk.answer.stopped ? "interrupted before all of it was proved"
@@ -90,10 +88,10 @@ std::string CertificateJson(const Experiment& experiment, const CertifiedFeasibi
       {"robot", std::filesystem::proximate(RobotPath(experiment.config), run_folder).string()},
       {"scene", scene ? std::filesystem::proximate(*scene, run_folder).string() : "none"},
       {"sha256",
-       {{"trajectory.csv", HexSha256(trajectory_csv)},
-        {"certificate.csv", HexSha256(certificate_csv)},
-        {"robot", HashOfFiles(experiment.robot.files)},
-        {"scene", HashOfFiles(experiment.scene.files)}}}};
+       {{"trajectory.csv", Sha256(trajectory_csv)},
+        {"certificate.csv", Sha256(certificate_csv)},
+        {"robot", CombinedSha256(experiment.robot.files)},
+        {"scene", CombinedSha256(experiment.scene.files)}}}};
   return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
@@ -104,15 +102,6 @@ void WriteCertificate(const Experiment& experiment, const CertifiedFeasibility& 
   WriteCsv(place + "certificate", csv, folder);
   folder->Write(place + "certificate.json",
                 CertificateJson(experiment, test, walk, folder->path(), trajectory_csv, csv.text));
-}
-
-std::string HashOfFiles(const std::vector<std::string>& files) {
-  std::string bytes;
-  for (const std::string& file : files) {
-    std::ifstream in(file, std::ios::binary);
-    bytes.append(std::istreambuf_iterator<char>(in), {});
-  }
-  return HexSha256(bytes);
 }
 
 }  // namespace halfstep

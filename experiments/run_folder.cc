@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "planner/whole_file.h"
+#include "wpg/input/sha256.h"
 
 namespace halfstep {
 namespace {
@@ -92,6 +93,7 @@ void RunFolder::Write(const std::string& relative, std::string_view content) {
   const fs::path shown = path_ / relative;
   if (error) Fail("cannot make its folder", shown, error.value());
   WriteSynced(target, {content}, shown);
+  written_[relative] = {relative, shown.string(), content.size(), Sha256(content)};
 }
 
 void RunFolder::CopyOlder() {

@@ -1,8 +1,11 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <string_view>
+
+#include "wpg/input/input_file.h"
 
 namespace halfstep {
 
@@ -28,6 +31,9 @@ class RunFolder {
   /// names the file and the system's reason, e.g. "No space left on device".
   void Write(const std::string& relative, std::string_view content);
 
+  /// What Write() wrote, by relative path; the last content of each.
+  const std::map<std::string, InputFile>& written() const { return written_; }
+
   /// Begins with a copy of what stands under the final name, so that Publish() replaces only what
   /// is written after.
   void CopyOlder();
@@ -44,6 +50,7 @@ class RunFolder {
   bool overwrite_;
   std::filesystem::path staging_;
   bool published_ = false;
+  std::map<std::string, InputFile> written_;
 };
 
 }  // namespace halfstep

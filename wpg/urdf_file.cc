@@ -3,15 +3,15 @@
 #include <console_bridge/console.h>
 #include <urdf_parser/urdf_parser.h>
 
-#include <fstream>
 #include <mutex>
-#include <sstream>
 
 namespace halfstep {
 namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
+
+constexpr std::size_t kMostBytes = std::size_t{64} << 20;
 
 // Keeps what urdfdom would print. console_bridge has one handler a process, so one listener at a
 // time.
@@ -129,14 +129,6 @@ void AddLink(const urdf::Link& link, int joint, const UrdfPlaces& places, UrdfTr
   }
 }
 
-std::string ReadText(const std::string& path) {
-  std::ifstream stream(path, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  if (!stream || text.str().empty()) throw InputError({path + ": the file cannot be read"});
-  return text.str();
-}
-
 }  // namespace
 
 int UrdfTree::FindLink(const std::string& name) const {
@@ -159,14 +151,17 @@ std::vector<Isometry3d> UrdfTree::LinkPoses(const std::vector<double>& q) const 
   return X;
 }
 
-UrdfTree ReadUrdf(const std::string& path) { return ParseUrdf(path, ReadText(path)); }
+UrdfTree ReadUrdf(const std::string& path) { return ParseUrdf(path, ReadInput(path, kMostBytes)); }
 
 UrdfTree ParseUrdf(const std::string& path, const std::string& text) {
   Complaints complaints;
+  if (text.empty()) complaints.Add(path, 0, 0, "", "is empty");
+  complaints.ThrowIfAny();
   const UrdfPlaces places = CheckUrdf(text, path, &complaints);
   complaints.ThrowIfAny();
   UrdfTree tree;
   tree.file = path;
+  tree.source = RecordOf(path, text);
   const Listener listener;
   // The byte order mark makes it UTF-8, whatever the file says of its encoding, as CheckUrdf takes
   // it: else characters such as &#282; would make other names.

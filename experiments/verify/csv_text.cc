@@ -1,21 +1,17 @@
 #include "experiments/verify/csv_text.h"
 
-#include <openssl/evp.h>
-
-#include <array>
 #include <charconv>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string_view>
-#include <system_error>
 
 #include "experiments/verify/findings.h"
 #include "wpg/input/input_error.h"
+#include "wpg/input/input_file.h"
 #include "wpg/input/text.h"
 
 namespace halfstep::verify {
 namespace {
+
+constexpr std::size_t kMostBytes = std::size_t{4} << 30;
 
 // Cells of a line; false: a quote out of place.
 bool Split(std::string_view line, std::vector<std::string>* cells) {
@@ -48,26 +44,7 @@ bool Split(std::string_view line, std::vector<std::string>* cells) {
 
 }  // namespace
 
-std::string ReadBytes(const std::string& path) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) throw InputError({path + ": is a folder"});
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw InputError({path + ": cannot be read"});
-  std::string bytes{std::istreambuf_iterator<char>(in), {}};
-  if (in.bad()) throw InputError({path + ": cannot be read to its end"});
-  return bytes;
-}
-
-std::string Sha256(const std::string& bytes) {
-  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
-  unsigned int size = 0;
-  if (EVP_Digest(bytes.data(), bytes.size(), digest.data(), &size, EVP_sha256(), nullptr) != 1) {
-    throw std::runtime_error("SHA-256 is not available");
-  }
-  std::string hex;
-  for (unsigned int i = 0; i < size; ++i) hex += Text("%02x", digest[i]);
-  return hex;
-}
+std::string ReadBytes(const std::string& path) { return ReadInput(path, kMostBytes); }
 
 CsvText::CsvText(std::string path, const std::string& text, const std::vector<std::string>& header)
     : path_(std::move(path)), header_(header) {

@@ -386,7 +386,7 @@ TEST(RobotRefusal, StretchedStandingPosture) {
 
 TEST(RobotRefusal, MissingUrdf) {
   const TemporaryRobot robot("gone", "", GeneratedYaml(GeneratedRobots()[0], "gone.urdf"));
-  EXPECT_THAT(RefusalOf(robot), HasSubstr("gone.urdf: the file cannot be read"));
+  EXPECT_THAT(RefusalOf(robot), HasSubstr("gone.urdf: cannot be opened"));
 }
 
 class RobotFixture : public testing::TestWithParam<std::string> {};

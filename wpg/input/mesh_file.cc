@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <system_error>
 
 #include "wpg/input/input_error.h"
@@ -14,7 +13,7 @@
 namespace halfstep {
 namespace {
 
-constexpr std::uintmax_t kMaxBytes = std::uintmax_t{1} << 30;
+constexpr std::size_t kMaxBytes = std::size_t{1} << 30;
 constexpr size_t kStlHeader = 80, kStlStart = 84, kStlTriangle = 50;
 
 [[noreturn]] void Refuse(const std::string& path, const std::string& what) {
@@ -34,22 +33,12 @@ std::string ExtensionOf(const std::string& path) {
   return extension;
 }
 
-std::string ReadWhole(const std::string& path) {
+std::string ReadMeshBytes(const std::string& path) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) {
     Refuse(path, std::filesystem::exists(path, error) ? "is not a regular file" : "no such file");
   }
-  const std::uintmax_t size = std::filesystem::file_size(path, error);
-  if (error) Refuse(path, "cannot be read: " + error.message());
-  if (size > kMaxBytes) {
-    Refuse(path, "has " + std::to_string(size) + " bytes (valid: at most 1 GiB)");
-  }
-  std::ifstream file(path, std::ios::binary);
-  std::string bytes(static_cast<size_t>(size), '\0');
-  if (!file.read(bytes.data(), static_cast<std::streamsize>(size))) {
-    Refuse(path, "cannot be read");
-  }
-  return bytes;
+  return ReadInput(path, kMaxBytes);
 }
 
 // Binary files may start with "solid" too; what they cannot help is the size or bytes that no text
@@ -73,16 +62,17 @@ bool IsBinaryStl(const std::string& bytes) {
 
 LoadedMesh LoadMesh(const std::string& path) {
   (void)ExtensionOf(path);  // complains before anything is read
-  return ParseMesh(path, ReadWhole(path));
+  return ParseMesh(path, ReadMeshBytes(path));
 }
 
 LoadedMesh ParseMesh(const std::string& path, const std::string& bytes) {
   const std::string extension = ExtensionOf(path);
   if (bytes.empty()) Refuse(path, "is empty");
-  const LoadedMesh mesh = extension == ".obj"  ? ReadObj(path, bytes)
-                          : IsBinaryStl(bytes) ? ReadBinaryStl(path, bytes)
-                                               : ReadAsciiStl(path, bytes);
+  LoadedMesh mesh = extension == ".obj"  ? ReadObj(path, bytes)
+                    : IsBinaryStl(bytes) ? ReadBinaryStl(path, bytes)
+                                         : ReadAsciiStl(path, bytes);
   if (mesh.triangles.cols() == 0) Refuse(path, "has no triangle");
+  mesh.file = RecordOf(path, bytes);
   return mesh;
 }
 

@@ -1,10 +1,8 @@
 #include "wpg/input/yaml_fields.h"
 
-#include <cerrno>
 #include <filesystem>
-#include <fstream>
-#include <system_error>
 
+#include "wpg/input/input_file.h"
 #include "wpg/input/yaml_node.h"
 #include "wpg/input/yaml_reader.h"
 
@@ -16,26 +14,7 @@ constexpr size_t kMostBytes = 4 << 20;
 
 }  // namespace
 
-std::string ReadYamlFile(const std::string& path) {
-  YamlComplaints complaints(path);
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) {
-    complaints.Fail({}, "", "is a folder, not a file");
-  }
-  errno = 0;
-  std::ifstream file(path, std::ios::binary);
-  if (!file) complaints.Fail({}, "", "cannot be opened: " + std::generic_category().message(errno));
-  std::string text(kMostBytes + 1, '\0');
-  file.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (file.bad())
-    complaints.Fail({}, "", "cannot be read: " + std::generic_category().message(errno));
-  text.resize(static_cast<size_t>(file.gcount()));
-  if (text.size() > kMostBytes) {
-    complaints.Fail({}, "",
-                    "too large (valid: at most " + std::to_string(kMostBytes >> 20) + " MiB)");
-  }
-  return text;
-}
+std::string ReadYamlFile(const std::string& path) { return ReadInput(path, kMostBytes); }
 
 void ReadYaml(const std::string& path, const std::vector<YamlOverride>& overrides,
               const std::function<void(Fields&)>& declare) {
