@@ -8,24 +8,35 @@
 #include <string>
 #include <vector>
 
-#include "planner/checked_file.h"
 #include "planner/scene.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/temporary_folder.h"
+#include "wpg/input/sha256.h"
 #include "wpg/robot_model.h"
 
 namespace halfstep {
 
-/// A run of the Fig. 5 walk with its own copy of robot and scene, to be tampered with. The run
-/// itself is made once a build by the command and copied for each object.
+/// What the run to be tampered with is made of.
+struct TamperedWalk {
+  std::string config = "fig5_box";          ///< a shipped one
+  std::vector<std::string> overrides = {};  ///< KEY=VALUE
+  std::optional<double> com_height = {};    ///< of the robot [m]; none: as shipped
+};
+
+/// A run with its own copy of robot and scene, to be tampered with; by default of the Fig. 5 walk.
+/// The run itself is made once a build by the command and copied for each object.
 class TamperedRun {
  public:
-  TamperedRun() {
+  explicit TamperedRun(const TamperedWalk& walk = {}) : has_scene_(walk.config == "fig5_box") {
     namespace fs = std::filesystem;
-    const fs::path made = fs::path(HALFSTEP_BINARY_DIR) / ("verify_run_" + Version());
+    std::string name = Version() + " " + walk.config;
+    for (const std::string& item : walk.overrides) name += " " + item;
+    if (walk.com_height) name += " " + std::to_string(*walk.com_height);
+    const fs::path made =
+        fs::path(HALFSTEP_BINARY_DIR) / ("verify_run_" + Sha256(name).substr(0, 16));
     if (!fs::exists(made)) {
       const fs::path mine = made.string() + "." + std::to_string(getpid());
-      Make(mine);
+      Make(mine, walk);
       std::error_code lost_the_race;
       fs::rename(mine, made, lost_the_race);
       if (lost_the_race) fs::remove_all(mine);
@@ -48,10 +59,12 @@ class TamperedRun {
   using Table = std::vector<std::vector<std::string>>;
   static Table Cells(const std::string& text) {
     Table table(1, {""});
+    bool quoted = false;  // quotes stay part of their cells
     for (const char c : text) {
+      if (c == '"') quoted = !quoted;
       if (c == '\n') {
         table.push_back({""});
-      } else if (c == ',') {
+      } else if (c == ',' && !quoted) {
         table.back().emplace_back();
       } else {
         table.back().back() += c;
@@ -71,9 +84,13 @@ class TamperedRun {
   void EditTrajectory(const std::function<void(Table&)>& edit) { EditCsv(trajectory(), edit); }
   void EditCertificate(const std::function<void(Table&)>& edit) { EditCsv(certificate(), edit); }
   void EditJson(const std::function<void(nlohmann::ordered_json&)>& edit) {
-    nlohmann::ordered_json document = nlohmann::ordered_json::parse(ReadText(json()));
-    edit(document);
-    WriteText(json(), document.dump(2) + "\n");
+    EditJsonFile(json(), edit);
+  }
+  /// Edits the cells of any table of the run.
+  static void EditCsv(const std::filesystem::path& path, const std::function<void(Table&)>& edit) {
+    Table table = Cells(ReadText(path));
+    edit(table);
+    Write(path, table);
   }
   /// Replaces the first occurrence of a text in a file.
   static void Replace(const std::filesystem::path& path, const std::string& old,
@@ -84,19 +101,49 @@ class TamperedRun {
     WriteText(path, text.replace(at, old.size(), by));
   }
 
-  /// Makes the certificate's hashes those of the files as they are now.
+  /// Edits the manifest.
+  void EditManifest(const std::function<void(nlohmann::ordered_json&)>& edit) {
+    EditJsonFile(run() / "manifest.json", edit);
+  }
+
+  /// Makes every hash and length that the run states those of the files as they are now, of all its
+  /// methods: what a forger would do.
   void Rehash() {
-    EditJson([&](nlohmann::ordered_json& document) {
-      const auto of = [](const std::vector<std::string>& files) {
-        std::string bytes;
-        for (const std::string& file : files) bytes += ReadText(file);
-        return HexSha256(bytes);
+    const auto robot = LoadRobot((place_ / "robots/hrp2.yaml").string()).files;
+    std::vector<InputFile> scene;
+    if (has_scene_) scene = LoadScene(this->scene().string()).files;
+    for (const auto& folder : std::filesystem::directory_iterator(run())) {
+      const auto certificate = folder.path() / "certificate.json";
+      if (!folder.is_directory() || !std::filesystem::exists(certificate)) continue;
+      EditJsonFile(certificate, [&](nlohmann::ordered_json& document) {
+        nlohmann::ordered_json& hashes = document["sha256"];
+        for (const char* file : {"trajectory.csv", "certificate.csv"}) {
+          if (!std::filesystem::exists(folder.path() / file)) continue;
+          hashes[file] = Sha256(ReadText(folder.path() / file));
+        }
+        hashes["robot"] = CombinedSha256(robot);
+        hashes["scene"] = CombinedSha256(scene);
+      });
+    }
+    EditManifest([&](nlohmann::ordered_json& manifest) {
+      manifest["config_sha256"] = Sha256(ReadText(run() / "config.yaml"));
+      manifest["robot_sha256"] = CombinedSha256(robot);
+      manifest["scene_sha256"] = CombinedSha256(scene);
+      const auto list = [](const std::vector<InputFile>& files) {
+        nlohmann::ordered_json items = nlohmann::ordered_json::array();
+        for (const InputFile& file : files) {
+          items.push_back({{"name", file.name}, {"bytes", file.bytes}, {"sha256", file.sha256}});
+        }
+        return items;
       };
-      nlohmann::ordered_json& hashes = document["sha256"];
-      hashes["trajectory.csv"] = HexSha256(ReadText(trajectory()));
-      hashes["certificate.csv"] = HexSha256(ReadText(certificate()));
-      hashes["robot"] = of(LoadRobot((place_ / "robots/hrp2.yaml").string()).files);
-      hashes["scene"] = of(LoadScene(scene().string()).files);
+      manifest["inputs"]["robot"] = list(robot);
+      manifest["inputs"]["scene"] = list(scene);
+      const nlohmann::ordered_json listed = manifest["files"];
+      for (const auto& item : listed.items()) {
+        if (!std::filesystem::exists(run() / item.key())) continue;
+        const std::string bytes = ReadText(run() / item.key());
+        manifest["files"][item.key()] = {{"bytes", bytes.size()}, {"sha256", Sha256(bytes)}};
+      }
     });
   }
 
@@ -107,28 +154,40 @@ class TamperedRun {
         std::filesystem::last_write_time(HALFSTEP_COMMAND).time_since_epoch().count());
   }
 
-  static void Make(const std::filesystem::path& place) {
+  static void Make(const std::filesystem::path& place, const TamperedWalk& walk) {
     namespace fs = std::filesystem;
     const fs::path source(HALFSTEP_SOURCE_DIR);
     fs::create_directories(place);
     fs::copy(source / "wpg/robots", place / "robots", fs::copy_options::recursive);
     fs::create_directories(place / "scenes");
     fs::copy(source / "experiments/scenes/box.yaml", place / "scenes/box.yaml");
+    if (walk.com_height) {
+      Replace(place / "robots/hrp2.yaml", "\ncom_height_m: 0.814",
+              "\ncom_height_m: " + std::to_string(*walk.com_height));
+    }
+    const std::string config = "configs/" + walk.config + ".yaml";
     fs::create_directories(place / "configs");
-    fs::copy(source / "experiments/configs/fig5_box.yaml", place / "configs/fig5_box.yaml");
-    const Outcome outcome =
-        Halfstep(place, {"run", "configs/fig5_box.yaml", "--quiet", "--out", "run", "--set",
-                         "robot=../robots/hrp2.yaml", "--set", "smoothing.methods=[dichotomy]"});
+    fs::copy(source / "experiments" / config, place / config);
+    std::vector<std::string> arguments = {"run", config, "--quiet", "--out", "run"};
+    for (const std::string item : {"robot=../robots/hrp2.yaml", "smoothing.methods=[dichotomy]"}) {
+      arguments.insert(arguments.end(), {"--set", item});
+    }
+    for (const std::string& item : walk.overrides) {
+      arguments.insert(arguments.end(), {"--set", item});
+    }
+    const Outcome outcome = Halfstep(place, arguments);
     if (outcome.status != 0) throw std::runtime_error("halfstep run: " + outcome.err);
   }
 
-  void EditCsv(const std::filesystem::path& path, const std::function<void(Table&)>& edit) {
-    Table table = Cells(ReadText(path));
-    edit(table);
-    Write(path, table);
+  static void EditJsonFile(const std::filesystem::path& path,
+                           const std::function<void(nlohmann::ordered_json&)>& edit) {
+    nlohmann::ordered_json document = nlohmann::ordered_json::parse(ReadText(path));
+    edit(document);
+    WriteText(path, document.dump(2) + "\n");
   }
 
   TemporaryFolder place_;
+  bool has_scene_;
 };
 
 }  // namespace halfstep
