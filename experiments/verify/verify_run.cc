@@ -84,7 +84,7 @@ void Verify(const VerifyOptions& options, const fs::path& folder, Findings* find
            std::isfinite(row.bound);
   });
   if (finite) CheckClaims(motion, certificate, claimed, options.tolerance, &distances, findings);
-  findings->Say("triangle distances: " + Count(distances.queries()));
+  findings->Say("distances: " + Count(distances.queries()));
 }
 
 bool HasCertificate(const fs::path& folder) {

@@ -33,7 +33,7 @@ struct MethodVerification {
 };
 
 /// Checks the certificates of a run against its trajectories, the robot and the scene, by forward
-/// kinematics and triangle distances only; distances only of the very files that the certificate is
+/// kinematics and distances of its own only; distances only of the very files that the certificate is
 /// about. A method without a certificate is not verified. Throws InputError when no method has one.
 std::vector<MethodVerification> VerifyRun(const VerifyOptions& options);
 
