@@ -183,9 +183,17 @@ class FaultyCommand : public testing::TestWithParam<Scenario> {
       EXPECT_THAT(outcome.status, testing::AnyOf(kSuccess, kFailed));
       return;
     }
+    // A folder that one thread could not make, another one made.
+    const bool made_later = outcome.status == kSuccess &&
+                            std::any_of(calls.begin(), calls.end(),
+                                        [&](const FileCall& call) {
+                                          return call.number == at && call.operation == "mkdir";
+                                        }) &&
+                            Is(StateOf(Output()), newer_);
+    if (made_later) return;
     EXPECT_EQ(outcome.status, kFailed);
     EXPECT_THAT(outcome.err, testing::AllOf(HasSubstr(reason),
-                                            testing::ContainsRegex("(work|cache)/"),
+                                            testing::ContainsRegex("(work/|halfstep: [^ ]+: )"),
                                             testing::Not(HasSubstr(".partial-"))));
     EXPECT_TRUE(StateOf(Output()).hidden.empty()) << "tidied up";
   }
