@@ -106,8 +106,8 @@ Eigen::Matrix3d InertiaInLink(const urdf::Inertial& inertial) {
   return R * inertia * R.transpose();
 }
 
-// Appends the link and all that hangs on it.
-void AddLink(const urdf::Link& link, int joint, const UrdfPlaces& places, UrdfTree* tree) {
+// Appends a link; `joint` leads to it, −1 at the root. Returns its index.
+int AddLink(const urdf::Link& link, int joint, const UrdfPlaces& places, UrdfTree* tree) {
   const int index = static_cast<int>(tree->links.size());
   UrdfLink& out = tree->links.emplace_back();
   out.name = link.name;
@@ -124,10 +124,31 @@ void AddLink(const urdf::Link& link, int joint, const UrdfPlaces& places, UrdfTr
     shape.place = places.collisions.at(link.name).at(out.collisions.size());
     out.collisions.push_back(std::move(shape));
   }
-  for (size_t i = 0; i < link.child_links.size(); ++i) {
-    tree->joints.push_back(ToJoint(*link.child_joints[i], places));
-    tree->joints.back().parent = index;
-    AddLink(*link.child_links[i], static_cast<int>(tree->joints.size()) - 1, places, tree);
+  return index;
+}
+
+// Appends the root and all that hangs on it, a link before its children and each child's branch
+// before the next child. Not by recursion: a chain may be 5,000 links long.
+void AddTree(const urdf::Link& root, const UrdfPlaces& places, UrdfTree* tree) {
+  struct Open {
+    const urdf::Link* link;
+    const urdf::Joint* joint;  // null at the root
+    int parent;
+  };
+  std::vector<Open> open = {{&root, nullptr, -1}};
+  while (!open.empty()) {
+    const Open next = open.back();
+    open.pop_back();
+    int joint = -1;
+    if (next.joint != nullptr) {
+      joint = static_cast<int>(tree->joints.size());
+      tree->joints.push_back(ToJoint(*next.joint, places));
+      tree->joints.back().parent = next.parent;
+    }
+    const int index = AddLink(*next.link, joint, places, tree);
+    for (size_t i = next.link->child_links.size(); i-- > 0;) {
+      open.push_back({next.link->child_links[i].get(), next.link->child_joints[i].get(), index});
+    }
   }
 }
 
@@ -175,7 +196,7 @@ UrdfTree ParseUrdf(const std::string& path, const std::string& text) {
     complaints.Add(path, 0, 0, "robot", "urdfdom refuses it: " + listener.text());
     complaints.ThrowIfAny();
   }
-  AddLink(*model->getRoot(), -1, places, &tree);
+  AddTree(*model->getRoot(), places, &tree);
   return tree;
 }
 
