@@ -1,6 +1,6 @@
 #!/bin/sh
 # Builds the fuzz targets and runs them one after the other; prints a table of executions.
-#   tests/fuzz/run.sh --short               20,000 inputs each, at most 5 s: what CI runs
+#   tests/fuzz/run.sh --short               20,000 inputs each, at most 5 s: a quick look
 #   tests/fuzz/run.sh [SECONDS [TARGET…]]   each, or those named, for so long (600)
 # What was found lies in build/fuzz/found, what was learnt in build/fuzz/corpus, and the next run
 # goes on from there. Exit status 1 when something was found. JOBS: compilers at once (2).
