@@ -29,7 +29,7 @@ release_only='InterruptedRun|StoppedRun|KilledRun|CsvSchema|SweepCommand|CsvPhys
 release_only="$release_only|OutsideOfACheckedWindow|ThePriceIsWhat|InterruptedCertification"
 release_only="$release_only|EveryPointOfAPareto|SafestWithinLess|AcceptsEveryMethodOfAWalk"
 release_only="$release_only|StoppedCommand|FaultyCommand"
-release_only="$release_only|FaultyCommand|StoppedCommand|HostileFiles|HardenedBinary|PidNamespaces"
+release_only="$release_only|HostileFiles|HardenedBinary|PidNamespaces"
 release_only="$release_only|CertificateRows.HoldInside|Ground.AShin"
 release_only="$release_only|OneCharacter|GeneratedRobotPhysics|FindsKnownOptima/nlopt_auglag"
 
