@@ -1,11 +1,9 @@
 #include "experiments/certificate_files.h"
 
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "experiments/csv_writer.h"
-#include "planner/checked_file.h"
+#include "wpg/input/sha256.h"
 
 namespace halfstep {
 namespace {
@@ -99,10 +97,10 @@ std::string CertificateJson(const Experiment& experiment, const CertifiedFeasibi
       {"robot", std::filesystem::proximate(RobotPath(experiment.config), run_folder).string()},
       {"scene", scene ? std::filesystem::proximate(*scene, run_folder).string() : "none"},
       {"sha256",
-       {{"trajectory.csv", HexSha256(trajectory_csv)},
-        {"certificate.csv", HexSha256(certificate_csv)},
-        {"robot", HashOfFiles(experiment.robot.files)},
-        {"scene", HashOfFiles(experiment.scene.files)}}}};
+       {{"trajectory.csv", Sha256(trajectory_csv)},
+        {"certificate.csv", Sha256(certificate_csv)},
+        {"robot", CombinedSha256(experiment.robot.files)},
+        {"scene", CombinedSha256(experiment.scene.files)}}}};
   return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
@@ -113,15 +111,6 @@ void WriteCertificate(const Experiment& experiment, const CertifiedFeasibility& 
   WriteCsv(place + "certificate", csv, folder);
   folder->Write(place + "certificate.json",
                 CertificateJson(experiment, test, walk, folder->path(), trajectory_csv, csv.text));
-}
-
-std::string HashOfFiles(const std::vector<std::string>& files) {
-  std::string bytes;
-  for (const std::string& file : files) {
-    std::ifstream in(file, std::ios::binary);
-    bytes.append(std::istreambuf_iterator<char>(in), {});
-  }
-  return HexSha256(bytes);
 }
 
 }  // namespace halfstep

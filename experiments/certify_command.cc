@@ -3,6 +3,7 @@
 
 #include "experiments/certificate_files.h"
 #include "experiments/commands.h"
+#include "experiments/complete_manifest.h"
 #include "experiments/csv_reader.h"
 #include "experiments/experiment.h"
 #include "experiments/folder_name.h"
@@ -91,6 +92,7 @@ ExitStatus Certify(const CertifyCommand& command) {
     return kInterrupted;
   }
   WriteReport(experiment.robot, experiment.scene, &folder);
+  CompleteManifest(experiment.robot, experiment.scene, &folder);
   folder.Publish();
   if (!command.quiet) std::cout << '\n' << kCertificateStatement << '\n';
   return all_certified ? kSuccess : kFailed;

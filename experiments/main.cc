@@ -33,8 +33,18 @@ ExitStatus Verify(const verify::VerifyOptions& options, bool quiet) {
     if (quiet && result.disagreements > 0) {
       std::cerr << result.method << ": NOT verified: " << result.reasons.front() << '\n';
     }
-    if (!result.readable) status = kBadInput;
-    if (!result.verified && status == kSuccess) status = kNotVerified;
+    if (quiet && result.disagreements == 0 && !result.too_coarse.empty()) {
+      std::cerr << result.method << ": too coarse to verify: " << result.too_coarse << '\n';
+    }
+    // Of several methods the worst counts.
+    const ExitStatus of_method = !result.readable           ? kBadInput
+                                 : result.disagreements > 0 ? kNotVerified
+                                 : result.verified          ? kSuccess
+                                                            : kTooCoarse;
+    if (of_method == kBadInput || status == kSuccess ||
+        (status == kTooCoarse && of_method == kNotVerified)) {
+      status = of_method;
+    }
   }
   return status;
 }
@@ -108,7 +118,8 @@ int main(int argc, char** argv) {
   CLI::App* verify_app = app.add_subcommand(
       "verify",
       "Check a run's certificates independently: played motion, forward kinematics, triangle\n"
-      "distances; none of the code that smoothed. Exit status 3 when it disagrees.\n\n"
+      "distances; none of the code that smoothed. Exit status 3 when it disagrees, 4 when the rows\n"
+      "are too coarse to tell.\n\n"
       "  example: halfstep verify runs/bar_8cm --method dichotomy");
   verify_app->add_option("RUN", verify.run, "run folder")->required();
   verify_app->add_option("--method", verify.method, "only this one (default: all)");

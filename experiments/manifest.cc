@@ -5,15 +5,13 @@
 #include <array>
 #include <chrono>
 #include <ctime>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <thread>
 
 #include "experiments/build_info.h"
 #include "experiments/methods.h"
-#include "planner/checked_file.h"
 #include "smoothing/sampled_feasibility.h"
+#include "wpg/input/sha256.h"
 
 namespace halfstep {
 namespace {
@@ -36,11 +34,6 @@ ordered_json Host() {
           {"release", names.release},
           {"machine", names.machine},
           {"cores", std::thread::hardware_concurrency()}};
-}
-
-std::string FileSha256(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return HexSha256(std::string(std::istreambuf_iterator<char>(file), {}));
 }
 
 // The options that a method was asked to work with; `raw` has none.
@@ -90,7 +83,7 @@ ordered_json MethodJson(const MethodRun& run, const SmoothingConfig& config) {
 std::string ManifestJson(const Experiment& experiment, const std::string& resolved_config,
                          const std::string& acceptance, const std::vector<MethodRun>& runs,
                          double total_wall) {
-  ordered_json manifest = {{"format", 1},
+  ordered_json manifest = {{"format", 2},
                            {"program", "halfstep"},
                            {"version", kVersion},
                            {"commit", kCommit},
@@ -98,18 +91,15 @@ std::string ManifestJson(const Experiment& experiment, const std::string& resolv
                            {"compiler", kCompiler},
                            {"written", UtcNow()},
                            {"name", experiment.config.name},
-                           {"config_sha256", HexSha256(resolved_config)},
+                           {"config_sha256", Sha256(resolved_config)},
                            {"seed", experiment.config.seed},
                            {"robot", experiment.robot.name},
-                           {"robot_sha256", FileSha256(RobotPath(experiment.config))},
                            {"scene", experiment.scene.name},
                            {"half_steps", experiment.sequence.size()},
                            {"objective", experiment.config.smoothing.optimizer.program},
                            {"acceptance", acceptance},
                            {"host", Host()},
                            {"wall_s", total_wall}};
-  if (const auto scene = ScenePath(experiment.config))
-    manifest["scene_sha256"] = FileSha256(*scene);
   for (const auto& [library, version] : kLibraries) manifest["libraries"][library] = version;
   for (const MethodRun& run : runs) {
     manifest["methods"].push_back(MethodJson(run, experiment.config.smoothing));

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "experiments/commands.h"
+#include "experiments/complete_manifest.h"
 #include "experiments/experiment_run.h"
 #include "experiments/interrupt.h"
 #include "experiments/progress_bar.h"
@@ -81,6 +82,7 @@ ExitStatus Run(const RunCommand& command) {
   run.Certify(interrupt.requested() ? interrupt.proof_token() : interrupt.token());
   run.Write(&folder);
   WriteReport(run.experiment().robot, run.experiment().scene, &folder);
+  CompleteManifest(run.experiment().robot, run.experiment().scene, &folder);
   folder.Publish();
 
   const std::string place = folder.path().string();

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "planner/whole_file.h"
+#include "wpg/input/sha256.h"
 
 namespace halfstep {
 namespace {
@@ -88,6 +89,7 @@ void RunFolder::Write(const std::string& relative, std::string_view content) {
   fs::remove(target, error);  // of the older run
   if (error) Fail("cannot be written", shown, error.value());
   WriteSynced(target, {content}, shown);
+  written_[relative] = {relative, shown.string(), content.size(), Sha256(content)};
 }
 
 void RunFolder::CopyOlder() {

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
 
 #include "planner/partial_sibling.h"
+#include "wpg/input/input_file.h"
 
 namespace halfstep {
 
@@ -26,9 +28,12 @@ class RunFolder {
   const std::filesystem::path& staging() const { return staging_->path(); }
 
   /// Writes a file, "dichotomy/overlaps.csv", with its folders, in place of one that is there.
-  /// Throws std::runtime_error that
-  /// names the file and the system's reason, e.g. "No space left on device".
+  /// Throws std::runtime_error that names the file and the system's reason, e.g. "No space left on
+  /// device".
   void Write(const std::string& relative, std::string_view content);
+
+  /// What Write() wrote, by relative path; the last content of each.
+  const std::map<std::string, InputFile>& written() const { return written_; }
 
   /// Begins with a copy of what stands under the final name, so that Publish() replaces only what
   /// is written after. Throws std::runtime_error for a run that holds links, pipes or devices.
@@ -45,6 +50,7 @@ class RunFolder {
   std::filesystem::path path_;
   bool overwrite_;
   std::optional<PartialSibling> staging_;
+  std::map<std::string, InputFile> written_;
 };
 
 }  // namespace halfstep

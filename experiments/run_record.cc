@@ -9,8 +9,8 @@
 #include "experiments/csv_reader.h"
 #include "experiments/folder_name.h"
 #include "experiments/json_file.h"
-#include "planner/checked_file.h"
 #include "wpg/input/input_error.h"
+#include "wpg/input/sha256.h"
 #include "wpg/input/text.h"
 
 namespace halfstep {
@@ -165,10 +165,10 @@ std::string ProblemOf(const json& manifest, const fs::path& run, const fs::path&
   const json certificate = ReadJsonObject(claims);
   std::string text = ReadCsvText((run / "footsteps.csv").string());
   text += TextOf(manifest, "robot_sha256", path);
-  text += manifest.contains("scene_sha256") ? TextOf(manifest, "scene_sha256", path) : "none";
+  text += TextOf(manifest, "scene_sha256", path);
   text += Member(certificate, "demanded", claims).dump();
   text += Member(certificate, "limits", claims).dump();
-  return HexSha256(text);
+  return Sha256(text);
 }
 
 }  // namespace
@@ -192,7 +192,7 @@ RunRecord ReadRun(const std::string& argument) {
   const json& half_steps = Member(manifest, "half_steps", path);
   if (!half_steps.is_number_integer()) Refuse(path, "'half_steps' is no integer");
   record.half_steps = half_steps.get<int>();
-  record.manifest_sha256 = HexSha256(text);
+  record.manifest_sha256 = Sha256(text);
   record.problem = ProblemOf(manifest, run, path);
   record.methods = ReadSummary(run, label);
   AddRequested(manifest, path, label, &record.methods);

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "experiments/complete_manifest.h"
 #include "experiments/csv_columns.h"
 #include "experiments/experiment_run.h"
 #include "experiments/run_folder.h"
@@ -35,6 +36,9 @@ void Publish(const SweepFolder& folder, const SweepCase& one, const ExperimentCo
   }
   WriteCsv("timings", tables.timings, &place);
   WriteCsv("runs", tables.runs, &place);
+  if (kept != nullptr) {
+    CompleteManifest(kept->experiment().robot, kept->experiment().scene, &place);
+  }
   try {
     place.Publish();
   } catch (const std::runtime_error&) {

@@ -7,9 +7,9 @@
 
 #include "experiments/experiment_config.h"
 #include "experiments/folder_name.h"
-#include "planner/checked_file.h"
 #include "wpg/input/input_error.h"
 #include "wpg/input/number_text.h"
+#include "wpg/input/sha256.h"
 #include "wpg/input/text.h"
 
 namespace halfstep {
@@ -186,7 +186,7 @@ std::vector<SweepCase> SweepCases(const SweepConfig& config) {
   for (size_t i = 0; i < cases.size(); ++i) {
     std::array<char, 24> number{};
     std::snprintf(number.data(), number.size(), "%04zu-", i + 1);
-    cases[i].id = number.data() + HexSha256(OverrideText(cases[i])).substr(0, 8);
+    cases[i].id = number.data() + Sha256(OverrideText(cases[i])).substr(0, 8);
   }
   return cases;
 }

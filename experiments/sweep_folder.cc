@@ -10,12 +10,12 @@
 #include "experiments/csv_writer.h"
 #include "experiments/experiment.h"
 #include "experiments/sweep_tables.h"
-#include "planner/checked_file.h"
 #include "planner/partial_sibling.h"
 #include "planner/whole_file.h"
 #include "wpg/input/input_error.h"
 #include "wpg/input/nesting.h"
 #include "wpg/input/regular_file.h"
+#include "wpg/input/sha256.h"
 
 namespace halfstep {
 namespace {
@@ -28,7 +28,7 @@ std::string Content(const fs::path& path) {
   return TryReadRegularFile(path.string(), std::uint64_t{1} << 30).bytes;
 }
 
-// SHA-256 of the robot and scene files that any case names.
+// SHA-256 over the files of each robot and each scene that any case names.
 ordered_json FilesOf(const SweepConfig& sweep) {
   std::vector<std::vector<YamlOverride>> variants = {{}};
   for (const SweepAxis& axis : sweep.vary) {
@@ -38,8 +38,9 @@ ordered_json FilesOf(const SweepConfig& sweep) {
   std::map<std::string, std::string> hashes;
   for (const std::vector<YamlOverride>& overrides : variants) {
     const ExperimentConfig config = LoadConfig(sweep.ConfigPath().string(), overrides);
-    hashes[config.robot] = HexSha256(Content(RobotPath(config)));
-    if (const auto scene = ScenePath(config)) hashes[config.scene] = HexSha256(Content(*scene));
+    const Place place = LoadPlace(config);
+    hashes[config.robot] = CombinedSha256(place.robot.files);
+    hashes[config.scene] = CombinedSha256(place.scene.files);
   }
   return hashes;
 }
@@ -62,8 +63,8 @@ std::string Definition(const SweepConfig& sweep) {
                            {"keep", sweep.keep},
                            {"keys", keys},
                            {"cases", all.size()},
-                           {"cases_sha256", HexSha256(cases)},
-                           {"config_sha256", HexSha256(Content(sweep.ConfigPath()))},
+                           {"cases_sha256", Sha256(cases)},
+                           {"config_sha256", Sha256(ReadYamlFile(sweep.ConfigPath().string()))},
                            {"files_sha256", FilesOf(sweep)}};
   for (const auto& [library, version] : kLibraries) manifest["libraries"][library] = version;
   return manifest.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";

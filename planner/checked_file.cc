@@ -1,8 +1,5 @@
 #include "planner/checked_file.h"
 
-#include <openssl/evp.h>
-
-#include <array>
 #include <bit>
 #include <cstdint>
 #include <cstring>
@@ -13,6 +10,7 @@
 
 #include "planner/whole_file.h"
 #include "wpg/input/regular_file.h"
+#include "wpg/input/sha256.h"
 
 namespace halfstep {
 namespace {
@@ -22,26 +20,6 @@ static_assert(std::endian::native == std::endian::little, "files are written as 
 constexpr std::string_view kMagic = "halfstep file 1\n";
 constexpr std::uint64_t kMostBytes = std::uint64_t{4} << 30;
 constexpr size_t kDigest = 32;  // bytes of SHA-256
-
-class Hash {
- public:
-  Hash() : context_(EVP_MD_CTX_new(), EVP_MD_CTX_free) {
-    if (!context_ || EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr) != 1) Fail();
-  }
-  void Add(std::string_view bytes) {
-    if (EVP_DigestUpdate(context_.get(), bytes.data(), bytes.size()) != 1) Fail();
-  }
-  std::string Finish() {
-    std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
-    unsigned int size = 0;
-    if (EVP_DigestFinal_ex(context_.get(), digest.data(), &size) != 1 || size != kDigest) Fail();
-    return {digest.begin(), digest.begin() + size};
-  }
-
- private:
-  static void Fail() { throw std::runtime_error("OpenSSL has no SHA-256"); }
-  std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context_;
-};
 
 std::string LengthBytes(uint64_t length) {
   std::string bytes(sizeof length, '\0');
@@ -67,18 +45,6 @@ std::string FirstDifference(std::string_view found, std::string_view wanted) {
 
 }  // namespace
 
-std::string HexSha256(std::string_view bytes) {
-  Hash hash;
-  hash.Add(bytes);
-  std::string hex;
-  for (const char byte : hash.Finish()) {
-    const unsigned value = static_cast<unsigned char>(byte);
-    hex += "0123456789abcdef"[value >> 4];
-    hex += "0123456789abcdef"[value & 15];
-  }
-  return hex;
-}
-
 CheckedFile ReadCheckedFile(const std::string& path, std::string_view header) {
   const auto refuse = [&](const std::string& why) {
     return CheckedFile{std::nullopt, path + ": refused: " + why};
@@ -98,7 +64,7 @@ CheckedFile ParseCheckedFile(const std::string& path, std::string bytes, std::st
   if (all.size() < before_header + kDigest) return refuse("it is cut short");
   if (all.substr(0, kMagic.size()) != kMagic)
     return refuse("it is damaged, or no file of this kind");
-  Hash hash;
+  Sha256Hash hash;
   hash.Add(all.substr(0, all.size() - kDigest));
   if (hash.Finish() != all.substr(all.size() - kDigest)) {
     return refuse("it is damaged: its checksum does not fit");
@@ -116,7 +82,7 @@ CheckedFile ParseCheckedFile(const std::string& path, std::string bytes, std::st
 void WriteCheckedFile(const std::string& path, std::string_view header, std::string_view body) {
   const std::string length = LengthBytes(header.size());
   std::vector<std::string_view> parts = {kMagic, length, header, body};
-  Hash hash;
+  Sha256Hash hash;
   for (const std::string_view part : parts) hash.Add(part);
   const std::string digest = hash.Finish();
   parts.push_back(digest);

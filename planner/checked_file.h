@@ -27,7 +27,4 @@ CheckedFile ParseCheckedFile(const std::string& path, std::string bytes, std::st
 /// As WriteWhole. Throws std::runtime_error with the system's reason.
 void WriteCheckedFile(const std::string& path, std::string_view header, std::string_view body);
 
-/// Lower-case hexadecimal SHA-256.
-std::string HexSha256(std::string_view bytes);
-
 }  // namespace halfstep

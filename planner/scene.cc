@@ -34,6 +34,7 @@ struct ObstacleFields {
   double radius = 0.0;
   double length = 0.0;
   TriangleMesh mesh;
+  InputFile mesh_file;
   std::vector<double> xyz{0.0, 0.0, 0.0};
   std::vector<double> rpy{0.0, 0.0, 0.0};
 };
@@ -61,7 +62,7 @@ void DeclareName(Fields& fields, std::string* name, bool required, const std::st
   if (!is_new) fields.Complain("name", Quote(*name) + " is the name of " + first->second + " too");
 }
 
-void DeclareMesh(Fields& fields, TriangleMesh* mesh) {
+void DeclareMesh(Fields& fields, ObstacleFields* obstacle) {
   std::string file;
   double scale = 1.0;
   fields.Text("file", &file, {.meaning = "STL or OBJ file, beside the scene", .required = true});
@@ -74,9 +75,9 @@ void DeclareMesh(Fields& fields, TriangleMesh* mesh) {
   try {
     const std::filesystem::path path = std::filesystem::path(fields.directory()) / file;
     LoadedMesh loaded = LoadMesh(path.string());
-    mesh->file = path.string();
-    mesh->vertices = scale * loaded.vertices;
-    mesh->triangles = std::move(loaded.triangles);
+    obstacle->mesh = {scale * loaded.vertices, std::move(loaded.triangles)};
+    obstacle->mesh_file = std::move(loaded.file);
+    obstacle->mesh_file.name = file;
   } catch (const InputError& error) {
     for (const std::string& complaint : error.complaints()) fields.Complain("file", complaint);
   }
@@ -100,7 +101,7 @@ void DeclareShape(Fields& fields, ObstacleFields* obstacle) {
         capsule.Number("length_m", &obstacle->length, Size("distance of the ball centres"));
       });
   fields.OptionalGroup("mesh", &obstacle->has_mesh, {.meaning = "triangle mesh"},
-                       [&](Fields& mesh) { DeclareMesh(mesh, &obstacle->mesh); });
+                       [&](Fields& mesh) { DeclareMesh(mesh, obstacle); });
   const int shapes = obstacle->has_box + obstacle->has_cylinder + obstacle->has_sphere +
                      obstacle->has_capsule + obstacle->has_mesh;
   if (shapes != 1) {
@@ -212,12 +213,10 @@ Scene ParseScene(const std::string& yaml_path, const std::string& text) {
                 });
   });
   if (scene.name.empty()) scene.name = path.stem().string();
-  scene.files = {yaml_path};
+  scene.files = {RecordOf(yaml_path, text)};
   for (ObstacleFields& from : obstacles) {
+    if (from.has_mesh) scene.files.push_back(from.mesh_file);
     scene.obstacles.push_back({from.name, MakeShape(&from), MakePose(from.xyz, from.rpy)});
-    if (const auto* mesh = std::get_if<TriangleMesh>(&scene.obstacles.back().shape)) {
-      scene.files.push_back(mesh->file);
-    }
   }
   for (NoStepFields& area : areas) {
     if (SignedArea(area.polygon) < 0.0) area.polygon = area.polygon.rowwise().reverse().eval();

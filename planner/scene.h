@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "wpg/convex_body.h"
+#include "wpg/input/input_file.h"
 
 namespace halfstep {
 
@@ -14,7 +15,6 @@ namespace halfstep {
 struct TriangleMesh {
   Eigen::Matrix3Xd vertices;   ///< [m] (3×n)
   Eigen::Matrix3Xi triangles;  ///< (3×m), vertex indices.
-  std::string file = {};       ///< where it was read from; "" when made otherwise.
 };
 
 /// The faces of a convex body's core, the body without its ball; none when it has fewer than 4
@@ -30,7 +30,7 @@ struct Obstacle {
 /// What the robot walks among. The floor z = 0 is no obstacle: the floor margin watches it.
 struct Scene {
   std::string name;
-  std::vector<std::string> files;  ///< every file that it was read from: YAML, meshes.
+  std::vector<InputFile> files;  ///< what it was read from: YAML, each reading of a mesh.
   std::vector<Obstacle> obstacles;
   /// Simple polygons on the floor (2×n, counter-clockwise) that no sole may touch [m].
   std::vector<Eigen::Matrix2Xd> no_step;

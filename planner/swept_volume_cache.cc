@@ -11,6 +11,7 @@
 
 #include "planner/checked_file.h"
 #include "planner/swept_volume_bytes.h"
+#include "wpg/input/sha256.h"
 
 namespace halfstep {
 namespace {
@@ -84,7 +85,7 @@ std::string SweptVolumeProvenance(const RobotModel& robot, const Lipm& lipm, con
     text += std::string(key) + " " + value + "\n";
   };
   line("generator", std::to_string(kGenerator));
-  line("robot", HexSha256(RobotText(robot)));
+  line("robot", Sha256(RobotText(robot)));
   line("lipm_com_height", Exactly(lipm.com_height));
   line("lipm_omega", Exactly(lipm.omega()));
   line("duration", Exactly(set.prototype.duration));
@@ -93,7 +94,7 @@ std::string SweptVolumeProvenance(const RobotModel& robot, const Lipm& lipm, con
   line("shift", Exactly(set.prototype.shape.shift));
   line("horizontal_delay", Exactly(set.prototype.shape.horizontal_delay));
   line("elements", std::to_string(set.size()));
-  line("placements", HexSha256(placements));
+  line("placements", Sha256(placements));
   line("cell", Exactly(options.cell));
   line("displacement", Exactly(options.displacement));
   line("clearance", Exactly(options.clearance));
@@ -119,7 +120,7 @@ CachedVolumes LoadOrBakeSweptVolumes(const RobotModel& robot, const Lipm& lipm,
     return result;
   }
   result.path = (std::filesystem::path(folder) /
-                 (robot.name + "-" + HexSha256(provenance).substr(0, 16) + ".swept"))
+                 (robot.name + "-" + Sha256(provenance).substr(0, 16) + ".swept"))
                     .string();
   {
     CheckedFile file = ReadCheckedFile(result.path, provenance);

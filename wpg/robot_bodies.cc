@@ -65,7 +65,8 @@ ConvexBody Moved(const Isometry3d& X, ConvexBody body) {
 }
 
 ConvexBody ShapeOf(const UrdfCollision& collision, const Isometry3d& X, const std::string& file,
-                   const std::map<std::string, std::string>& packages) {
+                   const std::map<std::string, std::string>& packages,
+                   std::vector<InputFile>* meshes) {
   switch (collision.kind) {
     case UrdfCollision::Kind::kBox:
       return Moved(X, MakeBox(collision.size));
@@ -80,8 +81,10 @@ ConvexBody ShapeOf(const UrdfCollision& collision, const Isometry3d& X, const st
     case UrdfCollision::Kind::kMesh:
       break;
   }
-  const Eigen::Matrix3Xd vertices = LoadMesh(MeshPath(collision.mesh, file, packages)).vertices;
-  return Moved(X, MakeHull(collision.scale.asDiagonal() * vertices));
+  LoadedMesh mesh = LoadMesh(MeshPath(collision.mesh, file, packages));
+  mesh.file.name = collision.mesh;
+  meshes->push_back(std::move(mesh.file));
+  return Moved(X, MakeHull(collision.scale.asDiagonal() * mesh.vertices));
 }
 
 // On which leg link (or the waist) each link is rigid while walking.
@@ -127,7 +130,6 @@ LinkBodies BuildBodies(const UrdfTree& urdf, const BodyRequest& request, Complai
   }
   const std::vector<Isometry3d> X = urdf.LinkPoses(q);
   LinkBodies all;
-  std::set<std::string> meshes;
   for (size_t i = 0; i < urdf.links.size(); ++i) {
     const UrdfLink& link = urdf.links[i];
     const Anchor& anchor = anchors[i];
@@ -142,16 +144,13 @@ LinkBodies BuildBodies(const UrdfTree& urdf, const BodyRequest& request, Complai
       body.leg = anchor.leg;
       body.link = anchor.link;
       try {
-        body.shape =
-            ShapeOf(collision, X_AnchorLink * collision.X_LinkShape, urdf.file, request.packages);
+        body.shape = ShapeOf(collision, X_AnchorLink * collision.X_LinkShape, urdf.file,
+                             request.packages, &all.meshes);
         if (body.shape.center.norm() + body.shape.radius > kFarthest) {
           throw std::runtime_error("reaches more than 100 m from its link (look at `scale`)");
         }
         all.bodies.push_back(std::move(body));
         all.links.push_back(static_cast<int>(i));
-        if (collision.kind == UrdfCollision::Kind::kMesh) {
-          meshes.insert(MeshPath(collision.mesh, urdf.file, request.packages));
-        }
       } catch (const InputError& error) {
         for (const std::string& line : error.complaints()) {
           complaints->Add(urdf.file, collision.place.line, collision.place.column, body.name, line);
@@ -162,7 +161,6 @@ LinkBodies BuildBodies(const UrdfTree& urdf, const BodyRequest& request, Complai
       }
     }
   }
-  all.meshes.assign(meshes.begin(), meshes.end());
   return all;
 }
 

@@ -24,7 +24,7 @@ std::vector<std::string> MeshPackages(const UrdfTree& urdf);
 
 /// Bodies and, in the same order, the URDF links that they belong to.
 struct LinkBodies {
-  std::vector<std::string> meshes;  ///< files read, sorted.
+  std::vector<InputFile> meshes;  ///< each reading of one, in the order of the bodies.
   std::vector<RobotBody> bodies;
   std::vector<int> links;
 };

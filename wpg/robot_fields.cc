@@ -101,6 +101,7 @@ void DeclareFields(Fields& fields, RobotFile* file) {
   fields.Text("urdf", &file->urdf_path, {.meaning = "URDF file", .required = true});
   if (!file->urdf && !file->urdf_path.empty()) {
     file->urdf = ReadUrdf((std::filesystem::path(fields.directory()) / file->urdf_path).string());
+    file->urdf->source.name = file->urdf_path;
   }
   const std::vector<std::string> links = LinkNames(*file);
   DeclarePackages(fields, file);

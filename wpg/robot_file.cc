@@ -213,7 +213,7 @@ RobotModel ParseRobot(const std::string& yaml_path, const std::string& text, con
     DeclareFields(fields, &file);
     model = Builder(file, fields, &of_urdf).Build();
   });
-  model.files.insert(model.files.begin(), {yaml_path, file.urdf->file});
+  model.files.insert(model.files.begin(), {RecordOf(yaml_path, text), file.urdf->source});
   of_urdf.ThrowIfAny();
   return model;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "wpg/convex_body.h"
+#include "wpg/input/input_file.h"
 #include "wpg/side.h"
 
 namespace halfstep {
@@ -69,8 +70,8 @@ struct RobotModel {
   double com_height = 0.0;  ///< z_c above the floor [m].
   double com_x_B = 0.0;  ///< CoM ahead of B's origin [m]; its y is 0 by the generator's symmetry.
   double mass = 0.0;     ///< [kg]
-  double standing_width = 0.0;     ///< distance of the sole centres in the standing posture [m].
-  std::vector<std::string> files;  ///< every file that it was read from: YAML, URDF, meshes.
+  double standing_width = 0.0;   ///< distance of the sole centres in the standing posture [m].
+  std::vector<InputFile> files;  ///< what it was read from: YAML, URDF, each reading of a mesh.
   std::vector<RobotBody> bodies;
   std::vector<std::array<int, 2>> self_pairs;  ///< pairs of `bodies` that must not touch.
   /// All other pairs of bodies that move against each other (wpg/self_pairs.h).

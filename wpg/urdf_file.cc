@@ -152,12 +152,6 @@ void AddTree(const urdf::Link& root, const UrdfPlaces& places, UrdfTree* tree) {
   }
 }
 
-std::string ReadText(const std::string& path) {
-  std::string text = ReadRegularFile(path, kMostBytes);
-  if (text.empty()) throw InputError({path + ": is empty"});
-  return text;
-}
-
 }  // namespace
 
 int UrdfTree::FindLink(const std::string& name) const {
@@ -180,14 +174,19 @@ std::vector<Isometry3d> UrdfTree::LinkPoses(const std::vector<double>& q) const 
   return X;
 }
 
-UrdfTree ReadUrdf(const std::string& path) { return ParseUrdf(path, ReadText(path)); }
+UrdfTree ReadUrdf(const std::string& path) {
+  return ParseUrdf(path, ReadRegularFile(path, kMostBytes));
+}
 
 UrdfTree ParseUrdf(const std::string& path, const std::string& text) {
   Complaints complaints;
+  if (text.empty()) complaints.Add(path, 0, 0, "", "is empty");
+  complaints.ThrowIfAny();
   const UrdfPlaces places = CheckUrdf(text, path, &complaints);
   complaints.ThrowIfAny();
   UrdfTree tree;
   tree.file = path;
+  tree.source = RecordOf(path, text);
   const Listener listener;
   // The byte order mark makes it UTF-8, whatever the file says of its encoding, as CheckUrdf takes
   // it: else characters such as &#282; would make other names.

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "wpg/input/input_file.h"
 #include "wpg/urdf_check.h"
 
 namespace halfstep {
@@ -47,7 +48,8 @@ struct UrdfJoint {
 /// A URDF's kinematic tree, masses and collision geometry as plain values. Links come after the
 /// links that they hang on: links[0] is the root.
 struct UrdfTree {
-  std::string file;
+  std::string file;  ///< its path, for complaints.
+  InputFile source;  ///< what was read.
   std::vector<UrdfLink> links;
   std::vector<UrdfJoint> joints;
 

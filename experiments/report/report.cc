@@ -98,11 +98,10 @@ json WithOwn(json row, const fs::path& summary) {
 }
 
 // Walks are drawn with today's files; these must be those that they were made for.
-void CheckSame(const std::vector<std::string>& files, const std::string& what,
-               const fs::path& run) {
+void CheckSame(const std::vector<InputFile>& files, const std::string& what, const fs::path& run) {
   const fs::path path = run / "raw" / "certificate.json";
   const json hash = ReadJsonObject(path).value(json::json_pointer("/sha256/" + what), json());
-  if (hash == HashOfFiles(files)) return;
+  if (hash == CombinedSha256(files)) return;
   throw InputError({path.string() + ": the files of the " + what +
                     " are not those of this run (valid: as they were when it was made)"});
 }

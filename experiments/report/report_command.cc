@@ -3,8 +3,10 @@
 #include <stdexcept>
 
 #include "experiments/commands.h"
+#include "experiments/complete_manifest.h"
 #include "experiments/report/report.h"
 #include "experiments/report/report_page.h"
+#include "experiments/run_folder.h"
 #include "planner/whole_file.h"
 #include "wpg/input/input_error.h"
 
@@ -29,7 +31,15 @@ ExitStatus Report(const ReportCommand& command) {
     throw std::runtime_error(out.string() + ": is there already (--overwrite replaces it)");
   }
   const Place place = PlaceOfRun(run);
-  WriteWhole(out, {RunReport(place.robot, place.scene, run)});
+  if (command.out) {
+    WriteWhole(out, {RunReport(place.robot, place.scene, run)});
+  } else {
+    RunFolder folder(run, /*overwrite=*/true);
+    folder.CopyOlder();
+    WriteReport(place.robot, place.scene, &folder);
+    CompleteManifest(place.robot, place.scene, &folder);
+    folder.Publish();
+  }
   if (!command.quiet) std::cout << "written: " << out.string() << '\n';
   return kSuccess;
 }

@@ -1,126 +1,45 @@
 #include "experiments/verify/certificate_text.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "experiments/verify/csv_text.h"
 #include "experiments/verify/findings.h"
+#include "experiments/verify/json_text.h"
 #include "wpg/input/input_error.h"
-#include "wpg/input/nesting.h"
 #include "wpg/input/number_text.h"
 #include "wpg/input/text.h"
 #include "wpg/input/yaml_node.h"
 
 namespace halfstep::verify {
-namespace {
-
-using nlohmann::json;
-
-// Reads members of one object with complaints that name them.
-class Member {
- public:
-  Member(const std::string& path, const json& object, std::string name)
-      : path_(path), object_(object), name_(std::move(name)) {
-    if (!object.is_object()) Fail("is not an object");
-  }
-
-  Member Object(const char* key) const { return {path_, Of(key), Name(key)}; }
-  std::string String(const char* key) const {
-    const json& value = Of(key);
-    if (!value.is_string()) Member(*this, key).Fail("is not a text");
-    return value.get<std::string>();
-  }
-  double Number(const char* key) const {
-    const json& value = Of(key);
-    if (!value.is_number()) Member(*this, key).Fail("is not a number");
-    return value.get<double>();
-  }
-  std::optional<double> NumberOrNull(const char* key) const {
-    if (Of(key).is_null()) return std::nullopt;
-    return Number(key);
-  }
-  long Whole(const char* key) const {
-    const json& value = Of(key);
-    if (!value.is_number_integer()) Member(*this, key).Fail("is not a whole number");
-    return value.get<long>();
-  }
-  std::vector<Member> List(const char* key) const {
-    const json& value = Of(key);
-    if (!value.is_array()) Member(*this, key).Fail("is not a list");
-    std::vector<Member> items;
-    for (const json& item : value) {
-      const std::string index = "[" + std::to_string(items.size()) + "]";
-      items.emplace_back(path_, item, Name(key) + index);
-    }
-    return items;
-  }
-  /// Of a list of two texts.
-  std::array<std::string, 2> TwoStrings(const char* key) const {
-    const json& value = Of(key);
-    if (!value.is_array() || value.size() != 2 || !value[0].is_string() || !value[1].is_string()) {
-      Member(*this, key).Fail("is not a list of two texts");
-    }
-    return {value[0].get<std::string>(), value[1].get<std::string>()};
-  }
-  [[noreturn]] void Fail(const std::string& what) const {
-    throw InputError({path_ + ": " + (name_.empty() ? "the document" : name_) + ": " + what});
-  }
-
- private:
-  Member(const Member& parent, const char* key)
-      : path_(parent.path_), object_(parent.object_), name_(parent.Name(key)) {}
-  std::string Name(const char* key) const { return name_.empty() ? key : name_ + "." + key; }
-  const json& Of(const char* key) const {
-    const auto found = object_.find(key);
-    if (found == object_.end()) Member(*this, key).Fail("is missing");
-    return *found;
-  }
-
-  const std::string& path_;
-  const json& object_;
-  std::string name_;
-};
-
-}  // namespace
-
 CertificateText ReadCertificateJson(const std::string& path, const std::string& text) {
-  if (JsonDepth(text) > kMostJsonLevels) {
-    throw InputError({path + ": nests too deeply (valid: at most " +
-                      std::to_string(kMostJsonLevels) + " levels)"});
-  }
-  json document;
-  try {
-    document = json::parse(text);
-  } catch (const json::parse_error& error) {
-    const auto end = text.begin() + static_cast<long>(std::min(error.byte, text.size()));
-    const long line = 1 + std::count(text.begin(), end, '\n');
-    throw InputError({path + ":" + std::to_string(line) + ": is not JSON"});
-  } catch (const json::exception&) {
-    throw InputError({path + ": a number is out of range"});
-  }
-  const Member root(path, document, "");
+  const nlohmann::json document = ParseJson(path, text);
+  const JsonMember root(path, document, "");
   if (root.Whole("format") != 2) root.Fail("format: only 2 is known");
   CertificateText c;
   c.verdict = root.String("verdict");
   c.message = root.String("message");
   c.statement = root.String("statement");
   c.duration = root.Number("duration_s");
-  const Member demanded = root.Object("demanded"), statements = root.Object("statements");
+  const JsonMember demanded = root.Object("demanded"), statements = root.Object("statements");
   for (size_t f = 0; f < kNumFamilies; ++f) {
     c.demanded[f] = demanded.Number(kFamilyNames[f]);
     c.statements[f] = statements.Whole(kFamilyNames[f]);
   }
-  for (const Member& pair : root.List("not_watched")) {
-    const auto [first, second] = pair.TwoStrings("bodies");
-    c.not_watched.push_back({first, second, pair.String("why")});
+  for (const JsonMember& pair : root.Items("not_watched")) {
+    const nlohmann::json& bodies = pair.List("bodies");
+    if (bodies.size() != 2 || !bodies[0].is_string() || !bodies[1].is_string()) {
+      pair.Fail("bodies: is not a list of two texts");
+    }
+    c.not_watched.push_back(
+        {bodies[0].get<std::string>(), bodies[1].get<std::string>(), pair.String("why")});
   }
-  const Member limits = root.Object("limits");
+  const JsonMember limits = root.Object("limits");
   c.foot_speed = limits.NumberOrNull("foot_speed_m_s");
   c.foot_yaw_rate = limits.NumberOrNull("foot_yaw_rate_rad_s");
   c.joint_speed_scale = limits.Number("joint_speed_scale");
   c.robot = root.String("robot");
   c.scene = root.String("scene");
-  const Member hashes = root.Object("sha256");
+  const JsonMember hashes = root.Object("sha256");
   c.trajectory_hash = hashes.String("trajectory.csv");
   c.certificate_hash = hashes.String("certificate.csv");
   c.robot_hash = hashes.String("robot");

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "experiments/verify/certificate_text.h"
+#include "experiments/verify/described_walk.h"
 #include "experiments/verify/findings.h"
 #include "experiments/verify/played_motion.h"
 #include "planner/scene.h"
@@ -13,8 +14,11 @@ bool CheckIsMotion(const std::vector<PlayedRow>& rows, Findings* findings);
 
 /// What the rows say against each other, whoever made them: soles where forward kinematics puts
 /// them, CoM rigid above the waist, CoM, its derivatives and the ZMP a linear inverted pendulum,
-/// standing feet on the floor and at rest. `tolerance` [m].
-void CheckConsistency(const PlayedMotion& motion, double tolerance, Findings* findings);
+/// standing feet on the floor and at rest. Differences of c and
+/// ċ against ċ and c̈ by the trapezoidal rule, within its error: with M a bound of |c⃜| between two
+/// rows h apart (from `walk`), M h²/12 for c̈, and |c⃛| h²/12 for ċ with |c⃛| ≤ |Δc̈|/h + M h.
+/// Source: the rule's remainder, −h³ f″/12; wpg/README.md, "Rest to rest", for M.
+void CheckConsistency(const PlayedMotion& motion, const DescribedWalk& walk, Findings* findings);
 
 /// Joint limits and speeds, reach, foot speed, height while moving, ZMP against what
 /// `certificate` demands.
@@ -29,7 +33,7 @@ void CheckFloor(const PlayedMotion& motion, const Scene& scene, const Certificat
 /// Margins of one family and side, leg or joint at a row (reach: of both legs, …); +∞: nothing to
 /// watch. Speeds: between row i and the next one.
 double ZmpMargin(const PlayedRow& row, const RobotModel& robot);
-double ReachMargin(const PlayedMotion& motion, const PlayedRow& row, int side);
+double ReachMargin(const RobotModel& robot, const PlayedRow& row, int side);
 double JointMargin(const RobotModel& robot, const PlayedRow& row, int side, int joint);
 double JointSpeedMargin(const PlayedMotion& motion, size_t i, int side, int joint, double scale);
 /// Of the sole's centre [m/s] and of its yaw [rad/s], between row i and the next one.

@@ -1,8 +1,5 @@
 #include "experiments/verify/csv_text.h"
 
-#include <openssl/evp.h>
-
-#include <array>
 #include <charconv>
 #include <string_view>
 
@@ -13,6 +10,8 @@
 
 namespace halfstep::verify {
 namespace {
+
+constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 30;
 
 // Cells of a line; false: a quote out of place.
 bool Split(std::string_view line, std::vector<std::string>* cells) {
@@ -45,20 +44,7 @@ bool Split(std::string_view line, std::vector<std::string>* cells) {
 
 }  // namespace
 
-std::string ReadBytes(const std::string& path) {
-  return ReadRegularFile(path, std::uint64_t{1} << 30);
-}
-
-std::string Sha256(const std::string& bytes) {
-  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
-  unsigned int size = 0;
-  if (EVP_Digest(bytes.data(), bytes.size(), digest.data(), &size, EVP_sha256(), nullptr) != 1) {
-    throw std::runtime_error("SHA-256 is not available");
-  }
-  std::string hex;
-  for (unsigned int i = 0; i < size; ++i) hex += Text("%02x", digest[i]);
-  return hex;
-}
+std::string ReadBytes(const std::string& path) { return ReadRegularFile(path, kMostBytes); }
 
 CsvText::CsvText(std::string path, const std::string& text, const std::vector<std::string>& header)
     : path_(std::move(path)), header_(header) {

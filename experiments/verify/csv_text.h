@@ -8,9 +8,6 @@ namespace halfstep::verify {
 /// Bytes of a file. Throws InputError when it cannot be read, is no regular file or exceeds 1 GiB.
 std::string ReadBytes(const std::string& path);
 
-/// Lower-case hexadecimal SHA-256.
-std::string Sha256(const std::string& bytes);
-
 /// A CSV table, strict: every line ends in \n, every row has as many cells as the header, cells may
 /// be quoted as in RFC 4180 but hold no line breaks.
 class CsvText {

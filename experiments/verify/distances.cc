@@ -53,6 +53,25 @@ Distances::Result Distances::OfPair(size_t a, size_t b, const Placement& at, dou
   return {TriangleDistance(bodies_[a].shape, X_Ba, bodies_[b].shape, X_Bb), true};
 }
 
+double Distances::NearestObstacle(const Placement& at, double horizon) {
+  double least = horizon;
+  for (size_t b = 0; b < bodies_.size(); ++b) {
+    for (size_t o = 0; o < obstacles_.size(); ++o) {
+      least = std::min(least, FromObstacle(b, o, at, least).distance);
+    }
+  }
+  return least;
+}
+
+double Distances::NearestPair(const Placement& at, double horizon) {
+  double least = horizon;
+  for (const auto& [a, b] : robot_.self_pairs) {
+    const Result pair = OfPair(static_cast<size_t>(a), static_cast<size_t>(b), at, least);
+    least = std::min(least, pair.distance);
+  }
+  return least;
+}
+
 std::string Distances::NameOfObstaclePair(size_t body, size_t obstacle) const {
   return robot_.bodies[body].name + " - " + scene_.obstacles[obstacle].name;
 }

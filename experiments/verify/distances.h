@@ -31,6 +31,15 @@ class Distances {
   /// The same of two bodies of the robot.
   Result OfPair(size_t a, size_t b, const Placement& at, double enough);
 
+  /// Smallest distance of any body from any obstacle, of any pair that is watched; at most
+  /// `horizon` [m].
+  double NearestObstacle(const Placement& at, double horizon);
+  double NearestPair(const Placement& at, double horizon);
+
+  /// What triangles around a disc may stand out of it, on either side, and 1e-6 m of either
+  /// computation [m]; see TriangleDistance.
+  static constexpr double kAccuracy = 2.1e-4;
+
   /// "RLEG_LINK5 - bar", "LLEG_LINK5 - RLEG_LINK5".
   std::string NameOfObstaclePair(size_t body, size_t obstacle) const;
   std::string NameOfPair(size_t a, size_t b) const;

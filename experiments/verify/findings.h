@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <string>
 #include <vector>
@@ -15,22 +16,48 @@ class Findings {
     if (reasons_.size() < kKept) reasons_.push_back(reason);
     ++disagreements_;
   }
+  /// The rows cannot settle a check: neither verified nor refused.
+  void TooCoarse(std::string reason) { too_coarse_ = std::move(reason); }
+  /// Lines and disagreements of another's.
+  void Take(const Findings& other) {
+    lines_.insert(lines_.end(), other.lines_.begin(), other.lines_.end());
+    for (const std::string& reason : other.reasons_) Disagree(reason);
+    disagreements_ += other.disagreements_ - std::ssize(other.reasons_);
+  }
   const std::vector<std::string>& lines() const { return lines_; }
+  const std::string& too_coarse() const { return too_coarse_; }  ///< "": nothing is
   /// The first reasons; `disagreements()` counts them all.
   const std::vector<std::string>& reasons() const { return reasons_; }
   long disagreements() const { return disagreements_; }
 
  private:
-  static constexpr size_t kKept = 10;
+  static constexpr size_t kKept = 20;
   std::vector<std::string> lines_;
   std::vector<std::string> reasons_;
   long disagreements_ = 0;
+  std::string too_coarse_;
 };
 
 /// printf into a string; %s takes a C string.
 [[gnu::format(printf, 1, 2)]] std::string Text(const char* format, ...);
 /// "41,230".
 std::string Count(long n);
+
+/// Mistakes of one kind: the first is told, the others are counted.
+class Faults {
+ public:
+  void Add(const std::string& what) {
+    if (count_++ == 0) first_ = what;
+  }
+  void Conclude(Findings* findings) const {
+    if (count_ == 1) findings->Disagree(first_);
+    if (count_ > 1) findings->Disagree(first_ + ", and " + Count(count_ - 1) + " more");
+  }
+
+ private:
+  std::string first_;
+  long count_ = 0;
+};
 
 /// One check over many instants: how many values, the smallest, and where it is. Disagrees at
 /// the first value below what is demanded, and counts the others.

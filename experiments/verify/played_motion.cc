@@ -27,10 +27,7 @@ std::vector<std::string> TrajectoryHeader(const RobotModel& robot) {
   for (const Leg& leg : robot.legs) {
     for (const LegJoint& joint : leg.joints) header.push_back("q_" + joint.name + "_rad");
   }
-  for (const char* margin : {"zmp_margin_m", "joint_margin_rad", "joint_speed_margin_rad_s",
-                             "foot_speed_margin_m_s", "clearance_m", "self_clearance_m"}) {
-    header.emplace_back(margin);
-  }
+  header.insert(header.end(), kMarginColumns.begin(), kMarginColumns.end());
   return header;
 }
 
@@ -61,7 +58,7 @@ std::vector<PlayedRow> ReadTrajectory(const std::string& path, const std::string
     read(row.waist);
     for (auto& sole : row.soles) read(sole);
     for (auto& q : row.q) read(q);
-    for (; column < header.size(); ++column) (void)csv.Number(i, column);
+    read(row.margins);
   }
   return rows;
 }
@@ -97,11 +94,11 @@ PlayedRow PlayedMotion::At(double t) const {
   return row;
 }
 
-Placement PlayedMotion::PlaceRow(const PlayedRow& row) const {
+Placement PlaceRobot(const RobotModel& robot, const PlayedRow& row) {
   const Eigen::Vector4d& w = row.waist;
   return {ToIsometry({w[0], w[1], w[3]}, w[2]),
-          {LegForwardKinematics(robot_.legs[0], row.q[0]),
-           LegForwardKinematics(robot_.legs[1], row.q[1])}};
+          {LegForwardKinematics(robot.legs[0], row.q[0]),
+           LegForwardKinematics(robot.legs[1], row.q[1])}};
 }
 
 double FarthestFrom(const ConvexBody& body, const Eigen::Vector3d& point) {

@@ -13,7 +13,13 @@ namespace halfstep::verify {
 /// Which feet stand, as trajectory.csv says it. Single supports have the values of Index(Side).
 enum class Support : int { kLeft = 0, kRight = 1, kBoth = 2 };
 
-/// A row of trajectory.csv; its last six columns, margins, are not read.
+/// The last columns of trajectory.csv: margins at the row's instant.
+constexpr size_t kNumMarginColumns = 6;
+constexpr std::array<const char*, kNumMarginColumns> kMarginColumns = {
+    "zmp_margin_m",          "joint_margin_rad", "joint_speed_margin_rad_s",
+    "foot_speed_margin_m_s", "clearance_m",      "self_clearance_m"};
+
+/// A row of trajectory.csv.
 struct PlayedRow {
   double t = 0;  ///< [s]
   int half_step = 0;
@@ -23,6 +29,7 @@ struct PlayedRow {
   Eigen::Vector4d waist{0, 0, 0, 0};     ///< x, y, z [m], yaw [rad]
   std::array<Eigen::Vector4d, 2> soles;  ///< the same of the sole frames, by Index(Side)
   std::array<Vector6d, 2> q;             ///< joint angles [rad], by Index(Side)
+  std::array<double, kNumMarginColumns> margins{};
 
   Pose2 X_WS(int side) const {
     const Eigen::Vector4d& s = soles[static_cast<size_t>(side)];
@@ -55,6 +62,9 @@ struct Placement {
   }
 };
 
+/// The robot in the posture of a row.
+Placement PlaceRobot(const RobotModel& robot, const PlayedRow& row);
+
 /// The motion that a robot plays from a trajectory: waist (x, y, z, yaw) and joint angles linear
 /// between rows. Borrows robot and rows. Precondition: at least two rows, increasing times, finite.
 class PlayedMotion {
@@ -70,7 +80,7 @@ class PlayedMotion {
   /// Linear between the two rows around an instant; half-step and support of the earlier one.
   PlayedRow At(double t) const;
   Placement Place(double t) const { return PlaceRow(At(t)); }
-  Placement PlaceRow(const PlayedRow& row) const;
+  Placement PlaceRow(const PlayedRow& row) const { return PlaceRobot(robot_, row); }
 
   /// For each row, how far any point of a body can have moved from row 0 to it, at most [m]:
   /// Σ |Δwaist| + |Δyaw|·lever + Σ_j |Δq_j|·r_j, r_j the largest distance of the body's points

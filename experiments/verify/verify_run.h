@@ -7,11 +7,9 @@
 namespace halfstep::verify {
 
 /// `tolerance` is how far the played motion, straight between rows, may leave the certified walk
-/// (chord against curve: about 0.3 mm at rows every 5 ms). It is taken off the clearances and the
-/// height of a moving sole [m], and off margins at the midpoints of certificate rows [m, rad; 20
-/// times as much for speeds]. By it also hang how well c, ċ, c̈ of the rows must fit each other:
-/// tolerance·√(g/z_c) [m/s] and tolerance·g/z_c [m/s²]. Everything else is compared at the rows
-/// themselves, where only rounding is allowed for (check_rows.cc).
+/// (chord against curve: about 0.3 mm at rows every 5 ms). It is taken off the clearances, the
+/// height of a moving sole and the ZMP margin where the support changes [m], and off nothing else:
+/// rows and claims are compared with the walk itself.
 struct VerifyOptions {
   std::string run;                         ///< run folder
   std::optional<std::string> method = {};  ///< none: every one of the run
@@ -26,15 +24,20 @@ struct MethodVerification {
   bool verified = false;
   bool readable = true;              ///< false: `complaints` says what cannot be read
   std::vector<std::string> lines;    ///< one a check
-  std::vector<std::string> reasons;  ///< why it is not verified, the first ten
+  std::string too_coarse;            ///< why the rows settle neither; "": they do
+  std::vector<std::string> reasons;  ///< why it is not verified, the first twenty
   long disagreements = 0;
   std::vector<std::string> complaints;  ///< of unreadable input, "file:line: …"
   std::string statement;                ///< the certificate's own
 };
 
-/// Checks the certificates of a run against its trajectories, the robot and the scene, by forward
-/// kinematics and triangle distances only; distances only of the very files that the certificate is
-/// about. A method without a certificate is not verified. Throws InputError when no method has one.
+/// Checks the certificates of a run against its other files, robot and scene: that they speak of
+/// the same things, that half_steps.csv and overlaps.csv describe one walk, that trajectory.csv has
+/// its rows and margins, that the certificate's rows are true of it, and that the robot that plays
+/// the trajectory keeps what is demanded. Distances by triangles, and only of the very files that
+/// the certificate is about. None of the smoothing takes part; shared with the prover are the
+/// readers of input files, the closed forms of half-steps and of a leg's inverse kinematics (wpg).
+/// A method without a certificate is not verified. Throws InputError when no method has one.
 std::vector<MethodVerification> VerifyRun(const VerifyOptions& options);
 
 /// The result as `halfstep verify` prints it.

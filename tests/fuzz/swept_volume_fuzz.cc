@@ -3,6 +3,7 @@
 #include "planner/checked_file.h"
 #include "planner/swept_volume_bytes.h"
 #include "tests/fuzz/fuzz.h"
+#include "wpg/input/sha256.h"
 
 using namespace halfstep;
 
@@ -11,7 +12,7 @@ namespace {
 // A file is refused with a sentence, or read; here with a checksum that fits.
 void FuzzFile(const std::string& bytes) {
   std::string digest;
-  const std::string hex = HexSha256(bytes);
+  const std::string hex = Sha256(bytes);
   for (size_t i = 0; i < hex.size(); i += 2) {
     digest += static_cast<char>(std::stoi(hex.substr(i, 2), nullptr, 16));
   }

@@ -67,10 +67,11 @@ LoadedMesh LoadMesh(const std::string& path) {
 LoadedMesh ParseMesh(const std::string& path, const std::string& bytes) {
   const std::string extension = ExtensionOf(path);
   if (bytes.empty()) Refuse(path, "is empty");
-  const LoadedMesh mesh = extension == ".obj"  ? ReadObj(path, bytes)
-                          : IsBinaryStl(bytes) ? ReadBinaryStl(path, bytes)
-                                               : ReadAsciiStl(path, bytes);
+  LoadedMesh mesh = extension == ".obj"  ? ReadObj(path, bytes)
+                    : IsBinaryStl(bytes) ? ReadBinaryStl(path, bytes)
+                                         : ReadAsciiStl(path, bytes);
   if (mesh.triangles.cols() == 0) Refuse(path, "has no triangle");
+  mesh.file = RecordOf(path, bytes);
   return mesh;
 }
 

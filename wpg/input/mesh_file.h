@@ -3,12 +3,15 @@
 #include <Eigen/Core>
 #include <string>
 
+#include "wpg/input/input_file.h"
+
 namespace halfstep {
 
 /// A mesh as its file has it, in the file's unit; not assumed convex or closed.
 struct LoadedMesh {
   Eigen::Matrix3Xd vertices;   ///< (3×n), finite, at most 1e9 in size.
   Eigen::Matrix3Xi triangles;  ///< (3×m), m ≥ 1, indices of vertices.
+  InputFile file;              ///< what was read.
 };
 
 /// Reads an STL (ASCII or binary, told apart by their content) or OBJ file in double precision.

@@ -1,0 +1,85 @@
+#include "experiments/verify/check_margin_columns.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "experiments/verify/check_rows.h"
+
+namespace halfstep::verify {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+// Distances beyond this are not told apart, or beyond twice what is demanded [m].
+// Source: smoothing/README.md, "Margins".
+constexpr double kHorizon = 0.3;
+constexpr double kRounding = 1e-8;
+constexpr double kSpeedRounding = 1e-6;
+
+double JointSpeedMarginAt(const DescribedWalk& walk, double t, double scale) {
+  const std::array<Vector6d, 2> speeds = walk.JointSpeeds(t);
+  double least = kInfinity;
+  for (size_t s = 0; s < 2; ++s) {
+    for (size_t j = 0; j < 6; ++j) {
+      const double limit = scale * walk.robot().legs[s].joints[j].max_speed;
+      least = std::min(least, limit - std::abs(speeds[s][static_cast<Eigen::Index>(j)]));
+    }
+  }
+  return least;
+}
+
+// Of the foot in the air; +∞ when none is.
+double FootSpeedMarginAt(const DescribedWalk& walk, const PlayedRow& row,
+                         const std::optional<double>& limit) {
+  if (row.support == Support::kBoth || !limit) return kInfinity;
+  const int foot = FootIndex(row.support == Support::kLeft ? Side::kRight : Side::kLeft);
+  return *limit - walk.At(row.t).first.segment<3>(foot).norm();
+}
+
+bool Same(double found, double stated, double tolerance) {
+  return found == stated || std::abs(found - stated) <= tolerance;  // both may be infinite
+}
+
+}  // namespace
+
+std::array<double, kNumMarginColumns> MarginsAt(const DescribedWalk& walk, const PlayedRow& row,
+                                                const CertificateText& certificate, double horizon,
+                                                Distances* distances) {
+  double joint = kInfinity;
+  for (int side = 0; side < 2; ++side) {
+    for (int j = 0; j < 6; ++j) joint = std::min(joint, JointMargin(walk.robot(), row, side, j));
+  }
+  const Placement at = PlaceRobot(walk.robot(), row);
+  return {ZmpMargin(row, walk.robot()),
+          joint,
+          JointSpeedMarginAt(walk, row.t, certificate.joint_speed_scale),
+          FootSpeedMarginAt(walk, row, certificate.foot_speed),
+          distances->NearestObstacle(at, horizon),
+          distances->NearestPair(at, horizon)};
+}
+
+void CheckMarginColumns(const std::vector<PlayedRow>& rows, const DescribedWalk& walk,
+                        const CertificateText& certificate, Distances* distances,
+                        Findings* findings) {
+  constexpr std::array<double, kNumMarginColumns> kTolerances = {
+      kRounding, kRounding, kSpeedRounding, kRounding, Distances::kAccuracy, Distances::kAccuracy};
+  const double horizon = std::max(
+      {kHorizon, 2 * certificate.demanded[kClearance], 2 * certificate.demanded[kSelfClearance]});
+  std::array<Faults, kNumMarginColumns> faults;
+  for (size_t i = 0; i < rows.size(); ++i) {
+    // Whatever is farther than both columns say need not be asked.
+    const double stated = std::max(rows[i].margins[4], rows[i].margins[5]);
+    const double enough =
+        stated < horizon ? std::min(horizon, stated + 2 * Distances::kAccuracy) : horizon;
+    const auto found = MarginsAt(walk, rows[i], certificate, enough, distances);
+    for (size_t k = 0; k < kNumMarginColumns; ++k) {
+      if (Same(found[k], rows[i].margins[k], kTolerances[k])) continue;
+      faults[k].Add(Text("trajectory.csv:%zu: %s is %.9g, but %.9g by the walk", i + 2,
+                         kMarginColumns[k], rows[i].margins[k], found[k]));
+    }
+  }
+  for (const Faults& of_column : faults) of_column.Conclude(findings);
+  findings->Say("margin columns: " + Count(std::ssize(rows) * long{kNumMarginColumns}) +
+                " values computed again");
+}
+
+}  // namespace halfstep::verify

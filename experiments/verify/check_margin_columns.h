@@ -1,0 +1,26 @@
+#pragma once
+
+#include <array>
+
+#include "experiments/verify/certificate_text.h"
+#include "experiments/verify/described_walk.h"
+#include "experiments/verify/distances.h"
+#include "experiments/verify/findings.h"
+
+namespace halfstep::verify {
+
+/// Margins of a walk at one instant by verify's own formulas: ZMP, joint, joint speed, foot speed,
+/// clearance and self clearance, as in the last six columns of trajectory.csv. Distances are cut
+/// off at `horizon` [m].
+std::array<double, kNumMarginColumns> MarginsAt(const DescribedWalk& walk, const PlayedRow& row,
+                                                const CertificateText& certificate, double horizon,
+                                                Distances* distances);
+
+/// Whether the margin columns of trajectory.csv are what they say: within 1e-8 m and rad, 1e-6
+/// rad/s for joint speeds (differences of angles 20 µs apart) and Distances::kAccuracy for
+/// distances.
+void CheckMarginColumns(const std::vector<PlayedRow>& rows, const DescribedWalk& walk,
+                        const CertificateText& certificate, Distances* distances,
+                        Findings* findings);
+
+}  // namespace halfstep::verify

@@ -1,0 +1,124 @@
+#include "experiments/verify/check_overlaps.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace halfstep::verify {
+namespace {
+
+// Numbers that are computed twice differ by rounding [s], [m], [rad], [1].
+constexpr double kRounding = 1e-9;
+
+bool Same(double a, double b) { return std::abs(a - b) <= kRounding; }  // false for nan
+
+// What is wrong with a row of half_steps.csv by itself; "": nothing.
+std::string FaultOf(const HalfStepRow& row, const HalfStep& planned, bool raw) {
+  if (row.kind != (planned.kind == HalfStepKind::kUp ? "up" : "down")) return "kind " + row.kind;
+  if (row.support != Name(planned.support)) return "support " + row.support;
+  if (!std::isfinite(row.start) || !std::isfinite(row.duration) ||
+      !std::isfinite(row.height_scale)) {
+    return "a number is not finite";
+  }
+  if (!(row.duration > 0)) return Text("duration %.9g", row.duration);
+  if (!(row.height_scale >= 0)) return Text("height scale %.9g", row.height_scale);
+  if (!raw) return "";
+  if (!Same(row.duration, planned.duration)) {
+    return Text("duration %.9g, planned %.9g", row.duration, planned.duration);
+  }
+  return Same(row.height_scale, 1) ? "" : Text("height scale %.9g, planned 1", row.height_scale);
+}
+
+// Largest overlap that the homotopy allows at a junction [s].
+// Source: smoothing/README.md, "Natural bounds".
+double NaturalBound(const HalfStepRow& before, const HalfStepRow& after,
+                    const HalfStepShape& shape) {
+  if (before.kind == "down") return std::min(before.duration, after.duration);
+  return std::min(before.duration * (1 - shape.t2()), after.duration * shape.t1());
+}
+
+std::string FaultOf(const OverlapRow& row, const HalfStepRow& before, const HalfStepRow& after,
+                    const HalfStepShape& shape) {
+  if (row.kind != (before.kind == "up" ? "up_down" : "down_up")) return "kind " + row.kind;
+  const double bound = NaturalBound(before, after, shape);
+  if (!(row.overlap >= 0 && row.overlap <= bound + kRounding)) {
+    return Text("overlap %.9g, natural bound %.9g", row.overlap, bound);
+  }
+  if (!Same(row.duration_before, before.duration) || !Same(row.duration_after, after.duration) ||
+      !Same(row.scale_before, before.height_scale) || !Same(row.scale_after, after.height_scale)) {
+    return "durations and height scales are not those of half_steps.csv";
+  }
+  return "";
+}
+
+}  // namespace
+
+bool CheckOverlaps(const std::vector<HalfStepRow>& half_steps,
+                   const std::optional<std::vector<OverlapRow>>& overlaps,
+                   const HalfStepSequence& planned, Findings* findings) {
+  const long before = findings->disagreements();
+  const size_t n = planned.half_steps.size();
+  findings->Say("half_steps.csv: " + Count(std::ssize(half_steps)) + " half-steps, " +
+                (overlaps ? Count(std::ssize(*overlaps)) + " overlaps" : "no overlaps"));
+  if (half_steps.size() != n) {
+    findings->Disagree(
+        Text("half_steps.csv: %zu half-steps, the footsteps make %zu", half_steps.size(), n));
+    return false;
+  }
+  if (overlaps && overlaps->size() + 1 != n) {
+    findings->Disagree(Text("overlaps.csv: %zu junctions instead of %zu", overlaps->size(), n - 1));
+    return false;
+  }
+  double start = 0;
+  for (size_t i = 0; i < n; ++i) {
+    const HalfStepRow& row = half_steps[i];
+    const std::string line = Text("half_steps.csv:%zu: ", i + 2);
+    const std::string fault = FaultOf(row, planned.half_steps[i].half_step, !overlaps);
+    if (!fault.empty()) findings->Disagree(line + fault);
+    if (!Same(row.start, start)) {
+      findings->Disagree(line +
+                         Text("start %.9g, but %.9g by durations and overlaps", row.start, start));
+    }
+    if (i % 2 == 1 && !Same(row.height_scale, half_steps[i - 1].height_scale)) {
+      findings->Disagree(line + "another height scale than the step's up half-step");
+    }
+    if (i + 1 == n) break;
+    start += row.duration - (overlaps ? (*overlaps)[i].overlap : 0);
+    if (!overlaps) continue;
+    const std::string overlap_fault =
+        FaultOf((*overlaps)[i], row, half_steps[i + 1], planned.half_steps[i].half_step.shape);
+    if (!overlap_fault.empty()) {
+      findings->Disagree(Text("overlaps.csv:%zu: ", i + 2) + overlap_fault);
+    }
+  }
+  return findings->disagreements() == before;
+}
+
+void CheckFootsteps(const std::vector<FootstepRow>& rows, const HalfStepSequence& planned,
+                    Findings* findings) {
+  const size_t steps = planned.half_steps.size() / 2;
+  findings->Say(Text("footsteps.csv: %zu footsteps", steps));
+  if (rows.size() != steps + 2) {
+    findings->Disagree(Text("footsteps.csv: %zu rows instead of %zu", rows.size(), steps + 2));
+    return;
+  }
+  for (size_t i = 0; i < rows.size(); ++i) {
+    Side side = i == 0 ? Side::kLeft : Side::kRight;
+    Pose2 X_WF = planned.start[std::min<size_t>(i, 1)];
+    double height = 0, duration = 0;
+    if (i >= 2) {
+      const PlacedHalfStep& down = planned.half_steps[2 * (i - 2) + 1];
+      side = down.half_step.swing();
+      X_WF = down.X_WS * down.half_step.X_SF;
+      height = down.half_step.via_height;
+      duration = down.half_step.duration;
+    }
+    const FootstepRow& row = rows[i];
+    if (row.foot != Name(side) || !Same(row.X_WF.x, X_WF.x) || !Same(row.X_WF.y, X_WF.y) ||
+        !Same(row.X_WF.yaw, X_WF.yaw) || !Same(row.via_height, height) ||
+        !Same(row.duration, duration)) {
+      findings->Disagree(Text("footsteps.csv:%zu: not the footstep of config.yaml", i + 2));
+    }
+  }
+}
+
+}  // namespace halfstep::verify

@@ -1,0 +1,62 @@
+#include "experiments/verify/check_summary.h"
+
+#include <cmath>
+
+namespace halfstep::verify {
+namespace {
+
+constexpr double kRounding = 1e-12;  // of ratios that are computed twice
+
+}  // namespace
+
+void CheckSummary(const std::vector<SummaryRow>& rows, const RunManifest& manifest,
+                  const std::string& folder, const CertificateText& certificate, long iterations,
+                  Findings* findings) {
+  findings->Say("summary.csv: " + Count(std::ssize(rows)) + " methods");
+  bool same = rows.size() == manifest.methods.size();
+  for (size_t i = 0; same && i < rows.size(); ++i) {
+    same = rows[i].method == manifest.methods[i].name;
+  }
+  if (!same || rows.empty()) {
+    findings->Disagree("summary.csv: its methods are not those of manifest.json");
+    return;
+  }
+  const SummaryRow *row = nullptr, *reference = nullptr;
+  for (const SummaryRow& one : rows) {
+    if (FolderOfMethod(one.method) == folder) row = &one;
+    if (one.method == "reference") reference = &one;
+  }
+  if (row == nullptr) return;  // CheckRun says so
+  const auto disagree = [&](const char* column, const std::string& why) {
+    findings->Disagree("summary.csv: " + row->method + ": " + column + " " + why);
+  };
+  const auto close = [](double a, double b) {
+    return std::abs(a - b) <= kRounding * std::max(1.0, std::abs(b));
+  };
+  if (row->status != manifest.MethodOf(folder)->status) {
+    disagree("status", "is not that of manifest.json");
+  }
+  if (row->certified != (certificate.verdict == "certified")) {
+    disagree("certified", "is not the certificate's verdict");
+  }
+  if (row->duration != certificate.duration) {
+    disagree("duration_s",
+             Text("is %.9g, the certificate has %.9g", row->duration, certificate.duration));
+  }
+  if (!close(row->speedup, rows.front().duration / row->duration)) {
+    disagree("speedup", "is not the duration of raw divided by this one's");
+  }
+  if (manifest.objective == "fastest" && !close(row->cost, row->duration)) {
+    disagree("cost", "is not the duration");
+  }
+  if (row->iterations != iterations) {
+    disagree("iterations", Text("is %ld, iterates.csv has %ld rows", row->iterations, iterations));
+  }
+  if (row->gap_to_reference.has_value() != (reference != nullptr) ||
+      (reference != nullptr &&
+       !close(*row->gap_to_reference, row->duration / reference->duration - 1))) {
+    disagree("gap_to_reference", "is not the duration divided by that of `reference`, less 1");
+  }
+}
+
+}  // namespace halfstep::verify

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "experiments/verify/certificate_text.h"
+#include "experiments/verify/findings.h"
+#include "experiments/verify/run_manifest.h"
+#include "experiments/verify/walk_text.h"
+
+namespace halfstep::verify {
+
+/// Whether summary.csv has a row for each method of the manifest, in its order, and that of
+/// `folder` says what certificate, manifest, iterates.csv (`iterations` rows; none of raw) and the
+/// other rows do. How often and how long the method computed is nobody else's word.
+void CheckSummary(const std::vector<SummaryRow>& rows, const RunManifest& manifest,
+                  const std::string& folder, const CertificateText& certificate, long iterations,
+                  Findings* findings);
+
+}  // namespace halfstep::verify

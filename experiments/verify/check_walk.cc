@@ -1,0 +1,95 @@
+#include "experiments/verify/check_walk.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace halfstep::verify {
+namespace {
+
+// What rounding may do to a number that is computed twice: [m], [rad], [m/s], [m/s²].
+constexpr double kSame = 1e-8;
+// Instants this close to a change of support or half-step belong to either side [s].
+constexpr double kInstant = 1e-9;
+
+// The largest difference, and the name of the columns that it is in.
+struct Difference {
+  double size = 0;
+  const char* columns = "";
+};
+
+Difference LargestDifference(const PlayedRow& a, const PlayedRow& b) {
+  Difference largest;
+  const auto compare = [&largest](const char* columns, const auto& x, const auto& y) {
+    const double size = (x - y).cwiseAbs().maxCoeff();
+    if (!(size <= largest.size)) largest = {size, columns};
+  };
+  compare("com", a.com, b.com);
+  compare("com_v", a.com_velocity, b.com_velocity);
+  compare("com_a", a.com_acceleration, b.com_acceleration);
+  compare("zmp", a.zmp, b.zmp);
+  compare("waist", a.waist, b.waist);
+  compare("left_foot", a.soles[0], b.soles[0]);
+  compare("right_foot", a.soles[1], b.soles[1]);
+  compare("q of the left leg", a.q[0], b.q[0]);
+  compare("q of the right leg", a.q[1], b.q[1]);
+  return largest;
+}
+
+}  // namespace
+
+void CheckRowsOnWalk(const std::vector<PlayedRow>& rows, const DescribedWalk& walk, double period,
+                     Findings* findings) {
+  const double end = walk.end();
+  const auto expected = static_cast<size_t>(std::floor(end / period * (1 - 1e-12))) + 2;
+  if (rows.size() != expected) {
+    findings->Disagree(Text("trajectory.csv: %zu rows, the walk has %zu every %.9g s", rows.size(),
+                            expected, period));
+  }
+  double largest = 0;
+  Faults times, places, supports, half_steps;
+  for (size_t i = 0; i < rows.size(); ++i) {
+    const PlayedRow& row = rows[i];
+    const std::string line = Text("trajectory.csv:%zu: ", i + 2);
+    const double t = i + 1 == rows.size() ? end : static_cast<double>(i) * period;
+    if (!(std::abs(row.t - t) <= kInstant)) {
+      times.Add(line + Text("t_s is %.9g instead of %.9g", row.t, t));
+    }
+    const Difference difference = LargestDifference(row, walk.Row(row.t));
+    largest = std::max(largest, difference.size);
+    if (!(difference.size <= kSame)) {
+      places.Add(line + difference.columns +
+                 Text(" is off the walk of half_steps.csv by %.6g", difference.size));
+    }
+    const double before = row.t - kInstant, after = row.t + kInstant;
+    if (row.support != walk.SupportAt(before) && row.support != walk.SupportAt(row.t) &&
+        row.support != walk.SupportAt(after)) {
+      supports.Add(line + "another support than the walk of half_steps.csv has");
+    }
+    if (row.half_step < walk.HalfStepAt(before) || row.half_step > walk.HalfStepAt(after)) {
+      half_steps.Add(line + "another half-step than half_steps.csv has");
+    }
+  }
+  for (const Faults* faults : {&times, &places, &supports, &half_steps}) {
+    faults->Conclude(findings);
+  }
+  findings->Say("rows on the walk of half_steps.csv: " + Count(std::ssize(rows)) +
+                Text(", every %.6g s, off by %.3g at most", period, largest));
+}
+
+std::vector<PlayedRow> FinerRows(const std::vector<PlayedRow>& rows, const DescribedWalk& walk,
+                                 double spacing) {
+  std::vector<PlayedRow> finer;
+  for (size_t i = 0; i < rows.size(); ++i) {
+    finer.push_back(walk.Row(rows[i].t));
+    if (i + 1 == rows.size()) break;
+    const double pause = rows[i + 1].t - rows[i].t;
+    const auto parts = static_cast<int>(std::ceil(pause / spacing - 1e-9));
+    for (int k = 1; k < parts; ++k) {
+      const double t = rows[i].t + pause * k / parts;
+      if (t > finer.back().t && t < rows[i + 1].t) finer.push_back(walk.Row(t));
+    }
+  }
+  return finer;
+}
+
+}  // namespace halfstep::verify

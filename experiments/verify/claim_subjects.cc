@@ -1,0 +1,40 @@
+#include "experiments/verify/claim_subjects.h"
+
+namespace halfstep::verify {
+
+ClaimSubjects SubjectsOf(const RobotModel& robot, const Distances& distances) {
+  ClaimSubjects subjects;
+  for (int s = 0; s < 2; ++s) {
+    const std::string side = s == 0 ? "left" : "right";
+    for (Family f : {kFloor, kFootSpeed, kFootYawRate}) subjects[f][side + " foot"] = {s, 0};
+    subjects[kReach][side + " leg"] = {s, 0};
+    for (int j = 0; j < 6; ++j) {
+      const std::string& name =
+          robot.legs[static_cast<size_t>(s)].joints[static_cast<size_t>(j)].name;
+      subjects[kJoint][name] = subjects[kJointSpeed][name] = {s, j};
+    }
+    subjects[kNoStep][side + " foot"] = {s, -1};
+    for (size_t a = 0; a < distances.scene().no_step.size(); ++a) {
+      subjects[kNoStep][side + " foot - no_step[" + std::to_string(a) + "]"] = {
+          s, static_cast<int>(a)};
+    }
+  }
+  for (Family f : {kFloor, kFootSpeed, kFootYawRate}) subjects[f]["both feet"] = {};
+  subjects[kGround]["robot"] = {};
+  subjects[kZmp]["both soles"] = subjects[kZmp]["support sole"] = {};
+  for (size_t b = 0; b < distances.num_bodies(); ++b) {
+    const int body = static_cast<int>(b);
+    subjects[kClearance][robot.bodies[b].name] = {body, -1};
+    subjects[kGround][robot.bodies[b].name] = {body, 0};
+    for (size_t o = 0; o < distances.num_obstacles(); ++o) {
+      subjects[kClearance][distances.NameOfObstaclePair(b, o)] = {body, static_cast<int>(o)};
+    }
+  }
+  for (const auto& [a, b] : robot.self_pairs) {
+    subjects[kSelfClearance][distances.NameOfPair(static_cast<size_t>(a), static_cast<size_t>(b))] =
+        {a, b};
+  }
+  return subjects;
+}
+
+}  // namespace halfstep::verify

@@ -1,0 +1,127 @@
+#include "experiments/verify/described_walk.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "wpg/check.h"
+#include "wpg/posture.h"
+
+namespace halfstep::verify {
+
+DescribedWalk::DescribedWalk(const RobotModel& robot, const HalfStepSequence& planned,
+                             const std::vector<HalfStepRow>& rows)
+    : robot_(robot), lipm_(planned.lipm) {
+  HALFSTEP_CHECK(!rows.empty() && rows.size() == planned.half_steps.size(),
+                 rows.size() << " rows, " << planned.half_steps.size() << " half-steps");
+  for (size_t i = 0; i < rows.size(); ++i) {
+    const auto& [as_planned, X_WS] = planned.half_steps[i];
+    HalfStep half_step = as_planned;
+    half_step.duration = rows[i].duration;
+    half_step.via_height *= rows[i].height_scale;
+    const WalkVector from = Transformed(X_WS, half_step.Start());
+    pieces_.push_back({.half_step = half_step,
+                       .profiles = {half_step.kind, half_step.shape, half_step.duration, lipm_},
+                       .start = rows[i].start,
+                       .from = from,
+                       .delta = Transformed(X_WS, half_step.End()) - from});
+  }
+}
+
+WalkJet DescribedWalk::At(double t) const {
+  WalkJet jet;
+  jet.value = pieces_.front().from;
+  for (size_t i = 0; i < pieces_.size(); ++i) {
+    const Piece& piece = pieces_[i];
+    const double tau = Local(t, i);
+    if (tau <= 0) continue;
+    if (tau >= piece.profiles.duration()) {
+      jet.value += piece.delta;
+      continue;
+    }
+    const HalfStepJet profiles = piece.profiles.At(tau);
+    for (int q = 0; q < kNumQuantities; ++q) {
+      const ProfileJet& p = profiles.of(q);
+      jet.value[q] += p.value * piece.delta[q];
+      jet.first[q] += p.first * piece.delta[q];
+      jet.second[q] += p.second * piece.delta[q];
+    }
+  }
+  return jet;
+}
+
+int DescribedWalk::StepInAir(double t) const {
+  for (size_t up = 0; up + 1 < pieces_.size(); up += 2) {
+    if (Local(t, up) >= pieces_[up].profiles.t2() &&
+        Local(t, up + 1) <= pieces_[up + 1].profiles.t1()) {
+      return static_cast<int>(up / 2);
+    }
+  }
+  return -1;
+}
+
+Support DescribedWalk::SupportAt(double t) const {
+  const int step = StepInAir(t);
+  if (step < 0) return Support::kBoth;
+  return static_cast<Support>(Index(pieces_[2 * static_cast<size_t>(step)].half_step.support));
+}
+
+int DescribedWalk::HalfStepAt(double t) const {
+  size_t i = 0;
+  while (i + 1 < pieces_.size() && Local(t, i + 1) >= 0) ++i;
+  return static_cast<int>(i) + 1;
+}
+
+// From the beginning of the up half-step's motion, or of the down half-step if that is earlier, to
+// the end of the down half-step's, or of the up half-step if that is later.
+bool DescribedWalk::MovesHorizontally(double t, int side) const {
+  const int step = StepInAir(t);
+  if (step < 0) return false;
+  const size_t up = 2 * static_cast<size_t>(step), down = up + 1;
+  if (Index(pieces_[up].half_step.swing()) != side) return false;
+  const HalfStepProfiles &rise = pieces_[up].profiles, &sink = pieces_[down].profiles;
+  return (Local(t, up) >= rise.horizontal_begin() || Local(t, down) >= 0) &&
+         (Local(t, down) <= sink.horizontal_end() || Local(t, up) <= rise.duration());
+}
+
+PlayedRow DescribedWalk::Row(double t) const {
+  const WalkJet jet = At(t);
+  const Posture posture = SolvePosture(robot_, jet.value);
+  PlayedRow row;
+  row.t = t;
+  row.half_step = HalfStepAt(t);
+  row.support = SupportAt(t);
+  row.com << jet.value.segment<2>(kComX), lipm_.com_height;
+  row.com_velocity = jet.first.segment<2>(kComX);
+  row.com_acceleration = jet.second.segment<2>(kComX);
+  row.zmp = jet.value.segment<2>(kZmpX);
+  row.waist << posture.X_WB.translation(), jet.value[kWaistYaw];
+  row.soles = {jet.value.segment<4>(kLeftX), jet.value.segment<4>(kRightX)};
+  for (size_t s = 0; s < 2; ++s) {
+    row.q[s] = posture.ik[s].q;
+    if (posture.ik[s].status != LegIkStatus::kSolved) row.q[s].setConstant(std::nan(""));
+  }
+  return row;
+}
+
+std::array<Vector6d, 2> DescribedWalk::JointSpeeds(double t) const {
+  constexpr double kHalf = 1e-5;  // [s]
+  const double from = std::max(t - kHalf, 0.0), to = std::min(t + kHalf, end());
+  const Posture a = SolvePosture(robot_, At(from).value), b = SolvePosture(robot_, At(to).value);
+  std::array<Vector6d, 2> speeds;
+  for (size_t s = 0; s < 2; ++s) speeds[s] = (b.ik[s].q - a.ik[s].q) / (to - from);
+  return speeds;
+}
+
+double DescribedWalk::ComFourthBound(double begin, double end) const {
+  Eigen::Vector2d com{0, 0}, zmp{0, 0};
+  for (size_t i = 0; i < pieces_.size(); ++i) {
+    const Piece& piece = pieces_[i];
+    if (Local(end, i) <= 0 || Local(begin, i) >= piece.profiles.duration()) continue;
+    const HalfStepJet second = piece.profiles.SecondBounds(Local(begin, i), Local(end, i));
+    com += second.com.second * piece.delta.segment<2>(kComX).cwiseAbs();
+    zmp += second.zmp.second * piece.delta.segment<2>(kZmpX).cwiseAbs();
+  }
+  return lipm_.omega() * lipm_.omega() * (com + zmp).norm();
+}
+
+}  // namespace halfstep::verify

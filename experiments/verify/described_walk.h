@@ -1,0 +1,62 @@
+#pragma once
+
+#include <vector>
+
+#include "experiments/verify/played_motion.h"
+#include "experiments/verify/walk_text.h"
+#include "wpg/half_step_sequence.h"
+#include "wpg/robot_model.h"
+
+namespace halfstep::verify {
+
+/// The walk that the files of a run describe: the half-steps of its footsteps with the starts,
+/// durations and heights of half_steps.csv, superposed:
+///
+///     f(t) = f_0(0) + Σ_i [ f_i(clamp(t − t_i, 0, T_i)) − f_i(0) ].
+///
+/// The superposition, and which feet stand when, are this class's own; the closed forms of a
+/// half-step and of a leg's inverse kinematics are wpg's, which the prover uses as well. Borrows
+/// the robot. Source: [Perrin2011] §IV; smoothing/README.md, "The homotopy".
+class DescribedWalk {
+ public:
+  /// Precondition: as many rows as half-steps, at least one, durations > 0.
+  DescribedWalk(const RobotModel& robot, const HalfStepSequence& planned,
+                const std::vector<HalfStepRow>& rows);
+
+  const RobotModel& robot() const { return robot_; }
+  double end() const { return pieces_.back().start + pieces_.back().profiles.duration(); }
+  WalkJet At(double t) const;
+
+  /// Everything that a row of trajectory.csv says but its margins; joint angles are nan where a
+  /// leg does not reach.
+  PlayedRow Row(double t) const;
+  /// q̇ of both legs by Index(Side) [rad/s]: central differences over 20 µs.
+  std::array<Vector6d, 2> JointSpeeds(double t) const;
+
+  Support SupportAt(double t) const;
+  /// The latest half-step that has begun, from 1.
+  int HalfStepAt(double t) const;
+  /// Whether a foot is in the air, and moves horizontally or may do so.
+  bool MovesHorizontally(double t, int side) const;
+
+  /// sup of |c⁗| over [begin, end], at most [m/s⁴]: c̈ = ω²(c − p) twice differentiated, with the
+  /// closed-form bounds of each half-step under way added up.
+  double ComFourthBound(double begin, double end) const;
+
+ private:
+  struct Piece {
+    HalfStep half_step;
+    HalfStepProfiles profiles;
+    double start = 0;
+    WalkVector from, delta;  // f_i(0), f_i(T_i) − f_i(0); in W
+  };
+  double Local(double t, size_t piece) const { return t - pieces_[piece].start; }
+  // The step in the air, or −1.
+  int StepInAir(double t) const;
+
+  const RobotModel& robot_;
+  Lipm lipm_;
+  std::vector<Piece> pieces_;
+};
+
+}  // namespace halfstep::verify

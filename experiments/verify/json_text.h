@@ -1,0 +1,40 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace halfstep::verify {
+
+/// A JSON document. Throws InputError "path:line: is not JSON", or that it nests too deeply.
+nlohmann::json ParseJson(const std::string& path, const std::string& text);
+
+/// Reads members of one object; InputErrors name the member, "path: sha256.robot: is missing".
+/// Borrows path and object.
+class JsonMember {
+ public:
+  JsonMember(const std::string& path, const nlohmann::json& object, std::string name);
+
+  JsonMember Object(const std::string& key) const { return {path_, Of(key), Name(key)}; }
+  const nlohmann::json& List(const std::string& key) const;
+  /// Items of a list of objects.
+  std::vector<JsonMember> Items(const std::string& key) const;
+  std::string String(const std::string& key) const;
+  double Number(const std::string& key) const;
+  std::optional<double> NumberOrNull(const std::string& key) const;
+  long Whole(const std::string& key) const;
+  const nlohmann::json& object() const { return object_; }
+  [[noreturn]] void Fail(const std::string& what) const;
+
+ private:
+  std::string Name(const std::string& key) const { return name_.empty() ? key : name_ + "." + key; }
+  const nlohmann::json& Of(const std::string& key) const;
+  [[noreturn]] void FailAt(const std::string& key, const std::string& what) const;
+
+  const std::string& path_;
+  const nlohmann::json& object_;
+  std::string name_;
+};
+
+}  // namespace halfstep::verify

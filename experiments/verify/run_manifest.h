@@ -1,0 +1,36 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "wpg/input/input_file.h"
+
+namespace halfstep::verify {
+
+/// What manifest.json says of a run; nothing of it is believed.
+struct RunManifest {
+  struct Method {
+    std::string name, status;
+    double duration = 0;  ///< [s]
+  };
+  std::string name, robot, scene, objective;
+  std::string config_sha256, robot_sha256, scene_sha256;
+  std::vector<InputFile> robot_files, scene_files;  ///< without paths
+  long seed = 0, half_steps = 0;
+  std::vector<Method> methods;
+  std::map<std::string, InputFile> files;  ///< of the run, by relative path
+
+  /// Whether a method of this run has the folder; dichotomy/published's is dichotomy_published.
+  bool HasFolder(const std::string& folder) const { return MethodOf(folder) != nullptr; }
+  const Method* MethodOf(const std::string& folder) const;  ///< nullptr: none
+};
+
+/// Throws InputError for what is no manifest of a run.
+RunManifest ReadManifest(const std::string& path, const std::string& text);
+
+/// The folder of a method in a run.
+std::string FolderOfMethod(std::string method);
+
+}  // namespace halfstep::verify

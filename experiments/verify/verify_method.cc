@@ -1,0 +1,213 @@
+#include "experiments/verify/verify_method.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+
+#include "experiments/experiment.h"
+#include "experiments/verify/certificate_text.h"
+#include "experiments/verify/check_certificate.h"
+#include "experiments/verify/check_claims.h"
+#include "experiments/verify/check_clearance.h"
+#include "experiments/verify/check_files.h"
+#include "experiments/verify/check_margin_columns.h"
+#include "experiments/verify/check_overlaps.h"
+#include "experiments/verify/check_rows.h"
+#include "experiments/verify/check_run.h"
+#include "experiments/verify/check_summary.h"
+#include "experiments/verify/check_walk.h"
+#include "experiments/verify/csv_text.h"
+#include "experiments/verify/described_walk.h"
+#include "wpg/input/input_error.h"
+#include "wpg/input/sha256.h"
+
+namespace halfstep::verify {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Rows of the walk itself, where those of the trajectory are too coarse to be played [s].
+constexpr double kFine = 0.001;
+
+void CheckHash(const char* what, const std::string& bytes, const std::string& stated,
+               Findings* findings) {
+  if (Sha256(bytes) == stated) return;
+  findings->Disagree(std::string(what) +
+                     ": not the one that the certificate is about (SHA-256 differs)");
+}
+
+// The config of a run, read as `halfstep run` reads it: unknown keys are refused.
+ExperimentConfig ReadConfig(const VerifyOptions& options, const std::string& path) {
+  std::vector<YamlOverride> instead;
+  const auto quoted = [](const std::string& text) {
+    std::string yaml = "'";
+    for (const char c : text) yaml += c == '\'' ? std::string("''") : std::string(1, c);
+    return yaml + "'";
+  };
+  if (options.robot) instead.push_back({"robot", quoted(fs::absolute(*options.robot).string())});
+  if (options.scene) {
+    const bool none = *options.scene == "none";
+    instead.push_back({"scene", none ? "none" : quoted(fs::absolute(*options.scene).string())});
+  }
+  ExperimentConfig config = LoadConfig(path, instead);
+  if (config.footsteps.empty()) {
+    throw InputError({path + ": footsteps: are missing (valid: the config.yaml of a run)"});
+  }
+  return config;
+}
+
+HalfStepSequence PlannedOf(const ExperimentConfig& config, const RobotModel& robot) {
+  std::vector<Footstep> footsteps;
+  for (const FootstepConfig& step : config.footsteps) {
+    footsteps.push_back({.side = step.foot == "left" ? Side::kLeft : Side::kRight,
+                         .X_WF = step.X_WF,
+                         .via_height = step.via_height.value_or(config.half_step.via_height),
+                         .duration = step.duration.value_or(config.half_step.duration)});
+  }
+  const HalfStepShape shape{.shift = config.half_step.zmp_shift / config.half_step.duration,
+                            .horizontal_delay = config.half_step.horizontal_delay};
+  return MakeSequence(StartOf(config, robot), footsteps, config.half_step.via_lateral, shape,
+                      {.com_height = robot.com_height});
+}
+
+// All files of one method, and of its run, as they were read.
+struct MethodFiles {
+  MethodFiles(const VerifyOptions& options, const std::string& folder_name)
+      : folder(fs::path(options.run) / folder_name), run(options.run) {}
+
+  std::string PathOf(const char* file) const { return (folder / file).string(); }
+  std::string Read(const char* file) const { return ReadBytes(PathOf(file)); }
+  bool Has(const char* file) const { return fs::exists(PathOf(file)); }
+  std::string PathInRun(const char* file) const { return (run / file).string(); }
+  std::string ReadOfRun(const char* file) const { return ReadBytes(PathInRun(file)); }
+
+  fs::path folder, run;
+};
+
+// The walk that half_steps.csv and overlaps.csv describe; none when they do not fit.
+std::optional<DescribedWalk> WalkOf(const MethodFiles& files, const ExperimentConfig& config,
+                                    const RobotModel& robot, Findings* findings) {
+  const HalfStepSequence planned = PlannedOf(config, robot);
+  CheckFootsteps(ReadFootsteps(files.PathInRun("footsteps.csv"), files.ReadOfRun("footsteps.csv")),
+                 planned, findings);
+  const auto half_steps =
+      ReadHalfSteps(files.PathOf("half_steps.csv"), files.Read("half_steps.csv"));
+  std::optional<std::vector<OverlapRow>> overlaps;
+  if (files.Has("overlaps.csv")) {
+    overlaps = ReadOverlaps(files.PathOf("overlaps.csv"), files.Read("overlaps.csv"));
+  }
+  if (!CheckOverlaps(half_steps, overlaps, planned, findings)) return std::nullopt;
+  try {
+    return DescribedWalk(robot, planned, half_steps);
+  } catch (const std::logic_error& error) {
+    findings->Disagree(std::string("half_steps.csv: describes no walk: ") + error.what());
+    return std::nullopt;
+  }
+}
+
+// What the robot does that plays the rows straight. Where that disagrees, the walk itself is asked,
+// at rows close together: if it agrees, the rows are too coarse.
+void CheckPlayed(const PlayedMotion& motion, const DescribedWalk& walk,
+                 const CertificateText& certificate, double tolerance, Distances* distances,
+                 Findings* findings) {
+  const auto check = [&](const PlayedMotion& of, Findings* into) {
+    CheckRowMargins(of, certificate, tolerance, into);
+    CheckFloor(of, distances->scene(), certificate, tolerance, into);
+    CheckClearances(of, certificate, tolerance, distances, into);
+  };
+  Findings played;
+  check(motion, &played);
+  if (played.disagreements() == 0) {
+    findings->Take(played);
+    return;
+  }
+  const std::vector<PlayedRow> rows = FinerRows(motion.rows(), walk, kFine);
+  const bool finite =
+      std::all_of(rows.begin(), rows.end(), [](const PlayedRow& row) { return row.AllFinite(); });
+  if (!finite) {
+    findings->Take(played);
+    return;
+  }
+  Findings fine;
+  check(PlayedMotion(motion.robot(), rows), &fine);
+  findings->Take(fine);
+  if (fine.disagreements() > 0) return;
+  findings->TooCoarse("played straight from row to row the walk leaves its margins by more than " +
+                      Text("%.3g; rows every %.3g s keep them: ", tolerance, kFine) +
+                      played.reasons().front());
+}
+
+bool IsFinite(const std::vector<ClaimRow>& rows) {
+  return std::all_of(rows.begin(), rows.end(), [](const ClaimRow& row) {
+    return std::isfinite(row.begin) && std::isfinite(row.end) && !std::isnan(row.margin) &&
+           std::isfinite(row.bound);
+  });
+}
+
+}  // namespace
+
+std::string VerifyMethod(const VerifyOptions& options, const RunManifest& manifest,
+                         const std::string& folder, Findings* findings) {
+  const MethodFiles files(options, folder);
+  const CertificateText certificate =
+      ReadCertificateJson(files.PathOf("certificate.json"), files.Read("certificate.json"));
+  const std::string claims = files.Read("certificate.csv");
+  const std::string trajectory = files.Read("trajectory.csv");
+  const std::string config_bytes = files.ReadOfRun("config.yaml");
+  const ExperimentConfig config = ReadConfig(options, files.PathInRun("config.yaml"));
+  const RobotModel robot = LoadRobot(
+      options.robot ? *options.robot : (files.run / certificate.robot).lexically_normal().string());
+  Scene scene;
+  scene.name = "none";
+  if (const std::string named = options.scene.value_or(certificate.scene); named != "none") {
+    scene = LoadScene(options.scene ? named : (files.run / named).lexically_normal().string());
+  }
+
+  CheckHash("trajectory.csv", trajectory, certificate.trajectory_hash, findings);
+  CheckHash("certificate.csv", claims, certificate.certificate_hash, findings);
+  CheckRun({.config = config,
+            .manifest = manifest,
+            .certificate = certificate,
+            .robot = robot,
+            .scene = scene,
+            .run = files.run,
+            .folder = folder,
+            .robot_given = options.robot.has_value(),
+            .scene_given = options.scene.has_value()},
+           config_bytes, findings);
+  const bool same_files = findings->disagreements() == 0;
+  findings->Say(Text("SHA-256: trajectory, certificate, %zu robot files, %zu scene files",
+                     robot.files.size(), scene.files.size()));
+  CheckFiles(options.run, folder, manifest, findings);
+  CheckAgainstConfig(certificate, ReadConfigDemands(files.PathInRun("config.yaml"), config_bytes),
+                     findings);
+  const auto iterations =
+      !files.Has("iterates.csv")
+          ? 0
+          : std::ranges::count(files.Read("iterates.csv"), '\n') - 1;  // and the header
+  CheckSummary(ReadSummary(files.PathInRun("summary.csv"), files.ReadOfRun("summary.csv")),
+               manifest, folder, certificate, iterations, findings);
+
+  const std::vector<ClaimRow> claimed = ReadCertificateCsv(files.PathOf("certificate.csv"), claims);
+  const std::vector<PlayedRow> rows =
+      ReadTrajectory(files.PathOf("trajectory.csv"), trajectory, robot);
+  CheckArithmetic(certificate, claimed, robot, rows.empty() ? 0 : rows.back().t, findings);
+  const std::optional<DescribedWalk> walk = WalkOf(files, config, robot, findings);
+  if (!CheckIsMotion(rows, findings) || !walk) return certificate.statement;
+  const PlayedMotion motion(robot, rows);
+  Distances distances(robot, scene);
+  CheckRowsOnWalk(rows, *walk, config.output_period, findings);
+  CheckConsistency(motion, *walk, findings);
+  if (!same_files) {
+    findings->Say("clearances: not examined, for these are not the certificate's files");
+    return certificate.statement;
+  }
+  CheckPlayed(motion, *walk, certificate, options.tolerance, &distances, findings);
+  CheckMarginColumns(rows, *walk, certificate, &distances, findings);
+  if (IsFinite(claimed)) CheckClaims(*walk, certificate, claimed, &distances, findings);
+  findings->Say("triangle distances: " + Count(distances.queries()));
+  return certificate.statement;
+}
+
+}  // namespace halfstep::verify

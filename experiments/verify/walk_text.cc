@@ -1,0 +1,103 @@
+#include "experiments/verify/walk_text.h"
+
+#include "experiments/verify/csv_text.h"
+
+namespace halfstep::verify {
+namespace {
+
+// A column that holds one of a few words.
+std::string Word(const CsvText& csv, size_t row, size_t column,
+                 const std::vector<std::string>& words) {
+  const std::string& cell = csv.Cell(row, column);
+  std::string valid;
+  for (const std::string& word : words) {
+    if (cell == word) return cell;
+    valid += (valid.empty() ? "" : ", ") + word;
+  }
+  csv.Refuse(row, column, "is not valid (valid: " + valid + ")");
+}
+
+void CheckIndex(const CsvText& csv, size_t row) {
+  if (csv.Number(row, 0) != static_cast<double>(row + 1)) {
+    csv.Refuse(row, 0, "is not " + std::to_string(row + 1));
+  }
+}
+
+}  // namespace
+
+std::vector<HalfStepRow> ReadHalfSteps(const std::string& path, const std::string& text) {
+  const CsvText csv(path, text,
+                    {"half_step", "kind", "support", "start_s", "duration_s", "height_scale"});
+  std::vector<HalfStepRow> rows;
+  for (size_t i = 0; i < csv.size(); ++i) {
+    CheckIndex(csv, i);
+    rows.push_back({.kind = Word(csv, i, 1, {"up", "down"}),
+                    .support = Word(csv, i, 2, {"left", "right"}),
+                    .start = csv.Number(i, 3),
+                    .duration = csv.Number(i, 4),
+                    .height_scale = csv.Number(i, 5)});
+  }
+  return rows;
+}
+
+std::vector<OverlapRow> ReadOverlaps(const std::string& path, const std::string& text) {
+  const CsvText csv(path, text,
+                    {"junction", "kind", "overlap_s", "upper_bound_s", "active", "limit_family",
+                     "limit_scale", "price_s", "multiplier_s", "duration_before_s",
+                     "duration_after_s", "height_scale_before", "height_scale_after"});
+  std::vector<OverlapRow> rows;
+  for (size_t i = 0; i < csv.size(); ++i) {
+    CheckIndex(csv, i);
+    rows.push_back({.kind = Word(csv, i, 1, {"up_down", "down_up"}),
+                    .overlap = csv.Number(i, 2),
+                    .duration_before = csv.Number(i, 9),
+                    .duration_after = csv.Number(i, 10),
+                    .scale_before = csv.Number(i, 11),
+                    .scale_after = csv.Number(i, 12)});
+  }
+  return rows;
+}
+
+std::vector<FootstepRow> ReadFootsteps(const std::string& path, const std::string& text) {
+  const CsvText csv(path, text,
+                    {"footstep", "foot", "x_m", "y_m", "yaw_rad", "via_height_m", "duration_s"});
+  std::vector<FootstepRow> rows;
+  for (size_t i = 0; i < csv.size(); ++i) {
+    const int footstep = i < 2 ? 0 : static_cast<int>(i) - 1;
+    if (csv.Number(i, 0) != footstep) csv.Refuse(i, 0, "is not " + std::to_string(footstep));
+    rows.push_back({.footstep = footstep,
+                    .foot = Word(csv, i, 1, {"left", "right"}),
+                    .X_WF = {csv.Number(i, 2), csv.Number(i, 3), csv.Number(i, 4)},
+                    .via_height = csv.Number(i, 5),
+                    .duration = csv.Number(i, 6)});
+  }
+  return rows;
+}
+
+std::vector<SummaryRow> ReadSummary(const std::string& path, const std::string& text) {
+  const CsvText csv(
+      path, text,
+      {"method", "status", "certified", "duration_s", "speedup", "cost", "worst_margin",
+       "worst_margin_name", "iterations", "margin_evaluations", "collision_queries", "wall_s",
+       "time_to_first_improvement_s", "gap_to_reference"});
+  std::vector<SummaryRow> rows;
+  for (size_t i = 0; i < csv.size(); ++i) {
+    SummaryRow row{.method = csv.Cell(i, 0),
+                   .status = csv.Cell(i, 1),
+                   .worst_family = csv.Cell(i, 7),
+                   .certified = Word(csv, i, 2, {"true", "false"}) == "true",
+                   .duration = csv.Number(i, 3),
+                   .speedup = csv.Number(i, 4),
+                   .cost = csv.Number(i, 5),
+                   .worst_margin = csv.Number(i, 6),
+                   .iterations = static_cast<long>(csv.Number(i, 8)),
+                   .gap_to_reference = {}};
+    for (size_t column : {9, 10, 11}) (void)csv.Number(i, column);
+    if (!csv.Cell(i, 12).empty()) (void)csv.Number(i, 12);
+    if (!csv.Cell(i, 13).empty()) row.gap_to_reference = csv.Number(i, 13);
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+}  // namespace halfstep::verify
