@@ -8,7 +8,7 @@
 #include <random>
 
 #include "experiments/commands.h"
-#include "tests/experiments/verify_mutation.h"
+#include "tests/verify/verify_mutation.h"
 #include "wpg/input/number_text.h"
 
 namespace halfstep {
@@ -124,7 +124,7 @@ std::vector<Mutation> Mutations() {
       {"IntervalTurnedAround",
        Certificate([](Table& t) { std::swap(t[100][kBegin], t[100][kEnd]); }), "is empty"},
       {"ClearanceRaisedAfterTheRun", Certificate(RaiseClearance), kDiffers, false},
-      {"ClearanceRaised", Certificate(RaiseClearance), "by the trajectory"},
+      {"ClearanceRaised", Certificate(RaiseClearance), "by the walk"},
       {"ZmpMarginRaised", Certificate([](Table& t) { Add(&Loosest(t, "zmp")[kMargin], 0.01); }),
        kCertificateRow},
       {"ReachRaised", Certificate([](Table& t) { Add(&Loosest(t, "reach")[kMargin], 0.01); }),
@@ -193,7 +193,7 @@ std::vector<Mutation> Mutations() {
        },
        "no-step areas: right foot"},
       {"JointNudgedIntoTheObstacle", Nudge("q_RLEG_JOINT4_rad", 288, -0.3),
-       "clearance: RLEG_LINK5 - box"},
+       "off the walk of half_steps.csv"},
       {"JointNudgedAfterTheRun", Nudge("q_RLEG_JOINT4_rad", 288, -0.3), kDiffers, false},
       {"JointNudgedByAMilliradian", Nudge("q_LLEG_JOINT2_rad", 50, 0.001),
        "soles by forward kinematics"},

@@ -1,0 +1,197 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "planner/scene.h"
+#include "tests/experiments/child_process.h"
+#include "tests/experiments/temporary_folder.h"
+#include "wpg/input/sha256.h"
+#include "wpg/robot_model.h"
+
+namespace halfstep {
+
+/// What the run to be tampered with is made of.
+struct TamperedWalk {
+  std::string config = "fig5_box";          ///< a shipped one
+  std::vector<std::string> overrides = {};  ///< KEY=VALUE
+  std::optional<double> com_height = {};    ///< of the robot [m]; none: as shipped
+};
+
+/// A run with its own copy of robot and scene, to be tampered with; by default of the Fig. 5 walk.
+/// The run itself is made once a build by the command and copied for each object.
+class TamperedRun {
+ public:
+  explicit TamperedRun(const TamperedWalk& walk = {}) : has_scene_(walk.config == "fig5_box") {
+    namespace fs = std::filesystem;
+    std::string name = Version() + " " + walk.config;
+    for (const std::string& item : walk.overrides) name += " " + item;
+    if (walk.com_height) name += " " + std::to_string(*walk.com_height);
+    const fs::path made =
+        fs::path(HALFSTEP_BINARY_DIR) / ("verify_run_" + Sha256(name).substr(0, 16));
+    if (!fs::exists(made)) {
+      const fs::path mine = made.string() + "." + std::to_string(getpid());
+      Make(mine, walk);
+      std::error_code lost_the_race;
+      fs::rename(mine, made, lost_the_race);
+      if (lost_the_race) fs::remove_all(mine);
+    }
+    fs::copy(made, place_.path(), fs::copy_options::recursive);
+  }
+
+  std::filesystem::path run() const { return place_ / "run"; }
+  std::filesystem::path trajectory() const { return run() / "dichotomy/trajectory.csv"; }
+  std::filesystem::path certificate() const { return run() / "dichotomy/certificate.csv"; }
+  std::filesystem::path json() const { return run() / "dichotomy/certificate.json"; }
+  std::filesystem::path scene() const { return place_ / "scenes/box.yaml"; }
+  std::filesystem::path urdf() const { return place_ / "robots/hrp2.urdf"; }
+
+  Outcome Verify() const {
+    return Halfstep(place_.path(), {"verify", "run", "--method", "dichotomy"});
+  }
+
+  /// Cells of a CSV, the header first, and back.
+  using Table = std::vector<std::vector<std::string>>;
+  static Table Cells(const std::string& text) {
+    Table table(1, {""});
+    bool quoted = false;  // quotes stay part of their cells
+    for (const char c : text) {
+      if (c == '"') quoted = !quoted;
+      if (c == '\n') {
+        table.push_back({""});
+      } else if (c == ',' && !quoted) {
+        table.back().emplace_back();
+      } else {
+        table.back().back() += c;
+      }
+    }
+    table.pop_back();
+    return table;
+  }
+  static void Write(const std::filesystem::path& path, const Table& table) {
+    std::string text;
+    for (const auto& row : table) {
+      for (size_t i = 0; i < row.size(); ++i) text += (i == 0 ? "" : ",") + row[i];
+      text += '\n';
+    }
+    WriteText(path, text);
+  }
+  void EditTrajectory(const std::function<void(Table&)>& edit) { EditCsv(trajectory(), edit); }
+  void EditCertificate(const std::function<void(Table&)>& edit) { EditCsv(certificate(), edit); }
+  void EditJson(const std::function<void(nlohmann::ordered_json&)>& edit) {
+    EditJsonFile(json(), edit);
+  }
+  /// Edits the cells of any table of the run.
+  static void EditCsv(const std::filesystem::path& path, const std::function<void(Table&)>& edit) {
+    Table table = Cells(ReadText(path));
+    edit(table);
+    Write(path, table);
+  }
+  /// Replaces the first occurrence of a text in a file.
+  static void Replace(const std::filesystem::path& path, const std::string& old,
+                      const std::string& by) {
+    std::string text = ReadText(path);
+    const size_t at = text.find(old);
+    ASSERT_NE(at, std::string::npos) << old;
+    WriteText(path, text.replace(at, old.size(), by));
+  }
+
+  /// Edits the manifest.
+  void EditManifest(const std::function<void(nlohmann::ordered_json&)>& edit) {
+    EditJsonFile(run() / "manifest.json", edit);
+  }
+
+  /// Makes every hash and length that the run states those of the files as they are now, of all its
+  /// methods: what a forger would do.
+  void Rehash() {
+    const auto robot = LoadRobot((place_ / "robots/hrp2.yaml").string()).files;
+    std::vector<InputFile> scene;
+    if (has_scene_) scene = LoadScene(this->scene().string()).files;
+    for (const auto& folder : std::filesystem::directory_iterator(run())) {
+      const auto certificate = folder.path() / "certificate.json";
+      if (!folder.is_directory() || !std::filesystem::exists(certificate)) continue;
+      EditJsonFile(certificate, [&](nlohmann::ordered_json& document) {
+        nlohmann::ordered_json& hashes = document["sha256"];
+        for (const char* file : {"trajectory.csv", "certificate.csv"}) {
+          if (!std::filesystem::exists(folder.path() / file)) continue;
+          hashes[file] = Sha256(ReadText(folder.path() / file));
+        }
+        hashes["robot"] = CombinedSha256(robot);
+        hashes["scene"] = CombinedSha256(scene);
+      });
+    }
+    EditManifest([&](nlohmann::ordered_json& manifest) {
+      manifest["config_sha256"] = Sha256(ReadText(run() / "config.yaml"));
+      manifest["robot_sha256"] = CombinedSha256(robot);
+      manifest["scene_sha256"] = CombinedSha256(scene);
+      const auto list = [](const std::vector<InputFile>& files) {
+        nlohmann::ordered_json items = nlohmann::ordered_json::array();
+        for (const InputFile& file : files) {
+          items.push_back({{"name", file.name}, {"bytes", file.bytes}, {"sha256", file.sha256}});
+        }
+        return items;
+      };
+      manifest["inputs"]["robot"] = list(robot);
+      manifest["inputs"]["scene"] = list(scene);
+      const nlohmann::ordered_json listed = manifest["files"];
+      for (const auto& item : listed.items()) {
+        if (!std::filesystem::exists(run() / item.key())) continue;
+        const std::string bytes = ReadText(run() / item.key());
+        manifest["files"][item.key()] = {{"bytes", bytes.size()}, {"sha256", Sha256(bytes)}};
+      }
+    });
+  }
+
+ private:
+  // Names the build of the command that makes the run.
+  static std::string Version() {
+    return std::to_string(
+        std::filesystem::last_write_time(HALFSTEP_COMMAND).time_since_epoch().count());
+  }
+
+  static void Make(const std::filesystem::path& place, const TamperedWalk& walk) {
+    namespace fs = std::filesystem;
+    const fs::path source(HALFSTEP_SOURCE_DIR);
+    fs::create_directories(place);
+    fs::copy(source / "wpg/robots", place / "robots", fs::copy_options::recursive);
+    fs::create_directories(place / "scenes");
+    fs::copy(source / "experiments/scenes/box.yaml", place / "scenes/box.yaml");
+    // An area that no sole may touch, 10 cm and more beside the feet.
+    WriteText(place / "scenes/box.yaml",
+              "no_step:\n  - name: aside\n    polygon_m: [[-0.5, 0.3], [0.7, 0.3], [0.7, 0.4], [-0.5, 0.4]]\n" +
+                  ReadText(place / "scenes/box.yaml"));
+    if (walk.com_height) {
+      Replace(place / "robots/hrp2.yaml", "\ncom_height_m: 0.814",
+              "\ncom_height_m: " + std::to_string(*walk.com_height));
+    }
+    const std::string config = "configs/" + walk.config + ".yaml";
+    fs::create_directories(place / "configs");
+    fs::copy(source / "experiments" / config, place / config);
+    std::vector<std::string> arguments = {"run", config, "--quiet", "--out", "run"};
+    for (const std::string item : {"robot=../robots/hrp2.yaml", "smoothing.methods=[dichotomy]"}) {
+      arguments.insert(arguments.end(), {"--set", item});
+    }
+    for (const std::string& item : walk.overrides) {
+      arguments.insert(arguments.end(), {"--set", item});
+    }
+    const Outcome outcome = Halfstep(place, arguments);
+    if (outcome.status != 0) throw std::runtime_error("halfstep run: " + outcome.err);
+  }
+
+  static void EditJsonFile(const std::filesystem::path& path,
+                           const std::function<void(nlohmann::ordered_json&)>& edit) {
+    nlohmann::ordered_json document = nlohmann::ordered_json::parse(ReadText(path));
+    edit(document);
+    WriteText(path, document.dump(2) + "\n");
+  }
+
+  TemporaryFolder place_;
+  bool has_scene_;
+};
+
+}  // namespace halfstep

@@ -1,0 +1,65 @@
+// Right walks are verified whatever their period, or said to be too coarse; wrong ones never.
+
+#include <gmock/gmock.h>
+
+#include "experiments/commands.h"
+#include "tests/verify/verify_mutation.h"
+#include "wpg/input/number_text.h"
+
+namespace halfstep {
+namespace {
+
+using testing::HasSubstr;
+
+struct Case {
+  std::string name;
+  TamperedWalk walk;
+  bool verified = true;  ///< else its rows are too coarse
+};
+void PrintTo(const Case& one, std::ostream* out) { *out << one.name; }
+
+std::vector<Case> Cases() {
+  const std::string fig4 = "fig4_raw_sequence";
+  return {{"RowsEvery10ms", {.overrides = {"output.period_s=0.01"}}},
+          {"RowsEvery50ms", {.overrides = {"output.period_s=0.05"}}, false},
+          {"ZmpShiftsIn20ms", {.config = fig4, .overrides = {"half_step.zmp_shift_s=0.02"}}},
+          {"ZmpShiftsIn46ms", {.config = fig4, .overrides = {"half_step.zmp_shift_s=0.046"}}},
+          {"LowRobot", {.config = fig4, .overrides = {}, .com_height = 0.577}}};
+}
+
+class Periods : public testing::TestWithParam<Case> {};
+
+TEST_P(Periods, WhatIsRightIsNotRefused) {
+  const TamperedRun run(GetParam().walk);
+  const Outcome outcome = run.Verify();
+  EXPECT_EQ(outcome.status, GetParam().verified ? kSuccess : kTooCoarse)
+      << outcome.out << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr(GetParam().verified ? "\n  verified\n" : "too coarse"));
+}
+
+// One row's knee bent by 10 mrad, the CoM a millimetre aside, its acceleration changed by 0.05
+// m/s²: all hashes follow.
+TEST_P(Periods, WhatIsWrongIsRefused) {
+  for (const auto& [column, change] :
+       {std::pair{"q_RLEG_JOINT3_rad", 0.01}, std::pair{"com_y_m", 0.001},
+        std::pair{"com_ax_m_s2", 0.05}}) {
+    TamperedRun run(GetParam().walk);
+    run.EditTrajectory([&](TamperedRun::Table& table) {
+      const auto& header = table.front();
+      const auto at =
+          static_cast<size_t>(std::find(header.begin(), header.end(), column) - header.begin());
+      std::string& cell = table[table.size() / 2][at];
+      cell = ShortestText(std::stod(cell) + change);
+    });
+    run.Rehash();
+    const Outcome outcome = run.Verify();
+    EXPECT_EQ(outcome.status, kNotVerified) << column << "\n" << outcome.out << outcome.err;
+    EXPECT_THAT(outcome.out, HasSubstr("off the walk of half_steps.csv"));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Verify, Periods, testing::ValuesIn(Cases()),
+                         [](const auto& info) { return info.param.name; });
+
+}  // namespace
+}  // namespace halfstep
