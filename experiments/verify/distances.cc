@@ -1,37 +1,26 @@
 #include "experiments/verify/distances.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace halfstep::verify {
 
 Distances::Distances(const RobotModel& robot, const Scene& scene) : robot_(robot), scene_(scene) {
-  for (const RobotBody& body : robot.bodies) bodies_.push_back(Prepare(CollisionShape(body.shape)));
+  for (const RobotBody& body : robot.bodies) bodies_.emplace_back(body.shape);
   for (const Obstacle& obstacle : scene.obstacles) {
-    obstacles_.push_back(Prepare(
-        std::visit([](const auto& shape) { return CollisionShape(shape); }, obstacle.shape)));
+    std::visit([this](const auto& shape) { obstacles_.emplace_back(shape); }, obstacle.shape);
   }
 }
 
-Distances::Shape Distances::Prepare(CollisionShape shape) {
-  const ConvexBody& body = shape.convex();
-  const Eigen::Vector3d disc(body.disc_radius, body.disc_radius, 0);
-  const Eigen::Vector3d around = disc.array() + body.ball_radius + 1e-9;
-  const Eigen::Vector3d lower = body.vertices.rowwise().minCoeff() - around;
-  const Eigen::Vector3d upper = body.vertices.rowwise().maxCoeff() + around;
-  return {std::move(shape), lower, upper};
-}
-
 // Bounding spheres, and each one's sphere against the other's box.
-double Distances::QuickBound(const Shape& a, const Eigen::Isometry3d& X_a, const Shape& b,
+double Distances::QuickBound(const Solid& a, const Eigen::Isometry3d& X_a, const Solid& b,
                              const Eigen::Isometry3d& X_b) {
-  const Eigen::Vector3d of_a = X_a * a.shape.center(), of_b = X_b * b.shape.center();
-  const auto to_box = [](const Eigen::Vector3d& p, const Shape& box) {
-    return (box.lower - p).cwiseMax(p - box.upper).cwiseMax(0.0).norm();
+  const Eigen::Vector3d of_a = X_a * a.center(), of_b = X_b * b.center();
+  const auto to_box = [](const Eigen::Vector3d& p, const Solid& box) {
+    return (box.lower() - p).cwiseMax(p - box.upper()).cwiseMax(0.0).norm();
   };
-  const double a_to_b = to_box(X_b.inverse(Eigen::Isometry) * of_a, b) - a.shape.radius();
-  const double b_to_a = to_box(X_a.inverse(Eigen::Isometry) * of_b, a) - b.shape.radius();
-  return std::max({a_to_b, b_to_a, (of_a - of_b).norm() - a.shape.radius() - b.shape.radius()});
+  const double a_to_b = to_box(X_b.inverse(Eigen::Isometry) * of_a, b) - a.radius();
+  const double b_to_a = to_box(X_a.inverse(Eigen::Isometry) * of_b, a) - b.radius();
+  return std::max({a_to_b, b_to_a, (of_a - of_b).norm() - a.radius() - b.radius()});
 }
 
 Distances::Result Distances::FromObstacle(size_t body, size_t obstacle, const Placement& at,
@@ -41,7 +30,7 @@ Distances::Result Distances::FromObstacle(size_t body, size_t obstacle, const Pl
   const double quick = QuickBound(bodies_[body], X_WB, obstacles_[obstacle], X_WO);
   if (quick >= enough) return {quick, false};
   ++queries_;
-  return {TriangleDistance(bodies_[body].shape, X_WB, obstacles_[obstacle].shape, X_WO), true};
+  return {Solid::Distance(bodies_[body], X_WB, obstacles_[obstacle], X_WO), true};
 }
 
 Distances::Result Distances::OfPair(size_t a, size_t b, const Placement& at, double enough) {
@@ -50,7 +39,7 @@ Distances::Result Distances::OfPair(size_t a, size_t b, const Placement& at, dou
   const double quick = QuickBound(bodies_[a], X_Ba, bodies_[b], X_Bb);
   if (quick >= enough) return {quick, false};
   ++queries_;
-  return {TriangleDistance(bodies_[a].shape, X_Ba, bodies_[b].shape, X_Bb), true};
+  return {Solid::Distance(bodies_[a], X_Ba, bodies_[b], X_Bb), true};
 }
 
 double Distances::NearestObstacle(const Placement& at, double horizon) {

@@ -4,12 +4,12 @@
 #include <vector>
 
 #include "experiments/verify/played_motion.h"
+#include "experiments/verify/solid.h"
 #include "planner/scene.h"
-#include "planner/separation.h"
 
 namespace halfstep::verify {
 
-/// Distances of the robot's bodies from obstacles and from each other, by triangle meshes.
+/// Distances of the robot's bodies from obstacles and from each other, by Solid.
 /// Borrows robot and scene. Const but for the count of queries.
 class Distances {
  public:
@@ -20,7 +20,7 @@ class Distances {
   size_t num_obstacles() const { return obstacles_.size(); }
   long queries() const { return queries_; }
 
-  /// A distance, or something below it. `exact`: the triangles were asked.
+  /// A distance, or something below it. `exact`: the solids were asked.
   struct Result {
     double distance = 0;
     bool exact = false;
@@ -45,17 +45,12 @@ class Distances {
   std::string NameOfPair(size_t a, size_t b) const;
 
  private:
-  struct Shape {
-    CollisionShape shape;
-    Eigen::Vector3d lower, upper;  // bounds in its own frame [m]
-  };
-  static Shape Prepare(CollisionShape shape);
-  static double QuickBound(const Shape& a, const Eigen::Isometry3d& X_a, const Shape& b,
+  static double QuickBound(const Solid& a, const Eigen::Isometry3d& X_a, const Solid& b,
                            const Eigen::Isometry3d& X_b);
 
   const RobotModel& robot_;
   const Scene& scene_;
-  std::vector<Shape> bodies_, obstacles_;
+  std::vector<Solid> bodies_, obstacles_;
   long queries_ = 0;
 };
 

@@ -1,0 +1,174 @@
+#include "experiments/verify/solid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+
+namespace halfstep::verify {
+namespace {
+
+constexpr size_t kLeaf = 4;
+constexpr double kRounding = 1e-9;  // [m] that bounds are widened by
+
+Eigen::AlignedBox3d Bounds(const ConvexSet& set) {
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& p : set.points) box.extend(p);
+  const Eigen::Vector3d around = Eigen::Vector3d::Constant(set.disc + set.ball + kRounding);
+  return {box.min() - around, box.max() + around};
+}
+
+ConvexSet Moved(const Eigen::Isometry3d& X, ConvexSet set) {
+  for (Eigen::Vector3d& p : set.points) p = X * p;
+  set.disc_axis = X.linear() * set.disc_axis;
+  return set;
+}
+
+// How often, counted by the sense of the triangles, a ray crosses a surface.
+int Crossings(const std::vector<std::array<Eigen::Vector3d, 3>>& triangles,
+              const Eigen::Vector3d& from, const Eigen::Vector3d& along) {
+  int crossings = 0;
+  for (const auto& t : triangles) {
+    const Eigen::Vector3d a = t[0] - from, b = t[1] - from, c = t[2] - from;
+    const double u = along.dot(b.cross(c)), v = along.dot(c.cross(a)), w = along.dot(a.cross(b));
+    const bool out = u > 0 && v > 0 && w > 0, in = u < 0 && v < 0 && w < 0;
+    if (!out && !in) continue;
+    // Ahead of the ray's origin where the triangle's plane is, seen along it.
+    const double volume = a.dot(b.cross(c));
+    if (out ? volume > 0 : volume < 0) crossings += out ? 1 : -1;
+  }
+  return crossings;
+}
+
+}  // namespace
+
+Solid::Solid(const ConvexBody& body) {
+  set_.points.assign(body.vertices.colwise().begin(), body.vertices.colwise().end());
+  set_.disc = body.disc_radius;
+  set_.ball = body.ball_radius;
+  const Eigen::AlignedBox3d box = Bounds(set_);
+  lower_ = box.min();
+  upper_ = box.max();
+  center_ = box.center();
+  for (const Eigen::Vector3d& p : set_.points) radius_ = std::max(radius_, (p - center_).norm());
+  radius_ += set_.disc + set_.ball + kRounding;
+}
+
+Solid::Solid(const TriangleMesh& mesh) {
+  for (const Eigen::Vector3i& t : mesh.triangles.colwise()) {
+    triangles_.push_back(
+        {mesh.vertices.col(t[0]), mesh.vertices.col(t[1]), mesh.vertices.col(t[2])});
+  }
+  FindParts(mesh);
+  BuildTree(0, triangles_.size());
+  const Eigen::Vector3d around = Eigen::Vector3d::Constant(kRounding);
+  lower_ = nodes_.back().box.min() - around;
+  upper_ = nodes_.back().box.max() + around;
+  center_ = 0.5 * (lower_ + upper_);
+  radius_ = 0.5 * (upper_ - lower_).norm() * (1 + 1e-12);
+}
+
+// Parts are joined by corners in the same place: an STL file does not say which are the same.
+void Solid::FindParts(const TriangleMesh& mesh) {
+  std::map<std::array<double, 3>, int> places;
+  std::vector<int> place, parent;
+  for (const Eigen::Vector3d& v : mesh.vertices.colwise()) {
+    const auto [found, fresh] =
+        places.try_emplace({v.x(), v.y(), v.z()}, static_cast<int>(parent.size()));
+    if (fresh) parent.push_back(found->second);
+    place.push_back(found->second);
+  }
+  const auto root = [&](int i) {
+    while (parent[static_cast<size_t>(i)] != i) {
+      int& up = parent[static_cast<size_t>(i)];
+      up = parent[static_cast<size_t>(up)];
+      i = up;
+    }
+    return i;
+  };
+  for (const Eigen::Vector3i& t : mesh.triangles.colwise()) {
+    const int first = root(place[static_cast<size_t>(t[0])]);
+    parent[static_cast<size_t>(root(place[static_cast<size_t>(t[1])]))] = first;
+    parent[static_cast<size_t>(root(place[static_cast<size_t>(t[2])]))] = first;
+  }
+  std::map<int, size_t> part_of;
+  for (Eigen::Index i = 0; i < mesh.triangles.cols(); ++i) {
+    const int its = root(place[static_cast<size_t>(mesh.triangles(0, i))]);
+    const auto [found, fresh] = part_of.try_emplace(its, parts_.size());
+    if (fresh) parts_.emplace_back();
+    parts_[found->second].push_back(triangles_[static_cast<size_t>(i)]);
+  }
+}
+
+int Solid::BuildTree(size_t first, size_t last) {
+  Node node{.first = first, .last = last};
+  for (size_t i = first; i < last; ++i) {
+    for (const Eigen::Vector3d& p : triangles_[i]) node.box.extend(p);
+  }
+  if (last - first > kLeaf) {
+    Eigen::Index axis = 0;
+    node.box.sizes().maxCoeff(&axis);
+    const size_t middle = first + (last - first) / 2;
+    const auto at = [this](size_t i) {
+      return triangles_.begin() + static_cast<std::ptrdiff_t>(i);
+    };
+    std::nth_element(at(first), at(middle), at(last), [axis](const Triangle& a, const Triangle& b) {
+      return a[0][axis] + a[1][axis] + a[2][axis] < b[0][axis] + b[1][axis] + b[2][axis];
+    });
+    node.left = BuildTree(first, middle);
+    node.right = BuildTree(middle, last);
+  }
+  nodes_.push_back(node);
+  return static_cast<int>(nodes_.size()) - 1;
+}
+
+double Solid::FromTriangles(const ConvexSet& set, const Eigen::AlignedBox3d& bounds) const {
+  double least = std::numeric_limits<double>::infinity();
+  std::vector<int> open = {static_cast<int>(nodes_.size()) - 1};
+  while (!open.empty()) {
+    const Node& node = nodes_[static_cast<size_t>(open.back())];
+    open.pop_back();
+    if (std::sqrt(node.box.squaredExteriorDistance(bounds)) >= least) continue;
+    if (node.left >= 0) {
+      // The nearer side first.
+      const auto far = [&](int n) {
+        return nodes_[static_cast<size_t>(n)].box.squaredExteriorDistance(bounds);
+      };
+      const bool left_first = far(node.left) <= far(node.right);
+      open.push_back(left_first ? node.right : node.left);
+      open.push_back(left_first ? node.left : node.right);
+      continue;
+    }
+    for (size_t i = node.first; i < node.last; ++i) {
+      const ConvexSet triangle{{triangles_[i].begin(), triangles_[i].end()}};
+      least = std::min(least, DistanceOf(set, triangle).lower);
+    }
+  }
+  return least;
+}
+
+// Four rays, none of which is in line with the axes; one of them may graze an edge.
+bool Solid::Surrounds(const Eigen::Vector3d& point) const {
+  const std::array<Eigen::Vector3d, 4> rays = {
+      Eigen::Vector3d(1, 0.937, 1.071), Eigen::Vector3d(-1.013, -0.959, 1.117),
+      Eigen::Vector3d(-0.947, 1.039, -1.093), Eigen::Vector3d(1.049, -1.103, -0.983)};
+  return std::any_of(parts_.begin(), parts_.end(), [&](const std::vector<Triangle>& part) {
+    return std::count_if(rays.begin(), rays.end(), [&](const Eigen::Vector3d& ray) {
+             return Crossings(part, point, ray) != 0;
+           }) >= 3;
+  });
+}
+
+double Solid::Distance(const Solid& convex, const Eigen::Isometry3d& X_Wa, const Solid& other,
+                       const Eigen::Isometry3d& X_Wb) {
+  const ConvexSet seen = Moved(X_Wb.inverse(Eigen::Isometry) * X_Wa, convex.set_);
+  if (!other.set_.points.empty()) return DistanceOf(seen, other.set_).lower;
+  const double distance = other.FromTriangles(seen, Bounds(seen));
+  const Eigen::Vector3d& point = seen.points[0];
+  const bool near = (point.array() >= other.lower_.array()).all() &&
+                    (point.array() <= other.upper_.array()).all();
+  return distance > 0 && near && other.Surrounds(point) ? 0 : distance;
+}
+
+}  // namespace halfstep::verify

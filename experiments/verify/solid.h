@@ -1,0 +1,51 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <vector>
+
+#include "experiments/verify/min_norm_point.h"
+#include "planner/scene.h"
+#include "wpg/convex_body.h"
+
+namespace halfstep::verify {
+
+/// A body or an obstacle as verify takes it: a convex set by its points, disc and ball, or the
+/// triangles of a mesh one by one. Knows no hull, no FCL and no winding number of the program's.
+class Solid {
+ public:
+  /// Of the body only vertices and radii are used.
+  explicit Solid(const ConvexBody& body);
+  explicit Solid(const TriangleMesh& mesh);
+
+  const Eigen::Vector3d& lower() const { return lower_; }  ///< bounds in its own frame [m]
+  const Eigen::Vector3d& upper() const { return upper_; }
+  const Eigen::Vector3d& center() const { return center_; }  ///< of a ball that holds it
+  double radius() const { return radius_; }                  ///< of that ball [m]
+
+  /// Distance of a convex solid from any other, at most the true one; 0: they touch, or the convex
+  /// one lies inside a closed part of the mesh [m].
+  static double Distance(const Solid& convex, const Eigen::Isometry3d& X_Wa, const Solid& other,
+                         const Eigen::Isometry3d& X_Wb);
+
+ private:
+  using Triangle = std::array<Eigen::Vector3d, 3>;
+  struct Node {
+    Eigen::AlignedBox3d box{};
+    int left = -1, right = -1;  // −1: a leaf
+    size_t first = 0, last = 0;
+  };
+  int BuildTree(size_t first, size_t last);
+  void FindParts(const TriangleMesh& mesh);
+  double FromTriangles(const ConvexSet& set, const Eigen::AlignedBox3d& bounds) const;
+  bool Surrounds(const Eigen::Vector3d& point) const;
+
+  ConvexSet set_;                             // empty: a mesh
+  std::vector<Triangle> triangles_;           // in the order of the tree's leaves
+  std::vector<Node> nodes_;                   // the last is the root
+  std::vector<std::vector<Triangle>> parts_;  // connected ones
+  Eigen::Vector3d lower_{0, 0, 0}, upper_{0, 0, 0}, center_{0, 0, 0};
+  double radius_ = 0;
+};
+
+}  // namespace halfstep::verify

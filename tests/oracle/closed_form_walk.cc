@@ -1,0 +1,151 @@
+#include "tests/oracle/closed_form_walk.h"
+
+#include <algorithm>
+
+namespace halfstep::oracle {
+namespace {
+
+constexpr double kGravity = 9.81;  // [m/s²]
+
+// 10x³ − 15x⁴ + 6x⁵ on [0, 1] and its slope.
+Real Smooth(Real x) {
+  if (x <= 0) return 0;
+  if (x >= 1) return 1;
+  return x * x * x * (10 + x * (6 * x - 15));
+}
+Real SmoothSlope(Real x) { return x <= 0 || x >= 1 ? Real(0) : 30 * x * x * (1 - x) * (1 - x); }
+
+int FirstOf(int foot) { return 5 + 4 * foot; }
+
+}  // namespace
+
+ClosedFormWalk::ClosedFormWalk(const WalkPlan& plan)
+    : sigma1_((1 - Real(plan.shift)) / 2),
+      sigma2_((1 + Real(plan.shift)) / 2),
+      delay_(plan.horizontal_delay) {
+  const Real omega = Sqrt(Real(kGravity) / Real(plan.com_height));
+  std::array<FloorPose, 2> feet = plan.start;
+  // With both feet on the floor.
+  const auto standing = [&feet](int support) {
+    const FloorPose &l = feet[0], &r = feet[1];
+    const Real x = (Real(l.x) + r.x) / 2, y = (Real(l.y) + r.y) / 2;
+    (void)support;
+    return Quantities{x,   y,   x, y,    (Real(l.yaw) + r.yaw) / 2, l.x, l.y, 0, l.yaw,
+                      r.x, r.y, 0, r.yaw};
+  };
+  Real begin = 0;
+  for (size_t i = 0; i < 2 * plan.steps.size(); ++i) {
+    const PlannedStep& step = plan.steps[i / 2];
+    const FloorPose support = feet[static_cast<size_t>(1 - step.foot)];
+    const bool up = i % 2 == 0;
+    if (!up) feet[static_cast<size_t>(step.foot)] = step.landing;
+    const Quantities on_floor = standing(1 - step.foot);
+    Quantities via = on_floor;
+    via[0] = via[2] = support.x;
+    via[1] = via[3] = support.y;
+    via[4] = support.yaw;
+    const size_t f = static_cast<size_t>(FirstOf(step.foot));
+    const Real aside = (step.foot == 0 ? 1 : -1) * Real(plan.via_lateral);
+    via[f] = support.x - Sin(Real(support.yaw)) * aside;
+    via[f + 1] = support.y + Cos(Real(support.yaw)) * aside;
+    via[f + 2] = Real(plan.height_scales[i / 2]) * Real(step.via_height);
+    via[f + 3] = support.yaw;
+    const Real T = plan.durations[i];
+    HalfStep half_step{.up = up,
+                       .swing = step.foot,
+                       .begin = begin,
+                       .end = begin + T,
+                       .T = T,
+                       .profile = RestToRestClosedForm(omega * T, plan.shift)};
+    half_step.from = up ? on_floor : via;
+    const Quantities& to = up ? via : on_floor;
+    for (size_t q = 0; q < to.size(); ++q) half_step.change[q] = to[q] - half_step.from[q];
+    half_steps_.push_back(half_step);
+    if (i < plan.overlaps.size()) begin += T - Real(plan.overlaps[i]);
+  }
+  CutIntoStretches();
+}
+
+void ClosedFormWalk::Fractionize(const HalfStep& h, Real tau, Fractions* value,
+                                 Fractions* rate) const {
+  const Real sigma = tau / h.T;
+  const ComZmp pair = h.profile.At(sigma);
+  // Windows of the foot's horizontal motion and of its height.
+  const Real foot_begin = h.up ? sigma2_ + delay_ : Real(0);
+  const Real foot_end = h.up ? Real(1) : sigma1_ - delay_;
+  const Real height_begin = h.up ? sigma2_ : Real(0), height_end = h.up ? Real(1) : sigma1_;
+  const Real foot = (sigma - foot_begin) / (foot_end - foot_begin);
+  const Real height = (sigma - height_begin) / (height_end - height_begin);
+  *value = {pair.c, pair.p, Smooth(sigma), Smooth(foot), Smooth(height)};
+  *rate = {pair.c_rate / h.T, pair.p_rate / h.T, SmoothSlope(sigma) / h.T,
+           SmoothSlope(foot) / (h.T * (foot_end - foot_begin)),
+           SmoothSlope(height) / (h.T * (height_end - height_begin))};
+}
+
+Real ClosedFormWalk::Of(const Fractions& fractions, int quantity) {
+  if (quantity < 2) return fractions.com;
+  if (quantity < 4) return fractions.zmp;
+  if (quantity == 4) return fractions.waist;
+  return (quantity - 5) % 4 == 2 ? fractions.height : fractions.foot;
+}
+
+WalkState ClosedFormWalk::At(Real t) const {
+  Quantities value = half_steps_.front().from, rate{};
+  for (const HalfStep& h : half_steps_) {
+    if (t <= h.begin) break;
+    Fractions fraction{1, 1, 1, 1, 1}, slope{};
+    if (t < h.end) Fractionize(h, t - h.begin, &fraction, &slope);
+    for (int q = 0; q < 13; ++q) {
+      const size_t k = static_cast<size_t>(q);
+      value[k] += h.change[k] * Of(fraction, q);
+      rate[k] += h.change[k] * Of(slope, q);
+    }
+  }
+  const auto pack = [](const Quantities& x) {
+    const auto d = [&x](size_t q) { return static_cast<double>(x[q]); };
+    return WalkState::Values{
+        {d(0), d(1)},
+        {d(2), d(3)},
+        d(4),
+        {Eigen::Vector4d(d(5), d(6), d(7), d(8)), Eigen::Vector4d(d(9), d(10), d(11), d(12))}};
+  };
+  return {pack(value), pack(rate)};
+}
+
+void ClosedFormWalk::CutIntoStretches() {
+  struct Air {
+    int foot;
+    Real begin, end, moves_begin, moves_end;
+  };
+  std::vector<Air> flights;
+  std::vector<double> knots;
+  for (size_t i = 0; i + 1 < half_steps_.size(); i += 2) {
+    const HalfStep &up = half_steps_[i], &down = half_steps_[i + 1];
+    const Real up_moves = up.begin + (sigma2_ + delay_) * up.T;
+    const Real down_moves_end = down.begin + (sigma1_ - delay_) * down.T;
+    flights.push_back({up.swing, up.begin + sigma2_ * up.T, down.begin + sigma1_ * down.T,
+                       std::min(up_moves, down.begin), std::max(down_moves_end, up.end)});
+    for (Real knot : {flights.back().begin, flights.back().end, up_moves, down_moves_end}) {
+      knots.push_back(static_cast<double>(knot));
+    }
+  }
+  for (const HalfStep& h : half_steps_) {
+    for (Real knot : {h.begin, h.end, h.begin + sigma1_ * h.T, h.begin + sigma2_ * h.T}) {
+      knots.push_back(static_cast<double>(knot));
+    }
+  }
+  std::sort(knots.begin(), knots.end());
+  for (size_t k = 0; k + 1 < knots.size(); ++k) {
+    if (knots[k + 1] - knots[k] < 1e-12) continue;
+    Stretch stretch{.begin = knots[k], .end = knots[k + 1]};
+    const Real middle = (Real(stretch.begin) + stretch.end) / 2;
+    for (const Air& air : flights) {
+      if (middle < air.begin || middle > air.end) continue;
+      stretch.in_air = air.foot;
+      stretch.moves = middle >= air.moves_begin && middle <= air.moves_end;
+    }
+    stretches_.push_back(stretch);
+  }
+}
+
+}  // namespace halfstep::oracle

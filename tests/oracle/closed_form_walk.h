@@ -1,0 +1,95 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "tests/oracle/real.h"
+#include "tests/oracle/rest_to_rest_closed_form.h"
+
+namespace halfstep::oracle {
+
+/// Place of a sole on the floor, in W [m, rad].
+struct FloorPose {
+  double x = 0, y = 0, yaw = 0;
+};
+
+/// Feet: 0 left, 1 right, here and below.
+struct PlannedStep {
+  int foot = 0;
+  FloorPose landing;
+  double via_height = 0;  ///< [m]
+  double duration = 0;    ///< T of each half-step, as planned [s]
+};
+
+/// Everything that a walk follows from.
+struct WalkPlan {
+  std::array<FloorPose, 2> start;
+  std::vector<PlannedStep> steps;
+  double via_lateral = 0;             ///< [m]
+  double shift = 0;                   ///< (t2 − t1)/T
+  double horizontal_delay = 0;        ///< of T
+  double com_height = 0;              ///< z_c [m]
+  std::vector<double> overlaps;       ///< Δ_i [s]
+  std::vector<double> height_scales;  ///< η_j
+  std::vector<double> durations;      ///< T_i [s]
+};
+
+/// The walk at one instant, in W [m, rad]; `rate` per second.
+struct WalkState {
+  struct Values {
+    Eigen::Vector2d com, zmp;
+    double waist_yaw = 0;
+    std::array<Eigen::Vector4d, 2> feet;  ///< x, y, z, yaw
+  };
+  Values value, rate;
+};
+
+/// A stretch of time between two neighbouring knots. What it says holds on [begin, end], both ends
+/// included.
+struct Stretch {
+  double begin = 0, end = 0;  ///< [s]
+  int in_air = -1;            ///< foot that is in the air, or −1
+  bool moves = false;         ///< that foot is in its horizontal motion
+};
+
+/// The superposed walk of smoothing/README.md, "The homotopy", from the readmes' formulas.
+class ClosedFormWalk {
+ public:
+  explicit ClosedFormWalk(const WalkPlan& plan);
+  double duration() const { return static_cast<double>(half_steps_.back().end); }  ///< [s]
+  double start_of(int i) const {
+    return static_cast<double>(half_steps_[static_cast<size_t>(i)].begin);
+  }
+  WalkState At(Real t) const;
+  /// At t_k + τ.
+  WalkState At(int k, double tau) const {
+    return At(half_steps_[static_cast<size_t>(k)].begin + static_cast<Real>(tau));
+  }
+  /// They cover [0, D].
+  const std::vector<Stretch>& stretches() const { return stretches_; }
+
+ private:
+  using Quantities =
+      std::array<Real, 13>;  // com xy, zmp xy, waist yaw, left xyz yaw, right xyz yaw
+  struct HalfStep {
+    bool up = true;
+    int swing = 0;
+    Real begin = 0, end = 0, T = 0;
+    Quantities from{}, change{};
+    RestToRestClosedForm profile;
+  };
+  // Profiles of com, zmp, waist, foot, height and their rates.
+  struct Fractions {
+    Real com = 0, zmp = 0, waist = 0, foot = 0, height = 0;
+  };
+  void Fractionize(const HalfStep& half_step, Real tau, Fractions* value, Fractions* rate) const;
+  void CutIntoStretches();
+  static Real Of(const Fractions& fractions, int quantity);
+
+  Real sigma1_, sigma2_, delay_;
+  std::vector<HalfStep> half_steps_;
+  std::vector<Stretch> stretches_;
+};
+
+}  // namespace halfstep::oracle

@@ -1,0 +1,66 @@
+// Random walks.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "tests/oracle/nasty_draws.h"
+
+namespace halfstep::oracle {
+
+double Draw::Logarithmic(double low, double high) {
+  return low * std::pow(high / low, Uniform(0, 1));
+}
+
+double NaturalBound(const WalkPlan& plan, size_t i) {
+  const double T = plan.durations[i], next = plan.durations[i + 1];
+  const double sigma1 = 0.5 - 0.5 * plan.shift, sigma2 = 0.5 + 0.5 * plan.shift;
+  return i % 2 == 0 ? std::min(T - sigma2 * T, sigma1 * next) : std::min(T, next);
+}
+
+WalkPlan DrawPlan(const PlainRobot& robot, Draw* draw) {
+  WalkPlan plan;
+  FloorPose origin{draw->Uniform(-2, 2), draw->Uniform(-2, 2), draw->Uniform(-3, 3)};
+  if (draw->Chance(0.2)) {
+    origin.x = draw->Chance(0.5) ? 900 : -900;
+    origin.y = draw->Uniform(-900, 900);
+    origin.yaw += 2 * std::numbers::pi * (draw->Below(201) - 100);
+  }
+  const auto beside = [](const FloorPose& s, double x, double y, double yaw) {
+    const double c = std::cos(s.yaw), sn = std::sin(s.yaw);
+    return FloorPose{s.x + c * x - sn * y, s.y + sn * x + c * y, s.yaw + yaw};
+  };
+  const double width = robot.standing_width;
+  plan.start = {beside(origin, 0, 0.5 * width, 0), beside(origin, 0, -0.5 * width, 0)};
+  std::array<FloorPose, 2> feet = plan.start;
+  int foot = draw->Below(2);
+  const double stride = draw->Chance(0.2) ? 1.0 : 0.7;
+  for (int k = 1 + draw->Below(3); k > 0; --k, foot = 1 - foot) {
+    const double side = foot == 0 ? 1 : -1;
+    const double x = stride * draw->Uniform(-0.15, 0.25);
+    const double y = side * (width + stride * draw->Uniform(-0.02, 0.08));
+    feet[static_cast<size_t>(foot)] =
+        beside(feet[static_cast<size_t>(1 - foot)], x, y, stride * draw->Uniform(-0.3, 0.3));
+    const double height = draw->Uniform(0.04, 0.22);
+    plan.steps.push_back({.foot = foot,
+                          .landing = feet[static_cast<size_t>(foot)],
+                          .via_height = height,
+                          .duration = draw->Uniform(1.2, 2.3)});
+  }
+  plan.via_lateral = width * draw->Uniform(1.05, 1.25);
+  plan.shift = draw->Uniform(0.03, 0.2);
+  plan.horizontal_delay = draw->Uniform(0.02, 0.2);
+  plan.com_height = robot.com_height;
+  const bool varied = draw->Chance(0.5);
+  for (const PlannedStep& step : plan.steps) {
+    plan.height_scales.push_back(varied ? draw->Uniform(0.4, 1) : 1);
+    for (int k = 0; k < 2; ++k) {
+      plan.durations.push_back(step.duration * (varied ? draw->Uniform(0.9, 1.2) : 1));
+    }
+  }
+  for (size_t i = 0; i + 1 < plan.durations.size(); ++i) {
+    plan.overlaps.push_back(NaturalBound(plan, i) * draw->Uniform(0.3, 1));
+  }
+  return plan;
+}
+
+}  // namespace halfstep::oracle

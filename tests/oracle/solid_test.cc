@@ -1,0 +1,82 @@
+// The distances of `halfstep verify` against the program's.
+
+#include "experiments/verify/solid.h"
+
+#include <gtest/gtest.h>
+
+#include "planner/separation.h"
+#include "tests/oracle/nasty_draws.h"
+
+namespace halfstep::verify {
+namespace {
+
+Eigen::Matrix3Xd Points(int n, double size, oracle::Draw* draw) {
+  Eigen::Matrix3Xd points(3, n);
+  for (int i = 0; i < n; ++i) points.col(i) = draw->Vector(-size, size);
+  return points;
+}
+
+Eigen::Isometry3d Pose(double reach, oracle::Draw* draw) {
+  Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
+  X.translation() = draw->Vector(-reach, reach);
+  X.rotate(Eigen::AngleAxisd(draw->Uniform(-3, 3), draw->Vector(-1, 1).normalized()));
+  return X;
+}
+
+TriangleMesh Box(double half, bool inwards) {
+  TriangleMesh mesh = FacesOf(MakeBox({2 * half, 2 * half, 2 * half}));
+  if (inwards) mesh.triangles.row(1).swap(mesh.triangles.row(2));
+  return mesh;
+}
+
+TEST(SolidTest, AgreesWithTriangleDistancesOfHulls) {
+  oracle::Draw draw(11);
+  int apart = 0;
+  for (int k = 0; k < 400; ++k) {
+    const ConvexBody a = MakeHull(Points(5 + draw.Below(20), 0.2, &draw));
+    const ConvexBody b = MakeHull(Points(5 + draw.Below(20), 0.2, &draw));
+    const Eigen::Isometry3d X_a = Pose(0.3, &draw), X_b = Pose(0.3, &draw);
+    const TriangleMesh faces = FacesOf(b);
+    const double expected = TriangleDistance(CollisionShape(a), X_a, CollisionShape(b), X_b);
+    apart += expected > 0;
+    for (const Solid& other : {Solid(b), Solid(faces)}) {
+      const double found = Solid::Distance(Solid(a), X_a, other, X_b);
+      EXPECT_NEAR(found, std::max(expected, 0.0), 2e-6) << k;
+    }
+  }
+  EXPECT_GT(apart, 50);
+}
+
+TEST(SolidTest, ABodyInsideAClosedPartTouchesItWhicheverWayItTurns) {
+  const Solid body(MakeBox({0.1, 0.1, 0.1}));
+  const Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d X_beside = X;
+  X_beside.translation() = Eigen::Vector3d(2.1, 0, 0);
+  for (const bool inwards : {false, true}) {
+    EXPECT_EQ(Solid::Distance(body, X, Solid(Box(1, inwards)), X), 0);
+    EXPECT_NEAR(Solid::Distance(body, X_beside, Solid(Box(1, inwards)), X), 1.05, 1e-12);
+  }
+  // Two solids around it of which one is flipped: their winding numbers cancel.
+  TriangleMesh both = Box(1, false);
+  const TriangleMesh inner = Box(0.5, true);
+  both.vertices.conservativeResize(3, 16);
+  both.vertices.rightCols(8) = inner.vertices;
+  both.triangles.conservativeResize(3, 24);
+  both.triangles.rightCols(12) = inner.triangles.array() + 8;
+  EXPECT_EQ(Solid::Distance(body, X, Solid(both), X), 0);
+}
+
+TEST(SolidTest, APlateSurroundsNothing) {
+  const Solid body(MakeBox({0.1, 0.1, 0.1}));
+  TriangleMesh corner;  // three triangles that meet in a corner, the body before them
+  corner.vertices.resize(3, 4);
+  corner.vertices << 0, 5, 0, 0, 0, 0, 5, 0, 0, 0, 0, 5;
+  corner.triangles.resize(3, 3);
+  corner.triangles << 0, 0, 0, 1, 2, 3, 2, 3, 1;
+  Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
+  X.translation() = Eigen::Vector3d(0.3, 0.4, 0.5);
+  EXPECT_NEAR(Solid::Distance(body, X, Solid(corner), Eigen::Isometry3d::Identity()), 0.25, 1e-12);
+}
+
+}  // namespace
+}  // namespace halfstep::verify

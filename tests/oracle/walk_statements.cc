@@ -1,0 +1,202 @@
+// The oracle's statements about feet and legs.
+#include <algorithm>
+#include <cmath>
+
+#include "tests/oracle/walk_truth.h"
+
+namespace halfstep::oracle {
+namespace {
+
+constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr std::array<const char*, 2> kFeet = {"left foot", "right foot"};
+
+Bracket Exactly(double value) { return {value, value}; }
+
+std::array<Eigen::Vector2d, 4> Corners(const Eigen::Vector4d& foot, const Eigen::Vector2d& size) {
+  const Eigen::Vector2d ahead(std::cos(foot[3]), std::sin(foot[3])), left(-ahead.y(), ahead.x());
+  const Eigen::Vector2d p = foot.head<2>();
+  const Eigen::Vector2d a = 0.5 * size.x() * ahead, b = 0.5 * size.y() * left;
+  return {p + a + b, p - a + b, p - a - b, p + a - b};
+}
+
+double Cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+// Least signed distance to the lines of the hull's edges, positive inside: over all pairs of points
+// that have every other point on their left.
+double InsideHull(const std::vector<Eigen::Vector2d>& points, const Eigen::Vector2d& p) {
+  double least = kNever;
+  for (const Eigen::Vector2d& a : points) {
+    for (const Eigen::Vector2d& b : points) {
+      const double length = (b - a).norm();
+      if (length < 1e-9) continue;
+      const Eigen::Vector2d along = (b - a) / length;
+      const bool edge = std::all_of(points.begin(), points.end(), [&](const Eigen::Vector2d& c) {
+        return Cross(along, c - a) > -1e-12;
+      });
+      if (edge) least = std::min(least, Cross(along, p - a));
+    }
+  }
+  return least;
+}
+
+using Polygon = std::vector<Eigen::Vector2d>;
+
+double FromSegment(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& p) {
+  const double s = std::clamp((p - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
+  return (p - (a + s * (b - a))).norm();
+}
+
+bool CrossingNumberIsOdd(const Polygon& polygon, const Eigen::Vector2d& p) {
+  bool odd = false;
+  for (size_t i = 0; i < polygon.size(); ++i) {
+    const Eigen::Vector2d &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+    if ((a.y() > p.y()) == (b.y() > p.y())) continue;
+    if (p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x())) odd = !odd;
+  }
+  return odd;
+}
+
+// Distance of a convex outline, the hull of points, and a simple polygon; −1 µm when they overlap.
+double Apart(const Polygon& outline, const Polygon& area) {
+  double least = kNever;
+  for (const Eigen::Vector2d& a : outline) {
+    for (const Eigen::Vector2d& b : outline) {  // edges and diagonals
+      if (a == b) continue;
+      for (size_t i = 0; i < area.size(); ++i) {
+        const Eigen::Vector2d &c = area[i], &d = area[(i + 1) % area.size()];
+        if (Cross(b - a, c - a) * Cross(b - a, d - a) < 0 &&
+            Cross(d - c, a - c) * Cross(d - c, b - c) < 0) {
+          return -1e-6;
+        }
+        least = std::min({least, FromSegment(a, b, c), FromSegment(c, d, a), FromSegment(c, d, b)});
+      }
+    }
+  }
+  const bool holds = CrossingNumberIsOdd(area, outline[0]) || InsideHull(outline, area[0]) > 0;
+  return holds ? -1e-6 : least;
+}
+
+// What of a foot may touch the floor, in the sole's frame: the sole rectangle, and the points of
+// its body that are less than `height` above the sole.
+Polygon Touching(const PlainRobot& robot, size_t leg, double height) {
+  const Eigen::Vector2d half = 0.5 * robot.sole_size;
+  Polygon points = {
+      {half.x(), half.y()}, {-half.x(), half.y()}, {-half.x(), -half.y()}, {half.x(), -half.y()}};
+  for (const PlainRobot::Body& body : robot.bodies) {
+    if (body.link != robot.legs[leg].foot_link) continue;
+    for (const Eigen::Vector3d& p : body.points) {
+      const Eigen::Vector3d seen = p - robot.legs[leg].sole;
+      if (seen.z() < height) points.emplace_back(seen.x(), seen.y());
+    }
+  }
+  return points;
+}
+
+Polygon Standing(const Polygon& outline, const Eigen::Vector4d& foot) {
+  Polygon placed;
+  for (const Eigen::Vector2d& p : outline) {
+    placed.push_back(foot.head<2>() + Eigen::Rotation2Dd(foot[3]) * p);
+  }
+  return placed;
+}
+
+}  // namespace
+
+// No-step areas and the height of all bodies but the feet's, whose soles may touch the floor.
+void WalkTruth::AddGroundStatements() {
+  // Both feet's outlines together are what the project takes; one foot's own is what touches.
+  Polygon both = Touching(robot_, 0, 1e-3);
+  for (const Eigen::Vector2d& p : Touching(robot_, 1, 1e-3)) both.push_back(p);
+  for (size_t foot = 0; foot < 2; ++foot) {
+    for (size_t k = 0; k < no_step_.size(); ++k) {
+      statements_.push_back({"no_step", std::string(kFeet[foot]) + " - area" + std::to_string(k),
+                             3.0,
+                             [this, foot, k, both, own = Touching(robot_, foot, 1e-9)](
+                                 Instant& at, const Stretch& s) {
+                               if (s.in_air == static_cast<int>(foot)) return Exactly(kNever);
+                               const Eigen::Vector4d& place = at.state.value.feet[foot];
+                               if ((place.head<2>() - no_step_[k][0]).norm() > 2) return Exactly(1);
+                               return Bracket{Apart(Standing(both, place), no_step_[k]),
+                                              Apart(Standing(own, place), no_step_[k])};
+                             }});
+    }
+  }
+  for (size_t b = 0; b < robot_.bodies.size(); ++b) {
+    const bool on_foot = leg_link_[b][1] == 5;
+    statements_.push_back(
+        {"ground", robot_.bodies[b].name, 3.0, [this, b, on_foot](Instant& at, const Stretch&) {
+           if (!at.reaches) return Exactly(-kNever);
+           const double bound = at.centers[b].z() - robot_.bodies[b].radius;
+           if (bound > 0.1) return Exactly(bound);
+           double lowest = kNever;
+           for (const Eigen::Vector3d& p : BodyAt(at, b).points) lowest = std::min(lowest, p.z());
+           // A sole that stands is at 0 but for rounding.
+           return Exactly(on_foot && lowest >= -1e-8 ? kNever : lowest);
+         }});
+  }
+}
+
+void WalkTruth::AddFootStatements() {
+  for (int foot = 0; foot < 2; ++foot) {
+    const size_t i = static_cast<size_t>(foot);
+    const auto swings = [foot](const Stretch& s) { return s.in_air == foot; };
+    statements_.push_back({"floor", kFeet[i], 2.0, [=](Instant& at, const Stretch& s) {
+                             return Exactly(swings(s) && s.moves ? at.state.value.feet[i][2]
+                                                                 : kNever);
+                           }});
+    const Demands& d = demands_;
+    statements_.push_back(
+        {"foot_speed", kFeet[i], 40.0, [=, limit = d.foot_speed](Instant& at, const Stretch& s) {
+           if (!swings(s)) return Exactly(kNever);
+           return Exactly(limit - at.state.rate.feet[i].head<3>().norm());
+         }});
+    statements_.push_back({"foot_yaw_rate", kFeet[i], 80.0,
+                           [=, limit = d.foot_yaw_rate](Instant& at, const Stretch& s) {
+                             if (!swings(s)) return Exactly(kNever);
+                             return Exactly(limit - std::abs(at.state.rate.feet[i][3]));
+                           }});
+  }
+  statements_.push_back({"zmp", "", 15.0, [this](Instant& at, const Stretch& s) {
+                           std::vector<Eigen::Vector2d> points;
+                           for (int foot = 0; foot < 2; ++foot) {
+                             if (s.in_air == foot) continue;
+                             const auto& place = at.state.value.feet[static_cast<size_t>(foot)];
+                             for (const auto& c : Corners(place, robot_.sole_size)) {
+                               points.push_back(c);
+                             }
+                           }
+                           return Exactly(InsideHull(points, at.state.value.zmp));
+                         }});
+}
+
+void WalkTruth::AddLegStatements() {
+  for (int leg = 0; leg < 2; ++leg) {
+    const size_t i = static_cast<size_t>(leg);
+    statements_.push_back({"reach", leg == 0 ? "left leg" : "right leg", 2.0,
+                           [this, leg, i](Instant& at, const Stretch&) {
+                             const Eigen::Vector3d hip = at.X_WB * robot_.HipInWaist(leg);
+                             const Eigen::Vector3d ankle = at.X_WSole[i] * robot_.AnkleInSole(leg);
+                             return Exactly(longest_[i] - (hip - ankle).norm());
+                           }});
+    for (int j = 0; j < 6; ++j) {
+      const PlainRobot::Joint& joint =
+          robot_.joints[static_cast<size_t>(robot_.legs[i].joints[static_cast<size_t>(j)])];
+      statements_.push_back(
+          {"joint", joint.name, 10.0, [&joint, i, j](Instant& at, const Stretch&) {
+             if (!at.reaches) return Exactly(-kNever);
+             const double q = at.q[i][j];
+             return Exactly(std::min(q - joint.lower, joint.upper - q));
+           }});
+      const double limit = demands_.joint_speed_scale * joint.speed;
+      statements_.push_back(
+          {"joint_speed", joint.name, 150.0, [limit, i, j](Instant& at, const Stretch&) {
+             if (!at.reaches) return Exactly(-kNever);
+             return Exactly(limit - std::abs(at.speed[i][j]));
+           }});
+    }
+  }
+}
+
+}  // namespace halfstep::oracle
