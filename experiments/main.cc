@@ -117,9 +117,9 @@ int main(int argc, char** argv) {
   bool verify_quiet = false;
   CLI::App* verify_app = app.add_subcommand(
       "verify",
-      "Check a run's certificates independently: played motion, forward kinematics, triangle\n"
-      "distances; none of the code that smoothed. Exit status 3 when it disagrees, 4 when the rows\n"
-      "are too coarse to tell.\n\n"
+      "Check a run's certificates independently: played motion, forward kinematics, distances\n"
+      "of its own; none of the code that smoothed. Exit status 3 when it disagrees, 4 when the\n"
+      "rows are too coarse to tell.\n\n"
       "  example: halfstep verify runs/bar_8cm --method dichotomy");
   verify_app->add_option("RUN", verify.run, "run folder")->required();
   verify_app->add_option("--method", verify.method, "only this one (default: all)");

@@ -135,8 +135,8 @@ struct CollisionShape::Impl {
     return hollow_;
   }
   const Bvh& bvh() const { return *hollow().bvh; }
-  // How far the body reaches beyond the triangles.
-  double beyond() const { return hollow().excess + (is_mesh ? 0.0 : convex.ball_radius); }
+  // How far a convex body reaches beyond the triangles.
+  double beyond() const { return hollow().excess + convex.ball_radius; }
   // What the surface encloses; built when first asked for.
   const MeshInterior& interior() const {
     std::call_once(interior_once_, [this] { interior_.emplace(hollow().mesh); });
@@ -180,12 +180,12 @@ Separation InWorld(const ConvexDistance& found, const Eigen::Isometry3d& X_Wa) {
           X_Wa * found.point_b_A};
 }
 
-// The distance of the triangles, less what FCL's rounding and what reaches beyond them may make up
-// for; zero or negative: contact. `result` gets the nearest points.
+// The distance of the triangles, less what FCL's rounding may make up for; zero or negative:
+// contact. `result` gets the nearest points.
 double TrianglesApart(const CollisionShape& a, const Eigen::Isometry3d& X_Wa,
-                      const CollisionShape& b, const Eigen::Isometry3d& X_Wb, bool with_points,
+                      const CollisionShape& b, const Eigen::Isometry3d& X_Wb,
                       fcl::DistanceResultd* result) {
-  const fcl::DistanceRequestd request(with_points);
+  const fcl::DistanceRequestd request(/*enable_nearest_points=*/true);
   fcl::distance(&a.impl().bvh(), X_Wa, &b.impl().bvh(), X_Wb, request, *result);
   const double coordinates = (X_Wa.translation() - X_Wb.translation()).norm() + a.center().norm() +
                              a.radius() + b.center().norm() + b.radius();
@@ -215,8 +215,7 @@ Separation SeparateFromMesh(const CollisionShape& body, const Eigen::Isometry3d&
   contact.distance = std::min(to_hull.distance, 0.0);
   try {
     fcl::DistanceResultd result;
-    const double core_distance =
-        TrianglesApart(body, X_WB, mesh, X_WM, /*with_points=*/true, &result);
+    const double core_distance = TrianglesApart(body, X_WB, mesh, X_WM, &result);
     if (!(core_distance > 0)) return contact;
     if (to_hull.distance <= 0 && Contains(body, mesh, X_WM.inverse(Eigen::Isometry) * X_WB)) {
       return contact;
@@ -229,18 +228,6 @@ Separation SeparateFromMesh(const CollisionShape& body, const Eigen::Isometry3d&
   } catch (const std::exception&) {
     return contact;
   }
-}
-
-// Whether a part of `inner`, which meets no triangle of `outer`, lies inside it.
-bool Encloses(const CollisionShape& outer, const CollisionShape& inner,
-              const Eigen::Isometry3d& X_OI) {
-  const auto inside = [&](const Eigen::Vector3d& p_I) {
-    const Eigen::Vector3d p = X_OI * p_I;
-    return (p - outer.center()).norm() <= outer.radius() && outer.impl().interior().Contains(p);
-  };
-  if (!inner.is_mesh()) return inside(inner.impl().hollow().mesh.vertices.col(0));
-  const auto& parts = inner.impl().interior().points();
-  return std::any_of(parts.begin(), parts.end(), inside);
 }
 
 Separation Swapped(const Separation& s) {
@@ -267,21 +254,6 @@ Separation Separate(const CollisionShape& a, const Eigen::Isometry3d& X_Wa, cons
   if (b.is_mesh()) return SeparateFromMesh(a, X_Wa, b, X_Wb, slab);
   if (a.is_mesh()) return Swapped(SeparateFromMesh(b, X_Wb, a, X_Wa, Swapped(slab)));
   return slab;
-}
-
-double TriangleDistance(const CollisionShape& a, const Eigen::Isometry3d& X_Wa,
-                        const CollisionShape& b, const Eigen::Isometry3d& X_Wb) {
-  HALFSTEP_CHECK(IsFinite(X_Wa) && IsFinite(X_Wb), "a pose is not finite");
-  try {
-    fcl::DistanceResultd result;
-    const double cores = TrianglesApart(a, X_Wa, b, X_Wb, /*with_points=*/false, &result);
-    if (!(cores > 0)) return 0;
-    const Eigen::Isometry3d X_AB = X_Wa.inverse(Eigen::Isometry) * X_Wb;
-    if (Encloses(a, b, X_AB) || Encloses(b, a, X_AB.inverse(Eigen::Isometry))) return 0;
-    return cores - a.impl().beyond() - b.impl().beyond();
-  } catch (const std::exception&) {
-    return 0;
-  }
 }
 
 bool ClearsAlongCached(const CollisionShape& a, const Eigen::Isometry3d& X_Wa,

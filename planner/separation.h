@@ -59,15 +59,6 @@ double SeparationAlong(const ConvexBody& a, const Eigen::Isometry3d& X_Wa, const
 Separation Separate(const CollisionShape& a, const Eigen::Isometry3d& X_Wa, const CollisionShape& b,
                     const Eigen::Isometry3d& X_Wb);
 
-/// Distance of two bodies by their triangles alone, any of them meshes, without the support
-/// functions that Separate stands on: of the cores' surfaces, enclosed as for Separation, less the
-/// balls [m]. It exceeds the true distance by nothing and falls short of it by at most 1e-6 m and
-/// 0.1 mm (1/800 of the radius below 8 cm) a disc. Zero or negative: contact, or one body
-/// lies inside the other (planner/mesh_interior.h). Precondition: finite poses (std::logic_error).
-/// An exception inside FCL counts as contact.
-double TriangleDistance(const CollisionShape& a, const Eigen::Isometry3d& X_Wa,
-                        const CollisionShape& b, const Eigen::Isometry3d& X_Wb);
-
 /// Whether the bodies are at least `clearance` [m] apart, by the same lower bound as Separate.
 /// `normal_W` is the direction that separated them last (zero: none yet); it is tried first and
 /// updated. Preconditions as for Separate.

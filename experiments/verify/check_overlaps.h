@@ -11,10 +11,10 @@ namespace halfstep::verify {
 
 /// Whether half_steps.csv and overlaps.csv describe one walk of the footsteps that `planned` was
 /// made of: kinds and supports as planned, starts that follow from durations and overlaps,
-/// t_{i+1} = t_i + T_i − Δ_i, overlaps within their natural bounds, one height scale a step, and the
-/// same durations and heights in both files. Without `overlaps` the
-/// walk is the planned motion: no overlap, durations as planned, scale 1.
-/// False: they describe none, and DescribedWalk is not to be made of them.
+/// t_{i+1} = t_i + T_i − Δ_i, overlaps within their natural bounds, one height scale a step, and
+/// the same durations and heights in both files. Without `overlaps` the walk is the planned motion:
+/// no overlap, durations as planned, scale 1. False: they describe none, and DescribedWalk is not
+/// to be made of them.
 bool CheckOverlaps(const std::vector<HalfStepRow>& half_steps,
                    const std::optional<std::vector<OverlapRow>>& overlaps,
                    const HalfStepSequence& planned, Findings* findings);

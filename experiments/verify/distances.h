@@ -36,9 +36,9 @@ class Distances {
   double NearestObstacle(const Placement& at, double horizon);
   double NearestPair(const Placement& at, double horizon);
 
-  /// What triangles around a disc may stand out of it, on either side, and 1e-6 m of either
-  /// computation [m]; see TriangleDistance.
-  static constexpr double kAccuracy = 2.1e-4;
+  /// How far the program's distances may be from these [m]: its slabs and its meshes may be 1e-6 m
+  /// too near (planner/separation.h).
+  static constexpr double kAccuracy = 2e-6;
 
   /// "RLEG_LINK5 - bar", "LLEG_LINK5 - RLEG_LINK5".
   std::string NameOfObstaclePair(size_t body, size_t obstacle) const;

@@ -31,6 +31,13 @@ Vector Least(const ConvexSet& set, const Vector& direction) {
   return point;
 }
 
+// The largest coordinate [m].
+double Extent(const ConvexSet& set) {
+  double most = set.disc;
+  for (const Eigen::Vector3d& p : set.points) most = std::max(most, p.cwiseAbs().maxCoeff());
+  return most;
+}
+
 // The corral: affinely independent points of the difference, and weights.
 struct Corral {
   std::vector<Vector> points;
@@ -98,12 +105,17 @@ struct Corral {
 
 }  // namespace
 
-Bracket DistanceOf(const ConvexSet& a, const ConvexSet& b) {
+Bracket DistanceOf(const ConvexSet& a, const ConvexSet& b, double enough) {
   const auto difference = [&](const Vector& d) { return Vector(Least(a, d) - Least(b, -d)); };
   Vector x = (a.points[0] - b.points[0]).cast<Long>();
   if (x.norm() == 0) x = Vector::UnitX();
   Corral corral{{difference(x)}, {1}};
   x = corral.Point();
+  const Long balls = static_cast<Long>(a.ball) + b.ball;
+  // Directions are rounded to double: that much of the coordinates may be too high.
+  const Long rounding =
+      4 * std::numeric_limits<double>::epsilon() * static_cast<Long>(Extent(a) + Extent(b));
+  const Long enough_apart = static_cast<Long>(enough) + balls + rounding;
   Long lower = 0, upper = x.norm();
   for (int k = 0; k < 300; ++k) {
     const Long norm = x.norm();
@@ -111,7 +123,7 @@ Bracket DistanceOf(const ConvexSet& a, const ConvexSet& b) {
     if (norm < 1e-13L) return {0, 0};
     const Vector v = difference(x);
     lower = std::max(lower, x.dot(v) / norm);
-    if (upper - lower <= 1e-14L * (1 + upper)) break;
+    if (upper - lower <= 1e-14L * (1 + upper) || lower >= enough_apart) break;
     if (std::find(corral.points.begin(), corral.points.end(), v) != corral.points.end()) break;
     if (corral.points.size() == 4) break;
     corral.points.push_back(v);
@@ -121,8 +133,7 @@ Bracket DistanceOf(const ConvexSet& a, const ConvexSet& b) {
     if (!(next.norm() < norm)) break;
     x = next;
   }
-  const Long balls = static_cast<Long>(a.ball) + b.ball;
-  return {static_cast<double>(std::max<Long>(lower - balls, 0)),
+  return {static_cast<double>(std::max<Long>(lower - balls - rounding, 0)),
           static_cast<double>(std::max<Long>(upper - balls, 0))};
 }
 

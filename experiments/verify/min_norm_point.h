@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <vector>
 
 namespace halfstep::verify {
@@ -21,7 +22,9 @@ struct Bracket {
 
 /// The distance of two convex sets: the point of least norm of their difference, by Wolfe's method
 /// ("Finding the nearest point in a polytope", 1976), in extended precision. Brings its own proof,
-/// for it returns both sides.
-Bracket DistanceOf(const ConvexSet& a, const ConvexSet& b);
+/// for it returns both sides; `lower` is short by what rounding of the points' coordinates may add.
+/// It may end as soon as `lower` is at least `enough` [m].
+Bracket DistanceOf(const ConvexSet& a, const ConvexSet& b,
+                   double enough = std::numeric_limits<double>::infinity());
 
 }  // namespace halfstep::verify

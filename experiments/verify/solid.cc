@@ -25,20 +25,27 @@ ConvexSet Moved(const Eigen::Isometry3d& X, ConvexSet set) {
   return set;
 }
 
-// How often, counted by the sense of the triangles, a ray crosses a surface.
-int Crossings(const std::vector<std::array<Eigen::Vector3d, 3>>& triangles,
-              const Eigen::Vector3d& from, const Eigen::Vector3d& along) {
+enum class Ray { kEscapes, kIsHeld, kGrazes };
+
+// Whether a ray crosses a surface, counted by the sense of the triangles: out of a closed one an
+// odd number of times, however single triangles are turned.
+Ray Follow(const std::vector<std::array<Eigen::Vector3d, 3>>& triangles,
+           const Eigen::Vector3d& from, const Eigen::Vector3d& along) {
   int crossings = 0;
   for (const auto& t : triangles) {
     const Eigen::Vector3d a = t[0] - from, b = t[1] - from, c = t[2] - from;
     const double u = along.dot(b.cross(c)), v = along.dot(c.cross(a)), w = along.dot(a.cross(b));
     const bool out = u > 0 && v > 0 && w > 0, in = u < 0 && v < 0 && w < 0;
-    if (!out && !in) continue;
+    if (!out && !in) {
+      const bool grazes = (u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0);
+      if (grazes && (u != 0 || v != 0 || w != 0)) return Ray::kGrazes;
+      continue;
+    }
     // Ahead of the ray's origin where the triangle's plane is, seen along it.
     const double volume = a.dot(b.cross(c));
     if (out ? volume > 0 : volume < 0) crossings += out ? 1 : -1;
   }
-  return crossings;
+  return crossings == 0 ? Ray::kEscapes : Ray::kIsHeld;
 }
 
 }  // namespace
@@ -142,21 +149,23 @@ double Solid::FromTriangles(const ConvexSet& set, const Eigen::AlignedBox3d& bou
     }
     for (size_t i = node.first; i < node.last; ++i) {
       const ConvexSet triangle{{triangles_[i].begin(), triangles_[i].end()}};
-      least = std::min(least, DistanceOf(set, triangle).lower);
+      least = std::min(least, DistanceOf(set, triangle, least).lower);
     }
   }
   return least;
 }
 
-// Four rays, none of which is in line with the axes; one of them may graze an edge.
+// Rays into all octants, none in line with the axes. A closed part holds every one.
 bool Solid::Surrounds(const Eigen::Vector3d& point) const {
-  const std::array<Eigen::Vector3d, 4> rays = {
-      Eigen::Vector3d(1, 0.937, 1.071), Eigen::Vector3d(-1.013, -0.959, 1.117),
-      Eigen::Vector3d(-0.947, 1.039, -1.093), Eigen::Vector3d(1.049, -1.103, -0.983)};
+  const std::array<Eigen::Vector3d, 8> rays = {
+      Eigen::Vector3d(1, 0.937, 1.071),       Eigen::Vector3d(-1.013, -0.959, 1.117),
+      Eigen::Vector3d(-0.947, 1.039, 0.893),  Eigen::Vector3d(1.049, -1.103, 0.983),
+      Eigen::Vector3d(1.021, 0.913, -1.129),  Eigen::Vector3d(-1.087, -0.929, -0.971),
+      Eigen::Vector3d(-0.967, 1.061, -1.093), Eigen::Vector3d(1.091, -0.991, -0.919)};
   return std::any_of(parts_.begin(), parts_.end(), [&](const std::vector<Triangle>& part) {
-    return std::count_if(rays.begin(), rays.end(), [&](const Eigen::Vector3d& ray) {
-             return Crossings(part, point, ray) != 0;
-           }) >= 3;
+    return std::none_of(rays.begin(), rays.end(), [&](const Eigen::Vector3d& ray) {
+      return Follow(part, point, ray) == Ray::kEscapes;
+    });
   });
 }
 

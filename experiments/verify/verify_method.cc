@@ -206,7 +206,7 @@ std::string VerifyMethod(const VerifyOptions& options, const RunManifest& manife
   CheckPlayed(motion, *walk, certificate, options.tolerance, &distances, findings);
   CheckMarginColumns(rows, *walk, certificate, &distances, findings);
   if (IsFinite(claimed)) CheckClaims(*walk, certificate, claimed, &distances, findings);
-  findings->Say("triangle distances: " + Count(distances.queries()));
+  findings->Say("distances measured: " + Count(distances.queries()));
   return certificate.statement;
 }
 

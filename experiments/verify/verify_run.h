@@ -34,8 +34,8 @@ struct MethodVerification {
 /// Checks the certificates of a run against its other files, robot and scene: that they speak of
 /// the same things, that half_steps.csv and overlaps.csv describe one walk, that trajectory.csv has
 /// its rows and margins, that the certificate's rows are true of it, and that the robot that plays
-/// the trajectory keeps what is demanded. Distances are its own (Solid), and only of the very files that
-/// the certificate is about. None of the smoothing takes part; shared with the prover are the
+/// the trajectory keeps what is demanded. Distances are its own (Solid), and only of the very files
+/// that the certificate is about. None of the smoothing takes part; shared with the prover are the
 /// readers of input files, the closed forms of half-steps and of a leg's inverse kinematics (wpg).
 /// A method without a certificate is not verified. Throws InputError when no method has one.
 std::vector<MethodVerification> VerifyRun(const VerifyOptions& options);

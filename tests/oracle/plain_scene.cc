@@ -13,7 +13,6 @@ namespace {
 using Point = std::array<Real, 3>;
 constexpr double kReach = 6;  // half the edge of the box that meshes are cut to [m]
 
-Point Minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 Point Cross(const Point& a, const Point& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }

@@ -70,7 +70,7 @@ class PlacedScene {
  private:
   struct Piece {
     ConvexSet set;
-    Eigen::Vector3d center;
+    Eigen::Vector3d center{0, 0, 0};
     double radius = 0;
   };
   using Triangle = std::array<Eigen::Vector3d, 3>;

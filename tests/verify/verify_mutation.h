@@ -163,7 +163,8 @@ class TamperedRun {
     fs::copy(source / "experiments/scenes/box.yaml", place / "scenes/box.yaml");
     // An area that no sole may touch, 10 cm and more beside the feet.
     WriteText(place / "scenes/box.yaml",
-              "no_step:\n  - name: aside\n    polygon_m: [[-0.5, 0.3], [0.7, 0.3], [0.7, 0.4], [-0.5, 0.4]]\n" +
+              "no_step:\n  - name: aside\n    polygon_m: [[-0.5, 0.3], [0.7, 0.3], [0.7, 0.4], "
+              "[-0.5, 0.4]]\n" +
                   ReadText(place / "scenes/box.yaml"));
     if (walk.com_height) {
       Replace(place / "robots/hrp2.yaml", "\ncom_height_m: 0.814",

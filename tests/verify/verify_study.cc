@@ -248,7 +248,7 @@ void Swaps(List* list) {
   // The same walk in other rows, and another walk.
   const std::vector<TamperedWalk> others = {{.overrides = {"output.period_s=0.01"}},
                                             {.overrides = {"smoothing.margins.clearance_m=0.002"}},
-                                            {.overrides = {"footsteps.0.x_m=0.27"}}};
+                                            {.overrides = {"footsteps.0.x_m=0.276"}}};
   for (size_t k = 0; k < others.size(); ++k) {
     const TamperedRun other(others[k]);
     for (const std::string& name : FilesBelow(other.run())) {

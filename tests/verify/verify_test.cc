@@ -331,10 +331,13 @@ TEST(Verify, AcceptsEveryMethodOfAWalkOverABar) {
 }
 
 TEST(Verify, ToleranceIsWhatSeparatesTheTrajectoryFromTheWalk) {
-  const TamperedRun run;
+  const TamperedRun run(TamperedWalk{.overrides = {"output.period_s=0.01"}});
   verify::VerifyOptions options{.run = run.run().string(), .method = "dichotomy"};
   options.tolerance = 0;
   EXPECT_FALSE(verify::VerifyRun(options).front().verified);
+  EXPECT_NE(verify::VerifyRun(options).front().too_coarse, "");
+  options.tolerance = 1e-4;
+  EXPECT_TRUE(verify::VerifyRun(options).front().verified);
 }
 
 TEST(Verify, TakesAnotherSceneOnlyWhenItIsTheSame) {

@@ -29,7 +29,37 @@ TriangleMesh Box(double half, bool inwards) {
   return mesh;
 }
 
-TEST(SolidTest, AgreesWithTriangleDistancesOfHulls) {
+Eigen::Isometry3d At(double x, double y, double z) {
+  return Eigen::Isometry3d(Eigen::Translation3d(x, y, z));
+}
+
+TEST(Solid, OfShapesWithKnownDistances) {
+  const Solid box(MakeBox({2, 2, 2})), ball(MakeSphere(0.5));
+  const Solid capsule(MakeCapsule(0.25, 1)), cylinder(MakeCylinder(0.02, 1));
+  const Eigen::Isometry3d origin = At(0, 0, 0);
+  EXPECT_NEAR(Solid::Distance(box, origin, box, At(3, 0, 0)), 1, 1e-12);
+  EXPECT_NEAR(Solid::Distance(box, origin, ball, At(0, 3, 0)), 1.5, 1e-12);
+  EXPECT_NEAR(Solid::Distance(capsule, At(0, 0, 3), ball, origin), 1.75, 1e-12);
+  EXPECT_NEAR(Solid::Distance(cylinder, At(1.5, 0, 0), box, origin), 0.48, 1e-12);
+  EXPECT_EQ(Solid::Distance(box, origin, box, At(2, 0, 0)), 0);
+  EXPECT_EQ(Solid::Distance(box, origin, box, At(1, 1, 1)), 0);
+}
+
+TEST(Solid, OfDiscsIsExactWhicheverWayTheyTurn) {
+  const Solid box(MakeBox({2, 2, 2}));
+  for (const double radius : {0.01, 0.3, 4.0}) {
+    for (int i = 0; i < 50; ++i) {
+      Eigen::Isometry3d X = At(2 + radius, 0, 0);
+      X.rotate(Eigen::AngleAxisd(0.1 * i, Eigen::Vector3d::UnitZ()));
+      const double found = Solid::Distance(box, At(0, 0, 0), Solid(MakeCylinder(radius, 1)), X);
+      EXPECT_NEAR(found, 1, 1e-9) << radius;
+      EXPECT_LE(found, 1) << radius;
+    }
+  }
+}
+
+// Against the program's slabs and triangles, which never exceed the distance and reach it.
+TEST(Solid, AgreesWithTheProgramsDistances) {
   oracle::Draw draw(11);
   int apart = 0;
   for (int k = 0; k < 400; ++k) {
@@ -37,17 +67,17 @@ TEST(SolidTest, AgreesWithTriangleDistancesOfHulls) {
     const ConvexBody b = MakeHull(Points(5 + draw.Below(20), 0.2, &draw));
     const Eigen::Isometry3d X_a = Pose(0.3, &draw), X_b = Pose(0.3, &draw);
     const TriangleMesh faces = FacesOf(b);
-    const double expected = TriangleDistance(CollisionShape(a), X_a, CollisionShape(b), X_b);
-    apart += expected > 0;
-    for (const Solid& other : {Solid(b), Solid(faces)}) {
-      const double found = Solid::Distance(Solid(a), X_a, other, X_b);
-      EXPECT_NEAR(found, std::max(expected, 0.0), 2e-6) << k;
-    }
+    const double slab = Separate(CollisionShape(a), X_a, CollisionShape(b), X_b).distance;
+    const double triangles = Separate(CollisionShape(a), X_a, CollisionShape(faces), X_b).distance;
+    apart += slab > 0;
+    EXPECT_NEAR(Solid::Distance(Solid(a), X_a, Solid(b), X_b), std::max(slab, 0.0), 2e-6) << k;
+    EXPECT_NEAR(Solid::Distance(Solid(a), X_a, Solid(faces), X_b), std::max(triangles, 0.0), 2e-6)
+        << k;
   }
   EXPECT_GT(apart, 50);
 }
 
-TEST(SolidTest, ABodyInsideAClosedPartTouchesItWhicheverWayItTurns) {
+TEST(Solid, ABodyInsideAClosedPartTouchesItWhicheverWayItTurns) {
   const Solid body(MakeBox({0.1, 0.1, 0.1}));
   const Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
   Eigen::Isometry3d X_beside = X;
@@ -66,7 +96,7 @@ TEST(SolidTest, ABodyInsideAClosedPartTouchesItWhicheverWayItTurns) {
   EXPECT_EQ(Solid::Distance(body, X, Solid(both), X), 0);
 }
 
-TEST(SolidTest, APlateSurroundsNothing) {
+TEST(Solid, APlateSurroundsNothing) {
   const Solid body(MakeBox({0.1, 0.1, 0.1}));
   TriangleMesh corner;  // three triangles that meet in a corner, the body before them
   corner.vertices.resize(3, 4);
