@@ -6,11 +6,10 @@
 #include "experiments/verify/findings.h"
 #include "experiments/verify/json_text.h"
 #include "wpg/input/input_error.h"
-#include "wpg/input/number_text.h"
 #include "wpg/input/text.h"
-#include "wpg/input/yaml_node.h"
 
 namespace halfstep::verify {
+
 CertificateText ReadCertificateJson(const std::string& path, const std::string& text) {
   const nlohmann::json document = ParseJson(path, text);
   const JsonMember root(path, document, "");
@@ -67,33 +66,6 @@ std::vector<ClaimRow> ReadCertificateCsv(const std::string& path, const std::str
                     .demanded = csv.Number(i, 7)});
   }
   return rows;
-}
-
-ConfigDemands ReadConfigDemands(const std::string& path, const std::string& text) {
-  YamlComplaints complaints(path);
-  const YamlNode root = ParseYaml(text, "", &complaints);
-  complaints.ThrowIfAny();
-  ConfigDemands config;
-  const YamlNode* const smoothing = root.Find("smoothing");
-  const auto find = [&](const char* group, const char* key) -> const YamlNode* {
-    const YamlNode* const map = smoothing == nullptr ? nullptr : smoothing->Find(group);
-    return map == nullptr ? nullptr : map->Find(key);
-  };
-  const auto number = [&](const char* group, const char* key) -> std::optional<double> {
-    const YamlNode* const node = find(group, key);
-    if (node == nullptr || node->text == "none") return std::nullopt;
-    const NumberText read = ParseNumber(node->text);
-    if (read.kind != NumberText::Kind::kNumber) {
-      throw InputError({Text("%s:%d:%d: smoothing.%s.%s: is not a number", path.c_str(),
-                             node->place.line, node->place.column, group, key)});
-    }
-    return read.value;
-  };
-  for (size_t f = 0; f < kNumFamilies; ++f) config.demanded[f] = number("margins", kMarginKeys[f]);
-  config.foot_speed = number("limits", "foot_speed_m_s");
-  config.foot_yaw_rate = number("limits", "foot_yaw_rate_rad_s");
-  config.joint_speed_scale = number("limits", "joint_speed_scale");
-  return config;
 }
 
 }  // namespace halfstep::verify

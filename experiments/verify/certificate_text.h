@@ -22,14 +22,10 @@ enum Family : int {
   kNoStep
 };
 constexpr int kNumFamilies = 11;
-/// As in certificate.csv and certificate.json, and the key that config.yaml demands it under.
+/// As in certificate.csv and certificate.json.
 constexpr std::array<const char*, kNumFamilies> kFamilyNames = {
     "floor",       "foot_speed",     "foot_yaw_rate", "zmp",    "reach",  "joint",
     "joint_speed", "self_clearance", "clearance",     "ground", "no_step"};
-constexpr std::array<const char*, kNumFamilies> kMarginKeys = {
-    "floor_m",   "foot_speed_m_s",    "foot_yaw_rate_rad_s", "zmp_m",       "reach_m",
-    "joint_rad", "joint_speed_rad_s", "self_clearance_m",    "clearance_m", "ground_m",
-    "no_step_m"};
 constexpr std::array<const char*, kNumFamilies> kUnits = {"m",     "m/s", "rad/s", "m", "m", "rad",
                                                           "rad/s", "m",   "m",     "m", "m"};
 
@@ -65,13 +61,5 @@ struct CertificateText {
 /// Throws InputError for what is not such a file.
 CertificateText ReadCertificateJson(const std::string& path, const std::string& text);
 std::vector<ClaimRow> ReadCertificateCsv(const std::string& path, const std::string& text);
-
-/// What a run's config.yaml demands. Throws InputError for what is no YAML; absent keys are absent.
-struct ConfigDemands {
-  std::array<std::optional<double>, kNumFamilies> demanded;
-  std::optional<double> foot_speed, foot_yaw_rate;  ///< none: no limit
-  std::optional<double> joint_speed_scale;
-};
-ConfigDemands ReadConfigDemands(const std::string& path, const std::string& text);
 
 }  // namespace halfstep::verify

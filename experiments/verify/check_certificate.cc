@@ -152,12 +152,19 @@ void CheckArithmetic(const CertificateText& certificate, const std::vector<Claim
   CheckNotWatched(certificate, robot, findings);
 }
 
-void CheckAgainstConfig(const CertificateText& certificate, const ConfigDemands& config,
+void CheckAgainstConfig(const CertificateText& certificate, const MarginLimits& config,
                         Findings* findings) {
-  for (size_t f = 0; f < kNumFamilies; ++f) {
-    if (config.demanded[f] && certificate.demanded[f] < *config.demanded[f]) {
-      findings->Disagree(Text("%s: the certificate demands %.9g, config.yaml %.9g", kFamilyNames[f],
-                              certificate.demanded[f], *config.demanded[f]));
+  for (const MarginFamily family : AllMarginFamilies()) {
+    const auto name = std::find(kFamilyNames.begin(), kFamilyNames.end(), Name(family));
+    const double demanded = config.demanded_of(family);
+    if (name == kFamilyNames.end()) {
+      findings->Disagree("the family " + Quote(std::string(Name(family))) + " is not known here");
+      continue;
+    }
+    const double claimed = certificate.demanded[static_cast<size_t>(name - kFamilyNames.begin())];
+    if (claimed < demanded) {
+      findings->Disagree(
+          Text("%s: the certificate demands %.9g, config.yaml %.9g", *name, claimed, demanded));
     }
   }
   const auto looser = [&](const char* name, const std::optional<double>& claimed,

@@ -42,6 +42,7 @@ RunManifest ReadManifest(const std::string& path, const std::string& text) {
   const json document = ParseJson(path, text);
   const JsonMember root(path, document, "");
   if (root.Whole("format") != 2) root.Fail("format: only 2 is known");
+  if (root.String("program") != "halfstep") root.Fail("program: is not halfstep");
   RunManifest m{.name = root.String("name"),
                 .robot = root.String("robot"),
                 .scene = root.String("scene"),

@@ -180,8 +180,7 @@ std::string VerifyMethod(const VerifyOptions& options, const RunManifest& manife
   findings->Say(Text("SHA-256: trajectory, certificate, %zu robot files, %zu scene files",
                      robot.files.size(), scene.files.size()));
   CheckFiles(options.run, folder, manifest, findings);
-  CheckAgainstConfig(certificate, ReadConfigDemands(files.PathInRun("config.yaml"), config_bytes),
-                     findings);
+  CheckAgainstConfig(certificate, config.smoothing.limits, findings);
   const auto iterations =
       !files.Has("iterates.csv")
           ? 0

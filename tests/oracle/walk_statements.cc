@@ -117,7 +117,6 @@ void WalkTruth::AddGroundStatements() {
                                  Instant& at, const Stretch& s) {
                                if (s.in_air == static_cast<int>(foot)) return Exactly(kNever);
                                const Eigen::Vector4d& place = at.state.value.feet[foot];
-                               if ((place.head<2>() - no_step_[k][0]).norm() > 2) return Exactly(1);
                                return Bracket{Apart(Standing(both, place), no_step_[k]),
                                               Apart(Standing(own, place), no_step_[k])};
                              }});
@@ -125,16 +124,17 @@ void WalkTruth::AddGroundStatements() {
   }
   for (size_t b = 0; b < robot_.bodies.size(); ++b) {
     const bool on_foot = leg_link_[b][1] == 5;
-    statements_.push_back(
-        {"ground", robot_.bodies[b].name, 3.0, [this, b, on_foot](Instant& at, const Stretch&) {
-           if (!at.reaches) return Exactly(-kNever);
-           const double bound = at.centers[b].z() - robot_.bodies[b].radius;
-           if (bound > 0.1) return Exactly(bound);
-           double lowest = kNever;
-           for (const Eigen::Vector3d& p : BodyAt(at, b).points) lowest = std::min(lowest, p.z());
-           // A sole that stands is at 0 but for rounding.
-           return Exactly(on_foot && lowest >= -1e-8 ? kNever : lowest);
-         }});
+    statements_.push_back({"ground", robot_.bodies[b].name, 3.0,
+                           [this, b, on_foot, far = Far("ground")](Instant& at, const Stretch&) {
+                             if (!at.reaches) return Exactly(-kNever);
+                             const double bound = at.centers[b].z() - robot_.bodies[b].radius;
+                             if (bound > far) return Exactly(bound);
+                             double lowest = kNever;
+                             for (const Eigen::Vector3d& p : BodyAt(at, b).points)
+                               lowest = std::min(lowest, p.z());
+                             // A sole that stands is at 0 but for rounding.
+                             return Exactly(on_foot && lowest >= -1e-8 ? kNever : lowest);
+                           }});
   }
 }
 

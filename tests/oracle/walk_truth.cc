@@ -6,8 +6,7 @@
 namespace halfstep::oracle {
 namespace {
 
-constexpr double kCoarse = 0.01, kFine = 5e-5;  // [s]
-constexpr double kFar = 1.0;                    // distances are not told apart beyond [m]
+constexpr double kCoarse = 0.01, kFine = 5e-5;
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 Bracket Exactly(double value) { return {value, value}; }
@@ -108,6 +107,8 @@ const ConvexSet& WalkTruth::BodyAt(Instant& at, size_t b) const {
   return at.bodies[b];
 }
 
+double WalkTruth::Far(const std::string& family) const { return Demanded(family) + 0.1; }
+
 double WalkTruth::Demanded(const std::string& family) const {
   const auto found = demands_.margin.find(family);
   return found == demands_.margin.end() ? 0 : found->second;
@@ -117,13 +118,14 @@ void WalkTruth::AddBodyStatements() {
   for (const auto& [i, j] : robot_.watched) {
     const size_t a = static_cast<size_t>(i), b = static_cast<size_t>(j);
     const double radii = robot_.bodies[a].radius + robot_.bodies[b].radius;
-    statements_.push_back({"self_clearance", robot_.bodies[a].name + " - " + robot_.bodies[b].name,
-                           4.0, [this, a, b, radii](Instant& at, const Stretch&) {
-                             if (!at.reaches) return Exactly(-kNever);
-                             const double apart = (at.centers[a] - at.centers[b]).norm() - radii;
-                             if (apart > 0.1) return Exactly(std::min(apart, kFar));
-                             return DistanceOf(BodyAt(at, a), BodyAt(at, b));
-                           }});
+    statements_.push_back(
+        {"self_clearance", robot_.bodies[a].name + " - " + robot_.bodies[b].name, 4.0,
+         [this, a, b, radii, far = Far("self_clearance")](Instant& at, const Stretch&) {
+           if (!at.reaches) return Exactly(-kNever);
+           const double apart = (at.centers[a] - at.centers[b]).norm() - radii;
+           if (apart > far) return Exactly(apart);
+           return DistanceOf(BodyAt(at, a), BodyAt(at, b));
+         }});
   }
 }
 
@@ -131,15 +133,14 @@ void WalkTruth::AddObstacleStatements() {
   for (size_t b = 0; b < robot_.bodies.size(); ++b) {
     for (size_t o = 0; o < scene_.size(); ++o) {
       statements_.push_back({"clearance", robot_.bodies[b].name + " - " + scene_.name(o), 3.0,
-                             [this, b, o](Instant& at, const Stretch&) {
+                             [this, b, o, far = Far("clearance")](Instant& at, const Stretch&) {
                                if (!at.reaches) return Exactly(-kNever);
                                const double radius = robot_.bodies[b].radius;
                                // Without the body's points first: a piece's ball is often far
                                // enough.
                                const double quick = scene_.BallDistance(o, at.centers[b], radius);
-                               if (quick > 0.1) return Exactly(std::min(quick, kFar));
-                               return scene_.Distance(o, BodyAt(at, b), at.centers[b], radius,
-                                                      kFar);
+                               if (quick > far) return Exactly(quick);
+                               return scene_.Distance(o, BodyAt(at, b), at.centers[b], radius, far);
                              }});
     }
   }

@@ -73,6 +73,8 @@ class WalkTruth {
   void AddBodyStatements();
   void AddObstacleStatements();
   double Demanded(const std::string& family) const;
+  // Distances beyond this [m] are not told apart.
+  double Far(const std::string& family) const;
   void Sample(const Statement& statement, const Stretch& stretch, double a, const Bracket& at_a,
               double b, const Bracket& at_b, TrueMargin* least);
 

@@ -126,7 +126,9 @@ class TamperedRun {
       });
     }
     EditManifest([&](nlohmann::ordered_json& manifest) {
-      manifest["config_sha256"] = Sha256(ReadText(run() / "config.yaml"));
+      if (std::filesystem::exists(run() / "config.yaml")) {
+        manifest["config_sha256"] = Sha256(ReadText(run() / "config.yaml"));
+      }
       manifest["robot_sha256"] = CombinedSha256(robot);
       manifest["scene_sha256"] = CombinedSha256(scene);
       const auto list = [](const std::vector<InputFile>& files) {

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "experiments/verify/certificate_text.h"
+#include "tests/verify/what_is_claimed.h"
 #include "wpg/input/number_text.h"
 
 namespace halfstep {
@@ -18,7 +19,6 @@ using Table = TamperedRun::Table;
 using List = std::vector<StudyMutation>;
 
 constexpr char kNotClaimed[] = "no statement is about it";
-constexpr char kHow[] = "how the method went, not what came of it";
 constexpr char kWeaker[] = "the claim that is left is weaker, and follows from the true one";
 
 bool IsNumber(const std::string& text) {
@@ -38,20 +38,22 @@ std::string Other(const std::string& value, double change) {
   if (value.empty()) return "1";
   if (value == "inf") return "0.5";
   if (!IsNumber(value)) return value + "x";
-  if (value.find_first_of(".e") == std::string::npos) return std::to_string(std::stol(value) + 1);
+  if (value.find_first_of(".e") == std::string::npos)
+    return std::to_string(std::stol(value) + (change < 0 ? -1 : 1));
   return ShortestText(std::stod(value) + change);
 }
 
-// One cell of one column of a table, in a row that `random` draws.
+// One cell of one column of a table, in a row that `random` draws, from `first` on.
 void EveryColumn(const std::string& kind, const std::string& file, int rows,
-                 const std::set<std::string>& harmless, const char* why, List* list) {
+                 const std::set<std::string>& harmless, const char* why, List* list,
+                 size_t first = 1) {
   const TamperedRun run;
   const Table table = TamperedRun::Cells(ReadText(run.run() / file));
   std::mt19937 random(7);
   for (size_t column = 0; column < table.front().size(); ++column) {
     const std::string& name = table.front()[column];
     for (int k = 0; k < rows; ++k) {
-      const size_t row = 1 + random() % (table.size() - 1);
+      const size_t row = first + random() % (table.size() - first);
       const double change = k % 2 == 0 ? 1e-3 : -1e-3;
       list->push_back({kind, file + ":" + std::to_string(row + 1) + " " + name,
                        [=](TamperedRun& to) {
@@ -256,9 +258,9 @@ void Swaps(List* list) {
       const std::string bytes = ReadText(other.run() / name);
       if (bytes == ReadText(run.run() / name)) continue;
       const bool how = name.ends_with("iterates.csv") || name == "report.html";
+      const std::string why = how ? kHow : SaysTheSame(name, bytes, ReadText(run.run() / name));
       list->push_back({"file of another run", others[k].overrides.front() + " " + name,
-                       [=](TamperedRun& to) { WriteText(to.run() / name, bytes); },
-                       how ? kHow : ""});
+                       [=](TamperedRun& to) { WriteText(to.run() / name, bytes); }, why});
     }
   }
 }
@@ -313,25 +315,6 @@ void Forgeries(List* list) {
   });
 }
 
-const char* HarmlessInManifest(const std::string& pointer) {
-  for (const char* begin : {"/version", "/commit", "/build_type", "/compiler", "/written",
-                            "/acceptance", "/host", "/wall_s", "/libraries"}) {
-    if (pointer.starts_with(begin)) return kHow;
-  }
-  for (const char* part : {"/requested", "/message", "/evidence", "/wall_s"}) {
-    if (pointer.starts_with("/methods/") && pointer.find(part) != std::string::npos) return kHow;
-  }
-  // Of raw, whose row verify is not asked about.
-  if (pointer == "/methods/0/status" || pointer == "/methods/0/duration_s") {
-    return "verify is asked about the other method";
-  }
-  return "";
-}
-
-const char* HarmlessInCertificate(const std::string& pointer) {
-  return pointer == "/message" || pointer == "/resolution_s" ? kHow : "";
-}
-
 }  // namespace
 
 std::vector<StudyMutation> StudyMutations() {
@@ -340,14 +323,9 @@ std::vector<StudyMutation> StudyMutations() {
   EveryClaim(&list);
   EveryMember("certificate.json", "dichotomy/certificate.json", HarmlessInCertificate, &list);
   EveryColumn("half_steps.csv", "dichotomy/half_steps.csv", 2, {}, "", &list);
-  EveryColumn("overlaps.csv", "dichotomy/overlaps.csv", 2,
-              {"active", "limit_family", "limit_scale", "price_s", "multiplier_s", "upper_bound_s"},
-              kHow, &list);
+  EveryColumn("overlaps.csv", "dichotomy/overlaps.csv", 2, kFreeOfOverlaps, kHow, &list);
   EveryColumn("footsteps.csv", "footsteps.csv", 3, {}, "", &list);
-  EveryColumn("summary.csv", "summary.csv", 2,
-              {"worst_margin", "worst_margin_name", "margin_evaluations", "collision_queries",
-               "wall_s", "time_to_first_improvement_s"},
-              kNotClaimed, &list);
+  EveryColumn("summary.csv", "summary.csv", 2, kFreeOfSummary, kNotClaimed, &list, /*first=*/2);
   EveryColumn(
       "iterates.csv", "dichotomy/iterates.csv", 1,
       {"iteration", "wall_s", "evaluations", "candidate_duration_s", "candidate_worst_margin",
