@@ -30,9 +30,14 @@ bool IsThere(const fs::path& path) { return fs::exists(fs::symlink_status(path))
 // Gives `from` the name `to`, which nothing has; false when something has it.
 bool TakeName(const fs::path& from, const fs::path& to) {
   if (Rename(from, to, RENAME_NOREPLACE)) return true;
-  if (errno == EINVAL && !IsThere(to) && Rename(from, to, 0)) return true;
-  if (errno != EEXIST && !IsThere(to)) Fail("cannot be given its name", to, errno);
-  return false;
+  int reason = errno;
+  if (reason == EINVAL) {
+    if (IsThere(to)) return false;
+    if (Rename(from, to, 0)) return true;
+    reason = errno;
+  }
+  if (reason == EEXIST || reason == ENOTEMPTY) return false;
+  Fail("cannot be given its name", to, reason);
 }
 
 bool IsRun(const fs::path& path) {

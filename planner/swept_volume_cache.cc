@@ -61,6 +61,13 @@ std::string RobotText(const RobotModel& robot) {
   return text;
 }
 
+// The elements that a bake kept one by one, once the whole file is there; also those that a bake
+// left which was killed between the two.
+void RemoveParts(const std::string& cache_path) {
+  std::error_code ignored;
+  std::filesystem::remove_all(cache_path + ".parts", ignored);
+}
+
 std::string PartHeader(const std::string& provenance, int element) {
   return provenance + "element " + std::to_string(element) + "\n";
 }
@@ -133,6 +140,7 @@ CachedVolumes LoadOrBakeSweptVolumes(const RobotModel& robot, const Lipm& lipm,
           result.volumes->down.push_back(std::move((*volumes)[2 * i]));
           result.volumes->up.push_back(std::move((*volumes)[2 * i + 1]));
         }
+        RemoveParts(result.path);
         return result;
       }
       result.refused = result.path + ": refused: its volumes make no sense";
@@ -171,10 +179,7 @@ CachedVolumes LoadOrBakeSweptVolumes(const RobotModel& robot, const Lipm& lipm,
   }
   // Another bake may have removed the parts' folder under us; only the whole file matters.
   result.not_kept.clear();
-  if (try_to_write(result.path, provenance, body)) {
-    std::error_code ignored;
-    std::filesystem::remove_all(result.path + ".parts", ignored);
-  }
+  if (try_to_write(result.path, provenance, body)) RemoveParts(result.path);
   return result;
 }
 

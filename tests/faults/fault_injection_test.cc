@@ -35,6 +35,8 @@ struct Scenario {
   std::string costs_less = {};  // a path's part where an error does not fail the command
 };
 
+void PrintTo(const Scenario& scenario, std::ostream* out) { *out << scenario.name; }
+
 void Do(const fs::path& place, const std::vector<std::string>& command) {
   const Outcome outcome = Halfstep(place, command);
   ASSERT_EQ(outcome.status, kSuccess) << outcome.err;

@@ -33,7 +33,8 @@ fixtures_of() {
 # Longer inputs are cut [bytes].
 longest() {
   case $1 in
-    robot_model | verify) echo 16384 ;;
+    robot_model) echo 16384 ;;
+    verify) echo 32768 ;;
     run_folder | urdf) echo 8192 ;;
     *) echo 4096 ;;
   esac
