@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "smoothing/certified_feasibility.h"
 #include "smoothing/dichotomy.h"
 #include "smoothing/sampled_feasibility.h"
 #include "tests/smoothing/test_scenes.h"
@@ -211,6 +212,40 @@ TEST(SmoothedBar, InterruptedHalfWayItHasAllMarginsAndSomethingGained) {
   Recheck(e, result.parameters, 0.001, kBetweenSamples);
   EXPECT_GT(result.parameters.overlaps[0], 0.1);
   EXPECT_EQ(result.parameters.overlaps.back(), 0.0);
+}
+
+// The cable as a mesh of a bar, a plate in the way, and vertices up to 9 km away.
+TEST(SmoothedBar, FarVerticesOfAMeshNeitherCertifyNorRefuse) {
+  const Experiment e = LoadExperiment("bar_8cm");
+  const auto scene = [](double height, double far) {
+    TriangleMesh mesh = FacesOf(MakeBox({0.02, 2.0, height}));
+    if (far > 0) {
+      mesh.vertices.conservativeResize(3, 13);
+      mesh.vertices.rightCols(5) << far, far, far, -far, -far,  //
+          0, 1, 0, 0, 1,                                        //
+          0, 0, 1, 0, 0;
+      mesh.triangles.conservativeResize(3, 14);
+      mesh.triangles.rightCols(2) << 8, 11, 9, 12, 10, 11;
+    }
+    Obstacle obstacle{.name = "bar", .shape = mesh, .X_WO = Eigen::Isometry3d::Identity()};
+    obstacle.X_WO.translation() << 0.137, 0, 0.5 * height;
+    Scene made;
+    made.obstacles.push_back(obstacle);
+    return made;
+  };
+  const auto smooth = [&](const Scene& made) {
+    const MarginEvaluator evaluator(e.robot, made, e.config.smoothing.limits);
+    return Dichotomy(e.sequence, CertifiedFeasibility(evaluator, {}), {.tolerance = 0.2});
+  };
+  const SmoothingResult bar = smooth(scene(0.08, 0));
+  ASSERT_EQ(bar.ending, opt::Ending::kConverged) << bar.message;
+  const double far = 9e3;
+  const SmoothingResult same = smooth(scene(0.08, far));
+  ASSERT_EQ(same.ending, opt::Ending::kConverged) << same.message;
+  for (size_t i = 0; i < bar.parameters.overlaps.size(); ++i) {
+    EXPECT_NEAR(same.parameters.overlaps[i], bar.parameters.overlaps[i], 1e-6);
+  }
+  EXPECT_EQ(smooth(scene(0.30, far)).ending, opt::Ending::kNotRun) << "through the plate";
 }
 
 }  // namespace

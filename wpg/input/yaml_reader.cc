@@ -30,9 +30,14 @@ std::string ValidNumbers(const NumberSpec& spec, const std::string& any = "a fin
   return WithUnit(ShortestText(spec.min) + " … " + ShortestText(spec.max), spec);
 }
 
+// A robot may have thousands of links; a reader takes in a few dozen names.
 std::string Joined(const std::vector<std::string>& words) {
+  constexpr size_t kMost = 40;
   std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  for (size_t i = 0; i < std::min(words.size(), kMost); ++i) {
+    text += (text.empty() ? "" : ", ") + words[i];
+  }
+  if (words.size() > kMost) text += " and " + std::to_string(words.size() - kMost) + " more";
   return text.empty() ? "none" : text;
 }
 
