@@ -6,6 +6,7 @@
 #include "experiments/experiment.h"
 #include "experiments/folder_name.h"
 #include "experiments/methods.h"
+#include "smoothing/margins/family_traits.h"
 #include "wpg/input/text.h"
 
 namespace halfstep {
@@ -158,25 +159,12 @@ void DeclareLimits(Fields& fields, MarginLimits* l) {
 }
 
 void DeclareMargins(Fields& fields, MarginLimits* l) {
-  const auto margin = [&](const char* key, MarginFamily family, const char* unit,
-                          const char* meaning) {
-    fields.Number(key, &l->demanded_of(family),
-                  {.meaning = meaning, .unit = unit, .min = 0, .max = 0.5});
-  };
-  margin("floor_m", MarginFamily::kFloor, "m", "height of the sole while it moves horizontally");
-  margin("ground_m", MarginFamily::kGround, "m",
-         "lowest point of a body above the floor; feet may touch it");
-  margin("no_step_m", MarginFamily::kNoStep, "m",
-         "standing sole to no-step areas; touching is never allowed");
-  margin("zmp_m", MarginFamily::kZmp, "m", "ZMP inside the support polygon");
-  margin("reach_m", MarginFamily::kReach, "m", "leg shorter than stretched");
-  margin("joint_rad", MarginFamily::kJoint, "rad", "inside the joint limits");
-  margin("joint_speed_rad_s", MarginFamily::kJointSpeed, "rad/s", "inside the joint speed limits");
-  margin("foot_speed_m_s", MarginFamily::kFootSpeed, "m/s", "inside the foot speed limit");
-  margin("foot_yaw_rate_rad_s", MarginFamily::kFootYawRate, "rad/s",
-         "inside the foot yaw rate limit");
-  margin("clearance_m", MarginFamily::kClearance, "m", "robot to obstacles");
-  margin("self_clearance_m", MarginFamily::kSelfClearance, "m", "between the robot's own bodies");
+  for (const MarginFamily family : AllMarginFamilies()) {
+    const FamilyTraits& traits = Traits(family);
+    fields.Number(
+        traits.key.data(), &l->demanded_of(family),
+        {.meaning = traits.meaning.data(), .unit = traits.unit.data(), .min = 0, .max = 0.5});
+  }
 }
 
 void DeclareSmoothing(Fields& fields, SmoothingConfig* c) {

@@ -7,7 +7,7 @@
 #include "experiments/planning_config.h"
 #include "smoothing/certificate.h"
 #include "smoothing/dichotomy.h"
-#include "smoothing/margins.h"
+#include "smoothing/margins/margin.h"
 #include "smoothing/overlap_optimizer.h"
 #include "smoothing/pareto.h"
 #include "wpg/input/fields.h"

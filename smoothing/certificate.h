@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "smoothing/margins.h"
+#include "smoothing/margins/margin.h"
 
 namespace halfstep {
 

@@ -15,23 +15,14 @@ namespace {
 struct Open {
   double begin;
   double end;
-  Pending pending;
+  OpenGroups groups;
 };
 
 // The statement an open interval is undecided for, to name it.
 Margin OpenStatement(const Open& open, const MarginEvaluator& evaluator,
                      const SuperposedWalk& walk) {
-  Margin margin{.family = MarginFamily::kSelfClearance, .value = std::nan("")};
-  if (!open.pending.families.empty()) {
-    margin.family = open.pending.families.front();
-  } else if (!open.pending.bodies.empty()) {
-    margin.family = MarginFamily::kClearance;
-    margin.subject = open.pending.bodies.front();
-  } else {
-    const auto [i, j] = evaluator.robot().self_pairs[open.pending.pairs.front()];
-    margin.subject = i;
-    margin.other = j;
-  }
+  const OpenGroup& group = open.groups.front();
+  Margin margin = evaluator.statements(group.family).OfGroup(group.group);
   margin.t = 0.5 * (open.begin + open.end);
   margin.at = walk.Locate(margin.t);
   return margin;
@@ -118,15 +109,15 @@ Feasibility CertifiedFeasibility::Decide(const SuperposedWalk& walk, const TimeW
     Open now = std::move(open.front());
     open.pop_front();
     const auto violated =
-        statements_.Prove(walk, now.begin, now.end, &now.pending, scratch, certificate);
+        statements_.Prove(walk, now.begin, now.end, &now.groups, scratch, certificate);
     if (violated) return {Verdict::kViolated, Evidence::kCertified, *violated};
-    if (now.pending.empty()) continue;
+    if (now.groups.empty()) continue;
     if (now.end - now.begin < options_.resolution) {
       return {Verdict::kUndecided, Evidence::kCertified, OpenStatement(now, evaluator_, walk)};
     }
     const double middle = 0.5 * (now.begin + now.end);
-    open.push_back({now.begin, middle, now.pending});
-    open.push_back({middle, now.end, std::move(now.pending)});
+    open.push_back({now.begin, middle, now.groups});
+    open.push_back({middle, now.end, std::move(now.groups)});
   }
   return {Verdict::kFeasible, Evidence::kCertified, {}};
 }

@@ -39,7 +39,7 @@ class CertifiedFeasibility : public FeasibilityTest {
 
   const CertificationOptions& options() const { return options_; }
   /// How many statements a family has at every instant.
-  int CountOf(MarginFamily family) const { return statements_.CountOf(family); }
+  int CountOf(MarginFamily family) const { return evaluator_.statements(family).count(); }
 
  private:
   Feasibility Decide(const SuperposedWalk& walk, const TimeWindow& window,

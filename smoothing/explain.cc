@@ -47,8 +47,7 @@ void AddMultipliers(const OverlapProgram& program, const HomotopyParameters& par
     double sum = 0.0;
     for (int row = 0; row < program.table().rows(); ++row) {
       const int after = program.table().half_step_of(row) - static_cast<int>(j);
-      const bool same =
-          SlackTable::family_of(row) == SlackTable::RowOf(junction.limited_by->family);
+      const bool same = SlackTable::family_of(row) == Traits(junction.limited_by->family).row;
       if (same && (after == 0 || after == 1)) sum += std::abs(at.multipliers[row]);
     }
     junction.multiplier = sum;

@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "smoothing/margin_evaluator.h"
-#include "smoothing/margins.h"
+#include "smoothing/margins/margin.h"
 #include "smoothing/superposed_walk.h"
 
 namespace halfstep {

@@ -5,14 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "planner/no_step_areas.h"
-#include "planner/scene.h"
-#include "smoothing/body_clearances.h"
-#include "smoothing/body_heights.h"
-#include "smoothing/margins.h"
+#include "smoothing/margins/margin_statements.h"
 #include "smoothing/superposed_walk.h"
-#include "wpg/posture.h"
-#include "wpg/robot_model.h"
 
 namespace halfstep {
 
@@ -20,18 +14,8 @@ namespace halfstep {
 /// between instants is for others to say (FeasibilityTest). Const; scratch is the caller's.
 class MarginEvaluator {
  public:
-  /// What the clearances remember, the no-step area that was nearest to each sole where it stood
-  /// last, and how many instants were evaluated. One for each thread.
-  struct Scratch {
-    struct Standing {
-      Pose2 X_WF;
-      NoStepAreas::Nearest nearest;
-      bool known = false;
-    };
-    BodyClearances::Scratch bodies;
-    long instants = 0;
-    std::array<Standing, 2> standing = {};  ///< by Index(Side)
-  };
+  /// What families remember; one for each thread.
+  using Scratch = MarginScratch;
 
   /// `robot` and `scene` are copied.
   MarginEvaluator(RobotModel robot, Scene scene, MarginLimits limits);
@@ -39,13 +23,16 @@ class MarginEvaluator {
   /// The same robot and scene, shared, with other limits.
   MarginEvaluator WithLimits(const MarginLimits& limits) const;
 
-  const RobotModel& robot() const { return place_->robot; }
-  const Scene& scene() const { return place_->scene; }
+  const RobotModel& robot() const { return place().robot; }
+  const Scene& scene() const { return place().scene; }
+  const MarginPlace& place() const { return shared_->place; }
   const MarginLimits& limits() const { return limits_; }
-  const BodyClearances& clearances() const { return place_->clearances; }
-  const BodyHeights& heights() const { return place_->heights; }
-  const NoStepAreas& no_step_areas() const { return place_->areas; }
+  const BodyClearances& clearances() const { return place().clearances; }
+  const BodyHeights& heights() const { return place().heights; }
   Scratch MakeScratch() const { return {.bodies = clearances().MakeScratch()}; }
+  const MarginStatements& statements(MarginFamily family) const {
+    return *shared_->statements[static_cast<size_t>(family)];
+  }
 
   /// All margins at an instant. When a leg does not reach, joint, ground and clearance margins are
   /// −∞.
@@ -56,36 +43,22 @@ class MarginEvaluator {
   std::optional<Margin> FirstViolation(const SuperposedWalk& walk, const LocalTime& at,
                                        Scratch* scratch) const;
 
-  /// Distance of a sole from the no-step areas [m]: +∞ while it is in the air, or where there are
-  /// none.
-  Margin NoStep(const SuperposedWalk& walk, const LocalTime& at, const WalkVector& x, Side side,
-                Scratch* scratch) const;
-
   /// "clearance of right foot (RLEG_LINK5) to 'bar' 0.0032 m at half-step 3, τ = 0.412 s".
   std::string Describe(const Margin& margin) const;
   /// What a margin belongs to: "RLEG_LINK5 – bar", "right foot", "LLEG_JOINT3".
-  std::string Subject(const Margin& margin) const;
+  std::string Subject(const Margin& margin) const {
+    return statements(margin.family).Subject(margin);
+  }
 
  private:
-  void FootMargins(const SuperposedWalk& walk, const LocalTime& at, const WalkJet& jet,
-                   MarginSet* margins) const;
-  void ZmpMargin(const SuperposedWalk& walk, const LocalTime& at, const WalkJet& jet,
-                 MarginSet* margins) const;
-  void NoStepMargins(const SuperposedWalk& walk, const LocalTime& at, const WalkVector& x,
-                     Scratch* scratch, MarginSet* margins) const;
-  void JointSpeedMargins(const WalkJet& jet, Posture* posture, MarginSet* margins) const;
-  void JointMargins(const Posture& posture, MarginSet* margins) const;
-
-  struct Place {
-    Place(RobotModel robot, Scene scene);
-    RobotModel robot;
-    Scene scene;
-    BodyClearances clearances;  // borrows robot
-    BodyHeights heights;        // borrows robot
-    NoStepAreas areas;
+  struct Shared {
+    Shared(RobotModel robot, Scene scene);
+    MarginPlace place;
+    // By family; borrow place.
+    std::array<std::unique_ptr<const MarginStatements>, kNumMarginFamilies> statements;
   };
 
-  std::shared_ptr<const Place> place_;
+  std::shared_ptr<const Shared> shared_;
   MarginLimits limits_;
 };
 

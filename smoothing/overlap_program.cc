@@ -66,9 +66,7 @@ class SlackBlock : public opt::ConstraintBlock {
   }
 
  private:
-  static bool IsRaised(int row) {
-    return Raised()[static_cast<size_t>(SlackTable::family_of(row))];
-  }
+  static bool IsRaised(int row) { return Traits(SlackTable::family_of(row)).raised; }
 
   // Raised slacks less z.
   Eigen::VectorXd Lowered(Eigen::VectorXd slacks, const Eigen::VectorXd& x) const {
@@ -197,6 +195,14 @@ class WorstSlackCost : public opt::CostTerm {
 };
 
 }  // namespace
+
+std::array<bool, kNumMarginFamilies> Raised() {
+  std::array<bool, kNumMarginFamilies> raised{};
+  for (const MarginFamily family : AllMarginFamilies()) {
+    raised[static_cast<size_t>(family)] = Traits(family).raised;
+  }
+  return raised;
+}
 
 std::string_view Name(ProgramKind kind) {
   switch (kind) {

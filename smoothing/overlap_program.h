@@ -19,11 +19,9 @@ enum class ProgramKind {
 };
 std::string_view Name(ProgramKind kind);  ///< "fastest" …
 
-/// The families whose least slack `safest` maximizes: ZMP, joints, joint and foot speeds, both
-/// clearances. The others are kept at what is demanded.
-constexpr std::array<bool, kNumMarginFamilies> Raised() {
-  return {false, true, false, true, false, true, true, true, true, false, false};
-}
+/// The families whose least slack `safest` maximizes (FamilyTraits::raised). The others are kept at
+/// what is demanded.
+std::array<bool, kNumMarginFamilies> Raised();
 
 /// Which nonlinear program over a sequence's homotopy parameters.
 struct ProgramOptions {

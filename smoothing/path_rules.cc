@@ -31,7 +31,7 @@ FeasiblePath::Rules SafestRules(const OverlapProgram& program, const Feasibility
           [&test](const SuperposedWalk& walk, double cost, MarginEvaluator::Scratch* scratch) {
             MarginLimits limits = test.evaluator().limits();
             for (MarginFamily family : AllMarginFamilies()) {
-              if (!Raised()[static_cast<size_t>(family)]) continue;
+              if (!Traits(family).raised) continue;
               limits.demanded_of(family) -= cost * Scale(family);
             }
             const MarginEvaluator raised = test.evaluator().WithLimits(limits);

@@ -4,17 +4,10 @@
 #include <vector>
 
 #include "smoothing/margin_evaluator.h"
-#include "smoothing/posture_tangent.h"
+#include "smoothing/margins/slack_sink.h"
 #include "smoothing/superposed_walk.h"
 
 namespace halfstep {
-
-/// One statement at one instant, as its slack (margin − demanded)/Scale(family): at least 0 when
-/// met.
-struct SlackRow {
-  MarginFamily family = MarginFamily::kZmp;
-  double slack = 0.0;
-};
 
 /// The statements of an instant that are nearer to their limits than a cutoff, smooth one by one
 /// (each polygon edge, each end of a joint's range), with derivatives along homotopy parameters.
@@ -25,7 +18,7 @@ struct InstantSlacks {
 };
 
 /// Evaluates slacks and their analytic derivatives: superposition → leg inverse kinematics →
-/// witness points. No-step areas have no rows: no parameter moves a footstep. One for each thread.
+/// witness points. One for each thread.
 class SlackEvaluator {
  public:
   /// `evaluator` is borrowed. Statements with slack above `cutoff` are left out.
@@ -41,24 +34,9 @@ class SlackEvaluator {
   long instants() const { return scratch_.instants; }
 
  private:
-  // Adds a row when it is below the cutoff; `derivative(i)` is ∂margin/∂parameter i.
-  template <typename Derivative>
-  void Add(MarginFamily family, double margin, const Derivative& derivative, InstantSlacks* out);
-  void AddFoot(const SuperposedWalk& walk, const LocalTime& at, const WalkJet& jet,
-               InstantSlacks* out);
-  void AddZmp(const SuperposedWalk& walk, const LocalTime& at, const WalkJet& jet,
-              InstantSlacks* out);
-  void AddJoints(const Posture& posture, InstantSlacks* out);
-  void AddGround(const Posture& posture, InstantSlacks* out);
-  void AddClearances(const Posture& posture, InstantSlacks* out);
-
   const MarginEvaluator& evaluator_;
-  double cutoff_;
+  SlackSink sink_;
   MarginEvaluator::Scratch scratch_;
-  bool gradient_ = false;
-  std::vector<WalkSensitivity> sensitivities_;
-  std::vector<PostureTangent> tangents_;
-  std::vector<double> gradient_rows_;  // row-major, grown row by row
 };
 
 }  // namespace halfstep

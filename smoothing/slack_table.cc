@@ -32,6 +32,30 @@ struct SoftMinimum {
   }
 };
 
+// Families that have a row of their own, in their order; and by family the place of its row among
+// them, or of the family whose row it shares; −1: it has none.
+struct RowOrder {
+  std::vector<MarginFamily> families;
+  std::array<int, kNumMarginFamilies> place{};
+};
+
+const RowOrder& Rows() {
+  static const RowOrder kRows = [] {
+    RowOrder rows;
+    for (const MarginFamily family : AllMarginFamilies()) {
+      if (Traits(family).row == family) rows.families.push_back(family);
+    }
+    for (const MarginFamily family : AllMarginFamilies()) {
+      const auto& own = Traits(family).row;
+      const auto found = own ? std::ranges::find(rows.families, *own) : rows.families.end();
+      rows.place[static_cast<size_t>(family)] =
+          found == rows.families.end() ? -1 : static_cast<int>(found - rows.families.begin());
+    }
+    return rows;
+  }();
+  return kRows;
+}
+
 double StretchOf(const SuperposedWalk& walk, int half_step) {
   const bool last = half_step + 1 == walk.num_half_steps();
   return (last ? walk.duration() : walk.start_of(half_step + 1)) - walk.start_of(half_step);
@@ -108,8 +132,14 @@ void SlackTable::CountRows() {
     const int groups = options_.row_per_instant
                            ? static_cast<int>(std::ranges::count(instants, false, &Instant::far))
                            : 1;
-    first_rows_.push_back(first_rows_.back() + groups * kRowFamilies);
+    first_rows_.push_back(first_rows_.back() + groups * NumRowFamilies());
   }
+}
+
+int SlackTable::NumRowFamilies() { return static_cast<int>(Rows().families.size()); }
+
+MarginFamily SlackTable::family_of(int row) {
+  return Rows().families[static_cast<size_t>(row % NumRowFamilies())];
 }
 
 int SlackTable::half_step_of(int row) const {
@@ -195,8 +225,7 @@ void SlackTable::EvaluateHalfStep(const SuperposedWalk& walk, const Eigen::Vecto
   const std::vector<int>& columns = band(k);
   const Eigen::Index width = static_cast<Eigen::Index>(columns.size());
   const SoftMinimum nothing{options_.cutoff, 1.0, Eigen::VectorXd::Zero(nonzeros ? width : 0)};
-  std::array<SoftMinimum, kRowFamilies> minima;
-  minima.fill(nothing);
+  std::vector<SoftMinimum> minima(static_cast<size_t>(NumRowFamilies()), nothing);
   double* value = values->data() + first_rows_[static_cast<size_t>(k)];
   const auto write = [&] {
     for (SoftMinimum& minimum : minima) {
@@ -226,7 +255,8 @@ void SlackTable::EvaluateHalfStep(const SuperposedWalk& walk, const Eigen::Vecto
       }
     }
     for (size_t r = 0; r < instant.rows.size(); ++r) {
-      SoftMinimum& minimum = minima[static_cast<size_t>(RowOf(instant.rows[r].family))];
+      const int place = Rows().place[static_cast<size_t>(instant.rows[r].family)];
+      SoftMinimum& minimum = minima[static_cast<size_t>(place)];
       const double weight = minimum.Add(instant.rows[r].slack, rho);
       if (!nonzeros || weight < 1e-9) continue;
       minimum.gradient.noalias() +=

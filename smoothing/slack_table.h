@@ -37,13 +37,9 @@ class SlackTable {
 
   int rows() const { return first_rows_.back(); }
   int half_step_of(int row) const;
-  /// A half-step's rows are of the first families; `ground` shares the row of `floor`, for both are
-  /// heights, and `no_step` has none.
-  static constexpr int kRowFamilies = static_cast<int>(MarginFamily::kGround);
-  static MarginFamily family_of(int row) { return static_cast<MarginFamily>(row % kRowFamilies); }
-  static MarginFamily RowOf(MarginFamily family) {
-    return family == MarginFamily::kGround ? MarginFamily::kFloor : family;
-  }
+  /// The family of a row; a half-step, or an instant, has one for each family that has its own.
+  static MarginFamily family_of(int row);
+  static int NumRowFamilies();
   /// Variables of the rows of a half-step.
   const std::vector<int>& band(int half_step) const {
     return bands_[static_cast<size_t>(half_step)];

@@ -7,7 +7,7 @@
 #include "opt/ending.h"
 #include "smoothing/feasibility_test.h"
 #include "smoothing/homotopy_parameters.h"
-#include "smoothing/margins.h"
+#include "smoothing/margins/margin.h"
 
 namespace halfstep {
 

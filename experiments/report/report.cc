@@ -15,7 +15,7 @@
 #include "experiments/report/report_walk.h"
 #include "experiments/report/shortened.h"
 #include "opt/ending.h"
-#include "smoothing/margins.h"
+#include "smoothing/margins/margin.h"
 #include "wpg/input/input_error.h"
 #include "wpg/input/text.h"
 

@@ -2,7 +2,7 @@
 
 #include "experiments/verify/certificate_text.h"
 #include "experiments/verify/findings.h"
-#include "smoothing/margins.h"
+#include "smoothing/margins/margin.h"
 #include "wpg/robot_model.h"
 
 namespace halfstep::verify {

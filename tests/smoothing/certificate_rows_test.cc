@@ -108,7 +108,7 @@ TEST(CertificateRows, HoldInsideWholeCertificates) {
 
 // One statement of an interval, whatever the others say.
 CertificateRow RowOf(const MarginEvaluator& evaluator, const SuperposedWalk& walk, double begin,
-                     double end, Pending pending) {
+                     double end, OpenGroups pending) {
   MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
   Certificate rows;
   IntervalStatements(evaluator).Prove(walk, begin, end, &pending, &scratch, &rows);
@@ -156,8 +156,7 @@ TEST(CertificateRows, HoldForEveryBodyThatMovesTowardsAnObstacle) {
       Scene scene;
       scene.obstacles.push_back(pin);
       const MarginEvaluator evaluator(robot, scene, limits);
-      Pending pending;
-      pending.bodies = {static_cast<uint16_t>(b)};
+      const OpenGroups pending = {{MarginFamily::kClearance, static_cast<uint16_t>(b)}};
       const CertificateRow row = RowOf(evaluator, walk, begin, end, pending);
       if (row.count == 0) continue;
       MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
@@ -193,8 +192,7 @@ TEST(CertificateRows, HoldForEveryPairOfBodies) {
     const auto [begin, end] = DrawInterval(walk, &draw);
     for (size_t p = static_cast<size_t>(draw.Uniform(0, 10)); p < robot.self_pairs.size();
          p += 1 + static_cast<size_t>(draw.Uniform(0, 20))) {
-      Pending pending;
-      pending.pairs = {static_cast<uint16_t>(p)};
+      const OpenGroups pending = {{MarginFamily::kSelfClearance, static_cast<uint16_t>(p)}};
       const CertificateRow row = RowOf(evaluator, walk, begin, end, pending);
       if (row.count == 0) break;
       for (double t : InstantsOf(row, 2)) {
@@ -232,9 +230,7 @@ TEST(CertificateRows, HoldForEveryJoint) {
       for (int k = 0; k < 8; ++k) {
         const auto [begin, end] = DrawInterval(walk, &draw);
         for (MarginFamily family : {MarginFamily::kJoint, MarginFamily::kJointSpeed}) {
-          Pending pending;
-          pending.families = {family};
-          const CertificateRow row = RowOf(evaluator, walk, begin, end, pending);
+          const CertificateRow row = RowOf(evaluator, walk, begin, end, {{family}});
           if (row.count == 0) continue;
           ASSERT_EQ(row.margin.subject, joint);
           const LegJoint& limits =
@@ -269,16 +265,11 @@ TEST(CertificateRows, AreGivenWhereTheyKeepWhatIsDemandedAndOnlyThere) {
   const RobotModel robot = Hrp2();
   WalkDraw draw(45);
   std::array<int, kNumMarginFamilies> refused{};
-  const auto pending_of = [&](MarginFamily family) {
-    Pending pending;
-    if (family == MarginFamily::kClearance) {
-      pending.bodies = {static_cast<uint16_t>(draw.Uniform(0, 20))};
-    } else if (family == MarginFamily::kSelfClearance) {
-      pending.pairs = {static_cast<uint16_t>(draw.Uniform(0, 100))};
-    } else {
-      pending.families = {family};
-    }
-    return pending;
+  const auto pending_of = [&](MarginFamily family) -> OpenGroups {
+    double groups = 0;
+    if (family == MarginFamily::kClearance) groups = 20;
+    if (family == MarginFamily::kSelfClearance) groups = 100;
+    return {{family, static_cast<uint16_t>(groups > 0 ? draw.Uniform(0, groups) : 0)}};
   };
   for (int i = 0; i < Draws(100); ++i) {
     const HalfStepSequence sequence = DrawQuickSequence(robot, &draw);
@@ -288,7 +279,7 @@ TEST(CertificateRows, AreGivenWhereTheyKeepWhatIsDemandedAndOnlyThere) {
     MarginLimits limits = Undemanding();
     const MarginEvaluator undemanding(robot, scene, limits);
     for (MarginFamily family : AllMarginFamilies()) {
-      const Pending pending = pending_of(family);
+      const OpenGroups pending = pending_of(family);
       const CertificateRow row = RowOf(undemanding, walk, begin, end, pending);
       // Where little changes, and where an overlap or the horizon hides the margin, nothing is
       // told.

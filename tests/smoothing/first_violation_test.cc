@@ -89,9 +89,9 @@ TEST(FirstViolation, SeesEveryPairOfBodies) {
       if (distance <= 0.0) continue;
       const BodyClearances clearances(one, {});
       BodyClearances::Scratch scratch = clearances.MakeScratch();
-      EXPECT_TRUE(clearances.FirstBelow(posture, -10.0, distance + 1e-6, &scratch))
+      EXPECT_TRUE(clearances.FirstPairBelow(posture, distance + 1e-6, &scratch))
           << first.name << " - " << second.name;
-      EXPECT_FALSE(clearances.FirstBelow(posture, -10.0, distance - 1e-6, &scratch))
+      EXPECT_FALSE(clearances.FirstPairBelow(posture, distance - 1e-6, &scratch))
           << first.name << " - " << second.name;
     }
   }

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "smoothing/body_heights.h"
+#include "smoothing/margins/body_heights.h"
 #include "smoothing/certified_feasibility.h"
 #include "smoothing/sampled_feasibility.h"
 #include "smoothing/slack_rows.h"

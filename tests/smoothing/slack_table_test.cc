@@ -45,7 +45,7 @@ TEST_F(SlackTableTest, OutsideOfItsBandAVariableChangesNothingAtAll) {
     table_.Evaluate(y, &after, nullptr);
     for (int k = 0; k < e_.sequence.size(); ++k) {
       const std::vector<int>& band = table_.band(k);
-      const auto rows = Eigen::seqN(k * SlackTable::kRowFamilies, SlackTable::kRowFamilies);
+      const auto rows = Eigen::seqN(k * SlackTable::NumRowFamilies(), SlackTable::NumRowFamilies());
       if (std::find(band.begin(), band.end(), v) != band.end()) {
         changed += (before(rows) - after(rows)).norm() > 0;
         continue;
@@ -111,8 +111,7 @@ TEST_F(SlackTableTest, JacobianAlongRandomDirectionsAgreesWithDifferences) {
       }
       ++compared;
       EXPECT_NEAR(analytic, fine[row], 5e-3 * size)
-          << Name(SlackTable::family_of(row)) << " in half-step "
-          << table_.half_step_of(row);
+          << Name(SlackTable::family_of(row)) << " in half-step " << table_.half_step_of(row);
       caught += std::abs(-analytic - fine[row]) > 5e-3 * size;
     }
   }

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "smoothing/margins.h"
+#include "smoothing/margins/margin.h"
 #include "wpg/posture.h"
 #include "wpg/robot_model.h"
 

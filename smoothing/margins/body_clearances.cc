@@ -1,10 +1,15 @@
-#include "smoothing/body_clearances.h"
+#include "smoothing/margins/body_clearances.h"
 
 #include <algorithm>
 
 #include "planner/separation.h"
 
 namespace halfstep {
+namespace {
+
+constexpr double kFar = 1.0;  // [m] beyond what is demanded: more than any refused distance
+
+}  // namespace
 
 BodyClearances::BodyClearances(const RobotModel& robot, const Scene& scene)
     : robot_(robot), world_(scene) {
@@ -114,18 +119,22 @@ Margin BodyClearances::OfPair(size_t pair, const Posture& posture, double horizo
   return margin;
 }
 
-std::optional<Margin> BodyClearances::FirstBelow(const Posture& posture, double obstacle_clearance,
-                                                 double self_clearance, Scratch* scratch) const {
-  constexpr double kFar = 1.0;  // [m] beyond what is demanded: more than any refused distance
+std::optional<Margin> BodyClearances::FirstBodyBelow(const Posture& posture, double clearance,
+                                                     Scratch* scratch) const {
   for (size_t b = 0; b < num_bodies(); ++b) {
-    if (!BodyClears(b, posture, obstacle_clearance, scratch)) {
-      return OfBody(b, posture, obstacle_clearance + kFar, scratch);
+    if (!BodyClears(b, posture, clearance, scratch)) {
+      return OfBody(b, posture, clearance + kFar, scratch);
     }
   }
+  return std::nullopt;
+}
+
+std::optional<Margin> BodyClearances::FirstPairBelow(const Posture& posture, double clearance,
+                                                     Scratch* scratch) const {
   Place(posture, scratch);
   for (size_t p = 0; p < num_pairs(); ++p) {
-    if (!PairClears(p, posture, self_clearance, scratch)) {
-      return OfPair(p, posture, self_clearance + kFar, scratch);
+    if (!PairClears(p, posture, clearance, scratch)) {
+      return OfPair(p, posture, clearance + kFar, scratch);
     }
   }
   return std::nullopt;

@@ -10,8 +10,9 @@
 
 namespace halfstep {
 
-/// The statements that a walk must satisfy. Each margin says how far inside its limit the walk is,
-/// in its natural unit; positive is inside.
+/// The kinds of statements that a walk must satisfy, in the order of certificates and tables. Each
+/// margin says how far inside its limit the walk is, in its natural unit; positive is inside. What
+/// a family is, and how it is evaluated and proved, stands in its class (margins/NAME_margin.h).
 enum class MarginFamily : int {
   kFloor,          ///< height of a sole above the floor while it moves horizontally [m]
   kFootSpeed,      ///< limit − speed of the swing sole's centre [m/s]
@@ -31,6 +32,8 @@ std::string_view Name(MarginFamily family);  ///< "zmp", "joint_speed" … as in
 std::string_view Unit(MarginFamily family);  ///< "m", "rad" …
 /// What counts as a clear change of a margin; compares margins of different units [its unit].
 double Scale(MarginFamily family);
+/// What is demanded of each family unless the user says otherwise [its unit].
+std::array<double, kNumMarginFamilies> DefaultDemands();
 constexpr std::array<MarginFamily, kNumMarginFamilies> AllMarginFamilies() {
   std::array<MarginFamily, kNumMarginFamilies> all{};
   for (int i = 0; i < kNumMarginFamilies; ++i) all[static_cast<size_t>(i)] = MarginFamily{i};
@@ -56,8 +59,7 @@ struct MarginLimits {
   std::optional<double> foot_yaw_rate = 2.0;  ///< [rad/s]
   double joint_speed_scale = 1.0;             ///< of the robot's joint speed limits, ∈ (0, 1]
   /// Demanded margin δ by family, in its unit: feasible means margin ≥ δ.
-  std::array<double, kNumMarginFamilies> demanded = {0.005, 0,     0,     0.01, 0, 0,
-                                                     0,     0.005, 0.005, 0,    0};
+  std::array<double, kNumMarginFamilies> demanded = DefaultDemands();
   /// Distances beyond this are not told apart: a clearance reads at most this [m].
   double clearance_horizon = 0.3;
 

@@ -6,7 +6,7 @@
 
 #include "planner/collision_world.h"
 #include "planner/scene.h"
-#include "smoothing/margins.h"
+#include "smoothing/margins/margin.h"
 #include "wpg/posture.h"
 #include "wpg/robot_model.h"
 
@@ -48,9 +48,11 @@ class BodyClearances {
                                     Scratch* scratch) const;
   Separation SeparationOf(size_t pair, const Posture& posture, Scratch* scratch) const;
 
-  /// The first clearance found below what is demanded: obstacles [m], then self pairs [m].
-  std::optional<Margin> FirstBelow(const Posture& posture, double obstacle_clearance,
-                                   double self_clearance, Scratch* scratch) const;
+  /// The first body, or pair, found to have less than a clearance [m].
+  std::optional<Margin> FirstBodyBelow(const Posture& posture, double clearance,
+                                       Scratch* scratch) const;
+  std::optional<Margin> FirstPairBelow(const Posture& posture, double clearance,
+                                       Scratch* scratch) const;
   /// The smallest clearance to the obstacles, and between bodies.
   Margin NearestObstacle(const Posture& posture, double horizon, Scratch* scratch) const;
   Margin NearestPair(const Posture& posture, double horizon, Scratch* scratch) const;

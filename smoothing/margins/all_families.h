@@ -1,0 +1,45 @@
+#pragma once
+
+#include <array>
+#include <memory>
+
+#include "smoothing/margins/clearance_margin.h"
+#include "smoothing/margins/floor_margin.h"
+#include "smoothing/margins/foot_speed_margin.h"
+#include "smoothing/margins/foot_yaw_rate_margin.h"
+#include "smoothing/margins/ground_margin.h"
+#include "smoothing/margins/joint_margin.h"
+#include "smoothing/margins/joint_speed_margin.h"
+#include "smoothing/margins/no_step_margin.h"
+#include "smoothing/margins/reach_margin.h"
+#include "smoothing/margins/self_clearance_margin.h"
+#include "smoothing/margins/zmp_margin.h"
+
+namespace halfstep {
+
+using MarginStatementsOfAll =
+    std::array<std::unique_ptr<const MarginStatements>, kNumMarginFamilies>;
+
+/// The classes of families, in the order of MarginFamily.
+template <typename... Families>
+struct FamilyList {
+  static constexpr std::array<FamilyTraits, sizeof...(Families)> kTraits = {Families::kTraits...};
+  static MarginStatementsOfAll Make(const MarginPlace& place) {
+    return {std::make_unique<Families>(place)...};
+  }
+};
+
+/// The registry: a further family is a further class here, and its name in MarginFamily.
+using AllFamilies =
+    FamilyList<FloorMargin, FootSpeedMargin, FootYawRateMargin, ZmpMargin, ReachMargin, JointMargin,
+               JointSpeedMargin, SelfClearanceMargin, ClearanceMargin, GroundMargin, NoStepMargin>;
+
+constexpr bool FamiliesAreInOrder() {
+  for (size_t i = 0; i < AllFamilies::kTraits.size(); ++i) {
+    if (static_cast<size_t>(AllFamilies::kTraits[i].family) != i) return false;
+  }
+  return AllFamilies::kTraits.size() == kNumMarginFamilies;
+}
+static_assert(FamiliesAreInOrder(), "a family of MarginFamily has no class, or another place");
+
+}  // namespace halfstep

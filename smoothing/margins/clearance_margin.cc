@@ -1,0 +1,75 @@
+#include "smoothing/margins/clearance_margin.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace halfstep {
+
+int ClearanceMargin::count() const { return static_cast<int>(place_.robot.bodies.size()); }
+
+std::string ClearanceMargin::Subject(const Margin& margin) const {
+  const std::string body = BodyName(place_.robot, margin.subject);
+  return margin.other < 0
+             ? body
+             : body + " - " + place_.scene.obstacles[static_cast<size_t>(margin.other)].name;
+}
+
+Margin ClearanceMargin::Least(Instant* at, double enough) const {
+  if (!at->reachable()) return Of(-std::numeric_limits<double>::infinity(), -1);
+  const double horizon = std::min(enough, ClearanceHorizon(at->limits()));
+  return place_.clearances.NearestObstacle(at->posture(), horizon, &at->scratch().bodies);
+}
+
+std::optional<Margin> ClearanceMargin::FirstBelow(Instant* at, double demanded) const {
+  if (!at->reachable()) return Of(-std::numeric_limits<double>::infinity(), -1);
+  return place_.clearances.FirstBodyBelow(at->posture(), demanded, &at->scratch().bodies);
+}
+
+void ClearanceMargin::AddRows(Instant* at, SlackSink* rows) const {
+  if (!at->regular()) return;
+  const Posture& posture = at->posture();
+  const BodyClearances& clearances = place_.clearances;
+  BodyClearances::Scratch& scratch = at->scratch().bodies;
+  const double far = rows->horizon();
+  for (size_t b = 0; b < place_.robot.bodies.size(); ++b) {
+    if (clearances.BodyClears(b, posture, far, &scratch)) continue;
+    const auto nearest = clearances.NearestTo(b, posture, far, &scratch);
+    if (nearest.obstacle < 0) continue;
+    const Separation& gap = nearest.separation;
+    rows->Add(gap.distance, [&](size_t i) {
+      return gap.normal_W.dot(
+          PointTangent(place_.robot.bodies[b], posture, rows->tangents[i], gap.point_a_W));
+    });
+  }
+}
+
+Margin ClearanceMargin::OfGroup(uint16_t body) const { return Of(std::nan(""), body); }
+
+FamilyProof ClearanceMargin::Prove(const MarginInterval& interval,
+                                   std::vector<uint16_t>* open) const {
+  const BodyClearances& clearances = place_.clearances;
+  const Posture& posture = interval.motion.posture;
+  BodyClearances::Scratch& scratch = interval.mid.scratch().bodies;
+  const double demanded = interval.mid.demanded(family());
+  const double horizon = interval.mid.limits().clearance_horizon;
+  FamilyProof proof;
+  std::erase_if(*open, [&](uint16_t body) {
+    if (proof.violated) return false;
+    const double bound = interval.motion.displacement[body] + kRounding;
+    if (clearances.BodyClears(body, posture, demanded + bound, &scratch)) {
+      if (interval.with_margins) {
+        const double enough = std::max(horizon, demanded + bound + kRounding);
+        proof.held.Add(clearances.OfBody(body, posture, enough, &scratch), bound);
+      }
+      return true;
+    }
+    if (!clearances.BodyClears(body, posture, demanded, &scratch)) {
+      proof.violated = clearances.OfBody(body, posture, 1.0, &scratch);
+    }
+    return false;
+  });
+  return proof;
+}
+
+}  // namespace halfstep

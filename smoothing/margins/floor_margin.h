@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string>
+
+#include "smoothing/margins/margin_statements.h"
+
+namespace halfstep {
+
+/// Height of a sole above the floor while it moves horizontally [m]. Before its horizontal motion
+/// begins and after it ends, the foot may touch the floor.
+class FloorMargin final : public WholeFamily {
+ public:
+  static constexpr FamilyTraits kTraits = {
+      .family = MarginFamily::kFloor,
+      .name = "floor",
+      .unit = "m",
+      .key = "floor_m",
+      .meaning = "height of the sole while it moves horizontally",
+      .scale = 0.01,
+      .demanded = 0.005,
+      .raised = false,
+      .cost = MarginCost::kWalk,
+      .row = MarginFamily::kFloor,
+  };
+
+  /// `place` is borrowed.
+  explicit FloorMargin(const MarginPlace&) : WholeFamily(kTraits) {}
+
+  int count() const override;
+  std::string Subject(const Margin& margin) const override;
+  Margin Least(Instant* at, double enough) const override;
+  void AddRows(Instant* at, SlackSink* rows) const override;
+
+ protected:
+  void AddBounds(const MarginInterval& interval, TightestStatement* tightest) const override;
+};
+
+}  // namespace halfstep

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+
+#include "smoothing/margins/margin_statements.h"
+
+namespace halfstep {
+
+/// Limit − speed of the swing sole's centre [m/s].
+class FootSpeedMargin final : public WholeFamily {
+ public:
+  static constexpr FamilyTraits kTraits = {
+      .family = MarginFamily::kFootSpeed,
+      .name = "foot_speed",
+      .unit = "m/s",
+      .key = "foot_speed_m_s",
+      .meaning = "inside the foot speed limit",
+      .scale = 0.1,
+      .demanded = 0.0,
+      .raised = true,
+      .cost = MarginCost::kWalk,
+      .row = MarginFamily::kFootSpeed,
+  };
+
+  /// `place` is borrowed.
+  explicit FootSpeedMargin(const MarginPlace&) : WholeFamily(kTraits) {}
+
+  int count() const override;
+  std::string Subject(const Margin& margin) const override;
+  Margin Least(Instant* at, double enough) const override;
+  void AddRows(Instant* at, SlackSink* rows) const override;
+
+ protected:
+  void AddBounds(const MarginInterval& interval, TightestStatement* tightest) const override;
+};
+
+}  // namespace halfstep

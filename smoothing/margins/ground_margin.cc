@@ -1,0 +1,60 @@
+#include "smoothing/margins/ground_margin.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace halfstep {
+
+int GroundMargin::count() const { return static_cast<int>(place_.robot.bodies.size()); }
+
+std::string GroundMargin::Subject(const Margin& margin) const {
+  return BodyName(place_.robot, margin.subject);
+}
+
+Margin GroundMargin::Least(Instant* at, double enough) const {
+  if (!at->reachable()) return Of(-std::numeric_limits<double>::infinity(), -1);
+  return place_.heights.Least(at->posture(), at->jet().value, enough);
+}
+
+void GroundMargin::AddRows(Instant* at, SlackSink* rows) const {
+  if (!at->regular()) return;
+  const Posture& posture = at->posture();
+  for (int b : place_.heights.of_legs()) {
+    if (place_.heights.LowestPossible(b, posture) > rows->horizon()) continue;
+    const RobotBody& body = place_.robot.bodies[static_cast<size_t>(b)];
+    const Eigen::Vector3d lowest = place_.heights.LowestPoint(b, posture);
+    rows->Add(lowest.z(),
+              [&](size_t i) { return PointTangent(body, posture, rows->tangents[i], lowest).z(); });
+  }
+}
+
+void GroundMargin::AddBounds(const MarginInterval& interval, TightestStatement* tightest) const {
+  const BodyHeights& heights = place_.heights;
+  const IntervalMotion& motion = interval.motion;
+  const WalkVector& x = motion.jet.value;
+  const double h = motion.half_width, t = interval.mid.t();
+  const int step = interval.mid.step_in_air();
+  for (int body : heights.on_feet()) {
+    const Side side = static_cast<Side>(place_.robot.bodies[static_cast<size_t>(body)].leg);
+    const int z = FootIndex(side) + 2;
+    double least = x[z] - motion.Change(z);
+    if (step >= 0 && interval.mid.swing() == side) {
+      least = std::max(least, interval.mid.walk().LeastHeight(step, t - h, t + h));
+    }
+    // On the floor or above it for all t, below it at the midpoint, or neither is known.
+    const double margin = heights.OnFoot(body, x);
+    const bool open = least < -kSoleRounding && margin > 0.0;
+    tightest->Add(Of(open ? std::nan("") : margin, body), kRounding);
+  }
+  for (int body : heights.of_legs()) {
+    const double change = motion.displacement[static_cast<size_t>(body)];
+    const double possible = heights.LowestPossible(body, motion.posture);
+    if (tightest->Pass(possible - change - kRounding)) continue;
+    tightest->Add(Of(heights.LowestPoint(body, motion.posture).z(), body), change + kRounding);
+  }
+  tightest->Add(Of(heights.of_waist().value, heights.of_waist().subject), kRounding);
+  tightest->count = count();  // the lowest of the waist's bodies for all
+}
+
+}  // namespace halfstep

@@ -1,0 +1,64 @@
+#pragma once
+
+#include "smoothing/margins/margin.h"
+#include "smoothing/margins/margin_place.h"
+#include "smoothing/superposed_walk.h"
+#include "wpg/motion_bounds.h"
+#include "wpg/posture.h"
+
+namespace halfstep {
+
+/// A walk at one instant, as the families see it. The posture is solved when it is first asked for.
+/// Borrows everything.
+class Instant {
+ public:
+  Instant(const MarginPlace& place, const MarginLimits& limits, const SuperposedWalk& walk,
+          const LocalTime& at, MarginScratch* scratch);
+  /// The same, with quantities and a posture that are known: joint speeds solved.
+  Instant(const MarginPlace& place, const MarginLimits& limits, const SuperposedWalk& walk,
+          const LocalTime& at, const WalkJet& jet, const Posture& posture, MarginScratch* scratch);
+  Instant(const Instant&) = delete;
+  Instant& operator=(const Instant&) = delete;
+
+  const MarginPlace& place() const { return place_; }
+  const RobotModel& robot() const { return place_.robot; }
+  const MarginLimits& limits() const { return limits_; }
+  double demanded(MarginFamily family) const { return limits_.demanded_of(family); }
+  const SuperposedWalk& walk() const { return walk_; }
+  const LocalTime& at() const { return at_; }
+  double t() const { return walk_.Absolute(at_); }  ///< in the walk [s]
+  const WalkJet& jet() const { return jet_; }
+  /// The step whose foot is in the air (its up half-step is 2·step), or −1; and that foot.
+  int step_in_air() const { return step_; }
+  Side swing() const { return walk_.half_step(2 * step_).swing(); }
+
+  /// Both legs reach; precondition of most uses of the posture.
+  bool reachable() { return posture().reachable; }
+  /// They do, and joint speeds have a bound.
+  bool regular();
+  const Posture& posture();
+  MarginScratch& scratch() const { return scratch_; }
+
+ private:
+  const MarginPlace& place_;
+  const MarginLimits& limits_;
+  const SuperposedWalk& walk_;
+  LocalTime at_;
+  MarginScratch& scratch_;
+  WalkJet jet_;
+  int step_ = -1;
+  Posture own_;
+  const Posture* posture_ = nullptr;  // null: not solved yet
+  bool speeds_tried_ = false, regular_ = false;
+};
+
+/// An interval of time around an instant, [mid − h, mid + h], and how much the motion changes in it
+/// at most. No foot lifts off or touches down, and none begins or ends its horizontal motion,
+/// strictly inside.
+struct MarginInterval {
+  Instant& mid;
+  const IntervalMotion& motion;
+  bool with_margins = false;  ///< margins are wanted and not mere verdicts: slower
+};
+
+}  // namespace halfstep

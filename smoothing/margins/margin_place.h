@@ -1,0 +1,47 @@
+#pragma once
+
+#include <array>
+#include <utility>
+
+#include "planner/no_step_areas.h"
+#include "planner/scene.h"
+#include "smoothing/margins/body_clearances.h"
+#include "smoothing/margins/body_heights.h"
+#include "wpg/robot_model.h"
+
+namespace halfstep {
+
+/// A robot among the obstacles of a scene, prepared for the questions of all families. Not movable:
+/// its parts borrow from each other.
+struct MarginPlace {
+  MarginPlace(RobotModel r, Scene s)
+      : robot(std::move(r)),
+        scene(std::move(s)),
+        clearances(robot, scene),
+        heights(robot),
+        areas(scene, robot.sole_outline) {}
+  MarginPlace(const MarginPlace&) = delete;
+  MarginPlace& operator=(const MarginPlace&) = delete;
+
+  RobotModel robot;
+  Scene scene;
+  BodyClearances clearances;
+  BodyHeights heights;
+  NoStepAreas areas;
+};
+
+/// What families remember from one instant to the next, and how many instants were asked about.
+/// One for each thread.
+struct MarginScratch {
+  /// The no-step area that was nearest to a sole where it stood last.
+  struct Standing {
+    Pose2 X_WF;
+    NoStepAreas::Nearest nearest;
+    bool known = false;
+  };
+  BodyClearances::Scratch bodies;
+  long instants = 0;
+  std::array<Standing, 2> standing = {};  ///< by Index(Side)
+};
+
+}  // namespace halfstep

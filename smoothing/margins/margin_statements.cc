@@ -1,0 +1,71 @@
+#include "smoothing/margins/margin_statements.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace halfstep {
+
+void TightestStatement::Add(const Margin& added, double change) {
+  const double spare = added.value - change;
+  // What is not a number stays, and meets no demand.
+  if (count++ == 0 || std::isnan(spare) || spare < margin.value - bound) {
+    margin = added;
+    bound = change;
+  }
+}
+
+bool TightestStatement::Pass(double spare) {
+  if (count == 0 || !(spare >= margin.value - bound)) return false;
+  ++count;
+  return true;
+}
+
+std::optional<Margin> MarginStatements::FirstBelow(Instant* at, double demanded) const {
+  const Margin least = Least(at, demanded);
+  if (least.value >= demanded) return std::nullopt;
+  return least;
+}
+
+Margin MarginStatements::OfGroup(uint16_t) const { return Of(std::nan(""), -1); }
+
+void MarginStatements::Lower(const Margin& other, Margin* least) {
+  if (other.value >= least->value) return;
+  *least = other;
+  if (std::isnan(other.value)) least->value = -std::numeric_limits<double>::infinity();
+}
+
+std::string MarginStatements::FootName(const Margin& margin) {
+  return margin.subject < 0 ? "both feet"
+                            : std::string(Name(static_cast<Side>(margin.subject))) + " foot";
+}
+
+std::string MarginStatements::JointName(const RobotModel& robot, const Margin& margin) {
+  if (margin.subject < 0) return "legs";
+  const Leg& leg = robot.legs[static_cast<size_t>(margin.subject / 6)];
+  return leg.joints[static_cast<size_t>(margin.subject % 6)].name;
+}
+
+std::string MarginStatements::BodyName(const RobotModel& robot, int body) {
+  return body < 0 ? "robot" : robot.bodies[static_cast<size_t>(body)].name;
+}
+
+double MarginStatements::ClearanceHorizon(const MarginLimits& limits) {
+  return std::max({limits.clearance_horizon, 2.0 * limits.demanded_of(MarginFamily::kClearance),
+                   2.0 * limits.demanded_of(MarginFamily::kSelfClearance)});
+}
+
+FamilyProof WholeFamily::Prove(const MarginInterval& interval, std::vector<uint16_t>* open) const {
+  TightestStatement tightest;
+  AddBounds(interval, &tightest);
+  const double demanded = interval.mid.demanded(family());
+  FamilyProof proof;
+  if (tightest.margin.value < demanded) proof.violated = tightest.margin;
+  if (tightest.margin.value - tightest.bound >= demanded) {
+    proof.held = tightest;
+    open->clear();
+  }
+  return proof;
+}
+
+}  // namespace halfstep

@@ -1,0 +1,50 @@
+#include "smoothing/margins/no_step_margin.h"
+
+#include <cmath>
+#include <limits>
+
+namespace halfstep {
+
+int NoStepMargin::count() const { return 2; }
+
+std::string NoStepMargin::Subject(const Margin& margin) const {
+  if (margin.subject < 0) return "both feet";
+  const std::string foot = FootName(margin);
+  // As the scene file counts them.
+  return margin.other < 0 ? foot : foot + " - no_step[" + std::to_string(margin.other) + "]";
+}
+
+Margin NoStepMargin::OfSole(const Instant& at, Side side) const {
+  Margin margin = Of(std::numeric_limits<double>::infinity(), Index(side));
+  if (place_.areas.empty() || at.walk().InAir(at.at(), side)) return margin;
+  MarginScratch::Standing& standing = at.scratch().standing[static_cast<size_t>(Index(side))];
+  const Pose2 X_WF = FootPose(at.jet().value, side);
+  if (!standing.known || standing.X_WF != X_WF) {
+    standing = {X_WF, place_.areas.NearestTo(X_WF), true};
+  }
+  margin.value = standing.nearest.distance;
+  margin.other = standing.nearest.area;
+  return margin;
+}
+
+Margin NoStepMargin::Least(Instant* at, double) const {
+  Margin least = Of(std::numeric_limits<double>::infinity(), -1);
+  for (Side side : {Side::kLeft, Side::kRight}) Lower(OfSole(*at, side), &least);
+  return least;
+}
+
+void NoStepMargin::AddRows(Instant*, SlackSink*) const {}
+
+void NoStepMargin::AddBounds(const MarginInterval& interval, TightestStatement* tightest) const {
+  for (Side side : {Side::kLeft, Side::kRight}) {
+    // A sole that stands does not move: its quantities change by 0 and rounding.
+    const int foot = FootIndex(side);
+    const IntervalMotion& motion = interval.motion;
+    const double moved = std::hypot(motion.Change(foot), motion.Change(foot + 1)) +
+                         place_.areas.sole_reach() * motion.Change(foot + 3);
+    const Margin margin = OfSole(interval.mid, side);
+    tightest->Add(margin, (std::isinf(margin.value) ? 0.0 : moved) + kRounding);
+  }
+}
+
+}  // namespace halfstep

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <string>
+
+#include "smoothing/margins/margin_statements.h"
+
+namespace halfstep {
+
+/// Distance of what touches the floor of a standing foot from the no-step areas [m]. No parameter
+/// moves a footstep, so there are no rows. Subject: Index(Side), and the area.
+class NoStepMargin final : public WholeFamily {
+ public:
+  static constexpr FamilyTraits kTraits = {
+      .family = MarginFamily::kNoStep,
+      .name = "no_step",
+      .unit = "m",
+      .key = "no_step_m",
+      .meaning = "standing sole to no-step areas; touching is never allowed",
+      .scale = 0.01,
+      .demanded = 0.0,
+      .raised = false,
+      .cost = MarginCost::kWalk,
+      .row = std::nullopt,
+  };
+
+  /// `place` is borrowed.
+  explicit NoStepMargin(const MarginPlace& place) : WholeFamily(kTraits), place_(place) {}
+
+  int count() const override;
+  std::string Subject(const Margin& margin) const override;
+  Margin Least(Instant* at, double enough) const override;
+  void AddRows(Instant* at, SlackSink* rows) const override;
+
+ protected:
+  void AddBounds(const MarginInterval& interval, TightestStatement* tightest) const override;
+
+ private:
+  // Of one sole: +∞ while it is in the air, or where there are no areas.
+  Margin OfSole(const Instant& at, Side side) const;
+
+  const MarginPlace& place_;
+};
+
+}  // namespace halfstep

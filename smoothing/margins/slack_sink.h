@@ -1,0 +1,66 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "smoothing/margins/family_traits.h"
+#include "smoothing/posture_tangent.h"
+#include "smoothing/superposed_walk.h"
+
+namespace halfstep {
+
+/// One statement at one instant, as its slack (margin − demanded)/Scale(family): at least 0 when
+/// met.
+struct SlackRow {
+  MarginFamily family = MarginFamily::kZmp;
+  double slack = 0.0;
+};
+
+/// Takes the statements of an instant that are nearer to their limits than a cutoff, with
+/// derivatives along homotopy parameters. Owned by a SlackEvaluator, which fills the tangents.
+class SlackSink {
+ public:
+  /// Statements with slack above `cutoff` are left out.
+  explicit SlackSink(double cutoff) : cutoff_(cutoff) {}
+
+  /// Of the parameters on which the instant depends: of the walk's quantities, of the posture.
+  std::vector<WalkSensitivity> sensitivities;
+  std::vector<PostureTangent> tangents;
+
+  void Clear() {
+    sensitivities.clear();
+    tangents.clear();
+    rows_.clear();
+    gradient_.clear();
+  }
+  /// What the statements that follow belong to, and what is demanded of them.
+  void Begin(MarginFamily family, double demanded);
+
+  /// The margin beyond which statements are left out [its unit].
+  double horizon() const { return demanded_ + cutoff_ * scale_; }
+
+  /// Adds a statement unless it is beyond the cutoff; `derivative(i)` is ∂margin/∂parameter i.
+  template <typename Derivative>
+  void Add(double margin, const Derivative& derivative) {
+    if (!AddSlack(margin)) return;
+    for (size_t i = 0; i < sensitivities.size(); ++i) {
+      gradient_.push_back(derivative(i) / scale_);
+    }
+  }
+
+  const std::vector<SlackRow>& rows() const { return rows_; }
+  /// ∂slack/∂parameter (rows × parameters).
+  Eigen::MatrixXd Gradient() const;
+
+ private:
+  // False: beyond the cutoff.
+  bool AddSlack(double margin);
+
+  double cutoff_;
+  MarginFamily family_ = MarginFamily::kZmp;
+  double demanded_ = 0.0, scale_ = 1.0;
+  std::vector<SlackRow> rows_;
+  std::vector<double> gradient_;  // row-major
+};
+
+}  // namespace halfstep

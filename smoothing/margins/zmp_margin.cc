@@ -1,0 +1,49 @@
+#include "smoothing/margins/zmp_margin.h"
+
+#include <limits>
+
+#include "wpg/support_polygon.h"
+
+namespace halfstep {
+
+int ZmpMargin::count() const { return 1; }
+
+std::string ZmpMargin::Subject(const Margin& margin) const {
+  return margin.subject < 0 ? "both soles" : "support sole";
+}
+
+Margin ZmpMargin::Least(Instant* at, double) const {
+  const WalkVector& x = at->jet().value;
+  const SupportPolygon polygon = SupportAt(at->walk(), at->at(), x, at->robot().sole_size);
+  Margin least = Of(std::numeric_limits<double>::infinity(), -1);
+  Lower(Of(polygon.Margin(x.segment<2>(kZmpX)), at->step_in_air()), &least);
+  return least;
+}
+
+void ZmpMargin::AddRows(Instant* at, SlackSink* rows) const {
+  const WalkVector& x = at->jet().value;
+  const SupportPolygon polygon = SupportAt(at->walk(), at->at(), x, at->robot().sole_size);
+  for (int i = 0; i < polygon.size(); ++i) {
+    const Eigen::Vector2d a = polygon.corner(i);
+    const Eigen::Vector2d edge = polygon.corner((i + 1) % polygon.size()) - a;
+    if (edge.norm() < 1e-9) continue;
+    const Eigen::Vector2d inward = Eigen::Vector2d(-edge.y(), edge.x()).normalized();
+    rows->Add(inward.dot(x.segment<2>(kZmpX) - a), [&](size_t p) {
+      return inward.dot(rows->sensitivities[p].jet.value.segment<2>(kZmpX));
+    });
+  }
+}
+
+void ZmpMargin::AddBounds(const MarginInterval& interval, TightestStatement* tightest) const {
+  const IntervalMotion& motion = interval.motion;
+  const double h = motion.half_width;
+  const double change = h * (motion.jet.first.segment<2>(kZmpX).norm() +
+                             0.5 * h * motion.second.segment<2>(kZmpX).norm());
+  const WalkVector& x = motion.jet.value;
+  const SupportPolygon polygon =
+      SupportAt(interval.mid.walk(), interval.mid.at(), x, interval.mid.robot().sole_size);
+  tightest->Add(Of(polygon.Margin(x.segment<2>(kZmpX)), interval.mid.step_in_air()),
+                change + kRounding);
+}
+
+}  // namespace halfstep
