@@ -9,7 +9,7 @@
 #include "experiments/csv_columns.h"
 #include "experiments/experiment.h"
 #include "experiments/run_folder.h"
-#include "smoothing/certified_feasibility.h"
+#include "smoothing/proof/certified_feasibility.h"
 
 namespace halfstep {
 

@@ -8,7 +8,7 @@
 
 #include "experiments/experiment_config.h"
 #include "planner/scene.h"
-#include "smoothing/margin_evaluator.h"
+#include "smoothing/margins/margin_evaluator.h"
 #include "wpg/half_step_sequence.h"
 #include "wpg/robot_model.h"
 

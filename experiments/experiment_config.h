@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "experiments/planning_config.h"
-#include "smoothing/certificate.h"
-#include "smoothing/dichotomy.h"
 #include "smoothing/margins/margin.h"
-#include "smoothing/overlap_optimizer.h"
-#include "smoothing/pareto.h"
+#include "smoothing/methods/dichotomy.h"
+#include "smoothing/methods/overlap_optimizer.h"
+#include "smoothing/methods/pareto.h"
+#include "smoothing/proof/certificate.h"
 #include "wpg/input/fields.h"
 #include "wpg/input/key_description.h"
 #include "wpg/input/yaml_fields.h"

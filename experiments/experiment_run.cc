@@ -3,8 +3,8 @@
 #include "experiments/folder_name.h"
 #include "experiments/manifest.h"
 #include "experiments/methods.h"
-#include "smoothing/explain.h"
-#include "smoothing/sampled_feasibility.h"
+#include "smoothing/methods/explain.h"
+#include "smoothing/proof/sampled_feasibility.h"
 
 namespace halfstep {
 namespace {

@@ -12,7 +12,7 @@
 #include "experiments/planning.h"
 #include "experiments/result_tables.h"
 #include "experiments/run_folder.h"
-#include "smoothing/certified_feasibility.h"
+#include "smoothing/proof/certified_feasibility.h"
 
 namespace halfstep {
 

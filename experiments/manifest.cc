@@ -10,7 +10,7 @@
 
 #include "experiments/build_info.h"
 #include "experiments/methods.h"
-#include "smoothing/sampled_feasibility.h"
+#include "smoothing/proof/sampled_feasibility.h"
 #include "wpg/input/sha256.h"
 
 namespace halfstep {

@@ -1,9 +1,9 @@
 #include "experiments/methods.h"
 
 #include "opt/solver.h"
-#include "smoothing/coordinate_ascent.h"
-#include "smoothing/grid_reference.h"
-#include "smoothing/uniform_scan.h"
+#include "smoothing/methods/coordinate_ascent.h"
+#include "smoothing/methods/grid_reference.h"
+#include "smoothing/methods/uniform_scan.h"
 #include "wpg/check.h"
 
 namespace halfstep {

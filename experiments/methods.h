@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "smoothing/dichotomy.h"
-#include "smoothing/feasibility_test.h"
-#include "smoothing/overlap_optimizer.h"
-#include "smoothing/pareto.h"
-#include "smoothing/smoothing_result.h"
+#include "smoothing/methods/dichotomy.h"
+#include "smoothing/methods/overlap_optimizer.h"
+#include "smoothing/methods/pareto.h"
+#include "smoothing/methods/smoothing_result.h"
+#include "smoothing/proof/feasibility_test.h"
 #include "wpg/half_step_sequence.h"
 
 namespace halfstep {

@@ -9,7 +9,7 @@
 #include "experiments/json_file.h"
 #include "experiments/run_record.h"
 #include "planner/footstep_planner.h"
-#include "smoothing/smoothing_result.h"
+#include "smoothing/methods/smoothing_result.h"
 #include "wpg/input/input_error.h"
 #include "wpg/input/number_text.h"
 #include "wpg/input/text.h"

@@ -8,7 +8,7 @@
 #include "experiments/experiment_config.h"
 #include "planner/footstep_planner.h"
 #include "planner/swept_volume_cache.h"
-#include "smoothing/certified_feasibility.h"
+#include "smoothing/proof/certified_feasibility.h"
 #include "wpg/robot_model.h"
 
 namespace halfstep {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "experiments/csv_writer.h"
-#include "smoothing/sampled_feasibility.h"
+#include "smoothing/proof/sampled_feasibility.h"
 
 namespace halfstep {
 namespace {

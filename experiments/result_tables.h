@@ -8,9 +8,9 @@
 #include "experiments/certificate_files.h"
 #include "experiments/csv_columns.h"
 #include "experiments/experiment.h"
-#include "smoothing/margin_evaluator.h"
-#include "smoothing/smoothing_result.h"
-#include "smoothing/superposed_walk.h"
+#include "smoothing/margins/margin_evaluator.h"
+#include "smoothing/methods/smoothing_result.h"
+#include "smoothing/walk/superposed_walk.h"
 
 namespace halfstep {
 

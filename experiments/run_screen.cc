@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "smoothing/sampled_feasibility.h"
+#include "smoothing/proof/sampled_feasibility.h"
 
 namespace halfstep {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "experiments/experiment.h"
 #include "experiments/result_tables.h"
-#include "smoothing/feasibility_test.h"
+#include "smoothing/proof/feasibility_test.h"
 
 namespace halfstep {
 

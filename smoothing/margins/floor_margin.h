@@ -23,7 +23,6 @@ class FloorMargin final : public WholeFamily {
       .row = MarginFamily::kFloor,
   };
 
-  /// `place` is borrowed.
   explicit FloorMargin(const MarginPlace&) : WholeFamily(kTraits) {}
 
   int count() const override;

@@ -22,7 +22,6 @@ class FootSpeedMargin final : public WholeFamily {
       .row = MarginFamily::kFootSpeed,
   };
 
-  /// `place` is borrowed.
   explicit FootSpeedMargin(const MarginPlace&) : WholeFamily(kTraits) {}
 
   int count() const override;

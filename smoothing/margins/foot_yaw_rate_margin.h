@@ -22,7 +22,6 @@ class FootYawRateMargin final : public WholeFamily {
       .row = MarginFamily::kFootYawRate,
   };
 
-  /// `place` is borrowed.
   explicit FootYawRateMargin(const MarginPlace&) : WholeFamily(kTraits) {}
 
   int count() const override;

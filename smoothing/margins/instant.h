@@ -2,7 +2,7 @@
 
 #include "smoothing/margins/margin.h"
 #include "smoothing/margins/margin_place.h"
-#include "smoothing/superposed_walk.h"
+#include "smoothing/walk/superposed_walk.h"
 #include "wpg/motion_bounds.h"
 #include "wpg/posture.h"
 

@@ -22,7 +22,6 @@ class ReachMargin final : public WholeFamily {
       .row = MarginFamily::kReach,
   };
 
-  /// `place` is borrowed.
   explicit ReachMargin(const MarginPlace&) : WholeFamily(kTraits) {}
 
   int count() const override;

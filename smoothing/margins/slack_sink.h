@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "smoothing/margins/family_traits.h"
-#include "smoothing/posture_tangent.h"
-#include "smoothing/superposed_walk.h"
+#include "smoothing/walk/posture_tangent.h"
+#include "smoothing/walk/superposed_walk.h"
 
 namespace halfstep {
 

@@ -22,7 +22,6 @@ class ZmpMargin final : public WholeFamily {
       .row = MarginFamily::kZmp,
   };
 
-  /// `place` is borrowed.
   explicit ZmpMargin(const MarginPlace&) : WholeFamily(kTraits) {}
 
   int count() const override;

@@ -7,9 +7,9 @@
 #include <map>
 #include <memory>
 
-#include "smoothing/certified_feasibility.h"
-#include "smoothing/dichotomy.h"
-#include "smoothing/sampled_feasibility.h"
+#include "smoothing/methods/dichotomy.h"
+#include "smoothing/proof/certified_feasibility.h"
+#include "smoothing/proof/sampled_feasibility.h"
 #include "tests/smoothing/certificate_draws.h"
 
 namespace halfstep {

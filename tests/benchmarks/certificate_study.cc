@@ -10,8 +10,8 @@
 #include <string>
 
 #include "experiments/experiment.h"
-#include "smoothing/certified_feasibility.h"
-#include "smoothing/dichotomy.h"
+#include "smoothing/methods/dichotomy.h"
+#include "smoothing/proof/certified_feasibility.h"
 #include "tests/smoothing/certificate_draws.h"
 
 namespace halfstep {

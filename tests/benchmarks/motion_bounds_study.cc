@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "smoothing/interval_statements.h"
-#include "smoothing/margin_evaluator.h"
+#include "smoothing/margins/margin_evaluator.h"
+#include "smoothing/proof/interval_statements.h"
 #include "tests/smoothing/certificate_draws.h"
 #include "tests/smoothing/motion_truth.h"
 #include "wpg/motion_bounds.h"

@@ -19,9 +19,9 @@
 #include "experiments/methods.h"
 #include "opt/problem_derivatives.h"
 #include "opt/solver.h"
-#include "smoothing/certified_feasibility.h"
-#include "smoothing/dichotomy.h"
-#include "smoothing/overlap_optimizer.h"
+#include "smoothing/methods/dichotomy.h"
+#include "smoothing/methods/overlap_optimizer.h"
+#include "smoothing/proof/certified_feasibility.h"
 
 namespace halfstep {
 namespace {

@@ -7,12 +7,12 @@
 #include <string>
 
 #include "experiments/experiment.h"
-#include "smoothing/certified_feasibility.h"
-#include "smoothing/coordinate_ascent.h"
-#include "smoothing/dichotomy.h"
-#include "smoothing/grid_reference.h"
-#include "smoothing/overlap_optimizer.h"
-#include "smoothing/uniform_scan.h"
+#include "smoothing/methods/coordinate_ascent.h"
+#include "smoothing/methods/dichotomy.h"
+#include "smoothing/methods/grid_reference.h"
+#include "smoothing/methods/overlap_optimizer.h"
+#include "smoothing/methods/uniform_scan.h"
+#include "smoothing/proof/certified_feasibility.h"
 
 namespace halfstep {
 namespace {

@@ -4,9 +4,9 @@
 #include <benchmark/benchmark.h>
 
 #include "experiments/experiment.h"
-#include "smoothing/dichotomy.h"
-#include "smoothing/margin_evaluator.h"
-#include "smoothing/sampled_feasibility.h"
+#include "smoothing/margins/margin_evaluator.h"
+#include "smoothing/methods/dichotomy.h"
+#include "smoothing/proof/sampled_feasibility.h"
 #include "wpg/posture.h"
 
 namespace halfstep {

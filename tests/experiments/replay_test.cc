@@ -10,7 +10,7 @@
 #include "experiments/experiment.h"
 #include "experiments/replay/mass_model_zmp.h"
 #include "experiments/replay/mujoco_model.h"
-#include "smoothing/superposed_walk.h"
+#include "smoothing/walk/superposed_walk.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/parsed_csv.h"
 #include "tests/experiments/temporary_folder.h"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "planner/scene.h"
-#include "smoothing/certified_feasibility.h"
+#include "smoothing/proof/certified_feasibility.h"
 #include "tests/oracle/nasty_draws.h"
 #include "tests/oracle/walk_truth.h"
 #include "wpg/robot_model.h"

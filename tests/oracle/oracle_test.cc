@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <set>
 
-#include "smoothing/superposed_walk.h"
+#include "smoothing/walk/superposed_walk.h"
 #include "tests/experiments/temporary_folder.h"
 #include "tests/oracle/judge.h"
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "planner/scene.h"
-#include "smoothing/sampled_feasibility.h"
+#include "smoothing/proof/sampled_feasibility.h"
 #include "tests/smoothing/test_walks.h"
 #include "tests/wpg/generated_robots.h"
 

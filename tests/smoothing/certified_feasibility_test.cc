@@ -1,4 +1,4 @@
-#include "smoothing/certified_feasibility.h"
+#include "smoothing/proof/certified_feasibility.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <set>
 #include <stop_token>
 
-#include "smoothing/dichotomy.h"
-#include "smoothing/sampled_feasibility.h"
+#include "smoothing/methods/dichotomy.h"
+#include "smoothing/proof/sampled_feasibility.h"
 #include "tests/smoothing/certificate_draws.h"
 
 namespace halfstep {

@@ -1,11 +1,11 @@
 // What a junction's overlap costs, against bisecting it anew with less demanded.
 
-#include "smoothing/explain.h"
+#include "smoothing/methods/explain.h"
 
 #include <gtest/gtest.h>
 
-#include "smoothing/certified_feasibility.h"
-#include "smoothing/dichotomy.h"
+#include "smoothing/methods/dichotomy.h"
+#include "smoothing/proof/certified_feasibility.h"
 #include "tests/smoothing/test_scenes.h"
 
 namespace halfstep {

@@ -1,10 +1,10 @@
-#include "smoothing/feasible_path.h"
+#include "smoothing/methods/feasible_path.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "smoothing/overlap_program.h"
+#include "smoothing/program/overlap_program.h"
 #include "tests/smoothing/fake_feasibility.h"
 #include "tests/smoothing/test_walks.h"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "planner/separation.h"
-#include "smoothing/margin_evaluator.h"
+#include "smoothing/margins/margin_evaluator.h"
 #include "tests/smoothing/test_scenes.h"
 #include "tests/smoothing/test_walks.h"
 

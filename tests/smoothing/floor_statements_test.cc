@@ -5,9 +5,9 @@
 #include <limits>
 
 #include "smoothing/margins/body_heights.h"
-#include "smoothing/certified_feasibility.h"
-#include "smoothing/sampled_feasibility.h"
-#include "smoothing/slack_rows.h"
+#include "smoothing/program/slack_rows.h"
+#include "smoothing/proof/certified_feasibility.h"
+#include "smoothing/proof/sampled_feasibility.h"
 #include "tests/smoothing/test_walks.h"
 
 namespace halfstep {

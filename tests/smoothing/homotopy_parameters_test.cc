@@ -1,4 +1,4 @@
-#include "smoothing/homotopy_parameters.h"
+#include "smoothing/walk/homotopy_parameters.h"
 
 #include <gtest/gtest.h>
 

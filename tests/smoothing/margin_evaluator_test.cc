@@ -1,4 +1,4 @@
-#include "smoothing/margin_evaluator.h"
+#include "smoothing/margins/margin_evaluator.h"
 
 #include <gtest/gtest.h>
 

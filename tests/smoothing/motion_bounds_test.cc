@@ -1,5 +1,5 @@
 #include "wpg/motion_bounds.h"
-#include "smoothing/interval_statements.h"
+#include "smoothing/proof/interval_statements.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "smoothing/superposed_walk.h"
+#include "smoothing/walk/superposed_walk.h"
 #include "wpg/convex_body.h"
 #include "wpg/motion_bounds.h"
 #include "wpg/posture.h"

@@ -1,6 +1,6 @@
 // The programs and the optimizer on shipped experiments.
 
-#include "smoothing/overlap_optimizer.h"
+#include "smoothing/methods/overlap_optimizer.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,11 +11,11 @@
 #include <utility>
 
 #include "opt/solver.h"
-#include "smoothing/certified_feasibility.h"
-#include "smoothing/dichotomy.h"
-#include "smoothing/pareto.h"
+#include "smoothing/methods/dichotomy.h"
+#include "smoothing/methods/pareto.h"
+#include "smoothing/methods/path_rules.h"
+#include "smoothing/proof/certified_feasibility.h"
 #include "tests/smoothing/fake_feasibility.h"
-#include "smoothing/path_rules.h"
 #include "tests/smoothing/test_scenes.h"
 #include "tests/smoothing/test_walks.h"
 

@@ -1,4 +1,4 @@
-#include "smoothing/overlap_variables.h"
+#include "smoothing/program/overlap_variables.h"
 
 #include <gtest/gtest.h>
 

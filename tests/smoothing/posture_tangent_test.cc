@@ -1,4 +1,4 @@
-#include "smoothing/posture_tangent.h"
+#include "smoothing/walk/posture_tangent.h"
 
 #include <gtest/gtest.h>
 

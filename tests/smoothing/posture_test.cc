@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "opt/derivative_check.h"
-#include "smoothing/superposed_walk.h"
+#include "smoothing/walk/superposed_walk.h"
 #include "tests/smoothing/test_walks.h"
 
 namespace halfstep {

@@ -6,13 +6,13 @@
 #include <cmath>
 #include <stop_token>
 
-#include "smoothing/certified_feasibility.h"
-#include "smoothing/coordinate_ascent.h"
-#include "smoothing/dichotomy.h"
-#include "smoothing/grid_reference.h"
-#include "smoothing/overlap_program.h"
-#include "smoothing/stretch_grid.h"
-#include "smoothing/uniform_scan.h"
+#include "smoothing/methods/coordinate_ascent.h"
+#include "smoothing/methods/dichotomy.h"
+#include "smoothing/methods/grid_reference.h"
+#include "smoothing/methods/stretch_grid.h"
+#include "smoothing/methods/uniform_scan.h"
+#include "smoothing/program/overlap_program.h"
+#include "smoothing/proof/certified_feasibility.h"
 #include "tests/smoothing/fake_feasibility.h"
 #include "tests/smoothing/test_scenes.h"
 #include "tests/smoothing/test_walks.h"

@@ -1,4 +1,4 @@
-#include "smoothing/slack_rows.h"
+#include "smoothing/program/slack_rows.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "smoothing/slack_table.h"
+#include "smoothing/program/slack_table.h"
 
 #include <gtest/gtest.h>
 

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "smoothing/certified_feasibility.h"
-#include "smoothing/dichotomy.h"
-#include "smoothing/sampled_feasibility.h"
+#include "smoothing/methods/dichotomy.h"
+#include "smoothing/proof/certified_feasibility.h"
+#include "smoothing/proof/sampled_feasibility.h"
 #include "tests/smoothing/test_scenes.h"
 #include "tests/smoothing/test_walks.h"
 

@@ -1,9 +1,9 @@
-#include "smoothing/stretch_proofs.h"
+#include "smoothing/proof/stretch_proofs.h"
 
 #include <gtest/gtest.h>
 
-#include "smoothing/certified_feasibility.h"
-#include "smoothing/dichotomy.h"
+#include "smoothing/methods/dichotomy.h"
+#include "smoothing/proof/certified_feasibility.h"
 #include "tests/smoothing/fake_feasibility.h"
 #include "tests/smoothing/test_scenes.h"
 #include "tests/smoothing/test_walks.h"

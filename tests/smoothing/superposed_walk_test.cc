@@ -1,4 +1,4 @@
-#include "smoothing/superposed_walk.h"
+#include "smoothing/walk/superposed_walk.h"
 
 #include <gtest/gtest.h>
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "smoothing/homotopy_parameters.h"
-#include "smoothing/superposed_walk.h"
+#include "smoothing/walk/homotopy_parameters.h"
+#include "smoothing/walk/superposed_walk.h"
 #include "wpg/half_step_sequence.h"
 #include "wpg/robot_model.h"
 

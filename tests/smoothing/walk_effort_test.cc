@@ -1,4 +1,4 @@
-#include "smoothing/walk_effort.h"
+#include "smoothing/program/walk_effort.h"
 
 #include <gtest/gtest.h>
 

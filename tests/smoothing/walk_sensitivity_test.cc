@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "opt/derivative_check.h"
-#include "smoothing/superposed_walk.h"
+#include "smoothing/walk/superposed_walk.h"
 #include "tests/smoothing/test_walks.h"
 #include "wpg/posture.h"
 

@@ -1,0 +1,68 @@
+#include "smoothing/margins/margin_evaluator.h"
+
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <utility>
+
+#include "smoothing/margins/all_families.h"
+
+namespace halfstep {
+
+MarginEvaluator::Shared::Shared(RobotModel robot, Scene scene)
+    : place(std::move(robot), std::move(scene)), statements(AllFamilies::Make(place)) {}
+
+MarginEvaluator::MarginEvaluator(RobotModel robot, Scene scene, MarginLimits limits)
+    : shared_(std::make_shared<const Shared>(std::move(robot), std::move(scene))),
+      limits_(limits) {}
+
+MarginEvaluator MarginEvaluator::WithLimits(const MarginLimits& limits) const {
+  MarginEvaluator other = *this;
+  other.limits_ = limits;
+  return other;
+}
+
+MarginSet MarginEvaluator::At(const SuperposedWalk& walk, const LocalTime& at,
+                              Scratch* scratch) const {
+  ++scratch->instants;
+  Instant instant(place(), limits_, walk, at, scratch);
+  MarginSet margins;
+  for (const MarginFamily family : AllMarginFamilies()) {
+    Margin& margin = margins[static_cast<size_t>(family)];
+    margin = statements(family).Least(&instant, std::numeric_limits<double>::infinity());
+    margin.at = at;
+    margin.t = instant.t();
+  }
+  return margins;
+}
+
+std::optional<Margin> MarginEvaluator::FirstViolation(const SuperposedWalk& walk,
+                                                      const LocalTime& at, Scratch* scratch) const {
+  ++scratch->instants;
+  Instant instant(place(), limits_, walk, at, scratch);
+  for (const MarginFamily family : FamiliesByCost()) {
+    std::optional<Margin> below =
+        statements(family).FirstBelow(&instant, limits_.demanded_of(family));
+    if (!below) continue;
+    below->at = at;
+    below->t = instant.t();
+    return below;
+  }
+  return std::nullopt;
+}
+
+std::string MarginEvaluator::Describe(const Margin& margin) const {
+  std::ostringstream out;
+  out.precision(6);
+  out << Name(margin.family) << " of " << Subject(margin);
+  if (std::isnan(margin.value)) {
+    out << " could not be decided";
+  } else {
+    out << " " << margin.value << " " << Unit(margin.family) << " (demanded "
+        << limits_.demanded_of(margin.family) << ")";
+  }
+  out << " at half-step " << margin.at.half_step + 1 << ", tau = " << margin.at.tau << " s";
+  return out.str();
+}
+
+}  // namespace halfstep

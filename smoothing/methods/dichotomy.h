@@ -1,0 +1,43 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <stop_token>
+
+#include "smoothing/methods/smoothing_result.h"
+#include "smoothing/proof/feasibility_test.h"
+
+namespace halfstep {
+
+struct DichotomyOptions {
+  enum class Order { kLeftToRight, kRightToLeft };
+
+  /// Bisection of an overlap ends when the bracket is shorter than this [s] > 0. The published
+  /// value is 0.05 s; a finer one gains up to the tolerance at each junction, in log₂ as many
+  /// checks.
+  double tolerance = 0.001;
+  Order order = Order::kLeftToRight;
+  int passes = 1;  ///< ≥ 0: later passes continue from the overlaps of the earlier ones; 0: the
+                   ///< start is checked, and that is all.
+  /// Upper bounds as fractions of the natural ones, ∈ [0, 1]. Published: 0.8 and 0.76.
+  double up_down_cap = 1.0;
+  double down_up_cap = 1.0;
+  /// Where to begin, instead of at the planned motion.
+  std::optional<HomotopyParameters> start = std::nullopt;
+};
+
+/// The paper's smoother: each junction's overlap in turn is bisected between the largest value
+/// found feasible and the smallest found infeasible, while the others stay. Only the stretch of the
+/// walk that this overlap changes is checked, [t_{i+1}, t_i + T_i]: before it nothing moves, after
+/// it the walk is only earlier. Every overlap that is applied was found feasible by `test`; every
+/// intermediate result is as feasible as the last, so it may be stopped at any moment.
+/// Source: [Perrin2011] §IV.
+///
+/// `progress` (may be empty) is told the fraction of junctions done. Never throws for expected
+/// failures: see SmoothingResult::ending.
+SmoothingResult Dichotomy(const HalfStepSequence& sequence, const FeasibilityTest& test,
+                          const DichotomyOptions& options,
+                          const std::function<void(double)>& progress = {},
+                          std::stop_token stop = {});
+
+}  // namespace halfstep

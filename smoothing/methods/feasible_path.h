@@ -1,0 +1,62 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "smoothing/proof/feasibility_test.h"
+#include "smoothing/walk/homotopy_parameters.h"
+#include "wpg/half_step_sequence.h"
+
+namespace halfstep {
+
+/// Keeps the best point of the homotopy that was proved, the incumbent. A candidate replaces it
+/// only if it costs less and that was proved. One that is refused is approached instead: around the
+/// half-steps where it was refused, parameters go only a part of the way from the incumbent, less
+/// and less. So whatever proposes candidates may stop at any moment.
+class FeasiblePath {
+ public:
+  struct Rules {
+    /// What a point would cost if it is feasible; +inf: not wanted at all.
+    std::function<double(const HomotopyParameters&)> cost;
+    /// Decides whether `walk` deserves `cost`: where it does not; empty: it does.
+    std::function<std::vector<Margin>(const SuperposedWalk& walk, double cost,
+                                      MarginEvaluator::Scratch*)>
+        prove;
+    /// Told every new incumbent; may be empty.
+    std::function<void(const HomotopyParameters&)> accepted = {};
+    /// Candidates must cost less than the incumbent by more than this.
+    double improvement = 1e-9;
+    /// A refusal holds back its neighbourhood; false: all parameters alike.
+    bool local = true;
+  };
+
+  /// Precondition: `start` was proved to cost `cost`. `sequence` is borrowed.
+  FeasiblePath(const HalfStepSequence& sequence, Rules rules, HomotopyParameters start, double cost,
+               MarginEvaluator::Scratch scratch);
+
+  /// How far from the incumbent to the candidate it was moved, ∈ [0, 1], mean over the half-steps;
+  /// `attempts` ≥ 1 points are tried at most.
+  double Toward(const HomotopyParameters& candidate, int attempts);
+
+  const HomotopyParameters& incumbent() const { return incumbent_; }
+  double cost() const { return cost_; }
+  long accepted() const { return accepted_; }
+  long refused() const { return refused_; }  ///< points that cost less and were not proved
+  /// What refused the last candidate itself; empty: nothing did.
+  const std::vector<Margin>& refusals() const { return refusals_; }
+  const MarginEvaluator::Scratch& scratch() const { return scratch_; }
+
+ private:
+  HomotopyParameters Between(const HomotopyParameters& candidate,
+                             const std::vector<double>& lambda) const;
+
+  const HalfStepSequence& sequence_;
+  Rules rules_;
+  HomotopyParameters incumbent_;
+  double cost_;
+  MarginEvaluator::Scratch scratch_;
+  long accepted_ = 0, refused_ = 0;
+  std::vector<Margin> refusals_;
+};
+
+}  // namespace halfstep

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "opt/ending.h"
+#include "smoothing/margins/margin.h"
+#include "smoothing/proof/feasibility_test.h"
+#include "smoothing/walk/homotopy_parameters.h"
+
+namespace halfstep {
+
+/// What holds one overlap where it is.
+struct JunctionResult {
+  JunctionKind kind = JunctionKind::kUpDown;
+  double overlap = 0.0;      ///< accepted Δ [s]
+  double upper_bound = 0.0;  ///< largest that was allowed [s]
+  /// The margin that refused the smallest infeasible overlap tried; none: the upper bound holds.
+  std::optional<Margin> limited_by = std::nullopt;
+  /// Multipliers of the program's rows of the half-steps on both sides, in the family that limits:
+  /// what one unit of its scale less demanded there would save, all parameters adapting, to first
+  /// order [s]; none: no program was solved.
+  std::optional<double> multiplier = std::nullopt;
+  /// What one unit of the limiting family's scale less demanded would shorten the walk by, to first
+  /// order and by this overlap alone [s]; none: nothing limits, or it does not depend on Δ.
+  std::optional<double> price = std::nullopt;
+};
+
+/// A walk of a ParetoCurve: no safer one was found that lasts no longer.
+struct ParetoPoint {
+  double duration = 0.0;     ///< [s]
+  double least_slack = 0.0;  ///< proved for the families of Raised(), of their scales
+  HomotopyParameters parameters;
+};
+
+/// One candidate that a method tried.
+struct SmoothingIterate {
+  double wall = 0.0;                ///< since the method began [s]
+  long evaluations = 0;             ///< instants evaluated so far
+  double candidate_duration = 0.0;  ///< [s]
+  std::optional<double> candidate_slack =
+      std::nullopt;  ///< MarginLimits::Slack where it was violated
+  bool accepted = false;
+  double lambda = 0.0;  ///< how far from incumbent to candidate it was accepted, ∈ [0, 1]
+  double incumbent_duration = 0.0;  ///< after this iterate [s]
+  /// Least slack of the incumbent at the program's instants; none: not evaluated.
+  std::optional<double> incumbent_slack = std::nullopt;
+  double incumbent_cost = 0.0;  ///< of the program, after this iterate
+};
+
+/// What a smoothing method found.
+struct SmoothingResult {
+  /// With kConverged, kLimit, kDeadline and kInterrupted the walk is one of the method's own and
+  /// costs less than what it was started from: the planned motion, for programs the dichotomy's
+  /// walk. With the others it is that start, or what a plain dichotomy makes of it.
+  opt::Ending ending = opt::Ending::kNotRun;
+  std::string message = "Smooth was not called.";  ///< a sentence on the ending
+  /// `parameters` were found feasible in the sense of `evidence`. False: the start misses a margin,
+  /// and they are the start.
+  bool feasible = false;
+  Evidence evidence = Evidence::kSampled;
+  HomotopyParameters parameters;
+  /// Of the program [s]; for `safest` minus the proved least slack, +inf when no walk within its
+  /// duration was proved.
+  double cost = 0.0;
+  std::vector<JunctionResult> junctions;
+  std::vector<SmoothingIterate> iterates;
+  std::vector<ParetoPoint> pareto;  ///< by duration; empty but for ParetoCurve
+  long instants = 0;                ///< evaluated
+  long raw_infeasible = 0;          ///< candidates of a solver that were not feasible themselves
+  bool raw_end_feasible = true;     ///< the solver's end was accepted, or not better and not tried
+  long collision_queries = 0;       ///< body against scene, or body pair, not culled
+  double wall = 0.0;                ///< [s]
+  /// Until the first accepted improvement [s]; none when nothing was improved.
+  std::optional<double> time_to_first_improvement;
+};
+
+}  // namespace halfstep

@@ -1,0 +1,88 @@
+#pragma once
+
+#include <unordered_map>
+#include <vector>
+
+#include "smoothing/margins/margin_evaluator.h"
+#include "wpg/half_step_sequence.h"
+
+namespace halfstep {
+
+/// What a half-step of a walk may choose.
+struct StretchChoice {
+  double overlap = 0.0;   ///< Δ with the half-step before [s]; lowered to its natural bound
+  double duration = 0.0;  ///< T [s]
+  double height = 1.0;    ///< η of its step; counts for up half-steps
+};
+
+/// A walk's shortest choices out of a finite list for each half-step, by dynamic programming.
+///
+/// Half-step k is looked at on its own stretch [t_k, t_{k+1}] at τ = 0, p, 2p, … and at the ends of
+/// contacts. What is under way there is k and, as far as they have not ended, k − 1, k − 2 and, if
+/// k is up, k − 3; the foot before the last is down. So one pass over τ with the choices of these
+/// half-steps finds the longest stretch without a violation, whatever comes later, and with it
+/// which overlaps with k + 1 are allowed. Exact for the lists and the instants; nothing is claimed
+/// about other values or between instants. Source: smoothing/README.md, "References".
+class StretchGrid {
+ public:
+  using Choices = std::vector<std::vector<StretchChoice>>;  // by half-step
+
+  /// Both are borrowed. period [s] > 0.
+  StretchGrid(const HalfStepSequence& sequence, const MarginEvaluator& evaluator, double period);
+
+  /// The indices of the best choices, by half-step; empty: none is feasible and lasts at most
+  /// `duration` [s], or `stop` said so (asked before each half-step).
+  template <typename Stop>
+  std::vector<int> Solve(const Choices& choices, double duration, const Stop& stop) {
+    Begin(choices, duration);
+    for (int k = 0; k + 1 < sequence_.size(); ++k) {
+      if (stop()) return {};
+      Extend(k);
+    }
+    return End();
+  }
+
+  /// The parameters that the indices stand for.
+  HomotopyParameters ParametersOf(const Choices& choices, const std::vector<int>& indices) const;
+
+  const MarginEvaluator::Scratch& scratch() const { return scratch_; }
+  long passes() const { return passes_; }  ///< over a stretch, so far
+
+ private:
+  // The best way to a combination of the last choices.
+  struct State {
+    double cost;       // D of what is placed [s]
+    int indices[4];    // of half-steps k − 3 … k; −1 before the walk begins
+    long predecessor;  // in the states of k − 1
+  };
+
+  void Begin(const Choices& choices, double duration);
+  void Extend(int half_step);
+  std::vector<int> End();
+  const StretchChoice& choice(int half_step, int index) const {
+    return (*choices_)[static_cast<size_t>(half_step)][static_cast<size_t>(index)];
+  }
+  // Δ between half-step − 1 and half-step.
+  double Overlap(int half_step, int before, int index) const {
+    const size_t k = static_cast<size_t>(half_step);
+    return overlaps_[k][static_cast<size_t>(before) * (*choices_)[k].size() +
+                        static_cast<size_t>(index)];
+  }
+  long Key(int half_step, const int* indices, bool with_first) const;
+  // The end of the longest stretch of `state` without a violation, at most `longest` [s].
+  double Longest(int half_step, const State& state, double longest);
+
+  const HalfStepSequence& sequence_;
+  const MarginEvaluator& evaluator_;
+  double period_;
+  MarginEvaluator::Scratch scratch_;
+  long passes_ = 0;
+  const Choices* choices_ = nullptr;
+  double duration_ = 0.0;                         // longer walks are not wanted
+  std::vector<double> remaining_;                 // least that is still to come after half-step
+  std::vector<std::vector<double>> overlaps_;     // by half-step, choice before and choice
+  std::vector<std::vector<int>> duration_class_;  // by half-step and choice
+  std::vector<std::vector<State>> states_;        // by half-step
+};
+
+}  // namespace halfstep

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "smoothing/walk/homotopy_parameters.h"
+
+namespace halfstep {
+
+/// A derivative along homotopy parameters, term by term.
+using ParameterGradient = std::vector<std::pair<HomotopyParameter, double>>;
+
+/// The variables x of a program over a sequence: first s_i = Δ_i/B_i(T), then, when they are
+/// variables, the height scales η and the durations T. B_i(T) is the natural overlap bound or, when
+/// T are variables, a smooth lower bound of it by at most 1 ms, so 0 ≤ s_i ≤ 1 are simple bounds at
+/// all T. Families that are
+/// no variables keep the values of `planned`.
+/// Source: smoothing/README.md, "Overlap program".
+class OverlapVariables {
+ public:
+  /// `sequence` is borrowed and must outlive this.
+  OverlapVariables(const HalfStepSequence& sequence, bool heights, bool durations);
+
+  const HalfStepSequence& sequence() const { return sequence_; }
+  int size() const { return static_cast<int>(variables_.size()); }
+  const HomotopyParameter& at(int variable) const {
+    return variables_[static_cast<size_t>(variable)];
+  }
+  bool heights() const { return heights_; }
+  bool durations() const { return durations_; }
+
+  /// x (n) of a point of the homotopy (overlaps above B_i are lowered to it), and back.
+  Eigen::VectorXd ToVariables(const HomotopyParameters& parameters) const;
+  HomotopyParameters ToParameters(const Eigen::VectorXd& x) const;
+
+  /// The variable of a parameter, −1: it is none.
+  int IndexOf(const HomotopyParameter& parameter) const;
+  /// Calls add(variable, value) for each term of the gradient with respect to x that a derivative
+  /// `slope` along `parameter` makes; a variable may come several times.
+  template <typename Add>
+  void Pull(const HomotopyParameter& parameter, double slope, const Eigen::VectorXd& x,
+            const std::vector<double>& durations, const Add& add) const {
+    const int v = IndexOf(parameter);
+    if (parameter.family != HomotopyParameter::Family::kOverlap) {
+      if (v >= 0) add(v, slope);
+      return;
+    }
+    const Bound bound = OverlapBound(parameter.index, durations);
+    add(v, slope * bound.value);
+    if (!durations_) return;
+    const int T = IndexOf({HomotopyParameter::Family::kDuration, parameter.index});
+    add(T, slope * x[v] * bound.before);
+    add(T + 1, slope * x[v] * bound.after);
+  }
+
+  /// The variables on which an instant of half-step k may depend, at any x. At most four half-steps
+  /// are ever under way at once, so these are the parameters of the three before and after it.
+  std::vector<int> Band(int half_step) const;
+
+ private:
+  // B_i and its derivatives with respect to T_i and T_{i+1}.
+  struct Bound {
+    double value, before, after;
+  };
+  Bound OverlapBound(int junction, const std::vector<double>& durations) const;
+
+  const HalfStepSequence& sequence_;
+  bool heights_, durations_;
+  HomotopyParameters planned_;
+  std::vector<HomotopyParameter> variables_;
+};
+
+}  // namespace halfstep

@@ -1,0 +1,48 @@
+#include "smoothing/program/slack_rows.h"
+
+#include <algorithm>
+
+namespace halfstep {
+
+SlackEvaluator::SlackEvaluator(const MarginEvaluator& evaluator, double cutoff)
+    : evaluator_(evaluator), sink_(cutoff), scratch_(evaluator.MakeScratch()) {}
+
+void SlackEvaluator::At(const SuperposedWalk& walk, const LocalTime& at,
+                        const std::vector<std::pair<HomotopyParameter, double>>& moving,
+                        bool gradient, InstantSlacks* out) {
+  ++scratch_.instants;
+  out->parameters.clear();
+  sink_.Clear();
+  const MarginLimits& limits = evaluator_.limits();
+  Instant instant(evaluator_.place(), limits, walk, at, &scratch_);
+  const bool regular = instant.regular();
+  if (gradient) {
+    std::vector<WalkSensitivity>& sensitivities = sink_.sensitivities;
+    const WalkJet& jet = instant.jet();
+    walk.Sensitivities(at, &sensitivities);
+    for (const auto& [parameter, rate] : moving) {
+      auto found = std::find_if(sensitivities.begin(), sensitivities.end(),
+                                [&](const WalkSensitivity& s) { return s.parameter == parameter; });
+      if (found == sensitivities.end()) {
+        sensitivities.push_back({parameter, {}});
+        found = sensitivities.end() - 1;
+      }
+      found->jet.value += rate * jet.first;
+      found->jet.first += rate * jet.second;
+    }
+    for (const WalkSensitivity& s : sensitivities) {
+      out->parameters.push_back(s.parameter);
+      if (regular) {
+        sink_.tangents.push_back(Differentiate(evaluator_.robot(), jet, instant.posture(), s.jet));
+      }
+    }
+  }
+  for (const MarginFamily family : AllMarginFamilies()) {
+    sink_.Begin(family, limits.demanded_of(family));
+    evaluator_.statements(family).AddRows(&instant, &sink_);
+  }
+  out->rows = sink_.rows();
+  if (gradient) out->gradient = sink_.Gradient();
+}
+
+}  // namespace halfstep

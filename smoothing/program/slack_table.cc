@@ -1,0 +1,303 @@
+#include "smoothing/program/slack_table.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace halfstep {
+namespace {
+
+using Family = HomotopyParameter::Family;
+
+constexpr double kReserve = 3.0;
+// Slacks that are near the level, and that are far from it.
+constexpr double kNear = 0.3, kFar = 1.0;
+
+// Σ e^{−ρ·slack} and its gradient, both times e^{ρ·least}: no overflow, whatever the slacks.
+struct SoftMinimum {
+  double least;
+  double sum;
+  Eigen::VectorXd gradient;
+
+  // Weight of a further slack in the sum.
+  double Add(double slack, double sharpness) {
+    if (slack < least) {
+      const double shrink = std::exp(-sharpness * (least - slack));
+      sum *= shrink;
+      gradient *= shrink;
+      least = slack;
+    }
+    const double weight = std::exp(-sharpness * (slack - least));
+    sum += weight;
+    return weight;
+  }
+};
+
+// Families that have a row of their own, in their order; and by family the place of its row among
+// them, or of the family whose row it shares; −1: it has none.
+struct RowOrder {
+  std::vector<MarginFamily> families;
+  std::array<int, kNumMarginFamilies> place{};
+};
+
+const RowOrder& Rows() {
+  static const RowOrder kRows = [] {
+    RowOrder rows;
+    for (const MarginFamily family : AllMarginFamilies()) {
+      if (Traits(family).row == family) rows.families.push_back(family);
+    }
+    for (const MarginFamily family : AllMarginFamilies()) {
+      const auto& own = Traits(family).row;
+      const auto found = own ? std::ranges::find(rows.families, *own) : rows.families.end();
+      rows.place[static_cast<size_t>(family)] =
+          found == rows.families.end() ? -1 : static_cast<int>(found - rows.families.begin());
+    }
+    return rows;
+  }();
+  return kRows;
+}
+
+double StretchOf(const SuperposedWalk& walk, int half_step) {
+  const bool last = half_step + 1 == walk.num_half_steps();
+  return (last ? walk.duration() : walk.start_of(half_step + 1)) - walk.start_of(half_step);
+}
+
+// Fractions of T just inside the times at which a statement begins or ends to count.
+std::vector<double> Events(const HalfStep& half_step) {
+  constexpr double kInside = 1e-9;
+  const HalfStepShape& shape = half_step.shape;
+  const double delay = shape.horizontal_delay;
+  if (half_step.kind == HalfStepKind::kUp) {
+    return {shape.t2() + kInside, shape.t2() + delay + kInside, 1.0 - kInside};
+  }
+  return {kInside, shape.t1() - delay - kInside, shape.t1() - kInside};
+}
+
+using LeastSlacks = std::array<double, kNumMarginFamilies>;  // by family, at most a cutoff
+
+// At 0, period, … and at the end.
+std::vector<LeastSlacks> Sampled(const SuperposedWalk& walk, const MarginEvaluator& evaluator,
+                                 double period, double cutoff) {
+  SlackEvaluator slacks(evaluator, cutoff);
+  InstantSlacks instant;
+  const int n = static_cast<int>(std::ceil(walk.duration() / period));
+  std::vector<LeastSlacks> samples(static_cast<size_t>(n) + 1);
+  for (int i = 0; i <= n; ++i) {
+    LeastSlacks& sample = samples[static_cast<size_t>(i)];
+    sample.fill(cutoff);
+    slacks.At(walk, walk.Locate(std::min(i * period, walk.duration())), {}, false, &instant);
+    for (const SlackRow& row : instant.rows) {
+      double& least = sample[static_cast<size_t>(row.family)];
+      least = std::min(least, row.slack);
+    }
+  }
+  return samples;
+}
+
+// The least slack of the families that have a local minimum in time at sample i; none: `otherwise`.
+double LocalMinimum(const std::vector<LeastSlacks>& samples, int i, double otherwise) {
+  const size_t at = static_cast<size_t>(i);
+  double lowest = otherwise;
+  for (size_t f = 0; f < kNumMarginFamilies; ++f) {
+    const double slack = samples[at][f];
+    const bool falls = i == 0 || slack < samples[at - 1][f];
+    const bool rises = at + 1 == samples.size() || slack <= samples[at + 1][f];
+    if (falls && rises) lowest = std::min(lowest, slack);
+  }
+  return lowest;
+}
+
+}  // namespace
+
+SlackTable::SlackTable(const OverlapVariables& variables, const MarginEvaluator& evaluator,
+                       const SlackTableOptions& options)
+    : variables_(variables), evaluator_(evaluator), options_(options) {
+  const int n = variables.sequence().size();
+  for (int k = 0; k < n; ++k) {
+    std::vector<Instant> instants;
+    for (int m = 0; m < options.instants; ++m) {
+      instants.push_back({(m + 0.5) / options.instants, true});
+    }
+    for (double v : Events(variables.sequence().half_steps[static_cast<size_t>(k)].half_step)) {
+      instants.push_back({v, false});
+    }
+    instants_.push_back(std::move(instants));
+    bands_.push_back(variables.Band(k));
+  }
+  CountRows();
+}
+
+void SlackTable::CountRows() {
+  first_rows_.assign(1, 0);
+  for (const std::vector<Instant>& instants : instants_) {
+    const int groups = options_.row_per_instant
+                           ? static_cast<int>(std::ranges::count(instants, false, &Instant::far))
+                           : 1;
+    first_rows_.push_back(first_rows_.back() + groups * NumRowFamilies());
+  }
+}
+
+int SlackTable::NumRowFamilies() { return static_cast<int>(Rows().families.size()); }
+
+MarginFamily SlackTable::family_of(int row) {
+  return Rows().families[static_cast<size_t>(row % NumRowFamilies())];
+}
+
+int SlackTable::half_step_of(int row) const {
+  const auto after = std::upper_bound(first_rows_.begin(), first_rows_.end(), row);
+  return static_cast<int>(after - first_rows_.begin()) - 1;
+}
+
+size_t SlackTable::num_nonzeros() const {
+  size_t sum = 0;
+  for (size_t k = 0; k < bands_.size(); ++k) {
+    sum += bands_[k].size() * static_cast<size_t>(first_rows_[k + 1] - first_rows_[k]);
+  }
+  return sum;
+}
+
+LocalTime SlackTable::At(const SuperposedWalk& walk, int k, const Instant& instant,
+                         std::vector<std::pair<HomotopyParameter, double>>* moving) {
+  moving->clear();
+  moving->push_back({{Family::kDuration, k}, instant.fraction});
+  if (!instant.of_stretch) return {k, instant.fraction * walk.profiles(k).duration()};
+  if (k + 1 < walk.num_half_steps()) {
+    moving->push_back({{Family::kOverlap, k}, -instant.fraction});
+  }
+  return {k, instant.fraction * StretchOf(walk, k)};
+}
+
+bool SlackTable::Learn(const SuperposedWalk& walk, const LocalTime& at) {
+  const bool learned = Look(walk, at, Instant::Why::kLearned);
+  CountRows();
+  return learned;
+}
+
+bool SlackTable::Look(const SuperposedWalk& walk, const LocalTime& at, Instant::Why why) {
+  constexpr double kSame = 1e-3;  // of T
+  const double v = at.tau / walk.profiles(at.half_step).duration();
+  std::vector<Instant>& instants = instants_[static_cast<size_t>(at.half_step)];
+  for (const Instant& known : instants) {
+    if (!known.of_stretch && !known.far && std::abs(known.fraction - v) < kSame) return false;
+  }
+  instants.push_back({std::clamp(v, 0.0, 1.0), false, why});
+  return true;
+}
+
+double SlackTable::Focus(const SuperposedWalk& walk, double period, double level) {
+  const double far = level + kFar;
+  // Rows by half-step cost no more for looking at more instants; long rounds need them.
+  const bool forgets = options_.row_per_instant;
+  const std::vector<LeastSlacks> samples = Sampled(walk, evaluator_, period, far);
+  const int last = static_cast<int>(samples.size()) - 1;
+  const auto lowest = [&samples](int i) {
+    return std::ranges::min(samples[static_cast<size_t>(i)]);
+  };
+  std::vector<std::pair<HomotopyParameter, double>> moving;
+  for (int k = 0; forgets && k < walk.num_half_steps(); ++k) {
+    std::vector<Instant>& instants = instants_[static_cast<size_t>(k)];
+    std::erase_if(instants, [](const Instant& i) { return i.why == Instant::Why::kMinimum; });
+    for (Instant& instant : instants) {
+      const double t = walk.start_of(k) + At(walk, k, instant, &moving).tau;
+      const int i = std::clamp(static_cast<int>(t / period), 0, last);
+      instant.far = lowest(i) >= far && lowest(std::min(i + 1, last)) >= far;
+    }
+  }
+  double least = far;
+  for (int i = 0; i <= last; ++i) {
+    least = std::min(least, lowest(i));
+    const double minimum = LocalMinimum(samples, i, far);
+    if (minimum >= far) continue;
+    // It moves with the parameters.
+    const int around = minimum < level + kNear ? 2 : 0;
+    for (int j = -around; j <= around; ++j) {
+      const double t = std::clamp((i + j) * period, 0.0, walk.duration());
+      Look(walk, walk.Locate(t), Instant::Why::kMinimum);
+    }
+  }
+  CountRows();
+  return least;
+}
+
+void SlackTable::EvaluateHalfStep(const SuperposedWalk& walk, const Eigen::VectorXd& x, int k,
+                                  SlackEvaluator* slacks, Eigen::VectorXd* values,
+                                  double* nonzeros) const {
+  const double rho = options_.sharpness;
+  const std::vector<int>& columns = band(k);
+  const Eigen::Index width = static_cast<Eigen::Index>(columns.size());
+  const SoftMinimum nothing{options_.cutoff, 1.0, Eigen::VectorXd::Zero(nonzeros ? width : 0)};
+  std::vector<SoftMinimum> minima(static_cast<size_t>(NumRowFamilies()), nothing);
+  double* value = values->data() + first_rows_[static_cast<size_t>(k)];
+  const auto write = [&] {
+    for (SoftMinimum& minimum : minima) {
+      *value++ = minimum.least - (std::log(minimum.sum) + kReserve) / rho;
+      for (Eigen::Index c = 0; nonzeros && c < width; ++c) {
+        *nonzeros++ = minimum.gradient[c] / minimum.sum;
+      }
+      minimum = nothing;
+    }
+  };
+  std::vector<std::pair<HomotopyParameter, double>> moving;
+  InstantSlacks instant;
+  Eigen::MatrixXd pull;  // ∂parameter/∂x on the band (parameters × width)
+  for (const Instant& where : instants_[static_cast<size_t>(k)]) {
+    if (where.far) continue;
+    const LocalTime at = At(walk, k, where, &moving);
+    slacks->At(walk, at, moving, nonzeros != nullptr, &instant);
+    if (nonzeros && !instant.rows.empty()) {
+      pull.setZero(static_cast<Eigen::Index>(instant.parameters.size()), width);
+      for (size_t p = 0; p < instant.parameters.size(); ++p) {
+        variables_.Pull(instant.parameters[p], 1.0, x, walk.parameters().durations,
+                        [&](int variable, double value) {
+                          const auto column =
+                              std::find(columns.begin(), columns.end(), variable) - columns.begin();
+                          pull(static_cast<Eigen::Index>(p), column) += value;
+                        });
+      }
+    }
+    for (size_t r = 0; r < instant.rows.size(); ++r) {
+      const int place = Rows().place[static_cast<size_t>(instant.rows[r].family)];
+      SoftMinimum& minimum = minima[static_cast<size_t>(place)];
+      const double weight = minimum.Add(instant.rows[r].slack, rho);
+      if (!nonzeros || weight < 1e-9) continue;
+      minimum.gradient.noalias() +=
+          weight *
+          (pull.transpose() * instant.gradient.row(static_cast<Eigen::Index>(r)).transpose());
+    }
+    if (options_.row_per_instant) write();
+  }
+  if (!options_.row_per_instant) write();
+}
+
+void SlackTable::Evaluate(const Eigen::VectorXd& x, Eigen::VectorXd* values,
+                          std::vector<double>* nonzeros) const {
+  const SuperposedWalk walk(variables_.sequence(), variables_.ToParameters(x));
+  SlackEvaluator slacks(evaluator_, options_.cutoff + 20.0 / options_.sharpness);
+  values->resize(rows());
+  if (nonzeros) nonzeros->resize(num_nonzeros());
+  size_t first = 0;
+  for (int k = 0; k < walk.num_half_steps(); ++k) {
+    EvaluateHalfStep(walk, x, k, &slacks, values, nonzeros ? nonzeros->data() + first : nullptr);
+    first += band(k).size() * static_cast<size_t>(first_rows_[static_cast<size_t>(k) + 1] -
+                                                  first_rows_[static_cast<size_t>(k)]);
+  }
+}
+
+double SlackTable::LeastSlack(const HomotopyParameters& parameters,
+                              const std::array<bool, kNumMarginFamilies>& of) const {
+  const SuperposedWalk walk(variables_.sequence(), parameters);
+  SlackEvaluator slacks(evaluator_, options_.cutoff);
+  double least = options_.cutoff;
+  InstantSlacks instant;
+  std::vector<std::pair<HomotopyParameter, double>> moving;
+  for (int k = 0; k < walk.num_half_steps(); ++k) {
+    for (const Instant& where : instants_[static_cast<size_t>(k)]) {
+      slacks.At(walk, At(walk, k, where, &moving), moving, false, &instant);
+      for (const SlackRow& row : instant.rows) {
+        if (of[static_cast<size_t>(row.family)]) least = std::min(least, row.slack);
+      }
+    }
+  }
+  return least;
+}
+
+}  // namespace halfstep

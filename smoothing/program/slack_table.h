@@ -1,0 +1,94 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "smoothing/program/overlap_variables.h"
+#include "smoothing/program/slack_rows.h"
+
+namespace halfstep {
+
+struct SlackTableOptions {
+  int instants = 32;      ///< per half-step, evenly spread over its own stretch
+  double sharpness = 60;  ///< ρ > 0: a row lies at most log(count)/ρ below its least slack
+  double cutoff = 1.5;    ///< c: statements with more slack do not count
+  /// One row an instant and family instead of one a half-step and family.
+  bool row_per_instant = false;
+};
+
+/// The slacks of a walk, gathered by half-step and family. Half-step k is looked at
+///   - on its own stretch [t_k, t_{k+1}], at τ = u·(T_k − Δ_k) for fixed u ∈ (0, 1);
+///   - where statements begin or end to count, at τ = v·T_k: lift-off or landing, begin or end of
+///     the horizontal motion of its foot;
+///   - where a proof failed before (Learn) or samples show small slacks (Focus), at τ = v·T_k.
+/// Row (k, family), or with `row_per_instant` (k, instant, family), is
+///
+///     −(3 + log(e^{−ρc} + Σ e^{−ρ·slack}))/ρ ≤ min(c, least slack at these instants) − 3/ρ,
+///
+/// so that a point that keeps it has something in reserve for what lies between the instants.
+/// Smooth; rows of k depend on the variables of Band(k) only. Cost: linear in n.
+/// Source: smoothing/README.md, "Overlap program".
+class SlackTable {
+ public:
+  /// Both are borrowed.
+  SlackTable(const OverlapVariables& variables, const MarginEvaluator& evaluator,
+             const SlackTableOptions& options);
+
+  int rows() const { return first_rows_.back(); }
+  int half_step_of(int row) const;
+  /// The family of a row; a half-step, or an instant, has one for each family that has its own.
+  static MarginFamily family_of(int row);
+  static int NumRowFamilies();
+  /// Variables of the rows of a half-step.
+  const std::vector<int>& band(int half_step) const {
+    return bands_[static_cast<size_t>(half_step)];
+  }
+  /// Entries of the Jacobian: all rows times their band.
+  size_t num_nonzeros() const;
+
+  double sharpness() const { return options_.sharpness; }
+  void SetSharpness(double sharpness) { options_.sharpness = sharpness; }
+
+  /// Looks at one more instant, where a slack turned out to be small. False: it is, or nearly is,
+  /// there already.
+  bool Learn(const SuperposedWalk& walk, const LocalTime& at);
+  /// Looks where samples of `walk`, every `period` [s], show that it matters: where a family's
+  /// least slack has a local minimum in time, and around it where it is near the `level` that all
+  /// slacks are to reach. With `row_per_instant` forgets what was found so in walks before, and
+  /// instants at which nothing is near the level have no row. Returns the least slack sampled.
+  double Focus(const SuperposedWalk& walk, double period, double level);
+
+  /// Rows at x (rows), and the Jacobian, row by row in the order of its band, when asked for.
+  void Evaluate(const Eigen::VectorXd& x, Eigen::VectorXd* values,
+                std::vector<double>* nonzeros) const;
+
+  /// The least slack at the instants, of the families in `of`, at most the cutoff.
+  double LeastSlack(const HomotopyParameters& parameters,
+                    const std::array<bool, kNumMarginFamilies>& of) const;
+
+ private:
+  struct Instant {
+    enum class Why { kGrid, kLearned, kMinimum };
+    double fraction;
+    bool of_stretch;  // of T_k − Δ_k, else of T_k
+    Why why = Why::kGrid;
+    bool far = false;  // nothing there is near its limit: no row
+  };
+  // (k, τ) of an instant, and dτ along the parameters that move it.
+  static LocalTime At(const SuperposedWalk& walk, int half_step, const Instant& instant,
+                      std::vector<std::pair<HomotopyParameter, double>>* moving);
+  bool Look(const SuperposedWalk& walk, const LocalTime& at, Instant::Why why);
+  void CountRows();
+  void EvaluateHalfStep(const SuperposedWalk& walk, const Eigen::VectorXd& x, int half_step,
+                        SlackEvaluator* slacks, Eigen::VectorXd* values, double* nonzeros) const;
+
+  const OverlapVariables& variables_;
+  const MarginEvaluator& evaluator_;
+  SlackTableOptions options_;
+  std::vector<std::vector<int>> bands_;
+  std::vector<std::vector<Instant>> instants_;  // by half-step
+  std::vector<int> first_rows_;                 // of each half-step, and the number of all
+};
+
+}  // namespace halfstep

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "smoothing/proof/certificate.h"
+#include "smoothing/proof/feasibility_test.h"
+#include "smoothing/proof/interval_statements.h"
+
+namespace halfstep {
+
+/// Decides for every instant of a window whether the demanded margins are kept. An interval is
+/// settled by its midpoint and a bound on the motion around it, else bisected; what is still open
+/// at the resolution is undecided. Feasible is a proof; violated has a witness; what keeps every
+/// margin with a little to spare is never undecided at a fine enough resolution.
+/// Source: [Schwarzer2005]; bounds: smoothing/README.md, "Certificates".
+class CertifiedFeasibility : public FeasibilityTest {
+ public:
+  /// `evaluator` is borrowed and must outlive this. `stop` is looked at before each interval of a
+  /// check; what is stopped is undecided.
+  CertifiedFeasibility(const MarginEvaluator& evaluator, const CertificationOptions& options,
+                       std::stop_token stop = {});
+
+  Evidence evidence() const override { return Evidence::kCertified; }
+  std::string Description() const override;
+  const MarginEvaluator& evaluator() const override { return evaluator_; }
+  std::unique_ptr<FeasibilityTest> Over(const MarginEvaluator& evaluator) const override {
+    return std::make_unique<CertifiedFeasibility>(evaluator, options_, stop_);
+  }
+  Feasibility Check(const SuperposedWalk& walk, const TimeWindow& window,
+                    MarginEvaluator::Scratch* scratch) const override;
+
+  /// The same over the whole walk, with the proof: `certificate` holds what was proved before a
+  /// verdict was reached, all of it when feasible, in the order of begin, end and family. `stop` is
+  /// looked at before each interval; what is stopped is undecided.
+  Feasibility Certify(const SuperposedWalk& walk, MarginEvaluator::Scratch* scratch,
+                      Certificate* certificate, const std::stop_token& stop = {}) const;
+
+  const CertificationOptions& options() const { return options_; }
+  /// How many statements a family has at every instant.
+  int CountOf(MarginFamily family) const { return evaluator_.statements(family).count(); }
+
+ private:
+  Feasibility Decide(const SuperposedWalk& walk, const TimeWindow& window,
+                     MarginEvaluator::Scratch* scratch, Certificate* certificate,
+                     const std::stop_token& stop) const;
+
+  const MarginEvaluator& evaluator_;
+  CertificationOptions options_;
+  IntervalStatements statements_;
+  std::stop_token stop_;
+};
+
+/// The window and, on either side, what lies between it and the next knot: where an overlap's
+/// change puts a knot, the intervals beside it are cut anew. With these in every check, walks whose
+/// windows were proved one after the other are proved as a whole, by the same intervals. A window
+/// of whole stretches, from where a half-step begins to where one begins, is returned as it is:
+/// only what changed within it may have been cut.
+TimeWindow ExtendedToKnots(const SuperposedWalk& walk, const TimeWindow& window);
+
+/// Instants strictly inside a window at which a foot lands or lifts off, starts or stops moving
+/// horizontally, or a half-step begins or ends, in order [s].
+std::vector<double> KnotsInside(const SuperposedWalk& walk, const TimeWindow& window);
+
+}  // namespace halfstep

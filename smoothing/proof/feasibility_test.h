@@ -1,0 +1,49 @@
+#pragma once
+
+#include <memory>
+#include <string_view>
+
+#include "smoothing/margins/margin.h"
+#include "smoothing/margins/margin_evaluator.h"
+#include "smoothing/walk/superposed_walk.h"
+
+namespace halfstep {
+
+/// How an answer about a stretch of time was found.
+enum class Evidence {
+  kSampled,    ///< at finitely many instants; says nothing about the motion between them
+  kCertified,  ///< for every instant
+};
+std::string_view Name(Evidence evidence);
+
+enum class Verdict { kFeasible, kViolated, kUndecided };
+
+/// Absolute times [s] of a walk, begin ≤ end.
+struct TimeWindow {
+  double begin = 0.0;
+  double end = 0.0;
+};
+
+struct Feasibility {
+  Verdict verdict = Verdict::kUndecided;
+  Evidence evidence = Evidence::kSampled;
+  /// Violated: a margin below what is demanded. Undecided: the one that could not be decided.
+  Margin witness;
+  bool stopped = false;  ///< undecided because it was told to stop
+};
+
+/// Whether a walk meets every demanded margin on a window of time.
+class FeasibilityTest {
+ public:
+  virtual ~FeasibilityTest() = default;
+  virtual Evidence evidence() const = 0;
+  /// "sampled every 5 ms".
+  virtual std::string Description() const = 0;
+  virtual const MarginEvaluator& evaluator() const = 0;
+  /// The same kind of test with the demands of another evaluator, which is borrowed.
+  virtual std::unique_ptr<FeasibilityTest> Over(const MarginEvaluator& evaluator) const = 0;
+  virtual Feasibility Check(const SuperposedWalk& walk, const TimeWindow& window,
+                            MarginEvaluator::Scratch* scratch) const = 0;
+};
+
+}  // namespace halfstep

@@ -1,0 +1,86 @@
+#include "smoothing/proof/interval_statements.h"
+
+#include <algorithm>
+
+namespace halfstep {
+namespace {
+
+// Distances are asked only where nothing else is violated.
+bool IsDistance(MarginFamily family) { return Traits(family).cost >= MarginCost::kObstacles; }
+
+// In their own order, distances last.
+std::vector<MarginFamily> ProofOrder() {
+  std::vector<MarginFamily> order;
+  for (const MarginFamily family : AllMarginFamilies()) {
+    if (!IsDistance(family)) order.push_back(family);
+  }
+  for (const MarginFamily family : FamiliesByCost()) {
+    if (IsDistance(family)) order.push_back(family);
+  }
+  return order;
+}
+
+}  // namespace
+
+IntervalStatements::IntervalStatements(const MarginEvaluator& evaluator)
+    : evaluator_(evaluator), bounds_(evaluator.robot()) {
+  for (const MarginFamily family : ProofOrder()) {
+    for (int group = 0; group < evaluator.statements(family).groups(); ++group) {
+      all_.push_back({family, static_cast<uint16_t>(group)});
+    }
+  }
+}
+
+OpenGroups IntervalStatements::All() const { return all_; }
+
+std::optional<Margin> IntervalStatements::Prove(const SuperposedWalk& walk, double begin,
+                                                double end, OpenGroups* open,
+                                                MarginEvaluator::Scratch* scratch,
+                                                Certificate* rows) const {
+  ++scratch->instants;
+  IntervalMotion motion;
+  BoundMotion(bounds_, walk, begin, end, &motion);
+  const double middle = 0.5 * (begin + end);
+  const LocalTime mid = walk.Locate(middle);
+  if (!motion.bounded) {
+    // Out of reach, or stretched: is it so at the midpoint, or only perhaps around it?
+    return evaluator_.FirstViolation(walk, mid, scratch);
+  }
+  Instant instant(evaluator_.place(), evaluator_.limits(), walk, mid, motion.jet, motion.posture,
+                  scratch);
+  const MarginInterval interval{instant, motion, rows != nullptr};
+  const auto located = [&](Margin margin) {
+    margin.at = mid;
+    margin.t = middle;
+    return margin;
+  };
+  std::optional<Margin> violated;
+  std::vector<uint16_t> groups;
+  size_t kept = 0;
+  for (size_t first = 0, last = 0; first < open->size(); first = last) {
+    const MarginFamily family = (*open)[first].family;
+    groups.clear();
+    for (; last < open->size() && (*open)[last].family == family; ++last) {
+      groups.push_back((*open)[last].group);
+    }
+    if (!violated || !IsDistance(family)) {
+      const FamilyProof proof = evaluator_.statements(family).Prove(interval, &groups);
+      if (rows != nullptr && proof.held.count > 0) {
+        rows->push_back(
+            {begin, end, family, proof.held.count, located(proof.held.margin), proof.held.bound});
+      }
+      if (proof.violated && !violated) violated = located(*proof.violated);
+    }
+    for (const uint16_t group : groups) (*open)[kept++] = {family, group};
+  }
+  open->resize(kept, OpenGroup{MarginFamily::kZmp});
+  return violated;
+}
+
+void BoundMotion(const MotionBounds& bounds, const SuperposedWalk& walk, double begin, double end,
+                 IntervalMotion* motion) {
+  bounds.Bound(walk.At(0.5 * (begin + end)), walk.SecondBounds(begin, end), 0.5 * (end - begin),
+               motion);
+}
+
+}  // namespace halfstep

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "smoothing/margins/margin_evaluator.h"
+#include "smoothing/proof/certificate.h"
+#include "wpg/motion_bounds.h"
+
+namespace halfstep {
+
+/// A group of a family's statements that is not yet proved over an interval of time: all of the
+/// family, or those of one body or pair of bodies (MarginStatements::groups).
+struct OpenGroup {
+  MarginFamily family;
+  uint16_t group = 0;
+};
+
+/// Those that are not yet proved over one interval; a family's stand side by side.
+using OpenGroups = std::vector<OpenGroup>;
+
+/// Proves statements about one interval from its midpoint and a bound on the motion around it.
+class IntervalStatements {
+ public:
+  /// `evaluator` is borrowed and must outlive this.
+  explicit IntervalStatements(const MarginEvaluator& evaluator);
+
+  /// Every statement there is.
+  OpenGroups All() const;
+
+  /// Removes from `open` what holds for all t of [begin, end], and adds it to `rows` unless null
+  /// (with margins instead of mere verdicts: slower). Returns a margin that is violated at the
+  /// midpoint, if any. Precondition: no foot touches down or lifts off, and no foot starts or stops
+  /// moving horizontally, strictly inside the interval.
+  std::optional<Margin> Prove(const SuperposedWalk& walk, double begin, double end,
+                              OpenGroups* open, MarginEvaluator::Scratch* scratch,
+                              Certificate* rows) const;
+
+ private:
+  const MarginEvaluator& evaluator_;
+  MotionBounds bounds_;
+  OpenGroups all_;
+};
+
+/// The motion of a walk over the absolute times [begin, end] [s].
+void BoundMotion(const MotionBounds& bounds, const SuperposedWalk& walk, double begin, double end,
+                 IntervalMotion* motion);
+
+}  // namespace halfstep

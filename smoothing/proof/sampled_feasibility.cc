@@ -1,0 +1,86 @@
+#include "smoothing/proof/sampled_feasibility.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+#include "wpg/check.h"
+
+namespace halfstep {
+namespace {
+
+// Instants 0 … n of a window, evenly spaced by at most `period`.
+struct Grid {
+  Grid(const TimeWindow& window, double period)
+      : begin(window.begin),
+        n(std::max<long>(
+            1, static_cast<long>(std::ceil((window.end - window.begin) / period - 1e-9)))),
+        step((window.end - window.begin) / static_cast<double>(n)) {}
+  double at(long i) const { return begin + step * static_cast<double>(i); }
+
+  double begin;
+  long n;
+  double step;
+};
+
+}  // namespace
+
+std::string_view Name(Evidence evidence) {
+  return evidence == Evidence::kSampled ? "sampled" : "certified";
+}
+
+SampledFeasibility::SampledFeasibility(const MarginEvaluator& evaluator, double period,
+                                       std::stop_token stop)
+    : evaluator_(evaluator), period_(period), stop_(std::move(stop)) {
+  HALFSTEP_CHECK(period > 0.0, "period = " << period);
+}
+
+std::string SampledFeasibility::Description() const {
+  std::ostringstream out;
+  out << "sampled every " << 1e3 * period_ << " ms";
+  return out.str();
+}
+
+Feasibility SampledFeasibility::Check(const SuperposedWalk& walk, const TimeWindow& window,
+                                      MarginEvaluator::Scratch* scratch) const {
+  const Grid grid(window, period_);
+  // Every 16th instant first, then the ones half-way, and so on: a violation that lasts is met
+  // early.
+  constexpr long kCoarsest = 16;
+  for (long stride = kCoarsest; stride >= 1; stride /= 2) {
+    for (long i = 0; i <= grid.n; i += stride) {
+      if (stride < kCoarsest && i % (2 * stride) == 0) continue;
+      if (stop_.stop_requested()) {
+        Margin open{.family = MarginFamily::kClearance, .value = std::nan("")};
+        open.t = grid.at(i);
+        open.at = walk.Locate(open.t);
+        return {Verdict::kUndecided, Evidence::kSampled, open, /*stopped=*/true};
+      }
+      const auto violation = evaluator_.FirstViolation(walk, walk.Locate(grid.at(i)), scratch);
+      if (violation) return {Verdict::kViolated, Evidence::kSampled, *violation};
+    }
+  }
+  return {Verdict::kFeasible, Evidence::kSampled, {}};
+}
+
+MarginSet SampleMargins(const MarginEvaluator& evaluator, const SuperposedWalk& walk, double period,
+                        MarginEvaluator::Scratch* scratch) {
+  const Grid grid({0.0, walk.duration()}, period);
+  MarginSet least = evaluator.At(walk, walk.Locate(grid.at(0)), scratch);
+  for (long i = 1; i <= grid.n; ++i) {
+    const MarginSet here = evaluator.At(walk, walk.Locate(grid.at(i)), scratch);
+    for (size_t f = 0; f < here.size(); ++f) {
+      if (here[f].value < least[f].value) least[f] = here[f];
+    }
+  }
+  return least;
+}
+
+const Margin& WorstOf(const MarginSet& margins, const MarginLimits& limits) {
+  return *std::min_element(margins.begin(), margins.end(), [&](const Margin& a, const Margin& b) {
+    return limits.Slack(a) < limits.Slack(b);
+  });
+}
+
+}  // namespace halfstep

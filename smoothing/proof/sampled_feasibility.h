@@ -1,0 +1,41 @@
+#pragma once
+
+#include <stop_token>
+#include <string>
+
+#include "smoothing/proof/feasibility_test.h"
+
+namespace halfstep {
+
+/// Checks margins at instants no more than `period` apart, both ends of the window included, coarse
+/// ones first. Feasible means: at these instants, nothing about the motion between them.
+class SampledFeasibility : public FeasibilityTest {
+ public:
+  /// period [s] > 0. `evaluator` is borrowed and must outlive this. `stop` is looked at before each
+  /// instant; what is stopped is undecided.
+  SampledFeasibility(const MarginEvaluator& evaluator, double period, std::stop_token stop = {});
+
+  Evidence evidence() const override { return Evidence::kSampled; }
+  std::string Description() const override;
+  const MarginEvaluator& evaluator() const override { return evaluator_; }
+  std::unique_ptr<FeasibilityTest> Over(const MarginEvaluator& evaluator) const override {
+    return std::make_unique<SampledFeasibility>(evaluator, period_, stop_);
+  }
+  Feasibility Check(const SuperposedWalk& walk, const TimeWindow& window,
+                    MarginEvaluator::Scratch* scratch) const override;
+
+ private:
+  const MarginEvaluator& evaluator_;
+  double period_;
+  std::stop_token stop_;
+};
+
+/// Smallest value of each margin at instants no more than `period` [s] apart over the whole walk,
+/// both ends included: values, not only verdicts, so slower than Check.
+MarginSet SampleMargins(const MarginEvaluator& evaluator, const SuperposedWalk& walk, double period,
+                        MarginEvaluator::Scratch* scratch);
+
+/// The margin with the least slack (MarginLimits::Slack).
+const Margin& WorstOf(const MarginSet& margins, const MarginLimits& limits);
+
+}  // namespace halfstep

@@ -1,0 +1,78 @@
+#include "smoothing/proof/stretch_proofs.h"
+
+#include <algorithm>
+#include <optional>
+
+namespace halfstep {
+namespace {
+
+constexpr size_t kMostProved = 4, kMostSuspects = 4;
+
+template <typename T>
+void PushBack(T value, size_t most, std::vector<T>* list) {
+  if (list->size() == most) list->erase(list->begin());
+  list->push_back(std::move(value));
+}
+
+}  // namespace
+
+std::vector<double> StretchParameters(const SuperposedWalk& walk, int half_step) {
+  const HomotopyParameters& p = walk.parameters();
+  std::vector<double> key;
+  for (int i = half_step; i >= 0; --i) {
+    if (i < half_step && walk.end_of(i) <= walk.start_of(half_step)) break;
+    const size_t k = static_cast<size_t>(i);
+    key.push_back(p.durations[k]);
+    key.push_back(p.height_scales[k / 2]);
+    key.push_back(k < p.overlaps.size() ? p.overlaps[k] : 0.0);
+  }
+  return key;
+}
+
+StretchProofs::StretchProofs(const FeasibilityTest& test, int num_half_steps)
+    : test_(test), stretches_(static_cast<size_t>(num_half_steps)) {}
+
+void StretchProofs::Keep(Key key, Stretch* stretch) {
+  PushBack(std::move(key), kMostProved, &stretch->proved);
+}
+
+void StretchProofs::Remember(const SuperposedWalk& walk) {
+  for (int k = 0; k < walk.num_half_steps(); ++k) {
+    Keep(StretchParameters(walk, k), &stretches_[static_cast<size_t>(k)]);
+  }
+}
+
+std::vector<Margin> StretchProofs::Refusals(const SuperposedWalk& walk,
+                                            MarginEvaluator::Scratch* scratch) {
+  std::vector<Margin> refusals;
+  for (int k = 0; k < walk.num_half_steps(); ++k) {
+    Stretch& stretch = stretches_[static_cast<size_t>(k)];
+    Key key = StretchParameters(walk, k);
+    if (std::find(stretch.proved.begin(), stretch.proved.end(), key) != stretch.proved.end()) {
+      continue;
+    }
+    std::optional<Margin> refusal;
+    const double T = walk.profiles(k).duration();
+    const bool last = k + 1 == walk.num_half_steps();
+    const TimeWindow window{walk.start_of(k), last ? walk.duration() : walk.start_of(k + 1)};
+    for (const double fraction : stretch.suspects) {
+      if (walk.start_of(k) + fraction * T > window.end || refusal) continue;
+      refusal = test_.evaluator().FirstViolation(walk, {k, fraction * T}, scratch);
+    }
+    if (!refusal) {
+      const Feasibility answer = test_.Check(walk, window, scratch);
+      if (answer.verdict == Verdict::kFeasible) {
+        Keep(std::move(key), &stretch);
+        continue;
+      }
+      refusal = answer.witness;
+      if (refusal->at.half_step == k) {
+        PushBack(refusal->at.tau / T, kMostSuspects, &stretch.suspects);
+      }
+    }
+    refusals.push_back(*refusal);
+  }
+  return refusals;
+}
+
+}  // namespace halfstep

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "smoothing/proof/feasibility_test.h"
+#include "smoothing/walk/superposed_walk.h"
+
+namespace halfstep {
+
+/// Proves walks of one sequence stretch by stretch, [t_k, t_{k+1}], the last one to the end. What a
+/// walk does on a stretch depends on the half-steps under way there alone: stretches whose
+/// parameters are those of a proof before are not proved again. Where a proof failed is looked at
+/// first. Source: smoothing/README.md, "The incumbent".
+class StretchProofs {
+ public:
+  /// `test` is borrowed.
+  StretchProofs(const FeasibilityTest& test, int num_half_steps);
+
+  /// Witnesses of the stretches that are not proved, at most one each, in their order. Empty: the
+  /// walk is proved for all t.
+  std::vector<Margin> Refusals(const SuperposedWalk& walk, MarginEvaluator::Scratch* scratch);
+
+  /// The walk was proved as a whole already.
+  void Remember(const SuperposedWalk& walk);
+
+ private:
+  using Key = std::vector<double>;
+  struct Stretch {
+    std::vector<Key> proved;       // the latest ones
+    std::vector<double> suspects;  // τ as fractions of T_k
+  };
+  static void Keep(Key key, Stretch* stretch);
+
+  const FeasibilityTest& test_;
+  std::vector<Stretch> stretches_;
+};
+
+/// The parameters on which the posture and its rates depend on [t_k, t_{k+1}], as functions of the
+/// time since t_k, and the length of that stretch: Δ_i, T_i and η of the half-steps i ≤ k that are
+/// under way at some time of it.
+std::vector<double> StretchParameters(const SuperposedWalk& walk, int half_step);
+
+}  // namespace halfstep

@@ -1,0 +1,202 @@
+#include "smoothing/walk/superposed_walk.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "wpg/check.h"
+
+namespace halfstep {
+namespace {
+
+// Derivative of a half-step's contribution delta·(π, π̇, π̈) when its local time moves by dtau and
+// its duration by dT.
+void AddProfileDerivative(const HalfStepJet& profiles, const WalkVector& delta, double dtau,
+                          double dT, WalkJet* jet) {
+  for (int q = 0; q < kNumQuantities; ++q) {
+    const ProfileJet& p = profiles.of(q);
+    jet->value[q] += (p.first * dtau + p.value_T * dT) * delta[q];
+    jet->first[q] += (p.second * dtau + p.first_T * dT) * delta[q];
+    jet->second[q] += (p.third * dtau + p.second_T * dT) * delta[q];
+  }
+}
+
+}  // namespace
+
+SuperposedWalk::SuperposedWalk(const HalfStepSequence& sequence,
+                               const HomotopyParameters& parameters)
+    : parameters_(parameters), lipm_(sequence.lipm) {
+  CheckParameters(sequence, parameters);
+  pieces_.reserve(sequence.half_steps.size());
+  for (size_t i = 0; i < sequence.half_steps.size(); ++i) {
+    HalfStep half_step = sequence.half_steps[i].half_step;
+    half_step.duration = parameters.durations[i];
+    const double planned_height = half_step.via_height;
+    half_step.via_height *= parameters.height_scales[i / 2];
+    const Pose2& X_WS = sequence.half_steps[i].X_WS;
+    const WalkVector from_W = Transformed(X_WS, half_step.Start());
+    pieces_.push_back({.half_step = half_step,
+                       .X_WS = X_WS,
+                       .planned_height = planned_height,
+                       .profiles = {half_step.kind, half_step.shape, half_step.duration, lipm_},
+                       .from_W = from_W,
+                       .delta_W = Transformed(X_WS, half_step.End()) - from_W});
+  }
+  UpdateStarts(1);
+}
+
+void SuperposedWalk::UpdateStarts(int from) {
+  for (size_t i = static_cast<size_t>(from); i < pieces_.size(); ++i) {
+    pieces_[i].start =
+        pieces_[i - 1].start + (pieces_[i - 1].profiles.duration() - parameters_.overlaps[i - 1]);
+  }
+}
+
+void SuperposedWalk::SetOverlap(int junction, double overlap) {
+  HALFSTEP_CHECK(junction >= 0 && junction + 1 < num_half_steps(), "junction " << junction);
+  const HalfStepProfiles& before = profiles(junction);
+  const HalfStepProfiles& after = profiles(junction + 1);
+  const double bound = KindOfJunction(junction) == JunctionKind::kUpDown
+                           ? std::min(before.duration() - before.t2(), after.t1())
+                           : std::min(before.duration(), after.duration());
+  HALFSTEP_CHECK(
+      overlap >= 0.0 && overlap <= bound + 1e-9,
+      "overlap " << overlap << " s of junction " << junction << ", bound " << bound << " s");
+  parameters_.overlaps[static_cast<size_t>(junction)] = overlap;
+  UpdateStarts(junction + 1);
+}
+
+LocalTime SuperposedWalk::Locate(double t) const {
+  const auto after = std::upper_bound(pieces_.begin() + 1, pieces_.end(), t,
+                                      [](double time, const Piece& p) { return time < p.start; });
+  const int i = static_cast<int>(after - pieces_.begin()) - 1;
+  return {i, std::clamp(t, 0.0, duration()) - start_of(i)};
+}
+
+int SuperposedWalk::FirstActive(const LocalTime& at) const {
+  int i = at.half_step;
+  while (i > 0 && LocalTo(i - 1, at) < piece(i - 1).profiles.duration()) --i;
+  return i;
+}
+
+int SuperposedWalk::LastActive(const LocalTime& at) const {
+  int i = at.half_step;
+  while (i + 1 < num_half_steps() && LocalTo(i + 1, at) > 0.0) ++i;
+  return i;
+}
+
+WalkJet SuperposedWalk::At(const LocalTime& at) const {
+  const int first = FirstActive(at), last = LastActive(at);
+  WalkJet jet;
+  jet.value = piece(first).from_W;
+  for (int i = first; i <= last; ++i) {
+    const HalfStepJet profiles = piece(i).profiles.At(LocalTo(i, at));
+    const WalkVector& delta = piece(i).delta_W;
+    for (int q = 0; q < kNumQuantities; ++q) {
+      const ProfileJet& p = profiles.of(q);
+      jet.value[q] += p.value * delta[q];
+      jet.first[q] += p.first * delta[q];
+      jet.second[q] += p.second * delta[q];
+    }
+  }
+  return jet;
+}
+
+WalkVector SuperposedWalk::SecondBounds(double begin, double end) const {
+  WalkVector bounds = WalkVector::Zero();
+  const int first = FirstActive(Locate(begin)), last = LastActive(Locate(end));
+  for (int i = first; i <= last; ++i) {
+    const Piece& p = piece(i);
+    const HalfStepJet second = p.profiles.SecondBounds(begin - p.start, end - p.start);
+    for (int q = 0; q < kNumQuantities; ++q) {
+      bounds[q] += second.of(q).second * std::abs(p.delta_W[q]);
+    }
+  }
+  return bounds;
+}
+
+void SuperposedWalk::Sensitivities(const LocalTime& at, std::vector<WalkSensitivity>* out) const {
+  using Family = HomotopyParameter::Family;
+  out->clear();
+  const auto jet_of = [out](HomotopyParameter parameter) -> WalkJet& {
+    for (WalkSensitivity& s : *out) {
+      if (s.parameter == parameter) return s.jet;
+    }
+    out->push_back({parameter, {}});
+    return out->back().jet;
+  };
+  const int k = at.half_step;
+  const int first = FirstActive(at), last = LastActive(at);
+  for (int i = first; i <= last; ++i) {
+    const Piece& p = piece(i);
+    const HalfStepJet profiles = p.profiles.At(LocalTo(i, at));
+    // τ_i = τ + t_k − t_i, and every T_m − Δ_m between i and k moves it.
+    const double sign = i < k ? 1.0 : -1.0;
+    for (int m = std::min(i, k); m < std::max(i, k); ++m) {
+      AddProfileDerivative(profiles, p.delta_W, -sign, 0.0, &jet_of({Family::kOverlap, m}));
+      AddProfileDerivative(profiles, p.delta_W, sign, 0.0, &jet_of({Family::kDuration, m}));
+    }
+    AddProfileDerivative(profiles, p.delta_W, 0.0, 1.0, &jet_of({Family::kDuration, i}));
+
+    // z = η·h·(1 − π) on the way down, η·h·π on the way up; superposed from the first one's start.
+    const double planned = p.planned_height;
+    const bool down = p.half_step.kind == HalfStepKind::kDown;
+    const int z = FootIndex(p.half_step.swing()) + 2;
+    WalkJet& jet = jet_of({Family::kHeightScale, i / 2});
+    const double h = down ? -planned : planned;
+    jet.value[z] += h * profiles.height.value + (down && i == first ? planned : 0.0);
+    jet.first[z] += h * profiles.height.first;
+    jet.second[z] += h * profiles.height.second;
+  }
+}
+
+int SuperposedWalk::StepInAir(const LocalTime& at) const {
+  const int first = FirstActive(at) / 2, last = LastActive(at) / 2;
+  for (int step = first; step <= last; ++step) {
+    const int up = 2 * step, down = up + 1;
+    if (LocalTo(up, at) >= piece(up).profiles.t2() &&
+        LocalTo(down, at) <= piece(down).profiles.t1())
+      return step;
+  }
+  return -1;
+}
+
+bool SuperposedWalk::MovesHorizontally(int step, const LocalTime& at) const {
+  const int up = 2 * step, down = up + 1;
+  const double in_up = LocalTo(up, at), in_down = LocalTo(down, at);
+  return (in_up >= piece(up).profiles.horizontal_begin() || in_down >= 0.0) &&
+         (in_down <= piece(down).profiles.horizontal_end() ||
+          in_up <= piece(up).profiles.duration());
+}
+
+double SuperposedWalk::LeastHeight(int step, double begin, double end) const {
+  constexpr double kSteepest = 15.0 / 8.0;  // S'(½)
+  const Piece &up = piece(2 * step), &down = piece(2 * step + 1);
+  // Fractions of the rise that is done, and of the sinking that is still to come.
+  const double lift_off = up.profiles.t2(), rise = up.profiles.duration() - lift_off;
+  const auto risen = [&](double t) {
+    return std::clamp((t - up.start - lift_off) / rise, 0.0, 1.0);
+  };
+  const auto left = [&](double t) {
+    return 1.0 - std::clamp((t - down.start) / down.profiles.t1(), 0.0, 1.0);
+  };
+  const double height = up.half_step.via_height;
+  const double monotone =
+      height * (Smoothstep{}.At(risen(begin)).value + Smoothstep{}.At(left(end)).value - 1.0);
+  // Both are affine in between, so their sum is least at an end.
+  const double sum = std::min(risen(begin) + left(begin), risen(end) + left(end));
+  return std::max(monotone, kSteepest * height * std::min(0.0, sum - 1.0));
+}
+
+bool SuperposedWalk::InAir(const LocalTime& at, Side foot) const {
+  const int step = StepInAir(at);
+  return step >= 0 && half_step(2 * step).swing() == foot;
+}
+
+SupportPolygon SupportAt(const SuperposedWalk& walk, const LocalTime& at, const WalkVector& x,
+                         const Eigen::Vector2d& sole_size) {
+  const int step = walk.StepInAir(at);
+  if (step >= 0) return {walk.X_WS(2 * step), sole_size};
+  return {FootPose(x, Side::kLeft), FootPose(x, Side::kRight), sole_size};
+}
+
+}  // namespace halfstep

@@ -1,0 +1,115 @@
+#pragma once
+
+#include <vector>
+
+#include "smoothing/walk/homotopy_parameters.h"
+#include "wpg/half_step_sequence.h"
+#include "wpg/support_polygon.h"
+#include "wpg/walk_vector.h"
+
+namespace halfstep {
+
+/// An instant of a walk, named by a half-step and the time since it began. Names stay put when an
+/// overlap elsewhere changes; absolute time does not. The same instant may have several names.
+struct LocalTime {
+  int half_step = 0;
+  double tau = 0.0;  ///< [s]
+};
+
+/// Derivative of a WalkJet with respect to one homotopy parameter, at fixed (half-step, τ).
+struct WalkSensitivity {
+  HomotopyParameter parameter;
+  WalkJet jet;
+};
+
+/// The walk of a sequence at a point of the homotopy: a pure function of time. Half-step i starts
+/// at t_0 = 0, t_{i+1} = t_i + T_i − Δ_i, and every quantity is superposed in W:
+///
+///     f(t) = f_0(0) + Σ_i [ f_i(clamp(t − t_i, 0, T_i)) − f_i(0) ].
+///
+/// For all t: the walk is C², its CoM and ZMP satisfy the LIPM, and Δ = 0 is the concatenation of
+/// the isolated half-steps. Starts and ends of half-steps are in order, whatever the overlaps.
+/// Source: [Perrin2011] §IV; smoothing/README.md, "The homotopy".
+class SuperposedWalk {
+ public:
+  /// Throws std::logic_error when the parameters are not in bounds (CheckParameters).
+  SuperposedWalk(const HalfStepSequence& sequence, const HomotopyParameters& parameters);
+
+  int num_half_steps() const { return static_cast<int>(pieces_.size()); }
+  /// D = Σ T_i − Σ Δ_i [s].
+  double duration() const { return pieces_.back().start + pieces_.back().profiles.duration(); }
+  double start_of(int half_step) const { return piece(half_step).start; }  ///< t_i [s]
+  double end_of(int half_step) const {                                     ///< t_i + T_i [s]
+    return piece(half_step).start + piece(half_step).profiles.duration();
+  }
+  const HomotopyParameters& parameters() const { return parameters_; }
+  const HalfStep& half_step(int i) const { return piece(i).half_step; }
+  const HalfStepProfiles& profiles(int i) const { return piece(i).profiles; }
+  const Pose2& X_WS(int i) const { return piece(i).X_WS; }
+  const Lipm& lipm() const { return lipm_; }
+
+  /// The latest half-step that has begun at t [s] (clamped to the walk), and the time since.
+  LocalTime Locate(double t) const;
+  double Absolute(const LocalTime& at) const { return start_of(at.half_step) + at.tau; }
+
+  /// All quantities and two time derivatives, in W.
+  WalkJet At(double t) const { return At(Locate(t)); }
+  WalkJet At(const LocalTime& at) const;
+
+  /// Derivatives at fixed (half-step, τ) with respect to every parameter on which the instant
+  /// depends: the half-steps under way there and the junctions between them. Replaces `out`.
+  void Sensitivities(const LocalTime& at, std::vector<WalkSensitivity>* out) const;
+
+  /// Bounds of |second derivative| of every quantity over the absolute times [begin, end] [s]: each
+  /// under-way half-step's own bound, added up. Hold for all t there.
+  WalkVector SecondBounds(double begin, double end) const;
+
+  /// Which feet stand on the floor. A foot is in the air from t2 of its up half-step to t1 of the
+  /// down half-step that follows, both instants included.
+  bool InAir(const LocalTime& at, Side foot) const;
+  /// The step (its up half-step is 2·step) whose foot is in the air, or −1. At most one foot is.
+  int StepInAir(const LocalTime& at) const;
+
+  /// Whether the swing foot of `step` is in its horizontal motion: from the beginning of the up
+  /// half-step's, or of the down half-step if that overlaps so far that it begins earlier, to the
+  /// end of the down half-step's, or of the up half-step if that is later; both instants included.
+  bool MovesHorizontally(int step, const LocalTime& at) const;
+
+  /// A lower bound of the height of the swing sole of `step` for all t of [begin, end] [s], at most
+  /// its height there and, but for rounding, never below 0 while the overlap is within its natural
+  /// bound. Precondition: half-steps and flights begin and end outside of the interval, or at its
+  /// ends. Source: smoothing/README.md, "The foot never goes below the floor".
+  double LeastHeight(int step, double begin, double end) const;
+
+  /// Changes one overlap. Precondition: within [0, NaturalOverlapBound].
+  void SetOverlap(int junction, double overlap);
+
+ private:
+  struct Piece {
+    HalfStep half_step;
+    Pose2 X_WS;
+    double planned_height = 0.0;  // before scaling [m]
+    HalfStepProfiles profiles;
+    double start = 0.0;          // t_i
+    WalkVector from_W, delta_W;  // f_i(0) and f_i(T_i) − f_i(0)
+  };
+  const Piece& piece(int i) const { return pieces_[static_cast<size_t>(i)]; }
+  // First and last half-step under way at `at`.
+  int FirstActive(const LocalTime& at) const;
+  int LastActive(const LocalTime& at) const;
+  double LocalTo(int i, const LocalTime& at) const {
+    return i == at.half_step ? at.tau : at.tau + (start_of(at.half_step) - start_of(i));
+  }
+  void UpdateStarts(int from);
+
+  std::vector<Piece> pieces_;
+  HomotopyParameters parameters_;
+  Lipm lipm_;
+};
+
+/// What supports the robot at an instant where its quantities are `x`: one sole, or the hull of
+/// two.
+SupportPolygon SupportAt(const SuperposedWalk& walk, const LocalTime& at, const WalkVector& x,
+                         const Eigen::Vector2d& sole_size);
+
+}  // namespace halfstep
