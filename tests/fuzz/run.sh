@@ -1,6 +1,6 @@
 #!/bin/sh
 # Builds the fuzz targets and runs them one after the other; prints a table of executions.
-#   tests/fuzz/run.sh --short               20,000 inputs each, at most 5 s: a quick look
+#   tests/fuzz/run.sh --short               20,000 inputs each, at most 2 s: a quick look
 #   tests/fuzz/run.sh [SECONDS [TARGET…]]   each, or those named, for so long (600)
 # What was found lies in build/fuzz/found, what was learnt in build/fuzz/corpus, and the next run
 # goes on from there. Exit status 1 when something was found. JOBS: compilers at once (2).
@@ -11,7 +11,7 @@ runs=-1
 seconds=600
 if [ "${1:-}" = --short ]; then
   runs=20000
-  seconds=5
+  seconds=2
   shift
 elif [ $# -gt 0 ]; then
   seconds=$1
