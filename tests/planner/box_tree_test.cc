@@ -115,6 +115,39 @@ TEST(BoxTreeTest, DamagedNodesAreToldOrHarmless) {
   EXPECT_GT(told, 1000);
 }
 
+// Node i + 1 within the first box of node i, and a solid box at the end.
+BoxTree Chain(int levels) {
+  BoxTree tree;
+  for (int i = 0; i < levels; ++i) {
+    BoxNode node;
+    for (int c = 0; c < 4; ++c) {
+      for (int axis = 0; axis < 3; ++axis) {
+        node.lower[axis][c] = c == 0 ? 2 : 1;
+        node.upper[axis][c] = c == 0 ? 4 : 0;
+      }
+      node.child[c] = c > 0 ? BoxNode::kAbsent : i + 1 < levels ? i + 1 : BoxNode::kSolid;
+    }
+    tree.nodes.push_back(node);
+  }
+  return tree;
+}
+
+TEST(BoxTreeTest, ForgedTreesAreUnsound) {
+  EXPECT_TRUE(Chain(85).IsSound());
+  EXPECT_FALSE(Chain(86).IsSound()) << "deeper than a walk's stack";
+  for (const bool upper : {false, true}) {
+    BoxTree outside = Chain(3);
+    (upper ? outside.nodes[2].upper : outside.nodes[2].lower)[1][0] = upper ? 5 : 1;
+    EXPECT_FALSE(outside.IsSound()) << "leaves its parent";
+  }
+  BoxTree box = Chain(3);
+  for (int axis = 0; axis < 3; ++axis) {
+    box.nodes[1].lower[axis][3] = 2;
+    box.nodes[1].upper[axis][3] = 3;
+  }
+  EXPECT_FALSE(box.IsSound()) << "a box where no child is";
+}
+
 ConvexBody BoxOf(const BoxTree& tree, const BoxTree::CellBox& cells, Vector3d* center) {
   const Vector3d lower = tree.Corner(cells.lower), upper = tree.Corner(cells.upper);
   *center = 0.5 * (lower + upper);
