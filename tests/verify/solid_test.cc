@@ -58,6 +58,17 @@ TEST(Solid, OfDiscsIsExactWhicheverWayTheyTurn) {
   }
 }
 
+TEST(Solid, OfTiltedDiscsIsTheClosedForm) {
+  const Solid box(MakeBox({2, 2, 2})), cylinder(MakeCylinder(0.3, 1));
+  for (const double tilt : {0.2, 0.7, 1.3}) {
+    const double reach = 0.3 * std::cos(tilt) + 0.5 * std::sin(tilt);
+    Eigen::Isometry3d X = At(2 + reach, 0, 0);
+    X.rotate(Eigen::AngleAxisd(tilt, Eigen::Vector3d::UnitY()));
+    EXPECT_NEAR(Solid::Distance(box, At(0, 0, 0), cylinder, X), 1, 1e-9) << tilt;
+    EXPECT_NEAR(Solid::Distance(cylinder, X, box, At(0, 0, 0)), 1, 1e-9) << tilt;
+  }
+}
+
 // Against the program's slabs and triangles, which never exceed the distance and reach it.
 TEST(Solid, AgreesWithTheProgramsDistances) {
   oracle::Draw draw(11);
@@ -104,6 +115,9 @@ TEST(Solid, ARayThroughACornerOfAClosedPartDoesNotLeaveIt) {
   around.vertices << 1, -2, 0, 0, 0.937, 0, -2, 0, 1.071, 0, 0, -2;
   around.triangles.resize(3, 4);
   around.triangles << 0, 0, 0, 1, 1, 2, 3, 3, 2, 3, 1, 2;
+  EXPECT_EQ(Solid::Distance(Solid(MakeSphere(0.01)), At(0, 0, 0), Solid(around), At(0, 0, 0)), 0);
+  // The same triangles beginning elsewhere: corners 0 and 1 and corners 2 and 3 are first.
+  around.triangles << 0, 2, 1, 3, 1, 3, 0, 2, 2, 0, 3, 1;
   EXPECT_EQ(Solid::Distance(Solid(MakeSphere(0.01)), At(0, 0, 0), Solid(around), At(0, 0, 0)), 0);
 }
 

@@ -247,6 +247,25 @@ std::vector<Wrong> Claims() {
       {"JointBound", check, NoBound(kJoint), "certificate.csv:"},
       {"JointSpeedBound", check, NoBound(kJointSpeed), "certificate.csv:"},
       {"ClearanceBound", check, NoBound(kClearance), "certificate.csv:"},
+      {"SelfClearanceBound", check, NoBound(kSelfClearance), "certificate.csv:"},
+      {"ClearanceBoundTakenOffTheMargin", check,
+       [](Material& m) {
+         for (ClaimRow& row : m.claims) {
+           if (row.family == kClearance) row.margin -= std::exchange(row.bound, 0);
+         }
+       },
+       "certificate.csv:"},
+      {"BodyNearAnotherObstacle", check,
+       Claim(kClearance,
+             [](ClaimRow& row) {
+               row.subject = "RLEG_LINK5";
+               row.margin += 0.05;
+             }),
+       "certificate.csv:"},
+      {"NoAreaNamed", check, Claim(kNoStep, [](ClaimRow& row) { row.subject = "left foot"; }),
+       "certificate.csv:"},
+      {"BodyOfTheWaistNamed", check,
+       Claim(kGround, [](ClaimRow& row) { row.subject = "CHEST_LINK1"; }), "certificate.csv:"},
       {"FloorUnwatched", check,
        Claim(kFloor, [](ClaimRow& row) { row.margin = std::numeric_limits<double>::infinity(); }),
        "certificate.csv:"},
@@ -293,6 +312,10 @@ std::vector<Wrong> Others() {
        "trajectory.csv:9: the times"},
       {"HalfStepsTurned", Of::kMotion, [](Material& m) { m.rows[7].half_step = 0; },
        "trajectory.csv:9: the half-steps"},
+      {"ClearanceColumnsTooSmall", Of::kColumns, InFlight([](PlayedRow& row) {
+         for (const size_t k : {4u, 5u}) row.margins[k] -= 1e-3;
+       }),
+       "trajectory.csv:"},
       {"RowFewer", Of::kWalk, [](Material& m) { m.rows.erase(m.rows.end() - 2); },
        "trajectory.csv: "},
       {"CoMOffTheWalk", Of::kWalk, InFlight([](PlayedRow& row) { row.com.x() += 1e-7; }),
@@ -316,6 +339,12 @@ std::vector<Wrong> Others() {
        "feet above the floor: "},
       {"BodiesHigherDemanded", Of::kFloor, Demand(kGround, 0.9), "bodies above the floor: "},
       {"RowOffTheWalk", Of::kWalk, InFlight([](PlayedRow& row) { row.q[0][2] += 1e-7; }),
+       "trajectory.csv:"},
+      {"RowBetweenTwoInstants", Of::kWalk,
+       [](Material& m) {
+         PlayedRow& row = Flying(m);
+         row = DescribedWalk(m.robot, m.planned, m.half_steps).Row(row.t + 1e-6);
+       },
        "trajectory.csv:"},
       {"TimeOffTheGrid", Of::kWalk, InFlight([](PlayedRow& row) { row.t += 1e-6; }),
        "trajectory.csv:"},
@@ -362,6 +391,8 @@ std::vector<Wrong> Others() {
        "certificate.csv:"},
       {"EndsElsewhere", Of::kArithmetic, [](Material& m) { m.certificate.duration += 1; },
        "the certificate ends at"},
+      {"JointSpeedScaleAboveOne", Of::kArithmetic,
+       [](Material& m) { m.certificate.joint_speed_scale = 3; }, "joint_speed_scale is 3"},
       {"FootSpeedLimitZero", Of::kArithmetic, [](Material& m) { m.certificate.foot_speed = 0; },
        "a foot's limit is 0"},
       {"DemandNegative", Of::kArithmetic, Demand(kZmp, -0.1), "a demanded margin is -0.1"},

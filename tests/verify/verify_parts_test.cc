@@ -8,7 +8,9 @@
 #include <random>
 
 #include "experiments/experiment.h"
+#include "experiments/verify/check_clearance.h"
 #include "experiments/verify/check_overlaps.h"
+#include "experiments/verify/check_rows.h"
 #include "experiments/verify/described_walk.h"
 #include "experiments/verify/distances.h"
 #include "experiments/verify/floor_distances.h"
@@ -228,6 +230,104 @@ TEST(PlayedMotion, NoPointGoesFartherThanItsBodysPath) {
             << body.name;
       }
     }
+  }
+}
+
+// A robot of dots, for what passes by closely and briefly.
+constexpr double kDot = 1e-4;  // [m]
+RobotBody Dot(const std::string& name, int leg, const Eigen::Vector3d& p) {
+  RobotBody body{.name = name, .leg = leg, .link = leg < 0 ? -1 : 4, .shape = MakeSphere(kDot)};
+  body.shape.vertices.col(0) += p;
+  BoundBySphere(&body.shape);
+  return body;
+}
+RobotModel WithoutBodies() {
+  RobotModel robot = Fig5().robot;
+  robot.bodies.clear();
+  robot.self_pairs.clear();
+  return robot;
+}
+std::vector<PlayedRow> TwoRows() {
+  std::vector<PlayedRow> rows(2);
+  rows[1].t = 0.01;
+  for (PlayedRow& row : rows) {
+    row.soles.fill(Eigen::Vector4d::Zero());
+    row.q.fill(Vector6d::Zero());
+  }
+  return rows;
+}
+bool KeepsClearances(const RobotModel& robot, const Scene& scene,
+                     const std::vector<PlayedRow>& rows) {
+  CertificateText certificate;
+  certificate.demanded.fill(0.004);
+  Distances distances(robot, scene);
+  Findings findings;
+  CheckClearances(PlayedMotion(robot, rows), certificate, 0, &distances, &findings);
+  return findings.disagreements() == 0;
+}
+
+TEST(CheckClearances, SeesAnObstacleThatIsPassedWithinAMillimetre) {
+  RobotModel robot = WithoutBodies();
+  robot.bodies.push_back(Dot("dot", -1, {0, 0, 0}));
+  std::vector<PlayedRow> rows = TwoRows();
+  rows[1].waist.x() = 0.1;
+  for (double x = 0.01; x < 0.09; x += 0.0037) {
+    for (const double distance : {0.0039, 0.005}) {
+      Scene scene;
+      scene.obstacles.push_back(
+          {"dot", MakeSphere(kDot),
+           Eigen::Isometry3d(Eigen::Translation3d(x, distance + 2 * kDot, 0))});
+      EXPECT_EQ(KeepsClearances(robot, scene, rows), distance > 0.004) << x;
+    }
+  }
+}
+
+TEST(CheckClearances, SeesTwoLegsThatPassWithinAMillimetre) {
+  for (double ahead = -0.02; ahead < 0.02; ahead += 0.0037) {
+    for (const double distance : {0.0039, 0.007}) {
+      RobotModel robot = WithoutBodies();
+      const PlayedRow zero = TwoRows()[0];
+      const Placement at = PlaceRobot(robot, zero);
+      for (const int leg : {0, 1}) {
+        RobotBody dot = Dot(leg == 0 ? "left" : "right", leg, {0, 0, 0});
+        const double y = (leg == 0 ? 0.5 : -0.5) * (distance + 2 * kDot);
+        dot = Dot(dot.name, leg,
+                  at.OfBody_B(dot).inverse() * Eigen::Vector3d(leg == 0 ? ahead : 0, y, -0.6));
+        robot.bodies.push_back(dot);
+      }
+      robot.self_pairs = {{0, 1}};
+      std::vector<PlayedRow> rows = TwoRows();
+      for (const int leg : {0, 1}) {
+        for (const int end : {0, 1}) {
+          rows[static_cast<size_t>(end)].q[static_cast<size_t>(leg)][2] = leg == end ? 0.15 : -0.15;
+        }
+      }
+      EXPECT_EQ(KeepsClearances(robot, {}, rows), distance > 0.004) << ahead;
+    }
+  }
+}
+
+TEST(CheckFloor, SeesABodyThatIsLowestBetweenTwoRows) {
+  RobotModel robot = WithoutBodies();
+  std::vector<PlayedRow> rows = TwoRows();
+  for (PlayedRow& row : rows) row.waist.z() = 1;
+  const Placement at = PlaceRobot(robot, rows[0]);
+  const RobotBody dot = Dot("dot", 0, {0, 0, 0});
+  const Eigen::Vector3d hip = robot.legs[0].hip_B;
+  robot.bodies.push_back(
+      Dot("dot", 0, at.OfBody_B(dot).inverse() * Eigen::Vector3d(hip.x(), hip.y(), -0.6)));
+  rows[0].q[0][2] = -0.1;
+  rows[1].q[0][2] = 0.1;
+  const PlayedMotion motion(robot, rows);
+  const double ends = LowestPoint(robot.bodies[0], motion.PlaceRow(rows[0]));
+  const double middle = LowestPoint(robot.bodies[0], motion.Place(0.005));
+  ASSERT_LT(middle, ends - 1e-3);
+  for (const double demanded : {0.5 * (middle + ends), middle - 0.1}) {
+    CertificateText certificate;
+    certificate.demanded.fill(demanded);
+    Findings findings;
+    CheckFloor(motion, {}, certificate, 0, &findings);
+    EXPECT_EQ(findings.disagreements() > 0, demanded > middle);
   }
 }
 
