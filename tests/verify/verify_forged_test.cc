@@ -159,6 +159,15 @@ std::vector<Forgery> OfTables() {
        InTable("footsteps.csv", "duration_s", "1.5"),
        {},
        "footsteps.csv:4: not the footstep of config.yaml"},
+      {"JointLimitsTightened",
+       [](TamperedRun& run) {
+         for (const std::string side : {"L", "R"}) {
+           TamperedRun::Replace(run.urdf().parent_path() / "hrp2.yaml",
+                                side + "LEG_JOINT3: [2, 150]", side + "LEG_JOINT3: [2, 60]");
+         }
+       },
+       {},
+       "joint limits: "},
       {"MarginColumn",
        InTable("dichotomy/trajectory.csv", "clearance_m", "0.2"),
        {},
