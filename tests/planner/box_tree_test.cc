@@ -39,6 +39,23 @@ VoxelGrid Lump(SweptDraw* draw, double cell = 0.05) {
   return grid;
 }
 
+// Node i + 1 within the first box of node i, and a solid box at the end.
+BoxTree Chain(int levels) {
+  BoxTree tree;
+  for (int i = 0; i < levels; ++i) {
+    BoxNode node;
+    for (int c = 0; c < 4; ++c) {
+      for (int axis = 0; axis < 3; ++axis) {
+        node.lower[axis][c] = c == 0 ? 2 : 1;
+        node.upper[axis][c] = c == 0 ? 4 : 0;
+      }
+      node.child[c] = c > 0 ? BoxNode::kAbsent : i + 1 < levels ? i + 1 : BoxNode::kSolid;
+    }
+    tree.nodes.push_back(node);
+  }
+  return tree;
+}
+
 TEST(BoxTreeTest, SolidBoxesAreTheOccupiedCellsEachOnce) {
   SweptDraw draw(1);
   for (int trial = 0; trial < 5; ++trial) {
@@ -82,6 +99,13 @@ TEST(BoxTreeTest, BytesOfVolumesTooFarAwayToTellCellsApartAreRefused) {
   }
 }
 
+TEST(BoxTreeTest, BytesThatGoOnOrAreUnsoundAreRefused) {
+  const BoxTree tree = Chain(3);
+  EXPECT_TRUE(ParseVolumes(VolumeBytes(tree), 1, tree.cell));
+  EXPECT_FALSE(ParseVolumes(VolumeBytes(tree) + '\0', 1, tree.cell));
+  EXPECT_FALSE(ParseVolumes(VolumeBytes(Chain(86)), 1, tree.cell));
+}
+
 TEST(BoxTreeTest, HasOnePointForEachConnectedPart) {
   VoxelGrid grid({0, 0, 0}, {1, 1, 1}, 0.1);
   EXPECT_TRUE(BoxTree::Build(grid).nodes.empty());
@@ -113,23 +137,6 @@ TEST(BoxTreeTest, DamagedNodesAreToldOrHarmless) {
     (void)Meets(damaged, OrientedBox{.center = {0, 0, 0.5}, .half = {0.01, 5, 5}});
   }
   EXPECT_GT(told, 1000);
-}
-
-// Node i + 1 within the first box of node i, and a solid box at the end.
-BoxTree Chain(int levels) {
-  BoxTree tree;
-  for (int i = 0; i < levels; ++i) {
-    BoxNode node;
-    for (int c = 0; c < 4; ++c) {
-      for (int axis = 0; axis < 3; ++axis) {
-        node.lower[axis][c] = c == 0 ? 2 : 1;
-        node.upper[axis][c] = c == 0 ? 4 : 0;
-      }
-      node.child[c] = c > 0 ? BoxNode::kAbsent : i + 1 < levels ? i + 1 : BoxNode::kSolid;
-    }
-    tree.nodes.push_back(node);
-  }
-  return tree;
 }
 
 TEST(BoxTreeTest, ForgedTreesAreUnsound) {

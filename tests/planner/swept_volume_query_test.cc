@@ -189,7 +189,7 @@ TEST(SweptVolumeQueryTest, HugeObstaclesAreMetThoughTheirPlacesAreRounded) {
   SweptDraw draw(19);
   const double lowest = CoarseVolumes().down[0]->Lower().z();
   for (int i = 0; i < 40; ++i) {
-    const double height = draw.Uniform(500, 2000);
+    const double height = draw.Uniform(500, 20000);
     Isometry3d X_WO = Isometry3d::Identity();
     X_WO.translation().z() = lowest + 1e-5 - 0.5 * height;
     const SweptVolumeQuery query(CoarseVolumes(), kSole, One(MakeBox({3, 3, height}), X_WO));
