@@ -20,7 +20,7 @@ struct Difference {
 Difference LargestDifference(const PlayedRow& a, const PlayedRow& b) {
   Difference largest;
   const auto compare = [&largest](const char* columns, const auto& x, const auto& y) {
-    const double size = (x - y).cwiseAbs().maxCoeff();
+    const double size = (x - y).allFinite() ? (x - y).cwiseAbs().maxCoeff() : HUGE_VAL;
     if (!(size <= largest.size)) largest = {size, columns};
   };
   compare("com", a.com, b.com);

@@ -212,6 +212,9 @@ TEST(RunCommand, InfeasiblePlanIsWrittenAndFails) {
     EXPECT_EQ(summary.Text(i, "status"), i == 0 ? "failed" : "not_run");
   EXPECT_LT(summary.Number(0, "worst_margin"), 0.0);
   EXPECT_EQ(ReadText(run / "raw/trajectory.csv"), ReadText(run / "dichotomy/trajectory.csv"));
+  const std::string certificate = ReadText(run / "raw/certificate.json");
+  EXPECT_THAT(certificate, HasSubstr("\"verdict\": \"violated\""));
+  EXPECT_THAT(certificate, HasSubstr("\"message\": \"clearance of "));
 }
 
 TEST(RunCommand, FootstepOnANoStepAreaWritesNothing) {

@@ -39,6 +39,23 @@ VoxelGrid Lump(SweptDraw* draw, double cell = 0.05) {
   return grid;
 }
 
+// Node i + 1 within the first box of node i, and a solid box at the end.
+BoxTree Chain(int levels) {
+  BoxTree tree;
+  for (int i = 0; i < levels; ++i) {
+    BoxNode node;
+    for (int c = 0; c < 4; ++c) {
+      for (int axis = 0; axis < 3; ++axis) {
+        node.lower[axis][c] = c == 0 ? 2 : 1;
+        node.upper[axis][c] = c == 0 ? 4 : 0;
+      }
+      node.child[c] = c > 0 ? BoxNode::kAbsent : i + 1 < levels ? i + 1 : BoxNode::kSolid;
+    }
+    tree.nodes.push_back(node);
+  }
+  return tree;
+}
+
 TEST(BoxTreeTest, SolidBoxesAreTheOccupiedCellsEachOnce) {
   SweptDraw draw(1);
   for (int trial = 0; trial < 5; ++trial) {
@@ -82,6 +99,13 @@ TEST(BoxTreeTest, BytesOfVolumesTooFarAwayToTellCellsApartAreRefused) {
   }
 }
 
+TEST(BoxTreeTest, BytesThatGoOnOrAreUnsoundAreRefused) {
+  const BoxTree tree = Chain(3);
+  EXPECT_TRUE(ParseVolumes(VolumeBytes(tree), 1, tree.cell));
+  EXPECT_FALSE(ParseVolumes(VolumeBytes(tree) + '\0', 1, tree.cell));
+  EXPECT_FALSE(ParseVolumes(VolumeBytes(Chain(86)), 1, tree.cell));
+}
+
 TEST(BoxTreeTest, HasOnePointForEachConnectedPart) {
   VoxelGrid grid({0, 0, 0}, {1, 1, 1}, 0.1);
   EXPECT_TRUE(BoxTree::Build(grid).nodes.empty());
@@ -113,6 +137,22 @@ TEST(BoxTreeTest, DamagedNodesAreToldOrHarmless) {
     (void)Meets(damaged, OrientedBox{.center = {0, 0, 0.5}, .half = {0.01, 5, 5}});
   }
   EXPECT_GT(told, 1000);
+}
+
+TEST(BoxTreeTest, ForgedTreesAreUnsound) {
+  EXPECT_TRUE(Chain(85).IsSound());
+  EXPECT_FALSE(Chain(86).IsSound()) << "deeper than a walk's stack";
+  for (const bool upper : {false, true}) {
+    BoxTree outside = Chain(3);
+    (upper ? outside.nodes[2].upper : outside.nodes[2].lower)[1][0] = upper ? 5 : 1;
+    EXPECT_FALSE(outside.IsSound()) << "leaves its parent";
+  }
+  BoxTree box = Chain(3);
+  for (int axis = 0; axis < 3; ++axis) {
+    box.nodes[1].lower[axis][3] = 2;
+    box.nodes[1].upper[axis][3] = 3;
+  }
+  EXPECT_FALSE(box.IsSound()) << "a box where no child is";
 }
 
 ConvexBody BoxOf(const BoxTree& tree, const BoxTree::CellBox& cells, Vector3d* center) {

@@ -163,6 +163,29 @@ TEST(StepGraph, LandsAllElementsWhereItLandsEach) {
   }
 }
 
+// The first up half-step lifts the other foot from where it stands.
+TEST(StepGraph, StartsFromBothFeetOfTheStance) {
+  const HalfStepSet set = PlausibleSet();
+  const FlatQuery query(set, {});
+  PlanRequest request = RequestTo({2.0, 0.0, 0.0}, set, query);
+  request.start = {Pose2{0.03, 0.12, 0.1}, Pose2{-0.04, -0.11, -0.2}};
+  int asked = 0;
+  request.start_is_free = [&](const HalfStep& up, const Pose2& X_WS) {
+    ++asked;
+    const Pose2 &support = request.start[static_cast<size_t>(Index(up.support))],
+                &other = request.start[static_cast<size_t>(Index(up.swing()))];
+    EXPECT_EQ(X_WS, support);
+    const Pose2 lifted = X_WS * up.X_SF;
+    EXPECT_LT((lifted.position() - other.position()).norm(), 1e-12);
+    EXPECT_NEAR(lifted.yaw, other.yaw, 1e-12);
+    return up.support == Side::kRight;
+  };
+  const std::vector<StepState> starts = StepGraph(request, AllElements(set)).FreeStarts();
+  EXPECT_EQ(asked, 2);
+  ASSERT_EQ(starts.size(), 1u);
+  EXPECT_EQ(starts.front().support, Side::kRight);
+}
+
 TEST(ClassicSubset, HasTwelveToSixteenElementsOfTheSet) {
   const HalfStepSet set = PlausibleSet();
   const std::vector<int> classic = ClassicSubset(set);

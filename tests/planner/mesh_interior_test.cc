@@ -173,6 +173,15 @@ TEST(MeshInterior, TrianglesWithoutAreaAndStrayVerticesDoNotMatter) {
 }
 
 // A Möbius band turns no way; its triangles are taken one by one.
+TEST(MeshPatches, AnEdgeOfThreeTrianglesJoinsNone) {
+  TriangleMesh fan{Eigen::Matrix3Xd(3, 5), Eigen::Matrix3Xi(3, 3)};
+  fan.vertices << 0, 0, 1, -1, 0, 0, 0, 1, 1, -1, 0, 1, 0, 0, 0;
+  fan.triangles << 0, 0, 0, 1, 1, 1, 2, 3, 4;
+  const std::vector<MeshPatch> patches = FindPatches(fan);
+  EXPECT_EQ(patches.size(), 3u);
+  for (const MeshPatch& patch : patches) EXPECT_FALSE(patch.closed);
+}
+
 TEST(MeshInterior, ABandThatTurnsNoWayFallsIntoTriangles) {
   constexpr int kPieces = 9;
   TriangleMesh band{Eigen::Matrix3Xd(3, 2 * kPieces), Eigen::Matrix3Xi(3, 2 * kPieces)};

@@ -184,6 +184,19 @@ TEST(SweptVolumeQueryTest, SmallObstaclesInsideAndHollowOnesAroundAreMet) {
   EXPECT_TRUE(is_free(FacesOf(MakeBox({10, 10, 10})), {11, 0, 0}));
 }
 
+// Blocks of a kilometre, 10 µm into what the robot sweeps: floats round their middles by more.
+TEST(SweptVolumeQueryTest, HugeObstaclesAreMetThoughTheirPlacesAreRounded) {
+  SweptDraw draw(19);
+  const double lowest = CoarseVolumes().down[0]->Lower().z();
+  for (int i = 0; i < 40; ++i) {
+    const double height = draw.Uniform(500, 20000);
+    Isometry3d X_WO = Isometry3d::Identity();
+    X_WO.translation().z() = lowest + 1e-5 - 0.5 * height;
+    const SweptVolumeQuery query(CoarseVolumes(), kSole, One(MakeBox({3, 3, height}), X_WO));
+    EXPECT_FALSE(query.DownIsFree(0, Side::kLeft, Pose2{})) << height;
+  }
+}
+
 TEST(SweptVolumeQueryTest, ClearanceIsFreeAndKnownToTheMillimetre) {
   SweptDraw draw(5);
   const SweptVolumes& volumes = CoarseVolumes();

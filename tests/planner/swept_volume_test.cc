@@ -116,6 +116,39 @@ TEST(SweptVolumeTest, IntervalsCoverAllTimeForEachBody) {
   for (int c : count) EXPECT_GT(c, 0);
 }
 
+// A displacement that is never too long leaves intervals of one length, in order.
+TEST(SweptVolumeTest, NoBodyLeavesItsPlacementWithinTheInterval) {
+  SweptVolumeOptions options = CoarseOptions();
+  options.displacement = 10;
+  const RobotModel& robot = SweptRobot();
+  const SweptVolumeBaker baker(robot, options);
+  for (int element = 0; element < FewHalfSteps().size(); ++element) {
+    const HalfStep half_step = FewHalfSteps().Down(element, Side::kLeft);
+    const Lipm lipm = LipmOf(robot);
+    const HalfStepProfiles profiles(half_step.kind, half_step.shape, half_step.duration, lipm);
+    const auto placements = baker.Cover(half_step, lipm);
+    ASSERT_TRUE(placements);
+    ASSERT_EQ(placements->size() % robot.bodies.size(), 0u);
+    const size_t intervals = placements->size() / robot.bodies.size();
+    std::vector<size_t> seen(robot.bodies.size(), 0);
+    for (const auto& placement : *placements) {
+      const size_t n = seen[placement.body]++;
+      const RobotBody& body = robot.bodies[placement.body];
+      for (const double at : {1e-9, 0.5, 1 - 1e-9}) {
+        const double tau =
+            half_step.duration * (static_cast<double>(n) + at) / static_cast<double>(intervals);
+        const Posture posture = SolvePosture(robot, Evaluate(half_step, profiles, tau).value);
+        ASSERT_TRUE(posture.reachable);
+        const Eigen::Isometry3d& X = posture.OfBody(body);
+        for (const Vector3d v : body.shape.vertices.colwise()) {
+          ASSERT_LE((X * v - placement.X_SBody * v).norm(), placement.displacement + 1e-12)
+              << body.name << " " << tau;
+        }
+      }
+    }
+  }
+}
+
 TEST(VoxelGridTest, FillsEveryCellThatARegionMeets) {
   SweptDraw draw(4);
   for (int trial = 0; trial < 20; ++trial) {

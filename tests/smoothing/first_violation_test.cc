@@ -68,6 +68,13 @@ TEST(FirstViolation, SeesEveryPairOfBodies) {
   for (int leg : {0, 1}) {
     robot.bodies.push_back({.name = "dot", .leg = leg, .link = 5, .shape = MakeSphere(0.005)});
   }
+  // Two dots 12 mm apart on one foot.
+  for (const double x : {0.0, 0.012}) {
+    robot.bodies.push_back({.name = "near dot", .leg = 0, .link = 5, .shape = MakeSphere(0.005)});
+    robot.bodies.back().shape.vertices.col(0).x() += x;
+    BoundBySphere(&robot.bodies.back().shape);
+  }
+  robot.self_pairs.push_back({dots + 2, dots + 3});
   robot.self_pairs.push_back({dots, dots + 1});
   robot.self_pairs.push_back({dots + 1, 0});
   const std::vector<std::array<int, 2>> pairs = robot.self_pairs;

@@ -224,6 +224,43 @@ TEST(Ground, AShinThatDipsBelowTheFloorIsSeenAndOneThatDoesNotIsCertified) {
   EXPECT_LE(undecided, Draws(40) / 8);
 }
 
+// Balls under legs and under the waist, two at a time: the lowest is never below margin − bound.
+TEST(Ground, RowsOfACertificateHoldThroughoutTheirIntervals) {
+  WalkDraw draw(606);
+  for (const auto& [one, other] : std::vector<std::pair<std::string, std::string>>{
+           {"LLEG_LINK3", "RLEG_LINK4"}, {"LLEG_LINK4", "LLEG_LINK3"}, {"LLEG_LINK3", "WAIST"}}) {
+    RobotModel robot = WithBall(one, 0.01, 0.05);
+    if (BodyNamed(robot, other) < static_cast<int>(robot.bodies.size())) {
+      robot.bodies.push_back(WithBall(other, 0.01, 0.03).bodies.back());
+    } else {  // rigid with the waist
+      RobotBody ball = robot.bodies.front();
+      ball.leg = ball.link = -1;
+      ball.shape = MakeSphere(0.01);
+      ball.shape.vertices.col(0).z() -= robot.waist_height - 0.03;
+      BoundBySphere(&ball.shape);
+      robot.bodies.push_back(ball);
+    }
+    const SuperposedWalk walk(TwoSteps(robot), Overlapped(TwoSteps(robot), 0.6));
+    const MarginEvaluator evaluator(robot, {}, Only(MarginFamily::kGround, -0.1));
+    MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
+    Certificate certificate;
+    ASSERT_EQ(CertifiedFeasibility(evaluator, {}).Certify(walk, &scratch, &certificate).verdict,
+              Verdict::kFeasible);
+    int rows = 0;
+    for (const CertificateRow& row : certificate) {
+      if (row.family != MarginFamily::kGround) continue;
+      ++rows;
+      for (const double at : {1e-9, draw.Uniform(0, 1), 1 - 1e-9}) {
+        const LocalTime t = walk.Locate(row.begin + at * (row.end - row.begin));
+        EXPECT_GE(Of(evaluator.At(walk, t, &scratch), MarginFamily::kGround).value,
+                  row.margin.value - row.bound)
+            << row.begin << " … " << row.end;
+      }
+    }
+    EXPECT_GT(rows, 5);
+  }
+}
+
 TEST(Ground, RowsHaveDerivatives) {
   const RobotModel robot = WithBall("LLEG_LINK3", 0.01, 0.01);
   const HalfStepSequence sequence = TwoSteps(robot);

@@ -58,6 +58,17 @@ TEST(Solid, OfDiscsIsExactWhicheverWayTheyTurn) {
   }
 }
 
+TEST(Solid, OfTiltedDiscsIsTheClosedForm) {
+  const Solid box(MakeBox({2, 2, 2})), cylinder(MakeCylinder(0.3, 1));
+  for (const double tilt : {0.2, 0.7, 1.3}) {
+    const double reach = 0.3 * std::cos(tilt) + 0.5 * std::sin(tilt);
+    Eigen::Isometry3d X = At(2 + reach, 0, 0);
+    X.rotate(Eigen::AngleAxisd(tilt, Eigen::Vector3d::UnitY()));
+    EXPECT_NEAR(Solid::Distance(box, At(0, 0, 0), cylinder, X), 1, 1e-9) << tilt;
+    EXPECT_NEAR(Solid::Distance(cylinder, X, box, At(0, 0, 0)), 1, 1e-9) << tilt;
+  }
+}
+
 // Against the program's slabs and triangles, which never exceed the distance and reach it.
 TEST(Solid, AgreesWithTheProgramsDistances) {
   oracle::Draw draw(11);
@@ -94,6 +105,61 @@ TEST(Solid, ABodyInsideAClosedPartTouchesItWhicheverWayItTurns) {
   both.triangles.conservativeResize(3, 24);
   both.triangles.rightCols(12) = inner.triangles.array() + 8;
   EXPECT_EQ(Solid::Distance(body, X, Solid(both), X), 0);
+}
+
+// A corner of the mesh lies on a ray from the body's first point: that ray says nothing, the others
+// do.
+TEST(Solid, ARayThroughACornerOfAClosedPartDoesNotLeaveIt) {
+  TriangleMesh around;
+  around.vertices.resize(3, 4);
+  around.vertices << 1, -2, 0, 0, 0.937, 0, -2, 0, 1.071, 0, 0, -2;
+  around.triangles.resize(3, 4);
+  around.triangles << 0, 0, 0, 1, 1, 2, 3, 3, 2, 3, 1, 2;
+  EXPECT_EQ(Solid::Distance(Solid(MakeSphere(0.01)), At(0, 0, 0), Solid(around), At(0, 0, 0)), 0);
+  // The same triangles beginning elsewhere: corners 0 and 1 and corners 2 and 3 are first.
+  around.triangles << 0, 2, 1, 3, 1, 3, 0, 2, 2, 0, 3, 1;
+  EXPECT_EQ(Solid::Distance(Solid(MakeSphere(0.01)), At(0, 0, 0), Solid(around), At(0, 0, 0)), 0);
+}
+
+TEST(Solid, BoxAndBallHoldIt) {
+  oracle::Draw draw(12);
+  const std::vector<ConvexBody> bodies = {MakeBox({1, 2, 3}), MakeSphere(0.5), MakeCapsule(0.25, 1),
+                                          MakeCylinder(0.4, 0.1), MakeHull(Points(9, 1, &draw))};
+  for (const ConvexBody& body : bodies) {
+    std::vector<Solid> solids = {Solid(body)};
+    if (body.normals.cols() > 0) solids.emplace_back(FacesOf(body));
+    for (const Solid& solid : solids) {
+      for (int k = 0; k < 100; ++k) {
+        const Eigen::Vector3d p = SupportPoint(body, draw.Vector(-1, 1));
+        EXPECT_LE((p - solid.center()).norm(), solid.radius());
+        EXPECT_TRUE((p.array() >= solid.lower().array()).all());
+        EXPECT_TRUE((p.array() <= solid.upper().array()).all());
+      }
+    }
+  }
+}
+
+// A ball that is wide beside the mesh's parts: a part that is farther by boxes may be nearer.
+TEST(Solid, DistanceOfABallFromAMeshIsThatOfItsNearestTriangle) {
+  oracle::Draw draw(13);
+  for (int k = 0; k < 100; ++k) {
+    TriangleMesh mesh;
+    mesh.vertices = Points(60, 1, &draw);
+    mesh.triangles.resize(3, 20);
+    for (int i = 0; i < 60; ++i) mesh.triangles(i % 3, i / 3) = i;
+    const double radius = draw.Uniform(0.1, 2);
+    const Solid ball(MakeSphere(radius)), point(MakeSphere(1e-6));
+    const Eigen::Isometry3d X = At(draw.Uniform(3, 5), draw.Uniform(-1, 1), draw.Uniform(-1, 1));
+    double nearest = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < 20; ++i) {
+      TriangleMesh one;
+      one.vertices = mesh.vertices.middleCols(3 * i, 3);
+      one.triangles = Eigen::Vector3i(0, 1, 2);
+      nearest = std::min(nearest, Solid::Distance(point, X, Solid(one), At(0, 0, 0)));
+    }
+    EXPECT_NEAR(Solid::Distance(ball, X, Solid(mesh), At(0, 0, 0)),
+                std::max(nearest + 1e-6 - radius, 0.0), 1e-9);
+  }
 }
 
 TEST(Solid, APlateSurroundsNothing) {

@@ -33,7 +33,7 @@ struct Material {
   std::vector<ClaimRow> claims;
   std::vector<PlayedRow> rows;
   std::vector<HalfStepRow> half_steps;
-  std::vector<OverlapRow> overlaps;
+  std::optional<std::vector<OverlapRow>> overlaps;  ///< none: the raw walk
   std::vector<FootstepRow> footsteps;
 };
 
@@ -58,6 +58,7 @@ const Material& Original() {
 }
 
 enum class Of {
+  kMotion,
   kRows,
   kFloor,
   kConsistency,
@@ -74,6 +75,10 @@ Findings FindingsOf(Of check, const Material& m) {
   if (check == Of::kOverlaps) {
     CheckOverlaps(m.half_steps, m.overlaps, m.planned, &findings);
     CheckFootsteps(m.footsteps, m.planned, &findings);
+    return findings;
+  }
+  if (check == Of::kMotion) {
+    CheckIsMotion(m.rows, &findings);
     return findings;
   }
   const DescribedWalk walk(m.robot, m.planned, m.half_steps);
@@ -104,6 +109,7 @@ Findings FindingsOf(Of check, const Material& m) {
     case Of::kArithmetic:
       CheckArithmetic(m.certificate, m.claims, m.robot, m.rows.back().t, &findings);
       break;
+    case Of::kMotion:
     case Of::kOverlaps:
       break;
   }
@@ -178,7 +184,7 @@ std::vector<Wrong> Rows() {
            return;
          }
        },
-       "ZMP: "},
+       "ZMP where the support changes: "},
       {"SoleBelowTheFloor", rows,
        InFlight([](PlayedRow& row) { row.soles[Swing(row)][2] = -1e-3; }),
        "soles above the floor: "},
@@ -208,6 +214,13 @@ std::vector<Wrong> Consistency() {
        InFlight([](PlayedRow& row) { row.soles[1 - Swing(row)][0] += 5e-7; }), "standing feet: "},
       {"StandingFootAboveTheFloor", check,
        InFlight([](PlayedRow& row) { row.soles[1 - Swing(row)][2] += 5e-7; }), "standing feet: "},
+      {"FeetStandAboveTheFloor", check,
+       [](Material& m) {
+         for (PlayedRow& row : m.rows) {
+           for (Eigen::Vector4d& sole : row.soles) sole[2] += 5e-7;
+         }
+       },
+       "standing feet: "},
       {"FootprintOnNoStepArea", Of::kFloor,
        [](Material& m) {
          Eigen::Matrix2Xd area(2, 3);
@@ -234,6 +247,25 @@ std::vector<Wrong> Claims() {
       {"JointBound", check, NoBound(kJoint), "certificate.csv:"},
       {"JointSpeedBound", check, NoBound(kJointSpeed), "certificate.csv:"},
       {"ClearanceBound", check, NoBound(kClearance), "certificate.csv:"},
+      {"SelfClearanceBound", check, NoBound(kSelfClearance), "certificate.csv:"},
+      {"ClearanceBoundTakenOffTheMargin", check,
+       [](Material& m) {
+         for (ClaimRow& row : m.claims) {
+           if (row.family == kClearance) row.margin -= std::exchange(row.bound, 0);
+         }
+       },
+       "certificate.csv:"},
+      {"BodyNearAnotherObstacle", check,
+       Claim(kClearance,
+             [](ClaimRow& row) {
+               row.subject = "RLEG_LINK5";
+               row.margin += 0.05;
+             }),
+       "certificate.csv:"},
+      {"NoAreaNamed", check, Claim(kNoStep, [](ClaimRow& row) { row.subject = "left foot"; }),
+       "certificate.csv:"},
+      {"BodyOfTheWaistNamed", check,
+       Claim(kGround, [](ClaimRow& row) { row.subject = "CHEST_LINK1"; }), "certificate.csv:"},
       {"FloorUnwatched", check,
        Claim(kFloor, [](ClaimRow& row) { row.margin = std::numeric_limits<double>::infinity(); }),
        "certificate.csv:"},
@@ -272,7 +304,47 @@ std::vector<Wrong> Others() {
        "trajectory.csv:"},
       {"SelfClearanceColumn", Of::kColumns,
        InFlight([](PlayedRow& row) { row.margins[5] += 1e-3; }), "trajectory.csv:"},
+      {"NumberOfNoSense", Of::kMotion, InFlight([](PlayedRow& row) { row.q[1][3] = 1e5; }),
+       "trajectory.csv:"},
+      {"BeginsLater", Of::kMotion, [](Material& m) { m.rows[0].t = 1e-4; },
+       "trajectory.csv:2: the times"},
+      {"TimeTwice", Of::kMotion, [](Material& m) { m.rows[7].t = m.rows[6].t; },
+       "trajectory.csv:9: the times"},
+      {"HalfStepsTurned", Of::kMotion, [](Material& m) { m.rows[7].half_step = 0; },
+       "trajectory.csv:9: the half-steps"},
+      {"ClearanceColumnsTooSmall", Of::kColumns, InFlight([](PlayedRow& row) {
+         for (const size_t k : {4u, 5u}) row.margins[k] -= 1e-3;
+       }),
+       "trajectory.csv:"},
+      {"RowFewer", Of::kWalk, [](Material& m) { m.rows.erase(m.rows.end() - 2); },
+       "trajectory.csv: "},
+      {"CoMOffTheWalk", Of::kWalk, InFlight([](PlayedRow& row) { row.com.x() += 1e-7; }),
+       "trajectory.csv:"},
+      {"AccelerationOffTheWalk", Of::kWalk,
+       InFlight([](PlayedRow& row) { row.com_acceleration.x() += 1e-7; }), "trajectory.csv:"},
+      {"ZmpOffTheWalk", Of::kWalk, InFlight([](PlayedRow& row) { row.zmp.x() += 1e-7; }),
+       "trajectory.csv:"},
+      {"RightFootOffTheWalk", Of::kWalk, InFlight([](PlayedRow& row) { row.soles[1][0] += 1e-7; }),
+       "trajectory.csv:"},
+      {"LeftFootOffTheWalk", Of::kWalk, InFlight([](PlayedRow& row) { row.soles[0][0] += 1e-7; }),
+       "trajectory.csv:"},
+      {"NotANumberOffTheWalk", Of::kWalk, InFlight([](PlayedRow& row) { row.q[0][2] = NAN; }),
+       "trajectory.csv:"},
+      {"FootBelowTheFloor", Of::kFloor,
+       [](Material& m) {
+         m.robot.com_height -= 0.1;
+         m.robot.waist_height -= 0.1;
+         for (PlayedRow& row : m.rows) row.waist[2] -= 0.1;
+       },
+       "feet above the floor: "},
+      {"BodiesHigherDemanded", Of::kFloor, Demand(kGround, 0.9), "bodies above the floor: "},
       {"RowOffTheWalk", Of::kWalk, InFlight([](PlayedRow& row) { row.q[0][2] += 1e-7; }),
+       "trajectory.csv:"},
+      {"RowBetweenTwoInstants", Of::kWalk,
+       [](Material& m) {
+         PlayedRow& row = Flying(m);
+         row = DescribedWalk(m.robot, m.planned, m.half_steps).Row(row.t + 1e-6);
+       },
        "trajectory.csv:"},
       {"TimeOffTheGrid", Of::kWalk, InFlight([](PlayedRow& row) { row.t += 1e-6; }),
        "trajectory.csv:"},
@@ -282,10 +354,48 @@ std::vector<Wrong> Others() {
        "trajectory.csv:"},
       {"StartDoesNotFollow", Of::kOverlaps, [](Material& m) { m.half_steps[1].start += 1e-6; },
        "half_steps.csv:3: start"},
-      {"OverlapBeyondItsBound", Of::kOverlaps, [](Material& m) { m.overlaps[0].overlap = 1; },
+      {"OverlapBeyondItsBound", Of::kOverlaps, [](Material& m) { (*m.overlaps)[0].overlap = 1; },
        "overlaps.csv:2: overlap"},
       {"HeightsOfAStepDiffer", Of::kOverlaps,
        [](Material& m) { m.half_steps[1].height_scale = 0.9; }, "overlaps.csv:2: durations"},
+      {"HeightsOfAStepDifferInHalfSteps", Of::kOverlaps,
+       [](Material& m) { m.half_steps[1].height_scale = 0.9; },
+       "half_steps.csv:3: another height scale"},
+      {"OverlapNegative", Of::kOverlaps, [](Material& m) { (*m.overlaps)[0].overlap = -0.1; },
+       "overlaps.csv:2: overlap"},
+      {"OverlapOfAnotherKind", Of::kOverlaps,
+       [](Material& m) { (*m.overlaps)[0].kind = "down_up"; }, "overlaps.csv:2: kind"},
+      {"OverlapBetweenOtherDurations", Of::kOverlaps,
+       [](Material& m) { (*m.overlaps)[0].duration_after += 0.1; }, "overlaps.csv:2: durations"},
+      {"DurationNegative", Of::kOverlaps, [](Material& m) { m.half_steps[0].duration = -1; },
+       "half_steps.csv:2: duration"},
+      {"DurationInfinite", Of::kOverlaps,
+       [](Material& m) { m.half_steps[0].duration = std::numeric_limits<double>::infinity(); },
+       "half_steps.csv:2: a number is not finite"},
+      {"HeightNegative", Of::kOverlaps, [](Material& m) { m.half_steps[0].height_scale = -1; },
+       "half_steps.csv:2: height scale"},
+      {"RawHalfStepShorter", Of::kOverlaps,
+       [](Material& m) {
+         m.overlaps.reset();
+         m.half_steps[0].duration = 0.75 * m.planned.half_steps[0].half_step.duration;
+       },
+       "half_steps.csv:2: duration"},
+      {"RawHalfStepLower", Of::kOverlaps,
+       [](Material& m) {
+         m.overlaps.reset();
+         m.half_steps[0].duration = m.planned.half_steps[0].half_step.duration;
+         m.half_steps[0].height_scale = 0.9;
+       },
+       "half_steps.csv:2: height scale"},
+      {"DemandOfARowLower", Of::kArithmetic, Claim(kZmp, [](ClaimRow& row) { row.demanded -= 1; }),
+       "certificate.csv:"},
+      {"EndsElsewhere", Of::kArithmetic, [](Material& m) { m.certificate.duration += 1; },
+       "the certificate ends at"},
+      {"JointSpeedScaleAboveOne", Of::kArithmetic,
+       [](Material& m) { m.certificate.joint_speed_scale = 3; }, "joint_speed_scale is 3"},
+      {"FootSpeedLimitZero", Of::kArithmetic, [](Material& m) { m.certificate.foot_speed = 0; },
+       "a foot's limit is 0"},
+      {"DemandNegative", Of::kArithmetic, Demand(kZmp, -0.1), "a demanded margin is -0.1"},
       {"KindTurned", Of::kOverlaps, [](Material& m) { m.half_steps[0].kind = "down"; },
        "half_steps.csv:2: kind"},
       {"SupportTurned", Of::kOverlaps, [](Material& m) { m.half_steps[0].support = "right"; },
