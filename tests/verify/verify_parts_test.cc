@@ -15,7 +15,7 @@
 #include "experiments/verify/distances.h"
 #include "experiments/verify/floor_distances.h"
 #include "experiments/verify/played_motion.h"
-#include "smoothing/superposed_walk.h"
+#include "smoothing/walk/superposed_walk.h"
 #include "tests/experiments/child_process.h"
 
 namespace halfstep::verify {
