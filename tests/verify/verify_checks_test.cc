@@ -316,6 +316,14 @@ std::vector<Wrong> Others() {
          for (const size_t k : {4u, 5u}) row.margins[k] -= 1e-3;
        }),
        "trajectory.csv:"},
+      {"LargerClearanceColumnTooSmall", Of::kColumns,
+       [](Material& m) {
+         const auto row = std::ranges::find_if(m.rows, [](const PlayedRow& r) {
+           return r.margins[4] < 0.29 && r.margins[4] > r.margins[5] + 0.002;
+         });
+         row->margins[4] -= 1e-3;
+       },
+       "trajectory.csv:"},
       {"RowFewer", Of::kWalk, [](Material& m) { m.rows.erase(m.rows.end() - 2); },
        "trajectory.csv: "},
       {"CoMOffTheWalk", Of::kWalk, InFlight([](PlayedRow& row) { row.com.x() += 1e-7; }),
