@@ -73,7 +73,7 @@ std::optional<Margin> IntervalStatements::Prove(const SuperposedWalk& walk, doub
     }
     for (const uint16_t group : groups) (*open)[kept++] = {family, group};
   }
-  open->resize(kept, OpenGroup{MarginFamily::kZmp});
+  open->erase(open->begin() + static_cast<std::ptrdiff_t>(kept), open->end());
   return violated;
 }
 
