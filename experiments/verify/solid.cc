@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numeric>
+#include <set>
 
 namespace halfstep::verify {
 namespace {
@@ -76,7 +76,8 @@ Solid::Solid(const TriangleMesh& mesh) {
   radius_ = 0.5 * (upper_ - lower_).norm() * (1 + 1e-12);
 }
 
-// Parts are joined by corners in the same place: an STL file does not say which are the same.
+// Parts are joined by corners in the same place: an STL file does not say which are the same. A
+// triangle that is there twice counts once: turned both ways it would let every ray escape.
 void Solid::FindParts(const TriangleMesh& mesh) {
   std::map<std::array<double, 3>, int> places;
   std::vector<int> place, parent;
@@ -100,7 +101,14 @@ void Solid::FindParts(const TriangleMesh& mesh) {
     parent[static_cast<size_t>(root(place[static_cast<size_t>(t[2])]))] = first;
   }
   std::map<int, size_t> part_of;
+  std::set<std::array<int, 3>> seen;
   for (Eigen::Index i = 0; i < mesh.triangles.cols(); ++i) {
+    std::array<int, 3> corners{};
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      corners[static_cast<size_t>(k)] = place[static_cast<size_t>(mesh.triangles(k, i))];
+    }
+    std::ranges::sort(corners);
+    if (!seen.insert(corners).second) continue;
     const int its = root(place[static_cast<size_t>(mesh.triangles(0, i))]);
     const auto [found, fresh] = part_of.try_emplace(its, parts_.size());
     if (fresh) parts_.emplace_back();

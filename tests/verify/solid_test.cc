@@ -162,6 +162,15 @@ TEST(Solid, DistanceOfABallFromAMeshIsThatOfItsNearestTriangle) {
   }
 }
 
+TEST(Solid, TrianglesThatAreThereTwiceBothWaysCountOnce) {
+  const TriangleMesh out = Box(1, false), in = Box(1, true);
+  TriangleMesh both = out;
+  both.triangles.conservativeResize(3, 24);
+  both.triangles.rightCols(12) = in.triangles;
+  const Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
+  EXPECT_EQ(Solid::Distance(Solid(MakeBox({0.1, 0.1, 0.1})), X, Solid(both), X), 0);
+}
+
 TEST(Solid, APlateSurroundsNothing) {
   const Solid body(MakeBox({0.1, 0.1, 0.1}));
   TriangleMesh corner;  // three triangles that meet in a corner, the body before them
