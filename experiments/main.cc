@@ -5,11 +5,11 @@
 #include <thread>
 
 #include "experiments/build_info.h"
-#include "experiments/commands.h"
-#include "experiments/printable_stream.h"
-#include "experiments/random_scenes.h"
+#include "experiments/commands/commands.h"
+#include "experiments/commands/printable_stream.h"
+#include "experiments/config/random_scenes.h"
 #include "experiments/verify/verify_run.h"
-#include "wpg/input/input_error.h"
+#include "wpg/files/input_error.h"
 
 namespace {
 

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "wpg/input/number_text.h"
+#include "wpg/files/number_text.h"
 
 namespace halfstep::replay {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "wpg/robot_model.h"
-#include "wpg/robot_tree.h"
+#include "wpg/robot/robot_model.h"
+#include "wpg/robot/robot_tree.h"
 
 namespace halfstep::replay {
 

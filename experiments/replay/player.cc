@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "wpg/pose2.h"
+#include "wpg/geometry/pose2.h"
 
 namespace halfstep::replay {
 namespace {

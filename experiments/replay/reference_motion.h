@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "experiments/replay/simulation.h"
-#include "experiments/trajectory_file.h"
+#include "experiments/tables/trajectory_file.h"
 
 namespace halfstep::replay {
 

@@ -5,8 +5,8 @@
 #include <limits>
 #include <numbers>
 
-#include "experiments/csv_writer.h"
 #include "experiments/replay/mass_model_zmp.h"
+#include "experiments/tables/csv_writer.h"
 
 namespace halfstep::replay {
 namespace {

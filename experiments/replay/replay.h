@@ -4,9 +4,9 @@
 #include <stop_token>
 #include <vector>
 
-#include "experiments/csv_columns.h"
 #include "experiments/replay/player.h"
-#include "wpg/robot_tree.h"
+#include "experiments/tables/csv_columns.h"
+#include "wpg/robot/robot_tree.h"
 
 namespace halfstep::replay {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "wpg/robot_model.h"
+#include "wpg/robot/robot_model.h"
 
 namespace halfstep::replay {
 

@@ -5,19 +5,19 @@
 #include <limits>
 #include <optional>
 
-#include "experiments/certificate_files.h"
-#include "experiments/certificate_statement.h"
-#include "experiments/csv_reader.h"
-#include "experiments/folder_name.h"
-#include "experiments/json_file.h"
+#include "experiments/config/folder_name.h"
 #include "experiments/report/report_page.h"
 #include "experiments/report/report_place.h"
 #include "experiments/report/report_walk.h"
 #include "experiments/report/shortened.h"
-#include "opt/ending.h"
+#include "experiments/tables/certificate_files.h"
+#include "experiments/tables/certificate_statement.h"
+#include "experiments/tables/csv_reader.h"
+#include "experiments/tables/json_file.h"
+#include "opt/solvers/ending.h"
 #include "smoothing/margins/margin.h"
-#include "wpg/input/input_error.h"
-#include "wpg/input/text.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {

@@ -3,11 +3,11 @@
 #include <filesystem>
 #include <string>
 
-#include "experiments/comparison.h"
-#include "experiments/experiment.h"
-#include "experiments/run_folder.h"
-#include "planner/scene.h"
-#include "wpg/robot_model.h"
+#include "experiments/compare/comparison.h"
+#include "experiments/config/experiment.h"
+#include "experiments/tables/run_folder.h"
+#include "planner/scene/scene.h"
+#include "wpg/robot/robot_model.h"
 
 namespace halfstep {
 

@@ -6,10 +6,10 @@
 #include <optional>
 #include <vector>
 
-#include "experiments/csv_reader.h"
-#include "experiments/json_file.h"
 #include "experiments/report/shortened.h"
-#include "wpg/input/input_error.h"
+#include "experiments/tables/csv_reader.h"
+#include "experiments/tables/json_file.h"
+#include "wpg/files/input_error.h"
 
 namespace halfstep {
 namespace {
@@ -110,8 +110,8 @@ json WalkJson(const fs::path& folder, double spacing) {
   json walk = TrajectoryJson(folder / "trajectory.csv", spacing);
   walk["half_steps"] = RowsJson(folder / "half_steps.csv");
   walk["overlaps"] = fs::exists(overlaps) ? RowsJson(overlaps) : json::array();
-  for (const char* key : {"verdict", "message", "statement", "demanded", "limits", "statements",
-                          "not_watched"}) {
+  for (const char* key :
+       {"verdict", "message", "statement", "demanded", "limits", "statements", "not_watched"}) {
     if (!certificate.contains(key)) {
       throw InputError({(folder / "certificate.json").string() + ": no '" + key + "'"});
     }

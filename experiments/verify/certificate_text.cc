@@ -5,8 +5,8 @@
 #include "experiments/verify/csv_text.h"
 #include "experiments/verify/findings.h"
 #include "experiments/verify/json_text.h"
-#include "wpg/input/input_error.h"
-#include "wpg/input/text.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/text.h"
 
 namespace halfstep::verify {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/certificate_statement.h"
-#include "wpg/input/text.h"
+#include "experiments/tables/certificate_statement.h"
+#include "wpg/files/text.h"
 
 namespace halfstep::verify {
 namespace {

@@ -3,7 +3,7 @@
 #include "experiments/verify/certificate_text.h"
 #include "experiments/verify/findings.h"
 #include "smoothing/margins/margin.h"
-#include "wpg/robot_model.h"
+#include "wpg/robot/robot_model.h"
 
 namespace halfstep::verify {
 

@@ -6,7 +6,7 @@
 #include "experiments/verify/check_rows.h"
 #include "experiments/verify/claim_subjects.h"
 #include "experiments/verify/floor_distances.h"
-#include "wpg/input/text.h"
+#include "wpg/files/text.h"
 
 namespace halfstep::verify {
 namespace {

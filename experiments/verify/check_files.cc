@@ -5,8 +5,8 @@
 #include <set>
 
 #include "experiments/verify/csv_text.h"
-#include "wpg/input/sha256.h"
-#include "wpg/input/text.h"
+#include "wpg/files/sha256.h"
+#include "wpg/files/text.h"
 
 namespace halfstep::verify {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "experiments/verify/findings.h"
 #include "experiments/verify/walk_text.h"
-#include "wpg/half_step_sequence.h"
+#include "wpg/motion/half_step_sequence.h"
 
 namespace halfstep::verify {
 

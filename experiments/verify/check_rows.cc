@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "wpg/lipm.h"
-#include "wpg/support_polygon.h"
+#include "wpg/geometry/support_polygon.h"
+#include "wpg/motion/lipm.h"
 
 namespace halfstep::verify {
 namespace {

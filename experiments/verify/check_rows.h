@@ -4,7 +4,7 @@
 #include "experiments/verify/described_walk.h"
 #include "experiments/verify/findings.h"
 #include "experiments/verify/played_motion.h"
-#include "planner/scene.h"
+#include "planner/scene/scene.h"
 
 namespace halfstep::verify {
 

@@ -1,8 +1,8 @@
 #include "experiments/verify/check_run.h"
 
-#include "experiments/experiment.h"
-#include "wpg/input/sha256.h"
-#include "wpg/input/text.h"
+#include "experiments/config/experiment.h"
+#include "wpg/files/sha256.h"
+#include "wpg/files/text.h"
 
 namespace halfstep::verify {
 namespace {

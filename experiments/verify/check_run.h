@@ -3,12 +3,12 @@
 #include <filesystem>
 #include <string>
 
-#include "experiments/experiment_config.h"
+#include "experiments/config/experiment_config.h"
 #include "experiments/verify/certificate_text.h"
 #include "experiments/verify/findings.h"
 #include "experiments/verify/run_manifest.h"
-#include "planner/scene.h"
-#include "wpg/robot_model.h"
+#include "planner/scene/scene.h"
+#include "wpg/robot/robot_model.h"
 
 namespace halfstep::verify {
 

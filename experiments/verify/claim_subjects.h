@@ -6,7 +6,7 @@
 
 #include "experiments/verify/certificate_text.h"
 #include "experiments/verify/distances.h"
-#include "wpg/robot_model.h"
+#include "wpg/robot/robot_model.h"
 
 namespace halfstep::verify {
 

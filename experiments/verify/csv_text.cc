@@ -4,9 +4,9 @@
 #include <string_view>
 
 #include "experiments/verify/findings.h"
-#include "wpg/input/input_error.h"
-#include "wpg/input/regular_file.h"
-#include "wpg/input/text.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/regular_file.h"
+#include "wpg/files/text.h"
 
 namespace halfstep::verify {
 namespace {

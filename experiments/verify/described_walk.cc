@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "wpg/check.h"
-#include "wpg/posture.h"
+#include "wpg/motion/posture.h"
 
 namespace halfstep::verify {
 
@@ -18,7 +18,7 @@ DescribedWalk::DescribedWalk(const RobotModel& robot, const HalfStepSequence& pl
     HalfStep half_step = as_planned;
     half_step.duration = rows[i].duration;
     half_step.via_height *= rows[i].height_scale;
-    const WalkVector from = Transformed(X_WS, half_step.Start());
+    const WalkState from = Transformed(X_WS, half_step.Start());
     pieces_.push_back({.half_step = half_step,
                        .profiles = {half_step.kind, half_step.shape, half_step.duration, lipm_},
                        .start = rows[i].start,

@@ -4,8 +4,8 @@
 
 #include "experiments/verify/played_motion.h"
 #include "experiments/verify/walk_text.h"
-#include "wpg/half_step_sequence.h"
-#include "wpg/robot_model.h"
+#include "wpg/motion/half_step_sequence.h"
+#include "wpg/robot/robot_model.h"
 
 namespace halfstep::verify {
 
@@ -48,7 +48,7 @@ class DescribedWalk {
     HalfStep half_step;
     HalfStepProfiles profiles;
     double start = 0;
-    WalkVector from, delta;  // f_i(0), f_i(T_i) − f_i(0); in W
+    WalkState from, delta;  // f_i(0), f_i(T_i) − f_i(0); in W
   };
   double Local(double t, size_t piece) const { return t - pieces_[piece].start; }
   // The step in the air, or −1.

@@ -5,7 +5,7 @@
 
 #include "experiments/verify/played_motion.h"
 #include "experiments/verify/solid.h"
-#include "planner/scene.h"
+#include "planner/scene/scene.h"
 
 namespace halfstep::verify {
 
@@ -37,7 +37,7 @@ class Distances {
   double NearestPair(const Placement& at, double horizon);
 
   /// How far the program's distances may be from these [m]: its slabs and its meshes may be 1e-6 m
-  /// too near (planner/separation.h).
+  /// too near (planner/collision/separation.h).
   static constexpr double kAccuracy = 2e-6;
 
   /// "RLEG_LINK5 - bar", "LLEG_LINK5 - RLEG_LINK5".

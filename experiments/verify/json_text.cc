@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "wpg/input/input_error.h"
-#include "wpg/input/nesting.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/nesting.h"
 
 namespace halfstep::verify {
 

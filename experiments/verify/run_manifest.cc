@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "experiments/verify/json_text.h"
-#include "wpg/input/input_error.h"
-#include "wpg/input/text.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/text.h"
 
 namespace halfstep::verify {
 namespace {

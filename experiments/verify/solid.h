@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "experiments/verify/min_norm_point.h"
-#include "planner/scene.h"
-#include "wpg/convex_body.h"
+#include "planner/scene/scene.h"
+#include "wpg/geometry/convex_body.h"
 
 namespace halfstep::verify {
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "experiments/experiment.h"
+#include "experiments/config/experiment.h"
 #include "experiments/verify/certificate_text.h"
 #include "experiments/verify/check_certificate.h"
 #include "experiments/verify/check_claims.h"
@@ -19,8 +19,8 @@
 #include "experiments/verify/check_walk.h"
 #include "experiments/verify/csv_text.h"
 #include "experiments/verify/described_walk.h"
-#include "wpg/input/input_error.h"
-#include "wpg/input/sha256.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/sha256.h"
 
 namespace halfstep::verify {
 namespace {

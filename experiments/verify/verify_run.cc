@@ -7,8 +7,8 @@
 #include "experiments/verify/findings.h"
 #include "experiments/verify/run_manifest.h"
 #include "experiments/verify/verify_method.h"
-#include "wpg/input/input_error.h"
-#include "wpg/input/text.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/text.h"
 
 namespace halfstep::verify {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "planner/separation.h"
+#include "planner/collision/separation.h"
 
 namespace halfstep {
 namespace {

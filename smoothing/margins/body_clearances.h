@@ -4,11 +4,11 @@
 #include <optional>
 #include <vector>
 
-#include "planner/collision_world.h"
-#include "planner/scene.h"
+#include "planner/collision/collision_world.h"
+#include "planner/scene/scene.h"
 #include "smoothing/margins/margin.h"
-#include "wpg/posture.h"
-#include "wpg/robot_model.h"
+#include "wpg/motion/posture.h"
+#include "wpg/robot/robot_model.h"
 
 namespace halfstep {
 

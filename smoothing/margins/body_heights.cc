@@ -31,12 +31,12 @@ double BodyHeights::LowestPossible(int b, const Posture& posture) const {
   return X.linear().row(2).dot(shape.center) + X.translation().z() - shape.radius;
 }
 
-double BodyHeights::OnFoot(int b, const WalkVector& x) const {
+double BodyHeights::OnFoot(int b, const WalkState& x) const {
   const double height = x[FootIndex(static_cast<Side>(body(b).leg)) + 2];
   return height >= -kSoleRounding ? std::numeric_limits<double>::infinity() : height;
 }
 
-Margin BodyHeights::Least(const Posture& posture, const WalkVector& x, double enough) const {
+Margin BodyHeights::Least(const Posture& posture, const WalkState& x, double enough) const {
   Margin least = of_waist_;
   const auto lower = [&](int b, double height) {
     if (height >= least.value) return;

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "smoothing/margins/margin.h"
-#include "wpg/posture.h"
-#include "wpg/robot_model.h"
+#include "wpg/motion/posture.h"
+#include "wpg/robot/robot_model.h"
 
 namespace halfstep {
 
@@ -41,10 +41,10 @@ class BodyHeights {
 
   /// The least margin of all bodies [m]. Bodies whose height is `enough` or more are not told
   /// apart: they may read less than they have, not less than `enough`. Precondition: links placed.
-  Margin Least(const Posture& posture, const WalkVector& x,
+  Margin Least(const Posture& posture, const WalkState& x,
                double enough = std::numeric_limits<double>::infinity()) const;
   /// The margin of a body on a foot, from the walk's quantities.
-  double OnFoot(int body, const WalkVector& x) const;
+  double OnFoot(int body, const WalkState& x) const;
 
  private:
   const RobotBody& body(int b) const { return robot_.bodies[static_cast<size_t>(b)]; }

@@ -32,7 +32,7 @@ void GroundMargin::AddRows(Instant* at, SlackSink* rows) const {
 void GroundMargin::AddBounds(const MarginInterval& interval, TightestStatement* tightest) const {
   const BodyHeights& heights = place_.heights;
   const IntervalMotion& motion = interval.motion;
-  const WalkVector& x = motion.jet.value;
+  const WalkState& x = motion.jet.value;
   const double h = motion.half_width, t = interval.mid.t();
   const int step = interval.mid.step_in_air();
   for (int body : heights.on_feet()) {

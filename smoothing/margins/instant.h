@@ -3,8 +3,8 @@
 #include "smoothing/margins/margin.h"
 #include "smoothing/margins/margin_place.h"
 #include "smoothing/walk/superposed_walk.h"
-#include "wpg/motion_bounds.h"
-#include "wpg/posture.h"
+#include "wpg/motion/motion_bounds.h"
+#include "wpg/motion/posture.h"
 
 namespace halfstep {
 

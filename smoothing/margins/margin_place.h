@@ -3,11 +3,11 @@
 #include <array>
 #include <utility>
 
-#include "planner/no_step_areas.h"
-#include "planner/scene.h"
+#include "planner/scene/no_step_areas.h"
+#include "planner/scene/scene.h"
 #include "smoothing/margins/body_clearances.h"
 #include "smoothing/margins/body_heights.h"
-#include "wpg/robot_model.h"
+#include "wpg/robot/robot_model.h"
 
 namespace halfstep {
 

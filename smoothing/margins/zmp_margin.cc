@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "wpg/support_polygon.h"
+#include "wpg/geometry/support_polygon.h"
 
 namespace halfstep {
 
@@ -13,7 +13,7 @@ std::string ZmpMargin::Subject(const Margin& margin) const {
 }
 
 Margin ZmpMargin::Least(Instant* at, double) const {
-  const WalkVector& x = at->jet().value;
+  const WalkState& x = at->jet().value;
   const SupportPolygon polygon = SupportAt(at->walk(), at->at(), x, at->robot().sole_size);
   Margin least = Of(std::numeric_limits<double>::infinity(), -1);
   Lower(Of(polygon.Margin(x.segment<2>(kZmpX)), at->step_in_air()), &least);
@@ -21,7 +21,7 @@ Margin ZmpMargin::Least(Instant* at, double) const {
 }
 
 void ZmpMargin::AddRows(Instant* at, SlackSink* rows) const {
-  const WalkVector& x = at->jet().value;
+  const WalkState& x = at->jet().value;
   const SupportPolygon polygon = SupportAt(at->walk(), at->at(), x, at->robot().sole_size);
   for (int i = 0; i < polygon.size(); ++i) {
     const Eigen::Vector2d a = polygon.corner(i);
@@ -39,7 +39,7 @@ void ZmpMargin::AddBounds(const MarginInterval& interval, TightestStatement* tig
   const double h = motion.half_width;
   const double change = h * (motion.jet.first.segment<2>(kZmpX).norm() +
                              0.5 * h * motion.second.segment<2>(kZmpX).norm());
-  const WalkVector& x = motion.jet.value;
+  const WalkState& x = motion.jet.value;
   const SupportPolygon polygon =
       SupportAt(interval.mid.walk(), interval.mid.at(), x, interval.mid.robot().sole_size);
   tightest->Add(Of(polygon.Margin(x.segment<2>(kZmpX)), interval.mid.step_in_air()),

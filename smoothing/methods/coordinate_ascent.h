@@ -6,7 +6,7 @@
 
 #include "smoothing/methods/smoothing_result.h"
 #include "smoothing/proof/feasibility_test.h"
-#include "wpg/half_step_sequence.h"
+#include "wpg/motion/half_step_sequence.h"
 
 namespace halfstep {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "opt/stationarity.h"
+#include "opt/problem/stationarity.h"
 #include "smoothing/program/slack_rows.h"
 
 namespace halfstep {

@@ -5,7 +5,7 @@
 
 #include "smoothing/proof/feasibility_test.h"
 #include "smoothing/walk/homotopy_parameters.h"
-#include "wpg/half_step_sequence.h"
+#include "wpg/motion/half_step_sequence.h"
 
 namespace halfstep {
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "opt/solver.h"
+#include "opt/adapters/solver_registry.h"
 #include "smoothing/methods/dichotomy.h"
 #include "smoothing/methods/explain.h"
 #include "smoothing/methods/path_rules.h"

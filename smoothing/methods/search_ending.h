@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "opt/solution.h"
+#include "opt/solvers/solution.h"
 
 namespace halfstep {
 

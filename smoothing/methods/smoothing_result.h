@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "opt/ending.h"
+#include "opt/solvers/ending.h"
 #include "smoothing/margins/margin.h"
 #include "smoothing/proof/feasibility_test.h"
 #include "smoothing/walk/homotopy_parameters.h"

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "smoothing/margins/margin_evaluator.h"
-#include "wpg/half_step_sequence.h"
+#include "wpg/motion/half_step_sequence.h"
 
 namespace halfstep {
 

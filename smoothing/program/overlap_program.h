@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "opt/problem.h"
+#include "opt/problem/problem.h"
 #include "smoothing/program/overlap_variables.h"
 #include "smoothing/program/slack_table.h"
 #include "smoothing/program/walk_effort.h"

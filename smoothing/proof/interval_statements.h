@@ -6,7 +6,7 @@
 
 #include "smoothing/margins/margin_evaluator.h"
 #include "smoothing/proof/certificate.h"
-#include "wpg/motion_bounds.h"
+#include "wpg/motion/motion_bounds.h"
 
 namespace halfstep {
 

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "wpg/half_step_sequence.h"
+#include "wpg/motion/half_step_sequence.h"
 
 namespace halfstep {
 

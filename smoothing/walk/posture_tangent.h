@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 
-#include "wpg/posture.h"
+#include "wpg/motion/posture.h"
 
 namespace halfstep {
 

@@ -10,7 +10,7 @@ namespace {
 
 // Derivative of a half-step's contribution delta·(π, π̇, π̈) when its local time moves by dtau and
 // its duration by dT.
-void AddProfileDerivative(const HalfStepJet& profiles, const WalkVector& delta, double dtau,
+void AddProfileDerivative(const HalfStepJet& profiles, const WalkState& delta, double dtau,
                           double dT, WalkJet* jet) {
   for (int q = 0; q < kNumQuantities; ++q) {
     const ProfileJet& p = profiles.of(q);
@@ -33,7 +33,7 @@ SuperposedWalk::SuperposedWalk(const HalfStepSequence& sequence,
     const double planned_height = half_step.via_height;
     half_step.via_height *= parameters.height_scales[i / 2];
     const Pose2& X_WS = sequence.half_steps[i].X_WS;
-    const WalkVector from_W = Transformed(X_WS, half_step.Start());
+    const WalkState from_W = Transformed(X_WS, half_step.Start());
     pieces_.push_back({.half_step = half_step,
                        .X_WS = X_WS,
                        .planned_height = planned_height,
@@ -90,7 +90,7 @@ WalkJet SuperposedWalk::At(const LocalTime& at) const {
   jet.value = piece(first).from_W;
   for (int i = first; i <= last; ++i) {
     const HalfStepJet profiles = piece(i).profiles.At(LocalTo(i, at));
-    const WalkVector& delta = piece(i).delta_W;
+    const WalkState& delta = piece(i).delta_W;
     for (int q = 0; q < kNumQuantities; ++q) {
       const ProfileJet& p = profiles.of(q);
       jet.value[q] += p.value * delta[q];
@@ -101,8 +101,8 @@ WalkJet SuperposedWalk::At(const LocalTime& at) const {
   return jet;
 }
 
-WalkVector SuperposedWalk::SecondBounds(double begin, double end) const {
-  WalkVector bounds = WalkVector::Zero();
+WalkState SuperposedWalk::SecondBounds(double begin, double end) const {
+  WalkState bounds = WalkState::Zero();
   const int first = FirstActive(Locate(begin)), last = LastActive(Locate(end));
   for (int i = first; i <= last; ++i) {
     const Piece& p = piece(i);
@@ -192,7 +192,7 @@ bool SuperposedWalk::InAir(const LocalTime& at, Side foot) const {
   return step >= 0 && half_step(2 * step).swing() == foot;
 }
 
-SupportPolygon SupportAt(const SuperposedWalk& walk, const LocalTime& at, const WalkVector& x,
+SupportPolygon SupportAt(const SuperposedWalk& walk, const LocalTime& at, const WalkState& x,
                          const Eigen::Vector2d& sole_size) {
   const int step = walk.StepInAir(at);
   if (step >= 0) return {walk.X_WS(2 * step), sole_size};

@@ -3,9 +3,9 @@
 #include <vector>
 
 #include "smoothing/walk/homotopy_parameters.h"
-#include "wpg/half_step_sequence.h"
-#include "wpg/support_polygon.h"
-#include "wpg/walk_vector.h"
+#include "wpg/geometry/support_polygon.h"
+#include "wpg/motion/half_step_sequence.h"
+#include "wpg/motion/walk_state.h"
 
 namespace halfstep {
 
@@ -62,7 +62,7 @@ class SuperposedWalk {
 
   /// Bounds of |second derivative| of every quantity over the absolute times [begin, end] [s]: each
   /// under-way half-step's own bound, added up. Hold for all t there.
-  WalkVector SecondBounds(double begin, double end) const;
+  WalkState SecondBounds(double begin, double end) const;
 
   /// Which feet stand on the floor. A foot is in the air from t2 of its up half-step to t1 of the
   /// down half-step that follows, both instants included.
@@ -90,8 +90,8 @@ class SuperposedWalk {
     Pose2 X_WS;
     double planned_height = 0.0;  // before scaling [m]
     HalfStepProfiles profiles;
-    double start = 0.0;          // t_i
-    WalkVector from_W, delta_W;  // f_i(0) and f_i(T_i) − f_i(0)
+    double start = 0.0;         // t_i
+    WalkState from_W, delta_W;  // f_i(0) and f_i(T_i) − f_i(0)
   };
   const Piece& piece(int i) const { return pieces_[static_cast<size_t>(i)]; }
   // First and last half-step under way at `at`.
@@ -109,7 +109,7 @@ class SuperposedWalk {
 
 /// What supports the robot at an instant where its quantities are `x`: one sole, or the hull of
 /// two.
-SupportPolygon SupportAt(const SuperposedWalk& walk, const LocalTime& at, const WalkVector& x,
+SupportPolygon SupportAt(const SuperposedWalk& walk, const LocalTime& at, const WalkState& x,
                          const Eigen::Vector2d& sole_size);
 
 }  // namespace halfstep

@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "experiments/experiment.h"
+#include "experiments/config/experiment.h"
 #include "smoothing/methods/dichotomy.h"
 #include "smoothing/proof/certified_feasibility.h"
 #include "tests/smoothing/certificate_draws.h"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "wpg/leg_ik.h"
+#include "wpg/robot/leg_ik.h"
 
 namespace halfstep {
 namespace {

@@ -14,7 +14,7 @@
 #include "smoothing/proof/interval_statements.h"
 #include "tests/smoothing/certificate_draws.h"
 #include "tests/smoothing/motion_truth.h"
-#include "wpg/motion_bounds.h"
+#include "wpg/motion/motion_bounds.h"
 
 namespace halfstep {
 namespace {

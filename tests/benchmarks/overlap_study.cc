@@ -15,10 +15,10 @@
 #include <string>
 #include <vector>
 
-#include "experiments/experiment.h"
-#include "experiments/methods.h"
-#include "opt/problem_derivatives.h"
-#include "opt/solver.h"
+#include "experiments/config/experiment.h"
+#include "experiments/config/methods.h"
+#include "opt/adapters/solver_registry.h"
+#include "opt/problem/problem_derivatives.h"
 #include "smoothing/methods/dichotomy.h"
 #include "smoothing/methods/overlap_optimizer.h"
 #include "smoothing/proof/certified_feasibility.h"

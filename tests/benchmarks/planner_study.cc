@@ -13,11 +13,11 @@
 #include <string>
 #include <vector>
 
-#include "experiments/experiment.h"
-#include "experiments/planning.h"
-#include "experiments/random_scenes.h"
-#include "planner/plan_shortcut.h"
-#include "planner/swept_volume_query.h"
+#include "experiments/config/experiment.h"
+#include "experiments/config/random_scenes.h"
+#include "experiments/run/planning.h"
+#include "planner/search/plan_shortcut.h"
+#include "planner/swept/swept_volume_query.h"
 #include "tests/planner/flat_world.h"
 
 namespace {

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <string>
 
-#include "experiments/experiment.h"
+#include "experiments/config/experiment.h"
 #include "smoothing/methods/coordinate_ascent.h"
 #include "smoothing/methods/dichotomy.h"
 #include "smoothing/methods/grid_reference.h"

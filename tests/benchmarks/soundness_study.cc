@@ -9,9 +9,9 @@
 #include <cstdlib>
 #include <string>
 
-#include "experiments/experiment.h"
-#include "experiments/planning.h"
-#include "planner/swept_volume_query.h"
+#include "experiments/config/experiment.h"
+#include "experiments/run/planning.h"
+#include "planner/swept/swept_volume_query.h"
 #include "tests/planner/swept_volume_draws.h"
 
 namespace {

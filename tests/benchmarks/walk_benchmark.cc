@@ -3,11 +3,11 @@
 
 #include <benchmark/benchmark.h>
 
-#include "experiments/experiment.h"
+#include "experiments/config/experiment.h"
 #include "smoothing/margins/margin_evaluator.h"
 #include "smoothing/methods/dichotomy.h"
 #include "smoothing/proof/sampled_feasibility.h"
-#include "wpg/posture.h"
+#include "wpg/motion/posture.h"
 
 namespace halfstep {
 namespace {

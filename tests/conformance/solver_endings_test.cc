@@ -11,8 +11,8 @@
 #include <thread>
 #include <vector>
 
-#include "opt/problem_derivatives.h"
-#include "opt/solver.h"
+#include "opt/adapters/solver_registry.h"
+#include "opt/problem/problem_derivatives.h"
 #include "tests/problems/constructed_problems.h"
 #include "tests/problems/hock_schittkowski.h"
 #include "tests/problems/solver_test.h"

@@ -5,10 +5,10 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "experiments/commands.h"
+#include "experiments/commands/commands.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/run_check.h"
-#include "tests/experiments/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace halfstep {
 namespace {

@@ -3,12 +3,12 @@
 
 #include <cmath>
 
-#include "experiments/commands.h"
-#include "experiments/comparison.h"
+#include "experiments/commands/commands.h"
+#include "experiments/compare/comparison.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/run_check.h"
-#include "tests/experiments/temporary_folder.h"
-#include "wpg/input/input_error.h"
+#include "tests/temporary_folder.h"
+#include "wpg/files/input_error.h"
 
 namespace halfstep {
 namespace {

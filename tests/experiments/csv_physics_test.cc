@@ -8,12 +8,12 @@
 #include <filesystem>
 #include <sstream>
 
-#include "experiments/commands.h"
-#include "experiments/experiment.h"
+#include "experiments/commands/commands.h"
+#include "experiments/config/experiment.h"
 #include "tests/experiments/parsed_csv.h"
-#include "tests/experiments/temporary_folder.h"
+#include "tests/temporary_folder.h"
 #include "tests/wpg/generated_robots.h"
-#include "wpg/robot_model.h"
+#include "wpg/robot/robot_model.h"
 
 namespace halfstep {
 

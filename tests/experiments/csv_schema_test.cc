@@ -7,11 +7,11 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
-#include "experiments/commands.h"
-#include "experiments/csv_columns.h"
+#include "experiments/commands/commands.h"
+#include "experiments/tables/csv_columns.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/parsed_csv.h"
-#include "tests/experiments/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace halfstep {
 namespace {

@@ -1,4 +1,4 @@
-#include "experiments/csv_writer.h"
+#include "experiments/tables/csv_writer.h"
 
 #include <gtest/gtest.h>
 

@@ -5,12 +5,12 @@
 
 #include <algorithm>
 
-#include "experiments/commands.h"
-#include "experiments/methods.h"
-#include "opt/ending.h"
+#include "experiments/commands/commands.h"
+#include "experiments/config/methods.h"
+#include "opt/solvers/ending.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/run_check.h"
-#include "tests/experiments/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace halfstep {
 namespace {

@@ -1,4 +1,4 @@
-#include "experiments/experiment_config.h"
+#include "experiments/config/experiment_config.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <numbers>
 
-#include "experiments/experiment.h"
-#include "tests/experiments/temporary_folder.h"
+#include "experiments/config/experiment.h"
 #include "tests/fixture_check.h"
+#include "tests/temporary_folder.h"
 
 namespace halfstep {
 namespace {

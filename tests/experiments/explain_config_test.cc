@@ -7,14 +7,14 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "experiments/commands.h"
-#include "experiments/experiment.h"
-#include "experiments/key_tables.h"
-#include "experiments/sweep_config.h"
+#include "experiments/commands/commands.h"
+#include "experiments/config/experiment.h"
+#include "experiments/config/key_tables.h"
+#include "experiments/sweep/sweep_config.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/schema_check.h"
-#include "tests/experiments/temporary_folder.h"
-#include "wpg/input/yaml_node.h"
+#include "tests/temporary_folder.h"
+#include "wpg/files/yaml_node.h"
 
 namespace halfstep {
 namespace {

@@ -5,10 +5,10 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "experiments/commands.h"
+#include "experiments/commands/commands.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/parsed_csv.h"
-#include "tests/experiments/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace halfstep {
 namespace {

@@ -7,15 +7,15 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "experiments/commands.h"
-#include "experiments/experiment_config.h"
-#include "planner/scene.h"
+#include "experiments/commands/commands.h"
+#include "experiments/config/experiment_config.h"
+#include "planner/scene/scene.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/parsed_csv.h"
-#include "tests/experiments/temporary_folder.h"
-#include "wpg/input/input_error.h"
-#include "wpg/input/text.h"
-#include "wpg/robot_model.h"
+#include "tests/temporary_folder.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/text.h"
+#include "wpg/robot/robot_model.h"
 
 namespace halfstep {
 namespace {

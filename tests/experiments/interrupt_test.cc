@@ -9,12 +9,12 @@
 #include <random>
 #include <thread>
 
-#include "experiments/commands.h"
-#include "experiments/methods.h"
+#include "experiments/commands/commands.h"
+#include "experiments/config/methods.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/long_walk.h"
 #include "tests/experiments/run_check.h"
-#include "tests/experiments/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace halfstep {
 namespace {

@@ -3,13 +3,13 @@
 
 #include <nlohmann/json.hpp>
 
-#include "experiments/commands.h"
-#include "experiments/planning.h"
-#include "experiments/random_scenes.h"
-#include "planner/scene.h"
+#include "experiments/commands/commands.h"
+#include "experiments/config/random_scenes.h"
+#include "experiments/run/planning.h"
+#include "planner/scene/scene.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/run_check.h"
-#include "tests/experiments/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace halfstep {
 namespace {

@@ -6,16 +6,16 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "experiments/commands.h"
-#include "experiments/experiment.h"
+#include "experiments/commands/commands.h"
+#include "experiments/config/experiment.h"
 #include "experiments/replay/mass_model_zmp.h"
 #include "experiments/replay/mujoco_model.h"
 #include "smoothing/walk/superposed_walk.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/parsed_csv.h"
-#include "tests/experiments/temporary_folder.h"
-#include "wpg/leg_ik.h"
-#include "wpg/posture.h"
+#include "tests/temporary_folder.h"
+#include "wpg/motion/posture.h"
+#include "wpg/robot/leg_ik.h"
 
 namespace halfstep::replay {
 namespace {
@@ -34,7 +34,7 @@ class ReplayTest : public testing::Test {
     std::vector<TrajectoryRow> rows;
     for (int i = 0; i <= 800; ++i) {
       const LocalTime at = walk.Locate(0.005 * i);
-      const WalkVector x = walk.At(at).value;
+      const WalkState x = walk.At(at).value;
       TrajectoryRow& row = rows.emplace_back();
       row.t = 0.005 * i;
       row.stands = {true, walk.StepInAir(at) < 0};  // the right foot steps

@@ -6,13 +6,13 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "experiments/commands.h"
+#include "experiments/commands/commands.h"
 #include "experiments/report/drawn_mesh.h"
 #include "experiments/report/report_page.h"
 #include "experiments/report/report_walk.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/run_check.h"
-#include "tests/experiments/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace halfstep {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "experiments/report/report_page.h"
 #include "tests/experiments/parsed_csv.h"
-#include "tests/experiments/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace halfstep {
 

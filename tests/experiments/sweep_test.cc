@@ -8,13 +8,13 @@
 #include <set>
 #include <thread>
 
-#include "experiments/commands.h"
-#include "experiments/sweep_case.h"
-#include "experiments/sweep_config.h"
+#include "experiments/commands/commands.h"
+#include "experiments/sweep/sweep_case.h"
+#include "experiments/sweep/sweep_config.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/run_check.h"
-#include "tests/experiments/temporary_folder.h"
 #include "tests/fixture_check.h"
+#include "tests/temporary_folder.h"
 
 namespace halfstep {
 namespace {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "tests/experiments/parsed_csv.h"
-#include "tests/experiments/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace halfstep {
 

@@ -14,7 +14,7 @@
 #include <numeric>
 #include <random>
 
-#include "experiments/commands.h"
+#include "experiments/commands/commands.h"
 #include "experiments/report/report_page.h"
 #include "tests/experiments/child_process.h"
 #include "tests/faults/command_files.h"

@@ -7,7 +7,7 @@
 #include <map>
 #include <string>
 
-#include "tests/experiments/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace halfstep {
 namespace {

@@ -5,11 +5,11 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
-#include "experiments/commands.h"
+#include "experiments/commands/commands.h"
 #include "experiments/report/report_page.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/run_check.h"
-#include "tests/experiments/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace halfstep {
 namespace {

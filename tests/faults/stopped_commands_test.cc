@@ -8,10 +8,10 @@
 #include <random>
 #include <thread>
 
-#include "experiments/commands.h"
+#include "experiments/commands/commands.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/run_check.h"
-#include "tests/experiments/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace halfstep {
 namespace {

@@ -1,6 +1,6 @@
 // A CSV table, by both readers: what the checker's strict one accepts, the other reads the same.
 
-#include "experiments/csv_reader.h"
+#include "experiments/tables/csv_reader.h"
 #include "experiments/verify/csv_text.h"
 #include "tests/fuzz/fuzz.h"
 

@@ -1,7 +1,7 @@
 // The same bytes as STL, ASCII or binary, and as OBJ.
 
 #include "tests/fuzz/fuzz.h"
-#include "wpg/input/mesh_file.h"
+#include "wpg/files/mesh_file.h"
 
 using namespace halfstep;
 

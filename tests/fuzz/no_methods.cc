@@ -1,7 +1,7 @@
 // Names of methods, planners and programs for the readers of configs, without what they name.
 
-#include "experiments/methods.h"
-#include "planner/planner_registry.h"
+#include "experiments/config/methods.h"
+#include "planner/search/planner_registry.h"
 
 namespace halfstep {
 

@@ -1,7 +1,8 @@
 // What `verify` reads (`export` and `replay` read the trajectory too), and the arithmetic of its
-// certificate, manifest, overlaps and summary: the robot is loaded once, and distances are not asked.
+// certificate, manifest, overlaps and summary: the robot is loaded once, and distances are not
+// asked.
 
-#include "experiments/trajectory_file.h"
+#include "experiments/tables/trajectory_file.h"
 #include "experiments/verify/check_certificate.h"
 #include "experiments/verify/check_overlaps.h"
 #include "experiments/verify/check_summary.h"
@@ -29,9 +30,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   });
   verify::Findings findings;
   verify::RunManifest manifest;
-  const bool has_manifest = fuzz::Reads("", [&] {
-    manifest = verify::ReadManifest("manifest.json", files["manifest.json"]);
-  });
+  const bool has_manifest = fuzz::Reads(
+      "", [&] { manifest = verify::ReadManifest("manifest.json", files["manifest.json"]); });
   fuzz::Reads("", [&] {
     const auto half_steps = verify::ReadHalfSteps("half_steps.csv", files["half_steps.csv"]);
     const auto overlaps = verify::ReadOverlaps("overlaps.csv", files["overlaps.csv"]);

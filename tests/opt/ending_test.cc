@@ -1,4 +1,4 @@
-#include "opt/ending.h"
+#include "opt/solvers/ending.h"
 
 #include <gtest/gtest.h>
 

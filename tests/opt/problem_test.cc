@@ -1,4 +1,4 @@
-#include "opt/problem.h"
+#include "opt/problem/problem.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "opt/problem_derivatives.h"
+#include "opt/problem/problem_derivatives.h"
 #include "tests/problems/auto_blocks.h"
 #include "tests/problems/hock_schittkowski.h"
 

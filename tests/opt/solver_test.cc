@@ -1,4 +1,4 @@
-#include "opt/solver.h"
+#include "opt/adapters/solver_registry.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,8 +8,8 @@
 #include <thread>
 #include <vector>
 
-#include "opt/box_transform.h"
-#include "opt/option_text.h"
+#include "opt/adapters/box_transform.h"
+#include "opt/solvers/option_text.h"
 #include "tests/problems/constructed_problems.h"
 #include "tests/problems/hock_schittkowski.h"
 
@@ -60,8 +60,7 @@ TEST(Solution, ReportsOnOneLineAndOnAPage) {
   solution.max_violation = 0.5;
   solution.worst_row = "disk";
   solution.used_options = {{"tol", "1e-6"}};
-  EXPECT_THAT(solution.BriefReport(),
-              HasSubstr("ipopt: failed, cost 2, violated by 0.5 in disk"));
+  EXPECT_THAT(solution.BriefReport(), HasSubstr("ipopt: failed, cost 2, violated by 0.5 in disk"));
   EXPECT_EQ(solution.BriefReport().find('\n'), std::string::npos);
   EXPECT_THAT(solution.FullReport(), HasSubstr("used       tol = 1e-6"));
 }

@@ -4,12 +4,12 @@
 #include <cstdio>
 #include <memory>
 
-#include "wpg/input/input_error.h"
+#include "wpg/files/input_error.h"
 
 namespace halfstep::oracle {
 namespace {
 
-// A slab's width falls short of a distance by at most this [m] (planner/separation.h).
+// A slab's width falls short of a distance by at most this [m] (planner/collision/separation.h).
 constexpr double kSlab = 1e-6;
 
 Pose2 ToPose(const FloorPose& p) { return {p.x, p.y, p.yaw}; }

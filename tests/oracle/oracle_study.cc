@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "tests/experiments/temporary_folder.h"
 #include "tests/oracle/judge.h"
+#include "tests/temporary_folder.h"
 
 namespace halfstep::oracle {
 namespace {

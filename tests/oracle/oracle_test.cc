@@ -8,8 +8,8 @@
 #include <set>
 
 #include "smoothing/walk/superposed_walk.h"
-#include "tests/experiments/temporary_folder.h"
 #include "tests/oracle/judge.h"
+#include "tests/temporary_folder.h"
 
 namespace halfstep::oracle {
 namespace {

@@ -6,8 +6,8 @@
 #include <limits>
 #include <vector>
 
-#include "planner/scene.h"
-#include "wpg/convex_body.h"
+#include "planner/scene/scene.h"
+#include "wpg/geometry/convex_body.h"
 
 namespace halfstep {
 

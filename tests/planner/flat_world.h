@@ -2,11 +2,11 @@
 
 #include <vector>
 
-#include "planner/half_step_query.h"
-#include "planner/half_step_set.h"
-#include "planner/scene.h"
-#include "planner/simple_polygon.h"
-#include "wpg/support_polygon.h"
+#include "planner/scene/scene.h"
+#include "planner/scene/simple_polygon.h"
+#include "planner/search/half_step_query.h"
+#include "planner/search/half_step_set.h"
+#include "wpg/geometry/support_polygon.h"
 
 namespace halfstep {
 

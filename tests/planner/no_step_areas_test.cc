@@ -1,4 +1,4 @@
-#include "planner/no_step_areas.h"
+#include "planner/scene/no_step_areas.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-#include "planner/simple_polygon.h"
+#include "planner/scene/simple_polygon.h"
 
 namespace halfstep {
 namespace {

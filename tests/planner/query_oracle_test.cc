@@ -8,13 +8,13 @@
 #include <string>
 #include <vector>
 
-#include "planner/box_tree_query.h"
-#include "planner/collision_world.h"
-#include "planner/separation.h"
-#include "planner/swept_volume_query.h"
-#include "planner/triangle_tree.h"
+#include "planner/collision/collision_world.h"
+#include "planner/collision/separation.h"
+#include "planner/collision/triangle_tree.h"
+#include "planner/swept/box_tree_query.h"
+#include "planner/swept/swept_volume_query.h"
 #include "tests/planner/swept_volume_draws.h"
-#include "wpg/support_polygon.h"
+#include "wpg/geometry/support_polygon.h"
 
 namespace halfstep {
 namespace {

@@ -1,4 +1,4 @@
-#include "planner/scene.h"
+#include "planner/scene/scene.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -8,7 +8,7 @@
 #include <string>
 #include <variant>
 
-#include "planner/simple_polygon.h"
+#include "planner/scene/simple_polygon.h"
 #include "tests/fixture_check.h"
 
 namespace halfstep {

@@ -1,14 +1,14 @@
-#include "planner/swept_volume_query.h"
+#include "planner/swept/swept_volume_query.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 #include <stdexcept>
 
-#include "planner/collision_world.h"
-#include "planner/mesh_interior.h"
+#include "planner/collision/collision_world.h"
+#include "planner/collision/mesh_interior.h"
 #include "tests/planner/swept_volume_draws.h"
-#include "wpg/support_polygon.h"
+#include "wpg/geometry/support_polygon.h"
 
 namespace halfstep {
 namespace {
@@ -75,7 +75,7 @@ TEST(SweptVolumeQueryTest, FreeHalfStepsKeepTheClearanceOnBothSidesUpAndDown) {
                                       LipmOf(robot));
       for (int n = 0; n <= 4; ++n) {
         const double tau = half_step.duration * n / 4;
-        const WalkVector x_W = Transformed(X_WFoot, Evaluate(half_step, profiles, tau).value);
+        const WalkState x_W = Transformed(X_WFoot, Evaluate(half_step, profiles, tau).value);
         const Posture posture = SolvePosture(robot, x_W);
         for (size_t b = 0; b < robot.bodies.size(); ++b) {
           CollisionWorld::Scratch scratch;

@@ -1,4 +1,4 @@
-#include "planner/swept_volume.h"
+#include "planner/swept/swept_volume.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "opt/problem.h"
+#include "opt/problem/problem.h"
 
 namespace halfstep::testing {
 

@@ -7,7 +7,7 @@
 #include <memory>
 #include <string>
 
-#include "opt/solver.h"
+#include "opt/adapters/solver_registry.h"
 
 namespace halfstep::testing {
 

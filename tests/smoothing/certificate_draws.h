@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "planner/scene.h"
+#include "planner/scene/scene.h"
 #include "smoothing/proof/sampled_feasibility.h"
 #include "tests/smoothing/test_walks.h"
 #include "tests/wpg/generated_robots.h"
@@ -62,7 +62,7 @@ inline Scene DrawScene(const SuperposedWalk& walk, SceneKind kind, int count, Wa
   Scene scene;
   scene.name = "drawn";
   for (int i = 0; i < count; ++i) {
-    const WalkVector x = walk.At(draw->Uniform(0.0, walk.duration())).value;
+    const WalkState x = walk.At(draw->Uniform(0.0, walk.duration())).value;
     const Side side = draw->Uniform(0, 1) < 0.5 ? Side::kLeft : Side::kRight;
     const Pose2 X_WF = FootPose(x, side);
     const double r = draw->Uniform(0.0, 0.3), direction = draw->Uniform(-3.14, 3.14);

@@ -59,7 +59,7 @@ struct FastStep {
   SuperposedWalk walk{sequence, Overlapped(sequence, 0.8)};
   double middle = 0.5 * walk.duration();
 
-  WalkVector At(double t) const { return walk.At(t).value; }
+  WalkState At(double t) const { return walk.At(t).value; }
 };
 
 // A plate of 0.1 mm stands across the way of the foot, beside the leg, at the height of the foot's
@@ -105,7 +105,7 @@ TEST(CertifiedFeasibility, RefusesTheFenceThatSamplingEvery15MsMisses) {
 TEST(CertifiedFeasibility, FindsSmallObstaclesInsideWhatABodySweeps) {
   const FastStep step;
   const MarginLimits limits = ObstaclesOnly();
-  const WalkVector mid = step.At(step.middle), begin = step.At(0.0);
+  const WalkState mid = step.At(step.middle), begin = step.At(0.0);
   const double waist = step.robot.waist_height;
   const Pose2 X_WC{begin[kComX], begin[kComY], begin[kWaistYaw]};
   struct Case {
@@ -309,7 +309,7 @@ TEST(CertifiedFeasibility, OnlyWholeStretchesAreCheckedAsTheyAre) {
 TEST(CertifiedFeasibility, ChecksAWindowUpToTheKnotsAroundIt) {
   const FastStep step;
   const MarginLimits limits = ObstaclesOnly();
-  const WalkVector mid = step.At(step.middle);
+  const WalkState mid = step.At(step.middle);
   const Scene scene =
       With(MakeSphere(0.0025), ToIsometry(FootPose(mid, Side::kRight), mid[kRightZ] + 0.03));
   std::vector<double> knots = KnotsInside(step.walk, {0.0, step.walk.duration()});

@@ -168,7 +168,7 @@ TEST(Ground, AFootThatTouchesTheFloorHasNoLimit) {
   EXPECT_EQ(CertifiedFeasibility(evaluator, {}).Certify(walk, &scratch, &certificate).verdict,
             Verdict::kFeasible);
   // But not below it.
-  WalkVector x = walk.At(0.0).value;
+  WalkState x = walk.At(0.0).value;
   x[kRightZ] = -1e-6;
   const Margin below = evaluator.heights().Least(SolvePosture(robot, x), x);
   EXPECT_EQ(below.value, -1e-6);

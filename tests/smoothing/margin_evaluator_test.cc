@@ -7,8 +7,7 @@
 #include <limits>
 #include <string>
 
-#include "experiments/experiment.h"
-#include "planner/separation.h"
+#include "planner/collision/separation.h"
 #include "tests/smoothing/test_scenes.h"
 #include "tests/smoothing/test_walks.h"
 
@@ -224,7 +223,7 @@ TEST_F(MarginEvaluatorTest, MarginsDoNotDependOnWhereAndOnWhichSide) {
     const SuperposedWalk walk(sequence, parameters);
     const double t = draw.Uniform(0, walk.duration());
     if (NearKnot(walk, t, 1e-9)) continue;
-    const WalkVector x = walk.At(t).value;
+    const WalkState x = walk.At(t).value;
     Scene scene;
     scene.obstacles.push_back(RandomObstacle(&draw));
     scene = Moved({x[kComX], x[kComY], x[kWaistYaw]}, scene);

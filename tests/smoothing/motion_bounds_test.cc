@@ -1,4 +1,4 @@
-#include "wpg/motion_bounds.h"
+#include "wpg/motion/motion_bounds.h"
 #include "smoothing/proof/interval_statements.h"
 
 #include <gtest/gtest.h>
@@ -271,7 +271,7 @@ double ShareAtTheEnd(const RobotModel& robot, const WalkJet& mid, double h, Boun
                      int which) {
   const std::vector<Eigen::Matrix3Xd> points = OuterPoints(robot);
   IntervalMotion motion;
-  MotionBounds(robot).Bound(mid, WalkVector::Zero(), h, &motion);
+  MotionBounds(robot).Bound(mid, WalkState::Zero(), h, &motion);
   EXPECT_TRUE(motion.bounded);
   double share = 0.0;
   for (const double t : {-h, h}) {
@@ -346,7 +346,7 @@ struct Accelerations {
 };
 
 std::optional<Accelerations> AccelerationsOf(const MotionBounds& bounds, const WalkJet& mid,
-                                             const WalkVector& second, double h,
+                                             const WalkState& second, double h,
                                              IntervalMotion* motion) {
   constexpr double kShort = 1e-7;
   IntervalMotion once, twice;
@@ -384,7 +384,7 @@ TEST(MotionBounds, OfAnIntervalAreNotBelowThoseOfItsInstants) {
       if (i % 3 > 1) {
         for (int yaw : {kWaistYaw, kLeftYaw, kRightYaw}) mid.first[yaw] = 0.0;
       }
-      const WalkVector second = mid.second.cwiseAbs();
+      const WalkState second = mid.second.cwiseAbs();
       const double h = 1e-3 * std::pow(60.0, draw.Uniform(0, 1));
       const double t = (draw.Uniform(0, 1) < 0.5 ? -1.0 : 1.0) * (h - 2e-5);
       WalkJet at = mid;

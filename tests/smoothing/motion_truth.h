@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "smoothing/walk/superposed_walk.h"
-#include "wpg/convex_body.h"
-#include "wpg/motion_bounds.h"
-#include "wpg/posture.h"
-#include "wpg/robot_model.h"
+#include "wpg/geometry/convex_body.h"
+#include "wpg/motion/motion_bounds.h"
+#include "wpg/motion/posture.h"
+#include "wpg/robot/robot_model.h"
 
 namespace halfstep {
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "opt/derivative_check.h"
+#include "opt/problem/derivative_check.h"
 #include "tests/smoothing/test_walks.h"
 
 namespace halfstep {

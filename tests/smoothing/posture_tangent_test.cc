@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "opt/derivative_check.h"
+#include "opt/problem/derivative_check.h"
 #include "tests/smoothing/test_walks.h"
 
 namespace halfstep {

@@ -1,11 +1,11 @@
-#include "wpg/posture.h"
+#include "wpg/motion/posture.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "opt/derivative_check.h"
+#include "opt/problem/derivative_check.h"
 #include "smoothing/walk/superposed_walk.h"
 #include "tests/smoothing/test_walks.h"
 
@@ -42,7 +42,7 @@ class PostureTest : public testing::Test {
 };
 
 TEST_F(PostureTest, TheStandingPostureIsTheRobotsOwn) {
-  WalkVector x = WalkVector::Zero();
+  WalkState x = WalkState::Zero();
   const double half = 0.5 * robot_.standing_width;
   x[kLeftY] = half, x[kRightY] = -half;
   const Posture stand = SolvePosture(robot_, x);
@@ -54,7 +54,7 @@ TEST_F(PostureTest, TheStandingPostureIsTheRobotsOwn) {
   for (size_t s = 0; s < 2; ++s) {
     const Leg& leg = robot_.legs[s];
     const double sole_x = LegForwardKinematics(leg, leg.standing_q)[6].translation().x();
-    WalkVector half_sitting = x;
+    WalkState half_sitting = x;
     half_sitting[kComX] = shift - sole_x;
     const Posture posture = SolvePosture(robot_, half_sitting);
     EXPECT_LT((posture.ik[s].q - leg.standing_q).cwiseAbs().maxCoeff(), 1e-9);
@@ -64,7 +64,7 @@ TEST_F(PostureTest, TheStandingPostureIsTheRobotsOwn) {
 TEST_F(PostureTest, LinksJoinTheWaistToTheSolesOfTheWalk) {
   const int reached =
       ForRandomInstants(1000, 0.0, [&](const SuperposedWalk& walk, double t, Posture posture) {
-        const WalkVector x = walk.At(t).value;
+        const WalkState x = walk.At(t).value;
         for (Side side : {Side::kLeft, Side::kRight}) {
           const size_t s = static_cast<size_t>(Index(side));
           const Eigen::Isometry3d X_WSole = ToIsometry(FootPose(x, side), x[FootIndex(side) + 2]);
@@ -110,7 +110,7 @@ TEST_F(PostureTest, JointSpeedsAreTheTimeDerivativeOfJointAngles) {
 }
 
 TEST_F(PostureTest, AFootTooFarAwayIsNotReached) {
-  WalkVector x = WalkVector::Zero();
+  WalkState x = WalkState::Zero();
   x[kLeftY] = 0.105, x[kRightY] = -0.105;
   x[kRightX] = 0.6;
   const Posture posture = SolvePosture(robot_, x);

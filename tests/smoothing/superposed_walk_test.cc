@@ -6,13 +6,13 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "opt/derivative_check.h"
+#include "opt/problem/derivative_check.h"
 #include "tests/smoothing/test_walks.h"
 
 namespace halfstep {
 namespace {
 
-double Largest(const WalkVector& x) { return x.cwiseAbs().maxCoeff(); }
+double Largest(const WalkState& x) { return x.cwiseAbs().maxCoeff(); }
 double Largest(const WalkJet& x) {
   return std::max({Largest(x.value), Largest(x.first), Largest(x.second)});
 }
@@ -21,8 +21,8 @@ WalkJet operator-(const WalkJet& a, const WalkJet& b) {
 }
 
 // Directions of W in a moved frame V.
-WalkVector Rotated(const Pose2& X_VW, const WalkVector& x_W) {
-  WalkVector x_V = x_W;
+WalkState Rotated(const Pose2& X_VW, const WalkState& x_W) {
+  WalkState x_V = x_W;
   for (int i : {kComX, kZmpX, kLeftX, kRightX}) {
     x_V.segment<2>(i) = X_VW.rotation() * x_W.segment<2>(i);
   }
@@ -84,8 +84,8 @@ TEST(SuperposedWalk, BeginsAndEndsAtRest) {
     const SuperposedWalk walk(sequence, draw.ExtremeParameters(sequence));
     const PlacedHalfStep& first = sequence.half_steps.front();
     const PlacedHalfStep& last = sequence.half_steps.back();
-    const WalkVector from = Transformed(first.X_WS, first.half_step.Start());
-    const WalkVector to = Transformed(last.X_WS, last.half_step.End());
+    const WalkState from = Transformed(first.X_WS, first.half_step.Start());
+    const WalkState to = Transformed(last.X_WS, last.half_step.End());
     for (double inside : {0.0, 1e-9}) {
       for (const auto& [t, x] : {std::pair{inside, from}, {walk.duration() - inside, to}}) {
         const WalkJet jet = walk.At(t);
@@ -200,7 +200,7 @@ TEST(SuperposedWalk, IsTheSumOverAllHalfSteps) {
         h.via_height *= parameters.height_scales[static_cast<size_t>(k / 2)];
         const HalfStepProfiles profiles(h.kind, h.shape, h.duration, sequence.lipm);
         const WalkJet own = Evaluate(h, profiles, t - walk.start_of(k));
-        const WalkVector from = Transformed(X_WS, h.Start());
+        const WalkState from = Transformed(X_WS, h.Start());
         if (k == 0) sum.value = from;
         sum.value += Transformed(X_WS, own.value) - from;
         sum.first += Rotated(X_WS, own.first);
@@ -307,7 +307,7 @@ TEST(SuperposedWalk, FeetAreInTheAirAndMoveHorizontallyWhenTheHalfStepsSaySo) {
       in_air += step_in_air >= 0;
       // One sole carries while a foot is in the air: the ZMP's margin is that of its rectangle.
       const Eigen::Vector2d size(0.2, 0.1);
-      const WalkVector x = walk.At(at).value;
+      const WalkState x = walk.At(at).value;
       const SupportPolygon polygon = SupportAt(walk, at, x, size);
       const SupportPolygon expected =
           step_in_air >= 0

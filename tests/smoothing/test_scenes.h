@@ -1,20 +1,11 @@
 #pragma once
 
-#include <string>
 #include <utility>
-#include <variant>
 
-#include "experiments/experiment.h"
-#include "planner/scene.h"
+#include "planner/scene/scene.h"
 #include "tests/smoothing/test_walks.h"
 
 namespace halfstep {
-
-/// A shipped experiment, by the name of its config.
-inline Experiment LoadExperiment(const std::string& name) {
-  const std::string folder = HALFSTEP_SOURCE_DIR "/experiments/configs/";
-  return Prepare(LoadConfig(folder + name + ".yaml", {}));
-}
 
 /// A small box, sphere or cylinder about the robot's legs; its shape is its own mirror image.
 inline Obstacle RandomObstacle(WalkDraw* draw) {

@@ -11,7 +11,7 @@
 namespace halfstep {
 namespace {
 
-double Largest(const WalkVector& x) { return x.cwiseAbs().maxCoeff(); }
+double Largest(const WalkState& x) { return x.cwiseAbs().maxCoeff(); }
 
 TEST(WalkOverlap, SetOverlapGivesTheWalkOfTheChangedParameters) {
   WalkDraw draw(31);

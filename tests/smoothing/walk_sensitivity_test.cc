@@ -6,10 +6,10 @@
 #include <cmath>
 #include <limits>
 
-#include "opt/derivative_check.h"
+#include "opt/problem/derivative_check.h"
 #include "smoothing/walk/superposed_walk.h"
 #include "tests/smoothing/test_walks.h"
-#include "wpg/posture.h"
+#include "wpg/motion/posture.h"
 
 namespace halfstep {
 namespace {

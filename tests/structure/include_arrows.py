@@ -1,58 +1,83 @@
 #!/usr/bin/env python3
 """Fails on an include between folders that points backwards, and on a circle of folders.
 
-Arrows go from left to right: wpg <- planner <- smoothing <- experiments; opt includes no sibling,
-and only smoothing and experiments include it. No two folders include each other.
-Run: include_arrows.py [--picture]   (prints who includes whom)
+A file of a top-level folder includes that folder and the ones below it: wpg below planner below
+smoothing below experiments; opt stands beside wpg and planner, below smoothing. No chain of
+includes leads from a folder (wpg/robot, smoothing/proof …) back to itself. A test includes what
+the folder under test may include; opt, which includes no sibling, is open to every test.
+Run: include_arrows.py [--picture]   (prints who includes whom, the bottom first)
 """
 import pathlib
 import re
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-TOP = ["wpg", "opt", "planner", "smoothing", "experiments"]
-MAY_INCLUDE = {
-    "wpg": {"wpg"},
-    "opt": {"opt"},
-    "planner": {"planner", "wpg"},
-    "smoothing": {"smoothing", "planner", "opt", "wpg"},
-    "experiments": set(TOP),
+BELOW = {
+    "wpg": [],
+    "opt": [],
+    "planner": ["wpg"],
+    "smoothing": ["planner", "opt", "wpg"],
+    "experiments": ["smoothing", "planner", "opt", "wpg"],
 }
-# Circles that are still there: each is to go, none is to come.
-KNOWN_CIRCLES = {("wpg", "wpg/input"), ("experiments", "experiments/report")}
-# The program's main file and commands bring everything together; they are the folder's roof.
-ROOF = {"experiments/main.cc"}
 
 
-def folder_of(path):
-    return str(pathlib.PurePosixPath(path).parent)
+def includes_of(path):
+    found = re.findall(r'^#include "([^"]+)"', path.read_text(encoding="utf-8"), re.M)
+    return [name for name in found if (ROOT / name).exists()]
+
+
+def folder_of(name):
+    return str(pathlib.PurePosixPath(name).parent)
+
+
+def may_include(name, target):
+    """Whether the top-level folders of the two files allow it."""
+    top, to = name.split("/")[0], target.split("/")[0]
+    if top == "tests":
+        under_test = name.split("/")[1]
+        if under_test not in BELOW:  # tests of the program, studies, fixtures
+            return True
+        if to == "tests":
+            beside = target.split("/")[1]
+            return beside not in BELOW or beside in [under_test, "opt"] + BELOW[under_test]
+        return to in [under_test, "opt"] + BELOW[under_test]
+    return to == top or to in BELOW[top]
+
+
+def reached_from(folder, arrows):
+    seen, open_ends = set(), [folder]
+    while open_ends:
+        for target in arrows.get(open_ends.pop(), {}):
+            if target not in seen:
+                seen.add(target)
+                open_ends.append(target)
+    return seen
 
 
 def main():
-    includes = {}
-    for top in TOP:
+    wrong = []
+    arrows = {}  # folder -> folder -> one pair of files
+    for top in [*BELOW, "tests"]:
         for path in sorted((ROOT / top).rglob("*")):
             if path.suffix not in (".h", ".cc"):
                 continue
             name = path.relative_to(ROOT).as_posix()
-            found = re.findall(r'^#include "([^"]+)"', path.read_text(encoding="utf-8"), re.M)
-            includes[name] = [f for f in found if (ROOT / f).exists()]
-    wrong = []
-    arrows = {}
-    for name, targets in includes.items():
-        top = name.split("/")[0]
-        for target in targets:
-            if target.split("/")[0] not in MAY_INCLUDE[top]:
-                wrong.append(f"{name} includes {target}: backwards")
-            if folder_of(name) != folder_of(target) and name not in ROOF:
-                arrows.setdefault((folder_of(name), folder_of(target)), []).append((name, target))
-    for (a, b), pairs in sorted(arrows.items()):
-        if (b, a) in arrows and a < b and (a, b) not in KNOWN_CIRCLES:
-            for name, target in (pairs[0], arrows[(b, a)][0]):
-                wrong.append(f"{a} and {b} include each other: {name} includes {target}")
+            for target in includes_of(path):
+                if not may_include(name, target):
+                    wrong.append(f"{name} includes {target}: backwards")
+                if folder_of(name) != folder_of(target):
+                    arrows.setdefault(folder_of(name), {}).setdefault(
+                        folder_of(target), (name, target))
+    reached = {folder: reached_from(folder, arrows) for folder in arrows}
+    for folder, targets in sorted(arrows.items()):
+        for target, (name, included) in sorted(targets.items()):
+            if folder in reached.get(target, set()):
+                wrong.append(f"{name} includes {included}: {target} includes {folder} as well, "
+                             "at once or by others")
     if "--picture" in sys.argv:
-        for a in sorted({a for a, _ in arrows}):
-            print(a, "->", ", ".join(sorted(b for x, b in arrows if x == a)))
+        shown = [f for f in arrows if not f.startswith("tests")]
+        for folder in sorted(shown, key=lambda f: (len(reached[f]), f)):
+            print(f"{folder:22} includes {', '.join(sorted(arrows[folder]))}")
     for line in wrong:
         print(line, file=sys.stderr)
     return 1 if wrong else 0

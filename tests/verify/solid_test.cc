@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "planner/separation.h"
+#include "planner/collision/separation.h"
 #include "tests/oracle/nasty_draws.h"
 
 namespace halfstep::verify {

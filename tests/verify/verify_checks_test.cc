@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <functional>
 
-#include "experiments/experiment.h"
+#include "experiments/config/experiment.h"
 #include "experiments/verify/certificate_text.h"
 #include "experiments/verify/check_certificate.h"
 #include "experiments/verify/check_claims.h"

@@ -4,11 +4,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include "experiments/complete_manifest.h"
-#include "experiments/experiment_run.h"
+#include "experiments/run/complete_manifest.h"
+#include "experiments/run/experiment_run.h"
 #include "experiments/verify/verify_run.h"
-#include "tests/experiments/temporary_folder.h"
-#include "wpg/input/sha256.h"
+#include "tests/temporary_folder.h"
+#include "wpg/files/sha256.h"
 
 namespace halfstep {
 namespace {

@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "planner/scene.h"
+#include "planner/scene/scene.h"
 #include "tests/experiments/child_process.h"
-#include "tests/experiments/temporary_folder.h"
-#include "wpg/input/sha256.h"
-#include "wpg/robot_model.h"
+#include "tests/temporary_folder.h"
+#include "wpg/files/sha256.h"
+#include "wpg/robot/robot_model.h"
 
 namespace halfstep {
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-#include "experiments/experiment.h"
+#include "experiments/config/experiment.h"
 #include "experiments/verify/check_clearance.h"
 #include "experiments/verify/check_overlaps.h"
 #include "experiments/verify/check_rows.h"

@@ -8,7 +8,7 @@
 
 #include "experiments/verify/certificate_text.h"
 #include "tests/verify/what_is_claimed.h"
-#include "wpg/input/number_text.h"
+#include "wpg/files/number_text.h"
 
 namespace halfstep {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "experiments/verify/verify_run.h"
 #include "tests/verify/verify_study.h"
-#include "wpg/input/input_error.h"
+#include "wpg/files/input_error.h"
 
 namespace halfstep {
 namespace {

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "wpg/check.h"
-#include "wpg/leg_ik.h"
-#include "wpg/side.h"
+#include "wpg/geometry/side.h"
+#include "wpg/robot/leg_ik.h"
 
 namespace halfstep {
 

@@ -1,21 +1,19 @@
-#include "wpg/half_step_sequence.h"
+#include "wpg/motion/half_step_sequence.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 #include <stdexcept>
 
-#include "tests/smoothing/test_walks.h"
-#include "wpg/walk_vector.h"
+#include "tests/wpg/sequence_draw.h"
+#include "wpg/motion/walk_state.h"
 
 namespace halfstep {
 namespace {
 
-WalkVector StartInW(const PlacedHalfStep& p) { return Transformed(p.X_WS, p.half_step.Start()); }
-WalkVector EndInW(const PlacedHalfStep& p) { return Transformed(p.X_WS, p.half_step.End()); }
-double Difference(const WalkVector& a, const WalkVector& b) {
-  return (a - b).cwiseAbs().maxCoeff();
-}
+WalkState StartInW(const PlacedHalfStep& p) { return Transformed(p.X_WS, p.half_step.Start()); }
+WalkState EndInW(const PlacedHalfStep& p) { return Transformed(p.X_WS, p.half_step.End()); }
+double Difference(const WalkState& a, const WalkState& b) { return (a - b).cwiseAbs().maxCoeff(); }
 
 TEST(MakeSequence, OneStepByHand) {
   const HalfStepSequence s = MakeSequence(
@@ -44,7 +42,7 @@ TEST(MakeSequence, OneStepByHand) {
 }
 
 TEST(MakeSequence, EachHalfStepBeginsWhereTheOneBeforeEnds) {
-  WalkDraw draw(5);
+  SequenceDraw draw(5);
   for (int i = 0; i < 50; ++i) {
     const std::vector<Footstep> footsteps = draw.Footsteps(6);
     const HalfStepSequence s = MakeSequence(StandingFeet(), footsteps, 0.24, {}, {});
@@ -60,7 +58,7 @@ TEST(MakeSequence, EachHalfStepBeginsWhereTheOneBeforeEnds) {
       if (k % 2 == 1) {
         const Footstep& footstep = footsteps[static_cast<size_t>(k / 2)];
         feet[static_cast<size_t>(Index(footstep.side))] = footstep.X_WF;
-        const WalkVector end = EndInW(now);
+        const WalkState end = EndInW(now);
         for (Side side : {Side::kLeft, Side::kRight}) {
           const Pose2 foot = FootPose(end, side), expected = feet[static_cast<size_t>(Index(side))];
           EXPECT_NEAR(foot.x, expected.x, 1e-15);
@@ -88,7 +86,7 @@ TEST(MakeSequence, RefusesNoFootsteps) {
 }
 
 TEST(SequenceSymmetry, MirroredAndMovedAreWhatTheMirroredAndMovedFootstepsGive) {
-  WalkDraw draw(6);
+  SequenceDraw draw(6);
   for (int i = 0; i < 50; ++i) {
     std::vector<Footstep> footsteps = draw.Footsteps(4), mirrored = footsteps, moved = footsteps;
     const Pose2 X_VW = draw.Pose(3, 3);

@@ -1,4 +1,4 @@
-#include "wpg/half_step.h"
+#include "wpg/motion/half_step.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "opt/derivative_check.h"
+#include "opt/problem/derivative_check.h"
 
 namespace halfstep {
 namespace {
@@ -129,7 +129,7 @@ TEST_F(HalfStepTest, RestsAtBothEnds) {
       const double inside = end == 0.0 ? 1e-9 : h.duration - 1e-9;
       for (double tau : {end * h.duration, 3 * end * h.duration - h.duration, inside}) {
         const WalkJet x = Evaluate(h, profiles, tau);
-        const WalkVector expected = end == 0.0 ? h.Start() : h.End();
+        const WalkState expected = end == 0.0 ? h.Start() : h.End();
         EXPECT_LT((x.value - expected).cwiseAbs().maxCoeff(), 1e-12);
         EXPECT_LT(std::abs(x.value[kComX] - x.value[kZmpX]), 1e-12);
         EXPECT_LT(std::abs(x.value[kComY] - x.value[kZmpY]), 1e-12);
@@ -145,7 +145,7 @@ TEST_F(HalfStepTest, GoesFromMidFeetToAboveTheSupportSoleAndBack) {
   h.X_SF = {0.1, -0.2, 0.4};
   h.via_height = 0.12;
   h.via_lateral = 0.22;
-  WalkVector floor, via;
+  WalkState floor, via;
   // CoM, ZMP, waist yaw, left foot, right foot.
   floor << 0.05, -0.1, 0.05, -0.1, 0.2, 0, 0, 0, 0, 0.1, -0.2, 0, 0.4;
   via << 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, -0.22, 0.12, 0;

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <random>
 
-#include "wpg/input/input_error.h"
-#include "wpg/input/number_text.h"
-#include "wpg/input/text.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/number_text.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {

@@ -1,4 +1,4 @@
-#include "wpg/leg_ik.h"
+#include "wpg/robot/leg_ik.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "wpg/input/mesh_file.h"
+#include "wpg/files/mesh_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <fstream>
 #include <string>
 
-#include "wpg/input/input_error.h"
+#include "wpg/files/input_error.h"
 
 namespace halfstep {
 namespace {

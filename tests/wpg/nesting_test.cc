@@ -1,4 +1,4 @@
-#include "wpg/input/nesting.h"
+#include "wpg/files/nesting.h"
 
 #include <gtest/gtest.h>
 

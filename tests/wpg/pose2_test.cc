@@ -1,4 +1,4 @@
-#include "wpg/pose2.h"
+#include "wpg/geometry/pose2.h"
 
 #include <gtest/gtest.h>
 

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <random>
 
-#include "wpg/half_step.h"
-#include "wpg/rest_to_rest.h"
-#include "wpg/smoothstep.h"
+#include "wpg/motion/half_step.h"
+#include "wpg/motion/rest_to_rest.h"
+#include "wpg/motion/smoothstep.h"
 
 namespace halfstep {
 namespace {

@@ -1,4 +1,4 @@
-#include "wpg/rest_to_rest.h"
+#include "wpg/motion/rest_to_rest.h"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <random>
 #include <stdexcept>
 
-#include "opt/derivative_check.h"
-#include "wpg/lipm.h"
-#include "wpg/smoothstep.h"
+#include "opt/problem/derivative_check.h"
+#include "wpg/motion/lipm.h"
+#include "wpg/motion/smoothstep.h"
 
 namespace halfstep {
 namespace {

@@ -1,4 +1,4 @@
-#include "wpg/robot_model.h"
+#include "wpg/robot/robot_model.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -14,9 +14,9 @@
 
 #include "tests/fixture_check.h"
 #include "tests/wpg/generated_robots.h"
-#include "wpg/input/input_error.h"
-#include "wpg/leg_ik.h"
-#include "wpg/urdf_file.h"
+#include "wpg/files/input_error.h"
+#include "wpg/robot/leg_ik.h"
+#include "wpg/robot/urdf_file.h"
 
 namespace halfstep {
 namespace {

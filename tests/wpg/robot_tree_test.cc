@@ -1,8 +1,8 @@
-#include "wpg/robot_tree.h"
+#include "wpg/robot/robot_tree.h"
 
 #include <gtest/gtest.h>
 
-#include "tests/experiments/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace halfstep {
 namespace {

@@ -1,4 +1,4 @@
-#include "wpg/support_polygon.h"
+#include "wpg/geometry/support_polygon.h"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
-#include "wpg/urdf_file.h"
+#include "wpg/robot/urdf_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <string>
 
-#include "tests/experiments/temporary_folder.h"
-#include "wpg/input/input_error.h"
+#include "tests/temporary_folder.h"
+#include "wpg/files/input_error.h"
 
 namespace halfstep {
 namespace {

@@ -1,4 +1,4 @@
-#include "wpg/input/yaml_fields.h"
+#include "wpg/files/yaml_fields.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "tests/wpg/yaml_test_config.h"
-#include "wpg/input/number_text.h"
+#include "wpg/files/number_text.h"
 
 namespace halfstep {
 namespace {

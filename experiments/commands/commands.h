@@ -1,0 +1,139 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/run/exit_status.h"
+#include "wpg/files/yaml_fields.h"
+
+namespace halfstep {
+
+struct RunCommand {
+  std::string config;
+  std::vector<YamlOverride> overrides;
+  std::optional<std::string> out;  ///< run folder
+  bool overwrite = false;
+  bool quiet = false;
+  bool json = false;  ///< prints the summary as one JSON object instead of a table
+};
+
+/// `halfstep run`: plan, smooth with each method, write the run folder, print the table.
+/// Throws InputError for bad input, std::runtime_error when files cannot be written.
+ExitStatus Run(const RunCommand& command);
+
+struct SmoothCommand {
+  RunCommand run;                    ///< `config` may be a run folder too; then its config.yaml
+  std::vector<std::string> methods;  ///< in place of smoothing.methods when not empty
+};
+
+/// `halfstep smooth`: what `run` does, footsteps given. Of a run folder RUN, into RUN-smooth unless
+/// `out` says otherwise. Throws as Run.
+ExitStatus Smooth(const SmoothCommand& command);
+
+struct CompareCommand {
+  std::vector<std::string> runs;   ///< RUN or LABEL=RUN
+  std::optional<std::string> out;  ///< folder for the tables; none: the screen only
+  bool overwrite = false;
+  bool quiet = false;
+};
+
+/// `halfstep compare`: methods against each other over runs. Throws InputError for what is no run,
+/// or cannot be compared; then nothing is written.
+ExitStatus CompareRuns(const CompareCommand& command);
+
+struct CertifyCommand {
+  std::string run;  ///< a run folder
+  std::vector<YamlOverride> overrides;
+  bool quiet = false;
+};
+
+/// `halfstep certify`: makes the certificates of a run's walks anew, from its config and overlaps,
+/// in place. kFailed when a walk is not certified. Throws InputError for a run that cannot be read.
+ExitStatus Certify(const CertifyCommand& command);
+
+struct ExportCommand {
+  std::vector<std::string> runs;  ///< one run folder; several for "ompl"
+  std::string format;             ///< "csv", "hrpsys" or "ompl"
+  std::optional<std::string> method;
+  std::optional<std::string> out;    ///< folder; else RUN-FORMAT
+  std::optional<double> period;      ///< between rows [s], a multiple of the run's
+  std::vector<std::string> columns;  ///< globs, csv: none: all
+  std::vector<std::string> joints;   ///< globs, hrpsys: the joints' order; none: the URDF's
+  bool overwrite = false;
+  bool quiet = false;
+};
+
+/// `halfstep export`: walks of a run in other programs' formats. Throws InputError.
+ExitStatus Export(const ExportCommand& command);
+
+struct ReplayCommand {
+  std::string run;  ///< a run folder
+  std::optional<std::string> method;
+  bool push = false;            ///< look for the largest push that is survived
+  std::vector<double> push_at;  ///< instants [s]; none: a quarter, half, three quarters
+  bool out = false;             ///< write METHOD/replay.csv into the run folder
+  bool quiet = false;
+  bool json = false;
+};
+
+/// `halfstep replay`: plays the walks of a run on a simulated robot. kFailed when one falls, and
+/// where no engine is compiled in. Throws InputError.
+ExitStatus Replay(const ReplayCommand& command);
+struct ReportCommand {
+  std::string run;                 ///< a run folder
+  std::optional<std::string> out;  ///< the page; none: report.html in the run folder, renewed
+  bool overwrite = false;          ///< replaces `out` when it is there
+  bool quiet = false;
+};
+
+/// `halfstep report`: the page of a run (report/report.h). kFailed when this build has none. Throws
+/// InputError for a run that cannot be read, also when robot or scene are no longer those of the
+/// run.
+ExitStatus Report(const ReportCommand& command);
+
+struct PlanCommand {
+  std::string config;
+  std::vector<YamlOverride> overrides;
+  bool quiet = false;
+  bool json = false;
+};
+
+/// `halfstep plan`: the footsteps to the goal, as YAML that can replace it, or as JSON. kFailed
+/// when there is no plan. Throws InputError.
+ExitStatus Plan(const PlanCommand& command);
+/// `halfstep bake`: certifies the set of half-steps and bakes their volumes into the cache. kFailed
+/// when they cannot be kept there.
+ExitStatus Bake(const PlanCommand& command);
+/// `halfstep list half-steps CONFIG`.
+ExitStatus ListHalfSteps(const PlanCommand& command);
+
+struct SweepCommand {
+  std::string sweep;                    ///< a sweep file
+  std::vector<YamlOverride> overrides;  ///< of its keys
+  std::optional<std::string> out;       ///< folder; none: sweeps/NAME
+  int jobs = 1;                         ///< worker processes
+  bool list_cases = false;              ///< prints the cases and does nothing
+  std::string one_case;                 ///< does this one only, here; "": all
+  bool collect = false;                 ///< writes runs.csv from cases that are done
+  bool quiet = false;
+};
+
+/// `halfstep sweep`: every case of a sweep, each by a process of its own, then runs.csv. What is
+/// done already is not done again. Throws InputError for bad input and for a folder of something
+/// else, std::runtime_error when files cannot be written.
+int Sweep(const SweepCommand& command);
+
+struct ExplainCommand {
+  std::string key;  ///< or the end of one; "": all
+  bool json_schema = false, markdown = false;
+};
+
+/// `halfstep explain-config`: the keys of a config as its reader declares them. Throws InputError
+/// for a key that there is not.
+ExitStatus ExplainConfig(const ExplainCommand& command);
+
+/// `halfstep list robots|scenes|solvers|methods|planners`. Precondition: `what` is one of these.
+ExitStatus List(const std::string& what, bool json);
+
+}  // namespace halfstep

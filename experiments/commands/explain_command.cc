@@ -1,0 +1,64 @@
+#include <algorithm>
+#include <cctype>
+#include <iostream>
+
+#include "experiments/commands/commands.h"
+#include "experiments/config/experiment_config.h"
+#include "experiments/config/key_tables.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/text.h"
+
+namespace halfstep {
+namespace {
+
+// Items of lists are N in a description: footsteps.0.x_m is footsteps.N.x_m.
+std::string WithoutIndices(const std::string& path) {
+  std::string result, part;
+  const auto end_part = [&] {
+    const bool index = !part.empty() && std::all_of(part.begin(), part.end(), [](unsigned char c) {
+      return std::isdigit(c) != 0;
+    });
+    result += (result.empty() ? "" : ".") + (index ? "N" : part);
+    part.clear();
+  };
+  for (const char c : path) c == '.' ? end_part() : part.push_back(c);
+  end_part();
+  return result;
+}
+
+// The keys whose path ends in `wanted`, each with all that is in it.
+void Find(const std::vector<KeyDescription>& keys, const std::string& wanted,
+          std::vector<KeyDescription>* found, std::vector<std::string>* paths) {
+  for (const KeyDescription& key : keys) {
+    paths->push_back(key.path);
+    if (key.path == wanted || key.path.ends_with("." + wanted)) {
+      found->push_back(key);
+    } else {
+      Find(key.keys, wanted, found, paths);
+    }
+  }
+}
+
+}  // namespace
+
+ExitStatus ExplainConfig(const ExplainCommand& command) {
+  std::vector<KeyDescription> keys = ConfigKeys();
+  if (!command.key.empty()) {
+    std::vector<KeyDescription> found;
+    std::vector<std::string> paths;
+    Find(keys, WithoutIndices(command.key), &found, &paths);
+    if (found.empty()) {
+      const std::string nearest = NearestWord(command.key, paths);
+      throw InputError({"explain-config: " + Quote(command.key) + ": no such key (" +
+                        (nearest.empty() ? "" : "did you mean '" + nearest + "'? ") +
+                        "valid: a key, or its last part; none for all)"});
+    }
+    keys = std::move(found);
+  }
+  std::cout << (command.json_schema ? KeySchema("halfstep config", keys)
+                : command.markdown  ? KeyMarkdown(keys)
+                                    : KeyScreen(keys));
+  return kSuccess;
+}
+
+}  // namespace halfstep

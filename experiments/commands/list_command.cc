@@ -1,0 +1,78 @@
+#include <algorithm>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "experiments/commands/commands.h"
+#include "experiments/config/experiment.h"
+#include "experiments/config/methods.h"
+#include "opt/adapters/solver_registry.h"
+
+namespace halfstep {
+namespace {
+
+struct Entry {
+  std::string name;
+  std::string meaning;
+  std::optional<bool> available = std::nullopt;  // of solvers only
+};
+
+std::vector<Entry> FilesOf(const std::filesystem::path& folder) {
+  std::vector<Entry> entries;
+  for (const std::filesystem::path& path : YamlFiles(folder)) {
+    entries.push_back({path.stem().string(), path.string()});
+  }
+  return entries;
+}
+
+std::vector<Entry> Solvers() {
+  std::vector<Entry> entries;
+  for (const std::string& name : opt::SolverNames()) {
+    const std::unique_ptr<opt::Solver> solver = opt::MakeSolver(name);
+    entries.push_back(
+        {name, solver->available() ? "available" : solver->WhyUnavailable(), solver->available()});
+  }
+  return entries;
+}
+
+std::vector<Entry> Planners() {
+  return {{"rrt", "random tree over all half-steps, then short-cuts"},
+          {"astar", "weighted A* over all half-steps, anytime"},
+          {"astar/classic", "the same over 14 classic ones"},
+          {"bounding_box", "a box around the robot finds the way: a baseline"}};
+}
+
+std::vector<Entry> Entries(const std::string& what) {
+  if (what == "robots") return FilesOf(RobotsFolder());
+  if (what == "scenes") return FilesOf(ScenesFolder());
+  if (what == "solvers") return Solvers();
+  if (what == "planners") return Planners();
+  std::vector<Entry> entries = {{"raw", "the planned motion itself; written by every run"}};
+  for (const Method& method : Methods()) entries.push_back({method.name, method.meaning});
+  return entries;
+}
+
+}  // namespace
+
+ExitStatus List(const std::string& what, bool json) {
+  const std::vector<Entry> entries = Entries(what);
+  if (json) {
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (const Entry& entry : entries) {
+      list.push_back({{"name", entry.name}, {"meaning", entry.meaning}});
+      if (entry.available) list.back()["available"] = *entry.available;
+    }
+    std::cout << list.dump(2) << '\n';
+    return kSuccess;
+  }
+  size_t width = 0;
+  for (const Entry& entry : entries) width = std::max(width, entry.name.size());
+  for (const Entry& entry : entries) {
+    std::cout << entry.name << std::string(width + 2 - entry.name.size(), ' ') << entry.meaning
+              << '\n';
+  }
+  return kSuccess;
+}
+
+}  // namespace halfstep

@@ -1,0 +1,147 @@
+#include <cmath>
+#include <iomanip>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "experiments/commands/commands.h"
+#include "experiments/config/experiment.h"
+#include "experiments/run/interrupt.h"
+#include "experiments/run/planning.h"
+#include "experiments/run/progress_bar.h"
+#include "wpg/files/input_error.h"
+
+namespace halfstep {
+namespace {
+
+// One bar after the other, as the work goes on.
+class Bars {
+ public:
+  explicit Bars(bool quiet) : quiet_(quiet) {}
+  void Update(const std::string& what, double done) {
+    if (!bar_ || what != what_) {
+      bar_.emplace(what, quiet_);
+      what_ = what;
+    }
+    bar_->Update(done);
+  }
+
+ private:
+  bool quiet_;
+  std::string what_;
+  std::optional<ProgressBar> bar_;
+};
+
+PlanningHooks HooksOf(Bars* bars, const InterruptGuard& interrupt) {
+  return {.progress = [bars](const std::string& what, double done) { bars->Update(what, done); },
+          .stop = interrupt.token()};
+}
+
+void WarnAboutCache(const CachedVolumes& cached) {
+  for (const std::string& sentence : {cached.refused, cached.not_kept}) {
+    if (!sentence.empty()) std::cerr << "halfstep: " << sentence << '\n';
+  }
+}
+
+void PrintPlan(const PlannedWalk& walk) {
+  const PlanResult& plan = walk.plan;
+  std::cout << "# " << walk.config.planner.name << ": " << plan.sentence << ", " << plan.nodes
+            << " nodes, " << plan.queries << " queries of " << walk.half_steps.size
+            << " half-steps, " << std::fixed << std::setprecision(1) << 1e3 * plan.time << " ms\n"
+            << std::defaultfloat << std::setprecision(6);
+  std::vector<FootstepConfig> footsteps = walk.config.footsteps;
+  std::cout << WriteYaml([&](Fields& fields) {
+    fields.List("footsteps", {}, &footsteps, [](Fields& f, FootstepConfig* step) {
+      f.Text("foot", &step->foot, {});
+      f.Number("x_m", &step->X_WF.x, {});
+      f.Number("y_m", &step->X_WF.y, {});
+      f.Number("yaw_deg", &step->X_WF.yaw, {});
+    });
+  });
+}
+
+std::uintmax_t SizeOf(const std::string& path) {
+  std::error_code ignored;
+  const std::uintmax_t size = std::filesystem::file_size(path, ignored);
+  return ignored ? 0 : size;
+}
+
+}  // namespace
+
+ExitStatus Plan(const PlanCommand& command) {
+  InterruptGuard interrupt;
+  const ExperimentConfig config = LoadConfig(command.config, command.overrides);
+  if (!config.has_goal) {
+    throw InputError(
+        {command.config + ": goal: is missing (valid: a `goal` in place of footsteps)"});
+  }
+  std::optional<PlannedWalk> walk;
+  {
+    Bars bars(command.quiet || command.json);
+    walk = PlanWalk(config, HooksOf(&bars, interrupt));
+  }
+  WarnAboutCache(walk->half_steps.cached);
+  const bool solved = walk->plan.status == PlanStatus::kSolved;
+  if (command.json) {
+    std::cout << PlanJson(*walk);
+  } else if (solved && !command.quiet) {
+    PrintPlan(*walk);
+  }
+  if (solved) return kSuccess;
+  std::cerr << "halfstep: no plan: " << walk->plan.sentence << '\n';
+  return interrupt.requested() ? kInterrupted : kFailed;
+}
+
+ExitStatus Bake(const PlanCommand& command) {
+  InterruptGuard interrupt;
+  const ExperimentConfig config = LoadConfig(command.config, command.overrides);
+  const Place place = LoadPlace(config);
+  std::optional<BakedHalfSteps> baked;
+  {
+    Bars bars(command.quiet || command.json);
+    baked = BakeHalfSteps(place.robot, config, HooksOf(&bars, interrupt));
+  }
+  WarnAboutCache(baked->cached);
+  if (!baked->cached.volumes) {
+    std::cerr << "halfstep: interrupted; what was baked is "
+              << (baked->cached.not_kept.empty() ? "kept\n" : "not kept\n");
+    return kInterrupted;
+  }
+  if (command.json) {
+    std::cout << nlohmann::ordered_json({{"half_steps", baked->size},
+                                         {"baked", baked->cached.baked},
+                                         {"set_wall_s", baked->set_wall},
+                                         {"wall_s", baked->wall},
+                                         {"bytes", SizeOf(baked->cached.path)},
+                                         {"file", baked->cached.path}})
+                     .dump(2)
+              << '\n';
+  } else if (!command.quiet) {
+    std::cout << baked->size << " half-steps certified in " << baked->set_wall << " s; volumes "
+              << (baked->cached.baked ? "baked" : "read") << " in " << baked->wall << " s, "
+              << static_cast<double>(SizeOf(baked->cached.path)) * 1e-6
+              << " MB: " << baked->cached.path << '\n';
+  }
+  return baked->cached.not_kept.empty() ? kSuccess : kFailed;  // to keep them is its purpose
+}
+
+ExitStatus ListHalfSteps(const PlanCommand& command) {
+  const ExperimentConfig config = LoadConfig(command.config, command.overrides);
+  const HalfStepSet set = CertifiedHalfSteps(LoadPlace(config).robot, config);
+  if (command.json) {
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (const Pose2& X_SF : set.placements) {
+      list.push_back({{"x_m", X_SF.x}, {"y_m", X_SF.y}, {"yaw_rad", X_SF.yaw}});
+    }
+    std::cout << list.dump(2) << '\n';
+    return kSuccess;
+  }
+  std::cout << "half_step,x_m,y_m,yaw_rad\n";
+  for (int i = 0; i < set.size(); ++i) {
+    const Pose2& X_SF = set.placements[static_cast<size_t>(i)];
+    std::cout << i + 1 << ',' << X_SF.x << ',' << X_SF.y << ',' << X_SF.yaw << '\n';
+  }
+  return kSuccess;
+}
+
+}  // namespace halfstep

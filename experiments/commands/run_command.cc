@@ -1,0 +1,103 @@
+#include <filesystem>
+#include <iostream>
+#include <optional>
+
+#include "experiments/commands/commands.h"
+#include "experiments/report/report.h"
+#include "experiments/run/complete_manifest.h"
+#include "experiments/run/experiment_run.h"
+#include "experiments/run/interrupt.h"
+#include "experiments/run/progress_bar.h"
+#include "experiments/run/run_screen.h"
+#include "wpg/files/input_error.h"
+
+namespace halfstep {
+namespace {
+
+std::filesystem::path OutputFolder(const RunCommand& command, const ExperimentConfig& config) {
+  if (command.out && command.out->empty()) {
+    throw InputError({"--out: no folder is named (valid: a path)"});
+  }
+  if (command.out) return *command.out;
+  if (!config.output_directory.empty()) {
+    return std::filesystem::path(config.directory) / config.output_directory;
+  }
+  return std::filesystem::path("runs") / config.name;
+}
+
+// A bar for one thing after the other.
+class ProgressBars {
+ public:
+  explicit ProgressBars(bool quiet) : quiet_(quiet) {}
+
+  void Update(const std::string& what, double done) {
+    if (what != what_) {
+      bar_.reset();
+      bar_.emplace(what, quiet_);
+      what_ = what;
+    }
+    bar_->Update(done);
+  }
+  void End() { bar_.reset(); }
+
+ private:
+  const bool quiet_;
+  std::string what_;
+  std::optional<ProgressBar> bar_;
+};
+
+// A sentence on standard error for each method that never searched or broke down.
+bool TellWhatDidNotWork(const std::vector<MethodRun>& runs) {
+  bool told = false;
+  for (const MethodRun& run : runs) {
+    if (!DidNotWork(run.result.ending)) continue;
+    std::cerr << "halfstep: " << run.method << ": " << Name(run.result.ending) << ": "
+              << run.result.message << '\n';
+    told = true;
+  }
+  return told;
+}
+
+}  // namespace
+
+ExitStatus Run(const RunCommand& command) {
+  InterruptGuard interrupt;
+  ProgressBars bars(command.quiet || command.json);
+  const RunHooks hooks{
+      .progress = [&bars](const std::string& what, double done) { bars.Update(what, done); },
+      .stop = interrupt.token(),
+      .stop_step = interrupt.step_token(),
+      .keep = [&interrupt] { interrupt.Keep(); }};
+  const ExperimentConfig config = LoadConfig(command.config, command.overrides);
+  ExperimentRun run(config, hooks);
+  if (run.refusal()) {
+    bars.End();
+    std::cerr << "halfstep: " << run.refusal()->sentence << '\n';
+    return interrupt.requested() ? kInterrupted : kFailed;
+  }
+  RunFolder folder(OutputFolder(command, config), command.overwrite);
+  run.Smooth(hooks);
+  bars.End();
+  // What smoothing had found when it was stopped is proved all the same.
+  run.Certify(interrupt.requested() ? interrupt.proof_token() : interrupt.token());
+  run.Write(&folder);
+  WriteReport(run.experiment().robot, run.experiment().scene, &folder);
+  CompleteManifest(run.experiment().robot, run.experiment().scene, &folder);
+  folder.Publish();
+
+  const std::string place = folder.path().string();
+  if (command.json) {
+    std::cout << RunJson(run.evaluator(), run.runs(), place);
+  } else if (!command.quiet) {
+    std::cout << RunTable(run.experiment(), run.evaluator(), run.test(), run.runs(), place);
+  }
+  if (!run.runs().front().result.feasible) {
+    std::cerr << "halfstep: the plan is not feasible: " << run.runs().front().result.message
+              << '\n';
+    return kFailed;
+  }
+  if (interrupt.requested()) return kInterrupted;
+  return TellWhatDidNotWork(run.runs()) ? kFailed : kSuccess;
+}
+
+}  // namespace halfstep

@@ -1,0 +1,55 @@
+#include <algorithm>
+#include <filesystem>
+
+#include "experiments/commands/commands.h"
+#include "experiments/config/experiment_config.h"
+#include "experiments/config/methods.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/text.h"
+
+namespace halfstep {
+namespace {
+
+namespace fs = std::filesystem;
+
+// "[dichotomy, ipopt]": the value of smoothing.methods.
+std::string MethodList(const std::vector<std::string>& methods) {
+  const std::vector<std::string> known = MethodNames();
+  std::string list, valid;
+  for (const std::string& name : known) valid += (valid.empty() ? "" : ", ") + name;
+  for (const std::string& method : methods) {
+    if (std::find(known.begin(), known.end(), method) == known.end()) {
+      throw InputError({"--method " + Quote(method) + ": no such method (valid: " + valid + ")"});
+    }
+    list += (list.empty() ? "" : ", ") + method;
+  }
+  return "[" + list + "]";
+}
+
+}  // namespace
+
+ExitStatus Smooth(const SmoothCommand& command) {
+  RunCommand run = command.run;
+  fs::path given(run.config);
+  if (fs::is_directory(given)) {
+    if (!fs::exists(given / "manifest.json") || !fs::exists(given / "config.yaml")) {
+      throw InputError({run.config +
+                        ": no such run folder (valid: a config, or a folder that `halfstep run` "
+                        "wrote)"});
+    }
+    run.config = (given / "config.yaml").string();
+    if (!given.has_filename()) given = given.parent_path();  // a trailing slash
+    if (!run.out) run.out = given.string() + "-smooth";
+  }
+  if (!command.methods.empty()) {
+    run.overrides.push_back({"smoothing.methods", MethodList(command.methods)});
+  }
+  if (LoadConfig(run.config, run.overrides).has_goal) {
+    throw InputError({run.config +
+                      ": goal: there are no footsteps to smooth (valid: a config with "
+                      "`footsteps`, or the folder of a run; `halfstep run` plans first)"});
+  }
+  return Run(run);
+}
+
+}  // namespace halfstep

@@ -1,0 +1,142 @@
+#include <signal.h>
+
+#include <algorithm>
+#include <cstring>
+#include <iostream>
+#include <map>
+#include <thread>
+
+#include "experiments/commands/commands.h"
+#include "experiments/run/interrupt.h"
+#include "experiments/run/progress_bar.h"
+#include "experiments/sweep/sweep_case.h"
+#include "experiments/sweep/worker_processes.h"
+#include "experiments/tables/csv_reader.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/text.h"
+
+namespace halfstep {
+namespace {
+
+std::filesystem::path OutputFolder(const SweepCommand& command, const SweepConfig& sweep) {
+  if (command.out && command.out->empty()) {
+    throw InputError({"--out: no folder is named (valid: a path)"});
+  }
+  return command.out ? std::filesystem::path(*command.out)
+                     : std::filesystem::path("sweeps") / sweep.name;
+}
+
+std::vector<SweepCase> Missing(const SweepFolder& folder, const std::vector<SweepCase>& cases) {
+  std::vector<SweepCase> missing;
+  std::copy_if(cases.begin(), cases.end(), std::back_inserter(missing),
+               [&](const SweepCase& one) { return !folder.IsDone(one); });
+  return missing;
+}
+
+// The command that does one case; the folder is named, so that it is the same one.
+std::vector<std::string> CaseArguments(const SweepCommand& command, const SweepFolder& folder,
+                                       const SweepCase& one) {
+  std::vector<std::string> arguments = {"sweep", command.sweep, "--case",
+                                        one.id,  "--out",       folder.path().string()};
+  for (const YamlOverride& set : command.overrides) {
+    arguments.push_back("--set");
+    arguments.push_back(set.key + "=" + set.value);
+  }
+  return arguments;
+}
+
+// Signals that a program raises by its own mistake; others come from outside, and the case is done
+// again next time.
+bool IsCrash(int signal) {
+  return signal == SIGSEGV || signal == SIGBUS || signal == SIGFPE || signal == SIGILL ||
+         signal == SIGABRT;
+}
+
+int Finish(const SweepCommand& command, const SweepFolder& folder,
+           const std::vector<SweepCase>& cases) {
+  const CsvTable runs = ParseCsv(folder.Collect(cases), "runs.csv");
+  if (command.quiet) return kSuccess;
+  std::map<std::string, int> statuses;
+  for (const std::string& status : runs.Texts("status")) ++statuses[status];
+  std::cout << folder.sweep().name << ": " << cases.size() << " cases, " << runs.rows.size()
+            << " rows:";
+  std::string separator = " ";
+  for (const auto& [status, count] : statuses) {
+    std::cout << separator << count << " " << status;
+    separator = ", ";
+  }
+  const std::vector<std::string> certified = runs.Texts("certified");
+  std::cout << "; " << std::count(certified.begin(), certified.end(), "true") << " certified\n"
+            << "written: " << (folder.path() / "runs.csv").string() << '\n';
+  return kSuccess;
+}
+
+int RunAll(const SweepCommand& command, const SweepFolder& folder,
+           const std::vector<SweepCase>& cases, InterruptGuard& interrupt) {
+  const std::vector<SweepCase> missing = Missing(folder, cases);
+  if (!command.quiet && missing.size() < cases.size()) {
+    std::cout << cases.size() - missing.size() << " of " << cases.size()
+              << " cases are done already\n"
+              << std::flush;
+  }
+  interrupt.Keep();  // the cases that are under way end first
+  std::vector<std::vector<std::string>> arguments;
+  for (const SweepCase& one : missing) arguments.push_back(CaseArguments(command, folder, one));
+  size_t done = 0;
+  int failure = kSuccess;
+  {
+    ProgressBar bar(folder.sweep().name, command.quiet);
+    RunWorkers(
+        arguments, command.jobs,
+        [&](size_t index, const WorkerEnd& end) {
+          const SweepCase& one = missing[index];
+          if (IsCrash(end.signal)) {
+            WriteSweepFailure(folder, one, "crashed",
+                              "ended by signal " + std::to_string(end.signal) + " (" +
+                                  strsignal(end.signal) + ")",
+                              end.wall);
+          } else if (end.status != kSuccess) {
+            const bool stopped = end.signal != 0 || end.status == kInterrupted;
+            if (!stopped) failure = end.status;
+            return stopped;
+          }
+          ++done;
+          return true;
+        },
+        [&] { bar.Update(static_cast<double>(done) / static_cast<double>(missing.size())); },
+        interrupt.token());
+  }
+  if (done == missing.size()) return Finish(command, folder, cases);
+  std::cerr << "halfstep: " << (interrupt.requested() ? "stopped; " : "") << missing.size() - done
+            << " of " << cases.size() << " cases are not done (the same command goes on)\n";
+  return interrupt.requested() ? kInterrupted : failure != kSuccess ? failure : kFailed;
+}
+
+}  // namespace
+
+int Sweep(const SweepCommand& command) {
+  InterruptGuard interrupt;
+  const bool check = command.one_case.empty() && !command.collect;
+  const SweepConfig sweep = LoadSweep(command.sweep, command.overrides, check);
+  const std::vector<SweepCase> cases = SweepCases(sweep);
+  if (command.list_cases) {
+    for (const SweepCase& one : cases) std::cout << one.id << " " << OverrideText(one) << '\n';
+    return kSuccess;
+  }
+  const auto wanted = std::find_if(
+      cases.begin(), cases.end(), [&](const SweepCase& one) { return one.id == command.one_case; });
+  if (!command.one_case.empty() && wanted == cases.end()) {
+    throw InputError(
+        {"--case " + Quote(command.one_case) + ": no such case (valid: what --list-cases prints)"});
+  }
+  const SweepFolder folder(OutputFolder(command, sweep), sweep);
+  if (wanted != cases.end()) return DoSweepCase(folder, *wanted, interrupt.token());
+  if (!command.collect) return RunAll(command, folder, cases, interrupt);
+  const std::vector<SweepCase> missing = Missing(folder, cases);
+  if (missing.empty()) return Finish(command, folder, cases);
+  std::cerr << "halfstep: " << missing.size() << " of " << cases.size()
+            << " cases are not done, the first is " << missing.front().id << '\n';
+  return kFailed;
+}
+
+}  // namespace halfstep

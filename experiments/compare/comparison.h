@@ -1,0 +1,94 @@
+#pragma once
+
+#include <array>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "experiments/tables/run_record.h"
+
+namespace halfstep {
+
+/// What counts as solved, by the gap to the best: within 1 %, within 5 %, and ∞: the method was not
+/// interrupted. The walk is certified and the method's own (MethodRecord::solved).
+constexpr int kNumTargets = 3;
+constexpr std::array<double, kNumTargets> kTargets = {0.01, 0.05,
+                                                      std::numeric_limits<double>::infinity()};
+
+/// What it took a method to get somewhere.
+struct Effort {
+  double wall = 0.0;         ///< [s]
+  double evaluations = 0.0;  ///< instants at which margins were evaluated
+};
+
+struct ComparedMethod {
+  MethodRecord record;
+  /// (cost − best)/|best|; +inf when the walk is not certified or not the method's own; nan for raw
+  /// where the objective is not `fastest`: run folders do not hold its cost.
+  double gap = 0.0;
+  /// Until each target was first met; none: a failure.
+  std::array<std::optional<Effort>, kNumTargets> reached;
+};
+
+/// The methods that worked on one problem: a scenario with one objective.
+struct ComparedCase {
+  std::string scenario, objective, problem;
+  int half_steps = 0;
+  /// The cheapest certified walk of its own that any method has, raw included for `fastest`; none:
+  /// there is none.
+  std::optional<double> best_cost;
+  std::string best_method;
+  std::vector<ComparedMethod> methods;  ///< raw first
+};
+
+/// A method as it is compared over cases: the same solver with other variables or
+/// another objective is another one. Only cases of its objective count for it.
+struct MethodKey {
+  std::string name, variables, objective;
+  bool operator==(const MethodKey&) const = default;
+};
+
+struct Comparison {
+  std::vector<ComparedCase> cases;
+  std::vector<MethodKey> methods;  ///< of all cases, in the order of appearance, without raw
+};
+
+/// Brings the methods together by scenario and the objective that each pursued. Durations are what
+/// the targets of `fastest` look at along the way; iterates.csv has no costs, so other objectives
+/// know the end only. Throws InputError when runs of one scenario are not about the same problem,
+/// or when a method is there twice with different options or results.
+Comparison Compare(const std::vector<RunRecord>& runs);
+
+/// The record of a case for a method; null: it was not run there, which counts as a failure.
+const ComparedMethod* Find(const ComparedCase& one, const MethodKey& method);
+
+/// One curve of a performance profile: the fraction of all cases that a method solved within
+/// `ratio` times the least effort of any method there. Efforts below 1 ms or one evaluation count
+/// as that. Source: [DolanMore2002].
+struct ProfileCurve {
+  int target = 0;  ///< of kTargets
+  bool by_wall = false;
+  MethodKey method;
+  std::vector<std::pair<double, double>>
+      points;  ///< (ratio ≥ 1, fraction), both rising; a staircase
+};
+std::vector<ProfileCurve> PerformanceProfiles(const Comparison& comparison);
+
+/// A method over all cases. A failure counts as ten times the largest effort that met the target in
+/// that case, and as speed-up 1; cases that nobody solved are left out of the means of efforts.
+struct MethodMeans {
+  MethodKey method;
+  int cases = 0, missing = 0, certified = 0;
+  std::array<int, kNumTargets> solved{};
+  /// Cases where it was interrupted, or has no certified walk of its own.
+  int failed() const { return cases - solved.back(); }
+  double speedup = 1.0;  ///< geometric mean
+  /// Shifted geometric means exp(mean log(v + s)) − s with s = 0.1 s and 1000 evaluations; nan
+  /// when no case counts.
+  std::array<Effort, kNumTargets> effort;
+};
+std::vector<MethodMeans> Means(const Comparison& comparison);
+
+}  // namespace halfstep

@@ -1,0 +1,119 @@
+#include "experiments/config/experiment.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "planner/scene/no_step_areas.h"
+
+namespace halfstep {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path DataFolder() {
+  const char* folder = std::getenv("HALFSTEP_DATA");
+  return folder != nullptr ? fs::path(folder) : fs::path(HALFSTEP_DATA_DIR);
+}
+
+// A bare word is a shipped robot, anything else a path relative to the config.
+bool IsShipped(const fs::path& robot) { return !robot.has_parent_path() && !robot.has_extension(); }
+
+}  // namespace
+
+fs::path RobotsFolder() { return DataFolder() / "wpg" / "robots"; }
+fs::path ScenesFolder() { return DataFolder() / "experiments" / "scenes"; }
+
+std::vector<fs::path> YamlFiles(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code ignored;
+  for (const auto& file : fs::directory_iterator(folder, ignored)) {
+    if (file.path().extension() == ".yaml") files.push_back(file.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+fs::path RobotPath(const ExperimentConfig& config) {
+  const fs::path path = IsShipped(config.robot) ? RobotsFolder() / (config.robot + ".yaml")
+                                                : fs::path(config.directory) / config.robot;
+  return path.lexically_normal();
+}
+
+std::optional<fs::path> ScenePath(const ExperimentConfig& config) {
+  if (config.scene == "none") return std::nullopt;
+  return (fs::path(config.directory) / config.scene).lexically_normal();
+}
+
+ExperimentConfig MovedTo(const fs::path& folder, const ExperimentConfig& config) {
+  ExperimentConfig moved = config;
+  moved.directory = folder.string();
+  if (!IsShipped(config.robot)) moved.robot = fs::proximate(RobotPath(config), folder).string();
+  if (const auto scene = ScenePath(config)) moved.scene = fs::proximate(*scene, folder).string();
+  if (!config.output_directory.empty()) moved.output_directory = ".";
+  if (const std::string& cache = config.swept_volumes.cache; !cache.empty()) {
+    const fs::path path = (fs::path(config.directory) / cache).lexically_normal();
+    moved.swept_volumes.cache = fs::proximate(path, folder).string();
+  }
+  return moved;
+}
+
+Place LoadPlace(const ExperimentConfig& config) {
+  Place place;
+  place.robot = LoadRobot(RobotPath(config).string());
+  if (const auto scene = ScenePath(config)) {
+    place.scene = LoadScene(scene->string());
+  } else {
+    place.scene.name = "none";
+  }
+  return place;
+}
+
+std::array<Pose2, 2> StartOf(const ExperimentConfig& config, const RobotModel& robot) {
+  if (config.has_start) return {config.start_left, config.start_right};
+  const double y = 0.5 * robot.standing_width;
+  return {Pose2{0.0, y, 0.0}, Pose2{0.0, -y, 0.0}};
+}
+
+Experiment Prepare(const ExperimentConfig& config) {
+  Experiment experiment{.config = config, .robot = {}, .scene = {}, .sequence = {}};
+  Place place = LoadPlace(config);
+  experiment.robot = std::move(place.robot);
+  experiment.scene = std::move(place.scene);
+  const Lipm lipm{.com_height = experiment.robot.com_height};
+  if (config.footsteps.empty()) {
+    experiment.sequence = {StartOf(config, experiment.robot), {}, lipm};
+    return experiment;
+  }
+  std::vector<Footstep> footsteps;
+  for (const FootstepConfig& step : config.footsteps) {
+    footsteps.push_back({.side = step.foot == "left" ? Side::kLeft : Side::kRight,
+                         .X_WF = step.X_WF,
+                         .via_height = step.via_height.value_or(config.half_step.via_height),
+                         .duration = step.duration.value_or(config.half_step.duration)});
+  }
+  const HalfStepShape shape{.shift = config.half_step.zmp_shift / config.half_step.duration,
+                            .horizontal_delay = config.half_step.horizontal_delay};
+  experiment.sequence = MakeSequence(StartOf(config, experiment.robot), footsteps,
+                                     config.half_step.via_lateral, shape, lipm);
+  return experiment;
+}
+
+std::optional<std::string> FootprintOnNoStep(const Experiment& experiment) {
+  const NoStepAreas areas(experiment.scene, experiment.robot.sole_outline);
+  const double apart = experiment.config.smoothing.limits.demanded_of(MarginFamily::kNoStep);
+  const auto touches = [&](const Pose2& X_WF) { return !areas.Clears(X_WF, apart); };
+  const std::array<Pose2, 2> start = StartOf(experiment.config, experiment.robot);
+  for (Side side : {Side::kLeft, Side::kRight}) {
+    if (touches(start[static_cast<size_t>(Index(side))])) {
+      return "the " + std::string(Name(side)) + " foot starts on a no-step area";
+    }
+  }
+  for (size_t i = 0; i < experiment.config.footsteps.size(); ++i) {
+    if (touches(experiment.config.footsteps[i].X_WF)) {
+      return "footstep " + std::to_string(i + 1) + " is on a no-step area";
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace halfstep

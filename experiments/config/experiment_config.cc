@@ -1,0 +1,312 @@
+#include "experiments/config/experiment_config.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "experiments/config/experiment.h"
+#include "experiments/config/folder_name.h"
+#include "experiments/config/methods.h"
+#include "smoothing/margins/family_traits.h"
+#include "wpg/files/text.h"
+
+namespace halfstep {
+namespace {
+
+void DeclarePose(Fields& fields, Pose2* pose) {
+  const NumberSpec position{.meaning = "of the sole's centre in the world",
+                            .unit = "m",
+                            .min = -1000,
+                            .max = 1000,
+                            .required = true};
+  fields.Number("x_m", &pose->x, position);
+  fields.Number("y_m", &pose->y, position);
+  fields.Number(
+      "yaw_deg", &pose->yaw,
+      {.meaning = "not wrapped: 350 is not −10", .unit = "deg", .min = -3600, .max = 3600});
+}
+
+void DeclareFootstep(Fields& fields, FootstepConfig* step) {
+  fields.Text("foot", &step->foot,
+              {.meaning = "the foot that steps", .required = true, .choices = {"left", "right"}});
+  DeclarePose(fields, &step->X_WF);
+  fields.OptionalNumber(
+      "via_height_m", &step->via_height,
+      {.meaning = "instead of half_step.via_height_m", .unit = "m", .min = 0.01, .max = 1});
+  fields.OptionalNumber(
+      "duration_s", &step->duration,
+      {.meaning = "instead of half_step.duration_s", .unit = "s", .min = 0.6, .max = 6});
+}
+
+void DeclareHalfStep(Fields& fields, HalfStepConfig* c) {
+  fields.Number("duration_s", &c->duration,
+                {.meaning = "T of an isolated half-step", .unit = "s", .min = 0.6, .max = 6});
+  fields.Number("zmp_shift_s", &c->zmp_shift,
+                {.meaning = "t2 − t1, the ZMP's shift, at that T: 0.01 … 0.5 of `duration_s`; a "
+                            "footstep's own `duration_s` scales it",
+                 .unit = "s",
+                 .min = 0.02,
+                 .max = 2});
+  if (c->zmp_shift < 0.01 * c->duration || c->zmp_shift > 0.5 * c->duration) {
+    fields.Complain("zmp_shift_s", "does not fit duration_s (valid: 0.01 … 0.5 of it)");
+  }
+  fields.Number("via_height_m", &c->via_height,
+                {.meaning = "height of the via point", .unit = "m", .min = 0.01, .max = 1});
+  fields.Number("via_lateral_m", &c->via_lateral,
+                {.meaning = "distance of the via point from the support sole's centre",
+                 .unit = "m",
+                 .min = 0.05,
+                 .max = 1});
+  fields.Number(
+      "horizontal_delay", &c->horizontal_delay,
+      {.meaning = "fraction of T between take-off (landing) and the foot's horizontal motion",
+       .min = 0,
+       .max = 0.2});
+}
+
+void DeclareDichotomy(Fields& fields, DichotomyOptions* o) {
+  fields.Number("tolerance_s", &o->tolerance,
+                {.meaning = "bisection of an overlap ends below this (published: 0.05)",
+                 .unit = "s",
+                 .min = 1e-6,
+                 .max = 1});
+  std::string order =
+      o->order == DichotomyOptions::Order::kLeftToRight ? "left_to_right" : "right_to_left";
+  fields.Text("order", &order,
+              {.meaning = "of the junctions", .choices = {"left_to_right", "right_to_left"}});
+  o->order = order == "left_to_right" ? DichotomyOptions::Order::kLeftToRight
+                                      : DichotomyOptions::Order::kRightToLeft;
+  fields.Integer("passes", &o->passes, {.meaning = "over all junctions", .min = 1, .max = 100});
+  fields.Number("up_down_cap", &o->up_down_cap,
+                {.meaning = "largest overlap as a fraction of its natural bound (published: 0.8)",
+                 .min = 0,
+                 .max = 1});
+  fields.Number("down_up_cap", &o->down_up_cap,
+                {.meaning = "largest overlap as a fraction of its natural bound (published: 0.76)",
+                 .min = 0,
+                 .max = 1});
+}
+
+void DeclareWeights(Fields& fields, EffortWeights* w) {
+  const auto weight = [&](const char* key, double* value, const char* meaning, const char* unit) {
+    fields.Number(key, value, {.meaning = meaning, .unit = unit, .min = 0, .max = 1000});
+  };
+  weight("com_acceleration", &w->com_acceleration, "of ∫‖c̈‖² dt", "s⁴/m²");
+  weight("com_jerk", &w->com_jerk, "of ∫‖c⃛‖² dt", "s⁶/m²");
+  weight("foot_speed", &w->foot_speed, "of ∫‖v‖² dt of both soles", "s²/m²");
+}
+
+void DeclareOptimizer(Fields& fields, OptimizerConfig* c) {
+  OptimizerOptions* o = &c->options;
+  fields.Text("program", &c->program,
+              {.meaning = "what is optimized: duration; duration and effort; the least slack for a "
+                          "duration; that for a range of durations",
+               .choices = {"fastest", "smooth", "safest", "pareto"}});
+  for (ProgramKind kind : {ProgramKind::kFastest, ProgramKind::kSmooth, ProgramKind::kSafest}) {
+    if (c->program == Name(kind)) o->program.kind = kind;
+  }
+  fields.Boolean("heights", &o->program.heights,
+                 {.meaning = "foot-height scales are variables beside the overlaps"});
+  fields.Boolean("durations", &o->program.durations,
+                 {.meaning = "durations of half-steps are variables beside the overlaps"});
+  fields.Number("least_height_scale", &o->program.least_height_scale,
+                {.meaning = "of the planned height", .min = 0.01, .max = 1});
+  fields.Number("least_duration", &o->program.least_duration,
+                {.meaning = "of the planned duration of a half-step", .min = 0.2, .max = 1});
+  fields.Number("most_duration", &o->program.most_duration,
+                {.meaning = "of the planned duration of a half-step", .min = 1, .max = 5});
+  fields.Number("duration_s", &o->duration_limit,
+                {.meaning = "`safest`: of the walk at most; 0: the dichotomy's own",
+                 .unit = "s",
+                 .min = 0,
+                 .max = 100000});
+  fields.Integer(
+      "pareto_points", &c->pareto.points,
+      {.meaning = "`pareto`: durations, from the fastest to the longest", .min = 2, .max = 200});
+  fields.Number(
+      "pareto_longest", &c->pareto.most_duration,
+      {.meaning = "`pareto`: longest duration, of the planned motion's", .min = 0.1, .max = 3});
+  fields.Group("weights", {.meaning = "`smooth`: of the effort beside the duration"},
+               [&](Fields& f) { DeclareWeights(f, &o->program.weights); });
+  fields.Integer("instants", &o->instants,
+                 {.meaning = "per half-step at which the program looks; 0: what suits the solver",
+                  .min = 0,
+                  .max = 1000});
+  fields.Integer("rounds", &o->rounds,
+                 {.meaning = "solves from each start, each looking closer", .min = 1, .max = 100});
+  fields.Boolean("planned_start", &o->planned_start,
+                 {.meaning = "solve also from the planned motion, not only from the dichotomy's "
+                             "result"});
+  fields.Integer("random_starts", &o->random_starts,
+                 {.meaning = "further starts, drawn from `seed`", .min = 0, .max = 1000});
+  fields.Integer(
+      "max_iterations", &o->max_iterations,
+      {.meaning = "of the solver in a round; 0: what suits it", .min = 0, .max = 100000});
+  fields.Number("deadline_s", &o->deadline,
+                {.meaning = "of all solves together", .unit = "s", .min = 0.001, .max = 86400});
+}
+
+void DeclareLimits(Fields& fields, MarginLimits* l) {
+  fields.OptionalNumber("foot_speed_m_s", &l->foot_speed,
+                        {.meaning = "of the swing sole's centre; none: no limit",
+                         .unit = "m/s",
+                         .min = 0.01,
+                         .max = 20});
+  fields.OptionalNumber(
+      "foot_yaw_rate_rad_s", &l->foot_yaw_rate,
+      {.meaning = "of the swing sole; none: no limit", .unit = "rad/s", .min = 0.01, .max = 50});
+  fields.Number("joint_speed_scale", &l->joint_speed_scale,
+                {.meaning = "fraction of the robot's joint speed limits", .min = 0.01, .max = 1});
+}
+
+void DeclareMargins(Fields& fields, MarginLimits* l) {
+  for (const MarginFamily family : AllMarginFamilies()) {
+    const FamilyTraits& traits = Traits(family);
+    fields.Number(
+        traits.key.data(), &l->demanded_of(family),
+        {.meaning = traits.meaning.data(), .unit = traits.unit.data(), .min = 0, .max = 0.5});
+  }
+}
+
+void DeclareSmoothing(Fields& fields, SmoothingConfig* c) {
+  fields.Texts("methods", &c->methods,
+               {.meaning = "to run and compare, each once; `raw` is always written",
+                .choices = MethodNames(),
+                .listed_by = "halfstep list methods"});
+  for (auto method = c->methods.begin(); method != c->methods.end(); ++method) {
+    if (std::find(c->methods.begin(), method, *method) != method) {
+      fields.Complain("methods", Quote(*method) + " is there twice (valid: each method once)");
+      break;
+    }
+  }
+  fields.Text(
+      "acceptance", &c->acceptance,
+      {.meaning = "what makes a candidate acceptable", .choices = {"certified", "sampled"}});
+  fields.Number("sampling_s", &c->sampling,
+                {.meaning = "period of the sampled checks (`sampled` only)",
+                 .unit = "s",
+                 .min = 1e-4,
+                 .max = 0.1});
+  fields.Number("resolution_s", &c->certification.resolution,
+                {.meaning = "certification gives up on shorter intervals: undecided",
+                 .unit = "s",
+                 .min = 1e-7,
+                 .max = 0.01});
+  fields.Group("dichotomy", {.meaning = "options of the method `dichotomy`"},
+               [&](Fields& f) { DeclareDichotomy(f, &c->dichotomy); });
+  fields.Group(
+      "optimizer",
+      {.meaning =
+           "options of the methods that are solvers (smoothing/README.md, \"Overlap program\")"},
+      [&](Fields& f) { DeclareOptimizer(f, &c->optimizer); });
+  fields.Group("limits", {.meaning = "what the robot file does not limit"},
+               [&](Fields& f) { DeclareLimits(f, &c->limits); });
+  fields.Group("margins", {.meaning = "demanded margins: feasible means at least this far inside"},
+               [&](Fields& f) { DeclareMargins(f, &c->limits); });
+}
+
+}  // namespace
+
+void DeclareFields(Fields& fields, ExperimentConfig* c) {
+  fields.Text("name", &c->name,
+              {.meaning = "of the run and its folder: no `/`, at most 100 bytes, not begun with "
+                          "`.`, `-`, `=`, `+`, `@`",
+               .otherwise = "the file's name without extension"});
+  CheckName(fields, c->name);
+  fields.Text(
+      "robot", &c->robot,
+      {.meaning = "a shipped robot's name (`halfstep list robots`), or the path of a robot file",
+       .required = true});
+  fields.Text("scene", &c->scene,
+              {.meaning = "path of a scene file, or `none`: an empty floor", .required = true});
+  fields.OptionalGroup(
+      "start", &c->has_start,
+      {.meaning = "where the soles stand at the start",
+       .otherwise =
+           "feet side by side about the origin, `standing_width` apart (HRP-2: y = ±0.105 m)"},
+      [&](Fields& f) {
+        f.Group("left", {.meaning = "the left sole", .required = true},
+                [&](Fields& g) { DeclarePose(g, &c->start_left); });
+        f.Group("right", {.meaning = "the right sole", .required = true},
+                [&](Fields& g) { DeclarePose(g, &c->start_right); });
+      });
+  fields.OptionalGroup(
+      "goal", &c->has_goal,
+      {.meaning =
+           "where the walk shall end; planned in place of `footsteps`, one of them is required"},
+      [&](Fields& f) { DeclareGoal(f, &c->goal); });
+  fields.List("footsteps",
+              {.meaning = "in the order of stepping, at least one unless there is a `goal`",
+               .max_items = 10000},
+              &c->footsteps, DeclareFootstep);
+  if (c->footsteps.empty() && !c->has_goal) {
+    fields.Complain("footsteps", "there are none (valid: at least one, or a `goal`)");
+  }
+  if (!c->footsteps.empty() && c->has_goal) {
+    fields.Complain("goal", "there are footsteps as well (valid: either of them)");
+  }
+  fields.Group("planner", {.meaning = "of the way to the goal"},
+               [&](Fields& f) { DeclarePlanner(f, &c->planner); });
+  fields.Group("half_steps", {.meaning = "places that the planner chooses from"},
+               [&](Fields& f) { DeclareHalfStepSet(f, &c->half_step_grid); });
+  fields.Group("swept_volumes", {.meaning = "that are baked of them"},
+               [&](Fields& f) { DeclareSweptVolumes(f, &c->swept_volumes); });
+  fields.Group("half_step", {.meaning = "the isolated half-step"},
+               [&](Fields& f) { DeclareHalfStep(f, &c->half_step); });
+  fields.Group("smoothing", {.meaning = "the homotopy"},
+               [&](Fields& f) { DeclareSmoothing(f, &c->smoothing); });
+  fields.Group("output", {.meaning = "what is written"}, [&](Fields& f) {
+    f.Text("directory", &c->output_directory,
+           {.meaning = "the run folder, relative to the config",
+            .otherwise = "`runs/NAME` in the working directory"});
+    f.Number("period_s", &c->output_period,
+             {.meaning = "between rows of trajectory.csv", .unit = "s", .min = 1e-4, .max = 1});
+  });
+  fields.Integer("seed", &c->seed,
+                 {.meaning = "of the planner's random numbers and of random starts",
+                  .min = 0,
+                  .max = 2147483647});
+}
+
+namespace {
+
+// Complains here, at the place that names it, about a file that is not there.
+void DeclareFilesThere(Fields& fields, const ExperimentConfig& config) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(RobotPath(config), ignored)) {
+    std::string shipped;
+    for (const auto& path : YamlFiles(RobotsFolder())) shipped += path.stem().string() + ", ";
+    fields.Complain("robot", "no such robot: " + Quote(config.robot) + " (valid: " + shipped +
+                                 "or the path of a robot file, relative to this file)");
+  }
+  const std::optional<std::filesystem::path> scene = ScenePath(config);
+  if (scene && !std::filesystem::is_regular_file(*scene, ignored)) {
+    fields.Complain("scene", "no such file: " + Quote(scene->string()) +
+                                 " (valid: `none`, or a path relative to this file)");
+  }
+}
+
+}  // namespace
+
+std::vector<KeyDescription> ConfigKeys() {
+  ExperimentConfig config;
+  return DescribeKeys([&config](Fields& fields) { DeclareFields(fields, &config); });
+}
+
+ExperimentConfig LoadConfig(const std::string& path, const std::vector<YamlOverride>& overrides) {
+  return ParseConfig(path, ReadYamlFile(path), overrides);
+}
+
+ExperimentConfig ParseConfig(const std::string& path, const std::string& text,
+                             const std::vector<YamlOverride>& overrides) {
+  const std::filesystem::path file(path);
+  ExperimentConfig config;
+  config.name = file.stem().string();
+  ReadYamlText(text, path, file.parent_path().string(), overrides, [&](Fields& fields) {
+    DeclareFields(fields, &config);
+    config.directory = fields.directory();
+    DeclareFilesThere(fields, config);
+  });
+  return config;
+}
+
+}  // namespace halfstep

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/config/planning_config.h"
+#include "smoothing/margins/margin.h"
+#include "smoothing/methods/dichotomy.h"
+#include "smoothing/methods/overlap_optimizer.h"
+#include "smoothing/methods/pareto.h"
+#include "smoothing/proof/certificate.h"
+#include "wpg/files/fields.h"
+#include "wpg/files/key_description.h"
+#include "wpg/files/yaml_fields.h"
+#include "wpg/geometry/pose2.h"
+#include "wpg/geometry/side.h"
+
+namespace halfstep {
+
+/// One footstep of a config: a sole's place in the world, and what differs from `half_step`.
+struct FootstepConfig {
+  std::string foot = "left";
+  Pose2 X_WF;
+  std::optional<double> via_height;  ///< [m]
+  std::optional<double> duration;    ///< [s]
+};
+
+struct HalfStepConfig {
+  double duration = 2.0;          ///< T [s]
+  double zmp_shift = 0.1;         ///< t2 − t1 at that T [s]; scales with the duration
+  double via_height = 0.25;       ///< [m]
+  double via_lateral = 0.24;      ///< [m]
+  double horizontal_delay = 0.1;  ///< of T
+};
+
+/// Options of the methods that are solvers.
+struct OptimizerConfig {
+  std::string program = "fastest";
+  OptimizerOptions options;
+  ParetoOptions pareto;
+};
+
+struct SmoothingConfig {
+  std::vector<std::string> methods = {"dichotomy"};
+  std::string acceptance = "certified";
+  double sampling = 0.005;  ///< [s], of acceptance `sampled`
+  CertificationOptions certification;
+  DichotomyOptions dichotomy;
+  OptimizerConfig optimizer;
+  MarginLimits limits;
+};
+
+/// An experiment as its YAML file says it (top keys: experiments/README.md). Paths are as written.
+struct ExperimentConfig {
+  std::string name;   ///< default: the file's stem
+  std::string robot;  ///< a shipped robot's name or a path
+  std::string scene;  ///< a path; "none": empty floor
+  bool has_start = false;
+  Pose2 start_left, start_right;  ///< X_WF of the soles, when has_start
+  bool has_goal = false;          ///< else there are footsteps
+  GoalConfig goal;
+  std::vector<FootstepConfig> footsteps;
+  PlannerConfig planner;
+  HalfStepGrid half_step_grid;
+  SweptVolumesConfig swept_volumes;
+  HalfStepConfig half_step;
+  SmoothingConfig smoothing;
+  std::string output_directory;  ///< "": runs/<name> in the working directory
+  double output_period = 0.005;  ///< of trajectory.csv [s]
+  int seed = 1;
+  std::string directory;  ///< of the file: what relative paths are relative to
+};
+
+/// Declares every key of a config once: reading, writing back and explaining all use this.
+void DeclareFields(Fields& fields, ExperimentConfig* config);
+
+/// The same declaration as data.
+std::vector<KeyDescription> ConfigKeys();
+
+/// Reads a config file strictly. Throws InputError with every complaint at once.
+ExperimentConfig LoadConfig(const std::string& path, const std::vector<YamlOverride>& overrides);
+/// The same of a config file's text.
+ExperimentConfig ParseConfig(const std::string& path, const std::string& text,
+                             const std::vector<YamlOverride>& overrides);
+
+}  // namespace halfstep

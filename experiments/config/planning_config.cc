@@ -1,0 +1,201 @@
+#include "experiments/config/planning_config.h"
+
+namespace halfstep {
+namespace {
+
+struct PartName {
+  const char* name;
+  GoalPart part;
+};
+constexpr PartName kParts[] = {{"either_foot", GoalPart::kEitherFoot},
+                               {"left_foot", GoalPart::kLeftFoot},
+                               {"right_foot", GoalPart::kRightFoot},
+                               {"mid_feet", GoalPart::kMidFeet}};
+
+struct CostName {
+  const char* name;
+  CostKind kind;
+};
+constexpr CostName kCosts[] = {{"steps", CostKind::kSteps},
+                               {"raw_duration", CostKind::kRawDuration},
+                               {"smoothed_duration", CostKind::kSmoothedDuration}};
+
+template <typename Table>
+std::vector<std::string> NamesOf(const Table& table) {
+  std::vector<std::string> names;
+  for (const auto& row : table) names.emplace_back(row.name);
+  return names;
+}
+
+void DeclareCells(Fields& fields, PoseCells* cells) {
+  fields.Number("cell_m", &cells->position,
+                {.meaning = "two states nearer than about this count as one",
+                 .unit = "m",
+                 .min = 0.002,
+                 .max = 0.5});
+  fields.Number("cell_yaw_rad", &cells->yaw,
+                {.meaning = "the same of their yaws", .unit = "rad", .min = 0.01, .max = 1});
+}
+
+void DeclareBoundingBox(Fields& fields, BoundingBoxOptions* o) {
+  const auto size = [&](const char* key, double* value, const char* meaning) {
+    fields.Number(key, value, {.meaning = meaning, .unit = "m", .min = 0.05, .max = 5});
+  };
+  size("length_m", &o->box.length, "of the box around the walking robot, along its x");
+  size("width_m", &o->box.width, "along its y");
+  size("height_m", &o->box.height, "from the floor");
+  size("feet_apart_m", &o->box.feet_apart, "of feet beside each other");
+  fields.Number(
+      "spacing_m", &o->grid.spacing,
+      {.meaning = "of the grid that the box moves on", .unit = "m", .min = 0.01, .max = 1});
+  fields.Integer("yaws", &o->grid.yaws, {.meaning = "of a full turn", .min = 4, .max = 360});
+  fields.Number("corridor_m", &o->corridor,
+                {.meaning = "how far footsteps may stray from the way of the box",
+                 .unit = "m",
+                 .min = 0.05,
+                 .max = 5});
+}
+
+}  // namespace
+
+GoalRegion GoalConfig::Region() const {
+  GoalRegion region;
+  for (const PartName& row : kParts) {
+    if (part == row.name) region.part = row.part;
+  }
+  region.X_WG = X_WG;
+  region.radius = radius;
+  if (box.size() == 2) region.box = Eigen::Vector2d(box[0], box[1]);
+  region.yaw_tolerance = yaw_tolerance;
+  return region;
+}
+
+StepCost PlannerConfig::Cost() const {
+  StepCost step_cost = estimate;
+  for (const CostName& row : kCosts) {
+    if (cost == row.name) step_cost.kind = row.kind;
+  }
+  return step_cost;
+}
+
+void DeclareGoal(Fields& fields, GoalConfig* c) {
+  fields.Text("part", &c->part,
+              {.meaning = "what shall be in the region", .choices = NamesOf(kParts)});
+  const NumberSpec position{.meaning = "of the region's centre in the world",
+                            .unit = "m",
+                            .min = -1000,
+                            .max = 1000,
+                            .required = true};
+  fields.Number("x_m", &c->X_WG.x, position);
+  fields.Number("y_m", &c->X_WG.y, position);
+  fields.Number("yaw_deg", &c->X_WG.yaw,
+                {.meaning = "turns the box; the middle of the yaws, modulo a turn",
+                 .unit = "deg",
+                 .min = -3600,
+                 .max = 3600});
+  fields.Number("radius_m", &c->radius,
+                {.meaning = "of the disc", .unit = "m", .min = 0, .max = 1000});
+  fields.Numbers("box_m", &c->box, 0,
+                 {.meaning = "edge lengths of a box in place of the disc; []: the disc",
+                  .unit = "m",
+                  .min = 0,
+                  .max = 1000});
+  if (c->box.size() != 0 && c->box.size() != 2) {
+    fields.Complain("box_m", "has " + std::to_string(c->box.size()) +
+                                 " numbers (valid: [length, width], or [])");
+  }
+  fields.OptionalNumber(
+      "yaw_tolerance_deg", &c->yaw_tolerance,
+      {.meaning = "either way; none: any yaw", .unit = "deg", .min = 0, .max = 180});
+}
+
+void DeclarePlanner(Fields& fields, PlannerConfig* c) {
+  fields.Text("name", &c->name,
+              {.meaning = "which planner",
+               .choices = PlannerNames(),
+               .listed_by = "halfstep list planners"});
+  fields.Text("cost", &c->cost,
+              {.meaning = "of a plan; the last is an estimate", .choices = NamesOf(kCosts)});
+  fields.Integer("max_nodes", &c->max_nodes,
+                 {.meaning = "the search ends after them", .min = 0, .max = 1000000000});
+  fields.Integer("unimproved_nodes", &c->unimproved_nodes,
+                 {.meaning = "it ends when so many did not improve the plan; 0: at the first plan",
+                  .min = 0,
+                  .max = 1000000000});
+  fields.Number("deadline_s", &c->deadline,
+                {.meaning = "it ends then; a plan that it ends depends on the machine",
+                 .unit = "s",
+                 .min = 0,
+                 .max = 86400});
+  fields.Integer(
+      "max_refusals", &c->max_refusals,
+      {.meaning = "plans whose concatenation may fail to be certified", .min = 1, .max = 1000});
+  fields.Numbers(
+      "workspace_m", &c->workspace, 0,
+      {.meaning = "x_min, y_min, x_max, y_max of supporting soles; []: 2 m around start and goal",
+       .unit = "m",
+       .min = -1000,
+       .max = 1000});
+  const auto& w = c->workspace;
+  if (!w.empty() && (w.size() != 4 || !(w[0] < w[2]) || !(w[1] < w[3]))) {
+    fields.Complain("workspace_m", "is no box (valid: [x_min, y_min, x_max, y_max], or [])");
+  }
+  fields.Group("estimate", {.meaning = "`smoothed_duration` of a step"}, [&](Fields& f) {
+    f.Number("step_s", &c->estimate.step_time,
+             {.meaning = "at least", .unit = "s", .min = 0.01, .max = 100});
+    f.Number("per_metre_s", &c->estimate.time_per_metre,
+             {.meaning = "more for the way of its foot", .unit = "s/m", .min = 0, .max = 100});
+    f.Number("per_radian_s", &c->estimate.time_per_radian,
+             {.meaning = "more for its turn", .unit = "s/rad", .min = 0, .max = 100});
+  });
+  fields.Group("rrt", {.meaning = "options of `rrt`"}, [&](Fields& f) {
+    f.Number("goal_bias", &c->options.rrt.goal_bias,
+             {.meaning = "share of the samples in the goal", .min = 0, .max = 1});
+    DeclareCells(f, &c->options.rrt.cells);
+  });
+  fields.Group("astar", {.meaning = "options of `astar` and `astar/classic`"}, [&](Fields& f) {
+    f.Numbers("weights", &c->options.astar.weights, 0,
+              {.meaning = "of the cost to go, one search after the other", .min = 1, .max = 1000});
+    DeclareCells(f, &c->options.astar.cells);
+  });
+  if (c->options.astar.weights.empty()) {
+    fields.Complain("astar", "weights: there are none (valid: numbers from 1 on)");
+  }
+  fields.Group("bounding_box", {.meaning = "options of `bounding_box`"},
+               [&](Fields& f) { DeclareBoundingBox(f, &c->options.bounding_box); });
+}
+
+void DeclareHalfStepSet(Fields& fields, HalfStepGrid* g) {
+  const auto bound = [&](const char* key, double* value, const char* meaning) {
+    fields.Number(key, value, {.meaning = meaning, .unit = "m", .min = -2, .max = 2});
+  };
+  bound("x_min_m", &g->x_min, "places of the landing sole beside a left support that are tried");
+  bound("x_max_m", &g->x_max, "not below x_min_m");
+  bound("y_min_m", &g->y_min, "the same across");
+  bound("y_max_m", &g->y_max, "not below y_min_m");
+  if (g->x_min > g->x_max) fields.Complain("x_max_m", "is below x_min_m (valid: not below it)");
+  if (g->y_min > g->y_max) fields.Complain("y_max_m", "is below y_min_m (valid: not below it)");
+  fields.Number("spacing_m", &g->spacing,
+                {.meaning = "of x and y, from their least", .unit = "m", .min = 0.005, .max = 1});
+  fields.Numbers("yaws_rad", &g->yaws, 0,
+                 {.meaning = "of the landing sole", .unit = "rad", .min = -3, .max = 3});
+  if (g->yaws.empty()) fields.Complain("yaws_rad", "there are none (valid: at least one)");
+}
+
+void DeclareSweptVolumes(Fields& fields, SweptVolumesConfig* c) {
+  fields.Number("cell_m", &c->options.cell,
+                {.meaning = "edge of the cells that a volume is made of",
+                 .unit = "m",
+                 .min = 0.001,
+                 .max = 0.1});
+  fields.Number("displacement_m", &c->options.displacement,
+                {.meaning = "what a body may move within an interval of time of the bake",
+                 .unit = "m",
+                 .min = 1e-4,
+                 .max = 0.1});
+  fields.Text("cache", &c->cache,
+              {.meaning = "folder of the baked volumes, relative to the config",
+               .otherwise = "the user's cache folder"});
+}
+
+}  // namespace halfstep

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "planner/search/half_step_set.h"
+#include "planner/search/planner_registry.h"
+#include "planner/swept/swept_volume.h"
+#include "wpg/files/fields.h"
+
+namespace halfstep {
+
+/// Where the walk shall end, in place of footsteps.
+struct GoalConfig {
+  std::string part = "either_foot";
+  Pose2 X_WG;
+  double radius = 0.1;                  ///< [m]
+  std::vector<double> box;              ///< edge lengths [m]; empty: the disc
+  std::optional<double> yaw_tolerance;  ///< [rad]; none: any yaw
+
+  GoalRegion Region() const;
+};
+
+struct PlannerConfig {
+  std::string name = "rrt";
+  std::string cost = "steps";
+  StepCost estimate;  ///< its kind is what `cost` says
+  int max_nodes = 100000;
+  int unimproved_nodes = 500;  ///< 0: the first plan
+  double deadline = 60.0;      ///< [s]
+  int max_refusals = 5;
+  std::vector<double> workspace;  ///< x_min, y_min, x_max, y_max [m]; empty: the planner's
+  PlannerOptions options;
+
+  StepCost Cost() const;
+};
+
+struct SweptVolumesConfig {
+  SweptVolumeOptions options;  ///< its clearance is the demanded margin's
+  std::string cache;           ///< folder; "": the user's
+};
+
+/// Declare the keys of one group each.
+void DeclareGoal(Fields& fields, GoalConfig* config);
+void DeclarePlanner(Fields& fields, PlannerConfig* config);
+void DeclareHalfStepSet(Fields& fields, HalfStepGrid* grid);
+void DeclareSweptVolumes(Fields& fields, SweptVolumesConfig* config);
+
+}  // namespace halfstep

@@ -1,0 +1,70 @@
+#include "experiments/config/random_scenes.h"
+
+#include <cmath>
+#include <cstdio>
+#include <random>
+
+#include "planner/search/plan_shortcut.h"
+#include "wpg/check.h"
+
+namespace halfstep {
+namespace {
+
+// Written to 0.1 mm, so that the text says exactly what is there.
+std::string Metres(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4f", value);
+  return text;
+}
+
+std::string Cylinder(int i, double x, double y, double radius, double length) {
+  return "  - name: cylinder " + std::to_string(i) +
+         "\n    cylinder: {radius_m: " + Metres(radius) + ", length_m: " + Metres(length) +
+         "}\n    pose: {xyz: [" + Metres(x) + ", " + Metres(y) + ", " + Metres(0.5 * length) +
+         "]}\n";
+}
+
+std::string Box(int i, double x, double y, double length, double width, double height,
+                double yaw_deg) {
+  return "  - name: box " + std::to_string(i) + "\n    box: {size_m: [" + Metres(length) + ", " +
+         Metres(width) + ", " + Metres(height) + "]}\n    pose: {xyz: [" + Metres(x) + ", " +
+         Metres(y) + ", " + Metres(0.5 * height) + "], rpy_deg: [0, 0, " + Metres(yaw_deg) + "]}\n";
+}
+
+std::string DrawCylinder(int i, std::mt19937_64& random) {
+  const double x = Uniform(0.2, 2.8, random), y = Uniform(-0.8, 0.8, random);
+  const double radius = Uniform(0.01, 0.03, random);
+  return Cylinder(i, x, y, radius, Uniform(0.01, 0.1, random));
+}
+
+std::string DrawFurniture(int i, std::mt19937_64& random) {
+  constexpr double kCorner = 1.5, kRoom = 0.6;
+  double x = 0.0, y = 0.0;
+  do {
+    x = Uniform(-2.0, 2.0, random);
+    y = Uniform(-2.0, 2.0, random);
+  } while (std::hypot(std::fabs(x) - kCorner, std::fabs(y) - kCorner) < kRoom);
+  const double height = 0.02 * std::pow(50.0, Uniform(0.0, 1.0, random));
+  if (i % 2 == 0) return Cylinder(i, x, y, Uniform(0.03, 0.15, random), height);
+  const double length = Uniform(0.05, 0.4, random), width = Uniform(0.05, 0.4, random);
+  return Box(i, x, y, length, width, height, Uniform(-90.0, 90.0, random));
+}
+
+}  // namespace
+
+std::vector<std::string> RandomSceneNames() { return {"cylinders", "random_room"}; }
+
+std::string DrawScene(const std::string& name, int count, std::uint64_t seed) {
+  HALFSTEP_CHECK(count >= 0, "count = " << count);
+  HALFSTEP_CHECK(name == "cylinders" || name == "random_room", "no random scene " << name);
+  std::mt19937_64 random(seed);
+  std::string text = "# halfstep draw " + name + " --count " + std::to_string(count) + " --seed " +
+                     std::to_string(seed) + "\nname: " + name +
+                     "\nobstacles:" + (count == 0 ? " []" : "") + "\n";
+  for (int i = 1; i <= count; ++i) {
+    text += name == "cylinders" ? DrawCylinder(i, random) : DrawFurniture(i, random);
+  }
+  return text;
+}
+
+}  // namespace halfstep

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "experiments/config/experiment.h"
+#include "experiments/run/planning.h"
+#include "experiments/tables/result_tables.h"
+#include "experiments/tables/run_folder.h"
+#include "smoothing/proof/certified_feasibility.h"
+
+namespace halfstep {
+
+/// Told what is under way ("plan", a method) and the fraction of it that is done.
+struct RunHooks {
+  std::function<void(const std::string& what, double done)> progress;
+  std::stop_token stop;
+  std::stop_token stop_step = {};  ///< later: also ends what the search is looking at
+  /// Told when the planned motion is found feasible: from then on there is something to keep.
+  std::function<void()> keep = {};
+};
+
+/// Why there is nothing to smooth.
+struct RunRefusal {
+  std::string status;  ///< "no_plan", "on_no_step_area"
+  std::string sentence;
+};
+
+/// A config on its way to a run folder: planned when it has a goal, smoothed with each method,
+/// certified, written.
+class ExperimentRun {
+ public:
+  /// Plans and loads. Throws InputError.
+  ExperimentRun(const ExperimentConfig& config, const RunHooks& hooks);
+  ExperimentRun(const ExperimentRun&) = delete;
+  ExperimentRun& operator=(const ExperimentRun&) = delete;
+
+  const std::optional<RunRefusal>& refusal() const { return refusal_; }
+
+  /// Runs every method. Precondition of this and what follows: no refusal; of what follows: this.
+  void Smooth(const RunHooks& hooks);
+  /// Samples and certifies every walk; those whose turn comes after a stop are undecided.
+  /// Precondition of Write().
+  void Certify(const std::stop_token& stop);
+
+  /// The config with planned footsteps in place of a goal.
+  const ExperimentConfig& config() const { return config_; }
+  const Experiment& experiment() const { return *experiment_; }
+  const MarginEvaluator& evaluator() const { return *evaluator_; }
+  const FeasibilityTest& test() const { return *test_; }
+  /// raw first
+  const std::vector<MethodRun>& runs() const { return runs_; }
+
+  /// Writes every file of a run folder.
+  void Write(RunFolder* folder) const;
+
+ private:
+  void WriteMethod(const MethodRun& run, RunFolder* folder) const;
+
+  const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  ExperimentConfig config_;
+  std::optional<PlannedWalk> planned_;
+  std::optional<RunRefusal> refusal_;
+  std::optional<Experiment> experiment_;
+  std::optional<MarginEvaluator> evaluator_;
+  std::unique_ptr<FeasibilityTest> test_;
+  std::optional<CertifiedFeasibility> certifier_;
+  std::vector<MethodRun> runs_;
+};
+
+/// Text of a config.yaml in a folder: with every key, paths relative to the folder.
+std::string ResolvedConfig(const std::filesystem::path& folder, const ExperimentConfig& config);
+
+}  // namespace halfstep

@@ -1,0 +1,110 @@
+#include "experiments/run/manifest.h"
+
+#include <sys/utsname.h>
+
+#include <array>
+#include <chrono>
+#include <ctime>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "experiments/build_info.h"
+#include "experiments/config/methods.h"
+#include "smoothing/proof/sampled_feasibility.h"
+#include "wpg/files/sha256.h"
+
+namespace halfstep {
+namespace {
+
+using nlohmann::ordered_json;
+
+std::string UtcNow() {
+  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  std::array<char, 32> text{};
+  std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &utc);
+  return text.data();
+}
+
+ordered_json Host() {
+  utsname names{};
+  uname(&names);
+  return {{"system", names.sysname},
+          {"release", names.release},
+          {"machine", names.machine},
+          {"cores", std::thread::hardware_concurrency()}};
+}
+
+// The options that a method was asked to work with; `raw` has none.
+ordered_json Requested(const std::string& method, const SmoothingConfig& config) {
+  if (method == "raw") return ordered_json::object();
+  const DichotomyOptions& dichotomy = config.dichotomy;
+  const OptimizerOptions& optimizer = config.optimizer.options;
+  const ProgramOptions& program = optimizer.program;
+  switch (FindMethod(method).options) {
+    case OptionGroup::kNone:
+      break;
+    case OptionGroup::kDichotomy:
+      return {{"variables", "overlaps"},
+              {"tolerance_s", dichotomy.tolerance},
+              {"order", dichotomy.order == DichotomyOptions::Order::kLeftToRight ? "left_to_right"
+                                                                                 : "right_to_left"},
+              {"passes", dichotomy.passes},
+              {"up_down_cap", dichotomy.up_down_cap},
+              {"down_up_cap", dichotomy.down_up_cap}};
+    case OptionGroup::kOptimizer:
+      return {{"variables", std::string("overlaps") + (program.heights ? "+heights" : "") +
+                                (program.durations ? "+durations" : "")},
+              {"objective", config.optimizer.program},
+              {"duration_limit_s", optimizer.duration_limit},
+              {"instants", program.table.instants},
+              {"random_starts", optimizer.random_starts},
+              {"rounds", optimizer.rounds},
+              {"max_iterations", optimizer.max_iterations},
+              {"deadline_s", optimizer.deadline},
+              {"tolerance_s", optimizer.tolerance}};
+  }
+  return {{"variables", "overlaps"}};
+}
+
+ordered_json MethodJson(const MethodRun& run, const SmoothingConfig& config) {
+  return {{"name", run.method},
+          {"requested", Requested(run.method, config)},
+          {"status", Name(run.result.ending)},
+          {"message", run.result.message},
+          {"evidence", Name(run.result.evidence)},
+          {"duration_s", run.duration},
+          {"wall_s", run.result.wall}};
+}
+
+}  // namespace
+
+std::string ManifestJson(const Experiment& experiment, const std::string& resolved_config,
+                         const std::string& acceptance, const std::vector<MethodRun>& runs,
+                         double total_wall) {
+  ordered_json manifest = {{"format", 2},
+                           {"program", "halfstep"},
+                           {"version", kVersion},
+                           {"commit", kCommit},
+                           {"build_type", kBuildType},
+                           {"compiler", kCompiler},
+                           {"written", UtcNow()},
+                           {"name", experiment.config.name},
+                           {"config_sha256", Sha256(resolved_config)},
+                           {"seed", experiment.config.seed},
+                           {"robot", experiment.robot.name},
+                           {"scene", experiment.scene.name},
+                           {"half_steps", experiment.sequence.size()},
+                           {"objective", experiment.config.smoothing.optimizer.program},
+                           {"acceptance", acceptance},
+                           {"host", Host()},
+                           {"wall_s", total_wall}};
+  for (const auto& [library, version] : kLibraries) manifest["libraries"][library] = version;
+  for (const MethodRun& run : runs) {
+    manifest["methods"].push_back(MethodJson(run, experiment.config.smoothing));
+  }
+  return manifest.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace halfstep

@@ -1,0 +1,211 @@
+#include "experiments/run/planning.h"
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+
+#include "experiments/config/experiment.h"
+#include "planner/search/planner_registry.h"
+#include "planner/swept/swept_volume_query.h"
+#include "wpg/check.h"
+#include "wpg/files/input_error.h"
+
+namespace halfstep {
+namespace {
+
+FootstepConfig ToConfig(const Footstep& footstep) {
+  FootstepConfig config;
+  config.foot = Name(footstep.side);
+  config.X_WF = footstep.X_WF;
+  return config;
+}
+
+Termination StopOf(const PlannerConfig& config, const PlanningHooks& hooks) {
+  std::vector<Termination> all = {OnRequest(hooks.stop), AfterNodes(config.max_nodes),
+                                  AtTime(SteadySeconds, SteadySeconds() + config.deadline)};
+  all.push_back(config.unimproved_nodes == 0 ? AtFirstPlan()
+                                             : WhenNotImprovedFor(config.unimproved_nodes));
+  return AnyOf(std::move(all));
+}
+
+}  // namespace
+
+HalfStep PrototypeOf(const ExperimentConfig& config) {
+  HalfStep prototype;
+  prototype.duration = config.half_step.duration;
+  prototype.via_height = config.half_step.via_height;
+  prototype.via_lateral = config.half_step.via_lateral;
+  prototype.shape = {.shift = config.half_step.zmp_shift / config.half_step.duration,
+                     .horizontal_delay = config.half_step.horizontal_delay};
+  return prototype;
+}
+
+HalfStepCertifier::HalfStepCertifier(const RobotModel& robot, const Scene& scene,
+                                     const ExperimentConfig& config)
+    : lipm_{.com_height = robot.com_height},
+      evaluator_(robot, scene, config.smoothing.limits),
+      feasibility_(evaluator_, config.smoothing.certification) {}
+
+// The step in place that holds the half-step: up from its place, and down to it again.
+bool HalfStepCertifier::Certifies(const HalfStep& half_step, const Pose2& X_WS) const {
+  std::array<Pose2, 2> start;
+  start[static_cast<size_t>(Index(half_step.support))] = X_WS;
+  start[static_cast<size_t>(Index(half_step.swing()))] = X_WS * half_step.X_SF;
+  const Footstep footstep{.side = half_step.swing(),
+                          .X_WF = X_WS * half_step.X_SF,
+                          .via_height = half_step.via_height,
+                          .duration = half_step.duration};
+  const HalfStepSequence sequence =
+      MakeSequence(start, {footstep}, half_step.via_lateral, half_step.shape, lipm_);
+  const SuperposedWalk walk(sequence, PlannedMotion(sequence));
+  const int i = half_step.kind == HalfStepKind::kUp ? 0 : 1;
+  MarginEvaluator::Scratch scratch = evaluator_.MakeScratch();
+  return feasibility_.Check(walk, {walk.start_of(i), walk.end_of(i)}, &scratch).verdict ==
+         Verdict::kFeasible;
+}
+
+HalfStepSet CertifiedHalfSteps(const RobotModel& robot, const ExperimentConfig& config,
+                               const std::function<bool(double)>& progress) {
+  const HalfStepCertifier certifier(robot, Scene{}, config);
+  return MakeHalfStepSet(
+      config.half_step_grid, PrototypeOf(config),
+      [&](const HalfStep& half_step) { return certifier.Certifies(half_step, {}); }, progress);
+}
+
+Acceptance CertifyPlan(const CertifiedFeasibility& test, const HalfStepSequence& sequence) {
+  const SuperposedWalk walk(sequence, PlannedMotion(sequence));
+  MarginEvaluator::Scratch scratch = test.evaluator().MakeScratch();
+  const Feasibility answer = test.Check(walk, {0.0, walk.duration()}, &scratch);
+  if (answer.verdict == Verdict::kFeasible) return true;
+  // Element j serves half-steps 2j + 1, down, and 2j + 2, up.
+  return {false, std::max(0, (answer.witness.at.half_step - 1) / 2)};
+}
+
+double SteadySeconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+BakedHalfSteps BakeHalfSteps(const RobotModel& robot, const ExperimentConfig& config,
+                             const PlanningHooks& hooks) {
+  const auto progress = [&hooks](const char* what) {
+    return [&hooks, what](double done) {
+      if (hooks.progress) hooks.progress(what, done);
+      return !hooks.stop.stop_requested();
+    };
+  };
+  BakedHalfSteps baked;
+  const double begin = SteadySeconds();
+  const HalfStepSet set = CertifiedHalfSteps(robot, config, progress("half-steps"));
+  const double set_done = SteadySeconds();
+  baked.set_wall = set_done - begin;
+  baked.size = set.size();
+  if (hooks.stop.stop_requested()) return baked;
+  if (set.size() == 0) {
+    throw InputError(
+        {"half_steps: no place of the grid keeps the demanded margins (valid: a grid "
+         "beside the support foot, margins that the robot meets)"});
+  }
+  SweptVolumeOptions options = config.swept_volumes.options;
+  options.clearance = config.smoothing.limits.demanded_of(MarginFamily::kClearance);
+  std::string folder = DefaultCacheFolder();
+  if (!config.swept_volumes.cache.empty()) {
+    folder = (std::filesystem::path(config.directory) / config.swept_volumes.cache).string();
+  }
+  baked.cached =
+      LoadOrBakeSweptVolumes(robot, {.com_height = robot.com_height}, set, options, folder,
+                             {.threads = 0, .stop = hooks.stop, .progress = progress("bake")});
+  baked.wall = SteadySeconds() - set_done;
+  return baked;
+}
+
+PlannedWalk PlanWalk(const ExperimentConfig& config, const PlanningHooks& hooks) {
+  HALFSTEP_CHECK(config.has_goal, "no goal");
+  PlannedWalk walk{.config = config, .plan = {}, .half_steps = {}};
+  const Place place = LoadPlace(config);
+  walk.half_steps = BakeHalfSteps(place.robot, config, hooks);
+  if (!walk.half_steps.cached.volumes) {
+    walk.plan.status = PlanStatus::kInterrupted;
+    walk.plan.sentence = "interrupted while half-steps were baked";
+    return walk;
+  }
+  if (const auto on_area = FootprintOnNoStep({config, place.robot, place.scene, {}})) {
+    walk.plan.status = PlanStatus::kStartBlocked;
+    walk.plan.sentence = *on_area;
+    return walk;
+  }
+  const SweptVolumes& volumes = *walk.half_steps.cached.volumes;
+  const SweptVolumeQuery query(volumes, place.robot.sole_outline, place.scene,
+                               config.smoothing.limits.demanded_of(MarginFamily::kNoStep));
+  const HalfStepCertifier certifier(place.robot, place.scene, config);
+  const MarginEvaluator evaluator(place.robot, place.scene, config.smoothing.limits);
+  const CertifiedFeasibility test(evaluator, config.smoothing.certification);
+  const HalfStep prototype = PrototypeOf(config);
+
+  PlanRequest request{.start = StartOf(config, place.robot),
+                      .goal = config.goal.Region(),
+                      .set = volumes.set,
+                      .query = query,
+                      .cost = config.planner.Cost()};
+  if (const auto& w = config.planner.workspace; !w.empty()) {
+    request.workspace = {Eigen::Vector2d(w[0], w[1]), Eigen::Vector2d(w[2], w[3])};
+  }
+  request.start_is_free = [&](const HalfStep& up, const Pose2& X_WS) {
+    return certifier.Certifies(up, X_WS);
+  };
+  request.accepts = [&](const std::vector<Footstep>& footsteps) {
+    return CertifyPlan(test, MakeSequence(request.start, footsteps, prototype.via_lateral,
+                                          prototype.shape, {.com_height = place.robot.com_height}));
+  };
+  request.max_refusals = config.planner.max_refusals;
+  request.clock = SteadySeconds;
+  request.stop = StopOf(config.planner, hooks);
+  std::mt19937_64 random(static_cast<std::uint64_t>(config.seed));
+  walk.plan =
+      MakePlanner(config.planner.name, place.scene, config.planner.options)->Plan(request, random);
+  if (walk.plan.status != PlanStatus::kSolved) return walk;
+  walk.config.has_goal = false;
+  walk.config.has_start = true;
+  walk.config.start_left = request.start[0];
+  walk.config.start_right = request.start[1];
+  for (const Footstep& footstep : walk.plan.footsteps) {
+    walk.config.footsteps.push_back(ToConfig(footstep));
+  }
+  return walk;
+}
+
+std::string PlanJson(const PlannedWalk& walk) {
+  const PlanResult& plan = walk.plan;
+  const GoalConfig& goal = walk.config.goal;
+  const auto number = [](double x) {
+    return std::isfinite(x) ? nlohmann::ordered_json(x) : nlohmann::ordered_json(nullptr);
+  };
+  nlohmann::ordered_json json = {
+      {"planner", walk.config.planner.name},
+      {"seed", walk.config.seed},
+      {"status", Name(plan.status)},
+      {"message", plan.sentence},
+      {"goal",
+       {{"part", goal.part},
+        {"x_m", goal.X_WG.x},
+        {"y_m", goal.X_WG.y},
+        {"yaw_rad", goal.X_WG.yaw},
+        {"radius_m", goal.radius},
+        {"box_m", goal.box},
+        {"yaw_tolerance_rad", goal.yaw_tolerance ? nlohmann::ordered_json(*goal.yaw_tolerance)
+                                                 : nlohmann::ordered_json(nullptr)}}},
+      {"cost_kind", walk.config.planner.cost},
+      {"cost", number(plan.cost)},
+      {"footsteps", plan.footsteps.size()},
+      {"elements", plan.elements},
+      {"nodes", plan.nodes},
+      {"queries", plan.queries},
+      {"refusals", plan.refusals},
+      {"half_steps", walk.half_steps.size},
+      {"baked", walk.half_steps.cached.baked},
+      {"time_to_first_s", number(plan.time_to_first)},
+      {"plan_wall_s", number(plan.time)},
+      {"set_wall_s", walk.half_steps.set_wall},
+      {"volumes_wall_s", walk.half_steps.wall}};
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace halfstep

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <stop_token>
+#include <string>
+
+#include "experiments/config/experiment_config.h"
+#include "planner/search/footstep_planner.h"
+#include "planner/swept/swept_volume_cache.h"
+#include "smoothing/proof/certified_feasibility.h"
+#include "wpg/robot/robot_model.h"
+
+namespace halfstep {
+
+/// The half-steps of a config without their place: duration, via point, shape.
+HalfStep PrototypeOf(const ExperimentConfig& config);
+
+/// Proves one isolated half-step of a robot in a scene, its support sole at X_WS: every demanded
+/// margin for all t.
+class HalfStepCertifier {
+ public:
+  HalfStepCertifier(const RobotModel& robot, const Scene& scene, const ExperimentConfig& config);
+  bool Certifies(const HalfStep& half_step, const Pose2& X_WS) const;
+
+ private:
+  Lipm lipm_;
+  MarginEvaluator evaluator_;
+  CertifiedFeasibility feasibility_;
+};
+
+/// The half-steps of the config's grid that are certified, down and up, on an empty floor. Empty
+/// when `progress` says stop.
+HalfStepSet CertifiedHalfSteps(const RobotModel& robot, const ExperimentConfig& config,
+                               const std::function<bool(double)>& progress = {});
+
+/// Whether the concatenation keeps every demanded margin for all t; a refusal names the footstep
+/// whose half-steps are to blame.
+Acceptance CertifyPlan(const CertifiedFeasibility& test, const HalfStepSequence& sequence);
+
+/// Seconds of a steady clock.
+double SteadySeconds();
+
+/// Told what is under way and the fraction of it that is done.
+struct PlanningHooks {
+  std::function<void(const std::string& what, double done)> progress = {};
+  std::stop_token stop = {};
+};
+
+/// The set and its swept volumes, from the cache or baked. Throws InputError when no half-step is
+/// certified.
+struct BakedHalfSteps {
+  int size = 0;           ///< elements
+  double set_wall = 0.0;  ///< of certifying the set [s]
+  double wall = 0.0;      ///< of reading or baking [s]
+  CachedVolumes cached;   ///< no volumes: stopped
+};
+BakedHalfSteps BakeHalfSteps(const RobotModel& robot, const ExperimentConfig& config,
+                             const PlanningHooks& hooks);
+
+/// A plan and what it was made with.
+struct PlannedWalk {
+  ExperimentConfig config;  ///< with footsteps and start in place of the goal; when solved
+  PlanResult plan;
+  BakedHalfSteps half_steps;
+};
+
+/// Plans from the config's start to its goal, and certifies the concatenation. Precondition:
+/// config.has_goal (std::logic_error). Throws InputError.
+PlannedWalk PlanWalk(const ExperimentConfig& config, const PlanningHooks& hooks);
+
+/// plan.json of a run folder.
+std::string PlanJson(const PlannedWalk& walk);
+
+}  // namespace halfstep

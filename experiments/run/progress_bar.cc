@@ -1,0 +1,35 @@
+#include "experiments/run/progress_bar.h"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <utility>
+
+namespace halfstep {
+
+using Clock = std::chrono::steady_clock;
+
+ProgressBar::ProgressBar(std::string label, bool quiet)
+    : label_(std::move(label)),
+      enabled_(!quiet && isatty(STDERR_FILENO) == 1),
+      begin_(Clock::now()),
+      last_(begin_) {}
+
+ProgressBar::~ProgressBar() {
+  if (drawn_) std::fputs("\r\033[K", stderr);
+}
+
+void ProgressBar::Update(double done) {
+  const Clock::time_point now = Clock::now();
+  const std::chrono::duration<double> elapsed = now - begin_;
+  if (!enabled_ || elapsed.count() < 1.0 || now - last_ < std::chrono::milliseconds(100)) return;
+  last_ = now;
+  drawn_ = true;
+  constexpr int kWidth = 30;
+  const int filled = static_cast<int>(done * kWidth);
+  const double left = done > 0.0 ? elapsed.count() * (1.0 - done) / done : 0.0;
+  std::fprintf(stderr, "\r\033[K%s [%.*s%*s] %3.0f %%, %.0f s left", label_.c_str(), filled,
+               "##############################", kWidth - filled, "", 100.0 * done, left);
+}
+
+}  // namespace halfstep

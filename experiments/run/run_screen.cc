@@ -1,0 +1,154 @@
+#include "experiments/run/run_screen.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "smoothing/proof/sampled_feasibility.h"
+
+namespace halfstep {
+namespace {
+
+template <typename... Arguments>
+std::string Format(const char* format, Arguments... arguments) {
+  std::array<char, 256> text{};
+  std::snprintf(text.data(), text.size(), format, arguments...);
+  return text.data();
+}
+
+const Margin& Of(const MethodRun& run, MarginFamily family) {
+  return run.margins[static_cast<size_t>(family)];
+}
+
+// "11 up_down overlaps: 0.412 s on average of 0.950 s; held by clearance of RLEG_LINK5 - bar (2) …"
+std::string Holders(const MarginEvaluator& evaluator, const MethodRun& run, JunctionKind kind) {
+  std::map<std::string, int> holders;
+  double overlap = 0.0, bound = 0.0;
+  int count = 0;
+  for (const JunctionResult& junction : run.result.junctions) {
+    if (junction.kind != kind) continue;
+    ++count;
+    overlap += junction.overlap;
+    bound += junction.upper_bound;
+    const std::string what =
+        junction.limited_by ? std::string(Name(junction.limited_by->family)) + " of " +
+                                  evaluator.Subject(*junction.limited_by)
+        : junction.overlap < junction.upper_bound - 1e-9 ? "the balance of the program"
+                                                         : "their upper bound";
+    ++holders[what];
+  }
+  if (count == 0) return "";
+  std::string text = Format("  %s: %d overlaps, mean %.3f s of %.3f s, held by ",
+                            kind == JunctionKind::kUpDown ? "up→down" : "down→up", count,
+                            overlap / count, bound / count);
+  std::string separator;
+  for (const auto& [what, times] : holders) {
+    text += separator + what + Format(" (%d)", times);
+    separator = ", ";
+  }
+  return text + "\n";
+}
+
+// The junctions where a little less demanded would save most: "junction 5 (up→down), 0.612 s …".
+std::string Prices(const MarginEvaluator& evaluator, const MethodRun& run) {
+  constexpr size_t kMost = 3;
+  std::vector<std::pair<double, size_t>> dearest;
+  for (size_t j = 0; j < run.result.junctions.size(); ++j) {
+    if (run.result.junctions[j].price) dearest.push_back({-*run.result.junctions[j].price, j});
+  }
+  std::sort(dearest.begin(), dearest.end());
+  std::string text;
+  for (size_t k = 0; k < std::min(kMost, dearest.size()); ++k) {
+    const JunctionResult& junction = run.result.junctions[dearest[k].second];
+    const Margin& limit = *junction.limited_by;
+    text +=
+        Format("  junction %zu (%s), %.3f s: ", dearest[k].second + 1,
+               junction.kind == JunctionKind::kUpDown ? "up→down" : "down→up", junction.overlap) +
+        std::string(Name(limit.family)) + " of " + evaluator.Subject(limit) +
+        Format(" at half-step %d, τ = %.3f s; %g %s less demanded would save %.3f s",
+               limit.at.half_step + 1, limit.at.tau, Scale(limit.family),
+               std::string(Unit(limit.family)).c_str(), *junction.price);
+    if (junction.multiplier && *junction.multiplier > 0.0) {
+      text += Format(" (%.3f s with all parameters adapting)", *junction.multiplier);
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+// Rows of a Pareto curve.
+std::string Curve(const MethodRun& run) {
+  std::string text;
+  for (const ParetoPoint& point : run.result.pareto) {
+    text += Format("  %8.3f s: every margin at least %.2f of its scale inside\n", point.duration,
+                   point.least_slack);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string RunTable(const Experiment& experiment, const MarginEvaluator& evaluator,
+                     const FeasibilityTest& test, const std::vector<MethodRun>& runs,
+                     const std::string& folder) {
+  std::ostringstream out;
+  out << experiment.config.name << ": " << experiment.robot.name << ", "
+      << experiment.sequence.size() << " half-steps, " << experiment.scene.obstacles.size()
+      << " obstacles; feasible means " << test.Description() << "\n\n";
+  out << Format("%-22s %-16s %-10s %10s %8s %9s %10s %s\n", "method", "status", "for all t",
+                "duration", "speed-up", "low apex", "clearance", "worst margin");
+  for (const MethodRun& run : runs) {
+    const Margin& worst = WorstOf(run.margins, evaluator.limits());
+    const Margin& clearance = Of(run, MarginFamily::kClearance);
+    out << Format("%-22s %-16s %-10s %8.3f s %7.2fx %6.1f cm ", run.method.c_str(),
+                  std::string(Name(run.result.ending)).c_str(),
+                  std::string(VerdictName(run.certified.answer.verdict)).c_str(), run.duration,
+                  runs.front().duration / run.duration, 100.0 * run.lowest_apex)
+        << (!std::isfinite(clearance.value) ? Format("%10s", "-")
+            : clearance.other < 0
+                ? Format("   > %2.0f cm", 100.0 * evaluator.limits().clearance_horizon)
+                : Format("%7.1f cm", 100.0 * clearance.value))
+        << Format(" %s %.4g %s\n", std::string(Name(worst.family)).c_str(), worst.value,
+                  std::string(Unit(worst.family)).c_str());
+  }
+  for (const MethodRun& run : runs) {
+    if (!HasOwnResult(run.result.ending)) {
+      out << "\n"
+          << run.method << ": " << Name(run.result.ending) << ": " << run.result.message << "\n";
+      continue;  // what follows would be about another method's walk
+    }
+    if (run.result.junctions.empty()) continue;
+    out << "\n"
+        << run.method << Format(" (%.2f s, %ld instants)\n", run.result.wall, run.result.instants)
+        << Holders(evaluator, run, JunctionKind::kUpDown)
+        << Holders(evaluator, run, JunctionKind::kDownUp) << Prices(evaluator, run) << Curve(run)
+        << "  " << run.result.message << "\n";
+  }
+  out << "\nwritten: " << folder << "\n";
+  return out.str();
+}
+
+std::string RunJson(const MarginEvaluator& evaluator, const std::vector<MethodRun>& runs,
+                    const std::string& folder) {
+  nlohmann::ordered_json json = {{"folder", folder}};
+  for (const MethodRun& run : runs) {
+    const Margin& worst = WorstOf(run.margins, evaluator.limits());
+    json["methods"].push_back({{"method", run.method},
+                               {"status", Name(run.result.ending)},
+                               {"message", run.result.message},
+                               {"evidence", Name(run.result.evidence)},
+                               {"verdict", VerdictName(run.certified.answer.verdict)},
+                               {"duration_s", run.duration},
+                               {"speedup", runs.front().duration / run.duration},
+                               {"lowest_apex_m", run.lowest_apex},
+                               {"worst_margin", worst.value},
+                               {"worst_margin_name", Name(worst.family)}});
+  }
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace halfstep

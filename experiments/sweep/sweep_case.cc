@@ -1,0 +1,89 @@
+#include "experiments/sweep/sweep_case.h"
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include "experiments/run/complete_manifest.h"
+#include "experiments/run/experiment_run.h"
+#include "experiments/sweep/sweep_tables.h"
+#include "experiments/tables/csv_columns.h"
+#include "experiments/tables/run_folder.h"
+
+namespace halfstep {
+namespace {
+
+ExperimentConfig ConfigOf(const SweepFolder& folder, const SweepCase& one) {
+  ExperimentConfig config = LoadConfig(folder.sweep().ConfigPath().string(), one.overrides);
+  config.name += "-" + one.id;  // a scenario of its own for `halfstep compare`
+  config.output_directory.clear();
+  return config;
+}
+
+// Writes a case's folder in place of a damaged one.
+void Publish(const SweepFolder& folder, const SweepCase& one, const ExperimentConfig& config,
+             const SweepTables& tables, const ExperimentRun* kept) {
+  if (folder.IsDone(one)) return;  // another process did it meanwhile
+  const std::filesystem::path path = folder.CasePath(one);
+  if (!std::filesystem::is_symlink(path)) std::filesystem::remove_all(path);
+  RunFolder place(folder.CasePath(one), /*overwrite=*/false);
+  if (kept != nullptr) {
+    kept->Write(&place);
+  } else {
+    place.Write("config.yaml", ResolvedConfig(place.path(), config));
+  }
+  WriteCsv("timings", tables.timings, &place);
+  WriteCsv("runs", tables.runs, &place);
+  if (kept != nullptr) {
+    CompleteManifest(kept->experiment().robot, kept->experiment().scene, &place);
+  }
+  try {
+    place.Publish();
+  } catch (const std::runtime_error&) {
+    if (!folder.IsDone(one)) throw;  // else another process did the same case meanwhile
+  }
+}
+
+}  // namespace
+
+ExitStatus DoSweepCase(const SweepFolder& folder, const SweepCase& one, std::stop_token stop) {
+  if (folder.IsDone(one)) return kSuccess;
+  const auto begin = std::chrono::steady_clock::now();
+  const auto wall = [begin] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  };
+  const ExperimentConfig config = ConfigOf(folder, one);
+  const RunHooks hooks{.progress = [](const std::string&, double) {}, .stop = stop};
+  std::optional<ExperimentRun> run;
+  SweepTables tables;
+  bool smoothed = false;
+  try {
+    run.emplace(config, hooks);
+    if (run->refusal()) {
+      tables = TablesOfFailure(folder.sweep(), one, run->refusal()->status,
+                               run->refusal()->sentence, wall());
+    } else {
+      run->Smooth(hooks);
+      if (stop.stop_requested()) return kInterrupted;
+      run->Certify(stop);
+      smoothed = true;
+    }
+  } catch (const std::logic_error& error) {  // a mistake of ours: the other cases go on
+    tables = TablesOfFailure(folder.sweep(), one, "error", error.what(), wall());
+  }
+  if (stop.stop_requested()) return kInterrupted;
+  if (smoothed) tables = TablesOf(folder.sweep(), one, *run, wall());
+  const bool keep = smoothed && folder.sweep().keep == "all";
+  Publish(folder, one, smoothed ? run->config() : config, tables, keep ? &*run : nullptr);
+  return kSuccess;
+}
+
+void WriteSweepFailure(const SweepFolder& folder, const SweepCase& one, const std::string& status,
+                       const std::string& message, double wall) {
+  Publish(folder, one, ConfigOf(folder, one),
+          TablesOfFailure(folder.sweep(), one, status, message, wall), nullptr);
+}
+
+}  // namespace halfstep

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <stop_token>
+#include <string>
+
+#include "experiments/run/exit_status.h"
+#include "experiments/sweep/sweep_folder.h"
+
+namespace halfstep {
+
+/// Does one case of a sweep and writes its folder; failures are rows too. A folder of the case that
+/// is not whole gives way; one that is stays. Stopped, it writes nothing (kInterrupted). Throws
+/// InputError for input that cannot be read, std::runtime_error when files cannot be written.
+ExitStatus DoSweepCase(const SweepFolder& folder, const SweepCase& one, std::stop_token stop);
+
+/// Writes the folder of a case whose process died.
+void WriteSweepFailure(const SweepFolder& folder, const SweepCase& one, const std::string& status,
+                       const std::string& message, double wall);
+
+}  // namespace halfstep

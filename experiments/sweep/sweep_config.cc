@@ -1,0 +1,228 @@
+#include "experiments/sweep/sweep_config.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "experiments/config/experiment_config.h"
+#include "experiments/config/folder_name.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/number_text.h"
+#include "wpg/files/sha256.h"
+#include "wpg/files/text.h"
+
+namespace halfstep {
+namespace {
+
+constexpr size_t kMostCases = 100000;
+
+// Twelve digits: 0.3 and not 0.30000000000000004, 100000 and not 1e+05.
+std::string ValueText(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.12g", value == 0.0 ? 0.0 : value);
+  return text.data();
+}
+
+// What is wrong with a range, "" if nothing: the key and the sentence.
+std::pair<const char*, std::string> MistakeInRange(const SweepAxis& axis) {
+  if (!axis.from || !axis.to) {
+    return {axis.from ? "to" : "from", "is missing (valid: values, or from and to)"};
+  }
+  if (*axis.from > *axis.to) return {"to", "is below from (valid: not below it)"};
+  if (axis.step && axis.count > 0) return {"count", "there is a step as well (valid: either)"};
+  const double steps = (*axis.to - *axis.from) / axis.step.value_or(1.0);
+  if (axis.count == 0 && steps > static_cast<double>(kMostCases)) {
+    return {"step", "makes too many values (valid: at most " + std::to_string(kMostCases) + ")"};
+  }
+  return {"", ""};
+}
+
+std::vector<std::string> ValuesOf(const SweepAxis& axis) {
+  const double width = *axis.to - *axis.from;
+  const double step = axis.count == 0  ? axis.step.value_or(1.0)
+                      : axis.count > 1 ? width / (axis.count - 1)
+                                       : 0.0;
+  const int count =
+      axis.count == 0 ? static_cast<int>(std::floor(width / step + 1e-9)) + 1 : axis.count;
+  std::vector<std::string> values;
+  for (int i = 0; i < count; ++i) values.push_back(ValueText(*axis.from + i * step));
+  return values;
+}
+
+void DeclareAxis(Fields& fields, SweepAxis* axis) {
+  fields.Text("key", &axis->key,
+              {.meaning = "of the config, dotted as after `--set`", .required = true});
+  if (axis->key == "name" || axis->key == "output" || axis->key.starts_with("output.directory")) {
+    fields.Complain("key", Quote(axis->key) + " is what tells the cases apart (valid: other keys)");
+  }
+  fields.Texts("values", &axis->values,
+               {.meaning = "that it takes, each as after `--set KEY=`: a list or a map in quotes"});
+  fields.OptionalNumber("from", &axis->from, {.meaning = "first value, in place of `values`"});
+  fields.OptionalNumber("to", &axis->to, {.meaning = "last value"});
+  fields.OptionalNumber("step", &axis->step,
+                        {.meaning = "from value to value; none: 1", .min = 1e-12});
+  fields.Integer("count", &axis->count,
+                 {.meaning = "of values, evenly spaced, in place of `step`; 0: by `step`",
+                  .min = 0,
+                  .max = static_cast<double>(kMostCases)});
+  fields.Text("zip", &axis->zip,
+              {.meaning = "axes with the same word advance together", .otherwise = "by itself"});
+  const bool range = axis->from || axis->to || axis->step || axis->count > 0;
+  for (const std::string& value : axis->values) {
+    if (!LooksLikeFormula(value) || ParseNumber(value).kind == NumberText::Kind::kNumber) continue;
+    fields.Complain("values",
+                    Quote(value) +
+                        " would be taken for a formula where a spreadsheet shows runs.csv "
+                        "(valid: a number, a text that begins otherwise, ./ before a path)");
+  }
+  if (!axis->values.empty()) {
+    if (range) fields.Complain("values", "there is a range as well (valid: either)");
+    return;
+  }
+  const auto [key, mistake] = MistakeInRange(*axis);
+  if (mistake.empty()) {
+    axis->values = ValuesOf(*axis);
+    axis->from = axis->to = axis->step = std::nullopt;
+    axis->count = 0;
+  } else {
+    fields.Complain(range ? key : "values",
+                    range ? mistake : "there are none (valid: values, or from and to)");
+  }
+}
+
+// What is wrong with the axes taken together, "" if nothing.
+std::string MistakeInAxes(const std::vector<SweepAxis>& axes) {
+  if (axes.empty()) return "there are none (valid: at least one key)";
+  double cases = 1.0;
+  for (auto axis = axes.begin(); axis != axes.end(); ++axis) {
+    const auto same = [&](const SweepAxis& other) { return other.key == axis->key; };
+    if (std::find_if(axes.begin(), axis, same) != axis) {
+      return Quote(axis->key) + " is there twice (valid: each key once)";
+    }
+    const auto zipped = [&](const SweepAxis& other) {
+      return !axis->zip.empty() && other.zip == axis->zip;
+    };
+    const auto first = std::find_if(axes.begin(), axis, zipped);
+    if (first == axis) {
+      cases *= static_cast<double>(axis->values.size());
+    } else if (first->values.size() != axis->values.size()) {
+      return "zipped " + Quote(axis->zip) + ": " + std::to_string(first->values.size()) + " and " +
+             std::to_string(axis->values.size()) + " values (valid: as many)";
+    }
+  }
+  return cases <= static_cast<double>(kMostCases)
+             ? ""
+             : "makes " + ValueText(cases) + " cases (valid: at most " +
+                   std::to_string(kMostCases) + ")";
+}
+
+// What is wrong with the config of the first case that cannot be read.
+std::string MistakeInCases(const SweepConfig& config) {
+  for (const SweepCase& one : SweepCases(config)) {
+    try {
+      LoadConfig(config.ConfigPath().string(), one.overrides);
+    } catch (const InputError& error) {
+      return "case " + one.id + ": " + error.complaints().front();
+    }
+  }
+  return "";
+}
+
+}  // namespace
+
+std::filesystem::path SweepConfig::ConfigPath() const {
+  return (std::filesystem::path(directory) / config).lexically_normal();
+}
+
+void DeclareFields(Fields& fields, SweepConfig* c) {
+  fields.Text("name", &c->name,
+              {.meaning = "of the sweep and its folder; as of a config",
+               .otherwise = "the file's name without extension"});
+  CheckName(fields, c->name);
+  fields.Text("config", &c->config,
+              {.meaning = "path of the config that is varied, relative to the sweep file",
+               .required = true});
+  fields.List("vary",
+              {.meaning = "the keys that vary; the cases are all combinations, the first key "
+                          "varies slowest",
+               .required = true,
+               .max_items = 100},
+              &c->vary, DeclareAxis);
+  fields.Text("keep", &c->keep,
+              {.meaning = "of each case: its rows and resolved config, or its whole run folder",
+               .choices = {"summary", "all"}});
+}
+
+std::vector<KeyDescription> SweepKeys() {
+  SweepConfig config;
+  return DescribeKeys([&config](Fields& fields) { DeclareFields(fields, &config); });
+}
+
+std::vector<SweepCase> SweepCases(const SweepConfig& config) {
+  std::vector<SweepCase> cases(1);
+  cases[0].overrides.resize(config.vary.size());
+  for (size_t first = 0; first < config.vary.size(); ++first) {
+    const SweepAxis& axis = config.vary[first];
+    const auto together = [&](const SweepAxis& other) {
+      return &other == &axis || (!axis.zip.empty() && other.zip == axis.zip);
+    };
+    if (std::find_if(config.vary.begin(), config.vary.end(), together) !=
+        config.vary.begin() + static_cast<std::ptrdiff_t>(first)) {
+      continue;  // advances with an earlier one
+    }
+    std::vector<SweepCase> longer;
+    for (const SweepCase& one : cases) {
+      for (size_t i = 0; i < axis.values.size(); ++i) {
+        longer.push_back(one);
+        for (size_t k = first; k < config.vary.size(); ++k) {
+          const SweepAxis& other = config.vary[k];
+          if (together(other)) longer.back().overrides[k] = {other.key, other.values[i]};
+        }
+      }
+    }
+    cases = std::move(longer);
+  }
+  for (size_t i = 0; i < cases.size(); ++i) {
+    std::array<char, 24> number{};
+    std::snprintf(number.data(), number.size(), "%04zu-", i + 1);
+    cases[i].id = number.data() + Sha256(OverrideText(cases[i])).substr(0, 8);
+  }
+  return cases;
+}
+
+std::string OverrideText(const SweepCase& one) {
+  std::string text;
+  for (const YamlOverride& set : one.overrides) {
+    text += (text.empty() ? "" : " ") + set.key + "=" + set.value;
+  }
+  return text;
+}
+
+SweepConfig LoadSweep(const std::string& path, const std::vector<YamlOverride>& overrides,
+                      bool check) {
+  return ParseSweep(path, ReadYamlFile(path), overrides, check);
+}
+
+SweepConfig ParseSweep(const std::string& path, const std::string& text,
+                       const std::vector<YamlOverride>& overrides, bool check) {
+  const std::filesystem::path file(path);
+  SweepConfig config;
+  config.name = file.stem().string();
+  ReadYamlText(text, path, file.parent_path().string(), overrides, [&](Fields& fields) {
+    DeclareFields(fields, &config);
+    config.directory = fields.directory();
+    std::error_code ignored;
+    const bool there = std::filesystem::is_regular_file(config.ConfigPath(), ignored);
+    if (!there) {
+      fields.Complain("config", "no such file: " + Quote(config.config) +
+                                    " (valid: path of a config, relative to this file)");
+    }
+    std::string mistake = MistakeInAxes(config.vary);
+    if (mistake.empty() && there && check) mistake = MistakeInCases(config);
+    if (!mistake.empty()) fields.Complain("vary", mistake);
+  });
+  return config;
+}
+
+}  // namespace halfstep

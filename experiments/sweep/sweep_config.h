@@ -1,0 +1,59 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "wpg/files/fields.h"
+#include "wpg/files/key_description.h"
+#include "wpg/files/yaml_fields.h"
+
+namespace halfstep {
+
+/// A key of the config and the values that it takes.
+struct SweepAxis {
+  std::string key;                    ///< dotted, as after --set
+  std::vector<std::string> values{};  ///< YAML texts; reading fills them from a range
+  std::optional<double> from{}, to{}, step{};
+  int count = 0;      ///< of a range; 0: by step
+  std::string zip{};  ///< axes with the same word advance together; "": by itself
+};
+
+/// A sweep as its YAML file says it (experiments/README.md).
+struct SweepConfig {
+  std::string name;    ///< default: the file's stem
+  std::string config;  ///< path of the base config, relative to the file
+  std::vector<SweepAxis> vary;
+  std::string keep = "summary";  ///< or "all"
+  std::string directory;         ///< of the file
+
+  std::filesystem::path ConfigPath() const;
+};
+
+/// One case of a sweep: the base config with some keys set.
+struct SweepCase {
+  std::string id;  ///< "0007-3f2a9c1b": its number from 1, and a hash of what it sets
+  std::vector<YamlOverride> overrides;  ///< one an axis, in their order
+};
+
+/// Declares every key of a sweep file once.
+void DeclareFields(Fields& fields, SweepConfig* config);
+std::vector<KeyDescription> SweepKeys();
+
+/// The Cartesian product of the axes, the first one slowest; zipped axes count as one.
+/// Precondition: zipped axes have as many values as each other.
+std::vector<SweepCase> SweepCases(const SweepConfig& config);
+
+/// "smoothing.margins.clearance_m=0.01 seed=3"
+std::string OverrideText(const SweepCase& one);
+
+/// Reads a sweep file strictly, ranges turned into values. With `check` the config of every case is
+/// read too. Throws InputError.
+SweepConfig LoadSweep(const std::string& path, const std::vector<YamlOverride>& overrides,
+                      bool check);
+/// The same of a sweep file's text.
+SweepConfig ParseSweep(const std::string& path, const std::string& text,
+                       const std::vector<YamlOverride>& overrides, bool check);
+
+}  // namespace halfstep

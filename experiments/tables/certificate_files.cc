@@ -1,0 +1,116 @@
+#include "experiments/tables/certificate_files.h"
+
+#include <nlohmann/json.hpp>
+
+#include "experiments/tables/csv_writer.h"
+#include "wpg/files/sha256.h"
+
+namespace halfstep {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json OrNull(const std::optional<double>& value) {
+  return value ? ordered_json(*value) : ordered_json(nullptr);
+}
+
+}  // namespace
+
+CertifiedWalk CertifyWalk(const CertifiedFeasibility& test, const HalfStepSequence& sequence,
+                          const HomotopyParameters& parameters, const std::stop_token& stop) {
+  const SuperposedWalk walk(sequence, parameters);
+  MarginEvaluator::Scratch scratch = test.evaluator().MakeScratch();
+  CertifiedWalk certified;
+  certified.duration = walk.duration();
+  certified.answer = test.Certify(walk, &scratch, &certified.rows, stop);
+  return certified;
+}
+
+std::string_view VerdictName(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kFeasible:
+      return "certified";
+    case Verdict::kViolated:
+      return "violated";
+    case Verdict::kUndecided:
+      return "undecided";
+  }
+  return "";
+}
+
+CsvFile CertificateCsv(const MarginEvaluator& evaluator, const Certificate& rows) {
+  using enum CsvType;
+  const std::string unit = "unit of the family";
+  CsvWriter csv({
+      {"begin_s", kNumber, "s", "begin of the interval"},
+      {"end_s", kNumber, "s", "its end"},
+      {"family", kString, "", "of margins"},
+      {"statements", kInteger, "", "of the family that hold on the whole interval by this row"},
+      {"subject", kString, "", "of the statement with the least to spare"},
+      {"margin", kNumber, unit, "its value at the midpoint"},
+      {"bound", kNumber, unit, "by how much at most it changes from there within the interval"},
+      {"demanded", kNumber, unit, "margin - bound is at least this"},
+  });
+  for (const CertificateRow& row : rows) {
+    csv.Cell(row.begin).Cell(row.end).Cell(Name(row.family)).Cell(row.count);
+    csv.Cell(evaluator.Subject(row.margin)).Cell(row.margin.value).Cell(row.bound);
+    csv.Cell(evaluator.limits().demanded_of(row.family)).EndRow();
+  }
+  return csv.file();
+}
+
+std::string CertificateJson(const Experiment& experiment, const CertifiedFeasibility& test,
+                            const CertifiedWalk& walk, const std::filesystem::path& run_folder,
+                            const std::string& trajectory_csv, const std::string& certificate_csv) {
+  const MarginLimits& limits = test.evaluator().limits();
+  ordered_json demanded, statements;
+  for (MarginFamily family : AllMarginFamilies()) {
+    demanded[std::string(Name(family))] = limits.demanded_of(family);
+    statements[std::string(Name(family))] = test.CountOf(family);
+  }
+  ordered_json not_watched = ordered_json::array();
+  const RobotModel& robot = experiment.robot;
+  for (const UnwatchedPair& pair : robot.unwatched_pairs) {
+    not_watched.push_back({{"bodies",
+                            {robot.bodies[static_cast<size_t>(pair.a)].name,
+                             robot.bodies[static_cast<size_t>(pair.b)].name}},
+                           {"why", pair.why}});
+  }
+  const bool certified = walk.answer.verdict == Verdict::kFeasible;
+  const auto scene = ScenePath(experiment.config);
+  const ordered_json json = {
+      {"format", 2},
+      {"verdict", VerdictName(walk.answer.verdict)},
+      {"message", certified             ? "every margin is kept at all times"
+                  : walk.answer.stopped ? "interrupted before all of it was proved"
+                                        : test.evaluator().Describe(walk.answer.witness)},
+      {"statement", kCertificateStatement},
+      {"duration_s", walk.duration},
+      {"resolution_s", test.options().resolution},
+      {"demanded", demanded},
+      {"limits",
+       {{"foot_speed_m_s", OrNull(limits.foot_speed)},
+        {"foot_yaw_rate_rad_s", OrNull(limits.foot_yaw_rate)},
+        {"joint_speed_scale", limits.joint_speed_scale}}},
+      {"statements", statements},
+      {"not_watched", not_watched},
+      {"robot", std::filesystem::proximate(RobotPath(experiment.config), run_folder).string()},
+      {"scene", scene ? std::filesystem::proximate(*scene, run_folder).string() : "none"},
+      {"sha256",
+       {{"trajectory.csv", Sha256(trajectory_csv)},
+        {"certificate.csv", Sha256(certificate_csv)},
+        {"robot", CombinedSha256(experiment.robot.files)},
+        {"scene", CombinedSha256(experiment.scene.files)}}}};
+  return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+void WriteCertificate(const Experiment& experiment, const CertifiedFeasibility& test,
+                      const CertifiedWalk& walk, const std::string& trajectory_csv,
+                      const std::string& place, RunFolder* folder) {
+  const CsvFile csv = CertificateCsv(test.evaluator(), walk.rows);
+  WriteCsv(place + "certificate", csv, folder);
+  folder->Write(place + "certificate.json",
+                CertificateJson(experiment, test, walk, folder->path(), trajectory_csv, csv.text));
+}
+
+}  // namespace halfstep

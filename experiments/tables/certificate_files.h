@@ -1,0 +1,45 @@
+#pragma once
+
+#include <filesystem>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "experiments/config/experiment.h"
+#include "experiments/tables/certificate_statement.h"
+#include "experiments/tables/csv_columns.h"
+#include "experiments/tables/run_folder.h"
+#include "smoothing/proof/certified_feasibility.h"
+
+namespace halfstep {
+
+/// The proof about one method's walk, and its verdict.
+struct CertifiedWalk {
+  Feasibility answer;
+  Certificate rows;
+  double duration = 0.0;  ///< [s]
+};
+
+/// Certifies the walk of `parameters` over all its time; undecided when stopped before.
+CertifiedWalk CertifyWalk(const CertifiedFeasibility& test, const HalfStepSequence& sequence,
+                          const HomotopyParameters& parameters, const std::stop_token& stop);
+
+/// "certified", "violated" or "undecided".
+std::string_view VerdictName(Verdict verdict);
+
+/// certificate.csv. Columns: experiments/README.md.
+CsvFile CertificateCsv(const MarginEvaluator& evaluator, const Certificate& rows);
+
+/// Text of certificate.json: verdict, the statement, what was demanded, counts of statements, the
+/// pairs of bodies that are not watched, and SHA-256 of everything that the certificate is about,
+/// as it was parsed. Paths relative to `run_folder`.
+std::string CertificateJson(const Experiment& experiment, const CertifiedFeasibility& test,
+                            const CertifiedWalk& walk, const std::filesystem::path& run_folder,
+                            const std::string& trajectory_csv, const std::string& certificate_csv);
+
+/// Writes both, and the CSV's schema, into a method's folder, `place` ("dichotomy/"), of a run.
+void WriteCertificate(const Experiment& experiment, const CertifiedFeasibility& test,
+                      const CertifiedWalk& walk, const std::string& trajectory_csv,
+                      const std::string& place, RunFolder* folder);
+
+}  // namespace halfstep

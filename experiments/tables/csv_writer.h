@@ -1,0 +1,42 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "experiments/tables/csv_columns.h"
+
+namespace halfstep {
+
+/// A CSV table in memory: one header, rows of the same number of cells, each of its column's type
+/// (std::logic_error otherwise), so that `pandas.read_csv(path)` gives every column its type.
+/// Numbers in the shortest form that reads back to the same double, with a point or an exponent;
+/// "inf", "-inf" and "nan". Texts with a comma, a quote or a line break are quoted (RFC 4180).
+class CsvWriter {
+ public:
+  explicit CsvWriter(CsvColumns columns);
+
+  CsvWriter& Cell(double value);
+  CsvWriter& Cell(long value);
+  CsvWriter& Cell(int value) { return Cell(static_cast<long>(value)); }
+  CsvWriter& Cell(bool value);
+  CsvWriter& Cell(std::string_view text);
+  CsvWriter& Cell(const char* text) { return Cell(std::string_view(text)); }
+  /// Does not apply. In columns of numbers only: elsewhere it would change what pandas reads.
+  CsvWriter& Empty();
+  /// Ends a row. Throws std::logic_error when its number of cells is not the header's.
+  void EndRow();
+
+  const std::string& text() const { return text_; }
+  /// The table, whole.
+  CsvFile file() const { return {columns_, text_}; }
+
+ private:
+  void Begin(CsvType type);
+  void Append(std::string_view text);
+
+  CsvColumns columns_;
+  size_t cells_ = 0;
+  std::string text_;
+};
+
+}  // namespace halfstep

@@ -1,0 +1,204 @@
+#include "experiments/tables/result_tables.h"
+
+#include <algorithm>
+
+#include "experiments/tables/csv_writer.h"
+#include "smoothing/proof/sampled_feasibility.h"
+
+namespace halfstep {
+namespace {
+
+using enum CsvType;
+
+std::string Active(const MarginEvaluator& evaluator, const JunctionResult& junction) {
+  if (junction.limited_by) return evaluator.Describe(*junction.limited_by);
+  return junction.overlap < junction.upper_bound ? "not bisected" : "upper bound";
+}
+
+}  // namespace
+
+CsvFile FootstepsCsv(const HalfStepSequence& sequence) {
+  CsvWriter csv({
+      {"footstep", kInteger, "", "0 twice: the feet at the start; then 1, 2, ..."},
+      {"foot", kString, "", "left or right"},
+      {"x_m", kNumber, "m", "sole's centre, x", "W"},
+      {"y_m", kNumber, "m", "sole's centre, y", "W"},
+      {"yaw_rad", kNumber, "rad", "sole's yaw, not wrapped", "W"},
+      {"via_height_m", kNumber, "m", "height of the via point of the step there; 0 at the start"},
+      {"duration_s", kNumber, "s", "T of each of the step's half-steps; 0 at the start"},
+  });
+  const auto row = [&](int index, Side side, const Pose2& X_WF, double height, double duration) {
+    csv.Cell(index).Cell(Name(side)).Cell(X_WF.x).Cell(X_WF.y).Cell(X_WF.yaw);
+    csv.Cell(height).Cell(duration).EndRow();
+  };
+  for (Side side : {Side::kLeft, Side::kRight}) {
+    row(0, side, sequence.start[static_cast<size_t>(Index(side))], 0.0, 0.0);
+  }
+  for (int step = 0; step < sequence.num_steps(); ++step) {
+    const PlacedHalfStep& down = sequence.half_steps[static_cast<size_t>(2 * step + 1)];
+    row(step + 1, down.half_step.swing(), down.X_WS * down.half_step.X_SF,
+        down.half_step.via_height, down.half_step.duration);
+  }
+  return csv.file();
+}
+
+CsvFile HalfStepsCsv(const HalfStepSequence& sequence, const MethodRun& run) {
+  CsvWriter csv({
+      {"half_step", kInteger, "", "from 1"},
+      {"kind", kString, "", "up or down"},
+      {"support", kString, "", "foot that carries: left or right"},
+      {"start_s", kNumber, "s", "when it begins"},
+      {"duration_s", kNumber, "s", "T"},
+      {"height_scale", kNumber, "1", "scale of the foot's height in its step"},
+  });
+  const HomotopyParameters& parameters = run.result.parameters;
+  double start = 0.0;
+  for (size_t i = 0; i < sequence.half_steps.size(); ++i) {
+    const HalfStep& half_step = sequence.half_steps[i].half_step;
+    csv.Cell(static_cast<long>(i) + 1).Cell(half_step.kind == HalfStepKind::kUp ? "up" : "down");
+    csv.Cell(Name(half_step.support)).Cell(start).Cell(parameters.durations[i]);
+    csv.Cell(parameters.height_scales[i / 2]).EndRow();
+    if (i < parameters.overlaps.size()) start += parameters.durations[i] - parameters.overlaps[i];
+  }
+  return csv.file();
+}
+
+CsvFile OverlapsCsv(const MarginEvaluator& evaluator, const MethodRun& run) {
+  CsvWriter csv({
+      {"junction", kInteger, "", "from 1: between half-steps `junction` and `junction` + 1"},
+      {"kind", kString, "", "up_down or down_up"},
+      {"overlap_s", kNumber, "s", "how long both half-steps are under way"},
+      {"upper_bound_s", kNumber, "s", "largest overlap that was allowed"},
+      {"active", kString, "", "what holds the overlap"},
+      {"limit_family", kString, "", "family of the margin that holds it, or none"},
+      {"limit_scale", kNumber, "", "that family's scale in its unit; empty: none limits"},
+      {"price_s", kNumber, "s",
+       "how much shorter the walk for limit_scale less demanded, by this overlap alone, to first "
+       "order; empty: it does not depend on it"},
+      {"multiplier_s", kNumber, "s",
+       "the same, all parameters adapting, from the program; empty: none was solved"},
+      {"duration_before_s", kNumber, "s", "T of the half-step before"},
+      {"duration_after_s", kNumber, "s", "T of the half-step after"},
+      {"height_scale_before", kNumber, "1", "height scale of the step before"},
+      {"height_scale_after", kNumber, "1", "height scale of the step after"},
+  });
+  const HomotopyParameters& parameters = run.result.parameters;
+  int index = 0;
+  for (const JunctionResult& junction : run.result.junctions) {
+    csv.Cell(++index).Cell(junction.kind == JunctionKind::kUpDown ? "up_down" : "down_up");
+    csv.Cell(junction.overlap).Cell(junction.upper_bound);
+    csv.Cell(Active(evaluator, junction));
+    if (junction.limited_by) {
+      csv.Cell(Name(junction.limited_by->family)).Cell(Scale(junction.limited_by->family));
+    } else {
+      csv.Cell("none").Empty();
+    }
+    junction.price ? csv.Cell(*junction.price) : csv.Empty();
+    junction.multiplier ? csv.Cell(*junction.multiplier) : csv.Empty();
+    const size_t after = static_cast<size_t>(index), before = after - 1;
+    csv.Cell(parameters.durations[before]).Cell(parameters.durations[after]);
+    csv.Cell(parameters.height_scales[before / 2]).Cell(parameters.height_scales[after / 2]);
+    csv.EndRow();
+  }
+  return csv.file();
+}
+
+CsvFile ParetoCsv(const MarginEvaluator& evaluator, const HalfStepSequence& sequence,
+                  const MethodRun& run) {
+  constexpr double kPeriod = 0.005;
+  CsvColumns columns = {
+      {"duration_s", kNumber, "s", "of the walk"},
+      {"least_slack", kNumber, "1", "proved for all families but floor, of their scales"}};
+  for (MarginFamily family : AllMarginFamilies()) {
+    const std::string unit(Unit(family));
+    std::string ending = unit;
+    std::replace(ending.begin(), ending.end(), '/', '_');
+    columns.push_back({std::string(Name(family)) + "_" + ending, kNumber, unit,
+                       "least margin of the family, sampled every 5 ms; inf: nowhere watched"});
+  }
+  CsvWriter csv(columns);
+  MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
+  for (const ParetoPoint& point : run.result.pareto) {
+    csv.Cell(point.duration).Cell(point.least_slack);
+    const SuperposedWalk walk(sequence, point.parameters);
+    for (const Margin& margin : SampleMargins(evaluator, walk, kPeriod, &scratch)) {
+      csv.Cell(margin.value);
+    }
+    csv.EndRow();
+  }
+  return csv.file();
+}
+
+CsvFile IteratesCsv(const MethodRun& run) {
+  CsvWriter csv({
+      {"iteration", kInteger, "", "from 1"},
+      {"wall_s", kNumber, "s", "since the method began"},
+      {"evaluations", kInteger, "", "instants evaluated so far"},
+      {"candidate_duration_s", kNumber, "s", "of the candidate's whole walk"},
+      {"candidate_worst_margin", kNumber, "1",
+       "(margin - demanded)/scale of the margin that refused the candidate; empty: feasible or "
+       "undecided"},
+      {"accepted", kBoolean, "", "whether the incumbent moved"},
+      {"lambda", kNumber, "1", "how far from the incumbent to the candidate the walk went"},
+      {"incumbent_duration_s", kNumber, "s", "of the incumbent's walk after this row", "",
+       CsvInterpolation::kPiecewiseConstant},
+      {"incumbent_worst_margin", kNumber, "1", "of the incumbent; empty: not computed"},
+  });
+  int index = 0;
+  for (const SmoothingIterate& iterate : run.result.iterates) {
+    csv.Cell(++index).Cell(iterate.wall).Cell(iterate.evaluations).Cell(iterate.candidate_duration);
+    iterate.candidate_slack ? csv.Cell(*iterate.candidate_slack) : csv.Empty();
+    csv.Cell(iterate.accepted).Cell(iterate.lambda).Cell(iterate.incumbent_duration);
+    iterate.incumbent_slack ? csv.Cell(*iterate.incumbent_slack) : csv.Empty();
+    csv.EndRow();
+  }
+  return csv.file();
+}
+
+CsvColumns SummaryColumns() {
+  return {
+      {"method", kString, "", "raw first"},
+      {"status", kString, "", "how it ended: " + opt::EndingNames()},
+      {"certified", kBoolean, "", "whether the walk is proved for all its time"},
+      {"duration_s", kNumber, "s", "of the walk"},
+      {"speedup", kNumber, "1", "duration of raw divided by this one's"},
+      {"cost", kNumber, "", "what the method minimized; the duration for `fastest`"},
+      {"worst_margin", kNumber, "",
+       "with the least (margin - demanded)/scale among the rows of trajectory.csv, in its own "
+       "unit"},
+      {"worst_margin_name", kString, "", "its family"},
+      {"iterations", kInteger, "", "rows of iterates.csv"},
+      {"margin_evaluations", kInteger, "", "instants evaluated by the method"},
+      {"collision_queries", kInteger, "", "pairs of bodies that were not culled"},
+      {"wall_s", kNumber, "s", "time of the method; 0 for raw"},
+      {"time_to_first_improvement_s", kNumber, "s",
+       "until the first candidate was accepted; empty: none was"},
+      {"gap_to_reference", kNumber, "1",
+       "duration divided by that of the method `reference`, less 1; empty: it was not run"},
+  };
+}
+
+CsvFile SummaryCsv(const MarginEvaluator& evaluator, const std::vector<MethodRun>& runs) {
+  CsvWriter csv(SummaryColumns());
+  std::optional<double> reference;
+  for (const MethodRun& run : runs) {
+    if (run.method == "reference") reference = run.duration;
+  }
+  for (const MethodRun& run : runs) {
+    const SmoothingResult& result = run.result;
+    const Margin& worst = WorstOf(run.margins, evaluator.limits());
+    csv.Cell(run.method)
+        .Cell(Name(result.ending))
+        .Cell(run.certified.answer.verdict == Verdict::kFeasible);
+    csv.Cell(run.duration).Cell(runs.front().duration / run.duration).Cell(result.cost);
+    csv.Cell(worst.value).Cell(Name(worst.family));
+    csv.Cell(static_cast<long>(result.iterates.size())).Cell(result.instants);
+    csv.Cell(result.collision_queries).Cell(result.wall);
+    result.time_to_first_improvement ? csv.Cell(*result.time_to_first_improvement) : csv.Empty();
+    reference ? csv.Cell(run.duration / *reference - 1.0) : csv.Empty();
+    csv.EndRow();
+  }
+  return csv.file();
+}
+
+}  // namespace halfstep

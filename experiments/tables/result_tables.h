@@ -1,0 +1,52 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "experiments/config/experiment.h"
+#include "experiments/tables/certificate_files.h"
+#include "experiments/tables/csv_columns.h"
+#include "smoothing/margins/margin_evaluator.h"
+#include "smoothing/methods/smoothing_result.h"
+#include "smoothing/walk/superposed_walk.h"
+
+namespace halfstep {
+
+/// What one method made of an experiment, and what its walk looks like.
+struct MethodRun {
+  explicit MethodRun(std::string name) : method(std::move(name)) {}
+
+  std::string method;
+  SmoothingResult result;
+  double duration = 0.0;     ///< of the walk [s]
+  double lowest_apex = 0.0;  ///< least of the steps' highest sole heights [m]
+  MarginSet margins;         ///< smallest of each family, at the trajectory's instants
+  CertifiedWalk certified;   ///< verdict on the walk and its proof
+  CsvFile trajectory;        ///< trajectory.csv
+};
+
+/// Each table of a run folder; columns: experiments/README.md.
+CsvFile FootstepsCsv(const HalfStepSequence& sequence);
+/// One row a half-step: where the homotopy ended in its duration and height.
+CsvFile HalfStepsCsv(const HalfStepSequence& sequence, const MethodRun& run);
+CsvFile OverlapsCsv(const MarginEvaluator& evaluator, const MethodRun& run);
+/// One row a point of a Pareto curve: duration, proved least slack, and each family's least margin
+/// sampled every 5 ms (inf: it is nowhere watched).
+CsvFile ParetoCsv(const MarginEvaluator& evaluator, const HalfStepSequence& sequence,
+                  const MethodRun& run);
+CsvFile IteratesCsv(const MethodRun& run);
+CsvColumns SummaryColumns();
+/// One row a method; speed-up against the first run, which is the planned motion.
+CsvFile SummaryCsv(const MarginEvaluator& evaluator, const std::vector<MethodRun>& runs);
+
+/// Columns of trajectory.csv for a robot.
+CsvColumns TrajectoryColumns(const RobotModel& robot);
+
+/// Samples the walk of `run->result.parameters` at a fixed period [s], the last row exactly at its
+/// end, and fills the walk's part of `run`. Where a leg does not reach, its joint angles are nan.
+void SampleTrajectory(const MarginEvaluator& evaluator, const HalfStepSequence& sequence,
+                      double period, MethodRun* run);
+
+}  // namespace halfstep

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "opt/solvers/ending.h"
+
+namespace halfstep {
+
+/// The incumbent of a method after one of its candidates, as iterates.csv has it.
+struct IncumbentRecord {
+  double wall = 0.0;         ///< since the method began [s]
+  double evaluations = 0.0;  ///< instants evaluated so far
+  double duration = 0.0;     ///< of the incumbent [s]
+};
+
+/// What one method made of a scenario, as a run folder tells it.
+struct MethodRecord {
+  std::string run;                    ///< the run folder, as it was named
+  std::string name;                   ///< "ipopt", or "LABEL:ipopt"
+  std::string variables;              ///< "overlaps+heights+durations"; "" for raw
+  std::string objective = "fastest";  ///< that it pursued
+  std::string requested;              ///< its options, as JSON text
+  opt::Ending ending = opt::Ending::kNotRun;
+  bool certified = false;
+  double duration = 0.0;  ///< [s]
+  double speedup = 0.0;
+  double cost = 0.0;
+  std::optional<double> gap_to_reference;
+  double evaluations = 0.0, collision_queries = 0.0;
+  double wall = 0.0;  ///< [s]
+  std::vector<IncumbentRecord> incumbents;
+
+  bool raw() const { return name == "raw"; }
+  /// Whether it has a proved walk of its own; no other is the best of a scenario or has solved it.
+  bool solved() const { return certified && HasOwnResult(ending); }
+};
+
+/// A run folder in memory.
+struct RunRecord {
+  std::string run;        ///< as it was named
+  std::string scenario;   ///< the manifest's `name`
+  std::string objective;  ///< "fastest" …
+  /// SHA-256 of what makes the problem the same: footsteps, robot, scene, limits, demanded margins.
+  std::string problem;
+  std::string manifest_sha256;
+  int half_steps = 0;
+  std::vector<MethodRecord> methods;  ///< raw first
+};
+
+/// Reads a run folder that `halfstep run` wrote: manifest.json, summary.csv, footsteps.csv,
+/// raw/certificate.json and each method's iterates.csv. `argument` is RUN or LABEL=RUN; the label
+/// (letters, digits, "_", ".", "-", "-" not first) goes before the names of its methods but raw.
+/// Throws InputError for whatever is missing, damaged or contradicts itself.
+RunRecord ReadRun(const std::string& argument);
+
+}  // namespace halfstep

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <memory>
+
+#include "opt/solvers/solver.h"
+
+namespace halfstep::opt {
+
+/// Ipopt: interior point with the exact sparse Jacobian and a limited-memory Hessian. Unavailable,
+/// with the reason, when it is not compiled in.
+std::unique_ptr<Solver> MakeIpoptSolver();
+
+}  // namespace halfstep::opt

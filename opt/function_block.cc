@@ -1,9 +1,0 @@
-#include "opt/function_block.h"
-
-namespace halfstep::opt {
-
-std::string FunctionBlock::RowName(int row) const {
-  return name() + "[" + std::to_string(row) + "]";
-}
-
-}  // namespace halfstep::opt

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+
+#include "opt/problem/derivative_check.h"
+#include "opt/problem/problem.h"
+
+namespace halfstep::opt {
+
+/// What comparing all of a problem's derivatives with central differences found.
+struct ProblemDerivativeReport {
+  DerivativeReport cost;  ///< its row is 0
+  DerivativeReport constraints;
+  std::string message;  ///< names the worst row and variable, both values
+
+  bool Passed(double tolerance) const {
+    return cost.Passed(tolerance) && constraints.Passed(tolerance);
+  }
+};
+
+/// Gradient and Jacobian at x (n) against CheckJacobian's differences. An entry that the pattern
+/// does not declare counts as 0, so a forgotten one is found as well.
+ProblemDerivativeReport CheckDerivatives(const Problem& problem, const Eigen::VectorXd& x,
+                                         double step = 1e-4);
+
+}  // namespace halfstep::opt

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+#include "opt/solvers/limited_memory_hessian.h"
+
+namespace halfstep::opt {
+
+/// The quadratic program of a step d (n) with rows that may be violated at a price,
+///
+///     minimize    gᵀd + ½ dᵀBd + ν Σ_i max(0, −(c + A d)_i)
+///     subject to  lower ≤ d ≤ upper
+///
+/// B ≥ 0 as a LimitedMemoryHessian estimates it, ν > 0, lower < upper finite. Always solvable.
+struct ElasticSubproblem {
+  const LimitedMemoryHessian& hessian;  ///< B; borrowed
+  Eigen::VectorXd g;                    ///< (n)
+  Eigen::SparseMatrix<double> A;        ///< (m×n)
+  Eigen::VectorXd c;                    ///< (m)
+  Eigen::VectorXd lower, upper;         ///< (n)
+  double penalty = 1.0;                 ///< ν
+};
+
+struct ElasticStep {
+  Eigen::VectorXd d;      ///< (n), within its bounds
+  Eigen::VectorXd duals;  ///< of the rows (m), each in [0, ν]
+};
+
+/// By a primal-dual interior point method with Mehrotra's corrector; O(n + m) an iteration when A
+/// is banded. Ends at a relative complementarity of 1e-9 or after 60 iterations, with what it has.
+/// Source: opt/README.md, "halfstep/sqp".
+ElasticStep Solve(const ElasticSubproblem& problem);
+
+/// Σ_i max(0, −v_i).
+double TotalViolation(const Eigen::VectorXd& v);
+
+}  // namespace halfstep::opt

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "opt/solvers/solve_monitor.h"
+
+namespace halfstep::opt {
+
+/// An option of one of our own solvers: a number above 0, or an integer from 0 to 1000.
+struct OwnOption {
+  std::string name;
+  bool integer;
+  double value;  ///< its default, until read
+};
+
+/// Reads SolverOptions::solver_options into `known` and notes what was used. Returns an ending in
+/// kInvalidInput when one is unknown or out of range.
+std::optional<SolverEnd> ReadOwnOptions(const std::string& solver, SolveMonitor* monitor,
+                                        std::vector<OwnOption>* known);
+
+}  // namespace halfstep::opt

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <exception>
+#include <limits>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "opt/solvers/ending.h"
+#include "opt/solvers/warm_start.h"
+
+namespace halfstep::opt {
+
+struct HistoryEntry {
+  int iteration;
+  double cost;
+  double violation;
+  double wall;  ///< [s] since Solve began
+};
+
+/// What came out of a solve. x, cost, max_violation and worst_row belong together and were
+/// evaluated by us: the solver's word is not taken for any of them, nor for `ending`.
+struct Solution {
+  /// kConverged: x is feasible to the tolerance, and by our own estimate it satisfies the
+  /// first-order conditions. kLimit: limits, or x is feasible and near these conditions while the
+  /// solver's own test was weaker, or it broke off or ended elsewhere. kInterrupted: by stop token
+  /// or on_iterate. kFailed: also a claim that does not hold, nothing feasible found, unbounded
+  /// cost. Never kNoImprovement: that is for the caller to say, who knows what x0 was.
+  Ending ending = Ending::kNotRun;
+  std::string message = "Solve was not called.";
+  std::string solver;  ///< "nlopt/ccsaq"
+  /// The best point seen (n): the cheapest among those feasible to the tolerance, else the least
+  /// violated; empty where none was evaluated.
+  Eigen::VectorXd x;
+  double cost = std::numeric_limits<double>::quiet_NaN();
+  double max_violation = std::numeric_limits<double>::infinity();  ///< natural unit of worst_row
+  std::string worst_row;                                           ///< "" when nothing is violated
+  int iterations = 0;
+  long cost_evaluations = 0;
+  long gradient_evaluations = 0;
+  long constraint_evaluations = 0;
+  long jacobian_evaluations = 0;
+  double wall = 0.0;  ///< [s]
+  std::vector<HistoryEntry> history;
+  std::shared_ptr<const WarmStart> warm_start;  ///< null: the solver has none to give
+  std::map<std::string, std::string> requested_options;
+  std::map<std::string, std::string> used_options;  ///< as handed to the library
+
+  /// Where the solver itself ended, which may be worse than x.
+  Eigen::VectorXd final_x;
+  double final_cost = std::numeric_limits<double>::quiet_NaN();
+  double final_violation = std::numeric_limits<double>::infinity();
+
+  /// How far x is from the first-order conditions, and the multipliers (m, n) that fit them best,
+  /// all by our own estimate (stationarity.h). NaN and empty where it was not made: at limits,
+  /// stops and exceptions, and where x is not feasible.
+  double stationarity = std::numeric_limits<double>::quiet_NaN();
+  Eigen::VectorXd multipliers;
+  Eigen::VectorXd bound_multipliers;
+
+  bool feasible = false;         ///< x is, to the tolerance of the solve
+  std::exception_ptr exception;  ///< what a block or on_iterate threw; null when nothing
+
+  std::string BriefReport() const;  ///< one line
+  std::string FullReport() const;   ///< a page: counts, times, options
+};
+
+}  // namespace halfstep::opt

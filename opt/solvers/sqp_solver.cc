@@ -1,0 +1,306 @@
+#include "opt/solvers/sqp_solver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "opt/problem/scaled_rows.h"
+#include "opt/solvers/elastic_subproblem.h"
+#include "opt/solvers/own_options.h"
+#include "opt/solvers/solve_monitor.h"
+
+namespace halfstep::opt {
+namespace {
+
+using Eigen::VectorXd;
+using SparseMatrix = Eigen::SparseMatrix<double>;
+
+constexpr double kAccept = 1e-4;              // of the predicted reduction
+constexpr double kPoor = 0.25, kGood = 0.75;  // below it the region shrinks, above it grows
+constexpr double kShrink = 0.3, kGrow = 1.5;
+constexpr double kLeastRegion = 1e-12, kMostRegion = 1e3;  // of the variables' widths
+constexpr double kFirstRegion = 0.02;                      // at least, of a later solve
+constexpr int kMostRaises = 6;                             // of the penalty in one iteration
+
+struct SqpMemory : WarmStart {
+  explicit SqpMemory(size_t memory) : hessian(memory) {}
+
+  VectorXd region;       // how far a step goes along each variable; empty: not known
+  double penalty = 0.0;  // ν
+  LimitedMemoryHessian hessian;
+};
+
+class Sqp {
+ public:
+  Sqp(SolveMonitor* monitor, const VectorXd& start, double radius, double most_penalty,
+      const SqpMemory& memory)
+      : monitor_(*monitor),
+        problem_(monitor->problem()),
+        x_(start),
+        most_penalty_(most_penalty),
+        penalty_(memory.penalty),
+        hessian_(memory.hessian) {
+    width_ = problem_.upper() - problem_.lower();
+    for (int v = 0; v < x_.size(); ++v) {
+      if (!std::isfinite(width_[v])) width_[v] = std::max(1.0, std::abs(x_[v]));
+    }
+    region_ = radius * width_;
+    if (memory.region.size() > 0) region_ = memory.region.cwiseMax(kFirstRegion * width_);
+  }
+
+  SolverEnd Run() {
+    SolverEnd end = Iterate();
+    auto memory = std::make_shared<SqpMemory>(0);
+    memory->region = region_;
+    memory->penalty = penalty_;
+    memory->hessian = std::move(hessian_);
+    end.warm_start = std::move(memory);
+    return end;
+  }
+
+ private:
+  SolverEnd Iterate() {
+    std::vector<double> jacobian;
+    if (!monitor_.Jacobian(x_, &jacobian) || !monitor_.Constraints(x_, &values_) ||
+        !monitor_.Cost(x_, &cost_) || !monitor_.Gradient(x_, &gradient_)) {
+      return Broken();
+    }
+    rows_.emplace(problem_, jacobian);
+    SparseMatrix A = rows_->Jacobian(jacobian);
+    const SolverOptions& options = monitor_.options();
+    while (monitor_.MayGoOn()) {
+      const VectorXd c = rows_->Values(values_);
+      const ElasticStep step = Step(c, A);
+      const double violation = TotalViolation(c);
+      const double predicted = Predicted(step.d, c, A);
+      const bool feasible =
+          problem_.MaxViolation(x_, values_).amount <= options.feasibility_tolerance;
+      if (feasible && Stationary(step.duals, A) <= options.optimality_tolerance) {
+        return {Ending::kConverged, "SQP: first-order conditions hold.", x_};
+      }
+      const double size = std::max(1.0, std::abs(cost_) + penalty_ * violation);
+      if ((region_.array() < kLeastRegion * width_.array()).all() || predicted <= 1e-14 * size) {
+        if (!feasible) {
+          return {Ending::kFailed, "SQP: the violation has a local minimum.", x_};
+        }
+        return {Ending::kFailed, "SQP: no step improves any more.", x_};
+      }
+      if (!Try(step, c, predicted, &A)) return Broken();
+    }
+    return Broken();
+  }
+
+  SolverEnd Broken() const { return {Ending::kFailed, "SQP: broke off.", x_}; }
+
+  bool Fixed(int v) const { return problem_.lower()[v] == problem_.upper()[v]; }
+
+  // The step within the region, of those rows that it can violate.
+  ElasticStep Restricted(const VectorXd& c, const SparseMatrix& A, double penalty) const {
+    ElasticSubproblem sub{.hessian = hessian_,
+                          .g = gradient_,
+                          .A = {},
+                          .c = {},
+                          .lower = {},
+                          .upper = {},
+                          .penalty = penalty};
+    sub.lower = (problem_.lower() - x_).cwiseMax(-region_);
+    sub.upper = (problem_.upper() - x_).cwiseMin(region_);
+    for (int v = 0; v < x_.size(); ++v) {
+      if (!Fixed(v)) continue;
+      sub.g[v] = 0.0;
+      sub.lower[v] = -region_[v];
+      sub.upper[v] = region_[v];
+    }
+    const VectorXd reach = A.cwiseAbs() * sub.lower.cwiseAbs().cwiseMax(sub.upper.cwiseAbs());
+    std::vector<Eigen::Index> kept;
+    for (Eigen::Index i = 0; i < c.size(); ++i) {
+      if (c[i] < reach[i] || c[i] < 0.0) kept.push_back(i);
+    }
+    SparseMatrix choose(static_cast<Eigen::Index>(kept.size()), c.size());
+    std::vector<Eigen::Triplet<double>> ones;
+    for (size_t k = 0; k < kept.size(); ++k) {
+      ones.emplace_back(static_cast<int>(k), static_cast<int>(kept[k]), 1.0);
+    }
+    choose.setFromTriplets(ones.begin(), ones.end());
+    sub.A = choose * A;
+    sub.c = choose * c;
+    ElasticStep step = Solve(sub);
+    step.duals = choose.transpose() * step.duals;
+    for (int v = 0; v < x_.size(); ++v) {
+      if (Fixed(v)) step.d[v] = 0.0;
+    }
+    return step;
+  }
+
+  // Raises the penalty while that makes the linearized rows' violation much smaller.
+  ElasticStep Step(const VectorXd& c, const SparseMatrix& A) {
+    ElasticStep step = Restricted(c, A, penalty_);
+    double left = TotalViolation(c + A * step.d);
+    for (int i = 0; i < kMostRaises && penalty_ < most_penalty_; ++i) {
+      if (left <= 1e-9 || left <= 0.1 * TotalViolation(c)) break;
+      const double raised = std::min(10.0 * penalty_, most_penalty_);
+      ElasticStep other = Restricted(c, A, raised);
+      const double then = TotalViolation(c + A * other.d);
+      if (then > 0.9 * left) break;
+      penalty_ = raised;
+      step = std::move(other);
+      left = then;
+    }
+    return step;
+  }
+
+  double Predicted(const VectorXd& d, const VectorXd& c, const SparseMatrix& A) const {
+    return -gradient_.dot(d) - 0.5 * d.dot(hessian_.Times(d)) +
+           penalty_ * (TotalViolation(c) - TotalViolation(c + A * d));
+  }
+
+  // The largest entry of the Lagrangian's gradient that no bound's multiplier takes, and
+  // complementarity.
+  double Stationary(const VectorXd& duals, const SparseMatrix& A) const {
+    VectorXd r = gradient_ - A.transpose() * duals;
+    for (int v = 0; v < x_.size(); ++v) {
+      if (x_[v] <= problem_.lower()[v]) r[v] = std::min(r[v], 0.0);
+      if (x_[v] >= problem_.upper()[v]) r[v] = std::max(r[v], 0.0);
+      if (Fixed(v)) r[v] = 0.0;
+    }
+    const double slack = duals.dot(rows_->Values(values_).cwiseMax(0.0));
+    return std::max(r.lpNorm<Eigen::Infinity>(), slack) /
+           std::max(1.0, gradient_.lpNorm<Eigen::Infinity>());
+  }
+
+  double Merit(double cost, const VectorXd& c) const { return cost + penalty_ * TotalViolation(c); }
+
+  struct Trial {
+    VectorXd x, values, c;
+    std::vector<double> jacobian;
+    double cost = 0.0, merit = std::numeric_limits<double>::infinity();
+  };
+  // With derivatives: most trials are taken.
+  Trial At(const VectorXd& d) {
+    Trial trial;
+    trial.x = (x_ + d).cwiseMax(problem_.lower()).cwiseMin(problem_.upper());
+    if (monitor_.Jacobian(trial.x, &trial.jacobian) &&
+        monitor_.Constraints(trial.x, &trial.values) && monitor_.Cost(trial.x, &trial.cost)) {
+      trial.c = rows_->Values(trial.values);
+      trial.merit = Merit(trial.cost, trial.c);
+    }
+    return trial;
+  }
+
+  // The region shrinks along the variables of rows that turned out worse than `expected`, the
+  // violations in the model, and grows along those of other rows, if the step is taken.
+  void Adapt(const VectorXd& d, const VectorXd& c, const VectorXd& expected, const Trial& trial,
+             double ratio) {
+    if (!std::isfinite(trial.merit)) {
+      region_ *= kShrink;
+      return;
+    }
+    const VectorXd before = (-c).cwiseMax(0.0), after = (-trial.c).cwiseMax(0.0);
+    const std::vector<std::vector<int>>& variables = rows_->variables();
+    std::vector<double> surprise(variables.size(), 0.0), gain(variables.size(), 1e-12);
+    for (Eigen::Index i = 0; i < c.size(); ++i) {
+      const size_t k = static_cast<size_t>(rows_->groups()[static_cast<size_t>(i)]);
+      surprise[k] += penalty_ * std::max(0.0, after[i] - expected[i]);
+      gain[k] += penalty_ * std::max(0.0, before[i] - expected[i]);
+    }
+    VectorXd worst = VectorXd::Ones(x_.size());
+    for (size_t k = 0; k < variables.size(); ++k) {
+      for (int v : variables[k]) gain[k] += std::abs(gradient_[v] * d[v]);
+      for (int v : variables[k]) worst[v] = std::min(worst[v], 1.0 - surprise[k] / gain[k]);
+    }
+    const bool all = ratio < kPoor && worst.minCoeff() >= kPoor;  // no row is to blame
+    for (int v = 0; v < x_.size(); ++v) {
+      const double moved = std::abs(d[v]);
+      if (all || worst[v] < kPoor) {
+        region_[v] = kShrink * std::clamp(moved, kShrink * region_[v], region_[v]);
+      } else if (ratio > kAccept && worst[v] > kGood && moved > 0.9 * region_[v]) {
+        region_[v] = std::min(kMostRegion * width_[v], kGrow * region_[v]);
+      }
+    }
+  }
+
+  // Goes there, with the derivatives there, if the merit falls as predicted, and adapts the region.
+  // False: the monitor ends.
+  bool Try(const ElasticStep& step, const VectorXd& c, double predicted,
+           SparseMatrix* derivatives) {
+    const SparseMatrix& A = *derivatives;
+    const double merit = Merit(cost_, c);
+    const double rounding = 1e-14 * std::max(1.0, std::abs(merit));
+    Trial trial = At(step.d);
+    if (!monitor_.MayGoOn()) return false;
+    VectorXd d = step.d;
+    double ratio = (merit - trial.merit + rounding) / (predicted + rounding);
+    // Curved rows: the step is corrected by what they turned out to be.
+    if (ratio < kPoor && trial.c.size() > 0 &&
+        TotalViolation(trial.c) > TotalViolation(c + A * d)) {
+      const ElasticStep corrected = Restricted(trial.c - A * d, A, penalty_);
+      Trial second = At(corrected.d);
+      if (!monitor_.MayGoOn()) return false;
+      if (second.merit < trial.merit) {
+        trial = std::move(second);
+        d = corrected.d;
+        ratio = (merit - trial.merit + rounding) / (predicted + rounding);
+      }
+    }
+    Adapt(d, c, (-c - A * step.d).cwiseMax(0.0), trial, ratio);
+    if (!(ratio > kAccept)) return true;
+    const VectorXd moved = trial.x - x_;
+    const VectorXd before = gradient_ - A.transpose() * step.duals;
+    x_ = trial.x;
+    values_ = trial.values;
+    *derivatives = rows_->Jacobian(trial.jacobian);
+    cost_ = trial.cost;
+    if (!monitor_.Gradient(x_, &gradient_)) return false;
+    hessian_.Update(moved, gradient_ - A.transpose() * step.duals - before);
+    return monitor_.ReportIterate(x_);
+  }
+
+  SolveMonitor& monitor_;
+  const Problem& problem_;
+  VectorXd x_, width_, region_, values_, gradient_;
+  double cost_ = 0.0;
+  std::optional<ScaledRows> rows_;  // after the first evaluation
+  double most_penalty_;
+  double penalty_;  // as in SqpMemory
+  LimitedMemoryHessian hessian_;
+};
+
+class SqpSolver : public Solver {
+ public:
+  std::string name() const override { return "halfstep/sqp"; }
+  bool available() const override { return true; }
+  std::string WhyUnavailable() const override { return ""; }
+  std::string WhyUnsupported(const Problem&) const override { return ""; }
+
+  // `radius`: the first trust region, of the variables' widths; `memory`: steps that the Hessian's
+  // estimate remembers; `penalty`, `most_penalty`: of a row's violation, first and at most.
+  SolverEnd RunWithOptions(SolveMonitor& monitor, const VectorXd& start) const {
+    std::vector<OwnOption> options = {{"radius", false, 0.1},
+                                      {"memory", true, 12},
+                                      {"penalty", false, 10.0},
+                                      {"most_penalty", false, 1e8}};
+    if (const auto refused = ReadOwnOptions(name(), &monitor, &options)) return *refused;
+    SqpMemory memory(static_cast<size_t>(options[1].value));
+    memory.penalty = options[2].value;
+    const auto* before = dynamic_cast<const SqpMemory*>(monitor.options().warm_start.get());
+    if (before && before->region.size() == start.size()) memory = *before;
+    return Sqp(&monitor, start, options[0].value, options[3].value, memory).Run();
+  }
+
+  Solution Solve(const Problem& problem, const VectorXd& x0,
+                 const SolverOptions& options) const override {
+    return MonitoredSolve(*this, problem, x0, options, SolveMonitor::Iterations::kTold,
+                          [this](SolveMonitor& monitor, const VectorXd& start) {
+                            return RunWithOptions(monitor, start);
+                          });
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Solver> MakeSqpSolver() { return std::make_unique<SqpSolver>(); }
+
+}  // namespace halfstep::opt

@@ -1,0 +1,276 @@
+#include "planner/collision/separation.h"
+
+#include <fcl/geometry/bvh/BVH_model.h>
+#include <fcl/narrowphase/distance.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <mutex>
+#include <numbers>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "planner/collision/convex_distance.h"
+#include "planner/collision/mesh_interior.h"
+#include "wpg/check.h"
+
+namespace halfstep {
+namespace {
+
+using Bvh = fcl::BVHModel<fcl::OBBRSSd>;
+
+constexpr double kThickness = 1e-6;  // [m] given to a core without volume before it meets a mesh.
+constexpr int kDiscSides = 64;
+// Taken off FCL's triangle distances for rounding: of the coordinates, and at least [m].
+constexpr double kTriangleRounding = 1e-12, kLeastRounding = 1e-10;
+// Taken off slabs to a mesh's hull for rounding: of the mesh's coordinates.
+constexpr double kSlabRounding = 4e-15;
+
+std::shared_ptr<const Bvh> MakeBvh(const TriangleMesh& mesh) {
+  std::vector<fcl::Vector3d> points(mesh.vertices.colwise().begin(), mesh.vertices.colwise().end());
+  std::vector<fcl::Triangle> faces;
+  for (const Eigen::Vector3i& t : mesh.triangles.colwise()) {
+    faces.emplace_back(static_cast<size_t>(t[0]), static_cast<size_t>(t[1]),
+                       static_cast<size_t>(t[2]));
+  }
+  auto bvh = std::make_shared<Bvh>();
+  bvh->beginModel(static_cast<int>(faces.size()), static_cast<int>(points.size()));
+  bvh->addSubModel(points, faces);
+  bvh->endModel();
+  return bvh;
+}
+
+// Corners of the polygon around a disc: at most 0.1 mm of it stands out, or 1/800 of the radius.
+int DiscSides(double radius) {
+  constexpr double kExcess = 1e-4;  // [m] of r(1/cos(π/n) − 1) ≈ r(π/n)²/2
+  const double sides = std::numbers::pi * std::sqrt(radius / (2 * kExcess));
+  return 4 * static_cast<int>(std::ceil(std::clamp(sides, 1.0 * kDiscSides, 512.0) / 4));
+}
+
+// A convex body whose triangles are those around the core of another, the body without its ball;
+// that core reaches beyond them by at most the ball of this one.
+ConvexBody MakeCore(const ConvexBody& body) {
+  if (body.disc_radius == 0 && !body.triangles.empty()) {
+    ConvexBody core = body;
+    core.ball_radius = 0;
+    return core;
+  }
+  // What each vertex is widened by: a polygon around the disc, else an octahedron.
+  std::vector<Eigen::Vector3d> around;
+  if (body.disc_radius > 0) {
+    const int sides = DiscSides(body.disc_radius);
+    const double reach = body.disc_radius / std::cos(std::numbers::pi / sides) * (1 + 1e-12);
+    for (int i = 0; i < sides; ++i) {
+      const double angle = 2 * std::numbers::pi * i / sides;
+      around.emplace_back(reach * std::cos(angle), reach * std::sin(angle), 0);
+    }
+  } else {
+    for (int axis = 0; axis < 3; ++axis) {
+      around.push_back(kThickness * Eigen::Vector3d::Unit(axis));
+      around.push_back(-kThickness * Eigen::Vector3d::Unit(axis));
+    }
+  }
+  const Eigen::Index n = static_cast<Eigen::Index>(around.size());
+  Eigen::Matrix3Xd points(3, n * body.vertices.cols());
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    points.col(i) = body.vertices.col(i / n) + around[static_cast<size_t>(i % n)];
+  }
+  return MakeHull(points);
+}
+
+// Convex and around the mesh, wide enough for the rounding of slabs.
+ConvexBody Enclosing(const TriangleMesh& mesh) {
+  HALFSTEP_CHECK(mesh.triangles.cols() > 0, "a mesh without triangles");
+  HALFSTEP_CHECK(mesh.vertices.allFinite(), "a vertex of the mesh is not finite");
+  HALFSTEP_CHECK(mesh.triangles.minCoeff() >= 0 && mesh.triangles.maxCoeff() < mesh.vertices.cols(),
+                 "vertex indices " << mesh.triangles.minCoeff() << " … "
+                                   << mesh.triangles.maxCoeff() << " of " << mesh.vertices.cols()
+                                   << " vertices");
+  ConvexBody around;
+  try {
+    around = MakeHull(mesh.vertices);
+  } catch (const std::runtime_error&) {  // flat: the axis-aligned bounds
+    const Eigen::Vector3d lower = mesh.vertices.rowwise().minCoeff();
+    const Eigen::Vector3d upper = mesh.vertices.rowwise().maxCoeff();
+    around.vertices.resize(3, 8);
+    for (int i = 0; i < 8; ++i) {
+      around.vertices.col(i) << ((i & 1) ? upper : lower).x(), ((i & 2) ? upper : lower).y(),
+          ((i & 4) ? upper : lower).z();
+    }
+  }
+  around.ball_radius += kSlabRounding * mesh.vertices.colwise().norm().maxCoeff();
+  BoundBySphere(&around);
+  return around;
+}
+
+bool IsFinite(const Eigen::Isometry3d& X) { return std::isfinite(X.matrix().topRows<3>().sum()); }
+
+}  // namespace
+
+struct CollisionShape::Impl {
+  explicit Impl(ConvexBody body) : convex(std::move(body)) {}
+  explicit Impl(TriangleMesh triangles)
+      : convex(Enclosing(triangles)), is_mesh(true), hollow_{std::move(triangles), nullptr} {
+    hollow_.bvh = MakeBvh(hollow_.mesh);
+  }
+
+  // The surface of the core, and what FCL needs. The core reaches beyond it by at most `excess`.
+  struct Hollow {
+    TriangleMesh mesh;
+    std::shared_ptr<const Bvh> bvh;
+    double excess = 0.0;  // [m]
+  };
+  // Of a convex body it is built when the body first comes near a mesh.
+  const Hollow& hollow() const {
+    std::call_once(hollow_once_, [this] {
+      if (hollow_.bvh != nullptr) return;
+      const ConvexBody core = MakeCore(convex);
+      hollow_.mesh = FacesOf(core);
+      hollow_.bvh = MakeBvh(hollow_.mesh);
+      hollow_.excess = core.ball_radius;
+    });
+    return hollow_;
+  }
+  const Bvh& bvh() const { return *hollow().bvh; }
+  // How far a convex body reaches beyond the triangles.
+  double beyond() const { return hollow().excess + convex.ball_radius; }
+  // What the surface encloses; built when first asked for.
+  const MeshInterior& interior() const {
+    std::call_once(interior_once_, [this] { interior_.emplace(hollow().mesh); });
+    return *interior_;
+  }
+
+  const ConvexBody convex;
+  const bool is_mesh = false;
+
+ private:
+  mutable std::once_flag hollow_once_, interior_once_;
+  mutable Hollow hollow_;
+  mutable std::optional<MeshInterior> interior_;
+};
+
+CollisionShape::CollisionShape(ConvexBody body) {
+  HALFSTEP_CHECK(body.vertices.cols() > 0 && body.vertices.allFinite(), body.vertices.cols()
+                                                                            << " vertices");
+  HALFSTEP_CHECK(body.disc_radius >= 0 && body.ball_radius >= 0,
+                 "disc_radius = " << body.disc_radius << ", ball_radius = " << body.ball_radius);
+  impl_ = std::make_shared<const Impl>(std::move(body));
+}
+CollisionShape::CollisionShape(TriangleMesh mesh)
+    : impl_(std::make_shared<const Impl>(std::move(mesh))) {}
+
+bool CollisionShape::is_mesh() const { return impl_->is_mesh; }
+const ConvexBody& CollisionShape::convex() const { return impl_->convex; }
+const Eigen::Vector3d& CollisionShape::center() const { return impl_->convex.center; }
+double CollisionShape::radius() const { return impl_->convex.radius; }
+
+namespace {
+
+ConvexDistance Slab(const CollisionShape& a, const Eigen::Isometry3d& X_Wa, const CollisionShape& b,
+                    const Eigen::Isometry3d& X_Wb, double enough) {
+  const Eigen::Isometry3d X_AB = X_Wa.inverse(Eigen::Isometry) * X_Wb;
+  return FindConvexDistance(a.convex(), b.convex(), X_AB, a.center() - X_AB * b.center(), enough);
+}
+
+Separation InWorld(const ConvexDistance& found, const Eigen::Isometry3d& X_Wa) {
+  return {found.lower, X_Wa.linear() * found.normal_A, X_Wa * found.point_a_A,
+          X_Wa * found.point_b_A};
+}
+
+// The distance of the triangles, less what FCL's rounding may make up for; zero or negative:
+// contact. `result` gets the nearest points.
+double TrianglesApart(const CollisionShape& a, const Eigen::Isometry3d& X_Wa,
+                      const CollisionShape& b, const Eigen::Isometry3d& X_Wb,
+                      fcl::DistanceResultd* result) {
+  const fcl::DistanceRequestd request(/*enable_nearest_points=*/true);
+  fcl::distance(&a.impl().bvh(), X_Wa, &b.impl().bvh(), X_Wb, request, *result);
+  const double coordinates = (X_Wa.translation() - X_Wb.translation()).norm() + a.center().norm() +
+                             a.radius() + b.center().norm() + b.radius();
+  return result->min_distance - std::max(kLeastRounding, kTriangleRounding * coordinates);
+}
+
+// Whether a body that meets no triangle of the mesh holds a part of it or lies inside it.
+bool Contains(const CollisionShape& body, const CollisionShape& mesh,
+              const Eigen::Isometry3d& X_MB) {
+  ConvexBody point;
+  point.vertices.resize(3, 1);
+  for (const Eigen::Vector3d& p : mesh.impl().interior().points()) {
+    if ((X_MB * body.center() - p).norm() > body.radius()) continue;
+    point.vertices.col(0) = point.center = p;
+    const Eigen::Isometry3d X_BM = X_MB.inverse(Eigen::Isometry);
+    const Eigen::Vector3d first = body.center() - X_BM * p;
+    if (FindConvexDistance(body.convex(), point, X_BM, first, 0.0).lower < 0) return true;
+  }
+  return mesh.impl().interior().Contains(X_MB * body.convex().vertices.col(0));
+}
+
+// `to_hull` is the separation of the body from the mesh's hull; the normal points to the body.
+Separation SeparateFromMesh(const CollisionShape& body, const Eigen::Isometry3d& X_WB,
+                            const CollisionShape& mesh, const Eigen::Isometry3d& X_WM,
+                            const Separation& to_hull) {
+  Separation contact = to_hull;
+  contact.distance = std::min(to_hull.distance, 0.0);
+  try {
+    fcl::DistanceResultd result;
+    const double core_distance = TrianglesApart(body, X_WB, mesh, X_WM, &result);
+    if (!(core_distance > 0)) return contact;
+    if (to_hull.distance <= 0 && Contains(body, mesh, X_WM.inverse(Eigen::Isometry) * X_WB)) {
+      return contact;
+    }
+    const double ball = body.impl().beyond();
+    if (to_hull.distance >= core_distance - ball) return to_hull;
+    const Eigen::Vector3d &at_body = result.nearest_points[0], &at_mesh = result.nearest_points[1];
+    const Eigen::Vector3d normal_W = (at_body - at_mesh).normalized();
+    return {core_distance - ball, normal_W, at_body - ball * normal_W, at_mesh};
+  } catch (const std::exception&) {
+    return contact;
+  }
+}
+
+Separation Swapped(const Separation& s) {
+  return {s.distance, -s.normal_W, s.point_b_W, s.point_a_W};
+}
+
+}  // namespace
+
+double SeparationAlong(const ConvexBody& a, const Eigen::Isometry3d& X_Wa, const ConvexBody& b,
+                       const Eigen::Isometry3d& X_Wb, const Eigen::Vector3d& n_W) {
+  HALFSTEP_CHECK(!(std::abs(n_W.squaredNorm() - 1) > 2e-9), "n_W = " << n_W.transpose());
+  const double origins = n_W.dot(X_Wa.translation() - X_Wb.translation());
+  return origins - Support(a, -(X_Wa.linear().transpose() * n_W)) -
+         Support(b, X_Wb.linear().transpose() * n_W);
+}
+
+Separation Separate(const CollisionShape& a, const Eigen::Isometry3d& X_Wa, const CollisionShape& b,
+                    const Eigen::Isometry3d& X_Wb) {
+  HALFSTEP_CHECK(IsFinite(X_Wa) && IsFinite(X_Wb), "a pose is not finite:\n"
+                                                       << X_Wa.matrix() << "\n"
+                                                       << X_Wb.matrix());
+  HALFSTEP_CHECK(!(a.is_mesh() && b.is_mesh()), "two meshes");
+  const Separation slab = InWorld(Slab(a, X_Wa, b, X_Wb, kConverge), X_Wa);
+  if (b.is_mesh()) return SeparateFromMesh(a, X_Wa, b, X_Wb, slab);
+  if (a.is_mesh()) return Swapped(SeparateFromMesh(b, X_Wb, a, X_Wa, Swapped(slab)));
+  return slab;
+}
+
+bool ClearsAlongCached(const CollisionShape& a, const Eigen::Isometry3d& X_Wa,
+                       const CollisionShape& b, const Eigen::Isometry3d& X_Wb, double clearance,
+                       Eigen::Vector3d* normal_W) {
+  HALFSTEP_CHECK(IsFinite(X_Wa) && IsFinite(X_Wb), "a pose is not finite");
+  const double spheres = (X_Wa * a.center() - X_Wb * b.center()).norm() - a.radius() - b.radius();
+  if (spheres >= clearance) return true;
+  if (normal_W->squaredNorm() > 0.5 &&
+      SeparationAlong(a.convex(), X_Wa, b.convex(), X_Wb, *normal_W) >= clearance) {
+    return true;
+  }
+  const ConvexDistance slab = Slab(a, X_Wa, b, X_Wb, clearance);
+  *normal_W = (X_Wa.linear() * slab.normal_A).normalized();
+  if (slab.lower >= clearance) return true;
+  if (!a.is_mesh() && !b.is_mesh()) return false;
+  return Separate(a, X_Wa, b, X_Wb).distance >= clearance;
+}
+
+}  // namespace halfstep

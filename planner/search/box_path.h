@@ -1,0 +1,56 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "planner/collision/collision_world.h"
+#include "planner/scene/scene.h"
+#include "planner/search/plan_search.h"
+
+namespace halfstep {
+
+/// A box that stands for the whole walking robot: centred on the middle of its feet and turned with
+/// them, on the floor.
+struct RobotBox {
+  double length = 0.7;      ///< along x [m] > 0
+  double width = 0.9;       ///< along y [m] > 0
+  double height = 1.6;      ///< [m] > 0
+  double feet_apart = 0.2;  ///< of the feet beside each other [m] > 0
+};
+
+/// Where the box is looked at.
+struct BoxGrid {
+  double spacing = 0.05;  ///< [m] > 0. Coarse: narrow passages are missed; fine: slow
+  int yaws = 16;          ///< of a full turn, from the start's yaw, ≥ 4
+};
+
+/// A box among the obstacles and the no-step areas of a scene, both of which it must not touch.
+class BoxWorld {
+ public:
+  /// Borrows the scene. Precondition: a box and a grid as above (std::logic_error).
+  BoxWorld(const Scene& scene, const RobotBox& box);
+  bool IsClear(const Pose2& X_WM) const;
+  const RobotBox& box() const { return box_; }
+
+ private:
+  const Scene& scene_;
+  RobotBox box_;
+  CollisionWorld world_;
+  CollisionShape shape_;
+};
+
+struct [[nodiscard]] BoxPath {
+  std::vector<Pose2> path;  ///< of the middle of the feet, from the start; empty: none
+  bool stopped = false;     ///< by the monitor
+  bool start_blocked = false;
+};
+
+/// A* over the grid, by steps to the eight neighbours and turns; walking sideways and backwards
+/// costs more. The box is looked at on the grid only, not between its poses. Every pose looked at
+/// counts as a node. The path ends with the part of the goal within a grid step of its region.
+BoxPath FindBoxPath(const BoxWorld& world, const BoxGrid& grid, const Pose2& X_WM,
+                    const GoalRegion& goal, const Eigen::AlignedBox2d& workspace,
+                    PlanMonitor* monitor);
+
+}  // namespace halfstep

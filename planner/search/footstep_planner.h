@@ -1,0 +1,91 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <random>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "planner/search/goal_region.h"
+#include "planner/search/half_step_query.h"
+#include "planner/search/half_step_set.h"
+#include "planner/search/step_cost.h"
+#include "planner/search/termination.h"
+#include "wpg/motion/half_step_sequence.h"
+
+namespace halfstep {
+
+/// What a full check of the walk that a plan makes says; a bool converts to it.
+struct Acceptance {
+  bool accepted = true;
+  int refused_footstep = -1;  ///< index of the footstep whose step is to blame; −1: not known
+  Acceptance(bool yes, int refused = -1)  // NOLINT: a plain bool is an answer
+      : accepted(yes), refused_footstep(refused) {}
+};
+
+/// A planning problem. What it refers to is borrowed for the call of Plan.
+struct PlanRequest {
+  std::array<Pose2, 2> start;  ///< soles in W by Index(Side), standing
+  GoalRegion goal;
+  const HalfStepSet& set;      ///< not empty
+  const HalfStepQuery& query;  ///< of the same set
+  StepCost cost = {};
+  /// Supporting soles' centres stay inside [m]. None: 2 m around the start and the goal.
+  std::optional<Eigen::AlignedBox2d> workspace = {};
+  /// Whether an up half-step from the start, which is in no set, is free: its support sole stands
+  /// at X_WS. Empty: it always is.
+  std::function<bool(const HalfStep&, const Pose2& X_WS)> start_is_free = {};
+  /// Asked about every plan before it is returned, best first. Empty: yes.
+  std::function<Acceptance(const std::vector<Footstep>&)> accepts = {};
+  int max_refusals = 20;  ///< after that many, refused
+  Termination stop = {};  ///< empty: never, but where a planner ends by itself
+  Clock clock = {};       ///< for the times of the result only; empty: they are NaN
+};
+
+enum class PlanStatus {
+  kNotRun,
+  kSolved,        ///< there is a plan
+  kNoPlan,        ///< all was searched, as far as the planner's resolution tells them apart
+  kStartBlocked,  ///< no foot can leave the floor
+  kBudget,        ///< time or nodes were used up before a plan was found
+  kInterrupted,   ///< stopped before a plan was found
+  kRefused,       ///< there were plans, but `accepts` refused them
+};
+std::string_view Name(PlanStatus status);
+
+struct [[nodiscard]] PlanResult {
+  PlanStatus status = PlanStatus::kNotRun;
+  std::string sentence = "Plan was not called";
+  /// Ends with both feet on the floor. Empty when the start is a goal, and without a plan.
+  std::vector<Footstep> footsteps;
+  std::vector<int> elements;  ///< of the set, one per footstep
+  double cost = std::numeric_limits<double>::infinity();
+  bool exhausted = false;  ///< the search ended by itself: a longer budget changes nothing
+  StopReason stop = StopReason::kGoOn;
+  std::int64_t nodes = 0;    ///< states that a planner keeps or expands, over all its searches
+  std::int64_t queries = 0;  ///< of half-steps: DownIsFree and UpIsFree
+  int refusals = 0;
+  double time_to_first = std::numeric_limits<double>::quiet_NaN();  ///< plan, by the clock [s]
+  double time = std::numeric_limits<double>::quiet_NaN();           ///< in all [s]
+};
+
+/// Finds footsteps from a stance into a goal region. Every half-step of a plan between the first
+/// up half-step (start_is_free) and the last down half-step was called free by the query.
+/// State: pose and side of the supporting foot, the other one at its via point. Edge: the down
+/// half-step of an element, then its up half-step; the last edge of a plan lacks the up half-step.
+/// Immutable: the same request and the same state of `random` give the same plan, unless `stop`
+/// looks at a clock.
+class FootstepPlanner {
+ public:
+  virtual ~FootstepPlanner() = default;
+  /// Preconditions (std::logic_error): finite start, valid goal, set not empty.
+  virtual PlanResult Plan(const PlanRequest& request, std::mt19937_64& random) const = 0;
+};
+
+}  // namespace halfstep

@@ -1,0 +1,90 @@
+#include "planner/search/footstep_rrt.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "planner/search/plan_search.h"
+#include "planner/search/plan_shortcut.h"
+#include "planner/search/step_tree.h"
+
+namespace halfstep {
+namespace {
+
+Pose2 SampleGoal(const GoalRegion& goal, std::mt19937_64& random) {
+  Eigen::Vector2d p_G;
+  if (goal.box) {
+    p_G = {(*goal.box)[0] * Uniform(-0.5, 0.5, random),
+           (*goal.box)[1] * Uniform(-0.5, 0.5, random)};
+  } else {
+    const double angle = Uniform(0.0, 2.0 * std::numbers::pi, random);
+    const double r = goal.radius * std::sqrt(Uniform(0.0, 1.0, random));
+    p_G = {r * std::cos(angle), r * std::sin(angle)};
+  }
+  const Eigen::Vector2d p_W = goal.X_WG * p_G;
+  return {p_W.x(), p_W.y(), goal.X_WG.yaw};
+}
+
+TreeSample Sample(const StepGraph& graph, double goal_bias, std::mt19937_64& random) {
+  TreeSample sample;
+  sample.side = Pick(2, random) == 0 ? Side::kLeft : Side::kRight;
+  if (Uniform(0.0, 1.0, random) < goal_bias) {
+    sample.X_WF = SampleGoal(graph.goal(), random);
+    sample.yaw =
+        graph.goal().yaw_tolerance ? TreeSample::Yaw::kCountsWhenNear : TreeSample::Yaw::kFree;
+    return sample;
+  }
+  const Eigen::AlignedBox2d& area = graph.workspace();
+  sample.X_WF.x = Uniform(area.min().x(), area.max().x(), random);
+  sample.X_WF.y = Uniform(area.min().y(), area.max().y(), random);
+  sample.X_WF.yaw = Uniform(-std::numbers::pi, std::numbers::pi, random);
+  sample.yaw = Pick(2, random) == 0 ? TreeSample::Yaw::kCounts : TreeSample::Yaw::kFree;
+  return sample;
+}
+
+// Whether the tree found a plan, or ended without one.
+enum class TreeEnd { kPlan, kStopped, kExhausted };
+
+TreeEnd GrowTree(const std::vector<StepState>& starts, const RrtOptions& options, StepGraph* graph,
+                 PlanMonitor* monitor, std::mt19937_64& random) {
+  StepTree tree({}, options.cells, graph, monitor);
+  StepTree::Growth growth = StepTree::Growth::kTrapped;
+  for (const StepState& start : starts) {
+    if (monitor->Stop()) return TreeEnd::kStopped;
+    growth = tree.AddRoot(start, 0.0);
+    if (growth == StepTree::Growth::kArrived) break;
+  }
+  while (growth != StepTree::Growth::kArrived) {
+    if (monitor->Stop()) return TreeEnd::kStopped;
+    if (tree.IsExhausted()) return TreeEnd::kExhausted;
+    growth = tree.Grow(Sample(*graph, options.goal_bias, random));
+  }
+  monitor->Offer(tree.arrival());
+  return TreeEnd::kPlan;
+}
+
+// No plan from these states can be cheaper.
+bool IsCheapest(double cost, const std::vector<StepState>& starts, const StepGraph& graph) {
+  for (const StepState& start : starts) {
+    if (cost > graph.reach().least_cost() * graph.LeastSteps(start)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+PlanResult FootstepRrt::Plan(const PlanRequest& request, std::mt19937_64& random) const {
+  return PlanWith(
+      request, AllElements(request.set),
+      [&](const std::vector<StepState>& starts, StepGraph* graph, PlanMonitor* monitor) {
+        const TreeEnd end = GrowTree(starts, options_, graph, monitor, random);
+        if (end != TreeEnd::kPlan) return SearchEnd{.exhausted = end == TreeEnd::kExhausted};
+        while (!IsCheapest(monitor->best_cost(), starts, *graph)) {
+          if (monitor->Stop()) return SearchEnd{};
+          const StepPlan best = monitor->plans().back();
+          TryShortcut(best, starts, options_.cells, graph, monitor, random);
+        }
+        return SearchEnd{.exhausted = true};
+      });
+}
+
+}  // namespace halfstep

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+
+#include "wpg/geometry/pose2.h"
+#include "wpg/geometry/side.h"
+
+namespace halfstep {
+
+/// Which part of a stance shall reach a goal. The middle of the feet has the mean of their
+/// positions and of their yaws.
+enum class GoalPart { kLeftFoot, kRightFoot, kEitherFoot, kMidFeet };
+
+/// Where a walk may end: a disc or a box on the floor, borders included, and optionally a range of
+/// yaw.
+struct GoalRegion {
+  GoalPart part = GoalPart::kEitherFoot;
+  Pose2 X_WG;           ///< centre; its yaw turns the box and is the middle of the range of yaw
+  double radius = 0.1;  ///< of the disc [m] ≥ 0; unused with a box
+  std::optional<Eigen::Vector2d> box;        ///< full edge lengths along x and y of G [m] ≥ 0
+  std::optional<double> yaw_tolerance = {};  ///< half the range [rad] ≥ 0; none: any yaw
+
+  /// Finite, sizes not negative.
+  bool IsValid() const;
+  /// From a point of the floor to the region [m]: 0 inside.
+  double Distance(const Eigen::Vector2d& p_W) const;
+  /// How far a yaw is outside the range [rad], counted modulo 2π: 0 inside or without a range.
+  double Turn(double yaw) const;
+  /// Whether a pose of the part that counts is in the region.
+  bool Contains(const Pose2& X_W) const;
+  /// Whether standing with the soles `feet`, by Index(Side), is a goal.
+  bool ContainsStance(const std::array<Pose2, 2>& feet) const;
+  /// The same for a foot `side` at X_WF that has just landed beside a support sole X_WS which was
+  /// no goal already.
+  bool ContainsLanding(Side side, const Pose2& X_WF, const Pose2& X_WS) const;
+};
+
+/// Middle of two soles: means of positions and of yaws.
+Pose2 MidFeet(const Pose2& X_WL, const Pose2& X_WR);
+
+}  // namespace halfstep

@@ -1,0 +1,203 @@
+#include "planner/search/plan_search.h"
+
+#include <cmath>
+#include <sstream>
+
+#include "wpg/check.h"
+
+namespace halfstep {
+namespace {
+
+bool IsFinite(const Pose2& X) {
+  return std::isfinite(X.x) && std::isfinite(X.y) && std::isfinite(X.yaw);
+}
+
+void CheckRequest(const PlanRequest& request) {
+  for (const Pose2& sole : request.start) {
+    HALFSTEP_CHECK(IsFinite(sole), "start sole " << sole.x << ", " << sole.y << ", " << sole.yaw);
+  }
+  const GoalRegion& goal = request.goal;
+  HALFSTEP_CHECK(goal.IsValid(), "goal " << goal.X_WG.x << ", " << goal.X_WG.y << ", "
+                                         << goal.X_WG.yaw << ", radius " << goal.radius);
+  HALFSTEP_CHECK(request.set.size() > 0, "the set of half-steps is empty");
+}
+
+std::vector<StepState> StatesOf(const StepGraph& graph, const StepPlan& plan) {
+  std::vector<StepState> states = {plan.start};
+  for (int k : plan.ks) states.push_back(graph.After(states.back(), k));
+  return states;
+}
+
+// Asks about the plans, the best first. What was refused is forbidden to later searches.
+const StepPlan* FirstAccepted(const PlanRequest& request, const PlanMonitor& monitor,
+                              StepGraph* graph, int* refusals) {
+  for (auto plan = monitor.plans().rbegin(); plan != monitor.plans().rend(); ++plan) {
+    if (!request.accepts) return &*plan;
+    const std::vector<StepState> states = StatesOf(*graph, *plan);
+    bool forbidden = false;
+    for (size_t j = 0; j < plan->ks.size(); ++j) {
+      forbidden = forbidden || graph->IsForbidden(states[j], plan->ks[j]);
+    }
+    if (forbidden) continue;
+    const Acceptance answer = request.accepts(FootstepsOf(request, *graph, *plan));
+    if (answer.accepted) return &*plan;
+    const int last = static_cast<int>(plan->ks.size()) - 1;
+    const bool named = answer.refused_footstep >= 0 && answer.refused_footstep <= last;
+    const auto at = static_cast<size_t>(named ? answer.refused_footstep : last);
+    graph->Forbid(states[at], plan->ks[at]);
+    if (++*refusals >= request.max_refusals) break;
+  }
+  return nullptr;
+}
+
+void Solve(const PlanRequest& request, const StepGraph& graph, const StepPlan& plan,
+           PlanResult* result) {
+  result->status = PlanStatus::kSolved;
+  result->footsteps = FootstepsOf(request, graph, plan);
+  for (int k : plan.ks) result->elements.push_back(graph.elements()[static_cast<size_t>(k)]);
+  result->cost = plan.cost;
+  std::ostringstream sentence;
+  sentence << plan.ks.size() << (plan.ks.size() == 1 ? " footstep" : " footsteps");
+  if (result->stop == StopReason::kBudget) sentence << ", when the budget was used up";
+  if (result->stop == StopReason::kInterrupted) sentence << ", when it was interrupted";
+  result->sentence = sentence.str();
+}
+
+void Fail(PlanStatus status, const std::string& sentence, PlanResult* result) {
+  result->status = status;
+  result->sentence = sentence;
+}
+
+// Without a plan that was accepted.
+void Explain(const SearchEnd& end, PlanResult* result) {
+  if (result->refusals > 0) {
+    Fail(PlanStatus::kRefused, "every plan found was refused by the check of the whole walk",
+         result);
+  } else if (result->exhausted) {
+    Fail(PlanStatus::kNoPlan,
+         end.sentence.empty()
+             ? "no plan: all that the half-steps reach inside the workspace was searched"
+             : end.sentence,
+         result);
+  } else if (result->stop == StopReason::kInterrupted) {
+    Fail(PlanStatus::kInterrupted, "interrupted before a plan was found", result);
+  } else {
+    Fail(PlanStatus::kBudget, "no plan was found before the budget was used up", result);
+  }
+}
+
+}  // namespace
+
+bool PlanMonitor::Stop() {
+  if (reason_ != StopReason::kGoOn) return true;
+  reason_ = request_.stop ? request_.stop(progress_) : AtFirstPlan()(progress_);
+  return reason_ != StopReason::kGoOn;
+}
+
+void PlanMonitor::CountNode() {
+  ++progress_.nodes;
+  if (progress_.has_plan()) ++progress_.nodes_since_improvement;
+}
+
+bool PlanMonitor::Offer(StepPlan plan) {
+  if (!(plan.cost < progress_.cost)) return false;
+  if (request_.clock && std::isnan(time_to_first_)) time_to_first_ = elapsed();
+  progress_.cost = plan.cost;
+  progress_.nodes_since_improvement = 0;
+  plans_.push_back(std::move(plan));
+  return true;
+}
+
+double PlanMonitor::elapsed() const {
+  return request_.clock ? request_.clock() - begin_ : std::numeric_limits<double>::quiet_NaN();
+}
+
+void PlanMonitor::StartOver() {
+  progress_.cost = std::numeric_limits<double>::infinity();
+  progress_.nodes_since_improvement = 0;
+  reason_ = StopReason::kGoOn;
+  plans_.clear();
+}
+
+PlanResult PlanWith(const PlanRequest& request, const std::vector<int>& elements,
+                    const PlanSearch& search) {
+  CheckRequest(request);
+  PlanResult result;
+  if (request.goal.ContainsStance(request.start)) {
+    result.status = PlanStatus::kSolved;
+    result.sentence = "the start is a goal";
+    result.cost = 0.0;
+    result.exhausted = true;
+    return result;
+  }
+  PlanMonitor monitor(request);
+  StepGraph graph(request, elements);
+  std::vector<StepState> starts;
+  const StepPlan* plan = nullptr;
+  SearchEnd end;
+  if (!monitor.Stop()) {
+    starts = graph.FreeStarts();
+    if (starts.empty()) {
+      Fail(PlanStatus::kStartBlocked, "neither foot can leave the floor at the start", &result);
+      result.time = monitor.elapsed();
+      return result;
+    }
+    while (true) {
+      end = search(starts, &graph, &monitor);
+      result.exhausted = end.exhausted;
+      if (monitor.plans().empty()) break;
+      plan = FirstAccepted(request, monitor, &graph, &result.refusals);
+      const bool hard =
+          monitor.reason() == StopReason::kBudget || monitor.reason() == StopReason::kInterrupted;
+      if (plan != nullptr || hard || result.refusals >= request.max_refusals) break;
+      monitor.StartOver();
+    }
+  }
+  result.stop = monitor.reason();
+  result.nodes = monitor.nodes();
+  result.queries = graph.queries();
+  result.time_to_first = monitor.time_to_first();
+  result.time = monitor.elapsed();
+  if (plan != nullptr) {
+    Solve(request, graph, *plan, &result);
+  } else {
+    Explain(end, &result);
+  }
+  return result;
+}
+
+std::vector<Footstep> FootstepsOf(const PlanRequest& request, const StepGraph& graph,
+                                  const StepPlan& plan) {
+  std::vector<Footstep> footsteps;
+  StepState state = plan.start;
+  for (int k : plan.ks) {
+    state = graph.After(state, k);
+    footsteps.push_back({.side = state.support,
+                         .X_WF = state.X_WS,
+                         .via_height = request.set.prototype.via_height,
+                         .duration = request.set.prototype.duration});
+  }
+  return footsteps;
+}
+
+std::string_view Name(PlanStatus status) {
+  switch (status) {
+    case PlanStatus::kNotRun:
+      return "not_run";
+    case PlanStatus::kSolved:
+      return "solved";
+    case PlanStatus::kNoPlan:
+      return "no_plan";
+    case PlanStatus::kStartBlocked:
+      return "start_blocked";
+    case PlanStatus::kBudget:
+      return "budget";
+    case PlanStatus::kInterrupted:
+      return "interrupted";
+    case PlanStatus::kRefused:
+      return "refused";
+  }
+  return "";
+}
+
+}  // namespace halfstep

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "planner/search/footstep_planner.h"
+#include "planner/search/step_graph.h"
+
+namespace halfstep {
+
+/// A chain of elements from a state to the goal.
+struct StepPlan {
+  StepState start;
+  std::vector<int> ks;  ///< places in StepGraph::elements()
+  double cost = 0.0;
+};
+
+/// Counts nodes, asks the termination and keeps the plans found, on behalf of one call of Plan.
+class PlanMonitor {
+ public:
+  explicit PlanMonitor(const PlanRequest& request) : request_(request) {}
+
+  /// Whether to stop; true from then on. To be asked before every node.
+  bool Stop();
+  void CountNode();
+  /// Keeps a plan that is cheaper than all before; false: it was not.
+  bool Offer(StepPlan plan);
+
+  double best_cost() const { return progress_.cost; }
+  const std::vector<StepPlan>& plans() const { return plans_; }  ///< each cheaper than the last
+  StopReason reason() const { return reason_; }
+  std::int64_t nodes() const { return progress_.nodes; }
+  double time_to_first() const { return time_to_first_; }
+  double elapsed() const;  ///< NaN without a clock [s]
+  /// Forgets the plans and what stopped it.
+  void StartOver();
+
+ private:
+  const PlanRequest& request_;
+  PlanProgress progress_;
+  StopReason reason_ = StopReason::kGoOn;
+  std::vector<StepPlan> plans_;
+  double begin_ = request_.clock ? request_.clock() : 0.0;
+  double time_to_first_ = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// Why a search ended.
+struct SearchEnd {
+  bool exhausted = false;     ///< nothing is left to search; else the monitor said stop
+  std::string sentence = {};  ///< why there is no plan when exhausted; empty: the common one
+};
+
+/// Searches from `starts` and offers plans to the monitor.
+using PlanSearch = std::function<SearchEnd(const std::vector<StepState>& starts, StepGraph* graph,
+                                           PlanMonitor* monitor)>;
+
+/// What all planners share: preconditions, a start that is a goal or blocked, asking `accepts`,
+/// searching again without what was refused, and the sentence of the result.
+PlanResult PlanWith(const PlanRequest& request, const std::vector<int>& elements,
+                    const PlanSearch& search);
+
+/// The footsteps of a plan.
+std::vector<Footstep> FootstepsOf(const PlanRequest& request, const StepGraph& graph,
+                                  const StepPlan& plan);
+
+}  // namespace halfstep

@@ -1,0 +1,121 @@
+#include "planner/search/plan_shortcut.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "planner/search/step_tree.h"
+
+namespace halfstep {
+namespace {
+
+// A plan with all its states and costs up to them; the last state is the landing on the goal.
+struct Unrolled {
+  std::vector<StepState> states;
+  std::vector<double> costs;
+};
+
+Unrolled Unroll(const StepGraph& graph, const StepPlan& plan) {
+  Unrolled path{{plan.start}, {0.0}};
+  for (int k : plan.ks) {
+    path.states.push_back(graph.After(path.states.back(), k));
+    path.costs.push_back(path.costs.back() + graph.cost(k));
+  }
+  return path;
+}
+
+// The stretch from state a to near state b (the last one: to the goal), cheaper than it was.
+std::optional<StepPlan> PlanStretch(const std::vector<StepState>& roots, const Unrolled& path,
+                                    size_t a, size_t b, const PoseCells& cells, StepGraph* graph,
+                                    PlanMonitor* monitor, std::mt19937_64& random) {
+  constexpr double kRoom = 0.4;
+  constexpr double kTowardsTarget = 0.6;
+  const bool to_goal = b + 1 == path.states.size();
+  TreeTarget target{.cost_limit = path.costs[b]};
+  if (!to_goal) target.state = path.states[b];
+  StepTree tree(target, cells, graph, monitor);
+  StepTree::Growth growth = StepTree::Growth::kTrapped;
+  for (const StepState& root : roots) {
+    if (growth != StepTree::Growth::kArrived) growth = tree.AddRoot(root, path.costs[a]);
+  }
+  Eigen::AlignedBox2d box(path.states[a].X_WS.position());
+  box.extend(path.states[b].X_WS.position());
+  const int samples = 20 + 8 * static_cast<int>(b - a);
+  for (int i = 0; i < samples && growth != StepTree::Growth::kArrived; ++i) {
+    if (tree.IsExhausted() || monitor->Stop()) break;
+    TreeSample sample{.X_WF = path.states[b].X_WS,
+                      .side = path.states[b].support,
+                      .yaw = to_goal ? TreeSample::Yaw::kFree : TreeSample::Yaw::kCountsWhenNear};
+    if (i % 2 == 1) sample.side = Opposite(sample.side);
+    if (Uniform(0.0, 1.0, random) >= kTowardsTarget) {
+      sample.X_WF.x = Uniform(box.min().x() - kRoom, box.max().x() + kRoom, random);
+      sample.X_WF.y = Uniform(box.min().y() - kRoom, box.max().y() + kRoom, random);
+      sample.yaw = TreeSample::Yaw::kFree;
+    }
+    growth = tree.Grow(sample);
+  }
+  if (growth != StepTree::Growth::kArrived) return std::nullopt;
+  return tree.arrival();
+}
+
+// From a state to the goal along old landings, each followed by the free element nearest to it.
+bool Follow(const Unrolled& path, size_t from, StepState state, StepGraph* graph, StepPlan* plan) {
+  std::vector<Pose2> landings;
+  std::vector<std::pair<double, int>> order;
+  for (size_t j = from + 1; j < path.states.size(); ++j) {
+    const bool last = j + 1 == path.states.size();
+    graph->Landings(state, &landings);
+    order.clear();
+    for (int k = 0; k < graph->size(); ++k) {
+      const Pose2& X_WF = landings[static_cast<size_t>(k)];
+      if (last && !graph->IsGoal(state, X_WF)) continue;
+      if (!last && !graph->workspace().contains(X_WF.position())) continue;
+      order.emplace_back(StateDistance(X_WF, path.states[j].X_WS, true), k);
+    }
+    std::sort(order.begin(), order.end());
+    constexpr size_t kTries = 10;
+    if (order.size() > kTries) order.resize(kTries);
+    const auto free = std::find_if(order.begin(), order.end(), [&](const auto& choice) {
+      return graph->DownIsFree(state, choice.second) &&
+             (last || graph->UpIsFree(state, choice.second));
+    });
+    if (free == order.end()) return false;
+    plan->ks.push_back(free->second);
+    plan->cost += graph->cost(free->second);
+    state = {landings[static_cast<size_t>(free->second)], Opposite(state.support)};
+  }
+  return true;
+}
+
+}  // namespace
+
+bool TryShortcut(const StepPlan& plan, const std::vector<StepState>& starts, const PoseCells& cells,
+                 StepGraph* graph, PlanMonitor* monitor, std::mt19937_64& random) {
+  const Unrolled path = Unroll(*graph, plan);
+  const int count = static_cast<int>(plan.ks.size());
+  const int a = Pick(count, random);
+  const int b = a + 1 + Pick(count - a, random);
+  const auto ia = static_cast<size_t>(a), ib = static_cast<size_t>(b);
+  const std::vector<StepState> roots = a == 0 ? starts : std::vector{path.states[ia]};
+  const auto stretch = PlanStretch(roots, path, ia, ib, cells, graph, monitor, random);
+  if (!stretch) return false;
+  StepPlan candidate{.start = a == 0 ? stretch->start : plan.start,
+                     .ks = {plan.ks.begin(), plan.ks.begin() + a},
+                     .cost = stretch->cost};
+  candidate.ks.insert(candidate.ks.end(), stretch->ks.begin(), stretch->ks.end());
+  StepState state = stretch->start;
+  for (int k : stretch->ks) state = graph->After(state, k);
+  if (b < count && !Follow(path, ib, state, graph, &candidate)) return false;
+  return monitor->Offer(std::move(candidate));
+}
+
+double Uniform(double lower, double upper, std::mt19937_64& random) {
+  return lower + (upper - lower) * (static_cast<double>(random() >> 11) * 0x1p-53);
+}
+
+int Pick(int count, std::mt19937_64& random) {
+  return std::min(count - 1, static_cast<int>(Uniform(0.0, count, random)));
+}
+
+}  // namespace halfstep

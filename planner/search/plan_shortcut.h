@@ -1,0 +1,21 @@
+#pragma once
+
+#include <random>
+
+#include "planner/search/plan_search.h"
+#include "planner/search/pose_cells.h"
+
+namespace halfstep {
+
+/// Plans a stretch between two random states of `plan` anew, or from one of `starts` on, and offers
+/// the whole to the monitor if it is cheaper. Returns whether it was. Counts at least one node.
+/// Precondition: the plan has a footstep.
+bool TryShortcut(const StepPlan& plan, const std::vector<StepState>& starts, const PoseCells& cells,
+                 StepGraph* graph, PlanMonitor* monitor, std::mt19937_64& random);
+
+/// Uniform in [lower, upper), from 53 bits of one number: the same everywhere.
+double Uniform(double lower, double upper, std::mt19937_64& random);
+/// Uniform among 0 … count − 1.
+int Pick(int count, std::mt19937_64& random);
+
+}  // namespace halfstep

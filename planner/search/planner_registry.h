@@ -1,0 +1,28 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "planner/search/bounding_box_planner.h"
+#include "planner/search/footstep_astar.h"
+#include "planner/search/footstep_planner.h"
+#include "planner/search/footstep_rrt.h"
+
+namespace halfstep {
+
+struct PlannerOptions {
+  RrtOptions rrt;
+  StepSearchOptions astar;  ///< of astar and astar/classic
+  BoundingBoxOptions bounding_box;
+};
+
+/// rrt, astar, astar/classic, bounding_box.
+std::vector<std::string> PlannerNames();
+
+/// The planner of that name, one of PlannerNames() (std::logic_error). The scene is borrowed and
+/// must outlive it: bounding_box looks at it, the others ask the query only.
+std::unique_ptr<FootstepPlanner> MakePlanner(const std::string& name, const Scene& scene,
+                                             const PlannerOptions& options = {});
+
+}  // namespace halfstep

@@ -1,0 +1,87 @@
+#include "planner/search/state_buckets.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "wpg/check.h"
+
+namespace halfstep {
+
+double StateDistance(const Pose2& a, const Pose2& b, bool with_yaw) {
+  constexpr double kMetresPerRadian = 0.15;
+  const double dx = a.x - b.x, dy = a.y - b.y;
+  const double way = std::sqrt(dx * dx + dy * dy);
+  if (!with_yaw) return way;
+  return way + kMetresPerRadian * std::fabs(std::remainder(a.yaw - b.yaw, 2.0 * std::numbers::pi));
+}
+
+StateBuckets::StateBuckets(const Eigen::AlignedBox2d& area) : area_(area) {
+  constexpr double kEdge = 0.25;
+  constexpr double kMostAcross = 64.0;
+  edge_ = std::max(kEdge, area.sizes().maxCoeff() / kMostAcross);
+  count_ = (area.sizes() / edge_).array().ceil().max(1.0).matrix().cast<int>();
+  for (auto& cells : cells_) cells.resize(static_cast<size_t>(count_.prod()));
+}
+
+Eigen::Vector2i StateBuckets::CellOf(const Pose2& X_W) const {
+  const Eigen::Vector2d from_corner = (X_W.position() - area_.min()) / edge_;
+  const Eigen::Vector2d most = (count_ - Eigen::Vector2i::Ones()).cast<double>();
+  return from_corner.array().floor().max(0.0).min(most.array()).matrix().cast<int>();
+}
+
+std::vector<StateBuckets::Entry>& StateBuckets::At(const Eigen::Vector2i& cell, Side support) {
+  return cells_[static_cast<size_t>(Index(support))]
+               [static_cast<size_t>(cell.y() * count_.x() + cell.x())];
+}
+
+const std::vector<StateBuckets::Entry>& StateBuckets::At(const Eigen::Vector2i& cell,
+                                                         Side support) const {
+  return cells_[static_cast<size_t>(Index(support))]
+               [static_cast<size_t>(cell.y() * count_.x() + cell.x())];
+}
+
+void StateBuckets::Insert(int index, const StepState& state) {
+  At(CellOf(state.X_WS), state.support).push_back({index, state.X_WS});
+  ++sizes_[static_cast<size_t>(Index(state.support))];
+}
+
+void StateBuckets::Remove(int index, const StepState& state) {
+  std::vector<Entry>& entries = At(CellOf(state.X_WS), state.support);
+  const auto entry = std::find_if(entries.begin(), entries.end(),
+                                  [index](const Entry& e) { return e.index == index; });
+  HALFSTEP_CHECK(entry != entries.end(), "index " << index);
+  entries.erase(entry);
+  --sizes_[static_cast<size_t>(Index(state.support))];
+}
+
+int StateBuckets::FindNearest(const Pose2& X_W, Side support, bool with_yaw) const {
+  if (size(support) == 0) return -1;
+  const Eigen::Vector2i center = CellOf(X_W);
+  int nearest = -1;
+  double least = std::numeric_limits<double>::infinity();
+  const auto visit = [&](int x, int y) {
+    if (x < 0 || y < 0 || x >= count_.x() || y >= count_.y()) return;
+    for (const Entry& entry : At({x, y}, support)) {
+      const double distance = StateDistance(entry.X_WS, X_W, with_yaw);
+      if (distance < least || (distance == least && entry.index < nearest)) {
+        least = distance;
+        nearest = entry.index;
+      }
+    }
+  };
+  // Rings of cells: those of ring r are at least (r − 1) edges away.
+  for (int ring = 0; ring < count_.maxCoeff() && (ring - 1) * edge_ <= least; ++ring) {
+    for (int x = center.x() - ring; x <= center.x() + ring; ++x) {
+      const bool side = std::abs(x - center.x()) == ring;
+      for (int y = center.y() - ring; y <= center.y() + ring;
+           y += side || ring == 0 ? 1 : 2 * ring) {
+        visit(x, y);
+      }
+    }
+  }
+  return nearest;
+}
+
+}  // namespace halfstep

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <vector>
+
+#include "planner/search/step_graph.h"
+
+namespace halfstep {
+
+/// Distance between poses of a foot [m]: way, and 0.15 m a radian of yaw (modulo 2π). Without a
+/// yaw to compare, the way alone.
+double StateDistance(const Pose2& a, const Pose2& b, bool with_yaw);
+
+/// Indices of states, by support foot and place, for the nearest one to a pose.
+class StateBuckets {
+ public:
+  explicit StateBuckets(const Eigen::AlignedBox2d& area);
+
+  void Insert(int index, const StepState& state);
+  /// Precondition: inserted before with this state (std::logic_error).
+  void Remove(int index, const StepState& state);
+  /// Index of the nearest state supported by `support`, the first inserted among equals;
+  /// −1: there is none.
+  int FindNearest(const Pose2& X_W, Side support, bool with_yaw) const;
+  int size(Side support) const { return sizes_[static_cast<size_t>(Index(support))]; }
+
+ private:
+  struct Entry {
+    int index;
+    Pose2 X_WS;
+  };
+  Eigen::Vector2i CellOf(const Pose2& X_W) const;  // clamped to the area
+  std::vector<Entry>& At(const Eigen::Vector2i& cell, Side support);
+  const std::vector<Entry>& At(const Eigen::Vector2i& cell, Side support) const;
+
+  Eigen::AlignedBox2d area_;
+  double edge_;
+  Eigen::Vector2i count_;
+  std::array<std::vector<std::vector<Entry>>, 2> cells_;
+  std::array<int, 2> sizes_{0, 0};
+};
+
+}  // namespace halfstep

@@ -1,0 +1,61 @@
+#include "planner/search/step_cost.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "wpg/check.h"
+
+namespace halfstep {
+
+std::vector<double> StepCost::OfElements(const HalfStepSet& set) const {
+  if (kind == CostKind::kSteps) return std::vector<double>(set.placements.size(), 1.0);
+  std::vector<double> costs(set.placements.size(), 2.0 * set.prototype.duration);
+  if (kind == CostKind::kRawDuration) return costs;
+  for (int i = 0; i < set.size(); ++i) {
+    double way = 0.0, turn = 0.0;
+    for (const HalfStep& half_step : {set.Down(i, Side::kLeft), set.Up(i, Side::kLeft)}) {
+      way += (half_step.X_SF.position() - half_step.via().position()).norm();
+      turn += std::fabs(half_step.X_SF.yaw);
+    }
+    costs[static_cast<size_t>(i)] = step_time + time_per_metre * way + time_per_radian * turn;
+  }
+  return costs;
+}
+
+StepReach::StepReach(const HalfStepSet& set, const std::vector<int>& elements,
+                     const std::vector<double>& costs)
+    : least_cost_(std::numeric_limits<double>::infinity()) {
+  HALFSTEP_CHECK(!elements.empty(), "no elements");
+  for (int i : elements) {
+    const Pose2 first = set.Placement(i, Side::kLeft);
+    const Eigen::Matrix2d turned = first.rotation();
+    one_ = std::max(one_, first.position().norm());
+    turn_ = std::max(turn_, std::fabs(first.yaw));
+    least_cost_ = std::min(least_cost_, costs[static_cast<size_t>(i)]);
+    for (int k : elements) {
+      const Eigen::Vector2d second = set.Placement(k, Side::kRight).position();
+      pair_ = std::max(pair_, (first.position() + turned * second).norm());
+    }
+  }
+}
+
+double StepReach::Distance(int n) const { return (n / 2) * pair_ + (n % 2) * one_; }
+
+// Distance(n) ≤ n·pair/2 + (one − pair/2) for every n, since one ≥ pair/2.
+double StepReach::Steps(double distance, double turn) const {
+  const double per_step = 0.5 * pair_;
+  double steps = 0.0;
+  if (distance > 0.0) {
+    const double farther = distance - (one_ - per_step);
+    steps = per_step > 0.0 ? std::max(0.0, farther / per_step)
+                           : std::numeric_limits<double>::infinity();
+  }
+  if (turn > 0.0) {
+    const double turns = turn_ > 0.0 ? turn / turn_ : std::numeric_limits<double>::infinity();
+    steps = std::max(steps, turns);
+  }
+  return steps;
+}
+
+}  // namespace halfstep

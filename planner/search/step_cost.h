@@ -1,0 +1,47 @@
+#pragma once
+
+#include <vector>
+
+#include "planner/search/half_step_set.h"
+
+namespace halfstep {
+
+enum class CostKind { kSteps, kRawDuration, kSmoothedDuration };
+
+/// What a plan costs: the sum over its footsteps of what their elements cost.
+struct StepCost {
+  CostKind kind = CostKind::kSteps;
+  /// kSmoothedDuration: an estimate, to be fitted to smoothed walks. A step takes `step_time` at
+  /// least, and longer when its swing foot travels far or turns: `time_per_metre` times its way on
+  /// the floor from place to via point to place, `time_per_radian` times its turns.
+  double step_time = 1.15;       ///< [s] > 0
+  double time_per_metre = 0.4;   ///< [s/m] ≥ 0
+  double time_per_radian = 0.1;  ///< [s/rad] ≥ 0
+
+  /// Of each element: 1, 2T [s] or the estimate [s]. An element's way is that of its down
+  /// half-step and of the up half-step that follows it.
+  std::vector<double> OfElements(const HalfStepSet& set) const;
+};
+
+/// How far the elements of a set can lead: bounds that no sequence of them exceeds.
+class StepReach {
+ public:
+  /// `elements`: those that are used, not empty.
+  StepReach(const HalfStepSet& set, const std::vector<int>& elements,
+            const std::vector<double>& costs);
+
+  /// No n footsteps take the landing foot farther than this from the first support [m].
+  double Distance(int n) const;
+  /// A number of footsteps below which the landing foot is nearer than `distance` [m] and has
+  /// turned less than `turn` [rad]. Not rounded up: ≤ the least integer.
+  double Steps(double distance, double turn) const;
+  double one() const { return one_; }                ///< the longest element [m]
+  double least_cost() const { return least_cost_; }  ///< of an element
+
+ private:
+  double one_ = 0.0, pair_ = 0.0;  // longest displacement by one element, by two [m]
+  double turn_ = 0.0;              // largest yaw of an element [rad]
+  double least_cost_ = 0.0;
+};
+
+}  // namespace halfstep

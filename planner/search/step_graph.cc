@@ -1,0 +1,112 @@
+#include "planner/search/step_graph.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace halfstep {
+namespace {
+
+std::vector<double> Chosen(const std::vector<double>& all, const std::vector<int>& elements) {
+  std::vector<double> chosen;
+  for (int i : elements) chosen.push_back(all[static_cast<size_t>(i)]);
+  return chosen;
+}
+
+// Room to walk around what stands between the start and the goal.
+Eigen::AlignedBox2d DefaultWorkspace(const PlanRequest& request) {
+  constexpr double kRoom = 2.0;
+  Eigen::AlignedBox2d box(request.goal.X_WG.position());
+  for (const Pose2& sole : request.start) box.extend(sole.position());
+  const Eigen::Vector2d room = Eigen::Vector2d::Constant(kRoom);
+  return {box.min() - room, box.max() + room};
+}
+
+}  // namespace
+
+StepGraph::StepGraph(const PlanRequest& request, std::vector<int> elements)
+    : request_(request),
+      elements_(std::move(elements)),
+      costs_(Chosen(request.cost.OfElements(request.set), elements_)),
+      reach_(request.set, elements_, request.cost.OfElements(request.set)),
+      workspace_(request.workspace.value_or(DefaultWorkspace(request))) {
+  for (Side support : {Side::kLeft, Side::kRight}) {
+    for (int i : elements_) {
+      placements_[static_cast<size_t>(Index(support))].push_back(request.set.Placement(i, support));
+    }
+  }
+}
+
+std::vector<StepState> StepGraph::FreeStarts() const {
+  std::vector<StepState> starts;
+  for (Side support : {Side::kLeft, Side::kRight}) {
+    const Pose2& X_WS = request_.start[static_cast<size_t>(Index(support))];
+    HalfStep up = request_.set.prototype;
+    up.support = support;
+    up.kind = HalfStepKind::kUp;
+    up.X_SF = X_WS.Inverse() * request_.start[static_cast<size_t>(Index(Opposite(support)))];
+    if (!request_.start_is_free || request_.start_is_free(up, X_WS)) {
+      starts.push_back({X_WS, support});
+    }
+  }
+  return starts;
+}
+
+Pose2 StepGraph::Landing(const StepState& from, int k) const {
+  return from.X_WS * placements_[static_cast<size_t>(Index(from.support))][static_cast<size_t>(k)];
+}
+
+void StepGraph::Landings(const StepState& from, std::vector<Pose2>* X_WF) const {
+  const double c = std::cos(from.X_WS.yaw), s = std::sin(from.X_WS.yaw);
+  X_WF->clear();
+  for (const Pose2& X_SF : placements_[static_cast<size_t>(Index(from.support))]) {
+    X_WF->push_back({from.X_WS.x + c * X_SF.x - s * X_SF.y, from.X_WS.y + s * X_SF.x + c * X_SF.y,
+                     from.X_WS.yaw + X_SF.yaw});
+  }
+}
+
+bool StepGraph::DownIsFree(const StepState& from, int k) {
+  if (IsForbidden(from, k)) return false;
+  ++queries_;
+  return request_.query.DownIsFree(elements_[static_cast<size_t>(k)], from.support, from.X_WS);
+}
+
+bool StepGraph::UpIsFree(const StepState& from, int k) {
+  ++queries_;
+  return request_.query.UpIsFree(elements_[static_cast<size_t>(k)], from.support, from.X_WS);
+}
+
+// The middle of the feet is at most half an element away from the foot that landed before the last.
+double StepGraph::SteadySteps(const StepState& from) const {
+  const double distance = goal().Distance(from.X_WS.position()), turn = goal().Turn(from.X_WS.yaw);
+  if (goal().part != GoalPart::kMidFeet) return reach_.Steps(distance, turn);
+  const double before_last = reach_.Steps(distance - 0.5 * reach_.one(), 0.0);
+  return std::max(before_last > 0.0 ? 1.0 + before_last : 0.0, reach_.Steps(0.0, turn));
+}
+
+int StepGraph::LeastSteps(const StepState& from) const {
+  constexpr double kRounding = 1e-9;  // a bound that exceeds an integer by less is that integer
+  constexpr double kMany = 1e6;
+  const double steady = std::min(SteadySteps(from), kMany);
+  int steps = std::max(1, static_cast<int>(std::ceil(steady - kRounding)));
+  if (goal().part == GoalPart::kLeftFoot || goal().part == GoalPart::kRightFoot) {
+    const Side side = goal().part == GoalPart::kLeftFoot ? Side::kLeft : Side::kRight;
+    const bool odd = side != from.support;  // the first footstep is the other foot's
+    if ((steps % 2 == 1) != odd) ++steps;
+  }
+  return steps;
+}
+
+void StepGraph::Forbid(const StepState& from, int k) { forbidden_.push_back({from, k}); }
+
+bool StepGraph::IsForbidden(const StepState& from, int k) const {
+  return std::find(forbidden_.begin(), forbidden_.end(), Edge{from, k}) != forbidden_.end();
+}
+
+std::vector<int> AllElements(const HalfStepSet& set) {
+  std::vector<int> all(static_cast<size_t>(set.size()));
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
+}  // namespace halfstep

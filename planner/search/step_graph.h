@@ -1,0 +1,80 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <vector>
+
+#include "planner/search/footstep_planner.h"
+
+namespace halfstep {
+
+/// The foot `support` stands at X_WS and carries, the other one is at its via point.
+struct StepState {
+  Pose2 X_WS;
+  Side support = Side::kLeft;
+  friend bool operator==(const StepState&, const StepState&) = default;
+};
+
+/// The states between a stance and a goal, and the elements that lead from one to the next: what
+/// all planners of one request search. Counts the queries that it makes.
+/// k is always the place of an element in elements().
+class StepGraph {
+ public:
+  /// `elements` of the set that are used. The request is borrowed.
+  StepGraph(const PlanRequest& request, std::vector<int> elements);
+
+  const std::vector<int>& elements() const { return elements_; }
+  int size() const { return static_cast<int>(elements_.size()); }
+  double cost(int k) const { return costs_[static_cast<size_t>(k)]; }
+  const StepReach& reach() const { return reach_; }
+  const GoalRegion& goal() const { return request_.goal; }
+  const Eigen::AlignedBox2d& workspace() const { return workspace_; }
+
+  /// The states after an up half-step from the start that is free: none, one or two.
+  std::vector<StepState> FreeStarts() const;
+
+  /// Where element k lands from a state, X_WF; the state after its up half-step.
+  Pose2 Landing(const StepState& from, int k) const;
+  StepState After(const StepState& from, int k) const {
+    return {Landing(from, k), Opposite(from.support)};
+  }
+  /// Of all elements at once, the very same poses.
+  void Landings(const StepState& from, std::vector<Pose2>* X_WF) const;
+
+  /// Not forbidden and free.
+  bool DownIsFree(const StepState& from, int k);
+  bool UpIsFree(const StepState& from, int k);
+  /// Whether landing there ends the walk.
+  bool IsGoal(const StepState& from, const Pose2& X_WF) const {
+    return goal().ContainsLanding(Opposite(from.support), X_WF, from.X_WS);
+  }
+
+  /// Lower bounds of the footsteps from a state to the goal: the least integer, and a number below
+  /// it that falls steadily towards the goal.
+  int LeastSteps(const StepState& from) const;
+  double SteadySteps(const StepState& from) const;
+
+  void Forbid(const StepState& from, int k);
+  bool IsForbidden(const StepState& from, int k) const;
+  std::int64_t queries() const { return queries_; }
+
+ private:
+  struct Edge {
+    StepState from;
+    int k;
+    friend bool operator==(const Edge&, const Edge&) = default;
+  };
+  const PlanRequest& request_;
+  std::vector<int> elements_;
+  std::vector<double> costs_;                     // by k
+  std::array<std::vector<Pose2>, 2> placements_;  // by support and k
+  StepReach reach_;
+  Eigen::AlignedBox2d workspace_;
+  std::vector<Edge> forbidden_;
+  std::int64_t queries_ = 0;
+};
+
+/// Every element of a set.
+std::vector<int> AllElements(const HalfStepSet& set);
+
+}  // namespace halfstep

@@ -1,0 +1,145 @@
+#include "planner/search/step_tree.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace halfstep {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// Blocked elements that one sample may try [count]. More: the tree clings to walls; fewer: it
+/// needs more samples to find the way round.
+constexpr int kTriesPerSample = 8;
+/// A sample without a yaw that is farther than this is approached face forward [m].
+constexpr double kFaceForwardBeyond = 0.6;
+
+}  // namespace
+
+StepTree::StepTree(const TreeTarget& target, const PoseCells& cells, StepGraph* graph,
+                   PlanMonitor* monitor)
+    : target_(target),
+      cells_(cells),
+      graph_(*graph),
+      monitor_(*monitor),
+      buckets_(graph->workspace()) {}
+
+bool StepTree::Hits(const StepState& from, const Pose2& X_WF) const {
+  if (!target_.state) return graph_.IsGoal(from, X_WF);
+  return target_.state->support != from.support &&
+         StateDistance(X_WF, target_.state->X_WS, true) <= target_.near;
+}
+
+double StepTree::LeastCostFrom(const StepState& state) const {
+  const double each = graph_.reach().least_cost();
+  if (!target_.state) return each * graph_.LeastSteps(state);
+  const double left =
+      (state.X_WS.position() - target_.state->X_WS.position()).norm() - target_.near;
+  return each * std::max(1.0, graph_.reach().Steps(left, 0.0));
+}
+
+void StepTree::Arrive(int index, int k) {
+  arrival_ = {.start = {}, .ks = {k}, .cost = 0.0};
+  arrival_.cost = nodes_[static_cast<size_t>(index)].cost + graph_.cost(k);
+  for (; index >= 0; index = nodes_[static_cast<size_t>(index)].parent) {
+    const Node& node = nodes_[static_cast<size_t>(index)];
+    arrival_.start = node.state;
+    if (node.k >= 0) arrival_.ks.push_back(node.k);
+  }
+  std::reverse(arrival_.ks.begin(), arrival_.ks.end());
+}
+
+StepTree::Edge StepTree::Try(int index, int k, const Pose2& X_WF) {
+  Node& node = nodes_[static_cast<size_t>(index)];
+  if (node.tried[static_cast<size_t>(k)]) return Edge::kUseless;
+  node.tried[static_cast<size_t>(k)] = true;
+  --node.untried;
+  const StepState from = node.state, after{X_WF, Opposite(from.support)};
+  const double cost = node.cost + graph_.cost(k);
+  if (Hits(from, X_WF)) {
+    if (cost >= target_.cost_limit) return Edge::kUseless;
+    if (!graph_.DownIsFree(from, k)) return Edge::kBlocked;
+    if (target_.state && !graph_.UpIsFree(from, k)) return Edge::kBlocked;
+    Arrive(index, k);
+    return Edge::kArrived;
+  }
+  if (!graph_.workspace().contains(X_WF.position()) || reached_.contains(cells_.KeyOf(after)) ||
+      cost + LeastCostFrom(after) >= target_.cost_limit) {
+    return Edge::kUseless;
+  }
+  if (!graph_.DownIsFree(from, k) || !graph_.UpIsFree(from, k)) return Edge::kBlocked;
+  return Add(after, index, k, cost) == Growth::kArrived ? Edge::kArrived : Edge::kAdded;
+}
+
+StepTree::Growth StepTree::AddRoot(const StepState& root, double cost) {
+  return Add(root, -1, -1, cost);
+}
+
+StepTree::Growth StepTree::Add(const StepState& state, int parent, int k, double cost) {
+  if (!reached_.insert(cells_.KeyOf(state)).second) return Growth::kTrapped;
+  const auto count = static_cast<size_t>(graph_.size());
+  const int index = static_cast<int>(nodes_.size());
+  nodes_.push_back({state, parent, k, cost, graph_.size(), std::vector<bool>(count, false)});
+  buckets_.Insert(index, state);
+  monitor_.CountNode();
+  return LookForTarget(index);
+}
+
+// Elements of a new node that land on the target. `landings_` may be in use by the caller.
+StepTree::Growth StepTree::LookForTarget(int index) {
+  const StepState from = nodes_[static_cast<size_t>(index)].state;
+  const bool near = target_.state
+                        ? (from.X_WS.position() - target_.state->X_WS.position()).norm() <=
+                              graph_.reach().one() + target_.near
+                        : graph_.LeastSteps(from) <= 1;
+  if (!near) return Growth::kAdded;
+  for (int k = 0; k < graph_.size(); ++k) {
+    const Pose2 X_WF = graph_.Landing(from, k);
+    if (Hits(from, X_WF) && Try(index, k, X_WF) == Edge::kArrived) return Growth::kArrived;
+  }
+  return Growth::kAdded;
+}
+
+StepTree::Growth StepTree::Grow(const TreeSample& sample) {
+  const bool counts = sample.yaw == TreeSample::Yaw::kCounts;
+  const int index = buckets_.FindNearest(sample.X_WF, Opposite(sample.side), counts);
+  if (index < 0) return Growth::kNothingLeft;
+  const StepState from = nodes_[static_cast<size_t>(index)].state;
+  Pose2 wanted = sample.X_WF;
+  const Eigen::Vector2d way = wanted.position() - from.X_WS.position();
+  const bool face_forward = !counts && way.norm() > kFaceForwardBeyond;
+  if (face_forward) wanted.yaw = std::atan2(way.y(), way.x());
+  const bool with_yaw = face_forward || sample.yaw != TreeSample::Yaw::kFree;
+
+  graph_.Landings(from, &landings_);
+  distances_.clear();
+  for (size_t k = 0; k < landings_.size(); ++k) {
+    distances_.push_back(nodes_[static_cast<size_t>(index)].tried[k]
+                             ? kInfinity
+                             : StateDistance(landings_[k], wanted, with_yaw));
+  }
+  Growth growth = Growth::kTrapped;
+  for (int blocked = 0; growth == Growth::kTrapped && blocked < kTriesPerSample;) {
+    const auto best = std::min_element(distances_.begin(), distances_.end());
+    if (*best == kInfinity) break;
+    *best = kInfinity;
+    const auto k = static_cast<int>(best - distances_.begin());
+    switch (Try(index, k, landings_[static_cast<size_t>(k)])) {
+      case Edge::kUseless:
+        break;
+      case Edge::kBlocked:
+        ++blocked;
+        break;
+      case Edge::kAdded:
+        growth = Growth::kAdded;
+        break;
+      case Edge::kArrived:
+        growth = Growth::kArrived;
+        break;
+    }
+  }
+  if (nodes_[static_cast<size_t>(index)].untried == 0) buckets_.Remove(index, from);
+  return growth;
+}
+
+}  // namespace halfstep

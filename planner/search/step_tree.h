@@ -1,0 +1,85 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <unordered_set>
+#include <vector>
+
+#include "planner/search/plan_search.h"
+#include "planner/search/pose_cells.h"
+#include "planner/search/state_buckets.h"
+
+namespace halfstep {
+
+/// What a tree grows to: the goal of its graph, or a state, closely.
+struct TreeTarget {
+  std::optional<StepState> state = {};                          ///< none: the goal
+  double near = 0.08;                                           ///< as StateDistance with yaw [m]
+  double cost_limit = std::numeric_limits<double>::infinity();  ///< to get there, more is no use
+};
+
+/// Where a tree shall grow to: a foot `side` near X_WF.
+struct TreeSample {
+  enum class Yaw {
+    kCounts,
+    kCountsWhenNear,  ///< while it is far, facing it counts
+    kFree,            ///< while it is far, facing it counts
+  };
+  Pose2 X_WF;
+  Side side = Side::kLeft;
+  Yaw yaw = Yaw::kCounts;
+};
+
+/// A tree of states over free edges. Every node tries each of its elements once, in the order in
+/// which samples ask for them, and is left alone after the last.
+class StepTree {
+ public:
+  StepTree(const TreeTarget& target, const PoseCells& cells, StepGraph* graph,
+           PlanMonitor* monitor);
+
+  enum class Growth { kAdded, kTrapped, kNothingLeft, kArrived };
+
+  /// `cost`: of getting to the root.
+  Growth AddRoot(const StepState& root, double cost);
+  /// Lets the node nearest to the sample land as near to it as it can. kNothingLeft: no node can
+  /// step with that foot any more.
+  Growth Grow(const TreeSample& sample);
+  bool IsExhausted() const {
+    return buckets_.size(Side::kLeft) == 0 && buckets_.size(Side::kRight) == 0;
+  }
+
+  /// After kArrived: from the root to the target. Its last edge has a free up half-step if the
+  /// target is a state.
+  const StepPlan& arrival() const { return arrival_; }
+
+ private:
+  struct Node {
+    StepState state;
+    int parent;
+    int k;
+    double cost;
+    int untried;
+    std::vector<bool> tried;
+  };
+  enum class Edge { kUseless, kBlocked, kAdded, kArrived };
+
+  bool Hits(const StepState& from, const Pose2& X_WF) const;
+  double LeastCostFrom(const StepState& state) const;
+  Edge Try(int index, int k, const Pose2& X_WF);
+  Growth Add(const StepState& state, int parent, int k, double cost);
+  Growth LookForTarget(int index);
+  void Arrive(int index, int k);
+
+  TreeTarget target_;
+  PoseCells cells_;
+  StepGraph& graph_;
+  PlanMonitor& monitor_;
+  std::vector<Node> nodes_;
+  StateBuckets buckets_;
+  std::unordered_set<std::uint64_t> reached_;
+  StepPlan arrival_;
+  std::vector<Pose2> landings_;
+  std::vector<double> distances_;
+};
+
+}  // namespace halfstep

@@ -1,0 +1,48 @@
+#include "planner/search/termination.h"
+
+#include <utility>
+
+namespace halfstep {
+
+Termination AtTime(Clock clock, double end) {
+  return [clock = std::move(clock), end](const PlanProgress&) {
+    return clock() >= end ? StopReason::kBudget : StopReason::kGoOn;
+  };
+}
+
+Termination AfterNodes(std::int64_t nodes) {
+  return [nodes](const PlanProgress& progress) {
+    return progress.nodes >= nodes ? StopReason::kBudget : StopReason::kGoOn;
+  };
+}
+
+Termination AtFirstPlan() {
+  return [](const PlanProgress& progress) {
+    return progress.has_plan() ? StopReason::kEnough : StopReason::kGoOn;
+  };
+}
+
+Termination WhenNotImprovedFor(std::int64_t nodes) {
+  return [nodes](const PlanProgress& progress) {
+    return progress.has_plan() && progress.nodes_since_improvement >= nodes ? StopReason::kEnough
+                                                                            : StopReason::kGoOn;
+  };
+}
+
+Termination OnRequest(std::stop_token token) {
+  return [token = std::move(token)](const PlanProgress&) {
+    return token.stop_requested() ? StopReason::kInterrupted : StopReason::kGoOn;
+  };
+}
+
+Termination AnyOf(std::vector<Termination> terminations) {
+  return [terminations = std::move(terminations)](const PlanProgress& progress) {
+    for (const Termination& termination : terminations) {
+      const StopReason reason = termination(progress);
+      if (reason != StopReason::kGoOn) return reason;
+    }
+    return StopReason::kGoOn;
+  };
+}
+
+}  // namespace halfstep

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "planner/swept/box_tree.h"
+#include "planner/swept/voxel_grid.h"
+#include "wpg/motion/half_step.h"
+#include "wpg/motion/lipm.h"
+#include "wpg/motion/motion_bounds.h"
+#include "wpg/robot/robot_model.h"
+
+namespace halfstep {
+
+/// How finely a swept volume is baked. Coarser: smaller and sooner baked, and more free half-steps
+/// refused; never unsound.
+struct SweptVolumeOptions {
+  double cell = 0.01;            ///< edge of the cells that the volume is made of [m], 1e-3 … 0.1
+  double displacement = 0.0025;  ///< what a body may move within an interval of time [m], > 0
+  double clearance = 0.005;  ///< δ: what misses the volume is at least δ from the robot [m], ≥ 0
+  /// Intervals are not cut below this [s]. A body that moves farther is inflated by what it moves;
+  /// a leg whose motion has no bound even so (nearly stretched) has no swept volume.
+  double shortest_interval = 1e-4;
+  friend bool operator==(const SweptVolumeOptions&, const SweptVolumeOptions&) = default;
+};
+
+/// Bakes swept volumes of one robot. Const and thread-safe.
+class SweptVolumeBaker {
+ public:
+  /// `robot` is borrowed and must outlive this.
+  SweptVolumeBaker(const RobotModel& robot, const SweptVolumeOptions& options);
+
+  /// A body as it is posed in the middle of an interval of time, and how far any point of it can be
+  /// from there within the interval.
+  struct Placement {
+    size_t body = 0;
+    Eigen::Isometry3d X_SBody = Eigen::Isometry3d::Identity();
+    double displacement = 0.0;  ///< [m]
+  };
+  /// Intervals that cover all of the half-step for every body of the robot. None when the motion
+  /// has no bound somewhere: a leg does not reach, or is nearly stretched.
+  std::optional<std::vector<Placement>> Cover(const HalfStep& half_step, const Lipm& lipm) const;
+
+  /// Contains every point that is within `clearance` of a body of the robot at any time of the
+  /// half-step, in the frame S of its support sole; and the mirror images of those of the mirrored
+  /// half-step, so that one volume serves both sides of a robot that is not quite symmetric. None
+  /// as for Cover, of either. Source: planner/README.md, "Swept volumes".
+  std::optional<BoxTree> Bake(const HalfStep& half_step, const Lipm& lipm) const;
+
+  const SweptVolumeOptions& options() const { return options_; }
+
+ private:
+  struct Outline {
+    Eigen::Matrix3Xd normals;  // in the body's link frame, unit
+    Eigen::VectorXd offsets;   // of the body's supporting planes [m]
+  };
+  // Around a placed body and all that is near enough; its mirror image when `mirrored`.
+  HalfSpaces Inflated(const Placement& placement, bool mirrored) const;
+
+  const RobotModel& robot_;
+  SweptVolumeOptions options_;
+  MotionBounds bounds_;
+  std::vector<Outline> outlines_;
+};
+
+}  // namespace halfstep

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <stop_token>
+
+#include "planner/swept/swept_volume.h"
+#include "planner/swept/swept_volumes.h"
+
+namespace halfstep {
+
+/// The two volumes of one element of a set.
+struct ElementVolumes {
+  std::optional<BoxTree> down, up;
+};
+
+/// How the work of a bake is done; none of it changes the result.
+struct BakeHooks {
+  int threads = 0;            ///< 0: as many as the machine has
+  std::stop_token stop = {};  ///< ends the bake early
+  /// Told the fraction done, never by two threads at once; false stops the bake. May be empty.
+  std::function<bool(double)> progress = {};
+  /// An element that was baked before, or none; and where to put one that was baked now. Called by
+  /// several threads at once. May be empty.
+  std::function<std::optional<ElementVolumes>(int)> recall = {};
+  std::function<void(int, const ElementVolumes&)> keep = {};
+};
+
+/// Bakes all elements of a set, or none when stopped. What a hook throws ends the bake and is
+/// thrown again.
+std::optional<SweptVolumes> BakeSweptVolumes(const RobotModel& robot, const Lipm& lipm,
+                                             const HalfStepSet& set,
+                                             const SweptVolumeOptions& options,
+                                             const BakeHooks& hooks = {});
+
+}  // namespace halfstep

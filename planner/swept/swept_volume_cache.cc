@@ -1,0 +1,186 @@
+#include "planner/swept/swept_volume_cache.h"
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <mutex>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "planner/swept/swept_volume_bytes.h"
+#include "wpg/files/checked_file.h"
+#include "wpg/files/sha256.h"
+
+namespace halfstep {
+namespace {
+
+constexpr int kFormat = 1;     // of the file: change when the bytes change
+constexpr int kGenerator = 3;  // change when the same input bakes another volume
+
+std::string Exactly(double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%a", value);
+  return text;
+}
+
+template <typename Matrix>
+void Append(const Matrix& matrix, std::string* text) {
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+    for (Eigen::Index j = 0; j < matrix.cols(); ++j) *text += Exactly(matrix(i, j)) + " ";
+  }
+  *text += "\n";
+}
+
+// Everything of a robot that moves its bodies' points.
+std::string RobotText(const RobotModel& robot) {
+  std::string text;
+  for (const Leg& leg : robot.legs) {
+    for (const LegJoint& joint : leg.joints) {
+      Append(joint.axis_B, &text);
+      Append(joint.point_B, &text);
+      Append(joint.X_BLink.matrix(), &text);
+    }
+    Append(leg.hip_B, &text);
+    Append(leg.ankle_B, &text);
+    Append(leg.X_BSole.matrix(), &text);
+    for (int sign : {leg.branch.knee, leg.branch.ankle, leg.branch.hip}) {
+      text += std::to_string(sign) + " ";
+    }
+  }
+  for (double value : {robot.waist_height, robot.com_height, robot.com_x_B}) {
+    text += Exactly(value) + "\n";
+  }
+  for (const RobotBody& body : robot.bodies) {
+    text += std::to_string(body.leg) + " " + std::to_string(body.link) + "\n";
+    Append(body.shape.vertices, &text);
+    Append(body.shape.normals, &text);
+    text += Exactly(body.shape.disc_radius) + " " + Exactly(body.shape.ball_radius) + "\n";
+  }
+  return text;
+}
+
+// The elements that a bake kept one by one, once the whole file is there; also those that a bake
+// left which was killed between the two.
+void RemoveParts(const std::string& cache_path) {
+  std::error_code ignored;
+  std::filesystem::remove_all(cache_path + ".parts", ignored);
+}
+
+std::string PartHeader(const std::string& provenance, int element) {
+  return provenance + "element " + std::to_string(element) + "\n";
+}
+
+}  // namespace
+
+std::string DefaultCacheFolder() {
+  if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache != nullptr && *cache == '/') {
+    return std::string(cache) + "/halfstep";
+  }
+  const char* home = std::getenv("HOME");
+  return home != nullptr && *home == '/' ? std::string(home) + "/.cache/halfstep" : "";
+}
+
+std::string SweptVolumeProvenance(const RobotModel& robot, const Lipm& lipm, const HalfStepSet& set,
+                                  const SweptVolumeOptions& options) {
+  std::string placements;
+  for (const Pose2& X_SF : set.placements)
+    Append(Eigen::Vector3d(X_SF.x, X_SF.y, X_SF.yaw), &placements);
+  std::string text = "swept volumes, format " + std::to_string(kFormat) + "\n";
+  const auto line = [&](const char* key, const std::string& value) {
+    text += std::string(key) + " " + value + "\n";
+  };
+  line("generator", std::to_string(kGenerator));
+  line("robot", Sha256(RobotText(robot)));
+  line("lipm_com_height", Exactly(lipm.com_height));
+  line("lipm_omega", Exactly(lipm.omega()));
+  line("duration", Exactly(set.prototype.duration));
+  line("via_height", Exactly(set.prototype.via_height));
+  line("via_lateral", Exactly(set.prototype.via_lateral));
+  line("shift", Exactly(set.prototype.shape.shift));
+  line("horizontal_delay", Exactly(set.prototype.shape.horizontal_delay));
+  line("elements", std::to_string(set.size()));
+  line("placements", Sha256(placements));
+  line("cell", Exactly(options.cell));
+  line("displacement", Exactly(options.displacement));
+  line("clearance", Exactly(options.clearance));
+  line("shortest_interval", Exactly(options.shortest_interval));
+  return text;
+}
+
+std::string PartPath(const std::string& cache_path, int element) {
+  return cache_path + ".parts/" + std::to_string(element);
+}
+
+CachedVolumes LoadOrBakeSweptVolumes(const RobotModel& robot, const Lipm& lipm,
+                                     const HalfStepSet& set, const SweptVolumeOptions& options,
+                                     const std::string& folder, BakeHooks hooks) {
+  const std::string provenance = SweptVolumeProvenance(robot, lipm, set, options);
+  CachedVolumes result;
+  if (folder.empty()) {
+    result.volumes = BakeSweptVolumes(robot, lipm, set, options, hooks);
+    result.baked = result.volumes.has_value();
+    result.not_kept =
+        "swept volumes are not kept: neither XDG_CACHE_HOME nor HOME is the path of a folder from "
+        "/ (valid: one of them, or the config's swept_volumes.cache)";
+    return result;
+  }
+  result.path = (std::filesystem::path(folder) /
+                 (robot.name + "-" + Sha256(provenance).substr(0, 16) + ".swept"))
+                    .string();
+  {
+    CheckedFile file = ReadCheckedFile(result.path, provenance);
+    result.refused = file.refused;
+    if (file.body) {
+      const size_t size = static_cast<size_t>(set.size());
+      if (auto volumes = ParseVolumes(*file.body, 2 * size, options.cell)) {
+        result.volumes = {.set = set, .down = {}, .up = {}};
+        for (size_t i = 0; i < size; ++i) {
+          result.volumes->down.push_back(std::move((*volumes)[2 * i]));
+          result.volumes->up.push_back(std::move((*volumes)[2 * i + 1]));
+        }
+        RemoveParts(result.path);
+        return result;
+      }
+      result.refused = result.path + ": refused: its volumes make no sense";
+    }
+  }
+  std::mutex mutex;  // of not_kept
+  const auto try_to_write = [&](const std::string& path, const std::string& header,
+                                const std::string& body) {
+    try {
+      WriteCheckedFile(path, header, body);
+      return true;
+    } catch (const std::runtime_error& error) {
+      const std::lock_guard lock(mutex);
+      if (result.not_kept.empty()) result.not_kept = error.what();
+      return false;
+    }
+  };
+  hooks.recall = [&](int i) -> std::optional<ElementVolumes> {
+    const CheckedFile part = ReadCheckedFile(PartPath(result.path, i), PartHeader(provenance, i));
+    if (!part.body) return std::nullopt;
+    auto volumes = ParseVolumes(*part.body, 2, options.cell);
+    if (!volumes) return std::nullopt;
+    return ElementVolumes{std::move((*volumes)[0]), std::move((*volumes)[1])};
+  };
+  hooks.keep = [&](int i, const ElementVolumes& element) {
+    try_to_write(PartPath(result.path, i), PartHeader(provenance, i),
+                 VolumeBytes(element.down) + VolumeBytes(element.up));
+  };
+  result.volumes = BakeSweptVolumes(robot, lipm, set, options, hooks);
+  if (!result.volumes) return result;
+  result.baked = true;
+  std::string body;
+  for (size_t i = 0; i < result.volumes->down.size(); ++i) {
+    body += VolumeBytes(result.volumes->down[i]);
+    body += VolumeBytes(result.volumes->up[i]);
+  }
+  // Another bake may have removed the parts' folder under us; only the whole file matters.
+  result.not_kept.clear();
+  if (try_to_write(result.path, provenance, body)) RemoveParts(result.path);
+  return result;
+}
+
+}  // namespace halfstep

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <memory>
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "planner/collision/mesh_interior.h"
+#include "planner/scene/no_step_areas.h"
+#include "planner/scene/scene.h"
+#include "planner/search/half_step_query.h"
+#include "planner/swept/box_tree_query.h"
+#include "planner/swept/swept_volumes.h"
+
+namespace halfstep {
+
+/// Swept volumes against a scene. A half-step is free when its volume meets no obstacle, and then
+/// the robot is at least the baked clearance from all of them for all t. Queries are const and
+/// thread-safe; SetObstaclePose is not.
+/// Exact for boxes, spheres, capsules, cylinders and triangles, all but for rounding (1e-5); a mesh
+/// is its surface and what it winds around.
+class SweptVolumeQuery : public HalfStepQuery {
+ public:
+  /// `volumes` is borrowed and must outlive this. A landing sole, of the outline
+  /// RobotModel::sole_outline (2×k) [m], keeps `no_step` ≥ 0 [m] from the no-step areas and touches
+  /// none. Precondition: finite poses, volumes for each element.
+  SweptVolumeQuery(const SweptVolumes& volumes, const Eigen::Matrix2Xd& sole_outline,
+                   const Scene& scene, double no_step = 0.0);
+
+  bool DownIsFree(int i, Side support, const Pose2& X_WS) const override;
+  bool UpIsFree(int i, Side support, const Pose2& X_WS) const override;
+
+  /// A distance [m] from the volume (so from the robot: the baked clearance more) that is free of
+  /// obstacles in all directions of the axes; 0 when the half-step is not free. Found by halving to
+  /// 1 mm; at most `horizon` [m]. No-step areas do not count.
+  double DownClearance(int i, Side support, const Pose2& X_WS, double horizon) const;
+  double UpClearance(int i, Side support, const Pose2& X_WS, double horizon) const;
+
+  /// Moves one obstacle of the scene; the others stay as they are prepared.
+  void SetObstaclePose(int obstacle, const Eigen::Isometry3d& X_WO);
+
+ private:
+  struct Mesh {
+    TriangleTree triangles;
+    MeshInterior interior;
+  };
+  struct Prepared {
+    OrientedBox around;  // in its own frame; of a box, itself
+    std::variant<std::monostate, RoundBody, std::shared_ptr<const Mesh>> shape;  // none: the box
+    OrientedBox around_W;
+    Eigen::Isometry3d X_WO;
+  };
+  // Upright cylinders around four obstacles, side by side.
+  struct Cylinders {
+    float x[4], y[4], radius[4], z[4], half_height[4];
+  };
+  // A volume's bounds, apart from its tree: most queries read nothing else.
+  struct Bounds {
+    Eigen::Vector3d middle, half;
+    const BoxNode* root = nullptr;  // to be fetched while obstacles are culled
+  };
+  struct Placed {
+    const std::optional<BoxTree>& volume;
+    const Bounds& bounds;
+    bool mirrored;
+    Pose2 X_WS;
+    double cos, sin;  // of its yaw
+  };
+
+  static Prepared Prepare(const Obstacle& obstacle);
+  static std::vector<Bounds> BoundsOf(const std::vector<std::optional<BoxTree>>& volumes);
+  Placed Down(int i, Side support, const Pose2& X_WS) const;
+  Placed Up(int i, Side support, const Pose2& X_WS) const;
+  bool IsFree(const Placed& placed, double extra) const;
+  bool MeetsObstacle(const BoxTree& tree, const Placed& placed, const Prepared& obstacle,
+                     double extra) const;
+  double Clearance(const Placed& placed, double horizon) const;
+
+  const SweptVolumes& volumes_;
+  std::vector<Bounds> down_bounds_, up_bounds_;
+  std::vector<Prepared> obstacles_;
+  std::vector<Cylinders> cylinders_;
+  double farthest_ = 0.0;  // coordinate of an obstacle [m]
+  NoStepAreas areas_;
+  double no_step_ = 0.0;
+};
+
+}  // namespace halfstep

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "planner/search/half_step_set.h"
+#include "planner/swept/box_tree.h"
+
+namespace halfstep {
+
+/// The swept volumes of a set: of its down and of its up half-steps, as they are on a left support;
+/// on a right one their mirror images.
+/// None: the motion has no bound; such a half-step is never free.
+struct SweptVolumes {
+  HalfStepSet set;
+  std::vector<std::optional<BoxTree>> down;  ///< of set.Down(i, Side::kLeft)
+  std::vector<std::optional<BoxTree>> up;    ///< of set.Up(i, Side::kRight), on a left support
+};
+
+}  // namespace halfstep

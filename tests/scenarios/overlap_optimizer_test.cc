@@ -1,0 +1,313 @@
+// The programs and the optimizer on shipped experiments.
+
+#include "smoothing/methods/overlap_optimizer.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <stop_token>
+#include <utility>
+
+#include "opt/adapters/solver_registry.h"
+#include "smoothing/methods/dichotomy.h"
+#include "smoothing/methods/pareto.h"
+#include "smoothing/methods/path_rules.h"
+#include "smoothing/proof/certified_feasibility.h"
+#include "tests/scenarios/load_experiment.h"
+#include "tests/smoothing/fake_feasibility.h"
+#include "tests/smoothing/test_walks.h"
+
+namespace halfstep {
+namespace {
+
+OptimizerOptions Quick(const std::string& solver) {
+  OptimizerOptions options;
+  options.solver = solver;
+  options.program.heights = options.program.durations = true;
+  options.program.table.instants = 8;
+  options.rounds = 2;
+  options.max_iterations = 15;
+  options.deadline = 20;
+  options.tolerance = 0.01;
+  return options;
+}
+
+std::string ASolver() {
+  for (const char* name : {"ipopt", "halfstep/barrier", "nlopt/ccsaq"}) {
+    if (opt::MakeSolver(name)->available()) return name;
+  }
+  return "";
+}
+
+class OptimizerTest : public testing::Test {
+ protected:
+  const Experiment e_ = LoadExperiment("fig3_two_half_steps");
+  const MarginEvaluator evaluator_{e_.robot, e_.scene, e_.config.smoothing.limits};
+  const CertifiedFeasibility test_{evaluator_, {}};
+};
+
+TEST_F(OptimizerTest, IsNeverWorseThanTheDichotomyAndAllItAcceptsIsCertifiedOnItsOwn) {
+  const SmoothingResult dichotomy = Dichotomy(e_.sequence, test_, {.tolerance = 0.01});
+  const CertifiedFeasibility independent(evaluator_, {});
+  MarginEvaluator::Scratch scratch = evaluator_.MakeScratch();
+  size_t walks = 0;
+  for (const std::string& solver : {ASolver(), std::string("halfstep/sqp")}) {
+    std::vector<HomotopyParameters> accepted;
+    OptimizerOptions options = Quick(solver);
+    options.rounds = 5;
+    options.on_accept = [&accepted](const HomotopyParameters& p) { accepted.push_back(p); };
+    const SmoothingResult result = OptimizeOverlaps(e_.sequence, test_, options);
+    EXPECT_EQ(result.ending, opt::Ending::kLimit) << result.message;  // of rounds
+    EXPECT_LT(DurationOf(result.parameters), DurationOf(dichotomy.parameters) - 0.3) << solver;
+    accepted.push_back(result.parameters);
+    walks += accepted.size();
+    for (const HomotopyParameters& parameters : accepted) {
+      const SuperposedWalk walk(e_.sequence, parameters);
+      EXPECT_EQ(independent.Check(walk, {0.0, walk.duration()}, &scratch).verdict,
+                Verdict::kFeasible);
+    }
+    double incumbent = 1e9;
+    for (const SmoothingIterate& iterate : result.iterates) {
+      EXPECT_LE(iterate.incumbent_duration, incumbent + 1e-9);
+      incumbent = iterate.incumbent_duration;
+    }
+  }
+  EXPECT_GT(walks, 5u);
+}
+
+// The dichotomy before the search is coarse, and where a search finds nothing that would show.
+TEST_F(OptimizerTest, WithoutASearchItEndsWhereAFineDichotomyEnds) {
+  if (ASolver().empty()) GTEST_SKIP() << "no solver";
+  OptimizerOptions options = Quick(ASolver());
+  options.deadline = 0.0;
+  options.tolerance = 0.001;
+  const SmoothingResult dichotomy = Dichotomy(e_.sequence, test_, {.tolerance = 0.001});
+  const SmoothingResult result = OptimizeOverlaps(e_.sequence, test_, options);
+  EXPECT_LE(DurationOf(result.parameters), DurationOf(dichotomy.parameters));
+  EXPECT_EQ(result.ending, opt::Ending::kNotRun);
+  EXPECT_EQ(result.message,
+            "the deadline passed before " + ASolver() + " was called; the walk is a dichotomy's");
+}
+
+TEST_F(OptimizerTest, ASolverThatRefusesTheProgramIsNotCreditedWithTheDichotomysWalk) {
+  if (!opt::MakeSolver("nlopt/bobyqa")->available()) GTEST_SKIP() << "no solver";
+  const SmoothingResult dichotomy = Dichotomy(e_.sequence, test_, {.tolerance = 0.01});
+  for (const ProgramKind kind :
+       {ProgramKind::kFastest, ProgramKind::kSmooth, ProgramKind::kSafest}) {
+    OptimizerOptions options = Quick("nlopt/bobyqa");
+    options.program.kind = kind;
+    const SmoothingResult result = OptimizeOverlaps(e_.sequence, test_, options);
+    EXPECT_EQ(result.ending, opt::Ending::kInvalidInput) << result.message;
+    EXPECT_THAT(result.message, testing::HasSubstr("nlopt/bobyqa refused the program; nothing of "
+                                                   "its own was better and proved"));
+    EXPECT_TRUE(result.feasible);
+    EXPECT_NEAR(DurationOf(result.parameters), DurationOf(dichotomy.parameters), 0.01);
+  }
+  EXPECT_EQ(ParetoCurve(e_.sequence, test_, Quick("nlopt/bobyqa"), {.points = 2}).ending,
+            opt::Ending::kInvalidInput);
+}
+
+// Whatever a solver proposes is refused but the planned motion.
+TEST_F(OptimizerTest, WithoutAProofOfAnythingNewItDidNotImprove) {
+  const HomotopyParameters planned = PlannedMotion(e_.sequence);
+  const FakeFeasibility nothing_else(evaluator_, [&](const HomotopyParameters& p) {
+    return p == planned ? Verdict::kFeasible : Verdict::kViolated;
+  });
+  const SmoothingResult result = OptimizeOverlaps(e_.sequence, nothing_else, Quick("halfstep/sqp"));
+  EXPECT_EQ(result.ending, opt::Ending::kNoImprovement) << result.message;
+  EXPECT_EQ(result.parameters, planned);
+  EXPECT_THAT(result.message, testing::HasSubstr("the walk is a dichotomy's"));
+}
+
+TEST_F(OptimizerTest, StoppedAtAnyMomentItKeepsACertifiedWalk) {
+  if (ASolver().empty()) GTEST_SKIP() << "no solver";
+  MarginEvaluator::Scratch scratch = evaluator_.MakeScratch();
+  for (double moment : {0.0, 0.1, 0.3}) {
+    std::stop_source source;
+    const auto stop = [&](double done) {
+      if (done >= moment) source.request_stop();
+    };
+    const SmoothingResult result =
+        OptimizeOverlaps(e_.sequence, test_, Quick(ASolver()), stop, source.get_token());
+    if (moment < 0.2) {  // within the dichotomy
+      EXPECT_EQ(result.ending, opt::Ending::kNotRun) << result.message;
+    } else {
+      EXPECT_EQ(result.ending, opt::Ending::kInterrupted) << result.message;
+    }
+    EXPECT_THAT(result.message, testing::HasSubstr("stopped from outside"));
+    const SuperposedWalk walk(e_.sequence, result.parameters);
+    EXPECT_EQ(test_.Check(walk, {0.0, walk.duration()}, &scratch).verdict, Verdict::kFeasible);
+    EXPECT_LE(walk.duration(), DurationOf(PlannedMotion(e_.sequence)));
+  }
+}
+
+// Once a candidate that misses what is demanded was "proved" with lowered demands, for want of a
+// walk within the limit.
+TEST_F(OptimizerTest, SafestWithinLessThanTheDichotomysDurationStillKeepsWhatIsDemanded) {
+  if (ASolver().empty()) GTEST_SKIP() << "no solver";
+  const SmoothingResult dichotomy = Dichotomy(e_.sequence, test_, {.tolerance = 0.01});
+  const double own = DurationOf(dichotomy.parameters);
+  MarginEvaluator::Scratch scratch = evaluator_.MakeScratch();
+  OptimizerOptions options = Quick(ASolver());
+  options.program.kind = ProgramKind::kSafest;
+  for (const double part : {0.75, 0.3}) {
+    options.duration_limit = part * own;
+    const SmoothingResult result = OptimizeOverlaps(e_.sequence, test_, options);
+    const SuperposedWalk walk(e_.sequence, result.parameters);
+    EXPECT_EQ(test_.Check(walk, {0.0, walk.duration()}, &scratch).verdict, Verdict::kFeasible);
+    // A third of the dichotomy's time is faster than the feet may move.
+    EXPECT_EQ(std::isfinite(result.cost), part > 0.5) << result.message;
+    if (std::isfinite(result.cost)) {
+      EXPECT_LE(walk.duration(), options.duration_limit + 1e-9);
+      EXPECT_LE(result.cost, 0.0);
+    } else {
+      EXPECT_EQ(result.parameters, dichotomy.parameters);
+      EXPECT_THAT(result.message, testing::HasSubstr("no walk of at most"));
+    }
+  }
+}
+
+TEST_F(OptimizerTest, EveryPointOfAParetoCurveHoldsAtItsLevelAndSafetyGrowsWithTime) {
+  if (ASolver().empty()) GTEST_SKIP() << "no solver";
+  const SmoothingResult result = ParetoCurve(e_.sequence, test_, Quick(ASolver()), {.points = 3});
+  EXPECT_TRUE(HasOwnResult(result.ending)) << result.message;
+  ASSERT_GE(result.pareto.size(), 3u);
+  MarginEvaluator::Scratch scratch = evaluator_.MakeScratch();
+  for (size_t i = 0; i < result.pareto.size(); ++i) {
+    const ParetoPoint& point = result.pareto[i];
+    MarginLimits limits = evaluator_.limits();
+    for (MarginFamily family : AllMarginFamilies()) {
+      if (!Raised()[static_cast<size_t>(family)]) continue;
+      limits.demanded_of(family) += point.least_slack * Scale(family);
+    }
+    const SuperposedWalk walk(e_.sequence, point.parameters);
+    EXPECT_NEAR(walk.duration(), point.duration, 1e-9);
+    const MarginEvaluator raised = evaluator_.WithLimits(limits);
+    EXPECT_EQ(
+        CertifiedFeasibility(raised, {}).Check(walk, {0.0, walk.duration()}, &scratch).verdict,
+        Verdict::kFeasible);
+    EXPECT_GE(point.least_slack, 0.0);
+  }
+  EXPECT_GT(result.pareto.back().least_slack, result.pareto.front().least_slack + 0.1);
+}
+
+class ProgramDerivatives : public testing::TestWithParam<std::string> {};
+
+// Along random directions at a random point. Clearances have kinks where the nearest feature
+// changes; there differences with two steps disagree. In a straight walk with equal parameters
+// whole edges are parallel to the bar, which is why the point is random.
+TEST_P(ProgramDerivatives, AgreeWithDifferencesForEveryKind) {
+  const Experiment e = LoadExperiment(GetParam());
+  const MarginEvaluator evaluator(e.robot, e.scene, e.config.smoothing.limits);
+  WalkDraw draw(370);
+  for (ProgramKind kind : {ProgramKind::kFastest, ProgramKind::kSmooth, ProgramKind::kSafest}) {
+    ProgramOptions options;
+    options.kind = kind;
+    options.heights = options.durations = true;
+    options.weights = {0.05, 0.001, 0.02};
+    options.table.instants = 3;
+    const OverlapProgram program(e.sequence, evaluator, options, 10.0);
+    const opt::Problem problem = program.MakeProblem();
+    Eigen::VectorXd x = program.ToVariables(draw.Parameters(e.sequence, 0.6, 0.85));
+    const Eigen::VectorXd room = problem.upper() - problem.lower();
+    x = x.cwiseMax(problem.lower() + 0.05 * room).cwiseMin(problem.upper() - 0.05 * room);
+    Eigen::VectorXd direction(x.size());
+    for (Eigen::Index v = 0; v < x.size(); ++v) direction[v] = draw.Uniform(-1, 1);
+    const Eigen::VectorXd rows = problem.DenseJacobian(x) * direction;
+    std::vector<double> nonzeros;  // in one pass
+    EXPECT_EQ(problem.ConstraintsWithJacobian(x, &nonzeros), problem.Constraints(x));
+    EXPECT_EQ(nonzeros, problem.Jacobian(x));
+    const double cost = problem.Gradient(x).dot(direction);
+    const auto slope = [&](double h) {
+      return Eigen::VectorXd(
+          (problem.Constraints(x + h * direction) - problem.Constraints(x - h * direction)) /
+          (2 * h));
+    };
+    const Eigen::VectorXd coarse = slope(1e-5), fine = slope(2e-6);
+    int kinks = 0, caught = 0;
+    for (Eigen::Index r = 0; r < rows.size(); ++r) {
+      const std::string name = problem.RowName(static_cast<int>(r));
+      const double size = 1 + std::abs(fine[r]);
+      if (name.find("clearance") != std::string::npos &&
+          std::abs(coarse[r] - fine[r]) > 1e-3 * size) {
+        ++kinks;
+        continue;
+      }
+      EXPECT_NEAR(rows[r], fine[r], 5e-3 * size) << name;
+      caught += std::abs(-rows[r] - fine[r]) > 5e-3 * size;
+    }
+    EXPECT_LE(kinks, rows.size() / 10);
+    EXPECT_GT(caught, rows.size() / 20);
+    const double h = 1e-5;
+    EXPECT_NEAR(cost, (problem.Cost(x + h * direction) - problem.Cost(x - h * direction)) / (2 * h),
+                1e-5 * (1 + std::abs(cost)))
+        << Name(kind);
+  }
+}
+
+std::vector<std::string> Configs() {
+  if (kSanitized) return {"fig3_two_half_steps", "bar_8cm"};
+  return {"fig3_two_half_steps", "bar_8cm", "fig4_raw_sequence"};
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ProgramDerivatives, testing::ValuesIn(Configs()),
+                         [](const auto& name) { return name.param; });
+
+// Certifies, and refuses every walk of other durations than planned when asked about all of it.
+class RefusesNewWholes : public FeasibilityTest {
+ public:
+  RefusesNewWholes(const FeasibilityTest& certified, std::vector<double> planned)
+      : certified_(certified), planned_(std::move(planned)) {}
+
+  Evidence evidence() const override { return Evidence::kCertified; }
+  std::string Description() const override { return "refuses new wholes"; }
+  const MarginEvaluator& evaluator() const override { return certified_.evaluator(); }
+  std::unique_ptr<FeasibilityTest> Over(const MarginEvaluator&) const override { return nullptr; }
+  Feasibility Check(const SuperposedWalk& walk, const TimeWindow& window,
+                    MarginEvaluator::Scratch* scratch) const override {
+    const bool whole = window.begin <= 0.0 && window.end >= walk.duration();
+    if (whole && walk.parameters().durations != planned_) {
+      return {Verdict::kUndecided, Evidence::kCertified, {}};
+    }
+    return certified_.Check(walk, window, scratch);
+  }
+
+ private:
+  const FeasibilityTest& certified_;
+  std::vector<double> planned_;
+};
+
+// Stretches were proved one after the other; what is returned is proved once more as a whole.
+TEST_F(OptimizerTest, WhatCannotBeProvedAsAWholeIsNotReturned) {
+  const std::vector<double> planned = PlannedMotion(e_.sequence).durations;
+  const RefusesNewWholes test(test_, planned);
+  OptimizerOptions options = Quick("halfstep/sqp");
+  int accepted = 0;
+  options.on_accept = [&](const HomotopyParameters& p) { accepted += p.durations != planned; };
+  const SmoothingResult result = OptimizeOverlaps(e_.sequence, test, options);
+  EXPECT_GT(accepted, 0);
+  EXPECT_EQ(result.parameters.durations, planned);
+}
+
+// `safest` never trades what is demanded away: a walk of less slack costs infinitely much.
+TEST_F(OptimizerTest, SafestRefusesWalksBelowWhatIsDemanded) {
+  const HomotopyParameters planned = PlannedMotion(e_.sequence);
+  HomotopyParameters too_far = planned;
+  for (double& overlap : too_far.overlaps) overlap = 0.0;
+  for (double& duration : too_far.durations) duration *= 0.3;  // the ZMP's bumps leave the soles
+  ProgramOptions options;
+  options.kind = ProgramKind::kSafest;
+  const OverlapProgram program(e_.sequence, evaluator_, options, 1e3);
+  ASSERT_GT(program.Cost(too_far), 0.0);
+  ASSERT_LT(program.Cost(planned), 0.0);
+  for (const bool within : {false, true}) {
+    const FeasiblePath::Rules rules = SafestRules(program, test_, within);
+    EXPECT_TRUE(std::isinf(rules.cost(too_far))) << within;
+    EXPECT_LE(rules.cost(planned), 0.0);
+  }
+}
+
+}  // namespace
+}  // namespace halfstep

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <random>
+#include <vector>
+
+#include "wpg/motion/half_step_sequence.h"
+#include "wpg/robot/robot_model.h"
+
+namespace halfstep {
+
+/// Under AddressSanitizer, where tests do less.
+#ifdef __SANITIZE_ADDRESS__
+constexpr bool kSanitized = true;
+#else
+constexpr bool kSanitized = false;
+#endif
+
+/// `count`, or a tenth of it (at least 1) when sanitized.
+constexpr int Draws(int count) { return kSanitized ? std::max(1, count / 10) : count; }
+
+inline RobotModel Hrp2() { return LoadRobot(HALFSTEP_SOURCE_DIR "/wpg/robots/hrp2.yaml"); }
+
+/// Soles side by side, 0.21 m apart.
+inline std::array<Pose2, 2> StandingFeet() { return {Pose2{0, 0.105, 0}, Pose2{0, -0.105, 0}}; }
+
+/// Random sequences of half-steps, reproducible from the seed.
+class SequenceDraw {
+ public:
+  explicit SequenceDraw(unsigned seed) : random_(seed) {}
+
+  double Uniform(double lower, double upper) {
+    return std::uniform_real_distribution<double>(lower, upper)(random_);
+  }
+  Pose2 Pose(double reach, double yaw) {
+    const double x = Uniform(-reach, reach), y = Uniform(-reach, reach);
+    return {x, y, Uniform(-yaw, yaw)};
+  }
+
+  /// Footsteps in turn, about where HRP-2 can put its feet; durations and heights differ.
+  std::vector<Footstep> Footsteps(int count) {
+    std::array<Pose2, 2> feet = StandingFeet();
+    Side side = Uniform(0, 1) < 0.5 ? Side::kLeft : Side::kRight;
+    std::vector<Footstep> footsteps;
+    for (int i = 0; i < count; ++i, side = Opposite(side)) {
+      const double x = Uniform(-0.15, 0.25), y = Sign(side) * Uniform(0.17, 0.28);
+      const Pose2 X_SF{x, y, Uniform(-0.3, 0.3)};
+      Pose2& foot = feet[static_cast<size_t>(Index(side))];
+      foot = feet[static_cast<size_t>(Index(Opposite(side)))] * X_SF;
+      const double height = Uniform(0.05, 0.25);
+      footsteps.push_back(
+          {.side = side, .X_WF = foot, .via_height = height, .duration = Uniform(1.0, 3.0)});
+    }
+    return footsteps;
+  }
+
+  /// Lets the shape, the LIPM and the place of the start vary too.
+  HalfStepSequence Sequence(int steps) {
+    const HalfStepShape shape{.shift = Uniform(0.03, 0.4), .horizontal_delay = Uniform(0.0, 0.2)};
+    const Lipm lipm{.com_height = Uniform(0.6, 1.0)};
+    return Moved(Pose(2.0, 3.0), MakeSequence(StandingFeet(), Footsteps(steps), 0.24, shape, lipm));
+  }
+
+ private:
+  std::mt19937 random_;
+};
+
+}  // namespace halfstep

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <string_view>
+
+#include "wpg/files/mesh_file.h"
+
+namespace halfstep {
+
+inline constexpr int kMaxMeshTriangles = 5'000'000;
+inline constexpr double kMaxMeshCoordinate = 1e9;
+
+/// A word of a text file; empty at the end of the text (or of the line, where asked for).
+struct MeshWord {
+  std::string_view text;
+  int line = 0;  ///< line and column (in bytes) count from 1.
+  int column = 0;
+};
+
+/// Walks over the words of an ASCII mesh file and complains with their place (InputError).
+class MeshText {
+ public:
+  MeshText(std::string path, std::string_view text);
+
+  MeshWord Next();        ///< next word, across lines.
+  MeshWord NextInLine();  ///< next word of this line.
+  void SkipLine();        ///< to the start of the next line.
+  bool AtEnd() const { return at_ == text_.size(); }
+
+  /// A coordinate: finite, at most kMaxMeshCoordinate in size.
+  double Number(const MeshWord& word) const;
+  long Integer(const MeshWord& word, std::string_view text) const;
+  [[noreturn]] void Fail(const MeshWord& word, const std::string& what) const;
+
+ private:
+  std::string path_;
+  std::string_view text_;
+  size_t at_ = 0, line_start_ = 0;
+  int line_ = 1;
+};
+
+LoadedMesh ReadAsciiStl(const std::string& path, std::string_view text);
+LoadedMesh ReadBinaryStl(const std::string& path, std::string_view bytes);
+LoadedMesh ReadObj(const std::string& path, std::string_view text);
+
+}  // namespace halfstep

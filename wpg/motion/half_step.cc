@@ -1,0 +1,113 @@
+#include "wpg/motion/half_step.h"
+
+#include "wpg/check.h"
+
+namespace halfstep {
+namespace {
+
+void SetFoot(Side side, const Pose2& X_SF, double z, WalkState* x) {
+  x->segment<4>(FootIndex(side)) = Eigen::Vector4d(X_SF.x, X_SF.y, z, X_SF.yaw);
+}
+
+// Horizontal motion of the foot: inside its flight by `horizontal_delay` at the floor's end.
+Smoothstep FootWindow(HalfStepKind kind, const HalfStepShape& shape) {
+  return kind == HalfStepKind::kUp ? Smoothstep{shape.t2() + shape.horizontal_delay, 1.0}
+                                   : Smoothstep{0.0, shape.t1() - shape.horizontal_delay};
+}
+
+Smoothstep FlightWindow(HalfStepKind kind, const HalfStepShape& shape) {
+  return kind == HalfStepKind::kUp ? Smoothstep{shape.t2(), 1.0} : Smoothstep{0.0, shape.t1()};
+}
+
+}  // namespace
+
+WalkState HalfStep::OnFloor() const {
+  WalkState x = WalkState::Zero();
+  x.segment<2>(kComX) = x.segment<2>(kZmpX) = 0.5 * X_SF.position();
+  x[kWaistYaw] = 0.5 * X_SF.yaw;
+  SetFoot(swing(), X_SF, 0.0, &x);
+  return x;
+}
+
+WalkState HalfStep::AtVia() const {
+  WalkState x = WalkState::Zero();
+  SetFoot(swing(), via(), via_height, &x);
+  return x;
+}
+
+HalfStep HalfStep::Mirrored() const {
+  HalfStep mirrored = *this;
+  mirrored.support = Opposite(support);
+  mirrored.X_SF = X_SF.Mirrored();
+  return mirrored;
+}
+
+const ProfileJet& HalfStepJet::of(int quantity) const {
+  switch (quantity) {
+    case kComX:
+    case kComY:
+      return com;
+    case kZmpX:
+    case kZmpY:
+      return zmp;
+    case kWaistYaw:
+      return yaw;
+    case kLeftZ:
+    case kRightZ:
+      return height;
+    default:
+      return foot;
+  }
+}
+
+HalfStepProfiles::HalfStepProfiles(HalfStepKind kind, const HalfStepShape& shape, double duration,
+                                   const Lipm& lipm)
+    : shape_(shape),
+      duration_(duration),
+      omega_(lipm.omega()),
+      foot_(FootWindow(kind, shape)),
+      height_(FlightWindow(kind, shape)),
+      shift_(omega_ * duration, shape.shift) {
+  // Of the flight, t1 long, a tenth at least must be left to move in.
+  HALFSTEP_CHECK(shape.horizontal_delay >= 0.0 && shape.horizontal_delay <= 0.3 &&
+                     shape.horizontal_delay <= 0.9 * shape.t1(),
+                 "horizontal_delay = " << shape.horizontal_delay << ", t1 = " << shape.t1());
+}
+
+HalfStepJet HalfStepProfiles::At(double tau) const {
+  const double sigma = tau / duration_;
+  const auto to_time = [&](const UnitJet& f) { return ToTime(f, sigma, duration_, omega_); };
+  return {.com = to_time(shift_.Com(sigma)),
+          .zmp = to_time(shift_.Zmp(sigma)),
+          .yaw = to_time(Smoothstep{}.At(sigma)),
+          .foot = to_time(foot_.At(sigma)),
+          .height = to_time(height_.At(sigma))};
+}
+
+HalfStepJet HalfStepProfiles::SecondBounds(double from, double to) const {
+  const double a = from / duration_, b = to / duration_;
+  const double r = 1.0 / (duration_ * duration_);
+  HalfStepJet bounds;
+  if (b <= 0.0 || a >= 1.0) return bounds;
+  bounds.com.second = r * shift_.ComSecondBound();
+  bounds.zmp.second = r * shift_.ZmpSecondBound(a, b);
+  bounds.yaw.second = r * Smoothstep{}.SecondBound(a, b);
+  bounds.foot.second = r * foot_.SecondBound(a, b);
+  bounds.height.second = r * height_.SecondBound(a, b);
+  return bounds;
+}
+
+WalkJet Evaluate(const HalfStep& half_step, const HalfStepProfiles& profiles, double tau) {
+  const WalkState start = half_step.Start();
+  const WalkState delta = half_step.End() - start;
+  const HalfStepJet jet = profiles.At(tau);
+  WalkJet x;
+  for (int q = 0; q < kNumQuantities; ++q) {
+    x.value[q] = start[q] + jet.of(q).value * delta[q];
+    x.first[q] = jet.of(q).first * delta[q];
+    x.second[q] = jet.of(q).second * delta[q];
+  }
+  return x;
+}
+
+}  // namespace halfstep

@@ -1,0 +1,98 @@
+#pragma once
+
+#include "wpg/geometry/pose2.h"
+#include "wpg/geometry/side.h"
+#include "wpg/motion/lipm.h"
+#include "wpg/motion/profile_jet.h"
+#include "wpg/motion/rest_to_rest.h"
+#include "wpg/motion/smoothstep.h"
+#include "wpg/motion/walk_state.h"
+
+namespace halfstep {
+
+enum class HalfStepKind { kUp, kDown };
+
+/// Times of a half-step as fractions of its duration T, so that they scale with T.
+struct HalfStepShape {
+  double shift = 0.05;  ///< (t2 − t1)/T: the ZMP shifts on [t1, t2], centred at T/2. ∈ [0.01, 0.5]
+  double horizontal_delay = 0.1;  ///< the foot moves horizontally only this fraction of T after
+                                  ///< take-off and before landing. ∈ [0, 0.3], ≤ 0.9·t1
+
+  double t1() const { return 0.5 - 0.5 * shift; }  ///< of T
+  double t2() const { return 0.5 + 0.5 * shift; }  ///< of T
+  friend bool operator==(const HalfStepShape&, const HalfStepShape&) = default;
+};
+
+/// Half a step, from rest to rest, the support foot fixed at the origin of S.
+///
+///   z │            ╭──● via point (0, ±via_lateral, via_height)
+///     │          ╭─╯        Up:   the swing foot goes from X_SF to the via point, the CoM and the
+///     │        ╭─╯                ZMP from mid-feet to the support sole's centre, the waist's yaw
+///     │        │                  from the mean of the feet's yaws to the support's.
+///   ──┴────────┴──────▶ x   Down: the time reverse, towards a new X_SF.
+///            X_SF
+///
+/// ZMP: bump on [0, t1], shift on [t1, t2], bump on [t2, T]. The foot is in the air only on (t2, T]
+/// (up) or [0, t1) (down). Left and right are mirror images.
+/// Source: [Perrin2011] §III; wpg/README.md, "Half-step".
+struct HalfStep {
+  Side support = Side::kLeft;
+  HalfStepKind kind = HalfStepKind::kUp;
+  Pose2 X_SF;                 ///< the swing sole's place on the floor, seen from the support sole.
+  double duration = 2.0;      ///< T [s]
+  double via_height = 0.25;   ///< [m] ≥ 0
+  double via_lateral = 0.24;  ///< distance of the via point from the support sole's centre [m].
+  HalfStepShape shape;
+
+  Side swing() const { return Opposite(support); }
+  /// Where the swing foot passes over at mid-step, X_SV.
+  Pose2 via() const { return {0.0, Sign(swing()) * via_lateral, 0.0}; }
+  /// At rest with both feet on the floor, and at the via point; in S.
+  WalkState OnFloor() const;
+  WalkState AtVia() const;
+  WalkState Start() const { return kind == HalfStepKind::kUp ? OnFloor() : AtVia(); }
+  WalkState End() const { return kind == HalfStepKind::kUp ? AtVia() : OnFloor(); }
+
+  HalfStep Mirrored() const;
+  friend bool operator==(const HalfStep&, const HalfStep&) = default;
+};
+
+/// The profile that each quantity of a half-step follows: x(τ) = Start + π(τ)·(End − Start).
+struct HalfStepJet {
+  ProfileJet com, zmp, yaw, foot, height;  ///< foot: x, y and yaw of the swing foot; height: its z.
+
+  const ProfileJet& of(int quantity) const;
+};
+
+/// The profiles of a half-step of given kind, shape and duration under a LIPM; immutable.
+class HalfStepProfiles {
+ public:
+  HalfStepProfiles(HalfStepKind kind, const HalfStepShape& shape, double duration,
+                   const Lipm& lipm);
+
+  /// At local time τ [s], clamped to [0, T]: 0 and at rest before, 1 and at rest after.
+  HalfStepJet At(double tau) const;
+
+  /// sup |π̈| [1/s²] of each profile over local times [from, to] [s]; only `second` is filled.
+  HalfStepJet SecondBounds(double from, double to) const;
+
+  double duration() const { return duration_; }
+  double t1() const { return shape_.t1() * duration_; }  ///< end of the ZMP's first rest [s]
+  double t2() const { return shape_.t2() * duration_; }  ///< begin of its second rest [s]
+  /// The swing foot moves horizontally in between, at local time [s].
+  double horizontal_begin() const { return foot_.begin * duration_; }
+  double horizontal_end() const { return foot_.end * duration_; }
+  double bump() const { return shift_.bump(); }  ///< of the ZMP, fraction of its shift.
+
+ private:
+  HalfStepShape shape_;
+  double duration_;
+  double omega_;
+  Smoothstep foot_, height_;
+  RestToRest shift_;
+};
+
+/// All quantities of an isolated half-step at local time τ [s], clamped to [0, T], in S.
+WalkJet Evaluate(const HalfStep& half_step, const HalfStepProfiles& profiles, double tau);
+
+}  // namespace halfstep

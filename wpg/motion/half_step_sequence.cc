@@ -1,0 +1,49 @@
+#include "wpg/motion/half_step_sequence.h"
+
+#include "wpg/check.h"
+
+namespace halfstep {
+
+HalfStepSequence MakeSequence(const std::array<Pose2, 2>& start,
+                              const std::vector<Footstep>& footsteps, double via_lateral,
+                              const HalfStepShape& shape, const Lipm& lipm) {
+  HALFSTEP_CHECK(!footsteps.empty(), "no footsteps");
+  HalfStepSequence sequence{.start = start, .half_steps = {}, .lipm = lipm};
+  std::array<Pose2, 2> feet = start;
+  for (const Footstep& footstep : footsteps) {
+    const Side swing = footstep.side;
+    const Pose2 X_WS = feet[static_cast<size_t>(Index(Opposite(swing)))];
+    Pose2& foot = feet[static_cast<size_t>(Index(swing))];
+    HalfStep half_step{.support = Opposite(swing),
+                       .kind = HalfStepKind::kUp,
+                       .X_SF = X_WS.Inverse() * foot,
+                       .duration = footstep.duration,
+                       .via_height = footstep.via_height,
+                       .via_lateral = via_lateral,
+                       .shape = shape};
+    sequence.half_steps.push_back({half_step, X_WS});
+    foot = footstep.X_WF;
+    half_step.kind = HalfStepKind::kDown;
+    half_step.X_SF = X_WS.Inverse() * foot;
+    sequence.half_steps.push_back({half_step, X_WS});
+  }
+  return sequence;
+}
+
+HalfStepSequence Mirrored(const HalfStepSequence& sequence) {
+  HalfStepSequence mirrored = sequence;
+  mirrored.start = {sequence.start[1].Mirrored(), sequence.start[0].Mirrored()};
+  for (PlacedHalfStep& placed : mirrored.half_steps) {
+    placed = {placed.half_step.Mirrored(), placed.X_WS.Mirrored()};
+  }
+  return mirrored;
+}
+
+HalfStepSequence Moved(const Pose2& X_VW, const HalfStepSequence& sequence) {
+  HalfStepSequence moved = sequence;
+  for (Pose2& sole : moved.start) sole = X_VW * sole;
+  for (PlacedHalfStep& placed : moved.half_steps) placed.X_WS = X_VW * placed.X_WS;
+  return moved;
+}
+
+}  // namespace halfstep

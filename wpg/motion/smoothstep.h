@@ -1,0 +1,45 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "wpg/motion/profile_jet.h"
+
+namespace halfstep {
+
+/// The C² step S(x) = 10x³ − 15x⁴ + 6x⁵ on a window [begin, end] of σ: 0 before, 1 after, with zero
+/// first and second derivatives at both ends. Antisymmetric: S(x) + S(1 − x) = 1.
+struct Smoothstep {
+  double begin = 0.0;
+  double end = 1.0;  ///< > begin
+
+  UnitJet At(double sigma) const {
+    if (sigma <= begin) return {};
+    if (sigma >= end) return {.value = 1.0};
+    const double r = 1.0 / (end - begin);
+    const double x = (sigma - begin) * r;
+    const double y = 1.0 - x;
+    // On the upper half by antisymmetry, so that S meets 1 as accurately as it leaves 0.
+    const double u = x < 0.5 ? x : y;
+    const double low = u * u * u * (10.0 + u * (-15.0 + 6.0 * u));
+    return {.value = x < 0.5 ? low : 1.0 - low,
+            .s = 30.0 * x * x * y * y * r,
+            .ss = 60.0 * x * y * (1.0 - 2.0 * x) * r * r,
+            .sss = 60.0 * (1.0 - 6.0 * x * y) * r * r * r};
+  }
+
+  /// sup |S_σσ| on [from, to]: exact. S_σσ is extremal at x = ½ ± 1/√12, where it is ∓10/√3 /
+  /// width².
+  double SecondBound(double from, double to) const {
+    const double r = 1.0 / (end - begin);
+    const double a = std::clamp((from - begin) * r, 0.0, 1.0);
+    const double b = std::clamp((to - begin) * r, 0.0, 1.0);
+    constexpr double kLow = 0.21132486540518713, kHigh = 0.78867513459481287,
+                     kPeak = 5.7735026918962582;
+    const auto at = [](double x) { return std::abs(60.0 * x * (1.0 - x) * (1.0 - 2.0 * x)); };
+    const bool peak = (a <= kLow && kLow <= b) || (a <= kHigh && kHigh <= b);
+    return (peak ? kPeak : std::max(at(a), at(b))) * r * r;
+  }
+};
+
+}  // namespace halfstep

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+
+#include "wpg/robot/leg_ik.h"
+#include "wpg/robot/robot_model.h"
+
+namespace halfstep {
+
+/// What stays where it is on the links of a leg: the hip on links 0–2, the ankle on links 3–5 and
+/// on the sole.
+class LegAnchors {
+ public:
+  explicit LegAnchors(const Leg& leg);
+
+  /// Hip or ankle: what rests on a link, whatever the joints do.
+  static bool OnHip(int link) { return link <= 2; }
+  Eigen::Vector3d Ankle(const LegFrames& frames) const { return frames.X_BLink[6] * ankle_S_; }
+  const Eigen::Vector3d& hip_B() const { return hip_B_; }
+  const Eigen::Vector3d& ankle_S() const { return ankle_S_; }
+  /// From the anchor of a body's link to the farthest point of the body [m].
+  double Reach(const RobotBody& body) const;
+
+ private:
+  Eigen::Vector3d hip_B_, ankle_S_;
+  std::array<Eigen::Vector3d, 6> anchor_L_;  // in the link's frame
+};
+
+/// What is demanded of a leg: sups over [m − h, m + h], with w = hip − ankle.
+struct LegDemand {
+  double half_square = 0.0;       ///< |d²(½‖w‖²)/dt²| [m²/s²]
+  double horizontal = 0.0;        ///< horizontal part of ẅ, seen from the sole [m/s²]
+  double vertical = 0.0;          ///< vertical part of ẅ [m/s²]
+  double yaw_rate = 0.0;          ///< of the sole, seen from the waist [rad/s]
+  double yaw_acceleration = 0.0;  ///< [rad/s²]
+};
+
+/// Sups of how fast something turns.
+struct TurnBound {
+  double speed = 0.0;         ///< ‖ω‖ [rad/s]
+  double acceleration = 0.0;  ///< ‖ω̇‖ [rad/s²]
+};
+
+/// Bounds of joint motion for all t in [m − h, m + h].
+struct JointBounds {
+  Vector6d speed;         ///< sup |q̇_i| [rad/s]
+  Vector6d acceleration;  ///< sup |q̈_i| [rad/s²]
+  /// Of the links: 0–2 seen from the waist, 3–5 seen from the sole.
+  std::array<TurnBound, 6> turns;
+};
+
+/// Joint bounds from the frames (waist and sole upright), the joint speeds and the sole's yaw rate
+/// seen from the waist, all at m: knee from the hip–ankle distance, then ankle, then hip. A
+/// bootstrap: assumed bounds of the speeds imply smaller ones, which proves them. None when that
+/// does not close: h too long, or a leg too nearly stretched. While there is a bound, the leg
+/// reaches and stays in its branch. Source: smoothing/README.md, "Motion bounds".
+std::optional<JointBounds> BoundJoints(const LegAnchors& anchors, const LegFrames& frames,
+                                       const Vector6d& speeds, double yaw_rate,
+                                       const LegDemand& demand, double half_width);
+
+}  // namespace halfstep

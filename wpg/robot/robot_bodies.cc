@@ -1,0 +1,167 @@
+#include "wpg/robot/robot_bodies.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <set>
+#include <stdexcept>
+
+#include "wpg/files/mesh_file.h"
+
+namespace halfstep {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+constexpr std::string_view kPackage = "package://";
+constexpr double kFarthest = 100.0;  // of a body from its link's frame, or the waist's [m]
+
+std::string PackageOf(const std::string& mesh) {
+  if (!mesh.starts_with(kPackage)) return "";
+  const std::string path = mesh.substr(kPackage.size());
+  return path.substr(0, path.find('/'));
+}
+
+// File of a mesh named in a URDF. Throws std::runtime_error with a sentence.
+std::string MeshPath(const std::string& mesh, const std::string& urdf_file,
+                     const std::map<std::string, std::string>& packages) {
+  if (const std::string package = PackageOf(mesh); !package.empty()) {
+    const auto folder = packages.find(package);
+    if (folder == packages.end()) {
+      throw std::runtime_error("package `" + package + "` of " + mesh +
+                               " has no folder: name it under `packages` of the robot file");
+    }
+    return folder->second + mesh.substr(kPackage.size() + package.size());
+  }
+  if (mesh.find("://") != std::string::npos) {
+    throw std::runtime_error(mesh +
+                             " is no mesh path (valid: package://…, or a path relative to "
+                             "the URDF)");
+  }
+  return (std::filesystem::path(urdf_file).parent_path() / mesh).string();
+}
+
+// Hull of the prism of 32 sides around a cylinder along z: at most 0.5 % of the radius larger.
+ConvexBody PrismAround(double radius, double length) {
+  constexpr int kSides = 32;
+  const double outer = radius / std::cos(std::numbers::pi / kSides);
+  Eigen::Matrix3Xd points(3, 2 * kSides);
+  for (int i = 0; i < kSides; ++i) {
+    const double angle = 2 * std::numbers::pi * i / kSides;
+    const double x = outer * std::cos(angle), y = outer * std::sin(angle);
+    points.col(2 * i) = Vector3d(x, y, length / 2);
+    points.col(2 * i + 1) = Vector3d(x, y, -length / 2);
+  }
+  return MakeHull(points);
+}
+
+ConvexBody Moved(const Isometry3d& X, ConvexBody body) {
+  body.vertices = (X.linear() * body.vertices).colwise() + X.translation();
+  body.normals = X.linear() * body.normals;
+  body.center = X * body.center;
+  return body;
+}
+
+ConvexBody ShapeOf(const UrdfCollision& collision, const Isometry3d& X, const std::string& file,
+                   const std::map<std::string, std::string>& packages,
+                   std::vector<InputFile>* meshes) {
+  switch (collision.kind) {
+    case UrdfCollision::Kind::kBox:
+      return Moved(X, MakeBox(collision.size));
+    case UrdfCollision::Kind::kSphere:
+      return Moved(X, MakeSphere(collision.size.x()));
+    case UrdfCollision::Kind::kCylinder: {
+      // The disc of a ConvexBody lies in its xy plane.
+      const bool upright = X.linear().col(2).head<2>().norm() < 1e-12;
+      return Moved(X, upright ? MakeCylinder(collision.size.x(), collision.size.y())
+                              : PrismAround(collision.size.x(), collision.size.y()));
+    }
+    case UrdfCollision::Kind::kMesh:
+      break;
+  }
+  LoadedMesh mesh = LoadMesh(MeshPath(collision.mesh, file, packages));
+  mesh.file.name = collision.mesh;
+  meshes->push_back(std::move(mesh.file));
+  return Moved(X, MakeHull(collision.scale.asDiagonal() * mesh.vertices));
+}
+
+// On which leg link (or the waist) each link is rigid while walking.
+struct Anchor {
+  int leg = -1;
+  int link = -1;
+  int urdf_link = -1;
+};
+
+std::vector<Anchor> FindAnchors(const UrdfTree& urdf, const BodyRequest& request) {
+  std::vector<Anchor> anchors(urdf.links.size(), Anchor{-1, -1, request.waist});
+  for (size_t i = 1; i < urdf.links.size(); ++i) {
+    const int joint = urdf.links[i].joint;
+    anchors[i] = anchors[static_cast<size_t>(urdf.joints[static_cast<size_t>(joint)].parent)];
+    for (int leg = 0; leg < 2; ++leg) {
+      const auto& joints = request.leg_joints[static_cast<size_t>(leg)];
+      const auto found = std::find(joints.begin(), joints.end(), joint);
+      if (found != joints.end()) {
+        anchors[i] = {leg, static_cast<int>(found - joints.begin()), static_cast<int>(i)};
+      }
+    }
+  }
+  return anchors;
+}
+
+}  // namespace
+
+std::vector<std::string> MeshPackages(const UrdfTree& urdf) {
+  std::set<std::string> names;
+  for (const UrdfLink& link : urdf.links) {
+    for (const UrdfCollision& collision : link.collisions) {
+      if (const std::string name = PackageOf(collision.mesh); !name.empty()) names.insert(name);
+    }
+  }
+  return {names.begin(), names.end()};
+}
+
+LinkBodies BuildBodies(const UrdfTree& urdf, const BodyRequest& request, Complaints* complaints) {
+  const std::vector<Anchor> anchors = FindAnchors(urdf, request);
+  std::vector<double> q = request.posture;
+  for (const auto& joints : request.leg_joints) {
+    for (const int joint : joints) q[static_cast<size_t>(joint)] = 0.0;
+  }
+  const std::vector<Isometry3d> X = urdf.LinkPoses(q);
+  LinkBodies all;
+  for (size_t i = 0; i < urdf.links.size(); ++i) {
+    const UrdfLink& link = urdf.links[i];
+    const Anchor& anchor = anchors[i];
+    // Exactly the identity for a leg's own links, so that upright cylinders stay so.
+    const bool own = anchor.urdf_link == static_cast<int>(i);
+    const Isometry3d X_AnchorLink =
+        own ? Isometry3d::Identity() : X[static_cast<size_t>(anchor.urdf_link)].inverse() * X[i];
+    for (size_t k = 0; k < link.collisions.size(); ++k) {
+      const UrdfCollision& collision = link.collisions[k];
+      RobotBody body;
+      body.name = link.name + (k == 0 ? "" : "#" + std::to_string(k + 1));
+      body.leg = anchor.leg;
+      body.link = anchor.link;
+      try {
+        body.shape = ShapeOf(collision, X_AnchorLink * collision.X_LinkShape, urdf.file,
+                             request.packages, &all.meshes);
+        if (body.shape.center.norm() + body.shape.radius > kFarthest) {
+          throw std::runtime_error("reaches more than 100 m from its link (look at `scale`)");
+        }
+        all.bodies.push_back(std::move(body));
+        all.links.push_back(static_cast<int>(i));
+      } catch (const InputError& error) {
+        for (const std::string& line : error.complaints()) {
+          complaints->Add(urdf.file, collision.place.line, collision.place.column, body.name, line);
+        }
+      } catch (const std::runtime_error& error) {
+        complaints->Add(urdf.file, collision.place.line, collision.place.column, body.name,
+                        error.what());
+      }
+    }
+  }
+  return all;
+}
+
+}  // namespace halfstep

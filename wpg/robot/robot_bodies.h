@@ -1,0 +1,38 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "wpg/files/input_error.h"
+#include "wpg/robot/robot_model.h"
+#include "wpg/robot/urdf_file.h"
+
+namespace halfstep {
+
+/// How links become bodies.
+struct BodyRequest {
+  int waist = -1;                                ///< link index.
+  std::array<std::array<int, 6>, 2> leg_joints;  ///< URDF joint indices by Index(Side).
+  std::vector<double> posture;                   ///< standing posture by URDF joint index [rad].
+  std::map<std::string, std::string> packages;   ///< package name → folder.
+};
+
+/// Package names in the `package://` paths of the collision meshes, sorted.
+std::vector<std::string> MeshPackages(const UrdfTree& urdf);
+
+/// Bodies and, in the same order, the URDF links that they belong to.
+struct LinkBodies {
+  std::vector<InputFile> meshes;  ///< each reading of one, in the order of the bodies.
+  std::vector<RobotBody> bodies;
+  std::vector<int> links;
+};
+
+/// Convex bodies of all links. Links that hang on a leg link by joints outside the leg are rigid
+/// with it, all others with the waist, in the standing posture. A mesh becomes its convex hull, a
+/// cylinder not parallel to its frame's z a prism of 32 sides around it. Complains about meshes
+/// that cannot be read or have no volume.
+LinkBodies BuildBodies(const UrdfTree& urdf, const BodyRequest& request, Complaints* complaints);
+
+}  // namespace halfstep

@@ -1,0 +1,130 @@
+#include "wpg/robot/robot_fields.h"
+
+#include <filesystem>
+
+#include "wpg/files/number_text.h"
+#include "wpg/files/text.h"
+#include "wpg/robot/robot_bodies.h"
+
+namespace halfstep {
+namespace {
+
+std::vector<std::string> LinkNames(const RobotFile& file) {
+  std::vector<std::string> names;
+  if (file.urdf) {
+    for (const UrdfLink& link : file.urdf->links) names.push_back(link.name);
+  }
+  return names;
+}
+
+void DeclareLeg(Fields& fields, const char* side, const std::vector<std::string>& links,
+                LegFile* leg) {
+  fields.Group(side, {.meaning = "foot of this leg", .required = true}, [&](Fields& f) {
+    f.Text("foot_link", &leg->foot_link,
+           {.meaning = "URDF link of the foot", .required = true, .choices = links});
+    f.Numbers("sole_xyz", &leg->sole_xyz, 3,
+              {.meaning = "centre of the sole in the frame of the foot's link",
+               .unit = "m",
+               .required = true});
+    f.Numbers("sole_rpy_deg", &leg->sole_rpy, 3,
+              {.meaning = "sole frame (x forward, z up) in the frame of the foot's link: roll, "
+                          "pitch, yaw about fixed axes",
+               .unit = "deg"});
+  });
+}
+
+// Keys under the names of the URDF's joints.
+void DeclareJoints(Fields& fields, RobotFile* file) {
+  const std::vector<UrdfJoint> none;
+  const std::vector<UrdfJoint>& joints = file->urdf ? file->urdf->joints : none;
+  file->posture_deg.resize(joints.size(), 0.0);
+  file->limits_deg.resize(joints.size());
+  fields.Group("standing_posture_deg", {.meaning = "joint angles of the standing posture"},
+               [&](Fields& f) {
+                 for (size_t i = 0; i < joints.size(); ++i) {
+                   if (joints[i].kind != UrdfJoint::Kind::kRevolute) continue;
+                   f.Number(joints[i].name.c_str(), &file->posture_deg[i], {.unit = "deg"});
+                 }
+               });
+  fields.Group("joint_limits_deg", {.meaning = "joint limits tighter than the URDF's"},
+               [&](Fields& f) {
+                 for (size_t i = 0; i < joints.size(); ++i) {
+                   if (joints[i].kind != UrdfJoint::Kind::kRevolute) continue;
+                   std::vector<double>& limits = file->limits_deg[i];
+                   const char* name = joints[i].name.c_str();
+                   f.Numbers(name, &limits, 2, {.unit = "deg"});
+                   if (limits.empty()) continue;
+                   if (!(limits[0] < limits[1]))
+                     f.Complain(name, "the lower limit is not below the upper");
+                   if (DegreesToRadians(limits[0]) < joints[i].lower - 1e-9 ||
+                       DegreesToRadians(limits[1]) > joints[i].upper + 1e-9) {
+                     f.Complain(name, "reaches beyond the URDF's limits (valid: " +
+                                          ShortestDegrees(joints[i].lower) + " … " +
+                                          ShortestDegrees(joints[i].upper) + ")");
+                   }
+                 }
+               });
+}
+
+void DeclarePackages(Fields& fields, RobotFile* file) {
+  fields.Group("packages", {.meaning = "folders of the package:// names in the URDF"},
+               [&](Fields& f) {
+                 if (!file->urdf) return;
+                 for (const std::string& name : MeshPackages(*file->urdf)) {
+                   std::string folder;
+                   f.Text(name.c_str(), &folder, {.meaning = "folder"});
+                   if (folder.empty()) continue;
+                   file->packages[name] =
+                       (std::filesystem::path(f.directory()) / folder).lexically_normal().string();
+                 }
+               });
+}
+
+void DeclareExcluded(Fields& fields, const std::vector<std::string>& links, RobotFile* file) {
+  fields.List("excluded_self_pairs",
+              {.meaning = "pairs of links that touch by design and are not checked"},
+              &file->excluded, [&](Fields& f, ExcludedPair* pair) {
+                f.Texts("links", &pair->links,
+                        {.meaning = "two links", .required = true, .choices = links});
+                f.Text("why", &pair->why, {.meaning = "the reason, for the reader"});
+                if (pair->links.size() != 2) f.Complain("links", "must be two links");
+              });
+}
+
+}  // namespace
+
+void DeclareFields(Fields& fields, RobotFile* file) {
+  fields.Text("name", &file->name, {.meaning = "name of the robot", .required = true});
+  if (const std::string mistake = NameMistake(file->name); !mistake.empty()) {
+    fields.Complain("name", mistake);
+  }
+  fields.Text("urdf", &file->urdf_path, {.meaning = "URDF file", .required = true});
+  if (!file->urdf && !file->urdf_path.empty()) {
+    file->urdf = ReadUrdf((std::filesystem::path(fields.directory()) / file->urdf_path).string());
+    file->urdf->source.name = file->urdf_path;
+  }
+  const std::vector<std::string> links = LinkNames(*file);
+  DeclarePackages(fields, file);
+  fields.Text("waist_link", &file->waist_link,
+              {.meaning = "link whose frame is the waist frame: x forward, z up when standing",
+               .required = true,
+               .choices = links});
+  fields.OptionalNumber("com_height_m", &file->com_height,
+                        {.meaning = "height of the CoM while walking; none: that of the model in "
+                                    "the standing posture",
+                         .unit = "m",
+                         .min = 0.01});
+  fields.Group("legs", {.meaning = "the feet", .required = true}, [&](Fields& f) {
+    DeclareLeg(f, "left", links, &file->legs[0]);
+    DeclareLeg(f, "right", links, &file->legs[1]);
+  });
+  fields.Numbers("sole_size_m", &file->sole_size, 2,
+                 {.meaning = "length and width of the sole rectangle",
+                  .unit = "m",
+                  .min = 1e-3,
+                  .required = true});
+  DeclareJoints(fields, file);
+  DeclareExcluded(fields, links, file);
+}
+
+}  // namespace halfstep

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "wpg/files/fields.h"
+#include "wpg/robot/urdf_file.h"
+
+namespace halfstep {
+
+struct RobotModel;
+
+/// The foot of one leg.
+struct LegFile {
+  std::string foot_link;
+  std::vector<double> sole_xyz;  ///< in the frame of the foot's link [m].
+  std::vector<double> sole_rpy;  ///< [rad]; empty: zero.
+};
+
+/// A pair of links that is not checked for contact.
+struct ExcludedPair {
+  std::vector<std::string> links;
+  std::string why;
+};
+
+/// A robot file as written: each value valid by itself, units of the file for joint angles.
+struct RobotFile {
+  std::string name;
+  std::string urdf_path;
+  std::optional<UrdfTree> urdf;  ///< read as soon as its path is known.
+  std::map<std::string, std::string> packages;
+  std::string waist_link;
+  std::optional<double> com_height;
+  std::array<LegFile, 2> legs;
+  std::vector<double> sole_size;
+  std::vector<double> posture_deg;              ///< by URDF joint index
+  std::vector<std::vector<double>> limits_deg;  ///< by URDF joint index; empty: the URDF's
+  std::vector<ExcludedPair> excluded;
+};
+
+/// Declares the keys of a robot file (wpg/README.md, "Robots") and reads the URDF on the way, since
+/// joints, links and packages are keys and choices. Throws InputError for a bad URDF.
+void DeclareFields(Fields& fields, RobotFile* file);
+
+/// LoadRobot of a robot file's text; `urdf`, unless it is null, is taken in place of the file that
+/// the text names.
+RobotModel ParseRobot(const std::string& yaml_path, const std::string& text,
+                      const UrdfTree* urdf = nullptr);
+
+}  // namespace halfstep

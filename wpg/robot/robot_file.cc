@@ -1,0 +1,221 @@
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <numbers>
+#include <optional>
+
+#include "wpg/files/number_text.h"
+#include "wpg/files/yaml_fields.h"
+#include "wpg/robot/robot_bodies.h"
+#include "wpg/robot/robot_fields.h"
+#include "wpg/robot/robot_legs.h"
+#include "wpg/robot/robot_model.h"
+#include "wpg/robot/self_pairs.h"
+#include "wpg/robot/sole_outline.h"
+
+namespace halfstep {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+constexpr double kDegree = std::numbers::pi / 180;
+// How far the standing posture may be from flat, parallel and mirrored feet ([m] and [rad]).
+constexpr double kStanding = 1e-4;
+constexpr double kBelowSole = 1e-6;  // a foot's bodies may reach this far below its sole [m]
+
+Isometry3d SoleInFoot(const LegFile& leg) {
+  Isometry3d X = Isometry3d::Identity();
+  X.translation() = Vector3d(leg.sole_xyz[0], leg.sole_xyz[1], leg.sole_xyz[2]);
+  if (!leg.sole_rpy.empty()) {
+    X.linear() = (Eigen::AngleAxisd(leg.sole_rpy[2], Vector3d::UnitZ()) *
+                  Eigen::AngleAxisd(leg.sole_rpy[1], Vector3d::UnitY()) *
+                  Eigen::AngleAxisd(leg.sole_rpy[0], Vector3d::UnitX()))
+                     .toRotationMatrix();
+  }
+  return X;
+}
+
+// Makes the model of a file whose keys are all valid by themselves.
+class Builder {
+ public:
+  Builder(const RobotFile& file, Fields& fields, Complaints* complaints)
+      : file_(file), urdf_(*file.urdf), fields_(fields), complaints_(complaints) {}
+
+  RobotModel Build() {
+    model_.name = file_.name;
+    model_.sole_size = {file_.sole_size[0], file_.sole_size[1]};
+    for (size_t i = 0; i < urdf_.joints.size(); ++i) {
+      const bool own = !file_.limits_deg[i].empty();
+      leg_.lower.push_back(own ? DegreesToRadians(file_.limits_deg[i][0]) : urdf_.joints[i].lower);
+      leg_.upper.push_back(own ? DegreesToRadians(file_.limits_deg[i][1]) : urdf_.joints[i].upper);
+      leg_.posture.push_back(DegreesToRadians(file_.posture_deg[i]));
+    }
+    CheckPostureInLimits();
+    leg_.waist = urdf_.FindLink(file_.waist_link);
+    if (!BuildLegs()) return model_;
+    if (const std::string fault = MirrorFault(model_.legs[0], model_.legs[1]); !fault.empty()) {
+      fields_.Complain("legs", fault);
+    }
+    Stand();
+    Weigh();
+    AddBodies();
+    return model_;
+  }
+
+ private:
+  void CheckPostureInLimits() {
+    std::string faults;
+    for (size_t i = 0; i < urdf_.joints.size(); ++i) {
+      if (urdf_.joints[i].kind != UrdfJoint::Kind::kRevolute) continue;
+      if (leg_.posture[i] < leg_.lower[i] - 1e-9 || leg_.posture[i] > leg_.upper[i] + 1e-9) {
+        faults += (faults.empty() ? "" : "; ") + urdf_.joints[i].name + ": " +
+                  Text("%.9g", file_.posture_deg[i]) +
+                  " is outside its limits (valid: " + ShortestDegrees(leg_.lower[i]) + " … " +
+                  ShortestDegrees(leg_.upper[i]) + ")";
+      }
+    }
+    if (!faults.empty()) fields_.Complain("standing_posture_deg", faults);
+  }
+
+  bool BuildLegs() {
+    bool ok = true;
+    for (size_t side = 0; side < 2; ++side) {
+      leg_.foot = urdf_.FindLink(file_.legs[side].foot_link);
+      leg_.X_FootSole = SoleInFoot(file_.legs[side]);
+      const auto joints = FindLegJoints(urdf_, leg_.waist, leg_.foot, complaints_);
+      const auto leg = joints ? BuildLeg(urdf_, leg_, *joints, complaints_) : std::nullopt;
+      if (leg) {
+        model_.legs[side] = *leg;
+        body_.leg_joints[side] = *joints;
+      }
+      ok = ok && leg.has_value();
+    }
+    if (ok && body_.leg_joints[0][0] == body_.leg_joints[1][0]) {
+      fields_.Complain("legs", "both feet hang on the same leg");
+      ok = false;
+    }
+    return ok;
+  }
+
+  // Waist height and width of stance; complains about feet that do not stand side by side.
+  void Stand() {
+    const Isometry3d left = LegForwardKinematics(model_.legs[0], model_.legs[0].standing_q)[6];
+    const Isometry3d right = LegForwardKinematics(model_.legs[1], model_.legs[1].standing_q)[6];
+    for (const auto& [name, X] : {std::pair{"left", left}, std::pair{"right", right}}) {
+      const double tilt = std::hypot(X(0, 2), X(1, 2)), yaw = std::atan2(X(1, 0), X(0, 0));
+      if (tilt > kStanding || X(2, 2) < 0) {
+        fields_.Complain("standing_posture_deg",
+                         std::string("the ") + name + " sole is not horizontal: it tilts by " +
+                             Text("%.4g", std::atan2(tilt, X(2, 2)) / kDegree) + " deg");
+      } else if (std::abs(yaw) > kStanding) {
+        fields_.Complain("standing_posture_deg", std::string("the ") + name +
+                                                     " sole does not point forward: yaw " +
+                                                     Text("%.4g", yaw / kDegree) + " deg");
+      }
+    }
+    const Vector3d l = left.translation(), r = right.translation();
+    if (std::abs(l.z() - r.z()) > kStanding) {
+      fields_.Complain("standing_posture_deg",
+                       "the soles are not at the same height: they differ "
+                       "by " +
+                           Text("%.4g", 1e3 * (l.z() - r.z())) + " mm");
+    }
+    if (std::abs(l.x() - r.x()) > kStanding || std::abs(l.y() + r.y()) > kStanding) {
+      fields_.Complain("standing_posture_deg",
+                       "the soles do not stand side by side, as mirror "
+                       "images of each other");
+    }
+    if (l.y() <= r.y()) fields_.Complain("legs", "the left sole is not on the left (y > 0)");
+    model_.waist_height = -(l.z() + r.z()) / 2;
+    model_.standing_width = l.y() - r.y();
+    if (model_.waist_height <= 0) {
+      fields_.Complain("waist_link", "the waist is not above the soles in the standing posture");
+    }
+  }
+
+  void Weigh() {
+    const std::vector<Isometry3d> X = urdf_.LinkPoses(leg_.posture);
+    const Isometry3d X_BRoot = X[static_cast<size_t>(leg_.waist)].inverse();
+    Vector3d moment = Vector3d::Zero();
+    for (size_t i = 0; i < urdf_.links.size(); ++i) {
+      model_.mass += urdf_.links[i].mass;
+      moment += urdf_.links[i].mass * (X_BRoot * X[i] * urdf_.links[i].com);
+    }
+    if (!(model_.mass > 0)) {
+      fields_.Complain("urdf", "no link has a mass: the CoM cannot be found");
+      return;
+    }
+    model_.com_x_B = moment.x() / model_.mass;
+    model_.com_height = file_.com_height.value_or(model_.waist_height + moment.z() / model_.mass);
+  }
+
+  void AddBodies() {
+    body_.waist = leg_.waist;
+    body_.posture = leg_.posture;
+    body_.packages = file_.packages;
+    LinkBodies all = BuildBodies(urdf_, body_, complaints_);
+    SelfPairs pairs = BuildSelfPairs(urdf_, file_.excluded, all, body_.leg_joints);
+    model_.self_pairs = std::move(pairs.watched);
+    model_.unwatched_pairs = std::move(pairs.unwatched);
+    model_.bodies = std::move(all.bodies);
+    model_.files = std::move(all.meshes);
+    model_.sole_outline = SoleOutline(model_);
+    CheckSoles();
+  }
+
+  void CheckSoles() {
+    std::string faults;
+    for (const Side side : {Side::kLeft, Side::kRight}) {
+      const double depth = DepthBelowSole(model_, side);
+      if (depth <= kBelowSole) continue;
+      faults += (faults.empty() ? "the " : "; the ") + std::string(Name(side)) + " foot reaches " +
+                Text("%.6g", 1e3 * depth) + " mm below its sole";
+    }
+    if (faults.empty()) return;
+    fields_.Complain("legs", faults +
+                                 " (valid: at most 0.001 mm; put sole_xyz on the lowest point "
+                                 "of the foot's bodies)");
+  }
+
+  static std::string Text(const char* format, double value) {
+    char text[48];
+    std::snprintf(text, sizeof text, format, value);
+    return text;
+  }
+
+  const RobotFile& file_;
+  const UrdfTree& urdf_;
+  Fields& fields_;
+  Complaints* complaints_;
+  LegRequest leg_;
+  BodyRequest body_;
+  RobotModel model_;
+};
+
+}  // namespace
+
+RobotModel LoadRobot(const std::string& yaml_path) {
+  return ParseRobot(yaml_path, ReadYamlFile(yaml_path));
+}
+
+RobotModel ParseRobot(const std::string& yaml_path, const std::string& text, const UrdfTree* urdf) {
+  const std::string directory = std::filesystem::path(yaml_path).parent_path().string();
+  RobotFile file;
+  if (urdf != nullptr) file.urdf = *urdf;
+  ReadYamlText(text, yaml_path, directory, {},
+               [&file](Fields& fields) { DeclareFields(fields, &file); });
+  // Every key is valid by itself. The second reading is for complaints about how they go together,
+  // at their places.
+  RobotModel model;
+  Complaints of_urdf;
+  ReadYamlText(text, yaml_path, directory, {}, [&](Fields& fields) {
+    DeclareFields(fields, &file);
+    model = Builder(file, fields, &of_urdf).Build();
+  });
+  model.files.insert(model.files.begin(), {RecordOf(yaml_path, text), file.urdf->source});
+  of_urdf.ThrowIfAny();
+  return model;
+}
+
+}  // namespace halfstep

@@ -1,0 +1,225 @@
+#include "wpg/robot/robot_legs.h"
+
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include "wpg/robot/leg_ik.h"
+
+namespace halfstep {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+constexpr double kMeeting = 1e-6;   // axes farther apart than this [m] do not meet
+constexpr double kParallel = 1e-3;  // |sine| below which axes count as parallel
+constexpr double kLever = 1e-3;     // least distance of hip and ankle from the knee axis [m]
+constexpr double kMirror = 1e-6;    // [m], [rad]
+
+std::string Millimetres(double metres) {
+  char text[32];
+  std::snprintf(text, sizeof text, metres < 1e-4 ? "%.4f mm" : "%.1f mm", metres * 1e3);
+  return text;
+}
+
+double AxisDistance(const LegJoint& a, const LegJoint& b) {
+  const Vector3d between = b.point_B - a.point_B, across = a.axis_B.cross(b.axis_B);
+  const double sine = across.norm();
+  if (sine < 1e-9) return between.cross(a.axis_B).norm();
+  return std::abs(between.dot(across)) / sine;
+}
+
+double DistanceToAxis(const LegJoint& joint, const Vector3d& point) {
+  return (point - joint.point_B).cross(joint.axis_B).norm();
+}
+
+// The point nearest to all axes, by least squares.
+Vector3d NearestPoint(const std::vector<const LegJoint*>& joints) {
+  Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
+  Vector3d b = Vector3d::Zero();
+  for (const LegJoint* joint : joints) {
+    const Eigen::Matrix3d off_axis =
+        Eigen::Matrix3d::Identity() - joint->axis_B * joint->axis_B.transpose();
+    A += off_axis;
+    b += off_axis * joint->point_B;
+  }
+  return A.completeOrthogonalDecomposition().solve(b);
+}
+
+bool AreParallel(const LegJoint& a, const LegJoint& b) {
+  return a.axis_B.cross(b.axis_B).norm() < kParallel;
+}
+
+class LegChecker {
+ public:
+  LegChecker(const UrdfTree& urdf, const std::array<int, 6>& indices, Complaints* complaints)
+      : urdf_(urdf), indices_(indices), complaints_(complaints) {}
+
+  bool ok() const { return ok_; }
+
+  void Complain(size_t joint, const std::string& what) {
+    const UrdfJoint& at = urdf_.joints[static_cast<size_t>(indices_[joint])];
+    complaints_->Add(urdf_.file, at.place.line, at.place.column, at.name, what);
+    ok_ = false;
+  }
+
+  // The common point of the axes `first` … `first + count − 1`.
+  Vector3d CommonPoint(const Leg& leg, size_t first, size_t count, const std::string& which,
+                       const std::string& need) {
+    std::vector<const LegJoint*> joints;
+    for (size_t i = first; i < first + count; ++i) joints.push_back(&leg.joints[i]);
+    const bool ok_before = ok_;
+    for (size_t i = 0; i < count; ++i) {
+      for (size_t k = i + 1; k < count; ++k) {
+        const double distance = AxisDistance(*joints[i], *joints[k]);
+        if (distance > kMeeting) {
+          Complain(first + k, which + " axes " + joints[i]->name + " and " + joints[k]->name +
+                                  " pass each other at " + Millimetres(distance) + "; " + need);
+        }
+      }
+      if (i > 0 && AreParallel(*joints[i - 1], *joints[i])) {
+        Complain(first + i, which + " axes " + joints[i - 1]->name + " and " + joints[i]->name +
+                                " are parallel: they cannot turn the foot every way");
+      }
+    }
+    const Vector3d point = NearestPoint(joints);
+    for (size_t i = 0; i < count && ok_ == ok_before && ok_; ++i) {
+      const double distance = DistanceToAxis(*joints[i], point);
+      if (distance > kMeeting) {
+        Complain(first + i, which + " axes meet in pairs but not in one point: " + joints[i]->name +
+                                " misses it by " + Millimetres(distance) + "; " + need);
+      }
+    }
+    return point;
+  }
+
+ private:
+  const UrdfTree& urdf_;
+  const std::array<int, 6>& indices_;
+  Complaints* complaints_;
+  bool ok_ = true;
+};
+
+}  // namespace
+
+std::optional<std::array<int, 6>> FindLegJoints(const UrdfTree& urdf, int waist, int foot,
+                                                Complaints* complaints) {
+  const UrdfLink& foot_link = urdf.links[static_cast<size_t>(foot)];
+  std::vector<int> found;
+  bool ok = true;
+  for (int link = foot; link != waist;) {
+    const int index = urdf.links[static_cast<size_t>(link)].joint;
+    if (index < 0) {
+      complaints->Add(urdf.file, foot_link.place.line, foot_link.place.column, foot_link.name,
+                      "does not hang on " + urdf.links[static_cast<size_t>(waist)].name);
+      return std::nullopt;
+    }
+    const UrdfJoint& joint = urdf.joints[static_cast<size_t>(index)];
+    if (joint.kind == UrdfJoint::Kind::kOther) {
+      complaints->Add(urdf.file, joint.place.line, joint.place.column, joint.name,
+                      "a leg's joint must be revolute, with limits, or fixed");
+      ok = false;
+    }
+    if (joint.kind != UrdfJoint::Kind::kFixed) found.push_back(index);
+    link = joint.parent;
+  }
+  if (ok && found.size() != 6) {
+    complaints->Add(
+        urdf.file, foot_link.place.line, foot_link.place.column, foot_link.name,
+        "is " + std::to_string(found.size()) + " revolute joints away from the waist (valid: 6)");
+    ok = false;
+  }
+  if (!ok) return std::nullopt;
+  std::array<int, 6> joints;
+  std::copy(found.rbegin(), found.rend(), joints.begin());
+  return joints;
+}
+
+std::optional<Leg> BuildLeg(const UrdfTree& urdf, const LegRequest& request,
+                            const std::array<int, 6>& indices, Complaints* complaints) {
+  const std::vector<Isometry3d> X = urdf.LinkPoses(std::vector<double>(urdf.joints.size(), 0.0));
+  const Isometry3d X_BRoot = X[static_cast<size_t>(request.waist)].inverse();
+  Leg leg;
+  for (size_t i = 0; i < 6; ++i) {
+    const auto index = static_cast<size_t>(indices[i]);
+    const UrdfJoint& joint = urdf.joints[index];
+    LegJoint& out = leg.joints[i];
+    out.name = joint.name;
+    out.X_BLink = X_BRoot * X[static_cast<size_t>(joint.child)];
+    out.axis_B = (out.X_BLink.linear() * joint.axis).normalized();
+    out.point_B = out.X_BLink.translation();
+    out.lower = request.lower[index];
+    out.upper = request.upper[index];
+    if (out.upper - out.lower > 2.0 * std::numbers::pi + 1e-9) {
+      complaints->Add(urdf.file, joint.place.line, joint.place.column, joint.name,
+                      "its limits are more than a turn apart (valid: at most 360 deg, where need "
+                      "be by joint_limits_deg of the robot file)");
+      return std::nullopt;
+    }
+    out.max_speed = joint.max_speed;
+    leg.standing_q[static_cast<Eigen::Index>(i)] = request.posture[index];
+  }
+  leg.X_BSole = X_BRoot * X[static_cast<size_t>(request.foot)] * request.X_FootSole;
+
+  LegChecker check(urdf, indices, complaints);
+  leg.hip_B = check.CommonPoint(leg, 0, 3, "hip",
+                                "a closed-form leg needs all three hip axes through one point");
+  leg.ankle_B = check.CommonPoint(leg, 4, 2, "ankle",
+                                  "a closed-form leg needs both ankle axes through one point");
+  const LegJoint& knee = leg.joints[3];
+  for (const auto& [point, which] :
+       {std::pair{leg.hip_B, "hip"}, std::pair{leg.ankle_B, "ankle"}}) {
+    const double lever = DistanceToAxis(knee, point);
+    if (check.ok() && lever < kLever) {
+      check.Complain(3, std::string("the knee axis passes the ") + which + " at " +
+                            Millimetres(lever) + ": it cannot change the leg's length");
+    }
+  }
+  if (!check.ok()) return std::nullopt;
+  const double length = DistanceToAxis(knee, leg.hip_B) + DistanceToAxis(knee, leg.ankle_B);
+  if (std::abs(LegJacobian(leg, leg.standing_q).determinant()) < 1e-4 * std::pow(length, 3)) {
+    check.Complain(3,
+                   "the leg is singular in the standing posture (knee stretched, or hip or "
+                   "ankle axes aligned): bend it there");
+    return std::nullopt;
+  }
+  leg.branch = LegBranchOf(leg, leg.standing_q);
+  return leg;
+}
+
+std::string MirrorFault(const Leg& left, const Leg& right) {
+  const Eigen::DiagonalMatrix<double, 3> mirror(1, -1, 1);
+  const auto differ = [&](const Vector3d& l, const Vector3d& r) {
+    return (mirror * l - r).cwiseAbs().maxCoeff();
+  };
+  for (const auto& [what, l, r] : {std::tuple{"hip", left.hip_B, right.hip_B},
+                                   std::tuple{"ankle", left.ankle_B, right.ankle_B}}) {
+    if (const double d = differ(l, r); d > kMirror) {
+      return std::string("the right ") + what + " is " + Millimetres(d) +
+             " off the mirror image of the left one";
+    }
+  }
+  for (size_t i = 0; i < 6; ++i) {
+    const LegJoint &l = left.joints[i], &r = right.joints[i];
+    const std::string pair = r.name + " is not the mirror image of " + l.name;
+    const Vector3d axis = mirror * l.axis_B;
+    if (axis.cross(r.axis_B).norm() > kMirror) return pair + ": its axis points elsewhere";
+    if (const double d = DistanceToAxis(r, mirror * l.point_B); d > kMirror) {
+      return pair + ": its axis is " + Millimetres(d) + " off";
+    }
+    // A mirror turns rotations round: angles keep their sign where the axis changes its own.
+    const bool same_sign = axis.dot(r.axis_B) < 0;
+    const double lower = same_sign ? l.lower : -l.upper, upper = same_sign ? l.upper : -l.lower;
+    if (std::max(std::abs(lower - r.lower), std::abs(upper - r.upper)) > kMirror) {
+      return pair + ": its limits differ";
+    }
+    if (std::abs(l.max_speed - r.max_speed) > kMirror) return pair + ": its speed limit differs";
+  }
+  return "";
+}
+
+}  // namespace halfstep

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "wpg/files/input_error.h"
+#include "wpg/robot/robot_model.h"
+#include "wpg/robot/urdf_file.h"
+
+namespace halfstep {
+
+/// What a leg needs beside the URDF.
+struct LegRequest {
+  int waist = -1;  ///< link index of the waist.
+  int foot = -1;   ///< link index of the foot.
+  Eigen::Isometry3d X_FootSole = Eigen::Isometry3d::Identity();
+  std::vector<double> lower;  ///< limits by URDF joint index [rad].
+  std::vector<double> upper;
+  std::vector<double> posture;  ///< standing posture by URDF joint index [rad].
+};
+
+/// URDF joint indices of the six joints between waist and foot, from the waist down. Complains, at
+/// the place of the foot or the joint, when they are not six revolute joints (fixed ones apart).
+std::optional<std::array<int, 6>> FindLegJoints(const UrdfTree& urdf, int waist, int foot,
+                                                Complaints* complaints);
+
+/// The leg with the common points of its hip and ankle axes. Complains when the closed-form inverse
+/// kinematics does not apply to it (see wpg/README.md) or its standing posture is singular.
+std::optional<Leg> BuildLeg(const UrdfTree& urdf, const LegRequest& request,
+                            const std::array<int, 6>& joints, Complaints* complaints);
+
+/// What keeps the right leg from being the left one's mirror image in the xz plane of the waist, in
+/// geometry (1e-6 m, 1e-6 rad), limits and speeds; "" when it is.
+std::string MirrorFault(const Leg& left, const Leg& right);
+
+}  // namespace halfstep

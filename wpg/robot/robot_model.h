@@ -1,0 +1,98 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <array>
+#include <string>
+#include <vector>
+
+#include "wpg/files/input_file.h"
+#include "wpg/geometry/convex_body.h"
+#include "wpg/geometry/side.h"
+
+namespace halfstep {
+
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+
+/// One revolute leg joint. Axis and point are given in the waist frame B at the zero posture q = 0.
+struct LegJoint {
+  std::string name;           ///< as in the URDF.
+  Eigen::Vector3d axis_B;     ///< unit vector.
+  Eigen::Vector3d point_B;    ///< a point on the axis [m].
+  double lower = 0.0;         ///< [rad]
+  double upper = 0.0;         ///< [rad], lower < upper.
+  double max_speed = 0.0;     ///< [rad/s] > 0.
+  Eigen::Isometry3d X_BLink;  ///< frame of the link that it moves, at q = 0.
+};
+
+/// Sign of each two-fold choice of the closed-form leg inverse kinematics: 0 or 1.
+struct LegBranch {
+  int knee = 0;
+  int ankle = 0;
+  int hip = 0;
+  friend bool operator==(const LegBranch&, const LegBranch&) = default;
+};
+
+/// A leg: three hip axes that meet in `hip_B`, the knee, two ankle axes that meet in `ankle_B`
+/// (both at q = 0, in the waist frame), and the sole.
+struct Leg {
+  std::array<LegJoint, 6> joints;  ///< from the waist to the foot.
+  Eigen::Vector3d hip_B;           ///< [m]
+  Eigen::Vector3d ankle_B;         ///< [m]
+  Eigen::Isometry3d X_BSole;       ///< sole frame (centre of the sole rectangle, z up) at q = 0.
+  LegBranch branch;                ///< the branch of the standing posture.
+  Vector6d standing_q;             ///< [rad]
+};
+
+/// A convex collision body, rigid on one link.
+struct RobotBody {
+  std::string name;  ///< link name, with "#2" … when a link has several bodies.
+  int leg = -1;      ///< Index(Side) of the leg that it belongs to, or −1: rigid with the waist.
+  int link = -1;     ///< 0 … 5: moved by joints[0 … link] of that leg; −1 on the waist.
+  ConvexBody shape;  ///< in the frame of its link (leg) or of the waist.
+};
+
+/// Two bodies that move against each other and are not watched.
+struct UnwatchedPair {
+  int a = -1, b = -1;  ///< indices of RobotModel::bodies, a < b.
+  std::string why;     ///< such as "joined by LLEG_JOINT3"; never empty.
+};
+
+/// A robot as walking needs it; immutable after loading. Waist frame B: z up when standing.
+struct RobotModel {
+  std::string name;
+  std::array<Leg, 2> legs;        ///< indexed by Index(Side).
+  Eigen::Vector2d sole_size;      ///< full length (x) and width (y) of the sole rectangle [m].
+  Eigen::Matrix2Xd sole_outline;  ///< of what touches the floor (wpg/robot/sole_outline.h) [m].
+  double waist_height =
+      0.0;  ///< of B's origin above the floor in the standing posture, kept while walking [m].
+  double com_height = 0.0;  ///< z_c above the floor [m].
+  double com_x_B = 0.0;  ///< CoM ahead of B's origin [m]; its y is 0 by the generator's symmetry.
+  double mass = 0.0;     ///< [kg]
+  double standing_width = 0.0;   ///< distance of the sole centres in the standing posture [m].
+  std::vector<InputFile> files;  ///< what it was read from: YAML, URDF, each reading of a mesh.
+  std::vector<RobotBody> bodies;
+  std::vector<std::array<int, 2>> self_pairs;  ///< pairs of `bodies` that must not touch.
+  /// All other pairs of bodies that move against each other (wpg/robot/self_pairs.h).
+  std::vector<UnwatchedPair> unwatched_pairs;
+};
+
+/// Loads and validates a robot YAML file and the URDF that it names. Format: wpg/README.md,
+/// "Robots". Throws InputError (wpg/files/input_error.h) with every complaint as file:line:column.
+RobotModel LoadRobot(const std::string& yaml_path);
+
+/// Where the parts of a leg are, seen from the waist B.
+struct LegFrames {
+  std::array<Eigen::Vector3d, 6> axis_B;     ///< joint axes, unit vectors.
+  std::array<Eigen::Vector3d, 6> point_B;    ///< a point on each axis [m].
+  std::array<Eigen::Isometry3d, 7> X_BLink;  ///< the six links and, last, the sole.
+};
+LegFrames PlaceLeg(const Leg& leg, const Vector6d& q);
+
+/// Poses X_BLink of the links of a leg and, last, of its sole, for joint angles q [rad].
+inline std::array<Eigen::Isometry3d, 7> LegForwardKinematics(const Leg& leg, const Vector6d& q) {
+  return PlaceLeg(leg, q).X_BLink;
+}
+
+}  // namespace halfstep

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "wpg/robot/robot_model.h"
+#include "wpg/robot/urdf_file.h"
+
+namespace halfstep {
+
+/// All links and joints of a robot, where RobotModel has its legs only: for programs that want the
+/// whole machine (simulation, joint files).
+struct RobotTree {
+  UrdfTree urdf;
+  int waist = -1;               ///< link index
+  std::array<int, 2> feet{};    ///< link indices by Index(Side)
+  std::vector<double> posture;  ///< standing posture by joint index [rad]
+};
+
+/// Reads a robot file and its URDF. Throws InputError. LoadRobot of the same file refuses more.
+RobotTree LoadRobotTree(const std::string& yaml_path);
+
+/// Angles of all joints by index [rad]: `q` for the legs' by Index(Side), the standing posture for
+/// the others.
+std::vector<double> JointAngles(const RobotModel& robot, const RobotTree& tree,
+                                const std::array<Vector6d, 2>& q);
+
+/// Indices of the revolute joints in the order in which the URDF file has them.
+std::vector<int> JointsInFileOrder(const UrdfTree& urdf);
+
+}  // namespace halfstep

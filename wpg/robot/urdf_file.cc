@@ -1,0 +1,202 @@
+#include "wpg/robot/urdf_file.h"
+
+#include <console_bridge/console.h>
+#include <urdf_parser/urdf_parser.h>
+
+#include <mutex>
+
+#include "wpg/files/regular_file.h"
+
+namespace halfstep {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+constexpr std::uint64_t kMostBytes = 16 << 20;
+
+// Keeps what urdfdom would print. console_bridge has one handler a process, so one listener at a
+// time.
+class Listener : public console_bridge::OutputHandler {
+ public:
+  Listener() : lock_(Mutex()) { console_bridge::useOutputHandler(this); }
+  ~Listener() override { console_bridge::restorePreviousOutputHandler(); }
+  Listener(const Listener&) = delete;
+  Listener& operator=(const Listener&) = delete;
+
+  void log(const std::string& text, console_bridge::LogLevel level, const char*, int) override {
+    if (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR) {
+      text_ += (text_.empty() ? "" : "; ") + text;
+    }
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  static std::mutex& Mutex() {
+    static std::mutex mutex;
+    return mutex;
+  }
+  std::lock_guard<std::mutex> lock_;
+  std::string text_;
+};
+
+Vector3d ToEigen(const urdf::Vector3& v) { return {v.x, v.y, v.z}; }
+
+Isometry3d ToEigen(const urdf::Pose& pose) {
+  const urdf::Rotation& r = pose.rotation;
+  Isometry3d X = Isometry3d::Identity();
+  X.linear() = Eigen::Quaterniond(r.w, r.x, r.y, r.z).normalized().toRotationMatrix();
+  X.translation() = ToEigen(pose.position);
+  return X;
+}
+
+UrdfCollision ToCollision(const urdf::Collision& collision) {
+  UrdfCollision out;
+  out.X_LinkShape = ToEigen(collision.origin);
+  const urdf::Geometry& geometry = *collision.geometry;
+  switch (geometry.type) {
+    case urdf::Geometry::BOX:
+      out.kind = UrdfCollision::Kind::kBox;
+      out.size = ToEigen(static_cast<const urdf::Box&>(geometry).dim);
+      break;
+    case urdf::Geometry::SPHERE:
+      out.kind = UrdfCollision::Kind::kSphere;
+      out.size.x() = static_cast<const urdf::Sphere&>(geometry).radius;
+      break;
+    case urdf::Geometry::CYLINDER: {
+      const auto& cylinder = static_cast<const urdf::Cylinder&>(geometry);
+      out.kind = UrdfCollision::Kind::kCylinder;
+      out.size = {cylinder.radius, cylinder.length, 0};
+      break;
+    }
+    case urdf::Geometry::MESH: {
+      const auto& mesh = static_cast<const urdf::Mesh&>(geometry);
+      out.kind = UrdfCollision::Kind::kMesh;
+      out.mesh = mesh.filename;
+      out.scale = ToEigen(mesh.scale);
+      break;
+    }
+  }
+  return out;
+}
+
+UrdfJoint ToJoint(const urdf::Joint& joint, const UrdfPlaces& places) {
+  UrdfJoint out;
+  out.name = joint.name;
+  out.X_ParentChild = ToEigen(joint.parent_to_joint_origin_transform);
+  out.place = places.joints.at(joint.name);
+  if (joint.type == urdf::Joint::FIXED) return out;
+  out.kind =
+      joint.type == urdf::Joint::REVOLUTE ? UrdfJoint::Kind::kRevolute : UrdfJoint::Kind::kOther;
+  if (out.kind == UrdfJoint::Kind::kRevolute) {
+    out.axis = ToEigen(joint.axis).normalized();
+    out.lower = joint.limits->lower;
+    out.upper = joint.limits->upper;
+    out.max_speed = joint.limits->velocity;
+  }
+  return out;
+}
+
+Eigen::Matrix3d InertiaInLink(const urdf::Inertial& inertial) {
+  Eigen::Matrix3d inertia;
+  inertia << inertial.ixx, inertial.ixy, inertial.ixz,  //
+      inertial.ixy, inertial.iyy, inertial.iyz,         //
+      inertial.ixz, inertial.iyz, inertial.izz;
+  const Eigen::Matrix3d R = ToEigen(inertial.origin).linear();
+  return R * inertia * R.transpose();
+}
+
+// Appends a link; `joint` leads to it, −1 at the root. Returns its index.
+int AddLink(const urdf::Link& link, int joint, const UrdfPlaces& places, UrdfTree* tree) {
+  const int index = static_cast<int>(tree->links.size());
+  UrdfLink& out = tree->links.emplace_back();
+  out.name = link.name;
+  out.joint = joint;
+  out.place = places.links.at(link.name);
+  if (joint >= 0) tree->joints[static_cast<size_t>(joint)].child = index;
+  if (link.inertial) {
+    out.mass = link.inertial->mass;
+    out.com = ToEigen(link.inertial->origin.position);
+    out.inertia = InertiaInLink(*link.inertial);
+  }
+  for (const auto& collision : link.collision_array) {
+    UrdfCollision shape = ToCollision(*collision);
+    shape.place = places.collisions.at(link.name).at(out.collisions.size());
+    out.collisions.push_back(std::move(shape));
+  }
+  return index;
+}
+
+// Appends the root and all that hangs on it, a link before its children and each child's branch
+// before the next child. Not by recursion: a chain may be 5,000 links long.
+void AddTree(const urdf::Link& root, const UrdfPlaces& places, UrdfTree* tree) {
+  struct Open {
+    const urdf::Link* link;
+    const urdf::Joint* joint;  // null at the root
+    int parent;
+  };
+  std::vector<Open> open = {{&root, nullptr, -1}};
+  while (!open.empty()) {
+    const Open next = open.back();
+    open.pop_back();
+    int joint = -1;
+    if (next.joint != nullptr) {
+      joint = static_cast<int>(tree->joints.size());
+      tree->joints.push_back(ToJoint(*next.joint, places));
+      tree->joints.back().parent = next.parent;
+    }
+    const int index = AddLink(*next.link, joint, places, tree);
+    for (size_t i = next.link->child_links.size(); i-- > 0;) {
+      open.push_back({next.link->child_links[i].get(), next.link->child_joints[i].get(), index});
+    }
+  }
+}
+
+}  // namespace
+
+int UrdfTree::FindLink(const std::string& name) const {
+  for (size_t i = 0; i < links.size(); ++i) {
+    if (links[i].name == name) return static_cast<int>(i);
+  }
+  return -1;
+}
+
+std::vector<Isometry3d> UrdfTree::LinkPoses(const std::vector<double>& q) const {
+  std::vector<Isometry3d> X(links.size(), Isometry3d::Identity());
+  for (size_t i = 1; i < links.size(); ++i) {
+    const auto j = static_cast<size_t>(links[i].joint);
+    const UrdfJoint& joint = joints[j];
+    X[i] = X[static_cast<size_t>(joint.parent)] * joint.X_ParentChild;
+    if (joint.kind == UrdfJoint::Kind::kRevolute) {
+      X[i].rotate(Eigen::AngleAxisd(q[j], joint.axis));
+    }
+  }
+  return X;
+}
+
+UrdfTree ReadUrdf(const std::string& path) {
+  return ParseUrdf(path, ReadRegularFile(path, kMostBytes));
+}
+
+UrdfTree ParseUrdf(const std::string& path, const std::string& text) {
+  Complaints complaints;
+  if (text.empty()) complaints.Add(path, 0, 0, "", "is empty");
+  complaints.ThrowIfAny();
+  const UrdfPlaces places = CheckUrdf(text, path, &complaints);
+  complaints.ThrowIfAny();
+  UrdfTree tree;
+  tree.file = path;
+  tree.source = RecordOf(path, text);
+  const Listener listener;
+  // The byte order mark makes it UTF-8, whatever the file says of its encoding, as CheckUrdf takes
+  // it: else characters such as &#282; would make other names.
+  const urdf::ModelInterfaceSharedPtr model = urdf::parseURDF("\xEF\xBB\xBF" + text);
+  if (!model || !model->getRoot()) {
+    complaints.Add(path, 0, 0, "robot", "urdfdom refuses it: " + listener.text());
+    complaints.ThrowIfAny();
+  }
+  AddTree(*model->getRoot(), places, &tree);
+  return tree;
+}
+
+}  // namespace halfstep

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <string>
+#include <vector>
+
+#include "wpg/files/input_file.h"
+#include "wpg/robot/urdf_check.h"
+
+namespace halfstep {
+
+/// Collision geometry of a link, as the URDF states it.
+struct UrdfCollision {
+  enum class Kind { kBox, kSphere, kCylinder, kMesh };
+  Kind kind = Kind::kBox;
+  Eigen::Vector3d size{0, 0, 0};  ///< box: edges; sphere: radius; cylinder: radius, length [m].
+  std::string mesh;               ///< file name as written.
+  Eigen::Vector3d scale{1, 1, 1};
+  Eigen::Isometry3d X_LinkShape = Eigen::Isometry3d::Identity();
+  UrdfPlace place;
+};
+
+struct UrdfLink {
+  std::string name;
+  double mass = 0.0;                                  ///< [kg]
+  Eigen::Vector3d com{0, 0, 0};                       ///< in the link frame [m].
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< about the CoM, link's axes [kg m²].
+  int joint = -1;                                     ///< the joint that moves it; −1: root.
+  std::vector<UrdfCollision> collisions;
+  UrdfPlace place;
+};
+
+struct UrdfJoint {
+  enum class Kind { kFixed, kRevolute, kOther };
+  std::string name;
+  Kind kind = Kind::kFixed;
+  int parent = -1;                                                  ///< link index.
+  int child = -1;                                                   ///< link index.
+  Eigen::Isometry3d X_ParentChild = Eigen::Isometry3d::Identity();  ///< at angle 0.
+  Eigen::Vector3d axis{1, 0, 0};                                    ///< unit, in the child's frame.
+  double lower = 0.0;                                               ///< [rad]
+  double upper = 0.0;                                               ///< [rad]
+  double max_speed = 0.0;                                           ///< [rad/s]
+  UrdfPlace place;
+};
+
+/// A URDF's kinematic tree, masses and collision geometry as plain values. Links come after the
+/// links that they hang on: links[0] is the root.
+struct UrdfTree {
+  std::string file;  ///< its path, for complaints.
+  InputFile source;  ///< what was read.
+  std::vector<UrdfLink> links;
+  std::vector<UrdfJoint> joints;
+
+  int FindLink(const std::string& name) const;  ///< index, −1: unknown.
+  /// Poses of all links in the root's frame for joint positions by index [rad]; joints of kind
+  /// kOther stay at 0.
+  std::vector<Eigen::Isometry3d> LinkPoses(const std::vector<double>& q) const;
+};
+
+/// Reads and checks a URDF file. Throws InputError with every complaint (see CheckUrdf).
+UrdfTree ReadUrdf(const std::string& path);
+/// The same of a text; `path` stands for it in complaints.
+UrdfTree ParseUrdf(const std::string& path, const std::string& text);
+
+}  // namespace halfstep
