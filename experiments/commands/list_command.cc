@@ -6,8 +6,8 @@
 
 #include "experiments/commands/commands.h"
 #include "experiments/config/experiment.h"
-#include "experiments/config/methods.h"
 #include "opt/adapters/solver_registry.h"
+#include "smoothing/methods/smoother_registry.h"
 
 namespace halfstep {
 namespace {
@@ -49,7 +49,9 @@ std::vector<Entry> Entries(const std::string& what) {
   if (what == "solvers") return Solvers();
   if (what == "planners") return Planners();
   std::vector<Entry> entries = {{"raw", "the planned motion itself; written by every run"}};
-  for (const Method& method : Methods()) entries.push_back({method.name, method.meaning});
+  for (const auto& smoother : Smoothers()) {
+    entries.push_back({smoother->name(), smoother->meaning()});
+  }
   return entries;
 }
 

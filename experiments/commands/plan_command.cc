@@ -78,7 +78,7 @@ ExitStatus Plan(const PlanCommand& command) {
   std::optional<PlannedWalk> walk;
   {
     Bars bars(command.quiet || command.json);
-    walk = PlanWalk(config, HooksOf(&bars, interrupt));
+    walk = PlanWalk(config, LoadPlace(config), HooksOf(&bars, interrupt));
   }
   WarnAboutCache(walk->half_steps.cached);
   const bool solved = walk->plan.status == PlanStatus::kSolved;

@@ -89,7 +89,7 @@ ExitStatus Run(const RunCommand& command) {
   if (command.json) {
     std::cout << RunJson(run.evaluator(), run.runs(), place);
   } else if (!command.quiet) {
-    std::cout << RunTable(run.experiment(), run.evaluator(), run.test(), run.runs(), place);
+    std::cout << RunTable(run.experiment(), run.problem(), run.runs(), place);
   }
   if (!run.runs().front().result.feasible) {
     std::cerr << "halfstep: the plan is not feasible: " << run.runs().front().result.message

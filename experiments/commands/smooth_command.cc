@@ -3,7 +3,7 @@
 
 #include "experiments/commands/commands.h"
 #include "experiments/config/experiment_config.h"
-#include "experiments/config/methods.h"
+#include "smoothing/methods/smoother_registry.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/text.h"
 
@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 // "[dichotomy, ipopt]": the value of smoothing.methods.
 std::string MethodList(const std::vector<std::string>& methods) {
-  const std::vector<std::string> known = MethodNames();
+  const std::vector<std::string> known = SmootherNames();
   std::string list, valid;
   for (const std::string& name : known) valid += (valid.empty() ? "" : ", ") + name;
   for (const std::string& method : methods) {

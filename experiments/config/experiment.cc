@@ -74,11 +74,13 @@ std::array<Pose2, 2> StartOf(const ExperimentConfig& config, const RobotModel& r
   return {Pose2{0.0, y, 0.0}, Pose2{0.0, -y, 0.0}};
 }
 
-Experiment Prepare(const ExperimentConfig& config) {
-  Experiment experiment{.config = config, .robot = {}, .scene = {}, .sequence = {}};
-  Place place = LoadPlace(config);
-  experiment.robot = std::move(place.robot);
-  experiment.scene = std::move(place.scene);
+Experiment Prepare(const ExperimentConfig& config) { return Prepare(config, LoadPlace(config)); }
+
+Experiment Prepare(const ExperimentConfig& config, Place place) {
+  Experiment experiment{.config = config,
+                        .robot = std::move(place.robot),
+                        .scene = std::move(place.scene),
+                        .sequence = {}};
   const Lipm lipm{.com_height = experiment.robot.com_height};
   if (config.footsteps.empty()) {
     experiment.sequence = {StartOf(config, experiment.robot), {}, lipm};
@@ -91,10 +93,8 @@ Experiment Prepare(const ExperimentConfig& config) {
                          .via_height = step.via_height.value_or(config.half_step.via_height),
                          .duration = step.duration.value_or(config.half_step.duration)});
   }
-  const HalfStepShape shape{.shift = config.half_step.zmp_shift / config.half_step.duration,
-                            .horizontal_delay = config.half_step.horizontal_delay};
   experiment.sequence = MakeSequence(StartOf(config, experiment.robot), footsteps,
-                                     config.half_step.via_lateral, shape, lipm);
+                                     config.half_step.via_lateral, ShapeOf(config.half_step), lipm);
   return experiment;
 }
 

@@ -40,8 +40,9 @@ Place LoadPlace(const ExperimentConfig& config);
 /// The soles at the start, by Index(Side).
 std::array<Pose2, 2> StartOf(const ExperimentConfig& config, const RobotModel& robot);
 
-/// Loads the robot and the scene and makes the sequence, empty without footsteps. Throws
-/// InputError.
+/// Makes the sequence, empty without footsteps, in a place that was loaded before.
+Experiment Prepare(const ExperimentConfig& config, Place place);
+/// The same in LoadPlace(config). Throws InputError.
 Experiment Prepare(const ExperimentConfig& config);
 
 /// The first footprint of the plan that touches a no-step polygon, as a sentence; none: all are

@@ -5,8 +5,8 @@
 
 #include "experiments/config/experiment.h"
 #include "experiments/config/folder_name.h"
-#include "experiments/config/methods.h"
 #include "smoothing/margins/family_traits.h"
+#include "smoothing/methods/smoother_registry.h"
 #include "wpg/files/text.h"
 
 namespace halfstep {
@@ -104,16 +104,19 @@ void DeclareOptimizer(Fields& fields, OptimizerConfig* c) {
   for (ProgramKind kind : {ProgramKind::kFastest, ProgramKind::kSmooth, ProgramKind::kSafest}) {
     if (c->program == Name(kind)) o->program.kind = kind;
   }
-  fields.Boolean("heights", &o->program.heights,
-                 {.meaning = "foot-height scales are variables beside the overlaps"});
-  fields.Boolean("durations", &o->program.durations,
-                 {.meaning = "durations of half-steps are variables beside the overlaps"});
-  fields.Number("least_height_scale", &o->program.least_height_scale,
-                {.meaning = "of the planned height", .min = 0.01, .max = 1});
-  fields.Number("least_duration", &o->program.least_duration,
-                {.meaning = "of the planned duration of a half-step", .min = 0.2, .max = 1});
-  fields.Number("most_duration", &o->program.most_duration,
-                {.meaning = "of the planned duration of a half-step", .min = 1, .max = 5});
+  ParameterChoice* const choice = &o->program.parameters;
+  for (const ParameterFamily family : AllParameterFamilies()) {
+    const ParameterFamilyTraits& traits = Traits(family);
+    if (traits.chosen == nullptr) continue;
+    fields.Boolean(traits.key.data(), &(choice->*traits.chosen),
+                   {.meaning = traits.key_meaning.data()});
+  }
+  for (const ParameterFamily family : AllParameterFamilies()) {
+    for (const ParameterBoundKey& bound : Traits(family).bounds) {
+      fields.Number(bound.key.data(), &(choice->*bound.value),
+                    {.meaning = bound.meaning.data(), .min = bound.min, .max = bound.max});
+    }
+  }
   fields.Number("duration_s", &o->duration_limit,
                 {.meaning = "`safest`: of the walk at most; 0: the dichotomy's own",
                  .unit = "s",
@@ -127,10 +130,12 @@ void DeclareOptimizer(Fields& fields, OptimizerConfig* c) {
       {.meaning = "`pareto`: longest duration, of the planned motion's", .min = 0.1, .max = 3});
   fields.Group("weights", {.meaning = "`smooth`: of the effort beside the duration"},
                [&](Fields& f) { DeclareWeights(f, &o->program.weights); });
-  fields.Integer("instants", &o->instants,
-                 {.meaning = "per half-step at which the program looks; 0: what suits the solver",
-                  .min = 0,
-                  .max = 1000});
+  fields.Integer(
+      "instants", &o->instants,
+      {.meaning = "per half-step at which the program looks; 0: 24 for `halfstep/sqp`, 32 for "
+                  "others",
+       .min = 0,
+       .max = 1000});
   fields.Integer("rounds", &o->rounds,
                  {.meaning = "solves from each start, each looking closer", .min = 1, .max = 100});
   fields.Boolean("planned_start", &o->planned_start,
@@ -140,9 +145,41 @@ void DeclareOptimizer(Fields& fields, OptimizerConfig* c) {
                  {.meaning = "further starts, drawn from `seed`", .min = 0, .max = 1000});
   fields.Integer(
       "max_iterations", &o->max_iterations,
-      {.meaning = "of the solver in a round; 0: what suits it", .min = 0, .max = 100000});
+      {.meaning =
+           "that the solver may make in a round, NLopt's excepted, which count none; 0: 3 for "
+           "`halfstep/sqp`, 30 for others",
+       .min = 0,
+       .max = 100000});
   fields.Number("deadline_s", &o->deadline,
                 {.meaning = "of all solves together", .unit = "s", .min = 0.001, .max = 86400});
+}
+
+void DeclareFixed(Fields& fields, FixedConfig* c) {
+  std::vector<std::string> names;
+  for (const ParameterFamily family : AllParameterFamilies()) {
+    names.emplace_back(Traits(family).name);
+  }
+  fields.Text("parameter", &c->parameter,
+              {.meaning = "which kind of them", .required = true, .choices = names});
+  fields.Integer("index", &c->index,
+                 {.meaning = "of its junction, step or half-step, from 1", .min = 1, .max = 20000});
+  fields.OptionalNumber(
+      "value", &c->value,
+      {.meaning = "s, or of the planned height; none: as planned", .min = 0, .max = 6});
+}
+
+// What there is to say against smoothing.fixed; the half-steps of a plan are not known before it.
+std::string ComplaintAboutFixed(const ExperimentConfig& config) {
+  if (config.smoothing.fixed.empty()) return "";
+  if (config.has_goal) return "the half-steps are not planned yet (valid: with `footsteps`)";
+  HalfStepSequence sequence;
+  for (const FootstepConfig& footstep : config.footsteps) {
+    HalfStep half_step;
+    half_step.duration = footstep.duration.value_or(config.half_step.duration);
+    half_step.shape = ShapeOf(config.half_step);
+    sequence.half_steps.insert(sequence.half_steps.end(), 2, {half_step, {}});
+  }
+  return ComplaintAbout(sequence, FixedParameters(config.smoothing));
 }
 
 void DeclareLimits(Fields& fields, MarginLimits* l) {
@@ -170,7 +207,7 @@ void DeclareMargins(Fields& fields, MarginLimits* l) {
 void DeclareSmoothing(Fields& fields, SmoothingConfig* c) {
   fields.Texts("methods", &c->methods,
                {.meaning = "to run and compare, each once; `raw` is always written",
-                .choices = MethodNames(),
+                .choices = SmootherNames(),
                 .listed_by = "halfstep list methods"});
   for (auto method = c->methods.begin(); method != c->methods.end(); ++method) {
     if (std::find(c->methods.begin(), method, *method) != method) {
@@ -198,6 +235,7 @@ void DeclareSmoothing(Fields& fields, SmoothingConfig* c) {
       {.meaning =
            "options of the methods that are solvers (smoothing/README.md, \"Overlap program\")"},
       [&](Fields& f) { DeclareOptimizer(f, &c->optimizer); });
+  fields.List("fixed", {.meaning = "parameters that no method may move"}, &c->fixed, DeclareFixed);
   fields.Group("limits", {.meaning = "what the robot file does not limit"},
                [&](Fields& f) { DeclareLimits(f, &c->limits); });
   fields.Group("margins", {.meaning = "demanded margins: feasible means at least this far inside"},
@@ -246,14 +284,18 @@ void DeclareFields(Fields& fields, ExperimentConfig* c) {
   }
   fields.Group("planner", {.meaning = "of the way to the goal"},
                [&](Fields& f) { DeclarePlanner(f, &c->planner); });
-  fields.Group("half_steps", {.meaning = "places that the planner chooses from"},
+  fields.Renamed("half_steps", "step_set");
+  fields.Group("step_set", {.meaning = "places that the planner chooses from"},
                [&](Fields& f) { DeclareHalfStepSet(f, &c->half_step_grid); });
   fields.Group("swept_volumes", {.meaning = "that are baked of them"},
                [&](Fields& f) { DeclareSweptVolumes(f, &c->swept_volumes); });
   fields.Group("half_step", {.meaning = "the isolated half-step"},
                [&](Fields& f) { DeclareHalfStep(f, &c->half_step); });
-  fields.Group("smoothing", {.meaning = "the homotopy"},
-               [&](Fields& f) { DeclareSmoothing(f, &c->smoothing); });
+  fields.Group("smoothing", {.meaning = "the homotopy"}, [&](Fields& f) {
+    DeclareSmoothing(f, &c->smoothing);
+    const std::string complaint = ComplaintAboutFixed(*c);
+    if (!complaint.empty()) f.Complain("fixed", complaint);
+  });
   fields.Group("output", {.meaning = "what is written"}, [&](Fields& f) {
     f.Text("directory", &c->output_directory,
            {.meaning = "the run folder, relative to the config",
@@ -286,6 +328,21 @@ void DeclareFilesThere(Fields& fields, const ExperimentConfig& config) {
 }
 
 }  // namespace
+
+HalfStepShape ShapeOf(const HalfStepConfig& config) {
+  return {.shift = config.zmp_shift / config.duration, .horizontal_delay = config.horizontal_delay};
+}
+
+std::vector<FixedParameter> FixedParameters(const SmoothingConfig& config) {
+  std::vector<FixedParameter> fixed;
+  for (const FixedConfig& one : config.fixed) {
+    for (const ParameterFamily family : AllParameterFamilies()) {
+      if (one.parameter == Traits(family).name)
+        fixed.push_back({{family, one.index - 1}, one.value});
+    }
+  }
+  return fixed;
+}
 
 std::vector<KeyDescription> ConfigKeys() {
   ExperimentConfig config;

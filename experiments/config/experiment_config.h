@@ -34,11 +34,21 @@ struct HalfStepConfig {
   double horizontal_delay = 0.1;  ///< of T
 };
 
+/// Fractions of T, as half-steps have them.
+HalfStepShape ShapeOf(const HalfStepConfig& config);
+
 /// Options of the methods that are solvers.
 struct OptimizerConfig {
   std::string program = "fastest";
   OptimizerOptions options;
   ParetoOptions pareto;
+};
+
+/// A parameter that methods leave alone, as a config names it: "overlap", 3 (from 1).
+struct FixedConfig {
+  std::string parameter = "overlap";
+  int index = 1;
+  std::optional<double> value;  ///< in the family's unit; none: as planned
 };
 
 struct SmoothingConfig {
@@ -48,6 +58,7 @@ struct SmoothingConfig {
   CertificationOptions certification;
   DichotomyOptions dichotomy;
   OptimizerConfig optimizer;
+  std::vector<FixedConfig> fixed;
   MarginLimits limits;
 };
 
@@ -74,6 +85,9 @@ struct ExperimentConfig {
 
 /// Declares every key of a config once: reading, writing back and explaining all use this.
 void DeclareFields(Fields& fields, ExperimentConfig* config);
+
+/// The parameters that a config fixes. Precondition: each names a family, as reading sees to.
+std::vector<FixedParameter> FixedParameters(const SmoothingConfig& config);
 
 /// The same declaration as data.
 std::vector<KeyDescription> ConfigKeys();

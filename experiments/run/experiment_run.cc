@@ -1,49 +1,49 @@
 #include "experiments/run/experiment_run.h"
 
 #include "experiments/config/folder_name.h"
-#include "experiments/config/methods.h"
 #include "experiments/run/manifest.h"
-#include "smoothing/methods/explain.h"
+#include "smoothing/methods/overlap_prices.h"
+#include "smoothing/methods/smoother_registry.h"
 #include "smoothing/proof/sampled_feasibility.h"
 
 namespace halfstep {
 namespace {
 
 // The planned motion as the first row of every comparison.
-MethodRun PlannedRun(const Experiment& experiment, const FeasibilityTest& test) {
+MethodRun PlannedRun(const WalkProblem& problem, const std::stop_token& stop) {
   MethodRun run("raw");
-  MarginEvaluator::Scratch scratch = test.evaluator().MakeScratch();
-  const SuperposedWalk walk(experiment.sequence, PlannedMotion(experiment.sequence));
-  const Feasibility answer = test.Check(walk, {0.0, walk.duration()}, &scratch);
+  MarginEvaluator::Scratch scratch = problem.evaluator().MakeScratch();
+  scratch.stop = stop;
+  const SuperposedWalk walk(problem.sequence(), PlannedMotion(problem.sequence()));
+  const Feasibility answer = problem.test().Check(walk, {0.0, walk.duration()}, &scratch);
   run.result.parameters = walk.parameters();
   run.result.cost = walk.duration();
-  run.result.evidence = test.evidence();
+  run.result.evidence = problem.test().evidence();
   run.result.instants = scratch.instants;
   run.result.collision_queries = scratch.bodies.queries;
-  const bool feasible = answer.verdict == Verdict::kFeasible;
-  run.result.feasible = feasible;
+  run.result.feasible = answer.verdict == Verdict::kFeasible;
   if (answer.stopped) {
-    run.result.ending = opt::Ending::kNotRun;
     run.result.message = "stopped from outside before the start was looked at";
     return run;
   }
-  run.result.ending = feasible ? opt::Ending::kConverged : opt::Ending::kFailed;
-  run.result.message = feasible ? "the isolated half-steps, one after the other"
-                                : test.evaluator().Describe(answer.witness);
+  run.result.ending = run.result.feasible ? opt::Ending::kConverged : opt::Ending::kFailed;
+  run.result.message = run.result.feasible ? "the isolated half-steps, one after the other"
+                                           : problem.evaluator().Describe(answer.witness);
   return run;
 }
 
-std::unique_ptr<FeasibilityTest> MakeTest(const MarginEvaluator& evaluator,
-                                          const SmoothingConfig& config, std::stop_token stop) {
+std::shared_ptr<const FeasibilityTest> MakeTest(const Experiment& experiment) {
+  const SmoothingConfig& config = experiment.config.smoothing;
+  const MarginEvaluator evaluator(experiment.robot, experiment.scene, config.limits);
   if (config.acceptance == "sampled") {
-    return std::make_unique<SampledFeasibility>(evaluator, config.sampling, std::move(stop));
+    return std::make_shared<SampledFeasibility>(evaluator, config.sampling);
   }
-  return std::make_unique<CertifiedFeasibility>(evaluator, config.certification, std::move(stop));
+  return std::make_shared<CertifiedFeasibility>(evaluator, config.certification);
 }
 
-MethodOptions OptionsOf(const ExperimentConfig& config) {
+SmootherOptions OptionsOf(const ExperimentConfig& config) {
   const OptimizerConfig& optimizer = config.smoothing.optimizer;
-  MethodOptions options{config.smoothing.dichotomy, optimizer.options, {}};
+  SmootherOptions options{config.smoothing.dichotomy, optimizer.options, {}};
   options.optimizer.seed = static_cast<unsigned>(config.seed);
   if (optimizer.program == "pareto") options.pareto = optimizer.pareto;
   return options;
@@ -53,34 +53,37 @@ MethodOptions OptionsOf(const ExperimentConfig& config) {
 
 ExperimentRun::ExperimentRun(const ExperimentConfig& config, const RunHooks& hooks)
     : config_(config) {
+  Place place = LoadPlace(config);
   if (config.has_goal) {
     planned_ = PlanWalk(
-        config, {.progress = [&](const std::string&, double done) { hooks.progress("plan", done); },
-                 .stop = hooks.stop});
+        config, place,
+        {.progress = [&](const std::string&, double done) { hooks.progress("plan", done); },
+         .stop = hooks.stop});
     if (planned_->plan.footsteps.empty()) {
       refusal_ = {"no_plan", "no walk: " + planned_->plan.sentence};
       return;
     }
     config_ = planned_->config;
   }
-  experiment_ = Prepare(config_);
+  experiment_ = Prepare(config_, std::move(place));
   if (const auto stepped_on = FootprintOnNoStep(*experiment_)) {
     refusal_ = {"on_no_step_area", "the plan is not feasible: " + *stepped_on};
   }
 }
 
 void ExperimentRun::Smooth(const RunHooks& hooks) {
-  evaluator_.emplace(experiment_->robot, experiment_->scene, config_.smoothing.limits);
-  test_ = MakeTest(*evaluator_, config_.smoothing, hooks.stop_step);
-  certifier_.emplace(*evaluator_, config_.smoothing.certification);
-  runs_ = {PlannedRun(*experiment_, *test_)};
+  problem_.emplace(experiment_->sequence, MakeTest(*experiment_),
+                   FixedParameters(config_.smoothing));
+  certifier_.emplace(evaluator(), config_.smoothing.certification);
+  runs_ = {PlannedRun(*problem_, hooks.stop_step)};
   if (hooks.keep && runs_.front().result.feasible) hooks.keep();
   for (const std::string& name : config_.smoothing.methods) {
     MethodRun run(name);
-    run.result = FindMethod(name).smooth(
-        experiment_->sequence, *test_, OptionsOf(config_),
-        [&](double done) { hooks.progress(name, done); }, hooks.stop);
-    AddPrices(SuperposedWalk(experiment_->sequence, run.result.parameters), *evaluator_,
+    SmoothingMonitor monitor({.progress = [&](double done) { hooks.progress(name, done); },
+                              .stop = hooks.stop,
+                              .stop_proof = hooks.stop_step});
+    run.result = FindSmoother(name).Smooth(*problem_, OptionsOf(config_), monitor);
+    AddPrices(SuperposedWalk(experiment_->sequence, run.result.parameters), evaluator(),
               &run.result.junctions);
     runs_.push_back(std::move(run));
   }
@@ -88,7 +91,7 @@ void ExperimentRun::Smooth(const RunHooks& hooks) {
 
 void ExperimentRun::Certify(const std::stop_token& stop) {
   for (MethodRun& run : runs_) {
-    SampleTrajectory(*evaluator_, experiment_->sequence, config_.output_period, &run);
+    SampleTrajectory(evaluator(), experiment_->sequence, config_.output_period, &run);
     run.certified = CertifyWalk(*certifier_, experiment_->sequence, run.result.parameters, stop);
   }
 }
@@ -99,10 +102,10 @@ void ExperimentRun::WriteMethod(const MethodRun& run, RunFolder* folder) const {
   WriteCsv(place + "half_steps", HalfStepsCsv(experiment_->sequence, run), folder);
   WriteCertificate(*experiment_, *certifier_, run.certified, run.trajectory.text, place, folder);
   if (run.result.junctions.empty()) return;
-  WriteCsv(place + "overlaps", OverlapsCsv(*evaluator_, run), folder);
+  WriteCsv(place + "overlaps", OverlapsCsv(evaluator(), run), folder);
   WriteCsv(place + "iterates", IteratesCsv(run), folder);
   if (run.result.pareto.empty()) return;
-  WriteCsv(place + "pareto", ParetoCsv(*evaluator_, experiment_->sequence, run), folder);
+  WriteCsv(place + "pareto", ParetoCsv(evaluator(), experiment_->sequence, run), folder);
 }
 
 void ExperimentRun::Write(RunFolder* folder) const {
@@ -112,9 +115,9 @@ void ExperimentRun::Write(RunFolder* folder) const {
   folder->Write("config.yaml", resolved);
   if (planned_) folder->Write("plan.json", PlanJson(*planned_));
   WriteCsv("footsteps", FootstepsCsv(experiment_->sequence), folder);
-  WriteCsv("summary", SummaryCsv(*evaluator_, runs_), folder);
-  folder->Write("manifest.json",
-                ManifestJson(*experiment_, resolved, test_->Description(), runs_, wall.count()));
+  WriteCsv("summary", SummaryCsv(evaluator(), runs_), folder);
+  folder->Write("manifest.json", ManifestJson(*experiment_, resolved,
+                                              problem_->test().Description(), runs_, wall.count()));
 }
 
 std::string ResolvedConfig(const std::filesystem::path& folder, const ExperimentConfig& config) {

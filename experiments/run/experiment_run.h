@@ -2,7 +2,6 @@
 
 #include <chrono>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -12,6 +11,7 @@
 #include "experiments/run/planning.h"
 #include "experiments/tables/result_tables.h"
 #include "experiments/tables/run_folder.h"
+#include "smoothing/methods/walk_problem.h"
 #include "smoothing/proof/certified_feasibility.h"
 
 namespace halfstep {
@@ -51,8 +51,8 @@ class ExperimentRun {
   /// The config with planned footsteps in place of a goal.
   const ExperimentConfig& config() const { return config_; }
   const Experiment& experiment() const { return *experiment_; }
-  const MarginEvaluator& evaluator() const { return *evaluator_; }
-  const FeasibilityTest& test() const { return *test_; }
+  const WalkProblem& problem() const { return *problem_; }
+  const MarginEvaluator& evaluator() const { return problem_->evaluator(); }
   /// raw first
   const std::vector<MethodRun>& runs() const { return runs_; }
 
@@ -67,8 +67,7 @@ class ExperimentRun {
   std::optional<PlannedWalk> planned_;
   std::optional<RunRefusal> refusal_;
   std::optional<Experiment> experiment_;
-  std::optional<MarginEvaluator> evaluator_;
-  std::unique_ptr<FeasibilityTest> test_;
+  std::optional<WalkProblem> problem_;
   std::optional<CertifiedFeasibility> certifier_;
   std::vector<MethodRun> runs_;
 };

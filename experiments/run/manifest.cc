@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "experiments/build_info.h"
-#include "experiments/config/methods.h"
+#include "smoothing/methods/smoother_registry.h"
 #include "smoothing/proof/sampled_feasibility.h"
 #include "wpg/files/sha256.h"
 
@@ -36,13 +36,24 @@ ordered_json Host() {
           {"cores", std::thread::hardware_concurrency()}};
 }
 
+// "overlaps+heights": the families that a method may move.
+std::string Variables(const ParameterChoice& choice) {
+  std::string names;
+  for (const ParameterFamily family : AllParameterFamilies()) {
+    const ParameterFamilyTraits& traits = Traits(family);
+    if (traits.chosen != nullptr && !(choice.*traits.chosen)) continue;
+    names += (names.empty() ? "" : "+") + std::string(traits.key);
+  }
+  return names;
+}
+
 // The options that a method was asked to work with; `raw` has none.
 ordered_json Requested(const std::string& method, const SmoothingConfig& config) {
   if (method == "raw") return ordered_json::object();
   const DichotomyOptions& dichotomy = config.dichotomy;
   const OptimizerOptions& optimizer = config.optimizer.options;
   const ProgramOptions& program = optimizer.program;
-  switch (FindMethod(method).options) {
+  switch (FindSmoother(method).options()) {
     case OptionGroup::kNone:
       break;
     case OptionGroup::kDichotomy:
@@ -54,11 +65,10 @@ ordered_json Requested(const std::string& method, const SmoothingConfig& config)
               {"up_down_cap", dichotomy.up_down_cap},
               {"down_up_cap", dichotomy.down_up_cap}};
     case OptionGroup::kOptimizer:
-      return {{"variables", std::string("overlaps") + (program.heights ? "+heights" : "") +
-                                (program.durations ? "+durations" : "")},
+      return {{"variables", Variables(program.parameters)},
               {"objective", config.optimizer.program},
               {"duration_limit_s", optimizer.duration_limit},
-              {"instants", program.table.instants},
+              {"instants", program.watch.instants},
               {"random_starts", optimizer.random_starts},
               {"rounds", optimizer.rounds},
               {"max_iterations", optimizer.max_iterations},

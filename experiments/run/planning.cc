@@ -3,7 +3,6 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 
-#include "experiments/config/experiment.h"
 #include "planner/search/planner_registry.h"
 #include "planner/swept/swept_volume_query.h"
 #include "wpg/check.h"
@@ -34,8 +33,7 @@ HalfStep PrototypeOf(const ExperimentConfig& config) {
   prototype.duration = config.half_step.duration;
   prototype.via_height = config.half_step.via_height;
   prototype.via_lateral = config.half_step.via_lateral;
-  prototype.shape = {.shift = config.half_step.zmp_shift / config.half_step.duration,
-                     .horizontal_delay = config.half_step.horizontal_delay};
+  prototype.shape = ShapeOf(config.half_step);
   return prototype;
 }
 
@@ -101,7 +99,7 @@ BakedHalfSteps BakeHalfSteps(const RobotModel& robot, const ExperimentConfig& co
   if (hooks.stop.stop_requested()) return baked;
   if (set.size() == 0) {
     throw InputError(
-        {"half_steps: no place of the grid keeps the demanded margins (valid: a grid "
+        {"step_set: no place of the grid keeps the demanded margins (valid: a grid "
          "beside the support foot, margins that the robot meets)"});
   }
   SweptVolumeOptions options = config.swept_volumes.options;
@@ -117,10 +115,10 @@ BakedHalfSteps BakeHalfSteps(const RobotModel& robot, const ExperimentConfig& co
   return baked;
 }
 
-PlannedWalk PlanWalk(const ExperimentConfig& config, const PlanningHooks& hooks) {
+PlannedWalk PlanWalk(const ExperimentConfig& config, const Place& place,
+                     const PlanningHooks& hooks) {
   HALFSTEP_CHECK(config.has_goal, "no goal");
   PlannedWalk walk{.config = config, .plan = {}, .half_steps = {}};
-  const Place place = LoadPlace(config);
   walk.half_steps = BakeHalfSteps(place.robot, config, hooks);
   if (!walk.half_steps.cached.volumes) {
     walk.plan.status = PlanStatus::kInterrupted;

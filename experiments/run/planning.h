@@ -5,7 +5,7 @@
 #include <stop_token>
 #include <string>
 
-#include "experiments/config/experiment_config.h"
+#include "experiments/config/experiment.h"
 #include "planner/search/footstep_planner.h"
 #include "planner/swept/swept_volume_cache.h"
 #include "smoothing/proof/certified_feasibility.h"
@@ -65,9 +65,10 @@ struct PlannedWalk {
   BakedHalfSteps half_steps;
 };
 
-/// Plans from the config's start to its goal, and certifies the concatenation. Precondition:
-/// config.has_goal (std::logic_error). Throws InputError.
-PlannedWalk PlanWalk(const ExperimentConfig& config, const PlanningHooks& hooks);
+/// Plans from the config's start to its goal in the place that the config names, and certifies the
+/// concatenation. Precondition: config.has_goal (std::logic_error). Throws InputError.
+PlannedWalk PlanWalk(const ExperimentConfig& config, const Place& place,
+                     const PlanningHooks& hooks);
 
 /// plan.json of a run folder.
 std::string PlanJson(const PlannedWalk& walk);

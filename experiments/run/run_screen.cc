@@ -37,6 +37,7 @@ std::string Holders(const MarginEvaluator& evaluator, const MethodRun& run, Junc
     const std::string what =
         junction.limited_by ? std::string(Name(junction.limited_by->family)) + " of " +
                                   evaluator.Subject(*junction.limited_by)
+        : junction.fixed                                 ? "smoothing.fixed"
         : junction.overlap < junction.upper_bound - 1e-9 ? "the balance of the program"
                                                          : "their upper bound";
     ++holders[what];
@@ -92,13 +93,13 @@ std::string Curve(const MethodRun& run) {
 
 }  // namespace
 
-std::string RunTable(const Experiment& experiment, const MarginEvaluator& evaluator,
-                     const FeasibilityTest& test, const std::vector<MethodRun>& runs,
-                     const std::string& folder) {
+std::string RunTable(const Experiment& experiment, const WalkProblem& problem,
+                     const std::vector<MethodRun>& runs, const std::string& folder) {
+  const MarginEvaluator& evaluator = problem.evaluator();
   std::ostringstream out;
   out << experiment.config.name << ": " << experiment.robot.name << ", "
       << experiment.sequence.size() << " half-steps, " << experiment.scene.obstacles.size()
-      << " obstacles; feasible means " << test.Description() << "\n\n";
+      << " obstacles; feasible means " << problem.test().Description() << "\n\n";
   out << Format("%-22s %-16s %-10s %10s %8s %9s %10s %s\n", "method", "status", "for all t",
                 "duration", "speed-up", "low apex", "clearance", "worst margin");
   for (const MethodRun& run : runs) {

@@ -5,14 +5,13 @@
 
 #include "experiments/config/experiment.h"
 #include "experiments/tables/result_tables.h"
-#include "smoothing/proof/feasibility_test.h"
+#include "smoothing/methods/walk_problem.h"
 
 namespace halfstep {
 
 /// What `halfstep run` prints: a row a method, then for each method what holds its overlaps.
-std::string RunTable(const Experiment& experiment, const MarginEvaluator& evaluator,
-                     const FeasibilityTest& test, const std::vector<MethodRun>& runs,
-                     const std::string& folder);
+std::string RunTable(const Experiment& experiment, const WalkProblem& problem,
+                     const std::vector<MethodRun>& runs, const std::string& folder);
 
 /// The same as one JSON object.
 std::string RunJson(const MarginEvaluator& evaluator, const std::vector<MethodRun>& runs,

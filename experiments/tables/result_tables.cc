@@ -12,6 +12,7 @@ using enum CsvType;
 
 std::string Active(const MarginEvaluator& evaluator, const JunctionResult& junction) {
   if (junction.limited_by) return evaluator.Describe(*junction.limited_by);
+  if (junction.fixed) return "fixed";
   return junction.overlap < junction.upper_bound ? "not bisected" : "upper bound";
 }
 

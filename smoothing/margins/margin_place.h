@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <stop_token>
 #include <utility>
 
 #include "planner/scene/no_step_areas.h"
@@ -41,6 +42,7 @@ struct MarginScratch {
   };
   BodyClearances::Scratch bodies;
   long instants = 0;
+  std::stop_token stop = {};              ///< ends proofs; what is not decided stays undecided
   std::array<Standing, 2> standing = {};  ///< by Index(Side)
 };
 

@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+#include <string>
 
-#include "smoothing/methods/stopwatch.h"
-#include "smoothing/program/overlap_program.h"
 #include "smoothing/proof/stretch_proofs.h"
 #include "smoothing/walk/superposed_walk.h"
 #include "wpg/check.h"
@@ -20,80 +18,64 @@ constexpr double kHeightFactors[] = {0.5, 0.75, 0.9, 1.1, 1.3};
 
 class Ascent {
  public:
-  Ascent(const HalfStepSequence& sequence, const FeasibilityTest& test,
-         const CoordinateAscentOptions& options, std::stop_token stop)
-      : sequence_(sequence),
-        test_(test),
+  Ascent(const WalkProblem& problem, const CoordinateAscentOptions& options,
+         SmoothingMonitor& monitor)
+      : sequence_(problem.sequence()),
+        problem_(problem),
         options_(options),
-        stop_(std::move(stop)),
-        planned_(PlannedMotion(sequence)),
-        point_(options.start.value_or(planned_)),
-        scratch_(test.evaluator().MakeScratch()),
-        proofs_(test, sequence.size()) {
-    result_.evidence = test.evidence();
-    for (int i = 0; i < sequence.num_junctions(); ++i) {
-      result_.junctions.push_back({.kind = KindOfJunction(i)});
-    }
-  }
+        monitor_(monitor),
+        table_(problem.Parameters(options.parameters)),
+        point_(options.start.value_or(problem.Start())),
+        proofs_(problem.test(), sequence_.size()) {}
 
-  SmoothingResult Run(const std::function<void(double)>& progress) {
-    const SuperposedWalk walk(sequence_, point_);
-    const Feasibility start = test_.Check(walk, {0.0, walk.duration()}, &scratch_);
-    if (start.stopped) {
-      result_.message = "stopped from outside before the start was looked at";
-      return Finish(Ending::kNotRun);
+  SmoothingResult Run() {
+    constexpr char kNoGain[] = "; no coordinate gained";
+    if (!monitor_.BeginFeasibly(problem_, point_,
+                                options_.start ? "the start" : "the planned motion")) {
+      return monitor_.Refusal();
     }
-    if (start.verdict != Verdict::kFeasible) {
-      result_.message = std::string(options_.start ? "the start" : "the planned motion") +
-                        " is not feasible: " + test_.evaluator().Describe(start.witness);
-      return Finish(Ending::kNotRun);
-    }
-    result_.feasible = true;
     for (int pass = 0; pass < options_.passes; ++pass) {
       const double before = DurationOf(point_);
       for (int step = 0; step < sequence_.num_steps(); ++step) {
         Improve(step);
-        if (options_.heights) TryHeights(step);
-        if (stop_.stop_requested()) {
-          result_.message = "stopped from outside; the parameters found so far are feasible";
-          return Finish(Ending::kInterrupted);
+        TryHeights(step);
+        if (monitor_.stopped()) {
+          Keep();
+          return monitor_.Finish(Ending::kInterrupted,
+                                 "stopped from outside; the parameters found so far are feasible",
+                                 kNoGain);
         }
-        if (progress) {
-          progress((pass + (step + 1.0) / sequence_.num_steps()) / options_.passes);
-        }
+        monitor_.Progress((pass + (step + 1.0) / sequence_.num_steps()) / options_.passes);
       }
       const double now = DurationOf(point_);
-      result_.iterates.push_back({.wall = stopwatch_.Seconds(),
-                                  .evaluations = scratch_.instants,
-                                  .candidate_duration = now,
-                                  .accepted = now < before,
-                                  .lambda = now < before ? 1.0 : 0.0,
-                                  .incumbent_duration = now,
-                                  .incumbent_cost = now});
-      if (now < before && !result_.time_to_first_improvement) {
-        result_.time_to_first_improvement = stopwatch_.Seconds();
-      }
+      Keep();
+      monitor_.Record({.candidate_duration = now,
+                       .accepted = now < before,
+                       .lambda = now < before ? 1.0 : 0.0});
       if (before - now < options_.tolerance) {
-        result_.message = "a pass gained less than " + std::to_string(options_.tolerance) + " s";
-        return Finish(Ending::kConverged);
+        return monitor_.Finish(
+            Ending::kConverged,
+            "a pass gained less than " + std::to_string(options_.tolerance) + " s", kNoGain);
       }
     }
-    result_.message = "all passes done, the last one still gained";
-    return Finish(Ending::kLimit);
+    return monitor_.Finish(Ending::kLimit, "all passes done, the last one still gained", kNoGain);
   }
 
  private:
+  using Family = ParameterFamily;
+
+  void Keep() { monitor_.Adopt(point_, DurationOf(point_), DurationOf(point_)); }
+
   // Overlaps and durations of a step and the junctions beside it.
   void Improve(int step) {
     const int up = 2 * step;
-    if (options_.durations) {
-      for (int i : {up, up + 1}) {
-        LowerDuration(i, false);
-        LowerDuration(i, true);
-      }
+    for (int i : {up, up + 1}) {
+      if (!table_.free({Family::kDuration, i})) continue;
+      LowerDuration(i, false);
+      LowerDuration(i, true);
     }
     for (int i = std::max(up - 1, 0); i <= std::min(up + 1, sequence_.num_junctions() - 1); ++i) {
-      RaiseOverlap(i);
+      if (table_.free({Family::kOverlap, i})) RaiseOverlap(i);
     }
   }
 
@@ -101,18 +83,20 @@ class Ascent {
     const size_t j = static_cast<size_t>(i);
     HomotopyParameters target = point_;
     target.overlaps[j] = NaturalOverlapBound(sequence_, point_.durations, i);
-    result_.junctions[j].limited_by = MoveTowards(target);
+    monitor_.result().junctions[j].limited_by = MoveTowards(target);
   }
 
   void LowerDuration(int i, bool scale) {
     const size_t k = static_cast<size_t>(i);
     HomotopyParameters target = point_;
-    target.durations[k] =
-        std::min(point_.durations[k], options_.least_duration * planned_.durations[k]);
+    target.durations[k] = std::min(point_.durations[k], table_.row({Family::kDuration, i}).lower);
     if (scale) {
       const double factor = target.durations[k] / point_.durations[k];
-      if (i > 0) target.overlaps[k - 1] *= factor;
-      if (i < sequence_.num_junctions()) target.overlaps[k] *= factor;
+      for (int junction : {i - 1, i}) {
+        if (junction < 0 || junction >= sequence_.num_junctions()) continue;
+        if (!table_.free({Family::kOverlap, junction})) continue;
+        target.overlaps[static_cast<size_t>(junction)] *= factor;
+      }
     }
     MoveTowards(target);
   }
@@ -137,7 +121,7 @@ class Ascent {
       }
       (refusal ? infeasible : feasible) = lambda;
       if (lambda == 1.0 && !refusal) return refused;
-      if ((infeasible - feasible) * length <= options_.tolerance || stop_.stop_requested()) {
+      if ((infeasible - feasible) * length <= options_.tolerance || monitor_.stopped()) {
         return refused;
       }
     }
@@ -164,36 +148,35 @@ class Ascent {
     for (size_t i = 0; i < point.durations.size(); ++i) {
       point.durations[i] += lambda * (to.durations[i] - from.durations[i]);
     }
-    for (int i = 0; i < sequence_.num_junctions(); ++i) {
-      double& overlap = point.overlaps[static_cast<size_t>(i)];
-      overlap = std::min(overlap, NaturalOverlapBound(sequence_, point.durations, i));
-    }
+    ClampOverlaps(sequence_, &point);
     return point;
   }
 
   std::optional<Margin> Refusal(const HomotopyParameters& candidate) {
     const std::vector<Margin> refusals =
-        proofs_.Refusals(SuperposedWalk(sequence_, candidate), &scratch_);
+        proofs_.Refusals(SuperposedWalk(sequence_, candidate), monitor_.scratch());
     if (refusals.empty()) return std::nullopt;
     return refusals.front();
   }
 
   void TryHeights(int step) {
+    const ParameterRow& row = table_.row({Family::kHeightScale, step});
+    if (row.fixed) return;
     const size_t j = static_cast<size_t>(step);
     const double now = point_.height_scales[j];
-    std::vector<double> candidates = {options_.least_height_scale};
+    std::vector<double> candidates = {row.lower};
     for (double factor : kHeightFactors) {
       const double eta = factor * now;
-      if (eta > options_.least_height_scale && eta < 1.0) candidates.push_back(eta);
+      if (eta > row.lower && eta < row.upper) candidates.push_back(eta);
     }
-    if (now < 1.0) candidates.push_back(1.0);
-    const std::vector<JunctionResult> junctions = result_.junctions;
+    if (now < row.upper) candidates.push_back(row.upper);
+    const std::vector<JunctionResult> junctions = monitor_.result().junctions;
     const HomotopyParameters before = point_;
     HomotopyParameters best = before;
     std::vector<JunctionResult> best_junctions = junctions;
     for (double eta : candidates) {
       point_ = before;
-      result_.junctions = junctions;
+      monitor_.result().junctions = junctions;
       HomotopyParameters candidate = before;
       candidate.height_scales[j] = eta;
       if (!Refusal(candidate)) {
@@ -202,53 +185,30 @@ class Ascent {
       }
       if (DurationOf(point_) < DurationOf(best) - options_.tolerance) {
         best = point_;
-        best_junctions = result_.junctions;
+        best_junctions = monitor_.result().junctions;
       }
-      if (stop_.stop_requested()) break;
+      if (monitor_.stopped()) break;
     }
     point_ = best;
-    result_.junctions = best_junctions;
-  }
-
-  SmoothingResult Finish(Ending ending) {
-    const bool ran = ending != Ending::kNotRun;
-    const bool improved = DurationOf(point_) < DurationOf(options_.start.value_or(planned_));
-    if (ran && !improved) result_.message += "; no coordinate gained";
-    for (int i = 0; i < sequence_.num_junctions(); ++i) {
-      JunctionResult& junction = result_.junctions[static_cast<size_t>(i)];
-      junction.overlap = point_.overlaps[static_cast<size_t>(i)];
-      junction.upper_bound = NaturalOverlapBound(sequence_, point_.durations, i);
-    }
-    result_.ending = ran && !improved ? Ending::kNoImprovement : ending;
-    result_.parameters = point_;
-    result_.cost = DurationOf(point_);
-    result_.instants = scratch_.instants;
-    result_.collision_queries = scratch_.bodies.queries;
-    result_.wall = stopwatch_.Seconds();
-    return std::move(result_);
+    monitor_.result().junctions = best_junctions;
   }
 
   const HalfStepSequence& sequence_;
-  const FeasibilityTest& test_;
+  const WalkProblem& problem_;
   const CoordinateAscentOptions& options_;
-  std::stop_token stop_;
-  HomotopyParameters planned_;
+  SmoothingMonitor& monitor_;
+  ParameterTable table_;
   HomotopyParameters point_;  // always found feasible
-  MarginEvaluator::Scratch scratch_;
   StretchProofs proofs_;
-  Stopwatch stopwatch_;
-  SmoothingResult result_;
 };
 
 }  // namespace
 
-SmoothingResult CoordinateAscent(const HalfStepSequence& sequence, const FeasibilityTest& test,
-                                 const CoordinateAscentOptions& options,
-                                 const std::function<void(double)>& progress,
-                                 std::stop_token stop) {
+SmoothingResult CoordinateAscent(const WalkProblem& problem, const CoordinateAscentOptions& options,
+                                 SmoothingMonitor& monitor) {
   HALFSTEP_CHECK(options.tolerance > 0.0 && options.passes >= 1,
                  "tolerance = " << options.tolerance << ", passes = " << options.passes);
-  return Ascent(sequence, test, options, std::move(stop)).Run(progress);
+  return Ascent(problem, options, monitor).Run();
 }
 
 }  // namespace halfstep

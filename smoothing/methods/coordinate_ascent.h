@@ -1,22 +1,15 @@
 #pragma once
 
-#include <functional>
 #include <optional>
-#include <stop_token>
 
-#include "smoothing/methods/smoothing_result.h"
-#include "smoothing/proof/feasibility_test.h"
-#include "wpg/motion/half_step_sequence.h"
+#include "smoothing/methods/smoothing_monitor.h"
 
 namespace halfstep {
 
 struct CoordinateAscentOptions {
-  bool heights = false;    ///< η are coordinates beside the overlaps
-  bool durations = false;  ///< so are T
-  double least_height_scale = 0.2;
-  double least_duration = 0.5;  ///< as a fraction of the planned one
-  int passes = 10;              ///< ≥ 1, at most
-  double tolerance = 0.001;     ///< of each bisection; a pass that gains less is the last [s] > 0
+  ParameterChoice parameters;  ///< coordinates beside the overlaps; durations only fall
+  int passes = 10;             ///< ≥ 1, at most
+  double tolerance = 0.001;    ///< of each bisection; a pass that gains less is the last [s] > 0
   /// Where to begin, instead of at the planned motion.
   std::optional<HomotopyParameters> start = std::nullopt;
 };
@@ -28,12 +21,10 @@ struct CoordinateAscentOptions {
 ///     as that gains; overlaps above their new natural bounds are lowered to them;
 ///   - η by itself changes no duration. So each of a few values is tried with the overlaps and
 ///     durations of its step and its neighbours' junctions bisected again, and kept if that gains.
-/// Every point that is kept was found feasible by `test` and lasts no longer than the one before.
-/// It ends where no coordinate gains by itself, which need not be an optimum. Endings as for
-/// Dichotomy; one iterate for each pass.
-SmoothingResult CoordinateAscent(const HalfStepSequence& sequence, const FeasibilityTest& test,
-                                 const CoordinateAscentOptions& options,
-                                 const std::function<void(double)>& progress = {},
-                                 std::stop_token stop = {});
+/// Every point that is kept was found feasible by the problem's test and lasts no longer than the
+/// one before. It ends where no coordinate gains by itself, which need not be an optimum. Endings
+/// as for Dichotomy; one iterate for each pass.
+SmoothingResult CoordinateAscent(const WalkProblem& problem, const CoordinateAscentOptions& options,
+                                 SmoothingMonitor& monitor);
 
 }  // namespace halfstep

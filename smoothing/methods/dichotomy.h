@@ -1,11 +1,8 @@
 #pragma once
 
-#include <functional>
 #include <optional>
-#include <stop_token>
 
-#include "smoothing/methods/smoothing_result.h"
-#include "smoothing/proof/feasibility_test.h"
+#include "smoothing/methods/smoothing_monitor.h"
 
 namespace halfstep {
 
@@ -29,15 +26,10 @@ struct DichotomyOptions {
 /// The paper's smoother: each junction's overlap in turn is bisected between the largest value
 /// found feasible and the smallest found infeasible, while the others stay. Only the stretch of the
 /// walk that this overlap changes is checked, [t_{i+1}, t_i + T_i]: before it nothing moves, after
-/// it the walk is only earlier. Every overlap that is applied was found feasible by `test`; every
-/// intermediate result is as feasible as the last, so it may be stopped at any moment.
-/// Source: [Perrin2011] §IV.
-///
-/// `progress` (may be empty) is told the fraction of junctions done. Never throws for expected
-/// failures: see SmoothingResult::ending.
-SmoothingResult Dichotomy(const HalfStepSequence& sequence, const FeasibilityTest& test,
-                          const DichotomyOptions& options,
-                          const std::function<void(double)>& progress = {},
-                          std::stop_token stop = {});
+/// it the walk is only earlier. Every overlap that is applied was found feasible by the problem's
+/// test; every intermediate result is as feasible as the last, so it may be stopped at any moment.
+/// Never throws for expected failures: see SmoothingResult::ending. Source: [Perrin2011] §IV.
+SmoothingResult Dichotomy(const WalkProblem& problem, const DichotomyOptions& options,
+                          SmoothingMonitor& monitor);
 
 }  // namespace halfstep

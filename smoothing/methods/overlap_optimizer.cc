@@ -4,23 +4,22 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <utility>
+#include <memory>
+#include <string>
 #include <vector>
 
 #include "opt/adapters/solver_registry.h"
 #include "smoothing/methods/dichotomy.h"
-#include "smoothing/methods/explain.h"
-#include "smoothing/methods/path_rules.h"
+#include "smoothing/methods/incumbent.h"
+#include "smoothing/methods/overlap_prices.h"
 #include "smoothing/methods/search_ending.h"
-#include "smoothing/methods/stopwatch.h"
 
 namespace halfstep {
 namespace {
 
-constexpr char kSqp[] = "halfstep/sqp";
-// Of the dichotomy before a search that is to shorten the walk anyway [s]. Linear programs move
-// fast where there is room, others are better off nearer to the end.
-constexpr double kStartTolerance = 0.1, kSqpStartTolerance = 0.5;
+// Of the dichotomy before a search that is to shorten the walk anyway [s]; the larger one for
+// solvers that take long steps.
+constexpr double kNearStart = 0.1, kFarStart = 0.5;
 // Points tried towards a candidate.
 constexpr int kAttempts = 8;
 // A candidate whose rows are violated by more than this is not worth a proof, nor a place to go on
@@ -34,9 +33,9 @@ constexpr double kPromising = -0.02;
 // After a round whose end was proved rows grow sharper by a factor, up to a bound; after one whose
 // end was refused they grow softer, so that more is left in reserve.
 constexpr double kSharpen = 1.5, kSoften = 0.75, kSharpest = 3000.0;
-// Of a table with rows by instant, from the first round on.
-constexpr double kSqpSharpness = 200.0;
-constexpr int kSqpInstants = 24;
+// Where every instant has rows of its own, from the first round on.
+constexpr double kRowsSharpness = 200.0;
+constexpr int kRowsInstants = 24;
 // A round that gains less, for the incumbent and for the solver, is poor (relative); so many in a
 // row end the search.
 constexpr double kGain = 1e-3;
@@ -51,71 +50,78 @@ bool Gained(double before, double after) {
 
 class Optimization {
  public:
-  Optimization(const HalfStepSequence& sequence, const FeasibilityTest& test,
-               const OptimizerOptions& options, const std::function<void(double)>& progress,
-               std::stop_token stop)
-      : sequence_(sequence),
-        test_(test),
+  Optimization(const WalkProblem& problem, const OptimizerOptions& options,
+               const opt::Solver& solver, SmoothingMonitor& monitor)
+      : problem_(problem),
+        sequence_(problem.sequence()),
+        test_(problem.test()),
         options_(options),
-        progress_(progress),
-        stop_(std::move(stop)),
-        proofs_(test, sequence.size()),
+        solver_(solver),
+        monitor_(monitor),
+        proofs_(test_, sequence_.size()),
         end_{.solver = options.solver,
              .kept = options.start ? "the walk is what it started from"
                                    : "the walk is a dichotomy's"} {}
 
   SmoothingResult Run() {
+    monitor_.Begin(problem_, options_.start.value_or(problem_.Start()));
     DichotomyOptions dichotomy{.tolerance = StartTolerance()};
     if (options_.start) {
       dichotomy.start = options_.start;
       dichotomy.passes = 0;
     }
-    result_ = Dichotomy(sequence_, test_, dichotomy, Part(0.0, 0.2), stop_);
-    start_ = result_.parameters;
-    result_.cost = DurationOf(start_);
-    if (!result_.feasible || stop_.stop_requested()) {
-      end_.stopped = result_.feasible;
-      result_.ending = end_.Ending();
-      if (end_.stopped) result_.message = end_.Sentence();
-      return std::move(result_);
+    Take(RunDichotomy(dichotomy, 0.0, 0.2));
+    if (!monitor_.result().feasible || monitor_.stopped()) {
+      end_.stopped = monitor_.result().feasible;
+      return Finish(end_.stopped ? end_.Sentence() : start_message_);
     }
+    start_ = monitor_.incumbent();
 
     const double own = DurationOf(start_);
     const double limit = options_.duration_limit > 0.0 ? options_.duration_limit : own;
-    OverlapProgram program(sequence_, test_.evaluator(), options_.program, limit);
+    OverlapProgram program(sequence_, test_.evaluator(), options_.program, limit, problem_.fixed());
     const bool within = own <= limit + 1e-9;
-    FeasiblePath::Rules rules =
+    Incumbent::Rules rules =
         Safest() ? SafestRules(program, test_, within) : DemandedRules(program, &proofs_);
-    const auto accepted = rules.accepted;
-    rules.accepted = [&](const HomotopyParameters& p) {
-      if (accepted) accepted(p);
-      if (options_.on_accept) options_.on_accept(p);
-    };
     // The dichotomy's walk is proved with what is demanded: slack 0.
     const double cost = !Safest() ? program.Cost(start_)
                         : within  ? 0.0
                                   : std::numeric_limits<double>::infinity();
+    monitor_.Adopt(start_, cost, own);
     proofs_.Remember(SuperposedWalk(sequence_, start_));
-    FeasiblePath path(sequence_, rules, start_, cost, test_.evaluator().MakeScratch());
+    Incumbent path(sequence_, rules, start_, cost, monitor_.scratch());
     Search(program, &path);
-    return Finish(program, path);
+    return Conclude(program, path);
   }
 
  private:
   bool Safest() const { return options_.program.kind == ProgramKind::kSafest; }
-  bool Sqp() const { return options_.solver == kSqp; }
   bool Fastest() const { return options_.program.kind == ProgramKind::kFastest; }
 
   // Of the dichotomy before the search. `safest` and `smooth` compare with the fine one's result.
   double StartTolerance() const {
     if (!Fastest()) return options_.tolerance;
-    return std::max(options_.tolerance, Sqp() ? kSqpStartTolerance : kStartTolerance);
+    return std::max(options_.tolerance, solver_.traits().long_steps ? kFarStart : kNearStart);
   }
 
-  std::function<void(double)> Part(double from, double to) const {
-    return [this, from, to](double done) {
-      if (progress_) progress_(from + (to - from) * done);
-    };
+  SmoothingResult RunDichotomy(const DichotomyOptions& options, double from, double to) {
+    SmoothingMonitor within(monitor_.Part(from, to));
+    SmoothingResult result = Dichotomy(problem_, options, within);
+    monitor_.Count(result);
+    return result;
+  }
+
+  // A dichotomy's walk becomes the incumbent, with its candidates.
+  void Take(const SmoothingResult& dichotomy) {
+    start_message_ = dichotomy.message;
+    SmoothingResult& result = monitor_.result();
+    result.iterates = dichotomy.iterates;
+    if (dichotomy.feasible) {
+      monitor_.Adopt(dichotomy.parameters, DurationOf(dichotomy.parameters),
+                     DurationOf(dichotomy.parameters));
+    }
+    result.junctions = dichotomy.junctions;
+    result.time_to_first_improvement = dichotomy.time_to_first_improvement;
   }
 
   // The slack that the program asks for at x: z ≥ 0 of `safest`.
@@ -123,21 +129,22 @@ class Optimization {
     return Safest() ? std::max(0.0, x.tail(1)[0]) : 0;
   }
 
-  void Search(OverlapProgram& program, FeasiblePath* path) {
+  void Search(OverlapProgram& program, Incumbent* path) {
     std::vector<HomotopyParameters> starts = {start_};
-    if (options_.planned_start) starts.push_back(PlannedMotion(sequence_));
+    if (options_.planned_start) starts.push_back(problem_.Start());
     AddRandomPoints(program, options_.random_starts, options_.seed, &starts);
     for (size_t s = 0; s < starts.size(); ++s) {
-      program.table().SetSharpness(options_.program.table.sharpness);
+      program.watched().SetSharpness(options_.program.watch.sharpness);
       solution_.warm_start = nullptr;
       Eigen::VectorXd x = program.ToVariables(starts[s]);
       double solved = std::numeric_limits<double>::infinity();  // cost of the last end
       int poor = 0;
       for (int round = 0; round < options_.rounds && poor < kPoorRounds; ++round) {
         const double before = path->cost();
-        const double remaining = options_.deadline - stopwatch_.Seconds();
+        const double remaining =
+            std::min(options_.deadline - monitor_.Seconds(), monitor_.Remaining());
         end_.deadline_passed = remaining <= 0.0;
-        if (end_.deadline_passed || stop_.stop_requested()) return;
+        if (end_.deadline_passed || monitor_.stopped()) return;
         solution_ = Solve(program, x, remaining, path);
         end_.Note(solution_);
         const bool refused = solution_.ending == opt::Ending::kInvalidInput;
@@ -146,186 +153,182 @@ class Optimization {
         const bool near =
             solution_.final_x.size() == x.size() && solution_.final_violation < kHopeless;
         x = near ? solution_.final_x : solution_.x;
-        const HomotopyParameters end = program.ToParameters(x);
-        const SuperposedWalk walk(sequence_, end);
-        const double seen = program.table().Focus(walk, kLookPeriod, Level(x));
-        const bool last = stopwatch_.Seconds() >= options_.deadline || round + 1 == options_.rounds;
-        if (seen >= kPromising || last) {
-          Try(end, near ? solution_.final_violation : solution_.max_violation, program, path);
-          result_.raw_end_feasible = path->refusals().empty();
-          for (const Margin& refusal : path->refusals()) {
-            program.table().Learn(walk, refusal.at);
-          }
-        } else {  // violated where it was sampled
-          ++result_.raw_infeasible;
-          result_.raw_end_feasible = false;
-        }
+        const bool last = monitor_.Seconds() >= options_.deadline || round + 1 == options_.rounds;
+        const bool promising = LookAt(program, x, near, last, path);
         const double cost = near ? solution_.final_cost : solution_.cost;
         poor = Gained(before, path->cost()) || Gained(solved, cost) ? 0 : poor + 1;
         solved = std::min(solved, cost);
-        const double sharpen = seen >= kPromising && path->refusals().empty() ? kSharpen : kSoften;
-        program.table().SetSharpness(std::min(kSharpest, sharpen * program.table().sharpness()));
-        Part(0.2, 0.9)((static_cast<double>(s) + (round + 1.0) / options_.rounds) /
-                       static_cast<double>(starts.size()));
+        const double sharpen = promising && path->refusals().empty() ? kSharpen : kSoften;
+        program.watched().SetSharpness(
+            std::min(kSharpest, sharpen * program.watched().sharpness()));
+        monitor_.Progress(0.2 + 0.7 * (static_cast<double>(s) + (round + 1.0) / options_.rounds) /
+                                    static_cast<double>(starts.size()));
       }
       end_.exhausted = end_.exhausted || poor < kPoorRounds;
     }
   }
 
+  // Tries the end of a round where it looks good, or `always`; the program learns where to look.
+  // False: samples show that it is not feasible.
+  bool LookAt(OverlapProgram& program, const Eigen::VectorXd& x, bool near, bool always,
+              Incumbent* path) {
+    const HomotopyParameters end = program.ToParameters(x);
+    const SuperposedWalk walk(sequence_, end);
+    const bool promising = program.watched().Focus(walk, kLookPeriod, Level(x)) >= kPromising;
+    SmoothingResult& result = monitor_.result();
+    if (!promising && !always) {
+      ++result.raw_infeasible;
+      result.raw_end_feasible = false;
+      return false;
+    }
+    Try(end, near ? solution_.final_violation : solution_.max_violation, program, path);
+    result.raw_end_feasible = path->refusals().empty();
+    for (const Margin& refusal : path->refusals()) program.watched().Learn(walk, refusal.at);
+    return promising;
+  }
+
   opt::Solution Solve(const OverlapProgram& program, const Eigen::VectorXd& x, double deadline,
-                      FeasiblePath* path) {
+                      Incumbent* path) {
     const opt::Problem problem = program.MakeProblem();
     opt::SolverOptions solver_options;
     solver_options.max_iterations = options_.max_iterations;
     solver_options.deadline = deadline;
-    solver_options.stop = stop_;
+    solver_options.stop = monitor_.stop();
     solver_options.optimality_tolerance = 1e-4;
     solver_options.warm_start = solution_.warm_start;
-    // Nearly linear: what curvature a few steps show of it does more harm than good. Nor does a
-    // small penalty jam at curved rows; where it is not exact, proofs refuse what it leaves
-    // violated.
-    if (Sqp() && options_.program.kind != ProgramKind::kSmooth) {
-      solver_options.solver_options["memory"] = "0";
-      solver_options.solver_options["penalty"] = "2";
-      solver_options.solver_options["most_penalty"] = "2";
+    // Rows are nearly linear, and so is every cost but the effort.
+    if (options_.program.kind != ProgramKind::kSmooth) {
+      solver_options.solver_options = solver_.traits().nearly_linear;
     }
     solver_options.on_iterate = [&](const opt::Iterate& iterate) {
       const HomotopyParameters candidate = program.ToParameters(iterate.x);
       const bool wait = options_.max_iterations < kPatience || ++since_proof_ < kPatience;
       if (wait) {
-        Record(candidate, iterate.violation, 0.0, *path);
+        Record(candidate, iterate.violation, 0.0);
       } else {
         Try(candidate, iterate.violation, program, path);
       }
       return true;
     };
-    return opt::MakeSolver(options_.solver)->Solve(problem, x, solver_options);
+    return solver_.Solve(problem, x, solver_options);
   }
 
   void Try(const HomotopyParameters& candidate, double violation, const OverlapProgram& program,
-           FeasiblePath* path) {
+           Incumbent* path) {
     since_proof_ = 0;
     double lambda = 0.0;
     if (violation <= kHopeless) lambda = path->Toward(candidate, kAttempts);
-    if (violation > kHopeless || !path->refusals().empty()) ++result_.raw_infeasible;
+    if (violation > kHopeless || !path->refusals().empty()) ++monitor_.result().raw_infeasible;
     if (lambda > 0.0) {
-      if (!result_.time_to_first_improvement)
-        result_.time_to_first_improvement = stopwatch_.Seconds();
+      monitor_.Adopt(path->parameters(), path->cost(), DurationOf(path->parameters()));
       std::array<bool, kNumMarginFamilies> all;
       all.fill(true);
-      incumbent_slack_ = program.table().LeastSlack(path->incumbent(), all);
+      incumbent_slack_ = program.watched().LeastSlack(path->parameters(), all);
     }
-    Record(candidate, violation, lambda, *path);
+    Record(candidate, violation, lambda);
   }
 
-  void Record(const HomotopyParameters& candidate, double violation, double lambda,
-              const FeasiblePath& path) {
-    SmoothingIterate record{.wall = stopwatch_.Seconds(),
-                            .evaluations = result_.instants + path.scratch().instants,
-                            .candidate_duration = DurationOf(candidate),
+  void Record(const HomotopyParameters& candidate, double violation, double lambda) {
+    SmoothingIterate record{.candidate_duration = DurationOf(candidate),
                             .accepted = lambda > 0.0,
                             .lambda = lambda,
-                            .incumbent_duration = DurationOf(path.incumbent()),
-                            .incumbent_slack = incumbent_slack_,
-                            .incumbent_cost = path.cost()};
+                            .incumbent_slack = incumbent_slack_};
     if (violation > 0.0) record.candidate_slack = -violation;
-    result_.iterates.push_back(record);
+    monitor_.Record(record);
   }
 
-  SmoothingResult Finish(const OverlapProgram& program, const FeasiblePath& path) {
-    result_.instants += path.scratch().instants;
-    result_.collision_queries += path.scratch().bodies.queries;
+  SmoothingResult Conclude(const OverlapProgram& program, const Incumbent& path) {
     // Safest walks were proved whole, the others stretch by stretch.
-    if (path.accepted() > 0 && (Safest() || HoldsWhole(path.incumbent()))) {
-      result_.parameters = path.incumbent();
+    if (path.accepted() > 0 && (Safest() || HoldsWhole(path.parameters()))) {
       end_.own = true;
+    } else if (path.accepted() > 0) {
+      monitor_.Adopt(start_, program.Cost(start_), DurationOf(start_));
     }
-    result_.cost = path.cost();
-    if (!end_.own && path.accepted() > 0) result_.cost = program.Cost(result_.parameters);
-    if (Fastest() && !stop_.stop_requested()) {
-      AddDichotomy(result_.parameters);
+    for (JunctionResult& junction : monitor_.result().junctions) {
+      if (!Fastest() || monitor_.stopped()) junction.limited_by.reset();
+    }
+    if (Fastest() && !monitor_.stopped()) {
+      AddDichotomy(monitor_.incumbent());
       if (!options_.start) {
-        const double plain = AddDichotomy(PlannedMotion(sequence_));
-        end_.own = end_.own && result_.cost < plain - kGainedTime;
-      }
-    } else {
-      for (size_t i = 0; i < result_.junctions.size(); ++i) {
-        JunctionResult& junction = result_.junctions[i];
-        junction.overlap = result_.parameters.overlaps[i];
-        junction.upper_bound =
-            NaturalOverlapBound(sequence_, result_.parameters.durations, static_cast<int>(i));
-        junction.limited_by.reset();
+        const double plain = AddDichotomy(problem_.Start());
+        end_.own = end_.own && monitor_.cost() < plain - kGainedTime;
       }
     }
-    result_.wall = stopwatch_.Seconds();
-    if (!Safest()) AddMultipliers(program, result_.parameters, &result_.junctions);
-    end_.stopped = stop_.stop_requested();
-    result_.ending = end_.Ending();
-    result_.message = end_.Sentence();
-    if (Safest() && !std::isfinite(result_.cost)) {
-      result_.message += "; no walk of at most " + std::to_string(program.duration_limit()) +
-                         " s was proved, the dichotomy's is kept";
+    if (!Safest()) AddMultipliers(program, monitor_.incumbent(), &monitor_.result().junctions);
+    end_.stopped = monitor_.stopped();
+    std::string message = end_.Sentence();
+    if (Safest() && !std::isfinite(monitor_.cost())) {
+      message += "; no walk of at most " + std::to_string(program.duration_limit()) +
+                 " s was proved, the dichotomy's is kept";
     }
-    return std::move(result_);
+    return Finish(message);
+  }
+
+  // How the search ended is its own matter: it is measured against a dichotomy's walk, not against
+  // where that began.
+  SmoothingResult Finish(const std::string& message) {
+    SmoothingResult result = monitor_.Finish(end_.Ending(), message, "");
+    result.ending = end_.Ending();
+    return result;
   }
 
   // A dichotomy's pass over all junctions, which counts if it ends with a shorter walk. Its
   // duration [s].
   double AddDichotomy(const HomotopyParameters& start) {
-    SmoothingResult added = Dichotomy(
-        sequence_, test_, {.tolerance = options_.tolerance, .start = start}, Part(0.9, 1.0), stop_);
-    result_.instants += added.instants;
-    result_.collision_queries += added.collision_queries;
-    const bool first = result_.parameters == start;
-    if (!first && !(added.cost < result_.cost)) return added.cost;
-    for (SmoothingIterate& iterate : added.iterates) {
-      if (iterate.incumbent_duration > result_.cost) continue;
-      iterate.wall += stopwatch_.Seconds() - added.wall;
-      iterate.evaluations += result_.instants - added.instants;
-      result_.iterates.push_back(iterate);
+    const SmoothingResult added =
+        RunDichotomy({.tolerance = options_.tolerance, .start = start}, 0.9, 1.0);
+    const bool first = monitor_.incumbent() == start;
+    if (!first && !(added.cost < monitor_.cost())) return added.cost;
+    const double before = monitor_.cost();
+    for (SmoothingIterate iterate : added.iterates) {
+      if (iterate.incumbent_duration > before) continue;
+      iterate.wall += monitor_.Seconds() - added.wall;
+      iterate.evaluations += monitor_.instants() - added.instants;
+      monitor_.result().iterates.push_back(iterate);
     }
-    result_.parameters = added.parameters;
-    result_.junctions = added.junctions;
-    result_.cost = added.cost;
+    monitor_.Adopt(added.parameters, added.cost, added.cost);
+    monitor_.result().junctions = added.junctions;
     return added.cost;
   }
 
-  bool HoldsWhole(const HomotopyParameters& parameters) const {
+  bool HoldsWhole(const HomotopyParameters& parameters) {
     const SuperposedWalk walk(sequence_, parameters);
     MarginEvaluator::Scratch scratch = test_.evaluator().MakeScratch();
+    scratch.stop = monitor_.scratch()->stop;
     return test_.Check(walk, {0.0, walk.duration()}, &scratch).verdict == Verdict::kFeasible;
   }
 
+  const WalkProblem& problem_;
   const HalfStepSequence& sequence_;
   const FeasibilityTest& test_;
   const OptimizerOptions& options_;
-  const std::function<void(double)>& progress_;
-  std::stop_token stop_;
-  Stopwatch stopwatch_;
+  const opt::Solver& solver_;
+  SmoothingMonitor& monitor_;
   StretchProofs proofs_;
-  SmoothingResult result_;
-  HomotopyParameters start_;               // the dichotomy's result
+  HomotopyParameters start_;  // the dichotomy's result
+  std::string start_message_;
   opt::Solution solution_;                 // the last one
-  std::optional<double> incumbent_slack_;  // at the table's instants
+  std::optional<double> incumbent_slack_;  // at the instants watched
   int since_proof_ = 0;                    // candidates
   SearchEnding end_;
 };
 
 }  // namespace
 
-SmoothingResult OptimizeOverlaps(const HalfStepSequence& sequence, const FeasibilityTest& test,
-                                 const OptimizerOptions& options,
-                                 const std::function<void(double)>& progress,
-                                 std::stop_token stop) {
+SmoothingResult OptimizeOverlaps(const WalkProblem& problem, const OptimizerOptions& options,
+                                 SmoothingMonitor& monitor) {
+  const std::unique_ptr<opt::Solver> solver = opt::MakeSolver(options.solver);
+  const opt::SolverTraits traits = solver->traits();
   OptimizerOptions own = options;
-  const bool sqp = options.solver == kSqp;
-  SlackTableOptions& table = own.program.table;
-  table.row_per_instant = sqp;
-  if (sqp) table.sharpness = std::max(table.sharpness, kSqpSharpness);
-  if (sqp) table.instants = kSqpInstants;
-  if (own.instants > 0) table.instants = own.instants;
-  if (own.max_iterations == 0) own.max_iterations = sqp ? 3 : 30;
-  return Optimization(sequence, test, own, progress, std::move(stop)).Run();
+  WatchOptions& watch = own.program.watch;
+  watch.row_per_instant = traits.many_rows;
+  if (traits.many_rows) {
+    watch.sharpness = std::max(watch.sharpness, kRowsSharpness);
+    watch.instants = kRowsInstants;
+  }
+  if (own.instants > 0) watch.instants = own.instants;
+  if (own.max_iterations == 0) own.max_iterations = traits.iterations;
+  return Optimization(problem, own, *solver, monitor).Run();
 }
 
 }  // namespace halfstep

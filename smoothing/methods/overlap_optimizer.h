@@ -1,13 +1,10 @@
 #pragma once
 
-#include <functional>
 #include <optional>
-#include <stop_token>
 #include <string>
 
-#include "smoothing/methods/smoothing_result.h"
+#include "smoothing/methods/smoothing_monitor.h"
 #include "smoothing/program/overlap_program.h"
-#include "smoothing/proof/feasibility_test.h"
 
 namespace halfstep {
 
@@ -22,24 +19,22 @@ struct OptimizerOptions {
   int random_starts = 0;      ///< and from random points of the variables' box
   unsigned seed = 1;          ///< of the random starts
   int rounds = 40;  ///< ≥ 1: solves from each start, with more instants and sharper rows
-  /// Per half-step at which the program looks; 0: what suits the solver, 24 of `halfstep/sqp`,
-  /// those of `program` of others.
+  /// Instants per half-step at which the program looks. 0: 24 where each of them makes rows of its
+  /// own (SolverTraits::many_rows), else those of `program`.
   int instants = 0;
-  /// Of the solver in a round; 0: what suits it, 3 of `halfstep/sqp`, 30 of others. NLopt tells
-  /// none.
+  /// Iterations that the solver may make in a round; 0: as many as suit it (SolverTraits). NLopt's
+  /// solvers count none, so this does not bound them.
   int max_iterations = 0;
   double deadline = 30.0;    ///< of all solves together [s]
   double tolerance = 0.001;  ///< of the dichotomies before and after [s]
-  /// Told every point that the solver's search made the incumbent; may be empty.
-  std::function<void(const HomotopyParameters&)> on_accept = {};
 };
 
 /// Smooths a whole sequence by a nonlinear program. Whatever the solver does, what is returned was
-/// found feasible by `test`, and its cost with it:
+/// found feasible by the problem's test, and its cost with it:
 ///   1. the planned motion is the first incumbent, the result of a dichotomy the next (a coarse one
 ///      for `fastest`), unless a feasible `start` is given;
 ///   2. in rounds from each start the solver takes a few steps; where they end is a candidate for
-///      the FeasiblePath, and the program learns to look where the test refused it and where
+///      the Incumbent, and the program learns to look where the test refused it and where
 ///      sampling finds small slacks;
 ///   3. `fastest`: a dichotomy's pass from the incumbent over all junctions, with `tolerance`, and
 ///      without a `start` one from the planned motion, too.
@@ -47,9 +42,7 @@ struct OptimizerOptions {
 /// every start; kLimit when all rounds were used, or the last solve broke down; kNoImprovement,
 /// kInvalidInput, kFailed (every solve did) and kNotRun when what is returned does not come from
 /// the search. The message says how the last solve ended.
-SmoothingResult OptimizeOverlaps(const HalfStepSequence& sequence, const FeasibilityTest& test,
-                                 const OptimizerOptions& options,
-                                 const std::function<void(double)>& progress = {},
-                                 std::stop_token stop = {});
+SmoothingResult OptimizeOverlaps(const WalkProblem& problem, const OptimizerOptions& options,
+                                 SmoothingMonitor& monitor);
 
 }  // namespace halfstep

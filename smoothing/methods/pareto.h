@@ -1,8 +1,5 @@
 #pragma once
 
-#include <functional>
-#include <stop_token>
-
 #include "smoothing/methods/overlap_optimizer.h"
 
 namespace halfstep {
@@ -14,11 +11,10 @@ struct ParetoOptions {
 
 /// How safe the walk can be for how long it may last: the program `fastest`, then `safest` with
 /// D at most the dichotomy's own duration and durations from the fastest to the longest, each from
-/// the one before. Every point was proved, with its least slack, by `test`. The result's parameters
-/// are those of the point at the dichotomy's own duration; `pareto` holds all points, by duration.
-SmoothingResult ParetoCurve(const HalfStepSequence& sequence, const FeasibilityTest& test,
-                            const OptimizerOptions& options, const ParetoOptions& pareto,
-                            const std::function<void(double)>& progress = {},
-                            std::stop_token stop = {});
+/// the one before. Every point was proved, with its least slack, by the problem's test. The
+/// result's parameters are those of the point at the dichotomy's own duration; `pareto` holds all
+/// points, by duration.
+SmoothingResult ParetoCurve(const WalkProblem& problem, const OptimizerOptions& options,
+                            const ParetoOptions& pareto, SmoothingMonitor& monitor);
 
 }  // namespace halfstep

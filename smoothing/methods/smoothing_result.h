@@ -16,6 +16,7 @@ struct JunctionResult {
   JunctionKind kind = JunctionKind::kUpDown;
   double overlap = 0.0;      ///< accepted Δ [s]
   double upper_bound = 0.0;  ///< largest that was allowed [s]
+  bool fixed = false;        ///< the caller fixed it
   /// The margin that refused the smallest infeasible overlap tried; none: the upper bound holds.
   std::optional<Margin> limited_by = std::nullopt;
   /// Multipliers of the program's rows of the half-steps on both sides, in the family that limits:
@@ -55,7 +56,7 @@ struct SmoothingResult {
   /// costs less than what it was started from: the planned motion, for programs the dichotomy's
   /// walk. With the others it is that start, or what a plain dichotomy makes of it.
   opt::Ending ending = opt::Ending::kNotRun;
-  std::string message = "Smooth was not called.";  ///< a sentence on the ending
+  std::string message = "the method has not run";  ///< a sentence on the ending
   /// `parameters` were found feasible in the sense of `evidence`. False: the start misses a margin,
   /// and they are the start.
   bool feasible = false;

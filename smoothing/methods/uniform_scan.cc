@@ -1,14 +1,12 @@
 #include "smoothing/methods/uniform_scan.h"
 
 #include <algorithm>
-#include <cmath>
 #include <sstream>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "smoothing/methods/dichotomy.h"
-#include "smoothing/methods/stopwatch.h"
-#include "smoothing/program/overlap_program.h"
 #include "wpg/check.h"
 
 namespace halfstep {
@@ -34,13 +32,14 @@ std::vector<double> Factors(double least, double most, double step, bool scan) {
 
 class Scan {
  public:
-  Scan(const HalfStepSequence& sequence, const FeasibilityTest& test,
-       const UniformScanOptions& options, std::stop_token stop)
-      : sequence_(sequence), test_(test), options_(options), stop_(std::move(stop)) {}
+  Scan(const WalkProblem& problem, const UniformScanOptions& options, SmoothingMonitor& monitor)
+      : problem_(problem),
+        options_(options),
+        monitor_(monitor),
+        table_(problem.Parameters({.heights = options.heights, .durations = options.durations})) {}
 
-  SmoothingResult Run(const std::function<void(double)>& progress) {
-    result_.evidence = test_.evidence();
-    result_.parameters = PlannedMotion(sequence_);
+  SmoothingResult Run() {
+    monitor_.Begin(problem_, problem_.Start());
     const auto durations = Factors(options_.least_duration, options_.most_duration,
                                    options_.duration_step, options_.durations);
     const auto heights =
@@ -50,102 +49,93 @@ class Scan {
     for (double duration : durations) {
       for (double height : heights) {
         Try({duration, height, {}});
-        if (stop_.stop_requested()) return Finish();
-        if (progress) progress(0.8 * ++done / count);
+        if (monitor_.stopped()) return Finish();
+        monitor_.Progress(0.8 * ++done / count);
       }
     }
     std::stable_sort(points_.begin(), points_.end(), [](const GridPoint& a, const GridPoint& b) {
       return a.smoothed.cost < b.smoothed.cost;
     });
     const size_t finalists = std::min(points_.size(), static_cast<size_t>(options_.finalists));
-    for (size_t i = 0; i < finalists && !stop_.stop_requested(); ++i) {
+    for (size_t i = 0; i < finalists && !monitor_.stopped(); ++i) {
       Smooth(points_[i], points_[i].smoothed.parameters, options_.fine);
-      if (progress)
-        progress(0.8 + 0.2 * static_cast<double>(i + 1) / static_cast<double>(finalists));
+      monitor_.Progress(0.8 + 0.2 * static_cast<double>(i + 1) / static_cast<double>(finalists));
     }
     return Finish();
   }
 
  private:
   void Try(GridPoint point) {
-    HomotopyParameters start = PlannedMotion(sequence_);
-    for (double& T : start.durations) T *= point.duration;
-    for (double& eta : start.height_scales) eta *= point.height;
+    HomotopyParameters start = problem_.Start();
+    for (const ParameterRow& row : table_.rows()) {
+      if (row.fixed) continue;
+      if (row.parameter.family == ParameterFamily::kDuration) {
+        row.parameter.in(start) *= point.duration;
+      } else if (row.parameter.family == ParameterFamily::kHeightScale) {
+        row.parameter.in(start) *= point.height;
+      }
+    }
+    for (int i = 0; i < problem_.sequence().num_junctions(); ++i) {  // fixed ones may not fit
+      if (start.overlaps[static_cast<size_t>(i)] >
+          NaturalOverlapBound(problem_.sequence(), start.durations, i)) {
+        return;
+      }
+    }
     const bool planned = point.duration == 1.0 && point.height == 1.0;
     if (Smooth(point, start, options_.coarse)) {
       planned_feasible_ = planned_feasible_ || planned;
       points_.push_back(std::move(point));
     } else if (planned) {
-      result_.message = std::move(point.smoothed.message);
+      refusal_ = std::move(point.smoothed.message);
     }
   }
 
   // False when the start is not feasible.
   bool Smooth(GridPoint& point, const HomotopyParameters& start, double tolerance) {
+    SmoothingMonitor within(monitor_.Part(0.0, 0.0));
     SmoothingResult smoothed =
-        Dichotomy(sequence_, test_, {.tolerance = tolerance, .start = start}, {}, stop_);
-    result_.instants += smoothed.instants;
-    result_.collision_queries += smoothed.collision_queries;
-    const bool feasible = smoothed.feasible;
+        Dichotomy(problem_, {.tolerance = tolerance, .start = start}, within);
+    monitor_.Count(smoothed);
     smoothed.cost = DurationOf(smoothed.parameters);
-    const bool better = feasible && (!found_ || smoothed.cost < result_.cost);
-    SmoothingIterate iterate{.wall = stopwatch_.Seconds(),
-                             .evaluations = result_.instants,
-                             .candidate_duration = smoothed.cost,
-                             .accepted = better,
-                             .lambda = better ? 1.0 : 0.0};
+    const bool better = smoothed.feasible && (!found_ || smoothed.cost < monitor_.cost());
     if (better) {
       found_ = true;
-      result_.parameters = smoothed.parameters;
-      result_.cost = smoothed.cost;
-      result_.junctions = smoothed.junctions;
+      monitor_.Adopt(smoothed.parameters, smoothed.cost, smoothed.cost);
+      monitor_.result().junctions = smoothed.junctions;
       best_ = {point.duration, point.height, {}};
-      if (!result_.time_to_first_improvement)
-        result_.time_to_first_improvement = stopwatch_.Seconds();
     }
-    iterate.incumbent_duration = iterate.incumbent_cost =
-        found_ ? result_.cost : DurationOf(result_.parameters);
-    result_.iterates.push_back(iterate);
+    monitor_.Record(
+        {.candidate_duration = smoothed.cost, .accepted = better, .lambda = better ? 1.0 : 0.0});
     point.smoothed = std::move(smoothed);
-    return feasible;
+    return point.smoothed.feasible;
   }
 
   SmoothingResult Finish() {
-    result_.wall = stopwatch_.Seconds();
-    result_.feasible = found_;
-    if (!found_) {
-      result_.cost = DurationOf(result_.parameters);
-      result_.ending = Ending::kNotRun;  // also when interrupted: there is no feasible walk to keep
-      return std::move(result_);
-    }
+    // Also when interrupted: there is no feasible walk to keep.
+    if (!found_) return monitor_.Finish(Ending::kNotRun, refusal_, "");
+    if (!planned_feasible_) monitor_.DropStart();
     std::ostringstream message;
-    message << "best of " << points_.size() << " feasible grid points: durations times "
-            << best_.duration << ", heights times " << best_.height;
-    result_.message = (stop_.stop_requested() ? "stopped from outside; " : "") + message.str();
-    const bool improved = !planned_feasible_ || result_.cost < DurationOf(PlannedMotion(sequence_));
-    result_.ending = !improved                ? Ending::kNoImprovement
-                     : stop_.stop_requested() ? Ending::kInterrupted
-                                              : Ending::kConverged;
-    if (!improved) result_.message += "; no shorter than the planned motion";
-    return std::move(result_);
+    message << (monitor_.stopped() ? "stopped from outside; " : "") << "best of " << points_.size()
+            << " feasible grid points: durations times " << best_.duration << ", heights times "
+            << best_.height;
+    return monitor_.Finish(monitor_.stopped() ? Ending::kInterrupted : Ending::kConverged,
+                           message.str(), "; no shorter than the planned motion");
   }
 
-  const HalfStepSequence& sequence_;
-  const FeasibilityTest& test_;
+  const WalkProblem& problem_;
   const UniformScanOptions& options_;
-  std::stop_token stop_;
-  Stopwatch stopwatch_;
+  SmoothingMonitor& monitor_;
+  ParameterTable table_;
   std::vector<GridPoint> points_;
   GridPoint best_;
   bool found_ = false, planned_feasible_ = false;
-  SmoothingResult result_;
+  std::string refusal_;
 };
 
 }  // namespace
 
-SmoothingResult UniformScan(const HalfStepSequence& sequence, const FeasibilityTest& test,
-                            const UniformScanOptions& options,
-                            const std::function<void(double)>& progress, std::stop_token stop) {
+SmoothingResult UniformScan(const WalkProblem& problem, const UniformScanOptions& options,
+                            SmoothingMonitor& monitor) {
   HALFSTEP_CHECK(options.coarse > 0.0 && options.fine > 0.0 && options.finalists >= 1,
                  "tolerances " << options.coarse << ", " << options.fine << ", finalists "
                                << options.finalists);
@@ -155,7 +145,7 @@ SmoothingResult UniformScan(const HalfStepSequence& sequence, const FeasibilityT
                                            << options.duration_step << ", of heights from "
                                            << options.least_height << " by "
                                            << options.height_step);
-  return Scan(sequence, test, options, std::move(stop)).Run(progress);
+  return Scan(problem, options, monitor).Run();
 }
 
 }  // namespace halfstep

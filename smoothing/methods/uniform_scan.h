@@ -1,11 +1,6 @@
 #pragma once
 
-#include <functional>
-#include <stop_token>
-
-#include "smoothing/methods/smoothing_result.h"
-#include "smoothing/proof/feasibility_test.h"
-#include "wpg/motion/half_step_sequence.h"
+#include "smoothing/methods/smoothing_monitor.h"
 
 namespace halfstep {
 
@@ -26,11 +21,9 @@ struct UniformScanOptions {
 /// The fair baseline of a joint optimization: all durations times one factor and all heights times
 /// another, then the dichotomy; the best of a grid. A grid point whose start is not feasible is
 /// left out, even when smoothed walks with its durations and heights would be feasible.
-/// `start_infeasible` when no point of the grid is feasible. One iterate for each dichotomy.
+/// kNotRun when no point of the grid is feasible. One iterate for each dichotomy.
 /// Between grid points nothing is claimed.
-SmoothingResult UniformScan(const HalfStepSequence& sequence, const FeasibilityTest& test,
-                            const UniformScanOptions& options,
-                            const std::function<void(double)>& progress = {},
-                            std::stop_token stop = {});
+SmoothingResult UniformScan(const WalkProblem& problem, const UniformScanOptions& options,
+                            SmoothingMonitor& monitor);
 
 }  // namespace halfstep

@@ -7,8 +7,8 @@
 
 #include "opt/problem/problem.h"
 #include "smoothing/program/overlap_variables.h"
-#include "smoothing/program/slack_table.h"
 #include "smoothing/program/walk_effort.h"
+#include "smoothing/program/watched_instants.h"
 
 namespace halfstep {
 
@@ -26,13 +26,9 @@ std::array<bool, kNumMarginFamilies> Raised();
 /// Which nonlinear program over a sequence's homotopy parameters.
 struct ProgramOptions {
   ProgramKind kind = ProgramKind::kFastest;
-  bool heights = false;    ///< height scales η are variables beside the overlaps
-  bool durations = false;  ///< so are the durations T
-  double least_height_scale = 0.2;
-  double least_duration = 0.5;               ///< as a fraction of the planned one
-  double most_duration = 1.5;                ///< as a fraction of the planned one
+  ParameterChoice parameters;
   EffortWeights weights = {0.05, 0.0, 0.0};  ///< of `smooth`
-  SlackTableOptions table;
+  WatchOptions watch;
 };
 
 /// A program over the variables of OverlapVariables, and for `safest` the slack z as the last one:
@@ -42,33 +38,34 @@ struct ProgramOptions {
 ///     safest    minimize −z                       subject to  raised slacks ≥ z, others ≥ 0,
 ///                                                             D ≤ duration_limit
 ///
-/// Slacks are scaled margins, gathered by SlackTable. Source: smoothing/README.md, "Overlap
+/// Slacks are scaled margins, gathered by WatchedInstants. Source: smoothing/README.md, "Overlap
 /// program".
 class OverlapProgram {
  public:
   /// `sequence` and `evaluator` are borrowed and must outlive this and its problems.
-  /// `duration_limit` [s] counts for `safest` only.
+  /// `duration_limit` [s] counts for `safest` only; parameters that are fixed are no variables.
   OverlapProgram(const HalfStepSequence& sequence, const MarginEvaluator& evaluator,
-                 const ProgramOptions& options, double duration_limit);
+                 const ProgramOptions& options, double duration_limit,
+                 const std::vector<FixedParameter>& fixed = {});
   OverlapProgram(const OverlapProgram&) = delete;
   OverlapProgram& operator=(const OverlapProgram&) = delete;
 
-  /// Borrows this. Instants that the table learns later are looked at as well.
+  /// Borrows this. Instants that are learned later are looked at as well.
   opt::Problem MakeProblem() const;
 
   const ProgramOptions& options() const { return options_; }
   const OverlapVariables& variables() const { return variables_; }
-  const SlackTable& table() const { return table_; }
-  SlackTable& table() { return table_; }
+  const WatchedInstants& watched() const { return watched_; }
+  WatchedInstants& watched() { return watched_; }
   double duration_limit() const { return duration_limit_; }
 
-  /// x (n) of a point of the homotopy; for `safest` z is its least slack at the table's instants.
+  /// x (n) of a point of the homotopy; for `safest` z is its least slack at the instants watched.
   Eigen::VectorXd ToVariables(const HomotopyParameters& parameters) const;
   HomotopyParameters ToParameters(const Eigen::VectorXd& x) const {
     return variables_.ToParameters(x);
   }
 
-  /// What is minimized [s], or minus the least raised slack at the table's instants; +inf when D is
+  /// What is minimized [s], or minus the least raised slack at the instants watched; +inf when D is
   /// above the limit.
   double Cost(const HomotopyParameters& parameters) const;
 
@@ -76,14 +73,11 @@ class OverlapProgram {
   ProgramOptions options_;
   double duration_limit_;
   OverlapVariables variables_;
-  SlackTable table_;  // borrows variables_
+  WatchedInstants watched_;  // borrows variables_
 };
 
 /// Appends `count` points, uniformly distributed in the box of the program's variables.
 void AddRandomPoints(const OverlapProgram& program, int count, unsigned seed,
                      std::vector<HomotopyParameters>* points);
-
-/// D = Σ T − Σ Δ [s].
-double DurationOf(const HomotopyParameters& parameters);
 
 }  // namespace halfstep

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace halfstep {
 namespace {
@@ -12,43 +13,37 @@ constexpr double kBoundSmoothing = 1e-3;  // [s] below the natural bound where b
 
 }  // namespace
 
-OverlapVariables::OverlapVariables(const HalfStepSequence& sequence, bool heights, bool durations)
-    : sequence_(sequence),
-      heights_(heights),
-      durations_(durations),
-      planned_(PlannedMotion(sequence)) {
-  for (const HomotopyParameter& parameter : AllParameters(sequence)) {
-    if (parameter.family == Family::kOverlap ||
-        (parameter.family == Family::kHeightScale && heights) ||
-        (parameter.family == Family::kDuration && durations)) {
-      variables_.push_back(parameter);
-    }
+OverlapVariables::OverlapVariables(const HalfStepSequence& sequence, ParameterTable table)
+    : sequence_(sequence), table_(std::move(table)), start_(table_.Start()) {
+  for (const ParameterRow& row : table_.rows()) {
+    index_.push_back(row.fixed ? -1 : size());
+    if (!row.fixed) variables_.push_back(row.parameter);
   }
 }
 
-int OverlapVariables::IndexOf(const HomotopyParameter& parameter) const {
-  const int overlaps = sequence_.num_junctions(), steps = sequence_.num_steps();
-  switch (parameter.family) {
-    case Family::kOverlap:
-      return parameter.index;
-    case Family::kHeightScale:
-      return heights_ ? overlaps + parameter.index : -1;
-    case Family::kDuration:
-      return durations_ ? overlaps + (heights_ ? steps : 0) + parameter.index : -1;
+Eigen::VectorXd OverlapVariables::lower() const {
+  Eigen::VectorXd lower(size());
+  for (int v = 0; v < size(); ++v) lower[v] = table_.row(at(v)).lower;
+  return lower;
+}
+
+Eigen::VectorXd OverlapVariables::upper() const {
+  Eigen::VectorXd upper(size());
+  for (int v = 0; v < size(); ++v) {
+    upper[v] = at(v).family == Family::kOverlap ? 1.0 : table_.row(at(v)).upper;
   }
-  return -1;
+  return upper;
 }
 
 OverlapVariables::Bound OverlapVariables::OverlapBound(int junction,
                                                        const std::vector<double>& durations) const {
+  const auto [a, b] = NaturalBoundOf(sequence_, junction);
   const size_t i = static_cast<size_t>(junction);
-  double a = 1.0, b = 1.0;  // of T_i, of T_{i+1}
-  if (KindOfJunction(junction) == JunctionKind::kUpDown) {
-    a = 1.0 - sequence_.half_steps[i].half_step.shape.t2();
-    b = sequence_.half_steps[i + 1].half_step.shape.t1();
-  }
   const double u = a * durations[i], v = b * durations[i + 1];
-  if (!durations_) return {std::min(u, v), 0.0, 0.0};
+  if (!table_.free({Family::kDuration, junction}) &&
+      !table_.free({Family::kDuration, junction + 1})) {
+    return {std::min(u, v), 0.0, 0.0};
+  }
   // (u + v)/2 − √((u − v)²/4 + ε²) ≤ min(u, v)
   const double half = 0.5 * (u - v);
   const double root = std::sqrt(half * half + kBoundSmoothing * kBoundSmoothing);
@@ -57,9 +52,8 @@ OverlapVariables::Bound OverlapVariables::OverlapBound(int junction,
 
 Eigen::VectorXd OverlapVariables::ToVariables(const HomotopyParameters& parameters) const {
   Eigen::VectorXd x(size());
-  HomotopyParameters copy = parameters;
   for (int v = 0; v < size(); ++v) {
-    x[v] = at(v).in(copy);
+    x[v] = at(v).in(parameters);
     if (at(v).family == Family::kOverlap) {
       x[v] = std::clamp(x[v] / OverlapBound(at(v).index, parameters.durations).value, 0.0, 1.0);
     }
@@ -68,12 +62,19 @@ Eigen::VectorXd OverlapVariables::ToVariables(const HomotopyParameters& paramete
 }
 
 HomotopyParameters OverlapVariables::ToParameters(const Eigen::VectorXd& x) const {
-  HomotopyParameters parameters = planned_;
+  HomotopyParameters parameters = start_;
   for (int v = size() - 1; v >= 0; --v) {  // durations before the overlaps they bound
-    at(v).in(parameters) =
-        at(v).family == Family::kOverlap
-            ? std::clamp(x[v], 0.0, 1.0) * OverlapBound(at(v).index, parameters.durations).value
-            : x[v];
+    double& value = at(v).in(parameters);
+    switch (at(v).family) {
+      case Family::kOverlap:
+        value = std::clamp(x[v], 0.0, 1.0) * OverlapBound(at(v).index, parameters.durations).value;
+        break;
+      case Family::kDuration:  // some solvers leave bounds a little; fixed overlaps must fit
+        value = std::max(x[v], table_.row(at(v)).lower);
+        break;
+      default:
+        value = x[v];
+    }
   }
   return parameters;
 }
@@ -81,16 +82,13 @@ HomotopyParameters OverlapVariables::ToParameters(const Eigen::VectorXd& x) cons
 std::vector<int> OverlapVariables::Band(int half_step) const {
   constexpr int kNear = 3;
   std::vector<int> band;
-  const auto add = [&](Family family, int from, int to, int count) {
-    for (int i = std::max(from, 0); i <= std::min(to, count - 1); ++i) {
-      const int v = IndexOf({family, i});
-      if (v >= 0) band.push_back(v);
-    }
-  };
-  const int k = half_step;
-  add(Family::kOverlap, k - kNear, k + kNear - 1, sequence_.num_junctions());
-  add(Family::kHeightScale, std::max(k - kNear, 0) / 2, (k + kNear) / 2, sequence_.num_steps());
-  add(Family::kDuration, k - kNear, k + kNear, sequence_.size());
+  for (int v = 0; v < size(); ++v) {
+    const ParameterFamilyTraits& traits = Traits(at(v).family);
+    const auto [first, last] = traits.half_steps(at(v).index);
+    const int from = half_step - kNear, to = half_step + kNear;
+    const bool inside = from <= first && last <= to, touches = from <= last && first <= to;
+    if (traits.joins ? inside : touches) band.push_back(v);
+  }
   return band;
 }
 

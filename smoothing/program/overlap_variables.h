@@ -1,40 +1,44 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <utility>
 #include <vector>
 
-#include "smoothing/walk/homotopy_parameters.h"
+#include "smoothing/walk/parameter_table.h"
 
 namespace halfstep {
 
 /// A derivative along homotopy parameters, term by term.
 using ParameterGradient = std::vector<std::pair<HomotopyParameter, double>>;
 
-/// The variables x of a program over a sequence: first s_i = Δ_i/B_i(T), then, when they are
-/// variables, the height scales η and the durations T. B_i(T) is the natural overlap bound or, when
-/// T are variables, a smooth lower bound of it by at most 1 ms, so 0 ≤ s_i ≤ 1 are simple bounds at
-/// all T. Families that are
-/// no variables keep the values of `planned`.
+/// The variables x of a program over a sequence: the free rows of a parameter table in its order.
+/// An overlap's variable is s_i = Δ_i/B_i(T). B_i(T) is the natural overlap bound or, where T_i or
+/// T_{i+1} is a variable, a smooth lower bound of it by at most 1 ms, so 0 ≤ s_i ≤ 1 are simple
+/// bounds at all T. What is fixed keeps the value at which the table starts.
 /// Source: smoothing/README.md, "Overlap program".
 class OverlapVariables {
  public:
   /// `sequence` is borrowed and must outlive this.
-  OverlapVariables(const HalfStepSequence& sequence, bool heights, bool durations);
+  OverlapVariables(const HalfStepSequence& sequence, ParameterTable table);
 
   const HalfStepSequence& sequence() const { return sequence_; }
   int size() const { return static_cast<int>(variables_.size()); }
   const HomotopyParameter& at(int variable) const {
     return variables_[static_cast<size_t>(variable)];
   }
-  bool heights() const { return heights_; }
-  bool durations() const { return durations_; }
+  const ParameterTable& table() const { return table_; }
 
   /// x (n) of a point of the homotopy (overlaps above B_i are lowered to it), and back.
   Eigen::VectorXd ToVariables(const HomotopyParameters& parameters) const;
   HomotopyParameters ToParameters(const Eigen::VectorXd& x) const;
 
   /// The variable of a parameter, −1: it is none.
-  int IndexOf(const HomotopyParameter& parameter) const;
+  int IndexOf(const HomotopyParameter& parameter) const {
+    return index_[static_cast<size_t>(table_.IndexOf(parameter))];
+  }
+  /// The simple bounds of x (n).
+  Eigen::VectorXd lower() const;
+  Eigen::VectorXd upper() const;
   /// Calls add(variable, value) for each term of the gradient with respect to x that a derivative
   /// `slope` along `parameter` makes; a variable may come several times.
   template <typename Add>
@@ -45,12 +49,13 @@ class OverlapVariables {
       if (v >= 0) add(v, slope);
       return;
     }
+    if (v < 0) return;
     const Bound bound = OverlapBound(parameter.index, durations);
     add(v, slope * bound.value);
-    if (!durations_) return;
-    const int T = IndexOf({HomotopyParameter::Family::kDuration, parameter.index});
-    add(T, slope * x[v] * bound.before);
-    add(T + 1, slope * x[v] * bound.after);
+    const int before = IndexOf({HomotopyParameter::Family::kDuration, parameter.index});
+    const int after = IndexOf({HomotopyParameter::Family::kDuration, parameter.index + 1});
+    if (before >= 0) add(before, slope * x[v] * bound.before);
+    if (after >= 0) add(after, slope * x[v] * bound.after);
   }
 
   /// The variables on which an instant of half-step k may depend, at any x. At most four half-steps
@@ -65,9 +70,10 @@ class OverlapVariables {
   Bound OverlapBound(int junction, const std::vector<double>& durations) const;
 
   const HalfStepSequence& sequence_;
-  bool heights_, durations_;
-  HomotopyParameters planned_;
+  ParameterTable table_;
+  HomotopyParameters start_;
   std::vector<HomotopyParameter> variables_;
+  std::vector<int> index_;  // by row of the table: the variable, or −1
 };
 
 }  // namespace halfstep

@@ -69,10 +69,9 @@ TimeWindow ExtendedToKnots(const SuperposedWalk& walk, const TimeWindow& window)
   return extended;
 }
 
-CertifiedFeasibility::CertifiedFeasibility(const MarginEvaluator& evaluator,
-                                           const CertificationOptions& options,
-                                           std::stop_token stop)
-    : evaluator_(evaluator), options_(options), statements_(evaluator), stop_(std::move(stop)) {
+CertifiedFeasibility::CertifiedFeasibility(MarginEvaluator evaluator,
+                                           const CertificationOptions& options)
+    : evaluator_(std::move(evaluator)), options_(options), statements_(evaluator_) {
   HALFSTEP_CHECK(options.resolution > 0.0 && options.longest >= options.resolution,
                  "resolution " << options.resolution << ", longest " << options.longest);
 }
@@ -124,7 +123,7 @@ Feasibility CertifiedFeasibility::Decide(const SuperposedWalk& walk, const TimeW
 
 Feasibility CertifiedFeasibility::Check(const SuperposedWalk& walk, const TimeWindow& window,
                                         MarginEvaluator::Scratch* scratch) const {
-  return Decide(walk, ExtendedToKnots(walk, window), scratch, nullptr, stop_);
+  return Decide(walk, ExtendedToKnots(walk, window), scratch, nullptr, scratch->stop);
 }
 
 Feasibility CertifiedFeasibility::Certify(const SuperposedWalk& walk,

@@ -17,16 +17,13 @@ namespace halfstep {
 /// Source: [Schwarzer2005]; bounds: smoothing/README.md, "Certificates".
 class CertifiedFeasibility : public FeasibilityTest {
  public:
-  /// `evaluator` is borrowed and must outlive this. `stop` is looked at before each interval of a
-  /// check; what is stopped is undecided.
-  CertifiedFeasibility(const MarginEvaluator& evaluator, const CertificationOptions& options,
-                       std::stop_token stop = {});
+  CertifiedFeasibility(MarginEvaluator evaluator, const CertificationOptions& options);
 
   Evidence evidence() const override { return Evidence::kCertified; }
   std::string Description() const override;
   const MarginEvaluator& evaluator() const override { return evaluator_; }
   std::unique_ptr<FeasibilityTest> Over(const MarginEvaluator& evaluator) const override {
-    return std::make_unique<CertifiedFeasibility>(evaluator, options_, stop_);
+    return std::make_unique<CertifiedFeasibility>(evaluator, options_);
   }
   Feasibility Check(const SuperposedWalk& walk, const TimeWindow& window,
                     MarginEvaluator::Scratch* scratch) const override;
@@ -46,10 +43,9 @@ class CertifiedFeasibility : public FeasibilityTest {
                      MarginEvaluator::Scratch* scratch, Certificate* certificate,
                      const std::stop_token& stop) const;
 
-  const MarginEvaluator& evaluator_;
+  MarginEvaluator evaluator_;
   CertificationOptions options_;
   IntervalStatements statements_;
-  std::stop_token stop_;
 };
 
 /// The window and, on either side, what lies between it and the next knot: where an overlap's

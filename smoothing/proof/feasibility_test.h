@@ -32,7 +32,8 @@ struct Feasibility {
   bool stopped = false;  ///< undecided because it was told to stop
 };
 
-/// Whether a walk meets every demanded margin on a window of time.
+/// Whether a walk meets every demanded margin on a window of time. The scratch's stop token is
+/// looked at on the way; what is stopped is undecided.
 class FeasibilityTest {
  public:
   virtual ~FeasibilityTest() = default;
@@ -40,7 +41,7 @@ class FeasibilityTest {
   /// "sampled every 5 ms".
   virtual std::string Description() const = 0;
   virtual const MarginEvaluator& evaluator() const = 0;
-  /// The same kind of test with the demands of another evaluator, which is borrowed.
+  /// The same kind of test with the demands of another evaluator.
   virtual std::unique_ptr<FeasibilityTest> Over(const MarginEvaluator& evaluator) const = 0;
   virtual Feasibility Check(const SuperposedWalk& walk, const TimeWindow& window,
                             MarginEvaluator::Scratch* scratch) const = 0;

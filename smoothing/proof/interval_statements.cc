@@ -22,10 +22,10 @@ std::vector<MarginFamily> ProofOrder() {
 
 }  // namespace
 
-IntervalStatements::IntervalStatements(const MarginEvaluator& evaluator)
-    : evaluator_(evaluator), bounds_(evaluator.robot()) {
+IntervalStatements::IntervalStatements(MarginEvaluator evaluator)
+    : evaluator_(std::move(evaluator)), bounds_(evaluator_.robot()) {
   for (const MarginFamily family : ProofOrder()) {
-    for (int group = 0; group < evaluator.statements(family).groups(); ++group) {
+    for (int group = 0; group < evaluator_.statements(family).groups(); ++group) {
       all_.push_back({family, static_cast<uint16_t>(group)});
     }
   }

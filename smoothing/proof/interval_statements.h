@@ -23,8 +23,7 @@ using OpenGroups = std::vector<OpenGroup>;
 /// Proves statements about one interval from its midpoint and a bound on the motion around it.
 class IntervalStatements {
  public:
-  /// `evaluator` is borrowed and must outlive this.
-  explicit IntervalStatements(const MarginEvaluator& evaluator);
+  explicit IntervalStatements(MarginEvaluator evaluator);
 
   /// Every statement there is.
   OpenGroups All() const;
@@ -38,7 +37,7 @@ class IntervalStatements {
                               Certificate* rows) const;
 
  private:
-  const MarginEvaluator& evaluator_;
+  MarginEvaluator evaluator_;
   MotionBounds bounds_;
   OpenGroups all_;
 };

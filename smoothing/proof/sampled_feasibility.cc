@@ -30,9 +30,8 @@ std::string_view Name(Evidence evidence) {
   return evidence == Evidence::kSampled ? "sampled" : "certified";
 }
 
-SampledFeasibility::SampledFeasibility(const MarginEvaluator& evaluator, double period,
-                                       std::stop_token stop)
-    : evaluator_(evaluator), period_(period), stop_(std::move(stop)) {
+SampledFeasibility::SampledFeasibility(MarginEvaluator evaluator, double period)
+    : evaluator_(std::move(evaluator)), period_(period) {
   HALFSTEP_CHECK(period > 0.0, "period = " << period);
 }
 
@@ -51,7 +50,7 @@ Feasibility SampledFeasibility::Check(const SuperposedWalk& walk, const TimeWind
   for (long stride = kCoarsest; stride >= 1; stride /= 2) {
     for (long i = 0; i <= grid.n; i += stride) {
       if (stride < kCoarsest && i % (2 * stride) == 0) continue;
-      if (stop_.stop_requested()) {
+      if (scratch->stop.stop_requested()) {
         Margin open{.family = MarginFamily::kClearance, .value = std::nan("")};
         open.t = grid.at(i);
         open.at = walk.Locate(open.t);

@@ -11,23 +11,21 @@ namespace halfstep {
 /// ones first. Feasible means: at these instants, nothing about the motion between them.
 class SampledFeasibility : public FeasibilityTest {
  public:
-  /// period [s] > 0. `evaluator` is borrowed and must outlive this. `stop` is looked at before each
-  /// instant; what is stopped is undecided.
-  SampledFeasibility(const MarginEvaluator& evaluator, double period, std::stop_token stop = {});
+  /// period [s] > 0.
+  SampledFeasibility(MarginEvaluator evaluator, double period);
 
   Evidence evidence() const override { return Evidence::kSampled; }
   std::string Description() const override;
   const MarginEvaluator& evaluator() const override { return evaluator_; }
   std::unique_ptr<FeasibilityTest> Over(const MarginEvaluator& evaluator) const override {
-    return std::make_unique<SampledFeasibility>(evaluator, period_, stop_);
+    return std::make_unique<SampledFeasibility>(evaluator, period_);
   }
   Feasibility Check(const SuperposedWalk& walk, const TimeWindow& window,
                     MarginEvaluator::Scratch* scratch) const override;
 
  private:
-  const MarginEvaluator& evaluator_;
+  MarginEvaluator evaluator_;
   double period_;
-  std::stop_token stop_;
 };
 
 /// Smallest value of each margin at instants no more than `period` [s] apart over the whole walk,

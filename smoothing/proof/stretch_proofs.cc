@@ -21,10 +21,11 @@ std::vector<double> StretchParameters(const SuperposedWalk& walk, int half_step)
   std::vector<double> key;
   for (int i = half_step; i >= 0; --i) {
     if (i < half_step && walk.end_of(i) <= walk.start_of(half_step)) break;
-    const size_t k = static_cast<size_t>(i);
-    key.push_back(p.durations[k]);
-    key.push_back(p.height_scales[k / 2]);
-    key.push_back(k < p.overlaps.size() ? p.overlaps[k] : 0.0);
+    for (const ParameterFamily family : AllParameterFamilies()) {
+      const size_t index = static_cast<size_t>(Traits(family).index_at(i));
+      const std::vector<double>& values = p.of(family);
+      key.push_back(index < values.size() ? values[index] : 0.0);
+    }
   }
   return key;
 }

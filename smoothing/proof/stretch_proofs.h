@@ -37,7 +37,7 @@ class StretchProofs {
 };
 
 /// The parameters on which the posture and its rates depend on [t_k, t_{k+1}], as functions of the
-/// time since t_k, and the length of that stretch: Δ_i, T_i and η of the half-steps i ≤ k that are
+/// time since t_k, and the length of that stretch: those that the half-steps i ≤ k carry which are
 /// under way at some time of it.
 std::vector<double> StretchParameters(const SuperposedWalk& walk, int half_step);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "wpg/check.h"
 
@@ -9,59 +10,67 @@ namespace halfstep {
 
 HomotopyParameters PlannedMotion(const HalfStepSequence& sequence) {
   HomotopyParameters parameters;
-  parameters.overlaps.assign(static_cast<size_t>(sequence.num_junctions()), 0.0);
-  parameters.height_scales.assign(static_cast<size_t>(sequence.num_steps()), 1.0);
-  for (const PlacedHalfStep& placed : sequence.half_steps) {
-    parameters.durations.push_back(placed.half_step.duration);
+  for (const ParameterFamily family : AllParameterFamilies()) {
+    const ParameterFamilyTraits& traits = Traits(family);
+    for (int i = 0; i < traits.count(sequence); ++i) {
+      parameters.of(family).push_back(traits.planned(sequence, i));
+    }
   }
   return parameters;
 }
 
-double& HomotopyParameter::in(HomotopyParameters& parameters) const {
-  std::vector<double>& values = family == Family::kOverlap       ? parameters.overlaps
-                                : family == Family::kHeightScale ? parameters.height_scales
-                                                                 : parameters.durations;
-  return values.at(static_cast<size_t>(index));
+double NaturalBound::At(double T_before, double T_after) const {
+  return std::min(before * T_before, after * T_after);
 }
 
-std::vector<HomotopyParameter> AllParameters(const HalfStepSequence& sequence) {
-  using Family = HomotopyParameter::Family;
-  std::vector<HomotopyParameter> all;
-  for (int i = 0; i < sequence.num_junctions(); ++i) all.push_back({Family::kOverlap, i});
-  for (int j = 0; j < sequence.num_steps(); ++j) all.push_back({Family::kHeightScale, j});
-  for (int i = 0; i < sequence.size(); ++i) all.push_back({Family::kDuration, i});
-  return all;
+NaturalBound NaturalBoundOf(int junction, const HalfStepShape& before, const HalfStepShape& after) {
+  if (KindOfJunction(junction) == JunctionKind::kDownUp) return {};
+  return {1.0 - before.t2(), after.t1()};
+}
+
+NaturalBound NaturalBoundOf(const HalfStepSequence& sequence, int junction) {
+  const size_t i = static_cast<size_t>(junction);
+  return NaturalBoundOf(junction, sequence.half_steps[i].half_step.shape,
+                        sequence.half_steps[i + 1].half_step.shape);
 }
 
 double NaturalOverlapBound(const HalfStepSequence& sequence, const std::vector<double>& durations,
                            int junction) {
   const size_t i = static_cast<size_t>(junction);
-  const HalfStepShape& before = sequence.half_steps[i].half_step.shape;
-  const HalfStepShape& after = sequence.half_steps[i + 1].half_step.shape;
-  if (KindOfJunction(junction) == JunctionKind::kUpDown) {
-    return std::min((1.0 - before.t2()) * durations[i], after.t1() * durations[i + 1]);
-  }
-  return std::min(durations[i], durations[i + 1]);
+  return NaturalBoundOf(sequence, junction).At(durations[i], durations[i + 1]);
 }
 
 void CheckParameters(const HalfStepSequence& sequence, const HomotopyParameters& parameters) {
-  HALFSTEP_CHECK(parameters.overlaps.size() == static_cast<size_t>(sequence.num_junctions()) &&
-                     parameters.height_scales.size() == static_cast<size_t>(sequence.num_steps()) &&
-                     parameters.durations.size() == static_cast<size_t>(sequence.size()),
-                 parameters.overlaps.size()
-                     << " overlaps, " << parameters.height_scales.size() << " height scales, "
-                     << parameters.durations.size() << " durations for " << sequence.size()
-                     << " half-steps");
-  for (double eta : parameters.height_scales) {
-    HALFSTEP_CHECK(std::isfinite(eta) && eta >= 0.0, "height scale " << eta);
+  for (const ParameterFamily family : AllParameterFamilies()) {
+    const ParameterFamilyTraits& traits = Traits(family);
+    const std::vector<double>& values = parameters.of(family);
+    HALFSTEP_CHECK(values.size() == static_cast<size_t>(traits.count(sequence)),
+                   values.size() << " values of " << traits.name << " for " << sequence.size()
+                                 << " half-steps");
+    for (double value : values) {
+      HALFSTEP_CHECK(std::isfinite(value) &&
+                         (value > traits.least || (traits.least_itself && value == traits.least)),
+                     traits.name << " " << value << " " << traits.unit);
+    }
   }
-  for (double T : parameters.durations) HALFSTEP_CHECK(std::isfinite(T) && T > 0.0, "T = " << T);
   for (int i = 0; i < sequence.num_junctions(); ++i) {
     const double overlap = parameters.overlaps[static_cast<size_t>(i)];
     const double bound = NaturalOverlapBound(sequence, parameters.durations, i);
-    HALFSTEP_CHECK(overlap >= 0.0 && overlap <= bound + 1e-12,
+    HALFSTEP_CHECK(overlap <= bound + kOverlapTolerance,
                    "overlap " << overlap << " s of junction " << i << ", bound " << bound << " s");
   }
+}
+
+void ClampOverlaps(const HalfStepSequence& sequence, HomotopyParameters* parameters) {
+  for (int i = 0; i < sequence.num_junctions(); ++i) {
+    double& overlap = parameters->overlaps[static_cast<size_t>(i)];
+    overlap = std::clamp(overlap, 0.0, NaturalOverlapBound(sequence, parameters->durations, i));
+  }
+}
+
+double DurationOf(const HomotopyParameters& parameters) {
+  return std::accumulate(parameters.durations.begin(), parameters.durations.end(), 0.0) -
+         std::accumulate(parameters.overlaps.begin(), parameters.overlaps.end(), 0.0);
 }
 
 }  // namespace halfstep

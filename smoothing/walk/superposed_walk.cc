@@ -53,15 +53,14 @@ void SuperposedWalk::UpdateStarts(int from) {
 
 void SuperposedWalk::SetOverlap(int junction, double overlap) {
   HALFSTEP_CHECK(junction >= 0 && junction + 1 < num_half_steps(), "junction " << junction);
-  const HalfStepProfiles& before = profiles(junction);
-  const HalfStepProfiles& after = profiles(junction + 1);
-  const double bound = KindOfJunction(junction) == JunctionKind::kUpDown
-                           ? std::min(before.duration() - before.t2(), after.t1())
-                           : std::min(before.duration(), after.duration());
+  const size_t i = static_cast<size_t>(junction);
+  const HalfStep &before = half_step(junction), &after = half_step(junction + 1);
+  const double bound = NaturalBoundOf(junction, before.shape, after.shape)
+                           .At(parameters_.durations[i], parameters_.durations[i + 1]);
   HALFSTEP_CHECK(
-      overlap >= 0.0 && overlap <= bound + 1e-9,
+      overlap >= 0.0 && overlap <= bound + kOverlapTolerance,
       "overlap " << overlap << " s of junction " << junction << ", bound " << bound << " s");
-  parameters_.overlaps[static_cast<size_t>(junction)] = overlap;
+  parameters_.overlaps[i] = overlap;
   UpdateStarts(junction + 1);
 }
 

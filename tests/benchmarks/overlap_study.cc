@@ -16,11 +16,11 @@
 #include <vector>
 
 #include "experiments/config/experiment.h"
-#include "experiments/config/methods.h"
 #include "opt/adapters/solver_registry.h"
 #include "opt/problem/problem_derivatives.h"
 #include "smoothing/methods/dichotomy.h"
 #include "smoothing/methods/overlap_optimizer.h"
+#include "smoothing/methods/smoother_registry.h"
 #include "smoothing/proof/certified_feasibility.h"
 
 namespace halfstep {

@@ -9,8 +9,8 @@
 #include "experiments/config/experiment.h"
 #include "smoothing/methods/coordinate_ascent.h"
 #include "smoothing/methods/dichotomy.h"
-#include "smoothing/methods/grid_reference.h"
 #include "smoothing/methods/overlap_optimizer.h"
+#include "smoothing/methods/reference_search.h"
 #include "smoothing/methods/uniform_scan.h"
 #include "smoothing/proof/certified_feasibility.h"
 
@@ -24,7 +24,7 @@ SmoothingResult Smooth(const HalfStepSequence& sequence, const FeasibilityTest& 
   if (method == "uniform") return UniformScan(sequence, test, scan);
   const CoordinateAscentOptions ascent{.heights = heights, .durations = durations};
   if (method == "coordinate") return CoordinateAscent(sequence, test, ascent);
-  GridReferenceOptions options{.heights = heights, .durations = durations};
+  ReferenceOptions options{.heights = heights, .durations = durations};
   if (heights || durations) {
     options.starts.push_back(UniformScan(sequence, test, scan).parameters);
     options.starts.push_back(CoordinateAscent(sequence, test, ascent).parameters);
@@ -33,7 +33,7 @@ SmoothingResult Smooth(const HalfStepSequence& sequence, const FeasibilityTest& 
     optimizer.program.durations = durations;
     options.starts.push_back(OptimizeOverlaps(sequence, test, optimizer).parameters);
   }
-  return GridReference(sequence, test, options);
+  return ReferenceSearch(sequence, test, options);
 }
 
 void Study(const std::string& config, const std::string& method, const std::string& variables) {

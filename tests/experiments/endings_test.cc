@@ -6,8 +6,8 @@
 #include <algorithm>
 
 #include "experiments/commands/commands.h"
-#include "experiments/config/methods.h"
 #include "opt/solvers/ending.h"
+#include "smoothing/methods/smoother_registry.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/run_check.h"
 #include "tests/temporary_folder.h"

@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "experiments/commands/commands.h"
-#include "experiments/config/methods.h"
+#include "smoothing/methods/smoother_registry.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/long_walk.h"
 #include "tests/experiments/run_check.h"

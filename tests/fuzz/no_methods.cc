@@ -1,11 +1,11 @@
 // Names of methods, planners and programs for the readers of configs, without what they name.
 
-#include "experiments/config/methods.h"
 #include "planner/search/planner_registry.h"
+#include "smoothing/methods/smoother_registry.h"
 
 namespace halfstep {
 
-std::vector<std::string> MethodNames() {
+std::vector<std::string> SmootherNames() {
   return {"dichotomy", "dichotomy/published", "halfstep/sqp", "halfstep/barrier"};
 }
 

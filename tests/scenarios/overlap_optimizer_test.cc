@@ -12,8 +12,8 @@
 
 #include "opt/adapters/solver_registry.h"
 #include "smoothing/methods/dichotomy.h"
+#include "smoothing/methods/incumbent.h"
 #include "smoothing/methods/pareto.h"
-#include "smoothing/methods/path_rules.h"
 #include "smoothing/proof/certified_feasibility.h"
 #include "tests/scenarios/load_experiment.h"
 #include "tests/smoothing/fake_feasibility.h"
@@ -303,7 +303,7 @@ TEST_F(OptimizerTest, SafestRefusesWalksBelowWhatIsDemanded) {
   ASSERT_GT(program.Cost(too_far), 0.0);
   ASSERT_LT(program.Cost(planned), 0.0);
   for (const bool within : {false, true}) {
-    const FeasiblePath::Rules rules = SafestRules(program, test_, within);
+    const Incumbent::Rules rules = SafestRules(program, test_, within);
     EXPECT_TRUE(std::isinf(rules.cost(too_far))) << within;
     EXPECT_LE(rules.cost(planned), 0.0);
   }

@@ -8,8 +8,8 @@
 
 #include "smoothing/methods/coordinate_ascent.h"
 #include "smoothing/methods/dichotomy.h"
-#include "smoothing/methods/grid_reference.h"
-#include "smoothing/methods/stretch_grid.h"
+#include "smoothing/methods/dynamic_program.h"
+#include "smoothing/methods/reference_search.h"
 #include "smoothing/methods/uniform_scan.h"
 #include "smoothing/program/overlap_program.h"
 #include "smoothing/proof/certified_feasibility.h"
@@ -121,7 +121,7 @@ TEST_F(ReferenceMethods, StoppedTheyKeepWhatWasFeasible) {
   EXPECT_LT(result.cost, DurationOf(PlannedMotion(sequence_)));
   const SmoothingResult scan = UniformScan(sequence_, test, {}, {}, source.get_token());
   EXPECT_NE(scan.ending, opt::Ending::kConverged);
-  const SmoothingResult grid = GridReference(sequence_, test, {}, {}, source.get_token());
+  const SmoothingResult grid = ReferenceSearch(sequence_, test, {}, {}, source.get_token());
   EXPECT_EQ(grid.ending, opt::Ending::kNotRun);  // stopped before its first round
   EXPECT_TRUE(grid.feasible);
 }
@@ -134,7 +134,7 @@ TEST(StretchGridTest, FindsWhatTryingEverythingFinds) {
   const MarginEvaluator evaluator(e.robot, e.scene, e.config.smoothing.limits);
   const HomotopyParameters planned = PlannedMotion(sequence);
   for (bool durations : {false, true}) {
-    StretchGrid::Choices choices;
+    DynamicProgram::Choices choices;
     for (size_t k = 0; k < 4; ++k) {
       choices.push_back({});
       for (double overlap : {0.5, 0.65, 0.8, 0.95}) {
@@ -149,7 +149,7 @@ TEST(StretchGridTest, FindsWhatTryingEverythingFinds) {
       }
     }
     constexpr double kPeriod = 0.02;
-    StretchGrid grid(sequence, evaluator, kPeriod);
+    DynamicProgram grid(sequence, evaluator, kPeriod);
     const std::vector<int> found = grid.Solve(choices, 1e9, [] { return false; });
     ASSERT_EQ(found.size(), 4u);
     const double best = DurationOf(grid.ParametersOf(choices, found));
@@ -204,12 +204,12 @@ TEST(GridReferenceTest, IsCertifiedAndNotWorseThanTheDichotomyOrAStart) {
   const SmoothingResult dichotomy = Dichotomy(e.sequence, test, {});
   HomotopyParameters infeasible = PlannedMotion(e.sequence);
   infeasible.durations = {0.5, 0.5};
-  GridReferenceOptions options{.period = 0.05, .narrowest = 0.05, .max_rounds = 4};
+  ReferenceOptions options{.period = 0.05, .narrowest = 0.05, .max_rounds = 4};
   options.starts = {infeasible};
   MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
   for (bool durations : {false, true}) {
     options.heights = options.durations = durations;
-    const SmoothingResult result = GridReference(e.sequence, test, options);
+    const SmoothingResult result = ReferenceSearch(e.sequence, test, options);
     EXPECT_EQ(HasOwnResult(result.ending), result.cost < DurationOf(dichotomy.parameters))
         << result.message;
     EXPECT_NE(result.ending, opt::Ending::kNotRun);

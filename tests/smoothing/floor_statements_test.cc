@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "smoothing/margins/body_heights.h"
-#include "smoothing/program/slack_rows.h"
+#include "smoothing/margins/slack_evaluator.h"
 #include "smoothing/proof/certified_feasibility.h"
 #include "smoothing/proof/sampled_feasibility.h"
 #include "tests/smoothing/test_walks.h"

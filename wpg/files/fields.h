@@ -84,6 +84,9 @@ class Fields {
   /// cannot express, reported at its place. Ignored by visitors that do not read, in an absent
   /// group, and where `key` has been complained about already.
   virtual void Complain(const char* key, const std::string& what) = 0;
+  /// A key that once stood for `new_key`: complained about where it is, with the new name. Ignored
+  /// by visitors that do not read.
+  virtual void Renamed(const char* /*old_key*/, const char* /*new_key*/) {}
   /// Directory of the file being read, for relative paths; "" otherwise.
   virtual std::string directory() const = 0;
 };

@@ -88,6 +88,14 @@ void YamlReader::Run(const std::function<void(Fields&)>& declare) {
   }
 }
 
+void YamlReader::Renamed(const char* old_key, const char* new_key) {
+  const YamlNode* const node = map_ == nullptr ? nullptr : map_->Find(old_key);
+  if (node == nullptr) return;
+  known_.emplace_back(old_key);
+  complaints_->Add(node->key_place, KeyPath(path_, old_key),
+                   std::string("has another name now (valid: ") + new_key + ")");
+}
+
 const YamlNode* YamlReader::Take(const char* key, bool required, const std::string& valid) {
   HALFSTEP_CHECK(std::find(known_.begin(), known_.end(), key) == known_.end(),
                  "key '" << key << "' of '" << path_ << "' is declared twice");

@@ -37,6 +37,7 @@ class YamlReader : public Fields {
              const std::function<void(size_t)>& resize,
              const std::function<void(Fields&, size_t)>& declare) override;
   void Complain(const char* key, const std::string& what) override;
+  void Renamed(const char* old_key, const char* new_key) override;
   std::string directory() const override { return directory_; }
 
  private:

@@ -1,4 +1,4 @@
-#include "smoothing/methods/stretch_grid.h"
+#include "smoothing/methods/dynamic_program.h"
 
 #include <algorithm>
 #include <limits>
@@ -13,14 +13,14 @@ constexpr double kRounding = 1e-9;  // [s]
 
 }  // namespace
 
-StretchGrid::StretchGrid(const HalfStepSequence& sequence, const MarginEvaluator& evaluator,
-                         double period)
+DynamicProgram::DynamicProgram(const HalfStepSequence& sequence, const MarginEvaluator& evaluator,
+                               double period)
     : sequence_(sequence),
       evaluator_(evaluator),
       period_(period),
       scratch_(evaluator.MakeScratch()) {}
 
-void StretchGrid::Begin(const Choices& choices, double duration) {
+void DynamicProgram::Begin(const Choices& choices, double duration) {
   choices_ = &choices;
   duration_ = duration;
   duration_class_.clear();
@@ -56,7 +56,7 @@ void StretchGrid::Begin(const Choices& choices, double duration) {
 }
 
 // The same for all combinations that have the same stretch of `half_step`, and later ones.
-long StretchGrid::Key(int half_step, const int* indices, bool with_first) const {
+long DynamicProgram::Key(int half_step, const int* indices, bool with_first) const {
   long key = 0;
   for (int i = 0; i < 4; ++i) {
     const int k = half_step - 3 + i;
@@ -73,7 +73,7 @@ long StretchGrid::Key(int half_step, const int* indices, bool with_first) const 
   return key;
 }
 
-double StretchGrid::Longest(int k, const State& state, double longest) {
+double DynamicProgram::Longest(int k, const State& state, double longest) {
   // A walk of its own: the half-steps that matter, beginning with an up one and ending with a down.
   const int from = std::max(0, (k - 3) / 2 * 2), to = k % 2 == 0 ? k + 1 : k;
   HalfStepSequence part;
@@ -111,7 +111,7 @@ double StretchGrid::Longest(int k, const State& state, double longest) {
   return std::numeric_limits<double>::infinity();
 }
 
-void StretchGrid::Extend(int k) {
+void DynamicProgram::Extend(int k) {
   const std::vector<State>& here = states_[static_cast<size_t>(k)];
   std::vector<State>& next = states_[static_cast<size_t>(k) + 1];
   const int count = static_cast<int>((*choices_)[static_cast<size_t>(k) + 1].size());
@@ -141,7 +141,7 @@ void StretchGrid::Extend(int k) {
   }
 }
 
-std::vector<int> StretchGrid::End() {
+std::vector<int> DynamicProgram::End() {
   const int n = sequence_.size();
   std::vector<State>& states = states_.back();
   std::vector<size_t> order(states.size());
@@ -164,8 +164,8 @@ std::vector<int> StretchGrid::End() {
   return {};
 }
 
-HomotopyParameters StretchGrid::ParametersOf(const Choices& choices,
-                                             const std::vector<int>& indices) const {
+HomotopyParameters DynamicProgram::ParametersOf(const Choices& choices,
+                                                const std::vector<int>& indices) const {
   HomotopyParameters parameters = PlannedMotion(sequence_);
   for (size_t k = 0; k < indices.size(); ++k) {
     const StretchChoice& c = choices[k][static_cast<size_t>(indices[k])];

@@ -3,7 +3,8 @@
 #include <functional>
 #include <vector>
 
-#include "smoothing/proof/feasibility_test.h"
+#include "smoothing/program/overlap_program.h"
+#include "smoothing/proof/stretch_proofs.h"
 #include "smoothing/walk/homotopy_parameters.h"
 #include "wpg/motion/half_step_sequence.h"
 
@@ -13,7 +14,7 @@ namespace halfstep {
 /// only if it costs less and that was proved. One that is refused is approached instead: around the
 /// half-steps where it was refused, parameters go only a part of the way from the incumbent, less
 /// and less. So whatever proposes candidates may stop at any moment.
-class FeasiblePath {
+class Incumbent {
  public:
   struct Rules {
     /// What a point would cost if it is feasible; +inf: not wanted at all.
@@ -30,21 +31,20 @@ class FeasiblePath {
     bool local = true;
   };
 
-  /// Precondition: `start` was proved to cost `cost`. `sequence` is borrowed.
-  FeasiblePath(const HalfStepSequence& sequence, Rules rules, HomotopyParameters start, double cost,
-               MarginEvaluator::Scratch scratch);
+  /// Precondition: `start` was proved to cost `cost`. `sequence` and `scratch` are borrowed.
+  Incumbent(const HalfStepSequence& sequence, Rules rules, HomotopyParameters start, double cost,
+            MarginEvaluator::Scratch* scratch);
 
   /// How far from the incumbent to the candidate it was moved, ∈ [0, 1], mean over the half-steps;
   /// `attempts` ≥ 1 points are tried at most.
   double Toward(const HomotopyParameters& candidate, int attempts);
 
-  const HomotopyParameters& incumbent() const { return incumbent_; }
+  const HomotopyParameters& parameters() const { return parameters_; }
   double cost() const { return cost_; }
   long accepted() const { return accepted_; }
   long refused() const { return refused_; }  ///< points that cost less and were not proved
   /// What refused the last candidate itself; empty: nothing did.
   const std::vector<Margin>& refusals() const { return refusals_; }
-  const MarginEvaluator::Scratch& scratch() const { return scratch_; }
 
  private:
   HomotopyParameters Between(const HomotopyParameters& candidate,
@@ -52,11 +52,22 @@ class FeasiblePath {
 
   const HalfStepSequence& sequence_;
   Rules rules_;
-  HomotopyParameters incumbent_;
+  HomotopyParameters parameters_;
   double cost_;
-  MarginEvaluator::Scratch scratch_;
+  MarginEvaluator::Scratch* scratch_;
   long accepted_ = 0, refused_ = 0;
   std::vector<Margin> refusals_;
 };
+
+/// `fastest` and `smooth`: a walk deserves its cost when it meets what is demanded. Both are
+/// borrowed.
+Incumbent::Rules DemandedRules(const OverlapProgram& program, StretchProofs* proofs);
+
+/// `safest`: a walk that lasts no longer than it may deserves the cost −z, z ≥ 0, when it meets
+/// what is demanded plus z times the family's scale, for the families of Raised(). `within_limit`:
+/// whether the first incumbent lasts no longer; of the first walk that does z = 0 is asked. Both
+/// are borrowed.
+Incumbent::Rules SafestRules(const OverlapProgram& program, const FeasibilityTest& test,
+                             bool within_limit);
 
 }  // namespace halfstep

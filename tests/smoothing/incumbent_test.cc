@@ -1,4 +1,4 @@
-#include "smoothing/methods/feasible_path.h"
+#include "smoothing/methods/incumbent.h"
 
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ std::function<std::vector<Margin>(const SuperposedWalk&, double, MarginEvaluator
 
 class FeasiblePathTest : public testing::Test {
  protected:
-  FeasiblePath Path(const FakeFeasibility& test, const HomotopyParameters& start) const {
+  Incumbent Path(const FakeFeasibility& test, const HomotopyParameters& start) const {
     return {
         sequence_,
         {.cost = [](const HomotopyParameters& p) { return DurationOf(p); }, .prove = Prove(test)},
@@ -45,10 +45,10 @@ class FeasiblePathTest : public testing::Test {
 
 TEST_F(FeasiblePathTest, AProvedCandidateBecomesTheIncumbentAtOnce) {
   const FakeFeasibility test = UpTo(100);
-  FeasiblePath path = Path(test, planned_);
+  Incumbent path = Path(test, planned_);
   const HomotopyParameters candidate = Overlapped(sequence_, 0.5);
   EXPECT_EQ(path.Toward(candidate, 5), 1.0);
-  EXPECT_EQ(path.incumbent(), candidate);
+  EXPECT_EQ(path.parameters(), candidate);
   EXPECT_EQ(path.cost(), DurationOf(candidate));
   EXPECT_EQ(path.accepted(), 1);
   EXPECT_TRUE(path.refusals().empty());
@@ -57,7 +57,7 @@ TEST_F(FeasiblePathTest, AProvedCandidateBecomesTheIncumbentAtOnce) {
   EXPECT_EQ(path.Toward(planned_, 5), 0.0);
   EXPECT_EQ(path.Toward(candidate, 5), 0.0);
   EXPECT_EQ(test.questions.size(), asked);
-  EXPECT_EQ(path.incumbent(), candidate);
+  EXPECT_EQ(path.parameters(), candidate);
 }
 
 TEST_F(FeasiblePathTest, ARefusedCandidateIsApproachedWhereItWasRefused) {
@@ -66,33 +66,33 @@ TEST_F(FeasiblePathTest, ARefusedCandidateIsApproachedWhereItWasRefused) {
   const HomotopyParameters candidate = Overlapped(sequence, 0.9);
   // Refused at half-step 0 while the first overlap is above 0.37 of the candidate's.
   const FakeFeasibility test = UpTo(0.37 * candidate.overlaps[0]);
-  FeasiblePath path(
+  Incumbent path(
       sequence,
       {.cost = [](const HomotopyParameters& p) { return DurationOf(p); }, .prove = Prove(test)},
       planned, DurationOf(planned), evaluator_.MakeScratch());
   EXPECT_EQ(path.Toward(candidate, 2), 0.0);  // a half is still too much
   EXPECT_EQ(path.refused(), 2);
-  EXPECT_EQ(path.incumbent(), planned);
+  EXPECT_EQ(path.parameters(), planned);
   const double lambda = path.Toward(candidate, 3);
   EXPECT_NEAR(lambda, 6.0 / 8, 1e-12);  // half-steps 0 and 1 stay where they are
   EXPECT_EQ(path.refusals().size(), 1u);
   for (size_t i = 0; i < 7; ++i) {
-    EXPECT_NEAR(path.incumbent().overlaps[i], i < 2 ? 0.0 : candidate.overlaps[i], 1e-12) << i;
+    EXPECT_NEAR(path.parameters().overlaps[i], i < 2 ? 0.0 : candidate.overlaps[i], 1e-12) << i;
   }
-  EXPECT_EQ(path.cost(), DurationOf(path.incumbent()));
+  EXPECT_EQ(path.cost(), DurationOf(path.parameters()));
 }
 
 TEST_F(FeasiblePathTest, WithoutLocalityAllIsHeldBackAlike) {
   const HomotopyParameters candidate = Overlapped(sequence_, 0.9);
   const FakeFeasibility test = UpTo(0.3 * candidate.overlaps[0]);
-  FeasiblePath path(sequence_,
-                    {.cost = [](const HomotopyParameters& p) { return DurationOf(p); },
-                     .prove = Prove(test),
-                     .local = false},
-                    planned_, DurationOf(planned_), evaluator_.MakeScratch());
+  Incumbent path(sequence_,
+                 {.cost = [](const HomotopyParameters& p) { return DurationOf(p); },
+                  .prove = Prove(test),
+                  .local = false},
+                 planned_, DurationOf(planned_), evaluator_.MakeScratch());
   EXPECT_EQ(path.Toward(candidate, 5), 0.25);
   for (size_t i = 0; i < 3; ++i) {
-    EXPECT_NEAR(path.incumbent().overlaps[i], 0.25 * candidate.overlaps[i], 1e-12);
+    EXPECT_NEAR(path.parameters().overlaps[i], 0.25 * candidate.overlaps[i], 1e-12);
   }
 }
 
@@ -105,14 +105,14 @@ TEST_F(FeasiblePathTest, TheIncumbentIsFeasibleAndNeverWorseWhateverIsProposed) 
   };
   const FakeFeasibility test(evaluator_, rule);
   ASSERT_EQ(rule(planned_), Verdict::kFeasible);
-  FeasiblePath path = Path(test, planned_);
+  Incumbent path = Path(test, planned_);
   double cost = path.cost();
   for (int i = 0; i < 200; ++i) {
     path.Toward(draw.Parameters(sequence_, 0.0, 1.0), 4);
     EXPECT_LE(path.cost(), cost);
     cost = path.cost();
-    EXPECT_EQ(rule(path.incumbent()), Verdict::kFeasible);
-    EXPECT_NO_THROW(CheckParameters(sequence_, path.incumbent()));
+    EXPECT_EQ(rule(path.parameters()), Verdict::kFeasible);
+    EXPECT_NO_THROW(CheckParameters(sequence_, path.parameters()));
   }
   EXPECT_GT(path.accepted(), 3);
   EXPECT_GT(path.refused(), 0);
@@ -122,12 +122,12 @@ TEST_F(FeasiblePathTest, ACandidateOfInfiniteOrUndefinedCostIsLeftAlone) {
   const FakeFeasibility test = UpTo(100);
   for (double cost :
        {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
-    FeasiblePath path(
+    Incumbent path(
         sequence_,
         {.cost = [cost](const HomotopyParameters&) { return cost; }, .prove = Prove(test)},
         planned_, 1.0, evaluator_.MakeScratch());
     EXPECT_EQ(path.Toward(Overlapped(sequence_, 0.5), 3), 0.0);
-    EXPECT_EQ(path.incumbent(), planned_);
+    EXPECT_EQ(path.parameters(), planned_);
   }
   EXPECT_TRUE(test.questions.empty());
 }

@@ -1,4 +1,4 @@
-#include "smoothing/program/slack_rows.h"
+#include "smoothing/margins/slack_evaluator.h"
 
 #include <algorithm>
 

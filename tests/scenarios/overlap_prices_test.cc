@@ -1,6 +1,6 @@
 // What a junction's overlap costs, against bisecting it anew with less demanded.
 
-#include "smoothing/methods/explain.h"
+#include "smoothing/methods/overlap_prices.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "smoothing/program/slack_table.h"
+#include "smoothing/program/watched_instants.h"
 
 #include <algorithm>
 #include <cmath>
@@ -108,8 +108,8 @@ double LocalMinimum(const std::vector<LeastSlacks>& samples, int i, double other
 
 }  // namespace
 
-SlackTable::SlackTable(const OverlapVariables& variables, const MarginEvaluator& evaluator,
-                       const SlackTableOptions& options)
+WatchedInstants::WatchedInstants(const OverlapVariables& variables,
+                                 const MarginEvaluator& evaluator, const WatchOptions& options)
     : variables_(variables), evaluator_(evaluator), options_(options) {
   const int n = variables.sequence().size();
   for (int k = 0; k < n; ++k) {
@@ -126,7 +126,7 @@ SlackTable::SlackTable(const OverlapVariables& variables, const MarginEvaluator&
   CountRows();
 }
 
-void SlackTable::CountRows() {
+void WatchedInstants::CountRows() {
   first_rows_.assign(1, 0);
   for (const std::vector<Instant>& instants : instants_) {
     const int groups = options_.row_per_instant
@@ -136,18 +136,18 @@ void SlackTable::CountRows() {
   }
 }
 
-int SlackTable::NumRowFamilies() { return static_cast<int>(Rows().families.size()); }
+int WatchedInstants::NumRowFamilies() { return static_cast<int>(Rows().families.size()); }
 
-MarginFamily SlackTable::family_of(int row) {
+MarginFamily WatchedInstants::family_of(int row) {
   return Rows().families[static_cast<size_t>(row % NumRowFamilies())];
 }
 
-int SlackTable::half_step_of(int row) const {
+int WatchedInstants::half_step_of(int row) const {
   const auto after = std::upper_bound(first_rows_.begin(), first_rows_.end(), row);
   return static_cast<int>(after - first_rows_.begin()) - 1;
 }
 
-size_t SlackTable::num_nonzeros() const {
+size_t WatchedInstants::num_nonzeros() const {
   size_t sum = 0;
   for (size_t k = 0; k < bands_.size(); ++k) {
     sum += bands_[k].size() * static_cast<size_t>(first_rows_[k + 1] - first_rows_[k]);
@@ -155,8 +155,8 @@ size_t SlackTable::num_nonzeros() const {
   return sum;
 }
 
-LocalTime SlackTable::At(const SuperposedWalk& walk, int k, const Instant& instant,
-                         std::vector<std::pair<HomotopyParameter, double>>* moving) {
+LocalTime WatchedInstants::At(const SuperposedWalk& walk, int k, const Instant& instant,
+                              std::vector<std::pair<HomotopyParameter, double>>* moving) {
   moving->clear();
   moving->push_back({{Family::kDuration, k}, instant.fraction});
   if (!instant.of_stretch) return {k, instant.fraction * walk.profiles(k).duration()};
@@ -166,13 +166,13 @@ LocalTime SlackTable::At(const SuperposedWalk& walk, int k, const Instant& insta
   return {k, instant.fraction * StretchOf(walk, k)};
 }
 
-bool SlackTable::Learn(const SuperposedWalk& walk, const LocalTime& at) {
+bool WatchedInstants::Learn(const SuperposedWalk& walk, const LocalTime& at) {
   const bool learned = Look(walk, at, Instant::Why::kLearned);
   CountRows();
   return learned;
 }
 
-bool SlackTable::Look(const SuperposedWalk& walk, const LocalTime& at, Instant::Why why) {
+bool WatchedInstants::Look(const SuperposedWalk& walk, const LocalTime& at, Instant::Why why) {
   constexpr double kSame = 1e-3;  // of T
   const double v = at.tau / walk.profiles(at.half_step).duration();
   std::vector<Instant>& instants = instants_[static_cast<size_t>(at.half_step)];
@@ -183,7 +183,7 @@ bool SlackTable::Look(const SuperposedWalk& walk, const LocalTime& at, Instant::
   return true;
 }
 
-double SlackTable::Focus(const SuperposedWalk& walk, double period, double level) {
+double WatchedInstants::Focus(const SuperposedWalk& walk, double period, double level) {
   const double far = level + kFar;
   // Rows by half-step cost no more for looking at more instants; long rounds need them.
   const bool forgets = options_.row_per_instant;
@@ -218,9 +218,9 @@ double SlackTable::Focus(const SuperposedWalk& walk, double period, double level
   return least;
 }
 
-void SlackTable::EvaluateHalfStep(const SuperposedWalk& walk, const Eigen::VectorXd& x, int k,
-                                  SlackEvaluator* slacks, Eigen::VectorXd* values,
-                                  double* nonzeros) const {
+void WatchedInstants::EvaluateHalfStep(const SuperposedWalk& walk, const Eigen::VectorXd& x, int k,
+                                       SlackEvaluator* slacks, Eigen::VectorXd* values,
+                                       double* nonzeros) const {
   const double rho = options_.sharpness;
   const std::vector<int>& columns = band(k);
   const Eigen::Index width = static_cast<Eigen::Index>(columns.size());
@@ -268,8 +268,8 @@ void SlackTable::EvaluateHalfStep(const SuperposedWalk& walk, const Eigen::Vecto
   if (!options_.row_per_instant) write();
 }
 
-void SlackTable::Evaluate(const Eigen::VectorXd& x, Eigen::VectorXd* values,
-                          std::vector<double>* nonzeros) const {
+void WatchedInstants::Evaluate(const Eigen::VectorXd& x, Eigen::VectorXd* values,
+                               std::vector<double>* nonzeros) const {
   const SuperposedWalk walk(variables_.sequence(), variables_.ToParameters(x));
   SlackEvaluator slacks(evaluator_, options_.cutoff + 20.0 / options_.sharpness);
   values->resize(rows());
@@ -282,8 +282,8 @@ void SlackTable::Evaluate(const Eigen::VectorXd& x, Eigen::VectorXd* values,
   }
 }
 
-double SlackTable::LeastSlack(const HomotopyParameters& parameters,
-                              const std::array<bool, kNumMarginFamilies>& of) const {
+double WatchedInstants::LeastSlack(const HomotopyParameters& parameters,
+                                   const std::array<bool, kNumMarginFamilies>& of) const {
   const SuperposedWalk walk(variables_.sequence(), parameters);
   SlackEvaluator slacks(evaluator_, options_.cutoff);
   double least = options_.cutoff;

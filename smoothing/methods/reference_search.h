@@ -1,22 +1,14 @@
 #pragma once
 
-#include <functional>
-#include <stop_token>
 #include <vector>
 
-#include "smoothing/methods/smoothing_result.h"
-#include "smoothing/proof/feasibility_test.h"
-#include "wpg/motion/half_step_sequence.h"
+#include "smoothing/methods/smoothing_monitor.h"
 
 namespace halfstep {
 
-struct GridReferenceOptions {
-  bool heights = false;    ///< η are searched beside the overlaps
-  bool durations = false;  ///< so are T
-  double least_height_scale = 0.2;
-  double least_duration = 0.5;  ///< as a fraction of the planned one
-  double most_duration = 1.5;   ///< as a fraction of the planned one
-  double period = 0.01;         ///< of the instants at which the grid is looked at [s] > 0
+struct ReferenceOptions {
+  ParameterChoice parameters;  ///< searched beside the overlaps
+  double period = 0.01;        ///< of the instants at which the grid is looked at [s] > 0
   /// Of overlaps alone: so many values of each, from 0 to the natural bound, in every combination,
   /// before the corridor; 0: no such round. Effort grows with its fourth power.
   int global_values = 10;
@@ -30,20 +22,18 @@ struct GridReferenceOptions {
   std::vector<HomotopyParameters> starts = {};
 };
 
-/// A reference for other methods: dynamic programming over a grid of parameters (StretchGrid),
+/// A reference for other methods: dynamic programming over a grid of parameters (DynamicProgram),
 /// first over the whole range of the overlaps, when they are all that is searched, then from each
 /// start in a corridor about the incumbent, whose step shrinks while nothing is gained. With
 /// overlaps alone each has five values there and every combination counts; otherwise each half-step
 /// chooses among the incumbent's (Δ, T, η) and random neighbours of it, so chains of
 /// half-steps move together.
 ///
-/// The grid is sampled. Every incumbent was found feasible by `test`: a grid's optimum that it
-/// refuses is approached as FeasiblePath does. It is no proof of optimality: the corridor ends
-/// where no combination of its choices is shorter. Slow; endings as for Dichotomy; the message
+/// The grid is sampled. Every incumbent was found feasible by the problem's test: a grid's optimum
+/// that it refuses is approached as an Incumbent does. It is no proof of optimality: the corridor
+/// ends where no combination of its choices is shorter. Slow; endings as for Dichotomy; the message
 /// says the resolution. One iterate for each round.
-SmoothingResult GridReference(const HalfStepSequence& sequence, const FeasibilityTest& test,
-                              const GridReferenceOptions& options,
-                              const std::function<void(double)>& progress = {},
-                              std::stop_token stop = {});
+SmoothingResult ReferenceSearch(const WalkProblem& problem, const ReferenceOptions& options,
+                                SmoothingMonitor& monitor);
 
 }  // namespace halfstep

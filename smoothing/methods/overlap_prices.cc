@@ -1,11 +1,11 @@
-#include "smoothing/methods/explain.h"
+#include "smoothing/methods/overlap_prices.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "opt/problem/stationarity.h"
-#include "smoothing/program/slack_rows.h"
+#include "smoothing/margins/slack_evaluator.h"
 
 namespace halfstep {
 
@@ -47,7 +47,7 @@ void AddMultipliers(const OverlapProgram& program, const HomotopyParameters& par
     double sum = 0.0;
     for (int row = 0; row < program.table().rows(); ++row) {
       const int after = program.table().half_step_of(row) - static_cast<int>(j);
-      const bool same = SlackTable::family_of(row) == Traits(junction.limited_by->family).row;
+      const bool same = WatchedInstants::family_of(row) == Traits(junction.limited_by->family).row;
       if (same && (after == 0 || after == 1)) sum += std::abs(at.multipliers[row]);
     }
     junction.multiplier = sum;

@@ -23,12 +23,12 @@ struct StretchChoice {
 /// half-steps finds the longest stretch without a violation, whatever comes later, and with it
 /// which overlaps with k + 1 are allowed. Exact for the lists and the instants; nothing is claimed
 /// about other values or between instants. Source: smoothing/README.md, "References".
-class StretchGrid {
+class DynamicProgram {
  public:
   using Choices = std::vector<std::vector<StretchChoice>>;  // by half-step
 
   /// Both are borrowed. period [s] > 0.
-  StretchGrid(const HalfStepSequence& sequence, const MarginEvaluator& evaluator, double period);
+  DynamicProgram(const HalfStepSequence& sequence, const MarginEvaluator& evaluator, double period);
 
   /// The indices of the best choices, by half-step; empty: none is feasible and lasts at most
   /// `duration` [s], or `stop` said so (asked before each half-step).

@@ -1,4 +1,4 @@
-#include "smoothing/program/slack_table.h"
+#include "smoothing/program/watched_instants.h"
 
 #include <gtest/gtest.h>
 
@@ -30,7 +30,7 @@ class SlackTableTest : public testing::Test {
   const Experiment e_ = LoadExperiment("bar_8cm");
   const MarginEvaluator evaluator_{e_.robot, e_.scene, e_.config.smoothing.limits};
   const OverlapVariables variables_{e_.sequence, true, true};
-  const SlackTable table_{variables_, evaluator_, {.instants = 4}};
+  const WatchedInstants table_{variables_, evaluator_, {.instants = 4}};
 };
 
 TEST_F(SlackTableTest, OutsideOfItsBandAVariableChangesNothingAtAll) {
@@ -45,7 +45,8 @@ TEST_F(SlackTableTest, OutsideOfItsBandAVariableChangesNothingAtAll) {
     table_.Evaluate(y, &after, nullptr);
     for (int k = 0; k < e_.sequence.size(); ++k) {
       const std::vector<int>& band = table_.band(k);
-      const auto rows = Eigen::seqN(k * SlackTable::NumRowFamilies(), SlackTable::NumRowFamilies());
+      const auto rows =
+          Eigen::seqN(k * WatchedInstants::NumRowFamilies(), WatchedInstants::NumRowFamilies());
       if (std::find(band.begin(), band.end(), v) != band.end()) {
         changed += (before(rows) - after(rows)).norm() > 0;
         continue;
@@ -61,7 +62,7 @@ TEST_F(SlackTableTest, OutsideOfItsBandAVariableChangesNothingAtAll) {
 
 TEST_F(SlackTableTest, ARowNeverExceedsTheLeastSlackAndNearsItAsItSharpens) {
   WalkDraw draw(361);
-  SlackTable table(variables_, evaluator_, {.instants = 4});
+  WatchedInstants table(variables_, evaluator_, {.instants = 4});
   const Eigen::VectorXd x = Draw(&draw);
   std::array<bool, kNumMarginFamilies> all;
   all.fill(true);
@@ -111,7 +112,7 @@ TEST_F(SlackTableTest, JacobianAlongRandomDirectionsAgreesWithDifferences) {
       }
       ++compared;
       EXPECT_NEAR(analytic, fine[row], 5e-3 * size)
-          << Name(SlackTable::family_of(row)) << " in half-step " << table_.half_step_of(row);
+          << Name(WatchedInstants::family_of(row)) << " in half-step " << table_.half_step_of(row);
       caught += std::abs(-analytic - fine[row]) > 5e-3 * size;
     }
   }
@@ -121,7 +122,7 @@ TEST_F(SlackTableTest, JacobianAlongRandomDirectionsAgreesWithDifferences) {
 }
 
 TEST_F(SlackTableTest, AnInstantIsLearnedOnce) {
-  SlackTable table(variables_, evaluator_, {.instants = 4});
+  WatchedInstants table(variables_, evaluator_, {.instants = 4});
   const SuperposedWalk walk(e_.sequence, PlannedMotion(e_.sequence));
   EXPECT_TRUE(table.Learn(walk, {2, 0.4321}));
   EXPECT_FALSE(table.Learn(walk, {2, 0.4321}));
@@ -130,7 +131,7 @@ TEST_F(SlackTableTest, AnInstantIsLearnedOnce) {
 
 // What Focus leaves out is far from its limit, and what it adds is not missed by dense sampling.
 TEST_F(SlackTableTest, FocusSeesTheLeastSlackWithFewerRows) {
-  SlackTable table(variables_, evaluator_, {.instants = 32, .row_per_instant = true});
+  WatchedInstants table(variables_, evaluator_, {.instants = 32, .row_per_instant = true});
   const int rows = table.rows();
   HomotopyParameters parameters = PlannedMotion(e_.sequence);
   for (double& duration : parameters.durations) duration *= 0.8;

@@ -4,12 +4,12 @@
 #include <array>
 #include <vector>
 
+#include "smoothing/margins/slack_evaluator.h"
 #include "smoothing/program/overlap_variables.h"
-#include "smoothing/program/slack_rows.h"
 
 namespace halfstep {
 
-struct SlackTableOptions {
+struct WatchOptions {
   int instants = 32;      ///< per half-step, evenly spread over its own stretch
   double sharpness = 60;  ///< ρ > 0: a row lies at most log(count)/ρ below its least slack
   double cutoff = 1.5;    ///< c: statements with more slack do not count
@@ -29,11 +29,11 @@ struct SlackTableOptions {
 /// so that a point that keeps it has something in reserve for what lies between the instants.
 /// Smooth; rows of k depend on the variables of Band(k) only. Cost: linear in n.
 /// Source: smoothing/README.md, "Overlap program".
-class SlackTable {
+class WatchedInstants {
  public:
   /// Both are borrowed.
-  SlackTable(const OverlapVariables& variables, const MarginEvaluator& evaluator,
-             const SlackTableOptions& options);
+  WatchedInstants(const OverlapVariables& variables, const MarginEvaluator& evaluator,
+                  const WatchOptions& options);
 
   int rows() const { return first_rows_.back(); }
   int half_step_of(int row) const;
@@ -85,7 +85,7 @@ class SlackTable {
 
   const OverlapVariables& variables_;
   const MarginEvaluator& evaluator_;
-  SlackTableOptions options_;
+  WatchOptions options_;
   std::vector<std::vector<int>> bands_;
   std::vector<std::vector<Instant>> instants_;  // by half-step
   std::vector<int> first_rows_;                 // of each half-step, and the number of all

@@ -1,0 +1,107 @@
+#include "smoothing/methods/incumbent.h"
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+#include <numeric>
+#include <utility>
+
+#include "smoothing/walk/superposed_walk.h"
+
+namespace halfstep {
+
+Incumbent::Incumbent(const HalfStepSequence& sequence, Rules rules, HomotopyParameters start,
+                     double cost, MarginEvaluator::Scratch* scratch)
+    : sequence_(sequence),
+      rules_(std::move(rules)),
+      parameters_(std::move(start)),
+      cost_(cost),
+      scratch_(scratch) {}
+
+HomotopyParameters Incumbent::Between(const HomotopyParameters& candidate,
+                                      const std::vector<double>& lambda) const {
+  HomotopyParameters point = parameters_;
+  for (const ParameterFamily family : AllParameterFamilies()) {
+    std::vector<double>& values = point.of(family);
+    const std::vector<double>& to = candidate.of(family);
+    for (size_t k = 0; k < values.size(); ++k) {
+      const auto [first, last] = Traits(family).half_steps(static_cast<int>(k));
+      const double part =
+          std::min(lambda[static_cast<size_t>(first)], lambda[static_cast<size_t>(last)]);
+      values[k] += part * (to[k] - values[k]);
+    }
+  }
+  ClampOverlaps(sequence_, &point);
+  return point;
+}
+
+double Incumbent::Toward(const HomotopyParameters& candidate, int attempts) {
+  constexpr double kLeastPart = 0.4;  // below it: none
+  refusals_.clear();
+  const size_t n = candidate.durations.size();
+  std::vector<double> lambda(n, 1.0);
+  for (int attempt = 0; attempt < attempts; ++attempt) {
+    const HomotopyParameters point = Between(candidate, lambda);
+    const double cost = rules_.cost(point);
+    if (!(cost < cost_ - rules_.improvement)) return 0.0;
+    const std::vector<Margin> refusals =
+        rules_.prove(SuperposedWalk(sequence_, point), cost, scratch_);
+    if (refusals.empty()) {
+      ++accepted_;
+      parameters_ = point;
+      cost_ = cost;
+      if (rules_.accepted) rules_.accepted(point);
+      return std::accumulate(lambda.begin(), lambda.end(), 0.0) / static_cast<double>(n);
+    }
+    ++refused_;
+    if (attempt == 0) refusals_ = refusals;
+    std::vector<bool> held(n, !rules_.local);
+    for (const Margin& refusal : refusals) {
+      const size_t k = static_cast<size_t>(refusal.at.half_step);
+      for (size_t i = k > 0 ? k - 1 : 0; i < std::min(n, k + 2); ++i) held[i] = true;
+    }
+    for (size_t i = 0; i < n; ++i) {
+      if (held[i]) lambda[i] *= 0.5;
+      if (rules_.local && lambda[i] < kLeastPart) lambda[i] = 0.0;
+    }
+  }
+  return 0.0;
+}
+
+Incumbent::Rules DemandedRules(const OverlapProgram& program, StretchProofs* proofs) {
+  return {.cost = [&program](const HomotopyParameters& p) { return program.Cost(p); },
+          .prove =
+              [proofs](const SuperposedWalk& walk, double, MarginEvaluator::Scratch* scratch) {
+                return proofs->Refusals(walk, scratch);
+              }};
+}
+
+Incumbent::Rules SafestRules(const OverlapProgram& program, const FeasibilityTest& test,
+                             bool within_limit) {
+  // What lies between the instants watched may be a little worse than what they show.
+  constexpr double kBetween = 0.01;
+  const auto within = std::make_shared<bool>(within_limit);
+  return {
+      .cost =
+          [&program, within](const HomotopyParameters& p) {
+            const double cost = program.Cost(p);
+            // Never is less proved than what is demanded.
+            if (cost > 0.0) return std::numeric_limits<double>::infinity();
+            return *within ? std::min(0.0, cost + kBetween) : 0.0;
+          },
+      .prove =
+          [&test](const SuperposedWalk& walk, double cost, MarginEvaluator::Scratch* scratch) {
+            MarginLimits limits = test.evaluator().limits();
+            for (MarginFamily family : AllMarginFamilies()) {
+              if (!Traits(family).raised) continue;
+              limits.demanded_of(family) -= cost * Scale(family);
+            }
+            const MarginEvaluator raised = test.evaluator().WithLimits(limits);
+            return StretchProofs(*test.Over(raised), walk.num_half_steps()).Refusals(walk, scratch);
+          },
+      .accepted = [within](const HomotopyParameters&) { *within = true; },
+      .improvement = 1e-3,
+      .local = false};
+}
+
+}  // namespace halfstep

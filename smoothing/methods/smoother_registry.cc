@@ -1,0 +1,145 @@
+#include "smoothing/methods/smoother_registry.h"
+
+#include <functional>
+#include <utility>
+
+#include "opt/adapters/solver_registry.h"
+#include "smoothing/methods/coordinate_ascent.h"
+#include "smoothing/methods/reference_search.h"
+#include "smoothing/methods/uniform_scan.h"
+#include "wpg/check.h"
+
+namespace halfstep {
+namespace {
+
+using Search =
+    std::function<SmoothingResult(const WalkProblem&, const SmootherOptions&, SmoothingMonitor&)>;
+
+// A smoother that is a function.
+class NamedSmoother : public Smoother {
+ public:
+  NamedSmoother(std::string name, std::string meaning, OptionGroup group, Search search)
+      : name_(std::move(name)),
+        meaning_(std::move(meaning)),
+        group_(group),
+        search_(std::move(search)) {}
+
+  std::string name() const override { return name_; }
+  std::string meaning() const override { return meaning_; }
+  OptionGroup options() const override { return group_; }
+  SmoothingResult Smooth(const WalkProblem& problem, const SmootherOptions& options,
+                         SmoothingMonitor& monitor) const override {
+    return search_(problem, options, monitor);
+  }
+
+ private:
+  std::string name_, meaning_;
+  OptionGroup group_;
+  Search search_;
+};
+
+// The program by a solver, or a Pareto curve of programs.
+Search BySolver(const std::string& solver) {
+  return [solver](const WalkProblem& problem, const SmootherOptions& options,
+                  SmoothingMonitor& monitor) {
+    OptimizerOptions optimizer = options.optimizer;
+    optimizer.solver = solver;
+    if (options.pareto) return ParetoCurve(problem, optimizer, *options.pareto, monitor);
+    return OptimizeOverlaps(problem, optimizer, monitor);
+  };
+}
+
+// The dichotomy with something changed.
+Search DichotomyWith(const std::function<void(DichotomyOptions*)>& change) {
+  return [change](const WalkProblem& problem, const SmootherOptions& options,
+                  SmoothingMonitor& monitor) {
+    DichotomyOptions dichotomy = options.dichotomy;
+    change(&dichotomy);
+    return Dichotomy(problem, dichotomy, monitor);
+  };
+}
+
+// What other methods are compared with. The families are those of smoothing.optimizer; `uniform`
+// takes heights and durations both when it names neither.
+SmoothingResult Uniform(const WalkProblem& problem, const SmootherOptions& options,
+                        SmoothingMonitor& monitor) {
+  const ParameterChoice& choice = options.optimizer.program.parameters;
+  const bool neither = !choice.heights && !choice.durations;
+  return UniformScan(problem,
+                     {.heights = choice.heights || neither,
+                      .durations = choice.durations || neither,
+                      .fine = options.dichotomy.tolerance},
+                     monitor);
+}
+
+SmoothingResult Coordinate(const WalkProblem& problem, const SmootherOptions& options,
+                           SmoothingMonitor& monitor) {
+  return CoordinateAscent(problem,
+                          {.parameters = options.optimizer.program.parameters,
+                           .tolerance = options.optimizer.tolerance},
+                          monitor);
+}
+
+SmoothingResult Reference(const WalkProblem& problem, const SmootherOptions& options,
+                          SmoothingMonitor& monitor) {
+  ReferenceOptions reference{.parameters = options.optimizer.program.parameters};
+  if (reference.parameters.heights || reference.parameters.durations) {
+    SmoothingMonitor uniform(monitor.Part(0.0, 0.0)), coordinate(monitor.Part(0.0, 0.0));
+    reference.starts = {Uniform(problem, options, uniform).parameters,
+                        Coordinate(problem, options, coordinate).parameters};
+  }
+  return ReferenceSearch(problem, reference, monitor);
+}
+
+std::vector<std::unique_ptr<const Smoother>> MakeSmoothers() {
+  using enum OptionGroup;
+  std::vector<std::unique_ptr<const Smoother>> all;
+  const auto add = [&all](const std::string& name, const std::string& meaning, OptionGroup group,
+                          Search search) {
+    all.push_back(std::make_unique<NamedSmoother>(name, meaning, group, std::move(search)));
+  };
+  add("dichotomy", "bisect each overlap in turn, with the options of smoothing.dichotomy",
+      kDichotomy, DichotomyWith([](DichotomyOptions*) {}));
+  add("dichotomy/published", "the same as published: 0.05 s, one pass, caps 0.8 and 0.76", kNone,
+      DichotomyWith([](DichotomyOptions* d) {
+        *d = {.tolerance = 0.05, .up_down_cap = 0.8, .down_up_cap = 0.76};
+      }));
+  add("dichotomy/right_to_left", "dichotomy from the last junction to the first", kDichotomy,
+      DichotomyWith([](DichotomyOptions* d) { d->order = DichotomyOptions::Order::kRightToLeft; }));
+  add("dichotomy/three_passes", "dichotomy three times over, onwards each time", kDichotomy,
+      DichotomyWith([](DichotomyOptions* d) { d->passes = 3; }));
+  add("dichotomy/uniform", "dichotomy at the best uniform T and height of a grid", kOptimizer,
+      Uniform);
+  add("coordinate", "passes over overlaps, heights and durations, each bisected in turn",
+      kOptimizer, Coordinate);
+  add("reference", "dynamic programming over a grid of parameters; slow", kOptimizer, Reference);
+  for (const std::string& solver : opt::SolverNames()) {
+    if (!opt::MakeSolver(solver)->available()) continue;
+    add(solver, "smoothing.optimizer.program by this solver, from the dichotomy's result",
+        kOptimizer, BySolver(solver));
+  }
+  return all;
+}
+
+}  // namespace
+
+const std::vector<std::unique_ptr<const Smoother>>& Smoothers() {
+  static const std::vector<std::unique_ptr<const Smoother>> smoothers = MakeSmoothers();
+  return smoothers;
+}
+
+std::vector<std::string> SmootherNames() {
+  std::vector<std::string> names;
+  for (const auto& smoother : Smoothers()) names.push_back(smoother->name());
+  return names;
+}
+
+const Smoother& FindSmoother(const std::string& name) {
+  for (const auto& smoother : Smoothers()) {
+    if (smoother->name() == name) return *smoother;
+  }
+  HALFSTEP_CHECK(false, "no method '" << name << "'");
+  return *Smoothers().front();
+}
+
+}  // namespace halfstep

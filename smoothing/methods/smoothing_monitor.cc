@@ -1,0 +1,97 @@
+#include "smoothing/methods/smoothing_monitor.h"
+
+#include <utility>
+
+namespace halfstep {
+
+using opt::Ending;
+
+MonitorOptions SmoothingMonitor::Part(double from, double to) const {
+  MonitorOptions part{.stop = options_.stop, .stop_proof = options_.stop_proof};
+  if (options_.progress) {
+    part.progress = [this, from, to](double done) { Progress(from + (to - from) * done); };
+  }
+  return part;
+}
+
+void SmoothingMonitor::Begin(const WalkProblem& problem, const HomotopyParameters& start) {
+  stopwatch_ = {};
+  problem_ = &problem;
+  result_ = {};
+  refusal_.clear();
+  scratch_ = problem.evaluator().MakeScratch();
+  scratch_->stop = options_.stop_proof;
+  result_.evidence = problem.test().evidence();
+  for (int i = 0; i < problem.sequence().num_junctions(); ++i) {
+    result_.junctions.push_back({.kind = KindOfJunction(i)});
+  }
+  result_.parameters = start;
+  begun_ = result_.cost = duration_ = DurationOf(start);
+}
+
+bool SmoothingMonitor::BeginFeasibly(const WalkProblem& problem, const HomotopyParameters& start,
+                                     const std::string& what) {
+  Begin(problem, start);
+  const SuperposedWalk walk(problem.sequence(), start);
+  begun_ = result_.cost = duration_ = walk.duration();
+  const Feasibility answer = problem.test().Check(walk, {0.0, walk.duration()}, scratch());
+  if (answer.stopped) {
+    refusal_ = "stopped from outside before the start was looked at";
+    return false;
+  }
+  if (answer.verdict != Verdict::kFeasible) {
+    refusal_ = what + " is not feasible: " + problem.evaluator().Describe(answer.witness);
+    return false;
+  }
+  result_.feasible = true;
+  return true;
+}
+
+void SmoothingMonitor::Count(long instants, long collision_queries) {
+  result_.instants += instants;
+  result_.collision_queries += collision_queries;
+}
+
+void SmoothingMonitor::Adopt(const HomotopyParameters& parameters, double cost, double duration) {
+  if (cost < result_.cost && !result_.time_to_first_improvement) {
+    result_.time_to_first_improvement = Seconds();
+  }
+  result_.parameters = parameters;
+  result_.cost = cost;
+  result_.feasible = true;
+  duration_ = duration;
+  if (options_.on_incumbent) options_.on_incumbent(parameters);
+}
+
+void SmoothingMonitor::Record(SmoothingIterate iterate) {
+  iterate.wall = Seconds();
+  iterate.evaluations = instants();
+  iterate.incumbent_duration = duration_;
+  iterate.incumbent_cost = result_.cost;
+  result_.iterates.push_back(std::move(iterate));
+}
+
+SmoothingResult SmoothingMonitor::Finish(Ending ending, const std::string& message,
+                                         const std::string& no_gain) {
+  const ParameterTable table = problem_->Parameters();
+  for (int i = 0; i < problem_->sequence().num_junctions(); ++i) {
+    const size_t at = static_cast<size_t>(i);
+    JunctionResult& junction = result_.junctions[at];
+    junction.overlap = result_.parameters.overlaps[at];
+    junction.upper_bound =
+        NaturalOverlapBound(problem_->sequence(), result_.parameters.durations, i);
+    junction.fixed = !table.free({ParameterFamily::kOverlap, i});
+  }
+  result_.ending = ending;
+  result_.message = message;
+  if (ending != Ending::kNotRun && !(result_.cost < begun_)) {
+    result_.ending = Ending::kNoImprovement;
+    result_.message += no_gain;
+  }
+  Count(scratch_->instants, scratch_->bodies.queries);
+  scratch_.reset();
+  result_.wall = Seconds();
+  return std::move(result_);
+}
+
+}  // namespace halfstep

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "smoothing/margins/margin_evaluator.h"
+#include "smoothing/proof/feasibility_test.h"
+#include "smoothing/walk/parameter_table.h"
+#include "wpg/motion/half_step_sequence.h"
+
+namespace halfstep {
+
+/// A walk to be smoothed: the robot, the scene, the planned half-steps, what is demanded of the
+/// motion, how candidates are judged, and the parameters that must stay. A value: copies are cheap
+/// (robot and scene are shared) and immutable.
+class WalkProblem {
+ public:
+  /// Candidates are certified with the default options.
+  WalkProblem(RobotModel robot, Scene scene, HalfStepSequence sequence, MarginLimits limits,
+              std::vector<FixedParameter> fixed = {});
+  /// The test brings robot, scene and limits along. Both throw std::logic_error when a parameter
+  /// cannot be fixed so (ComplaintAbout).
+  WalkProblem(HalfStepSequence sequence, std::shared_ptr<const FeasibilityTest> test,
+              std::vector<FixedParameter> fixed = {});
+
+  const HalfStepSequence& sequence() const { return *sequence_; }
+  const RobotModel& robot() const { return evaluator().robot(); }
+  const Scene& scene() const { return evaluator().scene(); }
+  const MarginLimits& limits() const { return evaluator().limits(); }  ///< demanded margins as well
+  const MarginEvaluator& evaluator() const { return test_->evaluator(); }
+  const FeasibilityTest& test() const { return *test_; }
+  const std::vector<FixedParameter>& fixed() const { return fixed_; }
+
+  /// Every parameter, with what a method that may move `choice` may do to it.
+  ParameterTable Parameters(const ParameterChoice& choice = {}) const {
+    return ParameterTable(*sequence_, fixed_, choice);
+  }
+  /// Where methods begin: the planned motion but for what is fixed elsewhere.
+  HomotopyParameters Start() const { return Parameters().Start(); }
+
+ private:
+  std::shared_ptr<const HalfStepSequence> sequence_;
+  std::shared_ptr<const FeasibilityTest> test_;
+  std::vector<FixedParameter> fixed_;
+};
+
+}  // namespace halfstep

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+
+#include "opt/problem/problem.h"
+#include "smoothing/program/overlap_variables.h"
+
+namespace halfstep {
+
+class OverlapProgram;
+
+/// What programs minimize; each borrows the program.
+std::unique_ptr<opt::CostTerm> MakeDurationCost(const OverlapProgram& program);  ///< D [s]
+/// Weighted effort (WeightedEffort) [s].
+std::unique_ptr<opt::CostTerm> MakeEffortCost(const OverlapProgram& program);
+/// −z, where z is the last variable.
+std::unique_ptr<opt::CostTerm> MakeLeastSlackCost();
+
+/// ∂D/∂parameter.
+ParameterGradient DurationGradient(const HalfStepSequence& sequence);
+/// The gradient (n) with respect to x of a derivative along parameters; x may have more entries
+/// than there are variables.
+Eigen::VectorXd Pulled(const OverlapVariables& variables, const ParameterGradient& gradient,
+                       const Eigen::VectorXd& x);
+
+}  // namespace halfstep

@@ -1,0 +1,120 @@
+#include "smoothing/walk/parameter_families.h"
+
+#include <limits>
+
+#include "smoothing/walk/homotopy_parameters.h"
+
+namespace halfstep {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+constexpr ParameterFamilyTraits kOverlap = {
+    .name = "overlap",
+    .unit = "s",
+    .owner = "junction",
+    .table = "overlaps",
+    .column = "overlap_s",
+    .meaning = "how long both half-steps are under way",
+    .values = &HomotopyParameters::overlaps,
+    .count = [](const HalfStepSequence& sequence) { return sequence.num_junctions(); },
+    .planned = [](const HalfStepSequence&, int) { return 0.0; },
+    .half_steps =
+        [](int i) {
+          return std::pair{i, i + 1};
+        },
+    .index_at = [](int half_step) { return half_step; },
+    .joins = true,
+    .least = 0.0,
+    .least_itself = true,
+    .chosen = nullptr,
+    .key = "overlaps",
+    .key_meaning = "",
+    .bounds = {},
+    .range =
+        [](const ParameterChoice&, double) {
+          return std::pair{0.0, kInfinity};
+        },
+};
+
+constexpr ParameterBoundKey kHeightBounds[] = {
+    {"least_height_scale", "of the planned height", &ParameterChoice::least_height_scale, 0.01, 1}};
+
+constexpr ParameterFamilyTraits kHeightScale = {
+    .name = "height_scale",
+    .unit = "",
+    .owner = "step",
+    .table = "half_steps",
+    .column = "height_scale",
+    .meaning = "scale of the foot's height in its step",
+    .values = &HomotopyParameters::height_scales,
+    .count = [](const HalfStepSequence& sequence) { return sequence.num_steps(); },
+    .planned = [](const HalfStepSequence&, int) { return 1.0; },
+    .half_steps =
+        [](int j) {
+          return std::pair{2 * j, 2 * j + 1};
+        },
+    .index_at = [](int half_step) { return half_step / 2; },
+    .joins = false,
+    .least = 0.0,
+    .least_itself = true,
+    .chosen = &ParameterChoice::heights,
+    .key = "heights",
+    .key_meaning = "foot-height scales are variables beside the overlaps",
+    .bounds = kHeightBounds,
+    .range =
+        [](const ParameterChoice& choice, double planned) {
+          return std::pair{choice.least_height_scale, planned};
+        },
+};
+
+constexpr ParameterBoundKey kDurationBounds[] = {
+    {"least_duration", "of the planned duration of a half-step", &ParameterChoice::least_duration,
+     0.2, 1},
+    {"most_duration", "of the planned duration of a half-step", &ParameterChoice::most_duration, 1,
+     5}};
+
+constexpr ParameterFamilyTraits kDuration = {
+    .name = "duration",
+    .unit = "s",
+    .owner = "half-step",
+    .table = "half_steps",
+    .column = "duration_s",
+    .meaning = "T",
+    .values = &HomotopyParameters::durations,
+    .count = [](const HalfStepSequence& sequence) { return sequence.size(); },
+    .planned = [](const HalfStepSequence& sequence,
+                  int i) { return sequence.half_steps[static_cast<size_t>(i)].half_step.duration; },
+    .half_steps =
+        [](int i) {
+          return std::pair{i, i};
+        },
+    .index_at = [](int half_step) { return half_step; },
+    .joins = false,
+    .least = 0.0,
+    .least_itself = false,
+    .chosen = &ParameterChoice::durations,
+    .key = "durations",
+    .key_meaning = "durations of half-steps are variables beside the overlaps",
+    .bounds = kDurationBounds,
+    .range =
+        [](const ParameterChoice& choice, double planned) {
+          return std::pair{choice.least_duration * planned, choice.most_duration * planned};
+        },
+};
+
+}  // namespace
+
+const ParameterFamilyTraits& Traits(ParameterFamily family) {
+  switch (family) {
+    case ParameterFamily::kOverlap:
+      return kOverlap;
+    case ParameterFamily::kHeightScale:
+      return kHeightScale;
+    case ParameterFamily::kDuration:
+      return kDuration;
+  }
+  return kOverlap;
+}
+
+}  // namespace halfstep

@@ -1,0 +1,100 @@
+#include "smoothing/walk/parameter_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "wpg/check.h"
+
+namespace halfstep {
+namespace {
+
+HomotopyParameters StartOf(const HalfStepSequence& sequence,
+                           const std::vector<FixedParameter>& fixed) {
+  HomotopyParameters start = PlannedMotion(sequence);
+  for (const FixedParameter& one : fixed) {
+    if (one.value) one.parameter.in(start) = *one.value;
+  }
+  return start;
+}
+
+}  // namespace
+
+ParameterTable::ParameterTable(const HalfStepSequence& sequence,
+                               const std::vector<FixedParameter>& fixed,
+                               const ParameterChoice& choice) {
+  const std::string complaint = ComplaintAbout(sequence, fixed);
+  HALFSTEP_CHECK(complaint.empty(), complaint);
+  for (const ParameterFamily family : AllParameterFamilies()) {
+    const ParameterFamilyTraits& traits = Traits(family);
+    first_[static_cast<size_t>(family)] = static_cast<int>(rows_.size());
+    for (int i = 0; i < traits.count(sequence); ++i) {
+      const double planned = traits.planned(sequence, i);
+      const bool chosen = traits.chosen == nullptr || choice.*traits.chosen;
+      const auto [lower, upper] =
+          chosen ? traits.range(choice, planned) : std::pair{planned, planned};
+      rows_.push_back({{family, i}, planned, lower, upper, !chosen});
+    }
+  }
+  for (const FixedParameter& one : fixed) {
+    ParameterRow& row = rows_[static_cast<size_t>(IndexOf(one.parameter))];
+    row.start = row.lower = row.upper = one.value.value_or(row.start);
+    row.fixed = true;
+    if (one.parameter.family != ParameterFamily::kOverlap || row.start <= 0.0) continue;
+    // The durations beside a fixed overlap stay so long that it is within its natural bound.
+    const NaturalBound bound = NaturalBoundOf(sequence, one.parameter.index);
+    const auto keep_longer = [&](int half_step, double least) {
+      ParameterRow& T =
+          rows_[static_cast<size_t>(IndexOf({ParameterFamily::kDuration, half_step}))];
+      if (!T.fixed) T.lower = std::min(T.start, std::max(T.lower, least));
+    };
+    keep_longer(one.parameter.index, row.start / bound.before);
+    keep_longer(one.parameter.index + 1, row.start / bound.after);
+  }
+}
+
+HomotopyParameters ParameterTable::Start() const {
+  HomotopyParameters start;
+  for (const ParameterRow& row : rows_) start.of(row.parameter.family).push_back(row.start);
+  return start;
+}
+
+std::string ComplaintAbout(const HalfStepSequence& sequence,
+                           const std::vector<FixedParameter>& fixed) {
+  std::ostringstream text;
+  for (size_t k = 0; k < fixed.size(); ++k) {
+    const HomotopyParameter& parameter = fixed[k].parameter;
+    const ParameterFamilyTraits& traits = Traits(parameter.family);
+    const int count = traits.count(sequence);
+    text << traits.name << " " << parameter.index + 1 << ": ";
+    if (parameter.index < 0 || parameter.index >= count) {
+      text << "there are " << count << " (valid: 1 … " << count << ")";
+      return text.str();
+    }
+    for (size_t other = 0; other < k; ++other) {
+      if (!(fixed[other].parameter == parameter)) continue;
+      text << "is fixed twice (valid: once)";
+      return text.str();
+    }
+    const double value = fixed[k].value.value_or(traits.planned(sequence, parameter.index));
+    if (!std::isfinite(value) || value < traits.least ||
+        (value == traits.least && !traits.least_itself)) {
+      text << value << " " << traits.unit
+           << " is too small (valid: " << (traits.least_itself ? "from " : "above ") << traits.least
+           << ")";
+      return text.str();
+    }
+    text.str("");
+  }
+  const HomotopyParameters start = StartOf(sequence, fixed);
+  for (int i = 0; i < sequence.num_junctions(); ++i) {
+    const double bound = NaturalOverlapBound(sequence, start.durations, i);
+    if (start.overlaps[static_cast<size_t>(i)] <= bound + kOverlapTolerance) continue;
+    text << "overlap " << i + 1 << ": " << start.overlaps[static_cast<size_t>(i)]
+         << " s is above its natural bound (valid: 0 … " << bound << " s)";
+    return text.str();
+  }
+  return "";
+}
+
+}  // namespace halfstep

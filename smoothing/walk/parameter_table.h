@@ -1,0 +1,60 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "smoothing/walk/homotopy_parameters.h"
+
+namespace halfstep {
+
+/// A parameter that methods must leave alone.
+struct FixedParameter {
+  HomotopyParameter parameter;
+  std::optional<double> value = std::nullopt;  ///< in the family's unit; none: as planned
+};
+
+/// One parameter of a sequence.
+struct ParameterRow {
+  HomotopyParameter parameter;
+  double start = 0.0;  ///< where methods begin: as planned, or where it is fixed
+  /// What methods may choose, start included. An overlap's natural bound, which depends on
+  /// durations, holds besides.
+  double lower = 0.0, upper = 0.0;
+  bool fixed = false;  ///< or of a family that is not chosen; then lower = start = upper
+};
+
+/// Every parameter of a sequence, family after family: what a method may move, how far, and from
+/// where. What loops over parameters loops over these rows.
+class ParameterTable {
+ public:
+  /// Throws std::logic_error where ComplaintAbout() complains.
+  explicit ParameterTable(const HalfStepSequence& sequence,
+                          const std::vector<FixedParameter>& fixed = {},
+                          const ParameterChoice& choice = {});
+
+  const std::vector<ParameterRow>& rows() const { return rows_; }
+  /// The row of a parameter, and its number. Precondition: the sequence has it.
+  const ParameterRow& row(const HomotopyParameter& parameter) const {
+    return rows_[static_cast<size_t>(IndexOf(parameter))];
+  }
+  int IndexOf(const HomotopyParameter& parameter) const {
+    return first_[static_cast<size_t>(parameter.family)] + parameter.index;
+  }
+  bool free(const HomotopyParameter& parameter) const { return !row(parameter).fixed; }
+
+  /// The planned motion but for what is fixed elsewhere.
+  HomotopyParameters Start() const;
+
+ private:
+  std::vector<ParameterRow> rows_;
+  std::array<int, kNumParameterFamilies> first_{};  // row of each family
+};
+
+/// Why `fixed` cannot be fixed so, beside the others, in a sequence; "": it can. A sentence that
+/// counts from 1, "overlap 9: there are 5 (valid: 1 … 5)".
+std::string ComplaintAbout(const HalfStepSequence& sequence,
+                           const std::vector<FixedParameter>& fixed);
+
+}  // namespace halfstep
