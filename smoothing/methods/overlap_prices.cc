@@ -45,8 +45,8 @@ void AddMultipliers(const OverlapProgram& program, const HomotopyParameters& par
     JunctionResult& junction = (*junctions)[j];
     if (!junction.limited_by) continue;
     double sum = 0.0;
-    for (int row = 0; row < program.table().rows(); ++row) {
-      const int after = program.table().half_step_of(row) - static_cast<int>(j);
+    for (int row = 0; row < program.watched().rows(); ++row) {
+      const int after = program.watched().half_step_of(row) - static_cast<int>(j);
       const bool same = WatchedInstants::family_of(row) == Traits(junction.limited_by->family).row;
       if (same && (after == 0 || after == 1)) sum += std::abs(at.multipliers[row]);
     }

@@ -34,7 +34,8 @@ class ParameterTable {
                           const std::vector<FixedParameter>& fixed = {},
                           const ParameterChoice& choice = {});
 
-  const std::vector<ParameterRow>& rows() const { return rows_; }
+  const std::vector<ParameterRow>& rows() const& { return rows_; }
+  const std::vector<ParameterRow>& rows() const&& = delete;  // of a temporary: `for` would dangle
   /// The row of a parameter, and its number. Precondition: the sequence has it.
   const ParameterRow& row(const HomotopyParameter& parameter) const {
     return rows_[static_cast<size_t>(IndexOf(parameter))];

@@ -11,6 +11,7 @@
 #include "smoothing/proof/certified_feasibility.h"
 #include "smoothing/proof/sampled_feasibility.h"
 #include "tests/smoothing/certificate_draws.h"
+#include "tests/smoothing/smoothed.h"
 
 namespace halfstep {
 namespace {
@@ -50,7 +51,8 @@ struct SmoothedWalk {
     }
     evaluator = std::make_unique<MarginEvaluator>(robot, scene, MarginLimits{});
     const CertifiedFeasibility test(*evaluator, {});
-    walk = std::make_unique<SuperposedWalk>(sequence, Dichotomy(sequence, test, {}).parameters);
+    walk = std::make_unique<SuperposedWalk>(
+        sequence, Smoothed(Dichotomy, ProblemOf(sequence, test), {}).parameters);
   }
 
   HalfStepSequence sequence;

@@ -13,6 +13,7 @@
 #include "smoothing/methods/dichotomy.h"
 #include "smoothing/proof/certified_feasibility.h"
 #include "tests/smoothing/certificate_draws.h"
+#include "tests/smoothing/smoothed.h"
 
 namespace halfstep {
 namespace {
@@ -152,7 +153,7 @@ void Dichotomies() {
           k == 0 ? static_cast<const FeasibilityTest&>(sampled) : certified;
       walls[k] = 1e9;
       for (int repeat = 0; repeat < 3; ++repeat) {
-        results[k] = Dichotomy(e.sequence, test, options);
+        results[k] = Smoothed(Dichotomy, ProblemOf(e.sequence, test), options);
         walls[k] = std::min(walls[k], results[k].wall);
       }
       durations[k] = SuperposedWalk(e.sequence, results[k].parameters).duration();

@@ -22,6 +22,7 @@
 #include "smoothing/methods/overlap_optimizer.h"
 #include "smoothing/methods/smoother_registry.h"
 #include "smoothing/proof/certified_feasibility.h"
+#include "tests/smoothing/smoothed.h"
 
 namespace halfstep {
 namespace {
@@ -87,11 +88,11 @@ void Solve(const std::string& config, const std::string& method, const std::stri
   OptimizerOptions options;
   options.solver = method;
   options.program.kind = KindOf(kind);
-  options.program.heights = variables.find('h') != std::string::npos;
-  options.program.durations = variables.find('t') != std::string::npos;
+  options.program.parameters.heights = variables.find('h') != std::string::npos;
+  options.program.parameters.durations = variables.find('t') != std::string::npos;
   options.deadline = deadline;
   const double begin = Now();
-  const SmoothingResult result = OptimizeOverlaps(e.sequence, test, options);
+  const SmoothingResult result = Smoothed(OptimizeOverlaps, ProblemOf(e.sequence, test), options);
   for (const SmoothingIterate& i : result.iterates) {
     if (i.incumbent_cost == 0.0) continue;
     std::printf("  %7.3f s  D %7.4f  slack %9.5f  lambda %.3f  incumbent D %.4f  cost %.4f\n",
@@ -125,11 +126,11 @@ Case SolveCase(const Experiment& e, const MarginEvaluator& evaluator, const std:
   std::vector<HomotopyParameters> incumbents;
   MethodOptions options;
   options.optimizer.program.kind = KindOf(kind);
-  options.optimizer.program.heights = variables.find('h') != std::string::npos;
-  options.optimizer.program.durations = variables.find('t') != std::string::npos;
+  options.optimizer.program.parameters.heights = variables.find('h') != std::string::npos;
+  options.optimizer.program.parameters.durations = variables.find('t') != std::string::npos;
   options.optimizer.deadline = deadline;
   options.optimizer.on_accept = [&](const HomotopyParameters& p) { incumbents.push_back(p); };
-  done.result = FindMethod(method).smooth(e.sequence, test, options, {}, {});
+  done.result = FindSmoother(method).smooth(e.sequence, test, options, {}, {});
   incumbents.push_back(done.result.parameters);
   for (const HomotopyParameters& p : incumbents) {
     const SuperposedWalk walk(e.sequence, p);
@@ -195,13 +196,13 @@ void Reach(const std::string& what, const std::string& method, double deadline) 
   options.solver = method.substr(0, method.find(':'));
   if (options.solver != method)
     options.max_iterations = std::atoi(method.c_str() + options.solver.size() + 1);
-  options.program.heights = options.program.durations = true;
+  options.program.parameters.heights = options.program.parameters.durations = true;
   options.deadline = deadline;
   const double begin = Now();
-  const double start = DurationOf(Dichotomy(e.sequence, test, {}).parameters);
+  const double start = DurationOf(Smoothed(Dichotomy, ProblemOf(e.sequence, test), {}).parameters);
   const double dichotomy = Now() - begin;
   const std::clock_t cpu = std::clock();
-  const SmoothingResult r = OptimizeOverlaps(e.sequence, test, options);
+  const SmoothingResult r = Smoothed(OptimizeOverlaps, ProblemOf(e.sequence, test), options);
   const double own = static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC;
   const double end = DurationOf(r.parameters);
   std::printf(
@@ -219,10 +220,10 @@ void Grow(const std::string& method, int n) {
   const CertifiedFeasibility test(evaluator, {});
   OptimizerOptions options;
   options.solver = method;
-  options.program.heights = options.program.durations = true;
+  options.program.parameters.heights = options.program.parameters.durations = true;
   options.deadline = 20.0;
   const double begin = Now();
-  const SmoothingResult start = Dichotomy(e.sequence, test, {});
+  const SmoothingResult start = Smoothed(Dichotomy, ProblemOf(e.sequence, test), {});
   const double dichotomy = Now() - begin;
   const OverlapProgram program(e.sequence, evaluator, options.program, 0.0);
   const opt::Problem problem = program.MakeProblem();
@@ -242,7 +243,7 @@ void Grow(const std::string& method, int n) {
               1e3 * solution.wall / std::max(1, solution.iterations));
   constexpr int kWhole = 40;  // longer ones are not solved to their end
   if (n <= kWhole) {
-    const SmoothingResult r = OptimizeOverlaps(e.sequence, test, options);
+    const SmoothingResult r = Smoothed(OptimizeOverlaps, ProblemOf(e.sequence, test), options);
     const double shortest = DurationOf(r.parameters);
     std::printf("  D %.3f, within 5%% %.2f s, 1%% %.2f s, all %.2f s, %ld instants", shortest,
                 TimeToWithin(r, shortest, 0.05), TimeToWithin(r, shortest, 0.01), r.wall,
@@ -257,7 +258,8 @@ void Rows(const std::string& config) {
   const Experiment e = Load(config);
   const MarginEvaluator evaluator(e.robot, e.scene, e.config.smoothing.limits);
   const CertifiedFeasibility test(evaluator, {});
-  const SmoothingResult start = Dichotomy(e.sequence, test, {.tolerance = 0.05});
+  const SmoothingResult start =
+      Smoothed(Dichotomy, ProblemOf(e.sequence, test), {.tolerance = 0.05});
   const int n = e.sequence.size();
   for (ProgramKind kind : {ProgramKind::kFastest, ProgramKind::kSmooth, ProgramKind::kSafest}) {
     ProgramOptions options;

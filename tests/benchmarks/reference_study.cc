@@ -13,27 +13,30 @@
 #include "smoothing/methods/reference_search.h"
 #include "smoothing/methods/uniform_scan.h"
 #include "smoothing/proof/certified_feasibility.h"
+#include "tests/smoothing/smoothed.h"
 
 namespace halfstep {
 namespace {
 
 SmoothingResult Smooth(const HalfStepSequence& sequence, const FeasibilityTest& test,
                        const std::string& method, bool heights, bool durations) {
-  if (method == "dichotomy") return Dichotomy(sequence, test, {});
+  if (method == "dichotomy") return Smoothed(Dichotomy, ProblemOf(sequence, test), {});
   const UniformScanOptions scan{.heights = heights, .durations = durations};
-  if (method == "uniform") return UniformScan(sequence, test, scan);
+  if (method == "uniform") return Smoothed(UniformScan, ProblemOf(sequence, test), scan);
   const CoordinateAscentOptions ascent{.heights = heights, .durations = durations};
-  if (method == "coordinate") return CoordinateAscent(sequence, test, ascent);
+  if (method == "coordinate") return Smoothed(CoordinateAscent, ProblemOf(sequence, test), ascent);
   ReferenceOptions options{.heights = heights, .durations = durations};
   if (heights || durations) {
-    options.starts.push_back(UniformScan(sequence, test, scan).parameters);
-    options.starts.push_back(CoordinateAscent(sequence, test, ascent).parameters);
+    options.starts.push_back(Smoothed(UniformScan, ProblemOf(sequence, test), scan).parameters);
+    options.starts.push_back(
+        Smoothed(CoordinateAscent, ProblemOf(sequence, test), ascent).parameters);
     OptimizerOptions optimizer;
-    optimizer.program.heights = heights;
-    optimizer.program.durations = durations;
-    options.starts.push_back(OptimizeOverlaps(sequence, test, optimizer).parameters);
+    optimizer.program.parameters.heights = heights;
+    optimizer.program.parameters.durations = durations;
+    options.starts.push_back(
+        Smoothed(OptimizeOverlaps, ProblemOf(sequence, test), optimizer).parameters);
   }
-  return ReferenceSearch(sequence, test, options);
+  return Smoothed(ReferenceSearch, ProblemOf(sequence, test), options);
 }
 
 void Study(const std::string& config, const std::string& method, const std::string& variables) {

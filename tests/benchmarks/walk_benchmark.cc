@@ -7,6 +7,7 @@
 #include "smoothing/margins/margin_evaluator.h"
 #include "smoothing/methods/dichotomy.h"
 #include "smoothing/proof/sampled_feasibility.h"
+#include "tests/smoothing/smoothed.h"
 #include "wpg/motion/posture.h"
 
 namespace halfstep {
@@ -112,7 +113,8 @@ void DichotomyFine(benchmark::State& state, const char* name) {
   const MarginEvaluator evaluator(e.robot, e.scene, e.config.smoothing.limits);
   const SampledFeasibility test(evaluator, 0.005);
   for (auto _ : state) {
-    benchmark::DoNotOptimize(Dichotomy(e.sequence, test, {.tolerance = 0.001}));
+    benchmark::DoNotOptimize(
+        Smoothed(Dichotomy, ProblemOf(e.sequence, test), {.tolerance = 0.001}));
   }
   state.counters["per_half_step_s"] =
       benchmark::Counter(e.sequence.size(), benchmark::Counter::kIsIterationInvariantRate |

@@ -21,7 +21,7 @@ using testing::Not;
 constexpr char kRefuses[] = "nlopt/bobyqa";  // knows no constraints
 
 bool IsThere(const std::string& method) {
-  const std::vector<std::string> names = MethodNames();
+  const std::vector<std::string> names = SmootherNames();
   return std::find(names.begin(), names.end(), method) != names.end();
 }
 

@@ -26,7 +26,7 @@ using std::chrono::steady_clock;
 // The optimizing methods of this build among those that the test wants.
 std::vector<std::string> OptimizingMethods() {
   std::vector<std::string> methods;
-  const std::vector<std::string> known = MethodNames();
+  const std::vector<std::string> known = SmootherNames();
   for (const std::string wanted : {"ipopt", "halfstep/barrier"}) {
     if (std::find(known.begin(), known.end(), wanted) != known.end()) methods.push_back(wanted);
   }

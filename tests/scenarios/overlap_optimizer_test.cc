@@ -17,6 +17,7 @@
 #include "smoothing/proof/certified_feasibility.h"
 #include "tests/scenarios/load_experiment.h"
 #include "tests/smoothing/fake_feasibility.h"
+#include "tests/smoothing/smoothed.h"
 #include "tests/smoothing/test_walks.h"
 
 namespace halfstep {
@@ -25,8 +26,8 @@ namespace {
 OptimizerOptions Quick(const std::string& solver) {
   OptimizerOptions options;
   options.solver = solver;
-  options.program.heights = options.program.durations = true;
-  options.program.table.instants = 8;
+  options.program.parameters.heights = options.program.parameters.durations = true;
+  options.program.watch.instants = 8;
   options.rounds = 2;
   options.max_iterations = 15;
   options.deadline = 20;
@@ -49,7 +50,8 @@ class OptimizerTest : public testing::Test {
 };
 
 TEST_F(OptimizerTest, IsNeverWorseThanTheDichotomyAndAllItAcceptsIsCertifiedOnItsOwn) {
-  const SmoothingResult dichotomy = Dichotomy(e_.sequence, test_, {.tolerance = 0.01});
+  const SmoothingResult dichotomy =
+      Smoothed(Dichotomy, ProblemOf(e_.sequence, test_), {.tolerance = 0.01});
   const CertifiedFeasibility independent(evaluator_, {});
   MarginEvaluator::Scratch scratch = evaluator_.MakeScratch();
   size_t walks = 0;
@@ -57,8 +59,9 @@ TEST_F(OptimizerTest, IsNeverWorseThanTheDichotomyAndAllItAcceptsIsCertifiedOnIt
     std::vector<HomotopyParameters> accepted;
     OptimizerOptions options = Quick(solver);
     options.rounds = 5;
-    options.on_accept = [&accepted](const HomotopyParameters& p) { accepted.push_back(p); };
-    const SmoothingResult result = OptimizeOverlaps(e_.sequence, test_, options);
+    const auto keep = [&accepted](const HomotopyParameters& p) { accepted.push_back(p); };
+    const SmoothingResult result =
+        Smoothed(OptimizeOverlaps, ProblemOf(e_.sequence, test_), options, {.on_incumbent = keep});
     EXPECT_EQ(result.ending, opt::Ending::kLimit) << result.message;  // of rounds
     EXPECT_LT(DurationOf(result.parameters), DurationOf(dichotomy.parameters) - 0.3) << solver;
     accepted.push_back(result.parameters);
@@ -83,8 +86,9 @@ TEST_F(OptimizerTest, WithoutASearchItEndsWhereAFineDichotomyEnds) {
   OptimizerOptions options = Quick(ASolver());
   options.deadline = 0.0;
   options.tolerance = 0.001;
-  const SmoothingResult dichotomy = Dichotomy(e_.sequence, test_, {.tolerance = 0.001});
-  const SmoothingResult result = OptimizeOverlaps(e_.sequence, test_, options);
+  const SmoothingResult dichotomy =
+      Smoothed(Dichotomy, ProblemOf(e_.sequence, test_), {.tolerance = 0.001});
+  const SmoothingResult result = Smoothed(OptimizeOverlaps, ProblemOf(e_.sequence, test_), options);
   EXPECT_LE(DurationOf(result.parameters), DurationOf(dichotomy.parameters));
   EXPECT_EQ(result.ending, opt::Ending::kNotRun);
   EXPECT_EQ(result.message,
@@ -93,20 +97,25 @@ TEST_F(OptimizerTest, WithoutASearchItEndsWhereAFineDichotomyEnds) {
 
 TEST_F(OptimizerTest, ASolverThatRefusesTheProgramIsNotCreditedWithTheDichotomysWalk) {
   if (!opt::MakeSolver("nlopt/bobyqa")->available()) GTEST_SKIP() << "no solver";
-  const SmoothingResult dichotomy = Dichotomy(e_.sequence, test_, {.tolerance = 0.01});
+  const SmoothingResult dichotomy =
+      Smoothed(Dichotomy, ProblemOf(e_.sequence, test_), {.tolerance = 0.01});
   for (const ProgramKind kind :
        {ProgramKind::kFastest, ProgramKind::kSmooth, ProgramKind::kSafest}) {
     OptimizerOptions options = Quick("nlopt/bobyqa");
     options.program.kind = kind;
-    const SmoothingResult result = OptimizeOverlaps(e_.sequence, test_, options);
+    const SmoothingResult result =
+        Smoothed(OptimizeOverlaps, ProblemOf(e_.sequence, test_), options);
     EXPECT_EQ(result.ending, opt::Ending::kInvalidInput) << result.message;
     EXPECT_THAT(result.message, testing::HasSubstr("nlopt/bobyqa refused the program; nothing of "
                                                    "its own was better and proved"));
     EXPECT_TRUE(result.feasible);
     EXPECT_NEAR(DurationOf(result.parameters), DurationOf(dichotomy.parameters), 0.01);
   }
-  EXPECT_EQ(ParetoCurve(e_.sequence, test_, Quick("nlopt/bobyqa"), {.points = 2}).ending,
-            opt::Ending::kInvalidInput);
+  SmoothingMonitor monitor;
+  EXPECT_EQ(
+      ParetoCurve(ProblemOf(e_.sequence, test_), Quick("nlopt/bobyqa"), {.points = 2}, monitor)
+          .ending,
+      opt::Ending::kInvalidInput);
 }
 
 // Whatever a solver proposes is refused but the planned motion.
@@ -115,7 +124,8 @@ TEST_F(OptimizerTest, WithoutAProofOfAnythingNewItDidNotImprove) {
   const FakeFeasibility nothing_else(evaluator_, [&](const HomotopyParameters& p) {
     return p == planned ? Verdict::kFeasible : Verdict::kViolated;
   });
-  const SmoothingResult result = OptimizeOverlaps(e_.sequence, nothing_else, Quick("halfstep/sqp"));
+  const SmoothingResult result =
+      Smoothed(OptimizeOverlaps, ProblemOf(e_.sequence, nothing_else), Quick("halfstep/sqp"));
   EXPECT_EQ(result.ending, opt::Ending::kNoImprovement) << result.message;
   EXPECT_EQ(result.parameters, planned);
   EXPECT_THAT(result.message, testing::HasSubstr("the walk is a dichotomy's"));
@@ -130,7 +140,8 @@ TEST_F(OptimizerTest, StoppedAtAnyMomentItKeepsACertifiedWalk) {
       if (done >= moment) source.request_stop();
     };
     const SmoothingResult result =
-        OptimizeOverlaps(e_.sequence, test_, Quick(ASolver()), stop, source.get_token());
+        Smoothed(OptimizeOverlaps, ProblemOf(e_.sequence, test_), Quick(ASolver()),
+                 {.progress = stop, .stop = source.get_token()});
     if (moment < 0.2) {  // within the dichotomy
       EXPECT_EQ(result.ending, opt::Ending::kNotRun) << result.message;
     } else {
@@ -147,14 +158,16 @@ TEST_F(OptimizerTest, StoppedAtAnyMomentItKeepsACertifiedWalk) {
 // walk within the limit.
 TEST_F(OptimizerTest, SafestWithinLessThanTheDichotomysDurationStillKeepsWhatIsDemanded) {
   if (ASolver().empty()) GTEST_SKIP() << "no solver";
-  const SmoothingResult dichotomy = Dichotomy(e_.sequence, test_, {.tolerance = 0.01});
+  const SmoothingResult dichotomy =
+      Smoothed(Dichotomy, ProblemOf(e_.sequence, test_), {.tolerance = 0.01});
   const double own = DurationOf(dichotomy.parameters);
   MarginEvaluator::Scratch scratch = evaluator_.MakeScratch();
   OptimizerOptions options = Quick(ASolver());
   options.program.kind = ProgramKind::kSafest;
   for (const double part : {0.75, 0.3}) {
     options.duration_limit = part * own;
-    const SmoothingResult result = OptimizeOverlaps(e_.sequence, test_, options);
+    const SmoothingResult result =
+        Smoothed(OptimizeOverlaps, ProblemOf(e_.sequence, test_), options);
     const SuperposedWalk walk(e_.sequence, result.parameters);
     EXPECT_EQ(test_.Check(walk, {0.0, walk.duration()}, &scratch).verdict, Verdict::kFeasible);
     // A third of the dichotomy's time is faster than the feet may move.
@@ -171,7 +184,9 @@ TEST_F(OptimizerTest, SafestWithinLessThanTheDichotomysDurationStillKeepsWhatIsD
 
 TEST_F(OptimizerTest, EveryPointOfAParetoCurveHoldsAtItsLevelAndSafetyGrowsWithTime) {
   if (ASolver().empty()) GTEST_SKIP() << "no solver";
-  const SmoothingResult result = ParetoCurve(e_.sequence, test_, Quick(ASolver()), {.points = 3});
+  const WalkProblem problem = ProblemOf(e_.sequence, test_);
+  SmoothingMonitor monitor;
+  const SmoothingResult result = ParetoCurve(problem, Quick(ASolver()), {.points = 3}, monitor);
   EXPECT_TRUE(HasOwnResult(result.ending)) << result.message;
   ASSERT_GE(result.pareto.size(), 3u);
   MarginEvaluator::Scratch scratch = evaluator_.MakeScratch();
@@ -205,9 +220,9 @@ TEST_P(ProgramDerivatives, AgreeWithDifferencesForEveryKind) {
   for (ProgramKind kind : {ProgramKind::kFastest, ProgramKind::kSmooth, ProgramKind::kSafest}) {
     ProgramOptions options;
     options.kind = kind;
-    options.heights = options.durations = true;
+    options.parameters = {.heights = true, .durations = true};
     options.weights = {0.05, 0.001, 0.02};
-    options.table.instants = 3;
+    options.watch.instants = 3;
     const OverlapProgram program(e.sequence, evaluator, options, 10.0);
     const opt::Problem problem = program.MakeProblem();
     Eigen::VectorXd x = program.ToVariables(draw.Parameters(e.sequence, 0.6, 0.85));
@@ -285,8 +300,9 @@ TEST_F(OptimizerTest, WhatCannotBeProvedAsAWholeIsNotReturned) {
   const RefusesNewWholes test(test_, planned);
   OptimizerOptions options = Quick("halfstep/sqp");
   int accepted = 0;
-  options.on_accept = [&](const HomotopyParameters& p) { accepted += p.durations != planned; };
-  const SmoothingResult result = OptimizeOverlaps(e_.sequence, test, options);
+  const auto count = [&](const HomotopyParameters& p) { accepted += p.durations != planned; };
+  const SmoothingResult result =
+      Smoothed(OptimizeOverlaps, ProblemOf(e_.sequence, test), options, {.on_incumbent = count});
   EXPECT_GT(accepted, 0);
   EXPECT_EQ(result.parameters.durations, planned);
 }

@@ -7,6 +7,7 @@
 #include "smoothing/methods/dichotomy.h"
 #include "smoothing/proof/certified_feasibility.h"
 #include "tests/scenarios/load_experiment.h"
+#include "tests/smoothing/smoothed.h"
 #include "tests/smoothing/test_walks.h"
 
 namespace halfstep {
@@ -35,8 +36,8 @@ double LargestOverlap(const Experiment& e, const MarginEvaluator& evaluator, Hom
 TEST(Explain, ThePriceIsWhatTheOverlapGainsWhenLessIsDemanded) {
   const Experiment e = LoadExperiment("bar_8cm");
   const MarginEvaluator evaluator(e.robot, e.scene, e.config.smoothing.limits);
-  SmoothingResult result =
-      Dichotomy(e.sequence, CertifiedFeasibility(evaluator, {}), {.tolerance = 1e-4});
+  SmoothingResult result = Smoothed(
+      Dichotomy, ProblemOf(e.sequence, CertifiedFeasibility(evaluator, {})), {.tolerance = 1e-4});
   AddPrices(SuperposedWalk(e.sequence, result.parameters), evaluator, &result.junctions);
   constexpr double kLess = 0.01;  // of the family's scale
   int priced = 0;

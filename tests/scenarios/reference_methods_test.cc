@@ -15,6 +15,7 @@
 #include "smoothing/proof/certified_feasibility.h"
 #include "tests/scenarios/load_experiment.h"
 #include "tests/smoothing/fake_feasibility.h"
+#include "tests/smoothing/smoothed.h"
 #include "tests/smoothing/test_walks.h"
 
 namespace halfstep {
@@ -46,7 +47,7 @@ TEST_F(ReferenceMethods, TheScanFindsTheBestUniformFactors) {
   // Heights down to 0.4, so durations down to 0.7: both are grid points.
   const UniformScanOptions options{
       .least_height = 0.4, .height_step = 0.2, .duration_step = 0.15, .coarse = 0.1, .fine = 0.01};
-  const SmoothingResult result = UniformScan(sequence_, test, options);
+  const SmoothingResult result = Smoothed(UniformScan, ProblemOf(sequence_, test), options);
   EXPECT_EQ(result.ending, opt::Ending::kConverged);
   const HomotopyParameters planned = PlannedMotion(sequence_);
   for (size_t k = 0; k < 4; ++k) {
@@ -65,18 +66,20 @@ TEST_F(ReferenceMethods, TheScanFindsTheBestUniformFactors) {
 
 TEST_F(ReferenceMethods, WithoutFamiliesTheScanIsTheDichotomy) {
   const FakeFeasibility test = LowFeetMayHurry(1.0);
-  const SmoothingResult scan =
-      UniformScan(sequence_, test, {.heights = false, .durations = false, .coarse = 1e-3});
-  EXPECT_LE(scan.cost, DurationOf(Dichotomy(sequence_, test, {}).parameters));
+  const SmoothingResult scan = Smoothed(UniformScan, ProblemOf(sequence_, test),
+                                        {.heights = false, .durations = false, .coarse = 1e-3});
+  EXPECT_LE(scan.cost, DurationOf(Smoothed(Dichotomy, ProblemOf(sequence_, test), {}).parameters));
   EXPECT_EQ(scan.parameters.durations, PlannedMotion(sequence_).durations);
 }
 
 TEST_F(ReferenceMethods, AnInfeasiblePlannedMotionIsOnlyOneGridPoint) {
   // All must be 5 % slower than planned.
-  const SmoothingResult result = UniformScan(sequence_, LowFeetMayHurry(1.05), {.heights = false});
+  const SmoothingResult result =
+      Smoothed(UniformScan, ProblemOf(sequence_, LowFeetMayHurry(1.05)), {.heights = false});
   EXPECT_EQ(result.ending, opt::Ending::kConverged);
   EXPECT_NEAR(result.parameters.durations[0] / PlannedMotion(sequence_).durations[0], 1.05, 1e-9);
-  const SmoothingResult none = UniformScan(sequence_, LowFeetMayHurry(3.0), {});
+  const SmoothingResult none =
+      Smoothed(UniformScan, ProblemOf(sequence_, LowFeetMayHurry(3.0)), {});
   EXPECT_EQ(none.ending, opt::Ending::kNotRun);
   EXPECT_FALSE(none.feasible);
   EXPECT_EQ(none.parameters, PlannedMotion(sequence_));
@@ -85,8 +88,8 @@ TEST_F(ReferenceMethods, AnInfeasiblePlannedMotionIsOnlyOneGridPoint) {
 
 TEST_F(ReferenceMethods, CoordinateAscentLowersTheFeetToHurry) {
   const FakeFeasibility test = LowFeetMayHurry(1.0);
-  const SmoothingResult result =
-      CoordinateAscent(sequence_, test, {.heights = true, .durations = true});
+  const SmoothingResult result = Smoothed(CoordinateAscent, ProblemOf(sequence_, test),
+                                          {.parameters = {.heights = true, .durations = true}});
   EXPECT_EQ(result.ending, opt::Ending::kConverged);
   const HomotopyParameters planned = PlannedMotion(sequence_);
   for (size_t k = 0; k < 4; ++k) {  // η = 0.2
@@ -100,10 +103,11 @@ TEST_F(ReferenceMethods, CoordinateAscentLowersTheFeetToHurry) {
 TEST_F(ReferenceMethods, CoordinateAscentChangesOnlyTheFamiliesAskedFor) {
   const FakeFeasibility test = LowFeetMayHurry(0.8);
   const HomotopyParameters planned = PlannedMotion(sequence_);
-  const SmoothingResult overlaps = CoordinateAscent(sequence_, test, {});
+  const SmoothingResult overlaps = Smoothed(CoordinateAscent, ProblemOf(sequence_, test), {});
   EXPECT_EQ(overlaps.parameters.durations, planned.durations);
   EXPECT_EQ(overlaps.parameters.height_scales, planned.height_scales);
-  const SmoothingResult hurried = CoordinateAscent(sequence_, test, {.durations = true});
+  const SmoothingResult hurried =
+      Smoothed(CoordinateAscent, ProblemOf(sequence_, test), {.parameters = {.durations = true}});
   EXPECT_EQ(hurried.parameters.height_scales, planned.height_scales);
   EXPECT_LT(hurried.cost, overlaps.cost - 0.5);
 }
@@ -112,22 +116,25 @@ TEST_F(ReferenceMethods, StoppedTheyKeepWhatWasFeasible) {
   const FakeFeasibility test = LowFeetMayHurry(0.8);
   std::stop_source source;
   const auto stop = [&](double) { source.request_stop(); };
-  const SmoothingResult result = CoordinateAscent(
-      sequence_, test, {.heights = true, .durations = true}, stop, source.get_token());
+  const SmoothingResult result = Smoothed(CoordinateAscent, ProblemOf(sequence_, test),
+                                          {.parameters = {.heights = true, .durations = true}},
+                                          {.progress = stop, .stop = source.get_token()});
   EXPECT_EQ(result.ending, opt::Ending::kInterrupted);
   MarginEvaluator::Scratch scratch = evaluator_.MakeScratch();
   const SuperposedWalk walk(sequence_, result.parameters);
   EXPECT_EQ(test.Check(walk, {}, &scratch).verdict, Verdict::kFeasible);
   EXPECT_LT(result.cost, DurationOf(PlannedMotion(sequence_)));
-  const SmoothingResult scan = UniformScan(sequence_, test, {}, {}, source.get_token());
+  const SmoothingResult scan =
+      Smoothed(UniformScan, ProblemOf(sequence_, test), {}, {.stop = source.get_token()});
   EXPECT_NE(scan.ending, opt::Ending::kConverged);
-  const SmoothingResult grid = ReferenceSearch(sequence_, test, {}, {}, source.get_token());
+  const SmoothingResult grid =
+      Smoothed(ReferenceSearch, ProblemOf(sequence_, test), {}, {.stop = source.get_token()});
   EXPECT_EQ(grid.ending, opt::Ending::kNotRun);  // stopped before its first round
   EXPECT_TRUE(grid.feasible);
 }
 
 // Every combination of a few values, each looked at as a whole.
-TEST(StretchGridTest, FindsWhatTryingEverythingFinds) {
+TEST(DynamicProgramTest, FindsWhatTryingEverythingFinds) {
   const Experiment e = LoadExperiment("bar_8cm");
   HalfStepSequence sequence = e.sequence;
   sequence.half_steps.resize(4);
@@ -201,15 +208,17 @@ TEST(GridReferenceTest, IsCertifiedAndNotWorseThanTheDichotomyOrAStart) {
   const Experiment e = LoadExperiment("fig3_two_half_steps");
   const MarginEvaluator evaluator(e.robot, e.scene, e.config.smoothing.limits);
   const CertifiedFeasibility test(evaluator, {});
-  const SmoothingResult dichotomy = Dichotomy(e.sequence, test, {});
+  const SmoothingResult dichotomy = Smoothed(Dichotomy, ProblemOf(e.sequence, test), {});
   HomotopyParameters infeasible = PlannedMotion(e.sequence);
   infeasible.durations = {0.5, 0.5};
-  ReferenceOptions options{.period = 0.05, .narrowest = 0.05, .max_rounds = 4};
+  ReferenceOptions options;
+  options.period = options.narrowest = 0.05;
+  options.max_rounds = 4;
   options.starts = {infeasible};
   MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
   for (bool durations : {false, true}) {
-    options.heights = options.durations = durations;
-    const SmoothingResult result = ReferenceSearch(e.sequence, test, options);
+    options.parameters.heights = options.parameters.durations = durations;
+    const SmoothingResult result = Smoothed(ReferenceSearch, ProblemOf(e.sequence, test), options);
     EXPECT_EQ(HasOwnResult(result.ending), result.cost < DurationOf(dichotomy.parameters))
         << result.message;
     EXPECT_NE(result.ending, opt::Ending::kNotRun);

@@ -12,6 +12,7 @@
 #include "smoothing/proof/certified_feasibility.h"
 #include "smoothing/proof/sampled_feasibility.h"
 #include "tests/scenarios/load_experiment.h"
+#include "tests/smoothing/smoothed.h"
 #include "tests/smoothing/test_scenes.h"
 #include "tests/smoothing/test_walks.h"
 
@@ -23,15 +24,16 @@ namespace {
 // 1.5e-7 m. (The ZMP margin jumps at lift-off, where this does not hold; it is far from its limit.)
 constexpr double kBetweenSamples = 0.005 * 0.005 / 8 * 30;
 
-struct Smoothed {
+struct SmoothedWalk {
   SmoothingResult result;
   double duration;
 };
 
-Smoothed Smooth(const Experiment& e, const HalfStepSequence& sequence, const Scene& scene,
-                const DichotomyOptions& options) {
+SmoothedWalk Smooth(const Experiment& e, const HalfStepSequence& sequence, const Scene& scene,
+                    const DichotomyOptions& options) {
   const MarginEvaluator evaluator(e.robot, scene, e.config.smoothing.limits);
-  Smoothed smoothed{Dichotomy(sequence, SampledFeasibility(evaluator, 0.005), options), 0.0};
+  SmoothedWalk smoothed{
+      Smoothed(Dichotomy, ProblemOf(sequence, SampledFeasibility(evaluator, 0.005)), options), 0.0};
   smoothed.duration = SuperposedWalk(sequence, smoothed.result.parameters).duration();
   return smoothed;
 }
@@ -50,7 +52,7 @@ Feasibility Recheck(const Experiment& e, const HomotopyParameters& parameters, d
   return answer;
 }
 
-void ExpectSame(const Smoothed& a, const Smoothed& b, double tolerance) {
+void ExpectSame(const SmoothedWalk& a, const SmoothedWalk& b, double tolerance) {
   ASSERT_EQ(a.result.parameters.overlaps.size(), b.result.parameters.overlaps.size());
   for (size_t i = 0; i < a.result.parameters.overlaps.size(); ++i) {
     EXPECT_NEAR(a.result.parameters.overlaps[i], b.result.parameters.overlaps[i], tolerance);
@@ -105,7 +107,7 @@ TEST_P(SmoothedScene, EitherOrderAndASecondPassKeepAllMargins) {
   for (Order order : {Order::kLeftToRight, Order::kRightToLeft}) {
     double duration = 0;
     for (int passes : {1, 2}) {
-      const Smoothed smoothed =
+      const SmoothedWalk smoothed =
           Smooth(e, e.sequence, e.scene, {.tolerance = 0.01, .order = order, .passes = passes});
       Recheck(e, smoothed.result.parameters, 0.005, kBetweenSamples);
       if (passes == 2) {
@@ -119,7 +121,7 @@ TEST_P(SmoothedScene, EitherOrderAndASecondPassKeepAllMargins) {
 TEST_P(SmoothedScene, DoesNotDependOnWhereAndOnWhichSide) {
   const Experiment& e = experiment_;
   const DichotomyOptions options{.tolerance = 0.005};
-  const Smoothed plain = Smooth(e, e.sequence, e.scene, options);
+  const SmoothedWalk plain = Smooth(e, e.sequence, e.scene, options);
   ExpectSame(plain, Smooth(e, Mirrored(e.sequence), Mirrored(e.scene), options), 1e-9);
   for (const Pose2& X_VW : {Pose2{1.5, -0.7, 0.0}, Pose2{-0.3, 0.2, 2.1}}) {
     ExpectSame(plain, Smooth(e, Moved(X_VW, e.sequence), Moved(X_VW, e.scene), options), 1e-9);
@@ -132,8 +134,8 @@ TEST_P(SmoothedScene, AnObstacleFarAwayChangesNothing) {
   Scene scene = e.scene;
   scene.obstacles.push_back(
       {"far", MakeBox({1, 1, 1}), Eigen::Isometry3d(Eigen::Translation3d(0, 30, 0))});
-  const Smoothed plain = Smooth(e, e.sequence, e.scene, options);
-  const Smoothed with = Smooth(e, e.sequence, scene, options);
+  const SmoothedWalk plain = Smooth(e, e.sequence, e.scene, options);
+  const SmoothedWalk with = Smooth(e, e.sequence, scene, options);
   EXPECT_EQ(plain.result.parameters, with.result.parameters);
   EXPECT_EQ(plain.result.instants, with.result.instants);
 }
@@ -151,8 +153,8 @@ TEST(SmoothedBox, AnObstacleInTheWayShortensTheOnlyOverlapAndIsNamed) {
   const Experiment e = LoadExperiment("fig5_box");
   Scene empty = e.scene;
   empty.obstacles.clear();
-  const Smoothed with = Smooth(e, e.sequence, e.scene, {});
-  const Smoothed without = Smooth(e, e.sequence, empty, {});
+  const SmoothedWalk with = Smooth(e, e.sequence, e.scene, {});
+  const SmoothedWalk without = Smooth(e, e.sequence, empty, {});
   const double overlap = with.result.parameters.overlaps[0];
   EXPECT_LT(overlap, without.result.parameters.overlaps[0] - 0.05);
   EXPECT_GT(overlap, 0.2);
@@ -176,7 +178,7 @@ TEST(SmoothedBox, AFinerToleranceIsNotWorseAndGainsAtMostTheCoarserOne) {
   const Experiment e = LoadExperiment("fig5_box");
   double duration = 0, last = 0;
   for (double tolerance : {0.1, 0.05, 0.01, 0.001, 1e-4}) {
-    const Smoothed smoothed = Smooth(e, e.sequence, e.scene, {.tolerance = tolerance});
+    const SmoothedWalk smoothed = Smooth(e, e.sequence, e.scene, {.tolerance = tolerance});
     if (duration > 0) {
       EXPECT_LE(smoothed.duration, duration + 1e-9);
       EXPECT_GE(smoothed.duration, duration - last - 1e-9);
@@ -207,8 +209,9 @@ TEST(SmoothedBar, InterruptedHalfWayItHasAllMarginsAndSomethingGained) {
   const auto stop_at_half = [&](double done) {
     if (done >= 0.5) source.request_stop();
   };
-  const SmoothingResult result = Dichotomy(e.sequence, SampledFeasibility(evaluator, 0.005), {},
-                                           stop_at_half, source.get_token());
+  const SmoothingResult result =
+      Smoothed(Dichotomy, ProblemOf(e.sequence, SampledFeasibility(evaluator, 0.005)), {},
+               {.progress = stop_at_half, .stop = source.get_token()});
   EXPECT_EQ(result.ending, opt::Ending::kInterrupted);
   Recheck(e, result.parameters, 0.001, kBetweenSamples);
   EXPECT_GT(result.parameters.overlaps[0], 0.1);
@@ -236,7 +239,8 @@ TEST(SmoothedBar, FarVerticesOfAMeshNeitherCertifyNorRefuse) {
   };
   const auto smooth = [&](const Scene& made) {
     const MarginEvaluator evaluator(e.robot, made, e.config.smoothing.limits);
-    return Dichotomy(e.sequence, CertifiedFeasibility(evaluator, {}), {.tolerance = 0.2});
+    return Smoothed(Dichotomy, ProblemOf(e.sequence, CertifiedFeasibility(evaluator, {})),
+                    {.tolerance = 0.2});
   };
   const SmoothingResult bar = smooth(scene(0.08, 0));
   ASSERT_EQ(bar.ending, opt::Ending::kConverged) << bar.message;

@@ -6,6 +6,7 @@
 #include "smoothing/proof/certified_feasibility.h"
 #include "tests/scenarios/load_experiment.h"
 #include "tests/smoothing/fake_feasibility.h"
+#include "tests/smoothing/smoothed.h"
 #include "tests/smoothing/test_walks.h"
 
 namespace halfstep {
@@ -83,7 +84,8 @@ TEST(StretchProofs, RefusesWhereTheWalkIsRefused) {
   const MarginEvaluator evaluator(e.robot, e.scene, e.config.smoothing.limits);
   const CertifiedFeasibility test(evaluator, {});
   MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
-  const HomotopyParameters good = Dichotomy(e.sequence, test, {.tolerance = 0.01}).parameters;
+  const HomotopyParameters good =
+      Smoothed(Dichotomy, ProblemOf(e.sequence, test), {.tolerance = 0.01}).parameters;
   StretchProofs proofs(test, e.sequence.size());
   EXPECT_TRUE(proofs.Refusals(SuperposedWalk(e.sequence, good), &scratch).empty());
   HomotopyParameters shorter = good;

@@ -11,7 +11,7 @@
 namespace halfstep {
 namespace {
 
-class SlackTableTest : public testing::Test {
+class WatchedInstantsTest : public testing::Test {
  protected:
   // Overlaps about where smoothing ends, everything else about as planned.
   Eigen::VectorXd Draw(WalkDraw* draw) const {
@@ -29,11 +29,12 @@ class SlackTableTest : public testing::Test {
 
   const Experiment e_ = LoadExperiment("bar_8cm");
   const MarginEvaluator evaluator_{e_.robot, e_.scene, e_.config.smoothing.limits};
-  const OverlapVariables variables_{e_.sequence, true, true};
+  const OverlapVariables variables_{
+      e_.sequence, ParameterTable(e_.sequence, {}, {.heights = true, .durations = true})};
   const WatchedInstants table_{variables_, evaluator_, {.instants = 4}};
 };
 
-TEST_F(SlackTableTest, OutsideOfItsBandAVariableChangesNothingAtAll) {
+TEST_F(WatchedInstantsTest, OutsideOfItsBandAVariableChangesNothingAtAll) {
   WalkDraw draw(360);
   const Eigen::VectorXd x = Draw(&draw);
   Eigen::VectorXd before, after;
@@ -60,7 +61,7 @@ TEST_F(SlackTableTest, OutsideOfItsBandAVariableChangesNothingAtAll) {
   EXPECT_GT(changed, 20);
 }
 
-TEST_F(SlackTableTest, ARowNeverExceedsTheLeastSlackAndNearsItAsItSharpens) {
+TEST_F(WatchedInstantsTest, ARowNeverExceedsTheLeastSlackAndNearsItAsItSharpens) {
   WalkDraw draw(361);
   WatchedInstants table(variables_, evaluator_, {.instants = 4});
   const Eigen::VectorXd x = Draw(&draw);
@@ -81,7 +82,7 @@ TEST_F(SlackTableTest, ARowNeverExceedsTheLeastSlackAndNearsItAsItSharpens) {
   }
 }
 
-TEST_F(SlackTableTest, JacobianAlongRandomDirectionsAgreesWithDifferences) {
+TEST_F(WatchedInstantsTest, JacobianAlongRandomDirectionsAgreesWithDifferences) {
   WalkDraw draw(362);
   int compared = 0, kinks = 0, caught = 0;
   for (int i = 0; i < Draws(10); ++i) {
@@ -121,7 +122,7 @@ TEST_F(SlackTableTest, JacobianAlongRandomDirectionsAgreesWithDifferences) {
   EXPECT_GT(caught, compared / 10);
 }
 
-TEST_F(SlackTableTest, AnInstantIsLearnedOnce) {
+TEST_F(WatchedInstantsTest, AnInstantIsLearnedOnce) {
   WatchedInstants table(variables_, evaluator_, {.instants = 4});
   const SuperposedWalk walk(e_.sequence, PlannedMotion(e_.sequence));
   EXPECT_TRUE(table.Learn(walk, {2, 0.4321}));
@@ -130,7 +131,7 @@ TEST_F(SlackTableTest, AnInstantIsLearnedOnce) {
 }
 
 // What Focus leaves out is far from its limit, and what it adds is not missed by dense sampling.
-TEST_F(SlackTableTest, FocusSeesTheLeastSlackWithFewerRows) {
+TEST_F(WatchedInstantsTest, FocusSeesTheLeastSlackWithFewerRows) {
   WatchedInstants table(variables_, evaluator_, {.instants = 32, .row_per_instant = true});
   const int rows = table.rows();
   HomotopyParameters parameters = PlannedMotion(e_.sequence);

@@ -11,6 +11,7 @@
 #include "smoothing/methods/dichotomy.h"
 #include "smoothing/proof/sampled_feasibility.h"
 #include "tests/smoothing/certificate_draws.h"
+#include "tests/smoothing/smoothed.h"
 
 namespace halfstep {
 namespace {
@@ -223,7 +224,7 @@ TEST(CertifiedFeasibility, DichotomyEndsCertified) {
     ++walks;
     const MarginEvaluator evaluator(robot, drawn->scene, {});
     const CertifiedFeasibility test(evaluator, {});
-    const SmoothingResult result = Dichotomy(drawn->sequence, test, {});
+    const SmoothingResult result = Smoothed(Dichotomy, ProblemOf(drawn->sequence, test), {});
     ASSERT_EQ(result.ending, opt::Ending::kConverged);
     EXPECT_EQ(result.evidence, Evidence::kCertified);
     const SuperposedWalk walk(drawn->sequence, result.parameters);

@@ -11,6 +11,7 @@
 #include <stop_token>
 
 #include "tests/smoothing/fake_feasibility.h"
+#include "tests/smoothing/smoothed.h"
 #include "tests/smoothing/test_walks.h"
 
 namespace halfstep {
@@ -44,7 +45,7 @@ TEST_F(DichotomyTest, FindsTheLimitFromBelowWithinTheToleranceInEitherOrderAndAn
         for (int passes : {1, 2, 3}) {
           const FakeFeasibility test = UpTo(limit);
           const DichotomyOptions options{.tolerance = tolerance, .order = order, .passes = passes};
-          const SmoothingResult result = Dichotomy(sequence_, test, options);
+          const SmoothingResult result = Smoothed(Dichotomy, ProblemOf(sequence_, test), options);
           const bool moved = result.parameters != PlannedMotion(sequence_);
           EXPECT_EQ(result.ending, moved ? opt::Ending::kConverged : opt::Ending::kNoImprovement);
           EXPECT_TRUE(moved || limit < tolerance);
@@ -65,7 +66,8 @@ TEST_F(DichotomyTest, FindsTheLimitFromBelowWithinTheToleranceInEitherOrderAndAn
 
 TEST_F(DichotomyTest, WhenNoOverlapIsFeasibleItStaysExactlyZero) {
   const FakeFeasibility test = UpTo(0.0);
-  const SmoothingResult result = Dichotomy(sequence_, test, {.tolerance = 0.05});
+  const SmoothingResult result =
+      Smoothed(Dichotomy, ProblemOf(sequence_, test), {.tolerance = 0.05});
   EXPECT_EQ(result.ending, opt::Ending::kNoImprovement);
   EXPECT_TRUE(result.feasible);
   EXPECT_EQ(result.parameters, PlannedMotion(sequence_));
@@ -76,7 +78,7 @@ TEST_F(DichotomyTest, WhenNoOverlapIsFeasibleItStaysExactlyZero) {
 TEST_F(DichotomyTest, WhenEverythingIsFeasibleItTakesTheBoundsInOneQuestionEach) {
   const FakeFeasibility test = UpTo(100);
   const SmoothingResult result =
-      Dichotomy(sequence_, test, {.up_down_cap = 0.8, .down_up_cap = 0.5});
+      Smoothed(Dichotomy, ProblemOf(sequence_, test), {.up_down_cap = 0.8, .down_up_cap = 0.5});
   for (int i = 0; i < 5; ++i) {
     const JunctionResult& junction = result.junctions[static_cast<size_t>(i)];
     const double cap = i % 2 == 0 ? 0.8 : 0.5;
@@ -92,7 +94,7 @@ TEST_F(DichotomyTest, WhenEverythingIsFeasibleItTakesTheBoundsInOneQuestionEach)
 TEST_F(DichotomyTest, WithCapsOfZeroNothingIsTried) {
   const FakeFeasibility test = UpTo(100);
   const SmoothingResult result =
-      Dichotomy(sequence_, test, {.up_down_cap = 0.0, .down_up_cap = 0.0});
+      Smoothed(Dichotomy, ProblemOf(sequence_, test), {.up_down_cap = 0.0, .down_up_cap = 0.0});
   EXPECT_EQ(result.ending, opt::Ending::kNoImprovement);
   EXPECT_TRUE(result.feasible);
   EXPECT_EQ(result.parameters, PlannedMotion(sequence_));
@@ -101,7 +103,8 @@ TEST_F(DichotomyTest, WithCapsOfZeroNothingIsTried) {
 
 TEST_F(DichotomyTest, AsksNoMoreThanBisectionNeedsAndOnlyAboutTheStretchThatChanges) {
   const FakeFeasibility test = UpTo(0.3);
-  const SmoothingResult result = Dichotomy(sequence_, test, {.tolerance = 0.001});
+  const SmoothingResult result =
+      Smoothed(Dichotomy, ProblemOf(sequence_, test), {.tolerance = 0.001});
   size_t allowed = 1;
   for (int i = 0; i < 5; ++i) {
     allowed += 1 + static_cast<size_t>(std::ceil(std::log2(Bound(i) / 0.001)));
@@ -138,11 +141,12 @@ TEST_F(DichotomyTest, UndecidedIsNotAccepted) {
   const FakeFeasibility test = Rule([](const HomotopyParameters& p) {
     return p.overlaps[0] <= 0.2 ? Verdict::kFeasible : Verdict::kUndecided;
   });
-  const SmoothingResult result = Dichotomy(sequence_, test, options_);
+  const SmoothingResult result = Smoothed(Dichotomy, ProblemOf(sequence_, test), options_);
   EXPECT_LE(result.parameters.overlaps[0], 0.2);
   EXPECT_GT(result.parameters.overlaps[0], 0.199);
   const FakeFeasibility never = Rule([](const HomotopyParameters&) { return Verdict::kUndecided; });
-  EXPECT_EQ(Dichotomy(sequence_, never, options_).ending, opt::Ending::kNotRun);
+  EXPECT_EQ(Smoothed(Dichotomy, ProblemOf(sequence_, never), options_).ending,
+            opt::Ending::kNotRun);
 }
 
 TEST_F(DichotomyTest, AFinerToleranceIsNeverWorse) {
@@ -150,7 +154,8 @@ TEST_F(DichotomyTest, AFinerToleranceIsNeverWorse) {
     double duration = std::numeric_limits<double>::infinity();
     for (double tolerance : {0.1, 0.05, 0.01, 0.001, 1e-5}) {
       const FakeFeasibility test = UpTo(limit);
-      const SmoothingResult result = Dichotomy(sequence_, test, {.tolerance = tolerance});
+      const SmoothingResult result =
+          Smoothed(Dichotomy, ProblemOf(sequence_, test), {.tolerance = tolerance});
       const double now = SuperposedWalk(sequence_, result.parameters).duration();
       EXPECT_LE(now, duration + 1e-12);
       duration = now;
@@ -171,7 +176,8 @@ TEST_F(DichotomyTest, WithSharedLimitsTheOrderDecidesWhoTakesItAndLaterPassesLos
     for (int passes : {1, 2}) {
       const FakeFeasibility test = Rule(shared);
       const SmoothingResult result =
-          Dichotomy(sequence_, test, {.tolerance = 1e-4, .order = order, .passes = passes});
+          Smoothed(Dichotomy, ProblemOf(sequence_, test),
+                   {.tolerance = 1e-4, .order = order, .passes = passes});
       EXPECT_EQ(shared(result.parameters), Verdict::kFeasible);
       const auto& overlaps = result.parameters.overlaps;
       EXPECT_NEAR(overlaps[order == Order::kLeftToRight ? 0 : 4], 0.3, 1e-4);
@@ -185,7 +191,8 @@ TEST_F(DichotomyTest, WithSharedLimitsTheOrderDecidesWhoTakesItAndLaterPassesLos
 
 TEST_F(DichotomyTest, IteratesTellTheStoryAndTheIncumbentNeverGetsSlower) {
   const FakeFeasibility test = UpTo(0.3);
-  const SmoothingResult result = Dichotomy(sequence_, test, {.tolerance = 0.01, .passes = 2});
+  const SmoothingResult result =
+      Smoothed(Dichotomy, ProblemOf(sequence_, test), {.tolerance = 0.01, .passes = 2});
   double incumbent = SuperposedWalk(sequence_, PlannedMotion(sequence_)).duration();
   long evaluations = 1;  // the start's
   double wall = 0;
@@ -222,7 +229,8 @@ TEST_F(DichotomyTest, IteratesTellTheStoryAndTheIncumbentNeverGetsSlower) {
 
 TEST_F(DichotomyTest, AJunctionIsLimitedByWhatRefusedTheSmallestInfeasibleOverlap) {
   const FakeFeasibility test = UpTo(0.3);
-  const SmoothingResult result = Dichotomy(sequence_, test, {.tolerance = 0.001});
+  const SmoothingResult result =
+      Smoothed(Dichotomy, ProblemOf(sequence_, test), {.tolerance = 0.001});
   for (size_t i = 0; i < 5; ++i) {
     double smallest = std::numeric_limits<double>::infinity();
     double witness = 0;
@@ -240,7 +248,7 @@ TEST_F(DichotomyTest, AJunctionIsLimitedByWhatRefusedTheSmallestInfeasibleOverla
 
 TEST_F(DichotomyTest, AnInfeasibleStartIsToldInASentenceAndLeftAlone) {
   const FakeFeasibility test = UpTo(-1.0);
-  const SmoothingResult result = Dichotomy(sequence_, test, options_);
+  const SmoothingResult result = Smoothed(Dichotomy, ProblemOf(sequence_, test), options_);
   EXPECT_EQ(result.ending, opt::Ending::kNotRun);
   EXPECT_FALSE(result.feasible);
   EXPECT_NE(result.message.find("the planned motion is not feasible: zmp of"), std::string::npos)
@@ -253,7 +261,7 @@ TEST_F(DichotomyTest, AnInfeasibleStartIsToldInASentenceAndLeftAlone) {
 TEST_F(DichotomyTest, StoppedAtAnyQuestionItReturnsTheLastAcceptedParameters) {
   const size_t full = [&] {
     const FakeFeasibility test = UpTo(0.3);
-    Dichotomy(sequence_, test, {.tolerance = 0.01});
+    Smoothed(Dichotomy, ProblemOf(sequence_, test), {.tolerance = 0.01});
     return test.questions.size();
   }();
   for (size_t stop_after = 1; stop_after + 1 < full; ++stop_after) {
@@ -266,8 +274,8 @@ TEST_F(DichotomyTest, StoppedAtAnyQuestionItReturnsTheLastAcceptedParameters) {
       if (ok) last = p;
       return ok ? Verdict::kFeasible : Verdict::kViolated;
     });
-    const SmoothingResult result =
-        Dichotomy(sequence_, test, {.tolerance = 0.01}, {}, source.get_token());
+    const SmoothingResult result = Smoothed(Dichotomy, ProblemOf(sequence_, test),
+                                            {.tolerance = 0.01}, {.stop = source.get_token()});
     EXPECT_EQ(result.ending, last != PlannedMotion(sequence_) ? opt::Ending::kInterrupted
                              : result.iterates.empty()        ? opt::Ending::kNotRun
                                                               : opt::Ending::kNoImprovement);
@@ -284,8 +292,8 @@ TEST_F(DichotomyTest, StoppedAtAnyQuestionItReturnsTheLastAcceptedParameters) {
 TEST_F(DichotomyTest, ProgressRisesToOneByJunctions) {
   const FakeFeasibility test = UpTo(0.3);
   std::vector<double> told;
-  Dichotomy(sequence_, test, {.tolerance = 0.05, .passes = 2},
-            [&](double fraction) { told.push_back(fraction); });
+  Smoothed(Dichotomy, ProblemOf(sequence_, test), {.tolerance = 0.05, .passes = 2},
+           {.progress = [&](double fraction) { told.push_back(fraction); }});
   ASSERT_EQ(told.size(), 10u);
   for (size_t i = 0; i < told.size(); ++i) {
     EXPECT_NEAR(told[i], 0.1 * static_cast<double>(i + 1), 1e-12);
@@ -297,7 +305,7 @@ TEST_F(DichotomyTest, RefusesOptionsThatMeanNothing) {
   for (const DichotomyOptions& options :
        {DichotomyOptions{.tolerance = 0}, DichotomyOptions{.passes = -1},
         DichotomyOptions{.up_down_cap = 1.1}, DichotomyOptions{.down_up_cap = -0.1}}) {
-    EXPECT_THROW(Dichotomy(sequence_, test, options), std::logic_error);
+    EXPECT_THROW(Smoothed(Dichotomy, ProblemOf(sequence_, test), options), std::logic_error);
   }
 }
 

@@ -21,7 +21,7 @@ std::function<std::vector<Margin>(const SuperposedWalk&, double, MarginEvaluator
   };
 }
 
-class FeasiblePathTest : public testing::Test {
+class IncumbentTest : public testing::Test {
  protected:
   Incumbent Path(const FakeFeasibility& test, const HomotopyParameters& start) const {
     return {
@@ -29,7 +29,7 @@ class FeasiblePathTest : public testing::Test {
         {.cost = [](const HomotopyParameters& p) { return DurationOf(p); }, .prove = Prove(test)},
         start,
         DurationOf(start),
-        evaluator_.MakeScratch()};
+        &scratch_};
   }
   // Feasible while the first overlap is at most `limit` [s].
   FakeFeasibility UpTo(double limit) const {
@@ -39,11 +39,12 @@ class FeasiblePathTest : public testing::Test {
   }
 
   const MarginEvaluator evaluator_{Hrp2(), {}, {}};
+  mutable MarginEvaluator::Scratch scratch_ = evaluator_.MakeScratch();
   const HalfStepSequence sequence_ = WalkDraw(80).Sequence(2);
   const HomotopyParameters planned_ = PlannedMotion(sequence_);
 };
 
-TEST_F(FeasiblePathTest, AProvedCandidateBecomesTheIncumbentAtOnce) {
+TEST_F(IncumbentTest, AProvedCandidateBecomesTheIncumbentAtOnce) {
   const FakeFeasibility test = UpTo(100);
   Incumbent path = Path(test, planned_);
   const HomotopyParameters candidate = Overlapped(sequence_, 0.5);
@@ -60,7 +61,7 @@ TEST_F(FeasiblePathTest, AProvedCandidateBecomesTheIncumbentAtOnce) {
   EXPECT_EQ(path.parameters(), candidate);
 }
 
-TEST_F(FeasiblePathTest, ARefusedCandidateIsApproachedWhereItWasRefused) {
+TEST_F(IncumbentTest, ARefusedCandidateIsApproachedWhereItWasRefused) {
   const HalfStepSequence sequence = WalkDraw(80).Sequence(4);  // 7 junctions
   const HomotopyParameters planned = PlannedMotion(sequence);
   const HomotopyParameters candidate = Overlapped(sequence, 0.9);
@@ -69,7 +70,7 @@ TEST_F(FeasiblePathTest, ARefusedCandidateIsApproachedWhereItWasRefused) {
   Incumbent path(
       sequence,
       {.cost = [](const HomotopyParameters& p) { return DurationOf(p); }, .prove = Prove(test)},
-      planned, DurationOf(planned), evaluator_.MakeScratch());
+      planned, DurationOf(planned), &scratch_);
   EXPECT_EQ(path.Toward(candidate, 2), 0.0);  // a half is still too much
   EXPECT_EQ(path.refused(), 2);
   EXPECT_EQ(path.parameters(), planned);
@@ -82,21 +83,21 @@ TEST_F(FeasiblePathTest, ARefusedCandidateIsApproachedWhereItWasRefused) {
   EXPECT_EQ(path.cost(), DurationOf(path.parameters()));
 }
 
-TEST_F(FeasiblePathTest, WithoutLocalityAllIsHeldBackAlike) {
+TEST_F(IncumbentTest, WithoutLocalityAllIsHeldBackAlike) {
   const HomotopyParameters candidate = Overlapped(sequence_, 0.9);
   const FakeFeasibility test = UpTo(0.3 * candidate.overlaps[0]);
   Incumbent path(sequence_,
                  {.cost = [](const HomotopyParameters& p) { return DurationOf(p); },
                   .prove = Prove(test),
                   .local = false},
-                 planned_, DurationOf(planned_), evaluator_.MakeScratch());
+                 planned_, DurationOf(planned_), &scratch_);
   EXPECT_EQ(path.Toward(candidate, 5), 0.25);
   for (size_t i = 0; i < 3; ++i) {
     EXPECT_NEAR(path.parameters().overlaps[i], 0.25 * candidate.overlaps[i], 1e-12);
   }
 }
 
-TEST_F(FeasiblePathTest, TheIncumbentIsFeasibleAndNeverWorseWhateverIsProposed) {
+TEST_F(IncumbentTest, TheIncumbentIsFeasibleAndNeverWorseWhateverIsProposed) {
   WalkDraw draw(330);
   const auto rule = [](const HomotopyParameters& p) {
     // Neither convex nor monotone.
@@ -118,14 +119,14 @@ TEST_F(FeasiblePathTest, TheIncumbentIsFeasibleAndNeverWorseWhateverIsProposed) 
   EXPECT_GT(path.refused(), 0);
 }
 
-TEST_F(FeasiblePathTest, ACandidateOfInfiniteOrUndefinedCostIsLeftAlone) {
+TEST_F(IncumbentTest, ACandidateOfInfiniteOrUndefinedCostIsLeftAlone) {
   const FakeFeasibility test = UpTo(100);
   for (double cost :
        {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
     Incumbent path(
         sequence_,
         {.cost = [cost](const HomotopyParameters&) { return cost; }, .prove = Prove(test)},
-        planned_, 1.0, evaluator_.MakeScratch());
+        planned_, 1.0, &scratch_);
     EXPECT_EQ(path.Toward(Overlapped(sequence_, 0.5), 3), 0.0);
     EXPECT_EQ(path.parameters(), planned_);
   }

@@ -32,7 +32,8 @@ TEST(OverlapVariables, ThereAndBackIsTheSameAndAlwaysInBounds) {
     const HalfStepSequence sequence = draw.Sequence(3);
     for (bool heights : {false, true}) {
       for (bool durations : {false, true}) {
-        const OverlapVariables variables(sequence, heights, durations);
+        const OverlapVariables variables(
+            sequence, ParameterTable(sequence, {}, {.heights = heights, .durations = durations}));
         EXPECT_EQ(variables.size(), 5 + (heights ? 3 : 0) + (durations ? 6 : 0));
         Eigen::VectorXd x = Draw(variables, &draw);
         const HomotopyParameters parameters = variables.ToParameters(x);
@@ -58,7 +59,8 @@ TEST(OverlapVariables, IndexOfInvertsAt) {
   const HalfStepSequence sequence = WalkDraw(301).Sequence(3);
   for (bool heights : {false, true}) {
     for (bool durations : {false, true}) {
-      const OverlapVariables variables(sequence, heights, durations);
+      const OverlapVariables variables(
+          sequence, ParameterTable(sequence, {}, {.heights = heights, .durations = durations}));
       for (int v = 0; v < variables.size(); ++v) EXPECT_EQ(variables.IndexOf(variables.at(v)), v);
       EXPECT_EQ(variables.IndexOf({Family::kHeightScale, 1}) < 0, !heights);
       EXPECT_EQ(variables.IndexOf({Family::kDuration, 1}) < 0, !durations);
@@ -70,7 +72,8 @@ TEST(OverlapVariables, PullIsTheChainRule) {
   WalkDraw draw(302);
   for (int i = 0; i < Draws(50); ++i) {
     const HalfStepSequence sequence = draw.Sequence(2);
-    const OverlapVariables variables(sequence, true, true);
+    const OverlapVariables variables(
+        sequence, ParameterTable(sequence, {}, {.heights = true, .durations = true}));
     const Eigen::VectorXd x = Draw(variables, &draw);
     const std::vector<HomotopyParameter> all = AllParameters(sequence);
     const auto function = [&](const Eigen::VectorXd& y) {
@@ -101,7 +104,8 @@ TEST(OverlapVariables, TheBandHoldsEverythingThatAnInstantDependsOn) {
   size_t seen = 0;
   for (int i = 0; i < Draws(200); ++i) {
     const HalfStepSequence sequence = draw.Sequence(5);
-    const OverlapVariables variables(sequence, true, true);
+    const OverlapVariables variables(
+        sequence, ParameterTable(sequence, {}, {.heights = true, .durations = true}));
     const SuperposedWalk walk(sequence, draw.ExtremeParameters(sequence));
     const LocalTime at = walk.Locate(draw.Uniform(0, walk.duration()));
     const std::vector<int> band = variables.Band(at.half_step);

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "smoothing/walk/homotopy_parameters.h"
+#include "smoothing/walk/parameter_table.h"
 #include "smoothing/walk/superposed_walk.h"
 #include "tests/wpg/sequence_draw.h"
 
@@ -40,6 +40,14 @@ class WalkDraw : public SequenceDraw {
     return parameters;
   }
 };
+
+/// Every parameter of a sequence.
+inline std::vector<HomotopyParameter> AllParameters(const HalfStepSequence& sequence) {
+  std::vector<HomotopyParameter> all;
+  const ParameterTable table(sequence);
+  for (const ParameterRow& row : table.rows()) all.push_back(row.parameter);
+  return all;
+}
 
 /// Every overlap at a fraction of its natural bound, the rest as planned.
 inline HomotopyParameters Overlapped(const HalfStepSequence& sequence, double fraction) {
