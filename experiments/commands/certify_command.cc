@@ -1,6 +1,8 @@
 #include <iostream>
+#include <memory>
 #include <nlohmann/json.hpp>
 
+#include "experiments/commands/command_line.h"
 #include "experiments/commands/commands.h"
 #include "experiments/config/experiment.h"
 #include "experiments/config/folder_name.h"
@@ -10,6 +12,7 @@
 #include "experiments/tables/certificate_files.h"
 #include "experiments/tables/csv_reader.h"
 #include "experiments/tables/json_file.h"
+#include "experiments/tables/parameter_tables.h"
 #include "experiments/tables/result_tables.h"
 #include "experiments/tables/run_folder.h"
 #include "wpg/files/input_error.h"
@@ -34,25 +37,6 @@ std::vector<std::string> MethodsOf(const fs::path& run) {
   return methods;
 }
 
-// The homotopy's point that a method of a run ended at.
-HomotopyParameters ParametersOf(const fs::path& folder, const HalfStepSequence& sequence) {
-  HomotopyParameters parameters = PlannedMotion(sequence);
-  const fs::path path = folder / "overlaps.csv";
-  if (!fs::exists(path)) return parameters;  // the planned motion itself
-  parameters.overlaps = ReadCsv(path.string()).Numbers("overlap_s");
-  const CsvTable half_steps = ReadCsv((folder / "half_steps.csv").string());
-  parameters.durations = half_steps.Numbers("duration_s");
-  const std::vector<double> scales = half_steps.Numbers("height_scale");
-  parameters.height_scales.clear();
-  for (size_t i = 0; i < scales.size(); i += 2) parameters.height_scales.push_back(scales[i]);
-  try {
-    CheckParameters(sequence, parameters);
-  } catch (const std::logic_error& error) {
-    throw InputError({path.string() + ": does not fit the run's config: " + error.what()});
-  }
-  return parameters;
-}
-
 }  // namespace
 
 ExitStatus Certify(const CertifyCommand& command) {
@@ -72,7 +56,7 @@ ExitStatus Certify(const CertifyCommand& command) {
   for (const std::string& method : MethodsOf(run)) {
     const std::string place = MethodFolder(method) + "/";
     const CertifiedWalk walk =
-        CertifyWalk(test, experiment.sequence, ParametersOf(run / place, experiment.sequence),
+        CertifyWalk(test, experiment.sequence, ReadParameters(run / place, experiment.sequence),
                     interrupt.token());
     if (walk.answer.stopped) break;
     WriteCertificate(experiment, test, walk, ReadCsvText((run / place / "trajectory.csv").string()),
@@ -96,6 +80,18 @@ ExitStatus Certify(const CertifyCommand& command) {
   folder.Publish();
   if (!command.quiet) std::cout << '\n' << kCertificateStatement << '\n';
   return all_certified ? kSuccess : kFailed;
+}
+
+CommandAction DeclareCertify(CLI::App* app) {
+  const auto command = std::make_shared<CertifyCommand>();
+  const auto sets = std::make_shared<std::vector<std::string>>();
+  app->add_option("RUN", command->run, "run folder")->required();
+  DeclareOverrides(app, "the run's config", sets.get());
+  app->add_flag("--quiet", command->quiet, "print nothing but errors");
+  return [command, sets] {
+    command->overrides = ParseOverrides(*sets);
+    return Certify(*command);
+  };
 }
 
 }  // namespace halfstep

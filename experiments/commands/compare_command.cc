@@ -1,6 +1,8 @@
 #include <filesystem>
 #include <iostream>
+#include <memory>
 
+#include "experiments/commands/command_line.h"
 #include "experiments/commands/commands.h"
 #include "experiments/compare/comparison_tables.h"
 #include "experiments/report/report.h"
@@ -54,6 +56,15 @@ ExitStatus CompareRuns(const CompareCommand& command) {
     if (command.out) std::cout << "\nwritten: " << *command.out << '\n';
   }
   return kSuccess;
+}
+
+CommandAction DeclareCompare(CLI::App* app) {
+  const auto command = std::make_shared<CompareCommand>();
+  app->add_option("RUN", command->runs, "run folder, or LABEL=RUN")->required();
+  app->add_option("--out", command->out, "folder for the tables as CSV");
+  app->add_flag("--overwrite", command->overwrite, "replace an older comparison");
+  app->add_flag("--quiet", command->quiet, "print nothing but errors");
+  return [command] { return CompareRuns(*command); };
 }
 
 }  // namespace halfstep

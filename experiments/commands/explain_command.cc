@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cctype>
 #include <iostream>
+#include <memory>
 
+#include "experiments/commands/command_line.h"
 #include "experiments/commands/commands.h"
 #include "experiments/config/experiment_config.h"
 #include "experiments/config/key_tables.h"
@@ -59,6 +61,14 @@ ExitStatus ExplainConfig(const ExplainCommand& command) {
                 : command.markdown  ? KeyMarkdown(keys)
                                     : KeyScreen(keys));
   return kSuccess;
+}
+
+CommandAction DeclareExplain(CLI::App* app) {
+  const auto command = std::make_shared<ExplainCommand>();
+  app->add_option("KEY", command->key, "a key or its last part (default: all)");
+  app->add_flag("--json-schema", command->json_schema, "print a JSON schema, for editors");
+  app->add_flag("--markdown", command->markdown, "print a Markdown table");
+  return [command] { return ExplainConfig(*command); };
 }
 
 }  // namespace halfstep

@@ -1,9 +1,11 @@
 #include <cmath>
 #include <filesystem>
 #include <iostream>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "experiments/build_info.h"
+#include "experiments/commands/command_line.h"
 #include "experiments/commands/commands.h"
 #include "experiments/config/experiment.h"
 #include "experiments/config/folder_name.h"
@@ -108,6 +110,23 @@ ExitStatus Export(const ExportCommand& command) {
   folder.Publish();
   if (!command.quiet) std::cout << "written: " << folder.path().string() << '\n';
   return kSuccess;
+}
+
+CommandAction DeclareExport(CLI::App* app) {
+  const auto command = std::make_shared<ExportCommand>();
+  app->add_option("RUN", command->runs, "run folder; several for ompl")->required();
+  app->add_option("--format", command->format, "csv, hrpsys or ompl")
+      ->required()
+      ->check(CLI::IsMember({"csv", "hrpsys", "ompl"}));
+  app->add_option("--method", command->method, "only this one (default: all)");
+  app->add_option("--out", command->out, "folder (default: RUN-FORMAT)");
+  app->add_option("--period", command->period, "between rows [s] (default: the run's)");
+  app->add_option("--columns", command->columns, "csv: patterns of columns (default: all)");
+  app->add_option("--joints", command->joints,
+                  "hrpsys: patterns of joints in their order (default: the URDF's)");
+  app->add_flag("--overwrite", command->overwrite, "replace an older export");
+  app->add_flag("--quiet", command->quiet, "print nothing but errors");
+  return [command] { return Export(*command); };
 }
 
 }  // namespace halfstep

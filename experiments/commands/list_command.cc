@@ -4,10 +4,12 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "experiments/commands/command_line.h"
 #include "experiments/commands/commands.h"
 #include "experiments/config/experiment.h"
 #include "opt/adapters/solver_registry.h"
 #include "smoothing/methods/smoother_registry.h"
+#include "wpg/files/input_error.h"
 
 namespace halfstep {
 namespace {
@@ -75,6 +77,26 @@ ExitStatus List(const std::string& what, bool json) {
               << '\n';
   }
   return kSuccess;
+}
+
+CommandAction DeclareList(CLI::App* app) {
+  struct Options {
+    std::string what, config;
+    bool json = false;
+  };
+  const auto options = std::make_shared<Options>();
+  app->add_option("WHAT", options->what, "robots, scenes, solvers, methods, planners or half-steps")
+      ->required()
+      ->check(CLI::IsMember({"robots", "scenes", "solvers", "methods", "planners", "half-steps"}));
+  app->add_option("CONFIG", options->config, "whose half-steps (half-steps only)");
+  app->add_flag("--json", options->json, "print JSON");
+  return [options] {
+    if (options->what != "half-steps") return List(options->what, options->json);
+    if (options->config.empty()) {
+      throw InputError({"list half-steps: of which config? (valid: a YAML file)"});
+    }
+    return ListHalfSteps({.config = options->config, .overrides = {}, .json = options->json});
+  };
 }
 
 }  // namespace halfstep

@@ -1,9 +1,11 @@
 #include <cmath>
 #include <iomanip>
 #include <iostream>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "experiments/commands/command_line.h"
 #include "experiments/commands/commands.h"
 #include "experiments/config/experiment.h"
 #include "experiments/run/interrupt.h"
@@ -143,5 +145,25 @@ ExitStatus ListHalfSteps(const PlanCommand& command) {
   }
   return kSuccess;
 }
+
+namespace {
+
+CommandAction DeclarePlanning(CLI::App* app, ExitStatus (*run)(const PlanCommand&)) {
+  const auto command = std::make_shared<PlanCommand>();
+  const auto sets = std::make_shared<std::vector<std::string>>();
+  app->add_option("CONFIG", command->config, "experiment, a YAML file")->required();
+  DeclareOverrides(app, "the config", sets.get());
+  app->add_flag("--quiet", command->quiet, "print nothing but errors");
+  app->add_flag("--json", command->json, "print JSON");
+  return [command, sets, run] {
+    command->overrides = ParseOverrides(*sets);
+    return run(*command);
+  };
+}
+
+}  // namespace
+
+CommandAction DeclarePlan(CLI::App* app) { return DeclarePlanning(app, Plan); }
+CommandAction DeclareBake(CLI::App* app) { return DeclarePlanning(app, Bake); }
 
 }  // namespace halfstep

@@ -3,9 +3,11 @@
 #include <filesystem>
 #include <iostream>
 #include <limits>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "experiments/commands/command_line.h"
 #include "experiments/commands/commands.h"
 #include "experiments/config/experiment.h"
 #include "experiments/config/folder_name.h"
@@ -182,6 +184,20 @@ ExitStatus Replay(const ReplayCommand& command) {
     std::cout << '\n' << kDisclaimer << '\n';
   }
   return stayed_up ? kSuccess : kFailed;
+}
+
+CommandAction DeclareReplay(CLI::App* app) {
+  const auto command = std::make_shared<ReplayCommand>();
+  const auto engine = std::make_shared<std::string>("mujoco");
+  app->add_option("RUN", command->run, "run folder")->required();
+  app->add_option("--engine", *engine, "mujoco")->check(CLI::IsMember({"mujoco"}));
+  app->add_option("--method", command->method, "only this one (default: all)");
+  app->add_flag("--push", command->push, "find the largest push that each walk survives");
+  app->add_option("--push-at", command->push_at, "instants of the push [s]");
+  app->add_flag("--out", command->out, "write METHOD/replay.csv into the run folder");
+  app->add_flag("--quiet", command->quiet, "print nothing but errors");
+  app->add_flag("--json", command->json, "print JSON");
+  return [command, engine] { return Replay(*command); };
 }
 
 }  // namespace halfstep

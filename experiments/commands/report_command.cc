@@ -1,7 +1,9 @@
 #include <filesystem>
 #include <iostream>
+#include <memory>
 #include <stdexcept>
 
+#include "experiments/commands/command_line.h"
 #include "experiments/commands/commands.h"
 #include "experiments/report/report.h"
 #include "experiments/report/report_page.h"
@@ -42,6 +44,15 @@ ExitStatus Report(const ReportCommand& command) {
   }
   if (!command.quiet) std::cout << "written: " << out.string() << '\n';
   return kSuccess;
+}
+
+CommandAction DeclareReport(CLI::App* app) {
+  const auto command = std::make_shared<ReportCommand>();
+  app->add_option("RUN", command->run, "run folder")->required();
+  app->add_option("--out", command->out, "the file (default: report.html in the run folder)");
+  app->add_flag("--overwrite", command->overwrite, "replace --out");
+  app->add_flag("--quiet", command->quiet, "print nothing but errors");
+  return [command] { return Report(*command); };
 }
 
 }  // namespace halfstep

@@ -1,7 +1,9 @@
 #include <filesystem>
 #include <iostream>
+#include <memory>
 #include <optional>
 
+#include "experiments/commands/command_line.h"
 #include "experiments/commands/commands.h"
 #include "experiments/report/report.h"
 #include "experiments/run/complete_manifest.h"
@@ -98,6 +100,25 @@ ExitStatus Run(const RunCommand& command) {
   }
   if (interrupt.requested()) return kInterrupted;
   return TellWhatDidNotWork(run.runs()) ? kFailed : kSuccess;
+}
+
+CommandAction DeclareRun(CLI::App* app) {
+  const auto command = std::make_shared<RunCommand>();
+  const auto sets = std::make_shared<std::vector<std::string>>();
+  app->add_option("CONFIG", command->config, "experiment, a YAML file")->required();
+  DeclareOverrides(app, "the config", sets.get());
+  app->add_option("--out", command->out, "run folder (default: output.directory, or runs/NAME)");
+  DeclareRunFlags(app, command.get());
+  return [command, sets] {
+    command->overrides = ParseOverrides(*sets);
+    return Run(*command);
+  };
+}
+
+void DeclareRunFlags(CLI::App* app, RunCommand* command) {
+  app->add_flag("--overwrite", command->overwrite, "replace an older run");
+  app->add_flag("--quiet", command->quiet, "print nothing but errors");
+  app->add_flag("--json", command->json, "print the summary as JSON");
 }
 
 }  // namespace halfstep

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <filesystem>
+#include <memory>
 
+#include "experiments/commands/command_line.h"
 #include "experiments/commands/commands.h"
 #include "experiments/config/experiment_config.h"
 #include "smoothing/methods/smoother_registry.h"
@@ -50,6 +52,23 @@ ExitStatus Smooth(const SmoothCommand& command) {
                       "`footsteps`, or the folder of a run; `halfstep run` plans first)"});
   }
   return Run(run);
+}
+
+CommandAction DeclareSmooth(CLI::App* app) {
+  const auto command = std::make_shared<SmoothCommand>();
+  const auto sets = std::make_shared<std::vector<std::string>>();
+  app->add_option("CONFIG", command->run.config, "config with footsteps, or a run folder")
+      ->required();
+  app->add_option("--method", command->methods, "in place of smoothing.methods; repeatable")
+      ->allow_extra_args(false);
+  DeclareOverrides(app, "the config", sets.get());
+  app->add_option("--out", command->run.out,
+                  "run folder (default: as `run`; RUN-smooth of a run folder)");
+  DeclareRunFlags(app, &command->run);
+  return [command, sets] {
+    command->run.overrides = ParseOverrides(*sets);
+    return Smooth(*command);
+  };
 }
 
 }  // namespace halfstep

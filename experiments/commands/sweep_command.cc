@@ -1,4 +1,5 @@
 #include <signal.h>
+#include <memory>
 
 #include <algorithm>
 #include <cstring>
@@ -6,6 +7,7 @@
 #include <map>
 #include <thread>
 
+#include "experiments/commands/command_line.h"
 #include "experiments/commands/commands.h"
 #include "experiments/run/interrupt.h"
 #include "experiments/run/progress_bar.h"
@@ -137,6 +139,30 @@ int Sweep(const SweepCommand& command) {
   std::cerr << "halfstep: " << missing.size() << " of " << cases.size()
             << " cases are not done, the first is " << missing.front().id << '\n';
   return kFailed;
+}
+
+CommandAction DeclareSweep(CLI::App* app) {
+  const auto command = std::make_shared<SweepCommand>();
+  const auto sets = std::make_shared<std::vector<std::string>>();
+  command->jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  app->add_option("SWEEP", command->sweep, "sweep, a YAML file")->required();
+  DeclareOverrides(app, "the sweep file", sets.get());
+  app->add_option("--out", command->out, "folder (default: sweeps/NAME)");
+  app->add_option("--jobs", command->jobs, "cases at a time (default: as many as cores)")
+      ->check(CLI::Range(1, 1024));
+  CLI::Option* list_cases =
+      app->add_flag("--list-cases", command->list_cases, "print the cases and their keys");
+  CLI::Option* one_case =
+      app->add_option("--case", command->one_case, "do this one only, for schedulers")
+          ->excludes(list_cases);
+  app->add_flag("--collect", command->collect, "write runs.csv from cases that are done")
+      ->excludes(list_cases)
+      ->excludes(one_case);
+  app->add_flag("--quiet", command->quiet, "print nothing but errors");
+  return [command, sets] {
+    command->overrides = ParseOverrides(*sets);
+    return Sweep(*command);
+  };
 }
 
 }  // namespace halfstep

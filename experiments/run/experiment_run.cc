@@ -2,6 +2,7 @@
 
 #include "experiments/config/folder_name.h"
 #include "experiments/run/manifest.h"
+#include "experiments/tables/parameter_tables.h"
 #include "smoothing/methods/overlap_prices.h"
 #include "smoothing/methods/smoother_registry.h"
 #include "smoothing/proof/sampled_feasibility.h"
@@ -99,7 +100,8 @@ void ExperimentRun::Certify(const std::stop_token& stop) {
 void ExperimentRun::WriteMethod(const MethodRun& run, RunFolder* folder) const {
   const std::string place = MethodFolder(run.method) + "/";
   WriteCsv(place + "trajectory", run.trajectory, folder);
-  WriteCsv(place + "half_steps", HalfStepsCsv(experiment_->sequence, run), folder);
+  WriteCsv(place + "half_steps", HalfStepsCsv(experiment_->sequence, run.result.parameters),
+           folder);
   WriteCertificate(*experiment_, *certifier_, run.certified, run.trajectory.text, place, folder);
   if (run.result.junctions.empty()) return;
   WriteCsv(place + "overlaps", OverlapsCsv(evaluator(), run), folder);

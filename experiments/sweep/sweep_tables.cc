@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "experiments/tables/csv_subset.h"
+#include "experiments/tables/csv_writer.h"
 #include "wpg/files/number_text.h"
 
 namespace halfstep {
@@ -44,18 +44,21 @@ CsvColumns TimingsColumns() {
 }
 
 // What a case without a walk says in a column; only numbers may be left out.
-std::string NothingIn(const CsvColumn& column) {
+void AddNothing(const CsvColumn& column, CsvWriter* csv) {
   switch (column.type) {
     case kString:
-      return "none";
+      csv->Cell("none");
+      break;
     case kBoolean:
-      return "false";
+      csv->Cell(false);
+      break;
     case kInteger:
-      return "0";
+      csv->Cell(0);
+      break;
     case kNumber:
+      csv->Empty();
       break;
   }
-  return "";
 }
 
 void BeginRow(const SweepConfig& sweep, const SweepCase& one, CsvWriter* csv) {
@@ -79,17 +82,14 @@ CsvFile EmptyTimings() { return CsvWriter(TimingsColumns()).file(); }
 
 SweepTables TablesOf(const SweepConfig& sweep, const SweepCase& one, const ExperimentRun& run,
                      double wall) {
-  const CsvFile file = SummaryCsv(run.evaluator(), run.runs());
-  const CsvTable summary = ParseCsv(file.text, "summary.csv");
   CsvWriter runs(RunsColumns(sweep)), timings(TimingsColumns());
-  for (size_t row = 0; row < summary.rows.size(); ++row) {
+  for (size_t row = 0; row < run.runs().size(); ++row) {
     const MethodRun& method = run.runs()[row];
     BeginRow(sweep, one, &runs);
     timings.Cell(one.id).Cell(method.method);
-    for (size_t column = 0; column < file.columns.size(); ++column) {
-      CsvWriter& csv = HoldsTime(file.columns[column].name) ? timings : runs;
-      CopyCell(summary.rows[row][column], file.columns[column], summary.path, &csv);
-    }
+    AddSummaryRow(run.evaluator(), run.runs(), row, [&](const CsvColumn& column) -> CsvWriter& {
+      return HoldsTime(column.name) ? timings : runs;
+    });
     runs.Cell(method.result.message.empty() ? "none" : method.result.message).EndRow();
     timings.Cell(wall).EndRow();
   }
@@ -103,7 +103,11 @@ SweepTables TablesOfFailure(const SweepConfig& sweep, const SweepCase& one,
   timings.Cell(one.id).Cell("none");
   for (const CsvColumn& column : SummaryColumns()) {
     CsvWriter& csv = HoldsTime(column.name) ? timings : runs;
-    CopyCell(column.name == "status" ? status : NothingIn(column), column, "summary.csv", &csv);
+    if (column.name == "status") {
+      csv.Cell(status);
+    } else {
+      AddNothing(column, &csv);
+    }
   }
   runs.Cell(message).EndRow();
   timings.Cell(wall).EndRow();

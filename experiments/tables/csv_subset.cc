@@ -34,8 +34,8 @@ std::vector<size_t> Wanted(const CsvColumns& columns, const std::vector<std::str
   return indices;
 }
 
-}  // namespace
-
+// Writes a cell as a CSV has it into a column of that declaration. Throws InputError, at `place`,
+// for what is no number.
 void CopyCell(const std::string& cell, const CsvColumn& column, const std::string& place,
               CsvWriter* csv) {
   if (column.type == CsvType::kString) {
@@ -54,6 +54,8 @@ void CopyCell(const std::string& cell, const CsvColumn& column, const std::strin
     column.type == CsvType::kNumber ? csv->Cell(value) : csv->Cell(static_cast<long>(value));
   }
 }
+
+}  // namespace
 
 CsvFile CsvSubset(const CsvTable& table, const CsvColumns& columns,
                   const std::vector<std::string>& patterns, size_t stride) {

@@ -16,9 +16,4 @@ namespace halfstep {
 CsvFile CsvSubset(const CsvTable& table, const CsvColumns& columns,
                   const std::vector<std::string>& patterns, size_t stride);
 
-/// Writes a cell as a CSV has it into a column of that declaration. Throws InputError, at `place`,
-/// for what is no number.
-void CopyCell(const std::string& cell, const CsvColumn& column, const std::string& place,
-              CsvWriter* csv);
-
 }  // namespace halfstep

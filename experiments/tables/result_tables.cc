@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "experiments/tables/csv_writer.h"
+#include "experiments/tables/parameter_tables.h"
 #include "smoothing/proof/sampled_feasibility.h"
 
 namespace halfstep {
@@ -43,32 +43,11 @@ CsvFile FootstepsCsv(const HalfStepSequence& sequence) {
   return csv.file();
 }
 
-CsvFile HalfStepsCsv(const HalfStepSequence& sequence, const MethodRun& run) {
-  CsvWriter csv({
-      {"half_step", kInteger, "", "from 1"},
-      {"kind", kString, "", "up or down"},
-      {"support", kString, "", "foot that carries: left or right"},
-      {"start_s", kNumber, "s", "when it begins"},
-      {"duration_s", kNumber, "s", "T"},
-      {"height_scale", kNumber, "1", "scale of the foot's height in its step"},
-  });
-  const HomotopyParameters& parameters = run.result.parameters;
-  double start = 0.0;
-  for (size_t i = 0; i < sequence.half_steps.size(); ++i) {
-    const HalfStep& half_step = sequence.half_steps[i].half_step;
-    csv.Cell(static_cast<long>(i) + 1).Cell(half_step.kind == HalfStepKind::kUp ? "up" : "down");
-    csv.Cell(Name(half_step.support)).Cell(start).Cell(parameters.durations[i]);
-    csv.Cell(parameters.height_scales[i / 2]).EndRow();
-    if (i < parameters.overlaps.size()) start += parameters.durations[i] - parameters.overlaps[i];
-  }
-  return csv.file();
-}
-
 CsvFile OverlapsCsv(const MarginEvaluator& evaluator, const MethodRun& run) {
   CsvWriter csv({
       {"junction", kInteger, "", "from 1: between half-steps `junction` and `junction` + 1"},
       {"kind", kString, "", "up_down or down_up"},
-      {"overlap_s", kNumber, "s", "how long both half-steps are under way"},
+      ColumnOf(ParameterFamily::kOverlap),
       {"upper_bound_s", kNumber, "s", "largest overlap that was allowed"},
       {"active", kString, "", "what holds the overlap"},
       {"limit_family", kString, "", "family of the margin that holds it, or none"},
@@ -179,24 +158,41 @@ CsvColumns SummaryColumns() {
   };
 }
 
+void AddSummaryRow(const MarginEvaluator& evaluator, const std::vector<MethodRun>& runs,
+                   size_t index, const SummaryCell& cell) {
+  const MethodRun& run = runs[index];
+  const SmoothingResult& result = run.result;
+  const Margin& worst = WorstOf(run.margins, evaluator.limits());
+  const CsvColumns columns = SummaryColumns();
+  size_t column = 0;
+  const auto next = [&]() -> CsvWriter& { return cell(columns[column++]); };
+  const auto optional = [&](const std::optional<double>& value) {
+    value ? next().Cell(*value) : next().Empty();
+  };
+  std::optional<double> gap;
+  for (const MethodRun& other : runs) {
+    if (other.method == "reference") gap = run.duration / other.duration - 1.0;
+  }
+  next().Cell(run.method);
+  next().Cell(Name(result.ending));
+  next().Cell(run.certified.answer.verdict == Verdict::kFeasible);
+  next().Cell(run.duration);
+  next().Cell(runs.front().duration / run.duration);
+  next().Cell(result.cost);
+  next().Cell(worst.value);
+  next().Cell(Name(worst.family));
+  next().Cell(static_cast<long>(result.iterates.size()));
+  next().Cell(result.instants);
+  next().Cell(result.collision_queries);
+  next().Cell(result.wall);
+  optional(result.time_to_first_improvement);
+  optional(gap);
+}
+
 CsvFile SummaryCsv(const MarginEvaluator& evaluator, const std::vector<MethodRun>& runs) {
   CsvWriter csv(SummaryColumns());
-  std::optional<double> reference;
-  for (const MethodRun& run : runs) {
-    if (run.method == "reference") reference = run.duration;
-  }
-  for (const MethodRun& run : runs) {
-    const SmoothingResult& result = run.result;
-    const Margin& worst = WorstOf(run.margins, evaluator.limits());
-    csv.Cell(run.method)
-        .Cell(Name(result.ending))
-        .Cell(run.certified.answer.verdict == Verdict::kFeasible);
-    csv.Cell(run.duration).Cell(runs.front().duration / run.duration).Cell(result.cost);
-    csv.Cell(worst.value).Cell(Name(worst.family));
-    csv.Cell(static_cast<long>(result.iterates.size())).Cell(result.instants);
-    csv.Cell(result.collision_queries).Cell(result.wall);
-    result.time_to_first_improvement ? csv.Cell(*result.time_to_first_improvement) : csv.Empty();
-    reference ? csv.Cell(run.duration / *reference - 1.0) : csv.Empty();
+  for (size_t i = 0; i < runs.size(); ++i) {
+    AddSummaryRow(evaluator, runs, i, [&csv](const CsvColumn&) -> CsvWriter& { return csv; });
     csv.EndRow();
   }
   return csv.file();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -8,6 +9,7 @@
 #include "experiments/config/experiment.h"
 #include "experiments/tables/certificate_files.h"
 #include "experiments/tables/csv_columns.h"
+#include "experiments/tables/csv_writer.h"
 #include "smoothing/margins/margin_evaluator.h"
 #include "smoothing/methods/smoothing_result.h"
 #include "smoothing/walk/superposed_walk.h"
@@ -29,8 +31,6 @@ struct MethodRun {
 
 /// Each table of a run folder; columns: experiments/README.md.
 CsvFile FootstepsCsv(const HalfStepSequence& sequence);
-/// One row a half-step: where the homotopy ended in its duration and height.
-CsvFile HalfStepsCsv(const HalfStepSequence& sequence, const MethodRun& run);
 CsvFile OverlapsCsv(const MarginEvaluator& evaluator, const MethodRun& run);
 /// One row a point of a Pareto curve: duration, proved least slack, and each family's least margin
 /// sampled every 5 ms (inf: it is nowhere watched).
@@ -38,6 +38,11 @@ CsvFile ParetoCsv(const MarginEvaluator& evaluator, const HalfStepSequence& sequ
                   const MethodRun& run);
 CsvFile IteratesCsv(const MethodRun& run);
 CsvColumns SummaryColumns();
+/// Where a cell of a summary's row goes.
+using SummaryCell = std::function<CsvWriter&(const CsvColumn&)>;
+/// Adds the cells of one method's row, in the order of SummaryColumns().
+void AddSummaryRow(const MarginEvaluator& evaluator, const std::vector<MethodRun>& runs,
+                   size_t index, const SummaryCell& cell);
 /// One row a method; speed-up against the first run, which is the planned motion.
 CsvFile SummaryCsv(const MarginEvaluator& evaluator, const std::vector<MethodRun>& runs);
 

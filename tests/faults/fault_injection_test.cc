@@ -59,7 +59,7 @@ void WritePlanConfig(const fs::path& place) {
   WriteText(place / "plan.yaml",
             "robot: hrp2\nscene: none\n"
             "goal: {x_m: 0.6, y_m: 0.1, radius_m: 0.05}\n"
-            "half_steps: {x_min_m: 0, x_max_m: 0.2, y_min_m: -0.21, y_max_m: -0.21,\n"
+            "step_set: {x_min_m: 0, x_max_m: 0.2, y_min_m: -0.21, y_max_m: -0.21,\n"
             "             spacing_m: 0.2, yaws_rad: [0]}\n"
             "swept_volumes: {cell_m: 0.05, displacement_m: 0.05, cache: cache}\n"
             "planner: {unimproved_nodes: 0, max_nodes: 2000}\n");

@@ -151,7 +151,7 @@ void EveryKey(List* list) {
   std::string line;
   std::vector<std::string> groups;
   // What the smoothing was told, which no statement is about.
-  const std::set<std::string> free_groups = {"planner", "half_steps", "swept_volumes", "output",
+  const std::set<std::string> free_groups = {"planner", "step_set", "swept_volumes", "output",
                                              "goal"};
   const std::set<std::string> claimed = {"margins", "limits"};
   for (size_t number = 0; std::getline(lines, line); ++number) {

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "wpg/files/yaml_fields.h"
+
+namespace halfstep {
+
+/// What a command does once its options are read. Gives the exit status; throws as the commands of
+/// commands.h.
+using CommandAction = std::function<int()>;
+
+/// A command of `halfstep`: its name, its help, and the function that declares its options.
+struct CommandEntry {
+  const char* name;
+  const char* help;
+  CommandAction (*declare)(CLI::App* app);
+};
+
+/// Every command. To add one, write its file with a Declare function and add a row in the source.
+const std::vector<CommandEntry>& CommandEntries();
+
+/// Declares `--set KEY=VALUE`, repeatable, for the keys of `what`.
+void DeclareOverrides(CLI::App* app, const std::string& what, std::vector<std::string>* sets);
+/// The assignments. Throws InputError for what is none.
+std::vector<YamlOverride> ParseOverrides(const std::vector<std::string>& sets);
+
+struct RunCommand;
+/// --overwrite, --quiet and --json of commands that write a run.
+void DeclareRunFlags(CLI::App* app, RunCommand* command);
+
+CommandAction DeclareRun(CLI::App* app);
+CommandAction DeclareSmooth(CLI::App* app);
+CommandAction DeclareCompare(CLI::App* app);
+CommandAction DeclarePlan(CLI::App* app);
+CommandAction DeclareBake(CLI::App* app);
+CommandAction DeclareDraw(CLI::App* app);
+CommandAction DeclareCertify(CLI::App* app);
+CommandAction DeclareVerify(CLI::App* app);
+CommandAction DeclareSweep(CLI::App* app);
+CommandAction DeclareExplain(CLI::App* app);
+CommandAction DeclareReport(CLI::App* app);
+CommandAction DeclareExport(CLI::App* app);
+CommandAction DeclareReplay(CLI::App* app);
+CommandAction DeclareList(CLI::App* app);
+
+}  // namespace halfstep

@@ -1,0 +1,51 @@
+#include <iostream>
+#include <memory>
+
+#include "experiments/commands/command_line.h"
+#include "experiments/run/exit_status.h"
+#include "experiments/verify/verify_run.h"
+
+namespace halfstep {
+namespace {
+
+// Nothing of the smoothing takes part.
+ExitStatus Verify(const verify::VerifyOptions& options, bool quiet) {
+  ExitStatus status = kSuccess;
+  for (const verify::MethodVerification& result : verify::VerifyRun(options)) {
+    if (!quiet) std::cout << verify::Describe(result);
+    for (const std::string& complaint : result.complaints) std::cerr << complaint << '\n';
+    if (quiet && result.disagreements > 0) {
+      std::cerr << result.method << ": NOT verified: " << result.reasons.front() << '\n';
+    }
+    if (quiet && result.disagreements == 0 && !result.too_coarse.empty()) {
+      std::cerr << result.method << ": too coarse to verify: " << result.too_coarse << '\n';
+    }
+    // Of several methods the worst counts.
+    const ExitStatus of_method = !result.readable           ? kBadInput
+                                 : result.disagreements > 0 ? kNotVerified
+                                 : result.verified          ? kSuccess
+                                                            : kTooCoarse;
+    if (of_method == kBadInput || status == kSuccess ||
+        (status == kTooCoarse && of_method == kNotVerified)) {
+      status = of_method;
+    }
+  }
+  return status;
+}
+
+}  // namespace
+
+CommandAction DeclareVerify(CLI::App* app) {
+  const auto options = std::make_shared<verify::VerifyOptions>();
+  const auto quiet = std::make_shared<bool>(false);
+  app->add_option("RUN", options->run, "run folder")->required();
+  app->add_option("--method", options->method, "only this one (default: all)");
+  app->add_option("--tolerance", options->tolerance,
+                  "between the certified walk and its trajectory, 0.001 by default [m]");
+  app->add_option("--robot", options->robot, "robot file in place of the certificate's");
+  app->add_option("--scene", options->scene, "scene file in place of it, or none");
+  app->add_flag("--quiet", *quiet, "print nothing but what is wrong");
+  return [options, quiet] { return Verify(*options, *quiet); };
+}
+
+}  // namespace halfstep

@@ -1,0 +1,79 @@
+#include "experiments/tables/parameter_tables.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+#include "experiments/tables/csv_reader.h"
+#include "wpg/files/input_error.h"
+
+namespace halfstep {
+
+using enum CsvType;
+
+std::vector<ParameterFamily> FamiliesOf(std::string_view table) {
+  std::vector<ParameterFamily> families;
+  for (const ParameterFamily family : AllParameterFamilies()) {
+    if (Traits(family).table == table) families.push_back(family);
+  }
+  std::ranges::stable_sort(families, {}, [](ParameterFamily f) { return Traits(f).rank; });
+  return families;
+}
+
+CsvColumn ColumnOf(ParameterFamily family) {
+  const ParameterFamilyTraits& traits = Traits(family);
+  return {std::string(traits.column), kNumber, traits.unit.empty() ? "1" : std::string(traits.unit),
+          std::string(traits.meaning)};
+}
+
+CsvFile HalfStepsCsv(const HalfStepSequence& sequence, const HomotopyParameters& parameters) {
+  CsvColumns columns = {
+      {"half_step", kInteger, "", "from 1"},
+      {"kind", kString, "", "up or down"},
+      {"support", kString, "", "foot that carries: left or right"},
+      {"start_s", kNumber, "s", "when it begins"},
+  };
+  const std::vector<ParameterFamily> families = FamiliesOf("half_steps");
+  for (const ParameterFamily family : families) columns.push_back(ColumnOf(family));
+  CsvWriter csv(columns);
+  double start = 0.0;
+  for (size_t i = 0; i < sequence.half_steps.size(); ++i) {
+    const HalfStep& half_step = sequence.half_steps[i].half_step;
+    csv.Cell(static_cast<long>(i) + 1).Cell(half_step.kind == HalfStepKind::kUp ? "up" : "down");
+    csv.Cell(Name(half_step.support)).Cell(start);
+    for (const ParameterFamily family : families) {
+      const int index = Traits(family).index_at(static_cast<int>(i));
+      csv.Cell(HomotopyParameter{family, index}.in(parameters));
+    }
+    csv.EndRow();
+    if (i < parameters.overlaps.size()) start += parameters.durations[i] - parameters.overlaps[i];
+  }
+  return csv.file();
+}
+
+HomotopyParameters ReadParameters(const std::filesystem::path& folder,
+                                  const HalfStepSequence& sequence) {
+  HomotopyParameters parameters = PlannedMotion(sequence);
+  for (const ParameterFamily family : AllParameterFamilies()) {
+    const ParameterFamilyTraits& traits = Traits(family);
+    const std::filesystem::path path = folder / (std::string(traits.table) + ".csv");
+    if (!std::filesystem::exists(path)) continue;
+    const std::vector<double> column = ReadCsv(path.string()).Numbers(std::string(traits.column));
+    std::vector<double>& values = parameters.of(family);
+    values.clear();
+    for (size_t row = 0; row < column.size(); ++row) {
+      const size_t index = static_cast<size_t>(traits.index_at(static_cast<int>(row)));
+      if (index == values.size()) values.push_back(column[row]);
+    }
+  }
+  try {
+    CheckParameters(sequence, parameters);
+  } catch (const std::logic_error& error) {
+    throw InputError(
+        {folder.string() +
+         ": overlaps.csv and half_steps.csv do not fit the run's config: " + error.what()});
+  }
+  return parameters;
+}
+
+}  // namespace halfstep

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "experiments/tables/csv_columns.h"
+#include "experiments/tables/csv_writer.h"
+#include "smoothing/walk/homotopy_parameters.h"
+
+namespace halfstep {
+
+/// The families of parameters whose values stand in a table of a method's folder, "half_steps" or
+/// "overlaps", in the order of their columns.
+std::vector<ParameterFamily> FamiliesOf(std::string_view table);
+
+/// The column of a family.
+CsvColumn ColumnOf(ParameterFamily family);
+
+/// half_steps.csv: one row a half-step, with where the homotopy ended.
+CsvFile HalfStepsCsv(const HalfStepSequence& sequence, const HomotopyParameters& parameters);
+
+/// The point of the homotopy that the tables of a method's folder tell; a table that is not there,
+/// as overlaps.csv of the planned motion, leaves its families as planned. Throws InputError for
+/// what does not fit the sequence.
+HomotopyParameters ReadParameters(const std::filesystem::path& folder,
+                                  const HalfStepSequence& sequence);
+
+}  // namespace halfstep

@@ -1,0 +1,112 @@
+#include "smoothing/walk/parameter_table.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+#include "smoothing/methods/coordinate_ascent.h"
+#include "smoothing/methods/dichotomy.h"
+#include "smoothing/methods/reference_search.h"
+#include "smoothing/methods/uniform_scan.h"
+#include "smoothing/program/overlap_variables.h"
+#include "tests/smoothing/fake_feasibility.h"
+#include "tests/smoothing/smoothed.h"
+#include "tests/smoothing/test_walks.h"
+
+namespace halfstep {
+namespace {
+
+using Family = ParameterFamily;
+using testing::HasSubstr;
+
+class ParameterTableTest : public testing::Test {
+ protected:
+  const HalfStepSequence sequence_ = WalkDraw(80).Sequence(3);  // 5 junctions
+  const HomotopyParameters planned_ = PlannedMotion(sequence_);
+};
+
+TEST_F(ParameterTableTest, HoldsEveryParameterOnceAndStartsAsPlanned) {
+  const ParameterTable table(sequence_);
+  ASSERT_EQ(table.rows().size(), 5u + 3u + 6u);
+  EXPECT_EQ(table.Start(), planned_);
+  for (size_t row = 0; row < table.rows().size(); ++row) {
+    const HomotopyParameter& parameter = table.rows()[row].parameter;
+    EXPECT_EQ(table.IndexOf(parameter), static_cast<int>(row));
+    EXPECT_EQ(table.rows()[row].start, parameter.in(planned_));
+    EXPECT_EQ(table.free(parameter), parameter.family == Family::kOverlap);
+    EXPECT_LE(table.rows()[row].lower, table.rows()[row].start);
+    EXPECT_GE(table.rows()[row].upper, table.rows()[row].start);
+  }
+}
+
+TEST_F(ParameterTableTest, WhatACallerFixesKeepsItsValueAndIsNoVariable) {
+  const double overlap = 0.5 * NaturalOverlapBound(sequence_, planned_.durations, 1);
+  const ParameterTable table(sequence_,
+                             {{{Family::kOverlap, 1}, overlap},
+                              {{Family::kDuration, 4}},
+                              {{Family::kHeightScale, 2}, 0.4}},
+                             {.heights = true, .durations = true});
+  const OverlapVariables variables(sequence_, table);
+  EXPECT_EQ(variables.size(), 5 + 3 + 6 - 3);
+  EXPECT_EQ(variables.IndexOf({Family::kOverlap, 1}), -1);
+  WalkDraw draw(81);
+  for (int i = 0; i < 100; ++i) {
+    Eigen::VectorXd x = variables.lower();
+    for (int v = 0; v < variables.size(); ++v) {
+      x[v] = draw.Uniform(variables.lower()[v], variables.upper()[v]);
+    }
+    const HomotopyParameters parameters = variables.ToParameters(x);
+    EXPECT_EQ(parameters.overlaps[1], overlap);
+    EXPECT_EQ(parameters.durations[4], planned_.durations[4]);
+    EXPECT_EQ(parameters.height_scales[2], 0.4);
+    EXPECT_NO_THROW(CheckParameters(sequence_, parameters));  // also the fixed overlap still fits
+  }
+}
+
+TEST_F(ParameterTableTest, RefusesWhatCannotBeFixed) {
+  const auto complaint = [&](const std::vector<FixedParameter>& fixed) {
+    return ComplaintAbout(sequence_, fixed);
+  };
+  EXPECT_EQ(complaint({{{Family::kOverlap, 4}}}), "");
+  EXPECT_EQ(complaint({{{Family::kOverlap, 5}}}), "overlap 6: there are 5 (valid: 1 … 5)");
+  EXPECT_THAT(complaint({{{Family::kOverlap, -1}}}), HasSubstr("there are 5"));
+  EXPECT_THAT(complaint({{{Family::kDuration, 1}}, {{Family::kDuration, 1}, 1.0}}),
+              HasSubstr("duration 2: is fixed twice"));
+  EXPECT_THAT(complaint({{{Family::kDuration, 1}, 0.0}}), HasSubstr("too small (valid: above 0)"));
+  EXPECT_THAT(complaint({{{Family::kOverlap, 0}, 100.0}}), HasSubstr("above its natural bound"));
+  EXPECT_THAT(complaint({{{Family::kHeightScale, 0}, -0.1}}), HasSubstr("valid: from 0"));
+  EXPECT_THROW(ParameterTable(sequence_, {{{Family::kOverlap, 5}}}), std::logic_error);
+}
+
+// Every method that has no solver; those with one move OverlapVariables, as above.
+TEST_F(ParameterTableTest, NoMethodMovesWhatIsFixed) {
+  const MarginEvaluator evaluator(Hrp2(), {}, {});
+  const FakeFeasibility test(evaluator, [](const HomotopyParameters& p) {
+    return *std::max_element(p.overlaps.begin(), p.overlaps.end()) <= 0.25 ? Verdict::kFeasible
+                                                                           : Verdict::kViolated;
+  });
+  const WalkProblem problem = ProblemOf(
+      sequence_, test,
+      {{{Family::kOverlap, 2}, 0.1}, {{Family::kDuration, 0}}, {{Family::kHeightScale, 1}, 0.5}});
+  const ParameterChoice all{.heights = true, .durations = true};
+  ReferenceOptions reference{.parameters = all};
+  reference.period = 0.1;
+  reference.max_rounds = 2;
+  for (const SmoothingResult& result :
+       {Smoothed(Dichotomy, problem, {}), Smoothed(CoordinateAscent, problem, {.parameters = all}),
+        Smoothed(UniformScan, problem, {.coarse = 0.1, .fine = 0.05}),
+        Smoothed(ReferenceSearch, problem, reference)}) {
+    EXPECT_TRUE(result.feasible) << result.message;
+    EXPECT_LT(result.cost, DurationOf(problem.Start()));
+    EXPECT_EQ(result.parameters.overlaps[2], 0.1);
+    EXPECT_EQ(result.parameters.durations[0], planned_.durations[0]);
+    EXPECT_EQ(result.parameters.height_scales[1], 0.5);
+    EXPECT_TRUE(result.junctions[2].fixed);
+    EXPECT_FALSE(result.junctions[1].fixed);
+  }
+}
+
+}  // namespace
+}  // namespace halfstep
