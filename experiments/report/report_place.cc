@@ -66,6 +66,9 @@ json RobotJson(const RobotModel& robot) {
           {"bodies", std::move(bodies)}};
 }
 
+TriangleMesh Surface(const ConvexBody& body) { return DrawnMesh(body); }
+TriangleMesh Surface(const TriangleMesh& mesh) { return mesh; }
+
 json SceneJson(const Scene& scene) {
   json obstacles = json::array(), areas = json::array();
   const auto meshes = std::count_if(
@@ -74,9 +77,11 @@ json SceneJson(const Scene& scene) {
   const int most = kMostTriangles / std::max(1, static_cast<int>(meshes));
   for (const Obstacle& obstacle : scene.obstacles) {
     const auto* mesh = std::get_if<TriangleMesh>(&obstacle.shape);
-    json drawn = MeshJson(
-        mesh != nullptr ? Coarsened(*mesh, most) : DrawnMesh(std::get<ConvexBody>(obstacle.shape)),
-        obstacle.X_WO);
+    const TriangleMesh surface =
+        mesh != nullptr
+            ? Coarsened(*mesh, most)
+            : std::visit([](const auto& s) { return Surface(BodyOf(s)); }, obstacle.shape);
+    json drawn = MeshJson(surface, obstacle.PoseAt(0.0));
     drawn["name"] = obstacle.name;
     obstacles.push_back(std::move(drawn));
   }

@@ -7,7 +7,8 @@ namespace halfstep::verify {
 Distances::Distances(const RobotModel& robot, const Scene& scene) : robot_(robot), scene_(scene) {
   for (const RobotBody& body : robot.bodies) bodies_.emplace_back(body.shape);
   for (const Obstacle& obstacle : scene.obstacles) {
-    std::visit([this](const auto& shape) { obstacles_.emplace_back(shape); }, obstacle.shape);
+    std::visit([this](const auto& shape) { obstacles_.emplace_back(BodyOf(shape)); },
+               obstacle.shape);
   }
 }
 

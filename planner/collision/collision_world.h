@@ -8,8 +8,9 @@
 
 namespace halfstep {
 
-/// The obstacles of a scene, prepared for queries of posed convex bodies. Const queries; scratch is
-/// the caller's, so one world serves many threads. A pose that is not finite is a std::logic_error.
+/// The obstacles of a scene, prepared for queries of convex bodies posed at a time t of the walk
+/// [s]. Const queries; scratch is the caller's, so one world serves many threads. A pose or a time
+/// that is not finite is a std::logic_error.
 class CollisionWorld {
  public:
   /// Separating directions of earlier queries, one per obstacle: neighbouring instants are decided
@@ -26,26 +27,32 @@ class CollisionWorld {
   explicit CollisionWorld(const Scene& scene);
 
   int num_obstacles() const { return static_cast<int>(entries_.size()); }
+  /// No point of an obstacle moves faster [m/s]: Scene::speed.
+  double speed() const { return speed_; }
 
-  /// Nearest obstacle to the body at X_WB among those nearer than `horizon` [m].
-  Nearest FindNearest(const CollisionShape& body, const Eigen::Isometry3d& X_WB,
+  /// Nearest obstacle at t to the body at X_WB among those nearer than `horizon` [m].
+  Nearest FindNearest(const CollisionShape& body, const Eigen::Isometry3d& X_WB, double t,
                       double horizon) const;
 
-  /// Whether every obstacle is at least `clearance` [m] away (by the sound lower bound).
-  bool Clears(const CollisionShape& body, const Eigen::Isometry3d& X_WB, double clearance,
+  /// Whether every obstacle is at least `clearance` [m] away at t (by the sound lower bound).
+  bool Clears(const CollisionShape& body, const Eigen::Isometry3d& X_WB, double t, double clearance,
               Scratch* scratch) const;
 
  private:
+  // How far from its bounds at t = 0 an obstacle may be at most [m].
+  double MovedAt(double t) const;
+
   struct Entry {
     CollisionShape shape;
-    Eigen::Isometry3d X_WO;
+    Obstacle obstacle;
   };
-  /// Axis-aligned bounds of an obstacle [m].
+  /// Axis-aligned bounds of an obstacle at t = 0 [m].
   struct Bounds {
     Eigen::Vector3d lower_W, upper_W;
   };
   std::vector<Entry> entries_;
   std::vector<Bounds> bounds_;  // one per entry, side by side: most queries read nothing else
+  double speed_ = 0.0;          // of the fastest obstacle
 };
 
 }  // namespace halfstep

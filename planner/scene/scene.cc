@@ -1,5 +1,6 @@
 #include "planner/scene/scene.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <map>
@@ -165,24 +166,20 @@ void DeclareNoStep(Fields& fields, NoStepFields* area) {
   }
 }
 
-std::variant<ConvexBody, TriangleMesh> MakeShape(ObstacleFields* from) {
-  if (from->has_box) return MakeBox({from->size[0], from->size[1], from->size[2]});
-  if (from->has_cylinder) return MakeCylinder(from->radius, from->length);
-  if (from->has_sphere) return MakeSphere(from->radius);
-  if (from->has_capsule) return MakeCapsule(from->radius, from->length);
+Shape MakeShape(ObstacleFields* from) {
+  if (from->has_box) return Box{{from->size[0], from->size[1], from->size[2]}};
+  if (from->has_cylinder) return Cylinder{from->radius, from->length};
+  if (from->has_sphere) return Sphere{from->radius};
+  if (from->has_capsule) return Capsule{from->radius, from->length};
   return std::move(from->mesh);
 }
 
 }  // namespace
 
-TriangleMesh FacesOf(const ConvexBody& body) {
-  TriangleMesh mesh;
-  mesh.vertices = body.vertices;
-  mesh.triangles.resize(3, static_cast<Eigen::Index>(body.triangles.size()));
-  for (size_t i = 0; i < body.triangles.size(); ++i) {
-    mesh.triangles.col(static_cast<Eigen::Index>(i)) = body.triangles[i];
-  }
-  return mesh;
+double Scene::speed() const {
+  double fastest = 0.0;
+  for (const Obstacle& obstacle : obstacles) fastest = std::max(fastest, obstacle.speed);
+  return fastest;
 }
 
 Scene LoadScene(const std::string& yaml_path) {

@@ -3,28 +3,23 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <string>
-#include <variant>
 #include <vector>
 
+#include "planner/scene/shape.h"
 #include "wpg/files/input_file.h"
-#include "wpg/geometry/convex_body.h"
 
 namespace halfstep {
 
-/// Triangle mesh: not assumed convex or closed.
-struct TriangleMesh {
-  Eigen::Matrix3Xd vertices;   ///< [m] (3×n)
-  Eigen::Matrix3Xi triangles;  ///< (3×m), vertex indices.
-};
-
-/// The faces of a convex body's core, the body without its ball; none when it has fewer than 4
-/// vertices.
-TriangleMesh FacesOf(const ConvexBody& body);
-
+/// A body in the way. Where it is is a function of time; so far all rest.
 struct Obstacle {
-  std::string name;                              ///< unique in its scene.
-  std::variant<ConvexBody, TriangleMesh> shape;  ///< in its own frame.
-  Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();
+  std::string name;                                        ///< unique in its scene.
+  Shape shape;                                             ///< in its own frame.
+  Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();  ///< at t = 0
+  double speed = 0.0;  ///< none of its points moves faster [m/s]; 0: it rests
+
+  /// X_WO at a time of the walk [s].
+  const Eigen::Isometry3d& PoseAt(double /*t*/) const { return X_WO; }
+  bool rests() const { return speed == 0.0; }
 };
 
 /// What the robot walks among. The floor z = 0 is no obstacle: the floor margin watches it.
@@ -34,6 +29,11 @@ struct Scene {
   std::vector<Obstacle> obstacles;
   /// Simple polygons on the floor (2×n, counter-clockwise) that no sole may touch [m].
   std::vector<Eigen::Matrix2Xd> no_step;
+
+  /// No point of an obstacle moves faster [m/s].
+  double speed() const;
+  /// Whether what holds at one time holds at every other.
+  bool rests() const { return speed() == 0.0; }
 };
 
 /// Reads experiments/scenes/*.yaml (format: planner/README.md, "Scenes"). The name defaults to the

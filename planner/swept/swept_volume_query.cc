@@ -27,50 +27,38 @@ OrientedBox Around(const ConvexBody& body) {
           .half = (0.5 * (upper - lower) + sides).array() + body.ball_radius};
 }
 
-bool IsBox(const ConvexBody& body) {
-  if (body.vertices.cols() != 8 || body.disc_radius > 0 || body.ball_radius > 0) return false;
-  const OrientedBox around = Around(body);
-  // Eight different corners, all of them corners of the bounds.
-  unsigned corners = 0;
-  for (const Vector3d& v : body.vertices.colwise()) {
-    const Vector3d off = v - around.center;
-    if (!((off.cwiseAbs() - around.half).cwiseAbs().array() <= 1e-12).all()) return false;
-    corners |= 1u << ((off.x() > 0) + 2 * (off.y() > 0) + 4 * (off.z() > 0));
-  }
-  return corners == 255;
-}
-
-// A segment on the z axis, centred, with a disc and a ball around it.
-bool IsRound(const ConvexBody& body) {
-  if (body.vertices.cols() > 2) return false;
-  return body.vertices.topRows<2>().isZero(0.0) &&
-         std::abs(body.vertices.row(2).sum()) <= 1e-12 * body.vertices.cwiseAbs().sum();
-}
-
 }  // namespace
+
+void SweptVolumeQuery::Prepared::BeMesh(const TriangleMesh& mesh) {
+  auto shared = std::make_shared<Mesh>(Mesh{TriangleTree(mesh), MeshInterior(mesh)});
+  const TriangleTree::Node& root = shared->triangles.nodes[0];
+  around = {.center = root.center, .half = root.half};
+  shape = std::shared_ptr<const Mesh>(std::move(shared));
+}
 
 SweptVolumeQuery::Prepared SweptVolumeQuery::Prepare(const Obstacle& obstacle) {
   Prepared prepared;
-  const auto as_mesh = [&](const TriangleMesh& mesh) {
-    auto shared = std::make_shared<Mesh>(Mesh{TriangleTree(mesh), MeshInterior(mesh)});
-    const TriangleTree::Node& root = shared->triangles.nodes[0];
-    prepared.around = {.center = root.center, .half = root.half};
-    prepared.shape = std::shared_ptr<const Mesh>(std::move(shared));
+  const auto round = [&prepared](const auto& of, const RoundBody& body) {
+    prepared.around = Around(BodyOf(of));
+    prepared.shape = body;
   };
-  if (const auto* mesh = std::get_if<TriangleMesh>(&obstacle.shape)) {
-    as_mesh(*mesh);
-    return prepared;
+  if (const auto* box = std::get_if<Box>(&obstacle.shape)) {
+    prepared.around = Around(BodyOf(*box));
+  } else if (const auto* sphere = std::get_if<Sphere>(&obstacle.shape)) {
+    round(*sphere, {.ball_radius = sphere->radius});
+  } else if (const auto* cylinder = std::get_if<Cylinder>(&obstacle.shape)) {
+    round(*cylinder, {.half_length = 0.5 * cylinder->length, .disc_radius = cylinder->radius});
+  } else if (const auto* capsule = std::get_if<Capsule>(&obstacle.shape)) {
+    round(*capsule, {.half_length = 0.5 * capsule->length, .ball_radius = capsule->radius});
+  } else if (const auto* mesh = std::get_if<TriangleMesh>(&obstacle.shape)) {
+    prepared.BeMesh(*mesh);
+  } else {
+    const ConvexBody& body = std::get<ConvexBody>(obstacle.shape);
+    prepared.around = Around(body);  // all that there is of a body with a disc or a ball
+    if (body.disc_radius == 0 && body.ball_radius == 0 && !body.triangles.empty()) {
+      prepared.BeMesh(FacesOf(body));
+    }
   }
-  const ConvexBody& body = std::get<ConvexBody>(obstacle.shape);
-  prepared.around = Around(body);
-  if (IsBox(body)) return prepared;
-  if (IsRound(body)) {
-    prepared.shape = RoundBody{.half_length = body.vertices.row(2).cwiseAbs().maxCoeff(),
-                               .disc_radius = body.disc_radius,
-                               .ball_radius = body.ball_radius};
-  } else if (body.disc_radius == 0 && body.ball_radius == 0 && !body.triangles.empty()) {
-    as_mesh(FacesOf(body));
-  }  // else: the box around it
   return prepared;
 }
 
@@ -85,6 +73,7 @@ SweptVolumeQuery::SweptVolumeQuery(const SweptVolumes& volumes,
   const size_t size = static_cast<size_t>(volumes.set.size());
   HALFSTEP_CHECK(volumes.down.size() == size && volumes.up.size() == size,
                  volumes.down.size() << " and " << volumes.up.size() << " volumes of " << size);
+  HALFSTEP_CHECK(scene.rests(), "obstacles that move");
   const int count = static_cast<int>(scene.obstacles.size());
   // Unused places hold nothing: no cylinder reaches from there.
   Cylinders nothing;
@@ -95,7 +84,7 @@ SweptVolumeQuery::SweptVolumeQuery(const SweptVolumes& volumes,
   cylinders_.assign(static_cast<size_t>((count + 3) / 4), nothing);
   for (int i = 0; i < count; ++i) {
     obstacles_.push_back(Prepare(scene.obstacles[static_cast<size_t>(i)]));
-    SetObstaclePose(i, scene.obstacles[static_cast<size_t>(i)].X_WO);
+    SetObstaclePose(i, scene.obstacles[static_cast<size_t>(i)].PoseAt(0.0));
   }
 }
 

@@ -24,7 +24,7 @@ class SweptVolumeQuery : public HalfStepQuery {
  public:
   /// `volumes` is borrowed and must outlive this. A landing sole, of the outline
   /// RobotModel::sole_outline (2×k) [m], keeps `no_step` ≥ 0 [m] from the no-step areas and touches
-  /// none. Precondition: finite poses, volumes for each element.
+  /// none. Precondition: finite poses, obstacles that rest, volumes for each element.
   SweptVolumeQuery(const SweptVolumes& volumes, const Eigen::Matrix2Xd& sole_outline,
                    const Scene& scene, double no_step = 0.0);
 
@@ -50,6 +50,8 @@ class SweptVolumeQuery : public HalfStepQuery {
     std::variant<std::monostate, RoundBody, std::shared_ptr<const Mesh>> shape;  // none: the box
     OrientedBox around_W;
     Eigen::Isometry3d X_WO;
+
+    void BeMesh(const TriangleMesh& mesh);
   };
   // Upright cylinders around four obstacles, side by side.
   struct Cylinders {

@@ -64,10 +64,10 @@ bool BodyClearances::QuickClears(size_t pair, double clearance, const Scratch& s
   return apart <= 0.0 || distance2 >= apart * apart;
 }
 
-bool BodyClearances::BodyClears(size_t body, const Posture& posture, double clearance,
+bool BodyClearances::BodyClears(size_t body, const Posture& posture, double t, double clearance,
                                 Scratch* scratch) const {
   ++scratch->queries;
-  return world_.Clears(shapes_[body], posture.OfBody(robot_.bodies[body]), clearance,
+  return world_.Clears(shapes_[body], posture.OfBody(robot_.bodies[body]), t, clearance,
                        &scratch->bodies[body]);
 }
 
@@ -82,10 +82,10 @@ bool BodyClearances::PairClears(size_t pair, const Posture& posture, double clea
                            &scratch->pair_normals_W[pair]);
 }
 
-CollisionWorld::Nearest BodyClearances::NearestTo(size_t body, const Posture& posture,
+CollisionWorld::Nearest BodyClearances::NearestTo(size_t body, const Posture& posture, double t,
                                                   double horizon, Scratch* scratch) const {
   ++scratch->queries;
-  return world_.FindNearest(shapes_[body], posture.OfBody(robot_.bodies[body]),
+  return world_.FindNearest(shapes_[body], posture.OfBody(robot_.bodies[body]), t,
                             std::max(horizon, 1e-9));
 }
 
@@ -98,9 +98,9 @@ Separation BodyClearances::SeparationOf(size_t pair, const Posture& posture,
                   posture.OfBody(robot_.bodies[b]));
 }
 
-Margin BodyClearances::OfBody(size_t body, const Posture& posture, double horizon,
+Margin BodyClearances::OfBody(size_t body, const Posture& posture, double t, double horizon,
                               Scratch* scratch) const {
-  const auto nearest = NearestTo(body, posture, horizon, scratch);
+  const auto nearest = NearestTo(body, posture, t, horizon, scratch);
   Margin margin{
       .family = MarginFamily::kClearance, .value = horizon, .subject = static_cast<int>(body)};
   if (nearest.obstacle >= 0 && nearest.separation.distance < horizon) {
@@ -119,11 +119,11 @@ Margin BodyClearances::OfPair(size_t pair, const Posture& posture, double horizo
   return margin;
 }
 
-std::optional<Margin> BodyClearances::FirstBodyBelow(const Posture& posture, double clearance,
-                                                     Scratch* scratch) const {
+std::optional<Margin> BodyClearances::FirstBodyBelow(const Posture& posture, double t,
+                                                     double clearance, Scratch* scratch) const {
   for (size_t b = 0; b < num_bodies(); ++b) {
-    if (!BodyClears(b, posture, clearance, scratch)) {
-      return OfBody(b, posture, clearance + kFar, scratch);
+    if (!BodyClears(b, posture, t, clearance, scratch)) {
+      return OfBody(b, posture, t, clearance + kFar, scratch);
     }
   }
   return std::nullopt;
@@ -140,11 +140,11 @@ std::optional<Margin> BodyClearances::FirstPairBelow(const Posture& posture, dou
   return std::nullopt;
 }
 
-Margin BodyClearances::NearestObstacle(const Posture& posture, double horizon,
+Margin BodyClearances::NearestObstacle(const Posture& posture, double t, double horizon,
                                        Scratch* scratch) const {
   Margin nearest{.family = MarginFamily::kClearance, .value = horizon};
   for (size_t b = 0; b < num_bodies(); ++b) {
-    const Margin margin = OfBody(b, posture, nearest.value, scratch);
+    const Margin margin = OfBody(b, posture, t, nearest.value, scratch);
     if (margin.value < nearest.value) nearest = margin;
   }
   return nearest;

@@ -12,8 +12,8 @@
 
 namespace halfstep {
 
-/// Distances of a robot's bodies, in one posture, to a scene's obstacles and to each other. Const;
-/// scratch is the caller's.
+/// Distances of a robot's bodies, in one posture at a time t of the walk [s], to a scene's
+/// obstacles and to each other. Const; scratch is the caller's.
 class BodyClearances {
  public:
   /// Separating directions remembered from posture to posture. One for each thread.
@@ -30,31 +30,35 @@ class BodyClearances {
 
   Scratch MakeScratch() const;
   size_t num_bodies() const { return shapes_.size(); }
+  /// No point of an obstacle moves faster [m/s].
+  double obstacle_speed() const { return world_.speed(); }
   size_t num_pairs() const { return robot_.self_pairs.size(); }
 
   /// Takes note of a posture; the queries below are about it. Precondition: its links are placed.
   void Place(const Posture& posture, Scratch* scratch) const;
 
   /// Whether a body keeps `clearance` [m] from every obstacle; whether a pair of bodies does.
-  bool BodyClears(size_t body, const Posture& posture, double clearance, Scratch* scratch) const;
+  bool BodyClears(size_t body, const Posture& posture, double t, double clearance,
+                  Scratch* scratch) const;
   bool PairClears(size_t pair, const Posture& posture, double clearance, Scratch* scratch) const;
   /// Clearance of one body, of one pair; `horizon` [m] when nothing is nearer.
-  Margin OfBody(size_t body, const Posture& posture, double horizon, Scratch* scratch) const;
+  Margin OfBody(size_t body, const Posture& posture, double t, double horizon,
+                Scratch* scratch) const;
   Margin OfPair(size_t pair, const Posture& posture, double horizon, Scratch* scratch) const;
 
   /// The same with witness points and normals, for derivatives: of a body, the nearest obstacle
   /// within `horizon` [m]; of a pair, its first body is `a`.
-  CollisionWorld::Nearest NearestTo(size_t body, const Posture& posture, double horizon,
+  CollisionWorld::Nearest NearestTo(size_t body, const Posture& posture, double t, double horizon,
                                     Scratch* scratch) const;
   Separation SeparationOf(size_t pair, const Posture& posture, Scratch* scratch) const;
 
   /// The first body, or pair, found to have less than a clearance [m].
-  std::optional<Margin> FirstBodyBelow(const Posture& posture, double clearance,
+  std::optional<Margin> FirstBodyBelow(const Posture& posture, double t, double clearance,
                                        Scratch* scratch) const;
   std::optional<Margin> FirstPairBelow(const Posture& posture, double clearance,
                                        Scratch* scratch) const;
   /// The smallest clearance to the obstacles, and between bodies.
-  Margin NearestObstacle(const Posture& posture, double horizon, Scratch* scratch) const;
+  Margin NearestObstacle(const Posture& posture, double t, double horizon, Scratch* scratch) const;
   Margin NearestPair(const Posture& posture, double horizon, Scratch* scratch) const;
 
  private:

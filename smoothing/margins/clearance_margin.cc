@@ -18,12 +18,12 @@ std::string ClearanceMargin::Subject(const Margin& margin) const {
 Margin ClearanceMargin::Least(Instant* at, double enough) const {
   if (!at->reachable()) return Of(-std::numeric_limits<double>::infinity(), -1);
   const double horizon = std::min(enough, ClearanceHorizon(at->limits()));
-  return place_.clearances.NearestObstacle(at->posture(), horizon, &at->scratch().bodies);
+  return place_.clearances.NearestObstacle(at->posture(), at->t(), horizon, &at->scratch().bodies);
 }
 
 std::optional<Margin> ClearanceMargin::FirstBelow(Instant* at, double demanded) const {
   if (!at->reachable()) return Of(-std::numeric_limits<double>::infinity(), -1);
-  return place_.clearances.FirstBodyBelow(at->posture(), demanded, &at->scratch().bodies);
+  return place_.clearances.FirstBodyBelow(at->posture(), at->t(), demanded, &at->scratch().bodies);
 }
 
 void ClearanceMargin::AddRows(Instant* at, SlackSink* rows) const {
@@ -33,8 +33,8 @@ void ClearanceMargin::AddRows(Instant* at, SlackSink* rows) const {
   BodyClearances::Scratch& scratch = at->scratch().bodies;
   const double far = rows->horizon();
   for (size_t b = 0; b < place_.robot.bodies.size(); ++b) {
-    if (clearances.BodyClears(b, posture, far, &scratch)) continue;
-    const auto nearest = clearances.NearestTo(b, posture, far, &scratch);
+    if (clearances.BodyClears(b, posture, at->t(), far, &scratch)) continue;
+    const auto nearest = clearances.NearestTo(b, posture, at->t(), far, &scratch);
     if (nearest.obstacle < 0) continue;
     const Separation& gap = nearest.separation;
     rows->Add(gap.distance, [&](size_t i) {
@@ -53,19 +53,22 @@ FamilyProof ClearanceMargin::Prove(const MarginInterval& interval,
   BodyClearances::Scratch& scratch = interval.mid.scratch().bodies;
   const double demanded = interval.mid.demanded(family());
   const double horizon = interval.mid.limits().clearance_horizon;
+  const double t = interval.mid.t();
+  // How far an obstacle moves in half of the interval at most.
+  const double obstacles = clearances.obstacle_speed() * interval.motion.half_width;
   FamilyProof proof;
   std::erase_if(*open, [&](uint16_t body) {
     if (proof.violated) return false;
-    const double bound = interval.motion.displacement[body] + kRounding;
-    if (clearances.BodyClears(body, posture, demanded + bound, &scratch)) {
+    const double bound = interval.motion.displacement[body] + obstacles + kRounding;
+    if (clearances.BodyClears(body, posture, t, demanded + bound, &scratch)) {
       if (interval.with_margins) {
         const double enough = std::max(horizon, demanded + bound + kRounding);
-        proof.held.Add(clearances.OfBody(body, posture, enough, &scratch), bound);
+        proof.held.Add(clearances.OfBody(body, posture, t, enough, &scratch), bound);
       }
       return true;
     }
-    if (!clearances.BodyClears(body, posture, demanded, &scratch)) {
-      proof.violated = clearances.OfBody(body, posture, 1.0, &scratch);
+    if (!clearances.BodyClears(body, posture, t, demanded, &scratch)) {
+      proof.violated = clearances.OfBody(body, posture, t, 1.0, &scratch);
     }
     return false;
   });

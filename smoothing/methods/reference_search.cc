@@ -35,6 +35,13 @@ class Reference {
         random_(options.seed) {}
 
   SmoothingResult Run() {
+    if (!problem_.scene().rests()) {
+      monitor_.Begin(problem_, planned_);
+      return monitor_.Finish(Ending::kNotRun,
+                             "stretches are looked at apart from each other, which obstacles that "
+                             "move do not allow",
+                             "");
+    }
     const std::vector<HomotopyParameters> starts = Starts();
     if (starts.empty()) return monitor_.Finish(Ending::kNotRun, refusal_, "");
     for (size_t s = 0; s < starts.size() && !monitor_.stopped(); ++s) {

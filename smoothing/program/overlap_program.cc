@@ -48,7 +48,8 @@ OverlapProgram::OverlapProgram(const HalfStepSequence& sequence, const MarginEva
                                const std::vector<FixedParameter>& fixed)
     : options_(options),
       duration_limit_(duration_limit),
-      variables_(sequence, ParameterTable(sequence, fixed, options.parameters)),
+      variables_(sequence, ParameterTable(sequence, fixed, options.parameters),
+                 evaluator.scene().rests()),
       watched_(variables_, evaluator, Seeing(options)) {
   options_.watch = Seeing(options);
 }

@@ -13,8 +13,9 @@ constexpr double kBoundSmoothing = 1e-3;  // [s] below the natural bound where b
 
 }  // namespace
 
-OverlapVariables::OverlapVariables(const HalfStepSequence& sequence, ParameterTable table)
-    : sequence_(sequence), table_(std::move(table)), start_(table_.Start()) {
+OverlapVariables::OverlapVariables(const HalfStepSequence& sequence, ParameterTable table,
+                                   bool resting)
+    : sequence_(sequence), table_(std::move(table)), resting_(resting), start_(table_.Start()) {
   for (const ParameterRow& row : table_.rows()) {
     index_.push_back(row.fixed ? -1 : size());
     if (!row.fixed) variables_.push_back(row.parameter);
@@ -85,7 +86,7 @@ std::vector<int> OverlapVariables::Band(int half_step) const {
   for (int v = 0; v < size(); ++v) {
     const ParameterFamilyTraits& traits = Traits(at(v).family);
     const auto [first, last] = traits.half_steps(at(v).index);
-    const int from = half_step - kNear, to = half_step + kNear;
+    const int from = resting_ ? half_step - kNear : 0, to = half_step + kNear;
     const bool inside = from <= first && last <= to, touches = from <= last && first <= to;
     if (traits.joins ? inside : touches) band.push_back(v);
   }

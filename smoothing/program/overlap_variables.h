@@ -19,7 +19,8 @@ using ParameterGradient = std::vector<std::pair<HomotopyParameter, double>>;
 class OverlapVariables {
  public:
   /// `sequence` is borrowed and must outlive this.
-  OverlapVariables(const HalfStepSequence& sequence, ParameterTable table);
+  /// `resting`: whether the scene rests; else an instant depends on when it is as well.
+  OverlapVariables(const HalfStepSequence& sequence, ParameterTable table, bool resting = true);
 
   const HalfStepSequence& sequence() const { return sequence_; }
   int size() const { return static_cast<int>(variables_.size()); }
@@ -59,7 +60,8 @@ class OverlapVariables {
   }
 
   /// The variables on which an instant of half-step k may depend, at any x. At most four half-steps
-  /// are ever under way at once, so these are the parameters of the three before and after it.
+  /// are ever under way at once, so these are the parameters of the three before and after it;
+  /// among obstacles that move, of all before.
   std::vector<int> Band(int half_step) const;
 
  private:
@@ -71,6 +73,7 @@ class OverlapVariables {
 
   const HalfStepSequence& sequence_;
   ParameterTable table_;
+  bool resting_;
   HomotopyParameters start_;
   std::vector<HomotopyParameter> variables_;
   std::vector<int> index_;  // by row of the table: the variable, or −1

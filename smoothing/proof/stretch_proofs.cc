@@ -33,13 +33,19 @@ std::vector<double> StretchParameters(const SuperposedWalk& walk, int half_step)
 StretchProofs::StretchProofs(const FeasibilityTest& test, int num_half_steps)
     : test_(test), stretches_(static_cast<size_t>(num_half_steps)) {}
 
+StretchProofs::Key StretchProofs::KeyOf(const SuperposedWalk& walk, int k) const {
+  Key key = StretchParameters(walk, k);
+  if (!test_.evaluator().scene().rests()) key.push_back(walk.start_of(k));
+  return key;
+}
+
 void StretchProofs::Keep(Key key, Stretch* stretch) {
   PushBack(std::move(key), kMostProved, &stretch->proved);
 }
 
 void StretchProofs::Remember(const SuperposedWalk& walk) {
   for (int k = 0; k < walk.num_half_steps(); ++k) {
-    Keep(StretchParameters(walk, k), &stretches_[static_cast<size_t>(k)]);
+    Keep(KeyOf(walk, k), &stretches_[static_cast<size_t>(k)]);
   }
 }
 
@@ -48,7 +54,7 @@ std::vector<Margin> StretchProofs::Refusals(const SuperposedWalk& walk,
   std::vector<Margin> refusals;
   for (int k = 0; k < walk.num_half_steps(); ++k) {
     Stretch& stretch = stretches_[static_cast<size_t>(k)];
-    Key key = StretchParameters(walk, k);
+    Key key = KeyOf(walk, k);
     if (std::find(stretch.proved.begin(), stretch.proved.end(), key) != stretch.proved.end()) {
       continue;
     }

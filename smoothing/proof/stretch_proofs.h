@@ -31,6 +31,9 @@ class StretchProofs {
     std::vector<double> suspects;  // τ as fractions of T_k
   };
   static void Keep(Key key, Stretch* stretch);
+  // What a proof of the stretch of half-step k is remembered by; among obstacles that move also
+  // when the stretch begins.
+  Key KeyOf(const SuperposedWalk& walk, int k) const;
 
   const FeasibilityTest& test_;
   std::vector<Stretch> stretches_;

@@ -40,8 +40,7 @@ Scene BoxRoom(int count, std::mt19937* random) {
     const double x = Uniform(random, -3, 3), y = Uniform(random, -3, 3);
     const double height = Uniform(random, 0.05, 1), yaw = Uniform(random, -3, 3);
     const Vector3d size(Uniform(random, 0.05, 0.4), Uniform(random, 0.05, 0.4), height);
-    scene.obstacles.push_back(
-        {"box " + std::to_string(i), MakeBox(size), At(x, y, height / 2, yaw)});
+    scene.obstacles.push_back({"box " + std::to_string(i), Box{size}, At(x, y, height / 2, yaw)});
   }
   return scene;
 }
@@ -117,7 +116,7 @@ void BM_ClearsRoom(benchmark::State& state) {
   CollisionWorld::Scratch scratch;
   size_t i = 0, free = 0, asked = 0;
   for (auto _ : state) {
-    free += world.Clears(shank, places[i++ & 4095], 0.01, &scratch) ? 1 : 0;
+    free += world.Clears(shank, places[i++ & 4095], 0.0, 0.01, &scratch) ? 1 : 0;
     ++asked;
   }
   state.counters["free"] = static_cast<double>(free) / static_cast<double>(asked);
@@ -132,7 +131,7 @@ void BM_FindNearestRoom(benchmark::State& state) {
     state.PauseTiming();
     const Isometry3d X_WB = At(Uniform(&random, -3, 3), Uniform(&random, -3, 3), 0.3, 0);
     state.ResumeTiming();
-    benchmark::DoNotOptimize(world.FindNearest(shank, X_WB, 0.3));
+    benchmark::DoNotOptimize(world.FindNearest(shank, X_WB, 0.0, 0.3));
   }
 }
 BENCHMARK(BM_FindNearestRoom)->Iterations(200000);

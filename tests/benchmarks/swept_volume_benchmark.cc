@@ -83,9 +83,9 @@ Scene Room(Kind kind) {
     const double radius = draw.Uniform(0.03, 0.2), length = draw.Uniform(0.05, 0.8);
     if (kind == kMeshes) o.shape = WavyBall(51);
     if (kind != kMixed) continue;
-    if (i % 4 == 1) o.shape = MakeSphere(radius);
-    if (i % 4 == 2) o.shape = MakeCapsule(radius, length);
-    if (i % 4 == 3) o.shape = MakeCylinder(radius, length);
+    if (i % 4 == 1) o.shape = Sphere{radius};
+    if (i % 4 == 2) o.shape = Capsule{radius, length};
+    if (i % 4 == 3) o.shape = Cylinder{radius, length};
     if (i % 8 >= 4) o.X_WO.linear() = draw.Turn(false);
   }
   return scene;
@@ -264,7 +264,7 @@ void BM_SampledQuery(benchmark::State& state) {
     const auto& posed = poses[{q.element, q.support}];
     for (size_t k = 0; k < posed.size(); ++k) {
       const size_t b = k % bodies.size();
-      if (!world.Clears(shapes[b], X_WS * posed[k], 0.0, &scratch[b])) return false;
+      if (!world.Clears(shapes[b], X_WS * posed[k], 0.0, 0.0, &scratch[b])) return false;
     }
     return true;
   };

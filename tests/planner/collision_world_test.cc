@@ -41,10 +41,10 @@ Scene RandomRoom(int count, std::mt19937* random) {
     Obstacle obstacle;
     obstacle.name = "obstacle " + std::to_string(i);
     const double r = Uniform(random, 0.01, 0.1), l = Uniform(random, 0.05, 0.4);
-    if (i % 5 == 0) obstacle.shape = MakeBox({r, l, 0.1});
-    if (i % 5 == 1) obstacle.shape = MakeCylinder(r, l);
-    if (i % 5 == 2) obstacle.shape = MakeCapsule(r, l);
-    if (i % 5 == 3) obstacle.shape = MakeSphere(r);
+    if (i % 5 == 0) obstacle.shape = Box{{r, l, 0.1}};
+    if (i % 5 == 1) obstacle.shape = Cylinder{r, l};
+    if (i % 5 == 2) obstacle.shape = Capsule{r, l};
+    if (i % 5 == 3) obstacle.shape = Sphere{r};
     if (i % 5 == 4) obstacle.shape = MeshOfBox({l, r, 0.2});
     obstacle.X_WO = RandomPose(1, random);
     scene.obstacles.push_back(obstacle);
@@ -70,7 +70,7 @@ TEST(CollisionWorld, NearestIsTheSmallestSeparationOfAll) {
         smallest =
             std::min(smallest, Separate(body, X_WB, shapes[o], scene.obstacles[o].X_WO).distance);
       }
-      const auto nearest = world.FindNearest(body, X_WB, 0.3);
+      const auto nearest = world.FindNearest(body, X_WB, 0.0, 0.3);
       EXPECT_EQ(nearest.separation.distance, smallest);
       EXPECT_EQ(nearest.obstacle < 0, smallest == 0.3);
       found += nearest.obstacle >= 0 ? 1 : 0;
@@ -91,9 +91,9 @@ TEST(CollisionWorld, ClearsEqualsTheVerdictOfFindNearestAlongAMotion) {
       Isometry3d X_WB = from;
       X_WB.translation() += k / 60.0 * (to.translation() - from.translation());
       X_WB.rotate(Eigen::AngleAxisd(0.02 * k, Vector3d::UnitZ()));
-      const double distance = world.FindNearest(body, X_WB, 1).separation.distance;
+      const double distance = world.FindNearest(body, X_WB, 0.0, 1).separation.distance;
       if (std::abs(distance - 0.01) < 1e-6) continue;
-      const bool clears = world.Clears(body, X_WB, 0.01, &scratch);
+      const bool clears = world.Clears(body, X_WB, 0.0, 0.01, &scratch);
       EXPECT_EQ(clears, distance >= 0.01);
       ++verdicts[clears ? 1 : 0];
     }
@@ -113,7 +113,8 @@ TEST(CollisionWorld, AnotherObstacleNeverRaisesTheNearestDistance) {
     Scene scene;
     for (const Obstacle& obstacle : all.obstacles) {
       scene.obstacles.push_back(obstacle);
-      const double distance = CollisionWorld(scene).FindNearest(body, X_WB, 2).separation.distance;
+      const double distance =
+          CollisionWorld(scene).FindNearest(body, X_WB, 0.0, 2).separation.distance;
       EXPECT_LE(distance, before + 1e-9);
       before = distance;
     }
@@ -124,20 +125,20 @@ TEST(CollisionWorld, EmptyAndFarWorldsAreFree) {
   const CollisionShape body(MakeSphere(0.1));
   CollisionWorld::Scratch scratch;
   Scene scene;
-  EXPECT_TRUE(CollisionWorld(scene).Clears(body, Isometry3d::Identity(), 0.1, &scratch));
-  EXPECT_EQ(CollisionWorld(scene).FindNearest(body, Isometry3d::Identity(), 1).obstacle, -1);
-  scene.obstacles.push_back({"far", MakeSphere(0.5), Isometry3d(Eigen::Translation3d(3, 0, 0))});
+  EXPECT_TRUE(CollisionWorld(scene).Clears(body, Isometry3d::Identity(), 0.0, 0.1, &scratch));
+  EXPECT_EQ(CollisionWorld(scene).FindNearest(body, Isometry3d::Identity(), 0.0, 1).obstacle, -1);
+  scene.obstacles.push_back({"far", Sphere{0.5}, Isometry3d(Eigen::Translation3d(3, 0, 0))});
   const CollisionWorld world(scene);
-  const auto none = world.FindNearest(body, Isometry3d::Identity(), 1);
+  const auto none = world.FindNearest(body, Isometry3d::Identity(), 0.0, 1);
   EXPECT_EQ(none.obstacle, -1);
   EXPECT_EQ(none.separation.distance, 1);
-  const auto far = world.FindNearest(body, Isometry3d::Identity(), 5);
+  const auto far = world.FindNearest(body, Isometry3d::Identity(), 0.0, 5);
   EXPECT_EQ(far.obstacle, 0);
   EXPECT_NEAR(far.separation.distance, 2.4, 1e-12);
   EXPECT_NEAR(far.separation.normal_W.x(), -1, 1e-12);
   EXPECT_NEAR(far.separation.point_b_W.x(), 2.5, 1e-9);
-  EXPECT_TRUE(world.Clears(body, Isometry3d::Identity(), 2.39, &scratch));
-  EXPECT_FALSE(world.Clears(body, Isometry3d::Identity(), 2.41, &scratch));
+  EXPECT_TRUE(world.Clears(body, Isometry3d::Identity(), 0.0, 2.39, &scratch));
+  EXPECT_FALSE(world.Clears(body, Isometry3d::Identity(), 0.0, 2.41, &scratch));
 }
 
 TEST(CollisionWorld, PosesThatAreNotFiniteThrow) {
@@ -148,8 +149,8 @@ TEST(CollisionWorld, PosesThatAreNotFiniteThrow) {
   Isometry3d bad = Isometry3d::Identity();
   bad.linear()(1, 2) = std::numeric_limits<double>::quiet_NaN();
   CollisionWorld::Scratch scratch;
-  EXPECT_THROW(world.Clears(body, bad, 0.1, &scratch), std::logic_error);
-  EXPECT_THROW(world.FindNearest(body, bad, 1), std::logic_error);
+  EXPECT_THROW(world.Clears(body, bad, 0.0, 0.1, &scratch), std::logic_error);
+  EXPECT_THROW(world.FindNearest(body, bad, 0.0, 1), std::logic_error);
   scene.obstacles[1].X_WO = bad;
   EXPECT_THROW(CollisionWorld{scene}, std::logic_error);
 }
@@ -166,7 +167,7 @@ TEST(CollisionWorld, ThreadsShareOneWorldAndOneBody) {
     for (auto& mine : distances) {
       threads.emplace_back([&] {
         for (const Isometry3d& X_WB : poses) {
-          mine.push_back(world.FindNearest(body, X_WB, 1).separation.distance);
+          mine.push_back(world.FindNearest(body, X_WB, 0.0, 1).separation.distance);
         }
       });
     }

@@ -24,7 +24,7 @@ struct FlatWorld {
     Scene scene{.name = "flat world", .files = {}, .obstacles = {}, .no_step = no_step};
     for (const Pole& pole : poles) {
       Obstacle obstacle{.name = "pole " + std::to_string(scene.obstacles.size()),
-                        .shape = MakeCylinder(pole.radius, 1.0)};
+                        .shape = Cylinder{pole.radius, 1.0}};
       obstacle.X_WO.translation() << pole.center, 0.5;
       scene.obstacles.push_back(obstacle);
     }

@@ -196,17 +196,17 @@ TEST(QueryOracle, ACollisionWorldCullsNothingThatIsNear) {
       Vector3d p(3.0, -2.0, 0.5);
       p[axis] += side * (half[axis] + 0.05 + distance);
       const Isometry3d X_WB = Posed(Eigen::Matrix3d::Identity(), p);
-      EXPECT_NEAR(world.FindNearest(ball, X_WB, distance + 1e-6).separation.distance, distance,
+      EXPECT_NEAR(world.FindNearest(ball, X_WB, 0.0, distance + 1e-6).separation.distance, distance,
                   1e-9);
       CollisionWorld::Scratch scratch;
-      EXPECT_FALSE(world.Clears(ball, X_WB, distance + 1e-6, &scratch));
-      EXPECT_TRUE(world.Clears(ball, X_WB, distance - 1e-6, &scratch));
+      EXPECT_FALSE(world.Clears(ball, X_WB, 0.0, distance + 1e-6, &scratch));
+      EXPECT_TRUE(world.Clears(ball, X_WB, 0.0, distance - 1e-6, &scratch));
     }
   }
   // A small ball deep inside is found below a negative horizon, too.
   const CollisionShape small(MakeSphere(0.001));
   const Isometry3d inside = Posed(Eigen::Matrix3d::Identity(), {3.0, -2.0, 0.5});
-  const auto nearest = world.FindNearest(small, inside, -0.01);
+  const auto nearest = world.FindNearest(small, inside, 0.0, -0.01);
   EXPECT_EQ(nearest.obstacle, 0);
   EXPECT_LT(nearest.separation.distance, -0.05);
 }

@@ -164,7 +164,7 @@ inline Scene DrawBoxes(int count, double reach, bool upright, SweptDraw* draw) {
     X_WO.linear() = draw->Turn(upright);
     X_WO.translation() = draw->Point({-reach, -reach, 0}, {reach, reach, 0});
     X_WO.translation().z() = 0.5 * size.z() + (upright ? 0.0 : draw->Uniform(0, 0.5));
-    scene.obstacles.push_back({"box " + std::to_string(i), MakeBox(size), X_WO});
+    scene.obstacles.push_back({"box " + std::to_string(i), Box{size}, X_WO});
   }
   return scene;
 }

@@ -19,7 +19,7 @@ using Eigen::Vector3d;
 const Eigen::Vector2d kSoleSize(0.22, 0.14);
 const Eigen::Matrix2Xd kSole = SoleCorners({}, kSoleSize);
 
-Scene One(std::variant<ConvexBody, TriangleMesh> shape, const Isometry3d& X_WO) {
+Scene One(Shape shape, const Isometry3d& X_WO) {
   Scene scene;
   scene.obstacles.push_back({"o", std::move(shape), X_WO});
   return scene;
@@ -42,9 +42,9 @@ Scene Mixed(int count, SweptDraw* draw) {
   for (int i = 0; i < count; ++i) {
     Obstacle& o = scene.obstacles[static_cast<size_t>(i)];
     const double radius = draw->Uniform(0.01, 0.15), length = draw->Uniform(0.05, 0.5);
-    if (i % 4 == 1) o.shape = MakeSphere(radius);
-    if (i % 4 == 2) o.shape = MakeCapsule(radius, length);
-    if (i % 4 == 3) o.shape = MakeCylinder(radius, length);
+    if (i % 4 == 1) o.shape = Sphere{radius};
+    if (i % 4 == 2) o.shape = Capsule{radius, length};
+    if (i % 4 == 3) o.shape = Cylinder{radius, length};
   }
   return scene;
 }
@@ -165,7 +165,7 @@ TEST(SweptVolumeQueryTest, ABoxAsAMeshAndAsAHullAnswersLikeTheBox) {
 
 TEST(SweptVolumeQueryTest, SmallObstaclesInsideAndHollowOnesAroundAreMet) {
   const SweptVolumes& volumes = CoarseVolumes();
-  const auto is_free = [&](std::variant<ConvexBody, TriangleMesh> shape, const Vector3d& p_W) {
+  const auto is_free = [&](Shape shape, const Vector3d& p_W) {
     return SweptVolumeQuery(volumes, kSole, One(shape, Isometry3d(Eigen::Translation3d(p_W))))
         .DownIsFree(0, Side::kLeft, {});
   };

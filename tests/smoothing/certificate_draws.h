@@ -67,12 +67,12 @@ inline Scene DrawScene(const SuperposedWalk& walk, SceneKind kind, int count, Wa
     const Pose2 X_WF = FootPose(x, side);
     const double r = draw->Uniform(0.0, 0.3), direction = draw->Uniform(-3.14, 3.14);
     const Pose2 X_FO{r * std::cos(direction), r * std::sin(direction), draw->Uniform(-3.14, 3.14)};
-    Obstacle obstacle{.name = "o" + std::to_string(i), .shape = MakeSphere(0.01)};
+    Obstacle obstacle{.name = "o" + std::to_string(i), .shape = Sphere{0.01}};
     double z = 0.0;
     switch (kind) {
       case SceneKind::kCylinders: {
         const double height = draw->Uniform(0.01, 0.1);
-        obstacle.shape = MakeCylinder(draw->Uniform(0.01, 0.03), height);
+        obstacle.shape = Cylinder{draw->Uniform(0.01, 0.03), height};
         z = 0.5 * height;
         break;
       }
@@ -84,7 +84,7 @@ inline Scene DrawScene(const SuperposedWalk& walk, SceneKind kind, int count, Wa
       case SceneKind::kFence: {
         const double thickness = 1e-4 * std::pow(200.0, draw->Uniform(0, 1));
         const double height = draw->Uniform(0.02, 0.12);
-        obstacle.shape = MakeBox({thickness, draw->Uniform(0.05, 0.6), height});
+        obstacle.shape = Box{{thickness, draw->Uniform(0.05, 0.6), height}};
         z = 0.5 * height + (draw->Uniform(0, 1) < 0.3 ? draw->Uniform(0.0, 0.3) : 0.0);
         break;
       }

@@ -149,7 +149,7 @@ TEST(CertificateRows, HoldForEveryBodyThatMovesTowardsAnObstacle) {
       const Eigen::Matrix3Xd moved = last.OfBody(body) * points[b] - mid.OfBody(body) * points[b];
       Eigen::Index fastest = 0;
       moved.colwise().norm().maxCoeff(&fastest);
-      Obstacle pin{.name = "pin", .shape = MakeSphere(1e-3)};
+      Obstacle pin{.name = "pin", .shape = Sphere{1e-3}};
       pin.X_WO.setIdentity();
       pin.X_WO.translation() = last.OfBody(body) * points[b].col(fastest) +
                                (0.03 + moved.col(fastest).norm()) * moved.col(fastest).normalized();
@@ -163,7 +163,7 @@ TEST(CertificateRows, HoldForEveryBodyThatMovesTowardsAnObstacle) {
       for (double t : InstantsOf(row, 6)) {
         const Posture posture = SolvePosture(robot, walk.At(t).value);
         const double truth =
-            evaluator.clearances().OfBody(b, posture, kHorizon, &scratch.bodies).value;
+            evaluator.clearances().OfBody(b, posture, 0.0, kHorizon, &scratch.bodies).value;
         tally.Add(row, truth);
         if (row.bound > 1e-5) {
           share[b] = std::max(share[b], (row.margin.value - truth) / row.bound);

@@ -13,7 +13,9 @@ inline Obstacle RandomObstacle(WalkDraw* draw) {
   const double kind = draw->Uniform(0, 3);
   Obstacle obstacle;
   obstacle.name = "obstacle";
-  obstacle.shape = kind < 1 ? MakeBox({a, b, 0.1}) : kind < 2 ? MakeSphere(a) : MakeCylinder(a, b);
+  obstacle.shape = kind < 1   ? Shape(Box{{a, b, 0.1}})
+                   : kind < 2 ? Shape(Sphere{a})
+                              : Shape(Cylinder{a, b});
   const Pose2 X_WO = draw->Pose(0.7, 3);
   obstacle.X_WO = ToIsometry(X_WO, draw->Uniform(0, 0.7));
   obstacle.X_WO.rotate(Eigen::AngleAxisd(draw->Uniform(-1, 1), Eigen::Vector3d::UnitX()));
