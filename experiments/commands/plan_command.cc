@@ -132,7 +132,7 @@ ExitStatus ListHalfSteps(const PlanCommand& command) {
   const HalfStepSet set = CertifiedHalfSteps(LoadPlace(config).robot, config);
   if (command.json) {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
-    for (const Pose2& X_SF : set.placements) {
+    for (const Footprint& X_SF : set.placements) {
       list.push_back({{"x_m", X_SF.x}, {"y_m", X_SF.y}, {"yaw_rad", X_SF.yaw}});
     }
     std::cout << list.dump(2) << '\n';
@@ -140,7 +140,7 @@ ExitStatus ListHalfSteps(const PlanCommand& command) {
   }
   std::cout << "half_step,x_m,y_m,yaw_rad\n";
   for (int i = 0; i < set.size(); ++i) {
-    const Pose2& X_SF = set.placements[static_cast<size_t>(i)];
+    const Footprint& X_SF = set.placements[static_cast<size_t>(i)];
     std::cout << i + 1 << ',' << X_SF.x << ',' << X_SF.y << ',' << X_SF.yaw << '\n';
   }
   return kSuccess;

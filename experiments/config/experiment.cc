@@ -68,7 +68,7 @@ Place LoadPlace(const ExperimentConfig& config) {
   return place;
 }
 
-std::array<Pose2, 2> StartOf(const ExperimentConfig& config, const RobotModel& robot) {
+std::array<Footprint, 2> StartOf(const ExperimentConfig& config, const RobotModel& robot) {
   if (config.has_start) return {config.start_left, config.start_right};
   const double y = 0.5 * robot.standing_width;
   return {Pose2{0.0, y, 0.0}, Pose2{0.0, -y, 0.0}};
@@ -101,8 +101,8 @@ Experiment Prepare(const ExperimentConfig& config, Place place) {
 std::optional<std::string> FootprintOnNoStep(const Experiment& experiment) {
   const NoStepAreas areas(experiment.scene, experiment.robot.sole_outline);
   const double apart = experiment.config.smoothing.limits.demanded_of(MarginFamily::kNoStep);
-  const auto touches = [&](const Pose2& X_WF) { return !areas.Clears(X_WF, apart); };
-  const std::array<Pose2, 2> start = StartOf(experiment.config, experiment.robot);
+  const auto touches = [&](const Footprint& X_WF) { return !areas.Clears(X_WF, apart); };
+  const std::array<Footprint, 2> start = StartOf(experiment.config, experiment.robot);
   for (Side side : {Side::kLeft, Side::kRight}) {
     if (touches(start[static_cast<size_t>(Index(side))])) {
       return "the " + std::string(Name(side)) + " foot starts on a no-step area";

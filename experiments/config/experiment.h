@@ -9,6 +9,7 @@
 #include "experiments/config/experiment_config.h"
 #include "planner/scene/scene.h"
 #include "smoothing/margins/margin_evaluator.h"
+#include "wpg/geometry/footprint.h"
 #include "wpg/motion/half_step_sequence.h"
 #include "wpg/robot/robot_model.h"
 
@@ -38,7 +39,7 @@ struct Place {
 /// Loads the robot and the scene. Throws InputError.
 Place LoadPlace(const ExperimentConfig& config);
 /// The soles at the start, by Index(Side).
-std::array<Pose2, 2> StartOf(const ExperimentConfig& config, const RobotModel& robot);
+std::array<Footprint, 2> StartOf(const ExperimentConfig& config, const RobotModel& robot);
 
 /// Makes the sequence, empty without footsteps, in a place that was loaded before.
 Experiment Prepare(const ExperimentConfig& config, Place place);

@@ -13,7 +13,7 @@
 #include "wpg/files/fields.h"
 #include "wpg/files/key_description.h"
 #include "wpg/files/yaml_fields.h"
-#include "wpg/geometry/pose2.h"
+#include "wpg/geometry/footprint.h"
 #include "wpg/geometry/side.h"
 
 namespace halfstep {
@@ -21,7 +21,7 @@ namespace halfstep {
 /// One footstep of a config: a sole's place in the world, and what differs from `half_step`.
 struct FootstepConfig {
   std::string foot = "left";
-  Pose2 X_WF;
+  Footprint X_WF;
   std::optional<double> via_height;  ///< [m]
   std::optional<double> duration;    ///< [s]
 };
@@ -68,8 +68,8 @@ struct ExperimentConfig {
   std::string robot;  ///< a shipped robot's name or a path
   std::string scene;  ///< a path; "none": empty floor
   bool has_start = false;
-  Pose2 start_left, start_right;  ///< X_WF of the soles, when has_start
-  bool has_goal = false;          ///< else there are footsteps
+  Footprint start_left, start_right;  ///< X_WF of the soles, when has_start
+  bool has_goal = false;              ///< else there are footsteps
   GoalConfig goal;
   std::vector<FootstepConfig> footsteps;
   PlannerConfig planner;

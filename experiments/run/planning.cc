@@ -44,8 +44,8 @@ HalfStepCertifier::HalfStepCertifier(const RobotModel& robot, const Scene& scene
       feasibility_(evaluator_, config.smoothing.certification) {}
 
 // The step in place that holds the half-step: up from its place, and down to it again.
-bool HalfStepCertifier::Certifies(const HalfStep& half_step, const Pose2& X_WS) const {
-  std::array<Pose2, 2> start;
+bool HalfStepCertifier::Certifies(const HalfStep& half_step, const Footprint& X_WS) const {
+  std::array<Footprint, 2> start;
   start[static_cast<size_t>(Index(half_step.support))] = X_WS;
   start[static_cast<size_t>(Index(half_step.swing()))] = X_WS * half_step.X_SF;
   const Footstep footstep{.side = half_step.swing(),
@@ -146,7 +146,7 @@ PlannedWalk PlanWalk(const ExperimentConfig& config, const Place& place,
   if (const auto& w = config.planner.workspace; !w.empty()) {
     request.workspace = {Eigen::Vector2d(w[0], w[1]), Eigen::Vector2d(w[2], w[3])};
   }
-  request.start_is_free = [&](const HalfStep& up, const Pose2& X_WS) {
+  request.start_is_free = [&](const HalfStep& up, const Footprint& X_WS) {
     return certifier.Certifies(up, X_WS);
   };
   request.accepts = [&](const std::vector<Footstep>& footsteps) {

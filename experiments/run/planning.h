@@ -9,6 +9,7 @@
 #include "planner/search/footstep_planner.h"
 #include "planner/swept/swept_volume_cache.h"
 #include "smoothing/proof/certified_feasibility.h"
+#include "wpg/geometry/footprint.h"
 #include "wpg/robot/robot_model.h"
 
 namespace halfstep {
@@ -21,7 +22,7 @@ HalfStep PrototypeOf(const ExperimentConfig& config);
 class HalfStepCertifier {
  public:
   HalfStepCertifier(const RobotModel& robot, const Scene& scene, const ExperimentConfig& config);
-  bool Certifies(const HalfStep& half_step, const Pose2& X_WS) const;
+  bool Certifies(const HalfStep& half_step, const Footprint& X_WS) const;
 
  private:
   Lipm lipm_;

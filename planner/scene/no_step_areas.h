@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "planner/scene/scene.h"
-#include "wpg/geometry/pose2.h"
+#include "wpg/geometry/footprint.h"
 
 namespace halfstep {
 
@@ -26,10 +26,10 @@ class NoStepAreas {
     int area = -1;  ///< index into Scene::no_step; −1: there is none
   };
   /// The area nearest to a sole that stands at X_WF; of those that it touches, the deepest.
-  Nearest NearestTo(const Pose2& X_WF) const;
+  Nearest NearestTo(const Footprint& X_WF) const;
 
   /// Whether a sole that stands at X_WF touches no area and keeps `distance` ≥ 0 [m] from all.
-  bool Clears(const Pose2& X_WF, double distance) const;
+  bool Clears(const Footprint& X_WF, double distance) const;
 
  private:
   struct Area {

@@ -17,6 +17,7 @@
 #include "planner/search/half_step_set.h"
 #include "planner/search/step_cost.h"
 #include "planner/search/termination.h"
+#include "wpg/geometry/footprint.h"
 #include "wpg/motion/half_step_sequence.h"
 
 namespace halfstep {
@@ -31,7 +32,7 @@ struct Acceptance {
 
 /// A planning problem. What it refers to is borrowed for the call of Plan.
 struct PlanRequest {
-  std::array<Pose2, 2> start;  ///< soles in W by Index(Side), standing
+  std::array<Footprint, 2> start;  ///< soles in W by Index(Side), standing
   GoalRegion goal;
   const HalfStepSet& set;      ///< not empty
   const HalfStepQuery& query;  ///< of the same set
@@ -40,7 +41,7 @@ struct PlanRequest {
   std::optional<Eigen::AlignedBox2d> workspace = {};
   /// Whether an up half-step from the start, which is in no set, is free: its support sole stands
   /// at X_WS. Empty: it always is.
-  std::function<bool(const HalfStep&, const Pose2& X_WS)> start_is_free = {};
+  std::function<bool(const HalfStep&, const Footprint& X_WS)> start_is_free = {};
   /// Asked about every plan before it is returned, best first. Empty: yes.
   std::function<Acceptance(const std::vector<Footstep>&)> accepts = {};
   int max_refusals = 20;  ///< after that many, refused

@@ -29,13 +29,13 @@ bool GoalRegion::Contains(const Pose2& X_W) const {
   return Distance(X_W.position()) <= 0.0 && Turn(X_W.yaw) <= 0.0;
 }
 
-bool GoalRegion::ContainsStance(const std::array<Pose2, 2>& feet) const {
+bool GoalRegion::ContainsStance(const std::array<Footprint, 2>& feet) const {
   if (part == GoalPart::kMidFeet) return Contains(MidFeet(feet[0], feet[1]));
   return (part != GoalPart::kRightFoot && Contains(feet[Index(Side::kLeft)])) ||
          (part != GoalPart::kLeftFoot && Contains(feet[Index(Side::kRight)]));
 }
 
-bool GoalRegion::ContainsLanding(Side side, const Pose2& X_WF, const Pose2& X_WS) const {
+bool GoalRegion::ContainsLanding(Side side, const Footprint& X_WF, const Footprint& X_WS) const {
   switch (part) {
     case GoalPart::kLeftFoot:
       return side == Side::kLeft && Contains(X_WF);

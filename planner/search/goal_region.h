@@ -4,7 +4,7 @@
 #include <array>
 #include <optional>
 
-#include "wpg/geometry/pose2.h"
+#include "wpg/geometry/footprint.h"
 #include "wpg/geometry/side.h"
 
 namespace halfstep {
@@ -31,10 +31,10 @@ struct GoalRegion {
   /// Whether a pose of the part that counts is in the region.
   bool Contains(const Pose2& X_W) const;
   /// Whether standing with the soles `feet`, by Index(Side), is a goal.
-  bool ContainsStance(const std::array<Pose2, 2>& feet) const;
+  bool ContainsStance(const std::array<Footprint, 2>& feet) const;
   /// The same for a foot `side` at X_WF that has just landed beside a support sole X_WS which was
   /// no goal already.
-  bool ContainsLanding(Side side, const Pose2& X_WF, const Pose2& X_WS) const;
+  bool ContainsLanding(Side side, const Footprint& X_WF, const Footprint& X_WS) const;
 };
 
 /// Middle of two soles: means of positions and of yaws.

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "wpg/geometry/pose2.h"
+#include "wpg/geometry/footprint.h"
 #include "wpg/geometry/side.h"
 
 namespace halfstep {
@@ -13,10 +13,10 @@ class HalfStepQuery {
 
   /// Down half-step of element i on `support`, whose sole stands at X_WS; the sole that lands keeps
   /// off no-step areas as well.
-  virtual bool DownIsFree(int i, Side support, const Pose2& X_WS) const = 0;
+  virtual bool DownIsFree(int i, Side support, const Footprint& X_WS) const = 0;
   /// Up half-step that follows: on the foot that has landed. X_WS is still the pose of the sole
   /// that supported before, as for DownIsFree.
-  virtual bool UpIsFree(int i, Side support, const Pose2& X_WS) const = 0;
+  virtual bool UpIsFree(int i, Side support, const Footprint& X_WS) const = 0;
 };
 
 }  // namespace halfstep

@@ -6,8 +6,8 @@
 
 namespace halfstep {
 
-Pose2 HalfStepSet::Placement(int i, Side support) const {
-  const Pose2& X_SF = placements[static_cast<size_t>(i)];
+Footprint HalfStepSet::Placement(int i, Side support) const {
+  const Footprint& X_SF = placements[static_cast<size_t>(i)];
   return support == Side::kLeft ? X_SF : X_SF.Mirrored();
 }
 

@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-#include "wpg/geometry/pose2.h"
+#include "wpg/geometry/footprint.h"
 #include "wpg/geometry/side.h"
 #include "wpg/motion/half_step.h"
 
@@ -23,12 +23,12 @@ struct HalfStepGrid {
 /// foot lands on X_SF; and *up*, where the foot F that has landed supports and the other one leaves
 /// its place X_FS = X_SF⁻¹ for the via point.
 struct HalfStepSet {
-  HalfStep prototype;             ///< duration, via point and shape of all of them
-  std::vector<Pose2> placements;  ///< X_SF of each element, seen from a left support
+  HalfStep prototype;                 ///< duration, via point and shape of all of them
+  std::vector<Footprint> placements;  ///< X_SF of each element, seen from a left support
 
   int size() const { return static_cast<int>(placements.size()); }
   /// X_SF of element i when `support` supports.
-  Pose2 Placement(int i, Side support) const;
+  Footprint Placement(int i, Side support) const;
   /// The half-step on `support` that lands element i.
   HalfStep Down(int i, Side support) const;
   /// The half-step that follows it: on the foot that has landed, Opposite(support).

@@ -13,7 +13,7 @@ bool IsFinite(const Pose2& X) {
 }
 
 void CheckRequest(const PlanRequest& request) {
-  for (const Pose2& sole : request.start) {
+  for (const Footprint& sole : request.start) {
     HALFSTEP_CHECK(IsFinite(sole), "start sole " << sole.x << ", " << sole.y << ", " << sole.yaw);
   }
   const GoalRegion& goal = request.goal;

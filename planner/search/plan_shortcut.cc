@@ -61,14 +61,14 @@ std::optional<StepPlan> PlanStretch(const std::vector<StepState>& roots, const U
 
 // From a state to the goal along old landings, each followed by the free element nearest to it.
 bool Follow(const Unrolled& path, size_t from, StepState state, StepGraph* graph, StepPlan* plan) {
-  std::vector<Pose2> landings;
+  std::vector<Footprint> landings;
   std::vector<std::pair<double, int>> order;
   for (size_t j = from + 1; j < path.states.size(); ++j) {
     const bool last = j + 1 == path.states.size();
     graph->Landings(state, &landings);
     order.clear();
     for (int k = 0; k < graph->size(); ++k) {
-      const Pose2& X_WF = landings[static_cast<size_t>(k)];
+      const Footprint& X_WF = landings[static_cast<size_t>(k)];
       if (last && !graph->IsGoal(state, X_WF)) continue;
       if (!last && !graph->workspace().contains(X_WF.position())) continue;
       order.emplace_back(StateDistance(X_WF, path.states[j].X_WS, true), k);

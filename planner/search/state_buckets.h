@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "planner/search/step_graph.h"
+#include "wpg/geometry/footprint.h"
 
 namespace halfstep {
 
@@ -28,7 +29,7 @@ class StateBuckets {
  private:
   struct Entry {
     int index;
-    Pose2 X_WS;
+    Footprint X_WS;
   };
   Eigen::Vector2i CellOf(const Pose2& X_W) const;  // clamped to the area
   std::vector<Entry>& At(const Eigen::Vector2i& cell, Side support);

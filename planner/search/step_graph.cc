@@ -17,7 +17,7 @@ std::vector<double> Chosen(const std::vector<double>& all, const std::vector<int
 Eigen::AlignedBox2d DefaultWorkspace(const PlanRequest& request) {
   constexpr double kRoom = 2.0;
   Eigen::AlignedBox2d box(request.goal.X_WG.position());
-  for (const Pose2& sole : request.start) box.extend(sole.position());
+  for (const Footprint& sole : request.start) box.extend(sole.position());
   const Eigen::Vector2d room = Eigen::Vector2d::Constant(kRoom);
   return {box.min() - room, box.max() + room};
 }
@@ -40,7 +40,7 @@ StepGraph::StepGraph(const PlanRequest& request, std::vector<int> elements)
 std::vector<StepState> StepGraph::FreeStarts() const {
   std::vector<StepState> starts;
   for (Side support : {Side::kLeft, Side::kRight}) {
-    const Pose2& X_WS = request_.start[static_cast<size_t>(Index(support))];
+    const Footprint& X_WS = request_.start[static_cast<size_t>(Index(support))];
     HalfStep up = request_.set.prototype;
     up.support = support;
     up.kind = HalfStepKind::kUp;
@@ -52,14 +52,14 @@ std::vector<StepState> StepGraph::FreeStarts() const {
   return starts;
 }
 
-Pose2 StepGraph::Landing(const StepState& from, int k) const {
+Footprint StepGraph::Landing(const StepState& from, int k) const {
   return from.X_WS * placements_[static_cast<size_t>(Index(from.support))][static_cast<size_t>(k)];
 }
 
-void StepGraph::Landings(const StepState& from, std::vector<Pose2>* X_WF) const {
+void StepGraph::Landings(const StepState& from, std::vector<Footprint>* X_WF) const {
   const double c = std::cos(from.X_WS.yaw), s = std::sin(from.X_WS.yaw);
   X_WF->clear();
-  for (const Pose2& X_SF : placements_[static_cast<size_t>(Index(from.support))]) {
+  for (const Footprint& X_SF : placements_[static_cast<size_t>(Index(from.support))]) {
     X_WF->push_back({from.X_WS.x + c * X_SF.x - s * X_SF.y, from.X_WS.y + s * X_SF.x + c * X_SF.y,
                      from.X_WS.yaw + X_SF.yaw});
   }

@@ -5,12 +5,13 @@
 #include <vector>
 
 #include "planner/search/footstep_planner.h"
+#include "wpg/geometry/footprint.h"
 
 namespace halfstep {
 
 /// The foot `support` stands at X_WS and carries, the other one is at its via point.
 struct StepState {
-  Pose2 X_WS;
+  Footprint X_WS;
   Side support = Side::kLeft;
   friend bool operator==(const StepState&, const StepState&) = default;
 };
@@ -34,18 +35,18 @@ class StepGraph {
   std::vector<StepState> FreeStarts() const;
 
   /// Where element k lands from a state, X_WF; the state after its up half-step.
-  Pose2 Landing(const StepState& from, int k) const;
+  Footprint Landing(const StepState& from, int k) const;
   StepState After(const StepState& from, int k) const {
     return {Landing(from, k), Opposite(from.support)};
   }
   /// Of all elements at once, the very same poses.
-  void Landings(const StepState& from, std::vector<Pose2>* X_WF) const;
+  void Landings(const StepState& from, std::vector<Footprint>* X_WF) const;
 
   /// Not forbidden and free.
   bool DownIsFree(const StepState& from, int k);
   bool UpIsFree(const StepState& from, int k);
   /// Whether landing there ends the walk.
-  bool IsGoal(const StepState& from, const Pose2& X_WF) const {
+  bool IsGoal(const StepState& from, const Footprint& X_WF) const {
     return goal().ContainsLanding(Opposite(from.support), X_WF, from.X_WS);
   }
 
@@ -66,8 +67,8 @@ class StepGraph {
   };
   const PlanRequest& request_;
   std::vector<int> elements_;
-  std::vector<double> costs_;                     // by k
-  std::array<std::vector<Pose2>, 2> placements_;  // by support and k
+  std::vector<double> costs_;                         // by k
+  std::array<std::vector<Footprint>, 2> placements_;  // by support and k
   StepReach reach_;
   Eigen::AlignedBox2d workspace_;
   std::vector<Edge> forbidden_;

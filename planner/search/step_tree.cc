@@ -24,7 +24,7 @@ StepTree::StepTree(const TreeTarget& target, const PoseCells& cells, StepGraph* 
       monitor_(*monitor),
       buckets_(graph->workspace()) {}
 
-bool StepTree::Hits(const StepState& from, const Pose2& X_WF) const {
+bool StepTree::Hits(const StepState& from, const Footprint& X_WF) const {
   if (!target_.state) return graph_.IsGoal(from, X_WF);
   return target_.state->support != from.support &&
          StateDistance(X_WF, target_.state->X_WS, true) <= target_.near;
@@ -49,7 +49,7 @@ void StepTree::Arrive(int index, int k) {
   std::reverse(arrival_.ks.begin(), arrival_.ks.end());
 }
 
-StepTree::Edge StepTree::Try(int index, int k, const Pose2& X_WF) {
+StepTree::Edge StepTree::Try(int index, int k, const Footprint& X_WF) {
   Node& node = nodes_[static_cast<size_t>(index)];
   if (node.tried[static_cast<size_t>(k)]) return Edge::kUseless;
   node.tried[static_cast<size_t>(k)] = true;
@@ -94,7 +94,7 @@ StepTree::Growth StepTree::LookForTarget(int index) {
                         : graph_.LeastSteps(from) <= 1;
   if (!near) return Growth::kAdded;
   for (int k = 0; k < graph_.size(); ++k) {
-    const Pose2 X_WF = graph_.Landing(from, k);
+    const Footprint X_WF = graph_.Landing(from, k);
     if (Hits(from, X_WF) && Try(index, k, X_WF) == Edge::kArrived) return Growth::kArrived;
   }
   return Growth::kAdded;

@@ -8,6 +8,7 @@
 #include "planner/search/plan_search.h"
 #include "planner/search/pose_cells.h"
 #include "planner/search/state_buckets.h"
+#include "wpg/geometry/footprint.h"
 
 namespace halfstep {
 
@@ -25,7 +26,7 @@ struct TreeSample {
     kCountsWhenNear,  ///< while it is far, facing it counts
     kFree,            ///< while it is far, facing it counts
   };
-  Pose2 X_WF;
+  Footprint X_WF;
   Side side = Side::kLeft;
   Yaw yaw = Yaw::kCounts;
 };
@@ -63,9 +64,9 @@ class StepTree {
   };
   enum class Edge { kUseless, kBlocked, kAdded, kArrived };
 
-  bool Hits(const StepState& from, const Pose2& X_WF) const;
+  bool Hits(const StepState& from, const Footprint& X_WF) const;
   double LeastCostFrom(const StepState& state) const;
-  Edge Try(int index, int k, const Pose2& X_WF);
+  Edge Try(int index, int k, const Footprint& X_WF);
   Growth Add(const StepState& state, int parent, int k, double cost);
   Growth LookForTarget(int index);
   void Arrive(int index, int k);
@@ -78,7 +79,7 @@ class StepTree {
   StateBuckets buckets_;
   std::unordered_set<std::uint64_t> reached_;
   StepPlan arrival_;
-  std::vector<Pose2> landings_;
+  std::vector<Footprint> landings_;
   std::vector<double> distances_;
 };
 

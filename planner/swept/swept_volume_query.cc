@@ -175,16 +175,16 @@ bool SweptVolumeQuery::IsFree(const Placed& placed, double extra) const {
   return true;
 }
 
-SweptVolumeQuery::Placed SweptVolumeQuery::Down(int i, Side support, const Pose2& X_WS) const {
+SweptVolumeQuery::Placed SweptVolumeQuery::Down(int i, Side support, const Footprint& X_WS) const {
   const size_t e = static_cast<size_t>(i);
   return {volumes_.down[e],   down_bounds_[e],   support == Side::kRight, X_WS,
           std::cos(X_WS.yaw), std::sin(X_WS.yaw)};
 }
 
-SweptVolumeQuery::Placed SweptVolumeQuery::Up(int i, Side support, const Pose2& X_WS) const {
+SweptVolumeQuery::Placed SweptVolumeQuery::Up(int i, Side support, const Footprint& X_WS) const {
   // The foot that has landed supports.
   const size_t e = static_cast<size_t>(i);
-  const Pose2 X_WF = X_WS * volumes_.set.Placement(i, support);
+  const Footprint X_WF = X_WS * volumes_.set.Placement(i, support);
   return {volumes_.up[e], up_bounds_[e],      support == Side::kLeft,
           X_WF,           std::cos(X_WF.yaw), std::sin(X_WF.yaw)};
 }
@@ -206,12 +206,12 @@ std::vector<SweptVolumeQuery::Bounds> SweptVolumeQuery::BoundsOf(
   return all;
 }
 
-bool SweptVolumeQuery::DownIsFree(int i, Side support, const Pose2& X_WS) const {
+bool SweptVolumeQuery::DownIsFree(int i, Side support, const Footprint& X_WS) const {
   if (!IsFree(Down(i, support, X_WS), 0.0)) return false;
   return areas_.empty() || areas_.Clears(X_WS * volumes_.set.Placement(i, support), no_step_);
 }
 
-bool SweptVolumeQuery::UpIsFree(int i, Side support, const Pose2& X_WS) const {
+bool SweptVolumeQuery::UpIsFree(int i, Side support, const Footprint& X_WS) const {
   return IsFree(Up(i, support, X_WS), 0.0);
 }
 
@@ -227,12 +227,13 @@ double SweptVolumeQuery::Clearance(const Placed& placed, double horizon) const {
   return free;
 }
 
-double SweptVolumeQuery::DownClearance(int i, Side support, const Pose2& X_WS,
+double SweptVolumeQuery::DownClearance(int i, Side support, const Footprint& X_WS,
                                        double horizon) const {
   return Clearance(Down(i, support, X_WS), horizon);
 }
 
-double SweptVolumeQuery::UpClearance(int i, Side support, const Pose2& X_WS, double horizon) const {
+double SweptVolumeQuery::UpClearance(int i, Side support, const Footprint& X_WS,
+                                     double horizon) const {
   return Clearance(Up(i, support, X_WS), horizon);
 }
 

@@ -12,6 +12,7 @@
 #include "planner/search/half_step_query.h"
 #include "planner/swept/box_tree_query.h"
 #include "planner/swept/swept_volumes.h"
+#include "wpg/geometry/footprint.h"
 
 namespace halfstep {
 
@@ -28,14 +29,14 @@ class SweptVolumeQuery : public HalfStepQuery {
   SweptVolumeQuery(const SweptVolumes& volumes, const Eigen::Matrix2Xd& sole_outline,
                    const Scene& scene, double no_step = 0.0);
 
-  bool DownIsFree(int i, Side support, const Pose2& X_WS) const override;
-  bool UpIsFree(int i, Side support, const Pose2& X_WS) const override;
+  bool DownIsFree(int i, Side support, const Footprint& X_WS) const override;
+  bool UpIsFree(int i, Side support, const Footprint& X_WS) const override;
 
   /// A distance [m] from the volume (so from the robot: the baked clearance more) that is free of
   /// obstacles in all directions of the axes; 0 when the half-step is not free. Found by halving to
   /// 1 mm; at most `horizon` [m]. No-step areas do not count.
-  double DownClearance(int i, Side support, const Pose2& X_WS, double horizon) const;
-  double UpClearance(int i, Side support, const Pose2& X_WS, double horizon) const;
+  double DownClearance(int i, Side support, const Footprint& X_WS, double horizon) const;
+  double UpClearance(int i, Side support, const Footprint& X_WS, double horizon) const;
 
   /// Moves one obstacle of the scene; the others stay as they are prepared.
   void SetObstaclePose(int obstacle, const Eigen::Isometry3d& X_WO);
@@ -66,14 +67,14 @@ class SweptVolumeQuery : public HalfStepQuery {
     const std::optional<BoxTree>& volume;
     const Bounds& bounds;
     bool mirrored;
-    Pose2 X_WS;
+    Footprint X_WS;
     double cos, sin;  // of its yaw
   };
 
   static Prepared Prepare(const Obstacle& obstacle);
   static std::vector<Bounds> BoundsOf(const std::vector<std::optional<BoxTree>>& volumes);
-  Placed Down(int i, Side support, const Pose2& X_WS) const;
-  Placed Up(int i, Side support, const Pose2& X_WS) const;
+  Placed Down(int i, Side support, const Footprint& X_WS) const;
+  Placed Up(int i, Side support, const Footprint& X_WS) const;
   bool IsFree(const Placed& placed, double extra) const;
   bool MeetsObstacle(const BoxTree& tree, const Placed& placed, const Prepared& obstacle,
                      double extra) const;

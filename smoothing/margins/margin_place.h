@@ -8,6 +8,7 @@
 #include "planner/scene/scene.h"
 #include "smoothing/margins/body_clearances.h"
 #include "smoothing/margins/body_heights.h"
+#include "wpg/geometry/footprint.h"
 #include "wpg/robot/robot_model.h"
 
 namespace halfstep {
@@ -36,7 +37,7 @@ struct MarginPlace {
 struct MarginScratch {
   /// The no-step area that was nearest to a sole where it stood last.
   struct Standing {
-    Pose2 X_WF;
+    Footprint X_WF;
     NoStepAreas::Nearest nearest;
     bool known = false;
   };

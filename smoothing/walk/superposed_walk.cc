@@ -32,7 +32,7 @@ SuperposedWalk::SuperposedWalk(const HalfStepSequence& sequence,
     half_step.duration = parameters.durations[i];
     const double planned_height = half_step.via_height;
     half_step.via_height *= parameters.height_scales[i / 2];
-    const Pose2& X_WS = sequence.half_steps[i].X_WS;
+    const Footprint& X_WS = sequence.half_steps[i].X_WS;
     const WalkState from_W = Transformed(X_WS, half_step.Start());
     pieces_.push_back({.half_step = half_step,
                        .X_WS = X_WS,

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "smoothing/walk/homotopy_parameters.h"
+#include "wpg/geometry/footprint.h"
 #include "wpg/geometry/support_polygon.h"
 #include "wpg/motion/half_step_sequence.h"
 #include "wpg/motion/walk_state.h"
@@ -45,7 +46,7 @@ class SuperposedWalk {
   const HomotopyParameters& parameters() const { return parameters_; }
   const HalfStep& half_step(int i) const { return piece(i).half_step; }
   const HalfStepProfiles& profiles(int i) const { return piece(i).profiles; }
-  const Pose2& X_WS(int i) const { return piece(i).X_WS; }
+  const Footprint& X_WS(int i) const { return piece(i).X_WS; }
   const Lipm& lipm() const { return lipm_; }
 
   /// The latest half-step that has begun at t [s] (clamped to the walk), and the time since.
@@ -87,7 +88,7 @@ class SuperposedWalk {
  private:
   struct Piece {
     HalfStep half_step;
-    Pose2 X_WS;
+    Footprint X_WS;
     double planned_height = 0.0;  // before scaling [m]
     HalfStepProfiles profiles;
     double start = 0.0;         // t_i

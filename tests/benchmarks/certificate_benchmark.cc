@@ -24,12 +24,12 @@ struct SmoothedWalk {
   explicit SmoothedWalk(int obstacles) {
     const RobotModel robot = Hrp2();
     const double y = 0.5 * robot.standing_width;
-    std::array<Pose2, 2> feet = {Pose2{0, y, 0}, Pose2{0, -y, 0}};
-    const std::array<Pose2, 2> start = feet;
+    std::array<Footprint, 2> feet = {Pose2{0, y, 0}, Pose2{0, -y, 0}};
+    const std::array<Footprint, 2> start = feet;
     std::vector<Footstep> footsteps;
     for (int i = 0; i < kHalfSteps / 2; ++i) {
       const Side side = i % 2 == 0 ? Side::kRight : Side::kLeft;
-      Pose2& foot = feet[static_cast<size_t>(Index(side))];
+      Footprint& foot = feet[static_cast<size_t>(Index(side))];
       const Pose2& support = feet[static_cast<size_t>(Index(Opposite(side)))];
       foot = support * Pose2{0.12, Sign(side) * 2 * y, side == Side::kLeft ? 0.05 : 0.0};
       footsteps.push_back({.side = side, .X_WF = foot, .via_height = 0.15, .duration = 2.0});

@@ -75,7 +75,7 @@ int main(int argc, char** argv) {
       const int i = draw.Index(volumes.set.size());
       const bool down = draw.Index(2) == 0;
       const Side side = draw.AnySide();  // of the foot on which the element lands the other
-      const Pose2 X_WS = draw.Floor(kReach);
+      const Footprint X_WS = draw.Floor(kReach);
       const auto free_at = [&](const Pose2& at) {
         return down ? query.DownIsFree(i, side, at) : query.UpIsFree(i, side, at);
       };

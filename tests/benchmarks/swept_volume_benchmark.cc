@@ -94,7 +94,7 @@ Scene Room(Kind kind) {
 struct Asked {
   int element;
   Side support;
-  Pose2 X_WS;
+  Footprint X_WS;
 };
 std::vector<Asked> Questions(int elements, int count) {
   SweptDraw draw(12);

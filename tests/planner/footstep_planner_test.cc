@@ -60,7 +60,7 @@ TEST(GoalRegion, AsksTheFootThatCounts) {
   GoalRegion goal;
   goal.X_WG = {0.0, 0.1, 0.0};
   goal.radius = 0.01;
-  const std::array<Pose2, 2> feet = {Pose2{0.0, 0.1, 0.0}, Pose2{0.0, -0.1, 0.0}};
+  const std::array<Footprint, 2> feet = {Pose2{0.0, 0.1, 0.0}, Pose2{0.0, -0.1, 0.0}};
   const auto contains = [&](GoalPart part) {
     goal.part = part;
     return goal.ContainsStance(feet);
@@ -95,7 +95,7 @@ TEST(StepReach, NoSequenceOfElementsLeadsFarther) {
   std::mt19937_64 random(3);
   double nearest_to_bound = 0.0;
   for (int trial = 0; trial < 20000; ++trial) {
-    Pose2 X_WS;
+    Footprint X_WS;
     Side support = Side::kLeft;
     for (int n = 1; n <= 6; ++n) {
       X_WS = X_WS * set.Placement(Pick(set.size(), random), support);
@@ -152,7 +152,7 @@ TEST(StepGraph, LandsAllElementsWhereItLandsEach) {
   const FlatQuery query(set, {});
   const PlanRequest request = RequestTo({2.0, 0.0, 0.0}, set, query);
   const StepGraph graph(request, AllElements(set));
-  std::vector<Pose2> landings;
+  std::vector<Footprint> landings;
   for (Side support : {Side::kLeft, Side::kRight}) {
     const StepState from{{0.3, -0.7, 1.234}, support};
     graph.Landings(from, &landings);
@@ -170,7 +170,7 @@ TEST(StepGraph, StartsFromBothFeetOfTheStance) {
   PlanRequest request = RequestTo({2.0, 0.0, 0.0}, set, query);
   request.start = {Pose2{0.03, 0.12, 0.1}, Pose2{-0.04, -0.11, -0.2}};
   int asked = 0;
-  request.start_is_free = [&](const HalfStep& up, const Pose2& X_WS) {
+  request.start_is_free = [&](const HalfStep& up, const Footprint& X_WS) {
     ++asked;
     const Pose2 &support = request.start[static_cast<size_t>(Index(up.support))],
                 &other = request.start[static_cast<size_t>(Index(up.swing()))];
@@ -307,15 +307,15 @@ TEST(FootstepRrt, DifferentSeedsFindDifferentWays) {
 // one state says nothing about another one near it.
 class CapriciousQuery : public HalfStepQuery {
  public:
-  bool DownIsFree(int i, Side support, const Pose2& X_WS) const override {
+  bool DownIsFree(int i, Side support, const Footprint& X_WS) const override {
     return IsFree(2 * i, support, X_WS);
   }
-  bool UpIsFree(int i, Side support, const Pose2& X_WS) const override {
+  bool UpIsFree(int i, Side support, const Footprint& X_WS) const override {
     return IsFree(2 * i + 1, support, X_WS);
   }
 
  private:
-  static bool IsFree(int what, Side support, const Pose2& X_WS) {
+  static bool IsFree(int what, Side support, const Footprint& X_WS) {
     std::uint64_t mixed = static_cast<std::uint64_t>(2 * what + Index(support)) + 1;
     for (const double value : {X_WS.x, X_WS.y, X_WS.yaw}) {
       mixed = (mixed ^ std::bit_cast<std::uint64_t>(value)) * 0x9e3779b97f4a7c15;

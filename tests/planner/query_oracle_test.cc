@@ -88,7 +88,7 @@ TEST(QueryOracle, AnswersAsTheSolidBoxesDo) {
       p -= (nearest - 0.5e-4) * way;
     }
     const bool mirrored = trial % 2 == 1;
-    const Pose2 X_WS = draw.Floor(0.5);
+    const Footprint X_WS = draw.Floor(0.5);
     const auto ask = [&](const Vector3d& at) {
       Isometry3d X_SO = Posed(R, at);
       Obstacle placed{"near", shape, X_SO};

@@ -28,7 +28,7 @@ Scene One(Shape shape, const Isometry3d& X_WO) {
 struct Asked {
   int element;
   Side support;
-  Pose2 X_WS;
+  Footprint X_WS;
 };
 Asked DrawQuery(double reach, SweptDraw* draw) {
   const int element = draw->Index(CoarseVolumes().set.size());
@@ -79,7 +79,7 @@ TEST(SweptVolumeQueryTest, FreeHalfStepsKeepTheClearanceOnBothSidesUpAndDown) {
         const Posture posture = SolvePosture(robot, x_W);
         for (size_t b = 0; b < robot.bodies.size(); ++b) {
           CollisionWorld::Scratch scratch;
-          EXPECT_TRUE(world.Clears(shapes[b], posture.OfBody(robot.bodies[b]),
+          EXPECT_TRUE(world.Clears(shapes[b], posture.OfBody(robot.bodies[b]), 0.0,
                                    CoarseOptions().clearance, &scratch))
               << "room " << room << ", query " << k << ", body " << robot.bodies[b].name;
         }
@@ -218,7 +218,7 @@ TEST(SweptVolumeQueryTest, OnlyTheLandingSoleKeepsOffNoStepAreas) {
   scene.no_step.push_back(area);
   const SweptVolumeQuery query(volumes, kSole, scene);
   for (const Side support : {Side::kLeft, Side::kRight}) {
-    const Pose2 X_SF = volumes.set.Placement(0, support);
+    const Footprint X_SF = volumes.set.Placement(0, support);
     EXPECT_FALSE(query.DownIsFree(0, support, X_SF.Inverse()));
     EXPECT_TRUE(query.UpIsFree(0, support, X_SF.Inverse()));
     EXPECT_TRUE(query.DownIsFree(0, support, {}));

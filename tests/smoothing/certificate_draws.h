@@ -8,6 +8,7 @@
 #include "smoothing/proof/sampled_feasibility.h"
 #include "tests/smoothing/test_walks.h"
 #include "tests/wpg/generated_robots.h"
+#include "wpg/geometry/footprint.h"
 
 namespace halfstep {
 
@@ -31,15 +32,15 @@ struct WalkVariety {
 inline HalfStepSequence DrawSequence(const RobotModel& robot, int steps, const WalkVariety& variety,
                                      WalkDraw* draw) {
   const double size = robot.waist_height / 0.65, width = robot.standing_width;
-  std::array<Pose2, 2> feet = {Pose2{0, 0.5 * width, 0}, Pose2{0, -0.5 * width, 0}};
-  const std::array<Pose2, 2> start = feet;
+  std::array<Footprint, 2> feet = {Pose2{0, 0.5 * width, 0}, Pose2{0, -0.5 * width, 0}};
+  const std::array<Footprint, 2> start = feet;
   Side side = draw->Uniform(0, 1) < 0.5 ? Side::kLeft : Side::kRight;
   std::vector<Footstep> footsteps;
   for (int i = 0; i < steps; ++i, side = Opposite(side)) {
     const double x = variety.stride * size * draw->Uniform(-0.15, 0.25);
     const double y = Sign(side) * (width + variety.stride * size * draw->Uniform(-0.02, 0.08));
     const double yaw = variety.stride * draw->Uniform(-0.3, 0.3);
-    Pose2& foot = feet[static_cast<size_t>(Index(side))];
+    Footprint& foot = feet[static_cast<size_t>(Index(side))];
     foot = feet[static_cast<size_t>(Index(Opposite(side)))] * Pose2{x, y, yaw};
     const double height = size * draw->Uniform(variety.lowest, variety.highest);
     footsteps.push_back({.side = side,
@@ -64,7 +65,7 @@ inline Scene DrawScene(const SuperposedWalk& walk, SceneKind kind, int count, Wa
   for (int i = 0; i < count; ++i) {
     const WalkState x = walk.At(draw->Uniform(0.0, walk.duration())).value;
     const Side side = draw->Uniform(0, 1) < 0.5 ? Side::kLeft : Side::kRight;
-    const Pose2 X_WF = FootPose(x, side);
+    const Footprint X_WF = FootPose(x, side);
     const double r = draw->Uniform(0.0, 0.3), direction = draw->Uniform(-3.14, 3.14);
     const Pose2 X_FO{r * std::cos(direction), r * std::sin(direction), draw->Uniform(-3.14, 3.14)};
     Obstacle obstacle{.name = "o" + std::to_string(i), .shape = Sphere{0.01}};

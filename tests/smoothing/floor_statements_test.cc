@@ -307,7 +307,7 @@ TEST(Ground, RowsHaveDerivatives) {
 }
 
 // An area beside the place where the right foot lands, `gap` [m] ahead of what it touches there.
-Scene AheadOf(const RobotModel& robot, const Pose2& X_WF, double gap) {
+Scene AheadOf(const RobotModel& robot, const Footprint& X_WF, double gap) {
   Scene scene;
   Eigen::Matrix2Xd area(2, 4);
   const double x = X_WF.x + robot.sole_outline.row(0).maxCoeff() + gap;

@@ -227,7 +227,7 @@ TEST(MotionBounds, SpanKnotsAndBothEndsOfTheWalk) {
 TEST(MotionBounds, AreNoneWhereALegIsStretched) {
   const RobotModel robot = Hrp2();
   const double width = robot.standing_width;
-  const std::array<Pose2, 2> start = {Pose2{0, 0.5 * width, 0}, Pose2{0, -0.5 * width, 0}};
+  const std::array<Footprint, 2> start = {Pose2{0, 0.5 * width, 0}, Pose2{0, -0.5 * width, 0}};
   const HalfStepSequence sequence =
       MakeSequence(start, {{.side = Side::kLeft, .X_WF = {0.9, 0.5 * width, 0}}}, 0.24, {},
                    {.com_height = robot.com_height});

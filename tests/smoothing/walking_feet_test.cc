@@ -18,7 +18,7 @@ TEST(WalkingFeet, FeetLandExactlyOnTheFootstepsAndStayThere) {
     const HalfStepSequence sequence =
         MakeSequence(StandingFeet(), footsteps, 0.24, {.shift = draw.Uniform(0.03, 0.3)}, {});
     const SuperposedWalk walk(sequence, draw.ExtremeParameters(sequence));
-    std::array<Pose2, 2> feet = StandingFeet();
+    std::array<Footprint, 2> feet = StandingFeet();
     for (int step = 0; step < 5; ++step) {
       const Footstep& footstep = footsteps[static_cast<size_t>(step)];
       const auto at_rest = [&](const LocalTime& at, Side side) {

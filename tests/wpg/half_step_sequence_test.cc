@@ -47,7 +47,7 @@ TEST(MakeSequence, EachHalfStepBeginsWhereTheOneBeforeEnds) {
     const std::vector<Footstep> footsteps = draw.Footsteps(6);
     const HalfStepSequence s = MakeSequence(StandingFeet(), footsteps, 0.24, {}, {});
     ASSERT_EQ(s.size(), 12);
-    std::array<Pose2, 2> feet = StandingFeet();
+    std::array<Footprint, 2> feet = StandingFeet();
     for (int k = 0; k < s.size(); ++k) {
       const PlacedHalfStep& now = s.half_steps[static_cast<size_t>(k)];
       EXPECT_EQ(now.half_step.kind, k % 2 == 0 ? HalfStepKind::kUp : HalfStepKind::kDown);
@@ -75,7 +75,7 @@ TEST(MakeSequence, EachHalfStepBeginsWhereTheOneBeforeEnds) {
 
 TEST(MakeSequence, YawKeepsItsTurns) {
   // A foot that has turned by more than a full turn: the waist must not turn back.
-  const std::array<Pose2, 2> start = {Pose2{0, 0.105, 6.4}, Pose2{0, -0.105, 6.4}};
+  const std::array<Footprint, 2> start = {Pose2{0, 0.105, 6.4}, Pose2{0, -0.105, 6.4}};
   const HalfStepSequence s =
       MakeSequence(start, {{.side = Side::kLeft, .X_WF = {0, 0.105, 6.6}}}, 0.24, {}, {});
   EXPECT_NEAR(EndInW(s.half_steps[1])[kWaistYaw], 6.5, 1e-14);
@@ -97,8 +97,8 @@ TEST(SequenceSymmetry, MirroredAndMovedAreWhatTheMirroredAndMovedFootstepsGive) 
     }
     const auto feet = StandingFeet();
     const HalfStepSequence plain = MakeSequence(feet, footsteps, 0.24, {}, {});
-    const std::array<Pose2, 2> feet_m = {feet[1].Mirrored(), feet[0].Mirrored()};
-    const std::array<Pose2, 2> feet_v = {X_VW * feet[0], X_VW * feet[1]};
+    const std::array<Footprint, 2> feet_m = {feet[1].Mirrored(), feet[0].Mirrored()};
+    const std::array<Footprint, 2> feet_v = {X_VW * feet[0], X_VW * feet[1]};
     for (const auto& [a, b] :
          {std::pair{Mirrored(plain), MakeSequence(feet_m, mirrored, 0.24, {}, {})},
           std::pair{Moved(X_VW, plain), MakeSequence(feet_v, moved, 0.24, {}, {})}}) {

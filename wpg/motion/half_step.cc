@@ -5,7 +5,7 @@
 namespace halfstep {
 namespace {
 
-void SetFoot(Side side, const Pose2& X_SF, double z, WalkState* x) {
+void SetFoot(Side side, const Footprint& X_SF, double z, WalkState* x) {
   x->segment<4>(FootIndex(side)) = Eigen::Vector4d(X_SF.x, X_SF.y, z, X_SF.yaw);
 }
 

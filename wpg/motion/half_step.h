@@ -1,6 +1,6 @@
 #pragma once
 
-#include "wpg/geometry/pose2.h"
+#include "wpg/geometry/footprint.h"
 #include "wpg/geometry/side.h"
 #include "wpg/motion/lipm.h"
 #include "wpg/motion/profile_jet.h"
@@ -38,7 +38,7 @@ struct HalfStepShape {
 struct HalfStep {
   Side support = Side::kLeft;
   HalfStepKind kind = HalfStepKind::kUp;
-  Pose2 X_SF;                 ///< the swing sole's place on the floor, seen from the support sole.
+  Footprint X_SF;             ///< the swing sole's place on the floor, seen from the support sole.
   double duration = 2.0;      ///< T [s]
   double via_height = 0.25;   ///< [m] ≥ 0
   double via_lateral = 0.24;  ///< distance of the via point from the support sole's centre [m].

@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "wpg/geometry/pose2.h"
+#include "wpg/geometry/footprint.h"
 #include "wpg/geometry/side.h"
 #include "wpg/motion/half_step.h"
 #include "wpg/motion/lipm.h"
@@ -13,7 +13,7 @@ namespace halfstep {
 /// A foot's place on the floor, X_WF.
 struct Footstep {
   Side side = Side::kLeft;
-  Pose2 X_WF;
+  Footprint X_WF;
   /// Of the step that leads here; both half-steps share them.
   double via_height = 0.25;  ///< [m]
   double duration = 2.0;     ///< T of each half-step [s]
@@ -22,13 +22,13 @@ struct Footstep {
 /// A half-step placed in the world: X_WS is the pose of its support sole.
 struct PlacedHalfStep {
   HalfStep half_step;
-  Pose2 X_WS;
+  Footprint X_WS;
 };
 
 /// A plan: half-steps 0 … n−1, alternately up and down, each beginning where the one before ends.
 /// Step j is made of half-steps 2j (up) and 2j + 1 (down).
 struct HalfStepSequence {
-  std::array<Pose2, 2> start;              ///< soles at the start, by Index(Side); yaws unwrapped.
+  std::array<Footprint, 2> start;          ///< soles at the start, by Index(Side); yaws unwrapped.
   std::vector<PlacedHalfStep> half_steps;  ///< n ≥ 2, even.
   Lipm lipm;
 
@@ -39,7 +39,7 @@ struct HalfStepSequence {
 
 /// The sequence that takes the footsteps in their order from the soles `start`. `via_lateral` [m]
 /// and `shape` hold for all half-steps. Precondition: at least one footstep (std::logic_error).
-HalfStepSequence MakeSequence(const std::array<Pose2, 2>& start,
+HalfStepSequence MakeSequence(const std::array<Footprint, 2>& start,
                               const std::vector<Footstep>& footsteps, double via_lateral,
                               const HalfStepShape& shape, const Lipm& lipm);
 

@@ -1,0 +1,113 @@
+// Obstacles do not move yet, but may be said to be able to: what the parts make of a bound of their
+// speed.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "planner/swept/swept_volume_query.h"
+#include "smoothing/methods/dichotomy.h"
+#include "smoothing/methods/reference_search.h"
+#include "smoothing/program/overlap_variables.h"
+#include "smoothing/proof/certified_feasibility.h"
+#include "smoothing/proof/stretch_proofs.h"
+#include "tests/smoothing/fake_feasibility.h"
+#include "tests/smoothing/smoothed.h"
+#include "tests/smoothing/test_walks.h"
+
+namespace halfstep {
+namespace {
+
+// A ball beside the walk.
+Scene BallOf(double speed) {
+  Scene scene;
+  scene.obstacles.push_back({.name = "ball",
+                             .shape = Sphere{0.05},
+                             .X_WO = Eigen::Isometry3d(Eigen::Translation3d(0.2, -0.6, 0.3)),
+                             .speed = speed});
+  return scene;
+}
+
+class MovingObstacles : public testing::Test {
+ protected:
+  const HalfStepSequence sequence_ = MakeSequence(
+      StandingFeet(),
+      {{.side = Side::kRight, .X_WF = {0.2, -0.105, 0}, .via_height = 0.1, .duration = 2},
+       {.side = Side::kLeft, .X_WF = {0.4, 0.105, 0}, .via_height = 0.1, .duration = 2}},
+      0.24, {.shift = 0.05, .horizontal_delay = 0.1}, {.com_height = Hrp2().com_height});
+  const HomotopyParameters planned_ = PlannedMotion(sequence_);
+};
+
+TEST_F(MovingObstacles, ACertificateLeavesRoomForTheirMotionInEveryInterval) {
+  const SuperposedWalk walk(sequence_, planned_);
+  size_t rows_at_rest = 0;
+  for (double speed : {0.0, 0.05}) {
+    const CertifiedFeasibility test(MarginEvaluator(Hrp2(), BallOf(speed), {}), {});
+    MarginEvaluator::Scratch scratch = test.evaluator().MakeScratch();
+    Certificate rows;
+    ASSERT_EQ(test.Certify(walk, &scratch, &rows).verdict, Verdict::kFeasible);
+    for (const CertificateRow& row : rows) {
+      if (row.family != MarginFamily::kClearance) continue;
+      EXPECT_GE(row.bound, speed * 0.5 * (row.end - row.begin));
+      EXPECT_GE(row.margin.value - row.bound, 0.0);
+    }
+    if (speed == 0.0) rows_at_rest = rows.size();
+    EXPECT_GE(rows.size(), rows_at_rest);
+  }
+  // So fast that no interval is short enough.
+  const CertifiedFeasibility test(MarginEvaluator(Hrp2(), BallOf(1e5), {}), {});
+  MarginEvaluator::Scratch scratch = test.evaluator().MakeScratch();
+  EXPECT_EQ(test.Check(walk, {0.0, walk.duration()}, &scratch).verdict, Verdict::kUndecided);
+}
+
+TEST_F(MovingObstacles, AnOverlapIsCheckedToTheEndOfTheWalk) {
+  for (double speed : {0.0, 0.1}) {
+    const MarginEvaluator evaluator(Hrp2(), BallOf(speed), {});
+    const FakeFeasibility test(evaluator,
+                               [](const HomotopyParameters&) { return Verdict::kFeasible; });
+    const SmoothingResult result = Smoothed(Dichotomy, ProblemOf(sequence_, test), {});
+    EXPECT_TRUE(result.feasible);
+    ASSERT_EQ(test.questions.size(), 4u);  // the start and three overlaps
+    for (size_t k = 1; k < 4; ++k) {
+      const SuperposedWalk walk(sequence_, test.questions[k].parameters);
+      const int junction = static_cast<int>(k) - 1;
+      EXPECT_EQ(test.questions[k].window.end,
+                speed > 0.0 ? walk.duration() : walk.end_of(junction));
+    }
+  }
+}
+
+TEST_F(MovingObstacles, AProofIsRememberedForOneTimeOnly) {
+  HomotopyParameters later = planned_;  // the first half-step is longer: the others begin later
+  later.durations[0] *= 1.1;
+  for (double speed : {0.0, 0.1}) {
+    const MarginEvaluator evaluator(Hrp2(), BallOf(speed), {});
+    const FakeFeasibility test(evaluator,
+                               [](const HomotopyParameters&) { return Verdict::kFeasible; });
+    MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
+    StretchProofs proofs(test, sequence_.size());
+    EXPECT_TRUE(proofs.Refusals(SuperposedWalk(sequence_, planned_), &scratch).empty());
+    const size_t before = test.questions.size();
+    EXPECT_TRUE(proofs.Refusals(SuperposedWalk(sequence_, later), &scratch).empty());
+    EXPECT_EQ(test.questions.size() - before, speed > 0.0 ? 4u : 1u);
+  }
+}
+
+TEST_F(MovingObstacles, AnInstantDependsOnAllThatCameBefore) {
+  const HalfStepSequence sequence = WalkDraw(80).Sequence(6);  // 12 half-steps
+  const ParameterTable table(sequence, {}, {.heights = true, .durations = true});
+  const OverlapVariables resting(sequence, table), moving(sequence, table, false);
+  EXPECT_EQ(moving.Band(0), resting.Band(0));
+  EXPECT_EQ(moving.Band(8).size(), resting.Band(8).size() + 5 + 2 + 5);
+}
+
+TEST_F(MovingObstacles, AreRefusedByWhatCannotDealWithThem) {
+  const MarginEvaluator evaluator(Hrp2(), BallOf(0.1), {});
+  const FakeFeasibility test(evaluator,
+                             [](const HomotopyParameters&) { return Verdict::kFeasible; });
+  EXPECT_EQ(Smoothed(ReferenceSearch, ProblemOf(sequence_, test), {}).ending, opt::Ending::kNotRun);
+  EXPECT_THROW(SweptVolumeQuery({}, Hrp2().sole_outline, BallOf(0.1)), std::logic_error);
+}
+
+}  // namespace
+}  // namespace halfstep
