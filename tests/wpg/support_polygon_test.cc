@@ -7,6 +7,8 @@
 #include <random>
 #include <vector>
 
+#include "wpg/geometry/footprint.h"
+
 namespace halfstep {
 namespace {
 

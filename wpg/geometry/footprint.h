@@ -29,6 +29,7 @@ struct Footprint : Pose2 {
   Footprint Mirrored() const { return {x, -y, -yaw, height}; }
 
   friend bool operator==(const Footprint&, const Footprint&) = default;
+  friend bool operator==(const Footprint& a, const Pose2& b) { return a == Footprint(b); }
 };
 
 }  // namespace halfstep
