@@ -24,7 +24,7 @@ class BarrierTerms {
   Eigen::VectorXd CentralMultipliers(const Eigen::VectorXd& values, double mu) const;
   /// Brings multipliers within a factor of 10⁶ of μ/s_i.
   void ClampMultipliers(const Eigen::VectorXd& values, double mu);
-  /// A Newton step of z s = μ, α of it, while the values change by α·change.
+  /// Takes the fraction α of a Newton step for z s = μ, while the values change by α·change.
   void AdvanceMultipliers(const Eigen::VectorXd& values, const Eigen::VectorXd& change, double mu,
                           double alpha);
 
