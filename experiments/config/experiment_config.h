@@ -94,7 +94,7 @@ std::vector<KeyDescription> ConfigKeys();
 
 /// Reads a config file strictly. Throws InputError with every complaint at once.
 ExperimentConfig LoadConfig(const std::string& path, const std::vector<YamlOverride>& overrides);
-/// The same of a config file's text.
+/// The same for a config file's text.
 ExperimentConfig ParseConfig(const std::string& path, const std::string& text,
                              const std::vector<YamlOverride>& overrides);
 

@@ -52,7 +52,7 @@ std::string OverrideText(const SweepCase& one);
 /// read too. Throws InputError.
 SweepConfig LoadSweep(const std::string& path, const std::vector<YamlOverride>& overrides,
                       bool check);
-/// The same of a sweep file's text.
+/// The same for a sweep file's text.
 SweepConfig ParseSweep(const std::string& path, const std::string& text,
                        const std::vector<YamlOverride>& overrides, bool check);
 

@@ -30,7 +30,7 @@ struct CsvTable {
 CsvTable ReadCsv(const std::string& path);
 /// The text alone, which may be anything.
 std::string ReadCsvText(const std::string& path);
-/// The same of a text; `path` stands for it in complaints.
+/// The same for a text; `path` stands for it in complaints.
 CsvTable ParseCsv(const std::string& text, const std::string& path);
 
 }  // namespace halfstep

@@ -12,7 +12,7 @@ nlohmann::json ReadJsonObject(const std::filesystem::path& path);
 
 /// The bytes of one, which may be anything. Throws InputError as before.
 std::string ReadJsonText(const std::filesystem::path& path);
-/// The same of its bytes; `path` stands for the file in complaints.
+/// The same for its bytes; `path` stands for the file in complaints.
 nlohmann::json ParseJsonObject(const std::string& text, const std::filesystem::path& path);
 
 }  // namespace halfstep

@@ -28,7 +28,7 @@ struct TrajectoryRow {
 /// Throws InputError as path:line: column: … .
 std::vector<TrajectoryRow> ReadTrajectory(const std::filesystem::path& path,
                                           const RobotModel& robot);
-/// The same of a file's text; `path` stands for it in complaints.
+/// The same for a file's text; `path` stands for it in complaints.
 std::vector<TrajectoryRow> ParseTrajectory(const std::string& path, const std::string& text,
                                            const RobotModel& robot);
 
