@@ -82,7 +82,7 @@ class HalfStepProfiles {
   /// The swing foot moves horizontally between these local times [s].
   double horizontal_begin() const { return foot_.begin * duration_; }
   double horizontal_end() const { return foot_.end * duration_; }
-  double bump() const { return shift_.bump(); }  ///< ZMP's overshoot over its shift.
+  double bump() const { return shift_.bump(); }  ///< of the ZMP (RestToRest::bump).
 
  private:
   HalfStepShape shape_;
