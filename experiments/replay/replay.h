@@ -10,7 +10,7 @@
 
 namespace halfstep::replay {
 
-/// What became of a walk that was played.
+/// The outcome of playing a walk.
 struct ReplayResult {
   bool stayed_up = true;        ///< to the end, the time of standing after the walk included
   double ended = 0.0;           ///< when the waist had fallen, else the end [s]
@@ -25,7 +25,8 @@ struct ReplayResult {
   std::vector<ReplayRow> rows;  ///< from t = 0
 };
 
-/// Plays a motion to its end or until the robot has fallen. Leaves out the mass model's ZMP.
+/// Plays a motion to its end or until the robot has fallen. Leaves the mass model's ZMP to
+/// CompareMassModel().
 ReplayResult Play(const Simulation& robot, const ReferenceMotion& motion,
                   const PlayOptions& options);
 

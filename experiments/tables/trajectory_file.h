@@ -11,7 +11,7 @@
 
 namespace halfstep {
 
-/// A row of trajectory.csv as far as a robot or a simulator plays it. Places in W.
+/// What a robot or a simulator plays of a row of trajectory.csv. Places are in W.
 struct TrajectoryRow {
   double t = 0.0;                ///< [s]
   std::array<bool, 2> stands{};  ///< whether a sole carries, by Index(Side), as are the others
