@@ -48,15 +48,16 @@ struct CertifyCommand {
   bool quiet = false;
 };
 
-/// `halfstep certify`: makes the certificates of a run's walks anew, from its config and overlaps,
-/// in place. kFailed when a walk is not certified. Throws InputError for a run that cannot be read.
+/// `halfstep certify`: makes the certificates of a run's walks again, from its config and overlaps,
+/// and replaces them. kFailed when a walk is not certified. Throws InputError for a run that cannot
+/// be read.
 ExitStatus Certify(const CertifyCommand& command);
 
 struct ExportCommand {
   std::vector<std::string> runs;  ///< one run folder; several for "ompl"
   std::string format;             ///< "csv", "hrpsys" or "ompl"
   std::optional<std::string> method;
-  std::optional<std::string> out;    ///< folder; else RUN-FORMAT
+  std::optional<std::string> out;    ///< folder; none: RUN-FORMAT
   std::optional<double> period;      ///< between rows [s], a multiple of the run's
   std::vector<std::string> columns;  ///< globs, for csv; empty: all
   std::vector<std::string> joints;   ///< globs in joint order, for hrpsys; empty: URDF's
@@ -70,7 +71,7 @@ ExitStatus Export(const ExportCommand& command);
 struct ReplayCommand {
   std::string run;  ///< a run folder
   std::optional<std::string> method;
-  bool push = false;            ///< look for the largest push that is survived
+  bool push = false;            ///< finds the largest push that is survived
   std::vector<double> push_at;  ///< instants [s]; none: a quarter, half, three quarters
   bool out = false;             ///< write METHOD/replay.csv into the run folder
   bool quiet = false;

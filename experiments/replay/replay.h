@@ -13,7 +13,7 @@ namespace halfstep::replay {
 /// The outcome of playing a walk.
 struct ReplayResult {
   bool stayed_up = true;        ///< to the end, the time of standing after the walk included
-  double ended = 0.0;           ///< when the waist had fallen, else the end [s]
+  double ended = 0.0;           ///< time at which the waist had fallen, else the end [s]
   double largest_tilt = 0.0;    ///< of the waist, until then [rad]
   double zmp_rms = 0.0;         ///< of the ZMP's error during the walk [m]
   double zmp_largest = 0.0;     ///< [m]

@@ -41,7 +41,7 @@ class BoxWorld {
 };
 
 struct [[nodiscard]] BoxPath {
-  std::vector<Pose2> path;  ///< of the middle of the feet, from the start; empty: none
+  std::vector<Pose2> path;  ///< of the middle of the feet, from the start; empty: no path
   bool stopped = false;     ///< by the monitor
   bool start_blocked = false;
 };

@@ -26,7 +26,7 @@ struct StepCost {
 /// How far the elements of a set can lead: bounds that no sequence of them exceeds.
 class StepReach {
  public:
-  /// Of the `elements` of the set that are used; not empty.
+  /// Bounds for the `elements` of the set that are used, at least one.
   StepReach(const HalfStepSet& set, const std::vector<int>& elements,
             const std::vector<double>& costs);
 

@@ -32,7 +32,7 @@ struct TreeSample {
 };
 
 /// A tree of states over free edges. Every node tries each of its elements once, in the order in
-/// which samples ask for them, and is left alone after the last.
+/// which samples ask for them, and grows no further after the last.
 class StepTree {
  public:
   StepTree(const TreeTarget& target, const PoseCells& cells, StepGraph* graph,

@@ -41,7 +41,7 @@ Termination AtFirstPlan();
 Termination WhenNotImprovedFor(std::int64_t nodes);
 /// kInterrupted when a stop was requested.
 Termination OnRequest(std::stop_token token);
-/// The first of them that says something else than kGoOn.
+/// The first answer of them other than kGoOn.
 Termination AnyOf(std::vector<Termination> terminations);
 
 }  // namespace halfstep

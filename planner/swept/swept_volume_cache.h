@@ -27,9 +27,9 @@ struct CachedVolumes {
 
 /// Volumes from the file `<robot>-<hash of the provenance>.swept` in `folder`, or baked and written
 /// there. Each element that is done is written to a part file, so that a bake that was stopped or
-/// killed goes on where it was; several bakes at once share them. Files of another provenance, cut
-/// or damaged ones are refused and baked again. Hooks `recall` and `keep` shall be empty. Without a
-/// folder, or when it cannot be written, the volumes are returned but not cached.
+/// killed continues where it was; several bakes at once share them. Files of another provenance,
+/// cut or damaged ones are refused and baked again. Hooks `recall` and `keep` shall be empty.
+/// Without a folder, or when it cannot be written, the volumes are returned but not cached.
 CachedVolumes LoadOrBakeSweptVolumes(const RobotModel& robot, const Lipm& lipm,
                                      const HalfStepSet& set, const SweptVolumeOptions& options,
                                      const std::string& folder, BakeHooks hooks = {});

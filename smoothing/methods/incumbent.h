@@ -43,7 +43,7 @@ class Incumbent {
   double cost() const { return cost_; }
   long accepted() const { return accepted_; }
   long refused() const { return refused_; }  ///< points that cost less and were not proved
-  /// What refused the last candidate itself; empty: nothing did.
+  /// The margins that refused the last candidate itself; empty when none did.
   const std::vector<Margin>& refusals() const { return refusals_; }
 
  private:

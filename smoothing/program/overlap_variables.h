@@ -19,7 +19,8 @@ using ParameterGradient = std::vector<std::pair<HomotopyParameter, double>>;
 class OverlapVariables {
  public:
   /// `sequence` is borrowed and must outlive this.
-  /// `resting`: whether the scene rests; else an instant depends on when it is as well.
+  /// `resting`: whether the obstacles of the scene rest; if not, margins at an instant also depend
+  /// on its absolute time.
   OverlapVariables(const HalfStepSequence& sequence, ParameterTable table, bool resting = true);
 
   const HalfStepSequence& sequence() const { return sequence_; }

@@ -30,7 +30,7 @@ class CertifiedFeasibility : public FeasibilityTest {
 
   /// The same over the whole walk, with the proof: `certificate` holds what was proved before a
   /// verdict was reached, all of it when feasible, in the order of begin, end and family. `stop` is
-  /// looked at before each interval; what is stopped is undecided.
+  /// polled before each interval; a proof that is stopped is undecided.
   Feasibility Certify(const SuperposedWalk& walk, MarginEvaluator::Scratch* scratch,
                       Certificate* certificate, const std::stop_token& stop = {}) const;
 

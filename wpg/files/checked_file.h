@@ -17,9 +17,9 @@ struct CheckedFile {
   std::string refused;  ///< "" when the file was read, or does not exist
 };
 
-/// Reads a file whose header must be `header`. Anything else is refused, never thrown: another
-/// header (the sentence names the first line that differs), a file that is cut or changed in any
-/// bit, one above 4 GiB.
+/// Reads a file whose header must be `header`. Anything else is refused with a sentence, not an
+/// exception: another header (the sentence names the first line that differs), a file that is cut
+/// or changed in any bit, one above 4 GiB.
 CheckedFile ReadCheckedFile(const std::string& path, std::string_view header);
 /// The same for a file's bytes.
 CheckedFile ParseCheckedFile(const std::string& path, std::string bytes, std::string_view header);

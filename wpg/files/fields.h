@@ -11,7 +11,8 @@
 
 namespace halfstep {
 
-/// What a number may be. Reading refuses anything outside [min, max] and anything not finite.
+/// The valid values of a number. Reading refuses anything outside [min, max] and anything not
+/// finite.
 /// unit, min and max are those of the text: of a key in `_deg` they are in degrees.
 struct NumberSpec {
   const char* meaning = "";
