@@ -18,7 +18,7 @@ struct OptimizerOptions {
   bool planned_start = true;  ///< solve also from the planned motion, after the dichotomy's result
   int random_starts = 0;      ///< and from random points of the variables' box
   unsigned seed = 1;          ///< of the random starts
-  int rounds = 40;  ///< ≥ 1, at most: solves from each start, between which the program is refined
+  int rounds = 40;  ///< ≥ 1: most solves from each start; the program is refined between them
   /// Instants per half-step at which the program looks. 0: 24 where each of them makes rows of its
   /// own (SolverTraits::many_rows), else those of `program`.
   int instants = 0;

@@ -26,7 +26,7 @@ struct TextSpec {
   bool required = false;
   std::vector<std::string> choices{};  ///< empty: any text.
   const char* listed_by = "";          ///< the command that lists choices that depend on the build
-  const char* otherwise = "";  ///< what holds when the key is absent, if no default value does
+  const char* otherwise = "";  ///< what holds without the key, where no default value says it
 };
 struct GroupSpec {
   const char* meaning = "";

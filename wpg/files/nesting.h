@@ -4,8 +4,8 @@
 
 namespace halfstep {
 
-/// How deep a text nests: to be asked before a recursive parser or printer, which could overflow
-/// the stack, sees it. Exact for valid texts; for others at least the depth before the first
+/// How deep a text nests, to be checked before a recursive parser or printer, which might overflow
+/// the stack, is given it. Exact for valid texts; for others at least the depth before the first
 /// mistake.
 
 /// Depth of nested arrays and objects; 0 without any.
