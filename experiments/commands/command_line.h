@@ -9,8 +9,8 @@
 
 namespace halfstep {
 
-/// What a command does once its options are read. Gives the exit status; throws as the commands of
-/// commands.h.
+/// What a command does once its options are read. Returns the exit status; throws as the commands
+/// of commands.h.
 using CommandAction = std::function<int()>;
 
 /// A command of `halfstep`: its name, its help, and the function that declares its options.
@@ -25,11 +25,11 @@ const std::vector<CommandEntry>& CommandEntries();
 
 /// Declares `--set KEY=VALUE`, repeatable, for the keys of `what`.
 void DeclareOverrides(CLI::App* app, const std::string& what, std::vector<std::string>* sets);
-/// The assignments. Throws InputError for what is none.
+/// Parses the assignments KEY=VALUE. Throws InputError for a text that is none.
 std::vector<YamlOverride> ParseOverrides(const std::vector<std::string>& sets);
 
 struct RunCommand;
-/// --overwrite, --quiet and --json of commands that write a run.
+/// Declares --overwrite, --quiet and --json, for commands that write a run.
 void DeclareRunFlags(CLI::App* app, RunCommand* command);
 
 CommandAction DeclareRun(CLI::App* app);

@@ -27,8 +27,8 @@ struct SmoothCommand {
   std::vector<std::string> methods;  ///< in place of smoothing.methods when not empty
 };
 
-/// `halfstep smooth`: what `run` does, footsteps given. Of a run folder RUN, into RUN-smooth unless
-/// `out` says otherwise. Throws as Run.
+/// `halfstep smooth`: what `run` does, for given footsteps. Writes the result of a run folder RUN
+/// into RUN-smooth unless `out` is given. Throws as Run.
 ExitStatus Smooth(const SmoothCommand& command);
 
 struct CompareCommand {
@@ -48,18 +48,19 @@ struct CertifyCommand {
   bool quiet = false;
 };
 
-/// `halfstep certify`: makes the certificates of a run's walks anew, from its config and overlaps,
-/// in place. kFailed when a walk is not certified. Throws InputError for a run that cannot be read.
+/// `halfstep certify`: makes the certificates of a run's walks again, from its config and overlaps,
+/// and replaces them. kFailed when a walk is not certified. Throws InputError for a run that cannot
+/// be read.
 ExitStatus Certify(const CertifyCommand& command);
 
 struct ExportCommand {
   std::vector<std::string> runs;  ///< one run folder; several for "ompl"
   std::string format;             ///< "csv", "hrpsys" or "ompl"
   std::optional<std::string> method;
-  std::optional<std::string> out;    ///< folder; else RUN-FORMAT
+  std::optional<std::string> out;    ///< folder; none: RUN-FORMAT
   std::optional<double> period;      ///< between rows [s], a multiple of the run's
-  std::vector<std::string> columns;  ///< globs, csv: none: all
-  std::vector<std::string> joints;   ///< globs, hrpsys: the joints' order; none: the URDF's
+  std::vector<std::string> columns;  ///< globs, for csv; empty: all
+  std::vector<std::string> joints;   ///< globs in joint order, for hrpsys; empty: URDF's
   bool overwrite = false;
   bool quiet = false;
 };
@@ -70,7 +71,7 @@ ExitStatus Export(const ExportCommand& command);
 struct ReplayCommand {
   std::string run;  ///< a run folder
   std::optional<std::string> method;
-  bool push = false;            ///< look for the largest push that is survived
+  bool push = false;            ///< finds the largest push that is survived
   std::vector<double> push_at;  ///< instants [s]; none: a quarter, half, three quarters
   bool out = false;             ///< write METHOD/replay.csv into the run folder
   bool quiet = false;
@@ -113,24 +114,24 @@ struct SweepCommand {
   std::vector<YamlOverride> overrides;  ///< of its keys
   std::optional<std::string> out;       ///< folder; none: sweeps/NAME
   int jobs = 1;                         ///< worker processes
-  bool list_cases = false;              ///< prints the cases and does nothing
-  std::string one_case;                 ///< does this one only, here; "": all
+  bool list_cases = false;              ///< only prints the cases
+  std::string one_case;                 ///< runs only this case, in this process; "": all
   bool collect = false;                 ///< writes runs.csv from cases that are done
   bool quiet = false;
 };
 
-/// `halfstep sweep`: every case of a sweep, each by a process of its own, then runs.csv. What is
-/// done already is not done again. Throws InputError for bad input and for a folder of something
-/// else, std::runtime_error when files cannot be written.
+/// `halfstep sweep`: every case of a sweep, each by a process of its own, then runs.csv. Cases that
+/// are done already are not run again. Throws InputError for bad input and for a folder of
+/// something else, std::runtime_error when files cannot be written.
 int Sweep(const SweepCommand& command);
 
 struct ExplainCommand {
-  std::string key;  ///< or the end of one; "": all
+  std::string key;  ///< a key, or the end of one; "": all keys
   bool json_schema = false, markdown = false;
 };
 
 /// `halfstep explain-config`: the keys of a config as its reader declares them. Throws InputError
-/// for a key that there is not.
+/// for an unknown key.
 ExitStatus ExplainConfig(const ExplainCommand& command);
 
 /// `halfstep list robots|scenes|solvers|methods|planners`. Precondition: `what` is one of these.

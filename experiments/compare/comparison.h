@@ -17,7 +17,7 @@ constexpr int kNumTargets = 3;
 constexpr std::array<double, kNumTargets> kTargets = {0.01, 0.05,
                                                       std::numeric_limits<double>::infinity()};
 
-/// What it took a method to get somewhere.
+/// The effort of a method to reach a target.
 struct Effort {
   double wall = 0.0;         ///< [s]
   double evaluations = 0.0;  ///< instants at which margins were evaluated
@@ -28,7 +28,7 @@ struct ComparedMethod {
   /// (cost − best)/|best|; +inf when the walk is not certified or not the method's own; nan for raw
   /// where the objective is not `fastest`: run folders do not hold its cost.
   double gap = 0.0;
-  /// Until each target was first met; none: a failure.
+  /// Effort until each target was first met; none: it was not met, a failure.
   std::array<std::optional<Effort>, kNumTargets> reached;
 };
 
@@ -36,8 +36,8 @@ struct ComparedMethod {
 struct ComparedCase {
   std::string scenario, objective, problem;
   int half_steps = 0;
-  /// The cheapest certified walk of its own that any method has, raw included for `fastest`; none:
-  /// there is none.
+  /// Cost of the cheapest certified walk of its own that any method has, raw included for
+  /// `fastest`; none when there is no such walk.
   std::optional<double> best_cost;
   std::string best_method;
   std::vector<ComparedMethod> methods;  ///< raw first
@@ -55,13 +55,14 @@ struct Comparison {
   std::vector<MethodKey> methods;  ///< of all cases, in the order of appearance, without raw
 };
 
-/// Brings the methods together by scenario and the objective that each pursued. Durations are what
-/// the targets of `fastest` look at along the way; iterates.csv has no costs, so other objectives
-/// know the end only. Throws InputError when runs of one scenario are not about the same problem,
-/// or when a method is there twice with different options or results.
+/// Brings the methods together by scenario and the objective that each pursued. Targets of
+/// `fastest` are tested along the way, by the durations in iterates.csv; it has no costs, so for
+/// other objectives they are tested at the end only. Throws InputError when runs of one scenario
+/// are not about the same problem, or when a method is there twice with different options or
+/// results.
 Comparison Compare(const std::vector<RunRecord>& runs);
 
-/// The record of a case for a method; null: it was not run there, which counts as a failure.
+/// The record of a case for a method; null when it was not run there, which counts as a failure.
 const ComparedMethod* Find(const ComparedCase& one, const MethodKey& method);
 
 /// One curve of a performance profile: the fraction of all cases that a method solved within

@@ -23,11 +23,11 @@ struct Experiment {
   HalfStepSequence sequence;
 };
 
-/// The files that a config names; no scene: an empty floor. They need not exist.
+/// Paths of the files that a config names, which need not exist. No scene: an empty floor.
 std::filesystem::path RobotPath(const ExperimentConfig& config);
 std::optional<std::filesystem::path> ScenePath(const ExperimentConfig& config);
 
-/// The same config with its paths relative to another folder, where it can be run from as well. An
+/// The same config with its paths relative to another folder, so that it can be run from there. An
 /// output directory becomes that folder itself.
 ExperimentConfig MovedTo(const std::filesystem::path& folder, const ExperimentConfig& config);
 
@@ -41,17 +41,18 @@ Place LoadPlace(const ExperimentConfig& config);
 /// The soles at the start, by Index(Side).
 std::array<Footprint, 2> StartOf(const ExperimentConfig& config, const RobotModel& robot);
 
-/// Makes the sequence, empty without footsteps, in a place that was loaded before.
+/// Makes the experiment in a place that is loaded; without footsteps its sequence is empty.
 Experiment Prepare(const ExperimentConfig& config, Place place);
-/// The same in LoadPlace(config). Throws InputError.
+/// The same, in the place that LoadPlace() loads. Throws InputError.
 Experiment Prepare(const ExperimentConfig& config);
 
-/// The first footprint of the plan that touches a no-step polygon, as a sentence; none: all are
-/// fine.
+/// The first footprint of the plan that touches a no-step polygon, as a sentence; none when no
+/// footprint does.
 std::optional<std::string> FootprintOnNoStep(const Experiment& experiment);
 
-/// Folder with the shipped robots (`NAME.yaml`) and with the shipped scenes: the source tree's, or
-/// what the environment variable HALFSTEP_DATA says (it holds wpg/robots and experiments/scenes).
+/// Folders of the shipped robots (`NAME.yaml`) and of the shipped scenes: wpg/robots and
+/// experiments/scenes in the source tree, or in the folder that the environment variable
+/// HALFSTEP_DATA names.
 std::filesystem::path RobotsFolder();
 std::filesystem::path ScenesFolder();
 /// Paths of a folder's *.yaml, sorted; none when it cannot be read.

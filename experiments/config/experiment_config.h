@@ -54,7 +54,7 @@ struct FixedConfig {
 struct SmoothingConfig {
   std::vector<std::string> methods = {"dichotomy"};
   std::string acceptance = "certified";
-  double sampling = 0.005;  ///< [s], of acceptance `sampled`
+  double sampling = 0.005;  ///< period of acceptance `sampled` [s]
   CertificationOptions certification;
   DichotomyOptions dichotomy;
   OptimizerConfig optimizer;
@@ -80,21 +80,21 @@ struct ExperimentConfig {
   std::string output_directory;  ///< "": runs/<name> in the working directory
   double output_period = 0.005;  ///< of trajectory.csv [s]
   int seed = 1;
-  std::string directory;  ///< of the file: what relative paths are relative to
+  std::string directory;  ///< folder of the file, to which relative paths refer
 };
 
 /// Declares every key of a config once: reading, writing back and explaining all use this.
 void DeclareFields(Fields& fields, ExperimentConfig* config);
 
-/// The parameters that a config fixes. Precondition: each names a family, as reading sees to.
+/// The parameters that a config fixes. Precondition: each names a family, which reading ensures.
 std::vector<FixedParameter> FixedParameters(const SmoothingConfig& config);
 
-/// The same declaration as data.
+/// The keys that DeclareFields declares, as data.
 std::vector<KeyDescription> ConfigKeys();
 
 /// Reads a config file strictly. Throws InputError with every complaint at once.
 ExperimentConfig LoadConfig(const std::string& path, const std::vector<YamlOverride>& overrides);
-/// The same of a config file's text.
+/// The same for a config file's text.
 ExperimentConfig ParseConfig(const std::string& path, const std::string& text,
                              const std::vector<YamlOverride>& overrides);
 

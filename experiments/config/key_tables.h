@@ -7,17 +7,18 @@
 
 namespace halfstep {
 
-/// "number [m/s] or none", "list of maps".
+/// The type of a key in words: "number [m/s] or none", "list of maps".
 std::string TypeText(const KeyDescription& key);
-/// What may stand there: "0 … 0.5", "certified, sampled"; "" where anything of its type may.
+/// The valid values in words: "0 … 0.5", "certified, sampled"; "" where every value of the type is
+/// valid.
 std::string RangeText(const KeyDescription& key);
 
-/// Two lines a key, maps before what is in them.
+/// Text for a terminal: two lines a key, maps before the keys in them.
 std::string KeyScreen(const std::vector<KeyDescription>& keys);
 /// A Markdown table, one row a key: the table of experiments/README.md.
 std::string KeyMarkdown(const std::vector<KeyDescription>& keys);
-/// A JSON schema (draft 7) of a file with these keys. It accepts every file that can be read; what
-/// depends on several keys it does not know.
+/// A JSON schema (draft 7) of a file with these keys. It accepts every file that can be read, but
+/// cannot express conditions on several keys.
 std::string KeySchema(const std::string& title, const std::vector<KeyDescription>& keys);
 
 }  // namespace halfstep

@@ -25,9 +25,9 @@ struct GoalConfig {
 struct PlannerConfig {
   std::string name = "rrt";
   std::string cost = "steps";
-  StepCost estimate;  ///< its kind is what `cost` says
+  StepCost estimate;  ///< its numbers; Cost() sets its kind by `cost`
   int max_nodes = 100000;
-  int unimproved_nodes = 500;  ///< 0: the first plan
+  int unimproved_nodes = 500;  ///< ends after these without a better plan; 0: at the first plan
   double deadline = 60.0;      ///< [s]
   int max_refusals = 5;
   std::vector<double> workspace;  ///< x_min, y_min, x_max, y_max [m]; empty: the planner's
@@ -38,7 +38,7 @@ struct PlannerConfig {
 
 struct SweptVolumesConfig {
   SweptVolumeOptions options;  ///< its clearance is the demanded margin's
-  std::string cache;           ///< folder; "": the user's
+  std::string cache;           ///< folder; "": DefaultCacheFolder()
 };
 
 /// Declare the keys of one group each.

@@ -11,10 +11,11 @@ namespace halfstep::replay {
 /// "Replay".
 struct ModelOptions {
   double timestep = 0.0005;  ///< [s]; half or twice of it changes the ZMP's error by a millimetre
-  /// Of soles on the floor. At 0.2 the walks are the same; at 0.05 soles slip by centimetres.
+  /// Friction of the soles on the floor. At 0.2 the walks are the same; at 0.05 soles slip by
+  /// centimetres.
   double friction = 0.7;
-  /// Of the joints' servos [N m/rad]. Higher: nearer to the plan, until the contacts are what
-  /// gives way. 3000: bar_8cm drifts by centimetres; 700: it falls.
+  /// Stiffness of the joints' servos [N m/rad]. Stiffer servos follow the plan more closely, until
+  /// the contacts give way instead. 3000: bar_8cm drifts by centimetres; 700: it falls.
   double stiffness = 30000.0;
   double damping = 1000.0;      ///< [N m s/rad]; at 300 the robot sways for a second
   double armature = 0.1;        ///< rotor inertia at the joints [kg m²]; 0.01: soles slip more

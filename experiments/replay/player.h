@@ -21,7 +21,7 @@ struct Push {
   Eigen::Vector3d impulse_W{0, 0, 0};  ///< [N s]
 };
 
-/// What was measured until an instant, over one row period.
+/// What was measured over the row period that ends at t.
 struct ReplayRow {
   double t = 0.0;                      ///< [s]
   double tilt = 0.0;                   ///< of the waist from upright [rad]
@@ -36,7 +36,8 @@ struct ReplayRow {
   bool fallen = false;
 };
 
-/// Plays a motion on a simulated robot, one row period after the other. A copy goes on by itself.
+/// Plays a motion on a simulated robot, one row period after the other. A copy continues
+/// independently.
 class Player {
  public:
   /// Places the robot in the first row's posture and lets it settle. Borrows `motion`.
@@ -44,9 +45,9 @@ class Player {
 
   double time() const { return t_; }
   double end() const { return motion_->end() + options_.hold; }
-  /// How far the waist is from its plan on the floor [m].
+  /// Horizontal distance of the waist from where it is planned to be [m].
   double drift() const;
-  /// The next row period, with the part of the push that falls into it.
+  /// Plays the next row period, with the part of the push that falls into it.
   ReplayRow Advance(const std::optional<Push>& push);
 
  private:

@@ -7,8 +7,8 @@
 
 namespace halfstep::replay {
 
-/// The rows of a trajectory as what the servos shall follow at any time: cubic between rows, with
-/// the slopes of central differences, at rest before the first and after the last.
+/// The motion that the servos shall follow, made from the rows of a trajectory: cubic between rows,
+/// with the slopes of central differences, at rest before the first and after the last.
 class ReferenceMotion {
  public:
   /// Precondition: at least two rows, times that increase.

@@ -10,10 +10,10 @@
 
 namespace halfstep::replay {
 
-/// What became of a walk that was played.
+/// The outcome of playing a walk.
 struct ReplayResult {
   bool stayed_up = true;        ///< to the end, the time of standing after the walk included
-  double ended = 0.0;           ///< when the waist had fallen, else the end [s]
+  double ended = 0.0;           ///< time at which the waist had fallen, else the end [s]
   double largest_tilt = 0.0;    ///< of the waist, until then [rad]
   double zmp_rms = 0.0;         ///< of the ZMP's error during the walk [m]
   double zmp_largest = 0.0;     ///< [m]
@@ -25,7 +25,8 @@ struct ReplayResult {
   std::vector<ReplayRow> rows;  ///< from t = 0
 };
 
-/// Plays a motion to its end or until the robot has fallen. Leaves out the mass model's ZMP.
+/// Plays a motion to its end or until the robot has fallen. Leaves the mass model's ZMP to
+/// CompareMassModel().
 ReplayResult Play(const Simulation& robot, const ReferenceMotion& motion,
                   const PlayOptions& options);
 

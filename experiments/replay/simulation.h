@@ -10,7 +10,7 @@
 
 namespace halfstep::replay {
 
-/// Why robots cannot be simulated in this build, a sentence; "": they can.
+/// A sentence that says why this build cannot simulate robots; "" when it can.
 std::string WhyNoSimulation();
 /// Version of the engine, "" without one.
 std::string EngineVersion();
@@ -28,7 +28,7 @@ struct FloorForces {
   double total() const { return vertical[0] + vertical[1]; }
 };
 
-/// A simulated robot of MujocoModel. A copy goes on by itself from the same state.
+/// A simulated robot of MujocoModel. A copy continues independently from the same state.
 class Simulation {
  public:
   /// Precondition: WhyNoSimulation() is "". Throws std::runtime_error with MuJoCo's reason for a
@@ -39,19 +39,19 @@ class Simulation {
   Simulation& operator=(const Simulation&) = delete;
 
   double timestep() const;
-  /// Of the model, gravity included: what it weighs [N].
+  /// The weight of the model [N].
   double weight() const;
 
-  /// At rest with the waist at X_WB.
+  /// Places the robot at rest with the waist at X_WB.
   void Place(const Eigen::Isometry3d& X_WB, const std::array<Vector6d, 2>& q);
-  /// One time step; the servos follow `targets`, `push` [N] in W acts on the waist's CoM.
+  /// Makes one time step: the servos follow `targets`, `push` [N] in W acts on the waist's CoM.
   /// Throws std::runtime_error when the simulation becomes unstable.
   FloorForces Step(const JointTargets& targets, const Eigen::Vector3d& push);
 
   Eigen::Isometry3d X_WB() const;
-  /// Centre of a sole.
+  /// Pose of a sole's centre.
   Eigen::Isometry3d X_WSole(Side side) const;
-  /// Of all links, in W [m].
+  /// The CoM of all links, in W [m].
   Eigen::Vector3d com() const;
 
  private:

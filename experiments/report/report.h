@@ -17,7 +17,7 @@ namespace halfstep {
 std::string RunReport(const RobotModel& robot, const Scene& scene,
                       const std::filesystem::path& folder);
 
-/// Writes it as report.html into a folder that has all its other files; nothing without
+/// Writes it as report.html into a folder that has all its other files; does nothing without
 /// HasReport().
 void WriteReport(const RobotModel& robot, const Scene& scene, RunFolder* folder);
 

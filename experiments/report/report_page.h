@@ -8,7 +8,7 @@ namespace halfstep {
 /// Whether this build has the page (CMake option HALFSTEP_REPORT, and npm when it was configured).
 bool HasReport();
 
-/// The page with its data put in: one HTML file that needs no other. Texts in `data` may hold
+/// The page with `data` inserted: one HTML file that needs no other. Texts in `data` may hold
 /// anything: the page shows them as text, and "<" is escaped. Precondition: HasReport().
 std::string ReportPage(const nlohmann::json& data);
 

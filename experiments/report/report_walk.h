@@ -7,8 +7,8 @@
 namespace halfstep {
 
 /// What the page shows of one method's walk, from its folder in a run (trajectory.csv,
-/// half_steps.csv, overlaps.csv, certificate.json). Of the trajectory's rows those about `spacing`
-/// [s] apart, and the last. A column is {"step": s, "delta": [...]}: integers whose
+/// half_steps.csv, overlaps.csv, certificate.json). The trajectory's rows are thinned to about
+/// `spacing` [s], the last one included. A column is {"step": s, "delta": [...]}: integers whose
 /// running sum times s is the value; null where it is not finite. Beside the columns of
 /// trajectory.csv: `speed_<joint>_rad_s`, central differences of its rows.
 /// Throws InputError for what is no such folder.

@@ -16,12 +16,13 @@
 
 namespace halfstep {
 
-/// Told what is under way ("plan", a method) and the fraction of it that is done.
+/// Callbacks and stop tokens of a run. `progress` is called with what is under way ("plan", a
+/// method) and the fraction of it that is done.
 struct RunHooks {
   std::function<void(const std::string& what, double done)> progress;
   std::stop_token stop;
-  std::stop_token stop_step = {};  ///< later: also ends what the search is looking at
-  /// Told when the planned motion is found feasible: from then on there is something to keep.
+  std::stop_token stop_step = {};  ///< requested later; also ends a proof under way
+  /// Called when the planned motion is found feasible: from then on there is something to keep.
   std::function<void()> keep = {};
 };
 
@@ -42,10 +43,11 @@ class ExperimentRun {
 
   const std::optional<RunRefusal>& refusal() const { return refusal_; }
 
-  /// Runs every method. Precondition of this and what follows: no refusal; of what follows: this.
+  /// Runs every method. Precondition, as for all that follows: there is no refusal. All that
+  /// follows needs Smooth() to have run.
   void Smooth(const RunHooks& hooks);
   /// Samples and certifies every walk; those whose turn comes after a stop are undecided.
-  /// Precondition of Write().
+  /// Must be called before Write().
   void Certify(const std::stop_token& stop);
 
   /// The config with planned footsteps in place of a goal.
@@ -53,7 +55,7 @@ class ExperimentRun {
   const Experiment& experiment() const { return *experiment_; }
   const WalkProblem& problem() const { return *problem_; }
   const MarginEvaluator& evaluator() const { return problem_->evaluator(); }
-  /// raw first
+  /// One run for each method, "raw" first.
   const std::vector<MethodRun>& runs() const { return runs_; }
 
   /// Writes every file of a run folder.

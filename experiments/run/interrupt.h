@@ -18,12 +18,12 @@ class InterruptGuard {
   std::stop_token token() const { return stop_.get_token(); }
   bool requested() const { return stop_.stop_requested(); }
 
-  /// Requested a second later: for whatever one step of a search takes that long.
+  /// Requested a second later, for steps of a search that take longer than that.
   std::stop_token step_token() const { return step_.get_token(); }
   /// Requested 10 s later: for proofs of what was found before; the rest stays undecided.
   std::stop_token proof_token() const { return proof_.get_token(); }
 
-  /// From now on there is something to keep.
+  /// Says that from now on there is something to keep.
   void Keep() { keep_ = true; }
 
  private:

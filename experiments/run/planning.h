@@ -31,7 +31,7 @@ class HalfStepCertifier {
 };
 
 /// The half-steps of the config's grid that are certified, down and up, on an empty floor. Empty
-/// when `progress` says stop.
+/// when `progress` returns false.
 HalfStepSet CertifiedHalfSteps(const RobotModel& robot, const ExperimentConfig& config,
                                const std::function<bool(double)>& progress = {});
 
@@ -42,7 +42,8 @@ Acceptance CertifyPlan(const CertifiedFeasibility& test, const HalfStepSequence&
 /// Seconds of a steady clock.
 double SteadySeconds();
 
-/// Told what is under way and the fraction of it that is done.
+/// Callbacks of planning. `progress` is called with what is under way and the fraction of it that
+/// is done.
 struct PlanningHooks {
   std::function<void(const std::string& what, double done)> progress = {};
   std::stop_token stop = {};
@@ -54,7 +55,7 @@ struct BakedHalfSteps {
   int size = 0;           ///< elements
   double set_wall = 0.0;  ///< of certifying the set [s]
   double wall = 0.0;      ///< of reading or baking [s]
-  CachedVolumes cached;   ///< no volumes: stopped
+  CachedVolumes cached;   ///< without volumes when stopped
 };
 BakedHalfSteps BakeHalfSteps(const RobotModel& robot, const ExperimentConfig& config,
                              const PlanningHooks& hooks);
@@ -71,7 +72,7 @@ struct PlannedWalk {
 PlannedWalk PlanWalk(const ExperimentConfig& config, const Place& place,
                      const PlanningHooks& hooks);
 
-/// plan.json of a run folder.
+/// Text of plan.json of a run folder.
 std::string PlanJson(const PlannedWalk& walk);
 
 }  // namespace halfstep

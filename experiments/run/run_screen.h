@@ -9,7 +9,7 @@
 
 namespace halfstep {
 
-/// What `halfstep run` prints: a row a method, then for each method what holds its overlaps.
+/// What `halfstep run` prints: one row for each method, then what limits the overlaps of each.
 std::string RunTable(const Experiment& experiment, const WalkProblem& problem,
                      const std::vector<MethodRun>& runs, const std::string& folder);
 

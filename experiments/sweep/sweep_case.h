@@ -8,9 +8,10 @@
 
 namespace halfstep {
 
-/// Does one case of a sweep and writes its folder; failures are rows too. A folder of the case that
-/// is not whole gives way; one that is stays. Stopped, it writes nothing (kInterrupted). Throws
-/// InputError for input that cannot be read, std::runtime_error when files cannot be written.
+/// Runs one case of a sweep and writes its folder; a failure makes a row as well. Replaces a folder
+/// of the case that is not whole, and keeps one that is. Writes nothing when stopped
+/// (kInterrupted). Throws InputError for input that cannot be read, std::runtime_error when files
+/// cannot be written.
 ExitStatus DoSweepCase(const SweepFolder& folder, const SweepCase& one, std::stop_token stop);
 
 /// Writes the folder of a case whose process died.

@@ -16,7 +16,7 @@ struct SweepAxis {
   std::string key;                    ///< dotted, as after --set
   std::vector<std::string> values{};  ///< YAML texts; reading fills them from a range
   std::optional<double> from{}, to{}, step{};
-  int count = 0;      ///< of a range; 0: by step
+  int count = 0;      ///< number of values of a range; 0: `step` gives it
   std::string zip{};  ///< axes with the same word advance together; "": by itself
 };
 
@@ -52,7 +52,7 @@ std::string OverrideText(const SweepCase& one);
 /// read too. Throws InputError.
 SweepConfig LoadSweep(const std::string& path, const std::vector<YamlOverride>& overrides,
                       bool check);
-/// The same of a sweep file's text.
+/// The same for a sweep file's text.
 SweepConfig ParseSweep(const std::string& path, const std::string& text,
                        const std::vector<YamlOverride>& overrides, bool check);
 

@@ -13,8 +13,8 @@ namespace halfstep {
 /// or not there), and runs.csv and timings.csv when all cases are done.
 class SweepFolder {
  public:
-  /// Makes the folder, or goes on with one of the same sweep. Throws InputError when something else
-  /// is there: another definition, program or folder; std::runtime_error when it cannot be written.
+  /// Makes the folder, or continues one of the same sweep. Throws InputError when something else is
+  /// there: another definition, program or folder; std::runtime_error when it cannot be written.
   SweepFolder(const std::filesystem::path& path, const SweepConfig& sweep);
 
   const std::filesystem::path& path() const { return path_; }

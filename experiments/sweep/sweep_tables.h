@@ -21,7 +21,7 @@ struct SweepTables {
 /// One row a method. `wall` is of the whole case [s].
 SweepTables TablesOf(const SweepConfig& sweep, const SweepCase& one, const ExperimentRun& run,
                      double wall);
-/// One row of a case that came to nothing: method `none`, a status and why.
+/// One row for a case without a result: method `none`, a status and a message.
 SweepTables TablesOfFailure(const SweepConfig& sweep, const SweepCase& one,
                             const std::string& status, const std::string& message, double wall);
 

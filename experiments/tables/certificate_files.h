@@ -37,7 +37,8 @@ std::string CertificateJson(const Experiment& experiment, const CertifiedFeasibi
                             const CertifiedWalk& walk, const std::filesystem::path& run_folder,
                             const std::string& trajectory_csv, const std::string& certificate_csv);
 
-/// Writes both, and the CSV's schema, into a method's folder, `place` ("dichotomy/"), of a run.
+/// Writes certificate.csv, its schema and certificate.json into a method's folder, `place`
+/// ("dichotomy/"), of a run.
 void WriteCertificate(const Experiment& experiment, const CertifiedFeasibility& test,
                       const CertifiedWalk& walk, const std::string& trajectory_csv,
                       const std::string& place, RunFolder* folder);

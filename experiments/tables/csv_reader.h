@@ -15,9 +15,9 @@ struct CsvTable {
   /// A column of numbers. Throws InputError, with the line, for what is not a number, and when
   /// there is no such column.
   std::vector<double> Numbers(const std::string& column) const;
-  /// The same where an empty cell is no number.
+  /// The same, with none for each empty cell.
   std::vector<std::optional<double>> NumbersOrEmpty(const std::string& column) const;
-  /// A column as it stands. Throws InputError when there is no such column.
+  /// A column as text. Throws InputError when there is no such column.
   std::vector<std::string> Texts(const std::string& column) const;
 
  private:
@@ -28,9 +28,9 @@ struct CsvTable {
 /// Throws InputError as path:line: when a row has not as many cells as the header, when a quote is
 /// left open, or when the file cannot be read or exceeds 1 GiB.
 CsvTable ReadCsv(const std::string& path);
-/// The text alone, which may be anything.
+/// The text of the file, not parsed.
 std::string ReadCsvText(const std::string& path);
-/// The same of a text; `path` stands for it in complaints.
+/// The same for a text; `path` stands for it in complaints.
 CsvTable ParseCsv(const std::string& text, const std::string& path);
 
 }  // namespace halfstep

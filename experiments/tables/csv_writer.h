@@ -21,7 +21,8 @@ class CsvWriter {
   CsvWriter& Cell(bool value);
   CsvWriter& Cell(std::string_view text);
   CsvWriter& Cell(const char* text) { return Cell(std::string_view(text)); }
-  /// Does not apply. In columns of numbers only: elsewhere it would change what pandas reads.
+  /// Writes an empty cell, for what does not apply. In columns of numbers only: elsewhere it would
+  /// change the type that pandas reads.
   CsvWriter& Empty();
   /// Ends a row. Throws std::logic_error when its number of cells is not the header's.
   void EndRow();

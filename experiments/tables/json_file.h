@@ -10,9 +10,9 @@ namespace halfstep {
 /// no regular file, exceeds 64 MiB, nests deeper than kMostJsonLevels or is no object.
 nlohmann::json ReadJsonObject(const std::filesystem::path& path);
 
-/// The bytes of one, which may be anything. Throws InputError as before.
+/// The text of such a file, not parsed. Throws InputError for what cannot be read, as before.
 std::string ReadJsonText(const std::filesystem::path& path);
-/// The same of its bytes; `path` stands for the file in complaints.
+/// The same for its bytes; `path` stands for the file in complaints.
 nlohmann::json ParseJsonObject(const std::string& text, const std::filesystem::path& path);
 
 }  // namespace halfstep

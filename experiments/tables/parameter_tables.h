@@ -19,9 +19,9 @@ CsvColumn ColumnOf(ParameterFamily family);
 /// half_steps.csv: one row a half-step, with where the homotopy ended.
 CsvFile HalfStepsCsv(const HalfStepSequence& sequence, const HomotopyParameters& parameters);
 
-/// The point of the homotopy that the tables of a method's folder tell; a table that is not there,
-/// as overlaps.csv of the planned motion, leaves its families as planned. Throws InputError for
-/// what does not fit the sequence.
+/// The point of the homotopy in the tables of a method's folder. Families whose table is not there,
+/// as overlaps.csv of the planned motion, are as planned. Throws InputError for what does not fit
+/// the sequence.
 HomotopyParameters ReadParameters(const std::filesystem::path& folder,
                                   const HalfStepSequence& sequence);
 

@@ -16,7 +16,7 @@
 
 namespace halfstep {
 
-/// What one method made of an experiment, and what its walk looks like.
+/// The result of one method in an experiment, and a description of its walk.
 struct MethodRun {
   explicit MethodRun(std::string name) : method(std::move(name)) {}
 
@@ -38,7 +38,7 @@ CsvFile ParetoCsv(const MarginEvaluator& evaluator, const HalfStepSequence& sequ
                   const MethodRun& run);
 CsvFile IteratesCsv(const MethodRun& run);
 CsvColumns SummaryColumns();
-/// Where a cell of a summary's row goes.
+/// Gives the table into which a summary's cell of that column goes.
 using SummaryCell = std::function<CsvWriter&(const CsvColumn&)>;
 /// Adds the cells of one method's row, in the order of SummaryColumns().
 void AddSummaryRow(const MarginEvaluator& evaluator, const std::vector<MethodRun>& runs,

@@ -15,12 +15,12 @@ struct IncumbentRecord {
   double duration = 0.0;     ///< of the incumbent [s]
 };
 
-/// What one method made of a scenario, as a run folder tells it.
+/// The result of one method in a scenario, as a run folder records it.
 struct MethodRecord {
   std::string run;                    ///< the run folder, as it was named
   std::string name;                   ///< "ipopt", or "LABEL:ipopt"
   std::string variables;              ///< "overlaps+heights+durations"; "" for raw
-  std::string objective = "fastest";  ///< that it pursued
+  std::string objective = "fastest";  ///< that the method pursued
   std::string requested;              ///< its options, as JSON text
   opt::Ending ending = opt::Ending::kNotRun;
   bool certified = false;
@@ -42,7 +42,7 @@ struct RunRecord {
   std::string run;        ///< as it was named
   std::string scenario;   ///< the manifest's `name`
   std::string objective;  ///< "fastest" …
-  /// SHA-256 of what makes the problem the same: footsteps, robot, scene, limits, demanded margins.
+  /// SHA-256 of all that defines the problem: footsteps, robot, scene, limits, demanded margins.
   std::string problem;
   std::string manifest_sha256;
   int half_steps = 0;

@@ -11,7 +11,7 @@
 
 namespace halfstep {
 
-/// A row of trajectory.csv as far as a robot or a simulator plays it. Places in W.
+/// What a robot or a simulator plays of a row of trajectory.csv. Places are in W.
 struct TrajectoryRow {
   double t = 0.0;                ///< [s]
   std::array<bool, 2> stands{};  ///< whether a sole carries, by Index(Side), as are the others
@@ -28,7 +28,7 @@ struct TrajectoryRow {
 /// Throws InputError as path:line: column: … .
 std::vector<TrajectoryRow> ReadTrajectory(const std::filesystem::path& path,
                                           const RobotModel& robot);
-/// The same of a file's text; `path` stands for it in complaints.
+/// The same for a file's text; `path` stands for it in complaints.
 std::vector<TrajectoryRow> ParseTrajectory(const std::string& path, const std::string& text,
                                            const RobotModel& robot);
 

@@ -13,7 +13,7 @@ namespace halfstep::opt {
 ///     none:          x = z
 ///
 /// At a bound dx/dz = 0: a minimum on the bound is an ordinary stationary point in z, but so is any
-/// other point on it; a start belongs a little inside.
+/// other point on it, so a start should lie a little inside (OffTheBounds).
 /// Source: [James1994], section 1.2.
 class BoxTransform {
  public:
@@ -24,9 +24,9 @@ class BoxTransform {
   Eigen::VectorXd FromBox(const Eigen::VectorXd& x) const;
   /// dx_j/dz_j (n).
   Eigen::VectorXd Slope(const Eigen::VectorXd& z) const;
-  /// x with each coordinate that is nearer than `fraction` of the width (of max(1, |bound|) where
-  /// only one side is bounded) to a bound from which −gradient points inwards moved to that
-  /// distance.
+  /// Moves coordinates of x off a bound: each that is nearer to it than `fraction` of the width (of
+  /// max(1, |bound|) where only one side is bounded), and whose −gradient points inwards from it,
+  /// is moved to that distance.
   Eigen::VectorXd OffTheBounds(const Eigen::VectorXd& x, const Eigen::VectorXd& gradient,
                                double fraction) const;
 

@@ -6,9 +6,10 @@
 
 namespace halfstep::opt {
 
-/// "ceres/auglag". Ceres knows neither inequalities nor, in its minimizer of general functions,
+/// "ceres/auglag". Ceres supports neither inequalities nor, in its minimizer of general functions,
 /// bounds: constraints enter by an augmented Lagrangian, bounds by a change of variables that keeps
-/// every point between them (opt/README.md). Unavailable, with the reason, when not compiled in.
+/// every point between them (opt/README.md). Returns an UnavailableSolver when Ceres is not
+/// compiled in.
 std::unique_ptr<Solver> MakeCeresSolver();
 
 }  // namespace halfstep::opt

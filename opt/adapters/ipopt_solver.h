@@ -6,8 +6,8 @@
 
 namespace halfstep::opt {
 
-/// Ipopt: interior point with the exact sparse Jacobian and a limited-memory Hessian. Unavailable,
-/// with the reason, when it is not compiled in.
+/// Ipopt: interior point with the exact sparse Jacobian and a limited-memory Hessian. Returns an
+/// UnavailableSolver when it is not compiled in.
 std::unique_ptr<Solver> MakeIpoptSolver();
 
 }  // namespace halfstep::opt

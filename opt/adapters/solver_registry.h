@@ -8,10 +8,12 @@
 
 namespace halfstep::opt {
 
-/// Every solver there is, available or not: "ipopt", "nlopt/ccsaq", …, "ceres/auglag".
+/// Names of all solvers, compiled into this build or not: "ipopt", "nlopt/ccsaq", …,
+/// "ceres/auglag".
 std::vector<std::string> SolverNames();
 
-/// An unknown name is a std::invalid_argument that lists the known ones.
+/// Makes the solver of that name. Throws std::invalid_argument, which lists the known names, for an
+/// unknown one.
 std::unique_ptr<Solver> MakeSolver(const std::string& name);
 
 }  // namespace halfstep::opt

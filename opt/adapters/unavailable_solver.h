@@ -8,7 +8,7 @@
 
 namespace halfstep::opt {
 
-/// Stands in the list for a solver that is not compiled in; Solve ends in kInvalidInput.
+/// Stands in for a solver that is not compiled in and says why; Solve ends in kInvalidInput.
 class UnavailableSolver : public Solver {
  public:
   UnavailableSolver(std::string name, std::string why)

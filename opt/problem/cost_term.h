@@ -5,7 +5,7 @@
 
 namespace halfstep::opt {
 
-/// A summand of the cost in its natural unit; its weight is the Problem's business.
+/// A summand of the cost in its natural unit; the Problem holds its weight.
 class CostTerm {
  public:
   virtual ~CostTerm() = default;

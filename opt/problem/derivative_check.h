@@ -6,7 +6,7 @@
 
 namespace halfstep {
 
-/// What comparing a Jacobian with central differences found.
+/// Result of comparing a Jacobian with central differences.
 struct DerivativeReport {
   double worst_error =
       0.0;  ///< |analytic − numeric| / (1 + |numeric| + |analytic|), largest entry.
@@ -14,7 +14,7 @@ struct DerivativeReport {
   int column = -1;
   double analytic = 0.0;  ///< of that entry
   double numeric = 0.0;
-  bool finite = true;  ///< false when any value or derivative is not.
+  bool finite = true;  ///< false when any value or derivative is not finite
 
   bool Passed(double tolerance) const { return finite && worst_error <= tolerance; }
   /// "row 3, column 1: analytic 2.0, numeric 1.5".

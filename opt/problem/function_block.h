@@ -30,13 +30,13 @@ class FunctionBlock {
   virtual void Evaluate(const Eigen::VectorXd& x, Eigen::Ref<Eigen::VectorXd> values) const = 0;
   /// ∂g_rows[k]/∂x_cols[k] at the whole x, in the pattern's order.
   virtual void Jacobian(const Eigen::VectorXd& x, std::span<double> nonzeros) const = 0;
-  /// Both at once, for blocks to which they are nearly one computation.
+  /// Evaluates both; to be overridden where they share most of the computation.
   virtual void EvaluateWithJacobian(const Eigen::VectorXd& x, Eigen::Ref<Eigen::VectorXd> values,
                                     std::span<double> nonzeros) const {
     Evaluate(x, values);
     Jacobian(x, nonzeros);
   }
-  /// What a report calls a row: "name[row]" unless overridden.
+  /// Name of a row in reports: "name[row]" unless overridden.
   virtual std::string RowName(int row) const;
 };
 

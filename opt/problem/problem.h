@@ -12,7 +12,7 @@
 
 namespace halfstep::opt {
 
-/// How far a point is outside, and where.
+/// The largest violation of a problem's bounds at a point.
 struct Violation {
   double amount = 0.0;  ///< ≥ 0, natural unit of the row; inf when a value there is not finite
   std::string row;      ///< name of that row or variable; "" when nothing is violated
@@ -59,7 +59,7 @@ class Problem {
 
   /// The largest violation of rows and of variable bounds, each in its natural unit.
   Violation MaxViolation(const Eigen::VectorXd& x) const;
-  /// The same with g(x) already at hand.
+  /// The same when `constraints` = g(x) is known already.
   Violation MaxViolation(const Eigen::VectorXd& x, const Eigen::VectorXd& constraints) const;
 
   std::string RowName(int row) const;            ///< of a constraint row, by its block

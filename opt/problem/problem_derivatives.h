@@ -8,7 +8,7 @@
 
 namespace halfstep::opt {
 
-/// What comparing all of a problem's derivatives with central differences found.
+/// Result of comparing all of a problem's derivatives with central differences.
 struct ProblemDerivativeReport {
   DerivativeReport cost;  ///< its row is 0
   DerivativeReport constraints;
@@ -19,8 +19,8 @@ struct ProblemDerivativeReport {
   }
 };
 
-/// Gradient and Jacobian at x (n) against CheckJacobian's differences. An entry that the pattern
-/// does not declare counts as 0, so a forgotten one is found as well.
+/// Compares gradient and Jacobian at x (n) with the differences of CheckJacobian. An entry that the
+/// pattern does not declare counts as 0, so a forgotten one is found as well.
 ProblemDerivativeReport CheckDerivatives(const Problem& problem, const Eigen::VectorXd& x,
                                          double step = 1e-4);
 

@@ -12,17 +12,18 @@ namespace halfstep::opt {
 /// for an equality, scaled once so that their derivatives at a first point are at most 1.
 class ScaledRows {
  public:
-  /// `jacobian`: at the first point, in the order of the problem's pattern. `problem` is borrowed.
+  /// `jacobian` is that of the first point, in the order of the problem's pattern. `problem` is
+  /// borrowed.
   ScaledRows(const Problem& problem, const std::vector<double>& jacobian);
 
   Eigen::Index size() const { return static_cast<Eigen::Index>(sides_.size()); }
-  /// Rows with derivatives along the same variables are a group: of each row (m).
+  /// The group of each row (m): rows with derivatives along the same variables form one.
   const std::vector<int>& groups() const { return groups_; }
-  /// Of each group, in order.
+  /// The variables of each group, in ascending order.
   const std::vector<std::vector<int>>& variables() const { return variables_; }
-  /// c (m) from the problem's values.
+  /// c (m) for the values g(x) of the problem's rows.
   Eigen::VectorXd Values(const Eigen::VectorXd& values) const;
-  /// ∂c/∂x (m×n); nothing along fixed variables.
+  /// ∂c/∂x (m×n) for the Jacobian of the problem; no entries for fixed variables (lower = upper).
   Eigen::SparseMatrix<double> Jacobian(const std::vector<double>& jacobian) const;
 
  private:

@@ -18,7 +18,7 @@ struct Stationarity {
 };
 
 /// Minimizes ‖∇f + Jᵀλ + ν‖² over the multipliers of active rows and bounds, those nearer than
-/// `activity`·max(1, |bound|), under their signs, by sweeps of coordinate descent, O(nonzeros)
+/// `activity`·max(1, |bound|), subject to their signs, by sweeps of coordinate descent, O(nonzeros)
 /// each. Where they have not converged after the last sweep the residual is an upper estimate.
 /// Source: first-order conditions as in [Nocedal2006], chapter 12. `gradient` (n), `constraints`
 /// (m) and `jacobian` are the problem's values at x.

@@ -5,7 +5,7 @@
 
 namespace halfstep::opt {
 
-/// Neighbouring entries of x that mean the same thing. Bounds may be ±inf; lower ≤ upper.
+/// Consecutive entries of x that have the same meaning. Bounds may be ±inf; lower ≤ upper.
 struct VariableBlock {
   std::string name;         ///< for reports only: "overlap"
   std::string unit;         ///< "s"
@@ -14,7 +14,7 @@ struct VariableBlock {
   Eigen::VectorXd upper;    ///< (n)
 };
 
-/// Which block of a Problem; obtained from Problem::AddVariables.
+/// Identifies a block of variables; returned by Problem::AddVariables.
 struct BlockId {
   int index = -1;
 };

@@ -20,13 +20,14 @@ class AugmentedLagrangian {
  public:
   explicit AugmentedLagrangian(SolveMonitor* monitor) : monitor_(*monitor) {}
 
-  /// Scales, λ = 0 and ρ from the values at x. False: not finite or stopped.
+  /// Sets the scales, λ = 0 and ρ from the values at x. Returns false, as the others, when a value
+  /// is not finite or the monitor stops.
   bool Begin(const Eigen::VectorXd& x);
 
-  /// L(x) and, unless null, ∇L (n). False: not finite or stopped.
+  /// Evaluates L(x) and, unless `gradient` is null, ∇L (n).
   bool Evaluate(const Eigen::VectorXd& x, double* value, Eigen::VectorXd* gradient) const;
 
-  /// λ from x; ρ grows tenfold unless the infeasibility halved. False: not finite or stopped.
+  /// Updates λ at x; ρ grows tenfold unless the infeasibility has halved.
   bool Update(const Eigen::VectorXd& x);
 
   /// Largest |G_i − proj(G_i + λ_i/ρ)| before the last Update: violation and missing

@@ -12,8 +12,8 @@ namespace halfstep::opt {
 ///     f(x) − μ Σ log(slack of a row) − μ Σ log(distance to a bound),    μ → 0,
 ///
 /// with primal-dual weights for the barrier, a limited-memory estimate of the Lagrangian's Hessian
-/// and the exact sparse Jacobian; the sparse Cholesky factorization costs O(n) for banded rows. A
-/// start outside first lowers the sum of the violations. Takes no equalities.
+/// and the exact sparse Jacobian; the sparse Cholesky factorization costs O(n) for banded rows.
+/// From a start outside it first lowers the sum of the violations. Takes no equalities.
 /// Source: opt/README.md, "halfstep/barrier"; [Nocedal2006], chapter 19.
 std::unique_ptr<Solver> MakeBarrierSolver();
 

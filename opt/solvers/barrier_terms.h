@@ -11,9 +11,9 @@ namespace halfstep::opt {
 /// Source: opt/README.md, "halfstep/barrier"; [Nocedal2006], chapter 19.
 class BarrierTerms {
  public:
-  /// Of lower ≤ values ≤ upper (n); values with lower = upper are fixed and have no side. When
-  /// `may_be_outside`, a side with a slack below 1e-10 is outside: no term, but a violation to be
-  /// lowered. Else every slack must stay positive. Multipliers begin at 1.
+  /// The terms of lower ≤ values ≤ upper (n); values with lower = upper are fixed and have no side.
+  /// When `may_be_outside`, a side with a slack below 1e-10 is outside: no term, but a violation to
+  /// be lowered. Else every slack must stay positive. Multipliers begin at 1.
   BarrierTerms(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, bool may_be_outside);
 
   size_t size() const { return sides_.size(); }
@@ -24,7 +24,7 @@ class BarrierTerms {
   Eigen::VectorXd CentralMultipliers(const Eigen::VectorXd& values, double mu) const;
   /// Brings multipliers within a factor of 10⁶ of μ/s_i.
   void ClampMultipliers(const Eigen::VectorXd& values, double mu);
-  /// A Newton step of z s = μ, α of it, while the values change by α·change.
+  /// Takes the fraction α of a Newton step for z s = μ, while the values change by α·change.
   void AdvanceMultipliers(const Eigen::VectorXd& values, const Eigen::VectorXd& change, double mu,
                           double alpha);
 

@@ -27,9 +27,9 @@ struct ElasticStep {
   Eigen::VectorXd duals;  ///< of the rows (m), each in [0, ν]
 };
 
-/// By a primal-dual interior point method with Mehrotra's corrector; O(n + m) an iteration when A
-/// is banded. Ends at a relative complementarity of 1e-9 or after 60 iterations, with what it has.
-/// Source: opt/README.md, "halfstep/sqp".
+/// Solves it by a primal-dual interior point method with Mehrotra's corrector; O(n + m) an
+/// iteration when A is banded. Ends at a relative complementarity of 1e-9 or after 60 iterations,
+/// and returns the step reached. Source: opt/README.md, "halfstep/sqp".
 ElasticStep Solve(const ElasticSubproblem& problem);
 
 /// Σ_i max(0, −v_i).

@@ -7,12 +7,12 @@
 
 namespace halfstep::opt {
 
-/// How a search ended: that of a solver, or a whole method that calls some. Whatever it is, what is
-/// returned was evaluated by us; an ending says how far it is worth looking on, not how good the
-/// result is. Every ending comes with a sentence.
+/// How a search ended: a single solve, or a whole method that calls solvers. In every case the
+/// result was evaluated by us; the ending says whether it is worth searching further, not how good
+/// the result is. Every ending comes with a sentence.
 enum class Ending {
-  kConverged,      ///< its own end, and what it claims there was checked by us
-  kLimit,          ///< short of that: iterations, evaluations or rounds used up, or no step helps
+  kConverged,      ///< by its own criterion, and we checked what it claims
+  kLimit,          ///< iterations, evaluations or rounds were used up, or no step helps
   kDeadline,       ///< its time was used up
   kInterrupted,    ///< stopped from outside
   kNoImprovement,  ///< it ran, and the result is what it was started from
@@ -27,17 +27,18 @@ constexpr std::array<Ending, 8> kEndings = {
 
 /// "converged", "limit", …
 std::string_view Name(Ending ending);
-/// One sentence.
+/// What the ending means, in one sentence.
 std::string_view Meaning(Ending ending);
-/// None: no ending is called so.
+/// The ending of that name; none for an unknown name.
 std::optional<Ending> EndingOf(std::string_view name);
-/// "converged, limit, …": all of them, for messages.
+/// All names, "converged, limit, …", for messages.
 std::string EndingNames();
 
-/// Whether a method that ended so has a result of its own, better than what it was started from:
-/// of the first four, and of those only. No other is called best, nor to have solved anything.
+/// Whether a method that ended so has a result of its own that is better than its start: true of
+/// the first four endings only. No other method may be called the best, or said to have solved a
+/// problem.
 constexpr bool HasOwnResult(Ending ending) { return ending < Ending::kNoImprovement; }
-/// Whether it never searched, or broke: a run with such a method exits with status 1.
+/// Whether a method that ended so never searched, or broke; a run with one exits with status 1.
 constexpr bool DidNotWork(Ending ending) { return ending > Ending::kNoImprovement; }
 
 }  // namespace halfstep::opt

@@ -10,10 +10,10 @@ namespace halfstep::opt {
 /// Source: [Nocedal2006], sections 7.2 and 18.3.
 class LimitedMemoryHessian {
  public:
-  /// `memory`: the pairs that count; 0: B stays 0.
+  /// Uses the last `memory` pairs (s, y); with 0 of them B stays 0.
   explicit LimitedMemoryHessian(size_t memory) : memory_(memory) {}
 
-  /// A step s ≠ 0 (n) changed the gradient by y (n).
+  /// Records that a step s ≠ 0 (n) changed the gradient by y (n).
   void Update(const Eigen::VectorXd& s, Eigen::VectorXd y);
   void Clear();
   Eigen::VectorXd Times(const Eigen::VectorXd& v) const;  ///< B v (n)

@@ -10,7 +10,8 @@ namespace halfstep::opt {
 std::optional<double> ParseNumber(const std::string& text);
 std::optional<int> ParseInteger(const std::string& text);
 
-/// "ipopt: unknown option `tool` (valid: tol, …)": of many valid names only the nearest are told.
+/// "ipopt: unknown option `tool` (valid: tol, …)": when many names are valid, only the nearest are
+/// listed.
 std::string UnknownOption(const std::string& solver, const std::string& option,
                           std::vector<std::string> valid);
 

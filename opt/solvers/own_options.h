@@ -12,11 +12,11 @@ namespace halfstep::opt {
 struct OwnOption {
   std::string name;
   bool integer;
-  double value;  ///< its default, until read
+  double value;  ///< the default; ReadOwnOptions replaces it
 };
 
-/// Reads SolverOptions::solver_options into `known` and notes what was used. Returns an ending in
-/// kInvalidInput when one is unknown or out of range.
+/// Reads SolverOptions::solver_options into `known` and records in the monitor what was used.
+/// Returns an ending, kInvalidInput, when an option is unknown or out of range.
 std::optional<SolverEnd> ReadOwnOptions(const std::string& solver, SolveMonitor* monitor,
                                         std::vector<OwnOption>* known);
 

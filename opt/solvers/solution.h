@@ -20,19 +20,20 @@ struct HistoryEntry {
   double wall;  ///< [s] since Solve began
 };
 
-/// What came out of a solve. x, cost, max_violation and worst_row belong together and were
-/// evaluated by us: the solver's word is not taken for any of them, nor for `ending`.
+/// The result of a solve. x, cost, max_violation and worst_row belong together and were evaluated
+/// by us: the solver's word is not taken for any of them, nor for `ending`.
 struct Solution {
   /// kConverged: x is feasible to the tolerance, and by our own estimate it satisfies the
-  /// first-order conditions. kLimit: limits, or x is feasible and near these conditions while the
-  /// solver's own test was weaker, or it broke off or ended elsewhere. kInterrupted: by stop token
-  /// or on_iterate. kFailed: also a claim that does not hold, nothing feasible found, unbounded
-  /// cost. Never kNoImprovement: that is for the caller to say, who knows what x0 was.
+  /// first-order conditions. kLimit: a limit was reached, or x is feasible and nearly satisfies
+  /// these conditions although the solver did not converge to it (its own test was weaker, it broke
+  /// off or it ended elsewhere). kInterrupted: by stop token or on_iterate. kFailed: also when the
+  /// solver's claim does not hold, nothing feasible was found or the cost is unbounded. Never
+  /// kNoImprovement: only the caller, who knows what x0 was, can say that.
   Ending ending = Ending::kNotRun;
   std::string message = "Solve was not called.";
   std::string solver;  ///< "nlopt/ccsaq"
   /// The best point seen (n): the cheapest among those feasible to the tolerance, else the least
-  /// violated; empty where none was evaluated.
+  /// violated; empty when none was evaluated.
   Eigen::VectorXd x;
   double cost = std::numeric_limits<double>::quiet_NaN();
   double max_violation = std::numeric_limits<double>::infinity();  ///< natural unit of worst_row
@@ -44,7 +45,7 @@ struct Solution {
   long jacobian_evaluations = 0;
   double wall = 0.0;  ///< [s]
   std::vector<HistoryEntry> history;
-  std::shared_ptr<const WarmStart> warm_start;  ///< null: the solver has none to give
+  std::shared_ptr<const WarmStart> warm_start;  ///< null when the solver provides none
   std::map<std::string, std::string> requested_options;
   std::map<std::string, std::string> used_options;  ///< as handed to the library
 
@@ -54,13 +55,13 @@ struct Solution {
   double final_violation = std::numeric_limits<double>::infinity();
 
   /// How far x is from the first-order conditions, and the multipliers (m, n) that fit them best,
-  /// all by our own estimate (stationarity.h). NaN and empty where it was not made: at limits,
-  /// stops and exceptions, and where x is not feasible.
+  /// all by our own estimate (stationarity.h). NaN and empty where no estimate is made: after
+  /// limits, stops and exceptions, and when x is not feasible.
   double stationarity = std::numeric_limits<double>::quiet_NaN();
   Eigen::VectorXd multipliers;
   Eigen::VectorXd bound_multipliers;
 
-  bool feasible = false;         ///< x is, to the tolerance of the solve
+  bool feasible = false;         ///< whether x is feasible to the tolerance of the solve
   std::exception_ptr exception;  ///< what a block or on_iterate threw; null when nothing
 
   std::string BriefReport() const;  ///< one line

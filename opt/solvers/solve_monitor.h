@@ -14,34 +14,34 @@
 
 namespace halfstep::opt {
 
-/// All that one solve has in common, whatever the library: evaluates on demand, remembers the last
-/// point, counts, keeps the best point seen and what blocks throw, and looks at the limits before
-/// each evaluation. Not thread-safe; lives for one solve.
+/// What every solve needs, whatever the library: evaluates on demand, remembers the last point,
+/// counts evaluations, keeps the best point seen and what blocks throw, and checks the limits
+/// before each evaluation. Not thread-safe; lives for one solve.
 class SolveMonitor {
  public:
   enum class Iterations {
-    kTold,          ///< the adapter calls ReportIterate; it starts with derivatives
+    kTold,          ///< the adapter calls ReportIterate; Begin evaluates the Jacobian, too
     kImprovements,  ///< each point better than all before it is an iteration
   };
 
   SolveMonitor(const Problem& problem, const SolverOptions& options, Iterations iterations);
 
-  /// Evaluates the start, whatever the limits, as iteration 0. False: it has no finite cost and
-  /// constraints, a block threw or on_iterate stopped; Finish then says so.
+  /// Evaluates the start as iteration 0, whatever the limits. Returns false when its cost or
+  /// constraints are not finite, a block threw or on_iterate stopped; Finish then says so.
   bool Begin(const Eigen::VectorXd& start);
 
-  /// False, with the result untouched, when stopped, when the block threw or when a value is not
-  /// finite. An x like the last one is not evaluated again.
+  /// Each evaluates at x, unless x is the last point. Returns false, and leaves the output
+  /// untouched, when stopped, when a block threw or when a value is not finite.
   bool Cost(const Eigen::VectorXd& x, double* cost);
   bool Gradient(const Eigen::VectorXd& x, Eigen::VectorXd* gradient);
   bool Constraints(const Eigen::VectorXd& x, Eigen::VectorXd* values);
-  /// Evaluates the constraints with it when they are not known at x.
+  /// Also evaluates the constraints when they are not known at x.
   bool Jacobian(const Eigen::VectorXd& x, std::vector<double>* nonzeros);
 
-  /// The next iteration ended at x. False: stop.
+  /// Records that the next iteration ended at x. Returns false when the solver must stop.
   bool ReportIterate(const Eigen::VectorXd& x);
 
-  /// False once anything asks to stop: limits, stop token, on_iterate, an exception.
+  /// Returns false once a limit, the stop token, on_iterate or an exception has asked to stop.
   bool MayGoOn();
 
   double RemainingTime() const;  ///< [s], inf without a deadline
@@ -49,11 +49,12 @@ class SolveMonitor {
   const SolverOptions& options() const { return options_; }
   int iterations() const { return iterations_; }
   bool saw_non_finite() const { return !non_finite_.empty(); }
-  double highest_cost() const { return highest_cost_; }  ///< finite ones seen; −inf before any
-  /// For Solution::used_options.
+  double highest_cost() const { return highest_cost_; }  ///< of finite ones seen; −inf: none yet
+  /// Records an option in Solution::used_options.
   void Use(const std::string& option, const std::string& value) { used_[option] = value; }
 
-  /// The solver ended at `final_x` and claims `claim`; what is true of it goes into the Solution.
+  /// Ends the solve: the solver stopped at `final_x` and claims `claim`, which is checked. Makes
+  /// the Solution.
   Solution Finish(Ending claim, std::string message, const Eigen::VectorXd& final_x);
 
  private:
@@ -100,8 +101,9 @@ class SolveMonitor {
   std::map<std::string, std::string> used_;
 };
 
-/// How an adapter's run ended, in the solver's own opinion. A test of optimality that held is
-/// kConverged, a weaker one or none at all kFailed: SolveMonitor says what is true of it.
+/// How an adapter's run ended, by the solver's own account. The claim is kConverged when the
+/// solver's test of optimality held, and kFailed when only a weaker one or none did;
+/// SolveMonitor::Finish judges it.
 struct SolverEnd {
   Ending claim;
   std::string message;

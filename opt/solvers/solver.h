@@ -9,30 +9,30 @@
 
 namespace halfstep::opt {
 
-/// What suits a solver that is called again and again on a problem of which each call shows more.
+/// How best to use a solver that is called repeatedly on a problem that is refined between calls.
 struct SolverTraits {
-  /// Many rows, each of one thing, of which few matter at a time, are better than few smooth rows
-  /// that gather many.
+  /// It does better with many simple rows, few of them active, than with few smooth rows that each
+  /// aggregate many.
   bool many_rows = false;
-  /// Gets far in a few iterations where there is room, so that it need not begin near the end.
+  /// It gets far in a few iterations where bounds leave room: no need to start near the solution.
   bool long_steps = false;
-  /// Iterations of one call, after which a look at the problem is worth more than a further one.
+  /// Iterations per call; after these, refining the problem gains more than iterating on.
   int iterations = 30;
-  /// SolverOptions::solver_options where cost and rows are nearly linear.
+  /// SolverOptions::solver_options for problems whose cost and rows are nearly linear.
   std::map<std::string, std::string> nearly_linear = {};
 };
 
-/// One algorithm behind the one door. Solvers hold no state: Solve may be called again and from
-/// several threads.
+/// One optimization algorithm behind the common interface. Solvers hold no state: Solve may be
+/// called again and from several threads.
 class Solver {
  public:
   virtual ~Solver() = default;
 
   virtual std::string name() const = 0;
   virtual SolverTraits traits() const { return {}; }
-  /// Compiled in?
+  /// Whether the solver is compiled in.
   virtual bool available() const = 0;
-  /// A sentence; "" when available.
+  /// A sentence that says why it is not compiled in; "" when it is.
   virtual std::string WhyUnavailable() const = 0;
   /// A sentence that says why this solver cannot take the problem; "" when it can.
   virtual std::string WhyUnsupported(const Problem& problem) const = 0;

@@ -14,10 +14,10 @@ struct BoundingBoxOptions {
   StepSearchOptions steps = {.weights = {2.0}, .cells = {.position = 0.03, .yaw = 0.1}};
 };
 
-/// The way of the literature, a baseline: a box around the whole robot finds a way that touches
-/// nothing, then footsteps follow it. It steps over nothing, so it never leaves a ring of cable.
-/// Its footsteps are free by the query like any other's; the path ends its search, without
-/// improvement. Takes nothing from `random`.
+/// A baseline from the literature: plans a collision-free path for a box around the whole robot,
+/// then footsteps along it. It never steps over anything, so it cannot leave a ring of cable. Its
+/// footsteps are checked by the query like those of any planner; its first plan is not improved.
+/// Does not use `random`.
 class BoundingBoxPlanner : public FootstepPlanner {
  public:
   /// Borrows the scene, which must outlive this and be the query's.

@@ -19,10 +19,10 @@ struct RobotBox {
   double feet_apart = 0.2;  ///< of the feet beside each other [m] > 0
 };
 
-/// Where the box is looked at.
+/// The grid of poses at which the box is checked.
 struct BoxGrid {
   double spacing = 0.05;  ///< [m] > 0. Coarse: narrow passages are missed; fine: slow
-  int yaws = 16;          ///< of a full turn, from the start's yaw, ≥ 4
+  int yaws = 16;          ///< in a full turn, counted from the start's yaw, ≥ 4
 };
 
 /// A box among the obstacles and the no-step areas of a scene, both of which it must not touch.
@@ -41,14 +41,15 @@ class BoxWorld {
 };
 
 struct [[nodiscard]] BoxPath {
-  std::vector<Pose2> path;  ///< of the middle of the feet, from the start; empty: none
+  std::vector<Pose2> path;  ///< of the middle of the feet, from the start; empty: no path
   bool stopped = false;     ///< by the monitor
   bool start_blocked = false;
 };
 
 /// A* over the grid, by steps to the eight neighbours and turns; walking sideways and backwards
-/// costs more. The box is looked at on the grid only, not between its poses. Every pose looked at
-/// counts as a node. The path ends with the part of the goal within a grid step of its region.
+/// costs more. The box is checked at the poses of the grid only, not between them. Every pose
+/// checked counts as a node. The path ends where the part that shall reach the goal is within a
+/// grid step of the region.
 BoxPath FindBoxPath(const BoxWorld& world, const BoxGrid& grid, const Pose2& X_WM,
                     const GoalRegion& goal, const Eigen::AlignedBox2d& workspace,
                     PlanMonitor* monitor);

@@ -7,10 +7,10 @@
 
 namespace halfstep {
 
-/// Weighted A* over the elements of the set or over a few of them, anytime by smaller and smaller
-/// weights. Cost to go: the least number of footsteps that any sequence of elements needs for the
-/// distance and the turn that are left, times the least cost of an element; so it never exceeds the
-/// true one, for every kind of cost. Takes nothing from `random`.
+/// Weighted A* over all elements of the set or over a few of them; anytime, by searching again with
+/// smaller and smaller weights. Cost to go: the least number of footsteps that any sequence of
+/// elements needs for the distance and the turn that are left, times the least cost of an element;
+/// so it never exceeds the true one, for every kind of cost. Does not use `random`.
 class FootstepAStar : public FootstepPlanner {
  public:
   enum class Elements { kAll, kClassic };

@@ -22,7 +22,7 @@
 
 namespace halfstep {
 
-/// What a full check of the walk that a plan makes says; a bool converts to it.
+/// The answer of a full check of the walk that a plan makes; a bool converts to it.
 struct Acceptance {
   bool accepted = true;
   int refused_footstep = -1;  ///< index of the footstep whose step is to blame; −1: not known
@@ -42,17 +42,17 @@ struct PlanRequest {
   /// Whether an up half-step from the start, which is in no set, is free: its support sole stands
   /// at X_WS. Empty: it always is.
   std::function<bool(const HalfStep&, const Footprint& X_WS)> start_is_free = {};
-  /// Asked about every plan before it is returned, best first. Empty: yes.
+  /// Asked about each plan before it is returned, best first. Empty: every plan is accepted.
   std::function<Acceptance(const std::vector<Footstep>&)> accepts = {};
-  int max_refusals = 20;  ///< after that many, refused
-  Termination stop = {};  ///< empty: never, but where a planner ends by itself
+  int max_refusals = 20;  ///< refusals after which planning ends with kRefused
+  Termination stop = {};  ///< empty: only when the planner ends by itself
   Clock clock = {};       ///< for the times of the result only; empty: they are NaN
 };
 
 enum class PlanStatus {
   kNotRun,
   kSolved,        ///< there is a plan
-  kNoPlan,        ///< all was searched, as far as the planner's resolution tells them apart
+  kNoPlan,        ///< everything was searched, at the planner's resolution
   kStartBlocked,  ///< no foot can leave the floor
   kBudget,        ///< time or nodes were used up before a plan was found
   kInterrupted,   ///< stopped before a plan was found

@@ -9,7 +9,7 @@ struct RrtOptions {
   /// Share of the samples that lie in the goal ∈ [0, 1]. Small: many nodes in open space; 1: never
   /// looks for a way round.
   double goal_bias = 0.3;
-  /// No two nodes of a tree in one of these. Small: a closed room takes long to search; large: a
+  /// No two nodes of a tree lie in one cell. Small: a closed room takes long to search; large: a
   /// narrow way out of it is missed.
   PoseCells cells = {.position = 0.03, .yaw = 0.1};
 };

@@ -22,9 +22,9 @@ struct GoalRegion {
   std::optional<Eigen::Vector2d> box;        ///< full edge lengths along x and y of G [m] ≥ 0
   std::optional<double> yaw_tolerance = {};  ///< half the range [rad] ≥ 0; none: any yaw
 
-  /// Finite, sizes not negative.
+  /// Whether all values are finite and no size is negative.
   bool IsValid() const;
-  /// From a point of the floor to the region [m]: 0 inside.
+  /// Distance from a point of the floor to the region [m]: 0 inside.
   double Distance(const Eigen::Vector2d& p_W) const;
   /// How far a yaw is outside the range [rad], counted modulo 2π: 0 inside or without a range.
   double Turn(double yaw) const;

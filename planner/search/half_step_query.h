@@ -11,11 +11,11 @@ class HalfStepQuery {
  public:
   virtual ~HalfStepQuery() = default;
 
-  /// Down half-step of element i on `support`, whose sole stands at X_WS; the sole that lands keeps
-  /// off no-step areas as well.
+  /// Whether the down half-step of element i on `support`, whose sole stands at X_WS, is free; the
+  /// sole that lands keeps off no-step areas as well.
   virtual bool DownIsFree(int i, Side support, const Footprint& X_WS) const = 0;
-  /// Up half-step that follows: on the foot that has landed. X_WS is still the pose of the sole
-  /// that supported before, as for DownIsFree.
+  /// Whether the up half-step that follows, on the foot that has landed, is free. X_WS is still the
+  /// pose of the sole that supported before, as for DownIsFree.
   virtual bool UpIsFree(int i, Side support, const Footprint& X_WS) const = 0;
 };
 

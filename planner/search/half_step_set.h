@@ -9,8 +9,8 @@
 
 namespace halfstep {
 
-/// Which places of the swing sole beside the support sole are tried, seen from a left support; a
-/// right support by mirror. Published: 5 cm × 5 cm × 5 yaws.
+/// Which places of the swing sole beside the support sole are tried, seen from a left support;
+/// mirrored for a right one. Published: 5 cm × 5 cm × 5 yaws.
 struct HalfStepGrid {
   double x_min = -0.35, x_max = 0.35;   ///< [m]
   double y_min = -0.37, y_max = -0.01;  ///< [m], negative: to the right of a left support
@@ -36,8 +36,8 @@ struct HalfStepSet {
 };
 
 /// Every place of the grid for which `keeps` accepts both the down and the up half-step of a left
-/// support. `keeps` shall prove robot-only margins for all t. `progress` (may be empty) is told the
-/// fraction done, and stops the search by returning false; then the set is empty.
+/// support. `keeps` shall prove robot-only margins for all t. `progress` (may be empty) is called
+/// with the fraction done, and stops the search by returning false; then the set is empty.
 HalfStepSet MakeHalfStepSet(const HalfStepGrid& grid, const HalfStep& prototype,
                             const std::function<bool(const HalfStep&)>& keeps,
                             const std::function<bool(double)>& progress = {});

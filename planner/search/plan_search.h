@@ -24,7 +24,7 @@ class PlanMonitor {
   /// Whether to stop; true from then on. To be asked before every node.
   bool Stop();
   void CountNode();
-  /// Keeps a plan that is cheaper than all before; false: it was not.
+  /// Keeps a plan if it is cheaper than all before, and returns whether it is.
   bool Offer(StepPlan plan);
 
   double best_cost() const { return progress_.cost; }
@@ -33,7 +33,7 @@ class PlanMonitor {
   std::int64_t nodes() const { return progress_.nodes; }
   double time_to_first() const { return time_to_first_; }
   double elapsed() const;  ///< NaN without a clock [s]
-  /// Forgets the plans and what stopped it.
+  /// Forgets the plans and why it stopped.
   void StartOver();
 
  private:
@@ -48,15 +48,16 @@ class PlanMonitor {
 /// Why a search ended.
 struct SearchEnd {
   bool exhausted = false;     ///< nothing is left to search; else the monitor said stop
-  std::string sentence = {};  ///< why there is no plan when exhausted; empty: the common one
+  std::string sentence = {};  ///< why there is no plan when exhausted; empty: a default
 };
 
 /// Searches from `starts` and offers plans to the monitor.
 using PlanSearch = std::function<SearchEnd(const std::vector<StepState>& starts, StepGraph* graph,
                                            PlanMonitor* monitor)>;
 
-/// What all planners share: preconditions, a start that is a goal or blocked, asking `accepts`,
-/// searching again without what was refused, and the sentence of the result.
+/// Runs `search` and does what all planners share: checks the preconditions, handles a start that
+/// is a goal or blocked, asks `accepts`, searches again without what was refused, and writes the
+/// sentence of the result.
 PlanResult PlanWith(const PlanRequest& request, const std::vector<int>& elements,
                     const PlanSearch& search);
 

@@ -13,7 +13,7 @@ namespace halfstep {
 bool TryShortcut(const StepPlan& plan, const std::vector<StepState>& starts, const PoseCells& cells,
                  StepGraph* graph, PlanMonitor* monitor, std::mt19937_64& random);
 
-/// Uniform in [lower, upper), from 53 bits of one number: the same everywhere.
+/// Uniform in [lower, upper), from 53 bits of one number, so that it is the same on every platform.
 double Uniform(double lower, double upper, std::mt19937_64& random);
 /// Uniform among 0 … count − 1.
 int Pick(int count, std::mt19937_64& random);

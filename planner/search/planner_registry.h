@@ -17,7 +17,7 @@ struct PlannerOptions {
   BoundingBoxOptions bounding_box;
 };
 
-/// rrt, astar, astar/classic, bounding_box.
+/// Names of all planners: rrt, astar, astar/classic, bounding_box.
 std::vector<std::string> PlannerNames();
 
 /// The planner of that name, one of PlannerNames() (std::logic_error). The scene is borrowed and

@@ -9,11 +9,11 @@
 
 namespace halfstep {
 
-/// Distance between poses of a foot [m]: way, and 0.15 m a radian of yaw (modulo 2π). Without a
-/// yaw to compare, the way alone.
+/// Distance between poses of a foot [m]: that of their positions plus, `with_yaw`, 0.15 m per
+/// radian between their yaws (modulo 2π).
 double StateDistance(const Pose2& a, const Pose2& b, bool with_yaw);
 
-/// Indices of states, by support foot and place, for the nearest one to a pose.
+/// Indices of states, grouped by support foot and place to find the one nearest to a pose quickly.
 class StateBuckets {
  public:
   explicit StateBuckets(const Eigen::AlignedBox2d& area);

@@ -18,7 +18,7 @@ struct StepCost {
   double time_per_metre = 0.4;   ///< [s/m] ≥ 0
   double time_per_radian = 0.1;  ///< [s/rad] ≥ 0
 
-  /// Of each element: 1, 2T [s] or the estimate [s]. An element's way is that of its down
+  /// The cost of each element: 1, 2T [s] or the estimate [s]. An element's way is that of its down
   /// half-step and of the up half-step that follows it.
   std::vector<double> OfElements(const HalfStepSet& set) const;
 };
@@ -26,7 +26,7 @@ struct StepCost {
 /// How far the elements of a set can lead: bounds that no sequence of them exceeds.
 class StepReach {
  public:
-  /// `elements`: those that are used, not empty.
+  /// Bounds for the `elements` of the set that are used, at least one.
   StepReach(const HalfStepSet& set, const std::vector<int>& elements,
             const std::vector<double>& costs);
 
@@ -35,7 +35,7 @@ class StepReach {
   /// A number of footsteps below which the landing foot is nearer than `distance` [m] and has
   /// turned less than `turn` [rad]. Not rounded up: ≤ the least integer.
   double Steps(double distance, double turn) const;
-  double one() const { return one_; }                ///< the longest element [m]
+  double one() const { return one_; }                ///< longest displacement by one element [m]
   double least_cost() const { return least_cost_; }  ///< of an element
 
  private:

@@ -21,7 +21,7 @@ struct StepState {
 /// k is always the place of an element in elements().
 class StepGraph {
  public:
-  /// `elements` of the set that are used. The request is borrowed.
+  /// Uses only `elements` of the set. The request is borrowed.
   StepGraph(const PlanRequest& request, std::vector<int> elements);
 
   const std::vector<int>& elements() const { return elements_; }
@@ -39,10 +39,10 @@ class StepGraph {
   StepState After(const StepState& from, int k) const {
     return {Landing(from, k), Opposite(from.support)};
   }
-  /// Of all elements at once, the very same poses.
+  /// Landing() of all elements at once: exactly the same poses.
   void Landings(const StepState& from, std::vector<Footprint>* X_WF) const;
 
-  /// Not forbidden and free.
+  /// Whether a half-step of element k is free; a forbidden down half-step is not.
   bool DownIsFree(const StepState& from, int k);
   bool UpIsFree(const StepState& from, int k);
   /// Whether landing there ends the walk.

@@ -12,19 +12,19 @@
 
 namespace halfstep {
 
-/// What a tree grows to: the goal of its graph, or a state, closely.
+/// What a tree grows towards: the goal of its graph, or the neighbourhood of a state.
 struct TreeTarget {
-  std::optional<StepState> state = {};                          ///< none: the goal
-  double near = 0.08;                                           ///< as StateDistance with yaw [m]
-  double cost_limit = std::numeric_limits<double>::infinity();  ///< to get there, more is no use
+  std::optional<StepState> state = {};  ///< none: the goal
+  double near = 0.08;  ///< how near counts as reached, by StateDistance with yaw [m]
+  double cost_limit = std::numeric_limits<double>::infinity();  ///< costlier paths are useless
 };
 
 /// Where a tree shall grow to: a foot `side` near X_WF.
 struct TreeSample {
   enum class Yaw {
     kCounts,
-    kCountsWhenNear,  ///< while it is far, facing it counts
-    kFree,            ///< while it is far, facing it counts
+    kCountsWhenNear,  ///< counts when the foot is near; facing the sample counts when it is far
+    kFree,            ///< does not count; facing the sample counts when the foot is far
   };
   Footprint X_WF;
   Side side = Side::kLeft;
@@ -32,7 +32,7 @@ struct TreeSample {
 };
 
 /// A tree of states over free edges. Every node tries each of its elements once, in the order in
-/// which samples ask for them, and is left alone after the last.
+/// which samples ask for them, and grows no further after the last.
 class StepTree {
  public:
   StepTree(const TreeTarget& target, const PoseCells& cells, StepGraph* graph,
@@ -40,7 +40,7 @@ class StepTree {
 
   enum class Growth { kAdded, kTrapped, kNothingLeft, kArrived };
 
-  /// `cost`: of getting to the root.
+  /// `cost` is that of getting to the root.
   Growth AddRoot(const StepState& root, double cost);
   /// Lets the node nearest to the sample land as near to it as it can. kNothingLeft: no node can
   /// step with that foot any more.

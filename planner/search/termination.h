@@ -21,13 +21,14 @@ enum class StopReason {
   kGoOn,
   kEnough,       ///< the plan is good enough
   kBudget,       ///< time or nodes are used up
-  kInterrupted,  ///< somebody asked for it
+  kInterrupted,  ///< stopped on request
 };
 
 /// Asked before every node. A value that can be copied; reasons are combined with AnyOf.
 using Termination = std::function<StopReason(const PlanProgress&)>;
 
-/// Now [s], since whenever; does not go backwards. Libraries read no clock of their own.
+/// The time now [s], from an arbitrary origin; never goes backwards. The libraries read no clock of
+/// their own.
 using Clock = std::function<double()>;
 
 /// kBudget when `clock` shows `end` [s] or more.
@@ -40,7 +41,7 @@ Termination AtFirstPlan();
 Termination WhenNotImprovedFor(std::int64_t nodes);
 /// kInterrupted when a stop was requested.
 Termination OnRequest(std::stop_token token);
-/// The first of them that says something else than kGoOn.
+/// The first answer of them other than kGoOn.
 Termination AnyOf(std::vector<Termination> terminations);
 
 }  // namespace halfstep

@@ -9,7 +9,7 @@
 namespace halfstep {
 
 /// Four boxes of cells [lower, upper) of a lattice, side by side so that they are tested together;
-/// one cache line. A child is the index of a node that the box encloses, or solid, or not there.
+/// one cache line. A child is the index of a node that the box encloses, or kSolid or kAbsent.
 struct alignas(64) BoxNode {
   static constexpr int32_t kSolid = -1;   ///< the box is a leaf: all of it is occupied
   static constexpr int32_t kAbsent = -2;  ///< lower > upper: meets nothing
@@ -23,7 +23,7 @@ static_assert(sizeof(BoxNode) == 64);
 /// A region as a union of solid, closed, axis-aligned boxes, in a tree whose nodes lie in one
 /// array; node 0 is the root and children come after their parents.
 struct BoxTree {
-  /// Nodes that a depth-first walk keeps at most, three a level and one; levels at most 85.
+  /// Most nodes on the stack of a depth-first walk: three a level and one, of at most 85 levels.
   static constexpr int kStack = 256;
 
   Eigen::Vector3d origin{0, 0, 0};  ///< of the lattice [m]
@@ -36,8 +36,8 @@ struct BoxTree {
   /// solid as soon as its bounds are full.
   static BoxTree Build(const VoxelGrid& grid);
 
-  /// Whether it can be walked without harm: children after parents and in range, each node named
-  /// once, not too deep for kStack, boxes that are not turned round and lie within their parents'.
+  /// Whether it is safe to walk: children come after their parents and are in range, each node is
+  /// named once, the depth fits kStack, and boxes have lower ≤ upper and lie within their parents'.
   bool IsSound() const;
 
   /// A solid box of cells [lower, upper).

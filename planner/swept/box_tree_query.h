@@ -13,7 +13,7 @@ namespace halfstep {
 /// `extra` [m] ≥ 0: the region's boxes count as larger by this on every side; a "no" then says that
 /// the region is more than `extra` away.
 
-/// Of a box. Exact within 1e-5 of the coordinates and sizes.
+/// For a box. Exact within 1e-5 of the coordinates and sizes.
 bool Meets(const BoxTree& tree, const OrientedBox& box, double extra = 0.0);
 
 /// A sphere, capsule or cylinder: the sum of a segment on the local z axis, a disc in the local xy
@@ -23,12 +23,12 @@ struct RoundBody {
   double disc_radius = 0.0;  ///< [m]
   double ball_radius = 0.0;  ///< [m]
 };
-/// Of a round body at (axes, center). Exact but for bodies so near that 64 alternating projections
+/// For a round body at (axes, center). Exact but for bodies so near that 64 alternating projections
 /// do not tell: these meet.
 bool Meets(const BoxTree& tree, const RoundBody& body, const Eigen::Vector3d& center,
            const Eigen::Matrix3d& axes, double extra = 0.0);
 
-/// Of any triangle at (axes, origin): the surface only.
+/// For the triangles of a mesh at (axes, origin): its surface only.
 bool Meets(const BoxTree& tree, const TriangleTree& mesh, const Eigen::Vector3d& origin,
            const Eigen::Matrix3d& axes, double extra = 0.0);
 

@@ -12,8 +12,8 @@
 
 namespace halfstep {
 
-/// How finely a swept volume is baked. Coarser: smaller and sooner baked, and more free half-steps
-/// refused; never unsound.
+/// How finely a swept volume is baked. A coarser one is smaller and baked sooner but refuses more
+/// half-steps that are free; none is unsound.
 struct SweptVolumeOptions {
   double cell = 0.01;            ///< edge of the cells that the volume is made of [m], 1e-3 … 0.1
   double displacement = 0.0025;  ///< what a body may move within an interval of time [m], > 0
@@ -41,10 +41,11 @@ class SweptVolumeBaker {
   /// has no bound somewhere: a leg does not reach, or is nearly stretched.
   std::optional<std::vector<Placement>> Cover(const HalfStep& half_step, const Lipm& lipm) const;
 
-  /// Contains every point that is within `clearance` of a body of the robot at any time of the
-  /// half-step, in the frame S of its support sole; and the mirror images of those of the mirrored
-  /// half-step, so that one volume serves both sides of a robot that is not quite symmetric. None
-  /// as for Cover, of either. Source: planner/README.md, "Swept volumes".
+  /// Returns a volume that contains every point within `clearance` of a body of the robot at any
+  /// time of the half-step, in the frame S of its support sole; and the mirror images of those of
+  /// the mirrored half-step, so that one volume serves both sides of a robot that is not quite
+  /// symmetric. None, as for Cover, when either motion has no bound. Source: planner/README.md,
+  /// "Swept volumes".
   std::optional<BoxTree> Bake(const HalfStep& half_step, const Lipm& lipm) const;
 
   const SweptVolumeOptions& options() const { return options_; }

@@ -18,16 +18,17 @@ struct ElementVolumes {
 struct BakeHooks {
   int threads = 0;            ///< 0: as many as the machine has
   std::stop_token stop = {};  ///< ends the bake early
-  /// Told the fraction done, never by two threads at once; false stops the bake. May be empty.
+  /// Called with the fraction done, never by two threads at once; stops the bake by returning
+  /// false. May be empty.
   std::function<bool(double)> progress = {};
-  /// An element that was baked before, or none; and where to put one that was baked now. Called by
-  /// several threads at once. May be empty.
+  /// `recall` returns an element that was baked before, or none; `keep` stores one that was baked
+  /// now. Called by several threads at once. May be empty.
   std::function<std::optional<ElementVolumes>(int)> recall = {};
   std::function<void(int, const ElementVolumes&)> keep = {};
 };
 
-/// Bakes all elements of a set, or none when stopped. What a hook throws ends the bake and is
-/// thrown again.
+/// Bakes all elements of a set, or none when stopped. An exception of a hook ends the bake and is
+/// rethrown.
 std::optional<SweptVolumes> BakeSweptVolumes(const RobotModel& robot, const Lipm& lipm,
                                              const HalfStepSet& set,
                                              const SweptVolumeOptions& options,

@@ -16,10 +16,10 @@ std::string DefaultCacheFolder();
 std::string SweptVolumeProvenance(const RobotModel& robot, const Lipm& lipm, const HalfStepSet& set,
                                   const SweptVolumeOptions& options);
 
-/// What came of LoadOrBake.
+/// The result of LoadOrBakeSweptVolumes.
 struct CachedVolumes {
-  std::optional<SweptVolumes> volumes;  ///< none: stopped
-  bool baked = false;                   ///< else read
+  std::optional<SweptVolumes> volumes;  ///< none when stopped
+  bool baked = false;                   ///< baked now, else read from the cache
   std::string path;                     ///< of the cache file
   std::string refused;   ///< a sentence why a file that was there was not used, or ""
   std::string not_kept;  ///< a sentence why the result could not be written, or ""
@@ -27,9 +27,9 @@ struct CachedVolumes {
 
 /// Volumes from the file `<robot>-<hash of the provenance>.swept` in `folder`, or baked and written
 /// there. Each element that is done is written to a part file, so that a bake that was stopped or
-/// killed goes on where it was; several bakes at once share them. Files of another provenance, cut
-/// or damaged ones are refused and baked again. Hooks `recall` and `keep` shall be empty. A folder
-/// that cannot be written, or is "", costs the cache, not the result.
+/// killed continues where it was; several bakes at once share them. Files of another provenance,
+/// cut or damaged ones are refused and baked again. Hooks `recall` and `keep` shall be empty.
+/// Without a folder, or when it cannot be written, the volumes are returned but not cached.
 CachedVolumes LoadOrBakeSweptVolumes(const RobotModel& robot, const Lipm& lipm,
                                      const HalfStepSet& set, const SweptVolumeOptions& options,
                                      const std::string& folder, BakeHooks hooks = {});

@@ -19,8 +19,8 @@ namespace halfstep {
 /// Swept volumes against a scene. A half-step is free when its volume meets no obstacle, and then
 /// the robot is at least the baked clearance from all of them for all t. Queries are const and
 /// thread-safe; SetObstaclePose is not.
-/// Exact for boxes, spheres, capsules, cylinders and triangles, all but for rounding (1e-5); a mesh
-/// is its surface and what it winds around.
+/// Exact up to rounding (1e-5) for boxes, spheres, capsules, cylinders and triangles; a mesh is its
+/// surface and what it winds around.
 class SweptVolumeQuery : public HalfStepQuery {
  public:
   /// `volumes` is borrowed and must outlive this. A landing sole, of the outline

@@ -10,7 +10,7 @@ namespace halfstep {
 
 /// The swept volumes of a set: of its down and of its up half-steps, as they are on a left support;
 /// on a right one their mirror images.
-/// None: the motion has no bound; such a half-step is never free.
+/// A half-step whose motion has no bound has no volume and is never free.
 struct SweptVolumes {
   HalfStepSet set;
   std::vector<std::optional<BoxTree>> down;  ///< of set.Down(i, Side::kLeft)

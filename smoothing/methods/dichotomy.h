@@ -14,8 +14,8 @@ struct DichotomyOptions {
   /// checks.
   double tolerance = 0.001;
   Order order = Order::kLeftToRight;
-  int passes = 1;  ///< ≥ 0: later passes continue from the overlaps of the earlier ones; 0: the
-                   ///< start is checked, and that is all.
+  int passes = 1;  ///< ≥ 0: later passes continue from the overlaps of the earlier ones; 0: only
+                   ///< the start is checked.
   /// Upper bounds as fractions of the natural ones, ∈ [0, 1]. Published: 0.8 and 0.76.
   double up_down_cap = 1.0;
   double down_up_cap = 1.0;

@@ -8,16 +8,16 @@
 
 namespace halfstep {
 
-/// What a half-step of a walk may choose.
+/// One choice of the parameters of a half-step.
 struct StretchChoice {
   double overlap = 0.0;   ///< Δ with the half-step before [s]; lowered to its natural bound
   double duration = 0.0;  ///< T [s]
   double height = 1.0;    ///< η of its step; counts for up half-steps
 };
 
-/// A walk's shortest choices out of a finite list for each half-step, by dynamic programming.
+/// Finds the shortest walk whose half-steps each choose from a finite list, by dynamic programming.
 ///
-/// Half-step k is looked at on its own stretch [t_k, t_{k+1}] at τ = 0, p, 2p, … and at the ends of
+/// Half-step k is checked on its own stretch [t_k, t_{k+1}] at τ = 0, p, 2p, … and at the ends of
 /// contacts. What is under way there is k and, as far as they have not ended, k − 1, k − 2 and, if
 /// k is up, k − 3; the foot before the last is down. So one pass over τ with the choices of these
 /// half-steps finds the longest stretch without a violation, whatever comes later, and with it
@@ -27,11 +27,11 @@ class DynamicProgram {
  public:
   using Choices = std::vector<std::vector<StretchChoice>>;  // by half-step
 
-  /// Both are borrowed. period [s] > 0.
+  /// `sequence` and `evaluator` are borrowed. `period` [s] > 0.
   DynamicProgram(const HalfStepSequence& sequence, const MarginEvaluator& evaluator, double period);
 
-  /// The indices of the best choices, by half-step; empty: none is feasible and lasts at most
-  /// `duration` [s], or `stop` said so (asked before each half-step).
+  /// The indices of the best choices, by half-step; empty when none is feasible and lasts at most
+  /// `duration` [s], or when `stop`, asked before each half-step, returns true.
   template <typename Stop>
   std::vector<int> Solve(const Choices& choices, double duration, const Stop& stop) {
     Begin(choices, duration);
@@ -46,7 +46,7 @@ class DynamicProgram {
   HomotopyParameters ParametersOf(const Choices& choices, const std::vector<int>& indices) const;
 
   const MarginEvaluator::Scratch& scratch() const { return scratch_; }
-  long passes() const { return passes_; }  ///< over a stretch, so far
+  long passes() const { return passes_; }  ///< passes over a stretch so far
 
  private:
   // The best way to a combination of the last choices.

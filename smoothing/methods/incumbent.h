@@ -17,17 +17,17 @@ namespace halfstep {
 class Incumbent {
  public:
   struct Rules {
-    /// What a point would cost if it is feasible; +inf: not wanted at all.
+    /// What a point costs if it is feasible; +inf: the point is not wanted.
     std::function<double(const HomotopyParameters&)> cost;
-    /// Decides whether `walk` deserves `cost`: where it does not; empty: it does.
+    /// Proves that `walk` deserves `cost`. Returns the margins that refuse it; empty: none.
     std::function<std::vector<Margin>(const SuperposedWalk& walk, double cost,
                                       MarginEvaluator::Scratch*)>
         prove;
-    /// Told every new incumbent; may be empty.
+    /// Called with every new incumbent; may be empty.
     std::function<void(const HomotopyParameters&)> accepted = {};
     /// Candidates must cost less than the incumbent by more than this.
     double improvement = 1e-9;
-    /// A refusal holds back its neighbourhood; false: all parameters alike.
+    /// Whether a refusal holds back only the parameters near it; if not, it holds back all alike.
     bool local = true;
   };
 
@@ -35,15 +35,15 @@ class Incumbent {
   Incumbent(const HalfStepSequence& sequence, Rules rules, HomotopyParameters start, double cost,
             MarginEvaluator::Scratch* scratch);
 
-  /// How far from the incumbent to the candidate it was moved, ∈ [0, 1], mean over the half-steps;
-  /// `attempts` ≥ 1 points are tried at most.
+  /// Moves the incumbent towards a candidate, trying at most `attempts` ≥ 1 points. Returns how far
+  /// it moved, ∈ [0, 1], as a mean over the half-steps.
   double Toward(const HomotopyParameters& candidate, int attempts);
 
   const HomotopyParameters& parameters() const { return parameters_; }
   double cost() const { return cost_; }
   long accepted() const { return accepted_; }
   long refused() const { return refused_; }  ///< points that cost less and were not proved
-  /// What refused the last candidate itself; empty: nothing did.
+  /// The margins that refused the last candidate itself; empty when none did.
   const std::vector<Margin>& refusals() const { return refusals_; }
 
  private:
@@ -65,8 +65,8 @@ Incumbent::Rules DemandedRules(const OverlapProgram& program, StretchProofs* pro
 
 /// `safest`: a walk that lasts no longer than it may deserves the cost −z, z ≥ 0, when it meets
 /// what is demanded plus z times the family's scale, for the families of Raised(). `within_limit`:
-/// whether the first incumbent lasts no longer; of the first walk that does z = 0 is asked. Both
-/// are borrowed.
+/// whether the first incumbent lasts no longer; if not, only z = 0 is asked of the first walk that
+/// does. `program` and `test` are borrowed.
 Incumbent::Rules SafestRules(const OverlapProgram& program, const FeasibilityTest& test,
                              bool within_limit);
 

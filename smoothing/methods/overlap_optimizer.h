@@ -9,21 +9,21 @@
 namespace halfstep {
 
 struct OptimizerOptions {
-  std::string solver = "ipopt";  ///< opt::SolverNames
+  std::string solver = "ipopt";  ///< one of opt::SolverNames()
   ProgramOptions program;
   /// Where to begin, instead of at the dichotomy's result.
   std::optional<HomotopyParameters> start = std::nullopt;
-  /// Of `safest`: D is at most this [s]; 0: the duration of where it begins.
+  /// For `safest`, the most that D may be [s]; 0: the duration of the walk that it begins with.
   double duration_limit = 0.0;
   bool planned_start = true;  ///< solve also from the planned motion, after the dichotomy's result
   int random_starts = 0;      ///< and from random points of the variables' box
   unsigned seed = 1;          ///< of the random starts
-  int rounds = 40;  ///< ≥ 1: solves from each start, with more instants and sharper rows
+  int rounds = 40;  ///< ≥ 1: most solves from each start; the program is refined between them
   /// Instants per half-step at which the program looks. 0: 24 where each of them makes rows of its
   /// own (SolverTraits::many_rows), else those of `program`.
   int instants = 0;
-  /// Iterations that the solver may make in a round; 0: as many as suit it (SolverTraits). NLopt's
-  /// solvers count none, so this does not bound them.
+  /// The most iterations of the solver in a round; 0: SolverTraits::iterations. NLopt's solvers
+  /// count none, so this does not bound them.
   int max_iterations = 0;
   double deadline = 30.0;    ///< of all solves together [s]
   double tolerance = 0.001;  ///< of the dichotomies before and after [s]

@@ -9,11 +9,11 @@ struct ParetoOptions {
   double most_duration = 1.0;  ///< of the planned motion's: where the curve ends
 };
 
-/// How safe the walk can be for how long it may last: the program `fastest`, then `safest` with
-/// D at most the dichotomy's own duration and durations from the fastest to the longest, each from
-/// the one before. Every point was proved, with its least slack, by the problem's test. The
-/// result's parameters are those of the point at the dichotomy's own duration; `pareto` holds all
-/// points, by duration.
+/// The trade-off between how safe a walk is and how long it lasts: solves `fastest`, then `safest`
+/// with D at most the dichotomy's own duration and at most durations from the fastest to the
+/// longest, each from the one before. Every point was proved, with its least slack, by the
+/// problem's test. The result's parameters are those of the point at the dichotomy's own duration;
+/// `pareto` holds all points, by duration.
 SmoothingResult ParetoCurve(const WalkProblem& problem, const OptimizerOptions& options,
                             const ParetoOptions& pareto, SmoothingMonitor& monitor);
 

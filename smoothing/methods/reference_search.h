@@ -8,9 +8,10 @@ namespace halfstep {
 
 struct ReferenceOptions {
   ParameterChoice parameters;  ///< searched beside the overlaps
-  double period = 0.01;        ///< of the instants at which the grid is looked at [s] > 0
-  /// Of overlaps alone: so many values of each, from 0 to the natural bound, in every combination,
-  /// before the corridor; 0: no such round. Effort grows with its fourth power.
+  double period = 0.01;        ///< between the instants at which the grid is checked [s] > 0
+  /// When overlaps alone are searched: number of values of each, from 0 to the natural bound, that
+  /// are tried in every combination before the corridor; 0: no such round. Effort grows with its
+  /// fourth power.
   int global_values = 10;
   double widest = 0.1;       ///< first step of the corridor: Δ [s], T and η relative
   double narrowest = 0.002;  ///< the corridor ends when its step is smaller

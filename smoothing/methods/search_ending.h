@@ -17,13 +17,13 @@ struct SearchEnding {
   bool own = false;              ///< the result comes from the search, and beats what it began with
   opt::Ending last_ending = opt::Ending::kNotRun;  ///< of the last solve
   std::string last_message = {};
-  /// What the result is where it is not its own: "the walk is a dichotomy's".
+  /// What the result is when it does not come from the search: "the walk is a dichotomy's".
   std::string kept = {};
 
   void Note(const opt::Solution& solution);
   bool past_deadline() const { return deadline_passed || last_ending == opt::Ending::kDeadline; }
 
-  /// Of the whole search: as SmoothingResult::ending.
+  /// How the whole search ended, as in SmoothingResult::ending.
   opt::Ending Ending() const;
   /// What ended the search, and how the last solve ended.
   std::string Sentence() const;

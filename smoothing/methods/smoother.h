@@ -15,14 +15,14 @@ namespace halfstep {
 struct SmootherOptions {
   DichotomyOptions dichotomy = {};
   OptimizerOptions optimizer = {};
-  std::optional<ParetoOptions> pareto = std::nullopt;  ///< solvers make a ParetoCurve
+  std::optional<ParetoOptions> pareto = std::nullopt;  ///< when set, solvers make a ParetoCurve
 };
 
 /// The group of options that a method takes.
 enum class OptionGroup { kNone, kDichotomy, kOptimizer };
 
-/// One way to smooth a walk, behind the one door. Immutable: may be called again and from several
-/// threads, with a monitor each.
+/// A method of smoothing a walk, behind the common interface. Immutable: may be called again and
+/// from several threads, with a monitor each.
 class Smoother {
  public:
   virtual ~Smoother() = default;
@@ -31,10 +31,9 @@ class Smoother {
   virtual std::string meaning() const = 0;  ///< one line, for `halfstep list methods`
   virtual OptionGroup options() const = 0;
 
-  /// Smooths from where the problem starts. What is returned is as feasible as the problem's test
-  /// says (SmoothingResult::evidence); how the search ended, and that there was nothing feasible to
-  /// begin with, is a status with a sentence and no exception. Impossible options are a
-  /// std::logic_error.
+  /// Smooths from the problem's start. Feasible means by the problem's test
+  /// (SmoothingResult::evidence). How the search ended, also for want of a feasible start, is a
+  /// status with a sentence, not an exception. Throws std::logic_error for impossible options.
   [[nodiscard]] virtual SmoothingResult Smooth(const WalkProblem& problem,
                                                const SmootherOptions& options,
                                                SmoothingMonitor& monitor) const = 0;

@@ -8,11 +8,12 @@
 
 namespace halfstep {
 
-/// Every method there is: the dichotomy and its variants, references, and one for each solver that
-/// is compiled in. To add one, add it to the list in the source.
+/// All methods: the dichotomy and its variants, references, and one for each solver that is
+/// compiled in. To add one, add it to the list in the source.
 const std::vector<std::unique_ptr<const Smoother>>& Smoothers();
 std::vector<std::string> SmootherNames();
-/// Throws std::logic_error when there is none of that name: configs are checked when they are read.
+/// The method of that name. Throws std::logic_error when there is none, since configs are checked
+/// when they are read.
 const Smoother& FindSmoother(const std::string& name);
 
 }  // namespace halfstep

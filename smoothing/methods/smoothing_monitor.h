@@ -12,13 +12,13 @@
 
 namespace halfstep {
 
-/// What whoever calls a smoother may ask of it while it works.
+/// What the caller of a smoother may ask of it while it works.
 struct MonitorOptions {
-  std::function<void(double)> progress = {};  ///< told the fraction that is done
+  std::function<void(double)> progress = {};  ///< called with the fraction done
   std::stop_token stop = {};                  ///< ends the search; what was found stays
   std::stop_token stop_proof = {};            ///< comes later; also ends a proof that is under way
   double deadline = std::numeric_limits<double>::infinity();  ///< of the search [s]
-  /// Told every new incumbent.
+  /// Called with every new incumbent.
   std::function<void(const HomotopyParameters&)> on_incumbent = {};
 };
 
@@ -29,13 +29,15 @@ class SmoothingMonitor {
  public:
   SmoothingMonitor() : SmoothingMonitor(MonitorOptions{}) {}
   explicit SmoothingMonitor(MonitorOptions options) : options_(std::move(options)) {}
-  /// For a smoother within this one: stops with it; its progress is a part of this one's.
+  /// Options for a smoother that is called within this one: it stops with this one, and its
+  /// progress is reported as the part [from, to] of this one's.
   MonitorOptions Part(double from, double to) const;
 
-  /// Forgets what there is and begins at `start`. The problem is borrowed until Finish().
+  /// Forgets everything and begins at `start`. The problem is borrowed until Finish().
   void Begin(const WalkProblem& problem, const HomotopyParameters& start);
-  /// Begins and asks whether the start, "the planned motion", keeps every margin for all its time.
-  /// False: it does not, or that was stopped, and Refusal() is the result.
+  /// Begins and checks whether the walk of `start` keeps every margin for all its time. Returns
+  /// false when it does not or the check was stopped; the result is then Refusal(). `what` names
+  /// the start in its message: "the planned motion".
   bool BeginFeasibly(const WalkProblem& problem, const HomotopyParameters& start,
                      const std::string& what);
   SmoothingResult Refusal() { return Finish(opt::Ending::kNotRun, refusal_, ""); }
@@ -48,9 +50,9 @@ class SmoothingMonitor {
     if (options_.progress) options_.progress(done);
   }
 
-  /// For every question to the problem's test.
+  /// To be handed to every check of the problem's test; it counts their effort.
   MarginEvaluator::Scratch* scratch() { return &*scratch_; }
-  /// Effort elsewhere.
+  /// Adds effort that scratch() did not count.
   void Count(long instants, long collision_queries);
   void Count(const SmoothingResult& part) { Count(part.instants, part.collision_queries); }
   long instants() const { return result_.instants + scratch_->instants; }
@@ -58,19 +60,21 @@ class SmoothingMonitor {
   const HomotopyParameters& incumbent() const { return result_.parameters; }
   double cost() const { return result_.cost; }
   double duration() const { return duration_; }  ///< of the incumbent [s]
-  /// Makes the incumbent what was found feasible at that cost. `duration` [s] of its walk.
+  /// Makes `parameters`, which were found feasible at that cost, the incumbent. `duration` [s] is
+  /// that of their walk.
   void Adopt(const HomotopyParameters& parameters, double cost, double duration);
-  /// The start turned out not to be feasible: whatever was adopted is an improvement.
+  /// Records that the start turned out not to be feasible, so that whatever was adopted is an
+  /// improvement.
   void DropStart() { begun_ = std::numeric_limits<double>::infinity(); }
-  /// Notes a candidate of which the caller has filled what it knows; time, effort and the
-  /// incumbent's part are filled here.
+  /// Records a candidate. The caller has filled what it knows; this fills time, effort and what
+  /// concerns the incumbent.
   void Record(SmoothingIterate iterate);
 
-  /// What else there is to say: junctions, evidence …
+  /// The result so far, for smoothers to add to: junctions, evidence …
   SmoothingResult& result() { return result_; }
 
-  /// The result, how it ended and why. When the incumbent costs no less than the start, kNotRun
-  /// apart, the ending is kNoImprovement, and `no_gain` is added to the message.
+  /// Makes the result, with this ending and message. When the incumbent costs no less than the
+  /// start, any ending but kNotRun becomes kNoImprovement, and `no_gain` is added to the message.
   SmoothingResult Finish(opt::Ending ending, const std::string& message,
                          const std::string& no_gain);
 

@@ -11,7 +11,7 @@
 
 namespace halfstep {
 
-/// What holds one overlap where it is.
+/// What limits one overlap.
 struct JunctionResult {
   JunctionKind kind = JunctionKind::kUpDown;
   double overlap = 0.0;      ///< accepted Δ [s]
@@ -19,12 +19,12 @@ struct JunctionResult {
   bool fixed = false;        ///< the caller fixed it
   /// The margin that refused the smallest infeasible overlap tried; none: the upper bound holds.
   std::optional<Margin> limited_by = std::nullopt;
-  /// Multipliers of the program's rows of the half-steps on both sides, in the family that limits:
-  /// what one unit of its scale less demanded there would save, all parameters adapting, to first
-  /// order [s]; none: no program was solved.
+  /// Sum of the multipliers of the program's rows in the limiting family, of the half-steps on both
+  /// sides: to first order the time that demanding one unit of the family's scale less there would
+  /// save, all parameters adapting [s]. None when no program was solved.
   std::optional<double> multiplier = std::nullopt;
-  /// What one unit of the limiting family's scale less demanded would shorten the walk by, to first
-  /// order and by this overlap alone [s]; none: nothing limits, or it does not depend on Δ.
+  /// To first order the time that demanding one unit of the limiting family's scale less would save
+  /// by this overlap alone [s]. None when nothing limits it, or the margin does not depend on Δ.
   std::optional<double> price = std::nullopt;
 };
 
@@ -57,21 +57,21 @@ struct SmoothingResult {
   /// walk. With the others it is that start, or what a plain dichotomy makes of it.
   opt::Ending ending = opt::Ending::kNotRun;
   std::string message = "the method has not run";  ///< a sentence on the ending
-  /// `parameters` were found feasible in the sense of `evidence`. False: the start misses a margin,
-  /// and they are the start.
+  /// Whether `parameters` were found feasible, in the sense of `evidence`. If not, they are the
+  /// start, which misses a margin.
   bool feasible = false;
   Evidence evidence = Evidence::kSampled;
   HomotopyParameters parameters;
-  /// Of the program [s]; for `safest` minus the proved least slack, +inf when no walk within its
-  /// duration was proved.
+  /// Cost by the program [s]; for `safest` minus the proved least slack, +inf when no walk within
+  /// its duration was proved.
   double cost = 0.0;
   std::vector<JunctionResult> junctions;
   std::vector<SmoothingIterate> iterates;
   std::vector<ParetoPoint> pareto;  ///< by duration; empty but for ParetoCurve
-  long instants = 0;                ///< evaluated
+  long instants = 0;                ///< instants evaluated
   long raw_infeasible = 0;          ///< candidates of a solver that were not feasible themselves
   bool raw_end_feasible = true;     ///< the solver's end was accepted, or not better and not tried
-  long collision_queries = 0;       ///< body against scene, or body pair, not culled
+  long collision_queries = 0;       ///< of bodies with the scene or each other, not culled
   double wall = 0.0;                ///< [s]
   /// Until the first accepted improvement [s]; none when nothing was improved.
   std::optional<double> time_to_first_improvement;

@@ -14,7 +14,7 @@ struct UniformScanOptions {
   double most_duration = 1.2;   ///< of the planned T, ≥ 1
   double duration_step = 0.05;  ///< of the planned T, > 0: from 1 both ways
   double coarse = 0.02;         ///< tolerance of the dichotomy at every grid point [s] > 0
-  int finalists = 3;            ///< ≥ 1: the best so many are smoothed with the fine tolerance
+  int finalists = 3;            ///< ≥ 1: best points that are smoothed with the fine tolerance
   double fine = 0.001;          ///< [s] > 0
 };
 

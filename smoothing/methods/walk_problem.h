@@ -18,8 +18,8 @@ class WalkProblem {
   /// Candidates are certified with the default options.
   WalkProblem(RobotModel robot, Scene scene, HalfStepSequence sequence, MarginLimits limits,
               std::vector<FixedParameter> fixed = {});
-  /// The test brings robot, scene and limits along. Both throw std::logic_error when a parameter
-  /// cannot be fixed so (ComplaintAbout).
+  /// Robot, scene and limits are those of the test. Both constructors throw std::logic_error when
+  /// ComplaintAbout() complains about `fixed`.
   WalkProblem(HalfStepSequence sequence, std::shared_ptr<const FeasibilityTest> test,
               std::vector<FixedParameter> fixed = {});
 
@@ -31,11 +31,11 @@ class WalkProblem {
   const FeasibilityTest& test() const { return *test_; }
   const std::vector<FixedParameter>& fixed() const { return fixed_; }
 
-  /// Every parameter, with what a method that may move `choice` may do to it.
+  /// Every parameter, with the range within which a method may move it when it searches `choice`.
   ParameterTable Parameters(const ParameterChoice& choice = {}) const {
     return ParameterTable(*sequence_, fixed_, choice);
   }
-  /// Where methods begin: the planned motion but for what is fixed elsewhere.
+  /// Where methods begin: the planned motion, but with fixed parameters at their values.
   HomotopyParameters Start() const { return Parameters().Start(); }
 
  private:

@@ -10,7 +10,7 @@ namespace halfstep {
 
 class OverlapProgram;
 
-/// What programs minimize; each borrows the program.
+/// The costs that programs minimize; each borrows its program.
 std::unique_ptr<opt::CostTerm> MakeDurationCost(const OverlapProgram& program);  ///< D [s]
 /// Weighted effort (WeightedEffort) [s].
 std::unique_ptr<opt::CostTerm> MakeEffortCost(const OverlapProgram& program);
@@ -19,8 +19,8 @@ std::unique_ptr<opt::CostTerm> MakeLeastSlackCost();
 
 /// ∂D/∂parameter.
 ParameterGradient DurationGradient(const HalfStepSequence& sequence);
-/// The gradient (n) with respect to x of a derivative along parameters; x may have more entries
-/// than there are variables.
+/// The gradient (n) with respect to x of what has the derivatives `gradient` along parameters; x
+/// may have more entries than there are variables.
 Eigen::VectorXd Pulled(const OverlapVariables& variables, const ParameterGradient& gradient,
                        const Eigen::VectorXd& x);
 

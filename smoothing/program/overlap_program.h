@@ -23,7 +23,7 @@ std::string_view Name(ProgramKind kind);  ///< "fastest" …
 /// what is demanded.
 std::array<bool, kNumMarginFamilies> Raised();
 
-/// Which nonlinear program over a sequence's homotopy parameters.
+/// Selects a nonlinear program over a sequence's homotopy parameters.
 struct ProgramOptions {
   ProgramKind kind = ProgramKind::kFastest;
   ParameterChoice parameters;
@@ -43,14 +43,14 @@ struct ProgramOptions {
 class OverlapProgram {
  public:
   /// `sequence` and `evaluator` are borrowed and must outlive this and its problems.
-  /// `duration_limit` [s] counts for `safest` only; parameters that are fixed are no variables.
+  /// `duration_limit` [s] counts for `safest` only. Fixed parameters are not variables.
   OverlapProgram(const HalfStepSequence& sequence, const MarginEvaluator& evaluator,
                  const ProgramOptions& options, double duration_limit,
                  const std::vector<FixedParameter>& fixed = {});
   OverlapProgram(const OverlapProgram&) = delete;
   OverlapProgram& operator=(const OverlapProgram&) = delete;
 
-  /// Borrows this. Instants that are learned later are looked at as well.
+  /// The problem borrows this. It also watches instants that are learned later.
   opt::Problem MakeProblem() const;
 
   const ProgramOptions& options() const { return options_; }
@@ -65,8 +65,8 @@ class OverlapProgram {
     return variables_.ToParameters(x);
   }
 
-  /// What is minimized [s], or minus the least raised slack at the instants watched; +inf when D is
-  /// above the limit.
+  /// The cost of a point [s]; for `safest` minus the least raised slack at the instants watched,
+  /// +inf when D is above the limit.
   double Cost(const HomotopyParameters& parameters) const;
 
  private:

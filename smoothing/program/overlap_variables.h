@@ -13,13 +13,14 @@ using ParameterGradient = std::vector<std::pair<HomotopyParameter, double>>;
 
 /// The variables x of a program over a sequence: the free rows of a parameter table in its order.
 /// An overlap's variable is s_i = Δ_i/B_i(T). B_i(T) is the natural overlap bound or, where T_i or
-/// T_{i+1} is a variable, a smooth lower bound of it by at most 1 ms, so 0 ≤ s_i ≤ 1 are simple
-/// bounds at all T. What is fixed keeps the value at which the table starts.
+/// T_{i+1} is a variable, a smooth function at most 1 ms below it, so 0 ≤ s_i ≤ 1 are simple bounds
+/// at all T. What is fixed keeps the value at which the table starts.
 /// Source: smoothing/README.md, "Overlap program".
 class OverlapVariables {
  public:
   /// `sequence` is borrowed and must outlive this.
-  /// `resting`: whether the scene rests; else an instant depends on when it is as well.
+  /// `resting`: whether the obstacles of the scene rest; if not, margins at an instant also depend
+  /// on its absolute time.
   OverlapVariables(const HalfStepSequence& sequence, ParameterTable table, bool resting = true);
 
   const HalfStepSequence& sequence() const { return sequence_; }
@@ -33,7 +34,7 @@ class OverlapVariables {
   Eigen::VectorXd ToVariables(const HomotopyParameters& parameters) const;
   HomotopyParameters ToParameters(const Eigen::VectorXd& x) const;
 
-  /// The variable of a parameter, −1: it is none.
+  /// Index of a parameter's variable; −1 when it is not a variable.
   int IndexOf(const HomotopyParameter& parameter) const {
     return index_[static_cast<size_t>(table_.IndexOf(parameter))];
   }

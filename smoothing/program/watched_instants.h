@@ -40,26 +40,28 @@ class WatchedInstants {
   /// The family of a row; a half-step, or an instant, has one for each family that has its own.
   static MarginFamily family_of(int row);
   static int NumRowFamilies();
-  /// Variables of the rows of a half-step.
+  /// The variables on which the rows of a half-step depend (OverlapVariables::Band).
   const std::vector<int>& band(int half_step) const {
     return bands_[static_cast<size_t>(half_step)];
   }
-  /// Entries of the Jacobian: all rows times their band.
+  /// Number of entries of the Jacobian: every row has those of its band.
   size_t num_nonzeros() const;
 
   double sharpness() const { return options_.sharpness; }
   void SetSharpness(double sharpness) { options_.sharpness = sharpness; }
 
-  /// Looks at one more instant, where a slack turned out to be small. False: it is, or nearly is,
-  /// there already.
+  /// Adds an instant at which a slack turned out to be small. Returns false when it, or one very
+  /// near, is watched already.
   bool Learn(const SuperposedWalk& walk, const LocalTime& at);
-  /// Looks where samples of `walk`, every `period` [s], show that it matters: where a family's
-  /// least slack has a local minimum in time, and around it where it is near the `level` that all
-  /// slacks are to reach. With `row_per_instant` forgets what was found so in walks before, and
-  /// instants at which nothing is near the level have no row. Returns the least slack sampled.
+  /// Samples `walk` every `period` [s] and adds the instants that matter: those where a family's
+  /// least slack has a local minimum in time, and some around it where that is near the `level`
+  /// that all slacks are to reach. With `row_per_instant`, instants added so for earlier walks are
+  /// dropped, and instants with no slack near the level get no row. Returns the least slack
+  /// sampled.
   double Focus(const SuperposedWalk& walk, double period, double level);
 
-  /// Rows at x (rows), and the Jacobian, row by row in the order of its band, when asked for.
+  /// Evaluates the rows at x (rows) and, unless `nonzeros` is null, the Jacobian, row by row in the
+  /// order of its band.
   void Evaluate(const Eigen::VectorXd& x, Eigen::VectorXd* values,
                 std::vector<double>* nonzeros) const;
 

@@ -30,7 +30,7 @@ class CertifiedFeasibility : public FeasibilityTest {
 
   /// The same over the whole walk, with the proof: `certificate` holds what was proved before a
   /// verdict was reached, all of it when feasible, in the order of begin, end and family. `stop` is
-  /// looked at before each interval; what is stopped is undecided.
+  /// polled before each interval; a proof that is stopped is undecided.
   Feasibility Certify(const SuperposedWalk& walk, MarginEvaluator::Scratch* scratch,
                       Certificate* certificate, const std::stop_token& stop = {}) const;
 
@@ -48,11 +48,11 @@ class CertifiedFeasibility : public FeasibilityTest {
   IntervalStatements statements_;
 };
 
-/// The window and, on either side, what lies between it and the next knot: where an overlap's
-/// change puts a knot, the intervals beside it are cut anew. With these in every check, walks whose
-/// windows were proved one after the other are proved as a whole, by the same intervals. A window
-/// of whole stretches, from where a half-step begins to where one begins, is returned as it is:
-/// only what changed within it may have been cut.
+/// Extends a window on either side to the next knot. A changed overlap moves knots, and the
+/// intervals beside a moved knot are cut anew; as every check includes these, a walk whose windows
+/// were proved one after the other is proved as a whole, by the same intervals. A window that
+/// begins and ends where half-steps begin is returned unchanged: intervals were cut anew only
+/// within it.
 TimeWindow ExtendedToKnots(const SuperposedWalk& walk, const TimeWindow& window);
 
 /// Instants strictly inside a window at which a foot lands or lifts off, starts or stops moving

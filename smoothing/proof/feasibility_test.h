@@ -33,7 +33,7 @@ struct Feasibility {
 };
 
 /// Whether a walk meets every demanded margin on a window of time. The scratch's stop token is
-/// looked at on the way; what is stopped is undecided.
+/// polled; a check that is stopped is undecided.
 class FeasibilityTest {
  public:
   virtual ~FeasibilityTest() = default;

@@ -17,7 +17,7 @@ struct OpenGroup {
   uint16_t group = 0;
 };
 
-/// Those that are not yet proved over one interval; a family's stand side by side.
+/// The groups that are not yet proved over one interval; those of one family are adjacent.
 using OpenGroups = std::vector<OpenGroup>;
 
 /// Proves statements about one interval from its midpoint and a bound on the motion around it.
@@ -25,11 +25,11 @@ class IntervalStatements {
  public:
   explicit IntervalStatements(MarginEvaluator evaluator);
 
-  /// Every statement there is.
+  /// All groups of all families.
   OpenGroups All() const;
 
-  /// Removes from `open` what holds for all t of [begin, end], and adds it to `rows` unless null
-  /// (with margins instead of mere verdicts: slower). Returns a margin that is violated at the
+  /// Removes from `open` what holds for all t of [begin, end], and, unless `rows` is null, adds it
+  /// there (slower: rows need margins, not only verdicts). Returns a margin that is violated at the
   /// midpoint, if any. Precondition: no foot touches down or lifts off, and no foot starts or stops
   /// moving horizontally, strictly inside the interval.
   std::optional<Margin> Prove(const SuperposedWalk& walk, double begin, double end,
@@ -42,7 +42,7 @@ class IntervalStatements {
   OpenGroups all_;
 };
 
-/// The motion of a walk over the absolute times [begin, end] [s].
+/// Bounds the motion of a walk over the absolute times [begin, end] [s].
 void BoundMotion(const MotionBounds& bounds, const SuperposedWalk& walk, double begin, double end,
                  IntervalMotion* motion);
 

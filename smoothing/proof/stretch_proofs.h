@@ -10,8 +10,8 @@ namespace halfstep {
 
 /// Proves walks of one sequence stretch by stretch, [t_k, t_{k+1}], the last one to the end. What a
 /// walk does on a stretch depends on the half-steps under way there alone: stretches whose
-/// parameters are those of a proof before are not proved again. Where a proof failed is looked at
-/// first. Source: smoothing/README.md, "The incumbent".
+/// parameters are those of a proof before are not proved again. Instants at which earlier proofs
+/// failed are checked first. Source: smoothing/README.md, "The incumbent".
 class StretchProofs {
  public:
   /// `test` is borrowed.
@@ -21,7 +21,7 @@ class StretchProofs {
   /// walk is proved for all t.
   std::vector<Margin> Refusals(const SuperposedWalk& walk, MarginEvaluator::Scratch* scratch);
 
-  /// The walk was proved as a whole already.
+  /// Records that the walk has been proved as a whole.
   void Remember(const SuperposedWalk& walk);
 
  private:

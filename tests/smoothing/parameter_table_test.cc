@@ -78,6 +78,10 @@ TEST_F(ParameterTableTest, RefusesWhatCannotBeFixed) {
   EXPECT_THAT(complaint({{{Family::kOverlap, 0}, 100.0}}), HasSubstr("above its natural bound"));
   EXPECT_THAT(complaint({{{Family::kHeightScale, 0}, -0.1}}), HasSubstr("valid: from 0"));
   EXPECT_THROW(ParameterTable(sequence_, {{{Family::kOverlap, 5}}}), std::logic_error);
+  const MarginEvaluator evaluator(Hrp2(), {}, {});
+  const FakeFeasibility test(evaluator,
+                             [](const HomotopyParameters&) { return Verdict::kFeasible; });
+  EXPECT_THROW(ProblemOf(sequence_, test, {{{Family::kOverlap, 5}}}), std::logic_error);
 }
 
 // Every method that has no solver; those with one move OverlapVariables, as above.

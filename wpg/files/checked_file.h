@@ -14,17 +14,17 @@ namespace halfstep {
 /// What a reader gets: the body, or a sentence why the file was refused.
 struct CheckedFile {
   std::optional<std::string> body;
-  std::string refused;  ///< "": there is no such file, or it was read
+  std::string refused;  ///< "" when the file was read, or does not exist
 };
 
-/// Reads a file whose header must be `header`. Anything else is refused, never thrown: another
-/// header (the first line that differs is told), a file that is cut or changed in any bit, one
-/// above 4 GiB.
+/// Reads a file whose header must be `header`. Anything else is refused with a sentence, not an
+/// exception: another header (the sentence names the first line that differs), a file that is cut
+/// or changed in any bit, one above 4 GiB.
 CheckedFile ReadCheckedFile(const std::string& path, std::string_view header);
-/// The same of a file's bytes.
+/// The same for a file's bytes.
 CheckedFile ParseCheckedFile(const std::string& path, std::string bytes, std::string_view header);
 
-/// As WriteWhole. Throws std::runtime_error with the system's reason.
+/// Writes the file as WriteWhole does. Throws std::runtime_error with the system's reason.
 void WriteCheckedFile(const std::string& path, std::string_view header, std::string_view body);
 
 }  // namespace halfstep

@@ -7,11 +7,11 @@
 
 namespace halfstep {
 
-/// A file descriptor that closes itself, also when what is done with it throws.
+/// Owns a file descriptor and closes it when destroyed.
 class Descriptor {
  public:
-  /// As open(2), with O_CLOEXEC; a new file is readable by all. get() is −1, and errno set, when
-  /// the file cannot be opened.
+  /// Opens the file as open(2) does, with O_CLOEXEC; a new file is readable by all. get() is −1,
+  /// and errno set, when the file cannot be opened.
   Descriptor(const std::filesystem::path& path, int flags)
       : fd_(open(path.c_str(), flags | O_CLOEXEC, 0644)) {}
   ~Descriptor() {

@@ -11,7 +11,8 @@
 
 namespace halfstep {
 
-/// What a number may be. Reading refuses anything outside [min, max] and anything not finite.
+/// The valid values of a number. Reading refuses anything outside [min, max] and anything not
+/// finite.
 /// unit, min and max are those of the text: of a key in `_deg` they are in degrees.
 struct NumberSpec {
   const char* meaning = "";
@@ -25,14 +26,14 @@ struct TextSpec {
   bool required = false;
   std::vector<std::string> choices{};  ///< empty: any text.
   const char* listed_by = "";          ///< the command that lists choices that depend on the build
-  const char* otherwise = "";          ///< what holds when the key is absent, if no value says so
+  const char* otherwise = "";  ///< what holds without the key, where no default value says it
 };
 struct GroupSpec {
   const char* meaning = "";
   bool required = false;
   size_t min_items = 0;        ///< lists only
   size_t max_items = 100000;   ///< lists only
-  const char* otherwise = "";  ///< as of texts
+  const char* otherwise = "";  ///< as in TextSpec
 };
 
 /// One declaration of a group of keys serves reading, writing back and explaining: a struct's keys
@@ -62,8 +63,8 @@ class Fields {
   /// no key is required. Returns whether the key was present. Writing always writes the group.
   virtual bool Group(const char* key, const GroupSpec& spec,
                      const std::function<void(Fields&)>& declare) = 0;
-  /// A nested map that there need not be: reading sets `present`, writing leaves the group out
-  /// unless `present`. So "exactly one of" is a row of optional groups and a Complain().
+  /// A nested map that may be absent: reading sets `present`, writing leaves the group out unless
+  /// `present`. So "exactly one of" is a row of optional groups and a Complain().
   virtual void OptionalGroup(const char* key, bool* present, const GroupSpec& spec,
                              const std::function<void(Fields&)>& declare) {
     *present = Group(key, spec, declare);
@@ -76,7 +77,7 @@ class Fields {
         key, spec, items->size(), [items](size_t n) { *items = std::vector<Item>(n); },
         [items, &declare](Fields& fields, size_t i) { declare(fields, &(*items)[i]); });
   }
-  /// What List() stands on: `size` items are held now, `resize(n)` replaces them by n fresh ones.
+  /// Implements List(): `size` items are held now, `resize(n)` replaces them by n fresh ones.
   virtual void Items(const char* key, const GroupSpec& spec, size_t size,
                      const std::function<void(size_t)>& resize,
                      const std::function<void(Fields&, size_t)>& declare) = 0;
@@ -84,7 +85,7 @@ class Fields {
   /// cannot express, reported at its place. Ignored by visitors that do not read, in an absent
   /// group, and where `key` has been complained about already.
   virtual void Complain(const char* key, const std::string& what) = 0;
-  /// A key that once stood for `new_key`: complained about where it is, with the new name. Ignored
+  /// Complains about `old_key`, the former name of `new_key`, where the file still has it. Ignored
   /// by visitors that do not read.
   virtual void Renamed(const char* /*old_key*/, const char* /*new_key*/) {}
   /// Directory of the file being read, for relative paths; "" otherwise.

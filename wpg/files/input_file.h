@@ -6,11 +6,11 @@
 
 namespace halfstep {
 
-/// A file as it was when it was read. What a certificate says about files comes from here and not
-/// from a later look at them.
+/// A file as it was when it was read. Certificates take what they say about a file from here; they
+/// do not read it again.
 struct InputFile {
-  std::string name;  ///< as the file that names it has it; of one that none names: without folder
-  std::string path;  ///< where it was read from
+  std::string name;       ///< as written in the file that names it; else the last part of the path
+  std::string path;       ///< where it was read from
   std::size_t bytes = 0;  ///< its length
   std::string sha256;     ///< of what was parsed, lower-case hexadecimal
 };

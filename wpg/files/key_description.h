@@ -25,7 +25,7 @@ struct KeyDescription {
     kList  ///< of maps
   };
   Kind kind = Kind::kGroup;
-  std::string path;  ///< from the document on, an item of a list as N: "footsteps.N.x_m"
+  std::string path;  ///< from the root of the document, list items as N: "footsteps.N.x_m"
   std::string meaning, unit;
   bool required = false;
   std::string default_text;     ///< YAML; "" when required, and of maps

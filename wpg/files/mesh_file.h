@@ -22,7 +22,7 @@ struct LoadedMesh {
 /// another extension, unreadable, truncated, a number that is not finite or beyond 1e9, an index
 /// out of range, no triangle, more than 5 million triangles or 1 GiB.
 LoadedMesh LoadMesh(const std::string& path);
-/// The same of a file's bytes; the kind of mesh is that of the path's extension.
+/// The same for a file's bytes; the kind of mesh is that of the path's extension.
 LoadedMesh ParseMesh(const std::string& path, const std::string& bytes);
 
 }  // namespace halfstep

@@ -5,10 +5,10 @@
 
 namespace halfstep {
 
-/// A hidden sibling ".NAME.partial-<16 hexadecimal digits>" in which a file or a folder is made
-/// that shall have the name later: made exclusively under a random name (links are not followed),
-/// and locked (flock) until the object, or the process in whatever way, ends. Removed at its end
-/// unless released.
+/// A hidden sibling ".NAME.partial-<16 hexadecimal digits>" of a path: the file or folder that is
+/// to be renamed to the path when it is complete. Its name is random, it is created exclusively
+/// (links are not followed), and it is locked (flock) until this object is destroyed or the process
+/// ends in whatever way. The destructor removes it unless it was released.
 class PartialSibling {
  public:
   enum class Kind { kFile, kFolder };
@@ -20,8 +20,8 @@ class PartialSibling {
   PartialSibling& operator=(const PartialSibling&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
-  int descriptor() const { return descriptor_; }  ///< a file's is open for writing
-  /// It has its final name; nothing is left to be removed.
+  int descriptor() const { return descriptor_; }  ///< of a file: open for writing
+  /// Says that it has been given its final name, so the destructor must not remove it.
   void Release() { released_ = true; }
 
  private:

@@ -5,16 +5,16 @@
 
 namespace halfstep {
 
-/// What came of reading a file: its bytes, or a sentence why there are none.
+/// The result of reading a file: its bytes, or a sentence that says why there are none.
 struct FileBytes {
   std::string bytes;
   std::string refused;   ///< "" when the file was read
-  bool missing = false;  ///< refused because nothing has the name
+  bool missing = false;  ///< refused because there is no such file
 };
 
-/// Reads a regular file of at most `most` bytes to its end. What is anything else (a folder, a pipe
-/// or a device, which might never end or never open) and what is larger is refused before a byte is
-/// read, never waited for.
+/// Reads a regular file of at most `most` bytes to its end. Refuses larger files, and anything else
+/// (a folder; a pipe or a device, which might never open or never end), before a byte is read and
+/// without waiting.
 FileBytes TryReadRegularFile(const std::string& path, std::uint64_t most);
 
 /// The same; throws InputError "path: refused".

@@ -18,12 +18,13 @@ void WriteSynced(const std::filesystem::path& path, const std::vector<std::strin
 /// a link or anything else but a regular file: these are neither followed nor replaced.
 void WriteWhole(const std::filesystem::path& path, const std::vector<std::string_view>& parts);
 
-/// Copies a file of at most 1 GiB to a name that nothing has, and syncs it. Throws as WriteSynced.
+/// Copies a file of at most 1 GiB to a name that nothing has yet, and syncs it. Throws as
+/// WriteSynced.
 void CopySynced(const std::filesystem::path& from, const std::filesystem::path& to,
                 const std::filesystem::path& shown);
 
-/// Syncs the names in a folder. Throws as WriteSynced, but not where the file system knows no
-/// syncing of folders.
+/// Syncs a folder's entries, so that files made in it keep their names after a crash. Throws as
+/// WriteSynced, except on file systems that cannot sync folders.
 void SyncFolder(const std::filesystem::path& folder, const std::filesystem::path& shown);
 
 }  // namespace halfstep

@@ -12,7 +12,7 @@ class SupportPolygon {
  public:
   /// One sole: a rectangle of full length and width `sole_size` [m], centred at X_WS.
   SupportPolygon(const Pose2& X_WS, const Eigen::Vector2d& sole_size);
-  /// The convex hull of two.
+  /// Two soles: their convex hull.
   SupportPolygon(const Pose2& X_WL, const Pose2& X_WR, const Eigen::Vector2d& sole_size);
 
   int size() const { return size_; }

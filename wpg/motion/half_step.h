@@ -47,7 +47,7 @@ struct HalfStep {
   Side swing() const { return Opposite(support); }
   /// Where the swing foot passes over at mid-step, X_SV.
   Pose2 via() const { return {0.0, Sign(swing()) * via_lateral, 0.0}; }
-  /// At rest with both feet on the floor, and at the via point; in S.
+  /// The states at rest, in S: with both feet on the floor, and at the via point.
   WalkState OnFloor() const;
   WalkState AtVia() const;
   WalkState Start() const { return kind == HalfStepKind::kUp ? OnFloor() : AtVia(); }
@@ -79,10 +79,10 @@ class HalfStepProfiles {
   double duration() const { return duration_; }
   double t1() const { return shape_.t1() * duration_; }  ///< end of the ZMP's first rest [s]
   double t2() const { return shape_.t2() * duration_; }  ///< begin of its second rest [s]
-  /// The swing foot moves horizontally in between, at local time [s].
+  /// The swing foot moves horizontally between these local times [s].
   double horizontal_begin() const { return foot_.begin * duration_; }
   double horizontal_end() const { return foot_.end * duration_; }
-  double bump() const { return shift_.bump(); }  ///< of the ZMP, fraction of its shift.
+  double bump() const { return shift_.bump(); }  ///< of the ZMP (RestToRest::bump).
 
  private:
   HalfStepShape shape_;

@@ -14,7 +14,7 @@ namespace halfstep {
 struct Footstep {
   Side side = Side::kLeft;
   Footprint X_WF;
-  /// Of the step that leads here; both half-steps share them.
+  /// What follows holds for both half-steps of the step that leads here.
   double via_height = 0.25;  ///< [m]
   double duration = 2.0;     ///< T of each half-step [s]
 };

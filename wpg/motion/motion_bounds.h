@@ -22,7 +22,8 @@ struct IntervalMotion {
   std::array<double, 2> leg_length_change;  ///< of the hip–ankle distance [m]
   std::vector<double> displacement;         ///< of any point of a body from its place at m [m]
   std::vector<double> displacement_B;       ///< the same, as seen from the waist [m]
-  /// No bound: a leg does not reach at m, or comes too near to stretched within the interval.
+  /// False when there is no bound: a leg does not reach at m, or comes too near to stretched within
+  /// the interval.
   bool bounded = false;
 
   /// |x(t) − x(m)| of a quantity.
@@ -39,9 +40,9 @@ class MotionBounds {
   /// `robot` is borrowed and must outlive this.
   explicit MotionBounds(const RobotModel& robot);
 
-  /// Of a motion whose quantities are `mid` at m and have |second derivatives| of at most `second`
-  /// for all t in [m − h, m + h], h = `half_width` ≥ 0 [s]. Holds for any h; short ones are tight.
-  /// Source: smoothing/README.md, "Motion bounds".
+  /// Bounds a motion whose quantities are `mid` at m and have |second derivatives| of at most
+  /// `second` for all t in [m − h, m + h], h = `half_width` ≥ 0 [s]. Holds for any h; short ones
+  /// are tight. Source: smoothing/README.md, "Motion bounds".
   void Bound(const WalkJet& mid, const WalkState& second, double half_width,
              IntervalMotion* motion) const;
 

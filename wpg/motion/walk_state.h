@@ -39,7 +39,7 @@ struct WalkJet {
   WalkState second = WalkState::Zero();  ///< [1/s²]
 };
 
-/// Placement of a foot on the floor, X_·F, of a walk vector.
+/// Placement of a foot on the floor, in the frame of the walk vector.
 inline Pose2 FootPose(const WalkState& x, Side side) {
   const int i = FootIndex(side);
   return {x[i], x[i + 1], x[i + 3]};

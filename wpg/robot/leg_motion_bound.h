@@ -9,18 +9,18 @@
 
 namespace halfstep {
 
-/// What stays where it is on the links of a leg: the hip on links 0–2, the ankle on links 3–5 and
-/// on the sole.
+/// The anchors of the links of a leg, points at rest in them whatever the joints do: the hip on
+/// links 0–2, the ankle on links 3–5 and on the sole.
 class LegAnchors {
  public:
   explicit LegAnchors(const Leg& leg);
 
-  /// Hip or ankle: what rests on a link, whatever the joints do.
+  /// Whether a link's anchor is the hip; else it is the ankle.
   static bool OnHip(int link) { return link <= 2; }
   Eigen::Vector3d Ankle(const LegFrames& frames) const { return frames.X_BLink[6] * ankle_S_; }
   const Eigen::Vector3d& hip_B() const { return hip_B_; }
   const Eigen::Vector3d& ankle_S() const { return ankle_S_; }
-  /// From the anchor of a body's link to the farthest point of the body [m].
+  /// Distance from the anchor of a body's link to the farthest point of the body [m].
   double Reach(const RobotBody& body) const;
 
  private:
@@ -28,7 +28,7 @@ class LegAnchors {
   std::array<Eigen::Vector3d, 6> anchor_L_;  // in the link's frame
 };
 
-/// What is demanded of a leg: sups over [m − h, m + h], with w = hip − ankle.
+/// What the motion demands of a leg: sups over [m − h, m + h], with w = hip − ankle.
 struct LegDemand {
   double half_square = 0.0;       ///< |d²(½‖w‖²)/dt²| [m²/s²]
   double horizontal = 0.0;        ///< horizontal part of ẅ, seen from the sole [m/s²]
@@ -37,7 +37,7 @@ struct LegDemand {
   double yaw_acceleration = 0.0;  ///< [rad/s²]
 };
 
-/// Sups of how fast something turns.
+/// Sups of angular velocity and acceleration.
 struct TurnBound {
   double speed = 0.0;         ///< ‖ω‖ [rad/s]
   double acceleration = 0.0;  ///< ‖ω̇‖ [rad/s²]
@@ -47,15 +47,15 @@ struct TurnBound {
 struct JointBounds {
   Vector6d speed;         ///< sup |q̇_i| [rad/s]
   Vector6d acceleration;  ///< sup |q̈_i| [rad/s²]
-  /// Of the links: 0–2 seen from the waist, 3–5 seen from the sole.
+  /// How fast the links turn: 0–2 seen from the waist, 3–5 seen from the sole.
   std::array<TurnBound, 6> turns;
 };
 
 /// Joint bounds from the frames (waist and sole upright), the joint speeds and the sole's yaw rate
 /// seen from the waist, all at m: knee from the hip–ankle distance, then ankle, then hip. A
-/// bootstrap: assumed bounds of the speeds imply smaller ones, which proves them. None when that
-/// does not close: h too long, or a leg too nearly stretched. While there is a bound, the leg
-/// reaches and stays in its branch. Source: smoothing/README.md, "Motion bounds".
+/// bootstrap: assumed bounds of the speeds imply smaller ones, which proves them. Returns none when
+/// the bootstrap fails: h is too long, or a leg too nearly stretched. While there is a bound, the
+/// leg reaches and stays in its branch. Source: smoothing/README.md, "Motion bounds".
 std::optional<JointBounds> BoundJoints(const LegAnchors& anchors, const LegFrames& frames,
                                        const Vector6d& speeds, double yaw_rate,
                                        const LegDemand& demand, double half_width);

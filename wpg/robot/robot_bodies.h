@@ -11,7 +11,7 @@
 
 namespace halfstep {
 
-/// How links become bodies.
+/// What BuildBodies needs beside the URDF.
 struct BodyRequest {
   int waist = -1;                                ///< link index.
   std::array<std::array<int, 6>, 2> leg_joints;  ///< URDF joint indices by Index(Side).
@@ -24,7 +24,7 @@ std::vector<std::string> MeshPackages(const UrdfTree& urdf);
 
 /// Bodies and, in the same order, the URDF links that they belong to.
 struct LinkBodies {
-  std::vector<InputFile> meshes;  ///< each reading of one, in the order of the bodies.
+  std::vector<InputFile> meshes;  ///< one entry for each reading of a mesh, in bodies' order.
   std::vector<RobotBody> bodies;
   std::vector<int> links;
 };

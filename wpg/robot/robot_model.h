@@ -71,7 +71,7 @@ struct RobotModel {
   double com_x_B = 0.0;  ///< CoM ahead of B's origin [m]; its y is 0 by the generator's symmetry.
   double mass = 0.0;     ///< [kg]
   double standing_width = 0.0;   ///< distance of the sole centres in the standing posture [m].
-  std::vector<InputFile> files;  ///< what it was read from: YAML, URDF, each reading of a mesh.
+  std::vector<InputFile> files;  ///< files read: YAML, URDF and meshes, one entry for each reading.
   std::vector<RobotBody> bodies;
   std::vector<std::array<int, 2>> self_pairs;  ///< pairs of `bodies` that must not touch.
   /// All other pairs of bodies that move against each other (wpg/robot/self_pairs.h).

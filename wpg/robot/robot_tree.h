@@ -18,7 +18,7 @@ struct RobotTree {
   std::vector<double> posture;  ///< standing posture by joint index [rad]
 };
 
-/// Reads a robot file and its URDF. Throws InputError. LoadRobot of the same file refuses more.
+/// Reads a robot file and its URDF. Throws InputError. LoadRobot checks more of the same file.
 RobotTree LoadRobotTree(const std::string& yaml_path);
 
 /// Angles of all joints by index [rad]: `q` for the legs' by Index(Side), the standing posture for

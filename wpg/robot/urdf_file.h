@@ -61,7 +61,7 @@ struct UrdfTree {
 
 /// Reads and checks a URDF file. Throws InputError with every complaint (see CheckUrdf).
 UrdfTree ReadUrdf(const std::string& path);
-/// The same of a text; `path` stands for it in complaints.
+/// The same for a text; `path` stands for it in complaints.
 UrdfTree ParseUrdf(const std::string& path, const std::string& text);
 
 }  // namespace halfstep
