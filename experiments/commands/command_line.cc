@@ -4,69 +4,72 @@
 
 namespace halfstep {
 
-const std::vector<CommandEntry>& CommandEntries() {
-  static const std::vector<CommandEntry> entries = {
-      {"run",
-       "Concatenate, smooth with each method, write the run folder.\n\n"
-       "  example: halfstep run experiments/configs/bar_8cm.yaml --set "
-       "smoothing.margins.clearance_m=0.004",
-       DeclareRun},
-      {"smooth",
-       "Smooth given footsteps with each method, write a run folder.\n\n"
-       "  example: halfstep smooth runs/bar_8cm --method ipopt --method halfstep/barrier",
-       DeclareSmooth},
-      {"compare",
-       "Compare the methods of runs; failures count as failures.\n\n"
-       "  example: halfstep compare runs/bar_5cm runs/bar_8cm --out runs/bars",
-       DeclareCompare},
-      {"plan",
-       "Plan footsteps to the goal of a config and print them as YAML.\n\n"
-       "  example: halfstep plan experiments/configs/island.yaml --set planner.name=astar",
-       DeclarePlan},
-      {"bake",
-       "Certify a config's set of half-steps and bake their swept volumes into the cache.\n\n"
-       "  example: halfstep bake experiments/configs/island.yaml",
-       DeclareBake},
-      {"draw",
-       "Print a scene that is drawn at random, as YAML.\n\n"
-       "  example: halfstep draw cylinders --count 40 --seed 1",
-       DeclareDraw},
-      {"certify",
-       "Prove the walks of a run for all time and write the certificates.\n\n"
-       "  example: halfstep certify runs/bar_8cm --set smoothing.resolution_s=1e-5",
-       DeclareCertify},
-      {"verify",
-       "Check a run's certificates independently: played motion, forward kinematics, distances\n"
-       "of its own; none of the code that smoothed. Exit status 3 when it disagrees, 4 when the\n"
-       "rows are too coarse to tell.\n\n"
-       "  example: halfstep verify runs/bar_8cm --method dichotomy",
-       DeclareVerify},
-      {"sweep",
-       "Run a config with every combination of some keys; the same command goes on where it was\n"
-       "stopped.\n\n"
-       "  example: halfstep sweep experiments/sweeps/bar_8cm_speed_clearance.yaml --jobs 2",
-       DeclareSweep},
-      {"explain-config",
-       "Every key of a config: type, unit, default, range, meaning.\n\n"
-       "  example: halfstep explain-config smoothing.margins",
-       DeclareExplain},
-      {"report",
-       "Write a run's report anew: one HTML file that shows its walks.\n\n"
-       "  example: halfstep report runs/bar_8cm --out bar_8cm.html",
-       DeclareReport},
-      {"export",
-       "Write the walks of a run in other programs' formats.\n\n"
-       "  example: halfstep export runs/bar_8cm --format hrpsys --method dichotomy\n"
-       "  example: halfstep export runs/bar_8cm --format csv --columns 'com_*' 'q_R*'",
-       DeclareExport},
-      {"replay",
-       "Play the walks of a run on a robot with masses and contacts, by simulation.\n\n"
-       "  example: halfstep replay runs/bar_8cm --method dichotomy --push",
-       DeclareReplay},
-      {"list", "What there is.\n\n  example: halfstep list methods", DeclareList},
-  };
-  return entries;
-}
+namespace {
+
+constexpr CommandEntry kEntries[] = {
+    {"run",
+     "Concatenate, smooth with each method, write the run folder.\n\n"
+     "  example: halfstep run experiments/configs/bar_8cm.yaml --set "
+     "smoothing.margins.clearance_m=0.004",
+     DeclareRun},
+    {"smooth",
+     "Smooth given footsteps with each method, write a run folder.\n\n"
+     "  example: halfstep smooth runs/bar_8cm --method ipopt --method halfstep/barrier",
+     DeclareSmooth},
+    {"compare",
+     "Compare the methods of runs; failures count as failures.\n\n"
+     "  example: halfstep compare runs/bar_5cm runs/bar_8cm --out runs/bars",
+     DeclareCompare},
+    {"plan",
+     "Plan footsteps to the goal of a config and print them as YAML.\n\n"
+     "  example: halfstep plan experiments/configs/island.yaml --set planner.name=astar",
+     DeclarePlan},
+    {"bake",
+     "Certify a config's set of half-steps and bake their swept volumes into the cache.\n\n"
+     "  example: halfstep bake experiments/configs/island.yaml",
+     DeclareBake},
+    {"draw",
+     "Print a scene that is drawn at random, as YAML.\n\n"
+     "  example: halfstep draw cylinders --count 40 --seed 1",
+     DeclareDraw},
+    {"certify",
+     "Prove the walks of a run for all time and write the certificates.\n\n"
+     "  example: halfstep certify runs/bar_8cm --set smoothing.resolution_s=1e-5",
+     DeclareCertify},
+    {"verify",
+     "Check a run's certificates independently: played motion, forward kinematics, distances\n"
+     "of its own; none of the code that smoothed. Exit status 3 when it disagrees, 4 when the\n"
+     "rows are too coarse to tell.\n\n"
+     "  example: halfstep verify runs/bar_8cm --method dichotomy",
+     DeclareVerify},
+    {"sweep",
+     "Run a config with every combination of some keys; the same command goes on where it was\n"
+     "stopped.\n\n"
+     "  example: halfstep sweep experiments/sweeps/bar_8cm_speed_clearance.yaml --jobs 2",
+     DeclareSweep},
+    {"explain-config",
+     "Every key of a config: type, unit, default, range, meaning.\n\n"
+     "  example: halfstep explain-config smoothing.margins",
+     DeclareExplain},
+    {"report",
+     "Write a run's report anew: one HTML file that shows its walks.\n\n"
+     "  example: halfstep report runs/bar_8cm --out bar_8cm.html",
+     DeclareReport},
+    {"export",
+     "Write the walks of a run in other programs' formats.\n\n"
+     "  example: halfstep export runs/bar_8cm --format hrpsys --method dichotomy\n"
+     "  example: halfstep export runs/bar_8cm --format csv --columns 'com_*' 'q_R*'",
+     DeclareExport},
+    {"replay",
+     "Play the walks of a run on a robot with masses and contacts, by simulation.\n\n"
+     "  example: halfstep replay runs/bar_8cm --method dichotomy --push",
+     DeclareReplay},
+    {"list", "What there is.\n\n  example: halfstep list methods", DeclareList},
+};
+
+}  // namespace
+
+std::span<const CommandEntry> CommandEntries() { return kEntries; }
 
 void DeclareOverrides(CLI::App* app, const std::string& what, std::vector<std::string>* sets) {
   app->add_option("--set", *sets, "override a key of " + what + ": KEY=VALUE")

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,7 +22,7 @@ struct CommandEntry {
 };
 
 /// Every command. To add one, write its file with a Declare function and add a row in the source.
-const std::vector<CommandEntry>& CommandEntries();
+std::span<const CommandEntry> CommandEntries();
 
 /// Declares `--set KEY=VALUE`, repeatable, for the keys of `what`.
 void DeclareOverrides(CLI::App* app, const std::string& what, std::vector<std::string>* sets);

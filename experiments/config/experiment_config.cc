@@ -242,6 +242,20 @@ void DeclareSmoothing(Fields& fields, SmoothingConfig* c) {
                [&](Fields& f) { DeclareMargins(f, &c->limits); });
 }
 
+void DeclareStart(Fields& fields, ExperimentConfig* c) {
+  fields.OptionalGroup(
+      "start", &c->has_start,
+      {.meaning = "where the soles stand at the start",
+       .otherwise =
+           "feet side by side about the origin, `standing_width` apart (HRP-2: y = ±0.105 m)"},
+      [&](Fields& f) {
+        f.Group("left", {.meaning = "the left sole", .required = true},
+                [&](Fields& g) { DeclarePose(g, &c->start_left); });
+        f.Group("right", {.meaning = "the right sole", .required = true},
+                [&](Fields& g) { DeclarePose(g, &c->start_right); });
+      });
+}
+
 }  // namespace
 
 void DeclareFields(Fields& fields, ExperimentConfig* c) {
@@ -256,17 +270,7 @@ void DeclareFields(Fields& fields, ExperimentConfig* c) {
        .required = true});
   fields.Text("scene", &c->scene,
               {.meaning = "path of a scene file, or `none`: an empty floor", .required = true});
-  fields.OptionalGroup(
-      "start", &c->has_start,
-      {.meaning = "where the soles stand at the start",
-       .otherwise =
-           "feet side by side about the origin, `standing_width` apart (HRP-2: y = ±0.105 m)"},
-      [&](Fields& f) {
-        f.Group("left", {.meaning = "the left sole", .required = true},
-                [&](Fields& g) { DeclarePose(g, &c->start_left); });
-        f.Group("right", {.meaning = "the right sole", .required = true},
-                [&](Fields& g) { DeclarePose(g, &c->start_right); });
-      });
+  DeclareStart(fields, c);
   fields.OptionalGroup(
       "goal", &c->has_goal,
       {.meaning =

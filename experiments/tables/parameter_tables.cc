@@ -69,9 +69,8 @@ HomotopyParameters ReadParameters(const std::filesystem::path& folder,
   try {
     CheckParameters(sequence, parameters);
   } catch (const std::logic_error& error) {
-    throw InputError(
-        {folder.string() +
-         ": overlaps.csv and half_steps.csv do not fit the run's config: " + error.what()});
+    throw InputError({(folder / "overlaps.csv").string() +
+                      ": does not fit the run's config and half_steps.csv: " + error.what()});
   }
   return parameters;
 }

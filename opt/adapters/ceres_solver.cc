@@ -129,23 +129,28 @@ std::string SetOptions(SolveMonitor& monitor, InnerOptions* inner, int* max_oute
   return "";
 }
 
+InnerOptions Defaults(const SolveMonitor& monitor) {
+  constexpr int kDenseBfgs = 100;  // up to here an n×n matrix costs nothing
+  InnerOptions inner;
+  inner.logging_type = ceres::SILENT;
+  inner.line_search_direction_type =
+      monitor.problem().num_variables() <= kDenseBfgs ? ceres::BFGS : ceres::LBFGS;
+  inner.use_approximate_eigenvalue_bfgs_scaling = true;
+  inner.max_num_iterations = monitor.options().max_iterations;
+  inner.function_tolerance = 1e-14;
+  inner.parameter_tolerance = 1e-14;
+  inner.update_state_every_iteration = true;
+  return inner;
+}
+
 SolverEnd Run(SolveMonitor& monitor, const Eigen::VectorXd& start) {
-  constexpr int kDenseBfgs = 100;         // up to here an n×n matrix costs nothing
   constexpr double kOffTheBounds = 1e-3;  // of the width; a start on a bound would stay there
   constexpr int kMostFailures = 5;        // inner minimizations without any step, in a row
   const Problem& problem = monitor.problem();
   const double optimality = monitor.options().optimality_tolerance;
   const double feasibility = 0.5 * monitor.options().feasibility_tolerance;
 
-  InnerOptions inner;
-  inner.logging_type = ceres::SILENT;
-  inner.line_search_direction_type =
-      problem.num_variables() <= kDenseBfgs ? ceres::BFGS : ceres::LBFGS;
-  inner.use_approximate_eigenvalue_bfgs_scaling = true;
-  inner.max_num_iterations = monitor.options().max_iterations;
-  inner.function_tolerance = 1e-14;
-  inner.parameter_tolerance = 1e-14;
-  inner.update_state_every_iteration = true;
+  InnerOptions inner = Defaults(monitor);
   int max_outer = 60;
   if (std::string why = SetOptions(monitor, &inner, &max_outer); !why.empty()) {
     return {Ending::kInvalidInput, std::move(why), {}};
@@ -193,9 +198,7 @@ SolverEnd Run(SolveMonitor& monitor, const Eigen::VectorXd& start) {
     }
     inner.gradient_tolerance = std::max(optimality, 0.1 * inner.gradient_tolerance);
   }
-  if (!lagrangian.Update(x)) {
-    return {Ending::kFailed, "Ceres: the cost or a constraint is not finite.", x};
-  }
+  if (!lagrangian.Update(x)) return {Ending::kFailed, "Ceres: a cost or row is not finite.", x};
   if (lagrangian.infeasibility() > std::sqrt(feasibility)) {
     return {Ending::kFailed, "The augmented Lagrangian stays infeasible.", x};
   }

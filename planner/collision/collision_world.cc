@@ -26,8 +26,7 @@ CollisionWorld::CollisionWorld(const Scene& scene) : speed_(scene.speed()) {
   for (const Obstacle& obstacle : scene.obstacles) {
     const Eigen::Isometry3d& X_WO = obstacle.PoseAt(0.0);
     CheckFinite(X_WO);
-    CollisionShape shape =
-        std::visit([](const auto& s) { return CollisionShape(BodyOf(s)); }, obstacle.shape);
+    CollisionShape shape(obstacle.shape);
     Bounds bounds;
     for (int axis = 0; axis < 3; ++axis) {
       const Eigen::Vector3d direction = X_WO.linear().row(axis);

@@ -162,6 +162,9 @@ CollisionShape::CollisionShape(ConvexBody body) {
 CollisionShape::CollisionShape(TriangleMesh mesh)
     : impl_(std::make_shared<const Impl>(std::move(mesh))) {}
 
+CollisionShape::CollisionShape(const Shape& shape)
+    : CollisionShape(std::visit([](const auto& s) { return CollisionShape(BodyOf(s)); }, shape)) {}
+
 bool CollisionShape::is_mesh() const { return impl_->is_mesh; }
 const ConvexBody& CollisionShape::convex() const { return impl_->convex; }
 const Eigen::Vector3d& CollisionShape::center() const { return impl_->convex.center; }

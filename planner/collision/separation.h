@@ -33,6 +33,8 @@ class CollisionShape {
   explicit CollisionShape(ConvexBody body);
   /// Precondition: at least one triangle, indices in range, finite vertices (std::logic_error).
   explicit CollisionShape(TriangleMesh mesh);
+  /// Of an obstacle. Preconditions as above, and as for MakeBox and the like.
+  explicit CollisionShape(const Shape& shape);
 
   bool is_mesh() const;
   const ConvexBody& convex() const;       ///< of a mesh: a convex body that contains it.

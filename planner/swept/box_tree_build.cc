@@ -93,6 +93,16 @@ class Builder {
  private:
   const Branch& At(int i) const { return branches_[static_cast<size_t>(i)]; }
 
+  // Calls visit(number) for each bit that is set.
+  template <typename Visit>
+  static void ForEachBit(const uint64_t* bits, int words, const Visit& visit) {
+    for (int w = 0; w < words; ++w) {
+      for (uint64_t rest = bits[w]; rest != 0; rest &= rest - 1) {
+        visit(64 * w + std::countr_zero(rest));
+      }
+    }
+  }
+
   Slices Slice(const CellBox& box) const {
     Slices slices;
     const Vector3i size = box.upper - box.lower;
@@ -111,13 +121,6 @@ class Builder {
       const Vector3i cell(x, y, z);
       slice->lower = slice->lower.cwiseMin(cell);
       slice->upper = slice->upper.cwiseMax(cell + Vector3i::Ones());
-    };
-    const auto for_each_bit = [&](const uint64_t* bits, const auto& visit) {
-      for (int w = 0; w < words; ++w) {
-        for (uint64_t rest = bits[w]; rest != 0; rest &= rest - 1) {
-          visit(64 * w + std::countr_zero(rest));
-        }
-      }
     };
     for (int x = box.lower.x(); x < box.upper.x(); ++x) {
       CellBox& slice_x = slices.of[0][static_cast<size_t>(x - box.lower.x())];
@@ -142,7 +145,7 @@ class Builder {
           grow(slice, x, y, high);
         }
       }
-      for_each_bit(along_y.data(), [&](int k) {
+      ForEachBit(along_y.data(), words, [&](int k) {
         CellBox& slice = slices.of[2][static_cast<size_t>(k - box.lower.z())];
         slice.lower.x() = std::min(slice.lower.x(), x);
         slice.upper.x() = x + 1;
@@ -151,7 +154,7 @@ class Builder {
       });
     }
     for (int y = box.lower.y(); y < box.upper.y(); ++y) {
-      for_each_bit(&along_x[static_cast<size_t>((y - box.lower.y()) * words)], [&](int k) {
+      ForEachBit(&along_x[static_cast<size_t>((y - box.lower.y()) * words)], words, [&](int k) {
         CellBox& slice = slices.of[2][static_cast<size_t>(k - box.lower.z())];
         slice.lower.y() = std::min(slice.lower.y(), y);
         slice.upper.y() = y + 1;

@@ -113,6 +113,29 @@ std::string PartPath(const std::string& cache_path, int element) {
   return cache_path + ".parts/" + std::to_string(element);
 }
 
+namespace {
+
+// What a whole file holds: `result->volumes`, or why it was refused.
+void ReadVolumes(const std::string& provenance, const HalfStepSet& set, double cell,
+                 CachedVolumes* result) {
+  const CheckedFile file = ReadCheckedFile(result->path, provenance);
+  result->refused = file.refused;
+  if (!file.body) return;
+  const size_t size = static_cast<size_t>(set.size());
+  auto volumes = ParseVolumes(*file.body, 2 * size, cell);
+  if (!volumes) {
+    result->refused = result->path + ": refused: its volumes make no sense";
+    return;
+  }
+  result->volumes = {.set = set, .down = {}, .up = {}};
+  for (size_t i = 0; i < size; ++i) {
+    result->volumes->down.push_back(std::move((*volumes)[2 * i]));
+    result->volumes->up.push_back(std::move((*volumes)[2 * i + 1]));
+  }
+}
+
+}  // namespace
+
 CachedVolumes LoadOrBakeSweptVolumes(const RobotModel& robot, const Lipm& lipm,
                                      const HalfStepSet& set, const SweptVolumeOptions& options,
                                      const std::string& folder, BakeHooks hooks) {
@@ -129,22 +152,10 @@ CachedVolumes LoadOrBakeSweptVolumes(const RobotModel& robot, const Lipm& lipm,
   result.path = (std::filesystem::path(folder) /
                  (robot.name + "-" + Sha256(provenance).substr(0, 16) + ".swept"))
                     .string();
-  {
-    CheckedFile file = ReadCheckedFile(result.path, provenance);
-    result.refused = file.refused;
-    if (file.body) {
-      const size_t size = static_cast<size_t>(set.size());
-      if (auto volumes = ParseVolumes(*file.body, 2 * size, options.cell)) {
-        result.volumes = {.set = set, .down = {}, .up = {}};
-        for (size_t i = 0; i < size; ++i) {
-          result.volumes->down.push_back(std::move((*volumes)[2 * i]));
-          result.volumes->up.push_back(std::move((*volumes)[2 * i + 1]));
-        }
-        RemoveParts(result.path);
-        return result;
-      }
-      result.refused = result.path + ": refused: its volumes make no sense";
-    }
+  ReadVolumes(provenance, set, options.cell, &result);
+  if (result.volumes) {
+    RemoveParts(result.path);
+    return result;
   }
   std::mutex mutex;  // of not_kept
   const auto try_to_write = [&](const std::string& path, const std::string& header,

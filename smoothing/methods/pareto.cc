@@ -10,22 +10,42 @@
 
 namespace halfstep {
 
+namespace {
+
+std::string Sentence(const std::string& solver, size_t points, double least, double most,
+                     const SmoothingResult& same) {
+  return solver + ": safest walks of " + std::to_string(points) + " durations from " +
+         std::to_string(least) + " to " + std::to_string(most) +
+         " s; at the dichotomy's duration " + same.message;
+}
+
+// The dichotomy's walk, which the curve is measured against, becomes the incumbent.
+SmoothingResult BeginWithDichotomy(const WalkProblem& problem, double tolerance,
+                                   SmoothingMonitor& monitor) {
+  monitor.Begin(problem, problem.Start());
+  SmoothingMonitor within(monitor.Part(0.0, 0.0));
+  SmoothingResult dichotomy = Dichotomy(problem, {.tolerance = tolerance}, within);
+  monitor.Count(dichotomy);
+  monitor.result().iterates = dichotomy.iterates;
+  monitor.result().junctions = dichotomy.junctions;
+  const double own = DurationOf(dichotomy.parameters);
+  if (dichotomy.feasible) monitor.Adopt(dichotomy.parameters, own, own);
+  return dichotomy;
+}
+
+}  // namespace
+
 SmoothingResult ParetoCurve(const WalkProblem& problem, const OptimizerOptions& options,
                             const ParetoOptions& pareto, SmoothingMonitor& monitor) {
   HALFSTEP_CHECK(pareto.points >= 2 && pareto.most_duration > 0.0, "points = " << pareto.points);
   const double parts = pareto.points + 2.0;
   int part = 0;
-  monitor.Begin(problem, problem.Start());
-  const double planned = monitor.duration();
-  SmoothingMonitor first(monitor.Part(0.0, 0.0));
-  const SmoothingResult dichotomy = Dichotomy(problem, {.tolerance = options.tolerance}, first);
-  monitor.Count(dichotomy);
-  monitor.result().iterates = dichotomy.iterates;
-  monitor.result().junctions = dichotomy.junctions;
-  if (!dichotomy.feasible) return monitor.Finish(opt::Ending::kNotRun, dichotomy.message, "");
+  const double planned = DurationOf(problem.Start());
+  const SmoothingResult dichotomy = BeginWithDichotomy(problem, options.tolerance, monitor);
+  if (!dichotomy.feasible || monitor.stopped()) {
+    return monitor.Finish(opt::Ending::kNotRun, dichotomy.message, "");
+  }
   const double own = DurationOf(dichotomy.parameters);
-  monitor.Adopt(dichotomy.parameters, own, own);
-  if (monitor.stopped()) return monitor.Finish(opt::Ending::kNotRun, dichotomy.message, "");
 
   std::vector<ParetoPoint>& points = monitor.result().pareto;
   opt::Ending weakest = opt::Ending::kConverged;  // of the solves that found something
@@ -70,11 +90,7 @@ SmoothingResult ParetoCurve(const WalkProblem& problem, const OptimizerOptions& 
   });
   const opt::Ending ending = opt::HasOwnResult(same.ending) ? weakest : same.ending;
   SmoothingResult total =
-      monitor.Finish(ending,
-                     options.solver + ": safest walks of " + std::to_string(points.size()) +
-                         " durations from " + std::to_string(least) + " to " +
-                         std::to_string(most) + " s; at the dichotomy's duration " + same.message,
-                     "");
+      monitor.Finish(ending, Sentence(options.solver, points.size(), least, most, same), "");
   total.ending = ending;
   return total;
 }

@@ -1,6 +1,6 @@
 // What a certificate costs. Run: build/release/tests/certificate_benchmark
 // --benchmark_repetitions=5 --benchmark_report_aggregates_only=true. Figures are quoted in
-// smoothing/README.md, "Certificates".
+// notebooks-data/measurements.md, "Certificates".
 
 #include <benchmark/benchmark.h>
 

@@ -1,5 +1,5 @@
 // What the certificate is worth: how often it errs, and what it costs in seconds of walk. Prints
-// the tables of smoothing/README.md, "Certificates". Not a test.
+// the tables of notebooks-data/measurements.md, "Certificates". Not a test.
 // Run: certificate_study walks [WALKS [SEED]] | dichotomy
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// How far the motion bounds are from the truth. Prints the tables of smoothing/README.md,
-// "Certificates". Not a test. Run: motion_bounds_study [DRAWS]
+// How far the motion bounds are from the truth. Prints the tables of
+// notebooks-data/measurements.md, "Motion bounds". Not a test. Run: motion_bounds_study [DRAWS]
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
-// What the overlap programs find, and what they cost. Prints the tables of smoothing/README.md,
-// "Overlap program". Not a test.
+// What the overlap programs find, and what they cost. Prints the tables of
+// notebooks-data/measurements.md, "What the programs find". Not a test.
 // Run: overlap_study table SCENARIO DEADLINE METHOD… (CSV: all variables and programs)
 //      overlap_study table SCENARIO:VARIABLES:PROGRAM DEADLINE METHOD…
 //      overlap_study grow METHOD N…                 (a straight walk of N half-steps)

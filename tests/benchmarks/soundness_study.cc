@@ -22,17 +22,17 @@ constexpr double kReach = 3.0;       // half the edge of the room [m]
 constexpr double kDisplaced = 0.05;  // of the control [m]
 constexpr int kHalfStepsInAScene = 200;
 
-ConvexBody DrawShape(int kind, SweptDraw* draw) {
+Shape DrawShape(int kind, SweptDraw* draw) {
   const double radius = draw->Uniform(0.02, 0.2), length = draw->Uniform(0.05, 1.0);
   switch (kind) {
     case 0:
-      return MakeBox(draw->Point({0.05, 0.05, 0.05}, {0.4, 0.4, 1.0}));
+      return Box{draw->Point({0.05, 0.05, 0.05}, {0.4, 0.4, 1.0})};
     case 1:
-      return MakeCylinder(radius, length);
+      return Cylinder{radius, length};
     case 2:
-      return MakeSphere(radius);
+      return Sphere{radius};
     default:
-      return MakeCapsule(radius, length);
+      return Capsule{radius, length};
   }
 }
 

@@ -1,5 +1,5 @@
 // What one half-step costs. Run: build/release/tests/walk_benchmark --benchmark_repetitions=7
-// --benchmark_report_aggregates_only=true. Figures are quoted in smoothing/README.md.
+// --benchmark_report_aggregates_only=true.
 
 #include <benchmark/benchmark.h>
 

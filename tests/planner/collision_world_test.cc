@@ -60,8 +60,7 @@ TEST(CollisionWorld, NearestIsTheSmallestSeparationOfAll) {
     const CollisionWorld world(scene);
     std::vector<CollisionShape> shapes;
     for (const Obstacle& obstacle : scene.obstacles) {
-      shapes.push_back(
-          std::visit([](const auto& s) { return CollisionShape(BodyOf(s)); }, obstacle.shape));
+      shapes.emplace_back(obstacle.shape);
     }
     const CollisionShape body(i % 2 ? MakeBox({0.2, 0.1, 0.3}) : MakeCapsule(0.05, 0.3));
     for (int k = 0; k < 10; ++k) {

@@ -31,12 +31,12 @@ Isometry3d Posed(const Eigen::Matrix3d& R, const Vector3d& p) {
 
 // Obstacles of every kind that a query tells apart: balls, capsules and cylinders (round), boxes,
 // hulls (a mesh) with as many corners as a box, with more, and of one edge off its middle.
-ConvexBody DrawShape(int kind, SweptDraw* draw) {
+Shape DrawShape(int kind, SweptDraw* draw) {
   const double r = draw->Uniform(0.02, 0.2), l = draw->Uniform(0.02, 0.3);
-  if (kind == 0) return MakeSphere(r);
-  if (kind == 1) return MakeCapsule(r, l);
-  if (kind == 2) return MakeCylinder(r, l);
-  if (kind == 3) return MakeBox({r, l, draw->Uniform(0.02, 0.3)});
+  if (kind == 0) return Sphere{r};
+  if (kind == 1) return Capsule{r, l};
+  if (kind == 2) return Cylinder{r, l};
+  if (kind == 3) return Box{{r, l, draw->Uniform(0.02, 0.3)}};
   Eigen::Matrix3Xd points(3, kind == 4 ? 8 : 12);
   for (Eigen::Index i = 0; i < points.cols(); ++i) {
     points.col(i) = draw->Direction().cwiseProduct(Vector3d(r, l, 0.1));
@@ -53,7 +53,7 @@ TEST(QueryOracle, AnswersAsTheSolidBoxesDo) {
   Scene scene;
   for (int i = 0; i < 8; ++i) {
     scene.obstacles.push_back(
-        {"far", MakeSphere(0.1), Posed(Eigen::Matrix3d::Identity(), {20.0 + i, 0, 0})});
+        {"far", Sphere{0.1}, Posed(Eigen::Matrix3d::Identity(), {20.0 + i, 0, 0})});
   }
   const BoxTree& tree = *volumes.down[0];
   std::vector<CollisionShape> boxes;
@@ -65,7 +65,7 @@ TEST(QueryOracle, AnswersAsTheSolidBoxesDo) {
   }
   int refused = 0, free = 0;
   for (int trial = 0; trial < 240; ++trial) {
-    const ConvexBody shape = DrawShape(trial % 6, &draw);
+    const Shape shape = DrawShape(trial % 6, &draw);
     const CollisionShape obstacle(shape);
     const Eigen::Matrix3d R = draw.Turn(trial % 12 < 6);
     // From outside towards the middle of a box, up to where the nearest box is touched.

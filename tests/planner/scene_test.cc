@@ -8,6 +8,7 @@
 #include <string>
 #include <variant>
 
+#include "planner/collision/separation.h"
 #include "planner/scene/simple_polygon.h"
 #include "tests/fixture_check.h"
 
@@ -50,7 +51,7 @@ obstacles:
   EXPECT_EQ(scene.obstacles[0].name, "bar");
 
   const auto support = [&scene](size_t i, const Eigen::Vector3d& direction) {
-    return Support(std::get<ConvexBody>(scene.obstacles[i].shape), direction);
+    return Support(CollisionShape(scene.obstacles[i].shape).convex(), direction);
   };
   EXPECT_NEAR(support(0, Eigen::Vector3d::UnitX()), 0.04, 1e-15);
   EXPECT_NEAR(support(0, Eigen::Vector3d::UnitY()), 1.0, 1e-15);
@@ -59,6 +60,10 @@ obstacles:
   EXPECT_NEAR(support(1, Eigen::Vector3d::UnitZ()), 0.25, 1e-15);
   EXPECT_NEAR(support(2, Eigen::Vector3d::UnitY()), 0.1, 1e-15);
   EXPECT_NEAR(support(3, Eigen::Vector3d::UnitZ()), 0.51, 1e-15);
+  EXPECT_TRUE(std::holds_alternative<Box>(scene.obstacles[0].shape));
+  EXPECT_TRUE(std::holds_alternative<Cylinder>(scene.obstacles[1].shape));
+  EXPECT_TRUE(std::holds_alternative<Sphere>(scene.obstacles[2].shape));
+  EXPECT_TRUE(std::holds_alternative<Capsule>(scene.obstacles[3].shape));
   const auto& mesh = std::get<TriangleMesh>(scene.obstacles[4].shape);
   ASSERT_EQ(mesh.triangles.cols(), 1);
   EXPECT_NEAR(mesh.vertices.maxCoeff(), 1.0, 1e-6);
