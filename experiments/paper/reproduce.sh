@@ -3,7 +3,7 @@
 # README.md. Builds what is needed (log: build/reproduce.log). Exit status 1: a claim does not hold.
 # JOBS: how many compilers at once (2). Minutes; Ctrl-C leaves README.md as it was.
 set -eu
-cd "$(dirname "$0")/.."
+cd "$(dirname "$0")/../.."
 
 experiments/install_dependencies.sh python3
 echo "Building (log: build/reproduce.log)" >&2
@@ -18,4 +18,4 @@ then
 fi
 build planner_study soundness_study swept_volume_benchmark ||
   echo "The studies cannot be built; their rows stay open" >&2
-exec python3 experiments/reproduce.py
+exec python3 experiments/paper/reproduce.py

@@ -4,7 +4,7 @@ import csv
 import json
 import pathlib
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
 class DoesNotHold(Exception):
