@@ -119,7 +119,7 @@ make_methods() {  # Nine methods on six scenarios, over overlaps, heights and du
   columns="gap effort method variables objective ratio fraction"
   { header $columns; pick "$work/comparison/performance_profile.csv" $columns; } >"$work/table"
   keep methods/performance_profile.csv
-  columns="scenario objective method variables wall_s evaluations duration_s gap_to_best"
+  columns="scenario objective method variables wall_s instants duration_s gap_to_best"
   { header $columns; pick "$work/comparison/anytime.csv" $columns; } >"$work/table"
   keep methods/anytime.csv
 }

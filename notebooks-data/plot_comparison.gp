@@ -4,10 +4,10 @@
 # Variables (-e "a='x'; b='y'"), all with defaults:
 #   comparison   folder that `halfstep compare --out` wrote
 #   scenario     of the anytime curves (default: the first of comparison.csv)
-#   effort       of the profiles: evaluations (reproducible) or wall_s
+#   effort       of the profiles: instants (reproducible) or wall_s
 #   out          PNG file written (default: comparison.png in that folder)
 if (!exists("comparison")) comparison = "runs/comparison"
-if (!exists("effort")) effort = "evaluations"
+if (!exists("effort")) effort = "instants"
 if (!exists("out")) out = comparison . "/comparison.png"
 profile = comparison . "/performance_profile.csv"
 anytime = comparison . "/anytime.csv"
@@ -77,7 +77,7 @@ titles = "'within 5 % of the best' 'within 1 % of the best' 'ended, certified'"
 set tmargin at screen top
 set bmargin at screen middle + 0.085
 set xlabel effort eq "wall_s" ? "wall time / least wall time of any method" \
-    : "evaluations / fewest of any method" offset 0,0.5
+    : "instants / fewest of any method" offset 0,0.5
 do for [panel = 1:3] {
   gap = word(gaps, panel)
   set lmargin at screen 0.075 + (panel - 1) * 0.315
@@ -101,12 +101,12 @@ set ytics autofreq
 set xtics autofreq
 set title sprintf("%s: best walk so far", scenario) offset 0,-0.6 noenhanced
 do for [panel = 1:2] {
-  what = panel == 1 ? "wall_s" : "evaluations"
+  what = panel == 1 ? "wall_s" : "instants"
   least = panel == 1 ? 0.01 : 100
   set lmargin at screen 0.075 + (panel - 1) * 0.475
   set rmargin at screen 0.075 + (panel - 1) * 0.475 + 0.42
   set xrange [least:*]
-  set xlabel panel == 1 ? "wall time  [s]" : "evaluations  [instants]" offset 0,0.5
+  set xlabel panel == 1 ? "wall time  [s]" : "instants  [instants]" offset 0,0.5
   if (panel == 1) { set ylabel "duration of the walk  [s]" offset 0.6,0 } else { unset ylabel }
   plot for [i = 1:words(curves)] anytime using (spent(word(curves, i), what, least)): \
       (column("duration_s")) with steps linetype i notitle

@@ -19,8 +19,8 @@ constexpr std::array<double, kNumTargets> kTargets = {0.01, 0.05,
 
 /// The effort of a method to reach a target.
 struct Effort {
-  double wall = 0.0;         ///< [s]
-  double evaluations = 0.0;  ///< instants at which margins were evaluated
+  double wall = 0.0;      ///< [s]
+  double instants = 0.0;  ///< instants at which margins were evaluated
 };
 
 struct ComparedMethod {
@@ -86,7 +86,7 @@ struct MethodMeans {
   /// Cases where it was interrupted, or has no certified walk of its own.
   int failed() const { return cases - solved.back(); }
   double speedup = 1.0;  ///< geometric mean
-  /// Shifted geometric means exp(mean log(v + s)) − s with s = 0.1 s and 1000 evaluations; nan
+  /// Shifted geometric means exp(mean log(v + s)) − s with s = 0.1 s and 1000 instants; nan
   /// when no case counts.
   std::array<Effort, kNumTargets> effort;
 };

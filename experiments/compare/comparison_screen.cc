@@ -53,7 +53,7 @@ std::string CaseTable(const ComparedCase& one, const Widths& widths) {
   text += "\n\n" + Left("method", widths.name) + Left("variables", widths.variables) +
           Left("status", widths.status) +
           Format("%-9s %10s %8s %9s %11s %11s %11s %11s %11s\n", "certified", "duration",
-                 "speed-up", "gap", "cost", "evaluations", "wall time", "to 5 %", "to 1 %");
+                 "speed-up", "gap", "cost", "instants", "wall time", "to 5 %", "to 1 %");
   for (const ComparedMethod& method : one.methods) {
     const MethodRecord& record = method.record;
     text += Left(record.name, widths.name) +
@@ -64,7 +64,7 @@ std::string CaseTable(const ComparedCase& one, const Widths& widths) {
     text +=
         std::isfinite(method.gap) ? Format("%7.2f %% ", 100.0 * method.gap) : Format("%9s ", "-");
     text += std::isnan(method.gap) ? Format("%11s ", "-") : Format("%11.4f ", record.cost);
-    text += Format("%11.0f %9.3f s ", record.evaluations, record.wall);
+    text += Format("%11.0f %9.3f s ", record.instants, record.wall);
     text += record.raw() ? Format("%11s %11s\n", "-", "-")
                          : Seconds(method.reached[1]) + " " + Seconds(method.reached[0]) + "\n";
   }

@@ -14,7 +14,7 @@ using enum CsvType;
 constexpr size_t kOnePercent = 0, kFivePercent = 1;
 
 void EffortCell(const std::optional<Effort>& effort, bool by_wall, CsvWriter* csv) {
-  effort ? csv->Cell(by_wall ? effort->wall : effort->evaluations) : csv->Empty();
+  effort ? csv->Cell(by_wall ? effort->wall : effort->instants) : csv->Empty();
 }
 
 // An empty cell would make a column of them something else to pandas.
@@ -49,15 +49,15 @@ CsvFile ComparisonCsv(const Comparison& comparison) {
        "of the scenario; empty: no method has a certified walk of its own"},
       {"gap_to_best", kNumber, "1", "(cost - best)/|best|; inf: no certified walk of its own"},
       {"gap_to_reference", kNumber, "1", "as in summary.csv"},
-      {"margin_evaluations", kNumber, "", "instants evaluated by the method"},
+      {"instants", kNumber, "", "instants evaluated by the method"},
       {"collision_queries", kNumber, "", "pairs of bodies that were not culled"},
       {"wall_s", kNumber, "s", "of the method"},
       {"time_to_5pct_s", kNumber, "s",
        "until a certified walk within 5 % of the best cost; empty: never"},
       {"time_to_1pct_s", kNumber, "s",
        "until a certified walk within 1 % of the best cost; empty: never"},
-      {"evaluations_to_5pct", kNumber, "", "evaluations until then; empty: never"},
-      {"evaluations_to_1pct", kNumber, "", "evaluations until then; empty: never"},
+      {"instants_to_5pct", kNumber, "", "instants until then; empty: never"},
+      {"instants_to_1pct", kNumber, "", "instants until then; empty: never"},
       {"run", kString, "", "run folder, as it was named; after ./ where it begins like a formula"},
   });
   for (const ComparedCase& one : comparison.cases) {
@@ -73,7 +73,7 @@ CsvFile ComparisonCsv(const Comparison& comparison) {
       one.best_cost ? csv.Cell(*one.best_cost) : csv.Empty();
       std::isnan(method.gap) ? csv.Empty() : csv.Cell(method.gap);
       record.gap_to_reference ? csv.Cell(*record.gap_to_reference) : csv.Empty();
-      csv.Cell(record.evaluations).Cell(record.collision_queries).Cell(record.wall);
+      csv.Cell(record.instants).Cell(record.collision_queries).Cell(record.wall);
       for (bool by_wall : {true, false}) {
         EffortCell(method.reached[kFivePercent], by_wall, &csv);
         EffortCell(method.reached[kOnePercent], by_wall, &csv);
@@ -87,7 +87,7 @@ CsvFile ComparisonCsv(const Comparison& comparison) {
 CsvFile PerformanceProfileCsv(const Comparison& comparison) {
   CsvWriter csv({
       {"gap", kNumber, "1", "a method solves a scenario by a certified walk within it"},
-      {"effort", kString, "", "wall_s or evaluations"},
+      {"effort", kString, "", "wall_s or instants"},
       {"method", kString, "", "its name, with the label of its run"},
       {"variables", kString, "", "of the method, none for raw"},
       {"objective", kString, "", "what the method pursued"},
@@ -98,7 +98,7 @@ CsvFile PerformanceProfileCsv(const Comparison& comparison) {
   for (const ProfileCurve& curve : PerformanceProfiles(comparison)) {
     for (const auto& [ratio, fraction] : curve.points) {
       csv.Cell(kTargets[static_cast<size_t>(curve.target)]);
-      csv.Cell(curve.by_wall ? "wall_s" : "evaluations");
+      csv.Cell(curve.by_wall ? "wall_s" : "instants");
       csv.Cell(curve.method.name).Cell(OrNone(curve.method.variables)).Cell(curve.method.objective);
       csv.Cell(ratio).Cell(fraction).EndRow();
     }
@@ -113,7 +113,7 @@ CsvFile AnytimeCsv(const Comparison& comparison) {
       {"method", kString, "", "its name, with the label of its run"},
       {"variables", kString, "", "of the method"},
       {"wall_s", kNumber, "s", "since the method began"},
-      {"evaluations", kNumber, "", "since the method began"},
+      {"instants", kNumber, "", "since the method began"},
       {"duration_s", kNumber, "s", "of the incumbent", "", CsvInterpolation::kPiecewiseConstant},
       {"gap_to_best", kNumber, "1", "by duration; empty: no best, or another objective", "",
        CsvInterpolation::kPiecewiseConstant},
@@ -124,7 +124,7 @@ CsvFile AnytimeCsv(const Comparison& comparison) {
       if (record.raw()) continue;
       const auto row = [&](const IncumbentRecord& incumbent) {
         csv.Cell(one.scenario).Cell(one.objective).Cell(record.name).Cell(OrNone(record.variables));
-        csv.Cell(incumbent.wall).Cell(incumbent.evaluations).Cell(incumbent.duration);
+        csv.Cell(incumbent.wall).Cell(incumbent.instants).Cell(incumbent.duration);
         DurationGapCell(one, incumbent.duration, &csv);
         csv.EndRow();
       };
@@ -135,7 +135,7 @@ CsvFile AnytimeCsv(const Comparison& comparison) {
         last = incumbent.duration;
         row(incumbent);
       }
-      row({record.wall, record.evaluations, record.duration});
+      row({record.wall, record.instants, record.duration});
     }
   }
   return csv.file();
@@ -159,8 +159,7 @@ CsvFile MeansCsv(const Comparison& comparison) {
     columns.push_back({"time_to_" + target + "_mean_s", kNumber, "s", "shifted geometric mean"});
   }
   for (const std::string target : {"1pct", "5pct", "end"}) {
-    columns.push_back(
-        {"evaluations_to_" + target + "_mean", kNumber, "", "shifted geometric mean"});
+    columns.push_back({"instants_to_" + target + "_mean", kNumber, "", "shifted geometric mean"});
   }
   CsvWriter csv(columns);
   for (const MethodMeans& mean : Means(comparison)) {
@@ -170,7 +169,7 @@ CsvFile MeansCsv(const Comparison& comparison) {
     for (int solved : mean.solved) csv.Cell(solved);
     csv.Cell(mean.speedup);
     for (const Effort& effort : mean.effort) csv.Cell(effort.wall);
-    for (const Effort& effort : mean.effort) csv.Cell(effort.evaluations);
+    for (const Effort& effort : mean.effort) csv.Cell(effort.instants);
     csv.EndRow();
   }
   return csv.file();

@@ -91,18 +91,18 @@ std::string ValueLine(const std::vector<std::string>& values) {
 std::string ProgressLine(const MethodRecord& method, double raw_duration) {
   std::string line;
   double time = -1.0, duration = 0.0;
-  const auto sample = [&](double wall, double evaluations, double value) {
+  const auto sample = [&](double wall, double instants, double value) {
     if (wall <= time) return;
     time = wall;
     duration = value;
-    line += Number(wall) + "," + Number(value) + "," + Number(evaluations) + ",;";
+    line += Number(wall) + "," + Number(value) + "," + Number(instants) + ",;";
   };
   sample(0.0, 0.0, raw_duration);
   for (const IncumbentRecord& incumbent : method.incumbents) {
     if (incumbent.duration == duration) continue;
-    sample(incumbent.wall, incumbent.evaluations, incumbent.duration);
+    sample(incumbent.wall, incumbent.instants, incumbent.duration);
   }
-  sample(method.wall, method.evaluations, method.duration);
+  sample(method.wall, method.instants, method.duration);
   return line;
 }
 
@@ -134,18 +134,13 @@ void AddMethods(const RunRecord& record, std::vector<LoggedPlanner>* planners) {
     LoggedPlanner& planner = PlannerOf(method.name, planners);
     planner.settings = {"objective = " + method.objective,
                         "variables = " + (method.raw() ? "none" : method.variables)};
-    planner.properties = {"status ENUM",
-                          "solved BOOLEAN",
-                          "time REAL",
-                          "best cost REAL",
-                          "walk duration REAL",
-                          "speedup REAL",
-                          "margin evaluations INTEGER",
-                          "collision queries INTEGER"};
+    planner.properties = {"status ENUM",      "solved BOOLEAN",           "time REAL",
+                          "best cost REAL",   "walk duration REAL",       "speedup REAL",
+                          "instants INTEGER", "collision queries INTEGER"};
     planner.runs.push_back(ValueLine(
         {StatusIndex(std::string(Name(method.ending))), method.solved() ? "1" : "0",
          Number(method.wall), Number(method.cost), Number(method.duration), Number(method.speedup),
-         Number(method.evaluations), Number(method.collision_queries)}));
+         Number(method.instants), Number(method.collision_queries)}));
     if (!method.raw()) planner.progress.push_back(ProgressLine(method, raw_duration));
   }
 }
@@ -159,7 +154,7 @@ std::string PlannerText(const LoggedPlanner& planner) {
   std::string text = planner.name + "\n" + block(planner.settings, "common properties");
   text += block(planner.properties, "properties for each run") + block(planner.runs, "runs");
   if (!planner.progress.empty()) {
-    text += block({"time REAL", "best cost REAL", "evaluations INTEGER"},
+    text += block({"time REAL", "best cost REAL", "instants INTEGER"},
                   "progress properties for each run");
     text += block(planner.progress, "runs");
   }

@@ -43,7 +43,7 @@ export function summaryTable(parent, walks, families, endings) {
     const last = compared
       ? [walk.gap === null || walk.gap === undefined ? "–" : `${number(100 * walk.gap, 3)} %`]
       : [`${family(s.worst_margin_name)} ${number(s.worst_margin, 3)} ${unit[s.worst_margin_name] ?? ""}`,
-         number(s.iterations), number(s.margin_evaluations)];
+         number(s.iterations), number(s.instants)];
     const status = { text: s.status, title: endings[s.status], className: s.own ? "" : "no" };
     return [walk.label, element("span", status), verdict(walk),
             seconds(s.duration_s), bar(s.duration_s / longest, "a"), s.speedup.toFixed(2),

@@ -114,7 +114,7 @@ CsvFile IteratesCsv(const MethodRun& run) {
   CsvWriter csv({
       {"iteration", kInteger, "", "from 1"},
       {"wall_s", kNumber, "s", "since the method began"},
-      {"evaluations", kInteger, "", "instants evaluated so far"},
+      {"instants", kInteger, "", "instants evaluated so far"},
       {"candidate_duration_s", kNumber, "s", "of the candidate's whole walk"},
       {"candidate_worst_margin", kNumber, "1",
        "(margin - demanded)/scale of the margin that refused the candidate; empty: feasible or "
@@ -127,7 +127,7 @@ CsvFile IteratesCsv(const MethodRun& run) {
   });
   int index = 0;
   for (const SmoothingIterate& iterate : run.result.iterates) {
-    csv.Cell(++index).Cell(iterate.wall).Cell(iterate.evaluations).Cell(iterate.candidate_duration);
+    csv.Cell(++index).Cell(iterate.wall).Cell(iterate.instants).Cell(iterate.candidate_duration);
     iterate.candidate_slack ? csv.Cell(*iterate.candidate_slack) : csv.Empty();
     csv.Cell(iterate.accepted).Cell(iterate.lambda).Cell(iterate.incumbent_duration);
     iterate.incumbent_slack ? csv.Cell(*iterate.incumbent_slack) : csv.Empty();
@@ -149,7 +149,7 @@ CsvColumns SummaryColumns() {
        "unit"},
       {"worst_margin_name", kString, "", "its family"},
       {"iterations", kInteger, "", "rows of iterates.csv"},
-      {"margin_evaluations", kInteger, "", "instants evaluated by the method"},
+      {"instants", kInteger, "", "instants evaluated by the method"},
       {"collision_queries", kInteger, "", "pairs of bodies that were not culled"},
       {"wall_s", kNumber, "s", "time of the method; 0 for raw"},
       {"time_to_first_improvement_s", kNumber, "s",

@@ -77,11 +77,11 @@ std::vector<IncumbentRecord> ReadIncumbents(const fs::path& folder) {
   const fs::path path = folder / "iterates.csv";
   const CsvTable table = ReadCsv(path.string());
   const std::vector<double> walls = NotNegative(table, "wall_s");
-  const std::vector<double> evaluations = NotNegative(table, "evaluations");
+  const std::vector<double> instants = NotNegative(table, "instants");
   const std::vector<double> durations = NotNegative(table, "incumbent_duration_s");
   std::vector<IncumbentRecord> incumbents;
   for (size_t i = 0; i < walls.size(); ++i) {
-    incumbents.push_back({walls[i], evaluations[i], durations[i]});
+    incumbents.push_back({walls[i], instants[i], durations[i]});
   }
   return incumbents;
 }
@@ -93,7 +93,7 @@ std::vector<MethodRecord> ReadSummary(const fs::path& run, const std::string& la
                                  certified = table.Texts("certified");
   const std::vector<double> durations = NotNegative(table, "duration_s"),
                             speedups = NotNegative(table, "speedup"), costs = table.Numbers("cost"),
-                            evaluations = NotNegative(table, "margin_evaluations"),
+                            instants = NotNegative(table, "instants"),
                             queries = NotNegative(table, "collision_queries"),
                             walls = NotNegative(table, "wall_s");
   const std::vector<std::optional<double>> gaps = table.NumbersOrEmpty("gap_to_reference");
@@ -118,7 +118,7 @@ std::vector<MethodRecord> ReadSummary(const fs::path& run, const std::string& la
     method.speedup = speedups[i];
     method.cost = costs[i];
     method.gap_to_reference = gaps[i];
-    method.evaluations = evaluations[i];
+    method.instants = instants[i];
     method.collision_queries = queries[i];
     method.wall = walls[i];
     const fs::path folder = run / MethodFolder(names[i]);

@@ -10,9 +10,9 @@ namespace halfstep {
 
 /// The incumbent of a method after one of its candidates, as iterates.csv has it.
 struct IncumbentRecord {
-  double wall = 0.0;         ///< since the method began [s]
-  double evaluations = 0.0;  ///< instants evaluated so far
-  double duration = 0.0;     ///< of the incumbent [s]
+  double wall = 0.0;      ///< since the method began [s]
+  double instants = 0.0;  ///< instants evaluated so far
+  double duration = 0.0;  ///< of the incumbent [s]
 };
 
 /// The result of one method in a scenario, as a run folder records it.
@@ -28,7 +28,7 @@ struct MethodRecord {
   double speedup = 0.0;
   double cost = 0.0;
   std::optional<double> gap_to_reference;
-  double evaluations = 0.0, collision_queries = 0.0;
+  double instants = 0.0, collision_queries = 0.0;
   double wall = 0.0;  ///< [s]
   std::vector<IncumbentRecord> incumbents;
 

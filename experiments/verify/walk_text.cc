@@ -78,7 +78,7 @@ std::vector<SummaryRow> ReadSummary(const std::string& path, const std::string& 
   const CsvText csv(
       path, text,
       {"method", "status", "certified", "duration_s", "speedup", "cost", "worst_margin",
-       "worst_margin_name", "iterations", "margin_evaluations", "collision_queries", "wall_s",
+       "worst_margin_name", "iterations", "instants", "collision_queries", "wall_s",
        "time_to_first_improvement_s", "gap_to_reference"});
   std::vector<SummaryRow> rows;
   for (size_t i = 0; i < csv.size(); ++i) {

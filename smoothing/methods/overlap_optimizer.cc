@@ -283,7 +283,7 @@ class Optimization {
     for (SmoothingIterate iterate : added.iterates) {
       if (iterate.incumbent_duration > before) continue;
       iterate.wall += monitor_.Seconds() - added.wall;
-      iterate.evaluations += monitor_.instants() - added.instants;
+      iterate.instants += monitor_.instants() - added.instants;
       monitor_.result().iterates.push_back(iterate);
     }
     monitor_.Adopt(added.parameters, added.cost, added.cost);

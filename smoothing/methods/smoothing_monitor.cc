@@ -65,7 +65,7 @@ void SmoothingMonitor::Adopt(const HomotopyParameters& parameters, double cost, 
 
 void SmoothingMonitor::Record(SmoothingIterate iterate) {
   iterate.wall = Seconds();
-  iterate.evaluations = instants();
+  iterate.instants = instants();
   iterate.incumbent_duration = duration_;
   iterate.incumbent_cost = result_.cost;
   result_.iterates.push_back(std::move(iterate));

@@ -38,7 +38,7 @@ struct ParetoPoint {
 /// One candidate that a method tried.
 struct SmoothingIterate {
   double wall = 0.0;                ///< since the method began [s]
-  long evaluations = 0;             ///< instants evaluated so far
+  long instants = 0;                ///< instants evaluated so far
   double candidate_duration = 0.0;  ///< [s]
   std::optional<double> candidate_slack =
       std::nullopt;  ///< MarginLimits::Slack where it was violated

@@ -63,11 +63,11 @@ TEST(RunCommand, WritesEveryFileAndColumn) {
             "multiplier_s,duration_before_s,duration_after_s,height_scale_before,"
             "height_scale_after");
   EXPECT_EQ(Columns(run / "dichotomy/iterates.csv"),
-            "iteration,wall_s,evaluations,candidate_duration_s,candidate_worst_margin,accepted,"
+            "iteration,wall_s,instants,candidate_duration_s,candidate_worst_margin,accepted,"
             "lambda,incumbent_duration_s,incumbent_worst_margin");
   EXPECT_EQ(Columns(run / "summary.csv"),
             "method,status,certified,duration_s,speedup,cost,worst_margin,worst_margin_name,"
-            "iterations,margin_evaluations,collision_queries,wall_s,time_to_first_improvement_s,"
+            "iterations,instants,collision_queries,wall_s,time_to_first_improvement_s,"
             "gap_to_reference");
   EXPECT_EQ(Columns(run / "footsteps.csv"),
             "footstep,foot,x_m,y_m,yaw_rad,via_height_m,duration_s");

@@ -27,7 +27,7 @@ MethodRecord Method(const std::string& name, double duration, double wall,
   record.certified = true;
   record.duration = record.cost = duration;
   record.speedup = 16.0 / duration;
-  record.evaluations = 1000.0 * wall;
+  record.instants = 1000.0 * wall;
   record.wall = wall;
   record.incumbents = std::move(incumbents);
   return record;
@@ -72,7 +72,7 @@ TEST(Comparison, TargetsAreMetWhenTheIncumbentFirstIs) {
   EXPECT_EQ(quick.reached[1]->wall, 0.5);
   EXPECT_EQ(quick.reached[2]->wall, 1.0);
   EXPECT_EQ(good.reached[0]->wall, 3.0);
-  EXPECT_EQ(good.reached[1]->evaluations, 2000.0);
+  EXPECT_EQ(good.reached[1]->instants, 2000.0);
   for (const auto& reached : comparison.cases[1].methods[2].reached) {
     EXPECT_FALSE(reached) << "an uncertified walk solves nothing";
   }

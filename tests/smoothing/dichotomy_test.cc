@@ -194,7 +194,7 @@ TEST_F(DichotomyTest, IteratesTellTheStoryAndTheIncumbentNeverGetsSlower) {
   const SmoothingResult result =
       Smoothed(Dichotomy, ProblemOf(sequence_, test), {.tolerance = 0.01, .passes = 2});
   double incumbent = SuperposedWalk(sequence_, PlannedMotion(sequence_)).duration();
-  long evaluations = 1;  // the start's
+  long instants = 1;  // the start's
   double wall = 0;
   int accepted = 0;
   ASSERT_EQ(result.iterates.size() + 1, test.questions.size());
@@ -206,7 +206,7 @@ TEST_F(DichotomyTest, IteratesTellTheStoryAndTheIncumbentNeverGetsSlower) {
                 SuperposedWalk(sequence_, question.parameters).duration(), 1e-12);
     EXPECT_LT(iterate.candidate_duration, incumbent + 1e-12);
     EXPECT_LE(iterate.incumbent_duration, incumbent + 1e-12);
-    EXPECT_EQ(iterate.evaluations, ++evaluations);
+    EXPECT_EQ(iterate.instants, ++instants);
     EXPECT_GE(iterate.wall, wall);
     EXPECT_EQ(iterate.lambda, iterate.accepted ? 1.0 : 0.0);
     if (iterate.accepted) {
@@ -224,7 +224,7 @@ TEST_F(DichotomyTest, IteratesTellTheStoryAndTheIncumbentNeverGetsSlower) {
   EXPECT_GT(accepted, 5);
   EXPECT_NEAR(SuperposedWalk(sequence_, result.parameters).duration(), incumbent, 1e-12);
   EXPECT_TRUE(result.time_to_first_improvement);
-  EXPECT_EQ(result.instants, evaluations);
+  EXPECT_EQ(result.instants, instants);
 }
 
 TEST_F(DichotomyTest, AJunctionIsLimitedByWhatRefusedTheSmallestInfeasibleOverlap) {

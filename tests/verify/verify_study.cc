@@ -326,11 +326,10 @@ std::vector<StudyMutation> StudyMutations() {
   EveryColumn("overlaps.csv", "dichotomy/overlaps.csv", 2, kFreeOfOverlaps, kHow, &list);
   EveryColumn("footsteps.csv", "footsteps.csv", 3, {}, "", &list);
   EveryColumn("summary.csv", "summary.csv", 2, kFreeOfSummary, kNotClaimed, &list, /*first=*/2);
-  EveryColumn(
-      "iterates.csv", "dichotomy/iterates.csv", 1,
-      {"iteration", "wall_s", "evaluations", "candidate_duration_s", "candidate_worst_margin",
-       "accepted", "lambda", "incumbent_duration_s", "incumbent_worst_margin"},
-      kHow, &list);
+  EveryColumn("iterates.csv", "dichotomy/iterates.csv", 1,
+              {"iteration", "wall_s", "instants", "candidate_duration_s", "candidate_worst_margin",
+               "accepted", "lambda", "incumbent_duration_s", "incumbent_worst_margin"},
+              kHow, &list);
   EveryMember("manifest.json", "manifest.json", HarmlessInManifest, &list);
   EveryKey(&list);
   EveryFile(&list);
