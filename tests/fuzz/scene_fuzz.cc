@@ -12,12 +12,9 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (!fuzz::Reads("", [&] { scene = ParseScene(folder + "fuzz.yaml", text); })) return 0;
   for (const Obstacle& obstacle : scene.obstacles) {
     fuzz::Require(obstacle.X_WO.matrix().allFinite(), "a pose is not finite");
-    if (const auto* body = std::get_if<ConvexBody>(&obstacle.shape)) {
-      fuzz::Require(body->vertices.allFinite(), "a corner is not finite");
-    } else {
-      fuzz::Require(std::get<TriangleMesh>(obstacle.shape).vertices.allFinite(),
-                    "a mesh is not finite");
-    }
+    const bool finite = std::visit(
+        [](const auto& shape) { return BodyOf(shape).vertices.allFinite(); }, obstacle.shape);
+    fuzz::Require(finite, "a corner is not finite");
   }
   for (const Eigen::Matrix2Xd& area : scene.no_step) {
     fuzz::Require(area.cols() >= 3 && area.allFinite(), "an area is no polygon");
