@@ -65,8 +65,7 @@ void ExportWalks(const ExportCommand& command, RunFolder* folder) {
   const fs::path run(command.runs.front());
   const std::vector<std::string> methods = MethodsOfRun(run.string(), command.method);
   const ExperimentConfig config = LoadConfig((run / "config.yaml").string(), {});
-  const RobotModel robot = LoadRobot(RobotPath(config).string());
-  const RobotTree tree = LoadRobotTree(RobotPath(config).string());
+  const auto [robot, tree] = LoadWholeRobot(RobotPath(config).string());
   const size_t stride = Stride(config, command.period);
   const double period = static_cast<double>(stride) * config.output_period;
   const std::vector<int> joints = OrderedJoints(tree, command.joints);

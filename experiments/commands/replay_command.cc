@@ -145,8 +145,7 @@ ExitStatus Replay(const ReplayCommand& command) {
   const fs::path config_file = fs::path(command.run) / "config.yaml";
   MethodsOfRun(command.run, command.method);  // is it a run at all?
   const std::string robot_file = RobotPath(LoadConfig(config_file.string(), {})).string();
-  const RobotModel robot = LoadRobot(robot_file);
-  const RobotTree tree = LoadRobotTree(robot_file);
+  const auto [robot, tree] = LoadWholeRobot(robot_file);
   const std::vector<NamedMotion> motions = ReadMotions(command, robot);
   if (const std::string why = replay::WhyNoSimulation(); !why.empty()) {
     std::cerr << "halfstep: replay: " << why << '\n';
@@ -197,6 +196,7 @@ CommandAction DeclareReplay(CLI::App* app) {
   app->add_flag("--out", command->out, "write METHOD/replay.csv into the run folder");
   app->add_flag("--quiet", command->quiet, "print nothing but errors");
   app->add_flag("--json", command->json, "print JSON");
+  // CLI11 writes into `engine` while it parses, so it must live as long as the action.
   return [command, engine] { return Replay(*command); };
 }
 

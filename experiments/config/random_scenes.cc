@@ -17,15 +17,15 @@ std::string Metres(double value) {
   return text;
 }
 
-std::string Cylinder(int i, double x, double y, double radius, double length) {
+std::string CylinderYaml(int i, double x, double y, double radius, double length) {
   return "  - name: cylinder " + std::to_string(i) +
          "\n    cylinder: {radius_m: " + Metres(radius) + ", length_m: " + Metres(length) +
          "}\n    pose: {xyz: [" + Metres(x) + ", " + Metres(y) + ", " + Metres(0.5 * length) +
          "]}\n";
 }
 
-std::string Box(int i, double x, double y, double length, double width, double height,
-                double yaw_deg) {
+std::string BoxYaml(int i, double x, double y, double length, double width, double height,
+                    double yaw_deg) {
   return "  - name: box " + std::to_string(i) + "\n    box: {size_m: [" + Metres(length) + ", " +
          Metres(width) + ", " + Metres(height) + "]}\n    pose: {xyz: [" + Metres(x) + ", " +
          Metres(y) + ", " + Metres(0.5 * height) + "], rpy_deg: [0, 0, " + Metres(yaw_deg) + "]}\n";
@@ -34,7 +34,7 @@ std::string Box(int i, double x, double y, double length, double width, double h
 std::string DrawCylinder(int i, std::mt19937_64& random) {
   const double x = Uniform(0.2, 2.8, random), y = Uniform(-0.8, 0.8, random);
   const double radius = Uniform(0.01, 0.03, random);
-  return Cylinder(i, x, y, radius, Uniform(0.01, 0.1, random));
+  return CylinderYaml(i, x, y, radius, Uniform(0.01, 0.1, random));
 }
 
 std::string DrawFurniture(int i, std::mt19937_64& random) {
@@ -45,9 +45,9 @@ std::string DrawFurniture(int i, std::mt19937_64& random) {
     y = Uniform(-2.0, 2.0, random);
   } while (std::hypot(std::fabs(x) - kCorner, std::fabs(y) - kCorner) < kRoom);
   const double height = 0.02 * std::pow(50.0, Uniform(0.0, 1.0, random));
-  if (i % 2 == 0) return Cylinder(i, x, y, Uniform(0.03, 0.15, random), height);
+  if (i % 2 == 0) return CylinderYaml(i, x, y, Uniform(0.03, 0.15, random), height);
   const double length = Uniform(0.05, 0.4, random), width = Uniform(0.05, 0.4, random);
-  return Box(i, x, y, length, width, height, Uniform(-90.0, 90.0, random));
+  return BoxYaml(i, x, y, length, width, height, Uniform(-90.0, 90.0, random));
 }
 
 }  // namespace

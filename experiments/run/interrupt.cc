@@ -12,7 +12,6 @@
 namespace halfstep {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using std::chrono::seconds;
 
 sigset_t Signals() {
@@ -40,16 +39,16 @@ InterruptGuard::InterruptGuard() {
 void InterruptGuard::WaitForSignals(const std::stop_token& ended) {
   const sigset_t signals = Signals();
   const timespec patience{0, 50'000'000};  // looks that often whether the guard has ended
-  std::optional<Clock::time_point> first;
+  std::optional<std::chrono::steady_clock::time_point> first;
   while (!ended.stop_requested()) {
     const int received = sigtimedwait(&signals, nullptr, &patience);
     if (received > 0 && first) _exit(128 + received);
     if (received > 0) {
-      first = Clock::now();
+      first = std::chrono::steady_clock::now();
       stop_.request_stop();
     }
     if (!first) continue;
-    const Clock::duration since = Clock::now() - *first;
+    const std::chrono::steady_clock::duration since = std::chrono::steady_clock::now() - *first;
     if (since > seconds(1)) {
       if (!keep_) EndAtOnce("halfstep: interrupted\n");
       step_.request_stop();

@@ -7,12 +7,10 @@
 
 namespace halfstep {
 
-using Clock = std::chrono::steady_clock;
-
 ProgressBar::ProgressBar(std::string label, bool quiet)
     : label_(std::move(label)),
       enabled_(!quiet && isatty(STDERR_FILENO) == 1),
-      begin_(Clock::now()),
+      begin_(std::chrono::steady_clock::now()),
       last_(begin_) {}
 
 ProgressBar::~ProgressBar() {
@@ -20,7 +18,7 @@ ProgressBar::~ProgressBar() {
 }
 
 void ProgressBar::Update(double done) {
-  const Clock::time_point now = Clock::now();
+  const std::chrono::steady_clock::time_point now = std::chrono::steady_clock::now();
   const std::chrono::duration<double> elapsed = now - begin_;
   if (!enabled_ || elapsed.count() < 1.0 || now - last_ < std::chrono::milliseconds(100)) return;
   last_ = now;

@@ -15,12 +15,10 @@
 namespace halfstep {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 struct Worker {
   pid_t pid = -1;
   size_t index = 0;
-  Clock::time_point begin;
+  std::chrono::steady_clock::time_point begin;
 };
 
 // Between fork and exec only what is safe there: this process has other threads.
@@ -54,7 +52,7 @@ void RunWorkers(const std::vector<std::vector<std::string>>& arguments, int jobs
   while (true) {
     go_on = go_on && !stop.stop_requested();
     while (go_on && next < arguments.size() && workers.size() < static_cast<size_t>(jobs)) {
-      workers.push_back({Start(arguments[next]), next, Clock::now()});
+      workers.push_back({Start(arguments[next]), next, std::chrono::steady_clock::now()});
       ++next;
     }
     if (workers.empty()) return;
@@ -68,7 +66,7 @@ void RunWorkers(const std::vector<std::vector<std::string>>& arguments, int jobs
         ++worker;
         continue;
       }
-      const std::chrono::duration<double> wall = Clock::now() - worker->begin;
+      const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - worker->begin;
       const size_t index = worker->index;
       worker = workers.erase(worker);
       go_on = ended(index, {.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1,

@@ -11,6 +11,9 @@ namespace halfstep {
 
 using enum CsvType;
 
+namespace {
+
+// The families whose values stand in a table of a method's folder, in the order of their columns.
 std::vector<ParameterFamily> FamiliesOf(std::string_view table) {
   std::vector<ParameterFamily> families;
   for (const ParameterFamily family : AllParameterFamilies()) {
@@ -19,6 +22,8 @@ std::vector<ParameterFamily> FamiliesOf(std::string_view table) {
   std::ranges::stable_sort(families, {}, [](ParameterFamily f) { return Traits(f).rank; });
   return families;
 }
+
+}  // namespace
 
 CsvColumn ColumnOf(ParameterFamily family) {
   const ParameterFamilyTraits& traits = Traits(family);

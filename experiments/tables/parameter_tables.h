@@ -9,10 +9,6 @@
 
 namespace halfstep {
 
-/// The families of parameters whose values stand in a table of a method's folder, "half_steps" or
-/// "overlaps", in the order of their columns.
-std::vector<ParameterFamily> FamiliesOf(std::string_view table);
-
 /// The column of a family.
 CsvColumn ColumnOf(ParameterFamily family);
 

@@ -11,12 +11,11 @@
 namespace halfstep::verify {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // The interval's ends are looked at this far inside: support and motion may change there [s].
 constexpr double kInside = 1e-9;
 // Two evaluations of one margin differ by rounding [its unit], joint speeds by that of differences.
-constexpr double kRounding = 1e-7;
-constexpr double kSpeedRounding = 1e-6;
+constexpr double kClaimRounding = 1e-7;
+constexpr double kSpeedClaimRounding = 1e-6;
 
 class Claims {
  public:
@@ -32,7 +31,7 @@ class Claims {
     const auto found = subjects_[row.family].find(row.subject);
     if (found == subjects_[row.family].end()) return "nothing is called " + Quote(row.subject);
     const ClaimSubject subject = found->second;
-    if (row.margin == kInfinity) {
+    if (row.margin == kNoLimit) {
       return row.family == kGround || row.family == kNoStep ? FaultOfNothing(row)
                                                             : FaultOfUnwatched(row);
     }
@@ -64,10 +63,10 @@ class Claims {
     if (row.family == kFootYawRate && !certificate_.foot_yaw_rate) return "";
     for (const double t : Instants(row)) {
       for (int side = 0; side < 2; ++side) {
-        const bool moves =
-            row.family == kFloor
-                ? walk_.MovesHorizontally(t, side)
-                : walk_.At(t).first.segment<4>(side == 0 ? kLeftX : kRightX).norm() > kRounding;
+        const bool moves = row.family == kFloor
+                               ? walk_.MovesHorizontally(t, side)
+                               : walk_.At(t).first.segment<4>(side == 0 ? kLeftX : kRightX).norm() >
+                                     kClaimRounding;
         if (moves) return Text("a foot moves at t = %.6g s", t);
       }
     }
@@ -92,10 +91,10 @@ class Claims {
       case kFloor:
         return walk_.At(t).value[foot + 2];
       case kFootSpeed:
-        return certificate_.foot_speed.value_or(kInfinity) -
+        return certificate_.foot_speed.value_or(kNoLimit) -
                walk_.At(t).first.segment<3>(foot).norm();
       case kFootYawRate:
-        return certificate_.foot_yaw_rate.value_or(kInfinity) -
+        return certificate_.foot_yaw_rate.value_or(kNoLimit) -
                std::abs(walk_.At(t).first[foot + 3]);
       case kZmp:
         return ZmpMargin(walk_.Row(t), robot_);
@@ -116,7 +115,7 @@ class Claims {
         return row.Stands(s.first)
                    ? FromArea(robot_, row.X_WS(s.first),
                               distances_.scene().no_step[static_cast<size_t>(s.second)])
-                   : kInfinity;
+                   : kNoLimit;
       }
       case kSelfClearance:
       case kClearance:
@@ -126,7 +125,7 @@ class Claims {
   }
 
   std::string FaultOfScalar(const ClaimRow& row, ClaimSubject subject) const {
-    const double rounding = row.family == kJointSpeed ? kSpeedRounding : kRounding;
+    const double rounding = row.family == kJointSpeed ? kSpeedClaimRounding : kClaimRounding;
     const std::array<double, 5> instants = Instants(row);
     const double middle = Scalar(row.family, subject, instants[0]);
     if (!(std::abs(middle - row.margin) <= rounding)) {
@@ -148,7 +147,7 @@ class Claims {
     const size_t a = static_cast<size_t>(s.first), b = static_cast<size_t>(s.second);
     if (row.family == kSelfClearance) return distances_.OfPair(a, b, at, enough).distance;
     if (s.second >= 0) return distances_.FromObstacle(a, b, at, enough).distance;
-    double least = kInfinity;
+    double least = kNoLimit;
     for (size_t o = 0; o < distances_.num_obstacles(); ++o) {
       least = std::min(least, distances_.FromObstacle(a, o, at, enough).distance);
     }
@@ -172,7 +171,7 @@ class Claims {
       }
       if (row.family != kClearance) continue;
       const double moved = Displacement(static_cast<size_t>(subject.first), middle, at);
-      if (!(moved <= row.bound + kRounding)) {
+      if (!(moved <= row.bound + kClaimRounding)) {
         return Text("the body moves %.9g until t = %.6g s, more than %.9g", moved, t, row.bound);
       }
     }

@@ -11,7 +11,7 @@ namespace {
 // What may lie between a foot's columns and its bodies by forward kinematics: 1e-6 m of the sole's
 // place, 1e-6 m that a robot file grants a body below it [m].
 constexpr double kFootPlace = 2e-6;
-constexpr double kRounding = 1e-9;  // of a distance that is computed twice [m]
+constexpr double kFloorRounding = 1e-9;  // of a distance that is computed twice [m]
 
 }  // namespace
 
@@ -21,7 +21,7 @@ void CheckFloor(const PlayedMotion& motion, const Scene& scene, const Certificat
   const std::vector<PlayedRow>& rows = motion.rows();
   Check feet("feet above the floor", "m", 0, kFootPlace);
   Check ground("bodies above the floor", "m", certificate.demanded[kGround], tolerance);
-  Check areas("no-step areas", "m", certificate.demanded[kNoStep], kRounding);
+  Check areas("no-step areas", "m", certificate.demanded[kNoStep], kFloorRounding);
   std::vector<double> before(robot.bodies.size());
   std::array<std::optional<Pose2>, 2> footprint;
   for (size_t i = 0; i < rows.size(); ++i) {

@@ -8,16 +8,15 @@
 namespace halfstep::verify {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Distances beyond this are not told apart, or beyond twice what is demanded [m].
 // Source: smoothing/README.md, "Margins".
 constexpr double kHorizon = 0.3;
-constexpr double kRounding = 1e-8;
-constexpr double kSpeedRounding = 1e-6;
+constexpr double kColumnRounding = 1e-8;
+constexpr double kSpeedColumnRounding = 1e-6;
 
 double JointSpeedMarginAt(const DescribedWalk& walk, double t, double scale) {
   const std::array<Vector6d, 2> speeds = walk.JointSpeeds(t);
-  double least = kInfinity;
+  double least = kNoLimit;
   for (size_t s = 0; s < 2; ++s) {
     for (size_t j = 0; j < 6; ++j) {
       const double limit = scale * walk.robot().legs[s].joints[j].max_speed;
@@ -30,7 +29,7 @@ double JointSpeedMarginAt(const DescribedWalk& walk, double t, double scale) {
 // Of the foot in the air; +∞ when none is.
 double FootSpeedMarginAt(const DescribedWalk& walk, const PlayedRow& row,
                          const std::optional<double>& limit) {
-  if (row.support == Support::kBoth || !limit) return kInfinity;
+  if (row.support == Support::kBoth || !limit) return kNoLimit;
   const int foot = FootIndex(row.support == Support::kLeft ? Side::kRight : Side::kLeft);
   return *limit - walk.At(row.t).first.segment<3>(foot).norm();
 }
@@ -44,7 +43,7 @@ bool Same(double found, double stated, double tolerance) {
 std::array<double, kNumMarginColumns> MarginsAt(const DescribedWalk& walk, const PlayedRow& row,
                                                 const CertificateText& certificate, double horizon,
                                                 Distances* distances) {
-  double joint = kInfinity;
+  double joint = kNoLimit;
   for (int side = 0; side < 2; ++side) {
     for (int j = 0; j < 6; ++j) joint = std::min(joint, JointMargin(walk.robot(), row, side, j));
   }
@@ -61,7 +60,8 @@ void CheckMarginColumns(const std::vector<PlayedRow>& rows, const DescribedWalk&
                         const CertificateText& certificate, Distances* distances,
                         Findings* findings) {
   constexpr std::array<double, kNumMarginColumns> kTolerances = {
-      kRounding, kRounding, kSpeedRounding, kRounding, Distances::kAccuracy, Distances::kAccuracy};
+      kColumnRounding, kColumnRounding,      kSpeedColumnRounding,
+      kColumnRounding, Distances::kAccuracy, Distances::kAccuracy};
   const double horizon = std::max(
       {kHorizon, 2 * certificate.demanded[kClearance], 2 * certificate.demanded[kSelfClearance]});
   std::array<Faults, kNumMarginColumns> faults;

@@ -7,9 +7,9 @@ namespace halfstep::verify {
 namespace {
 
 // Numbers that are computed twice differ by rounding [s], [m], [rad], [1].
-constexpr double kRounding = 1e-9;
+constexpr double kTwiceRounding = 1e-9;
 
-bool Same(double a, double b) { return std::abs(a - b) <= kRounding; }  // false for nan
+bool Same(double a, double b) { return std::abs(a - b) <= kTwiceRounding; }  // false for nan
 
 // What is wrong with a row of half_steps.csv by itself; "": nothing.
 std::string FaultOf(const HalfStepRow& row, const HalfStep& planned, bool raw) {
@@ -40,7 +40,7 @@ std::string FaultOf(const OverlapRow& row, const HalfStepRow& before, const Half
                     const HalfStepShape& shape) {
   if (row.kind != (before.kind == "up" ? "up_down" : "down_up")) return "kind " + row.kind;
   const double bound = NaturalBound(before, after, shape);
-  if (!(row.overlap >= 0 && row.overlap <= bound + kRounding)) {
+  if (!(row.overlap >= 0 && row.overlap <= bound + kTwiceRounding)) {
     return Text("overlap %.9g, natural bound %.9g", row.overlap, bound);
   }
   if (!Same(row.duration_before, before.duration) || !Same(row.duration_after, after.duration) ||
@@ -91,6 +91,31 @@ bool CheckOverlaps(const std::vector<HalfStepRow>& half_steps,
     }
   }
   return findings->disagreements() == before;
+}
+
+void CheckFixed(const std::vector<HalfStepRow>& half_steps, const std::vector<OverlapRow>& overlaps,
+                const HalfStepSequence& planned, const std::vector<FixedConfig>& fixed,
+                Findings* findings) {
+  for (const FixedConfig& one : fixed) {
+    const size_t i = static_cast<size_t>(one.index - 1);
+    double is = 0, demanded = 0;
+    if (one.parameter == "overlap" && i < overlaps.size()) {
+      is = overlaps[i].overlap;
+    } else if (one.parameter == "duration" && i < half_steps.size()) {
+      is = half_steps[i].duration;
+      demanded = planned.half_steps[i].half_step.duration;
+    } else if (one.parameter == "height_scale" && 2 * i < half_steps.size()) {
+      is = half_steps[2 * i].height_scale;
+      demanded = 1;
+    } else {
+      findings->Disagree("config.yaml: smoothing.fixed: " + one.parameter +
+                         Text(" %d is not known here", one.index));
+      continue;
+    }
+    demanded = one.value.value_or(demanded);
+    if (Same(is, demanded)) continue;
+    findings->Disagree(one.parameter + Text(" %d is %.9g, fixed at %.9g", one.index, is, demanded));
+  }
 }
 
 void CheckFootsteps(const std::vector<FootstepRow>& rows, const HalfStepSequence& planned,

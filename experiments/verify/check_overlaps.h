@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "experiments/config/experiment_config.h"
 #include "experiments/verify/findings.h"
 #include "experiments/verify/walk_text.h"
 #include "wpg/motion/half_step_sequence.h"
@@ -18,6 +19,12 @@ namespace halfstep::verify {
 bool CheckOverlaps(const std::vector<HalfStepRow>& half_steps,
                    const std::optional<std::vector<OverlapRow>>& overlaps,
                    const HalfStepSequence& planned, Findings* findings);
+
+/// Whether the parameters that smoothing.fixed names are what it says: its value, or the planned
+/// one. A family that this does not know is a disagreement. Precondition: CheckOverlaps() is true.
+void CheckFixed(const std::vector<HalfStepRow>& half_steps, const std::vector<OverlapRow>& overlaps,
+                const HalfStepSequence& planned, const std::vector<FixedConfig>& fixed,
+                Findings* findings);
 
 /// Whether footsteps.csv says what the config does.
 void CheckFootsteps(const std::vector<FootstepRow>& rows, const HalfStepSequence& planned,

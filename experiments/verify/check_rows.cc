@@ -12,7 +12,7 @@ namespace {
 // Numbers beyond this are no walk: [m], [rad], [m/s²] …
 constexpr double kHuge = 1e4;
 // What rounding may do to a number that is computed twice [m], [rad].
-constexpr double kRounding = 1e-9;
+constexpr double kRowRounding = 1e-9;
 // Sole by forward kinematics against the foot columns [m], [rad].
 constexpr double kSolePlace = 1e-6;
 // Residual of z_c/g·c̈ − c + p [m].
@@ -148,7 +148,7 @@ void CheckConsistency(const PlayedMotion& motion, const DescribedWalk& walk, Fin
     const Eigen::Vector2d v = (row.com - last.com).head<2>() / dt;
     const Eigen::Vector2d a = (row.com_velocity - last.com_velocity) / dt;
     // Differences of rounded numbers say nothing over a short last interval.
-    const double rounding = kRounding + 1e-14 / dt;
+    const double rounding = kRowRounding + 1e-14 / dt;
     const double fourth = walk.ComFourthBound(last.t, row.t);
     const double jump = (row.com_acceleration - last.com_acceleration).norm();
     const double v_error = dt * jump / 12 + dt * dt * dt * fourth / 12;
@@ -170,16 +170,16 @@ void CheckRowMargins(const PlayedMotion& motion, const CertificateText& certific
   const auto make = [&](Family family, const char* name, double slack) {
     return Check(name, kUnits[family], certificate.demanded[family], slack);
   };
-  Check joint = make(kJoint, "joint limits", kRounding);
+  Check joint = make(kJoint, "joint limits", kRowRounding);
   Check joint_speed = make(kJointSpeed, "joint speeds", 1e-6);
-  Check reach = make(kReach, "leg reach", kRounding);
+  Check reach = make(kReach, "leg reach", kRowRounding);
   Check floor = make(kFloor, "height of a moving sole", tolerance);
   Check foot_speed = make(kFootSpeed, "foot speed", 1e-6);
   Check foot_yaw_rate = make(kFootYawRate, "foot yaw rate", 1e-6);
-  Check zmp = make(kZmp, "ZMP", kRounding);
+  Check zmp = make(kZmp, "ZMP", kRowRounding);
   Check change("ZMP where the support changes", "m", std::min(0.0, certificate.demanded[kZmp]),
                tolerance);
-  Check above("soles above the floor", "m", 0, kRounding);
+  Check above("soles above the floor", "m", 0, kRowRounding);
   for (size_t i = 0; i < rows.size(); ++i) {
     const PlayedRow& row = rows[i];
     zmp.Add(ZmpMargin(row, robot), [&] { return At(row.t); });

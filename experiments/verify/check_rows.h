@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "experiments/verify/certificate_text.h"
 #include "experiments/verify/described_walk.h"
 #include "experiments/verify/findings.h"
@@ -7,6 +9,9 @@
 #include "planner/scene/scene.h"
 
 namespace halfstep::verify {
+
+/// The margin of what has no limit [any unit].
+inline constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
 /// Whether the rows are a motion at all: numbers finite and of human size, times increasing from 0.
 /// The other checks need it.

@@ -5,7 +5,7 @@
 namespace halfstep::verify {
 namespace {
 
-constexpr double kRounding = 1e-12;  // of ratios that are computed twice
+constexpr double kRatioRounding = 1e-12;  // of ratios that are computed twice
 
 }  // namespace
 
@@ -31,7 +31,7 @@ void CheckSummary(const std::vector<SummaryRow>& rows, const RunManifest& manife
     findings->Disagree("summary.csv: " + row->method + ": " + column + " " + why);
   };
   const auto close = [](double a, double b) {
-    return std::abs(a - b) <= kRounding * std::max(1.0, std::abs(b));
+    return std::abs(a - b) <= kRatioRounding * std::max(1.0, std::abs(b));
   };
   if (row->status != manifest.MethodOf(folder)->status) {
     disagree("status", "is not that of manifest.json");

@@ -10,12 +10,12 @@ namespace halfstep::verify {
 namespace {
 
 constexpr size_t kLeaf = 4;
-constexpr double kRounding = 1e-9;  // [m] that bounds are widened by
+constexpr double kBoundRounding = 1e-9;  // [m] that bounds are widened by
 
 Eigen::AlignedBox3d Bounds(const ConvexSet& set) {
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& p : set.points) box.extend(p);
-  const Eigen::Vector3d around = Eigen::Vector3d::Constant(set.disc + set.ball + kRounding);
+  const Eigen::Vector3d around = Eigen::Vector3d::Constant(set.disc + set.ball + kBoundRounding);
   return {box.min() - around, box.max() + around};
 }
 
@@ -59,7 +59,7 @@ Solid::Solid(const ConvexBody& body) {
   upper_ = box.max();
   center_ = box.center();
   for (const Eigen::Vector3d& p : set_.points) radius_ = std::max(radius_, (p - center_).norm());
-  radius_ += set_.disc + set_.ball + kRounding;
+  radius_ += set_.disc + set_.ball + kBoundRounding;
 }
 
 Solid::Solid(const TriangleMesh& mesh) {
@@ -69,7 +69,7 @@ Solid::Solid(const TriangleMesh& mesh) {
   }
   FindParts(mesh);
   BuildTree(0, triangles_.size());
-  const Eigen::Vector3d around = Eigen::Vector3d::Constant(kRounding);
+  const Eigen::Vector3d around = Eigen::Vector3d::Constant(kBoundRounding);
   lower_ = nodes_.back().box.min() - around;
   upper_ = nodes_.back().box.max() + around;
   center_ = 0.5 * (lower_ + upper_);

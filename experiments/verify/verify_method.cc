@@ -65,10 +65,8 @@ HalfStepSequence PlannedOf(const ExperimentConfig& config, const RobotModel& rob
                          .via_height = step.via_height.value_or(config.half_step.via_height),
                          .duration = step.duration.value_or(config.half_step.duration)});
   }
-  const HalfStepShape shape{.shift = config.half_step.zmp_shift / config.half_step.duration,
-                            .horizontal_delay = config.half_step.horizontal_delay};
-  return MakeSequence(StartOf(config, robot), footsteps, config.half_step.via_lateral, shape,
-                      {.com_height = robot.com_height});
+  return MakeSequence(StartOf(config, robot), footsteps, config.half_step.via_lateral,
+                      ShapeOf(config.half_step), {.com_height = robot.com_height});
 }
 
 // All files of one method, and of its run, as they were read.
@@ -98,6 +96,7 @@ std::optional<DescribedWalk> WalkOf(const MethodFiles& files, const ExperimentCo
     overlaps = ReadOverlaps(files.PathOf("overlaps.csv"), files.Read("overlaps.csv"));
   }
   if (!CheckOverlaps(half_steps, overlaps, planned, findings)) return std::nullopt;
+  if (overlaps) CheckFixed(half_steps, *overlaps, planned, config.smoothing.fixed, findings);
   try {
     return DescribedWalk(robot, planned, half_steps);
   } catch (const std::logic_error& error) {

@@ -9,9 +9,9 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double kInside = 1e-10;     // a slack below this (natural unit) counts as outside
-constexpr double kToBoundary = 0.01;  // of a slack that a step leaves at least
-constexpr double kDualRange = 1e6;    // multipliers stay within this factor of μ/slack
+constexpr double kInside = 1e-10;         // a slack below this (natural unit) counts as outside
+constexpr double kLeastSlackLeft = 0.01;  // of a slack that a step leaves at least
+constexpr double kDualRange = 1e6;        // multipliers stay within this factor of μ/slack
 
 }  // namespace
 
@@ -87,7 +87,7 @@ double BarrierTerms::StepLimit(const VectorXd& values, const VectorXd& change) c
   for (const Side& side : sides_) {
     if (IsOutside(side, values)) continue;
     const double rate = side.sign * change[side.index];
-    if (rate < 0.0) alpha = std::min(alpha, (1.0 - kToBoundary) * side.Slack(values) / -rate);
+    if (rate < 0.0) alpha = std::min(alpha, (1.0 - kLeastSlackLeft) * side.Slack(values) / -rate);
   }
   return alpha;
 }

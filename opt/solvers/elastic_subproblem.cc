@@ -13,8 +13,8 @@ using Eigen::VectorXd;
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
 constexpr int kMostIterations = 60;
-constexpr double kTolerance = 1e-9;   // of the first complementarity
-constexpr double kToBoundary = 0.99;  // of the way to the boundary that a step goes at most
+constexpr double kTolerance = 1e-9;           // of the first complementarity
+constexpr double kFractionToBoundary = 0.99;  // of the way to the boundary that a step goes at most
 
 // With s = c + A d + u, where u ≥ 0 is what a row lacks, z ∈ [0, ν] the rows' duals and y those of
 // the bounds, the central path is
@@ -57,7 +57,7 @@ class InteriorPoint {
       const double target = mu_ * std::max(ratio * ratio * ratio, 1e-6);
       const Move move = Direction(residual, target, &affine);
       if (!move.d.allFinite()) break;
-      Advance(move, std::min(1.0, kToBoundary * StepLimit(move)));
+      Advance(move, std::min(1.0, kFractionToBoundary * StepLimit(move)));
       mu_ = Complementarity(move, 0.0);
     }
     return {d_.cwiseMax(p_.lower).cwiseMin(p_.upper), z_.matrix()};

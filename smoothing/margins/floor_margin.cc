@@ -1,14 +1,8 @@
 #include "smoothing/margins/floor_margin.h"
 
 #include <cmath>
-#include <limits>
 
 namespace halfstep {
-namespace {
-
-constexpr double kUnlimited = std::numeric_limits<double>::infinity();
-
-}  // namespace
 
 int FloorMargin::count() const { return 1; }
 

@@ -1,13 +1,6 @@
 #include "smoothing/margins/foot_speed_margin.h"
 
-#include <limits>
-
 namespace halfstep {
-namespace {
-
-constexpr double kUnlimited = std::numeric_limits<double>::infinity();
-
-}  // namespace
 
 int FootSpeedMargin::count() const { return 1; }
 

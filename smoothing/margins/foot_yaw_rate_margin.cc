@@ -1,14 +1,8 @@
 #include "smoothing/margins/foot_yaw_rate_margin.h"
 
 #include <cmath>
-#include <limits>
 
 namespace halfstep {
-namespace {
-
-constexpr double kUnlimited = std::numeric_limits<double>::infinity();
-
-}  // namespace
 
 int FootYawRateMargin::count() const { return 1; }
 

@@ -2,14 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace halfstep {
-namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-}  // namespace
 
 int JointMargin::count() const { return 12; }
 
@@ -18,12 +12,12 @@ std::string JointMargin::Subject(const Margin& margin) const {
 }
 
 Margin JointMargin::Least(Instant* at, double) const {
-  Margin least = Of(kInfinity, -1);
+  Margin least = Of(kUnlimited, -1);
   for (int s = 0; s < 2; ++s) {
     const Leg& leg = place_.robot.legs[static_cast<size_t>(s)];
     const LegIkSolution& ik = at->posture().ik[static_cast<size_t>(s)];
     if (ik.status != LegIkStatus::kSolved) {
-      Lower(Of(-kInfinity, 6 * s + 3), &least);
+      Lower(Of(-kUnlimited, 6 * s + 3), &least);
       continue;
     }
     for (int j = 0; j < 6; ++j) {

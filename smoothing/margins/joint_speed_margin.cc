@@ -1,14 +1,8 @@
 #include "smoothing/margins/joint_speed_margin.h"
 
 #include <cmath>
-#include <limits>
 
 namespace halfstep {
-namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-}  // namespace
 
 int JointSpeedMargin::count() const { return 12; }
 
@@ -17,8 +11,8 @@ std::string JointSpeedMargin::Subject(const Margin& margin) const {
 }
 
 Margin JointSpeedMargin::Least(Instant* at, double) const {
-  if (!at->regular()) return Of(-kInfinity, -1);
-  Margin least = Of(kInfinity, -1);
+  if (!at->regular()) return Of(-kUnlimited, -1);
+  Margin least = Of(kUnlimited, -1);
   for (int s = 0; s < 2; ++s) {
     for (int j = 0; j < 6; ++j) {
       const LegJoint& joint =

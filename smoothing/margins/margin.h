@@ -40,10 +40,13 @@ constexpr std::array<MarginFamily, kNumMarginFamilies> AllMarginFamilies() {
   return all;
 }
 
+/// The margin of what has no limit [any unit].
+inline constexpr double kUnlimited = std::numeric_limits<double>::infinity();
+
 /// The value of one margin, and what it belongs to.
 struct Margin {
   MarginFamily family = MarginFamily::kZmp;
-  double value = std::numeric_limits<double>::infinity();
+  double value = kUnlimited;
   LocalTime at = {};
   double t = 0.0;  ///< absolute time in the walk where it was found [s]
   /// Zmp: step in the air or −1. Foot families: Index(Side). Reach, joints: 6·Index(Side) + joint.

@@ -30,10 +30,7 @@ class Ascent {
 
   SmoothingResult Run() {
     constexpr char kNoGain[] = "; no coordinate gained";
-    if (!monitor_.BeginFeasibly(problem_, point_,
-                                options_.start ? "the start" : "the planned motion")) {
-      return monitor_.Refusal();
-    }
+    if (!monitor_.BeginFeasibly(problem_, point_)) return monitor_.Refusal();
     for (int pass = 0; pass < options_.passes; ++pass) {
       const double before = DurationOf(point_);
       for (int step = 0; step < sequence_.num_steps(); ++step) {
@@ -41,9 +38,9 @@ class Ascent {
         TryHeights(step);
         if (monitor_.stopped()) {
           Keep();
-          return monitor_.Finish(Ending::kInterrupted,
-                                 "stopped from outside; the parameters found so far are feasible",
-                                 kNoGain);
+          return monitor_.FinishAgainstStart(
+              monitor_.StopEnding(),
+              monitor_.StopReason() + "; the parameters found so far are feasible", kNoGain);
         }
         monitor_.Progress((pass + (step + 1.0) / sequence_.num_steps()) / options_.passes);
       }
@@ -53,12 +50,13 @@ class Ascent {
                        .accepted = now < before,
                        .lambda = now < before ? 1.0 : 0.0});
       if (before - now < options_.tolerance) {
-        return monitor_.Finish(
+        return monitor_.FinishAgainstStart(
             Ending::kConverged,
             "a pass gained less than " + std::to_string(options_.tolerance) + " s", kNoGain);
       }
     }
-    return monitor_.Finish(Ending::kLimit, "all passes done, the last one still gained", kNoGain);
+    return monitor_.FinishAgainstStart(Ending::kLimit, "all passes done, the last one still gained",
+                                       kNoGain);
   }
 
  private:

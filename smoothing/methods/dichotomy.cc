@@ -23,8 +23,7 @@ class Bisection {
         walk_(problem.sequence(), options.start.value_or(problem.Start())) {}
 
   SmoothingResult Run() {
-    if (!monitor_.BeginFeasibly(problem_, walk_.parameters(),
-                                options_.start ? "the start" : "the planned motion")) {
+    if (!monitor_.BeginFeasibly(problem_, walk_.parameters())) {
       return Finish(monitor_.Refusal());
     }
     const int n = problem_.sequence().num_junctions();
@@ -33,8 +32,8 @@ class Bisection {
         const bool forward = options_.order == DichotomyOptions::Order::kLeftToRight;
         if (!BisectJunction(forward ? k : n - 1 - k)) {
           const bool tried = !monitor_.result().iterates.empty();
-          return Finish(tried ? Ending::kInterrupted : Ending::kNotRun,
-                        "stopped from outside; the overlaps found so far are feasible");
+          return Finish(tried ? monitor_.StopEnding() : Ending::kNotRun,
+                        monitor_.StopReason() + "; the overlaps found so far are feasible");
         }
         monitor_.Progress(static_cast<double>(pass * n + k + 1) / (options_.passes * n));
       }
@@ -49,7 +48,7 @@ class Bisection {
                                                              : options_.down_up_cap;
   }
 
-  // False when asked to stop.
+  // False when the search is to end.
   bool BisectJunction(int junction) {
     const size_t i = static_cast<size_t>(junction);
     JunctionResult& result = monitor_.result().junctions[i];
@@ -104,7 +103,7 @@ class Bisection {
   }
 
   SmoothingResult Finish(Ending ending, const std::string& message) {
-    return Finish(monitor_.Finish(ending, message, "; none could be made longer"));
+    return Finish(monitor_.FinishAgainstStart(ending, message, "; none could be made longer"));
   }
   SmoothingResult Finish(SmoothingResult result) const {
     for (size_t i = 0; i < result.junctions.size(); ++i) {

@@ -72,8 +72,9 @@ class Optimization {
     }
     Take(RunDichotomy(dichotomy, 0.0, 0.2));
     if (!monitor_.result().feasible || monitor_.stopped()) {
-      end_.stopped = monitor_.result().feasible;
-      return Finish(end_.stopped ? end_.Sentence() : start_message_);
+      NoteStop();
+      return monitor_.Finish(end_.Ending(),
+                             monitor_.result().feasible ? end_.Sentence() : start_message_);
     }
     start_ = monitor_.incumbent();
 
@@ -255,21 +256,18 @@ class Optimization {
       }
     }
     if (!Safest()) AddMultipliers(program, monitor_.incumbent(), &monitor_.result().junctions);
-    end_.stopped = monitor_.stopped();
+    NoteStop();
     std::string message = end_.Sentence();
     if (Safest() && !std::isfinite(monitor_.cost())) {
       message += "; no walk of at most " + std::to_string(program.duration_limit()) +
                  " s was proved, the dichotomy's is kept";
     }
-    return Finish(message);
+    return monitor_.Finish(end_.Ending(), message);
   }
 
-  // How the search ended is its own matter: it is measured against a dichotomy's walk, not against
-  // where that began.
-  SmoothingResult Finish(const std::string& message) {
-    SmoothingResult result = monitor_.Finish(end_.Ending(), message, "");
-    result.ending = end_.Ending();
-    return result;
+  void NoteStop() {
+    end_.stopped = monitor_.interrupted();
+    end_.deadline_passed = end_.deadline_passed || (monitor_.stopped() && !end_.stopped);
   }
 
   // A dichotomy's pass over all junctions, which counts if it ends with a shorter walk. Its

@@ -43,7 +43,7 @@ SmoothingResult ParetoCurve(const WalkProblem& problem, const OptimizerOptions& 
   const double planned = DurationOf(problem.Start());
   const SmoothingResult dichotomy = BeginWithDichotomy(problem, options.tolerance, monitor);
   if (!dichotomy.feasible || monitor.stopped()) {
-    return monitor.Finish(opt::Ending::kNotRun, dichotomy.message, "");
+    return monitor.Finish(opt::Ending::kNotRun, dichotomy.message);
   }
   const double own = DurationOf(dichotomy.parameters);
 
@@ -89,10 +89,7 @@ SmoothingResult ParetoCurve(const WalkProblem& problem, const OptimizerOptions& 
     return a.duration < b.duration;
   });
   const opt::Ending ending = opt::HasOwnResult(same.ending) ? weakest : same.ending;
-  SmoothingResult total =
-      monitor.Finish(ending, Sentence(options.solver, points.size(), least, most, same), "");
-  total.ending = ending;
-  return total;
+  return monitor.Finish(ending, Sentence(options.solver, points.size(), least, most, same));
 }
 
 }  // namespace halfstep

@@ -39,11 +39,10 @@ class Reference {
       monitor_.Begin(problem_, planned_);
       return monitor_.Finish(Ending::kNotRun,
                              "stretches are looked at apart from each other, which obstacles that "
-                             "move do not allow",
-                             "");
+                             "move do not allow");
     }
     const std::vector<HomotopyParameters> starts = Starts();
-    if (starts.empty()) return monitor_.Finish(Ending::kNotRun, refusal_, "");
+    if (starts.empty()) return monitor_.Finish(Ending::kNotRun, refusal_);
     for (size_t s = 0; s < starts.size() && !monitor_.stopped(); ++s) {
       Incumbent path(sequence_, Rules(), starts[s], DurationOf(starts[s]), monitor_.scratch());
       if (s == 0 && OverlapsOnly() && options_.global_values > 1) Round(GlobalChoices(), &path);
@@ -208,12 +207,12 @@ class Reference {
     if (exhausted_) message << "; the last corridor was not finished";
     const bool stopped = monitor_.stopped();
     const Ending ending = monitor_.result().iterates.empty() ? Ending::kNotRun
-                          : stopped                          ? Ending::kInterrupted
+                          : stopped                          ? monitor_.StopEnding()
                           : exhausted_                       ? Ending::kLimit
                                                              : Ending::kConverged;
-    return monitor_.Finish(
+    return monitor_.FinishAgainstStart(
         ending,
-        stopped ? "stopped from outside; the parameters are the best that were found feasible"
+        stopped ? monitor_.StopReason() + "; the parameters are the best that were found feasible"
                 : message.str(),
         "; no shorter than the shortest walk that it began with");
   }

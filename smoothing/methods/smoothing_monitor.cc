@@ -7,7 +7,8 @@ namespace halfstep {
 using opt::Ending;
 
 MonitorOptions SmoothingMonitor::Part(double from, double to) const {
-  MonitorOptions part{.stop = options_.stop, .stop_proof = options_.stop_proof};
+  MonitorOptions part{
+      .stop = options_.stop, .stop_proof = options_.stop_proof, .deadline = Remaining()};
   if (options_.progress) {
     part.progress = [this, from, to](double done) { Progress(from + (to - from) * done); };
   }
@@ -15,7 +16,6 @@ MonitorOptions SmoothingMonitor::Part(double from, double to) const {
 }
 
 void SmoothingMonitor::Begin(const WalkProblem& problem, const HomotopyParameters& start) {
-  stopwatch_ = {};
   problem_ = &problem;
   result_ = {};
   refusal_.clear();
@@ -29,8 +29,7 @@ void SmoothingMonitor::Begin(const WalkProblem& problem, const HomotopyParameter
   begun_ = result_.cost = duration_ = DurationOf(start);
 }
 
-bool SmoothingMonitor::BeginFeasibly(const WalkProblem& problem, const HomotopyParameters& start,
-                                     const std::string& what) {
+bool SmoothingMonitor::BeginFeasibly(const WalkProblem& problem, const HomotopyParameters& start) {
   Begin(problem, start);
   const SuperposedWalk walk(problem.sequence(), start);
   begun_ = result_.cost = duration_ = walk.duration();
@@ -40,7 +39,9 @@ bool SmoothingMonitor::BeginFeasibly(const WalkProblem& problem, const HomotopyP
     return false;
   }
   if (answer.verdict != Verdict::kFeasible) {
-    refusal_ = what + " is not feasible: " + problem.evaluator().Describe(answer.witness);
+    const bool planned = start == PlannedMotion(problem.sequence());
+    refusal_ = std::string(planned ? "the planned motion" : "the start") +
+               " is not feasible: " + problem.evaluator().Describe(answer.witness);
     return false;
   }
   result_.feasible = true;
@@ -71,8 +72,14 @@ void SmoothingMonitor::Record(SmoothingIterate iterate) {
   result_.iterates.push_back(std::move(iterate));
 }
 
-SmoothingResult SmoothingMonitor::Finish(Ending ending, const std::string& message,
-                                         const std::string& no_gain) {
+SmoothingResult SmoothingMonitor::FinishAgainstStart(Ending ending, const std::string& message,
+                                                     const std::string& no_gain) {
+  const bool gained = result_.cost < begun_;
+  if (ending == Ending::kNotRun || gained) return Finish(ending, message);
+  return Finish(Ending::kNoImprovement, message + no_gain);
+}
+
+SmoothingResult SmoothingMonitor::Finish(Ending ending, const std::string& message) {
   const ParameterTable table = problem_->Parameters();
   for (int i = 0; i < problem_->sequence().num_junctions(); ++i) {
     const size_t at = static_cast<size_t>(i);
@@ -84,10 +91,6 @@ SmoothingResult SmoothingMonitor::Finish(Ending ending, const std::string& messa
   }
   result_.ending = ending;
   result_.message = message;
-  if (ending != Ending::kNotRun && !(result_.cost < begun_)) {
-    result_.ending = Ending::kNoImprovement;
-    result_.message += no_gain;
-  }
   Count(scratch_->instants, scratch_->bodies.queries);
   scratch_.reset();
   result_.wall = Seconds();

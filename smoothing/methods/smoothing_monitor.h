@@ -17,33 +17,43 @@ struct MonitorOptions {
   std::function<void(double)> progress = {};  ///< called with the fraction done
   std::stop_token stop = {};                  ///< ends the search; what was found stays
   std::stop_token stop_proof = {};            ///< comes later; also ends a proof that is under way
-  double deadline = std::numeric_limits<double>::infinity();  ///< of the search [s]
+  /// Ends the search, too [s]: counted from when the monitor is made. A proof that is under way
+  /// then is finished.
+  double deadline = std::numeric_limits<double>::infinity();
   /// Called with every new incumbent.
   std::function<void(const HomotopyParameters&)> on_incumbent = {};
 };
 
 /// Keeps what one call of a smoother found so far: the incumbent, which is feasible in the sense of
 /// the problem's test, the candidates and the effort; knows when to stop. At any moment Finish()
-/// makes the result of it, so smoothers differ in how they search only.
+/// makes the result of it, so smoothers differ in how they search only. Its clock starts when it is
+/// made.
 class SmoothingMonitor {
  public:
   SmoothingMonitor() : SmoothingMonitor(MonitorOptions{}) {}
   explicit SmoothingMonitor(MonitorOptions options) : options_(std::move(options)) {}
-  /// Options for a smoother that is called within this one: it stops with this one, and its
-  /// progress is reported as the part [from, to] of this one's.
+  /// Options for a smoother that is called within this one: it stops with this one, at the same
+  /// deadline, and its progress is reported as the part [from, to] of this one's.
   MonitorOptions Part(double from, double to) const;
 
   /// Forgets everything and begins at `start`. The problem is borrowed until Finish().
   void Begin(const WalkProblem& problem, const HomotopyParameters& start);
   /// Begins and checks whether the walk of `start` keeps every margin for all its time. Returns
-  /// false when it does not or the check was stopped; the result is then Refusal(). `what` names
-  /// the start in its message: "the planned motion".
-  bool BeginFeasibly(const WalkProblem& problem, const HomotopyParameters& start,
-                     const std::string& what);
-  SmoothingResult Refusal() { return Finish(opt::Ending::kNotRun, refusal_, ""); }
+  /// false when it does not or the check was stopped; the result is then Refusal().
+  bool BeginFeasibly(const WalkProblem& problem, const HomotopyParameters& start);
+  SmoothingResult Refusal() { return Finish(opt::Ending::kNotRun, refusal_); }
 
-  bool stopped() const { return options_.stop.stop_requested(); }
+  /// Whether the search is to end: the caller asked for it, or the deadline has passed.
+  bool stopped() const { return interrupted() || Remaining() <= 0.0; }
+  bool interrupted() const { return options_.stop.stop_requested(); }  ///< the caller asked for it
   std::stop_token stop() const { return options_.stop; }
+  /// How a search ends that stopped() ended, and the words for it.
+  opt::Ending StopEnding() const {
+    return interrupted() ? opt::Ending::kInterrupted : opt::Ending::kDeadline;
+  }
+  std::string StopReason() const {
+    return interrupted() ? "stopped from outside" : "the deadline passed";
+  }
   double Seconds() const { return stopwatch_.Seconds(); }
   double Remaining() const { return options_.deadline - Seconds(); }  ///< to the deadline [s]
   void Progress(double done) const {
@@ -73,10 +83,12 @@ class SmoothingMonitor {
   /// The result so far, for smoothers to add to: junctions, evidence …
   SmoothingResult& result() { return result_; }
 
-  /// Makes the result, with this ending and message. When the incumbent costs no less than the
-  /// start, any ending but kNotRun becomes kNoImprovement, and `no_gain` is added to the message.
-  SmoothingResult Finish(opt::Ending ending, const std::string& message,
-                         const std::string& no_gain);
+  /// Makes the result, with this ending and message.
+  SmoothingResult Finish(opt::Ending ending, const std::string& message);
+  /// The same, but when the incumbent costs no less than the start, any ending but kNotRun becomes
+  /// kNoImprovement, and `no_gain` is added to the message.
+  SmoothingResult FinishAgainstStart(opt::Ending ending, const std::string& message,
+                                     const std::string& no_gain);
 
  private:
   MonitorOptions options_;

@@ -77,7 +77,7 @@ class Scan {
     }
     for (int i = 0; i < problem_.sequence().num_junctions(); ++i) {  // fixed ones may not fit
       if (start.overlaps[static_cast<size_t>(i)] >
-          NaturalOverlapBound(problem_.sequence(), start.durations, i)) {
+          NaturalOverlapBound(problem_.sequence(), start.durations, i) + kOverlapTolerance) {
         return;
       }
     }
@@ -111,15 +111,16 @@ class Scan {
   }
 
   SmoothingResult Finish() {
-    // Also when interrupted: there is no feasible walk to keep.
-    if (!found_) return monitor_.Finish(Ending::kNotRun, refusal_, "");
+    // Also when stopped: there is no feasible walk to keep.
+    if (!found_) return monitor_.Finish(Ending::kNotRun, refusal_);
     if (!planned_feasible_) monitor_.DropStart();
     std::ostringstream message;
-    message << (monitor_.stopped() ? "stopped from outside; " : "") << "best of " << points_.size()
-            << " feasible grid points: durations times " << best_.duration << ", heights times "
-            << best_.height;
-    return monitor_.Finish(monitor_.stopped() ? Ending::kInterrupted : Ending::kConverged,
-                           message.str(), "; no shorter than the planned motion");
+    message << (monitor_.stopped() ? monitor_.StopReason() + "; " : "") << "best of "
+            << points_.size() << " feasible grid points: durations times " << best_.duration
+            << ", heights times " << best_.height;
+    return monitor_.FinishAgainstStart(
+        monitor_.stopped() ? monitor_.StopEnding() : Ending::kConverged, message.str(),
+        "; no shorter than the planned motion");
   }
 
   const WalkProblem& problem_;

@@ -42,7 +42,6 @@ struct ParameterBoundKey {
 struct ParameterFamilyTraits {
   std::string_view name;     ///< in YAML and messages: "overlap"
   std::string_view unit;     ///< "s"; "": a number
-  std::string_view owner;    ///< what the index counts, from 1 in files: "junction"
   std::string_view table;    ///< the CSV that holds the values, one row a junction or half-step …
   std::string_view column;   ///< … and its column there,
   int rank;                  ///< after those of the same table with a smaller one

@@ -58,8 +58,9 @@ class ReplayTest : public testing::Test {
   }
 
   const std::string file_ = (RobotsFolder() / "hrp2.yaml").string();
-  const RobotModel robot_ = LoadRobot(file_);
-  const RobotTree tree_ = LoadRobotTree(file_);
+  const WholeRobot whole_ = LoadWholeRobot(file_);
+  const RobotModel& robot_ = whole_.model;
+  const RobotTree& tree_ = whole_.tree;
 };
 
 #define SKIP_WITHOUT_SIMULATION() \

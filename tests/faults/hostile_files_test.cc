@@ -17,10 +17,10 @@ namespace {
 using testing::HasSubstr;
 namespace fs = std::filesystem;
 
-const std::string kWalk = ShippedConfig("fig3_two_half_steps");
+const std::string kShortWalk = ShippedConfig("fig3_two_half_steps");
 
 void MakeRun(const TemporaryFolder& place, const std::string& name) {
-  ASSERT_EQ(Halfstep(place.path(), {"run", kWalk, "--out", name, "--quiet", "--set",
+  ASSERT_EQ(Halfstep(place.path(), {"run", kShortWalk, "--out", name, "--quiet", "--set",
                                     "output.period_s=0.1", "--set", "smoothing.methods=[]"})
                 .status,
             kSuccess);
@@ -36,9 +36,9 @@ TEST(HostileFiles, AFifoIsRefusedWhereverAFileIsNamed) {
       {"run", "fifo"},
       {"bake", "fifo"},
       {"sweep", "fifo"},
-      {"run", kWalk, "--set", "robot=" + (place / "fifo").string()},
-      {"run", kWalk, "--set", "scene=" + (place / "fifo").string()},
-      {"run", kWalk, "--set", "scene=" + (place / "scene.yaml").string()},
+      {"run", kShortWalk, "--set", "robot=" + (place / "fifo").string()},
+      {"run", kShortWalk, "--set", "scene=" + (place / "fifo").string()},
+      {"run", kShortWalk, "--set", "scene=" + (place / "scene.yaml").string()},
   };
   for (const std::vector<std::string>& command : commands) {
     const Outcome outcome = Halfstep(place.path(), command);
@@ -103,7 +103,7 @@ TEST(HostileFiles, NoOutputFollowsALink) {
   WriteText(place / "thesis", "years of work");
   fs::create_symlink("thesis", place / "planted.html");
   std::vector<std::vector<std::string>> commands = {
-      {"run", kWalk, "--out", "link", "--overwrite"},
+      {"run", kShortWalk, "--out", "link", "--overwrite"},
       {"smooth", "precious", "--out", "link", "--overwrite"},
       {"certify", "link"},
       {"compare", "precious", "--out", "planted.html", "--overwrite"},

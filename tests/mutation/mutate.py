@@ -125,6 +125,8 @@ class Build:
         self.objects = {}  # file: (object, archive of the library that it is of)
 
     def compile_file(self, file, source):
+        if file not in self.compile:
+            sys.exit(f"{file} is not compiled by itself (configure with -DCMAKE_UNITY_BUILD=OFF)")
         command = self.compile[file]
         words = shlex.split(command["command"])
         built = words[words.index("-o") + 1]

@@ -7,10 +7,7 @@
 namespace halfstep::oracle {
 namespace {
 
-constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr std::array<const char*, 2> kFeet = {"left foot", "right foot"};
-
-Bracket Exactly(double value) { return {value, value}; }
 
 std::array<Eigen::Vector2d, 4> Corners(const Eigen::Vector4d& foot, const Eigen::Vector2d& size) {
   const Eigen::Vector2d ahead(std::cos(foot[3]), std::sin(foot[3])), left(-ahead.y(), ahead.x());

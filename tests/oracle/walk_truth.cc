@@ -7,9 +7,6 @@ namespace halfstep::oracle {
 namespace {
 
 constexpr double kCoarse = 0.01, kFine = 5e-5;
-constexpr double kNever = std::numeric_limits<double>::infinity();
-
-Bracket Exactly(double value) { return {value, value}; }
 
 Eigen::Isometry3d Upright(double x, double y, double z, double yaw) {
   Eigen::Isometry3d X = Eigen::Isometry3d::Identity();

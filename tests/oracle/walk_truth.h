@@ -15,6 +15,12 @@
 
 namespace halfstep::oracle {
 
+/// A margin that nothing limits.
+inline constexpr double kNever = std::numeric_limits<double>::infinity();
+
+/// A number that is known.
+inline Bracket Exactly(double value) { return {value, value}; }
+
 /// What is demanded, by the names that margins have in YAML; and limits.
 struct Demands {
   std::map<std::string, double> margin;

@@ -16,14 +16,14 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-double Uniform(std::mt19937* random, double lower, double upper) {
+double Between(std::mt19937* random, double lower, double upper) {
   return std::uniform_real_distribution<double>(lower, upper)(*random);
 }
 
 Isometry3d RandomPose(double reach, std::mt19937* random) {
-  const double x = Uniform(random, -reach, reach), y = Uniform(random, -reach, reach);
-  const double roll = Uniform(random, -1, 1), yaw = Uniform(random, -3, 3);
-  return Eigen::Translation3d(x, y, Uniform(random, 0, 0.5)) *
+  const double x = Between(random, -reach, reach), y = Between(random, -reach, reach);
+  const double roll = Between(random, -1, 1), yaw = Between(random, -3, 3);
+  return Eigen::Translation3d(x, y, Between(random, 0, 0.5)) *
          Eigen::AngleAxisd(yaw, Vector3d::UnitZ()) * Eigen::AngleAxisd(roll, Vector3d::UnitX());
 }
 
@@ -40,7 +40,7 @@ Scene RandomRoom(int count, std::mt19937* random) {
   for (int i = 0; i < count; ++i) {
     Obstacle obstacle;
     obstacle.name = "obstacle " + std::to_string(i);
-    const double r = Uniform(random, 0.01, 0.1), l = Uniform(random, 0.05, 0.4);
+    const double r = Between(random, 0.01, 0.1), l = Between(random, 0.05, 0.4);
     if (i % 5 == 0) obstacle.shape = Box{{r, l, 0.1}};
     if (i % 5 == 1) obstacle.shape = Cylinder{r, l};
     if (i % 5 == 2) obstacle.shape = Capsule{r, l};

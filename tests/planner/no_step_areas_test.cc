@@ -8,6 +8,7 @@
 #include <random>
 
 #include "planner/scene/simple_polygon.h"
+#include "tests/draws.h"
 
 namespace halfstep {
 namespace {
@@ -45,7 +46,7 @@ TEST(PolygonDistance, IsThatOfTheNearestPointsOfTheBoundaries) {
   std::mt19937 random(401);
   std::uniform_real_distribution<double> place(-0.8, 0.8);
   int apart = 0, touching = 0;
-  for (int i = 0; i < 200; ++i) {
+  for (int i = 0; i < Draws(200); ++i) {
     const Matrix2Xd a = DrawStar(&random, {0, 0});
     const Matrix2Xd b = DrawStar(&random, {place(random), place(random)});
     const double distance = PolygonDistance(a, b);
@@ -66,8 +67,8 @@ TEST(PolygonDistance, IsThatOfTheNearestPointsOfTheBoundaries) {
     EXPECT_LE(distance, least);
     EXPECT_GE(distance, least - 0.8 / kPoints);
   }
-  EXPECT_GT(apart, 50);
-  EXPECT_GT(touching, 50);
+  EXPECT_GT(apart, Draws(50));
+  EXPECT_GT(touching, Draws(50));
 }
 
 TEST(PolygonDistance, OfPolygonsThatShareAPointIsMinusTheDepth) {

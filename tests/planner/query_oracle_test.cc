@@ -13,6 +13,7 @@
 #include "planner/collision/triangle_tree.h"
 #include "planner/swept/box_tree_query.h"
 #include "planner/swept/swept_volume_query.h"
+#include "tests/draws.h"
 #include "tests/planner/swept_volume_draws.h"
 #include "wpg/geometry/support_polygon.h"
 
@@ -64,7 +65,7 @@ TEST(QueryOracle, AnswersAsTheSolidBoxesDo) {
     poses.push_back(Posed(Eigen::Matrix3d::Identity(), 0.5 * (lower + upper)));
   }
   int refused = 0, free = 0;
-  for (int trial = 0; trial < 240; ++trial) {
+  for (int trial = 0; trial < 12 * Draws(20); ++trial) {
     const Shape shape = DrawShape(trial % 6, &draw);
     const CollisionShape obstacle(shape);
     const Eigen::Matrix3d R = draw.Turn(trial % 12 < 6);
@@ -111,8 +112,8 @@ TEST(QueryOracle, AnswersAsTheSolidBoxesDo) {
     }
     if (distance_at(out) > 2e-5) free += ask(out);
   }
-  EXPECT_GT(refused, 150);
-  EXPECT_GT(free, 100);
+  EXPECT_GT(refused, Draws(150));
+  EXPECT_GT(free, Draws(100));
 }
 
 // One solid box; round bodies and triangles beyond each of its six faces meet it when it is larger

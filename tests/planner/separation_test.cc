@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "planner/collision/convex_distance.h"
+#include "tests/draws.h"
 #include "tests/planner/brute_force_distance.h"
 
 namespace halfstep {
@@ -132,7 +133,7 @@ TEST(Separation, WitnessesAndNormalOfDisjointBodiesFit) {
 TEST(Separation, OfPolytopesNeverExceedsTheTruthAndMeetsIt) {
   Draw draw(12);
   int disjoint = 0, overlapping = 0;
-  for (int i = 0; i < 300; ++i) {
+  for (int i = 0; i < Draws(300); ++i) {
     const ConvexBody a = draw.Hull(), b = i % 2 ? draw.Hull() : draw.Box();
     const Isometry3d X_Wa = draw.Pose(0.3);
     Isometry3d X_Wb = draw.Pose(0.3);
@@ -150,15 +151,15 @@ TEST(Separation, OfPolytopesNeverExceedsTheTruthAndMeetsIt) {
     EXPECT_LE(s.distance, truth + 1e-12);
     EXPECT_GE(s.distance, truth - (apart ? 1e-8 : 0.01));
   }
-  EXPECT_GT(disjoint, 100);
-  EXPECT_GT(overlapping, 40);
+  EXPECT_GT(disjoint, Draws(100));
+  EXPECT_GT(overlapping, Draws(40));
 }
 
 // A cylinder holds an inscribed prism and lies in a circumscribed one.
 TEST(Separation, OfCylindersLiesBetweenThoseOfPrisms) {
   Draw draw(13);
   constexpr int kSides = 24;
-  for (int i = 0; i < 30; ++i) {
+  for (int i = 0; i < Draws(30); ++i) {
     const double radius = draw.Uniform(0.02, 0.2), length = draw.Uniform(0.02, 0.4);
     const auto prism = [&](double r) {
       Eigen::Matrix3Xd points(3, 2 * kSides);
@@ -332,7 +333,7 @@ TEST(Separation, FarVerticesOfAMeshNeverAddToADistance) {
     const Isometry3d X = At(0, 0, 0);
     const TriangleMesh near{mesh.vertices.leftCols(8), mesh.triangles.leftCols(12)};
     int apart = 0;
-    for (int i = 0; i < 200; ++i) {
+    for (int i = 0; i < Draws(200); ++i) {
       const ConvexBody body = MakeBox({0.1, 0.1, 0.3});
       Isometry3d X_WB = draw.Pose(0.1);
       X_WB.translation() += Vector3d(i % 2 ? -0.25 : 0.25, 0, 0.15);
@@ -349,7 +350,7 @@ TEST(Separation, FarVerticesOfAMeshNeverAddToADistance) {
       apart += found > 0;
     }
     if (far < 1e8) {
-      EXPECT_GT(apart, 100) << far;
+      EXPECT_GT(apart, Draws(100)) << far;
     }
     // Through the plate.
     EXPECT_LE(Distance(CollisionShape(MakeBox({0.1, 0.1, 0.3})), At(0, 0, 0.1), shape, X), 0);

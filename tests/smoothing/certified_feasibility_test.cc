@@ -139,7 +139,8 @@ TEST(CertifiedFeasibility, IsNeverContradictedBySampling) {
     ++walks;
     const SuperposedWalk walk(drawn->sequence, drawn->parameters);
     const Verdict verdict = Certified(robot, drawn->scene, {}, walk).verdict;
-    const Verdict sampled = Sampled(robot, drawn->scene, {}, walk, 1e-3).verdict;
+    const double period = kSanitized ? 1e-2 : 1e-3;
+    const Verdict sampled = Sampled(robot, drawn->scene, {}, walk, period).verdict;
     certified += verdict == Verdict::kFeasible;
     if (verdict == Verdict::kFeasible) {
       EXPECT_EQ(sampled, Verdict::kFeasible) << walks;

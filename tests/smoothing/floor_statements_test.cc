@@ -13,12 +13,6 @@
 namespace halfstep {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-const Margin& Of(const MarginSet& margins, MarginFamily family) {
-  return margins[static_cast<size_t>(family)];
-}
-
 // Nothing is demanded but of one family.
 MarginLimits Only(MarginFamily family, double demanded) {
   MarginLimits limits;
@@ -88,7 +82,7 @@ TEST(LeastHeight, IsNeverAboveTheSoleAndNeverBelowTheFloor) {
         if (part > 0) a = draw.Uniform(begin, end), b = draw.Uniform(a, end);
         const double least = walk.LeastHeight(step, a, b);
         const int z = FootIndex(walk.half_step(2 * step).swing()) + 2;
-        double truth = kInfinity;
+        double truth = kUnlimited;
         for (int k = 0; k <= 60; ++k) {
           truth = std::min(truth, walk.At(a + (b - a) * k / 60.0).value[z]);
         }
@@ -110,14 +104,14 @@ TEST(LeastHeight, OfAnOverlapBeyondItsBoundIsBelowTheFloor) {
   const HalfStepSequence sequence = TwoSteps(Hrp2());
   SuperposedWalk walk(sequence, Overlapped(sequence, 1.0));
   walk.SetOverlap(0, walk.parameters().overlaps[0] + 0.9 * kOverlapTolerance);
-  double lowest = kInfinity;
+  double lowest = kUnlimited;
   for (int k = 0; k <= 4000; ++k) {
     lowest = std::min(lowest, walk.At(walk.duration() * k / 4000.0).value[kRightZ]);
   }
   EXPECT_LT(lowest, -1e-14);
   EXPECT_GT(lowest, -kSoleRounding);
   const std::vector<double> knots = KnotsInside(walk, {0.0, walk.duration()});
-  double least = kInfinity;
+  double least = kUnlimited;
   for (size_t k = 0; k + 1 < knots.size(); ++k) {
     if (walk.StepInAir(walk.Locate(0.5 * (knots[k] + knots[k + 1]))) != 0) continue;
     least = std::min(least, walk.LeastHeight(0, knots[k], knots[k + 1]));
@@ -136,7 +130,7 @@ TEST(Ground, IsTheHeightOfTheLowestPointOfBodiesThatAreOnNoFoot) {
     const LocalTime at = walk.Locate(draw.Uniform(0, walk.duration()));
     const Posture posture = SolvePosture(robot, walk.At(at).value);
     ASSERT_TRUE(posture.reachable);
-    double lowest = kInfinity;
+    double lowest = kUnlimited;
     int which = -1;
     for (size_t b = 0; b < robot.bodies.size(); ++b) {
       const RobotBody& body = robot.bodies[b];
@@ -163,7 +157,7 @@ TEST(Ground, AFootThatTouchesTheFloorHasNoLimit) {
   const MarginEvaluator evaluator(robot, {}, Only(MarginFamily::kGround, 0.0));
   MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
   EXPECT_EQ(Of(SampleMargins(evaluator, walk, 0.01, &scratch), MarginFamily::kGround).value,
-            kInfinity);
+            kUnlimited);
   Certificate certificate;
   EXPECT_EQ(CertifiedFeasibility(evaluator, {}).Certify(walk, &scratch, &certificate).verdict,
             Verdict::kFeasible);
@@ -327,7 +321,7 @@ TEST(NoStep, OnlyASoleThatStandsBesideAllAreasIsCertified) {
   };
   Certificate certificate;
   EXPECT_EQ(certify(1e-6, 0.0, &certificate).verdict, Verdict::kFeasible);
-  double least = kInfinity;
+  double least = kUnlimited;
   for (const CertificateRow& row : certificate) {
     if (row.family != MarginFamily::kNoStep) continue;
     EXPECT_EQ(row.count, 2);
@@ -391,7 +385,7 @@ TEST(NoStep, CountsForSolesThatStandOnly) {
     const Margin margin = Of(evaluator.At(walk, at, &scratch), MarginFamily::kNoStep);
     EXPECT_GT(margin.value, 0.0);
     EXPECT_TRUE(std::isfinite(margin.value));  // of the left sole, when the right one is in the air
-    EXPECT_EQ(Of(free.At(walk, at, &other), MarginFamily::kNoStep).value, kInfinity);
+    EXPECT_EQ(Of(free.At(walk, at, &other), MarginFamily::kNoStep).value, kUnlimited);
     const Pose2 right = FootPose(walk.At(at).value, Side::kRight);
     above += NoStepAreas(scene, robot.sole_outline).NearestTo(right).distance < 0.0;
   }

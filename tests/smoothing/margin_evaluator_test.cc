@@ -14,12 +14,6 @@
 namespace halfstep {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-const Margin& Of(const MarginSet& margins, MarginFamily family) {
-  return margins[static_cast<size_t>(family)];
-}
-
 // One step of the right foot, 0.2 m ahead.
 HalfStepSequence OneStep(const RobotModel& robot) {
   return MakeSequence(StandingFeet(), {{.side = Side::kRight, .X_WF = {0.2, -0.105, 0.1}}}, 0.24,
@@ -73,7 +67,7 @@ TEST_F(MarginEvaluatorTest, FloorMarginIsTheHeightOfTheSoleWhileItMovesHorizonta
         EXPECT_EQ(floor.subject, Index(Side::kRight));
         ++moving;
       } else {
-        EXPECT_EQ(floor.value, kInfinity) << t;
+        EXPECT_EQ(floor.value, kUnlimited) << t;
       }
     }
     EXPECT_GT(moving, 50);
@@ -90,15 +84,15 @@ TEST_F(MarginEvaluatorTest, FootSpeedsAreThoseOfTheSwingSole) {
     const LocalTime at = walk.Locate(t);
     const MarginSet margins = At(walk, at, {}, limits);
     if (!walk.InAir(at, Side::kRight)) {
-      EXPECT_EQ(Of(margins, MarginFamily::kFootSpeed).value, kInfinity);
+      EXPECT_EQ(Of(margins, MarginFamily::kFootSpeed).value, kUnlimited);
       continue;
     }
     const Eigen::Vector4d rate =
         (walk.At(t + h).value - walk.At(t - h).value).segment<4>(kRightX) / (2 * h);
     EXPECT_NEAR(Of(margins, MarginFamily::kFootSpeed).value, 0.9 - rate.head<3>().norm(), 1e-6);
     EXPECT_NEAR(Of(margins, MarginFamily::kFootYawRate).value, 1.5 - std::abs(rate[3]), 1e-6);
-    EXPECT_EQ(Of(At(walk, at, {}, none), MarginFamily::kFootSpeed).value, kInfinity);
-    EXPECT_EQ(Of(At(walk, at, {}, none), MarginFamily::kFootYawRate).value, kInfinity);
+    EXPECT_EQ(Of(At(walk, at, {}, none), MarginFamily::kFootSpeed).value, kUnlimited);
+    EXPECT_EQ(Of(At(walk, at, {}, none), MarginFamily::kFootYawRate).value, kUnlimited);
   }
 }
 
@@ -109,7 +103,7 @@ TEST_F(MarginEvaluatorTest, JointMarginsAreTheLeastOverAllTwelveJoints) {
     Posture posture = SolvePosture(robot_, walk_.At(t).value);
     ASSERT_TRUE(posture.reachable);
     ASSERT_TRUE(SolveJointSpeeds(robot_, walk_.At(t), &posture));
-    double joint = kInfinity, speed = kInfinity;
+    double joint = kUnlimited, speed = kUnlimited;
     for (size_t s = 0; s < 2; ++s) {
       for (int j = 0; j < 6; ++j) {
         const LegJoint& limit = robot_.legs[s].joints[static_cast<size_t>(j)];
@@ -135,7 +129,7 @@ TEST_F(MarginEvaluatorTest, OutOfReachEveryMarginOfTheBodyIsLost) {
   EXPECT_LT(Of(margins, MarginFamily::kReach).value, 0.0);
   for (MarginFamily family : {MarginFamily::kJoint, MarginFamily::kJointSpeed,
                               MarginFamily::kClearance, MarginFamily::kSelfClearance}) {
-    EXPECT_EQ(Of(margins, family).value, -kInfinity) << Name(family);
+    EXPECT_EQ(Of(margins, family).value, -kUnlimited) << Name(family);
   }
   const MarginEvaluator evaluator(robot_, {}, {});
   MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
@@ -152,7 +146,7 @@ TEST_F(MarginEvaluatorTest, ClearanceFromAWallByHand) {
   for (int n = 0; n <= 40; ++n) {
     const double t = walk_.duration() * n / 40;
     Posture posture = SolvePosture(robot_, walk_.At(t).value);
-    double foremost = -kInfinity;
+    double foremost = -kUnlimited;
     for (const RobotBody& body : robot_.bodies) {
       const Eigen::Isometry3d& X = posture.OfBody(body);
       foremost = std::max(foremost,

@@ -15,19 +15,19 @@ namespace halfstep {
 namespace {
 
 // Bounds at work on random intervals of random walks of one robot.
-struct Tally {
+struct BoundTally {
   long intervals = 0;
   long bounded = 0;
   long compared = 0;
   std::array<double, kNumBounded> excess;  // largest truth − bound
 };
 
-Tally CompareRandomIntervals(const RobotModel& robot, int intervals, unsigned seed) {
+BoundTally CompareRandomIntervals(const RobotModel& robot, int intervals, unsigned seed) {
   constexpr int kIntervalsPerWalk = 20;
   const std::vector<Eigen::Matrix3Xd> points = OuterPoints(robot);
   const MotionBounds bounds(robot);
   WalkDraw draw(seed);
-  Tally tally;
+  BoundTally tally;
   tally.excess.fill(-1.0);
   IntervalMotion motion;
   for (int i = 0; i < intervals; i += kIntervalsPerWalk) {
@@ -58,7 +58,7 @@ Tally CompareRandomIntervals(const RobotModel& robot, int intervals, unsigned se
 TEST(MotionBounds, AreNeverExceededOnRandomIntervals) {
   unsigned seed = 1;
   for (const RobotModel& robot : RobotsOfAllKinds()) {
-    const Tally tally = CompareRandomIntervals(robot, Draws(2000), seed++);
+    const BoundTally tally = CompareRandomIntervals(robot, Draws(2000), seed++);
     // A tenth of the intervals are longer than 90 ms, and some walks nearly stretch a leg.
     EXPECT_GT(tally.bounded, 0.85 * static_cast<double>(tally.intervals)) << robot.name;
     for (size_t kind = 0; kind < kNumBounded; ++kind) {

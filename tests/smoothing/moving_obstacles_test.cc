@@ -55,7 +55,7 @@ TEST_F(MovingObstacles, ACertificateLeavesRoomForTheirMotionInEveryInterval) {
     EXPECT_GE(rows.size(), rows_at_rest);
   }
   // So fast that no interval is short enough.
-  const CertifiedFeasibility test(MarginEvaluator(Hrp2(), BallOf(1e5), {}), {});
+  const CertifiedFeasibility test(MarginEvaluator(Hrp2(), BallOf(1e5), {}), {.resolution = 0.01});
   MarginEvaluator::Scratch scratch = test.evaluator().MakeScratch();
   EXPECT_EQ(test.Check(walk, {0.0, walk.duration()}, &scratch).verdict, Verdict::kUndecided);
 }

@@ -4,11 +4,16 @@
 #include <cmath>
 #include <vector>
 
+#include "smoothing/margins/margin.h"
 #include "smoothing/walk/parameter_table.h"
 #include "smoothing/walk/superposed_walk.h"
 #include "tests/wpg/sequence_draw.h"
 
 namespace halfstep {
+
+inline const Margin& Of(const MarginSet& margins, MarginFamily family) {
+  return margins[static_cast<size_t>(family)];
+}
 
 /// Random walks, reproducible from the seed.
 class WalkDraw : public SequenceDraw {

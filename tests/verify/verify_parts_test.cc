@@ -158,6 +158,39 @@ TEST(CheckOverlaps, AcceptsNothingBeyondTheNaturalBounds) {
   }
 }
 
+// One parameter of each family, fixed at its value and as planned, and what a walk says that moved
+// it.
+TEST(CheckFixed, NamesEveryParameterThatMoved) {
+  std::mt19937 random(6);
+  const HalfStepSequence& sequence = Fig4().sequence;
+  HomotopyParameters at = Drawn(sequence, 0, &random);
+  at.overlaps[1] = 0.01;
+  const std::vector<HalfStepRow> half_steps = RowsOf(SuperposedWalk(sequence, at));
+  const std::vector<OverlapRow> overlaps = OverlapsOf(at);
+  const auto reasons = [&](const std::vector<FixedConfig>& fixed) {
+    Findings findings;
+    CheckFixed(half_steps, overlaps, sequence, fixed, &findings);
+    return findings.reasons();
+  };
+  EXPECT_THAT(reasons({{"overlap", 2, at.overlaps[1]},
+                       {"duration", 3, at.durations[2]},
+                       {"height_scale", 2, at.height_scales[1]}}),
+              testing::IsEmpty());
+  EXPECT_THAT(reasons({{"overlap", 2, at.overlaps[1] + 1e-6}}),
+              testing::ElementsAre(HasSubstr("overlap 2 is")));
+  EXPECT_THAT(reasons({{"duration", 3, at.durations[2] + 1e-6}}),
+              testing::ElementsAre(HasSubstr("duration 3 is")));
+  EXPECT_THAT(reasons({{"height_scale", 2, at.height_scales[1] + 1e-6}}),
+              testing::ElementsAre(HasSubstr("height_scale 2 is")));
+  const std::string planned = Text("fixed at %.9g", sequence.half_steps[2].half_step.duration);
+  EXPECT_THAT(
+      reasons({{"overlap", 2, {}}, {"duration", 3, {}}, {"height_scale", 2, {}}}),
+      testing::ElementsAre(HasSubstr("fixed at 0"), HasSubstr(planned), HasSubstr("fixed at 1")));
+  EXPECT_THAT(reasons({{"via_point", 1, {}}, {"overlap", 400, {}}}),
+              testing::ElementsAre(HasSubstr("via_point 1 is not known"),
+                                   HasSubstr("overlap 400 is not known")));
+}
+
 TEST(Distances, BoundingVolumesAreNeverFartherApartThanTheSolids) {
   Scene scene = Fig5().scene;
   scene.obstacles.push_back({"ball", MakeSphere(0.2), Eigen::Isometry3d::Identity()});

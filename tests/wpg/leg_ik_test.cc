@@ -9,14 +9,13 @@
 #include <random>
 
 #include "tests/wpg/generated_robots.h"
+#include "tests/wpg/hrp2.h"
 
 namespace halfstep {
 namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
-
-const std::string kHrp2 = HALFSTEP_SOURCE_DIR "/wpg/robots/hrp2.yaml";
 
 double Difference(const Isometry3d& a, const Isometry3d& b) {
   return (a.matrix() - b.matrix()).cwiseAbs().maxCoeff();

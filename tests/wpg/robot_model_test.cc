@@ -14,6 +14,7 @@
 
 #include "tests/fixture_check.h"
 #include "tests/wpg/generated_robots.h"
+#include "tests/wpg/hrp2.h"
 #include "wpg/files/input_error.h"
 #include "wpg/robot/leg_ik.h"
 #include "wpg/robot/urdf_file.h"
@@ -25,7 +26,6 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using testing::HasSubstr;
 
-const std::string kHrp2 = HALFSTEP_SOURCE_DIR "/wpg/robots/hrp2.yaml";
 constexpr double kDegree = std::numbers::pi / 180;
 
 std::string Replaced(std::string text, const std::string& from, const std::string& to) {

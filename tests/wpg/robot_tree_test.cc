@@ -3,14 +3,13 @@
 #include <gtest/gtest.h>
 
 #include "tests/temporary_folder.h"
+#include "tests/wpg/hrp2.h"
 
 namespace halfstep {
 namespace {
 
-const std::string kHrp2 = HALFSTEP_SOURCE_DIR "/wpg/robots/hrp2.yaml";
-
 TEST(RobotTree, HoldsEveryLinkAndTheStandingPosture) {
-  const RobotTree tree = LoadRobotTree(kHrp2);
+  const RobotTree tree = LoadWholeRobot(kHrp2).tree;
   const RobotModel robot = LoadRobot(kHrp2);
   double mass = 0.0;
   for (const UrdfLink& link : tree.urdf.links) {
@@ -39,7 +38,7 @@ TEST(RobotTree, NamesAreUtf8WhateverTheFileSaysOfItsEncoding) {
 }
 
 TEST(RobotTree, JointAnglesAreTheLegsAndThePosture) {
-  const RobotTree tree = LoadRobotTree(kHrp2);
+  const RobotTree tree = LoadWholeRobot(kHrp2).tree;
   const RobotModel robot = LoadRobot(kHrp2);
   const std::vector<double> standing =
       JointAngles(robot, tree, {robot.legs[0].standing_q, robot.legs[1].standing_q});

@@ -5,23 +5,12 @@
 #include <random>
 #include <vector>
 
+#include "tests/draws.h"
+#include "tests/wpg/hrp2.h"
 #include "wpg/geometry/footprint.h"
 #include "wpg/motion/half_step_sequence.h"
-#include "wpg/robot/robot_model.h"
 
 namespace halfstep {
-
-/// Under AddressSanitizer, where tests do less.
-#ifdef __SANITIZE_ADDRESS__
-constexpr bool kSanitized = true;
-#else
-constexpr bool kSanitized = false;
-#endif
-
-/// `count`, or a tenth of it (at least 1) when sanitized.
-constexpr int Draws(int count) { return kSanitized ? std::max(1, count / 10) : count; }
-
-inline RobotModel Hrp2() { return LoadRobot(HALFSTEP_SOURCE_DIR "/wpg/robots/hrp2.yaml"); }
 
 /// Soles side by side, 0.21 m apart.
 inline std::array<Footprint, 2> StandingFeet() { return {Pose2{0, 0.105, 0}, Pose2{0, -0.105, 0}}; }

@@ -1,6 +1,8 @@
 #include "wpg/robot/robot_tree.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <utility>
 
 #include "wpg/files/number_text.h"
 #include "wpg/files/yaml_fields.h"
@@ -8,16 +10,19 @@
 
 namespace halfstep {
 
-RobotTree LoadRobotTree(const std::string& yaml_path) {
+WholeRobot LoadWholeRobot(const std::string& yaml_path) {
+  const std::string text = ReadYamlFile(yaml_path);
   RobotFile file;
-  ReadYaml(yaml_path, {}, [&file](Fields& fields) { DeclareFields(fields, &file); });
+  ReadYamlText(text, yaml_path, std::filesystem::path(yaml_path).parent_path().string(), {},
+               [&file](Fields& fields) { DeclareFields(fields, &file); });
+  RobotModel model = ParseRobot(yaml_path, text, &*file.urdf);
   RobotTree tree{std::move(*file.urdf), -1, {}, {}};
   tree.waist = tree.urdf.FindLink(file.waist_link);
   for (size_t side = 0; side < 2; ++side) {
     tree.feet[side] = tree.urdf.FindLink(file.legs[side].foot_link);
   }
   for (const double degrees : file.posture_deg) tree.posture.push_back(DegreesToRadians(degrees));
-  return tree;
+  return {std::move(model), std::move(tree)};
 }
 
 std::vector<double> JointAngles(const RobotModel& robot, const RobotTree& tree,

@@ -18,8 +18,14 @@ struct RobotTree {
   std::vector<double> posture;  ///< standing posture by joint index [rad]
 };
 
-/// Reads a robot file and its URDF. Throws InputError. LoadRobot checks more of the same file.
-RobotTree LoadRobotTree(const std::string& yaml_path);
+/// A robot as walking needs it, with all of its URDF.
+struct WholeRobot {
+  RobotModel model;
+  RobotTree tree;
+};
+
+/// LoadRobot() and the tree, of one reading of the robot file and its URDF. Throws InputError.
+WholeRobot LoadWholeRobot(const std::string& yaml_path);
 
 /// Angles of all joints by index [rad]: `q` for the legs' by Index(Side), the standing posture for
 /// the others.

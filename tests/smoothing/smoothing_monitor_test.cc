@@ -1,0 +1,139 @@
+#include "smoothing/methods/smoothing_monitor.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "smoothing/methods/smoother_registry.h"
+#include "tests/smoothing/fake_feasibility.h"
+#include "tests/smoothing/smoothed.h"
+#include "tests/smoothing/test_walks.h"
+
+namespace halfstep {
+namespace {
+
+using opt::Ending;
+using testing::HasSubstr;
+
+class SmoothingMonitorTest : public testing::Test {
+ protected:
+  FakeFeasibility Always(Verdict verdict) const {
+    return {evaluator_, [verdict](const HomotopyParameters&) { return verdict; }};
+  }
+  // The planned motion with a shorter last half-step.
+  HomotopyParameters Shorter() const {
+    HomotopyParameters parameters = PlannedMotion(sequence_);
+    parameters.durations.back() *= 0.9;
+    return parameters;
+  }
+
+  const MarginEvaluator evaluator_{Hrp2(), {}, {}};
+  const HalfStepSequence sequence_ = WalkDraw(80).Sequence(3);
+};
+
+TEST_F(SmoothingMonitorTest, AStartThatIsNotProvedIsRefusedWithItsWitness) {
+  for (const Verdict verdict : {Verdict::kViolated, Verdict::kUndecided}) {
+    const FakeFeasibility test = Always(verdict);
+    const WalkProblem problem = ProblemOf(sequence_, test);
+    SmoothingMonitor monitor;
+    EXPECT_FALSE(monitor.BeginFeasibly(problem, PlannedMotion(sequence_)));
+    const SmoothingResult planned = monitor.Refusal();
+    EXPECT_EQ(planned.ending, Ending::kNotRun);
+    EXPECT_FALSE(planned.feasible);
+    EXPECT_THAT(planned.message, HasSubstr("the planned motion is not feasible: zmp"));
+    EXPECT_EQ(planned.instants, 1);
+
+    SmoothingMonitor other;
+    EXPECT_FALSE(other.BeginFeasibly(problem, Shorter()));
+    EXPECT_THAT(other.Refusal().message, HasSubstr("the start is not feasible"));
+  }
+}
+
+TEST_F(SmoothingMonitorTest, AnEndingIsMeasuredAgainstTheStartOnlyWhenAsked) {
+  const FakeFeasibility test = Always(Verdict::kFeasible);
+  const WalkProblem problem = ProblemOf(sequence_, test);
+  const HomotopyParameters start = PlannedMotion(sequence_);
+  const auto finish = [&](const HomotopyParameters& found, Ending ending, bool against_start) {
+    SmoothingMonitor monitor;
+    EXPECT_TRUE(monitor.BeginFeasibly(problem, start));
+    monitor.Adopt(found, DurationOf(found), DurationOf(found));
+    return against_start ? monitor.FinishAgainstStart(ending, "done", "; no gain")
+                         : monitor.Finish(ending, "done");
+  };
+  EXPECT_EQ(finish(start, Ending::kConverged, true).ending, Ending::kNoImprovement);
+  EXPECT_EQ(finish(start, Ending::kConverged, true).message, "done; no gain");
+  EXPECT_EQ(finish(start, Ending::kNotRun, true).ending, Ending::kNotRun);
+  EXPECT_EQ(finish(start, Ending::kConverged, false).ending, Ending::kConverged);
+  const SmoothingResult gained = finish(Shorter(), Ending::kConverged, true);
+  EXPECT_EQ(gained.ending, Ending::kConverged);
+  EXPECT_EQ(gained.message, "done");
+  EXPECT_EQ(gained.parameters, Shorter());
+  EXPECT_TRUE(gained.time_to_first_improvement);
+  EXPECT_FALSE(finish(start, Ending::kConverged, true).time_to_first_improvement);
+}
+
+TEST_F(SmoothingMonitorTest, ADroppedStartMakesEveryWalkAnImprovement) {
+  const FakeFeasibility test = Always(Verdict::kFeasible);
+  const WalkProblem problem = ProblemOf(sequence_, test);
+  SmoothingMonitor monitor;
+  monitor.Begin(problem, PlannedMotion(sequence_));
+  monitor.DropStart();
+  EXPECT_EQ(monitor.FinishAgainstStart(Ending::kConverged, "done", "; no gain").message, "done");
+}
+
+TEST_F(SmoothingMonitorTest, StopsForTheCallerOrAtTheDeadlineAndSaysWhich) {
+  std::stop_source source;
+  SmoothingMonitor endless({.stop = source.get_token()});
+  EXPECT_FALSE(endless.stopped());
+  source.request_stop();
+  EXPECT_TRUE(endless.stopped());
+  EXPECT_EQ(endless.StopEnding(), Ending::kInterrupted);
+  EXPECT_EQ(endless.StopReason(), "stopped from outside");
+
+  const SmoothingMonitor late({.deadline = 0.0});
+  EXPECT_TRUE(late.stopped());
+  EXPECT_FALSE(late.interrupted());
+  EXPECT_EQ(late.StopEnding(), Ending::kDeadline);
+  EXPECT_EQ(late.StopReason(), "the deadline passed");
+}
+
+TEST_F(SmoothingMonitorTest, APartReportsItsShareAndStopsWithTheWhole) {
+  std::vector<double> told;
+  std::stop_source source;
+  const SmoothingMonitor whole({.progress = [&](double done) { told.push_back(done); },
+                                .stop = source.get_token(),
+                                .deadline = 1000.0});
+  const SmoothingMonitor part(whole.Part(0.2, 0.6));
+  part.Progress(0.0);
+  part.Progress(0.5);
+  part.Progress(1.0);
+  EXPECT_THAT(told, testing::Pointwise(testing::DoubleNear(1e-12), {0.2, 0.4, 0.6}));
+  EXPECT_LE(part.Remaining(), 1000.0);
+  EXPECT_FALSE(part.stopped());
+  source.request_stop();
+  EXPECT_TRUE(part.interrupted());
+  EXPECT_TRUE(SmoothingMonitor(SmoothingMonitor({.deadline = 0.0}).Part(0, 1)).stopped());
+}
+
+// Every method: no time at all is a result, the feasible start, and its sentence says why.
+TEST_F(SmoothingMonitorTest, EveryMethodKeepsTheStartWhenTheDeadlinePassedBefore) {
+  const FakeFeasibility test = Always(Verdict::kFeasible);
+  const WalkProblem problem = ProblemOf(sequence_, test);
+  for (const std::string& name : SmootherNames()) {
+    SCOPED_TRACE(name);
+    SmoothingMonitor monitor({.deadline = 0.0});
+    const SmoothingResult result = FindSmoother(name).Smooth(problem, {}, monitor);
+    EXPECT_THAT(result.ending,
+                testing::AnyOf(Ending::kNotRun, Ending::kDeadline, Ending::kNoImprovement));
+    EXPECT_THAT(result.message, HasSubstr("the deadline passed"));
+    EXPECT_LE(test.questions.size(), 40u);
+    test.questions.clear();
+  }
+}
+
+}  // namespace
+}  // namespace halfstep
