@@ -115,7 +115,7 @@ double TimeToWithin(const SmoothingResult& result, double best, double gap) {
 struct Case {
   std::string method;
   SmoothingResult result;
-  long accepted = 0, refuted = 0;  // incumbents of the search, and those not certified again
+  long accepted = 0, refuted = 0;  // incumbents before the result, and those not certified again
   bool certified = false;
 };
 
@@ -124,13 +124,14 @@ Case SolveCase(const Experiment& e, const MarginEvaluator& evaluator, const std:
   const CertifiedFeasibility test(evaluator, {});
   Case done{.method = method, .result = {}};
   std::vector<HomotopyParameters> incumbents;
-  MethodOptions options;
+  SmootherOptions options;
   options.optimizer.program.kind = KindOf(kind);
   options.optimizer.program.parameters.heights = variables.find('h') != std::string::npos;
   options.optimizer.program.parameters.durations = variables.find('t') != std::string::npos;
   options.optimizer.deadline = deadline;
-  options.optimizer.on_accept = [&](const HomotopyParameters& p) { incumbents.push_back(p); };
-  done.result = FindSmoother(method).smooth(e.sequence, test, options, {}, {});
+  SmoothingMonitor monitor(
+      {.on_incumbent = [&](const HomotopyParameters& p) { incumbents.push_back(p); }});
+  done.result = FindSmoother(method).Smooth(ProblemOf(e.sequence, test), options, monitor);
   incumbents.push_back(done.result.parameters);
   for (const HomotopyParameters& p : incumbents) {
     const SuperposedWalk walk(e.sequence, p);
@@ -264,7 +265,7 @@ void Rows(const std::string& config) {
   for (ProgramKind kind : {ProgramKind::kFastest, ProgramKind::kSmooth, ProgramKind::kSafest}) {
     ProgramOptions options;
     options.kind = kind;
-    options.heights = options.durations = true;
+    options.parameters.heights = options.parameters.durations = true;
     const OverlapProgram program(e.sequence, evaluator, options, DurationOf(start.parameters));
     const opt::Problem problem = program.MakeProblem();
     Eigen::VectorXd x = program.ToVariables(start.parameters);
