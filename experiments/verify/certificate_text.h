@@ -22,7 +22,7 @@ enum Family : int {
   kNoStep
 };
 constexpr int kNumFamilies = 11;
-/// As in certificate.csv and certificate.json.
+/// Their names in certificate.csv and certificate.json, and their units.
 constexpr std::array<const char*, kNumFamilies> kFamilyNames = {
     "floor",       "foot_speed",     "foot_yaw_rate", "zmp",    "reach",  "joint",
     "joint_speed", "self_clearance", "clearance",     "ground", "no_step"};
@@ -31,12 +31,12 @@ constexpr std::array<const char*, kNumFamilies> kUnits = {"m",     "m/s", "rad/s
 
 /// A row of certificate.csv.
 struct ClaimRow {
-  int line = 0;  ///< in its file.
-  double begin = 0, end = 0;
+  int line = 0;               ///< in its file.
+  double begin = 0, end = 0;  ///< [s]
   Family family = kFloor;
   int statements = 0;
   std::string subject;
-  double margin = 0, bound = 0, demanded = 0;
+  double margin = 0, bound = 0, demanded = 0;  ///< [unit of the family]
 };
 
 /// Two bodies of the robot that the certificate says nothing about, and why.
@@ -52,7 +52,7 @@ struct CertificateText {
   std::array<double, kNumFamilies> demanded{};
   std::array<long, kNumFamilies> statements{};
   std::vector<UnwatchedText> not_watched;
-  std::optional<double> foot_speed, foot_yaw_rate;
+  std::optional<double> foot_speed, foot_yaw_rate;  ///< [m/s], [rad/s]; none: no limit.
   double joint_speed_scale = 1;
   std::string robot, scene;  ///< paths relative to the run folder; scene: or "none".
   std::string trajectory_hash, certificate_hash, robot_hash, scene_hash;

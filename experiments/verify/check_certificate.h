@@ -7,15 +7,17 @@
 
 namespace halfstep::verify {
 
-/// Verdict, counts of statements and pairs that are not watched (those of the robot, whatever the
-/// certificate says), duration, and every row's arithmetic: begin < end, margin − bound ≥ demanded,
-/// finite where it must be. At every instant of [0, D] the statements of a family add up to its
-/// count, exactly. `end` is the trajectory's [s].
+/// Checks verdict and statement, limits and demands, the duration (`end` is the trajectory's [s]),
+/// the counts of statements, the pairs that are not watched (which must be the robot's, whatever
+/// the certificate says), and every row by itself: begin < end, margin − bound ≥ demanded, finite
+/// where it must be. At every instant of [0, D] the statements of a family must add up to its
+/// count, exactly.
 void CheckArithmetic(const CertificateText& certificate, const std::vector<ClaimRow>& rows,
                      const RobotModel& robot, double end, Findings* findings);
 
-/// Whether the certificate demands as much as the run's config does, defaults included, of the very
-/// families that the config knows.
+/// Whether the certificate demands at least as much as the run's config does, defaults included,
+/// and limits speeds at least as tightly. A family that the config knows and verify does not is a
+/// disagreement.
 void CheckAgainstConfig(const CertificateText& certificate, const MarginLimits& config,
                         Findings* findings);
 

@@ -14,19 +14,20 @@ namespace halfstep::verify {
 /// made of: kinds and supports as planned, starts that follow from durations and overlaps,
 /// t_{i+1} = t_i + T_i − Δ_i, overlaps within their natural bounds, one height scale a step, and
 /// the same durations and heights in both files. Without `overlaps` the walk is the planned motion:
-/// no overlap, durations as planned, scale 1. False: they describe none, and DescribedWalk is not
-/// to be made of them.
+/// no overlap, durations as planned, scale 1. Returns false when they describe none; then no
+/// DescribedWalk may be made of them.
 bool CheckOverlaps(const std::vector<HalfStepRow>& half_steps,
                    const std::optional<std::vector<OverlapRow>>& overlaps,
                    const HalfStepSequence& planned, Findings* findings);
 
-/// Whether the parameters that smoothing.fixed names are what it says: its value, or the planned
-/// one. A family that this does not know is a disagreement. Precondition: CheckOverlaps() is true.
+/// Whether each parameter in smoothing.fixed has the value that is given there, or else the planned
+/// one. A family that is not known here is a disagreement. Precondition: CheckOverlaps() returned
+/// true.
 void CheckFixed(const std::vector<HalfStepRow>& half_steps, const std::vector<OverlapRow>& overlaps,
                 const HalfStepSequence& planned, const std::vector<FixedConfig>& fixed,
                 Findings* findings);
 
-/// Whether footsteps.csv says what the config does.
+/// Whether footsteps.csv has the config's footsteps, which `planned` was made of.
 void CheckFootsteps(const std::vector<FootstepRow>& rows, const HalfStepSequence& planned,
                     Findings* findings);
 

@@ -13,35 +13,38 @@ namespace halfstep::verify {
 /// The margin of what has no limit [any unit].
 inline constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
-/// Whether the rows are a motion at all: numbers finite and of human size, times increasing from 0.
-/// The other checks need it.
+/// Whether the rows are a motion at all: at least two, numbers finite and at most 10,000 in size,
+/// times that increase from 0, half-steps that do not decrease. The other checks need it.
 bool CheckIsMotion(const std::vector<PlayedRow>& rows, Findings* findings);
 
-/// What the rows say against each other, whoever made them: soles where forward kinematics puts
-/// them, CoM rigid above the waist, CoM, its derivatives and the ZMP a linear inverted pendulum,
-/// standing feet on the floor and at rest. Differences of c and
-/// ċ against ċ and c̈ by the trapezoidal rule, within its error: with M a bound of |c⃜| between two
-/// rows h apart (from `walk`), M h²/12 for c̈, and |c⃛| h²/12 for ċ with |c⃛| ≤ |Δc̈|/h + M h.
+/// Whether the rows agree with each other, whoever made them: soles are where forward kinematics
+/// puts them, the CoM is rigid with the waist, CoM and ZMP satisfy the linear inverted pendulum,
+/// and standing feet are on the floor and at rest. Differences of c and ċ must agree with ċ and c̈
+/// by the trapezoidal rule, within its error: with M a bound of |c⃜| between two rows h apart (from
+/// `walk`), M h²/12 for c̈, and |c⃛| h²/12 for ċ with |c⃛| ≤ |Δc̈|/h + M h.
 /// Source: the rule's remainder, −h³ f″/12; wpg/README.md, "Rest to rest", for M.
 void CheckConsistency(const PlayedMotion& motion, const DescribedWalk& walk, Findings* findings);
 
-/// Joint limits and speeds, reach, foot speed, height while moving, ZMP against what
-/// `certificate` demands.
+/// Whether the rows keep what `certificate` demands of joint limits and speeds, reach, foot speed
+/// and yaw rate, the height of a moving sole and the ZMP. `tolerance` [m]: VerifyOptions.
 void CheckRowMargins(const PlayedMotion& motion, const CertificateText& certificate,
                      double tolerance, Findings* findings);
 
-/// Bodies above the floor, a foot's at each row, all others at each row and between two; standing
-/// soles beside the no-step areas of the scene.
+/// Whether bodies stay above the floor, those on a foot at each row and all others at and between
+/// rows, and whether standing soles keep off the no-step areas of the scene. `tolerance` [m] is
+/// granted to the bodies that are not on a foot.
 void CheckFloor(const PlayedMotion& motion, const Scene& scene, const CertificateText& certificate,
                 double tolerance, Findings* findings);
 
-/// Margins of one family and side, leg or joint at a row (reach: of both legs, …); +∞: nothing to
-/// watch. Speeds: between row i and the next one.
+/// Margins at a row: of the ZMP [m], of a leg's reach [m], of a joint's limits [rad]; and of a
+/// joint's speed between row i and the next one [rad/s], with `scale` times the robot's limit.
+/// `side` is Index(Side).
 double ZmpMargin(const PlayedRow& row, const RobotModel& robot);
 double ReachMargin(const RobotModel& robot, const PlayedRow& row, int side);
 double JointMargin(const RobotModel& robot, const PlayedRow& row, int side, int joint);
 double JointSpeedMargin(const PlayedMotion& motion, size_t i, int side, int joint, double scale);
-/// Of the sole's centre [m/s] and of its yaw [rad/s], between row i and the next one.
+/// Speed of the sole's centre [m/s], and size of its yaw rate [rad/s], between row i and the next
+/// one.
 double FootSpeed(const PlayedMotion& motion, size_t i, int side);
 double FootYawRate(const PlayedMotion& motion, size_t i, int side);
 /// Whether a sole moves horizontally or turns between row i and the next one.

@@ -21,12 +21,13 @@ struct RunParts {
   const Scene& scene;
   std::filesystem::path run;  ///< its folder
   std::string folder;         ///< of the method
-  bool robot_given = false;   ///< on the command line: where the files are, is not compared
+  bool robot_given = false;   ///< on the command line; then paths are not compared
   bool scene_given = false;
 };
 
-/// Whether config, manifest and certificate speak of the same robot, scene, name, seed, methods and
-/// number of half-steps, and whether these are the files that were parsed now.
+/// Whether config, manifest and certificate speak of the same robot, scene, name, seed, objective,
+/// methods, duration and number of half-steps, and whether robot and scene are the files that were
+/// parsed now.
 void CheckRun(const RunParts& parts, const std::string& config_bytes, Findings* findings);
 
 }  // namespace halfstep::verify

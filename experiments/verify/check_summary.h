@@ -7,9 +7,10 @@
 
 namespace halfstep::verify {
 
-/// Whether summary.csv has a row for each method of the manifest, in its order, and that of
-/// `folder` says what certificate, manifest, iterates.csv (`iterations` rows; none of raw) and the
-/// other rows do. How often and how long the method computed is nobody else's word.
+/// Whether summary.csv has a row for each method of the manifest, in its order, and whether the row
+/// of `folder` agrees with certificate, manifest, iterates.csv (`iterations` rows; raw has none)
+/// and the other rows. How often and how long the method computed is not checked, for no other file
+/// vouches for it.
 void CheckSummary(const std::vector<SummaryRow>& rows, const RunManifest& manifest,
                   const std::string& folder, const CertificateText& certificate, long iterations,
                   Findings* findings);

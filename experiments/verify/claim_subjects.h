@@ -10,8 +10,8 @@
 
 namespace halfstep::verify {
 
-/// What a row of a certificate is about: a side, a leg's joint, a body and an obstacle, two bodies,
-/// a foot and an area; −1: the row names none.
+/// What a row of a certificate is about, as indices: a side; a side and a joint; a body and an
+/// obstacle; two bodies; a foot and an area. −1: the row names none.
 struct ClaimSubject {
   int first = -1, second = -1;
 };
@@ -19,7 +19,7 @@ struct ClaimSubject {
 /// By family and the subject's name in certificate.csv.
 using ClaimSubjects = std::array<std::map<std::string, ClaimSubject>, kNumFamilies>;
 
-/// Every name that a row may have.
+/// All subjects that a row may have, by their names.
 ClaimSubjects SubjectsOf(const RobotModel& robot, const Distances& distances);
 
 }  // namespace halfstep::verify

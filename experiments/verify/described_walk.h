@@ -24,23 +24,26 @@ class DescribedWalk {
                 const std::vector<HalfStepRow>& rows);
 
   const RobotModel& robot() const { return robot_; }
+  /// Duration of the walk [s].
   double end() const { return pieces_.back().start + pieces_.back().profiles.duration(); }
+  /// All quantities and two time derivatives at t [s], in W.
   WalkJet At(double t) const;
 
-  /// Everything that a row of trajectory.csv says but its margins; joint angles are nan where a
-  /// leg does not reach.
+  /// All that a row of trajectory.csv says at t [s], but for the margins. Joint angles are nan
+  /// where a leg does not reach.
   PlayedRow Row(double t) const;
-  /// q̇ of both legs by Index(Side) [rad/s]: central differences over 20 µs.
+  /// q̇ of both legs by Index(Side) [rad/s]: central differences over 20 µs, one-sided ones over 10
+  /// µs at the walk's ends.
   std::array<Vector6d, 2> JointSpeeds(double t) const;
 
   Support SupportAt(double t) const;
-  /// The latest half-step that has begun, from 1.
+  /// The latest half-step that has begun, counted from 1.
   int HalfStepAt(double t) const;
-  /// Whether a foot is in the air, and moves horizontally or may do so.
+  /// Whether a foot (Index(Side)) is in the air, and moves horizontally or may do so.
   bool MovesHorizontally(double t, int side) const;
 
-  /// sup of |c⁗| over [begin, end], at most [m/s⁴]: c̈ = ω²(c − p) twice differentiated, with the
-  /// closed-form bounds of each half-step under way added up.
+  /// An upper bound of |c⁗| over [begin, end] [m/s⁴]: c̈ = ω²(c − p) is differentiated twice, and
+  /// the closed-form bounds of all half-steps under way are added up.
   double ComFourthBound(double begin, double end) const;
 
  private:

@@ -20,18 +20,18 @@ class Distances {
   size_t num_obstacles() const { return obstacles_.size(); }
   long queries() const { return queries_; }
 
-  /// A distance, or something below it. `exact`: the solids were asked.
+  /// A distance [m] or a lower bound of it. `exact`: the solids themselves were measured.
   struct Result {
     double distance = 0;
     bool exact = false;
   };
-  /// Distance of a body from an obstacle; or, if the bounding volumes are at least `enough` apart,
-  /// how far they are [m].
+  /// Distance of a body from an obstacle [m]. Where their bounding volumes are at least `enough`
+  /// [m] apart, it is the distance of these.
   Result FromObstacle(size_t body, size_t obstacle, const Placement& at, double enough);
-  /// The same of two bodies of the robot.
+  /// The same for two bodies of the robot.
   Result OfPair(size_t a, size_t b, const Placement& at, double enough);
 
-  /// Smallest distance of any body from any obstacle, of any pair that is watched; at most
+  /// Smallest distance of any body from any obstacle, and of any watched pair of bodies; at most
   /// `horizon` [m].
   double NearestObstacle(const Placement& at, double horizon);
   double NearestPair(const Placement& at, double horizon);

@@ -8,7 +8,7 @@
 
 namespace halfstep::verify {
 
-/// What a verification found: one line a check, and why it disagrees.
+/// What a verification found: one line for each check, and the reasons why it disagrees.
 class Findings {
  public:
   void Say(std::string line) { lines_.push_back(std::move(line)); }
@@ -16,17 +16,17 @@ class Findings {
     if (reasons_.size() < kKept) reasons_.push_back(reason);
     ++disagreements_;
   }
-  /// The rows cannot settle a check: neither verified nor refused.
+  /// Notes why the rows cannot settle a check, so that the walk is neither verified nor refused.
   void TooCoarse(std::string reason) { too_coarse_ = std::move(reason); }
-  /// Lines and disagreements of another's.
+  /// Adds the lines and disagreements of `other`.
   void Take(const Findings& other) {
     lines_.insert(lines_.end(), other.lines_.begin(), other.lines_.end());
     for (const std::string& reason : other.reasons_) Disagree(reason);
     disagreements_ += other.disagreements_ - std::ssize(other.reasons_);
   }
   const std::vector<std::string>& lines() const { return lines_; }
-  const std::string& too_coarse() const { return too_coarse_; }  ///< "": nothing is
-  /// The first reasons; `disagreements()` counts them all.
+  const std::string& too_coarse() const { return too_coarse_; }  ///< "": the rows settle all checks
+  /// The first twenty reasons; `disagreements()` counts them all.
   const std::vector<std::string>& reasons() const { return reasons_; }
   long disagreements() const { return disagreements_; }
 
@@ -43,7 +43,7 @@ class Findings {
 /// "41,230".
 std::string Count(long n);
 
-/// Mistakes of one kind: the first is told, the others are counted.
+/// Mistakes of one kind: the first is reported, the others are counted.
 class Faults {
  public:
   void Add(const std::string& what) {
@@ -63,7 +63,7 @@ class Faults {
 /// the first value below what is demanded, and counts the others.
 class Check {
  public:
-  /// `name` and `unit` as they are printed; a value counts when it is at least demanded −
+  /// `name` and `unit` are printed as they are. A value passes when it is at least demanded −
   /// tolerance.
   Check(std::string name, std::string unit, double demanded, double tolerance)
       : name_(std::move(name)),
@@ -71,7 +71,8 @@ class Check {
         demanded_(demanded),
         tolerance_(tolerance) {}
 
-  /// `where` is called for values that are kept: "RLEG_LINK5 – bar at t = 3.215 s".
+  /// `where` is called for values that are kept, and names their place: "RLEG_LINK5 - bar at t =
+  /// 3.215 s".
   template <typename Where>
   void Add(double value, const Where& where) {
     ++count_;

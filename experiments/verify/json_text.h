@@ -10,8 +10,8 @@ namespace halfstep::verify {
 /// A JSON document. Throws InputError "path:line: is not JSON", or that it nests too deeply.
 nlohmann::json ParseJson(const std::string& path, const std::string& text);
 
-/// Reads members of one object; InputErrors name the member, "path: sha256.robot: is missing".
-/// Borrows path and object.
+/// Reads the members of one object. A member that is missing or of another type throws an
+/// InputError that names it: "path: sha256.robot: is missing". Borrows path and object.
 class JsonMember {
  public:
   JsonMember(const std::string& path, const nlohmann::json& object, std::string name);

@@ -21,9 +21,9 @@ struct Bracket {
 };
 
 /// The distance of two convex sets: the point of least norm of their difference, by Wolfe's method
-/// ("Finding the nearest point in a polytope", 1976), in extended precision. Brings its own proof,
-/// for it returns both sides; `lower` is short by what rounding of the points' coordinates may add.
-/// It may end as soon as `lower` is at least `enough` [m].
+/// ("Finding the nearest point in a polytope", 1976), in extended precision. The result proves
+/// itself, for it has both bounds; what rounding of the points' coordinates may add is taken off
+/// `lower`. The search may end as soon as `lower` is at least `enough` [m].
 Bracket DistanceOf(const ConvexSet& a, const ConvexSet& b,
                    double enough = std::numeric_limits<double>::infinity());
 

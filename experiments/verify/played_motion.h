@@ -24,8 +24,8 @@ struct PlayedRow {
   double t = 0;  ///< [s]
   int half_step = 0;
   Support support = Support::kBoth;
-  Eigen::Vector3d com{0, 0, 0};
-  Eigen::Vector2d com_velocity{0, 0}, com_acceleration{0, 0}, zmp{0, 0};
+  Eigen::Vector3d com{0, 0, 0};  ///< in W, as all that follows but q [m]
+  Eigen::Vector2d com_velocity{0, 0}, com_acceleration{0, 0}, zmp{0, 0};  ///< [m/s], [m/s²], [m]
   Eigen::Vector4d waist{0, 0, 0, 0};     ///< x, y, z [m], yaw [rad]
   std::array<Eigen::Vector4d, 2> soles;  ///< the same of the sole frames, by Index(Side)
   std::array<Vector6d, 2> q;             ///< joint angles [rad], by Index(Side)
@@ -44,7 +44,7 @@ struct PlayedRow {
 /// Columns of trajectory.csv for a robot.
 std::vector<std::string> TrajectoryHeader(const RobotModel& robot);
 
-/// Throws InputError for what is no trajectory of this robot.
+/// Throws InputError for a text that is no trajectory of this robot.
 std::vector<PlayedRow> ReadTrajectory(const std::string& path, const std::string& text,
                                       const RobotModel& robot);
 
@@ -82,17 +82,17 @@ class PlayedMotion {
   Placement Place(double t) const { return PlaceRow(At(t)); }
   Placement PlaceRow(const PlayedRow& row) const { return PlaceRobot(robot_, row); }
 
-  /// For each row, how far any point of a body can have moved from row 0 to it, at most [m]:
-  /// Σ |Δwaist| + |Δyaw|·lever + Σ_j |Δq_j|·r_j, r_j the largest distance of the body's points
-  /// from a point of joint j's axis over all postures (sum of link lengths); linear between
-  /// rows. So C(t') − C(t) bounds the body's motion on [t, t'].
+  /// For each row, a bound C of the way that any point of a body has moved from row 0 to it [m]: Σ
+  /// |Δwaist| + |Δyaw|·lever + Σ_j |Δq_j|·r_j, where r_j is the largest distance of the body's
+  /// points from a point of joint j's axis over all postures (a sum of link lengths). C is linear
+  /// between rows, so C(t') − C(t) bounds the body's motion on [t, t'].
   /// Source: [Schwarzer2005] §4.
   std::vector<double> PathInWorld(const RobotBody& body) const;
-  /// The same as seen from the waist: its leg's joints only.
+  /// The same as seen from the waist, where only the joints of the body's leg count.
   std::vector<double> PathInWaist(const RobotBody& body) const;
-  /// How far any point of a body is, between rows i and i + 1, from the straight line that it would
-  /// be on if it moved at a constant speed from row to row, seen from the waist, at most [m]:
-  /// Σ_jk |Δq_j||Δq_k| r_max(j,k) / 8, for ‖∂²p/∂q_j∂q_k‖ ≤ r of the outer joint.
+  /// A bound of how far any point of a body, seen from the waist, is between rows i and i + 1 from
+  /// where it would be if it moved straight and at constant speed from row to row [m]: Σ_jk
+  /// |Δq_j||Δq_k| r_max(j,k) / 8, for ‖∂²p/∂q_j∂q_k‖ ≤ r of the outer joint.
   double Sag(const RobotBody& body, size_t i) const;
 
  private:
@@ -102,7 +102,7 @@ class PlayedMotion {
   const std::vector<PlayedRow>& rows_;
 };
 
-/// Largest distance of a body's points from `point`, both in the body's frame, at most [m].
+/// An upper bound of the distance of a body's points from `point`, in the body's frame [m].
 double FarthestFrom(const ConvexBody& body, const Eigen::Vector3d& point);
 
 }  // namespace halfstep::verify

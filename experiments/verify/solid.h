@@ -23,8 +23,8 @@ class Solid {
   const Eigen::Vector3d& center() const { return center_; }  ///< of a ball that holds it
   double radius() const { return radius_; }                  ///< of that ball [m]
 
-  /// Distance of a convex solid from any other, at most the true one; 0: they touch, or the convex
-  /// one lies inside a closed part of the mesh [m].
+  /// A lower bound of the distance of a convex solid from any other [m]. It is 0 when they touch,
+  /// and when a part of the mesh surrounds the convex solid.
   static double Distance(const Solid& convex, const Eigen::Isometry3d& X_Wa, const Solid& other,
                          const Eigen::Isometry3d& X_Wb);
 

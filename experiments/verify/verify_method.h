@@ -9,7 +9,7 @@
 
 namespace halfstep::verify {
 
-/// Checks all that a run says of one method, whose folder's name is `folder`. Returns the
+/// Checks all that a run says of one method, whose folder is named `folder`. Returns the
 /// certificate's statement. Throws InputError for what cannot be read.
 std::string VerifyMethod(const VerifyOptions& options, const RunManifest& manifest,
                          const std::string& folder, Findings* findings);

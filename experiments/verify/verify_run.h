@@ -6,14 +6,15 @@
 
 namespace halfstep::verify {
 
-/// `tolerance` is how far the played motion, straight between rows, may leave the certified walk
-/// (chord against curve: about 0.3 mm at rows every 5 ms). It is taken off the clearances, the
-/// height of a moving sole and the ZMP margin where the support changes [m], and off nothing else:
-/// rows and claims are compared with the walk itself.
+/// `tolerance` is how far the played motion, which is straight between rows, may leave the
+/// certified walk [m] (chord against curve: about 0.3 mm at rows every 5 ms). It is taken off what
+/// is demanded of clearances, of the heights of a moving sole and of bodies that are not on a foot,
+/// and of the ZMP where the support changes (0 there), and off nothing else: rows and claims are
+/// compared with the walk itself.
 struct VerifyOptions {
   std::string run;                         ///< run folder
   std::optional<std::string> method = {};  ///< none: every one of the run
-  double tolerance = 0.001;                ///< see above; 0 … 1
+  double tolerance = 0.001;                ///< see above; 0 … 1 [m]
   std::optional<std::string> robot = {};   ///< YAML instead of the certificate's
   std::optional<std::string> scene = {};
 };
@@ -23,8 +24,8 @@ struct MethodVerification {
   std::string method;  ///< its folder's name
   bool verified = false;
   bool readable = true;              ///< false: `complaints` says what cannot be read
-  std::vector<std::string> lines;    ///< one a check
-  std::string too_coarse;            ///< why the rows settle neither; "": they do
+  std::vector<std::string> lines;    ///< one for each check
+  std::string too_coarse;            ///< why the rows cannot settle it; "": they can
   std::vector<std::string> reasons;  ///< why it is not verified, the first twenty
   long disagreements = 0;
   std::vector<std::string> complaints;  ///< of unreadable input, "file:line: …"

@@ -10,15 +10,15 @@ namespace halfstep::verify {
 
 /// A row of half_steps.csv.
 struct HalfStepRow {
-  std::string kind, support;  ///< up or down; left or right
-  double start = 0, duration = 0, height_scale = 0;
+  std::string kind, support;                         ///< up or down; left or right
+  double start = 0, duration = 0, height_scale = 0;  ///< [s], [s], 1
 };
 
 /// A row of overlaps.csv; its columns about what was allowed, what holds the overlap and what that
 /// costs are not read: no statement is about them.
 struct OverlapRow {
-  std::string kind;  ///< up_down or down_up
-  double overlap = 0;
+  std::string kind;    ///< up_down or down_up
+  double overlap = 0;  ///< [s]
   double duration_before = 0, duration_after = 0, scale_before = 0, scale_after = 0;
 };
 
@@ -39,7 +39,7 @@ struct SummaryRow {
   std::optional<double> gap_to_reference;
 };
 
-/// Each throws InputError for what is no such table.
+/// Each throws InputError for a text that is no such table.
 std::vector<HalfStepRow> ReadHalfSteps(const std::string& path, const std::string& text);
 std::vector<OverlapRow> ReadOverlaps(const std::string& path, const std::string& text);
 std::vector<FootstepRow> ReadFootsteps(const std::string& path, const std::string& text);

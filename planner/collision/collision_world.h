@@ -8,15 +8,16 @@
 
 namespace halfstep {
 
-/// The obstacles of a scene, prepared for queries of convex bodies posed at a time t of the walk
-/// [s]. Const queries; scratch is the caller's, so one world serves many threads. A pose or a time
-/// that is not finite is a std::logic_error.
+/// The obstacles of a scene, prepared for queries about convex bodies at a time t of the walk [s].
+/// Queries are const and their scratch is the caller's, so one world serves many threads. A pose or
+/// a time that is not finite throws std::logic_error.
 class CollisionWorld {
  public:
-  /// Separating directions of earlier queries, one per obstacle: neighbouring instants are decided
-  /// by them without a distance query. One scratch per body and thread.
+  /// The directions that separated a body from each obstacle in earlier queries. Most neighbouring
+  /// instants are decided by them, without a distance query. Use one scratch for each body and
+  /// thread.
   struct Scratch {
-    std::vector<Eigen::Vector3d> normals_W;  ///< zero: none yet.
+    std::vector<Eigen::Vector3d> normals_W;  ///< by obstacle; zero: none yet.
   };
   struct Nearest {
     int obstacle = -1;      ///< index into the scene, −1: none within the horizon.
@@ -27,14 +28,15 @@ class CollisionWorld {
   explicit CollisionWorld(const Scene& scene);
 
   int num_obstacles() const { return static_cast<int>(entries_.size()); }
-  /// No point of an obstacle moves faster [m/s]: Scene::speed.
+  /// A speed that no point of any obstacle exceeds [m/s] (Scene::speed).
   double speed() const { return speed_; }
 
-  /// Nearest obstacle at t to the body at X_WB among those nearer than `horizon` [m].
+  /// The obstacle that is nearest at t to the body at X_WB, among those nearer than `horizon` [m].
   Nearest FindNearest(const CollisionShape& body, const Eigen::Isometry3d& X_WB, double t,
                       double horizon) const;
 
-  /// Whether every obstacle is at least `clearance` [m] away at t (by the sound lower bound).
+  /// Whether every obstacle is at t at least `clearance` [m] away from the body at X_WB. A lower
+  /// bound of the distance decides, so true is proved.
   bool Clears(const CollisionShape& body, const Eigen::Isometry3d& X_WB, double t, double clearance,
               Scratch* scratch) const;
 

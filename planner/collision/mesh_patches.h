@@ -6,14 +6,14 @@
 
 namespace halfstep {
 
-/// Triangles joined by edges of exactly two triangles, turned alike.
+/// Triangles that are joined by edges of exactly two triangles, all turned alike.
 struct MeshPatch {
   TriangleMesh mesh;    ///< its own vertices only.
-  bool closed = false;  ///< each edge is one of two triangles.
+  bool closed = false;  ///< each edge belongs to two triangles.
 };
 
-/// The patches of a mesh (planner/collision/mesh_interior.h). Each is turned as most of its
-/// triangles are.
+/// The patches of a mesh, as planner/collision/mesh_interior.h defines them. Each is turned as most
+/// of its triangles are.
 std::vector<MeshPatch> FindPatches(const TriangleMesh& mesh);
 
 }  // namespace halfstep

@@ -9,15 +9,17 @@
 
 namespace halfstep {
 
-/// The winding number of a mesh (planner/collision/mesh_interior.h) without asking each triangle:
-/// seen from outside a node's box, its triangles wind as the cap does that closes their border, and
-/// a closed part has no border. Exact up to rounding. Source: [Jacobson2013] §4.2.
+/// The winding number of a mesh (planner/collision/mesh_interior.h), found without a look at each
+/// triangle. Seen from outside the box of a node of the tree, the node's triangles wind as much as
+/// a cap over their border, and a closed part has no border. Exact up to rounding. Source:
+/// [Jacobson2013] §4.2.
 class MeshWinding {
  public:
   MeshWinding() = default;
   explicit MeshWinding(const TriangleTree& tree);
 
-  /// At a point of the mesh's frame, not on the surface.
+  /// The winding number around a point of the mesh's frame [m] that is not on the surface. `tree`
+  /// is that of the constructor.
   double At(const TriangleTree& tree, const Eigen::Vector3d& point) const;
 
  private:

@@ -8,17 +8,20 @@
 
 namespace halfstep {
 
-/// How far two bodies are apart. Convex pairs: `distance` never exceeds the true signed distance
-/// (beyond rounding, 1e-14 of the coordinates): it is the width of the slab between them along
-/// `normal_W`, computed from their support functions. Zero or negative: contact or overlap; then it
-/// is a lower bound of minus the penetration depth.
-/// With a mesh: the largest of two numbers, neither of which exceeds the true distance. The slab to
-/// a convex body around the mesh: its hull, wider by how far a vertex may lie outside it and by the
-/// slab's rounding (4e-15 of the mesh's coordinates). And the distance of the triangles from the
-/// body's core (the body without its ball; a disc is enclosed by a polygon of at least 64 sides, a
-/// core without volume by one 1e-6 m thick) less the ball's radius and FCL's rounding (1e-12 of the
-/// coordinates, at least 1e-10 m). A body that meets no triangle is in contact when it holds a part
-/// of the mesh or is inside it (planner/collision/mesh_interior.h).
+/// How far two bodies are apart. For convex bodies, `distance` is the width of the slab between
+/// them along `normal_W`, computed from their support functions, so it never exceeds the true
+/// signed distance (beyond rounding, 1e-14 of the coordinates). Zero or negative means contact or
+/// overlap; then it is a lower bound of minus the penetration depth.
+/// With a mesh, it is the larger of two numbers, neither of which exceeds the true distance:
+///   1. the slab to a convex body around the mesh: its hull (a flat mesh's axis-aligned bounds),
+///      widened by how far a vertex may lie outside and by the slab's rounding (4e-15 of the mesh's
+///      coordinates);
+///   2. the distance of the triangles from the body's core, less the ball's radius and FCL's
+///      rounding (1e-12 of the coordinates, at least 1e-10 m). The core is the body without its
+///      ball; a disc is enclosed by a polygon of at least 64 sides, and a core without volume is
+///      widened by 1e-6 m.
+/// A body that meets no triangle is in contact all the same when it holds a part of the mesh or is
+/// inside it (planner/collision/mesh_interior.h).
 struct Separation {
   double distance = 0.0;               ///< [m]
   Eigen::Vector3d normal_W{0, 0, 1};   ///< unit, from b towards a.
@@ -26,14 +29,15 @@ struct Separation {
   Eigen::Vector3d point_b_W{0, 0, 0};  ///< witness on b [m].
 };
 
-/// A body prepared for collision queries (holds what FCL needs; FCL shows in separation.cc only).
-/// Immutable, shared by copies, safe to use from several threads.
+/// A body prepared for collision queries. It holds what FCL needs, but FCL appears in separation.cc
+/// only. Immutable, shared by copies, safe to use from several threads.
 class CollisionShape {
  public:
+  /// Precondition: at least one vertex, all finite, and radii ≥ 0 (std::logic_error).
   explicit CollisionShape(ConvexBody body);
   /// Precondition: at least one triangle, indices in range, finite vertices (std::logic_error).
   explicit CollisionShape(TriangleMesh mesh);
-  /// Of an obstacle. Preconditions as above, and as for MakeBox and the like.
+  /// The shape of an obstacle. The preconditions are those above and those of BodyOf.
   explicit CollisionShape(const Shape& shape);
 
   bool is_mesh() const;
@@ -48,22 +52,22 @@ class CollisionShape {
   std::shared_ptr<const Impl> impl_;
 };
 
-/// min over a of n·x − max over b of n·x for a unit n_W: a lower bound of the signed distance of
-/// convex bodies for every n, exact for the best one [m]. Precondition: n_W of length 1 within
-/// 1e-9.
+/// Width of the slab between two convex bodies along a unit n_W [m]: min over a of n·x − max over b
+/// of n·x. For every n it is a lower bound of their signed distance, and the best n attains it when
+/// they are apart. Precondition: n_W has length 1 within 1e-9 (std::logic_error).
 double SeparationAlong(const ConvexBody& a, const Eigen::Isometry3d& X_Wa, const ConvexBody& b,
                        const Eigen::Isometry3d& X_Wb, const Eigen::Vector3d& n_W);
 
-/// Separation of two bodies, at most one of them a mesh. Precondition: finite poses
-/// (std::logic_error). An exception inside FCL counts as contact.
-/// Convex pairs do not ask FCL: on random pairs its libccd distance was more than 1e-6 m too large
-/// for one in eight (up to 28 mm), and the bounds of FindConvexDistance never 1e-6 m apart.
+/// Separation of two bodies. Preconditions: at most one of them is a mesh, and the poses are finite
+/// (std::logic_error). An exception inside FCL counts as contact. FCL is not asked about convex
+/// pairs: on random pairs its libccd distance was more than 1e-6 m too large for one in eight (by
+/// up to 28 mm), while the two bounds of FindConvexDistance were never 1e-6 m apart.
 Separation Separate(const CollisionShape& a, const Eigen::Isometry3d& X_Wa, const CollisionShape& b,
                     const Eigen::Isometry3d& X_Wb);
 
 /// Whether the bodies are at least `clearance` [m] apart, by the same lower bound as Separate.
-/// `normal_W` is the direction that separated them last (zero: none yet); it is tried first and
-/// updated. Preconditions as for Separate.
+/// `normal_W` is the direction that separated them last (zero: none yet). It is tried first, and
+/// updated. The preconditions are those of Separate.
 bool ClearsAlongCached(const CollisionShape& a, const Eigen::Isometry3d& X_Wa,
                        const CollisionShape& b, const Eigen::Isometry3d& X_Wb, double clearance,
                        Eigen::Vector3d* normal_W);

@@ -8,11 +8,12 @@
 
 namespace halfstep {
 
-/// The triangles of a mesh in a tree of axis-aligned boxes, own frame. Node 0 is the root.
+/// The triangles of a mesh in a tree of boxes along the axes of the mesh's frame. Node 0 is the
+/// root.
 struct TriangleTree {
   struct Node {
     Eigen::Vector3d center, half;  ///< box [m]
-    int32_t left = -1;             ///< children left and left + 1; −1: a leaf
+    int32_t left = -1;             ///< the children are nodes left and left + 1; −1: a leaf
     int32_t first = 0, count = 0;  ///< of a leaf: triangles first … first + count − 1
   };
   std::vector<Node> nodes;
@@ -23,8 +24,8 @@ struct TriangleTree {
   explicit TriangleTree(const TriangleMesh& mesh);
 };
 
-/// Whether a triangle (corners in columns) meets the box |x| ≤ half, both closed, by the 13
-/// separating axes, rounding in favour of "meets".
+/// Whether a triangle (corners in columns) and the box |x| ≤ half share a point, borders included.
+/// The 13 separating axes decide, and rounding errs towards true.
 bool TriangleMeetsBox(const Eigen::Matrix3d& corners, const Eigen::Vector3d& half);
 
 }  // namespace halfstep

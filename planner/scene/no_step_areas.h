@@ -13,19 +13,20 @@ namespace halfstep {
 /// and thread-safe.
 class NoStepAreas {
  public:
-  /// `sole_outline`: what of a foot touches the floor, a convex polygon (2×k) in the sole frame
-  /// [m], of either foot (RobotModel::sole_outline).
+  /// `sole_outline` is the outline of what touches the floor under either foot: a convex polygon
+  /// (2×k) in the sole frame [m] (RobotModel::sole_outline).
   NoStepAreas(const Scene& scene, const Eigen::Matrix2Xd& sole_outline);
 
   bool empty() const { return areas_.empty(); }
-  /// Of the outline from the sole frame's origin, at most [m].
+  /// The largest distance of a point of the outline from the sole frame's origin [m].
   double sole_reach() const { return reach_; }
 
   struct Nearest {
-    double distance = std::numeric_limits<double>::infinity();  ///< PolygonDistance [m]
+    double distance = std::numeric_limits<double>::infinity();  ///< by PolygonDistance [m]
     int area = -1;  ///< index into Scene::no_step; −1: there is none
   };
-  /// The area nearest to a sole that stands at X_WF; of those that it touches, the deepest.
+  /// The area that is nearest to a sole standing at X_WF. When the sole touches several areas, it
+  /// is the one into which the sole reaches deepest.
   Nearest NearestTo(const Footprint& X_WF) const;
 
   /// Whether a sole that stands at X_WF touches no area and keeps `distance` ≥ 0 [m] from all.

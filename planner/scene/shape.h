@@ -7,32 +7,35 @@
 
 namespace halfstep {
 
-/// Centred at the origin of its frame, edges along the axes.
+/// A box centred at the origin of its frame, with edges along the axes.
 struct Box {
   Eigen::Vector3d size{0, 0, 0};  ///< full edge lengths [m] > 0
 };
+/// A ball centred at the origin of its frame.
 struct Sphere {
   double radius = 0.0;  ///< [m] > 0
 };
-/// Along z, centred.
+/// A cylinder along z, centred at the origin of its frame.
 struct Cylinder {
   double radius = 0.0, length = 0.0;  ///< [m] > 0
 };
-/// Along z, centred.
+/// A capsule along z, centred at the origin of its frame.
 struct Capsule {
   double radius = 0.0;  ///< [m] > 0
   double length = 0.0;  ///< between the centres of its two balls [m] > 0
 };
-/// Triangle mesh: not assumed convex or closed.
+/// A triangle mesh, which need be neither convex nor closed.
 struct TriangleMesh {
   Eigen::Matrix3Xd vertices;   ///< [m] (3×n)
-  Eigen::Matrix3Xi triangles;  ///< (3×m), vertex indices.
+  Eigen::Matrix3Xi triangles;  ///< (3×m), indices of vertices.
 };
 
-/// What an obstacle is made of, as the scene file says it: no query has to guess it.
+/// What an obstacle is made of, in the type that the scene file names, so that no query has to
+/// guess it.
 using Shape = std::variant<Box, Sphere, Cylinder, Capsule, ConvexBody, TriangleMesh>;
 
-/// The body that a shape is; a mesh stays one. Preconditions as for MakeBox and the like.
+/// The convex body that a shape is; a mesh is returned as it is. The preconditions are those of
+/// MakeBox, MakeSphere, MakeCylinder and MakeCapsule.
 inline ConvexBody BodyOf(const Box& box) { return MakeBox(box.size); }
 inline ConvexBody BodyOf(const Sphere& sphere) { return MakeSphere(sphere.radius); }
 inline ConvexBody BodyOf(const Cylinder& c) { return MakeCylinder(c.radius, c.length); }
@@ -40,8 +43,8 @@ inline ConvexBody BodyOf(const Capsule& c) { return MakeCapsule(c.radius, c.leng
 inline const ConvexBody& BodyOf(const ConvexBody& body) { return body; }
 inline const TriangleMesh& BodyOf(const TriangleMesh& mesh) { return mesh; }
 
-/// The faces of a convex body's core, the body without its ball; none when it has fewer than 4
-/// vertices.
+/// The faces of the convex hull of a body's vertices, without its disc and its ball. There are none
+/// when it has fewer than 4 vertices.
 TriangleMesh FacesOf(const ConvexBody& body);
 
 }  // namespace halfstep

@@ -17,6 +17,7 @@
 
 namespace halfstep {
 
+/// One object of each family, by MarginFamily.
 using MarginStatementsOfAll =
     std::array<std::unique_ptr<const MarginStatements>, kNumMarginFamilies>;
 
@@ -24,12 +25,13 @@ using MarginStatementsOfAll =
 template <typename... Families>
 struct FamilyList {
   static constexpr std::array<FamilyTraits, sizeof...(Families)> kTraits = {Families::kTraits...};
+  /// `place` is borrowed.
   static MarginStatementsOfAll Make(const MarginPlace& place) {
     return {std::make_unique<Families>(place)...};
   }
 };
 
-/// The registry: a further family is a further class here, and its name in MarginFamily.
+/// The registry of families. A new family is one more class here, and its name in MarginFamily.
 using AllFamilies =
     FamilyList<FloorMargin, FootSpeedMargin, FootYawRateMargin, ZmpMargin, ReachMargin, JointMargin,
                JointSpeedMargin, SelfClearanceMargin, ClearanceMargin, GroundMargin, NoStepMargin>;

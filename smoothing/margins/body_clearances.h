@@ -16,13 +16,14 @@ namespace halfstep {
 /// obstacles and to each other. Const; scratch is the caller's.
 class BodyClearances {
  public:
-  /// Separating directions remembered from posture to posture. One for each thread.
+  /// What queries remember, such as separating directions of earlier postures. Use one for each
+  /// thread.
   struct Scratch {
     std::vector<CollisionWorld::Scratch> bodies;
     std::vector<Eigen::Vector3d> pair_normals_W;
     std::vector<Eigen::Vector3d> centers_W;  // of the bodies' bounding spheres
     std::vector<double> lateral;             // of each leg body: inner end along the waist's y axis
-    long queries = 0;                        ///< body against scene, or body pair, not culled
+    long queries = 0;  ///< body against scene, or pair of bodies, that were not culled
   };
 
   /// `robot` is borrowed and must outlive this.
@@ -30,34 +31,38 @@ class BodyClearances {
 
   Scratch MakeScratch() const;
   size_t num_bodies() const { return shapes_.size(); }
-  /// No point of an obstacle moves faster [m/s].
+  /// A speed that no point of any obstacle exceeds [m/s].
   double obstacle_speed() const { return world_.speed(); }
   size_t num_pairs() const { return robot_.self_pairs.size(); }
 
-  /// Takes note of a posture; the queries below are about it. Precondition: its links are placed.
+  /// Notes where the bodies are in a posture. PairClears and OfPair need this to be called for
+  /// their posture before. Precondition: its links are placed.
   void Place(const Posture& posture, Scratch* scratch) const;
 
-  /// Whether a body keeps `clearance` [m] from every obstacle; whether a pair of bodies does.
+  /// Whether a body keeps `clearance` [m] from every obstacle; whether the bodies of a pair keep it
+  /// from each other.
   bool BodyClears(size_t body, const Posture& posture, double t, double clearance,
                   Scratch* scratch) const;
   bool PairClears(size_t pair, const Posture& posture, double clearance, Scratch* scratch) const;
-  /// Clearance of one body, of one pair; `horizon` [m] when nothing is nearer.
+  /// The clearance of one body, and that of one pair; `horizon` [m] when nothing is nearer.
   Margin OfBody(size_t body, const Posture& posture, double t, double horizon,
                 Scratch* scratch) const;
   Margin OfPair(size_t pair, const Posture& posture, double horizon, Scratch* scratch) const;
 
-  /// The same with witness points and normals, for derivatives: of a body, the nearest obstacle
-  /// within `horizon` [m]; of a pair, its first body is `a`.
+  /// The same with witness points and normals, which derivatives need. NearestTo looks for the
+  /// nearest obstacle within `horizon` [m]; in SeparationOf, `a` is the first body of the pair.
   CollisionWorld::Nearest NearestTo(size_t body, const Posture& posture, double t, double horizon,
                                     Scratch* scratch) const;
   Separation SeparationOf(size_t pair, const Posture& posture, Scratch* scratch) const;
 
-  /// The first body, or pair, found to have less than a clearance [m].
+  /// The first body, or the first pair, that is found to keep less than `clearance` [m]; none when
+  /// all keep it.
   std::optional<Margin> FirstBodyBelow(const Posture& posture, double t, double clearance,
                                        Scratch* scratch) const;
   std::optional<Margin> FirstPairBelow(const Posture& posture, double clearance,
                                        Scratch* scratch) const;
-  /// The smallest clearance to the obstacles, and between bodies.
+  /// The smallest clearance of any body to the obstacles, and that of any pair; `horizon` [m] when
+  /// nothing is nearer.
   Margin NearestObstacle(const Posture& posture, double t, double horizon, Scratch* scratch) const;
   Margin NearestPair(const Posture& posture, double horizon, Scratch* scratch) const;
 

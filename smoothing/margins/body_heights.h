@@ -10,40 +10,44 @@
 
 namespace halfstep {
 
-/// How far a sole may seem below the floor [m]. Its height is exactly 0 while it stands and at
-/// least 0 in the air as long as no overlap exceeds its natural bound; SetOverlap grants an
-/// overlap 1e-9 s beyond it, which takes up to (15/8)·height/rise·1e-9 s off: 7e-9 m for a step of
-/// half a metre within an eighth of a second.
+/// How far below the floor a sole may seem to be [m]. Its height is exactly 0 while it stands, and
+/// at least 0 in the air as long as no overlap exceeds its natural bound. SetOverlap lets an
+/// overlap exceed it by kOverlapTolerance, which lowers the sole by up to
+/// (15/8)·height/rise·kOverlapTolerance: 7.5e-12 m for a step of half a metre within an eighth of a
+/// second.
 inline constexpr double kSoleRounding = 1e-8;
 
-/// Whether a body is rigid with a foot. Its lowest point is the sole's, or higher: LoadRobot
-/// refuses others.
+/// Whether a body is rigid with a foot. LoadRobot refuses a robot with such a body more than 1e-6 m
+/// below the sole.
 inline bool IsOnFoot(const RobotBody& body) { return body.link == 5; }
 
-/// Heights above the floor z = 0 of a robot's bodies, as the family `ground` counts them: the
-/// lowest point of a body that is not on a foot. A body on a foot may touch the floor: it has no
-/// limit, +∞, unless its sole is below the floor. Const and thread-safe.
+/// Heights of a robot's bodies above the floor z = 0 [m], as the family `ground` counts them. A
+/// body that is not on a foot has the height of its lowest point. A body on a foot may touch the
+/// floor, so it has no limit and reads +∞, unless its sole is below the floor by more than
+/// kSoleRounding. Const and thread-safe.
 class BodyHeights {
  public:
   /// `robot` is borrowed and must outlive this.
   explicit BodyHeights(const RobotModel& robot);
 
-  /// Bodies of the legs that are not on a foot; those on a foot; indices of RobotModel::bodies.
+  /// Bodies of the legs that are not on a foot, and bodies on a foot, as indices of
+  /// RobotModel::bodies.
   const std::vector<int>& of_legs() const { return of_legs_; }
   const std::vector<int>& on_feet() const { return on_feet_; }
-  /// The lowest body of the waist, which keeps its height while walking; none: +∞.
+  /// The margin of the waist's lowest body, which keeps its height while walking; +∞ when there is
+  /// none.
   const Margin& of_waist() const { return of_waist_; }
 
-  /// The lowest point of a body of a leg, in W [m]; and a height that is no more than its, found
-  /// with less work.
+  /// The lowest point of a body of a leg, in W [m]; and a lower bound of its height [m], found with
+  /// less work.
   Eigen::Vector3d LowestPoint(int body, const Posture& posture) const;
   double LowestPossible(int body, const Posture& posture) const;
 
-  /// The least margin of all bodies [m]. Bodies whose height is `enough` or more are not told
-  /// apart: they may read less than they have, not less than `enough`. Precondition: links placed.
+  /// The least margin of all bodies [m]. Bodies that are at `enough` [m] or higher may be left out,
+  /// so only a result below `enough` is sure to be the least. Precondition: the links are placed.
   Margin Least(const Posture& posture, const WalkState& x,
                double enough = std::numeric_limits<double>::infinity()) const;
-  /// The margin of a body on a foot, from the walk's quantities.
+  /// The margin of a body on a foot [m], from the walk's quantities.
   double OnFoot(int body, const WalkState& x) const;
 
  private:

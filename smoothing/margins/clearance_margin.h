@@ -7,8 +7,9 @@
 
 namespace halfstep {
 
-/// Distance from a body of the robot to the obstacles [m], at most the clearance horizon. Proved
-/// body by body. Subject: index into RobotModel::bodies, and the obstacle.
+/// Distance from a body of the robot to the obstacles [m], at most the clearance horizon; −∞ when a
+/// leg does not reach. Proved body by body. Subject: index of RobotModel::bodies. Other: the
+/// obstacle.
 class ClearanceMargin final : public MarginStatements {
  public:
   static constexpr FamilyTraits kTraits = {

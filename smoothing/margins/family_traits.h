@@ -8,8 +8,8 @@
 
 namespace halfstep {
 
-/// How much work the values of a family are. Cheap families are asked first, so that what is
-/// violated is mostly found with little work.
+/// What the values of a family need, from little work to much. Families that need little are asked
+/// first, so that most violations are found with little work.
 enum class MarginCost : int {
   kWalk,         ///< the superposed quantities
   kPosture,      ///< joint angles
@@ -27,16 +27,17 @@ struct FamilyTraits {
   std::string_view meaning;  ///< of the key
   double scale;              ///< what counts as a clear change of the margin [its unit]
   double demanded;           ///< by default [its unit]
-  bool raised;               ///< whether `safest` raises it; else it is kept at what is demanded
+  bool raised;  ///< whether the program `safest` raises it, not only keeps what is demanded
   MarginCost cost;
-  /// Family whose row of the program it shares, mostly its own; none: it has no row, for no
-  /// parameter moves it.
+  /// The family whose row of the program it shares, mostly itself; none when no parameter moves the
+  /// margin, so that it has no row.
   std::optional<MarginFamily> row;
 };
 
+/// The traits of a family.
 const FamilyTraits& Traits(MarginFamily family);
 
-/// All families, those with little work first.
+/// All families, those that need little work first.
 const std::array<MarginFamily, kNumMarginFamilies>& FamiliesByCost();
 
 }  // namespace halfstep

@@ -6,8 +6,9 @@
 
 namespace halfstep {
 
-/// Height of a sole above the floor while it moves horizontally [m]. Before its horizontal motion
-/// begins and after it ends, the foot may touch the floor.
+/// Height of the swing sole above the floor while it moves horizontally [m]. Before its horizontal
+/// motion begins and after it ends, the foot may touch the floor and the margin is +∞. Subject:
+/// Index(Side).
 class FloorMargin final : public WholeFamily {
  public:
   static constexpr FamilyTraits kTraits = {

@@ -6,7 +6,8 @@
 
 namespace halfstep {
 
-/// Limit − speed of the swing sole's centre [m/s].
+/// Limit − speed of the swing sole's centre [m/s]; +∞ without a limit and while both feet stand.
+/// Subject: Index(Side).
 class FootSpeedMargin final : public WholeFamily {
  public:
   static constexpr FamilyTraits kTraits = {

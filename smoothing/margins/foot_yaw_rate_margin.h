@@ -6,7 +6,8 @@
 
 namespace halfstep {
 
-/// Limit − |yaw rate| of the swing sole [rad/s].
+/// Limit − |yaw rate| of the swing sole [rad/s]; +∞ without a limit and while both feet stand.
+/// Subject: Index(Side).
 class FootYawRateMargin final : public WholeFamily {
  public:
   static constexpr FamilyTraits kTraits = {

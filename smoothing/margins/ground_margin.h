@@ -6,8 +6,8 @@
 
 namespace halfstep {
 
-/// Height of a body's lowest point above the floor [m]. A body on a foot may touch it
-/// (BodyHeights). Subject: index into RobotModel::bodies.
+/// Height of a body's lowest point above the floor [m]; −∞ when a leg does not reach. A body on a
+/// foot may touch the floor (BodyHeights). Subject: index of RobotModel::bodies.
 class GroundMargin final : public WholeFamily {
  public:
   static constexpr FamilyTraits kTraits = {

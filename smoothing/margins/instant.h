@@ -9,12 +9,13 @@
 namespace halfstep {
 
 /// A walk at one instant, as the families see it. The posture is solved when it is first asked for.
-/// Borrows everything.
+/// What the constructors take is borrowed.
 class Instant {
  public:
   Instant(const MarginPlace& place, const MarginLimits& limits, const SuperposedWalk& walk,
           const LocalTime& at, MarginScratch* scratch);
-  /// The same, with quantities and a posture that are known: joint speeds solved.
+  /// The same with quantities and a posture that are known already. Precondition: its joint speeds
+  /// are solved.
   Instant(const MarginPlace& place, const MarginLimits& limits, const SuperposedWalk& walk,
           const LocalTime& at, const WalkJet& jet, const Posture& posture, MarginScratch* scratch);
   Instant(const Instant&) = delete;
@@ -26,15 +27,17 @@ class Instant {
   double demanded(MarginFamily family) const { return limits_.demanded_of(family); }
   const SuperposedWalk& walk() const { return walk_; }
   const LocalTime& at() const { return at_; }
-  double t() const { return walk_.Absolute(at_); }  ///< in the walk [s]
+  double t() const { return walk_.Absolute(at_); }  ///< absolute time in the walk [s]
   const WalkJet& jet() const { return jet_; }
-  /// The step whose foot is in the air (its up half-step is 2·step), or −1; and that foot.
+  /// The step whose foot is in the air (its up half-step is 2·step), or −1. swing() is that foot,
+  /// and has a meaning only when there is one.
   int step_in_air() const { return step_; }
   Side swing() const { return walk_.half_step(2 * step_).swing(); }
 
-  /// Both legs reach; precondition of most uses of the posture.
+  /// Whether both legs reach, which is a precondition of most uses of the posture.
   bool reachable() { return posture().reachable; }
-  /// They do, and joint speeds have a bound.
+  /// Whether both legs reach and neither is stretched to the singularity; then the posture's joint
+  /// speeds are solved.
   bool regular();
   const Posture& posture();
   MarginScratch& scratch() const { return scratch_; }
@@ -52,13 +55,13 @@ class Instant {
   bool speeds_tried_ = false, regular_ = false;
 };
 
-/// An interval of time around an instant, [mid − h, mid + h], and how much the motion changes in it
-/// at most. No foot lifts off or touches down, and none begins or ends its horizontal motion,
-/// strictly inside.
+/// An interval of time around an instant, [mid − h, mid + h], and bounds of how much the motion
+/// changes in it. Strictly inside, no foot lifts off or touches down, and none begins or ends its
+/// horizontal motion.
 struct MarginInterval {
   Instant& mid;
   const IntervalMotion& motion;
-  bool with_margins = false;  ///< margins are wanted and not mere verdicts: slower
+  bool with_margins = false;  ///< margins are wanted, not only verdicts, which is slower
 };
 
 }  // namespace halfstep

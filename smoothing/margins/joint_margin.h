@@ -6,7 +6,8 @@
 
 namespace halfstep {
 
-/// Distance of a joint to the nearest of its limits [rad]. Subject: 6·Index(Side) + joint.
+/// Distance of a joint's angle to the nearer of its two limits [rad]; −∞ when its leg does not
+/// reach. Subject: 6·Index(Side) + joint.
 class JointMargin final : public WholeFamily {
  public:
   static constexpr FamilyTraits kTraits = {

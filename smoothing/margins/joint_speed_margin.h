@@ -6,7 +6,8 @@
 
 namespace halfstep {
 
-/// Joint speed limit − |q̇| [rad/s]. Subject: 6·Index(Side) + joint.
+/// Joint speed limit, times MarginLimits::joint_speed_scale, − |q̇| [rad/s]; −∞ when a leg does not
+/// reach or is stretched to the singularity. Subject: 6·Index(Side) + joint.
 class JointSpeedMargin final : public WholeFamily {
  public:
   static constexpr FamilyTraits kTraits = {

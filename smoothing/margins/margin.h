@@ -11,8 +11,8 @@
 namespace halfstep {
 
 /// The kinds of statements that a walk must satisfy, in the order of certificates and tables. Each
-/// margin says how far inside its limit the walk is, in its natural unit; positive is inside. What
-/// a family is, and how it is evaluated and proved, stands in its class (margins/NAME_margin.h).
+/// margin says how far inside its limit the walk is, in its natural unit; positive is inside. The
+/// class of a family (margins/NAME_margin.h) says how it is evaluated and proved.
 enum class MarginFamily : int {
   kFloor,          ///< height of a sole above the floor while it moves horizontally [m]
   kFootSpeed,      ///< limit − speed of the swing sole's centre [m/s]
@@ -23,14 +23,15 @@ enum class MarginFamily : int {
   kJointSpeed,     ///< joint speed limit − |q̇| [rad/s]
   kSelfClearance,  ///< distance between the robot's own bodies [m]
   kClearance,      ///< distance from the robot to the obstacles [m]
-  kGround,         ///< height of a body's lowest point above the floor [m]; a foot's may touch it
+  kGround,         ///< height of a body's lowest point above the floor [m]; a foot may touch it
   kNoStep,         ///< distance of a standing sole's outline from the no-step areas [m]
 };
 constexpr int kNumMarginFamilies = 11;
 
 std::string_view Name(MarginFamily family);  ///< "zmp", "joint_speed" … as in YAML and CSV
 std::string_view Unit(MarginFamily family);  ///< "m", "rad" …
-/// What counts as a clear change of a margin; compares margins of different units [its unit].
+/// What counts as a clear change of a margin [its unit]. It makes margins of different units
+/// comparable.
 double Scale(MarginFamily family);
 /// What is demanded of each family unless the user says otherwise [its unit].
 std::array<double, kNumMarginFamilies> DefaultDemands();
@@ -49,10 +50,11 @@ struct Margin {
   double value = kUnlimited;
   LocalTime at = {};
   double t = 0.0;  ///< absolute time in the walk where it was found [s]
-  /// Zmp: step in the air or −1. Foot families: Index(Side). Reach, joints: 6·Index(Side) + joint.
-  /// Clearances and ground: index into RobotModel::bodies. No-step: Index(Side).
+  /// What the margin belongs to, −1: nothing in particular. ZMP: the step in the air, or −1. Floor,
+  /// foot speed, foot yaw rate, no-step: Index(Side). Reach, joints, joint speeds: 6·Index(Side) +
+  /// joint. Clearances and ground: index of RobotModel::bodies.
   int subject = -1;
-  int other = -1;  ///< clearance: obstacle; self-clearance: second body; no-step: area
+  int other = -1;  ///< index of the obstacle (clearance), second body (self-clearance) or area
 };
 
 /// Limits of the quantities that the robot model does not bound, and what is demanded of each
@@ -63,7 +65,8 @@ struct MarginLimits {
   double joint_speed_scale = 1.0;             ///< of the robot's joint speed limits, ∈ (0, 1]
   /// Demanded margin δ by family, in its unit: feasible means margin ≥ δ.
   std::array<double, kNumMarginFamilies> demanded = DefaultDemands();
-  /// Distances beyond this are not told apart: a clearance reads at most this [m].
+  /// A clearance beyond this reads as this [m], or as twice the largest demanded clearance where
+  /// that is more.
   double clearance_horizon = 0.3;
 
   double demanded_of(MarginFamily f) const { return demanded[static_cast<size_t>(f)]; }

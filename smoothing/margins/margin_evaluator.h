@@ -10,11 +10,12 @@
 
 namespace halfstep {
 
-/// Every margin of a walk of one robot among one scene's obstacles, at single instants. What holds
-/// between instants is for others to say (FeasibilityTest). Const; scratch is the caller's.
+/// Evaluates every margin of a walk, of one robot among the obstacles of one scene, at single
+/// instants. What holds between instants is for FeasibilityTest to say. Const; scratch is the
+/// caller's.
 class MarginEvaluator {
  public:
-  /// What families remember; one for each thread.
+  /// What families remember. Use one for each thread.
   using Scratch = MarginScratch;
 
   /// `robot` and `scene` are copied.
@@ -34,18 +35,19 @@ class MarginEvaluator {
     return *shared_->statements[static_cast<size_t>(family)];
   }
 
-  /// All margins at an instant. When a leg does not reach, joint, ground and clearance margins are
-  /// −∞.
+  /// All margins at an instant. When a leg does not reach, those of joints, joint speeds, ground,
+  /// clearance and self-clearance are −∞.
   MarginSet At(const SuperposedWalk& walk, const LocalTime& at, Scratch* scratch) const;
 
-  /// The first margin found below what is demanded, cheapest families first; none: all are met.
-  /// Clearances are only compared with what is demanded, so this is much cheaper than At.
+  /// The first margin that is found below what is demanded, families with little work first; none
+  /// when all are kept. Clearances are only compared with what is demanded, so this is much cheaper
+  /// than At.
   std::optional<Margin> FirstViolation(const SuperposedWalk& walk, const LocalTime& at,
                                        Scratch* scratch) const;
 
-  /// "clearance of right foot (RLEG_LINK5) to 'bar' 0.0032 m at half-step 3, τ = 0.412 s".
+  /// "clearance of RLEG_LINK5 - bar 0.0032 m (demanded 0.005) at half-step 3, tau = 0.412 s".
   std::string Describe(const Margin& margin) const;
-  /// What a margin belongs to: "RLEG_LINK5 – bar", "right foot", "LLEG_JOINT3".
+  /// What a margin belongs to: "RLEG_LINK5 - bar", "right foot", "LLEG_JOINT3".
   std::string Subject(const Margin& margin) const {
     return statements(margin.family).Subject(margin);
   }

@@ -13,8 +13,8 @@
 
 namespace halfstep {
 
-/// A robot among the obstacles of a scene, prepared for the questions of all families. Not movable:
-/// its parts borrow from each other.
+/// A robot among the obstacles of a scene, prepared for the questions of all families. It cannot be
+/// moved, because its parts borrow from each other.
 struct MarginPlace {
   MarginPlace(RobotModel r, Scene s)
       : robot(std::move(r)),
@@ -32,8 +32,8 @@ struct MarginPlace {
   NoStepAreas areas;
 };
 
-/// What families remember from one instant to the next, and how many instants were asked about.
-/// One for each thread.
+/// What families remember from one instant to the next, and how many instants were asked about. Use
+/// one for each thread.
 struct MarginScratch {
   /// The no-step area that was nearest to a sole where it stood last.
   struct Standing {
@@ -43,7 +43,7 @@ struct MarginScratch {
   };
   BodyClearances::Scratch bodies;
   long instants = 0;
-  std::stop_token stop = {};              ///< ends proofs; what is not decided stays undecided
+  std::stop_token stop = {};              ///< ends proofs; what is not decided then stays undecided
   std::array<Standing, 2> standing = {};  ///< by Index(Side)
 };
 

@@ -6,8 +6,9 @@
 
 namespace halfstep {
 
-/// Distance of what touches the floor of a standing foot from the no-step areas [m]. No parameter
-/// moves a footstep, so there are no rows. Subject: Index(Side), and the area.
+/// Distance of a standing foot from the no-step areas [m], by the outline of what touches the floor
+/// (NoStepAreas); +∞ for a foot in the air, and without areas. No parameter moves a footstep, so
+/// there are no rows. Subject: Index(Side). Other: the area.
 class NoStepMargin final : public WholeFamily {
  public:
   static constexpr FamilyTraits kTraits = {

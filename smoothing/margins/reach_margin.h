@@ -6,7 +6,8 @@
 
 namespace halfstep {
 
-/// Length of the stretched leg − hip–ankle distance [m]. Subject: 6·Index(Side) + 3.
+/// Length of the stretched leg − hip–ankle distance [m] (LegIkSolution::reach_margin). Subject:
+/// 6·Index(Side) + 3, the knee.
 class ReachMargin final : public WholeFamily {
  public:
   static constexpr FamilyTraits kTraits = {

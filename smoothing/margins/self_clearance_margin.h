@@ -7,8 +7,8 @@
 
 namespace halfstep {
 
-/// Distance between two of the robot's own bodies [m], at most the clearance horizon. Proved pair
-/// by pair. Subject: indices of both in RobotModel::bodies.
+/// Distance between two of the robot's own bodies [m], at most the clearance horizon; −∞ when a leg
+/// does not reach. Proved pair by pair. Subject and other: indices of RobotModel::bodies.
 class SelfClearanceMargin final : public MarginStatements {
  public:
   static constexpr FamilyTraits kTraits = {

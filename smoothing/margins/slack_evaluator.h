@@ -9,8 +9,9 @@
 
 namespace halfstep {
 
-/// The statements of an instant that are nearer to their limits than a cutoff, smooth one by one
-/// (each polygon edge, each end of a joint's range), with derivatives along homotopy parameters.
+/// The statements of an instant that are nearer to their limits than a cutoff, with derivatives
+/// along homotopy parameters. Each is smooth by itself (one for each polygon edge, or end of a
+/// joint's range).
 struct InstantSlacks {
   std::vector<SlackRow> rows;
   std::vector<HomotopyParameter> parameters;  ///< on which the instant depends
@@ -18,19 +19,21 @@ struct InstantSlacks {
 };
 
 /// Evaluates slacks and their analytic derivatives: superposition → leg inverse kinematics →
-/// witness points. One for each thread.
+/// witness points. Use one for each thread.
 class SlackEvaluator {
  public:
   /// `evaluator` is borrowed. Statements with slack above `cutoff` are left out.
   SlackEvaluator(const MarginEvaluator& evaluator, double cutoff);
 
-  /// At (half-step, τ). `moving`: with an instant that itself moves, the rate dτ/dparameter of each
-  /// given parameter. Without `gradient` only the slacks are filled. Unreachable: one reach row,
-  /// negative, and no joints or clearances.
+  /// Evaluates the instant (half-step, τ). Where the instant itself moves with some parameters,
+  /// `moving` has the rate dτ/dparameter of each. Without `gradient` only the slacks are filled.
+  /// When a leg does not reach or is stretched to the singularity, there is one negative row of
+  /// `reach`, with derivatives 0, and there are no rows of joints, ground or clearances.
   void At(const SuperposedWalk& walk, const LocalTime& at,
           const std::vector<std::pair<HomotopyParameter, double>>& moving, bool gradient,
           InstantSlacks* out);
 
+  /// How many instants were evaluated.
   long instants() const { return scratch_.instants; }
 
  private:

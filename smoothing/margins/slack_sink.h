@@ -23,7 +23,8 @@ class SlackSink {
   /// Statements with slack above `cutoff` are left out.
   explicit SlackSink(double cutoff) : cutoff_(cutoff) {}
 
-  /// Of the parameters on which the instant depends: of the walk's quantities, of the posture.
+  /// Derivatives along the parameters on which the instant depends: of the walk's quantities, and
+  /// of the posture (empty where joint speeds have no bound).
   std::vector<WalkSensitivity> sensitivities;
   std::vector<PostureTangent> tangents;
 
@@ -33,7 +34,8 @@ class SlackSink {
     rows_.clear();
     gradient_.clear();
   }
-  /// What the statements that follow belong to, and what is demanded of them.
+  /// Says to which family the statements that follow belong, and what is demanded of them [its
+  /// unit].
   void Begin(MarginFamily family, double demanded);
 
   /// The margin beyond which statements are left out [its unit].

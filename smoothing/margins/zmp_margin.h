@@ -6,7 +6,8 @@
 
 namespace halfstep {
 
-/// Distance of the ZMP inside the support polygon [m].
+/// Distance of the ZMP inside the support polygon [m], negative outside. Subject: the step in the
+/// air, or −1.
 class ZmpMargin final : public WholeFamily {
  public:
   static constexpr FamilyTraits kTraits = {

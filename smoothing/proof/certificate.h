@@ -24,8 +24,8 @@ using Certificate = std::vector<CertificateRow>;
 
 /// When the adaptive certification gives up, and how it begins.
 struct CertificationOptions {
-  double resolution = 1e-4;  ///< shorter intervals are not bisected: undecided [s] > 0
-  double longest = 0.07;     ///< intervals begin at most this long [s]
+  double resolution = 1e-4;  ///< shorter intervals are left undecided, not bisected [s] > 0
+  double longest = 0.07;     ///< the first intervals are at most this long [s] ≥ resolution
 };
 
 }  // namespace halfstep

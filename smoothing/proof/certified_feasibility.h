@@ -12,11 +12,12 @@ namespace halfstep {
 
 /// Decides for every instant of a window whether the demanded margins are kept. An interval is
 /// settled by its midpoint and a bound on the motion around it, else bisected; what is still open
-/// at the resolution is undecided. Feasible is a proof; violated has a witness; what keeps every
-/// margin with a little to spare is never undecided at a fine enough resolution.
+/// at the resolution is undecided. Feasible is a proof; violated has a witness; a walk that keeps
+/// every margin with a little to spare is never undecided at a fine enough resolution.
 /// Source: [Schwarzer2005]; bounds: smoothing/README.md, "Certificates".
 class CertifiedFeasibility : public FeasibilityTest {
  public:
+  /// Throws std::logic_error for options out of their ranges.
   CertifiedFeasibility(MarginEvaluator evaluator, const CertificationOptions& options);
 
   Evidence evidence() const override { return Evidence::kCertified; }
@@ -28,9 +29,9 @@ class CertifiedFeasibility : public FeasibilityTest {
   Feasibility Check(const SuperposedWalk& walk, const TimeWindow& window,
                     MarginEvaluator::Scratch* scratch) const override;
 
-  /// The same over the whole walk, with the proof: `certificate` holds what was proved before a
-  /// verdict was reached, all of it when feasible, in the order of begin, end and family. `stop` is
-  /// polled before each interval; a proof that is stopped is undecided.
+  /// Decides the whole walk and keeps the proof: `certificate` has the rows that were proved before
+  /// the verdict was reached, which is the complete proof when feasible, sorted by begin, end and
+  /// family. `stop` is polled before each interval; a proof that is stopped is undecided.
   Feasibility Certify(const SuperposedWalk& walk, MarginEvaluator::Scratch* scratch,
                       Certificate* certificate, const std::stop_token& stop = {}) const;
 
@@ -48,11 +49,11 @@ class CertifiedFeasibility : public FeasibilityTest {
   IntervalStatements statements_;
 };
 
-/// Extends a window on either side to the next knot. A changed overlap moves knots, and the
-/// intervals beside a moved knot are cut anew; as every check includes these, a walk whose windows
-/// were proved one after the other is proved as a whole, by the same intervals. A window that
-/// begins and ends where half-steps begin is returned unchanged: intervals were cut anew only
-/// within it.
+/// Extends a window on either side to the next knot (KnotsInside). A changed overlap moves knots,
+/// and the intervals beside a moved knot are cut anew. Every check includes these, so a walk whose
+/// windows were proved one after the other is proved as a whole, by the same intervals. A window
+/// that begins and ends where half-steps begin, or the walk ends, is returned unchanged, since
+/// intervals were cut anew only within it.
 TimeWindow ExtendedToKnots(const SuperposedWalk& walk, const TimeWindow& window);
 
 /// Instants strictly inside a window at which a foot lands or lifts off, starts or stops moving

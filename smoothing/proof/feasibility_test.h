@@ -16,6 +16,7 @@ enum class Evidence {
 };
 std::string_view Name(Evidence evidence);
 
+/// Undecided: neither proved nor refuted.
 enum class Verdict { kFeasible, kViolated, kUndecided };
 
 /// Absolute times [s] of a walk, begin ≤ end.
@@ -24,12 +25,13 @@ struct TimeWindow {
   double end = 0.0;
 };
 
+/// The answer about a stretch of time.
 struct Feasibility {
   Verdict verdict = Verdict::kUndecided;
   Evidence evidence = Evidence::kSampled;
   /// Violated: a margin below what is demanded. Undecided: the one that could not be decided.
   Margin witness;
-  bool stopped = false;  ///< undecided because it was told to stop
+  bool stopped = false;  ///< undecided because the check was told to stop
 };
 
 /// Whether a walk meets every demanded margin on a window of time. The scratch's stop token is
@@ -38,11 +40,12 @@ class FeasibilityTest {
  public:
   virtual ~FeasibilityTest() = default;
   virtual Evidence evidence() const = 0;
-  /// "sampled every 5 ms".
+  /// How the test decides: "sampled every 5 ms".
   virtual std::string Description() const = 0;
   virtual const MarginEvaluator& evaluator() const = 0;
   /// The same kind of test with the demands of another evaluator.
   virtual std::unique_ptr<FeasibilityTest> Over(const MarginEvaluator& evaluator) const = 0;
+  /// Decides the absolute times of `window`.
   virtual Feasibility Check(const SuperposedWalk& walk, const TimeWindow& window,
                             MarginEvaluator::Scratch* scratch) const = 0;
 };

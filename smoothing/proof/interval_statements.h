@@ -28,10 +28,11 @@ class IntervalStatements {
   /// All groups of all families.
   OpenGroups All() const;
 
-  /// Removes from `open` what holds for all t of [begin, end], and, unless `rows` is null, adds it
-  /// there (slower: rows need margins, not only verdicts). Returns a margin that is violated at the
-  /// midpoint, if any. Precondition: no foot touches down or lifts off, and no foot starts or stops
-  /// moving horizontally, strictly inside the interval.
+  /// Removes from `open` the groups that hold for all t in the absolute times [begin, end] [s].
+  /// Unless `rows` is null, it gets their rows, which is slower: rows need margins, not only
+  /// verdicts. Returns a margin that is violated at the midpoint, if any. Precondition: no foot
+  /// touches down or lifts off, and no foot starts or stops moving horizontally, strictly inside
+  /// the interval.
   std::optional<Margin> Prove(const SuperposedWalk& walk, double begin, double end,
                               OpenGroups* open, MarginEvaluator::Scratch* scratch,
                               Certificate* rows) const;

@@ -7,11 +7,12 @@
 
 namespace halfstep {
 
-/// Checks margins at instants no more than `period` apart, both ends of the window included, coarse
-/// ones first. Feasible means: at these instants, nothing about the motion between them.
+/// Checks margins at instants no more than `period` apart, both ends of the window included, widely
+/// spaced ones first. Feasible means that margins are kept at these instants; it says nothing about
+/// the motion between them.
 class SampledFeasibility : public FeasibilityTest {
  public:
-  /// period [s] > 0.
+  /// `period` [s] > 0 (std::logic_error).
   SampledFeasibility(MarginEvaluator evaluator, double period);
 
   Evidence evidence() const override { return Evidence::kSampled; }
@@ -28,8 +29,8 @@ class SampledFeasibility : public FeasibilityTest {
   double period_;
 };
 
-/// Smallest value of each margin at instants no more than `period` [s] apart over the whole walk,
-/// both ends included: values, not only verdicts, so slower than Check.
+/// The smallest value of each margin at instants no more than `period` [s] apart over the whole
+/// walk, both ends included. It is slower than Check, which needs verdicts only.
 MarginSet SampleMargins(const MarginEvaluator& evaluator, const SuperposedWalk& walk, double period,
                         MarginEvaluator::Scratch* scratch);
 

@@ -8,10 +8,10 @@
 
 namespace halfstep {
 
-/// Proves walks of one sequence stretch by stretch, [t_k, t_{k+1}], the last one to the end. What a
-/// walk does on a stretch depends on the half-steps under way there alone: stretches whose
-/// parameters are those of a proof before are not proved again. Instants at which earlier proofs
-/// failed are checked first. Source: smoothing/README.md, "The incumbent".
+/// Proves walks of one sequence stretch by stretch: [t_k, t_{k+1}], and the last one to the end.
+/// What a walk does on a stretch depends only on the half-steps under way there, so a stretch with
+/// the parameters of an earlier proof is not proved again. Instants at which earlier proofs failed
+/// are checked first. Source: smoothing/README.md, "The incumbent".
 class StretchProofs {
  public:
   /// `test` is borrowed.
@@ -39,9 +39,9 @@ class StretchProofs {
   std::vector<Stretch> stretches_;
 };
 
-/// The parameters on which the posture and its rates depend on [t_k, t_{k+1}], as functions of the
-/// time since t_k, and the length of that stretch: those that the half-steps i ≤ k carry which are
-/// under way at some time of it.
+/// The parameters of the stretch [t_k, t_{k+1}] of half-step k: the posture and its rates, as
+/// functions of the time since t_k, and the length of the stretch depend on no others. They are
+/// those that are carried by the half-steps i ≤ k that are under way at some time of the stretch.
 std::vector<double> StretchParameters(const SuperposedWalk& walk, int half_step);
 
 }  // namespace halfstep

@@ -13,6 +13,7 @@ struct HomotopyParameters {
   std::vector<double> height_scales;  ///< η_j of step j: multiplies its via height (n/2).
   std::vector<double> durations;      ///< T_i of half-step i [s] (n).
 
+  /// The values of a family.
   std::vector<double>& of(ParameterFamily family) { return this->*Traits(family).values; }
   const std::vector<double>& of(ParameterFamily family) const {
     return this->*Traits(family).values;
@@ -24,12 +25,13 @@ struct HomotopyParameters {
 /// The planned motion, where the homotopy starts: Δ = 0, η = 1, T as planned.
 HomotopyParameters PlannedMotion(const HalfStepSequence& sequence);
 
-/// One parameter: its family and index there, from 0.
+/// One parameter: its family, and its index there from 0.
 struct HomotopyParameter {
   using Family = ParameterFamily;
   Family family = Family::kOverlap;
   int index = 0;
 
+  /// Its value in `parameters`.
   double& in(HomotopyParameters& parameters) const {
     return parameters.of(family).at(static_cast<size_t>(index));
   }
@@ -46,16 +48,17 @@ constexpr JunctionKind KindOfJunction(int junction) {
   return junction % 2 == 0 ? JunctionKind::kUpDown : JunctionKind::kDownUp;
 }
 
-/// The natural bound of a junction's overlap is min(before·T_i, after·T_{i+1}). Up→down: min(T −
-/// t2, t1), beyond which the foot would go under the floor. Down→up: the shorter of the two
-/// durations, beyond which half-steps would begin, or end, out of order.
+/// The natural bound of a junction's overlap is min(before·T_i, after·T_{i+1}) [s]. Up→down it is
+/// min(T − t2, t1), with T and t2 of the up and t1 of the down half-step; beyond it the foot would
+/// go under the floor. Down→up it is the shorter of the two durations; beyond it half-steps would
+/// begin, or end, out of order. Source: smoothing/README.md, "Natural bounds".
 struct NaturalBound {
   double before = 1.0, after = 1.0;
 
-  /// [s], from both durations [s].
+  /// The bound [s] for the durations of both half-steps [s].
   double At(double T_before, double T_after) const;
 };
-/// Of the junction of that number between two half-steps of these shapes.
+/// The natural bound of junction `junction`, between half-steps of these shapes, or of a sequence.
 NaturalBound NaturalBoundOf(int junction, const HalfStepShape& before, const HalfStepShape& after);
 NaturalBound NaturalBoundOf(const HalfStepSequence& sequence, int junction);
 
@@ -63,11 +66,11 @@ NaturalBound NaturalBoundOf(const HalfStepSequence& sequence, int junction);
 double NaturalOverlapBound(const HalfStepSequence& sequence, const std::vector<double>& durations,
                            int junction);
 
-/// Overlaps count as within their natural bound up to this [s].
+/// An overlap may exceed its natural bound by this and still counts as within it [s].
 inline constexpr double kOverlapTolerance = 1e-12;
 
-/// Throws std::logic_error unless the sizes fit the sequence, all is finite, T > 0, η ≥ 0 and every
-/// overlap lies in [0, its natural bound], to kOverlapTolerance.
+/// Throws std::logic_error unless the sizes fit the sequence, all values are finite, T > 0, η ≥ 0,
+/// Δ ≥ 0 and no overlap exceeds its natural bound by more than kOverlapTolerance.
 void CheckParameters(const HalfStepSequence& sequence, const HomotopyParameters& parameters);
 
 /// Lowers every overlap that is above its natural bound to it, and raises negative ones to 0.

@@ -29,48 +29,49 @@ struct ParameterChoice {
   double most_duration = 1.5;   ///< as a fraction of the planned one
 };
 
-/// A number of ParameterChoice, as configs name it.
+/// One number of ParameterChoice, and its key in configs.
 struct ParameterBoundKey {
   std::string_view key;
   std::string_view meaning;
   double ParameterChoice::*value;
-  double min, max;
+  double min, max;  ///< valid range
 };
 
-/// All that programs, proofs, files and messages need to know about a family. What the parameters
-/// do to a walk is SuperposedWalk's, with its Sensitivities.
+/// All that programs, proofs, files and messages need to know about a family. What its parameters
+/// do to a walk is up to SuperposedWalk and its Sensitivities.
 struct ParameterFamilyTraits {
   std::string_view name;     ///< in YAML and messages: "overlap"
   std::string_view unit;     ///< "s"; "": a number
-  std::string_view table;    ///< the CSV that holds the values, one row a junction or half-step …
-  std::string_view column;   ///< … and its column there,
-  int rank;                  ///< after those of the same table with a smaller one
+  std::string_view table;    ///< the CSV that holds the values, one row a junction or half-step
+  std::string_view column;   ///< their column in that table
+  int rank;                  ///< order of the families' columns in one table, smallest first
   std::string_view meaning;  ///< one line, for the column and for messages
   std::vector<double> HomotopyParameters::*values;
   int (*count)(const HalfStepSequence&);
   double (*planned)(const HalfStepSequence&, int index);
   /// First and last half-step that the parameter belongs to.
   std::pair<int, int> (*half_steps)(int index);
-  /// The one of the family that a half-step carries, of those that join the one with its successor;
-  /// the last half-step's may not exist.
+  /// Index of the parameter that a half-step carries. A parameter that joins two half-steps is
+  /// carried by the first of them, so the index of the last half-step may not exist.
   int (*index_at)(int half_step);
-  /// It bears on an instant only where all of its half-steps may be under way; else where one may.
+  /// True when the parameter bears on an instant only where all of its half-steps may be under way;
+  /// false when it does where one of them may be.
   bool joins;
-  /// Least value that makes sense, and whether it is itself one.
+  /// The least value that makes sense, and whether that value itself is allowed.
   double least;
   bool least_itself;
-  /// The flag that lets methods move the family, its key in configs ("heights") and what that
-  /// means; null: they always may.
+  /// The flag that lets methods move the family (null: they always may), its key in configs
+  /// ("heights"), and what that key means.
   bool ParameterChoice::*chosen;
   std::string_view key, key_meaning;
   std::span<const ParameterBoundKey> bounds;
-  /// Between which values methods choose, given the planned one. Overlaps have their natural bounds
-  /// besides.
+  /// The range that methods choose from, given the planned value. Overlaps have their natural
+  /// bounds besides.
   std::pair<double, double> (*range)(const ParameterChoice&, double planned);
 };
 
-/// The traits of a family. A family is a row of the table behind it, a member of
-/// HomotopyParameters, and what SuperposedWalk makes of it.
+/// The traits of a family. A family is a row of the table behind this function, a member of
+/// HomotopyParameters, and what SuperposedWalk makes of its values.
 const ParameterFamilyTraits& Traits(ParameterFamily family);
 
 /// Every family, in the order of programs and files.

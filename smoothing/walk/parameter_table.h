@@ -19,14 +19,15 @@ struct FixedParameter {
 struct ParameterRow {
   HomotopyParameter parameter;
   double start = 0.0;  ///< where methods begin: as planned, or where it is fixed
-  /// What methods may choose, start included. An overlap's natural bound, which depends on
-  /// durations, holds besides.
+  /// The range that methods may choose from, start included. An overlap's natural bound, which
+  /// depends on durations, holds besides; beside a fixed overlap, `lower` keeps durations long
+  /// enough for it.
   double lower = 0.0, upper = 0.0;
-  bool fixed = false;  ///< or of a family that is not chosen; then lower = start = upper
+  bool fixed = false;  ///< or of a family that methods may not move: lower = start = upper
 };
 
 /// Every parameter of a sequence, family after family: what a method may move, how far, and from
-/// where. What loops over parameters loops over these rows.
+/// where. All code that goes through the parameters goes through these rows.
 class ParameterTable {
  public:
   /// Throws std::logic_error where ComplaintAbout() complains.
@@ -45,7 +46,7 @@ class ParameterTable {
   }
   bool free(const HomotopyParameter& parameter) const { return !row(parameter).fixed; }
 
-  /// The planned motion but for what is fixed elsewhere.
+  /// The planned motion, except for the parameters that are fixed at another value.
   HomotopyParameters Start() const;
 
  private:
@@ -53,8 +54,8 @@ class ParameterTable {
   std::array<int, kNumParameterFamilies> first_{};  // row of each family
 };
 
-/// Why `fixed` cannot be fixed so, beside the others, in a sequence; "": it can. A sentence that
-/// counts from 1, "overlap 9: there are 5 (valid: 1 … 5)".
+/// Why these parameters of a sequence cannot be fixed together at these values; "" when they can.
+/// It is a sentence that counts from 1: "overlap 9: there are 5 (valid: 1 … 5)".
 std::string ComplaintAbout(const HalfStepSequence& sequence,
                            const std::vector<FixedParameter>& fixed);
 

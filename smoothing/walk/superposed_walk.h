@@ -10,8 +10,8 @@
 
 namespace halfstep {
 
-/// An instant of a walk, named by a half-step and the time since it began. Names stay put when an
-/// overlap elsewhere changes; absolute time does not. The same instant may have several names.
+/// An instant of a walk, named by a half-step and the time since it began. The name stays when an
+/// overlap elsewhere changes, while the absolute time moves. One instant may have several names.
 struct LocalTime {
   int half_step = 0;
   double tau = 0.0;  ///< [s]
@@ -61,28 +61,30 @@ class SuperposedWalk {
   /// depends: the half-steps under way there and the junctions between them. Replaces `out`.
   void Sensitivities(const LocalTime& at, std::vector<WalkSensitivity>* out) const;
 
-  /// Bounds of |second derivative| of every quantity over the absolute times [begin, end] [s]: each
-  /// under-way half-step's own bound, added up. Hold for all t there.
+  /// Bounds of the |second time derivative| of every quantity, for all t in the absolute times
+  /// [begin, end] [s]: the bounds of all half-steps under way there, added up.
   WalkState SecondBounds(double begin, double end) const;
 
-  /// Which feet stand on the floor. A foot is in the air from t2 of its up half-step to t1 of the
-  /// down half-step that follows, both instants included.
+  /// Whether a foot is in the air, which it is from t2 of its up half-step to t1 of the down
+  /// half-step that follows, both instants included. Else it stands on the floor.
   bool InAir(const LocalTime& at, Side foot) const;
   /// The step (its up half-step is 2·step) whose foot is in the air, or −1. At most one foot is.
   int StepInAir(const LocalTime& at) const;
 
-  /// Whether the swing foot of `step` is in its horizontal motion: from the beginning of the up
-  /// half-step's, or of the down half-step if that overlaps so far that it begins earlier, to the
-  /// end of the down half-step's, or of the up half-step if that is later; both instants included.
+  /// Whether the swing foot of `step` is in its horizontal motion. It begins with that of the up
+  /// half-step, or with the down half-step if that overlaps so far that it begins earlier. It ends
+  /// with that of the down half-step, or with the up half-step if that ends later. Both instants
+  /// are included.
   bool MovesHorizontally(int step, const LocalTime& at) const;
 
-  /// A lower bound of the height of the swing sole of `step` for all t of [begin, end] [s], at most
-  /// its height there and, but for rounding, never below 0 while the overlap is within its natural
-  /// bound. Precondition: half-steps and flights begin and end outside of the interval, or at its
-  /// ends. Source: smoothing/README.md, "The foot never goes below the floor".
+  /// A lower bound of the height of the swing sole of `step` [m] for all t in [begin, end] [s]. But
+  /// for rounding it is never below 0 while the overlap is within its natural bound. Precondition:
+  /// half-steps and flights begin and end outside of the interval, or at its ends. Source:
+  /// smoothing/README.md, "The foot never goes below the floor".
   double LeastHeight(int step, double begin, double end) const;
 
-  /// Changes one overlap. Precondition: within [0, NaturalOverlapBound].
+  /// Changes one overlap [s]. Precondition: it is at least 0, and exceeds NaturalOverlapBound by at
+  /// most kOverlapTolerance (std::logic_error).
   void SetOverlap(int junction, double overlap);
 
  private:
@@ -108,8 +110,8 @@ class SuperposedWalk {
   Lipm lipm_;
 };
 
-/// What supports the robot at an instant where its quantities are `x`: one sole, or the hull of
-/// two.
+/// What supports the robot at an instant where its quantities are `x`, in W: one sole, or the hull
+/// of both. `sole_size`: length and width of the sole rectangle [m].
 SupportPolygon SupportAt(const SuperposedWalk& walk, const LocalTime& at, const WalkState& x,
                          const Eigen::Vector2d& sole_size);
 

@@ -15,8 +15,9 @@ enum class HalfStepKind { kUp, kDown };
 /// Times of a half-step as fractions of its duration T, so that they scale with T.
 struct HalfStepShape {
   double shift = 0.05;  ///< (t2 − t1)/T: the ZMP shifts on [t1, t2], centred at T/2. ∈ [0.01, 0.5]
-  double horizontal_delay = 0.1;  ///< the foot moves horizontally only this fraction of T after
-                                  ///< take-off and before landing. ∈ [0, 0.3], ≤ 0.9·t1
+  /// The swing foot's horizontal motion begins this fraction of T after take-off and ends this
+  /// fraction before landing. ∈ [0, 0.3], ≤ 0.9·t1
+  double horizontal_delay = 0.1;
 
   double t1() const { return 0.5 - 0.5 * shift; }  ///< of T
   double t2() const { return 0.5 + 0.5 * shift; }  ///< of T
@@ -45,7 +46,7 @@ struct HalfStep {
   HalfStepShape shape;
 
   Side swing() const { return Opposite(support); }
-  /// Where the swing foot passes over at mid-step, X_SV.
+  /// The pose X_SV of the via point seen from above: there the swing foot is between up and down.
   Pose2 via() const { return {0.0, Sign(swing()) * via_lateral, 0.0}; }
   /// The states at rest, in S: with both feet on the floor, and at the via point.
   WalkState OnFloor() const;
@@ -61,16 +62,18 @@ struct HalfStep {
 struct HalfStepJet {
   ProfileJet com, zmp, yaw, foot, height;  ///< foot: x, y and yaw of the swing foot; height: its z.
 
+  /// The profile of a Quantity.
   const ProfileJet& of(int quantity) const;
 };
 
-/// The profiles of a half-step of given kind, shape and duration under a LIPM; immutable.
+/// The profiles of a half-step of given kind, shape and duration [s] under a LIPM; immutable.
 class HalfStepProfiles {
  public:
+  /// Precondition: the shape in its ranges, ω·duration ∈ [0.5, 60] (std::logic_error).
   HalfStepProfiles(HalfStepKind kind, const HalfStepShape& shape, double duration,
                    const Lipm& lipm);
 
-  /// At local time τ [s], clamped to [0, T]: 0 and at rest before, 1 and at rest after.
+  /// The profiles at local time τ [s]: 0 and at rest before 0, 1 and at rest after T.
   HalfStepJet At(double tau) const;
 
   /// sup |π̈| [1/s²] of each profile over local times [from, to] [s]; only `second` is filled.

@@ -12,7 +12,8 @@
 namespace halfstep {
 
 /// How far a robot can be, over an interval of time, from where it is at the interval's midpoint m.
-/// Everything holds for all t in [m − h, m + h]; rates are sups. World frame unless said.
+/// Everything holds for all t in [m − h, m + h], and rates are suprema there. In the world frame
+/// unless said otherwise.
 struct IntervalMotion {
   double half_width = 0.0;                  ///< h [s]
   WalkJet jet;                              ///< at m
@@ -22,8 +23,8 @@ struct IntervalMotion {
   std::array<double, 2> leg_length_change;  ///< of the hip–ankle distance [m]
   std::vector<double> displacement;         ///< of any point of a body from its place at m [m]
   std::vector<double> displacement_B;       ///< the same, as seen from the waist [m]
-  /// False when there is no bound: a leg does not reach at m, or comes too near to stretched within
-  /// the interval.
+  /// False when there is no bound, because a leg does not reach at m or comes too near to stretched
+  /// within the interval.
   bool bounded = false;
 
   /// |x(t) − x(m)| of a quantity.
@@ -41,8 +42,8 @@ class MotionBounds {
   explicit MotionBounds(const RobotModel& robot);
 
   /// Bounds a motion whose quantities are `mid` at m and have |second derivatives| of at most
-  /// `second` for all t in [m − h, m + h], h = `half_width` ≥ 0 [s]. Holds for any h; short ones
-  /// are tight. Source: smoothing/README.md, "Motion bounds".
+  /// `second` for all t in [m − h, m + h], h = `half_width` ≥ 0 [s]. The bounds hold for any h, and
+  /// are tight for short ones. Source: smoothing/README.md, "Motion bounds".
   void Bound(const WalkJet& mid, const WalkState& second, double half_width,
              IntervalMotion* motion) const;
 

@@ -28,12 +28,13 @@ struct Posture {
 };
 
 /// Solves for poses and joint angles. The CoM is rigid in the waist frame: p_WB = c − R(yaw)·p_BC.
-/// When a leg does not reach, `reachable` is false and that leg's joints and links mean nothing.
+/// When a leg does not reach, `reachable` is false, and the joints and links of that leg mean
+/// nothing.
 Posture SolvePosture(const RobotModel& robot, const WalkState& x);
 
 /// Fills `speeds`, `jacobian_inverse` and `waist_velocity` from the walk's first derivative.
 /// Returns false when a leg is stretched to the singularity, where joint speeds have no bound.
-/// Precondition: reachable.
+/// Precondition: the posture is reachable.
 [[nodiscard]] bool SolveJointSpeeds(const RobotModel& robot, const WalkJet& jet, Posture* posture);
 
 }  // namespace halfstep

@@ -2,8 +2,8 @@
 
 namespace halfstep {
 
-/// A profile F(σ, θ) from 0 to 1 in dimensionless time σ = τ/T ∈ [0, 1], with θ = ω·T: its
-/// derivatives that a jet in time needs. Subscripts are partial derivatives.
+/// A profile F(σ, θ) from 0 to 1 in dimensionless time σ = τ/T ∈ [0, 1], with θ = ω·T, and the
+/// derivatives that its jet in time needs. Subscripts are partial derivatives.
 struct UnitJet {
   double value = 0.0;
   double s = 0.0, ss = 0.0, sss = 0.0;  ///< F_σ, F_σσ, F_σσσ (the last piecewise).

@@ -22,15 +22,17 @@ namespace halfstep {
 /// Source: wpg/README.md, "Rest to rest".
 class RestToRest {
  public:
-  /// theta = ω·T ∈ [0.5, 60]; shift_fraction = 2δ = (t2 − t1)/T ∈ [0.01, 0.5].
+  /// theta = ω·T ∈ [0.5, 60]; shift_fraction = 2δ = (t2 − t1)/T ∈ [0.01, 0.5] (std::logic_error).
   RestToRest(double theta, double shift_fraction);
 
+  /// c and p at σ: 0 and at rest before 0, 1 and at rest after 1.
   UnitJet Com(double sigma) const;
   UnitJet Zmp(double sigma) const;
 
   /// sup |c_σσ| over all σ: θ²·(½ + a), since |c − p| ≤ ½ + a (wpg/README.md, "Rest to rest").
   double ComSecondBound() const { return theta_ * theta_ * (0.5 + bump_.value); }
-  /// sup |p_σσ| on [from, to]: exact on the shift, 24·a/σ₁² where the bumps are touched.
+  /// A bound of |p_σσ| on [from, to]: exact on the shift, and 24·a/σ₁² where [from, to] touches a
+  /// bump.
   double ZmpSecondBound(double from, double to) const;
 
   /// a: how far the ZMP goes beyond either end of the shift, as a fraction of it.

@@ -35,11 +35,11 @@ constexpr int FootIndex(Side side) { return side == Side::kLeft ? kLeftX : kRigh
 /// Value, first and second time derivative of all quantities at one instant.
 struct WalkJet {
   WalkState value = WalkState::Zero();
-  WalkState first = WalkState::Zero();   ///< [1/s]
-  WalkState second = WalkState::Zero();  ///< [1/s²]
+  WalkState first = WalkState::Zero();   ///< [unit/s]
+  WalkState second = WalkState::Zero();  ///< [unit/s²]
 };
 
-/// Placement of a foot on the floor, in the frame of the walk vector.
+/// The pose of a foot on the floor, in the frame in which `x` is expressed.
 inline Pose2 FootPose(const WalkState& x, Side side) {
   const int i = FootIndex(side);
   return {x[i], x[i + 1], x[i + 3]};

@@ -16,14 +16,16 @@ enum class LegIkStatus {
 struct LegIkSolution {
   LegIkStatus status = LegIkStatus::kOutOfReach;
   Vector6d q = Vector6d::Zero();  ///< [rad], each wrapped to (−π, π]; meaningless unless solved.
-  /// Stretched length − hip–ankle distance [m]. Negative if and only if the status is kOutOfReach;
-  /// when hip and ankle are too near each other: their distance − the least one of the knee.
+  /// Stretched length − hip–ankle distance [m]; where hip and ankle are nearer to each other than
+  /// the knee allows, their distance − the least that it allows. Negative if and only if the status
+  /// is kOutOfReach.
   double reach_margin = 0.0;
 };
 
-/// Joint angles of `leg` that bring its sole to X_BSole, in the leg's standing branch. Closed form:
-/// knee from the hip–ankle distance, ankles from the hip's direction seen from the foot, hip from
-/// the rotation that remains (Paden–Kahan subproblems 3, 2, 2 and 1).
+/// Joint angles of `leg` that bring its sole to X_BSole, in the leg's standing branch.
+/// Precondition: a finite pose (std::logic_error). Closed form: knee from the hip–ankle distance,
+/// ankles from the hip's direction seen from the foot, hip from the rotation that remains
+/// (Paden–Kahan subproblems 3, 2, 2 and 1).
 /// Source: [Murray1994] §3.3; README of wpg, "Leg inverse kinematics".
 LegIkSolution SolveLegIk(const Leg& leg, const Eigen::Isometry3d& X_BSole);
 /// The same in a given branch.
@@ -33,27 +35,29 @@ LegIkSolution SolveLegIk(const Leg& leg, const Eigen::Isometry3d& X_BSole, const
 /// ankle axes), where two branches meet, one of them.
 LegBranch LegBranchOf(const Leg& leg, const Vector6d& q);
 
-/// All solutions (at most 8), each with its branch; empty when out of reach.
+/// A solution and its branch.
 struct LegIkBranchSolution {
   LegBranch branch;
-  Vector6d q;
+  Vector6d q;  ///< [rad]
 };
+/// All solutions, at most 8; none when the pose cannot be reached.
 std::vector<LegIkBranchSolution> SolveLegIkAll(const Leg& leg, const Eigen::Isometry3d& X_BSole);
 
-/// Geometric Jacobian (6×6) of the sole in B: rows (angular velocity [rad/s], velocity of the point
-/// of the sole frame's origin [m/s]), both expressed in B, per joint speed.
+/// Geometric Jacobian (6×6) of the sole, per joint speed: the upper three rows are the sole's
+/// angular velocity [rad/s], the lower three the velocity of its frame's origin [m/s], both seen
+/// from B and expressed in B.
 Matrix6d LegJacobian(const LegFrames& frames);
 Matrix6d LegJacobian(const Leg& leg, const Vector6d& q);
 
-/// Its inverse (6×6). Referred to the hip, where the three hip axes meet, J = [A B; 0 C] with 3×3
-/// blocks: two small inverses. Returns false when J is singular (|det J| < 1e-7·L³, L the stretched
-/// leg's length), then `inverse` is not written.
+/// The inverse of LegJacobian (6×6). Referred to the hip, where the three hip axes meet, J has the
+/// 3×3 blocks [A B; 0 C], so two small inverses suffice. Returns false, and does not write
+/// `inverse`, when J is singular: |det J| ≤ 1e-7·L³, with L the stretched leg's length.
 [[nodiscard]] bool InvertLegJacobian(const Leg& leg, const LegFrames& frames, Matrix6d* inverse);
 
-/// Columns of dq/d(·) (6×8) for an upright waist and a flat sole, both moving in x, y, z [m] and
-/// yaw [rad] of the world: (waist x y z yaw, sole x y z yaw). `X_WB` and `X_WSole` upright, and q
-/// the posture that joins them. Returns false when the Jacobian is singular (stretched knee: |det|
-/// below 1e-7 of the stretched length cubed), then `dq` is not written.
+/// Derivative of the joint angles [rad] (6×8) when an upright waist and a flat sole move in x, y, z
+/// [m] and yaw [rad] of W. Columns: waist x, y, z, yaw, sole x, y, z, yaw. Preconditions: `X_WB`
+/// and `X_WSole` are upright, and q are the angles that join them. Returns false, and does not
+/// write `dq`, where InvertLegJacobian does so.
 [[nodiscard]] bool LegIkDerivative(const Leg& leg, const Vector6d& q, const Eigen::Isometry3d& X_WB,
                                    const Eigen::Isometry3d& X_WSole,
                                    Eigen::Matrix<double, 6, 8>* dq);

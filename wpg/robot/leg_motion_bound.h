@@ -9,14 +9,15 @@
 
 namespace halfstep {
 
-/// The anchors of the links of a leg, points at rest in them whatever the joints do: the hip on
-/// links 0–2, the ankle on links 3–5 and on the sole.
+/// The anchors of a leg's links. An anchor is a point that is at rest in its link whatever the
+/// joints do: the hip for links 0–2, the ankle for links 3–5 and the sole.
 class LegAnchors {
  public:
   explicit LegAnchors(const Leg& leg);
 
-  /// Whether a link's anchor is the hip; else it is the ankle.
+  /// Whether a link's anchor is the hip and not the ankle.
   static bool OnHip(int link) { return link <= 2; }
+  /// The ankle in B, the hip in B, the ankle in the sole frame [m].
   Eigen::Vector3d Ankle(const LegFrames& frames) const { return frames.X_BLink[6] * ankle_S_; }
   const Eigen::Vector3d& hip_B() const { return hip_B_; }
   const Eigen::Vector3d& ankle_S() const { return ankle_S_; }
@@ -28,7 +29,7 @@ class LegAnchors {
   std::array<Eigen::Vector3d, 6> anchor_L_;  // in the link's frame
 };
 
-/// What the motion demands of a leg: sups over [m − h, m + h], with w = hip − ankle.
+/// What the motion demands of a leg: suprema over [m − h, m + h], with w = hip − ankle.
 struct LegDemand {
   double half_square = 0.0;       ///< |d²(½‖w‖²)/dt²| [m²/s²]
   double horizontal = 0.0;        ///< horizontal part of ẅ, seen from the sole [m/s²]
@@ -37,7 +38,7 @@ struct LegDemand {
   double yaw_acceleration = 0.0;  ///< [rad/s²]
 };
 
-/// Sups of angular velocity and acceleration.
+/// Suprema of a link's angular velocity and acceleration.
 struct TurnBound {
   double speed = 0.0;         ///< ‖ω‖ [rad/s]
   double acceleration = 0.0;  ///< ‖ω̇‖ [rad/s²]
@@ -51,11 +52,12 @@ struct JointBounds {
   std::array<TurnBound, 6> turns;
 };
 
-/// Joint bounds from the frames (waist and sole upright), the joint speeds and the sole's yaw rate
-/// seen from the waist, all at m: knee from the hip–ankle distance, then ankle, then hip. A
-/// bootstrap: assumed bounds of the speeds imply smaller ones, which proves them. Returns none when
-/// the bootstrap fails: h is too long, or a leg too nearly stretched. While there is a bound, the
-/// leg reaches and stays in its branch. Source: smoothing/README.md, "Motion bounds".
+/// Joint bounds from what is known at m: the frames (waist and sole upright), the joint speeds
+/// [rad/s] and the sole's yaw rate seen from the waist [rad/s]. The knee is bounded by the
+/// hip–ankle distance, then the ankle, then the hip. The proof is a bootstrap: assumed bounds of
+/// the speeds hold where they imply smaller ones. Returns none when it fails, because h =
+/// `half_width` [s] is too long or the leg too nearly stretched. Where there is a bound, the leg
+/// reaches and stays in its branch. Source: smoothing/README.md, "Motion bounds".
 std::optional<JointBounds> BoundJoints(const LegAnchors& anchors, const LegFrames& frames,
                                        const Vector6d& speeds, double yaw_rate,
                                        const LegDemand& demand, double half_width);

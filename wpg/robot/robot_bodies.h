@@ -29,10 +29,11 @@ struct LinkBodies {
   std::vector<int> links;
 };
 
-/// Convex bodies of all links. Links that hang on a leg link by joints outside the leg are rigid
-/// with it, all others with the waist, in the standing posture. A mesh becomes its convex hull, a
-/// cylinder not parallel to its frame's z a prism of 32 sides around it. Complains about meshes
-/// that cannot be read or have no volume.
+/// Convex bodies of all links. A link that hangs on a leg's link by joints outside the leg is rigid
+/// with that link, any other link with the waist, in the standing posture. A mesh becomes its
+/// convex hull, and a cylinder that is not parallel to its frame's z a prism of 32 sides around it.
+/// Complains about meshes that cannot be read or have no volume, and about bodies that reach more
+/// than 100 m from their link.
 LinkBodies BuildBodies(const UrdfTree& urdf, const BodyRequest& request, Complaints* complaints);
 
 }  // namespace halfstep

@@ -26,7 +26,8 @@ struct ExcludedPair {
   std::string why;
 };
 
-/// A robot file as written: each value valid by itself, units of the file for joint angles.
+/// A robot file as it is written: each value is valid by itself, and joint angles are in the file's
+/// unit.
 struct RobotFile {
   std::string name;
   std::string urdf_path;

@@ -22,17 +22,19 @@ struct LegRequest {
 };
 
 /// URDF joint indices of the six joints between waist and foot, from the waist down. Complains, at
-/// the place of the foot or the joint, when they are not six revolute joints (fixed ones apart).
+/// the place of the foot or the joint, and returns none when these are not six revolute joints
+/// (fixed ones are not counted).
 std::optional<std::array<int, 6>> FindLegJoints(const UrdfTree& urdf, int waist, int foot,
                                                 Complaints* complaints);
 
-/// The leg with the common points of its hip and ankle axes. Complains when the closed-form inverse
-/// kinematics does not apply to it (see wpg/README.md) or its standing posture is singular.
+/// The leg with the common points of its hip and ankle axes. Complains and returns none when the
+/// closed-form inverse kinematics does not apply to it (see wpg/README.md), its standing posture is
+/// singular, or a joint's limits are more than a turn apart.
 std::optional<Leg> BuildLeg(const UrdfTree& urdf, const LegRequest& request,
                             const std::array<int, 6>& joints, Complaints* complaints);
 
-/// What keeps the right leg from being the left one's mirror image in the xz plane of the waist, in
-/// geometry (1e-6 m, 1e-6 rad), limits and speeds; "" when it is.
+/// Why the right leg is not the left one's mirror image in the xz plane of the waist; "" when it
+/// is. Compared are hip and ankle, joint axes, limits and speeds (1e-6 m, 1e-6 rad, 1e-6 rad/s).
 std::string MirrorFault(const Leg& left, const Leg& right);
 
 }  // namespace halfstep

@@ -26,7 +26,7 @@ struct LegJoint {
   Eigen::Isometry3d X_BLink;  ///< frame of the link that it moves, at q = 0.
 };
 
-/// Sign of each two-fold choice of the closed-form leg inverse kinematics: 0 or 1.
+/// Each two-fold choice of the closed-form leg inverse kinematics, 0 or 1.
 struct LegBranch {
   int knee = 0;
   int ankle = 0;
@@ -53,7 +53,7 @@ struct RobotBody {
   ConvexBody shape;  ///< in the frame of its link (leg) or of the waist.
 };
 
-/// Two bodies that move against each other and are not watched.
+/// Two bodies that move relative to each other and whose distance is not watched.
 struct UnwatchedPair {
   int a = -1, b = -1;  ///< indices of RobotModel::bodies, a < b.
   std::string why;     ///< such as "joined by LLEG_JOINT3"; never empty.
@@ -65,8 +65,8 @@ struct RobotModel {
   std::array<Leg, 2> legs;        ///< indexed by Index(Side).
   Eigen::Vector2d sole_size;      ///< full length (x) and width (y) of the sole rectangle [m].
   Eigen::Matrix2Xd sole_outline;  ///< of what touches the floor (wpg/robot/sole_outline.h) [m].
-  double waist_height =
-      0.0;  ///< of B's origin above the floor in the standing posture, kept while walking [m].
+  /// Height of B's origin above the floor in the standing posture, kept while walking [m].
+  double waist_height = 0.0;
   double com_height = 0.0;  ///< z_c above the floor [m].
   double com_x_B = 0.0;  ///< CoM ahead of B's origin [m]; its y is 0 by the generator's symmetry.
   double mass = 0.0;     ///< [kg]
@@ -74,7 +74,7 @@ struct RobotModel {
   std::vector<InputFile> files;  ///< files read: YAML, URDF and meshes, one entry for each reading.
   std::vector<RobotBody> bodies;
   std::vector<std::array<int, 2>> self_pairs;  ///< pairs of `bodies` that must not touch.
-  /// All other pairs of bodies that move against each other (wpg/robot/self_pairs.h).
+  /// All other pairs of bodies that move relative to each other (wpg/robot/self_pairs.h).
   std::vector<UnwatchedPair> unwatched_pairs;
 };
 
@@ -88,6 +88,7 @@ struct LegFrames {
   std::array<Eigen::Vector3d, 6> point_B;    ///< a point on each axis [m].
   std::array<Eigen::Isometry3d, 7> X_BLink;  ///< the six links and, last, the sole.
 };
+/// The places of the parts for joint angles q [rad].
 LegFrames PlaceLeg(const Leg& leg, const Vector6d& q);
 
 /// Poses X_BLink of the links of a leg and, last, of its sole, for joint angles q [rad].

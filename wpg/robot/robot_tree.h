@@ -9,8 +9,8 @@
 
 namespace halfstep {
 
-/// All links and joints of a robot, where RobotModel has its legs only: for programs that want the
-/// whole machine (simulation, joint files).
+/// All links and joints of a robot, for programs that need the whole machine (simulation, joint
+/// files); RobotModel has its legs only.
 struct RobotTree {
   UrdfTree urdf;
   int waist = -1;               ///< link index
@@ -24,11 +24,12 @@ struct WholeRobot {
   RobotTree tree;
 };
 
-/// LoadRobot() and the tree, of one reading of the robot file and its URDF. Throws InputError.
+/// LoadRobot() and the tree, both from one reading of the robot file and its URDF. Throws
+/// InputError.
 WholeRobot LoadWholeRobot(const std::string& yaml_path);
 
-/// Angles of all joints by index [rad]: `q` for the legs' by Index(Side), the standing posture for
-/// the others.
+/// Angles of all joints by URDF joint index [rad]: those of the legs are `q` (by Index(Side)), all
+/// others those of the standing posture.
 std::vector<double> JointAngles(const RobotModel& robot, const RobotTree& tree,
                                 const std::array<Vector6d, 2>& q);
 

@@ -9,18 +9,18 @@
 
 namespace halfstep {
 
-/// Every two bodies of a robot that move against each other while walking, once: watched, or not.
-/// Bodies of one link, and all bodies that are rigid with the waist, do not move against each other
-/// and are in neither list.
+/// Every pair of a robot's bodies that move relative to each other while walking, once, in one of
+/// two lists: watched or not. Bodies of one link, and all bodies that are rigid with the waist, do
+/// not move relative to each other and are in neither list.
 struct SelfPairs {
   std::vector<std::array<int, 2>> watched;
   std::vector<UnwatchedPair> unwatched;
 };
 
-/// Not watched are bodies that are joined by design, and those of links that the robot file
-/// excludes. Joined are links with one moving joint between them, and links with two joints of one
-/// leg between them whose axes meet in one point (hip or ankle): their bodies lie around that point
-/// and overlap.
+/// Pairs of bodies that are joined by design, or whose links the robot file excludes, are not
+/// watched. Joined are links with one moving joint between them, and links with two joints of one
+/// leg between them whose axes meet in one point (hip or ankle), because their bodies lie around
+/// that point and overlap.
 SelfPairs BuildSelfPairs(const UrdfTree& urdf, const std::vector<ExcludedPair>& excluded,
                          const LinkBodies& all,
                          const std::array<std::array<int, 6>, 2>& leg_joints);

@@ -9,7 +9,8 @@ namespace halfstep {
 /// The outline of a foot where it touches a floor: the convex hull of the sole rectangle and of the
 /// projections of those points of the feet's bodies that are less than 1 mm above their sole's
 /// plane, both feet in one outline (2×k, k ≥ 4, counter-clockwise, in the sole frame) [m]. Round
-/// parts are widened by their radius, so it may be larger than what touches, never smaller.
+/// parts are widened by their radius, so the outline may be larger than what touches, never
+/// smaller.
 Eigen::Matrix2Xd SoleOutline(const RobotModel& robot);
 
 /// How far the bodies of a leg's foot reach below its sole's plane [m]: ≤ 0 when they do not, −∞
