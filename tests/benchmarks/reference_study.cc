@@ -23,16 +23,16 @@ SmoothingResult Smooth(const HalfStepSequence& sequence, const FeasibilityTest& 
   if (method == "dichotomy") return Smoothed(Dichotomy, ProblemOf(sequence, test), {});
   const UniformScanOptions scan{.heights = heights, .durations = durations};
   if (method == "uniform") return Smoothed(UniformScan, ProblemOf(sequence, test), scan);
-  const CoordinateAscentOptions ascent{.heights = heights, .durations = durations};
+  const ParameterChoice choice{.heights = heights, .durations = durations};
+  const CoordinateAscentOptions ascent{.parameters = choice};
   if (method == "coordinate") return Smoothed(CoordinateAscent, ProblemOf(sequence, test), ascent);
-  ReferenceOptions options{.heights = heights, .durations = durations};
+  ReferenceOptions options{.parameters = choice};
   if (heights || durations) {
     options.starts.push_back(Smoothed(UniformScan, ProblemOf(sequence, test), scan).parameters);
     options.starts.push_back(
         Smoothed(CoordinateAscent, ProblemOf(sequence, test), ascent).parameters);
     OptimizerOptions optimizer;
-    optimizer.program.parameters.heights = heights;
-    optimizer.program.parameters.durations = durations;
+    optimizer.program.parameters = choice;
     options.starts.push_back(
         Smoothed(OptimizeOverlaps, ProblemOf(sequence, test), optimizer).parameters);
   }

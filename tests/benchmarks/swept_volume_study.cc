@@ -219,7 +219,7 @@ bool SampledFree(const CollisionWorld& world, const std::vector<CollisionShape>&
     const Posture posture =
         SolvePosture(robot, Transformed(X_WS, Evaluate(half_step, profiles, tau).value));
     for (size_t b = 0; b < robot.bodies.size(); ++b) {
-      if (!world.Clears(shapes[b], posture.OfBody(robot.bodies[b]), clearance, &scratch[b])) {
+      if (!world.Clears(shapes[b], posture.OfBody(robot.bodies[b]), 0.0, clearance, &scratch[b])) {
         return false;
       }
     }
