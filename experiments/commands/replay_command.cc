@@ -1,5 +1,4 @@
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <iostream>
 #include <limits>
@@ -19,6 +18,7 @@
 #include "experiments/tables/run_folder.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/number_text.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {
@@ -41,12 +41,6 @@ struct Replayed {
   std::vector<replay::PushLimit> pushes;
 };
 
-std::string Text(const char* format, double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
-
 // "forward", "left" …: the four directions of pushes.
 const char* DirectionName(double direction) {
   const long quarter = std::lround(direction / (std::numbers::pi / 2));
@@ -57,20 +51,21 @@ const char* DirectionName(double direction) {
 void Print(const Replayed& replayed) {
   const replay::ReplayResult& result = replayed.result;
   std::cout << replayed.method << ": "
-            << (result.stayed_up ? "stays up" : "FALLS at " + Text("%.2f s", result.ended))
-            << ", walk of " << Text("%.3f s", replayed.duration) << ", largest tilt "
-            << Text("%.1f deg", result.largest_tilt / kDegree) << ", ZMP off by "
-            << Text("%.1f", 1e3 * result.zmp_rms) << " (rms) and "
-            << Text("%.1f mm", 1e3 * result.zmp_largest) << " (largest; mass model alone "
-            << Text("%.1f", 1e3 * result.model_rms) << " and "
-            << Text("%.1f mm", 1e3 * result.model_largest) << "), slip "
-            << Text("%.1f mm", 1e3 * result.slip) << ", drift "
-            << Text("%.1f mm", 1e3 * result.drift) << '\n';
+            << (result.stayed_up ? "stays up" : "FALLS at " + Formatted("%.2f s", result.ended))
+            << ", walk of " << Formatted("%.3f s", replayed.duration) << ", largest tilt "
+            << Formatted("%.1f deg", result.largest_tilt / kDegree) << ", ZMP off by "
+            << Formatted("%.1f", 1e3 * result.zmp_rms) << " (rms) and "
+            << Formatted("%.1f mm", 1e3 * result.zmp_largest) << " (largest; mass model alone "
+            << Formatted("%.1f", 1e3 * result.model_rms) << " and "
+            << Formatted("%.1f mm", 1e3 * result.model_largest) << "), slip "
+            << Formatted("%.1f mm", 1e3 * result.slip) << ", drift "
+            << Formatted("%.1f mm", 1e3 * result.drift) << '\n';
   for (const replay::PushLimit& push : replayed.pushes) {
-    std::cout << "  pushed " << DirectionName(push.direction) << " at " << Text("%.2f s", push.at)
-              << ": survives " << Text("%.1f N s", push.survived)
+    std::cout << "  pushed " << DirectionName(push.direction) << " at "
+              << Formatted("%.2f s", push.at) << ": survives "
+              << Formatted("%.1f N s", push.survived)
               << (std::isinf(push.fell) ? ", the most that was tried\n"
-                                        : ", falls at " + Text("%.1f N s\n", push.fell));
+                                        : ", falls at " + Formatted("%.1f N s\n", push.fell));
   }
 }
 

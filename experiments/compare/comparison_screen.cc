@@ -1,30 +1,22 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "experiments/compare/comparison_tables.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {
-
-template <typename... Arguments>
-std::string Format(const char* format, Arguments... arguments) {
-  std::array<char, 256> text{};
-  std::snprintf(text.data(), text.size(), format, arguments...);
-  return text.data();
-}
 
 std::string Left(const std::string& text, size_t width) {
   return text + std::string(width - std::min(width, text.size()) + 2, ' ');
 }
 
 std::string Seconds(const std::optional<Effort>& effort) {
-  return effort ? Format("%9.3f s", effort->wall) : Format("%11s", "never");
+  return effort ? Formatted("%9.3f s", effort->wall) : Formatted("%11s", "never");
 }
 
 std::string Mean(double value, const char* format) {
-  return std::isnan(value) ? Format("%11s", "-") : Format(format, value);
+  return std::isnan(value) ? Formatted("%11s", "-") : Formatted(format, value);
 }
 
 // Wide enough for every method: its name, its variables.
@@ -46,26 +38,26 @@ Widths WidthsOf(const Comparison& comparison) {
 
 std::string CaseTable(const ComparedCase& one, const Widths& widths) {
   std::string text =
-      one.scenario + ", " + one.objective + Format(", %d half-steps", one.half_steps);
+      one.scenario + ", " + one.objective + Formatted(", %d half-steps", one.half_steps);
   text += one.best_cost
-              ? Format("; best certified: cost %.4f by ", *one.best_cost) + one.best_method
+              ? Formatted("; best certified: cost %.4f by ", *one.best_cost) + one.best_method
               : "; no method has a certified walk of its own";
   text += "\n\n" + Left("method", widths.name) + Left("variables", widths.variables) +
           Left("status", widths.status) +
-          Format("%-9s %10s %8s %9s %11s %11s %11s %11s %11s\n", "certified", "duration",
-                 "speed-up", "gap", "cost", "instants", "wall time", "to 5 %", "to 1 %");
+          Formatted("%-9s %10s %8s %9s %11s %11s %11s %11s %11s\n", "certified", "duration",
+                    "speed-up", "gap", "cost", "instants", "wall time", "to 5 %", "to 1 %");
   for (const ComparedMethod& method : one.methods) {
     const MethodRecord& record = method.record;
     text += Left(record.name, widths.name) +
             Left(record.raw() ? "-" : record.variables, widths.variables) +
             Left(std::string(Name(record.ending)), widths.status) +
-            Format("%-9s %8.3f s %7.2fx ", record.certified ? "yes" : "no", record.duration,
-                   record.speedup);
-    text +=
-        std::isfinite(method.gap) ? Format("%7.2f %% ", 100.0 * method.gap) : Format("%9s ", "-");
-    text += std::isnan(method.gap) ? Format("%11s ", "-") : Format("%11.4f ", record.cost);
-    text += Format("%11.0f %9.3f s ", record.instants, record.wall);
-    text += record.raw() ? Format("%11s %11s\n", "-", "-")
+            Formatted("%-9s %8.3f s %7.2fx ", record.certified ? "yes" : "no", record.duration,
+                      record.speedup);
+    text += std::isfinite(method.gap) ? Formatted("%7.2f %% ", 100.0 * method.gap)
+                                      : Formatted("%9s ", "-");
+    text += std::isnan(method.gap) ? Formatted("%11s ", "-") : Formatted("%11.4f ", record.cost);
+    text += Formatted("%11.0f %9.3f s ", record.instants, record.wall);
+    text += record.raw() ? Formatted("%11s %11s\n", "-", "-")
                          : Seconds(method.reached[1]) + " " + Seconds(method.reached[0]) + "\n";
   }
   return text + "\n";
@@ -79,19 +71,20 @@ std::string ComparisonScreen(const Comparison& comparison) {
   for (const ComparedCase& one : comparison.cases) text += CaseTable(one, widths);
   const std::vector<MethodMeans> means = Means(comparison);
   if (means.empty()) return text;
-  text +=
-      Format(
-          "all %zu cases; shifted geometric means, a failure as ten times the slowest "
-          "success\n\n",
-          comparison.cases.size()) +
-      Left("method", widths.name) + Left("variables", widths.variables) + Left("objective", 9) +
-      Format("%5s %8s %9s %6s %8s %8s %8s %8s %11s %11s %11s\n", "cases", "missing", "certified",
-             "failed", "ended", "in 5 %", "in 1 %", "speed-up", "to its end", "to 5 %", "to 1 %");
+  text += Formatted(
+              "all %zu cases; shifted geometric means, a failure as ten times the slowest "
+              "success\n\n",
+              comparison.cases.size()) +
+          Left("method", widths.name) + Left("variables", widths.variables) + Left("objective", 9) +
+          Formatted("%5s %8s %9s %6s %8s %8s %8s %8s %11s %11s %11s\n", "cases", "missing",
+                    "certified", "failed", "ended", "in 5 %", "in 1 %", "speed-up", "to its end",
+                    "to 5 %", "to 1 %");
   for (const MethodMeans& mean : means) {
-    text += Left(mean.method.name, widths.name) + Left(mean.method.variables, widths.variables) +
-            Left(mean.method.objective, 9) +
-            Format("%5d %8d %9d %6d %8d %8d %8d %7.2fx", mean.cases, mean.missing, mean.certified,
-                   mean.failed(), mean.solved[2], mean.solved[1], mean.solved[0], mean.speedup);
+    text +=
+        Left(mean.method.name, widths.name) + Left(mean.method.variables, widths.variables) +
+        Left(mean.method.objective, 9) +
+        Formatted("%5d %8d %9d %6d %8d %8d %8d %7.2fx", mean.cases, mean.missing, mean.certified,
+                  mean.failed(), mean.solved[2], mean.solved[1], mean.solved[0], mean.speedup);
     for (size_t target : {2, 1, 0}) text += " " + Mean(mean.effort[target].wall, "%9.3f s");
     text += "\n";
   }

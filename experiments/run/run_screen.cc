@@ -1,24 +1,16 @@
 #include "experiments/run/run_screen.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "smoothing/proof/sampled_feasibility.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {
-
-template <typename... Arguments>
-std::string Format(const char* format, Arguments... arguments) {
-  std::array<char, 256> text{};
-  std::snprintf(text.data(), text.size(), format, arguments...);
-  return text.data();
-}
 
 const Margin& Of(const MethodRun& run, MarginFamily family) {
   return run.margins[static_cast<size_t>(family)];
@@ -43,12 +35,12 @@ std::string Holders(const MarginEvaluator& evaluator, const MethodRun& run, Junc
     ++holders[what];
   }
   if (count == 0) return "";
-  std::string text = Format("  %s: %d overlaps, mean %.3f s of %.3f s, held by ",
-                            kind == JunctionKind::kUpDown ? "up→down" : "down→up", count,
-                            overlap / count, bound / count);
+  std::string text = Formatted("  %s: %d overlaps, mean %.3f s of %.3f s, held by ",
+                               kind == JunctionKind::kUpDown ? "up→down" : "down→up", count,
+                               overlap / count, bound / count);
   std::string separator;
   for (const auto& [what, times] : holders) {
-    text += separator + what + Format(" (%d)", times);
+    text += separator + what + Formatted(" (%d)", times);
     separator = ", ";
   }
   return text + "\n";
@@ -66,15 +58,15 @@ std::string Prices(const MarginEvaluator& evaluator, const MethodRun& run) {
   for (size_t k = 0; k < std::min(kMost, dearest.size()); ++k) {
     const JunctionResult& junction = run.result.junctions[dearest[k].second];
     const Margin& limit = *junction.limited_by;
-    text +=
-        Format("  junction %zu (%s), %.3f s: ", dearest[k].second + 1,
-               junction.kind == JunctionKind::kUpDown ? "up→down" : "down→up", junction.overlap) +
-        std::string(Name(limit.family)) + " of " + evaluator.Subject(limit) +
-        Format(" at half-step %d, τ = %.3f s; %g %s less demanded would save %.3f s",
-               limit.at.half_step + 1, limit.at.tau, Scale(limit.family),
-               std::string(Unit(limit.family)).c_str(), *junction.price);
+    text += Formatted("  junction %zu (%s), %.3f s: ", dearest[k].second + 1,
+                      junction.kind == JunctionKind::kUpDown ? "up→down" : "down→up",
+                      junction.overlap) +
+            std::string(Name(limit.family)) + " of " + evaluator.Subject(limit) +
+            Formatted(" at half-step %d, τ = %.3f s; %g %s less demanded would save %.3f s",
+                      limit.at.half_step + 1, limit.at.tau, Scale(limit.family),
+                      std::string(Unit(limit.family)).c_str(), *junction.price);
     if (junction.multiplier && *junction.multiplier > 0.0) {
-      text += Format(" (%.3f s with all parameters adapting)", *junction.multiplier);
+      text += Formatted(" (%.3f s with all parameters adapting)", *junction.multiplier);
     }
     text += "\n";
   }
@@ -85,8 +77,8 @@ std::string Prices(const MarginEvaluator& evaluator, const MethodRun& run) {
 std::string Curve(const MethodRun& run) {
   std::string text;
   for (const ParetoPoint& point : run.result.pareto) {
-    text += Format("  %8.3f s: every margin at least %.2f of its scale inside\n", point.duration,
-                   point.least_slack);
+    text += Formatted("  %8.3f s: every margin at least %.2f of its scale inside\n", point.duration,
+                      point.least_slack);
   }
   return text;
 }
@@ -100,21 +92,21 @@ std::string RunTable(const Experiment& experiment, const WalkProblem& problem,
   out << experiment.config.name << ": " << experiment.robot.name << ", "
       << experiment.sequence.size() << " half-steps, " << experiment.scene.obstacles.size()
       << " obstacles; feasible means " << problem.test().Description() << "\n\n";
-  out << Format("%-22s %-16s %-10s %10s %8s %9s %10s %s\n", "method", "status", "for all t",
-                "duration", "speed-up", "low apex", "clearance", "worst margin");
+  out << Formatted("%-22s %-16s %-10s %10s %8s %9s %10s %s\n", "method", "status", "for all t",
+                   "duration", "speed-up", "low apex", "clearance", "worst margin");
   for (const MethodRun& run : runs) {
     const Margin& worst = WorstOf(run.margins, evaluator.limits());
     const Margin& clearance = Of(run, MarginFamily::kClearance);
-    out << Format("%-22s %-16s %-10s %8.3f s %7.2fx %6.1f cm ", run.method.c_str(),
-                  std::string(Name(run.result.ending)).c_str(),
-                  std::string(VerdictName(run.certified.answer.verdict)).c_str(), run.duration,
-                  runs.front().duration / run.duration, 100.0 * run.lowest_apex)
-        << (!std::isfinite(clearance.value) ? Format("%10s", "-")
+    out << Formatted("%-22s %-16s %-10s %8.3f s %7.2fx %6.1f cm ", run.method.c_str(),
+                     std::string(Name(run.result.ending)).c_str(),
+                     std::string(VerdictName(run.certified.answer.verdict)).c_str(), run.duration,
+                     runs.front().duration / run.duration, 100.0 * run.lowest_apex)
+        << (!std::isfinite(clearance.value) ? Formatted("%10s", "-")
             : clearance.other < 0
-                ? Format("   > %2.0f cm", 100.0 * evaluator.limits().clearance_horizon)
-                : Format("%7.1f cm", 100.0 * clearance.value))
-        << Format(" %s %.4g %s\n", std::string(Name(worst.family)).c_str(), worst.value,
-                  std::string(Unit(worst.family)).c_str());
+                ? Formatted("   > %2.0f cm", 100.0 * evaluator.limits().clearance_horizon)
+                : Formatted("%7.1f cm", 100.0 * clearance.value))
+        << Formatted(" %s %.4g %s\n", std::string(Name(worst.family)).c_str(), worst.value,
+                     std::string(Unit(worst.family)).c_str());
   }
   for (const MethodRun& run : runs) {
     if (!HasOwnResult(run.result.ending)) {
@@ -124,7 +116,8 @@ std::string RunTable(const Experiment& experiment, const WalkProblem& problem,
     }
     if (run.result.junctions.empty()) continue;
     out << "\n"
-        << run.method << Format(" (%.2f s, %ld instants)\n", run.result.wall, run.result.instants)
+        << run.method
+        << Formatted(" (%.2f s, %ld instants)\n", run.result.wall, run.result.instants)
         << Holders(evaluator, run, JunctionKind::kUpDown)
         << Holders(evaluator, run, JunctionKind::kDownUp) << Prices(evaluator, run) << Curve(run)
         << "  " << run.result.message << "\n";

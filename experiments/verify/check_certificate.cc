@@ -45,11 +45,11 @@ std::string Fault(const ClaimRow& row, const CertificateText& certificate) {
   if (!(row.begin >= 0) || !(row.end <= certificate.duration)) return "outside [0, D]";
   if (!(row.bound >= 0)) return "the bound is negative";
   if (row.demanded != certificate.demanded[row.family]) {
-    return Text("demanded %.9g, certificate.json %.9g", row.demanded,
-                certificate.demanded[row.family]);
+    return Formatted("demanded %.9g, certificate.json %.9g", row.demanded,
+                     certificate.demanded[row.family]);
   }
   if (!(row.margin - row.bound >= row.demanded)) {
-    return Text("margin − bound = %.9g < demanded %.9g", row.margin - row.bound, row.demanded);
+    return Formatted("margin − bound = %.9g < demanded %.9g", row.margin - row.bound, row.demanded);
   }
   return "";
 }
@@ -68,7 +68,7 @@ std::string GapIn(const std::vector<const ClaimRow*>& rows, long count, double e
     covered += changes[i].second;
     const double from = changes[i].first, to = changes[i + 1].first;
     if (from < to && covered != count) {
-      return Text("%ld statements instead of %ld on [%.9g, %.9g] s", covered, count, from, to);
+      return Formatted("%ld statements instead of %ld on [%.9g, %.9g] s", covered, count, from, to);
     }
   }
   return "";
@@ -110,40 +110,41 @@ void CheckArithmetic(const CertificateText& certificate, const std::vector<Claim
     findings->Disagree("the certificate's statement is not the one that is verified");
   }
   if (certificate.duration != end) {
-    findings->Disagree(Text("the certificate ends at %.17g s, the trajectory at %.17g s",
-                            certificate.duration, end));
+    findings->Disagree(Formatted("the certificate ends at %.17g s, the trajectory at %.17g s",
+                                 certificate.duration, end));
   }
   const double scale = certificate.joint_speed_scale;
   if (!(scale > 0 && scale <= 1)) {
-    findings->Disagree(Text("joint_speed_scale is %.9g (valid: above 0, at most 1)", scale));
+    findings->Disagree(Formatted("joint_speed_scale is %.9g (valid: above 0, at most 1)", scale));
   }
   for (const auto& limit : {certificate.foot_speed, certificate.foot_yaw_rate}) {
-    if (limit && !(*limit > 0)) findings->Disagree(Text("a foot's limit is %.9g", *limit));
+    if (limit && !(*limit > 0)) findings->Disagree(Formatted("a foot's limit is %.9g", *limit));
   }
   for (const double demanded : certificate.demanded) {
-    if (!(demanded >= 0)) findings->Disagree(Text("a demanded margin is %.9g", demanded));
+    if (!(demanded >= 0)) findings->Disagree(Formatted("a demanded margin is %.9g", demanded));
   }
   double smallest = std::numeric_limits<double>::infinity();
   std::string where;
   std::array<std::vector<const ClaimRow*>, kNumFamilies> by_family;
   for (const ClaimRow& row : rows) {
     const std::string fault = Fault(row, certificate);
-    if (!fault.empty()) findings->Disagree(Text("certificate.csv:%d: ", row.line) + fault);
+    if (!fault.empty()) findings->Disagree(Formatted("certificate.csv:%d: ", row.line) + fault);
     if (row.margin - row.bound - row.demanded < smallest) {
       smallest = row.margin - row.bound - row.demanded;
-      where = Text("line %d, %s", row.line, kFamilyNames[row.family]);
+      where = Formatted("line %d, %s", row.line, kFamilyNames[row.family]);
     }
     by_family[row.family].push_back(&row);
   }
-  findings->Say("certificate: " + Count(std::ssize(rows)) + " rows" +
-                (rows.empty() ? "" : Text(", least to spare %.3g (%s)", smallest, where.c_str())));
+  findings->Say(
+      "certificate: " + Count(std::ssize(rows)) + " rows" +
+      (rows.empty() ? "" : Formatted(", least to spare %.3g (%s)", smallest, where.c_str())));
   std::string counts;
   for (size_t f = 0; f < kNumFamilies; ++f) {
     const long count = CountOf(static_cast<Family>(f), robot);
     counts += std::string(f == 0 ? "" : ", ") + kFamilyNames[f] + " " + std::to_string(count);
     if (certificate.statements[f] != count) {
-      findings->Disagree(Text("%s: certificate.json has %ld statements, the robot %ld",
-                              kFamilyNames[f], certificate.statements[f], count));
+      findings->Disagree(Formatted("%s: certificate.json has %ld statements, the robot %ld",
+                                   kFamilyNames[f], certificate.statements[f], count));
     }
     const std::string gap = GapIn(by_family[f], count, end);
     if (!gap.empty()) findings->Disagree(std::string(kFamilyNames[f]) + ": " + gap);
@@ -163,15 +164,15 @@ void CheckAgainstConfig(const CertificateText& certificate, const MarginLimits& 
     }
     const double claimed = certificate.demanded[static_cast<size_t>(name - kFamilyNames.begin())];
     if (claimed < demanded) {
-      findings->Disagree(
-          Text("%s: the certificate demands %.9g, config.yaml %.9g", *name, claimed, demanded));
+      findings->Disagree(Formatted("%s: the certificate demands %.9g, config.yaml %.9g", *name,
+                                   claimed, demanded));
     }
   }
   const auto looser = [&](const char* name, const std::optional<double>& claimed,
                           const std::optional<double>& of_config) {
     if (of_config && (!claimed || *claimed > *of_config)) {
       findings->Disagree(std::string(name) + ": the certificate's limit is looser than " +
-                         Text("config.yaml's, %.9g", *of_config));
+                         Formatted("config.yaml's, %.9g", *of_config));
     }
   };
   looser("foot_speed_m_s", certificate.foot_speed, config.foot_speed);

@@ -67,7 +67,7 @@ class Claims {
                                ? walk_.MovesHorizontally(t, side)
                                : walk_.At(t).first.segment<4>(side == 0 ? kLeftX : kRightX).norm() >
                                      kClaimRounding;
-        if (moves) return Text("a foot moves at t = %.6g s", t);
+        if (moves) return Formatted("a foot moves at t = %.6g s", t);
       }
     }
     return "";
@@ -129,14 +129,14 @@ class Claims {
     const std::array<double, 5> instants = Instants(row);
     const double middle = Scalar(row.family, subject, instants[0]);
     if (!(std::abs(middle - row.margin) <= rounding)) {
-      return Text("margin %.9g, but %.9g by the walk", row.margin, middle);
+      return Formatted("margin %.9g, but %.9g by the walk", row.margin, middle);
     }
     for (size_t k = 1; k < instants.size(); ++k) {
       const double value = Scalar(row.family, subject, instants[k]);
       // What matters is how far it falls.
       if (!(value >= row.margin - row.bound - rounding)) {
-        return Text("%s at t = %.6g s is %.9g, beyond %.9g − %.9g", row.subject.c_str(),
-                    instants[k], value, row.margin, row.bound);
+        return Formatted("%s at t = %.6g s is %.9g, beyond %.9g − %.9g", row.subject.c_str(),
+                         instants[k], value, row.margin, row.bound);
       }
     }
     return "";
@@ -160,19 +160,20 @@ class Claims {
     const Placement middle = PlaceRobot(robot_, walk_.Row(instants[0]));
     const double value = Distance(row, subject, middle, row.margin);
     if (!(value >= row.margin - Distances::kAccuracy)) {
-      return Text("margin %.9g, but %.9g by the walk", row.margin, value);
+      return Formatted("margin %.9g, but %.9g by the walk", row.margin, value);
     }
     for (const double t : {instants[1], instants[4]}) {
       const Placement at = PlaceRobot(robot_, walk_.Row(t));
       const double least = row.margin - row.bound;
       const double there = Distance(row, subject, at, least);
       if (!(there >= least - Distances::kAccuracy)) {
-        return Text("%.9g at t = %.6g s, below %.9g − %.9g", there, t, row.margin, row.bound);
+        return Formatted("%.9g at t = %.6g s, below %.9g − %.9g", there, t, row.margin, row.bound);
       }
       if (row.family != kClearance) continue;
       const double moved = Displacement(static_cast<size_t>(subject.first), middle, at);
       if (!(moved <= row.bound + kClaimRounding)) {
-        return Text("the body moves %.9g until t = %.6g s, more than %.9g", moved, t, row.bound);
+        return Formatted("the body moves %.9g until t = %.6g s, more than %.9g", moved, t,
+                         row.bound);
       }
     }
     return "";
@@ -207,7 +208,7 @@ void CheckClaims(const DescribedWalk& walk, const CertificateText& certificate,
     const std::string fault = claims.Fault(row);
     if (fault.empty()) continue;
     ++wrong;
-    findings->Disagree(Text("certificate.csv:%d: %s: ", row.line, kFamilyNames[row.family]) +
+    findings->Disagree(Formatted("certificate.csv:%d: %s: ", row.line, kFamilyNames[row.family]) +
                        fault);
   }
   findings->Say("rows of the certificate against the walk: " + Count(std::ssize(rows)) + ", " +

@@ -40,16 +40,16 @@ bool Keep(const std::vector<double>& path, const PlayedMotion& motion, const std
     const double t = TimeOf(path, motion.rows(), u);
     const auto [d, exact] = distance(motion.Place(t), required + kQuick);
     const double slack = d - required;
-    if (exact) check->Add(d, [&] { return name + Text(" at t = %.6g s", t); });
+    if (exact) check->Add(d, [&] { return name + Formatted(" at t = %.6g s", t); });
     if (!(slack >= 0)) {
-      if (!exact) check->Open(name + Text(" at t = %.6g s", t));
+      if (!exact) check->Open(name + Formatted(" at t = %.6g s", t));
       return false;
     }
     // Rounding of u and of the time keeps off the last 1e-12.
     if (const double usable = slack - 1e-12; usable >= u - covered && (usable > 0 || last == 0)) {
       first = false;
       if (u + usable < last && u + usable - covered < FinestStep(path, covered)) {
-        check->Open(name + Text(" open at t = %.6g s: %.3g m left for the motion", t, slack));
+        check->Open(name + Formatted(" open at t = %.6g s: %.3g m left for the motion", t, slack));
         return false;
       }
       covered = u + usable;
@@ -58,7 +58,7 @@ bool Keep(const std::vector<double>& path, const PlayedMotion& motion, const std
     }
     ahead = std::min(0.5 * (u - covered), slack);
     if (u - covered < FinestStep(path, covered) || u == covered) {
-      check->Open(name + Text(" open at t = %.6g s: %.3g m left for the motion", t, slack));
+      check->Open(name + Formatted(" open at t = %.6g s: %.3g m left for the motion", t, slack));
       return false;
     }
   }

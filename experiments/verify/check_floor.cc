@@ -27,7 +27,7 @@ void CheckFloor(const PlayedMotion& motion, const Scene& scene, const Certificat
   for (size_t i = 0; i < rows.size(); ++i) {
     const PlayedRow& row = rows[i];
     const Placement at = motion.PlaceRow(row);
-    const auto when = [&row] { return Text(" at t = %.6g s", row.t); };
+    const auto when = [&row] { return Formatted(" at t = %.6g s", row.t); };
     for (size_t b = 0; b < robot.bodies.size(); ++b) {
       const RobotBody& body = robot.bodies[b];
       const double height = LowestPoint(body, at);

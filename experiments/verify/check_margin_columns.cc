@@ -73,8 +73,8 @@ void CheckMarginColumns(const std::vector<PlayedRow>& rows, const DescribedWalk&
     const auto found = MarginsAt(walk, rows[i], certificate, enough, distances);
     for (size_t k = 0; k < kNumMarginColumns; ++k) {
       if (Same(found[k], rows[i].margins[k], kTolerances[k])) continue;
-      faults[k].Add(Text("trajectory.csv:%zu: %s is %.9g, but %.9g by the walk", i + 2,
-                         kMarginColumns[k], rows[i].margins[k], found[k]));
+      faults[k].Add(Formatted("trajectory.csv:%zu: %s is %.9g, but %.9g by the walk", i + 2,
+                              kMarginColumns[k], rows[i].margins[k], found[k]));
     }
   }
   for (const Faults& of_column : faults) of_column.Conclude(findings);

@@ -19,13 +19,14 @@ std::string FaultOf(const HalfStepRow& row, const HalfStep& planned, bool raw) {
       !std::isfinite(row.height_scale)) {
     return "a number is not finite";
   }
-  if (!(row.duration > 0)) return Text("duration %.9g", row.duration);
-  if (!(row.height_scale >= 0)) return Text("height scale %.9g", row.height_scale);
+  if (!(row.duration > 0)) return Formatted("duration %.9g", row.duration);
+  if (!(row.height_scale >= 0)) return Formatted("height scale %.9g", row.height_scale);
   if (!raw) return "";
   if (!Same(row.duration, planned.duration)) {
-    return Text("duration %.9g, planned %.9g", row.duration, planned.duration);
+    return Formatted("duration %.9g, planned %.9g", row.duration, planned.duration);
   }
-  return Same(row.height_scale, 1) ? "" : Text("height scale %.9g, planned 1", row.height_scale);
+  return Same(row.height_scale, 1) ? ""
+                                   : Formatted("height scale %.9g, planned 1", row.height_scale);
 }
 
 // Largest overlap that the homotopy allows at a junction [s].
@@ -41,7 +42,7 @@ std::string FaultOf(const OverlapRow& row, const HalfStepRow& before, const Half
   if (row.kind != (before.kind == "up" ? "up_down" : "down_up")) return "kind " + row.kind;
   const double bound = NaturalBound(before, after, shape);
   if (!(row.overlap >= 0 && row.overlap <= bound + kTwiceRounding)) {
-    return Text("overlap %.9g, natural bound %.9g", row.overlap, bound);
+    return Formatted("overlap %.9g, natural bound %.9g", row.overlap, bound);
   }
   if (!Same(row.duration_before, before.duration) || !Same(row.duration_after, after.duration) ||
       !Same(row.scale_before, before.height_scale) || !Same(row.scale_after, after.height_scale)) {
@@ -61,22 +62,23 @@ bool CheckOverlaps(const std::vector<HalfStepRow>& half_steps,
                 (overlaps ? Count(std::ssize(*overlaps)) + " overlaps" : "no overlaps"));
   if (half_steps.size() != n) {
     findings->Disagree(
-        Text("half_steps.csv: %zu half-steps, the footsteps make %zu", half_steps.size(), n));
+        Formatted("half_steps.csv: %zu half-steps, the footsteps make %zu", half_steps.size(), n));
     return false;
   }
   if (overlaps && overlaps->size() + 1 != n) {
-    findings->Disagree(Text("overlaps.csv: %zu junctions instead of %zu", overlaps->size(), n - 1));
+    findings->Disagree(
+        Formatted("overlaps.csv: %zu junctions instead of %zu", overlaps->size(), n - 1));
     return false;
   }
   double start = 0;
   for (size_t i = 0; i < n; ++i) {
     const HalfStepRow& row = half_steps[i];
-    const std::string line = Text("half_steps.csv:%zu: ", i + 2);
+    const std::string line = Formatted("half_steps.csv:%zu: ", i + 2);
     const std::string fault = FaultOf(row, planned.half_steps[i].half_step, !overlaps);
     if (!fault.empty()) findings->Disagree(line + fault);
     if (!Same(row.start, start)) {
-      findings->Disagree(line +
-                         Text("start %.9g, but %.9g by durations and overlaps", row.start, start));
+      findings->Disagree(
+          line + Formatted("start %.9g, but %.9g by durations and overlaps", row.start, start));
     }
     if (i % 2 == 1 && !Same(row.height_scale, half_steps[i - 1].height_scale)) {
       findings->Disagree(line + "another height scale than the step's up half-step");
@@ -87,7 +89,7 @@ bool CheckOverlaps(const std::vector<HalfStepRow>& half_steps,
     const std::string overlap_fault =
         FaultOf((*overlaps)[i], row, half_steps[i + 1], planned.half_steps[i].half_step.shape);
     if (!overlap_fault.empty()) {
-      findings->Disagree(Text("overlaps.csv:%zu: ", i + 2) + overlap_fault);
+      findings->Disagree(Formatted("overlaps.csv:%zu: ", i + 2) + overlap_fault);
     }
   }
   return findings->disagreements() == before;
@@ -109,21 +111,22 @@ void CheckFixed(const std::vector<HalfStepRow>& half_steps, const std::vector<Ov
       demanded = 1;
     } else {
       findings->Disagree("config.yaml: smoothing.fixed: " + one.parameter +
-                         Text(" %d is not known here", one.index));
+                         Formatted(" %d is not known here", one.index));
       continue;
     }
     demanded = one.value.value_or(demanded);
     if (Same(is, demanded)) continue;
-    findings->Disagree(one.parameter + Text(" %d is %.9g, fixed at %.9g", one.index, is, demanded));
+    findings->Disagree(one.parameter +
+                       Formatted(" %d is %.9g, fixed at %.9g", one.index, is, demanded));
   }
 }
 
 void CheckFootsteps(const std::vector<FootstepRow>& rows, const HalfStepSequence& planned,
                     Findings* findings) {
   const size_t steps = planned.half_steps.size() / 2;
-  findings->Say(Text("footsteps.csv: %zu footsteps", steps));
+  findings->Say(Formatted("footsteps.csv: %zu footsteps", steps));
   if (rows.size() != steps + 2) {
-    findings->Disagree(Text("footsteps.csv: %zu rows instead of %zu", rows.size(), steps + 2));
+    findings->Disagree(Formatted("footsteps.csv: %zu rows instead of %zu", rows.size(), steps + 2));
     return;
   }
   for (size_t i = 0; i < rows.size(); ++i) {
@@ -141,7 +144,7 @@ void CheckFootsteps(const std::vector<FootstepRow>& rows, const HalfStepSequence
     if (row.foot != Name(side) || !Same(row.X_WF.x, X_WF.x) || !Same(row.X_WF.y, X_WF.y) ||
         !Same(row.X_WF.yaw, X_WF.yaw) || !Same(row.via_height, height) ||
         !Same(row.duration, duration)) {
-      findings->Disagree(Text("footsteps.csv:%zu: not the footstep of config.yaml", i + 2));
+      findings->Disagree(Formatted("footsteps.csv:%zu: not the footstep of config.yaml", i + 2));
     }
   }
 }

@@ -20,7 +20,7 @@ constexpr double kPendulum = 1e-8;
 // [m], [rad]: a foot that stands may move this much between two rows by rounding.
 constexpr double kStill = 1e-9;
 
-std::string At(double t) { return Text("at t = %.6g s", t); }
+std::string At(double t) { return Formatted("at t = %.6g s", t); }
 const char* SideName(int side) { return side == 0 ? "left" : "right"; }
 size_t Of(int side) { return static_cast<size_t>(side); }
 
@@ -39,7 +39,7 @@ bool CheckIsMotion(const std::vector<PlayedRow>& rows, Findings* findings) {
   findings->Say("rows: " + Count(std::ssize(rows)) + ", times from 0, increasing; finite numbers");
   if (rows.size() < 2) findings->Disagree("rows: fewer than two");
   for (size_t i = 0; i < rows.size(); ++i) {
-    const std::string line = Text("trajectory.csv:%zu: ", i + 2);
+    const std::string line = Formatted("trajectory.csv:%zu: ", i + 2);
     if (!rows[i].AllFinite()) {
       findings->Disagree(line + "a number is not finite");
     } else if (!OfHumanSize(rows[i])) {

@@ -69,8 +69,8 @@ void CheckMethods(const RunParts& parts, Findings* findings) {
   if (method == nullptr) {
     findings->Disagree("manifest.json knows no method with this folder");
   } else if (method->duration != parts.certificate.duration) {
-    findings->Disagree(Text("duration: manifest.json has %.9g s, the certificate %.9g s",
-                            method->duration, parts.certificate.duration));
+    findings->Disagree(Formatted("duration: manifest.json has %.9g s, the certificate %.9g s",
+                                 method->duration, parts.certificate.duration));
   }
 }
 

@@ -41,7 +41,7 @@ void CheckSummary(const std::vector<SummaryRow>& rows, const RunManifest& manife
   }
   if (row->duration != certificate.duration) {
     disagree("duration_s",
-             Text("is %.9g, the certificate has %.9g", row->duration, certificate.duration));
+             Formatted("is %.9g, the certificate has %.9g", row->duration, certificate.duration));
   }
   if (!close(row->speedup, rows.front().duration / row->duration)) {
     disagree("speedup", "is not the duration of raw divided by this one's");
@@ -50,7 +50,8 @@ void CheckSummary(const std::vector<SummaryRow>& rows, const RunManifest& manife
     disagree("cost", "is not the duration");
   }
   if (row->iterations != iterations) {
-    disagree("iterations", Text("is %ld, iterates.csv has %ld rows", row->iterations, iterations));
+    disagree("iterations",
+             Formatted("is %ld, iterates.csv has %ld rows", row->iterations, iterations));
   }
   if (row->gap_to_reference.has_value() != (reference != nullptr) ||
       (reference != nullptr &&

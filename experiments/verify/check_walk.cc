@@ -42,23 +42,23 @@ void CheckRowsOnWalk(const std::vector<PlayedRow>& rows, const DescribedWalk& wa
   const double end = walk.end();
   const auto expected = static_cast<size_t>(std::floor(end / period * (1 - 1e-12))) + 2;
   if (rows.size() != expected) {
-    findings->Disagree(Text("trajectory.csv: %zu rows, the walk has %zu every %.9g s", rows.size(),
-                            expected, period));
+    findings->Disagree(Formatted("trajectory.csv: %zu rows, the walk has %zu every %.9g s",
+                                 rows.size(), expected, period));
   }
   double largest = 0;
   Faults times, places, supports, half_steps;
   for (size_t i = 0; i < rows.size(); ++i) {
     const PlayedRow& row = rows[i];
-    const std::string line = Text("trajectory.csv:%zu: ", i + 2);
+    const std::string line = Formatted("trajectory.csv:%zu: ", i + 2);
     const double t = i + 1 == rows.size() ? end : static_cast<double>(i) * period;
     if (!(std::abs(row.t - t) <= kInstant)) {
-      times.Add(line + Text("t_s is %.9g instead of %.9g", row.t, t));
+      times.Add(line + Formatted("t_s is %.9g instead of %.9g", row.t, t));
     }
     const Difference difference = LargestDifference(row, walk.Row(row.t));
     largest = std::max(largest, difference.size);
     if (!(difference.size <= kSame)) {
       places.Add(line + difference.columns +
-                 Text(" is off the walk of half_steps.csv by %.6g", difference.size));
+                 Formatted(" is off the walk of half_steps.csv by %.6g", difference.size));
     }
     const double before = row.t - kInstant, after = row.t + kInstant;
     if (row.support != walk.SupportAt(before) && row.support != walk.SupportAt(row.t) &&
@@ -73,7 +73,7 @@ void CheckRowsOnWalk(const std::vector<PlayedRow>& rows, const DescribedWalk& wa
     faults->Conclude(findings);
   }
   findings->Say("rows on the walk of half_steps.csv: " + Count(std::ssize(rows)) +
-                Text(", every %.6g s, off by %.3g at most", period, largest));
+                Formatted(", every %.6g s, off by %.3g at most", period, largest));
 }
 
 std::vector<PlayedRow> FinerRows(const std::vector<PlayedRow>& rows, const DescribedWalk& walk,

@@ -60,7 +60,7 @@ CsvText::CsvText(std::string path, const std::string& text, const std::vector<st
     rest.remove_prefix(end + 1);
     if (line > 1) {
       if (cells.size() != header_.size()) {
-        fail(Text("%zu cells (valid: %zu)", cells.size(), header_.size()));
+        fail(Formatted("%zu cells (valid: %zu)", cells.size(), header_.size()));
       }
       rows_.push_back(cells);
       continue;
@@ -69,7 +69,7 @@ CsvText::CsvText(std::string path, const std::string& text, const std::vector<st
       const std::string found = i < cells.size() ? Quote(cells[i]) : "nothing";
       const std::string wanted = i < header_.size() ? header_[i] : "no further column";
       if (i >= cells.size() || i >= header_.size() || cells[i] != header_[i]) {
-        fail(Text("column %zu is %s (valid: %s)", i + 1, found.c_str(), wanted.c_str()));
+        fail(Formatted("column %zu is %s (valid: %s)", i + 1, found.c_str(), wanted.c_str()));
       }
     }
   }

@@ -1,22 +1,6 @@
 #include "experiments/verify/findings.h"
 
-#include <array>
-#include <cstdarg>
-#include <cstdio>
-
 namespace halfstep::verify {
-
-std::string Text(const char* format, ...) {
-  std::va_list arguments, again;
-  va_start(arguments, format);
-  va_copy(again, arguments);
-  const int length = std::vsnprintf(nullptr, 0, format, arguments);
-  va_end(arguments);
-  std::string text(static_cast<size_t>(std::max(length, 0)), '\0');
-  std::vsnprintf(text.data(), text.size() + 1, format, again);
-  va_end(again);
-  return text;
-}
 
 std::string Count(long n) {
   std::string text = std::to_string(n);
@@ -27,15 +11,15 @@ std::string Count(long n) {
 void Check::Conclude(Findings* findings) const {
   std::string line = name_ + ": " + Count(count_) + (count_ == 1 ? " value" : " values");
   if (count_ > 0 && smallest_ < std::numeric_limits<double>::infinity()) {
-    line += Text(", smallest %.6g%s%s", smallest_, unit_.empty() ? "" : " ", unit_.c_str());
+    line += Formatted(", smallest %.6g%s%s", smallest_, unit_.empty() ? "" : " ", unit_.c_str());
     if (!where_.empty()) line += " (" + where_ + ")";
   }
-  line += Text(", demanded %.6g − %.3g", demanded_, tolerance_);
+  line += Formatted(", demanded %.6g − %.3g", demanded_, tolerance_);
   findings->Say(line);
   if (failures_ == 0) return;
   std::string reason = name_ + ": " + first_failure_;
   if (count_ > 0)
-    reason += Text("; smallest %.6g, demanded %.6g − %.3g", smallest_, demanded_, tolerance_);
+    reason += Formatted("; smallest %.6g, demanded %.6g − %.3g", smallest_, demanded_, tolerance_);
   if (failures_ > 1) reason += ", and " + Count(failures_ - 1) + " more";
   findings->Disagree(reason);
 }

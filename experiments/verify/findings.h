@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "wpg/files/text.h"
+
 namespace halfstep::verify {
 
 /// What a verification found: one line for each check, and the reasons why it disagrees.
@@ -38,8 +40,6 @@ class Findings {
   std::string too_coarse_;
 };
 
-/// printf into a string; %s takes a C string.
-[[gnu::format(printf, 1, 2)]] std::string Text(const char* format, ...);
 /// "41,230".
 std::string Count(long n);
 

@@ -133,7 +133,7 @@ void CheckPlayed(const PlayedMotion& motion, const DescribedWalk& walk,
   findings->Take(fine);
   if (fine.disagreements() > 0) return;
   findings->TooCoarse("played straight from row to row the walk leaves its margins by more than " +
-                      Text("%.3g; rows every %.3g s keep them: ", tolerance, kFine) +
+                      Formatted("%.3g; rows every %.3g s keep them: ", tolerance, kFine) +
                       played.reasons().front());
 }
 
@@ -176,8 +176,8 @@ std::string VerifyMethod(const VerifyOptions& options, const RunManifest& manife
             .scene_given = options.scene.has_value()},
            config_bytes, findings);
   const bool same_files = findings->disagreements() == 0;
-  findings->Say(Text("SHA-256: trajectory, certificate, %zu robot files, %zu scene files",
-                     robot.files.size(), scene.files.size()));
+  findings->Say(Formatted("SHA-256: trajectory, certificate, %zu robot files, %zu scene files",
+                          robot.files.size(), scene.files.size()));
   CheckFiles(options.run, folder, manifest, findings);
   CheckAgainstConfig(certificate, config.smoothing.limits, findings);
   const auto iterations =

@@ -182,7 +182,7 @@ TEST(CheckFixed, NamesEveryParameterThatMoved) {
               testing::ElementsAre(HasSubstr("duration 3 is")));
   EXPECT_THAT(reasons({{"height_scale", 2, at.height_scales[1] + 1e-6}}),
               testing::ElementsAre(HasSubstr("height_scale 2 is")));
-  const std::string planned = Text("fixed at %.9g", sequence.half_steps[2].half_step.duration);
+  const std::string planned = Formatted("fixed at %.9g", sequence.half_steps[2].half_step.duration);
   EXPECT_THAT(
       reasons({{"overlap", 2, {}}, {"duration", 3, {}}, {"height_scale", 2, {}}}),
       testing::ElementsAre(HasSubstr("fixed at 0"), HasSubstr(planned), HasSubstr("fixed at 1")));

@@ -1,6 +1,8 @@
 #include "wpg/files/text.h"
 
 #include <algorithm>
+#include <cstdarg>
+#include <cstdio>
 
 namespace halfstep {
 namespace {
@@ -84,6 +86,18 @@ std::string Printable(std::string_view text) {
     }
   }
   return shown;
+}
+
+std::string Formatted(const char* format, ...) {
+  std::va_list arguments, again;
+  va_start(arguments, format);
+  va_copy(again, arguments);
+  const int length = std::vsnprintf(nullptr, 0, format, arguments);
+  va_end(arguments);
+  std::string text(static_cast<size_t>(std::max(length, 0)), '\0');
+  std::vsnprintf(text.data(), text.size() + 1, format, again);
+  va_end(again);
+  return text;
 }
 
 bool LooksLikeFormula(std::string_view text) {

@@ -21,6 +21,9 @@ std::string Quote(std::string_view text);
 /// a terminal.
 std::string Printable(std::string_view text);
 
+/// What printf would print; %s takes a C string.
+[[gnu::format(printf, 1, 2)]] std::string Formatted(const char* format, ...);
+
 /// Whether a spreadsheet takes a cell with this text for a formula, by its first character.
 bool LooksLikeFormula(std::string_view text);
 

@@ -1,10 +1,10 @@
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <numbers>
 #include <optional>
 
 #include "wpg/files/number_text.h"
+#include "wpg/files/text.h"
 #include "wpg/files/yaml_fields.h"
 #include "wpg/robot/robot_bodies.h"
 #include "wpg/robot/robot_fields.h"
@@ -70,7 +70,7 @@ class Builder {
       if (urdf_.joints[i].kind != UrdfJoint::Kind::kRevolute) continue;
       if (leg_.posture[i] < leg_.lower[i] - 1e-9 || leg_.posture[i] > leg_.upper[i] + 1e-9) {
         faults += (faults.empty() ? "" : "; ") + urdf_.joints[i].name + ": " +
-                  Text("%.9g", file_.posture_deg[i]) +
+                  Formatted("%.9g", file_.posture_deg[i]) +
                   " is outside its limits (valid: " + ShortestDegrees(leg_.lower[i]) + " … " +
                   ShortestDegrees(leg_.upper[i]) + ")";
       }
@@ -107,11 +107,11 @@ class Builder {
       if (tilt > kStanding || X(2, 2) < 0) {
         fields_.Complain("standing_posture_deg",
                          std::string("the ") + name + " sole is not horizontal: it tilts by " +
-                             Text("%.4g", std::atan2(tilt, X(2, 2)) / kDegree) + " deg");
+                             Formatted("%.4g", std::atan2(tilt, X(2, 2)) / kDegree) + " deg");
       } else if (std::abs(yaw) > kStanding) {
         fields_.Complain("standing_posture_deg", std::string("the ") + name +
                                                      " sole does not point forward: yaw " +
-                                                     Text("%.4g", yaw / kDegree) + " deg");
+                                                     Formatted("%.4g", yaw / kDegree) + " deg");
       }
     }
     const Vector3d l = left.translation(), r = right.translation();
@@ -119,7 +119,7 @@ class Builder {
       fields_.Complain("standing_posture_deg",
                        "the soles are not at the same height: they differ "
                        "by " +
-                           Text("%.4g", 1e3 * (l.z() - r.z())) + " mm");
+                           Formatted("%.4g", 1e3 * (l.z() - r.z())) + " mm");
     }
     if (std::abs(l.x() - r.x()) > kStanding || std::abs(l.y() + r.y()) > kStanding) {
       fields_.Complain("standing_posture_deg",
@@ -170,18 +170,12 @@ class Builder {
       const double depth = DepthBelowSole(model_, side);
       if (depth <= kBelowSole) continue;
       faults += (faults.empty() ? "the " : "; the ") + std::string(Name(side)) + " foot reaches " +
-                Text("%.6g", 1e3 * depth) + " mm below its sole";
+                Formatted("%.6g", 1e3 * depth) + " mm below its sole";
     }
     if (faults.empty()) return;
     fields_.Complain("legs", faults +
                                  " (valid: at most 0.001 mm; put sole_xyz on the lowest point "
                                  "of the foot's bodies)");
-  }
-
-  static std::string Text(const char* format, double value) {
-    char text[48];
-    std::snprintf(text, sizeof text, format, value);
-    return text;
   }
 
   const RobotFile& file_;
