@@ -228,6 +228,9 @@ void DeclareSmoothing(Fields& fields, SmoothingConfig* c) {
                  .unit = "s",
                  .min = 1e-7,
                  .max = 0.01});
+  fields.Text("stop_branches", &c->stop_branches,
+              {.meaning = "after which half-steps the walk can be stopped, every margin kept",
+               .choices = {"none", "down", "all"}});
   fields.Group("dichotomy", {.meaning = "options of the method `dichotomy`"},
                [&](Fields& f) { DeclareDichotomy(f, &c->dichotomy); });
   fields.Group(

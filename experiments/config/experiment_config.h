@@ -55,6 +55,7 @@ struct SmoothingConfig {
   std::vector<std::string> methods = {"dichotomy"};
   std::string acceptance = "certified";
   double sampling = 0.005;  ///< period of acceptance `sampled` [s]
+  std::string stop_branches = "none";
   CertificationOptions certification;
   DichotomyOptions dichotomy;
   OptimizerConfig optimizer;

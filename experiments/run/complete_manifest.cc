@@ -11,7 +11,7 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr char kManifest[] = "manifest.json";
-constexpr std::uint64_t kMostBytes = std::uint64_t{16} << 20;
+constexpr std::uint64_t kMostManifestBytes = std::uint64_t{16} << 20;
 
 ordered_json InputsJson(const std::vector<InputFile>& files) {
   ordered_json list = ordered_json::array();
@@ -25,8 +25,8 @@ ordered_json InputsJson(const std::vector<InputFile>& files) {
 
 void CompleteManifest(const RobotModel& robot, const Scene& scene, RunFolder* folder) {
   const std::string path = (folder->staging() / kManifest).string();
-  ordered_json manifest =
-      ordered_json::parse(ReadRegularFile(path, kMostBytes), nullptr, /*allow_exceptions=*/false);
+  ordered_json manifest = ordered_json::parse(ReadRegularFile(path, kMostManifestBytes), nullptr,
+                                              /*allow_exceptions=*/false);
   if (!manifest.is_object()) throw InputError({path + ": is no JSON object"});
   manifest["robot_sha256"] = CombinedSha256(robot.files);
   manifest["scene_sha256"] = CombinedSha256(scene.files);

@@ -6,6 +6,7 @@
 #include "smoothing/methods/overlap_prices.h"
 #include "smoothing/methods/smoother_registry.h"
 #include "smoothing/proof/sampled_feasibility.h"
+#include "smoothing/proof/stoppable_feasibility.h"
 
 namespace halfstep {
 namespace {
@@ -36,10 +37,18 @@ MethodRun PlannedRun(const WalkProblem& problem, const std::stop_token& stop) {
 std::shared_ptr<const FeasibilityTest> MakeTest(const Experiment& experiment) {
   const SmoothingConfig& config = experiment.config.smoothing;
   const MarginEvaluator evaluator(experiment.robot, experiment.scene, config.limits);
+  std::shared_ptr<const FeasibilityTest> test;
   if (config.acceptance == "sampled") {
-    return std::make_shared<SampledFeasibility>(evaluator, config.sampling);
+    test = std::make_shared<SampledFeasibility>(evaluator, config.sampling);
+  } else {
+    test = std::make_shared<CertifiedFeasibility>(evaluator, config.certification);
   }
-  return std::make_shared<CertifiedFeasibility>(evaluator, config.certification);
+  for (const StopBranches branches : {StopBranches::kDown, StopBranches::kAll}) {
+    if (config.stop_branches == Name(branches)) {
+      return std::make_shared<StoppableFeasibility>(test, branches);
+    }
+  }
+  return test;
 }
 
 SmootherOptions OptionsOf(const ExperimentConfig& config) {

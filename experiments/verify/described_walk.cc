@@ -27,6 +27,17 @@ DescribedWalk::DescribedWalk(const RobotModel& robot, const HalfStepSequence& pl
   }
 }
 
+DescribedWalk DescribedWalk::StopBranch(int last) const {
+  DescribedWalk branch = *this;
+  branch.pieces_.erase(branch.pieces_.begin() + last + 1, branch.pieces_.end());
+  return branch;
+}
+
+std::pair<double, double> DescribedWalk::WindowOf(int half_step) const {
+  const Piece& piece = pieces_[static_cast<size_t>(half_step)];
+  return {piece.start, piece.start + piece.profiles.duration()};
+}
+
 WalkJet DescribedWalk::At(double t) const {
   WalkJet jet;
   jet.value = pieces_.front().from;
@@ -49,10 +60,14 @@ WalkJet DescribedWalk::At(double t) const {
   return jet;
 }
 
+bool DescribedWalk::HasLanded(double t, size_t up) const {
+  const size_t down = up + 1;
+  return down < pieces_.size() && Local(t, down) > pieces_[down].profiles.t1();
+}
+
 int DescribedWalk::StepInAir(double t) const {
-  for (size_t up = 0; up + 1 < pieces_.size(); up += 2) {
-    if (Local(t, up) >= pieces_[up].profiles.t2() &&
-        Local(t, up + 1) <= pieces_[up + 1].profiles.t1()) {
+  for (size_t up = 0; up < pieces_.size(); up += 2) {
+    if (Local(t, up) >= pieces_[up].profiles.t2() && !HasLanded(t, up)) {
       return static_cast<int>(up / 2);
     }
   }
@@ -78,9 +93,12 @@ bool DescribedWalk::MovesHorizontally(double t, int side) const {
   if (step < 0) return false;
   const size_t up = 2 * static_cast<size_t>(step), down = up + 1;
   if (Index(pieces_[up].half_step.swing()) != side) return false;
-  const HalfStepProfiles &rise = pieces_[up].profiles, &sink = pieces_[down].profiles;
-  return (Local(t, up) >= rise.horizontal_begin() || Local(t, down) >= 0) &&
-         (Local(t, down) <= sink.horizontal_end() || Local(t, up) <= rise.duration());
+  const HalfStepProfiles& rise = pieces_[up].profiles;
+  const bool begun = Local(t, up) >= rise.horizontal_begin();
+  const bool rises = Local(t, up) <= rise.duration();
+  if (down == pieces_.size()) return begun && rises;
+  return (begun || Local(t, down) >= 0) &&
+         (Local(t, down) <= pieces_[down].profiles.horizontal_end() || rises);
 }
 
 PlayedRow DescribedWalk::Row(double t) const {

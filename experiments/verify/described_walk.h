@@ -1,5 +1,6 @@
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "experiments/verify/played_motion.h"
@@ -23,7 +24,16 @@ class DescribedWalk {
   DescribedWalk(const RobotModel& robot, const HalfStepSequence& planned,
                 const std::vector<HalfStepRow>& rows);
 
+  /// The walk that ends with half-step `last`, from 0. Precondition: there is one.
+  DescribedWalk StopBranch(int last) const;
+
   const RobotModel& robot() const { return robot_; }
+  int num_half_steps() const { return static_cast<int>(pieces_.size()); }
+  bool IsUp(int half_step) const {
+    return pieces_[static_cast<size_t>(half_step)].half_step.kind == HalfStepKind::kUp;
+  }
+  /// When a half-step, counted from 0, begins and ends [s].
+  std::pair<double, double> WindowOf(int half_step) const;
   /// Duration of the walk [s].
   double end() const { return pieces_.back().start + pieces_.back().profiles.duration(); }
   /// All quantities and two time derivatives at t [s], in W.
@@ -54,6 +64,8 @@ class DescribedWalk {
     WalkState from, delta;  // f_i(0), f_i(T_i) − f_i(0); in W
   };
   double Local(double t, size_t piece) const { return t - pieces_[piece].start; }
+  // Whether the foot that half-step `up` raised stands again.
+  bool HasLanded(double t, size_t up) const;
   // The step in the air, or −1.
   int StepInAir(double t) const;
 

@@ -137,6 +137,34 @@ void CheckPlayed(const PlayedMotion& motion, const DescribedWalk& walk,
                       played.reasons().front());
 }
 
+// What the config demands of stop branches: the walk that ends with half-step k keeps every margin
+// from where half-step k + 1 would begin.
+void CheckStopBranches(const DescribedWalk& walk, const ExperimentConfig& config,
+                       const CertificateText& certificate, double tolerance, Distances* distances,
+                       Findings* findings) {
+  if (config.smoothing.stop_branches == "none") return;
+  int kept = 0;
+  for (int k = 0; k + 1 < walk.num_half_steps(); ++k) {
+    if (config.smoothing.stop_branches == "down" && walk.IsUp(k)) continue;
+    const double begin = walk.WindowOf(k + 1).first, end = walk.WindowOf(k).second;
+    const DescribedWalk branch = walk.StopBranch(k);
+    std::vector<PlayedRow> rows = {branch.Row(begin)};
+    const auto parts = static_cast<int>(std::ceil((end - begin) / config.output_period - 1e-9));
+    for (int i = 1; i <= parts; ++i) rows.push_back(branch.Row(begin + (end - begin) * i / parts));
+    Findings of_branch;
+    if (rows.size() > 1) {
+      CheckPlayed(PlayedMotion(walk.robot(), rows), branch, certificate, tolerance, distances,
+                  &of_branch);
+    }
+    for (const std::string& reason : of_branch.reasons()) {
+      findings->Disagree(Formatted("stopped after half-step %d: ", k + 1) + reason);
+    }
+    if (!of_branch.too_coarse().empty()) findings->TooCoarse(of_branch.too_coarse());
+    kept += of_branch.disagreements() == 0;
+  }
+  findings->Say(Formatted("stop branches: %d keep every margin to their end", kept));
+}
+
 bool IsFinite(const std::vector<ClaimRow>& rows) {
   return std::all_of(rows.begin(), rows.end(), [](const ClaimRow& row) {
     return std::isfinite(row.begin) && std::isfinite(row.end) && !std::isnan(row.margin) &&
@@ -202,6 +230,7 @@ std::string VerifyMethod(const VerifyOptions& options, const RunManifest& manife
     return certificate.statement;
   }
   CheckPlayed(motion, *walk, certificate, options.tolerance, &distances, findings);
+  CheckStopBranches(*walk, config, certificate, options.tolerance, &distances, findings);
   CheckMarginColumns(rows, *walk, certificate, &distances, findings);
   if (IsFinite(claimed)) CheckClaims(*walk, certificate, claimed, &distances, findings);
   findings->Say("distances measured: " + Count(distances.queries()));

@@ -143,7 +143,7 @@ InnerOptions Defaults(const SolveMonitor& monitor) {
   return inner;
 }
 
-SolverEnd Run(SolveMonitor& monitor, const Eigen::VectorXd& start) {
+SolverEnd RunCeres(SolveMonitor& monitor, const Eigen::VectorXd& start) {
   constexpr double kOffTheBounds = 1e-3;  // of the width; a start on a bound would stay there
   constexpr int kMostFailures = 5;        // inner minimizations without any step, in a row
   const Problem& problem = monitor.problem();
@@ -213,7 +213,7 @@ class CeresSolver : public Solver {
   std::string WhyUnsupported(const Problem&) const override { return ""; }
   Solution Solve(const Problem& problem, const Eigen::VectorXd& x0,
                  const SolverOptions& options) const override {
-    return MonitoredSolve(*this, problem, x0, options, SolveMonitor::Iterations::kTold, Run);
+    return MonitoredSolve(*this, problem, x0, options, SolveMonitor::Iterations::kTold, RunCeres);
   }
 };
 

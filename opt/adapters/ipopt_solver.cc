@@ -208,7 +208,7 @@ SolverEnd Translate(Ipopt::ApplicationReturnStatus status, Eigen::VectorXd x) {
   }
 }
 
-SolverEnd Run(SolveMonitor& monitor, const Eigen::VectorXd& start) {
+SolverEnd RunIpopt(SolveMonitor& monitor, const Eigen::VectorXd& start) {
   std::unique_lock lock(OneSolve(), std::defer_lock);
   while (!lock.try_lock_for(std::chrono::milliseconds(5))) {
     if (!monitor.MayGoOn()) return {Ending::kInterrupted, "Stopped in the queue.", start};
@@ -235,7 +235,7 @@ class IpoptSolver : public Solver {
   std::string WhyUnsupported(const Problem&) const override { return ""; }
   Solution Solve(const Problem& problem, const Eigen::VectorXd& x0,
                  const SolverOptions& options) const override {
-    return MonitoredSolve(*this, problem, x0, options, SolveMonitor::Iterations::kTold, Run);
+    return MonitoredSolve(*this, problem, x0, options, SolveMonitor::Iterations::kTold, RunIpopt);
   }
 };
 

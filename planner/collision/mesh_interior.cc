@@ -9,7 +9,7 @@
 namespace halfstep {
 namespace {
 
-constexpr double kRounding = 1e-6;  // of sums of winding numbers
+constexpr double kRayRounding = 1e-6;  // of sums of winding numbers
 
 }  // namespace
 
@@ -38,7 +38,7 @@ bool MeshInterior::Contains(const Eigen::Vector3d& point) const {
     sum += winding;
     absolute += std::abs(winding);
   }
-  return std::abs(sum) > 0.5 || absolute > 1 - kRounding;
+  return std::abs(sum) > 0.5 || absolute > 1 - kRayRounding;
 }
 
 }  // namespace halfstep

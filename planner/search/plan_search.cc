@@ -8,13 +8,9 @@
 namespace halfstep {
 namespace {
 
-bool IsFinite(const Pose2& X) {
-  return std::isfinite(X.x) && std::isfinite(X.y) && std::isfinite(X.yaw);
-}
-
 void CheckRequest(const PlanRequest& request) {
   for (const Footprint& sole : request.start) {
-    HALFSTEP_CHECK(IsFinite(sole), "start sole " << sole.x << ", " << sole.y << ", " << sole.yaw);
+    HALFSTEP_CHECK(sole.AllFinite(), "start sole " << sole.x << ", " << sole.y << ", " << sole.yaw);
   }
   const GoalRegion& goal = request.goal;
   HALFSTEP_CHECK(goal.IsValid(), "goal " << goal.X_WG.x << ", " << goal.X_WG.y << ", "

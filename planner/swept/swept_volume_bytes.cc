@@ -9,10 +9,11 @@ namespace halfstep {
 namespace {
 
 constexpr uint32_t kNone = 0xffffffff;
-constexpr double kFarthest = 1000.0;  // of a volume from its support sole [m]; far beyond any robot
+constexpr double kFarthestCorner =
+    1000.0;  // of a volume from its support sole [m]; far beyond any robot
 
 // Nor NaN.
-bool IsNear(const Eigen::Vector3d& p) { return (p.array().abs() <= kFarthest).all(); }
+bool IsNear(const Eigen::Vector3d& p) { return (p.array().abs() <= kFarthestCorner).all(); }
 
 class Reader {
  public:

@@ -16,8 +16,6 @@ using Eigen::Isometry3d;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-bool IsFinite(const Pose2& X) { return std::isfinite(X.x + X.y + X.yaw); }
-
 // Axis-aligned bounds of a convex body in its own frame.
 OrientedBox Around(const ConvexBody& body) {
   const Vector3d sides(body.disc_radius, body.disc_radius, 0.0);
@@ -146,7 +144,7 @@ bool SweptVolumeQuery::MeetsObstacle(const BoxTree& tree, const Placed& placed,
 }
 
 bool SweptVolumeQuery::IsFree(const Placed& placed, double extra) const {
-  HALFSTEP_CHECK(IsFinite(placed.X_WS), "the sole's pose is not finite");
+  HALFSTEP_CHECK(placed.X_WS.AllFinite(), "the sole's pose is not finite");
   if (!placed.volume) return false;
   const double sign = placed.mirrored ? -1.0 : 1.0;
   const auto& [middle, bounds, root] = placed.bounds;

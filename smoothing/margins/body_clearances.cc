@@ -7,7 +7,7 @@
 namespace halfstep {
 namespace {
 
-constexpr double kFar = 1.0;  // [m] beyond what is demanded: more than any refused distance
+constexpr double kFarAway = 1.0;  // [m] beyond what is demanded: more than any refused distance
 
 }  // namespace
 
@@ -123,7 +123,7 @@ std::optional<Margin> BodyClearances::FirstBodyBelow(const Posture& posture, dou
                                                      double clearance, Scratch* scratch) const {
   for (size_t b = 0; b < num_bodies(); ++b) {
     if (!BodyClears(b, posture, t, clearance, scratch)) {
-      return OfBody(b, posture, t, clearance + kFar, scratch);
+      return OfBody(b, posture, t, clearance + kFarAway, scratch);
     }
   }
   return std::nullopt;
@@ -134,7 +134,7 @@ std::optional<Margin> BodyClearances::FirstPairBelow(const Posture& posture, dou
   Place(posture, scratch);
   for (size_t p = 0; p < num_pairs(); ++p) {
     if (!PairClears(p, posture, clearance, scratch)) {
-      return OfPair(p, posture, clearance + kFar, scratch);
+      return OfPair(p, posture, clearance + kFarAway, scratch);
     }
   }
   return std::nullopt;

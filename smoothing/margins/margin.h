@@ -55,6 +55,8 @@ struct Margin {
   /// joint. Clearances and ground: index of RobotModel::bodies.
   int subject = -1;
   int other = -1;  ///< index of the obstacle (clearance), second body (self-clearance) or area
+  /// Not −1: found in the stop branch after this half-step; `at` and `t` are times of the branch.
+  int stop_after = -1;
 };
 
 /// Limits of the quantities that the robot model does not bound, and what is demanded of each

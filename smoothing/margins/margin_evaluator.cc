@@ -62,6 +62,9 @@ std::string MarginEvaluator::Describe(const Margin& margin) const {
         << limits_.demanded_of(margin.family) << ")";
   }
   out << " at half-step " << margin.at.half_step + 1 << ", tau = " << margin.at.tau << " s";
+  if (margin.stop_after >= 0) {
+    out << ", if the walk is stopped after half-step " << margin.stop_after + 1;
+  }
   return out.str();
 }
 

@@ -18,7 +18,7 @@ void AddPrices(const SuperposedWalk& walk, const MarginEvaluator& evaluator,
   for (size_t j = 0; j < junctions->size(); ++j) {
     JunctionResult& junction = (*junctions)[j];
     junction.price.reset();
-    if (!junction.limited_by) continue;
+    if (!junction.limited_by || junction.limited_by->stop_after >= 0) continue;
     slacks.At(walk, junction.limited_by->at, {}, true, &instant);
     const HomotopyParameter overlap{HomotopyParameter::Family::kOverlap, static_cast<int>(j)};
     const auto column = std::find(instant.parameters.begin(), instant.parameters.end(), overlap);

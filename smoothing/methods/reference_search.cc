@@ -18,8 +18,8 @@ namespace {
 
 using opt::Ending;
 
-constexpr int kAttempts = 6;    // towards a grid's optimum that the test refuses
-constexpr double kGain = 1e-4;  // a round that gains less counts as none [s]
+constexpr int kGridAttempts = 6;     // towards a grid's optimum that the test refuses
+constexpr double kRoundGain = 1e-4;  // a round that gains less counts as none [s]
 
 class Reference {
  public:
@@ -171,7 +171,7 @@ class Reference {
     if (!indices.empty()) {
       const HomotopyParameters candidate = grid_.ParametersOf(choices, indices);
       iterate.candidate_duration = DurationOf(candidate);
-      iterate.lambda = path->Toward(candidate, kAttempts);
+      iterate.lambda = path->Toward(candidate, kGridAttempts);
       iterate.accepted = iterate.lambda > 0.0;
       if (!path->refusals().empty()) ++monitor_.result().raw_infeasible;
     }
@@ -188,7 +188,7 @@ class Reference {
     for (; step >= options_.narrowest && rounds < options_.max_rounds; ++rounds) {
       if (monitor_.stopped()) return;
       const double gain = Round(Neighbours(path->parameters(), step), path);
-      idle = gain > kGain ? 0 : idle + 1;
+      idle = gain > kRoundGain ? 0 : idle + 1;
       if (idle == patience) {
         idle = 0;
         step *= 0.5;

@@ -64,6 +64,20 @@ void SuperposedWalk::SetOverlap(int junction, double overlap) {
   UpdateStarts(junction + 1);
 }
 
+SuperposedWalk SuperposedWalk::StopBranch(int last) const {
+  HALFSTEP_CHECK(last >= 0 && last < num_half_steps(), "half-step " << last);
+  SuperposedWalk branch;
+  branch.lipm_ = lipm_;
+  branch.pieces_.assign(pieces_.begin(), pieces_.begin() + last + 1);
+  for (const ParameterFamily family : AllParameterFamilies()) {
+    const ParameterFamilyTraits& traits = Traits(family);
+    const std::vector<double>& all = parameters_.of(family);
+    const int count = traits.index_at(last) + (traits.joins ? 0 : 1);
+    branch.parameters_.of(family).assign(all.begin(), all.begin() + count);
+  }
+  return branch;
+}
+
 LocalTime SuperposedWalk::Locate(double t) const {
   const auto after = std::upper_bound(pieces_.begin() + 1, pieces_.end(), t,
                                       [](double time, const Piece& p) { return time < p.start; });
@@ -151,32 +165,37 @@ void SuperposedWalk::Sensitivities(const LocalTime& at, std::vector<WalkSensitiv
 int SuperposedWalk::StepInAir(const LocalTime& at) const {
   const int first = FirstActive(at) / 2, last = LastActive(at) / 2;
   for (int step = first; step <= last; ++step) {
-    const int up = 2 * step, down = up + 1;
-    if (LocalTo(up, at) >= piece(up).profiles.t2() &&
-        LocalTo(down, at) <= piece(down).profiles.t1())
-      return step;
+    const int up = 2 * step;
+    if (LocalTo(up, at) < piece(up).profiles.t2()) continue;
+    const Piece* down = DownOf(step);
+    if (down == nullptr || LocalTo(up + 1, at) <= down->profiles.t1()) return step;
   }
   return -1;
 }
 
 bool SuperposedWalk::MovesHorizontally(int step, const LocalTime& at) const {
-  const int up = 2 * step, down = up + 1;
-  const double in_up = LocalTo(up, at), in_down = LocalTo(down, at);
-  return (in_up >= piece(up).profiles.horizontal_begin() || in_down >= 0.0) &&
-         (in_down <= piece(down).profiles.horizontal_end() ||
-          in_up <= piece(up).profiles.duration());
+  const int up = 2 * step;
+  const double in_up = LocalTo(up, at);
+  const bool begun = in_up >= piece(up).profiles.horizontal_begin();
+  const bool rising = in_up <= piece(up).profiles.duration();
+  const Piece* down = DownOf(step);
+  if (down == nullptr) return begun && rising;
+  const double in_down = LocalTo(up + 1, at);
+  return (begun || in_down >= 0.0) && (in_down <= down->profiles.horizontal_end() || rising);
 }
 
 double SuperposedWalk::LeastHeight(int step, double begin, double end) const {
   constexpr double kSteepest = 15.0 / 8.0;  // S'(½)
-  const Piece &up = piece(2 * step), &down = piece(2 * step + 1);
+  const Piece& up = piece(2 * step);
+  const Piece* down = DownOf(step);
   // Fractions of the rise that is done, and of the sinking that is still to come.
   const double lift_off = up.profiles.t2(), rise = up.profiles.duration() - lift_off;
   const auto risen = [&](double t) {
     return std::clamp((t - up.start - lift_off) / rise, 0.0, 1.0);
   };
   const auto left = [&](double t) {
-    return 1.0 - std::clamp((t - down.start) / down.profiles.t1(), 0.0, 1.0);
+    if (down == nullptr) return 1.0;
+    return 1.0 - std::clamp((t - down->start) / down->profiles.t1(), 0.0, 1.0);
   };
   const double height = up.half_step.via_height;
   const double monotone =

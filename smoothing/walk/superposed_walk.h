@@ -68,7 +68,8 @@ class SuperposedWalk {
   /// Whether a foot is in the air, which it is from t2 of its up half-step to t1 of the down
   /// half-step that follows, both instants included. Else it stands on the floor.
   bool InAir(const LocalTime& at, Side foot) const;
-  /// The step (its up half-step is 2·step) whose foot is in the air, or −1. At most one foot is.
+  /// The step (its up half-step is 2·step) whose foot is in the air, or −1. At most one foot is. In
+  /// a stop branch that ends with an up half-step the foot stays there.
   int StepInAir(const LocalTime& at) const;
 
   /// Whether the swing foot of `step` is in its horizontal motion. It begins with that of the up
@@ -83,6 +84,12 @@ class SuperposedWalk {
   /// smoothing/README.md, "The foot never goes below the floor".
   double LeastHeight(int step, double begin, double end) const;
 
+  /// The walk that ends with half-step `last`: those after it never begin. It is this walk, to the
+  /// bit, until half-step last + 1 would begin, and it ends at rest: on both feet, or on one when
+  /// `last` is an up half-step. Precondition: 0 ≤ last < num_half_steps().
+  /// Source: smoothing/README.md, "Stop branches".
+  SuperposedWalk StopBranch(int last) const;
+
   /// Changes one overlap [s]. Precondition: it is at least 0, and exceeds NaturalOverlapBound by at
   /// most kOverlapTolerance (std::logic_error).
   void SetOverlap(int junction, double overlap);
@@ -96,6 +103,11 @@ class SuperposedWalk {
     double start = 0.0;         // t_i
     WalkState from_W, delta_W;  // f_i(0) and f_i(T_i) − f_i(0)
   };
+  SuperposedWalk() = default;
+  // The down half-step of a step; null in a stop branch that ends before it.
+  const Piece* DownOf(int step) const {
+    return 2 * step + 1 < num_half_steps() ? &piece(2 * step + 1) : nullptr;
+  }
   const Piece& piece(int i) const { return pieces_[static_cast<size_t>(i)]; }
   // First and last half-step under way at `at`.
   int FirstActive(const LocalTime& at) const;

@@ -30,7 +30,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 namespace fs = std::filesystem;
 
-const std::string kConfig = ShippedConfig("fig3_two_half_steps");
+const std::string kTwoHalfSteps = ShippedConfig("fig3_two_half_steps");
 const std::string kOneMethod = "smoothing.methods=[dichotomy]";
 const std::vector<std::string> kMethods = {"dichotomy", "dichotomy_published"};
 
@@ -83,8 +83,9 @@ TEST(StoppedRun, CtrlCKeepsWhatIsAccepted) {
 TEST(KilledRun, LeavesNoPartUnderTheFinalName) {
   const TemporaryFolder place;
   const auto begin = std::chrono::steady_clock::now();
-  ASSERT_EQ(Halfstep(place.path(), {"run", kConfig, "--out", "kept", "--set", kOneMethod}).status,
-            kSuccess);
+  ASSERT_EQ(
+      Halfstep(place.path(), {"run", kTwoHalfSteps, "--out", "kept", "--set", kOneMethod}).status,
+      kSuccess);
   const std::chrono::duration<double> whole = std::chrono::steady_clock::now() - begin;
   std::mt19937 random(20);
   std::uniform_real_distribution<double> part(0.0, 1.0);
@@ -92,7 +93,7 @@ TEST(KilledRun, LeavesNoPartUnderTheFinalName) {
   for (int i = 0; i < 20; ++i) {
     // In turn: a new run, and one that replaces an older.
     const std::string name = i % 2 == 0 ? "new" + std::to_string(i) : "kept";
-    Child child({"run", kConfig, "--out", name, "--overwrite", "--set", kOneMethod},
+    Child child({"run", kTwoHalfSteps, "--out", name, "--overwrite", "--set", kOneMethod},
                 {.working_directory = place.path()});
     std::this_thread::sleep_for(whole * part(random));
     child.Signal(SIGKILL);
@@ -111,10 +112,10 @@ TEST(KilledRun, LeavesNoPartUnderTheFinalName) {
                          [](const std::string& name) { return name.starts_with(".kept."); });
   };
   RecordProperty("leftovers", static_cast<int>(leftovers()));
-  ASSERT_EQ(
-      Halfstep(place.path(), {"run", kConfig, "--out", "kept", "--overwrite", "--set", kOneMethod})
-          .status,
-      kSuccess);
+  ASSERT_EQ(Halfstep(place.path(),
+                     {"run", kTwoHalfSteps, "--out", "kept", "--overwrite", "--set", kOneMethod})
+                .status,
+            kSuccess);
   CheckRunIsWhole(place / "kept", {"dichotomy"});
   EXPECT_EQ(leftovers(), 0);
 }
@@ -125,7 +126,7 @@ TEST(FullDisk, FileThatMayNotGrowIsNamed) {
     const rlimit bytes{50'000, 50'000};  // less than a trajectory
     return ::signal(SIGXFSZ, SIG_IGN) != SIG_ERR && setrlimit(RLIMIT_FSIZE, &bytes) == 0;
   };
-  const Outcome outcome = Child({"run", kConfig, "--out", "a"},
+  const Outcome outcome = Child({"run", kTwoHalfSteps, "--out", "a"},
                                 {.working_directory = place.path(), .before_exec = limit})
                               .Wait();
   if (outcome.status == Child::kNotPossible) GTEST_SKIP() << "cannot set a limit here";
@@ -143,7 +144,7 @@ TEST(FullDisk, FullFileSystemIsNamedAndTheOlderRunStays) {
       mount("tmpfs", place.path().c_str(), "tmpfs", 0, "size=3m") != 0) {
     GTEST_SKIP() << "needs the right to mount: " << std::strerror(errno);
   }
-  const std::vector<std::string> run = {"run", kConfig, "--out", "a", "--overwrite"};
+  const std::vector<std::string> run = {"run", kTwoHalfSteps, "--out", "a", "--overwrite"};
   EXPECT_EQ(Halfstep(place.path(), run).status, kSuccess);
   const std::string before = ReadText(place / "a/manifest.json");
   std::vector<std::string> larger = run;
@@ -177,7 +178,8 @@ TEST(OldFileSystem, RunsArePublishedWithoutExchange) {
   const TemporaryFolder place;
   for (const std::string period : {"0.01", "0.02"}) {
     const Outcome outcome =
-        Child({"run", kConfig, "--out", "a", "--overwrite", "--set", "output.period_s=" + period},
+        Child({"run", kTwoHalfSteps, "--out", "a", "--overwrite", "--set",
+               "output.period_s=" + period},
               {.working_directory = place.path(), .before_exec = ForbidRenameFlags})
             .Wait();
     if (outcome.status == Child::kNotPossible) GTEST_SKIP() << "cannot filter system calls here";

@@ -12,10 +12,6 @@
 namespace halfstep {
 namespace {
 
-double Largest(const WalkState& x) { return x.cwiseAbs().maxCoeff(); }
-double Largest(const WalkJet& x) {
-  return std::max({Largest(x.value), Largest(x.first), Largest(x.second)});
-}
 WalkJet operator-(const WalkJet& a, const WalkJet& b) {
   return {a.value - b.value, a.first - b.first, a.second - b.second};
 }

@@ -11,6 +11,12 @@
 
 namespace halfstep {
 
+/// The largest absolute value.
+inline double Largest(const WalkState& x) { return x.cwiseAbs().maxCoeff(); }
+inline double Largest(const WalkJet& x) {
+  return std::max({Largest(x.value), Largest(x.first), Largest(x.second)});
+}
+
 inline const Margin& Of(const MarginSet& margins, MarginFamily family) {
   return margins[static_cast<size_t>(family)];
 }

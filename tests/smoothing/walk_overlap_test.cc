@@ -11,8 +11,6 @@
 namespace halfstep {
 namespace {
 
-double Largest(const WalkState& x) { return x.cwiseAbs().maxCoeff(); }
-
 TEST(WalkOverlap, SetOverlapGivesTheWalkOfTheChangedParameters) {
   WalkDraw draw(31);
   const HalfStepSequence sequence = draw.Sequence(4);

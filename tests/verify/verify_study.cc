@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 using Table = TamperedRun::Table;
-using Mutations = std::vector<StudyMutation>;
+using StudyList = std::vector<StudyMutation>;
 
 constexpr char kNotClaimed[] = "no statement is about it";
 constexpr char kWeaker[] = "the claim that is left is weaker, and follows from the true one";
@@ -45,7 +45,7 @@ std::string Other(const std::string& value, double change) {
 
 // One cell of one column of a table, in a row that `random` draws, from `first` on.
 void EveryColumn(const std::string& kind, const std::string& file, int rows,
-                 const std::set<std::string>& harmless, const char* why, Mutations* list,
+                 const std::set<std::string>& harmless, const char* why, StudyList* list,
                  size_t first = 1) {
   const TamperedRun run;
   const Table table = TamperedRun::Cells(ReadText(run.run() / file));
@@ -68,7 +68,7 @@ void EveryColumn(const std::string& kind, const std::string& file, int rows,
 }
 
 // Whether a row of certificate.csv says no more than it did.
-void EveryClaim(Mutations* list) {
+void EveryClaim(StudyList* list) {
   struct Edit {
     const char* name;
     size_t column;
@@ -117,7 +117,7 @@ void EveryClaim(Mutations* list) {
 
 // Every member of a JSON document that is no object or list, changed.
 void EveryMember(const std::string& kind, const std::string& file,
-                 const std::function<const char*(const std::string&)>& harmless, Mutations* list) {
+                 const std::function<const char*(const std::string&)>& harmless, StudyList* list) {
   const TamperedRun run;
   const Json flat = Json::parse(ReadText(run.run() / file)).flatten();
   for (const auto& [pointer, value] : flat.items()) {
@@ -144,7 +144,7 @@ void EveryMember(const std::string& kind, const std::string& file,
 }
 
 // Lines "key: value" of config.yaml: another value, and a misspelt key.
-void EveryKey(Mutations* list) {
+void EveryKey(StudyList* list) {
   const TamperedRun run;
   const std::string text = ReadText(run.run() / "config.yaml");
   std::istringstream lines(text);
@@ -193,7 +193,7 @@ void EveryKey(Mutations* list) {
   }
 }
 
-void EveryFile(Mutations* list) {
+void EveryFile(StudyList* list) {
   const TamperedRun run;
   for (const std::string& name : FilesBelow(run.run())) {
     if (name == "manifest.json") continue;
@@ -231,7 +231,7 @@ void Swap(const fs::path& a, const fs::path& b) {
   fs::rename(aside, b);
 }
 
-void Swaps(Mutations* list) {
+void Swaps(StudyList* list) {
   const TamperedRun run;
   for (const std::string& name : FilesBelow(run.run() / "raw")) {
     if (name.ends_with(".schema.json")) continue;
@@ -266,7 +266,7 @@ void Swaps(Mutations* list) {
 }
 
 // The forgeries that were accepted once.
-void Forgeries(Mutations* list) {
+void Forgeries(StudyList* list) {
   const auto forge = [list](const std::string& name, std::function<void(TamperedRun&)> by) {
     list->push_back({"forged whole", name, std::move(by)});
   };
@@ -318,7 +318,7 @@ void Forgeries(Mutations* list) {
 }  // namespace
 
 std::vector<StudyMutation> StudyMutations() {
-  Mutations list;
+  StudyList list;
   EveryColumn("trajectory.csv", "dichotomy/trajectory.csv", 3, {}, "", &list);
   EveryClaim(&list);
   EveryMember("certificate.json", "dichotomy/certificate.json", HarmlessInCertificate, &list);

@@ -5,16 +5,12 @@
 #include <limits>
 #include <string>
 
+#include "tests/wpg/repeated.h"
+
 namespace halfstep {
 namespace {
 
 constexpr int kEndless = std::numeric_limits<int>::max();
-
-std::string Repeated(const std::string& text, int times) {
-  std::string all;
-  for (int i = 0; i < times; ++i) all += text;
-  return all;
-}
 
 TEST(JsonDepth, CountsArraysAndObjectsOutsideOfTexts) {
   EXPECT_EQ(JsonDepth("3"), 0);

@@ -6,18 +6,13 @@
 #include <string>
 
 #include "tests/temporary_folder.h"
+#include "tests/wpg/repeated.h"
 #include "wpg/files/input_error.h"
 
 namespace halfstep {
 namespace {
 
 using testing::HasSubstr;
-
-std::string Repeated(const std::string& text, int times) {
-  std::string all;
-  for (int i = 0; i < times; ++i) all += text;
-  return all;
-}
 
 std::string Link(const std::string& name) { return "<link name=\"" + name + "\"/>\n"; }
 
@@ -36,7 +31,7 @@ std::string Chain(const std::string& root, int links) {
   return text;
 }
 
-std::vector<std::string> ComplaintsAbout(const std::string& robot) {
+std::vector<std::string> UrdfComplaints(const std::string& robot) {
   const TemporaryFolder place;
   try {
     ReadUrdf(WriteText(place / "robot.urdf", "<robot name='r'>" + robot + "</robot>"));
@@ -48,11 +43,11 @@ std::vector<std::string> ComplaintsAbout(const std::string& robot) {
 
 TEST(ReadUrdf, RefusesDeepElementsBeforeTheyAreParsed) {
   for (const int levels : {64, 40'000, 400'000}) {
-    EXPECT_THAT(ComplaintsAbout(Repeated("<a>", levels) + Repeated("</a>", levels)),
+    EXPECT_THAT(UrdfComplaints(Repeated("<a>", levels) + Repeated("</a>", levels)),
                 testing::ElementsAre(HasSubstr("nests too deeply")))
         << levels;
   }
-  EXPECT_THAT(ComplaintsAbout(Link("l") + Repeated("<a>", 63) + Repeated("</a>", 63)),
+  EXPECT_THAT(UrdfComplaints(Link("l") + Repeated("<a>", 63) + Repeated("</a>", 63)),
               testing::IsEmpty());
 }
 
@@ -62,14 +57,14 @@ TEST(ReadUrdf, TakesALongChainAndRefusesALongerOne) {
       WriteText(place / "chain.urdf", "<robot name='r'>" + Chain("root", 4999) + "</robot>"));
   EXPECT_EQ(tree.links.size(), 5000u);
   EXPECT_EQ(tree.joints.size(), 4999u);
-  EXPECT_THAT(ComplaintsAbout(Chain("root", 5000)),
+  EXPECT_THAT(UrdfComplaints(Chain("root", 5000)),
               testing::ElementsAre(HasSubstr("has 5001 links (valid: at most 5000)")));
 }
 
 TEST(ReadUrdf, NamesEveryLinkThatLeadsToARing) {
   const std::string ring = Link("a") + Link("b") + Link("c") + Joint("a", "b") + Joint("b", "c") +
                            Joint("c", "a") + Link("below") + Joint("b", "below");
-  const std::vector<std::string> complaints = ComplaintsAbout(Chain("root", 3) + ring);
+  const std::vector<std::string> complaints = UrdfComplaints(Chain("root", 3) + ring);
   EXPECT_EQ(complaints.size(), 4u);
   for (const std::string& complaint : complaints) {
     EXPECT_THAT(complaint, HasSubstr("hangs on itself through a ring of joints"));

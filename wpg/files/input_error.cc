@@ -7,7 +7,7 @@
 namespace halfstep {
 namespace {
 
-std::string Joined(const std::vector<std::string>& lines) {
+std::string Lines(const std::vector<std::string>& lines) {
   std::string text;
   for (const std::string& line : lines) {
     if (!text.empty()) text += '\n';
@@ -39,7 +39,7 @@ size_t EditDistance(const std::string& a, const std::string& b) {
 }  // namespace
 
 InputError::InputError(std::vector<std::string> complaints)
-    : std::runtime_error(Joined(complaints)), complaints_(std::move(complaints)) {}
+    : std::runtime_error(Lines(complaints)), complaints_(std::move(complaints)) {}
 
 void Complaints::Add(const std::string& file, int line, int column, const std::string& key,
                      const std::string& what) {

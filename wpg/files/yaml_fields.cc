@@ -11,13 +11,13 @@ namespace halfstep {
 namespace {
 
 // yaml-cpp needs up to 240 bytes of memory for one of text.
-constexpr std::uint64_t kMostBytes = 4 << 20;
+constexpr std::uint64_t kMostYamlBytes = 4 << 20;
 
 }  // namespace
 
 std::string ReadYamlFile(const std::string& path) {
   YamlComplaints complaints(path);
-  FileBytes file = TryReadRegularFile(path, kMostBytes);
+  FileBytes file = TryReadRegularFile(path, kMostYamlBytes);
   if (!file.refused.empty()) complaints.Fail({}, "", file.refused);
   return std::move(file.bytes);
 }

@@ -13,7 +13,7 @@
 namespace halfstep {
 namespace {
 
-using Kind = YamlNode::Kind;
+using NodeKind = YamlNode::Kind;
 
 std::string WithUnit(std::string text, const NumberSpec& spec) {
   return spec.unit[0] == '\0' ? text : std::move(text) + " " + spec.unit;
@@ -54,7 +54,7 @@ std::string Suggestion(const std::string& word, const std::vector<std::string>& 
 
 // What is wrong with a text as a number, "" if nothing.
 std::string Mistake(const YamlNode& node, const NumberText& number) {
-  if (node.kind != Kind::kScalar) return "not a number: " + Describe(node);
+  if (node.kind != NodeKind::kScalar) return "not a number: " + Describe(node);
   if (node.quoted) return "not a number but text in quotes: " + Describe(node);
   switch (number.kind) {
     case NumberText::Kind::kNotANumber:
@@ -126,7 +126,7 @@ std::optional<double> YamlReader::ToNumber(const YamlNode& node, const std::stri
 std::optional<std::string> YamlReader::ToText(const YamlNode& node, const std::string& path,
                                               const TextSpec& spec) {
   std::string mistake;
-  if (node.kind != Kind::kScalar) {
+  if (node.kind != NodeKind::kScalar) {
     mistake = "not text: " + Describe(node) + " (valid: " + ValidText(spec) + ")";
   } else if (HasControlCharacter(node.text)) {
     mistake = "a control character in " + Describe(node) + " (valid: text of one line)";
@@ -149,7 +149,7 @@ void YamlReader::OptionalNumber(const char* key, std::optional<double>* value,
                                 const NumberSpec& spec) {
   const YamlNode* const node = Take(key, spec.required, ValidNumbers(spec) + ", or none");
   if (node == nullptr) return;
-  if (node->kind == Kind::kNull || (!node->quoted && node->text == "none")) {
+  if (node->kind == NodeKind::kNull || (!node->quoted && node->text == "none")) {
     value->reset();
   } else if (const auto number = ToNumber(*node, KeyPath(path_, key), spec, IsDegrees(key))) {
     *value = number;
@@ -182,7 +182,7 @@ void YamlReader::Integer(const char* key, int* value, const NumberSpec& spec) {
 void YamlReader::Boolean(const char* key, bool* value, const TextSpec& spec) {
   const YamlNode* const node = Take(key, spec.required, "true, false");
   if (node == nullptr) return;
-  const bool plain = node->kind == Kind::kScalar && !node->quoted;
+  const bool plain = node->kind == NodeKind::kScalar && !node->quoted;
   if (plain && (node->text == "true" || node->text == "false")) {
     *value = node->text == "true";
   } else {

@@ -7,9 +7,9 @@
 namespace halfstep {
 namespace {
 
-using Kind = YamlNode::Kind;
+using NodeKind = YamlNode::Kind;
 
-constexpr size_t kAnyNumber = std::numeric_limits<size_t>::max();
+constexpr size_t kAnyLength = std::numeric_limits<size_t>::max();
 
 std::string Count(size_t count, const std::string& of) {
   return count == 1 ? "1 " + of : std::to_string(count) + " " + of + "s";
@@ -24,9 +24,9 @@ std::string ItemPath(const std::string& path, size_t i) {
 bool YamlReader::IsList(const YamlNode& node, const std::string& path, size_t lo, size_t hi,
                         const std::string& of) {
   const std::string valid = lo == hi           ? Count(lo, of)
-                            : hi == kAnyNumber ? "a list of " + of + "s"
+                            : hi == kAnyLength ? "a list of " + of + "s"
                                                : std::to_string(lo) + " … " + Count(hi, of);
-  if (node.kind != Kind::kList) {
+  if (node.kind != NodeKind::kList) {
     complaints_->Add(node.place, path, "not a list: " + Describe(node) + " (valid: " + valid + ")");
     return false;
   }
@@ -38,7 +38,7 @@ bool YamlReader::IsList(const YamlNode& node, const std::string& path, size_t lo
 void YamlReader::Texts(const char* key, std::vector<std::string>* value, const TextSpec& spec) {
   const YamlNode* const node = Take(key, spec.required, "a list of texts");
   const std::string path = KeyPath(path_, key);
-  if (node == nullptr || !IsList(*node, path, 0, kAnyNumber, "text")) return;
+  if (node == nullptr || !IsList(*node, path, 0, kAnyLength, "text")) return;
   std::vector<std::string> texts;
   for (size_t i = 0; i < node->items.size(); ++i) {
     const auto text = ToText(node->items[i], ItemPath(path, i), spec);
@@ -53,10 +53,10 @@ void YamlReader::Numbers(const char* key, std::vector<double>* value, size_t cou
   const YamlNode* const node = Take(key, spec.required, valid);
   const std::string path = KeyPath(path_, key);
   if (node == nullptr) return;
-  const size_t lo = count, hi = count == 0 ? kAnyNumber : count;
+  const size_t lo = count, hi = count == 0 ? kAnyLength : count;
   bool good = IsList(*node, path, lo, hi, "number");
   std::vector<double> numbers;
-  for (size_t i = 0; node->kind == Kind::kList && i < node->items.size(); ++i) {
+  for (size_t i = 0; node->kind == NodeKind::kList && i < node->items.size(); ++i) {
     const auto number = ToNumber(node->items[i], ItemPath(path, i), spec, IsDegrees(key));
     numbers.push_back(number.value_or(0.0));
     good = good && number;
@@ -91,7 +91,7 @@ void YamlReader::Points(const char* key, Eigen::Matrix2Xd* value, const GroupSpe
 bool YamlReader::Group(const char* key, const GroupSpec& spec,
                        const std::function<void(Fields&)>& declare) {
   const YamlNode* const node = Take(key, spec.required, "a map");
-  const bool is_map = node != nullptr && node->kind == Kind::kMap;
+  const bool is_map = node != nullptr && node->kind == NodeKind::kMap;
   if (node != nullptr && !is_map) {
     complaints_->Add(node->place, KeyPath(path_, key),
                      "not a map: " + Describe(*node) + " (valid: a map)");
@@ -109,7 +109,7 @@ void YamlReader::Items(const char* key, const GroupSpec& spec, size_t /*size*/,
   resize(node->items.size());
   for (size_t i = 0; i < node->items.size(); ++i) {
     const YamlNode& item = node->items[i];
-    const bool is_map = item.kind == Kind::kMap;
+    const bool is_map = item.kind == NodeKind::kMap;
     if (!is_map) {
       complaints_->Add(item.place, ItemPath(path, i),
                        "not a map: " + Describe(item) + " (valid: a map)");

@@ -13,6 +13,7 @@ struct Pose2 {
   double y = 0.0;
   double yaw = 0.0;
 
+  bool AllFinite() const { return std::isfinite(x) && std::isfinite(y) && std::isfinite(yaw); }
   Eigen::Vector2d position() const { return {x, y}; }
   Eigen::Matrix2d rotation() const { return Eigen::Rotation2Dd(yaw).toRotationMatrix(); }
 

@@ -13,7 +13,7 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-constexpr std::uint64_t kMostBytes = 16 << 20;
+constexpr std::uint64_t kMostUrdfBytes = 16 << 20;
 
 // Keeps what urdfdom would print. console_bridge has one handler a process, so one listener at a
 // time.
@@ -175,7 +175,7 @@ std::vector<Isometry3d> UrdfTree::LinkPoses(const std::vector<double>& q) const 
 }
 
 UrdfTree ReadUrdf(const std::string& path) {
-  return ParseUrdf(path, ReadRegularFile(path, kMostBytes));
+  return ParseUrdf(path, ReadRegularFile(path, kMostUrdfBytes));
 }
 
 UrdfTree ParseUrdf(const std::string& path, const std::string& text) {

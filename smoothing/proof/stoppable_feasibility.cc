@@ -1,0 +1,56 @@
+#include "smoothing/proof/stoppable_feasibility.h"
+
+#include <utility>
+
+namespace halfstep {
+
+std::string_view Name(StopBranches branches) {
+  switch (branches) {
+    case StopBranches::kNone:
+      return "none";
+    case StopBranches::kDown:
+      return "down";
+    case StopBranches::kAll:
+      return "all";
+  }
+  return "";
+}
+
+StoppableFeasibility::StoppableFeasibility(std::shared_ptr<const FeasibilityTest> test,
+                                           StopBranches branches)
+    : test_(std::move(test)), branches_(branches) {}
+
+std::string StoppableFeasibility::Description() const {
+  switch (branches_) {
+    case StopBranches::kNone:
+      return test_->Description();
+    case StopBranches::kDown:
+      return test_->Description() + "; so is every stop branch after a down half-step";
+    case StopBranches::kAll:
+      return test_->Description() + "; so is every stop branch";
+  }
+  return "";
+}
+
+std::unique_ptr<FeasibilityTest> StoppableFeasibility::Over(
+    const MarginEvaluator& evaluator) const {
+  return std::make_unique<StoppableFeasibility>(test_->Over(evaluator), branches_);
+}
+
+Feasibility StoppableFeasibility::Check(const SuperposedWalk& walk, const TimeWindow& window,
+                                        MarginEvaluator::Scratch* scratch) const {
+  Feasibility answer = test_->Check(walk, window, scratch);
+  if (branches_ == StopBranches::kNone) return answer;
+  for (int k = 0; k + 1 < walk.num_half_steps(); ++k) {
+    if (answer.verdict != Verdict::kFeasible) return answer;
+    const bool up = walk.half_step(k).kind == HalfStepKind::kUp;
+    if (up && branches_ == StopBranches::kDown) continue;
+    const TimeWindow rest{walk.start_of(k + 1), walk.end_of(k)};
+    if (rest.begin < window.begin || rest.begin > window.end || rest.end <= rest.begin) continue;
+    answer = test_->Check(walk.StopBranch(k), rest, scratch);
+    answer.witness.stop_after = k;
+  }
+  return answer;
+}
+
+}  // namespace halfstep

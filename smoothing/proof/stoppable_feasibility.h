@@ -1,0 +1,43 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "smoothing/proof/feasibility_test.h"
+
+namespace halfstep {
+
+/// Which stop branches of a walk (SuperposedWalk::StopBranch) must be feasible as well.
+enum class StopBranches {
+  kNone,
+  kDown,  ///< after down half-steps: the robot can come to rest on both feet within a step
+  kAll,   ///< after every half-step: at rest within a half-step, perhaps on one foot
+};
+inline constexpr int kNumStopBranches = 3;
+std::string_view Name(StopBranches branches);  ///< "none", "down" or "all", as in YAML
+
+/// Demands of a walk what another test demands, and the same of its stop branches: that at any time
+/// the robot may begin nothing more and come to rest with every margin kept. Of the branch after
+/// half-step k only [t_{k+1}, e_k] is checked, since it is the walk itself before; a check of a
+/// window includes the branches whose t_{k+1} lies in it, both ends included. So walks whose
+/// windows were checked one after the other have been checked as a whole.
+/// Source: smoothing/README.md, "Stop branches".
+class StoppableFeasibility : public FeasibilityTest {
+ public:
+  StoppableFeasibility(std::shared_ptr<const FeasibilityTest> test, StopBranches branches);
+
+  Evidence evidence() const override { return test_->evidence(); }
+  std::string Description() const override;
+  const MarginEvaluator& evaluator() const override { return test_->evaluator(); }
+  std::unique_ptr<FeasibilityTest> Over(const MarginEvaluator& evaluator) const override;
+  /// The witness says whether it is of a branch (Margin::stop_after).
+  Feasibility Check(const SuperposedWalk& walk, const TimeWindow& window,
+                    MarginEvaluator::Scratch* scratch) const override;
+
+ private:
+  std::shared_ptr<const FeasibilityTest> test_;
+  StopBranches branches_;
+};
+
+}  // namespace halfstep
