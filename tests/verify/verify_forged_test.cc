@@ -202,5 +202,29 @@ TEST_P(Forged, IsRefusedForThisReason) {
 INSTANTIATE_TEST_SUITE_P(Verify, Forged, testing::ValuesIn(Forgeries()),
                          [](const auto& info) { return info.param.name; });
 
+// A joint program keeps the branches that are demanded, and loses one when none are; a config that
+// was changed to demand them is refused for that branch.
+TEST(StopBranches, AreCheckedWhenTheConfigDemandsThem) {
+  for (const char* demanded : {"all", "none"}) {
+    SCOPED_TRACE(demanded);
+    TamperedRun run(
+        {.overrides = {"smoothing.methods=[halfstep/sqp]", "smoothing.optimizer.heights=true",
+                       "smoothing.optimizer.durations=true",
+                       std::string("smoothing.stop_branches=") + demanded}});
+    const auto verify = [&] { return Halfstep(run.run().parent_path(), {"verify", "run"}); };
+    EXPECT_EQ(verify().status, 0);
+    if (demanded == std::string("all")) {
+      EXPECT_THAT(verify().out, HasSubstr("stop branches: 1 keep every margin to their end"));
+      continue;
+    }
+    EXPECT_THAT(verify().out, testing::Not(HasSubstr("stop branches")));
+    TamperedRun::Replace(run.run() / "config.yaml", "stop_branches: \"none\"",
+                         "stop_branches: all");
+    run.Rehash();
+    EXPECT_EQ(verify().status, 3);
+    EXPECT_THAT(verify().out, HasSubstr("stopped after half-step 1: "));
+  }
+}
+
 }  // namespace
 }  // namespace halfstep
