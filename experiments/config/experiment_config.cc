@@ -165,7 +165,9 @@ void DeclareFixed(Fields& fields, FixedConfig* c) {
                  {.meaning = "of its junction, step or half-step, from 1", .min = 1, .max = 20000});
   fields.OptionalNumber(
       "value", &c->value,
-      {.meaning = "s, or of the planned height; none: as planned", .min = 0, .max = 6});
+      {.meaning = "s (an overlap below 0 is a rest), or of the planned height; none: as planned",
+       .min = -kLongestRest,
+       .max = 6});
 }
 
 // What there is to say against smoothing.fixed; the half-steps of a plan are not known before it.

@@ -8,6 +8,8 @@ namespace {
 
 // Numbers that are computed twice differ by rounding [s], [m], [rad], [1].
 constexpr double kTwiceRounding = 1e-9;
+// The longest rest between two half-steps [s].
+constexpr double kLongestRest = 3600;
 
 bool Same(double a, double b) { return std::abs(a - b) <= kTwiceRounding; }  // false for nan
 
@@ -41,7 +43,7 @@ std::string FaultOf(const OverlapRow& row, const HalfStepRow& before, const Half
                     const HalfStepShape& shape) {
   if (row.kind != (before.kind == "up" ? "up_down" : "down_up")) return "kind " + row.kind;
   const double bound = NaturalBound(before, after, shape);
-  if (!(row.overlap >= 0 && row.overlap <= bound + kTwiceRounding)) {
+  if (!(row.overlap >= -kLongestRest && row.overlap <= bound + kTwiceRounding)) {
     return Formatted("overlap %.9g, natural bound %.9g", row.overlap, bound);
   }
   if (!Same(row.duration_before, before.duration) || !Same(row.duration_after, after.duration) ||

@@ -146,7 +146,7 @@ class Ascent {
     for (size_t i = 0; i < point.durations.size(); ++i) {
       point.durations[i] += lambda * (to.durations[i] - from.durations[i]);
     }
-    ClampOverlaps(sequence_, &point);
+    ClampOverlaps(sequence_, from, &point);
     return point;
   }
 

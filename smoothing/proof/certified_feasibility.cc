@@ -70,8 +70,16 @@ TimeWindow ExtendedToKnots(const SuperposedWalk& walk, const TimeWindow& window)
 }
 
 CertifiedFeasibility::CertifiedFeasibility(MarginEvaluator evaluator,
-                                           const CertificationOptions& options)
-    : evaluator_(std::move(evaluator)), options_(options), statements_(evaluator_) {
+                                           const CertificationOptions& options,
+                                           CertificationScope scope)
+    : evaluator_(std::move(evaluator)),
+      options_(options),
+      scope_(std::move(scope)),
+      statements_(evaluator_),
+      all_(statements_.All()) {
+  std::erase_if(all_, [this](const OpenGroup& group) {
+    return std::ranges::find(scope_.families, group.family) == scope_.families.end();
+  });
   HALFSTEP_CHECK(options.resolution > 0.0 && options.longest >= options.resolution,
                  "resolution " << options.resolution << ", longest " << options.longest);
 }
@@ -82,10 +90,12 @@ std::string CertifiedFeasibility::Description() const {
   return out.str();
 }
 
-Feasibility CertifiedFeasibility::Decide(const SuperposedWalk& walk, const TimeWindow& window,
+Feasibility CertifiedFeasibility::Decide(const SuperposedWalk& walk, const TimeWindow& asked,
                                          MarginEvaluator::Scratch* scratch,
                                          Certificate* certificate,
                                          const std::stop_token& stop) const {
+  const TimeWindow window{std::max(asked.begin, scope_.since), asked.end};
+  if (window.end < window.begin) return {Verdict::kFeasible, Evidence::kCertified, {}};
   // Coarse intervals of the whole window first: a violation that lasts is met early.
   std::deque<Open> open;
   std::vector<double> knots = KnotsInside(walk, window);
@@ -96,7 +106,7 @@ Feasibility CertifiedFeasibility::Decide(const SuperposedWalk& walk, const TimeW
     for (int k = 0; k < n; ++k) {
       const double a = begin + (end - begin) * k / n;
       const double b = k + 1 == n ? end : begin + (end - begin) * (k + 1) / n;
-      open.push_back({a, b, statements_.All()});
+      open.push_back({a, b, all_});
     }
     begin = end;
   }

@@ -2,6 +2,7 @@
 
 #include <stop_token>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "smoothing/proof/certificate.h"
@@ -9,6 +10,13 @@
 #include "smoothing/proof/interval_statements.h"
 
 namespace halfstep {
+
+/// What of a walk is proved.
+struct CertificationScope {
+  double since = 0.0;  ///< nothing before this time of the walk [s]
+  std::vector<MarginFamily> families{std::begin(AllMarginFamilies()),
+                                     std::end(AllMarginFamilies())};
+};
 
 /// Decides for every instant of a window whether the demanded margins are kept. An interval is
 /// settled by its midpoint and a bound on the motion around it, else bisected; what is still open
@@ -18,13 +26,16 @@ namespace halfstep {
 class CertifiedFeasibility : public FeasibilityTest {
  public:
   /// Throws std::logic_error for options out of their ranges.
-  CertifiedFeasibility(MarginEvaluator evaluator, const CertificationOptions& options);
+  CertifiedFeasibility(MarginEvaluator evaluator, const CertificationOptions& options)
+      : CertifiedFeasibility(std::move(evaluator), options, CertificationScope{}) {}
+  CertifiedFeasibility(MarginEvaluator evaluator, const CertificationOptions& options,
+                       CertificationScope scope);
 
   Evidence evidence() const override { return Evidence::kCertified; }
   std::string Description() const override;
   const MarginEvaluator& evaluator() const override { return evaluator_; }
   std::unique_ptr<FeasibilityTest> Over(const MarginEvaluator& evaluator) const override {
-    return std::make_unique<CertifiedFeasibility>(evaluator, options_);
+    return std::make_unique<CertifiedFeasibility>(evaluator, options_, scope_);
   }
   Feasibility Check(const SuperposedWalk& walk, const TimeWindow& window,
                     MarginEvaluator::Scratch* scratch) const override;
@@ -46,7 +57,9 @@ class CertifiedFeasibility : public FeasibilityTest {
 
   MarginEvaluator evaluator_;
   CertificationOptions options_;
+  CertificationScope scope_;
   IntervalStatements statements_;
+  OpenGroups all_;  // of the scope
 };
 
 /// Extends a window on either side to the next knot (KnotsInside). A changed overlap moves knots,

@@ -61,10 +61,12 @@ void CheckParameters(const HalfStepSequence& sequence, const HomotopyParameters&
   }
 }
 
-void ClampOverlaps(const HalfStepSequence& sequence, HomotopyParameters* parameters) {
+void ClampOverlaps(const HalfStepSequence& sequence, const HomotopyParameters& rests,
+                   HomotopyParameters* parameters) {
   for (int i = 0; i < sequence.num_junctions(); ++i) {
+    const double least = std::min(0.0, rests.overlaps[static_cast<size_t>(i)]);
     double& overlap = parameters->overlaps[static_cast<size_t>(i)];
-    overlap = std::clamp(overlap, 0.0, NaturalOverlapBound(sequence, parameters->durations, i));
+    overlap = std::clamp(overlap, least, NaturalOverlapBound(sequence, parameters->durations, i));
   }
 }
 

@@ -9,7 +9,9 @@ namespace halfstep {
 
 /// A point of the smoothing homotopy of a sequence of n half-steps: the values of each family.
 struct HomotopyParameters {
-  std::vector<double> overlaps;  ///< Δ_i [s] of junction i, between half-steps i and i+1 (n−1).
+  /// Δ_i [s] of junction i, between half-steps i and i+1 (n−1). Below 0 it is a rest: half-step
+  /// i+1 begins −Δ_i after half-step i has ended.
+  std::vector<double> overlaps;
   std::vector<double> height_scales;  ///< η_j of step j: multiplies its via height (n/2).
   std::vector<double> durations;      ///< T_i of half-step i [s] (n).
 
@@ -68,13 +70,17 @@ double NaturalOverlapBound(const HalfStepSequence& sequence, const std::vector<d
 
 /// An overlap may exceed its natural bound by this and still counts as within it [s].
 inline constexpr double kOverlapTolerance = 1e-12;
+/// The robot rests no longer than this at a junction [s].
+inline constexpr double kLongestRest = 3600.0;
 
 /// Throws std::logic_error unless the sizes fit the sequence, all values are finite, T > 0, η ≥ 0,
-/// Δ ≥ 0 and no overlap exceeds its natural bound by more than kOverlapTolerance.
+/// Δ ≥ −kLongestRest and no overlap exceeds its natural bound by more than kOverlapTolerance.
 void CheckParameters(const HalfStepSequence& sequence, const HomotopyParameters& parameters);
 
-/// Lowers every overlap that is above its natural bound to it, and raises negative ones to 0.
-void ClampOverlaps(const HalfStepSequence& sequence, HomotopyParameters* parameters);
+/// Lowers every overlap that is above its natural bound to it, and raises negative ones to 0 except
+/// where `rests` rests, too.
+void ClampOverlaps(const HalfStepSequence& sequence, const HomotopyParameters& rests,
+                   HomotopyParameters* parameters);
 
 /// D = Σ T_i − Σ Δ_i [s].
 double DurationOf(const HomotopyParameters& parameters);

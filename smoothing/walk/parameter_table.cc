@@ -91,7 +91,7 @@ std::string ComplaintAbout(const HalfStepSequence& sequence,
     const double bound = NaturalOverlapBound(sequence, start.durations, i);
     if (start.overlaps[static_cast<size_t>(i)] <= bound + kOverlapTolerance) continue;
     text << "overlap " << i + 1 << ": " << start.overlaps[static_cast<size_t>(i)]
-         << " s is above its natural bound (valid: 0 … " << bound << " s)";
+         << " s is above its natural bound (valid: up to " << bound << " s)";
     return text.str();
   }
   return "";

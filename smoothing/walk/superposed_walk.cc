@@ -58,7 +58,7 @@ void SuperposedWalk::SetOverlap(int junction, double overlap) {
   const double bound = NaturalBoundOf(junction, before.shape, after.shape)
                            .At(parameters_.durations[i], parameters_.durations[i + 1]);
   HALFSTEP_CHECK(
-      overlap >= 0.0 && overlap <= bound + kOverlapTolerance,
+      overlap >= -kLongestRest && overlap <= bound + kOverlapTolerance,
       "overlap " << overlap << " s of junction " << junction << ", bound " << bound << " s");
   parameters_.overlaps[i] = overlap;
   UpdateStarts(junction + 1);

@@ -90,8 +90,8 @@ class SuperposedWalk {
   /// Source: smoothing/README.md, "Stop branches".
   SuperposedWalk StopBranch(int last) const;
 
-  /// Changes one overlap [s]. Precondition: it is at least 0, and exceeds NaturalOverlapBound by at
-  /// most kOverlapTolerance (std::logic_error).
+  /// Changes one overlap [s]. Precondition: it is at least −kLongestRest, and exceeds
+  /// NaturalOverlapBound by at most kOverlapTolerance (std::logic_error).
   void SetOverlap(int junction, double overlap);
 
  private:

@@ -26,7 +26,7 @@ TEST(WalkOverlap, SetOverlapGivesTheWalkOfTheChangedParameters) {
   }
   EXPECT_THROW(walk.SetOverlap(-1, 0.1), std::logic_error);
   EXPECT_THROW(walk.SetOverlap(7, 0.1), std::logic_error);
-  EXPECT_THROW(walk.SetOverlap(0, -0.1), std::logic_error);
+  EXPECT_THROW(walk.SetOverlap(0, -3601.0), std::logic_error);
   for (int junction = 0; junction < 7; ++junction) {
     const double bound = NaturalOverlapBound(sequence, walk.parameters().durations, junction);
     EXPECT_NO_THROW(walk.SetOverlap(junction, bound));

@@ -369,7 +369,7 @@ std::vector<Wrong> Others() {
       {"HeightsOfAStepDifferInHalfSteps", Of::kOverlaps,
        [](Material& m) { m.half_steps[1].height_scale = 0.9; },
        "half_steps.csv:3: another height scale"},
-      {"OverlapNegative", Of::kOverlaps, [](Material& m) { (*m.overlaps)[0].overlap = -0.1; },
+      {"OverlapNegative", Of::kOverlaps, [](Material& m) { (*m.overlaps)[0].overlap = -3601; },
        "overlaps.csv:2: overlap"},
       {"OverlapOfAnotherKind", Of::kOverlaps,
        [](Material& m) { (*m.overlaps)[0].kind = "down_up"; }, "overlaps.csv:2: kind"},
