@@ -318,9 +318,6 @@ void DeclareFields(Fields& fields, ExperimentConfig* c) {
                   .max = 2147483647});
 }
 
-namespace {
-
-// Complains here, at the place that names it, about a file that is not there.
 void DeclareFilesThere(Fields& fields, const ExperimentConfig& config) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(RobotPath(config), ignored)) {
@@ -335,8 +332,6 @@ void DeclareFilesThere(Fields& fields, const ExperimentConfig& config) {
                                  " (valid: `none`, or a path relative to this file)");
   }
 }
-
-}  // namespace
 
 HalfStepShape ShapeOf(const HalfStepConfig& config) {
   return {.shift = config.zmp_shift / config.duration, .horizontal_delay = config.horizontal_delay};

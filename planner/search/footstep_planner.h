@@ -30,9 +30,19 @@ struct Acceptance {
       : accepted(yes), refused_footstep(refused) {}
 };
 
+/// The foot `support` stands at X_WS and carries, the other one is at its via point.
+struct StepState {
+  Footprint X_WS;
+  Side support = Side::kLeft;
+  friend bool operator==(const StepState&, const StepState&) = default;
+};
+
 /// A planning problem. What it refers to is borrowed for the call of Plan.
 struct PlanRequest {
   std::array<Footprint, 2> start;  ///< soles in W by Index(Side), standing
+  /// Where a walk is replanned with one foot in the air: the walk begins here, and `start` only
+  /// says what the default workspace is around. The first footstep is that foot's.
+  std::optional<StepState> in_air = {};
   GoalRegion goal;
   const HalfStepSet& set;      ///< not empty
   const HalfStepQuery& query;  ///< of the same set

@@ -12,6 +12,7 @@ void CheckRequest(const PlanRequest& request) {
   for (const Footprint& sole : request.start) {
     HALFSTEP_CHECK(sole.AllFinite(), "start sole " << sole.x << ", " << sole.y << ", " << sole.yaw);
   }
+  HALFSTEP_CHECK(!request.in_air || request.in_air->X_WS.AllFinite(), "start in the air");
   const GoalRegion& goal = request.goal;
   HALFSTEP_CHECK(goal.IsValid(), "goal " << goal.X_WG.x << ", " << goal.X_WG.y << ", "
                                          << goal.X_WG.yaw << ", radius " << goal.radius);
@@ -119,7 +120,7 @@ PlanResult PlanWith(const PlanRequest& request, const std::vector<int>& elements
                     const PlanSearch& search) {
   CheckRequest(request);
   PlanResult result;
-  if (request.goal.ContainsStance(request.start)) {
+  if (!request.in_air && request.goal.ContainsStance(request.start)) {
     result.status = PlanStatus::kSolved;
     result.sentence = "the start is a goal";
     result.cost = 0.0;

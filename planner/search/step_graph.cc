@@ -38,6 +38,7 @@ StepGraph::StepGraph(const PlanRequest& request, std::vector<int> elements)
 }
 
 std::vector<StepState> StepGraph::FreeStarts() const {
+  if (request_.in_air) return {*request_.in_air};
   std::vector<StepState> starts;
   for (Side support : {Side::kLeft, Side::kRight}) {
     const Footprint& X_WS = request_.start[static_cast<size_t>(Index(support))];

@@ -9,13 +9,6 @@
 
 namespace halfstep {
 
-/// The foot `support` stands at X_WS and carries, the other one is at its via point.
-struct StepState {
-  Footprint X_WS;
-  Side support = Side::kLeft;
-  friend bool operator==(const StepState&, const StepState&) = default;
-};
-
 /// The states between a stance and a goal, and the elements that lead from one to the next: what
 /// all planners of one request search. Counts the queries that it makes.
 /// k is always the place of an element in elements().
@@ -31,7 +24,8 @@ class StepGraph {
   const GoalRegion& goal() const { return request_.goal; }
   const Eigen::AlignedBox2d& workspace() const { return workspace_; }
 
-  /// The states after an up half-step from the start that is free: none, one or two.
+  /// The states after an up half-step from the start that is free: none, one or two. With a foot in
+  /// the air already: that state.
   std::vector<StepState> FreeStarts() const;
 
   /// Where element k lands from a state, X_WF; the state after its up half-step.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <stop_token>
 #include <string>
 #include <utility>
@@ -14,6 +15,7 @@ namespace halfstep {
 /// What of a walk is proved.
 struct CertificationScope {
   double since = 0.0;  ///< nothing before this time of the walk [s]
+  double until = std::numeric_limits<double>::infinity();  ///< nothing after it [s]
   std::vector<MarginFamily> families{std::begin(AllMarginFamilies()),
                                      std::end(AllMarginFamilies())};
 };

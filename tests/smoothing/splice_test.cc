@@ -44,10 +44,10 @@ void ExpectEqualUntil(const SuperposedWalk& a, const SuperposedWalk& b, double u
 // C² where two walks part: the second time derivatives, which are continuous, differ by no more
 // than they may change within the distance to that instant.
 void ExpectC2At(const SuperposedWalk& walk, double t) {
-  const double h = 1e-7;
+  const double h = 1e-8;
   const WalkJet before = walk.At(t - h), after = walk.At(t + h);
-  EXPECT_LT(Largest(after.value - before.value), 1e-6);
-  EXPECT_LT(Largest(after.first - before.first), 1e-5);
+  EXPECT_LT(Largest(after.value - before.value), 1e-7);
+  EXPECT_LT(Largest(after.first - before.first), 1e-6);
   EXPECT_LT(Largest(after.second - before.second), 1e-3);
 }
 

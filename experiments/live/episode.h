@@ -1,0 +1,89 @@
+#pragma once
+
+#include <functional>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "experiments/live/executor.h"
+#include "experiments/live/replanner.h"
+#include "experiments/live/true_world.h"
+#include "experiments/live/world.h"
+
+namespace halfstep {
+
+/// Something that happened in an episode, in the order of time.
+struct EpisodeEvent {
+  double t = 0.0;    ///< [s]
+  std::string what;  ///< measured, contradicted, begins, handed_over, granted, refused, stopped …
+  int version = 0;   ///< of the world that was known
+  int walk = 0;      ///< index of the walk in execution
+  int half_step = -1;
+  std::string text;
+};
+
+/// A walk that was handed over.
+struct ExecutedWalk {
+  double t = 0.0;  ///< when [s]; the first one at 0
+  ProposalKind kind = ProposalKind::kChanged;
+  std::string reason;
+  WalkPlan plan;
+  int first_changed = 0;
+  double asked = 0.0;     ///< when the replanner began to work on it [s]
+  double measured = 0.0;  ///< t_m of the world that it was made for [s]
+  double check_s = 0.0, plan_s = 0.0, smooth_s = 0.0;  ///< of computing [s]
+};
+
+/// A permission to begin half-steps.
+struct EpisodeGrant {
+  double t = 0.0;  ///< from when on it counted [s]
+  int walk = 0;
+  Grant grant;
+};
+
+/// A half-step that began.
+struct BegunHalfStep {
+  int half_step = 0;
+  int grant = 0;  ///< index of the grant that allowed it
+};
+
+/// How an episode ended.
+enum class EpisodeEnding {
+  kArrived,      ///< at rest in the goal, and nothing happens any more
+  kStuck,        ///< at rest elsewhere when the time was up
+  kTooLong,      ///< walking when the time was up
+  kNoPlan,       ///< there was no walk to begin with
+  kInterrupted,  ///< stopped from outside
+};
+std::string_view Name(EpisodeEnding ending);
+
+/// The record of an episode.
+struct Episode {
+  EpisodeEnding ending = EpisodeEnding::kNoPlan;
+  std::string message;
+  std::vector<World> worlds;  ///< by version, as they became known
+  std::vector<double> known;  ///< when each did [s]
+  std::vector<ExecutedWalk> walks;
+  std::vector<EpisodeGrant> grants;
+  std::vector<BegunHalfStep> begun;
+  std::vector<EpisodeEvent> events;
+  bool stopped = false;  ///< the last walk was cut after its half-step `begun.back()`
+  double end = 0.0;      ///< [s]
+
+  /// The motion that was executed, which every walk of the record agrees with while it lasted.
+  SuperposedWalk Executed() const;
+};
+
+/// Callbacks of an episode.
+struct EpisodeHooks {
+  std::function<void(double t)> progress = {};  ///< called with the time of the episode [s]
+  std::stop_token stop = {};
+};
+
+/// Lets the robot walk from `start` by the config's clock lockstep: time stands still while the
+/// replanner computes, and its budget is charged. The same arguments give the same record, to the
+/// byte.
+Episode RunLockstep(const Replanner& replanner, const TrueWorld& truth,
+                    const std::array<Footprint, 2>& start, const EpisodeHooks& hooks);
+
+}  // namespace halfstep

@@ -1,0 +1,52 @@
+#include "experiments/live/episode_touch.h"
+
+#include <cmath>
+
+#include "planner/collision/collision_world.h"
+#include "wpg/motion/posture.h"
+
+namespace halfstep {
+namespace {
+
+Scene SceneAt(const TrueWorld& truth, double t) {
+  Scene scene;
+  for (size_t i = 0; i < truth.scene().obstacles.size(); ++i) {
+    if (!truth.IsThere(i, t)) continue;
+    Obstacle obstacle = truth.scene().obstacles[i];
+    obstacle.X_WO = truth.PoseAt(i, t);
+    obstacle.motion = {};
+    scene.obstacles.push_back(std::move(obstacle));
+  }
+  return scene;
+}
+
+}  // namespace
+
+Approach NearestApproach(const Episode& episode, const TrueWorld& truth, const RobotModel& robot,
+                         double period, double horizon) {
+  Approach nearest{.distance = horizon, .t = 0.0, .obstacle = {}, .body = {}};
+  if (episode.walks.empty()) return nearest;
+  const SuperposedWalk walk = episode.Executed();
+  const double end = std::min(walk.duration(), episode.end);
+  std::vector<CollisionShape> shapes;
+  for (const RobotBody& body : robot.bodies) shapes.emplace_back(body.shape);
+  for (long i = 0; static_cast<double>(i) * period <= end; ++i) {
+    const double t = static_cast<double>(i) * period;
+    const WalkJet jet = walk.At(t);
+    if (jet.first.isZero(1e-9) && jet.second.isZero(1e-9)) continue;
+    const Scene scene = SceneAt(truth, t);
+    const CollisionWorld world(scene);
+    const Posture posture = SolvePosture(robot, jet.value);
+    for (size_t b = 0; b < shapes.size(); ++b) {
+      const auto found = world.FindNearest(shapes[b], posture.OfBody(robot.bodies[b]), t, nearest.distance);
+      if (found.obstacle < 0 || found.separation.distance >= nearest.distance) continue;
+      nearest = {.distance = found.separation.distance,
+                 .t = t,
+                 .obstacle = scene.obstacles[static_cast<size_t>(found.obstacle)].name,
+                 .body = robot.bodies[b].name};
+    }
+  }
+  return nearest;
+}
+
+}  // namespace halfstep

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "experiments/live/episode.h"
+#include "experiments/live/true_world.h"
+#include "wpg/robot/robot_model.h"
+
+namespace halfstep {
+
+/// The nearest that the walking robot truly came to an obstacle.
+struct Approach {
+  double distance = 0.0;  ///< [m], at most the horizon that was asked for; ≤ 0: it touched
+  double t = 0.0;         ///< [s]
+  std::string obstacle;   ///< "": none within the horizon
+  std::string body;
+};
+
+/// Looks at the executed motion every `period` [s] while it moves, at the obstacles where they truly
+/// are then. Sampled: what happens between the instants is not seen. Instants at which the robot is
+/// at rest do not count: an obstacle that is carried against a standing robot is not its doing.
+/// Obstacles nearer than `horizon` [m] are told.
+Approach NearestApproach(const Episode& episode, const TrueWorld& truth, const RobotModel& robot,
+                         double period, double horizon);
+
+}  // namespace halfstep

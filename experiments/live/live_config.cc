@@ -1,0 +1,148 @@
+#include "experiments/live/live_config.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+
+namespace halfstep {
+namespace {
+
+void DeclareEvent(Fields& fields, ScriptEvent* e) {
+  fields.Number("at_s", &e->at,
+                {.meaning = "when it happens", .unit = "s", .min = 0, .max = 3600, .required = true});
+  fields.Text("do", &e->what,
+              {.meaning = "an obstacle jumps, is carried, appears or vanishes; the goal moves; a "
+                          "no-step area appears; no frame arrives for a while",
+               .required = true,
+               .choices = {"jump", "carry", "appear", "vanish", "goal", "forbid", "lose"}});
+  fields.Text("obstacle", &e->obstacle, {.meaning = "of jump, carry, appear, vanish: its name"});
+  fields.Numbers("xyz", &e->xyz, 3,
+                 {.meaning = "of jump and carry: where to", .unit = "m", .min = -1000, .max = 1000});
+  fields.Number("yaw_deg", &e->turn,
+                {.meaning = "of jump and carry: how far it turns about the world's z",
+                 .unit = "deg",
+                 .min = -360,
+                 .max = 360});
+  fields.Number("speed_m_s", &e->speed,
+                {.meaning = "of carry", .unit = "m/s", .min = 0, .max = 10});
+  fields.Numbers("goal_m", &e->goal, 2,
+                 {.meaning = "of goal: its new place", .unit = "m", .min = -1000, .max = 1000});
+  fields.Integer("area", &e->area,
+                 {.meaning = "of forbid: which no-step area, from 1", .min = 1, .max = 100000});
+  fields.Number("for_s", &e->lasts, {.meaning = "of lose", .unit = "s", .min = 0, .max = 3600});
+  const bool moves = e->what == "jump" || e->what == "carry";
+  const bool of_obstacle = moves || e->what == "appear" || e->what == "vanish";
+  if (of_obstacle && e->obstacle.empty()) {
+    fields.Complain("obstacle", "is missing (valid: the name of an obstacle of the scene)");
+  }
+  if (moves && e->xyz.empty()) fields.Complain("xyz", "is missing (valid: x, y, z in m)");
+  if (e->what == "carry" && !(e->speed > 0.0)) {
+    fields.Complain("speed_m_s", "is missing (valid: above 0)");
+  }
+  if (e->what == "goal" && e->goal.empty()) {
+    fields.Complain("goal_m", "is missing (valid: x, y in m)");
+  }
+}
+
+void DeclareSensing(Fields& fields, SensingConfig* c) {
+  fields.Number("period_s", &c->period,
+                {.meaning = "between frames", .unit = "s", .min = 0.005, .max = 10});
+  fields.Number("delay_s", &c->delay,
+                {.meaning = "from a frame to when it is known", .unit = "s", .min = 0, .max = 2});
+  fields.Number("noise_m", &c->noise,
+                {.meaning = "positions are drawn from a ball of this radius around the true ones",
+                 .unit = "m",
+                 .min = 0,
+                 .max = 0.5});
+  fields.Number("error_m", &c->error,
+                {.meaning = "what is assumed of that radius: r", .unit = "m", .min = 0, .max = 0.5});
+  fields.Number("lost", &c->lost,
+                {.meaning = "part of the frames that never arrives", .min = 0, .max = 1});
+}
+
+void DeclareBudget(Fields& fields, BudgetConfig* c) {
+  const auto time = [&](const char* key, double* value, const char* meaning) {
+    fields.Number(key, value, {.meaning = meaning, .unit = "s", .min = 0, .max = 10});
+  };
+  time("check_s", &c->check, "what looking at the walk to come costs in lockstep");
+  time("plan_s", &c->plan, "what planning anew costs in lockstep");
+  time("smooth_s", &c->smooth, "what finding the overlaps of a few junctions costs in lockstep");
+}
+
+void DeclareLive(Fields& fields, LiveOptions* c, double half_step) {
+  fields.Text("clock", &c->clock,
+              {.meaning = "lockstep: time stands still while the planner computes, and its budget "
+                          "is charged; wall: it computes beside the walking robot",
+               .choices = {"lockstep", "wall"}});
+  fields.Text("policy", &c->policy,
+              {.meaning = "what is done when the world changes",
+               .choices = {"replan", "paper", "stop_and_replan"}});
+  fields.Number("period_s", &c->period,
+                {.meaning = "of control", .unit = "s", .min = 0.001, .max = 0.1});
+  fields.Number("horizon_s", &c->horizon,
+                {.meaning = "how long the uncertainty of a measurement grows; a half-step begins "
+                            "only when it ends before that",
+                 .unit = "s",
+                 .min = 0.1,
+                 .max = 60});
+  fields.Number("drift_m_s", &c->drift,
+                {.meaning = "the robot strays from where it believes to be at this speed",
+                 .unit = "m/s",
+                 .min = 0,
+                 .max = 1});
+  fields.Number("longest_s", &c->longest,
+                {.meaning = "the episode ends then at the latest", .unit = "s", .min = 1, .max = 3600});
+  fields.Integer("smooth_at_once", &c->smooth_at_once,
+                 {.meaning = "junctions whose overlaps are found in one go", .min = 1, .max = 100});
+  fields.Number("tolerance_s", &c->tolerance,
+                {.meaning = "of these overlaps", .unit = "s", .min = 1e-4, .max = 0.5});
+  fields.Group("sensing", {.meaning = "the stand-in for motion capture"},
+               [&](Fields& f) { DeclareSensing(f, &c->sensing); });
+  fields.Group("budget", {.meaning = "what thinking costs in lockstep"}, [&](Fields& f) {
+    DeclareBudget(f, &c->budget);
+    for (const auto& [key, value] : {std::pair{"check_s", c->budget.check},
+                                     std::pair{"plan_s", c->budget.plan},
+                                     std::pair{"smooth_s", c->budget.smooth}}) {
+      if (value >= half_step) {
+        f.Complain(key, "is no shorter than a half-step: nothing could be handed over in time "
+                        "(valid: below half_step.duration_s)");
+      }
+    }
+  });
+  fields.List("script", {.meaning = "what happens, in the order of time", .max_items = 10000},
+              &c->script, DeclareEvent);
+  if (!std::ranges::is_sorted(c->script, {}, &ScriptEvent::at)) {
+    fields.Complain("script", "is not in the order of time (valid: at_s that do not fall)");
+  }
+}
+
+}  // namespace
+
+void DeclareFields(Fields& fields, LiveConfig* config) {
+  DeclareFields(fields, &config->experiment);
+  fields.Group("live", {.meaning = "the episode", .required = true}, [&](Fields& f) {
+    DeclareLive(f, &config->live, config->experiment.half_step.duration);
+  });
+  if (!config->experiment.has_goal) {
+    fields.Complain("goal", "is missing (valid: an episode needs a goal)");
+  }
+}
+
+LiveConfig LoadLiveConfig(const std::string& path, const std::vector<YamlOverride>& overrides) {
+  return ParseLiveConfig(path, ReadYamlFile(path), overrides);
+}
+
+LiveConfig ParseLiveConfig(const std::string& path, const std::string& text,
+                           const std::vector<YamlOverride>& overrides) {
+  const std::filesystem::path file(path);
+  LiveConfig config;
+  config.experiment.name = file.stem().string();
+  ReadYamlText(text, path, file.parent_path().string(), overrides, [&](Fields& fields) {
+    DeclareFields(fields, &config);
+    config.experiment.directory = fields.directory();
+    DeclareFilesThere(fields, config.experiment);
+  });
+  return config;
+}
+
+}  // namespace halfstep

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/config/experiment_config.h"
+#include "wpg/files/fields.h"
+
+namespace halfstep {
+
+/// Something that happens in an episode.
+struct ScriptEvent {
+  double at = 0.0;             ///< [s]
+  std::string what = "jump";   ///< jump, carry, appear, vanish, goal, forbid, lose
+  std::string obstacle;        ///< of jump, carry, appear, vanish
+  std::vector<double> xyz;     ///< where it jumps or is carried to, origin of its frame in W [m]
+  double turn = 0.0;           ///< about the world's z meanwhile [rad]
+  double speed = 0.0;          ///< of being carried [m/s]
+  std::vector<double> goal;    ///< the goal's new place [m]
+  int area = 1;                ///< of forbid: a no-step area of the scene, from 1
+  double lasts = 0.0;          ///< of lose: how long no frame arrives [s]
+};
+
+/// The stand-in for motion capture.
+struct SensingConfig {
+  double period = 0.2;   ///< between frames [s]
+  double delay = 0.02;   ///< from a frame to when it is known [s]
+  double noise = 0.005;  ///< positions are drawn from a ball of this radius around the true one [m]
+  double error = 0.005;  ///< r: what is assumed of that radius [m]
+  double lost = 0.0;     ///< the part of frames that never arrives
+};
+
+/// What thinking costs in lockstep [s].
+struct BudgetConfig {
+  double check = 0.005;   ///< looking at what is to come
+  double plan = 0.04;     ///< planning anew, and proving the result
+  double smooth = 0.04;   ///< the overlaps of a few junctions
+};
+
+/// How an episode goes.
+struct LiveOptions {
+  std::string clock = "lockstep";
+  std::string policy = "replan";
+  double period = 0.005;   ///< of control [s]
+  double horizon = 2.0;    ///< H: the uncertainty of a measurement grows no longer than this [s]
+  double drift = 0.0;      ///< the robot strays from where it believes to be, at most at this [m/s]
+  double longest = 120.0;  ///< an episode ends then [s]
+  int smooth_at_once = 3;  ///< junctions
+  double tolerance = 0.02; ///< of their overlaps [s]
+  SensingConfig sensing;
+  BudgetConfig budget;
+  std::vector<ScriptEvent> script;
+};
+
+/// An episode as its YAML file says it: an experiment with a goal, and `live:`.
+struct LiveConfig {
+  ExperimentConfig experiment;
+  LiveOptions live;
+};
+
+/// Declares every key once: those of an experiment, and `live`.
+void DeclareFields(Fields& fields, LiveConfig* config);
+
+/// Reads a config file strictly. Throws InputError with every complaint at once.
+LiveConfig LoadLiveConfig(const std::string& path, const std::vector<YamlOverride>& overrides);
+/// The same for a config file's text.
+LiveConfig ParseLiveConfig(const std::string& path, const std::string& text,
+                           const std::vector<YamlOverride>& overrides);
+
+}  // namespace halfstep

@@ -1,0 +1,259 @@
+#include "experiments/live/replanner.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "experiments/run/planning.h"
+#include "planner/search/planner_registry.h"
+#include "planner/swept/swept_volume_query.h"
+#include "smoothing/methods/dichotomy.h"
+#include "smoothing/proof/stoppable_feasibility.h"
+
+namespace halfstep {
+
+std::string_view Name(ProposalKind kind) {
+  switch (kind) {
+    case ProposalKind::kSafe:
+      return "safe";
+    case ProposalKind::kResumed:
+      return "resumed";
+    case ProposalKind::kChanged:
+      return "changed";
+    case ProposalKind::kSmoothed:
+      return "smoothed";
+    case ProposalKind::kUnsafe:
+      return "unsafe";
+  }
+  return "";
+}
+
+struct Replanner::Among {
+  Among(const Replanner& replanner, const World& w)
+      : world(w),
+        safety(replanner.robot_, w.scene, replanner.config_.experiment),
+        certifier(replanner.robot_, w.scene, replanner.config_.experiment),
+        query(replanner.volumes_, replanner.robot_.sole_outline, w.scene,
+              replanner.config_.experiment.smoothing.limits.demanded_of(MarginFamily::kNoStep)) {}
+
+  Grant GrantOf(const Safety& proved, double since) const {
+    return {.version = world.version,
+            .proved_at = since,
+            .through = proved.through,
+            .valid_until = world.valid_until()};
+  }
+
+  const World& world;
+  SafetyCheck safety;
+  HalfStepCertifier certifier;
+  SweptVolumeQuery query;
+};
+
+Replanner::Replanner(const RobotModel& robot, const LiveConfig& config,
+                     const SweptVolumes& volumes)
+    : robot_(robot),
+      config_(config),
+      volumes_(volumes),
+      alone_(robot, Scene{}, config.experiment) {}
+
+bool Replanner::Arrives(const WalkPlan& plan, const World& world) const {
+  return world.goal.ContainsStance(StanceAfter(plan.sequence, plan.sequence.size() - 1));
+}
+
+PlanResult Replanner::Plan(const std::array<Footprint, 2>& stance,
+                           const std::optional<StepState>& in_air, const Among& among,
+                           std::mt19937_64& random) const {
+  const PlannerConfig& options = config_.experiment.planner;
+  PlanRequest request{.start = stance,
+                      .in_air = in_air,
+                      .goal = among.world.goal,
+                      .set = volumes_.set,
+                      .query = among.query,
+                      .cost = options.Cost()};
+  if (const auto& w = options.workspace; !w.empty()) {
+    request.workspace = {Eigen::Vector2d(w[0], w[1]), Eigen::Vector2d(w[2], w[3])};
+  }
+  request.start_is_free = [&](const HalfStep& up, const Footprint& X_WS) {
+    return among.certifier.Certifies(up, X_WS);
+  };
+  request.stop = AnyOf({AfterNodes(options.max_nodes),
+                        options.unimproved_nodes == 0
+                            ? AtFirstPlan()
+                            : WhenNotImprovedFor(options.unimproved_nodes)});
+  return MakePlanner(options.name, among.world.scene, options.options)->Plan(request, random);
+}
+
+bool Replanner::Change(const Situation& situation, const WalkPlan& plan, int junction,
+                       const Among& among, std::mt19937_64& random, Proposal* proposal) const {
+  const double begin = SteadySeconds();
+  const auto& [half_step, X_WS] = plan.sequence.half_steps[static_cast<size_t>(junction)];
+  std::optional<StepState> in_air;
+  if (half_step.kind == HalfStepKind::kUp) in_air = {X_WS, half_step.support};
+  PlanResult result = Plan(StanceAfter(plan.sequence, junction), in_air, among, random);
+  proposal->planned = result;
+  proposal->plan_s += SteadySeconds() - begin;
+  if (result.status != PlanStatus::kSolved) return false;
+  if (result.footsteps.empty() && junction % 2 == 0) return false;
+  WalkPlan changed = Changed(plan, junction, result.footsteps);
+  const bool more = junction + 1 < changed.sequence.size();
+  if (more && changed.Walk().start_of(junction + 1) < situation.hand_over) {
+    changed = Delayed(changed, junction, situation.hand_over);
+  }
+  const double check = SteadySeconds();
+  const SuperposedWalk walk = changed.Walk();
+  const bool proved = !more || alone_.OfRobot(walk, junction).all(walk);
+  const Safety safety = among.safety.AmongObstacles(walk, situation.begun, situation.now);
+  proposal->check_s += SteadySeconds() - check;
+  if (!proved || !safety.all(walk)) return false;
+  proposal->plan = std::move(changed);
+  proposal->smoothed.resize(static_cast<size_t>(junction));
+  proposal->smoothed.resize(static_cast<size_t>(proposal->plan.sequence.num_junctions()), false);
+  proposal->first_changed = junction + 1;
+  proposal->grant = among.GrantOf(safety, situation.now);
+  return true;
+}
+
+bool Replanner::Smooth(double from, int begun, const Among& among, Proposal* proposal) const {
+  constexpr double kLeastRoom = 0.05;  // [s]
+  const SuperposedWalk walk = proposal->plan.Walk();
+  const int junctions = walk.num_half_steps() - 1;
+  std::vector<int> next;
+  double cap = 1.0;
+  for (int j = begun; j < junctions && cap == 1.0; ++j) {
+    if (proposal->smoothed[static_cast<size_t>(j)]) continue;
+    // Half-step j + 1 must not begin before `from`.
+    const double room = walk.end_of(j) - from;
+    if (walk.start_of(j + 1) <= from || room < kLeastRoom) continue;
+    const double bound =
+        NaturalOverlapBound(proposal->plan.sequence, walk.parameters().durations, j);
+    if (room < bound && !next.empty()) break;
+    cap = std::min(1.0, room / bound);
+    next.push_back(j);
+    if (static_cast<int>(next.size()) == config_.live.smooth_at_once) break;
+  }
+  if (next.empty()) return false;
+  std::vector<FixedParameter> fixed;
+  for (const ParameterFamily family : AllParameterFamilies()) {
+    for (int i = 0; i < Traits(family).count(proposal->plan.sequence); ++i) {
+      const HomotopyParameter parameter{family, i};
+      const bool free = family == ParameterFamily::kOverlap &&
+                        std::ranges::find(next, i) != next.end();
+      if (!free) fixed.push_back({parameter, parameter.in(proposal->plan.parameters)});
+    }
+  }
+  // Half-steps that end later are not under way where these overlaps count, and only meet the same
+  // world earlier, when less is uncertain.
+  const int last = std::min(next.back() + 4, junctions);
+  const CertificationScope scope{.since = std::max(from, walk.start_of(next.front())),
+                                 .until = walk.end_of(last)};
+  const auto test = std::make_shared<StoppableFeasibility>(
+      std::make_shared<CertifiedFeasibility>(among.safety.evaluator(),
+                                             config_.experiment.smoothing.certification, scope),
+      StopBranches::kAll);
+  const WalkProblem problem(proposal->plan.sequence, test, fixed);
+  SmoothingMonitor monitor;
+  const SmoothingResult result = Dichotomy(
+      problem,
+      {.tolerance = config_.live.tolerance,
+       .up_down_cap = cap,
+       .down_up_cap = cap,
+       .start = proposal->plan.parameters},
+      monitor);
+  proposal->plan.parameters = result.parameters;
+  for (const int j : next) proposal->smoothed[static_cast<size_t>(j)] = true;
+  proposal->first_changed = next.front() + 1;
+  return true;
+}
+
+std::vector<int> Replanner::Junctions(const Situation& s, const SuperposedWalk& walk,
+                                      const Safety& safety, bool arrives) const {
+  int first = s.begun;  // the latest half-step that will have begun
+  while (!s.stopped && first + 1 < walk.num_half_steps() && walk.start_of(first + 1) <= s.hand_over) {
+    ++first;
+  }
+  const std::string& policy = config_.live.policy;
+  if (policy == "stop_and_replan" && !(s.stopped && walk.end_of(s.begun) <= s.now)) return {};
+  if (policy == "paper" && !s.stopped) first += arrives ? 2 : 4;
+  const int last = std::min(safety.through, walk.num_half_steps() - 1);
+  if (last < first) return {};
+  std::vector<int> junctions;
+  if (arrives) {
+    for (int j = last; j >= first && junctions.size() < 3; --j) junctions.push_back(j);
+    if (junctions.back() != first) junctions.push_back(first);
+  } else {
+    for (int j = first; j <= last && junctions.size() < 4; ++j) junctions.push_back(j);
+  }
+  return junctions;
+}
+
+Proposal Replanner::Propose(const Situation& s, std::mt19937_64& random) const {
+  Proposal proposal{.plan = s.plan, .smoothed = s.smoothed};
+  const double begin = SteadySeconds();
+  const Among among(*this, *s.world);
+  const bool more = s.begun + 1 < s.plan.sequence.size();
+  if (s.stopped && more) {
+    proposal.plan = Delayed(s.plan, s.begun, std::max(s.hand_over, s.plan.Walk().start_of(s.begun + 1)));
+    // The delay is no overlap that anybody found.
+    proposal.smoothed[static_cast<size_t>(s.begun)] = true;
+  }
+  const SuperposedWalk walk = proposal.plan.Walk();
+  const Safety safety = among.safety.AmongObstacles(walk, s.begun, s.now);
+  const bool arrives = Arrives(proposal.plan, *s.world);
+  proposal.grant = among.GrantOf(safety, s.now);
+  proposal.check_s = SteadySeconds() - begin;
+  if (safety.all(walk) && arrives) {
+    if (s.stopped && more) {
+      proposal.kind = ProposalKind::kResumed;
+      proposal.reason = "nothing is in the way any more";
+      proposal.first_changed = s.begun + 1;
+      return proposal;
+    }
+    const double smooth = SteadySeconds();
+    if (Smooth(s.hand_over, s.begun, among, &proposal)) {
+      proposal.kind = ProposalKind::kSmoothed;
+      proposal.reason = "overlaps";
+    }
+    proposal.smooth_s = SteadySeconds() - smooth;
+    return proposal;
+  }
+  proposal.reason = arrives ? among.safety.evaluator().Describe(*safety.refused_by)
+                            : "the walk does not end in the goal";
+  const WalkPlan plan = proposal.plan;
+  for (const int junction : Junctions(s, walk, safety, arrives)) {
+    if (Change(s, plan, junction, among, random, &proposal)) {
+      proposal.kind = ProposalKind::kChanged;
+      return proposal;
+    }
+  }
+  proposal.kind = ProposalKind::kUnsafe;
+  return proposal;
+}
+
+Proposal Replanner::Begin(const std::array<Footprint, 2>& start, const World& world,
+                          std::mt19937_64& random) const {
+  Proposal proposal{.kind = ProposalKind::kUnsafe};
+  const Among among(*this, world);
+  proposal.planned = Plan(start, {}, among, random);
+  proposal.reason = proposal.planned.sentence;
+  if (proposal.planned.footsteps.empty()) return proposal;
+  const HalfStep like = PrototypeOf(config_.experiment);
+  proposal.plan.sequence = MakeSequence(start, proposal.planned.footsteps, like.via_lateral,
+                                        like.shape, {.com_height = robot_.com_height});
+  proposal.plan.parameters = PlannedMotion(proposal.plan.sequence);
+  const SuperposedWalk walk = proposal.plan.Walk();
+  const Safety robot = alone_.OfRobot(walk, 0);
+  const Safety safety = among.safety.AmongObstacles(walk, 0, 0.0);
+  for (const Safety* refused : {&robot, &safety}) {
+    if (refused->all(walk)) continue;
+    proposal.reason = among.safety.evaluator().Describe(*refused->refused_by);
+    return proposal;
+  }
+  proposal.kind = ProposalKind::kChanged;
+  proposal.first_changed = 0;
+  proposal.grant = among.GrantOf(safety, 0.0);
+  proposal.smoothed.resize(static_cast<size_t>(proposal.plan.sequence.num_junctions()), false);
+  while (Smooth(0.0, 0, among, &proposal)) {
+  }
+  return proposal;
+}
+
+}  // namespace halfstep

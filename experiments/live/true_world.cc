@@ -1,0 +1,125 @@
+#include "experiments/live/true_world.h"
+
+#include <algorithm>
+#include <string>
+
+#include "wpg/files/input_error.h"
+#include "wpg/files/text.h"
+
+namespace halfstep {
+namespace {
+
+Eigen::Vector3d TargetOf(const ScriptEvent& event) {
+  return {event.xyz[0], event.xyz[1], event.xyz[2]};
+}
+
+Eigen::Isometry3d Turned(const Eigen::Isometry3d& X_WO, const Eigen::Vector3d& to, double yaw) {
+  Eigen::Isometry3d X = X_WO;
+  X.linear() = Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix() * X_WO.linear();
+  X.translation() = to;
+  return X;
+}
+
+double CarryTime(const Eigen::Isometry3d& from, const ScriptEvent& event) {
+  return (TargetOf(event) - from.translation()).norm() / event.speed;
+}
+
+// Where an event has brought an obstacle after `elapsed` [s].
+Eigen::Isometry3d After(const Eigen::Isometry3d& from, const ScriptEvent& event, double elapsed) {
+  if (event.what == "jump") return Turned(from, TargetOf(event), event.turn);
+  if (event.what != "carry") return from;
+  const double time = CarryTime(from, event);
+  const double part = time > 0.0 ? std::min(1.0, elapsed / time) : 1.0;
+  const Eigen::Vector3d to = from.translation() + part * (TargetOf(event) - from.translation());
+  return Turned(from, to, part * event.turn);
+}
+
+}  // namespace
+
+TrueWorld::TrueWorld(const Scene& scene, const GoalConfig& goal, const LiveOptions& options)
+    : scene_(scene), goal_(goal), script_(options.script), drift_(options.drift) {
+  std::vector<std::string> complaints;
+  of_obstacle_.resize(scene.obstacles.size());
+  for (size_t k = 0; k < script_.size(); ++k) {
+    const ScriptEvent& event = script_[k];
+    const std::string place = Formatted("live.script[%zu]: ", k + 1);
+    end_ = std::max(end_, event.at + event.lasts);
+    if (event.what == "forbid" && static_cast<size_t>(event.area) > scene.no_step.size()) {
+      complaints.push_back(place + Formatted("area %d: the scene has %zu (valid: one of these)",
+                                             event.area, scene.no_step.size()));
+    }
+    if (event.obstacle.empty()) continue;
+    const auto named = std::ranges::find(scene.obstacles, event.obstacle, &Obstacle::name);
+    if (named == scene.obstacles.end()) {
+      complaints.push_back(place + "obstacle '" + event.obstacle +
+                           "' is not in the scene (valid: the name of one of its obstacles)");
+      continue;
+    }
+    const auto index = static_cast<size_t>(named - scene.obstacles.begin());
+    if (event.what == "carry") {
+      end_ = std::max(end_, event.at + CarryTime(PoseAt(index, event.at), event));
+    }
+    of_obstacle_[index].push_back(event);
+  }
+  if (drift_ > 0.0 && !scene.no_step.empty()) {
+    complaints.push_back(
+        "live.drift_m_s: the scene has no-step areas, whose place is taken as exact (valid: 0)");
+  }
+  if (!complaints.empty()) throw InputError(complaints);
+}
+
+bool TrueWorld::IsThere(size_t obstacle, double t) const {
+  const std::vector<ScriptEvent>& events = of_obstacle_[obstacle];
+  bool there = std::ranges::find(events, "appear", &ScriptEvent::what) == events.end();
+  for (const ScriptEvent& event : events) {
+    if (event.at > t) break;
+    if (event.what == "appear") there = true;
+    if (event.what == "vanish") there = false;
+  }
+  return there;
+}
+
+Eigen::Isometry3d TrueWorld::PoseAt(size_t obstacle, double t) const {
+  Eigen::Isometry3d X_WO = scene_.obstacles[obstacle].X_WO;
+  const std::vector<ScriptEvent>& events = of_obstacle_[obstacle];
+  for (size_t k = 0; k < events.size() && events[k].at <= t; ++k) {
+    const double until = k + 1 < events.size() ? std::min(t, events[k + 1].at) : t;
+    X_WO = After(X_WO, events[k], until - events[k].at);
+  }
+  X_WO.translation() += DriftAt(t);
+  return X_WO;
+}
+
+double TrueWorld::SpeedOf(size_t obstacle) const {
+  double speed = 0.0;
+  for (const ScriptEvent& event : of_obstacle_[obstacle]) speed = std::max(speed, event.speed);
+  return speed + drift_;
+}
+
+bool TrueWorld::AreaIsThere(size_t area, double t) const {
+  bool there = true;
+  for (const ScriptEvent& event : script_) {
+    if (event.what == "forbid" && static_cast<size_t>(event.area) == area + 1) there = event.at <= t;
+  }
+  return there;
+}
+
+GoalRegion TrueWorld::GoalAt(double t) const {
+  GoalRegion goal = goal_.Region();
+  for (const ScriptEvent& event : script_) {
+    if (event.what != "goal" || event.at > t) continue;
+    goal.X_WG.x = event.goal[0];
+    goal.X_WG.y = event.goal[1];
+  }
+  goal.X_WG.x += DriftAt(t).x();
+  goal.X_WG.y += DriftAt(t).y();
+  return goal;
+}
+
+bool TrueWorld::IsSeen(double t) const {
+  return std::ranges::none_of(script_, [t](const ScriptEvent& event) {
+    return event.what == "lose" && event.at <= t && t < event.at + event.lasts;
+  });
+}
+
+}  // namespace halfstep

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "experiments/config/planning_config.h"
+#include "experiments/live/live_config.h"
+#include "planner/scene/scene.h"
+
+namespace halfstep {
+
+/// What truly happens in an episode, known to no part of the robot: where every obstacle is at the
+/// time t [s], by the script. Frame: that of the walk, in which the world drifts when the robot does.
+class TrueWorld {
+ public:
+  /// Throws InputError when the script names an obstacle or an area that the scene does not have.
+  TrueWorld(const Scene& scene, const GoalConfig& goal, const LiveOptions& options);
+
+  const Scene& scene() const { return scene_; }  ///< as its file says it
+
+  bool IsThere(size_t obstacle, double t) const;
+  Eigen::Isometry3d PoseAt(size_t obstacle, double t) const;
+  /// A speed that the obstacle does not exceed but where it jumps [m/s].
+  double SpeedOf(size_t obstacle) const;
+  bool AreaIsThere(size_t area, double t) const;
+  GoalRegion GoalAt(double t) const;
+  /// Whether frames arrive at all.
+  bool IsSeen(double t) const;
+  /// The first time [s] from which on nothing happens any more, but for the drift.
+  double end() const { return end_; }
+  /// How far the world has moved in the frame of the walk [m].
+  Eigen::Vector3d DriftAt(double t) const { return {drift_ * t, 0.0, 0.0}; }
+
+ private:
+  std::vector<ScriptEvent> EventsOf(size_t obstacle) const;
+
+  Scene scene_;
+  GoalConfig goal_;
+  std::vector<ScriptEvent> script_;
+  std::vector<std::vector<ScriptEvent>> of_obstacle_;
+  double drift_ = 0.0;
+  double end_ = 0.0;
+};
+
+}  // namespace halfstep

@@ -1,0 +1,93 @@
+#include "experiments/live/world.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace halfstep {
+namespace {
+
+// The largest distance of a point of a shape from its frame's origin is not needed: what moves
+// beyond translation is found by turning, which measurements tell exactly.
+double Displacement(const Obstacle& from, const Obstacle& to) {
+  return (to.X_WO.translation() - from.X_WO.translation()).norm();
+}
+
+bool Turned(const Obstacle& from, const Obstacle& to) {
+  return !from.X_WO.linear().isApprox(to.X_WO.linear(), 1e-12);
+}
+
+bool Contradicts(const Obstacle& before, const Obstacle& now) {
+  const ObstacleMotion &a = before.motion, &b = now.motion;
+  const double elapsed = b.measured_at - a.measured_at;
+  const double allowed = a.error + b.error + std::max(a.speed, b.speed) * elapsed;
+  // A turning obstacle without a speed bound is where it could not have been.
+  if (a.speed == 0.0 && Turned(before, now)) return true;
+  return Displacement(before, now) > allowed + 1e-12;
+}
+
+Eigen::Vector3d InBall(double radius, std::mt19937_64& random) {
+  std::uniform_real_distribution<double> side(-1.0, 1.0);
+  while (true) {
+    const double x = side(random), y = side(random), z = side(random);
+    const Eigen::Vector3d p(x, y, z);
+    if (p.squaredNorm() <= 1.0) return radius * p;
+  }
+}
+
+}  // namespace
+
+double World::valid_until() const {
+  double until = std::numeric_limits<double>::infinity();
+  for (const Obstacle& obstacle : scene.obstacles) {
+    const ObstacleMotion& motion = obstacle.motion;
+    if (motion.speed > 0.0) until = std::min(until, motion.measured_at + motion.horizon);
+  }
+  return until;
+}
+
+WorldUpdate Updated(const World& before, World frame) {
+  WorldUpdate update{.world = std::move(frame), .contradictions = {}};
+  World& world = update.world;
+  world.version = before.version + 1;
+  world.sound_since = before.sound_since;
+  for (const Obstacle& now : world.scene.obstacles) {
+    const auto old = std::ranges::find(before.scene.obstacles, now.name, &Obstacle::name);
+    if (old == before.scene.obstacles.end() || Contradicts(*old, now)) {
+      update.contradictions.push_back(now.name);
+    }
+  }
+  if (world.scene.no_step.size() > before.scene.no_step.size()) {
+    update.contradictions.push_back("a no-step area");
+  }
+  if (!update.contradictions.empty()) world.sound_since = world.version;
+  return update;
+}
+
+World Measure(const TrueWorld& truth, double t, const LiveOptions& options,
+              std::mt19937_64& random) {
+  World frame;
+  frame.measured_at = t;
+  frame.goal = truth.GoalAt(t);
+  frame.scene.name = truth.scene().name;
+  for (size_t i = 0; i < truth.scene().obstacles.size(); ++i) {
+    // Drawn for all, so that what one obstacle does changes nothing for the others.
+    const Eigen::Vector3d off = InBall(options.sensing.noise, random);
+    if (!truth.IsThere(i, t)) continue;
+    Obstacle obstacle = truth.scene().obstacles[i];
+    obstacle.X_WO = truth.PoseAt(i, t);
+    obstacle.X_WO.translation() += off;
+    obstacle.motion = {.waypoints = {},
+                       .error = options.sensing.error,
+                       .speed = obstacle.motion.speed + options.drift,
+                       .measured_at = t,
+                       .horizon = options.horizon};
+    frame.scene.obstacles.push_back(std::move(obstacle));
+  }
+  for (size_t i = 0; i < truth.scene().no_step.size(); ++i) {
+    if (truth.AreaIsThere(i, t)) frame.scene.no_step.push_back(truth.scene().no_step[i]);
+  }
+  return frame;
+}
+
+}  // namespace halfstep

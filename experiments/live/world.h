@@ -1,0 +1,46 @@
+#pragma once
+
+#include <random>
+#include <string>
+#include <vector>
+
+#include "experiments/live/live_config.h"
+#include "experiments/live/true_world.h"
+#include "planner/scene/scene.h"
+#include "planner/search/goal_region.h"
+
+namespace halfstep {
+
+/// What the robot knows of the world: an immutable snapshot after a frame of measurements. Every
+/// obstacle of the scene carries its measurement (ObstacleMotion: r, v, t_m, horizon), so what is
+/// proved against `scene` holds until valid_until() as long as obstacles keep to r and v.
+struct World {
+  int version = 0;
+  double measured_at = 0.0;  ///< t_m of the frame, a time of the walk [s]
+  Scene scene;
+  GoalRegion goal;
+  /// The latest version that contradicted the one before it: an obstacle was where it could not
+  /// have been. What was proved against earlier versions is void; against this one and later ones
+  /// it is not.
+  int sound_since = 0;
+
+  /// How long what is proved against the scene holds [s]; +∞ when no obstacle can move.
+  double valid_until() const;
+};
+
+/// The world after a frame, and which obstacles or areas contradict what was known: names for
+/// messages. An obstacle contradicts when a point of it is farther from where it was measured before
+/// than both errors and its speed allow, and when it was not there before; a no-step area when it
+/// was not there before. What vanishes contradicts nothing.
+struct WorldUpdate {
+  World world;
+  std::vector<std::string> contradictions;
+};
+WorldUpdate Updated(const World& before, World frame);
+
+/// The stand-in for motion capture: a frame of what is truly there at t [s], positions off by the
+/// noise. Version and `sound_since` are for Updated() to fill.
+World Measure(const TrueWorld& truth, double t, const LiveOptions& options,
+              std::mt19937_64& random);
+
+}  // namespace halfstep
