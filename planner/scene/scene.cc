@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "planner/scene/motion_fields.h"
 #include "planner/scene/simple_polygon.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/mesh_file.h"
@@ -15,7 +16,6 @@
 namespace halfstep {
 namespace {
 
-constexpr double kFarthest = 1000.0;  // of anything from the origin [m]
 // Of a mesh's points from the world's origin [m]: a town fits. Doubles there are 2e-12 m apart, and
 // what is taken off distances for rounding, 1e-12 of the coordinates, is 1e-8 m.
 constexpr double kFarthestPoint = 10e3;
@@ -23,7 +23,8 @@ constexpr double kSmallest = 1e-6;      // of any size [m]
 constexpr size_t kMostVertices = 1000;  // of a polygon
 
 NumberSpec Size(const char* meaning) {
-  return {.meaning = meaning, .unit = "m", .min = kSmallest, .max = kFarthest, .required = true};
+  return {
+      .meaning = meaning, .unit = "m", .min = kSmallest, .max = kFarthestPlace, .required = true};
 }
 
 // What the text says of an obstacle; exactly one of the shapes is present.
@@ -38,6 +39,7 @@ struct ObstacleFields {
   InputFile mesh_file;
   std::vector<double> xyz{0.0, 0.0, 0.0};
   std::vector<double> rpy{0.0, 0.0, 0.0};
+  ObstacleMotion motion;
 };
 
 struct NoStepFields {
@@ -129,7 +131,11 @@ void CheckReach(Fields& fields, const ObstacleFields& obstacle) {
   const Eigen::Isometry3d X_WO = MakePose(obstacle.xyz, obstacle.rpy);
   const Eigen::Matrix3Xd points_W =
       (X_WO.linear() * obstacle.mesh.vertices).colwise() + X_WO.translation();
-  const double farthest = points_W.colwise().norm().maxCoeff();
+  double farthest = points_W.colwise().norm().maxCoeff();
+  const double radius = obstacle.mesh.vertices.colwise().norm().maxCoeff();
+  for (const ObstacleMotion::Waypoint& waypoint : obstacle.motion.waypoints) {
+    farthest = std::max(farthest, waypoint.translation.norm() + radius);
+  }
   if (farthest <= kFarthestPoint) return;
   char text[32];
   std::snprintf(text, sizeof text, "%.4g", farthest);
@@ -141,14 +147,17 @@ void CheckReach(Fields& fields, const ObstacleFields& obstacle) {
 void DeclareObstacle(Fields& fields, ObstacleFields* obstacle) {
   DeclareShape(fields, obstacle);
   fields.Group("pose", {.meaning = "of the shape in the world"}, [&](Fields& pose) {
-    pose.Numbers("xyz", &obstacle->xyz, 3,
-                 {.meaning = "position", .unit = "m", .min = -kFarthest, .max = kFarthest});
+    pose.Numbers(
+        "xyz", &obstacle->xyz, 3,
+        {.meaning = "position", .unit = "m", .min = -kFarthestPlace, .max = kFarthestPlace});
     pose.Numbers("rpy_deg", &obstacle->rpy, 3,
                  {.meaning = "turns about the fixed axes x, then y, then z",
                   .unit = "deg",
                   .min = -360.0,
                   .max = 360.0});
   });
+  fields.Group("motion", {.meaning = "what it does while the robot walks"},
+               [&](Fields& motion) { DeclareMotion(motion, &obstacle->motion); });
   CheckReach(fields, *obstacle);
 }
 
@@ -158,7 +167,7 @@ void DeclareNoStep(Fields& fields, NoStepFields* area) {
                  .required = true,
                  .min_items = 3,
                  .max_items = kMostVertices},
-                {.unit = "m", .min = -kFarthest, .max = kFarthest});
+                {.unit = "m", .min = -kFarthestPlace, .max = kFarthestPlace});
   if (area->polygon.cols() == 0) return;
   const std::string mistake = WhyNotSimple(area->polygon);
   if (!mistake.empty()) {
@@ -176,10 +185,15 @@ Shape MakeShape(ObstacleFields* from) {
 
 }  // namespace
 
-double Scene::speed() const {
-  double fastest = 0.0;
-  for (const Obstacle& obstacle : obstacles) fastest = std::max(fastest, obstacle.speed);
-  return fastest;
+double Obstacle::speed() const {
+  const double by_waypoints =
+      motion.waypoints.empty() ? 0.0 : motion.WaypointSpeed(X_WO, RadiusAboutOrigin(shape));
+  return by_waypoints + motion.speed;
+}
+
+bool Scene::rests() const {
+  return std::all_of(obstacles.begin(), obstacles.end(),
+                     [](const Obstacle& obstacle) { return obstacle.rests(); });
 }
 
 Scene LoadScene(const std::string& yaml_path) {
@@ -213,7 +227,8 @@ Scene ParseScene(const std::string& yaml_path, const std::string& text) {
   scene.files = {RecordOf(yaml_path, text)};
   for (ObstacleFields& from : obstacles) {
     if (from.has_mesh) scene.files.push_back(from.mesh_file);
-    scene.obstacles.push_back({from.name, MakeShape(&from), MakePose(from.xyz, from.rpy)});
+    scene.obstacles.push_back(
+        {from.name, MakeShape(&from), MakePose(from.xyz, from.rpy), std::move(from.motion)});
   }
   for (NoStepFields& area : areas) {
     if (SignedArea(area.polygon) < 0.0) area.polygon = area.polygon.rowwise().reverse().eval();

@@ -5,21 +5,28 @@
 #include <string>
 #include <vector>
 
+#include "planner/scene/obstacle_motion.h"
 #include "planner/scene/shape.h"
 #include "wpg/files/input_file.h"
 
 namespace halfstep {
 
-/// A body in the way. Its pose is a function of time, but so far every obstacle rests.
+/// A body in the way, at rest unless its motion says otherwise.
 struct Obstacle {
   std::string name;                                        ///< unique in its scene.
   Shape shape;                                             ///< in its own frame.
-  Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();  ///< at t = 0
-  double speed = 0.0;  ///< no point of it moves faster [m/s]; 0: it rests
+  Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();  ///< at t ≤ 0
+  ObstacleMotion motion{};
 
-  /// X_WO at the time t of the walk [s].
-  const Eigen::Isometry3d& PoseAt(double /*t*/) const { return X_WO; }
-  bool rests() const { return speed == 0.0; }
+  /// Where it is said to be at the time t of the walk [s].
+  Eigen::Isometry3d PoseAt(double t) const { return motion.PoseAt(X_WO, t); }
+  /// How far from there any of its points may be at t [m].
+  double UncertaintyAt(double t) const { return motion.UncertaintyAt(t); }
+  /// The distance of any fixed point from the obstacle at PoseAt(t), less UncertaintyAt(t), changes
+  /// at no more than this speed, at all times [m/s]: the fastest point of the known motion, and
+  /// motion.speed.
+  double speed() const;
+  bool rests() const { return motion.rests(); }
 };
 
 /// What the robot walks among. The floor z = 0 is no obstacle: the floor margin watches it.
@@ -30,10 +37,8 @@ struct Scene {
   /// Simple polygons on the floor (2×n, counter-clockwise) that no sole may touch [m].
   std::vector<Eigen::Matrix2Xd> no_step;
 
-  /// A speed that no point of any obstacle exceeds [m/s].
-  double speed() const;
   /// Whether all obstacles rest, so that what holds at one time holds at every time.
-  bool rests() const { return speed() == 0.0; }
+  bool rests() const;
 };
 
 /// Reads a scene file, such as experiments/scenes/*.yaml (format: planner/README.md, "Scenes"). The

@@ -1,6 +1,21 @@
 #include "planner/scene/shape.h"
 
+#include <type_traits>
+
 namespace halfstep {
+
+double RadiusAboutOrigin(const Shape& shape) {
+  return std::visit(
+      [](const auto& s) {
+        const auto& body = BodyOf(s);
+        double radius = body.vertices.colwise().norm().maxCoeff();
+        if constexpr (!std::is_same_v<std::decay_t<decltype(s)>, TriangleMesh>) {
+          radius += body.disc_radius + body.ball_radius;
+        }
+        return radius;
+      },
+      shape);
+}
 
 TriangleMesh FacesOf(const ConvexBody& body) {
   TriangleMesh mesh;

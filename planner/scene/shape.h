@@ -43,6 +43,10 @@ inline ConvexBody BodyOf(const Capsule& c) { return MakeCapsule(c.radius, c.leng
 inline const ConvexBody& BodyOf(const ConvexBody& body) { return body; }
 inline const TriangleMesh& BodyOf(const TriangleMesh& mesh) { return mesh; }
 
+/// A distance from the origin of its frame that no point of a shape exceeds [m]. The preconditions
+/// are those of BodyOf.
+double RadiusAboutOrigin(const Shape& shape);
+
 /// The faces of the convex hull of a body's vertices, without its disc and its ball. There are none
 /// when it has fewer than 4 vertices.
 TriangleMesh FacesOf(const ConvexBody& body);

@@ -65,10 +65,10 @@ bool BodyClearances::QuickClears(size_t pair, double clearance, const Scratch& s
 }
 
 bool BodyClearances::BodyClears(size_t body, const Posture& posture, double t, double clearance,
-                                Scratch* scratch) const {
+                                Scratch* scratch, double half_width) const {
   ++scratch->queries;
   return world_.Clears(shapes_[body], posture.OfBody(robot_.bodies[body]), t, clearance,
-                       &scratch->bodies[body]);
+                       &scratch->bodies[body], half_width);
 }
 
 bool BodyClearances::PairClears(size_t pair, const Posture& posture, double clearance,
@@ -83,10 +83,11 @@ bool BodyClearances::PairClears(size_t pair, const Posture& posture, double clea
 }
 
 CollisionWorld::Nearest BodyClearances::NearestTo(size_t body, const Posture& posture, double t,
-                                                  double horizon, Scratch* scratch) const {
+                                                  double horizon, Scratch* scratch,
+                                                  double half_width) const {
   ++scratch->queries;
   return world_.FindNearest(shapes_[body], posture.OfBody(robot_.bodies[body]), t,
-                            std::max(horizon, 1e-9));
+                            std::max(horizon, 1e-9), half_width);
 }
 
 Separation BodyClearances::SeparationOf(size_t pair, const Posture& posture,
@@ -99,12 +100,13 @@ Separation BodyClearances::SeparationOf(size_t pair, const Posture& posture,
 }
 
 Margin BodyClearances::OfBody(size_t body, const Posture& posture, double t, double horizon,
-                              Scratch* scratch) const {
-  const auto nearest = NearestTo(body, posture, t, horizon, scratch);
+                              Scratch* scratch, double half_width) const {
+  const auto nearest = NearestTo(body, posture, t, horizon, scratch, half_width);
   Margin margin{
       .family = MarginFamily::kClearance, .value = horizon, .subject = static_cast<int>(body)};
-  if (nearest.obstacle >= 0 && nearest.separation.distance < horizon) {
-    margin.value = nearest.separation.distance;
+  // Within a half-width, an obstacle that is beyond the horizon now may be the one that matters.
+  if (nearest.obstacle >= 0 && (half_width > 0.0 || nearest.margin < horizon)) {
+    margin.value = nearest.margin;
     margin.other = nearest.obstacle;
   }
   return margin;

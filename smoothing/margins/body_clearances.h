@@ -13,7 +13,8 @@
 namespace halfstep {
 
 /// Distances of a robot's bodies, in one posture at a time t of the walk [s], to a scene's
-/// obstacles and to each other. Const; scratch is the caller's.
+/// obstacles, less the uncertainty of these at t, and to each other. Const; scratch is the
+/// caller's.
 class BodyClearances {
  public:
   /// What queries remember, such as separating directions of earlier postures. Use one for each
@@ -31,28 +32,30 @@ class BodyClearances {
 
   Scratch MakeScratch() const;
   size_t num_bodies() const { return shapes_.size(); }
-  /// A speed that no point of any obstacle exceeds [m/s].
-  double obstacle_speed() const { return world_.speed(); }
+  /// The margin of an obstacle changes at no more than this speed [m/s] (Obstacle::speed).
+  double obstacle_speed(int obstacle) const { return world_.speed(obstacle); }
   size_t num_pairs() const { return robot_.self_pairs.size(); }
 
   /// Notes where the bodies are in a posture. PairClears and OfPair need this to be called for
   /// their posture before. Precondition: its links are placed.
   void Place(const Posture& posture, Scratch* scratch) const;
 
-  /// Whether a body keeps `clearance` [m] from every obstacle; whether the bodies of a pair keep it
-  /// from each other.
-  bool BodyClears(size_t body, const Posture& posture, double t, double clearance,
-                  Scratch* scratch) const;
+  /// Whether a body, held still, keeps `clearance` [m] from every obstacle at all times of [t −
+  /// half_width, t + half_width]; whether the bodies of a pair keep it from each other.
+  bool BodyClears(size_t body, const Posture& posture, double t, double clearance, Scratch* scratch,
+                  double half_width = 0.0) const;
   bool PairClears(size_t pair, const Posture& posture, double clearance, Scratch* scratch) const;
-  /// The clearance of one body, and that of one pair; `horizon` [m] when nothing is nearer.
-  Margin OfBody(size_t body, const Posture& posture, double t, double horizon,
-                Scratch* scratch) const;
+  /// The clearance of one body, and that of one pair; `horizon` [m] when nothing is nearer. With a
+  /// `half_width` [s], that of the obstacle whose margin may be the least within it
+  /// (CollisionWorld::FindNearest).
+  Margin OfBody(size_t body, const Posture& posture, double t, double horizon, Scratch* scratch,
+                double half_width = 0.0) const;
   Margin OfPair(size_t pair, const Posture& posture, double horizon, Scratch* scratch) const;
 
   /// The same with witness points and normals, which derivatives need. NearestTo looks for the
   /// nearest obstacle within `horizon` [m]; in SeparationOf, `a` is the first body of the pair.
   CollisionWorld::Nearest NearestTo(size_t body, const Posture& posture, double t, double horizon,
-                                    Scratch* scratch) const;
+                                    Scratch* scratch, double half_width = 0.0) const;
   Separation SeparationOf(size_t pair, const Posture& posture, Scratch* scratch) const;
 
   /// The first body, or the first pair, that is found to keep less than `clearance` [m]; none when

@@ -37,10 +37,16 @@ void ClearanceMargin::AddRows(Instant* at, SlackSink* rows) const {
     const auto nearest = clearances.NearestTo(b, posture, at->t(), far, &scratch);
     if (nearest.obstacle < 0) continue;
     const Separation& gap = nearest.separation;
-    rows->Add(gap.distance, [&](size_t i) {
+    const auto derivative = [&](size_t i) {
       return gap.normal_W.dot(
           PointTangent(place_.robot.bodies[b], posture, rows->tangents[i], gap.point_a_W));
-    });
+    };
+    // As time goes on the obstacle moves, and what is known of it changes.
+    const Obstacle& obstacle = place_.scene.obstacles[static_cast<size_t>(nearest.obstacle)];
+    const Eigen::Vector3d velocity =
+        obstacle.motion.VelocityAt(obstacle.X_WO, at->t(), gap.point_b_W);
+    const double rate = -gap.normal_W.dot(velocity) - obstacle.motion.UncertaintyRateAt(at->t());
+    rows->Add(nearest.margin, derivative, rate);
   }
 }
 
@@ -54,16 +60,18 @@ FamilyProof ClearanceMargin::Prove(const MarginInterval& interval,
   const double demanded = interval.mid.demanded(family());
   const double horizon = interval.mid.limits().clearance_horizon;
   const double t = interval.mid.t();
-  // How far an obstacle moves in half of the interval at most.
-  const double obstacles = clearances.obstacle_speed() * interval.motion.half_width;
+  const double half_width = interval.motion.half_width;
   FamilyProof proof;
   std::erase_if(*open, [&](uint16_t body) {
     if (proof.violated) return false;
-    const double bound = interval.motion.displacement[body] + obstacles + kRounding;
-    if (clearances.BodyClears(body, posture, t, demanded + bound, &scratch)) {
+    const double bound = interval.motion.displacement[body] + kRounding;  // of the body alone
+    if (clearances.BodyClears(body, posture, t, demanded + bound, &scratch, half_width)) {
       if (interval.with_margins) {
         const double enough = std::max(horizon, demanded + bound + kRounding);
-        proof.held.Add(clearances.OfBody(body, posture, t, enough, &scratch), bound);
+        const Margin margin = clearances.OfBody(body, posture, t, enough, &scratch, half_width);
+        const double of_obstacle =
+            margin.other < 0 ? 0.0 : clearances.obstacle_speed(margin.other) * half_width;
+        proof.held.Add(margin, bound + of_obstacle);
       }
       return true;
     }

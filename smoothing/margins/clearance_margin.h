@@ -7,9 +7,10 @@
 
 namespace halfstep {
 
-/// Distance from a body of the robot to the obstacles [m], at most the clearance horizon; −∞ when a
-/// leg does not reach. Proved body by body. Subject: index of RobotModel::bodies. Other: the
-/// obstacle.
+/// Distance from a body of the robot to the obstacles where they are said to be at that time, less
+/// how far from there they may be [m]; at most the clearance horizon; −∞ when a leg does not reach.
+/// Proved body by body: over an interval each obstacle takes off its own speed times the half
+/// width. Subject: index of RobotModel::bodies. Other: the obstacle.
 class ClearanceMargin final : public MarginStatements {
  public:
   static constexpr FamilyTraits kTraits = {

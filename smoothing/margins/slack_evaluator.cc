@@ -4,6 +4,18 @@
 
 namespace halfstep {
 
+double InstantSlacks::Slope(size_t row, const HomotopyParameter& parameter) const {
+  double slope = 0.0;
+  for (size_t i = 0; i < parameters.size(); ++i) {
+    if (parameters[i] != parameter) continue;
+    slope += gradient(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(i));
+  }
+  for (const auto& [moving, rate] : times) {
+    if (moving == parameter) slope += rows[row].rate * rate;
+  }
+  return slope;
+}
+
 SlackEvaluator::SlackEvaluator(const MarginEvaluator& evaluator, double cutoff)
     : evaluator_(evaluator), sink_(cutoff), scratch_(evaluator.MakeScratch()) {}
 
@@ -12,6 +24,7 @@ void SlackEvaluator::At(const SuperposedWalk& walk, const LocalTime& at,
                         bool gradient, InstantSlacks* out) {
   ++scratch_.instants;
   out->parameters.clear();
+  out->times.clear();
   sink_.Clear();
   const MarginLimits& limits = evaluator_.limits();
   Instant instant(evaluator_.place(), limits, walk, at, &scratch_);
@@ -29,6 +42,10 @@ void SlackEvaluator::At(const SuperposedWalk& walk, const LocalTime& at,
       }
       found->jet.value += rate * jet.first;
       found->jet.first += rate * jet.second;
+    }
+    if (!evaluator_.scene().rests()) {
+      walk.StartSensitivities(at.half_step, &out->times);
+      out->times.insert(out->times.end(), moving.begin(), moving.end());
     }
     for (const WalkSensitivity& s : sensitivities) {
       out->parameters.push_back(s.parameter);

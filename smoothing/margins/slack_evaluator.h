@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <utility>
 #include <vector>
 
 #include "smoothing/margins/margin_evaluator.h"
@@ -14,8 +15,14 @@ namespace halfstep {
 /// joint's range).
 struct InstantSlacks {
   std::vector<SlackRow> rows;
-  std::vector<HomotopyParameter> parameters;  ///< on which the instant depends
-  Eigen::MatrixXd gradient;                   ///< ∂slack/∂parameter (rows × parameters)
+  std::vector<HomotopyParameter> parameters;  ///< on which the robot's posture there depends
+  Eigen::MatrixXd gradient;  ///< ∂slack/∂parameter, obstacles held still (rows × parameters)
+  /// ∂t/∂parameter of the instant's absolute time, for every parameter that moves it; empty where
+  /// obstacles rest. A row's whole derivative is gradient + SlackRow::rate · ∂t/∂parameter.
+  std::vector<std::pair<HomotopyParameter, double>> times;
+
+  /// The whole derivative of a row along a parameter.
+  double Slope(size_t row, const HomotopyParameter& parameter) const;
 };
 
 /// Evaluates slacks and their analytic derivatives: superposition → leg inverse kinematics →
@@ -26,7 +33,8 @@ class SlackEvaluator {
   SlackEvaluator(const MarginEvaluator& evaluator, double cutoff);
 
   /// Evaluates the instant (half-step, τ). Where the instant itself moves with some parameters,
-  /// `moving` has the rate dτ/dparameter of each. Without `gradient` only the slacks are filled.
+  /// `moving` has the rate dτ/dparameter of each. Among obstacles that move, `times` lists the
+  /// parameters of all half-steps before it. Without `gradient` only the slacks are filled.
   /// When a leg does not reach or is stretched to the singularity, there is one negative row of
   /// `reach`, with derivatives 0, and there are no rows of joints, ground or clearances.
   void At(const SuperposedWalk& walk, const LocalTime& at,

@@ -8,10 +8,10 @@ void SlackSink::Begin(MarginFamily family, double demanded) {
   scale_ = Scale(family);
 }
 
-bool SlackSink::AddSlack(double margin) {
+bool SlackSink::AddSlack(double margin, double rate) {
   const double slack = (margin - demanded_) / scale_;
   if (slack > cutoff_) return false;
-  rows_.push_back({family_, slack});
+  rows_.push_back({family_, slack, rate / scale_});
   return true;
 }
 

@@ -14,6 +14,8 @@ namespace halfstep {
 struct SlackRow {
   MarginFamily family = MarginFamily::kZmp;
   double slack = 0.0;
+  /// ∂slack/∂t with the robot held still: what obstacles that move do to it [1/s].
+  double rate = 0.0;
 };
 
 /// Takes the statements of an instant that are nearer to their limits than a cutoff, with
@@ -41,10 +43,11 @@ class SlackSink {
   /// The margin beyond which statements are left out [its unit].
   double horizon() const { return demanded_ + cutoff_ * scale_; }
 
-  /// Adds a statement unless it is beyond the cutoff; `derivative(i)` is ∂margin/∂parameter i.
+  /// Adds a statement unless it is beyond the cutoff; `derivative(i)` is ∂margin/∂parameter i with
+  /// obstacles held still, `rate` is ∂margin/∂t by what these do [its unit/s].
   template <typename Derivative>
-  void Add(double margin, const Derivative& derivative) {
-    if (!AddSlack(margin)) return;
+  void Add(double margin, const Derivative& derivative, double rate = 0.0) {
+    if (!AddSlack(margin, rate)) return;
     for (size_t i = 0; i < sensitivities.size(); ++i) {
       gradient_.push_back(derivative(i) / scale_);
     }
@@ -56,7 +59,7 @@ class SlackSink {
 
  private:
   // False: beyond the cutoff.
-  bool AddSlack(double margin);
+  bool AddSlack(double margin, double rate);
 
   double cutoff_;
   MarginFamily family_ = MarginFamily::kZmp;

@@ -1,6 +1,5 @@
 #include "smoothing/methods/overlap_prices.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -21,14 +20,12 @@ void AddPrices(const SuperposedWalk& walk, const MarginEvaluator& evaluator,
     if (!junction.limited_by || junction.limited_by->stop_after >= 0) continue;
     slacks.At(walk, junction.limited_by->at, {}, true, &instant);
     const HomotopyParameter overlap{HomotopyParameter::Family::kOverlap, static_cast<int>(j)};
-    const auto column = std::find(instant.parameters.begin(), instant.parameters.end(), overlap);
-    if (column == instant.parameters.end()) continue;
     double least = std::numeric_limits<double>::infinity(), slope = 0.0;
     for (size_t r = 0; r < instant.rows.size(); ++r) {
       if (instant.rows[r].family != junction.limited_by->family) continue;
       if (instant.rows[r].slack >= least) continue;
       least = instant.rows[r].slack;
-      slope = instant.gradient(static_cast<Eigen::Index>(r), column - instant.parameters.begin());
+      slope = instant.Slope(r, overlap);
     }
     if (slope < -kSteep) junction.price = -1.0 / slope;
   }

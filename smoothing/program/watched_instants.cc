@@ -238,21 +238,26 @@ void WatchedInstants::EvaluateHalfStep(const SuperposedWalk& walk, const Eigen::
   };
   std::vector<std::pair<HomotopyParameter, double>> moving;
   InstantSlacks instant;
-  Eigen::MatrixXd pull;  // ∂parameter/∂x on the band (parameters × width)
+  Eigen::MatrixXd pull;   // ∂parameter/∂x on the band (parameters × width)
+  Eigen::VectorXd later;  // ∂t/∂x on the band (width); empty where obstacles rest
   for (const Instant& where : instants_[static_cast<size_t>(k)]) {
     if (where.far) continue;
     const LocalTime at = At(walk, k, where, &moving);
     slacks->At(walk, at, moving, nonzeros != nullptr, &instant);
     if (nonzeros && !instant.rows.empty()) {
       pull.setZero(static_cast<Eigen::Index>(instant.parameters.size()), width);
+      later.setZero(instant.times.empty() ? 0 : width);
+      // Adds what a derivative along a parameter makes of x.
+      const auto add = [&](const HomotopyParameter& parameter, double slope, auto&& row) {
+        variables_.Pull(
+            parameter, slope, x, walk.parameters().durations, [&](int variable, double value) {
+              row(std::find(columns.begin(), columns.end(), variable) - columns.begin()) += value;
+            });
+      };
       for (size_t p = 0; p < instant.parameters.size(); ++p) {
-        variables_.Pull(instant.parameters[p], 1.0, x, walk.parameters().durations,
-                        [&](int variable, double value) {
-                          const auto column =
-                              std::find(columns.begin(), columns.end(), variable) - columns.begin();
-                          pull(static_cast<Eigen::Index>(p), column) += value;
-                        });
+        add(instant.parameters[p], 1.0, pull.row(static_cast<Eigen::Index>(p)));
       }
+      for (const auto& [parameter, slope] : instant.times) add(parameter, slope, later);
     }
     for (size_t r = 0; r < instant.rows.size(); ++r) {
       const int place = Rows().place[static_cast<size_t>(instant.rows[r].family)];
@@ -262,6 +267,7 @@ void WatchedInstants::EvaluateHalfStep(const SuperposedWalk& walk, const Eigen::
       minimum.gradient.noalias() +=
           weight *
           (pull.transpose() * instant.gradient.row(static_cast<Eigen::Index>(r)).transpose());
+      if (later.size() > 0) minimum.gradient += weight * instant.rows[r].rate * later;
     }
     if (options_.row_per_instant) write();
   }

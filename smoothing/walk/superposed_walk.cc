@@ -162,6 +162,15 @@ void SuperposedWalk::Sensitivities(const LocalTime& at, std::vector<WalkSensitiv
   }
 }
 
+void SuperposedWalk::StartSensitivities(
+    int half_step, std::vector<std::pair<HomotopyParameter, double>>* out) const {
+  out->clear();
+  for (int m = 0; m < half_step; ++m) {
+    out->push_back({{ParameterFamily::kOverlap, m}, -1.0});
+    out->push_back({{ParameterFamily::kDuration, m}, 1.0});
+  }
+}
+
 int SuperposedWalk::StepInAir(const LocalTime& at) const {
   const int first = FirstActive(at) / 2, last = LastActive(at) / 2;
   for (int step = first; step <= last; ++step) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "smoothing/walk/homotopy_parameters.h"
@@ -60,6 +61,11 @@ class SuperposedWalk {
   /// Derivatives at fixed (half-step, τ) with respect to every parameter on which the instant
   /// depends: the half-steps under way there and the junctions between them. Replaces `out`.
   void Sensitivities(const LocalTime& at, std::vector<WalkSensitivity>* out) const;
+
+  /// Derivatives of start_of(half_step): −1 along every earlier overlap, +1 along every earlier
+  /// duration. Replaces `out`.
+  void StartSensitivities(int half_step,
+                          std::vector<std::pair<HomotopyParameter, double>>* out) const;
 
   /// Bounds of the |second time derivative| of every quantity, for all t in the absolute times
   /// [begin, end] [s]: the bounds of all half-steps under way there, added up.

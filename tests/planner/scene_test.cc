@@ -1,10 +1,12 @@
 #include "planner/scene/scene.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <string>
 #include <variant>
 
@@ -82,6 +84,55 @@ obstacles: [{name: a, sphere: {radius_m: 1}, pose: {rpy_deg: [90, 0, 90]}}]
   const Eigen::Matrix3d R = scene.obstacles[0].X_WO.linear();
   EXPECT_TRUE((R * Eigen::Vector3d::UnitY()).isApprox(Eigen::Vector3d::UnitZ(), 1e-12));
   EXPECT_TRUE((R * Eigen::Vector3d::UnitZ()).isApprox(Eigen::Vector3d::UnitX(), 1e-12));
+}
+
+TEST_F(SceneTest, ReadsMotion) {
+  const Scene scene = LoadScene(Write("moving.yaml", R"(
+obstacles:
+  - name: cart
+    box: {size_m: [0.4, 0.4, 0.4]}
+    pose: {xyz: [1, 2, 0.2]}
+    motion:
+      waypoints:
+        - {t_s: 2.0, xyz: [1, 0, 0.2]}
+        - {t_s: 2.5, xyz: [0, 0, 0.2], yaw_deg: -90}
+      error_m: 0.01
+      speed_m_s: 0.2
+      measured_at_s: -0.5
+      horizon_s: 2.5
+  - {name: known, sphere: {radius_m: 1}, motion: {error_m: 0.02}}
+  - {name: still, sphere: {radius_m: 1}}
+)"));
+  const ObstacleMotion& cart = scene.obstacles[0].motion;
+  ASSERT_EQ(cart.waypoints.size(), 2u);
+  EXPECT_EQ(cart.waypoints[0].t, 2.0);
+  EXPECT_EQ(cart.waypoints[0].translation, Eigen::Vector3d(1, 0, 0.2));
+  EXPECT_EQ(cart.waypoints[0].yaw, 0.0);
+  EXPECT_NEAR(cart.waypoints[1].yaw, -1.5707963267948966, 1e-15);
+  EXPECT_EQ(cart.error, 0.01);
+  EXPECT_EQ(cart.speed, 0.2);
+  EXPECT_EQ(cart.measured_at, -0.5);
+  EXPECT_EQ(cart.horizon, 2.5);
+  EXPECT_FALSE(scene.rests());
+  // What is only known within an error rests all the same.
+  EXPECT_EQ(scene.obstacles[1].motion.error, 0.02);
+  EXPECT_EQ(scene.obstacles[1].motion.horizon, std::numeric_limits<double>::infinity());
+  EXPECT_TRUE(scene.obstacles[1].rests());
+  EXPECT_TRUE(scene.obstacles[2].rests());
+}
+
+TEST_F(SceneTest, RefusesMoreWaypointsThanItWouldSearch) {
+  std::string text =
+      "obstacles:\n  - name: cart\n    sphere: {radius_m: 1}\n    motion:\n      waypoints:\n";
+  for (int i = 1; i <= 10001; ++i) {
+    text += "        - {t_s: " + std::to_string(i) + ", xyz: [0, 0, 0]}\n";
+  }
+  try {
+    (void)LoadScene(Write("many.yaml", text));
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr(":5:7: obstacles[0].motion.waypoints: 10001"));
+  }
 }
 
 TEST_F(SceneTest, TurnsNoStepPolygonsCounterClockwise) {
