@@ -42,6 +42,10 @@ constexpr CommandEntry kEntries[] = {
      "rows are too coarse to tell.\n\n"
      "  example: halfstep verify runs/bar_8cm --method dichotomy",
      DeclareVerify},
+    {"live",
+     "Let a robot walk while the world changes: an episode, into a folder.\n\n"
+     "  example: halfstep live experiments/configs/live_bar.yaml",
+     DeclareLive},
     {"sweep",
      "Run a config with every combination of some keys; the same command goes on where it was\n"
      "stopped.\n\n"

@@ -47,5 +47,6 @@ CommandAction DeclareReport(CLI::App* app);
 CommandAction DeclareExport(CLI::App* app);
 CommandAction DeclareReplay(CLI::App* app);
 CommandAction DeclareList(CLI::App* app);
+CommandAction DeclareLive(CLI::App* app);
 
 }  // namespace halfstep

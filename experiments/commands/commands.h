@@ -22,6 +22,10 @@ struct RunCommand {
 /// Throws InputError for bad input, std::runtime_error when files cannot be written.
 ExitStatus Run(const RunCommand& command);
 
+/// `halfstep live`: an episode of walking while the world changes, by a config with `live`, into a
+/// folder. kFailed when the robot does not arrive. Throws as Run.
+ExitStatus Live(const RunCommand& command);
+
 struct SmoothCommand {
   RunCommand run;                    ///< `config` may be a run folder too; then its config.yaml
   std::vector<std::string> methods;  ///< in place of smoothing.methods when not empty

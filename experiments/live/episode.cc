@@ -41,7 +41,8 @@ bool SameGoal(const GoalRegion& a, const GoalRegion& b) {
 // at again, although nothing is void.
 bool DiffersClearly(const World& a, const World& b) {
   constexpr double kClear = 0.01;  // [m]
-  if (a.scene.obstacles.size() != b.scene.obstacles.size() || !SameGoal(a.goal, b.goal)) return true;
+  if (a.scene.obstacles.size() != b.scene.obstacles.size() || !SameGoal(a.goal, b.goal))
+    return true;
   for (size_t i = 0; i < a.scene.obstacles.size(); ++i) {
     const Obstacle &x = a.scene.obstacles[i], &y = b.scene.obstacles[i];
     const double moved = (x.X_WO.translation() - y.X_WO.translation()).norm();
@@ -222,7 +223,8 @@ class Lockstep {
     const bool at_rest = executor_->rests_from() <= now;
     const bool over = now >= options_.longest;
     const bool interrupted = hooks_.stop.stop_requested();
-    const std::array<Footprint, 2> stance = StanceAfter(executor_->plan().sequence, executor_->begun());
+    const std::array<Footprint, 2> stance =
+        StanceAfter(executor_->plan().sequence, executor_->begun());
     const bool on_both = executor_->begun() % 2 == 1;
     const bool arrived = at_rest && on_both && now > truth_.end() + options_.sensing.period &&
                          truth_.GoalAt(now).ContainsStance(stance);

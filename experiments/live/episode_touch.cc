@@ -38,7 +38,8 @@ Approach NearestApproach(const Episode& episode, const TrueWorld& truth, const R
     const CollisionWorld world(scene);
     const Posture posture = SolvePosture(robot, jet.value);
     for (size_t b = 0; b < shapes.size(); ++b) {
-      const auto found = world.FindNearest(shapes[b], posture.OfBody(robot.bodies[b]), t, nearest.distance);
+      const auto found =
+          world.FindNearest(shapes[b], posture.OfBody(robot.bodies[b]), t, nearest.distance);
       if (found.obstacle < 0 || found.separation.distance >= nearest.distance) continue;
       nearest = {.distance = found.separation.distance,
                  .t = t,

@@ -17,10 +17,10 @@ struct Approach {
   std::string body;
 };
 
-/// Looks at the executed motion every `period` [s] while it moves, at the obstacles where they truly
-/// are then. Sampled: what happens between the instants is not seen. Instants at which the robot is
-/// at rest do not count: an obstacle that is carried against a standing robot is not its doing.
-/// Obstacles nearer than `horizon` [m] are told.
+/// Looks at the executed motion every `period` [s] while it moves, at the obstacles where they
+/// truly are then. Sampled: what happens between the instants is not seen. Instants at which the
+/// robot is at rest do not count: an obstacle that is carried against a standing robot is not its
+/// doing. Obstacles nearer than `horizon` [m] are told.
 Approach NearestApproach(const Episode& episode, const TrueWorld& truth, const RobotModel& robot,
                          double period, double horizon);
 

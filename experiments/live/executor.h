@@ -13,7 +13,7 @@ namespace halfstep {
 /// What was proved about a walk: its half-steps up to `through` may begin, as long as they end by
 /// `valid_until` [s].
 struct Grant {
-  int version = 0;  ///< of the world that it was proved against
+  int version = 0;         ///< of the world that it was proved against
   double proved_at = 0.0;  ///< from this time of the walk on [s]
   int through = -1;
   double valid_until = std::numeric_limits<double>::infinity();

@@ -8,16 +8,18 @@ namespace halfstep {
 namespace {
 
 void DeclareEvent(Fields& fields, ScriptEvent* e) {
-  fields.Number("at_s", &e->at,
-                {.meaning = "when it happens", .unit = "s", .min = 0, .max = 3600, .required = true});
+  fields.Number(
+      "at_s", &e->at,
+      {.meaning = "when it happens", .unit = "s", .min = 0, .max = 3600, .required = true});
   fields.Text("do", &e->what,
               {.meaning = "an obstacle jumps, is carried, appears or vanishes; the goal moves; a "
                           "no-step area appears; no frame arrives for a while",
                .required = true,
                .choices = {"jump", "carry", "appear", "vanish", "goal", "forbid", "lose"}});
   fields.Text("obstacle", &e->obstacle, {.meaning = "of jump, carry, appear, vanish: its name"});
-  fields.Numbers("xyz", &e->xyz, 3,
-                 {.meaning = "of jump and carry: where to", .unit = "m", .min = -1000, .max = 1000});
+  fields.Numbers(
+      "xyz", &e->xyz, 3,
+      {.meaning = "of jump and carry: where to", .unit = "m", .min = -1000, .max = 1000});
   fields.Number("yaw_deg", &e->turn,
                 {.meaning = "of jump and carry: how far it turns about the world's z",
                  .unit = "deg",
@@ -54,8 +56,9 @@ void DeclareSensing(Fields& fields, SensingConfig* c) {
                  .unit = "m",
                  .min = 0,
                  .max = 0.5});
-  fields.Number("error_m", &c->error,
-                {.meaning = "what is assumed of that radius: r", .unit = "m", .min = 0, .max = 0.5});
+  fields.Number(
+      "error_m", &c->error,
+      {.meaning = "what is assumed of that radius: r", .unit = "m", .min = 0, .max = 0.5});
   fields.Number("lost", &c->lost,
                 {.meaning = "part of the frames that never arrives", .min = 0, .max = 1});
 }
@@ -90,8 +93,9 @@ void DeclareLive(Fields& fields, LiveOptions* c, double half_step) {
                  .unit = "m/s",
                  .min = 0,
                  .max = 1});
-  fields.Number("longest_s", &c->longest,
-                {.meaning = "the episode ends then at the latest", .unit = "s", .min = 1, .max = 3600});
+  fields.Number(
+      "longest_s", &c->longest,
+      {.meaning = "the episode ends then at the latest", .unit = "s", .min = 1, .max = 3600});
   fields.Integer("smooth_at_once", &c->smooth_at_once,
                  {.meaning = "junctions whose overlaps are found in one go", .min = 1, .max = 100});
   fields.Number("tolerance_s", &c->tolerance,
@@ -100,12 +104,13 @@ void DeclareLive(Fields& fields, LiveOptions* c, double half_step) {
                [&](Fields& f) { DeclareSensing(f, &c->sensing); });
   fields.Group("budget", {.meaning = "what thinking costs in lockstep"}, [&](Fields& f) {
     DeclareBudget(f, &c->budget);
-    for (const auto& [key, value] : {std::pair{"check_s", c->budget.check},
-                                     std::pair{"plan_s", c->budget.plan},
-                                     std::pair{"smooth_s", c->budget.smooth}}) {
+    for (const auto& [key, value] :
+         {std::pair{"check_s", c->budget.check}, std::pair{"plan_s", c->budget.plan},
+          std::pair{"smooth_s", c->budget.smooth}}) {
       if (value >= half_step) {
-        f.Complain(key, "is no shorter than a half-step: nothing could be handed over in time "
-                        "(valid: below half_step.duration_s)");
+        f.Complain(key,
+                   "is no shorter than a half-step: nothing could be handed over in time "
+                   "(valid: below half_step.duration_s)");
       }
     }
   });

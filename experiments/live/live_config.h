@@ -11,15 +11,15 @@ namespace halfstep {
 
 /// Something that happens in an episode.
 struct ScriptEvent {
-  double at = 0.0;             ///< [s]
-  std::string what = "jump";   ///< jump, carry, appear, vanish, goal, forbid, lose
-  std::string obstacle;        ///< of jump, carry, appear, vanish
-  std::vector<double> xyz;     ///< where it jumps or is carried to, origin of its frame in W [m]
-  double turn = 0.0;           ///< about the world's z meanwhile [rad]
-  double speed = 0.0;          ///< of being carried [m/s]
-  std::vector<double> goal;    ///< the goal's new place [m]
-  int area = 1;                ///< of forbid: a no-step area of the scene, from 1
-  double lasts = 0.0;          ///< of lose: how long no frame arrives [s]
+  double at = 0.0;            ///< [s]
+  std::string what = "jump";  ///< jump, carry, appear, vanish, goal, forbid, lose
+  std::string obstacle;       ///< of jump, carry, appear, vanish
+  std::vector<double> xyz;    ///< where it jumps or is carried to, origin of its frame in W [m]
+  double turn = 0.0;          ///< about the world's z meanwhile [rad]
+  double speed = 0.0;         ///< of being carried [m/s]
+  std::vector<double> goal;   ///< the goal's new place [m]
+  int area = 1;               ///< of forbid: a no-step area of the scene, from 1
+  double lasts = 0.0;         ///< of lose: how long no frame arrives [s]
 };
 
 /// The stand-in for motion capture.
@@ -33,9 +33,9 @@ struct SensingConfig {
 
 /// What thinking costs in lockstep [s].
 struct BudgetConfig {
-  double check = 0.005;   ///< looking at what is to come
-  double plan = 0.04;     ///< planning anew, and proving the result
-  double smooth = 0.04;   ///< the overlaps of a few junctions
+  double check = 0.005;  ///< looking at what is to come
+  double plan = 0.04;    ///< planning anew, and proving the result
+  double smooth = 0.04;  ///< the overlaps of a few junctions
 };
 
 /// How an episode goes.
@@ -47,7 +47,7 @@ struct LiveOptions {
   double drift = 0.0;      ///< the robot strays from where it believes to be, at most at this [m/s]
   double longest = 120.0;  ///< an episode ends then [s]
   int smooth_at_once = 3;  ///< junctions
-  double tolerance = 0.02; ///< of their overlaps [s]
+  double tolerance = 0.02;  ///< of their overlaps [s]
   SensingConfig sensing;
   BudgetConfig budget;
   std::vector<ScriptEvent> script;

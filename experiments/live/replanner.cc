@@ -48,8 +48,7 @@ struct Replanner::Among {
   SweptVolumeQuery query;
 };
 
-Replanner::Replanner(const RobotModel& robot, const LiveConfig& config,
-                     const SweptVolumes& volumes)
+Replanner::Replanner(const RobotModel& robot, const LiveConfig& config, const SweptVolumes& volumes)
     : robot_(robot),
       config_(config),
       volumes_(volumes),
@@ -75,10 +74,10 @@ PlanResult Replanner::Plan(const std::array<Footprint, 2>& stance,
   request.start_is_free = [&](const HalfStep& up, const Footprint& X_WS) {
     return among.certifier.Certifies(up, X_WS);
   };
-  request.stop = AnyOf({AfterNodes(options.max_nodes),
-                        options.unimproved_nodes == 0
-                            ? AtFirstPlan()
-                            : WhenNotImprovedFor(options.unimproved_nodes)});
+  request.stop =
+      AnyOf({AfterNodes(options.max_nodes), options.unimproved_nodes == 0
+                                                ? AtFirstPlan()
+                                                : WhenNotImprovedFor(options.unimproved_nodes)});
   return MakePlanner(options.name, among.world.scene, options.options)->Plan(request, random);
 }
 
@@ -135,8 +134,8 @@ bool Replanner::Smooth(double from, int begun, const Among& among, Proposal* pro
   for (const ParameterFamily family : AllParameterFamilies()) {
     for (int i = 0; i < Traits(family).count(proposal->plan.sequence); ++i) {
       const HomotopyParameter parameter{family, i};
-      const bool free = family == ParameterFamily::kOverlap &&
-                        std::ranges::find(next, i) != next.end();
+      const bool free =
+          family == ParameterFamily::kOverlap && std::ranges::find(next, i) != next.end();
       if (!free) fixed.push_back({parameter, parameter.in(proposal->plan.parameters)});
     }
   }
@@ -151,13 +150,12 @@ bool Replanner::Smooth(double from, int begun, const Among& among, Proposal* pro
       StopBranches::kAll);
   const WalkProblem problem(proposal->plan.sequence, test, fixed);
   SmoothingMonitor monitor;
-  const SmoothingResult result = Dichotomy(
-      problem,
-      {.tolerance = config_.live.tolerance,
-       .up_down_cap = cap,
-       .down_up_cap = cap,
-       .start = proposal->plan.parameters},
-      monitor);
+  const SmoothingResult result = Dichotomy(problem,
+                                           {.tolerance = config_.live.tolerance,
+                                            .up_down_cap = cap,
+                                            .down_up_cap = cap,
+                                            .start = proposal->plan.parameters},
+                                           monitor);
   proposal->plan.parameters = result.parameters;
   for (const int j : next) proposal->smoothed[static_cast<size_t>(j)] = true;
   proposal->first_changed = next.front() + 1;
@@ -167,7 +165,8 @@ bool Replanner::Smooth(double from, int begun, const Among& among, Proposal* pro
 std::vector<int> Replanner::Junctions(const Situation& s, const SuperposedWalk& walk,
                                       const Safety& safety, bool arrives) const {
   int first = s.begun;  // the latest half-step that will have begun
-  while (!s.stopped && first + 1 < walk.num_half_steps() && walk.start_of(first + 1) <= s.hand_over) {
+  while (!s.stopped && first + 1 < walk.num_half_steps() &&
+         walk.start_of(first + 1) <= s.hand_over) {
     ++first;
   }
   const std::string& policy = config_.live.policy;
@@ -191,7 +190,8 @@ Proposal Replanner::Propose(const Situation& s, std::mt19937_64& random) const {
   const Among among(*this, *s.world);
   const bool more = s.begun + 1 < s.plan.sequence.size();
   if (s.stopped && more) {
-    proposal.plan = Delayed(s.plan, s.begun, std::max(s.hand_over, s.plan.Walk().start_of(s.begun + 1)));
+    proposal.plan =
+        Delayed(s.plan, s.begun, std::max(s.hand_over, s.plan.Walk().start_of(s.begun + 1)));
     // The delay is no overlap that anybody found.
     proposal.smoothed[static_cast<size_t>(s.begun)] = true;
   }

@@ -45,7 +45,7 @@ struct Proposal {
   std::vector<bool> smoothed = {};
   int first_changed = -1;  ///< half-step; −1: none
   Grant grant = {};
-  PlanResult planned = {};  ///< of kChanged
+  PlanResult planned = {};                             ///< of kChanged
   double check_s = 0.0, plan_s = 0.0, smooth_s = 0.0;  ///< where the time went [s]
 };
 

@@ -31,7 +31,8 @@ Safety SafetyCheck::OfRobot(const SuperposedWalk& walk, int first) const {
   return Prove(walk, first, walk.start_of(first), Families(false));
 }
 
-// Half-step j is safe when the walk keeps the margins until t_{j+1}, and its stop branch after that.
+// Half-step j is safe when the walk keeps the margins until t_{j+1}, and its stop branch after
+// that.
 Safety SafetyCheck::Prove(const SuperposedWalk& walk, int first, double since,
                           const std::vector<MarginFamily>& families) const {
   const CertifiedFeasibility test(evaluator_, options_, {.since = since, .families = families});

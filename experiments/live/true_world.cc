@@ -99,7 +99,8 @@ double TrueWorld::SpeedOf(size_t obstacle) const {
 bool TrueWorld::AreaIsThere(size_t area, double t) const {
   bool there = true;
   for (const ScriptEvent& event : script_) {
-    if (event.what == "forbid" && static_cast<size_t>(event.area) == area + 1) there = event.at <= t;
+    if (event.what == "forbid" && static_cast<size_t>(event.area) == area + 1)
+      there = event.at <= t;
   }
   return there;
 }

@@ -10,7 +10,8 @@
 namespace halfstep {
 
 /// What truly happens in an episode, known to no part of the robot: where every obstacle is at the
-/// time t [s], by the script. Frame: that of the walk, in which the world drifts when the robot does.
+/// time t [s], by the script. Frame: that of the walk, in which the world drifts when the robot
+/// does.
 class TrueWorld {
  public:
   /// Throws InputError when the script names an obstacle or an area that the scene does not have.

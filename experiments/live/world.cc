@@ -7,23 +7,19 @@
 namespace halfstep {
 namespace {
 
-// The largest distance of a point of a shape from its frame's origin is not needed: what moves
-// beyond translation is found by turning, which measurements tell exactly.
+// How far a point of an obstacle is from where it was measured before, at most [m].
 double Displacement(const Obstacle& from, const Obstacle& to) {
-  return (to.X_WO.translation() - from.X_WO.translation()).norm();
-}
-
-bool Turned(const Obstacle& from, const Obstacle& to) {
-  return !from.X_WO.linear().isApprox(to.X_WO.linear(), 1e-12);
+  const Eigen::AngleAxisd turn(to.X_WO.linear() * from.X_WO.linear().transpose());
+  return (to.X_WO.translation() - from.X_WO.translation()).norm() +
+         std::abs(turn.angle()) * RadiusAboutOrigin(from.shape);
 }
 
 bool Contradicts(const Obstacle& before, const Obstacle& now) {
+  constexpr double kRounding = 1e-9;  // [m]
   const ObstacleMotion &a = before.motion, &b = now.motion;
   const double elapsed = b.measured_at - a.measured_at;
-  const double allowed = a.error + b.error + std::max(a.speed, b.speed) * elapsed;
-  // A turning obstacle without a speed bound is where it could not have been.
-  if (a.speed == 0.0 && Turned(before, now)) return true;
-  return Displacement(before, now) > allowed + 1e-12;
+  const double allowed = a.error + b.error + a.speed * elapsed;
+  return Displacement(before, now) > allowed + kRounding;
 }
 
 Eigen::Vector3d InBall(double radius, std::mt19937_64& random) {
@@ -85,7 +81,9 @@ World Measure(const TrueWorld& truth, double t, const LiveOptions& options,
     frame.scene.obstacles.push_back(std::move(obstacle));
   }
   for (size_t i = 0; i < truth.scene().no_step.size(); ++i) {
-    if (truth.AreaIsThere(i, t)) frame.scene.no_step.push_back(truth.scene().no_step[i]);
+    if (!truth.AreaIsThere(i, t)) continue;
+    frame.scene.no_step.push_back(truth.scene().no_step[i]);
+    frame.areas.push_back(i);
   }
   return frame;
 }

@@ -18,6 +18,7 @@ struct World {
   int version = 0;
   double measured_at = 0.0;  ///< t_m of the frame, a time of the walk [s]
   Scene scene;
+  std::vector<size_t> areas;  ///< which no-step areas of the scene file are there
   GoalRegion goal;
   /// The latest version that contradicted the one before it: an obstacle was where it could not
   /// have been. What was proved against earlier versions is void; against this one and later ones
@@ -29,9 +30,9 @@ struct World {
 };
 
 /// The world after a frame, and which obstacles or areas contradict what was known: names for
-/// messages. An obstacle contradicts when a point of it is farther from where it was measured before
-/// than both errors and its speed allow, and when it was not there before; a no-step area when it
-/// was not there before. What vanishes contradicts nothing.
+/// messages. An obstacle contradicts when a point of it is farther from where it was measured
+/// before than both errors and its speed allow, and when it was not there before; a no-step area
+/// when it was not there before. What vanishes contradicts nothing.
 struct WorldUpdate {
   World world;
   std::vector<std::string> contradictions;

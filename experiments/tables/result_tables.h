@@ -49,6 +49,11 @@ CsvFile SummaryCsv(const MarginEvaluator& evaluator, const std::vector<MethodRun
 /// Columns of trajectory.csv for a robot.
 CsvColumns TrajectoryColumns(const RobotModel& robot);
 
+/// trajectory.csv of a walk from 0 to `end` [s] in rows `period` [s] apart, the last one at `end`;
+/// margins are those of `evaluator_at(t)`.
+CsvFile TrajectoryCsv(const SuperposedWalk& walk, double end, double period,
+                      const std::function<const MarginEvaluator&(double)>& evaluator_at);
+
 /// Samples the walk of `run->result.parameters` at a fixed period [s], the last row exactly at its
 /// end, and fills the walk's part of `run`. Where a leg does not reach, its joint angles are nan.
 void SampleTrajectory(const MarginEvaluator& evaluator, const HalfStepSequence& sequence,

@@ -100,6 +100,19 @@ CsvColumns TrajectoryColumns(const RobotModel& robot) {
   return columns;
 }
 
+CsvFile TrajectoryCsv(const SuperposedWalk& walk, double end, double period,
+                      const std::function<const MarginEvaluator&(double)>& evaluator_at) {
+  CsvWriter csv(TrajectoryColumns(evaluator_at(0.0).robot()));
+  const long full = static_cast<long>(std::floor(end / period * (1.0 - 1e-12)));
+  for (long i = 0; i <= full + 1; ++i) {
+    const double t = i <= full ? static_cast<double>(i) * period : end;
+    const MarginEvaluator& evaluator = evaluator_at(t);
+    MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
+    WriteRow(evaluator, walk, t, evaluator.At(walk, walk.Locate(t), &scratch), &csv);
+  }
+  return csv.file();
+}
+
 void SampleTrajectory(const MarginEvaluator& evaluator, const HalfStepSequence& sequence,
                       double period, MethodRun* run) {
   const SuperposedWalk walk(sequence, run->result.parameters);

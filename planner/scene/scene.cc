@@ -196,6 +196,13 @@ bool Scene::rests() const {
                      [](const Obstacle& obstacle) { return obstacle.rests(); });
 }
 
+bool Scene::OnlyGrowsFrom(double since) const {
+  return std::all_of(obstacles.begin(), obstacles.end(), [since](const Obstacle& obstacle) {
+    const ObstacleMotion& motion = obstacle.motion;
+    return motion.rests() || (motion.waypoints.empty() && motion.measured_at <= since);
+  });
+}
+
 Scene LoadScene(const std::string& yaml_path) {
   return ParseScene(yaml_path, ReadYamlFile(yaml_path));
 }

@@ -39,6 +39,10 @@ struct Scene {
 
   /// Whether all obstacles rest, so that what holds at one time holds at every time.
   bool rests() const;
+  /// Whether from time `since` [s] on no obstacle is nearer at an earlier time than at a later one:
+  /// there are no waypoints, and uncertainty only grows. So a motion that is clear stays clear when
+  /// it is made earlier, but not before `since`.
+  bool OnlyGrowsFrom(double since) const;
 };
 
 /// Reads a scene file, such as experiments/scenes/*.yaml (format: planner/README.md, "Scenes"). The

@@ -85,9 +85,10 @@ class Bisection {
     walk_.SetOverlap(junction, candidate);
     // Just before t_{i+1}: an interval that ends there is cut anew, also where e_i = t_{i+2} and
     // the window would be a whole stretch.
-    // Where obstacles move, all that comes later meets them earlier.
-    const TimeWindow window{std::nextafter(walk_.start_of(junction + 1), -1.0),
-                            problem_.scene().rests() ? walk_.end_of(junction) : walk_.duration()};
+    // All that comes later meets the obstacles earlier, which matters where they move.
+    const double begin = std::nextafter(walk_.start_of(junction + 1), -1.0);
+    const bool local = problem_.scene().OnlyGrowsFrom(begin);
+    const TimeWindow window{begin, local ? walk_.end_of(junction) : walk_.duration()};
     const Feasibility answer = problem_.test().Check(walk_, window, monitor_.scratch());
     const bool accepted = answer.verdict == Verdict::kFeasible;
     if (accepted) monitor_.Adopt(walk_.parameters(), walk_.duration(), walk_.duration());

@@ -1,0 +1,98 @@
+#include "experiments/live/episode_summary.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "wpg/files/text.h"
+
+namespace halfstep {
+namespace {
+
+int CountOf(const Episode& episode, const std::string& what) {
+  return static_cast<int>(std::ranges::count(episode.events, what, &EpisodeEvent::what));
+}
+
+std::string Counted(int count, const std::string& one, const std::string& many) {
+  return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
+}  // namespace
+
+EpisodeSummary Summarize(const Episode& episode, const TrueWorld& truth, const RobotModel& robot) {
+  EpisodeSummary summary;
+  summary.ending = Name(episode.ending);
+  summary.duration = episode.end;
+  summary.half_steps = static_cast<int>(episode.begun.size());
+  for (size_t k = 1; k < episode.walks.size(); ++k) {
+    const ExecutedWalk& walk = episode.walks[k];
+    if (walk.kind == ProposalKind::kSmoothed) ++summary.smoothed;
+    if (walk.kind == ProposalKind::kResumed) ++summary.resumed;
+    if (walk.kind != ProposalKind::kChanged) continue;
+    ++summary.changed;
+    summary.latencies.push_back(walk.t - walk.measured);
+    int begun = 0;
+    for (const EpisodeEvent& event : episode.events) {
+      begun += event.what == "begins" && event.t > walk.measured &&
+               event.half_step < walk.first_changed && event.walk <= static_cast<int>(k);
+    }
+    summary.begun_meanwhile.push_back(begun);
+  }
+  summary.refused = CountOf(episode, "refused");
+  summary.contradicted = CountOf(episode, "contradicted");
+  summary.stops = CountOf(episode, "stopped");
+  summary.unsafe = CountOf(episode, "unsafe");
+  summary.nearest = NearestApproach(episode, truth, robot, 0.005, 0.3);
+  return summary;
+}
+
+std::string SummaryScreen(const Episode& episode, const EpisodeSummary& summary,
+                          const std::string& folder) {
+  std::string text = summary.ending;
+  if (!episode.message.empty()) text += ": " + episode.message;
+  text += Formatted(", %.2f s, ", summary.duration);
+  text += Counted(summary.half_steps, "half-step", "half-steps") + "\n";
+  text += "handed over  " +
+          Counted(summary.changed, "walk with other footsteps", "walks with other footsteps") +
+          ", " + std::to_string(summary.smoothed) + " with other overlaps, " +
+          std::to_string(summary.resumed) + " after a stop\n";
+  text += "world        " + Counted(summary.contradicted, "contradiction", "contradictions") +
+          ", " + Counted(summary.stops, "stop", "stops") + ", " + std::to_string(summary.refused) +
+          " refused, " + std::to_string(summary.unsafe) + " times no safe way\n";
+  if (!summary.latencies.empty()) {
+    std::vector<double> sorted = summary.latencies;
+    std::ranges::sort(sorted);
+    text += Formatted("latency      median %.3f s, largest %.3f s from measurement to hand-over\n",
+                      sorted[sorted.size() / 2], sorted.back());
+  }
+  const Approach& nearest = summary.nearest;
+  text +=
+      nearest.obstacle.empty()
+          ? std::string("nearest      no obstacle within 0.3 m while it moved\n")
+          : Formatted("nearest      %.4f m, %s to %s at %.2f s (sampled every 5 ms)\n",
+                      nearest.distance, nearest.body.c_str(), nearest.obstacle.c_str(), nearest.t);
+  return text + "written to   " + folder + "\n";
+}
+
+std::string SummaryJson(const Episode& episode, const EpisodeSummary& summary,
+                        const std::string& folder) {
+  nlohmann::ordered_json json = {{"ending", summary.ending},
+                                 {"message", episode.message},
+                                 {"duration_s", summary.duration},
+                                 {"half_steps", summary.half_steps},
+                                 {"changed", summary.changed},
+                                 {"smoothed", summary.smoothed},
+                                 {"resumed", summary.resumed},
+                                 {"refused", summary.refused},
+                                 {"contradicted", summary.contradicted},
+                                 {"stops", summary.stops},
+                                 {"unsafe", summary.unsafe},
+                                 {"latencies_s", summary.latencies},
+                                 {"begun_meanwhile", summary.begun_meanwhile},
+                                 {"nearest_m", summary.nearest.distance},
+                                 {"nearest_obstacle", summary.nearest.obstacle},
+                                 {"nearest_t_s", summary.nearest.t}};
+  if (!folder.empty()) json["folder"] = folder;
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace halfstep

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "experiments/live/episode.h"
+#include "experiments/live/episode_touch.h"
+#include "experiments/live/true_world.h"
+#include "wpg/robot/robot_model.h"
+
+namespace halfstep {
+
+/// The numbers that tell how an episode went.
+struct EpisodeSummary {
+  std::string ending;
+  double duration = 0.0;                       ///< [s]
+  int half_steps = 0;                          ///< that began
+  int changed = 0, smoothed = 0, resumed = 0;  ///< successors that were handed over
+  int refused = 0, contradicted = 0, stops = 0, unsafe = 0;
+  /// From when the world that asked for it was measured to the hand-over, of each walk with other
+  /// footsteps [s]; half-steps that began meanwhile, before the first changed one.
+  std::vector<double> latencies;
+  std::vector<int> begun_meanwhile;
+  Approach nearest;  ///< sampled every 5 ms
+};
+
+EpisodeSummary Summarize(const Episode& episode, const TrueWorld& truth, const RobotModel& robot);
+
+/// What `halfstep live` prints; the same as one JSON object.
+std::string SummaryScreen(const Episode& episode, const EpisodeSummary& summary,
+                          const std::string& folder);
+std::string SummaryJson(const Episode& episode, const EpisodeSummary& summary,
+                        const std::string& folder);
+
+}  // namespace halfstep
