@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "planner/search/planner_registry.h"
+#include "planner/swept/obstacle_places.h"
 #include "planner/swept/swept_volume_query.h"
 #include "wpg/check.h"
 #include "wpg/files/input_error.h"
@@ -118,6 +119,7 @@ BakedHalfSteps BakeHalfSteps(const RobotModel& robot, const ExperimentConfig& co
 PlannedWalk PlanWalk(const ExperimentConfig& config, const Place& place,
                      const PlanningHooks& hooks) {
   HALFSTEP_CHECK(config.has_goal, "no goal");
+  CheckPlaces(place.scene);  // before minutes of baking
   PlannedWalk walk{.config = config, .plan = {}, .half_steps = {}};
   walk.half_steps = BakeHalfSteps(place.robot, config, hooks);
   if (!walk.half_steps.cached.volumes) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 
 namespace halfstep {
 namespace {
@@ -69,14 +68,18 @@ Eigen::Vector3d ObstacleMotion::VelocityAt(const Eigen::Isometry3d& X_WO, double
          (to.yaw - from.yaw) / lasts * Eigen::Vector3d::UnitZ().cross(lever);
 }
 
+double ObstacleMotion::SpeedTo(size_t index, const Eigen::Isometry3d& X_WO, double radius) const {
+  const Waypoint from = Before(*this, X_WO, index);
+  const Waypoint& to = waypoints[index];
+  const double way =
+      (to.translation - from.translation).norm() + std::abs(to.yaw - from.yaw) * radius;
+  return way / (to.t - from.t);
+}
+
 double ObstacleMotion::WaypointSpeed(const Eigen::Isometry3d& X_WO, double radius) const {
   double fastest = 0.0;
   for (size_t i = 0; i < waypoints.size(); ++i) {
-    const Waypoint from = Before(*this, X_WO, i);
-    const Waypoint& to = waypoints[i];
-    const double way =
-        (to.translation - from.translation).norm() + std::abs(to.yaw - from.yaw) * radius;
-    fastest = std::max(fastest, way / (to.t - from.t));
+    fastest = std::max(fastest, SpeedTo(i, X_WO, radius));
   }
   return fastest;
 }

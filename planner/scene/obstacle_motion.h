@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <cstddef>
 #include <limits>
 #include <vector>
 
@@ -49,6 +50,8 @@ struct ObstacleMotion {
   /// A speed that no point exceeds by the known motion, when all points are within `radius` [m] of
   /// the frame's origin [m/s].
   double WaypointSpeed(const Eigen::Isometry3d& X_WO, double radius) const;
+  /// The same on the way to a waypoint. Precondition: 0 ≤ index < size.
+  double SpeedTo(size_t index, const Eigen::Isometry3d& X_WO, double radius) const;
   /// How far such a point is at t from its place at t = 0 by the known motion, at most [m].
   double DisplacementAt(const Eigen::Isometry3d& X_WO, double radius, double t) const;
 };

@@ -62,7 +62,7 @@ SweptVolumeQuery::Prepared SweptVolumeQuery::Prepare(const Obstacle& obstacle) {
 
 SweptVolumeQuery::SweptVolumeQuery(const SweptVolumes& volumes,
                                    const Eigen::Matrix2Xd& sole_outline, const Scene& scene,
-                                   double no_step)
+                                   double no_step, double until)
     : volumes_(volumes),
       down_bounds_(BoundsOf(volumes.down)),
       up_bounds_(BoundsOf(volumes.up)),
@@ -71,28 +71,38 @@ SweptVolumeQuery::SweptVolumeQuery(const SweptVolumes& volumes,
   const size_t size = static_cast<size_t>(volumes.set.size());
   HALFSTEP_CHECK(volumes.down.size() == size && volumes.up.size() == size,
                  volumes.down.size() << " and " << volumes.up.size() << " volumes of " << size);
-  HALFSTEP_CHECK(scene.rests(), "obstacles that move");
-  const int count = static_cast<int>(scene.obstacles.size());
+  CheckPlaces(scene, until);
+  std::vector<ObstaclePlace> all;
+  for (const Obstacle& obstacle : scene.obstacles) {
+    only_places_.push_back(obstacle.motion.waypoints.empty() ? static_cast<int>(all.size()) : -1);
+    const Prepared prepared = Prepare(obstacle);
+    for (const ObstaclePlace& place : PlacesOf(obstacle, until)) {
+      all.push_back(place);
+      places_.push_back(prepared);
+      places_.back().extra = place.extra;
+    }
+  }
   // Unused places hold nothing: no cylinder reaches from there.
   Cylinders nothing;
   for (int k = 0; k < 4; ++k) {
     nothing.x[k] = nothing.y[k] = nothing.z[k] = std::numeric_limits<float>::infinity();
     nothing.radius[k] = nothing.half_height[k] = 0.0f;
   }
-  cylinders_.assign(static_cast<size_t>((count + 3) / 4), nothing);
-  for (int i = 0; i < count; ++i) {
-    obstacles_.push_back(Prepare(scene.obstacles[static_cast<size_t>(i)]));
-    SetObstaclePose(i, scene.obstacles[static_cast<size_t>(i)].PoseAt(0.0));
-  }
+  cylinders_.assign((all.size() + 3) / 4, nothing);
+  for (size_t i = 0; i < all.size(); ++i) Put(i, all[i].X_WO);
 }
 
 void SweptVolumeQuery::SetObstaclePose(int obstacle, const Isometry3d& X_WO) {
-  HALFSTEP_CHECK(
-      obstacle >= 0 && obstacle < static_cast<int>(obstacles_.size()) && X_WO.matrix().allFinite(),
-      "obstacle " << obstacle << " at\n"
-                  << X_WO.matrix());
-  const size_t index = static_cast<size_t>(obstacle);
-  Prepared& o = obstacles_[index];
+  HALFSTEP_CHECK(obstacle >= 0 && obstacle < static_cast<int>(only_places_.size()),
+                 "obstacle " << obstacle);
+  const int place = only_places_[static_cast<size_t>(obstacle)];
+  HALFSTEP_CHECK(place >= 0, "obstacle " << obstacle << " has waypoints");
+  Put(static_cast<size_t>(place), X_WO);
+}
+
+void SweptVolumeQuery::Put(size_t index, const Isometry3d& X_WO) {
+  HALFSTEP_CHECK(X_WO.matrix().allFinite(), "place " << index << " at\n" << X_WO.matrix());
+  Prepared& o = places_[index];
   o.X_WO = X_WO;
   o.around_W = {.center = X_WO * o.around.center,
                 .half = o.around.half,
@@ -112,8 +122,8 @@ void SweptVolumeQuery::SetObstaclePose(int obstacle, const Isometry3d& X_WO) {
   four.x[k] = static_cast<float>(o.around_W.center.x());
   four.y[k] = static_cast<float>(o.around_W.center.y());
   four.z[k] = static_cast<float>(o.around_W.center.z());
-  four.radius[k] = static_cast<float>(radius);
-  four.half_height[k] = static_cast<float>(reach.row(2).sum());
+  four.radius[k] = static_cast<float>(radius + o.extra);
+  four.half_height[k] = static_cast<float>(reach.row(2).sum() + o.extra);
   farthest_ = std::max(farthest_, o.around_W.center.cwiseAbs().maxCoeff() + o.around_W.half.sum());
 }
 
@@ -167,7 +177,8 @@ bool SweptVolumeQuery::IsFree(const Placed& placed, double extra) const {
                (Four::Load(o.z) - mz).Abs().Within(hz + Four::Load(o.half_height));
     for (; near != 0; near &= near - 1) {
       const size_t k = static_cast<size_t>(std::countr_zero(static_cast<unsigned>(near)));
-      if (MeetsObstacle(*placed.volume, placed, obstacles_[4 * block + k], extra)) return false;
+      const Prepared& place = places_[4 * block + k];
+      if (MeetsObstacle(*placed.volume, placed, place, extra + place.extra)) return false;
     }
   }
   return true;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <variant>
@@ -11,23 +12,27 @@
 #include "planner/scene/scene.h"
 #include "planner/search/half_step_query.h"
 #include "planner/swept/box_tree_query.h"
+#include "planner/swept/obstacle_places.h"
 #include "planner/swept/swept_volumes.h"
 #include "wpg/geometry/footprint.h"
 
 namespace halfstep {
 
 /// Swept volumes against a scene. A half-step is free when its volume meets no obstacle, and then
-/// the robot is at least the baked clearance from all of them for all t. Queries are const and
-/// thread-safe; SetObstaclePose is not.
+/// the robot is at least the baked clearance from all of them for all t. An obstacle that moves, or
+/// of which not all is known, counts wherever it may be at any time (PlacesOf): what is free is
+/// free whenever it is executed. Queries are const and thread-safe; SetObstaclePose is not.
 /// Exact up to rounding (1e-5) for boxes, spheres, capsules, cylinders and triangles; a mesh is its
 /// surface and what it winds around.
 class SweptVolumeQuery : public HalfStepQuery {
  public:
   /// `volumes` is borrowed and must outlive this. A landing sole, of the outline
   /// RobotModel::sole_outline (2×k) [m], keeps `no_step` ≥ 0 [m] from the no-step areas and touches
-  /// none. Precondition: finite poses, obstacles that rest, volumes for each element.
+  /// none. Half-steps are executed at times of [0, until] [s]. Precondition: finite poses, volumes
+  /// for each element (std::logic_error). Throws InputError as PlacesOf.
   SweptVolumeQuery(const SweptVolumes& volumes, const Eigen::Matrix2Xd& sole_outline,
-                   const Scene& scene, double no_step = 0.0);
+                   const Scene& scene, double no_step = 0.0,
+                   double until = std::numeric_limits<double>::infinity());
 
   bool DownIsFree(int i, Side support, const Footprint& X_WS) const override;
   bool UpIsFree(int i, Side support, const Footprint& X_WS) const override;
@@ -38,7 +43,8 @@ class SweptVolumeQuery : public HalfStepQuery {
   double DownClearance(int i, Side support, const Footprint& X_WS, double horizon) const;
   double UpClearance(int i, Side support, const Footprint& X_WS, double horizon) const;
 
-  /// Moves one obstacle of the scene; the others stay as they are prepared.
+  /// Moves one obstacle of the scene; the others stay as they are prepared, and so does how far it
+  /// is grown. Precondition: it has no waypoints (std::logic_error).
   void SetObstaclePose(int obstacle, const Eigen::Isometry3d& X_WO);
 
  private:
@@ -51,6 +57,7 @@ class SweptVolumeQuery : public HalfStepQuery {
     std::variant<std::monostate, RoundBody, std::shared_ptr<const Mesh>> shape;  // none: the box
     OrientedBox around_W;
     Eigen::Isometry3d X_WO;
+    double extra = 0.0;  // by which it is grown [m]
 
     void BeMesh(const TriangleMesh& mesh);
   };
@@ -72,6 +79,7 @@ class SweptVolumeQuery : public HalfStepQuery {
   };
 
   static Prepared Prepare(const Obstacle& obstacle);
+  void Put(size_t place, const Eigen::Isometry3d& X_WO);
   static std::vector<Bounds> BoundsOf(const std::vector<std::optional<BoxTree>>& volumes);
   Placed Down(int i, Side support, const Footprint& X_WS) const;
   Placed Up(int i, Side support, const Footprint& X_WS) const;
@@ -82,7 +90,8 @@ class SweptVolumeQuery : public HalfStepQuery {
 
   const SweptVolumes& volumes_;
   std::vector<Bounds> down_bounds_, up_bounds_;
-  std::vector<Prepared> obstacles_;
+  std::vector<Prepared> places_;  // of the obstacles in their order, one or more of each
+  std::vector<int> only_places_;  // by obstacle; −1: it has waypoints
   std::vector<Cylinders> cylinders_;
   double farthest_ = 0.0;  // coordinate of an obstacle [m]
   NoStepAreas areas_;

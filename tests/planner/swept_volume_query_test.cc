@@ -2,12 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "planner/collision/collision_world.h"
 #include "planner/collision/mesh_interior.h"
 #include "tests/planner/swept_volume_draws.h"
+#include "wpg/files/input_error.h"
 #include "wpg/geometry/support_polygon.h"
 
 namespace halfstep {
@@ -88,6 +92,110 @@ TEST(SweptVolumeQueryTest, FreeHalfStepsKeepTheClearanceOnBothSidesUpAndDown) {
   }
   EXPECT_GT(free, 5);
   EXPECT_GT(taken, 5);
+}
+
+// Whenever it is executed, wherever uncertainty lets the obstacles be.
+TEST(SweptVolumeQueryTest, WhatIsFreeAmongObstaclesThatMoveIsFreeAtAnyTime) {
+  const RobotModel& robot = SweptRobot();
+  const SweptVolumes& volumes = CoarseVolumes();
+  SweptDraw draw(20);
+  std::vector<CollisionShape> shapes;
+  for (const RobotBody& body : robot.bodies) shapes.emplace_back(body.shape);
+  int free = 0, of_rest_only = 0, hit = 0;
+  for (int room = 0; room < 6; ++room) {
+    Scene scene = Mixed(5, &draw), resting = scene;
+    for (size_t i = 0; i < scene.obstacles.size(); ++i) {
+      ObstacleMotion& motion = scene.obstacles[i].motion;
+      motion.error = draw.Uniform(0, 0.02);
+      if (i % 2 == 0) {
+        motion.speed = draw.Uniform(0, 0.1);
+        motion.horizon = 1.0;
+        continue;
+      }
+      for (const double t : {1.0, 2.5}) {
+        motion.waypoints.push_back({t, draw.Point({-1, -1, 0}, {1, 1, 0.5}), draw.Uniform(-2, 2)});
+      }
+    }
+    const CollisionWorld world(scene);
+    const SweptVolumeQuery query(volumes, kSole, scene), at_rest(volumes, kSole, resting);
+    for (int k = 0; k < 40; ++k) {
+      const auto [i, support, X_WS] = DrawQuery(1.5, &draw);
+      const bool is_free = query.DownIsFree(i, support, X_WS);
+      if (!is_free && !at_rest.DownIsFree(i, support, X_WS)) continue;
+      const HalfStep half_step = volumes.set.Down(i, support);
+      const HalfStepProfiles profiles(half_step.kind, half_step.shape, half_step.duration,
+                                      LipmOf(robot));
+      bool clears = true;
+      for (int n = 0; n <= 3; ++n) {
+        const double tau = half_step.duration * n / 3;
+        const WalkState x_W = Transformed(X_WS, Evaluate(half_step, profiles, tau).value);
+        const Posture posture = SolvePosture(robot, x_W);
+        for (size_t b = 0; b < robot.bodies.size(); ++b) {
+          for (double t = 0.0; t < 3.0; t += 0.25) {
+            CollisionWorld::Scratch scratch;
+            clears = clears && world.Clears(shapes[b], posture.OfBody(robot.bodies[b]), t,
+                                            CoarseOptions().clearance, &scratch);
+          }
+        }
+      }
+      EXPECT_TRUE(clears || !is_free) << "room " << room << ", query " << k;
+      free += is_free;
+      of_rest_only += !is_free;
+      hit += !clears;
+    }
+  }
+  EXPECT_GT(free, 20);
+  EXPECT_GT(of_rest_only, 5);
+  EXPECT_GT(hit, 5);  // the control: what the scene at rest calls free
+}
+
+TEST(SweptVolumeQueryTest, PlacesContainTheObstacleAtEveryTime) {
+  SweptDraw draw(21);
+  double used = 0.0;  // of what places are grown by
+  for (int i = 0; i < 20; ++i) {
+    Obstacle obstacle{.name = "o", .shape = Box{{0.4, 0.1, 0.1}}};
+    obstacle.X_WO.translation() = draw.Point({-1, -1, 0}, {1, 1, 0.5});
+    obstacle.motion.waypoints = {{1.0, draw.Point({-1, -1, 0}, {1, 1, 0.5}), draw.Uniform(-2, 2)},
+                                 {3.0, draw.Point({-1, -1, 0}, {1, 1, 0.5}), draw.Uniform(-2, 2)}};
+    const double until = i % 2 == 0 ? 1.7 : std::numeric_limits<double>::infinity();
+    const std::vector<ObstaclePlace> places = PlacesOf(obstacle, until);
+    for (int k = 0; k < 200; ++k) {
+      const Isometry3d X = obstacle.PoseAt(std::min(until, draw.Uniform(-0.5, 4.0)));
+      // Of all corners at once, as one place must hold the whole shape.
+      double over = 1.0;
+      for (const ObstaclePlace& place : places) {
+        double farthest = 0.0;
+        for (const double x : {-0.2, 0.2}) {
+          const Vector3d p(x, 0.05, 0.05);
+          farthest = std::max(farthest, (X * p - place.X_WO * p).norm());
+        }
+        over = std::min(over, farthest - place.extra);
+        if (farthest <= place.extra) used = std::max(used, farthest / place.extra);
+      }
+      EXPECT_LE(over, 1e-12);
+    }
+  }
+  EXPECT_GT(used, 0.8);
+}
+
+TEST(SweptVolumeQueryTest, AnObstacleThatMayBeAnywhereIsRefusedByName) {
+  Scene scene = One(Sphere{0.1}, Isometry3d(Eigen::Translation3d(5, 0, 0)));
+  scene.obstacles[0].motion.speed = 0.1;
+  try {
+    const SweptVolumeQuery query(CoarseVolumes(), kSole, scene);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_EQ(std::string(error.what()).find("obstacle 'o': motion.horizon_s: is missing"), 0u)
+        << error.what();
+  }
+  // For 10 s it is at most a metre away, for 60 s it may be here.
+  EXPECT_TRUE(
+      SweptVolumeQuery(CoarseVolumes(), kSole, scene, 0.0, 10.0).DownIsFree(0, Side::kLeft, {}));
+  EXPECT_FALSE(
+      SweptVolumeQuery(CoarseVolumes(), kSole, scene, 0.0, 60.0).DownIsFree(0, Side::kLeft, {}));
+  scene.obstacles[0].motion = {.waypoints = {{1.0, {6, 0, 0}}}};
+  SweptVolumeQuery query(CoarseVolumes(), kSole, scene);
+  EXPECT_THROW(query.SetObstaclePose(0, Isometry3d::Identity()), std::logic_error);
 }
 
 TEST(SweptVolumeQueryTest, MirroredAndMovedScenesGiveTheSameAnswers) {
@@ -208,6 +316,11 @@ TEST(SweptVolumeQueryTest, ClearanceIsFreeAndKnownToTheMillimetre) {
   EXPECT_LE(query.DownClearance(0, Side::kLeft, {}, 1.0), 0.2);
   EXPECT_EQ(query.DownClearance(0, Side::kLeft, {}, 0.1), 0.1);
   EXPECT_EQ(query.DownClearance(0, Side::kLeft, {0.3, 0, 0}, 0.1), 0.0);
+  // Of a wall that is known within 5 cm, 15 cm are left.
+  Scene known = One(MakeBox({0.1, 4, 4}), X_WO);
+  known.obstacles[0].motion.error = 0.05;
+  const SweptVolumeQuery within(volumes, kSole, known);
+  EXPECT_NEAR(within.DownClearance(0, Side::kLeft, {}, 1.0), 0.15, 2e-3);
 }
 
 TEST(SweptVolumeQueryTest, OnlyTheLandingSoleKeepsOffNoStepAreas) {

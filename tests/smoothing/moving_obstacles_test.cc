@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "planner/swept/swept_volume_query.h"
 #include "smoothing/methods/dichotomy.h"
 #include "smoothing/methods/reference_search.h"
 #include "smoothing/program/overlap_variables.h"
@@ -109,7 +108,6 @@ TEST_F(MovingObstacles, AreRefusedByWhatCannotDealWithThem) {
   const FakeFeasibility test(evaluator,
                              [](const HomotopyParameters&) { return Verdict::kFeasible; });
   EXPECT_EQ(Smoothed(ReferenceSearch, ProblemOf(sequence_, test), {}).ending, opt::Ending::kNotRun);
-  EXPECT_THROW(SweptVolumeQuery({}, Hrp2().sole_outline, BallOf(0.1)), std::logic_error);
 }
 
 }  // namespace
