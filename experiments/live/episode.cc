@@ -121,7 +121,7 @@ class Lockstep {
         Tell(now, "lost", Formatted("frame of %.3f s", taken));
         continue;
       }
-      WorldUpdate update = Updated(*world_, std::move(frame));
+      WorldUpdate update = Updated(*world_, std::move(frame), options_);
       world_ = std::make_shared<const World>(std::move(update.world));
       Know(now);
       Tell(now, "measured", Formatted("frame of %.3f s", taken));
@@ -160,6 +160,7 @@ class Lockstep {
     const double longest = budget.check + std::max(budget.plan, budget.smooth);
     const Situation situation{.plan = executor_->plan(),
                               .smoothed = smoothed_,
+                              .grant = executor_->grant(),
                               .begun = executor_->begun(),
                               .stopped = executor_->stopped(),
                               .now = now,

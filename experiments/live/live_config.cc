@@ -59,6 +59,13 @@ void DeclareSensing(Fields& fields, SensingConfig* c) {
   fields.Number(
       "error_m", &c->error,
       {.meaning = "what is assumed of that radius: r", .unit = "m", .min = 0, .max = 0.5});
+  fields.OptionalNumber("rests_after_s", &c->rests_after,
+                        {.meaning = "an obstacle that was measured at one place for so long is "
+                                    "taken to rest until it is measured elsewhere; none: it may "
+                                    "move at its speed at any time",
+                         .unit = "s",
+                         .min = 0,
+                         .max = 3600});
   fields.Number("lost", &c->lost,
                 {.meaning = "part of the frames that never arrives", .min = 0, .max = 1});
 }

@@ -28,7 +28,10 @@ struct SensingConfig {
   double delay = 0.02;   ///< from a frame to when it is known [s]
   double noise = 0.005;  ///< positions are drawn from a ball of this radius around the true one [m]
   double error = 0.005;  ///< r: what is assumed of that radius [m]
-  double lost = 0.0;     ///< the part of frames that never arrives
+  /// An obstacle that was measured at one place, up to the error, for so long is taken to rest, v =
+  /// 0, until it is measured elsewhere [s]; none: it may move at any time.
+  std::optional<double> rests_after;
+  double lost = 0.0;  ///< the part of frames that never arrives
 };
 
 /// What thinking costs in lockstep [s].

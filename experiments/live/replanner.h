@@ -21,6 +21,7 @@ namespace halfstep {
 struct Situation {
   WalkPlan plan;
   std::vector<bool> smoothed;  ///< by junction: its overlap was found already
+  Grant grant;                 ///< what is proved about it
   int begun = 0;               ///< the latest half-step that has begun
   bool stopped = false;        ///< nothing more begins unless a successor is handed over
   double now = 0.0;            ///< [s]

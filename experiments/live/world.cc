@@ -7,6 +7,8 @@
 namespace halfstep {
 namespace {
 
+constexpr double kRounding = 1e-9;  // [m]
+
 // How far a point of an obstacle is from where it was measured before, at most [m].
 double Displacement(const Obstacle& from, const Obstacle& to) {
   const Eigen::AngleAxisd turn(to.X_WO.linear() * from.X_WO.linear().transpose());
@@ -15,7 +17,6 @@ double Displacement(const Obstacle& from, const Obstacle& to) {
 }
 
 bool Contradicts(const Obstacle& before, const Obstacle& now) {
-  constexpr double kRounding = 1e-9;  // [m]
   const ObstacleMotion &a = before.motion, &b = now.motion;
   const double elapsed = b.measured_at - a.measured_at;
   const double allowed = a.error + b.error + a.speed * elapsed;
@@ -42,16 +43,28 @@ double World::valid_until() const {
   return until;
 }
 
-WorldUpdate Updated(const World& before, World frame) {
+WorldUpdate Updated(const World& before, World frame, const LiveOptions& options) {
   WorldUpdate update{.world = std::move(frame), .contradictions = {}};
   World& world = update.world;
   world.version = before.version + 1;
   world.sound_since = before.sound_since;
-  for (const Obstacle& now : world.scene.obstacles) {
+  for (size_t i = 0; i < world.scene.obstacles.size(); ++i) {
+    Obstacle& now = world.scene.obstacles[i];
     const auto old = std::ranges::find(before.scene.obstacles, now.name, &Obstacle::name);
     if (old == before.scene.obstacles.end() || Contradicts(*old, now)) {
       update.contradictions.push_back(now.name);
     }
+    if (old == before.scene.obstacles.end()) continue;
+    const World::Stay& stay =
+        before.stays[static_cast<size_t>(old - before.scene.obstacles.begin())];
+    Obstacle first = now;
+    first.X_WO = stay.X_WO;
+    const double drifted = options.drift * (now.motion.measured_at - stay.since);
+    if (Displacement(first, now) > 2.0 * now.motion.error + drifted + kRounding) continue;
+    world.stays[i] = stay;
+    const bool rests = options.sensing.rests_after &&
+                       now.motion.measured_at - stay.since >= *options.sensing.rests_after;
+    if (rests) now.motion.speed = options.drift;
   }
   if (world.scene.no_step.size() > before.scene.no_step.size()) {
     update.contradictions.push_back("a no-step area");
@@ -78,6 +91,7 @@ World Measure(const TrueWorld& truth, double t, const LiveOptions& options,
                        .speed = obstacle.motion.speed + options.drift,
                        .measured_at = t,
                        .horizon = options.horizon};
+    frame.stays.push_back({obstacle.X_WO, t});
     frame.scene.obstacles.push_back(std::move(obstacle));
   }
   for (size_t i = 0; i < truth.scene().no_step.size(); ++i) {

@@ -18,6 +18,13 @@ struct World {
   int version = 0;
   double measured_at = 0.0;  ///< t_m of the frame, a time of the walk [s]
   Scene scene;
+  /// Of each obstacle: where it was first measured of all the places that are one up to the errors,
+  /// and when [s].
+  struct Stay {
+    Eigen::Isometry3d X_WO;
+    double since = 0.0;
+  };
+  std::vector<Stay> stays;
   std::vector<size_t> areas;  ///< which no-step areas of the scene file are there
   GoalRegion goal;
   /// The latest version that contradicted the one before it: an obstacle was where it could not
@@ -32,12 +39,13 @@ struct World {
 /// The world after a frame, and which obstacles or areas contradict what was known: names for
 /// messages. An obstacle contradicts when a point of it is farther from where it was measured
 /// before than both errors and its speed allow, and when it was not there before; a no-step area
-/// when it was not there before. What vanishes contradicts nothing.
+/// when it was not there before. What vanishes contradicts nothing. An obstacle
+/// that has stayed for `sensing.rests_after` is taken to rest: its speed is that of the drift.
 struct WorldUpdate {
   World world;
   std::vector<std::string> contradictions;
 };
-WorldUpdate Updated(const World& before, World frame);
+WorldUpdate Updated(const World& before, World frame, const LiveOptions& options);
 
 /// The stand-in for motion capture: a frame of what is truly there at t [s], positions off by the
 /// noise. Version and `sound_since` are for Updated() to fill.
