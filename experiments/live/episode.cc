@@ -46,7 +46,9 @@ bool DiffersClearly(const World& a, const World& b) {
   for (size_t i = 0; i < a.scene.obstacles.size(); ++i) {
     const Obstacle &x = a.scene.obstacles[i], &y = b.scene.obstacles[i];
     const double moved = (x.X_WO.translation() - y.X_WO.translation()).norm();
-    if (x.name != y.name || moved > x.motion.error + y.motion.error + kClear) return true;
+    if (x.name != y.name || x.motion.speed != y.motion.speed ||
+        moved > x.motion.error + y.motion.error + kClear)
+      return true;
   }
   return false;
 }
@@ -71,7 +73,7 @@ class Lockstep {
     }
     executor_.emplace(first.plan, first.grant);
     smoothed_ = first.smoothed;
-    checked_ = world_;
+    checked_ = last_tried_ = world_;
     HandOver(first, 0.0, 0.0);
     Begins(0);
     for (long tick = 0;; ++tick) {
@@ -165,7 +167,8 @@ class Lockstep {
                               .stopped = executor_->stopped(),
                               .now = now,
                               .hand_over = now + longest + 2.0 * options_.period,
-                              .world = world_};
+                              .world = world_,
+                              .shorten = tries_ > 0};
     job_.emplace(Job{.asked = now, .world = world_});
     job_->proposal = replanner_.Propose(situation, random_);
     const Proposal& proposal = job_->proposal;
@@ -187,8 +190,13 @@ class Lockstep {
       again_ = true;
       return;
     }
+    if (DiffersClearly(*last_tried_, *job.world)) tries_ = kTries;
+    last_tried_ = job.world;
     const bool successor = proposal.first_changed >= 0 && !stuck_;
     if (!successor) {
+      const bool tried = proposal.planned.status != PlanStatus::kNotRun;
+      if (tried && !stuck_) --tries_;
+      again_ = tried && !stuck_ && tries_ > 0;
       if (stuck_) Tell(now, "unsafe", proposal.reason, proposal.grant.through);
       executor_->Take(proposal.grant);
       record_.grants.push_back({now, static_cast<int>(record_.walks.size()) - 1, proposal.grant});
@@ -239,6 +247,7 @@ class Lockstep {
     return true;
   }
 
+  static constexpr int kTries = 3;       // to find a shorter way, after each change of the world
   static constexpr double kRetry = 0.5;  // after a search that found no way [s]
   static constexpr double kAhead = 0.3;  // proofs are renewed so long before they are needed [s]
 
@@ -248,12 +257,13 @@ class Lockstep {
   const EpisodeHooks& hooks_;
   std::mt19937_64 noise_, random_;
   Episode record_;
-  std::shared_ptr<const World> world_, checked_;
+  std::shared_ptr<const World> world_, checked_, last_tried_;
   std::optional<Executor> executor_;
   std::vector<bool> smoothed_;
   std::optional<Job> job_;
   long frame_ = 0;
   bool again_ = true, stuck_ = false;
+  int tries_ = 0;
   double asked_ = 0.0;
 };
 

@@ -19,6 +19,8 @@ std::string_view Name(ProposalKind kind) {
       return "resumed";
     case ProposalKind::kChanged:
       return "changed";
+    case ProposalKind::kShortened:
+      return "shortened";
     case ProposalKind::kSmoothed:
       return "smoothed";
     case ProposalKind::kUnsafe:
@@ -162,6 +164,21 @@ bool Replanner::Smooth(double from, int begun, const Among& among, Proposal* pro
   return true;
 }
 
+void Replanner::Shorten(const Situation& s, const Among& among, std::mt19937_64& random,
+                        Proposal* proposal) const {
+  const SuperposedWalk walk = proposal->plan.Walk();
+  const std::vector<int> junctions = Junctions(
+      s, walk, {.through = walk.num_half_steps() - 1, .refused_by = {}}, /*arrives=*/false);
+  if (junctions.empty()) return;
+  Proposal shorter = *proposal;
+  if (!Change(s, proposal->plan, junctions.front(), among, random, &shorter)) return;
+  proposal->planned = shorter.planned;
+  if (shorter.plan.sequence.size() >= proposal->plan.sequence.size()) return;
+  shorter.kind = ProposalKind::kShortened;
+  shorter.reason = "fewer footsteps";
+  *proposal = std::move(shorter);
+}
+
 std::vector<int> Replanner::Junctions(const Situation& s, const SuperposedWalk& walk,
                                       const Safety& safety, bool arrives) const {
   int first = s.begun;  // the latest half-step that will have begun
@@ -217,6 +234,7 @@ Proposal Replanner::Propose(const Situation& s, std::mt19937_64& random) const {
       proposal.reason = "overlaps";
     }
     proposal.smooth_s = SteadySeconds() - smooth;
+    if (proposal.kind == ProposalKind::kSafe && s.shorten) Shorten(s, among, random, &proposal);
     return proposal;
   }
   proposal.reason = arrives ? among.safety.evaluator().Describe(*safety.refused_by)

@@ -27,14 +27,16 @@ struct Situation {
   double now = 0.0;            ///< [s]
   double hand_over = 0.0;      ///< a successor is taken at this time at the earliest [s]
   std::shared_ptr<const World> world;
+  bool shorten = false;  ///< when nothing else is to be done, look for a shorter way
 };
 
 enum class ProposalKind {
-  kSafe,      ///< the walk stays, and is safe
-  kResumed,   ///< the walk goes on after a stop, as it was planned
-  kChanged,   ///< other footsteps, around what is in the way or to another goal
-  kSmoothed,  ///< other overlaps
-  kUnsafe,    ///< there is no safe way on that was found: what is granted is executed
+  kSafe,       ///< the walk stays, and is safe
+  kResumed,    ///< the walk goes on after a stop, as it was planned
+  kChanged,    ///< other footsteps, around what is in the way or to another goal
+  kShortened,  ///< other footsteps, since they are fewer
+  kSmoothed,   ///< other overlaps
+  kUnsafe,     ///< there is no safe way on that was found: what is granted is executed
 };
 std::string_view Name(ProposalKind kind);
 
@@ -53,7 +55,8 @@ struct Proposal {
 /// Looks at a walk that is being executed, in this order of urgency: which half-steps are safe in
 /// the world as it is known now; if not all, or if the walk does not end in the goal: other
 /// footsteps from the last safe junction that can still be changed; else: overlaps of what has not
-/// begun. Immutable; the same situation and the same state of `random` give the same proposal.
+/// begun; else: fewer footsteps. Immutable; the same situation and the same state of `random` give
+/// the same proposal.
 class Replanner {
  public:
   /// `volumes` is borrowed. Clearances of volumes are those that the config demands.
@@ -80,6 +83,9 @@ class Replanner {
               std::mt19937_64& random, Proposal* proposal) const;
   // The overlaps of the next junctions that were not found yet; false when there are none.
   bool Smooth(double from, int begun, const Among& among, Proposal* proposal) const;
+  // A way with fewer footsteps, where one is found.
+  void Shorten(const Situation& situation, const Among& among, std::mt19937_64& random,
+               Proposal* proposal) const;
   // Half-steps after which other footsteps may follow, best first.
   std::vector<int> Junctions(const Situation& situation, const SuperposedWalk& walk,
                              const Safety& safety, bool arrives) const;
