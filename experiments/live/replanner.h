@@ -21,7 +21,8 @@ namespace halfstep {
 struct Situation {
   WalkPlan plan;
   std::vector<bool> smoothed;  ///< by junction: its overlap was found already
-  Grant grant;                 ///< what is proved about it
+  Grant grant;                 ///< what is proved of it
+  int robot_through = -1;      ///< what does not depend on the world is proved up to this half-step
   int begun = 0;               ///< the latest half-step that has begun
   bool stopped = false;        ///< nothing more begins unless a successor is handed over
   double now = 0.0;            ///< [s]
@@ -46,6 +47,7 @@ struct Proposal {
   std::string reason = {};  ///< in words
   WalkPlan plan = {};       ///< a successor, or the walk itself
   std::vector<bool> smoothed = {};
+  int robot_through = -1;
   int first_changed = -1;  ///< half-step; −1: none
   Grant grant = {};
   PlanResult planned = {};                             ///< of kChanged
@@ -55,8 +57,9 @@ struct Proposal {
 /// Looks at a walk that is being executed, in this order of urgency: which half-steps are safe in
 /// the world as it is known now; if not all, or if the walk does not end in the goal: other
 /// footsteps from the last safe junction that can still be changed; else: overlaps of what has not
-/// begun; else: fewer footsteps. Immutable; the same situation and the same state of `random` give
-/// the same proposal.
+/// begun; else: fewer footsteps. A proposal is made as soon as the next half-steps of it are
+/// proved; the next proposal proves the others. Immutable; the same situation and the same state of
+/// `random` give the same proposal.
 class Replanner {
  public:
   /// `volumes` is borrowed. Clearances of volumes are those that the config demands.
@@ -78,6 +81,10 @@ class Replanner {
   bool Arrives(const WalkPlan& plan, const World& world) const;
   PlanResult Plan(const std::array<Footprint, 2>& stance, const std::optional<StepState>& in_air,
                   const Among& among, std::mt19937_64& random) const;
+  // Proves the walk of the proposal up to half-step `last` as far as it is not proved yet, and
+  // grants it. Returns what refused it.
+  std::optional<Margin> Prove(const Situation& situation, const SuperposedWalk& walk, int last,
+                              const Among& among, Proposal* proposal) const;
   // Other footsteps after half-step `junction`; false when there are none that are safe.
   bool Change(const Situation& situation, const WalkPlan& plan, int junction, const Among& among,
               std::mt19937_64& random, Proposal* proposal) const;
@@ -87,8 +94,8 @@ class Replanner {
   void Shorten(const Situation& situation, const Among& among, std::mt19937_64& random,
                Proposal* proposal) const;
   // Half-steps after which other footsteps may follow, best first.
-  std::vector<int> Junctions(const Situation& situation, const SuperposedWalk& walk,
-                             const Safety& safety, bool arrives) const;
+  std::vector<int> Junctions(const Situation& situation, const SuperposedWalk& walk, int through,
+                             bool arrives) const;
 
   RobotModel robot_;
   LiveConfig config_;
