@@ -121,7 +121,8 @@ TEST_F(ReportTest, HoldsWhereObstaclesGo) {
   ASSERT_EQ(outcome.status, kSuccess) << outcome.err;
   const json data = DataOf(ReadText(place_ / "run/report.html"));
   const json& obstacles = data["scenes"][0]["obstacles"];
-  EXPECT_EQ(obstacles[1]["places"].dump(), "[[0.0,0.68,-1.0,0.9,0.0],[10.0,0.68,1.0,0.9,0.52359878]]");
+  EXPECT_EQ(obstacles[1]["places"].dump(),
+            "[[0.0,0.68,-1.0,0.9,0.0],[10.0,0.68,1.0,0.9,0.52359878]]");
   // About its own origin: 0.3 × 0.4 × 0.3 m, in 0.1 mm.
   EXPECT_EQ(obstacles[1]["vertices"][0].get<long>() * obstacles[1]["vertices"][0].get<long>(),
             1500 * 1500);

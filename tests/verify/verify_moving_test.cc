@@ -76,18 +76,15 @@ TEST_P(OfMotion, IsFound) {
   EXPECT_THAT(outcome.out + outcome.err, HasSubstr(GetParam().reason));
 }
 
-INSTANTIATE_TEST_SUITE_P(VerifyMoving, OfMotion,
-                         testing::Values(Untruth{"TheBoxIsLater", "{t_s: 10.0,", "{t_s: 12.0,",
-                                                 " - box"},
-                                         Untruth{"TheBoxIsLessKnown", "error_m: 0.01",
-                                                 "error_m: 0.03", " - box"},
-                                         Untruth{"TheBoxMayMove", "error_m: 0.01",
-                                                 "error_m: 0.01\n      speed_m_s: 0.01",
-                                                 " - box"},
-                                         Untruth{"TheBarMovesWhereNothingIsNear", "{t_s: 8.0, xyz",
-                                                 "{t_s: 4.0, xyz",
-                "clearance_m is "}),
-                         [](const testing::TestParamInfo<Untruth>& one) { return one.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    VerifyMoving, OfMotion,
+    testing::Values(Untruth{"TheBoxIsLater", "{t_s: 10.0,", "{t_s: 12.0,", " - box"},
+                    Untruth{"TheBoxIsLessKnown", "error_m: 0.01", "error_m: 0.03", " - box"},
+                    Untruth{"TheBoxMayMove", "error_m: 0.01",
+                            "error_m: 0.01\n      speed_m_s: 0.01", " - box"},
+                    Untruth{"TheBarMovesWhereNothingIsNear", "{t_s: 8.0, xyz", "{t_s: 4.0, xyz",
+                            "clearance_m is "}),
+    [](const testing::TestParamInfo<Untruth>& one) { return one.param.name; });
 
 }  // namespace
 }  // namespace halfstep
