@@ -231,11 +231,11 @@ std::vector<int> Replanner::Junctions(const Situation& s, const SuperposedWalk& 
   return junctions;
 }
 
-Proposal Replanner::Propose(const Situation& s, std::mt19937_64& random) const {
+Proposal Replanner::Propose(const Situation& s, const PreparedWorld& among,
+                            std::mt19937_64& random) const {
   Proposal proposal{
       .plan = s.plan, .smoothed = s.smoothed, .robot_through = s.robot_through, .grant = s.grant};
   const double begin = SteadySeconds();
-  const PreparedWorld& among = *s.world;
   const bool more = s.begun + 1 < s.plan.sequence.size();
   if (s.stopped && more) {
     proposal.plan =
@@ -272,6 +272,11 @@ Proposal Replanner::Propose(const Situation& s, std::mt19937_64& random) const {
     if (Change(s, plan, junction, among, random, &proposal)) {
       proposal.kind = ProposalKind::kChanged;
       return proposal;
+    }
+    if (proposal.planned.status != PlanStatus::kSolved) {
+      proposal.reason += "; " + proposal.planned.sentence;
+    } else {
+      proposal.reason += "; a plan was refused";
     }
   }
   proposal.kind = ProposalKind::kUnsafe;
