@@ -11,15 +11,15 @@ namespace halfstep {
 
 /// Something that happens in an episode.
 struct ScriptEvent {
-  double at = 0.0;            ///< [s]
-  std::string what = "jump";  ///< jump, carry, appear, vanish, goal, forbid, lose
-  std::string obstacle;       ///< of jump, carry, appear, vanish
-  std::vector<double> xyz;    ///< where it jumps or is carried to, origin of its frame in W [m]
-  double turn = 0.0;          ///< about the world's z meanwhile [rad]
-  double speed = 0.0;         ///< of being carried [m/s]
-  std::vector<double> goal;   ///< the goal's new place [m]
-  int area = 1;               ///< of forbid: a no-step area of the scene, from 1
-  double lasts = 0.0;         ///< of lose: how long no frame arrives [s]
+  double at = 0.0;           ///< [s]
+  std::string what;          ///< jump, carry, appear, vanish, goal, forbid, lose
+  std::string obstacle;      ///< of jump, carry, appear, vanish
+  std::vector<double> xyz;   ///< where it jumps or is carried to, origin of its frame in W [m]
+  double turn = 0.0;         ///< about the world's z meanwhile [rad]
+  double speed = 0.0;        ///< of being carried [m/s]
+  std::vector<double> goal;  ///< the goal's new place [m]
+  int area = 1;              ///< of forbid: a no-step area of the scene, from 1
+  double lasts = 0.0;        ///< of lose: how long no frame arrives [s]
 };
 
 /// The stand-in for motion capture.

@@ -245,6 +245,11 @@ Proposal Replanner::Propose(const Situation& s, const PreparedWorld& among,
   }
   const SuperposedWalk walk = proposal.plan.Walk();
   if (s.stopped) proposal.grant.through = std::min(proposal.grant.through, s.begun - 1);
+  if (s.stopped && more && walk.end_of(s.begun + 1) > among.world.valid_until()) {
+    proposal.kind = ProposalKind::kUnsafe;
+    proposal.reason = "the latest measurement is too old for another half-step";
+    return proposal;
+  }
   const int all = walk.num_half_steps() - 1;
   const std::optional<Margin> refused = Prove(s, walk, all, among, &proposal);
   const bool arrives = Arrives(proposal.plan, among.world);
@@ -267,6 +272,10 @@ Proposal Replanner::Propose(const Situation& s, const PreparedWorld& among,
   }
   proposal.reason =
       refused ? among.safety.evaluator().Describe(*refused) : "the walk does not end in the goal";
+  if (config_.live.policy == "stop_and_replan" && !s.stopped) {
+    // Nothing more begins but what brings the foot that is in the air back to the floor.
+    proposal.grant.through = std::min(proposal.grant.through, s.begun / 2 * 2 + 1);
+  }
   const WalkPlan plan = proposal.plan;
   for (const int junction : Junctions(s, walk, proposal.grant.through, arrives)) {
     if (Change(s, plan, junction, among, random, &proposal)) {
