@@ -60,6 +60,7 @@ function redraw() {
 function showTime() {
   const t = timeline.t;
   for (const actor of actors) actor.pose(t);
+  stage?.showTime(t);
   if (actors.length > 0 && byId("follow").checked) {
     stage.followTo(...waistNow(walks[0]));
   }

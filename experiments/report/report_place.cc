@@ -32,6 +32,20 @@ json MeshJson(const TriangleMesh& mesh, const Eigen::Isometry3d& X) {
   return {{"vertices", std::move(vertices)}, {"triangles", std::move(triangles)}};
 }
 
+// [t, x, y, z, yaw] at t = 0 and at each waypoint; straight and steady between them.
+json PlacesJson(const Obstacle& obstacle) {
+  json places = json::array();
+  const auto add = [&places](double t, const Eigen::Vector3d& p, double yaw) {
+    places.push_back(
+        {Shortened(t), Shortened(p.x()), Shortened(p.y()), Shortened(p.z()), Shortened(yaw)});
+  };
+  add(0.0, obstacle.X_WO.translation(), 0.0);
+  for (const ObstacleMotion::Waypoint& waypoint : obstacle.motion.waypoints) {
+    add(waypoint.t, waypoint.translation, waypoint.yaw);
+  }
+  return places;
+}
+
 }  // namespace
 
 json RobotJson(const RobotModel& robot) {
@@ -81,8 +95,13 @@ json SceneJson(const Scene& scene) {
         mesh != nullptr
             ? Coarsened(*mesh, most)
             : std::visit([](const auto& s) { return Surface(BodyOf(s)); }, obstacle.shape);
-    json drawn = MeshJson(surface, obstacle.PoseAt(0.0));
+    const bool moves = !obstacle.motion.waypoints.empty();
+    // One that moves is drawn about its frame's origin, which is then put where it is.
+    Eigen::Isometry3d X = obstacle.X_WO;
+    if (moves) X.translation().setZero();
+    json drawn = MeshJson(surface, X);
     drawn["name"] = obstacle.name;
+    if (moves) drawn["places"] = PlacesJson(obstacle);
     obstacles.push_back(std::move(drawn));
   }
   for (const Eigen::Matrix2Xd& polygon : scene.no_step) {

@@ -12,7 +12,8 @@ namespace halfstep {
 nlohmann::json RobotJson(const RobotModel& robot);
 
 /// The obstacles' surfaces and the no-step polygons in W; [m], to 0.1 mm. Large meshes are drawn
-/// coarser.
+/// coarser. Obstacles with waypoints have them as `places`, and their surface about their origin;
+/// what is not known of where an obstacle is, is not drawn.
 nlohmann::json SceneJson(const Scene& scene);
 
 }  // namespace halfstep

@@ -33,7 +33,8 @@ function floor() {
 }
 
 // Drawn last, so that they hide what is seen through the feet; robots show faintly through them.
-function obstacles(json) {
+// Those that move are added to `moving`, with their places.
+function obstacles(json, moving) {
   const group = new THREE.Group();
   const material = new THREE.MeshStandardMaterial({
     color: "#b7a58c", roughness: 0.85, transparent: true, opacity: 0.84,
@@ -47,6 +48,7 @@ function obstacles(json) {
     const lines = new THREE.LineSegments(new THREE.EdgesGeometry(geometry, 32), edges);
     lines.renderOrder = 21;
     mesh.add(lines);
+    if (obstacle.places) moving.push([mesh, obstacle.places]);
     group.add(mesh);
   }
   for (const polygon of json.no_step) {
@@ -98,7 +100,22 @@ export class Stage {
 
   setScene(json) {
     this.place.clear();
-    this.place.add(obstacles(json));
+    this.moving = [];
+    this.place.add(obstacles(json, this.moving));
+    this.showTime(0);
+  }
+
+  /** Puts the obstacles that move where they are at `t` [s]. */
+  showTime(t) {
+    for (const [mesh, places] of this.moving ?? []) {
+      const next = Math.max(1, places.findIndex(([time]) => time > t));
+      const past = t >= places.at(-1)[0];
+      const [from, to] = past ? [places.at(-1), places.at(-1)] : [places[next - 1], places[next]];
+      const s = past ? 0 : Math.max(0, (t - from[0]) / (to[0] - from[0]));
+      const [x, y, z, yaw] = [1, 2, 3, 4].map((k) => from[k] + s * (to[k] - from[k]));
+      mesh.position.set(x, y, z);
+      mesh.rotation.z = yaw;
+    }
   }
 
   /** A direction of `directions`, at a point on the floor, `distance` [m] away. */

@@ -143,13 +143,14 @@ class Claims {
   }
 
   // Distance of a row's subject, or something at least `enough`.
-  double Distance(const ClaimRow& row, ClaimSubject s, const Placement& at, double enough) {
+  double Distance(const ClaimRow& row, ClaimSubject s, const Placement& at, double t,
+                  double enough) {
     const size_t a = static_cast<size_t>(s.first), b = static_cast<size_t>(s.second);
     if (row.family == kSelfClearance) return distances_.OfPair(a, b, at, enough).distance;
-    if (s.second >= 0) return distances_.FromObstacle(a, b, at, enough).distance;
+    if (s.second >= 0) return distances_.FromObstacle(a, b, at, t, enough).distance;
     double least = kNoLimit;
     for (size_t o = 0; o < distances_.num_obstacles(); ++o) {
-      least = std::min(least, distances_.FromObstacle(a, o, at, enough).distance);
+      least = std::min(least, distances_.FromObstacle(a, o, at, t, enough).distance);
     }
     return least;
   }
@@ -158,21 +159,24 @@ class Claims {
   std::string FaultOfDistance(const ClaimRow& row, ClaimSubject subject) {
     const std::array<double, 5> instants = Instants(row);
     const Placement middle = PlaceRobot(robot_, walk_.Row(instants[0]));
-    const double value = Distance(row, subject, middle, row.margin);
+    const double value = Distance(row, subject, middle, instants[0], row.margin);
     if (!(value >= row.margin - Distances::kAccuracy)) {
       return Formatted("margin %.9g, but %.9g by the walk", row.margin, value);
     }
     for (const double t : {instants[1], instants[4]}) {
       const Placement at = PlaceRobot(robot_, walk_.Row(t));
       const double least = row.margin - row.bound;
-      const double there = Distance(row, subject, at, least);
+      const double there = Distance(row, subject, at, t, least);
       if (!(there >= least - Distances::kAccuracy)) {
         return Formatted("%.9g at t = %.6g s, below %.9g − %.9g", there, t, row.margin, row.bound);
       }
       if (row.family != kClearance) continue;
-      const double moved = Displacement(static_cast<size_t>(subject.first), middle, at);
+      double moved = Displacement(static_cast<size_t>(subject.first), middle, at);
+      if (subject.second >= 0) {
+        moved += distances_.ObstacleChange(static_cast<size_t>(subject.second), instants[0], t);
+      }
       if (!(moved <= row.bound + kClaimRounding)) {
-        return Formatted("the body moves %.9g until t = %.6g s, more than %.9g", moved, t,
+        return Formatted("body and obstacle move %.9g until t = %.6g s, more than %.9g", moved, t,
                          row.bound);
       }
     }

@@ -27,10 +27,24 @@ double FinestStep(const std::vector<double>& path, double u) {
   return kFinest * (*after - *(after - 1));
 }
 
+// The path of a body, and what an obstacle can take off the distance in the same time: at its
+// fastest of each row pair, so that the sum is linear between rows.
+std::vector<double> WithObstacle(std::vector<double> path, const PlayedMotion& motion,
+                                 const Distances& distances, size_t obstacle) {
+  const std::vector<PlayedRow>& rows = motion.rows();
+  double way = 0;
+  for (size_t i = 1; i < path.size(); ++i) {
+    const double begin = rows[i - 1].t, end = rows[i].t;
+    way += distances.ObstacleSpeed(obstacle, begin, end) * (end - begin);
+    path[i] += way;
+  }
+  return path;
+}
+
 // Keeps one pair of bodies apart over all time; false: not shown. With d the distance at the
 // instant of length u, all of [u − (d − required), u + (d − required)] is covered.
 bool Keep(const std::vector<double>& path, const PlayedMotion& motion, const std::string& name,
-          const std::function<Distances::Result(const Placement&, double)>& distance,
+          const std::function<Distances::Result(const Placement&, double, double)>& distance,
           Check* check) {
   const double required = check->required();
   const double last = path.back();
@@ -38,7 +52,7 @@ bool Keep(const std::vector<double>& path, const PlayedMotion& motion, const std
   for (bool first = true; first || covered < last;) {
     const double u = std::min(covered + ahead, last);
     const double t = TimeOf(path, motion.rows(), u);
-    const auto [d, exact] = distance(motion.Place(t), required + kQuick);
+    const auto [d, exact] = distance(motion.Place(t), t, required + kQuick);
     const double slack = d - required;
     if (exact) check->Add(d, [&] { return name + Formatted(" at t = %.6g s", t); });
     if (!(slack >= 0)) {
@@ -72,12 +86,12 @@ void CheckClearances(const PlayedMotion& motion, const CertificateText& certific
   const RobotModel& robot = motion.robot();
   Check obstacles("clearance", "m", certificate.demanded[kClearance], tolerance);
   for (size_t b = 0; b < robot.bodies.size() && distances->num_obstacles() > 0; ++b) {
-    const std::vector<double> path = motion.PathInWorld(robot.bodies[b]);
+    const std::vector<double> of_body = motion.PathInWorld(robot.bodies[b]);
     for (size_t o = 0; o < distances->num_obstacles(); ++o) {
       Keep(
-          path, motion, distances->NameOfObstaclePair(b, o),
-          [&](const Placement& at, double enough) {
-            return distances->FromObstacle(b, o, at, enough);
+          WithObstacle(of_body, motion, *distances, o), motion, distances->NameOfObstaclePair(b, o),
+          [&](const Placement& at, double t, double enough) {
+            return distances->FromObstacle(b, o, at, t, enough);
           },
           &obstacles);
     }
@@ -93,7 +107,9 @@ void CheckClearances(const PlayedMotion& motion, const CertificateText& certific
     for (size_t k = 0; k < path.size(); ++k) path[k] += paths[b][k];
     Keep(
         path, motion, distances->NameOfPair(a, b),
-        [&](const Placement& at, double enough) { return distances->OfPair(a, b, at, enough); },
+        [&](const Placement& at, double, double enough) {
+          return distances->OfPair(a, b, at, enough);
+        },
         &selves);
   }
   selves.Conclude(findings);

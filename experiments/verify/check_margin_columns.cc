@@ -52,7 +52,7 @@ std::array<double, kNumMarginColumns> MarginsAt(const DescribedWalk& walk, const
           joint,
           JointSpeedMarginAt(walk, row.t, certificate.joint_speed_scale),
           FootSpeedMarginAt(walk, row, certificate.foot_speed),
-          distances->NearestObstacle(at, horizon),
+          distances->NearestObstacle(at, row.t, horizon),
           distances->NearestPair(at, horizon)};
 }
 

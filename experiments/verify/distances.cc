@@ -1,6 +1,7 @@
 #include "experiments/verify/distances.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace halfstep::verify {
 
@@ -9,6 +10,8 @@ Distances::Distances(const RobotModel& robot, const Scene& scene) : robot_(robot
   for (const Obstacle& obstacle : scene.obstacles) {
     std::visit([this](const auto& shape) { obstacles_.emplace_back(BodyOf(shape)); },
                obstacle.shape);
+    const Solid& solid = obstacles_.back();
+    paths_.emplace_back(obstacle, solid.center().norm() + solid.radius());
   }
 }
 
@@ -25,13 +28,21 @@ double Distances::QuickBound(const Solid& a, const Eigen::Isometry3d& X_a, const
 }
 
 Distances::Result Distances::FromObstacle(size_t body, size_t obstacle, const Placement& at,
-                                          double enough) {
+                                          double t, double enough) {
   const Eigen::Isometry3d X_WB = at.OfBody(robot_.bodies[body]);
-  const Eigen::Isometry3d& X_WO = scene_.obstacles[obstacle].X_WO;
-  const double quick = QuickBound(bodies_[body], X_WB, obstacles_[obstacle], X_WO);
+  const Eigen::Isometry3d X_WO = paths_[obstacle].At(t);
+  const double taken = paths_[obstacle].Uncertainty(t);
+  const double quick = QuickBound(bodies_[body], X_WB, obstacles_[obstacle], X_WO) - taken;
   if (quick >= enough) return {quick, false};
   ++queries_;
-  return {Solid::Distance(bodies_[body], X_WB, obstacles_[obstacle], X_WO), true};
+  return {Solid::Distance(bodies_[body], X_WB, obstacles_[obstacle], X_WO) - taken, true};
+}
+
+double Distances::ObstacleChange(size_t obstacle, double from, double to) const {
+  const ObstaclePath& path = paths_[obstacle];
+  const Eigen::Vector3d& middle = obstacles_[obstacle].center();
+  return (path.At(to) * middle - path.At(from) * middle).norm() +
+         std::abs(path.Uncertainty(to) - path.Uncertainty(from));
 }
 
 Distances::Result Distances::OfPair(size_t a, size_t b, const Placement& at, double enough) {
@@ -43,11 +54,11 @@ Distances::Result Distances::OfPair(size_t a, size_t b, const Placement& at, dou
   return {Solid::Distance(bodies_[a], X_Ba, bodies_[b], X_Bb), true};
 }
 
-double Distances::NearestObstacle(const Placement& at, double horizon) {
+double Distances::NearestObstacle(const Placement& at, double t, double horizon) {
   double least = horizon;
   for (size_t b = 0; b < bodies_.size(); ++b) {
     for (size_t o = 0; o < obstacles_.size(); ++o) {
-      least = std::min(least, FromObstacle(b, o, at, least).distance);
+      least = std::min(least, FromObstacle(b, o, at, t, least).distance);
     }
   }
   return least;

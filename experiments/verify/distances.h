@@ -3,14 +3,17 @@
 #include <string>
 #include <vector>
 
+#include "experiments/verify/obstacle_path.h"
 #include "experiments/verify/played_motion.h"
 #include "experiments/verify/solid.h"
 #include "planner/scene/scene.h"
 
 namespace halfstep::verify {
 
-/// Distances of the robot's bodies from obstacles and from each other, by Solid.
-/// Borrows robot and scene. Const but for the count of queries.
+/// Distances of the robot's bodies from obstacles and from each other, by Solid. Obstacles are
+/// where they are said to be at a time t of the walk [s], and distances from them are less than
+/// that by how far from there they may be. Borrows robot and scene. Const but for the count of
+/// queries.
 class Distances {
  public:
   Distances(const RobotModel& robot, const Scene& scene);
@@ -25,15 +28,23 @@ class Distances {
     double distance = 0;
     bool exact = false;
   };
-  /// Distance of a body from an obstacle [m]. Where their bounding volumes are at least `enough`
-  /// [m] apart, it is the distance of these.
-  Result FromObstacle(size_t body, size_t obstacle, const Placement& at, double enough);
+  /// Distance of a body from an obstacle at t [m], less the obstacle's uncertainty. Where by their
+  /// bounding volumes it is at least `enough` [m], it is that of these.
+  Result FromObstacle(size_t body, size_t obstacle, const Placement& at, double t, double enough);
   /// The same for two bodies of the robot.
   Result OfPair(size_t a, size_t b, const Placement& at, double enough);
 
-  /// Smallest distance of any body from any obstacle, and of any watched pair of bodies; at most
-  /// `horizon` [m].
-  double NearestObstacle(const Placement& at, double horizon);
+  /// A speed that bounds how fast an obstacle takes off such a distance within [begin, end] [m/s].
+  double ObstacleSpeed(size_t obstacle, double begin, double end) const {
+    return paths_[obstacle].FastestWithin(begin, end);
+  }
+  /// How far the middle of an obstacle moves from one time to another, and how much its uncertainty
+  /// changes, added [m].
+  double ObstacleChange(size_t obstacle, double from, double to) const;
+
+  /// Smallest distance of any body from any obstacle at t, and of any watched pair of bodies; at
+  /// most `horizon` [m].
+  double NearestObstacle(const Placement& at, double t, double horizon);
   double NearestPair(const Placement& at, double horizon);
 
   /// How far the program's distances may be from these [m]: its slabs and its meshes may be 1e-6 m
@@ -51,6 +62,7 @@ class Distances {
   const RobotModel& robot_;
   const Scene& scene_;
   std::vector<Solid> bodies_, obstacles_;
+  std::vector<ObstaclePath> paths_;
   long queries_ = 0;
 };
 

@@ -83,7 +83,8 @@ SmoothingResult Coordinate(const WalkProblem& problem, const SmootherOptions& op
 SmoothingResult Reference(const WalkProblem& problem, const SmootherOptions& options,
                           SmoothingMonitor& monitor) {
   ReferenceOptions reference{.parameters = options.optimizer.program.parameters};
-  if (reference.parameters.heights || reference.parameters.durations) {
+  const bool more = reference.parameters.heights || reference.parameters.durations;
+  if (more && problem.scene().rests()) {
     SmoothingMonitor uniform(monitor.Part(0.0, 0.0)), coordinate(monitor.Part(0.0, 0.0));
     reference.starts = {Uniform(problem, options, uniform).parameters,
                         Coordinate(problem, options, coordinate).parameters};

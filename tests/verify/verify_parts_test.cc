@@ -213,8 +213,8 @@ TEST(Distances, BoundingVolumesAreNeverFartherApartThanTheSolids) {
     double nearest = kInfinity, nearest_pair = kInfinity;
     for (size_t b = 0; b < robot.bodies.size(); ++b) {
       for (size_t o = 0; o < scene.obstacles.size(); ++o) {
-        const auto quick = distances.FromObstacle(b, o, at, -kInfinity);
-        const auto exact = distances.FromObstacle(b, o, at, kInfinity);
+        const auto quick = distances.FromObstacle(b, o, at, 0.0, -kInfinity);
+        const auto exact = distances.FromObstacle(b, o, at, 0.0, kInfinity);
         ASSERT_TRUE(!quick.exact && exact.exact);
         EXPECT_LE(quick.distance, exact.distance + 1e-9) << distances.NameOfObstaclePair(b, o);
         nearest = std::min(nearest, exact.distance);
@@ -226,9 +226,9 @@ TEST(Distances, BoundingVolumesAreNeverFartherApartThanTheSolids) {
       EXPECT_LE(distances.OfPair(a, b, at, -kInfinity).distance, exact + 1e-9);
       nearest_pair = std::min(nearest_pair, exact);
     }
-    EXPECT_EQ(distances.NearestObstacle(at, 10), nearest);
+    EXPECT_EQ(distances.NearestObstacle(at, 0.0, 10), nearest);
     EXPECT_EQ(distances.NearestPair(at, 10), nearest_pair);
-    EXPECT_LE(distances.NearestObstacle(at, 0.01), 0.01);
+    EXPECT_LE(distances.NearestObstacle(at, 0.0, 0.01), 0.01);
   }
 }
 
