@@ -121,12 +121,12 @@ class Lockstep {
         Tell(now, "lost", Formatted("frame of %.3f s", taken));
         continue;
       }
-      WorldUpdate update = Updated(*world_, std::move(frame), options_);
+      WorldUpdate update = Updated(record_.worlds, std::move(frame), options_);
       world_ = std::make_shared<const World>(std::move(update.world));
       Know(now);
       Tell(now, "measured", Formatted("frame of %.3f s", taken));
       for (const std::string& name : update.contradictions) Tell(now, "contradicted", name);
-      if (!update.contradictions.empty()) executor_->Revoke();
+      if (executor_->grant().version < world_->sound_since) executor_->Revoke();
     }
   }
 
@@ -228,7 +228,8 @@ class Lockstep {
         StanceAfter(executor_->plan().sequence, executor_->begun());
     const bool on_both = executor_->begun() % 2 == 1;
     const bool arrived = at_rest && on_both && now > truth_.end() + options_.sensing.period &&
-                         truth_.GoalAt(now).ContainsStance(stance);
+                         truth_.GoalAt(now).ContainsStance(stance) &&
+                         world_->goal.ContainsStance(stance);
     if (!arrived && !over && !interrupted) return false;
     record_.ending = arrived       ? EpisodeEnding::kArrived
                      : interrupted ? EpisodeEnding::kInterrupted

@@ -23,6 +23,19 @@ bool Contradicts(const Obstacle& before, const Obstacle& now) {
   return Displacement(before, now) > allowed + kRounding;
 }
 
+// What of a world an earlier one did not allow: names.
+std::vector<std::string> Contradictions(const World& earlier, const World& now) {
+  std::vector<std::string> names;
+  for (const Obstacle& obstacle : now.scene.obstacles) {
+    const auto old = std::ranges::find(earlier.scene.obstacles, obstacle.name, &Obstacle::name);
+    if (old == earlier.scene.obstacles.end() || Contradicts(*old, obstacle)) {
+      names.push_back(obstacle.name);
+    }
+  }
+  if (!std::ranges::includes(earlier.areas, now.areas)) names.push_back("a no-step area");
+  return names;
+}
+
 Eigen::Vector3d InBall(double radius, std::mt19937_64& random) {
   std::uniform_real_distribution<double> side(-1.0, 1.0);
   while (true) {
@@ -43,20 +56,23 @@ double World::valid_until() const {
   return until;
 }
 
-WorldUpdate Updated(const World& before, World frame, const LiveOptions& options) {
+WorldUpdate Updated(std::span<const World> before, World frame, const LiveOptions& options) {
   WorldUpdate update{.world = std::move(frame), .contradictions = {}};
   World& world = update.world;
-  world.version = before.version + 1;
-  world.sound_since = before.sound_since;
+  const World& last = before.back();
+  world.version = last.version + 1;
+  world.sound_since = last.sound_since;
+  for (int v = last.version; v >= last.sound_since; --v) {
+    update.contradictions = Contradictions(before[static_cast<size_t>(v)], world);
+    if (update.contradictions.empty()) continue;
+    world.sound_since = v + 1;
+    break;
+  }
   for (size_t i = 0; i < world.scene.obstacles.size(); ++i) {
     Obstacle& now = world.scene.obstacles[i];
-    const auto old = std::ranges::find(before.scene.obstacles, now.name, &Obstacle::name);
-    if (old == before.scene.obstacles.end() || Contradicts(*old, now)) {
-      update.contradictions.push_back(now.name);
-    }
-    if (old == before.scene.obstacles.end()) continue;
-    const World::Stay& stay =
-        before.stays[static_cast<size_t>(old - before.scene.obstacles.begin())];
+    const auto old = std::ranges::find(last.scene.obstacles, now.name, &Obstacle::name);
+    if (old == last.scene.obstacles.end()) continue;
+    const World::Stay& stay = last.stays[static_cast<size_t>(old - last.scene.obstacles.begin())];
     Obstacle first = now;
     first.X_WO = stay.X_WO;
     const double drifted = options.drift * (now.motion.measured_at - stay.since);
@@ -66,10 +82,6 @@ WorldUpdate Updated(const World& before, World frame, const LiveOptions& options
                        now.motion.measured_at - stay.since >= *options.sensing.rests_after;
     if (rests) now.motion.speed = options.drift;
   }
-  if (world.scene.no_step.size() > before.scene.no_step.size()) {
-    update.contradictions.push_back("a no-step area");
-  }
-  if (!update.contradictions.empty()) world.sound_since = world.version;
   return update;
 }
 
