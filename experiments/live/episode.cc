@@ -46,7 +46,9 @@ bool DiffersClearly(const World& a, const World& b) {
   for (size_t i = 0; i < a.scene.obstacles.size(); ++i) {
     const Obstacle &x = a.scene.obstacles[i], &y = b.scene.obstacles[i];
     const double moved = (x.X_WO.translation() - y.X_WO.translation()).norm();
-    if (x.name != y.name || moved > x.motion.error + y.motion.error + kClear) return true;
+    if (x.name != y.name || x.motion.speed != y.motion.speed ||
+        moved > x.motion.error + y.motion.error + kClear)
+      return true;
   }
   return false;
 }
@@ -62,16 +64,16 @@ class Lockstep {
         random_(static_cast<std::uint64_t>(replanner.config().experiment.seed)) {}
 
   Episode Run(const std::array<Footprint, 2>& start) {
-    world_ = std::make_shared<const World>(Measure(truth_, 0.0, options_, noise_));
-    Know(0.0);
-    Proposal first = replanner_.Begin(start, *world_, random_);
+    const Proposal first = Wait(start);
     if (first.kind == ProposalKind::kUnsafe) {
       record_.message = first.reason;
       return std::move(record_);
     }
+    Know(0.0);
     executor_.emplace(first.plan, first.grant);
     smoothed_ = first.smoothed;
-    checked_ = world_;
+    robot_through_ = first.robot_through;
+    checked_ = last_tried_ = world_;
     HandOver(first, 0.0, 0.0);
     Begins(0);
     for (long tick = 0;; ++tick) {
@@ -92,6 +94,27 @@ class Lockstep {
     std::shared_ptr<const World> world;
     Proposal proposal = {};
   };
+
+  // Measures until there is a walk, which begins at the time that is t = 0 from then on.
+  Proposal Wait(const std::array<Footprint, 2>& start) {
+    World world = Measure(truth_, 0.0, options_, noise_);
+    std::optional<World> tried;
+    Proposal first{.kind = ProposalKind::kUnsafe};
+    for (long frame = 0; first.kind == ProposalKind::kUnsafe; ++frame) {
+      const double now = static_cast<double>(frame) * options_.sensing.period;
+      if (now > options_.longest || hooks_.stop.stop_requested()) return first;
+      if (frame > 0) {
+        world = Updated(world, Measure(truth_, now, options_, noise_), options_).world;
+      }
+      if (tried && !DiffersClearly(*tried, world)) continue;
+      tried = world;
+      world_ = std::make_shared<const World>(Since(world, now));
+      first = replanner_.Begin(start, *world_, random_);
+      record_.waited = now;
+    }
+    truth_ = truth_.Since(record_.waited);
+    return first;
+  }
 
   void Tell(double t, const std::string& what, const std::string& text, int half_step = -1) {
     record_.events.push_back({.t = t,
@@ -152,7 +175,8 @@ class Lockstep {
     // What was proved runs out, for a half-step that begins soon.
     const SuperposedWalk& walk = executor_->walk();
     const int next = std::min(executor_->begun() + 1, walk.num_half_steps() - 1);
-    return executor_->grant().valid_until < walk.end_of(next) + kAhead;
+    return walk.start_of(next) < now + kAhead &&
+           executor_->grant().valid_until < walk.end_of(next) + options_.period;
   }
 
   void Start(double now) {
@@ -161,11 +185,13 @@ class Lockstep {
     const Situation situation{.plan = executor_->plan(),
                               .smoothed = smoothed_,
                               .grant = executor_->grant(),
+                              .robot_through = robot_through_,
                               .begun = executor_->begun(),
                               .stopped = executor_->stopped(),
                               .now = now,
                               .hand_over = now + longest + 2.0 * options_.period,
-                              .world = world_};
+                              .world = world_,
+                              .shorten = tries_ > 0};
     job_.emplace(Job{.asked = now, .world = world_});
     job_->proposal = replanner_.Propose(situation, random_);
     const Proposal& proposal = job_->proposal;
@@ -187,9 +213,15 @@ class Lockstep {
       again_ = true;
       return;
     }
+    if (DiffersClearly(*last_tried_, *job.world)) tries_ = kTries;
+    last_tried_ = job.world;
     const bool successor = proposal.first_changed >= 0 && !stuck_;
     if (!successor) {
+      const bool tried = proposal.planned.status != PlanStatus::kNotRun;
+      if (tried && !stuck_) --tries_;
+      again_ = tried && !stuck_ && tries_ > 0;
       if (stuck_) Tell(now, "unsafe", proposal.reason, proposal.grant.through);
+      robot_through_ = proposal.robot_through;
       executor_->Take(proposal.grant);
       record_.grants.push_back({now, static_cast<int>(record_.walks.size()) - 1, proposal.grant});
       return;
@@ -201,6 +233,7 @@ class Lockstep {
       return;
     }
     smoothed_ = proposal.smoothed;
+    robot_through_ = proposal.robot_through;
     HandOver(proposal, now, job.asked);
   }
 
@@ -240,21 +273,24 @@ class Lockstep {
     return true;
   }
 
+  static constexpr int kTries = 3;       // to find a shorter way, after each change of the world
   static constexpr double kRetry = 0.5;  // after a search that found no way [s]
   static constexpr double kAhead = 0.3;  // proofs are renewed so long before they are needed [s]
 
   const Replanner& replanner_;
   const LiveOptions& options_;
-  const TrueWorld& truth_;
+  TrueWorld truth_;
   const EpisodeHooks& hooks_;
   std::mt19937_64 noise_, random_;
   Episode record_;
-  std::shared_ptr<const World> world_, checked_;
+  std::shared_ptr<const World> world_, checked_, last_tried_;
   std::optional<Executor> executor_;
   std::vector<bool> smoothed_;
+  int robot_through_ = -1;
   std::optional<Job> job_;
   long frame_ = 0;
   bool again_ = true, stuck_ = false;
+  int tries_ = 0;
   double asked_ = 0.0;
 };
 

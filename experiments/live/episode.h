@@ -67,6 +67,7 @@ struct Episode {
   std::vector<EpisodeGrant> grants;
   std::vector<BegunHalfStep> begun;
   std::vector<EpisodeEvent> events;
+  double waited = 0.0;   ///< before the first walk began, at t = 0; a time of the script [s]
   bool stopped = false;  ///< the last walk was cut after its half-step `begun.back()`
   double end = 0.0;      ///< [s]
 
@@ -81,8 +82,8 @@ struct EpisodeHooks {
 };
 
 /// Lets the robot walk from `start` by the config's clock lockstep: time stands still while the
-/// replanner computes, and its budget is charged. The same arguments give the same record, to the
-/// byte.
+/// replanner computes, and its budget is charged. The robot waits until there is a safe walk. The
+/// same arguments give the same record, to the byte.
 Episode RunLockstep(const Replanner& replanner, const TrueWorld& truth,
                     const std::array<Footprint, 2>& start, const EpisodeHooks& hooks);
 

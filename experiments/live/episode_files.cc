@@ -185,6 +185,7 @@ std::string ManifestJson(const Episode& episode, const LiveConfig& config,
                                      {"policy", config.live.policy},
                                      {"ending", Name(episode.ending)},
                                      {"message", episode.message},
+                                     {"waited_s", episode.waited},
                                      {"end_s", episode.end},
                                      {"stopped", episode.stopped},
                                      {"walks", episode.walks.size()}};

@@ -41,7 +41,8 @@ EpisodeSummary Summarize(const Episode& episode, const TrueWorld& truth, const R
   summary.contradicted = CountOf(episode, "contradicted");
   summary.stops = CountOf(episode, "stopped");
   summary.unsafe = CountOf(episode, "unsafe");
-  summary.nearest = NearestApproach(episode, truth, robot, 0.005, 0.3);
+  summary.waited = episode.waited;
+  summary.nearest = NearestApproach(episode, truth.Since(episode.waited), robot, 0.005, 0.3);
   return summary;
 }
 
@@ -49,6 +50,7 @@ std::string SummaryScreen(const Episode& episode, const EpisodeSummary& summary,
                           const std::string& folder) {
   std::string text = summary.ending;
   if (!episode.message.empty()) text += ": " + episode.message;
+  if (summary.waited > 0.0) text += Formatted(", waited %.2f s", summary.waited);
   text += Formatted(", %.2f s, ", summary.duration);
   text += Counted(summary.half_steps, "half-step", "half-steps") + "\n";
   text += "handed over  " +
@@ -77,6 +79,7 @@ std::string SummaryJson(const Episode& episode, const EpisodeSummary& summary,
                         const std::string& folder) {
   nlohmann::ordered_json json = {{"ending", summary.ending},
                                  {"message", episode.message},
+                                 {"waited_s", summary.waited},
                                  {"duration_s", summary.duration},
                                  {"half_steps", summary.half_steps},
                                  {"changed", summary.changed},

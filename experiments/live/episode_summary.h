@@ -13,6 +13,7 @@ namespace halfstep {
 /// The numbers that tell how an episode went.
 struct EpisodeSummary {
   std::string ending;
+  double waited = 0.0;                         ///< before the walk began [s]
   double duration = 0.0;                       ///< [s]
   int half_steps = 0;                          ///< that began
   int changed = 0, smoothed = 0, resumed = 0;  ///< successors that were handed over

@@ -10,7 +10,7 @@
 
 namespace halfstep {
 
-/// What was proved about a walk: its half-steps up to `through` may begin, as long as they end by
+/// What was proved of a walk: its half-steps up to `through` may begin, as long as they end by
 /// `valid_until` [s].
 struct Grant {
   int version = 0;         ///< of the world that it was proved against

@@ -19,6 +19,8 @@ std::string_view Name(ProposalKind kind) {
       return "resumed";
     case ProposalKind::kChanged:
       return "changed";
+    case ProposalKind::kShortened:
+      return "shortened";
     case ProposalKind::kSmoothed:
       return "smoothed";
     case ProposalKind::kUnsafe:
@@ -34,13 +36,6 @@ struct Replanner::Among {
         certifier(replanner.robot_, w.scene, replanner.config_.experiment),
         query(replanner.volumes_, replanner.robot_.sole_outline, w.scene,
               replanner.config_.experiment.smoothing.limits.demanded_of(MarginFamily::kNoStep)) {}
-
-  Grant GrantOf(const Safety& proved, double since) const {
-    return {.version = world.version,
-            .proved_at = since,
-            .through = proved.through,
-            .valid_until = world.valid_until()};
-  }
 
   const World& world;
   SafetyCheck safety;
@@ -81,8 +76,30 @@ PlanResult Replanner::Plan(const std::array<Footprint, 2>& stance,
   return MakePlanner(options.name, among.world.scene, options.options)->Plan(request, random);
 }
 
-bool Replanner::Change(const Situation& situation, const WalkPlan& plan, int junction,
-                       const Among& among, std::mt19937_64& random, Proposal* proposal) const {
+std::optional<Margin> Replanner::Prove(const Situation& s, const SuperposedWalk& walk, int last,
+                                       const Among& among, Proposal* proposal) const {
+  const Safety robot = alone_.OfRobot(walk, std::max(proposal->robot_through + 1, s.begun), last);
+  proposal->robot_through = std::max(robot.through, proposal->robot_through);
+  Grant& grant = proposal->grant;
+  // What is proved against this world already need not be proved again.
+  if (grant.version != among.world.version || grant.through < s.begun) {
+    grant = {.version = among.world.version,
+             .proved_at = s.now,
+             .through = s.begun - 1,
+             .valid_until = among.world.valid_until()};
+  }
+  const int first = grant.through + 1;
+  const double since =
+      first == s.begun ? s.now : walk.start_of(std::min(first, walk.num_half_steps() - 1));
+  const Safety safety =
+      among.safety.AmongObstacles(walk, first, std::min(last, proposal->robot_through), since);
+  grant.through = safety.through;
+  return safety.refused_by ? safety.refused_by : robot.refused_by;
+}
+
+bool Replanner::Change(const Situation& s, const WalkPlan& plan, int junction, const Among& among,
+                       std::mt19937_64& random, Proposal* proposal) const {
+  constexpr int kProvedAtOnce = 4;  // half-steps behind the junction
   const double begin = SteadySeconds();
   const auto& [half_step, X_WS] = plan.sequence.half_steps[static_cast<size_t>(junction)];
   std::optional<StepState> in_air;
@@ -92,22 +109,29 @@ bool Replanner::Change(const Situation& situation, const WalkPlan& plan, int jun
   proposal->plan_s += SteadySeconds() - begin;
   if (result.status != PlanStatus::kSolved) return false;
   if (result.footsteps.empty() && junction % 2 == 0) return false;
-  WalkPlan changed = Changed(plan, junction, result.footsteps);
-  const bool more = junction + 1 < changed.sequence.size();
-  if (more && changed.Walk().start_of(junction + 1) < situation.hand_over) {
-    changed = Delayed(changed, junction, situation.hand_over);
+  Proposal changed = *proposal;
+  changed.plan = Changed(plan, junction, result.footsteps);
+  const bool more = junction + 1 < changed.plan.sequence.size();
+  if (more && changed.plan.Walk().start_of(junction + 1) < s.hand_over) {
+    changed.plan = Delayed(changed.plan, junction, s.hand_over);
   }
+  changed.first_changed = junction + 1;
+  changed.smoothed.resize(static_cast<size_t>(junction));
+  changed.smoothed.resize(static_cast<size_t>(changed.plan.sequence.num_junctions()), false);
+  // The walk is another one from t_{junction + 1} on, and so is its half-step `junction` until
+  // then.
+  changed.robot_through = std::min(proposal->robot_through, junction - 1);
+  changed.grant.through = std::min(proposal->grant.through, junction - 1);
   const double check = SteadySeconds();
-  const SuperposedWalk walk = changed.Walk();
-  const bool proved = !more || alone_.OfRobot(walk, junction).all(walk);
-  const Safety safety = among.safety.AmongObstacles(walk, situation.begun, situation.now);
-  proposal->check_s += SteadySeconds() - check;
-  if (!proved || !safety.all(walk)) return false;
-  proposal->plan = std::move(changed);
-  proposal->smoothed.resize(static_cast<size_t>(junction));
-  proposal->smoothed.resize(static_cast<size_t>(proposal->plan.sequence.num_junctions()), false);
-  proposal->first_changed = junction + 1;
-  proposal->grant = among.GrantOf(safety, situation.now);
+  const SuperposedWalk walk = changed.plan.Walk();
+  const int last = std::min(junction + kProvedAtOnce, walk.num_half_steps() - 1);
+  const bool proved = !Prove(s, walk, last, among, &changed);
+  changed.check_s += SteadySeconds() - check;
+  if (!proved) {
+    proposal->check_s = changed.check_s;
+    return false;
+  }
+  *proposal = std::move(changed);
   return true;
 }
 
@@ -162,8 +186,23 @@ bool Replanner::Smooth(double from, int begun, const Among& among, Proposal* pro
   return true;
 }
 
-std::vector<int> Replanner::Junctions(const Situation& s, const SuperposedWalk& walk,
-                                      const Safety& safety, bool arrives) const {
+void Replanner::Shorten(const Situation& s, const Among& among, std::mt19937_64& random,
+                        Proposal* proposal) const {
+  const SuperposedWalk walk = proposal->plan.Walk();
+  const std::vector<int> junctions =
+      Junctions(s, walk, walk.num_half_steps() - 1, /*arrives=*/false);
+  if (junctions.empty()) return;
+  Proposal shorter = *proposal;
+  const bool changed = Change(s, proposal->plan, junctions.front(), among, random, &shorter);
+  proposal->planned = shorter.planned;
+  if (!changed || shorter.plan.sequence.size() >= proposal->plan.sequence.size()) return;
+  shorter.kind = ProposalKind::kShortened;
+  shorter.reason = "fewer footsteps";
+  *proposal = std::move(shorter);
+}
+
+std::vector<int> Replanner::Junctions(const Situation& s, const SuperposedWalk& walk, int through,
+                                      bool arrives) const {
   int first = s.begun;  // the latest half-step that will have begun
   while (!s.stopped && first + 1 < walk.num_half_steps() &&
          walk.start_of(first + 1) <= s.hand_over) {
@@ -172,7 +211,7 @@ std::vector<int> Replanner::Junctions(const Situation& s, const SuperposedWalk& 
   const std::string& policy = config_.live.policy;
   if (policy == "stop_and_replan" && !(s.stopped && walk.end_of(s.begun) <= s.now)) return {};
   if (policy == "paper" && !s.stopped) first += arrives ? 2 : 4;
-  const int last = std::min(safety.through, walk.num_half_steps() - 1);
+  const int last = std::min(through, walk.num_half_steps() - 1);
   if (last < first) return {};
   std::vector<int> junctions;
   if (arrives) {
@@ -185,7 +224,8 @@ std::vector<int> Replanner::Junctions(const Situation& s, const SuperposedWalk& 
 }
 
 Proposal Replanner::Propose(const Situation& s, std::mt19937_64& random) const {
-  Proposal proposal{.plan = s.plan, .smoothed = s.smoothed};
+  Proposal proposal{
+      .plan = s.plan, .smoothed = s.smoothed, .robot_through = s.robot_through, .grant = s.grant};
   const double begin = SteadySeconds();
   const Among among(*this, *s.world);
   const bool more = s.begun + 1 < s.plan.sequence.size();
@@ -196,15 +236,12 @@ Proposal Replanner::Propose(const Situation& s, std::mt19937_64& random) const {
     proposal.smoothed[static_cast<size_t>(s.begun)] = true;
   }
   const SuperposedWalk walk = proposal.plan.Walk();
-  // What is proved against this world already need not be proved again.
-  const bool known = !s.stopped && s.grant.version == s.world->version &&
-                     s.grant.through + 1 == walk.num_half_steps();
-  const Safety safety = known ? Safety{.through = s.grant.through, .refused_by = {}}
-                              : among.safety.AmongObstacles(walk, s.begun, s.now);
+  if (s.stopped) proposal.grant.through = std::min(proposal.grant.through, s.begun - 1);
+  const int all = walk.num_half_steps() - 1;
+  const std::optional<Margin> refused = Prove(s, walk, all, among, &proposal);
   const bool arrives = Arrives(proposal.plan, *s.world);
-  proposal.grant = known ? s.grant : among.GrantOf(safety, s.now);
   proposal.check_s = SteadySeconds() - begin;
-  if (safety.all(walk) && arrives) {
+  if (!refused && arrives) {
     if (s.stopped && more) {
       proposal.kind = ProposalKind::kResumed;
       proposal.reason = "nothing is in the way any more";
@@ -217,12 +254,13 @@ Proposal Replanner::Propose(const Situation& s, std::mt19937_64& random) const {
       proposal.reason = "overlaps";
     }
     proposal.smooth_s = SteadySeconds() - smooth;
+    if (proposal.kind == ProposalKind::kSafe && s.shorten) Shorten(s, among, random, &proposal);
     return proposal;
   }
-  proposal.reason = arrives ? among.safety.evaluator().Describe(*safety.refused_by)
-                            : "the walk does not end in the goal";
+  proposal.reason =
+      refused ? among.safety.evaluator().Describe(*refused) : "the walk does not end in the goal";
   const WalkPlan plan = proposal.plan;
-  for (const int junction : Junctions(s, walk, safety, arrives)) {
+  for (const int junction : Junctions(s, walk, proposal.grant.through, arrives)) {
     if (Change(s, plan, junction, among, random, &proposal)) {
       proposal.kind = ProposalKind::kChanged;
       return proposal;
@@ -244,16 +282,14 @@ Proposal Replanner::Begin(const std::array<Footprint, 2>& start, const World& wo
                                         like.shape, {.com_height = robot_.com_height});
   proposal.plan.parameters = PlannedMotion(proposal.plan.sequence);
   const SuperposedWalk walk = proposal.plan.Walk();
-  const Safety robot = alone_.OfRobot(walk, 0);
-  const Safety safety = among.safety.AmongObstacles(walk, 0, 0.0);
-  for (const Safety* refused : {&robot, &safety}) {
-    if (refused->all(walk)) continue;
-    proposal.reason = among.safety.evaluator().Describe(*refused->refused_by);
+  Situation situation;
+  proposal.grant.version = -1;
+  if (const auto refused = Prove(situation, walk, walk.num_half_steps() - 1, among, &proposal)) {
+    proposal.reason = among.safety.evaluator().Describe(*refused);
     return proposal;
   }
   proposal.kind = ProposalKind::kChanged;
   proposal.first_changed = 0;
-  proposal.grant = among.GrantOf(safety, 0.0);
   proposal.smoothed.resize(static_cast<size_t>(proposal.plan.sequence.num_junctions()), false);
   while (Smooth(0.0, 0, among, &proposal)) {
   }

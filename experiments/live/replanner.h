@@ -21,20 +21,23 @@ namespace halfstep {
 struct Situation {
   WalkPlan plan;
   std::vector<bool> smoothed;  ///< by junction: its overlap was found already
-  Grant grant;                 ///< what is proved about it
+  Grant grant;                 ///< what is proved of it
+  int robot_through = -1;      ///< what does not depend on the world is proved up to this half-step
   int begun = 0;               ///< the latest half-step that has begun
   bool stopped = false;        ///< nothing more begins unless a successor is handed over
   double now = 0.0;            ///< [s]
   double hand_over = 0.0;      ///< a successor is taken at this time at the earliest [s]
   std::shared_ptr<const World> world;
+  bool shorten = false;  ///< when nothing else is to be done, look for a shorter way
 };
 
 enum class ProposalKind {
-  kSafe,      ///< the walk stays, and is safe
-  kResumed,   ///< the walk goes on after a stop, as it was planned
-  kChanged,   ///< other footsteps, around what is in the way or to another goal
-  kSmoothed,  ///< other overlaps
-  kUnsafe,    ///< there is no safe way on that was found: what is granted is executed
+  kSafe,       ///< the walk stays, and is safe
+  kResumed,    ///< the walk goes on after a stop, as it was planned
+  kChanged,    ///< other footsteps, around what is in the way or to another goal
+  kShortened,  ///< other footsteps, since they are fewer
+  kSmoothed,   ///< other overlaps
+  kUnsafe,     ///< there is no safe way on that was found: what is granted is executed
 };
 std::string_view Name(ProposalKind kind);
 
@@ -44,6 +47,7 @@ struct Proposal {
   std::string reason = {};  ///< in words
   WalkPlan plan = {};       ///< a successor, or the walk itself
   std::vector<bool> smoothed = {};
+  int robot_through = -1;
   int first_changed = -1;  ///< half-step; −1: none
   Grant grant = {};
   PlanResult planned = {};                             ///< of kChanged
@@ -53,7 +57,9 @@ struct Proposal {
 /// Looks at a walk that is being executed, in this order of urgency: which half-steps are safe in
 /// the world as it is known now; if not all, or if the walk does not end in the goal: other
 /// footsteps from the last safe junction that can still be changed; else: overlaps of what has not
-/// begun. Immutable; the same situation and the same state of `random` give the same proposal.
+/// begun; else: fewer footsteps. A proposal is made as soon as the next half-steps of it are
+/// proved; the next proposal proves the others. Immutable; the same situation and the same state of
+/// `random` give the same proposal.
 class Replanner {
  public:
   /// `volumes` is borrowed. Clearances of volumes are those that the config demands.
@@ -75,14 +81,21 @@ class Replanner {
   bool Arrives(const WalkPlan& plan, const World& world) const;
   PlanResult Plan(const std::array<Footprint, 2>& stance, const std::optional<StepState>& in_air,
                   const Among& among, std::mt19937_64& random) const;
+  // Proves the walk of the proposal up to half-step `last` as far as it is not proved yet, and
+  // grants it. Returns what refused it.
+  std::optional<Margin> Prove(const Situation& situation, const SuperposedWalk& walk, int last,
+                              const Among& among, Proposal* proposal) const;
   // Other footsteps after half-step `junction`; false when there are none that are safe.
   bool Change(const Situation& situation, const WalkPlan& plan, int junction, const Among& among,
               std::mt19937_64& random, Proposal* proposal) const;
   // The overlaps of the next junctions that were not found yet; false when there are none.
   bool Smooth(double from, int begun, const Among& among, Proposal* proposal) const;
+  // A way with fewer footsteps, where one is found.
+  void Shorten(const Situation& situation, const Among& among, std::mt19937_64& random,
+               Proposal* proposal) const;
   // Half-steps after which other footsteps may follow, best first.
-  std::vector<int> Junctions(const Situation& situation, const SuperposedWalk& walk,
-                             const Safety& safety, bool arrives) const;
+  std::vector<int> Junctions(const Situation& situation, const SuperposedWalk& walk, int through,
+                             bool arrives) const;
 
   RobotModel robot_;
   LiveConfig config_;

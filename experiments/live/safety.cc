@@ -23,23 +23,25 @@ SafetyCheck::SafetyCheck(const RobotModel& robot, const Scene& scene,
                          const ExperimentConfig& config)
     : evaluator_(robot, scene, config.smoothing.limits), options_(config.smoothing.certification) {}
 
-Safety SafetyCheck::AmongObstacles(const SuperposedWalk& walk, int begun, double now) const {
-  return Prove(walk, begun, now, Families(true));
+Safety SafetyCheck::AmongObstacles(const SuperposedWalk& walk, int first, int last,
+                                   double since) const {
+  return Prove(walk, first, last, since, Families(true));
 }
 
-Safety SafetyCheck::OfRobot(const SuperposedWalk& walk, int first) const {
-  return Prove(walk, first, walk.start_of(first), Families(false));
+Safety SafetyCheck::OfRobot(const SuperposedWalk& walk, int first, int last) const {
+  const double since = first < walk.num_half_steps() ? walk.start_of(first) : walk.duration();
+  return Prove(walk, first, last, since, Families(false));
 }
 
 // Half-step j is safe when the walk keeps the margins until t_{j+1}, and its stop branch after
 // that.
-Safety SafetyCheck::Prove(const SuperposedWalk& walk, int first, double since,
+Safety SafetyCheck::Prove(const SuperposedWalk& walk, int first, int last, double since,
                           const std::vector<MarginFamily>& families) const {
   const CertifiedFeasibility test(evaluator_, options_, {.since = since, .families = families});
   MarginEvaluator::Scratch scratch = evaluator_.MakeScratch();
   Safety safety{.through = first - 1, .refused_by = {}};
   const int n = walk.num_half_steps();
-  for (int j = first; j < n; ++j) {
+  for (int j = first; j <= std::min(last, n - 1); ++j) {
     const double next = j + 1 < n ? walk.start_of(j + 1) : walk.duration();
     Feasibility answer{.verdict = Verdict::kFeasible, .evidence = {}, .witness = {}};
     if (next > since) {

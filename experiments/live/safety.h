@@ -14,12 +14,11 @@ namespace halfstep {
 
 /// How much of a walk that is being executed is safe.
 struct Safety {
-  /// For every half-step j from the latest that has begun to this one, the walk cut after j keeps
-  /// every margin that was looked at from now to its end: proved. One less than the latest that has
-  /// begun when not even its own stop branch could be proved.
+  /// For every half-step j from the first that was looked at to this one, the walk cut after j
+  /// keeps every margin that was looked at: proved. One less than the first when that one is
+  /// refused.
   int through = -1;
-  std::optional<Margin> refused_by;  ///< what ended the proof; none when all half-steps are safe
-  bool all(const SuperposedWalk& walk) const { return through + 1 == walk.num_half_steps(); }
+  std::optional<Margin> refused_by;  ///< what ended the proof; none when nothing was refused
 };
 
 /// Proves walks against one world. What depends on the robot alone is proved apart from what
@@ -30,14 +29,14 @@ class SafetyCheck {
 
   const MarginEvaluator& evaluator() const { return evaluator_; }
 
-  /// Proves clearances and no-step distances of the walk and its stop branches from `now` [s] on,
-  /// half-step after half-step from `begun`, the latest that has begun, until one is refused.
-  Safety AmongObstacles(const SuperposedWalk& walk, int begun, double now) const;
-  /// Proves all other margins of the half-steps from `first` on, in the same way.
-  Safety OfRobot(const SuperposedWalk& walk, int first) const;
+  /// Proves clearances and no-step distances of the walk and its stop branches from `since` [s] on,
+  /// half-step after half-step from `first` to `last`, or the walk's last, until one is refused.
+  Safety AmongObstacles(const SuperposedWalk& walk, int first, int last, double since) const;
+  /// Proves all other margins, in the same way.
+  Safety OfRobot(const SuperposedWalk& walk, int first, int last) const;
 
  private:
-  Safety Prove(const SuperposedWalk& walk, int first, double since,
+  Safety Prove(const SuperposedWalk& walk, int first, int last, double since,
                const std::vector<MarginFamily>& families) const;
 
   MarginEvaluator evaluator_;

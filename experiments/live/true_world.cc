@@ -68,6 +68,16 @@ TrueWorld::TrueWorld(const Scene& scene, const GoalConfig& goal, const LiveOptio
   if (!complaints.empty()) throw InputError(complaints);
 }
 
+TrueWorld TrueWorld::Since(double origin) const {
+  TrueWorld since = *this;
+  since.origin_ = origin;
+  for (std::vector<ScriptEvent>& events : since.of_obstacle_) {
+    for (ScriptEvent& event : events) event.at -= origin;
+  }
+  for (ScriptEvent& event : since.script_) event.at -= origin;
+  return since;
+}
+
 bool TrueWorld::IsThere(size_t obstacle, double t) const {
   const std::vector<ScriptEvent>& events = of_obstacle_[obstacle];
   bool there = std::ranges::find(events, "appear", &ScriptEvent::what) == events.end();

@@ -10,12 +10,15 @@
 namespace halfstep {
 
 /// What truly happens in an episode, known to no part of the robot: where every obstacle is at the
-/// time t [s], by the script. Frame: that of the walk, in which the world drifts when the robot
-/// does.
+/// time t of the walk [s], by the script. Frame: that of the walk, in which the world drifts when
+/// the robot does.
 class TrueWorld {
  public:
   /// Throws InputError when the script names an obstacle or an area that the scene does not have.
   TrueWorld(const Scene& scene, const GoalConfig& goal, const LiveOptions& options);
+
+  /// The same, for a walk that begins at the time `origin` of the script [s].
+  TrueWorld Since(double origin) const;
 
   const Scene& scene() const { return scene_; }  ///< as its file says it
 
@@ -28,7 +31,7 @@ class TrueWorld {
   /// Whether frames arrive at all.
   bool IsSeen(double t) const;
   /// The first time [s] from which on nothing happens any more, but for the drift.
-  double end() const { return end_; }
+  double end() const { return end_ - origin_; }
   /// How far the world has moved in the frame of the walk [m].
   Eigen::Vector3d DriftAt(double t) const { return {drift_ * t, 0.0, 0.0}; }
 
@@ -39,6 +42,7 @@ class TrueWorld {
   GoalConfig goal_;
   std::vector<ScriptEvent> script_;
   std::vector<std::vector<ScriptEvent>> of_obstacle_;
+  double origin_ = 0.0;  // of the walk's time, in that of the script
   double drift_ = 0.0;
   double end_ = 0.0;
 };

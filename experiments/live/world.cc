@@ -85,6 +85,14 @@ WorldUpdate Updated(std::span<const World> before, World frame, const LiveOption
   return update;
 }
 
+World Since(World world, double origin) {
+  world.version = world.sound_since = 0;
+  world.measured_at -= origin;
+  for (World::Stay& stay : world.stays) stay.since -= origin;
+  for (Obstacle& obstacle : world.scene.obstacles) obstacle.motion.measured_at -= origin;
+  return world;
+}
+
 World Measure(const TrueWorld& truth, double t, const LiveOptions& options,
               std::mt19937_64& random) {
   World frame;

@@ -51,6 +51,10 @@ struct WorldUpdate {
 };
 WorldUpdate Updated(std::span<const World> before, World frame, const LiveOptions& options);
 
+/// The same world for a walk that begins at time `origin` [s]: all times are counted from there,
+/// and this is the first version.
+World Since(World world, double origin);
+
 /// The stand-in for motion capture: a frame of what is truly there at t [s], positions off by the
 /// noise. Version and `sound_since` are for Updated() to fill.
 World Measure(const TrueWorld& truth, double t, const LiveOptions& options,

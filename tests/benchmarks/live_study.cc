@@ -1,0 +1,151 @@
+// Episodes drawn at random, in lockstep: one row an episode, then what the bench asks.
+//   live_study [FIRST [COUNT [POLICY]]]     default: seeds 1 … 100, policy replan
+// HRP-2's swept volumes from the user's cache, baked when they are not there.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "experiments/config/experiment.h"
+#include "experiments/live/episode_summary.h"
+#include "experiments/live/random_episode.h"
+#include "experiments/run/planning.h"
+
+namespace {
+
+using namespace halfstep;
+
+// The duration of a walk that knew from the beginning how everything ends; 0: there is none.
+// `exactly`: without what the robot must assume of errors and speeds.
+double Clairvoyant(const Replanner& replanner, const TrueWorld& truth,
+                   const std::array<Footprint, 2>& start, std::uint64_t seed, bool exactly) {
+  LiveOptions options = replanner.config().live;
+  options.sensing.noise = 0.0;
+  std::mt19937_64 random(seed);
+  World world = Measure(truth, truth.end() + 1.0, options, random);
+  for (Obstacle& obstacle : world.scene.obstacles) {
+    if (exactly) obstacle.motion = {};
+    if (options.sensing.rests_after) obstacle.motion.speed = 0.0;
+  }
+  const Proposal walk = replanner.Begin(start, Since(world, world.measured_at), random);
+  return walk.kind == ProposalKind::kUnsafe ? 0.0 : DurationOf(walk.plan.parameters);
+}
+
+struct Physics {
+  double jump = 0.0;      // of value, first and second derivative where walks meet
+  double residual = 0.0;  // of p = c − c̈/ω² [m]
+};
+
+Physics Examine(const Episode& episode) {
+  Physics physics;
+  const SuperposedWalk walk = episode.Executed();
+  const double omega = walk.lipm().omega();
+  const auto jump = [&](double t) {
+    // The change over 2h, less what the derivatives of either side make of it: twice the change
+    // over 2h less that over 4h.
+    const double h = 1e-12;
+    const WalkJet a = walk.At(t - h), b = walk.At(t + h);
+    const WalkJet c = walk.At(t - 2 * h), d = walk.At(t + 2 * h);
+    const auto of = [](const WalkState& near, const WalkState& far) {
+      return (2.0 * near - far).cwiseAbs().maxCoeff();
+    };
+    physics.jump = std::max({physics.jump, of(b.value - a.value, d.value - c.value),
+                             of(b.first - a.first, d.first - c.first),
+                             of(b.second - a.second, d.second - c.second)});
+  };
+  for (const ExecutedWalk& one : episode.walks) jump(one.t);
+  for (int i = 0; i < walk.num_half_steps(); ++i) jump(walk.start_of(i));
+  for (double t = 0.0; t < walk.duration(); t += 0.01) {
+    const WalkJet jet = walk.At(t);
+    for (int axis = 0; axis < 2; ++axis) {
+      const double zmp = jet.value[kComX + axis] - jet.second[kComX + axis] / (omega * omega);
+      physics.residual = std::max(physics.residual, std::abs(zmp - jet.value[kZmpX + axis]));
+    }
+  }
+  return physics;
+}
+
+// Whether an obstacle did what was not to be expected of it shortly before t: it jumped, or was
+// taken to rest and moved.
+bool BrokeItsBounds(const Episode& episode, const std::string& obstacle, double t) {
+  constexpr double kBefore = 3.0;  // [s] a half-step, and what it takes to notice
+  bool known = false;
+  for (const EpisodeEvent& event : episode.events) {
+    known = known || (event.what == "contradicted" && event.text == obstacle &&
+                      event.t > t - kBefore && event.t < t + kBefore);
+  }
+  return known;
+}
+
+double At(std::vector<double> values, double part) {
+  if (values.empty()) return std::nan("");
+  std::ranges::sort(values);
+  return values[std::min(values.size() - 1,
+                         static_cast<size_t>(part * static_cast<double>(values.size())))];
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::uint64_t first = argc > 1 ? std::stoull(argv[1]) : 1;
+  const std::uint64_t count = argc > 2 ? std::stoull(argv[2]) : 100;
+  LiveConfig base = LoadLiveConfig(HALFSTEP_SOURCE_DIR "/experiments/configs/live_bar.yaml", {});
+  base.live.policy = argc > 3 ? argv[3] : "replan";
+  base.live.longest = 90.0;
+  const Place place = LoadPlace(base.experiment);
+  const BakedHalfSteps baked = BakeHalfSteps(place.robot, base.experiment, {});
+  const auto start = StartOf(base.experiment, place.robot);
+  std::vector<double> latencies, longer;
+  int reachable = 0, arrived = 0, touched = 0, excused = 0, changes = 0, quick = 0;
+  Physics worst;
+  std::printf(
+      "seed,ending,reachable,duration_s,clairvoyant_s,changed,stops,unsafe,nearest_m,nearest,cpu_"
+      "s\n");
+  for (std::uint64_t seed = first; seed < first + count; ++seed) {
+    const RandomEpisode drawn = DrawEpisode(base, seed);
+    const TrueWorld truth(drawn.scene, drawn.config.experiment.goal, drawn.config.live);
+    const Replanner replanner(place.robot, drawn.config, *baked.cached.volumes);
+    const double ideal = Clairvoyant(replanner, truth, start, seed, true);
+    const bool can = Clairvoyant(replanner, truth, start, seed, false) > 0.0;
+    const double begin = SteadySeconds();
+    const Episode episode = RunLockstep(replanner, truth, start, {});
+    const double cpu = SteadySeconds() - begin;
+    const EpisodeSummary summary = Summarize(episode, truth, place.robot);
+    if (!episode.walks.empty()) {
+      const Physics physics = Examine(episode);
+      worst.jump = std::max(worst.jump, physics.jump);
+      worst.residual = std::max(worst.residual, physics.residual);
+    }
+    const bool touches = summary.nearest.distance <= 0.0;
+    const bool broken =
+        touches && BrokeItsBounds(episode, summary.nearest.obstacle, summary.nearest.t);
+    touched += touches && !broken;
+    excused += broken;
+    reachable += can;
+    const bool there = episode.ending == EpisodeEnding::kArrived;
+    arrived += there && can;
+    if (there && ideal > 0.0) longer.push_back(summary.duration / ideal - 1.0);
+    latencies.insert(latencies.end(), summary.latencies.begin(), summary.latencies.end());
+    for (const int begun : summary.begun_meanwhile) {
+      ++changes;
+      quick += begun <= 1;
+    }
+    std::printf("%llu,%s,%d,%.2f,%.2f,%d,%d,%d,%.4f,%s%s,%.2f\n",
+                static_cast<unsigned long long>(seed), summary.ending.c_str(), can,
+                summary.duration, ideal, summary.changed, summary.stops, summary.unsafe,
+                summary.nearest.distance, summary.nearest.obstacle.c_str(),
+                broken ? " (broke its bounds)" : "", cpu);
+    std::fflush(stdout);
+  }
+  std::printf("touched %d, by obstacles that broke their bounds %d\n", touched, excused);
+  std::printf("latency median %.3f s, p99 %.3f s of %zu\n", At(latencies, 0.5), At(latencies, 0.99),
+              latencies.size());
+  std::printf("begun meanwhile: at most 1 in %d of %d\n", quick, changes);
+  std::printf("arrived %d of %d that can be reached\n", arrived, reachable);
+  std::printf("longer than clairvoyant: median %.1f %%, p90 %.1f %%\n", 100.0 * At(longer, 0.5),
+              100.0 * At(longer, 0.9));
+  std::printf("largest jump %.2g, LIPM residual %.2g m\n", worst.jump, worst.residual);
+  return touched == 0 ? 0 : 1;
+}
