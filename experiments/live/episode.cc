@@ -69,7 +69,6 @@ class Lockstep {
       record_.message = first.reason;
       return std::move(record_);
     }
-    Know(0.0);
     executor_.emplace(first.plan, first.grant);
     smoothed_ = first.smoothed;
     robot_through_ = first.robot_through;
@@ -97,22 +96,27 @@ class Lockstep {
 
   // Measures until there is a walk, which begins at the time that is t = 0 from then on.
   Proposal Wait(const std::array<Footprint, 2>& start) {
-    World world = Measure(truth_, 0.0, options_, noise_);
+    std::vector<World> worlds = {Measure(truth_, 0.0, options_, noise_)};
     std::optional<World> tried;
     Proposal first{.kind = ProposalKind::kUnsafe};
     for (long frame = 0; first.kind == ProposalKind::kUnsafe; ++frame) {
       const double now = static_cast<double>(frame) * options_.sensing.period;
-      if (now > options_.longest || hooks_.stop.stop_requested()) return first;
+      if (now > options_.longest || hooks_.stop.stop_requested()) break;
       if (frame > 0) {
-        world = Updated(world, Measure(truth_, now, options_, noise_), options_).world;
+        worlds.push_back(Updated(worlds, Measure(truth_, now, options_, noise_), options_).world);
       }
-      if (tried && !DiffersClearly(*tried, world)) continue;
-      tried = world;
-      world_ = std::make_shared<const World>(Since(world, now));
+      if (tried && !DiffersClearly(*tried, worlds.back())) continue;
+      tried = worlds.back();
+      world_ = std::make_shared<const World>(Since(worlds.back(), now));
       first = replanner_.Begin(start, *world_, random_);
       record_.waited = now;
     }
     truth_ = truth_.Since(record_.waited);
+    // What obstacles may do at t = 0 follows from where they were before.
+    for (World& world : worlds) {
+      record_.worlds.push_back(Since(std::move(world), record_.waited));
+      record_.known.push_back(record_.worlds.back().measured_at);
+    }
     return first;
   }
 

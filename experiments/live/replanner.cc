@@ -236,7 +236,11 @@ Proposal Replanner::Propose(const Situation& s, std::mt19937_64& random) const {
     proposal.smoothed[static_cast<size_t>(s.begun)] = true;
   }
   const SuperposedWalk walk = proposal.plan.Walk();
-  if (s.stopped) proposal.grant.through = std::min(proposal.grant.through, s.begun - 1);
+  if (s.stopped) {
+    proposal.grant.through = std::min(proposal.grant.through, s.begun - 1);
+    // After a delay half-steps are together that were not when the robot's margins were proved.
+    proposal.robot_through = std::min(proposal.robot_through, s.begun - 1);
+  }
   const int all = walk.num_half_steps() - 1;
   const std::optional<Margin> refused = Prove(s, walk, all, among, &proposal);
   const bool arrives = Arrives(proposal.plan, *s.world);

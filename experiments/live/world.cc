@@ -86,7 +86,6 @@ WorldUpdate Updated(std::span<const World> before, World frame, const LiveOption
 }
 
 World Since(World world, double origin) {
-  world.version = world.sound_since = 0;
   world.measured_at -= origin;
   for (World::Stay& stay : world.stays) stay.since -= origin;
   for (Obstacle& obstacle : world.scene.obstacles) obstacle.motion.measured_at -= origin;

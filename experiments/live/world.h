@@ -51,8 +51,7 @@ struct WorldUpdate {
 };
 WorldUpdate Updated(std::span<const World> before, World frame, const LiveOptions& options);
 
-/// The same world for a walk that begins at time `origin` [s]: all times are counted from there,
-/// and this is the first version.
+/// The same world for a walk that begins at time `origin` [s]: all times are counted from there.
 World Since(World world, double origin);
 
 /// The stand-in for motion capture: a frame of what is truly there at t [s], positions off by the

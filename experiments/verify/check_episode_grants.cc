@@ -31,7 +31,7 @@ size_t LatestAt(const Rows& rows, double t, const Time& time) {
 }
 
 void CheckGrants(const EpisodeText& episode, Findings* findings) {
-  Faults faults;
+  Faults times, worlds, walks, valid;
   for (size_t g = 0; g < episode.grants.size(); ++g) {
     const GrantRow& grant = episode.grants[g];
     const size_t world = static_cast<size_t>(grant.world);
@@ -39,27 +39,27 @@ void CheckGrants(const EpisodeText& episode, Findings* findings) {
     const auto walk = LatestAt(episode.plans, grant.t + kTick,
                                [](const PlanRow& row) { return row.handed_over; });
     if (!std::isfinite(grant.t) || !std::isfinite(grant.proved_from)) {
-      faults.Add(LineOfGrant(g) + "a time is not finite");
+      times.Add(LineOfGrant(g) + "a time is not finite");
     }
     if (g > 0 && !(grant.t >= episode.grants[g - 1].t)) {
-      faults.Add(LineOfGrant(g) + "counts from before the grant before it");
+      times.Add(LineOfGrant(g) + "counts from before the grant before it");
     }
     if (!(grant.t >= known - kTick)) {
-      faults.Add(LineOfGrant(g) + Formatted("counts from %.9g s on, but world %d became known at "
+      worlds.Add(LineOfGrant(g) + Formatted("counts from %.9g s on, but world %d became known at "
                                             "%.9g s",
                                             grant.t, grant.world, known));
     }
     if (grant.walk != static_cast<int>(walk)) {
-      faults.Add(LineOfGrant(g) +
-                 Formatted("of walk %d, but walk %zu was in execution", grant.walk, walk));
+      walks.Add(LineOfGrant(g) +
+                Formatted("of walk %d, but walk %zu was in execution", grant.walk, walk));
     }
     if (!(std::abs(grant.valid_until - until) <= kTick || grant.valid_until == until)) {
-      faults.Add(LineOfGrant(g) + Formatted("valid until %.9g s, but by the measurements of world "
-                                            "%d until %.9g s",
-                                            grant.valid_until, grant.world, until));
+      valid.Add(LineOfGrant(g) + Formatted("valid until %.9g s, but by the measurements of world "
+                                           "%d until %.9g s",
+                                           grant.valid_until, grant.world, until));
     }
   }
-  faults.Conclude(findings);
+  for (const Faults* faults : {&times, &worlds, &walks, &valid}) faults->Conclude(findings);
 }
 
 // Why a half-step, from 0, may not begin by a grant; "": it may.

@@ -5,6 +5,7 @@
 #include <memory>
 #include <set>
 
+#include "experiments/verify/check_clearance.h"
 #include "experiments/verify/check_episode_worlds.h"
 #include "experiments/verify/check_played.h"
 #include "experiments/verify/distances.h"
@@ -79,11 +80,13 @@ void CheckEpisodeProof(const EpisodeText& episode, const DescribedWalk& walk, co
                 " stop branches keep every margin, against " + Count(std::ssize(worlds)) +
                 " worlds, by " + Count(statements) + " statements" +
                 (coarse == 0 ? "" : "; " + Count(coarse) + " are too coarse to tell"));
+  const double seen = kQuick - options.tolerance;
   findings->Say(
-      nearest.count == 0
-          ? "clearance: nowhere within 2 cm of what was demanded"
-          : Formatted("clearance: at least %.4g m beyond what was demanded (", nearest.spare) +
-                nearest.where + ")");
+      nearest.spare < seen
+          ? Formatted("clearance: least measured %.4g m beyond what was demanded (",
+                      nearest.spare) +
+                nearest.where + ")"
+          : Formatted("clearance: everywhere %.4g m and more beyond what was demanded", seen));
 }
 
 }  // namespace halfstep::verify

@@ -94,30 +94,30 @@ class TamperedEpisode {
   TemporaryFolder place_;
 };
 
-size_t ColumnOf(const Table& table, const std::string& name) {
+size_t ColumnNamed(const Table& table, const std::string& name) {
   const auto& header = table.front();
   return static_cast<size_t>(std::ranges::find(header, name) - header.begin());
 }
 
-using Forge = std::function<void(const fs::path& folder)>;
+using ForgeEpisode = std::function<void(const fs::path& folder)>;
 
 // Edits the last row of a table for which a condition on its cells holds, or the last one.
-Forge InLastRow(const std::string& file, const std::string& column,
-                const std::function<std::string(double)>& change,
-                const std::function<bool(const Table&, size_t)>& of = {}) {
+ForgeEpisode InLastRow(const std::string& file, const std::string& column,
+                       const std::function<std::string(double)>& change,
+                       const std::function<bool(const Table&, size_t)>& of = {}) {
   return [=](const fs::path& folder) {
     TamperedRun::EditCsv(folder / file, [&](Table& table) {
       size_t row = table.size() - 1;
       while (of && row > 1 && !of(table, row)) --row;
-      std::string& cell = table[row][ColumnOf(table, column)];
+      std::string& cell = table[row][ColumnNamed(table, column)];
       cell = change(std::stod(cell));
     });
   };
 }
-std::function<std::string(double)> Plus(double more) {
+std::function<std::string(double)> CellPlus(double more) {
   return [more](double x) { return Formatted("%.17g", x + more); };
 }
-std::function<std::string(double)> Value(const std::string& value) {
+std::function<std::string(double)> CellValue(const std::string& value) {
   return [value](double) { return value; };
 }
 
@@ -134,19 +134,20 @@ std::string LastWalk(const fs::path& folder) {
 }
 
 // Edits the cell of the grant that allowed the last half-step.
-Forge InUsedGrant(const std::string& column, const std::function<std::string(double)>& change) {
+ForgeEpisode InUsedGrant(const std::string& column,
+                         const std::function<std::string(double)>& change) {
   return [=](const fs::path& folder) {
     InLastRow("grants.csv", column, change, OfGrant(GrantOfLast(folder)))(folder);
   };
 }
 
 // Everywhere in a column of a table.
-Forge InAllRows(const std::string& file, const std::string& column,
-                const std::function<std::string(double)>& change) {
+ForgeEpisode InAllRows(const std::string& file, const std::string& column,
+                       const std::function<std::string(double)>& change) {
   return [=](const fs::path& folder) {
     TamperedRun::EditCsv(folder / file, [&](Table& table) {
       for (size_t row = 1; row < table.size(); ++row) {
-        std::string& cell = table[row][ColumnOf(table, column)];
+        std::string& cell = table[row][ColumnNamed(table, column)];
         cell = change(std::stod(cell));
       }
     });
@@ -155,8 +156,8 @@ Forge InAllRows(const std::string& file, const std::string& column,
 
 struct EpisodeForgery {
   std::string name;
-  Forge before;  ///< the hashes follow
-  Forge after;   ///< they do not
+  ForgeEpisode before;  ///< the hashes follow
+  ForgeEpisode after;   ///< they do not
   std::string reason;
 };
 void PrintTo(const EpisodeForgery& forgery, std::ostream* out) { *out << forgery.name; }
@@ -165,34 +166,42 @@ std::vector<EpisodeForgery> EpisodeForgeries() {
   return {
       {"ObstacleMeasuredNearer",
        InAllRows("obstacles.csv", "y_m",
-                 [](double y) { return Formatted("%.17g", y > 1.2 ? y : y - 0.55); }),
+                 [](double y) { return Formatted("%.17g", y > 1.2 ? y : y - 0.75); }),
        {},
-       "against world"},
+       "clearance: WAIST - bar at t = "},
       {"SpeedLowered",
-       InAllRows("obstacles.csv", "speed_m_s", Value("0")),
+       InAllRows("obstacles.csv", "speed_m_s", CellValue("0")),
        {},
        "obstacles.csv:2: speed_m_s is 0, but 0.05 by config and scene"},
       {"ErrorLowered",
-       InAllRows("obstacles.csv", "error_m", Value("0.001")),
+       InAllRows("obstacles.csv", "error_m", CellValue("0.001")),
        {},
        "error_m is 0.001, but 0.005 by config and scene"},
-      {"GrantBeforeItsWorldWasKnown", InUsedGrant("t_s", Plus(-0.5)), {}, "became known at"},
-      {"GrantCountsTooLate", InUsedGrant("t_s", Plus(30)), {}, "but its grant counts from"},
+      {"GrantBeforeItsWorldWasKnown", InUsedGrant("t_s", CellPlus(-0.5)), {}, "became known at"},
+      {"GrantCountsTooLate", InUsedGrant("t_s", CellPlus(30)), {}, "but its grant counts from"},
       {"ThroughRaisedBeyondTheWalk",
-       InUsedGrant("through", Value("99")),
+       InUsedGrant("through", CellValue("99")),
        {},
        "through half-step 99, but walk"},
       {"ThroughLowered",
-       InUsedGrant("through", Value("1")),
+       InUsedGrant("through", CellValue("1")),
        {},
        "its grant reaches only through half-step 1"},
       {"ValidUntilRaised",
-       InLastRow("grants.csv", "valid_until_s", Value("1000"), OfGrant("0")),
+       InLastRow("grants.csv", "valid_until_s", CellValue("1000"), OfGrant("0")),
        {},
        "grants.csv:2: valid until 1000 s, but by the measurements of world 0 until 4 s"},
-      {"BegunWithoutAGrant", InLastRow("begun.csv", "grant", Value("0")), {}, "its grant is valid"},
+      {"BegunWithoutAGrant",
+       InLastRow("begun.csv", "grant", CellValue("0")),
+       {},
+       "its grant is valid"},
+      {"BegunByAVoidGrant",
+       InLastRow("begun.csv", "grant", CellValue("0"),
+                 [](const Table&, size_t row) { return row == 2; }),
+       {},
+       "half-step 2: its grant is against world 0, which is void since world"},
       {"BegunByNoGrantAtAll",
-       InLastRow("begun.csv", "grant", Value("999")),
+       InLastRow("begun.csv", "grant", CellValue("999")),
        {},
        "there is no grant 999"},
       {"HalfStepLeftOut",
@@ -204,24 +213,24 @@ std::vector<EpisodeForgery> EpisodeForgeries() {
        "begun.csv:3: half-step 3 instead of 2"},
       {"SuccessorChangesWhatHasBegun",
        [](const fs::path& folder) {
-         InLastRow(LastWalk(folder) + "footsteps.csv", "x_m", Plus(0.01),
+         InLastRow(LastWalk(folder) + "footsteps.csv", "x_m", CellPlus(0.01),
                    [](const Table&, size_t row) { return row == 3; })(folder);
        },
        {},
        "half-step 2 had begun before"},
       {"OverlapBeyondItsBound",
        [](const fs::path& folder) {
-         InLastRow(LastWalk(folder) + "half_steps.csv", "start_s", Plus(-1.4))(folder);
+         InLastRow(LastWalk(folder) + "half_steps.csv", "start_s", CellPlus(-1.4))(folder);
        },
        {},
        "natural bound"},
       {"TrajectoryRowMoved",
-       InLastRow("trajectory.csv", "com_x_m", Plus(0.002),
+       InLastRow("trajectory.csv", "com_x_m", CellPlus(0.002),
                  [](const Table&, size_t row) { return row == 100; }),
        {},
        "trajectory.csv:101: com is off the walk of half_steps.csv by 0.002"},
       {"SoundSinceLowered",
-       InAllRows("worlds.csv", "sound_since", Value("0")),
+       InAllRows("worlds.csv", "sound_since", CellValue("0")),
        {},
        "sound_since is 0, but by the measured places it is"},
       {"WorldsOutOfOrder",
@@ -232,11 +241,11 @@ std::vector<EpisodeForgery> EpisodeForgeries() {
        {},
        "worlds.csv:3: world 2 instead of 1"},
       {"WorldKnownBeforeItWasMeasured",
-       InLastRow("worlds.csv", "known_s", Plus(-0.1)),
+       InLastRow("worlds.csv", "known_s", CellPlus(-0.1)),
        {},
        "but measured at"},
       {"GoalMoved",
-       InLastRow("worlds.csv", "goal_x_m", Plus(0.3)),
+       InLastRow("worlds.csv", "goal_x_m", CellPlus(0.3)),
        {},
        "the robot has not arrived: its last stance is not in the goal of world"},
       {"EventsSayOtherwise",
@@ -249,6 +258,19 @@ std::vector<EpisodeForgery> EpisodeForgeries() {
        },
        {},
        "half-step 3 begins at 0.5 s, but at"},
+      {"StartElsewhere",
+       InLastRow("walks/000/footsteps.csv", "y_m", CellPlus(0.01),
+                 [](const Table&, size_t row) { return row == 1; }),
+       {},
+       "walks/000/footsteps.csv:2: the walk does not start where config.yaml says"},
+      {"EndsBeforeItArrives",
+       [](const fs::path& folder) {
+         Json json = Json::parse(ReadText(folder / "manifest.json"));
+         json["end_s"] = 4.0;
+         WriteText(folder / "manifest.json", json.dump(2));
+       },
+       {},
+       "the robot has not arrived: it walks until"},
       {"FileMissing",
        {},
        [](const fs::path& folder) { fs::remove(folder / "timings.csv"); },
@@ -274,7 +296,8 @@ std::vector<EpisodeForgery> EpisodeForgeries() {
        "scene: not the one that manifest.json is about"},
       {"ClearanceDemandedLater",
        [](const fs::path& folder) {
-         TamperedRun::Replace(folder / "config.yaml", "clearance_m: 0", "clearance_m: 0.7");
+         TamperedRun::Replace(folder / "config.yaml", "\n    clearance_m: 0.005",
+                              "\n    clearance_m: 0.5");
        },
        {},
        "clearance: "},
@@ -312,7 +335,7 @@ TEST(VerifyEpisode, AcceptsWhatLiveWrites) {
 
 TEST(VerifyEpisode, ExitStatusTellsWhatIsWrong) {
   const TamperedEpisode episode;
-  InLastRow("worlds.csv", "goal_x_m", Plus(0.3))(episode.folder());
+  InLastRow("worlds.csv", "goal_x_m", CellPlus(0.3))(episode.folder());
   episode.Rehash();
   EXPECT_EQ(episode.Verify().status, 3);
   TamperedRun::EditCsv(episode.folder() / "worlds.csv",
