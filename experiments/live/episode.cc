@@ -108,7 +108,7 @@ class Lockstep {
       if (tried && !DiffersClearly(*tried, worlds.back())) continue;
       tried = worlds.back();
       world_ = std::make_shared<const World>(Since(worlds.back(), now));
-      first = replanner_.Begin(start, *world_, random_);
+      first = replanner_.Begin(start, *replanner_.Prepare(*world_), options_.smooth_ahead, random_);
       record_.waited = now;
     }
     truth_ = truth_.Since(record_.waited);
@@ -169,6 +169,7 @@ class Lockstep {
   void Begins(int half_step) {
     record_.begun.push_back({half_step, static_cast<int>(record_.grants.size()) - 1});
     Tell(executor_->walk().start_of(half_step), "begins", "", half_step);
+    again_ = true;  // more junctions are near
   }
 
   bool NeedsWork(double now) const {
@@ -183,6 +184,13 @@ class Lockstep {
            executor_->grant().valid_until < walk.end_of(next) + options_.period;
   }
 
+  // Prepared once for each version that is asked about.
+  std::shared_ptr<const PreparedWorld> Prepared() {
+    if (!prepared_ || prepared_for_ != world_) prepared_ = replanner_.Prepare(*world_);
+    prepared_for_ = world_;
+    return prepared_;
+  }
+
   void Start(double now) {
     const BudgetConfig& budget = options_.budget;
     const double longest = budget.check + std::max(budget.plan, budget.smooth);
@@ -194,7 +202,7 @@ class Lockstep {
                               .stopped = executor_->stopped(),
                               .now = now,
                               .hand_over = now + longest + 2.0 * options_.period,
-                              .world = world_,
+                              .world = Prepared(),
                               .shorten = tries_ > 0};
     job_.emplace(Job{.asked = now, .world = world_});
     job_->proposal = replanner_.Propose(situation, random_);
@@ -288,6 +296,8 @@ class Lockstep {
   std::mt19937_64 noise_, random_;
   Episode record_;
   std::shared_ptr<const World> world_, checked_, last_tried_;
+  std::shared_ptr<const World> prepared_for_;
+  std::shared_ptr<const PreparedWorld> prepared_;
   std::optional<Executor> executor_;
   std::vector<bool> smoothed_;
   int robot_through_ = -1;

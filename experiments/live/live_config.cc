@@ -110,6 +110,8 @@ void DeclareLive(Fields& fields, LiveOptions* c, double half_step) {
       {.meaning = "the episode ends then at the latest", .unit = "s", .min = 1, .max = 3600});
   fields.Integer("smooth_at_once", &c->smooth_at_once,
                  {.meaning = "junctions whose overlaps are found in one go", .min = 1, .max = 100});
+  fields.Integer("smooth_ahead", &c->smooth_ahead,
+                 {.meaning = "overlaps are found so many junctions ahead", .min = 1, .max = 1000});
   fields.Number("tolerance_s", &c->tolerance,
                 {.meaning = "of these overlaps", .unit = "s", .min = 1e-4, .max = 0.5});
   fields.Group("sensing", {.meaning = "the stand-in for motion capture"},

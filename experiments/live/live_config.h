@@ -50,6 +50,7 @@ struct LiveOptions {
   double drift = 0.0;      ///< the robot strays from where it believes to be, at most at this [m/s]
   double longest = 120.0;  ///< an episode ends then [s]
   int smooth_at_once = 3;  ///< junctions
+  int smooth_ahead = 8;    ///< junctions behind the latest half-step that has begun
   double tolerance = 0.02;  ///< of their overlaps [s]
   SensingConfig sensing;
   BudgetConfig budget;

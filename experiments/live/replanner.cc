@@ -29,18 +29,20 @@ std::string_view Name(ProposalKind kind) {
   return "";
 }
 
-struct Replanner::Among {
-  Among(const Replanner& replanner, const World& w)
+class PreparedWorld {
+ public:
+  PreparedWorld(const World& w, const RobotModel& robot, const ExperimentConfig& config,
+                const SweptVolumes& volumes)
       : world(w),
-        safety(replanner.robot_, w.scene, replanner.config_.experiment),
-        certifier(replanner.robot_, w.scene, replanner.config_.experiment),
-        query(replanner.volumes_, replanner.robot_.sole_outline, w.scene,
-              replanner.config_.experiment.smoothing.limits.demanded_of(MarginFamily::kNoStep)) {}
+        safety(robot, w.scene, config),
+        certifier(robot, w.scene, config),
+        query(volumes, robot.sole_outline, w.scene,
+              config.smoothing.limits.demanded_of(MarginFamily::kNoStep)) {}
 
-  const World& world;
-  SafetyCheck safety;
-  HalfStepCertifier certifier;
-  SweptVolumeQuery query;
+  const World world;
+  const SafetyCheck safety;
+  const HalfStepCertifier certifier;
+  const SweptVolumeQuery query;
 };
 
 Replanner::Replanner(const RobotModel& robot, const LiveConfig& config, const SweptVolumes& volumes)
@@ -49,12 +51,16 @@ Replanner::Replanner(const RobotModel& robot, const LiveConfig& config, const Sw
       volumes_(volumes),
       alone_(robot, Scene{}, config.experiment) {}
 
+std::shared_ptr<const PreparedWorld> Replanner::Prepare(const World& world) const {
+  return std::make_shared<const PreparedWorld>(world, robot_, config_.experiment, volumes_);
+}
+
 bool Replanner::Arrives(const WalkPlan& plan, const World& world) const {
   return world.goal.ContainsStance(StanceAfter(plan.sequence, plan.sequence.size() - 1));
 }
 
 PlanResult Replanner::Plan(const std::array<Footprint, 2>& stance,
-                           const std::optional<StepState>& in_air, const Among& among,
+                           const std::optional<StepState>& in_air, const PreparedWorld& among,
                            std::mt19937_64& random) const {
   const PlannerConfig& options = config_.experiment.planner;
   PlanRequest request{.start = stance,
@@ -77,7 +83,7 @@ PlanResult Replanner::Plan(const std::array<Footprint, 2>& stance,
 }
 
 std::optional<Margin> Replanner::Prove(const Situation& s, const SuperposedWalk& walk, int last,
-                                       const Among& among, Proposal* proposal) const {
+                                       const PreparedWorld& among, Proposal* proposal) const {
   const Safety robot = alone_.OfRobot(walk, std::max(proposal->robot_through + 1, s.begun), last);
   proposal->robot_through = std::max(robot.through, proposal->robot_through);
   Grant& grant = proposal->grant;
@@ -97,8 +103,9 @@ std::optional<Margin> Replanner::Prove(const Situation& s, const SuperposedWalk&
   return safety.refused_by ? safety.refused_by : robot.refused_by;
 }
 
-bool Replanner::Change(const Situation& s, const WalkPlan& plan, int junction, const Among& among,
-                       std::mt19937_64& random, Proposal* proposal) const {
+bool Replanner::Change(const Situation& s, const WalkPlan& plan, int junction,
+                       const PreparedWorld& among, std::mt19937_64& random,
+                       Proposal* proposal) const {
   constexpr int kProvedAtOnce = 4;  // half-steps behind the junction
   const double begin = SteadySeconds();
   const auto& [half_step, X_WS] = plan.sequence.half_steps[static_cast<size_t>(junction)];
@@ -135,10 +142,11 @@ bool Replanner::Change(const Situation& s, const WalkPlan& plan, int junction, c
   return true;
 }
 
-bool Replanner::Smooth(double from, int begun, const Among& among, Proposal* proposal) const {
+bool Replanner::Smooth(double from, int begun, int ahead, const PreparedWorld& among,
+                       Proposal* proposal) const {
   constexpr double kLeastRoom = 0.05;  // [s]
   const SuperposedWalk walk = proposal->plan.Walk();
-  const int junctions = walk.num_half_steps() - 1;
+  const int junctions = std::min(walk.num_half_steps() - 1, begun + ahead);
   std::vector<int> next;
   double cap = 1.0;
   for (int j = begun; j < junctions && cap == 1.0; ++j) {
@@ -165,7 +173,7 @@ bool Replanner::Smooth(double from, int begun, const Among& among, Proposal* pro
   }
   // Half-steps that end later are not under way where these overlaps count, and only meet the same
   // world earlier, when less is uncertain.
-  const int last = std::min(next.back() + 4, junctions);
+  const int last = std::min(next.back() + 4, walk.num_half_steps() - 1);
   const CertificationScope scope{.since = std::max(from, walk.start_of(next.front())),
                                  .until = walk.end_of(last)};
   const auto test = std::make_shared<StoppableFeasibility>(
@@ -186,7 +194,7 @@ bool Replanner::Smooth(double from, int begun, const Among& among, Proposal* pro
   return true;
 }
 
-void Replanner::Shorten(const Situation& s, const Among& among, std::mt19937_64& random,
+void Replanner::Shorten(const Situation& s, const PreparedWorld& among, std::mt19937_64& random,
                         Proposal* proposal) const {
   const SuperposedWalk walk = proposal->plan.Walk();
   const std::vector<int> junctions =
@@ -227,7 +235,7 @@ Proposal Replanner::Propose(const Situation& s, std::mt19937_64& random) const {
   Proposal proposal{
       .plan = s.plan, .smoothed = s.smoothed, .robot_through = s.robot_through, .grant = s.grant};
   const double begin = SteadySeconds();
-  const Among among(*this, *s.world);
+  const PreparedWorld& among = *s.world;
   const bool more = s.begun + 1 < s.plan.sequence.size();
   if (s.stopped && more) {
     proposal.plan =
@@ -243,7 +251,7 @@ Proposal Replanner::Propose(const Situation& s, std::mt19937_64& random) const {
   }
   const int all = walk.num_half_steps() - 1;
   const std::optional<Margin> refused = Prove(s, walk, all, among, &proposal);
-  const bool arrives = Arrives(proposal.plan, *s.world);
+  const bool arrives = Arrives(proposal.plan, among.world);
   proposal.check_s = SteadySeconds() - begin;
   if (!refused && arrives) {
     if (s.stopped && more) {
@@ -253,7 +261,7 @@ Proposal Replanner::Propose(const Situation& s, std::mt19937_64& random) const {
       return proposal;
     }
     const double smooth = SteadySeconds();
-    if (Smooth(s.hand_over, s.begun, among, &proposal)) {
+    if (Smooth(s.hand_over, s.begun, config_.live.smooth_ahead, among, &proposal)) {
       proposal.kind = ProposalKind::kSmoothed;
       proposal.reason = "overlaps";
     }
@@ -274,10 +282,9 @@ Proposal Replanner::Propose(const Situation& s, std::mt19937_64& random) const {
   return proposal;
 }
 
-Proposal Replanner::Begin(const std::array<Footprint, 2>& start, const World& world,
-                          std::mt19937_64& random) const {
+Proposal Replanner::Begin(const std::array<Footprint, 2>& start, const PreparedWorld& among,
+                          int junctions, std::mt19937_64& random) const {
   Proposal proposal{.kind = ProposalKind::kUnsafe};
-  const Among among(*this, world);
   proposal.planned = Plan(start, {}, among, random);
   proposal.reason = proposal.planned.sentence;
   if (proposal.planned.footsteps.empty()) return proposal;
@@ -295,7 +302,7 @@ Proposal Replanner::Begin(const std::array<Footprint, 2>& start, const World& wo
   proposal.kind = ProposalKind::kChanged;
   proposal.first_changed = 0;
   proposal.smoothed.resize(static_cast<size_t>(proposal.plan.sequence.num_junctions()), false);
-  while (Smooth(0.0, 0, among, &proposal)) {
+  while (Smooth(0.0, 0, junctions, among, &proposal)) {
   }
   return proposal;
 }

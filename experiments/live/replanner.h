@@ -17,6 +17,10 @@
 
 namespace halfstep {
 
+/// A world and all that is prepared for questions about it. Immutable, and safe to use from several
+/// threads.
+class PreparedWorld;
+
 /// What a replanner is asked about: a walk in execution, and the world.
 struct Situation {
   WalkPlan plan;
@@ -27,7 +31,7 @@ struct Situation {
   bool stopped = false;        ///< nothing more begins unless a successor is handed over
   double now = 0.0;            ///< [s]
   double hand_over = 0.0;      ///< a successor is taken at this time at the earliest [s]
-  std::shared_ptr<const World> world;
+  std::shared_ptr<const PreparedWorld> world;
   bool shorten = false;  ///< when nothing else is to be done, look for a shorter way
 };
 
@@ -65,33 +69,35 @@ class Replanner {
   /// `volumes` is borrowed. Clearances of volumes are those that the config demands.
   Replanner(const RobotModel& robot, const LiveConfig& config, const SweptVolumes& volumes);
 
+  std::shared_ptr<const PreparedWorld> Prepare(const World& world) const;
+
   Proposal Propose(const Situation& situation, std::mt19937_64& random) const;
 
-  /// A walk from the soles `start` to the goal of the world, smoothed throughout; the proposal is
-  /// kUnsafe without a plan.
-  Proposal Begin(const std::array<Footprint, 2>& start, const World& world,
+  /// A walk from the soles `start` to the goal of the world, with `junctions` of its overlaps
+  /// found; the proposal is kUnsafe without a plan.
+  Proposal Begin(const std::array<Footprint, 2>& start, const PreparedWorld& world, int junctions,
                  std::mt19937_64& random) const;
 
   const RobotModel& robot() const { return robot_; }
   const LiveConfig& config() const { return config_; }
 
  private:
-  struct Among;  // what is prepared for one world
-
   bool Arrives(const WalkPlan& plan, const World& world) const;
   PlanResult Plan(const std::array<Footprint, 2>& stance, const std::optional<StepState>& in_air,
-                  const Among& among, std::mt19937_64& random) const;
+                  const PreparedWorld& among, std::mt19937_64& random) const;
   // Proves the walk of the proposal up to half-step `last` as far as it is not proved yet, and
   // grants it. Returns what refused it.
   std::optional<Margin> Prove(const Situation& situation, const SuperposedWalk& walk, int last,
-                              const Among& among, Proposal* proposal) const;
+                              const PreparedWorld& among, Proposal* proposal) const;
   // Other footsteps after half-step `junction`; false when there are none that are safe.
-  bool Change(const Situation& situation, const WalkPlan& plan, int junction, const Among& among,
-              std::mt19937_64& random, Proposal* proposal) const;
-  // The overlaps of the next junctions that were not found yet; false when there are none.
-  bool Smooth(double from, int begun, const Among& among, Proposal* proposal) const;
+  bool Change(const Situation& situation, const WalkPlan& plan, int junction,
+              const PreparedWorld& among, std::mt19937_64& random, Proposal* proposal) const;
+  // The overlaps of the next junctions that were not found yet, no more than `ahead` behind
+  // `begun`; false when there are none.
+  bool Smooth(double from, int begun, int ahead, const PreparedWorld& among,
+              Proposal* proposal) const;
   // A way with fewer footsteps, where one is found.
-  void Shorten(const Situation& situation, const Among& among, std::mt19937_64& random,
+  void Shorten(const Situation& situation, const PreparedWorld& among, std::mt19937_64& random,
                Proposal* proposal) const;
   // Half-steps after which other footsteps may follow, best first.
   std::vector<int> Junctions(const Situation& situation, const SuperposedWalk& walk, int through,

@@ -36,8 +36,8 @@ json MeshJson(const TriangleMesh& mesh, const Eigen::Isometry3d& X) {
 json PlacesJson(const Obstacle& obstacle) {
   json places = json::array();
   const auto add = [&places](double t, const Eigen::Vector3d& p, double yaw) {
-    places.push_back(
-        {Shortened(t), Shortened(p.x()), Shortened(p.y()), Shortened(p.z()), Shortened(yaw)});
+    places.push_back({Shortened(t, 8), Shortened(p.x(), 8), Shortened(p.y(), 8),
+                      Shortened(p.z(), 8), Shortened(yaw, 8)});
   };
   add(0.0, obstacle.X_WO.translation(), 0.0);
   for (const ObstacleMotion::Waypoint& waypoint : obstacle.motion.waypoints) {

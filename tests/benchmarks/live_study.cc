@@ -29,7 +29,8 @@ double Clairvoyant(const Replanner& replanner, const TrueWorld& truth,
     if (exactly) obstacle.motion = {};
     if (options.sensing.rests_after) obstacle.motion.speed = 0.0;
   }
-  const Proposal walk = replanner.Begin(start, Since(world, world.measured_at), random);
+  const Proposal walk =
+      replanner.Begin(start, *replanner.Prepare(Since(world, world.measured_at)), 1000, random);
   return walk.kind == ProposalKind::kUnsafe ? 0.0 : DurationOf(walk.plan.parameters);
 }
 

@@ -114,6 +114,20 @@ TEST_F(ReportTest, TextsCannotLeaveTheirPlace) {
   EXPECT_EQ(data.begin().value(), hostile.substr(0, hostile.size() - 1) + "\uFFFD");
 }
 
+TEST_F(ReportTest, HoldsWhereObstaclesGo) {
+  const Outcome outcome =
+      Halfstep(place_.path(), {"run", ShippedConfig("crossing"), "--out", "run", "--quiet", "--set",
+                               "smoothing.methods=[dichotomy]"});
+  ASSERT_EQ(outcome.status, kSuccess) << outcome.err;
+  const json data = DataOf(ReadText(place_ / "run/report.html"));
+  const json& obstacles = data["scenes"][0]["obstacles"];
+  EXPECT_EQ(obstacles[1]["places"].dump(),
+            "[[0.0,0.68,-1.0,0.9,0.0],[10.0,0.68,1.0,0.9,0.52359878]]");
+  // About its own origin: 0.3 × 0.4 × 0.3 m, in 0.1 mm.
+  EXPECT_EQ(obstacles[1]["vertices"][0].get<long>() * obstacles[1]["vertices"][0].get<long>(),
+            1500 * 1500);
+}
+
 TEST_F(ReportTest, HoldsTheWalksOfTheRun) {
   const std::string obstacle = "<img src=x onerror=alert(1)> \"&'";
   const json data = DataOf(MakeRun(obstacle));

@@ -183,6 +183,28 @@ TEST(ObstacleMotion, WhatClearsWithAHalfWidthClearsAtEveryTimeWithin) {
   EXPECT_GT(missed, 5);
 }
 
+TEST(ObstacleMotion, AllLaterByTheSameTimeIsTheSameLater) {
+  std::mt19937 random(36);
+  const CollisionShape body(MakeBox({0.2, 0.1, 0.3}));
+  for (int i = 0; i < 50; ++i) {
+    const Scene scene = DrawnScene(&random);
+    Scene later = scene;
+    for (Obstacle& obstacle : later.obstacles) {
+      for (ObstacleMotion::Waypoint& waypoint : obstacle.motion.waypoints) waypoint.t += 2.0;
+      obstacle.motion.measured_at += 2.0;
+      if (obstacle.motion.waypoints.empty()) continue;
+      obstacle.motion.waypoints.insert(obstacle.motion.waypoints.begin(),
+                                       {2.0, obstacle.X_WO.translation()});
+    }
+    const Isometry3d X_WB = DrawnPose(&random, 1);
+    const double t = Drawn(&random, 0, 6);
+    const auto a = CollisionWorld(scene).FindNearest(body, X_WB, t, 0.5);
+    const auto b = CollisionWorld(later).FindNearest(body, X_WB, t + 2.0, 0.5);
+    EXPECT_EQ(a.obstacle, b.obstacle);
+    EXPECT_NEAR(a.margin, b.margin, 1e-9);
+  }
+}
+
 TEST(ObstacleMotion, WithoutDisplacementIsRest) {
   std::mt19937 random(35);
   const CollisionShape body(MakeBox({0.2, 0.1, 0.3}));

@@ -24,10 +24,11 @@ struct TamperedWalk {
 };
 
 /// A run with its own copy of robot and scene, to be tampered with; by default of the Fig. 5 walk.
+/// Scenes are copied for that one and for `crossing`.
 /// The run itself is made once a build by the command and copied for each object.
 class TamperedRun {
  public:
-  explicit TamperedRun(const TamperedWalk& walk = {}) : has_scene_(walk.config == "fig5_box") {
+  explicit TamperedRun(const TamperedWalk& walk = {}) : scene_(SceneOf(walk.config)) {
     namespace fs = std::filesystem;
     std::string name = Version() + " " + walk.config;
     for (const std::string& item : walk.overrides) name += " " + item;
@@ -48,7 +49,7 @@ class TamperedRun {
   std::filesystem::path trajectory() const { return run() / "dichotomy/trajectory.csv"; }
   std::filesystem::path certificate() const { return run() / "dichotomy/certificate.csv"; }
   std::filesystem::path json() const { return run() / "dichotomy/certificate.json"; }
-  std::filesystem::path scene() const { return place_ / "scenes/box.yaml"; }
+  std::filesystem::path scene() const { return place_ / "scenes" / scene_; }
   std::filesystem::path urdf() const { return place_ / "robots/hrp2.urdf"; }
 
   Outcome Verify() const {
@@ -111,7 +112,7 @@ class TamperedRun {
   void Rehash() {
     const auto robot = LoadRobot((place_ / "robots/hrp2.yaml").string()).files;
     std::vector<InputFile> scene;
-    if (has_scene_) scene = LoadScene(this->scene().string()).files;
+    if (!scene_.empty()) scene = LoadScene(this->scene().string()).files;
     for (const auto& folder : std::filesystem::directory_iterator(run())) {
       const auto certificate = folder.path() / "certificate.json";
       if (!folder.is_directory() || !std::filesystem::exists(certificate)) continue;
@@ -156,13 +157,19 @@ class TamperedRun {
         std::filesystem::last_write_time(HALFSTEP_COMMAND).time_since_epoch().count());
   }
 
+  static std::string SceneOf(const std::string& config) {
+    return config == "fig5_box" ? "box.yaml" : config == "crossing" ? "crossing_bar.yaml" : "";
+  }
+
   static void Make(const std::filesystem::path& place, const TamperedWalk& walk) {
     namespace fs = std::filesystem;
     const fs::path source(HALFSTEP_SOURCE_DIR);
     fs::create_directories(place);
     fs::copy(source / "wpg/robots", place / "robots", fs::copy_options::recursive);
     fs::create_directories(place / "scenes");
-    fs::copy(source / "experiments/scenes/box.yaml", place / "scenes/box.yaml");
+    for (const char* scene : {"box.yaml", "crossing_bar.yaml"}) {
+      fs::copy(source / "experiments/scenes" / scene, place / "scenes" / scene);
+    }
     // An area that no sole may touch, 10 cm and more beside the feet.
     WriteText(place / "scenes/box.yaml",
               "no_step:\n  - name: aside\n    polygon_m: [[-0.5, 0.3], [0.7, 0.3], [0.7, 0.4], "
@@ -194,7 +201,7 @@ class TamperedRun {
   }
 
   TemporaryFolder place_;
-  bool has_scene_;
+  std::string scene_;  // file name; "": none of its own
 };
 
 }  // namespace halfstep
