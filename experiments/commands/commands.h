@@ -73,18 +73,20 @@ struct ExportCommand {
 ExitStatus Export(const ExportCommand& command);
 
 struct ReplayCommand {
-  std::string run;  ///< a run folder
+  std::string run;  ///< folder of a run or of an episode
   std::optional<std::string> method;
   bool push = false;            ///< finds the largest push that is survived
   std::vector<double> push_at;  ///< instants [s]; none: a quarter, half, three quarters
-  bool out = false;             ///< write METHOD/replay.csv into the run folder
+  bool out = false;             ///< write METHOD/replay.csv, of an episode replay.csv, there
   bool quiet = false;
   bool json = false;
 };
 
-/// `halfstep replay`: plays the walks of a run on a simulated robot. kFailed when one falls, and
-/// where no engine is compiled in. Throws InputError.
+/// `halfstep replay`: plays the walks of a run, or the walk of an episode, on a simulated robot
+/// among the obstacles. kFailed when one falls, and where no engine is compiled in. Throws
+/// InputError.
 ExitStatus Replay(const ReplayCommand& command);
+
 struct ReportCommand {
   std::string run;                 ///< a run folder
   std::optional<std::string> out;  ///< the page; none: report.html in the run folder, renewed

@@ -47,10 +47,10 @@ ExitStatus Live(const RunCommand& command) {
   const Replanner replanner(place.robot, config, *baked.cached.volumes);
   RunFolder folder(OutputFolder(command, config.experiment), command.overwrite);
   bar.emplace("episode", command.quiet || command.json);
-  const Episode episode =
-      RunLockstep(replanner, truth, StartOf(config.experiment, place.robot),
-                  {.progress = [&](double t) { bar->Update(t / config.live.longest); },
-                   .stop = interrupt.token()});
+  const auto run = config.live.clock == "wall" ? RunWallClock : RunLockstep;
+  const Episode episode = run(replanner, truth, StartOf(config.experiment, place.robot),
+                              {.progress = [&](double t) { bar->Update(t / config.live.longest); },
+                               .stop = interrupt.token()});
   bar.reset();
   WriteEpisode(episode, replanner, place.scene, &folder);
   folder.Publish();

@@ -1,97 +1,26 @@
-#include <cmath>
 #include <filesystem>
 #include <iostream>
-#include <limits>
 #include <memory>
-#include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "experiments/commands/command_line.h"
 #include "experiments/commands/commands.h"
 #include "experiments/config/experiment.h"
 #include "experiments/config/folder_name.h"
+#include "experiments/replay/episode_folder.h"
 #include "experiments/replay/mujoco_model.h"
-#include "experiments/replay/replay.h"
+#include "experiments/replay/replay_screen.h"
+#include "experiments/replay/simulated_obstacles.h"
 #include "experiments/run/interrupt.h"
 #include "experiments/run/progress_bar.h"
 #include "experiments/tables/certificate_files.h"
 #include "experiments/tables/run_folder.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/number_text.h"
-#include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {
 
 namespace fs = std::filesystem;
-using nlohmann::ordered_json;
-
-constexpr double kDegree = std::numbers::pi / 180;
-
-constexpr const char* kDisclaimer =
-    "This is one simulation: soft point contacts, ideal servos without torque limits, the URDF's\n"
-    "masses with estimated inertias, an upper body without joints. It guarantees nothing about "
-    "the\n"
-    "robot, and its falls are not proofs either.";
-
-struct Replayed {
-  std::string method;
-  double duration = 0.0;
-  replay::ReplayResult result;
-  std::vector<replay::PushLimit> pushes;
-};
-
-// "forward", "left" …: the four directions of pushes.
-const char* DirectionName(double direction) {
-  const long quarter = std::lround(direction / (std::numbers::pi / 2));
-  constexpr const char* kNames[] = {"forward", "left", "back", "right"};
-  return kNames[quarter % 4];
-}
-
-void Print(const Replayed& replayed) {
-  const replay::ReplayResult& result = replayed.result;
-  std::cout << replayed.method << ": "
-            << (result.stayed_up ? "stays up" : "FALLS at " + Formatted("%.2f s", result.ended))
-            << ", walk of " << Formatted("%.3f s", replayed.duration) << ", largest tilt "
-            << Formatted("%.1f deg", result.largest_tilt / kDegree) << ", ZMP off by "
-            << Formatted("%.1f", 1e3 * result.zmp_rms) << " (rms) and "
-            << Formatted("%.1f mm", 1e3 * result.zmp_largest) << " (largest; mass model alone "
-            << Formatted("%.1f", 1e3 * result.model_rms) << " and "
-            << Formatted("%.1f mm", 1e3 * result.model_largest) << "), slip "
-            << Formatted("%.1f mm", 1e3 * result.slip) << ", drift "
-            << Formatted("%.1f mm", 1e3 * result.drift) << '\n';
-  for (const replay::PushLimit& push : replayed.pushes) {
-    std::cout << "  pushed " << DirectionName(push.direction) << " at "
-              << Formatted("%.2f s", push.at) << ": survives "
-              << Formatted("%.1f N s", push.survived)
-              << (std::isinf(push.fell) ? ", the most that was tried\n"
-                                        : ", falls at " + Formatted("%.1f N s\n", push.fell));
-  }
-}
-
-ordered_json Json(const Replayed& replayed) {
-  const replay::ReplayResult& result = replayed.result;
-  ordered_json json = {{"method", replayed.method},
-                       {"duration_s", replayed.duration},
-                       {"stayed_up", result.stayed_up},
-                       {"ended_s", result.ended},
-                       {"largest_tilt_rad", result.largest_tilt},
-                       {"zmp_rms_m", result.zmp_rms},
-                       {"zmp_largest_m", result.zmp_largest},
-                       {"zmp_model_rms_m", result.model_rms},
-                       {"zmp_model_largest_m", result.model_largest},
-                       {"slip_m", result.slip},
-                       {"drift_m", result.drift},
-                       {"weight_share", result.weight_share}};
-  for (const replay::PushLimit& push : replayed.pushes) {
-    json["pushes"].push_back(
-        {{"at_s", push.at},
-         {"direction", DirectionName(push.direction)},
-         {"survived_n_s", push.survived},
-         {"fell_n_s", std::isinf(push.fell) ? ordered_json(nullptr) : ordered_json(push.fell)}});
-  }
-  return json;
-}
 
 // Instants of pushes within a walk.
 std::vector<double> Instants(const ReplayCommand& command, double duration) {
@@ -104,32 +33,70 @@ std::vector<double> Instants(const ReplayCommand& command, double duration) {
   return command.push_at;
 }
 
-/// A method's walk as the servos follow it.
+/// A walk as the servos follow it.
 struct NamedMotion {
   std::string method;
+  std::string table;  ///< its replay.csv in the folder, without the extension
   replay::ReferenceMotion motion;
-  std::vector<double> push_at;
 };
 
-std::vector<NamedMotion> ReadMotions(const ReplayCommand& command, const RobotModel& robot) {
+/// All that is simulated.
+struct Task {
+  WholeRobot robot;
+  replay::SimulatedObstacles world;
+  std::vector<NamedMotion> motions;
+  replay::PlayOptions options = {};
+};
+
+Task RunTask(const ReplayCommand& command) {
+  const std::vector<std::string> methods = MethodsOfRun(command.run, command.method);
+  const ExperimentConfig config = LoadConfig((fs::path(command.run) / "config.yaml").string(), {});
+  Task task{.robot = LoadWholeRobot(RobotPath(config).string()), .world = {}, .motions = {}};
+  if (const auto scene = ScenePath(config)) {
+    task.world = replay::ObstaclesOf(LoadScene(scene->string()));
+  }
+  for (const std::string& method : methods) {
+    const fs::path path = fs::path(command.run) / MethodFolder(method) / "trajectory.csv";
+    task.motions.push_back({method, MethodFolder(method) + "/replay",
+                            replay::ReferenceMotion(ReadTrajectory(path, task.robot.model))});
+  }
+  return task;
+}
+
+Task EpisodeTask(const ReplayCommand& command) {
+  if (command.method) {
+    throw InputError({"--method: " + command.run + " is an episode, which has one walk"});
+  }
+  replay::RecordedEpisode episode = replay::ReadEpisode(command.run);
+  Task task{.robot = std::move(episode.robot),
+            .world = replay::ObstaclesOf(episode.truth),
+            .motions = {}};
+  task.motions.push_back({"episode", "replay", std::move(episode.motion)});
+  task.options.drift_window = episode.config.live.horizon;
+  return task;
+}
+
+// Instants of the pushes of each motion.
+std::vector<std::vector<double>> AllInstants(const ReplayCommand& command, const Task& task) {
   if (!command.push_at.empty() && !command.push) {
     throw InputError({"--push-at: without --push it says nothing"});
   }
-  std::vector<NamedMotion> motions;
-  for (const std::string& method : MethodsOfRun(command.run, command.method)) {
-    const fs::path path = fs::path(command.run) / MethodFolder(method) / "trajectory.csv";
-    replay::ReferenceMotion motion(ReadTrajectory(path, robot));
-    const std::vector<double> push_at = Instants(command, motion.end());
-    motions.push_back({method, std::move(motion), push_at});
-  }
-  return motions;
+  std::vector<std::vector<double>> all;
+  for (const NamedMotion& one : task.motions) all.push_back(Instants(command, one.motion.end()));
+  return all;
 }
 
-void WriteRows(const std::vector<Replayed>& all, const std::string& run) {
+std::vector<std::string> NamesOf(const auto& things) {
+  std::vector<std::string> names;
+  for (const auto& thing : things) names.push_back(thing.name);
+  return names;
+}
+
+void WriteRows(const Task& task, const std::vector<replay::Replayed>& all, const std::string& run) {
   RunFolder folder(run, /*overwrite=*/true);
   folder.CopyOlder();
-  for (const Replayed& replayed : all) {
-    WriteCsv(MethodFolder(replayed.method) + "/replay", ReplayCsv(replayed.result), &folder);
+  for (size_t i = 0; i < all.size(); ++i) {
+    WriteCsv(task.motions[i].table, ReplayCsv(all[i].result), &folder);
   }
   folder.Publish();
 }
@@ -137,45 +104,47 @@ void WriteRows(const std::vector<Replayed>& all, const std::string& run) {
 }  // namespace
 
 ExitStatus Replay(const ReplayCommand& command) {
-  const fs::path config_file = fs::path(command.run) / "config.yaml";
-  MethodsOfRun(command.run, command.method);  // is it a run at all?
-  const std::string robot_file = RobotPath(LoadConfig(config_file.string(), {})).string();
-  const auto [robot, tree] = LoadWholeRobot(robot_file);
-  const std::vector<NamedMotion> motions = ReadMotions(command, robot);
+  const Task task = replay::IsEpisode(command.run) ? EpisodeTask(command) : RunTask(command);
+  const std::vector<std::vector<double>> push_at = AllInstants(command, task);
   if (const std::string why = replay::WhyNoSimulation(); !why.empty()) {
     std::cerr << "halfstep: replay: " << why << '\n';
     return kFailed;
   }
   InterruptGuard interrupt;
-  const replay::Simulation simulation(replay::MujocoModel(robot, tree, {}), robot,
-                                      tree.urdf.links[static_cast<size_t>(tree.waist)].name);
-  std::vector<Replayed> all;
+  const auto& [robot, tree] = task.robot;
+  const std::vector<replay::SimulatedObstacle>& obstacles = task.world.obstacles;
+  const replay::Simulation simulation(replay::MujocoModel(robot, tree, {}, obstacles), robot,
+                                      tree.urdf.links[static_cast<size_t>(tree.waist)].name,
+                                      obstacles);
+  const bool screen = !command.quiet && !command.json;
+  std::vector<replay::Replayed> all;
   bool stayed_up = true;
-  for (const auto& [method, motion, push_at] : motions) {
-    Replayed& replayed = all.emplace_back();
-    replayed.method = method;
+  for (size_t i = 0; i < task.motions.size(); ++i) {
+    const replay::ReferenceMotion& motion = task.motions[i].motion;
+    replay::Replayed& replayed = all.emplace_back();
+    replayed.method = task.motions[i].method;
     replayed.duration = motion.end();
-    replayed.result = replay::Play(simulation, motion, {});
+    replayed.window = task.options.drift_window;
+    replayed.bodies = NamesOf(robot.bodies);
+    replayed.obstacles = NamesOf(obstacles);
+    replayed.result = replay::Play(simulation, motion, task.options);
     replay::CompareMassModel(robot, tree, motion, &replayed.result);
     stayed_up = stayed_up && replayed.result.stayed_up;
     if (command.push && replayed.result.stayed_up) {
-      ProgressBar bar("pushes of " + method, command.quiet || command.json);
+      ProgressBar bar("pushes of " + replayed.method, !screen);
       replayed.pushes = replay::FindPushLimits(
-          simulation, motion, {}, {}, push_at, [&bar](double done) { bar.Update(done); },
-          interrupt.token());
+          simulation, motion, task.options, {}, push_at[i],
+          [&bar](double done) { bar.Update(done); }, interrupt.token());
     }
     if (interrupt.requested()) return kInterrupted;
-    if (!command.quiet && !command.json) Print(replayed);
+    if (screen) std::cout << replay::ReplayText(replayed);
   }
-  if (command.out) WriteRows(all, command.run);
+  if (command.out) WriteRows(task, all, command.run);
   if (command.json) {
-    ordered_json json = {{"run", command.run},
-                         {"engine", "mujoco " + replay::EngineVersion()},
-                         {"statement", kDisclaimer}};
-    for (const Replayed& replayed : all) json["methods"].push_back(Json(replayed));
-    std::cout << json.dump(2) << '\n';
-  } else if (!command.quiet) {
-    std::cout << '\n' << kDisclaimer << '\n';
+    std::cout << replay::ReplayJson(command.run, task.world.notes, all);
+  } else if (screen) {
+    for (const std::string& note : task.world.notes) std::cout << note << '\n';
+    std::cout << '\n' << replay::kReplayDisclaimer << '\n';
   }
   return stayed_up ? kSuccess : kFailed;
 }
@@ -183,12 +152,13 @@ ExitStatus Replay(const ReplayCommand& command) {
 CommandAction DeclareReplay(CLI::App* app) {
   const auto command = std::make_shared<ReplayCommand>();
   const auto engine = std::make_shared<std::string>("mujoco");
-  app->add_option("RUN", command->run, "run folder")->required();
+  app->add_option("RUN", command->run, "folder of a run or of an episode")->required();
   app->add_option("--engine", *engine, "mujoco")->check(CLI::IsMember({"mujoco"}));
   app->add_option("--method", command->method, "only this one (default: all)");
   app->add_flag("--push", command->push, "find the largest push that each walk survives");
   app->add_option("--push-at", command->push_at, "instants of the push [s]");
-  app->add_flag("--out", command->out, "write METHOD/replay.csv into the run folder");
+  app->add_flag("--out", command->out,
+                "write METHOD/replay.csv (episode: replay.csv) into the folder");
   app->add_flag("--quiet", command->quiet, "print nothing but errors");
   app->add_flag("--json", command->json, "print JSON");
   // CLI11 writes into `engine` while it parses, so it must live as long as the action.

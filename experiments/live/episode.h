@@ -67,9 +67,10 @@ struct Episode {
   std::vector<EpisodeGrant> grants;
   std::vector<BegunHalfStep> begun;
   std::vector<EpisodeEvent> events;
-  double waited = 0.0;   ///< before the first walk began, at t = 0; a time of the script [s]
-  bool stopped = false;  ///< the last walk was cut after its half-step `begun.back()`
-  double end = 0.0;      ///< [s]
+  double waited = 0.0;       ///< before the first walk began, at t = 0; a time of the script [s]
+  bool stopped = false;      ///< the last walk was cut after its half-step `begun.back()`
+  double end = 0.0;          ///< [s]
+  double latest_tick = 0.0;  ///< by how much a tick of the wall clock came late at most [s]
 
   /// The motion that was executed, which every walk of the record agrees with while it lasted.
   SuperposedWalk Executed() const;
@@ -86,5 +87,9 @@ struct EpisodeHooks {
 /// same arguments give the same record, to the byte.
 Episode RunLockstep(const Replanner& replanner, const TrueWorld& truth,
                     const std::array<Footprint, 2>& start, const EpisodeHooks& hooks);
+
+/// The same by the wall clock: the replanner computes in a thread while the robot walks.
+Episode RunWallClock(const Replanner& replanner, const TrueWorld& truth,
+                     const std::array<Footprint, 2>& start, const EpisodeHooks& hooks);
 
 }  // namespace halfstep

@@ -32,7 +32,7 @@ EpisodeSummary Summarize(const Episode& episode, const TrueWorld& truth, const R
     summary.latencies.push_back(walk.t - walk.measured);
     int begun = 0;
     for (const EpisodeEvent& event : episode.events) {
-      begun += event.what == "begins" && event.t > walk.measured &&
+      begun += event.what == "begins" && event.t > walk.measured && event.t <= walk.t &&
                event.half_step < walk.first_changed && event.walk <= static_cast<int>(k);
     }
     summary.begun_meanwhile.push_back(begun);
@@ -65,6 +65,9 @@ std::string SummaryScreen(const Episode& episode, const EpisodeSummary& summary,
     std::ranges::sort(sorted);
     text += Formatted("latency      median %.3f s, largest %.3f s from measurement to hand-over\n",
                       sorted[sorted.size() / 2], sorted.back());
+  }
+  if (episode.latest_tick > 0.0) {
+    text += Formatted("wall clock   ticks at most %.1f ms late\n", 1e3 * episode.latest_tick);
   }
   const Approach& nearest = summary.nearest;
   text +=

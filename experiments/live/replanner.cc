@@ -231,11 +231,11 @@ std::vector<int> Replanner::Junctions(const Situation& s, const SuperposedWalk& 
   return junctions;
 }
 
-Proposal Replanner::Propose(const Situation& s, std::mt19937_64& random) const {
+Proposal Replanner::Propose(const Situation& s, const PreparedWorld& among,
+                            std::mt19937_64& random) const {
   Proposal proposal{
       .plan = s.plan, .smoothed = s.smoothed, .robot_through = s.robot_through, .grant = s.grant};
   const double begin = SteadySeconds();
-  const PreparedWorld& among = *s.world;
   const bool more = s.begun + 1 < s.plan.sequence.size();
   if (s.stopped && more) {
     proposal.plan =
@@ -277,6 +277,11 @@ Proposal Replanner::Propose(const Situation& s, std::mt19937_64& random) const {
       proposal.kind = ProposalKind::kChanged;
       return proposal;
     }
+    if (proposal.planned.status != PlanStatus::kSolved) {
+      proposal.reason += "; " + proposal.planned.sentence;
+    } else {
+      proposal.reason += "; a plan was refused";
+    }
   }
   proposal.kind = ProposalKind::kUnsafe;
   return proposal;
@@ -297,6 +302,10 @@ Proposal Replanner::Begin(const std::array<Footprint, 2>& start, const PreparedW
   proposal.grant.version = -1;
   if (const auto refused = Prove(situation, walk, walk.num_half_steps() - 1, among, &proposal)) {
     proposal.reason = among.safety.evaluator().Describe(*refused);
+    return proposal;
+  }
+  if (proposal.grant.valid_until < walk.end_of(0)) {
+    proposal.reason = "the first half-step ends later than what is measured of obstacles holds";
     return proposal;
   }
   proposal.kind = ProposalKind::kChanged;

@@ -31,7 +31,7 @@ struct Situation {
   bool stopped = false;        ///< nothing more begins unless a successor is handed over
   double now = 0.0;            ///< [s]
   double hand_over = 0.0;      ///< a successor is taken at this time at the earliest [s]
-  std::shared_ptr<const PreparedWorld> world;
+  std::shared_ptr<const World> world;
   bool shorten = false;  ///< when nothing else is to be done, look for a shorter way
 };
 
@@ -71,7 +71,9 @@ class Replanner {
 
   std::shared_ptr<const PreparedWorld> Prepare(const World& world) const;
 
-  Proposal Propose(const Situation& situation, std::mt19937_64& random) const;
+  /// `among` is prepared of the situation's world.
+  Proposal Propose(const Situation& situation, const PreparedWorld& among,
+                   std::mt19937_64& random) const;
 
   /// A walk from the soles `start` to the goal of the world, with `junctions` of its overlaps
   /// found; the proposal is kUnsafe without a plan.

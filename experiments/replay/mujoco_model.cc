@@ -1,7 +1,9 @@
 #include "experiments/replay/mujoco_model.h"
 
+#include <Eigen/Eigenvalues>
 #include <array>
 
+#include "experiments/replay/mujoco_geoms.h"
 #include "wpg/files/number_text.h"
 
 namespace halfstep::replay {
@@ -11,6 +13,14 @@ using Eigen::Isometry3d;
 
 // Half of the thickness of a sole's box [m].
 constexpr double kSoleHalf = 0.005;
+// Principal moments of inertia below it are raised to it [kg m²]; MuJoCo refuses those of 0, which
+// links of sensors have.
+constexpr double kLeastInertia = 1e-6;
+// Soles touch the floor (bit 1), bodies of the robot touch obstacles (bit 2), nothing else does.
+constexpr const char* kFloorBits = " contype=\"1\" conaffinity=\"0\"";
+constexpr const char* kSoleBits = " contype=\"0\" conaffinity=\"1\"";
+constexpr const char* kObstacleBits = " contype=\"2\" conaffinity=\"0\"";
+constexpr const char* kBodyBits = " contype=\"0\" conaffinity=\"2\"";
 
 template <typename Vector>
 std::string Numbers(const Vector& values) {
@@ -21,33 +31,39 @@ std::string Numbers(const Vector& values) {
   return text;
 }
 
-std::string Attribute(const std::string& name, const std::string& value) {
-  return " " + name + "=\"" + value + "\"";
-}
-
 std::string PlaceAttributes(const Isometry3d& X) {
   const Eigen::Quaterniond q(X.linear());
   return Attribute("pos", Numbers(X.translation().eval())) +
          Attribute("quat", Numbers(Eigen::Vector4d(q.w(), q.x(), q.y(), q.z())));
 }
 
+Eigen::Matrix3d WithLeastInertia(const Eigen::Matrix3d& I) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> moments(I);
+  if (moments.eigenvalues()[0] >= kLeastInertia) return I;
+  const Eigen::Vector3d raised = moments.eigenvalues().cwiseMax(kLeastInertia);
+  const Eigen::Matrix3d& axes = moments.eigenvectors();
+  return axes * raised.asDiagonal() * axes.transpose();
+}
+
 class Writer {
  public:
-  Writer(const RobotModel& robot, const RobotTree& tree, const ModelOptions& options)
-      : robot_(robot), tree_(tree), options_(options) {}
+  Writer(const RobotModel& robot, const RobotTree& tree, const ModelOptions& options,
+         const std::vector<SimulatedObstacle>& obstacles)
+      : robot_(robot), tree_(tree), options_(options), obstacles_(obstacles) {}
 
   std::string Text() {
     text_ = "<mujoco" + Attribute("model", robot_.name) + ">\n";
-    text_ +=
-        "  <compiler angle=\"radian\" balanceinertia=\"true\" boundmass=\"1e-4\" "
-        "boundinertia=\"1e-6\"/>\n";
+    text_ += "  <compiler angle=\"radian\" balanceinertia=\"true\" boundmass=\"1e-4\"" +
+             Attribute("boundinertia", ShortestText(kLeastInertia)) + "/>\n";
     text_ += "  <option integrator=\"implicit\" cone=\"elliptic\"" +
              Attribute("timestep", ShortestText(options_.timestep)) + "/>\n  <worldbody>\n";
-    text_ +=
-        "    <geom name=\"floor\" type=\"plane\" size=\"0 0 1\" contype=\"1\" conaffinity=\"0\"" +
-        Contact() + "/>\n";
+    text_ += std::string("    <geom name=\"floor\" type=\"plane\" size=\"0 0 1\"") + kFloorBits +
+             Contact() + "/>\n";
     AddLink(0, "    ");
-    text_ += "  </worldbody>\n  <actuator>\n";
+    for (size_t i = 0; i < obstacles_.size(); ++i) AddObstacle(i);
+    text_ += "  </worldbody>\n";
+    if (!assets_.empty()) text_ += "  <asset>\n" + assets_ + "  </asset>\n";
+    text_ += "  <actuator>\n";
     for (const Leg& leg : robot_.legs) {
       for (const LegJoint& joint : leg.joints) AddServo(joint);
     }
@@ -67,6 +83,42 @@ class Writer {
       }
     }
     return false;
+  }
+
+  // The link that joint `joint` of a leg moves; the waist for −1.
+  int LinkOf(int leg, int joint) const {
+    if (joint < 0) return tree_.waist;
+    const std::string& name =
+        robot_.legs[static_cast<size_t>(leg)].joints[static_cast<size_t>(joint)].name;
+    for (const UrdfJoint& one : tree_.urdf.joints) {
+      if (one.name == name) return one.child;
+    }
+    return -1;
+  }
+
+  void AddGeom(const ConvexBody& body, const std::string& name, const char* bits,
+               const std::string& indent) {
+    const MujocoGeom geom = GeomOf(body, name);
+    if (!geom.asset.empty()) assets_ += "    " + geom.asset + "\n";
+    text_ += indent + "<geom" + Attribute("name", name) + geom.shape + " mass=\"0\"" + bits +
+             Contact() + "/>\n";
+  }
+
+  // The bodies that are rigid with a link. Without obstacles there is nothing for them to touch.
+  void AddBodies(int link, const std::string& indent) {
+    if (obstacles_.empty()) return;
+    for (size_t i = 0; i < robot_.bodies.size(); ++i) {
+      const RobotBody& body = robot_.bodies[i];
+      if (LinkOf(body.leg, body.link) != link) continue;
+      AddGeom(body.shape, "body_" + std::to_string(i), kBodyBits, indent);
+    }
+  }
+
+  // Moved from outside, by nothing else.
+  void AddObstacle(size_t index) {
+    text_ += "    <body mocap=\"true\">\n";
+    AddGeom(obstacles_[index].body, "obstacle_" + std::to_string(index), kObstacleBits, "      ");
+    text_ += "    </body>\n";
   }
 
   void AddLink(int index, const std::string& indent) {
@@ -90,8 +142,9 @@ class Writer {
     text_ += indent + "<body" + Attribute("name", link.name) + PlaceAttributes(X) + ">\n";
     if (!joint_text.empty()) text_ += inner + joint_text + "\n";
     if (link.mass > 0) AddMass(link, inner);
+    AddBodies(index, inner);
     for (const Side side : {Side::kLeft, Side::kRight}) {
-      if (tree_.feet[static_cast<size_t>(Index(side))] == index) AddSole(side, inner);
+      if (LinkOf(Index(side), 5) == index) AddSole(side, inner);
     }
     for (size_t child = 0; child < tree_.urdf.links.size(); ++child) {
       const int joint = tree_.urdf.links[child].joint;
@@ -103,7 +156,7 @@ class Writer {
   }
 
   void AddMass(const UrdfLink& link, const std::string& indent) {
-    const Eigen::Matrix3d& I = link.inertia;
+    const Eigen::Matrix3d I = WithLeastInertia(link.inertia);
     Eigen::Matrix<double, 6, 1> inertia;
     inertia << I(0, 0), I(1, 1), I(2, 2), I(0, 1), I(0, 2), I(1, 2);
     text_ += indent + "<inertial" + Attribute("pos", Numbers(link.com)) +
@@ -111,15 +164,15 @@ class Writer {
              Attribute("fullinertia", Numbers(inertia)) + "/>\n";
   }
 
-  // Its lower face is the sole.
+  // On the link that the last joint of the leg moves. Its lower face is the sole.
   void AddSole(Side side, const std::string& indent) {
     const Leg& leg = robot_.legs[static_cast<size_t>(Index(side))];
-    const Isometry3d X_FootSole = leg.joints[5].X_BLink.inverse() * leg.X_BSole;
-    const Isometry3d X = X_FootSole * Eigen::Translation3d(0, 0, kSoleHalf);
+    const Isometry3d X_LinkSole = leg.joints[5].X_BLink.inverse() * leg.X_BSole;
+    const Isometry3d X = X_LinkSole * Eigen::Translation3d(0, 0, kSoleHalf);
     const Eigen::Vector3d half(robot_.sole_size.x() / 2, robot_.sole_size.y() / 2, kSoleHalf);
     text_ += indent + "<geom" + Attribute("name", std::string(Name(side)) + "_sole") +
-             " type=\"box\" mass=\"0\" contype=\"0\" conaffinity=\"1\"" +
-             Attribute("size", Numbers(half)) + PlaceAttributes(X) + Contact() + "/>\n";
+             " type=\"box\" mass=\"0\"" + kSoleBits + Attribute("size", Numbers(half)) +
+             PlaceAttributes(X) + Contact() + "/>\n";
   }
 
   // Torque = stiffness (u − q) − damping q̇, where u is the control.
@@ -134,14 +187,15 @@ class Writer {
   const RobotModel& robot_;
   const RobotTree& tree_;
   const ModelOptions& options_;
-  std::string text_;
+  const std::vector<SimulatedObstacle>& obstacles_;
+  std::string text_, assets_;
 };
 
 }  // namespace
 
-std::string MujocoModel(const RobotModel& robot, const RobotTree& tree,
-                        const ModelOptions& options) {
-  return Writer(robot, tree, options).Text();
+std::string MujocoModel(const RobotModel& robot, const RobotTree& tree, const ModelOptions& options,
+                        const std::vector<SimulatedObstacle>& obstacles) {
+  return Writer(robot, tree, options, obstacles).Text();
 }
 
 }  // namespace halfstep::replay

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "experiments/replay/simulated_obstacles.h"
 #include "wpg/robot/robot_model.h"
 #include "wpg/robot/robot_tree.h"
 
@@ -26,7 +28,10 @@ struct ModelOptions {
 /// masses and inertias, a free base, hinges in the legs with servos (actuators: left leg from the
 /// hip, then right), every other joint welded in the standing posture, and soles as boxes that
 /// touch the floor and nothing else. Names are the URDF's; soles are "left_sole", "right_sole".
-std::string MujocoModel(const RobotModel& robot, const RobotTree& tree,
-                        const ModelOptions& options);
+/// Obstacles are mocap bodies in their order; with them the robot gets its convex bodies, which
+/// touch obstacles and nothing else: "body_I" by their index in RobotModel::bodies. Principal
+/// moments of inertia below 1e-6 kg m², which MuJoCo refuses when they are 0, are raised to it.
+std::string MujocoModel(const RobotModel& robot, const RobotTree& tree, const ModelOptions& options,
+                        const std::vector<SimulatedObstacle>& obstacles = {});
 
 }  // namespace halfstep::replay

@@ -1,6 +1,7 @@
 #include <mujoco/mujoco.h>
 
 #include <cstring>
+#include <map>
 #include <stdexcept>
 
 #include "experiments/replay/simulation.h"
@@ -10,7 +11,8 @@ namespace halfstep::replay {
 namespace {
 
 using Eigen::Vector3d;
-constexpr int kRoot = 1;  // the body after the world
+constexpr int kRoot = 1;           // the body after the world
+constexpr double kNowhere = -1e4;  // height of obstacles that are not there [m]
 
 [[noreturn]] void Refuse(const char* message) {
   throw std::runtime_error(std::string("MuJoCo: ") + message);
@@ -51,117 +53,173 @@ Eigen::Isometry3d Pose(const mjtNum* position, const mjtNum* rows) {
 }  // namespace
 
 struct Simulation::State {
-  std::shared_ptr<const mjModel> model;
+  // What copies share.
+  struct Layout {
+    std::shared_ptr<const mjModel> model;
+    int floor = 0;                           // geom
+    int waist = 0;                           // body
+    std::array<int, 2> soles{};              // geoms
+    std::array<std::array<int, 6>, 2> qpos;  // where the legs' angles stand
+    double sole_half = 0.0;                  // of a sole's box, along z
+    double stiffness = 0.0, damping = 0.0;   // of the servos
+    std::vector<SimulatedObstacle> obstacles;
+    std::vector<int> robot_bodies;  // by geom: index of RobotModel::bodies, −1: none
+  };
+  std::shared_ptr<const Layout> layout;
   std::unique_ptr<mjData, void (*)(mjData*)> data{nullptr, mj_deleteData};
-  int waist = 0;                           // body
-  std::array<int, 2> soles{};              // geoms
-  std::array<std::array<int, 6>, 2> qpos;  // where the legs' angles stand
-  double sole_half = 0.0;                  // of a sole's box, along z
-  double stiffness = 0.0, damping = 0.0;   // of the servos
 
+  const mjModel* model() const { return layout->model.get(); }
   Eigen::Isometry3d Body(int id) const { return Pose(data->xpos + 3 * id, data->xmat + 9 * id); }
+  // The obstacle that a geom is of, −1: none.
+  int ObstacleOf(int geom) const { return model()->body_mocapid[model()->geom_bodyid[geom]]; }
+  // The force of a contact's first geom on its second, in W.
+  Vector3d ForceOf(int contact) const {
+    std::array<mjtNum, 6> local{};
+    mj_contactForce(model(), data.get(), contact, local.data());
+    // Rows of the frame: the normal and two tangents.
+    const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> frame(
+        data->contact[contact].frame);
+    return frame.transpose() * Eigen::Map<const Vector3d>(local.data());
+  }
 };
 
 std::string WhyNoSimulation() { return ""; }
 std::string EngineVersion() { return mj_versionString(); }
 
 Simulation::Simulation(const std::string& mjcf, const RobotModel& robot,
-                       const std::string& waist_link)
+                       const std::string& waist_link,
+                       const std::vector<SimulatedObstacle>& obstacles)
     : state_(std::make_unique<State>()) {
-  state_->model = Compile(mjcf);
-  const mjModel& model = *state_->model;
-  state_->data.reset(mj_makeData(&model));
-  state_->waist = Find(model, mjOBJ_BODY, waist_link);
+  State::Layout layout;
+  layout.model = Compile(mjcf);
+  const mjModel& model = *layout.model;
+  layout.floor = Find(model, mjOBJ_GEOM, "floor");
+  layout.waist = Find(model, mjOBJ_BODY, waist_link);
   for (size_t side = 0; side < 2; ++side) {
     const std::string name(Name(static_cast<Side>(side)));
-    state_->soles[side] = Find(model, mjOBJ_GEOM, name + "_sole");
+    layout.soles[side] = Find(model, mjOBJ_GEOM, name + "_sole");
     for (size_t j = 0; j < 6; ++j) {
       const int joint = Find(model, mjOBJ_JOINT, robot.legs[side].joints[j].name);
-      state_->qpos[side][j] = model.jnt_qposadr[joint];
+      layout.qpos[side][j] = model.jnt_qposadr[joint];
     }
   }
-  state_->sole_half = model.geom_size[3 * state_->soles[0] + 2];
-  state_->stiffness = model.actuator_gainprm[0];
-  state_->damping = -model.actuator_biasprm[2];
+  layout.sole_half = model.geom_size[3 * layout.soles[0] + 2];
+  layout.stiffness = model.actuator_gainprm[0];
+  layout.damping = -model.actuator_biasprm[2];
+  HALFSTEP_CHECK(static_cast<size_t>(model.nmocap) == obstacles.size(), "obstacles of a model");
+  layout.obstacles = obstacles;
+  layout.robot_bodies.assign(static_cast<size_t>(model.ngeom), -1);
+  for (size_t i = 0; i < robot.bodies.size() && !obstacles.empty(); ++i) {
+    const int geom = Find(model, mjOBJ_GEOM, "body_" + std::to_string(i));
+    layout.robot_bodies[static_cast<size_t>(geom)] = static_cast<int>(i);
+  }
+  state_->data.reset(mj_makeData(&model));
+  state_->layout = std::make_shared<const State::Layout>(std::move(layout));
 }
 
 Simulation::~Simulation() = default;
 
 Simulation::Simulation(const Simulation& other) : state_(std::make_unique<State>()) {
-  const State& from = *other.state_;
-  state_->model = from.model;
-  state_->data.reset(mj_copyData(nullptr, from.model.get(), from.data.get()));
-  state_->waist = from.waist;
-  state_->soles = from.soles;
-  state_->qpos = from.qpos;
-  state_->sole_half = from.sole_half;
-  state_->stiffness = from.stiffness;
-  state_->damping = from.damping;
+  state_->layout = other.state_->layout;
+  state_->data.reset(mj_copyData(nullptr, state_->model(), other.state_->data.get()));
 }
 
-double Simulation::timestep() const { return state_->model->opt.timestep; }
+double Simulation::timestep() const { return state_->model()->opt.timestep; }
 
 double Simulation::weight() const {
-  return mj_getTotalmass(state_->model.get()) * -state_->model->opt.gravity[2];
+  return state_->model()->body_subtreemass[kRoot] * -state_->model()->opt.gravity[2];
 }
 
 void Simulation::Place(const Eigen::Isometry3d& X_WB, const std::array<Vector6d, 2>& q) {
   mjData* data = state_->data.get();
-  mj_resetData(state_->model.get(), data);
+  mj_resetData(state_->model(), data);
   for (size_t side = 0; side < 2; ++side) {
     for (size_t j = 0; j < 6; ++j) {
-      data->qpos[state_->qpos[side][j]] = q[side][static_cast<Eigen::Index>(j)];
+      data->qpos[state_->layout->qpos[side][j]] = q[side][static_cast<Eigen::Index>(j)];
     }
   }
-  mj_kinematics(state_->model.get(), data);
+  mj_kinematics(state_->model(), data);
   // Nothing that moves lies between the root and the waist.
   const Eigen::Isometry3d X_WRoot =
-      X_WB * state_->Body(state_->waist).inverse() * state_->Body(kRoot);
+      X_WB * state_->Body(state_->layout->waist).inverse() * state_->Body(kRoot);
   const Eigen::Quaterniond turn(X_WRoot.linear());
   Eigen::Map<Vector3d>(data->qpos) = X_WRoot.translation();
   Eigen::Map<Eigen::Vector4d>(data->qpos + 3) << turn.w(), turn.x(), turn.y(), turn.z();
-  mj_forward(state_->model.get(), data);
+  MoveObstacles(0.0);
+  mj_forward(state_->model(), data);
 }
 
 FloorForces Simulation::Step(const JointTargets& targets, const Eigen::Vector3d& push) {
-  const mjModel* model = state_->model.get();
+  const State::Layout& layout = *state_->layout;
+  const mjModel* model = layout.model.get();
   mjData* data = state_->data.get();
   for (size_t side = 0; side < 2; ++side) {
     for (size_t j = 0; j < 6; ++j) {
       const auto k = static_cast<Eigen::Index>(j);
       // The servos damp q̇ itself; shifted so that they damp q̇ − target.
       data->ctrl[6 * side + j] =
-          targets.q[side][k] + state_->damping / state_->stiffness * targets.speed[side][k];
+          targets.q[side][k] + layout.damping / layout.stiffness * targets.speed[side][k];
     }
   }
-  Eigen::Map<Vector3d>(data->xfrc_applied + 6 * state_->waist) = push;
+  Eigen::Map<Vector3d>(data->xfrc_applied + 6 * layout.waist) = push;
   mj_step(model, data);
   for (const int warning : {mjWARN_BADQPOS, mjWARN_BADQVEL, mjWARN_BADQACC}) {
     if (data->warning[warning].number > 0) Refuse("the simulation became unstable");
   }
+  for (const int warning : {mjWARN_CONTACTFULL, mjWARN_CNSTRFULL}) {
+    if (data->warning[warning].number > 0) Refuse("more contacts than it has room for");
+  }
   FloorForces forces;
   for (int i = 0; i < data->ncon; ++i) {
     const mjContact& contact = data->contact[i];
-    std::array<mjtNum, 6> local{};
-    mj_contactForce(model, data, i, local.data());
-    // Rows of the frame: the normal, from the floor to the sole, and two tangents.
-    const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> frame(contact.frame);
-    const Vector3d force = frame.transpose() * Eigen::Map<const Vector3d>(local.data());
+    if (contact.geom1 != layout.floor) continue;
+    const Vector3d force = state_->ForceOf(i);
     const Eigen::Map<const Vector3d> place(contact.pos);
-    const size_t side = contact.geom2 == state_->soles[0] ? 0 : 1;
+    const size_t side = contact.geom2 == layout.soles[0] ? 0 : 1;
     forces.vertical[side] += force.z();
     forces.moment += force.z() * place.head<2>() - place.z() * force.head<2>();
   }
   return forces;
 }
 
-Eigen::Isometry3d Simulation::X_WB() const { return state_->Body(state_->waist); }
+void Simulation::MoveObstacles(double t) {
+  mjData* data = state_->data.get();
+  const std::vector<SimulatedObstacle>& obstacles = state_->layout->obstacles;
+  for (size_t i = 0; i < obstacles.size(); ++i) {
+    const Eigen::Isometry3d X =
+        obstacles[i].pose(t).value_or(Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, kNowhere)));
+    const Eigen::Quaterniond turn(X.linear());
+    Eigen::Map<Vector3d>(data->mocap_pos + 3 * i) = X.translation();
+    Eigen::Map<Eigen::Vector4d>(data->mocap_quat + 4 * i) << turn.w(), turn.x(), turn.y(), turn.z();
+  }
+}
+
+std::vector<Touch> Simulation::touches() const {
+  std::map<std::pair<int, int>, Vector3d> forces;
+  for (int i = 0; i < state_->data->ncon; ++i) {
+    const mjContact& contact = state_->data->contact[i];
+    const bool swapped = state_->ObstacleOf(contact.geom2) >= 0;
+    const int obstacle = state_->ObstacleOf(swapped ? contact.geom2 : contact.geom1);
+    if (obstacle < 0) continue;
+    const int geom = swapped ? contact.geom1 : contact.geom2;
+    const int body = state_->layout->robot_bodies[static_cast<size_t>(geom)];
+    const auto [at, is_new] = forces.try_emplace({body, obstacle}, Vector3d::Zero());
+    at->second += swapped ? -state_->ForceOf(i) : state_->ForceOf(i);
+  }
+  std::vector<Touch> touches;
+  for (const auto& [pair, force] : forces) {
+    touches.push_back({pair.first, pair.second, force.norm()});
+  }
+  return touches;
+}
+
+Eigen::Isometry3d Simulation::X_WB() const { return state_->Body(state_->layout->waist); }
 
 Eigen::Isometry3d Simulation::X_WSole(Side side) const {
-  const int geom = state_->soles[static_cast<size_t>(Index(side))];
+  const int geom = state_->layout->soles[static_cast<size_t>(Index(side))];
   const mjData& data = *state_->data;
   return Pose(data.geom_xpos + 3 * geom, data.geom_xmat + 9 * geom) *
-         Eigen::Translation3d(0, 0, -state_->sole_half);
+         Eigen::Translation3d(0, 0, -state_->layout->sole_half);
 }
 
 Eigen::Vector3d Simulation::com() const {

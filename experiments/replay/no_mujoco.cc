@@ -11,7 +11,8 @@ std::string WhyNoSimulation() { return HALFSTEP_WHY_NO_MUJOCO; }
 
 std::string EngineVersion() { return ""; }
 
-Simulation::Simulation(const std::string&, const RobotModel&, const std::string&) {
+Simulation::Simulation(const std::string&, const RobotModel&, const std::string&,
+                       const std::vector<SimulatedObstacle>&) {
   throw std::logic_error(WhyNoSimulation());
 }
 Simulation::~Simulation() = default;
@@ -24,6 +25,8 @@ void Simulation::Place(const Eigen::Isometry3d&, const std::array<Vector6d, 2>&)
 FloorForces Simulation::Step(const JointTargets&, const Eigen::Vector3d&) {
   throw std::logic_error(WhyNoSimulation());
 }
+void Simulation::MoveObstacles(double) { throw std::logic_error(WhyNoSimulation()); }
+std::vector<Touch> Simulation::touches() const { throw std::logic_error(WhyNoSimulation()); }
 Eigen::Isometry3d Simulation::X_WB() const { throw std::logic_error(WhyNoSimulation()); }
 Eigen::Isometry3d Simulation::X_WSole(Side) const { throw std::logic_error(WhyNoSimulation()); }
 Eigen::Vector3d Simulation::com() const { throw std::logic_error(WhyNoSimulation()); }

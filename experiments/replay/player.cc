@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "wpg/geometry/pose2.h"
 
@@ -20,6 +21,12 @@ Pose2 OnFloor(const Eigen::Isometry3d& X) {
 Eigen::Vector2d SeenFrom(const Pose2& X_WF, const Eigen::Vector2d& p_W) {
   const Eigen::Vector2d d = p_W - Eigen::Vector2d(X_WF.x, X_WF.y);
   return Eigen::Rotation2Dd(-X_WF.yaw) * d;
+}
+
+// Simulated less planned place of a sole on the floor.
+Eigen::Vector3d DriftFrom(const Eigen::Vector4d& planned, const Pose2& here) {
+  return {here.x - planned[0], here.y - planned[1],
+          std::remainder(here.yaw - planned[3], 2 * std::numbers::pi)};
 }
 
 }  // namespace
@@ -46,6 +53,15 @@ double Player::drift() const {
   return (robot_.X_WB().translation().head<2>() - planned.waist.head<2>()).norm();
 }
 
+double Player::StrayFrom(const TrajectoryRow& planned, const Eigen::Vector3d& shift) const {
+  double stray = (robot_.X_WB().translation() - planned.waist.head<3>() - shift).norm();
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    const Eigen::Vector4d& sole = planned.soles[static_cast<size_t>(Index(side))];
+    stray = std::max(stray, (robot_.X_WSole(side).translation() - sole.head<3>() - shift).norm());
+  }
+  return stray;
+}
+
 ReplayRow Player::Advance(const std::optional<Push>& push) {
   const double dt = robot_.timestep();
   const double begin = static_cast<double>(row_) * options_.row_period;
@@ -59,7 +75,12 @@ ReplayRow Player::Advance(const std::optional<Push>& push) {
     if (push && t > push->at && t <= push->at + push->duration + 1e-9) {
       force = push->impulse_W / push->duration;
     }
+    // Contacts are those of where the step begins.
+    robot_.MoveObstacles(t - dt);
     const FloorForces floor = robot_.Step(motion_->TargetsAt(t), force);
+    const std::vector<Touch> touches = robot_.touches();
+    touches_.Note(t - dt, touches, motion_->RestsAt(t - dt));
+    for (const Touch& touch : touches) row.touch = std::max(row.touch, touch.force);
     moment += floor.moment;
     for (size_t side = 0; side < 2; ++side) row.vertical[side] += floor.vertical[side];
   }
@@ -81,13 +102,21 @@ ReplayRow Player::Advance(const std::optional<Push>& push) {
     row.zmp_error = SeenFrom(OnFloor(robot_.X_WSole(side)), row.zmp_measured) -
                     SeenFrom({sole[0], sole[1], sole[3]}, row.zmp_planned);
   }
+  row.support_drift.setConstant(std::numeric_limits<double>::quiet_NaN());
+  double most = 0.0;
   for (const Side side : {Side::kLeft, Side::kRight}) {
     double& force = row.vertical[static_cast<size_t>(Index(side))];
     force /= static_cast<double>(steps);
     const bool carries =
         planned.stands[static_cast<size_t>(Index(side))] && force > kCarries * robot_.weight();
     row.slip = std::max(row.slip, SlipOf(side, carries));
+    if (!carries || force <= most) continue;
+    most = force;
+    row.support_drift =
+        DriftFrom(planned.soles[static_cast<size_t>(Index(side))], OnFloor(robot_.X_WSole(side)));
   }
+  const Eigen::Vector3d shift(row.support_drift[0], row.support_drift[1], 0.0);
+  row.stray = StrayFrom(motion_->RowAt(t_), shift);
   return row;
 }
 

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "experiments/replay/reference_motion.h"
+#include "experiments/replay/touch_log.h"
 
 namespace halfstep::replay {
 
@@ -12,6 +13,7 @@ struct PlayOptions {
   double hold = 1.0;          ///< standing in the last row's posture after the walk [s]
   double row_period = 0.005;  ///< what is measured is averaged over it [s]
   double fallen_tilt = 0.7;   ///< the waist leans by more: fallen [rad]
+  double drift_window = 2.0;  ///< of SupportDrift::within_window [s]
 };
 
 /// A push: a constant force on the waist.
@@ -33,6 +35,13 @@ struct ReplayRow {
   std::array<double, 2> vertical{};  ///< force on each sole, by Index(Side) [N]
   /// How far a carrying sole's centre is from where it took up load, the larger of both [m].
   double slip = 0.0;
+  /// The sole that carries more and is planned to stand, simulated less planned: x, y in W [m], yaw
+  /// [rad]; nan: none carries.
+  Eigen::Vector3d support_drift{0, 0, 0};
+  /// The farthest that the waist's origin or a sole's centre is from its plan when that is shifted
+  /// on the floor by the support's drift [m]; nan: none carries.
+  double stray = 0.0;
+  double touch = 0.0;  ///< greatest force between a body and an obstacle [N]; 0: none touch
   bool fallen = false;
 };
 
@@ -49,9 +58,12 @@ class Player {
   double drift() const;
   /// Plays the next row period, with the part of the push that falls into it.
   ReplayRow Advance(const std::optional<Push>& push);
+  /// Contacts with obstacles from t = 0 on.
+  const std::vector<TouchRecord>& touches() const { return touches_.records(); }
 
  private:
   double SlipOf(Side side, bool carries);
+  double StrayFrom(const TrajectoryRow& planned, const Eigen::Vector3d& shift) const;
 
   Simulation robot_;
   const ReferenceMotion* motion_;
@@ -59,6 +71,7 @@ class Player {
   long row_ = 0;
   double t_ = 0.0;
   std::array<std::optional<Eigen::Vector2d>, 2> anchors_;  // where each carrying sole took up load
+  TouchLog touches_;
 };
 
 }  // namespace halfstep::replay

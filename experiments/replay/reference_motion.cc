@@ -38,6 +38,15 @@ JointTargets ReferenceMotion::TargetsAt(double t) const {
   return targets;
 }
 
+bool ReferenceMotion::RestsAt(double t) const {
+  constexpr double kSame = 1e-9;  // [rad], [m]
+  if (t < rows_.front().t || t >= end()) return true;
+  const size_t i = Find(t);
+  const TrajectoryRow &a = rows_[i], &b = rows_[i + 1];
+  return (a.waist - b.waist).isZero(kSame) && (a.q[0] - b.q[0]).isZero(kSame) &&
+         (a.q[1] - b.q[1]).isZero(kSame);
+}
+
 TrajectoryRow ReferenceMotion::RowAt(double t) const {
   const size_t i = Find(t);
   const TrajectoryRow &a = rows_[i], &b = rows_[i + 1];

@@ -19,6 +19,9 @@ class ReferenceMotion {
   JointTargets TargetsAt(double t) const;
   /// Planned ZMP, waist and soles, linear between rows; support of the earlier row.
   TrajectoryRow RowAt(double t) const;
+  /// Whether the two rows about t are the same posture at the same place; true before the first row
+  /// and after the last.
+  bool RestsAt(double t) const;
 
  private:
   // The row i with t_i ≤ t < t_{i+1}, the last but one at the end.

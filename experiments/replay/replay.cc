@@ -46,12 +46,17 @@ ReplayResult Play(const Simulation& robot, const ReferenceMotion& motion,
   ReplayResult result;
   double squares = 0.0, vertical = 0.0;
   long measured = 0, walked = 0;
+  std::vector<DriftSample> drift;
   while (player.time() < player.end() && result.stayed_up) {
     const ReplayRow row = player.Advance(std::nullopt);
     result.rows.push_back(row);
     result.stayed_up = !row.fallen;
     result.largest_tilt = std::max(result.largest_tilt, row.tilt);
     result.slip = std::max(result.slip, row.slip);
+    if (!std::isnan(row.stray)) {
+      result.stray = std::max(result.stray, row.stray);
+      drift.push_back({row.t, row.support_drift});
+    }
     if (row.t > motion.end()) continue;
     ++walked;
     vertical += row.vertical[0] + row.vertical[1];
@@ -63,6 +68,8 @@ ReplayResult Play(const Simulation& robot, const ReferenceMotion& motion,
   }
   result.ended = player.time();
   result.drift = player.drift();
+  result.support = DriftOf(drift, options.drift_window);
+  result.touches = player.touches();
   if (measured > 0) result.zmp_rms = std::sqrt(squares / static_cast<double>(measured));
   if (walked > 0) result.weight_share = vertical / static_cast<double>(walked) / robot.weight();
   return result;
@@ -105,6 +112,7 @@ std::vector<PushLimit> FindPushLimits(const Simulation& robot, const ReferenceMo
 CsvFile ReplayCsv(const ReplayResult& result) {
   using enum CsvType;
   const std::string mean = ", mean of the row's period";
+  const std::string support = "carrying sole, simulated less planned, ";
   CsvWriter csv({
       {"t_s", kNumber, "s", "time since the walk's start: end of the row's period"},
       {"tilt_rad", kNumber, "rad", "of the waist from upright", "W", CsvInterpolation::kLinear},
@@ -120,13 +128,21 @@ CsvFile ReplayCsv(const ReplayResult& result) {
       {"left_foot_force_n", kNumber, "N", "vertical force on the left sole" + mean, "W"},
       {"right_foot_force_n", kNumber, "N", "vertical force on the right sole" + mean, "W"},
       {"slip_m", kNumber, "m", "of a carrying sole since it took up load, the larger of both"},
+      {"support_drift_x_m", kNumber, "m", support + "x; nan: none carries", "W"},
+      {"support_drift_y_m", kNumber, "m", support + "y; nan: none carries", "W"},
+      {"support_drift_yaw_rad", kNumber, "rad", support + "yaw; nan: none carries", "W"},
+      {"stray_m", kNumber, "m",
+       "farthest of waist and soles from their plan, shifted with the support"},
+      {"touch_n", kNumber, "N", "greatest force between a body and an obstacle; 0: none touch"},
   });
   for (const ReplayRow& row : result.rows) {
     csv.Cell(row.t).Cell(row.tilt).Cell(row.waist.x()).Cell(row.waist.y()).Cell(row.waist.z());
     for (const Eigen::Vector2d& p : {row.zmp_planned, row.zmp_measured, row.zmp_error}) {
       csv.Cell(p.x()).Cell(p.y());
     }
-    csv.Cell(row.vertical[0]).Cell(row.vertical[1]).Cell(row.slip).EndRow();
+    csv.Cell(row.vertical[0]).Cell(row.vertical[1]).Cell(row.slip);
+    for (const double part : row.support_drift) csv.Cell(part);
+    csv.Cell(row.stray).Cell(row.touch).EndRow();
   }
   return csv.file();
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "experiments/replay/player.h"
+#include "experiments/replay/support_drift.h"
 #include "experiments/tables/csv_columns.h"
 #include "wpg/robot/robot_tree.h"
 
@@ -12,16 +13,19 @@ namespace halfstep::replay {
 
 /// The outcome of playing a walk.
 struct ReplayResult {
-  bool stayed_up = true;        ///< to the end, the time of standing after the walk included
-  double ended = 0.0;           ///< time at which the waist had fallen, else the end [s]
-  double largest_tilt = 0.0;    ///< of the waist, until then [rad]
-  double zmp_rms = 0.0;         ///< of the ZMP's error during the walk [m]
-  double zmp_largest = 0.0;     ///< [m]
-  double model_rms = 0.0;       ///< of the mass model's ZMP against the planned one [m]
-  double model_largest = 0.0;   ///< [m]
-  double slip = 0.0;            ///< largest of a carrying sole [m]
-  double drift = 0.0;           ///< of the waist on the floor, at the end [m]
-  double weight_share = 0.0;    ///< mean vertical force during the walk, of the weight
+  bool stayed_up = true;       ///< to the end, the time of standing after the walk included
+  double ended = 0.0;          ///< time at which the waist had fallen, else the end [s]
+  double largest_tilt = 0.0;   ///< of the waist, until then [rad]
+  double zmp_rms = 0.0;        ///< of the ZMP's error during the walk [m]
+  double zmp_largest = 0.0;    ///< [m]
+  double model_rms = 0.0;      ///< of the mass model's ZMP against the planned one [m]
+  double model_largest = 0.0;  ///< [m]
+  double slip = 0.0;           ///< largest of a carrying sole [m]
+  double drift = 0.0;          ///< of the waist on the floor, at the end [m]
+  double weight_share = 0.0;   ///< mean vertical force during the walk, of the weight
+  SupportDrift support;        ///< of the support feet, the time after the walk included
+  double stray = 0.0;          ///< largest ReplayRow::stray, likewise [m]
+  std::vector<TouchRecord> touches;
   std::vector<ReplayRow> rows;  ///< from t = 0
 };
 

@@ -5,7 +5,9 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
+#include "experiments/replay/simulated_obstacles.h"
 #include "wpg/robot/robot_model.h"
 
 namespace halfstep::replay {
@@ -28,12 +30,21 @@ struct FloorForces {
   double total() const { return vertical[0] + vertical[1]; }
 };
 
-/// A simulated robot of MujocoModel. A copy continues independently from the same state.
+/// A body of the robot and an obstacle in contact.
+struct Touch {
+  int body = 0;        ///< index of RobotModel::bodies
+  int obstacle = 0;    ///< index of the obstacles
+  double force = 0.0;  ///< of all their contact points together [N]
+};
+
+/// A simulated robot of MujocoModel among obstacles. A copy continues independently from the same
+/// state.
 class Simulation {
  public:
   /// Precondition: WhyNoSimulation() is "". Throws std::runtime_error with MuJoCo's reason for a
-  /// model that it refuses.
-  Simulation(const std::string& mjcf, const RobotModel& robot, const std::string& waist_link);
+  /// model that it refuses. `obstacles` are those of the model.
+  Simulation(const std::string& mjcf, const RobotModel& robot, const std::string& waist_link,
+             const std::vector<SimulatedObstacle>& obstacles = {});
   ~Simulation();
   Simulation(const Simulation& other);
   Simulation& operator=(const Simulation&) = delete;
@@ -42,11 +53,15 @@ class Simulation {
   /// The weight of the model [N].
   double weight() const;
 
-  /// Places the robot at rest with the waist at X_WB.
+  /// Places the robot at rest with the waist at X_WB, and the obstacles where they are at t = 0.
   void Place(const Eigen::Isometry3d& X_WB, const std::array<Vector6d, 2>& q);
   /// Makes one time step: the servos follow `targets`, `push` [N] in W acts on the waist's CoM.
   /// Throws std::runtime_error when the simulation becomes unstable.
   FloorForces Step(const JointTargets& targets, const Eigen::Vector3d& push);
+  /// Puts the obstacles where they are at the time t of the walk [s].
+  void MoveObstacles(double t);
+  /// The robot's contacts with obstacles in the last time step, one for each pair of bodies.
+  std::vector<Touch> touches() const;
 
   Eigen::Isometry3d X_WB() const;
   /// Pose of a sole's centre.

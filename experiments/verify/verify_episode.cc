@@ -103,7 +103,10 @@ void VerifyEpisode(const VerifyOptions& options, const std::string& manifest_tex
   CheckEpisodeWorlds(episode, config.live, place.scene, findings);
   if (walks > 0) {
     CheckEpisodeWalking(options, episode, manifest, config, place, findings);
-  } else if (manifest.ending != "no_plan" || !episode.grants.empty() || !episode.begun.empty()) {
+    return;
+  }
+  findings->Say("ending: no walk");
+  if (manifest.ending != "no_plan" || !episode.grants.empty() || !episode.begun.empty()) {
     findings->Disagree(
         "manifest.json: no walk, but not the ending no_plan, a grant or a half-step");
   }

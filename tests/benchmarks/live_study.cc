@@ -1,5 +1,6 @@
 // Episodes drawn at random, in lockstep: one row an episode, then what the bench asks.
-//   live_study [FIRST [COUNT [POLICY]]]     default: seeds 1 … 100, policy replan
+//   live_study [FIRST [COUNT [POLICY [events]]]]
+// Default: seeds 1 … 100, policy replan. The policy `wall` is replan by the wall clock.
 // HRP-2's swept volumes from the user's cache, baked when they are not there.
 
 #include <algorithm>
@@ -94,7 +95,12 @@ int main(int argc, char** argv) {
   const std::uint64_t count = argc > 2 ? std::stoull(argv[2]) : 100;
   LiveConfig base = LoadLiveConfig(HALFSTEP_SOURCE_DIR "/experiments/configs/live_bar.yaml", {});
   base.live.policy = argc > 3 ? argv[3] : "replan";
+  if (base.live.policy == "wall") {
+    base.live.policy = "replan";
+    base.live.clock = "wall";
+  }
   base.live.longest = 90.0;
+  const bool wall = base.live.clock == "wall";
   const Place place = LoadPlace(base.experiment);
   const BakedHalfSteps baked = BakeHalfSteps(place.robot, base.experiment, {});
   const auto start = StartOf(base.experiment, place.robot);
@@ -111,8 +117,16 @@ int main(int argc, char** argv) {
     const double ideal = Clairvoyant(replanner, truth, start, seed, true);
     const bool can = Clairvoyant(replanner, truth, start, seed, false) > 0.0;
     const double begin = SteadySeconds();
-    const Episode episode = RunLockstep(replanner, truth, start, {});
+    const Episode episode =
+        wall ? RunWallClock(replanner, truth, start, {}) : RunLockstep(replanner, truth, start, {});
     const double cpu = SteadySeconds() - begin;
+    if (argc > 4) {
+      for (const EpisodeEvent& event : episode.events) {
+        if (event.what == "measured") continue;
+        std::printf("# %.3f %s world %d walk %d half-step %d %s\n", event.t, event.what.c_str(),
+                    event.version, event.walk, event.half_step + 1, event.text.c_str());
+      }
+    }
     const EpisodeSummary summary = Summarize(episode, truth, place.robot);
     if (!episode.walks.empty()) {
       const Physics physics = Examine(episode);

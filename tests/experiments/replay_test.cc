@@ -124,6 +124,48 @@ TEST_F(ReplayTest, SurvivesAPushBelowTheLimitAndNotAboveIt) {
   EXPECT_LE(limits[0].fell - limits[0].survived, pushes.tolerance);
 }
 
+std::string ReplacedIn(std::string text, const std::string& from, const std::string& to) {
+  const size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return at == std::string::npos ? text : text.replace(at, from.size(), to);
+}
+
+// HRP-2 with its soles as links of their own, as URDFs of other robots have them: fixed to the
+// ankles, of a little mass and without inertia.
+WholeRobot RobotWithSoleLinks(const TemporaryFolder& place) {
+  const std::string folder = RobotsFolder().string();
+  std::string urdf = ReadText(folder + "/hrp2.urdf"), yaml = ReadText(folder + "/hrp2.yaml");
+  yaml = ReplacedIn(yaml, "./hrp2}", folder + "/hrp2}");
+  for (const auto& [side, y] : {std::pair{'L', "0.010"}, std::pair{'R', "-0.010"}}) {
+    const std::string ankle = std::string(1, side) + "LEG_LINK5";
+    const std::string sole = std::string(1, side) + "SOLE", offset = std::string("0.015") + " " + y;
+    urdf = ReplacedIn(urdf, "</robot>",
+                      "<link name='" + sole +
+                          "'><inertial><mass value='0.001'/><inertia ixx='0' ixy='0' ixz='0' "
+                          "iyy='0' iyz='0' izz='0'/></inertial></link><joint name='" +
+                          sole + "_FIX' type='fixed'><parent link='" + ankle + "'/><child link='" +
+                          sole + "'/><origin xyz='" + offset + " -0.105'/></joint></robot>");
+    yaml = ReplacedIn(yaml, ankle + ", sole_xyz: [0.015, " + y + ", -0.105]",
+                      sole + ", sole_xyz: [0, 0, 0]");
+  }
+  WriteText(place / "hrp2.urdf", urdf);
+  return LoadWholeRobot(WriteText(place / "hrp2.yaml", yaml));
+}
+
+TEST_F(ReplayTest, SolesThatAreLinksOfTheirOwnStandWhereTheyAre) {
+  SKIP_WITHOUT_SIMULATION();
+  const TemporaryFolder place;
+  const auto [robot, tree] = RobotWithSoleLinks(place);
+  Simulation simulation(MujocoModel(robot, tree, {}), robot, "WAIST");
+  const TrajectoryRow row = Walk(0.0).front();
+  simulation.Place(row.X_WB(), row.q);
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    const Eigen::Isometry3d planned =
+        TrajectoryRow::Upright(row.soles[static_cast<size_t>(Index(side))]);
+    EXPECT_TRUE(simulation.X_WSole(side).isApprox(planned, 1e-9)) << Name(side);
+  }
+}
+
 // At rest the ZMP is below the CoM.
 TEST_F(ReplayTest, MassModelStandsOverItsCom) {
   std::vector<TrajectoryRow> rows(2, Walk(0.0).front());

@@ -333,6 +333,24 @@ TEST(VerifyEpisode, AcceptsWhatLiveWrites) {
   EXPECT_THAT(outcome.out, HasSubstr("stop branches keep every margin"));
 }
 
+// Where nothing is known for as long as a half-step takes, none begins, not even the first. A walk
+// that begins later is proved by what was measured while the robot waited.
+TEST(VerifyEpisode, AcceptsAnEpisodeThatWaits) {
+  const TamperedEpisode episode;
+  const auto live = [&](const std::vector<std::string>& sets) {
+    std::vector<std::string> arguments = {"live", "walk.yaml", "--overwrite", "--out", "episode"};
+    for (const std::string& set : sets) arguments.insert(arguments.end(), {"--set", set});
+    return Halfstep(episode.folder().parent_path(), arguments);
+  };
+  EXPECT_EQ(
+      live({"live.horizon_s=1", "live.longest_s=2", "live.sensing.rests_after_s=none"}).status, 1);
+  EXPECT_EQ(episode.Verify().status, 0) << episode.Verify().out;
+  EXPECT_THAT(episode.Verify().out, HasSubstr("ending: no walk"));
+  EXPECT_EQ(live({"live.horizon_s=1"}).status, 0);
+  EXPECT_EQ(episode.Verify().status, 0) << episode.Verify().out;
+  EXPECT_THAT(ReadText(episode.folder() / "worlds.csv"), HasSubstr("\n0,-0."));
+}
+
 TEST(VerifyEpisode, ExitStatusTellsWhatIsWrong) {
   const TamperedEpisode episode;
   InLastRow("worlds.csv", "goal_x_m", CellPlus(0.3))(episode.folder());

@@ -107,6 +107,15 @@ TEST(YamlFields, WritesWhatItReads) {
   EXPECT_EQ(again.steps.size(), 2u);
 }
 
+// An empty list is no list of three numbers.
+TEST(YamlFields, LeavesOutNumbersThatAreNotThere) {
+  Config config;
+  config.xyz = {};
+  const std::string text = Write(&config);
+  EXPECT_EQ(text.find("xyz"), std::string::npos);
+  EXPECT_EQ(ComplaintsAbout(text), std::vector<std::string>());
+}
+
 TEST(YamlFields, WritesReadableText) {
   Config config;
   config.lean = DegreesToRadians(30);

@@ -74,7 +74,9 @@ class YamlWriter : public Fields {
   void Texts(const char* key, std::vector<std::string>* value, const TextSpec&) override {
     Line(key, FlowList(*value, TextOf));
   }
-  void Numbers(const char* key, std::vector<double>* value, size_t, const NumberSpec&) override {
+  void Numbers(const char* key, std::vector<double>* value, size_t count,
+               const NumberSpec&) override {
+    if (count > 0 && value->empty()) return;  // an absent key: no list of none is valid
     Line(key, FlowList(*value, [key](double x) { return TextOfNumber(key, x); }));
   }
   void Points(const char* key, Eigen::Matrix2Xd* value, const GroupSpec&,

@@ -1,0 +1,239 @@
+#include "experiments/live/episode_loop.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "wpg/files/text.h"
+
+namespace halfstep {
+namespace {
+
+constexpr int kTries = 3;       // to find a shorter way, after each clear change of the world
+constexpr double kRetry = 0.5;  // after a search that found no way [s]
+constexpr double kAhead = 0.3;  // proofs are renewed so long before they are needed [s]
+
+bool SameGoal(const GoalRegion& a, const GoalRegion& b) {
+  return a.X_WG.x == b.X_WG.x && a.X_WG.y == b.X_WG.y;
+}
+
+// Whether the world is so different from the one that was looked at last that it has to be looked
+// at again, although nothing is void.
+bool DiffersClearly(const World& a, const World& b) {
+  constexpr double kClear = 0.01;  // [m]
+  if (!SameGoal(a.goal, b.goal) || a.areas != b.areas) return true;
+  return !std::ranges::equal(
+      a.scene.obstacles, b.scene.obstacles, [](const Obstacle& x, const Obstacle& y) {
+        const double moved = (x.X_WO.translation() - y.X_WO.translation()).norm();
+        return x.name == y.name && x.motion.speed == y.motion.speed &&
+               moved <= x.motion.error + y.motion.error + kClear;
+      });
+}
+
+}  // namespace
+
+EpisodeLoop::EpisodeLoop(const Replanner& replanner, const TrueWorld& truth, Thinker* thinker,
+                         std::function<void(double)> tick, const EpisodeHooks& hooks)
+    : replanner_(replanner),
+      options_(replanner.config().live),
+      truth_(truth),
+      thinker_(*thinker),
+      tick_(std::move(tick)),
+      hooks_(hooks),
+      noise_(static_cast<std::uint64_t>(replanner.config().experiment.seed) + 1) {}
+
+Episode EpisodeLoop::Run(const std::array<Footprint, 2>& start) {
+  const Proposal first = Wait(start);
+  if (first.kind == ProposalKind::kUnsafe) {
+    record_.message = first.reason;
+    return std::move(record_);
+  }
+  executor_.emplace(first.plan, first.grant);
+  asked_about_ = checked_ = world_;
+  HandOver(first, 0.0);
+  Begins(0);
+  for (long tick = 0;; ++tick) {
+    const double now = static_cast<double>(tick) * options_.period;
+    tick_(now);
+    if (hooks_.progress) hooks_.progress(now);
+    Sense(now);
+    if (thinking_) {
+      if (const std::optional<Proposal> proposal = thinker_.Answer(now)) Take(*proposal, now);
+    }
+    Advance(now);
+    if (!thinking_ && NeedsWork(now)) Ask(now);
+    if (Ends(now)) return std::move(record_);
+  }
+}
+
+Proposal EpisodeLoop::Wait(const std::array<Footprint, 2>& start) {
+  std::mt19937_64 random(static_cast<std::uint64_t>(replanner_.config().experiment.seed));
+  std::vector<World> worlds = {Measure(truth_, 0.0, options_, noise_)};
+  std::optional<World> tried;
+  Proposal first{.kind = ProposalKind::kUnsafe};
+  for (long frame = 0; first.kind == ProposalKind::kUnsafe; ++frame) {
+    const double now = static_cast<double>(frame) * options_.sensing.period;
+    if (now > options_.longest || hooks_.stop.stop_requested()) break;
+    if (frame > 0) {
+      worlds.push_back(Updated(worlds, Measure(truth_, now, options_, noise_), options_).world);
+    }
+    if (tried && !DiffersClearly(*tried, worlds.back())) continue;
+    tried = worlds.back();
+    world_ = std::make_shared<const World>(Since(worlds.back(), now));
+    first = replanner_.Begin(start, *replanner_.Prepare(*world_), options_.smooth_ahead, random);
+    record_.waited = now;
+  }
+  truth_ = truth_.Since(record_.waited);
+  // What obstacles may do at t = 0 follows from where they were before.
+  for (World& world : worlds) {
+    record_.worlds.push_back(Since(std::move(world), record_.waited));
+    record_.known.push_back(record_.worlds.back().measured_at);
+  }
+  return first;
+}
+
+void EpisodeLoop::Sense(double now) {
+  const SensingConfig& sensing = options_.sensing;
+  std::uniform_real_distribution<double> part(0.0, 1.0);
+  while (static_cast<double>(frame_ + 1) * sensing.period + sensing.delay <= now) {
+    const double taken = static_cast<double>(++frame_) * sensing.period;
+    World frame = Measure(truth_, taken, options_, noise_);
+    const bool lost = part(noise_) < sensing.lost;
+    if (lost || !truth_.IsSeen(taken)) {
+      Tell(now, "lost", Formatted("frame of %.3f s", taken));
+      continue;
+    }
+    WorldUpdate update = Updated(record_.worlds, std::move(frame), options_);
+    world_ = std::make_shared<const World>(std::move(update.world));
+    Know(now);
+    Tell(now, "measured", Formatted("frame of %.3f s", taken));
+    for (const std::string& name : update.contradictions) Tell(now, "contradicted", name);
+    if (executor_->grant().version < world_->sound_since) executor_->Revoke();
+  }
+}
+
+void EpisodeLoop::Advance(double now) {
+  const bool stopped = executor_->stopped();
+  for (const int half_step : executor_->Advance(now + options_.period)) Begins(half_step);
+  if (!executor_->stopped() || stopped) return;
+  Tell(now, "stopped", Formatted("at rest from %.3f s on", executor_->rests_from()),
+       executor_->begun());
+  again_ = true;
+}
+
+void EpisodeLoop::Begins(int half_step) {
+  record_.begun.push_back({half_step, static_cast<int>(record_.grants.size()) - 1});
+  Tell(executor_->walk().start_of(half_step), "begins", "", half_step);
+  again_ = true;  // more junctions are near
+}
+
+bool EpisodeLoop::NeedsWork(double now) const {
+  if (again_ || world_->sound_since > checked_->version) return true;
+  if (world_->version == checked_->version) return false;
+  if (DiffersClearly(*checked_, *world_)) return true;
+  if (stuck_) return now >= asked_ + kRetry;
+  // What was proved runs out, for a half-step that begins soon.
+  const SuperposedWalk& walk = executor_->walk();
+  const int next = std::min(executor_->begun() + 1, walk.num_half_steps() - 1);
+  return walk.start_of(next) < now + kAhead &&
+         executor_->grant().valid_until < walk.end_of(next) + options_.period;
+}
+
+void EpisodeLoop::Ask(double now) {
+  const BudgetConfig& budget = options_.budget;
+  const double longest = budget.check + std::max(budget.plan, budget.smooth);
+  thinker_.Ask({.plan = executor_->plan(),
+                .smoothed = smoothed_,
+                .grant = executor_->grant(),
+                .robot_through = robot_through_,
+                .begun = executor_->begun(),
+                .stopped = executor_->stopped(),
+                .now = now,
+                .hand_over = now + longest + 2.0 * options_.period,
+                .world = world_,
+                .shorten = tries_ > 0});
+  thinking_ = true;
+  asked_ = now;
+  asked_about_ = world_;
+  again_ = false;
+}
+
+void EpisodeLoop::Take(const Proposal& proposal, double now) {
+  thinking_ = false;
+  if (DiffersClearly(*checked_, *asked_about_)) tries_ = kTries;
+  checked_ = asked_about_;
+  stuck_ = proposal.kind == ProposalKind::kUnsafe;
+  const bool searched = proposal.planned.status != PlanStatus::kNotRun;
+  if (world_->sound_since > asked_about_->version) {
+    Tell(now, "refused", "the world has changed meanwhile");
+    again_ = true;
+  } else if (proposal.first_changed < 0 || stuck_) {
+    if (stuck_) Tell(now, "unsafe", proposal.reason, proposal.grant.through);
+    robot_through_ = proposal.robot_through;
+    executor_->Take(proposal.grant);
+    record_.grants.push_back({now, walk(), proposal.grant});
+    if (searched && !stuck_ && --tries_ > 0) again_ = true;
+  } else {
+    again_ = true;
+    const std::string refused = executor_->TakeOver(proposal.plan, proposal.grant, now);
+    if (refused.empty()) {
+      HandOver(proposal, now);
+    } else {
+      Tell(now, "refused", refused);
+    }
+  }
+}
+
+void EpisodeLoop::HandOver(const Proposal& proposal, double now) {
+  smoothed_ = proposal.smoothed;
+  robot_through_ = proposal.robot_through;
+  record_.walks.push_back({.t = now,
+                           .kind = proposal.kind,
+                           .reason = proposal.reason,
+                           .plan = proposal.plan,
+                           .first_changed = proposal.first_changed,
+                           .asked = asked_,
+                           .measured = asked_about_->measured_at,
+                           .check_s = proposal.check_s,
+                           .plan_s = proposal.plan_s,
+                           .smooth_s = proposal.smooth_s});
+  record_.grants.push_back({now, walk(), proposal.grant});
+  Tell(now, "handed_over", std::string(Name(proposal.kind)) + ": " + proposal.reason,
+       proposal.first_changed);
+}
+
+bool EpisodeLoop::Ends(double now) {
+  const bool at_rest = executor_->rests_from() <= now;
+  const bool over = now >= options_.longest;
+  const bool interrupted = hooks_.stop.stop_requested();
+  const std::array<Footprint, 2> stance =
+      StanceAfter(executor_->plan().sequence, executor_->begun());
+  const bool on_both = executor_->begun() % 2 == 1;
+  const bool arrived = at_rest && on_both && now > truth_.end() + options_.sensing.period &&
+                       truth_.GoalAt(now).ContainsStance(stance) &&
+                       world_->goal.ContainsStance(stance);
+  if (!arrived && !over && !interrupted) return false;
+  record_.ending = arrived       ? EpisodeEnding::kArrived
+                   : interrupted ? EpisodeEnding::kInterrupted
+                   : at_rest     ? EpisodeEnding::kStuck
+                                 : EpisodeEnding::kTooLong;
+  record_.end = now;
+  record_.stopped = executor_->stopped();
+  return true;
+}
+
+void EpisodeLoop::Know(double t) {
+  record_.worlds.push_back(*world_);
+  record_.known.push_back(t);
+}
+
+void EpisodeLoop::Tell(double t, const std::string& what, const std::string& text, int half_step) {
+  record_.events.push_back({.t = t,
+                            .what = what,
+                            .version = world_->version,
+                            .walk = walk(),
+                            .half_step = half_step,
+                            .text = text});
+}
+
+}  // namespace halfstep

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "experiments/live/episode.h"
+#include "experiments/live/executor.h"
+#include "experiments/live/thinker.h"
+
+namespace halfstep {
+
+/// One episode, tick after tick: what is measured, what the replanner found, which half-steps
+/// begin. It knows no clock: time is the tick's, and whoever wants it to pass waits in `tick`.
+class EpisodeLoop {
+ public:
+  /// All are borrowed. `tick` is called with the time of each tick before anything is done [s].
+  EpisodeLoop(const Replanner& replanner, const TrueWorld& truth, Thinker* thinker,
+              std::function<void(double)> tick, const EpisodeHooks& hooks);
+
+  Episode Run(const std::array<Footprint, 2>& start);
+
+ private:
+  // Measures until there is a walk, which begins at the time that is t = 0 from then on.
+  Proposal Wait(const std::array<Footprint, 2>& start);
+  // Takes in the frames that have arrived by now.
+  void Sense(double now);
+  void Advance(double now);
+  void Begins(int half_step);
+  bool NeedsWork(double now) const;
+  void Ask(double now);
+  void Take(const Proposal& proposal, double now);
+  void HandOver(const Proposal& proposal, double now);
+  bool Ends(double now);
+  void Know(double t);
+  void Tell(double t, const std::string& what, const std::string& text, int half_step = -1);
+  int walk() const { return static_cast<int>(record_.walks.size()) - 1; }
+
+  const Replanner& replanner_;
+  const LiveOptions& options_;
+  TrueWorld truth_;
+  Thinker& thinker_;
+  std::function<void(double)> tick_;
+  const EpisodeHooks& hooks_;
+  std::mt19937_64 noise_;
+  Episode record_;
+  std::shared_ptr<const World> world_;
+  std::optional<Executor> executor_;
+  // Of the walk in execution.
+  std::vector<bool> smoothed_;
+  int robot_through_ = -1;
+  long frame_ = 0;  // frames taken
+  // What the thinker does.
+  bool thinking_ = false;
+  double asked_ = 0.0;
+  std::shared_ptr<const World> asked_about_;
+  // What it is to do next.
+  std::shared_ptr<const World> checked_;
+  bool again_ = true, stuck_ = false;
+  int tries_ = 0;  // to shorten the way
+};
+
+}  // namespace halfstep

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "experiments/replay/replay.h"
+
+namespace halfstep::replay {
+
+/// A walk that was played, and what is told of it.
+struct Replayed {
+  std::string method;     ///< of a run; "episode"
+  double duration = 0.0;  ///< of the walk [s]
+  double window = 0.0;    ///< of the drift [s]
+  ReplayResult result;
+  std::vector<PushLimit> pushes;
+  /// Names of the robot's bodies and of the obstacles, by the indices of TouchRecord; no obstacles:
+  /// nothing is said of touches.
+  std::vector<std::string> bodies, obstacles;
+};
+
+/// What `halfstep replay` prints of one walk: lines, each with its end.
+std::string ReplayText(const Replayed& replayed);
+
+/// The whole output of `halfstep replay --json`. `run` is the folder as it was named, `notes` are
+/// sentences on obstacles that are simulated otherwise than the scene says.
+std::string ReplayJson(const std::string& run, const std::vector<std::string>& notes,
+                       const std::vector<Replayed>& all);
+
+/// What a simulation proves: nothing.
+inline constexpr const char* kReplayDisclaimer =
+    "This is one simulation: soft point contacts, ideal servos without torque limits, the URDF's\n"
+    "masses with estimated inertias, an upper body without joints. It guarantees nothing about "
+    "the\n"
+    "robot, and its falls are not proofs either.";
+
+}  // namespace halfstep::replay

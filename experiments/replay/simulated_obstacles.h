@@ -1,0 +1,35 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/live/true_world.h"
+#include "planner/scene/scene.h"
+#include "wpg/geometry/convex_body.h"
+
+namespace halfstep::replay {
+
+/// A body in the simulated robot's way. Nothing that the robot does moves it.
+struct SimulatedObstacle {
+  std::string name;
+  ConvexBody body;  ///< in its own frame; a mesh is its convex hull
+  /// Its pose in W at the time t of the walk [s]; none: it is not there.
+  std::function<std::optional<Eigen::Isometry3d>(double t)> pose;
+};
+
+/// Obstacles as MuJoCo takes them, and in words what it takes otherwise than the scene says.
+struct SimulatedObstacles {
+  std::vector<SimulatedObstacle> obstacles;
+  /// One sentence for each mesh: it stands for its convex hull, or is left out since it is flat.
+  std::vector<std::string> notes;
+};
+
+/// The obstacles of a scene, which move as the scene says.
+SimulatedObstacles ObstaclesOf(const Scene& scene);
+/// The obstacles of an episode, which move and are there as the script says, not as was measured.
+SimulatedObstacles ObstaclesOf(const TrueWorld& truth);
+
+}  // namespace halfstep::replay
