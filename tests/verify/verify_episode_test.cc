@@ -348,7 +348,7 @@ TEST(VerifyEpisode, AcceptsAnEpisodeThatWaits) {
   EXPECT_THAT(episode.Verify().out, HasSubstr("ending: no walk"));
   EXPECT_EQ(live({"live.horizon_s=1"}).status, 0);
   EXPECT_EQ(episode.Verify().status, 0) << episode.Verify().out;
-  EXPECT_THAT(ReadText(episode.folder() / "worlds.csv"), HasSubstr("\n0,-0."));
+  EXPECT_THAT(ReadText(episode.folder() / "worlds.csv"), HasSubstr("\n0,-1.0,-1.0,"));
 }
 
 TEST(VerifyEpisode, ExitStatusTellsWhatIsWrong) {
