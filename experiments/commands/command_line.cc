@@ -44,7 +44,7 @@ constexpr CommandEntry kEntries[] = {
      DeclareVerify},
     {"live",
      "Let a robot walk while the world changes: an episode, into a folder.\n\n"
-     "  example: halfstep live experiments/configs/live_bar.yaml",
+     "  example: halfstep live experiments/episodes/live_bar.yaml",
      DeclareLive},
     {"sweep",
      "Run a config with every combination of some keys; the same command goes on where it was\n"

@@ -10,7 +10,7 @@ namespace halfstep {
 namespace {
 
 constexpr int kTries = 3;       // to find a shorter way, after each clear change of the world
-constexpr double kRetry = 0.5;  // after a search that found no way [s]
+constexpr double kRetry = 0.2;  // after a search that found no way [s]
 constexpr double kAhead = 0.3;  // proofs are renewed so long before they are needed [s]
 
 bool SameGoal(const GoalRegion& a, const GoalRegion& b) {
@@ -130,8 +130,8 @@ void EpisodeLoop::Begins(int half_step) {
 bool EpisodeLoop::NeedsWork(double now) const {
   if (again_ || world_->sound_since > checked_->version) return true;
   if (world_->version == checked_->version) return false;
-  if (DiffersClearly(*checked_, *world_)) return true;
   if (stuck_) return now >= asked_ + kRetry;
+  if (DiffersClearly(*checked_, *world_)) return true;
   // What was proved runs out, for a half-step that begins soon.
   const SuperposedWalk& walk = executor_->walk();
   const int next = std::min(executor_->begun() + 1, walk.num_half_steps() - 1);

@@ -93,7 +93,7 @@ double At(std::vector<double> values, double part) {
 int main(int argc, char** argv) {
   const std::uint64_t first = argc > 1 ? std::stoull(argv[1]) : 1;
   const std::uint64_t count = argc > 2 ? std::stoull(argv[2]) : 100;
-  LiveConfig base = LoadLiveConfig(HALFSTEP_SOURCE_DIR "/experiments/configs/live_bar.yaml", {});
+  LiveConfig base = LoadLiveConfig(HALFSTEP_SOURCE_DIR "/experiments/episodes/live_bar.yaml", {});
   base.live.policy = argc > 3 ? argv[3] : "replan";
   if (base.live.policy == "wall") {
     base.live.policy = "replan";

@@ -1,0 +1,90 @@
+#include "experiments/live/world.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "tests/live/small_episode.h"
+
+namespace halfstep {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+// A frame at t in which a bar with r = 1 cm and v lies at x.
+World Frame(double t, double x, double speed) {
+  World frame;
+  frame.measured_at = t;
+  Obstacle bar = Bar("bar", x, 0.0);
+  bar.motion = {.waypoints = {}, .error = 0.01, .speed = speed, .measured_at = t, .horizon = 2.0};
+  frame.stays = {{bar.X_WO, t}};
+  frame.scene.obstacles = {bar};
+  return frame;
+}
+
+TEST(World, AnObstacleContradictsBeyondErrorsAndSpeed) {
+  const World before = Frame(1.0, 0.0, 0.5);
+  EXPECT_THAT(Updated(before, Frame(1.2, 0.1199, 0.5), {}).contradictions, IsEmpty());
+  const WorldUpdate jumped = Updated(before, Frame(1.2, 0.1201, 0.5), {});
+  EXPECT_THAT(jumped.contradictions, ElementsAre("bar"));
+  EXPECT_EQ(jumped.world.version, 1);
+  EXPECT_EQ(jumped.world.sound_since, 1);
+  EXPECT_EQ(Updated(jumped.world, Frame(1.4, 0.13, 0.5), {}).world.sound_since, 1);
+}
+
+TEST(World, ATurnMovesTheFarEnds) {
+  const World before = Frame(1.0, 0.0, 0.0);
+  World turned = Frame(1.2, 0.0, 0.0);
+  turned.scene.obstacles[0].X_WO.rotate(Eigen::AngleAxisd(0.2, Eigen::Vector3d::UnitZ()));
+  EXPECT_THAT(Updated(before, turned, {}).contradictions, ElementsAre("bar"));
+}
+
+TEST(World, WhatAppearsContradictsAndWhatVanishesDoesNot) {
+  World empty;
+  const World full = Frame(1.0, 0.0, 0.0);
+  EXPECT_THAT(Updated(empty, full, {}).contradictions, ElementsAre("bar"));
+  EXPECT_THAT(Updated(full, empty, {}).contradictions, IsEmpty());
+  World forbidden = empty;
+  forbidden.areas = {0};
+  forbidden.scene.no_step.resize(1);
+  EXPECT_THAT(Updated(empty, forbidden, {}).contradictions, ElementsAre("a no-step area"));
+}
+
+TEST(World, WhatStaysIsTakenToRestUntilItIsElsewhere) {
+  LiveOptions options;
+  options.sensing.rests_after = 0.5;
+  World world = Frame(1.0, 0.0, 0.5);
+  world = Updated(world, Frame(1.4, 0.015, 0.5), options).world;
+  EXPECT_EQ(world.scene.obstacles[0].motion.speed, 0.5);
+  world = Updated(world, Frame(1.5, -0.01, 0.5), options).world;
+  EXPECT_EQ(world.scene.obstacles[0].motion.speed, 0.0);
+  EXPECT_EQ(world.valid_until(), std::numeric_limits<double>::infinity());
+  // It moves off: a contradiction, since it was taken to rest, and it has its speed again.
+  const WorldUpdate off = Updated(world, Frame(1.7, 0.08, 0.5), options);
+  EXPECT_THAT(off.contradictions, ElementsAre("bar"));
+  EXPECT_EQ(off.world.scene.obstacles[0].motion.speed, 0.5);
+  EXPECT_EQ(off.world.valid_until(), 1.7 + 2.0);
+}
+
+TEST(World, MeasurementsAreWithinTheNoise) {
+  Scene scene;
+  scene.obstacles = {Bar("bar", 1.0, 0.0)};
+  LiveOptions options;
+  options.sensing.noise = 0.02;
+  const TrueWorld truth(scene, {}, options);
+  std::mt19937_64 random(1);
+  double farthest = 0.0;
+  for (int i = 0; i < 1000; ++i) {
+    const World frame = Measure(truth, 0.1 * i, options, random);
+    farthest = std::max(farthest, (frame.scene.obstacles[0].X_WO.translation() -
+                                   scene.obstacles[0].X_WO.translation())
+                                      .norm());
+  }
+  EXPECT_LE(farthest, 0.02);
+  EXPECT_GT(farthest, 0.018);
+}
+
+}  // namespace
+}  // namespace halfstep
