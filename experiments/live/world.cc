@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <ranges>
 
 namespace halfstep {
 namespace {
@@ -62,10 +63,11 @@ WorldUpdate Updated(std::span<const World> before, World frame, const LiveOption
   const World& last = before.back();
   world.version = last.version + 1;
   world.sound_since = last.sound_since;
-  for (int v = last.version; v >= last.sound_since; --v) {
-    update.contradictions = Contradictions(before[static_cast<size_t>(v)], world);
+  for (const World& earlier : before | std::views::reverse) {
+    if (earlier.version < last.sound_since) break;
+    update.contradictions = Contradictions(earlier, world);
     if (update.contradictions.empty()) continue;
-    world.sound_since = v + 1;
+    world.sound_since = earlier.version + 1;
     break;
   }
   for (size_t i = 0; i < world.scene.obstacles.size(); ++i) {

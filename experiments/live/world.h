@@ -38,7 +38,7 @@ struct World {
 };
 
 /// The world after a frame, and which obstacles or areas contradict what was known: names for
-/// messages. `before` has all versions so far, from 0. An obstacle contradicts an earlier version
+/// messages. `before` has the versions so far, in order. An obstacle contradicts an earlier version
 /// when a point of it is farther from where it was measured then than both errors and its speed
 /// then allow, and when it was not there; a no-step area when it was not there. Every version that
 /// is not void yet is looked at: an obstacle that is taken to rest and creeps contradicts an old
