@@ -62,7 +62,7 @@ struct Episode {
   EpisodeEnding ending = EpisodeEnding::kNoPlan;
   std::string message;
   std::vector<World> worlds;  ///< by version, as they became known
-  std::vector<double> known;  ///< when each did [s]
+  std::vector<double> known;  ///< when each did [s]; at and before 0 those of the time waited
   std::vector<ExecutedWalk> walks;
   std::vector<EpisodeGrant> grants;
   std::vector<BegunHalfStep> begun;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <utility>
+#include <vector>
 
 #include "wpg/files/text.h"
 
@@ -47,7 +48,6 @@ Episode EpisodeLoop::Run(const std::array<Footprint, 2>& start) {
     record_.message = first.reason;
     return std::move(record_);
   }
-  Know(0.0);
   executor_.emplace(first.plan, first.grant);
   asked_about_ = checked_ = world_;
   HandOver(first, 0.0);
@@ -68,22 +68,27 @@ Episode EpisodeLoop::Run(const std::array<Footprint, 2>& start) {
 
 Proposal EpisodeLoop::Wait(const std::array<Footprint, 2>& start) {
   std::mt19937_64 random(static_cast<std::uint64_t>(replanner_.config().experiment.seed));
-  World world = Measure(truth_, 0.0, options_, noise_);
+  std::vector<World> worlds = {Measure(truth_, 0.0, options_, noise_)};
   std::optional<World> tried;
   Proposal first{.kind = ProposalKind::kUnsafe};
   for (long frame = 0; first.kind == ProposalKind::kUnsafe; ++frame) {
     const double now = static_cast<double>(frame) * options_.sensing.period;
-    if (now > options_.longest || hooks_.stop.stop_requested()) return first;
+    if (now > options_.longest || hooks_.stop.stop_requested()) break;
     if (frame > 0) {
-      world = Updated(world, Measure(truth_, now, options_, noise_), options_).world;
+      worlds.push_back(Updated(worlds, Measure(truth_, now, options_, noise_), options_).world);
     }
-    if (tried && !DiffersClearly(*tried, world)) continue;
-    tried = world;
-    world_ = std::make_shared<const World>(Since(world, now));
+    if (tried && !DiffersClearly(*tried, worlds.back())) continue;
+    tried = worlds.back();
+    world_ = std::make_shared<const World>(Since(worlds.back(), now));
     first = replanner_.Begin(start, *replanner_.Prepare(*world_), options_.smooth_ahead, random);
     record_.waited = now;
   }
   truth_ = truth_.Since(record_.waited);
+  // What obstacles may do at t = 0 follows from where they were before.
+  for (World& world : worlds) {
+    record_.worlds.push_back(Since(std::move(world), record_.waited));
+    record_.known.push_back(record_.worlds.back().measured_at);
+  }
   return first;
 }
 
@@ -98,12 +103,12 @@ void EpisodeLoop::Sense(double now) {
       Tell(now, "lost", Formatted("frame of %.3f s", taken));
       continue;
     }
-    WorldUpdate update = Updated(*world_, std::move(frame), options_);
+    WorldUpdate update = Updated(record_.worlds, std::move(frame), options_);
     world_ = std::make_shared<const World>(std::move(update.world));
     Know(now);
     Tell(now, "measured", Formatted("frame of %.3f s", taken));
     for (const std::string& name : update.contradictions) Tell(now, "contradicted", name);
-    if (!update.contradictions.empty()) executor_->Revoke();
+    if (executor_->grant().version < world_->sound_since) executor_->Revoke();
   }
 }
 
@@ -205,7 +210,8 @@ bool EpisodeLoop::Ends(double now) {
       StanceAfter(executor_->plan().sequence, executor_->begun());
   const bool on_both = executor_->begun() % 2 == 1;
   const bool arrived = at_rest && on_both && now > truth_.end() + options_.sensing.period &&
-                       truth_.GoalAt(now).ContainsStance(stance);
+                       truth_.GoalAt(now).ContainsStance(stance) &&
+                       world_->goal.ContainsStance(stance);
   if (!arrived && !over && !interrupted) return false;
   record_.ending = arrived       ? EpisodeEnding::kArrived
                    : interrupted ? EpisodeEnding::kInterrupted

@@ -23,17 +23,17 @@ Scene SceneAt(const TrueWorld& truth, double t) {
 }  // namespace
 
 Approach NearestApproach(const Episode& episode, const TrueWorld& truth, const RobotModel& robot,
-                         double period, double horizon) {
+                         double period, double horizon, bool also_at_rest) {
   Approach nearest{.distance = horizon, .t = 0.0, .obstacle = {}, .body = {}};
   if (episode.walks.empty()) return nearest;
   const SuperposedWalk walk = episode.Executed();
-  const double end = std::min(walk.duration(), episode.end);
+  const double end = also_at_rest ? episode.end : std::min(walk.duration(), episode.end);
   std::vector<CollisionShape> shapes;
   for (const RobotBody& body : robot.bodies) shapes.emplace_back(body.shape);
   for (long i = 0; static_cast<double>(i) * period <= end; ++i) {
     const double t = static_cast<double>(i) * period;
     const WalkJet jet = walk.At(t);
-    if (jet.first.isZero(1e-9) && jet.second.isZero(1e-9)) continue;
+    if (!also_at_rest && jet.first.isZero(1e-9) && jet.second.isZero(1e-9)) continue;
     const Scene scene = SceneAt(truth, t);
     const CollisionWorld world(scene);
     const Posture posture = SolvePosture(robot, jet.value);

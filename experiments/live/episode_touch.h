@@ -22,6 +22,6 @@ struct Approach {
 /// robot is at rest do not count: an obstacle that is carried against a standing robot is not its
 /// doing. Obstacles nearer than `horizon` [m] are told.
 Approach NearestApproach(const Episode& episode, const TrueWorld& truth, const RobotModel& robot,
-                         double period, double horizon);
+                         double period, double horizon, bool also_at_rest = false);
 
 }  // namespace halfstep

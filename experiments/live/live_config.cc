@@ -17,9 +17,11 @@ void DeclareEvent(Fields& fields, ScriptEvent* e) {
                .required = true,
                .choices = {"jump", "carry", "appear", "vanish", "goal", "forbid", "lose"}});
   fields.Text("obstacle", &e->obstacle, {.meaning = "of jump, carry, appear, vanish: its name"});
-  fields.Numbers(
-      "xyz", &e->xyz, 3,
-      {.meaning = "of jump and carry: where to", .unit = "m", .min = -1000, .max = 1000});
+  fields.Numbers("xyz", &e->xyz, 0,
+                 {.meaning = "of jump and carry: where to; []: of others",
+                  .unit = "m",
+                  .min = -1000,
+                  .max = 1000});
   fields.Number("yaw_deg", &e->turn,
                 {.meaning = "of jump and carry: how far it turns about the world's z",
                  .unit = "deg",
@@ -27,8 +29,9 @@ void DeclareEvent(Fields& fields, ScriptEvent* e) {
                  .max = 360});
   fields.Number("speed_m_s", &e->speed,
                 {.meaning = "of carry", .unit = "m/s", .min = 0, .max = 10});
-  fields.Numbers("goal_m", &e->goal, 2,
-                 {.meaning = "of goal: its new place", .unit = "m", .min = -1000, .max = 1000});
+  fields.Numbers(
+      "goal_m", &e->goal, 0,
+      {.meaning = "of goal: its new place; []: of others", .unit = "m", .min = -1000, .max = 1000});
   fields.Integer("area", &e->area,
                  {.meaning = "of forbid: which no-step area, from 1", .min = 1, .max = 100000});
   fields.Number("for_s", &e->lasts, {.meaning = "of lose", .unit = "s", .min = 0, .max = 3600});
@@ -37,12 +40,14 @@ void DeclareEvent(Fields& fields, ScriptEvent* e) {
   if (of_obstacle && e->obstacle.empty()) {
     fields.Complain("obstacle", "is missing (valid: the name of an obstacle of the scene)");
   }
-  if (moves && e->xyz.empty()) fields.Complain("xyz", "is missing (valid: x, y, z in m)");
+  if (e->xyz.size() != 3 && (moves || !e->xyz.empty())) {
+    fields.Complain("xyz", "is missing or of another length (valid: x, y, z in m)");
+  }
   if (e->what == "carry" && !(e->speed > 0.0)) {
     fields.Complain("speed_m_s", "is missing (valid: above 0)");
   }
-  if (e->what == "goal" && e->goal.empty()) {
-    fields.Complain("goal_m", "is missing (valid: x, y in m)");
+  if (e->goal.size() != 2 && (e->what == "goal" || !e->goal.empty())) {
+    fields.Complain("goal_m", "is missing or of another length (valid: x, y in m)");
   }
 }
 

@@ -78,7 +78,7 @@ RandomEpisode DrawEpisode(const LiveConfig& config, std::uint64_t seed) {
   live.sensing.period = 1.0 / kRates[draw.Integer(0, 2)];
   live.sensing.noise = live.sensing.error = draw.Uniform(0.0, 0.02);
   live.sensing.rests_after.reset();
-  if (seed % 3 == 0) live.sensing.rests_after = 0.5;
+  if (seed % 3 != 0) live.sensing.rests_after = 0.5;
   live.script.clear();
   const int events = draw.Integer(1, 4);
   double at = 0.0;

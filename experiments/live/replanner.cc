@@ -244,11 +244,18 @@ Proposal Replanner::Propose(const Situation& s, const PreparedWorld& among,
     proposal.smoothed[static_cast<size_t>(s.begun)] = true;
   }
   const SuperposedWalk walk = proposal.plan.Walk();
+<<<<<<< HEAD
   if (s.stopped) proposal.grant.through = std::min(proposal.grant.through, s.begun - 1);
   if (s.stopped && more && walk.end_of(s.begun + 1) > among.world.valid_until()) {
     proposal.kind = ProposalKind::kUnsafe;
     proposal.reason = "the latest measurement is too old for another half-step";
     return proposal;
+=======
+  if (s.stopped) {
+    proposal.grant.through = std::min(proposal.grant.through, s.begun - 1);
+    // After a delay half-steps are together that were not when the robot's margins were proved.
+    proposal.robot_through = std::min(proposal.robot_through, s.begun - 1);
+>>>>>>> c98ee6241099d2a4cecae489c5ae072688958d5f
   }
   const int all = walk.num_half_steps() - 1;
   const std::optional<Margin> refused = Prove(s, walk, all, among, &proposal);
@@ -307,6 +314,10 @@ Proposal Replanner::Begin(const std::array<Footprint, 2>& start, const PreparedW
   proposal.grant.version = -1;
   if (const auto refused = Prove(situation, walk, walk.num_half_steps() - 1, among, &proposal)) {
     proposal.reason = among.safety.evaluator().Describe(*refused);
+    return proposal;
+  }
+  if (proposal.grant.valid_until < walk.end_of(0)) {
+    proposal.reason = "the first half-step ends later than what is measured of obstacles holds";
     return proposal;
   }
   proposal.kind = ProposalKind::kChanged;

@@ -33,7 +33,7 @@ class TrueWorld {
   /// The first time [s] from which on nothing happens any more, but for the drift.
   double end() const { return end_ - origin_; }
   /// How far the world has moved in the frame of the walk [m].
-  Eigen::Vector3d DriftAt(double t) const { return {drift_ * t, 0.0, 0.0}; }
+  Eigen::Vector3d DriftAt(double t) const { return {drift_ * (t + origin_), 0.0, 0.0}; }
 
  private:
   std::vector<ScriptEvent> EventsOf(size_t obstacle) const;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <ranges>
 
 namespace halfstep {
 namespace {
@@ -21,6 +22,19 @@ bool Contradicts(const Obstacle& before, const Obstacle& now) {
   const double elapsed = b.measured_at - a.measured_at;
   const double allowed = a.error + b.error + a.speed * elapsed;
   return Displacement(before, now) > allowed + kRounding;
+}
+
+// What of a world an earlier one did not allow: names.
+std::vector<std::string> Contradictions(const World& earlier, const World& now) {
+  std::vector<std::string> names;
+  for (const Obstacle& obstacle : now.scene.obstacles) {
+    const auto old = std::ranges::find(earlier.scene.obstacles, obstacle.name, &Obstacle::name);
+    if (old == earlier.scene.obstacles.end() || Contradicts(*old, obstacle)) {
+      names.push_back(obstacle.name);
+    }
+  }
+  if (!std::ranges::includes(earlier.areas, now.areas)) names.push_back("a no-step area");
+  return names;
 }
 
 Eigen::Vector3d InBall(double radius, std::mt19937_64& random) {
@@ -43,20 +57,24 @@ double World::valid_until() const {
   return until;
 }
 
-WorldUpdate Updated(const World& before, World frame, const LiveOptions& options) {
+WorldUpdate Updated(std::span<const World> before, World frame, const LiveOptions& options) {
   WorldUpdate update{.world = std::move(frame), .contradictions = {}};
   World& world = update.world;
-  world.version = before.version + 1;
-  world.sound_since = before.sound_since;
+  const World& last = before.back();
+  world.version = last.version + 1;
+  world.sound_since = last.sound_since;
+  for (const World& earlier : before | std::views::reverse) {
+    if (earlier.version < last.sound_since) break;
+    update.contradictions = Contradictions(earlier, world);
+    if (update.contradictions.empty()) continue;
+    world.sound_since = earlier.version + 1;
+    break;
+  }
   for (size_t i = 0; i < world.scene.obstacles.size(); ++i) {
     Obstacle& now = world.scene.obstacles[i];
-    const auto old = std::ranges::find(before.scene.obstacles, now.name, &Obstacle::name);
-    if (old == before.scene.obstacles.end() || Contradicts(*old, now)) {
-      update.contradictions.push_back(now.name);
-    }
-    if (old == before.scene.obstacles.end()) continue;
-    const World::Stay& stay =
-        before.stays[static_cast<size_t>(old - before.scene.obstacles.begin())];
+    const auto old = std::ranges::find(last.scene.obstacles, now.name, &Obstacle::name);
+    if (old == last.scene.obstacles.end()) continue;
+    const World::Stay& stay = last.stays[static_cast<size_t>(old - last.scene.obstacles.begin())];
     Obstacle first = now;
     first.X_WO = stay.X_WO;
     const double drifted = options.drift * (now.motion.measured_at - stay.since);
@@ -66,15 +84,10 @@ WorldUpdate Updated(const World& before, World frame, const LiveOptions& options
                        now.motion.measured_at - stay.since >= *options.sensing.rests_after;
     if (rests) now.motion.speed = options.drift;
   }
-  if (world.scene.no_step.size() > before.scene.no_step.size()) {
-    update.contradictions.push_back("a no-step area");
-  }
-  if (!update.contradictions.empty()) world.sound_since = world.version;
   return update;
 }
 
 World Since(World world, double origin) {
-  world.version = world.sound_since = 0;
   world.measured_at -= origin;
   for (World::Stay& stay : world.stays) stay.since -= origin;
   for (Obstacle& obstacle : world.scene.obstacles) obstacle.motion.measured_at -= origin;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <random>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -27,7 +28,7 @@ struct World {
   std::vector<Stay> stays;
   std::vector<size_t> areas;  ///< which no-step areas of the scene file are there
   GoalRegion goal;
-  /// The latest version that contradicted the one before it: an obstacle was where it could not
+  /// The earliest version that no later one contradicts: an obstacle was not where it could not
   /// have been. What was proved against earlier versions is void; against this one and later ones
   /// it is not.
   int sound_since = 0;
@@ -37,18 +38,20 @@ struct World {
 };
 
 /// The world after a frame, and which obstacles or areas contradict what was known: names for
-/// messages. An obstacle contradicts when a point of it is farther from where it was measured
-/// before than both errors and its speed allow, and when it was not there before; a no-step area
-/// when it was not there before. What vanishes contradicts nothing. An obstacle
-/// that has stayed for `sensing.rests_after` is taken to rest: its speed is that of the drift.
+/// messages. `before` has the versions so far, in order. An obstacle contradicts an earlier version
+/// when a point of it is farther from where it was measured then than both errors and its speed
+/// then allow, and when it was not there; a no-step area when it was not there. Every version that
+/// is not void yet is looked at: an obstacle that is taken to rest and creeps contradicts an old
+/// one, although never the last. What vanishes contradicts nothing. An obstacle that has stayed for
+/// `sensing.rests_after` is taken to rest: its speed is that of the drift. Precondition: `before`
+/// is not empty.
 struct WorldUpdate {
   World world;
   std::vector<std::string> contradictions;
 };
-WorldUpdate Updated(const World& before, World frame, const LiveOptions& options);
+WorldUpdate Updated(std::span<const World> before, World frame, const LiveOptions& options);
 
-/// The same world for a walk that begins at time `origin` [s]: all times are counted from there,
-/// and this is the first version.
+/// The same world for a walk that begins at time `origin` [s]: all times are counted from there.
 World Since(World world, double origin);
 
 /// The stand-in for motion capture: a frame of what is truly there at t [s], positions off by the

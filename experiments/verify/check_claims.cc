@@ -41,7 +41,7 @@ class Claims {
     if (row.family <= kFootYawRate && subject.first < 0) return "no foot is named";
     if (row.family == kGround) {
       if (subject.first < 0) return "no body is named";
-      if (IsOnFoot(robot_.bodies[static_cast<size_t>(subject.first)])) {
+      if (verify::IsOnFoot(robot_.bodies[static_cast<size_t>(subject.first)])) {
         return "a foot may touch the floor: it has no margin";
       }
     }

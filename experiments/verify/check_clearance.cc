@@ -8,8 +8,6 @@ namespace halfstep::verify {
 namespace {
 
 constexpr double kFinest = 1.0 / 256;  // of the time between two rows
-// Bounding volumes this far beyond what is required save the solids the question [m].
-constexpr double kQuick = 0.02;
 
 // Time at which a path that grows linearly between rows first has length u.
 double TimeOf(const std::vector<double>& path, const std::vector<PlayedRow>& rows, double u) {

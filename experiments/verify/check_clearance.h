@@ -7,6 +7,9 @@
 
 namespace halfstep::verify {
 
+/// Distances that are by bounding volumes this far beyond what is required are not measured [m].
+inline constexpr double kQuick = 0.02;
+
 /// Whether the played motion keeps, at every instant, the clearances that the certificate demands
 /// less `tolerance` [m], of bodies from obstacles and of bodies from each other. A pair's distance
 /// at one instant, less what the motion can take off it until another instant

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <set>
 
 #include "experiments/verify/csv_text.h"
 #include "wpg/files/sha256.h"
@@ -46,36 +45,42 @@ std::set<std::string> FilesThere(const fs::path& run, const std::string& method,
 
 }  // namespace
 
-void CheckFiles(const std::string& run, const std::string& method, const RunManifest& manifest,
-                Findings* findings) {
-  const std::set<std::string> there = FilesThere(run, method, manifest);
-  const std::set<std::string> needed = NeededFiles(run, method);
+void CheckListedFiles(const std::string& folder, const FolderFiles& files,
+                      const std::map<std::string, InputFile>& listed, Findings* findings) {
   std::string others;
-  long listed = 0;
-  for (const std::string& name : there) {
-    const auto found = manifest.files.find(name);
-    if (found == manifest.files.end()) {
-      if (!needed.contains(name)) others += (others.empty() ? "" : ", ") + Quote(name);
+  long as_listed = 0;
+  for (const std::string& name : files.there) {
+    const auto found = listed.find(name);
+    if (found == listed.end()) {
+      if (!files.needed.contains(name)) others += (others.empty() ? "" : ", ") + Quote(name);
       continue;
     }
-    ++listed;
-    const std::string bytes = ReadBytes((fs::path(run) / name).string());
+    ++as_listed;
+    const std::string bytes = ReadBytes((fs::path(folder) / name).string());
     if (bytes.size() != found->second.bytes || Sha256(bytes) != found->second.sha256) {
       findings->Disagree(name + ": not the one that manifest.json lists (SHA-256 differs)");
     }
   }
-  for (const std::string& name : needed) {
-    if (!manifest.files.contains(name)) findings->Disagree("manifest.json does not list " + name);
+  for (const std::string& name : files.needed) {
+    if (!listed.contains(name)) findings->Disagree("manifest.json does not list " + name);
   }
-  for (const auto& [name, file] : manifest.files) {
-    const std::string folder = name.substr(0, name.find('/'));
-    const bool of_another = folder != name && folder != method && manifest.HasFolder(folder);
-    if (!of_another && !there.contains(name)) {
-      findings->Disagree("manifest.json lists " + Quote(name) + ", which is not there");
-    }
+  for (const auto& [name, file] : listed) {
+    if (files.there.contains(name)) continue;
+    findings->Disagree("manifest.json lists " + Quote(name) + ", which is not there");
   }
-  findings->Say("files: " + Count(listed) + " as manifest.json lists them" +
+  findings->Say("files: " + Count(as_listed) + " as manifest.json lists them" +
                 (others.empty() ? "" : "; not listed: " + others));
+}
+
+void CheckFiles(const std::string& run, const std::string& method, const RunManifest& manifest,
+                Findings* findings) {
+  std::map<std::string, InputFile> listed = manifest.files;
+  std::erase_if(listed, [&](const auto& item) {
+    const std::string folder = item.first.substr(0, item.first.find('/'));
+    return folder != item.first && folder != method && manifest.HasFolder(folder);
+  });
+  CheckListedFiles(run, {FilesThere(run, method, manifest), NeededFiles(run, method)}, listed,
+                   findings);
 }
 
 }  // namespace halfstep::verify

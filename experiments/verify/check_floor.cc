@@ -32,7 +32,7 @@ void CheckFloor(const PlayedMotion& motion, const Scene& scene, const Certificat
       const RobotBody& body = robot.bodies[b];
       const double height = LowestPoint(body, at);
       const auto where = [&] { return body.name + when(); };
-      if (IsOnFoot(body)) {
+      if (verify::IsOnFoot(body)) {
         feet.Add(height, where);
       } else {
         // Between two rows no lower than the lower end, but for what the path is bent.

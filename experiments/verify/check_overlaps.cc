@@ -13,17 +13,8 @@ constexpr double kLongestRest = 3600;
 
 bool Same(double a, double b) { return std::abs(a - b) <= kTwiceRounding; }  // false for nan
 
-// What is wrong with a row of half_steps.csv by itself; "": nothing.
-std::string FaultOf(const HalfStepRow& row, const HalfStep& planned, bool raw) {
-  if (row.kind != (planned.kind == HalfStepKind::kUp ? "up" : "down")) return "kind " + row.kind;
-  if (row.support != Name(planned.support)) return "support " + row.support;
-  if (!std::isfinite(row.start) || !std::isfinite(row.duration) ||
-      !std::isfinite(row.height_scale)) {
-    return "a number is not finite";
-  }
-  if (!(row.duration > 0)) return Formatted("duration %.9g", row.duration);
-  if (!(row.height_scale >= 0)) return Formatted("height scale %.9g", row.height_scale);
-  if (!raw) return "";
+// What is wrong with a row of the planned motion; "": nothing.
+std::string FaultOfRaw(const HalfStepRow& row, const HalfStep& planned) {
   if (!Same(row.duration, planned.duration)) {
     return Formatted("duration %.9g, planned %.9g", row.duration, planned.duration);
   }
@@ -42,10 +33,8 @@ double NaturalBound(const HalfStepRow& before, const HalfStepRow& after,
 std::string FaultOf(const OverlapRow& row, const HalfStepRow& before, const HalfStepRow& after,
                     const HalfStepShape& shape) {
   if (row.kind != (before.kind == "up" ? "up_down" : "down_up")) return "kind " + row.kind;
-  const double bound = NaturalBound(before, after, shape);
-  if (!(row.overlap >= -kLongestRest && row.overlap <= bound + kTwiceRounding)) {
-    return Formatted("overlap %.9g, natural bound %.9g", row.overlap, bound);
-  }
+  const std::string fault = FaultOfOverlap(row.overlap, before, after, shape);
+  if (!fault.empty()) return fault;
   if (!Same(row.duration_before, before.duration) || !Same(row.duration_after, after.duration) ||
       !Same(row.scale_before, before.height_scale) || !Same(row.scale_after, after.height_scale)) {
     return "durations and height scales are not those of half_steps.csv";
@@ -54,6 +43,25 @@ std::string FaultOf(const OverlapRow& row, const HalfStepRow& before, const Half
 }
 
 }  // namespace
+
+std::string FaultOfHalfStep(const HalfStepRow& row, const HalfStep& planned) {
+  if (row.kind != (planned.kind == HalfStepKind::kUp ? "up" : "down")) return "kind " + row.kind;
+  if (row.support != Name(planned.support)) return "support " + row.support;
+  if (!std::isfinite(row.start) || !std::isfinite(row.duration) ||
+      !std::isfinite(row.height_scale)) {
+    return "a number is not finite";
+  }
+  if (!(row.duration > 0)) return Formatted("duration %.9g", row.duration);
+  if (!(row.height_scale >= 0)) return Formatted("height scale %.9g", row.height_scale);
+  return "";
+}
+
+std::string FaultOfOverlap(double overlap, const HalfStepRow& before, const HalfStepRow& after,
+                           const HalfStepShape& shape) {
+  const double bound = NaturalBound(before, after, shape);
+  if (overlap >= -kLongestRest && overlap <= bound + kTwiceRounding) return "";
+  return Formatted("overlap %.9g, natural bound %.9g", overlap, bound);
+}
 
 bool CheckOverlaps(const std::vector<HalfStepRow>& half_steps,
                    const std::optional<std::vector<OverlapRow>>& overlaps,
@@ -76,7 +84,9 @@ bool CheckOverlaps(const std::vector<HalfStepRow>& half_steps,
   for (size_t i = 0; i < n; ++i) {
     const HalfStepRow& row = half_steps[i];
     const std::string line = Formatted("half_steps.csv:%zu: ", i + 2);
-    const std::string fault = FaultOf(row, planned.half_steps[i].half_step, !overlaps);
+    const HalfStep& as_planned = planned.half_steps[i].half_step;
+    std::string fault = FaultOfHalfStep(row, as_planned);
+    if (fault.empty() && !overlaps) fault = FaultOfRaw(row, as_planned);
     if (!fault.empty()) findings->Disagree(line + fault);
     if (!Same(row.start, start)) {
       findings->Disagree(

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "experiments/config/experiment_config.h"
@@ -9,6 +10,16 @@
 #include "wpg/motion/half_step_sequence.h"
 
 namespace halfstep::verify {
+
+/// What is wrong with a row of half_steps.csv by itself, for a half-step that is `planned`: kind,
+/// support, numbers that are not finite, a duration that is not positive, a height scale below 0.
+/// "": nothing.
+std::string FaultOfHalfStep(const HalfStepRow& row, const HalfStep& planned);
+
+/// What is wrong with the overlap of two neighbours by what the homotopy allows [s]; "": nothing.
+/// Source: smoothing/README.md, "Natural bounds".
+std::string FaultOfOverlap(double overlap, const HalfStepRow& before, const HalfStepRow& after,
+                           const HalfStepShape& shape);
 
 /// Whether half_steps.csv and overlaps.csv describe one walk of the footsteps that `planned` was
 /// made of: kinds and supports as planned, starts that follow from durations and overlaps,

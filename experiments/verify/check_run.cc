@@ -30,10 +30,7 @@ void CheckInputs(const std::string& what, const std::vector<InputFile>& now,
     findings->Disagree(what + ": not the one that the certificate is about (SHA-256 differs" +
                        (changed.empty() ? ")" : "; " + changed + ")"));
   }
-  if (hash != manifest_hash || !changed.empty()) {
-    findings->Disagree(what + ": not the one that manifest.json is about" +
-                       (changed.empty() ? "" : ": " + changed));
-  }
+  CheckManifestInputs(what, now, then, manifest_hash, findings);
 }
 
 bool SameFile(const fs::path& a, const fs::path& b) {
@@ -75,6 +72,15 @@ void CheckMethods(const RunParts& parts, Findings* findings) {
 }
 
 }  // namespace
+
+void CheckManifestInputs(const std::string& what, const std::vector<InputFile>& now,
+                         const std::vector<InputFile>& then, const std::string& hash,
+                         Findings* findings) {
+  const std::string changed = Changed(now, then);
+  if (CombinedSha256(now) == hash && changed.empty()) return;
+  findings->Disagree(what + ": not the one that manifest.json is about" +
+                     (changed.empty() ? "" : ": " + changed));
+}
 
 void CheckRun(const RunParts& parts, const std::string& config_bytes, Findings* findings) {
   const ExperimentConfig& config = parts.config;

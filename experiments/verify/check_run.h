@@ -2,12 +2,14 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "experiments/config/experiment_config.h"
 #include "experiments/verify/certificate_text.h"
 #include "experiments/verify/findings.h"
 #include "experiments/verify/run_manifest.h"
 #include "planner/scene/scene.h"
+#include "wpg/files/input_file.h"
 #include "wpg/robot/robot_model.h"
 
 namespace halfstep::verify {
@@ -24,6 +26,12 @@ struct RunParts {
   bool robot_given = false;   ///< on the command line; then paths are not compared
   bool scene_given = false;
 };
+
+/// Whether the files that were parsed `now`, of the robot or the scene (`what`), are those of a
+/// manifest: names, lengths and hashes, and the hash of them all.
+void CheckManifestInputs(const std::string& what, const std::vector<InputFile>& now,
+                         const std::vector<InputFile>& then, const std::string& hash,
+                         Findings* findings);
 
 /// Whether config, manifest and certificate speak of the same robot, scene, name, seed, objective,
 /// methods, duration and number of half-steps, and whether robot and scene are the files that were

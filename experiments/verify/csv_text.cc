@@ -90,13 +90,13 @@ double CsvText::Number(size_t row, size_t column) const {
   return value;
 }
 
-int CsvText::Positive(size_t row, size_t column) const {
+int CsvText::Whole(size_t row, size_t column, int least) const {
   const std::string& text = rows_[row][column];
   int value = 0;
   const char* const end = text.data() + text.size();
   const auto [stop, error] = std::from_chars(text.data(), end, value);
-  if (error != std::errc() || stop != end || value < 1 || value > 1000000000) {
-    Refuse(row, column, "is not a whole number from 1 on");
+  if (error != std::errc() || stop != end || value < least || value > 1000000000) {
+    Refuse(row, column, "is not a whole number from " + std::to_string(least) + " on");
   }
   return value;
 }

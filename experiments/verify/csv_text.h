@@ -21,7 +21,9 @@ class CsvText {
   /// A decimal number, inf, -inf or nan. Throws InputError.
   double Number(size_t row, size_t column) const;
   /// A whole number in [1, 1e9]. Throws InputError.
-  int Positive(size_t row, size_t column) const;
+  int Positive(size_t row, size_t column) const { return Whole(row, column, 1); }
+  /// A whole number in [least, 1e9]. Throws InputError.
+  int Whole(size_t row, size_t column, int least) const;
   /// Throws InputError about a cell.
   [[noreturn]] void Refuse(size_t row, size_t column, const std::string& what) const;
 

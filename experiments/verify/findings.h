@@ -10,6 +10,14 @@
 
 namespace halfstep::verify {
 
+/// What a check over many instants reached.
+struct Reached {
+  std::string name;  ///< of the check
+  long count = 0;    ///< of values
+  double spare = 0;  ///< least value, less what was demanded [unit of the check]; +∞ without values
+  std::string where;
+};
+
 /// What a verification found: one line for each check, and the reasons why it disagrees.
 class Findings {
  public:
@@ -20,13 +28,20 @@ class Findings {
   }
   /// Notes why the rows cannot settle a check, so that the walk is neither verified nor refused.
   void TooCoarse(std::string reason) { too_coarse_ = std::move(reason); }
-  /// Adds the lines and disagreements of `other`.
+  void Reach(Reached reached) { reached_.push_back(std::move(reached)); }
+  /// Adds the lines and disagreements of `other`, and what it reached.
   void Take(const Findings& other) {
     lines_.insert(lines_.end(), other.lines_.begin(), other.lines_.end());
-    for (const std::string& reason : other.reasons_) Disagree(reason);
+    TakeReasons(other, "");
+    reached_.insert(reached_.end(), other.reached_.begin(), other.reached_.end());
+  }
+  /// Adds the disagreements of `other`, each with `prefix` before it, but not its lines.
+  void TakeReasons(const Findings& other, const std::string& prefix) {
+    for (const std::string& reason : other.reasons_) Disagree(prefix + reason);
     disagreements_ += other.disagreements_ - std::ssize(other.reasons_);
   }
   const std::vector<std::string>& lines() const { return lines_; }
+  const std::vector<Reached>& reached() const { return reached_; }
   const std::string& too_coarse() const { return too_coarse_; }  ///< "": the rows settle all checks
   /// The first twenty reasons; `disagreements()` counts them all.
   const std::vector<std::string>& reasons() const { return reasons_; }
@@ -36,6 +51,7 @@ class Findings {
   static constexpr size_t kKept = 20;
   std::vector<std::string> lines_;
   std::vector<std::string> reasons_;
+  std::vector<Reached> reached_;
   long disagreements_ = 0;
   std::string too_coarse_;
 };

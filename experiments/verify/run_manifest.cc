@@ -47,6 +47,7 @@ RunManifest ReadManifest(const std::string& path, const std::string& text) {
                 .robot = root.String("robot"),
                 .scene = root.String("scene"),
                 .objective = root.String("objective"),
+                .acceptance = root.String("acceptance"),
                 .config_sha256 = root.String("config_sha256"),
                 .robot_sha256 = root.String("robot_sha256"),
                 .scene_sha256 = root.String("scene_sha256"),

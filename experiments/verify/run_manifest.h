@@ -15,7 +15,7 @@ struct RunManifest {
     std::string name, status;
     double duration = 0;  ///< [s]
   };
-  std::string name, robot, scene, objective;
+  std::string name, robot, scene, objective, acceptance;
   std::string config_sha256, robot_sha256, scene_sha256;
   std::vector<InputFile> robot_files, scene_files;  ///< without paths
   long seed = 0, half_steps = 0;

@@ -9,16 +9,18 @@
 #include "experiments/verify/certificate_text.h"
 #include "experiments/verify/check_certificate.h"
 #include "experiments/verify/check_claims.h"
-#include "experiments/verify/check_clearance.h"
 #include "experiments/verify/check_files.h"
 #include "experiments/verify/check_margin_columns.h"
 #include "experiments/verify/check_overlaps.h"
+#include "experiments/verify/check_played.h"
 #include "experiments/verify/check_rows.h"
 #include "experiments/verify/check_run.h"
+#include "experiments/verify/check_stop_branches.h"
 #include "experiments/verify/check_summary.h"
 #include "experiments/verify/check_walk.h"
 #include "experiments/verify/csv_text.h"
 #include "experiments/verify/described_walk.h"
+#include "experiments/verify/given_files.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/sha256.h"
 
@@ -26,9 +28,6 @@ namespace halfstep::verify {
 namespace {
 
 namespace fs = std::filesystem;
-
-// Rows of the walk itself, where those of the trajectory are too coarse to be played [s].
-constexpr double kFine = 0.001;
 
 void CheckHash(const char* what, const std::string& bytes, const std::string& stated,
                Findings* findings) {
@@ -39,18 +38,7 @@ void CheckHash(const char* what, const std::string& bytes, const std::string& st
 
 // The config of a run, read as `halfstep run` reads it: unknown keys are refused.
 ExperimentConfig ReadConfig(const VerifyOptions& options, const std::string& path) {
-  std::vector<YamlOverride> instead;
-  const auto quoted = [](const std::string& text) {
-    std::string yaml = "'";
-    for (const char c : text) yaml += c == '\'' ? std::string("''") : std::string(1, c);
-    return yaml + "'";
-  };
-  if (options.robot) instead.push_back({"robot", quoted(fs::absolute(*options.robot).string())});
-  if (options.scene) {
-    const bool none = *options.scene == "none";
-    instead.push_back({"scene", none ? "none" : quoted(fs::absolute(*options.scene).string())});
-  }
-  ExperimentConfig config = LoadConfig(path, instead);
+  ExperimentConfig config = LoadConfig(path, GivenFiles(options));
   if (config.footsteps.empty()) {
     throw InputError({path + ": footsteps: are missing (valid: the config.yaml of a run)"});
   }
@@ -105,66 +93,6 @@ std::optional<DescribedWalk> WalkOf(const MethodFiles& files, const ExperimentCo
   }
 }
 
-// What the robot does that plays the rows straight. Where that disagrees, the walk itself is asked,
-// at rows close together: if it agrees, the rows are too coarse.
-void CheckPlayed(const PlayedMotion& motion, const DescribedWalk& walk,
-                 const CertificateText& certificate, double tolerance, Distances* distances,
-                 Findings* findings) {
-  const auto check = [&](const PlayedMotion& of, Findings* into) {
-    CheckRowMargins(of, certificate, tolerance, into);
-    CheckFloor(of, distances->scene(), certificate, tolerance, into);
-    CheckClearances(of, certificate, tolerance, distances, into);
-  };
-  Findings played;
-  check(motion, &played);
-  if (played.disagreements() == 0) {
-    findings->Take(played);
-    return;
-  }
-  const std::vector<PlayedRow> rows = FinerRows(motion.rows(), walk, kFine);
-  const bool finite =
-      std::all_of(rows.begin(), rows.end(), [](const PlayedRow& row) { return row.AllFinite(); });
-  if (!finite) {
-    findings->Take(played);
-    return;
-  }
-  Findings fine;
-  check(PlayedMotion(motion.robot(), rows), &fine);
-  findings->Take(fine);
-  if (fine.disagreements() > 0) return;
-  findings->TooCoarse("played straight from row to row the walk leaves its margins by more than " +
-                      Formatted("%.3g; rows every %.3g s keep them: ", tolerance, kFine) +
-                      played.reasons().front());
-}
-
-// What the config demands of stop branches: the walk that ends with half-step k keeps every margin
-// from where half-step k + 1 would begin.
-void CheckStopBranches(const DescribedWalk& walk, const ExperimentConfig& config,
-                       const CertificateText& certificate, double tolerance, Distances* distances,
-                       Findings* findings) {
-  if (config.smoothing.stop_branches == "none") return;
-  int kept = 0;
-  for (int k = 0; k + 1 < walk.num_half_steps(); ++k) {
-    if (config.smoothing.stop_branches == "down" && walk.IsUp(k)) continue;
-    const double begin = walk.WindowOf(k + 1).first, end = walk.WindowOf(k).second;
-    const DescribedWalk branch = walk.StopBranch(k);
-    std::vector<PlayedRow> rows = {branch.Row(begin)};
-    const auto parts = static_cast<int>(std::ceil((end - begin) / config.output_period - 1e-9));
-    for (int i = 1; i <= parts; ++i) rows.push_back(branch.Row(begin + (end - begin) * i / parts));
-    Findings of_branch;
-    if (rows.size() > 1) {
-      CheckPlayed(PlayedMotion(walk.robot(), rows), branch, certificate, tolerance, distances,
-                  &of_branch);
-    }
-    for (const std::string& reason : of_branch.reasons()) {
-      findings->Disagree(Formatted("stopped after half-step %d: ", k + 1) + reason);
-    }
-    if (!of_branch.too_coarse().empty()) findings->TooCoarse(of_branch.too_coarse());
-    kept += of_branch.disagreements() == 0;
-  }
-  findings->Say(Formatted("stop branches: %d keep every margin to their end", kept));
-}
-
 bool IsFinite(const std::vector<ClaimRow>& rows) {
   return std::all_of(rows.begin(), rows.end(), [](const ClaimRow& row) {
     return std::isfinite(row.begin) && std::isfinite(row.end) && !std::isnan(row.margin) &&
@@ -208,6 +136,7 @@ std::string VerifyMethod(const VerifyOptions& options, const RunManifest& manife
                           robot.files.size(), scene.files.size()));
   CheckFiles(options.run, folder, manifest, findings);
   CheckAgainstConfig(certificate, config.smoothing.limits, findings);
+  CheckDemandOfStopBranches(config.smoothing.stop_branches, manifest.acceptance, findings);
   const auto iterations =
       !files.Has("iterates.csv")
           ? 0
@@ -223,14 +152,15 @@ std::string VerifyMethod(const VerifyOptions& options, const RunManifest& manife
   if (!CheckIsMotion(rows, findings) || !walk) return certificate.statement;
   const PlayedMotion motion(robot, rows);
   Distances distances(robot, scene);
-  CheckRowsOnWalk(rows, *walk, config.output_period, findings);
+  CheckRowsOnWalk(rows, *walk, config.output_period, walk->end(), findings);
   CheckConsistency(motion, *walk, findings);
   if (!same_files) {
     findings->Say("clearances: not examined, for these are not the certificate's files");
     return certificate.statement;
   }
   CheckPlayed(motion, *walk, certificate, options.tolerance, &distances, findings);
-  CheckStopBranches(*walk, config, certificate, options.tolerance, &distances, findings);
+  CheckStopBranches(*walk, {config.smoothing.stop_branches, config.output_period}, certificate,
+                    options.tolerance, &distances, findings);
   CheckMarginColumns(rows, *walk, certificate, &distances, findings);
   if (IsFinite(claimed)) CheckClaims(*walk, certificate, claimed, &distances, findings);
   findings->Say("distances measured: " + Count(distances.queries()));

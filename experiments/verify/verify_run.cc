@@ -4,8 +4,10 @@
 #include <filesystem>
 
 #include "experiments/verify/csv_text.h"
+#include "experiments/verify/episode_text.h"
 #include "experiments/verify/findings.h"
 #include "experiments/verify/run_manifest.h"
+#include "experiments/verify/verify_episode.h"
 #include "experiments/verify/verify_method.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/text.h"
@@ -50,6 +52,26 @@ std::vector<fs::path> Folders(const VerifyOptions& options, const RunManifest& m
                     " (valid: " + names + ")"});
 }
 
+// Makes the result of a check, which may throw InputError.
+template <typename Check>
+MethodVerification Verified(const std::string& method, const Check& check) {
+  MethodVerification result;
+  result.method = method;
+  Findings findings;
+  try {
+    check(&result, &findings);
+    result.too_coarse = findings.too_coarse();
+    result.verified = findings.disagreements() == 0 && result.too_coarse.empty();
+  } catch (const InputError& error) {
+    result.readable = false;
+    result.complaints = error.complaints();
+  }
+  result.lines = findings.lines();
+  result.reasons = findings.reasons();
+  result.disagreements = findings.disagreements();
+  return result;
+}
+
 }  // namespace
 
 std::vector<MethodVerification> VerifyRun(const VerifyOptions& options) {
@@ -61,28 +83,26 @@ std::vector<MethodVerification> VerifyRun(const VerifyOptions& options) {
     throw InputError(
         {options.run + ": no such run folder (valid: a folder that `halfstep run` wrote)"});
   }
-  const RunManifest manifest =
-      ReadManifest(manifest_path.string(), ReadBytes(manifest_path.string()));
+  const std::string manifest_text = ReadBytes(manifest_path.string());
+  if (IsOfEpisode(manifest_path.string(), manifest_text)) {
+    if (options.method) {
+      throw InputError({"--method: an episode has none (valid: without it)"});
+    }
+    return {Verified("episode", [&](MethodVerification*, Findings* findings) {
+      VerifyEpisode(options, manifest_text, findings);
+    })};
+  }
+  const RunManifest manifest = ReadManifest(manifest_path.string(), manifest_text);
   std::vector<MethodVerification> results;
   for (const fs::path& folder : Folders(options, manifest)) {
-    MethodVerification& result = results.emplace_back();
-    result.method = folder.filename().string();
-    Findings findings;
-    try {
-      if (HasCertificate(folder)) {
-        result.statement = VerifyMethod(options, manifest, result.method, &findings);
-      } else {
-        findings.Disagree("there is no certificate (`halfstep certify` makes it)");
-      }
-      result.too_coarse = findings.too_coarse();
-      result.verified = findings.disagreements() == 0 && result.too_coarse.empty();
-    } catch (const InputError& error) {
-      result.readable = false;
-      result.complaints = error.complaints();
-    }
-    result.lines = findings.lines();
-    result.reasons = findings.reasons();
-    result.disagreements = findings.disagreements();
+    results.push_back(
+        Verified(folder.filename().string(), [&](MethodVerification* result, Findings* findings) {
+          if (HasCertificate(folder)) {
+            result->statement = VerifyMethod(options, manifest, result->method, findings);
+          } else {
+            findings->Disagree("there is no certificate (`halfstep certify` makes it)");
+          }
+        }));
   }
   return results;
 }

@@ -19,9 +19,9 @@ struct VerifyOptions {
   std::optional<std::string> scene = {};
 };
 
-/// What was found about one method of a run.
+/// What was found about one method of a run, or about an episode.
 struct MethodVerification {
-  std::string method;  ///< its folder's name
+  std::string method;  ///< its folder's name; of an episode "episode"
   bool verified = false;
   bool readable = true;              ///< false: `complaints` says what cannot be read
   std::vector<std::string> lines;    ///< one for each check
@@ -38,7 +38,8 @@ struct MethodVerification {
 /// the trajectory keeps what is demanded. Distances are its own (Solid), and only of the very files
 /// that the certificate is about. None of the smoothing takes part; shared with the prover are the
 /// readers of input files, the closed forms of half-steps and of a leg's inverse kinematics (wpg).
-/// A method without a certificate is not verified. Throws InputError when no method has one.
+/// A method without a certificate is not verified. Throws InputError when no method has one. The
+/// folder of an episode gives one result (VerifyEpisode), and has no methods.
 std::vector<MethodVerification> VerifyRun(const VerifyOptions& options);
 
 /// The result as `halfstep verify` prints it.

@@ -105,7 +105,8 @@ int main(int argc, char** argv) {
   const BakedHalfSteps baked = BakeHalfSteps(place.robot, base.experiment, {});
   const auto start = StartOf(base.experiment, place.robot);
   std::vector<double> latencies, longer;
-  int reachable = 0, arrived = 0, touched = 0, excused = 0, changes = 0, quick = 0;
+  int reachable = 0, arrived = 0, touched = 0, excused = 0, changes = 0, quick = 0, against = 0,
+      free = 0, free_arrived = 0;
   Physics worst;
   std::printf(
       "seed,ending,reachable,duration_s,clairvoyant_s,changed,stops,unsafe,nearest_m,nearest,cpu_"
@@ -139,8 +140,16 @@ int main(int argc, char** argv) {
     touched += touches && !broken;
     excused += broken;
     reachable += can;
+    const bool pressed =
+        NearestApproach(episode, truth.Since(episode.waited), place.robot, 0.05, 0.3, true)
+            .distance <= 0.0;
+    against += pressed;
     const bool there = episode.ending == EpisodeEnding::kArrived;
     arrived += there && can;
+    if (can && !pressed && drawn.config.live.sensing.rests_after) {
+      ++free;
+      free_arrived += there;
+    }
     if (there && ideal > 0.0) longer.push_back(summary.duration / ideal - 1.0);
     latencies.insert(latencies.end(), summary.latencies.begin(), summary.latencies.end());
     for (const int begun : summary.begun_meanwhile) {
@@ -159,6 +168,11 @@ int main(int argc, char** argv) {
               latencies.size());
   std::printf("begun meanwhile: at most 1 in %d of %d\n", quick, changes);
   std::printf("arrived %d of %d that can be reached\n", arrived, reachable);
+  std::printf(
+      "of these, where what stays is taken to rest and nothing was put against the robot: "
+      "%d of %d\n",
+      free_arrived, free);
+  std::printf("an obstacle was put against the standing or walking robot: %d\n", against);
   std::printf("longer than clairvoyant: median %.1f %%, p90 %.1f %%\n", 100.0 * At(longer, 0.5),
               100.0 * At(longer, 0.9));
   std::printf("largest jump %.2g, LIPM residual %.2g m\n", worst.jump, worst.residual);

@@ -24,48 +24,67 @@ World Frame(double t, double x, double speed) {
   return frame;
 }
 
+// After one version.
+WorldUpdate After(const World& before, World frame, const LiveOptions& options) {
+  return Updated({&before, 1}, std::move(frame), options);
+}
+
 TEST(World, AnObstacleContradictsBeyondErrorsAndSpeed) {
   const World before = Frame(1.0, 0.0, 0.5);
-  EXPECT_THAT(Updated(before, Frame(1.2, 0.1199, 0.5), {}).contradictions, IsEmpty());
-  const WorldUpdate jumped = Updated(before, Frame(1.2, 0.1201, 0.5), {});
+  EXPECT_THAT(After(before, Frame(1.2, 0.1199, 0.5), {}).contradictions, IsEmpty());
+  const WorldUpdate jumped = After(before, Frame(1.2, 0.1201, 0.5), {});
   EXPECT_THAT(jumped.contradictions, ElementsAre("bar"));
   EXPECT_EQ(jumped.world.version, 1);
   EXPECT_EQ(jumped.world.sound_since, 1);
-  EXPECT_EQ(Updated(jumped.world, Frame(1.4, 0.13, 0.5), {}).world.sound_since, 1);
+  EXPECT_EQ(After(jumped.world, Frame(1.4, 0.13, 0.5), {}).world.sound_since, 1);
 }
 
 TEST(World, ATurnMovesTheFarEnds) {
   const World before = Frame(1.0, 0.0, 0.0);
   World turned = Frame(1.2, 0.0, 0.0);
   turned.scene.obstacles[0].X_WO.rotate(Eigen::AngleAxisd(0.2, Eigen::Vector3d::UnitZ()));
-  EXPECT_THAT(Updated(before, turned, {}).contradictions, ElementsAre("bar"));
+  EXPECT_THAT(After(before, turned, {}).contradictions, ElementsAre("bar"));
 }
 
 TEST(World, WhatAppearsContradictsAndWhatVanishesDoesNot) {
   World empty;
   const World full = Frame(1.0, 0.0, 0.0);
-  EXPECT_THAT(Updated(empty, full, {}).contradictions, ElementsAre("bar"));
-  EXPECT_THAT(Updated(full, empty, {}).contradictions, IsEmpty());
+  EXPECT_THAT(After(empty, full, {}).contradictions, ElementsAre("bar"));
+  EXPECT_THAT(After(full, empty, {}).contradictions, IsEmpty());
   World forbidden = empty;
   forbidden.areas = {0};
   forbidden.scene.no_step.resize(1);
-  EXPECT_THAT(Updated(empty, forbidden, {}).contradictions, ElementsAre("a no-step area"));
+  EXPECT_THAT(After(empty, forbidden, {}).contradictions, ElementsAre("a no-step area"));
 }
 
 TEST(World, WhatStaysIsTakenToRestUntilItIsElsewhere) {
   LiveOptions options;
   options.sensing.rests_after = 0.5;
   World world = Frame(1.0, 0.0, 0.5);
-  world = Updated(world, Frame(1.4, 0.015, 0.5), options).world;
+  world = After(world, Frame(1.4, 0.015, 0.5), options).world;
   EXPECT_EQ(world.scene.obstacles[0].motion.speed, 0.5);
-  world = Updated(world, Frame(1.5, -0.01, 0.5), options).world;
+  world = After(world, Frame(1.5, -0.01, 0.5), options).world;
   EXPECT_EQ(world.scene.obstacles[0].motion.speed, 0.0);
   EXPECT_EQ(world.valid_until(), std::numeric_limits<double>::infinity());
   // It moves off: a contradiction, since it was taken to rest, and it has its speed again.
-  const WorldUpdate off = Updated(world, Frame(1.7, 0.08, 0.5), options);
+  const WorldUpdate off = After(world, Frame(1.7, 0.08, 0.5), options);
   EXPECT_THAT(off.contradictions, ElementsAre("bar"));
   EXPECT_EQ(off.world.scene.obstacles[0].motion.speed, 0.5);
   EXPECT_EQ(off.world.valid_until(), 1.7 + 2.0);
+}
+
+// Each frame is where the one before allows it; the first world, in which the bar was taken to
+// rest, does not allow the last one.
+TEST(World, WhatCreepsContradictsAnEarlierWorld) {
+  std::vector<World> worlds = {Frame(1.0, 0.0, 0.0)};
+  for (const double x : {0.01, 0.019, 0.028}) {
+    WorldUpdate next =
+        Updated(worlds, Frame(worlds.back().measured_at + 0.2, x, 0.0), LiveOptions{});
+    EXPECT_TRUE(After(worlds.back(), next.world, {}).contradictions.empty());
+    worlds.push_back(std::move(next.world));
+  }
+  EXPECT_EQ(worlds[2].sound_since, 0);
+  EXPECT_EQ(worlds[3].sound_since, 1);
 }
 
 TEST(World, MeasurementsAreWithinTheNoise) {

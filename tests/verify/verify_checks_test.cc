@@ -104,7 +104,7 @@ Findings FindingsOf(Of check, const Material& m) {
       CheckMarginColumns(m.rows, walk, m.certificate, &distances, &findings);
       break;
     case Of::kWalk:
-      CheckRowsOnWalk(m.rows, walk, 0.005, &findings);
+      CheckRowsOnWalk(m.rows, walk, 0.005, walk.end(), &findings);
       break;
     case Of::kArithmetic:
       CheckArithmetic(m.certificate, m.claims, m.robot, m.rows.back().t, &findings);

@@ -215,6 +215,12 @@ TEST(StopBranches, AreCheckedWhenTheConfigDemandsThem) {
     EXPECT_EQ(verify().status, 0);
     if (demanded == std::string("all")) {
       EXPECT_THAT(verify().out, HasSubstr("stop branches: 1 keep every margin to their end"));
+      TamperedRun::Replace(run.run() / "config.yaml", "stop_branches: all",
+                           "stop_branches: \"none\"");
+      run.Rehash();
+      EXPECT_EQ(verify().status, 3);
+      EXPECT_THAT(verify().out, HasSubstr("smoothing.stop_branches: config.yaml has none, but by "
+                                          "manifest.json's acceptance it was all"));
       continue;
     }
     EXPECT_THAT(verify().out, testing::Not(HasSubstr("stop branches")));
@@ -223,6 +229,8 @@ TEST(StopBranches, AreCheckedWhenTheConfigDemandsThem) {
     run.Rehash();
     EXPECT_EQ(verify().status, 3);
     EXPECT_THAT(verify().out, HasSubstr("stopped after half-step 1: "));
+    EXPECT_THAT(verify().out, HasSubstr("smoothing.stop_branches: config.yaml has all, but by "
+                                        "manifest.json's acceptance it was none"));
   }
 }
 

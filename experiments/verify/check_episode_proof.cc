@@ -1,0 +1,92 @@
+#include "experiments/verify/check_episode_proof.h"
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+#include <set>
+
+#include "experiments/verify/check_clearance.h"
+#include "experiments/verify/check_episode_worlds.h"
+#include "experiments/verify/check_played.h"
+#include "experiments/verify/distances.h"
+
+namespace halfstep::verify {
+namespace {
+
+// A world as a grant knows it.
+struct KnownWorld {
+  KnownWorld(const RobotModel& robot, Scene known)
+      : scene(std::move(known)), distances(robot, scene) {}
+  KnownWorld(const KnownWorld&) = delete;
+  KnownWorld& operator=(const KnownWorld&) = delete;
+
+  Scene scene;
+  Distances distances;
+};
+
+}  // namespace
+
+CertificateText DemandsOf(const MarginLimits& limits, Findings* findings) {
+  CertificateText demands;
+  for (const MarginFamily family : AllMarginFamilies()) {
+    const auto name = std::ranges::find(kFamilyNames, Name(family));
+    if (name == kFamilyNames.end()) {
+      findings->Disagree("the family " + Quote(std::string(Name(family))) + " is not known here");
+      continue;
+    }
+    demands.demanded[static_cast<size_t>(name - kFamilyNames.begin())] = limits.demanded_of(family);
+  }
+  demands.foot_speed = limits.foot_speed;
+  demands.foot_yaw_rate = limits.foot_yaw_rate;
+  demands.joint_speed_scale = limits.joint_speed_scale;
+  return demands;
+}
+
+void CheckEpisodeProof(const EpisodeText& episode, const DescribedWalk& walk, const Scene& scene,
+                       const CertificateText& demands, const EpisodeProofOptions& options,
+                       Findings* findings) {
+  std::set<int> worlds;
+  int of_world = -1;
+  std::unique_ptr<KnownWorld> world;
+  long statements = 0, kept = 0, coarse = 0;
+  Reached nearest;
+  nearest.spare = std::numeric_limits<double>::infinity();
+  for (const BegunRow& begun : episode.begun) {
+    const GrantRow& grant = episode.grants[static_cast<size_t>(begun.grant)];
+    if (!world || grant.world != of_world) {
+      world = std::make_unique<KnownWorld>(
+          walk.robot(), SceneOfWorld(episode, scene, static_cast<size_t>(grant.world)));
+      of_world = grant.world;
+      worlds.insert(of_world);
+    }
+    Findings of_branch;
+    CheckStopBranch(walk, begun.half_step - 1, 0, options.period, demands, options.tolerance,
+                    &world->distances, &of_branch);
+    const std::string where =
+        Formatted("stopped after half-step %d, against world %d: ", begun.half_step, grant.world);
+    findings->TakeReasons(of_branch, where);
+    for (const Reached& reached : of_branch.reached()) {
+      statements += reached.count;
+      if (reached.name == "clearance" && reached.spare < nearest.spare) nearest = reached;
+    }
+    if (!of_branch.too_coarse().empty()) {
+      findings->TooCoarse(where + of_branch.too_coarse());
+      ++coarse;
+    } else if (of_branch.disagreements() == 0) {
+      ++kept;
+    }
+  }
+  findings->Say("proof: " + Count(kept) + " of " + Count(std::ssize(episode.begun)) +
+                " stop branches keep every margin, against " + Count(std::ssize(worlds)) +
+                " worlds, by " + Count(statements) + " statements" +
+                (coarse == 0 ? "" : "; " + Count(coarse) + " are too coarse to tell"));
+  const double seen = kQuick - options.tolerance;
+  findings->Say(
+      nearest.spare < seen
+          ? Formatted("clearance: least measured %.4g m beyond what was demanded (",
+                      nearest.spare) +
+                nearest.where + ")"
+          : Formatted("clearance: everywhere %.4g m and more beyond what was demanded", seen));
+}
+
+}  // namespace halfstep::verify

@@ -1,0 +1,102 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "experiments/verify/walk_text.h"
+#include "wpg/files/input_file.h"
+
+namespace halfstep::verify {
+
+/// What manifest.json says of an episode; nothing of it is believed.
+struct EpisodeManifest {
+  std::string name, config_sha256, robot_sha256, scene_sha256, clock, policy, ending;
+  std::vector<InputFile> robot_files, scene_files;  ///< without paths
+  std::map<std::string, InputFile> files;           ///< of the episode, by relative path
+  long seed = 0, walks = 0;
+  double end = 0;        ///< [s]
+  bool stopped = false;  ///< the last walk was cut after the last half-step that began
+};
+
+/// Whether the text of a manifest.json says that it is of an episode. Throws InputError for what is
+/// no JSON object.
+bool IsOfEpisode(const std::string& path, const std::string& text);
+
+/// Throws InputError for what is no manifest of an episode.
+EpisodeManifest ReadEpisodeManifest(const std::string& path, const std::string& text);
+
+/// A row of worlds.csv.
+struct WorldRow {
+  int world = 0;
+  double known = 0, measured = 0;  ///< [s]
+  int sound_since = 0;
+  Eigen::Vector2d goal{0, 0};  ///< its centre, in W [m]
+  std::vector<size_t> areas;   ///< no-step areas of the scene that are there, from 0
+};
+
+/// A row of obstacles.csv.
+struct ObstacleRow {
+  int world = 0;
+  std::string name;
+  Eigen::Vector3d place{0, 0, 0};            ///< of its frame's origin, in W [m]
+  std::array<double, 4> turn{1, 0, 0, 0};    ///< of its frame, a quaternion w, x, y, z
+  double error = 0, speed = 0, horizon = 0;  ///< r [m], v [m/s], H [s]
+};
+
+/// A row of plans.csv; what it says of why and how a walk was made is not read.
+struct PlanRow {
+  double handed_over = 0;  ///< [s]
+  int footsteps = 0;
+  double duration = 0;  ///< [s]
+};
+
+/// A row of grants.csv. Half-steps count from 1; `through` 0: none may begin.
+struct GrantRow {
+  double t = 0;  ///< [s]
+  int walk = 0, world = 0;
+  double proved_from = 0;  ///< [s]
+  int through = 0;
+  double valid_until = 0;  ///< [s]
+};
+
+/// A row of begun.csv: a half-step, from 1, and a grant, from 0.
+struct BegunRow {
+  int half_step = 0, grant = 0;
+};
+
+/// A row of events.csv; half-step 0: none.
+struct EventRow {
+  double t = 0;  ///< [s]
+  std::string what;
+  int world = 0, walk = 0, half_step = 0;
+};
+
+/// A walk of an episode as its two files say it.
+struct EpisodeWalkText {
+  std::vector<FootstepRow> footsteps;
+  std::vector<HalfStepRow> half_steps;
+};
+
+/// The tables of an episode as they are read. Numbers that name a row of another table need not
+/// name one (CheckEpisodeNumbers).
+struct EpisodeText {
+  std::vector<WorldRow> worlds;
+  std::vector<ObstacleRow> obstacles;
+  std::vector<PlanRow> plans;
+  std::vector<GrantRow> grants;
+  std::vector<BegunRow> begun;
+  std::vector<EventRow> events;
+  std::vector<EpisodeWalkText> walks;
+};
+
+/// The folder of a walk, from 0: "walks/007".
+std::string FolderOfWalk(size_t walk);
+
+/// Reads the tables of an episode with so many walks. Throws InputError for what is no such table.
+EpisodeText ReadEpisode(const std::filesystem::path& folder, size_t walks);
+
+}  // namespace halfstep::verify

@@ -1,0 +1,115 @@
+#include "experiments/verify/verify_episode.h"
+
+#include <filesystem>
+#include <set>
+
+#include "experiments/config/experiment.h"
+#include "experiments/live/live_config.h"
+#include "experiments/verify/check_episode_grants.h"
+#include "experiments/verify/check_episode_motion.h"
+#include "experiments/verify/check_episode_proof.h"
+#include "experiments/verify/check_episode_walks.h"
+#include "experiments/verify/check_episode_worlds.h"
+#include "experiments/verify/check_files.h"
+#include "experiments/verify/check_run.h"
+#include "experiments/verify/csv_text.h"
+#include "experiments/verify/episode_text.h"
+#include "experiments/verify/given_files.h"
+#include "wpg/files/sha256.h"
+
+namespace halfstep::verify {
+namespace {
+
+namespace fs = std::filesystem;
+
+FolderFiles FilesOf(const fs::path& folder, size_t walks) {
+  FolderFiles files;
+  for (auto it = fs::recursive_directory_iterator(folder); it != fs::end(it); ++it) {
+    const std::string name = it->path().lexically_relative(folder).string();
+    if (!it->is_directory() && name != "manifest.json") files.there.insert(name);
+  }
+  files.needed = {"begun.csv",     "config.yaml", "events.csv",  "grants.csv",
+                  "obstacles.csv", "plans.csv",   "timings.csv", "worlds.csv"};
+  for (size_t k = 0; k < walks; ++k) {
+    files.needed.insert(FolderOfWalk(k) + "/footsteps.csv");
+    files.needed.insert(FolderOfWalk(k) + "/half_steps.csv");
+  }
+  if (walks > 0) files.needed.insert("trajectory.csv");
+  return files;
+}
+
+// Whether manifest and config speak of the same episode, robot and scene.
+void CheckEpisodeInputs(const EpisodeManifest& manifest, const LiveConfig& config,
+                        const std::string& config_bytes, const Place& place, Findings* findings) {
+  const auto agree = [findings](const char* what, bool same) {
+    if (!same) findings->Disagree(std::string(what) + ": manifest.json disagrees with config.yaml");
+  };
+  agree("config_sha256", manifest.config_sha256 == Sha256(config_bytes));
+  agree("name", manifest.name == config.experiment.name);
+  agree("seed", manifest.seed == config.experiment.seed);
+  agree("clock", manifest.clock == config.live.clock);
+  agree("policy", manifest.policy == config.live.policy);
+  CheckManifestInputs("robot", place.robot.files, manifest.robot_files, manifest.robot_sha256,
+                      findings);
+  CheckManifestInputs("scene", place.scene.files, manifest.scene_files, manifest.scene_sha256,
+                      findings);
+  findings->Say(
+      Formatted("config.yaml and manifest.json: name, seed, clock, policy; %zu robot "
+                "files, %zu scene files",
+                place.robot.files.size(), place.scene.files.size()));
+}
+
+// All that is about walks; there is one.
+void CheckEpisodeWalking(const VerifyOptions& options, const EpisodeText& episode,
+                         const EpisodeManifest& manifest, const LiveConfig& config,
+                         const Place& place, Findings* findings) {
+  const ExperimentConfig& experiment = config.experiment;
+  const EpisodeWalks all = CheckEpisodeWalks(episode,
+                                             {.robot = place.robot,
+                                              .start = StartOf(experiment, place.robot),
+                                              .via_lateral = experiment.half_step.via_lateral,
+                                              .shape = ShapeOf(experiment.half_step)},
+                                             findings);
+  const std::string path = (fs::path(options.run) / "trajectory.csv").string();
+  const std::vector<PlayedRow> rows = ReadTrajectory(path, ReadBytes(path), place.robot);
+  if (all.walks.size() != episode.walks.size()) return;
+  if (!CheckGrantNumbers(episode, all, findings)) return;
+  CheckSuccessors(episode, all, findings);
+  CheckEpisodeGrants(episode, all, findings);
+  const DescribedWalk executed = ExecutedWalk(episode, all, manifest.stopped);
+  CheckWhatBegan(episode, manifest, executed, findings);
+  CheckEpisodeTrajectory(rows, manifest, executed, experiment.output_period, findings);
+  CheckEpisodeEnding(episode, manifest, all, executed, experiment.goal, findings);
+  CheckEpisodeProof(episode, all.walks.back(), place.scene,
+                    DemandsOf(experiment.smoothing.limits, findings),
+                    {.period = experiment.output_period, .tolerance = options.tolerance}, findings);
+}
+
+}  // namespace
+
+void VerifyEpisode(const VerifyOptions& options, const std::string& manifest_text,
+                   Findings* findings) {
+  const fs::path folder(options.run);
+  const EpisodeManifest manifest =
+      ReadEpisodeManifest((folder / "manifest.json").string(), manifest_text);
+  const auto walks = static_cast<size_t>(manifest.walks);
+  CheckListedFiles(options.run, FilesOf(folder, walks), manifest.files, findings);
+  const std::string config_path = (folder / "config.yaml").string();
+  const LiveConfig config = LoadLiveConfig(config_path, GivenFiles(options));
+  const Place place = LoadPlace(config.experiment);
+  CheckEpisodeInputs(manifest, config, ReadBytes(config_path), place, findings);
+  const EpisodeText episode = ReadEpisode(folder, walks);
+  if (!CheckEpisodeNumbers(episode, place.scene, findings)) return;
+  CheckEpisodeWorlds(episode, config.live, place.scene, findings);
+  if (walks > 0) {
+    CheckEpisodeWalking(options, episode, manifest, config, place, findings);
+    return;
+  }
+  findings->Say("ending: no walk");
+  if (manifest.ending != "no_plan" || !episode.grants.empty() || !episode.begun.empty()) {
+    findings->Disagree(
+        "manifest.json: no walk, but not the ending no_plan, a grant or a half-step");
+  }
+}
+
+}  // namespace halfstep::verify
