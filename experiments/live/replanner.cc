@@ -244,18 +244,15 @@ Proposal Replanner::Propose(const Situation& s, const PreparedWorld& among,
     proposal.smoothed[static_cast<size_t>(s.begun)] = true;
   }
   const SuperposedWalk walk = proposal.plan.Walk();
-<<<<<<< HEAD
-  if (s.stopped) proposal.grant.through = std::min(proposal.grant.through, s.begun - 1);
-  if (s.stopped && more && walk.end_of(s.begun + 1) > among.world.valid_until()) {
-    proposal.kind = ProposalKind::kUnsafe;
-    proposal.reason = "the latest measurement is too old for another half-step";
-    return proposal;
-=======
   if (s.stopped) {
     proposal.grant.through = std::min(proposal.grant.through, s.begun - 1);
     // After a delay half-steps are together that were not when the robot's margins were proved.
     proposal.robot_through = std::min(proposal.robot_through, s.begun - 1);
->>>>>>> c98ee6241099d2a4cecae489c5ae072688958d5f
+  }
+  if (s.stopped && more && walk.end_of(s.begun + 1) > among.world.valid_until()) {
+    proposal.kind = ProposalKind::kUnsafe;
+    proposal.reason = "the latest measurement is too old for another half-step";
+    return proposal;
   }
   const int all = walk.num_half_steps() - 1;
   const std::optional<Margin> refused = Prove(s, walk, all, among, &proposal);

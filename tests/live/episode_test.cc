@@ -73,8 +73,8 @@ TEST(EpisodeTest, FindsAnotherWayWhenABarJumpsIntoIt) {
 TEST(EpisodeTest, EveryPolicyArrives) {
   for (const std::string policy : {"paper", "stop_and_replan"}) {
     const PlayedEpisode played = BarInTheWay(policy);
-    EXPECT_EQ(played.episode.ending, EpisodeEnding::kArrived)
-        << policy << "\n" << EventsCsv(played.episode).text;
+    EXPECT_EQ(played.episode.ending, EpisodeEnding::kArrived) << policy << "\n"
+                                                              << EventsCsv(played.episode).text;
     ExpectExecutedWhatWasHandedOver(played.episode);
   }
 }

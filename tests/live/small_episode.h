@@ -32,7 +32,9 @@ struct SmallWorld {
           "half_step: {duration_s: 1.5, zmp_shift_s: 0.075}\n"
           "step_set: {x_min_m: -0.1, x_max_m: 0.2, y_min_m: -0.29, y_max_m: -0.21,\n"
           "           spacing_m: 0.08, yaws_rad: [-0.25, 0, 0.25]}\n"
-          "swept_volumes: {cell_m: 0.03, displacement_m: 0.02}\n"
+          "swept_volumes: {cell_m: 0.03, displacement_m: 0.02,\n"
+          "                cache: " HALFSTEP_BINARY_DIR
+          "/swept_volumes_of_tests}\n"
           "planner: {unimproved_nodes: 100, max_nodes: 2000}\n"
           "live: {smooth_ahead: 4, tolerance_s: 0.1, longest_s: 60}\n",
           {});
