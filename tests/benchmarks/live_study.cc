@@ -13,6 +13,7 @@
 #include "experiments/live/episode_summary.h"
 #include "experiments/live/random_episode.h"
 #include "experiments/run/planning.h"
+#include "smoothing/proof/certified_feasibility.h"
 
 namespace {
 
@@ -81,6 +82,33 @@ bool BrokeItsBounds(const Episode& episode, const std::string& obstacle, double 
   return known;
 }
 
+// Stops at random times: how many of them come to rest with every margin kept in the world that
+// allowed the latest half-step to begin. Proved, half-step by half-step.
+int SafeStops(const Episode& episode, const Place& place, const LiveConfig& config, int stops,
+              std::mt19937_64& random) {
+  const SuperposedWalk walk = episode.Executed();
+  std::vector<int> safe(episode.begun.size(), -1);  // by half-step; −1: not looked at
+  std::uniform_real_distribution<double> time(0.0, walk.duration());
+  int kept = 0;
+  for (int i = 0; i < stops; ++i) {
+    const auto k = static_cast<size_t>(walk.Locate(time(random)).half_step);
+    if (safe[k] < 0) {
+      const Grant& grant = episode.grants[static_cast<size_t>(episode.begun[k].grant)].grant;
+      const auto world = std::ranges::find(episode.worlds, grant.version, &World::version);
+      const MarginEvaluator evaluator(place.robot, world->scene,
+                                      config.experiment.smoothing.limits);
+      const CertifiedFeasibility test(evaluator, config.experiment.smoothing.certification);
+      MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
+      const SuperposedWalk branch = walk.StopBranch(static_cast<int>(k));
+      const double from = std::max(grant.proved_at, branch.start_of(static_cast<int>(k)));
+      safe[k] =
+          test.Check(branch, {from, branch.duration()}, &scratch).verdict == Verdict::kFeasible;
+    }
+    kept += safe[k];
+  }
+  return kept;
+}
+
 double At(std::vector<double> values, double part) {
   if (values.empty()) return std::nan("");
   std::ranges::sort(values);
@@ -107,6 +135,8 @@ int main(int argc, char** argv) {
   std::vector<double> latencies, longer;
   int reachable = 0, arrived = 0, touched = 0, excused = 0, changes = 0, quick = 0, against = 0,
       free = 0, free_arrived = 0;
+  constexpr int kStops = 100;  // an episode
+  int stops = 0, safe_stops = 0;
   Physics worst;
   std::printf(
       "seed,ending,reachable,duration_s,clairvoyant_s,changed,stops,unsafe,nearest_m,nearest,cpu_"
@@ -130,6 +160,9 @@ int main(int argc, char** argv) {
     }
     const EpisodeSummary summary = Summarize(episode, truth, place.robot);
     if (!episode.walks.empty()) {
+      std::mt19937_64 random(seed);
+      safe_stops += SafeStops(episode, place, drawn.config, kStops, random);
+      stops += kStops;
       const Physics physics = Examine(episode);
       worst.jump = std::max(worst.jump, physics.jump);
       worst.residual = std::max(worst.residual, physics.residual);
@@ -175,6 +208,7 @@ int main(int argc, char** argv) {
   std::printf("an obstacle was put against the standing or walking robot: %d\n", against);
   std::printf("longer than clairvoyant: median %.1f %%, p90 %.1f %%\n", 100.0 * At(longer, 0.5),
               100.0 * At(longer, 0.9));
+  std::printf("stops at random times that come to rest, certified: %d of %d\n", safe_stops, stops);
   std::printf("largest jump %.2g, LIPM residual %.2g m\n", worst.jump, worst.residual);
   return touched == 0 ? 0 : 1;
 }
