@@ -7,6 +7,7 @@
 #include "experiments/commands/commands.h"
 #include "experiments/config/experiment_config.h"
 #include "experiments/config/key_tables.h"
+#include "experiments/live/live_config.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/text.h"
 
@@ -45,6 +46,8 @@ void Find(const std::vector<KeyDescription>& keys, const std::string& wanted,
 
 ExitStatus ExplainConfig(const ExplainCommand& command) {
   std::vector<KeyDescription> keys = ConfigKeys();
+  // The keys of an episode are searched by name only: a run has no `live`.
+  if (!command.key.empty()) keys = EpisodeKeys();
   if (!command.key.empty()) {
     std::vector<KeyDescription> found;
     std::vector<std::string> paths;

@@ -147,6 +147,11 @@ void DeclareFields(Fields& fields, LiveConfig* config) {
   }
 }
 
+std::vector<KeyDescription> EpisodeKeys() {
+  LiveConfig config;
+  return DescribeKeys([&config](Fields& fields) { DeclareFields(fields, &config); });
+}
+
 LiveConfig LoadLiveConfig(const std::string& path, const std::vector<YamlOverride>& overrides) {
   return ParseLiveConfig(path, ReadYamlFile(path), overrides);
 }

@@ -6,6 +6,7 @@
 
 #include "experiments/config/experiment_config.h"
 #include "wpg/files/fields.h"
+#include "wpg/files/key_description.h"
 
 namespace halfstep {
 
@@ -65,6 +66,9 @@ struct LiveConfig {
 
 /// Declares every key once: those of an experiment, and `live`.
 void DeclareFields(Fields& fields, LiveConfig* config);
+
+/// The keys that DeclareFields declares, as data.
+std::vector<KeyDescription> EpisodeKeys();
 
 /// Reads a config file strictly. Throws InputError with every complaint at once.
 LiveConfig LoadLiveConfig(const std::string& path, const std::vector<YamlOverride>& overrides);
