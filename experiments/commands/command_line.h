@@ -1,6 +1,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <functional>
 #include <span>
 #include <string>
@@ -29,9 +30,14 @@ void DeclareOverrides(CLI::App* app, const std::string& what, std::vector<std::s
 /// Parses the assignments KEY=VALUE. Throws InputError for a text that is none.
 std::vector<YamlOverride> ParseOverrides(const std::vector<std::string>& sets);
 
+struct ExperimentConfig;
 struct RunCommand;
 /// Declares --overwrite, --quiet and --json, for commands that write a run.
 void DeclareRunFlags(CLI::App* app, RunCommand* command);
+
+/// The folder that a command writes: `--out`, the config's, or runs/NAME. Throws InputError for an
+/// empty `--out`.
+std::filesystem::path OutputFolder(const RunCommand& command, const ExperimentConfig& config);
 
 CommandAction DeclareRun(CLI::App* app);
 CommandAction DeclareSmooth(CLI::App* app);

@@ -13,21 +13,6 @@
 #include "wpg/files/input_error.h"
 
 namespace halfstep {
-namespace {
-
-std::filesystem::path OutputFolder(const RunCommand& command, const ExperimentConfig& config) {
-  if (command.out && command.out->empty()) {
-    throw InputError({"--out: no folder is named (valid: a path)"});
-  }
-  if (command.out) return *command.out;
-  if (!config.output_directory.empty()) {
-    return std::filesystem::path(config.directory) / config.output_directory;
-  }
-  return std::filesystem::path("runs") / config.name;
-}
-
-}  // namespace
-
 ExitStatus Live(const RunCommand& command) {
   InterruptGuard interrupt;
   const LiveConfig config = LoadLiveConfig(command.config, command.overrides);

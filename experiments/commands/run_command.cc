@@ -16,17 +16,6 @@
 namespace halfstep {
 namespace {
 
-std::filesystem::path OutputFolder(const RunCommand& command, const ExperimentConfig& config) {
-  if (command.out && command.out->empty()) {
-    throw InputError({"--out: no folder is named (valid: a path)"});
-  }
-  if (command.out) return *command.out;
-  if (!config.output_directory.empty()) {
-    return std::filesystem::path(config.directory) / config.output_directory;
-  }
-  return std::filesystem::path("runs") / config.name;
-}
-
 // A bar for one thing after the other.
 class ProgressBars {
  public:
@@ -113,6 +102,17 @@ CommandAction DeclareRun(CLI::App* app) {
     command->overrides = ParseOverrides(*sets);
     return Run(*command);
   };
+}
+
+std::filesystem::path OutputFolder(const RunCommand& command, const ExperimentConfig& config) {
+  if (command.out && command.out->empty()) {
+    throw InputError({"--out: no folder is named (valid: a path)"});
+  }
+  if (command.out) return *command.out;
+  if (!config.output_directory.empty()) {
+    return std::filesystem::path(config.directory) / config.output_directory;
+  }
+  return std::filesystem::path("runs") / config.name;
 }
 
 void DeclareRunFlags(CLI::App* app, RunCommand* command) {

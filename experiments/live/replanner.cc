@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/live/prepared_world.h"
 #include "experiments/run/planning.h"
 #include "planner/search/planner_registry.h"
-#include "planner/swept/swept_volume_query.h"
 #include "smoothing/methods/dichotomy.h"
 #include "smoothing/proof/stoppable_feasibility.h"
 
@@ -28,22 +28,6 @@ std::string_view Name(ProposalKind kind) {
   }
   return "";
 }
-
-class PreparedWorld {
- public:
-  PreparedWorld(const World& w, const RobotModel& robot, const ExperimentConfig& config,
-                const SweptVolumes& volumes)
-      : world(w),
-        safety(robot, w.scene, config),
-        certifier(robot, w.scene, config),
-        query(volumes, robot.sole_outline, w.scene,
-              config.smoothing.limits.demanded_of(MarginFamily::kNoStep)) {}
-
-  const World world;
-  const SafetyCheck safety;
-  const HalfStepCertifier certifier;
-  const SweptVolumeQuery query;
-};
 
 Replanner::Replanner(const RobotModel& robot, const LiveConfig& config, const SweptVolumes& volumes)
     : robot_(robot),

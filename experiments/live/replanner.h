@@ -17,9 +17,7 @@
 
 namespace halfstep {
 
-/// A world and all that is prepared for questions about it. Immutable, and safe to use from several
-/// threads.
-class PreparedWorld;
+struct PreparedWorld;
 
 /// What a replanner is asked about: a walk in execution, and the world.
 struct Situation {

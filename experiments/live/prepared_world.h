@@ -1,0 +1,28 @@
+#pragma once
+
+#include "experiments/live/safety.h"
+#include "experiments/live/world.h"
+#include "experiments/run/planning.h"
+#include "planner/swept/swept_volume_query.h"
+
+namespace halfstep {
+
+/// A world and all that is prepared for questions about it. Immutable, and safe to use from several
+/// threads.
+struct PreparedWorld {
+  /// `volumes` is borrowed. Clearances and no-step distances are those that the config demands.
+  PreparedWorld(const World& w, const RobotModel& robot, const ExperimentConfig& config,
+                const SweptVolumes& volumes)
+      : world(w),
+        safety(robot, w.scene, config),
+        certifier(robot, w.scene, config),
+        query(volumes, robot.sole_outline, w.scene,
+              config.smoothing.limits.demanded_of(MarginFamily::kNoStep)) {}
+
+  const World world;
+  const SafetyCheck safety;
+  const HalfStepCertifier certifier;
+  const SweptVolumeQuery query;
+};
+
+}  // namespace halfstep
