@@ -77,6 +77,7 @@ Proposal EpisodeLoop::Wait(const std::array<Footprint, 2>& start) {
     if (frame > 0) {
       worlds.push_back(Updated(worlds, Measure(truth_, now, options_, noise_), options_).world);
     }
+    if (tried && now < tried->measured_at + kRetry) continue;
     if (tried && !DiffersClearly(*tried, worlds.back())) continue;
     tried = worlds.back();
     world_ = std::make_shared<const World>(Since(worlds.back(), now));

@@ -12,6 +12,9 @@ constexpr double kRounding = 1e-9;  // [m]
 
 // How far a point of an obstacle is from where it was measured before, at most [m].
 double Displacement(const Obstacle& from, const Obstacle& to) {
+  if (to.X_WO.linear() == from.X_WO.linear()) {
+    return (to.X_WO.translation() - from.X_WO.translation()).norm();
+  }
   const Eigen::AngleAxisd turn(to.X_WO.linear() * from.X_WO.linear().transpose());
   return (to.X_WO.translation() - from.X_WO.translation()).norm() +
          std::abs(turn.angle()) * RadiusAboutOrigin(from.shape);
@@ -27,8 +30,14 @@ bool Contradicts(const Obstacle& before, const Obstacle& now) {
 // What of a world an earlier one did not allow: names.
 std::vector<std::string> Contradictions(const World& earlier, const World& now) {
   std::vector<std::string> names;
-  for (const Obstacle& obstacle : now.scene.obstacles) {
-    const auto old = std::ranges::find(earlier.scene.obstacles, obstacle.name, &Obstacle::name);
+  for (size_t i = 0; i < now.scene.obstacles.size(); ++i) {
+    const Obstacle& obstacle = now.scene.obstacles[i];
+    // Mostly the same obstacles are there in the same order.
+    auto old = earlier.scene.obstacles.begin() +
+               static_cast<std::ptrdiff_t>(std::min(i, earlier.scene.obstacles.size()));
+    if (old == earlier.scene.obstacles.end() || old->name != obstacle.name) {
+      old = std::ranges::find(earlier.scene.obstacles, obstacle.name, &Obstacle::name);
+    }
     if (old == earlier.scene.obstacles.end() || Contradicts(*old, obstacle)) {
       names.push_back(obstacle.name);
     }

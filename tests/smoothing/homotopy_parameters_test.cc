@@ -76,7 +76,7 @@ TEST(CheckParameters, RefusesEachSingleFault) {
       [](auto* p) { p->overlaps.pop_back(); },
       [](auto* p) { p->height_scales.push_back(1); },
       [](auto* p) { p->durations.pop_back(); },
-      [](auto* p) { p->overlaps[0] = -1e-3; },
+      [](auto* p) { p->overlaps[0] = -kLongestRest - 1; },
       [](auto* p) { p->overlaps[0] = 0.9 + 1e-9; },
       [](auto* p) { p->overlaps[1] = 1.0 + 1e-9; },
       [](auto* p) { p->overlaps[4] = 1.35 + 1e-9; },

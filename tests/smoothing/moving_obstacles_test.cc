@@ -62,9 +62,14 @@ TEST_F(MovingObstacles, ACertificateLeavesRoomForTheirMotionInEveryInterval) {
   EXPECT_EQ(test.Check(walk, {0.0, walk.duration()}, &scratch).verdict, Verdict::kUndecided);
 }
 
+// Where obstacles rest, or are only less certain later, an overlap matters in its window alone.
 TEST_F(MovingObstacles, AnOverlapIsCheckedToTheEndOfTheWalk) {
-  for (double speed : {0.0, 0.1}) {
-    const MarginEvaluator evaluator(Hrp2(), BallOf(speed), {});
+  const ObstacleMotion rests{}, grows{.speed = 0.01, .measured_at = 0.0};
+  const ObstacleMotion measured_later{.speed = 0.01, .measured_at = 100.0, .horizon = 1.0};
+  const ObstacleMotion moves{.waypoints = {{1.0, {0.2, -0.6, 0.3}}, {5.0, {0.2, -1.6, 0.3}}}};
+  for (const ObstacleMotion& motion : {rests, grows, measured_later, moves}) {
+    const bool local = motion.waypoints.empty() && motion.measured_at == 0.0;
+    const MarginEvaluator evaluator(Hrp2(), Ball(motion), {});
     const FakeFeasibility test(evaluator,
                                [](const HomotopyParameters&) { return Verdict::kFeasible; });
     const SmoothingResult result = Smoothed(Dichotomy, ProblemOf(sequence_, test), {});
@@ -73,8 +78,7 @@ TEST_F(MovingObstacles, AnOverlapIsCheckedToTheEndOfTheWalk) {
     for (size_t k = 1; k < 4; ++k) {
       const SuperposedWalk walk(sequence_, test.questions[k].parameters);
       const int junction = static_cast<int>(k) - 1;
-      EXPECT_EQ(test.questions[k].window.end,
-                speed > 0.0 ? walk.duration() : walk.end_of(junction));
+      EXPECT_EQ(test.questions[k].window.end, local ? walk.end_of(junction) : walk.duration());
     }
   }
 }
