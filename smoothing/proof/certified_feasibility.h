@@ -16,8 +16,10 @@ namespace halfstep {
 struct CertificationScope {
   double since = 0.0;  ///< nothing before this time of the walk [s]
   double until = std::numeric_limits<double>::infinity();  ///< nothing after it [s]
-  std::vector<MarginFamily> families{std::begin(AllMarginFamilies()),
-                                     std::end(AllMarginFamilies())};
+  std::vector<MarginFamily> families = [] {
+    constexpr auto kAll = AllMarginFamilies();
+    return std::vector<MarginFamily>(kAll.begin(), kAll.end());
+  }();
 };
 
 /// Decides for every instant of a window whether the demanded margins are kept. An interval is
