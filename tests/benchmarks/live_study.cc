@@ -88,7 +88,7 @@ int SafeStops(const Episode& episode, const Place& place, const LiveConfig& conf
               std::mt19937_64& random) {
   const SuperposedWalk walk = episode.Executed();
   std::vector<int> safe(episode.begun.size(), -1);  // by half-step; −1: not looked at
-  std::uniform_real_distribution<double> time(0.0, walk.duration());
+  std::uniform_real_distribution<double> time(0.0, std::min(walk.duration(), episode.end));
   int kept = 0;
   for (int i = 0; i < stops; ++i) {
     const auto k = static_cast<size_t>(walk.Locate(time(random)).half_step);
