@@ -87,8 +87,8 @@ struct ExperimentConfig {
 /// Declares every key of a config once: reading, writing back and explaining all use this.
 void DeclareFields(Fields& fields, ExperimentConfig* config);
 
-/// Complains, at the place that names it, about a file of the config that is not there. To be called
-/// after DeclareFields(), when the config knows its folder.
+/// Complains, at the place that names it, about a file of the config that is not there. To be
+/// called after DeclareFields(), when the config knows its folder.
 void DeclareFilesThere(Fields& fields, const ExperimentConfig& config);
 
 /// The parameters that a config fixes. Precondition: each names a family, which reading ensures.

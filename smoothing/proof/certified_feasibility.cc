@@ -94,8 +94,7 @@ Feasibility CertifiedFeasibility::Decide(const SuperposedWalk& walk, const TimeW
                                          MarginEvaluator::Scratch* scratch,
                                          Certificate* certificate,
                                          const std::stop_token& stop) const {
-  const TimeWindow window{std::max(asked.begin, scope_.since),
-                          std::min(asked.end, scope_.until)};
+  const TimeWindow window{std::max(asked.begin, scope_.since), std::min(asked.end, scope_.until)};
   if (window.end < window.begin) return {Verdict::kFeasible, Evidence::kCertified, {}};
   // Coarse intervals of the whole window first: a violation that lasts is met early.
   std::deque<Open> open;
