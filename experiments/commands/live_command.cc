@@ -13,6 +13,7 @@
 #include "wpg/files/input_error.h"
 
 namespace halfstep {
+
 ExitStatus Live(const RunCommand& command) {
   InterruptGuard interrupt;
   const LiveConfig config = LoadLiveConfig(command.config, command.overrides);

@@ -15,7 +15,7 @@ namespace halfstep {
 /// Something that happened in an episode, in the order of time.
 struct EpisodeEvent {
   double t = 0.0;    ///< [s]
-  std::string what;  ///< measured, contradicted, begins, handed_over, granted, refused, stopped …
+  std::string what;  ///< as the column `event` of events.csv
   int version = 0;   ///< of the world that was known
   int walk = 0;      ///< index of the walk in execution
   int half_step = -1;

@@ -89,7 +89,7 @@ CsvFile ObstaclesCsv(const Episode& episode) {
 CsvFile PlansCsv(const Episode& episode) {
   CsvWriter csv({{"walk", kInteger, "", "from 0"},
                  {"handed_over_s", kNumber, "s", "when it took the place of the one before"},
-                 {"kind", kString, "", "changed, resumed or smoothed"},
+                 {"kind", kString, "", "changed, shortened, resumed or smoothed"},
                  {"asked_s", kNumber, "s", "when work on it began"},
                  {"measured_s", kNumber, "s", "when the world that it was made for was measured"},
                  {"first_changed", kInteger, "", "half-step, from 1"},
