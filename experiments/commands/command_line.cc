@@ -1,5 +1,7 @@
 #include "experiments/commands/command_line.h"
 
+#include "experiments/commands/commands.h"
+#include "experiments/config/experiment_config.h"
 #include "wpg/files/input_error.h"
 
 namespace halfstep {
@@ -91,6 +93,17 @@ std::vector<YamlOverride> ParseOverrides(const std::vector<std::string>& sets) {
     overrides.push_back({text.substr(0, equals), text.substr(equals + 1)});
   }
   return overrides;
+}
+
+std::filesystem::path OutputFolder(const RunCommand& command, const ExperimentConfig& config) {
+  if (command.out && command.out->empty()) {
+    throw InputError({"--out: no folder is named (valid: a path)"});
+  }
+  if (command.out) return *command.out;
+  if (!config.output_directory.empty()) {
+    return std::filesystem::path(config.directory) / config.output_directory;
+  }
+  return std::filesystem::path("runs") / config.name;
 }
 
 }  // namespace halfstep

@@ -104,17 +104,6 @@ CommandAction DeclareRun(CLI::App* app) {
   };
 }
 
-std::filesystem::path OutputFolder(const RunCommand& command, const ExperimentConfig& config) {
-  if (command.out && command.out->empty()) {
-    throw InputError({"--out: no folder is named (valid: a path)"});
-  }
-  if (command.out) return *command.out;
-  if (!config.output_directory.empty()) {
-    return std::filesystem::path(config.directory) / config.output_directory;
-  }
-  return std::filesystem::path("runs") / config.name;
-}
-
 void DeclareRunFlags(CLI::App* app, RunCommand* command) {
   app->add_flag("--overwrite", command->overwrite, "replace an older run");
   app->add_flag("--quiet", command->quiet, "print nothing but errors");

@@ -40,7 +40,8 @@ EpisodeLoop::EpisodeLoop(const Replanner& replanner, const TrueWorld& truth, Thi
       thinker_(*thinker),
       tick_(std::move(tick)),
       hooks_(hooks),
-      noise_(static_cast<std::uint64_t>(replanner.config().experiment.seed) + 1) {}
+      noise_(static_cast<std::uint64_t>(replanner.config().experiment.seed) + 1),
+      patience_(options_.budget.check + std::max(options_.budget.plan, options_.budget.smooth)) {}
 
 Episode EpisodeLoop::Run(const std::array<Footprint, 2>& start) {
   const Proposal first = Wait(start);
@@ -141,8 +142,6 @@ bool EpisodeLoop::NeedsWork(double now) const {
 }
 
 void EpisodeLoop::Ask(double now) {
-  const BudgetConfig& budget = options_.budget;
-  const double longest = budget.check + std::max(budget.plan, budget.smooth);
   thinker_.Ask({.plan = executor_->plan(),
                 .smoothed = smoothed_,
                 .grant = executor_->grant(),
@@ -150,7 +149,7 @@ void EpisodeLoop::Ask(double now) {
                 .begun = executor_->begun(),
                 .stopped = executor_->stopped(),
                 .now = now,
-                .hand_over = now + longest + 2.0 * options_.period,
+                .hand_over = now + patience_ + 2.0 * options_.period,
                 .world = world_,
                 .shorten = tries_ > 0});
   thinking_ = true;
@@ -181,6 +180,7 @@ void EpisodeLoop::Take(const Proposal& proposal, double now) {
       HandOver(proposal, now);
     } else {
       Tell(now, "refused", refused);
+      patience_ = std::max(patience_, 2.0 * (now - asked_));
     }
   }
 }

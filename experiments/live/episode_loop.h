@@ -57,6 +57,7 @@ class EpisodeLoop {
   // What the thinker does.
   bool thinking_ = false;
   double asked_ = 0.0;
+  double patience_ = 0.0;  // what an answer may take: the budget, or more after a late one [s]
   std::shared_ptr<const World> asked_about_;
   // What it is to do next.
   std::shared_ptr<const World> checked_;

@@ -25,6 +25,7 @@ EpisodeSummary Summarize(const Episode& episode, const TrueWorld& truth, const R
   summary.half_steps = static_cast<int>(episode.begun.size());
   for (size_t k = 1; k < episode.walks.size(); ++k) {
     const ExecutedWalk& walk = episode.walks[k];
+    if (walk.kind == ProposalKind::kShortened) ++summary.shortened;
     if (walk.kind == ProposalKind::kSmoothed) ++summary.smoothed;
     if (walk.kind == ProposalKind::kResumed) ++summary.resumed;
     if (walk.kind != ProposalKind::kChanged) continue;
@@ -55,7 +56,8 @@ std::string SummaryScreen(const Episode& episode, const EpisodeSummary& summary,
   text += Counted(summary.half_steps, "half-step", "half-steps") + "\n";
   text += "handed over  " +
           Counted(summary.changed, "walk with other footsteps", "walks with other footsteps") +
-          ", " + std::to_string(summary.smoothed) + " with other overlaps, " +
+          ", " + std::to_string(summary.shortened) + " with fewer footsteps, " +
+          std::to_string(summary.smoothed) + " with other overlaps, " +
           std::to_string(summary.resumed) + " after a stop\n";
   text += "world        " + Counted(summary.contradicted, "contradiction", "contradictions") +
           ", " + Counted(summary.stops, "stop", "stops") + ", " + std::to_string(summary.refused) +
@@ -86,6 +88,7 @@ std::string SummaryJson(const Episode& episode, const EpisodeSummary& summary,
                                  {"duration_s", summary.duration},
                                  {"half_steps", summary.half_steps},
                                  {"changed", summary.changed},
+                                 {"shortened", summary.shortened},
                                  {"smoothed", summary.smoothed},
                                  {"resumed", summary.resumed},
                                  {"refused", summary.refused},

@@ -11,9 +11,9 @@
 
 #include "experiments/config/experiment.h"
 #include "experiments/live/episode_summary.h"
-#include "experiments/live/random_episode.h"
 #include "experiments/run/planning.h"
 #include "smoothing/proof/certified_feasibility.h"
+#include "tests/benchmarks/random_episode.h"
 
 namespace {
 

@@ -7,7 +7,9 @@
 #include <random>
 
 #include "experiments/live/episode_files.h"
+#include "experiments/live/episode_loop.h"
 #include "experiments/live/episode_touch.h"
+#include "experiments/live/thinker.h"
 #include "smoothing/proof/certified_feasibility.h"
 #include "tests/live/small_episode.h"
 
@@ -177,6 +179,37 @@ TEST(EpisodeTest, AnUnderstatedSpeedIsTouched) {
   // The same with its speed told: the robot stops in time.
   scene.obstacles[0].motion.speed = 1.0;
   EXPECT_GE(touch().distance, 0.005 - 1e-9);
+}
+
+// Answers half a second later than the budget says, as a machine that is too slow does.
+class SlowThinker final : public Thinker {
+ public:
+  SlowThinker(const Replanner& replanner, std::uint64_t seed) : thinker_(replanner, seed) {}
+  void Ask(Situation situation) override { thinker_.Ask(std::move(situation)); }
+  std::optional<Proposal> Answer(double now) override { return thinker_.Answer(now - 0.5); }
+
+ private:
+  LockstepThinker thinker_;
+};
+
+// Its successors come too late at first; then more time is left for them.
+TEST(EpisodeTest, ASlowMachineArrivesToo) {
+  LiveConfig config = SmallWorld::Get().config;
+  config.live.script = {Event(1.2, "jump", "bar", {0.75, 0.1, 0.02})};
+  Scene scene;
+  scene.obstacles = {Bar("bar", 0.75, 2.0)};
+  const SmallWorld& small = SmallWorld::Get();
+  const TrueWorld truth(scene, config.experiment.goal, config.live);
+  const Replanner replanner(small.place.robot, config, *small.baked.cached.volumes);
+  SlowThinker thinker(replanner, 1);
+  const Episode episode =
+      EpisodeLoop(replanner, truth, &thinker, [](double) {}, {}).Run(small.start);
+  EXPECT_EQ(episode.ending, EpisodeEnding::kArrived) << EventsCsv(episode).text;
+  EXPECT_GT(CountOf(episode, "refused"), 0);
+  EXPECT_TRUE(std::ranges::any_of(episode.walks, [](const ExecutedWalk& walk) {
+    return walk.t > 0.0 && walk.kind == ProposalKind::kChanged;
+  }));
+  ExpectExecutedWhatWasHandedOver(episode);
 }
 
 TEST(EpisodeTest, ByTheWallClockItArrivesToo) {

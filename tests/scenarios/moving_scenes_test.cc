@@ -214,7 +214,7 @@ TEST(MovingScenes, RowsOfTheProgramAgreeWithDifferences) {
   }
   EXPECT_GT(compared, Draws(6) * 30);
   EXPECT_LT(kinks, compared / 10);
-  EXPECT_GT(caught, 5);
+  EXPECT_GT(caught, Draws(6) - 1);
 }
 
 // The least clearance from the obstacles of `scene` at instants 10 ms apart.

@@ -1,4 +1,4 @@
-#include "experiments/live/random_episode.h"
+#include "tests/benchmarks/random_episode.h"
 
 #include <algorithm>
 #include <random>
