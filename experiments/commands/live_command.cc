@@ -34,9 +34,12 @@ ExitStatus Live(const RunCommand& command) {
   RunFolder folder(OutputFolder(command, config.experiment), command.overwrite);
   bar.emplace("episode", command.quiet || command.json);
   const auto run = config.live.clock == "wall" ? RunWallClock : RunLockstep;
-  const Episode episode = run(replanner, truth, StartOf(config.experiment, place.robot),
-                              {.progress = [&](double t) { bar->Update(t / config.live.longest); },
-                               .stop = interrupt.token()});
+  StandInSensor sensor(truth, config.live, static_cast<std::uint64_t>(config.experiment.seed) + 1);
+  const Episode episode =
+      run(replanner, &sensor, StartOf(config.experiment, place.robot),
+          {.on_tick = [&](const EpisodeTick& at) { bar->Update(at.now / config.live.longest); },
+           .held = {},
+           .stop = interrupt.token()});
   bar.reset();
   WriteEpisode(episode, replanner, place.scene, &folder);
   folder.Publish();

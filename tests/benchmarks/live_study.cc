@@ -147,9 +147,11 @@ int main(int argc, char** argv) {
     const Replanner replanner(place.robot, drawn.config, *baked.cached.volumes);
     const double ideal = Clairvoyant(replanner, truth, start, seed, true);
     const bool can = Clairvoyant(replanner, truth, start, seed, false) > 0.0;
+    StandInSensor sensor(truth, drawn.config.live,
+                         static_cast<std::uint64_t>(drawn.config.experiment.seed) + 1);
     const double begin = SteadySeconds();
-    const Episode episode =
-        wall ? RunWallClock(replanner, truth, start, {}) : RunLockstep(replanner, truth, start, {});
+    const Episode episode = wall ? RunWallClock(replanner, &sensor, start, {})
+                                 : RunLockstep(replanner, &sensor, start, {});
     const double cpu = SteadySeconds() - begin;
     if (argc > 4) {
       for (const EpisodeEvent& event : episode.events) {

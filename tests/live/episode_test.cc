@@ -202,8 +202,9 @@ TEST(EpisodeTest, ASlowMachineArrivesToo) {
   const TrueWorld truth(scene, config.experiment.goal, config.live);
   const Replanner replanner(small.place.robot, config, *small.baked.cached.volumes);
   SlowThinker thinker(replanner, 1);
-  const Episode episode =
-      EpisodeLoop(replanner, truth, &thinker, [](double) {}, {}).Run(small.start);
+  StandInSensor sensor(truth, config.live, 1);
+  EpisodeClock clock;
+  const Episode episode = EpisodeLoop(replanner, &sensor, &thinker, &clock, {}).Run(small.start);
   EXPECT_EQ(episode.ending, EpisodeEnding::kArrived) << EventsCsv(episode).text;
   EXPECT_GT(CountOf(episode, "refused"), 0);
   EXPECT_TRUE(std::ranges::any_of(episode.walks, [](const ExecutedWalk& walk) {

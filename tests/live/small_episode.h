@@ -79,7 +79,9 @@ inline PlayedEpisode Play(const Scene& scene, const LiveConfig& config) {
   played.replanner =
       std::make_unique<Replanner>(small.place.robot, config, *small.baked.cached.volumes);
   const auto run = config.live.clock == "wall" ? RunWallClock : RunLockstep;
-  played.episode = run(*played.replanner, *played.truth, small.start, {});
+  StandInSensor sensor(*played.truth, config.live,
+                       static_cast<std::uint64_t>(config.experiment.seed) + 1);
+  played.episode = run(*played.replanner, &sensor, small.start, {});
   return played;
 }
 
