@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <stop_token>
 #include <string>
@@ -54,7 +55,11 @@ enum class EpisodeEnding {
   kTooLong,      ///< walking when the time was up
   kNoPlan,       ///< there was no walk to begin with
   kInterrupted,  ///< stopped from outside
+  kKilled,       ///< its process was killed: what is recorded was recovered
 };
+inline constexpr std::array kEpisodeEndings = {EpisodeEnding::kArrived,     EpisodeEnding::kStuck,
+                                               EpisodeEnding::kTooLong,     EpisodeEnding::kNoPlan,
+                                               EpisodeEnding::kInterrupted, EpisodeEnding::kKilled};
 std::string_view Name(EpisodeEnding ending);
 
 /// The record of an episode.
@@ -88,7 +93,7 @@ struct EpisodeHooks {
   std::function<void(const EpisodeTick&)> on_tick = {};
   /// Whether no half-step is to begin for the time being, so that the robot comes to rest.
   std::function<bool()> held = {};
-  std::stop_token stop = {};
+  std::stop_token stop = {};  ///< the robot comes to rest, then the episode ends
 };
 
 /// Lets the robot walk from `start` by the config's clock lockstep: time stands still while the

@@ -124,7 +124,7 @@ void EpisodeLoop::Sense(double now) {
 }
 
 void EpisodeLoop::Advance(double now) {
-  const bool held = hooks_.held && hooks_.held();
+  const bool held = hooks_.stop.stop_requested() || (hooks_.held && hooks_.held());
   if (held) executor_->Revoke();
   if (held_ && !held) again_ = true;
   held_ = held;
@@ -220,7 +220,7 @@ void EpisodeLoop::HandOver(const Proposal& proposal, double now) {
 bool EpisodeLoop::Ends(double now) {
   const bool at_rest = executor_->rests_from() <= now;
   const bool over = now >= options_.longest;
-  const bool interrupted = hooks_.stop.stop_requested();
+  const bool interrupted = at_rest && hooks_.stop.stop_requested();
   const std::array<Footprint, 2> stance =
       StanceAfter(executor_->plan().sequence, executor_->begun());
   const bool on_both = executor_->begun() % 2 == 1;

@@ -52,6 +52,10 @@ void DeclareEvent(Fields& fields, ScriptEvent* e) {
 }
 
 void DeclareSensing(Fields& fields, SensingConfig* c) {
+  fields.Text("source", &c->source,
+              {.meaning = "stand_in: frames of what the script says; client: what clients of "
+                          "`halfstep live --serve` send",
+               .choices = {"stand_in", "client"}});
   fields.Number("period_s", &c->period,
                 {.meaning = "between frames", .unit = "s", .min = 0.005, .max = 10});
   fields.Number("delay_s", &c->delay,
@@ -114,7 +118,7 @@ void DeclareLive(Fields& fields, LiveOptions* c, double half_step) {
                  {.meaning = "overlaps are found so many junctions ahead", .min = 1, .max = 1000});
   fields.Number("tolerance_s", &c->tolerance,
                 {.meaning = "of these overlaps", .unit = "s", .min = 1e-4, .max = 0.5});
-  fields.Group("sensing", {.meaning = "the stand-in for motion capture"},
+  fields.Group("sensing", {.meaning = "where measurements come from"},
                [&](Fields& f) { DeclareSensing(f, &c->sensing); });
   fields.Group("budget", {.meaning = "what thinking costs in lockstep"}, [&](Fields& f) {
     DeclareBudget(f, &c->budget);

@@ -23,8 +23,9 @@ struct ScriptEvent {
   double lasts = 0.0;        ///< of lose: how long no frame arrives [s]
 };
 
-/// The stand-in for motion capture.
+/// Where measurements come from, and what is assumed of them.
 struct SensingConfig {
+  std::string source = "stand_in";  ///< or client: what clients of the episode's server send
   double period = 0.2;   ///< between frames [s]
   double delay = 0.02;   ///< from a frame to when it is known [s]
   double noise = 0.005;  ///< positions are drawn from a ball of this radius around the true one [m]
