@@ -3,16 +3,8 @@
 #include <optional>
 
 #include "experiments/config/experiment.h"
-#include "experiments/tables/json_file.h"
 
 namespace halfstep::replay {
-
-bool IsEpisode(const std::filesystem::path& folder) {
-  const std::filesystem::path manifest = folder / "manifest.json";
-  if (!std::filesystem::exists(manifest)) return false;
-  const nlohmann::json json = ReadJsonObject(manifest);
-  return json.contains("kind") && json["kind"] == "episode";
-}
 
 RecordedEpisode ReadEpisode(const std::filesystem::path& folder) {
   LiveConfig config = LoadLiveConfig((folder / "config.yaml").string(), {});

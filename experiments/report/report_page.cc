@@ -13,8 +13,8 @@ namespace halfstep {
 bool HasReport() { return true; }
 
 std::string ReportPage(const nlohmann::json& data) {
-  return WithData({halfstep_report_template, static_cast<size_t>(halfstep_report_template_end -
-                                                                 halfstep_report_template)},
+  return WithData({halfstep_report_template,
+                   static_cast<size_t>(halfstep_report_template_end - halfstep_report_template)},
                   data);
 }
 
