@@ -7,6 +7,7 @@
 #include "experiments/commands/commands.h"
 #include "experiments/live/episode_reader.h"
 #include "experiments/live/episode_report.h"
+#include "experiments/live/spare_boxes.h"
 #include "experiments/report/report.h"
 #include "experiments/report/report_page.h"
 #include "experiments/run/complete_manifest.h"
@@ -54,7 +55,7 @@ void CheckSame(const std::vector<InputFile>& files, const std::string& what,
 
 void ReportOfEpisode(const ReportCommand& command, const fs::path& folder) {
   const LiveConfig config = LoadLiveConfig((folder / "config.yaml").string(), {});
-  const Place place = LoadPlace(config.experiment);
+  const Place place = LoadEpisodePlace(config);
   CheckSame(place.robot.files, "robot", folder);
   CheckSame(place.scene.files, "scene", folder);
   const Episode episode = ReadEpisode(folder, config, place);

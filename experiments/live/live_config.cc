@@ -112,6 +112,11 @@ void DeclareLive(Fields& fields, LiveOptions* c, double half_step) {
   fields.Number(
       "longest_s", &c->longest,
       {.meaning = "the episode ends then at the latest", .unit = "s", .min = 1, .max = 3600});
+  fields.Integer("spare_boxes", &c->spare_boxes,
+                 {.meaning = "boxes of 0.2 x 0.2 x 0.1 m, spare_1 ..., that are not there until "
+                             "something makes them appear",
+                  .min = 0,
+                  .max = 100});
   fields.Integer("smooth_at_once", &c->smooth_at_once,
                  {.meaning = "junctions whose overlaps are found in one go", .min = 1, .max = 100});
   fields.Integer("smooth_ahead", &c->smooth_ahead,
@@ -134,6 +139,11 @@ void DeclareLive(Fields& fields, LiveOptions* c, double half_step) {
   });
   fields.List("script", {.meaning = "what happens, in the order of time", .max_items = 10000},
               &c->script, DeclareEvent);
+  if (c->sensing.source == "client" && !c->script.empty()) {
+    fields.Complain("script",
+                    "says what happens, but clients say what is measured (valid: [], or "
+                    "sensing.source: stand_in)");
+  }
   if (!std::ranges::is_sorted(c->script, {}, &ScriptEvent::at)) {
     fields.Complain("script", "is not in the order of time (valid: at_s that do not fall)");
   }

@@ -160,7 +160,7 @@ int main(int argc, char** argv) {
                     event.version, event.walk, event.half_step + 1, event.text.c_str());
       }
     }
-    const EpisodeSummary summary = Summarize(episode, truth, place.robot);
+    const EpisodeSummary summary = Summarize(episode, &truth, place.robot);
     if (!episode.walks.empty()) {
       std::mt19937_64 random(seed);
       safe_stops += SafeStops(episode, place, drawn.config, kStops, random);
@@ -169,9 +169,9 @@ int main(int argc, char** argv) {
       worst.jump = std::max(worst.jump, physics.jump);
       worst.residual = std::max(worst.residual, physics.residual);
     }
-    const bool touches = summary.nearest.distance <= 0.0;
+    const bool touches = summary.nearest->distance <= 0.0;
     const bool broken =
-        touches && BrokeItsBounds(episode, summary.nearest.obstacle, summary.nearest.t);
+        touches && BrokeItsBounds(episode, summary.nearest->obstacle, summary.nearest->t);
     touched += touches && !broken;
     excused += broken;
     reachable += can;
@@ -194,7 +194,7 @@ int main(int argc, char** argv) {
     std::printf("%llu,%s,%d,%.2f,%.2f,%d,%d,%d,%.4f,%s%s,%.2f\n",
                 static_cast<unsigned long long>(seed), summary.ending.c_str(), can,
                 summary.duration, ideal, summary.changed, summary.stops, summary.unsafe,
-                summary.nearest.distance, summary.nearest.obstacle.c_str(),
+                summary.nearest->distance, summary.nearest->obstacle.c_str(),
                 broken ? " (broke its bounds)" : "", cpu);
     std::fflush(stdout);
   }
