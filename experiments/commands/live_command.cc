@@ -10,6 +10,7 @@
 #include "experiments/live/episode_summary.h"
 #include "experiments/live/spare_boxes.h"
 #include "experiments/report/live_page.h"
+#include "experiments/report/report_page.h"
 #include "experiments/run/interrupt.h"
 #include "experiments/run/planning.h"
 #include "experiments/run/progress_bar.h"
@@ -25,6 +26,9 @@ LiveConfig ConfigOf(const LiveCommand& command) {
   const LiveConfig config = LoadLiveConfig(command.run.config, command.run.overrides);
   if (IsServed(command)) {
     if (!WhyNoServer().empty()) throw InputError({"--view, --serve: " + WhyNoServer()});
+    if (command.view && !HasReport()) {
+      throw InputError({"--view: this build has no page, as it has no report (valid: --serve)"});
+    }
     return ServedEpisode::Served(config);
   }
   if (config.live.sensing.source == "client") {

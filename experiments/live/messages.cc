@@ -5,6 +5,7 @@
 #include <utility>
 #include <variant>
 
+#include "experiments/report/report_place.h"
 #include "experiments/tables/result_tables.h"
 #include "wpg/geometry/side.h"
 
@@ -150,6 +151,10 @@ json MotionMessage(const RobotModel& robot, const SuperposedWalk& executed, size
   }
   return {
       {"type", "motion"}, {"walk", walk}, {"from_s", from}, {"period_s", period}, {"rows", rows}};
+}
+
+json DrawMessage(const RobotModel& robot, const Scene& scene) {
+  return {{"type", "draw"}, {"robot", RobotJson(robot)}, {"scene", ShapesJson(scene)}};
 }
 
 json EndMessage(const Episode& episode, const std::string& folder) {

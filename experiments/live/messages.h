@@ -36,6 +36,8 @@ nlohmann::json StateMessage(const RobotModel& robot, const SuperposedWalk& execu
 /// `period` [s] apart; the first one at `from`.
 nlohmann::json MotionMessage(const RobotModel& robot, const SuperposedWalk& executed, size_t walk,
                              double from, double until, double period);
+/// What a page needs to draw robot and world: RobotJson and ShapesJson (report_place.h).
+nlohmann::json DrawMessage(const RobotModel& robot, const Scene& scene);
 /// `folder`: where the record was written.
 nlohmann::json EndMessage(const Episode& episode, const std::string& folder);
 /// What was wrong with a message of a client.

@@ -3,18 +3,14 @@
 #include <optional>
 
 #include "experiments/config/experiment.h"
+<<<<<<< HEAD
+=======
 #include "experiments/live/spare_boxes.h"
 #include "experiments/tables/json_file.h"
 #include "wpg/files/input_error.h"
+>>>>>>> 174e19e2ad69b44631cbde539acb569ddabb1894
 
 namespace halfstep::replay {
-
-bool IsEpisode(const std::filesystem::path& folder) {
-  const std::filesystem::path manifest = folder / "manifest.json";
-  if (!std::filesystem::exists(manifest)) return false;
-  const nlohmann::json json = ReadJsonObject(manifest);
-  return json.contains("kind") && json["kind"] == "episode";
-}
 
 RecordedEpisode ReadEpisode(const std::filesystem::path& folder) {
   LiveConfig config = LoadLiveConfig((folder / "config.yaml").string(), {});

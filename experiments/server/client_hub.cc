@@ -6,7 +6,6 @@
 
 #include "experiments/live/messages.h"
 #include "experiments/live/spare_boxes.h"
-#include "experiments/report/report_place.h"
 #include "wpg/files/input_error.h"
 
 namespace halfstep {
@@ -145,10 +144,7 @@ ClientHub::Text ClientHub::Motion(double ahead) const {
 }
 
 ClientHub::Text ClientHub::Drawing() {
-  if (!drawing_) {
-    drawing_ =
-        TextOf({{"type", "draw"}, {"robot", RobotJson(robot_)}, {"scene", SceneJson(scene_)}});
-  }
+  if (!drawing_) drawing_ = TextOf(DrawMessage(robot_, scene_));
   return drawing_;
 }
 
