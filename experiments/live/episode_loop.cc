@@ -70,13 +70,16 @@ Episode EpisodeLoop::Run(const std::array<Footprint, 2>& start) {
 Proposal EpisodeLoop::Wait(const std::array<Footprint, 2>& start) {
   std::mt19937_64 random(static_cast<std::uint64_t>(replanner_.config().experiment.seed));
   std::vector<World> worlds = {Measure(truth_, 0.0, options_, noise_)};
+  PastWorlds past(worlds);
   std::optional<World> tried;
   Proposal first{.kind = ProposalKind::kUnsafe};
   for (long frame = 0; first.kind == ProposalKind::kUnsafe; ++frame) {
     const double now = static_cast<double>(frame) * options_.sensing.period;
     if (now > options_.longest || hooks_.stop.stop_requested()) break;
     if (frame > 0) {
-      worlds.push_back(Updated(worlds, Measure(truth_, now, options_, noise_), options_).world);
+      World measured = Measure(truth_, now, options_, noise_);
+      worlds.push_back(Updated(worlds.back(), past, std::move(measured), options_).world);
+      past.Add(worlds.back());
     }
     if (tried && now < tried->measured_at + kRetry) continue;
     if (tried && !DiffersClearly(*tried, worlds.back())) continue;
@@ -90,6 +93,7 @@ Proposal EpisodeLoop::Wait(const std::array<Footprint, 2>& start) {
   for (World& world : worlds) {
     record_.worlds.push_back(Since(std::move(world), record_.waited));
     record_.known.push_back(record_.worlds.back().measured_at);
+    past_.Add(record_.worlds.back());
   }
   return first;
 }
@@ -105,7 +109,7 @@ void EpisodeLoop::Sense(double now) {
       Tell(now, "lost", Formatted("frame of %.3f s", taken));
       continue;
     }
-    WorldUpdate update = Updated(record_.worlds, std::move(frame), options_);
+    WorldUpdate update = Updated(*world_, past_, std::move(frame), options_);
     world_ = std::make_shared<const World>(std::move(update.world));
     Know(now);
     Tell(now, "measured", Formatted("frame of %.3f s", taken));
@@ -151,7 +155,8 @@ void EpisodeLoop::Ask(double now) {
                 .now = now,
                 .hand_over = now + patience_ + 2.0 * options_.period,
                 .world = world_,
-                .shorten = tries_ > 0});
+                .shorten = tries_ > 0,
+                .used_up = used_up_});
   thinking_ = true;
   asked_ = now;
   asked_about_ = world_;
@@ -163,6 +168,8 @@ void EpisodeLoop::Take(const Proposal& proposal, double now) {
   if (DiffersClearly(*checked_, *asked_about_)) tries_ = kTries;
   checked_ = asked_about_;
   stuck_ = proposal.kind == ProposalKind::kUnsafe;
+  const bool used_up = proposal.nodes >= replanner_.config().experiment.planner.max_nodes;
+  used_up_ = stuck_ && used_up ? used_up_ + 1 : 0;
   const bool searched = proposal.planned.status != PlanStatus::kNotRun;
   if (world_->sound_since > asked_about_->version) {
     Tell(now, "refused", "the world has changed meanwhile");
@@ -224,6 +231,7 @@ bool EpisodeLoop::Ends(double now) {
 }
 
 void EpisodeLoop::Know(double t) {
+  past_.Add(*world_);
   record_.worlds.push_back(*world_);
   record_.known.push_back(t);
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <ctime>
 #include <string>
 #include <vector>
 
@@ -147,10 +148,10 @@ int main(int argc, char** argv) {
     const Replanner replanner(place.robot, drawn.config, *baked.cached.volumes);
     const double ideal = Clairvoyant(replanner, truth, start, seed, true);
     const bool can = Clairvoyant(replanner, truth, start, seed, false) > 0.0;
-    const double begin = SteadySeconds();
+    const std::clock_t begin = std::clock();
     const Episode episode =
         wall ? RunWallClock(replanner, truth, start, {}) : RunLockstep(replanner, truth, start, {});
-    const double cpu = SteadySeconds() - begin;
+    const double cpu = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
     if (argc > 4) {
       for (const EpisodeEvent& event : episode.events) {
         if (event.what == "measured") continue;
