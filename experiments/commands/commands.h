@@ -26,6 +26,16 @@ ExitStatus Run(const RunCommand& command);
 /// folder. kFailed when the robot does not arrive. Throws as Run.
 ExitStatus Live(const RunCommand& command);
 
+struct RecoverCommand {
+  std::string episode;     ///< the folder that the episode would have written
+  bool overwrite = false;  ///< replaces an older one
+  bool quiet = false;
+};
+
+/// `halfstep recover`: writes the folder of an episode whose process was killed, from what it left
+/// (EpisodeJournal). Throws as Run.
+ExitStatus Recover(const RecoverCommand& command);
+
 struct SmoothCommand {
   RunCommand run;                    ///< `config` may be a run folder too; then its config.yaml
   std::vector<std::string> methods;  ///< in place of smoothing.methods when not empty

@@ -6,6 +6,7 @@
 #include "experiments/commands/commands.h"
 #include "experiments/live/episode.h"
 #include "experiments/live/episode_files.h"
+#include "experiments/live/episode_journal.h"
 #include "experiments/live/episode_summary.h"
 #include "experiments/run/interrupt.h"
 #include "experiments/run/planning.h"
@@ -34,12 +35,22 @@ ExitStatus Live(const RunCommand& command) {
   RunFolder folder(OutputFolder(command, config.experiment), command.overwrite);
   bar.emplace("episode", command.quiet || command.json);
   const auto run = config.live.clock == "wall" ? RunWallClock : RunLockstep;
-  const Episode episode = run(replanner, truth, StartOf(config.experiment, place.robot),
-                              {.progress = [&](double t) { bar->Update(t / config.live.longest); },
+  EpisodeJournal journal(folder.path(), config, command.overwrite);
+  interrupt.Keep();
+  StandInSensor sensor(truth, config.live, static_cast<std::uint64_t>(config.experiment.seed) + 1);
+  const Episode episode = run(replanner, &sensor, StartOf(config.experiment, place.robot),
+                              {.on_tick =
+                                   [&](const EpisodeTick& at) {
+                                     journal.Write(at);
+                                     bar->Update(at.now / config.live.longest);
+                                   },
+                               .held = {},
                                .stop = interrupt.token()});
   bar.reset();
-  WriteEpisode(episode, replanner, place.scene, &folder);
+  if (!journal.failure().empty()) std::cerr << "halfstep: warning: " << journal.failure() << '\n';
+  WriteEpisode(episode, config, place, &folder);
   folder.Publish();
+  journal.Remove();
   const EpisodeSummary summary = Summarize(episode, truth, place.robot);
   if (command.json) {
     std::cout << SummaryJson(episode, summary, folder.path().string());

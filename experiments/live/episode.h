@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <stop_token>
 #include <string>
@@ -7,7 +8,7 @@
 
 #include "experiments/live/executor.h"
 #include "experiments/live/replanner.h"
-#include "experiments/live/true_world.h"
+#include "experiments/live/sensor.h"
 #include "experiments/live/world.h"
 
 namespace halfstep {
@@ -54,7 +55,11 @@ enum class EpisodeEnding {
   kTooLong,      ///< walking when the time was up
   kNoPlan,       ///< there was no walk to begin with
   kInterrupted,  ///< stopped from outside
+  kKilled,       ///< its process was killed: what is recorded was recovered
 };
+inline constexpr std::array kEpisodeEndings = {EpisodeEnding::kArrived,     EpisodeEnding::kStuck,
+                                               EpisodeEnding::kTooLong,     EpisodeEnding::kNoPlan,
+                                               EpisodeEnding::kInterrupted, EpisodeEnding::kKilled};
 std::string_view Name(EpisodeEnding ending);
 
 /// The record of an episode.
@@ -76,20 +81,29 @@ struct Episode {
   SuperposedWalk Executed() const;
 };
 
-/// Callbacks of an episode.
+/// What an episode shows of itself after each tick. `record` grows only: what was in it stays.
+struct EpisodeTick {
+  double now;  ///< [s]
+  const Episode& record;
+  const Executor& executor;
+};
+
+/// Callbacks of an episode, called in the thread that runs it; they must return quickly.
 struct EpisodeHooks {
-  std::function<void(double t)> progress = {};  ///< called with the time of the episode [s]
-  std::stop_token stop = {};
+  std::function<void(const EpisodeTick&)> on_tick = {};
+  /// Whether no half-step is to begin for the time being, so that the robot comes to rest.
+  std::function<bool()> held = {};
+  std::stop_token stop = {};  ///< the robot comes to rest, then the episode ends
 };
 
 /// Lets the robot walk from `start` by the config's clock lockstep: time stands still while the
 /// replanner computes, and its budget is charged. The robot waits until there is a safe walk. The
 /// same arguments give the same record, to the byte.
-Episode RunLockstep(const Replanner& replanner, const TrueWorld& truth,
+Episode RunLockstep(const Replanner& replanner, Sensor* sensor,
                     const std::array<Footprint, 2>& start, const EpisodeHooks& hooks);
 
 /// The same by the wall clock: the replanner computes in a thread while the robot walks.
-Episode RunWallClock(const Replanner& replanner, const TrueWorld& truth,
+Episode RunWallClock(const Replanner& replanner, Sensor* sensor,
                      const std::array<Footprint, 2>& start, const EpisodeHooks& hooks);
 
 }  // namespace halfstep

@@ -32,15 +32,14 @@ bool DiffersClearly(const World& a, const World& b) {
 
 }  // namespace
 
-EpisodeLoop::EpisodeLoop(const Replanner& replanner, const TrueWorld& truth, Thinker* thinker,
-                         std::function<void(double)> tick, const EpisodeHooks& hooks)
+EpisodeLoop::EpisodeLoop(const Replanner& replanner, Sensor* sensor, Thinker* thinker,
+                         EpisodeClock* clock, const EpisodeHooks& hooks)
     : replanner_(replanner),
       options_(replanner.config().live),
-      truth_(truth),
+      sensor_(*sensor),
       thinker_(*thinker),
-      tick_(std::move(tick)),
+      clock_(*clock),
       hooks_(hooks),
-      noise_(static_cast<std::uint64_t>(replanner.config().experiment.seed) + 1),
       patience_(options_.budget.check + std::max(options_.budget.plan, options_.budget.smooth)) {}
 
 Episode EpisodeLoop::Run(const std::array<Footprint, 2>& start) {
@@ -55,43 +54,60 @@ Episode EpisodeLoop::Run(const std::array<Footprint, 2>& start) {
   Begins(0);
   for (long tick = 0;; ++tick) {
     const double now = static_cast<double>(tick) * options_.period;
-    tick_(now);
-    if (hooks_.progress) hooks_.progress(now);
+    clock_.WaitUntil(now);
     Sense(now);
     if (thinking_) {
       if (const std::optional<Proposal> proposal = thinker_.Answer(now)) Take(*proposal, now);
     }
     Advance(now);
     if (!thinking_ && NeedsWork(now)) Ask(now);
-    if (Ends(now)) return std::move(record_);
+    const bool over = Ends(now);
+    if (hooks_.on_tick) hooks_.on_tick({now, record_, *executor_});
+    if (over) return std::move(record_);
   }
 }
 
 Proposal EpisodeLoop::Wait(const std::array<Footprint, 2>& start) {
   std::mt19937_64 random(static_cast<std::uint64_t>(replanner_.config().experiment.seed));
-  std::vector<World> worlds = {Measure(truth_, 0.0, options_, noise_)};
-  PastWorlds past(worlds);
+  std::vector<World> worlds;
+  PastWorlds past;
   std::optional<World> tried;
-  Proposal first{.kind = ProposalKind::kUnsafe};
+  Proposal first{.kind = ProposalKind::kUnsafe, .reason = "nothing was measured"};
+  double origin = 0.0, lead = clock_.passes() ? patience_ : 0.0;
+  clock_.Begin();
   for (long frame = 0; first.kind == ProposalKind::kUnsafe; ++frame) {
     const double now = static_cast<double>(frame) * options_.sensing.period;
     if (now > options_.longest || hooks_.stop.stop_requested()) break;
-    if (frame > 0) {
-      World measured = Measure(truth_, now, options_, noise_);
-      worlds.push_back(Updated(worlds.back(), past, std::move(measured), options_).world);
-      past.Add(worlds.back());
+    clock_.WaitUntil(now);
+    while (std::optional<Frame> taken = sensor_.Next(now)) {
+      if (!taken->world) continue;
+      World& measured = *taken->world;
+      if (!worlds.empty()) {
+        measured = Updated(worlds.back(), past, std::move(measured), options_).world;
+      }
+      past.Add(measured);
+      worlds.push_back(std::move(measured));
     }
+    if (worlds.empty()) continue;
     if (tried && now < tried->measured_at + kRetry) continue;
     if (tried && !DiffersClearly(*tried, worlds.back())) continue;
     tried = worlds.back();
-    world_ = std::make_shared<const World>(Since(worlds.back(), now));
+    origin = now + lead;
+    world_ = std::make_shared<const World>(Since(worlds.back(), origin));
     first = replanner_.Begin(start, *replanner_.Prepare(*world_), options_.smooth_ahead, random);
-    record_.waited = now;
+    if (clock_.Time(origin) <= origin) continue;
+    // It should have begun already.
+    lead = 2.0 * (clock_.Time(origin) - now);
+    first = {.kind = ProposalKind::kUnsafe, .reason = "to find a walk took too long"};
+    tried.reset();
   }
-  truth_ = truth_.Since(record_.waited);
+  if (first.kind != ProposalKind::kUnsafe) clock_.WaitUntil(origin);
+  clock_.Begin();
+  sensor_.Begin(origin);
+  record_.waited = origin;
   // What obstacles may do at t = 0 follows from where they were before.
   for (World& world : worlds) {
-    record_.worlds.push_back(Since(std::move(world), record_.waited));
+    record_.worlds.push_back(Since(std::move(world), origin));
     record_.known.push_back(record_.worlds.back().measured_at);
     past_.Add(record_.worlds.back());
   }
@@ -99,26 +115,25 @@ Proposal EpisodeLoop::Wait(const std::array<Footprint, 2>& start) {
 }
 
 void EpisodeLoop::Sense(double now) {
-  const SensingConfig& sensing = options_.sensing;
-  std::uniform_real_distribution<double> part(0.0, 1.0);
-  while (static_cast<double>(frame_ + 1) * sensing.period + sensing.delay <= now) {
-    const double taken = static_cast<double>(++frame_) * sensing.period;
-    World frame = Measure(truth_, taken, options_, noise_);
-    const bool lost = part(noise_) < sensing.lost;
-    if (lost || !truth_.IsSeen(taken)) {
-      Tell(now, "lost", Formatted("frame of %.3f s", taken));
+  while (std::optional<Frame> frame = sensor_.Next(now)) {
+    if (!frame->world) {
+      Tell(now, "lost", Formatted("frame of %.3f s", frame->taken));
       continue;
     }
-    WorldUpdate update = Updated(*world_, past_, std::move(frame), options_);
+    WorldUpdate update = Updated(*world_, past_, std::move(*frame->world), options_);
     world_ = std::make_shared<const World>(std::move(update.world));
     Know(now);
-    Tell(now, "measured", Formatted("frame of %.3f s", taken));
+    Tell(now, "measured", Formatted("frame of %.3f s", frame->taken));
     for (const std::string& name : update.contradictions) Tell(now, "contradicted", name);
     if (executor_->grant().version < world_->sound_since) executor_->Revoke();
   }
 }
 
 void EpisodeLoop::Advance(double now) {
+  const bool held = hooks_.stop.stop_requested() || (hooks_.held && hooks_.held());
+  if (held) executor_->Revoke();
+  if (held_ && !held) again_ = true;
+  held_ = held;
   const bool stopped = executor_->stopped();
   for (const int half_step : executor_->Advance(now + options_.period)) Begins(half_step);
   if (!executor_->stopped() || stopped) return;
@@ -134,6 +149,7 @@ void EpisodeLoop::Begins(int half_step) {
 }
 
 bool EpisodeLoop::NeedsWork(double now) const {
+  if (held_) return false;
   if (again_ || world_->sound_since > checked_->version) return true;
   if (world_->version == checked_->version) return false;
   if (stuck_) return now >= asked_ + kRetry;
@@ -213,13 +229,12 @@ void EpisodeLoop::HandOver(const Proposal& proposal, double now) {
 bool EpisodeLoop::Ends(double now) {
   const bool at_rest = executor_->rests_from() <= now;
   const bool over = now >= options_.longest;
-  const bool interrupted = hooks_.stop.stop_requested();
+  const bool interrupted = at_rest && hooks_.stop.stop_requested();
   const std::array<Footprint, 2> stance =
       StanceAfter(executor_->plan().sequence, executor_->begun());
   const bool on_both = executor_->begun() % 2 == 1;
-  const bool arrived = at_rest && on_both && now > truth_.end() + options_.sensing.period &&
-                       truth_.GoalAt(now).ContainsStance(stance) &&
-                       world_->goal.ContainsStance(stance);
+  const bool arrived =
+      at_rest && on_both && now > sensor_.QuietFrom() && world_->goal.ContainsStance(stance);
   if (!arrived && !over && !interrupted) return false;
   record_.ending = arrived       ? EpisodeEnding::kArrived
                    : interrupted ? EpisodeEnding::kInterrupted

@@ -1,32 +1,32 @@
 #pragma once
 
 #include <array>
-#include <functional>
 #include <memory>
 #include <optional>
-#include <random>
 #include <string>
 #include <vector>
 
 #include "experiments/live/episode.h"
+#include "experiments/live/episode_clock.h"
 #include "experiments/live/executor.h"
 #include "experiments/live/past_worlds.h"
+#include "experiments/live/sensor.h"
 #include "experiments/live/thinker.h"
 
 namespace halfstep {
 
 /// One episode, tick after tick: what is measured, what the replanner found, which half-steps
-/// begin. It knows no clock: time is the tick's, and whoever wants it to pass waits in `tick`.
+/// begin.
 class EpisodeLoop {
  public:
-  /// All are borrowed. `tick` is called with the time of each tick before anything is done [s].
-  EpisodeLoop(const Replanner& replanner, const TrueWorld& truth, Thinker* thinker,
-              std::function<void(double)> tick, const EpisodeHooks& hooks);
+  /// All are borrowed.
+  EpisodeLoop(const Replanner& replanner, Sensor* sensor, Thinker* thinker, EpisodeClock* clock,
+              const EpisodeHooks& hooks);
 
   Episode Run(const std::array<Footprint, 2>& start);
 
  private:
-  // Measures until there is a walk, which begins at the time that is t = 0 from then on.
+  // Measures until there is a walk, and until it begins, at the time that is t = 0 from then on.
   Proposal Wait(const std::array<Footprint, 2>& start);
   // Takes in the frames that have arrived by now.
   void Sense(double now);
@@ -43,11 +43,10 @@ class EpisodeLoop {
 
   const Replanner& replanner_;
   const LiveOptions& options_;
-  TrueWorld truth_;
+  Sensor& sensor_;
   Thinker& thinker_;
-  std::function<void(double)> tick_;
+  EpisodeClock& clock_;
   const EpisodeHooks& hooks_;
-  std::mt19937_64 noise_;
   Episode record_;
   std::shared_ptr<const World> world_;
   PastWorlds past_;
@@ -55,7 +54,7 @@ class EpisodeLoop {
   // Of the walk in execution.
   std::vector<bool> smoothed_;
   int robot_through_ = -1;
-  long frame_ = 0;  // frames taken
+  bool held_ = false;
   // What the thinker does.
   bool thinking_ = false;
   double asked_ = 0.0;

@@ -100,7 +100,7 @@ void PastWorlds::Add(const World& world) {
 PastWorlds::Contradiction PastWorlds::Latest(const World& now, int since) const {
   Contradiction latest;
   const auto found = [&](int version, const std::string& name) {
-    if (version < since || version < latest.version) return;
+    if (version < 0 || version < since || version < latest.version) return;
     if (version > latest.version) latest = {.version = version};
     latest.names.push_back(name);
   };

@@ -42,6 +42,9 @@ enum class ProposalKind {
   kSmoothed,   ///< other overlaps
   kUnsafe,     ///< there is no safe way on that was found: what is granted is executed
 };
+inline constexpr std::array kProposalKinds = {ProposalKind::kSafe,     ProposalKind::kResumed,
+                                              ProposalKind::kChanged,  ProposalKind::kShortened,
+                                              ProposalKind::kSmoothed, ProposalKind::kUnsafe};
 std::string_view Name(ProposalKind kind);
 
 /// What a replanner found.

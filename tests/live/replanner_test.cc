@@ -14,7 +14,8 @@ TEST(ReplannerTest, AllSearchesOfAProposalShareTheNodes) {
   const Replanner replanner(small.place.robot, small.config, *small.baked.cached.volumes);
   std::mt19937_64 random(1);
   World world;
-  world.goal = {.X_WG = {1.2, 0.0, 0.0}, .radius = 0.15};
+  world.goal.X_WG = {1.2, 0.0, 0.0};
+  world.goal.radius = 0.15;
   const Proposal walk = replanner.Begin(small.start, *replanner.Prepare(world), 4, random);
   ASSERT_EQ(walk.kind, ProposalKind::kChanged) << walk.reason;
   world.version = 1;
