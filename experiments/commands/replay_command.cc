@@ -104,7 +104,7 @@ void WriteRows(const Task& task, const std::vector<replay::Replayed>& all, const
 }  // namespace
 
 ExitStatus Replay(const ReplayCommand& command) {
-  const Task task = replay::IsEpisode(command.run) ? EpisodeTask(command) : RunTask(command);
+  const Task task = IsEpisode(command.run) ? EpisodeTask(command) : RunTask(command);
   const std::vector<std::vector<double>> push_at = AllInstants(command, task);
   if (const std::string why = replay::WhyNoSimulation(); !why.empty()) {
     std::cerr << "halfstep: replay: " << why << '\n';

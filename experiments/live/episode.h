@@ -91,6 +91,8 @@ struct EpisodeTick {
 /// Callbacks of an episode, called in the thread that runs it; they must return quickly.
 struct EpisodeHooks {
   std::function<void(const EpisodeTick&)> on_tick = {};
+  /// Called at each look at the world before there is a walk, with the reason why not.
+  std::function<void(const std::string& reason)> on_wait = {};
   /// Whether no half-step is to begin for the time being, so that the robot comes to rest.
   std::function<bool()> held = {};
   std::stop_token stop = {};  ///< the robot comes to rest, then the episode ends

@@ -79,6 +79,7 @@ Proposal EpisodeLoop::Wait(const std::array<Footprint, 2>& start) {
     const double now = static_cast<double>(frame) * options_.sensing.period;
     if (now > options_.longest || hooks_.stop.stop_requested()) break;
     clock_.WaitUntil(now);
+    if (hooks_.on_wait) hooks_.on_wait(first.reason);
     while (std::optional<Frame> taken = sensor_.Next(now)) {
       if (!taken->world) continue;
       World& measured = *taken->world;

@@ -14,8 +14,15 @@ namespace halfstep {
 /// the robot does.
 class TrueWorld {
  public:
-  /// Throws InputError when the script names an obstacle or an area that the scene does not have.
+  /// `scene`: with the spare boxes. Throws InputError when the script names an obstacle or an area
+  /// that the scene does not have.
   TrueWorld(const Scene& scene, const GoalConfig& goal, const LiveOptions& options);
+
+  /// One more event, at the time `event.at` of the walk [s], after those of the script that happen
+  /// at the same time. Precondition: the scene has its obstacle.
+  void Append(ScriptEvent event);
+  /// Everything that happens, in times of the script, in their order.
+  std::vector<ScriptEvent> Script() const;
 
   /// The same, for a walk that begins at the time `origin` of the script [s].
   TrueWorld Since(double origin) const;
@@ -36,12 +43,15 @@ class TrueWorld {
   Eigen::Vector3d DriftAt(double t) const { return {drift_ * (t + origin_), 0.0, 0.0}; }
 
  private:
-  std::vector<ScriptEvent> EventsOf(size_t obstacle) const;
+  size_t IndexOf(const std::string& obstacle) const;
+  // Takes an event of an obstacle in; all that happen earlier are.
+  void TakeIn(size_t obstacle, const ScriptEvent& event);
 
   Scene scene_;
   GoalConfig goal_;
   std::vector<ScriptEvent> script_;
   std::vector<std::vector<ScriptEvent>> of_obstacle_;
+  size_t own_ = 0;       // obstacles that are no spare boxes
   double origin_ = 0.0;  // of the walk's time, in that of the script
   double drift_ = 0.0;
   double end_ = 0.0;

@@ -3,23 +3,26 @@
 #include <optional>
 
 #include "experiments/config/experiment.h"
+<<<<<<< HEAD
+=======
+#include "experiments/live/spare_boxes.h"
 #include "experiments/tables/json_file.h"
+#include "wpg/files/input_error.h"
+>>>>>>> 174e19e2ad69b44631cbde539acb569ddabb1894
 
 namespace halfstep::replay {
-
-bool IsEpisode(const std::filesystem::path& folder) {
-  const std::filesystem::path manifest = folder / "manifest.json";
-  if (!std::filesystem::exists(manifest)) return false;
-  const nlohmann::json json = ReadJsonObject(manifest);
-  return json.contains("kind") && json["kind"] == "episode";
-}
 
 RecordedEpisode ReadEpisode(const std::filesystem::path& folder) {
   LiveConfig config = LoadLiveConfig((folder / "config.yaml").string(), {});
   WholeRobot robot = LoadWholeRobot(RobotPath(config.experiment).string());
   const std::optional<std::filesystem::path> scene = ScenePath(config.experiment);
-  TrueWorld truth(scene ? LoadScene(scene->string()) : Scene(), config.experiment.goal,
-                  config.live);
+  if (config.live.sensing.source == "client") {
+    throw InputError({folder.string() +
+                      ": where obstacles truly were is not known: clients measured them (valid: an "
+                      "episode with live.sensing.source: stand_in)"});
+  }
+  TrueWorld truth(WithSpareBoxes(scene ? LoadScene(scene->string()) : Scene(), config.live),
+                  config.experiment.goal, config.live);
   ReferenceMotion motion(ReadTrajectory(folder / "trajectory.csv", robot.model));
   return {std::move(config), std::move(robot), std::move(truth), std::move(motion)};
 }
