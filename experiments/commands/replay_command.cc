@@ -14,6 +14,7 @@
 #include "experiments/run/progress_bar.h"
 #include "experiments/tables/certificate_files.h"
 #include "experiments/tables/run_folder.h"
+#include "experiments/tables/run_record.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/number_text.h"
 

@@ -3,12 +3,8 @@
 #include <optional>
 
 #include "experiments/config/experiment.h"
-<<<<<<< HEAD
-=======
 #include "experiments/live/spare_boxes.h"
-#include "experiments/tables/json_file.h"
 #include "wpg/files/input_error.h"
->>>>>>> 174e19e2ad69b44631cbde539acb569ddabb1894
 
 namespace halfstep::replay {
 
