@@ -33,7 +33,7 @@ void SocketClient::Read() {
           self->Send(std::make_shared<const std::string>(
               MessageText(ErrorMessage("message: too long (valid: at most 1048576 bytes)"))));
         }
-        if (error) {
+        if (error || !self->socket_.is_open()) {  // dropped, though lines are left
           self->hub_.Leave(self.get());
           return self->Finish();
         }

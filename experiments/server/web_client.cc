@@ -120,6 +120,7 @@ class WebClient final : public ClientLine, public std::enable_shared_from_this<W
   }
 
   void Upgrade(const Request& request) {
+    if (input_.size() > 0) return;  // it speaks before it is answered
     if (!hub_.HasRoom()) {
       return Reply(http::status::service_unavailable, "There are too many clients.\n",
                    "text/plain");
@@ -132,7 +133,6 @@ class WebClient final : public ClientLine, public std::enable_shared_from_this<W
       if (error) return;
       if (!self->hub_.HasRoom()) return self->Drop();
       self->stream_.text(true);
-      self->input_.clear();
       self->hub_.Join(self.get());
       self->Read();
     });

@@ -46,8 +46,8 @@ TEST(ClientMessage, IsReadAsItIsMeant) {
       reader.Read(R"({"type":"subscribe","state_period_s":0.02,"motion_s":2})"));
   EXPECT_EQ(subscribe.state_period, 0.02);
   EXPECT_EQ(subscribe.motion, 2.0);
-  const auto carry = std::get<Carry>(std::get<Edit>(
-      reader.Read(R"({"type":"carry","obstacle":"board","xyz_m":[1,-2,0.5]})")));
+  const auto carry = std::get<Carry>(
+      std::get<Edit>(reader.Read(R"({"type":"carry","obstacle":"board","xyz_m":[1,-2,0.5]})")));
   EXPECT_EQ(carry.obstacle, 1U);
   EXPECT_EQ(carry.to, Eigen::Vector3d(1, -2, 0.5));
   EXPECT_EQ(carry.turn, 0.0);

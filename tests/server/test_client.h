@@ -79,8 +79,13 @@ class Connection {
   /// The next line as JSON; null when the other side has gone.
   nlohmann::json ReadLine() {
     const std::string line = ReadPast("\n");
-    return line.empty() ? nlohmann::json() : nlohmann::json::parse(line);
+    if (line.empty()) return {};
+    nlohmann::json message = nlohmann::json::parse(line);
+    if (message["type"] == "walk") walk_duration_ = message["duration_s"];
+    return message;
   }
+  /// Of the newest walk that a line was about [s].
+  double walk_duration() const { return walk_duration_; }
   /// The next line of that type for which `wanted` holds; fails the test when there is none.
   template <typename Wanted>
   nlohmann::json ReadUntil(const std::string& type, const Wanted& wanted) {
@@ -119,6 +124,7 @@ class Connection {
 
   int file_;
   std::string input_;
+  double walk_duration_ = 1e9;
 };
 
 /// The beginning of a request for `path`; without the empty line that ends it.
