@@ -5,7 +5,7 @@ import { Instant, Rows, rowsOf } from "./instants.js";
 import { Latency } from "./latency.js";
 import { LiveControls } from "./live_controls.js";
 import { LiveView, layers } from "./live_view.js";
-import { legend, planRows } from "./live_words.js";
+import { legend, planRows, shortened } from "./live_words.js";
 import * as THREE from "three";
 import { SocketSource } from "./socket_source.js";
 import { Stage } from "./stage.js";
@@ -92,8 +92,8 @@ function showEvents(lines) {
   if (log.dataset.key === lines.join("\n")) return;
   log.dataset.key = lines.join("\n");
   log.replaceChildren(...lines.map((line) => {
-    const shown = line.length > mostLetters ? `${line.slice(0, mostLetters)} …` : line;
-    return Object.assign(document.createElement("li"), { textContent: shown, title: line });
+    const textContent = shortened(line, mostLetters);
+    return Object.assign(document.createElement("li"), { textContent, title: line });
   }));
 }
 
@@ -179,7 +179,8 @@ function ahead() {
 
 function look() {
   if (!stage || !view) return;
-  stage.look(byId("camera").value, ahead(), 3.6, 0.35);
+  const { clientWidth: width, clientHeight: height } = stage.canvas;
+  stage.look(byId("camera").value, ahead(), width < height ? 5 : 3.6, 0.35);
   redraw();
 }
 

@@ -4,6 +4,13 @@ import { numHalfSteps } from "./episode_record.js";
 
 const seconds = (value) => `${value.toFixed(2)} s`;
 
+const mostLetters = 110;
+
+/** A text that is not too long, with three dots for what is left out. */
+export function shortened(text, most = mostLetters) {
+  return text.length > most ? `${text.slice(0, most)} …` : text;
+}
+
 /** Rows of the table of the plan. */
 export function planRows(table, { t, plan, grant, world, begun }) {
   const rows = [];
@@ -23,7 +30,7 @@ export function planRows(table, { t, plan, grant, world, begun }) {
   table.replaceChildren(...rows.map(([name, value]) => {
     const row = document.createElement("tr");
     row.append(Object.assign(document.createElement("th"), { textContent: name }),
-               Object.assign(document.createElement("td"), { textContent: value }));
+               Object.assign(document.createElement("td"), { textContent: shortened(value), title: value }));
     return row;
   }));
 }
