@@ -16,7 +16,7 @@ constexpr double kLongestMotion = 10.0;  // [s]
 constexpr double kOldest = 1e6;          // [s]
 constexpr double kMostTurn = 2.0 * std::numbers::pi;
 
-Eigen::Vector3d Place(MessageFields& fields) {
+Eigen::Vector3d PlaceIn(MessageFields& fields) {
   return fields.Numbers("xyz_m", 3, -kFarthestMessage, kFarthestMessage);
 }
 
@@ -64,7 +64,7 @@ MeasuredFrame ReadMeasured(MessageFields& fields, const Scene& scene) {
     MeasuredFrame::Seen seen{.obstacle = ObstacleNamed(one, "name", scene),
                              .X_WO = Eigen::Isometry3d::Identity()};
     seen.X_WO = scene.obstacles[seen.obstacle].X_WO;
-    seen.X_WO.translation() = Place(one);
+    seen.X_WO.translation() = PlaceIn(one);
     if (one.Has("quaternion_wxyz")) seen.X_WO.linear() = Orientation(one);
     one.RefuseOthers();
     if (std::ranges::find(frame.seen, seen.obstacle, &MeasuredFrame::Seen::obstacle) !=
@@ -90,7 +90,7 @@ MeasuredFrame ReadMeasured(MessageFields& fields, const Scene& scene) {
 
 Carry ReadCarry(MessageFields& fields, const Scene& scene) {
   return {.obstacle = ObstacleNamed(fields, "obstacle", scene),
-          .to = Place(fields),
+          .to = PlaceIn(fields),
           .turn = Turn(fields)};
 }
 
@@ -115,7 +115,7 @@ ClientMessage ClientMessageReader::Read(std::string_view text) const {
   } else {
     readers["carry"] = [&](MessageFields& f) { return edit(ReadCarry(f, scene_)); };
     readers["goal"] = [&](MessageFields& f) { return edit(MoveGoal{Point(f)}); };
-    readers["add"] = [&](MessageFields& f) { return edit(AddBox{Place(f), Turn(f)}); };
+    readers["add"] = [&](MessageFields& f) { return edit(AddBox{PlaceIn(f), Turn(f)}); };
     readers["remove"] = [&](MessageFields& f) {
       return edit(Remove{ObstacleNamed(f, "obstacle", scene_)});
     };
