@@ -58,8 +58,6 @@ export class EpisodeRecord {
   takeWalk(message) {
     this.waiting = null;
     put(this.walks, message, "walk");
-    // Times before the first walk counted from elsewhere.
-    this.worlds = this.worlds.filter((world) => message.walk > 0 || world.known_s <= message.handed_over_s);
   }
 
   worldAt(t) { return lastUntil(this.worlds, "known_s", t) ?? this.worlds[0]; }
@@ -78,6 +76,9 @@ export class EpisodeRecord {
     return pairs;
   }
 }
+
+/** Each footstep takes two; the first two soles are where the walk starts. */
+export const numHalfSteps = (walk) => 2 * (walk.footsteps.length - 2);
 
 /** Of a footstep, by its place in the list: begun, granted (also to land), or to come. */
 export function stageOf(footstep, begun, through) {
@@ -100,5 +101,6 @@ const words = {
 /** An event in words; null for those that happen all the time. */
 export function inWords(event) {
   if (event.event === "measured" || event.event === "begins") return null;
-  return words[event.event]?.(event) ?? `${event.event}: ${event.text}`;
+  const text = words[event.event]?.(event) ?? `${event.event}: ${event.text}`;
+  return event.t_s === null ? text : `${event.t_s.toFixed(2)} s ${text}`;
 }

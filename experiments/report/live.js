@@ -1,6 +1,6 @@
 // Brings an episode and the page together: as it goes on, over a WebSocket, or as it was recorded.
 import { Dragging } from "./dragging.js";
-import { EpisodeRecord, inWords } from "./episode_record.js";
+import { EpisodeRecord, inWords, numHalfSteps } from "./episode_record.js";
 import { Instant, Rows, rowsOf } from "./instants.js";
 import { Latency } from "./latency.js";
 import { LiveControls } from "./live_controls.js";
@@ -16,6 +16,7 @@ const byId = (id) => document.getElementById(id);
 const data = JSON.parse(byId("data").textContent);
 const recorded = data.messages !== undefined;
 const shownEvents = 8;
+const mostLetters = 150; // of an event; the pointer over it shows all
 const motionSpan = 3; // of a recording's traces [s]
 const ghostSpan = 4; // [s]
 
@@ -68,13 +69,17 @@ function show() {
   byId("state").textContent = stateText(t, plan, begun);
   planRows(byId("plan"), { t, plan, grant, world, begun });
   latency.show(record.walks.filter((one) => one.handed_over_s <= t));
-  const words = record.eventsUntil(t).map((event) => [event, inWords(event)]).filter(([, text]) => text);
-  const lines = words.slice(-shownEvents).reverse().map(([event, text]) =>
-    `${event.t_s === null ? "" : `${event.t_s.toFixed(2)} s `}${text}`);
-  if (byId("log").dataset.key !== lines.join("\n")) {
-    byId("log").dataset.key = lines.join("\n");
-    byId("log").replaceChildren(...lines.map((line) => Object.assign(document.createElement("li"), { textContent: line })));
-  }
+  showEvents(record.eventsUntil(t).map(inWords).filter(Boolean).slice(-shownEvents).reverse());
+}
+
+function showEvents(lines) {
+  const log = byId("log");
+  if (log.dataset.key === lines.join("\n")) return;
+  log.dataset.key = lines.join("\n");
+  log.replaceChildren(...lines.map((line) => {
+    const shown = line.length > mostLetters ? `${line.slice(0, mostLetters)} …` : line;
+    return Object.assign(document.createElement("li"), { textContent: shown, title: line });
+  }));
 }
 
 function drawView(t, world, plan, begun, grant) {
@@ -82,7 +87,7 @@ function drawView(t, world, plan, begun, grant) {
   if (robot) {
     if (instant) instant.row = record.state.row;
     view.showRobot(robot, t);
-    if (byId("follow").checked && !dragging.held) stage.followTo(view.waist.x, view.waist.y);
+    if (byId("follow").checked && !dragging.held) stage.followTo(...ahead());
   }
   if (world) view.showWorld(world, t);
   if (plan) {
@@ -126,20 +131,18 @@ function stateText(t, plan, begun) {
   if (!plan) return "nothing is known yet";
   const rests = record.state?.stopped ? ", nothing more begins" : "";
   const held = record.state?.held ? ", paused" : "";
-  return `${t.toFixed(2)} s, half-step ${begun} of ${plan.half_steps.length}${rests}${held}`;
+  return `${t.toFixed(2)} s, half-step ${begun} of ${numHalfSteps(plan)}${rests}${held}`;
 }
 
 function makeView(drawn) {
   if (!stage) return;
   view = new LiveView(stage, drawn, record.hello);
-  stage.prints = null;
   for (const [name] of layers) view.show(name, byId(`show-${name}`).checked);
-  const goal = record.worlds[0]?.goal;
   dragging = new Dragging(stage, byId("view"), byId("tags"), recorded ? null : moveThing, (name) => {
     controls?.select(name);
     redraw();
   });
-  look(goal ? [goal.x_m, goal.y_m] : [1, 0]);
+  look();
 }
 
 function moveThing(name, to, done) {
@@ -150,11 +153,18 @@ function moveThing(name, to, done) {
   redraw();
 }
 
-function look(goal = null) {
+// A point of the floor between the robot and the goal, at most so far ahead of it [m].
+function ahead() {
+  const { x, y } = view.waist ?? { x: 0, y: 0 };
+  const goal = record.worldAt(now())?.goal ?? { x_m: x, y_m: y };
+  const [dx, dy] = [goal.x_m - x, goal.y_m - y];
+  const part = Math.min(0.5, 0.8 / Math.max(1e-6, Math.hypot(dx, dy)));
+  return [x + part * dx, y + part * dy];
+}
+
+function look() {
   if (!stage || !view) return;
-  const at = view.waist ? [view.waist.x, view.waist.y] : [0, 0];
-  const [x, y] = byId("follow").checked ? at : goal ?? at;
-  stage.look(byId("camera").value, [x, y], byId("camera").value === "top" ? 3.6 : 3.1);
+  stage.look(byId("camera").value, ahead(), 3.6, 0.35);
   redraw();
 }
 
@@ -172,10 +182,16 @@ function take(message) {
 }
 
 function play() {
-  for (const message of data.messages) take(message);
+  let before = [];
+  for (const message of data.messages) {
+    // The first `same` footsteps of a recorded walk are those of the one before.
+    if (message.type === "walk") before = message.footsteps = [...before.slice(0, message.same), ...message.footsteps];
+    take(message);
+  }
+  byId("connection").textContent = data.outcome;
+  if (!data.motion) return;
   walk = new Walk({ summary: { method: "executed" }, ...data.motion });
   byId("timeline").hidden = false;
-  byId("connection").textContent = data.outcome;
   byId("keys").textContent = "Keys: space plays, ← → move by 0.05 s, with shift by 0.5 s, Home and End. " +
     byId("keys").textContent;
   timeline = new Timeline(redraw);
@@ -208,8 +224,8 @@ function start() {
     byId("choices").append(choice);
   }
   legend(byId("legend"), recorded);
-  byId("camera").addEventListener("change", () => look());
-  byId("follow").addEventListener("change", () => look());
+  byId("camera").addEventListener("change", look);
+  byId("follow").addEventListener("change", look);
   new ResizeObserver(redraw).observe(byId("view"));
   new ResizeObserver(redraw).observe(byId("side"));
   if (recorded) play();

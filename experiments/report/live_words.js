@@ -1,6 +1,8 @@
 // What the page says beside the view: figures of the plan, and what is drawn.
 
-const seconds = (value) => (value === null ? "no limit" : `${value.toFixed(2)} s`);
+import { numHalfSteps } from "./episode_record.js";
+
+const seconds = (value) => `${value.toFixed(2)} s`;
 
 /** Rows of the table of the plan. */
 export function planRows(table, { t, plan, grant, world, begun }) {
@@ -8,10 +10,11 @@ export function planRows(table, { t, plan, grant, world, begun }) {
   if (plan) {
     rows.push(["walk", `${plan.walk}, ${plan.kind}: ${plan.reason}`]);
     rows.push(["footsteps", `${plan.footsteps.length - 2}, ends at ${seconds(plan.duration_s)}`]);
-    rows.push(["begun", `half-step ${begun} of ${plan.half_steps.length}`]);
+    rows.push(["begun", `half-step ${begun} of ${numHalfSteps(plan)}`]);
   }
   if (grant) {
-    rows.push(["granted", `up to half-step ${grant.through}, if ended by: ${seconds(grant.valid_until_s)}`]);
+    const limit = grant.valid_until_s === null ? "" : `, as far as they end by ${seconds(grant.valid_until_s)}`;
+    rows.push(["granted", `half-steps up to ${grant.through}${limit}`]);
   }
   if (world) rows.push(["measured", `world ${world.world}, ${(1000 * (t - world.measured_s)).toFixed(0)} ms ago`]);
   const text = rows.map((row) => row.join("\t")).join("\n");

@@ -75,6 +75,7 @@ function sceneGroup(json, moving) {
 // Directions from which the cameras look, in units of the distance.
 const directions = {
   corner: [0.72, -0.92, 0.42],
+  behind: [-0.66, -0.8, 0.62],
   side: [0.02, -1.25, 0.12],
   front: [1.25, 0.01, 0.12],
   top: [-0.001, 0, 1.3],
@@ -132,10 +133,10 @@ export class Stage {
     }
   }
 
-  /** A direction of `directions`, at a point on the floor, `distance` [m] away. */
-  look(name, [x, y], distance) {
+  /** A direction of `directions`, at `height` above a point on the floor, `distance` [m] away. */
+  look(name, [x, y], distance, height = 0.68) {
     const direction = new THREE.Vector3(...directions[name]);
-    this.controls.target.set(x, y, name === "top" ? 0 : 0.68);
+    this.controls.target.set(x, y, name === "top" ? 0 : height);
     this.camera.position.copy(this.controls.target).addScaledVector(direction, distance);
     this.controls.update();
   }
