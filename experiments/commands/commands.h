@@ -22,9 +22,15 @@ struct RunCommand {
 /// Throws InputError for bad input, std::runtime_error when files cannot be written.
 ExitStatus Run(const RunCommand& command);
 
+struct LiveCommand {
+  RunCommand run;
+  bool in_physics = false;  ///< a simulated robot executes the walk, and is what is sensed from
+};
+
 /// `halfstep live`: an episode of walking while the world changes, by a config with `live`, into a
-/// folder. kFailed when the robot does not arrive. Throws as Run.
-ExitStatus Live(const RunCommand& command);
+/// folder. kFailed when the robot does not arrive, also when it falls in physics, and where no
+/// engine is compiled in for that. Throws as Run.
+ExitStatus Live(const LiveCommand& command);
 
 struct SmoothCommand {
   RunCommand run;                    ///< `config` may be a run folder too; then its config.yaml

@@ -54,6 +54,7 @@ enum class EpisodeEnding {
   kTooLong,      ///< walking when the time was up
   kNoPlan,       ///< there was no walk to begin with
   kInterrupted,  ///< stopped from outside
+  kFell,         ///< the simulated robot fell
 };
 std::string_view Name(EpisodeEnding ending);
 
@@ -88,6 +89,8 @@ struct EpisodeHooks {
   std::function<void(const EpisodeTick&)> on_tick = {};
   /// Whether no half-step is to begin for the time being, so that the robot comes to rest.
   std::function<bool()> held = {};
+  /// Whether the robot that executes the walk has fallen; then the episode ends.
+  std::function<bool()> fallen = {};
   std::stop_token stop = {};
 };
 
