@@ -48,6 +48,10 @@ constexpr CommandEntry kEntries[] = {
      "Let a robot walk while the world changes: an episode, into a folder.\n\n"
      "  example: halfstep live experiments/episodes/live_bar.yaml",
      DeclareLive},
+    {"recover",
+     "Write the folder of an episode whose process was killed, from the record that it left.\n\n"
+     "  example: halfstep recover runs/live_bar",
+     DeclareRecover},
     {"sweep",
      "Run a config with every combination of some keys; the same command goes on where it was\n"
      "stopped.\n\n"

@@ -54,5 +54,6 @@ CommandAction DeclareExport(CLI::App* app);
 CommandAction DeclareReplay(CLI::App* app);
 CommandAction DeclareList(CLI::App* app);
 CommandAction DeclareLive(CLI::App* app);
+CommandAction DeclareRecover(CLI::App* app);
 
 }  // namespace halfstep

@@ -24,13 +24,26 @@ ExitStatus Run(const RunCommand& command);
 
 struct LiveCommand {
   RunCommand run;
-  bool in_physics = false;  ///< a simulated robot executes the walk, and is what is sensed from
+  bool view = false;                  ///< serves a page
+  int port = 0;                       ///< of the page; 0: any that is free
+  std::optional<std::string> socket;  ///< serves messages there
+  bool in_physics = false;  ///< a simulated robot executes the walk, and is what is measured from
 };
 
 /// `halfstep live`: an episode of walking while the world changes, by a config with `live`, into a
-/// folder. kFailed when the robot does not arrive, also when it falls in physics, and where no
-/// engine is compiled in for that. Throws as Run.
+/// folder; with clients it goes on until one asks for its end. kFailed when the robot does not
+/// arrive, or falls in physics. Throws as Run.
 ExitStatus Live(const LiveCommand& command);
+
+struct RecoverCommand {
+  std::string episode;     ///< the folder that the episode would have written
+  bool overwrite = false;  ///< replaces an older one
+  bool quiet = false;
+};
+
+/// `halfstep recover`: writes the folder of an episode whose process was killed, from what it left
+/// (EpisodeJournal). Throws as Run.
+ExitStatus Recover(const RecoverCommand& command);
 
 struct SmoothCommand {
   RunCommand run;                    ///< `config` may be a run folder too; then its config.yaml

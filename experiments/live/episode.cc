@@ -19,6 +19,8 @@ std::string_view Name(EpisodeEnding ending) {
       return "interrupted";
     case EpisodeEnding::kFell:
       return "fell";
+    case EpisodeEnding::kKilled:
+      return "killed";
   }
   return "";
 }

@@ -70,6 +70,7 @@ Episode EpisodeLoop::Run(const std::array<Footprint, 2>& start) {
 Proposal EpisodeLoop::Wait(const std::array<Footprint, 2>& start) {
   std::mt19937_64 random(static_cast<std::uint64_t>(replanner_.config().experiment.seed));
   std::vector<World> worlds;
+  PastWorlds past;
   std::optional<World> tried;
   Proposal first{.kind = ProposalKind::kUnsafe, .reason = "nothing was measured"};
   double origin = 0.0, lead = clock_.passes() ? patience_ : 0.0;
@@ -78,10 +79,15 @@ Proposal EpisodeLoop::Wait(const std::array<Footprint, 2>& start) {
     const double now = static_cast<double>(frame) * options_.sensing.period;
     if (now > options_.longest || hooks_.stop.stop_requested()) break;
     clock_.WaitUntil(now);
+    if (hooks_.on_wait) hooks_.on_wait(first.reason);
     while (std::optional<Frame> taken = sensor_.Next(now)) {
       if (!taken->world) continue;
-      worlds.push_back(worlds.empty() ? std::move(*taken->world)
-                                      : Updated(worlds, std::move(*taken->world), options_).world);
+      World& measured = *taken->world;
+      if (!worlds.empty()) {
+        measured = Updated(worlds.back(), past, std::move(measured), options_).world;
+      }
+      past.Add(measured);
+      worlds.push_back(std::move(measured));
     }
     if (worlds.empty()) continue;
     if (tried && now < tried->measured_at + kRetry) continue;
@@ -104,6 +110,7 @@ Proposal EpisodeLoop::Wait(const std::array<Footprint, 2>& start) {
   for (World& world : worlds) {
     record_.worlds.push_back(Since(std::move(world), origin));
     record_.known.push_back(record_.worlds.back().measured_at);
+    past_.Add(record_.worlds.back());
   }
   return first;
 }
@@ -114,7 +121,7 @@ void EpisodeLoop::Sense(double now) {
       Tell(now, "lost", Formatted("frame of %.3f s", frame->taken));
       continue;
     }
-    WorldUpdate update = Updated(record_.worlds, std::move(*frame->world), options_);
+    WorldUpdate update = Updated(*world_, past_, std::move(*frame->world), options_);
     world_ = std::make_shared<const World>(std::move(update.world));
     Know(now);
     Tell(now, "measured", Formatted("frame of %.3f s", frame->taken));
@@ -124,7 +131,7 @@ void EpisodeLoop::Sense(double now) {
 }
 
 void EpisodeLoop::Advance(double now) {
-  const bool held = hooks_.held && hooks_.held();
+  const bool held = hooks_.stop.stop_requested() || (hooks_.held && hooks_.held());
   if (held) executor_->Revoke();
   if (held_ && !held) again_ = true;
   held_ = held;
@@ -165,7 +172,8 @@ void EpisodeLoop::Ask(double now) {
                 .now = now,
                 .hand_over = now + patience_ + 2.0 * options_.period,
                 .world = world_,
-                .shorten = tries_ > 0});
+                .shorten = tries_ > 0,
+                .used_up = used_up_});
   thinking_ = true;
   asked_ = now;
   asked_about_ = world_;
@@ -177,6 +185,8 @@ void EpisodeLoop::Take(const Proposal& proposal, double now) {
   if (DiffersClearly(*checked_, *asked_about_)) tries_ = kTries;
   checked_ = asked_about_;
   stuck_ = proposal.kind == ProposalKind::kUnsafe;
+  const bool used_up = proposal.nodes >= replanner_.config().experiment.planner.max_nodes;
+  used_up_ = stuck_ && used_up ? used_up_ + 1 : 0;
   const bool searched = proposal.planned.status != PlanStatus::kNotRun;
   if (world_->sound_since > asked_about_->version) {
     Tell(now, "refused", "the world has changed meanwhile");
@@ -220,7 +230,7 @@ void EpisodeLoop::HandOver(const Proposal& proposal, double now) {
 bool EpisodeLoop::Ends(double now) {
   const bool at_rest = executor_->rests_from() <= now;
   const bool over = now >= options_.longest;
-  const bool interrupted = hooks_.stop.stop_requested();
+  const bool interrupted = at_rest && hooks_.stop.stop_requested();
   const std::array<Footprint, 2> stance =
       StanceAfter(executor_->plan().sequence, executor_->begun());
   const bool on_both = executor_->begun() % 2 == 1;
@@ -240,6 +250,7 @@ bool EpisodeLoop::Ends(double now) {
 }
 
 void EpisodeLoop::Know(double t) {
+  past_.Add(*world_);
   record_.worlds.push_back(*world_);
   record_.known.push_back(t);
 }

@@ -9,6 +9,7 @@
 #include "experiments/live/episode.h"
 #include "experiments/live/episode_clock.h"
 #include "experiments/live/executor.h"
+#include "experiments/live/past_worlds.h"
 #include "experiments/live/sensor.h"
 #include "experiments/live/thinker.h"
 
@@ -48,6 +49,7 @@ class EpisodeLoop {
   const EpisodeHooks& hooks_;
   Episode record_;
   std::shared_ptr<const World> world_;
+  PastWorlds past_;
   std::optional<Executor> executor_;
   // Of the walk in execution.
   std::vector<bool> smoothed_;
@@ -61,7 +63,8 @@ class EpisodeLoop {
   // What it is to do next.
   std::shared_ptr<const World> checked_;
   bool again_ = true, stuck_ = false;
-  int tries_ = 0;  // to shorten the way
+  int tries_ = 0;    // to shorten the way
+  int used_up_ = 0;  // as Situation says
 };
 
 }  // namespace halfstep

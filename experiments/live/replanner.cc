@@ -45,7 +45,7 @@ bool Replanner::Arrives(const WalkPlan& plan, const World& world) const {
 
 PlanResult Replanner::Plan(const std::array<Footprint, 2>& stance,
                            const std::optional<StepState>& in_air, const PreparedWorld& among,
-                           std::mt19937_64& random) const {
+                           std::int64_t max_nodes, std::mt19937_64& random) const {
   const PlannerConfig& options = config_.experiment.planner;
   PlanRequest request{.start = stance,
                       .in_air = in_air,
@@ -59,10 +59,9 @@ PlanResult Replanner::Plan(const std::array<Footprint, 2>& stance,
   request.start_is_free = [&](const HalfStep& up, const Footprint& X_WS) {
     return among.certifier.Certifies(up, X_WS);
   };
-  request.stop =
-      AnyOf({AfterNodes(options.max_nodes), options.unimproved_nodes == 0
-                                                ? AtFirstPlan()
-                                                : WhenNotImprovedFor(options.unimproved_nodes)});
+  request.stop = AnyOf({AfterNodes(max_nodes), options.unimproved_nodes == 0
+                                                   ? AtFirstPlan()
+                                                   : WhenNotImprovedFor(options.unimproved_nodes)});
   return MakePlanner(options.name, among.world.scene, options.options)->Plan(request, random);
 }
 
@@ -95,8 +94,10 @@ bool Replanner::Change(const Situation& s, const WalkPlan& plan, int junction,
   const auto& [half_step, X_WS] = plan.sequence.half_steps[static_cast<size_t>(junction)];
   std::optional<StepState> in_air;
   if (half_step.kind == HalfStepKind::kUp) in_air = {X_WS, half_step.support};
-  PlanResult result = Plan(StanceAfter(plan.sequence, junction), in_air, among, random);
+  const std::int64_t left = config_.experiment.planner.max_nodes - proposal->nodes;
+  PlanResult result = Plan(StanceAfter(plan.sequence, junction), in_air, among, left, random);
   proposal->planned = result;
+  proposal->nodes += result.nodes;
   proposal->plan_s += SteadySeconds() - begin;
   if (result.status != PlanStatus::kSolved) return false;
   if (result.footsteps.empty() && junction % 2 == 0) return false;
@@ -187,6 +188,7 @@ void Replanner::Shorten(const Situation& s, const PreparedWorld& among, std::mt1
   Proposal shorter = *proposal;
   const bool changed = Change(s, proposal->plan, junctions.front(), among, random, &shorter);
   proposal->planned = shorter.planned;
+  proposal->nodes = shorter.nodes;
   if (!changed || shorter.plan.sequence.size() >= proposal->plan.sequence.size()) return;
   shorter.kind = ProposalKind::kShortened;
   shorter.reason = "fewer footsteps";
@@ -212,6 +214,8 @@ std::vector<int> Replanner::Junctions(const Situation& s, const SuperposedWalk& 
   } else {
     for (int j = first; j <= last && junctions.size() < 4; ++j) junctions.push_back(j);
   }
+  // When all nodes were used up before the last of them was tried, another one begins.
+  std::ranges::rotate(junctions, junctions.begin() + s.used_up % std::ssize(junctions));
   return junctions;
 }
 
@@ -266,6 +270,7 @@ Proposal Replanner::Propose(const Situation& s, const PreparedWorld& among,
   }
   const WalkPlan plan = proposal.plan;
   for (const int junction : Junctions(s, walk, proposal.grant.through, arrives)) {
+    if (proposal.nodes >= config_.experiment.planner.max_nodes) break;
     if (Change(s, plan, junction, among, random, &proposal)) {
       proposal.kind = ProposalKind::kChanged;
       return proposal;
@@ -283,7 +288,7 @@ Proposal Replanner::Propose(const Situation& s, const PreparedWorld& among,
 Proposal Replanner::Begin(const std::array<Footprint, 2>& start, const PreparedWorld& among,
                           int junctions, std::mt19937_64& random) const {
   Proposal proposal{.kind = ProposalKind::kUnsafe};
-  proposal.planned = Plan(start, {}, among, random);
+  proposal.planned = Plan(start, {}, among, config_.experiment.planner.max_nodes, random);
   proposal.reason = proposal.planned.sentence;
   if (proposal.planned.footsteps.empty()) return proposal;
   const HalfStep like = PrototypeOf(config_.experiment);

@@ -31,6 +31,7 @@ struct Situation {
   double hand_over = 0.0;      ///< a successor is taken at this time at the earliest [s]
   std::shared_ptr<const World> world;
   bool shorten = false;  ///< when nothing else is to be done, look for a shorter way
+  int used_up = 0;       ///< proposals in a row until now whose searches used up all nodes in vain
 };
 
 enum class ProposalKind {
@@ -41,6 +42,9 @@ enum class ProposalKind {
   kSmoothed,   ///< other overlaps
   kUnsafe,     ///< there is no safe way on that was found: what is granted is executed
 };
+inline constexpr std::array kProposalKinds = {ProposalKind::kSafe,     ProposalKind::kResumed,
+                                              ProposalKind::kChanged,  ProposalKind::kShortened,
+                                              ProposalKind::kSmoothed, ProposalKind::kUnsafe};
 std::string_view Name(ProposalKind kind);
 
 /// What a replanner found.
@@ -52,7 +56,8 @@ struct Proposal {
   int robot_through = -1;
   int first_changed = -1;  ///< half-step; −1: none
   Grant grant = {};
-  PlanResult planned = {};                             ///< of kChanged
+  PlanResult planned = {};                             ///< the last search
+  std::int64_t nodes = 0;                              ///< of all searches
   double check_s = 0.0, plan_s = 0.0, smooth_s = 0.0;  ///< where the time went [s]
 };
 
@@ -60,7 +65,9 @@ struct Proposal {
 /// the world as it is known now; if not all, or if the walk does not end in the goal: other
 /// footsteps from the last safe junction that can still be changed; else: overlaps of what has not
 /// begun; else: fewer footsteps. A proposal is made as soon as the next half-steps of it are
-/// proved; the next proposal proves the others. Immutable; the same situation and the same state of
+/// proved; the next proposal proves the others. All searches of a proposal share the nodes of the
+/// config's `planner.max_nodes`: what a proposal costs is bounded. When they were used up in vain,
+/// the next search begins at another junction. Immutable; the same situation and the same state of
 /// `random` give the same proposal.
 class Replanner {
  public:
@@ -84,7 +91,8 @@ class Replanner {
  private:
   bool Arrives(const WalkPlan& plan, const World& world) const;
   PlanResult Plan(const std::array<Footprint, 2>& stance, const std::optional<StepState>& in_air,
-                  const PreparedWorld& among, std::mt19937_64& random) const;
+                  const PreparedWorld& among, std::int64_t max_nodes,
+                  std::mt19937_64& random) const;
   // Proves the walk of the proposal up to half-step `last` as far as it is not proved yet, and
   // grants it. Returns what refused it.
   std::optional<Margin> Prove(const Situation& situation, const SuperposedWalk& walk, int last,

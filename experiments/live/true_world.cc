@@ -37,7 +37,12 @@ Eigen::Isometry3d After(const Eigen::Isometry3d& from, const ScriptEvent& event,
 }  // namespace
 
 TrueWorld::TrueWorld(const Scene& scene, const GoalConfig& goal, const LiveOptions& options)
-    : scene_(scene), goal_(goal), script_(options.script), drift_(options.drift) {
+    : scene_(scene),
+      goal_(goal),
+      script_(options.script),
+      own_(scene.obstacles.size() -
+           std::min(scene.obstacles.size(), static_cast<size_t>(options.spare_boxes))),
+      drift_(options.drift) {
   std::vector<std::string> complaints;
   of_obstacle_.resize(scene.obstacles.size());
   for (size_t k = 0; k < script_.size(); ++k) {
@@ -49,23 +54,45 @@ TrueWorld::TrueWorld(const Scene& scene, const GoalConfig& goal, const LiveOptio
                                              event.area, scene.no_step.size()));
     }
     if (event.obstacle.empty()) continue;
-    const auto named = std::ranges::find(scene.obstacles, event.obstacle, &Obstacle::name);
-    if (named == scene.obstacles.end()) {
+    const size_t index = IndexOf(event.obstacle);
+    if (index == scene.obstacles.size()) {
       complaints.push_back(place + "obstacle '" + event.obstacle +
                            "' is not in the scene (valid: the name of one of its obstacles)");
       continue;
     }
-    const auto index = static_cast<size_t>(named - scene.obstacles.begin());
-    if (event.what == "carry") {
-      end_ = std::max(end_, event.at + CarryTime(PoseAt(index, event.at), event));
-    }
-    of_obstacle_[index].push_back(event);
+    TakeIn(index, event);
   }
   if (drift_ > 0.0 && !scene.no_step.empty()) {
     complaints.push_back(
         "live.drift_m_s: the scene has no-step areas, whose place is taken as exact (valid: 0)");
   }
   if (!complaints.empty()) throw InputError(complaints);
+}
+
+size_t TrueWorld::IndexOf(const std::string& obstacle) const {
+  const auto named = std::ranges::find(scene_.obstacles, obstacle, &Obstacle::name);
+  return static_cast<size_t>(named - scene_.obstacles.begin());
+}
+
+void TrueWorld::TakeIn(size_t obstacle, const ScriptEvent& event) {
+  if (event.what == "carry") {
+    const Eigen::Isometry3d from = PoseAt(obstacle, event.at);
+    end_ = std::max(end_, origin_ + event.at + CarryTime(from, event));
+  }
+  std::vector<ScriptEvent>& events = of_obstacle_[obstacle];
+  events.insert(std::ranges::upper_bound(events, event.at, {}, &ScriptEvent::at), event);
+}
+
+void TrueWorld::Append(ScriptEvent event) {
+  end_ = std::max(end_, origin_ + event.at + event.lasts);
+  if (!event.obstacle.empty()) TakeIn(IndexOf(event.obstacle), event);
+  script_.insert(std::ranges::upper_bound(script_, event.at, {}, &ScriptEvent::at), event);
+}
+
+std::vector<ScriptEvent> TrueWorld::Script() const {
+  std::vector<ScriptEvent> script = script_;
+  for (ScriptEvent& event : script) event.at += origin_;
+  return script;
 }
 
 TrueWorld TrueWorld::Since(double origin) const {
@@ -90,7 +117,8 @@ Pose2 TrueWorld::WorldAt(double t) const {
 
 bool TrueWorld::IsThere(size_t obstacle, double t) const {
   const std::vector<ScriptEvent>& events = of_obstacle_[obstacle];
-  bool there = std::ranges::find(events, "appear", &ScriptEvent::what) == events.end();
+  bool there =
+      obstacle < own_ && std::ranges::find(events, "appear", &ScriptEvent::what) == events.end();
   for (const ScriptEvent& event : events) {
     if (event.at > t) break;
     if (event.what == "appear") there = true;

@@ -16,8 +16,15 @@ namespace halfstep {
 /// the robot does.
 class TrueWorld {
  public:
-  /// Throws InputError when the script names an obstacle or an area that the scene does not have.
+  /// `scene`: with the spare boxes. Throws InputError when the script names an obstacle or an area
+  /// that the scene does not have.
   TrueWorld(const Scene& scene, const GoalConfig& goal, const LiveOptions& options);
+
+  /// One more event, at the time `event.at` of the walk [s], after those of the script that happen
+  /// at the same time. Precondition: the scene has its obstacle.
+  void Append(ScriptEvent event);
+  /// Everything that happens, in times of the script, in their order.
+  std::vector<ScriptEvent> Script() const;
 
   /// The same, for a walk that begins at the time `origin` of the script [s].
   TrueWorld Since(double origin) const;
@@ -26,6 +33,9 @@ class TrueWorld {
   /// the pose of the world in the frame of the walk at the time t of the walk [s]. Obstacles and
   /// the goal's place move with it. The goal's yaw and no-step areas do not.
   TrueWorld SeenFrom(std::function<Pose2(double t)> X_WU) const;
+
+  /// X_WU: where the world is in the frame of the walk at the time t of the walk [s].
+  Pose2 WorldAt(double t) const;
 
   const Scene& scene() const { return scene_; }  ///< as its file says it
 
@@ -41,14 +51,15 @@ class TrueWorld {
   double end() const { return end_ - origin_; }
 
  private:
-  std::vector<ScriptEvent> EventsOf(size_t obstacle) const;
-  // Where the world is in the frame of the walk.
-  Pose2 WorldAt(double t) const;
+  size_t IndexOf(const std::string& obstacle) const;
+  // Takes an event of an obstacle in; all that happen earlier are.
+  void TakeIn(size_t obstacle, const ScriptEvent& event);
 
   Scene scene_;
   GoalConfig goal_;
   std::vector<ScriptEvent> script_;
   std::vector<std::vector<ScriptEvent>> of_obstacle_;
+  size_t own_ = 0;       // obstacles that are no spare boxes
   double origin_ = 0.0;  // of the walk's time, in that of the script
   double drift_ = 0.0;
   std::function<Pose2(double)> seen_from_;  // none: by drift_

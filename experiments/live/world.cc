@@ -3,47 +3,22 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <ranges>
+#include <optional>
+
+#include "experiments/live/past_worlds.h"
 
 namespace halfstep {
 namespace {
 
 constexpr double kRounding = 1e-9;  // [m]
 
-// How far a point of an obstacle is from where it was measured before, at most [m].
-double Displacement(const Obstacle& from, const Obstacle& to) {
-  if (to.X_WO.linear() == from.X_WO.linear()) {
-    return (to.X_WO.translation() - from.X_WO.translation()).norm();
-  }
-  const Eigen::AngleAxisd turn(to.X_WO.linear() * from.X_WO.linear().transpose());
-  return (to.X_WO.translation() - from.X_WO.translation()).norm() +
-         std::abs(turn.angle()) * RadiusAboutOrigin(from.shape);
-}
-
-bool Contradicts(const Obstacle& before, const Obstacle& now) {
-  const ObstacleMotion &a = before.motion, &b = now.motion;
-  const double elapsed = b.measured_at - a.measured_at;
-  const double allowed = a.error + b.error + a.speed * elapsed;
-  return Displacement(before, now) > allowed + kRounding;
-}
-
-// What of a world an earlier one did not allow: names.
-std::vector<std::string> Contradictions(const World& earlier, const World& now) {
-  std::vector<std::string> names;
-  for (size_t i = 0; i < now.scene.obstacles.size(); ++i) {
-    const Obstacle& obstacle = now.scene.obstacles[i];
-    // Mostly the same obstacles are there in the same order.
-    auto old = earlier.scene.obstacles.begin() +
-               static_cast<std::ptrdiff_t>(std::min(i, earlier.scene.obstacles.size()));
-    if (old == earlier.scene.obstacles.end() || old->name != obstacle.name) {
-      old = std::ranges::find(earlier.scene.obstacles, obstacle.name, &Obstacle::name);
-    }
-    if (old == earlier.scene.obstacles.end() || Contradicts(*old, obstacle)) {
-      names.push_back(obstacle.name);
-    }
-  }
-  if (!std::ranges::includes(earlier.areas, now.areas)) names.push_back("a no-step area");
-  return names;
+// The obstacle of that name; mostly obstacles are there in the same order.
+std::optional<size_t> Find(const std::vector<Obstacle>& obstacles, const std::string& name,
+                           size_t likely) {
+  if (likely < obstacles.size() && obstacles[likely].name == name) return likely;
+  const auto it = std::ranges::find(obstacles, name, &Obstacle::name);
+  if (it == obstacles.end()) return {};
+  return static_cast<size_t>(it - obstacles.begin());
 }
 
 Eigen::Vector3d InBall(double radius, std::mt19937_64& random) {
@@ -66,28 +41,24 @@ double World::valid_until() const {
   return until;
 }
 
-WorldUpdate Updated(std::span<const World> before, World frame, const LiveOptions& options) {
+WorldUpdate Updated(const World& last, const PastWorlds& past, World frame,
+                    const LiveOptions& options) {
   WorldUpdate update{.world = std::move(frame), .contradictions = {}};
   World& world = update.world;
-  const World& last = before.back();
   world.version = last.version + 1;
-  world.sound_since = last.sound_since;
-  for (const World& earlier : before | std::views::reverse) {
-    if (earlier.version < last.sound_since) break;
-    update.contradictions = Contradictions(earlier, world);
-    if (update.contradictions.empty()) continue;
-    world.sound_since = earlier.version + 1;
-    break;
-  }
+  PastWorlds::Contradiction latest = past.Latest(world, last.sound_since);
+  world.sound_since = std::max(last.sound_since, latest.version + 1);
+  update.contradictions = std::move(latest.names);
   for (size_t i = 0; i < world.scene.obstacles.size(); ++i) {
     Obstacle& now = world.scene.obstacles[i];
-    const auto old = std::ranges::find(last.scene.obstacles, now.name, &Obstacle::name);
-    if (old == last.scene.obstacles.end()) continue;
-    const World::Stay& stay = last.stays[static_cast<size_t>(old - last.scene.obstacles.begin())];
-    Obstacle first = now;
-    first.X_WO = stay.X_WO;
+    const std::optional<size_t> old = Find(last.scene.obstacles, now.name, i);
+    if (!old) continue;
+    const World::Stay& stay = last.stays[*old];
     const double drifted = options.drift * (now.motion.measured_at - stay.since);
-    if (Displacement(first, now) > 2.0 * now.motion.error + drifted + kRounding) continue;
+    if (Displacement(stay.X_WO, now.X_WO, now.shape) >
+        2.0 * now.motion.error + drifted + kRounding) {
+      continue;
+    }
     world.stays[i] = stay;
     const bool rests = options.sensing.rests_after &&
                        now.motion.measured_at - stay.since >= *options.sensing.rests_after;
@@ -103,6 +74,17 @@ World Since(World world, double origin) {
   return world;
 }
 
+Obstacle Measured(Obstacle obstacle, const Eigen::Isometry3d& X_WO, double t,
+                  const LiveOptions& options) {
+  obstacle.X_WO = X_WO;
+  obstacle.motion = {.waypoints = {},
+                     .error = options.sensing.error,
+                     .speed = obstacle.motion.speed + options.drift,
+                     .measured_at = t,
+                     .horizon = options.horizon};
+  return obstacle;
+}
+
 World Measure(const TrueWorld& truth, double t, const LiveOptions& options,
               std::mt19937_64& random) {
   World frame;
@@ -113,14 +95,9 @@ World Measure(const TrueWorld& truth, double t, const LiveOptions& options,
     // Drawn for all, so that what one obstacle does changes nothing for the others.
     const Eigen::Vector3d off = InBall(options.sensing.noise, random);
     if (!truth.IsThere(i, t)) continue;
-    Obstacle obstacle = truth.scene().obstacles[i];
-    obstacle.X_WO = truth.PoseAt(i, t);
-    obstacle.X_WO.translation() += off;
-    obstacle.motion = {.waypoints = {},
-                       .error = options.sensing.error,
-                       .speed = obstacle.motion.speed + options.drift,
-                       .measured_at = t,
-                       .horizon = options.horizon};
+    Eigen::Isometry3d X_WO = truth.PoseAt(i, t);
+    X_WO.translation() += off;
+    Obstacle obstacle = Measured(truth.scene().obstacles[i], X_WO, t, options);
     frame.stays.push_back({obstacle.X_WO, t});
     frame.scene.obstacles.push_back(std::move(obstacle));
   }

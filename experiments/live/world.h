@@ -1,7 +1,6 @@
 #pragma once
 
 #include <random>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -37,22 +36,28 @@ struct World {
   double valid_until() const;
 };
 
+class PastWorlds;
+
 /// The world after a frame, and which obstacles or areas contradict what was known: names for
-/// messages. `before` has the versions so far, in order. An obstacle contradicts an earlier version
-/// when a point of it is farther from where it was measured then than both errors and its speed
-/// then allow, and when it was not there; a no-step area when it was not there. Every version that
-/// is not void yet is looked at: an obstacle that is taken to rest and creeps contradicts an old
+/// messages. `past` has the versions so far, up to `last`. An obstacle contradicts an earlier
+/// version when a point of it is farther from where it was measured then than both errors and its
+/// speed then allow, and when it was not there; a no-step area when it was not there. Every version
+/// that is not void yet counts: an obstacle that is taken to rest and creeps contradicts an old
 /// one, although never the last. What vanishes contradicts nothing. An obstacle that has stayed for
-/// `sensing.rests_after` is taken to rest: its speed is that of the drift. Precondition: `before`
-/// is not empty.
+/// `sensing.rests_after` is taken to rest: its speed is that of the drift.
 struct WorldUpdate {
   World world;
   std::vector<std::string> contradictions;
 };
-WorldUpdate Updated(std::span<const World> before, World frame, const LiveOptions& options);
+WorldUpdate Updated(const World& last, const PastWorlds& past, World frame,
+                    const LiveOptions& options);
 
 /// The same world for a walk that begins at time `origin` [s]: all times are counted from there.
 World Since(World world, double origin);
+
+/// An obstacle of a scene as it was measured at t [s].
+Obstacle Measured(Obstacle obstacle, const Eigen::Isometry3d& X_WO, double t,
+                  const LiveOptions& options);
 
 /// The stand-in for motion capture: a frame of what is truly there at t [s], positions off by the
 /// noise. Version and `sound_since` are for Updated() to fill.

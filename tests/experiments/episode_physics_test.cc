@@ -8,7 +8,7 @@
 
 #include "experiments/commands/commands.h"
 #include "experiments/config/experiment.h"
-#include "experiments/live/episode_files.h"
+#include "experiments/live/episode_tables.h"
 #include "experiments/replay/simulation.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/parsed_csv.h"
@@ -43,6 +43,7 @@ PlayedInPhysics PlayInPhysics(const Scene& scene, const LiveConfig& config,
   PlayedInPhysics played;
   played.episode = RunLockstep(replanner, &sensor, small.start,
                                {.on_tick = [&](const EpisodeTick& tick) { physics.Play(tick); },
+                                .on_wait = {},
                                 .held = {},
                                 .fallen = [&] { return physics.fallen(); },
                                 .stop = {}});
@@ -199,7 +200,7 @@ TEST(LiveInPhysicsCommand, WritesAFolderThatVerifiesAndReplaysOrSaysWhyNot) {
   const Outcome live =
       Halfstep(place.path(), {"live", "walk.yaml", "--in-physics", "--out", "episode", "--json"});
   if (!WhyNoSimulation().empty()) {
-    EXPECT_EQ(live.status, kFailed);
+    EXPECT_EQ(live.status, kBadInput);
     EXPECT_THAT(live.err, HasSubstr(WhyNoSimulation()));
     EXPECT_FALSE(std::filesystem::exists(place / "episode"));
     return;

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <random>
 
-#include "experiments/live/episode_files.h"
 #include "experiments/live/episode_loop.h"
 #include "experiments/live/episode_touch.h"
 #include "experiments/live/thinker.h"
@@ -76,17 +75,14 @@ TEST(EpisodeTest, EveryPolicyArrives) {
   for (const std::string policy : {"paper", "stop_and_replan"}) {
     const PlayedEpisode played = BarInTheWay(policy);
     EXPECT_EQ(played.episode.ending, EpisodeEnding::kArrived) << policy << "\n"
-                                                              << EventsCsv(played.episode).text;
+                                                              << TablesText(played.episode);
     ExpectExecutedWhatWasHandedOver(played.episode);
   }
 }
 
 TEST(EpisodeTest, TheSameAgainToTheByte) {
   const Episode one = BarInTheWay().episode, two = BarInTheWay().episode;
-  EXPECT_EQ(EventsCsv(one).text, EventsCsv(two).text);
-  EXPECT_EQ(PlansCsv(one).text, PlansCsv(two).text);
-  EXPECT_EQ(GrantsCsv(one).text, GrantsCsv(two).text);
-  EXPECT_EQ(ObstaclesCsv(one).text, ObstaclesCsv(two).text);
+  EXPECT_EQ(TablesText(one), TablesText(two));
 }
 
 // At any moment the robot may begin nothing more: what is left of the half-steps under way keeps
@@ -205,7 +201,7 @@ TEST(EpisodeTest, ASlowMachineArrivesToo) {
   StandInSensor sensor(truth, config.live, 1);
   EpisodeClock clock;
   const Episode episode = EpisodeLoop(replanner, &sensor, &thinker, &clock, {}).Run(small.start);
-  EXPECT_EQ(episode.ending, EpisodeEnding::kArrived) << EventsCsv(episode).text;
+  EXPECT_EQ(episode.ending, EpisodeEnding::kArrived) << TablesText(episode);
   EXPECT_GT(CountOf(episode, "refused"), 0);
   EXPECT_TRUE(std::ranges::any_of(episode.walks, [](const ExecutedWalk& walk) {
     return walk.t > 0.0 && walk.kind == ProposalKind::kChanged;

@@ -8,11 +8,26 @@
 
 #include "experiments/config/experiment.h"
 #include "experiments/live/episode.h"
+#include "experiments/live/episode_tables.h"
 #include "experiments/live/live_config.h"
 #include "experiments/live/replanner.h"
 #include "experiments/run/planning.h"
 
 namespace halfstep {
+
+/// The config of the small world.
+inline constexpr char kSmallConfig[] =
+    "robot: hrp2\n"
+    "scene: none\n"
+    "goal: {x_m: 1.2, y_m: 0, radius_m: 0.15}\n"
+    "half_step: {duration_s: 1.5, zmp_shift_s: 0.075}\n"
+    "step_set: {x_min_m: -0.1, x_max_m: 0.2, y_min_m: -0.29, y_max_m: -0.21,\n"
+    "           spacing_m: 0.08, yaws_rad: [-0.25, 0, 0.25]}\n"
+    "swept_volumes: {cell_m: 0.03, displacement_m: 0.02,\n"
+    "                cache: " HALFSTEP_BINARY_DIR
+    "/swept_volumes_of_tests}\n"
+    "planner: {unimproved_nodes: 100, max_nodes: 2000}\n"
+    "live: {smooth_ahead: 4, tolerance_s: 0.1, longest_s: 60}\n";
 
 /// HRP-2 with a dozen half-steps on coarse cells, which are baked once for all tests of a program.
 struct SmallWorld {
@@ -24,20 +39,7 @@ struct SmallWorld {
   static const SmallWorld& Get() {
     static const SmallWorld world = [] {
       SmallWorld made;
-      made.config = ParseLiveConfig(
-          "small.yaml",
-          "robot: hrp2\n"
-          "scene: none\n"
-          "goal: {x_m: 1.2, y_m: 0, radius_m: 0.15}\n"
-          "half_step: {duration_s: 1.5, zmp_shift_s: 0.075}\n"
-          "step_set: {x_min_m: -0.1, x_max_m: 0.2, y_min_m: -0.29, y_max_m: -0.21,\n"
-          "           spacing_m: 0.08, yaws_rad: [-0.25, 0, 0.25]}\n"
-          "swept_volumes: {cell_m: 0.03, displacement_m: 0.02,\n"
-          "                cache: " HALFSTEP_BINARY_DIR
-          "/swept_volumes_of_tests}\n"
-          "planner: {unimproved_nodes: 100, max_nodes: 2000}\n"
-          "live: {smooth_ahead: 4, tolerance_s: 0.1, longest_s: 60}\n",
-          {});
+      made.config = ParseLiveConfig("small.yaml", kSmallConfig, {});
       made.place = LoadPlace(made.config.experiment);
       made.baked = BakeHalfSteps(made.place.robot, made.config.experiment, {});
       made.start = StartOf(made.config.experiment, made.place.robot);
@@ -72,7 +74,8 @@ struct PlayedEpisode {
   std::unique_ptr<Replanner> replanner;
   Episode episode;
 };
-inline PlayedEpisode Play(const Scene& scene, const LiveConfig& config) {
+inline PlayedEpisode Play(const Scene& scene, const LiveConfig& config,
+                          const EpisodeHooks& hooks = {}) {
   const SmallWorld& small = SmallWorld::Get();
   PlayedEpisode played{.config = config, .truth = nullptr, .replanner = nullptr, .episode = {}};
   played.truth = std::make_unique<TrueWorld>(scene, config.experiment.goal, config.live);
@@ -81,8 +84,20 @@ inline PlayedEpisode Play(const Scene& scene, const LiveConfig& config) {
   const auto run = config.live.clock == "wall" ? RunWallClock : RunLockstep;
   StandInSensor sensor(*played.truth, config.live,
                        static_cast<std::uint64_t>(config.experiment.seed) + 1);
-  played.episode = run(*played.replanner, &sensor, small.start, {});
+  played.episode = run(*played.replanner, &sensor, small.start, hooks);
   return played;
+}
+
+/// All tables of an episode but what computing took.
+inline std::string TablesText(const Episode& episode) {
+  std::string text;
+  for (const EpisodeTable& table : EpisodeTables(episode, {})) {
+    if (table.name != "timings") text += table.name + "\n" + table.file.text;
+  }
+  for (size_t walk = 0; walk < episode.walks.size(); ++walk) {
+    for (const EpisodeTable& table : WalkTables(episode, walk)) text += table.file.text;
+  }
+  return text;
 }
 
 }  // namespace halfstep

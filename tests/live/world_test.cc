@@ -5,6 +5,7 @@
 
 #include <limits>
 
+#include "experiments/live/past_worlds.h"
 #include "tests/live/small_episode.h"
 
 namespace halfstep {
@@ -26,7 +27,7 @@ World Frame(double t, double x, double speed) {
 
 // After one version.
 WorldUpdate After(const World& before, World frame, const LiveOptions& options) {
-  return Updated({&before, 1}, std::move(frame), options);
+  return Updated(before, PastWorlds({&before, 1}), std::move(frame), options);
 }
 
 TEST(World, AnObstacleContradictsBeyondErrorsAndSpeed) {
@@ -78,8 +79,8 @@ TEST(World, WhatStaysIsTakenToRestUntilItIsElsewhere) {
 TEST(World, WhatCreepsContradictsAnEarlierWorld) {
   std::vector<World> worlds = {Frame(1.0, 0.0, 0.0)};
   for (const double x : {0.01, 0.019, 0.028}) {
-    WorldUpdate next =
-        Updated(worlds, Frame(worlds.back().measured_at + 0.2, x, 0.0), LiveOptions{});
+    WorldUpdate next = Updated(worlds.back(), PastWorlds(worlds),
+                               Frame(worlds.back().measured_at + 0.2, x, 0.0), LiveOptions{});
     EXPECT_TRUE(After(worlds.back(), next.world, {}).contradictions.empty());
     worlds.push_back(std::move(next.world));
   }

@@ -1,0 +1,266 @@
+#include "experiments/live/episode_reader.h"
+
+#include <algorithm>
+#include <charconv>
+#include <sstream>
+
+#include "experiments/live/episode_tables.h"
+#include "experiments/tables/csv_reader.h"
+#include "experiments/tables/json_file.h"
+#include "experiments/tables/parameter_tables.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/text.h"
+
+namespace halfstep {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The tables of a folder, by columns. Of a journal, a line that was cut is left out.
+class Tables {
+ public:
+  Tables(fs::path folder, bool is_journal) : folder_(std::move(folder)), is_journal_(is_journal) {}
+
+  const fs::path& folder() const { return folder_; }
+
+  CsvTable Of(const std::string& name) const {
+    const std::string path = (folder_ / (name + ".csv")).string();
+    std::string text = ReadCsvText(path);
+    if (is_journal_) text.resize(text.rfind('\n') + 1);
+    return ParseCsv(text, path);
+  }
+
+ private:
+  fs::path folder_;
+  bool is_journal_;
+};
+
+// The entry of `all` whose name stands in a cell.
+template <typename Enum, size_t n>
+Enum Named(const std::array<Enum, n>& all, const std::string& name, const CsvTable& table,
+           size_t row) {
+  std::string valid;
+  for (const Enum one : all) {
+    if (Name(one) == name) return one;
+    valid += (valid.empty() ? "" : ", ") + std::string(Name(one));
+  }
+  throw InputError(
+      {table.path + Formatted(":%zu: ", row + 2) + Quote(name) + " (valid: " + valid + ")"});
+}
+
+// An index into a list that has `count` entries.
+size_t IndexIn(size_t count, double value, const CsvTable& table, size_t row,
+               const std::string& column) {
+  if (value >= 0.0 && value < static_cast<double>(count) && value == std::floor(value)) {
+    return static_cast<size_t>(value);
+  }
+  throw InputError({table.path + Formatted(":%zu: ", row + 2) + column + ": " +
+                    Formatted("%g: there are %zu (valid: from 0, below that)", value, count)});
+}
+
+std::vector<int> Integers(const CsvTable& table, const std::string& column) {
+  std::vector<int> integers;
+  for (const double value : table.Numbers(column)) integers.push_back(static_cast<int>(value));
+  return integers;
+}
+
+void ReadWorlds(const Tables& tables, const LiveConfig& config, const Place& place,
+                Episode* episode) {
+  const CsvTable table = tables.Of("worlds");
+  const std::vector<double> known = table.Numbers("known_s"),
+                            measured = table.Numbers("measured_s"), x = table.Numbers("goal_x_m"),
+                            y = table.Numbers("goal_y_m");
+  const std::vector<int> version = Integers(table, "world"), sound = Integers(table, "sound_since");
+  const std::vector<std::string> areas = table.Texts("areas");
+  for (size_t k = 0; k < known.size(); ++k) {
+    World world;
+    world.version = version[k];
+    world.measured_at = measured[k];
+    world.sound_since = sound[k];
+    world.goal = config.experiment.goal.Region();
+    world.goal.X_WG.x = x[k];
+    world.goal.X_WG.y = y[k];
+    world.scene.name = place.scene.name;
+    std::istringstream words(areas[k] == "none" ? "" : areas[k]);
+    for (double area = 0.0; words >> area;) {
+      const size_t index = IndexIn(place.scene.no_step.size(), area - 1.0, table, k, "areas");
+      world.areas.push_back(index);
+      world.scene.no_step.push_back(place.scene.no_step[index]);
+    }
+    episode->worlds.push_back(std::move(world));
+    episode->known.push_back(known[k]);
+  }
+}
+
+void ReadObstacles(const Tables& tables, const Place& place, Episode* episode) {
+  const CsvTable table = tables.Of("obstacles");
+  const std::vector<std::string> names = table.Texts("obstacle");
+  std::vector<std::vector<double>> numbers;
+  for (const char* column : {"world", "x_m", "y_m", "z_m", "qw", "qx", "qy", "qz", "error_m",
+                             "speed_m_s", "horizon_s"}) {
+    numbers.push_back(table.Numbers(column));
+  }
+  for (size_t row = 0; row < names.size(); ++row) {
+    const auto at = [&](size_t column) { return numbers[column][row]; };
+    const auto world = std::ranges::find(episode->worlds, static_cast<int>(at(0)), &World::version);
+    if (world == episode->worlds.end()) continue;  // killed before its row was written
+    const auto shape = std::ranges::find(place.scene.obstacles, names[row], &Obstacle::name);
+    if (shape == place.scene.obstacles.end()) {
+      throw InputError({table.path + Formatted(":%zu: obstacle: ", row + 2) + Quote(names[row]) +
+                        " is not in the scene (valid: the name of one of its obstacles)"});
+    }
+    Obstacle obstacle = *shape;
+    obstacle.X_WO.translation() = Eigen::Vector3d(at(1), at(2), at(3));
+    obstacle.X_WO.linear() =
+        Eigen::Quaterniond(at(4), at(5), at(6), at(7)).normalized().toRotationMatrix();
+    obstacle.motion = {.waypoints = {},
+                       .error = at(8),
+                       .speed = at(9),
+                       .measured_at = world->measured_at,
+                       .horizon = at(10)};
+    world->scene.obstacles.push_back(std::move(obstacle));
+  }
+}
+
+WalkPlan ReadWalk(const Tables& tables, size_t walk, const LiveConfig& config, const Place& place) {
+  const CsvTable table = tables.Of(WalkFolder(walk) + "/footsteps");
+  const std::vector<std::string> feet = table.Texts("foot");
+  const std::vector<double> x = table.Numbers("x_m"), y = table.Numbers("y_m"),
+                            yaw = table.Numbers("yaw_rad"), via = table.Numbers("via_height_m"),
+                            duration = table.Numbers("duration_s");
+  constexpr std::array kSides = {Side::kLeft, Side::kRight};
+  std::array<Footprint, 2> start;
+  std::vector<Footstep> footsteps;
+  for (size_t row = 0; row < feet.size(); ++row) {
+    const Side side = Named(kSides, feet[row], table, row);
+    const Footprint X_WF{x[row], y[row], yaw[row]};
+    if (row < 2) {
+      start[static_cast<size_t>(Index(side))] = X_WF;
+    } else {
+      footsteps.push_back({side, X_WF, via[row], duration[row]});
+    }
+  }
+  if (footsteps.empty()) throw InputError({table.path + ": no footsteps"});
+  const HalfStepConfig& half_step = config.experiment.half_step;
+  WalkPlan plan;
+  plan.sequence = MakeSequence(start, footsteps, half_step.via_lateral, ShapeOf(half_step),
+                               Lipm{.com_height = place.robot.com_height});
+  plan.parameters = ReadParameters(tables.folder() / WalkFolder(walk), plan.sequence);
+  return plan;
+}
+
+void ReadWalks(const Tables& tables, const LiveConfig& config, const Place& place,
+               Episode* episode) {
+  const CsvTable table = tables.Of("plans"), timings = tables.Of("timings");
+  const std::vector<double> t = table.Numbers("handed_over_s"), asked = table.Numbers("asked_s"),
+                            measured = table.Numbers("measured_s"),
+                            check = timings.Numbers("check_s"), plan = timings.Numbers("plan_s"),
+                            smooth = timings.Numbers("smooth_s");
+  const std::vector<int> first = Integers(table, "first_changed");
+  const std::vector<std::string> kinds = table.Texts("kind"), reasons = table.Texts("reason");
+  if (check.size() < t.size()) throw InputError({timings.path + ": has fewer rows than plans.csv"});
+  for (size_t k = 0; k < t.size(); ++k) {
+    episode->walks.push_back({.t = t[k],
+                              .kind = Named(kProposalKinds, kinds[k], table, k),
+                              .reason = reasons[k] == "none" ? "" : reasons[k],
+                              .plan = ReadWalk(tables, k, config, place),
+                              .first_changed = first[k] - 1,
+                              .asked = asked[k],
+                              .measured = measured[k],
+                              .check_s = check[k],
+                              .plan_s = plan[k],
+                              .smooth_s = smooth[k]});
+  }
+}
+
+void ReadGrants(const Tables& tables, Episode* episode) {
+  const CsvTable table = tables.Of("grants"), begun = tables.Of("begun");
+  const std::vector<double> t = table.Numbers("t_s"), from = table.Numbers("proved_from_s"),
+                            until = table.Numbers("valid_until_s"), walk = table.Numbers("walk");
+  const std::vector<int> version = Integers(table, "world"), through = Integers(table, "through");
+  for (size_t k = 0; k < t.size(); ++k) {
+    const size_t of = IndexIn(episode->walks.size(), walk[k], table, k, "walk");
+    episode->grants.push_back({t[k],
+                               static_cast<int>(of),
+                               {.version = version[k],
+                                .proved_at = from[k],
+                                .through = through[k] - 1,
+                                .valid_until = until[k]}});
+  }
+  const std::vector<int> half_step = Integers(begun, "half_step");
+  const std::vector<double> grant = begun.Numbers("grant");
+  for (size_t k = 0; k < half_step.size(); ++k) {
+    const size_t by = IndexIn(t.size(), grant[k], begun, k, "grant");
+    episode->begun.push_back({half_step[k] - 1, static_cast<int>(by)});
+  }
+}
+
+void ReadEvents(const Tables& tables, Episode* episode) {
+  const CsvTable table = tables.Of("events");
+  const std::vector<double> t = table.Numbers("t_s");
+  const std::vector<std::string> what = table.Texts("event"), text = table.Texts("text");
+  const std::vector<int> version = Integers(table, "world"), walk = Integers(table, "walk"),
+                         half_step = Integers(table, "half_step");
+  for (size_t k = 0; k < t.size(); ++k) {
+    episode->events.push_back({.t = t[k],
+                               .what = what[k],
+                               .version = version[k],
+                               .walk = walk[k],
+                               .half_step = half_step[k] - 1,
+                               .text = text[k] == "none" ? "" : text[k]});
+  }
+}
+
+Episode ReadTables(const Tables& tables, const LiveConfig& config, const Place& place) {
+  Episode episode;
+  ReadWorlds(tables, config, place, &episode);
+  ReadObstacles(tables, place, &episode);
+  ReadWalks(tables, config, place, &episode);
+  ReadGrants(tables, &episode);
+  ReadEvents(tables, &episode);
+  return episode;
+}
+
+}  // namespace
+
+Episode ReadEpisode(const fs::path& folder, const LiveConfig& config, const Place& place) {
+  Episode episode = ReadTables({folder, false}, config, place);
+  const fs::path path = folder / "manifest.json";
+  try {
+    const nlohmann::json manifest = ReadJsonObject(path);
+    const auto ending = manifest.at("ending").get<std::string>();
+    const auto named =
+        std::ranges::find(kEpisodeEndings, ending, [](EpisodeEnding one) { return Name(one); });
+    if (named == kEpisodeEndings.end())
+      throw InputError({path.string() + ": ending: " + Quote(ending)});
+    episode.ending = *named;
+    episode.message = manifest.at("message").get<std::string>();
+    episode.waited = manifest.at("waited_s").get<double>();
+    episode.stopped = manifest.at("stopped").get<bool>();
+    episode.end = manifest.at("end_s").get<double>();
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError({path.string() + ": is not an episode's manifest: " + error.what()});
+  }
+  return episode;
+}
+
+Episode ReadJournal(const fs::path& folder, const LiveConfig& config, const Place& place) {
+  const Tables tables(folder, true);
+  Episode episode = ReadTables(tables, config, place);
+  const CsvTable clock = tables.Of("clock");
+  if (clock.rows.size() != 1 || episode.walks.empty() || episode.begun.empty()) {
+    throw InputError({folder.string() + ": the episode was killed before the robot began to walk"});
+  }
+  episode.waited = clock.Numbers("waited_s")[0];
+  episode.end = clock.Numbers("now_s")[0];
+  episode.ending = EpisodeEnding::kKilled;
+  episode.message = "the process was killed";
+  // Whether the walk in execution was cut.
+  for (const EpisodeEvent& event : episode.events) {
+    if (event.what == "stopped") episode.stopped = true;
+    if (event.what == "handed_over") episode.stopped = false;
+  }
+  return episode;
+}
+
+}  // namespace halfstep

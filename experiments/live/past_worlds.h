@@ -1,0 +1,68 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "experiments/live/world.h"
+
+namespace halfstep {
+
+/// How far a point of a shape is, when its frame is at one pose, from where it is at another, at
+/// most [m].
+double Displacement(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to, const Shape& shape);
+
+/// Where everything was measured in the worlds so far, kept so that a new one is compared with all
+/// of them without looking at each: runs of measurements are known by a ball around them.
+class PastWorlds {
+ public:
+  /// Precondition: `worlds` in the order of their versions.
+  explicit PastWorlds(std::span<const World> worlds = {});
+
+  void Add(const World& world);
+
+  /// The latest world, from version `since` on, that a newer one contradicts, −1: none; and names
+  /// of what of it that one did not allow, for messages.
+  struct Contradiction {
+    int version = -1;
+    std::vector<std::string> names = {};
+  };
+  Contradiction Latest(const World& now, int since) const;
+
+ private:
+  struct Place {
+    int version;
+    Eigen::Isometry3d X_WO;
+    double error, speed, measured_at;
+  };
+  // Some places, one after the other, together.
+  struct Run {
+    Eigen::Vector3d center;
+    double radius;         // of a ball around the places of the frame's origin [m]
+    Eigen::Matrix3d axes;  // of the first place
+    double turn;           // farthest from these axes [rad]
+    double error, speed;   // least
+    double last_measured_at;
+  };
+  // An obstacle without a gap: it was there in the world after `absent` and in all since.
+  struct Track {
+    int absent = -1;      // the latest version without it
+    double radius = 0.0;  // about its frame's origin [m]
+    std::vector<Place> places = {};
+    std::vector<Run> runs = {}, long_runs = {};  // each of kRun places; of kRun runs
+  };
+
+  static Run Together(std::span<const Place> places);
+  static bool Contradicts(const Place& before, const Obstacle& now, double radius);
+  static bool MayContradict(const Run& run, const Obstacle& now, double radius);
+  // The latest version, from `since` on, that the obstacle contradicts; −1: none.
+  int Latest(const Obstacle& now, int since) const;
+
+  int last_ = -1;  // version
+  std::map<std::string, Track> tracks_;
+  std::map<size_t, int> areas_absent_;  // by area of the last world: the latest version without it
+};
+
+}  // namespace halfstep

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <vector>
+
+#include "tests/benchmarks/studied_episode.h"
+
+namespace halfstep {
+
+/// Prints the columns of PrintRow.
+void PrintHeader();
+void PrintRow(const StudiedEpisode& episode);
+/// What the bench of live walking asks, over all episodes: a table in Markdown.
+void PrintTable(const std::vector<StudiedEpisode>& episodes);
+/// A histogram of latencies and of what they consist of: rows `part,up_to_s,count`.
+void PrintHistogram(const std::vector<StudiedEpisode>& episodes);
+
+}  // namespace halfstep

@@ -1,0 +1,189 @@
+#include "tests/benchmarks/studied_episode.h"
+
+#include <time.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "experiments/live/episode_summary.h"
+#include "experiments/live/episode_touch.h"
+#include "experiments/live/sensor.h"
+#include "smoothing/proof/certified_feasibility.h"
+#include "tests/benchmarks/random_episode.h"
+
+namespace halfstep {
+namespace {
+
+double ThreadSeconds() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+// The duration of a walk that knew from the beginning how everything ends, with the overlaps of so
+// many junctions; 0: there is none. `exactly`: without what the robot must assume of errors and
+// speeds.
+double Clairvoyant(const Replanner& replanner, const TrueWorld& truth,
+                   const std::array<Footprint, 2>& start, std::uint64_t seed, bool exactly,
+                   int junctions) {
+  LiveOptions options = replanner.config().live;
+  options.sensing.noise = 0.0;
+  std::mt19937_64 random(seed);
+  World world = Measure(truth, truth.end() + 1.0, options, random);
+  for (Obstacle& obstacle : world.scene.obstacles) {
+    if (exactly) obstacle.motion = {};
+    if (options.sensing.rests_after) obstacle.motion.speed = 0.0;
+  }
+  const Proposal walk = replanner.Begin(start, *replanner.Prepare(Since(world, world.measured_at)),
+                                        junctions, random);
+  return walk.kind == ProposalKind::kUnsafe ? 0.0 : DurationOf(walk.plan.parameters);
+}
+
+// How smooth the executed motion is.
+void ExamineMotion(const Episode& episode, StudiedEpisode* studied) {
+  const SuperposedWalk walk = episode.Executed();
+  const double omega = walk.lipm().omega();
+  const auto jump = [&](double t) {
+    // The change over 2h, less what the derivatives of either side make of it: twice the change
+    // over 2h less that over 4h.
+    const double h = 1e-12;
+    const WalkJet a = walk.At(t - h), b = walk.At(t + h);
+    const WalkJet c = walk.At(t - 2 * h), d = walk.At(t + 2 * h);
+    const auto of = [](const WalkState& near, const WalkState& far) {
+      return (2.0 * near - far).cwiseAbs().maxCoeff();
+    };
+    studied->jump = std::max({studied->jump, of(b.value - a.value, d.value - c.value),
+                              of(b.first - a.first, d.first - c.first),
+                              of(b.second - a.second, d.second - c.second)});
+  };
+  for (const ExecutedWalk& one : episode.walks) jump(one.t);
+  for (int i = 0; i < walk.num_half_steps(); ++i) jump(walk.start_of(i));
+  for (double t = 0.0; t < walk.duration(); t += 0.01) {
+    const WalkJet jet = walk.At(t);
+    for (int axis = 0; axis < 2; ++axis) {
+      const double zmp = jet.value[kComX + axis] - jet.second[kComX + axis] / (omega * omega);
+      studied->residual = std::max(studied->residual, std::abs(zmp - jet.value[kZmpX + axis]));
+    }
+  }
+}
+
+// Whether an obstacle did what was not to be expected of it shortly before t: it jumped, or was
+// taken to rest and moved.
+bool BrokeItsBounds(const Episode& episode, const std::string& obstacle, double t) {
+  constexpr double kBefore = 3.0;  // [s] a half-step, and what it takes to notice
+  bool known = false;
+  for (const EpisodeEvent& event : episode.events) {
+    known = known || (event.what == "contradicted" && event.text == obstacle &&
+                      event.t > t - kBefore && event.t < t + kBefore);
+  }
+  return known;
+}
+
+// Whether the walk that is cut after half-step k, which has begun, comes to rest with every margin
+// kept in the world that allowed that half-step to begin: proved.
+bool ComesToRest(const Episode& episode, const SuperposedWalk& branch, size_t k,
+                 const LiveStudy& study) {
+  const Grant& grant = episode.grants[static_cast<size_t>(episode.begun[k].grant)].grant;
+  const auto world = std::ranges::find(episode.worlds, grant.version, &World::version);
+  const SmoothingConfig& smoothing = study.base.experiment.smoothing;
+  const MarginEvaluator evaluator(study.place.robot, world->scene, smoothing.limits);
+  const CertifiedFeasibility test(evaluator, smoothing.certification);
+  MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
+  const double from = branch.start_of(static_cast<int>(k));
+  return test.Check(branch, {from, branch.duration()}, &scratch).verdict == Verdict::kFeasible;
+}
+
+// Stops at random times while the robot walks: nothing more begins from then on.
+void StopAtRandom(const Episode& episode, const LiveStudy& study, StudiedEpisode* studied) {
+  std::mt19937_64 random(studied->seed);
+  const SuperposedWalk walk = episode.Executed();
+  enum class Branch { kNotLookedAt, kSafe, kUnsafe };
+  std::vector<Branch> branches(episode.begun.size(), Branch::kNotLookedAt);
+  std::uniform_real_distribution<double> time(0.0, std::min(walk.duration(), episode.end));
+  for (int i = 0; i < study.stops; ++i) {
+    const double t = time(random);
+    size_t k = 0;  // the latest half-step that has begun at t
+    while (k + 1 < branches.size() && walk.start_of(static_cast<int>(k) + 1) <= t) ++k;
+    const SuperposedWalk branch = walk.StopBranch(static_cast<int>(k));
+    if (branches[k] == Branch::kNotLookedAt) {
+      branches[k] = ComesToRest(episode, branch, k, study) ? Branch::kSafe : Branch::kUnsafe;
+    }
+    ++studied->stops;
+    studied->safe_stops += branches[k] == Branch::kSafe;
+    studied->longest_stop = std::max(studied->longest_stop, branch.duration() - t);
+  }
+}
+
+// When the world was measured against which the first of the searches failed that found nothing
+// before the hand-over at t [s]; `otherwise` when there was none.
+double UnsafeSince(const Episode& episode, double t, double otherwise) {
+  double since = otherwise;
+  bool in_vain = false;
+  for (const EpisodeEvent& event : episode.events) {
+    if (event.t >= t) break;
+    if (event.what == "handed_over") in_vain = false;
+    if (event.what != "unsafe" || in_vain) continue;
+    in_vain = true;
+    const auto grant = std::ranges::find(episode.grants, event.t, &EpisodeGrant::t);
+    since = std::ranges::find(episode.worlds, grant->grant.version, &World::version)->measured_at;
+  }
+  return in_vain ? since : otherwise;
+}
+
+void Time(const Episode& episode, StudiedEpisode* studied) {
+  for (size_t k = 1; k < episode.walks.size(); ++k) {
+    const ExecutedWalk& walk = episode.walks[k];
+    if (walk.kind == ProposalKind::kSmoothed) studied->smoothing.push_back(walk.smooth_s);
+    if (walk.kind != ProposalKind::kChanged) continue;
+    studied->latencies.push_back(
+        {.whole = walk.t - walk.measured,
+         .age = walk.asked - walk.measured,
+         .answer = walk.t - walk.asked,
+         .check = walk.check_s,
+         .plan = walk.plan_s,
+         .since_unsafe = walk.t - UnsafeSince(episode, walk.t, walk.measured)});
+  }
+}
+
+}  // namespace
+
+StudiedEpisode WalkEpisode(const LiveStudy& study, std::uint64_t seed) {
+  const RandomEpisode drawn = DrawEpisode(study.base, seed);
+  const LiveOptions& live = drawn.config.live;
+  const TrueWorld truth(drawn.scene, drawn.config.experiment.goal, live);
+  const Replanner replanner(study.place.robot, drawn.config, *study.baked.cached.volumes);
+  StandInSensor sensor(truth, live, static_cast<std::uint64_t>(drawn.config.experiment.seed) + 1);
+  StudiedEpisode studied;
+  studied.seed = seed;
+  studied.rests = live.sensing.rests_after.has_value();
+  studied.clairvoyant = Clairvoyant(replanner, truth, study.start, seed, true, 1000);
+  studied.reachable = Clairvoyant(replanner, truth, study.start, seed, false, 0) > 0.0;
+  const double begin = ThreadSeconds();
+  const auto run = live.clock == "wall" ? RunWallClock : RunLockstep;
+  const Episode episode = run(replanner, &sensor, study.start, {});
+  studied.cpu = ThreadSeconds() - begin;
+  const EpisodeSummary summary = Summarize(episode, &truth, study.place.robot);
+  studied.ending = episode.ending;
+  studied.waited = episode.waited;
+  studied.duration = episode.end;
+  studied.changed = summary.changed;
+  studied.stopped = summary.stops;
+  studied.unsafe = summary.unsafe;
+  studied.nearest = summary.nearest->distance;
+  studied.nearest_obstacle = summary.nearest->obstacle;
+  studied.begun_meanwhile = summary.begun_meanwhile;
+  studied.events = episode.events;
+  if (episode.walks.empty()) return studied;
+  studied.excused =
+      studied.touched() && BrokeItsBounds(episode, summary.nearest->obstacle, summary.nearest->t);
+  studied.pressed = NearestApproach(episode, truth.Since(episode.waited), study.place.robot, 0.05,
+                                    0.3, /*also_at_rest=*/true)
+                        .distance <= 0.0;
+  Time(episode, &studied);
+  StopAtRandom(episode, study, &studied);
+  ExamineMotion(episode, &studied);
+  return studied;
+}
+
+}  // namespace halfstep
