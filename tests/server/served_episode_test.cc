@@ -211,7 +211,7 @@ TEST(ServedEpisode, HostileClientsDoNotStopIt) {
   const auto dropped = [](Connection* one) { one->ReadAll(); };
   {  // malformed, deep, not finite: an answer, and the line stays
     Connection one = served.Socket();
-    for (const std::string text :
+    for (const std::string& text :
          {std::string("\x00\xff garbage", 10), std::string("{\"type\":"), std::string(50'000, '['),
           std::string(R"({"type":"goal","x_m":NaN,"y_m":0})"),
           std::string(R"({"type":"goal","x_m":1e308,"y_m":0})"),
@@ -322,7 +322,7 @@ TEST(ServedEpisode, ASocketThatCannotBeMadeIsRefused) {
   const TemporaryFolder place;
   std::ofstream(place / "small.yaml") << kSmallConfig;
   std::ofstream(place / "file") << "mine";
-  for (const std::string path :
+  for (const std::string& path :
        {std::string("file"), std::string("no/such/folder"), std::string(200, 'x')}) {
     const Outcome outcome =
         Halfstep(place.path(), {"live", "small.yaml", "--out", "one", "--serve", path});
