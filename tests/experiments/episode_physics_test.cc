@@ -8,7 +8,6 @@
 
 #include "experiments/commands/commands.h"
 #include "experiments/config/experiment.h"
-#include "experiments/live/episode_tables.h"
 #include "experiments/replay/simulation.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/parsed_csv.h"
@@ -91,8 +90,7 @@ TEST(EpisodePhysicsTest, ArrivesInTheWorldAndTouchesNothing) {
 TEST(EpisodePhysicsTest, TheSameAgainToTheByte) {
   SKIP_WITHOUT_PHYSICS();
   const PlayedInPhysics one = BarInTheWay(), two = BarInTheWay();
-  EXPECT_EQ(EventsCsv(one.episode).text, EventsCsv(two.episode).text);
-  EXPECT_EQ(ObstaclesCsv(one.episode).text, ObstaclesCsv(two.episode).text);
+  EXPECT_EQ(TablesText(one.episode), TablesText(two.episode));
   EXPECT_EQ(ReplayCsv(one.outcome.replayed.result.rows).text,
             ReplayCsv(two.outcome.replayed.result.rows).text);
 }
