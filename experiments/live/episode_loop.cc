@@ -76,6 +76,8 @@ Proposal EpisodeLoop::Wait(const std::array<Footprint, 2>& start) {
   double origin = 0.0, lead = clock_.passes() ? patience_ : 0.0;
   clock_.Begin();
   for (long frame = 0; first.kind == ProposalKind::kUnsafe; ++frame) {
+    // A search may have taken the time of many frames.
+    frame = std::max(frame, static_cast<long>(clock_.Time(0.0) / options_.sensing.period));
     const double now = static_cast<double>(frame) * options_.sensing.period;
     if (now > options_.longest || hooks_.stop.stop_requested()) break;
     clock_.WaitUntil(now);
@@ -96,9 +98,10 @@ Proposal EpisodeLoop::Wait(const std::array<Footprint, 2>& start) {
     origin = now + lead;
     world_ = std::make_shared<const World>(Since(worlds.back(), origin));
     first = replanner_.Begin(start, *replanner_.Prepare(*world_), options_.smooth_ahead, random);
-    if (clock_.Time(origin) <= origin) continue;
+    const double ready = clock_.Time(now);
+    if (clock_.passes()) lead = std::max(patience_, 1.5 * (ready - now));
+    if (first.kind == ProposalKind::kUnsafe || ready <= origin) continue;
     // It should have begun already.
-    lead = 2.0 * (clock_.Time(origin) - now);
     first = {.kind = ProposalKind::kUnsafe, .reason = "to find a walk took too long"};
     tried.reset();
   }
