@@ -236,8 +236,11 @@ bool EpisodeLoop::Ends(double now) {
   const bool on_both = executor_->begun() % 2 == 1;
   const bool arrived =
       at_rest && on_both && now > sensor_.QuietFrom() && world_->goal.ContainsStance(stance);
-  if (!arrived && !over && !interrupted) return false;
-  record_.ending = arrived       ? EpisodeEnding::kArrived
+  const bool fell = hooks_.fallen && hooks_.fallen();
+  if (!arrived && !over && !interrupted && !fell) return false;
+  if (fell) record_.message = Formatted("the robot fell at %.3f s", now);
+  record_.ending = fell          ? EpisodeEnding::kFell
+                   : arrived     ? EpisodeEnding::kArrived
                    : interrupted ? EpisodeEnding::kInterrupted
                    : at_rest     ? EpisodeEnding::kStuck
                                  : EpisodeEnding::kTooLong;
