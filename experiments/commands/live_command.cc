@@ -51,22 +51,15 @@ void PrintPlaces(const LiveCommand& command, const ServedEpisode& served) {
   screen << "clock        wall, as clients need it\n" << std::flush;
 }
 
-std::string PageOf(const std::string& socket) {
-  if (HasReport()) return LivePage(socket);
-  return "<!doctype html><title>halfstep</title><p>This build of halfstep has no page, since npm "
-         "was absent. Messages are at " +
-         socket + ".</p>\n";
-}
-
 std::unique_ptr<ServedEpisode> Serve(const LiveCommand& command, const LiveConfig& config,
                                      const Place& place, const TrueWorld& truth) {
   if (!IsServed(command)) return nullptr;
-  auto served =
-      std::make_unique<ServedEpisode>(config, place, truth,
-                                      ServerOptions{.view = command.view,
-                                                    .port = command.port,
-                                                    .page = PageOf,
-                                                    .socket_path = command.socket.value_or("")});
+  auto served = std::make_unique<ServedEpisode>(
+      config, place, truth,
+      ServerOptions{.view = command.view,
+                    .port = command.port,
+                    .page = [](const std::string& socket) { return LivePage(socket); },
+                    .socket_path = command.socket.value_or("")});
   PrintPlaces(command, *served);
   return served;
 }

@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-#include "experiments/live/episode_journal.h"
+#include "experiments/report/report_page.h"
 #include "experiments/run/exit_status.h"
 #include "experiments/server/server.h"
 #include "tests/experiments/child_process.h"
@@ -103,8 +103,9 @@ class Served {
   int port_ = 0;
 };
 
-#define SKIP_WITHOUT_SERVER() \
-  if (!WhyNoServer().empty()) GTEST_SKIP() << WhyNoServer()
+#define SKIP_WITHOUT_SERVER()                                \
+  if (!WhyNoServer().empty()) GTEST_SKIP() << WhyNoServer(); \
+  if (!HasReport()) GTEST_SKIP() << "this build has no page"
 
 TEST(ServedEpisode, ABarThatIsCarriedIntoTheWayIsWalkedAround) {
   SKIP_WITHOUT_SERVER();
