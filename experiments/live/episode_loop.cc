@@ -73,7 +73,7 @@ Proposal EpisodeLoop::Wait(const std::array<Footprint, 2>& start) {
   PastWorlds past;
   std::optional<World> tried;
   Proposal first{.kind = ProposalKind::kUnsafe, .reason = "nothing was measured"};
-  double origin = 0.0, lead = clock_.passes() ? patience_ : 0.0;
+  double origin = 0.0, lead = clock_.passes() ? patience_ : 0.0, pause = kRetry;
   clock_.Begin();
   for (long frame = 0; first.kind == ProposalKind::kUnsafe; ++frame) {
     // A search may have taken the time of many frames.
@@ -92,8 +92,12 @@ Proposal EpisodeLoop::Wait(const std::array<Footprint, 2>& start) {
       worlds.push_back(std::move(measured));
     }
     if (worlds.empty()) continue;
-    if (tried && now < tried->measured_at + kRetry) continue;
-    if (tried && !DiffersClearly(*tried, worlds.back())) continue;
+    if (tried) {
+      // In a world that is much the same a search finds what another did not, but not often.
+      const bool differs = DiffersClearly(*tried, worlds.back());
+      if (now < tried->measured_at + (differs ? kRetry : pause)) continue;
+      pause = differs ? kRetry : 2.0 * pause;
+    }
     tried = worlds.back();
     origin = now + lead;
     world_ = std::make_shared<const World>(Since(worlds.back(), origin));
