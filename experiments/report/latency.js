@@ -54,7 +54,7 @@ export class Latency {
     this.key = key;
     const totals = taken.map((walk) => sum(partsOf(walk, this.clock))).sort((a, b) => a - b);
     this.sentence.textContent = taken.length === 0 ? "No walk has taken over from another yet."
-      : `${taken.length} hand-overs: median ${totals[totals.length >> 1].toFixed(0)} ms, ` +
+      : `${taken.length} hand-over${taken.length > 1 ? "s" : ""}: median ${totals[totals.length >> 1].toFixed(0)} ms, ` +
         `longest ${totals.at(-1).toFixed(0)} ms.` +
         (this.clock === "lockstep" ? " Lockstep: time stood still while it computed." : "");
     this.parent.replaceChildren(...(taken.length ? [this.keys(), this.bars(taken.slice(-most))] : []));

@@ -17,6 +17,7 @@ const data = JSON.parse(byId("data").textContent);
 const recorded = data.messages !== undefined;
 const shownEvents = 8;
 const mostLetters = 150; // of an event; the pointer over it shows all
+const slowFrame = 40; // [ms]
 const motionSpan = 3; // of a recording's traces [s]
 const ghostSpan = 4; // [s]
 
@@ -35,7 +36,8 @@ let timeline = null;
 let controls = null;
 let dragging = null;
 let isOpen = false;
-let pending = false;
+let pending = false; // a picture is being made
+let again = false; // and another one is wanted
 
 const latency = new Latency(byId("latency"), byId("latency-words"), data.clock);
 
@@ -43,12 +45,25 @@ function now() {
   return timeline ? timeline.t : record.state?.t_s ?? record.worlds.at(-1)?.known_s ?? 0;
 }
 
+// A machine that draws slowly, as one without a graphics card, rests as long as it drew: a live
+// robot thinks on the same machine.
 function redraw() {
+  again = pending;
   if (pending) return;
   pending = true;
   requestAnimationFrame(() => {
-    pending = false;
+    const begin = performance.now();
     show();
+    requestAnimationFrame(() => {
+      const drew = performance.now() - begin;
+      const next = () => {
+        pending = false;
+        if (again) redraw();
+        again = false;
+      };
+      if (drew > slowFrame) setTimeout(next, drew);
+      else next();
+    });
   });
 }
 
@@ -129,7 +144,7 @@ function stateText(t, plan, begun) {
   }
   if (record.waiting !== null && !plan) return `waits for a walk: ${record.waiting}`;
   if (!plan) return "nothing is known yet";
-  const rests = record.state?.stopped ? ", nothing more begins" : "";
+  const rests = t >= plan.duration_s ? ", at rest" : record.state?.stopped ? ", nothing more begins" : "";
   const held = record.state?.held ? ", paused" : "";
   return `${t.toFixed(2)} s, half-step ${begun} of ${numHalfSteps(plan)}${rests}${held}`;
 }

@@ -35,11 +35,11 @@ TEST(EpisodeMisplaced, CommandsOfExperimentsNameTheOneOfEpisodes) {
   const TemporaryFolder place;
   const std::string config = HALFSTEP_SOURCE_DIR "/experiments/episodes/live_bar.yaml";
   for (const std::string command : {"run", "plan"}) {
-    const Outcome outcome = Halfstep(place.path(), {command, config, "--out", "made"});
+    const Outcome outcome = Halfstep(place.path(), {command, config});
     EXPECT_EQ(outcome.status, kBadInput);
     EXPECT_THAT(outcome.err, HasSubstr("live_bar.yaml:8:1: live: this is the config of an episode "
                                        "(valid: `halfstep live` takes it)\n"));
-    EXPECT_FALSE(fs::exists(place / "made"));
+    EXPECT_FALSE(fs::exists(place / "runs"));
   }
 }
 

@@ -11,26 +11,26 @@ import { countColours, partThatDiffers, readPng } from "./png.mjs";
 
 const [halfstep, source, cache] = process.argv.slice(2);
 const place = mkdtempSync(join(tmpdir(), "halfstep_live_page_"));
+const children = [];
 const patience = 180_000; // for whatever has to come [ms]
 
-// Coarse half-steps, so that they are baked soon. The bar is too long to walk around it.
+// Few half-steps, so that they are baked soon. The bar is too long to walk around it.
 writeFileSync(join(place, "bar.yaml"), `name: bar
 obstacles:
   - name: bar
-    box: {size_m: [0.03, 1.8, 0.03]}
-    pose: {xyz: [1.5, 1.4, 0.015]}
+    box: {size_m: [0.03, 3.0, 0.03]}
+    pose: {xyz: [1.5, 2.6, 0.015]}
     motion: {speed_m_s: 0.3}
 `);
 writeFileSync(join(place, "small.yaml"), `name: small
 robot: hrp2
 scene: bar.yaml
-goal: {x_m: 2.2, y_m: 0, radius_m: 0.15}
+goal: {x_m: 0.35, y_m: 0, radius_m: 0.15}
 half_step: {duration_s: 1.5, zmp_shift_s: 0.075}
-step_set: {x_min_m: -0.1, x_max_m: 0.2, y_min_m: -0.29, y_max_m: -0.21,
-           spacing_m: 0.08, yaws_rad: [-0.25, 0, 0.25]}
-swept_volumes: {cell_m: 0.03, displacement_m: 0.02, cache: ${JSON.stringify(cache)}}
+step_set: {x_min_m: 0, x_max_m: 0.35, y_min_m: -0.26, y_max_m: -0.21, spacing_m: 0.05, yaws_rad: [0]}
+swept_volumes: {cell_m: 0.02, displacement_m: 0.01, cache: ${JSON.stringify(cache)}}
 planner: {unimproved_nodes: 100, max_nodes: 2000}
-live: {smooth_ahead: 4, tolerance_s: 0.1, longest_s: 170, sensing: {rests_after_s: 0.5}}
+live: {smooth_ahead: 4, tolerance_s: 0.1, longest_s: 600, sensing: {rests_after_s: 0.5}}
 `);
 
 // `halfstep live --view` in the folder; resolves when its address is known, or it has ended.
@@ -47,22 +47,40 @@ async function serve(out, ...more) {
   return episode;
 }
 
+let words = async () => ""; // of the page, for what failed
 async function until(condition, what) {
   const deadline = Date.now() + patience;
   for (;;) {
     const found = await condition();
     if (found) return found;
-    assert.ok(Date.now() < deadline, `waited in vain for ${what}`);
+    if (Date.now() > deadline) assert.fail(`waited in vain for ${what}: ${await words()}`);
     await pause(100);
   }
 }
 
+// Whether the view satisfies `condition`; a machine that is slow at drawing is asked again.
+async function isDrawn(browser, condition) {
+  try {
+    return condition(readPng(await browser.picture("#canvas")));
+  } catch (error) {
+    if (/imed out/.test(error.message)) return false;
+    throw error;
+  }
+}
+const isPicture = (picture) => countColours(picture) > 100;
 const textOf = (browser, id) => browser.run("return document.getElementById(arguments[0]).textContent", id);
 const stateIs = (browser, pattern) =>
   until(async () => pattern.test(await textOf(browser, "state")), `the state ${pattern}`);
 const click = (browser, id) => browser.run("document.getElementById(arguments[0]).click()", id);
 const labels = (browser) =>
   browser.run("return [...document.querySelectorAll('.tag-of')].map((label) => label.textContent)");
+
+// The number of a walk after walk `before` that took over with other footsteps, when the log has one.
+async function walkWithOtherFootsteps(browser, before) {
+  const lines = await browser.run("return [...document.querySelectorAll('#log li')].map((line) => line.title)");
+  const numbers = lines.map((line) => /walk (\d+) taken over.*: changed/.exec(line)?.[1]).filter(Boolean);
+  return numbers.map(Number).find((number) => number > before);
+}
 
 // What does not fit where it stands.
 const overflows = (browser) => browser.run(`
@@ -102,7 +120,7 @@ async function drag(browser, name, [x, y]) {
     there = await moveTo(at);
   }
   await pointer({ type: "pointerUp", button: 0 });
-  assert.ok(Math.hypot(x - there[0], y - there[1]) < 0.08, `dragged to ${there}`);
+  assert.ok(Math.hypot(x - there[0], y - there[1]) < 0.07, `dragged to ${there}`);
 }
 
 function rowsOf(file) {
@@ -112,18 +130,31 @@ function rowsOf(file) {
 
 async function testLive(browser, episode) {
   await browser.load(episode.address);
+  words = () => browser.run("return document.body.innerText");
   await stateIs(browser, /half-step \d+ of \d+/);
   assert.match(await textOf(browser, "connection"), /^connected$/);
   assert.deepEqual(await overflows(browser), [], "everything fits at 1366 x 768");
   const policy = await browser.run("return document.querySelector('meta[http-equiv]').content");
   assert.match(policy, /connect-src ws:\/\/127\.0\.0\.1:\d+\/[^ ;]+\/socket$/);
   await until(async () => (await labels(browser)).includes("bar"), "the bar");
-  await until(async () => countColours(readPng(await browser.picture("#canvas"))) > 100, "a picture");
+  await until(() => isDrawn(browser, isPicture), "a picture");
 
+  // From above and from farther away, so that the whole way is seen.
   await browser.set("follow", false);
-  await drag(browser, "bar", [1.5, 0.1]);
-  await until(async () => /walk [1-9]\d* taken over[^]*: changed/.test(await textOf(browser, "log")),
-              "a walk with other footsteps");
+  await browser.set("camera", "top");
+  await browser.send("POST", "/actions", { actions: [{ type: "wheel", id: "wheel", actions: [
+    { type: "scroll", x: 400, y: 400, deltaX: 0, deltaY: 400 },
+    { type: "scroll", x: 400, y: 400, deltaX: 0, deltaY: 400 },
+  ] }] });
+  await until(async () => (await browser.run(
+    "return document.querySelector('[data-name=bar]').checkVisibility()")), "the bar to be in view");
+  // The goal goes on, and while the robot waits a bar comes into its way.
+  await drag(browser, "goal", [2.2, 0]);
+  const before = await until(() => walkWithOtherFootsteps(browser, 0), "a walk to the goal");
+  await click(browser, "hold");
+  await stateIs(browser, /paused/);
+  assert.equal(await textOf(browser, "hold"), "Walk on");
+  await drag(browser, "bar", [1.5, 0.5]);
 
   await click(browser, "add");
   await until(async () => (await labels(browser)).includes("spare_1"), "the box");
@@ -133,11 +164,10 @@ async function testLive(browser, episode) {
   await until(async () => !(await labels(browser)).includes("spare_1"), "the box to vanish");
 
   await click(browser, "hold");
-  await stateIs(browser, /paused/);
-  assert.equal(await textOf(browser, "hold"), "Walk on");
-  await click(browser, "hold");
   await until(async () => !/paused/.test(await textOf(browser, "state")), "the robot to walk on");
-
+  await until(() => walkWithOtherFootsteps(browser, before), "a walk over the bar");
+  await stateIs(browser, /half-step (\d+) of \1, at rest/);
+  await click(browser, "stop");
   await stateIs(browser, /^(arrived|stuck|too long|no plan|interrupted)/);
   assert.match(await textOf(browser, "state"), /^arrived/);
   assert.equal(await episode.done, 0, episode.text);
@@ -149,12 +179,12 @@ async function testLive(browser, episode) {
 // The bar lies across the way in the end, and the robot is beyond it.
 function testStepsOver() {
   const bar = rowsOf("one/obstacles.csv").filter((row) => row.obstacle === "bar").at(-1);
-  assert.ok(Math.abs(bar.x_m - 1.5) < 0.1 && Math.abs(bar.y_m - 0.1) < 0.1, `the bar: ${bar.x_m}, ${bar.y_m}`);
+  assert.ok(Math.abs(bar.x_m - 1.5) < 0.1 && Math.abs(bar.y_m - 0.5) < 0.1, `the bar: ${bar.x_m}, ${bar.y_m}`);
   const motion = rowsOf("one/trajectory.csv");
   for (const foot of ["left", "right"]) {
     const over = motion.filter((row) => Math.abs(row[`${foot}_foot_x_m`] - bar.x_m) < 0.05);
     assert.ok(motion[0][`${foot}_foot_x_m`] < bar.x_m && motion.at(-1)[`${foot}_foot_x_m`] > bar.x_m);
-    assert.ok(over.length > 0 && over.every((row) => Math.abs(row[`${foot}_foot_y_m`] - bar.y_m) < 0.9));
+    assert.ok(over.length > 0 && over.every((row) => Math.abs(row[`${foot}_foot_y_m`] - bar.y_m) < 1.5));
     assert.ok(over.some((row) => row[`${foot}_foot_z_m`] > 0.03), `${foot} is lifted over the bar`);
   }
   execFileSync(halfstep, ["verify", "one"], { cwd: place });
@@ -162,10 +192,11 @@ function testStepsOver() {
 
 async function testStop(browser) {
   const episode = await serve("two");
+  children.push(episode.child);
   await browser.load(episode.address);
   await stateIs(browser, /half-step \d+ of \d+/);
   await click(browser, "stop");
-  await stateIs(browser, /^interrupted/);
+  await stateIs(browser, /^(interrupted|arrived)/);
   await until(() => episode.ended !== null, "the end");
   assert.equal(await browser.run("return document.getElementById('stop').disabled"), true);
   assert.deepEqual(await browser.console(), []);
@@ -175,8 +206,8 @@ async function testStop(browser) {
 async function testRecording(browser) {
   const url = `file://${place}/one/report.html`;
   await browser.load(url);
-  await until(async () => countColours(readPng(await browser.picture("#canvas"))) > 100, "a picture");
-  const standing = readPng(await browser.picture("#canvas"));
+  let standing = null;
+  await until(() => isDrawn(browser, (picture) => isPicture(standing = picture)), "a picture");
   assert.deepEqual(await overflows(browser), []);
   assert.equal(await browser.run("return document.getElementById('controls').hidden"), true);
   const clock = async () => Number.parseFloat(await textOf(browser, "clock"));
@@ -190,7 +221,7 @@ async function testRecording(browser) {
   await browser.set("scrub", "6");
   assert.equal(await clock(), 6);
   await stateIs(browser, /^6\.00 s, half-step \d+ of \d+/);
-  await until(async () => partThatDiffers(standing, readPng(await browser.picture("#canvas"))) > 0.01,
+  await until(() => isDrawn(browser, (picture) => partThatDiffers(standing, picture) > 0.01),
               "the robot to be elsewhere");
   await browser.set("scrub", "1e9");
   await stateIs(browser, /^arrived/);
@@ -209,7 +240,6 @@ if (!hasBrowser()) {
   console.log("Skipped: there is no chromium and chromedriver (packages chromium, chromium-driver)");
   process.exit(77);
 }
-const children = [];
 try {
   const episode = await serve("one");
   children.push(episode.child);
