@@ -50,7 +50,7 @@ PlayedInPhysics PlayInPhysics(const Scene& scene, const LiveConfig& config,
   return played;
 }
 
-long CountOf(const Episode& episode, const std::string& what) {
+long TimesOf(const Episode& episode, const std::string& what) {
   return std::ranges::count(episode.events, what, &EpisodeEvent::what);
 }
 
@@ -76,7 +76,7 @@ TEST(EpisodePhysicsTest, ArrivesInTheWorldAndTouchesNothing) {
   const auto [episode, outcome] = BarInTheWay();
   EXPECT_EQ(episode.ending, EpisodeEnding::kArrived);
   // Nothing but the jump was a contradiction: the drift is covered.
-  EXPECT_EQ(CountOf(episode, "contradicted"), 1);
+  EXPECT_EQ(TimesOf(episode, "contradicted"), 1);
   const ReplayResult& result = outcome.replayed.result;
   EXPECT_TRUE(result.stayed_up);
   EXPECT_TRUE(result.touches.empty());
