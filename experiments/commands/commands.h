@@ -27,11 +27,12 @@ struct LiveCommand {
   bool view = false;                  ///< serves a page
   int port = 0;                       ///< of the page; 0: any that is free
   std::optional<std::string> socket;  ///< serves messages there
+  bool in_physics = false;  ///< a simulated robot executes the walk, and is what is measured from
 };
 
 /// `halfstep live`: an episode of walking while the world changes, by a config with `live`, into a
 /// folder; with clients it goes on until one asks for its end. kFailed when the robot does not
-/// arrive. Throws as Run.
+/// arrive, or falls in physics. Throws as Run.
 ExitStatus Live(const LiveCommand& command);
 
 struct RecoverCommand {

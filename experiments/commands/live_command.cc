@@ -9,6 +9,7 @@
 #include "experiments/live/episode_journal.h"
 #include "experiments/live/episode_summary.h"
 #include "experiments/live/spare_boxes.h"
+#include "experiments/replay/physics_record.h"
 #include "experiments/report/live_page.h"
 #include "experiments/report/report_page.h"
 #include "experiments/run/interrupt.h"
@@ -24,6 +25,9 @@ bool IsServed(const LiveCommand& command) { return command.view || command.socke
 
 LiveConfig ConfigOf(const LiveCommand& command) {
   const LiveConfig config = LoadLiveConfig(command.run.config, command.run.overrides);
+  if (const std::string why = replay::WhyNoSimulation(); command.in_physics && !why.empty()) {
+    throw InputError({"--in-physics: " + why});
+  }
   if (IsServed(command)) {
     if (!WhyNoServer().empty()) throw InputError({"--view, --serve: " + WhyNoServer()});
     if (command.view && !HasReport()) {
@@ -47,58 +51,66 @@ void PrintPlaces(const LiveCommand& command, const ServedEpisode& served) {
   screen << "clock        wall, as clients need it\n" << std::flush;
 }
 
-std::string PageOf(const std::string& socket) {
-  if (HasReport()) return LivePage(socket);
-  return "<!doctype html><title>halfstep</title><p>This build of halfstep has no page, since npm "
-         "was absent. Messages are at " +
-         socket + ".</p>\n";
-}
-
 std::unique_ptr<ServedEpisode> Serve(const LiveCommand& command, const LiveConfig& config,
                                      const Place& place, const TrueWorld& truth) {
   if (!IsServed(command)) return nullptr;
-  auto served =
-      std::make_unique<ServedEpisode>(config, place, truth,
-                                      ServerOptions{.view = command.view,
-                                                    .port = command.port,
-                                                    .page = PageOf,
-                                                    .socket_path = command.socket.value_or("")});
+  auto served = std::make_unique<ServedEpisode>(
+      config, place, truth,
+      ServerOptions{.view = command.view,
+                    .port = command.port,
+                    .page = [](const std::string& socket) { return LivePage(socket); },
+                    .socket_path = command.socket.value_or("")});
   PrintPlaces(command, *served);
   return served;
 }
 
+// The robot that executes the walk in physics, and what it is made of.
+struct PhysicalRobot {
+  PhysicalRobot(const LiveConfig& config, const TrueWorld& truth)
+      : whole(LoadWholeRobot(RobotPath(config.experiment).string())),
+        physics(whole, truth, config.live) {}
+
+  WholeRobot whole;
+  replay::EpisodePhysics physics;
+};
+
+// `hooks`: without clients.
 Episode Walk(const LiveConfig& config, const Replanner& replanner, const Place& place,
-             Sensor* sensor, ServedEpisode* served, const std::stop_token& stop,
-             const std::function<void(const EpisodeTick&)>& on_tick) {
+             Sensor* sensor, ServedEpisode* served, const EpisodeHooks& hooks) {
   const auto run = config.live.clock == "wall" ? RunWallClock : RunLockstep;
   const std::array<Footprint, 2> start = StartOf(config.experiment, place.robot);
-  if (served == nullptr) {
-    return run(replanner, sensor, start,
-               {.on_tick = on_tick, .on_wait = {}, .held = {}, .stop = stop});
-  }
-  const std::stop_callback end(stop, [served] { served->Stop(); });
+  if (served == nullptr) return run(replanner, sensor, start, hooks);
+  const std::stop_callback end(hooks.stop, [served] { served->Stop(); });
   return run(replanner, &served->sensor(), start,
              {.on_tick =
                   [&](const EpisodeTick& tick) {
-                    on_tick(tick);
+                    hooks.on_tick(tick);
                     served->Tick(tick);
                   },
               .on_wait = [served](const std::string& reason) { served->Wait(reason); },
               .held = [served] { return served->held(); },
+              .fallen = {},
               .stop = served->stop_token()});
 }
 
-void PrintSummary(const LiveCommand& command, const Episode& episode, const LiveConfig& config,
-                  const Place& place, const std::string& folder) {
-  std::optional<TrueWorld> truth;
-  if (config.live.sensing.source == "stand_in") {
-    truth.emplace(place.scene, config.experiment.goal, config.live);
-  }
-  const EpisodeSummary summary = Summarize(episode, truth ? &*truth : nullptr, place.robot);
+// What truly happened, by the script and by what clients did; none when only they know.
+std::optional<TrueWorld> WhatWasTrue(const LiveConfig& config, const Place& place,
+                                     const std::optional<PhysicalRobot>& simulated) {
+  if (config.live.sensing.source != "stand_in") return std::nullopt;
+  if (simulated) return simulated->physics.SeenByRobot();
+  return TrueWorld(place.scene, config.experiment.goal, config.live);
+}
+
+void PrintSummary(const LiveCommand& command, const Episode& episode, const TrueWorld* truth,
+                  const RobotModel& robot, const std::string& folder,
+                  const std::optional<replay::PhysicalOutcome>& outcome) {
+  const EpisodeSummary summary = Summarize(episode, truth, robot);
   if (command.run.json) {
-    std::cout << SummaryJson(episode, summary, folder);
+    const std::string json = SummaryJson(episode, summary, folder);
+    std::cout << (outcome ? WithPhysics(json, *outcome) : json);
   } else if (!command.run.quiet) {
     std::cout << SummaryScreen(episode, summary, folder);
+    if (outcome) std::cout << PhysicsText(*outcome);
   }
 }
 
@@ -127,22 +139,39 @@ ExitStatus Live(const LiveCommand& command) {
   bar.emplace("episode", silent);
   EpisodeJournal journal(folder.path(), config, command.run.overwrite);
   interrupt.Keep();
-  StandInSensor sensor(truth, config.live, static_cast<std::uint64_t>(config.experiment.seed) + 1);
-  const Episode episode = Walk(config, replanner, place, &sensor, served.get(), interrupt.token(),
-                               [&](const EpisodeTick& at) {
-                                 journal.Write(at);
-                                 bar->Update(at.now / config.live.longest);
-                               });
+  std::optional<PhysicalRobot> simulated;
+  if (command.in_physics) simulated.emplace(config, truth);
+  const TrueWorld seen = simulated ? simulated->physics.SeenByRobot() : truth;
+  StandInSensor sensor(seen, config.live, static_cast<std::uint64_t>(config.experiment.seed) + 1);
+  const auto on_tick = [&](const EpisodeTick& tick) {
+    if (simulated) simulated->physics.Play(tick);
+    journal.Write(tick);
+    bar->Update(tick.now / config.live.longest);
+  };
+  const Episode episode = Walk(config, replanner, place, &sensor, served.get(),
+                               {.on_tick = on_tick,
+                                .on_wait = {},
+                                .held = {},
+                                .fallen = [&] { return simulated && simulated->physics.fallen(); },
+                                .stop = interrupt.token()});
   bar.reset();
   if (!journal.failure().empty()) std::cerr << "halfstep: warning: " << journal.failure() << '\n';
   if (served) config.live.script = served->Script();
   WriteEpisode(episode, config, place, &folder);
+  std::optional<replay::PhysicalOutcome> outcome;
+  if (simulated) {
+    outcome = simulated->physics.Finish(episode);
+    WritePhysics(*outcome, place.robot, place.scene, &folder);
+  }
   folder.Publish();
   journal.Remove();
   if (served) served->End(episode, folder.path().string());
-  PrintSummary(command, episode, config, place, folder.path().string());
+  const std::optional<TrueWorld> was_true = WhatWasTrue(config, place, simulated);
+  PrintSummary(command, episode, was_true ? &*was_true : nullptr, place.robot,
+               folder.path().string(), outcome);
   if (episode.ending == EpisodeEnding::kInterrupted) return kInterrupted;
-  return episode.ending == EpisodeEnding::kArrived ? kSuccess : kFailed;
+  const bool fell = outcome && !outcome->replayed.result.stayed_up;
+  return episode.ending == EpisodeEnding::kArrived && !fell ? kSuccess : kFailed;
 }
 
 CommandAction DeclareLive(CLI::App* app) {
@@ -158,8 +187,12 @@ CommandAction DeclareLive(CLI::App* app) {
   app->add_option("--port", command->port, "of the page (default: any that is free)")
       ->check(CLI::Range(0, 65535))
       ->needs(view);
-  app->add_option("--serve", command->socket,
-                  "serve the same messages by a Unix-domain socket of this path");
+  CLI::Option* const serve = app->add_option(
+      "--serve", command->socket, "serve the same messages by a Unix-domain socket of this path");
+  app->add_flag("--in-physics", command->in_physics,
+                "a robot simulated by MuJoCo executes the walk; the world is measured from it")
+      ->excludes(view)
+      ->excludes(serve);
   DeclareRunFlags(app, &command->run);
   return [command, sets] {
     command->run.overrides = ParseOverrides(*sets);

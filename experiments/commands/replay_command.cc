@@ -97,7 +97,7 @@ void WriteRows(const Task& task, const std::vector<replay::Replayed>& all, const
   RunFolder folder(run, /*overwrite=*/true);
   folder.CopyOlder();
   for (size_t i = 0; i < all.size(); ++i) {
-    WriteCsv(task.motions[i].table, ReplayCsv(all[i].result), &folder);
+    WriteCsv(task.motions[i].table, ReplayCsv(all[i].result.rows), &folder);
   }
   folder.Publish();
 }

@@ -73,9 +73,11 @@ Proposal EpisodeLoop::Wait(const std::array<Footprint, 2>& start) {
   PastWorlds past;
   std::optional<World> tried;
   Proposal first{.kind = ProposalKind::kUnsafe, .reason = "nothing was measured"};
-  double origin = 0.0, lead = clock_.passes() ? patience_ : 0.0;
+  double origin = 0.0, lead = clock_.passes() ? patience_ : 0.0, pause = kRetry;
   clock_.Begin();
   for (long frame = 0; first.kind == ProposalKind::kUnsafe; ++frame) {
+    // A search may have taken the time of many frames.
+    frame = std::max(frame, static_cast<long>(clock_.Time(0.0) / options_.sensing.period));
     const double now = static_cast<double>(frame) * options_.sensing.period;
     if (now > options_.longest || hooks_.stop.stop_requested()) break;
     clock_.WaitUntil(now);
@@ -90,15 +92,20 @@ Proposal EpisodeLoop::Wait(const std::array<Footprint, 2>& start) {
       worlds.push_back(std::move(measured));
     }
     if (worlds.empty()) continue;
-    if (tried && now < tried->measured_at + kRetry) continue;
-    if (tried && !DiffersClearly(*tried, worlds.back())) continue;
+    if (tried) {
+      // In a world that is much the same a search finds what another did not, but not often.
+      const bool differs = DiffersClearly(*tried, worlds.back());
+      if (now < tried->measured_at + (differs ? kRetry : pause)) continue;
+      pause = differs ? kRetry : 2.0 * pause;
+    }
     tried = worlds.back();
     origin = now + lead;
     world_ = std::make_shared<const World>(Since(worlds.back(), origin));
     first = replanner_.Begin(start, *replanner_.Prepare(*world_), options_.smooth_ahead, random);
-    if (clock_.Time(origin) <= origin) continue;
+    const double ready = clock_.Time(now);
+    if (clock_.passes()) lead = std::max(patience_, 1.5 * (ready - now));
+    if (first.kind == ProposalKind::kUnsafe || ready <= origin) continue;
     // It should have begun already.
-    lead = 2.0 * (clock_.Time(origin) - now);
     first = {.kind = ProposalKind::kUnsafe, .reason = "to find a walk took too long"};
     tried.reset();
   }
@@ -236,8 +243,11 @@ bool EpisodeLoop::Ends(double now) {
   const bool on_both = executor_->begun() % 2 == 1;
   const bool arrived =
       at_rest && on_both && now > sensor_.QuietFrom() && world_->goal.ContainsStance(stance);
-  if (!arrived && !over && !interrupted) return false;
-  record_.ending = arrived       ? EpisodeEnding::kArrived
+  const bool fell = hooks_.fallen && hooks_.fallen();
+  if (!arrived && !over && !interrupted && !fell) return false;
+  if (fell) record_.message = Formatted("the robot fell at %.3f s", now);
+  record_.ending = fell          ? EpisodeEnding::kFell
+                   : arrived     ? EpisodeEnding::kArrived
                    : interrupted ? EpisodeEnding::kInterrupted
                    : at_rest     ? EpisodeEnding::kStuck
                                  : EpisodeEnding::kTooLong;

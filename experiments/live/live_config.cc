@@ -4,6 +4,8 @@
 #include <array>
 #include <filesystem>
 
+#include "wpg/files/text.h"
+
 namespace halfstep {
 namespace {
 
@@ -125,6 +127,13 @@ void DeclareLive(Fields& fields, LiveOptions* c, double half_step) {
                 {.meaning = "of these overlaps", .unit = "s", .min = 1e-4, .max = 0.5});
   fields.Group("sensing", {.meaning = "where measurements come from"},
                [&](Fields& f) { DeclareSensing(f, &c->sensing); });
+  const double least = half_step + c->sensing.period + c->sensing.delay;
+  if (c->horizon <= least) {
+    fields.Complain("horizon_s",
+                    Formatted("no longer than a half-step and what a measurement takes (%.9g s): "
+                              "nothing could begin where anything may move (valid: more)",
+                              least));
+  }
   fields.Group("budget", {.meaning = "what thinking costs in lockstep"}, [&](Fields& f) {
     DeclareBudget(f, &c->budget);
     for (const auto& [key, value] :

@@ -48,7 +48,7 @@ struct LiveOptions {
   std::string clock = "lockstep";
   std::string policy = "replan";
   double period = 0.005;   ///< of control [s]
-  double horizon = 2.0;    ///< H: the uncertainty of a measurement grows no longer than this [s]
+  double horizon = 2.5;    ///< H: the uncertainty of a measurement grows no longer than this [s]
   double drift = 0.0;      ///< the robot strays from where it believes to be, at most at this [m/s]
   double longest = 120.0;  ///< an episode ends then [s]
   int spare_boxes = 0;     ///< not there until they appear

@@ -105,6 +105,16 @@ TrueWorld TrueWorld::Since(double origin) const {
   return since;
 }
 
+TrueWorld TrueWorld::SeenFrom(std::function<Pose2(double t)> X_WU) const {
+  TrueWorld seen = *this;
+  seen.seen_from_ = std::move(X_WU);
+  return seen;
+}
+
+Pose2 TrueWorld::WorldAt(double t) const {
+  return seen_from_ ? seen_from_(t) : Pose2{drift_ * (t + origin_), 0.0, 0.0};
+}
+
 bool TrueWorld::IsThere(size_t obstacle, double t) const {
   const std::vector<ScriptEvent>& events = of_obstacle_[obstacle];
   bool there =
@@ -124,7 +134,9 @@ Eigen::Isometry3d TrueWorld::PoseAt(size_t obstacle, double t) const {
     const double until = k + 1 < events.size() ? std::min(t, events[k + 1].at) : t;
     X_WO = After(X_WO, events[k], until - events[k].at);
   }
-  X_WO.translation() += DriftAt(t);
+  const Pose2 X_WU = WorldAt(t);
+  if (X_WU.yaw != 0.0) return ToIsometry(X_WU, 0.0) * X_WO;
+  X_WO.translation() += Eigen::Vector3d(X_WU.x, X_WU.y, 0.0);
   return X_WO;
 }
 
@@ -150,8 +162,9 @@ GoalRegion TrueWorld::GoalAt(double t) const {
     goal.X_WG.x = event.goal[0];
     goal.X_WG.y = event.goal[1];
   }
-  goal.X_WG.x += DriftAt(t).x();
-  goal.X_WG.y += DriftAt(t).y();
+  const Eigen::Vector2d place = WorldAt(t) * goal.X_WG.position();
+  goal.X_WG.x = place.x();
+  goal.X_WG.y = place.y();
   return goal;
 }
 

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <functional>
 #include <vector>
 
 #include "experiments/config/planning_config.h"
 #include "experiments/live/live_config.h"
 #include "planner/scene/scene.h"
+#include "wpg/geometry/pose2.h"
 
 namespace halfstep {
 
@@ -27,6 +29,14 @@ class TrueWorld {
   /// The same, for a walk that begins at the time `origin` of the script [s].
   TrueWorld Since(double origin) const;
 
+  /// The same, as a robot sees it that strays in another way than `live.drift_m_s` says: X_WU is
+  /// the pose of the world in the frame of the walk at the time t of the walk [s]. Obstacles and
+  /// the goal's place move with it. The goal's yaw and no-step areas do not.
+  TrueWorld SeenFrom(std::function<Pose2(double t)> X_WU) const;
+
+  /// X_WU: where the world is in the frame of the walk at the time t of the walk [s].
+  Pose2 WorldAt(double t) const;
+
   const Scene& scene() const { return scene_; }  ///< as its file says it
 
   bool IsThere(size_t obstacle, double t) const;
@@ -39,8 +49,6 @@ class TrueWorld {
   bool IsSeen(double t) const;
   /// The first time [s] from which on nothing happens any more, but for the drift.
   double end() const { return end_ - origin_; }
-  /// How far the world has moved in the frame of the walk [m].
-  Eigen::Vector3d DriftAt(double t) const { return {drift_ * (t + origin_), 0.0, 0.0}; }
 
  private:
   size_t IndexOf(const std::string& obstacle) const;
@@ -54,6 +62,7 @@ class TrueWorld {
   size_t own_ = 0;       // obstacles that are no spare boxes
   double origin_ = 0.0;  // of the walk's time, in that of the script
   double drift_ = 0.0;
+  std::function<Pose2(double)> seen_from_;  // none: by drift_
   double end_ = 0.0;
 };
 

@@ -150,7 +150,6 @@ ClientHub::Text ClientHub::Drawing() {
 
 void ClientHub::End(const std::string& message) {
   const auto text = std::make_shared<const std::string>(message);
-  newest_["waiting"] = text;
   Broadcast(text);
   for (const auto& [line, client] : clients_) line->Finish();
 }

@@ -16,13 +16,15 @@ constexpr double kLongestMotion = 10.0;  // [s]
 constexpr double kOldest = 1e6;          // [s]
 constexpr double kMostTurn = 2.0 * std::numbers::pi;
 
-Eigen::Vector3d PlaceOf(MessageFields& fields) {
+Eigen::Vector3d ReadPlace(MessageFields& fields) {
   return fields.Numbers("xyz_m", 3, -kFarthestMessage, kFarthestMessage);
 }
 
-double Turn(MessageFields& fields) { return fields.Number("turn_rad", -kMostTurn, kMostTurn, 0.0); }
+double ReadTurn(MessageFields& fields) {
+  return fields.Number("turn_rad", -kMostTurn, kMostTurn, 0.0);
+}
 
-Eigen::Vector2d Point(MessageFields& fields) {
+Eigen::Vector2d ReadPoint(MessageFields& fields) {
   const double x = fields.Number("x_m", -kFarthestMessage, kFarthestMessage);
   const double y = fields.Number("y_m", -kFarthestMessage, kFarthestMessage);
   return {x, y};
@@ -64,7 +66,7 @@ MeasuredFrame ReadMeasured(MessageFields& fields, const Scene& scene) {
     MeasuredFrame::Seen seen{.obstacle = ObstacleNamed(one, "name", scene),
                              .X_WO = Eigen::Isometry3d::Identity()};
     seen.X_WO = scene.obstacles[seen.obstacle].X_WO;
-    seen.X_WO.translation() = PlaceOf(one);
+    seen.X_WO.translation() = ReadPlace(one);
     if (one.Has("quaternion_wxyz")) seen.X_WO.linear() = Orientation(one);
     one.RefuseOthers();
     if (std::ranges::find(frame.seen, seen.obstacle, &MeasuredFrame::Seen::obstacle) !=
@@ -76,7 +78,7 @@ MeasuredFrame ReadMeasured(MessageFields& fields, const Scene& scene) {
   std::ranges::sort(frame.seen, {}, &MeasuredFrame::Seen::obstacle);
   if (fields.Has("goal")) {
     MessageFields goal = fields.Object("goal");
-    frame.goal = Point(goal);
+    frame.goal = ReadPoint(goal);
     goal.RefuseOthers();
   }
   if (fields.Has("areas")) {
@@ -90,8 +92,8 @@ MeasuredFrame ReadMeasured(MessageFields& fields, const Scene& scene) {
 
 Carry ReadCarry(MessageFields& fields, const Scene& scene) {
   return {.obstacle = ObstacleNamed(fields, "obstacle", scene),
-          .to = PlaceOf(fields),
-          .turn = Turn(fields)};
+          .to = ReadPlace(fields),
+          .turn = ReadTurn(fields)};
 }
 
 }  // namespace
@@ -114,8 +116,8 @@ ClientMessage ClientMessageReader::Read(std::string_view text) const {
     readers["measured"] = [&](MessageFields& f) { return ReadMeasured(f, scene_); };
   } else {
     readers["carry"] = [&](MessageFields& f) { return edit(ReadCarry(f, scene_)); };
-    readers["goal"] = [&](MessageFields& f) { return edit(MoveGoal{Point(f)}); };
-    readers["add"] = [&](MessageFields& f) { return edit(AddBox{PlaceOf(f), Turn(f)}); };
+    readers["goal"] = [&](MessageFields& f) { return edit(MoveGoal{ReadPoint(f)}); };
+    readers["add"] = [&](MessageFields& f) { return edit(AddBox{ReadPlace(f), ReadTurn(f)}); };
     readers["remove"] = [&](MessageFields& f) {
       return edit(Remove{ObstacleNamed(f, "obstacle", scene_)});
     };

@@ -74,9 +74,9 @@ std::string EditedSensor::Apply(const Carry& carry, double now) {
     return "carry.obstacle: '" + obstacle.name + "' is not there (valid: one that is)";
   }
   // The script knows no drift.
-  Eigen::Isometry3d X_WO = truth().PoseAt(carry.obstacle, now);
-  X_WO.translation() -= truth().DriftAt(now);
-  sensor_.Append(CarriedWithin(obstacle, X_WO, carry, now));
+  const Eigen::Isometry3d X_UW = ToIsometry(truth().WorldAt(now).Inverse(), 0.0);
+  const Eigen::Isometry3d X_UO = X_UW * truth().PoseAt(carry.obstacle, now);
+  sensor_.Append(CarriedWithin(obstacle, X_UO, carry, now));
   return "";
 }
 

@@ -123,6 +123,15 @@ TEST(EpisodeTest, WaitsUntilThereIsASafeWalk) {
   EXPECT_NEAR(played.episode.waited, 2.0, 1e-9);
 }
 
+// A search with few nodes often fails; nothing in the world changes until the next one.
+TEST(EpisodeTest, SearchesAgainInTheSameWorld) {
+  LiveConfig config = SmallWorld::Get().config;
+  config.experiment.planner.max_nodes = 15;
+  const PlayedEpisode played = Play({}, config);
+  EXPECT_GT(played.episode.waited, 0.0);
+  EXPECT_EQ(played.episode.ending, EpisodeEnding::kArrived);
+}
+
 TEST(EpisodeTest, StopsWhenNothingIsMeasuredAnyMore) {
   LiveConfig config = SmallWorld::Get().config;
   ScriptEvent lose = Event(1.0, "lose", "", {});

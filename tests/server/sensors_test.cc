@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "experiments/live/messages.h"
+#include "experiments/live/past_worlds.h"
 #include "experiments/live/spare_boxes.h"
 #include "experiments/server/client_sensor.h"
 #include "experiments/server/edited_sensor.h"
@@ -95,13 +96,15 @@ TEST(EditedSensor, CarriesNoFasterThanTheSpeedBound) {
   Edited edited(0.3);
   edited.sensor.Next(0.0);
   edited.inbox.Add(Edit(Carry{0, {1.5, 1.0, 0.02}, 2.0}));
-  std::vector<World> worlds = {edited.At(0.2)};
+  World last = edited.At(0.2);
+  PastWorlds past({&last, 1});
   for (int i = 2; i < 60; ++i) {
-    WorldUpdate update = Updated(worlds, edited.At(0.2 * i), edited.config.live);
+    const WorldUpdate update = Updated(last, past, edited.At(0.2 * i), edited.config.live);
     EXPECT_TRUE(update.contradictions.empty()) << i;
-    worlds.push_back(std::move(update.world));
+    last = update.world;
+    past.Add(last);
   }
-  const Obstacle& bar = worlds.back().scene.obstacles[0];
+  const Obstacle& bar = last.scene.obstacles[0];
   EXPECT_LT((bar.X_WO.translation() - Eigen::Vector3d(1.5, 1.0, 0.02)).norm(), 1e-9);
 }
 
@@ -196,7 +199,7 @@ TEST(Messages, RowsHaveTheColumnsThatHelloNames) {
   EXPECT_EQ(motion["rows"].size(), 101U);
   for (const auto& row : motion["rows"]) ASSERT_EQ(row.size(), hello["columns"].size());
   EXPECT_EQ(hello["columns"][0], "t_s");
-  EXPECT_EQ(motion["rows"][1][0], 0.505);
+  EXPECT_DOUBLE_EQ(motion["rows"][1][0], 0.505);
   const auto end = MotionMessage(small.place.robot, executed, 0, 1e3, 1e3 + 1, 0.005);
   EXPECT_EQ(end["rows"].size(), 1U);
 }

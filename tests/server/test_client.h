@@ -49,11 +49,6 @@ class Connection {
     }
     return true;
   }
-  /// Takes what the socket takes at once. False when the other side has gone.
-  bool SendSome(std::string_view bytes) {
-    const ssize_t sent = send(file_, bytes.data(), bytes.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
-    return sent >= 0 || errno == EAGAIN || errno == EWOULDBLOCK;
-  }
   bool SendLine(const nlohmann::json& message) { return Send(message.dump() + "\n"); }
 
   /// The next bytes up to and with `mark`; what there is when the other side has gone.
@@ -74,6 +69,12 @@ class Connection {
     while (ReadMore()) {
     }
     return std::exchange(input_, "");
+  }
+
+  /// Whether the other side goes, though nothing is read.
+  bool IsDropped() {
+    pollfd ended{.fd = file_, .events = POLLRDHUP, .revents = 0};
+    return poll(&ended, 1, 30'000) > 0;
   }
 
   /// The next line as JSON; null when the other side has gone.
