@@ -18,6 +18,7 @@ const recorded = data.messages !== undefined;
 const shownEvents = 8;
 const mostLetters = 150; // of an event; the pointer over it shows all
 const slowFrame = 40; // [ms]
+const longestRest = 300;
 const motionSpan = 3; // of a recording's traces [s]
 const ghostSpan = 4; // [s]
 
@@ -45,7 +46,7 @@ function now() {
   return timeline ? timeline.t : record.state?.t_s ?? record.worlds.at(-1)?.known_s ?? 0;
 }
 
-// A machine that draws slowly, as one without a graphics card, rests as long as it drew: a live
+// A machine that draws slowly, as one without a graphics card, rests as long as it drew, or 0.3 s: a live
 // robot thinks on the same machine.
 function redraw() {
   again = pending;
@@ -61,7 +62,7 @@ function redraw() {
         if (again) redraw();
         again = false;
       };
-      if (drew > slowFrame) setTimeout(next, drew);
+      if (drew > slowFrame) setTimeout(next, Math.min(drew, longestRest));
       else next();
     });
   });
