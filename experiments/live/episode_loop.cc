@@ -101,7 +101,9 @@ Proposal EpisodeLoop::Wait(const std::array<Footprint, 2>& start) {
     tried = worlds.back();
     origin = now + lead;
     world_ = std::make_shared<const World>(Since(worlds.back(), origin));
-    first = replanner_.Begin(start, *replanner_.Prepare(*world_), options_.smooth_ahead, random);
+    // Overlaps are found while the robot walks, unless time stands still.
+    const int junctions = clock_.passes() ? 0 : options_.smooth_ahead;
+    first = replanner_.Begin(start, *replanner_.Prepare(*world_), junctions, random);
     const double ready = clock_.Time(now);
     if (clock_.passes()) lead = std::max(patience_, 1.5 * (ready - now));
     if (first.kind == ProposalKind::kUnsafe || ready <= origin) continue;

@@ -127,12 +127,11 @@ void DeclareLive(Fields& fields, LiveOptions* c, double half_step) {
                 {.meaning = "of these overlaps", .unit = "s", .min = 1e-4, .max = 0.5});
   fields.Group("sensing", {.meaning = "where measurements come from"},
                [&](Fields& f) { DeclareSensing(f, &c->sensing); });
-  const double least = half_step + c->sensing.period + c->sensing.delay;
-  if (c->horizon <= least) {
+  if (c->horizon <= half_step) {
     fields.Complain("horizon_s",
-                    Formatted("no longer than a half-step and what a measurement takes (%.9g s): "
-                              "nothing could begin where anything may move (valid: more)",
-                              least));
+                    Formatted("is no longer than a half-step: nothing could begin where anything "
+                              "may move (valid: above half_step.duration_s, %.9g)",
+                              half_step));
   }
   fields.Group("budget", {.meaning = "what thinking costs in lockstep"}, [&](Fields& f) {
     DeclareBudget(f, &c->budget);

@@ -1,6 +1,7 @@
 // How the cost of replanning grows with the obstacles, most of which are far away, and with what is
 // left of the walk: medians of the time that the processor took [ms].
-//   live_growth_study
+//   live_growth_study obstacles N...
+//   live_growth_study way METRES...
 // HRP-2's swept volumes from the user's cache, baked when they are not there.
 
 #include <time.h>
@@ -129,13 +130,15 @@ void PrintRow(LiveConfig config, int obstacles, double way) {
 
 }  // namespace
 
-int main() {
+int main(int argc, char** argv) {
+  const bool obstacles = argc > 1 && std::string(argv[1]) == "obstacles";
   LiveConfig config = LoadLiveConfig(HALFSTEP_SOURCE_DIR "/experiments/episodes/live_bar.yaml", {});
   config.live.script.clear();
   std::printf(
       "| obstacles | half-steps | frame | prepare | check | plan | smooth | search in vain |\n"
       "|---|---|---|---|---|---|---|---|\n");
-  for (const int obstacles : {1, 10, 100, 1000}) PrintRow(config, obstacles, 2.4);
-  for (const double way : {0.5, 1.0, 2.2, 5.7, 11.5}) PrintRow(config, 10, way);
+  for (int i = 2; i < argc; ++i) {
+    PrintRow(config, obstacles ? std::stoi(argv[i]) : 10, obstacles ? 2.4 : std::stod(argv[i]));
+  }
   return 0;
 }
