@@ -91,8 +91,8 @@ TEST(MeshFile, BadFilesAreRefusedWithTheirPlace) {
 
 // No beginning of a file may crash the reader or, for STL, pass for a whole one.
 TEST(MeshFile, EveryTruncationIsRefused) {
-  for (const std::string name : {"cube_ascii.stl", "cube_binary.stl", "cube_quads.obj",
-                                "cube_nodes_in_centimetres.dae"}) {
+  for (const std::string name :
+       {"cube_ascii.stl", "cube_binary.stl", "cube_quads.obj", "cube_nodes_in_centimetres.dae"}) {
     std::ifstream file(kFolder + "good/" + name, std::ios::binary);
     const std::string whole((std::istreambuf_iterator<char>(file)), {});
     const bool is_stl = name.ends_with(".stl");
