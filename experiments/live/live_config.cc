@@ -4,8 +4,6 @@
 #include <array>
 #include <filesystem>
 
-#include "wpg/files/text.h"
-
 namespace halfstep {
 namespace {
 
@@ -127,12 +125,6 @@ void DeclareLive(Fields& fields, LiveOptions* c, double half_step) {
                 {.meaning = "of these overlaps", .unit = "s", .min = 1e-4, .max = 0.5});
   fields.Group("sensing", {.meaning = "where measurements come from"},
                [&](Fields& f) { DeclareSensing(f, &c->sensing); });
-  if (c->horizon <= half_step) {
-    fields.Complain("horizon_s",
-                    Formatted("is no longer than a half-step: nothing could begin where anything "
-                              "may move (valid: above half_step.duration_s, %.9g)",
-                              half_step));
-  }
   fields.Group("budget", {.meaning = "what thinking costs in lockstep"}, [&](Fields& f) {
     DeclareBudget(f, &c->budget);
     for (const auto& [key, value] :
