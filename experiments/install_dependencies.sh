@@ -5,7 +5,7 @@ set -eu
 
 packages="g++ cmake ninja-build git pkg-config libeigen3-dev libfcl-dev liburdfdom-dev
   libconsole-bridge-dev libtinyxml-dev libyaml-cpp-dev libqhull-dev libcli11-dev
-  nlohmann-json3-dev libssl-dev libgtest-dev libgmock-dev libbenchmark-dev
+  nlohmann-json3-dev libboost-dev libssl-dev libgtest-dev libgmock-dev libbenchmark-dev
   coinor-libipopt-dev libnlopt-dev libceres-dev $*"
 
 # For the report; a node from elsewhere does as well.

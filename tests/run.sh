@@ -38,7 +38,7 @@ quietly() {
 release_only='InterruptedRun|StoppedRun|KilledRun|CsvSchema|SweepCommand|CsvPhysics.Hrp2'
 release_only="$release_only|OutsideOfACheckedWindow|ThePriceIsWhat|InterruptedCertification"
 release_only="$release_only|EveryPointOfAPareto|SafestWithinLess|AcceptsEveryMethodOfAWalk"
-release_only="$release_only|StoppedCommand|FaultyCommand|LiveCommand"
+release_only="$release_only|StoppedCommand|FaultyCommand|LiveCommand|ServedEpisode"
 release_only="$release_only|HostileFiles|HardenedBinary|PidNamespaces"
 release_only="$release_only|CertificateRows.HoldInside|Ground.AShin|FarVerticesOfAMeshNeither"
 release_only="$release_only|FewOfAllForgeries|OracleTest.NoAnswer"

@@ -1,8 +1,11 @@
 #include "experiments/commands/command_line.h"
 
+#include <iostream>
+
 #include "experiments/commands/commands.h"
 #include "experiments/config/experiment_config.h"
 #include "wpg/files/input_error.h"
+#include "wpg/robot/robot_model.h"
 
 namespace halfstep {
 
@@ -108,6 +111,12 @@ std::filesystem::path OutputFolder(const RunCommand& command, const ExperimentCo
     return std::filesystem::path(config.directory) / config.output_directory;
   }
   return std::filesystem::path("runs") / config.name;
+}
+
+void TellWarnings(const RobotModel& robot) {
+  for (const std::string& warning : robot.warnings) {
+    std::cerr << "halfstep: warning: " << warning << '\n';
+  }
 }
 
 }  // namespace halfstep

@@ -31,6 +31,7 @@ void DeclareOverrides(CLI::App* app, const std::string& what, std::vector<std::s
 std::vector<YamlOverride> ParseOverrides(const std::vector<std::string>& sets);
 
 struct ExperimentConfig;
+struct RobotModel;
 struct RunCommand;
 /// Declares --overwrite, --quiet and --json, for commands that write a run.
 void DeclareRunFlags(CLI::App* app, RunCommand* command);
@@ -38,6 +39,9 @@ void DeclareRunFlags(CLI::App* app, RunCommand* command);
 /// The folder that a command writes: `--out`, the config's, or runs/NAME. Throws InputError for an
 /// empty `--out`.
 std::filesystem::path OutputFolder(const RunCommand& command, const ExperimentConfig& config);
+
+/// What was repaired in the robot's URDF or left out of it, on standard error.
+void TellWarnings(const RobotModel& robot);
 
 CommandAction DeclareRun(CLI::App* app);
 CommandAction DeclareSmooth(CLI::App* app);

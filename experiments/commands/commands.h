@@ -22,9 +22,18 @@ struct RunCommand {
 /// Throws InputError for bad input, std::runtime_error when files cannot be written.
 ExitStatus Run(const RunCommand& command);
 
+struct LiveCommand {
+  RunCommand run;
+  bool view = false;                  ///< serves a page
+  int port = 0;                       ///< of the page; 0: any that is free
+  std::optional<std::string> socket;  ///< serves messages there
+  bool in_physics = false;  ///< a simulated robot executes the walk, and is what is measured from
+};
+
 /// `halfstep live`: an episode of walking while the world changes, by a config with `live`, into a
-/// folder. kFailed when the robot does not arrive. Throws as Run.
-ExitStatus Live(const RunCommand& command);
+/// folder; with clients it goes on until one asks for its end. kFailed when the robot does not
+/// arrive, or falls in physics. Throws as Run.
+ExitStatus Live(const LiveCommand& command);
 
 struct RecoverCommand {
   std::string episode;     ///< the folder that the episode would have written

@@ -8,20 +8,123 @@
 #include "experiments/live/episode_files.h"
 #include "experiments/live/episode_journal.h"
 #include "experiments/live/episode_summary.h"
+#include "experiments/live/spare_boxes.h"
+#include "experiments/replay/physics_record.h"
+#include "experiments/report/live_page.h"
+#include "experiments/report/report_page.h"
 #include "experiments/run/interrupt.h"
 #include "experiments/run/planning.h"
 #include "experiments/run/progress_bar.h"
+#include "experiments/server/served_episode.h"
 #include "wpg/files/input_error.h"
 
 namespace halfstep {
+namespace {
 
-ExitStatus Live(const RunCommand& command) {
+bool IsServed(const LiveCommand& command) { return command.view || command.socket; }
+
+LiveConfig ConfigOf(const LiveCommand& command) {
+  const LiveConfig config = LoadLiveConfig(command.run.config, command.run.overrides);
+  if (const std::string why = replay::WhyNoSimulation(); command.in_physics && !why.empty()) {
+    throw InputError({"--in-physics: " + why});
+  }
+  if (IsServed(command)) {
+    if (!WhyNoServer().empty()) throw InputError({"--view, --serve: " + WhyNoServer()});
+    if (command.view && !HasReport()) {
+      throw InputError({"--view: this build has no page, as it has no report (valid: --serve)"});
+    }
+    return ServedEpisode::Served(config);
+  }
+  if (config.live.sensing.source == "client") {
+    throw InputError({command.run.config +
+                      ": live.sensing.source: client, but no client can come (valid: with --serve "
+                      "or --view, or stand_in)"});
+  }
+  return config;
+}
+
+// Tells where clients find the episode, at once.
+void PrintPlaces(const LiveCommand& command, const ServedEpisode& served) {
+  std::ostream& screen = command.run.json || command.run.quiet ? std::cerr : std::cout;
+  if (command.view) screen << "view         " << served.address() << '\n';
+  if (command.socket) screen << "socket       " << *command.socket << '\n';
+  screen << "clock        wall, as clients need it\n" << std::flush;
+}
+
+std::unique_ptr<ServedEpisode> Serve(const LiveCommand& command, const LiveConfig& config,
+                                     const Place& place, const TrueWorld& truth) {
+  if (!IsServed(command)) return nullptr;
+  auto served = std::make_unique<ServedEpisode>(
+      config, place, truth,
+      ServerOptions{.view = command.view,
+                    .port = command.port,
+                    .page = [](const std::string& socket) { return LivePage(socket); },
+                    .socket_path = command.socket.value_or("")});
+  PrintPlaces(command, *served);
+  return served;
+}
+
+// The robot that executes the walk in physics, and what it is made of.
+struct PhysicalRobot {
+  PhysicalRobot(const LiveConfig& config, const TrueWorld& truth)
+      : whole(LoadWholeRobot(RobotPath(config.experiment).string())),
+        physics(whole, truth, config.live) {}
+
+  WholeRobot whole;
+  replay::EpisodePhysics physics;
+};
+
+// `hooks`: without clients.
+Episode Walk(const LiveConfig& config, const Replanner& replanner, const Place& place,
+             Sensor* sensor, ServedEpisode* served, const EpisodeHooks& hooks) {
+  const auto run = config.live.clock == "wall" ? RunWallClock : RunLockstep;
+  const std::array<Footprint, 2> start = StartOf(config.experiment, place.robot);
+  if (served == nullptr) return run(replanner, sensor, start, hooks);
+  const std::stop_callback end(hooks.stop, [served] { served->Stop(); });
+  return run(replanner, &served->sensor(), start,
+             {.on_tick =
+                  [&](const EpisodeTick& tick) {
+                    hooks.on_tick(tick);
+                    served->Tick(tick);
+                  },
+              .on_wait = [served](const std::string& reason) { served->Wait(reason); },
+              .held = [served] { return served->held(); },
+              .fallen = {},
+              .stop = served->stop_token()});
+}
+
+// What truly happened, by the script and by what clients did; none when only they know.
+std::optional<TrueWorld> WhatWasTrue(const LiveConfig& config, const Place& place,
+                                     const std::optional<PhysicalRobot>& simulated) {
+  if (config.live.sensing.source != "stand_in") return std::nullopt;
+  if (simulated) return simulated->physics.SeenByRobot();
+  return TrueWorld(place.scene, config.experiment.goal, config.live);
+}
+
+void PrintSummary(const LiveCommand& command, const Episode& episode, const TrueWorld* truth,
+                  const RobotModel& robot, const std::string& folder,
+                  const std::optional<replay::PhysicalOutcome>& outcome) {
+  const EpisodeSummary summary = Summarize(episode, truth, robot);
+  if (command.run.json) {
+    const std::string json = SummaryJson(episode, summary, folder);
+    std::cout << (outcome ? WithPhysics(json, *outcome) : json);
+  } else if (!command.run.quiet) {
+    std::cout << SummaryScreen(episode, summary, folder);
+    if (outcome) std::cout << PhysicsText(*outcome);
+  }
+}
+
+}  // namespace
+
+ExitStatus Live(const LiveCommand& command) {
   InterruptGuard interrupt;
-  const LiveConfig config = LoadLiveConfig(command.config, command.overrides);
-  const Place place = LoadPlace(config.experiment);
+  LiveConfig config = ConfigOf(command);
+  const Place place = LoadEpisodePlace(config);
   const TrueWorld truth(place.scene, config.experiment.goal, config.live);
+  const std::unique_ptr<ServedEpisode> served = Serve(command, config, place, truth);
+  const bool silent = command.run.quiet || command.run.json;
   std::optional<ProgressBar> bar;
-  bar.emplace("half-steps", command.quiet || command.json);
+  bar.emplace("half-steps", silent);
   const BakedHalfSteps baked =
       BakeHalfSteps(place.robot, config.experiment,
                     {.progress = [&bar](const std::string&, double done) { bar->Update(done); },
@@ -32,44 +135,67 @@ ExitStatus Live(const RunCommand& command) {
     return kInterrupted;
   }
   const Replanner replanner(place.robot, config, *baked.cached.volumes);
-  RunFolder folder(OutputFolder(command, config.experiment), command.overwrite);
-  bar.emplace("episode", command.quiet || command.json);
-  const auto run = config.live.clock == "wall" ? RunWallClock : RunLockstep;
-  EpisodeJournal journal(folder.path(), config, command.overwrite);
+  RunFolder folder(OutputFolder(command.run, config.experiment), command.run.overwrite);
+  bar.emplace("episode", silent);
+  EpisodeJournal journal(folder.path(), config, command.run.overwrite);
   interrupt.Keep();
-  StandInSensor sensor(truth, config.live, static_cast<std::uint64_t>(config.experiment.seed) + 1);
-  const Episode episode = run(replanner, &sensor, StartOf(config.experiment, place.robot),
-                              {.on_tick =
-                                   [&](const EpisodeTick& at) {
-                                     journal.Write(at);
-                                     bar->Update(at.now / config.live.longest);
-                                   },
-                               .held = {},
-                               .stop = interrupt.token()});
+  std::optional<PhysicalRobot> simulated;
+  if (command.in_physics) simulated.emplace(config, truth);
+  const TrueWorld seen = simulated ? simulated->physics.SeenByRobot() : truth;
+  StandInSensor sensor(seen, config.live, static_cast<std::uint64_t>(config.experiment.seed) + 1);
+  const auto on_tick = [&](const EpisodeTick& tick) {
+    if (simulated) simulated->physics.Play(tick);
+    journal.Write(tick);
+    bar->Update(tick.now / config.live.longest);
+  };
+  const Episode episode = Walk(config, replanner, place, &sensor, served.get(),
+                               {.on_tick = on_tick,
+                                .on_wait = {},
+                                .held = {},
+                                .fallen = [&] { return simulated && simulated->physics.fallen(); },
+                                .stop = interrupt.token()});
   bar.reset();
   if (!journal.failure().empty()) std::cerr << "halfstep: warning: " << journal.failure() << '\n';
+  if (served) config.live.script = served->Script();
   WriteEpisode(episode, config, place, &folder);
+  std::optional<replay::PhysicalOutcome> outcome;
+  if (simulated) {
+    outcome = simulated->physics.Finish(episode);
+    WritePhysics(*outcome, place.robot, place.scene, &folder);
+  }
   folder.Publish();
   journal.Remove();
-  const EpisodeSummary summary = Summarize(episode, truth, place.robot);
-  if (command.json) {
-    std::cout << SummaryJson(episode, summary, folder.path().string());
-  } else if (!command.quiet) {
-    std::cout << SummaryScreen(episode, summary, folder.path().string());
-  }
+  if (served) served->End(episode, folder.path().string());
+  const std::optional<TrueWorld> was_true = WhatWasTrue(config, place, simulated);
+  PrintSummary(command, episode, was_true ? &*was_true : nullptr, place.robot,
+               folder.path().string(), outcome);
   if (episode.ending == EpisodeEnding::kInterrupted) return kInterrupted;
-  return episode.ending == EpisodeEnding::kArrived ? kSuccess : kFailed;
+  const bool fell = outcome && !outcome->replayed.result.stayed_up;
+  return episode.ending == EpisodeEnding::kArrived && !fell ? kSuccess : kFailed;
 }
 
 CommandAction DeclareLive(CLI::App* app) {
-  const auto command = std::make_shared<RunCommand>();
+  const auto command = std::make_shared<LiveCommand>();
   const auto sets = std::make_shared<std::vector<std::string>>();
-  app->add_option("CONFIG", command->config, "episode, a YAML file with `live`")->required();
+  app->add_option("CONFIG", command->run.config, "episode, a YAML file with `live`")->required();
   DeclareOverrides(app, "the config", sets.get());
-  app->add_option("--out", command->out, "folder (default: output.directory, or runs/NAME)");
-  DeclareRunFlags(app, command.get());
+  app->add_option("--out", command->run.out, "folder (default: output.directory, or runs/NAME)");
+  CLI::Option* const view =
+      app->add_flag("--view", command->view,
+                    "serve a page that shows the episode and lets people take part, on this "
+                    "machine only; its address is printed");
+  app->add_option("--port", command->port, "of the page (default: any that is free)")
+      ->check(CLI::Range(0, 65535))
+      ->needs(view);
+  CLI::Option* const serve = app->add_option(
+      "--serve", command->socket, "serve the same messages by a Unix-domain socket of this path");
+  app->add_flag("--in-physics", command->in_physics,
+                "a robot simulated by MuJoCo executes the walk; the world is measured from it")
+      ->excludes(view)
+      ->excludes(serve);
+  DeclareRunFlags(app, &command->run);
   return [command, sets] {
-    command->overrides = ParseOverrides(*sets);
+    command->run.overrides = ParseOverrides(*sets);
     return Live(*command);
   };
 }

@@ -77,10 +77,12 @@ ExitStatus Plan(const PlanCommand& command) {
     throw InputError(
         {command.config + ": goal: is missing (valid: a `goal` in place of footsteps)"});
   }
+  const Place place = LoadPlace(config);
+  TellWarnings(place.robot);
   std::optional<PlannedWalk> walk;
   {
     Bars bars(command.quiet || command.json);
-    walk = PlanWalk(config, LoadPlace(config), HooksOf(&bars, interrupt));
+    walk = PlanWalk(config, place, HooksOf(&bars, interrupt));
   }
   WarnAboutCache(walk->half_steps.cached);
   const bool solved = walk->plan.status == PlanStatus::kSolved;
@@ -98,6 +100,7 @@ ExitStatus Bake(const PlanCommand& command) {
   InterruptGuard interrupt;
   const ExperimentConfig config = LoadConfig(command.config, command.overrides);
   const Place place = LoadPlace(config);
+  TellWarnings(place.robot);
   std::optional<BakedHalfSteps> baked;
   {
     Bars bars(command.quiet || command.json);

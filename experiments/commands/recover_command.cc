@@ -6,6 +6,7 @@
 #include "experiments/live/episode_files.h"
 #include "experiments/live/episode_journal.h"
 #include "experiments/live/episode_reader.h"
+#include "experiments/live/spare_boxes.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/text.h"
 
@@ -19,7 +20,7 @@ ExitStatus Recover(const RecoverCommand& command) {
   }
   const EpisodeJournalLock lock(left);
   const LiveConfig config = LoadLiveConfig((left / "config.yaml").string(), {});
-  const Place place = LoadPlace(config.experiment);
+  const Place place = LoadEpisodePlace(config);
   const Episode episode = ReadJournal(left, config, place);
   RunFolder folder(command.episode, command.overwrite);
   WriteEpisode(episode, config, place, &folder);

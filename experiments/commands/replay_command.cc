@@ -14,6 +14,7 @@
 #include "experiments/run/progress_bar.h"
 #include "experiments/tables/certificate_files.h"
 #include "experiments/tables/run_folder.h"
+#include "experiments/tables/run_record.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/number_text.h"
 
@@ -96,7 +97,7 @@ void WriteRows(const Task& task, const std::vector<replay::Replayed>& all, const
   RunFolder folder(run, /*overwrite=*/true);
   folder.CopyOlder();
   for (size_t i = 0; i < all.size(); ++i) {
-    WriteCsv(task.motions[i].table, ReplayCsv(all[i].result), &folder);
+    WriteCsv(task.motions[i].table, ReplayCsv(all[i].result.rows), &folder);
   }
   folder.Publish();
 }
@@ -104,7 +105,7 @@ void WriteRows(const Task& task, const std::vector<replay::Replayed>& all, const
 }  // namespace
 
 ExitStatus Replay(const ReplayCommand& command) {
-  const Task task = replay::IsEpisode(command.run) ? EpisodeTask(command) : RunTask(command);
+  const Task task = IsEpisode(command.run) ? EpisodeTask(command) : RunTask(command);
   const std::vector<std::vector<double>> push_at = AllInstants(command, task);
   if (const std::string why = replay::WhyNoSimulation(); !why.empty()) {
     std::cerr << "halfstep: replay: " << why << '\n';

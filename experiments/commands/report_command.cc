@@ -5,10 +5,15 @@
 
 #include "experiments/commands/command_line.h"
 #include "experiments/commands/commands.h"
+#include "experiments/live/episode_reader.h"
+#include "experiments/live/episode_report.h"
+#include "experiments/live/spare_boxes.h"
 #include "experiments/report/report.h"
 #include "experiments/report/report_page.h"
 #include "experiments/run/complete_manifest.h"
+#include "experiments/tables/json_file.h"
 #include "experiments/tables/run_folder.h"
+#include "experiments/tables/run_record.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/whole_file.h"
 
@@ -16,11 +21,59 @@ namespace halfstep {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+// Writes the page into the folder itself, and its hash into the manifest.
+template <typename Write>
+void WriteInto(const fs::path& folder_path, const Place& place, const Write& write) {
+  RunFolder folder(folder_path, /*overwrite=*/true);
+  folder.CopyOlder();
+  write(&folder);
+  CompleteManifest(place.robot, place.scene, &folder);
+  folder.Publish();
+}
+
+void ReportOfRun(const ReportCommand& command, const fs::path& run) {
+  const Place place = PlaceOfRun(run);
+  if (command.out) {
+    WriteWhole(*command.out, {RunReport(place.robot, place.scene, run)});
+  } else {
+    WriteInto(run, place, [&](RunFolder* f) { WriteReport(place.robot, place.scene, f); });
+  }
+}
+
+// Drawn with today's files, which must be those that the episode was about.
+void CheckSame(const std::vector<InputFile>& files, const std::string& what,
+               const fs::path& episode) {
+  const fs::path path = episode / "manifest.json";
+  if (ReadJsonObject(path).value(what + "_sha256", nlohmann::json()) == CombinedSha256(files)) {
+    return;
+  }
+  throw InputError({path.string() + ": the files of the " + what +
+                    " are not those of this episode (valid: as they were when it was made)"});
+}
+
+void ReportOfEpisode(const ReportCommand& command, const fs::path& folder) {
+  const LiveConfig config = LoadLiveConfig((folder / "config.yaml").string(), {});
+  const Place place = LoadEpisodePlace(config);
+  CheckSame(place.robot.files, "robot", folder);
+  CheckSame(place.scene.files, "scene", folder);
+  const Episode episode = ReadEpisode(folder, config, place);
+  if (command.out) {
+    WriteWhole(*command.out, {EpisodeReport(episode, config, place, folder)});
+  } else {
+    WriteInto(folder, place, [&](RunFolder* f) { WriteEpisodeReport(episode, config, place, f); });
+  }
+}
+
+}  // namespace
+
 ExitStatus Report(const ReportCommand& command) {
   const fs::path run(command.run);
   if (!fs::is_directory(run) || !fs::exists(run / "manifest.json")) {
     throw InputError(
-        {command.run + ": no such run folder (valid: a folder that `halfstep run` wrote)"});
+        {command.run +
+         ": no such run folder (valid: a folder that `halfstep run` or `halfstep live` wrote)"});
   }
   if (!HasReport()) {
     throw std::runtime_error(
@@ -32,15 +85,10 @@ ExitStatus Report(const ReportCommand& command) {
   if (command.out && !command.overwrite && fs::exists(fs::symlink_status(out))) {
     throw std::runtime_error(out.string() + ": is there already (--overwrite replaces it)");
   }
-  const Place place = PlaceOfRun(run);
-  if (command.out) {
-    WriteWhole(out, {RunReport(place.robot, place.scene, run)});
+  if (IsEpisode(run)) {
+    ReportOfEpisode(command, run);
   } else {
-    RunFolder folder(run, /*overwrite=*/true);
-    folder.CopyOlder();
-    WriteReport(place.robot, place.scene, &folder);
-    CompleteManifest(place.robot, place.scene, &folder);
-    folder.Publish();
+    ReportOfRun(command, run);
   }
   if (!command.quiet) std::cout << "written: " << out.string() << '\n';
   return kSuccess;
@@ -48,7 +96,7 @@ ExitStatus Report(const ReportCommand& command) {
 
 CommandAction DeclareReport(CLI::App* app) {
   const auto command = std::make_shared<ReportCommand>();
-  app->add_option("RUN", command->run, "run folder")->required();
+  app->add_option("RUN", command->run, "folder of a run or an episode")->required();
   app->add_option("--out", command->out, "the file (default: report.html in the run folder)");
   app->add_flag("--overwrite", command->overwrite, "replace --out");
   app->add_flag("--quiet", command->quiet, "print nothing but errors");

@@ -76,6 +76,7 @@ ExitStatus Run(const RunCommand& command) {
   CompleteManifest(run.experiment().robot, run.experiment().scene, &folder);
   folder.Publish();
 
+  TellWarnings(run.experiment().robot);
   const std::string place = folder.path().string();
   if (command.json) {
     std::cout << RunJson(run.evaluator(), run.runs(), place);

@@ -364,6 +364,7 @@ ExperimentConfig ParseConfig(const std::string& path, const std::string& text,
   config.name = file.stem().string();
   ReadYamlText(text, path, file.parent_path().string(), overrides, [&](Fields& fields) {
     DeclareFields(fields, &config);
+    fields.Misplaced("live", "this is the config of an episode (valid: `halfstep live` takes it)");
     config.directory = fields.directory();
     DeclareFilesThere(fields, config);
   });

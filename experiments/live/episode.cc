@@ -17,6 +17,8 @@ std::string_view Name(EpisodeEnding ending) {
       return "no_plan";
     case EpisodeEnding::kInterrupted:
       return "interrupted";
+    case EpisodeEnding::kFell:
+      return "fell";
     case EpisodeEnding::kKilled:
       return "killed";
   }

@@ -55,11 +55,13 @@ enum class EpisodeEnding {
   kTooLong,      ///< walking when the time was up
   kNoPlan,       ///< there was no walk to begin with
   kInterrupted,  ///< stopped from outside
+  kFell,         ///< the simulated robot fell
   kKilled,       ///< its process was killed: what is recorded was recovered
 };
 inline constexpr std::array kEpisodeEndings = {EpisodeEnding::kArrived,     EpisodeEnding::kStuck,
                                                EpisodeEnding::kTooLong,     EpisodeEnding::kNoPlan,
-                                               EpisodeEnding::kInterrupted, EpisodeEnding::kKilled};
+                                               EpisodeEnding::kInterrupted, EpisodeEnding::kFell,
+                                               EpisodeEnding::kKilled};
 std::string_view Name(EpisodeEnding ending);
 
 /// The record of an episode.
@@ -91,8 +93,12 @@ struct EpisodeTick {
 /// Callbacks of an episode, called in the thread that runs it; they must return quickly.
 struct EpisodeHooks {
   std::function<void(const EpisodeTick&)> on_tick = {};
+  /// Called at each look at the world before there is a walk, with the reason why not.
+  std::function<void(const std::string& reason)> on_wait = {};
   /// Whether no half-step is to begin for the time being, so that the robot comes to rest.
   std::function<bool()> held = {};
+  /// Whether the robot that executes the walk has fallen; then the episode ends.
+  std::function<bool()> fallen = {};
   std::stop_token stop = {};  ///< the robot comes to rest, then the episode ends
 };
 

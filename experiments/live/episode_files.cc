@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/build_info.h"
+#include "experiments/live/episode_report.h"
 #include "experiments/live/episode_tables.h"
 #include "experiments/run/complete_manifest.h"
 #include "experiments/tables/result_tables.h"
@@ -79,6 +80,7 @@ void WriteEpisode(const Episode& episode, const LiveConfig& config, const Place&
   const std::string resolved = ResolvedFor(folder->path(), config);
   folder->Write("config.yaml", resolved);
   folder->Write("manifest.json", ManifestJson(episode, config, resolved));
+  WriteEpisodeReport(episode, config, place, folder);
   CompleteManifest(place.robot, place.scene, folder);
 }
 

@@ -77,9 +77,12 @@ Proposal EpisodeLoop::Wait(const std::array<Footprint, 2>& start) {
   double origin = 0.0, lead = clock_.passes() ? patience_ : 0.0, pause = kPause;
   clock_.Begin();
   for (long frame = 0; first.kind == ProposalKind::kUnsafe; ++frame) {
+    // A search may have taken the time of many frames.
+    frame = std::max(frame, static_cast<long>(clock_.Time(0.0) / options_.sensing.period));
     const double now = static_cast<double>(frame) * options_.sensing.period;
     if (now > options_.longest || hooks_.stop.stop_requested()) break;
     clock_.WaitUntil(now);
+    if (hooks_.on_wait) hooks_.on_wait(first.reason);
     while (std::optional<Frame> taken = sensor_.Next(now)) {
       if (!taken->world) continue;
       World& measured = *taken->world;
@@ -102,9 +105,10 @@ Proposal EpisodeLoop::Wait(const std::array<Footprint, 2>& start) {
     // Overlaps are found while the robot walks, unless time stands still.
     const int junctions = clock_.passes() ? 0 : options_.smooth_ahead;
     first = replanner_.Begin(start, *replanner_.Prepare(*world_), junctions, random);
-    if (clock_.Time(origin) <= origin) continue;
+    const double ready = clock_.Time(now);
+    if (clock_.passes()) lead = std::max(patience_, 1.5 * (ready - now));
+    if (first.kind == ProposalKind::kUnsafe || ready <= origin) continue;
     // It should have begun already.
-    lead = 2.0 * (clock_.Time(origin) - now);
     first = {.kind = ProposalKind::kUnsafe, .reason = "to find a walk took too long"};
     tried.reset();
   }
@@ -242,8 +246,11 @@ bool EpisodeLoop::Ends(double now) {
   const bool on_both = executor_->begun() % 2 == 1;
   const bool arrived =
       at_rest && on_both && now > sensor_.QuietFrom() && world_->goal.ContainsStance(stance);
-  if (!arrived && !over && !interrupted) return false;
-  record_.ending = arrived       ? EpisodeEnding::kArrived
+  const bool fell = hooks_.fallen && hooks_.fallen();
+  if (!arrived && !over && !interrupted && !fell) return false;
+  if (fell) record_.message = Formatted("the robot fell at %.3f s", now);
+  record_.ending = fell          ? EpisodeEnding::kFell
+                   : arrived     ? EpisodeEnding::kArrived
                    : interrupted ? EpisodeEnding::kInterrupted
                    : at_rest     ? EpisodeEnding::kStuck
                                  : EpisodeEnding::kTooLong;

@@ -16,9 +16,15 @@ std::string Counted(int count, const std::string& one, const std::string& many) 
   return std::to_string(count) + " " + (count == 1 ? one : many);
 }
 
+std::string NearestLine(const Approach& nearest) {
+  if (nearest.obstacle.empty()) return "nearest      no obstacle within 0.3 m while it moved\n";
+  return Formatted("nearest      %.4f m, %s to %s at %.2f s (sampled every 5 ms)\n",
+                   nearest.distance, nearest.body.c_str(), nearest.obstacle.c_str(), nearest.t);
+}
+
 }  // namespace
 
-EpisodeSummary Summarize(const Episode& episode, const TrueWorld& truth, const RobotModel& robot) {
+EpisodeSummary Summarize(const Episode& episode, const TrueWorld* truth, const RobotModel& robot) {
   EpisodeSummary summary;
   summary.ending = Name(episode.ending);
   summary.duration = episode.end;
@@ -43,7 +49,9 @@ EpisodeSummary Summarize(const Episode& episode, const TrueWorld& truth, const R
   summary.stops = CountOf(episode, "stopped");
   summary.unsafe = CountOf(episode, "unsafe");
   summary.waited = episode.waited;
-  summary.nearest = NearestApproach(episode, truth.Since(episode.waited), robot, 0.005, 0.3);
+  if (truth != nullptr) {
+    summary.nearest = NearestApproach(episode, truth->Since(episode.waited), robot, 0.005, 0.3);
+  }
   return summary;
 }
 
@@ -71,12 +79,7 @@ std::string SummaryScreen(const Episode& episode, const EpisodeSummary& summary,
   if (episode.latest_tick > 0.0) {
     text += Formatted("wall clock   ticks at most %.1f ms late\n", 1e3 * episode.latest_tick);
   }
-  const Approach& nearest = summary.nearest;
-  text +=
-      nearest.obstacle.empty()
-          ? std::string("nearest      no obstacle within 0.3 m while it moved\n")
-          : Formatted("nearest      %.4f m, %s to %s at %.2f s (sampled every 5 ms)\n",
-                      nearest.distance, nearest.body.c_str(), nearest.obstacle.c_str(), nearest.t);
+  if (summary.nearest) text += NearestLine(*summary.nearest);
   return text + "written to   " + folder + "\n";
 }
 
@@ -96,10 +99,12 @@ std::string SummaryJson(const Episode& episode, const EpisodeSummary& summary,
                                  {"stops", summary.stops},
                                  {"unsafe", summary.unsafe},
                                  {"latencies_s", summary.latencies},
-                                 {"begun_meanwhile", summary.begun_meanwhile},
-                                 {"nearest_m", summary.nearest.distance},
-                                 {"nearest_obstacle", summary.nearest.obstacle},
-                                 {"nearest_t_s", summary.nearest.t}};
+                                 {"begun_meanwhile", summary.begun_meanwhile}};
+  if (const std::optional<Approach>& nearest = summary.nearest) {
+    json["nearest_m"] = nearest->distance;
+    json["nearest_obstacle"] = nearest->obstacle;
+    json["nearest_t_s"] = nearest->t;
+  }
   if (!folder.empty()) json["folder"] = folder;
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }

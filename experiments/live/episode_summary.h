@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,10 +23,12 @@ struct EpisodeSummary {
   /// footsteps [s]; half-steps that began meanwhile, before the first changed one.
   std::vector<double> latencies;
   std::vector<int> begun_meanwhile;
-  Approach nearest;  ///< sampled every 5 ms
+  /// Sampled every 5 ms; none when it is not known where obstacles truly were.
+  std::optional<Approach> nearest;
 };
 
-EpisodeSummary Summarize(const Episode& episode, const TrueWorld& truth, const RobotModel& robot);
+/// `truth`: null when clients measured, so that it is not known.
+EpisodeSummary Summarize(const Episode& episode, const TrueWorld* truth, const RobotModel& robot);
 
 /// What `halfstep live` prints; the same as one JSON object.
 std::string SummaryScreen(const Episode& episode, const EpisodeSummary& summary,

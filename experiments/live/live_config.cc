@@ -4,6 +4,8 @@
 #include <array>
 #include <filesystem>
 
+#include "wpg/files/text.h"
+
 namespace halfstep {
 namespace {
 
@@ -52,6 +54,10 @@ void DeclareEvent(Fields& fields, ScriptEvent* e) {
 }
 
 void DeclareSensing(Fields& fields, SensingConfig* c) {
+  fields.Text("source", &c->source,
+              {.meaning = "stand_in: frames of what the script says; client: what clients of "
+                          "`halfstep live --serve` send",
+               .choices = {"stand_in", "client"}});
   fields.Number("period_s", &c->period,
                 {.meaning = "between frames", .unit = "s", .min = 0.005, .max = 10});
   fields.Number("delay_s", &c->delay,
@@ -108,14 +114,26 @@ void DeclareLive(Fields& fields, LiveOptions* c, double half_step) {
   fields.Number(
       "longest_s", &c->longest,
       {.meaning = "the episode ends then at the latest", .unit = "s", .min = 1, .max = 3600});
+  fields.Integer("spare_boxes", &c->spare_boxes,
+                 {.meaning = "boxes of 0.2 x 0.2 x 0.1 m, spare_1 ..., that are not there until "
+                             "something makes them appear",
+                  .min = 0,
+                  .max = 100});
   fields.Integer("smooth_at_once", &c->smooth_at_once,
                  {.meaning = "junctions whose overlaps are found in one go", .min = 1, .max = 100});
   fields.Integer("smooth_ahead", &c->smooth_ahead,
                  {.meaning = "overlaps are found so many junctions ahead", .min = 1, .max = 1000});
   fields.Number("tolerance_s", &c->tolerance,
                 {.meaning = "of these overlaps", .unit = "s", .min = 1e-4, .max = 0.5});
-  fields.Group("sensing", {.meaning = "the stand-in for motion capture"},
+  fields.Group("sensing", {.meaning = "where measurements come from"},
                [&](Fields& f) { DeclareSensing(f, &c->sensing); });
+  const double least = half_step + c->sensing.period + c->sensing.delay;
+  if (c->horizon <= least) {
+    fields.Complain("horizon_s",
+                    Formatted("no longer than a half-step and what a measurement takes (%.9g s): "
+                              "nothing could begin where anything may move (valid: more)",
+                              least));
+  }
   fields.Group("budget", {.meaning = "what thinking costs in lockstep"}, [&](Fields& f) {
     DeclareBudget(f, &c->budget);
     for (const auto& [key, value] :
@@ -130,6 +148,11 @@ void DeclareLive(Fields& fields, LiveOptions* c, double half_step) {
   });
   fields.List("script", {.meaning = "what happens, in the order of time", .max_items = 10000},
               &c->script, DeclareEvent);
+  if (c->sensing.source == "client" && !c->script.empty()) {
+    fields.Complain("script",
+                    "says what happens, but clients say what is measured (valid: [], or "
+                    "sensing.source: stand_in)");
+  }
   if (!std::ranges::is_sorted(c->script, {}, &ScriptEvent::at)) {
     fields.Complain("script", "is not in the order of time (valid: at_s that do not fall)");
   }

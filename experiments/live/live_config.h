@@ -23,10 +23,11 @@ struct ScriptEvent {
   double lasts = 0.0;        ///< of lose: how long no frame arrives [s]
 };
 
-/// The stand-in for motion capture.
+/// Where measurements come from, and what is assumed of them.
 struct SensingConfig {
-  double period = 0.2;   ///< between frames [s]
-  double delay = 0.02;   ///< from a frame to when it is known [s]
+  std::string source = "stand_in";  ///< or client: what clients of the episode's server send
+  double period = 0.2;              ///< between frames [s]
+  double delay = 0.02;              ///< from a frame to when it is known [s]
   double noise = 0.005;  ///< positions are drawn from a ball of this radius around the true one [m]
   double error = 0.005;  ///< r: what is assumed of that radius [m]
   /// An obstacle that was measured at one place, up to the error, for so long is taken to rest, v =
@@ -47,9 +48,10 @@ struct LiveOptions {
   std::string clock = "lockstep";
   std::string policy = "replan";
   double period = 0.005;   ///< of control [s]
-  double horizon = 2.0;    ///< H: the uncertainty of a measurement grows no longer than this [s]
+  double horizon = 2.5;    ///< H: the uncertainty of a measurement grows no longer than this [s]
   double drift = 0.0;      ///< the robot strays from where it believes to be, at most at this [m/s]
   double longest = 120.0;  ///< an episode ends then [s]
+  int spare_boxes = 0;     ///< not there until they appear
   int smooth_at_once = 3;  ///< junctions
   int smooth_ahead = 8;    ///< junctions behind the latest half-step that has begun
   double tolerance = 0.02;  ///< of their overlaps [s]

@@ -40,6 +40,11 @@ class StandInSensor final : public Sensor {
   std::optional<Frame> Next(double now) override;
   double QuietFrom() const override { return truth_.end() + options_.sensing.period; }
 
+  /// What truly happens, in times of the walk once that has begun.
+  const TrueWorld& truth() const { return truth_; }
+  /// Something more happens in the true world (TrueWorld::Append).
+  void Append(const ScriptEvent& event) { truth_.Append(event); }
+
  private:
   TrueWorld truth_;
   LiveOptions options_;

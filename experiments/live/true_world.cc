@@ -37,7 +37,12 @@ Eigen::Isometry3d After(const Eigen::Isometry3d& from, const ScriptEvent& event,
 }  // namespace
 
 TrueWorld::TrueWorld(const Scene& scene, const GoalConfig& goal, const LiveOptions& options)
-    : scene_(scene), goal_(goal), script_(options.script), drift_(options.drift) {
+    : scene_(scene),
+      goal_(goal),
+      script_(options.script),
+      own_(scene.obstacles.size() -
+           std::min(scene.obstacles.size(), static_cast<size_t>(options.spare_boxes))),
+      drift_(options.drift) {
   std::vector<std::string> complaints;
   of_obstacle_.resize(scene.obstacles.size());
   for (size_t k = 0; k < script_.size(); ++k) {
@@ -49,23 +54,45 @@ TrueWorld::TrueWorld(const Scene& scene, const GoalConfig& goal, const LiveOptio
                                              event.area, scene.no_step.size()));
     }
     if (event.obstacle.empty()) continue;
-    const auto named = std::ranges::find(scene.obstacles, event.obstacle, &Obstacle::name);
-    if (named == scene.obstacles.end()) {
+    const size_t index = IndexOf(event.obstacle);
+    if (index == scene.obstacles.size()) {
       complaints.push_back(place + "obstacle '" + event.obstacle +
                            "' is not in the scene (valid: the name of one of its obstacles)");
       continue;
     }
-    const auto index = static_cast<size_t>(named - scene.obstacles.begin());
-    if (event.what == "carry") {
-      end_ = std::max(end_, event.at + CarryTime(PoseAt(index, event.at), event));
-    }
-    of_obstacle_[index].push_back(event);
+    TakeIn(index, event);
   }
   if (drift_ > 0.0 && !scene.no_step.empty()) {
     complaints.push_back(
         "live.drift_m_s: the scene has no-step areas, whose place is taken as exact (valid: 0)");
   }
   if (!complaints.empty()) throw InputError(complaints);
+}
+
+size_t TrueWorld::IndexOf(const std::string& obstacle) const {
+  const auto named = std::ranges::find(scene_.obstacles, obstacle, &Obstacle::name);
+  return static_cast<size_t>(named - scene_.obstacles.begin());
+}
+
+void TrueWorld::TakeIn(size_t obstacle, const ScriptEvent& event) {
+  if (event.what == "carry") {
+    const Eigen::Isometry3d from = PoseAt(obstacle, event.at);
+    end_ = std::max(end_, origin_ + event.at + CarryTime(from, event));
+  }
+  std::vector<ScriptEvent>& events = of_obstacle_[obstacle];
+  events.insert(std::ranges::upper_bound(events, event.at, {}, &ScriptEvent::at), event);
+}
+
+void TrueWorld::Append(ScriptEvent event) {
+  end_ = std::max(end_, origin_ + event.at + event.lasts);
+  if (!event.obstacle.empty()) TakeIn(IndexOf(event.obstacle), event);
+  script_.insert(std::ranges::upper_bound(script_, event.at, {}, &ScriptEvent::at), event);
+}
+
+std::vector<ScriptEvent> TrueWorld::Script() const {
+  std::vector<ScriptEvent> script = script_;
+  for (ScriptEvent& event : script) event.at += origin_;
+  return script;
 }
 
 TrueWorld TrueWorld::Since(double origin) const {
@@ -78,9 +105,20 @@ TrueWorld TrueWorld::Since(double origin) const {
   return since;
 }
 
+TrueWorld TrueWorld::SeenFrom(std::function<Pose2(double t)> X_WU) const {
+  TrueWorld seen = *this;
+  seen.seen_from_ = std::move(X_WU);
+  return seen;
+}
+
+Pose2 TrueWorld::WorldAt(double t) const {
+  return seen_from_ ? seen_from_(t) : Pose2{drift_ * (t + origin_), 0.0, 0.0};
+}
+
 bool TrueWorld::IsThere(size_t obstacle, double t) const {
   const std::vector<ScriptEvent>& events = of_obstacle_[obstacle];
-  bool there = std::ranges::find(events, "appear", &ScriptEvent::what) == events.end();
+  bool there =
+      obstacle < own_ && std::ranges::find(events, "appear", &ScriptEvent::what) == events.end();
   for (const ScriptEvent& event : events) {
     if (event.at > t) break;
     if (event.what == "appear") there = true;
@@ -96,7 +134,9 @@ Eigen::Isometry3d TrueWorld::PoseAt(size_t obstacle, double t) const {
     const double until = k + 1 < events.size() ? std::min(t, events[k + 1].at) : t;
     X_WO = After(X_WO, events[k], until - events[k].at);
   }
-  X_WO.translation() += DriftAt(t);
+  const Pose2 X_WU = WorldAt(t);
+  if (X_WU.yaw != 0.0) return ToIsometry(X_WU, 0.0) * X_WO;
+  X_WO.translation() += Eigen::Vector3d(X_WU.x, X_WU.y, 0.0);
   return X_WO;
 }
 
@@ -122,8 +162,9 @@ GoalRegion TrueWorld::GoalAt(double t) const {
     goal.X_WG.x = event.goal[0];
     goal.X_WG.y = event.goal[1];
   }
-  goal.X_WG.x += DriftAt(t).x();
-  goal.X_WG.y += DriftAt(t).y();
+  const Eigen::Vector2d place = WorldAt(t) * goal.X_WG.position();
+  goal.X_WG.x = place.x();
+  goal.X_WG.y = place.y();
   return goal;
 }
 

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <functional>
 #include <vector>
 
 #include "experiments/config/planning_config.h"
 #include "experiments/live/live_config.h"
 #include "planner/scene/scene.h"
+#include "wpg/geometry/pose2.h"
 
 namespace halfstep {
 
@@ -14,11 +16,26 @@ namespace halfstep {
 /// the robot does.
 class TrueWorld {
  public:
-  /// Throws InputError when the script names an obstacle or an area that the scene does not have.
+  /// `scene`: with the spare boxes. Throws InputError when the script names an obstacle or an area
+  /// that the scene does not have.
   TrueWorld(const Scene& scene, const GoalConfig& goal, const LiveOptions& options);
+
+  /// One more event, at the time `event.at` of the walk [s], after those of the script that happen
+  /// at the same time. Precondition: the scene has its obstacle.
+  void Append(ScriptEvent event);
+  /// Everything that happens, in times of the script, in their order.
+  std::vector<ScriptEvent> Script() const;
 
   /// The same, for a walk that begins at the time `origin` of the script [s].
   TrueWorld Since(double origin) const;
+
+  /// The same, as a robot sees it that strays in another way than `live.drift_m_s` says: X_WU is
+  /// the pose of the world in the frame of the walk at the time t of the walk [s]. Obstacles and
+  /// the goal's place move with it. The goal's yaw and no-step areas do not.
+  TrueWorld SeenFrom(std::function<Pose2(double t)> X_WU) const;
+
+  /// X_WU: where the world is in the frame of the walk at the time t of the walk [s].
+  Pose2 WorldAt(double t) const;
 
   const Scene& scene() const { return scene_; }  ///< as its file says it
 
@@ -32,18 +49,20 @@ class TrueWorld {
   bool IsSeen(double t) const;
   /// The first time [s] from which on nothing happens any more, but for the drift.
   double end() const { return end_ - origin_; }
-  /// How far the world has moved in the frame of the walk [m].
-  Eigen::Vector3d DriftAt(double t) const { return {drift_ * (t + origin_), 0.0, 0.0}; }
 
  private:
-  std::vector<ScriptEvent> EventsOf(size_t obstacle) const;
+  size_t IndexOf(const std::string& obstacle) const;
+  // Takes an event of an obstacle in; all that happen earlier are.
+  void TakeIn(size_t obstacle, const ScriptEvent& event);
 
   Scene scene_;
   GoalConfig goal_;
   std::vector<ScriptEvent> script_;
   std::vector<std::vector<ScriptEvent>> of_obstacle_;
+  size_t own_ = 0;       // obstacles that are no spare boxes
   double origin_ = 0.0;  // of the walk's time, in that of the script
   double drift_ = 0.0;
+  std::function<Pose2(double)> seen_from_;  // none: by drift_
   double end_ = 0.0;
 };
 

@@ -74,6 +74,17 @@ World Since(World world, double origin) {
   return world;
 }
 
+Obstacle Measured(Obstacle obstacle, const Eigen::Isometry3d& X_WO, double t,
+                  const LiveOptions& options) {
+  obstacle.X_WO = X_WO;
+  obstacle.motion = {.waypoints = {},
+                     .error = options.sensing.error,
+                     .speed = obstacle.motion.speed + options.drift,
+                     .measured_at = t,
+                     .horizon = options.horizon};
+  return obstacle;
+}
+
 World Measure(const TrueWorld& truth, double t, const LiveOptions& options,
               std::mt19937_64& random) {
   World frame;
@@ -84,14 +95,9 @@ World Measure(const TrueWorld& truth, double t, const LiveOptions& options,
     // Drawn for all, so that what one obstacle does changes nothing for the others.
     const Eigen::Vector3d off = InBall(options.sensing.noise, random);
     if (!truth.IsThere(i, t)) continue;
-    Obstacle obstacle = truth.scene().obstacles[i];
-    obstacle.X_WO = truth.PoseAt(i, t);
-    obstacle.X_WO.translation() += off;
-    obstacle.motion = {.waypoints = {},
-                       .error = options.sensing.error,
-                       .speed = obstacle.motion.speed + options.drift,
-                       .measured_at = t,
-                       .horizon = options.horizon};
+    Eigen::Isometry3d X_WO = truth.PoseAt(i, t);
+    X_WO.translation() += off;
+    Obstacle obstacle = Measured(truth.scene().obstacles[i], X_WO, t, options);
     frame.stays.push_back({obstacle.X_WO, t});
     frame.scene.obstacles.push_back(std::move(obstacle));
   }

@@ -55,6 +55,10 @@ WorldUpdate Updated(const World& last, const PastWorlds& past, World frame,
 /// The same world for a walk that begins at time `origin` [s]: all times are counted from there.
 World Since(World world, double origin);
 
+/// An obstacle of a scene as it was measured at t [s].
+Obstacle Measured(Obstacle obstacle, const Eigen::Isometry3d& X_WO, double t,
+                  const LiveOptions& options);
+
 /// The stand-in for motion capture: a frame of what is truly there at t [s], positions off by the
 /// noise. Version and `sound_since` are for Updated() to fill.
 World Measure(const TrueWorld& truth, double t, const LiveOptions& options,

@@ -17,10 +17,6 @@ struct RecordedEpisode {
   ReferenceMotion motion;  ///< that was executed, to the end of the walk or of the episode
 };
 
-/// Whether the manifest.json of a folder says that it is an episode's; false without one. Throws
-/// InputError for a manifest that cannot be read.
-bool IsEpisode(const std::filesystem::path& folder);
-
 /// Reads config.yaml with its robot and scene, and trajectory.csv. Throws InputError for what is
 /// missing or wrong, such as a script that names an obstacle that the scene does not have.
 RecordedEpisode ReadEpisode(const std::filesystem::path& folder);

@@ -5,17 +5,11 @@
 #include <limits>
 #include <numbers>
 
-#include "wpg/geometry/pose2.h"
-
 namespace halfstep::replay {
 namespace {
 
 // A sole carries when this share of the weight is on it.
 constexpr double kCarries = 0.05;
-
-Pose2 OnFloor(const Eigen::Isometry3d& X) {
-  return {X.translation().x(), X.translation().y(), std::atan2(X(1, 0), X(0, 0))};
-}
 
 // A point of W as seen from a pose on the floor.
 Eigen::Vector2d SeenFrom(const Pose2& X_WF, const Eigen::Vector2d& p_W) {
@@ -24,18 +18,22 @@ Eigen::Vector2d SeenFrom(const Pose2& X_WF, const Eigen::Vector2d& p_W) {
 }
 
 // Simulated less planned place of a sole on the floor.
-Eigen::Vector3d DriftFrom(const Eigen::Vector4d& planned, const Pose2& here) {
+Eigen::Vector3d DriftOfSole(const Eigen::Vector4d& planned, const Pose2& here) {
   return {here.x - planned[0], here.y - planned[1],
           std::remainder(here.yaw - planned[3], 2 * std::numbers::pi)};
 }
 
 }  // namespace
 
+Pose2 OnFloor(const Eigen::Isometry3d& X_WB) {
+  return {X_WB.translation().x(), X_WB.translation().y(), std::atan2(X_WB(1, 0), X_WB(0, 0))};
+}
+
 Player::Player(const Simulation& robot, const ReferenceMotion& motion, const PlayOptions& options)
-    : robot_(robot), motion_(&motion), options_(options) {
+    : robot_(robot), options_(options) {
   const TrajectoryRow& first = motion.rows().front();
   robot_.Place(first.X_WB(), first.q);
-  const JointTargets targets = motion.TargetsAt(0.0);
+  const JointTargets targets = motion.TargetsAt(first.t);
   const long steps = std::lround(options.settle / robot_.timestep());
   for (long i = 0; i < steps; ++i) robot_.Step(targets, Eigen::Vector3d::Zero());
 }
@@ -48,8 +46,8 @@ double Player::SlipOf(Side side, bool carries) {
   return carries ? (here - *anchor).norm() : 0.0;
 }
 
-double Player::drift() const {
-  const TrajectoryRow planned = motion_->RowAt(t_);
+double Player::DriftFrom(const ReferenceMotion& motion) const {
+  const TrajectoryRow planned = motion.RowAt(t_);
   return (robot_.X_WB().translation().head<2>() - planned.waist.head<2>()).norm();
 }
 
@@ -62,7 +60,7 @@ double Player::StrayFrom(const TrajectoryRow& planned, const Eigen::Vector3d& sh
   return stray;
 }
 
-ReplayRow Player::Advance(const std::optional<Push>& push) {
+ReplayRow Player::Advance(const ReferenceMotion& motion, const std::optional<Push>& push) {
   const double dt = robot_.timestep();
   const double begin = static_cast<double>(row_) * options_.row_period;
   const long steps = std::lround(options_.row_period / dt);
@@ -77,15 +75,15 @@ ReplayRow Player::Advance(const std::optional<Push>& push) {
     }
     // Contacts are those of where the step begins.
     robot_.MoveObstacles(t - dt);
-    const FloorForces floor = robot_.Step(motion_->TargetsAt(t), force);
+    const FloorForces floor = robot_.Step(motion.TargetsAt(t), force);
     const std::vector<Touch> touches = robot_.touches();
-    touches_.Note(t - dt, touches, motion_->RestsAt(t - dt));
+    touches_.Note(t - dt, touches, motion.RestsAt(t - dt));
     for (const Touch& touch : touches) row.touch = std::max(row.touch, touch.force);
     moment += floor.moment;
     for (size_t side = 0; side < 2; ++side) row.vertical[side] += floor.vertical[side];
   }
   t_ = static_cast<double>(++row_) * options_.row_period;
-  const TrajectoryRow planned = motion_->RowAt(t_ - options_.row_period / 2);
+  const TrajectoryRow planned = motion.RowAt(t_ - options_.row_period / 2);
   const Eigen::Isometry3d X_WB = robot_.X_WB();
   row.t = t_;
   row.tilt = std::acos(std::clamp(X_WB(2, 2), -1.0, 1.0));
@@ -112,11 +110,12 @@ ReplayRow Player::Advance(const std::optional<Push>& push) {
     row.slip = std::max(row.slip, SlipOf(side, carries));
     if (!carries || force <= most) continue;
     most = force;
+    row.support = side;
     row.support_drift =
-        DriftFrom(planned.soles[static_cast<size_t>(Index(side))], OnFloor(robot_.X_WSole(side)));
+        DriftOfSole(planned.soles[static_cast<size_t>(Index(side))], OnFloor(robot_.X_WSole(side)));
   }
   const Eigen::Vector3d shift(row.support_drift[0], row.support_drift[1], 0.0);
-  row.stray = StrayFrom(motion_->RowAt(t_), shift);
+  row.stray = StrayFrom(motion.RowAt(t_), shift);
   return row;
 }
 

@@ -4,6 +4,7 @@
 
 #include "experiments/replay/reference_motion.h"
 #include "experiments/replay/touch_log.h"
+#include "wpg/geometry/pose2.h"
 
 namespace halfstep::replay {
 
@@ -35,8 +36,8 @@ struct ReplayRow {
   std::array<double, 2> vertical{};  ///< force on each sole, by Index(Side) [N]
   /// How far a carrying sole's centre is from where it took up load, the larger of both [m].
   double slip = 0.0;
-  /// The sole that carries more and is planned to stand, simulated less planned: x, y in W [m], yaw
-  /// [rad]; nan: none carries.
+  std::optional<Side> support;  ///< the sole that carries more of those planned to stand, if any
+  /// Of that sole, simulated less planned: x, y in W [m], yaw [rad]; nan: none carries.
   Eigen::Vector3d support_drift{0, 0, 0};
   /// The farthest that the waist's origin or a sole's centre is from its plan when that is shifted
   /// on the floor by the support's drift [m]; nan: none carries.
@@ -45,19 +46,23 @@ struct ReplayRow {
   bool fallen = false;
 };
 
-/// Plays a motion on a simulated robot, one row period after the other. A copy continues
-/// independently.
+/// The place of a body on the floor, and its yaw.
+Pose2 OnFloor(const Eigen::Isometry3d& X_WB);
+
+/// Plays a motion on a simulated robot, one row period after the other, from t = 0 on. A copy
+/// continues independently.
 class Player {
  public:
-  /// Places the robot in the first row's posture and lets it settle. Borrows `motion`.
+  /// Places the robot in the first row's posture and lets it settle.
   Player(const Simulation& robot, const ReferenceMotion& motion, const PlayOptions& options);
 
   double time() const { return t_; }
-  double end() const { return motion_->end() + options_.hold; }
-  /// Horizontal distance of the waist from where it is planned to be [m].
-  double drift() const;
-  /// Plays the next row period, with the part of the push that falls into it.
-  ReplayRow Advance(const std::optional<Push>& push);
+  const Simulation& robot() const { return robot_; }
+  /// Horizontal distance of the waist from where the motion has it now [m].
+  double DriftFrom(const ReferenceMotion& motion) const;
+  /// Plays the next row period of the motion, with the part of the push that falls into it. What
+  /// the motion is at other times does not matter.
+  ReplayRow Advance(const ReferenceMotion& motion, const std::optional<Push>& push);
   /// Contacts with obstacles from t = 0 on.
   const std::vector<TouchRecord>& touches() const { return touches_.records(); }
 
@@ -66,7 +71,6 @@ class Player {
   double StrayFrom(const TrajectoryRow& planned, const Eigen::Vector3d& shift) const;
 
   Simulation robot_;
-  const ReferenceMotion* motion_;
   PlayOptions options_;
   long row_ = 0;
   double t_ = 0.0;

@@ -12,19 +12,20 @@ namespace halfstep::replay {
 namespace {
 
 // Whether the robot is up at the end after a push.
-bool Survives(Player player, const Push& push) {
-  while (player.time() < player.end()) {
-    if (player.Advance(push).fallen) return false;
+bool Survives(Player player, const ReferenceMotion& motion, double until, const Push& push) {
+  while (player.time() < until) {
+    if (player.Advance(motion, push).fallen) return false;
   }
   return true;
 }
 
-PushLimit FindLimit(const Player& player, double at, double yaw, double direction,
-                    const PushOptions& options) {
+PushLimit FindLimit(const Player& player, const ReferenceMotion& motion, double until, double at,
+                    double direction, const PushOptions& options) {
+  const double yaw = motion.RowAt(at).waist[3];
   PushLimit limit{at, direction, 0.0, std::numeric_limits<double>::infinity()};
   const Eigen::Vector3d forward(std::cos(yaw + direction), std::sin(yaw + direction), 0.0);
   const auto survives = [&](double impulse) {
-    return Survives(player, {at, options.duration, impulse * forward});
+    return Survives(player, motion, until, {at, options.duration, impulse * forward});
   };
   if (survives(options.largest)) {
     limit.survived = options.largest;
@@ -40,24 +41,22 @@ PushLimit FindLimit(const Player& player, double at, double yaw, double directio
 
 }  // namespace
 
-ReplayResult Play(const Simulation& robot, const ReferenceMotion& motion,
-                  const PlayOptions& options) {
-  Player player(robot, motion, options);
+ReplayResult ResultOf(std::vector<ReplayRow> rows, const std::vector<TouchRecord>& touches,
+                      double walk_end, double weight, double window) {
   ReplayResult result;
   double squares = 0.0, vertical = 0.0;
   long measured = 0, walked = 0;
   std::vector<DriftSample> drift;
-  while (player.time() < player.end() && result.stayed_up) {
-    const ReplayRow row = player.Advance(std::nullopt);
-    result.rows.push_back(row);
-    result.stayed_up = !row.fallen;
+  for (const ReplayRow& row : rows) {
+    result.stayed_up = result.stayed_up && !row.fallen;
+    result.ended = row.t;
     result.largest_tilt = std::max(result.largest_tilt, row.tilt);
     result.slip = std::max(result.slip, row.slip);
     if (!std::isnan(row.stray)) {
       result.stray = std::max(result.stray, row.stray);
       drift.push_back({row.t, row.support_drift});
     }
-    if (row.t > motion.end()) continue;
+    if (row.t > walk_end) continue;
     ++walked;
     vertical += row.vertical[0] + row.vertical[1];
     const double error = row.zmp_error.norm();
@@ -66,12 +65,24 @@ ReplayResult Play(const Simulation& robot, const ReferenceMotion& motion,
     squares += error * error;
     result.zmp_largest = std::max(result.zmp_largest, error);
   }
-  result.ended = player.time();
-  result.drift = player.drift();
-  result.support = DriftOf(drift, options.drift_window);
-  result.touches = player.touches();
+  result.support = DriftOf(drift, window);
+  result.touches = touches;
   if (measured > 0) result.zmp_rms = std::sqrt(squares / static_cast<double>(measured));
-  if (walked > 0) result.weight_share = vertical / static_cast<double>(walked) / robot.weight();
+  if (walked > 0) result.weight_share = vertical / static_cast<double>(walked) / weight;
+  result.rows = std::move(rows);
+  return result;
+}
+
+ReplayResult Play(const Simulation& robot, const ReferenceMotion& motion,
+                  const PlayOptions& options) {
+  Player player(robot, motion, options);
+  std::vector<ReplayRow> rows;
+  while (player.time() < motion.end() + options.hold && (rows.empty() || !rows.back().fallen)) {
+    rows.push_back(player.Advance(motion, std::nullopt));
+  }
+  ReplayResult result = ResultOf(std::move(rows), player.touches(), motion.end(), robot.weight(),
+                                 options.drift_window);
+  result.drift = player.DriftFrom(motion);
   return result;
 }
 
@@ -97,19 +108,19 @@ std::vector<PushLimit> FindPushLimits(const Simulation& robot, const ReferenceMo
   const double all = static_cast<double>(instants.size()) * pushes.directions;
   for (const double at : instants) {
     Player player(robot, motion, options);
-    while (player.time() + options.row_period <= at + 1e-9) player.Advance(std::nullopt);
-    const double yaw = motion.RowAt(at).waist[3];
+    while (player.time() + options.row_period <= at + 1e-9) player.Advance(motion, std::nullopt);
     for (int i = 0; i < pushes.directions; ++i) {
       if (stop.stop_requested()) return {};
       const double direction = 2 * std::numbers::pi * i / pushes.directions;
-      limits.push_back(FindLimit(player, at, yaw, direction, pushes));
+      limits.push_back(
+          FindLimit(player, motion, motion.end() + options.hold, at, direction, pushes));
       progress(static_cast<double>(limits.size()) / all);
     }
   }
   return limits;
 }
 
-CsvFile ReplayCsv(const ReplayResult& result) {
+CsvFile ReplayCsv(const std::vector<ReplayRow>& rows) {
   using enum CsvType;
   const std::string mean = ", mean of the row's period";
   const std::string support = "carrying sole, simulated less planned, ";
@@ -135,7 +146,7 @@ CsvFile ReplayCsv(const ReplayResult& result) {
        "farthest of waist and soles from their plan, shifted with the support"},
       {"touch_n", kNumber, "N", "greatest force between a body and an obstacle; 0: none touch"},
   });
-  for (const ReplayRow& row : result.rows) {
+  for (const ReplayRow& row : rows) {
     csv.Cell(row.t).Cell(row.tilt).Cell(row.waist.x()).Cell(row.waist.y()).Cell(row.waist.z());
     for (const Eigen::Vector2d& p : {row.zmp_planned, row.zmp_measured, row.zmp_error}) {
       csv.Cell(p.x()).Cell(p.y());

@@ -29,6 +29,12 @@ struct ReplayResult {
   std::vector<ReplayRow> rows;  ///< from t = 0
 };
 
+/// What rows say, which were played from t = 0 on, of a walk that ends at `walk_end` [s]; `weight`
+/// of the robot [N], `window` of the drift [s]. Leaves `drift` of the waist and the mass model to
+/// others.
+ReplayResult ResultOf(std::vector<ReplayRow> rows, const std::vector<TouchRecord>& touches,
+                      double walk_end, double weight, double window);
+
 /// Plays a motion to its end or until the robot has fallen. Leaves the mass model's ZMP to
 /// CompareMassModel().
 ReplayResult Play(const Simulation& robot, const ReferenceMotion& motion,
@@ -61,7 +67,7 @@ std::vector<PushLimit> FindPushLimits(const Simulation& robot, const ReferenceMo
                                       const std::function<void(double)>& progress,
                                       std::stop_token stop);
 
-/// replay.csv.
-CsvFile ReplayCsv(const ReplayResult& result);
+/// replay.csv; of an episode in physics physics.csv.
+CsvFile ReplayCsv(const std::vector<ReplayRow>& rows);
 
 }  // namespace halfstep::replay

@@ -160,6 +160,8 @@ std::string ReplayText(const Replayed& replayed) {
   return text;
 }
 
+std::string ReplayedJson(const Replayed& replayed) { return Json(replayed).dump(2); }
+
 std::string ReplayJson(const std::string& run, const std::vector<std::string>& notes,
                        const std::vector<Replayed>& all) {
   ordered_json json = {

@@ -22,6 +22,9 @@ struct Replayed {
 /// What `halfstep replay` prints of one walk: lines, each with its end.
 std::string ReplayText(const Replayed& replayed);
 
+/// What is told of one walk as the text of a JSON object.
+std::string ReplayedJson(const Replayed& replayed);
+
 /// The whole output of `halfstep replay --json`. `run` is the folder as it was named, `notes` are
 /// sentences on obstacles that are simulated otherwise than the scene says.
 std::string ReplayJson(const std::string& run, const std::vector<std::string>& notes,

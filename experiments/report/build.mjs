@@ -1,11 +1,12 @@
-// Bundles the page: node build.mjs FOLDER_WITH_NODE_MODULES OUT.html
+// Bundles a page: node build.mjs FOLDER_WITH_NODE_MODULES NAME OUT.html
+// NAME.html, with NAME.js as its script and NAME.css as its style.
 import { createHash } from "node:crypto";
 import { readFileSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 
-const [packages, out] = process.argv.slice(2);
+const [packages, name, out] = process.argv.slice(2);
 const here = dirname(fileURLToPath(import.meta.url));
 const modules = join(packages, "node_modules");
 const esbuild = createRequire(join(packages, "package.json"))("esbuild");
@@ -21,18 +22,21 @@ async function bundle(entry) {
     target: "es2020",
     charset: "ascii",
     legalComments: "inline",
+    metafile: true,
   });
-  return result.outputFiles[0].text.trim();
+  return { text: result.outputFiles[0].text.trim(), files: Object.keys(result.metafile.inputs) };
 }
 
 const escaped = (text) => text.replace(/&/g, "&amp;").replace(/</g, "&lt;");
 const hash = (text) => `'sha256-${createHash("sha256").update(text).digest("base64")}'`;
 
 // A script ends at the first "</script", wherever that stands.
-const script = (await bundle("main.js")).replace(/<\/script/gi, "<\\/script");
-const style = await bundle("report.css");
+const { text: plain, files } = await bundle(`${name}.js`);
+const script = plain.replace(/<\/script/gi, "<\\/script");
+const { text: style } = await bundle(`${name}.css`);
 const licences = ["three", "uplot"]
-  .map((name) => `${name}\n\n${readFileSync(join(modules, name, "LICENSE"), "utf8").trim()}`)
+  .filter((used) => files.some((file) => file.includes(`node_modules/${used}/`)))
+  .map((used) => `${used}\n\n${readFileSync(join(modules, used, "LICENSE"), "utf8").trim()}`)
   .join("\n\n\n");
 
 // Only this script and this style run, and nothing is fetched: whatever a run's files are named.
@@ -45,6 +49,6 @@ const parts = {
   "@LICENCES@": escaped(licences),
   "@SCRIPT@": script,
 };
-let page = readFileSync(join(here, "index.html"), "utf8");
+let page = readFileSync(join(here, `${name}.html`), "utf8");
 for (const [place, text] of Object.entries(parts)) page = page.replace(place, () => text);
 writeFileSync(out, page);

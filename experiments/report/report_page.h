@@ -5,11 +5,11 @@
 
 namespace halfstep {
 
-/// Whether this build has the page (CMake option HALFSTEP_REPORT, and npm when it was configured).
+/// Whether this build has the pages (CMake option HALFSTEP_REPORT, and npm when it was configured).
 bool HasReport();
 
-/// The page with `data` inserted: one HTML file that needs no other. Texts in `data` may hold
-/// anything: the page shows them as text, and "<" is escaped. Precondition: HasReport().
+/// The page of a run or a comparison with `data` inserted: one HTML file that needs no other. Texts
+/// in `data` may hold anything (page_text.h). Precondition: HasReport().
 std::string ReportPage(const nlohmann::json& data);
 
 }  // namespace halfstep

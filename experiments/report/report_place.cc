@@ -114,4 +114,12 @@ json SceneJson(const Scene& scene) {
   return {{"name", scene.name}, {"obstacles", std::move(obstacles)}, {"no_step", std::move(areas)}};
 }
 
+json ShapesJson(Scene scene) {
+  for (Obstacle& obstacle : scene.obstacles) {
+    obstacle.X_WO.setIdentity();
+    obstacle.motion.waypoints.clear();
+  }
+  return SceneJson(scene);
+}
+
 }  // namespace halfstep

@@ -16,4 +16,7 @@ nlohmann::json RobotJson(const RobotModel& robot);
 /// what is not known of where an obstacle is, is not drawn.
 nlohmann::json SceneJson(const Scene& scene);
 
+/// The same with every obstacle in its own frame, to be put where it is told to be.
+nlohmann::json ShapesJson(Scene scene);
+
 }  // namespace halfstep

@@ -63,24 +63,42 @@ bool IsSpeed(const std::string& column) {
   return column.ends_with("_m_s") || column.ends_with("_rad_s");
 }
 
+// What is read of a trajectory.csv, and which of its rows are shown.
+struct ShownRows {
+  CsvTable table;
+  std::vector<double> times;
+  std::vector<size_t> rows;
+};
+
+ShownRows ReadRows(const fs::path& path, double spacing) {
+  ShownRows shown{.table = ReadCsv(path.string()), .times = {}, .rows = {}};
+  shown.times = shown.table.Numbers("t_s");
+  if (shown.times.empty()) throw InputError({path.string() + ": no rows"});
+  shown.rows = RowsToShow(shown.times, spacing);
+  return shown;
+}
+
+std::string SupportOf(const ShownRows& shown) {
+  std::string support;
+  const std::vector<std::string> supports = shown.table.Texts("support");
+  for (const size_t row : shown.rows)
+    support += supports[row].empty() ? '?' : supports[row].front();
+  return support;
+}
+
 json TrajectoryJson(const fs::path& path, double spacing) {
-  const CsvTable table = ReadCsv(path.string());
-  const std::vector<double> times = table.Numbers("t_s");
-  if (times.empty()) throw InputError({path.string() + ": no rows"});
-  const std::vector<size_t> rows = RowsToShow(times, spacing);
+  const ShownRows shown = ReadRows(path, spacing);
   json columns = json::object();
-  for (const std::string& column : table.header) {
+  for (const std::string& column : shown.table.header) {
     if (column == "support" || column.starts_with("com_v") || column.starts_with("com_a")) continue;
-    const std::vector<double> values = table.Numbers(column);
-    columns[column] = ColumnJson(values, rows, IsSpeed(column) ? kSpeeds : kFine);
+    const std::vector<double> values = shown.table.Numbers(column);
+    columns[column] = ColumnJson(values, shown.rows, IsSpeed(column) ? kSpeeds : kFine);
     if (!column.starts_with("q_") || !column.ends_with("_rad")) continue;
     const std::string joint = column.substr(2, column.size() - 6);
-    columns["speed_" + joint + "_rad_s"] = ColumnJson(Differences(times, values), rows, kSpeeds);
+    columns["speed_" + joint + "_rad_s"] =
+        ColumnJson(Differences(shown.times, values), shown.rows, kSpeeds);
   }
-  std::string support;
-  const std::vector<std::string> supports = table.Texts("support");
-  for (size_t row : rows) support += supports[row].empty() ? '?' : supports[row].front();
-  return {{"columns", std::move(columns)}, {"support", support}};
+  return {{"columns", std::move(columns)}, {"support", SupportOf(shown)}};
 }
 
 json CellJson(const std::string& cell) {
@@ -92,6 +110,16 @@ json CellJson(const std::string& cell) {
 }
 
 }  // namespace
+
+json MotionJson(const fs::path& trajectory, const std::vector<std::string>& columns,
+                double spacing) {
+  const ShownRows shown = ReadRows(trajectory, spacing);
+  json drawn = json::object();
+  for (const std::string& column : columns) {
+    drawn[column] = ColumnJson(shown.table.Numbers(column), shown.rows, kFine);
+  }
+  return {{"columns", std::move(drawn)}, {"support", SupportOf(shown)}};
+}
 
 json RowsJson(const fs::path& csv) {
   const CsvTable table = ReadCsv(csv.string());

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 namespace halfstep {
 
@@ -13,6 +14,10 @@ namespace halfstep {
 /// trajectory.csv: `speed_<joint>_rad_s`, central differences of its rows.
 /// Throws InputError for what is no such folder.
 nlohmann::json WalkJson(const std::filesystem::path& folder, double spacing);
+
+/// `columns` of a trajectory.csv in the same way, and `support`: the first letter of each row's.
+nlohmann::json MotionJson(const std::filesystem::path& trajectory,
+                          const std::vector<std::string>& columns, double spacing);
 
 /// Rows of a CSV file as objects: what reads as a number is one, to 6 digits; an empty cell null.
 nlohmann::json RowsJson(const std::filesystem::path& csv);

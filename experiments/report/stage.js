@@ -32,35 +32,50 @@ function floor() {
   return group;
 }
 
-// Drawn last, so that they hide what is seen through the feet; robots show faintly through them.
-// Those that move are added to `moving`, with their places.
-function obstacles(json, moving) {
+const solid = new THREE.MeshStandardMaterial({
+  color: "#b7a58c", roughness: 0.85, transparent: true, opacity: 0.84,
+});
+const edges = new THREE.LineBasicMaterial({ color: "#6d5f4b", transparent: true, opacity: 0.7 });
+
+/**
+ * An obstacle of a scene's data. Drawn last, so that it hides what is seen through the feet; robots
+ * show faintly through it.
+ */
+export function obstacleMesh(json) {
+  const geometry = meshGeometry(json);
+  const mesh = new THREE.Mesh(geometry, solid);
+  mesh.castShadow = mesh.receiveShadow = true;
+  mesh.renderOrder = 20;
+  const lines = new THREE.LineSegments(new THREE.EdgesGeometry(geometry, 32), edges);
+  lines.renderOrder = 21;
+  mesh.add(lines);
+  return mesh;
+}
+
+/** A no-step area, a polygon of [x, y] in W. */
+export function areaMark(polygon) {
   const group = new THREE.Group();
-  const material = new THREE.MeshStandardMaterial({
-    color: "#b7a58c", roughness: 0.85, transparent: true, opacity: 0.84,
-  });
-  const edges = new THREE.LineBasicMaterial({ color: "#6d5f4b", transparent: true, opacity: 0.7 });
+  group.add(mark(polygonGeometry(polygon, 0.001), palette.limit, 0.22, 1));
+  group.add(mark(ribbonGeometry(polygon, 0.008, 0.001, true), palette.limit, 0.8, 1));
+  return group;
+}
+
+// Obstacles that move are added to `moving`, with their places.
+function sceneGroup(json, moving) {
+  const group = new THREE.Group();
   for (const obstacle of json.obstacles) {
-    const geometry = meshGeometry(obstacle);
-    const mesh = new THREE.Mesh(geometry, material);
-    mesh.castShadow = mesh.receiveShadow = true;
-    mesh.renderOrder = 20;
-    const lines = new THREE.LineSegments(new THREE.EdgesGeometry(geometry, 32), edges);
-    lines.renderOrder = 21;
-    mesh.add(lines);
+    const mesh = obstacleMesh(obstacle);
     if (obstacle.places) moving.push([mesh, obstacle.places]);
     group.add(mesh);
   }
-  for (const polygon of json.no_step) {
-    group.add(mark(polygonGeometry(polygon, 0.001), palette.limit, 0.22, 1));
-    group.add(mark(ribbonGeometry(polygon, 0.008, 0.001, true), palette.limit, 0.8, 1));
-  }
+  for (const polygon of json.no_step) group.add(areaMark(polygon));
   return group;
 }
 
 // Directions from which the cameras look, in units of the distance.
 const directions = {
   corner: [0.72, -0.92, 0.42],
+  behind: [-0.66, -0.8, 0.62],
   side: [0.02, -1.25, 0.12],
   front: [1.25, 0.01, 0.12],
   top: [-0.001, 0, 1.3],
@@ -101,7 +116,7 @@ export class Stage {
   setScene(json) {
     this.place.clear();
     this.moving = [];
-    this.place.add(obstacles(json, this.moving));
+    this.place.add(sceneGroup(json, this.moving));
     this.showTime(0);
   }
 
@@ -118,10 +133,10 @@ export class Stage {
     }
   }
 
-  /** A direction of `directions`, at a point on the floor, `distance` [m] away. */
-  look(name, [x, y], distance) {
+  /** A direction of `directions`, at `height` above a point on the floor, `distance` [m] away. */
+  look(name, [x, y], distance, height = 0.68) {
     const direction = new THREE.Vector3(...directions[name]);
-    this.controls.target.set(x, y, name === "top" ? 0 : 0.68);
+    this.controls.target.set(x, y, name === "top" ? 0 : height);
     this.camera.position.copy(this.controls.target).addScaledVector(direction, distance);
     this.controls.update();
   }

@@ -3,7 +3,9 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "experiments/config/experiment.h"
@@ -46,7 +48,13 @@ void AddSummaryRow(const MarginEvaluator& evaluator, const std::vector<MethodRun
 /// One row a method; speed-up against the first run, which is the planned motion.
 CsvFile SummaryCsv(const MarginEvaluator& evaluator, const std::vector<MethodRun>& runs);
 
-/// Columns of trajectory.csv for a robot.
+/// Columns of trajectory.csv for a robot that tell its motion: all but the margins.
+CsvColumns MotionColumns(const RobotModel& robot);
+/// Their cells for a walk at t [s]. Where a leg does not reach, its joint angles are nan.
+using MotionCell = std::variant<double, long, std::string_view>;
+std::vector<MotionCell> MotionRow(const RobotModel& robot, const SuperposedWalk& walk, double t);
+
+/// Columns of trajectory.csv for a robot: those of the motion, and the margins.
 CsvColumns TrajectoryColumns(const RobotModel& robot);
 
 /// trajectory.csv of a walk from 0 to `end` [s] in rows `period` [s] apart, the last one at `end`;

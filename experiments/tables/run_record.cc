@@ -173,6 +173,13 @@ std::string ProblemOf(const json& manifest, const fs::path& run, const fs::path&
 
 }  // namespace
 
+bool IsEpisode(const fs::path& folder) {
+  const fs::path path = folder / "manifest.json";
+  if (!fs::exists(path)) return false;
+  const json manifest = ReadJsonObject(path);
+  return manifest.contains("kind") && manifest["kind"] == "episode";
+}
+
 RunRecord ReadRun(const std::string& argument) {
   const auto [label, folder] = LabelAndRun(argument);
   const fs::path run(folder);
@@ -182,6 +189,10 @@ RunRecord ReadRun(const std::string& argument) {
   }
   const std::string text = ReadJsonText(path);
   const json manifest = ParseJsonObject(text, path);
+  if (IsEpisode(run)) {
+    throw InputError({folder + ": is the folder of an episode (valid: a run folder; `halfstep "
+                               "report`, `verify` and `replay` take episodes)"});
+  }
   RunRecord record;
   record.run = folder;
   record.scenario = TextOf(manifest, "name", path);

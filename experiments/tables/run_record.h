@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -48,6 +49,10 @@ struct RunRecord {
   int half_steps = 0;
   std::vector<MethodRecord> methods;  ///< raw first
 };
+
+/// Whether the manifest.json of a folder says that it is an episode's; false without one. Throws
+/// InputError for a manifest that cannot be read.
+bool IsEpisode(const std::filesystem::path& folder);
 
 /// Reads a run folder that `halfstep run` wrote: manifest.json, summary.csv, footsteps.csv,
 /// raw/certificate.json and each method's iterates.csv. `argument` is RUN or LABEL=RUN; the label

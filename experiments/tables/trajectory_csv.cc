@@ -42,19 +42,8 @@ std::string_view SupportName(const SuperposedWalk& walk, const LocalTime& at) {
 
 void WriteRow(const MarginEvaluator& evaluator, const SuperposedWalk& walk, double t,
               const MarginSet& margins, CsvWriter* csv) {
-  const LocalTime at = walk.Locate(t);
-  const WalkJet jet = walk.At(at);
-  const Posture posture = SolvePosture(evaluator.robot(), jet.value);
-  const Eigen::Vector3d waist = posture.X_WB.translation();
-  csv->Cell(t).Cell(at.half_step + 1).Cell(SupportName(walk, at));
-  csv->Cell(jet.value[kComX]).Cell(jet.value[kComY]).Cell(walk.lipm().com_height);
-  csv->Cell(jet.first[kComX]).Cell(jet.first[kComY]);
-  csv->Cell(jet.second[kComX]).Cell(jet.second[kComY]);
-  csv->Cell(jet.value[kZmpX]).Cell(jet.value[kZmpY]);
-  csv->Cell(waist.x()).Cell(waist.y()).Cell(waist.z()).Cell(jet.value[kWaistYaw]);
-  for (int q = kLeftX; q < kNumQuantities; ++q) csv->Cell(jet.value[q]);
-  for (const LegIkSolution& ik : posture.ik) {
-    for (int j = 0; j < 6; ++j) csv->Cell(posture.reachable ? ik.q[j] : std::nan(""));
+  for (const MotionCell& cell : MotionRow(evaluator.robot(), walk, t)) {
+    std::visit([csv](const auto& value) { csv->Cell(value); }, cell);
   }
   for (const auto& [family, column] : kMarginColumns) {
     csv->Cell(margins[static_cast<size_t>(family)].value);
@@ -64,7 +53,7 @@ void WriteRow(const MarginEvaluator& evaluator, const SuperposedWalk& walk, doub
 
 }  // namespace
 
-CsvColumns TrajectoryColumns(const RobotModel& robot) {
+CsvColumns MotionColumns(const RobotModel& robot) {
   CsvColumns columns = {
       {"t_s", kNumber, "s", "time since the start", "", kLinear},
       {"half_step", kInteger, "", "latest half-step that has begun, from 1", "", kConstant},
@@ -90,6 +79,29 @@ CsvColumns TrajectoryColumns(const RobotModel& robot) {
                          kLinear});
     }
   }
+  return columns;
+}
+
+std::vector<MotionCell> MotionRow(const RobotModel& robot, const SuperposedWalk& walk, double t) {
+  const LocalTime at = walk.Locate(t);
+  const WalkJet jet = walk.At(at);
+  const Posture posture = SolvePosture(robot, jet.value);
+  const Eigen::Vector3d waist = posture.X_WB.translation();
+  std::vector<MotionCell> row = {t, static_cast<long>(at.half_step + 1), SupportName(walk, at)};
+  const auto add = [&row](auto... values) { (row.emplace_back(values), ...); };
+  add(jet.value[kComX], jet.value[kComY], walk.lipm().com_height);
+  add(jet.first[kComX], jet.first[kComY], jet.second[kComX], jet.second[kComY]);
+  add(jet.value[kZmpX], jet.value[kZmpY]);
+  add(waist.x(), waist.y(), waist.z(), jet.value[kWaistYaw]);
+  for (int q = kLeftX; q < kNumQuantities; ++q) add(jet.value[q]);
+  for (const LegIkSolution& ik : posture.ik) {
+    for (int j = 0; j < 6; ++j) add(posture.reachable ? ik.q[j] : std::nan(""));
+  }
+  return row;
+}
+
+CsvColumns TrajectoryColumns(const RobotModel& robot) {
+  CsvColumns columns = MotionColumns(robot);
   for (const auto& [family, column] : kMarginColumns) {
     const std::string unit(Unit(family));
     std::string ending = unit;

@@ -98,8 +98,8 @@ void CheckEpisodeTrajectory(const std::vector<PlayedRow>& rows, const EpisodeMan
 void CheckEpisodeEnding(const EpisodeText& episode, const EpisodeManifest& manifest,
                         const EpisodeWalks& all, const DescribedWalk& executed,
                         const GoalConfig& goal, Findings* findings) {
-  constexpr std::array<const char*, 5> kOthers = {"stuck", "too_long", "interrupted", "killed",
-                                                  "no_plan"};
+  constexpr std::array<const char*, 6> kOthers = {"stuck", "too_long", "interrupted",
+                                                  "fell",  "killed",   "no_plan"};
   findings->Say("ending: " + (manifest.ending.size() < 20 ? manifest.ending : "unknown") +
                 Formatted(" at %.6g s", manifest.end));
   if (std::ranges::find(kOthers, manifest.ending) != kOthers.end()) return;

@@ -5,6 +5,7 @@
 
 #include "experiments/config/experiment.h"
 #include "experiments/live/live_config.h"
+#include "experiments/live/spare_boxes.h"
 #include "experiments/verify/check_episode_grants.h"
 #include "experiments/verify/check_episode_motion.h"
 #include "experiments/verify/check_episode_proof.h"
@@ -96,7 +97,7 @@ void VerifyEpisode(const VerifyOptions& options, const std::string& manifest_tex
   CheckListedFiles(options.run, FilesOf(folder, walks), manifest.files, findings);
   const std::string config_path = (folder / "config.yaml").string();
   const LiveConfig config = LoadLiveConfig(config_path, GivenFiles(options));
-  const Place place = LoadPlace(config.experiment);
+  const Place place = LoadEpisodePlace(config);
   CheckEpisodeInputs(manifest, config, ReadBytes(config_path), place, findings);
   const EpisodeText episode = ReadEpisode(folder, walks);
   if (!CheckEpisodeNumbers(episode, place.scene, findings)) return;

@@ -163,20 +163,20 @@ StudiedEpisode WalkEpisode(const LiveStudy& study, std::uint64_t seed) {
   const auto run = live.clock == "wall" ? RunWallClock : RunLockstep;
   const Episode episode = run(replanner, &sensor, study.start, {});
   studied.cpu = ThreadSeconds() - begin;
-  const EpisodeSummary summary = Summarize(episode, truth, study.place.robot);
+  const EpisodeSummary summary = Summarize(episode, &truth, study.place.robot);
   studied.ending = episode.ending;
   studied.waited = episode.waited;
   studied.duration = episode.end;
   studied.changed = summary.changed;
   studied.stopped = summary.stops;
   studied.unsafe = summary.unsafe;
-  studied.nearest = summary.nearest.distance;
-  studied.nearest_obstacle = summary.nearest.obstacle;
+  studied.nearest = summary.nearest->distance;
+  studied.nearest_obstacle = summary.nearest->obstacle;
   studied.begun_meanwhile = summary.begun_meanwhile;
   studied.events = episode.events;
   if (episode.walks.empty()) return studied;
   studied.excused =
-      studied.touched() && BrokeItsBounds(episode, summary.nearest.obstacle, summary.nearest.t);
+      studied.touched() && BrokeItsBounds(episode, summary.nearest->obstacle, summary.nearest->t);
   studied.pressed = NearestApproach(episode, truth.Since(episode.waited), study.place.robot, 0.05,
                                     0.3, /*also_at_rest=*/true)
                         .distance <= 0.0;

@@ -13,6 +13,7 @@ namespace halfstep {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 namespace fs = std::filesystem;
 
 // A box beside the way that somebody carries along it, out of the robot's reach and sight. Two
@@ -115,6 +116,24 @@ TEST_F(ReplayEpisodeTest, TouchesAtRestAreToldApart) {
   EXPECT_THAT(outcome.out, HasSubstr("touches while walking: none\n"));
   EXPECT_THAT(outcome.out, HasSubstr("touches at rest: "));
   EXPECT_THAT(outcome.out, HasSubstr(" and box: "));
+}
+
+// The script's time begins when the robot begins to wait.
+TEST_F(ReplayEpisodeTest, CountsTheTimeThatTheRobotWaited) {
+  SKIP_WITHOUT_MUJOCO();
+  const ParsedCsv walked(ReadText(place_ / "episode/trajectory.csv"));
+  const double end = walked.Number(walked.size() - 1, "t_s");
+  Tell("at_s: 0.5", "at_s: " + std::to_string(end + 5.1));
+  Tell("do: carry", "do: jump");
+  Tell("xyz: [0.45, 1.5, 0.15]", "xyz: [0.74, 0.0, 0.15]");
+  EXPECT_THAT(Replay({}).out, Not(HasSubstr("touches at rest")));
+  const fs::path manifest = place_ / "episode/manifest.json";
+  WriteText(manifest, With(ReadText(manifest), "\"waited_s\": 0.0", "\"waited_s\": 5.0"));
+  EXPECT_THAT(Replay({}).out, HasSubstr("touches at rest: "));
+  WriteText(manifest, With(ReadText(manifest), "\"waited_s\": 5.0", "\"waited_s\": \"long\""));
+  const Outcome outcome = Replay({});
+  EXPECT_EQ(outcome.status, kBadInput);
+  EXPECT_THAT(outcome.err, HasSubstr("manifest.json: waited_s: is missing or no number"));
 }
 
 TEST_F(ReplayEpisodeTest, RefusesAScriptOfAnObstacleThatIsNotThere) {

@@ -10,11 +10,11 @@
 #include "experiments/config/experiment.h"
 #include "experiments/replay/mass_model_zmp.h"
 #include "experiments/replay/mujoco_model.h"
+#include "experiments/replay/planned_row.h"
 #include "smoothing/walk/superposed_walk.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/parsed_csv.h"
 #include "tests/temporary_folder.h"
-#include "wpg/motion/posture.h"
 #include "wpg/robot/leg_ik.h"
 
 namespace halfstep::replay {
@@ -33,17 +33,10 @@ class ReplayTest : public testing::Test {
     const SuperposedWalk walk(experiment.sequence, PlannedMotion(experiment.sequence));
     std::vector<TrajectoryRow> rows;
     for (int i = 0; i <= 800; ++i) {
-      const LocalTime at = walk.Locate(0.005 * i);
-      const WalkState x = walk.At(at).value;
-      TrajectoryRow& row = rows.emplace_back();
-      row.t = 0.005 * i;
-      row.stands = {true, walk.StepInAir(at) < 0};  // the right foot steps
-      row.zmp = {x[kZmpX], x[kZmpY]};
-      const Eigen::Vector3d p_WB = SolvePosture(robot_, x).X_WB.translation();
-      row.waist = {p_WB.x(), p_WB.y() + shift, p_WB.z(), x[kWaistYaw]};
+      TrajectoryRow& row = rows.emplace_back(PlannedRow(robot_, walk, 0.005 * i));
+      row.waist.y() += shift;
       for (const Side side : {Side::kLeft, Side::kRight}) {
         const auto s = static_cast<size_t>(Index(side));
-        row.soles[s] = x.segment<4>(FootIndex(side));
         const LegIkSolution leg =
             SolveLegIk(robot_.legs[s], row.X_WB().inverse() * TrajectoryRow::Upright(row.soles[s]));
         EXPECT_EQ(leg.status, LegIkStatus::kSolved);

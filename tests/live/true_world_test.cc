@@ -68,6 +68,25 @@ TEST(TrueWorld, SinceIsTheSameWorldEarlier) {
   EXPECT_NEAR(since.end(), truth.end() - 0.7, 1e-12);
 }
 
+// A robot that strays sees obstacles and the goal's place moved rigidly.
+TEST(TrueWorld, IsSeenFromARobotThatStrays) {
+  LiveOptions options = With({Event(1.0, "jump", "a", {1.0, 2.0, 0.02})});
+  options.drift = 0.5;
+  const Pose2 moved{0.1, -0.2, 0.3};
+  GoalConfig goal;
+  goal.X_WG = {3.0, 1.0, 0.0};
+  Scene scene = TwoBars();
+  scene.no_step.clear();
+  const TrueWorld truth(scene, goal, options);
+  const TrueWorld seen = truth.SeenFrom([&](double t) { return t < 2.0 ? Pose2() : moved; });
+  EXPECT_EQ(seen.PoseAt(0, 1.5).translation(), Eigen::Vector3d(1.0, 2.0, 0.02));
+  const Eigen::Isometry3d expected = ToIsometry(moved * Pose2{1.0, 2.0, 0.0}, 0.02);
+  EXPECT_TRUE(seen.PoseAt(0, 2.5).isApprox(expected, 1e-12));
+  EXPECT_LT((seen.GoalAt(2.5).X_WG.position() - moved * Eigen::Vector2d(3.0, 1.0)).norm(), 1e-12);
+  EXPECT_EQ(seen.GoalAt(2.5).X_WG.yaw, 0.0);
+  EXPECT_NEAR(truth.PoseAt(0, 2.0).translation().x(), 2.0, 1e-12);
+}
+
 TEST(TrueWorld, RefusesAScriptThatNamesWhatIsNotThere) {
   ScriptEvent forbid = Event(1.0, "forbid", "", {});
   forbid.area = 2;

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <filesystem>
 #include <fstream>
+#include <numbers>
 #include <string>
 
 #include "wpg/files/input_error.h"
@@ -56,7 +57,17 @@ TEST(MeshFile, EveryFormOfTheCubeIsTheCube) {
     }
     EXPECT_NEAR(volume, 1, 1e-12);
   }
-  EXPECT_EQ(files, 4);
+  EXPECT_EQ(files, 7);
+}
+
+// The nodes' transforms, the unit and the accessor's offset and stride are all applied.
+TEST(MeshFile, ADaeIsPlacedByItsScene) {
+  const LoadedMesh mesh = LoadMesh(kFolder + "good/cube_nodes_in_centimetres.dae");
+  const Eigen::Vector3d origin = 0.01 * Eigen::Vector3d(30 + 2 * 1, -10 + 2 * 2, 5 + 2 * 3);
+  EXPECT_TRUE(mesh.vertices.col(0).isApprox(origin, 1e-12)) << mesh.vertices.col(0).transpose();
+  const double angle = std::numbers::pi / 6;
+  const Eigen::Vector3d along(std::cos(angle), std::sin(angle), 0.0);
+  EXPECT_TRUE(mesh.vertices.col(1).isApprox(origin + along, 1e-12));
 }
 
 // Each bad file says in its first line (a binary one in its header) what the complaint must hold.
@@ -75,12 +86,13 @@ TEST(MeshFile, BadFilesAreRefusedWithTheirPlace) {
     EXPECT_THAT(Complaint(path), HasSubstr(expected));
     EXPECT_THAT(Complaint(path), StartsWith(path + ":"));
   }
-  EXPECT_EQ(files, 26);
+  EXPECT_EQ(files, 37);
 }
 
 // No beginning of a file may crash the reader or, for STL, pass for a whole one.
 TEST(MeshFile, EveryTruncationIsRefused) {
-  for (const std::string name : {"cube_ascii.stl", "cube_binary.stl", "cube_quads.obj"}) {
+  for (const std::string name : {"cube_ascii.stl", "cube_binary.stl", "cube_quads.obj",
+                                "cube_nodes_in_centimetres.dae"}) {
     std::ifstream file(kFolder + "good/" + name, std::ios::binary);
     const std::string whole((std::istreambuf_iterator<char>(file)), {});
     const bool is_stl = name.ends_with(".stl");

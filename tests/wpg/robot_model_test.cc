@@ -13,6 +13,7 @@
 #include <string>
 
 #include "tests/fixture_check.h"
+#include "tests/temporary_folder.h"
 #include "tests/wpg/generated_robots.h"
 #include "tests/wpg/hrp2.h"
 #include "wpg/files/input_error.h"
@@ -336,7 +337,7 @@ TEST(RobotRefusal, LegsThatAreNoClosedFormLegs) {
               HasSubstr("the knee axis passes the ankle at"));
   EXPECT_THAT(RefusalOf({"type", Replaced(urdf, "type='revolute'", "type='continuous'"),
                          Replaced(yaml, "  left_joint0:", "#")}),
-              HasSubstr("left_joint0: a leg's joint must be revolute, with limits, or fixed"));
+              HasSubstr("is not the mirror image of left_joint0: its limits differ"));
   EXPECT_THAT(RefusalOf({"five", Replaced(urdf, "type='revolute'", "type='fixed'"),
                          Replaced(yaml, "  left_joint0:", "#")}),
               HasSubstr("left_link5: is 5 revolute joints away from the waist (valid: 6)"));
@@ -353,9 +354,9 @@ TEST(RobotRefusal, LegsThatAreNoClosedFormLegs) {
               HasSubstr("is not the mirror image of left_joint1: its speed limit differs"));
   EXPECT_THAT(
       RefusalOf({"mesh",
-                 Replaced(urdf, "<sphere radius='0.035'/>", "<mesh filename='file:///ankle.stl'/>"),
+                 Replaced(urdf, "<sphere radius='0.035'/>", "<mesh filename='http://ankle.stl'/>"),
                  yaml}),
-      HasSubstr("left_link4: file:///ankle.stl is no mesh path"));
+      HasSubstr("left_link4: http://ankle.stl is no mesh path"));
   EXPECT_THAT(RefusalOf({"package",
                          Replaced(urdf, "<sphere radius='0.035'/>",
                                   "<mesh filename='package://p/ankle.stl'/>"),
@@ -428,6 +429,69 @@ TEST(UrdfFixtures, AreRefusedWithTheirComplaintsInSilence) {
     }
   }
   EXPECT_GE(files, 15);
+}
+
+// tests/fixtures/robot/repaired/*.urdf are read all the same; the lines are what is told of them.
+TEST(UrdfFixtures, AreRepairedWithTheirWarnings) {
+  const std::filesystem::path folder =
+      std::filesystem::path(HALFSTEP_SOURCE_DIR) / "tests" / "fixtures" / "robot" / "repaired";
+  const std::string begin = "<!-- expect: ", end = " -->";
+  int files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    SCOPED_TRACE(entry.path().filename().string());
+    ++files;
+    std::vector<std::string> expected;
+    std::ifstream file(entry.path());
+    for (std::string line; std::getline(file, line) && line.starts_with(begin);) {
+      expected.push_back(line.substr(begin.size(), line.size() - begin.size() - end.size()));
+    }
+    UrdfTree tree;
+    ASSERT_NO_THROW(tree = ReadUrdf(entry.path().string()));
+    std::vector<std::string> told = tree.warnings;
+    for (const UrdfJoint& joint : tree.joints) {
+      told.insert(told.end(), joint.faults.begin(), joint.faults.end());
+    }
+    ASSERT_EQ(told.size(), expected.size()) << testing::PrintToString(told);
+    for (size_t i = 0; i < told.size(); ++i) EXPECT_THAT(told[i], HasSubstr(expected[i]));
+  }
+  EXPECT_EQ(files, 16);
+}
+
+// What no leg needs is a warning; the same in a leg is refused.
+TEST(RobotModel, AJointThatCannotMoveMattersInALegOnly) {
+  const GeneratedRobot good = GeneratedRobots()[0];
+  const std::string yaml = GeneratedYaml(good, "robot.urdf");
+  const std::string finger =
+      "<link name='finger'/><joint name='grip' type='revolute'><parent link='waist'/>"
+      "<child link='finger'/><limit lower='0' upper='1' velocity='0' effort='1'/></joint></robot>";
+  const TemporaryRobot robot("finger", Replaced(GeneratedUrdf(good), "</robot>", finger), yaml);
+  const RobotModel model = robot.Load();
+  ASSERT_EQ(model.warnings.size(), 1u);
+  EXPECT_THAT(model.warnings[0],
+              HasSubstr("limit velocity: 0 is out of range (valid: > 0); it is held still"));
+  EXPECT_THAT(
+      RefusalOf({"leg", Replaced(GeneratedUrdf(good), "velocity='4'", "velocity='0'"), yaml}),
+      HasSubstr("limit velocity: 0 is out of range (valid: > 0)"));
+}
+
+// A package is looked for where ROS would, and above the URDF.
+TEST(RobotModel, FindsAPackageAboveTheUrdf) {
+  const GeneratedRobot good = GeneratedRobots()[0];
+  const TemporaryFolder place;
+  std::filesystem::create_directories(place / "p/meshes");
+  std::filesystem::create_directories(place / "p/urdf");
+  std::filesystem::copy_file(
+      std::string(HALFSTEP_SOURCE_DIR) + "/tests/fixtures/mesh/good/cube_triangles.dae",
+      place / "p/meshes/ankle.dae");
+  WriteText(place / "p/urdf/robot.urdf",
+            Replaced(GeneratedUrdf(good), "<sphere radius='0.035'/>",
+                     "<mesh filename='package://p/meshes/ankle.dae' scale='0.03 -0.03 0.03'/>"));
+  WriteText(place / "p/urdf/robot.yaml", GeneratedYaml(good, "robot.urdf"));
+  const RobotModel model = LoadRobot((place / "p/urdf/robot.yaml").string());
+  const auto body = std::ranges::find(model.bodies, "left_link4", &RobotBody::name);
+  ASSERT_NE(body, model.bodies.end());
+  EXPECT_EQ(body->shape.vertices.cols(), 8);
+  EXPECT_LT(body->shape.vertices.row(1).maxCoeff(), 1e-12);  // mirrored
 }
 
 }  // namespace

@@ -88,6 +88,9 @@ class Fields {
   /// Complains about `old_key`, the former name of `new_key`, where the file still has it. Ignored
   /// by visitors that do not read.
   virtual void Renamed(const char* /*old_key*/, const char* /*new_key*/) {}
+  /// Complains about `key`, which other files have and not this one, where it is there. Ignored by
+  /// visitors that do not read.
+  virtual void Misplaced(const char* /*key*/, const std::string& /*what*/) {}
   /// Directory of the file being read, for relative paths; "" otherwise.
   virtual std::string directory() const = 0;
 };

@@ -23,6 +23,9 @@ class Complaints {
   /// line and column count from 1; 0 leaves them out.
   void Add(const std::string& file, int line, int column, const std::string& key,
            const std::string& what);
+  void Add(const std::vector<std::string>& lines) {
+    lines_.insert(lines_.end(), lines.begin(), lines.end());
+  }
   bool empty() const { return lines_.empty(); }
   const std::vector<std::string>& lines() const { return lines_; }
   /// Throws InputError when there is any complaint.

@@ -23,13 +23,13 @@ constexpr size_t kStlHeader = 80, kStlStart = 84, kStlTriangle = 50;
   throw InputError(complaints.lines());
 }
 
-// ".stl" or ".obj".
+// ".stl", ".obj" or ".dae".
 std::string ExtensionOf(const std::string& path) {
   std::string extension = std::filesystem::path(path).extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (extension != ".stl" && extension != ".obj") {
-    Refuse(path, "unknown kind of mesh (valid: .stl, .obj)");
+  if (extension != ".stl" && extension != ".obj" && extension != ".dae") {
+    Refuse(path, "unknown kind of mesh (valid: .stl, .obj, .dae)");
   }
   return extension;
 }
@@ -67,9 +67,10 @@ LoadedMesh LoadMesh(const std::string& path) {
 LoadedMesh ParseMesh(const std::string& path, const std::string& bytes) {
   const std::string extension = ExtensionOf(path);
   if (bytes.empty()) Refuse(path, "is empty");
-  LoadedMesh mesh = extension == ".obj"  ? ReadObj(path, bytes)
-                    : IsBinaryStl(bytes) ? ReadBinaryStl(path, bytes)
-                                         : ReadAsciiStl(path, bytes);
+  LoadedMesh mesh = extension == ".obj"   ? ReadObj(path, bytes)
+                    : extension == ".dae" ? ReadDae(path, bytes)
+                    : IsBinaryStl(bytes)  ? ReadBinaryStl(path, bytes)
+                                          : ReadAsciiStl(path, bytes);
   if (mesh.triangles.cols() == 0) Refuse(path, "has no triangle");
   mesh.file = RecordOf(path, bytes);
   return mesh;

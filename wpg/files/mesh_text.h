@@ -43,5 +43,6 @@ class MeshText {
 LoadedMesh ReadAsciiStl(const std::string& path, std::string_view text);
 LoadedMesh ReadBinaryStl(const std::string& path, std::string_view bytes);
 LoadedMesh ReadObj(const std::string& path, std::string_view text);
+LoadedMesh ReadDae(const std::string& path, const std::string& text);
 
 }  // namespace halfstep

@@ -89,11 +89,14 @@ void YamlReader::Run(const std::function<void(Fields&)>& declare) {
 }
 
 void YamlReader::Renamed(const char* old_key, const char* new_key) {
-  const YamlNode* const node = map_ == nullptr ? nullptr : map_->Find(old_key);
+  Misplaced(old_key, std::string("has another name now (valid: ") + new_key + ")");
+}
+
+void YamlReader::Misplaced(const char* key, const std::string& what) {
+  const YamlNode* const node = map_ == nullptr ? nullptr : map_->Find(key);
   if (node == nullptr) return;
-  known_.emplace_back(old_key);
-  complaints_->Add(node->key_place, KeyPath(path_, old_key),
-                   std::string("has another name now (valid: ") + new_key + ")");
+  known_.emplace_back(key);
+  complaints_->Add(node->key_place, KeyPath(path_, key), what);
 }
 
 const YamlNode* YamlReader::Take(const char* key, bool required, const std::string& valid) {

@@ -38,6 +38,7 @@ class YamlReader : public Fields {
              const std::function<void(Fields&, size_t)>& declare) override;
   void Complain(const char* key, const std::string& what) override;
   void Renamed(const char* old_key, const char* new_key) override;
+  void Misplaced(const char* key, const std::string& what) override;
   std::string directory() const override { return directory_; }
 
  private:

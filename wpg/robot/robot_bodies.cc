@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <numbers>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 
 #include "wpg/files/mesh_file.h"
@@ -15,7 +17,10 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
+namespace fs = std::filesystem;
+
 constexpr std::string_view kPackage = "package://";
+constexpr std::string_view kFile = "file://";
 constexpr double kFarthest = 100.0;  // of a body from its link's frame, or the waist's [m]
 
 std::string PackageOf(const std::string& mesh) {
@@ -24,23 +29,46 @@ std::string PackageOf(const std::string& mesh) {
   return path.substr(0, path.find('/'));
 }
 
+// The folder of a ROS package that is not named by the robot file: one of ROS_PACKAGE_PATH, or one
+// that the URDF is in, or beside; "" when there is none.
+std::string FindPackage(const std::string& package, const std::string& urdf_file) {
+  std::vector<fs::path> places;
+  if (const char* paths = std::getenv("ROS_PACKAGE_PATH")) {
+    std::istringstream words(paths);
+    for (std::string path; std::getline(words, path, ':');) places.emplace_back(path);
+  }
+  std::error_code ignored;
+  fs::path above = fs::absolute(urdf_file, ignored).lexically_normal().parent_path();
+  for (; above.has_relative_path(); above = above.parent_path()) places.push_back(above);
+  for (const fs::path& place : places) {
+    if (place.filename() == package && fs::is_directory(place, ignored)) return place.string();
+    if (fs::is_directory(place / package, ignored)) return (place / package).string();
+  }
+  return "";
+}
+
 // File of a mesh named in a URDF. Throws std::runtime_error with a sentence.
 std::string MeshPath(const std::string& mesh, const std::string& urdf_file,
                      const std::map<std::string, std::string>& packages) {
   if (const std::string package = PackageOf(mesh); !package.empty()) {
-    const auto folder = packages.find(package);
-    if (folder == packages.end()) {
+    const auto given = packages.find(package);
+    const std::string folder =
+        given != packages.end() ? given->second : FindPackage(package, urdf_file);
+    if (folder.empty()) {
       throw std::runtime_error("package `" + package + "` of " + mesh +
-                               " has no folder: name it under `packages` of the robot file");
+                               " has no folder: name it under `packages` of the robot file, or put "
+                               "its parent into ROS_PACKAGE_PATH");
     }
-    return folder->second + mesh.substr(kPackage.size() + package.size());
+    return folder + mesh.substr(kPackage.size() + package.size());
   }
+  if (mesh.starts_with(kFile)) return mesh.substr(kFile.size());
   if (mesh.find("://") != std::string::npos) {
-    throw std::runtime_error(mesh +
-                             " is no mesh path (valid: package://…, or a path relative to "
-                             "the URDF)");
+    throw std::runtime_error(
+        mesh +
+        " is no mesh path (valid: package://…, file://…, or a path relative to "
+        "the URDF)");
   }
-  return (std::filesystem::path(urdf_file).parent_path() / mesh).string();
+  return (fs::path(urdf_file).parent_path() / mesh).string();
 }
 
 // Hull of the prism of 32 sides around a cylinder along z: at most 0.5 % of the radius larger.

@@ -54,6 +54,7 @@ class Builder {
     CheckPostureInLimits();
     leg_.waist = urdf_.FindLink(file_.waist_link);
     if (!BuildLegs()) return model_;
+    Warn();
     if (const std::string fault = MirrorFault(model_.legs[0], model_.legs[1]); !fault.empty()) {
       fields_.Complain("legs", fault);
     }
@@ -96,6 +97,15 @@ class Builder {
       ok = false;
     }
     return ok;
+  }
+
+  void Warn() {
+    model_.warnings = urdf_.warnings;
+    for (const UrdfJoint& joint : urdf_.joints) {
+      for (const std::string& fault : joint.faults) {
+        model_.warnings.push_back(fault + "; it is held still");
+      }
+    }
   }
 
   // Waist height and width of stance; complains about feet that do not stand side by side.

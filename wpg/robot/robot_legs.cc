@@ -119,7 +119,10 @@ std::optional<std::array<int, 6>> FindLegJoints(const UrdfTree& urdf, int waist,
       return std::nullopt;
     }
     const UrdfJoint& joint = urdf.joints[static_cast<size_t>(index)];
-    if (joint.kind == UrdfJoint::Kind::kOther) {
+    if (!joint.faults.empty()) {
+      complaints->Add(joint.faults);
+      ok = false;
+    } else if (joint.kind == UrdfJoint::Kind::kOther) {
       complaints->Add(urdf.file, joint.place.line, joint.place.column, joint.name,
                       "a leg's joint must be revolute, with limits, or fixed");
       ok = false;

@@ -74,6 +74,8 @@ struct RobotModel {
   std::vector<InputFile> files;  ///< files read: YAML, URDF and meshes, one entry for each reading.
   std::vector<RobotBody> bodies;
   std::vector<std::array<int, 2>> self_pairs;  ///< pairs of `bodies` that must not touch.
+  /// What the URDF has that was repaired or left out, as "file:line:column: …", for the user.
+  std::vector<std::string> warnings;
   /// All other pairs of bodies that move relative to each other (wpg/robot/self_pairs.h).
   std::vector<UnwatchedPair> unwatched_pairs;
 };

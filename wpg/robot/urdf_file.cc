@@ -80,11 +80,14 @@ UrdfCollision ToCollision(const urdf::Collision& collision) {
   return out;
 }
 
-UrdfJoint ToJoint(const urdf::Joint& joint, const UrdfPlaces& places) {
+UrdfJoint ToJoint(const urdf::Joint& joint, const UrdfFindings& found) {
   UrdfJoint out;
   out.name = joint.name;
   out.X_ParentChild = ToEigen(joint.parent_to_joint_origin_transform);
-  out.place = places.joints.at(joint.name);
+  out.place = found.joints.at(joint.name);
+  if (const auto faults = found.joint_faults.find(joint.name); faults != found.joint_faults.end()) {
+    out.faults = faults->second;
+  }
   if (joint.type == urdf::Joint::FIXED) return out;
   out.kind =
       joint.type == urdf::Joint::REVOLUTE ? UrdfJoint::Kind::kRevolute : UrdfJoint::Kind::kOther;
@@ -107,12 +110,12 @@ Eigen::Matrix3d InertiaInLink(const urdf::Inertial& inertial) {
 }
 
 // Appends a link; `joint` leads to it, −1 at the root. Returns its index.
-int AddLink(const urdf::Link& link, int joint, const UrdfPlaces& places, UrdfTree* tree) {
+int AddLink(const urdf::Link& link, int joint, const UrdfFindings& found, UrdfTree* tree) {
   const int index = static_cast<int>(tree->links.size());
   UrdfLink& out = tree->links.emplace_back();
   out.name = link.name;
   out.joint = joint;
-  out.place = places.links.at(link.name);
+  out.place = found.links.at(link.name);
   if (joint >= 0) tree->joints[static_cast<size_t>(joint)].child = index;
   if (link.inertial) {
     out.mass = link.inertial->mass;
@@ -121,7 +124,7 @@ int AddLink(const urdf::Link& link, int joint, const UrdfPlaces& places, UrdfTre
   }
   for (const auto& collision : link.collision_array) {
     UrdfCollision shape = ToCollision(*collision);
-    shape.place = places.collisions.at(link.name).at(out.collisions.size());
+    shape.place = found.collisions.at(link.name).at(out.collisions.size());
     out.collisions.push_back(std::move(shape));
   }
   return index;
@@ -129,7 +132,7 @@ int AddLink(const urdf::Link& link, int joint, const UrdfPlaces& places, UrdfTre
 
 // Appends the root and all that hangs on it, a link before its children and each child's branch
 // before the next child. Not by recursion: a chain may be 5,000 links long.
-void AddTree(const urdf::Link& root, const UrdfPlaces& places, UrdfTree* tree) {
+void AddTree(const urdf::Link& root, const UrdfFindings& found, UrdfTree* tree) {
   struct Open {
     const urdf::Link* link;
     const urdf::Joint* joint;  // null at the root
@@ -142,10 +145,10 @@ void AddTree(const urdf::Link& root, const UrdfPlaces& places, UrdfTree* tree) {
     int joint = -1;
     if (next.joint != nullptr) {
       joint = static_cast<int>(tree->joints.size());
-      tree->joints.push_back(ToJoint(*next.joint, places));
+      tree->joints.push_back(ToJoint(*next.joint, found));
       tree->joints.back().parent = next.parent;
     }
-    const int index = AddLink(*next.link, joint, places, tree);
+    const int index = AddLink(*next.link, joint, found, tree);
     for (size_t i = next.link->child_links.size(); i-- > 0;) {
       open.push_back({next.link->child_links[i].get(), next.link->child_joints[i].get(), index});
     }
@@ -182,20 +185,21 @@ UrdfTree ParseUrdf(const std::string& path, const std::string& text) {
   Complaints complaints;
   if (text.empty()) complaints.Add(path, 0, 0, "", "is empty");
   complaints.ThrowIfAny();
-  const UrdfPlaces places = CheckUrdf(text, path, &complaints);
+  UrdfFindings found = CheckUrdf(text, path, &complaints);
   complaints.ThrowIfAny();
   UrdfTree tree;
   tree.file = path;
   tree.source = RecordOf(path, text);
+  tree.warnings = std::move(found.warnings);
   const Listener listener;
   // The byte order mark makes it UTF-8, whatever the file says of its encoding, as CheckUrdf takes
   // it: else characters such as &#282; would make other names.
-  const urdf::ModelInterfaceSharedPtr model = urdf::parseURDF("\xEF\xBB\xBF" + text);
+  const urdf::ModelInterfaceSharedPtr model = urdf::parseURDF("\xEF\xBB\xBF" + found.text);
   if (!model || !model->getRoot()) {
     complaints.Add(path, 0, 0, "robot", "urdfdom refuses it: " + listener.text());
     complaints.ThrowIfAny();
   }
-  AddTree(*model->getRoot(), places, &tree);
+  AddTree(*model->getRoot(), found, &tree);
   return tree;
 }
 

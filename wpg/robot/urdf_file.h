@@ -42,6 +42,7 @@ struct UrdfJoint {
   double lower = 0.0;                                               ///< [rad]
   double upper = 0.0;                                               ///< [rad]
   double max_speed = 0.0;                                           ///< [rad/s]
+  std::vector<std::string> faults;  ///< for which it can be no joint of a leg: complaints
   UrdfPlace place;
 };
 
@@ -52,6 +53,7 @@ struct UrdfTree {
   InputFile source;  ///< what was read.
   std::vector<UrdfLink> links;
   std::vector<UrdfJoint> joints;
+  std::vector<std::string> warnings;  ///< what was repaired or left out (CheckUrdf)
 
   int FindLink(const std::string& name) const;  ///< index, −1: unknown.
   /// Poses of all links in the root's frame for joint positions by index [rad]; joints of kind

@@ -1,0 +1,117 @@
+#include "experiments/live/episode_report.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "experiments/live/messages.h"
+#include "experiments/report/live_page.h"
+#include "experiments/report/report_page.h"
+#include "experiments/report/report_walk.h"
+#include "experiments/report/shortened.h"
+#include "experiments/tables/result_tables.h"
+#include "wpg/files/text.h"
+
+namespace halfstep {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+constexpr size_t kMostBytes = 5'000'000;
+constexpr double kSpacing = 0.02;  // of the motion's rows [s]
+constexpr int kDigits = 7;
+
+// Numbers as short as a picture needs them.
+json Rounded(json value) {
+  if (value.is_number_float()) return Shortened(value.get<double>(), kDigits);
+  if (value.is_structured()) {
+    for (json& part : value) part = Rounded(std::move(part));
+  }
+  return value;
+}
+
+// Whether element i of a list of `count` is among every k-th, the last one included.
+bool IsShown(size_t i, size_t count, size_t k) { return i % k == 0 || i + 1 == count; }
+
+// Walks share most footsteps with the one before: `same` of the first ones are left out, and times
+// of half-steps, which the page does not need.
+void AddWalks(const Episode& episode, bool lockstep, size_t k, json* messages) {
+  json before = json::array();
+  for (size_t i = 0; i < episode.walks.size(); ++i) {
+    if (!IsShown(i, episode.walks.size(), k)) continue;
+    json message = WalkMessage(episode.walks[i], i);
+    message.erase("half_steps");
+    // What computing took is another time whenever the episode is run.
+    if (lockstep) {
+      for (const char* key : {"check_s", "plan_s", "smooth_s"}) message.erase(key);
+    }
+    json footsteps = std::move(message["footsteps"]);
+    size_t same = 0;
+    while (same < std::min(before.size(), footsteps.size()) && before[same] == footsteps[same]) {
+      ++same;
+    }
+    message["same"] = same;
+    message["footsteps"] = json(std::vector<json>(
+        footsteps.begin() + static_cast<json::difference_type>(same), footsteps.end()));
+    messages->push_back(Rounded(std::move(message)));
+    before = std::move(footsteps);
+  }
+}
+
+json Messages(const Episode& episode, const LiveConfig& config, const Place& place, size_t k) {
+  json messages = json::array(
+      {HelloMessage(config, place.robot, place.scene, {}), DrawMessage(place.robot, place.scene)});
+  for (size_t i = 0; i < episode.worlds.size(); ++i) {
+    if (!IsShown(i, episode.worlds.size(), k)) continue;
+    messages.push_back(Rounded(WorldMessage(episode.worlds[i], episode.known[i])));
+  }
+  AddWalks(episode, config.live.clock == "lockstep", k, &messages);
+  for (size_t i = 0; i < episode.grants.size(); ++i) {
+    if (!IsShown(i, episode.grants.size(), k)) continue;
+    messages.push_back(Rounded(GrantMessage(episode.grants[i], i)));
+  }
+  for (const EpisodeEvent& event : episode.events) {
+    if (event.what == "measured" || event.what == "begins") continue;  // worlds and rows say it
+    messages.push_back(Rounded(EventMessage(event)));
+  }
+  messages.push_back(EndMessage(episode, ""));
+  return messages;
+}
+
+std::string OutcomeOf(const Episode& episode, const LiveConfig& config, size_t k) {
+  std::string outcome = "recording, " + std::string(Name(episode.ending)) +
+                        Formatted(" after %.2f s, ", episode.end) + config.live.clock +
+                        ", policy " + config.live.policy;
+  if (k > 1) outcome += ", every " + std::to_string(k) + "th world, walk and grant is shown";
+  return outcome;
+}
+
+}  // namespace
+
+std::string EpisodeReport(const Episode& episode, const LiveConfig& config, const Place& place,
+                          const fs::path& folder) {
+  std::vector<std::string> columns;
+  for (const CsvColumn& column : MotionColumns(place.robot)) {
+    const bool derivative = column.name.starts_with("com_v") || column.name.starts_with("com_a");
+    if (!derivative && column.name != "support") columns.push_back(column.name);
+  }
+  for (size_t k = 1;; k *= 2) {
+    const json motion = episode.walks.empty() ? json(nullptr)
+                                              : MotionJson(folder / "trajectory.csv", columns,
+                                                           kSpacing * static_cast<double>(k));
+    std::string page = RecordingPage({{"messages", Messages(episode, config, place, k)},
+                                      {"motion", motion},
+                                      {"clock", config.live.clock},
+                                      {"outcome", OutcomeOf(episode, config, k)}});
+    if (page.size() < kMostBytes || k > episode.worlds.size() + episode.walks.size()) return page;
+  }
+}
+
+void WriteEpisodeReport(const Episode& episode, const LiveConfig& config, const Place& place,
+                        RunFolder* folder) {
+  if (!HasReport()) return;
+  folder->Write("report.html", EpisodeReport(episode, config, place, folder->staging()));
+}
+
+}  // namespace halfstep

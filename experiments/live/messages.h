@@ -1,0 +1,49 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "experiments/live/episode.h"
+#include "experiments/live/live_config.h"
+#include "planner/scene/scene.h"
+#include "wpg/robot/robot_model.h"
+
+namespace halfstep {
+
+/// The version of the messages between an episode and its clients; every change of a key raises it.
+constexpr int kProtocol = 1;
+
+/// What an episode tells its clients, one JSON object each, with the key `type`; the other keys:
+/// experiments/server/README.md. Lengths [m], angles [rad], times of the walk [s], frame W.
+/// Half-steps count from 1, 0 is none; walks, worlds and grants count from 0. A number that is not
+/// finite is null.
+
+/// `spare` names the boxes of the scene that a person may place.
+nlohmann::json HelloMessage(const LiveConfig& config, const RobotModel& robot, const Scene& scene,
+                            const std::vector<std::string>& spare);
+nlohmann::json WaitingMessage(std::string_view reason);
+/// `known`: when the world became known [s].
+nlohmann::json WorldMessage(const World& world, double known);
+nlohmann::json WalkMessage(const ExecutedWalk& walk, size_t index);
+nlohmann::json GrantMessage(const EpisodeGrant& grant, size_t index);
+nlohmann::json EventMessage(const EpisodeEvent& event);
+/// The instant t [s] of the motion in execution. `held`: nothing more is to begin.
+nlohmann::json StateMessage(const RobotModel& robot, const SuperposedWalk& executed, double t,
+                            bool stopped, bool held);
+/// The motion in execution from `from` to `until` [s], or to its end when that is earlier, in rows
+/// `period` [s] apart; the first one at `from`.
+nlohmann::json MotionMessage(const RobotModel& robot, const SuperposedWalk& executed, size_t walk,
+                             double from, double until, double period);
+/// What a page needs to draw robot and world: RobotJson and ShapesJson (report_place.h).
+nlohmann::json DrawMessage(const RobotModel& robot, const Scene& scene);
+/// `folder`: where the record was written.
+nlohmann::json EndMessage(const Episode& episode, const std::string& folder);
+/// What was wrong with a message of a client.
+nlohmann::json ErrorMessage(const std::string& text);
+
+/// The object as one line of text, without a line break. Bytes that are not UTF-8 are replaced.
+std::string MessageText(const nlohmann::json& message);
+
+}  // namespace halfstep

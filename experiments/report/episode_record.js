@@ -1,0 +1,106 @@
+// What was told of an episode, by messages of protocol 1, and what of it was true at a time.
+
+// The last element of a list in the order of `key` that is not after t.
+function lastUntil(list, key, t) {
+  let low = 0;
+  let high = list.length;
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (list[middle][key] <= t) low = middle + 1;
+    else high = middle;
+  }
+  return list[low - 1];
+}
+
+// A list keeps its order when a message comes twice: on connection the newest are told again.
+function put(list, message, name) {
+  if (list.at(-1)?.[name] === message[name]) list[list.length - 1] = message;
+  else list.push(message);
+}
+
+const mostEvents = 2000;
+const mostWorlds = 5000; // a live page forgets what is older
+
+export class EpisodeRecord {
+  constructor() {
+    this.hello = null;
+    this.worlds = [];
+    this.walks = [];
+    this.grants = [];
+    this.events = [];
+    this.waiting = null; // why there is no walk yet
+    this.state = null;
+    this.motion = null;
+    this.end = null;
+  }
+
+  take(message) {
+    const what = {
+      hello: () => { this.hello = message; },
+      waiting: () => { this.waiting = message.reason; },
+      world: () => this.takeWorld(message),
+      walk: () => this.takeWalk(message),
+      grant: () => put(this.grants, message, "grant"),
+      event: () => this.events.push(message),
+      state: () => { this.state = message; },
+      motion: () => { this.motion = message; },
+      end: () => { this.end = message; },
+    }[message.type];
+    what?.();
+    if (this.events.length > mostEvents) this.events.splice(0, mostEvents / 2);
+  }
+
+  takeWorld(message) {
+    put(this.worlds, message, "world");
+    if (this.worlds.length > mostWorlds) this.worlds.splice(0, mostWorlds / 2);
+  }
+
+  takeWalk(message) {
+    this.waiting = null;
+    put(this.walks, message, "walk");
+  }
+
+  worldAt(t) { return lastUntil(this.worlds, "known_s", t) ?? this.worlds[0]; }
+  walkAt(t) { return lastUntil(this.walks, "handed_over_s", t) ?? this.walks[0]; }
+  grantAt(t) { return lastUntil(this.grants, "t_s", t); }
+  eventsUntil(t) { return this.events.filter((event) => event.t_s <= t); }
+
+  /** Walks that were replaced within `span` [s] before t: [walk, its successor, how long ago]. */
+  replaced(t, span) {
+    const pairs = [];
+    for (let i = this.walks.length - 1; i > 0; --i) {
+      const age = t - this.walks[i].handed_over_s;
+      if (age > span) break;
+      if (age >= 0) pairs.push([this.walks[i - 1], this.walks[i], age]);
+    }
+    return pairs;
+  }
+}
+
+/** Each footstep takes two; the first two soles are where the walk starts. */
+export const numHalfSteps = (walk) => 2 * (walk.footsteps.length - 2);
+
+/** Of a footstep, by its place in the list: begun, granted (also to land), or to come. */
+export function stageOf(footstep, begun, through) {
+  const rises = 2 * footstep - 3; // half-steps from 1; the first two are the starting soles
+  if (rises <= begun) return "begun";
+  return rises + 1 <= through ? "granted" : "to come";
+}
+
+const words = {
+  handed_over: ({ walk, text, half_step: from }) =>
+    `walk ${walk} taken over, from half-step ${from} on: ${text}`,
+  lost: ({ text }) => `lost: ${text}`,
+  contradicted: ({ text }) => `${text} is not where it could be: earlier proofs are void`,
+  refused: ({ text }) => `a walk was refused: ${text}`,
+  unsafe: ({ text }) => `no safe way on was found: ${text}`,
+  stopped: ({ text, half_step: last }) => `stops after half-step ${last}: ${text}`,
+  error: ({ text }) => `refused: ${text}`,
+};
+
+/** An event in words; null for those that happen all the time. */
+export function inWords(event) {
+  if (event.event === "measured" || event.event === "begins") return null;
+  const text = words[event.event]?.(event) ?? `${event.event}: ${event.text}`;
+  return event.t_s === null ? text : `${event.t_s.toFixed(2)} s ${text}`;
+}

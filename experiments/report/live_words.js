@@ -1,0 +1,55 @@
+// What the page says beside the view: figures of the plan, and what is drawn.
+
+import { numHalfSteps } from "./episode_record.js";
+
+const seconds = (value) => `${value.toFixed(2)} s`;
+
+const mostLetters = 110;
+
+/** A text that is not too long, with three dots for what is left out. */
+export function shortened(text, most = mostLetters) {
+  return text.length > most ? `${text.slice(0, most)} …` : text;
+}
+
+/** Rows of the table of the plan. */
+export function planRows(table, { t, plan, grant, world, begun }) {
+  const rows = [];
+  if (plan) {
+    rows.push(["walk", `${plan.walk}, ${plan.kind}: ${plan.reason}`]);
+    rows.push(["footsteps", `${plan.footsteps.length - 2}, ends at ${seconds(plan.duration_s)}`]);
+    rows.push(["begun", `half-step ${begun} of ${numHalfSteps(plan)}`]);
+  }
+  if (grant) {
+    const limit = grant.valid_until_s === null ? "" : `, as far as they end by ${seconds(grant.valid_until_s)}`;
+    rows.push(["granted", `half-steps up to ${grant.through}${limit}`]);
+  }
+  if (world) rows.push(["measured", `world ${world.world}, ${(1000 * (t - world.measured_s)).toFixed(0)} ms ago`]);
+  const text = rows.map((row) => row.join("\t")).join("\n");
+  if (table.dataset.key === text) return;
+  table.dataset.key = text;
+  table.replaceChildren(...rows.map(([name, value]) => {
+    const row = document.createElement("tr");
+    row.append(Object.assign(document.createElement("th"), { textContent: name }),
+               Object.assign(document.createElement("td"), { textContent: shortened(value), title: value }));
+    return row;
+  }));
+}
+
+/** What the view shows, in words. */
+export function legend(list, recorded) {
+  const motion = recorded ? "the executed motion of the next 3 s" : "the walk to come, 3 s of it";
+  const terms = [
+    ["Obstacles", "where they were measured last."],
+    ["Shell", "where they may be: r + v·(t − t_m) up to the horizon, as long as they keep to r and v; " +
+      "drawn a little larger."],
+    ["Footsteps", "filled: begun; outlined: granted, so proved; dashed: to come, not proved yet. " +
+      "Blue is left, orange is right."],
+    ["Replaced plans", "dashed in pink, fading within 4 s."],
+    ["Sole traces, body", `samples of ${motion}: not the proven swept volumes.`],
+    ["Goal", "the green disc. No-step areas are red."],
+  ];
+  list.replaceChildren(...terms.flatMap(([term, text]) => [
+    Object.assign(document.createElement("dt"), { textContent: term }),
+    Object.assign(document.createElement("dd"), { textContent: text }),
+  ]));
+}

@@ -1,0 +1,40 @@
+// Messages of protocol 1 over a WebSocket, from the server that served this page.
+
+const statePeriod = 0.03; // at least; the control period when that is longer [s]
+const motionSpan = 3; // of the walk to come [s]
+
+export class SocketSource {
+  /** Calls onMessage(object) for each message, onState(text, isOpen) when the connection changes. */
+  constructor(onMessage, onState) {
+    this.onMessage = onMessage;
+    this.onState = onState;
+    this.ended = false;
+    this.open();
+  }
+
+  open() {
+    const address = new URL("socket", location.href);
+    address.protocol = "ws:";
+    this.onState("connecting", false);
+    this.socket = new WebSocket(address);
+    this.socket.addEventListener("message", ({ data }) => this.take(JSON.parse(data)));
+    this.socket.addEventListener("close", () => {
+      this.onState(this.ended ? "the episode has ended" : "not connected", false);
+    });
+  }
+
+  take(message) {
+    if (message.type === "hello") {
+      this.onState("connected", true);
+      this.send({ type: "draw" });
+      this.send({ type: "subscribe", state_period_s: Math.max(statePeriod, message.control_period_s),
+                  motion_s: motionSpan });
+    }
+    if (message.type === "end") this.ended = true;
+    this.onMessage(message);
+  }
+
+  send(message) {
+    if (this.socket.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(message));
+  }
+}

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+
+#include "experiments/config/experiment.h"
+#include "experiments/live/live_config.h"
+#include "experiments/server/client_inbox.h"
+#include "experiments/server/client_line.h"
+#include "experiments/server/client_message.h"
+#include "experiments/server/news_board.h"
+
+namespace halfstep {
+
+/// What clients are told and may want, whatever line they are on. Of one thread, but for the inbox
+/// and the board that it is given.
+class ClientHub {
+ public:
+  static constexpr size_t kMostClients = 8;
+  static constexpr int kMostMessages = 1000;  ///< of a client in a second; one that sends more is
+                                              ///< dropped
+
+  /// Borrows inbox and board. `place`: with the spare boxes.
+  ClientHub(const LiveConfig& config, const Place& place, ClientInbox* inbox, NewsBoard* board);
+
+  /// Whether one more client may come.
+  bool HasRoom() const { return clients_.size() < kMostClients; }
+  /// A client has come: it is told what is known by now. Precondition: HasRoom(). `line` is
+  /// borrowed until Leave().
+  void Join(ClientLine* line);
+  void Leave(ClientLine* line);
+  /// Does what a client says; what is wrong with it is answered, and nothing is thrown.
+  void Receive(ClientLine* line, std::string_view text);
+
+  /// Tells everybody the news.
+  void Announce();
+  /// Tells everybody this last message, and finishes every line.
+  void End(const std::string& message);
+
+  /// Of the clients.
+  size_t size() const { return clients_.size(); }
+
+ private:
+  struct Client {
+    Subscribe wants;
+    double state_due = 0.0;  // when it is to be told the next state [s]
+    std::chrono::steady_clock::time_point second = {};
+    int messages = 0;  // since then
+  };
+  using Text = std::shared_ptr<const std::string>;
+
+  bool Floods(Client* client) const;
+  void Do(ClientLine* line, Client* client, const ClientMessage& message);
+  void Broadcast(const Text& text);
+  // Keeps the newest of each kind for those who come later, and tells it.
+  void Keep(const std::string& kind, const nlohmann::json& message);
+  void TellMotion();
+  void TellStates();
+  Text Motion(double ahead) const;
+  Text Drawing();
+
+  RobotModel robot_;
+  Scene scene_;
+  double period_;  // of control [s]
+  ClientMessageReader reader_;
+  ClientInbox& inbox_;
+  NewsBoard& board_;
+  std::map<ClientLine*, Client> clients_;
+  Text hello_, drawing_;
+  std::map<std::string, Text> newest_;                // by kind
+  EpisodeNews latest_;                                // its motion and its time
+  std::chrono::steady_clock::time_point measured_{};  // the newest measurement of a client
+};
+
+}  // namespace halfstep

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <mutex>
+#include <stop_token>
+#include <vector>
+
+#include "experiments/server/client_message.h"
+
+namespace halfstep {
+
+/// What clients want of an episode, from the thread that reads their messages to the one that runs
+/// it, which takes it at its ticks. Bounded; a mutex is held for a swap only.
+class ClientInbox {
+ public:
+  struct Measurement {
+    std::chrono::steady_clock::time_point at;  ///< when it was measured
+    MeasuredFrame frame;
+  };
+
+  /// False: there are too many that were not taken yet.
+  bool Add(Measurement measurement);
+  /// A carry takes the place of one of the same obstacle that came just before and was not taken
+  /// yet; so does a goal.
+  bool Add(const Edit& edit);
+  std::vector<Measurement> TakeMeasurements();
+  std::vector<Edit> TakeEdits();
+
+  /// Whether no half-step is to begin for the time being.
+  void Hold(bool held) { held_ = held; }
+  bool held() const { return held_; }
+  /// Asks for the end of the episode, when the robot has come to rest.
+  void End() { end_.request_stop(); }
+  bool ended() const { return end_.stop_requested(); }
+  std::stop_token end_token() const { return end_.get_token(); }
+
+ private:
+  std::mutex mutex_;  // of the two that follow
+  std::vector<Measurement> measurements_;
+  std::vector<Edit> edits_;
+  std::atomic<bool> held_ = false;
+  std::stop_source end_;
+};
+
+}  // namespace halfstep

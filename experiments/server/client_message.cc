@@ -1,0 +1,141 @@
+#include "experiments/server/client_message.h"
+
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <numbers>
+
+#include "experiments/server/message_fields.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/text.h"
+
+namespace halfstep {
+namespace {
+
+constexpr double kLongestMotion = 10.0;  // [s]
+constexpr double kOldest = 1e6;          // [s]
+constexpr double kMostTurn = 2.0 * std::numbers::pi;
+
+Eigen::Vector3d ReadPlace(MessageFields& fields) {
+  return fields.Numbers("xyz_m", 3, -kFarthestMessage, kFarthestMessage);
+}
+
+double ReadTurn(MessageFields& fields) {
+  return fields.Number("turn_rad", -kMostTurn, kMostTurn, 0.0);
+}
+
+Eigen::Vector2d ReadPoint(MessageFields& fields) {
+  const double x = fields.Number("x_m", -kFarthestMessage, kFarthestMessage);
+  const double y = fields.Number("y_m", -kFarthestMessage, kFarthestMessage);
+  return {x, y};
+}
+
+size_t ObstacleNamed(MessageFields& fields, const std::string& key, const Scene& scene) {
+  const std::string name = fields.Text(key);
+  const auto found = std::ranges::find(scene.obstacles, name, &Obstacle::name);
+  if (found == scene.obstacles.end()) {
+    fields.Fail(key, Quote(name) + " is not in the scene (valid: the name of an obstacle)");
+  }
+  return static_cast<size_t>(found - scene.obstacles.begin());
+}
+
+Eigen::Matrix3d Orientation(MessageFields& fields) {
+  const Eigen::Vector4d q = fields.Numbers("quaternion_wxyz", 4, -1.001, 1.001);
+  if (!(std::abs(q.norm() - 1.0) <= 1e-3)) {
+    fields.Fail("quaternion_wxyz",
+                Formatted("has the length %.6g (valid: 1, up to 0.001)", q.norm()));
+  }
+  return Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized().toRotationMatrix();
+}
+
+Subscribe ReadSubscribe(MessageFields& fields, double control_period) {
+  Subscribe subscribe{.state_period = fields.Number("state_period_s", 0.0, 3600.0),
+                      .motion = fields.Number("motion_s", 0.0, kLongestMotion)};
+  if (subscribe.state_period > 0.0 && subscribe.state_period < control_period) {
+    fields.Fail("state_period_s", Formatted("is shorter than the control period (valid: 0, or "
+                                            "from %g s)",
+                                            control_period));
+  }
+  return subscribe;
+}
+
+MeasuredFrame ReadMeasured(MessageFields& fields, const Scene& scene) {
+  MeasuredFrame frame;
+  frame.age = fields.Number("age_s", 0.0, kOldest);
+  for (MessageFields& one : fields.Objects("obstacles")) {
+    MeasuredFrame::Seen seen{.obstacle = ObstacleNamed(one, "name", scene),
+                             .X_WO = Eigen::Isometry3d::Identity()};
+    seen.X_WO = scene.obstacles[seen.obstacle].X_WO;
+    seen.X_WO.translation() = ReadPlace(one);
+    if (one.Has("quaternion_wxyz")) seen.X_WO.linear() = Orientation(one);
+    one.RefuseOthers();
+    if (std::ranges::find(frame.seen, seen.obstacle, &MeasuredFrame::Seen::obstacle) !=
+        frame.seen.end()) {
+      one.Fail("name", "stands there twice (valid: each obstacle once)");
+    }
+    frame.seen.push_back(seen);
+  }
+  std::ranges::sort(frame.seen, {}, &MeasuredFrame::Seen::obstacle);
+  if (fields.Has("goal")) {
+    MessageFields goal = fields.Object("goal");
+    frame.goal = ReadPoint(goal);
+    goal.RefuseOthers();
+  }
+  if (fields.Has("areas")) {
+    frame.areas.emplace();
+    for (const int area : fields.Indices("areas", static_cast<int>(scene.no_step.size()))) {
+      frame.areas->push_back(static_cast<size_t>(area - 1));
+    }
+  }
+  return frame;
+}
+
+Carry ReadCarry(MessageFields& fields, const Scene& scene) {
+  return {.obstacle = ObstacleNamed(fields, "obstacle", scene),
+          .to = ReadPlace(fields),
+          .turn = ReadTurn(fields)};
+}
+
+}  // namespace
+
+ClientMessageReader::ClientMessageReader(const Scene& scene, const LiveOptions& options)
+    : scene_(scene),
+      client_measures_(options.sensing.source == "client"),
+      control_period_(options.period) {}
+
+ClientMessage ClientMessageReader::Read(std::string_view text) const {
+  using Reader = std::function<ClientMessage(MessageFields&)>;
+  const auto edit = [](auto value) -> ClientMessage { return Edit(value); };
+  std::map<std::string, Reader> readers = {
+      {"subscribe", [&](MessageFields& f) { return ReadSubscribe(f, control_period_); }},
+      {"draw", [](MessageFields&) { return Draw{}; }},
+      {"hold", [](MessageFields&) { return Hold{true}; }},
+      {"release", [](MessageFields&) { return Hold{false}; }},
+      {"end", [](MessageFields&) { return End{}; }}};
+  if (client_measures_) {
+    readers["measured"] = [&](MessageFields& f) { return ReadMeasured(f, scene_); };
+  } else {
+    readers["carry"] = [&](MessageFields& f) { return edit(ReadCarry(f, scene_)); };
+    readers["goal"] = [&](MessageFields& f) { return edit(MoveGoal{ReadPoint(f)}); };
+    readers["add"] = [&](MessageFields& f) { return edit(AddBox{ReadPlace(f), ReadTurn(f)}); };
+    readers["remove"] = [&](MessageFields& f) {
+      return edit(Remove{ObstacleNamed(f, "obstacle", scene_)});
+    };
+  }
+  const nlohmann::json object = ParseMessage(text);
+  const std::string type = MessageFields(object, "").Text("type");
+  const auto reader = readers.find(type);
+  if (reader == readers.end()) {
+    std::string valid;
+    for (const auto& [name, unused] : readers) valid += (valid.empty() ? "" : ", ") + name;
+    throw InputError({"type: " + Quote(type) + " is not taken here, where live.sensing.source is " +
+                      (client_measures_ ? "client" : "stand_in") + " (valid: " + valid + ")"});
+  }
+  MessageFields fields(object, type);
+  fields.Text("type");
+  ClientMessage message = reader->second(fields);
+  fields.RefuseOthers();
+  return message;
+}
+
+}  // namespace halfstep

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "experiments/live/live_config.h"
+#include "planner/scene/scene.h"
+
+namespace halfstep {
+
+/// What a client of an episode says; keys: README.md.
+struct Subscribe {
+  double state_period = 0.0;  ///< [s]; 0: no states
+  double motion = 0.0;        ///< how far ahead the motion is told [s]; 0: not at all
+};
+struct Draw {};
+/// A measurement of everything that is there.
+struct MeasuredFrame {
+  struct Seen {
+    size_t obstacle = 0;     ///< index in the scene
+    Eigen::Isometry3d X_WO;  ///< finite, a rotation and a translation
+  };
+  double age = 0.0;                          ///< how long ago it was measured [s]
+  std::vector<Seen> seen;                    ///< in the scene's order, each at most once
+  std::optional<Eigen::Vector2d> goal;       ///< none: as before [m]
+  std::optional<std::vector<size_t>> areas;  ///< those that are there, from 0; none: as before
+};
+/// What a person does to the true world.
+struct Carry {
+  size_t obstacle = 0;
+  Eigen::Vector3d to;  ///< origin of its frame in W [m]
+  double turn = 0.0;   ///< about the world's z meanwhile [rad]
+};
+struct MoveGoal {
+  Eigen::Vector2d to;  ///< [m]
+};
+struct AddBox {
+  Eigen::Vector3d at;  ///< [m]
+  double turn = 0.0;   ///< about the world's z [rad]
+};
+struct Remove {
+  size_t obstacle = 0;
+};
+using Edit = std::variant<Carry, MoveGoal, AddBox, Remove>;
+struct Hold {
+  bool held = true;  ///< false: release
+};
+struct End {};
+using ClientMessage = std::variant<Subscribe, Draw, MeasuredFrame, Edit, Hold, End>;
+
+/// Reads messages of clients, strictly. Immutable.
+class ClientMessageReader {
+ public:
+  /// `scene`: with the spare boxes.
+  ClientMessageReader(const Scene& scene, const LiveOptions& options);
+
+  /// Throws InputError with a sentence that says what is wrong. Nothing else is thrown for any
+  /// text.
+  ClientMessage Read(std::string_view text) const;
+
+ private:
+  Scene scene_;
+  bool client_measures_;
+  double control_period_;
+};
+
+}  // namespace halfstep

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/live/episode.h"
+
+namespace halfstep {
+
+/// What happened in an episode since one looked last, as values.
+struct EpisodeNews {
+  std::optional<std::string> waiting;  ///< there is no walk yet: why
+  std::vector<World> worlds;
+  std::vector<double> known;  ///< of each of them [s]
+  std::vector<ExecutedWalk> walks;
+  std::vector<EpisodeGrant> grants;
+  std::vector<EpisodeEvent> events;
+  size_t first_walk = 0, first_grant = 0;  ///< the index of the first of these
+  /// The motion in execution, and the number of walks until now; null before there is one.
+  std::shared_ptr<const SuperposedWalk> executed;
+  size_t num_walks = 0;
+  double now = 0.0;  ///< [s]
+  bool stopped = false, held = false;
+  std::vector<std::string> refusals;  ///< of what clients wanted
+};
+
+/// Hands the news of an episode from the thread that runs it to the one that tells clients. A mutex
+/// is held for a swap only, so neither waits for the other.
+class NewsBoard {
+ public:
+  /// `wake` is called, in the thread of the episode, when there is something where there was
+  /// nothing.
+  explicit NewsBoard(std::function<void()> wake) : wake_(std::move(wake)) {}
+
+  /// Of the thread of the episode.
+  void Wait(const std::string& reason);
+  void Refuse(const std::string& sentence);
+  void Tick(const EpisodeTick& tick, bool held);
+
+  EpisodeNews Take();
+
+ private:
+  void Add(const std::function<void(EpisodeNews*)>& change);
+
+  std::function<void()> wake_;
+  // Of the thread of the episode: how much of the record was told.
+  size_t worlds_ = 0, walks_ = 0, grants_ = 0, events_ = 0;
+  std::shared_ptr<const SuperposedWalk> executed_;
+  bool stopped_ = false;
+
+  std::mutex mutex_;  // of what follows
+  EpisodeNews news_;
+  bool told_ = true;
+};
+
+}  // namespace halfstep

@@ -1,0 +1,49 @@
+#include "experiments/server/served_episode.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "experiments/live/messages.h"
+#include "experiments/server/client_sensor.h"
+
+namespace halfstep {
+namespace {
+
+constexpr int kSpareBoxes = 8;
+
+}  // namespace
+
+LiveConfig ServedEpisode::Served(LiveConfig config) {
+  config.live.clock = "wall";
+  if (config.live.sensing.source == "stand_in") {
+    config.live.spare_boxes = std::max(config.live.spare_boxes, kSpareBoxes);
+  }
+  return config;
+}
+
+ServedEpisode::ServedEpisode(const LiveConfig& config, const Place& place, const TrueWorld& truth,
+                             const ServerOptions& options)
+    : board_([this] { server_->Announce(); }), hub_(config, place, &inbox_, &board_) {
+  if (config.live.sensing.source == "client") {
+    sensor_ = std::make_unique<ClientSensor>(place.scene, config, &inbox_);
+  } else {
+    const auto seed = static_cast<std::uint64_t>(config.experiment.seed) + 1;
+    auto edited = std::make_unique<EditedSensor>(
+        truth, config.live, seed, &inbox_,
+        [this](const std::string& sentence) { board_.Refuse(sentence); });
+    edited_ = edited.get();
+    sensor_ = std::move(edited);
+  }
+  server_ = std::make_unique<Server>(options, &hub_);
+  Wait("half-steps are prepared");
+}
+
+std::vector<ScriptEvent> ServedEpisode::Script() const {
+  return edited_ != nullptr ? edited_->truth().Script() : std::vector<ScriptEvent>{};
+}
+
+void ServedEpisode::End(const Episode& episode, const std::string& folder) {
+  server_->End(MessageText(EndMessage(episode, folder)));
+}
+
+}  // namespace halfstep

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "experiments/config/experiment.h"
+#include "experiments/live/episode.h"
+#include "experiments/live/live_config.h"
+#include "experiments/live/true_world.h"
+#include "experiments/server/client_hub.h"
+#include "experiments/server/client_inbox.h"
+#include "experiments/server/edited_sensor.h"
+#include "experiments/server/news_board.h"
+#include "experiments/server/server.h"
+
+namespace halfstep {
+
+/// An episode that clients reach: they are told what happens, and what they say is done.
+class ServedEpisode {
+ public:
+  /// The config as an episode goes on that is served: by the wall clock, and where a stand-in
+  /// senses, with boxes that a person may place.
+  static LiveConfig Served(LiveConfig config);
+
+  /// `config` is Served(), `place` has the spare boxes, `truth` is of both. Clients may come from
+  /// now on, and are told to wait. Throws as Server.
+  ServedEpisode(const LiveConfig& config, const Place& place, const TrueWorld& truth,
+                const ServerOptions& options);
+
+  const std::string& address() const { return server_->address(); }
+  Sensor& sensor() { return *sensor_; }
+
+  void Wait(const std::string& reason) { board_.Wait(reason); }
+  void Tick(const EpisodeTick& tick) { board_.Tick(tick, held() || inbox_.ended()); }
+  bool held() const { return inbox_.held(); }
+  /// Asks for the end of the episode, as clients do.
+  void Stop() { inbox_.End(); }
+  std::stop_token stop_token() const { return inbox_.end_token(); }
+
+  /// The script that holds what people did, in times of the script.
+  std::vector<ScriptEvent> Script() const;
+  /// Tells clients that the episode has ended, and lets them go. `folder`: where its record is.
+  void End(const Episode& episode, const std::string& folder);
+
+ private:
+  ClientInbox inbox_;
+  NewsBoard board_;
+  ClientHub hub_;
+  EditedSensor* edited_ = nullptr;  // the sensor, when it is one
+  std::unique_ptr<Sensor> sensor_;
+  std::unique_ptr<Server> server_;  // last: its thread uses what is above
+};
+
+}  // namespace halfstep

@@ -1,0 +1,274 @@
+// Opens the page of an episode in Chromium, as it goes on and as it was recorded:
+// node live_page_test.mjs HALFSTEP SOURCE_FOLDER CACHE_OF_SWEPT_VOLUMES
+// Exit status 77, which ctest counts as skipped, when there is no Chromium, no page or no server.
+import assert from "node:assert/strict";
+import { execFileSync, spawn } from "node:child_process";
+import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { Browser, hasBrowser, pause } from "./browser.mjs";
+import { countColours, partThatDiffers, readPng } from "./png.mjs";
+
+const [halfstep, source, cache] = process.argv.slice(2);
+const place = mkdtempSync(join(tmpdir(), "halfstep_live_page_"));
+const children = [];
+const patience = 180_000; // for whatever has to come [ms]
+
+// Few half-steps, so that they are baked soon; they are too few to step over
+// a bar everywhere: over it or around its end is for the planner to choose.
+writeFileSync(join(place, "bar.yaml"), `name: bar
+obstacles:
+  - name: bar
+    box: {size_m: [0.03, 3.0, 0.03]}
+    pose: {xyz: [1.5, 2.6, 0.015]}
+    motion: {speed_m_s: 0.3}
+`);
+writeFileSync(join(place, "small.yaml"), `name: small
+robot: hrp2
+scene: bar.yaml
+goal: {x_m: 0.35, y_m: 0, radius_m: 0.15}
+half_step: {duration_s: 1.5, zmp_shift_s: 0.075}
+step_set: {x_min_m: 0, x_max_m: 0.35, y_min_m: -0.26, y_max_m: -0.21, spacing_m: 0.05, yaws_rad: [0]}
+swept_volumes: {cell_m: 0.02, displacement_m: 0.01, cache: ${JSON.stringify(cache)}}
+planner: {unimproved_nodes: 100, max_nodes: 2000}
+live: {smooth_ahead: 4, tolerance_s: 0.1, longest_s: 600, sensing: {rests_after_s: 0.5}}
+`);
+
+// `halfstep live --view` in the folder; resolves when its address is known, or it has ended.
+async function serve(out, ...more) {
+  const child = spawn(halfstep, ["live", "small.yaml", "--view", "--out", out, ...more], { cwd: place });
+  const episode = { child, text: "", ended: null };
+  episode.done = new Promise((resolve) => child.on("exit", (status) => {
+    episode.ended = status;
+    resolve(status);
+  }));
+  for (const stream of [child.stdout, child.stderr]) stream.on("data", (part) => { episode.text += part; });
+  await until(() => /http:\S+/.test(episode.text) || episode.ended !== null, "an address");
+  episode.address = /http:\S+/.exec(episode.text)?.[0];
+  return episode;
+}
+
+let words = async () => ""; // of the page, for what failed
+async function until(condition, what) {
+  const deadline = Date.now() + patience;
+  for (;;) {
+    const found = await condition();
+    if (found) return found;
+    if (Date.now() > deadline) assert.fail(`waited in vain for ${what}: ${await words()}`);
+    await pause(100);
+  }
+}
+
+// Whether the view satisfies `condition`; a machine that is slow at drawing is asked again.
+async function isDrawn(browser, condition) {
+  try {
+    return condition(readPng(await browser.picture("#canvas")));
+  } catch (error) {
+    if (/imed out/.test(error.message)) return false;
+    throw error;
+  }
+}
+const isPicture = (picture) => countColours(picture) > 100;
+const textOf = (browser, id) => browser.run("return document.getElementById(arguments[0]).textContent", id);
+const stateIs = (browser, pattern) =>
+  until(async () => pattern.test(await textOf(browser, "state")), `the state ${pattern}`);
+const click = (browser, id) => browser.run("document.getElementById(arguments[0]).click()", id);
+const labels = (browser) =>
+  browser.run("return [...document.querySelectorAll('.tag-of')].map((label) => label.textContent)");
+
+// The number of a walk after walk `before` that took over with other footsteps, when the log has one.
+async function walkWithOtherFootsteps(browser, before) {
+  const lines = await browser.run("return [...document.querySelectorAll('#log li')].map((line) => line.title)");
+  const numbers = lines.map((line) => /walk (\d+) taken over.*: changed/.exec(line)?.[1]).filter(Boolean);
+  return numbers.map(Number).find((number) => number > before);
+}
+
+// Addresses that the page asked for since the last call.
+const fetched = async (browser) =>
+  (await browser.requests()).filter((asked) => !asked.startsWith("chrome"));
+
+// What does not fit where it stands.
+const overflows = (browser) => browser.run(`
+  const rows = [document.documentElement, ...document.querySelectorAll("header, .bar, .card")];
+  return rows.filter((e) => e.scrollWidth > e.clientWidth + 1).map((e) => e.id || e.textContent);`);
+
+// Drags a label along the floor until the page says that what it names is to go to [x, y] [m].
+async function drag(browser, name, [x, y]) {
+  const middle = await browser.run(`
+    const { left, top, width, height } = document.querySelector('[data-name="' + arguments[0] + '"]')
+      .getBoundingClientRect();
+    return [left + width / 2, top + height / 2];`, name);
+  const pointer = (...actions) => browser.send("POST", "/actions", { actions: [{
+    type: "pointer", id: "mouse", parameters: { pointerType: "mouse" }, actions,
+  }] });
+  const moveTo = async ([px, py]) => {
+    await pointer({ type: "pointerMove", x: Math.round(px), y: Math.round(py), duration: 50 });
+    const said = await textOf(browser, "readout");
+    const found = /x (-?[\d.]+) m, y (-?[\d.]+) m/.exec(said);
+    assert.ok(found, `while it is dragged the page says where to: ${said}`);
+    return found.slice(1).map(Number);
+  };
+  await pointer({ type: "pointerMove", x: Math.round(middle[0]), y: Math.round(middle[1]) },
+                { type: "pointerDown", button: 0 });
+  // What a pixel is on the floor is found by trying.
+  let at = middle;
+  let there = await moveTo(at);
+  for (let i = 0; i < 12 && Math.hypot(x - there[0], y - there[1]) > 0.03; ++i) {
+    const [ax, ay] = await moveTo([at[0] + 12, at[1]]);
+    const [bx, by] = await moveTo([at[0], at[1] + 12]);
+    const [a, b, c, d] = [ax - there[0], bx - there[0], ay - there[1], by - there[1]].map((v) => v / 12);
+    const det = a * d - b * c;
+    const [ex, ey] = [x - there[0], y - there[1]];
+    const [dx, dy] = [(d * ex - b * ey) / det, (a * ey - c * ex) / det];
+    const part = Math.min(1, 150 / Math.hypot(dx, dy));
+    at = [at[0] + part * dx, at[1] + part * dy];
+    there = await moveTo(at);
+  }
+  await pointer({ type: "pointerUp", button: 0 });
+  assert.ok(Math.hypot(x - there[0], y - there[1]) < 0.07, `dragged to ${there}`);
+}
+
+function rowsOf(file) {
+  const [header, ...rows] = readFileSync(join(place, file), "utf8").trim().split("\n").map((line) => line.split(","));
+  return rows.map((row) => Object.fromEntries(row.map((cell, i) => [header[i], cell])));
+}
+
+async function testLive(browser, episode) {
+  await browser.load(episode.address);
+  words = () => browser.run("return document.body.innerText");
+  await stateIs(browser, /half-step \d+ of \d+/);
+  assert.match(await textOf(browser, "connection"), /^connected$/);
+  assert.deepEqual(await overflows(browser), [], "everything fits at 1366 x 768");
+  const policy = await browser.run("return document.querySelector('meta[http-equiv]').content");
+  assert.match(policy, /connect-src ws:\/\/127\.0\.0\.1:\d+\/[^ ;]+\/socket$/);
+  await until(async () => (await labels(browser)).includes("bar"), "the bar");
+  await until(() => isDrawn(browser, isPicture), "a picture");
+
+  // From above and from farther away, so that the whole way is seen.
+  await browser.set("follow", false);
+  await browser.set("camera", "top");
+  await browser.send("POST", "/actions", { actions: [{ type: "wheel", id: "wheel", actions: [
+    { type: "scroll", x: 400, y: 400, deltaX: 0, deltaY: 400 },
+    { type: "scroll", x: 400, y: 400, deltaX: 0, deltaY: 400 },
+  ] }] });
+  await until(async () => (await browser.run(
+    "return document.querySelector('[data-name=bar]').checkVisibility()")), "the bar to be in view");
+  // The goal goes on, and while the robot waits a bar comes into its way.
+  await drag(browser, "goal", [2.2, 0]);
+  const before = await until(() => walkWithOtherFootsteps(browser, 0), "a walk to the goal");
+  await click(browser, "hold");
+  await stateIs(browser, /paused/);
+  assert.equal(await textOf(browser, "hold"), "Walk on");
+  await drag(browser, "bar", [1.5, 1.2]);
+
+  await click(browser, "add");
+  await until(async () => (await labels(browser)).includes("spare_1"), "the box");
+  await browser.run(`document.querySelector('[data-name="spare_1"]').focus()`);
+  await until(async () => /spare_1/.test(await textOf(browser, "remove")), "the box to be selected");
+  await click(browser, "remove");
+  await until(async () => !(await labels(browser)).includes("spare_1"), "the box to vanish");
+
+  await click(browser, "hold");
+  await until(async () => !/paused/.test(await textOf(browser, "state")), "the robot to walk on");
+  await stateIs(browser, /half-step (\d+) of \1, at rest/);
+  await click(browser, "stop");
+  await stateIs(browser, /^(arrived|stuck|too long|no plan|interrupted)/);
+  assert.match(await textOf(browser, "state"), /^arrived/);
+  assert.equal(await episode.done, 0, episode.text);
+  const later = rowsOf("one/plans.csv").filter((walk) => walk.kind === "changed" && Number(walk.walk) > before);
+  assert.ok(later.length > 0, "a walk with other footsteps took over for the bar");
+  assert.deepEqual(await browser.console(), [], "the console is empty");
+  assert.deepEqual(await fetched(browser), [episode.address], "nothing else is fetched");
+}
+
+// In the end the bar lies across what was the way, and the robot is beyond it.
+function testIsBeyond() {
+  const bar = rowsOf("one/obstacles.csv").filter((row) => row.obstacle === "bar").at(-1);
+  assert.ok(Math.abs(bar.x_m - 1.5) < 0.1 && Math.abs(bar.y_m - 1.2) < 0.1, `the bar: ${bar.x_m}, ${bar.y_m}`);
+  const motion = rowsOf("one/trajectory.csv");
+  for (const foot of ["left", "right"]) {
+    assert.ok(motion[0][`${foot}_foot_x_m`] < bar.x_m && motion.at(-1)[`${foot}_foot_x_m`] > bar.x_m);
+  }
+  execFileSync(halfstep, ["verify", "one"], { cwd: place });
+}
+
+async function testStop(browser) {
+  const episode = await serve("two");
+  children.push(episode.child);
+  await browser.load(episode.address);
+  await stateIs(browser, /half-step \d+ of \d+/);
+  await click(browser, "stop");
+  await stateIs(browser, /^(interrupted|arrived)/);
+  await until(() => episode.ended !== null, "the end");
+  assert.equal(await browser.run("return document.getElementById('stop').disabled"), true);
+  assert.deepEqual(await browser.console(), []);
+  assert.deepEqual(await fetched(browser), [episode.address]);
+  assert.ok(existsSync(join(place, "two/report.html")));
+}
+
+async function testRecording(browser) {
+  const url = `file://${place}/one/report.html`;
+  await browser.load(url);
+  let standing = null;
+  await until(() => isDrawn(browser, (picture) => isPicture(standing = picture)), "a picture");
+  assert.deepEqual(await overflows(browser), []);
+  assert.equal(await browser.run("return document.getElementById('controls').hidden"), true);
+  const clock = async () => Number.parseFloat(await textOf(browser, "clock"));
+  await click(browser, "play");
+  await until(async () => (await clock()) > 0.2, "it to play");
+  await browser.key(" ");
+  const paused = await clock();
+  await pause(200);
+  assert.equal(await clock(), paused, "space pauses");
+
+  await browser.set("scrub", "6");
+  assert.equal(await clock(), 6);
+  await stateIs(browser, /^6\.00 s, half-step \d+ of \d+/);
+  await until(() => isDrawn(browser, (picture) => partThatDiffers(standing, picture) > 0.01),
+              "the robot to be elsewhere");
+  await browser.set("scrub", "1e9");
+  await stateIs(browser, /^arrived/);
+  assert.match(await textOf(browser, "log"), /taken over/);
+  assert.ok((await browser.run("return document.querySelectorAll('#latency rect').length")) > 0);
+  for (const [id, value] of [["camera", "top"], ["show-strobe", true], ["show-balance", true],
+                             ["show-shells", false], ["follow", false], ["scrub", "3"]]) {
+    await browser.set(id, value);
+  }
+  await stateIs(browser, /^3\.00 s/);
+  assert.deepEqual(await browser.console(), [], "the console is empty");
+  assert.deepEqual(await fetched(browser), [url]);
+}
+
+if (!hasBrowser()) {
+  console.log("Skipped: there is no chromium and chromedriver (packages chromium, chromium-driver)");
+  process.exit(77);
+}
+try {
+  const episode = await serve("one");
+  children.push(episode.child);
+  if (!episode.address) {
+    assert.match(episode.text, /--view/, "only a build without page or server has no address");
+    console.log(`Skipped: ${episode.text}`);
+    process.exitCode = 77;
+  } else {
+    const browser = await Browser.open(1366, 768);
+    try {
+      await testLive(browser, episode);
+      testIsBeyond();
+      await testStop(browser);
+      await testRecording(browser);
+    } finally {
+      await browser.close();
+    }
+    const narrow = await Browser.open(390, 844);
+    try {
+      await narrow.load(`file://${place}/one/report.html`);
+      assert.deepEqual(await overflows(narrow), [], "everything fits at 390 x 844");
+    } finally {
+      await narrow.close();
+    }
+  }
+} finally {
+  for (const child of children) child.kill("SIGKILL");
+  rmSync(place, { recursive: true, force: true });
+}

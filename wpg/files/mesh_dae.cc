@@ -1,0 +1,312 @@
+// COLLADA: what its scene shows, as triangles.
+// Source: [Collada14], chapter 5.
+
+#include <tinyxml.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <set>
+#include <vector>
+
+#include "wpg/files/input_error.h"
+#include "wpg/files/mesh_text.h"
+#include "wpg/files/nesting.h"
+#include "wpg/files/text.h"
+
+namespace halfstep {
+namespace {
+
+using Element = TiXmlElement;
+
+constexpr int kMostNodes = 100'000;  // that are shown, with those that are instanced again
+
+std::string AttributeOf(const Element& element, const char* name) {
+  const char* value = element.Attribute(name);
+  return value == nullptr ? "" : value;
+}
+
+class DaeReader {
+ public:
+  explicit DaeReader(const std::string& path) : path_(path) {}
+
+  LoadedMesh Read(const Element& collada) {
+    if (collada.ValueStr() != "COLLADA") Fail(collada, "the top element must be <COLLADA>");
+    Register(collada);
+    const Eigen::Affine3d X(Eigen::Scaling(UnitOf(collada)));
+    if (const Element* scene = SceneOf(collada)) {
+      ShowNode(*scene, X);
+    } else {
+      for (const auto& [id, element] : by_id_) {
+        if (element->ValueStr() == "geometry") ShowGeometry(*element, X);
+      }
+    }
+    LoadedMesh mesh;
+    mesh.vertices = Eigen::Map<const Eigen::Matrix3Xd>(
+        coordinates_.data(), 3, static_cast<Eigen::Index>(coordinates_.size() / 3));
+    mesh.triangles = Eigen::Map<const Eigen::Matrix3Xi>(
+        corners_.data(), 3, static_cast<Eigen::Index>(corners_.size() / 3));
+    return mesh;
+  }
+
+ private:
+  [[noreturn]] void Fail(const Element& at, const std::string& what) const {
+    Complaints complaints;
+    complaints.Add(path_, at.Row(), at.Column(), at.ValueStr(), what);
+    throw InputError(complaints.lines());
+  }
+
+  // Every element with an id, on one level after the other.
+  void Register(const Element& collada) {
+    std::vector<const Element*> open = {&collada};
+    while (!open.empty()) {
+      const Element& element = *open.back();
+      open.pop_back();
+      if (const std::string id = AttributeOf(element, "id"); !id.empty()) {
+        by_id_.emplace(id, &element);
+      }
+      for (auto* e = element.FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
+        open.push_back(e);
+      }
+    }
+  }
+
+  // What an attribute "#id" means.
+  const Element& Referred(const Element& from, const char* attribute, const char* tag) const {
+    const std::string url = AttributeOf(from, attribute);
+    const auto found = url.starts_with('#') ? by_id_.find(url.substr(1)) : by_id_.end();
+    if (found == by_id_.end() || found->second->ValueStr() != tag) {
+      Fail(from, std::string(attribute) + "=" + Quote(url) + " is no <" + tag + "> of this file");
+    }
+    return *found->second;
+  }
+
+  template <typename Number>
+  std::vector<Number> Numbers(const Element& element) const {
+    const char* text = element.GetText();
+    std::vector<Number> numbers;
+    if (text == nullptr) return numbers;
+    const char* const end = text + std::char_traits<char>::length(text);
+    for (const char* at = text;;) {
+      while (at != end && static_cast<unsigned char>(*at) <= ' ') ++at;
+      if (at == end) return numbers;
+      Number value{};
+      const auto [next, error] = std::from_chars(at, end, value);
+      const bool ends = next == end || static_cast<unsigned char>(*next) <= ' ';
+      if (error != std::errc() || !ends || !(std::abs(value) <= Number(kMaxMeshCoordinate))) {
+        const char* const stop = std::find_if(at, end, [](char c) { return c <= ' '; });
+        Fail(element, Quote(std::string(at, std::min<std::ptrdiff_t>(stop - at, 40))) +
+                          " is not a finite number of at most 1e9");
+      }
+      numbers.push_back(value);
+      at = next;
+    }
+  }
+
+  std::vector<double> Exactly(const Element& element, size_t count) const {
+    const std::vector<double> numbers = Numbers<double>(element);
+    if (numbers.size() == count) return numbers;
+    Fail(element, "has " + std::to_string(numbers.size()) +
+                      " numbers (valid: " + std::to_string(count) + ")");
+  }
+
+  double UnitOf(const Element& collada) const {
+    const Element* asset = collada.FirstChildElement("asset");
+    const Element* unit = asset == nullptr ? nullptr : asset->FirstChildElement("unit");
+    if (unit == nullptr || unit->Attribute("meter") == nullptr) return 1.0;
+    double metres = 0.0;
+    if (unit->QueryDoubleAttribute("meter", &metres) != TIXML_SUCCESS || !(metres > 0.0) ||
+        !(metres <= 1e9)) {
+      Fail(*unit, "meter=" + Quote(AttributeOf(*unit, "meter")) + " is no length (valid: > 0)");
+    }
+    return metres;
+  }
+
+  const Element* SceneOf(const Element& collada) const {
+    const Element* scene = collada.FirstChildElement("scene");
+    const Element* shown =
+        scene == nullptr ? nullptr : scene->FirstChildElement("instance_visual_scene");
+    return shown == nullptr ? nullptr : &Referred(*shown, "url", "visual_scene");
+  }
+
+  // A node, or the scene: its transforms in their order, then what it holds.
+  void ShowNode(const Element& node, Eigen::Affine3d X) {
+    if (++nodes_ > kMostNodes) Fail(node, "too many nodes (valid: at most 100,000)");
+    if (!open_.insert(&node).second) Fail(node, "shows itself");
+    for (auto* e = node.FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
+      const std::string& kind = e->ValueStr();
+      if (kind == "matrix") {
+        const std::vector<double> m = Exactly(*e, 16);
+        X = X * Eigen::Affine3d(
+                    Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(m.data()));
+      } else if (kind == "translate") {
+        const std::vector<double> t = Exactly(*e, 3);
+        X.translate(Eigen::Vector3d(t[0], t[1], t[2]));
+      } else if (kind == "scale") {
+        const std::vector<double> s = Exactly(*e, 3);
+        X.scale(Eigen::Vector3d(s[0], s[1], s[2]));
+      } else if (kind == "rotate") {
+        const std::vector<double> r = Exactly(*e, 4);
+        const Eigen::Vector3d axis(r[0], r[1], r[2]);
+        if (axis.norm() < 1e-9) Fail(*e, "the axis has no direction");
+        X.rotate(Eigen::AngleAxisd(r[3] * std::numbers::pi / 180.0, axis.normalized()));
+      } else if (kind == "lookat" || kind == "skew" || kind == "instance_controller") {
+        Fail(*e, "is not understood (export the mesh with plain transforms and no bones)");
+      }
+    }
+    for (auto* e = node.FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
+      const std::string& kind = e->ValueStr();
+      if (kind == "node") ShowNode(*e, X);
+      if (kind == "instance_node") ShowNode(Referred(*e, "url", "node"), X);
+      if (kind == "instance_geometry") ShowGeometry(Referred(*e, "url", "geometry"), X);
+    }
+    open_.erase(&node);
+  }
+
+  void ShowGeometry(const Element& geometry, const Eigen::Affine3d& X) {
+    const Element* mesh = geometry.FirstChildElement("mesh");
+    if (mesh == nullptr)
+      Fail(geometry, "holds no <mesh> (splines and the like are not understood)");
+    const int first = static_cast<int>(coordinates_.size() / 3);
+    int count = -1;
+    for (auto* e = mesh->FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
+      const std::string& kind = e->ValueStr();
+      if (kind == "tristrips" || kind == "trifans") {
+        Fail(*e, "is not understood (valid: triangles, polylist, polygons)");
+      }
+      if (kind != "triangles" && kind != "polylist" && kind != "polygons") continue;
+      const Element* vertices = nullptr;
+      const auto [offset, stride] = VertexInput(*e, &vertices);
+      if (count < 0) count = AddVertices(*vertices, X);
+      AddPolygons(*e, offset, stride, first, count);
+    }
+  }
+
+  // Where among the indices of a corner its vertex stands, and how many a corner has.
+  std::pair<size_t, size_t> VertexInput(const Element& polygons, const Element** vertices) const {
+    size_t offset = 0, stride = 0;
+    for (auto* e = polygons.FirstChildElement("input"); e != nullptr;
+         e = e->NextSiblingElement("input")) {
+      int at = 0;
+      if (e->QueryIntAttribute("offset", &at) != TIXML_SUCCESS || at < 0 || at > 1000) {
+        Fail(*e, "has no offset (valid: 0 to 1000)");
+      }
+      stride = std::max(stride, static_cast<size_t>(at) + 1);
+      if (AttributeOf(*e, "semantic") != "VERTEX") continue;
+      offset = static_cast<size_t>(at);
+      *vertices = &Referred(*e, "source", "vertices");
+    }
+    if (*vertices == nullptr) Fail(polygons, "has no <input> of the semantic VERTEX");
+    return {offset, stride};
+  }
+
+  int AddVertices(const Element& vertices, const Eigen::Affine3d& X) {
+    const Element* source = nullptr;
+    for (auto* e = vertices.FirstChildElement("input"); e != nullptr;
+         e = e->NextSiblingElement("input")) {
+      if (AttributeOf(*e, "semantic") == "POSITION") source = &Referred(*e, "source", "source");
+    }
+    if (source == nullptr) Fail(vertices, "has no <input> of the semantic POSITION");
+    const Element* array = source->FirstChildElement("float_array");
+    if (array == nullptr) Fail(*source, "has no <float_array>");
+    const std::vector<double> numbers = Numbers<double>(*array);
+    size_t stride = 3, first = 0, count = numbers.size() / 3;
+    if (const Element* technique = source->FirstChildElement("technique_common")) {
+      if (const Element* accessor = technique->FirstChildElement("accessor")) {
+        stride = Count(*accessor, "stride", 1);
+        first = Count(*accessor, "offset", 0);
+        count = Count(*accessor, "count", 0);
+      }
+    }
+    if (stride < 3 || (count > 0 && first + (count - 1) * stride + 3 > numbers.size())) {
+      Fail(*array, "has fewer numbers than its accessor reads, or points of fewer than three");
+    }
+    for (size_t i = 0; i < count; ++i) {
+      const double* p = &numbers[first + i * stride];
+      const Eigen::Vector3d point = X * Eigen::Vector3d(p[0], p[1], p[2]);
+      if (!(point.cwiseAbs().maxCoeff() <= kMaxMeshCoordinate)) {
+        Fail(*array, "a point is not within 1e9 once it is placed");
+      }
+      coordinates_.insert(coordinates_.end(), {point.x(), point.y(), point.z()});
+    }
+    return static_cast<int>(count);
+  }
+
+  size_t Count(const Element& element, const char* attribute, int otherwise) const {
+    int value = otherwise;
+    const int found = element.QueryIntAttribute(attribute, &value);
+    if (found == TIXML_WRONG_TYPE || value < 0) {
+      Fail(element,
+           std::string(attribute) + "=" + Quote(AttributeOf(element, attribute)) + " is no count");
+    }
+    return static_cast<size_t>(value);
+  }
+
+  void AddPolygons(const Element& polygons, size_t offset, size_t stride, int first, int count) {
+    const std::string& kind = polygons.ValueStr();
+    std::vector<int> corners_of;
+    if (kind == "polylist") {
+      if (const Element* vcount = polygons.FirstChildElement("vcount")) {
+        corners_of = Numbers<int>(*vcount);
+      }
+    }
+    for (auto* p = polygons.FirstChildElement("p"); p != nullptr; p = p->NextSiblingElement("p")) {
+      const std::vector<int> indices = Numbers<int>(*p);
+      const size_t corners = indices.size() / stride;
+      const auto corner = [&](size_t i) {
+        const int index = indices[i * stride + offset];
+        if (index >= 0 && index < count) return first + index;
+        Fail(*p, Formatted("index %d: there are %d points", index, count));
+      };
+      if (kind == "triangles") corners_of.assign(corners / 3, 3);
+      if (kind == "polygons") corners_of.assign(1, static_cast<int>(corners));
+      size_t at = 0;
+      for (const int number : corners_of) {
+        if (number < 3 || static_cast<size_t>(number) > corners - at) {
+          Fail(*p, "a polygon of fewer than three corners, or of more than are listed");
+        }
+        for (size_t i = 2; i < static_cast<size_t>(number); ++i) {
+          if (corners_.size() == 3 * static_cast<size_t>(kMaxMeshTriangles)) {
+            Fail(*p, "too many triangles (valid: at most 5 million)");
+          }
+          corners_.insert(corners_.end(), {corner(at), corner(at + i - 1), corner(at + i)});
+        }
+        at += static_cast<size_t>(number);
+      }
+      if (at * stride != indices.size()) Fail(*p, "does not end with a whole polygon");
+    }
+  }
+
+  const std::string& path_;
+  std::map<std::string, const Element*> by_id_;
+  std::set<const Element*> open_;  // nodes that are being shown
+  int nodes_ = 0;
+  std::vector<double> coordinates_;
+  std::vector<int> corners_;
+};
+
+}  // namespace
+
+LoadedMesh ReadDae(const std::string& path, const std::string& text) {
+  const auto refuse = [&](int row, int column, const std::string& what) {
+    Complaints complaints;
+    complaints.Add(path, row, column, "", what);
+    throw InputError(complaints.lines());
+  };
+  if (XmlDepth(text) > kMostXmlLevels) {
+    refuse(0, 0,
+           Formatted("nests too deeply, or its XML declaration is not plain (valid: at most "
+                     "%d levels)",
+                     kMostXmlLevels));
+  }
+  TiXmlDocument document;
+  document.Parse(text.c_str(), nullptr, TIXML_ENCODING_UTF8);
+  if (document.Error()) refuse(document.ErrorRow(), document.ErrorCol(), document.ErrorDesc());
+  if (document.RootElement() == nullptr) refuse(1, 1, "there is no element in the file");
+  return DaeReader(path).Read(*document.RootElement());
+}
+
+}  // namespace halfstep

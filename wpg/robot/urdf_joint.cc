@@ -1,0 +1,81 @@
+#include "wpg/robot/urdf_joint.h"
+
+#include <cmath>
+
+namespace halfstep {
+namespace {
+
+void LimitToATurn(TiXmlElement* joint) {
+  joint->SetAttribute("type", "revolute");
+  TiXmlElement* limit = joint->FirstChildElement("limit");
+  if (limit == nullptr) limit = joint->InsertEndChild(TiXmlElement("limit"))->ToElement();
+  limit->SetAttribute("lower", "-3.141592653589793");
+  limit->SetAttribute("upper", "3.141592653589793");
+}
+
+void CheckAxis(const UrdfElements& elements, const TiXmlElement& joint, const std::string& name) {
+  const TiXmlElement* axis = joint.FirstChildElement("axis");
+  if (axis == nullptr) return;
+  const auto xyz = elements.Numbers(*axis, "xyz", 3);
+  if (xyz && std::hypot((*xyz)[0], (*xyz)[1], (*xyz)[2]) < 1e-6) {
+    elements.Complain(*axis, name, "the axis has no direction: " + AttributeOf(*axis, "xyz"));
+  }
+}
+
+void CheckRange(const UrdfElements& elements, const TiXmlElement& joint, const std::string& name) {
+  const TiXmlElement* limit = joint.FirstChildElement("limit");
+  if (limit == nullptr) {
+    elements.Complain(joint, name, "has no <limit>");
+    return;
+  }
+  const auto lower = elements.Numbers(*limit, "lower", 1),
+             upper = elements.Numbers(*limit, "upper", 1);
+  if (lower && upper && !((*lower)[0] < (*upper)[0])) {
+    elements.Complain(*limit, name,
+                      "lower " + AttributeOf(*limit, "lower") + " is not below upper " +
+                          AttributeOf(*limit, "upper"));
+  }
+}
+
+void CheckSpeed(const UrdfElements& elements, TiXmlElement* joint, const std::string& name) {
+  TiXmlElement* limit = joint->FirstChildElement("limit");
+  if (limit == nullptr) return;
+  for (const char* attribute : {"velocity", "effort"}) {
+    const bool is_effort = attribute[0] == 'e';
+    if (limit->Row() == 0 && limit->Attribute(attribute) == nullptr) {  // of LimitToATurn
+      elements.Complain(*joint, name, std::string("has no limit of ") + attribute);
+    } else if (elements.Bounded(*limit, attribute, 1, is_effort)) {
+      continue;
+    }
+    limit->SetAttribute(attribute, "0");
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> RepairMotion(const std::string& file, const std::string& name,
+                                      TiXmlElement* joint) {
+  const std::string type = AttributeOf(*joint, "type");
+  if (type != "revolute" && type != "continuous" && type != "prismatic") {
+    // An axis of no direction is usual where nothing turns.
+    for (TiXmlElement* axis : ChildrenOf(*joint, "axis")) joint->RemoveChild(axis);
+    return {};
+  }
+  Complaints faults;
+  const UrdfElements elements(file, &faults);
+  CheckAxis(elements, *joint, name);
+  if (type == "continuous") {
+    LimitToATurn(joint);
+  } else {
+    CheckRange(elements, *joint, name);
+  }
+  const bool understood = faults.empty();
+  CheckSpeed(elements, joint, name);
+  if (const TiXmlElement* mimic = joint->FirstChildElement("mimic")) {
+    elements.Complain(*mimic, name, "mimics another joint");
+  }
+  if (!understood) joint->SetAttribute("type", "fixed");
+  return faults.lines();
+}
+
+}  // namespace halfstep
