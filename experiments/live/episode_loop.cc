@@ -11,6 +11,7 @@ namespace {
 
 constexpr int kTries = 3;       // to find a shorter way, after each clear change of the world
 constexpr double kRetry = 0.2;  // after a search that found no way [s]
+constexpr double kPause = 1.0;  // the same before the walk, when the world is much the same [s]
 constexpr double kAhead = 0.3;  // proofs are renewed so long before they are needed [s]
 
 bool SameGoal(const GoalRegion& a, const GoalRegion& b) {
@@ -73,7 +74,7 @@ Proposal EpisodeLoop::Wait(const std::array<Footprint, 2>& start) {
   PastWorlds past;
   std::optional<World> tried;
   Proposal first{.kind = ProposalKind::kUnsafe, .reason = "nothing was measured"};
-  double origin = 0.0, lead = clock_.passes() ? patience_ : 0.0, pause = kRetry;
+  double origin = 0.0, lead = clock_.passes() ? patience_ : 0.0, pause = kPause;
   clock_.Begin();
   for (long frame = 0; first.kind == ProposalKind::kUnsafe; ++frame) {
     // A search may have taken the time of many frames.
@@ -96,7 +97,7 @@ Proposal EpisodeLoop::Wait(const std::array<Footprint, 2>& start) {
       // In a world that is much the same a search finds what another did not, but not often.
       const bool differs = DiffersClearly(*tried, worlds.back());
       if (now < tried->measured_at + (differs ? kRetry : pause)) continue;
-      pause = differs ? kRetry : 2.0 * pause;
+      pause = differs ? kPause : 2.0 * pause;
     }
     tried = worlds.back();
     origin = now + lead;
