@@ -11,24 +11,6 @@
 
 namespace halfstep {
 
-std::string_view Name(ProposalKind kind) {
-  switch (kind) {
-    case ProposalKind::kSafe:
-      return "safe";
-    case ProposalKind::kResumed:
-      return "resumed";
-    case ProposalKind::kChanged:
-      return "changed";
-    case ProposalKind::kShortened:
-      return "shortened";
-    case ProposalKind::kSmoothed:
-      return "smoothed";
-    case ProposalKind::kUnsafe:
-      return "unsafe";
-  }
-  return "";
-}
-
 Replanner::Replanner(const RobotModel& robot, const LiveConfig& config, const SweptVolumes& volumes)
     : robot_(robot),
       config_(config),
@@ -275,11 +257,10 @@ Proposal Replanner::Propose(const Situation& s, const PreparedWorld& among,
       proposal.kind = ProposalKind::kChanged;
       return proposal;
     }
-    if (proposal.planned.status != PlanStatus::kSolved) {
-      proposal.reason += "; " + proposal.planned.sentence;
-    } else {
-      proposal.reason += "; a plan was refused";
-    }
+    const std::string why = proposal.planned.status == PlanStatus::kSolved
+                                ? "a plan was refused"
+                                : proposal.planned.sentence;
+    if (!proposal.reason.ends_with(why)) proposal.reason += "; " + why;
   }
   proposal.kind = ProposalKind::kUnsafe;
   return proposal;

@@ -37,6 +37,32 @@ std::string WithoutWallTimes(std::string report) {
   return report;
 }
 
+// What a URDF has that no leg needs is told, and does not stop the run.
+TEST(RunCommand, TellsWhatWasRepairedInTheUrdf) {
+  const TemporaryFolder place;
+  fs::copy(fs::path(HALFSTEP_SOURCE_DIR) / "wpg/robots", place / "robots",
+           fs::copy_options::recursive);
+  std::string urdf = ReadText(place / "robots/hrp2.urdf");
+  urdf.insert(urdf.rfind("</robot>"),
+              "<link name='finger'/><joint name='grip' type='revolute'><parent link='WAIST'/>"
+              "<child link='finger'/><limit lower='0' upper='1' velocity='0' effort='1'/></joint>");
+  WriteText(place / "robots/hrp2.urdf", urdf);
+  const std::string robot = "robot=" + (place / "robots/hrp2.yaml").string();
+  for (const std::string command : {"run", "live"}) {
+    const std::string config =
+        command == "run" ? ShippedConfig("fig3_two_half_steps")
+                         : std::string(HALFSTEP_SOURCE_DIR) + "/experiments/episodes/live_bar.yaml";
+    std::vector<std::string> arguments = {command, config, "--set", robot, "--out", command};
+    // An episode ends before anything is baked.
+    if (command == "live") arguments.insert(arguments.end(), {"--serve", "no/such/folder"});
+    const Outcome outcome = Halfstep(place.path(), arguments);
+    EXPECT_EQ(outcome.status, command == "run" ? kSuccess : kBadInput) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr("halfstep: warning: "));
+    EXPECT_THAT(outcome.err,
+                HasSubstr("limit velocity: 0 is out of range (valid: > 0); it is held still"));
+  }
+}
+
 TEST(RunCommand, WritesEveryFileAndColumn) {
   const TemporaryFolder place;
   const Outcome outcome = Halfstep(place.path(), {"run", ShippedConfig("bar_8cm")});

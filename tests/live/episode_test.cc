@@ -218,6 +218,40 @@ TEST(EpisodeTest, ASlowMachineArrivesToo) {
   ExpectExecutedWhatWasHandedOver(episode);
 }
 
+// Time that passes by itself, three seconds of it while the first walk is looked for.
+class SlowOnceClock final : public EpisodeClock {
+ public:
+  void Begin() override { now_ = 0.0; }
+  void WaitUntil(double t) override { now_ = std::max(now_, t); }
+  double Time(double /*now*/) const override {
+    if (++calls_ == 2) now_ += 3.0;
+    return now_;
+  }
+  bool passes() const override { return true; }
+
+ private:
+  mutable int calls_ = 0;
+  mutable double now_ = 0.0;
+};
+
+// So much time is left for the second search that what is measured would be too old at its end;
+// for the third no more than the second took.
+TEST(EpisodeTest, ASlowSearchAtTheBeginningIsForgotten) {
+  const SmallWorld& small = SmallWorld::Get();
+  Scene scene;
+  scene.obstacles = {Bar("bar", 0.75, 2.0)};
+  scene.obstacles[0].motion.speed = 0.05;
+  const TrueWorld truth(scene, small.config.experiment.goal, small.config.live);
+  const Replanner replanner(small.place.robot, small.config, *small.baked.cached.volumes);
+  LockstepThinker thinker(replanner, 1);
+  StandInSensor sensor(truth, small.config.live, 1);
+  SlowOnceClock clock;
+  const Episode episode = EpisodeLoop(replanner, &sensor, &thinker, &clock, {}).Run(small.start);
+  EXPECT_EQ(episode.ending, EpisodeEnding::kArrived) << episode.message;
+  EXPECT_GT(episode.waited, 3.0);
+  EXPECT_LT(episode.waited, 5.0);
+}
+
 TEST(EpisodeTest, ByTheWallClockItArrivesToo) {
   LiveConfig config = SmallWorld::Get().config;
   config.live.clock = "wall";

@@ -92,39 +92,56 @@ const overflows = (browser) => browser.run(`
   const rows = [document.documentElement, ...document.querySelectorAll("header, .bar, .card")];
   return rows.filter((e) => e.scrollWidth > e.clientWidth + 1).map((e) => e.id || e.textContent);`);
 
+const pointer = (browser, ...actions) => browser.send("POST", "/actions", { actions: [{
+  type: "pointer", id: "mouse", parameters: { pointerType: "mouse" }, actions,
+}] });
+const moveTo = (browser, x, y) => pointer(browser, { type: "pointerMove", x, y, duration: 50 });
+
+// Presses a label and resolves to where: [x, y] in pixels. A label follows the camera, so on a slow machine
+// it may have gone from where it was seen; then it is tried again.
+function press(browser, name) {
+  return until(async () => {
+    const middle = await browser.run(`
+      const label = document.querySelector('[data-name="' + arguments[0] + '"]');
+      const { left, top, width, height } = label.getBoundingClientRect();
+      return label.checkVisibility() ? [Math.round(left + width / 2), Math.round(top + height / 2)] : null;`, name);
+    if (!middle) return null;
+    const [x, y] = middle;
+    await pointer(browser, { type: "pointerMove", x, y }, { type: "pointerDown", button: 0 });
+    await moveTo(browser, x, y);
+    const isHeld = await browser.run(`
+      const readout = document.getElementById("readout");
+      return !readout.hidden && readout.textContent.startsWith(arguments[0]);`, name);
+    if (isHeld) return middle;
+    await pointer(browser, { type: "pointerUp", button: 0 });
+    return null;
+  }, `${name} to be pressed`);
+}
+
 // Drags a label along the floor until the page says that what it names is to go to [x, y] [m].
 async function drag(browser, name, [x, y]) {
-  const middle = await browser.run(`
-    const { left, top, width, height } = document.querySelector('[data-name="' + arguments[0] + '"]')
-      .getBoundingClientRect();
-    return [left + width / 2, top + height / 2];`, name);
-  const pointer = (...actions) => browser.send("POST", "/actions", { actions: [{
-    type: "pointer", id: "mouse", parameters: { pointerType: "mouse" }, actions,
-  }] });
-  const moveTo = async ([px, py]) => {
-    await pointer({ type: "pointerMove", x: Math.round(px), y: Math.round(py), duration: 50 });
+  let at = await press(browser, name);
+  const dragTo = async ([px, py]) => {
+    await moveTo(browser, Math.round(px), Math.round(py));
     const said = await textOf(browser, "readout");
     const found = /x (-?[\d.]+) m, y (-?[\d.]+) m/.exec(said);
     assert.ok(found, `while it is dragged the page says where to: ${said}`);
     return found.slice(1).map(Number);
   };
-  await pointer({ type: "pointerMove", x: Math.round(middle[0]), y: Math.round(middle[1]) },
-                { type: "pointerDown", button: 0 });
   // What a pixel is on the floor is found by trying.
-  let at = middle;
-  let there = await moveTo(at);
+  let there = await dragTo(at);
   for (let i = 0; i < 12 && Math.hypot(x - there[0], y - there[1]) > 0.03; ++i) {
-    const [ax, ay] = await moveTo([at[0] + 12, at[1]]);
-    const [bx, by] = await moveTo([at[0], at[1] + 12]);
+    const [ax, ay] = await dragTo([at[0] + 12, at[1]]);
+    const [bx, by] = await dragTo([at[0], at[1] + 12]);
     const [a, b, c, d] = [ax - there[0], bx - there[0], ay - there[1], by - there[1]].map((v) => v / 12);
     const det = a * d - b * c;
     const [ex, ey] = [x - there[0], y - there[1]];
     const [dx, dy] = [(d * ex - b * ey) / det, (a * ey - c * ex) / det];
     const part = Math.min(1, 150 / Math.hypot(dx, dy));
     at = [at[0] + part * dx, at[1] + part * dy];
-    there = await moveTo(at);
+    there = await dragTo(at);
   }
-  await pointer({ type: "pointerUp", button: 0 });
+  await pointer(browser, { type: "pointerUp", button: 0 });
   assert.ok(Math.hypot(x - there[0], y - there[1]) < 0.07, `dragged to ${there}`);
 }
 

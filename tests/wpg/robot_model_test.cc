@@ -396,67 +396,6 @@ TEST_P(RobotFixture, IsRefusedWithItsComplaints) { CheckFixture(GetParam(), Load
 
 INSTANTIATE_TEST_SUITE_P(Yaml, RobotFixture, testing::ValuesIn(Fixtures("robot")), FixtureName);
 
-// tests/fixtures/robot/*.urdf begin with a line `<!-- expect: … -->` for each complaint.
-TEST(UrdfFixtures, AreRefusedWithTheirComplaintsInSilence) {
-  const std::filesystem::path folder =
-      std::filesystem::path(HALFSTEP_SOURCE_DIR) / "tests" / "fixtures" / "robot";
-  const std::string begin = "<!-- expect: ", end = " -->";
-  int files = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    if (entry.path().extension() != ".urdf") continue;
-    SCOPED_TRACE(entry.path().filename().string());
-    ++files;
-    std::vector<std::string> expected;
-    std::ifstream file(entry.path());
-    for (std::string line; std::getline(file, line) && line.starts_with(begin);) {
-      expected.push_back(line.substr(begin.size(), line.size() - begin.size() - end.size()));
-    }
-    EXPECT_FALSE(expected.empty());
-    std::vector<std::string> complaints;
-    testing::internal::CaptureStderr();
-    testing::internal::CaptureStdout();
-    try {
-      (void)ReadUrdf(entry.path().string());
-    } catch (const InputError& error) {
-      complaints = error.complaints();
-    }
-    EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
-    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
-    EXPECT_EQ(complaints.size(), expected.size()) << testing::PrintToString(complaints);
-    for (size_t i = 0; i < std::min(complaints.size(), expected.size()); ++i) {
-      EXPECT_THAT(complaints[i], HasSubstr(expected[i]));
-      EXPECT_THAT(complaints[i], testing::ContainsRegex("\\.urdf:[0-9]+:[0-9]+: "));
-    }
-  }
-  EXPECT_GE(files, 15);
-}
-
-// tests/fixtures/robot/repaired/*.urdf are read all the same; the lines are what is told of them.
-TEST(UrdfFixtures, AreRepairedWithTheirWarnings) {
-  const std::filesystem::path folder =
-      std::filesystem::path(HALFSTEP_SOURCE_DIR) / "tests" / "fixtures" / "robot" / "repaired";
-  const std::string begin = "<!-- expect: ", end = " -->";
-  int files = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    SCOPED_TRACE(entry.path().filename().string());
-    ++files;
-    std::vector<std::string> expected;
-    std::ifstream file(entry.path());
-    for (std::string line; std::getline(file, line) && line.starts_with(begin);) {
-      expected.push_back(line.substr(begin.size(), line.size() - begin.size() - end.size()));
-    }
-    UrdfTree tree;
-    ASSERT_NO_THROW(tree = ReadUrdf(entry.path().string()));
-    std::vector<std::string> told = tree.warnings;
-    for (const UrdfJoint& joint : tree.joints) {
-      told.insert(told.end(), joint.faults.begin(), joint.faults.end());
-    }
-    ASSERT_EQ(told.size(), expected.size()) << testing::PrintToString(told);
-    for (size_t i = 0; i < told.size(); ++i) EXPECT_THAT(told[i], HasSubstr(expected[i]));
-  }
-  EXPECT_EQ(files, 16);
-}
-
 // What no leg needs is a warning; the same in a leg is refused.
 TEST(RobotModel, AJointThatCannotMoveMattersInALegOnly) {
   const GeneratedRobot good = GeneratedRobots()[0];

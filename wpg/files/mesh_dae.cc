@@ -44,12 +44,7 @@ class DaeReader {
         if (element->ValueStr() == "geometry") ShowGeometry(*element, X);
       }
     }
-    LoadedMesh mesh;
-    mesh.vertices = Eigen::Map<const Eigen::Matrix3Xd>(
-        coordinates_.data(), 3, static_cast<Eigen::Index>(coordinates_.size() / 3));
-    mesh.triangles = Eigen::Map<const Eigen::Matrix3Xi>(
-        corners_.data(), 3, static_cast<Eigen::Index>(corners_.size() / 3));
-    return mesh;
+    return MeshOf(coordinates_, corners_);
   }
 
  private:

@@ -78,4 +78,13 @@ void MeshText::Fail(const MeshWord& word, const std::string& what) const {
   throw InputError(complaints.lines());
 }
 
+LoadedMesh MeshOf(const std::vector<double>& coordinates, const std::vector<int>& corners) {
+  LoadedMesh mesh;
+  mesh.vertices = Eigen::Map<const Eigen::Matrix3Xd>(
+      coordinates.data(), 3, static_cast<Eigen::Index>(coordinates.size() / 3));
+  mesh.triangles = Eigen::Map<const Eigen::Matrix3Xi>(
+      corners.data(), 3, static_cast<Eigen::Index>(corners.size() / 3));
+  return mesh;
+}
+
 }  // namespace halfstep

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "wpg/files/mesh_file.h"
 
@@ -39,6 +40,9 @@ class MeshText {
   size_t at_ = 0, line_start_ = 0;
   int line_ = 1;
 };
+
+/// A mesh of x, y, z after each other, and of three indices for each triangle.
+LoadedMesh MeshOf(const std::vector<double>& coordinates, const std::vector<int>& corners);
 
 LoadedMesh ReadAsciiStl(const std::string& path, std::string_view text);
 LoadedMesh ReadBinaryStl(const std::string& path, std::string_view bytes);
