@@ -19,38 +19,48 @@ constexpr double kDuration = 2.0;     // of its half-steps, T [s]
 // A leg joint's speed in a half-step over the highest bar of the shipped scenes is at most this
 // over T [rad]: notebooks-data/measurements.md, "Defaults that go by the robot".
 constexpr double kTurn = 6.8;
+constexpr double kOfLift = 0.85;  // of the highest place of the swing foot
 
-enum class Law { kLength, kGrid, kWidth, kDuration };
+enum class Law { kLength, kGrid, kWidth, kDuration, kHeight, kAside };
 
 // The decimal number of three digits that is nearest: HRP-2's numbers stay what they are.
 double Rounded(double value) { return std::strtod(Formatted("%.3g", value).c_str(), nullptr); }
 
-double Factor(Law law, const RobotMeasures& robot) {
+// The value for a robot of what is `hrp2` for HRP-2.
+double Scaled(Law law, double hrp2, const RobotMeasures& robot) {
+  const double length = robot.leg_length / kLegLength, width = robot.standing_width / kStance;
   switch (law) {
     case Law::kLength:
-      return robot.leg_length / kLegLength;
+      return Rounded(hrp2 * length);
     case Law::kGrid:  // the bounds of the step set are multiples of its rounded spacing
-      return Rounded(kSpacing * robot.leg_length / kLegLength) / kSpacing;
+      return hrp2 * (Rounded(kSpacing * length) / kSpacing);
     case Law::kWidth:
-      return robot.standing_width / kStance;
+      return Rounded(hrp2 * width);
     case Law::kDuration:
-      break;
+      return Rounded(hrp2 * std::max(std::sqrt(length), kTurn / (kDuration * robot.slowest_joint)));
+    case Law::kHeight:
+      return Rounded(std::min(hrp2 * length, kOfLift * robot.lift));
+    case Law::kAside:
+      return Rounded(std::min(hrp2 * width, robot.aside));
   }
-  return std::max(std::sqrt(robot.leg_length / kLegLength),
-                  kTurn / (kDuration * robot.slowest_joint));
+  return hrp2;
 }
 
-const char* FormulaOf(Law law) {
+std::string FormulaOf(Law law, const std::string& hrp2) {
   switch (law) {
     case Law::kLength:
     case Law::kGrid:
-      return "ℓ/0.705 m";
+      return "`" + hrp2 + "` · ℓ/0.705 m";
     case Law::kWidth:
-      return "w/0.21 m";
+      return "`" + hrp2 + "` · w/0.21 m";
     case Law::kDuration:
-      break;
+      return "`" + hrp2 + "` · max(√(ℓ/0.705 m), 3.4 rad/s / q̇)";
+    case Law::kHeight:
+      return "min(`" + hrp2 + "` · ℓ/0.705 m, 0.85 lift)";
+    case Law::kAside:
+      return "min(`" + hrp2 + "` · w/0.21 m, aside)";
   }
-  return "max(√(ℓ/0.705 m), 3.4 rad/s / q̇)";
+  return hrp2;
 }
 
 struct ScaledDefault {
@@ -66,9 +76,9 @@ std::span<const ScaledDefault> ScaledDefaults() {
       {"half_step.duration_s", Law::kDuration, [](C* c) { return &c->half_step.duration; }, 0.6, 6},
       {"half_step.zmp_shift_s", Law::kDuration, [](C* c) { return &c->half_step.zmp_shift; }, 0.02,
        2},
-      {"half_step.via_height_m", Law::kLength, [](C* c) { return &c->half_step.via_height; }, 0.01,
+      {"half_step.via_height_m", Law::kHeight, [](C* c) { return &c->half_step.via_height; }, 0.01,
        1},
-      {"half_step.via_lateral_m", Law::kWidth, [](C* c) { return &c->half_step.via_lateral; }, 0.01,
+      {"half_step.via_lateral_m", Law::kAside, [](C* c) { return &c->half_step.via_lateral; }, 0.01,
        1},
       {"step_set.x_min_m", Law::kGrid, [](C* c) { return &c->half_step_grid.x_min; }, -2, 2},
       {"step_set.x_max_m", Law::kGrid, [](C* c) { return &c->half_step_grid.x_max; }, -2, 2},
@@ -115,15 +125,14 @@ KeyDescription* Find(const std::string& path, std::vector<KeyDescription>* keys)
 void ScaleDefaults(const RobotMeasures& robot, ExperimentConfig* config) {
   for (const ScaledDefault& row : ScaledDefaults()) {
     double& value = *row.value(config);
-    const double scaled = value * Factor(row.law, robot);
-    value = std::clamp(row.law == Law::kGrid ? scaled : Rounded(scaled), row.min, row.max);
+    value = std::clamp(Scaled(row.law, value, robot), row.min, row.max);
   }
 }
 
 void DescribeScaling(std::vector<KeyDescription>* keys) {
   for (const ScaledDefault& row : ScaledDefaults()) {
     KeyDescription* const key = Find(row.key, keys);
-    key->otherwise = "`" + key->default_text + "` · " + FormulaOf(row.law);
+    key->otherwise = FormulaOf(row.law, key->default_text);
   }
 }
 

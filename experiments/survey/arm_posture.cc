@@ -102,6 +102,15 @@ std::vector<Limb> FindLimbs(const UrdfTree& urdf, int waist, const std::vector<d
 
 }  // namespace
 
+std::vector<bool> BodiesOfLimbs(const UrdfTree& urdf, int waist, const std::vector<double>& posture,
+                                const RobotModel& robot) {
+  std::vector<bool> of_limb(robot.bodies.size(), false);
+  for (const Limb& limb : FindLimbs(urdf, waist, posture, robot)) {
+    for (const int body : limb.bodies()) of_limb[static_cast<size_t>(body)] = true;
+  }
+  return of_limb;
+}
+
 std::vector<ArmTurn> KeepArmsOff(const UrdfTree& urdf, int waist,
                                  const std::vector<double>& posture, const RobotModel& robot,
                                  const SelfGaps& gaps, double apart) {

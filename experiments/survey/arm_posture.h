@@ -15,6 +15,10 @@ struct ArmTurn {
   std::string why;
 };
 
+/// Which of the robot's bodies belong to limbs beside the plane of symmetry, the legs excepted.
+std::vector<bool> BodiesOfLimbs(const UrdfTree& urdf, int waist, const std::vector<double>& posture,
+                                const RobotModel& robot);
+
 /// For each limb beside the plane of symmetry that comes nearer to the legs than `apart` [m] in the
 /// sampled postures: the joint of it, among those nearest to the waist, that keeps it off with the
 /// least turn, by steps of 5° up to 90°; else the one that keeps it off best. `posture` has the

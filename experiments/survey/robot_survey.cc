@@ -40,9 +40,8 @@ class Surveyor {
     draft_.urdf.TurnFrame(draft_.legs.waist, draft_.R_LinkB);
     AskForTheClass();
     FindBodies();
-    Stand();
-    const RobotModel model = ModelOf(draft_);
-    const SelfGaps gaps(model, SampledPostures(model, SixSteps(model, DefaultHalfStep(model))));
+    const RobotModel model = StandApart();
+    const SelfGaps gaps(model, WalkedPostures(model));
     ExcludeNeighbours(model, gaps);
     const double scale = ScaleOf(model.legs[0]);
     for (const ArmTurn& turn : KeepArmsOff(draft_.urdf, draft_.legs.waist, draft_.posture, model,
@@ -112,19 +111,64 @@ class Surveyor {
     return mass > 0 ? moment / mass : 0.0;
   }
 
-  void Stand() {
-    const double scale = ScaleOf(legs_[0]);
+  static std::vector<Posture> WalkedPostures(const RobotModel& model) {
+    return SampledPostures(model, SixSteps(model, DefaultHalfStep(model)));
+  }
+
+  // Stands as narrow as the feet allow, and then wider while the legs come too near to each other
+  // in six steps.
+  RobotModel StandApart() {
     StandingRequest& standing = draft_.standing;
     standing.bend = request_.bend;
-    const double straight = NarrowestStance(legs_, draft_.soles, {}, 0.0);
     standing.width = request_.width;
     draft_.why_width = "as asked for";
     if (request_.width == 0.0) {
-      standing.width = NarrowestStance(legs_, draft_.soles, bodies_, kFeetApart * scale);
-      draft_.why_width = standing.width > straight + 1e-9
-                             ? Formatted("so the feet are %.0f mm apart", 1e3 * kFeetApart * scale)
+      const double apart = kFeetApart * ScaleOf(legs_[0]);
+      standing.width = NarrowestStance(legs_, draft_.soles, bodies_, apart);
+      draft_.why_width = standing.width > NarrowestStance(legs_, draft_.soles, {}, 0.0) + 1e-9
+                             ? Formatted("so the feet are %.0f mm apart", 1e3 * apart)
                              : "as with straight legs";
     }
+    Stand();
+    RobotModel model = ModelOf(draft_);
+    const double narrowest = standing.width, before = LegsApart(model);
+    double best = before;
+    for (int wider = 1; request_.width == 0.0 && best < kTouchByDesign && wider <= 5; ++wider) {
+      RobotDraft other = draft_;
+      std::swap(draft_, other);
+      standing.width = narrowest * (1 + 0.1 * wider);
+      draft_.why_width = Formatted("%.3f m apart the legs come within %.1f mm in six steps",
+                                   narrowest, 1e3 * before);
+      Stand();
+      RobotModel wide = ModelOf(draft_);
+      if (const double apart = LegsApart(wide); apart > best) {
+        best = apart;
+        model = std::move(wide);
+      } else {
+        std::swap(draft_, other);
+      }
+    }
+    return model;
+  }
+
+  // How near the legs come to each other in six steps [m].
+  static double LegsApart(const RobotModel& model) {
+    double least = kTouchByDesign;
+    const SelfGaps gaps(model, WalkedPostures(model));
+    for (const SelfGap& gap : gaps.Nearer(kTouchByDesign)) {
+      if (AreOfBothLegs(model, gap)) least = std::min(least, gap.least);
+    }
+    return least;
+  }
+
+  static bool AreOfBothLegs(const RobotModel& model, const SelfGap& gap) {
+    const int a = model.bodies[static_cast<size_t>(gap.a)].leg;
+    const int b = model.bodies[static_cast<size_t>(gap.b)].leg;
+    return a >= 0 && b >= 0 && a != b;
+  }
+
+  void Stand() {
+    StandingRequest& standing = draft_.standing;
     // The CoM moves with the legs: a few rounds are enough.
     for (int round = 0; round < 4; ++round) {
       standing.x = ComAhead();
@@ -151,14 +195,17 @@ class Surveyor {
     const auto link = [](const RobotBody& body) {
       return body.name.substr(0, body.name.find('#'));
     };
+    const std::vector<bool> of_limb =
+        BodiesOfLimbs(draft_.urdf, draft_.legs.waist, draft_.posture, model);
     for (const SelfGap& gap : gaps.Nearer(kTouchByDesign)) {
       const RobotBody& a = model.bodies[static_cast<size_t>(gap.a)];
       const RobotBody& b = model.bodies[static_cast<size_t>(gap.b)];
       const int joints = static_cast<int>(
           JointsBetween(draft_.urdf, draft_.urdf.FindLink(link(a)), draft_.urdf.FindLink(link(b)))
               .size());
-      const bool stands = gap.standing < kTouchByDesign;
-      if (joints > 3 || (joints > 2 && !stands)) continue;
+      if (AreOfBothLegs(model, gap)) continue;
+      const bool limb = of_limb[static_cast<size_t>(gap.a)] || of_limb[static_cast<size_t>(gap.b)];
+      if (joints > 2 && (limb || gap.standing >= kTouchByDesign)) continue;
       const auto is_there = [&](const ExcludedPair& pair) {
         return (pair.links[0] == link(a) && pair.links[1] == link(b)) ||
                (pair.links[0] == link(b) && pair.links[1] == link(a));

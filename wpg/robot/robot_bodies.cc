@@ -23,9 +23,15 @@ constexpr std::string_view kPackage = "package://";
 constexpr std::string_view kFile = "file://";
 constexpr double kFarthest = 100.0;  // of a body from its link's frame, or the waist's [m]
 
+// What comes after "package://"; some files have a third slash.
+std::string PathInPackages(const std::string& mesh) {
+  const std::string path = mesh.substr(kPackage.size());
+  return path.substr(std::min(path.find_first_not_of('/'), path.size()));
+}
+
 std::string PackageOf(const std::string& mesh) {
   if (!mesh.starts_with(kPackage)) return "";
-  const std::string path = mesh.substr(kPackage.size());
+  const std::string path = PathInPackages(mesh);
   return path.substr(0, path.find('/'));
 }
 
@@ -59,7 +65,7 @@ std::string MeshPath(const std::string& mesh, const std::string& urdf_file,
                                " has no folder: name it under `packages` of the robot file, or put "
                                "its parent into ROS_PACKAGE_PATH");
     }
-    return folder + mesh.substr(kPackage.size() + package.size());
+    return folder + PathInPackages(mesh).substr(package.size());
   }
   if (mesh.starts_with(kFile)) return mesh.substr(kFile.size());
   if (mesh.find("://") != std::string::npos) {
