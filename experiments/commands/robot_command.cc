@@ -120,7 +120,8 @@ CommandAction DeclareRobot(CLI::App* app) {
   app->add_option("--package", texts->packages, "NAME=FOLDER of package:// names; repeatable")
       ->allow_extra_args(false);
   app->add_option("--bend", survey->bend,
-                  "distance of hip and ankle when standing, over the stretched leg (default: 0.9)")
+                  "distance of hip and ankle when standing, over the stretched leg (default: 0.9, "
+                  "or what the limits need)")
       ->check(CLI::Range(0.5, 0.99));
   app->add_option("--width", survey->width, "of the stance [m] (default: as narrow as feet allow)")
       ->check(CLI::Range(0.01, 2.0));

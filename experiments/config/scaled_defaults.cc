@@ -19,7 +19,7 @@ constexpr double kDuration = 2.0;     // of its half-steps, T [s]
 // A leg joint's speed in a half-step over the highest bar of the shipped scenes is at most this
 // over T [rad]: notebooks-data/measurements.md, "Defaults that go by the robot".
 constexpr double kTurn = 6.8;
-constexpr double kOfLift = 0.85;  // of the highest place of the swing foot
+constexpr double kOfLift = 0.95;  // of the highest place of the swing foot
 
 enum class Law { kLength, kGrid, kWidth, kDuration, kHeight, kAside };
 
@@ -56,7 +56,7 @@ std::string FormulaOf(Law law, const std::string& hrp2) {
     case Law::kDuration:
       return "`" + hrp2 + "` · max(√(ℓ/0.705 m), 3.4 rad/s / q̇)";
     case Law::kHeight:
-      return "min(`" + hrp2 + "` · ℓ/0.705 m, 0.85 lift)";
+      return "min(`" + hrp2 + "` · ℓ/0.705 m, 0.95 lift)";
     case Law::kAside:
       return "min(`" + hrp2 + "` · w/0.21 m, aside)";
   }

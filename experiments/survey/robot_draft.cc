@@ -75,9 +75,10 @@ std::string LegsText(const RobotDraft& draft) {
 std::string PostureText(const RobotDraft& draft) {
   const UrdfTree& urdf = draft.urdf;
   std::string text = "# Hip and ankle are " + Decimal(100 * draft.standing.bend, 0) +
-                     " % of the stretched leg apart; the soles' centres are below the CoM, " +
-                     Decimal(draft.standing.width, 4) + " m apart:\n# " + draft.why_width +
-                     ".\nstanding_posture_deg:\n";
+                     " % of the stretched leg apart" +
+                     (draft.why_bend.empty() ? "" : " (" + draft.why_bend + ")") +
+                     "; the soles' centres are below the CoM, " + Decimal(draft.standing.width, 4) +
+                     " m apart:\n# " + draft.why_width + ".\nstanding_posture_deg:\n";
   for (size_t i = 0; i < urdf.joints.size(); ++i) {
     if (urdf.joints[i].kind != UrdfJoint::Kind::kRevolute) continue;
     const std::string angle = Decimal(kDegrees * draft.posture[i], 4);
@@ -114,6 +115,11 @@ std::string YamlOf(const RobotDraft& draft, const fs::path& folder) {
       text += "  " + Quoted(name) + ": " + Quoted(fs::proximate(place, folder).string()) + "\n";
     }
   }
+  if (draft.dae_up_axis) {
+    text +=
+        "# Turned by it, the meshes of the legs lie nearer to the legs' joints.\n"
+        "dae_up_axis: applied\n";
+  }
   text +=
       "# Both legs hang on it.\nwaist_link: " + Quoted(LinkName(draft, draft.legs.waist)) + "\n";
   if (const Eigen::Vector3d rpy = RpyOf(draft.R_LinkB); rpy.cwiseAbs().maxCoeff() > 1e-9) {
@@ -127,11 +133,11 @@ std::string YamlOf(const RobotDraft& draft, const fs::path& folder) {
   return text + LegsText(draft) + PostureText(draft) + ExcludedText(draft);
 }
 
-RobotModel ModelOf(const RobotDraft& draft) {
+RobotModel ModelOf(const RobotDraft& draft, RobotParts parts) {
   const fs::path folder = fs::absolute(draft.urdf_path).parent_path();
   const std::string path = (folder / (draft.name + ".yaml")).string();
   const std::string text = YamlOf(draft, folder);
-  return BuildRobot(path, text, ReadRobotFile(path, text));
+  return BuildRobot(path, text, ReadRobotFile(path, text), parts);
 }
 
 }  // namespace halfstep

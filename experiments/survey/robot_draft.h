@@ -19,10 +19,12 @@ struct RobotDraft {
   std::filesystem::path urdf_path;
   std::map<std::string, std::string> packages;  ///< given by the user: name → folder
   UrdfTree urdf;                                ///< with the waist frame in its link
+  bool dae_up_axis = false;
   FoundLegs legs;
   Eigen::Matrix3d R_LinkB = Eigen::Matrix3d::Identity();
   std::array<FoundSole, 2> soles;
   StandingRequest standing;
+  std::string why_bend;         ///< why the knees are bent so little; "": as usual
   std::string why_width;        ///< why the stance is so wide
   std::vector<double> posture;  ///< by URDF joint index [rad]
   std::vector<ExcludedPair> excluded;
@@ -33,6 +35,6 @@ struct RobotDraft {
 std::string YamlOf(const RobotDraft& draft, const std::filesystem::path& folder);
 
 /// The model of that file. Throws InputError where the draft is no robot.
-RobotModel ModelOf(const RobotDraft& draft);
+RobotModel ModelOf(const RobotDraft& draft, RobotParts parts = RobotParts::kAll);
 
 }  // namespace halfstep

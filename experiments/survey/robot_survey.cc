@@ -10,6 +10,7 @@
 #include "experiments/config/scaled_defaults.h"
 #include "experiments/survey/arm_posture.h"
 #include "experiments/survey/self_gaps.h"
+#include "planner/collision/separation.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/text.h"
 #include "wpg/robot/robot_bodies.h"
@@ -23,6 +24,7 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
 constexpr double kFeetApart = 0.05;      // bodies of the feet, standing [m]
+constexpr double kLift = 0.12;           // of the swing foot, at least, of the leg's length
 constexpr double kArmsApart = 0.03;      // arms and legs, in six steps [m]
 constexpr double kTouchByDesign = 7e-3;  // neighbours that stand nearer than this [m]
 
@@ -89,6 +91,14 @@ class Surveyor {
     Complaints complaints;
     bodies_ = BuildBodies(draft_.urdf, request, &complaints).bodies;
     complaints.ThrowIfAny();
+    if (HasDae()) {
+      request.dae_up_axis = true;
+      std::vector<RobotBody> turned = BuildBodies(draft_.urdf, request, &complaints).bodies;
+      if (FromJoints(turned) < 0.5 * FromJoints(bodies_)) {
+        draft_.dae_up_axis = true;
+        bodies_ = std::move(turned);
+      }
+    }
     try {
       draft_.soles = FindSoles(legs_, bodies_);
     } catch (const std::runtime_error& error) {
@@ -97,6 +107,34 @@ class Surveyor {
     for (size_t side = 0; side < 2; ++side) {
       legs_[side].X_BSole = legs_[side].joints[5].X_BLink * draft_.soles[side].X_FootSole;
     }
+  }
+
+  bool HasDae() const {
+    for (const UrdfLink& link : draft_.urdf.links) {
+      for (const UrdfCollision& collision : link.collisions) {
+        if (collision.kind == UrdfCollision::Kind::kMesh && collision.mesh.ends_with(".dae")) {
+          return true;
+        }
+      }
+    }
+    return false;
+  }
+
+  // How far the joints at the ends of the legs' links are from the links' bodies, all together [m].
+  double FromJoints(const std::vector<RobotBody>& bodies) const {
+    double sum = 0.0;
+    for (const RobotBody& body : bodies) {
+      if (body.leg < 0 || body.link > 4) continue;
+      const Leg& leg = legs_[static_cast<size_t>(body.leg)];
+      const auto i = static_cast<size_t>(body.link);
+      const CollisionShape shape(body.shape), point(MakeSphere(1e-3));
+      for (const size_t joint : {i, i + 1}) {
+        Isometry3d X_BPoint = Isometry3d::Identity();
+        X_BPoint.translation() = leg.joints[joint].point_B;
+        sum += std::max(0.0, Separate(shape, leg.joints[i].X_BLink, point, X_BPoint).distance);
+      }
+    }
+    return sum;
   }
 
   // The CoM ahead of the waist in the present posture [m].
@@ -119,7 +157,6 @@ class Surveyor {
   // in six steps.
   RobotModel StandApart() {
     StandingRequest& standing = draft_.standing;
-    standing.bend = request_.bend;
     standing.width = request_.width;
     draft_.why_width = "as asked for";
     if (request_.width == 0.0) {
@@ -129,6 +166,7 @@ class Surveyor {
                              ? Formatted("so the feet are %.0f mm apart", 1e3 * apart)
                              : "as with straight legs";
     }
+    Bend();
     Stand();
     RobotModel model = ModelOf(draft_);
     const double narrowest = standing.width, before = LegsApart(model);
@@ -151,6 +189,29 @@ class Surveyor {
     return model;
   }
 
+  // Bends the knees less while the joints' limits keep the swing foot low.
+  void Bend() {
+    StandingRequest& standing = draft_.standing;
+    if (request_.bend > 0.0) {
+      standing.bend = request_.bend;
+      return;
+    }
+    double best = 0.0, highest = -1.0;
+    for (const double bend : {0.9, 0.92, 0.94, 0.96, 0.98}) {
+      standing.bend = bend;
+      if (!TryToStand().empty()) continue;
+      const RobotMeasures measures = MeasuresOf(ModelOf(draft_, RobotParts::kLegs));
+      if (measures.lift > highest) {
+        highest = measures.lift;
+        best = bend;
+      }
+      if (highest >= kLift * measures.leg_length) break;
+    }
+    standing.bend = best > 0.0 ? best : 0.9;
+    draft_.why_bend =
+        best > 0.9 ? "with more bend the joints' limits keep the swing foot lower" : "";
+  }
+
   // How near the legs come to each other in six steps [m].
   static double LegsApart(const RobotModel& model) {
     double least = kTouchByDesign;
@@ -168,6 +229,13 @@ class Surveyor {
   }
 
   void Stand() {
+    if (const std::string fault = TryToStand(); !fault.empty()) {
+      throw InputError({draft_.urdf.file + ": " + fault});
+    }
+  }
+
+  // Finds the legs' angles; "" or why there are none.
+  std::string TryToStand() {
     StandingRequest& standing = draft_.standing;
     // The CoM moves with the legs: a few rounds are enough.
     for (int round = 0; round < 4; ++round) {
@@ -176,12 +244,12 @@ class Surveyor {
         const auto i = static_cast<size_t>(Index(side));
         const auto q = FindStanding(legs_[i], side, standing);
         if (!q) {
-          throw InputError(
-              {draft_.urdf.file +
-               Formatted(": the %s foot cannot stand level below the CoM, %.3f m from the other, "
-                         "hip and ankle %.0f %% of the stretched leg apart, within the joints' "
-                         "limits (valid: another --bend or --width)",
-                         i == 0 ? "left" : "right", standing.width, 100 * standing.bend)});
+          return Formatted(
+              "the %s foot cannot stand level below the CoM, %.3f m from the other, hip and ankle "
+              "%.0f %% of the stretched leg apart, within the joints' limits (valid: another "
+              "--bend "
+              "or --width)",
+              i == 0 ? "left" : "right", standing.width, 100 * standing.bend);
         }
         for (size_t k = 0; k < 6; ++k) {
           draft_.posture[static_cast<size_t>(draft_.legs.joints[i][k])] =
@@ -189,6 +257,19 @@ class Surveyor {
         }
       }
     }
+    return "";
+  }
+
+  // Those of the joints on the way between two links that move while walking.
+  int LegJointsBetween(const std::string& a, const std::string& b) const {
+    int count = 0;
+    for (const int joint :
+         JointsBetween(draft_.urdf, draft_.urdf.FindLink(a), draft_.urdf.FindLink(b))) {
+      for (const auto& leg : draft_.legs.joints) {
+        count += static_cast<int>(std::count(leg.begin(), leg.end(), joint));
+      }
+    }
+    return count;
   }
 
   void ExcludeNeighbours(const RobotModel& model, const SelfGaps& gaps) {
@@ -200,12 +281,10 @@ class Surveyor {
     for (const SelfGap& gap : gaps.Nearer(kTouchByDesign)) {
       const RobotBody& a = model.bodies[static_cast<size_t>(gap.a)];
       const RobotBody& b = model.bodies[static_cast<size_t>(gap.b)];
-      const int joints = static_cast<int>(
-          JointsBetween(draft_.urdf, draft_.urdf.FindLink(link(a)), draft_.urdf.FindLink(link(b)))
-              .size());
+      const int joints = LegJointsBetween(link(a), link(b));
       if (AreOfBothLegs(model, gap)) continue;
       const bool limb = of_limb[static_cast<size_t>(gap.a)] || of_limb[static_cast<size_t>(gap.b)];
-      if (joints > 2 && (limb || gap.standing >= kTouchByDesign)) continue;
+      if (limb || (joints > 2 && gap.standing >= kTouchByDesign)) continue;
       const auto is_there = [&](const ExcludedPair& pair) {
         return (pair.links[0] == link(a) && pair.links[1] == link(b)) ||
                (pair.links[0] == link(b) && pair.links[1] == link(a));

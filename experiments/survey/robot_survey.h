@@ -15,7 +15,8 @@ struct SurveyRequest {
   std::string name;  ///< "": that of the URDF's file
   LegNames legs;
   std::map<std::string, std::string> packages;  ///< name → folder
-  double bend = 0.9;   ///< distance of hip and ankle over the leg's stretched length
+  /// Distance of hip and ankle over the leg's stretched length; 0: to be found.
+  double bend = 0.0;
   double width = 0.0;  ///< of the stance [m]; 0: to be found
 };
 

@@ -9,8 +9,10 @@
 
 namespace halfstep {
 
-HalfStepSequence SixSteps(const RobotModel& robot, const HalfStep& prototype) {
-  const double stride = 0.3 * MeasuresOf(robot).leg_length, y = 0.5 * robot.standing_width;
+namespace {
+
+HalfStepSequence SixStepsOf(const RobotModel& robot, const HalfStep& prototype, double stride) {
+  const double y = 0.5 * robot.standing_width;
   std::vector<Footstep> footsteps;
   for (int i = 0; i < 6; ++i) {
     const Side side = i % 2 == 0 ? Side::kRight : Side::kLeft;
@@ -23,17 +25,51 @@ HalfStepSequence SixSteps(const RobotModel& robot, const HalfStep& prototype) {
                       prototype.shape, Lipm{.com_height = robot.com_height});
 }
 
-std::vector<Posture> SampledPostures(const RobotModel& robot, const HalfStepSequence& sequence) {
+// Postures of the planned motion at equal steps of each half-step; some may not be reachable.
+std::vector<Posture> PlannedPostures(const RobotModel& robot, const HalfStepSequence& sequence) {
   const SuperposedWalk walk(sequence, PlannedMotion(sequence));
   std::vector<Posture> postures;
   constexpr int kInHalfStep = 16;
   for (int i = 0; i < walk.num_half_steps(); ++i) {
     for (int k = 0; k < kInHalfStep; ++k) {
       const double tau = walk.half_step(i).duration * k / kInHalfStep;
-      const Posture posture = SolvePosture(robot, walk.At({i, tau}).value);
-      if (posture.reachable) postures.push_back(posture);
+      postures.push_back(SolvePosture(robot, walk.At({i, tau}).value));
     }
   }
+  return postures;
+}
+
+bool IsWithinLimits(const RobotModel& robot, const Posture& posture) {
+  constexpr double kWithin = 0.01;  // [rad]
+  if (!posture.reachable) return false;
+  for (size_t leg = 0; leg < 2; ++leg) {
+    if (posture.ik[leg].reach_margin < 1e-3 * robot.waist_height) return false;
+    for (size_t i = 0; i < 6; ++i) {
+      const LegJoint& joint = robot.legs[leg].joints[i];
+      const double q = posture.ik[leg].q[static_cast<Eigen::Index>(i)];
+      if (q < joint.lower + kWithin || q > joint.upper - kWithin) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+HalfStepSequence SixSteps(const RobotModel& robot, const HalfStep& prototype) {
+  const double leg = MeasuresOf(robot).leg_length;
+  for (int parts = 12;; --parts) {
+    HalfStepSequence sequence = SixStepsOf(robot, prototype, 0.025 * parts * leg);
+    const std::vector<Posture> postures = PlannedPostures(robot, sequence);
+    const bool fits = std::all_of(postures.begin(), postures.end(), [&](const Posture& posture) {
+      return IsWithinLimits(robot, posture);
+    });
+    if (fits || parts == 1) return sequence;
+  }
+}
+
+std::vector<Posture> SampledPostures(const RobotModel& robot, const HalfStepSequence& sequence) {
+  std::vector<Posture> postures = PlannedPostures(robot, sequence);
+  std::erase_if(postures, [](const Posture& posture) { return !posture.reachable; });
   return postures;
 }
 

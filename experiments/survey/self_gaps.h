@@ -9,8 +9,9 @@
 
 namespace halfstep {
 
-/// Six steps straight ahead, of a third of the stretched leg, feet side by side in the end.
-/// `prototype` gives duration, via point and shape.
+/// Six steps straight ahead, feet side by side in the end: of 0.3 of the leg's length ℓ, or of the
+/// largest smaller multiple of 0.025 ℓ for which the sampled planned motion is within reach and
+/// limits of the legs. `prototype` gives duration, via point and shape.
 HalfStepSequence SixSteps(const RobotModel& robot, const HalfStep& prototype);
 
 /// The posture of standing, and some of the planned motion of a sequence; those that the legs do

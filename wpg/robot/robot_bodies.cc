@@ -99,8 +99,7 @@ ConvexBody Moved(const Isometry3d& X, ConvexBody body) {
 }
 
 ConvexBody ShapeOf(const UrdfCollision& collision, const Isometry3d& X, const std::string& file,
-                   const std::map<std::string, std::string>& packages,
-                   std::vector<InputFile>* meshes) {
+                   const BodyRequest& request, std::vector<InputFile>* meshes) {
   switch (collision.kind) {
     case UrdfCollision::Kind::kBox:
       return Moved(X, MakeBox(collision.size));
@@ -115,7 +114,8 @@ ConvexBody ShapeOf(const UrdfCollision& collision, const Isometry3d& X, const st
     case UrdfCollision::Kind::kMesh:
       break;
   }
-  LoadedMesh mesh = LoadMesh(MeshPath(collision.mesh, file, packages));
+  LoadedMesh mesh = LoadMesh(MeshPath(collision.mesh, file, request.packages));
+  if (request.dae_up_axis) mesh.vertices = mesh.R_ZUp * mesh.vertices;
   mesh.file.name = collision.mesh;
   meshes->push_back(std::move(mesh.file));
   return Moved(X, MakeHull(collision.scale.asDiagonal() * mesh.vertices));
@@ -178,8 +178,8 @@ LinkBodies BuildBodies(const UrdfTree& urdf, const BodyRequest& request, Complai
       body.leg = anchor.leg;
       body.link = anchor.link;
       try {
-        body.shape = ShapeOf(collision, X_AnchorLink * collision.X_LinkShape, urdf.file,
-                             request.packages, &all.meshes);
+        body.shape = ShapeOf(collision, X_AnchorLink * collision.X_LinkShape, urdf.file, request,
+                             &all.meshes);
         if (body.shape.center.norm() + body.shape.radius > kFarthest) {
           throw std::runtime_error("reaches more than 100 m from its link (look at `scale`)");
         }

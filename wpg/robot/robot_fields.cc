@@ -112,6 +112,9 @@ void DeclareFields(Fields& fields, RobotFile* file) {
   }
   const std::vector<std::string> links = LinkNames(*file);
   DeclarePackages(fields, file);
+  fields.Text("dae_up_axis", &file->dae_up_axis,
+              {.meaning = "whether meshes in DAE are turned by their `up_axis`, as some viewers do",
+               .choices = {"ignored", "applied"}});
   fields.Text(
       "waist_link", &file->waist_link,
       {.meaning = "link whose frame, turned by waist_rpy_deg, is the waist frame: x forward, "

@@ -33,6 +33,7 @@ struct RobotFile {
   std::string urdf_path;
   std::optional<UrdfTree> urdf;  ///< read as soon as its path is known.
   std::map<std::string, std::string> packages;
+  std::string dae_up_axis = "ignored";
   std::string waist_link;
   std::vector<double> waist_rpy;  ///< waist frame in that of its link [rad]; empty: the same.
   std::optional<double> com_height;

@@ -174,6 +174,7 @@ class Builder {
     body_.waist = leg_.waist;
     body_.posture = leg_.posture;
     body_.packages = file_.packages;
+    body_.dae_up_axis = file_.dae_up_axis == "applied";
     LinkBodies all = BuildBodies(urdf_, body_, complaints_);
     SelfPairs pairs = BuildSelfPairs(urdf_, file_.excluded, all, body_.leg_joints);
     model_.self_pairs = std::move(pairs.watched);
