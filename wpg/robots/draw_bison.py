@@ -139,17 +139,19 @@ def names(side, limb, n):
     return joint + "_link", joint
 
 
+TABLE = Table(
+    name="bison",
+    title="Bison",
+    comment="Frames are parallel at the zero posture, x forward, y left, z up; pelvis is\n"
+            "     0.271 m above the hips. Left axes x and z point the other way: angles are\n"
+            "     equal in mirrored postures. Inertias are estimated from the bodies.",
+    bodies=BODIES,
+    # Published: 15.363 kg. The rest, with what is not drawn, makes 95 kg.
+    waist=("pelvis", 17.08, (-0.0500, 0, -0.0500), "pelvis"),
+    middle=[("CHEST", "pelvis", CHEST), ("HEAD", "torso_pitch_link", HEAD)],
+    sides=[("LEG", "pelvis", LEG), ("ARM", "torso_pitch_link", ARM)],
+    names=names,
+    left_axes={"x": -1, "y": 1, "z": -1})
+
 if __name__ == "__main__":
-    draw(Table(
-        name="bison",
-        title="Bison",
-        comment="Frames are parallel at the zero posture, x forward, y left, z up; pelvis is\n"
-                "     0.271 m above the hips. Left axes x and z point the other way: angles are\n"
-                "     equal in mirrored postures. Inertias are estimated from the bodies.",
-        bodies=BODIES,
-        # Published: 15.363 kg. The rest, with what is not drawn, makes 95 kg.
-        waist=("pelvis", 17.08, (-0.0500, 0, -0.0500), "pelvis"),
-        middle=[("CHEST", "pelvis", CHEST), ("HEAD", "torso_pitch_link", HEAD)],
-        sides=[("LEG", "pelvis", LEG), ("ARM", "torso_pitch_link", ARM)],
-        names=names,
-        left_axes={"x": -1, "y": 1, "z": -1}))
+    draw(TABLE)

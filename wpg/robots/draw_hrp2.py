@@ -119,16 +119,18 @@ HEAD = [
     ("y", (0, 0, 0), FREE, 0.99335, (0.01299, 0.00009, 0.07876), "head1"),
 ]
 
+TABLE = Table(
+    name="hrp2",
+    title="HRP-2",
+    comment="Frames are parallel at the zero posture, x forward, y left, z up; WAIST is\n"
+            "     midway between the hips. Inertias are estimated from the bodies. Limits of\n"
+            "     chest, head and arms and all efforts (0) are not published: not for use.",
+    bodies={body: sections for body, (_, _, sections) in BODIES.items()},
+    extents={body: (low, high) for body, (low, high, _) in BODIES.items()},
+    waist=("WAIST", 15.02949, (-0.01435, 0, 0.22308), "waist"),
+    middle=[("CHEST", "WAIST", CHEST), ("HEAD", "CHEST_LINK1", HEAD)],
+    sides=[("LEG", "WAIST", LEG), ("ARM", "CHEST_LINK1", ARM)],
+    names=lambda side, limb, n: (f"{side}{limb}_LINK{n}", f"{side}{limb}_JOINT{n}"))
+
 if __name__ == "__main__":
-    draw(Table(
-        name="hrp2",
-        title="HRP-2",
-        comment="Frames are parallel at the zero posture, x forward, y left, z up; WAIST is\n"
-                "     midway between the hips. Inertias are estimated from the bodies. Limits of\n"
-                "     chest, head and arms and all efforts (0) are not published: not for use.",
-        bodies={body: sections for body, (_, _, sections) in BODIES.items()},
-        extents={body: (low, high) for body, (low, high, _) in BODIES.items()},
-        waist=("WAIST", 15.02949, (-0.01435, 0, 0.22308), "waist"),
-        middle=[("CHEST", "WAIST", CHEST), ("HEAD", "CHEST_LINK1", HEAD)],
-        sides=[("LEG", "WAIST", LEG), ("ARM", "CHEST_LINK1", ARM)],
-        names=lambda side, limb, n: (f"{side}{limb}_LINK{n}", f"{side}{limb}_JOINT{n}")))
+    draw(TABLE)

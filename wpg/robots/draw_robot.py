@@ -61,6 +61,18 @@ def section(z, x0, x1, y0, y1, c):
             (x1 - c, y1, z), (x0 + c, y1, z), (x0, y1 - c, z), (x0, y0 + c, z)]
 
 
+def one_sided(normal, origin, points):
+    """Heights of the points over the plane, or None when some are above and some below."""
+    heights, above, below = [], False, False
+    for p in points:
+        height = dot(normal, sub(p, origin))
+        above, below = above or height > 1e-9, below or height < -1e-9
+        if above and below:
+            return None
+        heights.append(height)
+    return heights
+
+
 def hull(points):
     """Extreme points and outward polygons (indices) of the convex hull: tries every plane."""
     points = sorted(set(points))
@@ -72,12 +84,12 @@ def hull(points):
         if length < flat:
             continue
         normal = tuple(n / length for n in normal)
-        heights = [dot(normal, sub(p, points[i])) for p in points]
+        heights = one_sided(normal, points[i], points)
+        if heights is None:
+            continue
         if max(heights) > 1e-9:
             normal = tuple(-n for n in normal)
             heights = [-h for h in heights]
-        if max(heights) > 1e-9:
-            continue
         face = tuple(n for n, h in enumerate(heights) if h > -1e-9)
         if face not in polygons:
             polygons[face] = rim(points, face, normal)
@@ -164,16 +176,18 @@ def flip_y(v, side):
 class Drawing:
     """Gathers the URDF text, and writes bodies on the way."""
 
-    def __init__(self, table):
-        self.table = table
-        self.links, self.joints = [], []
+    def __init__(self, table, folder):
+        self.table, self.folder = table, folder
+        self.links, self.joints, self.shapes = [], [], {}
 
     def body(self, name, mesh, side):
         table = self.table
-        vertices, faces = shape(table.bodies[name], table.extents.get(name))
+        if name not in self.shapes:
+            self.shapes[name] = shape(table.bodies[name], table.extents.get(name))
+        vertices, faces = self.shapes[name]
         if side < 0:
             vertices, faces = mirrored(vertices, faces)
-        with open(os.path.join(HERE, table.name, mesh + ".obj"), "w") as out:
+        with open(os.path.join(self.folder, table.name, mesh + ".obj"), "w") as out:
             out.write(f"# {mesh}: convex body of {table.title} drawn by draw_{table.name}.py [m]\n")
             out.writelines(f"v {numbers(v)}\n" for v in vertices)
             out.writelines(f"f {t[0] + 1} {t[1] + 1} {t[2] + 1}\n" for t in triangles(faces))
@@ -222,10 +236,10 @@ class Drawing:
             parent = link
 
 
-def draw(table):
-    """Writes NAME.urdf and NAME/*.obj."""
-    os.makedirs(os.path.join(HERE, table.name), exist_ok=True)
-    drawing = Drawing(table)
+def draw(table, folder=HERE):
+    """Writes NAME.urdf and NAME/*.obj into a folder."""
+    os.makedirs(os.path.join(folder, table.name), exist_ok=True)
+    drawing = Drawing(table, folder)
     link, mass, com, body = table.waist
     drawing.link(link, mass, com, body, body)
     for limb, parent, rows in table.middle:
@@ -233,7 +247,7 @@ def draw(table):
     for side in "RL":
         for limb, parent, rows in table.sides:
             drawing.limb(side, limb, parent, rows)
-    with open(os.path.join(HERE, table.name + ".urdf"), "w") as out:
+    with open(os.path.join(folder, table.name + ".urdf"), "w") as out:
         out.write('<?xml version="1.0"?>\n'
                   f"<!-- {table.title}. Written by draw_{table.name}.py: change it there.\n"
                   f"     {table.comment} -->\n"

@@ -90,16 +90,18 @@ def names(side, limb, n):
     return joint + "_link", joint
 
 
+TABLE = Table(
+    name="wren",
+    title="Wren",
+    comment="Frames are parallel at the zero posture, x forward, y left, z up; trunk is\n"
+            "     midway between the hips. Left axes y point the other way: all angles are\n"
+            "     opposite in mirrored postures. Inertias are estimated from the bodies.",
+    bodies=BODIES,
+    waist=("trunk", 0.97560, (-0.0143, 0, 0.0835), "trunk"),
+    middle=[("HEAD", "trunk", HEAD)],
+    sides=[("LEG", "trunk", LEG), ("ARM", "trunk", ARM)],
+    names=names,
+    left_axes={"x": 1, "y": -1, "z": 1})
+
 if __name__ == "__main__":
-    draw(Table(
-        name="wren",
-        title="Wren",
-        comment="Frames are parallel at the zero posture, x forward, y left, z up; trunk is\n"
-                "     midway between the hips. Left axes y point the other way: all angles are\n"
-                "     opposite in mirrored postures. Inertias are estimated from the bodies.",
-        bodies=BODIES,
-        waist=("trunk", 0.97560, (-0.0143, 0, 0.0835), "trunk"),
-        middle=[("HEAD", "trunk", HEAD)],
-        sides=[("LEG", "trunk", LEG), ("ARM", "trunk", ARM)],
-        names=names,
-        left_axes={"x": 1, "y": -1, "z": 1}))
+    draw(TABLE)
