@@ -130,6 +130,9 @@ CommandAction DeclareRobot(CLI::App* app) {
   return [command, texts] {
     SurveyRequest& request = command->survey;
     request.urdf = texts->urdf;
+    if (request.urdf.extension() == ".yaml") {
+      throw InputError({texts->urdf + ": is a robot file already (valid: a URDF)"});
+    }
     for (size_t i = 0; i < texts->feet.size(); ++i) request.legs.feet[i] = texts->feet[i];
     for (const YamlOverride& package : ParseOverrides(texts->packages, "--package")) {
       request.packages[package.key] = fs::absolute(package.value).lexically_normal().string();

@@ -19,12 +19,26 @@ constexpr double kDuration = 2.0;     // of its half-steps, T [s]
 // A leg joint's speed in a half-step over the highest bar of the shipped scenes is at most this
 // over T [rad]: notebooks-data/measurements.md, "Defaults that go by the robot".
 constexpr double kTurn = 6.8;
+constexpr double kViaHeight = 0.25;  // of HRP-2's half-steps [m]
+constexpr double kRise = 6e-3;    // of a foot before it moves ahead: more than the floor margin [m]
 constexpr double kOfLift = 0.95;  // of the highest place of the swing foot
 
-enum class Law { kLength, kGrid, kWidth, kDuration, kHeight, kAside };
+enum class Law { kLength, kGrid, kWidth, kDuration, kHeight, kAside, kDelay };
 
 // The decimal number of three digits that is nearest: HRP-2's numbers stay what they are.
 double Rounded(double value) { return std::strtod(Formatted("%.3g", value).c_str(), nullptr); }
+
+// The part of T after take-off in which a foot rises to a fraction of the via height: its height
+// follows the step 10x³ − 15x⁴ + 6x⁵ over the time from the ZMP's shift to the half-step's end.
+double DelayToRise(double fraction) {
+  constexpr double kShift = 0.05;  // of T
+  double low = 0.0, high = 1.0;
+  for (int i = 0; i < 50; ++i) {
+    const double x = 0.5 * (low + high);
+    (x * x * x * (10 + x * (-15 + 6 * x)) < fraction ? low : high) = x;
+  }
+  return (0.5 - 0.5 * kShift) * high;
+}
 
 // The value for a robot of what is `hrp2` for HRP-2.
 double Scaled(Law law, double hrp2, const RobotMeasures& robot) {
@@ -42,6 +56,8 @@ double Scaled(Law law, double hrp2, const RobotMeasures& robot) {
       return Rounded(std::min(hrp2 * length, kOfLift * robot.lift));
     case Law::kAside:
       return Rounded(std::min(hrp2 * width, robot.aside));
+    case Law::kDelay:
+      return std::max(hrp2, Rounded(DelayToRise(kRise / Scaled(Law::kHeight, kViaHeight, robot))));
   }
   return hrp2;
 }
@@ -59,6 +75,8 @@ std::string FormulaOf(Law law, const std::string& hrp2) {
       return "min(`" + hrp2 + "` · ℓ/0.705 m, 0.95 lift)";
     case Law::kAside:
       return "min(`" + hrp2 + "` · w/0.21 m, aside)";
+    case Law::kDelay:
+      return "max(`" + hrp2 + "`, until the foot is 6 mm high)";
   }
   return hrp2;
 }
@@ -78,6 +96,8 @@ std::span<const ScaledDefault> ScaledDefaults() {
        2},
       {"half_step.via_height_m", Law::kHeight, [](C* c) { return &c->half_step.via_height; }, 0.01,
        1},
+      {"half_step.horizontal_delay", Law::kDelay,
+       [](C* c) { return &c->half_step.horizontal_delay; }, 0, 0.2},
       {"half_step.via_lateral_m", Law::kAside, [](C* c) { return &c->half_step.via_lateral; }, 0.01,
        1},
       {"step_set.x_min_m", Law::kGrid, [](C* c) { return &c->half_step_grid.x_min; }, -2, 2},

@@ -6,16 +6,16 @@
 #include <optional>
 #include <stdexcept>
 
-#include "experiments/config/experiment_config.h"
+#include "experiments/config/experiment.h"
 #include "experiments/config/scaled_defaults.h"
 #include "experiments/survey/arm_posture.h"
 #include "experiments/survey/self_gaps.h"
+#include "experiments/survey/touching_neighbours.h"
 #include "planner/collision/separation.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/text.h"
 #include "wpg/robot/robot_bodies.h"
 #include "wpg/robot/robot_legs.h"
-#include "wpg/robot/self_pairs.h"
 
 namespace halfstep {
 namespace {
@@ -23,10 +23,9 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-constexpr double kFeetApart = 0.05;      // bodies of the feet, standing [m]
-constexpr double kLift = 0.12;           // of the swing foot, at least, of the leg's length
-constexpr double kArmsApart = 0.03;      // arms and legs, in six steps [m]
-constexpr double kTouchByDesign = 7e-3;  // neighbours that stand nearer than this [m]
+constexpr double kFeetApart = 0.05;  // bodies of the feet, standing [m]
+constexpr double kLift = 0.12;       // of the swing foot, at least, of the leg's length
+constexpr double kArmsApart = 0.03;  // arms and legs, in six steps [m]
 
 class Surveyor {
  public:
@@ -44,7 +43,7 @@ class Surveyor {
     FindBodies();
     const RobotModel model = StandApart();
     const SelfGaps gaps(model, WalkedPostures(model));
-    ExcludeNeighbours(model, gaps);
+    draft_.excluded = NeighboursThatTouch(draft_.urdf, draft_.legs, draft_.posture, model, gaps);
     const double scale = ScaleOf(model.legs[0]);
     for (const ArmTurn& turn : KeepArmsOff(draft_.urdf, draft_.legs.waist, draft_.posture, model,
                                            gaps, kArmsApart * scale)) {
@@ -222,12 +221,6 @@ class Surveyor {
     return least;
   }
 
-  static bool AreOfBothLegs(const RobotModel& model, const SelfGap& gap) {
-    const int a = model.bodies[static_cast<size_t>(gap.a)].leg;
-    const int b = model.bodies[static_cast<size_t>(gap.b)].leg;
-    return a >= 0 && b >= 0 && a != b;
-  }
-
   void Stand() {
     if (const std::string fault = TryToStand(); !fault.empty()) {
       throw InputError({draft_.urdf.file + ": " + fault});
@@ -260,43 +253,6 @@ class Surveyor {
     return "";
   }
 
-  // Those of the joints on the way between two links that move while walking.
-  int LegJointsBetween(const std::string& a, const std::string& b) const {
-    int count = 0;
-    for (const int joint :
-         JointsBetween(draft_.urdf, draft_.urdf.FindLink(a), draft_.urdf.FindLink(b))) {
-      for (const auto& leg : draft_.legs.joints) {
-        count += static_cast<int>(std::count(leg.begin(), leg.end(), joint));
-      }
-    }
-    return count;
-  }
-
-  void ExcludeNeighbours(const RobotModel& model, const SelfGaps& gaps) {
-    const auto link = [](const RobotBody& body) {
-      return body.name.substr(0, body.name.find('#'));
-    };
-    const std::vector<bool> of_limb =
-        BodiesOfLimbs(draft_.urdf, draft_.legs.waist, draft_.posture, model);
-    for (const SelfGap& gap : gaps.Nearer(kTouchByDesign)) {
-      const RobotBody& a = model.bodies[static_cast<size_t>(gap.a)];
-      const RobotBody& b = model.bodies[static_cast<size_t>(gap.b)];
-      const int joints = LegJointsBetween(link(a), link(b));
-      if (AreOfBothLegs(model, gap)) continue;
-      const bool limb = of_limb[static_cast<size_t>(gap.a)] || of_limb[static_cast<size_t>(gap.b)];
-      if (limb || (joints > 2 && gap.standing >= kTouchByDesign)) continue;
-      const auto is_there = [&](const ExcludedPair& pair) {
-        return (pair.links[0] == link(a) && pair.links[1] == link(b)) ||
-               (pair.links[0] == link(b) && pair.links[1] == link(a));
-      };
-      if (std::any_of(draft_.excluded.begin(), draft_.excluded.end(), is_there)) continue;
-      draft_.excluded.push_back(
-          {{link(a), link(b)},
-           Formatted("%d joints apart, %.1f mm standing, %.1f mm in six steps", joints,
-                     1e3 * gap.standing, 1e3 * gap.least)});
-    }
-  }
-
   const SurveyRequest& request_;
   RobotDraft draft_;
   std::array<Leg, 2> legs_;
@@ -310,12 +266,7 @@ RobotDraft SurveyRobot(const SurveyRequest& request) { return Surveyor(request).
 HalfStep DefaultHalfStep(const RobotModel& robot) {
   ExperimentConfig config;
   ScaleDefaults(MeasuresOf(robot), &config);
-  HalfStep half_step;
-  half_step.duration = config.half_step.duration;
-  half_step.via_height = config.half_step.via_height;
-  half_step.via_lateral = config.half_step.via_lateral;
-  half_step.shape = ShapeOf(config.half_step);
-  return half_step;
+  return PrototypeOf(config);
 }
 
 }  // namespace halfstep

@@ -12,9 +12,9 @@ namespace halfstep {
 /// What is asked of a URDF, and what the user knows better.
 struct SurveyRequest {
   std::filesystem::path urdf;
-  std::string name;  ///< "": that of the URDF's file
-  LegNames legs;
-  std::map<std::string, std::string> packages;  ///< name → folder
+  std::string name = {};  ///< "": that of the URDF's file
+  LegNames legs = {};
+  std::map<std::string, std::string> packages = {};  ///< name → folder
   /// Distance of hip and ankle over the leg's stretched length; 0: to be found.
   double bend = 0.0;
   double width = 0.0;  ///< of the stance [m]; 0: to be found

@@ -8,6 +8,7 @@
 #include <set>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include "wpg/files/mesh_file.h"
 
@@ -53,6 +54,17 @@ std::string FindPackage(const std::string& package, const std::string& urdf_file
   return "";
 }
 
+// A package whose folder is not known.
+struct MissingPackage : std::runtime_error {
+  MissingPackage(std::string name, const std::string& mesh)
+      : std::runtime_error("package `" + name + "` of " + mesh +
+                           " has no folder: name it under `packages` of the robot file (`halfstep "
+                           "robot --package NAME=FOLDER`), or put its parent into "
+                           "ROS_PACKAGE_PATH"),
+        package(std::move(name)) {}
+  std::string package;
+};
+
 // File of a mesh named in a URDF. Throws std::runtime_error with a sentence.
 std::string MeshPath(const std::string& mesh, const std::string& urdf_file,
                      const std::map<std::string, std::string>& packages) {
@@ -61,9 +73,7 @@ std::string MeshPath(const std::string& mesh, const std::string& urdf_file,
     const std::string folder =
         given != packages.end() ? given->second : FindPackage(package, urdf_file);
     if (folder.empty()) {
-      throw std::runtime_error("package `" + package + "` of " + mesh +
-                               " has no folder: name it under `packages` of the robot file, or put "
-                               "its parent into ROS_PACKAGE_PATH");
+      throw MissingPackage(package, mesh);
     }
     return folder + PathInPackages(mesh).substr(package.size());
   }
@@ -164,6 +174,7 @@ LinkBodies BuildBodies(const UrdfTree& urdf, const BodyRequest& request, Complai
   }
   const std::vector<Isometry3d> X = urdf.LinkPoses(q);
   LinkBodies all;
+  std::set<std::string> missing;  // packages
   for (size_t i = 0; i < urdf.links.size(); ++i) {
     const UrdfLink& link = urdf.links[i];
     const Anchor& anchor = anchors[i];
@@ -189,6 +200,10 @@ LinkBodies BuildBodies(const UrdfTree& urdf, const BodyRequest& request, Complai
         for (const std::string& line : error.complaints()) {
           complaints->Add(urdf.file, collision.place.line, collision.place.column, body.name, line);
         }
+      } catch (const MissingPackage& error) {
+        if (!missing.insert(error.package).second) continue;  // told already
+        complaints->Add(urdf.file, collision.place.line, collision.place.column, body.name,
+                        error.what());
       } catch (const std::runtime_error& error) {
         complaints->Add(urdf.file, collision.place.line, collision.place.column, body.name,
                         error.what());
