@@ -9,7 +9,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <string>
-#include <vector>
 
 #include "experiments/config/experiment.h"
 #include "experiments/run/planning.h"
@@ -55,26 +54,6 @@ Scene DrawMixed(int count, double size, SweptDraw* draw) {
   return scene;
 }
 
-std::string Text(double metres) { return std::to_string(metres); }
-
-// The grid of half-steps and their volumes for a robot of other legs than HRP-2's.
-std::vector<YamlOverride> Scaled(const std::string& name, const RobotModel& robot) {
-  const double size = LegScale(robot), width = robot.standing_width;
-  return {{"robot", name},
-          {"half_step.duration_s", size < 0.5 ? "1.2" : "2"},
-          {"half_step.via_height_m", Text(0.2 * size)},
-          {"half_step.via_lateral_m", Text(1.14 * width)},
-          {"half_step.horizontal_delay", "0.15"},
-          {"smoothing.margins.floor_m", Text(0.005 * std::min(1.0, size))},
-          {"step_set.x_min_m", Text(-0.35 * size)},
-          {"step_set.x_max_m", Text(0.35 * size)},
-          {"step_set.y_min_m", Text(-width - 0.16 * size)},
-          {"step_set.y_max_m", Text(-0.6 * width)},
-          {"step_set.spacing_m", Text(0.05 * size)},
-          {"swept_volumes.cell_m", Text(0.01 * size)},
-          {"swept_volumes.displacement_m", Text(0.0025 * size)}};
-}
-
 struct Counts {
   long asked = 0, free = 0, certified_free = 0;
   long refused = 0, certified_refused = 0;
@@ -90,8 +69,7 @@ int main(int argc, char** argv) {
   const RobotModel robot = ShippedRobot(name);
   const double size = LegScale(robot);
   const ExperimentConfig config =
-      LoadConfig(HALFSTEP_SOURCE_DIR "/experiments/configs/island.yaml",
-                 name == "hrp2" ? std::vector<YamlOverride>{} : Scaled(name, robot));
+      LoadConfig(HALFSTEP_SOURCE_DIR "/experiments/configs/island.yaml", {{"robot", name}});
   const BakedHalfSteps baked = BakeHalfSteps(robot, config, {});
   const SweptVolumes& volumes = *baked.cached.volumes;
   Counts n;
