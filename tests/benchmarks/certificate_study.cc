@@ -1,6 +1,6 @@
 // What the certificate is worth: how often it errs, and what it costs in seconds of walk. Prints
 // the tables of notebooks-data/measurements.md, "Certificates". Not a test.
-// Run: certificate_study walks [WALKS [SEED]] | dichotomy
+// Run: certificate_study walks [WALKS [SEED [ROBOT]]] | dichotomy
 
 #include <algorithm>
 #include <array>
@@ -47,7 +47,7 @@ double LeastSlack(const MarginEvaluator& evaluator, const SuperposedWalk& walk,
   return least;
 }
 
-void Walks(long walks, unsigned seed) {
+void Walks(long walks, unsigned seed, const std::string& name) {
   constexpr std::array<double, 5> kSpares = {0.0, 0.01, 0.03, 0.1, 0.3};  // of the scale
   constexpr std::array<const char*, 3> kKinds = {"cylinders", "clutter", "fence"};
   struct Row {
@@ -55,8 +55,9 @@ void Walks(long walks, unsigned seed) {
   };
   std::array<std::array<Row, kSpares.size() + 1>, 4> table{};
   std::array<long, kNumMarginFamilies> refused{};
-  const RobotModel robot = Hrp2();
+  const RobotModel robot = ShippedRobot(name);
   MarginLimits limits;
+  limits.demanded_of(MarginFamily::kFloor) *= std::min(1.0, LegScale(robot));
   limits.clearance_horizon = 0.05;  // farther ones do not matter here
   WalkDraw draw(seed);
   long false_certified = 0, full = 0, plans = 0, bad_rows = 0, undecided_after_all = 0;
@@ -113,10 +114,10 @@ void Walks(long walks, unsigned seed) {
     }
   }
   std::printf(
-      "\nseed %u: %ld walks (%ld half-steps; %ld plans drawn), falsely certified: %ld; "
+      "\n%s, seed %u: %ld walks (%ld half-steps; %ld plans drawn), falsely certified: %ld; "
       "%ld certified ones sampled every 0.05 ms throughout; rows that do not add up: %ld; "
       "certifying %.2f ms a half-step\n",
-      seed, walks, half_steps, plans, false_certified, full, bad_rows,
+      name.c_str(), seed, walks, half_steps, plans, false_certified, full, bad_rows,
       1e3 * certify_s / static_cast<double>(half_steps));
   for (MarginFamily family : AllMarginFamilies()) {
     std::printf("refused for %s: %ld\n", std::string(Name(family)).c_str(),
@@ -186,11 +187,11 @@ int main(int argc, char** argv) {
   const long number = argc > 2 ? std::atol(argv[2]) : 0;
   const unsigned seed = argc > 3 ? static_cast<unsigned>(std::atoi(argv[3])) : 1;
   if (part == "walks") {
-    halfstep::Walks(number > 0 ? number : 2000, seed);
+    halfstep::Walks(number > 0 ? number : 2000, seed, argc > 4 ? argv[4] : "hrp2");
   } else if (part == "dichotomy") {
     halfstep::Dichotomies();
   } else {
-    std::fprintf(stderr, "usage: certificate_study walks [WALKS [SEED]] | dichotomy\n");
+    std::fprintf(stderr, "usage: certificate_study walks [WALKS [SEED [ROBOT]]] | dichotomy\n");
     return 2;
   }
 }

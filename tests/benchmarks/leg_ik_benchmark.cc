@@ -4,14 +4,15 @@
 #include <string>
 #include <vector>
 
+#include "tests/wpg/shipped_robots.h"
 #include "wpg/robot/leg_ik.h"
 
 namespace halfstep {
 namespace {
 
-// Random postures of HRP-2's right leg within its limits, and where its sole is in them.
+// Random postures of a robot's right leg within its limits, and where its sole is in them.
 struct Postures {
-  Postures() : leg(LoadRobot(HALFSTEP_SOURCE_DIR "/wpg/robots/hrp2.yaml").legs[1]) {
+  explicit Postures(const std::string& robot = "hrp2") : leg(ShippedRobot(robot).legs[1]) {
     std::mt19937 random(1);
     for (int k = 0; k < 1024; ++k) {
       Vector6d posture;
@@ -28,14 +29,16 @@ struct Postures {
   std::vector<Eigen::Isometry3d> X_BSole;
 };
 
-void BM_SolveLegIk(benchmark::State& state) {
-  const Postures postures;
+void BM_SolveLegIk(benchmark::State& state, const std::string& robot) {
+  const Postures postures(robot);
   size_t k = 0;
   for (auto _ : state) {
     benchmark::DoNotOptimize(SolveLegIk(postures.leg, postures.X_BSole[k++ % 1024]));
   }
 }
-BENCHMARK(BM_SolveLegIk);
+BENCHMARK_CAPTURE(BM_SolveLegIk, hrp2, "hrp2");
+BENCHMARK_CAPTURE(BM_SolveLegIk, wren, "wren");
+BENCHMARK_CAPTURE(BM_SolveLegIk, bison, "bison");
 
 void BM_SolveLegIkAll(benchmark::State& state) {
   const Postures postures;

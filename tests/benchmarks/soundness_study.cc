@@ -1,8 +1,9 @@
 // Whether what the query calls free is certified: random elements of the certified set at random
 // places among random boxes, cylinders, spheres and capsules.
-//   soundness_study [N [SEED]]     default: 100000 half-steps, seed 1
+//   soundness_study [N [SEED [ROBOT]]]     default: 100000 half-steps, seed 1, hrp2
 // Prints the figures of planner/README.md, "Swept volumes". Exit status 1: a contradiction. Swept
-// volumes of HRP-2 from the user's cache, baked when they are not there. Not a test.
+// volumes from the user's cache, baked when they are not there. Other robots than HRP-2 among
+// obstacles that are smaller or larger as their legs are. Not a test.
 
 #include <algorithm>
 #include <cstdio>
@@ -13,6 +14,7 @@
 #include "experiments/run/planning.h"
 #include "planner/swept/swept_volume_query.h"
 #include "tests/planner/swept_volume_draws.h"
+#include "tests/wpg/shipped_robots.h"
 
 namespace {
 
@@ -22,11 +24,11 @@ constexpr double kReach = 3.0;       // half the edge of the room [m]
 constexpr double kDisplaced = 0.05;  // of the control [m]
 constexpr int kHalfStepsInAScene = 200;
 
-Shape DrawShape(int kind, SweptDraw* draw) {
-  const double radius = draw->Uniform(0.02, 0.2), length = draw->Uniform(0.05, 1.0);
+Shape DrawShape(int kind, double size, SweptDraw* draw) {
+  const double radius = size * draw->Uniform(0.02, 0.2), length = size * draw->Uniform(0.05, 1.0);
   switch (kind) {
     case 0:
-      return Box{draw->Point({0.05, 0.05, 0.05}, {0.4, 0.4, 1.0})};
+      return Box{size * draw->Point({0.05, 0.05, 0.05}, {0.4, 0.4, 1.0})};
     case 1:
       return Cylinder{radius, length};
     case 2:
@@ -37,15 +39,17 @@ Shape DrawShape(int kind, SweptDraw* draw) {
 }
 
 // As many of each shape; every second one upright on the floor (a ball half sunk), the others
-// tilted, up to 0.8 m above it.
-Scene DrawMixed(int count, SweptDraw* draw) {
+// tilted, up to 0.8 m above it; all lengths times `size`.
+Scene DrawMixed(int count, double size, SweptDraw* draw) {
   Scene scene;
   for (int i = 0; i < count; ++i) {
     const bool upright = draw->Index(2) == 0;
     Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();
     X_WO.linear() = draw->Turn(upright);
-    X_WO.translation() = draw->Point({-kReach, -kReach, 0}, {kReach, kReach, upright ? 0.3 : 0.8});
-    scene.obstacles.push_back({"obstacle " + std::to_string(i), DrawShape(i % 4, draw), X_WO});
+    X_WO.translation() =
+        size * draw->Point({-kReach, -kReach, 0}, {kReach, kReach, upright ? 0.3 : 0.8});
+    scene.obstacles.push_back(
+        {"obstacle " + std::to_string(i), DrawShape(i % 4, size, draw), X_WO});
   }
   return scene;
 }
@@ -61,21 +65,23 @@ struct Counts {
 int main(int argc, char** argv) {
   const long wanted = argc > 1 ? std::atol(argv[1]) : 100000;
   SweptDraw draw(argc > 2 ? std::strtoul(argv[2], nullptr, 10) : 1);
+  const std::string name = argc > 3 ? argv[3] : "hrp2";
+  const RobotModel robot = ShippedRobot(name);
+  const double size = LegScale(robot);
   const ExperimentConfig config =
-      LoadConfig(HALFSTEP_SOURCE_DIR "/experiments/configs/island.yaml", {});
-  const RobotModel robot = LoadPlace(config).robot;
+      LoadConfig(HALFSTEP_SOURCE_DIR "/experiments/configs/island.yaml", {{"robot", name}});
   const BakedHalfSteps baked = BakeHalfSteps(robot, config, {});
   const SweptVolumes& volumes = *baked.cached.volumes;
   Counts n;
   while (n.asked < wanted) {
-    const Scene scene = DrawMixed(50, &draw);
+    const Scene scene = DrawMixed(50, size, &draw);
     const SweptVolumeQuery query(volumes, robot.sole_outline, scene);
     const HalfStepCertifier certifier(robot, scene, config);
     for (int k = 0; k < kHalfStepsInAScene && n.asked < wanted; ++k) {
       const int i = draw.Index(volumes.set.size());
       const bool down = draw.Index(2) == 0;
       const Side side = draw.AnySide();  // of the foot on which the element lands the other
-      const Footprint X_WS = draw.Floor(kReach);
+      const Footprint X_WS = draw.Floor(size * kReach);
       const auto free_at = [&](const Pose2& at) {
         return down ? query.DownIsFree(i, side, at) : query.UpIsFree(i, side, at);
       };
@@ -96,7 +102,7 @@ int main(int argc, char** argv) {
         n.certified_refused += certifier.Certifies(half_step, X_WSupport);
       }
       // A control: the same asked beside the place must be wrong now and then.
-      if (n.asked % 20 == 0 && free_at({X_WS.x + kDisplaced, X_WS.y, X_WS.yaw})) {
+      if (n.asked % 20 == 0 && free_at({X_WS.x + size * kDisplaced, X_WS.y, X_WS.yaw})) {
         ++n.controls;
         n.refuted_controls += !certifier.Certifies(half_step, X_WSupport);
       }
@@ -106,11 +112,12 @@ int main(int argc, char** argv) {
   const double refused_free = (1.0 - free_share) * static_cast<double>(n.certified_refused) /
                               static_cast<double>(std::max(n.refused, 1L));
   std::printf(
-      "%ld half-steps of %d elements, 50 obstacles: %ld called free, %ld of them not certified\n",
-      n.asked, volumes.set.size(), n.free, n.free - n.certified_free);
+      "%s: %ld half-steps of %d elements, 50 obstacles: %ld called free, %ld of them not "
+      "certified\n",
+      name.c_str(), n.asked, volumes.set.size(), n.free, n.free - n.certified_free);
   std::printf("of %ld refused ones looked at, %ld are certified: %.2f %% of what is free\n",
               n.refused, n.certified_refused, 100.0 * refused_free / (free_share + refused_free));
   std::printf("control: of %ld called free %.0f mm beside, %ld not certified\n", n.controls,
-              1e3 * kDisplaced, n.refuted_controls);
+              1e3 * size * kDisplaced, n.refuted_controls);
   return n.free == n.certified_free ? 0 : 1;
 }

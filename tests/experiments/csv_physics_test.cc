@@ -111,6 +111,15 @@ TEST(CsvPhysics, Hrp2) {
                LoadRobot((RobotsFolder() / "hrp2.yaml").string()));
 }
 
+TEST(CsvPhysics, OtherShippedRobots) {
+  for (const std::string name : {"wren", "bison"}) {
+    SCOPED_TRACE(name);
+    CheckPhysics(HALFSTEP_SOURCE_DIR "/experiments/configs/" + name + "_six_steps.yaml",
+                 {{"smoothing.methods", "[dichotomy, dichotomy/published]"}},
+                 LoadRobot((RobotsFolder() / (name + ".yaml")).string()));
+  }
+}
+
 class GeneratedRobotPhysics : public testing::TestWithParam<GeneratedRobot> {};
 INSTANTIATE_TEST_SUITE_P(Csv, GeneratedRobotPhysics, testing::ValuesIn(GeneratedRobots()),
                          [](const auto& info) { return info.param.name; });

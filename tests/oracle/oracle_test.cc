@@ -10,6 +10,7 @@
 #include "smoothing/walk/superposed_walk.h"
 #include "tests/oracle/judge.h"
 #include "tests/temporary_folder.h"
+#include "tests/wpg/shipped_robots.h"
 
 namespace halfstep::oracle {
 namespace {
@@ -66,12 +67,19 @@ TEST(ClosedFormWalkTest, AgreesWithTheProject) {
   }
 }
 
-TEST(PlainRobotTest, ReadsWhatTheProjectReads) {
-  const PlainRobot plain(kRobot);
-  const RobotModel robot = LoadRobot(kRobot);
+class PlainRobotTest : public testing::TestWithParam<std::string> {
+ protected:
+  const std::string path_ = HALFSTEP_SOURCE_DIR "/wpg/robots/" + GetParam() + ".yaml";
+};
+INSTANTIATE_TEST_SUITE_P(Robots, PlainRobotTest, testing::ValuesIn(kShippedRobots),
+                         [](const auto& info) { return info.param; });
+
+TEST_P(PlainRobotTest, ReadsWhatTheProjectReads) {
+  const PlainRobot plain(path_);
+  const RobotModel robot = LoadRobot(path_);
   EXPECT_NEAR(plain.waist_height, robot.waist_height, 1e-12);
   EXPECT_NEAR(plain.com_x, robot.com_x_B, 1e-12);
-  EXPECT_EQ(plain.com_height, robot.com_height);
+  EXPECT_NEAR(plain.com_height, robot.com_height, 1e-12);
   EXPECT_NEAR(plain.standing_width, robot.standing_width, 1e-12);
   ASSERT_EQ(plain.bodies.size(), robot.bodies.size());
   for (int leg = 0; leg < 2; ++leg) {
@@ -87,9 +95,9 @@ TEST(PlainRobotTest, ReadsWhatTheProjectReads) {
   }
 }
 
-TEST(PlainRobotTest, WatchesTheSamePairs) {
-  const PlainRobot plain(kRobot);
-  const RobotModel robot = LoadRobot(kRobot);
+TEST_P(PlainRobotTest, WatchesTheSamePairs) {
+  const PlainRobot plain(path_);
+  const RobotModel robot = LoadRobot(path_);
   std::set<std::set<std::string>> ours, theirs;
   for (const auto& [a, b] : plain.watched) {
     ours.insert(
@@ -102,8 +110,8 @@ TEST(PlainRobotTest, WatchesTheSamePairs) {
   EXPECT_EQ(ours, theirs);
 }
 
-TEST(PlainRobotTest, InverseKinematicsReachesTheSole) {
-  const PlainRobot robot(kRobot);
+TEST_P(PlainRobotTest, InverseKinematicsReachesTheSole) {
+  const PlainRobot robot(path_);
   Draw draw(3);
   for (int k = 0; k < 200; ++k) {
     const int leg = draw.Below(2);

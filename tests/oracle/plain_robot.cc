@@ -41,16 +41,18 @@ PlainRobot::PlainRobot(const std::string& yaml_path) {
   ChoosePairs();
   // What the model takes from the posture of standing.
   const std::vector<Eigen::Isometry3d> X = PlaceLinks({Standing(0), Standing(1)});
-  double mass = 0, moment = 0;
+  double mass = 0;
+  Eigen::Vector3d moment(0, 0, 0);
   for (size_t i = 0; i < links.size(); ++i) {
     mass += links[i].mass;
-    moment += links[i].mass * (X[i] * links[i].com).x();
+    moment += links[i].mass * (X[i] * links[i].com);
   }
-  com_x = moment / mass;
+  com_x = moment.x() / mass;
   const Eigen::Vector3d left = PlaceLeg(0, Standing(0))[6].translation();
   const Eigen::Vector3d right = PlaceLeg(1, Standing(1))[6].translation();
   waist_height = -0.5 * (left.z() + right.z());
   standing_width = left.y() - right.y();
+  if (com_height == 0.0) com_height = moment.z() / mass + waist_height;
 }
 
 int PlainRobot::LinkNamed(const std::string& name) const {
@@ -154,12 +156,19 @@ void PlainRobot::FindLegs() {
 }
 
 void PlainRobot::ReadMeshes(const std::string& folder) {
-  constexpr const char* kPackage = "package://hrp2_bodies/";
+  constexpr const char *kPackage = "package://", *kBodies = "_bodies/";
   for (size_t i = 0; i < links.size(); ++i) {
     const std::string& mesh = links[i].mesh;
     if (mesh.empty()) continue;
-    if (!mesh.starts_with(kPackage)) throw std::runtime_error("oracle: mesh " + mesh);
-    const std::string file = folder + "/hrp2/" + mesh.substr(std::string(kPackage).size());
+    // package://NAME_bodies/FILE is NAME/FILE beside the robot.
+    const size_t end = mesh.find(kBodies);
+    if (!mesh.starts_with(kPackage) || end == std::string::npos) {
+      throw std::runtime_error("oracle: mesh " + mesh);
+    }
+    const size_t begin = std::string(kPackage).size();
+    const std::string name = mesh.substr(begin, end - begin);
+    const std::string file =
+        folder + "/" + name + "/" + mesh.substr(end + std::string(kBodies).size());
     Body body{.name = links[i].name, .link = static_cast<int>(i), .points = {}};
     body.points = ObjPoints(ReadPlainFile(file));
     for (const Eigen::Vector3d& p : body.points) {

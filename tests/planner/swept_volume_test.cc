@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/planner/swept_volume_draws.h"
+#include "tests/wpg/shipped_robots.h"
 
 namespace halfstep {
 namespace {
@@ -34,6 +35,25 @@ TEST(SweptVolumeTest, ContainsTheRobotAndItsClearanceAtAllTimes) {
         0);
     EXPECT_EQ(CountOutside(*volumes.up[e], volumes.set.Up(i, Side::kRight), clearance, 1500, &draw),
               0);
+  }
+}
+
+TEST(SweptVolumeTest, ContainsOtherShippedRobots) {
+  for (const std::string name : {"wren", "bison"}) {
+    SCOPED_TRACE(name);
+    const RobotModel robot = ShippedRobot(name);
+    const double size = LegScale(robot);
+    const SweptVolumeOptions options{.cell = 0.03 * size, .displacement = 0.01 * size};
+    const SweptVolumeBaker baker(robot, options);
+    HalfStep half_step = FewHalfSteps().Down(0, Side::kLeft);
+    half_step.X_SF = {0.2 * size, -robot.standing_width - 0.05 * size, 0.25};
+    half_step.via_height = 0.2 * size;
+    half_step.via_lateral = 1.14 * robot.standing_width;
+    const auto tree = baker.Bake(half_step, LipmOf(robot));
+    ASSERT_TRUE(tree);
+    SweptDraw draw(6);
+    EXPECT_EQ(CountOutside(*tree, half_step, options.clearance, 1500, &draw, robot), 0);
+    EXPECT_GT(CountOutside(Eroded(*tree), half_step, options.clearance, 1500, &draw, robot), 15);
   }
 }
 

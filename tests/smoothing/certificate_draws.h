@@ -8,16 +8,19 @@
 #include "smoothing/proof/sampled_feasibility.h"
 #include "tests/smoothing/test_walks.h"
 #include "tests/wpg/generated_robots.h"
+#include "tests/wpg/shipped_robots.h"
 #include "wpg/geometry/footprint.h"
 
 namespace halfstep {
 
-/// HRP-2 and the three generated robots.
+/// HRP-2, the three generated robots, and the other shipped ones.
 inline std::vector<RobotModel> RobotsOfAllKinds() {
   std::vector<RobotModel> robots = {Hrp2()};
   for (const GeneratedRobot& robot : GeneratedRobots()) {
     robots.push_back(TemporaryRobot(robot).Load());
   }
+  robots.push_back(ShippedRobot("wren"));
+  robots.push_back(ShippedRobot("bison"));
   return robots;
 }
 
@@ -31,7 +34,8 @@ struct WalkVariety {
 /// A random plan of `steps` steps, scaled to a robot's legs, anywhere on the floor.
 inline HalfStepSequence DrawSequence(const RobotModel& robot, int steps, const WalkVariety& variety,
                                      WalkDraw* draw) {
-  const double size = robot.waist_height / 0.65, width = robot.standing_width;
+  const double hips = robot.waist_height + robot.legs[0].hip_B.z();
+  const double size = hips / 0.65, width = robot.standing_width;
   std::array<Footprint, 2> feet = {Pose2{0, 0.5 * width, 0}, Pose2{0, -0.5 * width, 0}};
   const std::array<Footprint, 2> start = feet;
   Side side = draw->Uniform(0, 1) < 0.5 ? Side::kLeft : Side::kRight;
@@ -58,35 +62,36 @@ inline HalfStepSequence DrawSequence(const RobotModel& robot, int steps, const W
 enum class SceneKind { kCylinders, kClutter, kFence };
 
 /// Obstacles of one kind around a walk's feet and legs: upright and lying cylinders of 1 to 3 cm,
-/// boxes at all heights, thin upright plates (0.1 mm to 2 cm) across.
-inline Scene DrawScene(const SuperposedWalk& walk, SceneKind kind, int count, WalkDraw* draw) {
+/// boxes at all heights, thin upright plates (0.1 mm to 2 cm) across; all times `size`.
+inline Scene DrawScene(const SuperposedWalk& walk, SceneKind kind, int count, WalkDraw* draw,
+                       double size = 1.0) {
   Scene scene;
   scene.name = "drawn";
   for (int i = 0; i < count; ++i) {
     const WalkState x = walk.At(draw->Uniform(0.0, walk.duration())).value;
     const Side side = draw->Uniform(0, 1) < 0.5 ? Side::kLeft : Side::kRight;
     const Footprint X_WF = FootPose(x, side);
-    const double r = draw->Uniform(0.0, 0.3), direction = draw->Uniform(-3.14, 3.14);
+    const double r = size * draw->Uniform(0.0, 0.3), direction = draw->Uniform(-3.14, 3.14);
     const Pose2 X_FO{r * std::cos(direction), r * std::sin(direction), draw->Uniform(-3.14, 3.14)};
     Obstacle obstacle{.name = "o" + std::to_string(i), .shape = Sphere{0.01}};
     double z = 0.0;
     switch (kind) {
       case SceneKind::kCylinders: {
-        const double height = draw->Uniform(0.01, 0.1);
-        obstacle.shape = Cylinder{draw->Uniform(0.01, 0.03), height};
+        const double height = size * draw->Uniform(0.01, 0.1);
+        obstacle.shape = Cylinder{size * draw->Uniform(0.01, 0.03), height};
         z = 0.5 * height;
         break;
       }
       case SceneKind::kClutter:
-        obstacle.shape =
-            MakeBox({draw->Uniform(0.02, 0.3), draw->Uniform(0.02, 0.3), draw->Uniform(0.02, 0.3)});
-        z = draw->Uniform(0.0, 0.7);
+        obstacle.shape = MakeBox({size * draw->Uniform(0.02, 0.3), size * draw->Uniform(0.02, 0.3),
+                                  size * draw->Uniform(0.02, 0.3)});
+        z = size * draw->Uniform(0.0, 0.7);
         break;
       case SceneKind::kFence: {
-        const double thickness = 1e-4 * std::pow(200.0, draw->Uniform(0, 1));
-        const double height = draw->Uniform(0.02, 0.12);
-        obstacle.shape = Box{{thickness, draw->Uniform(0.05, 0.6), height}};
-        z = 0.5 * height + (draw->Uniform(0, 1) < 0.3 ? draw->Uniform(0.0, 0.3) : 0.0);
+        const double thickness = size * 1e-4 * std::pow(200.0, draw->Uniform(0, 1));
+        const double height = size * draw->Uniform(0.02, 0.12);
+        obstacle.shape = Box{{thickness, size * draw->Uniform(0.05, 0.6), height}};
+        z = 0.5 * height + (draw->Uniform(0, 1) < 0.3 ? size * draw->Uniform(0.0, 0.3) : 0.0);
         break;
       }
     }
@@ -134,7 +139,7 @@ inline std::optional<DrawnWalk> DrawNearLimit(const RobotModel& robot, SceneKind
     farthest.overlaps[static_cast<size_t>(i)] =
         draw->Uniform(0.4, 1.0) * NaturalOverlapBound(sequence, farthest.durations, i);
   }
-  drawn.scene = DrawScene(SuperposedWalk(sequence, farthest), kind, 12, draw);
+  drawn.scene = DrawScene(SuperposedWalk(sequence, farthest), kind, 12, draw, LegScale(robot));
   for (;;) {  // without the obstacles that stand in the planned way
     const Feasibility answer = feasible(drawn.scene, planned, 0.02);
     if (answer.verdict == Verdict::kFeasible) break;

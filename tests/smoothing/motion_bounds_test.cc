@@ -75,13 +75,17 @@ WalkJet DrawMotion(const RobotModel& robot, WalkDraw* draw) {
   WalkJet jet;
   jet.value[kLeftY] = 0.5 * robot.standing_width;
   jet.value[kRightY] = -0.5 * robot.standing_width;
+  // A small robot's legs reach less far.
+  const double size = std::min(1.0, LegScale(robot));
   const double fast = draw->Uniform(0, 1), pushed = draw->Uniform(0, 1);
   for (int q = 0; q < kNumQuantities; ++q) {
     const bool yaw = q == kWaistYaw || q == kLeftYaw || q == kRightYaw;
     const bool height = q == kLeftZ || q == kRightZ;
-    jet.value[q] += height ? draw->Uniform(0.0, 0.2) : (yaw ? 3.0 : 1.0) * draw->Uniform(-0.2, 0.2);
-    if (draw->Uniform(0, 1) < 0.5) jet.first[q] = fast * draw->Uniform(-2, 2);
-    if (draw->Uniform(0, 1) < 0.5) jet.second[q] = pushed * draw->Uniform(-20, 20);
+    const double unit = yaw ? 1.0 : size;
+    jet.value[q] +=
+        height ? size * draw->Uniform(0.0, 0.2) : (yaw ? 3.0 : size) * draw->Uniform(-0.2, 0.2);
+    if (draw->Uniform(0, 1) < 0.5) jet.first[q] = unit * fast * draw->Uniform(-2, 2);
+    if (draw->Uniform(0, 1) < 0.5) jet.second[q] = unit * pushed * draw->Uniform(-20, 20);
   }
   return jet;
 }

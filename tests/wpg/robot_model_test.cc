@@ -16,7 +16,7 @@
 #include "tests/replaced.h"
 #include "tests/temporary_folder.h"
 #include "tests/wpg/generated_robots.h"
-#include "tests/wpg/hrp2.h"
+#include "tests/wpg/shipped_robots.h"
 #include "wpg/files/input_error.h"
 #include "wpg/robot/leg_ik.h"
 #include "wpg/robot/urdf_file.h"
@@ -66,6 +66,53 @@ TEST(Hrp2, HasThePublishedNumbers) {
   }
 }
 
+// The sole's centre lies `foot` from the ankle, seen from the right leg.
+void ExpectLengths(const RobotModel& robot, double hips, double thigh, double shank,
+                   const Vector3d& foot) {
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    const Leg& leg = robot.legs[static_cast<size_t>(Index(side))];
+    const Vector3d& knee = leg.joints[3].point_B;
+    EXPECT_NEAR(leg.hip_B.y(), 0.5 * Sign(side) * hips, 1e-12);
+    EXPECT_NEAR((leg.hip_B - knee).norm(), thigh, 1e-12);
+    EXPECT_NEAR((leg.ankle_B - knee).norm(), shank, 1e-12);
+    const Vector3d mirrored(foot.x(), -Sign(side) * foot.y(), foot.z());
+    EXPECT_LT((leg.X_BSole.translation() - leg.ankle_B - mirrored).norm(), 1e-12);
+  }
+}
+
+double HeightOf(const RobotModel& robot) {
+  double top = 0.0;
+  for (const RobotBody& body : robot.bodies) {
+    if (body.leg < 0) top = std::max(top, body.shape.vertices.row(2).maxCoeff());
+  }
+  return top - robot.legs[0].X_BSole.translation().z();  // legs stretched
+}
+
+TEST(Wren, HasThePublishedNumbers) {
+  const RobotModel robot = ShippedRobot("wren");
+  EXPECT_NEAR(robot.mass, 2.9, 0.03);
+  EXPECT_NEAR(HeightOf(robot), 0.4545, 0.0005);
+  EXPECT_EQ(robot.sole_size, Eigen::Vector2d(0.104, 0.066));
+  ExpectLengths(robot, 0.074, 0.093, 0.093, {0, -0.0105, -0.0335});
+  // Left pitch axes point the other way, so mirrored postures have opposite angles.
+  EXPECT_LT((robot.legs[0].standing_q + robot.legs[1].standing_q).norm(), 1e-12);
+}
+
+TEST(Bison, HasThePublishedNumbersAndAxesOfItsOwn) {
+  const RobotModel robot = ShippedRobot("bison");
+  EXPECT_NEAR(robot.mass, 95.0, 0.05);
+  EXPECT_NEAR(HeightOf(robot), 1.75, 0.02);
+  ExpectLengths(robot, 0.170, 0.380, 0.325, {0.002, 0, -0.107});
+  const std::array<Vector3d, 6> right = {-Vector3d::UnitX(), Vector3d::UnitZ(),
+                                         -Vector3d::UnitY(), Vector3d::UnitY(),
+                                         -Vector3d::UnitX(), -Vector3d::UnitY()};
+  for (size_t i = 0; i < 6; ++i) {
+    EXPECT_LT((robot.legs[1].joints[i].axis_B - right[i]).norm(), 1e-12) << i;
+    EXPECT_EQ(robot.legs[0].joints[i].lower, robot.legs[1].joints[i].lower) << i;
+  }
+  EXPECT_LT((robot.legs[0].standing_q - robot.legs[1].standing_q).norm(), 1e-12);
+}
+
 TEST(Hrp2, ComHeightOfTheModelWhenTheFileGivesNone) {
   const std::string folder = HALFSTEP_SOURCE_DIR "/wpg/robots/";
   std::ifstream file(kHrp2);
@@ -111,30 +158,48 @@ TEST(Hrp2, HeadIsOnTopAndHandsAreBesideTheWaist) {
   }
 }
 
-TEST(Hrp2, EveryTwoBodiesThatMoveAgainstEachOtherAreWatchedOrSaidNotToBe) {
-  const RobotModel robot = LoadRobot(kHrp2);
-  const auto names = [&](int a, int b) {
-    return std::pair(std::minmax(robot.bodies[static_cast<size_t>(a)].name,
-                                 robot.bodies[static_cast<size_t>(b)].name));
-  };
-  std::set<std::pair<std::string, std::string>> watched, moving;
-  for (const auto& [a, b] : robot.self_pairs) watched.insert(names(a, b));
-  std::map<std::pair<std::string, std::string>, std::string> unwatched;
-  for (const UnwatchedPair& pair : robot.unwatched_pairs) {
-    EXPECT_LT(pair.a, pair.b);
-    unwatched[names(pair.a, pair.b)] = pair.why;
-  }
-  for (size_t a = 0; a < robot.bodies.size(); ++a) {
-    for (size_t b = 0; b < a; ++b) {
-      const RobotBody &first = robot.bodies[a], &second = robot.bodies[b];
-      if (first.leg == second.leg && first.link == second.link) continue;
-      const auto pair = names(static_cast<int>(a), static_cast<int>(b));
-      EXPECT_NE(watched.contains(pair), unwatched.contains(pair)) << pair.first << pair.second;
-      moving.insert(pair);
+// Names of the bodies of all watched pairs, and of all others that move against each other with the
+// reason why not.
+using NamePair = std::pair<std::string, std::string>;
+struct WatchedPairs {
+  explicit WatchedPairs(const RobotModel& robot) {
+    const auto names = [&](int a, int b) {
+      return std::pair(std::minmax(robot.bodies[static_cast<size_t>(a)].name,
+                                   robot.bodies[static_cast<size_t>(b)].name));
+    };
+    for (const auto& [a, b] : robot.self_pairs) watched.insert(names(a, b));
+    for (const UnwatchedPair& pair : robot.unwatched_pairs) {
+      EXPECT_LT(pair.a, pair.b);
+      unwatched[names(pair.a, pair.b)] = pair.why;
     }
+    size_t moving = 0;
+    for (size_t a = 0; a < robot.bodies.size(); ++a) {
+      for (size_t b = 0; b < a; ++b) {
+        const RobotBody &first = robot.bodies[a], &second = robot.bodies[b];
+        if (first.leg == second.leg && first.link == second.link) continue;
+        const NamePair pair = names(static_cast<int>(a), static_cast<int>(b));
+        EXPECT_NE(watched.contains(pair), unwatched.contains(pair)) << pair.first << pair.second;
+        ++moving;
+      }
+    }
+    EXPECT_EQ(watched.size() + unwatched.size(), moving);
   }
-  EXPECT_EQ(watched.size() + unwatched.size(), moving.size());
-  EXPECT_EQ(watched.size(), robot.self_pairs.size());
+  std::set<NamePair> watched;
+  std::map<NamePair, std::string> unwatched;
+};
+
+TEST(ShippedRobots, EveryTwoBodiesThatMoveAgainstEachOtherAreWatchedOrSaidNotToBe) {
+  for (const std::string& name : kShippedRobots) {
+    SCOPED_TRACE(name);
+    const RobotModel robot = ShippedRobot(name);
+    const WatchedPairs pairs(robot);
+    EXPECT_EQ(pairs.watched.size(), robot.self_pairs.size());
+    EXPECT_EQ(pairs.unwatched.size(), 18u) << "of each leg: six joints, two at the hip, one ankle";
+  }
+}
+
+TEST(Hrp2, WatchesWhatItsLegsMayMeet) {
+  auto [watched, unwatched] = WatchedPairs(LoadRobot(kHrp2));
   for (const std::pair<std::string, std::string> pair :
        {std::pair{"LLEG_LINK5", "RLEG_LINK5"}, std::pair{"LARM_LINK5", "LLEG_LINK2"},
         std::pair{"LLEG_LINK1", "RLEG_LINK1"}, std::pair{"LLEG_LINK0", "RLEG_LINK0"},
@@ -149,7 +214,6 @@ TEST(Hrp2, EveryTwoBodiesThatMoveAgainstEachOtherAreWatchedOrSaidNotToBe) {
             "joined at the hip by RLEG_JOINT0 and RLEG_JOINT1");
   EXPECT_EQ((unwatched[{"LLEG_LINK3", "LLEG_LINK5"}]),
             "joined at the ankle by LLEG_JOINT4 and LLEG_JOINT5");
-  EXPECT_EQ(unwatched.size(), 18u) << "of each leg: six joints, two pairs at the hip, one ankle";
 }
 
 TEST(Hrp2, SoleOutlineIsTheFootsBottomOfBothFeet) {

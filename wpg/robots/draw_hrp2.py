@@ -1,20 +1,12 @@
 #!/usr/bin/env python3
 """Draws HRP-2: writes hrp2.urdf and the convex bodies hrp2/*.obj beside this file.
 
-Dimensions, masses and limits are the published numbers of the robot. The bodies are our own: each
-is the convex hull of a few chamfered rectangles, and fills the published extents of its link's hull
-exactly. Right limbs are drawn, left ones mirrored in y. Inertias are those of the bodies filled
-evenly with the link's mass; links without a body are taken as balls of water.
-
-Needs Python 3 only. Run again after changing a number; the output is the same byte for byte.
+Dimensions, masses and limits are the published numbers of the robot. The bodies are our own, and
+fill the published extents of their links' hulls exactly. How: draw_robot.py. Run again after
+changing a number.
 """
 
-import itertools
-import math
-import os
-
-HERE = os.path.dirname(os.path.abspath(__file__))
-WATER = 1000.0  # kg/m^3
+from draw_robot import Table, draw
 
 # Body: extents (min, max) [m] in its joint frame, then sections
 # (z, x0, x1, y0, y1, chamfer): rectangles with cut corners, stacked along z.
@@ -98,9 +90,8 @@ BODIES = {
         (0.035, -0.028, 0.034, -0.036, 0.022, 0.008)]),
 }
 
-# Joint: axis, parent link, translation [m], limits [deg], max speed [rad/s], mass [kg], CoM [m],
-# body. Limits and speeds of the upper body are not published with these numbers: it is rigid while
-# walking, and the values here only let its standing posture through.
+# Rows as in draw_robot.Table. Limits and speeds of the upper body are not published with these
+# numbers: it is rigid while walking, and the values here only let its standing posture through.
 FREE = (-180, 180, 5.0)
 LEG = [
     ("z", (0, -0.060, 0), (-45, 30, 3.54108), 1.23548, (-0.01070, 0.00461, 0.06745), "leg0"),
@@ -127,202 +118,19 @@ HEAD = [
     ("z", (-0.007, 0, 0.2973), FREE, 0.37477, (-0.00088, 0.00426, -0.00803), None),
     ("y", (0, 0, 0), FREE, 0.99335, (0.01299, 0.00009, 0.07876), "head1"),
 ]
-WAIST_MASS, WAIST_COM = 15.02949, (-0.01435, 0, 0.22308)
 
-
-def sub(a, b):
-    return tuple(p - q for p, q in zip(a, b))
-
-
-def dot(a, b):
-    return sum(p * q for p, q in zip(a, b))
-
-
-def cross(a, b):
-    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
-
-
-def section(z, x0, x1, y0, y1, c):
-    """Corners of a rectangle cut by c."""
-    if c == 0:
-        return [(x0, y0, z), (x1, y0, z), (x1, y1, z), (x0, y1, z)]
-    return [(x0 + c, y0, z), (x1 - c, y0, z), (x1, y0 + c, z), (x1, y1 - c, z),
-            (x1 - c, y1, z), (x0 + c, y1, z), (x0, y1 - c, z), (x0, y0 + c, z)]
-
-
-def hull(points):
-    """Extreme points and outward polygons (indices) of the convex hull: tries every plane."""
-    points = sorted(set(points))
-    flat = 1e-12
-    polygons = {}
-    for i, j, k in itertools.combinations(range(len(points)), 3):
-        normal = cross(sub(points[j], points[i]), sub(points[k], points[i]))
-        length = math.sqrt(dot(normal, normal))
-        if length < flat:
-            continue
-        normal = tuple(n / length for n in normal)
-        heights = [dot(normal, sub(p, points[i])) for p in points]
-        if max(heights) > 1e-9:
-            normal = tuple(-n for n in normal)
-            heights = [-h for h in heights]
-        if max(heights) > 1e-9:
-            continue
-        face = tuple(n for n, h in enumerate(heights) if h > -1e-9)
-        if face not in polygons:
-            polygons[face] = rim(points, face, normal)
-    used = sorted({v for polygon in polygons.values() for v in polygon})
-    index = {v: n for n, v in enumerate(used)}
-    faces = sorted([index[v] for v in polygon] for polygon in polygons.values())
-    return [points[v] for v in used], faces
-
-
-def rim(points, face, normal):
-    """The corners of a flat set of points, counter-clockwise about the normal."""
-    rest = list(face)
-    corner = min(rest, key=lambda v: points[v])
-    order = []
-    while not order or corner != order[0]:
-        order.append(corner)
-        following = next(v for v in rest if v != corner)
-        for v in rest:
-            if v in (corner, following):
-                continue
-            a, b = sub(points[following], points[corner]), sub(points[v], points[corner])
-            turn = dot(normal, cross(a, b))
-            if turn < -1e-12 or (abs(turn) <= 1e-12 and dot(b, b) > dot(a, a)):
-                following = v
-        corner = following
-    return order
-
-
-def draw(name):
-    low, high, sections = BODIES[name]
-    vertices, faces = hull([p for s in sections for p in section(*s)])
-    for axis in range(3):
-        values = [v[axis] for v in vertices]
-        assert (min(values), max(values)) == (low[axis], high[axis]), (name, axis)
-    assert 16 <= len(vertices) <= 56, (name, len(vertices))
-    return vertices, faces
-
-
-def triangles(faces):
-    return [(f[0], f[n], f[n + 1]) for f in faces for n in range(1, len(f) - 1)]
-
-
-def solid_inertia(vertices, faces, mass):
-    """Inertia (xx, xy, xz, yy, yz, zz) of the filled body about its own centroid."""
-    volume, first, second = 0.0, [0.0] * 3, [[0.0] * 3 for _ in range(3)]
-    for t in triangles(faces):
-        a, b, c = (vertices[v] for v in t)
-        v6 = dot(a, cross(b, c))
-        volume += v6 / 6
-        total = tuple(p + q + r for p, q, r in zip(a, b, c))
-        for m in range(3):
-            first[m] += v6 / 24 * total[m]
-            for n in range(3):
-                second[m][n] += v6 / 120 * (a[m] * a[n] + b[m] * b[n] + c[m] * c[n]
-                                            + total[m] * total[n])
-    centre = [f / volume for f in first]
-    s = [[mass * (second[m][n] / volume - centre[m] * centre[n]) for n in range(3)]
-         for m in range(3)]
-    return (s[1][1] + s[2][2], -s[0][1], -s[0][2], s[0][0] + s[2][2], -s[1][2], s[0][0] + s[1][1])
-
-
-def ball_inertia(mass):
-    radius = (3 * mass / (4 * math.pi * WATER)) ** (1 / 3)
-    i = 0.4 * mass * radius * radius
-    return (i, 0, 0, i, 0, i)
-
-
-def mirrored(vertices, faces):
-    return [(x, -y, z) for x, y, z in vertices], [f[::-1] for f in faces]
-
-
-def number(value):
-    return f"{value:.9g}" if value else "0"
-
-
-def numbers(values):
-    return " ".join(number(v) for v in values)
-
-
-def flip_y(v, side):
-    return (v[0], v[1] * side, v[2])
-
-
-class Robot:
-    """Gathers the URDF text, and writes bodies on the way."""
-
-    def __init__(self):
-        self.links, self.joints = [], []
-
-    def body(self, name, mesh, side):
-        vertices, faces = draw(name)
-        if side < 0:
-            vertices, faces = mirrored(vertices, faces)
-        with open(os.path.join(HERE, "hrp2", mesh + ".obj"), "w") as out:
-            out.write(f"# {mesh}: convex body of HRP-2 drawn by draw_hrp2.py [m]\n")
-            out.writelines(f"v {numbers(v)}\n" for v in vertices)
-            out.writelines(f"f {t[0] + 1} {t[1] + 1} {t[2] + 1}\n" for t in triangles(faces))
-        return vertices, faces
-
-    def link(self, name, mass, com, body=None, mesh=None, side=1):
-        inertia = ball_inertia(mass)
-        shape = ""
-        if body:
-            inertia = solid_inertia(*self.body(body, mesh, side), mass)
-            geometry = (f'<geometry><mesh filename="package://hrp2_bodies/{mesh}.obj"/>'
-                        "</geometry>")
-            shape = (f"    <visual>{geometry}</visual>\n"
-                     f"    <collision>{geometry}</collision>\n")
-        names = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
-        moments = " ".join(f'{n}="{number(round(i, 8))}"' for n, i in zip(names, inertia))
-        self.links.append(
-            f'  <link name="{name}">\n    <inertial>\n      <origin xyz="{numbers(com)}"/>\n'
-            f'      <mass value="{number(mass)}"/>\n      <inertia {moments}/>\n'
-            f"    </inertial>\n{shape}  </link>\n")
-
-    def joint(self, name, axis, parent, child, xyz, limits):
-        low, high, speed = limits
-        axis = {"x": "1 0 0", "y": "0 1 0", "z": "0 0 1"}[axis]
-        self.joints.append(
-            f'  <joint name="{name}" type="revolute">\n'
-            f'    <parent link="{parent}"/>\n    <child link="{child}"/>\n'
-            f'    <origin xyz="{numbers(xyz)}"/>\n    <axis xyz="{axis}"/>\n'
-            f'    <limit lower="{math.radians(low):.15g}" upper="{math.radians(high):.15g}" '
-            f'velocity="{speed:.6g}" effort="0"/>\n  </joint>\n')
-
-    def chain(self, prefix, parent, rows, side=1, suffix=""):
-        for n, (axis, xyz, (low, high, speed), mass, com, body) in enumerate(rows):
-            if side < 0 and axis != "y":
-                low, high = -high, -low
-            link = f"{prefix}_LINK{n}"
-            self.link(link, mass, flip_y(com, side), body, body and body + suffix, side)
-            self.joint(f"{prefix}_JOINT{n}", axis, parent, link, flip_y(xyz, side),
-                       (low, high, speed))
-            parent = link
-
-
-def main():
-    os.makedirs(os.path.join(HERE, "hrp2"), exist_ok=True)
-    robot = Robot()
-    robot.link("WAIST", WAIST_MASS, WAIST_COM, "waist", "waist")
-    robot.chain("CHEST", "WAIST", CHEST)
-    robot.chain("HEAD", "CHEST_LINK1", HEAD)
-    for name, side, suffix in (("R", 1, "_right"), ("L", -1, "_left")):
-        robot.chain(name + "LEG", "WAIST", LEG, side, suffix)
-        robot.chain(name + "ARM", "CHEST_LINK1", ARM, side, suffix)
-    with open(os.path.join(HERE, "hrp2.urdf"), "w") as out:
-        out.write('<?xml version="1.0"?>\n'
-                  "<!-- HRP-2. Written by draw_hrp2.py: change it there.\n"
-                  "     Frames are parallel at the zero posture, x forward, y left, z up; WAIST is\n"
-                  "     midway between the hips. Inertias are estimated from the bodies. Limits of\n"
-                  "     chest, head and arms and all efforts (0) are not published: not for use. -->\n"
-                  '<robot name="hrp2">\n')
-        out.writelines(robot.links)
-        out.writelines(robot.joints)
-        out.write("</robot>\n")
-
+TABLE = Table(
+    name="hrp2",
+    title="HRP-2",
+    comment="Frames are parallel at the zero posture, x forward, y left, z up; WAIST is\n"
+            "     midway between the hips. Inertias are estimated from the bodies. Limits of\n"
+            "     chest, head and arms and all efforts (0) are not published: not for use.",
+    bodies={body: sections for body, (_, _, sections) in BODIES.items()},
+    extents={body: (low, high) for body, (low, high, _) in BODIES.items()},
+    waist=("WAIST", 15.02949, (-0.01435, 0, 0.22308), "waist"),
+    middle=[("CHEST", "WAIST", CHEST), ("HEAD", "CHEST_LINK1", HEAD)],
+    sides=[("LEG", "WAIST", LEG), ("ARM", "CHEST_LINK1", ARM)],
+    names=lambda side, limb, n: (f"{side}{limb}_LINK{n}", f"{side}{limb}_JOINT{n}"))
 
 if __name__ == "__main__":
-    main()
+    draw(TABLE)
