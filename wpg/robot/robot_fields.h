@@ -40,6 +40,7 @@ struct RobotFile {
   std::vector<double> posture_deg;              ///< by URDF joint index
   std::vector<std::vector<double>> limits_deg;  ///< by URDF joint index; empty: the URDF's
   std::vector<ExcludedPair> excluded;
+  int hull_vertices = 64;  ///< at most, of a mesh's hull
 };
 
 /// Declares the keys of a robot file (wpg/README.md, "Robots") and reads the URDF on the way, since
