@@ -28,8 +28,9 @@ std::span<const CommandEntry> CommandEntries();
 
 /// Declares `--set KEY=VALUE`, repeatable, for the keys of `what`.
 void DeclareOverrides(CLI::App* app, const std::string& what, std::vector<std::string>* sets);
-/// Parses the assignments KEY=VALUE. Throws InputError for a text that is none.
-std::vector<YamlOverride> ParseOverrides(const std::vector<std::string>& sets);
+/// Parses the assignments KEY=VALUE of an option. Throws InputError for a text that is none.
+std::vector<YamlOverride> ParseOverrides(const std::vector<std::string>& sets,
+                                         const std::string& option = "--set");
 
 struct ExperimentConfig;
 struct RobotModel;
@@ -43,7 +44,7 @@ std::filesystem::path OutputFolder(const RunCommand& command, const ExperimentCo
 
 /// What of the robot's URDF and of the scene was repaired, left out or made larger, on standard
 /// error.
-void TellWarnings(const RobotModel& robot, const Scene& scene);
+void TellWarnings(const RobotModel& robot, const Scene& scene = {});
 
 CommandAction DeclareRun(CLI::App* app);
 CommandAction DeclareSmooth(CLI::App* app);
@@ -61,5 +62,6 @@ CommandAction DeclareReplay(CLI::App* app);
 CommandAction DeclareList(CLI::App* app);
 CommandAction DeclareLive(CLI::App* app);
 CommandAction DeclareRecover(CLI::App* app);
+CommandAction DeclareRobot(CLI::App* app);
 
 }  // namespace halfstep

@@ -74,6 +74,15 @@ std::array<Footprint, 2> StartOf(const ExperimentConfig& config, const RobotMode
   return {Pose2{0.0, y, 0.0}, Pose2{0.0, -y, 0.0}};
 }
 
+HalfStep PrototypeOf(const ExperimentConfig& config) {
+  HalfStep prototype;
+  prototype.duration = config.half_step.duration;
+  prototype.via_height = config.half_step.via_height;
+  prototype.via_lateral = config.half_step.via_lateral;
+  prototype.shape = ShapeOf(config.half_step);
+  return prototype;
+}
+
 Experiment Prepare(const ExperimentConfig& config) { return Prepare(config, LoadPlace(config)); }
 
 Experiment Prepare(const ExperimentConfig& config, Place place) {

@@ -41,6 +41,9 @@ Place LoadPlace(const ExperimentConfig& config);
 /// The soles at the start, by Index(Side).
 std::array<Footprint, 2> StartOf(const ExperimentConfig& config, const RobotModel& robot);
 
+/// The half-steps of a config without their place: duration, via point, shape.
+HalfStep PrototypeOf(const ExperimentConfig& config);
+
 /// Makes the experiment in a place that is loaded; without footsteps its sequence is empty.
 Experiment Prepare(const ExperimentConfig& config, Place place);
 /// The same, in the place that LoadPlace() loads. Throws InputError.

@@ -30,15 +30,6 @@ Termination StopOf(const PlannerConfig& config, const PlanningHooks& hooks) {
 
 }  // namespace
 
-HalfStep PrototypeOf(const ExperimentConfig& config) {
-  HalfStep prototype;
-  prototype.duration = config.half_step.duration;
-  prototype.via_height = config.half_step.via_height;
-  prototype.via_lateral = config.half_step.via_lateral;
-  prototype.shape = ShapeOf(config.half_step);
-  return prototype;
-}
-
 HalfStepCertifier::HalfStepCertifier(const RobotModel& robot, const Scene& scene,
                                      const ExperimentConfig& config)
     : lipm_{.com_height = robot.com_height},

@@ -14,9 +14,6 @@
 
 namespace halfstep {
 
-/// The half-steps of a config without their place: duration, via point, shape.
-HalfStep PrototypeOf(const ExperimentConfig& config);
-
 /// Proves one isolated half-step of a robot in a scene, its support sole at X_WS: every demanded
 /// margin for all t.
 class HalfStepCertifier {

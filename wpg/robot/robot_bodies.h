@@ -19,6 +19,7 @@ struct BodyRequest {
   std::map<std::string, std::string> packages;   ///< package name → folder.
   std::array<Eigen::Matrix3d, 2> R_FootSole;  ///< of the soles in the last links, by Index(Side).
   int hull_vertices = 64;                     ///< at most, of a mesh's hull.
+  bool dae_up_axis = false;                   ///< meshes in DAE are turned by their `up_axis`
 };
 
 /// Package names in the `package://` paths of the collision meshes, sorted.

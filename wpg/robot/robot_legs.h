@@ -27,14 +27,23 @@ struct LegRequest {
 std::optional<std::array<int, 6>> FindLegJoints(const UrdfTree& urdf, int waist, int foot,
                                                 Complaints* complaints);
 
-/// The leg with the common points of its hip and ankle axes. Complains and returns none when the
-/// closed-form inverse kinematics does not apply to it (see wpg/README.md), its standing posture is
-/// singular, or a joint's limits are more than a turn apart.
+/// The stretched length of a leg: hip over knee to ankle [m].
+double StretchedLength(const Leg& leg);
+
+/// The leg with the common points of its hip and ankle axes, without the branch of its standing
+/// posture. Complains and returns none when the closed-form inverse kinematics does not apply to it
+/// (see wpg/README.md), or a joint's limits are more than a turn apart.
+std::optional<Leg> LegGeometry(const UrdfTree& urdf, const LegRequest& request,
+                               const std::array<int, 6>& joints, Complaints* complaints);
+
+/// The same with that branch. Complains and returns none, too, when the standing posture is
+/// singular.
 std::optional<Leg> BuildLeg(const UrdfTree& urdf, const LegRequest& request,
                             const std::array<int, 6>& joints, Complaints* complaints);
 
 /// Why the right leg is not the left one's mirror image in the xz plane of the waist; "" when it
-/// is. Compared are hip and ankle, joint axes, limits and speeds (1e-6 m, 1e-6 rad, 1e-6 rad/s).
-std::string MirrorFault(const Leg& left, const Leg& right);
+/// is. Compared are hip and ankle, joint axes, limits and speeds, each to `tolerance` [m, rad,
+/// rad/s].
+std::string MirrorFault(const Leg& left, const Leg& right, double tolerance);
 
 }  // namespace halfstep

@@ -5,20 +5,6 @@
 namespace halfstep {
 namespace {
 
-// The moving joints on the way between two links.
-std::vector<int> JointsBetween(const UrdfTree& urdf, int a, int b) {
-  // links are sorted from the root: the later one is never above the earlier one.
-  std::vector<int> joints;
-  while (a != b) {
-    int& lower = a > b ? a : b;
-    const int index = urdf.links[static_cast<size_t>(lower)].joint;
-    const UrdfJoint& joint = urdf.joints[static_cast<size_t>(index)];
-    if (joint.kind != UrdfJoint::Kind::kFixed) joints.push_back(index);
-    lower = joint.parent;
-  }
-  return joints;
-}
-
 // "hip" or "ankle" when both joints are of one leg and their axes meet there, else "".
 std::string MeetingPoint(const std::vector<int>& joints,
                          const std::array<std::array<int, 6>, 2>& leg_joints) {
@@ -51,6 +37,19 @@ std::string WhyNotWatched(const UrdfTree& urdf, const std::vector<ExcludedPair>&
 }
 
 }  // namespace
+
+std::vector<int> JointsBetween(const UrdfTree& urdf, int a, int b) {
+  // links are sorted from the root: the later one is never above the earlier one.
+  std::vector<int> joints;
+  while (a != b) {
+    int& lower = a > b ? a : b;
+    const int index = urdf.links[static_cast<size_t>(lower)].joint;
+    const UrdfJoint& joint = urdf.joints[static_cast<size_t>(index)];
+    if (joint.kind != UrdfJoint::Kind::kFixed) joints.push_back(index);
+    lower = joint.parent;
+  }
+  return joints;
+}
 
 SelfPairs BuildSelfPairs(const UrdfTree& urdf, const std::vector<ExcludedPair>& excluded,
                          const LinkBodies& all,

@@ -1,0 +1,58 @@
+#include "experiments/survey/touching_neighbours.h"
+
+#include <algorithm>
+
+#include "experiments/survey/arm_posture.h"
+#include "wpg/files/text.h"
+#include "wpg/robot/self_pairs.h"
+
+namespace halfstep {
+namespace {
+
+// Those of the joints on the way between two links that move while walking.
+int LegJointsBetween(const UrdfTree& urdf, const FoundLegs& legs, const std::string& a,
+                     const std::string& b) {
+  int count = 0;
+  for (const int joint : JointsBetween(urdf, urdf.FindLink(a), urdf.FindLink(b))) {
+    for (const auto& leg : legs.joints) {
+      count += static_cast<int>(std::count(leg.begin(), leg.end(), joint));
+    }
+  }
+  return count;
+}
+
+bool Names(const ExcludedPair& pair, const std::string& a, const std::string& b) {
+  return (pair.links[0] == a && pair.links[1] == b) || (pair.links[0] == b && pair.links[1] == a);
+}
+
+}  // namespace
+
+bool AreOfBothLegs(const RobotModel& robot, const SelfGap& gap) {
+  const int a = robot.bodies[static_cast<size_t>(gap.a)].leg;
+  const int b = robot.bodies[static_cast<size_t>(gap.b)].leg;
+  return a >= 0 && b >= 0 && a != b;
+}
+
+std::vector<ExcludedPair> NeighboursThatTouch(const UrdfTree& urdf, const FoundLegs& legs,
+                                              const std::vector<double>& posture,
+                                              const RobotModel& robot, const SelfGaps& gaps) {
+  const std::vector<bool> of_limb = BodiesOfLimbs(urdf, legs.waist, posture, robot);
+  std::vector<ExcludedPair> excluded;
+  for (const SelfGap& gap : gaps.Nearer(kTouchByDesign)) {
+    const auto a = static_cast<size_t>(gap.a), b = static_cast<size_t>(gap.b);
+    if (AreOfBothLegs(robot, gap) || of_limb[a] || of_limb[b]) continue;
+    const auto link = [&](size_t body) {
+      return robot.bodies[body].name.substr(0, robot.bodies[body].name.find('#'));
+    };
+    const int joints = LegJointsBetween(urdf, legs, link(a), link(b));
+    if (joints > 2 && gap.standing >= kTouchByDesign) continue;
+    const auto is_there = [&](const ExcludedPair& pair) { return Names(pair, link(a), link(b)); };
+    if (std::any_of(excluded.begin(), excluded.end(), is_there)) continue;
+    excluded.push_back({{link(a), link(b)},
+                        Formatted("%d joints apart, %.1f mm standing, %.1f mm in six steps", joints,
+                                  1e3 * gap.standing, 1e3 * gap.least)});
+  }
+  return excluded;
+}
+
+}  // namespace halfstep
