@@ -18,7 +18,10 @@
 #include "tests/wpg/generated_robots.h"
 #include "tests/wpg/shipped_robots.h"
 #include "wpg/files/input_error.h"
+#include "wpg/files/text.h"
 #include "wpg/robot/leg_ik.h"
+#include "wpg/robot/robot_fields.h"
+#include "wpg/robot/sole_outline.h"
 #include "wpg/robot/urdf_file.h"
 
 namespace halfstep {
@@ -454,6 +457,40 @@ class RobotFixture : public testing::TestWithParam<std::string> {};
 TEST_P(RobotFixture, IsRefusedWithItsComplaints) { CheckFixture(GetParam(), LoadRobot); }
 
 INSTANTIATE_TEST_SUITE_P(Yaml, RobotFixture, testing::ValuesIn(Fixtures("robot")), FixtureName);
+
+// Half as many vertices as its hulls have; the feet stand where they stood.
+TEST(RobotModel, HullsWithTooManyVerticesBecomeSimplerOnesAroundThem) {
+  const RobotModel whole = Hrp2();
+  EXPECT_TRUE(whole.warnings.empty()) << "shipped hulls stay as they are";
+  std::ifstream file(kHrp2);
+  std::string yaml{std::istreambuf_iterator<char>(file), {}};
+  yaml = Replaced(yaml, "name: hrp2", "name: hrp2\nhull_vertices: 24");
+  const RobotModel simple = BuildRobot(kHrp2, yaml, ReadRobotFile(kHrp2, yaml));
+  ASSERT_EQ(simple.bodies.size(), whole.bodies.size());
+  double largest = 0;
+  int simplified = 0;
+  for (size_t b = 0; b < whole.bodies.size(); ++b) {
+    const ConvexBody &before = whole.bodies[b].shape, &after = simple.bodies[b].shape;
+    EXPECT_LE(after.vertices.cols(), 24);
+    EXPECT_EQ(whole.bodies[b].mesh_vertices, 0);
+    if (simple.bodies[b].mesh_vertices == 0) continue;
+    ++simplified;
+    EXPECT_EQ(simple.bodies[b].mesh_vertices, before.vertices.cols());
+    largest = std::max(largest, simple.bodies[b].excess);
+    for (int k = 0; k < 27; ++k) {
+      if (k == 13) continue;
+      const Vector3d d = Vector3d(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1).normalized();
+      EXPECT_GE(Support(after, d), Support(before, d) - 1e-14);
+      EXPECT_LE(Support(after, d), Support(before, d) + simple.bodies[b].excess + 1e-14);
+    }
+  }
+  EXPECT_GT(simplified, 10);
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    EXPECT_NEAR(DepthBelowSole(simple, side), DepthBelowSole(whole, side), 1e-12);
+  }
+  ASSERT_EQ(simple.warnings.size(), 1u);
+  EXPECT_THAT(simple.warnings[0], HasSubstr(Formatted("at most %.2g mm larger", 1e3 * largest)));
+}
 
 // What no leg needs is a warning; the same in a leg is refused.
 TEST(RobotModel, AJointThatCannotMoveMattersInALegOnly) {

@@ -174,15 +174,38 @@ class Builder {
     body_.waist = leg_.waist;
     body_.posture = leg_.posture;
     body_.packages = file_.packages;
+    body_.hull_vertices = file_.hull_vertices;
+    for (size_t side = 0; side < 2; ++side) {
+      const Leg& leg = model_.legs[side];
+      body_.R_FootSole[side] = leg.joints[5].X_BLink.linear().transpose() * leg.X_BSole.linear();
+    }
     body_.dae_up_axis = file_.dae_up_axis == "applied";
     LinkBodies all = BuildBodies(urdf_, body_, complaints_);
     SelfPairs pairs = BuildSelfPairs(urdf_, file_.excluded, all, body_.leg_joints);
     model_.self_pairs = std::move(pairs.watched);
     model_.unwatched_pairs = std::move(pairs.unwatched);
     model_.bodies = std::move(all.bodies);
+    TellSimplified();
     model_.files = std::move(all.meshes);
     model_.sole_outline = SoleOutline(model_);
     CheckSoles();
+  }
+
+  void TellSimplified() {
+    int count = 0;
+    const RobotBody* largest = nullptr;
+    for (const RobotBody& body : model_.bodies) {
+      if (body.mesh_vertices == 0) continue;
+      ++count;
+      if (largest == nullptr || body.excess > largest->excess) largest = &body;
+    }
+    if (count == 0) return;
+    model_.warnings.push_back(
+        urdf_.file + ": " + std::to_string(count) + " of " + std::to_string(model_.bodies.size()) +
+        " bodies are meshes whose hull has more than " + std::to_string(file_.hull_vertices) +
+        " vertices; they get simpler hulls around these, at most " +
+        Formatted("%.2g", 1e3 * largest->excess) + " mm larger (" + largest->name + ", " +
+        std::to_string(largest->mesh_vertices) + " vertices; `hull_vertices` of the robot file)");
   }
 
   void CheckSoles() {

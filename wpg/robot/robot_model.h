@@ -51,6 +51,9 @@ struct RobotBody {
   int leg = -1;      ///< Index(Side) of the leg that it belongs to, or −1: rigid with the waist.
   int link = -1;     ///< 0 … 5: moved by joints[0 … link] of that leg; −1 on the waist.
   ConvexBody shape;  ///< in the frame of its link (leg) or of the waist.
+  /// Of the hull of its mesh, when `shape` is a simpler hull around that; else 0.
+  int mesh_vertices = 0;
+  double excess = 0.0;  ///< no point of `shape` is farther than this from that hull [m].
 };
 
 /// Two bodies that move relative to each other and whose distance is not watched.
