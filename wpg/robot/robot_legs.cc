@@ -7,7 +7,9 @@
 #include <cstdio>
 #include <numbers>
 
+#include "wpg/robot/leg_continuation.h"
 #include "wpg/robot/leg_ik.h"
+#include "wpg/robot/leg_neighbourhood.h"
 
 namespace halfstep {
 namespace {
@@ -37,15 +39,16 @@ double DistanceToAxis(const LegJoint& joint, const Vector3d& point) {
   return (point - joint.point_B).cross(joint.axis_B).norm();
 }
 
-// The point nearest to all axes, by least squares.
-Vector3d NearestPoint(const std::vector<const LegJoint*>& joints) {
+// The point nearest to lines through `points` along unit `axes`, by weighted least squares.
+Vector3d NearestPoint(const std::vector<Vector3d>& axes, const std::vector<Vector3d>& points,
+                      const std::vector<double>& weights) {
   Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
   Vector3d b = Vector3d::Zero();
-  for (const LegJoint* joint : joints) {
+  for (size_t i = 0; i < axes.size(); ++i) {
     const Eigen::Matrix3d off_axis =
-        Eigen::Matrix3d::Identity() - joint->axis_B * joint->axis_B.transpose();
+        weights[i] * (Eigen::Matrix3d::Identity() - axes[i] * axes[i].transpose());
     A += off_axis;
-    b += off_axis * joint->point_B;
+    b += off_axis * points[i];
   }
   return A.completeOrthogonalDecomposition().solve(b);
 }
@@ -67,18 +70,26 @@ class LegChecker {
     ok_ = false;
   }
 
-  // The common point of the axes `first` … `first + count − 1`.
-  Vector3d CommonPoint(const Leg& leg, size_t first, size_t count, const std::string& which,
-                       const std::string& need) {
+  // The point nearest to the axes `first` … `first + count − 1`. Tells the leg which of them miss
+  // each other.
+  Vector3d NearestPointOf(Leg* leg, size_t first, size_t count, const std::string& which) {
     std::vector<const LegJoint*> joints;
-    for (size_t i = first; i < first + count; ++i) joints.push_back(&leg.joints[i]);
-    const bool ok_before = ok_;
+    std::vector<Vector3d> axes, points;
+    for (size_t i = first; i < first + count; ++i) {
+      joints.push_back(&leg->joints[i]);
+      axes.push_back(joints.back()->axis_B);
+      points.push_back(joints.back()->point_B);
+    }
+    std::string misses;
+    const auto miss = [&misses](const std::string& what) {
+      misses += (misses.empty() ? "" : ", ") + what;
+    };
     for (size_t i = 0; i < count; ++i) {
       for (size_t k = i + 1; k < count; ++k) {
         const double distance = AxisDistance(*joints[i], *joints[k]);
         if (distance > kMeeting) {
-          Complain(first + k, which + " axes " + joints[i]->name + " and " + joints[k]->name +
-                                  " pass each other at " + Millimetres(distance) + "; " + need);
+          miss(which + " axes " + joints[i]->name + " and " + joints[k]->name +
+               " pass each other at " + Millimetres(distance));
         }
       }
       if (i > 0 && AreParallel(*joints[i - 1], *joints[i])) {
@@ -86,14 +97,15 @@ class LegChecker {
                                 " are parallel: they cannot turn the foot every way");
       }
     }
-    const Vector3d point = NearestPoint(joints);
-    for (size_t i = 0; i < count && ok_ == ok_before && ok_; ++i) {
+    const Vector3d point = NearestPoint(axes, points, std::vector<double>(count, 1.0));
+    for (size_t i = 0; i < count && misses.empty() && ok_; ++i) {
       const double distance = DistanceToAxis(*joints[i], point);
       if (distance > kMeeting) {
-        Complain(first + i, which + " axes meet in pairs but not in one point: " + joints[i]->name +
-                                " misses it by " + Millimetres(distance) + "; " + need);
+        miss(which + " axes meet in pairs but not in one point: " + joints[i]->name +
+             " misses it by " + Millimetres(distance));
       }
     }
+    if (!misses.empty()) leg->offsets += (leg->offsets.empty() ? "" : ", ") + misses;
     return point;
   }
 
@@ -103,6 +115,50 @@ class LegChecker {
   Complaints* complaints_;
   bool ok_ = true;
 };
+
+// The leg with hip and ankle axes moved in parallel so that they meet, and the same frames of knee
+// and sole in the standing posture. There they meet where the axes that are parallel to the knee's
+// pass, for these turn most while walking; the others less so are weighed less.
+Leg WithAxesThatMeet(const Leg& leg) {
+  const LegFrames at = PlaceLeg(leg, leg.standing_q);
+  const auto meeting = [&](size_t first, size_t count) {
+    std::vector<Vector3d> axes, points;
+    std::vector<double> weights;
+    for (size_t i = first; i < first + count; ++i) {
+      axes.push_back(at.axis_B[i]);
+      points.push_back(at.point_B[i]);
+      weights.push_back(0.01 + std::pow(at.axis_B[i].dot(at.axis_B[3]), 2));
+    }
+    return NearestPoint(axes, points, weights);
+  };
+  const auto turn = [&](size_t link) {  // from q = 0 to standing
+    return Eigen::Matrix3d(at.X_BLink[link].linear() *
+                           leg.joints[link].X_BLink.linear().transpose());
+  };
+  const Vector3d hip = meeting(0, 3), knee = at.point_B[3], ankle = meeting(4, 2);
+  const Vector3d sole = at.X_BLink[6].translation();
+  Leg met = leg;
+  met.met.clear();
+  met.offsets.clear();
+  met.hip_B = hip;
+  const Vector3d knee_B = hip + turn(2).transpose() * (knee - hip);
+  met.ankle_B = knee_B + turn(3).transpose() * (ankle - knee);
+  met.X_BSole.translation() = met.ankle_B + turn(5).transpose() * (sole - ankle);
+  for (size_t i = 0; i < 6; ++i) {
+    met.joints[i].point_B = i < 3 ? met.hip_B : i == 3 ? knee_B : met.ankle_B;
+  }
+  met.branch = LegBranchOf(met, met.standing_q);
+  return met;
+}
+
+// Whether the leg provably follows its sole by 1 mm any way from the standing posture: the least
+// that intervals of a walk ask of it.
+bool CanFollow(const Leg& leg) {
+  constexpr double kLeast = 0.001;  // [m]
+  const auto near = LegNeighbourhood::Around(leg, leg.standing_q);
+  return near && near->Ways(near->Asked(0.0, kLeast)) &&
+         ContinueLeg(leg, near->X_BSole()).arrived;
+}
 
 }  // namespace
 
@@ -169,10 +225,8 @@ std::optional<Leg> BuildLeg(const UrdfTree& urdf, const LegRequest& request,
   leg.X_BSole = X_BRoot * X[static_cast<size_t>(request.foot)] * request.X_FootSole;
 
   LegChecker check(urdf, indices, complaints);
-  leg.hip_B = check.CommonPoint(leg, 0, 3, "hip",
-                                "a closed-form leg needs all three hip axes through one point");
-  leg.ankle_B = check.CommonPoint(leg, 4, 2, "ankle",
-                                  "a closed-form leg needs both ankle axes through one point");
+  leg.hip_B = check.NearestPointOf(&leg, 0, 3, "hip");
+  leg.ankle_B = check.NearestPointOf(&leg, 4, 2, "ankle");
   const LegJoint& knee = leg.joints[3];
   for (const auto& [point, which] :
        {std::pair{leg.hip_B, "hip"}, std::pair{leg.ankle_B, "ankle"}}) {
@@ -190,7 +244,18 @@ std::optional<Leg> BuildLeg(const UrdfTree& urdf, const LegRequest& request,
                    "ankle axes aligned): bend it there");
     return std::nullopt;
   }
-  leg.branch = LegBranchOf(leg, leg.standing_q);
+  if (leg.offsets.empty()) {
+    leg.branch = LegBranchOf(leg, leg.standing_q);
+    return leg;
+  }
+  leg.met.push_back(WithAxesThatMeet(leg));
+  if (!CanFollow(leg)) {
+    check.Complain(2, leg.offsets +
+                          "; so there is no closed form for the leg's joints, and in the standing "
+                          "posture it is too near to a singularity for a proof without: bend it "
+                          "more there");
+    return std::nullopt;
+  }
   return leg;
 }
 

@@ -27,9 +27,10 @@ struct LegRequest {
 std::optional<std::array<int, 6>> FindLegJoints(const UrdfTree& urdf, int waist, int foot,
                                                 Complaints* complaints);
 
-/// The leg with the common points of its hip and ankle axes. Complains and returns none when the
-/// closed-form inverse kinematics does not apply to it (see wpg/README.md), its standing posture is
-/// singular, or a joint's limits are more than a turn apart.
+/// The leg with the points nearest to its hip and ankle axes, and with the sentence `offsets` where
+/// these do not meet. Complains and returns none when the leg cannot be moved (see wpg/README.md),
+/// its standing posture is singular or too near to it for a proof, or a joint's limits are more than
+/// a turn apart.
 std::optional<Leg> BuildLeg(const UrdfTree& urdf, const LegRequest& request,
                             const std::array<int, 6>& joints, Complaints* complaints);
 

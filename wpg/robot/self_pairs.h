@@ -23,6 +23,7 @@ struct SelfPairs {
 /// that point and overlap.
 SelfPairs BuildSelfPairs(const UrdfTree& urdf, const std::vector<ExcludedPair>& excluded,
                          const LinkBodies& all,
-                         const std::array<std::array<int, 6>, 2>& leg_joints);
+                         const std::array<std::array<int, 6>, 2>& leg_joints,
+                         const std::array<Leg, 2>& legs);
 
 }  // namespace halfstep
