@@ -41,6 +41,11 @@ constexpr CommandEntry kEntries[] = {
      "Prove the walks of a run for all time and write the certificates.\n\n"
      "  example: halfstep certify runs/bar_8cm --set smoothing.resolution_s=1e-5",
      DeclareCertify},
+    {"robot",
+     "Make a robot file of a URDF, and walk six steps with it.\n\n"
+     "  example: halfstep robot wpg/robots/hrp2.urdf --package hrp2_bodies=wpg/robots/hrp2 "
+     "--out runs/guess.yaml",
+     DeclareRobot},
     {"verify",
      "Check a run's certificates independently: played motion, forward kinematics, distances\n"
      "of its own; none of the code that smoothed. Exit status 3 when it disagrees, 4 when the\n"
@@ -89,13 +94,16 @@ void DeclareOverrides(CLI::App* app, const std::string& what, std::vector<std::s
       ->allow_extra_args(false);
 }
 
-std::vector<YamlOverride> ParseOverrides(const std::vector<std::string>& sets) {
+std::vector<YamlOverride> ParseOverrides(const std::vector<std::string>& sets,
+                                         const std::string& option) {
   std::vector<YamlOverride> overrides;
   for (const std::string& text : sets) {
     const size_t equals = text.find('=');
     if (equals == std::string::npos || equals == 0) {
       throw InputError(
-          {"--set " + text + ": not an assignment (valid: --set smoothing.sampling_s=0.002)"});
+          {option + " " + text + ": not an assignment (valid: " +
+           (option == "--set" ? "--set smoothing.sampling_s=0.002" : option + " NAME=VALUE") +
+           ")"});
     }
     overrides.push_back({text.substr(0, equals), text.substr(equals + 1)});
   }

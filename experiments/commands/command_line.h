@@ -27,8 +27,9 @@ std::span<const CommandEntry> CommandEntries();
 
 /// Declares `--set KEY=VALUE`, repeatable, for the keys of `what`.
 void DeclareOverrides(CLI::App* app, const std::string& what, std::vector<std::string>* sets);
-/// Parses the assignments KEY=VALUE. Throws InputError for a text that is none.
-std::vector<YamlOverride> ParseOverrides(const std::vector<std::string>& sets);
+/// Parses the assignments KEY=VALUE of an option. Throws InputError for a text that is none.
+std::vector<YamlOverride> ParseOverrides(const std::vector<std::string>& sets,
+                                         const std::string& option = "--set");
 
 struct ExperimentConfig;
 struct RobotModel;
@@ -59,5 +60,6 @@ CommandAction DeclareReplay(CLI::App* app);
 CommandAction DeclareList(CLI::App* app);
 CommandAction DeclareLive(CLI::App* app);
 CommandAction DeclareRecover(CLI::App* app);
+CommandAction DeclareRobot(CLI::App* app);
 
 }  // namespace halfstep

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "experiments/run/exit_status.h"
+#include "experiments/survey/robot_survey.h"
 #include "wpg/files/yaml_fields.h"
 
 namespace halfstep {
@@ -44,6 +45,18 @@ struct RecoverCommand {
 /// `halfstep recover`: writes the folder of an episode whose process was killed, from what it left
 /// (EpisodeJournal). Throws as Run.
 ExitStatus Recover(const RecoverCommand& command);
+
+struct RobotCommand {
+  SurveyRequest survey;
+  std::optional<std::string> out;  ///< the robot file; none: NAME.yaml
+  bool overwrite = false;
+  bool quiet = false;
+};
+
+/// `halfstep robot`: a robot file of a URDF, a picture and the config of six steps beside it, and
+/// what became of the six steps. kFailed when they are not certified; the files stand all the same.
+/// Throws InputError for a URDF that is no robot of the class; then nothing is written.
+ExitStatus SurveyRobotFile(const RobotCommand& command);
 
 struct SmoothCommand {
   RunCommand run;                    ///< `config` may be a run folder too; then its config.yaml
@@ -151,7 +164,8 @@ struct SweepCommand {
 int Sweep(const SweepCommand& command);
 
 struct ExplainCommand {
-  std::string key;  ///< a key, or the end of one; "": all keys
+  std::string key;    ///< a key, or the end of one; "": all keys
+  std::string robot;  ///< name or path of a robot whose defaults are told; "": their formulas
   bool json_schema = false, markdown = false;
 };
 

@@ -5,11 +5,14 @@
 
 #include "experiments/commands/command_line.h"
 #include "experiments/commands/commands.h"
+#include "experiments/config/experiment.h"
 #include "experiments/config/experiment_config.h"
 #include "experiments/config/key_tables.h"
+#include "experiments/config/scaled_defaults.h"
 #include "experiments/live/live_config.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/text.h"
+#include "wpg/robot/robot_measures.h"
 
 namespace halfstep {
 namespace {
@@ -48,6 +51,11 @@ ExitStatus ExplainConfig(const ExplainCommand& command) {
   std::vector<KeyDescription> keys = ConfigKeys();
   // The keys of an episode are searched by name only: a run has no `live`.
   if (!command.key.empty()) keys = EpisodeKeys();
+  if (!command.robot.empty()) {
+    ExperimentConfig config;
+    config.robot = command.robot;
+    DescribeScaling(MeasureRobot(RobotPath(config).string()), &keys);
+  }
   if (!command.key.empty()) {
     std::vector<KeyDescription> found;
     std::vector<std::string> paths;
@@ -69,6 +77,8 @@ ExitStatus ExplainConfig(const ExplainCommand& command) {
 CommandAction DeclareExplain(CLI::App* app) {
   const auto command = std::make_shared<ExplainCommand>();
   app->add_option("KEY", command->key, "a key or its last part (default: all)");
+  app->add_option("--robot", command->robot,
+                  "name or file of a robot: shows the defaults that go by its size");
   app->add_flag("--json-schema", command->json_schema, "print a JSON schema, for editors");
   app->add_flag("--markdown", command->markdown, "print a Markdown table");
   return [command] { return ExplainConfig(*command); };

@@ -50,7 +50,7 @@ std::vector<Entry> Entries(const std::string& what) {
   if (what == "scenes") return FilesOf(ScenesFolder());
   if (what == "solvers") return Solvers();
   if (what == "planners") return Planners();
-  std::vector<Entry> entries = {{"raw", "the planned motion itself; written by every run"}};
+  std::vector<Entry> entries;
   for (const auto& smoother : Smoothers()) {
     entries.push_back({smoother->name(), smoother->meaning()});
   }

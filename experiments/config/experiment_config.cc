@@ -5,9 +5,12 @@
 
 #include "experiments/config/experiment.h"
 #include "experiments/config/folder_name.h"
+#include "experiments/config/scaled_defaults.h"
 #include "smoothing/margins/family_traits.h"
 #include "smoothing/methods/smoother_registry.h"
+#include "wpg/files/input_error.h"
 #include "wpg/files/text.h"
+#include "wpg/robot/robot_measures.h"
 
 namespace halfstep {
 namespace {
@@ -54,7 +57,7 @@ void DeclareHalfStep(Fields& fields, HalfStepConfig* c) {
   fields.Number("via_lateral_m", &c->via_lateral,
                 {.meaning = "distance of the via point from the support sole's centre",
                  .unit = "m",
-                 .min = 0.05,
+                 .min = 0.01,
                  .max = 1});
   fields.Number(
       "horizontal_delay", &c->horizontal_delay,
@@ -247,6 +250,14 @@ void DeclareSmoothing(Fields& fields, SmoothingConfig* c) {
                [&](Fields& f) { DeclareMargins(f, &c->limits); });
 }
 
+void ScaleDefaultsForRobot(const std::string& directory, ExperimentConfig* c) {
+  c->directory = directory;
+  try {
+    ScaleDefaults(MeasureRobot(RobotPath(*c).string()), c);
+  } catch (const InputError&) {
+  }
+}
+
 void DeclareStart(Fields& fields, ExperimentConfig* c) {
   fields.OptionalGroup(
       "start", &c->has_start,
@@ -273,6 +284,8 @@ void DeclareFields(Fields& fields, ExperimentConfig* c) {
       "robot", &c->robot,
       {.meaning = "a shipped robot's name (`halfstep list robots`), or the path of a robot file",
        .required = true});
+  // Whatever is wrong with the robot is told when it is loaded.
+  if (!c->robot.empty() && !fields.Keys().empty()) ScaleDefaultsForRobot(fields.directory(), c);
   fields.Text("scene", &c->scene,
               {.meaning = "path of a scene file, or `none`: an empty floor", .required = true});
   DeclareStart(fields, c);
@@ -350,7 +363,10 @@ std::vector<FixedParameter> FixedParameters(const SmoothingConfig& config) {
 
 std::vector<KeyDescription> ConfigKeys() {
   ExperimentConfig config;
-  return DescribeKeys([&config](Fields& fields) { DeclareFields(fields, &config); });
+  std::vector<KeyDescription> keys =
+      DescribeKeys([&config](Fields& fields) { DeclareFields(fields, &config); });
+  DescribeScaling(&keys);
+  return keys;
 }
 
 ExperimentConfig LoadConfig(const std::string& path, const std::vector<YamlOverride>& overrides) {

@@ -94,7 +94,7 @@ void DeclareFilesThere(Fields& fields, const ExperimentConfig& config);
 /// The parameters that a config fixes. Precondition: each names a family, which reading ensures.
 std::vector<FixedParameter> FixedParameters(const SmoothingConfig& config);
 
-/// The keys that DeclareFields declares, as data.
+/// The keys that DeclareFields declares, as data; defaults that go by the robot as formulas.
 std::vector<KeyDescription> ConfigKeys();
 
 /// Reads a config file strictly. Throws InputError with every complaint at once.

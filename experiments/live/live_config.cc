@@ -4,6 +4,8 @@
 #include <array>
 #include <filesystem>
 
+#include "experiments/config/scaled_defaults.h"
+
 namespace halfstep {
 namespace {
 
@@ -163,7 +165,10 @@ void DeclareFields(Fields& fields, LiveConfig* config) {
 
 std::vector<KeyDescription> EpisodeKeys() {
   LiveConfig config;
-  return DescribeKeys([&config](Fields& fields) { DeclareFields(fields, &config); });
+  std::vector<KeyDescription> keys =
+      DescribeKeys([&config](Fields& fields) { DeclareFields(fields, &config); });
+  DescribeScaling(&keys);
+  return keys;
 }
 
 LiveConfig LoadLiveConfig(const std::string& path, const std::vector<YamlOverride>& overrides) {

@@ -69,7 +69,7 @@ struct LiveConfig {
 /// Declares every key once: those of an experiment, and `live`.
 void DeclareFields(Fields& fields, LiveConfig* config);
 
-/// The keys that DeclareFields declares, as data.
+/// The keys that DeclareFields declares, as data; defaults that go by the robot as formulas.
 std::vector<KeyDescription> EpisodeKeys();
 
 /// Reads a config file strictly. Throws InputError with every complaint at once.

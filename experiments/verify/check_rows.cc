@@ -78,8 +78,8 @@ double ZmpMargin(const PlayedRow& row, const RobotModel& robot) {
   return polygon.Margin(row.zmp);
 }
 
-// Hip (a point of the thigh), knee axis and ankle (a point of the shank): stretched when both lie in
-// one half-plane pair of the knee axis.
+// Hip (a point of the thigh), knee axis and ankle (a point of the shank): stretched when both lie
+// in one half-plane pair of the knee axis.
 double ReachMargin(const RobotModel& robot, const PlayedRow& row, int side) {
   const Leg& leg = robot.legs[Of(side)];
   const LegJoint& knee = leg.joints[3];

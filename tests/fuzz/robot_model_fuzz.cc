@@ -11,7 +11,9 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   UrdfTree urdf;
   if (!fuzz::Reads("fuzz.", [&, &xml = xml] { urdf = ParseUrdf("fuzz.urdf", xml); })) return 0;
   RobotModel robot;
-  const auto read = [&, &yaml = yaml] { robot = ParseRobot("fuzz.yaml", yaml, &urdf); };
+  const auto read = [&, &yaml = yaml] {
+    robot = BuildRobot("fuzz.yaml", yaml, ReadRobotFile("fuzz.yaml", yaml, &urdf));
+  };
   if (!fuzz::Reads("", read)) return 0;
   fuzz::Require(robot.mass > 0 && robot.com_height > 0 && robot.waist_height > 0, "no robot");
   for (const RobotBody& body : robot.bodies) {

@@ -62,9 +62,9 @@ inline std::vector<GeneratedRobot> GeneratedRobots() {
            .frame_tilt = 0.4}};
 }
 
-/// Three robots whose hip or ankle axes do not meet, with offsets as public humanoids have them: hip
-/// yaw and roll meet, pitch ahead and below of both; ankle axes apart, hip nearly spherical; hip
-/// pitch first and no two axes meet.
+/// Three robots whose hip or ankle axes do not meet, with offsets as public humanoids have them:
+/// hip yaw and roll meet, pitch ahead and below of both; ankle axes apart, hip nearly spherical;
+/// hip pitch first and no two axes meet.
 inline std::vector<GeneratedRobot> OffsetRobots() {
   const Eigen::Vector3d x(1, 0, 0), y(0, 1, 0), z(0, 0, 1), none(0, 0, 0);
   return {{.name = "pitch_ahead",

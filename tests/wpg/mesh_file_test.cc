@@ -70,6 +70,20 @@ TEST(MeshFile, ADaeIsPlacedByItsScene) {
   EXPECT_TRUE(mesh.vertices.col(1).isApprox(origin + along, 1e-12));
 }
 
+TEST(MeshFile, ADaeSaysWhatItCallsUp) {
+  std::ifstream file(kFolder + "good/cube_triangles.dae");
+  const std::string text((std::istreambuf_iterator<char>(file)), {});
+  const auto up = [&](const std::string& axis) {
+    const std::string asset = "<asset><up_axis>" + axis + "</up_axis></asset>";
+    std::string with = text;
+    with.insert(with.find('>', with.find("<COLLADA")) + 1, asset);
+    return Eigen::Vector3d(ParseMesh("up.dae", with).R_ZUp * Eigen::Vector3d::Unit(axis[0] - 'X'));
+  };
+  for (const char* axis : {"X_UP", "Y_UP", "Z_UP"}) {
+    EXPECT_EQ(up(axis), Eigen::Vector3d::UnitZ()) << axis;
+  }
+}
+
 // Each bad file says in its first line (a binary one in its header) what the complaint must hold.
 TEST(MeshFile, BadFilesAreRefusedWithTheirPlace) {
   int files = 0;

@@ -50,8 +50,8 @@ class OffsetLegTest : public testing::TestWithParam<int> {
     std::uniform_real_distribution<> unit(-1, 1);
     Eigen::Vector4d sole;
     sole << LegForwardKinematics(leg, leg.standing_q)[6].translation(), 0.4 * unit(random_);
-    sole.head<3>() += size_ * Vector3d(0.25 * unit(random_), 0.12 * unit(random_),
-                                       0.09 * (1 + unit(random_)));
+    sole.head<3>() +=
+        size_ * Vector3d(0.25 * unit(random_), 0.12 * unit(random_), 0.09 * (1 + unit(random_)));
     return sole;
   }
 
@@ -78,8 +78,7 @@ TEST_P(OffsetLegTest, BringsTheSoleWhereItIsAskedToBe) {
 
 TEST_P(OffsetLegTest, StandsInTheStandingPosture) {
   for (const Leg& leg : robot_.legs) {
-    const LegIkSolution solution =
-        SolveLegIk(leg, LegForwardKinematics(leg, leg.standing_q)[6]);
+    const LegIkSolution solution = SolveLegIk(leg, LegForwardKinematics(leg, leg.standing_q)[6]);
     ASSERT_EQ(solution.status, LegIkStatus::kSolved);
     EXPECT_LT((solution.q - leg.standing_q).norm(), 1e-12);
   }
@@ -112,8 +111,7 @@ double DerivativeError(const Leg& leg, const Eigen::Matrix<double, 8, 1>& p, dou
     return SolveLegIk(leg, Upright(at.head<4>()).inverse() * Upright(at.tail<4>()));
   };
   Eigen::Matrix<double, 6, 8> dq;
-  EXPECT_TRUE(
-      LegIkDerivative(leg, solve(p).q, Upright(p.head<4>()), Upright(p.tail<4>()), &dq));
+  EXPECT_TRUE(LegIkDerivative(leg, solve(p).q, Upright(p.head<4>()), Upright(p.tail<4>()), &dq));
   dq(3, 6) *= wrong;  // the knee, by the height of the sole
   double worst = 0;
   for (int i = 0; i < 8; ++i) {
@@ -263,7 +261,8 @@ TEST(OffsetLeg, IsToldWithAxesAndDistances) {
   for (const std::string side : {"left", "right"}) {
     EXPECT_THAT(told, HasSubstr(side + "_joint0: hip axes " + side + "_joint0 and " + side +
                                 "_joint2 pass each other at 50.0 mm, hip axes " + side +
-                                "_joint1 and " + side + "_joint2 pass each other at 66.0 mm: the "
+                                "_joint1 and " + side +
+                                "_joint2 pass each other at 66.0 mm: the "
                                 "closed form does not apply; joint angles are those of a leg whose "
                                 "axes meet, continued with proof to this one, which takes longer"));
   }

@@ -91,6 +91,9 @@ class Fields {
   /// Complains about `key`, which other files have and not this one, where it is there. Ignored by
   /// visitors that do not read.
   virtual void Misplaced(const char* /*key*/, const std::string& /*what*/) {}
+  /// The keys that this group has in the file being read, known or not, in its order; none for
+  /// visitors that do not read. For maps whose keys are names that the user chooses.
+  virtual std::vector<std::string> Keys() const { return {}; }
   /// Directory of the file being read, for relative paths; "" otherwise.
   virtual std::string directory() const = 0;
 };

@@ -44,7 +44,9 @@ class DaeReader {
         if (element->ValueStr() == "geometry") ShowGeometry(*element, X);
       }
     }
-    return MeshOf(coordinates_, corners_);
+    LoadedMesh mesh = MeshOf(coordinates_, corners_);
+    mesh.R_ZUp = UpOf(collada);
+    return mesh;
   }
 
  private:
@@ -118,6 +120,17 @@ class DaeReader {
       Fail(*unit, "meter=" + Quote(AttributeOf(*unit, "meter")) + " is no length (valid: > 0)");
     }
     return metres;
+  }
+
+  // right, up, in: Z_UP x, z, −y; Y_UP x, y, z; X_UP −y, x, z.
+  Eigen::Matrix3d UpOf(const Element& collada) const {
+    const Element* asset = collada.FirstChildElement("asset");
+    const Element* up = asset == nullptr ? nullptr : asset->FirstChildElement("up_axis");
+    const std::string text = up == nullptr || up->GetText() == nullptr ? "Y_UP" : up->GetText();
+    Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+    if (text == "Y_UP") R << 1, 0, 0, 0, 0, -1, 0, 1, 0;
+    if (text == "X_UP") R << 0, -1, 0, 0, 0, -1, 1, 0, 0;
+    return R;
   }
 
   const Element* SceneOf(const Element& collada) const {

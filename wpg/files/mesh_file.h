@@ -12,6 +12,9 @@ struct LoadedMesh {
   Eigen::Matrix3Xd vertices;   ///< (3×n), finite, at most 1e9 in size.
   Eigen::Matrix3Xi triangles;  ///< (3×m), m ≥ 1, indices of vertices.
   InputFile file;              ///< what was read.
+  /// Turns what a DAE file's `up_axis` calls up to z; the identity for other files. The vertices
+  /// are not turned by it.
+  Eigen::Matrix3d R_ZUp = Eigen::Matrix3d::Identity();
 };
 
 /// Reads an STL (ASCII or binary, told apart by their content), OBJ or DAE file in double

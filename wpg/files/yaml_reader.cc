@@ -99,6 +99,13 @@ void YamlReader::Misplaced(const char* key, const std::string& what) {
   complaints_->Add(node->key_place, KeyPath(path_, key), what);
 }
 
+std::vector<std::string> YamlReader::Keys() const {
+  std::vector<std::string> keys;
+  if (map_ == nullptr) return keys;
+  for (const YamlNode& item : map_->items) keys.push_back(item.key);
+  return keys;
+}
+
 const YamlNode* YamlReader::Take(const char* key, bool required, const std::string& valid) {
   HALFSTEP_CHECK(std::find(known_.begin(), known_.end(), key) == known_.end(),
                  "key '" << key << "' of '" << path_ << "' is declared twice");

@@ -39,6 +39,7 @@ class YamlReader : public Fields {
   void Complain(const char* key, const std::string& what) override;
   void Renamed(const char* old_key, const char* new_key) override;
   void Misplaced(const char* key, const std::string& what) override;
+  std::vector<std::string> Keys() const override;
   std::string directory() const override { return directory_; }
 
  private:

@@ -59,8 +59,7 @@ double MotionBounds::Turning(const BaseRates& base) {
   return base.yaw_acceleration + base.yaw_rate * base.yaw_rate;
 }
 
-double MotionBounds::AccelerationFrom(const BaseRates& base,
-                                      const std::array<TurnBound, 6>& turns,
+double MotionBounds::AccelerationFrom(const BaseRates& base, const std::array<TurnBound, 6>& turns,
                                       const std::array<double, 6>& levers, double lever) {
   double turned = 0.0;
   for (size_t i = 0; i < 6; ++i) {
@@ -149,8 +148,8 @@ bool MotionBounds::BoundOffsetLeg(Side side, const LegRates& rates, IntervalMoti
                         .yaw_rate = YawRate(motion->jet, side),
                         .acceleration = rates.sole_B.acceleration,
                         .yaw_acceleration = rates.sole_B.yaw_acceleration};
-  const auto bounds =
-      BoundOffsetJoints(robot_.legs[s], posture.ik[s].q, posture.frames[s], posture.speeds[s], drift);
+  const auto bounds = BoundOffsetJoints(robot_.legs[s], posture.ik[s].q, posture.frames[s],
+                                        posture.speeds[s], drift);
   if (!bounds) return false;
   motion->joints[s] = *bounds;
   motion->leg_length_change[s] = LegLengthChange(LegLengthAt(robot_.legs[s], posture.ik[s].q[3]),

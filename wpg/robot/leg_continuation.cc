@@ -52,10 +52,7 @@ struct Node {
 class Continuer {
  public:
   Continuer(const Leg& leg, const Isometry3d& X, const SoleDrift& drift)
-      : leg_(leg),
-        X_(X),
-        drift_(drift),
-        rate_(drift.TwistRate(leg.hip_B, X.translation())) {
+      : leg_(leg), X_(X), drift_(drift), rate_(drift.TwistRate(leg.hip_B, X.translation())) {
     const Vector3d turn(0, 0, drift.yaw_rate);
     velocity_ << turn, drift.velocity + turn.cross(leg.hip_B - X.translation());
   }

@@ -14,9 +14,7 @@ using Eigen::Vector3d;
 class OffsetJoints {
  public:
   OffsetJoints(const LegNeighbourhood& near, double rate, const SoleDrift& drift)
-      : near_(near),
-        h_(drift.half_width),
-        asked_(near.Asked(drift.yaw_acceleration, rate)) {}
+      : near_(near), h_(drift.half_width), asked_(near.Asked(drift.yaw_acceleration, rate)) {}
 
   std::optional<Vector6d> Accelerations(const Vector6d& speeds) const {
     const Vector6d radius = h_ * speeds;

@@ -8,6 +8,7 @@
 #include <set>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include "wpg/files/mesh_file.h"
 
@@ -23,9 +24,15 @@ constexpr std::string_view kPackage = "package://";
 constexpr std::string_view kFile = "file://";
 constexpr double kFarthest = 100.0;  // of a body from its link's frame, or the waist's [m]
 
+// What comes after "package://"; some files have a third slash.
+std::string PathInPackages(const std::string& mesh) {
+  const std::string path = mesh.substr(kPackage.size());
+  return path.substr(std::min(path.find_first_not_of('/'), path.size()));
+}
+
 std::string PackageOf(const std::string& mesh) {
   if (!mesh.starts_with(kPackage)) return "";
-  const std::string path = mesh.substr(kPackage.size());
+  const std::string path = PathInPackages(mesh);
   return path.substr(0, path.find('/'));
 }
 
@@ -47,6 +54,17 @@ std::string FindPackage(const std::string& package, const std::string& urdf_file
   return "";
 }
 
+// A package whose folder is not known.
+struct MissingPackage : std::runtime_error {
+  MissingPackage(std::string name, const std::string& mesh)
+      : std::runtime_error("package `" + name + "` of " + mesh +
+                           " has no folder: name it under `packages` of the robot file (`halfstep "
+                           "robot --package NAME=FOLDER`), or put its parent into "
+                           "ROS_PACKAGE_PATH"),
+        package(std::move(name)) {}
+  std::string package;
+};
+
 // File of a mesh named in a URDF. Throws std::runtime_error with a sentence.
 std::string MeshPath(const std::string& mesh, const std::string& urdf_file,
                      const std::map<std::string, std::string>& packages) {
@@ -55,11 +73,9 @@ std::string MeshPath(const std::string& mesh, const std::string& urdf_file,
     const std::string folder =
         given != packages.end() ? given->second : FindPackage(package, urdf_file);
     if (folder.empty()) {
-      throw std::runtime_error("package `" + package + "` of " + mesh +
-                               " has no folder: name it under `packages` of the robot file, or put "
-                               "its parent into ROS_PACKAGE_PATH");
+      throw MissingPackage(package, mesh);
     }
-    return folder + mesh.substr(kPackage.size() + package.size());
+    return folder + PathInPackages(mesh).substr(package.size());
   }
   if (mesh.starts_with(kFile)) return mesh.substr(kFile.size());
   if (mesh.find("://") != std::string::npos) {
@@ -93,8 +109,7 @@ ConvexBody Moved(const Isometry3d& X, ConvexBody body) {
 }
 
 ConvexBody ShapeOf(const UrdfCollision& collision, const Isometry3d& X, const std::string& file,
-                   const std::map<std::string, std::string>& packages,
-                   std::vector<InputFile>* meshes) {
+                   const BodyRequest& request, std::vector<InputFile>* meshes) {
   switch (collision.kind) {
     case UrdfCollision::Kind::kBox:
       return Moved(X, MakeBox(collision.size));
@@ -109,7 +124,8 @@ ConvexBody ShapeOf(const UrdfCollision& collision, const Isometry3d& X, const st
     case UrdfCollision::Kind::kMesh:
       break;
   }
-  LoadedMesh mesh = LoadMesh(MeshPath(collision.mesh, file, packages));
+  LoadedMesh mesh = LoadMesh(MeshPath(collision.mesh, file, request.packages));
+  if (request.dae_up_axis) mesh.vertices = mesh.R_ZUp * mesh.vertices;
   mesh.file.name = collision.mesh;
   meshes->push_back(std::move(mesh.file));
   return Moved(X, MakeHull(collision.scale.asDiagonal() * mesh.vertices));
@@ -158,6 +174,7 @@ LinkBodies BuildBodies(const UrdfTree& urdf, const BodyRequest& request, Complai
   }
   const std::vector<Isometry3d> X = urdf.LinkPoses(q);
   LinkBodies all;
+  std::set<std::string> missing;  // packages
   for (size_t i = 0; i < urdf.links.size(); ++i) {
     const UrdfLink& link = urdf.links[i];
     const Anchor& anchor = anchors[i];
@@ -172,8 +189,8 @@ LinkBodies BuildBodies(const UrdfTree& urdf, const BodyRequest& request, Complai
       body.leg = anchor.leg;
       body.link = anchor.link;
       try {
-        body.shape = ShapeOf(collision, X_AnchorLink * collision.X_LinkShape, urdf.file,
-                             request.packages, &all.meshes);
+        body.shape = ShapeOf(collision, X_AnchorLink * collision.X_LinkShape, urdf.file, request,
+                             &all.meshes);
         if (body.shape.center.norm() + body.shape.radius > kFarthest) {
           throw std::runtime_error("reaches more than 100 m from its link (look at `scale`)");
         }
@@ -183,6 +200,10 @@ LinkBodies BuildBodies(const UrdfTree& urdf, const BodyRequest& request, Complai
         for (const std::string& line : error.complaints()) {
           complaints->Add(urdf.file, collision.place.line, collision.place.column, body.name, line);
         }
+      } catch (const MissingPackage& error) {
+        if (!missing.insert(error.package).second) continue;  // told already
+        complaints->Add(urdf.file, collision.place.line, collision.place.column, body.name,
+                        error.what());
       } catch (const std::runtime_error& error) {
         complaints->Add(urdf.file, collision.place.line, collision.place.column, body.name,
                         error.what());

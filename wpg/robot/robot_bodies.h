@@ -17,6 +17,7 @@ struct BodyRequest {
   std::array<std::array<int, 6>, 2> leg_joints;  ///< URDF joint indices by Index(Side).
   std::vector<double> posture;                   ///< standing posture by URDF joint index [rad].
   std::map<std::string, std::string> packages;   ///< package name → folder.
+  bool dae_up_axis = false;                      ///< meshes in DAE are turned by their `up_axis`
 };
 
 /// Package names in the `package://` paths of the collision meshes, sorted.

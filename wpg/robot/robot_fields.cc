@@ -1,5 +1,6 @@
 #include "wpg/robot/robot_fields.h"
 
+#include <algorithm>
 #include <filesystem>
 
 #include "wpg/files/number_text.h"
@@ -70,10 +71,16 @@ void DeclarePackages(Fields& fields, RobotFile* file) {
   fields.Group("packages", {.meaning = "folders of the package:// names in the URDF"},
                [&](Fields& f) {
                  if (!file->urdf) return;
-                 for (const std::string& name : MeshPackages(*file->urdf)) {
+                 const std::vector<std::string> named = MeshPackages(*file->urdf);
+                 file->warnings.clear();
+                 for (const std::string& name : f.Keys()) {
                    std::string folder;
                    f.Text(name.c_str(), &folder, {.meaning = "folder"});
                    if (folder.empty()) continue;
+                   if (std::find(named.begin(), named.end(), name) == named.end()) {
+                     file->warnings.push_back("packages." + name +
+                                              ": no collision mesh of the URDF is in it");
+                   }
                    file->packages[name] =
                        (std::filesystem::path(f.directory()) / folder).lexically_normal().string();
                  }
@@ -105,10 +112,19 @@ void DeclareFields(Fields& fields, RobotFile* file) {
   }
   const std::vector<std::string> links = LinkNames(*file);
   DeclarePackages(fields, file);
-  fields.Text("waist_link", &file->waist_link,
-              {.meaning = "link whose frame is the waist frame: x forward, z up when standing",
-               .required = true,
-               .choices = links});
+  fields.Text("dae_up_axis", &file->dae_up_axis,
+              {.meaning = "whether meshes in DAE are turned by their `up_axis`, as some viewers do",
+               .choices = {"ignored", "applied"}});
+  fields.Text(
+      "waist_link", &file->waist_link,
+      {.meaning = "link whose frame, turned by waist_rpy_deg, is the waist frame: x forward, "
+                  "z up when standing",
+       .required = true,
+       .choices = links});
+  fields.Numbers("waist_rpy_deg", &file->waist_rpy, 3,
+                 {.meaning = "waist frame in the frame of that link: roll, pitch, yaw about fixed "
+                             "axes",
+                  .unit = "deg"});
   fields.OptionalNumber("com_height_m", &file->com_height,
                         {.meaning = "height of the CoM while walking; none: that of the model in "
                                     "the standing posture",

@@ -33,22 +33,38 @@ struct RobotFile {
   std::string urdf_path;
   std::optional<UrdfTree> urdf;  ///< read as soon as its path is known.
   std::map<std::string, std::string> packages;
+  std::string dae_up_axis = "ignored";
   std::string waist_link;
+  std::vector<double> waist_rpy;  ///< waist frame in that of its link [rad]; empty: the same.
   std::optional<double> com_height;
   std::array<LegFile, 2> legs;
   std::vector<double> sole_size;
   std::vector<double> posture_deg;              ///< by URDF joint index
   std::vector<std::vector<double>> limits_deg;  ///< by URDF joint index; empty: the URDF's
   std::vector<ExcludedPair> excluded;
+  std::vector<std::string> warnings;  ///< about what the file says and nothing needs
 };
 
 /// Declares the keys of a robot file (wpg/README.md, "Robots") and reads the URDF on the way, since
 /// joints, links and packages are keys and choices. Throws InputError for a bad URDF.
 void DeclareFields(Fields& fields, RobotFile* file);
 
-/// LoadRobot of a robot file's text; `urdf`, unless it is null, is taken in place of the file that
-/// the text names.
-RobotModel ParseRobot(const std::string& yaml_path, const std::string& text,
-                      const UrdfTree* urdf = nullptr);
+/// The rotation by roll, pitch and yaw about fixed axes [rad]; the identity when there are none.
+Eigen::Matrix3d RotationOf(const std::vector<double>& rpy);
+
+/// A robot file's text and its URDF, in which the frame of the waist's link is the waist frame B.
+/// `urdf`, unless it is null, is taken in place of the file that the text names. Throws InputError
+/// for keys that are not valid by themselves.
+RobotFile ReadRobotFile(const std::string& yaml_path, const std::string& text,
+                        const UrdfTree* urdf = nullptr);
+/// What of a robot is built.
+enum class RobotParts {
+  kAll,
+  kLegs,  ///< without bodies and what is found from them: no mesh is read
+};
+/// The model of a robot file as it was read from that text. Throws InputError for keys that do not
+/// go together.
+RobotModel BuildRobot(const std::string& yaml_path, const std::string& text, RobotFile file,
+                      RobotParts parts = RobotParts::kAll);
 
 }  // namespace halfstep

@@ -19,20 +19,20 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
+namespace fs = std::filesystem;
+
 constexpr double kDegree = std::numbers::pi / 180;
 // How far the standing posture may be from flat, parallel and mirrored feet ([m] and [rad]).
 constexpr double kStanding = 1e-4;
+// How far the right leg may be from the left one's mirror image ([m], [rad] and [rad/s]); what is
+// more than rounding is told. Nothing that is proved takes one leg for the other.
+constexpr double kMirror = 1e-4, kRounding = 1e-6;
 constexpr double kBelowSole = 1e-6;  // a foot's bodies may reach this far below its sole [m]
 
 Isometry3d SoleInFoot(const LegFile& leg) {
   Isometry3d X = Isometry3d::Identity();
   X.translation() = Vector3d(leg.sole_xyz[0], leg.sole_xyz[1], leg.sole_xyz[2]);
-  if (!leg.sole_rpy.empty()) {
-    X.linear() = (Eigen::AngleAxisd(leg.sole_rpy[2], Vector3d::UnitZ()) *
-                  Eigen::AngleAxisd(leg.sole_rpy[1], Vector3d::UnitY()) *
-                  Eigen::AngleAxisd(leg.sole_rpy[0], Vector3d::UnitX()))
-                     .toRotationMatrix();
-  }
+  X.linear() = RotationOf(leg.sole_rpy);
   return X;
 }
 
@@ -42,7 +42,7 @@ class Builder {
   Builder(const RobotFile& file, Fields& fields, Complaints* complaints)
       : file_(file), urdf_(*file.urdf), fields_(fields), complaints_(complaints) {}
 
-  RobotModel Build() {
+  RobotModel Build(RobotParts parts) {
     model_.name = file_.name;
     model_.sole_size = {file_.sole_size[0], file_.sole_size[1]};
     for (size_t i = 0; i < urdf_.joints.size(); ++i) {
@@ -55,12 +55,10 @@ class Builder {
     leg_.waist = urdf_.FindLink(file_.waist_link);
     if (!BuildLegs()) return model_;
     Warn();
-    if (const std::string fault = MirrorFault(model_.legs[0], model_.legs[1]); !fault.empty()) {
-      fields_.Complain("legs", fault);
-    }
+    CompareLegs();
     Stand();
     Weigh();
-    AddBodies();
+    if (parts == RobotParts::kAll) AddBodies();
     return model_;
   }
 
@@ -99,8 +97,20 @@ class Builder {
     return ok;
   }
 
+  void CompareLegs() {
+    const Leg &left = model_.legs[0], &right = model_.legs[1];
+    if (const std::string fault = MirrorFault(left, right, kMirror); !fault.empty()) {
+      fields_.Complain("legs", fault);
+    } else if (const std::string note = MirrorFault(left, right, kRounding); !note.empty()) {
+      model_.warnings.push_back(urdf_.file + ": " + note + "; each leg is taken as it is");
+    }
+  }
+
   void Warn() {
     model_.warnings = urdf_.warnings;
+    for (const std::string& warning : file_.warnings) {
+      model_.warnings.push_back(file_.name + ": " + warning);
+    }
     for (size_t side = 0; side < 2; ++side) {
       const Leg& leg = model_.legs[side];
       if (leg.closed_form()) continue;
@@ -108,8 +118,9 @@ class Builder {
       const UrdfJoint& first = urdf_.joints[joint];
       Complaints told;
       told.Add(urdf_.file, first.place.line, first.place.column, first.name,
-               leg.offsets + ": the closed form does not apply; joint angles are those of a leg whose "
-                             "axes meet, continued with proof to this one, which takes longer");
+               leg.offsets +
+                   ": the closed form does not apply; joint angles are those of a leg whose "
+                   "axes meet, continued with proof to this one, which takes longer");
       for (const std::string& line : told.lines()) model_.warnings.push_back(line);
     }
     for (const UrdfJoint& joint : urdf_.joints) {
@@ -175,9 +186,9 @@ class Builder {
     body_.waist = leg_.waist;
     body_.posture = leg_.posture;
     body_.packages = file_.packages;
+    body_.dae_up_axis = file_.dae_up_axis == "applied";
     LinkBodies all = BuildBodies(urdf_, body_, complaints_);
-    SelfPairs pairs =
-        BuildSelfPairs(urdf_, file_.excluded, all, body_.leg_joints, model_.legs);
+    SelfPairs pairs = BuildSelfPairs(urdf_, file_.excluded, all, body_.leg_joints, model_.legs);
     model_.self_pairs = std::move(pairs.watched);
     model_.unwatched_pairs = std::move(pairs.unwatched);
     model_.bodies = std::move(all.bodies);
@@ -211,23 +222,41 @@ class Builder {
 
 }  // namespace
 
-RobotModel LoadRobot(const std::string& yaml_path) {
-  return ParseRobot(yaml_path, ReadYamlFile(yaml_path));
+Eigen::Matrix3d RotationOf(const std::vector<double>& rpy) {
+  if (rpy.empty()) return Eigen::Matrix3d::Identity();
+  return (Eigen::AngleAxisd(rpy[2], Vector3d::UnitZ()) *
+          Eigen::AngleAxisd(rpy[1], Vector3d::UnitY()) *
+          Eigen::AngleAxisd(rpy[0], Vector3d::UnitX()))
+      .toRotationMatrix();
 }
 
-RobotModel ParseRobot(const std::string& yaml_path, const std::string& text, const UrdfTree* urdf) {
-  const std::string directory = std::filesystem::path(yaml_path).parent_path().string();
+RobotModel LoadRobot(const std::string& yaml_path) {
+  const std::string text = ReadYamlFile(yaml_path);
+  return BuildRobot(yaml_path, text, ReadRobotFile(yaml_path, text));
+}
+
+RobotFile ReadRobotFile(const std::string& yaml_path, const std::string& text,
+                        const UrdfTree* urdf) {
   RobotFile file;
   if (urdf != nullptr) file.urdf = *urdf;
-  ReadYamlText(text, yaml_path, directory, {},
+  ReadYamlText(text, yaml_path, fs::path(yaml_path).parent_path().string(), {},
                [&file](Fields& fields) { DeclareFields(fields, &file); });
-  // Every key is valid by itself. The second reading is for complaints about how they go together,
-  // at their places.
+  if (!file.waist_rpy.empty()) {
+    file.urdf->TurnFrame(file.urdf->FindLink(file.waist_link), RotationOf(file.waist_rpy));
+  }
+  return file;
+}
+
+RobotModel BuildRobot(const std::string& yaml_path, const std::string& text, RobotFile file,
+                      RobotParts parts) {
+  const std::string directory = fs::path(yaml_path).parent_path().string();
+  // Every key is valid by itself. This reading is for complaints about how they go together, at
+  // their places.
   RobotModel model;
   Complaints of_urdf;
   ReadYamlText(text, yaml_path, directory, {}, [&](Fields& fields) {
     DeclareFields(fields, &file);
-    model = Builder(file, fields, &of_urdf).Build();
+    model = Builder(file, fields, &of_urdf).Build(parts);
   });
   model.files.insert(model.files.begin(), {RecordOf(yaml_path, text), file.urdf->source});
   of_urdf.ThrowIfAny();

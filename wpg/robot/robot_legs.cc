@@ -20,7 +20,6 @@ using Eigen::Vector3d;
 constexpr double kMeeting = 1e-6;   // axes farther apart than this [m] do not meet
 constexpr double kParallel = 1e-3;  // |sine| below which axes count as parallel
 constexpr double kLever = 1e-3;     // least distance of hip and ankle from the knee axis [m]
-constexpr double kMirror = 1e-6;    // [m], [rad]
 
 std::string Millimetres(double metres) {
   char text[32];
@@ -156,8 +155,7 @@ Leg WithAxesThatMeet(const Leg& leg) {
 bool CanFollow(const Leg& leg) {
   constexpr double kLeast = 0.001;  // [m]
   const auto near = LegNeighbourhood::Around(leg, leg.standing_q);
-  return near && near->Ways(near->Asked(0.0, kLeast)) &&
-         ContinueLeg(leg, near->X_BSole()).arrived;
+  return near && near->Ways(near->Asked(0.0, kLeast)) && ContinueLeg(leg, near->X_BSole()).arrived;
 }
 
 }  // namespace
@@ -198,8 +196,13 @@ std::optional<std::array<int, 6>> FindLegJoints(const UrdfTree& urdf, int waist,
   return joints;
 }
 
-std::optional<Leg> BuildLeg(const UrdfTree& urdf, const LegRequest& request,
-                            const std::array<int, 6>& indices, Complaints* complaints) {
+double StretchedLength(const Leg& leg) {
+  const LegJoint& knee = leg.joints[3];
+  return DistanceToAxis(knee, leg.hip_B) + DistanceToAxis(knee, leg.ankle_B);
+}
+
+std::optional<Leg> LegGeometry(const UrdfTree& urdf, const LegRequest& request,
+                               const std::array<int, 6>& indices, Complaints* complaints) {
   const std::vector<Isometry3d> X = urdf.LinkPoses(std::vector<double>(urdf.joints.size(), 0.0));
   const Isometry3d X_BRoot = X[static_cast<size_t>(request.waist)].inverse();
   Leg leg;
@@ -237,36 +240,45 @@ std::optional<Leg> BuildLeg(const UrdfTree& urdf, const LegRequest& request,
     }
   }
   if (!check.ok()) return std::nullopt;
-  const double length = DistanceToAxis(knee, leg.hip_B) + DistanceToAxis(knee, leg.ankle_B);
-  if (std::abs(LegJacobian(leg, leg.standing_q).determinant()) < 1e-4 * std::pow(length, 3)) {
-    check.Complain(3,
-                   "the leg is singular in the standing posture (knee stretched, or hip or "
-                   "ankle axes aligned): bend it there");
+  return leg;
+}
+
+std::optional<Leg> BuildLeg(const UrdfTree& urdf, const LegRequest& request,
+                            const std::array<int, 6>& indices, Complaints* complaints) {
+  std::optional<Leg> leg = LegGeometry(urdf, request, indices, complaints);
+  if (!leg) return std::nullopt;
+  const double length = StretchedLength(*leg);
+  if (std::abs(LegJacobian(*leg, leg->standing_q).determinant()) < 1e-4 * std::pow(length, 3)) {
+    LegChecker(urdf, indices, complaints)
+        .Complain(3,
+                  "the leg is singular in the standing posture (knee stretched, or hip or "
+                  "ankle axes aligned): bend it there");
     return std::nullopt;
   }
-  if (leg.offsets.empty()) {
-    leg.branch = LegBranchOf(leg, leg.standing_q);
+  if (leg->offsets.empty()) {
+    leg->branch = LegBranchOf(*leg, leg->standing_q);
     return leg;
   }
-  leg.met.push_back(WithAxesThatMeet(leg));
-  if (!CanFollow(leg)) {
-    check.Complain(2, leg.offsets +
-                          "; so there is no closed form for the leg's joints, and in the standing "
-                          "posture it is too near to a singularity for a proof without: bend it "
-                          "more there");
+  leg->met.push_back(WithAxesThatMeet(*leg));
+  if (!CanFollow(*leg)) {
+    LegChecker(urdf, indices, complaints)
+        .Complain(2, leg->offsets +
+                         "; so there is no closed form for the leg's joints, and in the standing "
+                         "posture it is too near to a singularity for a proof without: bend it "
+                         "more there");
     return std::nullopt;
   }
   return leg;
 }
 
-std::string MirrorFault(const Leg& left, const Leg& right) {
+std::string MirrorFault(const Leg& left, const Leg& right, double tolerance) {
   const Eigen::DiagonalMatrix<double, 3> mirror(1, -1, 1);
   const auto differ = [&](const Vector3d& l, const Vector3d& r) {
     return (mirror * l - r).cwiseAbs().maxCoeff();
   };
   for (const auto& [what, l, r] : {std::tuple{"hip", left.hip_B, right.hip_B},
                                    std::tuple{"ankle", left.ankle_B, right.ankle_B}}) {
-    if (const double d = differ(l, r); d > kMirror) {
+    if (const double d = differ(l, r); d > tolerance) {
       return std::string("the right ") + what + " is " + Millimetres(d) +
              " off the mirror image of the left one";
     }
@@ -275,17 +287,17 @@ std::string MirrorFault(const Leg& left, const Leg& right) {
     const LegJoint &l = left.joints[i], &r = right.joints[i];
     const std::string pair = r.name + " is not the mirror image of " + l.name;
     const Vector3d axis = mirror * l.axis_B;
-    if (axis.cross(r.axis_B).norm() > kMirror) return pair + ": its axis points elsewhere";
-    if (const double d = DistanceToAxis(r, mirror * l.point_B); d > kMirror) {
+    if (axis.cross(r.axis_B).norm() > tolerance) return pair + ": its axis points elsewhere";
+    if (const double d = DistanceToAxis(r, mirror * l.point_B); d > tolerance) {
       return pair + ": its axis is " + Millimetres(d) + " off";
     }
     // A mirror turns rotations round: angles keep their sign where the axis changes its own.
     const bool same_sign = axis.dot(r.axis_B) < 0;
     const double lower = same_sign ? l.lower : -l.upper, upper = same_sign ? l.upper : -l.lower;
-    if (std::max(std::abs(lower - r.lower), std::abs(upper - r.upper)) > kMirror) {
+    if (std::max(std::abs(lower - r.lower), std::abs(upper - r.upper)) > tolerance) {
       return pair + ": its limits differ";
     }
-    if (std::abs(l.max_speed - r.max_speed) > kMirror) return pair + ": its speed limit differs";
+    if (std::abs(l.max_speed - r.max_speed) > tolerance) return pair + ": its speed limit differs";
   }
   return "";
 }

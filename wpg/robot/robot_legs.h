@@ -27,15 +27,26 @@ struct LegRequest {
 std::optional<std::array<int, 6>> FindLegJoints(const UrdfTree& urdf, int waist, int foot,
                                                 Complaints* complaints);
 
+/// The stretched length of a leg: hip over knee to ankle [m].
+double StretchedLength(const Leg& leg);
+
 /// The leg with the points nearest to its hip and ankle axes, and with the sentence `offsets` where
-/// these do not meet. Complains and returns none when the leg cannot be moved (see wpg/README.md),
-/// its standing posture is singular or too near to it for a proof, or a joint's limits are more than
-/// a turn apart.
+/// these do not meet; without branch and closed-form neighbour, so that the closed form takes the
+/// axes as meeting there: soles are level, but as far off as the axes. Complains and returns none
+/// when the leg cannot be moved (see wpg/README.md), or a joint's limits are more than a turn
+/// apart.
+std::optional<Leg> LegGeometry(const UrdfTree& urdf, const LegRequest& request,
+                               const std::array<int, 6>& joints, Complaints* complaints);
+
+/// The same with the branch of the standing posture or the neighbour. Complains and returns none,
+/// too, when the standing posture is singular, or too near to that for a proof where there is no
+/// closed form.
 std::optional<Leg> BuildLeg(const UrdfTree& urdf, const LegRequest& request,
                             const std::array<int, 6>& joints, Complaints* complaints);
 
 /// Why the right leg is not the left one's mirror image in the xz plane of the waist; "" when it
-/// is. Compared are hip and ankle, joint axes, limits and speeds (1e-6 m, 1e-6 rad, 1e-6 rad/s).
-std::string MirrorFault(const Leg& left, const Leg& right);
+/// is. Compared are hip and ankle, joint axes, limits and speeds, each to `tolerance` [m, rad,
+/// rad/s].
+std::string MirrorFault(const Leg& left, const Leg& right, double tolerance);
 
 }  // namespace halfstep

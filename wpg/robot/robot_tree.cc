@@ -1,7 +1,6 @@
 #include "wpg/robot/robot_tree.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <utility>
 
 #include "wpg/files/number_text.h"
@@ -12,10 +11,8 @@ namespace halfstep {
 
 WholeRobot LoadWholeRobot(const std::string& yaml_path) {
   const std::string text = ReadYamlFile(yaml_path);
-  RobotFile file;
-  ReadYamlText(text, yaml_path, std::filesystem::path(yaml_path).parent_path().string(), {},
-               [&file](Fields& fields) { DeclareFields(fields, &file); });
-  RobotModel model = ParseRobot(yaml_path, text, &*file.urdf);
+  RobotFile file = ReadRobotFile(yaml_path, text);
+  RobotModel model = BuildRobot(yaml_path, text, file);
   RobotTree tree{std::move(*file.urdf), -1, {}, {}};
   tree.waist = tree.urdf.FindLink(file.waist_link);
   for (size_t side = 0; side < 2; ++side) {

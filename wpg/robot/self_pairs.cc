@@ -6,20 +6,6 @@
 namespace halfstep {
 namespace {
 
-// The moving joints on the way between two links.
-std::vector<int> JointsBetween(const UrdfTree& urdf, int a, int b) {
-  // links are sorted from the root: the later one is never above the earlier one.
-  std::vector<int> joints;
-  while (a != b) {
-    int& lower = a > b ? a : b;
-    const int index = urdf.links[static_cast<size_t>(lower)].joint;
-    const UrdfJoint& joint = urdf.joints[static_cast<size_t>(index)];
-    if (joint.kind != UrdfJoint::Kind::kFixed) joints.push_back(index);
-    lower = joint.parent;
-  }
-  return joints;
-}
-
 // The legs' joints in the URDF and in the model.
 struct LegJoints {
   const std::array<std::array<int, 6>, 2>& indices;
@@ -68,9 +54,21 @@ std::string WhyNotWatched(const UrdfTree& urdf, const std::vector<ExcludedPair>&
 
 }  // namespace
 
+std::vector<int> JointsBetween(const UrdfTree& urdf, int a, int b) {
+  // links are sorted from the root: the later one is never above the earlier one.
+  std::vector<int> joints;
+  while (a != b) {
+    int& lower = a > b ? a : b;
+    const int index = urdf.links[static_cast<size_t>(lower)].joint;
+    const UrdfJoint& joint = urdf.joints[static_cast<size_t>(index)];
+    if (joint.kind != UrdfJoint::Kind::kFixed) joints.push_back(index);
+    lower = joint.parent;
+  }
+  return joints;
+}
+
 SelfPairs BuildSelfPairs(const UrdfTree& urdf, const std::vector<ExcludedPair>& excluded,
-                         const LinkBodies& all,
-                         const std::array<std::array<int, 6>, 2>& leg_joints,
+                         const LinkBodies& all, const std::array<std::array<int, 6>, 2>& leg_joints,
                          const std::array<Leg, 2>& legs) {
   SelfPairs pairs;
   for (size_t a = 0; a < all.bodies.size(); ++a) {
@@ -78,7 +76,8 @@ SelfPairs BuildSelfPairs(const UrdfTree& urdf, const std::vector<ExcludedPair>& 
       const RobotBody &first = all.bodies[a], &second = all.bodies[b];
       if (first.leg == second.leg && first.link == second.link) continue;
       const int i = static_cast<int>(a), j = static_cast<int>(b);
-      const std::string why = WhyNotWatched(urdf, excluded, all.links[a], all.links[b], {leg_joints, legs});
+      const std::string why =
+          WhyNotWatched(urdf, excluded, all.links[a], all.links[b], {leg_joints, legs});
       if (why.empty()) {
         pairs.watched.push_back({i, j});
       } else {

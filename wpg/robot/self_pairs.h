@@ -17,13 +17,15 @@ struct SelfPairs {
   std::vector<UnwatchedPair> unwatched;
 };
 
+/// The moving joints (URDF indices) on the way between two links.
+std::vector<int> JointsBetween(const UrdfTree& urdf, int a, int b);
+
 /// Pairs of bodies that are joined by design, or whose links the robot file excludes, are not
 /// watched. Joined are links with one moving joint between them, and links with two joints of one
 /// leg between them whose axes meet in one point (hip or ankle), because their bodies lie around
 /// that point and overlap.
 SelfPairs BuildSelfPairs(const UrdfTree& urdf, const std::vector<ExcludedPair>& excluded,
-                         const LinkBodies& all,
-                         const std::array<std::array<int, 6>, 2>& leg_joints,
+                         const LinkBodies& all, const std::array<std::array<int, 6>, 2>& leg_joints,
                          const std::array<Leg, 2>& legs);
 
 }  // namespace halfstep

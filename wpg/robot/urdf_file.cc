@@ -164,6 +164,23 @@ int UrdfTree::FindLink(const std::string& name) const {
   return -1;
 }
 
+void UrdfTree::TurnFrame(int link, const Eigen::Matrix3d& R_OldNew) {
+  const Eigen::Matrix3d R_NewOld = R_OldNew.transpose();
+  UrdfLink& turned = links[static_cast<size_t>(link)];
+  turned.com = R_NewOld * turned.com;
+  turned.inertia = R_NewOld * turned.inertia * R_OldNew;
+  for (UrdfCollision& collision : turned.collisions) {
+    collision.X_LinkShape.prerotate(R_NewOld);
+  }
+  for (UrdfJoint& joint : joints) {
+    if (joint.child == link) {
+      joint.X_ParentChild.rotate(R_OldNew);
+      joint.axis = R_NewOld * joint.axis;
+    }
+    if (joint.parent == link) joint.X_ParentChild.prerotate(R_NewOld);
+  }
+}
+
 std::vector<Isometry3d> UrdfTree::LinkPoses(const std::vector<double>& q) const {
   std::vector<Isometry3d> X(links.size(), Isometry3d::Identity());
   for (size_t i = 1; i < links.size(); ++i) {

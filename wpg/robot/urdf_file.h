@@ -56,6 +56,9 @@ struct UrdfTree {
   std::vector<std::string> warnings;  ///< what was repaired or left out (CheckUrdf)
 
   int FindLink(const std::string& name) const;  ///< index, −1: unknown.
+  /// Turns the frame of a link by `R_OldNew`. Nothing moves: all that is stated in that frame is
+  /// stated anew.
+  void TurnFrame(int link, const Eigen::Matrix3d& R_OldNew);
   /// Poses of all links in the root's frame for joint positions by index [rad]; joints of kind
   /// kOther stay at 0.
   std::vector<Eigen::Isometry3d> LinkPoses(const std::vector<double>& q) const;

@@ -1,0 +1,144 @@
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+
+#include "experiments/commands/command_line.h"
+#include "experiments/commands/commands.h"
+#include "experiments/run/experiment_run.h"
+#include "experiments/run/interrupt.h"
+#include "experiments/run/progress_bar.h"
+#include "experiments/run/run_screen.h"
+#include "experiments/survey/robot_picture.h"
+#include "experiments/survey/robot_survey.h"
+#include "experiments/survey/six_steps_config.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/text.h"
+#include "wpg/files/whole_file.h"
+#include "wpg/robot/robot_measures.h"
+
+namespace halfstep {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The files that the command writes.
+struct RobotFiles {
+  fs::path robot, picture, walk;
+};
+
+RobotFiles FilesOf(const RobotCommand& command) {
+  fs::path robot = command.out.value_or(
+      (command.survey.name.empty() ? command.survey.urdf.stem().string() : command.survey.name) +
+      ".yaml");
+  if (robot.extension() != ".yaml") {
+    throw InputError({"--out " + robot.string() + ": no robot file (valid: a name in .yaml)"});
+  }
+  RobotFiles files{robot, robot, robot};
+  files.picture.replace_extension(".svg");
+  files.walk.replace_filename(robot.stem().string() + "_six_steps.yaml");
+  if (command.overwrite) return files;
+  for (const fs::path& path : {files.robot, files.picture, files.walk}) {
+    if (fs::exists(path)) {
+      throw InputError({path.string() + ": is there already (--overwrite replaces it)"});
+    }
+  }
+  return files;
+}
+
+void Tell(const RobotDraft& draft, const RobotModel& robot) {
+  const RobotMeasures measures = MeasuresOf(robot);
+  std::cout << robot.name << ": six revolute joints a leg, hip axes through one point, ankle axes "
+            << "through one point\n"
+            << Formatted(
+                   "  leg %.3f m, stance %.3f m, CoM %.3f m high, %.2f kg, sole %.3f x %.3f m, "
+                   "%zu bodies, %zu pairs watched, %zu not\n",
+                   measures.leg_length, measures.standing_width, robot.com_height, robot.mass,
+                   robot.sole_size.x(), robot.sole_size.y(), robot.bodies.size(),
+                   robot.self_pairs.size(), robot.unwatched_pairs.size());
+  for (const auto& [joint, why] : draft.why_posture) {
+    std::cout << "  " << draft.urdf.joints[static_cast<size_t>(joint)].name << ": " << why << '\n';
+  }
+  for (const ExcludedPair& pair : draft.excluded) {
+    std::cout << "  " << pair.links[0] << " - " << pair.links[1] << " is not watched: " << pair.why
+              << '\n';
+  }
+}
+
+// Walks, proves and tells; whether the walk is certified.
+bool Walk(const RobotFiles& files, bool quiet) {
+  InterruptGuard interrupt;
+  std::optional<ProgressBar> bar(std::in_place, "six steps", quiet);
+  const RunHooks hooks{.progress = [&bar](const std::string&, double done) { bar->Update(done); },
+                       .stop = interrupt.token()};
+  ExperimentRun run(LoadConfig(files.walk.string(), {}), hooks);
+  run.Smooth(hooks);
+  run.Certify(interrupt.token());
+  bar.reset();
+  if (!quiet) {
+    std::cout << '\n'
+              << RunTable(run.experiment(), run.problem(), run.runs(),
+                          files.robot.string() + ", " + files.picture.string() + ", " +
+                              files.walk.string());
+  }
+  const MethodRun& last = run.runs().back();
+  if (last.certified.answer.verdict == Verdict::kFeasible) return true;
+  std::cerr << "halfstep: the robot file stands, but its six steps are not certified: "
+            << run.runs().front().result.message << '\n';
+  return false;
+}
+
+}  // namespace
+
+ExitStatus SurveyRobotFile(const RobotCommand& command) {
+  const RobotFiles files = FilesOf(command);
+  const RobotDraft draft = SurveyRobot(command.survey);
+  const RobotModel robot = ModelOf(draft);
+  const fs::path folder = fs::absolute(files.robot).parent_path();
+  WriteWhole(files.robot, {YamlOf(draft, folder)});
+  WriteWhole(files.picture, {RobotPicture(robot)});
+  WriteWhole(files.walk, {SixStepsConfig(robot, files.robot.filename().string())});
+  TellWarnings(robot);
+  if (!command.quiet) Tell(draft, robot);
+  return Walk(files, command.quiet) ? kSuccess : kFailed;
+}
+
+CommandAction DeclareRobot(CLI::App* app) {
+  const auto command = std::make_shared<RobotCommand>();
+  struct Texts {
+    std::string urdf;
+    std::vector<std::string> feet, packages;
+  };
+  const auto texts = std::make_shared<Texts>();
+  SurveyRequest* const survey = &command->survey;
+  app->add_option("URDF", texts->urdf, "the robot, as its maker describes it")->required();
+  app->add_option("--out", command->out, "the robot file (default: NAME.yaml)");
+  app->add_option("--name", survey->name, "of the robot (default: the URDF's file)");
+  app->add_option("--waist", survey->legs.waist, "link on which both legs hang");
+  app->add_option("--feet", texts->feet, "links of the left and of the right foot")->expected(2);
+  app->add_option("--package", texts->packages, "NAME=FOLDER of package:// names; repeatable")
+      ->allow_extra_args(false);
+  app->add_option("--bend", survey->bend,
+                  "distance of hip and ankle when standing, over the stretched leg (default: 0.9, "
+                  "or what the limits need)")
+      ->check(CLI::Range(0.5, 0.99));
+  app->add_option("--width", survey->width, "of the stance [m] (default: as narrow as feet allow)")
+      ->check(CLI::Range(0.01, 2.0));
+  app->add_flag("--overwrite", command->overwrite, "replace older files");
+  app->add_flag("--quiet", command->quiet, "print nothing but errors");
+  return [command, texts] {
+    SurveyRequest& request = command->survey;
+    request.urdf = texts->urdf;
+    if (request.urdf.extension() == ".yaml") {
+      throw InputError({texts->urdf + ": is a robot file already (valid: a URDF)"});
+    }
+    for (size_t i = 0; i < texts->feet.size(); ++i) request.legs.feet[i] = texts->feet[i];
+    for (const YamlOverride& package : ParseOverrides(texts->packages, "--package")) {
+      request.packages[package.key] = fs::absolute(package.value).lexically_normal().string();
+    }
+    return SurveyRobotFile(*command);
+  };
+}
+
+}  // namespace halfstep

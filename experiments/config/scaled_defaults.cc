@@ -1,0 +1,169 @@
+#include "experiments/config/scaled_defaults.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <span>
+
+#include "experiments/config/experiment_config.h"
+#include "wpg/files/number_text.h"
+#include "wpg/files/text.h"
+
+namespace halfstep {
+namespace {
+
+constexpr double kLegLength = 0.705;  // of HRP-2 [m]
+constexpr double kStance = 0.21;      // its standing width [m]
+constexpr double kSpacing = 0.05;     // of its step set [m]
+constexpr double kDuration = 2.0;     // of its half-steps, T [s]
+// A leg joint's speed in a half-step over the highest bar of the shipped scenes is at most this
+// over T [rad]: notebooks-data/measurements.md, "Defaults that go by the robot".
+constexpr double kTurn = 6.8;
+constexpr double kViaHeight = 0.25;  // of HRP-2's half-steps [m]
+constexpr double kRise = 6e-3;    // of a foot before it moves ahead: more than the floor margin [m]
+constexpr double kOfLift = 0.95;  // of the highest place of the swing foot
+
+enum class Law { kLength, kGrid, kWidth, kDuration, kHeight, kAside, kDelay };
+
+// The decimal number of three digits that is nearest: HRP-2's numbers stay what they are.
+double Rounded(double value) { return std::strtod(Formatted("%.3g", value).c_str(), nullptr); }
+
+// The part of T after take-off in which a foot rises to a fraction of the via height: its height
+// follows the step 10x³ − 15x⁴ + 6x⁵ over the time from the ZMP's shift to the half-step's end.
+double DelayToRise(double fraction) {
+  constexpr double kShift = 0.05;  // of T
+  double low = 0.0, high = 1.0;
+  for (int i = 0; i < 50; ++i) {
+    const double x = 0.5 * (low + high);
+    (x * x * x * (10 + x * (-15 + 6 * x)) < fraction ? low : high) = x;
+  }
+  return (0.5 - 0.5 * kShift) * high;
+}
+
+// The value for a robot of what is `hrp2` for HRP-2.
+double Scaled(Law law, double hrp2, const RobotMeasures& robot) {
+  const double length = robot.leg_length / kLegLength, width = robot.standing_width / kStance;
+  switch (law) {
+    case Law::kLength:
+      return Rounded(hrp2 * length);
+    case Law::kGrid:  // the bounds of the step set are multiples of its rounded spacing
+      return hrp2 * (Rounded(kSpacing * length) / kSpacing);
+    case Law::kWidth:
+      return Rounded(hrp2 * width);
+    case Law::kDuration:
+      return Rounded(hrp2 * std::max(std::sqrt(length), kTurn / (kDuration * robot.slowest_joint)));
+    case Law::kHeight:
+      return Rounded(std::min(hrp2 * length, kOfLift * robot.lift));
+    case Law::kAside:
+      return Rounded(std::min(hrp2 * width, robot.aside));
+    case Law::kDelay:
+      return std::max(hrp2, Rounded(DelayToRise(kRise / Scaled(Law::kHeight, kViaHeight, robot))));
+  }
+  return hrp2;
+}
+
+std::string FormulaOf(Law law, const std::string& hrp2) {
+  switch (law) {
+    case Law::kLength:
+    case Law::kGrid:
+      return "`" + hrp2 + "` · ℓ/0.705 m";
+    case Law::kWidth:
+      return "`" + hrp2 + "` · w/0.21 m";
+    case Law::kDuration:
+      return "`" + hrp2 + "` · max(√(ℓ/0.705 m), 3.4 rad/s / q̇)";
+    case Law::kHeight:
+      return "min(`" + hrp2 + "` · ℓ/0.705 m, 0.95 lift)";
+    case Law::kAside:
+      return "min(`" + hrp2 + "` · w/0.21 m, aside)";
+    case Law::kDelay:
+      return "max(`" + hrp2 + "`, until the foot is 6 mm high)";
+  }
+  return hrp2;
+}
+
+struct ScaledDefault {
+  const char* key;
+  Law law;
+  double* (*value)(ExperimentConfig* config);
+  double min, max;  // what the key may be
+};
+
+std::span<const ScaledDefault> ScaledDefaults() {
+  using C = ExperimentConfig;
+  static constexpr ScaledDefault kRows[] = {
+      {"half_step.duration_s", Law::kDuration, [](C* c) { return &c->half_step.duration; }, 0.6, 6},
+      {"half_step.zmp_shift_s", Law::kDuration, [](C* c) { return &c->half_step.zmp_shift; }, 0.02,
+       2},
+      {"half_step.via_height_m", Law::kHeight, [](C* c) { return &c->half_step.via_height; }, 0.01,
+       1},
+      {"half_step.horizontal_delay", Law::kDelay,
+       [](C* c) { return &c->half_step.horizontal_delay; }, 0, 0.2},
+      {"half_step.via_lateral_m", Law::kAside, [](C* c) { return &c->half_step.via_lateral; }, 0.01,
+       1},
+      {"step_set.x_min_m", Law::kGrid, [](C* c) { return &c->half_step_grid.x_min; }, -2, 2},
+      {"step_set.x_max_m", Law::kGrid, [](C* c) { return &c->half_step_grid.x_max; }, -2, 2},
+      {"step_set.y_min_m", Law::kGrid, [](C* c) { return &c->half_step_grid.y_min; }, -2, 2},
+      {"step_set.y_max_m", Law::kGrid, [](C* c) { return &c->half_step_grid.y_max; }, -2, 2},
+      {"step_set.spacing_m", Law::kLength, [](C* c) { return &c->half_step_grid.spacing; }, 0.005,
+       1},
+      {"swept_volumes.cell_m", Law::kLength, [](C* c) { return &c->swept_volumes.options.cell; },
+       0.001, 0.1},
+      {"swept_volumes.displacement_m", Law::kLength,
+       [](C* c) { return &c->swept_volumes.options.displacement; }, 1e-4, 0.1},
+      {"planner.rrt.cell_m", Law::kLength,
+       [](C* c) { return &c->planner.options.rrt.cells.position; }, 0.002, 0.5},
+      {"planner.astar.cell_m", Law::kLength,
+       [](C* c) { return &c->planner.options.astar.cells.position; }, 0.002, 0.5},
+      {"planner.estimate.step_s", Law::kDuration,
+       [](C* c) { return &c->planner.estimate.step_time; }, 0.01, 100},
+      {"planner.bounding_box.length_m", Law::kLength,
+       [](C* c) { return &c->planner.options.bounding_box.box.length; }, 0.05, 5},
+      {"planner.bounding_box.width_m", Law::kLength,
+       [](C* c) { return &c->planner.options.bounding_box.box.width; }, 0.05, 5},
+      {"planner.bounding_box.height_m", Law::kLength,
+       [](C* c) { return &c->planner.options.bounding_box.box.height; }, 0.05, 5},
+      {"planner.bounding_box.feet_apart_m", Law::kWidth,
+       [](C* c) { return &c->planner.options.bounding_box.box.feet_apart; }, 0.05, 5},
+      {"planner.bounding_box.spacing_m", Law::kLength,
+       [](C* c) { return &c->planner.options.bounding_box.grid.spacing; }, 0.01, 1},
+      {"planner.bounding_box.corridor_m", Law::kLength,
+       [](C* c) { return &c->planner.options.bounding_box.corridor; }, 0.05, 5},
+  };
+  return kRows;
+}
+
+KeyDescription* Find(const std::string& path, std::vector<KeyDescription>* keys) {
+  for (KeyDescription& key : *keys) {
+    if (key.path == path) return &key;
+    if (path.starts_with(key.path + ".")) return Find(path, &key.keys);
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+void ScaleDefaults(const RobotMeasures& robot, ExperimentConfig* config) {
+  for (const ScaledDefault& row : ScaledDefaults()) {
+    double& value = *row.value(config);
+    value = std::clamp(Scaled(row.law, value, robot), row.min, row.max);
+  }
+}
+
+void DescribeScaling(std::vector<KeyDescription>* keys) {
+  for (const ScaledDefault& row : ScaledDefaults()) {
+    KeyDescription* const key = Find(row.key, keys);
+    key->otherwise = FormulaOf(row.law, key->default_text);
+  }
+}
+
+void DescribeScaling(const RobotMeasures& robot, std::vector<KeyDescription>* keys) {
+  DescribeScaling(keys);
+  ExperimentConfig scaled;
+  ScaleDefaults(robot, &scaled);
+  for (const ScaledDefault& row : ScaledDefaults()) {
+    KeyDescription* const key = Find(row.key, keys);
+    key->otherwise += " = " + ShortestText(*row.value(&scaled));
+  }
+}
+
+}  // namespace halfstep

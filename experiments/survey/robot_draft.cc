@@ -1,0 +1,143 @@
+#include "experiments/survey/robot_draft.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "wpg/files/text.h"
+#include "wpg/geometry/side.h"
+
+namespace halfstep {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kDegrees = 180 / std::numbers::pi;
+
+// A decimal number of at most so many places, without zeros at its end.
+std::string Decimal(double value, int places) {
+  std::string text = Formatted("%.*f", places, value);
+  if (text.find('.') != std::string::npos) {
+    text.erase(text.find_last_not_of('0') + 1);
+    if (text.back() == '.') text.pop_back();
+  }
+  return text == "-0" ? "0" : text;
+}
+
+std::string List(const Eigen::VectorXd& values, int places) {
+  std::string text;
+  for (const double value : values) text += (text.empty() ? "" : ", ") + Decimal(value, places);
+  return "[" + text + "]";
+}
+
+// Roll, pitch and yaw about fixed axes [deg].
+Eigen::Vector3d RpyOf(const Eigen::Matrix3d& R) {
+  const double pitch = std::atan2(-R(2, 0), std::hypot(R(2, 1), R(2, 2)));
+  return kDegrees *
+         Eigen::Vector3d(std::atan2(R(2, 1), R(2, 2)), pitch, std::atan2(R(1, 0), R(0, 0)));
+}
+
+// Text as YAML takes it, whatever is in it.
+std::string Quoted(const std::string& text) {
+  std::string quoted;
+  for (const char c : text) quoted += c == '\'' ? std::string("''") : std::string(1, c);
+  return "'" + quoted + "'";
+}
+
+std::string LinkName(const RobotDraft& draft, int link) {
+  return draft.urdf.links[static_cast<size_t>(link)].name;
+}
+
+std::string LegsText(const RobotDraft& draft) {
+  const FoundSole& sole = draft.soles[0];
+  std::string text =
+      "# The soles: the largest flat part of each foot's bodies, " + Decimal(1e3 * sole.depth, 1) +
+      " mm below the frame of the foot's link; its centre is that\n"
+      "# of the largest rectangle in what is less than 1 mm above the lowest point.\n";
+  if (sole.tilt > 0.1 / kDegrees) {
+    text += "# With all joints at zero it tilts by " + Decimal(sole.tilt * kDegrees, 1) + " deg.\n";
+  }
+  text += "legs:\n";
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    const auto i = static_cast<size_t>(Index(side));
+    const Eigen::Isometry3d& X = draft.soles[i].X_FootSole;
+    text += "  " + std::string(Name(side)) +
+            ":\n    foot_link: " + Quoted(LinkName(draft, draft.legs.feet[i])) +
+            "\n    sole_xyz: " + List(X.translation(), 7) + "\n";
+    const Eigen::Vector3d rpy = RpyOf(X.linear());
+    if (rpy.cwiseAbs().maxCoeff() > 1e-9) text += "    sole_rpy_deg: " + List(rpy, 9) + "\n";
+  }
+  // Inwards, so that what carries is there.
+  const Eigen::Vector2d size = (1e4 * sole.size).array().floor() / 1e4;
+  return text + "sole_size_m: " + List(size, 4) + "\n";
+}
+
+std::string PostureText(const RobotDraft& draft) {
+  const UrdfTree& urdf = draft.urdf;
+  std::string text = "# Hip and ankle are " + Decimal(100 * draft.standing.bend, 0) +
+                     " % of the stretched leg apart" +
+                     (draft.why_bend.empty() ? "" : " (" + draft.why_bend + ")") +
+                     "; the soles' centres are below the CoM, " + Decimal(draft.standing.width, 4) +
+                     " m apart:\n# " + draft.why_width + ".\nstanding_posture_deg:\n";
+  for (size_t i = 0; i < urdf.joints.size(); ++i) {
+    if (urdf.joints[i].kind != UrdfJoint::Kind::kRevolute) continue;
+    const std::string angle = Decimal(kDegrees * draft.posture[i], 4);
+    const auto why = draft.why_posture.find(static_cast<int>(i));
+    if (angle == "0" && why == draft.why_posture.end()) continue;
+    text += "  " + Quoted(urdf.joints[i].name) + ": " + angle +
+            (why == draft.why_posture.end() ? "" : "  # " + why->second) + "\n";
+  }
+  return text;
+}
+
+std::string ExcludedText(const RobotDraft& draft) {
+  if (draft.excluded.empty()) return "";
+  std::string text =
+      "# Neighbours whose convex hulls touch as they stand, or come that near in six steps.\n"
+      "excluded_self_pairs:\n";
+  for (const ExcludedPair& pair : draft.excluded) {
+    text += "  - {links: [" + Quoted(pair.links[0]) + ", " + Quoted(pair.links[1]) +
+            "], why: " + Quoted(pair.why) + "}\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string YamlOf(const RobotDraft& draft, const fs::path& folder) {
+  std::string text =
+      "# A guess by `halfstep robot`, to be looked at. Keys: wpg/README.md, \"Robots\".\n";
+  text += "name: " + Quoted(draft.name) + "\n";
+  text += "urdf: " + Quoted(fs::proximate(draft.urdf_path, folder).string()) + "\n";
+  if (!draft.packages.empty()) {
+    text += "packages:\n";
+    for (const auto& [name, place] : draft.packages) {
+      text += "  " + Quoted(name) + ": " + Quoted(fs::proximate(place, folder).string()) + "\n";
+    }
+  }
+  if (draft.dae_up_axis) {
+    text +=
+        "# Turned by it, the meshes of the legs lie nearer to the legs' joints.\n"
+        "dae_up_axis: applied\n";
+  }
+  text +=
+      "# Both legs hang on it.\nwaist_link: " + Quoted(LinkName(draft, draft.legs.waist)) + "\n";
+  if (const Eigen::Vector3d rpy = RpyOf(draft.R_LinkB); rpy.cwiseAbs().maxCoeff() > 1e-9) {
+    text +=
+        "# z from the feet to the hips, y from the right hip to the left one.\nwaist_rpy_deg: " +
+        List(rpy, 9) + "\n";
+  }
+  for (const std::string& joint : draft.legs.beyond) {
+    text += "# " + joint + " is beyond the sixth joint: it is held still.\n";
+  }
+  return text + LegsText(draft) + PostureText(draft) + ExcludedText(draft);
+}
+
+RobotModel ModelOf(const RobotDraft& draft, RobotParts parts) {
+  const fs::path folder = fs::absolute(draft.urdf_path).parent_path();
+  const std::string path = (folder / (draft.name + ".yaml")).string();
+  const std::string text = YamlOf(draft, folder);
+  return BuildRobot(path, text, ReadRobotFile(path, text), parts);
+}
+
+}  // namespace halfstep

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "experiments/survey/found_frames.h"
+#include "experiments/survey/standing.h"
+#include "wpg/robot/robot_fields.h"
+#include "wpg/robot/urdf_file.h"
+
+namespace halfstep {
+
+/// A robot file in the making: what was found of a URDF, and why.
+struct RobotDraft {
+  std::string name;
+  std::filesystem::path urdf_path;
+  std::map<std::string, std::string> packages;  ///< given by the user: name → folder
+  UrdfTree urdf;                                ///< with the waist frame in its link
+  bool dae_up_axis = false;
+  FoundLegs legs;
+  Eigen::Matrix3d R_LinkB = Eigen::Matrix3d::Identity();
+  std::array<FoundSole, 2> soles;
+  StandingRequest standing;
+  std::string why_bend;         ///< why the knees are bent so little; "": as usual
+  std::string why_width;        ///< why the stance is so wide
+  std::vector<double> posture;  ///< by URDF joint index [rad]
+  std::vector<ExcludedPair> excluded;
+  std::map<int, std::string> why_posture;  ///< of joints outside the legs, by URDF joint index
+};
+
+/// The draft as a robot file that stands in `folder`, each number with its reason as a comment.
+std::string YamlOf(const RobotDraft& draft, const std::filesystem::path& folder);
+
+/// The model of that file. Throws InputError where the draft is no robot.
+RobotModel ModelOf(const RobotDraft& draft, RobotParts parts = RobotParts::kAll);
+
+}  // namespace halfstep

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "experiments/survey/robot_draft.h"
+#include "wpg/motion/half_step.h"
+
+namespace halfstep {
+
+/// What is asked of a URDF, and what the user knows better.
+struct SurveyRequest {
+  std::filesystem::path urdf;
+  std::string name = {};  ///< "": that of the URDF's file
+  LegNames legs = {};
+  std::map<std::string, std::string> packages = {};  ///< name → folder
+  /// Distance of hip and ankle over the leg's stretched length; 0: to be found.
+  double bend = 0.0;
+  double width = 0.0;  ///< of the stance [m]; 0: to be found
+};
+
+/// Makes a robot file of a URDF: finds waist and legs; asks whether the robot is of the class;
+/// finds waist frame, soles, a posture to stand in, joints of the arms that keep them off the legs,
+/// and neighbours that touch by design. Throws InputError: its first complaint is one sentence that
+/// says what keeps the robot from being of the class.
+RobotDraft SurveyRobot(const SurveyRequest& request);
+
+/// The half-step that a config without numbers would give this robot.
+HalfStep DefaultHalfStep(const RobotModel& robot);
+
+}  // namespace halfstep

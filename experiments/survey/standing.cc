@@ -1,0 +1,82 @@
+#include "experiments/survey/standing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "wpg/robot/leg_ik.h"
+#include "wpg/robot/robot_legs.h"
+
+namespace halfstep {
+namespace {
+
+using Eigen::Vector3d;
+
+// Turns angles by whole turns into the limits where that is possible.
+bool FitLimits(const Leg& leg, Vector6d* q) {
+  for (size_t i = 0; i < 6; ++i) {
+    double& angle = (*q)[static_cast<Eigen::Index>(i)];
+    const LegJoint& joint = leg.joints[i];
+    if (angle < joint.lower) angle += 2 * std::numbers::pi;
+    if (angle > joint.upper) angle -= 2 * std::numbers::pi;
+    if (angle < joint.lower || angle > joint.upper) return false;
+  }
+  return true;
+}
+
+// How far the knee axis is ahead of the middle of hip and ankle [m].
+double KneeAhead(const Leg& leg, const Vector6d& q) {
+  const LegFrames frames = PlaceLeg(leg, q);
+  const Vector3d ankle = frames.X_BLink[6] * (leg.X_BSole.inverse() * leg.ankle_B);
+  const Vector3d middle = 0.5 * (leg.hip_B + ankle);
+  const Vector3d off = frames.point_B[3] - middle;
+  return (off - off.dot(frames.axis_B[3]) * frames.axis_B[3]).x();
+}
+
+}  // namespace
+
+std::optional<Vector6d> FindStanding(const Leg& leg, Side side, const StandingRequest& request) {
+  const Vector3d ankle_S = leg.X_BSole.inverse() * leg.ankle_B;
+  Eigen::Isometry3d X_BSole = Eigen::Isometry3d::Identity();
+  X_BSole.translation() = Vector3d(request.x, Sign(side) * 0.5 * request.width, 0.0);
+  const Vector3d across = X_BSole * ankle_S - leg.hip_B;
+  const double reach = request.bend * StretchedLength(leg);
+  const double height = reach * reach - across.head<2>().squaredNorm();
+  if (height <= 0) return std::nullopt;
+  X_BSole.translation().z() = leg.hip_B.z() - ankle_S.z() - std::sqrt(height);
+  std::optional<Vector6d> best;
+  double farthest = -std::numeric_limits<double>::infinity();
+  for (LegIkBranchSolution& solution : SolveLegIkAll(leg, X_BSole)) {
+    if (!FitLimits(leg, &solution.q)) continue;
+    const double ahead = KneeAhead(leg, solution.q);
+    // Of two that turn hip or ankle round, the one that turns less.
+    const double value = ahead - 1e-3 * solution.q.norm();
+    if (value > farthest) {
+      farthest = value;
+      best = solution.q;
+    }
+  }
+  return best;
+}
+
+double NarrowestStance(const std::array<Leg, 2>& legs, const std::array<FoundSole, 2>& soles,
+                       const std::vector<RobotBody>& bodies, double gap) {
+  double width = 0.0;
+  for (size_t side = 0; side < 2; ++side) {
+    const Eigen::Isometry3d X_BSole = legs[side].joints[5].X_BLink * soles[side].X_FootSole;
+    const double sign = side == 0 ? 1.0 : -1.0;
+    width = std::max(width, 2 * sign * X_BSole.translation().y());
+    double inner = 0.5 * soles[side].size.y();
+    const Vector3d inwards = soles[side].X_FootSole.linear() * Vector3d(0, -sign, 0);
+    for (const RobotBody& body : bodies) {
+      if (body.leg != static_cast<int>(side) || body.link != 5) continue;
+      inner = std::max(
+          inner, Support(body.shape, inwards) - inwards.dot(soles[side].X_FootSole.translation()));
+    }
+    width = std::max(width, 2 * inner + gap);
+  }
+  return width;
+}
+
+}  // namespace halfstep

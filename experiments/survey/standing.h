@@ -1,0 +1,28 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+
+#include "experiments/survey/found_frames.h"
+#include "wpg/robot/robot_model.h"
+
+namespace halfstep {
+
+/// How a robot shall stand.
+struct StandingRequest {
+  double bend = 0.9;   ///< distance of hip and ankle over the leg's stretched length, 0.5 … 0.99
+  double width = 0.0;  ///< distance of the sole centres [m]
+  double x = 0.0;      ///< of the sole centres ahead of the waist [m]
+};
+
+/// The joint angles of a leg [rad] that put its sole there, level and pointing forward, within its
+/// limits; of several solutions the one whose knee is farthest ahead. None when there is none.
+std::optional<Vector6d> FindStanding(const Leg& leg, Side side, const StandingRequest& request);
+
+/// The narrowest stance [m] at which the feet are `gap` apart: their bodies, or the soles where
+/// those are wider. It is at least that of straight legs.
+double NarrowestStance(const std::array<Leg, 2>& legs, const std::array<FoundSole, 2>& soles,
+                       const std::vector<RobotBody>& bodies, double gap);
+
+}  // namespace halfstep

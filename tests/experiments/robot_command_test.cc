@@ -1,0 +1,141 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <regex>
+
+#include "experiments/commands/commands.h"
+#include "experiments/config/experiment.h"
+#include "experiments/config/scaled_defaults.h"
+#include "experiments/survey/robot_survey.h"
+#include "tests/experiments/child_process.h"
+#include "tests/experiments/run_check.h"
+#include "tests/replaced.h"
+#include "tests/temporary_folder.h"
+#include "tests/wpg/generated_robots.h"
+#include "wpg/files/input_error.h"
+
+namespace halfstep {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::StartsWith;
+
+const fs::path kRobots = fs::path(HALFSTEP_SOURCE_DIR) / "wpg" / "robots";
+
+TEST(RobotCommand, MakesARobotOfAUrdfThatWalksSixSteps) {
+  const TemporaryFolder place;
+  const std::vector<std::string> arguments = {
+      "robot",     (kRobots / "hrp2.urdf").string(),
+      "--package", "hrp2_bodies=" + (kRobots / "hrp2").string(),
+      "--out",     "guess.yaml"};
+  const Outcome outcome = Halfstep(place.path(), arguments);
+  EXPECT_EQ(outcome.status, kSuccess) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("dichotomy              converged        certified"));
+  EXPECT_THAT(ReadText(place / "guess.svg"), StartsWith("<svg "));
+  // Beside the shipped file, which was made by hand.
+  const RobotModel guess = LoadRobot((place / "guess.yaml").string());
+  const RobotModel hrp2 = LoadRobot((kRobots / "hrp2.yaml").string());
+  EXPECT_NEAR(guess.standing_width, hrp2.standing_width, 0.002);
+  EXPECT_NEAR(guess.waist_height, hrp2.waist_height, 0.02);
+  EXPECT_LT((guess.legs[0].X_BSole.translation() - hrp2.legs[0].X_BSole.translation()).norm(),
+            1e-3);
+  EXPECT_EQ(guess.legs[0].joints[3].name, "LLEG_JOINT3");
+  EXPECT_EQ(guess.legs[1].joints[3].name, "RLEG_JOINT3");
+  // What is there is not replaced unless that is asked for.
+  const Outcome again = Halfstep(place.path(), arguments);
+  EXPECT_EQ(again.status, kBadInput);
+  EXPECT_EQ(again.err, "guess.yaml: is there already (--overwrite replaces it)\n");
+  // The config beside it is one of `run`.
+  const Outcome run =
+      Halfstep(place.path(), {"run", "guess_six_steps.yaml", "--out", "run", "--quiet"});
+  EXPECT_EQ(run.status, kSuccess) << run.err;
+}
+
+TEST(RobotSurvey, FindsLegsSolesAndAPostureOfRobotsWithOtherAxes) {
+  for (const GeneratedRobot& robot : GeneratedRobots()) {
+    SCOPED_TRACE(robot.name);
+    const TemporaryFolder place;
+    const std::string file = WriteText(place / "robot.urdf", GeneratedUrdf(robot));
+    const RobotDraft draft = SurveyRobot({.urdf = file});
+    EXPECT_TRUE(draft.R_LinkB.isIdentity(0.0));
+    EXPECT_TRUE(draft.legs.sides_by_name);
+    for (const Side side : {Side::kLeft, Side::kRight}) {
+      const auto i = static_cast<size_t>(Index(side));
+      for (size_t k = 0; k < 6; ++k) {
+        EXPECT_EQ(draft.urdf.joints[static_cast<size_t>(draft.legs.joints[i][k])].name,
+                  std::string(Name(side)) + "_joint" + std::to_string(k));
+      }
+    }
+    const RobotModel model = ModelOf(draft);  // throws where the soles are not level
+    const Leg expected = MakeLeg(robot, Side::kLeft);
+    EXPECT_NEAR(model.legs[0].X_BSole.translation().z(), expected.X_BSole.translation().z(), 1e-6);
+    EXPECT_NEAR(model.legs[0].X_BSole.translation().x(), model.legs[1].X_BSole.translation().x(),
+                1e-6);
+  }
+}
+
+std::string RefusalOf(const std::string& urdf) {
+  const TemporaryFolder place;
+  try {
+    (void)SurveyRobot({.urdf = WriteText(place / "robot.urdf", urdf)});
+  } catch (const InputError& error) {
+    return error.complaints().front();
+  }
+  return "";
+}
+
+TEST(RobotSurvey, SaysFirstWhatKeepsARobotFromBeingOfTheClass) {
+  GeneratedRobot robot = GeneratedRobots()[0];
+  const std::string good = GeneratedUrdf(robot);
+  EXPECT_EQ(RefusalOf(good), "");
+  EXPECT_THAT(RefusalOf("<robot name='r'><link name='stone'/></robot>"),
+              HasSubstr("there are no two legs (valid: two legs of six revolute joints)"));
+  EXPECT_THAT(RefusalOf(std::regex_replace(good, std::regex("joint5' type='revolute'"),
+                                           "joint5' type='fixed'")),
+              HasSubstr("has 5 moving joints"));
+  // What is wrong with a finger is told later, and as a warning.
+  const std::string finger =
+      "<link name='finger'/><joint name='grip' type='revolute'><parent link='waist'/>"
+      "<child link='finger'/><axis xyz='0 0 0'/></joint></robot>";
+  EXPECT_EQ(RefusalOf(Replaced(good, "</robot>", finger)), "");
+}
+
+TEST(ScaledDefaults, AreHrp2sForHrp2) {
+  ExperimentConfig scaled;
+  ScaleDefaults(MeasureRobot((kRobots / "hrp2.yaml").string()), &scaled);
+  const auto text = [](ExperimentConfig config) {
+    return WriteYaml([&config](Fields& fields) { DeclareFields(fields, &config); });
+  };
+  EXPECT_EQ(text(scaled), text(ExperimentConfig{}));
+}
+
+TEST(ScaledDefaults, GoByTheLegUnlessAKeySaysOtherwise) {
+  RobotMeasures half = MeasureRobot((kRobots / "hrp2.yaml").string());
+  half.leg_length *= 0.25;
+  half.standing_width *= 0.5;
+  half.lift *= 0.25;
+  half.aside *= 0.5;
+  half.slowest_joint = 100.0;  // [rad/s]
+  ExperimentConfig config;
+  ScaleDefaults(half, &config);
+  EXPECT_EQ(config.half_step.duration, 1.0);
+  EXPECT_EQ(config.half_step.zmp_shift, 0.05);
+  EXPECT_EQ(config.half_step.via_height, 0.0625);
+  EXPECT_EQ(config.half_step.via_lateral, 0.12);
+  EXPECT_EQ(config.half_step.horizontal_delay, 0.115);  // 0.0625 m · S(0.115/0.475) = 6 mm
+  EXPECT_DOUBLE_EQ(config.half_step_grid.x_max, 7 * config.half_step_grid.spacing);
+  half.slowest_joint = 1.7;  // [rad/s]
+  ScaleDefaults(half, &(config = {}));
+  EXPECT_EQ(config.half_step.duration, 4.0);
+  const TemporaryFolder place;
+  const Outcome outcome =
+      Halfstep(place.path(), {"explain-config", "via_height_m", "--robot", "hrp2"});
+  EXPECT_THAT(outcome.out,
+              HasSubstr("half_step.via_height_m: number [m], else min(`0.25` · ℓ/0.705 m, 0.95 "
+                        "lift) = 0.25, valid: 0.01 … 1"));
+}
+
+}  // namespace
+}  // namespace halfstep
