@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 constexpr int kMostSteps = 64;
 constexpr double kStride = 0.08;     // what a step asks of a joint at first [rad]
 constexpr double kShortest = 1e-3;   // step, as a part of the offsets
-constexpr double kResidual = 1e-12;  // of the pose in the end [rad], [m]
+constexpr double kResidual = 3e-14;  // of the pose in the end [rad], [m]
 
 // Twists about a point of a way between two poses on which the origin goes straight and the body
 // turns evenly. They are affine in time, so their mean is that at the middle, and absolute values
@@ -108,7 +108,7 @@ class Continuer {
       step = node.near.inverse() * twist;
     }
     return residual < kResidual &&
-           ((*q - node.q).cwiseAbs().array() <= node.unique.array() + kResidual).all();
+           ((*q - node.q).cwiseAbs().array() <= node.unique.array() + 1e-12).all();
   }
 
  private:

@@ -31,7 +31,7 @@ class OffsetJoints {
 };
 
 // Angular velocity of link `link` at m, seen from the waist (links 0–2) or the sole.
-Vector3d Turn(const LegFrames& frames, const Vector6d& speeds, int link) {
+Vector3d LinkTurn(const LegFrames& frames, const Vector6d& speeds, int link) {
   const bool from_waist = LegAnchors::OnHip(link);
   Vector3d turn(0, 0, 0);
   for (int j = from_waist ? 0 : link + 1; j < (from_waist ? link + 1 : 6); ++j) {
@@ -52,7 +52,7 @@ std::array<TurnBound, 6> Turns(const LegFrames& frames, const Vector6d& at_m,
       so_far.acceleration += bounds.acceleration[j] + so_far.speed * speed;
       so_far.speed += speed;
       turns[static_cast<size_t>(link)] = {
-          std::min(so_far.speed, Turn(frames, at_m, link).norm() + h * so_far.acceleration),
+          std::min(so_far.speed, LinkTurn(frames, at_m, link).norm() + h * so_far.acceleration),
           so_far.acceleration};
     }
   };
