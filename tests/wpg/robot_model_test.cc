@@ -367,7 +367,8 @@ TEST(RobotRefusal, JointLimitsMoreThanATurnApart) {
   EXPECT_NO_THROW((void)TemporaryRobot("narrowed", with_limits("3.2"), narrowed).Load());
 }
 
-TEST(RobotRefusal, HipAxesThatPassEachOther) {
+// Offset hips are another class of legs, but the legs must be the same.
+TEST(RobotRefusal, OneHipWhoseAxesPassEachOther) {
   GeneratedRobot robot = GeneratedRobots()[0];
   const std::string urdf = GeneratedUrdf(robot);
   const std::string yaml = GeneratedYaml(robot, "robot.urdf");
@@ -375,9 +376,26 @@ TEST(RobotRefusal, HipAxesThatPassEachOther) {
   const std::string joint = "<child link='left_link2'/><origin xyz='0 0 0'";
   const std::string refusal = RefusalOf(
       {"apart", Replaced(urdf, joint, "<child link='left_link2'/><origin xyz='0 0.012 0'"), yaml});
+  EXPECT_THAT(refusal, HasSubstr("mm off the mirror image"));
+}
+
+// Offset axes are moved with a proof that needs a posture to begin with.
+TEST(RobotRefusal, OffsetAxesOfANearlyStretchedLeg) {
+  GeneratedRobot robot = OffsetRobots()[0];
+  std::string yaml = GeneratedYaml(robot, "robot.urdf");
+  const std::string urdf = GeneratedUrdf(robot);
+  yaml = yaml.substr(0, yaml.find("standing_posture_deg"));
+  yaml += "standing_posture_deg: {";
+  for (const std::string side : {"left", "right"}) {
+    const std::string joint = (side == "left" ? "" : ", ") + side + "_joint";
+    yaml += joint + "2: -9.2, " + side + "_joint3: 2.4, " + side + "_joint4: 6.8";
+  }
+  const std::string refusal = RefusalOf({"stretched", urdf, yaml + "}\n"});
   EXPECT_THAT(refusal, HasSubstr("left_joint2: hip axes left_joint0 and left_joint2 pass each "
-                                 "other at 12.0 mm; a closed-form leg needs all three hip axes "
-                                 "through one point"));
+                                 "other at 50.0 mm, hip axes left_joint1 and left_joint2 pass each "
+                                 "other at 66.0 mm; so there is no closed form for the leg's "
+                                 "joints, and in the standing posture it is too near to a "
+                                 "singularity for a proof without: bend it more there"));
 }
 
 TEST(RobotRefusal, LegsThatAreNoClosedFormLegs) {

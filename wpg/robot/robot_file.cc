@@ -111,6 +111,18 @@ class Builder {
     for (const std::string& warning : file_.warnings) {
       model_.warnings.push_back(file_.name + ": " + warning);
     }
+    for (size_t side = 0; side < 2; ++side) {
+      const Leg& leg = model_.legs[side];
+      if (leg.closed_form()) continue;
+      const auto joint = static_cast<size_t>(body_.leg_joints[side][0]);
+      const UrdfJoint& first = urdf_.joints[joint];
+      Complaints told;
+      told.Add(urdf_.file, first.place.line, first.place.column, first.name,
+               leg.offsets +
+                   ": the closed form does not apply; joint angles are those of a leg whose "
+                   "axes meet, continued with proof to this one, which takes longer");
+      for (const std::string& line : told.lines()) model_.warnings.push_back(line);
+    }
     for (const UrdfJoint& joint : urdf_.joints) {
       for (const std::string& fault : joint.faults) {
         model_.warnings.push_back(fault + "; it is held still");
@@ -181,7 +193,7 @@ class Builder {
     }
     body_.dae_up_axis = file_.dae_up_axis == "applied";
     LinkBodies all = BuildBodies(urdf_, body_, complaints_);
-    SelfPairs pairs = BuildSelfPairs(urdf_, file_.excluded, all, body_.leg_joints);
+    SelfPairs pairs = BuildSelfPairs(urdf_, file_.excluded, all, body_.leg_joints, model_.legs);
     model_.self_pairs = std::move(pairs.watched);
     model_.unwatched_pairs = std::move(pairs.unwatched);
     model_.bodies = std::move(all.bodies);
