@@ -121,9 +121,11 @@ std::filesystem::path OutputFolder(const RunCommand& command, const ExperimentCo
   return std::filesystem::path("runs") / config.name;
 }
 
-void TellWarnings(const RobotModel& robot) {
-  for (const std::string& warning : robot.warnings) {
-    std::cerr << "halfstep: warning: " << warning << '\n';
+void TellWarnings(const RobotModel& robot, const Scene& scene) {
+  for (const auto& warnings : {robot.warnings, scene.warnings}) {
+    for (const std::string& warning : warnings) {
+      std::cerr << "halfstep: warning: " << warning << '\n';
+    }
   }
 }
 

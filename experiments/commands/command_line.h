@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "planner/scene/scene.h"
 #include "wpg/files/yaml_fields.h"
 
 namespace halfstep {
@@ -41,8 +42,9 @@ void DeclareRunFlags(CLI::App* app, RunCommand* command);
 /// empty `--out`.
 std::filesystem::path OutputFolder(const RunCommand& command, const ExperimentConfig& config);
 
-/// What was repaired in the robot's URDF or left out of it, on standard error.
-void TellWarnings(const RobotModel& robot);
+/// What of the robot's URDF and of the scene was repaired, left out or made larger, on standard
+/// error.
+void TellWarnings(const RobotModel& robot, const Scene& scene = {});
 
 CommandAction DeclareRun(CLI::App* app);
 CommandAction DeclareSmooth(CLI::App* app);

@@ -120,7 +120,7 @@ ExitStatus Live(const LiveCommand& command) {
   InterruptGuard interrupt;
   LiveConfig config = ConfigOf(command);
   const Place place = LoadEpisodePlace(config);
-  TellWarnings(place.robot);
+  TellWarnings(place.robot, place.scene);
   const TrueWorld truth(place.scene, config.experiment.goal, config.live);
   const std::unique_ptr<ServedEpisode> served = Serve(command, config, place, truth);
   const bool silent = command.run.quiet || command.run.json;

@@ -78,7 +78,7 @@ ExitStatus Plan(const PlanCommand& command) {
         {command.config + ": goal: is missing (valid: a `goal` in place of footsteps)"});
   }
   const Place place = LoadPlace(config);
-  TellWarnings(place.robot);
+  TellWarnings(place.robot, place.scene);
   std::optional<PlannedWalk> walk;
   {
     Bars bars(command.quiet || command.json);
@@ -100,7 +100,7 @@ ExitStatus Bake(const PlanCommand& command) {
   InterruptGuard interrupt;
   const ExperimentConfig config = LoadConfig(command.config, command.overrides);
   const Place place = LoadPlace(config);
-  TellWarnings(place.robot);
+  TellWarnings(place.robot, place.scene);
   std::optional<BakedHalfSteps> baked;
   {
     Bars bars(command.quiet || command.json);

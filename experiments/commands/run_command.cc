@@ -9,6 +9,7 @@
 #include "experiments/run/complete_manifest.h"
 #include "experiments/run/experiment_run.h"
 #include "experiments/run/interrupt.h"
+#include "experiments/run/missed_demands_text.h"
 #include "experiments/run/progress_bar.h"
 #include "experiments/run/run_screen.h"
 #include "wpg/files/input_error.h"
@@ -36,6 +37,14 @@ class ProgressBars {
   std::string what_;
   std::optional<ProgressBar> bar_;
 };
+
+// Why the plan is not feasible, on standard error.
+void TellMissed(const ExperimentRun& run) {
+  std::vector<std::string> lines = {run.runs().front().result.message};
+  if (run.missed()) lines = MissedDemandsText(run.evaluator(), *run.missed());
+  lines.front().insert(0, "the plan is not feasible: ");
+  for (const std::string& line : lines) std::cerr << "halfstep: " << line << '\n';
+}
 
 // A sentence on standard error for each method that never searched or broke down.
 bool TellWhatDidNotWork(const std::vector<MethodRun>& runs) {
@@ -76,7 +85,7 @@ ExitStatus Run(const RunCommand& command) {
   CompleteManifest(run.experiment().robot, run.experiment().scene, &folder);
   folder.Publish();
 
-  TellWarnings(run.experiment().robot);
+  TellWarnings(run.experiment().robot, run.experiment().scene);
   const std::string place = folder.path().string();
   if (command.json) {
     std::cout << RunJson(run.evaluator(), run.runs(), place);
@@ -84,8 +93,7 @@ ExitStatus Run(const RunCommand& command) {
     std::cout << RunTable(run.experiment(), run.problem(), run.runs(), place);
   }
   if (!run.runs().front().result.feasible) {
-    std::cerr << "halfstep: the plan is not feasible: " << run.runs().front().result.message
-              << '\n';
+    TellMissed(run);
     return kFailed;
   }
   if (interrupt.requested()) return kInterrupted;

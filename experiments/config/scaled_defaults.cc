@@ -23,10 +23,12 @@ constexpr double kViaHeight = 0.25;  // of HRP-2's half-steps [m]
 constexpr double kRise = 6e-3;    // of a foot before it moves ahead: more than the floor margin [m]
 constexpr double kOfLift = 0.95;  // of the highest place of the swing foot
 
-enum class Law { kLength, kGrid, kWidth, kDuration, kHeight, kAside, kDelay };
+enum class Law { kLength, kGrid, kAcross, kWidth, kDuration, kHeight, kAside, kDelay };
 
 // The decimal number of three digits that is nearest: HRP-2's numbers stay what they are.
-double Rounded(double value) { return std::strtod(Formatted("%.3g", value).c_str(), nullptr); }
+double Rounded(double value, int digits = 3) {
+  return std::strtod(Formatted("%.*g", digits, value).c_str(), nullptr);
+}
 
 // The part of T after take-off in which a foot rises to a fraction of the via height: its height
 // follows the step 10x³ − 15x⁴ + 6x⁵ over the time from the ZMP's shift to the half-step's end.
@@ -46,8 +48,10 @@ double Scaled(Law law, double hrp2, const RobotMeasures& robot) {
   switch (law) {
     case Law::kLength:
       return Rounded(hrp2 * length);
-    case Law::kGrid:  // the bounds of the step set are multiples of its rounded spacing
-      return hrp2 * (Rounded(kSpacing * length) / kSpacing);
+    case Law::kGrid:  // the bounds of the step set along x are multiples of its rounded spacing
+      return Rounded(hrp2 * (Rounded(kSpacing * length) / kSpacing), 6);
+    case Law::kAcross:
+      return Rounded((hrp2 + kStance) * length - robot.standing_width);
     case Law::kWidth:
       return Rounded(hrp2 * width);
     case Law::kDuration:
@@ -67,6 +71,8 @@ std::string FormulaOf(Law law, const std::string& hrp2) {
     case Law::kLength:
     case Law::kGrid:
       return "`" + hrp2 + "` · ℓ/0.705 m";
+    case Law::kAcross:
+      return "(`" + hrp2 + "` + 0.21 m) · ℓ/0.705 m − w";
     case Law::kWidth:
       return "`" + hrp2 + "` · w/0.21 m";
     case Law::kDuration:
@@ -102,8 +108,8 @@ std::span<const ScaledDefault> ScaledDefaults() {
        1},
       {"step_set.x_min_m", Law::kGrid, [](C* c) { return &c->half_step_grid.x_min; }, -2, 2},
       {"step_set.x_max_m", Law::kGrid, [](C* c) { return &c->half_step_grid.x_max; }, -2, 2},
-      {"step_set.y_min_m", Law::kGrid, [](C* c) { return &c->half_step_grid.y_min; }, -2, 2},
-      {"step_set.y_max_m", Law::kGrid, [](C* c) { return &c->half_step_grid.y_max; }, -2, 2},
+      {"step_set.y_min_m", Law::kAcross, [](C* c) { return &c->half_step_grid.y_min; }, -2, 2},
+      {"step_set.y_max_m", Law::kAcross, [](C* c) { return &c->half_step_grid.y_max; }, -2, 2},
       {"step_set.spacing_m", Law::kLength, [](C* c) { return &c->half_step_grid.spacing; }, 0.005,
        1},
       {"swept_volumes.cell_m", Law::kLength, [](C* c) { return &c->swept_volumes.options.cell; },

@@ -11,8 +11,9 @@
 namespace halfstep {
 namespace {
 
-// The planned motion as the first row of every comparison.
-MethodRun PlannedRun(const WalkProblem& problem, const std::stop_token& stop) {
+// The planned motion as the first row of every comparison, and what it misses.
+MethodRun PlannedRun(const WalkProblem& problem, const std::stop_token& stop,
+                     std::optional<MissedDemands>* missed) {
   MethodRun run("raw");
   MarginEvaluator::Scratch scratch = problem.evaluator().MakeScratch();
   scratch.stop = stop;
@@ -28,9 +29,14 @@ MethodRun PlannedRun(const WalkProblem& problem, const std::stop_token& stop) {
     run.result.message = "stopped from outside before the start was looked at";
     return run;
   }
-  run.result.ending = run.result.feasible ? opt::Ending::kConverged : opt::Ending::kFailed;
-  run.result.message = run.result.feasible ? "the isolated half-steps, one after the other"
-                                           : problem.evaluator().Describe(answer.witness);
+  if (run.result.feasible) {
+    run.result.ending = opt::Ending::kConverged;
+    run.result.message = "the isolated half-steps, one after the other";
+    return run;
+  }
+  *missed = FindMissedDemands(problem.evaluator(), walk, answer.witness);
+  run.result.ending = opt::Ending::kFailed;
+  run.result.message = problem.evaluator().Describe((*missed)->demands.front().worst);
   return run;
 }
 
@@ -85,7 +91,7 @@ void ExperimentRun::Smooth(const RunHooks& hooks) {
   problem_.emplace(experiment_->sequence, MakeTest(*experiment_),
                    FixedParameters(config_.smoothing));
   certifier_.emplace(evaluator(), config_.smoothing.certification);
-  runs_ = {PlannedRun(*problem_, hooks.stop_step)};
+  runs_ = {PlannedRun(*problem_, hooks.stop_step, &missed_)};
   if (hooks.keep && runs_.front().result.feasible) hooks.keep();
   for (const std::string& name : config_.smoothing.methods) {
     MethodRun run(name);
@@ -93,6 +99,10 @@ void ExperimentRun::Smooth(const RunHooks& hooks) {
                               .stop = hooks.stop,
                               .stop_proof = hooks.stop_step});
     run.result = FindSmoother(name).Smooth(*problem_, OptionsOf(config_), monitor);
+    if (missed_ && run.result.ending == opt::Ending::kNotRun &&
+        run.result.parameters == runs_.front().result.parameters) {
+      run.result.message = "the planned motion is not feasible: " + runs_.front().result.message;
+    }
     AddPrices(SuperposedWalk(experiment_->sequence, run.result.parameters), evaluator(),
               &run.result.junctions);
     runs_.push_back(std::move(run));

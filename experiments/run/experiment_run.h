@@ -13,6 +13,7 @@
 #include "experiments/tables/run_folder.h"
 #include "smoothing/methods/walk_problem.h"
 #include "smoothing/proof/certified_feasibility.h"
+#include "smoothing/proof/missed_demands.h"
 
 namespace halfstep {
 
@@ -58,6 +59,9 @@ class ExperimentRun {
   /// One run for each method, "raw" first.
   const std::vector<MethodRun>& runs() const { return runs_; }
 
+  /// What the planned motion misses; none when it is feasible.
+  const std::optional<MissedDemands>& missed() const { return missed_; }
+
   /// Writes every file of a run folder.
   void Write(RunFolder* folder) const;
 
@@ -72,6 +76,7 @@ class ExperimentRun {
   std::optional<WalkProblem> problem_;
   std::optional<CertifiedFeasibility> certifier_;
   std::vector<MethodRun> runs_;
+  std::optional<MissedDemands> missed_;
 };
 
 /// Text of a config.yaml in a folder: with every key, paths relative to the folder.

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 
+#include "experiments/run/missed_demands_text.h"
 #include "planner/search/planner_registry.h"
 #include "planner/swept/obstacle_places.h"
 #include "planner/swept/swept_volume_query.h"
@@ -74,6 +75,36 @@ double SteadySeconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
+namespace {
+
+// What stepping in place misses, on an empty floor: for a robot that can take no step of a grid.
+std::string MissedInPlace(const RobotModel& robot, const ExperimentConfig& config) {
+  const HalfStep prototype = PrototypeOf(config);
+  const std::array<Footprint, 2> start = StartOf(config, robot);
+  const Footstep footstep{.side = Side::kLeft,
+                          .X_WF = start[static_cast<size_t>(Index(Side::kLeft))],
+                          .via_height = prototype.via_height,
+                          .duration = prototype.duration};
+  const HalfStepSequence sequence = MakeSequence(start, {footstep}, prototype.via_lateral,
+                                                 prototype.shape, {.com_height = robot.com_height});
+  const MarginEvaluator evaluator(robot, Scene{}, config.smoothing.limits);
+  const CertifiedFeasibility test(evaluator, config.smoothing.certification);
+  const SuperposedWalk walk(sequence, PlannedMotion(sequence));
+  MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
+  const Feasibility answer = test.Check(walk, {0.0, walk.duration()}, &scratch);
+  if (answer.verdict == Verdict::kFeasible) return "";
+  std::string text = "; a step in place misses ";
+  std::string separator;
+  for (const std::string& line :
+       MissedDemandsText(evaluator, FindMissedDemands(evaluator, walk, answer.witness))) {
+    text += separator + line;
+    separator = "\n  ";
+  }
+  return text;
+}
+
+}  // namespace
+
 BakedHalfSteps BakeHalfSteps(const RobotModel& robot, const ExperimentConfig& config,
                              const PlanningHooks& hooks) {
   const auto progress = [&hooks](const char* what) {
@@ -91,8 +122,9 @@ BakedHalfSteps BakeHalfSteps(const RobotModel& robot, const ExperimentConfig& co
   if (hooks.stop.stop_requested()) return baked;
   if (set.size() == 0) {
     throw InputError(
-        {"step_set: no place of the grid keeps the demanded margins (valid: a grid "
-         "beside the support foot, margins that the robot meets)"});
+        {std::string("step_set: no place of the grid keeps the demanded margins (valid: a grid "
+                     "beside the support foot, margins that the robot meets)") +
+         MissedInPlace(robot, config)});
   }
   SweptVolumeOptions options = config.swept_volumes.options;
   options.clearance = config.smoothing.limits.demanded_of(MarginFamily::kClearance);

@@ -78,7 +78,8 @@ double ZmpMargin(const PlayedRow& row, const RobotModel& robot) {
   return polygon.Margin(row.zmp);
 }
 
-// Hip, knee axis and ankle: stretched when both lie in one half-plane pair of the knee axis.
+// Hip (a point of the thigh), knee axis and ankle (a point of the shank): stretched when both lie
+// in one half-plane pair of the knee axis.
 double ReachMargin(const RobotModel& robot, const PlayedRow& row, int side) {
   const Leg& leg = robot.legs[Of(side)];
   const LegJoint& knee = leg.joints[3];
@@ -87,8 +88,9 @@ double ReachMargin(const RobotModel& robot, const PlayedRow& row, int side) {
   const double stretched =
       std::hypot(knee.axis_B.cross(hip).norm() + knee.axis_B.cross(ankle).norm(), along);
   const auto frames = LegForwardKinematics(leg, row.q[Of(side)]);
-  const Eigen::Vector3d at_B = frames[5] * (leg.joints[5].X_BLink.inverse() * leg.ankle_B);
-  return stretched - (at_B - leg.hip_B).norm();
+  const Eigen::Vector3d hip_at = frames[2] * (leg.joints[2].X_BLink.inverse() * leg.hip_B);
+  const Eigen::Vector3d ankle_at = frames[3] * (leg.joints[3].X_BLink.inverse() * leg.ankle_B);
+  return stretched - (ankle_at - hip_at).norm();
 }
 
 double JointMargin(const RobotModel& robot, const PlayedRow& row, int side, int joint) {

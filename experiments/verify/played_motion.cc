@@ -111,7 +111,7 @@ double FarthestFrom(const ConvexBody& body, const Eigen::Vector3d& point) {
 }
 
 // Any point of a joint's axis serves; the one nearest to the hip keeps the sums small, for the
-// three hip axes meet there.
+// three hip axes meet there or pass near.
 std::array<double, 6> PlayedMotion::Radii(const RobotBody& body) const {
   const Leg& leg = robot_.legs[static_cast<size_t>(body.leg)];
   std::array<Eigen::Vector3d, 6> on_axis;  // at the zero posture, where links keep their distances

@@ -7,6 +7,8 @@
 #include <numbers>
 #include <vector>
 
+#include "wpg/geometry/triangle_weights.h"
+
 namespace halfstep {
 namespace {
 
@@ -57,38 +59,6 @@ struct Simplex {
     size = n;
   }
 };
-
-std::array<double, 3> SegmentWeights(const Vector3d& a, const Vector3d& b) {
-  const Vector3d ab = b - a;
-  const double length2 = ab.squaredNorm();
-  const double t = length2 > 0 ? std::clamp(-a.dot(ab) / length2, 0.0, 1.0) : 0.0;
-  return {1 - t, t, 0};
-}
-
-// Barycentric weights of the point of triangle abc nearest to the origin.
-std::array<double, 3> TriangleWeights(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
-  const Vector3d ab = b - a, ac = c - a;
-  const double d1 = -ab.dot(a), d2 = -ac.dot(a);
-  if (d1 <= 0 && d2 <= 0) return {1, 0, 0};
-  const double d3 = -ab.dot(b), d4 = -ac.dot(b);
-  if (d3 >= 0 && d4 <= d3) return {0, 1, 0};
-  const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0 && d1 >= 0 && d3 <= 0) return SegmentWeights(a, b);
-  const double d5 = -ab.dot(c), d6 = -ac.dot(c);
-  if (d6 >= 0 && d5 <= d6) return {0, 0, 1};
-  const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0 && d2 >= 0 && d6 <= 0) {
-    const auto [s, t, unused] = SegmentWeights(a, c);
-    return {s, 0, t};
-  }
-  const double va = d3 * d6 - d5 * d4;
-  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
-    const auto [s, t, unused] = SegmentWeights(b, c);
-    return {0, s, t};
-  }
-  const double sum = va + vb + vc;
-  return {va / sum, vb / sum, vc / sum};
-}
 
 // Reduces the simplex to the face nearest to the origin; false when it holds the origin.
 bool Reduce(Simplex* s) {

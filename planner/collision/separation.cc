@@ -16,6 +16,7 @@
 #include "planner/collision/convex_distance.h"
 #include "planner/collision/mesh_interior.h"
 #include "wpg/check.h"
+#include "wpg/geometry/simplified_hull.h"
 
 namespace halfstep {
 namespace {
@@ -28,6 +29,7 @@ constexpr int kDiscSides = 64;
 constexpr double kTriangleRounding = 1e-12, kLeastRounding = 1e-10;
 // Taken off slabs to a mesh's hull for rounding: of the mesh's coordinates.
 constexpr double kSlabRounding = 4e-15;
+constexpr int kHullVertices = 64;  // of what encloses a mesh, at most
 
 std::shared_ptr<const Bvh> MakeBvh(const TriangleMesh& mesh) {
   std::vector<fcl::Vector3d> points(mesh.vertices.colwise().begin(), mesh.vertices.colwise().end());
@@ -91,7 +93,7 @@ ConvexBody Enclosing(const TriangleMesh& mesh) {
                                    << " vertices");
   ConvexBody around;
   try {
-    around = MakeHull(mesh.vertices);
+    around = SimplifyOutward(MakeHull(mesh.vertices), kHullVertices).body;
   } catch (const std::runtime_error&) {  // flat: the axis-aligned bounds
     const Eigen::Vector3d lower = mesh.vertices.rowwise().minCoeff();
     const Eigen::Vector3d upper = mesh.vertices.rowwise().maxCoeff();
@@ -106,14 +108,22 @@ ConvexBody Enclosing(const TriangleMesh& mesh) {
   return around;
 }
 
+// The same body, with what makes its support function fast.
+ConvexBody Mapped(ConvexBody body) {
+  MapDirections(&body);
+  return body;
+}
+
 bool IsFinite(const Eigen::Isometry3d& X) { return std::isfinite(X.matrix().topRows<3>().sum()); }
 
 }  // namespace
 
 struct CollisionShape::Impl {
-  explicit Impl(ConvexBody body) : convex(std::move(body)) {}
+  explicit Impl(ConvexBody body) : convex(Mapped(std::move(body))) {}
   explicit Impl(TriangleMesh triangles)
-      : convex(Enclosing(triangles)), is_mesh(true), hollow_{std::move(triangles), nullptr} {
+      : convex(Mapped(Enclosing(triangles))),
+        is_mesh(true),
+        hollow_{std::move(triangles), nullptr} {
     hollow_.bvh = MakeBvh(hollow_.mesh);
   }
 

@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <filesystem>
 #include <map>
+#include <optional>
+#include <stdexcept>
 #include <utility>
 
 #include "planner/scene/motion_fields.h"
@@ -12,6 +14,7 @@
 #include "wpg/files/mesh_file.h"
 #include "wpg/files/text.h"
 #include "wpg/files/yaml_fields.h"
+#include "wpg/geometry/simplified_hull.h"
 
 namespace halfstep {
 namespace {
@@ -37,6 +40,8 @@ struct ObstacleFields {
   double length = 0.0;
   TriangleMesh mesh;
   InputFile mesh_file;
+  std::optional<ConvexBody> hull;  // in place of the mesh
+  std::string told;                // of the hull
   std::vector<double> xyz{0.0, 0.0, 0.0};
   std::vector<double> rpy{0.0, 0.0, 0.0};
   ObstacleMotion motion;
@@ -65,12 +70,42 @@ void DeclareName(Fields& fields, std::string* name, bool required, const std::st
   if (!is_new) fields.Complain("name", Quote(*name) + " is the name of " + first->second + " too");
 }
 
+// The hull of the mesh, or one around it with fewer vertices.
+void TakeHull(Fields& fields, int vertices, ObstacleFields* obstacle) {
+  if (vertices < kFewestHullVertices) {
+    fields.Complain("hull_vertices", std::to_string(vertices) +
+                                         " are too few (valid: 0, or at least " +
+                                         std::to_string(kFewestHullVertices) + ")");
+    return;
+  }
+  try {
+    const ConvexBody hull = MakeHull(obstacle->mesh.vertices);
+    SimplifiedHull simplified = SimplifyOutward(hull, vertices);
+    if (simplified.body.vertices.cols() < hull.vertices.cols()) {
+      obstacle->told = Formatted(
+          "the hull of the mesh has %d vertices; a simpler one around it, with %d, is at most %.2g "
+          "mm larger",
+          static_cast<int>(hull.vertices.cols()), static_cast<int>(simplified.body.vertices.cols()),
+          1e3 * simplified.excess);
+    }
+    obstacle->hull = std::move(simplified.body);
+  } catch (const std::runtime_error& error) {
+    fields.Complain("hull_vertices", error.what());
+  }
+}
+
 void DeclareMesh(Fields& fields, ObstacleFields* obstacle) {
   std::string file;
   double scale = 1.0;
+  int hull_vertices = 0;
   fields.Text("file", &file, {.meaning = "STL or OBJ file, beside the scene", .required = true});
   fields.Number("scale", &scale,
                 {.meaning = "metres per unit of the file", .min = 1e-6, .max = 1e6});
+  fields.Integer("hull_vertices", &hull_vertices,
+                 {.meaning = "not 0: in place of the triangles their convex hull, or a hull around "
+                             "that with at most so many vertices",
+                  .min = 0,
+                  .max = 1e6});
   if (file.empty()) {
     fields.Complain("file", "no file name (valid: an STL or OBJ file)");
     return;
@@ -81,6 +116,7 @@ void DeclareMesh(Fields& fields, ObstacleFields* obstacle) {
     obstacle->mesh = {scale * loaded.vertices, std::move(loaded.triangles)};
     obstacle->mesh_file = std::move(loaded.file);
     obstacle->mesh_file.name = file;
+    if (hull_vertices != 0) TakeHull(fields, hull_vertices, obstacle);
   } catch (const InputError& error) {
     for (const std::string& complaint : error.complaints()) fields.Complain("file", complaint);
   }
@@ -180,6 +216,7 @@ Shape MakeShape(ObstacleFields* from) {
   if (from->has_cylinder) return Cylinder{from->radius, from->length};
   if (from->has_sphere) return Sphere{from->radius};
   if (from->has_capsule) return Capsule{from->radius, from->length};
+  if (from->hull) return *std::move(from->hull);
   return std::move(from->mesh);
 }
 
@@ -234,6 +271,9 @@ Scene ParseScene(const std::string& yaml_path, const std::string& text) {
   scene.files = {RecordOf(yaml_path, text)};
   for (ObstacleFields& from : obstacles) {
     if (from.has_mesh) scene.files.push_back(from.mesh_file);
+    if (!from.told.empty()) {
+      scene.warnings.push_back(yaml_path + ": obstacle " + from.name + ": " + from.told);
+    }
     scene.obstacles.push_back(
         {from.name, MakeShape(&from), MakePose(from.xyz, from.rpy), std::move(from.motion)});
   }

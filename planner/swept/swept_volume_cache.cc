@@ -45,6 +45,7 @@ std::string RobotText(const RobotModel& robot) {
     Append(leg.hip_B, &text);
     Append(leg.ankle_B, &text);
     Append(leg.X_BSole.matrix(), &text);
+    if (!leg.closed_form()) Append(leg.standing_q, &text);  // whence the sole is followed
     for (int sign : {leg.branch.knee, leg.branch.ankle, leg.branch.hip}) {
       text += std::to_string(sign) + " ";
     }

@@ -52,9 +52,10 @@ SweptVolumeQuery::Prepared SweptVolumeQuery::Prepare(const Obstacle& obstacle) {
     prepared.BeMesh(*mesh);
   } else {
     const ConvexBody& body = std::get<ConvexBody>(obstacle.shape);
-    prepared.around = Around(body);  // all that there is of a body with a disc or a ball
-    if (body.disc_radius == 0 && body.ball_radius == 0 && !body.triangles.empty()) {
+    prepared.around = Around(body);  // all that there is of a body with a disc
+    if (body.disc_radius == 0 && !body.triangles.empty()) {
       prepared.BeMesh(FacesOf(body));
+      prepared.extra = body.ball_radius;
     }
   }
   return prepared;
@@ -79,7 +80,7 @@ SweptVolumeQuery::SweptVolumeQuery(const SweptVolumes& volumes,
     for (const ObstaclePlace& place : PlacesOf(obstacle, until)) {
       all.push_back(place);
       places_.push_back(prepared);
-      places_.back().extra = place.extra;
+      places_.back().extra += place.extra;
     }
   }
   // Unused places hold nothing: no cylinder reaches from there.

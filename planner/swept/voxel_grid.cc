@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/swept/ceiling.h"
 #include "planner/swept/four_floats.h"
 #include "wpg/check.h"
 
@@ -15,11 +16,7 @@ constexpr double kRounding = 4e-5;
 // Least |n_z| of a half-space that cuts z as it is. Of a steeper one only its least bound over the
 // region's height is kept.
 constexpr double kSteep = 0.01;
-
-// Above or below a column: z ≤ (or ≥) at + per_x·i + per_y·j, i and j counted in cells.
-struct Cut {
-  float at, per_x, per_y;
-};
+constexpr int kRows = 4;  // that planes are left out of at once
 
 }  // namespace
 
@@ -33,14 +30,12 @@ VoxelGrid::VoxelGrid(const Eigen::Vector3d& lower, const Eigen::Vector3d& upper,
   origin_ = cell * first.matrix();
   size_ = count.cast<int>().matrix();
   words_per_column_ = (size_.z() + 63) / 64;
-  words_.assign(Word(size_.x(), 0), 0);
-}
-
-void VoxelGrid::OccupyRange(int i, int j, int from, int to) {
-  uint64_t* column = &words_[Word(i, j)];
-  for (int w = from / 64; w <= to / 64; ++w) {
-    const int low = std::max(from - 64 * w, 0), high = std::min(to - 64 * w, 63);
-    column[w] |= (~uint64_t{0} >> (63 - (high - low))) << low;
+  words_.assign(Word(size_.x() + 3, 0), 0);  // Fill goes by four columns
+  const int bits = 64 * words_per_column_;
+  first_bits_.assign(static_cast<size_t>((bits + 1) * words_per_column_), 0);
+  for (int count = 0; count <= bits; ++count) {
+    uint64_t* words = &first_bits_[static_cast<size_t>(count * words_per_column_)];
+    for (int k = 0; k < count; ++k) words[k / 64] |= uint64_t{1} << (k % 64);
   }
 }
 
@@ -57,7 +52,10 @@ void VoxelGrid::Fill(const HalfSpaces& region) {
   HALFSTEP_CHECK((first.array() >= 0).all() && (last.array() < size_.array()).all(),
                  "the region leaves the grid: " << first.transpose() << " … " << last.transpose());
   const Eigen::Vector3d corner = origin_ + cell_ * first.cast<double>();
-  std::vector<Cut> above, below;
+  // Both count upwards: of what is below, the negatives.
+  const auto planes = static_cast<size_t>(region.normals.cols());
+  Ceiling above(static_cast<float>(upper.z()), planes);
+  Ceiling below(-static_cast<float>(lower.z()), planes);
   for (Eigen::Index p = 0; p < region.normals.cols(); ++p) {
     const Eigen::Vector3d& n = region.normals.col(p);
     // What the half-space leaves for n_z·z in the first column, at the best corner of its
@@ -71,32 +69,39 @@ void VoxelGrid::Fill(const HalfSpaces& region) {
       room += slope * upper.z() - std::min(n.z() * lower.z(), n.z() * upper.z());
     }
     const double at = room / slope + (slope > 0 ? rounding : -rounding);
-    (slope > 0 ? above : below)
-        .push_back({static_cast<float>(at), static_cast<float>(-n.x() * cell_ / slope),
-                    static_cast<float>(-n.y() * cell_ / slope)});
+    const double per_x = -n.x() * cell_ / slope, per_y = -n.y() * cell_ / slope;
+    if (slope > 0) {
+      above.Add(at, per_x, per_y);
+    } else {
+      below.Add(-at, -per_x, -per_y);
+    }
   }
-  const Four top(static_cast<float>(upper.z())), bottom(static_cast<float>(lower.z()));
-  const float offsets[4] = {0, 1, 2, 3};
-  for (int j = 0; first.y() + j <= last.y(); ++j) {
-    for (int i = 0; first.x() + i <= last.x(); i += 4) {
-      const Four columns = Four(static_cast<float>(i)) + Four::Load(offsets);
-      const float row = static_cast<float>(j);
-      Four high = top, low = bottom;
-      for (const Cut& cut : above) {
-        high = Min(high, Four(cut.at + row * cut.per_y) + Four(cut.per_x) * columns);
-      }
-      for (const Cut& cut : below) {
-        low = Max(low, Four(cut.at + row * cut.per_y) + Four(cut.per_x) * columns);
-      }
-      float from[4], to[4];
-      low.Store(from);
-      high.Store(to);
-      for (int c = 0; c < 4 && first.x() + i + c <= last.x(); ++c) {
-        if (!(from[c] <= to[c])) continue;
-        const double k0 = std::floor((from[c] - rounding - origin_.z()) / cell_);
-        const double k1 = std::floor((to[c] + rounding - origin_.z()) / cell_);
-        OccupyRange(first.x() + i + c, first.y() + j, std::max(static_cast<int>(k0), 0),
-                    std::min(static_cast<int>(k1), size_.z() - 1));
+  const int columns = last.x() - first.x() + 1, rows = last.y() - first.y() + 1;
+  const auto blocks = static_cast<size_t>((columns + 3) / 4);
+  std::vector<float> from(4 * blocks), to(4 * blocks);
+  const double highest = size_.z() - 1;
+  const size_t words = static_cast<size_t>(words_per_column_), next = Word(1, 0);
+  for (int j = 0; j < rows; ++j) {
+    const float row = static_cast<float>(j);
+    if (j % kRows == 0) {
+      above.EnterRows(row, row + (kRows - 1), static_cast<float>(columns - 1));
+      below.EnterRows(row, row + (kRows - 1), static_cast<float>(columns - 1));
+    }
+    uint64_t* column = &words_[Word(first.x(), first.y() + j)];
+    above.Row(row, blocks, to.data());
+    below.Row(row, blocks, from.data());
+    for (int i = 0; i < columns; i += 4) {
+      const Eigen::Array4f up = Eigen::Map<const Eigen::Array4f>(&to[static_cast<size_t>(i)]);
+      const Eigen::Array4f down = -Eigen::Map<const Eigen::Array4f>(&from[static_cast<size_t>(i)]);
+      const Eigen::Array4d low = (down.cast<double>() - rounding - origin_.z()) / cell_;
+      const Eigen::Array4d high = (up.cast<double>() + rounding - origin_.z()) / cell_;
+      const Eigen::Array4i begin = low.max(0.0).min(highest).cast<int>();
+      const Eigen::Array4i end = high.max(0.0).min(highest).cast<int>() + 1;
+      for (int c = 0; c < 4; ++c, column += next) {  // without a branch: columns differ
+        const bool met = (down[c] <= up[c]) & (high[c] >= 0) & (i + c < columns);
+        const uint64_t* all = &first_bits_[words * static_cast<size_t>(met ? end[c] : 0)];
+        const uint64_t* before = &first_bits_[words * static_cast<size_t>(begin[c])];
+        for (size_t w = 0; w < words; ++w) column[w] |= all[w] & ~before[w];
       }
     }
   }

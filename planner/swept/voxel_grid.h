@@ -43,13 +43,12 @@ class VoxelGrid {
     return (static_cast<size_t>(i) * static_cast<size_t>(size_.y()) + static_cast<size_t>(j)) *
            static_cast<size_t>(words_per_column_);
   }
-  void OccupyRange(int i, int j, int from, int to);
-
   double cell_;
   Eigen::Vector3d origin_;
   Eigen::Vector3i size_;
   int words_per_column_;
   std::vector<uint64_t> words_;
+  std::vector<uint64_t> first_bits_;  // of a column, as many as are asked for
 };
 
 }  // namespace halfstep

@@ -26,6 +26,16 @@ std::optional<Margin> ClearanceMargin::FirstBelow(Instant* at, double demanded) 
   return place_.clearances.FirstBodyBelow(at->posture(), at->t(), demanded, &at->scratch().bodies);
 }
 
+void ClearanceMargin::AddBelow(Instant* at, double demanded, std::vector<Margin>* below) const {
+  if (!at->reachable()) return below->push_back(Of(-std::numeric_limits<double>::infinity(), -1));
+  const BodyClearances& clearances = place_.clearances;
+  BodyClearances::Scratch& scratch = at->scratch().bodies;
+  for (size_t b = 0; b < clearances.num_bodies(); ++b) {
+    if (clearances.BodyClears(b, at->posture(), at->t(), demanded, &scratch)) continue;
+    below->push_back(clearances.OfBody(b, at->posture(), at->t(), demanded, &scratch));
+  }
+}
+
 void ClearanceMargin::AddRows(Instant* at, SlackSink* rows) const {
   if (!at->regular()) return;
   const Posture& posture = at->posture();

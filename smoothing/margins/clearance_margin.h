@@ -19,6 +19,7 @@ class ClearanceMargin final : public MarginStatements {
       .unit = "m",
       .key = "clearance_m",
       .meaning = "robot to obstacles",
+      .remedy = "a higher `half_step.via_height_m`, other footsteps, an obstacle elsewhere",
       .scale = 0.01,
       .demanded = 0.005,
       .raised = true,
@@ -33,6 +34,7 @@ class ClearanceMargin final : public MarginStatements {
   std::string Subject(const Margin& margin) const override;
   Margin Least(Instant* at, double enough) const override;
   std::optional<Margin> FirstBelow(Instant* at, double demanded) const override;
+  void AddBelow(Instant* at, double demanded, std::vector<Margin>* below) const override;
   void AddRows(Instant* at, SlackSink* rows) const override;
   int groups() const override { return count(); }
   Margin OfGroup(uint16_t group) const override;

@@ -25,6 +25,7 @@ struct FamilyTraits {
   std::string_view unit;     ///< "m", "rad" …
   std::string_view key;      ///< under `smoothing.margins`
   std::string_view meaning;  ///< of the key
+  std::string_view remedy;   ///< what may help a planned motion that misses the demand
   double scale;              ///< what counts as a clear change of the margin [its unit]
   double demanded;           ///< by default [its unit]
   bool raised;  ///< whether the program `safest` raises it, not only keeps what is demanded

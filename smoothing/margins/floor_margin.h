@@ -17,6 +17,7 @@ class FloorMargin final : public WholeFamily {
       .unit = "m",
       .key = "floor_m",
       .meaning = "height of the sole while it moves horizontally",
+      .remedy = "a higher `half_step.via_height_m`, a longer `half_step.horizontal_delay`",
       .scale = 0.01,
       .demanded = 0.005,
       .raised = false,

@@ -16,6 +16,7 @@ class FootSpeedMargin final : public WholeFamily {
       .unit = "m/s",
       .key = "foot_speed_m_s",
       .meaning = "inside the foot speed limit",
+      .remedy = "a longer `half_step.duration_s`, shorter steps",
       .scale = 0.1,
       .demanded = 0.0,
       .raised = true,

@@ -16,6 +16,7 @@ class FootYawRateMargin final : public WholeFamily {
       .unit = "rad/s",
       .key = "foot_yaw_rate_rad_s",
       .meaning = "inside the foot yaw rate limit",
+      .remedy = "a longer `half_step.duration_s`, steps that turn less",
       .scale = 0.2,
       .demanded = 0.0,
       .raised = false,

@@ -16,6 +16,9 @@ class GroundMargin final : public WholeFamily {
       .unit = "m",
       .key = "ground_m",
       .meaning = "lowest point of a body above the floor; feet may touch it",
+      .remedy =
+          "a higher `half_step.via_height_m`, or knees that are bent less (`standing_posture_deg` "
+          "of the robot file)",
       .scale = 0.01,
       .demanded = 0.0,
       .raised = false,

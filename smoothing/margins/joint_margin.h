@@ -16,6 +16,9 @@ class JointMargin final : public WholeFamily {
       .unit = "rad",
       .key = "joint_rad",
       .meaning = "inside the joint limits",
+      .remedy =
+          "shorter steps, a lower via point, another `standing_posture_deg` or wider "
+          "`joint_limits_deg` of the robot file",
       .scale = 0.05,
       .demanded = 0.0,
       .raised = true,

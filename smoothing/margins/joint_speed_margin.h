@@ -16,6 +16,7 @@ class JointSpeedMargin final : public WholeFamily {
       .unit = "rad/s",
       .key = "joint_speed_rad_s",
       .meaning = "inside the joint speed limits",
+      .remedy = "a longer `half_step.duration_s`, a lower `half_step.via_height_m`, shorter steps",
       .scale = 0.5,
       .demanded = 0.0,
       .raised = true,

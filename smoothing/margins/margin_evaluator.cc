@@ -1,5 +1,6 @@
 #include "smoothing/margins/margin_evaluator.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -49,6 +50,27 @@ std::optional<Margin> MarginEvaluator::FirstViolation(const SuperposedWalk& walk
     return below;
   }
   return std::nullopt;
+}
+
+std::vector<Margin> MarginEvaluator::Violations(const SuperposedWalk& walk, const LocalTime& at,
+                                                Scratch* scratch) const {
+  ++scratch->instants;
+  Instant instant(place(), limits_, walk, at, scratch);
+  std::vector<Margin> below;
+  for (const MarginFamily family : FamiliesByCost()) {
+    statements(family).AddBelow(&instant, limits_.demanded_of(family), &below);
+  }
+  bool told = std::ranges::any_of(
+      below, [](const Margin& margin) { return margin.family == MarginFamily::kReach; });
+  std::erase_if(below, [&told](const Margin& margin) {
+    if (!std::isinf(margin.value)) return false;
+    return std::exchange(told, true);
+  });
+  for (Margin& margin : below) {
+    margin.at = at;
+    margin.t = instant.t();
+  }
+  return below;
 }
 
 std::string MarginEvaluator::Describe(const Margin& margin) const {

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "smoothing/margins/margin_statements.h"
 #include "smoothing/walk/superposed_walk.h"
@@ -44,6 +45,12 @@ class MarginEvaluator {
   /// than At.
   std::optional<Margin> FirstViolation(const SuperposedWalk& walk, const LocalTime& at,
                                        Scratch* scratch) const;
+
+  /// Every margin below what is demanded, each pair of bodies and each body for itself, else the
+  /// least of its family. Of what is −∞ because a leg does not reach, only the first is told, and
+  /// none where the family `reach` says it.
+  std::vector<Margin> Violations(const SuperposedWalk& walk, const LocalTime& at,
+                                 Scratch* scratch) const;
 
   /// "clearance of RLEG_LINK5 - bar 0.0032 m (demanded 0.005) at half-step 3, tau = 0.412 s".
   std::string Describe(const Margin& margin) const;

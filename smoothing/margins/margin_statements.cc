@@ -27,6 +27,11 @@ std::optional<Margin> MarginStatements::FirstBelow(Instant* at, double demanded)
   return least;
 }
 
+void MarginStatements::AddBelow(Instant* at, double demanded, std::vector<Margin>* below) const {
+  const Margin least = Least(at, demanded);
+  if (!(least.value >= demanded)) below->push_back(least);
+}
+
 Margin MarginStatements::OfGroup(uint16_t) const { return Of(std::nan(""), -1); }
 
 void MarginStatements::Lower(const Margin& other, Margin* least) {

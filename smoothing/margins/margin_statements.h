@@ -57,6 +57,9 @@ class MarginStatements {
   virtual Margin Least(Instant* at, double enough) const = 0;
   /// The first margin that is found below `demanded` [its unit]; none when there is none.
   virtual std::optional<Margin> FirstBelow(Instant* at, double demanded) const;
+  /// Adds every margin below `demanded` [its unit] that the family tells apart: of each pair or
+  /// body, or else the least one.
+  virtual void AddBelow(Instant* at, double demanded, std::vector<Margin>* below) const;
 
   /// Adds every statement that is nearer to its limit than the sink's cutoff, with its derivatives.
   /// Each statement is smooth by itself (one for each polygon edge, or end of a joint's range).

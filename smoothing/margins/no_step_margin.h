@@ -17,6 +17,7 @@ class NoStepMargin final : public WholeFamily {
       .unit = "m",
       .key = "no_step_m",
       .meaning = "standing sole to no-step areas; touching is never allowed",
+      .remedy = "other footsteps",
       .scale = 0.01,
       .demanded = 0.0,
       .raised = false,

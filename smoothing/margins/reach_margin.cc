@@ -29,6 +29,12 @@ void ReachMargin::AddRows(Instant* at, SlackSink* rows) const {
   }
   for (size_t s = 0; s < 2; ++s) {
     const Leg& leg = at->robot().legs[s];
+    if (!leg.closed_form()) {
+      const double slope = LegLengthAt(leg, posture.ik[s].q[3]).slope;
+      rows->Add(posture.ik[s].reach_margin,
+                [&](size_t i) { return -slope * rows->tangents[i].q[s][3]; });
+      continue;
+    }
     const Eigen::Vector3d hip_to_ankle =
         posture.frames[s].X_BLink[5] * (leg.joints[5].X_BLink.inverse() * leg.ankle_B) - leg.hip_B;
     const Eigen::Vector3d along = hip_to_ankle.normalized();

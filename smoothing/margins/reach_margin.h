@@ -16,6 +16,9 @@ class ReachMargin final : public WholeFamily {
       .unit = "m",
       .key = "reach_m",
       .meaning = "leg shorter than stretched",
+      .remedy =
+          "shorter steps, a lower `half_step.via_height_m`, or knees that are bent more "
+          "(`standing_posture_deg` of the robot file)",
       .scale = 0.01,
       .demanded = 0.0,
       .raised = false,

@@ -23,6 +23,17 @@ std::optional<Margin> SelfClearanceMargin::FirstBelow(Instant* at, double demand
   return place_.clearances.FirstPairBelow(at->posture(), demanded, &at->scratch().bodies);
 }
 
+void SelfClearanceMargin::AddBelow(Instant* at, double demanded, std::vector<Margin>* below) const {
+  if (!at->reachable()) return below->push_back(Of(-std::numeric_limits<double>::infinity(), -1));
+  const BodyClearances& clearances = place_.clearances;
+  BodyClearances::Scratch& scratch = at->scratch().bodies;
+  clearances.Place(at->posture(), &scratch);
+  for (size_t p = 0; p < clearances.num_pairs(); ++p) {
+    if (clearances.PairClears(p, at->posture(), demanded, &scratch)) continue;
+    below->push_back(clearances.OfPair(p, at->posture(), demanded, &scratch));
+  }
+}
+
 void SelfClearanceMargin::AddRows(Instant* at, SlackSink* rows) const {
   if (!at->regular()) return;
   const Posture& posture = at->posture();

@@ -17,6 +17,9 @@ class SelfClearanceMargin final : public MarginStatements {
       .unit = "m",
       .key = "self_clearance_m",
       .meaning = "between the robot's own bodies",
+      .remedy =
+          "`excluded_self_pairs` of the robot file if these links touch by design, another "
+          "`standing_posture_deg`, or a foot that passes farther aside (`half_step.via_lateral_m`)",
       .scale = 0.01,
       .demanded = 0.005,
       .raised = true,
@@ -32,6 +35,7 @@ class SelfClearanceMargin final : public MarginStatements {
   std::string Subject(const Margin& margin) const override;
   Margin Least(Instant* at, double enough) const override;
   std::optional<Margin> FirstBelow(Instant* at, double demanded) const override;
+  void AddBelow(Instant* at, double demanded, std::vector<Margin>* below) const override;
   void AddRows(Instant* at, SlackSink* rows) const override;
   int groups() const override { return count(); }
   Margin OfGroup(uint16_t group) const override;

@@ -16,6 +16,9 @@ class ZmpMargin final : public WholeFamily {
       .unit = "m",
       .key = "zmp_m",
       .meaning = "ZMP inside the support polygon",
+      .remedy =
+          "a longer `half_step.duration_s` (the shorter a half-step, the farther the ZMP leaves "
+          "the soles)",
       .scale = 0.01,
       .demanded = 0.01,
       .raised = true,

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/wpg/generated_robots.h"
 #include "tests/wpg/shipped_robots.h"
 #include "wpg/robot/leg_ik.h"
 
@@ -39,6 +40,27 @@ void BM_SolveLegIk(benchmark::State& state, const std::string& robot) {
 BENCHMARK_CAPTURE(BM_SolveLegIk, hrp2, "hrp2");
 BENCHMARK_CAPTURE(BM_SolveLegIk, wren, "wren");
 BENCHMARK_CAPTURE(BM_SolveLegIk, bison, "bison");
+
+// The same pose after pose about where the sole stands: legs with offset axes, and HRP-2's.
+void BM_SolveLegIkWalking(benchmark::State& state) {
+  const std::vector<GeneratedRobot> offset = OffsetRobots();
+  const size_t which = static_cast<size_t>(state.range(0));
+  const Leg leg = which < offset.size()
+                      ? TemporaryRobot(offset[which]).Load().legs[0]
+                      : LoadRobot(HALFSTEP_SOURCE_DIR "/wpg/robots/hrp2.yaml").legs[0];
+  state.SetLabel(which < offset.size() ? offset[which].name : "hrp2");
+  std::mt19937 random(1);
+  std::uniform_real_distribution<> unit(-1, 1);
+  std::vector<Eigen::Isometry3d> X_BSole(1024, LegForwardKinematics(leg, leg.standing_q)[6]);
+  for (Eigen::Isometry3d& X : X_BSole) {
+    X.translation() +=
+        Eigen::Vector3d(0.2 * unit(random), 0.1 * unit(random), 0.1 + 0.09 * unit(random));
+    X.rotate(Eigen::AngleAxisd(0.3 * unit(random), Eigen::Vector3d::UnitZ()));
+  }
+  size_t k = 0;
+  for (auto _ : state) benchmark::DoNotOptimize(SolveLegIk(leg, X_BSole[k++ % 1024]));
+}
+BENCHMARK(BM_SolveLegIkWalking)->DenseRange(0, 3);
 
 void BM_SolveLegIkAll(benchmark::State& state) {
   const Postures postures;

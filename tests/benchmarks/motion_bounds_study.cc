@@ -145,6 +145,7 @@ void Bounds(long draws) {
   }
   for (size_t r = 1; r < robots.size(); ++r) Tightness(robots[r], 0.02, false, 1000);
   NeverExceeded(robots, draws);
+  NeverExceeded(RobotsWithOffsets(), draws / 10);
 }
 
 }  // namespace

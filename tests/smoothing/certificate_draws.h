@@ -24,6 +24,15 @@ inline std::vector<RobotModel> RobotsOfAllKinds() {
   return robots;
 }
 
+/// The generated robots whose hip or ankle axes do not meet.
+inline std::vector<RobotModel> RobotsWithOffsets() {
+  std::vector<RobotModel> robots;
+  for (const GeneratedRobot& robot : OffsetRobots()) {
+    robots.push_back(TemporaryRobot(robot).Load());
+  }
+  return robots;
+}
+
 /// How varied random walks of a robot are.
 struct WalkVariety {
   double stride = 1.0;  ///< how far the feet go, about 1: to the ends of a robot's reach

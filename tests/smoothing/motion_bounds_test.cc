@@ -69,6 +69,24 @@ TEST(MotionBounds, AreNeverExceededOnRandomIntervals) {
   }
 }
 
+TEST(MotionBounds, OfOffsetLegsAreNeverExceededOnRandomIntervals) {
+  unsigned seed = 11;
+  for (const RobotModel& robot : RobotsWithOffsets()) {
+    const BoundTally tally = CompareRandomIntervals(robot, Draws(600), seed++);
+    // Longer intervals than about 20 ms have no bound.
+    EXPECT_GT(tally.bounded, 0.5 * static_cast<double>(tally.intervals)) << robot.name;
+    for (size_t kind = 0; kind < kNumBounded; ++kind) {
+      const double rounding = kind <= static_cast<size_t>(Bounded::kJointAngle) ? 1e-12 : 1e-10;
+      EXPECT_LT(tally.excess[kind], rounding) << robot.name << ": " << kBoundedNames[kind];
+    }
+  }
+}
+
+std::vector<RobotModel> All(std::vector<RobotModel> robots, const std::vector<RobotModel>& more) {
+  robots.insert(robots.end(), more.begin(), more.end());
+  return robots;
+}
+
 // A motion with constant second derivatives, faster than any walk in all directions; some of its
 // quantities rest.
 WalkJet DrawMotion(const RobotModel& robot, WalkDraw* draw) {
@@ -92,7 +110,7 @@ WalkJet DrawMotion(const RobotModel& robot, WalkDraw* draw) {
 
 TEST(MotionBounds, AreNeverExceededByMotionsThatAreNoWalks) {
   unsigned seed = 21;
-  for (const RobotModel& robot : RobotsOfAllKinds()) {
+  for (const RobotModel& robot : All(RobotsOfAllKinds(), RobotsWithOffsets())) {
     const std::vector<Eigen::Matrix3Xd> points = OuterPoints(robot);
     const MotionBounds bounds(robot);
     WalkDraw draw(seed++);
@@ -378,7 +396,7 @@ std::optional<Accelerations> AccelerationsOf(const MotionBounds& bounds, const W
 TEST(MotionBounds, OfAnIntervalAreNotBelowThoseOfItsInstants) {
   unsigned seed = 61;
   int compared = 0;
-  for (const RobotModel& robot : RobotsOfAllKinds()) {
+  for (const RobotModel& robot : All(RobotsOfAllKinds(), RobotsWithOffsets())) {
     const MotionBounds bounds(robot);
     WalkDraw draw(seed++);
     for (int i = 0; i < Draws(900); ++i) {

@@ -32,6 +32,10 @@ struct GeneratedRobot {
   double right_sign = 1;
   /// Turns the link frames at q = 0 away from the waist frame's [rad]; 0: parallel.
   double frame_tilt = 0;
+  /// How far each axis is moved off hip, knee or ankle point [m]; all 0: a closed-form leg.
+  std::array<Eigen::Vector3d, 6> offset = {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(0, 0, 0),
+                                           Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(0, 0, 0),
+                                           Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(0, 0, 0)};
 };
 
 /// Three robots unlike HRP-2: other orders of axes, ankle roll before pitch, offset knees, axes not
@@ -56,6 +60,33 @@ inline std::vector<GeneratedRobot> GeneratedRobots() {
            .shank = {0, 0, -0.33},
            .slide = {0.02, 0.03, 0, 0.01, 0, -0.02},
            .frame_tilt = 0.4}};
+}
+
+/// Three robots whose hip or ankle axes do not meet, with offsets as public humanoids have them:
+/// hip yaw and roll meet, pitch ahead and below of both; ankle axes apart, hip nearly spherical;
+/// hip pitch first and no two axes meet.
+inline std::vector<GeneratedRobot> OffsetRobots() {
+  const Eigen::Vector3d x(1, 0, 0), y(0, 1, 0), z(0, 0, 1), none(0, 0, 0);
+  return {{.name = "pitch_ahead",
+           .axes = {z, x, y, y, y, x},
+           .thigh = {-0.05, 0, -0.37},
+           .shank = {0, 0, -0.42},
+           .foot = {0.04, 0, -0.08},
+           .offset = {none, none, Eigen::Vector3d(0.05, 0.0225, -0.066), none, none, none}},
+          {.name = "ankle_apart",
+           .axes = {z, x, y, y, y, x},
+           .thigh = {0, 0, -0.35},
+           .shank = {0, 0, -0.35},
+           .offset = {none, none, Eigen::Vector3d(0.01, 0, 0), none, none,
+                      Eigen::Vector3d(0.01, 0, -0.04)}},
+          {.name = "none_meet",
+           .axes = {y, Eigen::Vector3d(1, 0, -0.17), z, y, y, x},
+           .thigh = {-0.02, 0, -0.28},
+           .shank = {0, 0, -0.3},
+           .foot = {0.03, 0, -0.05},
+           .right_sign = -1,
+           .offset = {none, Eigen::Vector3d(0, 0.05, -0.03), Eigen::Vector3d(0.025, 0.05, -0.1),
+                      none, none, Eigen::Vector3d(0, 0, -0.0176)}}};
 }
 
 /// The leg that LoadRobot should find, made without URDF; standing posture by inverse kinematics,
@@ -100,8 +131,12 @@ inline Leg MakeLeg(const GeneratedRobot& robot, Side side) {
   }
   HALFSTEP_CHECK(std::isfinite(least), robot.name << " cannot stand");
   for (size_t i = 0; i < 6; ++i) {
-    leg.joints[i].lower = leg.standing_q[static_cast<Eigen::Index>(i)] - 1;
-    leg.joints[i].upper = leg.standing_q[static_cast<Eigen::Index>(i)] + 1;
+    LegJoint& joint = leg.joints[i];
+    joint.lower = leg.standing_q[static_cast<Eigen::Index>(i)] - 1;
+    joint.upper = leg.standing_q[static_cast<Eigen::Index>(i)] + 1;
+    // The sole stays level when axes are moved.
+    joint.point_B += mirror * robot.offset[i];
+    joint.X_BLink.translation() = joint.point_B;
   }
   return leg;
 }

@@ -18,7 +18,10 @@
 #include "tests/wpg/generated_robots.h"
 #include "tests/wpg/shipped_robots.h"
 #include "wpg/files/input_error.h"
+#include "wpg/files/text.h"
 #include "wpg/robot/leg_ik.h"
+#include "wpg/robot/robot_fields.h"
+#include "wpg/robot/sole_outline.h"
 #include "wpg/robot/urdf_file.h"
 
 namespace halfstep {
@@ -364,7 +367,8 @@ TEST(RobotRefusal, JointLimitsMoreThanATurnApart) {
   EXPECT_NO_THROW((void)TemporaryRobot("narrowed", with_limits("3.2"), narrowed).Load());
 }
 
-TEST(RobotRefusal, HipAxesThatPassEachOther) {
+// Offset hips are another class of legs, but the legs must be the same.
+TEST(RobotRefusal, OneHipWhoseAxesPassEachOther) {
   GeneratedRobot robot = GeneratedRobots()[0];
   const std::string urdf = GeneratedUrdf(robot);
   const std::string yaml = GeneratedYaml(robot, "robot.urdf");
@@ -372,9 +376,26 @@ TEST(RobotRefusal, HipAxesThatPassEachOther) {
   const std::string joint = "<child link='left_link2'/><origin xyz='0 0 0'";
   const std::string refusal = RefusalOf(
       {"apart", Replaced(urdf, joint, "<child link='left_link2'/><origin xyz='0 0.012 0'"), yaml});
+  EXPECT_THAT(refusal, HasSubstr("mm off the mirror image"));
+}
+
+// Offset axes are moved with a proof that needs a posture to begin with.
+TEST(RobotRefusal, OffsetAxesOfANearlyStretchedLeg) {
+  GeneratedRobot robot = OffsetRobots()[0];
+  std::string yaml = GeneratedYaml(robot, "robot.urdf");
+  const std::string urdf = GeneratedUrdf(robot);
+  yaml = yaml.substr(0, yaml.find("standing_posture_deg"));
+  yaml += "standing_posture_deg: {";
+  for (const std::string side : {"left", "right"}) {
+    const std::string joint = (side == "left" ? "" : ", ") + side + "_joint";
+    yaml += joint + "2: -9.2, " + side + "_joint3: 2.4, " + side + "_joint4: 6.8";
+  }
+  const std::string refusal = RefusalOf({"stretched", urdf, yaml + "}\n"});
   EXPECT_THAT(refusal, HasSubstr("left_joint2: hip axes left_joint0 and left_joint2 pass each "
-                                 "other at 12.0 mm; a closed-form leg needs all three hip axes "
-                                 "through one point"));
+                                 "other at 50.0 mm, hip axes left_joint1 and left_joint2 pass each "
+                                 "other at 66.0 mm; so there is no closed form for the leg's "
+                                 "joints, and in the standing posture it is too near to a "
+                                 "singularity for a proof without: bend it more there"));
 }
 
 TEST(RobotRefusal, LegsThatAreNoClosedFormLegs) {
@@ -454,6 +475,40 @@ class RobotFixture : public testing::TestWithParam<std::string> {};
 TEST_P(RobotFixture, IsRefusedWithItsComplaints) { CheckFixture(GetParam(), LoadRobot); }
 
 INSTANTIATE_TEST_SUITE_P(Yaml, RobotFixture, testing::ValuesIn(Fixtures("robot")), FixtureName);
+
+// Half as many vertices as its hulls have; the feet stand where they stood.
+TEST(RobotModel, HullsWithTooManyVerticesBecomeSimplerOnesAroundThem) {
+  const RobotModel whole = Hrp2();
+  EXPECT_TRUE(whole.warnings.empty()) << "shipped hulls stay as they are";
+  std::ifstream file(kHrp2);
+  std::string yaml{std::istreambuf_iterator<char>(file), {}};
+  yaml = Replaced(yaml, "name: hrp2", "name: hrp2\nhull_vertices: 24");
+  const RobotModel simple = BuildRobot(kHrp2, yaml, ReadRobotFile(kHrp2, yaml));
+  ASSERT_EQ(simple.bodies.size(), whole.bodies.size());
+  double largest = 0;
+  int simplified = 0;
+  for (size_t b = 0; b < whole.bodies.size(); ++b) {
+    const ConvexBody &before = whole.bodies[b].shape, &after = simple.bodies[b].shape;
+    EXPECT_LE(after.vertices.cols(), 24);
+    EXPECT_EQ(whole.bodies[b].mesh_vertices, 0);
+    if (simple.bodies[b].mesh_vertices == 0) continue;
+    ++simplified;
+    EXPECT_EQ(simple.bodies[b].mesh_vertices, before.vertices.cols());
+    largest = std::max(largest, simple.bodies[b].excess);
+    for (int k = 0; k < 27; ++k) {
+      if (k == 13) continue;
+      const Vector3d d = Vector3d(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1).normalized();
+      EXPECT_GE(Support(after, d), Support(before, d) - 1e-14);
+      EXPECT_LE(Support(after, d), Support(before, d) + simple.bodies[b].excess + 1e-14);
+    }
+  }
+  EXPECT_GT(simplified, 10);
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    EXPECT_NEAR(DepthBelowSole(simple, side), DepthBelowSole(whole, side), 1e-12);
+  }
+  ASSERT_EQ(simple.warnings.size(), 1u);
+  EXPECT_THAT(simple.warnings[0], HasSubstr(Formatted("at most %.2g mm larger", 1e3 * largest)));
+}
 
 // What no leg needs is a warning; the same in a leg is refused.
 TEST(RobotModel, AJointThatCannotMoveMattersInALegOnly) {

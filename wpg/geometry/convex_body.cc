@@ -35,7 +35,14 @@ ConvexBody MakeSegment(double length) {
 double Support(const ConvexBody& body, const Eigen::Vector3d& direction) {
   const double x = direction.x(), y = direction.y(), z = direction.z();
   const auto& v = body.vertices;
-  double farthest = (v.row(0) * x + v.row(1) * y + v.row(2) * z).maxCoeff();
+  const std::span<const int32_t> few = body.directions.Along(direction);
+  double farthest = -std::numeric_limits<double>::infinity();
+  for (const int32_t i : few) {
+    farthest = std::max(farthest, v(0, i) * x + v(1, i) * y + v(2, i) * z);
+  }
+  if (few.empty()) {
+    farthest = (v.row(0) * x + v.row(1) * y + v.row(2) * z).maxCoeff();
+  }
   if (body.disc_radius > 0) farthest += body.disc_radius * std::sqrt(x * x + y * y);
   return farthest + body.ball_radius;
 }
@@ -46,12 +53,17 @@ int FarthestVertex(const ConvexBody& body, const Eigen::Vector3d& direction) {
   const double *xs = body.vertices.data(), *ys = xs + n, *zs = ys + n;
   double best = -std::numeric_limits<double>::infinity();
   Eigen::Index farthest = 0;
-  for (Eigen::Index i = 0; i < n; ++i) {
+  const auto look_at = [&](Eigen::Index i) {
     const double along = xs[i] * x + ys[i] * y + zs[i] * z;
     if (along > best) {
       best = along;
       farthest = i;
     }
+  };
+  const std::span<const int32_t> few = body.directions.Along(direction);
+  for (const int32_t i : few) look_at(i);
+  if (few.empty()) {
+    for (Eigen::Index i = 0; i < n; ++i) look_at(i);
   }
   return static_cast<int>(farthest);
 }
@@ -83,6 +95,11 @@ void BoundBySphere(ConvexBody* body) {
     center += (body->vertices.col(vertex) - center) / (i + 1);
   }
   body->radius += 1e-12 * (body->radius + body->center.norm());
+}
+
+void MapDirections(ConvexBody* body) {
+  constexpr Eigen::Index kFew = 20;
+  body->directions = body->vertices.cols() > kFew ? DirectionMap(body->vertices) : DirectionMap();
 }
 
 ConvexBody MakeBox(const Eigen::Vector3d& size) {

@@ -3,6 +3,8 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "wpg/geometry/direction_map.h"
+
 namespace halfstep {
 
 /// A convex body in its own frame: the Minkowski sum of
@@ -22,6 +24,9 @@ struct ConvexBody {
   double ball_radius = 0.0;         ///< [m] ≥ 0
   Eigen::Vector3d center{0, 0, 0};  ///< centre of a sphere that contains the body [m].
   double radius = 0.0;              ///< its radius [m].
+  /// Of `vertices`, for Support and FarthestVertex; empty: they look at all vertices. See
+  /// MapDirections.
+  DirectionMap directions;
 };
 
 /// h(d) = max over the body of d·x [m] for a unit direction d in the body's frame.
@@ -34,6 +39,11 @@ Eigen::Vector3d SupportPoint(const ConvexBody& body, const Eigen::Vector3d& dire
 /// Recomputes `center` and `radius` from the other members: small, not minimal, and containing
 /// (relative margin 1e-12).
 void BoundBySphere(ConvexBody* body);
+
+/// Makes `directions` from `vertices` where it makes Support faster: for more than a few vertices.
+/// No answer changes. For bodies whose vertices stay as they are; who moves them has to call it
+/// again.
+void MapDirections(ConvexBody* body);
 
 /// Axis-aligned box of full edge lengths `size` [m], centred at the origin. Precondition, here and
 /// below: finite positive sizes (std::logic_error).

@@ -5,25 +5,24 @@ extern "C" {  // its C++ interface does not compile as C++20
 }
 
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <limits>
 #include <numeric>
 #include <stdexcept>
 #include <string>
 #include <unordered_map>
+
+#include "wpg/geometry/distinct_normals.h"
+#include "wpg/geometry/outside_bound.h"
 
 namespace halfstep {
 namespace {
 
 constexpr double kThinnest = 1e-9;    // of the size: below it a hull counts as flat.
 constexpr double kMerged = 1e-12;     // of the size: below it two points are one.
-constexpr double kGoodBound = 1e-14;  // of the size: an outside distance that needs no second look.
-constexpr double kSamePlane = 1e-9;   // of the reach: faces that a ray may leave through.
-constexpr double kSameNormal = 1e-18;  // squared distance of unit normals of coplanar faces.
+constexpr double kSameNormal = 1e-9;  // distance of unit normals of coplanar faces.
 
 [[noreturn]] void Refuse(const std::string& why) {
   throw std::runtime_error("no convex hull: " + why);
@@ -91,16 +90,11 @@ Faces RunQhull(Eigen::Matrix3Xd points) {
 }
 
 Eigen::Matrix3Xd Distinct(const std::vector<Eigen::Vector3d>& normals) {
-  std::vector<Eigen::Vector3d> kept;
-  for (const Eigen::Vector3d& n : normals) {
-    const bool known = std::any_of(kept.begin(), kept.end(), [&](const Eigen::Vector3d& k) {
-      return (k - n).squaredNorm() < kSameNormal;
-    });
-    if (!known) kept.push_back(n);
-  }
-  Eigen::Matrix3Xd result(3, static_cast<Eigen::Index>(kept.size()));
-  for (size_t i = 0; i < kept.size(); ++i) result.col(static_cast<Eigen::Index>(i)) = kept[i];
-  return result;
+  DistinctNormals distinct(kSameNormal);
+  for (const Eigen::Vector3d& n : normals) distinct.Add(n);
+  const std::vector<Eigen::Vector3d>& kept = distinct.kept();
+  return Eigen::Map<const Eigen::Matrix3Xd>(kept.front().data(), 3,
+                                            static_cast<Eigen::Index>(kept.size()));
 }
 
 // Indices of the points without those within `tolerance` of one that is kept. They are ordered
@@ -124,85 +118,6 @@ std::vector<Eigen::Index> Merged(const Eigen::Matrix3Xd& points, double toleranc
   }
   return kept;
 }
-
-// Bounds how far points lie outside the hull of a body's vertices: by the distance to a point that
-// is a convex combination of vertices, found where the ray from the centre leaves the hull.
-class OutsideBound {
- public:
-  explicit OutsideBound(const ConvexBody& body) : body_(body) {
-    // Of extended precision, so that it lies in the hull but for what `rounding_` allows.
-    Eigen::Matrix<long double, 3, 1> sum = Eigen::Matrix<long double, 3, 1>::Zero();
-    for (const auto& v : body.vertices.colwise()) sum += v.cast<long double>();
-    const auto n = static_cast<double>(body.vertices.cols());
-    center_ = (sum / static_cast<long double>(n)).cast<double>();
-    const double largest = body.vertices.colwise().norm().maxCoeff();
-    rounding_ = (16 * std::numeric_limits<double>::epsilon() + n * 1e-19) * largest;
-    size_ = (body.vertices.colwise() - center_).colwise().norm().maxCoeff();
-    planes_.setZero(static_cast<Eigen::Index>(body.triangles.size()), 3);
-    for (Eigen::Index f = 0; f < planes_.rows(); ++f) {
-      const Eigen::Matrix3d corners = Corners(f);
-      const Eigen::Vector3d n_f =
-          (corners.col(1) - corners.col(0)).cross(corners.col(2) - corners.col(0));
-      const double height = n_f.dot(corners.col(0));
-      if (height > 0) planes_.row(f) = n_f.transpose() / height;
-    }
-  }
-
-  // The largest over all points [m]; 0 for points that are vertices.
-  double Of(const Eigen::Matrix3Xd& points) const {
-    constexpr Eigen::Index kBlock = 256;
-    double most = 0;
-    for (Eigen::Index i = 0; i < points.cols(); i += kBlock) {
-      const Eigen::Index n = std::min(kBlock, points.cols() - i);
-      const Eigen::Matrix3Xd local = points.middleCols(i, n).colwise() - center_;
-      const Eigen::MatrixXd reach = planes_ * local;  // 1 on the plane of a face
-      for (Eigen::Index k = 0; k < n; ++k) {
-        Eigen::Index first = 0;
-        const double farthest = reach.col(k).maxCoeff(&first);
-        double bound = OverFace(first, points.col(i + k));
-        // Of a flat face in many triangles the ray may leave through another one.
-        for (Eigen::Index f = 0; f < planes_.rows() && bound > kGoodBound * size_ + rounding_;
-             ++f) {
-          if (reach(f, k) < farthest - kSamePlane) continue;
-          bound = std::min(bound, OverFace(f, points.col(i + k)));
-        }
-        most = std::max(most, bound);
-      }
-    }
-    return most;
-  }
-
- private:
-  Eigen::Matrix3d Corners(Eigen::Index face) const {
-    const Eigen::Vector3i& t = body_.triangles[static_cast<size_t>(face)];
-    Eigen::Matrix3d corners;
-    for (int k = 0; k < 3; ++k) corners.col(k) = body_.vertices.col(t[k]) - center_;
-    return corners;
-  }
-  // Distance of a point to one of the tetrahedron of a face and the centre.
-  double OverFace(Eigen::Index face, const Eigen::Vector3d& point) const {
-    double nearest = std::numeric_limits<double>::infinity();
-    for (const int corner : body_.triangles[static_cast<size_t>(face)]) {
-      nearest = std::min(nearest, (body_.vertices.col(corner) - point).norm());
-    }
-    if (nearest == 0) return 0;
-    const Eigen::Matrix3d corners = Corners(face);
-    const Eigen::Vector3d local = point - center_;
-    Eigen::Vector3d weights = corners.partialPivLu().solve(local);
-    if (weights.allFinite()) {
-      weights = weights.cwiseMax(0.0);
-      if (const double sum = weights.sum(); sum > 1) weights /= sum;
-      nearest = std::min(nearest, (corners * weights - local).norm());
-    }
-    return nearest + rounding_;
-  }
-
-  const ConvexBody& body_;
-  Eigen::Vector3d center_;
-  double rounding_ = 0.0;
-  double size_ = 0.0;
-  Eigen::Matrix<double, Eigen::Dynamic, 3> planes_;  // n/h, seen from the centre
-};
 
 }  // namespace
 
@@ -242,7 +157,7 @@ ConvexBody MakeHull(const Eigen::Matrix3Xd& points) {
       Refuse("the points are (nearly) coplanar");
   }
   body.vertices = points(Eigen::all, vertices);
-  body.ball_radius = OutsideBound(body).Of(points);
+  body.ball_radius = OutsideBound(body, points);
   BoundBySphere(&body);
   return body;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "wpg/check.h"
+#include "wpg/robot/offset_leg_bound.h"
 
 namespace halfstep {
 namespace {
@@ -26,7 +27,8 @@ double Planar(const WalkState& x, int quantity) { return std::hypot(x[quantity],
 MotionBounds::MotionBounds(const RobotModel& robot)
     : robot_(robot), anchors_{LegAnchors(robot.legs[0]), LegAnchors(robot.legs[1])} {
   for (const RobotBody& body : robot.bodies) {
-    reach_.push_back(body.leg < 0 ? 0.0 : anchors_[static_cast<size_t>(body.leg)].Reach(body));
+    levers_.push_back(body.leg < 0 ? std::array<double, 6>{}
+                                   : anchors_[static_cast<size_t>(body.leg)].Levers(body));
   }
 }
 
@@ -57,10 +59,14 @@ double MotionBounds::Turning(const BaseRates& base) {
   return base.yaw_acceleration + base.yaw_rate * base.yaw_rate;
 }
 
-double MotionBounds::AccelerationFrom(const BaseRates& base, const TurnBound& turn, double reach,
-                                      double lever) {
-  return base.acceleration + Turning(base) * lever +
-         (2.0 * base.yaw_rate * turn.speed + turn.acceleration + turn.speed * turn.speed) * reach;
+double MotionBounds::AccelerationFrom(const BaseRates& base, const std::array<TurnBound, 6>& turns,
+                                      const std::array<double, 6>& levers, double lever) {
+  double turned = 0.0;
+  for (size_t i = 0; i < 6; ++i) {
+    const auto& [speed, acceleration] = turns[i];
+    turned += (2.0 * base.yaw_rate * speed + acceleration + speed * speed) * levers[i];
+  }
+  return base.acceleration + Turning(base) * lever + turned;
 }
 
 MotionBounds::LegRates MotionBounds::RatesOfLeg(const IntervalMotion& motion, Side side,
@@ -133,6 +139,24 @@ bool MotionBounds::BoundLeg(Side side, const BaseRates& waist, const LegRates& r
   return true;
 }
 
+bool MotionBounds::BoundOffsetLeg(Side side, const LegRates& rates, IntervalMotion* motion) const {
+  const size_t s = static_cast<size_t>(Index(side));
+  const Posture& posture = motion->posture;
+  const Eigen::Vector3d sole = posture.frames[s].X_BLink[6].translation();
+  const SoleDrift drift{.half_width = motion->half_width,
+                        .velocity = rates.velocity_B[5] + rates.omega_B[5].cross(sole),
+                        .yaw_rate = YawRate(motion->jet, side),
+                        .acceleration = rates.sole_B.acceleration,
+                        .yaw_acceleration = rates.sole_B.yaw_acceleration};
+  const auto bounds = BoundOffsetJoints(robot_.legs[s], posture.ik[s].q, posture.frames[s],
+                                        posture.speeds[s], drift);
+  if (!bounds) return false;
+  motion->joints[s] = *bounds;
+  motion->leg_length_change[s] = LegLengthChange(LegLengthAt(robot_.legs[s], posture.ik[s].q[3]),
+                                                 motion->half_width * bounds->speed[3]);
+  return true;
+}
+
 void MotionBounds::BoundBody(size_t index, const BaseRates& waist,
                              const std::array<LegRates, 2>& legs, IntervalMotion* motion) const {
   const RobotBody& body = robot_.bodies[index];
@@ -144,24 +168,25 @@ void MotionBounds::BoundBody(size_t index, const BaseRates& waist,
   Eigen::Vector3d center_B = body.shape.center, velocity_B{0, 0, 0}, omega_B{0, 0, 0};
   double world = 0.0, from_waist = 0.0;
   if (body.leg < 0) {
-    world = AccelerationFrom(waist, {}, 0.0, Lever(center_B, radius));
+    world = AccelerationFrom(waist, {}, {}, Lever(center_B, radius));
   } else {
     const size_t s = static_cast<size_t>(body.leg), link = static_cast<size_t>(body.link);
     const LegRates& leg = legs[s];
     center_B = posture.frames[s].X_BLink[link] * body.shape.center;
     omega_B = leg.omega_B[link];
     velocity_B = leg.velocity_B[link] + omega_B.cross(center_B);
-    const TurnBound& turn = motion->joints[s].turns[link];
-    const double reach = reach_[index];
-    const double moved = h * turn.speed * reach;
+    const auto& turns = motion->joints[s].turns;
+    const auto& levers = levers_[index];
+    double moved = 0.0;
+    for (size_t i = 0; i < 6; ++i) moved += h * turns[i].speed * levers[i];
     if (LegAnchors::OnHip(body.link)) {
-      from_waist = AccelerationFrom({}, turn, reach, 0.0);
-      world = AccelerationFrom(waist, turn, reach, Lever(center_B, radius) + moved);
+      from_waist = AccelerationFrom({}, turns, levers, 0.0);
+      world = AccelerationFrom(waist, turns, levers, Lever(center_B, radius) + moved);
     } else {
       const Eigen::Vector3d from_sole = center_B - posture.frames[s].X_BLink[6].translation();
       const double lever = Lever(from_sole, radius) + moved;
-      from_waist = AccelerationFrom(leg.sole_B, turn, reach, lever);
-      world = AccelerationFrom(leg.sole, turn, reach, lever);
+      from_waist = AccelerationFrom(leg.sole_B, turns, levers, lever);
+      world = AccelerationFrom(leg.sole, turns, levers, lever);
     }
   }
 
@@ -195,7 +220,9 @@ void MotionBounds::Bound(const WalkJet& mid, const WalkState& second, double hal
   for (Side side : {Side::kLeft, Side::kRight}) {
     LegRates& leg = legs[static_cast<size_t>(Index(side))];
     leg = RatesOfLeg(*motion, side, waist);
-    motion->bounded = BoundLeg(side, waist, leg, motion);
+    motion->bounded = robot_.legs[static_cast<size_t>(Index(side))].closed_form()
+                          ? BoundLeg(side, waist, leg, motion)
+                          : BoundOffsetLeg(side, leg, motion);
     if (!motion->bounded) return;
   }
   for (size_t b = 0; b < robot_.bodies.size(); ++b) BoundBody(b, waist, legs, motion);

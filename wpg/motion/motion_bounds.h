@@ -65,18 +65,19 @@ class MotionBounds {
   static double Turning(const BaseRates& base);  // sup |ψ̈ẑ×x − ψ̇²x| at distance 1 [1/s²]
   BaseRates WaistRates(const IntervalMotion& motion) const;
   static LegRates RatesOfLeg(const IntervalMotion& motion, Side side, const BaseRates& waist);
-  // sup ‖P̈‖ of a point that turns about a point of a base, at most `reach` [m] from it, where the
-  // base moves by `base` and P is at most `lever` [m] from the base's vertical axis.
-  static double AccelerationFrom(const BaseRates& base, const TurnBound& turn, double reach,
-                                 double lever);
+  // sup ‖P̈‖ of a point that links turn, at most as far from what they turn about as `levers` [m]
+  // say, on a base that moves by `base` and from whose vertical axis P is at most `lever` [m].
+  static double AccelerationFrom(const BaseRates& base, const std::array<TurnBound, 6>& turns,
+                                 const std::array<double, 6>& levers, double lever);
   bool BoundLeg(Side side, const BaseRates& waist, const LegRates& rates,
                 IntervalMotion* motion) const;
+  bool BoundOffsetLeg(Side side, const LegRates& rates, IntervalMotion* motion) const;
   void BoundBody(size_t body, const BaseRates& waist, const std::array<LegRates, 2>& legs,
                  IntervalMotion* motion) const;
 
   const RobotModel& robot_;
   std::array<LegAnchors, 2> anchors_;
-  std::vector<double> reach_;  // of a leg's body: from its link's anchor to its farthest point [m]
+  std::vector<std::array<double, 6>> levers_;  // LegAnchors::Levers of a leg's body
 };
 
 }  // namespace halfstep

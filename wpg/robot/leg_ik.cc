@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "wpg/check.h"
+#include "wpg/robot/leg_continuation.h"
 #include "wpg/robot/paden_kahan.h"
 
 namespace halfstep {
@@ -111,10 +112,21 @@ Turn KneeTurn(const KneeTriangle& triangle, double cos_psi, int choice) {
 }  // namespace
 
 LegIkSolution SolveLegIk(const Leg& leg, const Isometry3d& X_BSole) {
-  return SolveLegIk(leg, X_BSole, leg.branch);
+  if (leg.closed_form()) return SolveLegIk(leg, X_BSole, leg.branch);
+  HALFSTEP_CHECK(X_BSole.matrix().allFinite(), "X_BSole =\n" << X_BSole.matrix());
+  const LegContinuation followed = ContinueLeg(leg, X_BSole);
+  LegIkSolution solution;
+  solution.reach_margin = -followed.missing;
+  if (!followed.arrived) return solution;
+  solution.status = LegIkStatus::kSolved;
+  solution.q = followed.q;
+  const double distance = LegLengthAt(leg, followed.q[3]).distance;
+  solution.reach_margin = std::max(KneeTriangle(leg).farthest() - distance, 0.0);
+  return solution;
 }
 
 LegIkSolution SolveLegIk(const Leg& leg, const Isometry3d& X_BSole, const LegBranch& branch) {
+  HALFSTEP_CHECK(leg.closed_form(), leg.offsets);
   HALFSTEP_CHECK(X_BSole.matrix().allFinite(), "X_BSole =\n" << X_BSole.matrix());
   const Demand demand(leg, X_BSole);
   const KneeTriangle triangle(leg);
@@ -140,6 +152,7 @@ std::vector<LegIkBranchSolution> SolveLegIkAll(const Leg& leg, const Isometry3d&
 }
 
 LegBranch LegBranchOf(const Leg& leg, const Vector6d& q) {
+  HALFSTEP_CHECK(leg.closed_form(), leg.offsets);
   const auto& j = leg.joints;
   const Turn hip1 = Turn::FromAngle(q[1]), knee = Turn::FromAngle(q[3]),
              ankle4 = Turn::FromAngle(q[4]);
@@ -150,6 +163,13 @@ LegBranch LegBranchOf(const Leg& leg, const Vector6d& q) {
   return {.knee = ChoiceOf((knee * KneeTriangle(leg).at_zero).sin),
           .ankle = ChoiceOf(j[5].axis_B.cross(j[4].axis_B).dot(hip_between)),
           .hip = ChoiceOf(j[0].axis_B.cross(j[1].axis_B).dot(axis2_between))};
+}
+
+LegLength LegLengthAt(const Leg& leg, double knee) {
+  const KneeTriangle triangle(leg);
+  const Turn psi = Turn::FromAngle(knee) * triangle.at_zero;
+  const double distance = std::sqrt(std::max(triangle.sum2 - 2 * triangle.product * psi.cos, 0.0));
+  return {distance, distance > 0 ? triangle.product * psi.sin / distance : 0.0, triangle.product};
 }
 
 Matrix6d LegJacobian(const LegFrames& frames) {
@@ -165,6 +185,13 @@ Matrix6d LegJacobian(const LegFrames& frames) {
 Matrix6d LegJacobian(const Leg& leg, const Vector6d& q) { return LegJacobian(PlaceLeg(leg, q)); }
 
 bool InvertLegJacobian(const Leg& leg, const LegFrames& frames, Matrix6d* inverse) {
+  const double length = KneeTriangle(leg).farthest();
+  if (!leg.closed_form()) {
+    const Eigen::PartialPivLU<Matrix6d> lu(LegJacobian(frames));
+    if (!(std::abs(lu.determinant()) > 1e-7 * length * length * length)) return false;
+    *inverse = lu.inverse();
+    return true;
+  }
   Eigen::Matrix3d A, B, C;
   for (size_t i = 0; i < 3; ++i) {
     const Eigen::Index column = static_cast<Eigen::Index>(i);
@@ -172,7 +199,6 @@ bool InvertLegJacobian(const Leg& leg, const LegFrames& frames, Matrix6d* invers
     B.col(column) = frames.axis_B[i + 3];
     C.col(column) = frames.axis_B[i + 3].cross(leg.hip_B - frames.point_B[i + 3]);
   }
-  const double length = KneeTriangle(leg).farthest();
   if (!(std::abs(A.determinant() * C.determinant()) > 1e-7 * length * length * length)) {
     return false;
   }

@@ -10,14 +10,25 @@ using Eigen::Vector4d;
 
 LegAnchors::LegAnchors(const Leg& leg)
     : hip_B_(leg.hip_B), ankle_S_(leg.X_BSole.inverse() * leg.ankle_B) {
+  // Seen from the sole, link 4 turns about axis 5 and link 3, carried by it, about axis 4.
+  constexpr std::array<size_t, 6> kAxis = {0, 1, 2, 4, 5, 5}, kCarried = {1, 2, 2, 3, 3, 4};
   for (size_t i = 0; i < 6; ++i) {
-    anchor_L_[i] =
-        leg.joints[i].X_BLink.inverse() * (OnHip(static_cast<int>(i)) ? leg.hip_B : leg.ankle_B);
+    const Vector3d anchor = leg.AxisPoint(kAxis[i]);
+    anchor_L_[i] = leg.joints[i].X_BLink.inverse() * anchor;
+    to_next_[i] = (leg.AxisPoint(kAxis[kCarried[i]]) - anchor).norm();
   }
 }
 
-double LegAnchors::Reach(const RobotBody& body) const {
-  return (body.shape.center - anchor_L_[static_cast<size_t>(body.link)]).norm() + body.shape.radius;
+std::array<double, 6> LegAnchors::Levers(const RobotBody& body) const {
+  const size_t link = static_cast<size_t>(body.link);
+  std::array<double, 6> levers{};
+  levers[link] = (body.shape.center - anchor_L_[link]).norm() + body.shape.radius;
+  if (OnHip(body.link)) {
+    for (size_t i = 0; i < link; ++i) levers[i] = to_next_[i];
+  } else {
+    for (size_t i = 5; i > link; --i) levers[i] = to_next_[i];
+  }
+  return levers;
 }
 
 namespace {

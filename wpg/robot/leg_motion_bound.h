@@ -9,8 +9,9 @@
 
 namespace halfstep {
 
-/// The anchors of a leg's links. An anchor is a point that is at rest in its link whatever the
-/// joints do: the hip for links 0–2, the ankle for links 3–5 and the sole.
+/// The anchors of a leg's links: points of their joints' axes, about which they turn. Where the
+/// axes meet, that is the hip for links 0–2 and the ankle for links 3–5 and the sole, at rest in
+/// waist and sole. Elsewhere an anchor turns with the link before.
 class LegAnchors {
  public:
   explicit LegAnchors(const Leg& leg);
@@ -21,12 +22,15 @@ class LegAnchors {
   Eigen::Vector3d Ankle(const LegFrames& frames) const { return frames.X_BLink[6] * ankle_S_; }
   const Eigen::Vector3d& hip_B() const { return hip_B_; }
   const Eigen::Vector3d& ankle_S() const { return ankle_S_; }
-  /// Distance from the anchor of a body's link to the farthest point of the body [m].
-  double Reach(const RobotBody& body) const;
+  /// How far the turns of each link carry a body, seen from waist (links 0–2) or sole (3–5): from
+  /// its own link's anchor to its farthest point, and for the links between it and waist or sole
+  /// from their anchor to the next one [m]. 0 for the others.
+  std::array<double, 6> Levers(const RobotBody& body) const;
 
  private:
   Eigen::Vector3d hip_B_, ankle_S_;
   std::array<Eigen::Vector3d, 6> anchor_L_;  // in the link's frame
+  std::array<double, 6> to_next_;  // from its anchor to that of the link that it carries [m]
 };
 
 /// What the motion demands of a leg: suprema over [m − h, m + h], with w = hip − ankle.

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "wpg/files/mesh_file.h"
+#include "wpg/geometry/simplified_hull.h"
 
 namespace halfstep {
 namespace {
@@ -131,6 +132,22 @@ ConvexBody ShapeOf(const UrdfCollision& collision, const Isometry3d& X, const st
   return Moved(X, MakeHull(collision.scale.asDiagonal() * mesh.vertices));
 }
 
+// A hull with many vertices becomes one around it with fewer. A foot's stays on the floor.
+void Simplify(const BodyRequest& request, RobotBody* body) {
+  Eigen::Matrix3Xd kept(3, 0);
+  if (body->leg >= 0 && body->link == 5) {
+    const Eigen::Matrix3d& R = request.R_FootSole[static_cast<size_t>(body->leg)];
+    kept.resize(3, 6);
+    kept << R, -R;
+  }
+  const auto vertices = static_cast<int>(body->shape.vertices.cols());
+  SimplifiedHull simplified = SimplifyOutward(body->shape, request.hull_vertices, kept);
+  if (simplified.body.vertices.cols() == vertices) return;
+  body->mesh_vertices = vertices;
+  body->shape = std::move(simplified.body);
+  body->excess = simplified.excess;
+}
+
 // On which leg link (or the waist) each link is rigid while walking.
 struct Anchor {
   int leg = -1;
@@ -194,6 +211,8 @@ LinkBodies BuildBodies(const UrdfTree& urdf, const BodyRequest& request, Complai
         if (body.shape.center.norm() + body.shape.radius > kFarthest) {
           throw std::runtime_error("reaches more than 100 m from its link (look at `scale`)");
         }
+        if (collision.kind == UrdfCollision::Kind::kMesh) Simplify(request, &body);
+        MapDirections(&body.shape);
         all.bodies.push_back(std::move(body));
         all.links.push_back(static_cast<int>(i));
       } catch (const InputError& error) {

@@ -17,7 +17,9 @@ struct BodyRequest {
   std::array<std::array<int, 6>, 2> leg_joints;  ///< URDF joint indices by Index(Side).
   std::vector<double> posture;                   ///< standing posture by URDF joint index [rad].
   std::map<std::string, std::string> packages;   ///< package name → folder.
-  bool dae_up_axis = false;                      ///< meshes in DAE are turned by their `up_axis`
+  std::array<Eigen::Matrix3d, 2> R_FootSole;  ///< of the soles in the last links, by Index(Side).
+  int hull_vertices = 64;                     ///< at most, of a mesh's hull.
+  bool dae_up_axis = false;                   ///< meshes in DAE are turned by their `up_axis`
 };
 
 /// Package names in the `package://` paths of the collision meshes, sorted.
@@ -32,9 +34,10 @@ struct LinkBodies {
 
 /// Convex bodies of all links. A link that hangs on a leg's link by joints outside the leg is rigid
 /// with that link, any other link with the waist, in the standing posture. A mesh becomes its
-/// convex hull, and a cylinder that is not parallel to its frame's z a prism of 32 sides around it.
-/// Complains about meshes that cannot be read or have no volume, and about bodies that reach more
-/// than 100 m from their link.
+/// convex hull, or one around it with at most `hull_vertices` vertices (that reaches no farther
+/// along the axes of the sole when it belongs to a foot), and a cylinder that is not parallel to
+/// its frame's z a prism of 32 sides around it. Complains about meshes that cannot be read or have
+/// no volume, and about bodies that reach more than 100 m from their link.
 LinkBodies BuildBodies(const UrdfTree& urdf, const BodyRequest& request, Complaints* complaints);
 
 }  // namespace halfstep

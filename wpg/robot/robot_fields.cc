@@ -5,6 +5,7 @@
 
 #include "wpg/files/number_text.h"
 #include "wpg/files/text.h"
+#include "wpg/geometry/simplified_hull.h"
 #include "wpg/robot/robot_bodies.h"
 
 namespace halfstep {
@@ -141,6 +142,11 @@ void DeclareFields(Fields& fields, RobotFile* file) {
                   .required = true});
   DeclareJoints(fields, file);
   DeclareExcluded(fields, links, file);
+  fields.Integer("hull_vertices", &file->hull_vertices,
+                 {.meaning = "a mesh whose hull has more vertices gets a hull around it, with at "
+                             "most that many",
+                  .min = kFewestHullVertices,
+                  .max = 1e6});
 }
 
 }  // namespace halfstep

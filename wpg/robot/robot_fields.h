@@ -42,6 +42,7 @@ struct RobotFile {
   std::vector<double> posture_deg;              ///< by URDF joint index
   std::vector<std::vector<double>> limits_deg;  ///< by URDF joint index; empty: the URDF's
   std::vector<ExcludedPair> excluded;
+  int hull_vertices = 64;             ///< at most, of a mesh's hull
   std::vector<std::string> warnings;  ///< about what the file says and nothing needs
 };
 

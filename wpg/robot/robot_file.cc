@@ -111,6 +111,18 @@ class Builder {
     for (const std::string& warning : file_.warnings) {
       model_.warnings.push_back(file_.name + ": " + warning);
     }
+    for (size_t side = 0; side < 2; ++side) {
+      const Leg& leg = model_.legs[side];
+      if (leg.closed_form()) continue;
+      const auto joint = static_cast<size_t>(body_.leg_joints[side][0]);
+      const UrdfJoint& first = urdf_.joints[joint];
+      Complaints told;
+      told.Add(urdf_.file, first.place.line, first.place.column, first.name,
+               leg.offsets +
+                   ": the closed form does not apply; joint angles are those of a leg whose "
+                   "axes meet, continued with proof to this one, which takes longer");
+      for (const std::string& line : told.lines()) model_.warnings.push_back(line);
+    }
     for (const UrdfJoint& joint : urdf_.joints) {
       for (const std::string& fault : joint.faults) {
         model_.warnings.push_back(fault + "; it is held still");
@@ -174,15 +186,38 @@ class Builder {
     body_.waist = leg_.waist;
     body_.posture = leg_.posture;
     body_.packages = file_.packages;
+    body_.hull_vertices = file_.hull_vertices;
+    for (size_t side = 0; side < 2; ++side) {
+      const Leg& leg = model_.legs[side];
+      body_.R_FootSole[side] = leg.joints[5].X_BLink.linear().transpose() * leg.X_BSole.linear();
+    }
     body_.dae_up_axis = file_.dae_up_axis == "applied";
     LinkBodies all = BuildBodies(urdf_, body_, complaints_);
-    SelfPairs pairs = BuildSelfPairs(urdf_, file_.excluded, all, body_.leg_joints);
+    SelfPairs pairs = BuildSelfPairs(urdf_, file_.excluded, all, body_.leg_joints, model_.legs);
     model_.self_pairs = std::move(pairs.watched);
     model_.unwatched_pairs = std::move(pairs.unwatched);
     model_.bodies = std::move(all.bodies);
+    TellSimplified();
     model_.files = std::move(all.meshes);
     model_.sole_outline = SoleOutline(model_);
     CheckSoles();
+  }
+
+  void TellSimplified() {
+    int count = 0;
+    const RobotBody* largest = nullptr;
+    for (const RobotBody& body : model_.bodies) {
+      if (body.mesh_vertices == 0) continue;
+      ++count;
+      if (largest == nullptr || body.excess > largest->excess) largest = &body;
+    }
+    if (count == 0) return;
+    model_.warnings.push_back(
+        urdf_.file + ": " + std::to_string(count) + " of " + std::to_string(model_.bodies.size()) +
+        " bodies are meshes whose hull has more than " + std::to_string(file_.hull_vertices) +
+        " vertices; they get simpler hulls around these, at most " +
+        Formatted("%.2g", 1e3 * largest->excess) + " mm larger (" + largest->name + ", " +
+        std::to_string(largest->mesh_vertices) + " vertices; `hull_vertices` of the robot file)");
   }
 
   void CheckSoles() {

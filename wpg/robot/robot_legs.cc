@@ -1,13 +1,15 @@
 #include "wpg/robot/robot_legs.h"
 
 #include <Eigen/LU>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
 
+#include "wpg/robot/leg_continuation.h"
 #include "wpg/robot/leg_ik.h"
+#include "wpg/robot/leg_neighbourhood.h"
+#include "wpg/robot/met_leg.h"
 
 namespace halfstep {
 namespace {
@@ -36,19 +38,6 @@ double DistanceToAxis(const LegJoint& joint, const Vector3d& point) {
   return (point - joint.point_B).cross(joint.axis_B).norm();
 }
 
-// The point nearest to all axes, by least squares.
-Vector3d NearestPoint(const std::vector<const LegJoint*>& joints) {
-  Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
-  Vector3d b = Vector3d::Zero();
-  for (const LegJoint* joint : joints) {
-    const Eigen::Matrix3d off_axis =
-        Eigen::Matrix3d::Identity() - joint->axis_B * joint->axis_B.transpose();
-    A += off_axis;
-    b += off_axis * joint->point_B;
-  }
-  return A.completeOrthogonalDecomposition().solve(b);
-}
-
 bool AreParallel(const LegJoint& a, const LegJoint& b) {
   return a.axis_B.cross(b.axis_B).norm() < kParallel;
 }
@@ -66,18 +55,26 @@ class LegChecker {
     ok_ = false;
   }
 
-  // The common point of the axes `first` … `first + count − 1`.
-  Vector3d CommonPoint(const Leg& leg, size_t first, size_t count, const std::string& which,
-                       const std::string& need) {
+  // The point nearest to the axes `first` … `first + count − 1`. Tells the leg which of them miss
+  // each other.
+  Vector3d NearestPointOf(Leg* leg, size_t first, size_t count, const std::string& which) {
     std::vector<const LegJoint*> joints;
-    for (size_t i = first; i < first + count; ++i) joints.push_back(&leg.joints[i]);
-    const bool ok_before = ok_;
+    std::vector<Vector3d> axes, points;
+    for (size_t i = first; i < first + count; ++i) {
+      joints.push_back(&leg->joints[i]);
+      axes.push_back(joints.back()->axis_B);
+      points.push_back(joints.back()->point_B);
+    }
+    std::string misses;
+    const auto miss = [&misses](const std::string& what) {
+      misses += (misses.empty() ? "" : ", ") + what;
+    };
     for (size_t i = 0; i < count; ++i) {
       for (size_t k = i + 1; k < count; ++k) {
         const double distance = AxisDistance(*joints[i], *joints[k]);
         if (distance > kMeeting) {
-          Complain(first + k, which + " axes " + joints[i]->name + " and " + joints[k]->name +
-                                  " pass each other at " + Millimetres(distance) + "; " + need);
+          miss(which + " axes " + joints[i]->name + " and " + joints[k]->name +
+               " pass each other at " + Millimetres(distance));
         }
       }
       if (i > 0 && AreParallel(*joints[i - 1], *joints[i])) {
@@ -85,14 +82,15 @@ class LegChecker {
                                 " are parallel: they cannot turn the foot every way");
       }
     }
-    const Vector3d point = NearestPoint(joints);
-    for (size_t i = 0; i < count && ok_ == ok_before && ok_; ++i) {
+    const Vector3d point = NearestPoint(axes, points, std::vector<double>(count, 1.0));
+    for (size_t i = 0; i < count && misses.empty() && ok_; ++i) {
       const double distance = DistanceToAxis(*joints[i], point);
       if (distance > kMeeting) {
-        Complain(first + i, which + " axes meet in pairs but not in one point: " + joints[i]->name +
-                                " misses it by " + Millimetres(distance) + "; " + need);
+        miss(which + " axes meet in pairs but not in one point: " + joints[i]->name +
+             " misses it by " + Millimetres(distance));
       }
     }
+    if (!misses.empty()) leg->offsets += (leg->offsets.empty() ? "" : ", ") + misses;
     return point;
   }
 
@@ -102,6 +100,14 @@ class LegChecker {
   Complaints* complaints_;
   bool ok_ = true;
 };
+
+// Whether the leg provably follows its sole by 1 mm any way from the standing posture: the least
+// that intervals of a walk ask of it.
+bool CanFollow(const Leg& leg) {
+  constexpr double kLeast = 0.001;  // [m]
+  const auto near = LegNeighbourhood::Around(leg, leg.standing_q);
+  return near && near->Ways(near->Asked(0.0, kLeast)) && ContinueLeg(leg, near->X_BSole()).arrived;
+}
 
 }  // namespace
 
@@ -173,10 +179,8 @@ std::optional<Leg> LegGeometry(const UrdfTree& urdf, const LegRequest& request,
   leg.X_BSole = X_BRoot * X[static_cast<size_t>(request.foot)] * request.X_FootSole;
 
   LegChecker check(urdf, indices, complaints);
-  leg.hip_B = check.CommonPoint(leg, 0, 3, "hip",
-                                "a closed-form leg needs all three hip axes through one point");
-  leg.ankle_B = check.CommonPoint(leg, 4, 2, "ankle",
-                                  "a closed-form leg needs both ankle axes through one point");
+  leg.hip_B = check.NearestPointOf(&leg, 0, 3, "hip");
+  leg.ankle_B = check.NearestPointOf(&leg, 4, 2, "ankle");
   const LegJoint& knee = leg.joints[3];
   for (const auto& [point, which] :
        {std::pair{leg.hip_B, "hip"}, std::pair{leg.ankle_B, "ankle"}}) {
@@ -202,7 +206,19 @@ std::optional<Leg> BuildLeg(const UrdfTree& urdf, const LegRequest& request,
                   "ankle axes aligned): bend it there");
     return std::nullopt;
   }
-  leg->branch = LegBranchOf(*leg, leg->standing_q);
+  if (leg->offsets.empty()) {
+    leg->branch = LegBranchOf(*leg, leg->standing_q);
+    return leg;
+  }
+  leg->met.push_back(WithAxesThatMeet(*leg));
+  if (!CanFollow(*leg)) {
+    LegChecker(urdf, indices, complaints)
+        .Complain(2, leg->offsets +
+                         "; so there is no closed form for the leg's joints, and in the standing "
+                         "posture it is too near to a singularity for a proof without: bend it "
+                         "more there");
+    return std::nullopt;
+  }
   return leg;
 }
 

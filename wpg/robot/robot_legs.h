@@ -30,14 +30,17 @@ std::optional<std::array<int, 6>> FindLegJoints(const UrdfTree& urdf, int waist,
 /// The stretched length of a leg: hip over knee to ankle [m].
 double StretchedLength(const Leg& leg);
 
-/// The leg with the common points of its hip and ankle axes, without the branch of its standing
-/// posture. Complains and returns none when the closed-form inverse kinematics does not apply to it
-/// (see wpg/README.md), or a joint's limits are more than a turn apart.
+/// The leg with the points nearest to its hip and ankle axes, and with the sentence `offsets` where
+/// these do not meet; without branch and closed-form neighbour, so that the closed form takes the
+/// axes as meeting there: soles are level, but as far off as the axes. Complains and returns none
+/// when the leg cannot be moved (see wpg/README.md), or a joint's limits are more than a turn
+/// apart.
 std::optional<Leg> LegGeometry(const UrdfTree& urdf, const LegRequest& request,
                                const std::array<int, 6>& joints, Complaints* complaints);
 
-/// The same with that branch. Complains and returns none, too, when the standing posture is
-/// singular.
+/// The same with the branch of the standing posture or the neighbour. Complains and returns none,
+/// too, when the standing posture is singular, or too near to that for a proof where there is no
+/// closed form.
 std::optional<Leg> BuildLeg(const UrdfTree& urdf, const LegRequest& request,
                             const std::array<int, 6>& joints, Complaints* complaints);
 

@@ -4,6 +4,13 @@
 
 namespace halfstep {
 
+Eigen::Vector3d Leg::AxisPoint(size_t joint) const {
+  const Eigen::Vector3d& near = joint < 4 ? hip_B : ankle_B;
+  if (closed_form() && joint != 3) return near;
+  const LegJoint& of = joints[joint];
+  return of.point_B + of.axis_B * of.axis_B.dot(near - of.point_B);
+}
+
 LegFrames PlaceLeg(const Leg& leg, const Vector6d& q) {
   LegFrames frames;
   // x ↦ R x + t: the displacement from the zero posture of what joints 0 … i move.

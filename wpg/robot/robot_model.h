@@ -34,15 +34,26 @@ struct LegBranch {
   friend bool operator==(const LegBranch&, const LegBranch&) = default;
 };
 
-/// A leg: three hip axes that meet in `hip_B`, the knee, two ankle axes that meet in `ankle_B`
-/// (both at q = 0, in the waist frame), and the sole.
+/// A leg: three hip axes, the knee, two ankle axes, and the sole. Where the hip axes meet in
+/// `hip_B` and the ankle axes in `ankle_B` (both at q = 0, in the waist frame), inverse kinematics
+/// has a closed form.
 struct Leg {
   std::array<LegJoint, 6> joints;  ///< from the waist to the foot.
-  Eigen::Vector3d hip_B;           ///< [m]
-  Eigen::Vector3d ankle_B;         ///< [m]
+  Eigen::Vector3d hip_B;           ///< the point nearest to the hip axes at q = 0 [m]
+  Eigen::Vector3d ankle_B;         ///< the point nearest to the ankle axes at q = 0 [m]
   Eigen::Isometry3d X_BSole;       ///< sole frame (centre of the sole rectangle, z up) at q = 0.
-  LegBranch branch;                ///< the branch of the standing posture.
+  LegBranch branch;                ///< of the standing posture, where there is a closed form.
   Vector6d standing_q;             ///< [rad]
+  /// Where hip or ankle axes do not meet: the closed-form leg that this one is continued from, with
+  /// these axes moved in parallel so that they meet, and the same standing posture. Else empty.
+  std::vector<Leg> met;
+  /// Then which axes miss each other and by how much, such as "hip axes A and B pass each other at
+  /// 50.0 mm".
+  std::string offsets;
+
+  bool closed_form() const { return met.empty(); }
+  /// A point of a joint's axis at q = 0: hip or ankle, or what of the axis is nearest to it.
+  Eigen::Vector3d AxisPoint(size_t joint) const;
 };
 
 /// A convex collision body, rigid on one link.
@@ -51,6 +62,9 @@ struct RobotBody {
   int leg = -1;      ///< Index(Side) of the leg that it belongs to, or −1: rigid with the waist.
   int link = -1;     ///< 0 … 5: moved by joints[0 … link] of that leg; −1 on the waist.
   ConvexBody shape;  ///< in the frame of its link (leg) or of the waist.
+  /// Of the hull of its mesh, when `shape` is a simpler hull around that; else 0.
+  int mesh_vertices = 0;
+  double excess = 0.0;  ///< no point of `shape` is farther than this from that hull [m].
 };
 
 /// Two bodies that move relative to each other and whose distance is not watched.

@@ -25,7 +25,7 @@ std::vector<int> JointsBetween(const UrdfTree& urdf, int a, int b);
 /// leg between them whose axes meet in one point (hip or ankle), because their bodies lie around
 /// that point and overlap.
 SelfPairs BuildSelfPairs(const UrdfTree& urdf, const std::vector<ExcludedPair>& excluded,
-                         const LinkBodies& all,
-                         const std::array<std::array<int, 6>, 2>& leg_joints);
+                         const LinkBodies& all, const std::array<std::array<int, 6>, 2>& leg_joints,
+                         const std::array<Leg, 2>& legs);
 
 }  // namespace halfstep

@@ -1,0 +1,56 @@
+#include "experiments/run/missed_demands_text.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "smoothing/margins/family_traits.h"
+#include "wpg/files/text.h"
+
+namespace halfstep {
+namespace {
+
+constexpr size_t kMost = 10;  // demands that are told
+
+std::string Demand(const MarginEvaluator& evaluator, const MissedDemand& demand, int instants) {
+  return evaluator.Describe(demand.worst) +
+         Formatted("; missed at %d of %d instants", demand.instants, instants);
+}
+
+std::string Remedy(const MarginEvaluator& evaluator, const MissedDemand& demand) {
+  const MarginFamily family = demand.worst.family;
+  const FamilyTraits& traits = Traits(family);
+  std::string text =
+      "what may help with " + std::string(traits.name) + ": " + std::string(traits.remedy);
+  // Less demanded helps where the margin itself is kept.
+  if (demand.worst.value >= 0.0 && evaluator.limits().demanded_of(family) > 0.0) {
+    text += Formatted(", or less demanded (`smoothing.margins.%s` below %.3g)", traits.key.data(),
+                      demand.worst.value);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::vector<std::string> MissedDemandsText(const MarginEvaluator& evaluator,
+                                           const MissedDemands& missed) {
+  std::vector<std::string> lines;
+  std::vector<MarginFamily> told;
+  std::vector<std::string> remedies;
+  for (const MissedDemand& demand : missed.demands) {
+    if (lines.size() < kMost) {
+      lines.push_back((lines.empty() ? "" : "missed too: ") +
+                      Demand(evaluator, demand, missed.instants));
+    }
+    const MarginFamily family = demand.worst.family;
+    if (std::ranges::find(told, family) != told.end()) continue;
+    told.push_back(family);  // its worst demand
+    remedies.push_back(Remedy(evaluator, demand));
+  }
+  if (missed.demands.size() > kMost) {
+    lines.push_back(Formatted("and %zu demands more", missed.demands.size() - kMost));
+  }
+  lines.insert(lines.end(), remedies.begin(), remedies.end());
+  return lines;
+}
+
+}  // namespace halfstep

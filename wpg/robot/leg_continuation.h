@@ -1,0 +1,42 @@
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include "wpg/robot/robot_model.h"
+
+namespace halfstep {
+
+/// How a sole moves, seen from the waist, for all t in [m − h, m + h]. It stays level. At rest by
+/// default.
+struct SoleDrift {
+  double half_width = 0.0;            ///< h [s]
+  Eigen::Vector3d velocity{0, 0, 0};  ///< of its origin, at m [m/s]
+  double yaw_rate = 0.0;              ///< at m [rad/s]
+  double acceleration = 0.0;          ///< of its origin, sup [m/s²]
+  double yaw_acceleration = 0.0;      ///< sup [rad/s²]
+
+  /// sup of |dV/dt| [m/s²] of the linear part of the sole's twist V about the waist-fixed point
+  /// `about` when the sole is at p_BSole at m.
+  double TwistRate(const Eigen::Vector3d& about, const Eigen::Vector3d& p_BSole) const;
+};
+
+/// Where the closed form leads a leg that has none.
+struct LegContinuation {
+  bool arrived = false;
+  Vector6d q = Vector6d::Zero();  ///< [rad], not wrapped; means something only when arrived.
+  /// Unless arrived, by how much that fails [m], > 0: reach of the closed-form leg, or the part of
+  /// the offsets that could not be added.
+  double missing = 0.0;
+};
+
+/// Joint angles that bring the sole of a leg without closed form to X_BSole: those of the
+/// closed-form leg `met` in its branch, continued while its axes move to the leg's own and the sole
+/// stays. That is the leg's branch: a function of the pose that is continuous wherever it is
+/// defined, because a way with a regular Jacobian has one lift. Proved step by step: the lift
+/// exists and stays near, and the next posture is on it. Deterministic; at most 64 steps.
+/// With a drift, the same is proved for every pose that the sole takes in the interval, X_BSole
+/// being that at m and level. Source: wpg/README.md, "Offset hips and ankles".
+LegContinuation ContinueLeg(const Leg& leg, const Eigen::Isometry3d& X_BSole,
+                            const SoleDrift& drift = {});
+
+}  // namespace halfstep

@@ -1,0 +1,98 @@
+#include "wpg/robot/offset_leg_bound.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "wpg/robot/leg_neighbourhood.h"
+
+namespace halfstep {
+namespace {
+
+using Eigen::Vector3d;
+
+// Sups of q̈ given sups of q̇: (I + J⁻¹ΔJ) q̈ = J⁻¹(V̇ − J̇q̇), with J⁻¹ that at m.
+class OffsetJoints {
+ public:
+  OffsetJoints(const LegNeighbourhood& near, double rate, const SoleDrift& drift)
+      : near_(near), h_(drift.half_width), asked_(near.Asked(drift.yaw_acceleration, rate)) {}
+
+  std::optional<Vector6d> Accelerations(const Vector6d& speeds) const {
+    const Vector6d radius = h_ * speeds;
+    const Matrix6d change = near_.Change(radius);
+    const auto contraction = Contraction::Of(change);
+    if (!contraction) return std::nullopt;
+    return contraction->Resolve(change, asked_ + near_.Bending(speeds, radius));
+  }
+
+ private:
+  const LegNeighbourhood& near_;
+  double h_;
+  Vector6d asked_;
+};
+
+// Angular velocity of link `link` at m, seen from the waist (links 0–2) or the sole.
+Vector3d LinkTurn(const LegFrames& frames, const Vector6d& speeds, int link) {
+  const bool from_waist = LegAnchors::OnHip(link);
+  Vector3d turn(0, 0, 0);
+  for (int j = from_waist ? 0 : link + 1; j < (from_waist ? link + 1 : 6); ++j) {
+    turn += speeds[j] * frames.axis_B[static_cast<size_t>(j)];
+  }
+  return turn;
+}
+
+// From the joints' sups. Each joint's axis turns with the links before it, seen from the base.
+std::array<TurnBound, 6> Turns(const LegFrames& frames, const Vector6d& at_m,
+                               const JointBounds& bounds, double h) {
+  std::array<TurnBound, 6> turns;
+  const auto fill = [&](int first, int last, int step, int joint) {
+    TurnBound so_far;
+    for (int link = first; link != last; link += step) {
+      const int j = link + joint;
+      const double speed = bounds.speed[j];
+      so_far.acceleration += bounds.acceleration[j] + so_far.speed * speed;
+      so_far.speed += speed;
+      turns[static_cast<size_t>(link)] = {
+          std::min(so_far.speed, LinkTurn(frames, at_m, link).norm() + h * so_far.acceleration),
+          so_far.acceleration};
+    }
+  };
+  fill(0, 3, 1, 0);
+  fill(4, 2, -1, 1);
+  turns[5] = {0.0, 0.0};
+  return turns;
+}
+
+}  // namespace
+
+std::optional<JointBounds> BoundOffsetJoints(const Leg& leg, const Vector6d& q,
+                                             const LegFrames& frames, const Vector6d& speeds,
+                                             const SoleDrift& drift) {
+  const Eigen::Isometry3d& X_BSole = frames.X_BLink[6];
+  const auto near = LegNeighbourhood::Around(leg, q);
+  if (!near || !ContinueLeg(leg, X_BSole, drift).arrived) return std::nullopt;
+  const double h = drift.half_width;
+  const OffsetJoints joints(*near, drift.TwistRate(leg.hip_B, X_BSole.translation()), drift);
+  const Vector6d at_m = speeds.cwiseAbs();
+  Vector6d assumed = at_m;
+  for (int attempt = 0; attempt < 8; ++attempt) {
+    const auto accelerations = joints.Accelerations(assumed);
+    if (!accelerations) return std::nullopt;
+    const Vector6d change = h * *accelerations;
+    if (((at_m + change).array() < assumed.array()).all()) {
+      JointBounds bounds{.speed = at_m + change, .acceleration = *accelerations, .turns = {}};
+      bounds.turns = Turns(frames, speeds, bounds, h);
+      return bounds;
+    }
+    assumed = at_m + 1.2 * change + Vector6d::Constant(1e-9);
+  }
+  return std::nullopt;
+}
+
+double LegLengthChange(const LegLength& length, double turn) {
+  const double steepest = std::sqrt(length.product);
+  const double nearest = length.distance - turn * steepest;
+  if (!(nearest > 0.0)) return turn * steepest;
+  return turn * std::min(steepest, std::abs(length.slope) + turn * length.product / nearest);
+}
+
+}  // namespace halfstep
