@@ -41,7 +41,7 @@ TEST_P(ShippedConfigTest, LoadsWithItsRobotAndScene) {
   const ExperimentConfig config = LoadConfig(GetParam(), {});
   EXPECT_EQ(config.name, fs::path(GetParam()).stem());
   const Experiment experiment = Prepare(config);
-  EXPECT_EQ(experiment.robot.name, "hrp2");
+  EXPECT_EQ(experiment.robot.name, config.robot);
   EXPECT_EQ(experiment.scene.obstacles.empty() && experiment.scene.no_step.empty(),
             config.scene == "none");
   EXPECT_NE(config.has_goal, !config.footsteps.empty());

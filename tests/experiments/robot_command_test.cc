@@ -53,6 +53,28 @@ TEST(RobotCommand, MakesARobotOfAUrdfThatWalksSixSteps) {
   EXPECT_EQ(run.status, kSuccess) << run.err;
 }
 
+// Robots of 0.45 m and 1.75 m: no number is the user's, and those of the shipped files come out.
+TEST(RobotCommand, MakesTheOtherShippedRobotsOfTheirUrdfs) {
+  for (const std::string name : {"wren", "bison"}) {
+    SCOPED_TRACE(name);
+    const TemporaryFolder place;
+    const Outcome outcome = Halfstep(
+        place.path(), {"robot", (kRobots / (name + ".urdf")).string(), "--package",
+                       name + "_bodies=" + (kRobots / name).string(), "--out", "guess.yaml"});
+    EXPECT_EQ(outcome.status, kSuccess) << outcome.err;
+    EXPECT_THAT(outcome.out, HasSubstr("dichotomy              converged        certified"));
+    const RobotModel guess = LoadRobot((place / "guess.yaml").string());
+    const RobotModel shipped = LoadRobot((kRobots / (name + ".yaml")).string());
+    for (size_t leg = 0; leg < 2; ++leg) {
+      const Leg &a = guess.legs[leg], &b = shipped.legs[leg];
+      EXPECT_LT((a.X_BSole.matrix() - b.X_BSole.matrix()).norm(), 1e-12);
+      for (size_t j = 0; j < 6; ++j) EXPECT_EQ(a.joints[j].name, b.joints[j].name);
+    }
+    EXPECT_EQ(guess.mass, shipped.mass);
+    EXPECT_EQ(guess.self_pairs.size(), shipped.self_pairs.size());
+  }
+}
+
 TEST(RobotSurvey, FindsLegsSolesAndAPostureOfRobotsWithOtherAxes) {
   for (const GeneratedRobot& robot : GeneratedRobots()) {
     SCOPED_TRACE(robot.name);
