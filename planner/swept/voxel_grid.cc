@@ -30,13 +30,7 @@ VoxelGrid::VoxelGrid(const Eigen::Vector3d& lower, const Eigen::Vector3d& upper,
   origin_ = cell * first.matrix();
   size_ = count.cast<int>().matrix();
   words_per_column_ = (size_.z() + 63) / 64;
-  words_.assign(Word(size_.x() + 3, 0), 0);  // Fill goes by four columns
-  const int bits = 64 * words_per_column_;
-  first_bits_.assign(static_cast<size_t>((bits + 1) * words_per_column_), 0);
-  for (int count = 0; count <= bits; ++count) {
-    uint64_t* words = &first_bits_[static_cast<size_t>(count * words_per_column_)];
-    for (int k = 0; k < count; ++k) words[k / 64] |= uint64_t{1} << (k % 64);
-  }
+  words_.assign(Word(size_.x(), 0), 0);
 }
 
 void VoxelGrid::Fill(const HalfSpaces& region) {
@@ -80,14 +74,12 @@ void VoxelGrid::Fill(const HalfSpaces& region) {
   const auto blocks = static_cast<size_t>((columns + 3) / 4);
   std::vector<float> from(4 * blocks), to(4 * blocks);
   const double highest = size_.z() - 1;
-  const size_t words = static_cast<size_t>(words_per_column_), next = Word(1, 0);
   for (int j = 0; j < rows; ++j) {
     const float row = static_cast<float>(j);
     if (j % kRows == 0) {
       above.EnterRows(row, row + (kRows - 1), static_cast<float>(columns - 1));
       below.EnterRows(row, row + (kRows - 1), static_cast<float>(columns - 1));
     }
-    uint64_t* column = &words_[Word(first.x(), first.y() + j)];
     above.Row(row, blocks, to.data());
     below.Row(row, blocks, from.data());
     for (int i = 0; i < columns; i += 4) {
@@ -96,12 +88,10 @@ void VoxelGrid::Fill(const HalfSpaces& region) {
       const Eigen::Array4d low = (down.cast<double>() - rounding - origin_.z()) / cell_;
       const Eigen::Array4d high = (up.cast<double>() + rounding - origin_.z()) / cell_;
       const Eigen::Array4i begin = low.max(0.0).min(highest).cast<int>();
-      const Eigen::Array4i end = high.max(0.0).min(highest).cast<int>() + 1;
-      for (int c = 0; c < 4; ++c, column += next) {  // without a branch: columns differ
-        const bool met = (down[c] <= up[c]) & (high[c] >= 0) & (i + c < columns);
-        const uint64_t* all = &first_bits_[words * static_cast<size_t>(met ? end[c] : 0)];
-        const uint64_t* before = &first_bits_[words * static_cast<size_t>(begin[c])];
-        for (size_t w = 0; w < words; ++w) column[w] |= all[w] & ~before[w];
+      const Eigen::Array4i end = high.max(0.0).min(highest).cast<int>();
+      for (int c = 0; c < std::min(4, columns - i); ++c) {
+        if (!(down[c] <= up[c]) || !(high[c] >= 0)) continue;
+        OccupyRange(first.x() + i + c, first.y() + j, begin[c], end[c]);
       }
     }
   }

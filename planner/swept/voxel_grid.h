@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -43,12 +44,20 @@ class VoxelGrid {
     return (static_cast<size_t>(i) * static_cast<size_t>(size_.y()) + static_cast<size_t>(j)) *
            static_cast<size_t>(words_per_column_);
   }
+  // Cells from … to of a column.
+  void OccupyRange(int i, int j, int from, int to) {
+    uint64_t* column = &words_[Word(i, j)];
+    for (int w = from / 64; w <= to / 64; ++w) {
+      const int low = std::max(from - 64 * w, 0), high = std::min(to - 64 * w, 63);
+      column[w] |= (~uint64_t{0} >> (63 - (high - low))) << low;
+    }
+  }
+
   double cell_;
   Eigen::Vector3d origin_;
   Eigen::Vector3i size_;
   int words_per_column_;
   std::vector<uint64_t> words_;
-  std::vector<uint64_t> first_bits_;  // of a column, as many as are asked for
 };
 
 }  // namespace halfstep

@@ -160,41 +160,55 @@ SimplifiedHull Cut(const ConvexBody& hull, int vertices, const Eigen::Matrix3Xd&
   return simplified;
 }
 
-// The hull of some vertices, each the one farthest outside that of those before, and a ball around.
+// The vertices of a hull that are deepest outside each face of the hull of some of them, deepest
+// first.
+std::vector<int> DeepestOutside(const ConvexBody& hull, const ConvexBody& inner) {
+  Eigen::VectorXd heights(inner.normals.cols());
+  for (Eigen::Index f = 0; f < heights.size(); ++f) {
+    const Vector3d n = inner.normals.col(f);
+    heights[f] = n.dot(inner.vertices.col(FarthestVertex(inner, n)));
+  }
+  std::vector<std::pair<double, int>> deepest(static_cast<size_t>(heights.size()), {0.0, -1});
+  for (int i = 0; i < static_cast<int>(hull.vertices.cols()); ++i) {
+    Eigen::Index face = 0;
+    const double depth =
+        (inner.normals.transpose() * hull.vertices.col(i) - heights).maxCoeff(&face);
+    auto& known = deepest[static_cast<size_t>(face)];
+    if (depth > known.first) known = {depth, i};
+  }
+  std::ranges::stable_sort(deepest, std::ranges::greater{}, &std::pair<double, int>::first);
+  std::vector<int> vertices;
+  for (const auto& [depth, vertex] : deepest) {
+    if (vertex >= 0) vertices.push_back(vertex);
+  }
+  return vertices;
+}
+
+// The hull of some vertices, the farthest outside the hull of those before, and a ball around.
 SimplifiedHull Rounded(const ConvexBody& hull, int vertices) {
   std::vector<int> chosen;
   const auto choose = [&](int vertex) {
     if (std::find(chosen.begin(), chosen.end(), vertex) == chosen.end()) chosen.push_back(vertex);
   };
-  for (int k = 0; k < 27; k += 2) {  // to the corners and faces of a cube, and along edges: 14
-    if (k != 13) choose(FarthestVertex(hull, Vector3d(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1)));
+  for (int k = 0; k < 27; k += 2) {  // towards the corners and faces of a cube
+    choose(FarthestVertex(hull, Vector3d(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1)));
   }
   for (;;) {
     ConvexBody body = MakeHull(hull.vertices(Eigen::all, chosen));
-    if (static_cast<int>(chosen.size()) == vertices) {
-      double outside = 0;
-      for (const Vector3d& v : hull.vertices.colwise()) {
-        outside = std::max(outside, DistanceFrom(body, v));
-      }
-      body.ball_radius = outside + hull.ball_radius;
-      BoundBySphere(&body);
-      return {std::move(body), outside};
+    // A quarter of those that are still to come at once.
+    std::vector<int> more = DeepestOutside(hull, body);
+    const size_t room = static_cast<size_t>(vertices) - chosen.size();
+    more.resize(std::min(more.size(), (room + 3) / 4));
+    const size_t before = chosen.size();
+    for (const int vertex : more) choose(vertex);
+    if (chosen.size() > before) continue;
+    double outside = 0;
+    for (const Vector3d& v : hull.vertices.colwise()) {
+      outside = std::max(outside, DistanceFrom(body, v));
     }
-    Eigen::VectorXd heights(body.normals.cols());
-    for (Eigen::Index f = 0; f < heights.size(); ++f) {
-      heights[f] =
-          body.normals.col(f).dot(body.vertices.col(FarthestVertex(body, body.normals.col(f))));
-    }
-    double deepest = 0;
-    int farthest = -1;
-    for (int i = 0; i < static_cast<int>(hull.vertices.cols()); ++i) {
-      const double depth = (body.normals.transpose() * hull.vertices.col(i) - heights).maxCoeff();
-      if (depth <= deepest || std::find(chosen.begin(), chosen.end(), i) != chosen.end()) continue;
-      deepest = depth;
-      farthest = i;
-    }
-    if (farthest < 0) return {hull, 0.0};
-    chosen.push_back(farthest);
+    body.ball_radius = outside + hull.ball_radius;
+    BoundBySphere(&body);
+    return {std::move(body), outside};
   }
 }
 
