@@ -49,8 +49,12 @@ RobotFiles FilesOf(const RobotCommand& command) {
 
 void Tell(const RobotDraft& draft, const RobotModel& robot) {
   const RobotMeasures measures = MeasuresOf(robot);
-  std::cout << robot.name << ": six revolute joints a leg, hip axes through one point, ankle axes "
-            << "through one point\n"
+  const Leg& leg = robot.legs[0];
+  std::cout << robot.name << ": six revolute joints a leg, "
+            << (leg.closed_form()
+                    ? "hip axes through one point, ankle axes through one point"
+                    : leg.offsets + "; joint angles by continuation from a closed form")
+            << '\n'
             << Formatted(
                    "  leg %.3f m, stance %.3f m, CoM %.3f m high, %.2f kg, sole %.3f x %.3f m, "
                    "%zu bodies, %zu pairs watched, %zu not\n",

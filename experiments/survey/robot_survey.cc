@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <stdexcept>
@@ -86,7 +87,9 @@ class Surveyor {
     BodyRequest request{.waist = draft_.legs.waist,
                         .leg_joints = draft_.legs.joints,
                         .posture = draft_.posture,
-                        .packages = request_.packages};
+                        .packages = request_.packages,
+                        .R_FootSole = {Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Identity()},
+                        .hull_vertices = std::numeric_limits<int>::max()};
     Complaints complaints;
     bodies_ = BuildBodies(draft_.urdf, request, &complaints).bodies;
     complaints.ThrowIfAny();

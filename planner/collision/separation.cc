@@ -16,7 +16,6 @@
 #include "planner/collision/convex_distance.h"
 #include "planner/collision/mesh_interior.h"
 #include "wpg/check.h"
-#include "wpg/geometry/simplified_hull.h"
 
 namespace halfstep {
 namespace {
@@ -29,7 +28,6 @@ constexpr int kDiscSides = 64;
 constexpr double kTriangleRounding = 1e-12, kLeastRounding = 1e-10;
 // Taken off slabs to a mesh's hull for rounding: of the mesh's coordinates.
 constexpr double kSlabRounding = 4e-15;
-constexpr int kHullVertices = 64;  // of what encloses a mesh, at most
 
 std::shared_ptr<const Bvh> MakeBvh(const TriangleMesh& mesh) {
   std::vector<fcl::Vector3d> points(mesh.vertices.colwise().begin(), mesh.vertices.colwise().end());
@@ -93,7 +91,7 @@ ConvexBody Enclosing(const TriangleMesh& mesh) {
                                    << " vertices");
   ConvexBody around;
   try {
-    around = SimplifyOutward(MakeHull(mesh.vertices), kHullVertices).body;
+    around = MakeHull(mesh.vertices);
   } catch (const std::runtime_error&) {  // flat: the axis-aligned bounds
     const Eigen::Vector3d lower = mesh.vertices.rowwise().minCoeff();
     const Eigen::Vector3d upper = mesh.vertices.rowwise().maxCoeff();

@@ -45,6 +45,18 @@ TEST(PlanCommand, PrintsFootstepsThatCanReplaceTheGoal) {
   EXPECT_EQ(run.status, kSuccess) << run.err;
 }
 
+TEST(PlanCommand, ARobotThatCannotStepIsToldWhatAStepInPlaceMisses) {
+  const TemporaryFolder place;
+  const std::string config = WriteText(place / "walk.yaml", ConfigText("none", kGoal));
+  const Outcome outcome =
+      Halfstep(place.path(), {"plan", config, "--set", "smoothing.margins.self_clearance_m=0.1"});
+  EXPECT_EQ(outcome.status, kBadInput);
+  EXPECT_THAT(outcome.err, HasSubstr("step_set: no place of the grid keeps the demanded margins"));
+  EXPECT_THAT(outcome.err, HasSubstr("; a step in place misses self_clearance of "));
+  EXPECT_THAT(outcome.err, HasSubstr("missed too: self_clearance of "));
+  EXPECT_THAT(outcome.err, HasSubstr("what may help with self_clearance: "));
+}
+
 TEST(PlanCommand, RunPlansAndItsConfigRunsAgain) {
   const TemporaryFolder place;
   const std::string config = WriteText(place / "walk.yaml", ConfigText("none", kGoal));

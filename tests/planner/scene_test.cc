@@ -4,15 +4,18 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <sstream>
 #include <string>
 #include <variant>
 
 #include "planner/collision/separation.h"
 #include "planner/scene/simple_polygon.h"
 #include "tests/fixture_check.h"
+#include "wpg/files/input_error.h"
 
 namespace halfstep {
 namespace {
@@ -72,6 +75,53 @@ obstacles:
   EXPECT_TRUE(scene.obstacles[2].X_WO.isApprox(Eigen::Isometry3d::Identity()));
   EXPECT_TRUE((scene.obstacles[0].X_WO * Eigen::Vector3d::UnitX())
                   .isApprox(Eigen::Vector3d(0.4, 1.0, 0.04), 1e-12));
+}
+
+// 300 points of a ball of 1 m.
+std::string BallOfPoints() {
+  std::ostringstream text;
+  text.precision(17);
+  for (int i = 0; i < 300; ++i) {
+    const double z = -1 + (2 * i + 1) / 300.0, r = std::sqrt(1 - z * z);
+    text << "v " << r * std::cos(2.4 * i) << ' ' << r * std::sin(2.4 * i) << ' ' << z << '\n';
+  }
+  for (int i = 1; i + 2 <= 300; ++i) text << "f " << i << ' ' << i + 1 << ' ' << i + 2 << '\n';
+  return text.str();
+}
+
+TEST_F(SceneTest, AMeshIsItsHullOrASimplerBodyAroundItWhenAsked) {
+  Write("ball.obj", BallOfPoints());
+  const auto load = [&](const std::string& vertices) {
+    return LoadScene(Write("hulls.yaml",
+                           "obstacles: [{name: rock, mesh: {file: ball.obj, "
+                           "scale: 0.5, hull_vertices: " +
+                               vertices + "}}]"));
+  };
+  EXPECT_TRUE(std::holds_alternative<TriangleMesh>(load("0").obstacles[0].shape));
+  const Scene whole = load("1000");
+  EXPECT_TRUE(whole.warnings.empty());
+  const auto& hull = std::get<ConvexBody>(whole.obstacles[0].shape);
+  EXPECT_EQ(hull.vertices.cols(), 300);
+  const Scene simple = load("32");
+  const auto& around = std::get<ConvexBody>(simple.obstacles[0].shape);
+  EXPECT_LE(around.vertices.cols(), 32);
+  for (const Eigen::Vector3d& v : hull.vertices.colwise()) {
+    const Eigen::Vector3d d = v.normalized();
+    EXPECT_GE(Support(around, d), Support(hull, d) - 1e-15);
+    EXPECT_LE(Support(around, d), Support(hull, d) + 0.1);
+  }
+  ASSERT_EQ(simple.warnings.size(), 1u);
+  EXPECT_THAT(simple.warnings[0],
+              testing::ContainsRegex("hulls.yaml: obstacle rock: the hull of the mesh has 300 "
+                                     "vertices; a simpler one around it, with [23].*, is at most "
+                                     "[1-9].* mm larger"));
+  try {
+    load("10");
+    FAIL() << "10 vertices";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.complaints()[0], testing::HasSubstr("hull_vertices: 10 are too few (valid: "
+                                                          "0, or at least 24)"));
+  }
 }
 
 TEST_F(SceneTest, TurnsAboutFixedAxesXThenYThenZ) {

@@ -271,6 +271,36 @@ TEST(SweptVolumeQueryTest, ABoxAsAMeshAndAsAHullAnswersLikeTheBox) {
   }
 }
 
+// As a box that is larger by the ball, but for the ball's corners and what queries grow by.
+TEST(SweptVolumeQueryTest, AHullWithABallIsMetWhereTheHullGrownByItIs) {
+  SweptDraw draw(5);
+  const SweptVolumes& volumes = CoarseVolumes();
+  int met = 0, freed = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    const Vector3d size = draw.Point({0.05, 0.05, 0.05}, {0.5, 0.5, 0.5});
+    const Vector3d p_W = draw.Point({-1, -1, 0}, {1, 1, 0.5});
+    const double ball = 0.1;
+    const auto is_free = [&](const ConvexBody& body) {
+      return SweptVolumeQuery(volumes, kSole, One(body, Isometry3d(Eigen::Translation3d(p_W))))
+          .DownIsFree(0, Side::kLeft, {});
+    };
+    ConvexBody rounded = MakeBox(size);
+    rounded.ball_radius = ball;
+    BoundBySphere(&rounded);
+    const bool free = is_free(rounded);
+    EXPECT_LE(free, is_free(MakeBox(size))) << "the box without its ball";
+    for (int axis = 0; axis < 3; ++axis) {  // boxes inside the rounded one
+      Vector3d longer = size;
+      longer[axis] += 2 * ball;
+      EXPECT_LE(free, is_free(MakeBox(longer)));
+    }
+    met += !free;
+    freed += free && !is_free(MakeBox(size + Vector3d::Constant(4 * ball)));
+  }
+  EXPECT_GT(met, 20);
+  EXPECT_GT(freed, 5) << "it is not taken as something much larger";
+}
+
 TEST(SweptVolumeQueryTest, SmallObstaclesInsideAndHollowOnesAroundAreMet) {
   const SweptVolumes& volumes = CoarseVolumes();
   const auto is_free = [&](Shape shape, const Vector3d& p_W) {
