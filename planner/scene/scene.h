@@ -37,7 +37,7 @@ struct Scene {
   /// Simple polygons on the floor (2×n, counter-clockwise) that no sole may touch [m].
   std::vector<Eigen::Matrix2Xd> no_step;
   /// What of the files was replaced by something larger, as "file: …", for the user.
-  std::vector<std::string> warnings = {};
+  std::vector<std::string> warnings;
 
   /// Whether all obstacles rest, so that what holds at one time holds at every time.
   bool rests() const;
