@@ -1,5 +1,6 @@
 #include "experiments/report/drawn_mesh.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -44,6 +45,22 @@ std::vector<Eigen::Vector3d> Sum(const std::vector<Eigen::Vector3d>& a,
   return sum;
 }
 
+// The faces of a hull; with a ball, each corner is moved outward by its radius, so that the picture
+// has no more corners than the hull.
+TriangleMesh GrownFaces(const ConvexBody& hull) {
+  constexpr double kUnseen = 1e-6;  // [m]: the ball stands for rounding
+  TriangleMesh mesh = FacesOf(hull);
+  if (hull.ball_radius < kUnseen) return mesh;
+  Eigen::Matrix3Xd outward = Eigen::Matrix3Xd::Zero(3, mesh.vertices.cols());
+  for (const Eigen::Vector3i& t : hull.triangles) {
+    const Eigen::Vector3d a = mesh.vertices.col(t[0]), b = mesh.vertices.col(t[1]),
+                          c = mesh.vertices.col(t[2]);
+    for (const int corner : t) outward.col(corner) += (b - a).cross(c - a).normalized();
+  }
+  mesh.vertices += hull.ball_radius * outward.colwise().normalized();
+  return mesh;
+}
+
 // The mesh with vertices in the same cell of a lattice joined in their first one.
 TriangleMesh Joined(const TriangleMesh& mesh, double cell) {
   std::map<std::array<long, 3>, int> cells;
@@ -77,10 +94,9 @@ TriangleMesh Joined(const TriangleMesh& mesh, double cell) {
 }  // namespace
 
 TriangleMesh DrawnMesh(const ConvexBody& body) {
-  // The ball around a hull stands for its rounding.
-  constexpr double kUnseen = 1e-6;  // [m]
-  const bool sharp = !body.triangles.empty() && body.ball_radius < kUnseen;
-  if (body.disc_radius == 0.0 && (sharp || body.ball_radius == 0.0)) return FacesOf(body);
+  if (body.disc_radius == 0.0 && (!body.triangles.empty() || body.ball_radius == 0.0)) {
+    return GrownFaces(body);
+  }
   std::vector<Eigen::Vector3d> points;
   for (const auto& vertex : body.vertices.colwise()) points.emplace_back(vertex);
   if (body.disc_radius > 0.0) points = Sum(points, Ring(body.disc_radius, 0.0));

@@ -50,6 +50,19 @@ TEST(DrawnMesh, IsInscribedAndNearlyAsLargeAsTheBody) {
   }
 }
 
+TEST(DrawnMesh, AHullWithABallHasNoMoreCornersThanTheHull) {
+  ConvexBody body = MakeBox({0.1, 0.2, 0.3});
+  body.ball_radius = 0.01;
+  const TriangleMesh mesh = DrawnMesh(body);
+  EXPECT_EQ(mesh.vertices.cols(), 8);
+  EXPECT_GT(Volume(mesh), 0.006 * 1.1);
+  for (const auto& vertex : mesh.vertices.colwise()) {
+    const Eigen::Vector3d nearest = vertex.cwiseMax(Eigen::Vector3d(-0.05, -0.1, -0.15))
+                                        .cwiseMin(Eigen::Vector3d(0.05, 0.1, 0.15));
+    EXPECT_NEAR((vertex - nearest).norm(), 0.01, 1e-12) << "on the body's surface";
+  }
+}
+
 TEST(DrawnMesh, CoarsenedHasAtMostSoManyTrianglesAndStaysWhereItIs) {
   const TriangleMesh mesh = DrawnMesh(MakeSphere(0.5));
   ASSERT_GT(mesh.triangles.cols(), 400);
