@@ -22,7 +22,8 @@ struct FlatWorld {
 
   /// The same world for planners that look at a scene.
   Scene ToScene() const {
-    Scene scene{.name = "flat world", .files = {}, .obstacles = {}, .no_step = no_step};
+    Scene scene{
+        .name = "flat world", .files = {}, .obstacles = {}, .no_step = no_step, .warnings = {}};
     for (const Pole& pole : poles) {
       Obstacle obstacle{.name = "pole " + std::to_string(scene.obstacles.size()),
                         .shape = Cylinder{pole.radius, 1.0}};

@@ -24,8 +24,6 @@ Vector3d RandomPoint(std::mt19937* random) {
   return {x, y, z};
 }
 
-Vector3d RandomDirection(std::mt19937* random) { return RandomPoint(random).normalized(); }
-
 Eigen::Matrix3Xd RandomPoints(int count, std::mt19937* random) {
   Eigen::Matrix3Xd points(3, count);
   for (int i = 0; i < count; ++i) points.col(i) = RandomPoint(random);
@@ -46,7 +44,7 @@ TEST(ConvexBody, SupportOfPrimitivesIsTheClosedForm) {
   const ConvexBody box = MakeBox({0.2, 0.4, 0.6}), sphere = MakeSphere(0.3);
   const ConvexBody cylinder = MakeCylinder(0.2, 0.5), capsule = MakeCapsule(0.2, 0.5);
   for (int i = 0; i < 1000; ++i) {
-    const Vector3d d = RandomDirection(&random);
+    const Vector3d d = RandomPoint(&random).normalized();
     EXPECT_NEAR(Support(box, d), d.cwiseAbs().dot(Vector3d(0.1, 0.2, 0.3)), 1e-15);
     EXPECT_NEAR(Support(sphere, d), 0.3, 1e-15);
     EXPECT_NEAR(Support(cylinder, d), 0.2 * d.head<2>().norm() + 0.25 * std::abs(d.z()), 1e-15);
@@ -69,11 +67,11 @@ TEST(ConvexBody, SupportIsTheLargestOverSampledPointsOfTheSum) {
     const double phi = angle(random);
     const Vector3d disc(0.3 * std::cos(phi), 0.3 * std::sin(phi), 0);
     samples.push_back(body.vertices.col(i % body.vertices.cols()) + disc +
-                      0.1 * RandomDirection(&random));
+                      0.1 * RandomPoint(&random).normalized());
     EXPECT_LE((samples.back() - body.center).norm(), body.radius);
   }
   for (int i = 0; i < 50; ++i) {
-    const Vector3d d = RandomDirection(&random);
+    const Vector3d d = RandomPoint(&random).normalized();
     double largest = -10;
     for (const Vector3d& sample : samples) largest = std::max(largest, sample.dot(d));
     EXPECT_LE(largest, Support(body, d) + 1e-12);

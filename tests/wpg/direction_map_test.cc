@@ -10,18 +10,13 @@
 #include <vector>
 
 #include "tests/draws.h"
+#include "tests/wpg/random_direction.h"
 #include "wpg/geometry/convex_body.h"
 
 namespace halfstep {
 namespace {
 
 using Eigen::Vector3d;
-
-Vector3d RandomDirection(std::mt19937* random) {
-  std::normal_distribution<double> normal;
-  const double x = normal(*random), y = normal(*random), z = normal(*random);
-  return Vector3d(x, y, z).normalized();
-}
 
 // What tries a map: smooth bodies, long ones, rims whose points are equally far, points of planes
 // and lines beside the extreme ones, and all of it far from the origin.

@@ -9,17 +9,12 @@
 #include <vector>
 
 #include "tests/draws.h"
+#include "tests/wpg/random_direction.h"
 
 namespace halfstep {
 namespace {
 
 using Eigen::Vector3d;
-
-Vector3d RandomDirection(std::mt19937* random) {
-  std::normal_distribution<double> normal;
-  const double x = normal(*random), y = normal(*random), z = normal(*random);
-  return Vector3d(x, y, z).normalized();
-}
 
 ConvexBody Ellipsoid(int count, const Vector3d& size, std::mt19937* random) {
   Eigen::Matrix3Xd points(3, count);
