@@ -55,7 +55,7 @@ void Walks(long walks, unsigned seed, const std::string& name) {
   };
   std::array<std::array<Row, kSpares.size() + 1>, 4> table{};
   std::array<long, kNumMarginFamilies> refused{};
-  const RobotModel robot = ShippedRobot(name);
+  const RobotModel robot = RobotNamed(name);
   MarginLimits limits;
   limits.demanded_of(MarginFamily::kFloor) *= std::min(1.0, LegScale(robot));
   limits.clearance_horizon = 0.05;  // farther ones do not matter here

@@ -33,6 +33,14 @@ inline std::vector<RobotModel> RobotsWithOffsets() {
   return robots;
 }
 
+/// A shipped robot, or one with offset legs.
+inline RobotModel RobotNamed(const std::string& name) {
+  for (const GeneratedRobot& robot : OffsetRobots()) {
+    if (robot.name == name) return TemporaryRobot(robot).Load();
+  }
+  return ShippedRobot(name);
+}
+
 /// How varied random walks of a robot are.
 struct WalkVariety {
   double stride = 1.0;  ///< how far the feet go, about 1: to the ends of a robot's reach

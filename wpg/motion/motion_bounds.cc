@@ -143,11 +143,12 @@ bool MotionBounds::BoundOffsetLeg(Side side, const LegRates& rates, IntervalMoti
   const size_t s = static_cast<size_t>(Index(side));
   const Posture& posture = motion->posture;
   const Eigen::Vector3d sole = posture.frames[s].X_BLink[6].translation();
+  const BaseRates& rates_B = rates.sole_B;
   const SoleDrift drift{.half_width = motion->half_width,
                         .velocity = rates.velocity_B[5] + rates.omega_B[5].cross(sole),
                         .yaw_rate = YawRate(motion->jet, side),
-                        .acceleration = rates.sole_B.acceleration,
-                        .yaw_acceleration = rates.sole_B.yaw_acceleration};
+                        .acceleration = rates_B.acceleration,
+                        .yaw_acceleration = rates_B.yaw_acceleration};
   const auto bounds = BoundOffsetJoints(robot_.legs[s], posture.ik[s].q, posture.frames[s],
                                         posture.speeds[s], drift);
   if (!bounds) return false;
