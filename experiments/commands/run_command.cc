@@ -78,6 +78,8 @@ ExitStatus Run(const RunCommand& command) {
   RunFolder folder(OutputFolder(command, config), command.overwrite);
   run.Smooth(hooks);
   bars.End();
+  const bool feasible = run.runs().front().result.feasible;
+  if (!feasible) TellMissed(run);  // before the tables, which take longer
   // What smoothing had found when it was stopped is proved all the same.
   run.Certify(interrupt.requested() ? interrupt.proof_token() : interrupt.token());
   run.Write(&folder);
@@ -92,10 +94,7 @@ ExitStatus Run(const RunCommand& command) {
   } else if (!command.quiet) {
     std::cout << RunTable(run.experiment(), run.problem(), run.runs(), place);
   }
-  if (!run.runs().front().result.feasible) {
-    TellMissed(run);
-    return kFailed;
-  }
+  if (!feasible) return kFailed;
   if (interrupt.requested()) return kInterrupted;
   return TellWhatDidNotWork(run.runs()) ? kFailed : kSuccess;
 }

@@ -157,7 +157,12 @@ ConvexBody MakeHull(const Eigen::Matrix3Xd& points) {
       Refuse("the points are (nearly) coplanar");
   }
   body.vertices = points(Eigen::all, vertices);
-  body.ball_radius = OutsideBound(body, points);
+  std::sort(vertices.begin(), vertices.end());
+  std::vector<Eigen::Index> others;  // vertices are not outside
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    if (!std::binary_search(vertices.begin(), vertices.end(), i)) others.push_back(i);
+  }
+  if (!others.empty()) body.ball_radius = OutsideBound(body, points(Eigen::all, others));
   BoundBySphere(&body);
   return body;
 }
