@@ -29,7 +29,11 @@ export class Timeline {
     this.button = document.getElementById("play");
     this.button.append(image);
     this.button.addEventListener("click", () => this.toggle());
-    this.scrub.addEventListener("input", () => this.seek(Number(this.scrub.value)));
+    this.scrub.addEventListener("input", () => {
+      // The slider's last place is the end, which need not be a multiple of its step.
+      const at = Number(this.scrub.value);
+      this.seek(at + Number(this.scrub.step) > this.duration ? this.duration : at);
+    });
     window.addEventListener("keydown", (event) => this.key(event));
   }
 
