@@ -120,6 +120,11 @@ std::string YamlOf(const RobotDraft& draft, const fs::path& folder) {
         "# Turned by it, the meshes of the legs lie nearer to the legs' joints.\n"
         "dae_up_axis: applied\n";
   }
+  if (draft.hull_vertices != RobotFile{}.hull_vertices) {
+    text += "# With " + std::to_string(RobotFile{}.hull_vertices) + ", bodies are up to " +
+            Decimal(1e3 * draft.excess, 1) + " mm larger than their meshes' hulls.\n" +
+            "hull_vertices: " + std::to_string(draft.hull_vertices) + "\n";
+  }
   text +=
       "# Both legs hang on it.\nwaist_link: " + Quoted(LinkName(draft, draft.legs.waist)) + "\n";
   if (const Eigen::Vector3d rpy = RpyOf(draft.R_LinkB); rpy.cwiseAbs().maxCoeff() > 1e-9) {

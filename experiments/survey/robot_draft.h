@@ -23,6 +23,8 @@ struct RobotDraft {
   FoundLegs legs;
   Eigen::Matrix3d R_LinkB = Eigen::Matrix3d::Identity();
   std::array<FoundSole, 2> soles;
+  int hull_vertices = 64;  ///< of a mesh's hull, at most
+  double excess = 0.0;     ///< of a body over its mesh's hull with the default of these [m]
   StandingRequest standing;
   std::string why_bend;         ///< why the knees are bent so little; "": as usual
   std::string why_width;        ///< why the stance is so wide

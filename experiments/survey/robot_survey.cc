@@ -26,6 +26,7 @@ using Eigen::Vector3d;
 
 constexpr double kFeetApart = 0.05;  // bodies of the feet, standing [m]
 constexpr double kLift = 0.12;       // of the swing foot, at least, of the leg's length
+constexpr double kExcess = 2e-3;     // of bodies over their meshes' hulls, of HRP-2's size [m]
 constexpr double kArmsApart = 0.03;  // arms and legs, in six steps [m]
 
 class Surveyor {
@@ -108,6 +109,24 @@ class Surveyor {
     }
     for (size_t side = 0; side < 2; ++side) {
       legs_[side].X_BSole = legs_[side].joints[5].X_BLink * draft_.soles[side].X_FootSole;
+      request.R_FootSole[side] = draft_.soles[side].X_FootSole.linear();
+    }
+    request.dae_up_axis = draft_.dae_up_axis;
+    SimplifyHulls(std::move(request));
+  }
+
+  // As few vertices of a hull, from the default on, as keep bodies near to their meshes.
+  void SimplifyHulls(BodyRequest request) {
+    for (request.hull_vertices = draft_.hull_vertices; request.hull_vertices <= 1024;
+         request.hull_vertices *= 2) {
+      Complaints complaints;
+      double excess = 0.0;
+      for (const RobotBody& body : BuildBodies(draft_.urdf, request, &complaints).bodies) {
+        excess = std::max(excess, body.excess);
+      }
+      if (draft_.excess == 0.0) draft_.excess = excess;
+      draft_.hull_vertices = request.hull_vertices;
+      if (excess <= kExcess * ScaleOf(legs_[0])) return;
     }
   }
 
