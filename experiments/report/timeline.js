@@ -30,9 +30,9 @@ export class Timeline {
     this.button.append(image);
     this.button.addEventListener("click", () => this.toggle());
     this.scrub.addEventListener("input", () => {
-      // The slider's last place is the end, which need not be a multiple of its step.
+      // The slider's last place is the end, but for what its text loses of the number.
       const at = Number(this.scrub.value);
-      this.seek(at + Number(this.scrub.step) > this.duration ? this.duration : at);
+      this.seek(at > this.duration - 1e-6 ? this.duration : at);
     });
     window.addEventListener("keydown", (event) => this.key(event));
   }
