@@ -14,7 +14,8 @@
 namespace halfstep {
 namespace {
 
-// Bounds at work on random intervals of random walks of one robot.
+// Bounds at work on random intervals of random walks of one robot. Under sanitizers all intervals
+// are bounded as well, but fewer are compared with the truth.
 struct BoundTally {
   long intervals = 0;
   long bounded = 0;
@@ -40,6 +41,7 @@ BoundTally CompareRandomIntervals(const RobotModel& robot, int intervals, unsign
       BoundMotion(bounds, walk, begin, begin + length, &motion);
       if (!motion.bounded) continue;
       ++tally.bounded;
+      if (k >= Draws(kIntervalsPerWalk)) continue;
       for (const double part : {0.0, draw.Uniform(0, 1), 1.0}) {
         const bool reached = CompareWithTruth(robot, points, walk, motion, begin + part * length,
                                               [&](Bounded kind, int, double truth, double bound) {
@@ -58,9 +60,9 @@ BoundTally CompareRandomIntervals(const RobotModel& robot, int intervals, unsign
 TEST(MotionBounds, AreNeverExceededOnRandomIntervals) {
   unsigned seed = 1;
   for (const RobotModel& robot : RobotsOfAllKinds()) {
-    const BoundTally tally = CompareRandomIntervals(robot, Draws(2000), seed++);
+    const BoundTally tally = CompareRandomIntervals(robot, 2000, seed++);
     // A tenth of the intervals are longer than 90 ms, and some walks nearly stretch a leg.
-    EXPECT_GT(tally.bounded, 0.8 * static_cast<double>(tally.intervals)) << robot.name;
+    EXPECT_GT(tally.bounded, 0.85 * static_cast<double>(tally.intervals)) << robot.name;
     for (size_t kind = 0; kind < kNumBounded; ++kind) {
       // Places: what the certificate adds for rounding. Second derivatives are near 10² and larger.
       const double rounding = kind <= static_cast<size_t>(Bounded::kJointAngle) ? 1e-12 : 1e-10;
@@ -72,7 +74,7 @@ TEST(MotionBounds, AreNeverExceededOnRandomIntervals) {
 TEST(MotionBounds, OfOffsetLegsAreNeverExceededOnRandomIntervals) {
   unsigned seed = 11;
   for (const RobotModel& robot : RobotsWithOffsets()) {
-    const BoundTally tally = CompareRandomIntervals(robot, Draws(600), seed++);
+    const BoundTally tally = CompareRandomIntervals(robot, 600, seed++);
     // Longer intervals than about 20 ms have no bound.
     EXPECT_GT(tally.bounded, 0.5 * static_cast<double>(tally.intervals)) << robot.name;
     for (size_t kind = 0; kind < kNumBounded; ++kind) {
