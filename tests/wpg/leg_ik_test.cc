@@ -9,6 +9,7 @@
 #include <random>
 
 #include "tests/wpg/generated_robots.h"
+#include "tests/wpg/leg_differences.h"
 #include "tests/wpg/shipped_robots.h"
 
 namespace halfstep {
@@ -16,19 +17,6 @@ namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
-
-double Difference(const Isometry3d& a, const Isometry3d& b) {
-  return (a.matrix() - b.matrix()).cwiseAbs().maxCoeff();
-}
-
-// Largest difference of angles, turns apart.
-double AngleDifference(const Vector6d& a, const Vector6d& b) {
-  double worst = 0;
-  for (int i = 0; i < 6; ++i) {
-    worst = std::max(worst, std::abs(std::remainder(a[i] - b[i], 2 * std::numbers::pi)));
-  }
-  return worst;
-}
 
 class LegIkTest : public testing::TestWithParam<size_t> {
  protected:

@@ -8,6 +8,7 @@
 
 #include "tests/wpg/generated_robots.h"
 #include "tests/wpg/hrp2.h"
+#include "tests/wpg/leg_differences.h"
 #include "wpg/robot/leg_continuation.h"
 #include "wpg/robot/leg_ik.h"
 #include "wpg/robot/leg_neighbourhood.h"
@@ -18,19 +19,6 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using testing::HasSubstr;
-
-double Difference(const Isometry3d& a, const Isometry3d& b) {
-  return (a.matrix() - b.matrix()).cwiseAbs().maxCoeff();
-}
-
-// Largest difference of angles, turns apart.
-double AngleDifference(const Vector6d& a, const Vector6d& b) {
-  double worst = 0;
-  for (int i = 0; i < 6; ++i) {
-    worst = std::max(worst, std::abs(std::remainder(a[i] - b[i], 2 * std::numbers::pi)));
-  }
-  return worst;
-}
 
 Isometry3d Upright(const Eigen::Vector4d& xyz_yaw) {
   Isometry3d X = Isometry3d::Identity();
