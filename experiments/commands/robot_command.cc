@@ -123,11 +123,11 @@ CommandAction DeclareRobot(CLI::App* app) {
   app->add_option("--feet", texts->feet, "links of the left and of the right foot")->expected(2);
   app->add_option("--package", texts->packages, "NAME=FOLDER of package:// names; repeatable")
       ->allow_extra_args(false);
-  app->add_option("--bend", survey->bend,
+  app->add_option("--bend", survey->stance.bend,
                   "distance of hip and ankle when standing, over the stretched leg (default: 0.9, "
                   "or what the limits need)")
       ->check(CLI::Range(0.5, 0.99));
-  app->add_option("--width", survey->width, "of the stance [m] (default: as narrow as feet allow)")
+  app->add_option("--width", survey->stance.width, "of the stance [m] (default: as narrow as feet allow)")
       ->check(CLI::Range(0.01, 2.0));
   app->add_flag("--overwrite", command->overwrite, "replace older files");
   app->add_flag("--quiet", command->quiet, "print nothing but errors");

@@ -125,12 +125,22 @@ std::string YamlOf(const RobotDraft& draft, const fs::path& folder) {
             Decimal(1e3 * draft.excess, 1) + " mm larger than their meshes' hulls.\n" +
             "hull_vertices: " + std::to_string(draft.hull_vertices) + "\n";
   }
+  if (!draft.mesh_parts.empty()) {
+    text += "# Meshes that are filled too much by one convex hull.\nmesh_parts:\n";
+    for (const auto& [link, parts] : draft.mesh_parts) {
+      text += "  " + Quoted(link) + ": " + std::to_string(parts) + "  # " +
+              draft.why_parts.at(link) + "\n";
+    }
+  }
   text +=
       "# Both legs hang on it.\nwaist_link: " + Quoted(LinkName(draft, draft.legs.waist)) + "\n";
   if (const Eigen::Vector3d rpy = RpyOf(draft.R_LinkB); rpy.cwiseAbs().maxCoeff() > 1e-9) {
     text +=
         "# z from the feet to the hips, y from the right hip to the left one.\nwaist_rpy_deg: " +
         List(rpy, 9) + "\n";
+  }
+  if (draft.lift) {
+    text += "# " + draft.why_lift + "\nlift_m: " + Decimal(*draft.lift, 3) + "\n";
   }
   for (const std::string& joint : draft.legs.beyond) {
     text += "# " + joint + " is beyond the sixth joint: it is held still.\n";

@@ -3,6 +3,7 @@
 #include <array>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,9 +26,13 @@ struct RobotDraft {
   std::array<FoundSole, 2> soles;
   int hull_vertices = 64;  ///< of a mesh's hull, at most
   double excess = 0.0;     ///< of a body over its mesh's hull with the default of these [m]
+  std::map<std::string, int> mesh_parts;         ///< link → convex parts of its meshes
+  std::map<std::string, std::string> why_parts;  ///< why it is cut, by the same links
   StandingRequest standing;
   std::string why_bend;         ///< why the knees are bent so little; "": as usual
   std::string why_width;        ///< why the stance is so wide
+  std::optional<double> lift;   ///< RobotModel::largest_lift [m]
+  std::string why_lift;         ///< why there is one
   std::vector<double> posture;  ///< by URDF joint index [rad]
   std::vector<ExcludedPair> excluded;
   std::map<int, std::string> why_posture;  ///< of joints outside the legs, by URDF joint index

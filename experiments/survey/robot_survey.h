@@ -5,7 +5,7 @@
 #include <string>
 
 #include "experiments/survey/robot_draft.h"
-#include "wpg/motion/half_step.h"
+#include "experiments/survey/stance_search.h"
 
 namespace halfstep {
 
@@ -15,9 +15,7 @@ struct SurveyRequest {
   std::string name = {};  ///< "": that of the URDF's file
   LegNames legs = {};
   std::map<std::string, std::string> packages = {};  ///< name → folder
-  /// Distance of hip and ankle over the leg's stretched length; 0: to be found.
-  double bend = 0.0;
-  double width = 0.0;  ///< of the stance [m]; 0: to be found
+  StanceRequest stance = {};
 };
 
 /// Makes a robot file of a URDF: finds waist and legs; asks whether the robot is of the class;
@@ -25,8 +23,5 @@ struct SurveyRequest {
 /// and neighbours that touch by design. Throws InputError: its first complaint is one sentence that
 /// says what keeps the robot from being of the class.
 RobotDraft SurveyRobot(const SurveyRequest& request);
-
-/// The half-step that a config without numbers would give this robot.
-HalfStep DefaultHalfStep(const RobotModel& robot);
 
 }  // namespace halfstep

@@ -1,7 +1,7 @@
 #include "experiments/survey/six_steps_config.h"
 
-#include "experiments/survey/robot_survey.h"
 #include "experiments/survey/self_gaps.h"
+#include "experiments/survey/stance_search.h"
 #include "smoothing/walk/superposed_walk.h"
 #include "wpg/files/text.h"
 

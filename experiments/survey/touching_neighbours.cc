@@ -9,18 +9,6 @@
 namespace halfstep {
 namespace {
 
-// Those of the joints on the way between two links that move while walking.
-int LegJointsBetween(const UrdfTree& urdf, const FoundLegs& legs, const std::string& a,
-                     const std::string& b) {
-  int count = 0;
-  for (const int joint : JointsBetween(urdf, urdf.FindLink(a), urdf.FindLink(b))) {
-    for (const auto& leg : legs.joints) {
-      count += static_cast<int>(std::count(leg.begin(), leg.end(), joint));
-    }
-  }
-  return count;
-}
-
 bool Names(const ExcludedPair& pair, const std::string& a, const std::string& b) {
   return (pair.links[0] == a && pair.links[1] == b) || (pair.links[0] == b && pair.links[1] == a);
 }
@@ -33,6 +21,27 @@ bool AreOfBothLegs(const RobotModel& robot, const SelfGap& gap) {
   return a >= 0 && b >= 0 && a != b;
 }
 
+std::string LinkOf(const RobotBody& body) { return body.name.substr(0, body.name.find('#')); }
+
+int LegJointsBetween(const UrdfTree& urdf, const FoundLegs& legs, const RobotModel& robot,
+                     const SelfGap& gap) {
+  const auto link = [&](int body) {
+    return urdf.FindLink(LinkOf(robot.bodies[static_cast<size_t>(body)]));
+  };
+  int count = 0;
+  for (const int joint : JointsBetween(urdf, link(gap.a), link(gap.b))) {
+    for (const auto& leg : legs.joints) {
+      count += static_cast<int>(std::count(leg.begin(), leg.end(), joint));
+    }
+  }
+  return count;
+}
+
+std::string NearnessText(double gap) {
+  return gap < 0 ? Formatted("reaches %.1f mm into", -1e3 * gap)
+                 : Formatted("comes within %.1f mm of", 1e3 * gap);
+}
+
 std::vector<ExcludedPair> NeighboursThatTouch(const UrdfTree& urdf, const FoundLegs& legs,
                                               const std::vector<double>& posture,
                                               const RobotModel& robot, const SelfGaps& gaps) {
@@ -41,10 +50,8 @@ std::vector<ExcludedPair> NeighboursThatTouch(const UrdfTree& urdf, const FoundL
   for (const SelfGap& gap : gaps.Nearer(kTouchByDesign)) {
     const auto a = static_cast<size_t>(gap.a), b = static_cast<size_t>(gap.b);
     if (AreOfBothLegs(robot, gap) || of_limb[a] || of_limb[b]) continue;
-    const auto link = [&](size_t body) {
-      return robot.bodies[body].name.substr(0, robot.bodies[body].name.find('#'));
-    };
-    const int joints = LegJointsBetween(urdf, legs, link(a), link(b));
+    const auto link = [&](size_t body) { return LinkOf(robot.bodies[body]); };
+    const int joints = LegJointsBetween(urdf, legs, robot, gap);
     if (joints > 2 && gap.standing >= kTouchByDesign) continue;
     const auto is_there = [&](const ExcludedPair& pair) { return Names(pair, link(a), link(b)); };
     if (std::any_of(excluded.begin(), excluded.end(), is_there)) continue;

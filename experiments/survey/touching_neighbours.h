@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "experiments/survey/found_legs.h"
@@ -14,6 +15,17 @@ constexpr double kTouchByDesign = 7e-3;
 
 /// Whether a pair is of both legs.
 bool AreOfBothLegs(const RobotModel& robot, const SelfGap& gap);
+
+/// How many joints of the legs, which move while walking, are between two bodies' links.
+int LegJointsBetween(const UrdfTree& urdf, const FoundLegs& legs, const RobotModel& robot,
+                     const SelfGap& gap);
+
+/// The URDF link of a body.
+std::string LinkOf(const RobotBody& body);
+
+/// What a body does that is `gap` [m] away from another one: "comes within 3.2 mm of", or
+/// "reaches 3.2 mm into" where they overlap.
+std::string NearnessText(double gap);
 
 /// Links whose bodies touch by design: those of one leg, or of a leg and the trunk, with at most
 /// two leg joints between them, that come nearer than kTouchByDesign in the sampled postures; and

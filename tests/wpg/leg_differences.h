@@ -10,7 +10,7 @@
 namespace halfstep {
 
 /// Largest difference of two poses' entries.
-inline double Difference(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
+inline double PoseDifference(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
   return (a.matrix() - b.matrix()).cwiseAbs().maxCoeff();
 }
 

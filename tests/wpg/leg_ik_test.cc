@@ -60,7 +60,7 @@ TEST_P(LegIkTest, InvertsForwardKinematics) {
       const LegIkSolution solution = SolveLegIk(leg, X_BSole, LegBranchOf(leg, q));
       ASSERT_EQ(solution.status, LegIkStatus::kSolved) << q.transpose();
       ASSERT_GE(solution.reach_margin, 0);
-      const double difference = Difference(LegForwardKinematics(leg, solution.q)[6], X_BSole);
+      const double difference = PoseDifference(LegForwardKinematics(leg, solution.q)[6], X_BSole);
       worst = std::max(worst, difference);
       sum += difference;
       ++count;
@@ -83,7 +83,7 @@ TEST_P(LegIkTest, AllSolutionsAreSolutionsOfTheirBranch) {
       most = std::max(most, all.size());
       bool found = false;
       for (const LegIkBranchSolution& solution : all) {
-        EXPECT_LT(Difference(LegForwardKinematics(leg, solution.q)[6], X_BSole), 1e-9);
+        EXPECT_LT(PoseDifference(LegForwardKinematics(leg, solution.q)[6], X_BSole), 1e-9);
         if (Regularity(leg, solution.q) > 1e-4) {
           EXPECT_EQ(LegBranchOf(leg, solution.q), solution.branch);
         }
@@ -281,7 +281,7 @@ TEST_P(LegIkTest, RightMirrorsLeft) {
       const Vector3d axis = mirror * legs_[0].joints[j].axis_B;
       mirrored[i] = axis.dot(legs_[1].joints[j].axis_B) < 0 ? q[i] : -q[i];
     }
-    EXPECT_LT(Difference(LegForwardKinematics(legs_[1], mirrored)[6], X), 1e-12);
+    EXPECT_LT(PoseDifference(LegForwardKinematics(legs_[1], mirrored)[6], X), 1e-12);
   }
 }
 

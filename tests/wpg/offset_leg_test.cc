@@ -58,7 +58,7 @@ TEST_P(OffsetLegTest, BringsTheSoleWhereItIsAskedToBe) {
       EXPECT_EQ(solution.reach_margin < 0, solution.status == LegIkStatus::kOutOfReach);
       if (solution.status != LegIkStatus::kSolved) continue;
       ++solved;
-      EXPECT_LT(Difference(LegForwardKinematics(leg, solution.q)[6], X_BSole), 1e-13);
+      EXPECT_LT(PoseDifference(LegForwardKinematics(leg, solution.q)[6], X_BSole), 1e-13);
     }
     EXPECT_GT(solved, 450);
   }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <numbers>
 #include <string>
 
@@ -13,6 +14,7 @@
 #include "wpg/files/regular_file.h"
 #include "wpg/files/yaml_fields.h"
 #include "wpg/robot/robot_fields.h"
+#include "wpg/robot/robot_measures.h"
 
 namespace halfstep {
 namespace {
@@ -28,6 +30,45 @@ UrdfTree Hrp2Tree() {
 // HRP-2 by another text of its file and another tree.
 RobotModel Built(const std::string& text, const UrdfTree& urdf) {
   return BuildRobot(kHrp2, text, ReadRobotFile(kHrp2, text, &urdf));
+}
+
+// An angle iron of 40 x 10 x 40 cm, 5 cm thick, in place of the chest.
+constexpr char kIron[] =
+    "v 0 0 0\nv .4 0 0\nv .4 0 .05\nv .05 0 .05\nv .05 0 .4\nv 0 0 .4\n"
+    "v 0 .1 0\nv .4 .1 0\nv .4 .1 .05\nv .05 .1 .05\nv .05 .1 .4\nv 0 .1 .4\n"
+    "f 1 2 8 7\nf 2 3 9 8\nf 3 4 10 9\nf 4 5 11 10\nf 5 6 12 11\nf 6 1 7 12\n"
+    "f 1 4 3 2\nf 1 6 5 4\nf 7 8 9 10\nf 7 10 11 12\n";
+
+TEST(RobotAsBuilt, AMeshMayBeSeveralConvexParts) {
+  const std::string mesh = testing::TempDir() + "halfstep_iron.obj";
+  std::ofstream(mesh) << kIron;
+  UrdfTree urdf = Hrp2Tree();
+  auto& chest = urdf.links[static_cast<size_t>(urdf.FindLink("CHEST_LINK1"))];
+  chest.collisions[0].mesh = "file://" + mesh;
+  const std::string text = ReadYamlFile(kHrp2);
+  const RobotModel whole = Built(text, urdf);
+  const RobotModel cut = Built(text + "mesh_parts: {CHEST_LINK1: 4}\n", urdf);
+  ASSERT_EQ(cut.bodies.size(), whole.bodies.size() + 1);
+  std::vector<std::string> names;
+  for (const RobotBody& body : cut.bodies) {
+    if (body.name.starts_with("CHEST_LINK1")) {
+      names.push_back(body.name);
+      EXPECT_EQ(body.leg, -1);
+      EXPECT_LT(body.shape.radius, 0.22);
+    }
+  }
+  EXPECT_THAT(names, ElementsAre("CHEST_LINK1", "CHEST_LINK1#2"));
+  EXPECT_EQ(cut.files.size(), whole.files.size()) << "the mesh is read once";
+  EXPECT_GT(cut.self_pairs.size(), whole.self_pairs.size());
+  std::filesystem::remove(mesh);
+}
+
+TEST(RobotAsBuilt, HalfStepsByDefaultAreNoHigherThanTheFileSays) {
+  const std::string text = ReadYamlFile(kHrp2);
+  const RobotModel free = Built(text, Hrp2Tree());
+  const RobotModel low = Built(text + "lift_m: 0.1\n", Hrp2Tree());
+  EXPECT_GT(MeasuresOf(free).lift, 0.2);
+  EXPECT_EQ(MeasuresOf(low).lift, 0.1);
 }
 
 TEST(RobotAsBuilt, TheWaistFrameMayPointAnywhereInItsLink) {

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "wpg/files/mesh_file.h"
+#include "wpg/geometry/convex_parts.h"
 #include "wpg/geometry/simplified_hull.h"
 
 namespace halfstep {
@@ -109,27 +110,40 @@ ConvexBody Moved(const Isometry3d& X, ConvexBody body) {
   return body;
 }
 
-ConvexBody ShapeOf(const UrdfCollision& collision, const Isometry3d& X, const std::string& file,
-                   const BodyRequest& request, std::vector<InputFile>* meshes) {
-  switch (collision.kind) {
-    case UrdfCollision::Kind::kBox:
-      return Moved(X, MakeBox(collision.size));
-    case UrdfCollision::Kind::kSphere:
-      return Moved(X, MakeSphere(collision.size.x()));
-    case UrdfCollision::Kind::kCylinder: {
-      // The disc of a ConvexBody lies in its xy plane.
-      const bool upright = X.linear().col(2).head<2>().norm() < 1e-12;
-      return Moved(X, upright ? MakeCylinder(collision.size.x(), collision.size.y())
-                              : PrismAround(collision.size.x(), collision.size.y()));
-    }
-    case UrdfCollision::Kind::kMesh:
-      break;
-  }
+// The convex bodies of a mesh in its own frame.
+std::vector<ConvexBody> MeshShapes(const UrdfCollision& collision, const std::string& file,
+                                   int parts, const BodyRequest& request,
+                                   std::vector<InputFile>* meshes) {
   LoadedMesh mesh = LoadMesh(MeshPath(collision.mesh, file, request.packages));
   if (request.dae_up_axis) mesh.vertices = mesh.R_ZUp * mesh.vertices;
   mesh.file.name = collision.mesh;
   meshes->push_back(std::move(mesh.file));
-  return Moved(X, MakeHull(collision.scale.asDiagonal() * mesh.vertices));
+  const Eigen::Matrix3Xd vertices = collision.scale.asDiagonal() * mesh.vertices;
+  if (parts == 1) return {MakeHull(vertices)};
+  return CutIntoConvexParts(vertices, mesh.triangles, parts);
+}
+
+// The convex bodies of a collision shape that X places.
+std::vector<ConvexBody> ShapesOf(const UrdfCollision& collision, const Isometry3d& X,
+                                 const std::string& file, int parts, const BodyRequest& request,
+                                 std::vector<InputFile>* meshes) {
+  switch (collision.kind) {
+    case UrdfCollision::Kind::kBox:
+      return {Moved(X, MakeBox(collision.size))};
+    case UrdfCollision::Kind::kSphere:
+      return {Moved(X, MakeSphere(collision.size.x()))};
+    case UrdfCollision::Kind::kCylinder: {
+      // The disc of a ConvexBody lies in its xy plane.
+      const bool upright = X.linear().col(2).head<2>().norm() < 1e-12;
+      return {Moved(X, upright ? MakeCylinder(collision.size.x(), collision.size.y())
+                               : PrismAround(collision.size.x(), collision.size.y()))};
+    }
+    case UrdfCollision::Kind::kMesh:
+      break;
+  }
+  std::vector<ConvexBody> shapes = MeshShapes(collision, file, parts, request, meshes);
+  for (ConvexBody& shape : shapes) shape = Moved(X, std::move(shape));
+  return shapes;
 }
 
 // A hull with many vertices becomes one around it with fewer. A foot's stays on the floor.
@@ -199,22 +213,28 @@ LinkBodies BuildBodies(const UrdfTree& urdf, const BodyRequest& request, Complai
     const bool own = anchor.urdf_link == static_cast<int>(i);
     const Isometry3d X_AnchorLink =
         own ? Isometry3d::Identity() : X[static_cast<size_t>(anchor.urdf_link)].inverse() * X[i];
-    for (size_t k = 0; k < link.collisions.size(); ++k) {
-      const UrdfCollision& collision = link.collisions[k];
-      RobotBody body;
-      body.name = link.name + (k == 0 ? "" : "#" + std::to_string(k + 1));
-      body.leg = anchor.leg;
-      body.link = anchor.link;
+    const auto parts = request.mesh_parts.find(link.name);
+    int count = 0;  // of the link's bodies
+    for (const UrdfCollision& collision : link.collisions) {
+      const auto next_name = [&] {
+        return link.name + (count == 0 ? "" : "#" + std::to_string(count + 1));
+      };
+      RobotBody body{.name = next_name(), .leg = anchor.leg, .link = anchor.link};
       try {
-        body.shape = ShapeOf(collision, X_AnchorLink * collision.X_LinkShape, urdf.file, request,
-                             &all.meshes);
-        if (body.shape.center.norm() + body.shape.radius > kFarthest) {
-          throw std::runtime_error("reaches more than 100 m from its link (look at `scale`)");
+        for (ConvexBody& shape : ShapesOf(
+                 collision, X_AnchorLink * collision.X_LinkShape, urdf.file,
+                 parts == request.mesh_parts.end() ? 1 : parts->second, request, &all.meshes)) {
+          body = {.name = next_name(), .leg = anchor.leg, .link = anchor.link};
+          body.shape = std::move(shape);
+          if (body.shape.center.norm() + body.shape.radius > kFarthest) {
+            throw std::runtime_error("reaches more than 100 m from its link (look at `scale`)");
+          }
+          if (collision.kind == UrdfCollision::Kind::kMesh) Simplify(request, &body);
+          MapDirections(&body.shape);
+          all.bodies.push_back(body);
+          all.links.push_back(static_cast<int>(i));
+          ++count;
         }
-        if (collision.kind == UrdfCollision::Kind::kMesh) Simplify(request, &body);
-        MapDirections(&body.shape);
-        all.bodies.push_back(std::move(body));
-        all.links.push_back(static_cast<int>(i));
       } catch (const InputError& error) {
         for (const std::string& line : error.complaints()) {
           complaints->Add(urdf.file, collision.place.line, collision.place.column, body.name, line);

@@ -17,9 +17,10 @@ struct BodyRequest {
   std::array<std::array<int, 6>, 2> leg_joints;  ///< URDF joint indices by Index(Side).
   std::vector<double> posture;                   ///< standing posture by URDF joint index [rad].
   std::map<std::string, std::string> packages;   ///< package name → folder.
-  std::array<Eigen::Matrix3d, 2> R_FootSole;  ///< of the soles in the last links, by Index(Side).
-  int hull_vertices = 64;                     ///< at most, of a mesh's hull.
-  bool dae_up_axis = false;                   ///< meshes in DAE are turned by their `up_axis`
+  std::array<Eigen::Matrix3d, 2> R_FootSole;   ///< of the soles in the last links, by Index(Side).
+  std::map<std::string, int> mesh_parts = {};  ///< link → convex parts of its meshes; others: one.
+  int hull_vertices = 64;                      ///< at most, of a mesh's hull, or of a part's.
+  bool dae_up_axis = false;                    ///< meshes in DAE are turned by their `up_axis`
 };
 
 /// Package names in the `package://` paths of the collision meshes, sorted.
@@ -34,10 +35,12 @@ struct LinkBodies {
 
 /// Convex bodies of all links. A link that hangs on a leg's link by joints outside the leg is rigid
 /// with that link, any other link with the waist, in the standing posture. A mesh becomes its
-/// convex hull, or one around it with at most `hull_vertices` vertices (that reaches no farther
-/// along the axes of the sole when it belongs to a foot), and a cylinder that is not parallel to
-/// its frame's z a prism of 32 sides around it. Complains about meshes that cannot be read or have
-/// no volume, and about bodies that reach more than 100 m from their link.
+/// convex hull, or `mesh_parts` convex bodies that contain it together (CutIntoConvexParts); what
+/// has more than `hull_vertices` vertices becomes a body around it with at most so many (that
+/// reaches no farther along the axes of the sole when it belongs to a foot); and a cylinder that is
+/// not parallel to its frame's z becomes a prism of 32 sides around it. The bodies of a link are
+/// named after it, the second and further ones with #2, #3 … behind. Complains about meshes that
+/// cannot be read or have no volume, and about bodies that reach more than 100 m from their link.
 LinkBodies BuildBodies(const UrdfTree& urdf, const BodyRequest& request, Complaints* complaints);
 
 }  // namespace halfstep

@@ -99,6 +99,21 @@ void DeclareExcluded(Fields& fields, const std::vector<std::string>& links, Robo
               });
 }
 
+void DeclareMeshParts(Fields& fields, RobotFile* file) {
+  fields.Group("mesh_parts",
+               {.meaning = "links whose meshes are cut into so many convex parts, not filled into "
+                           "one hull"},
+               [&](Fields& f) {
+                 if (!file->urdf) return;
+                 for (const UrdfLink& link : file->urdf->links) {
+                   if (!HasMesh(link)) continue;
+                   int parts = 1;
+                   f.Integer(link.name.c_str(), &parts, {.min = 1, .max = 32});
+                   if (parts > 1) file->mesh_parts[link.name] = parts;
+                 }
+               });
+}
+
 }  // namespace
 
 void DeclareFields(Fields& fields, RobotFile* file) {
@@ -131,6 +146,11 @@ void DeclareFields(Fields& fields, RobotFile* file) {
                                     "the standing posture",
                          .unit = "m",
                          .min = 0.01});
+  fields.OptionalNumber("lift_m", &file->lift,
+                        {.meaning = "how high the swing foot goes at most in half-steps by "
+                                    "default; none: what the legs reach",
+                         .unit = "m",
+                         .min = 0.01});
   fields.Group("legs", {.meaning = "the feet", .required = true}, [&](Fields& f) {
     DeclareLeg(f, "left", links, &file->legs[0]);
     DeclareLeg(f, "right", links, &file->legs[1]);
@@ -142,6 +162,7 @@ void DeclareFields(Fields& fields, RobotFile* file) {
                   .required = true});
   DeclareJoints(fields, file);
   DeclareExcluded(fields, links, file);
+  DeclareMeshParts(fields, file);
   fields.Integer("hull_vertices", &file->hull_vertices,
                  {.meaning = "a mesh whose hull has more vertices gets a hull around it, with at "
                              "most that many",

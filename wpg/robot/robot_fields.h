@@ -37,13 +37,15 @@ struct RobotFile {
   std::string waist_link;
   std::vector<double> waist_rpy;  ///< waist frame in that of its link [rad]; empty: the same.
   std::optional<double> com_height;
+  std::optional<double> lift;  ///< RobotModel::largest_lift [m]
   std::array<LegFile, 2> legs;
   std::vector<double> sole_size;
   std::vector<double> posture_deg;              ///< by URDF joint index
   std::vector<std::vector<double>> limits_deg;  ///< by URDF joint index; empty: the URDF's
   std::vector<ExcludedPair> excluded;
-  int hull_vertices = 64;             ///< at most, of a mesh's hull
-  std::vector<std::string> warnings;  ///< about what the file says and nothing needs
+  std::map<std::string, int> mesh_parts;  ///< link → convex parts of each of its meshes
+  int hull_vertices = 64;                 ///< at most, of a mesh's hull, or of a part's
+  std::vector<std::string> warnings;      ///< about what the file says and nothing needs
 };
 
 /// Declares the keys of a robot file (wpg/README.md, "Robots") and reads the URDF on the way, since

@@ -161,6 +161,7 @@ class Builder {
     if (l.y() <= r.y()) fields_.Complain("legs", "the left sole is not on the left (y > 0)");
     model_.waist_height = -(l.z() + r.z()) / 2;
     model_.standing_width = l.y() - r.y();
+    if (file_.lift) model_.largest_lift = *file_.lift;
     if (model_.waist_height <= 0) {
       fields_.Complain("waist_link", "the waist is not above the soles in the standing posture");
     }
@@ -186,6 +187,7 @@ class Builder {
     body_.waist = leg_.waist;
     body_.posture = leg_.posture;
     body_.packages = file_.packages;
+    body_.mesh_parts = file_.mesh_parts;
     body_.hull_vertices = file_.hull_vertices;
     for (size_t side = 0; side < 2; ++side) {
       const Leg& leg = model_.legs[side];

@@ -63,6 +63,7 @@ RobotMeasures MeasuresOf(const RobotModel& robot) {
     return Reaches(robot, y, 0.0) && Reaches(robot, y, 0.1 * m.leg_length);
   });
   m.lift = Last(0.0, 0.5 * m.leg_length, 100, [&](double z) { return Reaches(robot, m.aside, z); });
+  m.lift = std::min(m.lift, robot.largest_lift);
   return m;
 }
 

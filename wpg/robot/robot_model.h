@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <array>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -61,7 +62,7 @@ struct RobotBody {
   std::string name;  ///< link name, with "#2" … when a link has several bodies.
   int leg = -1;      ///< Index(Side) of the leg that it belongs to, or −1: rigid with the waist.
   int link = -1;     ///< 0 … 5: moved by joints[0 … link] of that leg; −1 on the waist.
-  ConvexBody shape;  ///< in the frame of its link (leg) or of the waist.
+  ConvexBody shape = {};  ///< in the frame of its link (leg) or of the waist.
   /// Of the hull of its mesh, when `shape` is a simpler hull around that; else 0.
   int mesh_vertices = 0;
   double excess = 0.0;  ///< no point of `shape` is farther than this from that hull [m].
@@ -84,7 +85,9 @@ struct RobotModel {
   double com_height = 0.0;  ///< z_c above the floor [m].
   double com_x_B = 0.0;  ///< CoM ahead of B's origin [m]; its y is 0 by the generator's symmetry.
   double mass = 0.0;     ///< [kg]
-  double standing_width = 0.0;   ///< distance of the sole centres in the standing posture [m].
+  double standing_width = 0.0;  ///< distance of the sole centres in the standing posture [m].
+  /// How high the swing foot goes at most in half-steps by default [m]; more only on demand.
+  double largest_lift = std::numeric_limits<double>::infinity();
   std::vector<InputFile> files;  ///< files read: YAML, URDF and meshes, one entry for each reading.
   std::vector<RobotBody> bodies;
   std::vector<std::array<int, 2>> self_pairs;  ///< pairs of `bodies` that must not touch.

@@ -157,6 +157,12 @@ void AddTree(const urdf::Link& root, const UrdfFindings& found, UrdfTree* tree) 
 
 }  // namespace
 
+bool HasMesh(const UrdfLink& link, std::string_view ending) {
+  return std::any_of(link.collisions.begin(), link.collisions.end(), [&](const auto& collision) {
+    return collision.kind == UrdfCollision::Kind::kMesh && collision.mesh.ends_with(ending);
+  });
+}
+
 int UrdfTree::FindLink(const std::string& name) const {
   for (size_t i = 0; i < links.size(); ++i) {
     if (links[i].name == name) return static_cast<int>(i);

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "wpg/files/input_file.h"
@@ -30,6 +31,9 @@ struct UrdfLink {
   std::vector<UrdfCollision> collisions;
   UrdfPlace place;
 };
+
+/// Whether a mesh whose file's name ends like that is among a link's collision shapes.
+bool HasMesh(const UrdfLink& link, std::string_view ending = "");
 
 struct UrdfJoint {
   enum class Kind { kFixed, kRevolute, kOther };

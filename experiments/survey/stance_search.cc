@@ -1,0 +1,228 @@
+#include "experiments/survey/stance_search.h"
+
+#include <algorithm>
+#include <string>
+
+#include "experiments/config/experiment.h"
+#include "experiments/config/scaled_defaults.h"
+#include "experiments/survey/arm_posture.h"
+#include "experiments/survey/self_gaps.h"
+#include "experiments/survey/touching_neighbours.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/text.h"
+#include "wpg/robot/robot_legs.h"
+#include "wpg/robot/robot_measures.h"
+
+namespace halfstep {
+namespace {
+
+constexpr double kFeetApart = 0.05;  // bodies of HRP-2's feet, standing [m]
+constexpr double kLeastLift = 0.12;  // of the swing foot, of the leg's length
+constexpr int kParts = 8;            // of a mesh whose hull touches what it should not
+
+class StanceSearch {
+ public:
+  StanceSearch(const StanceRequest& request, const std::array<Leg, 2>& legs,
+               const std::vector<RobotBody>& bodies, RobotDraft* draft)
+      : request_(request), legs_(legs), bodies_(bodies), draft_(*draft) {}
+
+  RobotModel Search() {
+    TakeNarrowest();
+    Bend();
+    Stand();
+    CutMeshes();
+    const double narrowest = draft_.standing.width;
+    const bool may_widen = request_.width == 0.0;
+    Found best = LiftLess();
+    const double before = best.apart;
+    for (int wider = 1; may_widen && best.apart < kTouchByDesign && wider <= 5; ++wider) {
+      RobotDraft other = draft_;
+      std::swap(draft_, other);
+      draft_.standing.width = narrowest * (1 + 0.1 * wider);
+      draft_.why_width = Formatted("%.3f m apart, a body ", narrowest) + NearnessText(before) +
+                         " another one in six steps";
+      Stand();
+      Found found = LiftLess();
+      if (found.apart > best.apart) {
+        best = std::move(found);
+      } else {
+        std::swap(draft_, other);
+      }
+    }
+    return best.model;
+  }
+
+ private:
+  struct Found {
+    RobotModel model;
+    double apart = 0.0;  // at most kTouchByDesign [m]
+  };
+
+  void TakeNarrowest() {
+    StandingRequest& standing = draft_.standing;
+    standing.width = request_.width;
+    draft_.why_width = "as asked for";
+    if (request_.width > 0.0) return;
+    const double apart = kFeetApart * StretchedLength(legs_[0]) / 0.6;
+    standing.width = NarrowestStance(legs_, draft_.soles, bodies_, apart);
+    draft_.why_width = standing.width > NarrowestStance(legs_, draft_.soles, {}, 0.0) + 1e-9
+                           ? Formatted("so the feet are %.0f mm apart", 1e3 * apart)
+                           : "as with straight legs";
+  }
+
+  // Bends the knees less while the joints' limits keep the swing foot low.
+  void Bend() {
+    StandingRequest& standing = draft_.standing;
+    if (request_.bend > 0.0) {
+      standing.bend = request_.bend;
+      return;
+    }
+    double best = 0.0, highest = -1.0;
+    for (const double bend : {0.9, 0.92, 0.94, 0.96, 0.98}) {
+      standing.bend = bend;
+      if (!TryToStand().empty()) continue;
+      const RobotMeasures measures = MeasuresOf(ModelOf(draft_, RobotParts::kLegs));
+      if (measures.lift > highest) {
+        highest = measures.lift;
+        best = bend;
+      }
+      if (highest >= kLeastLift * measures.leg_length) break;
+    }
+    standing.bend = best > 0.0 ? best : 0.9;
+    draft_.why_bend =
+        best > 0.9 ? "with more bend the joints' limits keep the swing foot lower" : "";
+  }
+
+  // The pairs that come too near to each other in six steps, and are no neighbours.
+  std::vector<SelfGap> StrangersThatTouch(const RobotModel& model) const {
+    const std::vector<bool> of_limb =
+        BodiesOfLimbs(draft_.urdf, draft_.legs.waist, draft_.posture, model);
+    std::vector<SelfGap> gaps = SelfGaps(model, WalkedPostures(model)).Nearer(kTouchByDesign);
+    std::erase_if(gaps, [&](const SelfGap& gap) {
+      if (of_limb[static_cast<size_t>(gap.a)] || of_limb[static_cast<size_t>(gap.b)]) return true;
+      return !AreOfBothLegs(model, gap) &&
+             LegJointsBetween(draft_.urdf, draft_.legs, model, gap) <= 2;
+    });
+    return gaps;
+  }
+
+  // Their meshes become several convex parts.
+  void CutMeshes() {
+    const RobotModel model = ModelOf(draft_);
+    for (const SelfGap& gap : StrangersThatTouch(model)) {
+      const std::array<std::string, 2> links{LinkOf(model.bodies[static_cast<size_t>(gap.a)]),
+                                             LinkOf(model.bodies[static_cast<size_t>(gap.b)])};
+      for (const size_t i : {size_t{0}, size_t{1}}) {
+        const UrdfLink& link =
+            draft_.urdf.links[static_cast<size_t>(draft_.urdf.FindLink(links[i]))];
+        if (!HasMesh(link) || !draft_.mesh_parts.emplace(link.name, kParts).second) continue;
+        draft_.why_parts[link.name] =
+            "as one hull it " + NearnessText(gap.least) + " " + links[1 - i] + " in six steps";
+      }
+    }
+  }
+
+  // Lifts the swing foot less while bodies touch; the best that was found.
+  Found LiftLess() {
+    draft_.lift.reset();
+    RobotModel model = ModelOf(draft_);
+    const double planned = MeasuresOf(model).lift, via = DefaultHalfStep(model).via_height;
+    Found best;
+    for (const double share : {1.0, 0.9, 0.8, 0.7, 0.6}) {
+      model.largest_lift = share == 1.0 ? planned : share * via;
+      std::vector<SelfGap> gaps = StrangersThatTouch(model);
+      // Who stands nearer than that touches by design.
+      std::erase_if(gaps, [&](const SelfGap& gap) {
+        return !AreOfBothLegs(model, gap) && gap.standing < kTouchByDesign;
+      });
+      double apart = kTouchByDesign;
+      const SelfGap* nearest = nullptr;
+      for (const SelfGap& gap : gaps) {
+        if (gap.least < apart) {
+          apart = gap.least;
+          nearest = &gap;
+        }
+      }
+      if (share == 1.0 || apart > best.apart) {
+        best = {model, apart};
+        if (share < 1.0) draft_.lift = model.largest_lift;
+      }
+      if (nearest == nullptr) break;
+      if (share == 1.0) {
+        draft_.why_lift = Formatted("Lifted by %.3f m, ", via) +
+                          LinkOf(model.bodies[static_cast<size_t>(nearest->b)]) + " " +
+                          NearnessText(apart) + " " +
+                          LinkOf(model.bodies[static_cast<size_t>(nearest->a)]) + ".";
+      }
+    }
+    return best;
+  }
+
+  void Stand() {
+    if (const std::string fault = TryToStand(); !fault.empty()) {
+      throw InputError({draft_.urdf.file + ": " + fault});
+    }
+  }
+
+  // Finds the legs' angles; "" or why there are none.
+  std::string TryToStand() {
+    StandingRequest& standing = draft_.standing;
+    // The CoM moves with the legs: a few rounds are enough.
+    for (int round = 0; round < 4; ++round) {
+      standing.x = ComAhead();
+      for (const Side side : {Side::kLeft, Side::kRight}) {
+        const auto i = static_cast<size_t>(Index(side));
+        const auto q = FindStanding(legs_[i], side, standing);
+        if (!q) {
+          return Formatted(
+              "the %s foot cannot stand level below the CoM, %.3f m from the other, hip and ankle "
+              "%.0f %% of the stretched leg apart, within the joints' limits (valid: another "
+              "--bend "
+              "or --width)",
+              i == 0 ? "left" : "right", standing.width, 100 * standing.bend);
+        }
+        for (size_t k = 0; k < 6; ++k) {
+          draft_.posture[static_cast<size_t>(draft_.legs.joints[i][k])] =
+              (*q)[static_cast<Eigen::Index>(k)];
+        }
+      }
+    }
+    return "";
+  }
+
+  // The CoM ahead of the waist in the present posture [m].
+  double ComAhead() const {
+    const std::vector<Eigen::Isometry3d> X = draft_.urdf.LinkPoses(draft_.posture);
+    const Eigen::Isometry3d X_BRoot = X[static_cast<size_t>(draft_.legs.waist)].inverse();
+    double mass = 0.0, moment = 0.0;
+    for (size_t i = 0; i < X.size(); ++i) {
+      mass += draft_.urdf.links[i].mass;
+      moment += draft_.urdf.links[i].mass * (X_BRoot * X[i] * draft_.urdf.links[i].com).x();
+    }
+    return mass > 0 ? moment / mass : 0.0;
+  }
+
+  const StanceRequest request_;
+  const std::array<Leg, 2>& legs_;
+  const std::vector<RobotBody>& bodies_;
+  RobotDraft& draft_;
+};
+
+}  // namespace
+
+HalfStep DefaultHalfStep(const RobotModel& robot) {
+  ExperimentConfig config;
+  ScaleDefaults(MeasuresOf(robot), &config);
+  return PrototypeOf(config);
+}
+
+std::vector<Posture> WalkedPostures(const RobotModel& robot) {
+  return SampledPostures(robot, SixSteps(robot, DefaultHalfStep(robot)));
+}
+
+RobotModel StandApart(const StanceRequest& request, const std::array<Leg, 2>& legs,
+                      const std::vector<RobotBody>& bodies, RobotDraft* draft) {
+  return StanceSearch(request, legs, bodies, draft).Search();
+}
+
+}  // namespace halfstep
