@@ -90,6 +90,18 @@ std::string PostureText(const RobotDraft& draft) {
   return text;
 }
 
+std::string LimitsText(const RobotDraft& draft) {
+  if (draft.limits.empty()) return "";
+  std::string text =
+      "# Left and right have different limits in the URDF; both get what both have.\n"
+      "joint_limits_deg:\n";
+  for (const auto& [joint, range] : draft.limits) {
+    text += "  " + Quoted(draft.urdf.joints[static_cast<size_t>(joint)].name) + ": " +
+            List(kDegrees * Eigen::Vector2d(range[0], range[1]), 9) + "\n";
+  }
+  return text;
+}
+
 std::string ExcludedText(const RobotDraft& draft) {
   if (draft.excluded.empty()) return "";
   std::string text =
@@ -145,7 +157,7 @@ std::string YamlOf(const RobotDraft& draft, const fs::path& folder) {
   for (const std::string& joint : draft.legs.beyond) {
     text += "# " + joint + " is beyond the sixth joint: it is held still.\n";
   }
-  return text + LegsText(draft) + PostureText(draft) + ExcludedText(draft);
+  return text + LegsText(draft) + PostureText(draft) + LimitsText(draft) + ExcludedText(draft);
 }
 
 RobotModel ModelOf(const RobotDraft& draft, RobotParts parts) {

@@ -35,6 +35,8 @@ struct RobotDraft {
   std::string why_lift;         ///< why there is one
   std::vector<double> posture;  ///< by URDF joint index [rad]
   std::vector<ExcludedPair> excluded;
+  /// Limits that are narrower than the URDF's [rad], by URDF joint index.
+  std::map<int, std::array<double, 2>> limits;
   std::map<int, std::string> why_posture;  ///< of joints outside the legs, by URDF joint index
 };
 

@@ -23,6 +23,7 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
 constexpr double kExcess = 2e-3;     // of bodies over their meshes' hulls, of HRP-2's size [m]
+constexpr double kMirror = 1e-4;     // as LoadRobot compares legs [m, rad]
 constexpr double kArmsApart = 0.03;  // arms and legs, in six steps [m]
 
 class Surveyor {
@@ -75,7 +76,13 @@ class Surveyor {
       if (built) legs_[side] = *built;
     }
     complaints.ThrowIfAny();
-    if (const std::string fault = MirrorFault(legs_[0], legs_[1], 1e-4); !fault.empty()) {
+    for (const size_t i : ShareLimits(&legs_[0], &legs_[1], kMirror)) {
+      for (size_t side = 0; side < 2; ++side) {
+        const LegJoint& joint = legs_[side].joints[i];
+        draft_.limits[draft_.legs.joints[side][i]] = {joint.lower, joint.upper};
+      }
+    }
+    if (const std::string fault = MirrorFault(legs_[0], legs_[1], kMirror); !fault.empty()) {
       throw InputError({urdf.file + ": " + fault});
     }
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <utility>
 
@@ -10,11 +11,15 @@
 namespace halfstep {
 namespace {
 
+using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
 // Directions of the planes around a body: those of its faces, and of a cube's faces, edges and
 // corners. One that is nearer than this to another is left out [cosine of 3°].
 constexpr double kSameDirection = 0.9986;
+
+// A body's mirror image may reach this far out of its twin: both get one region around [m].
+constexpr double kSameBody = 1e-3;
 
 // Placements stand for at most this long [s]: longer ones would all be inflated to the limit.
 constexpr double kLongest = 0.008;
@@ -36,6 +41,14 @@ Eigen::Matrix3Xd Directions(const ConvexBody& body) {
   return directions;
 }
 
+HalfSpaces MirrorImage(HalfSpaces region) {
+  region.normals.row(1) *= -1.0;
+  std::swap(region.lower.y(), region.upper.y());
+  region.lower.y() *= -1.0;
+  region.upper.y() *= -1.0;
+  return region;
+}
+
 }  // namespace
 
 SweptVolumeBaker::SweptVolumeBaker(const RobotModel& robot, const SweptVolumeOptions& options)
@@ -53,6 +66,37 @@ SweptVolumeBaker::SweptVolumeBaker(const RobotModel& robot, const SweptVolumeOpt
     }
     outlines_.push_back(std::move(outline));
   }
+  for (size_t b = 0; b < outlines_.size(); ++b) outlines_[b].twin = FindTwin(b);
+}
+
+int SweptVolumeBaker::FindTwin(size_t body) const {
+  const auto X_BLink = [&](const RobotBody& of) -> Isometry3d {
+    if (of.leg < 0) return Isometry3d::Identity();
+    return robot_.legs[static_cast<size_t>(of.leg)].joints[static_cast<size_t>(of.link)].X_BLink;
+  };
+  const RobotBody& own = robot_.bodies[body];
+  const Isometry3d X_LinkB = X_BLink(own).inverse();
+  int twin = -1;
+  double least = kSameBody;
+  for (size_t t = 0; t < robot_.bodies.size(); ++t) {
+    const RobotBody& other = robot_.bodies[t];
+    const int mirrored_leg = own.leg < 0 ? -1 : 1 - own.leg;
+    if (other.leg != mirrored_leg || other.link != own.link) continue;
+    HalfSpaces region{.normals = X_LinkB.inverse().linear() * outlines_[body].normals,
+                      .offsets = {},
+                      .lower = Vector3d::Zero(),
+                      .upper = Vector3d::Zero()};
+    region.offsets =
+        outlines_[body].offsets + region.normals.transpose() * X_LinkB.inverse().translation();
+    const Eigen::VectorXd before = region.offsets;
+    AddMirrored({.body = t, .X_SBody = X_BLink(other)}, &region);
+    const double out = (region.offsets - before).maxCoeff() - options_.clearance;
+    if (out < least) {
+      least = out;
+      twin = static_cast<int>(t);
+    }
+  }
+  return twin;
 }
 
 std::optional<std::vector<SweptVolumeBaker::Placement>> SweptVolumeBaker::Cover(
@@ -82,7 +126,7 @@ std::optional<std::vector<SweptVolumeBaker::Placement>> SweptVolumeBaker::Cover(
       std::erase_if(task.bodies, [&](size_t b) {
         const double displacement = motion.displacement[b];
         if (!(displacement <= options_.displacement) && !last) return false;
-        placements.push_back({b, motion.posture.OfBody(robot_.bodies[b]), displacement});
+        placements.push_back({b, motion.posture.OfBody(robot_.bodies[b]), displacement, mid});
         return true;
       });
     } else if (!motion.bounded && last) {
@@ -95,7 +139,7 @@ std::optional<std::vector<SweptVolumeBaker::Placement>> SweptVolumeBaker::Cover(
   return placements;
 }
 
-HalfSpaces SweptVolumeBaker::Inflated(const Placement& placement, bool mirrored) const {
+HalfSpaces SweptVolumeBaker::Inflated(const Placement& placement) const {
   const Outline& outline = outlines_[placement.body];
   const ConvexBody& shape = robot_.bodies[placement.body].shape;
   const double inflation = options_.clearance + placement.displacement;
@@ -109,28 +153,52 @@ HalfSpaces SweptVolumeBaker::Inflated(const Placement& placement, bool mirrored)
     region.upper[axis] = p[axis] + Support(shape, direction) + inflation;
     region.lower[axis] = p[axis] - Support(shape, -direction) - inflation;
   }
-  if (mirrored) {
-    region.normals.row(1) *= -1.0;
-    std::swap(region.lower.y(), region.upper.y());
-    region.lower.y() *= -1.0;
-    region.upper.y() *= -1.0;
-  }
   return region;
 }
 
-std::optional<BoxTree> SweptVolumeBaker::Bake(const HalfStep& half_step, const Lipm& lipm) const {
-  std::vector<HalfSpaces> regions;
-  Vector3d lower = Vector3d::Constant(1e9), upper = -lower;
-  for (const bool mirrored : {false, true}) {
-    const auto placements = Cover(mirrored ? half_step.Mirrored() : half_step, lipm);
-    if (!placements) return std::nullopt;
-    for (const Placement& placement : *placements) {
-      regions.push_back(Inflated(placement, mirrored));
-      lower = lower.cwiseMin(regions.back().lower);
-      upper = upper.cwiseMax(regions.back().upper);
-    }
+void SweptVolumeBaker::AddMirrored(const Placement& placement, HalfSpaces* region) const {
+  const ConvexBody& shape = robot_.bodies[placement.body].shape;
+  const double inflation = options_.clearance + placement.displacement;
+  const Eigen::DiagonalMatrix<double, 3> mirror(1, -1, 1);
+  // The mirror image reaches as far along n as the body along the mirror image of n.
+  const auto reach = [&](const Vector3d& n) {
+    const Vector3d of = mirror * n;
+    return of.dot(placement.X_SBody.translation()) +
+           Support(shape, placement.X_SBody.linear().transpose() * of) + inflation;
+  };
+  for (Eigen::Index i = 0; i < region->normals.cols(); ++i) {
+    region->offsets[i] = std::max(region->offsets[i], reach(region->normals.col(i)));
   }
+  for (int axis = 0; axis < 3; ++axis) {
+    region->upper[axis] = std::max(region->upper[axis], reach(Vector3d::Unit(axis)));
+    region->lower[axis] = std::min(region->lower[axis], -reach(-Vector3d::Unit(axis)));
+  }
+}
+
+std::optional<BoxTree> SweptVolumeBaker::Bake(const HalfStep& half_step, const Lipm& lipm) const {
+  const auto placements = Cover(half_step, lipm), mirrored = Cover(half_step.Mirrored(), lipm);
+  if (!placements || !mirrored) return std::nullopt;
+  std::map<std::pair<size_t, double>, const Placement*> left;  // mirrored ones, by body and time
+  for (const Placement& placement : *mirrored) {
+    left[{placement.body, placement.time}] = &placement;
+  }
+  std::vector<HalfSpaces> regions;
+  for (const Placement& placement : *placements) {
+    regions.push_back(Inflated(placement));
+    const int twin = outlines_[placement.body].twin;
+    if (twin < 0) continue;
+    const auto same = left.find({static_cast<size_t>(twin), placement.time});
+    if (same == left.end()) continue;
+    AddMirrored(*same->second, &regions.back());
+    left.erase(same);
+  }
+  for (const auto& [key, placement] : left) regions.push_back(MirrorImage(Inflated(*placement)));
   if (regions.empty()) return BoxTree{};
+  Vector3d lower = regions[0].lower, upper = regions[0].upper;
+  for (const HalfSpaces& region : regions) {
+    lower = lower.cwiseMin(region.lower);
+    upper = upper.cwiseMax(region.upper);
+  }
   VoxelGrid grid(lower, upper, options_.cell);
   for (const HalfSpaces& region : regions) grid.Fill(region);
   return BoxTree::Build(grid);

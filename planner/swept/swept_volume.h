@@ -36,6 +36,7 @@ class SweptVolumeBaker {
     size_t body = 0;
     Eigen::Isometry3d X_SBody = Eigen::Isometry3d::Identity();
     double displacement = 0.0;  ///< [m]
+    double time = 0.0;          ///< the middle of the interval [s]; it tells an interval of a body
   };
   /// Intervals that cover all of the half-step for every body of the robot. None when the motion
   /// has no bound somewhere: a leg does not reach, or is nearly stretched.
@@ -54,9 +55,13 @@ class SweptVolumeBaker {
   struct Outline {
     Eigen::Matrix3Xd normals;  // in the body's link frame, unit
     Eigen::VectorXd offsets;   // of the body's supporting planes [m]
+    int twin = -1;  // a body on the other side whose mirror image (nearly) is in this one; −1: none
   };
-  // Around a placed body and all that is near enough; its mirror image when `mirrored`.
-  HalfSpaces Inflated(const Placement& placement, bool mirrored) const;
+  int FindTwin(size_t body) const;
+  // Around a placed body and all that is near enough.
+  HalfSpaces Inflated(const Placement& placement) const;
+  // Makes a region larger, so that it is also around the mirror image of another placed body.
+  void AddMirrored(const Placement& placement, HalfSpaces* region) const;
 
   const RobotModel& robot_;
   SweptVolumeOptions options_;

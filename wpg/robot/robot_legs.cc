@@ -222,6 +222,41 @@ std::optional<Leg> BuildLeg(const UrdfTree& urdf, const LegRequest& request,
   return leg;
 }
 
+namespace {
+
+// A joint's range as the mirrored joint on the other side has it. A mirror turns rotations round:
+// angles keep their sign where the axis changes its own.
+std::array<double, 2> MirroredRange(const LegJoint& joint, const LegJoint& other) {
+  const bool same_sign =
+      Vector3d(joint.axis_B.x(), -joint.axis_B.y(), joint.axis_B.z()).dot(other.axis_B) < 0;
+  if (same_sign) return {joint.lower, joint.upper};
+  return {-joint.upper, -joint.lower};
+}
+
+bool LimitsDiffer(const LegJoint& left, const LegJoint& right, double tolerance) {
+  const auto [lower, upper] = MirroredRange(left, right);
+  return std::max(std::abs(lower - right.lower), std::abs(upper - right.upper)) > tolerance;
+}
+
+}  // namespace
+
+std::vector<size_t> ShareLimits(Leg* left, Leg* right, double tolerance) {
+  std::vector<size_t> narrowed;
+  for (size_t i = 0; i < 6; ++i) {
+    LegJoint &l = left->joints[i], &r = right->joints[i];
+    const auto [lower, upper] = MirroredRange(l, r);
+    const double from = std::max(r.lower, lower), to = std::min(r.upper, upper);
+    if (!LimitsDiffer(l, r, tolerance) || from >= to) continue;
+    r.lower = from;
+    r.upper = to;
+    const std::array<double, 2> mirrored = MirroredRange(r, l);
+    l.lower = mirrored[0];
+    l.upper = mirrored[1];
+    narrowed.push_back(i);
+  }
+  return narrowed;
+}
+
 std::string MirrorFault(const Leg& left, const Leg& right, double tolerance) {
   const Eigen::DiagonalMatrix<double, 3> mirror(1, -1, 1);
   const auto differ = [&](const Vector3d& l, const Vector3d& r) {
@@ -242,12 +277,7 @@ std::string MirrorFault(const Leg& left, const Leg& right, double tolerance) {
     if (const double d = DistanceToAxis(r, mirror * l.point_B); d > tolerance) {
       return pair + ": its axis is " + Millimetres(d) + " off";
     }
-    // A mirror turns rotations round: angles keep their sign where the axis changes its own.
-    const bool same_sign = axis.dot(r.axis_B) < 0;
-    const double lower = same_sign ? l.lower : -l.upper, upper = same_sign ? l.upper : -l.lower;
-    if (std::max(std::abs(lower - r.lower), std::abs(upper - r.upper)) > tolerance) {
-      return pair + ": its limits differ";
-    }
+    if (LimitsDiffer(l, r, tolerance)) return pair + ": its limits differ";
     if (std::abs(l.max_speed - r.max_speed) > tolerance) return pair + ": its speed limit differs";
   }
   return "";

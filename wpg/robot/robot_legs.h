@@ -44,6 +44,11 @@ std::optional<Leg> LegGeometry(const UrdfTree& urdf, const LegRequest& request,
 std::optional<Leg> BuildLeg(const UrdfTree& urdf, const LegRequest& request,
                             const std::array<int, 6>& joints, Complaints* complaints);
 
+/// Gives joints whose limits are not each other's mirror image, by more than `tolerance` [rad], the
+/// range that both have, and returns their places in the legs. Joints without a common range stay
+/// as they are. Precondition: the joints' axes are mirror images.
+std::vector<size_t> ShareLimits(Leg* left, Leg* right, double tolerance);
+
 /// Why the right leg is not the left one's mirror image in the xz plane of the waist; "" when it
 /// is. Compared are hip and ankle, joint axes, limits and speeds, each to `tolerance` [m, rad,
 /// rad/s].
