@@ -9,6 +9,7 @@
 #include "wpg/files/input_file.h"
 #include "wpg/geometry/convex_body.h"
 #include "wpg/geometry/side.h"
+#include "wpg/robot/robot_masses.h"
 
 namespace halfstep {
 
@@ -84,6 +85,7 @@ struct RobotModel {
   double com_height = 0.0;  ///< z_c above the floor [m].
   double com_x_B = 0.0;  ///< CoM ahead of B's origin [m]; its y is 0 by the generator's symmetry.
   double mass = 0.0;     ///< [kg]
+  RobotMasses masses;    ///< of the waist's and the legs' links
   double standing_width = 0.0;   ///< distance of the sole centres in the standing posture [m].
   std::vector<InputFile> files;  ///< files read: YAML, URDF and meshes, one entry for each reading.
   std::vector<RobotBody> bodies;
