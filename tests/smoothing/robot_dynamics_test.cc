@@ -12,6 +12,7 @@
 #include "smoothing/walk/posture_tangent.h"
 #include "tests/smoothing/certificate_draws.h"
 #include "tests/smoothing/robot_truth.h"
+#include "tests/wpg/symmetric_masses.h"
 #include "wpg/motion/zmp_drift.h"
 #include "wpg/motion/zmp_slopes.h"
 
@@ -88,19 +89,7 @@ TEST(RobotDynamics, AtRestTheZmpIsBelowTheCentreOfMass) {
 
 TEST(RobotDynamics, MirroredAndMovedWalksHaveMirroredAndMovedZmps) {
   const RobotModel robot = Hrp2();
-  // HRP-2's links are no mirror images of each other to the last digit; a robot that is one.
-  RobotModel mirror = robot;
-  mirror.masses.waist.com.y() = 0;
-  for (const int k : {0, 2}) {
-    mirror.masses.waist.inertia(1, k) = mirror.masses.waist.inertia(k, 1) = 0;
-  }
-  for (size_t j = 0; j < 6; ++j) {
-    const Eigen::DiagonalMatrix<double, 3> M(1, -1, 1);
-    const BodyMass& left = mirror.masses.links[0][j];
-    const Eigen::Matrix3d R = mirror.legs[1].joints[j].X_BLink.linear().transpose() * M *
-                              mirror.legs[0].joints[j].X_BLink.linear();
-    mirror.masses.links[1][j] = {left.mass, R * left.com, R * left.inertia * R.transpose()};
-  }
+  const RobotModel mirror = WithSymmetricMasses(robot);
   WalkDraw draw(720);
   int compared = 0;
   for (int i = 0; i < Draws(50); ++i) {
