@@ -90,6 +90,16 @@ Experiment Prepare(const ExperimentConfig& config, Place place) {
                         .robot = std::move(place.robot),
                         .scene = std::move(place.scene),
                         .sequence = {}};
+  if (const std::string& fault = experiment.robot.masses.fault; !fault.empty()) {
+    double& demanded = experiment.config.smoothing.limits.demanded_of(MarginFamily::kZmpRobot);
+    if (demanded != kNotDemanded) {
+      experiment.robot.warnings.push_back(experiment.robot.name +
+                                          ": nothing is demanded of the whole robot's ZMP, only of "
+                                          "the point mass's (zmp_robot_m: none): " +
+                                          fault);
+    }
+    demanded = kNotDemanded;
+  }
   const Lipm lipm{.com_height = experiment.robot.com_height};
   if (config.footsteps.empty()) {
     experiment.sequence = {StartOf(config, experiment.robot), {}, lipm};

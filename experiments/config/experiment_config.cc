@@ -203,9 +203,17 @@ void DeclareLimits(Fields& fields, MarginLimits* l) {
 void DeclareMargins(Fields& fields, MarginLimits* l) {
   for (const MarginFamily family : AllMarginFamilies()) {
     const FamilyTraits& traits = Traits(family);
-    fields.Number(
-        traits.key.data(), &l->demanded_of(family),
-        {.meaning = traits.meaning.data(), .unit = traits.unit.data(), .min = 0, .max = 0.5});
+    const NumberSpec spec{
+        .meaning = traits.meaning.data(), .unit = traits.unit.data(), .min = 0, .max = 0.5};
+    double& demanded = l->demanded_of(family);
+    if (!traits.may_be_none) {
+      fields.Number(traits.key.data(), &demanded, spec);
+      continue;
+    }
+    std::optional<double> or_none;
+    if (demanded != kNotDemanded) or_none = demanded;
+    fields.OptionalNumber(traits.key.data(), &or_none, spec);
+    demanded = or_none.value_or(kNotDemanded);
   }
 }
 

@@ -45,6 +45,7 @@ function jointSpeeds(robot, limits) {
 
 const marginColumns = [
   ["zmp", "zmp_margin_m", "ZMP", palette.zmp],
+  ["zmp_robot", "zmp_robot_margin_m", "robot's ZMP", palette.left],
   ["clearance", "clearance_m", "obstacles", palette.ink],
   ["self_clearance", "self_clearance_m", "self", palette.second],
   ["joint", "joint_margin_rad", "joints", palette.com],

@@ -65,7 +65,9 @@ std::string CertificateJson(const Experiment& experiment, const CertifiedFeasibi
   const MarginLimits& limits = test.evaluator().limits();
   ordered_json demanded, statements;
   for (MarginFamily family : AllMarginFamilies()) {
-    demanded[std::string(Name(family))] = limits.demanded_of(family);
+    const double least = limits.demanded_of(family);
+    demanded[std::string(Name(family))] =
+        OrNull(least == kNotDemanded ? std::nullopt : std::optional<double>(least));
     statements[std::string(Name(family))] = test.CountOf(family);
   }
   ordered_json not_watched = ordered_json::array();

@@ -7,14 +7,17 @@ namespace halfstep {
 inline constexpr char kCertificateStatement[] =
     "Guaranteed for every instant of the walk whose overlaps stand in overlaps.csv, not only for "
     "sampled ones: every margin of certificate.json (height of the moving sole, speed and yaw "
-    "rate of the swing foot, ZMP inside the support polygon, leg reach, joint limits, joint "
-    "speeds, clearance between the robot's own bodies, clearance to the obstacles of the scene, "
+    "rate of the swing foot, ZMP of the linear inverted pendulum inside the support polygon, leg "
+    "reach, joint limits, joint speeds, clearance between the robot's own bodies, clearance to the "
+    "obstacles of the scene, "
     "height above the floor of every body, which a foot may touch, distance of the soles that "
-    "stand from the no-step areas of the scene) is at least the delta demanded there. "
+    "stand from the no-step areas of the scene, ZMP of the whole robot, with the masses and "
+    "inertias of all links, inside the support polygon) is at least the delta demanded there; "
+    "where that is null, nothing is said of this margin. "
     "trajectory.csv samples that walk; `halfstep verify` checks, without the smoothing code, the "
     "motion that interpolates its rows linearly, with the same deltas less its tolerance. Not "
     "guaranteed: that bodies in pairs listed under not_watched do not touch, that robot and "
     "scene are as their files describe them, that a controller tracks the motion, and any "
-    "dynamics beyond the linear inverted pendulum.";
+    "dynamics beyond these two ZMPs.";
 
 }  // namespace halfstep

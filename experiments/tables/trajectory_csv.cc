@@ -14,13 +14,14 @@ constexpr CsvInterpolation kConstant = CsvInterpolation::kPiecewiseConstant;
 constexpr CsvInterpolation kLinear = CsvInterpolation::kLinear;
 
 // In the order of the margin columns.
-constexpr std::array<std::pair<MarginFamily, const char*>, 6> kMarginColumns = {{
+constexpr std::array<std::pair<MarginFamily, const char*>, 7> kMarginColumns = {{
     {MarginFamily::kZmp, "zmp_margin"},
     {MarginFamily::kJoint, "joint_margin"},
     {MarginFamily::kJointSpeed, "joint_speed_margin"},
     {MarginFamily::kFootSpeed, "foot_speed_margin"},
     {MarginFamily::kClearance, "clearance"},
     {MarginFamily::kSelfClearance, "self_clearance"},
+    {MarginFamily::kZmpRobot, "zmp_robot_margin"},
 }};
 
 // Columns of a place on the floor's axes, "com" …, in W.

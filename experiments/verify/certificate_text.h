@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,15 +20,19 @@ enum Family : int {
   kSelfClearance,
   kClearance,
   kGround,
-  kNoStep
+  kNoStep,
+  kZmpRobot
 };
-constexpr int kNumFamilies = 11;
+constexpr int kNumFamilies = 12;
 /// Their names in certificate.csv and certificate.json, and their units.
 constexpr std::array<const char*, kNumFamilies> kFamilyNames = {
-    "floor",       "foot_speed",     "foot_yaw_rate", "zmp",    "reach",  "joint",
-    "joint_speed", "self_clearance", "clearance",     "ground", "no_step"};
+    "floor",       "foot_speed",     "foot_yaw_rate", "zmp",    "reach",   "joint",
+    "joint_speed", "self_clearance", "clearance",     "ground", "no_step", "zmp_robot"};
 constexpr std::array<const char*, kNumFamilies> kUnits = {"m",     "m/s", "rad/s", "m", "m", "rad",
-                                                          "rad/s", "m",   "m",     "m", "m"};
+                                                          "rad/s", "m",   "m",     "m", "m", "m"};
+
+/// What is demanded of a family of which nothing is demanded: `null` in certificate.json.
+inline constexpr double kNotDemanded = -std::numeric_limits<double>::infinity();
 
 /// A row of certificate.csv.
 struct ClaimRow {
@@ -49,6 +54,7 @@ struct UnwatchedText {
 struct CertificateText {
   std::string verdict, message, statement;
   double duration = 0;  ///< [s]
+  /// kNotDemanded where nothing is, which only the whole robot's ZMP may have.
   std::array<double, kNumFamilies> demanded{};
   std::array<long, kNumFamilies> statements{};
   std::vector<UnwatchedText> not_watched;

@@ -26,6 +26,7 @@ long CountOf(Family family, const RobotModel& robot) {
     case kFootSpeed:
     case kFootYawRate:
     case kZmp:
+    case kZmpRobot:
       return 1;
   }
   return 0;
@@ -35,9 +36,10 @@ long CountOf(Family family, const RobotModel& robot) {
 std::string Fault(const ClaimRow& row, const CertificateText& certificate) {
   const bool may_watch_nothing = row.family == kFloor || row.family == kFootSpeed ||
                                  row.family == kFootYawRate || row.family == kGround ||
-                                 row.family == kNoStep;  // a foot's bodies; a foot in the air
+                                 row.family == kNoStep ||  // a foot's bodies; a foot in the air
+                                 certificate.demanded[row.family] == kNotDemanded;
   if (!std::isfinite(row.begin) || !std::isfinite(row.end) || !std::isfinite(row.bound) ||
-      !std::isfinite(row.demanded) || std::isnan(row.margin)) {
+      std::isnan(row.demanded) || std::isnan(row.margin)) {
     return "a number is not finite";
   }
   if (std::isinf(row.margin) && !may_watch_nothing) return "the margin is not finite";
@@ -121,7 +123,8 @@ void CheckArithmetic(const CertificateText& certificate, const std::vector<Claim
     if (limit && !(*limit > 0)) findings->Disagree(Formatted("a foot's limit is %.9g", *limit));
   }
   for (const double demanded : certificate.demanded) {
-    if (!(demanded >= 0)) findings->Disagree(Formatted("a demanded margin is %.9g", demanded));
+    if (!(demanded >= 0 || demanded == kNotDemanded))
+      findings->Disagree(Formatted("a demanded margin is %.9g", demanded));
   }
   double smallest = std::numeric_limits<double>::infinity();
   std::string where;

@@ -32,6 +32,9 @@ class Claims {
     if (found == subjects_[row.family].end()) return "nothing is called " + Quote(row.subject);
     const ClaimSubject subject = found->second;
     if (row.margin == kNoLimit) {
+      if (row.family == kZmpRobot) {
+        return certificate_.demanded[kZmpRobot] == kNotDemanded ? "" : "the robot has a ZMP";
+      }
       return row.family == kGround || row.family == kNoStep ? FaultOfNothing(row)
                                                             : FaultOfUnwatched(row);
     }
@@ -98,6 +101,8 @@ class Claims {
                std::abs(walk_.At(t).first[foot + 3]);
       case kZmp:
         return ZmpMargin(walk_.Row(t), robot_);
+      case kZmpRobot:
+        return walk_.RobotZmpMargin(t);
       case kReach:
         return ReachMargin(robot_, walk_.Row(t), s.first);
       case kJoint:

@@ -13,6 +13,7 @@ namespace {
 constexpr double kHorizon = 0.3;
 constexpr double kColumnRounding = 1e-8;
 constexpr double kSpeedColumnRounding = 1e-6;
+constexpr double kMomentumColumnRounding = 1e-7;  // of RobotZmp, by second differences
 
 double JointSpeedMarginAt(const DescribedWalk& walk, double t, double scale) {
   const std::array<Vector6d, 2> speeds = walk.JointSpeeds(t);
@@ -53,15 +54,16 @@ std::array<double, kNumMarginColumns> MarginsAt(const DescribedWalk& walk, const
           JointSpeedMarginAt(walk, row.t, certificate.joint_speed_scale),
           FootSpeedMarginAt(walk, row, certificate.foot_speed),
           distances->NearestObstacle(at, row.t, horizon),
-          distances->NearestPair(at, horizon)};
+          distances->NearestPair(at, horizon),
+          walk.RobotZmpMargin(row.t)};
 }
 
 void CheckMarginColumns(const std::vector<PlayedRow>& rows, const DescribedWalk& walk,
                         const CertificateText& certificate, Distances* distances,
                         Findings* findings) {
   constexpr std::array<double, kNumMarginColumns> kTolerances = {
-      kColumnRounding, kColumnRounding,      kSpeedColumnRounding,
-      kColumnRounding, Distances::kAccuracy, Distances::kAccuracy};
+      kColumnRounding,      kColumnRounding,      kSpeedColumnRounding,   kColumnRounding,
+      Distances::kAccuracy, Distances::kAccuracy, kMomentumColumnRounding};
   const double horizon = std::max(
       {kHorizon, 2 * certificate.demanded[kClearance], 2 * certificate.demanded[kSelfClearance]});
   std::array<Faults, kNumMarginColumns> faults;

@@ -13,6 +13,8 @@ namespace {
 constexpr double kHuge = 1e4;
 // What rounding may do to a number that is computed twice [m], [rad].
 constexpr double kRowRounding = 1e-9;
+// Second differences of joint angles that are known to 3e-14 (legs without closed form) [m].
+constexpr double kMomentumRounding = 1e-7;
 // Sole by forward kinematics against the foot columns [m], [rad].
 constexpr double kSolePlace = 1e-6;
 // Residual of z_c/g·c̈ − c + p [m].
@@ -226,6 +228,19 @@ void CheckRowMargins(const PlayedMotion& motion, const CertificateText& certific
        {&joint, &joint_speed, &reach, &above, &floor, &foot_speed, &foot_yaw_rate, &zmp, &change}) {
     check->Conclude(findings);
   }
+}
+
+void CheckRobotZmp(const std::vector<PlayedRow>& rows, const DescribedWalk& walk,
+                   const CertificateText& certificate, Findings* findings) {
+  if (certificate.demanded[kZmpRobot] == kNotDemanded) {
+    findings->Say("ZMP of the whole robot: nothing is demanded");
+    return;
+  }
+  Check zmp("ZMP of the whole robot", "m", certificate.demanded[kZmpRobot], kMomentumRounding);
+  for (const PlayedRow& row : rows) {
+    zmp.Add(walk.RobotZmpMargin(row.t), [&] { return At(row.t); });
+  }
+  zmp.Conclude(findings);
 }
 
 }  // namespace halfstep::verify

@@ -30,6 +30,11 @@ void CheckConsistency(const PlayedMotion& motion, const DescribedWalk& walk, Fin
 void CheckRowMargins(const PlayedMotion& motion, const CertificateText& certificate,
                      double tolerance, Findings* findings);
 
+/// Whether the ZMP of the whole robot (RobotZmp) keeps what is demanded at the rows' times, by the
+/// walk; nothing is looked at where nothing is demanded.
+void CheckRobotZmp(const std::vector<PlayedRow>& rows, const DescribedWalk& walk,
+                   const CertificateText& certificate, Findings* findings);
+
 /// Whether bodies stay above the floor, those on a foot at each row and all others at and between
 /// rows, and whether standing soles keep off the no-step areas of the scene. `tolerance` [m] is
 /// granted to the bodies that are not on a foot.

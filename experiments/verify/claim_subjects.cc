@@ -21,7 +21,7 @@ ClaimSubjects SubjectsOf(const RobotModel& robot, const Distances& distances) {
   }
   for (Family f : {kFloor, kFootSpeed, kFootYawRate}) subjects[f]["both feet"] = {};
   subjects[kGround]["robot"] = {};
-  subjects[kZmp]["both soles"] = subjects[kZmp]["support sole"] = {};
+  for (Family f : {kZmp, kZmpRobot}) subjects[f]["both soles"] = subjects[f]["support sole"] = {};
   for (size_t b = 0; b < distances.num_bodies(); ++b) {
     const int body = static_cast<int>(b);
     subjects[kClearance][robot.bodies[b].name] = {body, -1};

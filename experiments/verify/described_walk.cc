@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/verify/check_rows.h"
+#include "experiments/verify/robot_momentum.h"
 #include "wpg/check.h"
 #include "wpg/motion/posture.h"
 
@@ -128,6 +130,12 @@ std::array<Vector6d, 2> DescribedWalk::JointSpeeds(double t) const {
   std::array<Vector6d, 2> speeds;
   for (size_t s = 0; s < 2; ++s) speeds[s] = (b.ik[s].q - a.ik[s].q) / (to - from);
   return speeds;
+}
+
+double DescribedWalk::RobotZmpMargin(double t) const {
+  PlayedRow row = Row(t);
+  row.zmp = RobotZmp(robot_, At(t), lipm_.gravity);
+  return ZmpMargin(row, robot_);
 }
 
 double DescribedWalk::ComFourthBound(double begin, double end) const {

@@ -46,6 +46,9 @@ class DescribedWalk {
   /// µs at the walk's ends.
   std::array<Vector6d, 2> JointSpeeds(double t) const;
 
+  /// Distance of the whole robot's ZMP (RobotZmp) inside the support polygon [m].
+  double RobotZmpMargin(double t) const;
+
   Support SupportAt(double t) const;
   /// The latest half-step that has begun, counted from 1.
   int HalfStepAt(double t) const;

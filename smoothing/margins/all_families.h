@@ -14,6 +14,7 @@
 #include "smoothing/margins/reach_margin.h"
 #include "smoothing/margins/self_clearance_margin.h"
 #include "smoothing/margins/zmp_margin.h"
+#include "smoothing/margins/zmp_robot_margin.h"
 
 namespace halfstep {
 
@@ -32,9 +33,9 @@ struct FamilyList {
 };
 
 /// The registry of families. A new family is one more class here, and its name in MarginFamily.
-using AllFamilies =
-    FamilyList<FloorMargin, FootSpeedMargin, FootYawRateMargin, ZmpMargin, ReachMargin, JointMargin,
-               JointSpeedMargin, SelfClearanceMargin, ClearanceMargin, GroundMargin, NoStepMargin>;
+using AllFamilies = FamilyList<FloorMargin, FootSpeedMargin, FootYawRateMargin, ZmpMargin,
+                               ReachMargin, JointMargin, JointSpeedMargin, SelfClearanceMargin,
+                               ClearanceMargin, GroundMargin, NoStepMargin, ZmpRobotMargin>;
 
 constexpr bool FamiliesAreInOrder() {
   for (size_t i = 0; i < AllFamilies::kTraits.size(); ++i) {

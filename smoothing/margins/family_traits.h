@@ -33,6 +33,7 @@ struct FamilyTraits {
   /// The family whose row of the program it shares, mostly itself; none when no parameter moves the
   /// margin, so that it has no row.
   std::optional<MarginFamily> row;
+  bool may_be_none = false;  ///< whether it can be left out: then nothing is demanded of it
 };
 
 /// The traits of a family.

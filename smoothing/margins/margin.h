@@ -25,8 +25,9 @@ enum class MarginFamily : int {
   kClearance,      ///< distance from the robot to the obstacles [m]
   kGround,         ///< height of a body's lowest point above the floor [m]; a foot may touch it
   kNoStep,         ///< distance of a standing sole's outline from the no-step areas [m]
+  kZmpRobot,       ///< distance of the whole robot's ZMP inside the support polygon [m]
 };
-constexpr int kNumMarginFamilies = 11;
+constexpr int kNumMarginFamilies = 12;
 
 std::string_view Name(MarginFamily family);  ///< "zmp", "joint_speed" … as in YAML and CSV
 std::string_view Unit(MarginFamily family);  ///< "m", "rad" …
@@ -43,6 +44,8 @@ constexpr std::array<MarginFamily, kNumMarginFamilies> AllMarginFamilies() {
 
 /// The margin of what has no limit [any unit].
 inline constexpr double kUnlimited = std::numeric_limits<double>::infinity();
+/// What is demanded of a family of which nothing is demanded [any unit].
+inline constexpr double kNotDemanded = -kUnlimited;
 
 /// The value of one margin, and what it belongs to.
 struct Margin {
@@ -50,9 +53,9 @@ struct Margin {
   double value = kUnlimited;
   LocalTime at = {};
   double t = 0.0;  ///< absolute time in the walk where it was found [s]
-  /// What the margin belongs to, −1: nothing in particular. ZMP: the step in the air, or −1. Floor,
-  /// foot speed, foot yaw rate, no-step: Index(Side). Reach, joints, joint speeds: 6·Index(Side) +
-  /// joint. Clearances and ground: index of RobotModel::bodies.
+  /// What the margin belongs to, −1: nothing in particular. Both ZMPs: the step in the air, or −1.
+  /// Floor, foot speed, foot yaw rate, no-step: Index(Side). Reach, joints, joint speeds:
+  /// 6·Index(Side) + joint. Clearances and ground: index of RobotModel::bodies.
   int subject = -1;
   int other = -1;  ///< index of the obstacle (clearance), second body (self-clearance) or area
   /// Not −1: found in the stop branch after this half-step; `at` and `t` are times of the branch.
@@ -65,7 +68,8 @@ struct MarginLimits {
   std::optional<double> foot_speed = 1.0;     ///< [m/s]; none: no limit
   std::optional<double> foot_yaw_rate = 2.0;  ///< [rad/s]
   double joint_speed_scale = 1.0;             ///< of the robot's joint speed limits, ∈ (0, 1]
-  /// Demanded margin δ by family, in its unit: feasible means margin ≥ δ.
+  /// Demanded margin δ by family, in its unit: feasible means margin ≥ δ. kNotDemanded where the
+  /// family may be left out (FamilyTraits::may_be_none).
   std::array<double, kNumMarginFamilies> demanded = DefaultDemands();
   /// A clearance beyond this reads as this [m], or as twice the largest demanded clearance where
   /// that is more.
@@ -73,8 +77,10 @@ struct MarginLimits {
 
   double demanded_of(MarginFamily f) const { return demanded[static_cast<size_t>(f)]; }
   double& demanded_of(MarginFamily f) { return demanded[static_cast<size_t>(f)]; }
-  /// (value − demanded) / Scale: negative when infeasible; comparable between families.
+  /// (value − demanded) / Scale: negative when infeasible; comparable between families. +∞ where
+  /// nothing is demanded.
   double Slack(const Margin& margin) const {
+    if (demanded_of(margin.family) == kNotDemanded) return kUnlimited;
     return (margin.value - demanded_of(margin.family)) / Scale(margin.family);
   }
 };

@@ -10,16 +10,25 @@
 
 namespace halfstep {
 
+namespace {
+
+MarginLimits Possible(MarginLimits limits, const RobotModel& robot) {
+  if (!robot.masses.known()) limits.demanded_of(MarginFamily::kZmpRobot) = kNotDemanded;
+  return limits;
+}
+
+}  // namespace
+
 MarginEvaluator::Shared::Shared(RobotModel robot, Scene scene)
     : place(std::move(robot), std::move(scene)), statements(AllFamilies::Make(place)) {}
 
 MarginEvaluator::MarginEvaluator(RobotModel robot, Scene scene, MarginLimits limits)
     : shared_(std::make_shared<const Shared>(std::move(robot), std::move(scene))),
-      limits_(limits) {}
+      limits_(Possible(limits, this->robot())) {}
 
 MarginEvaluator MarginEvaluator::WithLimits(const MarginLimits& limits) const {
   MarginEvaluator other = *this;
-  other.limits_ = limits;
+  other.limits_ = Possible(limits, robot());
   return other;
 }
 

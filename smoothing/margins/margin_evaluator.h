@@ -19,7 +19,8 @@ class MarginEvaluator {
   /// What families remember. Use one for each thread.
   using Scratch = MarginScratch;
 
-  /// `robot` and `scene` are copied.
+  /// `robot` and `scene` are copied. Where the robot's masses are not known, limits() demands
+  /// nothing of its ZMP.
   MarginEvaluator(RobotModel robot, Scene scene, MarginLimits limits);
 
   /// The same robot and scene, shared, with other limits.

@@ -127,6 +127,28 @@ WalkState SuperposedWalk::SecondBounds(double begin, double end) const {
   return bounds;
 }
 
+WalkThirds SuperposedWalk::ThirdRanges(double begin, double end) const {
+  WalkThirds thirds;
+  const int first = FirstActive(Locate(begin)), last = LastActive(Locate(end));
+  for (int i = first; i <= last; ++i) {
+    const Piece& p = piece(i);
+    const HalfStepThirds profiles = p.profiles.ThirdRanges(begin - p.start, end - p.start);
+    const auto add = [&](int q, const Range& profile) {
+      thirds.center[q] += profile.center * p.delta_W[q];
+      thirds.radius[q] += profile.radius * std::abs(p.delta_W[q]);
+    };
+    add(kComX, profiles.com);
+    add(kComY, profiles.com);
+    add(kWaistYaw, profiles.yaw);
+    for (const Side side : {Side::kLeft, Side::kRight}) {
+      const int foot = FootIndex(side);
+      for (const int q : {foot, foot + 1, foot + 3}) add(q, profiles.foot);
+      add(foot + 2, profiles.height);
+    }
+  }
+  return thirds;
+}
+
 void SuperposedWalk::Sensitivities(const LocalTime& at, std::vector<WalkSensitivity>* out) const {
   using Family = HomotopyParameter::Family;
   out->clear();

@@ -8,6 +8,7 @@
 #include "wpg/geometry/support_polygon.h"
 #include "wpg/motion/half_step_sequence.h"
 #include "wpg/motion/walk_state.h"
+#include "wpg/motion/walk_thirds.h"
 
 namespace halfstep {
 
@@ -70,6 +71,9 @@ class SuperposedWalk {
   /// Bounds of the |second time derivative| of every quantity, for all t in the absolute times
   /// [begin, end] [s]: the bounds of all half-steps under way there, added up.
   WalkState SecondBounds(double begin, double end) const;
+
+  /// All values of the third time derivatives for all t in the absolute times [begin, end] [s].
+  WalkThirds ThirdRanges(double begin, double end) const;
 
   /// Whether a foot is in the air, which it is from t2 of its up half-step to t1 of the down
   /// half-step that follows, both instants included. Else it stands on the floor.

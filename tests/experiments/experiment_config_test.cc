@@ -92,7 +92,8 @@ smoothing:
   limits: {foot_speed_m_s: none, foot_yaw_rate_rad_s: 1.5, joint_speed_scale: 0.75}
   margins: {floor_m: 0.001, zmp_m: 0.002, reach_m: 0.003, joint_rad: 0.004,
             joint_speed_rad_s: 0.005, foot_speed_m_s: 0.006, foot_yaw_rate_rad_s: 0.007,
-            clearance_m: 0.008, self_clearance_m: 0.009, ground_m: 0.011, no_step_m: 0.012}
+            clearance_m: 0.008, self_clearance_m: 0.009, ground_m: 0.011, no_step_m: 0.012,
+            zmp_robot_m: 0.013}
 output: {directory: ../out, period_s: 0.02}
 seed: 42
 )";
@@ -137,12 +138,26 @@ TEST(ExperimentConfig, EveryKeyReachesItsField) {
   EXPECT_EQ(s.limits.demanded_of(MarginFamily::kSelfClearance), 0.009);
   EXPECT_EQ(s.limits.demanded_of(MarginFamily::kGround), 0.011);
   EXPECT_EQ(s.limits.demanded_of(MarginFamily::kNoStep), 0.012);
+  EXPECT_EQ(s.limits.demanded_of(MarginFamily::kZmpRobot), 0.013);
   EXPECT_EQ(c.output_directory, "../out");
   EXPECT_EQ(c.output_period, 0.02);
   EXPECT_EQ(c.seed, 42);
   EXPECT_EQ(MovedTo(place / "out", c).output_directory, ".");
   const std::string text = Written(c);
   EXPECT_EQ(Written(LoadConfig(WriteText(place / "again.yaml", text), {})), text);
+}
+
+TEST(ExperimentConfig, NothingNeedBeDemandedOfTheWholeRobotsZmp) {
+  const TemporaryFolder place;
+  const ExperimentConfig c = LoadConfig(WriteText(place / "c.yaml", kAllKeys),
+                                        {{"smoothing.margins.zmp_robot_m", "none"}});
+  EXPECT_EQ(c.smoothing.limits.demanded_of(MarginFamily::kZmpRobot), kNotDemanded);
+  const std::string text = Written(c);
+  EXPECT_THAT(text, testing::HasSubstr("zmp_robot_m: none"));
+  EXPECT_EQ(Written(LoadConfig(WriteText(place / "again.yaml", text), {})), text);
+  EXPECT_THROW(LoadConfig(WriteText(place / "zmp.yaml", kAllKeys),
+                          {{"smoothing.margins.zmp_m", "none"}}),
+               InputError);
 }
 
 TEST(ExperimentConfig, DefaultsAreThoseOfTheReadme) {

@@ -10,6 +10,7 @@
 #include "planner/collision/separation.h"
 #include "tests/smoothing/test_scenes.h"
 #include "tests/smoothing/test_walks.h"
+#include "tests/wpg/symmetric_masses.h"
 
 namespace halfstep {
 namespace {
@@ -29,7 +30,7 @@ class MarginEvaluatorTest : public testing::Test {
     return evaluator.At(walk, at, &scratch);
   }
 
-  const RobotModel robot_ = Hrp2();
+  const RobotModel robot_ = WithSymmetricMasses(Hrp2());
   const HalfStepSequence sequence_ = OneStep(robot_);
   const SuperposedWalk walk_{sequence_, PlannedMotion(sequence_)};
 };

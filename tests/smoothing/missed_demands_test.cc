@@ -105,6 +105,8 @@ TEST_F(MissedDemandsTest, ALegThatDoesNotReachIsSaidOnceAndByHowMuch) {
   int reach = 0;
   for (const MissedDemand& demand : missed.demands) {
     reach += demand.worst.family == MarginFamily::kReach;
+    // Where a leg is nearly stretched, the floor may not push.
+    if (demand.worst.family == MarginFamily::kZmpRobot) continue;
     EXPECT_TRUE(std::isfinite(demand.worst.value)) << evaluator.Describe(demand.worst);
   }
   EXPECT_GE(reach, 1);

@@ -97,6 +97,16 @@ HalfStepJet HalfStepProfiles::SecondBounds(double from, double to) const {
   return bounds;
 }
 
+HalfStepThirds HalfStepProfiles::ThirdRanges(double from, double to) const {
+  const double a = from / duration_, b = to / duration_;
+  const double r = 1.0 / (duration_ * duration_ * duration_);
+  const auto to_time = [r](const Range& x) { return Range{r * x.center, r * x.radius}; };
+  return {.com = to_time(shift_.ComThirdRange(a, b)),
+          .yaw = to_time(Smoothstep{}.ThirdRange(a, b)),
+          .foot = to_time(foot_.ThirdRange(a, b)),
+          .height = to_time(height_.ThirdRange(a, b))};
+}
+
 WalkJet Evaluate(const HalfStep& half_step, const HalfStepProfiles& profiles, double tau) {
   const WalkState start = half_step.Start();
   const WalkState delta = half_step.End() - start;

@@ -66,6 +66,11 @@ struct HalfStepJet {
   const ProfileJet& of(int quantity) const;
 };
 
+/// What holds the third time derivatives of the profiles over an interval [1/s³].
+struct HalfStepThirds {
+  Range com, yaw, foot, height;  ///< as in HalfStepJet; that of the ZMP is not bounded.
+};
+
 /// The profiles of a half-step of given kind, shape and duration [s] under a LIPM; immutable.
 class HalfStepProfiles {
  public:
@@ -78,6 +83,9 @@ class HalfStepProfiles {
 
   /// sup |π̈| [1/s²] of each profile over local times [from, to] [s]; only `second` is filled.
   HalfStepJet SecondBounds(double from, double to) const;
+
+  /// All values of the third time derivatives over local times [from, to] [s].
+  HalfStepThirds ThirdRanges(double from, double to) const;
 
   double duration() const { return duration_; }
   double t1() const { return shape_.t1() * duration_; }  ///< end of the ZMP's first rest [s]

@@ -138,4 +138,10 @@ double RestToRest::ZmpSecondBound(double from, double to) const {
   return std::max(on_shift, touches_bump ? 24.0 * bump_.value / (first_ * first_) : 0.0);
 }
 
+Range RestToRest::ComThirdRange(double from, double to) const {
+  if (to <= 0.0 || from >= 1.0) return {};
+  const double fourth = theta_ * theta_ * (ComSecondBound() + ZmpSecondBound(from, to));
+  return {Com(0.5 * (from + to)).sss, 0.5 * (to - from) * fourth};
+}
+
 }  // namespace halfstep

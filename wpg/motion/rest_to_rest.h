@@ -3,6 +3,7 @@
 #include <array>
 #include <vector>
 
+#include "wpg/motion/vector_ball.h"
 #include "wpg/motion/profile_jet.h"
 
 namespace halfstep {
@@ -34,6 +35,10 @@ class RestToRest {
   /// A bound of |p_σσ| on [from, to]: exact on the shift, and 24·a/σ₁² where [from, to] touches a
   /// bump.
   double ZmpSecondBound(double from, double to) const;
+
+  /// Values that hold c_σσσ on [from, to]: that at the middle, and θ²·(|c_σσ| + |p_σσ|) times half
+  /// of the length around it, since c_σσσ = θ²·(c_σ − p_σ) is continuous.
+  Range ComThirdRange(double from, double to) const;
 
   /// a: how far the ZMP goes beyond either end of the shift, as a fraction of it.
   double bump() const { return bump_.value; }

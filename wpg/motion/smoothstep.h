@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wpg/motion/vector_ball.h"
 #include "wpg/motion/profile_jet.h"
 
 namespace halfstep {
@@ -39,6 +40,22 @@ struct Smoothstep {
     const auto at = [](double x) { return std::abs(60.0 * x * (1.0 - x) * (1.0 - 2.0 * x)); };
     const bool peak = (a <= kLow && kLow <= b) || (a <= kHigh && kHigh <= b);
     return (peak ? kPeak : std::max(at(a), at(b))) * r * r;
+  }
+
+  /// The values of S_σσσ on [from, to]: exact, with 0 where that reaches out of the window.
+  /// S_σσσ = 60·(1 − 6x + 6x²)/width³ is least at x = ½.
+  Range ThirdRange(double from, double to) const {
+    if (to <= begin || from >= end) return {};
+    const double r = 1.0 / (end - begin);
+    const double a = std::max(from - begin, 0.0) * r, b = std::min(to - begin, end - begin) * r;
+    const auto at = [](double x) { return 60.0 * (1.0 - 6.0 * x * (1.0 - x)); };
+    double low = std::min(at(a), at(b)), high = std::max(at(a), at(b));
+    if (a <= 0.5 && b >= 0.5) low = -30.0;
+    if (from < begin || to > end) {
+      low = std::min(low, 0.0);
+      high = std::max(high, 0.0);
+    }
+    return Range::Between(low * r * r * r, high * r * r * r);
   }
 };
 

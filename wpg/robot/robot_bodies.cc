@@ -13,6 +13,7 @@
 #include "wpg/files/mesh_file.h"
 #include "wpg/geometry/convex_parts.h"
 #include "wpg/geometry/simplified_hull.h"
+#include "wpg/robot/link_anchors.h"
 
 namespace halfstep {
 namespace {
@@ -162,29 +163,6 @@ void Simplify(const BodyRequest& request, RobotBody* body) {
   body->excess = simplified.excess;
 }
 
-// On which leg link (or the waist) each link is rigid while walking.
-struct Anchor {
-  int leg = -1;
-  int link = -1;
-  int urdf_link = -1;
-};
-
-std::vector<Anchor> FindAnchors(const UrdfTree& urdf, const BodyRequest& request) {
-  std::vector<Anchor> anchors(urdf.links.size(), Anchor{-1, -1, request.waist});
-  for (size_t i = 1; i < urdf.links.size(); ++i) {
-    const int joint = urdf.links[i].joint;
-    anchors[i] = anchors[static_cast<size_t>(urdf.joints[static_cast<size_t>(joint)].parent)];
-    for (int leg = 0; leg < 2; ++leg) {
-      const auto& joints = request.leg_joints[static_cast<size_t>(leg)];
-      const auto found = std::find(joints.begin(), joints.end(), joint);
-      if (found != joints.end()) {
-        anchors[i] = {leg, static_cast<int>(found - joints.begin()), static_cast<int>(i)};
-      }
-    }
-  }
-  return anchors;
-}
-
 }  // namespace
 
 std::vector<std::string> MeshPackages(const UrdfTree& urdf) {
@@ -198,21 +176,13 @@ std::vector<std::string> MeshPackages(const UrdfTree& urdf) {
 }
 
 LinkBodies BuildBodies(const UrdfTree& urdf, const BodyRequest& request, Complaints* complaints) {
-  const std::vector<Anchor> anchors = FindAnchors(urdf, request);
-  std::vector<double> q = request.posture;
-  for (const auto& joints : request.leg_joints) {
-    for (const int joint : joints) q[static_cast<size_t>(joint)] = 0.0;
-  }
-  const std::vector<Isometry3d> X = urdf.LinkPoses(q);
+  const std::vector<LinkAnchor> anchors =
+      FindAnchors(urdf, request.waist, request.leg_joints, request.posture);
   LinkBodies all;
   std::set<std::string> missing;  // packages
   for (size_t i = 0; i < urdf.links.size(); ++i) {
     const UrdfLink& link = urdf.links[i];
-    const Anchor& anchor = anchors[i];
-    // Exactly the identity for a leg's own links, so that upright cylinders stay so.
-    const bool own = anchor.urdf_link == static_cast<int>(i);
-    const Isometry3d X_AnchorLink =
-        own ? Isometry3d::Identity() : X[static_cast<size_t>(anchor.urdf_link)].inverse() * X[i];
+    const LinkAnchor& anchor = anchors[i];
     const auto parts = request.mesh_parts.find(link.name);
     int count = 0;  // of the link's bodies
     for (const UrdfCollision& collision : link.collisions) {
@@ -222,7 +192,7 @@ LinkBodies BuildBodies(const UrdfTree& urdf, const BodyRequest& request, Complai
       RobotBody body{.name = next_name(), .leg = anchor.leg, .link = anchor.link};
       try {
         for (ConvexBody& shape : ShapesOf(
-                 collision, X_AnchorLink * collision.X_LinkShape, urdf.file,
+                 collision, anchor.X_AnchorLink * collision.X_LinkShape, urdf.file,
                  parts == request.mesh_parts.end() ? 1 : parts->second, request, &all.meshes)) {
           body = {.name = next_name(), .leg = anchor.leg, .link = anchor.link};
           body.shape = std::move(shape);

@@ -6,12 +6,14 @@
 #include "wpg/files/number_text.h"
 #include "wpg/files/text.h"
 #include "wpg/files/yaml_fields.h"
+#include "wpg/robot/link_anchors.h"
 #include "wpg/robot/robot_bodies.h"
 #include "wpg/robot/robot_fields.h"
 #include "wpg/robot/robot_legs.h"
 #include "wpg/robot/robot_model.h"
 #include "wpg/robot/self_pairs.h"
 #include "wpg/robot/sole_outline.h"
+#include "wpg/robot/urdf_masses.h"
 
 namespace halfstep {
 namespace {
@@ -179,6 +181,9 @@ class Builder {
       fields_.Complain("urdf", "no link has a mass: the CoM cannot be found");
       return;
     }
+    model_.masses =
+        AddUpMasses(urdf_, FindAnchors(urdf_, leg_.waist, body_.leg_joints, leg_.posture));
+    for (const std::string& warning : MassWarnings(urdf_)) model_.warnings.push_back(warning);
     model_.com_x_B = moment.x() / model_.mass;
     model_.com_height = file_.com_height.value_or(model_.waist_height + moment.z() / model_.mass);
   }

@@ -10,6 +10,7 @@
 #include "wpg/files/input_file.h"
 #include "wpg/geometry/convex_body.h"
 #include "wpg/geometry/side.h"
+#include "wpg/robot/robot_masses.h"
 
 namespace halfstep {
 
@@ -85,6 +86,7 @@ struct RobotModel {
   double com_height = 0.0;  ///< z_c above the floor [m].
   double com_x_B = 0.0;  ///< CoM ahead of B's origin [m]; its y is 0 by the generator's symmetry.
   double mass = 0.0;     ///< [kg]
+  RobotMasses masses;    ///< of the waist's and the legs' links
   double standing_width = 0.0;  ///< distance of the sole centres in the standing posture [m].
   /// How high the swing foot goes at most in half-steps by default [m]; more only on demand.
   double largest_lift = std::numeric_limits<double>::infinity();

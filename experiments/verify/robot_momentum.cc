@@ -1,0 +1,70 @@
+#include "experiments/verify/robot_momentum.h"
+
+#include <Eigen/Eigenvalues>
+#include <array>
+#include <cmath>
+
+#include "wpg/motion/posture.h"
+
+namespace halfstep::verify {
+namespace {
+
+constexpr double kStep = 2e-3;  // between the places of a difference [s]
+constexpr std::array<double, 5> kSecond = {-205.0 / 72, 8.0 / 5, -1.0 / 5, 8.0 / 315, -1.0 / 560};
+
+using Points = Eigen::Matrix<double, 3, 6>;
+
+// Six equal point masses on the principal axes of a body, in its frame.
+Points PointsOf(const BodyMass& body) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(body.inertia);
+  const Eigen::Vector3d moments = solver.eigenvalues();
+  Points points;
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    // ∫x² dm along the axis; negative where no body has such an inertia.
+    const double square = 0.5 * moments.sum() - moments[k];
+    const Eigen::Vector3d away = std::sqrt(3 * square / body.mass) * solver.eigenvectors().col(k);
+    points.col(2 * k) = body.com + away;
+    points.col(2 * k + 1) = body.com - away;
+  }
+  return points;
+}
+
+}  // namespace
+
+Eigen::Vector2d RobotZmp(const RobotModel& robot, const WalkJet& jet, double gravity) {
+  const Eigen::Vector2d nothing = Eigen::Vector2d::Constant(std::nan(""));
+  if (!robot.masses.known()) return nothing;
+  std::array<Posture, 9> postures;
+  for (size_t k = 0; k < postures.size(); ++k) {
+    const double t = kStep * (static_cast<double>(k) - 4);
+    postures[k] = SolvePosture(robot, jet.value + t * jet.first + 0.5 * t * t * jet.second);
+    if (!postures[k].reachable) return nothing;
+  }
+  Eigen::Vector2d moment(0, 0);
+  double force = 0;
+  const auto add = [&](const BodyMass& body, const auto& pose) {
+    if (!(body.mass > 0)) return;
+    const Points points = PointsOf(body);
+    const Points here = pose(postures[4]) * points;
+    Points a = kSecond[0] * here;
+    for (size_t k = 1; k <= 4; ++k) {
+      a += kSecond[k] * (pose(postures[4 + k]) * points + pose(postures[4 - k]) * points);
+    }
+    a /= kStep * kStep;
+    for (Eigen::Index i = 0; i < 6; ++i) {
+      const double m = body.mass / 6, up = a(2, i) + gravity;
+      moment += m * (here.col(i).head<2>() * up - here(2, i) * a.col(i).head<2>());
+      force += m * up;
+    }
+  };
+  add(robot.masses.waist, [](const Posture& posture) { return posture.X_WB; });
+  for (size_t s = 0; s < 2; ++s) {
+    for (size_t j = 0; j < 6; ++j) {
+      add(robot.masses.links[s][j], [&](const Posture& posture) { return posture.X_WLink[s][j]; });
+    }
+  }
+  if (!(force > 0)) return nothing;
+  return moment / force;
+}
+
+}  // namespace halfstep::verify

@@ -1,0 +1,106 @@
+#include "smoothing/margins/zmp_robot_margin.h"
+
+#include <algorithm>
+
+#include "wpg/geometry/support_polygon.h"
+#include "wpg/motion/robot_dynamics.h"
+#include "wpg/motion/zmp_drift.h"
+#include "wpg/motion/zmp_slopes.h"
+
+namespace halfstep {
+namespace {
+
+// What bears the robot at an instant, and calls visit(corner, inward unit normal) for each edge.
+SupportPolygon PolygonAt(const Instant& at) {
+  return SupportAt(at.walk(), at.at(), at.jet().value, at.robot().sole_size);
+}
+
+template <typename Visit>
+void ForEachEdge(const SupportPolygon& polygon, const Visit& visit) {
+  for (int i = 0; i < polygon.size(); ++i) {
+    const Eigen::Vector2d a = polygon.corner(i);
+    const Eigen::Vector2d edge = polygon.corner((i + 1) % polygon.size()) - a;
+    if (edge.norm() < 1e-9) continue;
+    visit(a, Eigen::Vector2d(-edge.y(), edge.x()).normalized());
+  }
+}
+
+// None where nothing can be said: a leg does not reach, is singular, or masses are not known.
+std::optional<RobotDynamics> DynamicsAt(Instant* at) {
+  if (!at->robot().masses.known() || !at->regular()) return std::nullopt;
+  return RobotDynamics(at->robot(), at->jet(), at->posture(), at->walk().lipm().gravity);
+}
+
+}  // namespace
+
+int ZmpRobotMargin::count() const { return 1; }
+
+std::string ZmpRobotMargin::Subject(const Margin& margin) const {
+  return margin.subject < 0 ? "both soles" : "support sole";
+}
+
+Margin ZmpRobotMargin::Least(Instant* at, double) const {
+  const auto dynamics = DynamicsAt(at);
+  const auto zmp = dynamics ? dynamics->Zmp() : std::nullopt;
+  if (!zmp) return Of(-kUnlimited, at->step_in_air());
+  Margin least = Of(kUnlimited, -1);
+  Lower(Of(PolygonAt(*at).Margin(*zmp), at->step_in_air()), &least);
+  return least;
+}
+
+std::optional<Margin> ZmpRobotMargin::FirstBelow(Instant* at, double demanded) const {
+  if (demanded == kNotDemanded) return std::nullopt;
+  return WholeFamily::FirstBelow(at, demanded);
+}
+
+void ZmpRobotMargin::AddRows(Instant* at, SlackSink* rows) const {
+  if (at->demanded(family()) == kNotDemanded) return;
+  const auto dynamics = DynamicsAt(at);
+  const auto zmp = dynamics ? dynamics->Zmp() : std::nullopt;
+  if (!zmp) return;
+  std::vector<Eigen::Vector2d> slopes;  // along each parameter, made when a row needs them
+  ForEachEdge(PolygonAt(*at), [&](const Eigen::Vector2d& a, const Eigen::Vector2d& inward) {
+    rows->Add(inward.dot(*zmp - a), [&](size_t p) {
+      if (slopes.empty()) {
+        const ZmpSlopes all(at->robot(), at->jet(), at->posture(), *dynamics);
+        for (size_t i = 0; i < rows->sensitivities.size(); ++i) {
+          const PostureTangent& tangent = rows->tangents[i];
+          slopes.push_back(all.Along({rows->sensitivities[i].jet, tangent.q, tangent.speeds}));
+        }
+      }
+      return inward.dot(slopes[p]);
+    });
+  });
+}
+
+void ZmpRobotMargin::AddBounds(const MarginInterval& interval, TightestStatement* tightest) const {
+  Instant& mid = interval.mid;
+  const int step = mid.step_in_air();
+  if (mid.demanded(family()) == kNotDemanded) {
+    tightest->Add(Of(kUnlimited, step), 0.0);
+    return;
+  }
+  const auto dynamics = DynamicsAt(&mid);
+  const auto zmp = dynamics ? dynamics->Zmp() : std::nullopt;
+  if (!zmp) {
+    tightest->Add(Of(-kUnlimited, step), 0.0);
+    return;
+  }
+  const SupportPolygon polygon = PolygonAt(mid);
+  const double margin = polygon.Margin(*zmp);
+  const double middle = mid.t(), h = interval.motion.half_width;
+  const auto drift = margin < mid.demanded(family())
+                         ? std::nullopt
+                         : ZmpDrift::Over(mid.robot(), interval.motion,
+                                          mid.walk().ThirdRanges(middle - h, middle + h), *dynamics,
+                                          mid.walk().lipm().gravity);
+  double least = drift ? kUnlimited : -kUnlimited;
+  if (drift) {
+    ForEachEdge(polygon, [&](const Eigen::Vector2d& a, const Eigen::Vector2d& inward) {
+      least = std::min(least, inward.dot(*zmp - a) - drift->Along(inward));
+    });
+  }
+  tightest->Add(Of(margin, step), margin - least + kDynamicsRounding);
+}
+
+}  // namespace halfstep

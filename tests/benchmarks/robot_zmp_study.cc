@@ -1,0 +1,170 @@
+// What the whole robot's ZMP costs beside the other families, and how tight its bound is. Prints
+// the tables of notebooks-data/measurements.md, "The whole robot's ZMP". Not a test.
+// Run: robot_zmp_study cost CONFIG... | drift [INTERVALS [SEED [ROBOT]]]
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "experiments/config/experiment.h"
+#include "smoothing/margins/slack_evaluator.h"
+#include "smoothing/methods/dichotomy.h"
+#include "smoothing/proof/certified_feasibility.h"
+#include "tests/smoothing/certificate_draws.h"
+#include "tests/smoothing/smoothed.h"
+#include "wpg/motion/zmp_drift.h"
+
+namespace halfstep {
+namespace {
+
+double Seconds(const std::function<void()>& work) {
+  const auto begin = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+// The least of several times with and without the family, taken in turn, so that both meet the same
+// machine.
+struct Pair {
+  double with = 1e9, without = 1e9;
+
+  static Pair Of(const std::function<void()>& with, const std::function<void()>& without) {
+    Pair pair;
+    for (int k = 0; k < 7; ++k) {
+      pair.without = std::min(pair.without, Seconds(without));
+      pair.with = std::min(pair.with, Seconds(with));
+    }
+    return pair;
+  }
+};
+
+void Cost(const std::string& name) {
+  const Experiment e = Prepare(
+      LoadConfig(std::string(HALFSTEP_SOURCE_DIR "/experiments/configs/") + name + ".yaml", {}));
+  const MarginLimits limits = e.config.smoothing.limits;
+  MarginLimits without = limits;
+  without.demanded_of(MarginFamily::kZmpRobot) = kNotDemanded;
+  const MarginEvaluator all(e.robot, e.scene, limits), some = all.WithLimits(without);
+  const CertifiedFeasibility proof(all, {}), proof_without(some, {});
+  const SmoothingResult smoothed =
+      Smoothed(Dichotomy, ProblemOf(e.sequence, proof), e.config.smoothing.dichotomy);
+  const SuperposedWalk walk(e.sequence, smoothed.parameters);
+  const auto sampled = [&](const MarginEvaluator& evaluator) {
+    return [&] {
+      MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
+      for (double t = 0; t < walk.duration(); t += 0.005) {
+        if (evaluator.FirstViolation(walk, walk.Locate(t), &scratch)) std::abort();
+      }
+    };
+  };
+  const auto certified = [&](const CertifiedFeasibility& test, bool rows) {
+    return [&, rows] {
+      MarginEvaluator::Scratch scratch = test.evaluator().MakeScratch();
+      Certificate certificate;
+      const Feasibility answer = rows ? test.Certify(walk, &scratch, &certificate)
+                                      : test.Check(walk, {0.0, walk.duration()}, &scratch);
+      if (answer.verdict != Verdict::kFeasible) std::abort();
+    };
+  };
+  const auto sloped = [&](const MarginEvaluator& evaluator) {
+    return [&] {
+      SlackEvaluator slacks(evaluator, 6.0);
+      InstantSlacks out;
+      for (double t = 0; t < walk.duration(); t += 0.01) {
+        slacks.At(walk, walk.Locate(t), {}, true, &out);
+      }
+    };
+  };
+  const auto dichotomy = [&](const CertifiedFeasibility& test) {
+    return [&] { Smoothed(Dichotomy, ProblemOf(e.sequence, test), e.config.smoothing.dichotomy); };
+  };
+  const auto print = [&](const char* what, const Pair& pair) {
+    std::printf("%-14s %-34s %9.2f ms %9.2f ms %6.2f\n", name.c_str(), what, 1e3 * pair.without,
+                1e3 * pair.with, pair.with / pair.without);
+  };
+  print("margins against demands, 5 ms", Pair::Of(sampled(all), sampled(some)));
+  print("verdict for all t", Pair::Of(certified(proof, false), certified(proof_without, false)));
+  print("certificate with rows", Pair::Of(certified(proof, true), certified(proof_without, true)));
+  print("slacks with slopes, 10 ms", Pair::Of(sloped(all), sloped(some)));
+  print("dichotomy", Pair::Of(dichotomy(proof), dichotomy(proof_without)));
+}
+
+// Random intervals of random walks: how often there is a bound, how often it is exceeded, and how
+// many times the largest of nine sampled changes it is.
+void Drift(long intervals, unsigned seed, const std::string& name) {
+  const RobotModel robot = RobotNamed(name);
+  const MotionBounds bounds(robot);
+  const double gravity = Lipm{}.gravity;
+  WalkDraw draw(seed);
+  constexpr double kLengths[] = {0.001, 0.003, 0.01, 0.03};
+  for (const double length : kLengths) {
+    long drawn = 0, moving = 0, bounded = 0, exceeded = 0;
+    std::vector<double> ratios;
+    while (drawn < intervals) {
+      const HalfStepSequence sequence = DrawSequence(robot, 2, {.stride = 0.7}, &draw);
+      const SuperposedWalk walk(sequence, draw.Parameters(sequence, 0.0, 0.8));
+      for (int k = 0; k < 50 && drawn < intervals; ++k) {
+        ++drawn;
+        const double begin = draw.Uniform(0.0, walk.duration() - length);
+        IntervalMotion motion;
+        BoundMotion(bounds, walk, begin, begin + length, &motion);
+        if (!motion.bounded) continue;
+        ++moving;
+        const RobotDynamics dynamics(robot, motion.jet, motion.posture, gravity);
+        const auto zmp = dynamics.Zmp();
+        if (!zmp) continue;
+        const auto drift = ZmpDrift::Over(robot, motion, walk.ThirdRanges(begin, begin + length),
+                                          dynamics, gravity);
+        if (!drift) continue;
+        ++bounded;
+        const double angle = draw.Uniform(0, 6.28);
+        const Eigen::Vector2d direction(std::cos(angle), std::sin(angle));
+        const double bound = drift->Along(direction);
+        double most = 0;
+        for (int i = 0; i <= 8; ++i) {
+          const WalkJet jet = walk.At(begin + length * i / 8);
+          Posture posture = SolvePosture(robot, jet.value);
+          if (!posture.reachable || !SolveJointSpeeds(robot, jet, &posture)) std::abort();
+          const auto there = RobotDynamics(robot, jet, posture, gravity).Zmp();
+          most = std::max(most, std::abs(direction.dot(*there - *zmp)));
+        }
+        exceeded += most > bound + 1e-9;
+        if (most > 1e-5) ratios.push_back(bound / most);
+      }
+    }
+    std::sort(ratios.begin(), ratios.end());
+    const auto at = [&](double share) {
+      return ratios.empty()
+                 ? 0.0
+                 : ratios[static_cast<size_t>(share * static_cast<double>(ratios.size() - 1))];
+    };
+    std::printf(
+        "%-12s %5.0f ms %9ld intervals, the motion bounded %9ld, the ZMP %9ld, exceeded %ld; bound "
+        "/ "
+        "largest change: median %.2f, 90 %% %.2f, 99 %% %.2f\n",
+        name.c_str(), 1e3 * length, drawn, moving, bounded, exceeded, at(0.5), at(0.9), at(0.99));
+  }
+}
+
+}  // namespace
+}  // namespace halfstep
+
+int main(int argc, char** argv) {
+  const std::string part = argc > 1 ? argv[1] : "";
+  if (part == "cost" && argc > 2) {
+    std::printf("%-14s %-34s %12s %12s %6s\n", "config", "", "without", "with", "ratio");
+    for (int i = 2; i < argc; ++i) halfstep::Cost(argv[i]);
+  } else if (part == "drift") {
+    halfstep::Drift(argc > 2 ? std::atol(argv[2]) : 250000,
+                    argc > 3 ? static_cast<unsigned>(std::atoi(argv[3])) : 1,
+                    argc > 4 ? argv[4] : "hrp2");
+  } else {
+    std::fprintf(stderr,
+                 "usage: robot_zmp_study cost CONFIG... | drift [INTERVALS [SEED [ROBOT]]]\n");
+    return 2;
+  }
+}

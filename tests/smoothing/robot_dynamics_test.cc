@@ -1,0 +1,239 @@
+// The dynamics of the whole robot: its ZMP against momentum by differences, slopes against
+// differences, the drift over intervals against dense samples.
+
+#include "wpg/motion/robot_dynamics.h"
+
+#include <gtest/gtest.h>
+
+#include <optional>
+
+#include "opt/problem/derivative_check.h"
+#include "smoothing/proof/interval_statements.h"
+#include "smoothing/walk/posture_tangent.h"
+#include "tests/smoothing/certificate_draws.h"
+#include "tests/smoothing/robot_truth.h"
+#include "tests/wpg/symmetric_masses.h"
+#include "wpg/motion/zmp_drift.h"
+#include "wpg/motion/zmp_slopes.h"
+
+namespace halfstep {
+namespace {
+
+constexpr double kGravity = 9.81;
+
+std::optional<Posture> Solved(const RobotModel& robot, const WalkJet& jet) {
+  Posture posture = SolvePosture(robot, jet.value);
+  // Differences need room up to the stretched knee.
+  if (!posture.reachable || posture.ik[0].reach_margin < 0.01 ||
+      posture.ik[1].reach_margin < 0.01 || !SolveJointSpeeds(robot, jet, &posture)) {
+    return std::nullopt;
+  }
+  return posture;
+}
+
+std::optional<Eigen::Vector2d> ZmpOf(const RobotModel& robot, const WalkJet& jet) {
+  const auto posture = Solved(robot, jet);
+  if (!posture) return std::nullopt;
+  return RobotDynamics(robot, jet, *posture, kGravity).Zmp();
+}
+
+// A random walk of a robot, not at the ends of its reach.
+SuperposedWalk DrawnWalkOf(const RobotModel& robot, WalkDraw* draw) {
+  const HalfStepSequence sequence = DrawSequence(robot, 2, {.stride = 0.7}, draw);
+  return {sequence, draw->Parameters(sequence, 0.0, 0.8)};
+}
+
+TEST(RobotDynamics, ZmpIsThatOfTheMomentumOfAllLinks) {
+  constexpr double kStep = 4e-3;
+  unsigned seed = 700;
+  for (const WholeRobot& whole : WholeRobots()) {
+    const RobotModel& robot = whole.model;
+    ASSERT_TRUE(robot.masses.known()) << robot.masses.fault;
+    const PointMasses points(whole);
+    WalkDraw draw(seed++);
+    int compared = 0;
+    double worst = 0, farthest = 0;
+    for (int i = 0; i < Draws(100); ++i) {
+      const SuperposedWalk walk = DrawnWalkOf(robot, &draw);
+      const double t = draw.Uniform(0.05, walk.duration() - 0.05);
+      if (NearKnot(walk, t, 5 * kStep)) continue;
+      const auto zmp = ZmpOf(robot, walk.At(t));
+      if (!zmp) continue;
+      ++compared;
+      const Eigen::Vector2d truth =
+          points.Zmp([&](double dt) { return walk.At(t + dt).value; }, kStep, kGravity);
+      worst = std::max(worst, (*zmp - truth).norm());
+      farthest = std::max(farthest, (truth - walk.At(t).value.segment<2>(kZmpX)).norm());
+    }
+    EXPECT_GT(compared, Draws(100) / 3) << robot.name;
+    EXPECT_LT(worst, 1e-9) << robot.name;
+    EXPECT_GT(farthest, 5e-3) << robot.name << ": the point mass would do";
+    RecordProperty(robot.name + "_worst_1e15", static_cast<int>(1e15 * worst));
+  }
+}
+
+TEST(RobotDynamics, AtRestTheZmpIsBelowTheCentreOfMass) {
+  for (const WholeRobot& whole : WholeRobots()) {
+    const RobotModel& robot = whole.model;
+    WalkJet jet;
+    for (const Side side : {Side::kLeft, Side::kRight}) {
+      const Leg& leg = robot.legs[static_cast<size_t>(Index(side))];
+      const Eigen::Vector3d sole_B = PlaceLeg(leg, leg.standing_q).X_BLink[6].translation();
+      jet.value.segment<2>(FootIndex(side)) = sole_B.head<2>() - Eigen::Vector2d(robot.com_x_B, 0);
+    }
+    const auto zmp = ZmpOf(robot, jet);
+    ASSERT_TRUE(zmp) << robot.name;
+    EXPECT_NEAR(zmp->x(), 0.0, 1e-9) << robot.name;
+  }
+}
+
+TEST(RobotDynamics, MirroredAndMovedWalksHaveMirroredAndMovedZmps) {
+  const RobotModel robot = Hrp2();
+  const RobotModel mirror = WithSymmetricMasses(robot);
+  WalkDraw draw(720);
+  int compared = 0;
+  for (int i = 0; i < Draws(50); ++i) {
+    const HalfStepSequence sequence = DrawSequence(robot, 2, {.stride = 0.7}, &draw);
+    const HomotopyParameters parameters = draw.Parameters(sequence, 0.0, 0.8);
+    const SuperposedWalk walk(sequence, parameters);
+    const double t = draw.Uniform(0, walk.duration());
+    const Pose2 X_VW = draw.Pose(3, 3);
+    const auto zmp = ZmpOf(robot, walk.At(t)), flat = ZmpOf(mirror, walk.At(t));
+    const auto moved = ZmpOf(robot, SuperposedWalk(Moved(X_VW, sequence), parameters).At(t));
+    const auto mirrored = ZmpOf(mirror, SuperposedWalk(Mirrored(sequence), parameters).At(t));
+    if (!zmp || !moved || !mirrored) continue;
+    ++compared;
+    EXPECT_LT((*moved - X_VW * *zmp).norm(), 1e-11);
+    EXPECT_NEAR(mirrored->x(), flat->x(), 1e-10);
+    EXPECT_NEAR(mirrored->y(), -flat->y(), 1e-10);
+  }
+  EXPECT_GT(compared, Draws(50) / 3);
+}
+
+TEST(ZmpSlopes, AgreeWithDifferences) {
+  unsigned seed = 730;
+  for (const WholeRobot& whole : WholeRobots()) {
+    const RobotModel& robot = whole.model;
+    WalkDraw draw(seed++);
+    int checked = 0;
+    for (int i = 0; i < Draws(60); ++i) {
+      const WalkJet jet = [&] {
+        const SuperposedWalk walk = DrawnWalkOf(robot, &draw);
+        return walk.At(draw.Uniform(0, walk.duration()));
+      }();
+      const auto posture = Solved(robot, jet);
+      if (!posture) continue;
+      const RobotDynamics dynamics(robot, jet, *posture, kGravity);
+      if (!dynamics.Zmp()) continue;
+      const ZmpSlopes slopes(robot, jet, *posture, dynamics);
+      ++checked;
+      WalkJet along;
+      for (int q = 0; q < kNumQuantities; ++q) {
+        along.value[q] = draw.Uniform(-0.1, 0.1);
+        along.first[q] = draw.Uniform(-1, 1);
+        along.second[q] = draw.Uniform(-10, 10);
+      }
+      const PostureTangent tangent = Differentiate(robot, jet, *posture, along);
+      const Eigen::Vector2d slope = slopes.Along({along, tangent.q, tangent.speeds});
+      const auto function = [&](const Eigen::VectorXd& h) -> Eigen::VectorXd {
+        WalkJet at = jet;
+        at.value += h[0] * along.value;
+        at.first += h[0] * along.first;
+        at.second += h[0] * along.second;
+        const auto zmp = ZmpOf(robot, at);
+        return zmp ? *zmp : Eigen::Vector2d::Constant(std::nan(""));
+      };
+      const Eigen::VectorXd here = Eigen::VectorXd::Zero(1);
+      const DerivativeReport report = CheckJacobian(function, here, slope, 1e-4);
+      EXPECT_TRUE(report.Passed(1e-7)) << robot.name << ": " << report.Describe();
+      for (const Eigen::Index broken : {0, 1}) {
+        Eigen::MatrixXd wrong = slope;
+        wrong(broken, 0) = 1.01 * wrong(broken, 0) + 1e-4;
+        EXPECT_FALSE(CheckJacobian(function, here, wrong, 1e-4).Passed(1e-7));
+      }
+    }
+    EXPECT_GT(checked, Draws(60) / 3) << robot.name;
+  }
+}
+
+// Over an interval of no length nothing is lost: the rate of the moment is that of the ZMP.
+TEST(ZmpDrift, AtAnInstantIsTheZmpsVelocity) {
+  constexpr double kStep = 1e-4;
+  unsigned seed = 740;
+  for (const WholeRobot& whole : WholeRobots()) {
+    const RobotModel& robot = whole.model;
+    const MotionBounds bounds(robot);
+    WalkDraw draw(seed++);
+    int compared = 0;
+    for (int i = 0; i < Draws(60); ++i) {
+      const SuperposedWalk walk = DrawnWalkOf(robot, &draw);
+      const double t = draw.Uniform(0.01, walk.duration() - 0.01);
+      if (NearKnot(walk, t, 3 * kStep)) continue;
+      IntervalMotion motion;
+      BoundMotion(bounds, walk, t, t, &motion);
+      if (!motion.bounded || !Solved(robot, motion.jet)) continue;
+      const RobotDynamics dynamics(robot, motion.jet, motion.posture, kGravity);
+      const auto drift = ZmpDrift::Over(robot, motion, walk.ThirdRanges(t, t), dynamics, kGravity);
+      ASSERT_TRUE(drift) << robot.name;
+      EXPECT_LT(drift->moment_rate.radius, 1e-9);
+      const Eigen::Vector3d& n = drift->moment_rate.center;
+      const Eigen::Vector2d rate = Eigen::Vector2d(-n.y(), n.x()) / drift->least_push;
+      const auto zmp = [&](double dt) { return *ZmpOf(robot, walk.At(t + dt)); };
+      const Eigen::Vector2d truth =
+          (8 * (zmp(kStep) - zmp(-kStep)) - (zmp(2 * kStep) - zmp(-2 * kStep))) / (12 * kStep);
+      ++compared;
+      EXPECT_LT((rate - truth).norm(), 1e-6 * (1 + truth.norm())) << robot.name;
+    }
+    EXPECT_GT(compared, Draws(60) / 3) << robot.name;
+  }
+}
+
+TEST(ZmpDrift, IsNeverExceededOnRandomIntervals) {
+  unsigned seed = 750;
+  for (const WholeRobot& whole : WholeRobots()) {
+    const RobotModel& robot = whole.model;
+    const MotionBounds bounds(robot);
+    WalkDraw draw(seed++);
+    int intervals = 0, bounded = 0;
+    double excess = -1, nearest = 0;
+    for (int i = 0; i < Draws(100); ++i) {
+      const HalfStepSequence sequence = DrawSequence(robot, 2, {}, &draw);
+      const SuperposedWalk walk(sequence, draw.ExtremeParameters(sequence));
+      for (int k = 0; k < 10; ++k) {
+        const double length = 1e-4 * std::pow(300.0, draw.Uniform(0, 1));
+        const double begin = draw.Uniform(0.0, walk.duration() - length);
+        IntervalMotion motion;
+        BoundMotion(bounds, walk, begin, begin + length, &motion);
+        ++intervals;
+        if (!motion.bounded) continue;
+        const RobotDynamics dynamics(robot, motion.jet, motion.posture, kGravity);
+        const auto middle = dynamics.Zmp();
+        if (!middle) continue;
+        const auto drift = ZmpDrift::Over(robot, motion, walk.ThirdRanges(begin, begin + length),
+                                          dynamics, kGravity);
+        if (!drift) continue;
+        ++bounded;
+        const double angle = draw.Uniform(0, 6.3);
+        const Eigen::Vector2d direction(std::cos(angle), std::sin(angle));
+        for (const double part : {0.0, draw.Uniform(0, 1), draw.Uniform(0, 1), 1.0}) {
+          const WalkJet jet = walk.At(begin + part * length);
+          Posture posture = SolvePosture(robot, jet.value);
+          ASSERT_TRUE(posture.reachable && SolveJointSpeeds(robot, jet, &posture));
+          const auto there = RobotDynamics(robot, jet, posture, kGravity).Zmp();
+          ASSERT_TRUE(there) << robot.name;
+          const double moved = std::abs(direction.dot(*there - *middle));
+          excess = std::max(excess, moved - drift->Along(direction));
+          if (moved > 1e-6) nearest = std::max(nearest, moved / drift->Along(direction));
+        }
+      }
+    }
+    EXPECT_GT(bounded, intervals / 2) << robot.name;
+    EXPECT_LT(excess, 1e-9) << robot.name;
+    // So near that a term forgotten would show.
+    EXPECT_GT(nearest, 0.9) << robot.name;
+    RecordProperty(robot.name + "_bounded_percent", 100 * bounded / intervals);
+  }
+}
+
+}  // namespace
+}  // namespace halfstep

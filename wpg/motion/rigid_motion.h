@@ -1,0 +1,47 @@
+#pragma once
+
+#include "wpg/motion/vector_ball.h"
+
+namespace halfstep {
+
+/// What a rigid body does over an interval of time [m − h, m + h], up to third derivatives: balls
+/// that hold everything for all t there, with what is exact at m for centres of all but the third.
+/// In the axes of W. `p` is a point that is fixed in the body.
+struct RigidMotion {
+  VectorBall turn, turn1, turn2;  ///< ω [rad/s], ω̇, ω̈
+  VectorBall p, p1, p2, p3;       ///< place of the point [m], and its derivatives
+  double turned = 0.0;            ///< the body turns by at most this from where it is at m [rad]
+
+  /// Sets `turned` from `turn`, h = `half_width` [s].
+  void BoundTurned(double half_width) { turned = half_width * turn.most(); }
+
+  /// A vector that is fixed in the body and is `at_m` in W at m.
+  VectorBall Carried(const Eigen::Vector3d& at_m) const {
+    return {at_m, at_m.norm() * std::min(turned, 2.0)};
+  }
+  /// The same motion with another point of the body, which is `at_m` from `p` at m.
+  RigidMotion At(const Eigen::Vector3d& at_m) const {
+    const VectorBall d = Carried(at_m), d1 = Cross(turn, d), d2 = Cross(turn, d1);
+    RigidMotion motion = *this;
+    motion.p += d;
+    motion.p1 += d1;
+    motion.p2 += Cross(turn1, d) + d2;
+    motion.p3 +=
+        Cross(turn2, d) + 2.0 * Cross(turn1, d1) + Cross(turn, Cross(turn1, d)) + Cross(turn, d2);
+    return motion;
+  }
+  /// The motion of a body that turns by q about an axis through `p` which is fixed in both, and is
+  /// `axis` at m; q1, q2, q3 are q's derivatives.
+  RigidMotion Turned(const Eigen::Vector3d& axis, const Range& q1, const Range& q2, const Range& q3,
+                     double half_width) const {
+    const VectorBall a = Carried(axis), a1 = Cross(turn, a), a2 = Cross(turn1, a) + Cross(turn, a1);
+    RigidMotion motion = *this;
+    motion.turn += q1 * a;
+    motion.turn1 += q2 * a + q1 * a1;
+    motion.turn2 += q3 * a + 2.0 * (q2 * a1) + q1 * a2;
+    motion.BoundTurned(half_width);
+    return motion;
+  }
+};
+
+}  // namespace halfstep

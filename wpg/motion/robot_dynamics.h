@@ -1,0 +1,64 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+
+#include "wpg/motion/posture.h"
+#include "wpg/motion/spatial.h"
+
+namespace halfstep {
+
+/// The dynamics of the whole robot at one instant of a walk: masses and inertias of all links,
+/// angular momentum included. Links outside the legs are rigid with the waist. In closed form from
+/// the joints' angles, speeds and accelerations; these follow from the walk's quantities by
+/// J q̇ = V, J q̈ = V̇ − J̇ q̇. Spatial vectors about O, the point of the floor below the waist's
+/// origin, in the axes of W. Source: wpg/README.md, "Dynamics of the whole robot".
+class RobotDynamics {
+ public:
+  /// A body: its parent joint's screw (zero for the waist), its velocity, its acceleration and that
+  /// less gravity's −g ẑ, and the force that moves it against gravity and inertia.
+  struct Body {
+    Vector6d screw = Vector6d::Zero();
+    Vector6d velocity = Vector6d::Zero();
+    Vector6d acceleration = Vector6d::Zero();  ///< with + g ẑ: what an accelerometer feels
+    SpatialInertia inertia;
+    Vector6d force = Vector6d::Zero();
+  };
+  using LegBodies = std::array<Body, 6>;
+
+  /// Preconditions: masses are known, the posture is reachable and its joint speeds are solved.
+  RobotDynamics(const RobotModel& robot, const WalkJet& jet, const Posture& posture,
+                double gravity);
+
+  const Eigen::Vector3d& O() const { return O_; }  ///< in W [m]
+  const Body& waist() const { return waist_; }
+  const LegBodies& leg(Side side) const { return legs_[static_cast<size_t>(Index(side))]; }
+  /// q̈ [rad/s²].
+  const Vector6d& accelerations(Side side) const {
+    return accelerations_[static_cast<size_t>(Index(side))];
+  }
+  /// What the floor gives: moment about O [N m], and force [N].
+  const Vector6d& contact() const { return contact_; }
+  /// Where the floor's force has no horizontal moment, in W [m]; none where it does not push.
+  std::optional<Eigen::Vector2d> Zmp() const;
+
+ private:
+  Eigen::Vector3d O_;
+  Body waist_;
+  std::array<LegBodies, 2> legs_;
+  std::array<Vector6d, 2> accelerations_;
+  Vector6d contact_;
+};
+
+/// Spatial acceleration and velocity about O of a frame that stays upright: its origin is at `p`
+/// from O [m], and moves by `v`, `a`; its yaw by `rate`, `acceleration`.
+Vector6d UprightVelocity(const Eigen::Vector3d& p, const Eigen::Vector3d& v, double rate);
+Vector6d UprightAcceleration(const Eigen::Vector3d& p, const Eigen::Vector3d& v,
+                             const Eigen::Vector3d& a, double rate, double acceleration);
+
+/// The waist's acceleration [m/s²], for the CoM is rigid in its frame.
+Eigen::Vector3d WaistAcceleration(const RobotModel& robot, const WalkJet& jet,
+                                  const Posture& posture);
+
+}  // namespace halfstep

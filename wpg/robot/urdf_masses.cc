@@ -1,0 +1,118 @@
+#include "wpg/robot/urdf_masses.h"
+
+#include <Eigen/Eigenvalues>
+#include <optional>
+
+#include "wpg/files/input_error.h"
+#include "wpg/files/text.h"
+#include "wpg/geometry/side.h"
+
+namespace halfstep {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+// Rounding of files: inertias have few digits, and thin bodies meet the limit.
+constexpr double kMomentTolerance = 1e-3;
+constexpr double kLightest = 10.0, kHeaviest = 20000.0;  // [kg/m³]
+
+// Principal moments of inertia, ascending [kg m²].
+Vector3d Moments(const UrdfLink& link) {
+  return Eigen::SelfAdjointEigenSolver<Matrix3d>(link.inertia, Eigen::EigenvaluesOnly)
+      .eigenvalues();
+}
+
+// Inertia of a point mass about the origin.
+Matrix3d OfPoint(double mass, const Vector3d& p) {
+  return mass * (p.squaredNorm() * Matrix3d::Identity() - p * p.transpose());
+}
+
+void Add(const BodyMass& more, BodyMass* sum) {
+  const double mass = sum->mass + more.mass;
+  if (!(mass > 0.0)) return;
+  const Vector3d com = (sum->mass * sum->com + more.mass * more.com) / mass;
+  sum->inertia +=
+      more.inertia + OfPoint(sum->mass, sum->com - com) + OfPoint(more.mass, more.com - com);
+  sum->com = com;
+  sum->mass = mass;
+}
+
+// Volume of the boxes around a link's shapes [m³]; none when a shape is a mesh or there is none.
+std::optional<double> BoxVolume(const UrdfLink& link) {
+  double volume = 0.0;
+  for (const UrdfCollision& shape : link.collisions) {
+    switch (shape.kind) {
+      case UrdfCollision::Kind::kBox:
+        volume += shape.size.prod();
+        break;
+      case UrdfCollision::Kind::kSphere:
+        volume += 8.0 * shape.size.x() * shape.size.x() * shape.size.x();
+        break;
+      case UrdfCollision::Kind::kCylinder:
+        volume += 4.0 * shape.size.x() * shape.size.x() * shape.size.y();
+        break;
+      case UrdfCollision::Kind::kMesh:
+        return std::nullopt;
+    }
+  }
+  if (!(volume > 0.0)) return std::nullopt;
+  return volume;
+}
+
+}  // namespace
+
+RobotMasses AddUpMasses(const UrdfTree& urdf, const std::vector<LinkAnchor>& anchors) {
+  RobotMasses masses;
+  masses.fault.clear();
+  for (size_t i = 0; i < urdf.links.size(); ++i) {
+    const UrdfLink& link = urdf.links[i];
+    const LinkAnchor& anchor = anchors[i];
+    const Matrix3d R = anchor.X_AnchorLink.linear();
+    const Vector3d moments = Moments(link);
+    if (!(moments[0] >= -kMomentTolerance * moments.cwiseAbs().maxCoeff())) {
+      masses.fault = "link " + link.name + " has the negative moment of inertia " +
+                     Formatted("%.4g", moments[0]) + " kg m²";
+    }
+    BodyMass& sum =
+        anchor.leg < 0
+            ? masses.waist
+            : masses.links[static_cast<size_t>(anchor.leg)][static_cast<size_t>(anchor.link)];
+    Add({link.mass, anchor.X_AnchorLink * link.com, R * link.inertia * R.transpose()}, &sum);
+  }
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    double mass = 0.0;
+    for (const BodyMass& link : masses.links[static_cast<size_t>(Index(side))]) mass += link.mass;
+    if (!(mass > 0.0)) masses.fault = "the " + std::string(Name(side)) + " leg has no mass";
+  }
+  if (!(masses.waist.mass > 0.0)) masses.fault = "nothing on the waist has a mass";
+  return masses;
+}
+
+std::vector<std::string> MassWarnings(const UrdfTree& urdf) {
+  Complaints told;
+  for (const UrdfLink& link : urdf.links) {
+    const auto tell = [&](const std::string& what) {
+      told.Add(urdf.file, link.place.line, link.place.column, link.name, what);
+    };
+    const Vector3d moments = Moments(link);
+    if (moments[2] > (1.0 + kMomentTolerance) * (moments[0] + moments[1])) {
+      tell(
+          Formatted("the moment of inertia %.4g kg m² exceeds the sum of the two others, %.4g: no "
+                    "rigid body has such an inertia",
+                    moments[2], moments[0] + moments[1]));
+    }
+    const auto volume = BoxVolume(link);
+    if (!volume || !(link.mass > 0.0)) continue;
+    const double density = link.mass / *volume;
+    if (density < kLightest || density > kHeaviest) {
+      tell(
+          Formatted("the mass of %.4g kg in the boxes around its collision shapes is a density of "
+                    "%.3g kg/m³ (usual: %.0f … %.0f)",
+                    link.mass, density, kLightest, kHeaviest));
+    }
+  }
+  return told.lines();
+}
+
+}  // namespace halfstep
