@@ -82,6 +82,37 @@ TEST(SweptVolumeTest, ContainsTheMirroredHalfStepOfAnAsymmetricRobot) {
   EXPECT_GT(right_hand, 5);
 }
 
+// A small box on the waist, 0.9 mm farther left than right: within what its twin, itself, may be
+// off. It sticks out to the right when the robot walks on its other foot.
+TEST(SweptVolumeTest, ContainsTheMirrorImageOfABodyThatIsNotQuiteItsTwins) {
+  RobotModel robot = SweptRobot();
+  robot.bodies.resize(1);
+  RobotBody& box = robot.bodies[0];
+  box.leg = box.link = -1;
+  box.shape = MakeBox({0.02, 0.02, 0.02});
+  box.shape.vertices.row(1).array() += 0.00045;
+  box.shape = MakeHull(box.shape.vertices);
+  const SweptVolumeBaker baker(robot, {.cell = 1e-3, .displacement = 1e-4, .clearance = 0.0});
+  const HalfStep half_step = FewHalfSteps().Down(0, Side::kLeft);
+  const auto tree = baker.Bake(half_step, LipmOf(robot));
+  ASSERT_TRUE(tree);
+  const HalfStep mirrored = half_step.Mirrored();
+  const HalfStepProfiles profiles(mirrored.kind, mirrored.shape, mirrored.duration, LipmOf(robot));
+  SweptDraw draw(7);
+  int without = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const double tau = draw.Uniform(0, mirrored.duration);
+    const Posture posture = SolvePosture(robot, Evaluate(mirrored, profiles, tau).value);
+    const Eigen::Isometry3d& X_SBody = posture.OfBody(box);
+    const Vector3d left = X_SBody.linear().transpose() * Vector3d::UnitY();
+    Vector3d p = X_SBody * (SupportPoint(box.shape, left) - 1e-6 * left);
+    p.y() = -p.y();
+    EXPECT_TRUE(tree->Contains(p));
+    without += !tree->Contains(p - Vector3d(0, 0.9e-3, 0));  // a control
+  }
+  EXPECT_GT(without, 200);
+}
+
 TEST(SweptVolumeTest, ControlVolumeLessItsOutermostCellsDoesNot) {
   const SweptVolumes& volumes = CoarseVolumes();
   SweptDraw draw(2);
