@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "planner/scene/cloud_fields.h"
 #include "planner/scene/mesh_fields.h"
 #include "planner/scene/motion_fields.h"
 #include "planner/scene/simple_polygon.h"
@@ -33,11 +34,12 @@ NumberSpec Size(const char* meaning) {
 struct ObstacleFields {
   std::string name;
   bool has_box = false, has_cylinder = false, has_sphere = false, has_capsule = false,
-       has_mesh = false;
+       has_mesh = false, has_points = false, has_octomap = false;
   std::vector<double> size;
   double radius = 0.0;
   double length = 0.0;
   MeshFields mesh;
+  CloudFields cloud;
   std::vector<double> xyz{0.0, 0.0, 0.0};
   std::vector<double> rpy{0.0, 0.0, 0.0};
   ObstacleMotion motion;
@@ -85,11 +87,18 @@ void DeclareShape(Fields& fields, ObstacleFields* obstacle) {
       });
   fields.OptionalGroup("mesh", &obstacle->has_mesh, {.meaning = "triangle mesh"},
                        [&](Fields& mesh) { DeclareMesh(mesh, &obstacle->mesh); });
+  fields.OptionalGroup("points", &obstacle->has_points, {.meaning = "point cloud"},
+                       [&](Fields& points) { DeclarePoints(points, &obstacle->cloud); });
+  fields.OptionalGroup("octomap", &obstacle->has_octomap, {.meaning = "occupancy map"},
+                       [&](Fields& map) { DeclareOctomap(map, &obstacle->cloud); });
   const int shapes = obstacle->has_box + obstacle->has_cylinder + obstacle->has_sphere +
-                     obstacle->has_capsule + obstacle->has_mesh;
+                     obstacle->has_capsule + obstacle->has_mesh + obstacle->has_points +
+                     obstacle->has_octomap;
   if (shapes != 1) {
     std::string what = std::to_string(shapes);
-    what += " shapes (valid: exactly one of box, cylinder, sphere, capsule, mesh)";
+    what +=
+        " shapes (valid: exactly one of box, cylinder, sphere, capsule, mesh, "
+        "points, octomap)";
     fields.Complain("", what);
   }
 }
@@ -140,6 +149,7 @@ void DeclareObstacle(Fields& fields, ObstacleFields* obstacle) {
   fields.Group("motion", {.meaning = "what it does while the robot walks"},
                [&](Fields& motion) { DeclareMotion(motion, &obstacle->motion); });
   const Eigen::Isometry3d X_WO = MakePose(obstacle->xyz, obstacle->rpy);
+  if (obstacle->cloud.any()) obstacle->mesh.mesh = MeshOfCloud(fields, X_WO, &obstacle->cloud);
   CheckReach(fields, *obstacle);
   const bool rests = obstacle->motion.rests() && obstacle->motion.error == 0.0;
   TakeFloor(fields, X_WO, rests, &obstacle->mesh);
@@ -222,7 +232,8 @@ Scene ParseScene(const std::string& yaml_path, const std::string& text) {
   scene.files = {RecordOf(yaml_path, text)};
   for (ObstacleFields& from : obstacles) {
     if (from.has_mesh) scene.files.push_back(from.mesh.file);
-    for (const std::string& told : {from.mesh.told}) {
+    if (from.cloud.any()) scene.files.push_back(from.cloud.file);
+    for (const std::string& told : {from.mesh.told, from.cloud.told}) {
       if (told.empty()) continue;
       scene.warnings.push_back(yaml_path + ": obstacle " + from.name + ": " + told);
     }
