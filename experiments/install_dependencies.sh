@@ -3,7 +3,7 @@
 # ones. Where none is missing it needs neither network nor rights.
 set -eu
 
-packages="g++ cmake ninja-build git pkg-config libeigen3-dev libfcl-dev liburdfdom-dev
+packages="g++ cmake ninja-build git pkg-config libeigen3-dev libfcl-dev liboctomap-dev liburdfdom-dev
   libconsole-bridge-dev libtinyxml-dev libyaml-cpp-dev libqhull-dev libcli11-dev
   nlohmann-json3-dev libboost-dev libssl-dev libgtest-dev libgmock-dev libbenchmark-dev
   coinor-libipopt-dev libnlopt-dev libceres-dev $*"

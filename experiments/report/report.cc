@@ -66,12 +66,22 @@ json EmptyReport(const char* kind) {
           {"cases", json::array()}};
 }
 
+// The middle of a run's footsteps on the floor.
+Eigen::Vector2d MiddleOf(const fs::path& footsteps) {
+  const CsvTable table = ReadCsv(footsteps.string());
+  const std::vector<double> x = table.Numbers("x_m"), y = table.Numbers("y_m");
+  Eigen::Vector2d sum(0, 0);
+  for (size_t i = 0; i < x.size(); ++i) sum += Eigen::Vector2d(x[i], y[i]);
+  return sum / std::max<double>(1.0, static_cast<double>(x.size()));
+}
+
 json CaseOf(const std::string& scenario, const fs::path& run, const RobotModel& robot,
             const Scene& scene, json* report) {
-  return {{"scenario", scenario},
-          {"robot", IndexIn(&(*report)["robots"], RobotJson(robot))},
-          {"scene", IndexIn(&(*report)["scenes"], SceneJson(scene))},
-          {"footsteps", RowsJson(run / "footsteps.csv")}};
+  return {
+      {"scenario", scenario},
+      {"robot", IndexIn(&(*report)["robots"], RobotJson(robot))},
+      {"scene", IndexIn(&(*report)["scenes"], SceneJson(scene, MiddleOf(run / "footsteps.csv")))},
+      {"footsteps", RowsJson(run / "footsteps.csv")}};
 }
 
 json SummaryOf(const MethodRecord& record) {

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "experiments/report/drawn_mesh.h"
 #include "experiments/report/shortened.h"
@@ -14,6 +17,7 @@ using nlohmann::json;
 
 constexpr double kDecimals = 1e4;      // of metres
 constexpr int kMostTriangles = 20000;  // of all meshes of a scene
+constexpr size_t kMostObstacles = 2000;
 
 json Vector(const Eigen::Vector3d& v, int digits) {
   return {Shortened(v.x(), digits), Shortened(v.y(), digits), Shortened(v.z(), digits)};
@@ -83,13 +87,36 @@ json RobotJson(const RobotModel& robot) {
 TriangleMesh Surface(const ConvexBody& body) { return DrawnMesh(body); }
 TriangleMesh Surface(const TriangleMesh& mesh) { return mesh; }
 
-json SceneJson(const Scene& scene) {
+namespace {
+
+// In the order of the scene.
+std::vector<const Obstacle*> NearestObstacles(const Scene& scene, const Eigen::Vector2d& middle_W) {
+  std::vector<const Obstacle*> nearest;
+  for (const Obstacle& obstacle : scene.obstacles) nearest.push_back(&obstacle);
+  if (nearest.size() <= kMostObstacles) return nearest;
+  const auto far = [&](const Obstacle* o) {
+    return (o->X_WO.translation().head<2>() - middle_W).squaredNorm();
+  };
+  const auto end = nearest.begin() + kMostObstacles;
+  std::nth_element(nearest.begin(), end, nearest.end(), [&](const Obstacle* a, const Obstacle* b) {
+    return std::pair(far(a), a) < std::pair(far(b), b);
+  });
+  nearest.erase(end, nearest.end());
+  std::sort(nearest.begin(), nearest.end());
+  return nearest;
+}
+
+}  // namespace
+
+json SceneJson(const Scene& scene, const Eigen::Vector2d& middle_W) {
   json obstacles = json::array(), areas = json::array();
-  const auto meshes = std::count_if(
-      scene.obstacles.begin(), scene.obstacles.end(),
-      [](const Obstacle& o) { return std::holds_alternative<TriangleMesh>(o.shape); });
+  const std::vector<const Obstacle*> drawn_ones = NearestObstacles(scene, middle_W);
+  const auto meshes = std::count_if(drawn_ones.begin(), drawn_ones.end(), [](const Obstacle* o) {
+    return std::holds_alternative<TriangleMesh>(o->shape);
+  });
   const int most = kMostTriangles / std::max(1, static_cast<int>(meshes));
-  for (const Obstacle& obstacle : scene.obstacles) {
+  for (const Obstacle* one : drawn_ones) {
+    const Obstacle& obstacle = *one;
     const auto* mesh = std::get_if<TriangleMesh>(&obstacle.shape);
     const TriangleMesh surface =
         mesh != nullptr
@@ -111,7 +138,14 @@ json SceneJson(const Scene& scene) {
     }
     areas.push_back(std::move(corners));
   }
-  return {{"name", scene.name}, {"obstacles", std::move(obstacles)}, {"no_step", std::move(areas)}};
+  std::string name = scene.name;
+  if (drawn_ones.size() < scene.obstacles.size()) {
+    name += " (" + std::to_string(drawn_ones.size()) + " of " +
+            std::to_string(scene.obstacles.size()) + " obstacles drawn)";
+  }
+  return {{"name", std::move(name)},
+          {"obstacles", std::move(obstacles)},
+          {"no_step", std::move(areas)}};
 }
 
 json ShapesJson(Scene scene) {

@@ -13,8 +13,9 @@ nlohmann::json RobotJson(const RobotModel& robot);
 
 /// The obstacles' surfaces and the no-step polygons in W; [m], to 0.1 mm. Large meshes are drawn
 /// coarser. Obstacles with waypoints have them as `places`, and their surface about their origin;
-/// what is not known of where an obstacle is, is not drawn.
-nlohmann::json SceneJson(const Scene& scene);
+/// what is not known of where an obstacle is, is not drawn. Of more than 2,000 obstacles the
+/// nearest to `middle_W` [m] are drawn, by their frames' origins, and the scene's name says so.
+nlohmann::json SceneJson(const Scene& scene, const Eigen::Vector2d& middle_W = {0.0, 0.0});
 
 /// The same with every obstacle in its own frame, to be put where it is told to be.
 nlohmann::json ShapesJson(Scene scene);

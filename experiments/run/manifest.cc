@@ -110,6 +110,7 @@ std::string ManifestJson(const Experiment& experiment, const std::string& resolv
                            {"acceptance", acceptance},
                            {"host", Host()},
                            {"wall_s", total_wall}};
+  if (!experiment.scene.warnings.empty()) manifest["scene_warnings"] = experiment.scene.warnings;
   for (const auto& [library, version] : kLibraries) manifest["libraries"][library] = version;
   for (const MethodRun& run : runs) {
     manifest["methods"].push_back(MethodJson(run, experiment.config.smoothing));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/scene/mesh_floor.h"
 #include "smoothing/margins/family_traits.h"
 #include "wpg/files/text.h"
 
@@ -14,6 +15,25 @@ constexpr size_t kMost = 10;  // demands that are told
 std::string Demand(const MarginEvaluator& evaluator, const MissedDemand& demand, int instants) {
   return evaluator.Describe(demand.worst) +
          Formatted("; missed at %d of %d instants", demand.instants, instants);
+}
+
+// Of obstacles that a body touches: a mesh that brings its floor along.
+std::string FloorHint(const MarginEvaluator& evaluator, const MissedDemands& missed) {
+  constexpr double kFootprint = 0.01;  // [m²]: less is no floor to stand on
+  for (const MissedDemand& demand : missed.demands) {
+    const Margin& worst = demand.worst;
+    if (worst.family != MarginFamily::kClearance || worst.other < 0) continue;
+    const Obstacle& obstacle = evaluator.scene().obstacles[static_cast<size_t>(worst.other)];
+    const auto* mesh = std::get_if<TriangleMesh>(&obstacle.shape);
+    if (mesh == nullptr || mesh->hollow) continue;
+    const double area = FloorArea(*mesh, obstacle.X_WO, kFloorTolerance);
+    if (area < kFootprint) continue;
+    return Formatted(
+        "%s has %.3g m² of floor at z = 0, which are in the way like all of it; if the robot is to "
+        "stand on them, say `floor: in_mesh` in its `mesh`",
+        obstacle.name.c_str(), area);
+  }
+  return "";
 }
 
 std::string Remedy(const MarginEvaluator& evaluator, const MissedDemand& demand) {
@@ -49,6 +69,7 @@ std::vector<std::string> MissedDemandsText(const MarginEvaluator& evaluator,
   if (missed.demands.size() > kMost) {
     lines.push_back(Formatted("and %zu demands more", missed.demands.size() - kMost));
   }
+  if (std::string hint = FloorHint(evaluator, missed); !hint.empty()) lines.push_back(hint);
   lines.insert(lines.end(), remedies.begin(), remedies.end());
   return lines;
 }

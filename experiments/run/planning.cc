@@ -77,8 +77,9 @@ double SteadySeconds() {
 
 namespace {
 
-// What stepping in place misses, on an empty floor: for a robot that can take no step of a grid.
-std::string MissedInPlace(const RobotModel& robot, const ExperimentConfig& config) {
+// What stepping in place misses; "": nothing.
+std::string MissedInPlace(const RobotModel& robot, const Scene& scene,
+                          const ExperimentConfig& config) {
   const HalfStep prototype = PrototypeOf(config);
   const std::array<Footprint, 2> start = StartOf(config, robot);
   const Footstep footstep{.side = Side::kLeft,
@@ -87,7 +88,7 @@ std::string MissedInPlace(const RobotModel& robot, const ExperimentConfig& confi
                           .duration = prototype.duration};
   const HalfStepSequence sequence = MakeSequence(start, {footstep}, prototype.via_lateral,
                                                  prototype.shape, {.com_height = robot.com_height});
-  const MarginEvaluator evaluator(robot, Scene{}, config.smoothing.limits);
+  const MarginEvaluator evaluator(robot, scene, config.smoothing.limits);
   const CertifiedFeasibility test(evaluator, config.smoothing.certification);
   const SuperposedWalk walk(sequence, PlannedMotion(sequence));
   MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
@@ -124,7 +125,7 @@ BakedHalfSteps BakeHalfSteps(const RobotModel& robot, const ExperimentConfig& co
     throw InputError(
         {std::string("step_set: no place of the grid keeps the demanded margins (valid: a grid "
                      "beside the support foot, margins that the robot meets)") +
-         MissedInPlace(robot, config)});
+         MissedInPlace(robot, Scene{}, config)});
   }
   SweptVolumeOptions options = config.swept_volumes.options;
   options.clearance = config.smoothing.limits.demanded_of(MarginFamily::kClearance);
@@ -184,6 +185,9 @@ PlannedWalk PlanWalk(const ExperimentConfig& config, const Place& place,
   std::mt19937_64 random(static_cast<std::uint64_t>(config.seed));
   walk.plan =
       MakePlanner(config.planner.name, place.scene, config.planner.options)->Plan(request, random);
+  if (walk.plan.status == PlanStatus::kStartBlocked) {
+    walk.plan.sentence += MissedInPlace(place.robot, place.scene, config);
+  }
   if (walk.plan.status != PlanStatus::kSolved) return walk;
   walk.config.has_goal = false;
   walk.config.has_start = true;

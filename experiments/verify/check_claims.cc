@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "experiments/verify/check_rows.h"
 #include "experiments/verify/claim_subjects.h"
@@ -24,13 +25,13 @@ class Claims {
         robot_(walk.robot()),
         certificate_(certificate),
         distances_(*distances),
-        subjects_(SubjectsOf(robot_, *distances)) {}
+        subjects_(robot_, *distances) {}
 
   // What is wrong with a row; "": nothing.
   std::string Fault(const ClaimRow& row) {
-    const auto found = subjects_[row.family].find(row.subject);
-    if (found == subjects_[row.family].end()) return "nothing is called " + Quote(row.subject);
-    const ClaimSubject subject = found->second;
+    const std::optional<ClaimSubject> found = subjects_.Find(row.family, row.subject);
+    if (!found) return "nothing is called " + Quote(row.subject);
+    const ClaimSubject subject = *found;
     if (row.margin == kNoLimit) {
       if (row.family == kZmpRobot) {
         return certificate_.demanded[kZmpRobot] == kNotDemanded ? "" : "the robot has a ZMP";
@@ -153,11 +154,7 @@ class Claims {
     const size_t a = static_cast<size_t>(s.first), b = static_cast<size_t>(s.second);
     if (row.family == kSelfClearance) return distances_.OfPair(a, b, at, enough).distance;
     if (s.second >= 0) return distances_.FromObstacle(a, b, at, t, enough).distance;
-    double least = kNoLimit;
-    for (size_t o = 0; o < distances_.num_obstacles(); ++o) {
-      least = std::min(least, distances_.FromObstacle(a, o, at, t, enough).distance);
-    }
-    return least;
+    return distances_.FromAll(a, at, t, enough);
   }
 
   // Margins beyond a horizon are cut off, so a smaller one than the distance is no fault.

@@ -85,7 +85,16 @@ void CheckClearances(const PlayedMotion& motion, const CertificateText& certific
   Check obstacles("clearance", "m", certificate.demanded[kClearance], tolerance);
   for (size_t b = 0; b < robot.bodies.size() && distances->num_obstacles() > 0; ++b) {
     const std::vector<double> of_body = motion.PathInWorld(robot.bodies[b]);
-    for (size_t o = 0; o < distances->num_obstacles(); ++o) {
+    // Between two rows no point of the body is farther from the first than its path is long; what
+    // stays beyond the box around all this is kept clear of at every instant.
+    Eigen::AlignedBox3d everywhere;
+    for (size_t i = 0; i < of_body.size(); ++i) {
+      const Eigen::AlignedBox3d here = distances->Around(b, motion.Place(motion.rows()[i].t));
+      const double way = i + 1 < of_body.size() ? of_body[i + 1] - of_body[i] : 0.0;
+      const Eigen::Vector3d around = Eigen::Vector3d::Constant(way);
+      everywhere.extend(Eigen::AlignedBox3d(here.min() - around, here.max() + around));
+    }
+    for (const size_t o : distances->Near(everywhere, obstacles.required() + kQuick)) {
       Keep(
           WithObstacle(of_body, motion, *distances, o), motion, distances->NameOfObstaclePair(b, o),
           [&](const Placement& at, double t, double enough) {

@@ -2,8 +2,8 @@
 
 namespace halfstep::verify {
 
-ClaimSubjects SubjectsOf(const RobotModel& robot, const Distances& distances) {
-  ClaimSubjects subjects;
+ClaimSubjects::ClaimSubjects(const RobotModel& robot, const Distances& distances) {
+  auto& subjects = subjects_;
   for (int s = 0; s < 2; ++s) {
     const std::string side = s == 0 ? "left" : "right";
     for (Family f : {kFloor, kFootSpeed, kFootYawRate}) subjects[f][side + " foot"] = {s, 0};
@@ -26,15 +26,27 @@ ClaimSubjects SubjectsOf(const RobotModel& robot, const Distances& distances) {
     const int body = static_cast<int>(b);
     subjects[kClearance][robot.bodies[b].name] = {body, -1};
     subjects[kGround][robot.bodies[b].name] = {body, 0};
-    for (size_t o = 0; o < distances.num_obstacles(); ++o) {
-      subjects[kClearance][distances.NameOfObstaclePair(b, o)] = {body, static_cast<int>(o)};
-    }
+    bodies_.push_back(robot.bodies[b].name);
   }
+  int index = 0;
+  for (const Obstacle& obstacle : distances.scene().obstacles) obstacles_[obstacle.name] = index++;
   for (const auto& [a, b] : robot.self_pairs) {
     subjects[kSelfClearance][distances.NameOfPair(static_cast<size_t>(a), static_cast<size_t>(b))] =
         {a, b};
   }
-  return subjects;
+}
+
+std::optional<ClaimSubject> ClaimSubjects::Find(Family family, const std::string& name) const {
+  const auto found = subjects_[family].find(name);
+  if (found != subjects_[family].end()) return found->second;
+  if (family != kClearance) return std::nullopt;
+  for (size_t b = 0; b < bodies_.size(); ++b) {
+    const std::string before = bodies_[b] + " - ";
+    if (!name.starts_with(before)) continue;
+    const auto obstacle = obstacles_.find(name.substr(before.size()));
+    if (obstacle != obstacles_.end()) return ClaimSubject{static_cast<int>(b), obstacle->second};
+  }
+  return std::nullopt;
 }
 
 }  // namespace halfstep::verify

@@ -2,7 +2,9 @@
 
 #include <array>
 #include <map>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "experiments/verify/certificate_text.h"
 #include "experiments/verify/distances.h"
@@ -16,10 +18,19 @@ struct ClaimSubject {
   int first = -1, second = -1;
 };
 
-/// By family and the subject's name in certificate.csv.
-using ClaimSubjects = std::array<std::map<std::string, ClaimSubject>, kNumFamilies>;
+/// All subjects that a row of certificate.csv may have, by family and name.
+class ClaimSubjects {
+ public:
+  ClaimSubjects(const RobotModel& robot, const Distances& distances);
 
-/// All subjects that a row may have, by their names.
-ClaimSubjects SubjectsOf(const RobotModel& robot, const Distances& distances);
+  /// None when nothing of the family is called so.
+  std::optional<ClaimSubject> Find(Family family, const std::string& name) const;
+
+ private:
+  std::array<std::map<std::string, ClaimSubject>, kNumFamilies> subjects_;
+  // A body and an obstacle, "BODY - OBSTACLE": too many pairs to list.
+  std::vector<std::string> bodies_;
+  std::map<std::string, int> obstacles_;
+};
 
 }  // namespace halfstep::verify

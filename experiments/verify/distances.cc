@@ -2,17 +2,64 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 namespace halfstep::verify {
 
 Distances::Distances(const RobotModel& robot, const Scene& scene) : robot_(robot), scene_(scene) {
+  std::vector<Eigen::AlignedBox3d> boxes;
   for (const RobotBody& body : robot.bodies) bodies_.emplace_back(body.shape);
   for (const Obstacle& obstacle : scene.obstacles) {
     std::visit([this](const auto& shape) { obstacles_.emplace_back(BodyOf(shape)); },
                obstacle.shape);
     const Solid& solid = obstacles_.back();
     paths_.emplace_back(obstacle, solid.center().norm() + solid.radius());
+    const ObstacleMotion& motion = obstacle.motion;
+    const bool still = motion.waypoints.empty() && motion.error == 0 && motion.speed == 0;
+    (still ? still_ : others_).push_back(obstacles_.size() - 1);
+    if (still) boxes.push_back(BoxOf(solid, obstacle.X_WO));
   }
+  around_still_ = BoxIndex(std::move(boxes));
+}
+
+// What the boxes along the axes of W around the solid's own box and around its ball share.
+Eigen::AlignedBox3d Distances::BoxOf(const Solid& solid, const Eigen::Isometry3d& X_WS) {
+  Eigen::AlignedBox3d box;
+  for (int corner = 0; corner < 8; ++corner) {
+    box.extend(X_WS * Eigen::Vector3d(((corner & 1) ? solid.upper() : solid.lower()).x(),
+                                      ((corner & 2) ? solid.upper() : solid.lower()).y(),
+                                      ((corner & 4) ? solid.upper() : solid.lower()).z()));
+  }
+  const Eigen::Vector3d center = X_WS * solid.center();
+  const Eigen::Vector3d radius = Eigen::Vector3d::Constant(solid.radius());
+  box = box.intersection(Eigen::AlignedBox3d(center - radius, center + radius));
+  const Eigen::Vector3d rounding = Eigen::Vector3d::Constant(1e-12 * (1 + center.norm()));
+  return {box.min() - rounding, box.max() + rounding};
+}
+
+Eigen::AlignedBox3d Distances::Around(size_t body, const Placement& at) const {
+  return BoxOf(bodies_[body], at.OfBody(robot_.bodies[body]));
+}
+
+std::vector<size_t> Distances::Near(const Eigen::AlignedBox3d& box_W, double reach) const {
+  // A hair more, so that rounding leaves out nothing that is just within reach.
+  const Eigen::Vector3d grown = Eigen::Vector3d::Constant(std::max(reach, 0.0) + 1e-9);
+  std::vector<size_t> near;
+  for (const size_t i : around_still_.Meeting({box_W.min() - grown, box_W.max() + grown})) {
+    near.push_back(still_[i]);
+  }
+  near.insert(near.end(), others_.begin(), others_.end());
+  std::ranges::sort(near);
+  return near;
+}
+
+double Distances::FromAll(size_t body, const Placement& at, double t, double enough) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const size_t o : Near(Around(body, at), enough)) {
+    least = std::min(least, FromObstacle(body, o, at, t, std::min(least, enough)).distance);
+  }
+  return least;
 }
 
 // Bounding spheres, and each one's sphere against the other's box.
@@ -56,11 +103,7 @@ Distances::Result Distances::OfPair(size_t a, size_t b, const Placement& at, dou
 
 double Distances::NearestObstacle(const Placement& at, double t, double horizon) {
   double least = horizon;
-  for (size_t b = 0; b < bodies_.size(); ++b) {
-    for (size_t o = 0; o < obstacles_.size(); ++o) {
-      least = std::min(least, FromObstacle(b, o, at, t, least).distance);
-    }
-  }
+  for (size_t b = 0; b < bodies_.size(); ++b) least = std::min(least, FromAll(b, at, t, least));
   return least;
 }
 

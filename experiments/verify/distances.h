@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/verify/box_index.h"
 #include "experiments/verify/obstacle_path.h"
 #include "experiments/verify/played_motion.h"
 #include "experiments/verify/solid.h"
@@ -31,7 +32,15 @@ class Distances {
   /// Distance of a body from an obstacle at t [m], less the obstacle's uncertainty. Where by their
   /// bounding volumes it is at least `enough` [m], it is that of these.
   Result FromObstacle(size_t body, size_t obstacle, const Placement& at, double t, double enough);
-  /// The same for two bodies of the robot.
+  /// The least distance of a body from any obstacle at t [m], or something at least `enough` when
+  /// none is nearer than that.
+  double FromAll(size_t body, const Placement& at, double t, double enough);
+  /// The obstacles that may come within `reach` [m] of a box in W at any time: all others keep
+  /// more. In increasing order.
+  std::vector<size_t> Near(const Eigen::AlignedBox3d& box_W, double reach) const;
+  /// A box in W that holds a body.
+  Eigen::AlignedBox3d Around(size_t body, const Placement& at) const;
+  /// The distance of two bodies of the robot, as FromObstacle gives it.
   Result OfPair(size_t a, size_t b, const Placement& at, double enough);
 
   /// A speed that bounds how fast an obstacle takes off such a distance within [begin, end] [m/s].
@@ -56,6 +65,7 @@ class Distances {
   std::string NameOfPair(size_t a, size_t b) const;
 
  private:
+  static Eigen::AlignedBox3d BoxOf(const Solid& solid, const Eigen::Isometry3d& X_WS);
   static double QuickBound(const Solid& a, const Eigen::Isometry3d& X_a, const Solid& b,
                            const Eigen::Isometry3d& X_b);
 
@@ -63,6 +73,8 @@ class Distances {
   const Scene& scene_;
   std::vector<Solid> bodies_, obstacles_;
   std::vector<ObstaclePath> paths_;
+  std::vector<size_t> still_, others_;  // obstacles that are known to stay where they are
+  BoxIndex around_still_;               // boxes around the former, in W
   long queries_ = 0;
 };
 

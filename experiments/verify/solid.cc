@@ -5,11 +5,11 @@
 #include <limits>
 #include <map>
 #include <set>
+#include <utility>
 
 namespace halfstep::verify {
 namespace {
 
-constexpr size_t kLeaf = 4;
 constexpr double kBoundRounding = 1e-9;  // [m] that bounds are widened by
 
 Eigen::AlignedBox3d Bounds(const ConvexSet& set) {
@@ -25,26 +25,60 @@ ConvexSet Moved(const Eigen::Isometry3d& X, ConvexSet set) {
   return set;
 }
 
+Eigen::AlignedBox3d Around(const std::array<Eigen::Vector3d, 3>& triangle) {
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& p : triangle) box.extend(p);
+  return box;
+}
+
+std::vector<Eigen::AlignedBox3d> AroundEach(
+    const std::vector<std::array<Eigen::Vector3d, 3>>& triangles) {
+  std::vector<Eigen::AlignedBox3d> boxes;
+  for (const auto& triangle : triangles) boxes.push_back(Around(triangle));
+  return boxes;
+}
+
+// Whether a ray in no coordinate plane may meet a box: by slabs, a little widened.
+bool MayMeet(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& from,
+             const Eigen::Vector3d& along) {
+  double begin = 0, end = std::numeric_limits<double>::infinity();
+  for (int axis = 0; axis < 3; ++axis) {
+    const double rounding =
+        1e-9 * (1 + std::abs(from[axis]) + std::abs(box.min()[axis]) + std::abs(box.max()[axis]));
+    const double to_min = (box.min()[axis] - rounding - from[axis]) / along[axis];
+    const double to_max = (box.max()[axis] + rounding - from[axis]) / along[axis];
+    begin = std::max(begin, std::min(to_min, to_max));
+    end = std::min(end, std::max(to_min, to_max));
+  }
+  return begin <= end;
+}
+
 enum class Ray { kEscapes, kIsHeld, kGrazes };
 
 // Whether a ray crosses a surface, counted by the sense of the triangles: out of a closed one an
 // odd number of times, however single triangles are turned.
-Ray Follow(const std::vector<std::array<Eigen::Vector3d, 3>>& triangles,
+Ray Follow(const std::vector<std::array<Eigen::Vector3d, 3>>& triangles, const BoxIndex& index,
            const Eigen::Vector3d& from, const Eigen::Vector3d& along) {
   int crossings = 0;
-  for (const auto& t : triangles) {
+  bool grazed = false;
+  const auto key = [&](const Eigen::AlignedBox3d& box) {
+    return MayMeet(box, from, along) ? 0.0 : std::numeric_limits<double>::infinity();
+  };
+  index.Walk(key, [&](size_t i) {
+    const auto& t = triangles[i];
     const Eigen::Vector3d a = t[0] - from, b = t[1] - from, c = t[2] - from;
     const double u = along.dot(b.cross(c)), v = along.dot(c.cross(a)), w = along.dot(a.cross(b));
     const bool out = u > 0 && v > 0 && w > 0, in = u < 0 && v < 0 && w < 0;
     if (!out && !in) {
       const bool grazes = (u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0);
-      if (grazes && (u != 0 || v != 0 || w != 0)) return Ray::kGrazes;
-      continue;
+      grazed = grazed || (grazes && (u != 0 || v != 0 || w != 0));
+      return;
     }
     // Ahead of the ray's origin where the triangle's plane is, seen along it.
     const double volume = a.dot(b.cross(c));
     if (out ? volume > 0 : volume < 0) crossings += out ? 1 : -1;
-  }
+  });
+  if (grazed) return Ray::kGrazes;
   return crossings == 0 ? Ray::kEscapes : Ray::kIsHeld;
 }
 
@@ -67,11 +101,13 @@ Solid::Solid(const TriangleMesh& mesh) {
     triangles_.push_back(
         {mesh.vertices.col(t[0]), mesh.vertices.col(t[1]), mesh.vertices.col(t[2])});
   }
-  FindParts(mesh);
-  BuildTree(0, triangles_.size());
+  index_ = BoxIndex(AroundEach(triangles_));
+  if (!mesh.hollow) FindParts(mesh);
+  Eigen::AlignedBox3d box;
+  for (const Triangle& triangle : triangles_) box.extend(Around(triangle));
   const Eigen::Vector3d around = Eigen::Vector3d::Constant(kBoundRounding);
-  lower_ = nodes_.back().box.min() - around;
-  upper_ = nodes_.back().box.max() + around;
+  lower_ = box.min() - around;
+  upper_ = box.max() + around;
   center_ = 0.5 * (lower_ + upper_);
   radius_ = 0.5 * (upper_ - lower_).norm() * (1 + 1e-12);
 }
@@ -112,67 +148,44 @@ void Solid::FindParts(const TriangleMesh& mesh) {
     const int its = root(place[static_cast<size_t>(mesh.triangles(0, i))]);
     const auto [found, fresh] = part_of.try_emplace(its, parts_.size());
     if (fresh) parts_.emplace_back();
-    parts_[found->second].push_back(triangles_[static_cast<size_t>(i)]);
+    parts_[found->second].triangles.push_back(triangles_[static_cast<size_t>(i)]);
   }
-}
-
-int Solid::BuildTree(size_t first, size_t last) {
-  Node node{.first = first, .last = last};
-  for (size_t i = first; i < last; ++i) {
-    for (const Eigen::Vector3d& p : triangles_[i]) node.box.extend(p);
+  std::vector<Eigen::AlignedBox3d> around;
+  for (Part& part : parts_) {
+    Eigen::AlignedBox3d box;
+    for (const Triangle& triangle : part.triangles) box.extend(Around(triangle));
+    around.push_back(box);
+    part.index = BoxIndex(AroundEach(part.triangles));
   }
-  if (last - first > kLeaf) {
-    Eigen::Index axis = 0;
-    node.box.sizes().maxCoeff(&axis);
-    const size_t middle = first + (last - first) / 2;
-    const auto at = [this](size_t i) {
-      return triangles_.begin() + static_cast<std::ptrdiff_t>(i);
-    };
-    std::nth_element(at(first), at(middle), at(last), [axis](const Triangle& a, const Triangle& b) {
-      return a[0][axis] + a[1][axis] + a[2][axis] < b[0][axis] + b[1][axis] + b[2][axis];
-    });
-    node.left = BuildTree(first, middle);
-    node.right = BuildTree(middle, last);
-  }
-  nodes_.push_back(node);
-  return static_cast<int>(nodes_.size()) - 1;
+  around_parts_ = BoxIndex(std::move(around));
 }
 
 double Solid::FromTriangles(const ConvexSet& set, const Eigen::AlignedBox3d& bounds) const {
   double least = std::numeric_limits<double>::infinity();
-  std::vector<int> open = {static_cast<int>(nodes_.size()) - 1};
-  while (!open.empty()) {
-    const Node& node = nodes_[static_cast<size_t>(open.back())];
-    open.pop_back();
-    if (std::sqrt(node.box.squaredExteriorDistance(bounds)) >= least) continue;
-    if (node.left >= 0) {
-      // The nearer side first.
-      const auto far = [&](int n) {
-        return nodes_[static_cast<size_t>(n)].box.squaredExteriorDistance(bounds);
-      };
-      const bool left_first = far(node.left) <= far(node.right);
-      open.push_back(left_first ? node.right : node.left);
-      open.push_back(left_first ? node.left : node.right);
-      continue;
-    }
-    for (size_t i = node.first; i < node.last; ++i) {
-      const ConvexSet triangle{{triangles_[i].begin(), triangles_[i].end()}};
-      least = std::min(least, DistanceOf(set, triangle, least).lower);
-    }
-  }
+  const auto key = [&](const Eigen::AlignedBox3d& box) {
+    const double far = std::sqrt(box.squaredExteriorDistance(bounds));
+    return far >= least ? std::numeric_limits<double>::infinity() : far;
+  };
+  index_.Walk(key, [&](size_t i) {
+    const ConvexSet triangle{{triangles_[i].begin(), triangles_[i].end()}};
+    least = std::min(least, DistanceOf(set, triangle, least).lower);
+  });
   return least;
 }
 
-// Rays into all octants, none in line with the axes. A closed part holds every one.
+// Rays into all octants, none in line with the axes. A closed part holds every one; one that comes
+// too near to an edge to tell does not escape.
 bool Solid::Surrounds(const Eigen::Vector3d& point) const {
   const std::array<Eigen::Vector3d, 8> rays = {
       Eigen::Vector3d(1, 0.937, 1.071),       Eigen::Vector3d(-1.013, -0.959, 1.117),
       Eigen::Vector3d(-0.947, 1.039, 0.893),  Eigen::Vector3d(1.049, -1.103, 0.983),
       Eigen::Vector3d(1.021, 0.913, -1.129),  Eigen::Vector3d(-1.087, -0.929, -0.971),
       Eigen::Vector3d(-0.967, 1.061, -1.093), Eigen::Vector3d(1.091, -0.991, -0.919)};
-  return std::any_of(parts_.begin(), parts_.end(), [&](const std::vector<Triangle>& part) {
+  // Beside the bounds of a part some ray leads away from it.
+  const std::vector<size_t> near = around_parts_.Meeting({point, point});
+  return std::any_of(near.begin(), near.end(), [&](size_t p) {
     return std::none_of(rays.begin(), rays.end(), [&](const Eigen::Vector3d& ray) {
-      return Follow(part, point, ray) == Ray::kEscapes;
+      return Follow(parts_[p].triangles, parts_[p].index, point, ray) == Ray::kEscapes;
     });
   });
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "experiments/verify/box_index.h"
 #include "experiments/verify/min_norm_point.h"
 #include "planner/scene/scene.h"
 #include "wpg/geometry/convex_body.h"
@@ -30,20 +31,20 @@ class Solid {
 
  private:
   using Triangle = std::array<Eigen::Vector3d, 3>;
-  struct Node {
-    Eigen::AlignedBox3d box{};
-    int left = -1, right = -1;  // −1: a leaf
-    size_t first = 0, last = 0;
+  // Triangles that are connected, each once.
+  struct Part {
+    std::vector<Triangle> triangles;
+    BoxIndex index;  // of the triangles
   };
-  int BuildTree(size_t first, size_t last);
   void FindParts(const TriangleMesh& mesh);
   double FromTriangles(const ConvexSet& set, const Eigen::AlignedBox3d& bounds) const;
   bool Surrounds(const Eigen::Vector3d& point) const;
 
-  ConvexSet set_;                             // empty: a mesh
-  std::vector<Triangle> triangles_;           // in the order of the tree's leaves
-  std::vector<Node> nodes_;                   // the last is the root
-  std::vector<std::vector<Triangle>> parts_;  // connected ones
+  ConvexSet set_;                    // empty: a mesh
+  std::vector<Triangle> triangles_;  // of a mesh
+  BoxIndex index_;                   // of these
+  std::vector<Part> parts_;          // none of a hollow mesh: it surrounds nothing
+  BoxIndex around_parts_;
   Eigen::Vector3d lower_{0, 0, 0}, upper_{0, 0, 0}, center_{0, 0, 0};
   double radius_ = 0;
 };

@@ -2,6 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <queue>
+#include <tuple>
+#include <type_traits>
 #include <utility>
 
 #include "wpg/check.h"
@@ -16,36 +22,98 @@ void CheckFinite(const Eigen::Isometry3d& X) {
 
 void CheckTime(double t) { HALFSTEP_CHECK(std::isfinite(t), "t = " << t); }
 
+// The bounds of a shape at a pose.
+Eigen::AlignedBox3d BoundsOf(const Shape& shape, const Eigen::Isometry3d& X_WO) {
+  Eigen::AlignedBox3d bounds;
+  if (const auto* mesh = std::get_if<TriangleMesh>(&shape)) {
+    for (const Eigen::Vector3d& p : mesh->vertices.colwise()) bounds.extend(X_WO * p);
+  } else {
+    const auto extend = [&](const ConvexBody& body) {
+      for (int axis = 0; axis < 3; ++axis) {
+        const Eigen::Vector3d direction = X_WO.linear().row(axis);
+        const double origin = X_WO.translation()[axis];
+        bounds.max()[axis] = origin + Support(body, direction);
+        bounds.min()[axis] = origin - Support(body, -direction);
+      }
+    };
+    std::visit(
+        [&extend](const auto& s) {
+          if constexpr (!std::is_same_v<std::decay_t<decltype(s)>, TriangleMesh>) extend(BodyOf(s));
+        },
+        shape);
+  }
+  // Also for what a mesh's hull is widened by.
+  const double rounding = 1e-12 * (1 + bounds.min().norm() + bounds.max().norm());
+  bounds.max().array() += rounding;
+  bounds.min().array() -= rounding;
+  return bounds;
+}
+
 // From a point to a box along each axis, 0 where it is beside or inside [m].
-Eigen::Vector3d ToBox(const Eigen::Vector3d& p, const Eigen::Vector3d& lower,
-                      const Eigen::Vector3d& upper) {
-  return (lower - p).cwiseMax(p - upper).cwiseMax(0.0);
+Eigen::Vector3d ToBox(const Eigen::Vector3d& p, const Eigen::AlignedBox3d& box) {
+  return (box.min() - p).cwiseMax(p - box.max()).cwiseMax(0.0);
 }
 
 }  // namespace
 
-CollisionWorld::CollisionWorld(const Scene& scene) {
+// What queries need of the obstacles; meshes from the beginning, others when they are near.
+struct CollisionWorld::Shapes {
+  explicit Shapes(size_t count) : once(count), made(count) { shapes.reserve(count); }
+
+  std::vector<Shape> shapes;  // without the meshes' triangles, which `made` has
+  std::vector<std::once_flag> once;
+  std::vector<std::optional<CollisionShape>> made;
+};
+
+void CollisionWorld::Uncertainty::Add(const ObstacleMotion& motion) {
+  first = any ? std::min(first, motion.measured_at) : motion.measured_at;
+  last = any ? std::max(last, motion.measured_at) : motion.measured_at;
+  any = true;
+  error = std::max(error, motion.error);
+  speed = std::max(speed, motion.speed);
+  horizon = std::max(horizon, motion.horizon);
+}
+
+double CollisionWorld::Uncertainty::Most(double t, double half_width) const {
+  if (!any) return 0.0;
+  const double since = std::min(std::max(std::abs(t - first), std::abs(t - last)), horizon);
+  return (error + speed * (since + half_width)) * (1 + 1e-12);
+}
+
+CollisionWorld::CollisionWorld(const Scene& scene)
+    : shapes_(std::make_shared<Shapes>(scene.obstacles.size())) {
+  std::vector<Eigen::AlignedBox3d> boxes;
   for (const Obstacle& obstacle : scene.obstacles) {
-    const Eigen::Isometry3d& X_WO = obstacle.X_WO;
-    CheckFinite(X_WO);
-    CollisionShape shape(obstacle.shape);
-    Bounds bounds;
-    for (int axis = 0; axis < 3; ++axis) {
-      const Eigen::Vector3d direction = X_WO.linear().row(axis);
-      const double origin = X_WO.translation()[axis];
-      bounds.upper_W[axis] = origin + Support(shape.convex(), direction);
-      bounds.lower_W[axis] = origin - Support(shape.convex(), -direction);
-    }
-    const double rounding = 1e-12 * (1 + bounds.lower_W.norm() + bounds.upper_W.norm());
-    bounds.lower_W.array() -= rounding;
-    bounds.upper_W.array() += rounding;
+    CheckFinite(obstacle.X_WO);
+    const int index = num_obstacles();
     const bool still = obstacle.rests() && obstacle.motion.error == 0.0;
-    still_ = still_ && still;
-    const double radius =
-        obstacle.motion.waypoints.empty() ? 0.0 : RadiusAboutOrigin(obstacle.shape);
-    entries_.push_back({std::move(shape), obstacle, obstacle.speed(), radius, still});
-    bounds_.push_back(bounds);
+    const bool has_waypoints = !obstacle.motion.waypoints.empty();
+    const double radius = has_waypoints ? RadiusAboutOrigin(obstacle.shape) : 0.0;
+    entries_.push_back({obstacle.X_WO, obstacle.motion, obstacle.speed(), radius, still,
+                        BoundsOf(obstacle.shape, obstacle.X_WO)});
+    if (const auto* mesh = std::get_if<TriangleMesh>(&obstacle.shape)) {
+      shapes_->made[static_cast<size_t>(index)].emplace(*mesh);
+      shapes_->shapes.emplace_back();
+    } else {
+      shapes_->shapes.push_back(obstacle.shape);
+    }
+    if (has_waypoints) {
+      on_the_way_.push_back(index);
+    } else {
+      in_tree_.push_back(index);
+      boxes.push_back(entries_.back().bounds_W);
+      if (!still) uncertainty_.Add(obstacle.motion);
+    }
   }
+  tree_ = BoundsTree(boxes, 4);
+}
+
+const CollisionShape& CollisionWorld::ShapeOf(int obstacle) const {
+  const size_t i = static_cast<size_t>(obstacle);
+  std::call_once(shapes_->once[i], [&] {
+    if (!shapes_->made[i]) shapes_->made[i].emplace(shapes_->shapes[i]);
+  });
+  return *shapes_->made[i];
 }
 
 CollisionWorld::Nearest CollisionWorld::FindNearest(const CollisionShape& body,
@@ -57,22 +125,52 @@ CollisionWorld::Nearest CollisionWorld::FindNearest(const CollisionShape& body,
   nearest.margin = nearest.separation.distance = horizon;
   double least = horizon;  // margin at the worst time
   const Eigen::Vector3d center_W = X_WB * body.center();
-  std::vector<std::pair<double, int>> candidates;  // lower bound of that, obstacle
-  for (size_t i = 0; i < bounds_.size(); ++i) {
-    double bound = ToBox(center_W, bounds_[i].lower_W, bounds_[i].upper_W).norm() - body.radius();
-    if (!still_) bound -= Moved(entries_[i], t) + Taken(entries_[i], t, half_width);
+  // Lower bounds of that, the least first: of an obstacle, or of those of a node of the tree.
+  using Candidate =
+      std::tuple<double, bool, int>;  // bound, is an obstacle, its index or the node's
+  std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> candidates;
+  const auto add = [&](double bound, bool is_obstacle, int index) {
     // A negative bound says nothing about how deep the overlap may be.
-    if (bound < std::max(horizon, 0.0)) candidates.emplace_back(bound, static_cast<int>(i));
-  }
-  std::sort(candidates.begin(), candidates.end());
-  for (const auto& [bound, i] : candidates) {
-    if (bound >= std::max(least, 0.0)) break;
+    if (bound < std::max(least, 0.0)) candidates.emplace(bound, is_obstacle, index);
+  };
+  const auto add_obstacle = [&](int i) {
     const Entry& entry = entries_[static_cast<size_t>(i)];
-    const Separation separation = Separate(body, X_WB, entry.shape, entry.obstacle.PoseAt(t));
-    const double worst = separation.distance - Taken(entry, t, half_width);
+    add(ToBox(center_W, entry.bounds_W).norm() - body.radius() -
+            (Moved(entry, t) + Taken(entry, t, half_width)),
+        true, i);
+  };
+  const double taken = body.radius() + uncertainty_.Most(t, half_width) +
+                       1e-12 * (1.0 + center_W.norm() + tree_.Farthest());
+  const auto add_node = [&](int n) {
+    add(BoundsTree::Gap(tree_.nodes[static_cast<size_t>(n)], center_W) - taken, false, n);
+  };
+  for (const int i : on_the_way_) add_obstacle(i);
+  if (!tree_.nodes.empty()) add_node(0);
+  while (!candidates.empty()) {
+    const auto [bound, is_obstacle, i] = candidates.top();
+    if (bound >= std::max(least, 0.0)) break;
+    candidates.pop();
+    if (!is_obstacle) {
+      const BoundsTree::Node& node = tree_.nodes[static_cast<size_t>(i)];
+      if (node.left >= 0) {
+        add_node(node.left);
+        add_node(node.left + 1);
+        continue;
+      }
+      for (int32_t k = node.first; k < node.first + node.count; ++k) {
+        add_obstacle(in_tree_[static_cast<size_t>(tree_.order[static_cast<size_t>(k)])]);
+      }
+      continue;
+    }
+    const Entry& entry = entries_[static_cast<size_t>(i)];
+    const double off = Taken(entry, t, half_width);
+    // Rounding must not make what is not looked at the nearest.
+    const Separation separation =
+        Separate(body, X_WB, ShapeOf(i), entry.motion.PoseAt(entry.X_WO, t), least + off + 1e-9);
+    const double worst = separation.distance - off;
     if (worst < least) {
       least = worst;
-      nearest = {i, separation, separation.distance - entry.obstacle.UncertaintyAt(t)};
+      nearest = {i, separation, separation.distance - entry.motion.UncertaintyAt(t)};
     }
   }
   return nearest;
@@ -82,19 +180,23 @@ bool CollisionWorld::Clears(const CollisionShape& body, const Eigen::Isometry3d&
                             double clearance, Scratch* scratch, double half_width) const {
   CheckFinite(X_WB);
   CheckTime(t);
-  if (scratch->normals_W.size() != entries_.size()) {
-    scratch->normals_W.assign(entries_.size(), Eigen::Vector3d::Zero());
-  }
   const Eigen::Vector3d center_W = X_WB * body.center();
-  for (size_t i = 0; i < bounds_.size(); ++i) {
-    const Entry& entry = entries_[i];
-    const double distance = still_ ? clearance : clearance + Taken(entry, t, half_width);
-    const double reach = body.radius() + distance + (still_ ? 0.0 : Moved(entry, t));
-    const Eigen::Vector3d gap = ToBox(center_W, bounds_[i].lower_W, bounds_[i].upper_W);
-    const double distance2 = gap.squaredNorm();
+  std::vector<int>& near = scratch->near;
+  near = on_the_way_;
+  tree_.ForEachNear(center_W,
+                    std::max(body.radius() + clearance + uncertainty_.Most(t, half_width), 0.0),
+                    [&](int32_t i) { near.push_back(in_tree_[static_cast<size_t>(i)]); });
+  std::sort(near.begin(), near.end());
+  for (const int i : near) {
+    const Entry& entry = entries_[static_cast<size_t>(i)];
+    const double distance = clearance + Taken(entry, t, half_width);
+    const double reach = body.radius() + distance + Moved(entry, t);
+    const double distance2 = ToBox(center_W, entry.bounds_W).squaredNorm();
     if (distance2 > 0 && (reach <= 0 || distance2 >= reach * reach)) continue;
-    if (!ClearsAlongCached(body, X_WB, entry.shape, entry.obstacle.PoseAt(t), distance,
-                           &scratch->normals_W[i])) {
+    Eigen::Vector3d& normal_W =
+        scratch->normals_W.try_emplace(i, Eigen::Vector3d::Zero()).first->second;
+    if (!ClearsAlongCached(body, X_WB, ShapeOf(i), entry.motion.PoseAt(entry.X_WO, t), distance,
+                           &normal_W)) {
       return false;
     }
   }

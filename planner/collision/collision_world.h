@@ -1,8 +1,11 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <map>
+#include <memory>
 #include <vector>
 
+#include "planner/collision/bounds_tree.h"
 #include "planner/collision/separation.h"
 #include "planner/scene/scene.h"
 
@@ -19,7 +22,8 @@ class CollisionWorld {
   /// instants are decided by them, without a distance query. Use one scratch for each body and
   /// thread.
   struct Scratch {
-    std::vector<Eigen::Vector3d> normals_W;  ///< by obstacle; zero: none yet.
+    std::map<int, Eigen::Vector3d> normals_W;  ///< by obstacle, of those that came near.
+    std::vector<int> near;
   };
   struct Nearest {
     int obstacle = -1;  ///< index into the scene, −1: none within the horizon.
@@ -29,7 +33,8 @@ class CollisionWorld {
     double margin = 0.0;
   };
 
-  /// Precondition: finite obstacle poses (std::logic_error).
+  /// Precondition: finite obstacle poses (std::logic_error). Obstacles without waypoints lie in a
+  /// tree, and what a query needs of one is built when a body first comes near it.
   explicit CollisionWorld(const Scene& scene);
 
   int num_obstacles() const { return static_cast<int>(entries_.size()); }
@@ -49,31 +54,42 @@ class CollisionWorld {
 
  private:
   struct Entry {
-    CollisionShape shape;
-    Obstacle obstacle;
-    double speed = 0.0;   // of its margin, at most [m/s]
-    double radius = 0.0;  // about its frame's origin [m]; 0 when it has no waypoints
-    bool still = true;    // no motion and no uncertainty
+    Eigen::Isometry3d X_WO;
+    ObstacleMotion motion;
+    double speed = 0.0;            // of its margin, at most [m/s]
+    double radius = 0.0;           // about its frame's origin [m]; 0 when it has no waypoints
+    bool still = true;             // no motion and no uncertainty
+    Eigen::AlignedBox3d bounds_W;  // at t = 0 [m]
   };
+  struct Shapes;
+  // What bounds the uncertainties of all obstacles in the tree.
+  struct Uncertainty {
+    double error = 0.0, speed = 0.0, horizon = 0.0;  // the largest
+    double first = 0.0, last = 0.0;                  // time of measurement [s]
+    bool any = false;
+    void Add(const ObstacleMotion& motion);
+    double Most(double t, double half_width) const;
+  };
+
   // What an obstacle's margin at the worst of the times t ± half_width is below the distance from
   // its pose at t at most: its uncertainty, and its way in that time [m].
   static double Taken(const Entry& entry, double t, double half_width) {
     if (entry.still) return 0.0;
-    return entry.obstacle.UncertaintyAt(t) + entry.speed * half_width;
+    return entry.motion.UncertaintyAt(t) + entry.speed * half_width;
   }
   // How far from its bounds an obstacle is at t at most [m].
   static double Moved(const Entry& entry, double t) {
     if (entry.still) return 0.0;
-    return entry.obstacle.motion.DisplacementAt(entry.obstacle.X_WO, entry.radius, t);
+    return entry.motion.DisplacementAt(entry.X_WO, entry.radius, t);
   }
+  const CollisionShape& ShapeOf(int obstacle) const;
 
-  /// Axis-aligned bounds of an obstacle at t = 0 [m].
-  struct Bounds {
-    Eigen::Vector3d lower_W, upper_W;
-  };
   std::vector<Entry> entries_;
-  std::vector<Bounds> bounds_;  // one per entry, side by side: most queries read nothing else
-  bool still_ = true;           // all entries are
+  std::shared_ptr<Shapes> shapes_;
+  BoundsTree tree_;              // of obstacles without waypoints
+  std::vector<int> in_tree_;     // which they are
+  std::vector<int> on_the_way_;  // the others
+  Uncertainty uncertainty_;
 };
 
 }  // namespace halfstep

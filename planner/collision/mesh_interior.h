@@ -1,11 +1,11 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <vector>
+#include <functional>
+#include <memory>
+#include <mutex>
 
-#include "planner/collision/mesh_winding.h"
-#include "planner/collision/triangle_tree.h"
-#include "planner/scene/scene.h"
+#include "planner/scene/shape.h"
 
 namespace halfstep {
 
@@ -24,26 +24,32 @@ namespace halfstep {
 /// winds around it (rule 1: patches never cancel), and when patches can be turned so that they make
 /// a closed surface that winds around it (rule 3). So a cavity counts as inside, and so may a point
 /// that large open patches surround; what is inside an open mesh is for rules 1 and 2 to say.
+/// Nothing is inside a hollow mesh.
 /// Nothing is promised where a single closed patch passes through itself and winds once each way.
 /// Source: winding numbers, [Jacobson2013].
 class MeshInterior {
  public:
-  /// Precondition: at least one triangle, finite vertices (std::logic_error).
-  explicit MeshInterior(const TriangleMesh& mesh);
+  /// Precondition: at least one triangle, finite vertices (std::logic_error). Patches are found
+  /// when first asked for, and what is needed of a patch when a point first comes near it.
+  explicit MeshInterior(TriangleMesh mesh);
+  ~MeshInterior();
 
-  /// Whether a point of the mesh's frame [m] is inside.
+  /// Whether a point of the mesh's frame [m] is inside. Closed patches far from it cost nothing,
+  /// open ones little.
   bool Contains(const Eigen::Vector3d& point) const;
-  /// One vertex of each patch, in the mesh's frame [m].
-  const std::vector<Eigen::Vector3d>& points() const { return points_; }
+  /// Whether `holds` is true of some point of the mesh's surface within `radius` [m] of `center`,
+  /// of one vertex of each patch, in the mesh's frame.
+  bool AnyPatch(const Eigen::Vector3d& center, double radius,
+                const std::function<bool(const Eigen::Vector3d&)>& holds) const;
 
  private:
-  struct Patch {
-    TriangleTree triangles;
-    MeshWinding winding;
-    bool closed = false;
-  };
-  std::vector<Patch> patches_;
-  std::vector<Eigen::Vector3d> points_;
+  struct Patch;
+  struct Patches;
+  const Patches& patches() const;
+
+  mutable std::once_flag once_;
+  mutable TriangleMesh mesh_;  // until the patches are found
+  mutable std::unique_ptr<const Patches> patches_;
 };
 
 }  // namespace halfstep

@@ -1,11 +1,9 @@
 #include "planner/collision/separation.h"
 
-#include <fcl/geometry/bvh/BVH_model.h>
-#include <fcl/narrowphase/distance.h>
-
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <limits>
 #include <mutex>
 #include <numbers>
 #include <optional>
@@ -15,12 +13,11 @@
 
 #include "planner/collision/convex_distance.h"
 #include "planner/collision/mesh_interior.h"
+#include "planner/collision/triangle_surface.h"
 #include "wpg/check.h"
 
 namespace halfstep {
 namespace {
-
-using Bvh = fcl::BVHModel<fcl::OBBRSSd>;
 
 constexpr double kThickness = 1e-6;  // [m] given to a core without volume before it meets a mesh.
 constexpr int kDiscSides = 64;
@@ -28,20 +25,9 @@ constexpr int kDiscSides = 64;
 constexpr double kTriangleRounding = 1e-12, kLeastRounding = 1e-10;
 // Taken off slabs to a mesh's hull for rounding: of the mesh's coordinates.
 constexpr double kSlabRounding = 4e-15;
-
-std::shared_ptr<const Bvh> MakeBvh(const TriangleMesh& mesh) {
-  std::vector<fcl::Vector3d> points(mesh.vertices.colwise().begin(), mesh.vertices.colwise().end());
-  std::vector<fcl::Triangle> faces;
-  for (const Eigen::Vector3i& t : mesh.triangles.colwise()) {
-    faces.emplace_back(static_cast<size_t>(t[0]), static_cast<size_t>(t[1]),
-                       static_cast<size_t>(t[2]));
-  }
-  auto bvh = std::make_shared<Bvh>();
-  bvh->beginModel(static_cast<int>(faces.size()), static_cast<int>(points.size()));
-  bvh->addSubModel(points, faces);
-  bvh->endModel();
-  return bvh;
-}
+constexpr Eigen::Index kMostOfAHull = 20'000;  // triangles of a mesh that is given its hull
+// Asked of a slab: whether there is any, not how wide it is or how deep the overlap.
+constexpr double kAny = std::numeric_limits<double>::min();
 
 // Corners of the polygon around a disc: at most 0.1 mm of it stands out, or 1/800 of the radius.
 int DiscSides(double radius) {
@@ -89,17 +75,22 @@ ConvexBody Enclosing(const TriangleMesh& mesh) {
                  "vertex indices " << mesh.triangles.minCoeff() << " … "
                                    << mesh.triangles.maxCoeff() << " of " << mesh.vertices.cols()
                                    << " vertices");
-  ConvexBody around;
-  try {
-    around = MakeHull(mesh.vertices);
-  } catch (const std::runtime_error&) {  // flat: the axis-aligned bounds
+  const auto bounds = [&mesh] {
     const Eigen::Vector3d lower = mesh.vertices.rowwise().minCoeff();
     const Eigen::Vector3d upper = mesh.vertices.rowwise().maxCoeff();
-    around.vertices.resize(3, 8);
+    ConvexBody box;
+    box.vertices.resize(3, 8);
     for (int i = 0; i < 8; ++i) {
-      around.vertices.col(i) << ((i & 1) ? upper : lower).x(), ((i & 2) ? upper : lower).y(),
+      box.vertices.col(i) << ((i & 1) ? upper : lower).x(), ((i & 2) ? upper : lower).y(),
           ((i & 4) ? upper : lower).z();
     }
+    return box;
+  };
+  ConvexBody around;
+  try {
+    around = mesh.triangles.cols() > kMostOfAHull ? bounds() : MakeHull(mesh.vertices);
+  } catch (const std::runtime_error&) {  // flat
+    around = bounds();
   }
   around.ball_radius += kSlabRounding * mesh.vertices.colwise().norm().maxCoeff();
   BoundBySphere(&around);
@@ -118,36 +109,28 @@ bool IsFinite(const Eigen::Isometry3d& X) { return std::isfinite(X.matrix().topR
 
 struct CollisionShape::Impl {
   explicit Impl(ConvexBody body) : convex(Mapped(std::move(body))) {}
-  explicit Impl(TriangleMesh triangles)
-      : convex(Mapped(Enclosing(triangles))),
-        is_mesh(true),
-        hollow_{std::move(triangles), nullptr} {
-    hollow_.bvh = MakeBvh(hollow_.mesh);
+  explicit Impl(TriangleMesh triangles) : convex(Mapped(Enclosing(triangles))), is_mesh(true) {
+    surface_.emplace(std::move(triangles));
   }
 
-  // The surface of the core, and what FCL needs. The core reaches beyond it by at most `excess`.
-  struct Hollow {
-    TriangleMesh mesh;
-    std::shared_ptr<const Bvh> bvh;
-    double excess = 0.0;  // [m]
-  };
-  // Of a convex body it is built when the body first comes near a mesh.
-  const Hollow& hollow() const {
-    std::call_once(hollow_once_, [this] {
-      if (hollow_.bvh != nullptr) return;
+  // The triangles; of a convex body those of its core, built when it first comes near a mesh.
+  const TriangleSurface& surface() const {
+    std::call_once(surface_once_, [this] {
+      if (is_mesh) return;
       const ConvexBody core = MakeCore(convex);
-      hollow_.mesh = FacesOf(core);
-      hollow_.bvh = MakeBvh(hollow_.mesh);
-      hollow_.excess = core.ball_radius;
+      surface_.emplace(FacesOf(core), TriangleSurface::kOneBlock);
+      excess_ = core.ball_radius;
     });
-    return hollow_;
+    return *surface_;
   }
-  const Bvh& bvh() const { return *hollow().bvh; }
   // How far a convex body reaches beyond the triangles.
-  double beyond() const { return hollow().excess + convex.ball_radius; }
+  double beyond() const {
+    surface();
+    return excess_ + convex.ball_radius;
+  }
   // What the surface encloses; built when first asked for.
   const MeshInterior& interior() const {
-    std::call_once(interior_once_, [this] { interior_.emplace(hollow().mesh); });
+    std::call_once(interior_once_, [this] { interior_.emplace(surface().mesh()); });
     return *interior_;
   }
 
@@ -155,8 +138,9 @@ struct CollisionShape::Impl {
   const bool is_mesh = false;
 
  private:
-  mutable std::once_flag hollow_once_, interior_once_;
-  mutable Hollow hollow_;
+  mutable std::once_flag surface_once_, interior_once_;
+  mutable std::optional<TriangleSurface> surface_;
+  mutable double excess_ = 0.0;  // by which the core reaches beyond its triangles [m]
   mutable std::optional<MeshInterior> interior_;
 };
 
@@ -191,16 +175,12 @@ Separation InWorld(const ConvexDistance& found, const Eigen::Isometry3d& X_Wa) {
           X_Wa * found.point_b_A};
 }
 
-// The distance of the triangles, less what FCL's rounding may make up for; zero or negative:
-// contact. `result` gets the nearest points.
-double TrianglesApart(const CollisionShape& a, const Eigen::Isometry3d& X_Wa,
-                      const CollisionShape& b, const Eigen::Isometry3d& X_Wb,
-                      fcl::DistanceResultd* result) {
-  const fcl::DistanceRequestd request(/*enable_nearest_points=*/true);
-  fcl::distance(&a.impl().bvh(), X_Wa, &b.impl().bvh(), X_Wb, request, *result);
+// Taken off the distance of triangles for FCL's rounding [m].
+double TriangleRounding(const CollisionShape& a, const Eigen::Isometry3d& X_Wa,
+                        const CollisionShape& b, const Eigen::Isometry3d& X_Wb) {
   const double coordinates = (X_Wa.translation() - X_Wb.translation()).norm() + a.center().norm() +
                              a.radius() + b.center().norm() + b.radius();
-  return result->min_distance - std::max(kLeastRounding, kTriangleRounding * coordinates);
+  return std::max(kLeastRounding, kTriangleRounding * coordinates);
 }
 
 // Whether a body that meets no triangle of the mesh holds a part of it or lies inside it.
@@ -208,36 +188,55 @@ bool Contains(const CollisionShape& body, const CollisionShape& mesh,
               const Eigen::Isometry3d& X_MB) {
   ConvexBody point;
   point.vertices.resize(3, 1);
-  for (const Eigen::Vector3d& p : mesh.impl().interior().points()) {
-    if ((X_MB * body.center() - p).norm() > body.radius()) continue;
+  const Eigen::Isometry3d X_BM = X_MB.inverse(Eigen::Isometry);
+  const auto holds = [&](const Eigen::Vector3d& p) {
     point.vertices.col(0) = point.center = p;
-    const Eigen::Isometry3d X_BM = X_MB.inverse(Eigen::Isometry);
     const Eigen::Vector3d first = body.center() - X_BM * p;
-    if (FindConvexDistance(body.convex(), point, X_BM, first, 0.0).lower < 0) return true;
-  }
-  return mesh.impl().interior().Contains(X_MB * body.convex().vertices.col(0));
+    return FindConvexDistance(body.convex(), point, X_BM, first, 0.0).lower < 0;
+  };
+  const MeshInterior& interior = mesh.impl().interior();
+  return interior.AnyPatch(X_MB * body.center(), body.radius(), holds) ||
+         interior.Contains(X_MB * body.convex().vertices.col(0));
 }
 
-// `to_hull` is the separation of the body from the mesh's hull; the normal points to the body.
+// The normal points to the body.
 Separation SeparateFromMesh(const CollisionShape& body, const Eigen::Isometry3d& X_WB,
                             const CollisionShape& mesh, const Eigen::Isometry3d& X_WM,
-                            const Separation& to_hull) {
-  Separation contact = to_hull;
-  contact.distance = std::min(to_hull.distance, 0.0);
+                            double horizon) {
+  // The slab between the body and the mesh's hull. How far these overlap costs much and matters
+  // only where the body touches the mesh itself.
+  const auto slab = [&](double enough) {
+    return InWorld(Slab(body, X_WB, mesh, X_WM, enough), X_WB);
+  };
+  Separation to_hull = slab(kAny);
+  const bool apart = to_hull.distance > 0;
+  if (apart) to_hull = slab(kConverge);
+  const auto contact = [&] {
+    if (!apart) to_hull = slab(kConverge);
+    to_hull.distance = std::min(to_hull.distance, 0.0);
+    return to_hull;
+  };
+  if (apart && to_hull.distance >= horizon) return to_hull;
   try {
-    fcl::DistanceResultd result;
-    const double core_distance = TrianglesApart(body, X_WB, mesh, X_WM, &result);
-    if (!(core_distance > 0)) return contact;
-    if (to_hull.distance <= 0 && Contains(body, mesh, X_WM.inverse(Eigen::Isometry) * X_WB)) {
-      return contact;
-    }
     const double ball = body.impl().beyond();
+    const double rounding = TriangleRounding(body, X_WB, mesh, X_WM);
+    const double asked = std::max(horizon, kLeastRounding) + ball + rounding;
+    const auto found = TriangleSurface::Distance(body.impl().surface(), X_WB, X_WB * body.center(),
+                                                 body.radius(), mesh.impl().surface(), X_WM, asked);
+    const double core_distance = found ? found->distance - rounding : asked - rounding;
+    if (!(core_distance > 0)) return contact();
+    if (!apart && Contains(body, mesh, X_WM.inverse(Eigen::Isometry) * X_WB)) return contact();
+    if (!found) {
+      to_hull.distance = std::max(horizon, to_hull.distance);
+      return to_hull;
+    }
+    if (!apart && core_distance - ball < 0) to_hull = slab(kConverge);
     if (to_hull.distance >= core_distance - ball) return to_hull;
-    const Eigen::Vector3d &at_body = result.nearest_points[0], &at_mesh = result.nearest_points[1];
+    const Eigen::Vector3d &at_body = found->point_a_W, &at_mesh = found->point_b_W;
     const Eigen::Vector3d normal_W = (at_body - at_mesh).normalized();
     return {core_distance - ball, normal_W, at_body - ball * normal_W, at_mesh};
   } catch (const std::exception&) {
-    return contact;
+    return contact();
   }
 }
 
@@ -256,15 +255,14 @@ double SeparationAlong(const ConvexBody& a, const Eigen::Isometry3d& X_Wa, const
 }
 
 Separation Separate(const CollisionShape& a, const Eigen::Isometry3d& X_Wa, const CollisionShape& b,
-                    const Eigen::Isometry3d& X_Wb) {
+                    const Eigen::Isometry3d& X_Wb, double horizon) {
   HALFSTEP_CHECK(IsFinite(X_Wa) && IsFinite(X_Wb), "a pose is not finite:\n"
                                                        << X_Wa.matrix() << "\n"
                                                        << X_Wb.matrix());
   HALFSTEP_CHECK(!(a.is_mesh() && b.is_mesh()), "two meshes");
-  const Separation slab = InWorld(Slab(a, X_Wa, b, X_Wb, kConverge), X_Wa);
-  if (b.is_mesh()) return SeparateFromMesh(a, X_Wa, b, X_Wb, slab);
-  if (a.is_mesh()) return Swapped(SeparateFromMesh(b, X_Wb, a, X_Wa, Swapped(slab)));
-  return slab;
+  if (b.is_mesh()) return SeparateFromMesh(a, X_Wa, b, X_Wb, horizon);
+  if (a.is_mesh()) return Swapped(SeparateFromMesh(b, X_Wb, a, X_Wa, horizon));
+  return InWorld(Slab(a, X_Wa, b, X_Wb, kConverge), X_Wa);
 }
 
 bool ClearsAlongCached(const CollisionShape& a, const Eigen::Isometry3d& X_Wa,
@@ -281,7 +279,7 @@ bool ClearsAlongCached(const CollisionShape& a, const Eigen::Isometry3d& X_Wa,
   *normal_W = (X_Wa.linear() * slab.normal_A).normalized();
   if (slab.lower >= clearance) return true;
   if (!a.is_mesh() && !b.is_mesh()) return false;
-  return Separate(a, X_Wa, b, X_Wb).distance >= clearance;
+  return Separate(a, X_Wa, b, X_Wb, clearance).distance >= clearance;
 }
 
 }  // namespace halfstep

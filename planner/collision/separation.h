@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <limits>
 #include <memory>
 
 #include "planner/scene/scene.h"
@@ -13,15 +14,15 @@ namespace halfstep {
 /// signed distance (beyond rounding, 1e-14 of the coordinates). Zero or negative means contact or
 /// overlap; then it is a lower bound of minus the penetration depth.
 /// With a mesh, it is the larger of two numbers, neither of which exceeds the true distance:
-///   1. the slab to a convex body around the mesh: its hull (a flat mesh's axis-aligned bounds),
-///      widened by how far a vertex may lie outside and by the slab's rounding (4e-15 of the mesh's
-///      coordinates);
+///   1. the slab to a convex body around the mesh: its hull (the axis-aligned bounds of a mesh that
+///      is flat or has more than 20,000 triangles), widened by how far a vertex may lie outside and
+///      by the slab's rounding (4e-15 of the mesh's coordinates);
 ///   2. the distance of the triangles from the body's core, less the ball's radius and FCL's
 ///      rounding (1e-12 of the coordinates, at least 1e-10 m). The core is the body without its
 ///      ball; a disc is enclosed by a polygon of at least 64 sides, and a core without volume is
 ///      widened by 1e-6 m.
 /// A body that meets no triangle is in contact all the same when it holds a part of the mesh or is
-/// inside it (planner/collision/mesh_interior.h).
+/// inside it (planner/collision/mesh_interior.h), unless the mesh is hollow.
 struct Separation {
   double distance = 0.0;               ///< [m]
   Eigen::Vector3d normal_W{0, 0, 1};   ///< unit, from b towards a.
@@ -29,8 +30,8 @@ struct Separation {
   Eigen::Vector3d point_b_W{0, 0, 0};  ///< witness on b [m].
 };
 
-/// A body prepared for collision queries. It holds what FCL needs, but FCL appears in separation.cc
-/// only. Immutable, shared by copies, safe to use from several threads.
+/// A body prepared for collision queries. Immutable, shared by copies, safe to use from several
+/// threads.
 class CollisionShape {
  public:
   /// Precondition: at least one vertex, all finite, and radii ≥ 0 (std::logic_error).
@@ -62,8 +63,11 @@ double SeparationAlong(const ConvexBody& a, const Eigen::Isometry3d& X_Wa, const
 /// (std::logic_error). An exception inside FCL counts as contact. FCL is not asked about convex
 /// pairs: on random pairs its libccd distance was more than 1e-6 m too large for one in eight (by
 /// up to 28 mm), while the two bounds of FindConvexDistance were never 1e-6 m apart.
+/// A mesh that is at least `horizon` [m] away may be told as any distance from `horizon` up to the
+/// true one, without witness points: then its far triangles cost nothing.
 Separation Separate(const CollisionShape& a, const Eigen::Isometry3d& X_Wa, const CollisionShape& b,
-                    const Eigen::Isometry3d& X_Wb);
+                    const Eigen::Isometry3d& X_Wb,
+                    double horizon = std::numeric_limits<double>::infinity());
 
 /// Whether the bodies are at least `clearance` [m] apart, by the same lower bound as Separate.
 /// `normal_W` is the direction that separated them last (zero: none yet). It is tried first, and

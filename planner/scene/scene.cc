@@ -4,17 +4,15 @@
 #include <cstdio>
 #include <filesystem>
 #include <map>
-#include <optional>
-#include <stdexcept>
 #include <utility>
 
+#include "planner/scene/cloud_fields.h"
+#include "planner/scene/mesh_fields.h"
 #include "planner/scene/motion_fields.h"
 #include "planner/scene/simple_polygon.h"
 #include "wpg/files/input_error.h"
-#include "wpg/files/mesh_file.h"
 #include "wpg/files/text.h"
 #include "wpg/files/yaml_fields.h"
-#include "wpg/geometry/simplified_hull.h"
 
 namespace halfstep {
 namespace {
@@ -24,6 +22,8 @@ namespace {
 constexpr double kFarthestPoint = 10e3;
 constexpr double kSmallest = 1e-6;      // of any size [m]
 constexpr size_t kMostVertices = 1000;  // of a polygon
+// 100,000 obstacles: a box that stands turned takes about 20 values and 110 bytes.
+constexpr YamlLimits kLimits{.bytes = std::size_t{16} << 20, .values = 2'500'000};
 
 NumberSpec Size(const char* meaning) {
   return {
@@ -34,14 +34,12 @@ NumberSpec Size(const char* meaning) {
 struct ObstacleFields {
   std::string name;
   bool has_box = false, has_cylinder = false, has_sphere = false, has_capsule = false,
-       has_mesh = false;
+       has_mesh = false, has_points = false, has_octomap = false;
   std::vector<double> size;
   double radius = 0.0;
   double length = 0.0;
-  TriangleMesh mesh;
-  InputFile mesh_file;
-  std::optional<ConvexBody> hull;  // in place of the mesh
-  std::string told;                // of the hull
+  MeshFields mesh;
+  CloudFields cloud;
   std::vector<double> xyz{0.0, 0.0, 0.0};
   std::vector<double> rpy{0.0, 0.0, 0.0};
   ObstacleMotion motion;
@@ -70,58 +68,6 @@ void DeclareName(Fields& fields, std::string* name, bool required, const std::st
   if (!is_new) fields.Complain("name", Quote(*name) + " is the name of " + first->second + " too");
 }
 
-// The hull of the mesh, or one around it with fewer vertices.
-void TakeHull(Fields& fields, int vertices, ObstacleFields* obstacle) {
-  if (vertices < kFewestHullVertices) {
-    fields.Complain("hull_vertices", std::to_string(vertices) +
-                                         " are too few (valid: 0, or at least " +
-                                         std::to_string(kFewestHullVertices) + ")");
-    return;
-  }
-  try {
-    const ConvexBody hull = MakeHull(obstacle->mesh.vertices);
-    SimplifiedHull simplified = SimplifyOutward(hull, vertices);
-    if (simplified.body.vertices.cols() < hull.vertices.cols()) {
-      obstacle->told = Formatted(
-          "the hull of the mesh has %d vertices; a simpler one around it, with %d, is at most %.2g "
-          "mm larger",
-          static_cast<int>(hull.vertices.cols()), static_cast<int>(simplified.body.vertices.cols()),
-          1e3 * simplified.excess);
-    }
-    obstacle->hull = std::move(simplified.body);
-  } catch (const std::runtime_error& error) {
-    fields.Complain("hull_vertices", error.what());
-  }
-}
-
-void DeclareMesh(Fields& fields, ObstacleFields* obstacle) {
-  std::string file;
-  double scale = 1.0;
-  int hull_vertices = 0;
-  fields.Text("file", &file, {.meaning = "STL or OBJ file, beside the scene", .required = true});
-  fields.Number("scale", &scale,
-                {.meaning = "metres per unit of the file", .min = 1e-6, .max = 1e6});
-  fields.Integer("hull_vertices", &hull_vertices,
-                 {.meaning = "not 0: in place of the triangles their convex hull, or a hull around "
-                             "that with at most so many vertices",
-                  .min = 0,
-                  .max = 1e6});
-  if (file.empty()) {
-    fields.Complain("file", "no file name (valid: an STL or OBJ file)");
-    return;
-  }
-  try {
-    const std::filesystem::path path = std::filesystem::path(fields.directory()) / file;
-    LoadedMesh loaded = LoadMesh(path.string());
-    obstacle->mesh = {scale * loaded.vertices, std::move(loaded.triangles)};
-    obstacle->mesh_file = std::move(loaded.file);
-    obstacle->mesh_file.name = file;
-    if (hull_vertices != 0) TakeHull(fields, hull_vertices, obstacle);
-  } catch (const InputError& error) {
-    for (const std::string& complaint : error.complaints()) fields.Complain("file", complaint);
-  }
-}
-
 void DeclareShape(Fields& fields, ObstacleFields* obstacle) {
   fields.OptionalGroup("box", &obstacle->has_box, {.meaning = "box"}, [&](Fields& box) {
     box.Numbers("size_m", &obstacle->size, 3, Size("full edge lengths"));
@@ -140,12 +86,19 @@ void DeclareShape(Fields& fields, ObstacleFields* obstacle) {
         capsule.Number("length_m", &obstacle->length, Size("distance of the ball centres"));
       });
   fields.OptionalGroup("mesh", &obstacle->has_mesh, {.meaning = "triangle mesh"},
-                       [&](Fields& mesh) { DeclareMesh(mesh, obstacle); });
+                       [&](Fields& mesh) { DeclareMesh(mesh, &obstacle->mesh); });
+  fields.OptionalGroup("points", &obstacle->has_points, {.meaning = "point cloud"},
+                       [&](Fields& points) { DeclarePoints(points, &obstacle->cloud); });
+  fields.OptionalGroup("octomap", &obstacle->has_octomap, {.meaning = "occupancy map"},
+                       [&](Fields& map) { DeclareOctomap(map, &obstacle->cloud); });
   const int shapes = obstacle->has_box + obstacle->has_cylinder + obstacle->has_sphere +
-                     obstacle->has_capsule + obstacle->has_mesh;
+                     obstacle->has_capsule + obstacle->has_mesh + obstacle->has_points +
+                     obstacle->has_octomap;
   if (shapes != 1) {
     std::string what = std::to_string(shapes);
-    what += " shapes (valid: exactly one of box, cylinder, sphere, capsule, mesh)";
+    what +=
+        " shapes (valid: exactly one of box, cylinder, sphere, capsule, mesh, "
+        "points, octomap)";
     fields.Complain("", what);
   }
 }
@@ -163,21 +116,22 @@ Eigen::Isometry3d MakePose(const std::vector<double>& xyz, const std::vector<dou
 
 // Complains about a mesh that reaches too far, scaled and posed.
 void CheckReach(Fields& fields, const ObstacleFields& obstacle) {
-  if (obstacle.mesh.vertices.cols() == 0) return;
+  const TriangleMesh& mesh = obstacle.mesh.mesh;
+  if (mesh.vertices.cols() == 0) return;
   const Eigen::Isometry3d X_WO = MakePose(obstacle.xyz, obstacle.rpy);
-  const Eigen::Matrix3Xd points_W =
-      (X_WO.linear() * obstacle.mesh.vertices).colwise() + X_WO.translation();
+  const Eigen::Matrix3Xd points_W = (X_WO.linear() * mesh.vertices).colwise() + X_WO.translation();
   double farthest = points_W.colwise().norm().maxCoeff();
-  const double radius = obstacle.mesh.vertices.colwise().norm().maxCoeff();
+  const double radius = mesh.vertices.colwise().norm().maxCoeff();
   for (const ObstacleMotion::Waypoint& waypoint : obstacle.motion.waypoints) {
     farthest = std::max(farthest, waypoint.translation.norm() + radius);
   }
   if (farthest <= kFarthestPoint) return;
   char text[32];
   std::snprintf(text, sizeof text, "%.4g", farthest);
-  fields.Complain("mesh", std::string("reaches ") + text +
-                              " m from the world's origin (valid: at most 10000 m; look at "
-                              "`scale`, and for stray vertices)");
+  fields.Complain(obstacle.has_mesh ? "mesh" : "",
+                  std::string("reaches ") + text +
+                      " m from the world's origin (valid: at most 10000 m; look at "
+                      "`scale`, and for stray vertices)");
 }
 
 void DeclareObstacle(Fields& fields, ObstacleFields* obstacle) {
@@ -194,7 +148,11 @@ void DeclareObstacle(Fields& fields, ObstacleFields* obstacle) {
   });
   fields.Group("motion", {.meaning = "what it does while the robot walks"},
                [&](Fields& motion) { DeclareMotion(motion, &obstacle->motion); });
+  const Eigen::Isometry3d X_WO = MakePose(obstacle->xyz, obstacle->rpy);
+  if (obstacle->cloud.any()) obstacle->mesh.mesh = MeshOfCloud(fields, X_WO, &obstacle->cloud);
   CheckReach(fields, *obstacle);
+  const bool rests = obstacle->motion.rests() && obstacle->motion.error == 0.0;
+  TakeFloor(fields, X_WO, rests, &obstacle->mesh);
 }
 
 void DeclareNoStep(Fields& fields, NoStepFields* area) {
@@ -216,8 +174,8 @@ Shape MakeShape(ObstacleFields* from) {
   if (from->has_cylinder) return Cylinder{from->radius, from->length};
   if (from->has_sphere) return Sphere{from->radius};
   if (from->has_capsule) return Capsule{from->radius, from->length};
-  if (from->hull) return *std::move(from->hull);
-  return std::move(from->mesh);
+  if (from->mesh.hull) return *std::move(from->mesh.hull);
+  return std::move(from->mesh.mesh);
 }
 
 }  // namespace
@@ -241,7 +199,7 @@ bool Scene::OnlyGrowsFrom(double since) const {
 }
 
 Scene LoadScene(const std::string& yaml_path) {
-  return ParseScene(yaml_path, ReadYamlFile(yaml_path));
+  return ParseScene(yaml_path, ReadYamlFile(yaml_path, kLimits));
 }
 
 Scene ParseScene(const std::string& yaml_path, const std::string& text) {
@@ -250,29 +208,34 @@ Scene ParseScene(const std::string& yaml_path, const std::string& text) {
   std::vector<ObstacleFields> obstacles;
   std::vector<NoStepFields> areas;
   std::map<std::string, std::string> obstacle_names, area_names;
-  ReadYamlText(text, yaml_path, path.parent_path().string(), {}, [&](Fields& fields) {
-    DeclareName(fields, &scene.name, false, "", nullptr);
-    fields.List("obstacles", {.meaning = "bodies in the way"}, &obstacles,
-                [&](Fields& item, ObstacleFields* obstacle) {
-                  const auto index = obstacle - obstacles.data();
-                  DeclareName(item, &obstacle->name, true,
-                              "obstacles[" + std::to_string(index) + "]", &obstacle_names);
-                  DeclareObstacle(item, obstacle);
-                });
-    fields.List("no_step", {.meaning = "areas of the floor that no sole may touch"}, &areas,
-                [&](Fields& item, NoStepFields* area) {
-                  const auto index = area - areas.data();
-                  DeclareName(item, &area->name, true, "no_step[" + std::to_string(index) + "]",
-                              &area_names);
-                  DeclareNoStep(item, area);
-                });
-  });
+  ReadYamlText(
+      text, yaml_path, path.parent_path().string(), {},
+      [&](Fields& fields) {
+        DeclareName(fields, &scene.name, false, "", nullptr);
+        fields.List("obstacles", {.meaning = "bodies in the way"}, &obstacles,
+                    [&](Fields& item, ObstacleFields* obstacle) {
+                      const auto index = obstacle - obstacles.data();
+                      DeclareName(item, &obstacle->name, true,
+                                  "obstacles[" + std::to_string(index) + "]", &obstacle_names);
+                      DeclareObstacle(item, obstacle);
+                    });
+        fields.List("no_step", {.meaning = "areas of the floor that no sole may touch"}, &areas,
+                    [&](Fields& item, NoStepFields* area) {
+                      const auto index = area - areas.data();
+                      DeclareName(item, &area->name, true, "no_step[" + std::to_string(index) + "]",
+                                  &area_names);
+                      DeclareNoStep(item, area);
+                    });
+      },
+      kLimits);
   if (scene.name.empty()) scene.name = path.stem().string();
   scene.files = {RecordOf(yaml_path, text)};
   for (ObstacleFields& from : obstacles) {
-    if (from.has_mesh) scene.files.push_back(from.mesh_file);
-    if (!from.told.empty()) {
-      scene.warnings.push_back(yaml_path + ": obstacle " + from.name + ": " + from.told);
+    if (from.has_mesh) scene.files.push_back(from.mesh.file);
+    if (from.cloud.any()) scene.files.push_back(from.cloud.file);
+    for (const std::string& told : {from.mesh.told, from.cloud.told}) {
+      if (told.empty()) continue;
+      scene.warnings.push_back(yaml_path + ": obstacle " + from.name + ": " + told);
     }
     scene.obstacles.push_back(
         {from.name, MakeShape(&from), MakePose(from.xyz, from.rpy), std::move(from.motion)});

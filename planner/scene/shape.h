@@ -28,6 +28,8 @@ struct Capsule {
 struct TriangleMesh {
   Eigen::Matrix3Xd vertices;   ///< [m] (3×n)
   Eigen::Matrix3Xi triangles;  ///< (3×m), indices of vertices.
+  /// Only the surface is in the way. What it surrounds is room, in which the robot may stand.
+  bool hollow = false;
 };
 
 /// What an obstacle is made of, in the type that the scene file names, so that no query has to

@@ -28,7 +28,7 @@ OrientedBox Around(const ConvexBody& body) {
 }  // namespace
 
 void SweptVolumeQuery::Prepared::BeMesh(const TriangleMesh& mesh) {
-  auto shared = std::make_shared<Mesh>(Mesh{TriangleTree(mesh), MeshInterior(mesh)});
+  auto shared = std::make_shared<Mesh>(mesh);
   const TriangleTree::Node& root = shared->triangles.nodes[0];
   around = {.center = root.center, .half = root.half};
   shape = std::shared_ptr<const Mesh>(std::move(shared));
@@ -83,14 +83,42 @@ SweptVolumeQuery::SweptVolumeQuery(const SweptVolumes& volumes,
       places_.back().extra += place.extra;
     }
   }
-  // Unused places hold nothing: no cylinder reaches from there.
+  std::vector<Upright> cylinders;
+  for (size_t i = 0; i < all.size(); ++i) cylinders.push_back(Move(i, all[i].X_WO));
+  PlantTree(cylinders);
+}
+
+void SweptVolumeQuery::PlantTree(const std::vector<Upright>& cylinders) {
+  constexpr int32_t kLeaf = 64;  // so many are looked at as fast as a few nodes
+  std::vector<Eigen::AlignedBox3d> boxes;
+  for (const Upright& cylinder : cylinders) {
+    const Vector3d half(cylinder.radius, cylinder.radius, cylinder.half_height);
+    boxes.emplace_back(cylinder.center - half, cylinder.center + half);
+  }
+  tree_ = BoundsTree(boxes, kLeaf);
+  leaf_begins_.assign(tree_.nodes.size(), -1);
+  slots_.resize(cylinders.size());
+  // Unused slots hold nothing: no cylinder reaches from there.
   Cylinders nothing;
   for (int k = 0; k < 4; ++k) {
     nothing.x[k] = nothing.y[k] = nothing.z[k] = std::numeric_limits<float>::infinity();
     nothing.radius[k] = nothing.half_height[k] = 0.0f;
   }
-  cylinders_.assign((all.size() + 3) / 4, nothing);
-  for (size_t i = 0; i < all.size(); ++i) Put(i, all[i].X_WO);
+  for (size_t n = 0; n < tree_.nodes.size(); ++n) {
+    const BoundsTree::Node& node = tree_.nodes[n];
+    if (node.left >= 0) continue;
+    leaf_begins_[n] = static_cast<int32_t>(place_at_.size());
+    for (int32_t i = node.first; i < node.first + node.count; ++i) {
+      const int32_t place = tree_.order[static_cast<size_t>(i)];
+      slots_[static_cast<size_t>(place)] = static_cast<int32_t>(place_at_.size());
+      place_at_.push_back(place);
+    }
+    place_at_.resize((place_at_.size() + 3) / 4 * 4, -1);
+  }
+  cylinders_.assign(place_at_.size() / 4, nothing);
+  for (size_t i = 0; i < cylinders.size(); ++i) {
+    Put(static_cast<size_t>(slots_[i]), cylinders[i]);
+  }
 }
 
 void SweptVolumeQuery::SetObstaclePose(int obstacle, const Isometry3d& X_WO) {
@@ -98,10 +126,21 @@ void SweptVolumeQuery::SetObstaclePose(int obstacle, const Isometry3d& X_WO) {
                  "obstacle " << obstacle);
   const int place = only_places_[static_cast<size_t>(obstacle)];
   HALFSTEP_CHECK(place >= 0, "obstacle " << obstacle << " has waypoints");
-  Put(static_cast<size_t>(place), X_WO);
+  const Upright cylinder = Move(static_cast<size_t>(place), X_WO);
+  const int32_t slot = slots_[static_cast<size_t>(place)];
+  Put(static_cast<size_t>(slot), cylinder);
+  // It stays in its leaf, and all nodes above grow around it.
+  const auto at = std::find(tree_.order.begin(), tree_.order.end(), place) - tree_.order.begin();
+  for (int32_t n = 0; n >= 0;) {
+    BoundsTree::Node& node = tree_.nodes[static_cast<size_t>(n)];
+    const Vector3d half(cylinder.radius, cylinder.radius, cylinder.half_height);
+    node.half = node.half.cwiseMax((cylinder.center - node.center).cwiseAbs() + half);
+    n = node.left;
+    if (n >= 0 && at >= tree_.nodes[static_cast<size_t>(n) + 1].first) ++n;
+  }
 }
 
-void SweptVolumeQuery::Put(size_t index, const Isometry3d& X_WO) {
+SweptVolumeQuery::Upright SweptVolumeQuery::Move(size_t index, const Isometry3d& X_WO) {
   HALFSTEP_CHECK(X_WO.matrix().allFinite(), "place " << index << " at\n" << X_WO.matrix());
   Prepared& o = places_[index];
   o.X_WO = X_WO;
@@ -118,14 +157,18 @@ void SweptVolumeQuery::Put(size_t index, const Isometry3d& X_WO) {
   const Matrix3d reach = o.around_W.axes.cwiseAbs() * o.around_W.half.asDiagonal();
   const bool upright = o.around_W.axes.row(2).head<2>().isZero(1e-12);
   const double radius = upright ? o.around_W.half.head<2>().norm() : o.around_W.half.norm();
-  Cylinders& four = cylinders_[index / 4];
-  const size_t k = index % 4;
-  four.x[k] = static_cast<float>(o.around_W.center.x());
-  four.y[k] = static_cast<float>(o.around_W.center.y());
-  four.z[k] = static_cast<float>(o.around_W.center.z());
-  four.radius[k] = static_cast<float>(radius + o.extra);
-  four.half_height[k] = static_cast<float>(reach.row(2).sum() + o.extra);
   farthest_ = std::max(farthest_, o.around_W.center.cwiseAbs().maxCoeff() + o.around_W.half.sum());
+  return {o.around_W.center, radius + o.extra, reach.row(2).sum() + o.extra};
+}
+
+void SweptVolumeQuery::Put(size_t slot, const Upright& cylinder) {
+  Cylinders& four = cylinders_[slot / 4];
+  const size_t k = slot % 4;
+  four.x[k] = static_cast<float>(cylinder.center.x());
+  four.y[k] = static_cast<float>(cylinder.center.y());
+  four.z[k] = static_cast<float>(cylinder.center.z());
+  four.radius[k] = static_cast<float>(cylinder.radius);
+  four.half_height[k] = static_cast<float>(cylinder.half_height);
 }
 
 bool SweptVolumeQuery::MeetsObstacle(const BoxTree& tree, const Placed& placed,
@@ -157,20 +200,55 @@ bool SweptVolumeQuery::MeetsObstacle(const BoxTree& tree, const Placed& placed,
 bool SweptVolumeQuery::IsFree(const Placed& placed, double extra) const {
   HALFSTEP_CHECK(placed.X_WS.AllFinite(), "the sole's pose is not finite");
   if (!placed.volume) return false;
-  const double sign = placed.mirrored ? -1.0 : 1.0;
-  const auto& [middle, bounds, root] = placed.bounds;
-  __builtin_prefetch(root);
+  __builtin_prefetch(placed.bounds.root);
   __builtin_prefetch(&*placed.volume);
-  // For the rounding of float coordinates.
-  const double slack =
-      extra + 1e-6 * (1.0 + farthest_ + std::abs(placed.X_WS.x) + std::abs(placed.X_WS.y));
-  const Vector3d half = bounds.array() + slack;
+  if (tree_.nodes.empty()) return true;
+  if (tree_.nodes[0].left < 0) return !MeetsLeaf(placed, tree_.nodes[0], extra);
+  const double sign = placed.mirrored ? -1.0 : 1.0;
+  const Vector3d middle(placed.bounds.middle.x(), sign * placed.bounds.middle.y(),
+                        placed.bounds.middle.z());
+  const Vector3d half = placed.bounds.half.array() + Slack(placed, extra);
+  int32_t stack[BoundsTree::kDeepest];
+  int top = 0;
+  stack[top++] = 0;
+  while (top > 0) {
+    const BoundsTree::Node& node = tree_.nodes[static_cast<size_t>(stack[--top])];
+    // The upright cylinder around the node's box.
+    const double x = node.center.x() - placed.X_WS.x, y = node.center.y() - placed.X_WS.y;
+    const double radius = node.half.head<2>().norm();
+    if (std::abs(placed.cos * x + placed.sin * y - middle.x()) > half.x() + radius ||
+        std::abs(placed.cos * y - placed.sin * x - middle.y()) > half.y() + radius ||
+        std::abs(node.center.z() - middle.z()) > half.z() + node.half.z()) {
+      continue;
+    }
+    if (node.left >= 0) {
+      stack[top++] = node.left + 1;
+      stack[top++] = node.left;
+    } else if (MeetsLeaf(placed, node, extra)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+double SweptVolumeQuery::Slack(const Placed& placed, double extra) const {
+  return extra + 1e-6 * (1.0 + farthest_ + std::abs(placed.X_WS.x) + std::abs(placed.X_WS.y));
+}
+
+bool SweptVolumeQuery::MeetsLeaf(const Placed& placed, const BoundsTree::Node& leaf,
+                                 double extra) const {
+  const double sign = placed.mirrored ? -1.0 : 1.0;
+  const Vector3d& middle = placed.bounds.middle;
+  const Vector3d half = placed.bounds.half.array() + Slack(placed, extra);
   const auto four = [](double value) { return Four(static_cast<float>(value)); };
   const Four X = four(placed.X_WS.x), Y = four(placed.X_WS.y), C = four(placed.cos),
              S = four(placed.sin);
   const Four mx = four(middle.x()), my = four(sign * middle.y()), mz = four(middle.z());
   const Four hx = four(half.x()), hy = four(half.y()), hz = four(half.z());
-  for (size_t block = 0; block < cylinders_.size(); ++block) {
+  const size_t first =
+      static_cast<size_t>(leaf_begins_[static_cast<size_t>(&leaf - tree_.nodes.data())]) / 4;
+  const size_t end = first + (static_cast<size_t>(leaf.count) + 3) / 4;
+  for (size_t block = first; block < end; ++block) {
     const Cylinders& o = cylinders_[block];
     const Four x = Four::Load(o.x) - X, y = Four::Load(o.y) - Y, radius = Four::Load(o.radius);
     int near = (C * x + S * y - mx).Abs().Within(hx + radius) &
@@ -178,11 +256,11 @@ bool SweptVolumeQuery::IsFree(const Placed& placed, double extra) const {
                (Four::Load(o.z) - mz).Abs().Within(hz + Four::Load(o.half_height));
     for (; near != 0; near &= near - 1) {
       const size_t k = static_cast<size_t>(std::countr_zero(static_cast<unsigned>(near)));
-      const Prepared& place = places_[4 * block + k];
-      if (MeetsObstacle(*placed.volume, placed, place, extra + place.extra)) return false;
+      const Prepared& place = places_[static_cast<size_t>(place_at_[4 * block + k])];
+      if (MeetsObstacle(*placed.volume, placed, place, extra + place.extra)) return true;
     }
   }
-  return true;
+  return false;
 }
 
 SweptVolumeQuery::Placed SweptVolumeQuery::Down(int i, Side support, const Footprint& X_WS) const {

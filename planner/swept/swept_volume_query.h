@@ -7,7 +7,9 @@
 #include <variant>
 #include <vector>
 
+#include "planner/collision/bounds_tree.h"
 #include "planner/collision/mesh_interior.h"
+#include "planner/collision/triangle_tree.h"
 #include "planner/scene/no_step_areas.h"
 #include "planner/scene/scene.h"
 #include "planner/search/half_step_query.h"
@@ -49,6 +51,7 @@ class SweptVolumeQuery : public HalfStepQuery {
 
  private:
   struct Mesh {
+    explicit Mesh(const TriangleMesh& mesh) : triangles(mesh), interior(mesh) {}
     TriangleTree triangles;
     MeshInterior interior;
   };
@@ -61,7 +64,12 @@ class SweptVolumeQuery : public HalfStepQuery {
 
     void BeMesh(const TriangleMesh& mesh);
   };
-  // Upright cylinders around four obstacles, side by side.
+  // An upright cylinder around a place.
+  struct Upright {
+    Eigen::Vector3d center;
+    double radius, half_height;
+  };
+  // Four of them, side by side.
   struct Cylinders {
     float x[4], y[4], radius[4], z[4], half_height[4];
   };
@@ -79,21 +87,32 @@ class SweptVolumeQuery : public HalfStepQuery {
   };
 
   static Prepared Prepare(const Obstacle& obstacle);
-  void Put(size_t place, const Eigen::Isometry3d& X_WO);
+  // Moves a place, and returns what is around it.
+  Upright Move(size_t place, const Eigen::Isometry3d& X_WO);
+  void PlantTree(const std::vector<Upright>& cylinders);
+  void Put(size_t slot, const Upright& cylinder);
   static std::vector<Bounds> BoundsOf(const std::vector<std::optional<BoxTree>>& volumes);
   Placed Down(int i, Side support, const Footprint& X_WS) const;
   Placed Up(int i, Side support, const Footprint& X_WS) const;
   bool IsFree(const Placed& placed, double extra) const;
+  // By which a volume's bounds are widened, with what the rounding of float coordinates needs.
+  double Slack(const Placed& placed, double extra) const;
+  // Whether the volume meets a place among those of a leaf of the tree.
+  bool MeetsLeaf(const Placed& placed, const BoundsTree::Node& leaf, double extra) const;
   bool MeetsObstacle(const BoxTree& tree, const Placed& placed, const Prepared& obstacle,
                      double extra) const;
   double Clearance(const Placed& placed, double horizon) const;
 
   const SweptVolumes& volumes_;
   std::vector<Bounds> down_bounds_, up_bounds_;
-  std::vector<Prepared> places_;  // of the obstacles in their order, one or more of each
-  std::vector<int> only_places_;  // by obstacle; −1: it has waypoints
-  std::vector<Cylinders> cylinders_;
-  double farthest_ = 0.0;  // coordinate of an obstacle [m]
+  std::vector<Prepared> places_;      // of the obstacles in their order, one or more of each
+  std::vector<int> only_places_;      // by obstacle; −1: it has waypoints
+  BoundsTree tree_;                   // of the cylinders
+  std::vector<int32_t> leaf_begins_;  // by node: a leaf's first slot, a multiple of four
+  std::vector<int32_t> slots_;        // by place
+  std::vector<Cylinders> cylinders_;  // by slot / 4
+  std::vector<int32_t> place_at_;     // by slot
+  double farthest_ = 0.0;             // coordinate of an obstacle [m]
   NoStepAreas areas_;
   double no_step_ = 0.0;
 };

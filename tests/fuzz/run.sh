@@ -17,7 +17,7 @@ elif [ $# -gt 0 ]; then
   seconds=$1
   shift
 fi
-all="config csv mesh message robot robot_model run_folder scene swept_volume sweep urdf verify yaml"
+all="config csv mesh message octomap points robot robot_model run_folder scene swept_volume sweep urdf verify yaml"
 [ $# -gt 0 ] || set -- $all
 
 # The fixtures of the tests are inputs as well.

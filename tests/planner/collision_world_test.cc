@@ -97,7 +97,7 @@ TEST(CollisionWorld, ClearsEqualsTheVerdictOfFindNearestAlongAMotion) {
       EXPECT_EQ(clears, distance >= 0.01);
       ++verdicts[clears ? 1 : 0];
     }
-    EXPECT_EQ(scratch.normals_W.size(), 25u);
+    EXPECT_LE(scratch.normals_W.size(), 25u);
   }
   EXPECT_GT(verdicts[0], 50);
   EXPECT_GT(verdicts[1], 50);

@@ -10,6 +10,7 @@
 
 #include "planner/collision/collision_world.h"
 #include "planner/collision/mesh_interior.h"
+#include "planner/collision/mesh_winding.h"
 #include "tests/planner/swept_volume_draws.h"
 #include "wpg/files/input_error.h"
 #include "wpg/geometry/support_polygon.h"

@@ -14,7 +14,6 @@
 namespace halfstep {
 namespace {
 
-constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 30;
 constexpr size_t kStlHeader = 80, kStlStart = 84, kStlTriangle = 50;
 
 [[noreturn]] void Refuse(const std::string& path, const std::string& what) {
@@ -35,7 +34,7 @@ std::string ExtensionOf(const std::string& path) {
 }
 
 std::string ReadWhole(const std::string& path) {
-  FileBytes file = TryReadRegularFile(path, kMaxBytes);
+  FileBytes file = TryReadRegularFile(path, kMaxMeshBytes);
   if (!file.refused.empty()) Refuse(path, file.refused);
   return std::move(file.bytes);
 }

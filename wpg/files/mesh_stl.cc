@@ -69,12 +69,6 @@ void Expect(MeshText* text, std::string_view keyword) {
   text->Fail(word, found + " (valid: " + std::string(keyword) + ")");
 }
 
-[[noreturn]] void RefuseByte(const std::string& path, size_t byte, const std::string& what) {
-  Complaints complaints;
-  complaints.Add(path, 0, 0, "", "byte " + std::to_string(byte) + ": " + what);
-  throw InputError(complaints.lines());
-}
-
 template <typename T>
 T LittleEndian(const char* bytes) {
   static_assert(std::endian::native == std::endian::little);

@@ -14,6 +14,12 @@ bool IsBlank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' ||
 
 }  // namespace
 
+void RefuseByte(const std::string& path, size_t byte, const std::string& what) {
+  Complaints complaints;
+  complaints.Add(path, 0, 0, "", "byte " + std::to_string(byte) + ": " + what);
+  throw InputError(complaints.lines());
+}
+
 MeshText::MeshText(std::string path, std::string_view text) : path_(std::move(path)), text_(text) {
   if (text_.starts_with("\xEF\xBB\xBF")) at_ = line_start_ = 3;  // byte order mark
 }

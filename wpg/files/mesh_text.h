@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,6 +12,10 @@ namespace halfstep {
 
 inline constexpr int kMaxMeshTriangles = 5'000'000;
 inline constexpr double kMaxMeshCoordinate = 1e9;
+inline constexpr std::uint64_t kMaxMeshBytes = std::uint64_t{1} << 30;
+
+/// Complains about binary data: "path: byte N: what" (InputError).
+[[noreturn]] void RefuseByte(const std::string& path, size_t byte, const std::string& what);
 
 /// A word of a text file; empty at the end of the text (or of the line, where asked for).
 struct MeshWord {
@@ -28,6 +33,7 @@ class MeshText {
   MeshWord NextInLine();  ///< next word of this line.
   void SkipLine();        ///< to the start of the next line.
   bool AtEnd() const { return at_ == text_.size(); }
+  size_t offset() const { return at_; }  ///< bytes before what comes next
 
   /// A coordinate: finite, at most kMaxMeshCoordinate in size.
   double Number(const MeshWord& word) const;

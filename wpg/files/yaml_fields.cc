@@ -8,16 +8,10 @@
 #include "wpg/files/yaml_reader.h"
 
 namespace halfstep {
-namespace {
 
-// yaml-cpp needs up to 240 bytes of memory for one of text.
-constexpr std::uint64_t kMostYamlBytes = 4 << 20;
-
-}  // namespace
-
-std::string ReadYamlFile(const std::string& path) {
+std::string ReadYamlFile(const std::string& path, const YamlLimits& limits) {
   YamlComplaints complaints(path);
-  FileBytes file = TryReadRegularFile(path, kMostYamlBytes);
+  FileBytes file = TryReadRegularFile(path, limits.bytes);
   if (!file.refused.empty()) complaints.Fail({}, "", file.refused);
   return std::move(file.bytes);
 }
@@ -30,9 +24,9 @@ void ReadYaml(const std::string& path, const std::vector<YamlOverride>& override
 
 void ReadYamlText(const std::string& text, const std::string& name, const std::string& directory,
                   const std::vector<YamlOverride>& overrides,
-                  const std::function<void(Fields&)>& declare) {
+                  const std::function<void(Fields&)>& declare, const YamlLimits& limits) {
   YamlComplaints complaints(name);
-  YamlNode root = ParseYaml(text, "", &complaints);
+  YamlNode root = ParseYaml(text, "", &complaints, limits);
   if (root.kind != YamlNode::Kind::kMap) {
     complaints.Fail(root.place, "", "not a map: " + Describe(root) + " (valid: a map of keys)");
   }

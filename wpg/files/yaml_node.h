@@ -56,13 +56,20 @@ class YamlComplaints {
   std::vector<Complaint> complaints_;
 };
 
+/// How much YAML may be: what is beyond would take memory and time out of proportion to its use.
+struct YamlLimits {
+  std::size_t bytes = std::size_t{4} << 20;  ///< of a file
+  std::size_t values = 200'000;              ///< nodes, aliases expanded, long text by its length
+  std::size_t aliased = 200'000;             ///< of these, what stands for aliases and anchors
+};
+
 /// Parses one YAML document. Duplicate keys, keys that are no plain text and tags are complaints.
 /// Fails at once on what leaves no tree to read: broken YAML, more than one document, no document,
-/// bytes that are not UTF-8, an alias inside its own value, nesting beyond 64 levels, a budget of
-/// 200,000 nodes (aliases expanded, long text counted by its length) exceeded.
+/// bytes that are not UTF-8, an alias inside its own value, nesting beyond 64 levels, more values
+/// than the limit.
 /// `override_key` is the place of every node when not empty; then no document is a null value.
 YamlNode ParseYaml(const std::string& text, const std::string& override_key,
-                   YamlComplaints* complaints);
+                   YamlComplaints* complaints, const YamlLimits& limits = {});
 
 /// Replaces or inserts the value of a dotted key (list items by index); new maps are made where
 /// parents are missing. An impossible key is a complaint.

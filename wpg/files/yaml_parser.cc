@@ -15,14 +15,13 @@ namespace halfstep {
 namespace {
 
 constexpr int kMostLevels = 64;
-constexpr size_t kMostNodes = 200000;
 constexpr size_t kBytesOfANode = 256;  // longer text counts as several nodes
 
 // Builds the tree from yaml-cpp's events: its own Node drops duplicate keys and lets aliases loop.
 class TreeBuilder : public YAML::EventHandler {
  public:
-  TreeBuilder(const std::string& override_key, YamlComplaints* complaints)
-      : override_key_(override_key), complaints_(complaints) {}
+  TreeBuilder(const std::string& override_key, const YamlLimits& limits, YamlComplaints* complaints)
+      : override_key_(override_key), limits_(limits), complaints_(complaints) {}
 
   bool has_document() const { return has_document_; }
   YamlNode TakeRoot() { return std::move(root_); }
@@ -59,7 +58,7 @@ class TreeBuilder : public YAML::EventHandler {
     if (found == anchored_.end()) {
       complaints_->Fail(PlaceOf(mark), Path(), "an alias inside the value that it stands for");
     }
-    Charge({.place = PlaceOf(mark)}, found->second.weight);
+    ChargeCopy({.place = PlaceOf(mark)}, found->second.weight);
     YamlNode node = found->second;
     node.place = PlaceOf(mark);
     Complete(std::move(node), 0);
@@ -116,7 +115,7 @@ class TreeBuilder : public YAML::EventHandler {
   // Hands a complete value to the list or map that it belongs to.
   void Complete(YamlNode node, YAML::anchor_t anchor) {
     if (anchor != 0) {
-      Charge(node, node.weight);
+      ChargeCopy(node, node.weight);
       anchored_[anchor] = node;
     }
     if (open_.empty()) {
@@ -161,10 +160,19 @@ class TreeBuilder : public YAML::EventHandler {
 
   void Charge(const YamlNode& node, size_t weight) {
     nodes_ += weight;
-    if (nodes_ <= kMostNodes) return;
-    complaints_->Fail(node.place, Path(),
-                      "too much content, aliases expanded (valid: at most " +
-                          std::to_string(kMostNodes) + " values)");
+    if (nodes_ > limits_.values) FailAt(node, limits_.values);
+  }
+
+  [[noreturn]] void FailAt(const YamlNode& node, size_t most) const {
+    complaints_->Fail(
+        node.place, Path(),
+        "too much content, aliases expanded (valid: at most " + std::to_string(most) + " values)");
+  }
+
+  void ChargeCopy(const YamlNode& node, size_t weight) {
+    copied_ += weight;
+    if (copied_ > limits_.aliased) FailAt(node, limits_.aliased);
+    Charge(node, weight);
   }
 
   void CheckHeight(const YamlNode& node, int levels) {
@@ -188,12 +196,13 @@ class TreeBuilder : public YAML::EventHandler {
   }
 
   const std::string override_key_;
+  const YamlLimits limits_;
   YamlComplaints* const complaints_;
   bool has_document_ = false;
   YamlNode root_;
   std::vector<Level> open_;
   std::map<YAML::anchor_t, YamlNode> anchored_;
-  size_t nodes_ = 0;
+  size_t nodes_ = 0, copied_ = 0;
 };
 
 YamlPlace PlaceOfByte(const std::string& text, size_t offset, const std::string& override_key) {
@@ -234,9 +243,9 @@ void CheckBytes(const std::string& text, const std::string& override_key,
 }  // namespace
 
 YamlNode ParseYaml(const std::string& text, const std::string& override_key,
-                   YamlComplaints* complaints) {
+                   YamlComplaints* complaints, const YamlLimits& limits) {
   CheckBytes(text, override_key, complaints);
-  TreeBuilder builder(override_key, complaints);
+  TreeBuilder builder(override_key, limits, complaints);
   try {
     std::istringstream stream(text);
     YAML::Parser parser(stream);

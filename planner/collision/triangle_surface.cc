@@ -1,0 +1,123 @@
+#include "planner/collision/triangle_surface.h"
+
+#include <fcl/geometry/bvh/BVH_model.h>
+#include <fcl/narrowphase/distance.h>
+
+#include <algorithm>
+#include <atomic>
+#include <mutex>
+#include <queue>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "planner/collision/bounds_tree.h"
+#include "planner/collision/triangle_tree.h"
+#include "wpg/check.h"
+
+namespace halfstep {
+namespace {
+
+using Bvh = fcl::BVHModel<fcl::OBBRSSd>;
+
+// Of some triangles of a mesh, with their own corners only.
+std::unique_ptr<const Bvh> MakeBvh(const TriangleMesh& mesh, std::vector<int32_t> triangles) {
+  std::sort(triangles.begin(), triangles.end());  // as the mesh has them
+  std::vector<fcl::Vector3d> points;
+  std::vector<fcl::Triangle> faces;
+  std::unordered_map<int, size_t> own;
+  for (const int32_t triangle : triangles) {
+    size_t corners[3];
+    for (int k = 0; k < 3; ++k) {
+      const int corner = mesh.triangles(k, triangle);
+      const auto [at, fresh] = own.try_emplace(corner, points.size());
+      if (fresh) points.emplace_back(mesh.vertices.col(corner));
+      corners[k] = at->second;
+    }
+    faces.emplace_back(corners[0], corners[1], corners[2]);
+  }
+  auto bvh = std::make_unique<Bvh>();
+  bvh->beginModel(static_cast<int>(faces.size()), static_cast<int>(points.size()));
+  bvh->addSubModel(points, faces);
+  bvh->endModel();
+  return bvh;
+}
+
+}  // namespace
+
+struct TriangleSurface::Impl {
+  Impl(TriangleMesh its_mesh, int block)
+      : mesh(std::move(its_mesh)),
+        tree(TriangleBounds(mesh), block),
+        once(tree.nodes.size()),
+        bvhs(tree.nodes.size()) {}
+
+  // Of a leaf of the tree.
+  const Bvh& BvhOf(int32_t leaf) {
+    const size_t n = static_cast<size_t>(leaf);
+    std::call_once(once[n], [&] {
+      const BoundsTree::Node& node = tree.nodes[n];
+      const auto first = tree.order.begin() + node.first;
+      bvhs[n] = MakeBvh(mesh, {first, first + node.count});
+      ++built;
+    });
+    return *bvhs[n];
+  }
+
+  const TriangleMesh mesh;
+  const BoundsTree tree;
+  std::vector<std::once_flag> once;  // by node; inner nodes have none
+  std::vector<std::unique_ptr<const Bvh>> bvhs;
+  std::atomic<int> built = 0;
+};
+
+TriangleSurface::TriangleSurface(TriangleMesh mesh, int block) {
+  HALFSTEP_CHECK(mesh.triangles.cols() > 0, "a mesh without triangles");
+  HALFSTEP_CHECK(mesh.triangles.minCoeff() >= 0 && mesh.triangles.maxCoeff() < mesh.vertices.cols(),
+                 "vertex indices " << mesh.triangles.minCoeff() << " … "
+                                   << mesh.triangles.maxCoeff() << " of " << mesh.vertices.cols()
+                                   << " vertices");
+  impl_ = std::make_unique<Impl>(std::move(mesh), block);
+}
+
+TriangleSurface::~TriangleSurface() = default;
+
+const TriangleMesh& TriangleSurface::mesh() const { return impl_->mesh; }
+int TriangleSurface::built() const { return impl_->built; }
+
+std::optional<TriangleSurface::Nearest> TriangleSurface::Distance(
+    const TriangleSurface& a, const Eigen::Isometry3d& X_Wa, const Eigen::Vector3d& center_W,
+    double radius, const TriangleSurface& b, const Eigen::Isometry3d& X_Wb, double horizon) {
+  const BoundsTree& tree = b.impl_->tree;
+  const Eigen::Vector3d center = X_Wb.inverse(Eigen::Isometry) * center_W;
+  const double rounding =
+      1e-12 * (1.0 + radius + X_Wb.translation().norm() + center_W.norm() + tree.Farthest());
+  const fcl::DistanceRequestd request(/*enable_nearest_points=*/true);
+  // The result goes from block to block, and FCL leaves out what is farther than it.
+  fcl::DistanceResultd result(horizon);
+  // Nodes by a lower bound of their distance, the nearest first.
+  using Bound = std::pair<double, int32_t>;
+  std::priority_queue<Bound, std::vector<Bound>, std::greater<>> open;
+  const auto add = [&](int32_t n) {
+    const double bound =
+        BoundsTree::Gap(tree.nodes[static_cast<size_t>(n)], center) - radius - rounding;
+    if (bound < result.min_distance) open.emplace(bound, n);
+  };
+  add(0);
+  while (!open.empty() && result.min_distance > 0) {
+    const auto [bound, n] = open.top();
+    open.pop();
+    if (bound >= result.min_distance) break;
+    const BoundsTree::Node& node = tree.nodes[static_cast<size_t>(n)];
+    if (node.left >= 0) {
+      add(node.left);
+      add(node.left + 1);
+      continue;
+    }
+    fcl::distance(&a.impl_->BvhOf(0), X_Wa, &b.impl_->BvhOf(n), X_Wb, request, result);
+  }
+  if (result.o1 == nullptr) return std::nullopt;
+  return Nearest{result.min_distance, result.nearest_points[0], result.nearest_points[1]};
+}
+
+}  // namespace halfstep

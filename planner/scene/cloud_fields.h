@@ -1,0 +1,37 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <optional>
+#include <string>
+
+#include "planner/scene/shape.h"
+#include "wpg/files/fields.h"
+#include "wpg/files/octomap_file.h"
+#include "wpg/files/point_file.h"
+
+namespace halfstep {
+
+/// What a scene says under `points` or `octomap` (planner/README.md, "Scenes"): obstacles that are
+/// cubes of a lattice in the obstacle's frame.
+struct CloudFields {
+  std::optional<LoadedPoints> points;
+  double radius = 0.0;  ///< of the ball around each point [m]
+  std::optional<LoadedOctomap> map;
+  bool unknown_is_occupied = false;
+  std::optional<double> floor_below;  ///< what is not higher in the world is floor [m]
+  std::string told;                   ///< for the user: what was left out
+
+  bool any() const { return points || map; }
+  InputFile file;
+};
+
+/// Declares the keys and reads the file, relative to the scene's folder.
+void DeclarePoints(Fields& fields, CloudFields* cloud);
+void DeclareOctomap(Fields& fields, CloudFields* cloud);
+
+/// The surface of a cloud at X_WO. Every ball around a point, or every cube that is occupied, is
+/// inside it, but for what is floor. `obstacle` is the group around the cloud, for complaints; with
+/// one the mesh is empty.
+TriangleMesh MeshOfCloud(Fields& obstacle, const Eigen::Isometry3d& X_WO, CloudFields* cloud);
+
+}  // namespace halfstep

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "wpg/files/mesh_text.h"
+#include "wpg/files/point_file.h"
+
+namespace halfstep {
+
+// What the readers of point clouds share.
+
+inline constexpr long kMaxPoints = 20'000'000;
+inline constexpr size_t kMaxPointFields = 1000;  ///< of a point
+
+/// A number of binary data.
+struct PointScalar {
+  char kind = 'F';  ///< as PCD's TYPE: F float, I signed, U unsigned
+  size_t bytes = 4;
+};
+
+/// A number of each point, or so many after each other.
+struct PointField {
+  std::string name;
+  PointScalar scalar;
+  size_t count = 1;
+  std::optional<PointScalar> list{};  ///< PLY: the type of the count that goes before
+};
+
+/// A whole number of a header, 0 … most (InputError).
+long PointCount(const MeshText& text, const MeshWord& word, long most);
+
+/// Which fields x, y and z are; complains at `place` unless each is there once, as one number.
+std::array<size_t, 3> PointAxes(const MeshText& text, const MeshWord& place,
+                                const std::vector<PointField>& fields);
+
+/// Gathers points, and counts those that are none.
+class PointList {
+ public:
+  void Add(const Eigen::Vector3d& p) { all_.push_back(p); }
+  void AddInvalid() { ++invalid_; }
+  /// Throws InputError when there is none.
+  LoadedPoints Take(const std::string& path) const;
+
+ private:
+  std::vector<Eigen::Vector3d> all_;
+  int invalid_ = 0;
+};
+
+/// Binary data; what would be beyond its end is a complaint (InputError).
+class PointData {
+ public:
+  /// Borrows path and bytes.
+  PointData(const std::string& path, std::string_view bytes, size_t at, bool big_endian)
+      : path_(path), bytes_(bytes), at_(at), big_endian_(big_endian) {}
+
+  size_t at() const { return at_; }
+  /// Reads past an element, and returns the fields `axes` of it; nullptr: nothing of it.
+  Eigen::Vector3d Element(const std::vector<PointField>& fields, const std::array<size_t, 3>* axes);
+
+ private:
+  double Next(PointScalar scalar);
+  void Skip(size_t count, size_t each);
+  void Need(size_t bytes) const;
+
+  const std::string& path_;
+  std::string_view bytes_;
+  size_t at_;
+  bool big_endian_;
+};
+
+/// Complains about a point at a byte that is not finite or too far.
+void CheckPoint(const std::string& path, size_t byte, const Eigen::Vector3d& p);
+
+LoadedPoints ReadPly(const std::string& path, std::string_view bytes);
+LoadedPoints ReadPcd(const std::string& path, std::string_view bytes);
+
+}  // namespace halfstep

@@ -1,0 +1,129 @@
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "wpg/files/point_data.h"
+#include "wpg/files/text.h"
+
+namespace halfstep {
+namespace {
+
+struct PlyElement {
+  std::string name;
+  long count = 0;
+  std::vector<PointField> fields;
+};
+
+PointScalar PlyScalar(const MeshText& text, const MeshWord& word) {
+  struct Named {
+    std::string_view name, other;
+    PointScalar scalar;
+  };
+  static constexpr std::array<Named, 8> kTypes = {{{"char", "int8", {'I', 1}},
+                                                   {"uchar", "uint8", {'U', 1}},
+                                                   {"short", "int16", {'I', 2}},
+                                                   {"ushort", "uint16", {'U', 2}},
+                                                   {"int", "int32", {'I', 4}},
+                                                   {"uint", "uint32", {'U', 4}},
+                                                   {"float", "float32", {'F', 4}},
+                                                   {"double", "float64", {'F', 8}}}};
+  for (const Named& type : kTypes) {
+    if (word.text == type.name || word.text == type.other) return type.scalar;
+  }
+  text.Fail(word, Quote(word.text) +
+                      " is no type (valid: char, uchar, short, ushort, int, uint, float, double)");
+}
+
+}  // namespace
+
+LoadedPoints ReadPly(const std::string& path, std::string_view bytes) {
+  MeshText text(path, bytes);
+  MeshWord word = text.NextInLine();
+  if (word.text != "ply") text.Fail(word, "the first line is not `ply`");
+  std::string format;
+  std::vector<PlyElement> elements;
+  for (;;) {
+    text.SkipLine();
+    word = text.NextInLine();
+    if (word.text == "end_header") break;
+    if (text.AtEnd()) text.Fail(word, "the file ends within its header (valid: end_header)");
+    if (word.text == "comment" || word.text == "obj_info") continue;
+    if (word.text == "format") {
+      const MeshWord kind = text.NextInLine(), version = text.NextInLine();
+      format = kind.text;
+      if ((format != "ascii" && format != "binary_little_endian" &&
+           format != "binary_big_endian") ||
+          version.text != "1.0") {
+        text.Fail(kind,
+                  "another format (valid: ascii, binary_little_endian or binary_big_endian, "
+                  "1.0)");
+      }
+    } else if (word.text == "element") {
+      const MeshWord name = text.NextInLine();
+      elements.push_back(
+          {std::string(name.text), PointCount(text, text.NextInLine(), 1'000'000'000), {}});
+    } else if (word.text == "property" && !elements.empty()) {
+      std::vector<PointField>& fields = elements.back().fields;
+      if (fields.size() == kMaxPointFields) text.Fail(word, "too many properties");
+      PointField field;
+      MeshWord type = text.NextInLine();
+      if (type.text == "list") {
+        field.list = PlyScalar(text, text.NextInLine());
+        type = text.NextInLine();
+      }
+      field.scalar = PlyScalar(text, type);
+      field.name = text.NextInLine().text;
+      fields.push_back(std::move(field));
+    } else {
+      text.Fail(word, (word.text.empty() ? "an empty line" : Quote(word.text)) +
+                          " (valid: comment, format, element, property, end_header)");
+    }
+  }
+  const MeshWord end = word;
+  text.SkipLine();
+  const auto vertices = std::find_if(elements.begin(), elements.end(),
+                                     [](const PlyElement& e) { return e.name == "vertex"; });
+  if (format.empty()) text.Fail(end, "the header names no format");
+  if (vertices == elements.end()) text.Fail(end, "the header names no `element vertex`");
+  if (vertices->count > kMaxPoints) text.Fail(end, "too many points (valid: at most 20 million)");
+  const std::array<size_t, 3> axes = PointAxes(text, end, vertices->fields);
+  PointList points;
+  if (format == "ascii") {
+    for (auto element = elements.begin(); element <= vertices; ++element) {
+      for (long i = 0; i < element->count; ++i) {
+        if (element != vertices) {  // a line each
+          if (text.AtEnd()) text.Fail(text.NextInLine(), "the file ends within its data");
+          text.SkipLine();
+          continue;
+        }
+        Eigen::Vector3d p(0, 0, 0);
+        for (size_t f = 0; f < element->fields.size(); ++f) {
+          const auto axis = std::find(axes.begin(), axes.end(), f) - axes.begin();
+          const MeshWord number = text.NextInLine();
+          if (number.text.empty()) text.Fail(number, "a number is missing");
+          if (element->fields[f].list) break;  // and what is after it in this line
+          if (axis < 3) p[axis] = text.Number(number);
+        }
+        text.SkipLine();
+        points.Add(p);
+      }
+    }
+    return points.Take(path);
+  }
+  PointData data(path, bytes, text.offset(), format == "binary_big_endian");
+  for (auto element = elements.begin(); element <= vertices; ++element) {
+    for (long i = 0; i < element->count && !element->fields.empty(); ++i) {
+      const size_t begin = data.at();
+      const Eigen::Vector3d p =
+          data.Element(element->fields, element == vertices ? &axes : nullptr);
+      if (element != vertices) continue;
+      CheckPoint(path, begin, p);
+      points.Add(p);
+    }
+  }
+  return points.Take(path);
+}
+
+}  // namespace halfstep
