@@ -13,7 +13,10 @@ class Chain {
  public:
   Chain(Side side, const IntervalMotion& motion, const RigidDrift& waist, const RigidDrift& sole,
         const RobotDynamics& at_m)
-      : waist_(waist), sole_(sole), h_(motion.half_width) {
+      : waist_(waist),
+        sole_(sole),
+        turns_(motion.joints[static_cast<size_t>(Index(side))].turns),
+        h_(motion.half_width) {
     const size_t s = static_cast<size_t>(Index(side));
     const Posture& posture = motion.posture;
     const Eigen::Matrix3d& R = posture.X_WB.linear();
@@ -22,6 +25,9 @@ class Chain {
       point_[j] = posture.X_WB * posture.frames[s].point_B[j];
       speed_[j] = link.velocity.head<3>().norm();
       acceleration_[j] = link.acceleration.head<3>().norm();
+      const RobotDynamics::Body& base =
+          LegAnchors::OnHip(static_cast<int>(j)) ? at_m.waist() : at_m.leg(side)[5];
+      from_base_[j] = (link.acceleration - base.acceleration).head<3>().norm();
     }
     waist_point_ = posture.X_WB.translation();
     sole_point_ = posture.X_WSole[s].translation();
@@ -37,16 +43,20 @@ class Chain {
 
   double Distance(size_t i, size_t j) const { return (point_[i] - point_[j]).norm(); }
 
-  void Place(const std::array<JointDrift, 6>& joints) {
+  // Places the links. With `true_motion`, joints move as the robot's do, not with the q̈ of m.
+  void Place(const std::array<JointDrift, 6>& joints, bool true_motion) {
     RigidDrift parent = waist_.At((point_[0] - waist_point_).norm());
     for (size_t j = 0; j < 3; ++j) {
       links[j] = Turned(parent, joints[j], speed_[j], acceleration_[j], h_);
+      Narrow(j, waist_, true_motion);
       parent = links[j].At(Distance(j, j + 1));
     }
     links[5] = sole_;
     links[4] = Turned(sole_.At((point_[5] - sole_point_).norm()), joints[5], speed_[4],
                       acceleration_[4], h_);
+    Narrow(4, sole_, true_motion);
     links[3] = Turned(links[4].At(Distance(5, 4)), joints[4], speed_[3], acceleration_[3], h_);
+    Narrow(3, sole_, true_motion);
   }
 
   // Bounds of how much q̈ drifts, from links that were placed with the q̈ of m, and any bounds.
@@ -84,11 +94,23 @@ class Chain {
   std::array<RigidDrift, 6> links;
 
  private:
+  // A link's ω̇ is its base's, and what the bounds of its turning as seen from there let it be.
+  void Narrow(size_t j, const RigidDrift& base, bool true_motion) {
+    RigidDrift& link = links[j];
+    const TurnBound& seen = turns_[j];
+    const double seen_in_W = seen.acceleration + base.fastest() * seen.speed;
+    link.turn = std::min(link.turn, h_ * (base.acceleration + base.turn1 + seen_in_W));
+    link.turned = h_ * link.fastest();
+    if (true_motion) link.turn1 = std::min(link.turn1, base.turn1 + from_base_[j] + seen_in_W);
+  }
+
   const RigidDrift &waist_, &sole_;
+  const std::array<TurnBound, 6>& turns_;  // of the links, seen from waist or sole
   double h_;
   std::array<Vector3d, 6> point_;  // of the joints' axes in W at m
   Vector3d waist_point_, sole_point_;
   std::array<double, 6> speed_, acceleration_;  // of the links at m
+  std::array<double, 6> from_base_;             // ‖ω̇ less that of waist or sole‖ at m
   Vector6d by_turn_, by_velocity_;
 };
 
@@ -139,12 +161,12 @@ LegDrift LegDrift::Over(Side side, const IntervalMotion& motion, const RigidDrif
                  .acceleration_drift = 0.0};
   }
   Chain chain(side, motion, waist, sole, at_m);
-  chain.Place(joints);
+  chain.Place(joints, /*true_motion=*/false);
   const Vector6d drift = chain.AccelerationDrift(joints, accelerations + most);
   for (size_t j = 0; j < 6; ++j) {
     joints[j].acceleration_drift = drift[static_cast<Eigen::Index>(j)];
   }
-  chain.Place(joints);
+  chain.Place(joints, /*true_motion=*/true);
   return chain.Result(joints);
 }
 
