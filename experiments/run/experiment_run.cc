@@ -82,6 +82,7 @@ ExperimentRun::ExperimentRun(const ExperimentConfig& config, const RunHooks& hoo
     config_ = planned_->config;
   }
   experiment_ = Prepare(config_, std::move(place));
+  config_.smoothing.limits = experiment_->config.smoothing.limits;
   if (const auto stepped_on = FootprintOnNoStep(*experiment_)) {
     refusal_ = {"on_no_step_area", "the plan is not feasible: " + *stepped_on};
   }

@@ -232,8 +232,10 @@ void CheckRowMargins(const PlayedMotion& motion, const CertificateText& certific
 
 void CheckRobotZmp(const std::vector<PlayedRow>& rows, const DescribedWalk& walk,
                    const CertificateText& certificate, Findings* findings) {
-  if (certificate.demanded[kZmpRobot] == kNotDemanded) {
-    findings->Say("ZMP of the whole robot: nothing is demanded");
+  const std::string& fault = walk.robot().masses.fault;
+  if (certificate.demanded[kZmpRobot] == kNotDemanded || !fault.empty()) {
+    findings->Say("ZMP of the whole robot: nothing is demanded" +
+                  (fault.empty() ? "" : ", for " + fault));
     return;
   }
   Check zmp("ZMP of the whole robot", "m", certificate.demanded[kZmpRobot], kMomentumRounding);

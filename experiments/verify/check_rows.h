@@ -31,7 +31,7 @@ void CheckRowMargins(const PlayedMotion& motion, const CertificateText& certific
                      double tolerance, Findings* findings);
 
 /// Whether the ZMP of the whole robot (RobotZmp) keeps what is demanded at the rows' times, by the
-/// walk; nothing is looked at where nothing is demanded.
+/// walk; nothing is looked at where nothing is demanded, or masses are not known.
 void CheckRobotZmp(const std::vector<PlayedRow>& rows, const DescribedWalk& walk,
                    const CertificateText& certificate, Findings* findings);
 

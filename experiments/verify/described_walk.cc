@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "experiments/verify/check_rows.h"
 #include "experiments/verify/robot_momentum.h"
@@ -135,6 +136,7 @@ std::array<Vector6d, 2> DescribedWalk::JointSpeeds(double t) const {
 double DescribedWalk::RobotZmpMargin(double t) const {
   PlayedRow row = Row(t);
   row.zmp = RobotZmp(robot_, At(t), lipm_.gravity);
+  if (!row.zmp.allFinite()) return -std::numeric_limits<double>::infinity();
   return ZmpMargin(row, robot_);
 }
 

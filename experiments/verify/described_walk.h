@@ -46,7 +46,7 @@ class DescribedWalk {
   /// µs at the walk's ends.
   std::array<Vector6d, 2> JointSpeeds(double t) const;
 
-  /// Distance of the whole robot's ZMP (RobotZmp) inside the support polygon [m].
+  /// Distance of the whole robot's ZMP (RobotZmp) inside the support polygon [m]; −∞: it has none.
   double RobotZmpMargin(double t) const;
 
   Support SupportAt(double t) const;

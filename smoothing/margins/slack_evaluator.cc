@@ -33,6 +33,8 @@ void SlackEvaluator::At(const SuperposedWalk& walk, const LocalTime& at,
     std::vector<WalkSensitivity>& sensitivities = sink_.sensitivities;
     const WalkJet& jet = instant.jet();
     walk.Sensitivities(at, &sensitivities);
+    WalkState third = WalkState::Zero();
+    if (!moving.empty()) third = walk.ThirdRanges(instant.t(), instant.t()).center;
     for (const auto& [parameter, rate] : moving) {
       auto found = std::find_if(sensitivities.begin(), sensitivities.end(),
                                 [&](const WalkSensitivity& s) { return s.parameter == parameter; });
@@ -42,6 +44,7 @@ void SlackEvaluator::At(const SuperposedWalk& walk, const LocalTime& at,
       }
       found->jet.value += rate * jet.first;
       found->jet.first += rate * jet.second;
+      found->jet.second += rate * third;
     }
     if (!evaluator_.scene().rests()) {
       walk.StartSensitivities(at.half_step, &out->times);

@@ -89,15 +89,13 @@ void ZmpRobotMargin::AddBounds(const MarginInterval& interval, TightestStatement
   const SupportPolygon polygon = PolygonAt(mid);
   const double margin = polygon.Margin(*zmp);
   const double middle = mid.t(), h = interval.motion.half_width;
-  const auto drift = margin < mid.demanded(family())
-                         ? std::nullopt
-                         : ZmpDrift::Over(mid.robot(), interval.motion,
-                                          mid.walk().ThirdRanges(middle - h, middle + h), *dynamics,
-                                          mid.walk().lipm().gravity);
-  double least = drift ? kUnlimited : -kUnlimited;
-  if (drift) {
+  double least = margin;
+  if (margin >= mid.demanded(family())) {
+    const auto drift =
+        ZmpDrift::Over(mid.robot(), interval.motion, mid.walk().ThirdRanges(middle - h, middle + h),
+                       *dynamics, mid.walk().lipm().gravity);
     ForEachEdge(polygon, [&](const Eigen::Vector2d& a, const Eigen::Vector2d& inward) {
-      least = std::min(least, inward.dot(*zmp - a) - drift->Along(inward));
+      least = std::min(least, inward.dot(*zmp - a) - drift.Along(inward));
     });
   }
   tightest->Add(Of(margin, step), margin - least + kDynamicsRounding);

@@ -101,8 +101,10 @@ TEST(CertificateRows, HoldInsideWholeCertificates) {
   for (MarginFamily family : AllMarginFamilies()) {
     if (family == MarginFamily::kNoStep) continue;  // there are none; soles that stand do not move
     EXPECT_GT(tally.rows[static_cast<size_t>(family)], Draws(100)) << Name(family);
-    // So near that half a bound, or a term forgotten, would show.
-    EXPECT_GT(tally.share[static_cast<size_t>(family)], kSanitized ? 0.3 : 0.7) << Name(family);
+    // So near that half a bound, or a term forgotten, would show. The legs' inertia has its bound
+    // by norms, whose parts have a test of their own (LegDrift).
+    const double share = kSanitized ? 0.3 : family == MarginFamily::kZmpRobot ? 0.4 : 0.7;
+    EXPECT_GT(tally.share[static_cast<size_t>(family)], share) << Name(family);
   }
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "planner/collision/separation.h"
+#include "smoothing/proof/certified_feasibility.h"
 #include "tests/smoothing/test_scenes.h"
 #include "tests/smoothing/test_walks.h"
 #include "tests/wpg/symmetric_masses.h"
@@ -244,6 +245,25 @@ TEST_F(MarginEvaluatorTest, MarginsDoNotDependOnWhereAndOnWhichSide) {
     }
   }
   EXPECT_GT(compared, Draws(100) * 4);
+}
+
+TEST_F(MarginEvaluatorTest, OfARobotWithoutMassesNothingIsSaidOfItsZmp) {
+  RobotModel robot = robot_;
+  robot.masses.fault = "the left leg has no mass";
+  const MarginEvaluator evaluator(robot, {}, {});
+  EXPECT_EQ(evaluator.limits().demanded_of(MarginFamily::kZmpRobot), kNotDemanded);
+  EXPECT_EQ(evaluator.WithLimits({}).limits().demanded_of(MarginFamily::kZmpRobot), kNotDemanded);
+  MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
+  const MarginSet margins = evaluator.At(walk_, {0, 1.0}, &scratch);
+  EXPECT_EQ(Of(margins, MarginFamily::kZmpRobot).value, -kUnlimited);
+  EXPECT_FALSE(evaluator.FirstViolation(walk_, {0, 1.0}, &scratch));
+  Certificate certificate;
+  const CertifiedFeasibility test(evaluator, {});
+  ASSERT_EQ(test.Certify(walk_, &scratch, &certificate).verdict, Verdict::kFeasible);
+  for (const CertificateRow& row : certificate) {
+    if (row.family != MarginFamily::kZmpRobot) continue;
+    EXPECT_EQ(row.margin.value, kUnlimited);
+  }
 }
 
 TEST_F(MarginEvaluatorTest, DescribesAMarginWithItsOwnerPlaceAndDemand) {

@@ -30,18 +30,6 @@ struct RigidMotion {
         Cross(turn2, d) + 2.0 * Cross(turn1, d1) + Cross(turn, Cross(turn1, d)) + Cross(turn, d2);
     return motion;
   }
-  /// The motion of a body that turns by q about an axis through `p` which is fixed in both, and is
-  /// `axis` at m; q1, q2, q3 are q's derivatives.
-  RigidMotion Turned(const Eigen::Vector3d& axis, const Range& q1, const Range& q2, const Range& q3,
-                     double half_width) const {
-    const VectorBall a = Carried(axis), a1 = Cross(turn, a), a2 = Cross(turn1, a) + Cross(turn, a1);
-    RigidMotion motion = *this;
-    motion.turn += q1 * a;
-    motion.turn1 += q2 * a + q1 * a1;
-    motion.turn2 += q3 * a + 2.0 * (q2 * a1) + q1 * a2;
-    motion.BoundTurned(half_width);
-    return motion;
-  }
 };
 
 }  // namespace halfstep

@@ -1,28 +1,32 @@
 #pragma once
 
-#include <optional>
+#include <Eigen/Core>
 
-#include "wpg/motion/link_motions.h"
+#include "wpg/motion/motion_bounds.h"
+#include "wpg/motion/robot_dynamics.h"
+#include "wpg/motion/vector_ball.h"
+#include "wpg/motion/walk_thirds.h"
 
 namespace halfstep {
 
 /// How far the whole robot's ZMP can go over an interval from where it is at the midpoint m. About
 /// the point p of the floor that is the ZMP at m, the floor's force has no horizontal moment n at
-/// m; so p(t) − p = (−n_y, n_x)/f_z, ‖n(t)‖ ≤ h·sup‖ṅ‖.
+/// m; so p(t) − p = (−n_y, n_x)/f_z, and n(t) is what the parts of the robot have drifted by.
 /// Source: smoothing/README.md, "The robot's ZMP between instants".
 struct ZmpDrift {
   double half_width = 0.0;  ///< h [s]
-  VectorBall moment_rate;   ///< ṅ over the interval [N m/s]
-  double least_push = 0.0;  ///< of the floor, f_z [N] > 0
+  /// Rate of n that is known by direction: of the waist's part, for all t of the interval, and at m
+  /// of the legs' weights [N m/s].
+  VectorBall rate;
+  double rest = 0.0;        ///< sup ‖n(t) − n(m)‖ of all else [N m]
+  double least_push = 0.0;  ///< of the floor, f_z [N]; not positive: there is no bound
 
-  /// A bound of |direction·(p(t) − p(m))| for a unit vector in the plane [m].
+  /// A bound of |direction·(p(t) − p(m))| for a unit vector in the plane [m]; ∞: none.
   double Along(const Eigen::Vector2d& direction) const;
 
-  /// None where LinkMotions has none, or the floor may not push. Precondition: as
-  /// LinkMotions::Over, and at_m.Zmp() exists.
-  static std::optional<ZmpDrift> Over(const RobotModel& robot, const IntervalMotion& motion,
-                                      const WalkThirds& thirds, const RobotDynamics& at_m,
-                                      double gravity);
+  /// Preconditions: `motion` is bounded, `at_m` are the dynamics at m, and at_m.Zmp() exists.
+  static ZmpDrift Over(const RobotModel& robot, const IntervalMotion& motion,
+                       const WalkThirds& thirds, const RobotDynamics& at_m, double gravity);
 };
 
 }  // namespace halfstep
