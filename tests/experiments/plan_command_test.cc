@@ -57,6 +57,30 @@ TEST(PlanCommand, ARobotThatCannotStepIsToldWhatAStepInPlaceMisses) {
   EXPECT_THAT(outcome.err, HasSubstr("what may help with self_clearance: "));
 }
 
+TEST(PlanCommand, AStartBlockedByAMeshWithItsFloorIsToldHowToSayIt) {
+  const TemporaryFolder place;
+  WriteText(place / "room.obj",
+            "v -2 -2 0\nv 2 -2 0\nv 2 2 0\nv -2 2 0\nv 2 -2 2\nv 2 2 2\n"
+            "f 1 2 3\nf 1 3 4\nf 2 3 6\nf 2 6 5\n");
+  const std::string mesh = "obstacles: [{name: room, mesh: {file: room.obj";
+  WriteText(place / "scene.yaml", mesh + "}}]\n");
+  const std::string config = WriteText(place / "walk.yaml", ConfigText("scene.yaml", kGoal));
+  const Outcome blocked = Halfstep(place.path(), {"plan", config});
+  EXPECT_EQ(blocked.status, kFailed);
+  EXPECT_THAT(blocked.err, HasSubstr("neither foot can leave the floor at the start; a step in "
+                                     "place misses clearance of "));
+  EXPECT_THAT(blocked.err, HasSubstr(" - room "));
+  EXPECT_THAT(blocked.err, HasSubstr("room has 16 m² of floor at z = 0"));
+  EXPECT_THAT(blocked.err, HasSubstr("say `floor: in_mesh` in its `mesh`"));
+  WriteText(place / "scene.yaml", mesh + ", floor: in_mesh}}]\n");
+  const Outcome run = Halfstep(place.path(), {"run", config, "--quiet", "--out", "run"});
+  EXPECT_EQ(run.status, kSuccess) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("obstacle room: floor: in_mesh: 2 of 4 triangles"));
+  const auto manifest = nlohmann::json::parse(ReadText(place / "run/manifest.json"));
+  ASSERT_EQ(manifest["scene_warnings"].size(), 1u);
+  EXPECT_EQ(Halfstep(place.path(), {"verify", "run"}).status, kSuccess);
+}
+
 TEST(PlanCommand, RunPlansAndItsConfigRunsAgain) {
   const TemporaryFolder place;
   const std::string config = WriteText(place / "walk.yaml", ConfigText("none", kGoal));

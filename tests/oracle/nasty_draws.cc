@@ -142,6 +142,10 @@ PlainObstacle Small(SceneKind kind, Draw* draw) {
       }
       break;
     }
+    case SceneKind::kClouds:
+      o = Round(Kind::kPoints, draw->Logarithmic(0.01, 0.05), 0);
+      for (int n = 1 + draw->Below(12); n > 0; --n) o.vertices.push_back(draw->Vector(-0.15, 0.15));
+      break;
     case SceneKind::kTinySpheres:
       o = Round(Kind::kSphere, draw->Chance(0.5) ? 1e-3 : draw->Logarithmic(1e-5, 3e-3), 0);
       break;
@@ -260,7 +264,7 @@ const char* NameOf(SceneKind kind) {
   constexpr std::array<const char*, kNumSceneKinds> kNames = {
       "thin plates",  "needles",        "tiny spheres",   "primitives", "closed meshes",
       "open meshes",  "flipped meshes", "doubled meshes", "degenerate", "huge meshes",
-      "far vertices", "nested solids",  "no-step areas"};
+      "far vertices", "nested solids",  "no-step areas",  "clouds"};
   return kNames[static_cast<size_t>(kind)];
 }
 

@@ -25,8 +25,9 @@ enum class SceneKind : int {
   kFarVertices,       ///< plates, with points 1 km to 1e15 m away
   kNested,            ///< solids in solids, rooms and shells around the robot
   kNoStep,            ///< areas of the floor
+  kClouds,            ///< points with balls of some centimetres
 };
-constexpr int kNumSceneKinds = 13;
+constexpr int kNumSceneKinds = 14;
 const char* NameOf(SceneKind kind);
 
 /// Random numbers, reproducible from the seed.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <set>
 
 #include "tests/oracle/real.h"
 
@@ -126,6 +127,8 @@ PlacedScene::PlacedScene(const PlainScene& scene, const Eigen::Vector3d& center)
     placed.name = o.name;
     if (o.kind == PlainObstacle::Kind::kMesh) {
       AddMesh(o, &placed);
+    } else if (o.kind == PlainObstacle::Kind::kPoints) {
+      AddCloud(o, &placed);
     } else {
       const auto R = Rotation(o.rpy_deg);
       const auto at = [&](double x, double y, double z) {
@@ -166,6 +169,41 @@ PlacedScene::PlacedScene(const PlainScene& scene, const Eigen::Vector3d& center)
       }
       piece.radius = (piece.radius + piece.set.disc + piece.set.ball) * (1 + 1e-9) + 1e-9;
     }
+  }
+}
+
+// A cloud as planner/README.md has it: the cubes of edge r, of the lattice through the origin of
+// the cloud's frame, that the ball of radius r around a point meets.
+void PlacedScene::AddCloud(const PlainObstacle& cloud, Placed* placed) const {
+  const auto R = Rotation(cloud.rpy_deg);
+  const double r = cloud.size[0];
+  std::set<std::array<long, 3>> cubes;
+  for (const Eigen::Vector3d& p : cloud.vertices) {
+    std::array<long, 3> own{};
+    for (size_t k = 0; k < 3; ++k) {
+      own[k] = std::lround(std::floor(p[static_cast<Eigen::Index>(k)] / r));
+    }
+    for (int neighbour = 0; neighbour < 125; ++neighbour) {
+      const std::array<long, 3> cube = {own[0] + neighbour % 5 - 2, own[1] + neighbour / 5 % 5 - 2,
+                                        own[2] + neighbour / 25 - 2};
+      Real squared = 0;
+      for (size_t k = 0; k < 3; ++k) {
+        const Real at = p[static_cast<Eigen::Index>(k)], low = Real(cube[k]) * r, high = low + r;
+        const Real off = at < low ? low - at : at > high ? at - high : Real(0);
+        squared += off * off;
+      }
+      if (squared <= Real(r) * r) cubes.insert(cube);
+    }
+  }
+  for (const std::array<long, 3>& cube : cubes) {
+    Piece piece;
+    for (int k = 0; k < 8; ++k) {
+      const Point corner = {Real(r) * Real(cube[0] + (k & 1)),
+                            Real(r) * Real(cube[1] + (k >> 1 & 1)),
+                            Real(r) * Real(cube[2] + (k >> 2))};
+      piece.set.points.push_back(ToDouble(Place(cloud, R, center_, corner)) + center_);
+    }
+    placed->pieces.push_back(std::move(piece));
   }
 }
 

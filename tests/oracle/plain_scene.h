@@ -17,11 +17,11 @@ using verify::DistanceOf;
 
 /// An obstacle as a scene file says it (planner/README.md, "Scenes").
 struct PlainObstacle {
-  enum class Kind { kBox, kCylinder, kSphere, kCapsule, kMesh };
+  enum class Kind { kBox, kCylinder, kSphere, kCapsule, kMesh, kPoints };
   std::string name;
   Kind kind = Kind::kBox;
   Eigen::Vector3d size{0, 0, 0};          ///< box: edges; others: radius, length [m]
-  std::vector<Eigen::Vector3d> vertices;  ///< mesh, in the file's unit
+  std::vector<Eigen::Vector3d> vertices;  ///< mesh, in the file's unit; points of a cloud [m]
   std::vector<std::array<int, 3>> triangles;
   double scale = 1;  ///< [m per unit]
   Eigen::Vector3d xyz{0, 0, 0}, rpy_deg{0, 0, 0};
@@ -81,6 +81,7 @@ class PlacedScene {
     Eigen::AlignedBox3d bounds;                     // of these
   };
   void AddMesh(const PlainObstacle& obstacle, Placed* placed) const;
+  void AddCloud(const PlainObstacle& obstacle, Placed* placed) const;
 
   Eigen::Vector3d center_;
   std::vector<Placed> obstacles_;

@@ -34,6 +34,16 @@ std::string WriteScene(const PlainScene& scene, const std::string& folder) {
       case PlainObstacle::Kind::kSphere:
         yaml += "sphere: {radius_m: " + number(o.size[0]) + "}";
         break;
+      case PlainObstacle::Kind::kPoints: {
+        yaml += "points: {file: " + o.name + ".ply, radius_m: " + number(o.size[0]) + "}";
+        std::ofstream ply(folder + "/" + o.name + ".ply");
+        ply << "ply\nformat ascii 1.0\nelement vertex " << o.vertices.size()
+            << "\nproperty double x\nproperty double y\nproperty double z\nend_header\n";
+        for (const Eigen::Vector3d& v : o.vertices) {
+          ply << number(v[0]) << " " << number(v[1]) << " " << number(v[2]) << "\n";
+        }
+        break;
+      }
       case PlainObstacle::Kind::kMesh: {
         yaml += "mesh: {file: " + o.name + ".obj, scale: " + number(o.scale) + "}";
         std::ofstream obj(folder + "/" + o.name + ".obj");
