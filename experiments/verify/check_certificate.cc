@@ -123,8 +123,9 @@ void CheckArithmetic(const CertificateText& certificate, const std::vector<Claim
     if (limit && !(*limit > 0)) findings->Disagree(Formatted("a foot's limit is %.9g", *limit));
   }
   for (const double demanded : certificate.demanded) {
-    if (!(demanded >= 0 || demanded == kNotDemanded))
+    if (!(demanded >= 0 || demanded == kNotDemanded)) {
       findings->Disagree(Formatted("a demanded margin is %.9g", demanded));
+    }
   }
   double smallest = std::numeric_limits<double>::infinity();
   std::string where;

@@ -44,9 +44,8 @@ class ZmpRobotMargin final : public WholeFamily {
   void AddBounds(const MarginInterval& interval, TightestStatement* tightest) const override;
 
  private:
-  // Values of the ZMP in W and of all that may be [m], from rounding: joint accelerations come from
-  // differences of nearly equal numbers, and those of legs without closed form from residuals of
-  // 3e-14 besides.
+  // Added to every bound for rounding [m]. Joint accelerations are differences of nearly equal
+  // numbers, and those of legs without closed form follow from angles with residuals of 3e-14.
   static constexpr double kDynamicsRounding = 1e-9;
 };
 

@@ -155,9 +155,9 @@ TEST(ExperimentConfig, NothingNeedBeDemandedOfTheWholeRobotsZmp) {
   const std::string text = Written(c);
   EXPECT_THAT(text, testing::HasSubstr("zmp_robot_m: none"));
   EXPECT_EQ(Written(LoadConfig(WriteText(place / "again.yaml", text), {})), text);
-  EXPECT_THROW(LoadConfig(WriteText(place / "zmp.yaml", kAllKeys),
-                          {{"smoothing.margins.zmp_m", "none"}}),
-               InputError);
+  EXPECT_THROW(
+      LoadConfig(WriteText(place / "zmp.yaml", kAllKeys), {{"smoothing.margins.zmp_m", "none"}}),
+      InputError);
 }
 
 TEST(ExperimentConfig, DefaultsAreThoseOfTheReadme) {

@@ -3,8 +3,8 @@
 #include <array>
 #include <vector>
 
-#include "wpg/motion/vector_ball.h"
 #include "wpg/motion/profile_jet.h"
+#include "wpg/motion/vector_ball.h"
 
 namespace halfstep {
 
