@@ -89,6 +89,12 @@ TEST(RobotMasses, AnInertiaThatIsNotPositiveIsNoRobotsInertia) {
               HasSubstr("link left_link2 has the negative moment of inertia -0.02 kg m²"));
 }
 
+// As of a public URDF whose inertias are in another unit.
+TEST(RobotMasses, AnInertiaBeyondTheRobotsReachIsNoRobotsInertia) {
+  const RobotModel robot = LoadChanged("name='left_link2'", "izz='0.01'", "izz='1000'");
+  EXPECT_THAT(robot.masses.fault, HasSubstr("the left leg has 9 kg and a moment of inertia of"));
+}
+
 TEST(RobotMasses, WhatIsHardToBelieveIsTold) {
   EXPECT_THAT(LoadChanged("name='left_link2'", "ixx='0.01'", "ixx='0.03'").warnings,
               testing::Contains(HasSubstr(

@@ -181,8 +181,10 @@ class Builder {
       fields_.Complain("urdf", "no link has a mass: the CoM cannot be found");
       return;
     }
+    // No part of a humanoid reaches twice as far as its legs are high.
     model_.masses =
-        AddUpMasses(urdf_, FindAnchors(urdf_, leg_.waist, body_.leg_joints, leg_.posture));
+        AddUpMasses(urdf_, FindAnchors(urdf_, leg_.waist, body_.leg_joints, leg_.posture),
+                    2 * model_.waist_height);
     for (const std::string& warning : MassWarnings(urdf_)) model_.warnings.push_back(warning);
     model_.com_x_B = moment.x() / model_.mass;
     model_.com_height = file_.com_height.value_or(model_.waist_height + moment.z() / model_.mass);

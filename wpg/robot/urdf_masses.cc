@@ -1,6 +1,7 @@
 #include "wpg/robot/urdf_masses.h"
 
 #include <Eigen/Eigenvalues>
+#include <cmath>
 #include <optional>
 
 #include "wpg/files/input_error.h"
@@ -38,6 +39,17 @@ void Add(const BodyMass& more, BodyMass* sum) {
   sum->mass = mass;
 }
 
+// A moment of inertia of mass m within r of its centre is at most m r². "" when it may be so.
+std::string TooFarOut(const std::string& what, double mass, const Matrix3d& inertia,
+                      double farthest) {
+  const double most = inertia.diagonal().maxCoeff();
+  if (!(most > mass * farthest * farthest)) return "";
+  return what + Formatted(
+                    " has %.3g kg and a moment of inertia of %.3g kg m², as if it reached %.1f m "
+                    "far (are the URDF's inertias in kg m²?)",
+                    mass, most, std::sqrt(most / mass));
+}
+
 // Volume of the boxes around a link's shapes [m³]; none when a shape is a mesh or there is none.
 std::optional<double> BoxVolume(const UrdfLink& link) {
   double volume = 0.0;
@@ -62,7 +74,8 @@ std::optional<double> BoxVolume(const UrdfLink& link) {
 
 }  // namespace
 
-RobotMasses AddUpMasses(const UrdfTree& urdf, const std::vector<LinkAnchor>& anchors) {
+RobotMasses AddUpMasses(const UrdfTree& urdf, const std::vector<LinkAnchor>& anchors,
+                        double farthest) {
   RobotMasses masses;
   masses.fault.clear();
   for (size_t i = 0; i < urdf.links.size(); ++i) {
@@ -81,9 +94,19 @@ RobotMasses AddUpMasses(const UrdfTree& urdf, const std::vector<LinkAnchor>& anc
     Add({link.mass, anchor.X_AnchorLink * link.com, R * link.inertia * R.transpose()}, &sum);
   }
   for (const Side side : {Side::kLeft, Side::kRight}) {
+    const std::string leg = "the " + std::string(Name(side)) + " leg";
     double mass = 0.0;
-    for (const BodyMass& link : masses.links[static_cast<size_t>(Index(side))]) mass += link.mass;
-    if (!(mass > 0.0)) masses.fault = "the " + std::string(Name(side)) + " leg has no mass";
+    Matrix3d inertia = Matrix3d::Zero();
+    for (const BodyMass& link : masses.links[static_cast<size_t>(Index(side))]) {
+      mass += link.mass;
+      inertia += link.inertia;
+    }
+    if (!(mass > 0.0)) masses.fault = leg + " has no mass";
+    if (masses.fault.empty()) masses.fault = TooFarOut(leg, mass, inertia, farthest);
+  }
+  if (masses.fault.empty()) {
+    masses.fault =
+        TooFarOut("what the waist carries", masses.waist.mass, masses.waist.inertia, farthest);
   }
   if (!(masses.waist.mass > 0.0)) masses.fault = "nothing on the waist has a mass";
   return masses;

@@ -9,9 +9,11 @@
 
 namespace halfstep {
 
-/// Adds up the links' masses by their anchors. The result's `fault` says which leg has no mass or
-/// which link an inertia with a negative principal moment.
-RobotMasses AddUpMasses(const UrdfTree& urdf, const std::vector<LinkAnchor>& anchors);
+/// Adds up the links' masses by their anchors. The result's `fault` says which leg has no mass,
+/// which link an inertia with a negative principal moment, or what has an inertia that its mass
+/// could have only farther than `farthest` [m] from its centre: files have inertias in other units.
+RobotMasses AddUpMasses(const UrdfTree& urdf, const std::vector<LinkAnchor>& anchors,
+                        double farthest);
 
 /// What of the links' masses is hard to believe, as "file:line:column: …": principal moments of
 /// inertia of which one exceeds the sum of the others, which no rigid body has, and densities
