@@ -45,7 +45,7 @@ function jointSpeeds(robot, limits) {
 
 const marginColumns = [
   ["zmp", "zmp_margin_m", "ZMP", palette.zmp],
-  ["zmp_robot", "zmp_robot_margin_m", "robot's ZMP", palette.left],
+  ["zmp_robot", "zmp_robot_margin_m", "robot ZMP", palette.left],
   ["clearance", "clearance_m", "obstacles", palette.ink],
   ["self_clearance", "self_clearance_m", "self", palette.second],
   ["joint", "joint_margin_rad", "joints", palette.com],
@@ -56,7 +56,7 @@ const marginColumns = [
 function margins(families, demanded) {
   const unitOf = Object.fromEntries(families.map((family) => [family.name, family]));
   return {
-    title: "Slack [scales]",
+    title: "Slack",
     hint: "(margin − demanded) / scale; " + marginColumns.map(([name, , label]) =>
       `${label}: 1 = ${unitOf[name].scale} ${unitOf[name].unit}`).join(", "),
     level: { value: 0, colour: palette.limit },

@@ -139,10 +139,14 @@ std::optional<std::vector<SweptVolumeBaker::Placement>> SweptVolumeBaker::Cover(
   return placements;
 }
 
+double SweptVolumeBaker::Inflation(const Placement& placement) const {
+  return options_.clearance + placement.displacement;
+}
+
 HalfSpaces SweptVolumeBaker::Inflated(const Placement& placement) const {
   const Outline& outline = outlines_[placement.body];
   const ConvexBody& shape = robot_.bodies[placement.body].shape;
-  const double inflation = options_.clearance + placement.displacement;
+  const double inflation = Inflation(placement);
   const Eigen::Matrix3d& R = placement.X_SBody.linear();
   const Vector3d& p = placement.X_SBody.translation();
   HalfSpaces region;
@@ -158,7 +162,7 @@ HalfSpaces SweptVolumeBaker::Inflated(const Placement& placement) const {
 
 void SweptVolumeBaker::AddMirrored(const Placement& placement, HalfSpaces* region) const {
   const ConvexBody& shape = robot_.bodies[placement.body].shape;
-  const double inflation = options_.clearance + placement.displacement;
+  const double inflation = Inflation(placement);
   const Eigen::DiagonalMatrix<double, 3> mirror(1, -1, 1);
   // The mirror image reaches as far along n as the body along the mirror image of n.
   const auto reach = [&](const Vector3d& n) {

@@ -58,6 +58,8 @@ class SweptVolumeBaker {
     int twin = -1;  // a body on the other side whose mirror image (nearly) is in this one; −1: none
   };
   int FindTwin(size_t body) const;
+  // What a placed body is inflated by [m].
+  double Inflation(const Placement& placement) const;
   // Around a placed body and all that is near enough.
   HalfSpaces Inflated(const Placement& placement) const;
   // Makes a region larger, so that it is also around the mirror image of another placed body.
