@@ -1,7 +1,10 @@
 #include "experiments/survey/stance_search.h"
 
 #include <algorithm>
+#include <map>
+#include <set>
 #include <string>
+#include <utility>
 
 #include "experiments/config/experiment.h"
 #include "experiments/config/scaled_defaults.h"
@@ -36,8 +39,7 @@ class StanceSearch {
     Found best = LiftLess();
     const double before = best.apart;
     for (int wider = 1; may_widen && best.apart < kTouchByDesign && wider <= 5; ++wider) {
-      RobotDraft other = draft_;
-      std::swap(draft_, other);
+      RobotDraft narrower = draft_;
       draft_.standing.width = narrowest * (1 + 0.1 * wider);
       draft_.why_width = Formatted("%.3f m apart, a body ", narrowest) + NearnessText(before) +
                          " another one in six steps";
@@ -46,7 +48,7 @@ class StanceSearch {
       if (found.apart > best.apart) {
         best = std::move(found);
       } else {
-        std::swap(draft_, other);
+        draft_ = std::move(narrower);
       }
     }
     return best.model;
@@ -106,19 +108,50 @@ class StanceSearch {
     return gaps;
   }
 
-  // Their meshes become several convex parts.
-  void CutMeshes() {
-    const RobotModel model = ModelOf(draft_);
-    for (const SelfGap& gap : StrangersThatTouch(model)) {
-      const std::array<std::string, 2> links{LinkOf(model.bodies[static_cast<size_t>(gap.a)]),
-                                             LinkOf(model.bodies[static_cast<size_t>(gap.b)])};
-      for (const size_t i : {size_t{0}, size_t{1}}) {
-        const UrdfLink& link =
-            draft_.urdf.links[static_cast<size_t>(draft_.urdf.FindLink(links[i]))];
-        if (!HasMesh(link) || !draft_.mesh_parts.emplace(link.name, kParts).second) continue;
-        draft_.why_parts[link.name] =
-            "as one hull it " + NearnessText(gap.least) + " " + links[1 - i] + " in six steps";
+  using LinkPair = std::array<std::string, 2>;
+
+  static LinkPair LinksOf(const RobotModel& model, const SelfGap& gap) {
+    return {LinkOf(model.bodies[static_cast<size_t>(gap.a)]),
+            LinkOf(model.bodies[static_cast<size_t>(gap.b)])};
+  }
+
+  // Of these gaps, the links, not of both legs, whose bodies stand so near that they touch by
+  // design: NeighboursThatTouch excludes the links, with all of their bodies.
+  static std::set<LinkPair> TouchingByDesign(const RobotModel& model,
+                                             const std::vector<SelfGap>& gaps) {
+    std::set<LinkPair> links;
+    for (const SelfGap& gap : gaps) {
+      if (!AreOfBothLegs(model, gap) && gap.standing < kTouchByDesign) {
+        links.insert(LinksOf(model, gap));
       }
+    }
+    return links;
+  }
+
+  // Meshes of strangers that touch become several convex parts, where that takes any of them apart.
+  void CutMeshes() {
+    std::map<LinkPair, double> touching;  // and their least gap [m]
+    const RobotModel whole = ModelOf(draft_);
+    for (const SelfGap& gap : StrangersThatTouch(whole)) {
+      const auto [known, is_new] = touching.emplace(LinksOf(whole, gap), gap.least);
+      known->second = std::min(known->second, gap.least);
+    }
+    const auto cut = [&](const LinkPair& links, double gap) {
+      for (const size_t i : {size_t{0}, size_t{1}}) {
+        const auto link = static_cast<size_t>(draft_.urdf.FindLink(links[i]));
+        if (!HasMesh(draft_.urdf.links[link])) continue;
+        draft_.mesh_parts[links[i]] = kParts;
+        draft_.why_parts[links[i]] =
+            "as one hull it " + NearnessText(gap) + " " + links[1 - i] + " in six steps";
+      }
+    };
+    for (const auto& [links, gap] : touching) cut(links, gap);
+    if (draft_.mesh_parts.empty()) return;
+    const RobotModel all_cut = ModelOf(draft_);
+    const std::set<LinkPair> by_design = TouchingByDesign(all_cut, StrangersThatTouch(all_cut));
+    draft_.mesh_parts.clear();
+    for (const auto& [links, gap] : touching) {
+      if (!by_design.contains(links)) cut(links, gap);
     }
   }
 
@@ -131,10 +164,9 @@ class StanceSearch {
     for (const double share : {1.0, 0.9, 0.8, 0.7, 0.6}) {
       model.largest_lift = share == 1.0 ? planned : share * via;
       std::vector<SelfGap> gaps = StrangersThatTouch(model);
-      // Who stands nearer than that touches by design.
-      std::erase_if(gaps, [&](const SelfGap& gap) {
-        return !AreOfBothLegs(model, gap) && gap.standing < kTouchByDesign;
-      });
+      const std::set<LinkPair> by_design = TouchingByDesign(model, gaps);
+      std::erase_if(gaps,
+                    [&](const SelfGap& gap) { return by_design.contains(LinksOf(model, gap)); });
       double apart = kTouchByDesign;
       const SelfGap* nearest = nullptr;
       for (const SelfGap& gap : gaps) {
@@ -149,10 +181,9 @@ class StanceSearch {
       }
       if (nearest == nullptr) break;
       if (share == 1.0) {
-        draft_.why_lift = Formatted("Lifted by %.3f m, ", via) +
-                          LinkOf(model.bodies[static_cast<size_t>(nearest->b)]) + " " +
-                          NearnessText(apart) + " " +
-                          LinkOf(model.bodies[static_cast<size_t>(nearest->a)]) + ".";
+        const LinkPair links = LinksOf(model, *nearest);
+        draft_.why_lift = Formatted("Lifted by %.3f m, ", via) + links[1] + " " +
+                          NearnessText(apart) + " " + links[0] + ".";
       }
     }
     return best;
