@@ -68,16 +68,21 @@ class Ceiling {
     }
   }
 
-  /// The least in the columns 0 … 4·blocks − 1 of one of these rows, four by four.
-  void Row(float j, size_t blocks, float* least) const {
-    for (size_t i = 0; i < blocks; ++i) Four(highest_).Store(least + 4 * i);
+  /// The least in the columns 0 … 8·blocks − 1 of one of these rows.
+  void Row(float j, size_t blocks, float* least) {
+    for (Plane& plane : lowest_) plane.begin = plane.at + j * plane.per_y;
     constexpr float kFirst[4] = {0, 1, 2, 3};
-    for (const Plane& plane : lowest_) {
-      const Four begin(plane.at + j * plane.per_y), per_x(plane.per_x);
-      Four column = Four::Load(kFirst);
-      for (size_t i = 0; i < blocks; ++i, column = column + Four(4.0f)) {
-        Min(Four::Load(least + 4 * i), begin + per_x * column).Store(least + 4 * i);
+    Four left = Four::Load(kFirst);
+    for (size_t i = 0; i < blocks; ++i, left = left + Four(8.0f)) {
+      const Four right = left + Four(4.0f);
+      Four a(highest_), b(highest_);
+      for (const Plane& plane : lowest_) {
+        const Four begin(plane.begin), per_x(plane.per_x);
+        a = Min(a, begin + per_x * left);
+        b = Min(b, begin + per_x * right);
       }
+      a.Store(least + 8 * i);
+      b.Store(least + 8 * i + 4);
     }
   }
 
@@ -91,6 +96,7 @@ class Ceiling {
   };
   struct Plane {
     float at, per_x, per_y;
+    float begin = 0.0f;  // in column 0 of a row
   };
   using Corners = std::array<float, 4>;
 

@@ -18,11 +18,14 @@ using Eigen::Vector3d;
 // corners. One that is nearer than this to another is left out [cosine of 3°].
 constexpr double kSameDirection = 0.9986;
 
-// A body's mirror image may reach this far out of its twin: both get one region around [m].
+// A body's mirror image may reach this far out of its twin, and its link be this far from where
+// that of the twin is: both get one region around [m].
 constexpr double kSameBody = 1e-3;
 
-// Placements stand for at most this long [s]: longer ones would all be inflated to the limit.
+// Placements stand for at most this long [s], but where a body moves so slowly that it stays within
+// this share of the displacement allowed: longer ones would all be inflated to the limit.
 constexpr double kLongest = 0.008;
+constexpr double kSlow = 0.4;
 
 Eigen::Matrix3Xd Directions(const ConvexBody& body) {
   std::vector<Vector3d> all;
@@ -40,6 +43,8 @@ Eigen::Matrix3Xd Directions(const ConvexBody& body) {
   for (size_t i = 0; i < all.size(); ++i) directions.col(static_cast<Eigen::Index>(i)) = all[i];
   return directions;
 }
+
+Eigen::Affine3d Mirror() { return Eigen::Affine3d(Eigen::Scaling(1.0, -1.0, 1.0)); }
 
 HalfSpaces MirrorImage(HalfSpaces region) {
   region.normals.row(1) *= -1.0;
@@ -66,37 +71,39 @@ SweptVolumeBaker::SweptVolumeBaker(const RobotModel& robot, const SweptVolumeOpt
     }
     outlines_.push_back(std::move(outline));
   }
-  for (size_t b = 0; b < outlines_.size(); ++b) outlines_[b].twin = FindTwin(b);
+  for (size_t b = 0; b < outlines_.size(); ++b) twins_.push_back(FindTwin(b));
 }
 
-int SweptVolumeBaker::FindTwin(size_t body) const {
+std::optional<SweptVolumeBaker::Twin> SweptVolumeBaker::FindTwin(size_t body) const {
   const auto X_BLink = [&](const RobotBody& of) -> Isometry3d {
     if (of.leg < 0) return Isometry3d::Identity();
     return robot_.legs[static_cast<size_t>(of.leg)].joints[static_cast<size_t>(of.link)].X_BLink;
   };
   const RobotBody& own = robot_.bodies[body];
-  const Isometry3d X_LinkB = X_BLink(own).inverse();
-  int twin = -1;
+  const Outline& outline = outlines_[body];
+  std::optional<Twin> best;
   double least = kSameBody;
   for (size_t t = 0; t < robot_.bodies.size(); ++t) {
     const RobotBody& other = robot_.bodies[t];
     const int mirrored_leg = own.leg < 0 ? -1 : 1 - own.leg;
     if (other.leg != mirrored_leg || other.link != own.link) continue;
-    HalfSpaces region{.normals = X_LinkB.inverse().linear() * outlines_[body].normals,
-                      .offsets = {},
-                      .lower = Vector3d::Zero(),
-                      .upper = Vector3d::Zero()};
-    region.offsets =
-        outlines_[body].offsets + region.normals.transpose() * X_LinkB.inverse().translation();
-    const Eigen::VectorXd before = region.offsets;
-    AddMirrored({.body = t, .X_SBody = X_BLink(other)}, &region);
-    const double out = (region.offsets - before).maxCoeff() - options_.clearance;
+    Twin twin{.body = t,
+              .X_LinkImage = X_BLink(own).inverse() * Mirror() * X_BLink(other),
+              .offsets = Eigen::VectorXd(outline.offsets.size())};
+    const Eigen::Matrix3d R_ImageLink = twin.X_LinkImage.linear().transpose();
+    for (Eigen::Index i = 0; i < twin.offsets.size(); ++i) {
+      const Vector3d n = outline.normals.col(i);
+      twin.offsets[i] =
+          n.dot(twin.X_LinkImage.translation()) + Support(other.shape, R_ImageLink * n);
+    }
+    twin.reach = (twin.X_LinkImage * other.shape.center).norm() + other.shape.radius;
+    const double out = (twin.offsets - outline.offsets).maxCoeff();
     if (out < least) {
       least = out;
-      twin = static_cast<int>(t);
+      best = std::move(twin);
     }
   }
-  return twin;
+  return best;
 }
 
 std::optional<std::vector<SweptVolumeBaker::Placement>> SweptVolumeBaker::Cover(
@@ -122,14 +129,15 @@ std::optional<std::vector<SweptVolumeBaker::Placement>> SweptVolumeBaker::Cover(
     // A little wider, for the rounding of the interval's ends.
     bounds_.Bound(Evaluate(half_step, profiles, mid), second, 0.5 * width * (1 + 1e-9), &motion);
     const bool last = width <= options_.shortest_interval;
-    if (motion.bounded && (width <= kLongest || last)) {
+    if (motion.bounded) {
+      const double most = (width <= kLongest ? 1.0 : kSlow) * options_.displacement;
       std::erase_if(task.bodies, [&](size_t b) {
         const double displacement = motion.displacement[b];
-        if (!(displacement <= options_.displacement) && !last) return false;
+        if (!(displacement <= most) && !last) return false;
         placements.push_back({b, motion.posture.OfBody(robot_.bodies[b]), displacement, mid});
         return true;
       });
-    } else if (!motion.bounded && last) {
+    } else if (last) {
       return std::nullopt;
     }
     if (task.bodies.empty()) continue;
@@ -143,40 +151,45 @@ double SweptVolumeBaker::Inflation(const Placement& placement) const {
   return options_.clearance + placement.displacement;
 }
 
-HalfSpaces SweptVolumeBaker::Inflated(const Placement& placement) const {
-  const Outline& outline = outlines_[placement.body];
+HalfSpaces SweptVolumeBaker::Bounds(const Placement& placement) const {
   const ConvexBody& shape = robot_.bodies[placement.body].shape;
   const double inflation = Inflation(placement);
-  const Eigen::Matrix3d& R = placement.X_SBody.linear();
-  const Vector3d& p = placement.X_SBody.translation();
-  HalfSpaces region;
-  region.normals = R * outline.normals;
-  region.offsets = (outline.offsets + region.normals.transpose() * p).array() + inflation;
+  HalfSpaces bounds{.normals = {}, .offsets = {}, .lower = {}, .upper = {}};
   for (int axis = 0; axis < 3; ++axis) {
-    const Vector3d direction = R.transpose().col(axis);
-    region.upper[axis] = p[axis] + Support(shape, direction) + inflation;
-    region.lower[axis] = p[axis] - Support(shape, -direction) - inflation;
+    const Vector3d direction = placement.X_SBody.linear().row(axis);
+    const double at = placement.X_SBody.translation()[axis];
+    bounds.upper[axis] = at + Support(shape, direction) + inflation;
+    bounds.lower[axis] = at - Support(shape, -direction) - inflation;
   }
+  return bounds;
+}
+
+HalfSpaces SweptVolumeBaker::Inflated(const Placement& placement) const {
+  const Outline& outline = outlines_[placement.body];
+  HalfSpaces region = Bounds(placement);
+  region.normals = placement.X_SBody.linear() * outline.normals;
+  region.offsets =
+      (outline.offsets + region.normals.transpose() * placement.X_SBody.translation()).array() +
+      Inflation(placement);
   return region;
 }
 
-void SweptVolumeBaker::AddMirrored(const Placement& placement, HalfSpaces* region) const {
-  const ConvexBody& shape = robot_.bodies[placement.body].shape;
-  const double inflation = Inflation(placement);
-  const Eigen::DiagonalMatrix<double, 3> mirror(1, -1, 1);
-  // The mirror image reaches as far along n as the body along the mirror image of n.
-  const auto reach = [&](const Vector3d& n) {
-    const Vector3d of = mirror * n;
-    return of.dot(placement.X_SBody.translation()) +
-           Support(shape, placement.X_SBody.linear().transpose() * of) + inflation;
-  };
-  for (Eigen::Index i = 0; i < region->normals.cols(); ++i) {
-    region->offsets[i] = std::max(region->offsets[i], reach(region->normals.col(i)));
-  }
-  for (int axis = 0; axis < 3; ++axis) {
-    region->upper[axis] = std::max(region->upper[axis], reach(Vector3d::Unit(axis)));
-    region->lower[axis] = std::min(region->lower[axis], -reach(-Vector3d::Unit(axis)));
-  }
+bool SweptVolumeBaker::AddTwin(const Placement& placement, const Placement& twin,
+                               HalfSpaces* region) const {
+  const Twin& image = *twins_[placement.body];
+  // How the placed image lies to where the twin says that it is, seen from this body's link.
+  const Eigen::Affine3d moved = placement.X_SBody.inverse() * Mirror() * twin.X_SBody *
+                                image.X_LinkImage.inverse(Eigen::Isometry);
+  const double away = (moved.linear() - Eigen::Matrix3d::Identity()).norm() * image.reach +
+                      moved.translation().norm();
+  if (!(away < kSameBody)) return false;
+  const double more = away + Inflation(twin) - Inflation(placement);
+  const Eigen::VectorXd& offsets = outlines_[placement.body].offsets;
+  region->offsets.array() += ((image.offsets - offsets).array() + more).max(0.0);
+  const HalfSpaces bounds = MirrorImage(Bounds(twin));
+  region->lower = region->lower.cwiseMin(bounds.lower);
+  region->upper = region->upper.cwiseMax(bounds.upper);
+  return true;
 }
 
 std::optional<BoxTree> SweptVolumeBaker::Bake(const HalfStep& half_step, const Lipm& lipm) const {
@@ -189,12 +202,11 @@ std::optional<BoxTree> SweptVolumeBaker::Bake(const HalfStep& half_step, const L
   std::vector<HalfSpaces> regions;
   for (const Placement& placement : *placements) {
     regions.push_back(Inflated(placement));
-    const int twin = outlines_[placement.body].twin;
-    if (twin < 0) continue;
-    const auto same = left.find({static_cast<size_t>(twin), placement.time});
+    const std::optional<Twin>& twin = twins_[placement.body];
+    if (!twin) continue;
+    const auto same = left.find({twin->body, placement.time});
     if (same == left.end()) continue;
-    AddMirrored(*same->second, &regions.back());
-    left.erase(same);
+    if (AddTwin(placement, *same->second, &regions.back())) left.erase(same);
   }
   for (const auto& [key, placement] : left) regions.push_back(MirrorImage(Inflated(*placement)));
   if (regions.empty()) return BoxTree{};

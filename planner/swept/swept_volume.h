@@ -55,20 +55,31 @@ class SweptVolumeBaker {
   struct Outline {
     Eigen::Matrix3Xd normals;  // in the body's link frame, unit
     Eigen::VectorXd offsets;   // of the body's supporting planes [m]
-    int twin = -1;  // a body on the other side whose mirror image (nearly) is in this one; −1: none
   };
-  int FindTwin(size_t body) const;
+  // A body on the other side whose mirror image (nearly) is in this one, where all joint angles are
+  // zero. All is in this body's link frame.
+  struct Twin {
+    size_t body = 0;
+    Eigen::Affine3d X_LinkImage = Eigen::Affine3d::Identity();  // its link's mirror image
+    Eigen::VectorXd offsets;                                    // of its planes along the normals
+    double reach = 0.0;  // of its farthest point from the origin [m]
+  };
+  std::optional<Twin> FindTwin(size_t body) const;
   // What a placed body is inflated by [m].
   double Inflation(const Placement& placement) const;
   // Around a placed body and all that is near enough.
   HalfSpaces Inflated(const Placement& placement) const;
-  // Makes a region larger, so that it is also around the mirror image of another placed body.
-  void AddMirrored(const Placement& placement, HalfSpaces* region) const;
+  // The box around it; no half-spaces.
+  HalfSpaces Bounds(const Placement& placement) const;
+  // Makes the region around a placed body larger, so that it is also around the mirror image of its
+  // placed twin. False, and nothing done, where that is too far away.
+  bool AddTwin(const Placement& placement, const Placement& twin, HalfSpaces* region) const;
 
   const RobotModel& robot_;
   SweptVolumeOptions options_;
   MotionBounds bounds_;
   std::vector<Outline> outlines_;
+  std::vector<std::optional<Twin>> twins_;  // by body
 };
 
 }  // namespace halfstep

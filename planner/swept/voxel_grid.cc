@@ -71,8 +71,8 @@ void VoxelGrid::Fill(const HalfSpaces& region) {
     }
   }
   const int columns = last.x() - first.x() + 1, rows = last.y() - first.y() + 1;
-  const auto blocks = static_cast<size_t>((columns + 3) / 4);
-  std::vector<float> from(4 * blocks), to(4 * blocks);
+  const auto blocks = static_cast<size_t>((columns + 7) / 8);
+  std::vector<float> from(8 * blocks), to(8 * blocks);
   const double highest = size_.z() - 1;
   for (int j = 0; j < rows; ++j) {
     const float row = static_cast<float>(j);

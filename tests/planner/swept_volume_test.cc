@@ -168,9 +168,9 @@ TEST(SweptVolumeTest, IntervalsCoverAllTimeForEachBody) {
 }
 
 // A displacement that is never too long leaves intervals of one length, in order.
-TEST(SweptVolumeTest, NoBodyLeavesItsPlacementWithinTheInterval) {
+TEST(SweptVolumeTest, PlacementsCoverTheHalfStepAndNoBodyLeavesItsOwn) {
   SweptVolumeOptions options = CoarseOptions();
-  options.displacement = 10;
+  options.displacement = 0.01;
   const RobotModel& robot = SweptRobot();
   const SweptVolumeBaker baker(robot, options);
   for (int element = 0; element < FewHalfSteps().size(); ++element) {
@@ -179,15 +179,17 @@ TEST(SweptVolumeTest, NoBodyLeavesItsPlacementWithinTheInterval) {
     const HalfStepProfiles profiles(half_step.kind, half_step.shape, half_step.duration, lipm);
     const auto placements = baker.Cover(half_step, lipm);
     ASSERT_TRUE(placements);
-    ASSERT_EQ(placements->size() % robot.bodies.size(), 0u);
-    const size_t intervals = placements->size() / robot.bodies.size();
-    std::vector<size_t> seen(robot.bodies.size(), 0);
+    std::vector<double> covered(robot.bodies.size(), 0.0);  // by body, until then [s]
+    double longest = 0.0;
     for (const auto& placement : *placements) {
-      const size_t n = seen[placement.body]++;
       const RobotBody& body = robot.bodies[placement.body];
+      const double from = covered[placement.body], to = 2.0 * placement.time - from;
+      ASSERT_GT(to, from) << body.name;
+      covered[placement.body] = to;
+      longest = std::max(longest, to - from);
+      ASSERT_LE(placement.displacement, to - from > 0.0081 ? 0.004 : 0.01) << body.name;
       for (const double at : {1e-9, 0.5, 1 - 1e-9}) {
-        const double tau =
-            half_step.duration * (static_cast<double>(n) + at) / static_cast<double>(intervals);
+        const double tau = from + at * (to - from);
         const Posture posture = SolvePosture(robot, Evaluate(half_step, profiles, tau).value);
         ASSERT_TRUE(posture.reachable);
         const Eigen::Isometry3d& X = posture.OfBody(body);
@@ -201,6 +203,8 @@ TEST(SweptVolumeTest, NoBodyLeavesItsPlacementWithinTheInterval) {
         ASSERT_LE(farthest, placement.displacement + 1e-12) << body.name << " " << tau;
       }
     }
+    for (const double until : covered) EXPECT_NEAR(until, half_step.duration, 1e-12);
+    EXPECT_GT(longest, 0.01);
   }
 }
 
