@@ -89,6 +89,20 @@ TEST(RobotMasses, AnInertiaThatIsNotPositiveIsNoRobotsInertia) {
               HasSubstr("link left_link2 has the negative moment of inertia -0.02 kg m²"));
 }
 
+// As of a public URDF's wrist of which one digit is wrong.
+TEST(RobotMasses, ANegativeInertiaThatIsNegligibleIsToldOnly) {
+  const GeneratedRobot good = GeneratedRobots()[0];
+  const std::string wrist =
+      "<link name='wrist'><inertial><mass value='0.01'/><inertia ixx='1e-9' iyy='1e-9' izz='1e-9' "
+      "ixy='3e-9' ixz='0' iyz='0'/></inertial></link><joint name='hold' type='fixed'>"
+      "<parent link='waist'/><child link='wrist'/></joint></robot>";
+  const RobotModel robot = TemporaryRobot("wrist", Replaced(GeneratedUrdf(good), "</robot>", wrist),
+                                          GeneratedYaml(good, "robot.urdf"))
+                               .Load();
+  EXPECT_TRUE(robot.masses.known()) << robot.masses.fault;
+  EXPECT_THAT(robot.warnings, testing::Contains(HasSubstr("no rigid body has such an inertia")));
+}
+
 // As of a public URDF whose inertias are in another unit.
 TEST(RobotMasses, AnInertiaBeyondTheRobotsReachIsNoRobotsInertia) {
   const RobotModel robot = LoadChanged("name='left_link2'", "izz='0.01'", "izz='1000'");

@@ -514,14 +514,19 @@ TEST(RobotModel, HullsWithTooManyVerticesBecomeSimplerOnesAroundThem) {
 TEST(RobotModel, AJointThatCannotMoveMattersInALegOnly) {
   const GeneratedRobot good = GeneratedRobots()[0];
   const std::string yaml = GeneratedYaml(good, "robot.urdf");
-  const std::string finger =
-      "<link name='finger'/><joint name='grip' type='revolute'><parent link='waist'/>"
-      "<child link='finger'/><limit lower='0' upper='1' velocity='0' effort='1'/></joint></robot>";
+  std::string finger;
+  for (const std::string name : {"thumb", "index", "ring"}) {
+    finger += "<link name='" + name + "'/><joint name='move_" + name +
+              "' type='revolute'><parent link='waist'/><child link='" + name +
+              "'/><limit lower='0' upper='1' velocity='0' effort='1'/></joint>";
+  }
+  finger += "</robot>";
   const TemporaryRobot robot("finger", Replaced(GeneratedUrdf(good), "</robot>", finger), yaml);
   const RobotModel model = robot.Load();
-  ASSERT_EQ(model.warnings.size(), 1u);
+  ASSERT_EQ(model.warnings.size(), 1u) << testing::PrintToString(model.warnings);
   EXPECT_THAT(model.warnings[0],
-              HasSubstr("limit velocity: 0 is out of range (valid: > 0); it is held still"));
+              HasSubstr("limit velocity: 0 is out of range (valid: > 0); it is held still, so are "
+                        "move_index, move_ring"));
   EXPECT_THAT(
       RefusalOf({"leg", Replaced(GeneratedUrdf(good), "velocity='4'", "velocity='0'"), yaml}),
       HasSubstr("limit velocity: 0 is out of range (valid: > 0)"));

@@ -1,7 +1,9 @@
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <numbers>
 #include <optional>
+#include <string_view>
 
 #include "wpg/files/number_text.h"
 #include "wpg/files/text.h"
@@ -125,9 +127,16 @@ class Builder {
                    "axes meet, continued with proof to this one, which takes longer");
       for (const std::string& line : told.lines()) model_.warnings.push_back(line);
     }
+    // Joints with the same fault, such as the fingers of a hand, share a line.
+    std::map<std::string, size_t> told;  // fault → its warning
     for (const UrdfJoint& joint : urdf_.joints) {
-      for (const std::string& fault : joint.faults) {
-        model_.warnings.push_back(fault + "; it is held still");
+      for (const std::string& line : joint.faults) {
+        std::string_view fault = std::string_view(line).substr(line.find(": ", urdf_.file.size()));
+        if (fault.substr(2).starts_with(joint.name)) fault.remove_prefix(2 + joint.name.size());
+        const auto [known, first] = told.try_emplace(std::string(fault), model_.warnings.size());
+        if (first) model_.warnings.push_back(line + "; it is held still");
+        std::string& warning = model_.warnings[known->second];
+        if (!first) warning += (warning.ends_with("still") ? ", so are " : ", ") + joint.name;
       }
     }
   }

@@ -16,12 +16,20 @@ using Eigen::Vector3d;
 
 // Rounding of files: inertias have few digits, and thin bodies meet the limit.
 constexpr double kMomentTolerance = 1e-3;
+// A negative moment of inertia counts when it is more than this of those of the body that the link
+// is part of.
+constexpr double kNegligible = 1e-6;
 constexpr double kLightest = 10.0, kHeaviest = 20000.0;  // [kg/m³]
 
 // Principal moments of inertia, ascending [kg m²].
 Vector3d Moments(const UrdfLink& link) {
   return Eigen::SelfAdjointEigenSolver<Matrix3d>(link.inertia, Eigen::EigenvaluesOnly)
       .eigenvalues();
+}
+
+// More than files round.
+bool Negative(const Vector3d& moments) {
+  return !(moments[0] >= -kMomentTolerance * moments.cwiseAbs().maxCoeff());
 }
 
 // Inertia of a point mass about the origin.
@@ -78,20 +86,23 @@ RobotMasses AddUpMasses(const UrdfTree& urdf, const std::vector<LinkAnchor>& anc
                         double farthest) {
   RobotMasses masses;
   masses.fault.clear();
+  const auto body_of = [&](const LinkAnchor& anchor) -> BodyMass& {
+    if (anchor.leg < 0) return masses.waist;
+    return masses.links[static_cast<size_t>(anchor.leg)][static_cast<size_t>(anchor.link)];
+  };
   for (size_t i = 0; i < urdf.links.size(); ++i) {
     const UrdfLink& link = urdf.links[i];
     const LinkAnchor& anchor = anchors[i];
     const Matrix3d R = anchor.X_AnchorLink.linear();
-    const Vector3d moments = Moments(link);
-    if (!(moments[0] >= -kMomentTolerance * moments.cwiseAbs().maxCoeff())) {
-      masses.fault = "link " + link.name + " has the negative moment of inertia " +
-                     Formatted("%.4g", moments[0]) + " kg m²";
-    }
-    BodyMass& sum =
-        anchor.leg < 0
-            ? masses.waist
-            : masses.links[static_cast<size_t>(anchor.leg)][static_cast<size_t>(anchor.link)];
-    Add({link.mass, anchor.X_AnchorLink * link.com, R * link.inertia * R.transpose()}, &sum);
+    Add({link.mass, anchor.X_AnchorLink * link.com, R * link.inertia * R.transpose()},
+        &body_of(anchor));
+  }
+  for (size_t i = 0; i < urdf.links.size(); ++i) {
+    const Vector3d moments = Moments(urdf.links[i]);
+    const double negligible = kNegligible * body_of(anchors[i]).inertia.trace();
+    if (!Negative(moments) || -moments[0] <= negligible) continue;
+    masses.fault = "link " + urdf.links[i].name + " has the negative moment of inertia " +
+                   Formatted("%.4g", moments[0]) + " kg m²";
   }
   for (const Side side : {Side::kLeft, Side::kRight}) {
     const std::string leg = "the " + std::string(Name(side)) + " leg";

@@ -10,8 +10,9 @@
 namespace halfstep {
 
 /// Adds up the links' masses by their anchors. The result's `fault` says which leg has no mass,
-/// which link an inertia with a negative principal moment, or what has an inertia that its mass
-/// could have only farther than `farthest` [m] from its centre: files have inertias in other units.
+/// which link an inertia with a negative principal moment that is not negligible beside the rest of
+/// its body, or what has an inertia that its mass could have only farther than `farthest` [m] from
+/// its centre: files have inertias in other units.
 RobotMasses AddUpMasses(const UrdfTree& urdf, const std::vector<LinkAnchor>& anchors,
                         double farthest);
 
