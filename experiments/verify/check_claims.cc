@@ -61,6 +61,12 @@ class Claims {
     return {middle, row.begin + inside, middle - quarter, middle + quarter, row.end - inside};
   }
 
+  // Whether a foot moves horizontally from a little before t to a little after it: a row may be
+  // shorter than what the two walks' ends of the motion are rounded by.
+  bool MovesAround(double t, int side) const {
+    return walk_.MovesHorizontally(t - kInside, side) && walk_.MovesHorizontally(t + kInside, side);
+  }
+
   // A margin without a value is one of a foot that stands, or that has no limit.
   std::string FaultOfUnwatched(const ClaimRow& row) const {
     if (row.family == kFootSpeed && !certificate_.foot_speed) return "";
@@ -68,7 +74,7 @@ class Claims {
     for (const double t : Instants(row)) {
       for (int side = 0; side < 2; ++side) {
         const bool moves = row.family == kFloor
-                               ? walk_.MovesHorizontally(t, side)
+                               ? MovesAround(t, side)
                                : walk_.At(t).first.segment<4>(side == 0 ? kLeftX : kRightX).norm() >
                                      kClaimRounding;
         if (moves) return Formatted("a foot moves at t = %.6g s", t);

@@ -526,7 +526,7 @@ TEST(RobotModel, AJointThatCannotMoveMattersInALegOnly) {
   ASSERT_EQ(model.warnings.size(), 1u) << testing::PrintToString(model.warnings);
   EXPECT_THAT(model.warnings[0],
               HasSubstr("limit velocity: 0 is out of range (valid: > 0); it is held still, so are "
-                        "move_index, move_ring"));
+                        "move_ring, move_thumb"));
   EXPECT_THAT(
       RefusalOf({"leg", Replaced(GeneratedUrdf(good), "velocity='4'", "velocity='0'"), yaml}),
       HasSubstr("limit velocity: 0 is out of range (valid: > 0)"));
