@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "planner/scene/no_step_areas.h"
+#include "wpg/robot/torque_limits.h"
 
 namespace halfstep {
 namespace {
@@ -17,6 +18,31 @@ fs::path DataFolder() {
 
 // A bare word is a shipped robot, anything else a path relative to the config.
 bool IsShipped(const fs::path& robot) { return !robot.has_parent_path() && !robot.has_extension(); }
+
+// Demands nothing of the families for which the robot's files do not say enough, and tells so.
+void LeaveOutWhatIsUnknown(Experiment* experiment) {
+  RobotModel& robot = experiment->robot;
+  const auto leave_out = [&](MarginFamily family, const std::string& fault, const char* of) {
+    double& demanded = experiment->config.smoothing.limits.demanded_of(family);
+    if (fault.empty() || demanded == kNotDemanded) return;
+    robot.warnings.push_back(robot.name + ": nothing is demanded of " + of + ": " + fault);
+    demanded = kNotDemanded;
+  };
+  leave_out(MarginFamily::kZmpRobot, robot.masses.fault,
+            "the whole robot's ZMP, only of the point mass's (zmp_robot_m: none)");
+  leave_out(MarginFamily::kFriction, robot.masses.fault, "friction (friction: none)");
+  leave_out(MarginFamily::kTorque, TorqueFault(robot), "joint torques (torque_n_m: none)");
+  const std::vector<std::string> unknown = JointsOfUnknownTorque(robot);
+  if (unknown.empty() ||
+      experiment->config.smoothing.limits.demanded_of(MarginFamily::kTorque) == kNotDemanded) {
+    return;
+  }
+  std::string names;
+  for (const std::string& name : unknown) names += (names.empty() ? "" : ", ") + name;
+  robot.warnings.push_back(robot.name + ": nothing is demanded of the torques of " + names +
+                           ": the URDF has no effort limit of them (effort_limits_n_m of the robot "
+                           "file)");
+}
 
 }  // namespace
 
@@ -90,16 +116,7 @@ Experiment Prepare(const ExperimentConfig& config, Place place) {
                         .robot = std::move(place.robot),
                         .scene = std::move(place.scene),
                         .sequence = {}};
-  if (const std::string& fault = experiment.robot.masses.fault; !fault.empty()) {
-    double& demanded = experiment.config.smoothing.limits.demanded_of(MarginFamily::kZmpRobot);
-    if (demanded != kNotDemanded) {
-      experiment.robot.warnings.push_back(experiment.robot.name +
-                                          ": nothing is demanded of the whole robot's ZMP, only of "
-                                          "the point mass's (zmp_robot_m: none): " +
-                                          fault);
-    }
-    demanded = kNotDemanded;
-  }
+  LeaveOutWhatIsUnknown(&experiment);
   const Lipm lipm{.com_height = experiment.robot.com_height};
   if (config.footsteps.empty()) {
     experiment.sequence = {StartOf(config, experiment.robot), {}, lipm};

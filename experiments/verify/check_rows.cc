@@ -72,12 +72,13 @@ double FootYawRate(const PlayedMotion& motion, size_t i, int side) {
   return std::abs(b.soles[Of(side)][3] - a.soles[Of(side)][3]) / (b.t - a.t);
 }
 
+SupportPolygon PolygonOf(const PlayedRow& row, const RobotModel& robot) {
+  if (row.support == Support::kBoth) return {row.X_WS(0), row.X_WS(1), robot.sole_size};
+  return {row.X_WS(static_cast<int>(row.support)), robot.sole_size};
+}
+
 double ZmpMargin(const PlayedRow& row, const RobotModel& robot) {
-  const SupportPolygon polygon =
-      row.support == Support::kBoth
-          ? SupportPolygon(row.X_WS(0), row.X_WS(1), robot.sole_size)
-          : SupportPolygon(row.X_WS(static_cast<int>(row.support)), robot.sole_size);
-  return polygon.Margin(row.zmp);
+  return PolygonOf(row, robot).Margin(row.zmp);
 }
 
 // Hip (a point of the thigh), knee axis and ankle (a point of the shank): stretched when both lie
@@ -230,19 +231,28 @@ void CheckRowMargins(const PlayedMotion& motion, const CertificateText& certific
   }
 }
 
-void CheckRobotZmp(const std::vector<PlayedRow>& rows, const DescribedWalk& walk,
+void CheckDynamics(const std::vector<PlayedRow>& rows, const DescribedWalk& walk, double friction,
                    const CertificateText& certificate, Findings* findings) {
-  const std::string& fault = walk.robot().masses.fault;
-  if (certificate.demanded[kZmpRobot] == kNotDemanded || !fault.empty()) {
-    findings->Say("ZMP of the whole robot: nothing is demanded" +
-                  (fault.empty() ? "" : ", for " + fault));
-    return;
-  }
-  Check zmp("ZMP of the whole robot", "m", certificate.demanded[kZmpRobot], kMomentumRounding);
-  for (const PlayedRow& row : rows) {
-    zmp.Add(walk.RobotZmpMargin(row.t), [&] { return At(row.t); });
-  }
-  zmp.Conclude(findings);
+  const auto check = [&](Family family, const char* what, const char* unit, double rounding,
+                         const auto& margin) {
+    if (certificate.demanded[family] == kNotDemanded) {
+      const std::string& fault = walk.robot().masses.fault;
+      findings->Say(std::string(what) + ": nothing is demanded" +
+                    (fault.empty() ? "" : ", for " + fault));
+      return;
+    }
+    Check of(what, unit, certificate.demanded[family], rounding);
+    for (const PlayedRow& row : rows) {
+      of.Add(margin(walk.DynamicsAt(row.t)), [&] { return At(row.t); });
+    }
+    of.Conclude(findings);
+  };
+  check(kZmpRobot, "ZMP of the whole robot", "m", kMomentumRounding,
+        [](const WalkDynamics& at) { return at.zmp; });
+  check(kTorque, "joint torques", "N m", kTorqueRounding,
+        [&](const WalkDynamics& at) { return at.LeastTorqueMargin(walk.robot()); });
+  check(kFriction, "friction", "", kFrictionRounding,
+        [&](const WalkDynamics& at) { return friction - at.friction; });
 }
 
 }  // namespace halfstep::verify

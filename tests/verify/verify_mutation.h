@@ -179,6 +179,14 @@ class TamperedRun {
       Replace(place / "robots/hrp2.yaml", "\ncom_height_m: 0.814",
               "\ncom_height_m: " + std::to_string(*walk.com_height));
     }
+    // HRP-2's URDF has no efforts.
+    std::string efforts = "\neffort_limits_n_m:\n";
+    for (const char side : {'L', 'R'}) {
+      for (int i = 0; i < 6; ++i) {
+        efforts += std::string("  ") + side + "LEG_JOINT" + std::to_string(i) + ": 200\n";
+      }
+    }
+    WriteText(place / "robots/hrp2.yaml", ReadText(place / "robots/hrp2.yaml") + efforts);
     const std::string config = "configs/" + walk.config + ".yaml";
     fs::create_directories(place / "configs");
     fs::copy(source / "experiments" / config, place / config);

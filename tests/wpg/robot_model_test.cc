@@ -367,6 +367,18 @@ TEST(RobotRefusal, JointLimitsMoreThanATurnApart) {
   EXPECT_NO_THROW((void)TemporaryRobot("narrowed", with_limits("3.2"), narrowed).Load());
 }
 
+TEST(RobotModel, TorqueLimitsAreTheEffortsOrTheRobotFiles) {
+  EXPECT_EQ(ShippedRobot("bison").legs[0].joints[3].max_torque, 300.0);
+  EXPECT_TRUE(std::isinf(LoadRobot(kHrp2).legs[0].joints[3].max_torque)) << "its efforts are 0";
+  const GeneratedRobot robot = GeneratedRobots()[0];
+  const std::string yaml = GeneratedYaml(robot, "robot.urdf") +
+                           "effort_limits_n_m: {left_joint0: 12.5, left_joint1: 0}\n";
+  const RobotModel model = TemporaryRobot("efforts", GeneratedUrdf(robot), yaml).Load();
+  EXPECT_EQ(model.legs[0].joints[0].max_torque, 12.5);
+  EXPECT_TRUE(std::isinf(model.legs[0].joints[1].max_torque));
+  EXPECT_EQ(model.legs[1].joints[0].max_torque, 100.0);
+}
+
 // Offset hips are another class of legs, but the legs must be the same.
 TEST(RobotRefusal, OneHipWhoseAxesPassEachOther) {
   GeneratedRobot robot = GeneratedRobots()[0];

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <numbers>
 #include <optional>
 
@@ -52,6 +53,8 @@ class Builder {
       leg_.lower.push_back(own ? DegreesToRadians(file_.limits_deg[i][0]) : urdf_.joints[i].lower);
       leg_.upper.push_back(own ? DegreesToRadians(file_.limits_deg[i][1]) : urdf_.joints[i].upper);
       leg_.posture.push_back(DegreesToRadians(file_.posture_deg[i]));
+      leg_.torque.push_back(file_.effort_limits[i] > 0.0 ? file_.effort_limits[i]
+                                                         : std::numeric_limits<double>::infinity());
     }
     CheckPostureInLimits();
     leg_.waist = urdf_.FindLink(file_.waist_link);
