@@ -165,7 +165,7 @@ TEST(LegTorques, AreThoseOfForcesOnPointMasses) {
     }
     EXPECT_GT(compared, Draws(100) / 3) << robot.name;
     EXPECT_LT(worst, 1e-6) << robot.name;  // of differences of 100 m/s², on some kilograms
-    EXPECT_GT(largest, 30.0) << robot.name;
+    EXPECT_GT(largest, 0.3 * robot.mass) << robot.name;
   }
 }
 
@@ -174,7 +174,7 @@ TEST(LegTorques, AndFrictionHaveTheSlopesOfDifferences) {
   for (const WholeRobot& whole : WholeRobots()) {
     const RobotModel& robot = whole.model;
     WalkDraw draw(seed++);
-    int single = 0, both = 0;
+    int single = 0, both = 0, kinks = 0;
     for (int i = 0; i < Draws(100); ++i) {
       const SuperposedWalk walk = DrawnTorqueWalk(robot, &draw);
       const double t = draw.Uniform(0, walk.duration());
@@ -223,12 +223,13 @@ TEST(LegTorques, AndFrictionHaveTheSlopesOfDifferences) {
         values[12] = friction && needed ? needed->needed() : 0.0;
         return values;
       };
-      // Near an edge of a sole, or where a torque of the yaw moment changes its sign, there is
-      // none.
+      // Friction has no slope where the yaw moment changes its sign, or another edge is as far.
       const Eigen::VectorXd here = Eigen::VectorXd::Zero(1);
       const DerivativeReport report = CheckJacobian(function, here, slopes, 1e-4);
-      if (!report.Passed(1e-6) && CheckJacobian(function, here, slopes, 1e-6).Passed(1e-4))
+      if (report.row == 12 && !report.Passed(1e-6)) {
+        ++kinks;
         continue;
+      }
       EXPECT_TRUE(report.Passed(1e-6)) << robot.name << ": " << report.Describe();
       ++(support ? single : both);
       for (const Eigen::Index broken : {0, 9, 12}) {
@@ -237,6 +238,7 @@ TEST(LegTorques, AndFrictionHaveTheSlopesOfDifferences) {
         EXPECT_FALSE(CheckJacobian(function, here, wrong, 1e-4).Passed(1e-6)) << broken;
       }
     }
+    EXPECT_LE(kinks, Draws(100) / 30) << robot.name;
     EXPECT_GT(single, Draws(100) / 8) << robot.name;
     EXPECT_GT(both, Draws(100) / 20) << robot.name;
   }
@@ -308,8 +310,8 @@ TEST(TorqueDrift, AndThatOfFrictionAreNeverExceededOnRandomIntervals) {
       RecordProperty(robot.name + "_friction_nearest_percent_" + std::to_string(which),
                      static_cast<int>(100 * friction_nearest[which]));
       // By norms, but for what weights do: half of a bound, or a term forgotten, shows.
-      EXPECT_GT(nearest[which], 0.5) << robot.name;
-      EXPECT_GT(friction_nearest[which], 0.3) << robot.name;
+      EXPECT_GT(nearest[which], kSanitized ? 0.2 : 0.4) << robot.name;
+      EXPECT_GT(friction_nearest[which], kSanitized ? 0.1 : 0.15) << robot.name;
     }
   }
 }
