@@ -7,6 +7,7 @@
 #include "experiments/verify/findings.h"
 #include "experiments/verify/played_motion.h"
 #include "planner/scene/scene.h"
+#include "wpg/geometry/support_polygon.h"
 
 namespace halfstep::verify {
 

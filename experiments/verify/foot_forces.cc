@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "experiments/verify/check_rows.h"
+#include "wpg/geometry/support_polygon.h"
 
 namespace halfstep::verify {
 namespace {

@@ -47,7 +47,7 @@ void FrictionMargin::AddRows(Instant* at, SlackSink* rows) const {
 void FrictionMargin::AddBounds(const MarginInterval& interval, TightestStatement* tightest) const {
   Instant& mid = interval.mid;
   if (mid.demanded(family()) == kNotDemanded) {
-    tightest->Add(Of(kUnlimited, mid.step_in_air()), 0.0);
+    tightest->Add(Of(kUnlimited, mid.step_in_air()), kFrictionRounding);
     return;
   }
   const Margin margin = Least(&mid, kUnlimited);

@@ -105,7 +105,9 @@ void TorqueMargin::AddBounds(const MarginInterval& interval, TightestStatement* 
   const bool demanded = mid.demanded(family()) != kNotDemanded;
   const auto loads = demanded ? LoadsAt(&mid) : std::nullopt;
   if (!loads) {
-    for (int i = 0; i < count(); ++i) tightest->Add(Of(demanded ? -kUnlimited : kUnlimited, i), 0);
+    for (int i = 0; i < count(); ++i) {
+      tightest->Add(Of(demanded ? -kUnlimited : kUnlimited, i), kTorqueRounding);
+    }
     return;
   }
   const Margin least = LeastOf(&mid, *loads);
