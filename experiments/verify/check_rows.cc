@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <utility>
 
 #include "wpg/geometry/support_polygon.h"
 #include "wpg/motion/lipm.h"
@@ -233,26 +235,33 @@ void CheckRowMargins(const PlayedMotion& motion, const CertificateText& certific
 
 void CheckDynamics(const std::vector<PlayedRow>& rows, const DescribedWalk& walk, double friction,
                    const CertificateText& certificate, Findings* findings) {
-  const auto check = [&](Family family, const char* what, const char* unit, double rounding,
-                         const auto& margin) {
-    if (certificate.demanded[family] == kNotDemanded) {
-      const std::string& fault = walk.robot().masses.fault;
+  struct Checked {
+    Check check;
+    std::function<double(const WalkDynamics&)> margin;
+  };
+  std::vector<Checked> all;
+  const auto add = [&](Family family, const char* what, const char* unit, double rounding,
+                       std::function<double(const WalkDynamics&)> margin) {
+    const std::string& fault = walk.robot().masses.fault;
+    if (certificate.demanded[family] == kNotDemanded || !fault.empty()) {
       findings->Say(std::string(what) + ": nothing is demanded" +
                     (fault.empty() ? "" : ", for " + fault));
       return;
     }
-    Check of(what, unit, certificate.demanded[family], rounding);
-    for (const PlayedRow& row : rows) {
-      of.Add(margin(walk.DynamicsAt(row.t)), [&] { return At(row.t); });
-    }
-    of.Conclude(findings);
+    all.push_back({Check(what, unit, certificate.demanded[family], rounding), std::move(margin)});
   };
-  check(kZmpRobot, "ZMP of the whole robot", "m", kMomentumRounding,
-        [](const WalkDynamics& at) { return at.zmp; });
-  check(kTorque, "joint torques", "N m", kTorqueRounding,
-        [&](const WalkDynamics& at) { return at.LeastTorqueMargin(walk.robot()); });
-  check(kFriction, "friction", "", kFrictionRounding,
-        [&](const WalkDynamics& at) { return friction - at.friction; });
+  add(kZmpRobot, "ZMP of the whole robot", "m", kMomentumRounding,
+      [](const WalkDynamics& at) { return at.zmp; });
+  add(kTorque, "joint torques", "N m", kTorqueRounding,
+      [&](const WalkDynamics& at) { return at.LeastTorqueMargin(walk.robot()); });
+  add(kFriction, "friction", "", kFrictionRounding,
+      [&](const WalkDynamics& at) { return friction - at.friction; });
+  if (all.empty()) return;
+  for (const PlayedRow& row : rows) {
+    const WalkDynamics dynamics = walk.DynamicsAt(row.t);
+    for (Checked& of : all) of.check.Add(of.margin(dynamics), [&] { return At(row.t); });
+  }
+  for (const Checked& of : all) of.check.Conclude(findings);
 }
 
 }  // namespace halfstep::verify

@@ -37,7 +37,7 @@ void CheckRowMargins(const PlayedMotion& motion, const CertificateText& certific
 
 /// Whether the whole robot's ZMP, its joint torques and the friction that it needs (WalkDynamics)
 /// keep what is demanded at the rows' times, by the walk on a floor of that friction coefficient;
-/// nothing is looked at where nothing is demanded.
+/// nothing is looked at where nothing is demanded, or masses are not known.
 void CheckDynamics(const std::vector<PlayedRow>& rows, const DescribedWalk& walk, double friction,
                    const CertificateText& certificate, Findings* findings);
 
