@@ -19,29 +19,23 @@ fs::path DataFolder() {
 // A bare word is a shipped robot, anything else a path relative to the config.
 bool IsShipped(const fs::path& robot) { return !robot.has_parent_path() && !robot.has_extension(); }
 
-// Demands nothing of the families for which the robot's files do not say enough, and tells so.
+// Demands nothing of the families for which the robot's files do not say enough. What the URDF does
+// not say of torques is told when it is read.
 void LeaveOutWhatIsUnknown(Experiment* experiment) {
   RobotModel& robot = experiment->robot;
-  const auto leave_out = [&](MarginFamily family, const std::string& fault, const char* of) {
-    double& demanded = experiment->config.smoothing.limits.demanded_of(family);
-    if (fault.empty() || demanded == kNotDemanded) return;
-    robot.warnings.push_back(robot.name + ": nothing is demanded of " + of + ": " + fault);
-    demanded = kNotDemanded;
-  };
-  leave_out(MarginFamily::kZmpRobot, robot.masses.fault,
-            "the whole robot's ZMP, only of the point mass's (zmp_robot_m: none)");
-  leave_out(MarginFamily::kFriction, robot.masses.fault, "friction (friction: none)");
-  leave_out(MarginFamily::kTorque, TorqueFault(robot), "joint torques (torque_n_m: none)");
-  const std::vector<std::string> unknown = JointsOfUnknownTorque(robot);
-  if (unknown.empty() ||
-      experiment->config.smoothing.limits.demanded_of(MarginFamily::kTorque) == kNotDemanded) {
-    return;
+  MarginLimits& limits = experiment->config.smoothing.limits;
+  const std::string& fault = robot.masses.fault;
+  if (!fault.empty() && limits.demanded_of(MarginFamily::kZmpRobot) != kNotDemanded) {
+    robot.warnings.push_back(robot.name +
+                             ": nothing is demanded of the whole robot's ZMP, only of the point "
+                             "mass's (zmp_robot_m: none), nor of joint torques and friction: " +
+                             fault);
   }
-  std::string names;
-  for (const std::string& name : unknown) names += (names.empty() ? "" : ", ") + name;
-  robot.warnings.push_back(robot.name + ": nothing is demanded of the torques of " + names +
-                           ": the URDF has no effort limit of them (effort_limits_n_m of the robot "
-                           "file)");
+  if (!fault.empty()) {
+    limits.demanded_of(MarginFamily::kZmpRobot) = kNotDemanded;
+    limits.demanded_of(MarginFamily::kFriction) = kNotDemanded;
+  }
+  if (!TorqueFault(robot).empty()) limits.demanded_of(MarginFamily::kTorque) = kNotDemanded;
 }
 
 }  // namespace

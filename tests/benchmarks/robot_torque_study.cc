@@ -18,6 +18,7 @@
 #include "smoothing/methods/dichotomy.h"
 #include "smoothing/proof/certified_feasibility.h"
 #include "tests/experiments/robot_motion_at.h"
+#include "tests/smoothing/certificate_draws.h"
 #include "tests/smoothing/robot_truth.h"
 #include "tests/smoothing/smoothed.h"
 #include "wpg/motion/foot_friction.h"

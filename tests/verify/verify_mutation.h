@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <string>
 #include <vector>
 
@@ -179,14 +180,10 @@ class TamperedRun {
       Replace(place / "robots/hrp2.yaml", "\ncom_height_m: 0.814",
               "\ncom_height_m: " + std::to_string(*walk.com_height));
     }
-    // HRP-2's URDF has no efforts.
-    std::string efforts = "\neffort_limits_n_m:\n";
-    for (const char side : {'L', 'R'}) {
-      for (int i = 0; i < 6; ++i) {
-        efforts += std::string("  ") + side + "LEG_JOINT" + std::to_string(i) + ": 200\n";
-      }
-    }
-    WriteText(place / "robots/hrp2.yaml", ReadText(place / "robots/hrp2.yaml") + efforts);
+    // HRP-2's efforts are not published.
+    WriteText(place / "robots/hrp2.yaml",
+              std::regex_replace(ReadText(place / "robots/hrp2.yaml"),
+                                 std::regex("(LEG_JOINT[0-5]): none"), "$1: 200"));
     const std::string config = "configs/" + walk.config + ".yaml";
     fs::create_directories(place / "configs");
     fs::copy(source / "experiments" / config, place / config);

@@ -42,7 +42,7 @@ void DeclareJoints(Fields& fields, RobotFile* file) {
   file->posture_deg.resize(joints.size(), 0.0);
   file->limits_deg.resize(joints.size());
   file->effort_limits.clear();
-  for (const UrdfJoint& joint : joints) file->effort_limits.push_back(joint.max_effort);
+  for (const UrdfJoint& joint : joints) file->effort_limits.emplace_back(joint.max_effort);
   fields.Group("standing_posture_deg", {.meaning = "joint angles of the standing posture"},
                [&](Fields& f) {
                  for (size_t i = 0; i < joints.size(); ++i) {
@@ -71,13 +71,15 @@ void DeclareJoints(Fields& fields, RobotFile* file) {
 }
 
 void DeclareEfforts(Fields& fields, RobotFile* file) {
-  fields.Group("effort_limits_n_m", {.meaning = "torques of joints in place of the URDF's efforts"},
+  fields.Group("effort_limits_n_m",
+               {.meaning = "torques that joints give, in place of the URDF's efforts; none: not "
+                           "known"},
                [&](Fields& f) {
                  for (size_t i = 0; i < file->effort_limits.size(); ++i) {
                    const UrdfJoint& joint = file->urdf->joints[i];
                    if (joint.kind != UrdfJoint::Kind::kRevolute) continue;
-                   f.Number(joint.name.c_str(), &file->effort_limits[i],
-                            {.unit = "N m", .min = 0.0, .max = 1e5});
+                   f.OptionalNumber(joint.name.c_str(), &file->effort_limits[i],
+                                    {.unit = "N m", .min = 1e-3, .max = 1e5});
                  }
                });
 }

@@ -53,8 +53,8 @@ class Builder {
       leg_.lower.push_back(own ? DegreesToRadians(file_.limits_deg[i][0]) : urdf_.joints[i].lower);
       leg_.upper.push_back(own ? DegreesToRadians(file_.limits_deg[i][1]) : urdf_.joints[i].upper);
       leg_.posture.push_back(DegreesToRadians(file_.posture_deg[i]));
-      leg_.torque.push_back(file_.effort_limits[i] > 0.0 ? file_.effort_limits[i]
-                                                         : std::numeric_limits<double>::infinity());
+      const double torque = file_.effort_limits[i].value_or(0.0);
+      leg_.torque.push_back(torque > 0.0 ? torque : std::numeric_limits<double>::infinity());
     }
     CheckPostureInLimits();
     leg_.waist = urdf_.FindLink(file_.waist_link);
@@ -133,6 +133,22 @@ class Builder {
         model_.warnings.push_back(fault + "; it is held still");
       }
     }
+    TellEfforts();
+  }
+
+  void TellEfforts() {
+    std::string names;
+    for (const auto& leg : body_.leg_joints) {
+      for (const int joint : leg) {
+        const size_t i = static_cast<size_t>(joint);
+        if (file_.effort_limits[i] != 0.0) continue;
+        names += (names.empty() ? "" : ", ") + urdf_.joints[i].name;
+      }
+    }
+    if (names.empty()) return;
+    model_.warnings.push_back(urdf_.file + ": no effort limit of " + names +
+                              ": nothing is demanded of their torques (`effort_limits_n_m` of the "
+                              "robot file: what they give, or none)");
   }
 
   // Waist height and width of stance; complains about feet that do not stand side by side.
