@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "planner/scene/no_step_areas.h"
+#include "wpg/robot/torque_limits.h"
 
 namespace halfstep {
 namespace {
@@ -17,6 +18,25 @@ fs::path DataFolder() {
 
 // A bare word is a shipped robot, anything else a path relative to the config.
 bool IsShipped(const fs::path& robot) { return !robot.has_parent_path() && !robot.has_extension(); }
+
+// Demands nothing of the families for which the robot's files do not say enough. What the URDF does
+// not say of torques is told when it is read.
+void LeaveOutWhatIsUnknown(Experiment* experiment) {
+  RobotModel& robot = experiment->robot;
+  MarginLimits& limits = experiment->config.smoothing.limits;
+  const std::string& fault = robot.masses.fault;
+  if (!fault.empty() && limits.demanded_of(MarginFamily::kZmpRobot) != kNotDemanded) {
+    robot.warnings.push_back(robot.name +
+                             ": nothing is demanded of the whole robot's ZMP, only of the point "
+                             "mass's (zmp_robot_m: none), nor of joint torques and friction: " +
+                             fault);
+  }
+  if (!fault.empty()) {
+    limits.demanded_of(MarginFamily::kZmpRobot) = kNotDemanded;
+    limits.demanded_of(MarginFamily::kFriction) = kNotDemanded;
+  }
+  if (!TorqueFault(robot).empty()) limits.demanded_of(MarginFamily::kTorque) = kNotDemanded;
+}
 
 }  // namespace
 
@@ -90,16 +110,7 @@ Experiment Prepare(const ExperimentConfig& config, Place place) {
                         .robot = std::move(place.robot),
                         .scene = std::move(place.scene),
                         .sequence = {}};
-  if (const std::string& fault = experiment.robot.masses.fault; !fault.empty()) {
-    double& demanded = experiment.config.smoothing.limits.demanded_of(MarginFamily::kZmpRobot);
-    if (demanded != kNotDemanded) {
-      experiment.robot.warnings.push_back(experiment.robot.name +
-                                          ": nothing is demanded of the whole robot's ZMP, only of "
-                                          "the point mass's (zmp_robot_m: none): " +
-                                          fault);
-    }
-    demanded = kNotDemanded;
-  }
+  LeaveOutWhatIsUnknown(&experiment);
   const Lipm lipm{.com_height = experiment.robot.com_height};
   if (config.footsteps.empty()) {
     experiment.sequence = {StartOf(config, experiment.robot), {}, lipm};

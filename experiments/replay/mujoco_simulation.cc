@@ -182,6 +182,41 @@ FloorForces Simulation::Step(const JointTargets& targets, const Eigen::Vector3d&
   return forces;
 }
 
+RobotForces Simulation::Needed(const RobotMotion& motion) {
+  constexpr double kHigh = 100.0;  // above the floor and all obstacles [m]
+  const mjModel* model = state_->model();
+  mjData* data = state_->data.get();
+  Place(Eigen::Translation3d(0.0, 0.0, kHigh) * motion.X_WB, motion.q);
+  const Eigen::Isometry3d X_WRoot = state_->Body(kRoot);
+  const Vector3d arm = X_WRoot.translation() - X_WB().translation();
+  const Eigen::Matrix3d R_RootW = X_WRoot.linear().transpose();
+  // Of the free joint: the origin's motion in W, turning in the root's axes.
+  Eigen::Map<Vector3d>(data->qvel) = motion.velocity + motion.turn.cross(arm);
+  Eigen::Map<Vector3d>(data->qvel + 3) = R_RootW * motion.turn;
+  Eigen::Map<Vector3d>(data->qacc) =
+      motion.acceleration + motion.turn1.cross(arm) + motion.turn.cross(motion.turn.cross(arm));
+  Eigen::Map<Vector3d>(data->qacc + 3) = R_RootW * motion.turn1;
+  for (size_t side = 0; side < 2; ++side) {
+    for (size_t j = 0; j < 6; ++j) {
+      const int at = state_->layout->qpos[side][j] - 1;  // a free joint has 7 places, 6 speeds
+      data->qvel[at] = motion.speeds[side][static_cast<Eigen::Index>(j)];
+      data->qacc[at] = motion.accelerations[side][static_cast<Eigen::Index>(j)];
+    }
+  }
+  mj_inverse(model, data);
+  RobotForces needed;
+  needed.force = Eigen::Map<const Vector3d>(data->qfrc_inverse);
+  needed.moment = X_WRoot.linear() * Eigen::Map<const Vector3d>(data->qfrc_inverse + 3) +
+                  arm.cross(needed.force);
+  for (size_t side = 0; side < 2; ++side) {
+    for (size_t j = 0; j < 6; ++j) {
+      needed.torques[side][static_cast<Eigen::Index>(j)] =
+          data->qfrc_inverse[state_->layout->qpos[side][j] - 1];
+    }
+  }
+  return needed;
+}
+
 void Simulation::MoveObstacles(double t) {
   mjData* data = state_->data.get();
   const std::vector<SimulatedObstacle>& obstacles = state_->layout->obstacles;

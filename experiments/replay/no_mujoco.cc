@@ -25,6 +25,7 @@ void Simulation::Place(const Eigen::Isometry3d&, const std::array<Vector6d, 2>&)
 FloorForces Simulation::Step(const JointTargets&, const Eigen::Vector3d&) {
   throw std::logic_error(WhyNoSimulation());
 }
+RobotForces Simulation::Needed(const RobotMotion&) { throw std::logic_error(WhyNoSimulation()); }
 void Simulation::MoveObstacles(double) { throw std::logic_error(WhyNoSimulation()); }
 std::vector<Touch> Simulation::touches() const { throw std::logic_error(WhyNoSimulation()); }
 Eigen::Isometry3d Simulation::X_WB() const { throw std::logic_error(WhyNoSimulation()); }

@@ -37,6 +37,20 @@ struct Touch {
   double force = 0.0;  ///< of all their contact points together [N]
 };
 
+/// How the robot moves at an instant, in W.
+struct RobotMotion {
+  Eigen::Isometry3d X_WB;
+  Eigen::Vector3d velocity, acceleration;  ///< of the waist's origin [m/s], [m/s²]
+  Eigen::Vector3d turn, turn1;             ///< ω of the waist [rad/s], and ω̇ [rad/s²]
+  std::array<Vector6d, 2> q, speeds, accelerations;  ///< of the legs' joints by Index(Side)
+};
+
+/// What such a motion takes where nothing touches the robot.
+struct RobotForces {
+  Eigen::Vector3d force, moment;    ///< on the robot, about the waist's origin, in W [N], [N m]
+  std::array<Vector6d, 2> torques;  ///< of the legs' joints by Index(Side) [N m]
+};
+
 /// A simulated robot of MujocoModel among obstacles. A copy continues independently from the same
 /// state.
 class Simulation {
@@ -58,6 +72,9 @@ class Simulation {
   /// Makes one time step: the servos follow `targets`, `push` [N] in W acts on the waist's CoM.
   /// Throws std::runtime_error when the simulation becomes unstable.
   FloorForces Step(const JointTargets& targets, const Eigen::Vector3d& push);
+  /// Inverse dynamics in the air, rotors (ModelOptions::armature) included. The robot is elsewhere
+  /// afterwards: Place() it.
+  RobotForces Needed(const RobotMotion& motion);
   /// Puts the obstacles where they are at the time t of the walk [s].
   void MoveObstacles(double t);
   /// The robot's contacts with obstacles in the last time step, one for each pair of bodies.

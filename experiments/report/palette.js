@@ -6,6 +6,8 @@ export const zmp = "#D55E00";
 export const limit = "#D55E00";
 export const second = "#CC79A7"; // walk B
 export const sky = "#56B4E9";
+export const yellow = "#F0E442";
+export const grey = "#8a94a0";
 export const ink = "#1d2733";
 
 // Muted, for the robot: what is rigid with the waist, and the links of its legs.

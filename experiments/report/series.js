@@ -51,17 +51,20 @@ const marginColumns = [
   ["joint", "joint_margin_rad", "joints", palette.com],
   ["joint_speed", "joint_speed_margin_rad_s", "joint speed", palette.sky],
   ["foot_speed", "foot_speed_margin_m_s", "foot speed", palette.right],
+  ["torque", "torque_margin_n_m", "torque", palette.grey],
+  ["friction", "friction_margin", "friction", palette.yellow],
 ];
 
 function margins(families, demanded) {
   const unitOf = Object.fromEntries(families.map((family) => [family.name, family]));
+  const shown = marginColumns.filter(([name]) => demanded[name] !== null);
   return {
     title: "Slack",
-    hint: "(margin − demanded) / scale; " + marginColumns.map(([name, , label]) =>
+    hint: "(margin − demanded) / scale; " + shown.map(([name, , label]) =>
       `${label}: 1 = ${unitOf[name].scale} ${unitOf[name].unit}`).join(", "),
     level: { value: 0, colour: palette.limit },
     fixed: [-0.6, 6],
-    curves: marginColumns.map(([name, column, label, colour]) => ({
+    curves: shown.map(([name, column, label, colour]) => ({
       label,
       colour,
       value: (walk, at) =>

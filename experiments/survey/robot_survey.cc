@@ -68,6 +68,7 @@ class Surveyor {
                                    : 0.0);
     }
     leg.posture.assign(urdf.joints.size(), 0.0);
+    leg.torque.assign(urdf.joints.size(), std::numeric_limits<double>::infinity());
     Complaints complaints;
     for (size_t side = 0; side < 2; ++side) {
       leg.foot = draft_.legs.feet[side];

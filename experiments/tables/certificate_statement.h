@@ -12,12 +12,14 @@ inline constexpr char kCertificateStatement[] =
     "obstacles of the scene, "
     "height above the floor of every body, which a foot may touch, distance of the soles that "
     "stand from the no-step areas of the scene, ZMP of the whole robot, with the masses and "
-    "inertias of all links, inside the support polygon) is at least the delta demanded there; "
+    "inertias of all links, inside the support polygon, torque of each leg joint whose limit is "
+    "known, where two feet that stand share the load as wpg/README.md says, friction coefficient "
+    "of the scene beyond what the soles need) is at least the delta demanded there; "
     "where that is null, nothing is said of this margin. "
     "trajectory.csv samples that walk; `halfstep verify` checks, without the smoothing code, the "
     "motion that interpolates its rows linearly, with the same deltas less its tolerance. Not "
     "guaranteed: that bodies in pairs listed under not_watched do not touch, that robot and "
     "scene are as their files describe them, that a controller tracks the motion, and any "
-    "dynamics beyond these two ZMPs.";
+    "dynamics beyond these two ZMPs, torques and friction.";
 
 }  // namespace halfstep

@@ -91,10 +91,7 @@ CsvFile ParetoCsv(const MarginEvaluator& evaluator, const HalfStepSequence& sequ
       {"duration_s", kNumber, "s", "of the walk"},
       {"least_slack", kNumber, "1", "proved for all families but floor, of their scales"}};
   for (MarginFamily family : AllMarginFamilies()) {
-    const std::string unit(Unit(family));
-    std::string ending = unit;
-    std::replace(ending.begin(), ending.end(), '/', '_');
-    columns.push_back({std::string(Name(family)) + "_" + ending, kNumber, unit,
+    columns.push_back({std::string(Traits(family).key), kNumber, std::string(Unit(family)),
                        "least margin of the family, sampled every 5 ms; inf: nowhere watched"});
   }
   CsvWriter csv(columns);

@@ -14,7 +14,7 @@ constexpr CsvInterpolation kConstant = CsvInterpolation::kPiecewiseConstant;
 constexpr CsvInterpolation kLinear = CsvInterpolation::kLinear;
 
 // In the order of the margin columns.
-constexpr std::array<std::pair<MarginFamily, const char*>, 7> kMarginColumns = {{
+constexpr std::array<std::pair<MarginFamily, const char*>, 9> kMarginColumns = {{
     {MarginFamily::kZmp, "zmp_margin"},
     {MarginFamily::kJoint, "joint_margin"},
     {MarginFamily::kJointSpeed, "joint_speed_margin"},
@@ -22,6 +22,8 @@ constexpr std::array<std::pair<MarginFamily, const char*>, 7> kMarginColumns = {
     {MarginFamily::kClearance, "clearance"},
     {MarginFamily::kSelfClearance, "self_clearance"},
     {MarginFamily::kZmpRobot, "zmp_robot_margin"},
+    {MarginFamily::kTorque, "torque_margin"},
+    {MarginFamily::kFriction, "friction_margin"},
 }};
 
 // Columns of a place on the floor's axes, "com" …, in W.
@@ -104,10 +106,9 @@ std::vector<MotionCell> MotionRow(const RobotModel& robot, const SuperposedWalk&
 CsvColumns TrajectoryColumns(const RobotModel& robot) {
   CsvColumns columns = MotionColumns(robot);
   for (const auto& [family, column] : kMarginColumns) {
-    const std::string unit(Unit(family));
-    std::string ending = unit;
-    std::replace(ending.begin(), ending.end(), '/', '_');
-    columns.push_back({std::string(column) + "_" + ending, kNumber, unit,
+    const FamilyTraits& traits = Traits(family);
+    const std::string ending(traits.key.substr(traits.name.size()));  // "_m"
+    columns.push_back({column + ending, kNumber, std::string(Unit(family)),
                        "smallest margin of " + std::string(Name(family)) + " at this instant"});
   }
   return columns;

@@ -21,8 +21,9 @@ CertificateText ReadCertificateJson(const std::string& path, const std::string& 
   c.duration = root.Number("duration_s");
   const JsonMember demanded = root.Object("demanded"), statements = root.Object("statements");
   for (size_t f = 0; f < kNumFamilies; ++f) {
-    c.demanded[f] = f == kZmpRobot ? demanded.NumberOrNull(kFamilyNames[f]).value_or(kNotDemanded)
-                                   : demanded.Number(kFamilyNames[f]);
+    c.demanded[f] = IsOfDynamics(static_cast<Family>(f))
+                        ? demanded.NumberOrNull(kFamilyNames[f]).value_or(kNotDemanded)
+                        : demanded.Number(kFamilyNames[f]);
     c.statements[f] = statements.Whole(kFamilyNames[f]);
   }
   for (const JsonMember& pair : root.Items("not_watched")) {

@@ -21,18 +21,26 @@ enum Family : int {
   kClearance,
   kGround,
   kNoStep,
-  kZmpRobot
+  kZmpRobot,
+  kTorque,
+  kFriction
 };
-constexpr int kNumFamilies = 12;
+constexpr int kNumFamilies = 14;
 /// Their names in certificate.csv and certificate.json, and their units.
 constexpr std::array<const char*, kNumFamilies> kFamilyNames = {
-    "floor",       "foot_speed",     "foot_yaw_rate", "zmp",    "reach",   "joint",
-    "joint_speed", "self_clearance", "clearance",     "ground", "no_step", "zmp_robot"};
-constexpr std::array<const char*, kNumFamilies> kUnits = {"m",     "m/s", "rad/s", "m", "m", "rad",
-                                                          "rad/s", "m",   "m",     "m", "m", "m"};
+    "floor",   "foot_speed",  "foot_yaw_rate",  "zmp",       "reach",
+    "joint",   "joint_speed", "self_clearance", "clearance", "ground",
+    "no_step", "zmp_robot",   "torque",         "friction"};
+constexpr std::array<const char*, kNumFamilies> kUnits = {
+    "m", "m/s", "rad/s", "m", "m", "rad", "rad/s", "m", "m", "m", "m", "m", "N m", "1"};
 
 /// What is demanded of a family of which nothing is demanded: `null` in certificate.json.
 inline constexpr double kNotDemanded = -std::numeric_limits<double>::infinity();
+
+/// Whether a family rests on the whole robot's dynamics, so that it may be left out.
+constexpr bool IsOfDynamics(Family family) {
+  return family == kZmpRobot || family == kTorque || family == kFriction;
+}
 
 /// A row of certificate.csv.
 struct ClaimRow {
@@ -54,7 +62,7 @@ struct UnwatchedText {
 struct CertificateText {
   std::string verdict, message, statement;
   double duration = 0;  ///< [s]
-  /// kNotDemanded where nothing is, which only the whole robot's ZMP may have.
+  /// kNotDemanded where nothing is, which only what the whole robot's dynamics say may have.
   std::array<double, kNumFamilies> demanded{};
   std::array<long, kNumFamilies> statements{};
   std::vector<UnwatchedText> not_watched;

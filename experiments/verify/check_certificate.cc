@@ -16,6 +16,7 @@ long CountOf(Family family, const RobotModel& robot) {
       return std::ssize(robot.legs);
     case kJoint:
     case kJointSpeed:
+    case kTorque:
       return std::ssize(robot.legs[0].joints) + std::ssize(robot.legs[1].joints);
     case kSelfClearance:
       return std::ssize(robot.self_pairs);
@@ -27,6 +28,7 @@ long CountOf(Family family, const RobotModel& robot) {
     case kFootYawRate:
     case kZmp:
     case kZmpRobot:
+    case kFriction:
       return 1;
   }
   return 0;

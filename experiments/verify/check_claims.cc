@@ -33,8 +33,8 @@ class Claims {
     if (!found) return "nothing is called " + Quote(row.subject);
     const ClaimSubject subject = *found;
     if (row.margin == kNoLimit) {
-      if (row.family == kZmpRobot) {
-        return certificate_.demanded[kZmpRobot] == kNotDemanded ? "" : "the robot has a ZMP";
+      if (IsOfDynamics(row.family)) {
+        return certificate_.demanded[row.family] == kNotDemanded ? "" : "the robot has a ZMP";
       }
       return row.family == kGround || row.family == kNoStep ? FaultOfNothing(row)
                                                             : FaultOfUnwatched(row);
@@ -109,7 +109,12 @@ class Claims {
       case kZmp:
         return ZmpMargin(walk_.Row(t), robot_);
       case kZmpRobot:
-        return walk_.RobotZmpMargin(t);
+        return walk_.DynamicsAt(t).zmp;
+      case kTorque:
+        return walk_.DynamicsAt(t).TorqueMargin(robot_, static_cast<size_t>(s.first),
+                                                static_cast<size_t>(s.second));
+      case kFriction:
+        return distances_.scene().friction - walk_.DynamicsAt(t).friction;
       case kReach:
         return ReachMargin(robot_, walk_.Row(t), s.first);
       case kJoint:
@@ -137,7 +142,10 @@ class Claims {
   }
 
   std::string FaultOfScalar(const ClaimRow& row, ClaimSubject subject) const {
-    const double rounding = row.family == kJointSpeed ? kSpeedClaimRounding : kClaimRounding;
+    const double rounding = row.family == kJointSpeed ? kSpeedClaimRounding
+                            : row.family == kTorque   ? kTorqueRounding
+                            : row.family == kFriction ? kFrictionRounding
+                                                      : kClaimRounding;
     const std::array<double, 5> instants = Instants(row);
     const double middle = Scalar(row.family, subject, instants[0]);
     if (!(std::abs(middle - row.margin) <= rounding)) {

@@ -13,7 +13,7 @@ namespace {
 constexpr double kHorizon = 0.3;
 constexpr double kColumnRounding = 1e-8;
 constexpr double kSpeedColumnRounding = 1e-6;
-constexpr double kMomentumColumnRounding = 1e-7;  // of RobotZmp, by second differences
+constexpr double kMomentumColumnRounding = 1e-7;  // of RobotMomentum, by second differences
 
 double JointSpeedMarginAt(const DescribedWalk& walk, double t, double scale) {
   const std::array<Vector6d, 2> speeds = walk.JointSpeeds(t);
@@ -49,21 +49,25 @@ std::array<double, kNumMarginColumns> MarginsAt(const DescribedWalk& walk, const
     for (int j = 0; j < 6; ++j) joint = std::min(joint, JointMargin(walk.robot(), row, side, j));
   }
   const Placement at = PlaceRobot(walk.robot(), row);
+  const WalkDynamics dynamics = walk.DynamicsAt(row.t);
   return {ZmpMargin(row, walk.robot()),
           joint,
           JointSpeedMarginAt(walk, row.t, certificate.joint_speed_scale),
           FootSpeedMarginAt(walk, row, certificate.foot_speed),
           distances->NearestObstacle(at, row.t, horizon),
           distances->NearestPair(at, horizon),
-          walk.RobotZmpMargin(row.t)};
+          dynamics.zmp,
+          dynamics.LeastTorqueMargin(walk.robot()),
+          distances->scene().friction - dynamics.friction};
 }
 
 void CheckMarginColumns(const std::vector<PlayedRow>& rows, const DescribedWalk& walk,
                         const CertificateText& certificate, Distances* distances,
                         Findings* findings) {
   constexpr std::array<double, kNumMarginColumns> kTolerances = {
-      kColumnRounding,      kColumnRounding,      kSpeedColumnRounding,   kColumnRounding,
-      Distances::kAccuracy, Distances::kAccuracy, kMomentumColumnRounding};
+      kColumnRounding,         kColumnRounding,      kSpeedColumnRounding,
+      kColumnRounding,         Distances::kAccuracy, Distances::kAccuracy,
+      kMomentumColumnRounding, kTorqueRounding,      kFrictionRounding};
   const double horizon = std::max(
       {kHorizon, 2 * certificate.demanded[kClearance], 2 * certificate.demanded[kSelfClearance]});
   std::array<Faults, kNumMarginColumns> faults;

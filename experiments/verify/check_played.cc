@@ -20,7 +20,7 @@ void CheckPlayed(const PlayedMotion& motion, const DescribedWalk& walk,
                  Findings* findings) {
   const auto check = [&](const PlayedMotion& of, Findings* into) {
     CheckRowMargins(of, certificate, tolerance, into);
-    CheckRobotZmp(of.rows(), walk, certificate, into);
+    CheckDynamics(of.rows(), walk, distances->scene().friction, certificate, into);
     CheckFloor(of, distances->scene(), certificate, tolerance, into);
     CheckClearances(of, certificate, tolerance, distances, into);
   };

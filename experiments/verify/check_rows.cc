@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <utility>
 
 #include "wpg/geometry/support_polygon.h"
 #include "wpg/motion/lipm.h"
@@ -72,12 +74,13 @@ double FootYawRate(const PlayedMotion& motion, size_t i, int side) {
   return std::abs(b.soles[Of(side)][3] - a.soles[Of(side)][3]) / (b.t - a.t);
 }
 
+SupportPolygon PolygonOf(const PlayedRow& row, const RobotModel& robot) {
+  if (row.support == Support::kBoth) return {row.X_WS(0), row.X_WS(1), robot.sole_size};
+  return {row.X_WS(static_cast<int>(row.support)), robot.sole_size};
+}
+
 double ZmpMargin(const PlayedRow& row, const RobotModel& robot) {
-  const SupportPolygon polygon =
-      row.support == Support::kBoth
-          ? SupportPolygon(row.X_WS(0), row.X_WS(1), robot.sole_size)
-          : SupportPolygon(row.X_WS(static_cast<int>(row.support)), robot.sole_size);
-  return polygon.Margin(row.zmp);
+  return PolygonOf(row, robot).Margin(row.zmp);
 }
 
 // Hip (a point of the thigh), knee axis and ankle (a point of the shank): stretched when both lie
@@ -230,19 +233,35 @@ void CheckRowMargins(const PlayedMotion& motion, const CertificateText& certific
   }
 }
 
-void CheckRobotZmp(const std::vector<PlayedRow>& rows, const DescribedWalk& walk,
+void CheckDynamics(const std::vector<PlayedRow>& rows, const DescribedWalk& walk, double friction,
                    const CertificateText& certificate, Findings* findings) {
-  const std::string& fault = walk.robot().masses.fault;
-  if (certificate.demanded[kZmpRobot] == kNotDemanded || !fault.empty()) {
-    findings->Say("ZMP of the whole robot: nothing is demanded" +
-                  (fault.empty() ? "" : ", for " + fault));
-    return;
-  }
-  Check zmp("ZMP of the whole robot", "m", certificate.demanded[kZmpRobot], kMomentumRounding);
+  struct Checked {
+    Check check;
+    std::function<double(const WalkDynamics&)> margin;
+  };
+  std::vector<Checked> all;
+  const auto add = [&](Family family, const char* what, const char* unit, double rounding,
+                       std::function<double(const WalkDynamics&)> margin) {
+    const std::string& fault = walk.robot().masses.fault;
+    if (certificate.demanded[family] == kNotDemanded || !fault.empty()) {
+      findings->Say(std::string(what) + ": nothing is demanded" +
+                    (fault.empty() ? "" : ", for " + fault));
+      return;
+    }
+    all.push_back({Check(what, unit, certificate.demanded[family], rounding), std::move(margin)});
+  };
+  add(kZmpRobot, "ZMP of the whole robot", "m", kMomentumRounding,
+      [](const WalkDynamics& at) { return at.zmp; });
+  add(kTorque, "joint torques", "N m", kTorqueRounding,
+      [&](const WalkDynamics& at) { return at.LeastTorqueMargin(walk.robot()); });
+  add(kFriction, "friction", "", kFrictionRounding,
+      [&](const WalkDynamics& at) { return friction - at.friction; });
+  if (all.empty()) return;
   for (const PlayedRow& row : rows) {
-    zmp.Add(walk.RobotZmpMargin(row.t), [&] { return At(row.t); });
+    const WalkDynamics dynamics = walk.DynamicsAt(row.t);
+    for (Checked& of : all) of.check.Add(of.margin(dynamics), [&] { return At(row.t); });
   }
-  zmp.Conclude(findings);
+  for (const Checked& of : all) of.check.Conclude(findings);
 }
 
 }  // namespace halfstep::verify

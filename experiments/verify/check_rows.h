@@ -7,8 +7,13 @@
 #include "experiments/verify/findings.h"
 #include "experiments/verify/played_motion.h"
 #include "planner/scene/scene.h"
+#include "wpg/geometry/support_polygon.h"
 
 namespace halfstep::verify {
+
+/// What second differences of joint angles (RobotMomentum) do to torques [N m] and to the needed
+/// friction coefficient, which shares of the feet and a short lever magnify.
+inline constexpr double kTorqueRounding = 1e-3, kFrictionRounding = 1e-6;
 
 /// The margin of what has no limit [any unit].
 inline constexpr double kNoLimit = std::numeric_limits<double>::infinity();
@@ -30,9 +35,10 @@ void CheckConsistency(const PlayedMotion& motion, const DescribedWalk& walk, Fin
 void CheckRowMargins(const PlayedMotion& motion, const CertificateText& certificate,
                      double tolerance, Findings* findings);
 
-/// Whether the ZMP of the whole robot (RobotZmp) keeps what is demanded at the rows' times, by the
-/// walk; nothing is looked at where nothing is demanded, or masses are not known.
-void CheckRobotZmp(const std::vector<PlayedRow>& rows, const DescribedWalk& walk,
+/// Whether the whole robot's ZMP, its joint torques and the friction that it needs (WalkDynamics)
+/// keep what is demanded at the rows' times, by the walk on a floor of that friction coefficient;
+/// nothing is looked at where nothing is demanded, or masses are not known.
+void CheckDynamics(const std::vector<PlayedRow>& rows, const DescribedWalk& walk, double friction,
                    const CertificateText& certificate, Findings* findings);
 
 /// Whether bodies stay above the floor, those on a foot at each row and all others at and between
@@ -41,6 +47,8 @@ void CheckRobotZmp(const std::vector<PlayedRow>& rows, const DescribedWalk& walk
 void CheckFloor(const PlayedMotion& motion, const Scene& scene, const CertificateText& certificate,
                 double tolerance, Findings* findings);
 
+/// What supports the robot at a row.
+SupportPolygon PolygonOf(const PlayedRow& row, const RobotModel& robot);
 /// Margins at a row: of the ZMP [m], of a leg's reach [m], of a joint's limits [rad]; and of a
 /// joint's speed between row i and the next one [rad/s], with `scale` times the robot's limit.
 /// `side` is Index(Side).

@@ -11,7 +11,7 @@ ClaimSubjects::ClaimSubjects(const RobotModel& robot, const Distances& distances
     for (int j = 0; j < 6; ++j) {
       const std::string& name =
           robot.legs[static_cast<size_t>(s)].joints[static_cast<size_t>(j)].name;
-      subjects[kJoint][name] = subjects[kJointSpeed][name] = {s, j};
+      subjects[kJoint][name] = subjects[kJointSpeed][name] = subjects[kTorque][name] = {s, j};
     }
     subjects[kNoStep][side + " foot"] = {s, -1};
     for (size_t a = 0; a < distances.scene().no_step.size(); ++a) {
@@ -21,7 +21,9 @@ ClaimSubjects::ClaimSubjects(const RobotModel& robot, const Distances& distances
   }
   for (Family f : {kFloor, kFootSpeed, kFootYawRate}) subjects[f]["both feet"] = {};
   subjects[kGround]["robot"] = {};
-  for (Family f : {kZmp, kZmpRobot}) subjects[f]["both soles"] = subjects[f]["support sole"] = {};
+  for (Family f : {kZmp, kZmpRobot, kFriction}) {
+    subjects[f]["both soles"] = subjects[f]["support sole"] = {};
+  }
   for (size_t b = 0; b < distances.num_bodies(); ++b) {
     const int body = static_cast<int>(b);
     subjects[kClearance][robot.bodies[b].name] = {body, -1};

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "experiments/verify/check_rows.h"
-#include "experiments/verify/robot_momentum.h"
+#include "experiments/verify/foot_forces.h"
 #include "wpg/check.h"
 #include "wpg/motion/posture.h"
 
@@ -133,11 +133,30 @@ std::array<Vector6d, 2> DescribedWalk::JointSpeeds(double t) const {
   return speeds;
 }
 
-double DescribedWalk::RobotZmpMargin(double t) const {
+WalkDynamics DescribedWalk::DynamicsAt(double t) const {
+  WalkDynamics dynamics;
+  const auto momentum = RobotMomentum::Of(robot_, At(t), lipm_.gravity);
+  if (!momentum) return dynamics;
   PlayedRow row = Row(t);
-  row.zmp = RobotZmp(robot_, At(t), lipm_.gravity);
-  if (!row.zmp.allFinite()) return -std::numeric_limits<double>::infinity();
-  return ZmpMargin(row, robot_);
+  row.zmp = momentum->Zmp();
+  dynamics.zmp = ZmpMargin(row, robot_);
+  dynamics.torques = JointTorques(robot_, row, *momentum);
+  dynamics.friction = FrictionNeeded(robot_, row, *momentum);
+  return dynamics;
+}
+
+double WalkDynamics::TorqueMargin(const RobotModel& robot, size_t side, size_t joint) const {
+  const double torque = std::abs(torques[side][static_cast<Eigen::Index>(joint)]);
+  if (!std::isfinite(torque)) return -std::numeric_limits<double>::infinity();
+  return robot.legs[side].joints[joint].max_torque - torque;
+}
+
+double WalkDynamics::LeastTorqueMargin(const RobotModel& robot) const {
+  double least = std::numeric_limits<double>::infinity();
+  for (size_t s = 0; s < 2; ++s) {
+    for (size_t j = 0; j < 6; ++j) least = std::min(least, TorqueMargin(robot, s, j));
+  }
+  return least;
 }
 
 double DescribedWalk::ComFourthBound(double begin, double end) const {

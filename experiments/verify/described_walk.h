@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -9,6 +11,21 @@
 #include "wpg/robot/robot_model.h"
 
 namespace halfstep::verify {
+
+/// What the whole robot's momentum (RobotMomentum) asks for at an instant.
+struct WalkDynamics {
+  /// Distance of its ZMP inside the support polygon [m]; −∞: it has none.
+  double zmp = -std::numeric_limits<double>::infinity();
+  /// Joint torques by Index(Side) [N m], infinite where nothing can be said.
+  std::array<Vector6d, 2> torques = {Vector6d::Constant(std::numeric_limits<double>::infinity()),
+                                     Vector6d::Constant(std::numeric_limits<double>::infinity())};
+  /// The friction coefficient that the soles need; ∞ where nothing can be said.
+  double friction = std::numeric_limits<double>::infinity();
+
+  /// A joint's limit − |torque| [N m]; −∞ where nothing can be said.
+  double TorqueMargin(const RobotModel& robot, size_t side, size_t joint) const;
+  double LeastTorqueMargin(const RobotModel& robot) const;
+};
 
 /// The walk that the files of a run describe: the half-steps of its footsteps with the starts,
 /// durations and heights of half_steps.csv, superposed:
@@ -46,8 +63,7 @@ class DescribedWalk {
   /// µs at the walk's ends.
   std::array<Vector6d, 2> JointSpeeds(double t) const;
 
-  /// Distance of the whole robot's ZMP (RobotZmp) inside the support polygon [m]; −∞: it has none.
-  double RobotZmpMargin(double t) const;
+  WalkDynamics DynamicsAt(double t) const;
 
   Support SupportAt(double t) const;
   /// The latest half-step that has begun, counted from 1.

@@ -14,10 +14,11 @@ namespace halfstep::verify {
 enum class Support : int { kLeft = 0, kRight = 1, kBoth = 2 };
 
 /// The last columns of trajectory.csv: margins at the row's instant.
-constexpr size_t kNumMarginColumns = 7;
+constexpr size_t kNumMarginColumns = 9;
 constexpr std::array<const char*, kNumMarginColumns> kMarginColumns = {
-    "zmp_margin_m", "joint_margin_rad", "joint_speed_margin_rad_s", "foot_speed_margin_m_s",
-    "clearance_m",  "self_clearance_m", "zmp_robot_margin_m"};
+    "zmp_margin_m",          "joint_margin_rad",  "joint_speed_margin_rad_s",
+    "foot_speed_margin_m_s", "clearance_m",       "self_clearance_m",
+    "zmp_robot_margin_m",    "torque_margin_n_m", "friction_margin"};
 
 /// A row of trajectory.csv.
 struct PlayedRow {

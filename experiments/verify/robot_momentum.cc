@@ -31,19 +31,19 @@ Points PointsOf(const BodyMass& body) {
 
 }  // namespace
 
-Eigen::Vector2d RobotZmp(const RobotModel& robot, const WalkJet& jet, double gravity) {
-  const Eigen::Vector2d nothing = Eigen::Vector2d::Constant(std::nan(""));
-  if (!robot.masses.known()) return nothing;
+std::optional<RobotMomentum> RobotMomentum::Of(const RobotModel& robot, const WalkJet& jet,
+                                               double gravity) {
+  if (!robot.masses.known()) return std::nullopt;
   std::array<Posture, 9> postures;
   for (size_t k = 0; k < postures.size(); ++k) {
     const double t = kStep * (static_cast<double>(k) - 4);
     postures[k] = SolvePosture(robot, jet.value + t * jet.first + 0.5 * t * t * jet.second);
-    if (!postures[k].reachable) return nothing;
+    if (!postures[k].reachable) return std::nullopt;
   }
-  Eigen::Vector2d moment(0, 0);
-  double force = 0;
-  const auto add = [&](const BodyMass& body, const auto& pose) {
-    if (!(body.mass > 0)) return;
+  RobotMomentum all;
+  const auto push_on = [&](const BodyMass& body, const auto& pose) {
+    Push push;
+    if (!(body.mass > 0)) return push;
     const Points points = PointsOf(body);
     const Points here = pose(postures[4]) * points;
     Points a = kSecond[0] * here;
@@ -52,19 +52,30 @@ Eigen::Vector2d RobotZmp(const RobotModel& robot, const WalkJet& jet, double gra
     }
     a /= kStep * kStep;
     for (Eigen::Index i = 0; i < 6; ++i) {
-      const double m = body.mass / 6, up = a(2, i) + gravity;
-      moment += m * (here.col(i).head<2>() * up - here(2, i) * a.col(i).head<2>());
-      force += m * up;
+      const Eigen::Vector3d force = body.mass / 6 * (a.col(i) + gravity * Eigen::Vector3d::UnitZ());
+      push.force += force;
+      push.moment += here.col(i).cross(force);
     }
+    all.floor.force += push.force;
+    all.floor.moment += push.moment;
+    return push;
   };
-  add(robot.masses.waist, [](const Posture& posture) { return posture.X_WB; });
+  push_on(robot.masses.waist, [](const Posture& posture) { return posture.X_WB; });
+  const Posture& now = postures[4];
   for (size_t s = 0; s < 2; ++s) {
     for (size_t j = 0; j < 6; ++j) {
-      add(robot.masses.links[s][j], [&](const Posture& posture) { return posture.X_WLink[s][j]; });
+      all.links[s][j] = push_on(robot.masses.links[s][j],
+                                [&](const Posture& posture) { return posture.X_WLink[s][j]; });
+      all.points[s][j] = now.X_WB * now.frames[s].point_B[j];
+      all.axes[s][j] = now.X_WB.linear() * now.frames[s].axis_B[j];
     }
   }
-  if (!(force > 0)) return nothing;
-  return moment / force;
+  if (!(all.floor.force.z() > 0)) return std::nullopt;
+  return all;
+}
+
+Eigen::Vector2d RobotMomentum::Zmp() const {
+  return Eigen::Vector2d(-floor.moment.y(), floor.moment.x()) / floor.force.z();
 }
 
 }  // namespace halfstep::verify

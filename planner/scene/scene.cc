@@ -226,6 +226,9 @@ Scene ParseScene(const std::string& yaml_path, const std::string& text) {
                                   &area_names);
                       DeclareNoStep(item, area);
                     });
+        fields.Number(
+            "friction", &scene.friction,
+            {.meaning = "friction coefficient between soles and floor", .min = 0.01, .max = 10});
       },
       kLimits);
   if (scene.name.empty()) scene.name = path.stem().string();

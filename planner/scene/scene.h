@@ -36,6 +36,8 @@ struct Scene {
   std::vector<Obstacle> obstacles;
   /// Simple polygons on the floor (2×n, counter-clockwise) that no sole may touch [m].
   std::vector<Eigen::Matrix2Xd> no_step;
+  /// Friction coefficient between soles and floor > 0.
+  double friction = 0.7;
   /// What of the files was replaced by something larger, as "file: …", for the user.
   std::vector<std::string> warnings;
 

@@ -7,12 +7,14 @@
 #include "smoothing/margins/floor_margin.h"
 #include "smoothing/margins/foot_speed_margin.h"
 #include "smoothing/margins/foot_yaw_rate_margin.h"
+#include "smoothing/margins/friction_margin.h"
 #include "smoothing/margins/ground_margin.h"
 #include "smoothing/margins/joint_margin.h"
 #include "smoothing/margins/joint_speed_margin.h"
 #include "smoothing/margins/no_step_margin.h"
 #include "smoothing/margins/reach_margin.h"
 #include "smoothing/margins/self_clearance_margin.h"
+#include "smoothing/margins/torque_margin.h"
 #include "smoothing/margins/zmp_margin.h"
 #include "smoothing/margins/zmp_robot_margin.h"
 
@@ -33,9 +35,10 @@ struct FamilyList {
 };
 
 /// The registry of families. A new family is one more class here, and its name in MarginFamily.
-using AllFamilies = FamilyList<FloorMargin, FootSpeedMargin, FootYawRateMargin, ZmpMargin,
-                               ReachMargin, JointMargin, JointSpeedMargin, SelfClearanceMargin,
-                               ClearanceMargin, GroundMargin, NoStepMargin, ZmpRobotMargin>;
+using AllFamilies =
+    FamilyList<FloorMargin, FootSpeedMargin, FootYawRateMargin, ZmpMargin, ReachMargin, JointMargin,
+               JointSpeedMargin, SelfClearanceMargin, ClearanceMargin, GroundMargin, NoStepMargin,
+               ZmpRobotMargin, TorqueMargin, FrictionMargin>;
 
 constexpr bool FamiliesAreInOrder() {
   for (size_t i = 0; i < AllFamilies::kTraits.size(); ++i) {

@@ -22,8 +22,8 @@ enum class MarginCost : int {
 struct FamilyTraits {
   MarginFamily family;
   std::string_view name;     ///< in YAML, CSV and certificates
-  std::string_view unit;     ///< "m", "rad" …
-  std::string_view key;      ///< under `smoothing.margins`
+  std::string_view unit;     ///< "m", "rad" …; "1" for a pure number
+  std::string_view key;      ///< under `smoothing.margins`: the name and, by its unit, an ending
   std::string_view meaning;  ///< of the key
   std::string_view remedy;   ///< what may help a planned motion that misses the demand
   double scale;              ///< what counts as a clear change of the margin [its unit]
@@ -34,6 +34,7 @@ struct FamilyTraits {
   /// margin, so that it has no row.
   std::optional<MarginFamily> row;
   bool may_be_none = false;  ///< whether it can be left out: then nothing is demanded of it
+  double most = 0.5;         ///< that may be demanded [its unit]
 };
 
 /// The traits of a family.

@@ -42,4 +42,32 @@ bool Instant::regular() {
   return regular_;
 }
 
+const RobotDynamics* Instant::dynamics() {
+  if (!dynamics_) {
+    if (!robot().masses.known() || !regular()) return nullptr;
+    dynamics_.emplace(robot(), jet_, posture(), walk_.lipm().gravity);
+  }
+  return &*dynamics_;
+}
+
+WalkThirds MarginInterval::Thirds() const {
+  const double middle = mid.t(), h = motion.half_width;
+  return mid.walk().ThirdRanges(middle - h, middle + h);
+}
+
+const RobotDrift& MarginInterval::drift() const {
+  if (!drift_) {
+    drift_.emplace(mid.robot(), motion, Thirds(), *mid.dynamics(), mid.walk().lipm().gravity);
+  }
+  return *drift_;
+}
+
+const ZmpDrift& MarginInterval::zmp_drift() const {
+  if (!zmp_drift_) {
+    zmp_drift_ = ZmpDrift::Over(mid.robot(), motion, Thirds(), drift(), *mid.dynamics(),
+                                mid.walk().lipm().gravity);
+  }
+  return *zmp_drift_;
+}
+
 }  // namespace halfstep

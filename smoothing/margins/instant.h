@@ -1,10 +1,15 @@
 #pragma once
 
+#include <optional>
+
 #include "smoothing/margins/margin.h"
 #include "smoothing/margins/margin_place.h"
 #include "smoothing/walk/superposed_walk.h"
 #include "wpg/motion/motion_bounds.h"
 #include "wpg/motion/posture.h"
+#include "wpg/motion/robot_drift.h"
+#include "wpg/motion/robot_dynamics.h"
+#include "wpg/motion/zmp_drift.h"
 
 namespace halfstep {
 
@@ -40,6 +45,9 @@ class Instant {
   /// speeds are solved.
   bool regular();
   const Posture& posture();
+  /// The dynamics of the whole robot; null where nothing can be said, because a leg does not reach
+  /// or is stretched, or masses are not known.
+  const RobotDynamics* dynamics();
   MarginScratch& scratch() const { return scratch_; }
 
  private:
@@ -53,15 +61,35 @@ class Instant {
   Posture own_;
   const Posture* posture_ = nullptr;  // null: not solved yet
   bool speeds_tried_ = false, regular_ = false;
+  std::optional<RobotDynamics> dynamics_;
 };
 
 /// An interval of time around an instant, [mid − h, mid + h], and bounds of how much the motion
 /// changes in it. Strictly inside, no foot lifts off or touches down, and none begins or ends its
 /// horizontal motion.
-struct MarginInterval {
+class MarginInterval {
+ public:
+  /// `mid` and `motion` are borrowed. `with_margins`: margins are wanted, not only verdicts, which
+  /// is slower.
+  MarginInterval(Instant* mid_instant, const IntervalMotion& its_motion, bool margins_wanted)
+      : mid(*mid_instant), motion(its_motion), with_margins(margins_wanted) {}
+
   Instant& mid;
   const IntervalMotion& motion;
-  bool with_margins = false;  ///< margins are wanted, not only verdicts, which is slower
+  const bool with_margins;
+
+  /// How much the motion of all bodies differs from that at the midpoint. Precondition:
+  /// mid.dynamics() is not null.
+  const RobotDrift& drift() const;
+  /// How far the robot's ZMP goes. Precondition: there is one at the midpoint.
+  const ZmpDrift& zmp_drift() const;
+
+ private:
+  WalkThirds Thirds() const;
+
+  // Made when they are first asked for.
+  mutable std::optional<RobotDrift> drift_;
+  mutable std::optional<ZmpDrift> zmp_drift_;
 };
 
 }  // namespace halfstep

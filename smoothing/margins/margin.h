@@ -26,8 +26,10 @@ enum class MarginFamily : int {
   kGround,         ///< height of a body's lowest point above the floor [m]; a foot may touch it
   kNoStep,         ///< distance of a standing sole's outline from the no-step areas [m]
   kZmpRobot,       ///< distance of the whole robot's ZMP inside the support polygon [m]
+  kTorque,         ///< torque limit − |torque| of a leg joint [N m]
+  kFriction,       ///< friction coefficient of the floor less what the soles need [1]
 };
-constexpr int kNumMarginFamilies = 12;
+constexpr int kNumMarginFamilies = 14;
 
 std::string_view Name(MarginFamily family);  ///< "zmp", "joint_speed" … as in YAML and CSV
 std::string_view Unit(MarginFamily family);  ///< "m", "rad" …
@@ -54,8 +56,8 @@ struct Margin {
   LocalTime at = {};
   double t = 0.0;  ///< absolute time in the walk where it was found [s]
   /// What the margin belongs to, −1: nothing in particular. Both ZMPs: the step in the air, or −1.
-  /// Floor, foot speed, foot yaw rate, no-step: Index(Side). Reach, joints, joint speeds:
-  /// 6·Index(Side) + joint. Clearances and ground: index of RobotModel::bodies.
+  /// Floor, foot speed, foot yaw rate, no-step: Index(Side). Reach, joints, joint speeds,
+  /// torques: 6·Index(Side) + joint. Clearances and ground: index of RobotModel::bodies.
   int subject = -1;
   int other = -1;  ///< index of the obstacle (clearance), second body (self-clearance) or area
   /// Not −1: found in the stop branch after this half-step; `at` and `t` are times of the branch.

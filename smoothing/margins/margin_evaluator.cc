@@ -7,13 +7,18 @@
 #include <utility>
 
 #include "smoothing/margins/all_families.h"
+#include "wpg/robot/torque_limits.h"
 
 namespace halfstep {
 
 namespace {
 
 MarginLimits Possible(MarginLimits limits, const RobotModel& robot) {
-  if (!robot.masses.known()) limits.demanded_of(MarginFamily::kZmpRobot) = kNotDemanded;
+  if (!robot.masses.known()) {
+    limits.demanded_of(MarginFamily::kZmpRobot) = kNotDemanded;
+    limits.demanded_of(MarginFamily::kFriction) = kNotDemanded;
+  }
+  if (!TorqueFault(robot).empty()) limits.demanded_of(MarginFamily::kTorque) = kNotDemanded;
   return limits;
 }
 

@@ -3,8 +3,6 @@
 #include <algorithm>
 
 #include "wpg/geometry/support_polygon.h"
-#include "wpg/motion/robot_dynamics.h"
-#include "wpg/motion/zmp_drift.h"
 #include "wpg/motion/zmp_slopes.h"
 
 namespace halfstep {
@@ -25,10 +23,10 @@ void ForEachEdge(const SupportPolygon& polygon, const Visit& visit) {
   }
 }
 
-// None where nothing can be said: a leg does not reach, is singular, or masses are not known.
-std::optional<RobotDynamics> DynamicsAt(Instant* at) {
-  if (!at->robot().masses.known() || !at->regular()) return std::nullopt;
-  return RobotDynamics(at->robot(), at->jet(), at->posture(), at->walk().lipm().gravity);
+// None where nothing can be said, or the floor does not push.
+std::optional<Eigen::Vector2d> ZmpAt(Instant* at) {
+  const RobotDynamics* dynamics = at->dynamics();
+  return dynamics == nullptr ? std::nullopt : dynamics->Zmp();
 }
 
 }  // namespace
@@ -40,8 +38,7 @@ std::string ZmpRobotMargin::Subject(const Margin& margin) const {
 }
 
 Margin ZmpRobotMargin::Least(Instant* at, double) const {
-  const auto dynamics = DynamicsAt(at);
-  const auto zmp = dynamics ? dynamics->Zmp() : std::nullopt;
+  const auto zmp = ZmpAt(at);
   if (!zmp) return Of(-kUnlimited, at->step_in_air());
   Margin least = Of(kUnlimited, -1);
   Lower(Of(PolygonAt(*at).Margin(*zmp), at->step_in_air()), &least);
@@ -55,14 +52,13 @@ std::optional<Margin> ZmpRobotMargin::FirstBelow(Instant* at, double demanded) c
 
 void ZmpRobotMargin::AddRows(Instant* at, SlackSink* rows) const {
   if (at->demanded(family()) == kNotDemanded) return;
-  const auto dynamics = DynamicsAt(at);
-  const auto zmp = dynamics ? dynamics->Zmp() : std::nullopt;
+  const auto zmp = ZmpAt(at);
   if (!zmp) return;
   std::vector<Eigen::Vector2d> slopes;  // along each parameter, made when a row needs them
   ForEachEdge(PolygonAt(*at), [&](const Eigen::Vector2d& a, const Eigen::Vector2d& inward) {
     rows->Add(inward.dot(*zmp - a), [&](size_t p) {
       if (slopes.empty()) {
-        const ZmpSlopes all(at->robot(), at->jet(), at->posture(), *dynamics);
+        const ZmpSlopes all(at->robot(), at->jet(), at->posture(), *at->dynamics());
         for (size_t i = 0; i < rows->sensitivities.size(); ++i) {
           const PostureTangent& tangent = rows->tangents[i];
           slopes.push_back(all.Along({rows->sensitivities[i].jet, tangent.q, tangent.speeds}));
@@ -80,20 +76,16 @@ void ZmpRobotMargin::AddBounds(const MarginInterval& interval, TightestStatement
     tightest->Add(Of(kUnlimited, step), 0.0);
     return;
   }
-  const auto dynamics = DynamicsAt(&mid);
-  const auto zmp = dynamics ? dynamics->Zmp() : std::nullopt;
+  const auto zmp = ZmpAt(&mid);
   if (!zmp) {
     tightest->Add(Of(-kUnlimited, step), 0.0);
     return;
   }
   const SupportPolygon polygon = PolygonAt(mid);
   const double margin = polygon.Margin(*zmp);
-  const double middle = mid.t(), h = interval.motion.half_width;
   double least = margin;
   if (margin >= mid.demanded(family())) {
-    const auto drift =
-        ZmpDrift::Over(mid.robot(), interval.motion, mid.walk().ThirdRanges(middle - h, middle + h),
-                       *dynamics, mid.walk().lipm().gravity);
+    const ZmpDrift& drift = interval.zmp_drift();
     ForEachEdge(polygon, [&](const Eigen::Vector2d& a, const Eigen::Vector2d& inward) {
       least = std::min(least, inward.dot(*zmp - a) - drift.Along(inward));
     });

@@ -48,7 +48,7 @@ std::optional<Margin> IntervalStatements::Prove(const SuperposedWalk& walk, doub
   }
   Instant instant(evaluator_.place(), evaluator_.limits(), walk, mid, motion.jet, motion.posture,
                   scratch);
-  const MarginInterval interval{instant, motion, rows != nullptr};
+  const MarginInterval interval(&instant, motion, rows != nullptr);
   const auto located = [&](Margin margin) {
     margin.at = mid;
     margin.t = middle;

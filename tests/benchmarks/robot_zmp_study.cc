@@ -127,8 +127,9 @@ void Drift(long intervals, unsigned seed, const std::string& name) {
         const RobotDynamics dynamics(robot, motion.jet, motion.posture, gravity);
         const auto zmp = dynamics.Zmp();
         if (!zmp) continue;
-        const ZmpDrift drift = ZmpDrift::Over(
-            robot, motion, walk.ThirdRanges(begin, begin + length), dynamics, gravity);
+        const WalkThirds thirds = walk.ThirdRanges(begin, begin + length);
+        const RobotDrift of_robot(robot, motion, thirds, dynamics, gravity);
+        const ZmpDrift drift = ZmpDrift::Over(robot, motion, thirds, of_robot, dynamics, gravity);
         if (!(drift.least_push > 0)) continue;
         ++bounded;
         const double angle = draw.Uniform(0, 6.28);

@@ -86,7 +86,7 @@ TEST(RunCommand, WritesEveryFileAndColumn) {
             "q_LLEG_JOINT4_rad,q_LLEG_JOINT5_rad,q_RLEG_JOINT0_rad,q_RLEG_JOINT1_rad,"
             "q_RLEG_JOINT2_rad,q_RLEG_JOINT3_rad,q_RLEG_JOINT4_rad,q_RLEG_JOINT5_rad,"
             "zmp_margin_m,joint_margin_rad,joint_speed_margin_rad_s,foot_speed_margin_m_s,"
-            "clearance_m,self_clearance_m,zmp_robot_margin_m");
+            "clearance_m,self_clearance_m,zmp_robot_margin_m,torque_margin_n_m,friction_margin");
   EXPECT_EQ(Columns(run / "dichotomy/overlaps.csv"),
             "junction,kind,overlap_s,upper_bound_s,active,limit_family,limit_scale,price_s,"
             "multiplier_s,duration_before_s,duration_after_s,height_scale_before,"

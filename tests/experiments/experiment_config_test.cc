@@ -93,7 +93,7 @@ smoothing:
   margins: {floor_m: 0.001, zmp_m: 0.002, reach_m: 0.003, joint_rad: 0.004,
             joint_speed_rad_s: 0.005, foot_speed_m_s: 0.006, foot_yaw_rate_rad_s: 0.007,
             clearance_m: 0.008, self_clearance_m: 0.009, ground_m: 0.011, no_step_m: 0.012,
-            zmp_robot_m: 0.013}
+            zmp_robot_m: 0.013, torque_n_m: 14, friction: 0.015}
 output: {directory: ../out, period_s: 0.02}
 seed: 42
 )";
@@ -139,6 +139,8 @@ TEST(ExperimentConfig, EveryKeyReachesItsField) {
   EXPECT_EQ(s.limits.demanded_of(MarginFamily::kGround), 0.011);
   EXPECT_EQ(s.limits.demanded_of(MarginFamily::kNoStep), 0.012);
   EXPECT_EQ(s.limits.demanded_of(MarginFamily::kZmpRobot), 0.013);
+  EXPECT_EQ(s.limits.demanded_of(MarginFamily::kTorque), 14);
+  EXPECT_EQ(s.limits.demanded_of(MarginFamily::kFriction), 0.015);
   EXPECT_EQ(c.output_directory, "../out");
   EXPECT_EQ(c.output_period, 0.02);
   EXPECT_EQ(c.seed, 42);

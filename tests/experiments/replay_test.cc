@@ -14,6 +14,7 @@
 #include "smoothing/walk/superposed_walk.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/parsed_csv.h"
+#include "tests/experiments/robot_motion_at.h"
 #include "tests/temporary_folder.h"
 #include "wpg/robot/leg_ik.h"
 
@@ -58,6 +59,25 @@ class ReplayTest : public testing::Test {
 
 #define SKIP_WITHOUT_SIMULATION() \
   if (!WhyNoSimulation().empty()) GTEST_SKIP() << WhyNoSimulation()
+
+// Joint torques, and force and moment on the robot, as the engine's inverse dynamics has them.
+TEST_F(ReplayTest, TheDynamicsAreThoseOfTheEngine) {
+  SKIP_WITHOUT_SIMULATION();
+  Simulation engine(MujocoModel(robot_, tree_, {.armature = 0.0}), robot_,
+                    tree_.urdf.links[static_cast<size_t>(tree_.waist)].name);
+  const Experiment experiment = Prepare(LoadConfig(ShippedConfig("fig3_two_half_steps"), {}));
+  const SuperposedWalk walk(experiment.sequence, PlannedMotion(experiment.sequence));
+  for (double t = 0.1; t < walk.duration(); t += 0.1) {
+    const WalkJet jet = walk.At(t);
+    Posture posture = SolvePosture(robot_, jet.value);
+    ASSERT_TRUE(posture.reachable && SolveJointSpeeds(robot_, jet, &posture));
+    const RobotDynamics dynamics(robot_, jet, posture, 9.81);
+    RobotMotion motion = RobotMotionAt(robot_, jet, posture, dynamics);
+    EXPECT_LT(OffFromEngine(engine.Needed(motion), posture, dynamics), 1e-9) << t;
+    motion.accelerations[0][2] += 0.01;
+    EXPECT_GT(OffFromEngine(engine.Needed(motion), posture, dynamics), 1e-6) << t;
+  }
+}
 
 TEST_F(ReplayTest, ModelWeighsWhatTheRobotDoes) {
   SKIP_WITHOUT_SIMULATION();

@@ -12,6 +12,8 @@
 #include "tests/smoothing/test_scenes.h"
 #include "tests/smoothing/test_walks.h"
 #include "tests/wpg/symmetric_masses.h"
+#include "tests/wpg/torque_limits.h"
+#include "wpg/robot/torque_limits.h"
 
 namespace halfstep {
 namespace {
@@ -31,7 +33,7 @@ class MarginEvaluatorTest : public testing::Test {
     return evaluator.At(walk, at, &scratch);
   }
 
-  const RobotModel robot_ = WithSymmetricMasses(Hrp2());
+  const RobotModel robot_ = WithTorqueLimits(WithSymmetricMasses(Hrp2()), 300.0);
   const HalfStepSequence sequence_ = OneStep(robot_);
   const SuperposedWalk walk_{sequence_, PlannedMotion(sequence_)};
 };
@@ -247,23 +249,57 @@ TEST_F(MarginEvaluatorTest, MarginsDoNotDependOnWhereAndOnWhichSide) {
   EXPECT_GT(compared, Draws(100) * 4);
 }
 
-TEST_F(MarginEvaluatorTest, OfARobotWithoutMassesNothingIsSaidOfItsZmp) {
+TEST_F(MarginEvaluatorTest, OfARobotWithoutMassesNothingIsSaidOfItsDynamics) {
   RobotModel robot = robot_;
   robot.masses.fault = "the left leg has no mass";
+  EXPECT_EQ(TorqueFault(robot), robot.masses.fault);
   const MarginEvaluator evaluator(robot, {}, {});
-  EXPECT_EQ(evaluator.limits().demanded_of(MarginFamily::kZmpRobot), kNotDemanded);
-  EXPECT_EQ(evaluator.WithLimits({}).limits().demanded_of(MarginFamily::kZmpRobot), kNotDemanded);
   MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
   const MarginSet margins = evaluator.At(walk_, {0, 1.0}, &scratch);
-  EXPECT_EQ(Of(margins, MarginFamily::kZmpRobot).value, -kUnlimited);
+  constexpr std::array kOfDynamics = {MarginFamily::kZmpRobot, MarginFamily::kTorque,
+                                      MarginFamily::kFriction};
+  for (const MarginFamily family : kOfDynamics) {
+    EXPECT_EQ(evaluator.limits().demanded_of(family), kNotDemanded);
+    EXPECT_EQ(evaluator.WithLimits({}).limits().demanded_of(family), kNotDemanded);
+    EXPECT_EQ(Of(margins, family).value, -kUnlimited);
+  }
   EXPECT_FALSE(evaluator.FirstViolation(walk_, {0, 1.0}, &scratch));
   Certificate certificate;
   const CertifiedFeasibility test(evaluator, {});
   ASSERT_EQ(test.Certify(walk_, &scratch, &certificate).verdict, Verdict::kFeasible);
   for (const CertificateRow& row : certificate) {
-    if (row.family != MarginFamily::kZmpRobot) continue;
+    if (std::ranges::find(kOfDynamics, row.family) == kOfDynamics.end()) continue;
     EXPECT_EQ(row.margin.value, kUnlimited);
   }
+}
+
+TEST_F(MarginEvaluatorTest, TorqueLimitsThatAreNotKnownDemandNothing) {
+  MarginLimits limits;
+  limits.demanded_of(MarginFamily::kTorque) = 10.0;
+  RobotModel robot = Hrp2();
+  EXPECT_EQ(JointsOfUnknownTorque(robot).size(), 12u);
+  const MarginEvaluator nothing(robot, {}, limits);
+  EXPECT_EQ(nothing.limits().demanded_of(MarginFamily::kTorque), kNotDemanded);
+  MarginEvaluator::Scratch scratch = nothing.MakeScratch();
+  EXPECT_EQ(Of(nothing.At(walk_, {0, 1.0}, &scratch), MarginFamily::kTorque).value, kUnlimited);
+  // One joint's limit is known: the support knee's.
+  robot.legs[0].joints[3].max_torque = 40.0;
+  EXPECT_EQ(TorqueFault(robot), "");
+  const MarginEvaluator evaluator(robot, {}, limits);
+  const Margin torque = Of(evaluator.At(walk_, {0, 2.0}, &scratch), MarginFamily::kTorque);
+  EXPECT_EQ(evaluator.statements(MarginFamily::kTorque).Subject(torque), "LLEG_JOINT3");
+  EXPECT_LT(torque.value, 0.0);
+  const auto violated = evaluator.FirstViolation(walk_, {0, 2.0}, &scratch);
+  ASSERT_TRUE(violated);
+  EXPECT_EQ(violated->family, MarginFamily::kTorque);
+}
+
+// A robot of one mass stands still on both feet: half of its weight on each, no friction is needed.
+TEST_F(MarginEvaluatorTest, AtRestNoFrictionIsNeeded) {
+  Scene scene;
+  scene.friction = 0.4;
+  EXPECT_NEAR(Of(At(walk_, {0, 0.0}, scene), MarginFamily::kFriction).value, 0.4, 1e-12);
+  EXPECT_LT(Of(At(walk_, {0, 2.2}, scene), MarginFamily::kFriction).value, 0.4);
 }
 
 TEST_F(MarginEvaluatorTest, DescribesAMarginWithItsOwnerPlaceAndDemand) {

@@ -282,8 +282,9 @@ TEST(ZmpDrift, IsNeverExceededOnRandomIntervals) {
         const RobotDynamics dynamics(robot, motion.jet, motion.posture, kGravity);
         const auto middle = dynamics.Zmp();
         if (!middle) continue;
-        const ZmpDrift drift = ZmpDrift::Over(
-            robot, motion, walk.ThirdRanges(begin, begin + length), dynamics, kGravity);
+        const WalkThirds thirds = walk.ThirdRanges(begin, begin + length);
+        const RobotDrift of_robot(robot, motion, thirds, dynamics, kGravity);
+        const ZmpDrift drift = ZmpDrift::Over(robot, motion, thirds, of_robot, dynamics, kGravity);
         if (!(drift.least_push > 0)) continue;
         ++bounded;
         const double angle = draw.Uniform(0, 6.3);

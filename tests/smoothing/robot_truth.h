@@ -53,22 +53,26 @@ class PointMasses {
   /// points' places `step` [s] apart, when the quantities are `at(t)` at the time t.
   template <typename At>
   Eigen::Vector2d Zmp(const At& at, double step, double gravity) const {
-    constexpr std::array<double, 5> kSecond = {-205.0 / 72, 8.0 / 5, -1.0 / 5, 8.0 / 315,
-                                               -1.0 / 560};
-    Eigen::Matrix3Xd here = Places(at(0.0)), a = kSecond[0] * here;
-    for (int k = 1; k <= 4; ++k) {
-      a += kSecond[static_cast<size_t>(k)] * (Places(at(k * step)) + Places(at(-k * step)));
-    }
-    a /= step * step;
     Eigen::Vector2d moment(0, 0);
     double force = 0;
-    for (size_t i = 0; i < points_.size(); ++i) {
-      const Eigen::Index c = static_cast<Eigen::Index>(i);
-      const double m = points_[i].mass;
-      moment += m * (here.col(c).head<2>() * (a(2, c) + gravity) - here(2, c) * a.col(c).head<2>());
-      force += m * (a(2, c) + gravity);
-    }
+    ForEachForce(at, step, gravity, [&](size_t, const auto& place, const Eigen::Vector3d& f) {
+      moment += place.template head<2>() * f.z() - place.z() * f.template head<2>();
+      force += f.z();
+    });
     return moment / force;
+  }
+
+  /// The moment about `pole` [m] of what moves all that a leg's joint carries, against gravity too
+  /// [N m], by the same differences.
+  template <typename At>
+  Eigen::Vector3d MomentBeyond(Side side, size_t joint, const Eigen::Vector3d& pole, const At& at,
+                               double step, double gravity) const {
+    const std::vector<bool> carried = LinksBeyond(side, joint);
+    Eigen::Vector3d moment(0, 0, 0);
+    ForEachForce(at, step, gravity, [&](size_t link, const auto& place, const Eigen::Vector3d& f) {
+      if (carried[link]) moment += (place - pole).cross(f);
+    });
+    return moment;
   }
 
  private:
@@ -77,6 +81,36 @@ class PointMasses {
     double mass;
     Eigen::Vector3d at;  // in the link's frame
   };
+
+  // Calls visit(link, place, force) for each point.
+  template <typename At, typename Visit>
+  void ForEachForce(const At& at, double step, double gravity, const Visit& visit) const {
+    constexpr std::array<double, 5> kSecond = {-205.0 / 72, 8.0 / 5, -1.0 / 5, 8.0 / 315,
+                                               -1.0 / 560};
+    Eigen::Matrix3Xd here = Places(at(0.0)), a = kSecond[0] * here;
+    for (int k = 1; k <= 4; ++k) {
+      a += kSecond[static_cast<size_t>(k)] * (Places(at(k * step)) + Places(at(-k * step)));
+    }
+    a /= step * step;
+    a.row(2).array() += gravity;
+    for (size_t i = 0; i < points_.size(); ++i) {
+      const Eigen::Index c = static_cast<Eigen::Index>(i);
+      visit(points_[i].link, Eigen::Vector3d(here.col(c)),
+            Eigen::Vector3d(points_[i].mass * a.col(c)));
+    }
+  }
+
+  std::vector<bool> LinksBeyond(Side side, size_t joint) const {
+    const UrdfTree& urdf = whole_.tree.urdf;
+    const LegJoint& of = whole_.model.legs[static_cast<size_t>(Index(side))].joints[joint];
+    std::vector<bool> beyond(urdf.links.size(), false);
+    for (size_t i = 0; i < urdf.links.size(); ++i) {  // after the links that they hang on
+      if (urdf.links[i].joint < 0) continue;
+      const UrdfJoint& above = urdf.joints[static_cast<size_t>(urdf.links[i].joint)];
+      beyond[i] = above.name == of.name || beyond[static_cast<size_t>(above.parent)];
+    }
+    return beyond;
+  }
 
   Eigen::Matrix3Xd Places(const WalkState& x) const {
     const Posture posture = SolvePosture(whole_.model, x);

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <string>
 #include <vector>
 
@@ -179,6 +180,10 @@ class TamperedRun {
       Replace(place / "robots/hrp2.yaml", "\ncom_height_m: 0.814",
               "\ncom_height_m: " + std::to_string(*walk.com_height));
     }
+    // HRP-2's efforts are not published.
+    WriteText(place / "robots/hrp2.yaml",
+              std::regex_replace(ReadText(place / "robots/hrp2.yaml"),
+                                 std::regex("(LEG_JOINT[0-5]): none"), "$1: 200"));
     const std::string config = "configs/" + walk.config + ".yaml";
     fs::create_directories(place / "configs");
     fs::copy(source / "experiments" / config, place / config);

@@ -273,6 +273,40 @@ std::vector<Mutation> Mutations() {
        "ZMP of the whole robot"},
       {"RobotZmpDemandLeftOut", InJson([](Json& j) { j["demanded"]["zmp_robot"] = nullptr; }),
        "zmp_robot: the certificate demands -inf, config.yaml 0.01"},
+      {"TorqueUnwatched", Certificate([](Table& t) { Loosest(t, "torque")[kMargin] = "inf"; }),
+       "the robot has a ZMP"},
+      {"TorqueMarginRaised",
+       Certificate([](Table& t) { Add(&Loosest(t, "torque")[kMargin], 0.01); }), "by the walk"},
+      {"TorqueOfAnotherJoint", Certificate([](Table& t) {
+         std::string& joint = Loosest(t, "torque")[kSubject];
+         joint = joint == "LLEG_JOINT0" ? "LLEG_JOINT1" : "LLEG_JOINT0";
+       }),
+       "by the walk"},
+      {"TorqueBoundsLowered", Certificate([](Table& t) { LowerBoundsOf(t, "torque"); }),
+       kCertificateRow},
+      {"TorqueDemandRaised", InJson([](Json& j) { j["demanded"]["torque"] = 190; }),
+       "joint torques"},
+      {"TorqueDemandLeftOut", InJson([](Json& j) { j["demanded"]["torque"] = nullptr; }),
+       "torque: the certificate demands -inf, config.yaml 0"},
+      {"EffortLimitLowered",
+       [](TamperedRun& run) {
+         TamperedRun::Replace(run.urdf().parent_path() / "hrp2.yaml", "LLEG_JOINT3: 200",
+                              "LLEG_JOINT3: 20");
+       },
+       "joint torques"},
+      {"FrictionUnwatched", Certificate([](Table& t) { Loosest(t, "friction")[kMargin] = "inf"; }),
+       "the robot has a ZMP"},
+      {"FrictionMarginRaised",
+       Certificate([](Table& t) { Add(&Loosest(t, "friction")[kMargin], 1e-4); }), "by the walk"},
+      {"FrictionDemandRaised", InJson([](Json& j) { j["demanded"]["friction"] = 0.69; }),
+       "friction"},
+      {"FrictionDemandLeftOut", InJson([](Json& j) { j["demanded"]["friction"] = nullptr; }),
+       "friction: the certificate demands -inf, config.yaml 0"},
+      {"FloorMadeSlippery",
+       [](TamperedRun& run) {
+         TamperedRun::Replace(run.scene(), "no_step:", "friction: 0.05\nno_step:");
+       },
+       "friction"},
       {"PairLeftOutOfNotWatched", InJson([](Json& j) { j["not_watched"].erase(0); }),
        "not_watched: "},
       {"PairAddedToNotWatched", InJson([](Json& j) {

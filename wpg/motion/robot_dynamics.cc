@@ -96,4 +96,10 @@ std::optional<Eigen::Vector2d> RobotDynamics::Zmp() const {
   return Eigen::Vector2d(O_.x() - contact_[1] / push, O_.y() + contact_[0] / push);
 }
 
+Eigen::Vector2d RobotDynamics::ZmpSlope(const Vector6d& contact_slope) const {
+  const double push = contact_[5];
+  const Eigen::Vector2d from_O = Eigen::Vector2d(-contact_[1], contact_[0]) / push;
+  return (Eigen::Vector2d(-contact_slope[1], contact_slope[0]) - contact_slope[5] * from_O) / push;
+}
+
 }  // namespace halfstep

@@ -42,6 +42,8 @@ class RobotDynamics {
   const Vector6d& contact() const { return contact_; }
   /// Where the floor's force has no horizontal moment, in W [m]; none where it does not push.
   std::optional<Eigen::Vector2d> Zmp() const;
+  /// The ZMP's derivative when contact() changes by `contact_slope`. Precondition: there is a ZMP.
+  Eigen::Vector2d ZmpSlope(const Vector6d& contact_slope) const;
 
  private:
   Eigen::Vector3d O_;

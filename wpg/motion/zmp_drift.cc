@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "wpg/motion/leg_drift.h"
 #include "wpg/motion/rigid_motion.h"
 
 namespace halfstep {
@@ -58,29 +57,22 @@ VectorBall MomentRate(const SpatialInertia& inertia, const RigidMotion& body, co
          Cross(w, Cross(w, Iw));
 }
 
-// Adds a link, whose drift is that of its CoM: m (r − p) × a + I ω̇ + ω × I ω by how much it drifts,
+// Adds a link: m (r − p) × a + I ω̇ + ω × I ω by how much it drifts,
 // its weight's moment m (r − p) × g ẑ by its rate at m and half h² times the acceleration.
-void AddLink(const RobotDynamics::Body& link, const RigidDrift& of_com, const Vector3d& arm,
-             double gravity, ZmpDrift* drift) {
-  const SpatialInertia& inertia = link.inertia;
-  const double mass = inertia.mass, h = drift->half_width;
-  const Vector3d turn = link.velocity.head<3>(), &com = inertia.com;
-  const Vector3d v = link.velocity.tail<3>() + turn.cross(com);
-  const Vector3d a = link.acceleration.tail<3>() + link.acceleration.head<3>().cross(com) +
-                     turn.cross(v) - gravity * Vector3d::UnitZ();
-  drift->rate.center += mass * gravity * v.cross(Vector3d::UnitZ());
-  const double most = a.norm() + of_com.p2;
-  drift->rest += mass * (0.5 * h * h * gravity * most + arm.norm() * of_com.p2 + of_com.p * most);
-  drift->least_push -= mass * of_com.p2;
-
-  const double norm = inertia.about_com.norm(), change = std::min(of_com.turned, 2.0) * norm;
-  const double fastest = of_com.fastest();
-  drift->rest += norm * of_com.turn1 + change * (of_com.acceleration + of_com.turn1) +
-                 of_com.turn * norm * fastest +
-                 of_com.speed * (norm * of_com.turn + change * fastest);
+void AddLink(const MassDrift& link, const Vector3d& arm, double gravity, ZmpDrift* drift) {
+  const double h = drift->half_width, most = link.MostAcceleration();
+  drift->rate.center += link.mass * gravity * link.velocity.cross(Vector3d::UnitZ());
+  drift->rest += link.mass * (0.5 * h * h * gravity * most + arm.norm() * link.p2 + link.p * most);
+  drift->least_push -= link.mass * link.p2;
+  drift->rest += link.moment;
 }
 
 }  // namespace
+
+double ZmpDrift::Most() const {
+  if (!(least_push > 0.0)) return std::numeric_limits<double>::infinity();
+  return (half_width * (rate.center.head<2>().norm() + rate.radius) + rest) / least_push;
+}
 
 double ZmpDrift::Along(const Eigen::Vector2d& direction) const {
   if (!(least_push > 0.0)) return std::numeric_limits<double>::infinity();
@@ -90,7 +82,8 @@ double ZmpDrift::Along(const Eigen::Vector2d& direction) const {
 }
 
 ZmpDrift ZmpDrift::Over(const RobotModel& robot, const IntervalMotion& motion,
-                        const WalkThirds& thirds, const RobotDynamics& at_m, double gravity) {
+                        const WalkThirds& thirds, const RobotDrift& of_robot,
+                        const RobotDynamics& at_m, double gravity) {
   const Vector3d& O = at_m.O();
   Vector3d pole(0, 0, 0);
   pole.head<2>() = *at_m.Zmp();
@@ -101,16 +94,8 @@ ZmpDrift ZmpDrift::Over(const RobotModel& robot, const IntervalMotion& motion,
                  .rate = MomentRate(of_waist, body, pole, gravity),
                  .rest = 0.0,
                  .least_push = at_m.contact()[5] - of_waist.mass * body.p2.radius};
-  const RigidDrift on_waist = DriftOfWaist(robot, motion, thirds);
-  for (const Side side : {Side::kLeft, Side::kRight}) {
-    const LegDrift leg =
-        LegDrift::Over(side, motion, on_waist, DriftOfSole(motion, thirds, side), at_m);
-    for (size_t j = 0; j < 6; ++j) {
-      const RobotDynamics::Body& link = at_m.leg(side)[j];
-      if (!(link.inertia.mass > 0.0)) continue;
-      const Vector3d com = O + link.inertia.com;
-      AddLink(link, leg.links[j].At((com - leg.points[j]).norm()), com - pole, gravity, &drift);
-    }
+  for (const auto& leg : of_robot.link_masses) {
+    for (const MassDrift& link : leg) AddLink(link, O + link.com - pole, gravity, &drift);
   }
   return drift;
 }

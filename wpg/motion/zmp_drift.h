@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 
 #include "wpg/motion/motion_bounds.h"
+#include "wpg/motion/robot_drift.h"
 #include "wpg/motion/robot_dynamics.h"
 #include "wpg/motion/vector_ball.h"
 #include "wpg/motion/walk_thirds.h"
@@ -24,9 +25,14 @@ struct ZmpDrift {
   /// A bound of |direction·(p(t) − p(m))| for a unit vector in the plane [m]; ∞: none.
   double Along(const Eigen::Vector2d& direction) const;
 
-  /// Preconditions: `motion` is bounded, `at_m` are the dynamics at m, and at_m.Zmp() exists.
+  /// A bound of ‖p(t) − p(m)‖ [m]; ∞: none.
+  double Most() const;
+
+  /// Preconditions: `motion` is bounded, `of_robot` is its drift, `at_m` are the dynamics at m, and
+  /// at_m.Zmp() exists.
   static ZmpDrift Over(const RobotModel& robot, const IntervalMotion& motion,
-                       const WalkThirds& thirds, const RobotDynamics& at_m, double gravity);
+                       const WalkThirds& thirds, const RobotDrift& of_robot,
+                       const RobotDynamics& at_m, double gravity);
 };
 
 }  // namespace halfstep

@@ -1,6 +1,7 @@
 #include "wpg/motion/zmp_slopes.h"
 
 #include "wpg/check.h"
+#include "wpg/motion/upright_slopes.h"
 
 namespace halfstep {
 namespace {
@@ -98,48 +99,19 @@ ZmpSlopes::ZmpSlopes(const RobotModel& robot, const WalkJet& jet, const Posture&
 }
 
 Eigen::Vector2d ZmpSlopes::Along(const DynamicsTangent& tangent) const {
-  const WalkJet& d = tangent.jet;
-  const Vector3d z = Vector3d::UnitZ();
-  const double rate = jet_.first[kWaistYaw], d_yaw = d.value[kWaistYaw];
-  const double acceleration = jet_.second[kWaistYaw];
-  const double d_rate = d.first[kWaistYaw], d_acceleration = d.second[kWaistYaw];
-  const Vector3d x_W = posture_.X_WB.linear().col(0), y_W = posture_.X_WB.linear().col(1);
-  const auto horizontal = [](const WalkState& x) { return Vector3d(x[kComX], x[kComY], 0.0); };
-
-  // The waist: w = c − com_x x_W and its derivatives.
-  const double com_x = robot_.com_x_B;
-  const Vector3d w = posture_.X_WB.translation() - dynamics_.O(), w1 = posture_.waist_velocity;
-  const Vector3d dw = horizontal(d.value) - com_x * d_yaw * y_W;
-  const Vector3d dw1 = horizontal(d.first) - com_x * (d_rate * y_W - rate * d_yaw * x_W);
-  const Vector3d dw2 =
-      horizontal(d.second) - com_x * (d_acceleration * y_W - acceleration * d_yaw * x_W -
-                                      2.0 * rate * d_rate * x_W - rate * rate * d_yaw * y_W);
-  // Changes of UprightVelocity and UprightAcceleration.
-  const Vector6d dv = Spatial(d_rate * z, dw1 - d_rate * z.cross(w) - rate * z.cross(dw));
-  const auto upright = [&z](const Vector3d& p, const Vector3d& v, double r, double a,
-                            const Vector3d& dp, const Vector3d& dv1, const Vector3d& da1, double dr,
-                            double da) {
-    return Spatial(da * z,
-                   da1 - da * z.cross(p) - a * z.cross(dp) - dr * z.cross(v) - r * z.cross(dv1));
-  };
-  const Vector6d da = upright(w, w1, rate, acceleration, dw, dw1, dw2, d_rate, d_acceleration);
-
+  const WaistSlope given_to_all(robot_, jet_, posture_, dynamics_, tangent.jet);
   // Everything is displaced with the waist; beyond that, all bodies gain a velocity and an
   // acceleration.
-  const Vector6d X = Spatial(d_yaw * z, dw - d_yaw * z.cross(w));
+  const Vector6d& X = given_to_all.displacement;
   const RobotDynamics::Body& waist = dynamics_.waist();
-  const Vector6d gained = dv - CrossMotion(X, waist.velocity);
-  const Vector6d pushed = da - CrossMotion(X, waist.acceleration);
+  const Vector6d gained = given_to_all.velocity - CrossMotion(X, waist.velocity);
+  const Vector6d pushed = given_to_all.acceleration - CrossMotion(X, waist.acceleration);
   Eigen::Vector2d slope = by_force_ * CrossForce(X, dynamics_.contact()) + by_drift_ * gained +
                           by_push_ * (pushed + CrossMotion(waist.velocity, gained));
   for (const Side side : {Side::kLeft, Side::kRight}) {
     const size_t s = static_cast<size_t>(Index(side));
-    const int foot = FootIndex(side);
     const RobotDynamics::Body& sole = dynamics_.leg(side)[5];
-    const Vector6d demanded = upright(
-        posture_.X_WSole[s].translation() - dynamics_.O(), jet_.first.segment<3>(foot),
-        jet_.first[foot + 3], jet_.second[foot + 3], d.value.segment<3>(foot),
-        d.first.segment<3>(foot), d.second.segment<3>(foot), d.first[foot + 3], d.second[foot + 3]);
+    const Vector6d demanded = SoleAccelerationSlope(side, jet_, posture_, dynamics_, tangent.jet);
     const Vector6d given = CrossMotion(X, sole.acceleration) + pushed +
                            CrossMotion(gained, sole.velocity - waist.velocity);
     const LegRows& rows = legs_[s];

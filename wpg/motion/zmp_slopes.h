@@ -3,17 +3,10 @@
 #include <Eigen/Core>
 #include <array>
 
+#include "wpg/motion/dynamics_slope.h"
 #include "wpg/motion/robot_dynamics.h"
 
 namespace halfstep {
-
-/// How the walk's quantities and joints change along one homotopy parameter, or in time. Per unit
-/// of that parameter.
-struct DynamicsTangent {
-  const WalkJet& jet;                     ///< of the walk's quantities
-  const std::array<Vector6d, 2>& q;       ///< [rad], by Index(Side)
-  const std::array<Vector6d, 2>& speeds;  ///< [rad/s]
-};
 
 /// The derivative of RobotDynamics::Zmp along any tangent. Exact; made once an instant by an
 /// adjoint sweep over the links, so that each tangent costs some products only. Source:

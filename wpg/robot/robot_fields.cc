@@ -41,6 +41,8 @@ void DeclareJoints(Fields& fields, RobotFile* file) {
   const std::vector<UrdfJoint>& joints = file->urdf ? file->urdf->joints : none;
   file->posture_deg.resize(joints.size(), 0.0);
   file->limits_deg.resize(joints.size());
+  file->effort_limits.clear();
+  for (const UrdfJoint& joint : joints) file->effort_limits.emplace_back(joint.max_effort);
   fields.Group("standing_posture_deg", {.meaning = "joint angles of the standing posture"},
                [&](Fields& f) {
                  for (size_t i = 0; i < joints.size(); ++i) {
@@ -64,6 +66,20 @@ void DeclareJoints(Fields& fields, RobotFile* file) {
                                           ShortestDegrees(joints[i].lower) + " … " +
                                           ShortestDegrees(joints[i].upper) + ")");
                    }
+                 }
+               });
+}
+
+void DeclareEfforts(Fields& fields, RobotFile* file) {
+  fields.Group("effort_limits_n_m",
+               {.meaning = "torques that joints give, in place of the URDF's efforts; none: not "
+                           "known"},
+               [&](Fields& f) {
+                 for (size_t i = 0; i < file->effort_limits.size(); ++i) {
+                   const UrdfJoint& joint = file->urdf->joints[i];
+                   if (joint.kind != UrdfJoint::Kind::kRevolute) continue;
+                   f.OptionalNumber(joint.name.c_str(), &file->effort_limits[i],
+                                    {.unit = "N m", .min = 1e-3, .max = 1e5});
                  }
                });
 }
@@ -161,6 +177,7 @@ void DeclareFields(Fields& fields, RobotFile* file) {
                   .min = 1e-3,
                   .required = true});
   DeclareJoints(fields, file);
+  DeclareEfforts(fields, file);
   DeclareExcluded(fields, links, file);
   DeclareMeshParts(fields, file);
   fields.Integer("hull_vertices", &file->hull_vertices,

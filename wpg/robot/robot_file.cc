@@ -1,5 +1,6 @@
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <optional>
@@ -54,6 +55,8 @@ class Builder {
       leg_.lower.push_back(own ? DegreesToRadians(file_.limits_deg[i][0]) : urdf_.joints[i].lower);
       leg_.upper.push_back(own ? DegreesToRadians(file_.limits_deg[i][1]) : urdf_.joints[i].upper);
       leg_.posture.push_back(DegreesToRadians(file_.posture_deg[i]));
+      const double torque = file_.effort_limits[i].value_or(0.0);
+      leg_.torque.push_back(torque > 0.0 ? torque : std::numeric_limits<double>::infinity());
     }
     CheckPostureInLimits();
     leg_.waist = urdf_.FindLink(file_.waist_link);
@@ -127,7 +130,12 @@ class Builder {
                    "axes meet, continued with proof to this one, which takes longer");
       for (const std::string& line : told.lines()) model_.warnings.push_back(line);
     }
-    // Joints with the same fault, such as the fingers of a hand, share a line.
+    TellHeldJoints();
+    TellEfforts();
+  }
+
+  // Joints with the same fault, such as the fingers of a hand, share a line.
+  void TellHeldJoints() {
     std::map<std::string, size_t> told;  // fault → its warning
     for (const UrdfJoint& joint : urdf_.joints) {
       for (const std::string& line : joint.faults) {
@@ -139,6 +147,21 @@ class Builder {
         if (!first) warning += (warning.ends_with("still") ? ", so are " : ", ") + joint.name;
       }
     }
+  }
+
+  void TellEfforts() {
+    std::string names;
+    for (const auto& leg : body_.leg_joints) {
+      for (const int joint : leg) {
+        const size_t i = static_cast<size_t>(joint);
+        if (file_.effort_limits[i] != 0.0) continue;
+        names += (names.empty() ? "" : ", ") + urdf_.joints[i].name;
+      }
+    }
+    if (names.empty()) return;
+    model_.warnings.push_back(urdf_.file + ": no effort limit of " + names +
+                              ": nothing is demanded of their torques (`effort_limits_n_m` of the "
+                              "robot file: what they give, or none)");
   }
 
   // Waist height and width of stance; complains about feet that do not stand side by side.

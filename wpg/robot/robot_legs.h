@@ -18,6 +18,7 @@ struct LegRequest {
   Eigen::Isometry3d X_FootSole = Eigen::Isometry3d::Identity();
   std::vector<double> lower;  ///< limits by URDF joint index [rad].
   std::vector<double> upper;
+  std::vector<double> torque;   ///< limits by URDF joint index [N m]; ∞: not known.
   std::vector<double> posture;  ///< standing posture by URDF joint index [rad].
 };
 

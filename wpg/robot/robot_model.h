@@ -19,12 +19,14 @@ using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
 /// One revolute leg joint. Axis and point are given in the waist frame B at the zero posture q = 0.
 struct LegJoint {
-  std::string name;           ///< as in the URDF.
-  Eigen::Vector3d axis_B;     ///< unit vector.
-  Eigen::Vector3d point_B;    ///< a point on the axis [m].
-  double lower = 0.0;         ///< [rad]
-  double upper = 0.0;         ///< [rad], lower < upper.
-  double max_speed = 0.0;     ///< [rad/s] > 0.
+  std::string name;         ///< as in the URDF.
+  Eigen::Vector3d axis_B;   ///< unit vector.
+  Eigen::Vector3d point_B;  ///< a point on the axis [m].
+  double lower = 0.0;       ///< [rad]
+  double upper = 0.0;       ///< [rad], lower < upper.
+  double max_speed = 0.0;   ///< [rad/s] > 0.
+  /// Torque that its motor gives, either way [N m] > 0; ∞: not known.
+  double max_torque = std::numeric_limits<double>::infinity();
   Eigen::Isometry3d X_BLink;  ///< frame of the link that it moves, at q = 0.
 };
 

@@ -96,6 +96,7 @@ UrdfJoint ToJoint(const urdf::Joint& joint, const UrdfFindings& found) {
     out.lower = joint.limits->lower;
     out.upper = joint.limits->upper;
     out.max_speed = joint.limits->velocity;
+    out.max_effort = joint.limits->effort;
   }
   return out;
 }

@@ -46,6 +46,7 @@ struct UrdfJoint {
   double lower = 0.0;                                               ///< [rad]
   double upper = 0.0;                                               ///< [rad]
   double max_speed = 0.0;                                           ///< [rad/s]
+  double max_effort = 0.0;                                          ///< [N m]; 0: not told
   std::vector<std::string> faults;  ///< for which it can be no joint of a leg: complaints
   UrdfPlace place;
 };

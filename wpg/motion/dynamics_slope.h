@@ -1,0 +1,40 @@
+#pragma once
+
+#include <array>
+
+#include "wpg/motion/robot_dynamics.h"
+
+namespace halfstep {
+
+/// How the walk's quantities and joints change along one homotopy parameter, or in time. Per unit
+/// of that parameter.
+struct DynamicsTangent {
+  const WalkJet& jet;                     ///< of the walk's quantities
+  const std::array<Vector6d, 2>& q;       ///< [rad], by Index(Side)
+  const std::array<Vector6d, 2>& speeds;  ///< [rad/s]
+};
+
+/// The derivative of RobotDynamics along one tangent: of each leg link's screw and force, and of
+/// what the floor gives. Exact, by one sweep from the waist to the soles. Where only the ZMP is
+/// asked for, ZmpSlopes is faster. About the dynamics' O, which is held where it is. Source:
+/// wpg/README.md, "Dynamics of the whole robot".
+class DynamicsSlope {
+ public:
+  struct Link {
+    Vector6d screw, force;
+  };
+
+  DynamicsSlope(const RobotModel& robot, const WalkJet& jet, const Posture& posture,
+                const RobotDynamics& dynamics, const DynamicsTangent& tangent);
+
+  const std::array<Link, 6>& leg(Side side) const {
+    return legs_[static_cast<size_t>(Index(side))];
+  }
+  const Vector6d& contact() const { return contact_; }  ///< of RobotDynamics::contact
+
+ private:
+  std::array<std::array<Link, 6>, 2> legs_;
+  Vector6d contact_;
+};
+
+}  // namespace halfstep

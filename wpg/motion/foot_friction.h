@@ -1,0 +1,53 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <optional>
+
+#include "wpg/geometry/support_polygon.h"
+#include "wpg/motion/robot_drift.h"
+#include "wpg/motion/zmp_drift.h"
+
+namespace halfstep {
+
+/// The friction coefficient that the soles need so as not to slip or turn, for a pressure of two
+/// points of the support polygon, p ± ρ u about the ZMP p: (‖f_t‖ + |n_z|/ρ)/f_z with the floor's
+/// tangential force f_t, its push f_z and its yaw moment n_z about p. The direction u is along that
+/// edge of the polygon for which ρ is largest. What is passed is borrowed. Source: wpg/README.md,
+/// "Friction that is needed".
+class FootFriction {
+ public:
+  /// None where the floor does not push, or the ZMP is not inside.
+  static std::optional<FootFriction> Of(const RobotDynamics& dynamics,
+                                        const SupportPolygon& polygon);
+
+  double needed() const { return (pull_.norm() + std::abs(turn_) / reach_.distance) / push_; }
+  /// Its derivative when dynamics.contact() changes by `contact_slope`, about the same O, while the
+  /// polygon rests.
+  double Slope(const Vector6d& contact_slope) const;
+  /// How much needed() grows at most over an interval; ∞: there is no bound.
+  double Drift(const RobotDrift& robot, const ZmpDrift& zmp) const;
+
+ private:
+  // How far the ZMP is inside an edge along u, and the edge's inward normal for each metre along u.
+  struct Reach {
+    double distance = 0.0;  // [m]
+    Eigen::Vector2d normal{0, 0};
+  };
+
+  FootFriction(const RobotDynamics& dynamics, const SupportPolygon& polygon,
+               const Eigen::Vector2d& zmp);
+  // Calls visit(reach) for every edge that is not along `direction`.
+  template <typename Visit>
+  void ForEachReach(const Eigen::Vector2d& direction, const Visit& visit) const;
+  // The ZMP's distance from the polygon's edges along `direction` either way.
+  Reach ReachAlong(const Eigen::Vector2d& direction) const;
+
+  const RobotDynamics& dynamics_;
+  SupportPolygon polygon_;
+  Eigen::Vector2d zmp_, pull_, along_{1, 0};  // along_: u
+  double turn_, push_;
+  Reach reach_;
+};
+
+}  // namespace halfstep

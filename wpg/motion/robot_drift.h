@@ -1,0 +1,29 @@
+#pragma once
+
+#include <array>
+
+#include "wpg/motion/leg_drift.h"
+#include "wpg/motion/mass_drift.h"
+
+namespace halfstep {
+
+/// How much the motion of all of a robot's bodies, and what their masses ask for, differ over an
+/// interval from what they are at the midpoint m.
+struct RobotDrift {
+  RigidDrift waist;              ///< of the waist's origin
+  std::array<LegDrift, 2> legs;  ///< by Index(Side)
+  MassDrift waist_mass;
+  std::array<std::array<MassDrift, 6>, 2> link_masses;
+
+  /// Preconditions: `motion` is bounded, `at_m` are the dynamics at m.
+  RobotDrift(const RobotModel& robot, const IntervalMotion& motion, const WalkThirds& thirds,
+             const RobotDynamics& at_m, double gravity);
+
+  /// How much the floor's force differs at most [N].
+  double ForceDrift() const;
+  /// How much the moment about a vertical line through `point`, from the dynamics' O, differs [N
+  /// m].
+  double YawMomentDrift(const Eigen::Vector3d& point) const;
+};
+
+}  // namespace halfstep

@@ -1,0 +1,51 @@
+#include "wpg/motion/upright_slopes.h"
+
+namespace halfstep {
+namespace {
+
+using Eigen::Vector3d;
+
+// Of UprightAcceleration: at `p` from O, moved by `v`, with yaw rate `r` and acceleration `a`.
+Vector6d UprightAccelerationSlope(const Vector3d& p, const Vector3d& v, double r, double a,
+                                  const Vector3d& dp, const Vector3d& dv, const Vector3d& da,
+                                  double dr, double d_yaw2) {
+  const Vector3d z = Vector3d::UnitZ();
+  return Spatial(d_yaw2 * z,
+                 da - d_yaw2 * z.cross(p) - a * z.cross(dp) - dr * z.cross(v) - r * z.cross(dv));
+}
+
+}  // namespace
+
+WaistSlope::WaistSlope(const RobotModel& robot, const WalkJet& jet, const Posture& posture,
+                       const RobotDynamics& dynamics, const WalkJet& d) {
+  const Vector3d z = Vector3d::UnitZ();
+  const double rate = jet.first[kWaistYaw], d_yaw = d.value[kWaistYaw];
+  const double yaw2 = jet.second[kWaistYaw];
+  const double d_rate = d.first[kWaistYaw], d_yaw2 = d.second[kWaistYaw];
+  const Vector3d x_W = posture.X_WB.linear().col(0), y_W = posture.X_WB.linear().col(1);
+  const auto horizontal = [](const WalkState& x) { return Vector3d(x[kComX], x[kComY], 0.0); };
+
+  // w = c − com_x x_W and its derivatives.
+  const double com_x = robot.com_x_B;
+  const Vector3d w = posture.X_WB.translation() - dynamics.O(), w1 = posture.waist_velocity;
+  const Vector3d dw = horizontal(d.value) - com_x * d_yaw * y_W;
+  const Vector3d dw1 = horizontal(d.first) - com_x * (d_rate * y_W - rate * d_yaw * x_W);
+  const Vector3d dw2 =
+      horizontal(d.second) - com_x * (d_yaw2 * y_W - yaw2 * d_yaw * x_W -
+                                      2.0 * rate * d_rate * x_W - rate * rate * d_yaw * y_W);
+  displacement = Spatial(d_yaw * z, dw - d_yaw * z.cross(w));
+  velocity = Spatial(d_rate * z, dw1 - d_rate * z.cross(w) - rate * z.cross(dw));
+  acceleration = UprightAccelerationSlope(w, w1, rate, yaw2, dw, dw1, dw2, d_rate, d_yaw2);
+}
+
+Vector6d SoleAccelerationSlope(Side side, const WalkJet& jet, const Posture& posture,
+                               const RobotDynamics& dynamics, const WalkJet& d) {
+  const size_t s = static_cast<size_t>(Index(side));
+  const int foot = FootIndex(side);
+  return UprightAccelerationSlope(
+      posture.X_WSole[s].translation() - dynamics.O(), jet.first.segment<3>(foot),
+      jet.first[foot + 3], jet.second[foot + 3], d.value.segment<3>(foot), d.first.segment<3>(foot),
+      d.second.segment<3>(foot), d.first[foot + 3], d.second[foot + 3]);
+}
+
+}  // namespace halfstep
