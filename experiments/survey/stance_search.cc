@@ -1,6 +1,7 @@
 #include "experiments/survey/stance_search.h"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <set>
 #include <string>
@@ -11,17 +12,37 @@
 #include "experiments/survey/arm_posture.h"
 #include "experiments/survey/self_gaps.h"
 #include "experiments/survey/touching_neighbours.h"
+#include "smoothing/margins/margin_evaluator.h"
+#include "smoothing/walk/superposed_walk.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/text.h"
 #include "wpg/robot/robot_legs.h"
 #include "wpg/robot/robot_measures.h"
+#include "wpg/robot/torque_limits.h"
 
 namespace halfstep {
 namespace {
 
-constexpr double kFeetApart = 0.05;  // bodies of HRP-2's feet, standing [m]
-constexpr double kLeastLift = 0.12;  // of the swing foot, of the leg's length
-constexpr int kParts = 8;            // of a mesh whose hull touches what it should not
+constexpr double kFeetApart = 0.05;     // bodies of HRP-2's feet, standing [m]
+constexpr double kLeastLift = 0.12;     // of the swing foot, of the leg's length
+constexpr double kTorquePeriod = 0.02;  // [s]
+constexpr int kParts = 8;               // of a mesh whose hull touches what it should not
+
+// The least margin of a leg joint's torque in six steps, sampled [N m]; +∞ where nothing is known
+// of torques.
+double LeastTorqueMargin(const RobotModel& robot) {
+  if (!TorqueFault(robot).empty()) return std::numeric_limits<double>::infinity();
+  const HalfStepSequence sequence = SixSteps(robot, DefaultHalfStep(robot));
+  const SuperposedWalk walk(sequence, PlannedMotion(sequence));
+  const MarginEvaluator evaluator(robot, Scene{}, MarginLimits{});
+  MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
+  double least = std::numeric_limits<double>::infinity();
+  for (double t = 0.0; t < walk.duration(); t += kTorquePeriod) {
+    Instant at(evaluator.place(), evaluator.limits(), walk, walk.Locate(t), &scratch);
+    least = std::min(least, evaluator.statements(MarginFamily::kTorque).Least(&at, least).value);
+  }
+  return least;
+}
 
 class StanceSearch {
  public:
@@ -72,27 +93,35 @@ class StanceSearch {
                            : "as with straight legs";
   }
 
-  // Bends the knees less while the joints' limits keep the swing foot low.
+  // Bends the knees less while the joints' limits keep the swing foot low, or the joints give too
+  // little torque.
   void Bend() {
     StandingRequest& standing = draft_.standing;
     if (request_.bend > 0.0) {
       standing.bend = request_.bend;
       return;
     }
-    double best = 0.0, highest = -1.0;
+    double best = 0.9, highest = -1.0;
     for (const double bend : {0.9, 0.92, 0.94, 0.96, 0.98}) {
       standing.bend = bend;
       if (!TryToStand().empty()) continue;
-      const RobotMeasures measures = MeasuresOf(ModelOf(draft_, RobotParts::kLegs));
-      if (measures.lift > highest) {
+      const RobotModel model = ModelOf(draft_, RobotParts::kLegs);
+      const RobotMeasures measures = MeasuresOf(model);
+      const bool high_enough = measures.lift >= kLeastLift * measures.leg_length;
+      if (highest >= kLeastLift * measures.leg_length && !high_enough) break;
+      const double torque = LeastTorqueMargin(model);
+      const bool strong_enough = torque >= 0.0;
+      if (measures.lift > highest || strong_enough) {
         highest = measures.lift;
         best = bend;
       }
-      if (highest >= kLeastLift * measures.leg_length) break;
+      if (high_enough && strong_enough) break;
+      draft_.why_bend =
+          high_enough ? Formatted("with more bend a joint lacks %.1f N m in six steps", -torque)
+                      : "with more bend the joints' limits keep the swing foot lower";
     }
-    standing.bend = best > 0.0 ? best : 0.9;
-    draft_.why_bend =
-        best > 0.9 ? "with more bend the joints' limits keep the swing foot lower" : "";
+    standing.bend = best;
+    if (best == 0.9) draft_.why_bend.clear();
   }
 
   // The pairs that come too near to each other in six steps, and are no neighbours.
