@@ -157,11 +157,20 @@ class Writer {
 
   void AddMass(const UrdfLink& link, const std::string& indent) {
     const Eigen::Matrix3d I = WithLeastInertia(link.inertia);
+    text_ += indent + "<inertial" + Attribute("pos", Numbers(link.com)) +
+             Attribute("mass", ShortestText(link.mass));
+    if (options_.principal_axes) {
+      const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(I);
+      Eigen::Matrix3d axes = solver.eigenvectors();
+      if (axes.determinant() < 0.0) axes.col(0) *= -1.0;
+      const Eigen::Quaterniond q(axes);
+      text_ += Attribute("quat", Numbers(Eigen::Vector4d(q.w(), q.x(), q.y(), q.z()))) +
+               Attribute("diaginertia", Numbers(solver.eigenvalues())) + "/>\n";
+      return;
+    }
     Eigen::Matrix<double, 6, 1> inertia;
     inertia << I(0, 0), I(1, 1), I(2, 2), I(0, 1), I(0, 2), I(1, 2);
-    text_ += indent + "<inertial" + Attribute("pos", Numbers(link.com)) +
-             Attribute("mass", ShortestText(link.mass)) +
-             Attribute("fullinertia", Numbers(inertia)) + "/>\n";
+    text_ += Attribute("fullinertia", Numbers(inertia)) + "/>\n";
   }
 
   // On the link that the last joint of the leg moves. Its lower face is the sole.

@@ -22,6 +22,9 @@ struct ModelOptions {
   double damping = 1000.0;      ///< [N m s/rad]; at 300 the robot sways for a second
   double armature = 0.1;        ///< rotor inertia at the joints [kg m²]; 0.01: soles slip more
   double contact_time = 0.005;  ///< of the contacts' spring [s], at least 2 time steps
+  /// Inertias by principal axes. MuJoCo finds these only so well that joint torques are off by
+  /// 1e-7.
+  bool principal_axes = false;
 };
 
 /// The robot as a MuJoCo model (MJCF), standing on the floor z = 0: the URDF's links with their

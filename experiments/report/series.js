@@ -45,12 +45,12 @@ function jointSpeeds(robot, limits) {
 
 const marginColumns = [
   ["zmp", "zmp_margin_m", "ZMP", palette.zmp],
-  ["zmp_robot", "zmp_robot_margin_m", "robot ZMP", palette.left],
-  ["clearance", "clearance_m", "obstacles", palette.ink],
+  ["zmp_robot", "zmp_robot_margin_m", "robot", palette.left],
+  ["clearance", "clearance_m", "scene", palette.ink],
   ["self_clearance", "self_clearance_m", "self", palette.second],
   ["joint", "joint_margin_rad", "joints", palette.com],
-  ["joint_speed", "joint_speed_margin_rad_s", "joint speed", palette.sky],
-  ["foot_speed", "foot_speed_margin_m_s", "foot speed", palette.right],
+  ["joint_speed", "joint_speed_margin_rad_s", "speeds", palette.sky],
+  ["foot_speed", "foot_speed_margin_m_s", "foot", palette.right],
   ["torque", "torque_margin_n_m", "torque", palette.grey],
   ["friction", "friction_margin", "friction", palette.yellow],
 ];

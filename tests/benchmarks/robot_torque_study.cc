@@ -35,8 +35,9 @@ void Inverse(int postures, unsigned seed, const std::string& only) {
     const RobotModel& robot = whole.model;
     if (!only.empty() && robot.name != only) continue;
     const std::string waist = whole.tree.urdf.links[static_cast<size_t>(whole.tree.waist)].name;
-    replay::Simulation engine(replay::MujocoModel(robot, whole.tree, {.armature = 0.0}), robot,
-                              waist);
+    replay::Simulation engine(
+        replay::MujocoModel(robot, whole.tree, {.armature = 0.0, .principal_axes = true}), robot,
+        waist);
     WalkDraw draw(seed);
     int compared = 0;
     double worst = 0;

@@ -63,7 +63,7 @@ class ReplayTest : public testing::Test {
 // Joint torques, and force and moment on the robot, as the engine's inverse dynamics has them.
 TEST_F(ReplayTest, TheDynamicsAreThoseOfTheEngine) {
   SKIP_WITHOUT_SIMULATION();
-  Simulation engine(MujocoModel(robot_, tree_, {.armature = 0.0}), robot_,
+  Simulation engine(MujocoModel(robot_, tree_, {.armature = 0.0, .principal_axes = true}), robot_,
                     tree_.urdf.links[static_cast<size_t>(tree_.waist)].name);
   const Experiment experiment = Prepare(LoadConfig(ShippedConfig("fig3_two_half_steps"), {}));
   const SuperposedWalk walk(experiment.sequence, PlannedMotion(experiment.sequence));

@@ -18,6 +18,8 @@ class SampledFeasibilityTest : public testing::Test {
                           const TimeWindow& window, long* instants) const {
     MarginLimits limits = experiment_.config.smoothing.limits;
     limits.demanded.fill(-100.0);
+    // It is −∞ where the ZMP is outside the support polygon.
+    limits.demanded_of(MarginFamily::kFriction) = kNotDemanded;
     limits.demanded_of(family) = demanded;
     const MarginEvaluator evaluator(experiment_.robot, experiment_.scene, limits);
     MarginEvaluator::Scratch scratch = evaluator.MakeScratch();

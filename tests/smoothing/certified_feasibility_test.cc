@@ -24,6 +24,8 @@ MarginLimits ObstaclesOnly() {
   limits.foot_speed.reset();
   limits.foot_yaw_rate.reset();
   limits.demanded.fill(-100.0);
+  // It is −∞ where the ZMP is outside the support polygon.
+  limits.demanded_of(MarginFamily::kFriction) = kNotDemanded;
   limits.demanded_of(MarginFamily::kSelfClearance) = kAnyClearance;
   limits.demanded_of(MarginFamily::kClearance) = 0.0;
   return limits;

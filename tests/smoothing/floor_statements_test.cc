@@ -17,6 +17,8 @@ namespace {
 MarginLimits Only(MarginFamily family, double demanded) {
   MarginLimits limits;
   limits.demanded.fill(-100.0);
+  // It is −∞ where the ZMP is outside the support polygon.
+  limits.demanded_of(MarginFamily::kFriction) = kNotDemanded;
   limits.demanded_of(family) = demanded;
   return limits;
 }

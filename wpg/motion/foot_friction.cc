@@ -62,8 +62,8 @@ FootFriction::Reach FootFriction::ReachAlong(const Vector2d& direction) const {
 
 double FootFriction::Slope(const Vector6d& slope) const {
   const Vector2d zmp_slope = dynamics_.ZmpSlope(slope), pull_slope = slope.segment<2>(3);
-  const double turn_slope =
-      slope[2] - YawMoment(zmp_slope, pull_) - YawMoment(zmp_ - dynamics_.O().head<2>(), pull_slope);
+  const double turn_slope = slope[2] - YawMoment(zmp_slope, pull_) -
+                            YawMoment(zmp_ - dynamics_.O().head<2>(), pull_slope);
   const double pull = pull_.norm(), distance = reach_.distance;
   double sum_slope = (turn_ < 0.0 ? -1.0 : 1.0) * turn_slope / distance -
                      std::abs(turn_) * reach_.normal.dot(zmp_slope) / (distance * distance);
