@@ -64,6 +64,31 @@ void DeclareHalfStep(Fields& fields, HalfStepConfig* c) {
       {.meaning = "fraction of T between take-off (landing) and the foot's horizontal motion",
        .min = 0,
        .max = 0.2});
+  fields.OptionalNumber(
+      "zmp_bump_ramp", &c->zmp_bump_ramp,
+      {.meaning =
+           "fraction of the ZMP's bump in which it rises, and in which it falls; constant in "
+           "between; `none`: a round bump",
+       .min = 0.1,
+       .max = 0.5});
+  fields.Number(
+      "foot_ramp", &c->foot_ramp,
+      {.meaning = "fraction of the foot's horizontal motion in which its speed rises, and "
+                  "in which it falls; constant in between",
+       .min = 0.1,
+       .max = 0.5});
+  fields.Number(
+      "lift_share", &c->lift_share,
+      {.meaning = "fraction of the foot's flight in which it rises, or sinks, next to the "
+                  "floor",
+       .min = 0.2,
+       .max = 1});
+  fields.Number("support_offset_m", &c->support_offset,
+                {.meaning = "where CoM and ZMP rest on one foot: from the support sole's centre, "
+                            "along its y, towards the other foot",
+                 .unit = "m",
+                 .min = -1,
+                 .max = 1});
 }
 
 void DeclareDichotomy(Fields& fields, DichotomyOptions* o) {
@@ -117,7 +142,10 @@ void DeclareOptimizer(Fields& fields, OptimizerConfig* c) {
   for (const ParameterFamily family : AllParameterFamilies()) {
     for (const ParameterBoundKey& bound : Traits(family).bounds) {
       fields.Number(bound.key.data(), &(choice->*bound.value),
-                    {.meaning = bound.meaning.data(), .min = bound.min, .max = bound.max});
+                    {.meaning = bound.meaning.data(),
+                     .unit = bound.unit.data(),
+                     .min = bound.min,
+                     .max = bound.max});
     }
   }
   fields.Number("duration_s", &o->duration_limit,
@@ -168,7 +196,7 @@ void DeclareFixed(Fields& fields, FixedConfig* c) {
                  {.meaning = "of its junction, step or half-step, from 1", .min = 1, .max = 20000});
   fields.OptionalNumber(
       "value", &c->value,
-      {.meaning = "s (an overlap below 0 is a rest), or of the planned height; none: as planned",
+      {.meaning = "s (an overlap below 0 is a rest), of the planned height, or m; none: as planned",
        .min = -kLongestRest,
        .max = 6});
 }
@@ -357,7 +385,12 @@ void DeclareFilesThere(Fields& fields, const ExperimentConfig& config) {
 }
 
 HalfStepShape ShapeOf(const HalfStepConfig& config) {
-  return {.shift = config.zmp_shift / config.duration, .horizontal_delay = config.horizontal_delay};
+  return {.shift = config.zmp_shift / config.duration,
+          .horizontal_delay = config.horizontal_delay,
+          .bump_ramp = config.zmp_bump_ramp,
+          .foot_ramp = config.foot_ramp,
+          .lift_share = config.lift_share,
+          .support_offset = config.support_offset};
 }
 
 std::vector<FixedParameter> FixedParameters(const SmoothingConfig& config) {

@@ -27,11 +27,15 @@ struct FootstepConfig {
 };
 
 struct HalfStepConfig {
-  double duration = 2.0;          ///< T [s]
-  double zmp_shift = 0.1;         ///< t2 − t1 at that T [s]; scales with the duration
-  double via_height = 0.25;       ///< [m]
-  double via_lateral = 0.24;      ///< [m]
-  double horizontal_delay = 0.1;  ///< of T
+  double duration = 2.0;                ///< T [s]
+  double zmp_shift = 0.1;               ///< t2 − t1 at that T [s]; scales with the duration
+  double via_height = 0.25;             ///< [m]
+  double via_lateral = 0.24;            ///< [m]
+  double horizontal_delay = 0.1;        ///< of T
+  std::optional<double> zmp_bump_ramp;  ///< of the bump
+  double foot_ramp = 0.5;               ///< of the foot's horizontal motion
+  double lift_share = 1.0;              ///< of the foot's flight
+  double support_offset = 0.0;          ///< [m]
 };
 
 /// Fractions of T, as half-steps have them.

@@ -62,9 +62,7 @@ bool CheckHalfSteps(const std::vector<HalfStepRow>& rows, const HalfStepSequence
     const HalfStep& half_step = planned.half_steps[i].half_step;
     std::string fault = FaultOfHalfStep(rows[i], half_step);
     if (fault.empty() && i == 0 && !Near(rows[0].start, 0)) fault = "the walk does not begin at 0";
-    if (fault.empty() && i % 2 == 1 && !Near(rows[i].height_scale, rows[i - 1].height_scale)) {
-      fault = "another height scale than the step's up half-step";
-    }
+    if (fault.empty() && i % 2 == 1) fault = FaultOfStep(rows[i - 1], rows[i]);
     if (fault.empty() && i > 0) {
       const double overlap = rows[i - 1].start + rows[i - 1].duration - rows[i].start;
       fault = FaultOfOverlap(overlap, rows[i - 1], rows[i], half_step.shape);
@@ -84,7 +82,8 @@ bool SameHalfStep(const EpisodeText& episode, const EpisodeWalks& all, size_t a,
   const auto& [q, Y_WS] = all.planned[b].half_steps[i];
   return p.kind == q.kind && p.support == q.support && Near(X_WS, Y_WS) && Near(p.X_SF, q.X_SF) &&
          Near(p.via_height, q.via_height) && Near(x.start, y.start) &&
-         Near(x.duration, y.duration) && Near(x.height_scale, y.height_scale);
+         Near(x.duration, y.duration) && Near(x.height_scale, y.height_scale) &&
+         Near(x.support_point, y.support_point);
 }
 
 // Whether the robot had stopped in a walk, with so many half-steps begun.

@@ -27,17 +27,18 @@ struct EpisodeWalks {
 
 /// Makes the walks that walks/NNN/footsteps.csv and half_steps.csv describe, and checks that they
 /// are walks: rows that fit the footsteps, the config's start, overlaps within their natural bounds
-/// by starts and durations, one height scale a step, numbers of footsteps and durations as in
-/// plans.csv, which are handed over in order, the first at 0. Fewer walks than are asked for when
-/// one describes none; then the other checks cannot be made.
+/// by starts and durations, one height scale and support point a step, numbers of footsteps and
+/// durations as in plans.csv, which are handed over in order, the first at 0. Fewer walks than are
+/// asked for when one describes none; then the other checks cannot be made.
 EpisodeWalks CheckEpisodeWalks(const EpisodeText& episode, const EpisodeWalkFrame& frame,
                                Findings* findings);
 
 /// Whether each walk takes over from the one before without changing what has begun: half-steps
 /// that begin before plans.csv's handed_over_s are the same in both (place, shape, duration,
-/// height, start, to 1e-9), and the next one begins no earlier than that in the successor. Where
-/// the older walk would have begun it earlier, events.csv says that the robot had stopped. When a
-/// half-step of begun.csv begins is what the last walk says, so all walks since agree on it.
+/// height, support point, start, to 1e-9), and the next one begins no earlier than that in the
+/// successor. Where the older walk would have begun it earlier, events.csv says that the robot had
+/// stopped. When a half-step of begun.csv begins is what the last walk says, so all walks since
+/// agree on it.
 void CheckSuccessors(const EpisodeText& episode, const EpisodeWalks& all, Findings* findings);
 
 }  // namespace halfstep::verify

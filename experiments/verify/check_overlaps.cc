@@ -18,6 +18,10 @@ std::string FaultOfRaw(const HalfStepRow& row, const HalfStep& planned) {
   if (!Same(row.duration, planned.duration)) {
     return Formatted("duration %.9g, planned %.9g", row.duration, planned.duration);
   }
+  if (!Same(row.support_point, planned.shape.support_offset)) {
+    return Formatted("support point %.9g, planned %.9g", row.support_point,
+                     planned.shape.support_offset);
+  }
   return Same(row.height_scale, 1) ? ""
                                    : Formatted("height scale %.9g, planned 1", row.height_scale);
 }
@@ -48,12 +52,21 @@ std::string FaultOfHalfStep(const HalfStepRow& row, const HalfStep& planned) {
   if (row.kind != (planned.kind == HalfStepKind::kUp ? "up" : "down")) return "kind " + row.kind;
   if (row.support != Name(planned.support)) return "support " + row.support;
   if (!std::isfinite(row.start) || !std::isfinite(row.duration) ||
-      !std::isfinite(row.height_scale)) {
+      !std::isfinite(row.height_scale) || !std::isfinite(row.support_point)) {
     return "a number is not finite";
   }
   if (!(row.duration > 0)) return Formatted("duration %.9g", row.duration);
   if (!(row.height_scale >= 0)) return Formatted("height scale %.9g", row.height_scale);
   return "";
+}
+
+std::string FaultOfStep(const HalfStepRow& up, const HalfStepRow& down) {
+  if (!Same(down.height_scale, up.height_scale)) {
+    return "another height scale than the step's up half-step";
+  }
+  return Same(down.support_point, up.support_point)
+             ? ""
+             : "another support point than the step's up half-step";
 }
 
 std::string FaultOfOverlap(double overlap, const HalfStepRow& before, const HalfStepRow& after,
@@ -92,9 +105,8 @@ bool CheckOverlaps(const std::vector<HalfStepRow>& half_steps,
       findings->Disagree(
           line + Formatted("start %.9g, but %.9g by durations and overlaps", row.start, start));
     }
-    if (i % 2 == 1 && !Same(row.height_scale, half_steps[i - 1].height_scale)) {
-      findings->Disagree(line + "another height scale than the step's up half-step");
-    }
+    fault = i % 2 == 1 ? FaultOfStep(half_steps[i - 1], row) : "";
+    if (!fault.empty()) findings->Disagree(line + fault);
     if (i + 1 == n) break;
     start += row.duration - (overlaps ? (*overlaps)[i].overlap : 0);
     if (!overlaps) continue;
@@ -121,6 +133,9 @@ void CheckFixed(const std::vector<HalfStepRow>& half_steps, const std::vector<Ov
     } else if (one.parameter == "height_scale" && 2 * i < half_steps.size()) {
       is = half_steps[2 * i].height_scale;
       demanded = 1;
+    } else if (one.parameter == "support_point" && 2 * i < half_steps.size()) {
+      is = half_steps[2 * i].support_point;
+      demanded = planned.half_steps[2 * i].half_step.shape.support_offset;
     } else {
       findings->Disagree("config.yaml: smoothing.fixed: " + one.parameter +
                          Formatted(" %d is not known here", one.index));

@@ -16,6 +16,10 @@ namespace halfstep::verify {
 /// "": nothing.
 std::string FaultOfHalfStep(const HalfStepRow& row, const HalfStep& planned);
 
+/// What is wrong with the two half-steps of a step beside each other: they have one height scale
+/// and one support point. "": nothing.
+std::string FaultOfStep(const HalfStepRow& up, const HalfStepRow& down);
+
 /// What is wrong with the overlap of two neighbours by what the homotopy allows [s]; "": nothing.
 /// Source: smoothing/README.md, "Natural bounds".
 std::string FaultOfOverlap(double overlap, const HalfStepRow& before, const HalfStepRow& after,
@@ -23,10 +27,10 @@ std::string FaultOfOverlap(double overlap, const HalfStepRow& before, const Half
 
 /// Whether half_steps.csv and overlaps.csv describe one walk of the footsteps that `planned` was
 /// made of: kinds and supports as planned, starts that follow from durations and overlaps,
-/// t_{i+1} = t_i + T_i − Δ_i, overlaps within their natural bounds, one height scale a step, and
-/// the same durations and heights in both files. Without `overlaps` the walk is the planned motion:
-/// no overlap, durations as planned, scale 1. Returns false when they describe none; then no
-/// DescribedWalk may be made of them.
+/// t_{i+1} = t_i + T_i − Δ_i, overlaps within their natural bounds, one height scale and one
+/// support point a step, and the same durations and heights in both files. Without `overlaps` the
+/// walk is the planned motion: no overlap, durations and support points as planned, scale 1.
+/// Returns false when they describe none; then no DescribedWalk may be made of them.
 bool CheckOverlaps(const std::vector<HalfStepRow>& half_steps,
                    const std::optional<std::vector<OverlapRow>>& overlaps,
                    const HalfStepSequence& planned, Findings* findings);

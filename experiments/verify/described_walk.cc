@@ -21,6 +21,7 @@ DescribedWalk::DescribedWalk(const RobotModel& robot, const HalfStepSequence& pl
     HalfStep half_step = as_planned;
     half_step.duration = rows[i].duration;
     half_step.via_height *= rows[i].height_scale;
+    half_step.shape.support_offset = rows[i].support_point;
     const WalkState from = Transformed(X_WS, half_step.Start());
     pieces_.push_back({.half_step = half_step,
                        .profiles = {half_step.kind, half_step.shape, half_step.duration, lipm_},

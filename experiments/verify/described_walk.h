@@ -28,7 +28,7 @@ struct WalkDynamics {
 };
 
 /// The walk that the files of a run describe: the half-steps of its footsteps with the starts,
-/// durations and heights of half_steps.csv, superposed:
+/// durations, heights and support points of half_steps.csv, superposed:
 ///
 ///     f(t) = f_0(0) + Σ_i [ f_i(clamp(t − t_i, 0, T_i)) − f_i(0) ].
 ///

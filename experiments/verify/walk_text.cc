@@ -26,8 +26,9 @@ void CheckIndex(const CsvText& csv, size_t row) {
 }  // namespace
 
 std::vector<HalfStepRow> ReadHalfSteps(const std::string& path, const std::string& text) {
-  const CsvText csv(path, text,
-                    {"half_step", "kind", "support", "start_s", "duration_s", "height_scale"});
+  const CsvText csv(
+      path, text,
+      {"half_step", "kind", "support", "start_s", "duration_s", "height_scale", "support_point_m"});
   std::vector<HalfStepRow> rows;
   for (size_t i = 0; i < csv.size(); ++i) {
     CheckIndex(csv, i);
@@ -35,7 +36,8 @@ std::vector<HalfStepRow> ReadHalfSteps(const std::string& path, const std::strin
                     .support = Word(csv, i, 2, {"left", "right"}),
                     .start = csv.Number(i, 3),
                     .duration = csv.Number(i, 4),
-                    .height_scale = csv.Number(i, 5)});
+                    .height_scale = csv.Number(i, 5),
+                    .support_point = csv.Number(i, 6)});
   }
   return rows;
 }

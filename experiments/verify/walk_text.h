@@ -12,6 +12,7 @@ namespace halfstep::verify {
 struct HalfStepRow {
   std::string kind, support;                         ///< up or down; left or right
   double start = 0, duration = 0, height_scale = 0;  ///< [s], [s], 1
+  double support_point = 0;                          ///< [m]
 };
 
 /// A row of overlaps.csv; its columns about what was allowed, what holds the overlap and what that

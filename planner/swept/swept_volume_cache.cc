@@ -101,6 +101,15 @@ std::string SweptVolumeProvenance(const RobotModel& robot, const Lipm& lipm, con
   line("via_lateral", Exactly(set.prototype.via_lateral));
   line("shift", Exactly(set.prototype.shape.shift));
   line("horizontal_delay", Exactly(set.prototype.shape.horizontal_delay));
+  // Those that a shape has as always are left out, so that older files stay valid.
+  const HalfStepShape& shape = set.prototype.shape;
+  const auto line_unless = [&](const char* key, double value, double always) {
+    if (value != always) line(key, Exactly(value));
+  };
+  line_unless("bump_ramp", shape.bump_ramp.value_or(0.0), 0.0);
+  line_unless("foot_ramp", shape.foot_ramp, 0.5);
+  line_unless("lift_share", shape.lift_share, 1.0);
+  line_unless("support_offset", shape.support_offset, 0.0);
   line("elements", std::to_string(set.size()));
   line("placements", Sha256(placements));
   line("cell", Exactly(options.cell));

@@ -1,6 +1,7 @@
 #include "smoothing/margins/slack_evaluator.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace halfstep {
 
@@ -16,8 +17,11 @@ double InstantSlacks::Slope(size_t row, const HomotopyParameter& parameter) cons
   return slope;
 }
 
-SlackEvaluator::SlackEvaluator(const MarginEvaluator& evaluator, double cutoff)
-    : evaluator_(evaluator), sink_(cutoff), scratch_(evaluator.MakeScratch()) {}
+SlackEvaluator::SlackEvaluator(const MarginEvaluator& evaluator, double cutoff, Wanted wanted)
+    : evaluator_(evaluator),
+      wanted_(std::move(wanted)),
+      sink_(cutoff),
+      scratch_(evaluator.MakeScratch()) {}
 
 void SlackEvaluator::At(const SuperposedWalk& walk, const LocalTime& at,
                         const std::vector<std::pair<HomotopyParameter, double>>& moving,
@@ -45,6 +49,10 @@ void SlackEvaluator::At(const SuperposedWalk& walk, const LocalTime& at,
       found->jet.value += rate * jet.first;
       found->jet.first += rate * jet.second;
       found->jet.second += rate * third;
+    }
+    if (wanted_) {
+      std::erase_if(sensitivities,
+                    [this](const WalkSensitivity& s) { return !wanted_(s.parameter); });
     }
     if (!evaluator_.scene().rests()) {
       walk.StartSensitivities(at.half_step, &out->times);

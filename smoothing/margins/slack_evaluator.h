@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -29,8 +30,11 @@ struct InstantSlacks {
 /// witness points. Use one for each thread.
 class SlackEvaluator {
  public:
-  /// `evaluator` is borrowed. Statements with slack above `cutoff` are left out.
-  SlackEvaluator(const MarginEvaluator& evaluator, double cutoff);
+  using Wanted = std::function<bool(const HomotopyParameter&)>;
+
+  /// `evaluator` is borrowed. Statements with slack above `cutoff` are left out. Derivatives are
+  /// taken along the parameters that are `wanted`; without it, along all.
+  SlackEvaluator(const MarginEvaluator& evaluator, double cutoff, Wanted wanted = nullptr);
 
   /// Evaluates the instant (half-step, τ). Where the instant itself moves with some parameters,
   /// `moving` has the rate dτ/dparameter of each. Among obstacles that move, `times` lists the
@@ -46,6 +50,7 @@ class SlackEvaluator {
 
  private:
   const MarginEvaluator& evaluator_;
+  Wanted wanted_;
   SlackSink sink_;
   MarginEvaluator::Scratch scratch_;
 };

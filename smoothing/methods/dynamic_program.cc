@@ -86,6 +86,7 @@ double DynamicProgram::Longest(int k, const State& state, double longest) {
     const int index = state.indices[i - k + 3];
     const size_t local = static_cast<size_t>(i - from);
     parameters.durations[local] = choice(i, index).duration;
+    parameters.support_points[local / 2] = choice(i, index).support_point;
     if (i % 2 == 0) parameters.height_scales[local / 2] = choice(i, index).height;
     if (i > std::max(0, k - 3)) {
       parameters.overlaps[local - 1] = Overlap(i, state.indices[i - 1 - k + 3], index);
@@ -170,6 +171,7 @@ HomotopyParameters DynamicProgram::ParametersOf(const Choices& choices,
   for (size_t k = 0; k < indices.size(); ++k) {
     const StretchChoice& c = choices[k][static_cast<size_t>(indices[k])];
     parameters.durations[k] = c.duration;
+    parameters.support_points[k / 2] = c.support_point;
     if (k % 2 == 0) parameters.height_scales[k / 2] = c.height;
     if (k == 0) continue;
     parameters.overlaps[k - 1] = c.overlap;

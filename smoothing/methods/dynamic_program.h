@@ -10,9 +10,10 @@ namespace halfstep {
 
 /// One choice of the parameters of a half-step.
 struct StretchChoice {
-  double overlap = 0.0;   ///< Δ with the half-step before [s]; lowered to its natural bound
-  double duration = 0.0;  ///< T [s]
-  double height = 1.0;    ///< η of its step; counts for up half-steps
+  double overlap = 0.0;        ///< Δ with the half-step before [s]; lowered to its natural bound
+  double duration = 0.0;       ///< T [s]
+  double height = 1.0;         ///< η of its step; counts for up half-steps
+  double support_point = 0.0;  ///< s of its step [m]; the same in all choices of a half-step
 };
 
 /// Finds the shortest walk whose half-steps each choose from a finite list, by dynamic programming.

@@ -100,7 +100,8 @@ class Reference {
   }
 
   StretchChoice At(const HomotopyParameters& point, size_t k) const {
-    return {k > 0 ? point.overlaps[k - 1] : 0.0, point.durations[k], point.height_scales[k / 2]};
+    return {k > 0 ? point.overlaps[k - 1] : 0.0, point.durations[k], point.height_scales[k / 2],
+            point.support_points[k / 2]};
   }
 
   DynamicProgram::Choices GlobalChoices() const {
@@ -133,8 +134,8 @@ class Reference {
       if (OverlapsOnly()) {
         for (int by : {-2, -1, 1, 2}) {
           if (!overlaps) continue;
-          choices.back().push_back(
-              {std::max(0.0, incumbent.overlap + by * step), incumbent.duration, incumbent.height});
+          choices.back().push_back(incumbent);
+          choices.back().back().overlap = std::max(0.0, incumbent.overlap + by * step);
         }
         continue;
       }

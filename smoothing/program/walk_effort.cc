@@ -43,8 +43,7 @@ std::vector<double> KnotsOf(const SuperposedWalk& walk, int k, double stretch) {
   for (int i = k; i >= std::max(0, k - 3); --i) {
     const HalfStepProfiles& profiles = walk.profiles(i);
     const double start = walk.start_of(i) - walk.start_of(k);
-    for (double tau : {profiles.t1(), profiles.t2(), profiles.horizontal_begin(),
-                       profiles.horizontal_end(), 0.5 * profiles.duration(), profiles.duration()}) {
+    for (const double tau : profiles.Knots()) {
       if (start + tau > 0.0 && start + tau < stretch) knots.push_back(start + tau);
     }
   }

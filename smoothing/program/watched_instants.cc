@@ -277,7 +277,9 @@ void WatchedInstants::EvaluateHalfStep(const SuperposedWalk& walk, const Eigen::
 void WatchedInstants::Evaluate(const Eigen::VectorXd& x, Eigen::VectorXd* values,
                                std::vector<double>* nonzeros) const {
   const SuperposedWalk walk(variables_.sequence(), variables_.ToParameters(x));
-  SlackEvaluator slacks(evaluator_, options_.cutoff + 20.0 / options_.sharpness);
+  SlackEvaluator slacks(
+      evaluator_, options_.cutoff + 20.0 / options_.sharpness,
+      [this](const HomotopyParameter& parameter) { return variables_.IndexOf(parameter) >= 0; });
   values->resize(rows());
   if (nonzeros) nonzeros->resize(num_nonzeros());
   size_t first = 0;

@@ -14,6 +14,8 @@ struct HomotopyParameters {
   std::vector<double> overlaps;
   std::vector<double> height_scales;  ///< η_j of step j: multiplies its via height (n/2).
   std::vector<double> durations;      ///< T_i of half-step i [s] (n).
+  /// Support offset of step j [m]: of both its half-steps, which share the support foot (n/2).
+  std::vector<double> support_points;
 
   /// The values of a family.
   std::vector<double>& of(ParameterFamily family) { return this->*Traits(family).values; }
@@ -24,7 +26,7 @@ struct HomotopyParameters {
   friend bool operator==(const HomotopyParameters&, const HomotopyParameters&) = default;
 };
 
-/// The planned motion, where the homotopy starts: Δ = 0, η = 1, T as planned.
+/// The planned motion, where the homotopy starts: Δ = 0, η = 1, T and support points as planned.
 HomotopyParameters PlannedMotion(const HalfStepSequence& sequence);
 
 /// One parameter: its family, and its index there from 0.

@@ -1,5 +1,6 @@
 #include "smoothing/walk/parameter_families.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "smoothing/walk/homotopy_parameters.h"
@@ -37,8 +38,8 @@ constexpr ParameterFamilyTraits kOverlap = {
         },
 };
 
-constexpr ParameterBoundKey kHeightBounds[] = {
-    {"least_height_scale", "of the planned height", &ParameterChoice::least_height_scale, 0.01, 1}};
+constexpr ParameterBoundKey kHeightBounds[] = {{"least_height_scale", "of the planned height",
+                                                &ParameterChoice::least_height_scale, 0.01, 1, ""}};
 
 constexpr ParameterFamilyTraits kHeightScale = {
     .name = "height_scale",
@@ -70,9 +71,9 @@ constexpr ParameterFamilyTraits kHeightScale = {
 
 constexpr ParameterBoundKey kDurationBounds[] = {
     {"least_duration", "of the planned duration of a half-step", &ParameterChoice::least_duration,
-     0.2, 1},
+     0.2, 1, ""},
     {"most_duration", "of the planned duration of a half-step", &ParameterChoice::most_duration, 1,
-     5}};
+     5, ""}};
 
 constexpr ParameterFamilyTraits kDuration = {
     .name = "duration",
@@ -103,6 +104,44 @@ constexpr ParameterFamilyTraits kDuration = {
         },
 };
 
+constexpr ParameterBoundKey kSupportBounds[] = {
+    {"least_support_point_m", "of the support sole's centre, towards the other foot",
+     &ParameterChoice::least_support_point, -1, 1, "m"},
+    {"most_support_point_m", "of the support sole's centre, towards the other foot",
+     &ParameterChoice::most_support_point, -1, 1, "m"}};
+
+constexpr ParameterFamilyTraits kSupportPoint = {
+    .name = "support_point",
+    .unit = "m",
+    .table = "half_steps",
+    .column = "support_point_m",
+    .rank = 2,
+    .meaning = "where CoM and ZMP rest on one foot, from its centre towards the other foot",
+    .values = &HomotopyParameters::support_points,
+    .count = [](const HalfStepSequence& sequence) { return sequence.num_steps(); },
+    .planned =
+        [](const HalfStepSequence& sequence, int j) {
+          return sequence.half_steps[2 * static_cast<size_t>(j)].half_step.shape.support_offset;
+        },
+    .half_steps =
+        [](int j) {
+          return std::pair{2 * j, 2 * j + 1};
+        },
+    .index_at = [](int half_step) { return half_step / 2; },
+    .joins = false,
+    .least = -1.0,
+    .least_itself = true,
+    .chosen = &ParameterChoice::support_points,
+    .key = "support_points",
+    .key_meaning = "support points are variables beside the overlaps",
+    .bounds = kSupportBounds,
+    .range =
+        [](const ParameterChoice& choice, double planned) {
+          return std::pair{std::min(choice.least_support_point, planned),
+                           std::max(choice.most_support_point, planned)};
+        },
+};
+
 }  // namespace
 
 const ParameterFamilyTraits& Traits(ParameterFamily family) {
@@ -113,6 +152,8 @@ const ParameterFamilyTraits& Traits(ParameterFamily family) {
       return kHeightScale;
     case ParameterFamily::kDuration:
       return kDuration;
+    case ParameterFamily::kSupportPoint:
+      return kSupportPoint;
   }
   return kOverlap;
 }

@@ -14,19 +14,22 @@ struct HomotopyParameters;
 
 /// The families of parameters that a point of the smoothing homotopy is made of.
 enum class ParameterFamily {
-  kOverlap,      ///< Δ of a junction
-  kHeightScale,  ///< η of a step
-  kDuration,     ///< T of a half-step
+  kOverlap,       ///< Δ of a junction
+  kHeightScale,   ///< η of a step
+  kDuration,      ///< T of a half-step
+  kSupportPoint,  ///< support offset of a step
 };
-inline constexpr int kNumParameterFamilies = 3;
+inline constexpr int kNumParameterFamilies = 4;
 
 /// What a method may move besides overlaps, and how far.
 struct ParameterChoice {
   bool heights = false;    ///< η
   bool durations = false;  ///< T
+  bool support_points = false;
   double least_height_scale = 0.2;
   double least_duration = 0.5;  ///< as a fraction of the planned one
   double most_duration = 1.5;   ///< as a fraction of the planned one
+  double least_support_point = -0.03, most_support_point = 0.06;  ///< support offset [m]
 };
 
 /// One number of ParameterChoice, and its key in configs.
@@ -34,7 +37,8 @@ struct ParameterBoundKey {
   std::string_view key;
   std::string_view meaning;
   double ParameterChoice::*value;
-  double min, max;  ///< valid range
+  double min, max;        ///< valid range
+  std::string_view unit;  ///< "m"; "": a number
 };
 
 /// All that programs, proofs, files and messages need to know about a family. What its parameters
@@ -76,7 +80,8 @@ const ParameterFamilyTraits& Traits(ParameterFamily family);
 
 /// Every family, in the order of programs and files.
 constexpr std::array<ParameterFamily, kNumParameterFamilies> AllParameterFamilies() {
-  return {ParameterFamily::kOverlap, ParameterFamily::kHeightScale, ParameterFamily::kDuration};
+  return {ParameterFamily::kOverlap, ParameterFamily::kHeightScale, ParameterFamily::kDuration,
+          ParameterFamily::kSupportPoint};
 }
 
 }  // namespace halfstep

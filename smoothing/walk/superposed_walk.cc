@@ -20,6 +20,19 @@ void AddProfileDerivative(const HalfStepJet& profiles, const WalkState& delta, d
   }
 }
 
+// Derivative of quantity q of a half-step's contribution when q moves by `moved` in its state at
+// the via point. That is where an up half-step ends and a down half-step begins; `first`: the walk
+// is superposed from this half-step's start.
+void AddViaDerivative(const HalfStepJet& profiles, HalfStepKind kind, bool first, double moved,
+                      int q, WalkJet* jet) {
+  const bool down = kind == HalfStepKind::kDown;
+  const ProfileJet& p = profiles.of(q);
+  const double change = down ? -moved : moved;
+  jet->value[q] += change * p.value + (down && first ? moved : 0.0);
+  jet->first[q] += change * p.first;
+  jet->second[q] += change * p.second;
+}
+
 }  // namespace
 
 SuperposedWalk::SuperposedWalk(const HalfStepSequence& sequence,
@@ -32,6 +45,7 @@ SuperposedWalk::SuperposedWalk(const HalfStepSequence& sequence,
     half_step.duration = parameters.durations[i];
     const double planned_height = half_step.via_height;
     half_step.via_height *= parameters.height_scales[i / 2];
+    half_step.shape.support_offset = parameters.support_points[i / 2];
     const Footprint& X_WS = sequence.half_steps[i].X_WS;
     const WalkState from_W = Transformed(X_WS, half_step.Start());
     pieces_.push_back({.half_step = half_step,
@@ -172,15 +186,15 @@ void SuperposedWalk::Sensitivities(const LocalTime& at, std::vector<WalkSensitiv
     }
     AddProfileDerivative(profiles, p.delta_W, 0.0, 1.0, &jet_of({Family::kDuration, i}));
 
-    // z = η·h·(1 − π) on the way down, η·h·π on the way up; superposed from the first one's start.
-    const double planned = p.planned_height;
-    const bool down = p.half_step.kind == HalfStepKind::kDown;
-    const int z = FootIndex(p.half_step.swing()) + 2;
-    WalkJet& jet = jet_of({Family::kHeightScale, i / 2});
-    const double h = down ? -planned : planned;
-    jet.value[z] += h * profiles.height.value + (down && i == first ? planned : 0.0);
-    jet.first[z] += h * profiles.height.first;
-    jet.second[z] += h * profiles.height.second;
+    const HalfStep& h = p.half_step;
+    AddViaDerivative(profiles, h.kind, i == first, p.planned_height, FootIndex(h.swing()) + 2,
+                     &jet_of({Family::kHeightScale, i / 2}));
+    const Eigen::Vector2d aside = p.X_WS.rotation().col(1) * Sign(h.swing());
+    WalkJet& support = jet_of({Family::kSupportPoint, i / 2});
+    for (const int q : {kComX, kZmpX}) {
+      AddViaDerivative(profiles, h.kind, i == first, aside.x(), q, &support);
+      AddViaDerivative(profiles, h.kind, i == first, aside.y(), q + 1, &support);
+    }
   }
 }
 
@@ -220,18 +234,20 @@ double SuperposedWalk::LeastHeight(int step, double begin, double end) const {
   const Piece& up = piece(2 * step);
   const Piece* down = DownOf(step);
   // Fractions of the rise that is done, and of the sinking that is still to come.
-  const double lift_off = up.profiles.t2(), rise = up.profiles.duration() - lift_off;
+  const double lift_off = up.profiles.lift_begin(), rise = up.profiles.lift_end() - lift_off;
   const auto risen = [&](double t) {
     return std::clamp((t - up.start - lift_off) / rise, 0.0, 1.0);
   };
   const auto left = [&](double t) {
     if (down == nullptr) return 1.0;
-    return 1.0 - std::clamp((t - down->start) / down->profiles.t1(), 0.0, 1.0);
+    const double sinks = down->start + down->profiles.lift_begin();
+    const double sinking = down->profiles.lift_end() - down->profiles.lift_begin();
+    return 1.0 - std::clamp((t - sinks) / sinking, 0.0, 1.0);
   };
   const double height = up.half_step.via_height;
   const double monotone =
       height * (Smoothstep{}.At(risen(begin)).value + Smoothstep{}.At(left(end)).value - 1.0);
-  // Both are affine in between, so their sum is least at an end.
+  // Both are concave in between, so their sum is least at an end.
   const double sum = std::min(risen(begin) + left(begin), risen(end) + left(end));
   return std::max(monotone, kSteepest * height * std::min(0.0, sum - 1.0));
 }

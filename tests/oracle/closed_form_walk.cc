@@ -15,6 +15,18 @@ Real Smooth(Real x) {
 }
 Real SmoothSlope(Real x) { return x <= 0 || x >= 1 ? Real(0) : 30 * x * x * (1 - x) * (1 - x); }
 
+// The same with a constant speed between the fractions r and 1 − r; the ramps are stretched halves
+// of it, so that their slopes meet that speed 15/(15 − 14r).
+Real Ramped(Real x, Real r) {
+  if (x > Real(0.5)) return 1 - Ramped(1 - x, r);
+  if (x <= r) return 16 * r / (15 - 14 * r) * Smooth(x / (2 * r));
+  return Real(0.5) + 15 / (15 - 14 * r) * (x - Real(0.5));
+}
+Real RampedSlope(Real x, Real r) {
+  if (x > Real(0.5)) return RampedSlope(1 - x, r);
+  return x <= r ? 8 / (15 - 14 * r) * SmoothSlope(x / (2 * r)) : 15 / (15 - 14 * r);
+}
+
 int FirstOf(int foot) { return 5 + 4 * foot; }
 
 }  // namespace
@@ -22,7 +34,9 @@ int FirstOf(int foot) { return 5 + 4 * foot; }
 ClosedFormWalk::ClosedFormWalk(const WalkPlan& plan)
     : sigma1_((1 - Real(plan.shift)) / 2),
       sigma2_((1 + Real(plan.shift)) / 2),
-      delay_(plan.horizontal_delay) {
+      delay_(plan.horizontal_delay),
+      ramp_(plan.foot_ramp),
+      share_(plan.lift_share) {
   const Real omega = Sqrt(Real(kGravity) / Real(plan.com_height));
   std::array<FloorPose, 2> feet = plan.start;
   // With both feet on the floor.
@@ -41,8 +55,9 @@ ClosedFormWalk::ClosedFormWalk(const WalkPlan& plan)
     if (!up) feet[static_cast<size_t>(step.foot)] = step.landing;
     const Quantities on_floor = standing(1 - step.foot);
     Quantities via = on_floor;
-    via[0] = via[2] = support.x;
-    via[1] = via[3] = support.y;
+    const Real inward = (step.foot == 0 ? 1 : -1) * Real(plan.support_points[i / 2]);
+    via[0] = via[2] = support.x - Sin(Real(support.yaw)) * inward;
+    via[1] = via[3] = support.y + Cos(Real(support.yaw)) * inward;
     via[4] = support.yaw;
     const size_t f = static_cast<size_t>(FirstOf(step.foot));
     const Real aside = (step.foot == 0 ? 1 : -1) * Real(plan.via_lateral);
@@ -56,7 +71,7 @@ ClosedFormWalk::ClosedFormWalk(const WalkPlan& plan)
                        .begin = begin,
                        .end = begin + T,
                        .T = T,
-                       .profile = RestToRestClosedForm(omega * T, plan.shift)};
+                       .profile = RestToRestClosedForm(omega * T, plan.shift, plan.bump_ramp)};
     half_step.from = up ? on_floor : via;
     const Quantities& to = up ? via : on_floor;
     for (size_t q = 0; q < to.size(); ++q) half_step.change[q] = to[q] - half_step.from[q];
@@ -73,12 +88,14 @@ void ClosedFormWalk::Fractionize(const HalfStep& h, Real tau, Fractions* value,
   // Windows of the foot's horizontal motion and of its height.
   const Real foot_begin = h.up ? sigma2_ + delay_ : Real(0);
   const Real foot_end = h.up ? Real(1) : sigma1_ - delay_;
-  const Real height_begin = h.up ? sigma2_ : Real(0), height_end = h.up ? Real(1) : sigma1_;
+  const Real flight = h.up ? 1 - sigma2_ : sigma1_;
+  const Real height_begin = h.up ? sigma2_ : sigma1_ - share_ * flight;
+  const Real height_end = height_begin + share_ * flight;
   const Real foot = (sigma - foot_begin) / (foot_end - foot_begin);
   const Real height = (sigma - height_begin) / (height_end - height_begin);
-  *value = {pair.c, pair.p, Smooth(sigma), Smooth(foot), Smooth(height)};
+  *value = {pair.c, pair.p, Smooth(sigma), Ramped(foot, ramp_), Smooth(height)};
   *rate = {pair.c_rate / h.T, pair.p_rate / h.T, SmoothSlope(sigma) / h.T,
-           SmoothSlope(foot) / (h.T * (foot_end - foot_begin)),
+           RampedSlope(foot, ramp_) / (h.T * (foot_end - foot_begin)),
            SmoothSlope(height) / (h.T * (height_end - height_begin))};
 }
 

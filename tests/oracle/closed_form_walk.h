@@ -29,10 +29,16 @@ struct WalkPlan {
   double via_lateral = 0;             ///< [m]
   double shift = 0;                   ///< (t2 − t1)/T
   double horizontal_delay = 0;        ///< of T
+  double bump_ramp = 0;               ///< of the ZMP's bump; 0: it is round
+  double foot_ramp = 0.5;             ///< of the foot's horizontal motion
+  double lift_share = 1;              ///< of the foot's flight
   double com_height = 0;              ///< z_c [m]
   std::vector<double> overlaps;       ///< Δ_i [s]
   std::vector<double> height_scales;  ///< η_j
   std::vector<double> durations;      ///< T_i [s]
+  /// Of step j: how far from the support sole's centre, along its y towards the other foot, CoM and
+  /// ZMP rest [m].
+  std::vector<double> support_points;
 };
 
 /// The walk at one instant, in W [m, rad]; `rate` per second.
@@ -87,7 +93,7 @@ class ClosedFormWalk {
   void CutIntoStretches();
   static Real Of(const Fractions& fractions, int quantity);
 
-  Real sigma1_, sigma2_, delay_;
+  Real sigma1_, sigma2_, delay_, ramp_, share_;
   std::vector<HalfStep> half_steps_;
   std::vector<Stretch> stretches_;
 };

@@ -49,14 +49,21 @@ HalfStepSequence ToSequence(const WalkPlan& plan) {
                          .via_height = step.via_height,
                          .duration = step.duration});
   }
-  return MakeSequence({ToPose(plan.start[0]), ToPose(plan.start[1])}, footsteps, plan.via_lateral,
-                      {.shift = plan.shift, .horizontal_delay = plan.horizontal_delay},
-                      {.com_height = plan.com_height});
+  return MakeSequence(
+      {ToPose(plan.start[0]), ToPose(plan.start[1])}, footsteps, plan.via_lateral,
+      {.shift = plan.shift,
+       .horizontal_delay = plan.horizontal_delay,
+       .bump_ramp = plan.bump_ramp == 0 ? std::nullopt : std::optional(plan.bump_ramp),
+       .foot_ramp = plan.foot_ramp,
+       .lift_share = plan.lift_share},
+      {.com_height = plan.com_height});
 }
 
 HomotopyParameters ToParameters(const WalkPlan& plan) {
-  return {
-      .overlaps = plan.overlaps, .height_scales = plan.height_scales, .durations = plan.durations};
+  return {.overlaps = plan.overlaps,
+          .height_scales = plan.height_scales,
+          .durations = plan.durations,
+          .support_points = plan.support_points};
 }
 
 void Tally::Add(const Tally& other) {
@@ -125,6 +132,7 @@ void Judge::JudgeCertified(const Case& drawn, const WalkPlan& plan, const Margin
 
 void Judge::JudgeViolated(const Case& drawn, const WalkPlan& plan, const MarginLimits& limits,
                           const Margin& witness, Tally* tally) const {
+  if (witness.family == MarginFamily::kZmpRobot) return;  // the oracle knows of no masses
   const ClosedFormWalk walk(plan);
   WalkTruth truth(plain_, walk, *drawn.placed, drawn.plain_scene.no_step, ToDemands(limits));
   const std::string family(Name(witness.family));

@@ -20,21 +20,23 @@ constexpr char kRobot[] = HALFSTEP_SOURCE_DIR "/wpg/robots/hrp2.yaml";
 TEST(RestToRestClosedFormTest, KeepsTheLipmAndItsEnds) {
   for (const double theta : {0.6, 3.0, 6.94, 20.0}) {
     for (const double shift : {0.01, 0.05, 0.5}) {
-      const RestToRestClosedForm pair(theta, shift);
-      const auto c = [&](double sigma) { return pair.At(static_cast<Real>(sigma)); };
-      // c″ = θ²(c − p) by differences of the slope, away from the knots.
-      for (const double sigma : {0.11, 0.2, 0.31, 0.5 - 0.2 * shift, 0.5 + 0.3 * shift, 0.83}) {
-        const Real h = 1e-7;
-        const Real s = sigma;
-        const double second =
-            static_cast<double>((pair.At(s + h).c_rate - pair.At(s - h).c_rate) / (2 * h));
-        const double expected = theta * theta * static_cast<double>(c(sigma).c - c(sigma).p);
-        EXPECT_NEAR(second, expected, 1e-6 * (1 + theta * theta)) << theta << " " << shift;
+      for (const double ramp : {0.0, 0.24}) {
+        const RestToRestClosedForm pair(theta, shift, ramp);
+        const auto c = [&](double sigma) { return pair.At(static_cast<Real>(sigma)); };
+        // c″ = θ²(c − p) by differences of the slope, away from the knots.
+        for (const double sigma : {0.11, 0.2, 0.31, 0.5 - 0.2 * shift, 0.5 + 0.3 * shift, 0.83}) {
+          const Real h = 1e-7;
+          const Real s = sigma;
+          const double second =
+              static_cast<double>((pair.At(s + h).c_rate - pair.At(s - h).c_rate) / (2 * h));
+          const double expected = theta * theta * static_cast<double>(c(sigma).c - c(sigma).p);
+          EXPECT_NEAR(second, expected, 1e-6 * (1 + theta * theta)) << theta << " " << shift;
+        }
+        EXPECT_NEAR(static_cast<double>(c(1e-12).c_rate), 0, 1e-9);
+        EXPECT_NEAR(static_cast<double>(c(0.5).c), 0.5, 1e-15);
+        const double knot = 0.5 - 0.5 * shift;
+        EXPECT_NEAR(static_cast<double>(c(knot - 1e-9).c - c(knot + 1e-9).c), 0, 1e-7);
       }
-      EXPECT_NEAR(static_cast<double>(c(1e-12).c_rate), 0, 1e-9);
-      EXPECT_NEAR(static_cast<double>(c(0.5).c), 0.5, 1e-15);
-      const double knot = 0.5 - 0.5 * shift;
-      EXPECT_NEAR(static_cast<double>(c(knot - 1e-9).c - c(knot + 1e-9).c), 0, 1e-7);
     }
   }
 }

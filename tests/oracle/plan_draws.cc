@@ -60,6 +60,14 @@ WalkPlan DrawPlan(const PlainRobot& robot, Draw* draw) {
   for (size_t i = 0; i + 1 < plan.durations.size(); ++i) {
     plan.overlaps.push_back(NaturalBound(plan, i) * draw->Uniform(0.3, 1));
   }
+  for (size_t j = 0; j < plan.steps.size(); ++j) {
+    plan.support_points.push_back(varied ? draw->Uniform(-0.05, 0.1) * width : 0);
+  }
+  if (varied) {
+    plan.bump_ramp = draw->Chance(0.5) ? 0 : draw->Uniform(0.15, 0.45);
+    plan.foot_ramp = draw->Uniform(0.1, 0.5);
+    plan.lift_share = draw->Uniform(0.5, 1);
+  }
   return plan;
 }
 

@@ -38,51 +38,44 @@ RestToRestClosedForm::Polynomial RestToRestClosedForm::Particular(const Polynomi
   return sum;
 }
 
-RestToRestClosedForm::RestToRestClosedForm(Real theta, Real shift)
-    : sigma1_((1 - shift) / 2),
-      delta_(shift / 2),
-      lambda_bump_(theta * (1 - shift) / 2),
-      lambda_shift_(theta * shift / 2) {
-  // −(4x(1 − x))³ and (15x − 10x³ + 3x⁵)/16, the shift less its centre ½.
-  bump_ = {0, 0, 0, -64, 192, -192, 64};
-  shift_ = {0, Real(15) / 16, 0, -Real(10) / 16, 0, Real(3) / 16, 0};
-  bump_particular_ = Particular(bump_, lambda_bump_);
-  shift_particular_ = Particular(shift_, lambda_shift_);
-  // From rest at 0.
-  bump_cosh_ = -bump_particular_[0];
-  bump_sinh_ = -bump_particular_[1] / lambda_bump_;
-  // a·F = ½ + Q(−1) − G sinh λ,  a·F'/σ₁ = (Q'(−1) + G λ cosh λ)/δ.
-  const Real F = Value(bump_particular_, 1) + bump_cosh_ * Cosh(lambda_bump_) +
-                 bump_sinh_ * Sinh(lambda_bump_);
-  const Real F_rate =
-      (Slope(bump_particular_, 1) +
-       lambda_bump_ * (bump_cosh_ * Sinh(lambda_bump_) + bump_sinh_ * Cosh(lambda_bump_))) /
-      sigma1_;
-  const Real Q = Real(1) / 2 + Value(shift_particular_, -1);
-  const Real Q_rate = Slope(shift_particular_, -1) / delta_;
-  const Real sinh = Sinh(lambda_shift_), cosh_rate = lambda_shift_ * Cosh(lambda_shift_) / delta_;
-  // F a + sinh G = Q,  F_rate a − cosh_rate G = Q_rate.
-  const Real determinant = -F * cosh_rate - sinh * F_rate;
-  amplitude_ = (-Q * cosh_rate - sinh * Q_rate) / determinant;
-  shift_sinh_ = (F * Q_rate - F_rate * Q) / determinant;
+ComZmp RestToRestClosedForm::Piece::At(Real x) const {
+  const Real c = Cosh(lambda * x), s = Sinh(lambda * x);
+  return {Value(particular, x) + cosh * c + sinh * s,
+          (Slope(particular, x) + lambda * (cosh * s + sinh * c)) / width, Value(zmp, x),
+          Slope(zmp, x) / width};
 }
 
-ComZmp RestToRestClosedForm::OnBump(Real sigma) const {
-  const Real x = sigma / sigma1_, cosh = Cosh(lambda_bump_ * x), sinh = Sinh(lambda_bump_ * x);
-  return {
-      amplitude_ * (Value(bump_particular_, x) + bump_cosh_ * cosh + bump_sinh_ * sinh),
-      amplitude_ *
-          (Slope(bump_particular_, x) + lambda_bump_ * (bump_cosh_ * sinh + bump_sinh_ * cosh)) /
-          sigma1_,
-      amplitude_ * Value(bump_, x), amplitude_ * Slope(bump_, x) / sigma1_};
+// The piece whose CoM goes on from `at` where x = 0.
+RestToRestClosedForm::Piece RestToRestClosedForm::Begun(Real theta, Real center, Real width,
+                                                        const Polynomial& zmp, const ComZmp& at) {
+  Piece piece{.center = center, .width = width, .lambda = theta * width, .zmp = zmp};
+  piece.particular = Particular(zmp, piece.lambda);
+  piece.cosh = at.c - piece.particular[0];
+  piece.sinh = (at.c_rate * width - piece.particular[1]) / piece.lambda;
+  return piece;
 }
 
-ComZmp RestToRestClosedForm::OnShift(Real sigma) const {
-  const Real x = (sigma - Real(1) / 2) / delta_;
-  return {Real(1) / 2 + Value(shift_particular_, x) + shift_sinh_ * Sinh(lambda_shift_ * x),
-          (Slope(shift_particular_, x) + shift_sinh_ * lambda_shift_ * Cosh(lambda_shift_ * x)) /
-              delta_,
-          Real(1) / 2 + Value(shift_, x), Slope(shift_, x) / delta_};
+RestToRestClosedForm::RestToRestClosedForm(Real theta, Real shift, Real bump_ramp)
+    : sigma1_((1 - shift) / 2), delta_(shift / 2) {
+  // −B on its pieces, from rest at 0, and (15x − 10x³ + 3x⁵)/16, the shift less its centre ½.
+  if (bump_ramp == 0) {
+    bump_ = {Begun(theta, 0, sigma1_, {0, 0, 0, -64, 192, -192, 64}, {})};
+  } else {
+    const Real ramp = bump_ramp * sigma1_;
+    bump_ = {Begun(theta, 0, ramp, {0, 0, 0, -10, 15, -6}, {})};
+    bump_.push_back(Begun(theta, ramp, sigma1_ - 2 * ramp, {-1}, bump_.back().At(1)));
+    bump_.push_back(Begun(theta, sigma1_ - ramp, ramp, {-1, 0, 0, 10, -15, 6}, bump_.back().At(1)));
+  }
+  shift_ =
+      Begun(theta, Real(1) / 2, delta_, {0, Real(15) / 16, 0, -Real(10) / 16, 0, Real(3) / 16}, {});
+  shift_.cosh = shift_.sinh = 0;
+  const Real cosh = Cosh(shift_.lambda), sinh = Sinh(shift_.lambda);
+  // a·F = ½ + Q(−1) − G sinh λ,  a·F' = Q'(−1) + G λ cosh λ, slopes in σ.
+  const ComZmp F = bump_.back().At(1), Q = shift_.At(-1);
+  const Real middle = Real(1) / 2 + Q.c, cosh_rate = shift_.lambda * cosh / delta_;
+  const Real determinant = -F.c * cosh_rate - sinh * F.c_rate;
+  amplitude_ = (-middle * cosh_rate - sinh * Q.c_rate) / determinant;
+  shift_.sinh = (F.c * Q.c_rate - F.c_rate * middle) / determinant;
 }
 
 ComZmp RestToRestClosedForm::At(Real sigma) const {
@@ -92,7 +85,16 @@ ComZmp RestToRestClosedForm::At(Real sigma) const {
     const ComZmp mirrored = At(1 - sigma);
     return {1 - mirrored.c, mirrored.c_rate, 1 - mirrored.p, mirrored.p_rate};
   }
-  return sigma < sigma1_ ? OnBump(sigma) : OnShift(sigma);
+  if (sigma >= sigma1_) {
+    ComZmp at = shift_.At((sigma - shift_.center) / shift_.width);
+    at.c += Real(1) / 2;
+    at.p += Real(1) / 2;
+    return at;
+  }
+  size_t i = 0;
+  while (i + 1 < bump_.size() && sigma >= bump_[i + 1].center) ++i;
+  const ComZmp at = bump_[i].At((sigma - bump_[i].center) / bump_[i].width);
+  return {amplitude_ * at.c, amplitude_ * at.c_rate, amplitude_ * at.p, amplitude_ * at.p_rate};
 }
 
 }  // namespace halfstep::oracle

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "tests/oracle/real.h"
 
@@ -16,22 +17,29 @@ struct ComZmp {
 /// quadruple precision bears.
 class RestToRestClosedForm {
  public:
-  /// `theta` = ωT, `shift` = 2δ.
-  RestToRestClosedForm(Real theta, Real shift);
+  /// `theta` = ωT, `shift` = 2δ, `bump_ramp` = r of a flat-topped bump; 0: the round bump.
+  RestToRestClosedForm(Real theta, Real shift, Real bump_ramp);
   /// σ is clamped to [0, 1].
   ComZmp At(Real sigma) const;
 
  private:
   using Polynomial = std::array<Real, 7>;
-  // p + p''/λ² + p''''/λ⁴ + p''''''/λ⁶, which solves c − c''/λ² = p.
-  static Polynomial Particular(const Polynomial& p, Real lambda);
-  ComZmp OnBump(Real sigma) const;
-  ComZmp OnShift(Real sigma) const;
+  // A piece of σ, with x = (σ − center)/width.
+  struct Piece {
+    Real center = 0, width = 0, lambda = 0;
+    Polynomial zmp{}, particular{};
+    Real cosh = 0, sinh = 0;  // of the free motion
 
-  Real sigma1_, delta_, lambda_bump_, lambda_shift_;
-  Polynomial bump_{}, bump_particular_{}, shift_{}, shift_particular_{};
-  Real bump_cosh_ = 0, bump_sinh_ = 0;  // of the bump for amplitude 1
-  Real amplitude_ = 0, shift_sinh_ = 0;
+    ComZmp At(Real x) const;
+  };
+  // p + p''/λ² + p/λ⁴ + p''/λ⁶, which solves c − c''/λ² = p.
+  static Polynomial Particular(const Polynomial& p, Real lambda);
+  static Piece Begun(Real theta, Real center, Real width, const Polynomial& zmp, const ComZmp& at);
+
+  Real sigma1_, delta_;
+  std::vector<Piece> bump_;  // for amplitude 1
+  Piece shift_;
+  Real amplitude_ = 0;
 };
 
 }  // namespace halfstep::oracle

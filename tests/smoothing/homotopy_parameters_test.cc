@@ -20,25 +20,27 @@ HalfStepSequence ThreeSteps() {
                                      {.side = Side::kRight, .X_WF = {0.2, -0.105, 0}}};
   footsteps[1].duration = 1.0;
   footsteps[2].duration = 3.0;
-  return MakeSequence(StandingFeet(), footsteps, 0.24, {.shift = 0.1}, {});
+  return MakeSequence(StandingFeet(), footsteps, 0.24, {.shift = 0.1, .support_offset = 0.02}, {});
 }
 
-TEST(HomotopyParameters, PlannedMotionHasNoOverlapFullHeightAndThePlannedDurations) {
+TEST(HomotopyParameters, PlannedMotionHasNoOverlapFullHeightAndTheRestAsPlanned) {
   const HomotopyParameters planned = PlannedMotion(ThreeSteps());
   EXPECT_EQ(planned.overlaps, std::vector<double>(5, 0.0));
   EXPECT_EQ(planned.height_scales, std::vector<double>(3, 1.0));
   EXPECT_EQ(planned.durations, (std::vector<double>{2, 2, 1, 1, 3, 3}));
+  EXPECT_EQ(planned.support_points, std::vector<double>(3, 0.02));
 }
 
 TEST(HomotopyParameters, EachParameterIsNamedOnceAndReachesItsOwnValue) {
   const HalfStepSequence sequence = ThreeSteps();
   const std::vector<HomotopyParameter> all = AllParameters(sequence);
-  ASSERT_EQ(all.size(), 5u + 3u + 6u);
+  ASSERT_EQ(all.size(), 5u + 3u + 6u + 3u);
   HomotopyParameters parameters = PlannedMotion(sequence);
   for (size_t i = 0; i < all.size(); ++i) all[i].in(parameters) = static_cast<double>(i);
   EXPECT_EQ(parameters.overlaps, (std::vector<double>{0, 1, 2, 3, 4}));
   EXPECT_EQ(parameters.height_scales, (std::vector<double>{5, 6, 7}));
   EXPECT_EQ(parameters.durations, (std::vector<double>{8, 9, 10, 11, 12, 13}));
+  EXPECT_EQ(parameters.support_points, (std::vector<double>{14, 15, 16}));
   const HomotopyParameter beyond{Family::kHeightScale, 3};
   EXPECT_THROW(beyond.in(parameters), std::out_of_range);
 }
@@ -84,6 +86,9 @@ TEST(CheckParameters, RefusesEachSingleFault) {
       [](auto* p) { p->height_scales[1] = -0.1; },
       [=](auto* p) { p->height_scales[1] = nan; },
       [=](auto* p) { p->height_scales[1] = infinity; },
+      [](auto* p) { p->support_points.pop_back(); },
+      [](auto* p) { p->support_points[2] = -1.1; },
+      [=](auto* p) { p->support_points[2] = nan; },
       [](auto* p) { p->durations[3] = 0; },
       [](auto* p) { p->durations[3] = -1; },
       [=](auto* p) { p->durations[3] = nan; },

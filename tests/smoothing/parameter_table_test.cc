@@ -29,7 +29,7 @@ class ParameterTableTest : public testing::Test {
 
 TEST_F(ParameterTableTest, HoldsEveryParameterOnceAndStartsAsPlanned) {
   const ParameterTable table(sequence_);
-  ASSERT_EQ(table.rows().size(), 5u + 3u + 6u);
+  ASSERT_EQ(table.rows().size(), 5u + 3u + 6u + 3u);
   EXPECT_EQ(table.Start(), planned_);
   for (size_t row = 0; row < table.rows().size(); ++row) {
     const HomotopyParameter& parameter = table.rows()[row].parameter;
@@ -46,10 +46,11 @@ TEST_F(ParameterTableTest, WhatACallerFixesKeepsItsValueAndIsNoVariable) {
   const ParameterTable table(sequence_,
                              {{{Family::kOverlap, 1}, overlap},
                               {{Family::kDuration, 4}},
-                              {{Family::kHeightScale, 2}, 0.4}},
-                             {.heights = true, .durations = true});
+                              {{Family::kHeightScale, 2}, 0.4},
+                              {{Family::kSupportPoint, 0}, 0.01}},
+                             {.heights = true, .durations = true, .support_points = true});
   const OverlapVariables variables(sequence_, table);
-  EXPECT_EQ(variables.size(), 5 + 3 + 6 - 3);
+  EXPECT_EQ(variables.size(), 5 + 3 + 6 + 3 - 4);
   EXPECT_EQ(variables.IndexOf({Family::kOverlap, 1}), -1);
   WalkDraw draw(81);
   for (int i = 0; i < 100; ++i) {
@@ -61,7 +62,26 @@ TEST_F(ParameterTableTest, WhatACallerFixesKeepsItsValueAndIsNoVariable) {
     EXPECT_EQ(parameters.overlaps[1], overlap);
     EXPECT_EQ(parameters.durations[4], planned_.durations[4]);
     EXPECT_EQ(parameters.height_scales[2], 0.4);
+    EXPECT_EQ(parameters.support_points[0], 0.01);
     EXPECT_NO_THROW(CheckParameters(sequence_, parameters));  // also the fixed overlap still fits
+  }
+}
+
+TEST_F(ParameterTableTest, TheRangeOfSupportPointsHoldsThePlannedOne) {
+  for (const auto& [planned, lower, upper] :
+       {std::array{-0.04, -0.04, 0.03}, {0.02, 0.01, 0.03}, {0.07, 0.01, 0.07}}) {
+    HalfStepSequence sequence = sequence_;
+    for (PlacedHalfStep& placed : sequence.half_steps) {
+      placed.half_step.shape.support_offset = planned;
+    }
+    const ParameterTable table(
+        sequence, {},
+        {.support_points = true, .least_support_point = 0.01, .most_support_point = 0.03});
+    const ParameterRow& row = table.row({Family::kSupportPoint, 1});
+    EXPECT_FALSE(row.fixed);
+    EXPECT_EQ(row.start, planned);
+    EXPECT_EQ(row.lower, lower);
+    EXPECT_EQ(row.upper, upper);
   }
 }
 
@@ -91,9 +111,11 @@ TEST_F(ParameterTableTest, NoMethodMovesWhatIsFixed) {
     return *std::max_element(p.overlaps.begin(), p.overlaps.end()) <= 0.25 ? Verdict::kFeasible
                                                                            : Verdict::kViolated;
   });
-  const WalkProblem problem = ProblemOf(
-      sequence_, test,
-      {{{Family::kOverlap, 2}, 0.1}, {{Family::kDuration, 0}}, {{Family::kHeightScale, 1}, 0.5}});
+  const WalkProblem problem = ProblemOf(sequence_, test,
+                                        {{{Family::kOverlap, 2}, 0.1},
+                                         {{Family::kDuration, 0}},
+                                         {{Family::kHeightScale, 1}, 0.5},
+                                         {{Family::kSupportPoint, 2}, 0.03}});
   const ParameterChoice all{.heights = true, .durations = true};
   ReferenceOptions reference{.parameters = all};
   reference.period = 0.1;
@@ -107,6 +129,8 @@ TEST_F(ParameterTableTest, NoMethodMovesWhatIsFixed) {
     EXPECT_EQ(result.parameters.overlaps[2], 0.1);
     EXPECT_EQ(result.parameters.durations[0], planned_.durations[0]);
     EXPECT_EQ(result.parameters.height_scales[1], 0.5);
+    EXPECT_EQ(result.parameters.support_points[1], planned_.support_points[1]);
+    EXPECT_EQ(result.parameters.support_points[2], 0.03);
     EXPECT_TRUE(result.junctions[2].fixed);
     EXPECT_FALSE(result.junctions[1].fixed);
   }

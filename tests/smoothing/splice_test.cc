@@ -175,6 +175,10 @@ TEST(Successor, EqualWalksAgreeForEver) {
   WalkPlan higher = plan;
   higher.parameters.height_scales.back() *= 0.5;
   EXPECT_EQ(CommonHalfSteps(plan.Walk(), higher.Walk()), 4);
+  // Nor one whose support point differs.
+  WalkPlan aside = plan;
+  aside.parameters.support_points[1] += 0.01;
+  EXPECT_EQ(CommonHalfSteps(plan.Walk(), aside.Walk()), 2);
 }
 
 TEST(Successor, WhatHasBegunIsFixed) {
@@ -183,12 +187,12 @@ TEST(Successor, WhatHasBegunIsFixed) {
   const WalkPlan plan{sequence, draw.Parameters(sequence, 0.0, 0.9)};
   for (int last = 0; last < sequence.size(); ++last) {
     const ParameterTable table(sequence, FixedByBeginning(plan, last),
-                               {.heights = true, .durations = true});
+                               {.heights = true, .durations = true, .support_points = true});
     for (const ParameterRow& row : table.rows()) {
       const int i = row.parameter.index;
-      const bool begun = row.parameter.family == ParameterFamily::kOverlap       ? i < last
-                         : row.parameter.family == ParameterFamily::kHeightScale ? 2 * i <= last
-                                                                                 : i <= last;
+      const bool begun = row.parameter.family == ParameterFamily::kOverlap    ? i < last
+                         : row.parameter.family == ParameterFamily::kDuration ? i <= last
+                                                                              : 2 * i <= last;
       EXPECT_EQ(row.fixed, begun) << last << " " << i;
       if (begun) {
         EXPECT_EQ(row.start, row.parameter.in(plan.parameters));

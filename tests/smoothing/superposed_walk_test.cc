@@ -195,6 +195,7 @@ TEST(SuperposedWalk, IsTheSumOverAllHalfSteps) {
         auto [h, X_WS] = sequence.half_steps[static_cast<size_t>(k)];
         h.duration = parameters.durations[static_cast<size_t>(k)];
         h.via_height *= parameters.height_scales[static_cast<size_t>(k / 2)];
+        h.shape.support_offset = parameters.support_points[static_cast<size_t>(k / 2)];
         const HalfStepProfiles profiles(h.kind, h.shape, h.duration, sequence.lipm);
         const WalkJet own = Evaluate(h, profiles, t - walk.start_of(k));
         const WalkState from = Transformed(X_WS, h.Start());

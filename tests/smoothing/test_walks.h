@@ -26,12 +26,13 @@ class WalkDraw : public SequenceDraw {
  public:
   using SequenceDraw::SequenceDraw;
 
-  /// Durations within 20 % of the planned ones, heights from a tenth to all, and overlaps between
-  /// `low` and `high` of their natural bounds.
+  /// Durations within 20 % of the planned ones, heights from a tenth to all, support points within
+  /// 3 cm of the planned ones, and overlaps between `low` and `high` of their natural bounds.
   HomotopyParameters Parameters(const HalfStepSequence& sequence, double low, double high) {
     HomotopyParameters parameters = PlannedMotion(sequence);
     for (double& T : parameters.durations) T *= Uniform(0.8, 1.2);
     for (double& eta : parameters.height_scales) eta = Uniform(0.1, 1.0);
+    for (double& offset : parameters.support_points) offset += Form(-0.03, 0.03);
     for (int i = 0; i < sequence.num_junctions(); ++i) {
       const double bound = NaturalOverlapBound(sequence, parameters.durations, i);
       parameters.overlaps[static_cast<size_t>(i)] = Uniform(low, high) * bound;
@@ -75,8 +76,8 @@ inline std::vector<double> Knots(const SuperposedWalk& walk) {
   std::vector<double> knots;
   for (int i = 0; i < walk.num_half_steps(); ++i) {
     const HalfStepProfiles& p = walk.profiles(i);
-    for (double tau :
-         {0.0, p.horizontal_begin(), p.horizontal_end(), p.t1(), p.t2(), p.duration()}) {
+    knots.push_back(walk.start_of(i));
+    for (const double tau : p.Knots()) {
       knots.push_back(walk.start_of(i) + tau);
     }
   }

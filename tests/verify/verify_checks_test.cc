@@ -369,6 +369,20 @@ std::vector<Wrong> Others() {
       {"HeightsOfAStepDifferInHalfSteps", Of::kOverlaps,
        [](Material& m) { m.half_steps[1].height_scale = 0.9; },
        "half_steps.csv:3: another height scale"},
+      {"SupportPointsOfAStepDiffer", Of::kOverlaps,
+       [](Material& m) { m.half_steps[1].support_point += 1e-6; },
+       "half_steps.csv:3: another support point"},
+      {"SupportPointNotANumber", Of::kOverlaps,
+       [](Material& m) { m.half_steps[0].support_point = NAN; },
+       "half_steps.csv:2: a number is not finite"},
+      {"RawHalfStepRestsElsewhere", Of::kOverlaps,
+       [](Material& m) {
+         m.overlaps.reset();
+         m.half_steps[0].duration = m.planned.half_steps[0].half_step.duration;
+         m.half_steps[0].height_scale = 1;
+         m.half_steps[0].support_point = 0.01;
+       },
+       "half_steps.csv:2: support point"},
       {"OverlapNegative", Of::kOverlaps, [](Material& m) { (*m.overlaps)[0].overlap = -3601; },
        "overlaps.csv:2: overlap"},
       {"OverlapOfAnotherKind", Of::kOverlaps,

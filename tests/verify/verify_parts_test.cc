@@ -40,7 +40,8 @@ std::vector<HalfStepRow> RowsOf(const SuperposedWalk& walk) {
     const auto n = static_cast<size_t>(i);
     rows.push_back({i % 2 == 0 ? "up" : "down", std::string(Name(walk.half_step(i).support)),
                     walk.start_of(i), walk.parameters().durations[n],
-                    walk.parameters().height_scales[n / 2]});
+                    walk.parameters().height_scales[n / 2],
+                    walk.parameters().support_points[n / 2]});
   }
   return rows;
 }
@@ -53,12 +54,14 @@ std::vector<OverlapRow> OverlapsOf(const HomotopyParameters& at) {
   return rows;
 }
 
-// Durations, heights and overlaps are drawn; `fullness` of the natural bounds at most.
+// Durations, heights, support points and overlaps are drawn; `fullness` of the natural bounds at
+// most.
 HomotopyParameters Drawn(const HalfStepSequence& sequence, double fullness, std::mt19937* random) {
   std::uniform_real_distribution<double> unit(0, 1);
   HomotopyParameters at = PlannedMotion(sequence);
   for (double& duration : at.durations) duration *= 0.8 + 0.4 * unit(*random);
   for (double& scale : at.height_scales) scale = 0.5 + unit(*random);
+  for (double& offset : at.support_points) offset = 0.05 * unit(*random);
   for (size_t i = 0; i < at.overlaps.size(); ++i) {
     at.overlaps[i] =
         fullness * unit(*random) * NaturalOverlapBound(sequence, at.durations, static_cast<int>(i));
@@ -174,7 +177,8 @@ TEST(CheckFixed, NamesEveryParameterThatMoved) {
   };
   EXPECT_THAT(reasons({{"overlap", 2, at.overlaps[1]},
                        {"duration", 3, at.durations[2]},
-                       {"height_scale", 2, at.height_scales[1]}}),
+                       {"height_scale", 2, at.height_scales[1]},
+                       {"support_point", 2, at.support_points[1]}}),
               testing::IsEmpty());
   EXPECT_THAT(reasons({{"overlap", 2, at.overlaps[1] + 1e-6}}),
               testing::ElementsAre(HasSubstr("overlap 2 is")));
@@ -182,10 +186,15 @@ TEST(CheckFixed, NamesEveryParameterThatMoved) {
               testing::ElementsAre(HasSubstr("duration 3 is")));
   EXPECT_THAT(reasons({{"height_scale", 2, at.height_scales[1] + 1e-6}}),
               testing::ElementsAre(HasSubstr("height_scale 2 is")));
+  EXPECT_THAT(reasons({{"support_point", 2, at.support_points[1] + 1e-6}}),
+              testing::ElementsAre(HasSubstr("support_point 2 is")));
   const std::string planned = Formatted("fixed at %.9g", sequence.half_steps[2].half_step.duration);
-  EXPECT_THAT(
-      reasons({{"overlap", 2, {}}, {"duration", 3, {}}, {"height_scale", 2, {}}}),
-      testing::ElementsAre(HasSubstr("fixed at 0"), HasSubstr(planned), HasSubstr("fixed at 1")));
+  EXPECT_THAT(reasons({{"overlap", 2, {}},
+                       {"duration", 3, {}},
+                       {"height_scale", 2, {}},
+                       {"support_point", 2, {}}}),
+              testing::ElementsAre(HasSubstr("fixed at 0"), HasSubstr(planned),
+                                   HasSubstr("fixed at 1"), HasSubstr("fixed at 0")));
   EXPECT_THAT(reasons({{"via_point", 1, {}}, {"overlap", 400, {}}}),
               testing::ElementsAre(HasSubstr("via_point 1 is not known"),
                                    HasSubstr("overlap 400 is not known")));

@@ -21,7 +21,16 @@ class HalfStepTest : public testing::Test {
     return std::uniform_real_distribution<double>(lower, upper)(random_);
   }
   HalfStepShape Shape() {
-    return {.shift = Uniform(0.03, 0.4), .horizontal_delay = Uniform(0.0, 0.2)};
+    return {.shift = Uniform(0.03, 0.4),
+            .horizontal_delay = Uniform(0.0, 0.2),
+            .bump_ramp = Bump(),
+            .foot_ramp = Uniform(0, 1) < 0.5 ? 0.5 : Uniform(0.1, 0.5),
+            .lift_share = Uniform(0, 1) < 0.5 ? 1.0 : Uniform(0.2, 1.0),
+            .support_offset = Uniform(-0.03, 0.06)};
+  }
+  std::optional<double> Bump() {
+    if (Uniform(0, 1) < 0.5) return std::nullopt;
+    return Uniform(0.1, 0.5);
   }
   HalfStep Random() {
     HalfStep half_step;
@@ -76,8 +85,9 @@ TEST_F(HalfStepTest, DerivativesInTimeAndDuration) {
     const HalfStepProfiles profiles = Profiles(h, lipm);
     const double tau = Uniform(0, h.duration);
     bool near_knot = false;
-    for (double knot : {0.0, h.duration, profiles.t1(), profiles.t2(), profiles.horizontal_begin(),
-                        profiles.horizontal_end()}) {
+    std::vector<double> knots = profiles.Knots();
+    knots.push_back(0.0);
+    for (double knot : knots) {
       near_knot = near_knot || std::abs(knot - tau) < 5e-4;
     }
     if (near_knot) continue;
@@ -154,6 +164,23 @@ TEST_F(HalfStepTest, GoesFromMidFeetToAboveTheSupportSoleAndBack) {
   h.kind = HalfStepKind::kDown;
   EXPECT_EQ(h.Start(), via);
   EXPECT_EQ(h.End(), floor);
+}
+
+TEST_F(HalfStepTest, RestsOnTheSupportPointOnTheSideOfTheSwingFoot) {
+  HalfStep h;
+  h.support = Side::kLeft;
+  h.X_SF = {0.1, -0.2, 0.4};
+  h.shape.support_offset = 0.03;
+  const WalkState centre = [&] {
+    HalfStep plain = h;
+    plain.shape.support_offset = 0.0;
+    return plain.AtVia();
+  }();
+  WalkState moved = WalkState::Zero();
+  moved[kComY] = moved[kZmpY] = -0.03;
+  EXPECT_EQ(h.AtVia(), centre + moved);
+  EXPECT_EQ(h.Mirrored().AtVia(), Mirrored(h.AtVia()));
+  EXPECT_EQ(h.Mirrored().AtVia()[kComY], 0.03);
 }
 
 TEST_F(HalfStepTest, TheFootIsInTheAirOnlyWhileTheZmpRestsOnTheSupportSide) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <random>
 
 #include "wpg/motion/half_step.h"
@@ -52,11 +53,62 @@ TEST(ProfileBounds, SmoothstepSecondOfOneInstant) {
   }
 }
 
+TEST(ProfileBounds, RampedStepIsASmoothstepAtHalfAndItsBoundsAreExact) {
+  std::mt19937 random(7);
+  for (int i = 0; i < 2000; ++i) {
+    const Window window(random);
+    const double begin = Uniform(random, -0.1, 0.8);
+    const RampedStep step{begin, begin + Uniform(random, 0.05, 1.0), Uniform(random, 0.1, 0.5)};
+    const double width = step.end - step.begin;
+    const double scale = 6.0 / (width * width * step.ramp);
+    const double sup = window.Sup([&](double x) { return step.At(x).ss; });
+    const double bound = step.SecondBound(window.from, window.to);
+    ASSERT_LE(sup, bound + 1e-13 * scale) << window.from << " " << window.to;
+    ASSERT_LE(bound, sup + 0.02 * scale);
+    const Range third = step.ThirdRange(window.from, window.to);
+    const double sharp = 60.0 / (width * width * width * step.ramp * step.ramp);
+    double low = 1e300, high = -1e300;
+    for (int k = 0; k <= 400; ++k) {
+      const double x = step.At(window.from + (window.to - window.from) * k / 400).sss;
+      low = std::min(low, x);
+      high = std::max(high, x);
+    }
+    ASSERT_GE(low, third.center - third.radius - 1e-12 * sharp);
+    ASSERT_LE(high, third.center + third.radius + 1e-12 * sharp);
+    const Smoothstep plain{step.begin, step.end};
+    const double x = Uniform(random, -0.2, 2.0);
+    ASSERT_EQ((RampedStep{step.begin, step.end}.At(x).ss), plain.At(x).ss);
+  }
+}
+
+TEST(ProfileBounds, RampedStepGoesSteadilyInTheMiddleAndJoinsItsPieces) {
+  for (const double ramp : {0.1, 0.3, 0.49}) {
+    const RampedStep step{0.2, 0.9, ramp};
+    const double speed = 15.0 / (15.0 - 14.0 * ramp) / 0.7;
+    for (const double x : {step.steady_begin() + 1e-9, 0.55, step.steady_end() - 1e-9}) {
+      EXPECT_NEAR(step.At(x).s, speed, 1e-12) << ramp;
+      EXPECT_NEAR(step.At(x).ss, 0.0, 1e-12);
+    }
+    for (const double seam : {0.2, step.steady_begin(), step.steady_end(), 0.9}) {
+      const UnitJet before = step.At(seam - 1e-9), after = step.At(seam + 1e-9);
+      EXPECT_NEAR(before.value, after.value, 1e-8);
+      EXPECT_NEAR(before.s, after.s, 1e-5);
+      EXPECT_NEAR(before.ss, after.ss, 1e-4);
+    }
+    for (double x = 0.0; x < 1.1; x += 0.01) {
+      EXPECT_NEAR(step.At(x).value + step.At(1.1 - x).value, 1.0, 1e-14);  // antisymmetric
+      const double h = 1e-6, slope = (step.At(x + h).value - step.At(x - h).value) / (2 * h);
+      EXPECT_NEAR(step.At(x).s, slope, 1e-8);
+    }
+  }
+}
+
 TEST(ProfileBounds, RestToRestSecondsHoldAndTheShiftIsExact) {
   std::mt19937 random(2);
   for (int i = 0; i < 1000; ++i) {
     const RestToRest profile(std::exp(Uniform(random, std::log(0.5), std::log(60.0))),
-                             Uniform(random, 0.01, 0.5));
+                             Uniform(random, 0.01, 0.5),
+                             i % 2 == 0 ? std::nullopt : std::optional(Uniform(random, 0.1, 0.5)));
     // The CoM's bound takes the pre-bump to go backward.
     ASSERT_GT(profile.bump(), 0.0);
     const Window window(random);
@@ -73,7 +125,12 @@ TEST(ProfileBounds, HalfStepSecondsHoldInLocalTime) {
   for (int i = 0; i < 500; ++i) {
     const double shift = Uniform(random, 0.01, 0.5);
     const double longest = std::min(0.3, 0.9 * 0.5 * (1 - shift));
-    const HalfStepShape shape{.shift = shift, .horizontal_delay = Uniform(random, 0.0, longest)};
+    const HalfStepShape shape{
+        .shift = shift,
+        .horizontal_delay = Uniform(random, 0.0, longest),
+        .bump_ramp = i % 3 == 0 ? std::nullopt : std::optional(Uniform(random, 0.1, 0.5)),
+        .foot_ramp = Uniform(random, 0.1, 0.5),
+        .lift_share = Uniform(random, 0.2, 1.0)};
     const HalfStepKind kind = i % 2 == 0 ? HalfStepKind::kUp : HalfStepKind::kDown;
     const double duration = Uniform(random, 0.4, 4.0);
     const HalfStepProfiles profiles(kind, shape, duration, {});

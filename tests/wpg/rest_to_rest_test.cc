@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <random>
 #include <stdexcept>
 
@@ -25,17 +26,23 @@ class RestToRestTest : public testing::Test {
   // θ from 0.5 to 60 and shifts from 0.01 to 0.5, the ends more often than their share.
   double Theta() { return 0.5 * std::pow(120.0, Clamped()); }
   double Shift() { return 0.01 * std::pow(50.0, Clamped()); }
+  // Every other bump has a flat top.
+  std::optional<double> Ramp() {
+    flat_ = !flat_;
+    return flat_ ? std::optional(Uniform(0.1, 0.5)) : std::nullopt;
+  }
 
  private:
   double Clamped() { return std::clamp(Uniform(-0.1, 1.1), 0.0, 1.0); }
   std::mt19937 random_{3};
+  bool flat_ = false;
 };
 
 TEST_F(RestToRestTest, SatisfiesTheLipmEverywhere) {
   double worst = 0, worst_slope = 0;
   for (int i = 0; i < 300; ++i) {
     const double theta = Theta();
-    const RestToRest shift(theta, Shift());
+    const RestToRest shift(theta, Shift(), Ramp());
     for (int k = 0; k < 40; ++k) {
       const double sigma = Uniform(0, 1);
       const UnitJet c = shift.Com(sigma), p = shift.Zmp(sigma);
@@ -54,7 +61,7 @@ TEST_F(RestToRestTest, SatisfiesTheLipmEverywhere) {
 TEST_F(RestToRestTest, BeginsAndEndsAtRestAsALimit) {
   for (int i = 0; i < 300; ++i) {
     const double theta = Theta();
-    const RestToRest shift(theta, Shift());
+    const RestToRest shift(theta, Shift(), Ramp());
     const double scale = (1 + theta * theta) * (1 + shift.bump());
     for (const bool com : {true, false}) {
       const auto at = [&](double s) { return com ? shift.Com(s) : shift.Zmp(s); };
@@ -73,16 +80,18 @@ TEST_F(RestToRestTest, BeginsAndEndsAtRestAsALimit) {
 TEST_F(RestToRestTest, ValueAndTwoDerivativesAreContinuous) {
   for (int i = 0; i < 300; ++i) {
     const double theta = Theta(), width = Shift();
-    const RestToRest shift(theta, width);
-    const double r = 1 / width;
+    const std::optional<double> ramp = Ramp();
+    const RestToRest shift(theta, width, ramp);
+    const double r = 1 / width, first = 0.5 - 0.5 * width;
     // How much the jets change across 2e over the seam, at most: e times the next derivative.
     const double e = 1e-10;
     // Of the shift, 15/8, 10/√3 and 60; of the bump, at most 384 for each order.
-    const double b = 384 * shift.bump() / std::pow(0.5 - 0.5 * width, 3);
+    const double b = 384 * shift.bump() / std::pow(first * 2 * ramp.value_or(0.5), 3);
     const Eigen::Vector3d zmp_change(2 * r + b, 6 * r * r + b, 60 * r * r * r + b);
     const double s = theta * theta * (1 + shift.bump());
     const Eigen::Vector3d com_change(s, s, s * (10 * r + theta));
-    for (double seam : {0.0, 0.5 - 0.5 * width, 0.5, 0.5 + 0.5 * width, 1.0}) {
+    const double rise = first * ramp.value_or(0.5);
+    for (double seam : {0.0, rise, first - rise, first, 0.5, 1 - first, 1 - rise, 1.0}) {
       const Eigen::Vector3d zmp = Jet(shift.Zmp(seam + e)) - Jet(shift.Zmp(seam - e));
       const Eigen::Vector3d com = Jet(shift.Com(seam + e)) - Jet(shift.Com(seam - e));
       for (int d = 0; d < 3; ++d) {
@@ -121,20 +130,37 @@ TEST_F(RestToRestTest, BumpOfThreeDurations) {
   }
 }
 
+// A flat top pushes as much with less: the bump goes less far.
+TEST_F(RestToRestTest, AFlatTopIsConstantAndLowerThanARoundOne) {
+  const RestToRest round(5.0, 0.05), flat(5.0, 0.05, 0.2);
+  EXPECT_LT(flat.bump(), 0.75 * round.bump());
+  const double first = 0.475;
+  for (const double x : {0.2, 0.35, 0.5, 0.8}) {
+    EXPECT_NEAR(flat.Zmp(x * first).value, -flat.bump(), 1e-14);
+    EXPECT_NEAR(flat.Zmp(x * first).s, 0.0, 1e-12);
+  }
+  EXPECT_GT(flat.Zmp(0.19 * first).value, -flat.bump());
+}
+
 TEST_F(RestToRestTest, DerivativesInSigmaAndTheta) {
   for (int i = 0; i < 300; ++i) {
     // Beyond, the differences are worth less than the derivatives.
     const double theta = std::clamp(Theta(), 0.51, 30.0), width = Shift();
-    const RestToRest shift(theta, width);
+    const std::optional<double> ramp = Ramp();
+    const RestToRest shift(theta, width, ramp);
     const double x[] = {Uniform(0.01, 0.99), theta};
-    const double knot = std::abs(std::abs(x[0] - 0.5) - 0.5 * width);
+    const double from_end = 0.5 - std::abs(x[0] - 0.5), first = 0.5 - 0.5 * width;
     const double step = std::min(1e-3 * width, 1e-4);
-    if (knot < 3 * step) continue;
+    bool near_knot = false;
+    for (double knot : {first, first * ramp.value_or(1.0), first * (1 - ramp.value_or(1.0))}) {
+      near_knot = near_knot || std::abs(from_end - knot) < 3 * step;
+    }
+    if (near_knot) continue;
     for (const bool com : {true, false}) {
-      // Scaled by powers of the width, so that derivatives of all orders count alike.
-      const double w = width;
+      // Scaled by powers of the shortest piece, so that derivatives of all orders count alike.
+      const double w = std::min(width, first * ramp.value_or(1.0));
       const auto function = [&](const Eigen::VectorXd& y) -> Eigen::VectorXd {
-        const RestToRest moved(x[1] + y[1], width);
+        const RestToRest moved(x[1] + y[1], width, ramp);
         const UnitJet f = com ? moved.Com(x[0] + w * y[0]) : moved.Zmp(x[0] + w * y[0]);
         return Eigen::Vector3d(f.value, w * f.s, w * w * f.ss);
       };
@@ -156,6 +182,8 @@ TEST_F(RestToRestTest, RefusesWhatItCannotSum) {
   EXPECT_THROW(RestToRest(61, 0.1), std::logic_error);
   EXPECT_THROW(RestToRest(7, 0.009), std::logic_error);
   EXPECT_THROW(RestToRest(7, 0.6), std::logic_error);
+  EXPECT_THROW(RestToRest(7, 0.1, 0.09), std::logic_error);
+  EXPECT_THROW(RestToRest(7, 0.1, 0.51), std::logic_error);
   EXPECT_THROW(RestToRest(std::numeric_limits<double>::quiet_NaN(), 0.1), std::logic_error);
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <random>
 #include <vector>
 
@@ -18,7 +19,7 @@ inline std::array<Footprint, 2> StandingFeet() { return {Pose2{0, 0.105, 0}, Pos
 /// Random sequences of half-steps, reproducible from the seed.
 class SequenceDraw {
  public:
-  explicit SequenceDraw(unsigned seed) : random_(seed) {}
+  explicit SequenceDraw(unsigned seed) : random_(seed), forms_(seed) {}
 
   double Uniform(double lower, double upper) {
     return std::uniform_real_distribution<double>(lower, upper)(random_);
@@ -47,13 +48,26 @@ class SequenceDraw {
 
   /// Lets the shape, the LIPM and the place of the start vary too.
   HalfStepSequence Sequence(int steps) {
-    const HalfStepShape shape{.shift = Uniform(0.03, 0.4), .horizontal_delay = Uniform(0.0, 0.2)};
+    const double shift = Uniform(0.03, 0.4), delay = Uniform(0.0, 0.2);
+    const HalfStepShape shape{
+        .shift = shift,
+        .horizontal_delay = delay,
+        .bump_ramp = Form(0, 1) < 0.5 ? std::nullopt : std::optional(Form(0.1, 0.5)),
+        .foot_ramp = Form(0, 1) < 0.5 ? 0.5 : Form(0.1, 0.5),
+        .lift_share = Form(0, 1) < 0.5 ? 1.0 : Form(0.3, 1.0),
+        .support_offset = Form(-0.03, 0.06)};
     const Lipm lipm{.com_height = Uniform(0.6, 1.0)};
     return Moved(Pose(2.0, 3.0), MakeSequence(StandingFeet(), Footsteps(steps), 0.24, shape, lipm));
   }
 
+  /// What half-steps are like besides; drawn apart, so that a new number of theirs leaves all
+  /// others as they are.
+  double Form(double lower, double upper) {
+    return std::uniform_real_distribution<double>(lower, upper)(forms_);
+  }
+
  private:
-  std::mt19937 random_;
+  std::mt19937 random_, forms_;
 };
 
 }  // namespace halfstep

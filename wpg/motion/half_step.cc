@@ -10,13 +10,17 @@ void SetFoot(Side side, const Footprint& X_SF, double z, WalkState* x) {
 }
 
 // Horizontal motion of the foot: inside its flight by `horizontal_delay` at the floor's end.
-Smoothstep FootWindow(HalfStepKind kind, const HalfStepShape& shape) {
-  return kind == HalfStepKind::kUp ? Smoothstep{shape.t2() + shape.horizontal_delay, 1.0}
-                                   : Smoothstep{0.0, shape.t1() - shape.horizontal_delay};
+RampedStep FootWindow(HalfStepKind kind, const HalfStepShape& shape) {
+  return kind == HalfStepKind::kUp
+             ? RampedStep{shape.t2() + shape.horizontal_delay, 1.0, shape.foot_ramp}
+             : RampedStep{0.0, shape.t1() - shape.horizontal_delay, shape.foot_ramp};
 }
 
-Smoothstep FlightWindow(HalfStepKind kind, const HalfStepShape& shape) {
-  return kind == HalfStepKind::kUp ? Smoothstep{shape.t2(), 1.0} : Smoothstep{0.0, shape.t1()};
+// Its motion up or down: the part of the flight next to the floor.
+Smoothstep LiftWindow(HalfStepKind kind, const HalfStepShape& shape) {
+  return kind == HalfStepKind::kUp
+             ? Smoothstep{shape.t2(), shape.t2() + shape.lift_share * (1.0 - shape.t2())}
+             : Smoothstep{shape.t1() - shape.lift_share * shape.t1(), shape.t1()};
 }
 
 }  // namespace
@@ -31,6 +35,7 @@ WalkState HalfStep::OnFloor() const {
 
 WalkState HalfStep::AtVia() const {
   WalkState x = WalkState::Zero();
+  x.segment<2>(kComX) = x.segment<2>(kZmpX) = support_point();
   SetFoot(swing(), via(), via_height, &x);
   return x;
 }
@@ -66,12 +71,36 @@ HalfStepProfiles::HalfStepProfiles(HalfStepKind kind, const HalfStepShape& shape
       duration_(duration),
       omega_(lipm.omega()),
       foot_(FootWindow(kind, shape)),
-      height_(FlightWindow(kind, shape)),
-      shift_(omega_ * duration, shape.shift) {
+      height_(LiftWindow(kind, shape)),
+      shift_(omega_ * duration, shape.shift, shape.bump_ramp) {
   // Of the flight, t1 long, a tenth at least must be left to move in.
   HALFSTEP_CHECK(shape.horizontal_delay >= 0.0 && shape.horizontal_delay <= 0.3 &&
                      shape.horizontal_delay <= 0.9 * shape.t1(),
                  "horizontal_delay = " << shape.horizontal_delay << ", t1 = " << shape.t1());
+  HALFSTEP_CHECK(shape.foot_ramp >= 0.1 && shape.foot_ramp <= 0.5,
+                 "foot_ramp = " << shape.foot_ramp);
+  HALFSTEP_CHECK(shape.lift_share >= 0.2 && shape.lift_share <= 1.0,
+                 "lift_share = " << shape.lift_share);
+}
+
+std::vector<double> HalfStepProfiles::Knots() const {
+  std::vector<double> knots = {t1(),
+                               t2(),
+                               horizontal_begin(),
+                               horizontal_end(),
+                               foot_.steady_begin() * duration_,
+                               foot_.steady_end() * duration_,
+                               lift_begin(),
+                               lift_end(),
+                               0.5 * duration_,
+                               duration_};
+  if (const auto ramp = shape_.bump_ramp) {
+    for (const double sigma : {*ramp * shape_.t1(), (1.0 - *ramp) * shape_.t1()}) {
+      knots.push_back(sigma * duration_);
+      knots.push_back((1.0 - sigma) * duration_);
+    }
+  }
+  return knots;
 }
 
 HalfStepJet HalfStepProfiles::At(double tau) const {

@@ -1,9 +1,13 @@
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "wpg/geometry/footprint.h"
 #include "wpg/geometry/side.h"
 #include "wpg/motion/lipm.h"
 #include "wpg/motion/profile_jet.h"
+#include "wpg/motion/ramped_step.h"
 #include "wpg/motion/rest_to_rest.h"
 #include "wpg/motion/smoothstep.h"
 #include "wpg/motion/walk_state.h"
@@ -12,12 +16,24 @@ namespace halfstep {
 
 enum class HalfStepKind { kUp, kDown };
 
-/// Times of a half-step as fractions of its duration T, so that they scale with T.
+/// How a half-step moves. Times are fractions of its duration T, so that they scale with T.
 struct HalfStepShape {
   double shift = 0.05;  ///< (t2 − t1)/T: the ZMP shifts on [t1, t2], centred at T/2. ∈ [0.01, 0.5]
   /// The swing foot's horizontal motion begins this fraction of T after take-off and ends this
   /// fraction before landing. ∈ [0, 0.3], ≤ 0.9·t1
   double horizontal_delay = 0.1;
+  /// The ZMP's bump rises, and falls, for this fraction of its length and is constant in between
+  /// (RestToRest); none: it is round. ∈ [0.1, 0.5]
+  std::optional<double> bump_ramp = std::nullopt;
+  /// The swing foot's horizontal speed rises, and falls, for this fraction of its motion, and is
+  /// constant in between; ½: never constant. ∈ [0.1, 0.5]
+  double foot_ramp = 0.5;
+  /// The swing foot rises in this fraction of its flight after take-off, and sinks in the same
+  /// fraction before landing. ∈ [0.2, 1]
+  double lift_share = 1.0;
+  /// Where CoM and ZMP rest while the swing foot is at the via point: so far from the support
+  /// sole's centre, along its y, towards the swing foot [m]. Below 0: away from it.
+  double support_offset = 0.0;
 
   double t1() const { return 0.5 - 0.5 * shift; }  ///< of T
   double t2() const { return 0.5 + 0.5 * shift; }  ///< of T
@@ -28,8 +44,8 @@ struct HalfStepShape {
 ///
 ///   z │            ╭──● via point (0, ±via_lateral, via_height)
 ///     │          ╭─╯        Up:   the swing foot goes from X_SF to the via point, the CoM and the
-///     │        ╭─╯                ZMP from mid-feet to the support sole's centre, the waist's yaw
-///     │        │                  from the mean of the feet's yaws to the support's.
+///     │        ╭─╯                ZMP from mid-feet to the support point, the waist's yaw from
+///     │        │                  the mean of the feet's yaws to the support's.
 ///   ──┴────────┴──────▶ x   Down: the time reverse, towards a new X_SF.
 ///            X_SF
 ///
@@ -48,6 +64,8 @@ struct HalfStep {
   Side swing() const { return Opposite(support); }
   /// The pose X_SV of the via point seen from above: there the swing foot is between up and down.
   Pose2 via() const { return {0.0, Sign(swing()) * via_lateral, 0.0}; }
+  /// The support point, in S: CoM and ZMP are there while the swing foot is at the via point.
+  Eigen::Vector2d support_point() const { return {0.0, Sign(swing()) * shape.support_offset}; }
   /// The states at rest, in S: with both feet on the floor, and at the via point.
   WalkState OnFloor() const;
   WalkState AtVia() const;
@@ -93,13 +111,19 @@ class HalfStepProfiles {
   /// The swing foot moves horizontally between these local times [s].
   double horizontal_begin() const { return foot_.begin * duration_; }
   double horizontal_end() const { return foot_.end * duration_; }
+  /// The swing foot rises (up) or sinks (down) between these local times [s].
+  double lift_begin() const { return height_.begin * duration_; }
+  double lift_end() const { return height_.end * duration_; }
+  /// Local times at which a profile changes its formula, 0 left out, in no order [s].
+  std::vector<double> Knots() const;
   double bump() const { return shift_.bump(); }  ///< of the ZMP (RestToRest::bump).
 
  private:
   HalfStepShape shape_;
   double duration_;
   double omega_;
-  Smoothstep foot_, height_;
+  RampedStep foot_;
+  Smoothstep height_;
   RestToRest shift_;
 };
 

@@ -16,14 +16,18 @@ using Series = std::vector<Dual>;
 
 // −B(y) = −64y³(1 − y)³ in powers of y = σ/σ₁.
 constexpr std::array<double, 7> kPreBump = {0, 0, 0, -64, 192, -192, 64};
+// Those of a flat top: −S(x), −1 and −(1 − S(x)) on their pieces.
+constexpr std::array<double, 6> kPreBumpRise = {0, 0, 0, -10, 15, -6};
+constexpr std::array<double, 1> kPreBumpTop = {-1};
+constexpr std::array<double, 6> kPreBumpFall = {-1, 0, 0, 10, -15, 6};
 // ½ + (15x − 10x³ + 3x⁵)/16 in powers of x = (σ − ½)/δ.
 constexpr std::array<double, 6> kShift = {0.5, 15.0 / 16, 0, -10.0 / 16, 0, 3.0 / 16};
 
 // Power series of the solution of c_xx = λ²·(c − p): (k+2)(k+1)·c_{k+2} = λ²·(c_k − p_k), summed
 // until what is left out is below rounding on |x| ≤ 1.
 template <size_t n>
-Series Solve(const Dual& lambda, const std::array<double, n>& p, double c0, double c1) {
-  Series c = {Dual(c0), Dual(c1)};
+Series Solve(const Dual& lambda, const std::array<double, n>& p, const Dual& c0, const Dual& c1) {
+  Series c = {c0, c1};
   for (size_t k = 0;
        k < n || std::abs(c[k].value()) + std::abs(c[k + 1].value()) > 1e-22 * (1.0 + c[0].value());
        ++k) {
@@ -45,6 +49,28 @@ std::array<Dual, 2> Ends(const Series& c, double x) {
   return {value, slope};
 }
 
+// A piece of the pre-bump of amplitude 1, and the CoM's motion under it.
+struct UnitPiece {
+  double center, width;
+  Series com;
+  std::vector<double> zmp;
+};
+
+// Goes on from rest, or from where the last piece ends.
+template <size_t n>
+void AddPiece(const Dual& theta, double center, double width, const std::array<double, n>& zmp,
+              std::vector<UnitPiece>* pieces) {
+  Dual value(0.0), slope(0.0);
+  if (!pieces->empty()) {
+    const UnitPiece& before = pieces->back();
+    const auto [end, end_slope] = Ends(before.com, 1.0);
+    value = end;
+    slope = end_slope * (width / before.width);
+  }
+  pieces->push_back({center, width, Solve(Dual(theta * width), zmp, value, slope),
+                     std::vector<double>(zmp.begin(), zmp.end())});
+}
+
 // F(σ) = 1 − F(1 − σ).
 UnitJet Reflected(const UnitJet& f) {
   return {.value = 1.0 - f.value,
@@ -58,41 +84,63 @@ UnitJet Reflected(const UnitJet& f) {
 
 }  // namespace
 
-RestToRest::RestToRest(double theta, double shift_fraction)
+RestToRest::RestToRest(double theta, double shift_fraction, std::optional<double> bump_ramp)
     : theta_(theta), first_(0.5 - 0.5 * shift_fraction) {
   HALFSTEP_CHECK(theta >= 0.5 && theta <= 60.0, "theta = " << theta);
   HALFSTEP_CHECK(shift_fraction >= 0.01 && shift_fraction <= 0.5,
                  "shift_fraction = " << shift_fraction);
+  HALFSTEP_CHECK(!bump_ramp || (*bump_ramp >= 0.1 && *bump_ramp <= 0.5),
+                 "bump_ramp = " << *bump_ramp);
   const double delta = 0.5 * shift_fraction;
   const Dual th(theta, 1, 0);
 
-  // From rest under the unit pre-bump; through (½, ½) with slope γ: c = forced + γ·free.
-  const Series first = Solve(Dual(th * first_), kPreBump, 0.0, 0.0);
-  const Series forced = Solve(Dual(th * delta), kShift, 0.5, 0.0);
-  const Series free = Solve(Dual(th * delta), std::array<double, 1>{0.0}, 0.0, 1.0);
+  // From rest under the unit pre-bump, piece by piece; through (½, ½) with slope γ: c = forced +
+  // γ·free.
+  std::vector<UnitPiece> bump;
+  const auto extend = [&](double center, double width, const auto& zmp) {
+    AddPiece(th, center, width, zmp, &bump);
+  };
+  if (bump_ramp) {
+    const double ramp = *bump_ramp * first_;
+    bump_second_ = 10.0 / (std::sqrt(3.0) * *bump_ramp * *bump_ramp);
+    extend(0.0, ramp, kPreBumpRise);
+    if (*bump_ramp < 0.5) extend(ramp, first_ - 2.0 * ramp, kPreBumpTop);
+    extend(first_ - ramp, ramp, kPreBumpFall);
+  } else {
+    bump_second_ = 24.0;
+    extend(0.0, first_, kPreBump);
+  }
+  const UnitPiece& last = bump.back();
+  const Series forced = Solve(Dual(th * delta), kShift, Dual(0.5), Dual(0.0));
+  const Series free = Solve(Dual(th * delta), std::array<double, 1>{0.0}, Dual(0.0), Dual(1.0));
 
   // Value and slope continuous at σ₁: a·F = P + γ·H,  a·F'/σ₁ = (P' + γ·H')/δ.
-  const auto [f, f_slope] = Ends(first, 1.0);
+  const auto [f, f_slope] = Ends(last.com, 1.0);
   const auto [p, p_slope] = Ends(forced, -1.0);
   const auto [h, h_slope] = Ends(free, -1.0);
-  const Dual s = f_slope * (delta / first_);
+  const Dual s = f_slope * (delta / last.width);
   const Dual determinant = f * h_slope - s * h;
   const Dual a = (p * h_slope - p_slope * h) / determinant;
   const Dual gamma = (s * p - f * p_slope) / determinant;
 
   const auto coefficient = [](const Dual& x) { return Coefficient{x.value(), x.derivatives()[0]}; };
   bump_ = coefficient(a);
-  com_ = {Piece{0.0, first_, {}}, Piece{0.5, delta, {}}};
-  zmp_ = com_;
-  for (const Dual& c : first) com_[0].coefficients.push_back(coefficient(a * c));
+  for (const UnitPiece& piece : bump) {
+    const double end = &piece == &last ? first_ : piece.center + piece.width;
+    com_.push_back({piece.center, piece.width, end, {}});
+    zmp_.push_back(com_.back());
+    for (const Dual& c : piece.com) com_.back().coefficients.push_back(coefficient(a * c));
+    for (double b : piece.zmp) zmp_.back().coefficients.push_back(coefficient(a * b));
+  }
+  com_.push_back({0.5, delta, 0.5, {}});
+  zmp_.push_back(com_.back());
   for (size_t k = 0; k < forced.size() || k < free.size(); ++k) {
     Dual c(0.0);
     if (k < forced.size()) c = c + forced[k];
     if (k < free.size()) c = c + gamma * free[k];
-    com_[1].coefficients.push_back(coefficient(c));
+    com_.back().coefficients.push_back(coefficient(c));
   }
-  for (double b : kPreBump) zmp_[0].coefficients.push_back(coefficient(a * b));
-  for (double c : kShift) zmp_[1].coefficients.push_back({c, 0.0});
+  for (double c : kShift) zmp_.back().coefficients.push_back({c, 0.0});
 }
 
 UnitJet RestToRest::Piece::At(double sigma) const {
@@ -117,25 +165,24 @@ UnitJet RestToRest::Piece::At(double sigma) const {
   return f;
 }
 
-UnitJet RestToRest::Com(double sigma) const {
+UnitJet RestToRest::At(const std::vector<Piece>& pieces, double sigma) {
   if (sigma <= 0.0) return {};
   if (sigma >= 1.0) return {.value = 1.0};
-  if (sigma > 0.5) return Reflected(Com(1.0 - sigma));
-  return com_[sigma < first_ ? 0 : 1].At(sigma);
+  if (sigma > 0.5) return Reflected(At(pieces, 1.0 - sigma));
+  size_t i = 0;
+  while (i + 1 < pieces.size() && sigma >= pieces[i].end) ++i;
+  return pieces[i].At(sigma);
 }
 
-UnitJet RestToRest::Zmp(double sigma) const {
-  if (sigma <= 0.0) return {};
-  if (sigma >= 1.0) return {.value = 1.0};
-  if (sigma > 0.5) return Reflected(Zmp(1.0 - sigma));
-  return zmp_[sigma < first_ ? 0 : 1].At(sigma);
-}
+UnitJet RestToRest::Com(double sigma) const { return At(com_, sigma); }
+
+UnitJet RestToRest::Zmp(double sigma) const { return At(zmp_, sigma); }
 
 double RestToRest::ZmpSecondBound(double from, double to) const {
   if (to <= 0.0 || from >= 1.0) return 0.0;
   const double on_shift = Smoothstep{first_, 1.0 - first_}.SecondBound(from, to);
   const bool touches_bump = from < first_ || to > 1.0 - first_;
-  return std::max(on_shift, touches_bump ? 24.0 * bump_.value / (first_ * first_) : 0.0);
+  return std::max(on_shift, touches_bump ? bump_second_ * bump_.value / (first_ * first_) : 0.0);
 }
 
 Range RestToRest::ComThirdRange(double from, double to) const {
