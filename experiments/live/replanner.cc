@@ -15,7 +15,8 @@ Replanner::Replanner(const RobotModel& robot, const LiveConfig& config, const Sw
     : robot_(robot),
       config_(config),
       volumes_(volumes),
-      alone_(robot, Scene{}, config.experiment) {}
+      alone_(robot, Scene{}, config.experiment),
+      isolated_(robot, config.experiment, volumes) {}
 
 std::shared_ptr<const PreparedWorld> Replanner::Prepare(const World& world) const {
   return std::make_shared<const PreparedWorld>(world, robot_, config_.experiment, volumes_);
@@ -49,7 +50,8 @@ PlanResult Replanner::Plan(const std::array<Footprint, 2>& stance,
 
 std::optional<Margin> Replanner::Prove(const Situation& s, const SuperposedWalk& walk, int last,
                                        const PreparedWorld& among, Proposal* proposal) const {
-  const Safety robot = alone_.OfRobot(walk, std::max(proposal->robot_through + 1, s.begun), last);
+  const Safety robot = alone_.OfRobot(walk, std::max(proposal->robot_through + 1, s.begun), last,
+                                      [&](int j) { return isolated_.KeepsOfRobot(walk, j); });
   proposal->robot_through = std::max(robot.through, proposal->robot_through);
   Grant& grant = proposal->grant;
   // What is proved against this world already need not be proved again.
@@ -62,8 +64,11 @@ std::optional<Margin> Replanner::Prove(const Situation& s, const SuperposedWalk&
   const int first = grant.through + 1;
   const double since =
       first == s.begun ? s.now : walk.start_of(std::min(first, walk.num_half_steps() - 1));
-  const Safety safety =
-      among.safety.AmongObstacles(walk, first, std::min(last, proposal->robot_through), since);
+  // Volumes know nothing of areas where soles already stand.
+  const bool by_volume = among.world.scene.no_step.empty();
+  const Safety safety = among.safety.AmongObstacles(
+      walk, first, std::min(last, proposal->robot_through), since,
+      [&](int j) { return by_volume && isolated_.Clears(walk, j, among.query); });
   grant.through = safety.through;
   return safety.refused_by ? safety.refused_by : robot.refused_by;
 }
@@ -153,7 +158,8 @@ bool Replanner::Smooth(double from, int begun, int ahead, const PreparedWorld& a
                                            {.tolerance = config_.live.tolerance,
                                             .up_down_cap = cap,
                                             .down_up_cap = cap,
-                                            .start = proposal->plan.parameters},
+                                            .start = proposal->plan.parameters,
+                                            .start_is_feasible = true},
                                            monitor);
   proposal->plan.parameters = result.parameters;
   for (const int j : next) proposal->smoothed[static_cast<size_t>(j)] = true;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/live/isolated_half_steps.h"
 #include "experiments/live/live_config.h"
 #include "experiments/live/proposal.h"
 #include "experiments/live/safety.h"
@@ -70,6 +71,7 @@ class Replanner {
   LiveConfig config_;
   const SweptVolumes& volumes_;
   SafetyCheck alone_;  // without obstacles
+  IsolatedHalfSteps isolated_;
 };
 
 }  // namespace halfstep

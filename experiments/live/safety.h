@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -29,15 +30,19 @@ class SafetyCheck {
 
   const MarginEvaluator& evaluator() const { return evaluator_; }
 
+  /// Whether a half-step is known to keep what is to be proved, so that it need not be.
+  using Known = std::function<bool(int half_step)>;
+
   /// Proves clearances and no-step distances of the walk and its stop branches from `since` [s] on,
   /// half-step after half-step from `first` to `last`, or the walk's last, until one is refused.
-  Safety AmongObstacles(const SuperposedWalk& walk, int first, int last, double since) const;
+  Safety AmongObstacles(const SuperposedWalk& walk, int first, int last, double since,
+                        const Known& known = {}) const;
   /// Proves all other margins, in the same way.
-  Safety OfRobot(const SuperposedWalk& walk, int first, int last) const;
+  Safety OfRobot(const SuperposedWalk& walk, int first, int last, const Known& known = {}) const;
 
  private:
   Safety Prove(const SuperposedWalk& walk, int first, int last, double since,
-               const std::vector<MarginFamily>& families) const;
+               const std::vector<MarginFamily>& families, const Known& known) const;
 
   MarginEvaluator evaluator_;
   CertificationOptions options_;

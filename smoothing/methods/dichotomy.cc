@@ -23,7 +23,9 @@ class Bisection {
         walk_(problem.sequence(), options.start.value_or(problem.Start())) {}
 
   SmoothingResult Run() {
-    if (!monitor_.BeginFeasibly(problem_, walk_.parameters())) {
+    if (options_.start_is_feasible) {
+      monitor_.BeginKnownFeasible(problem_, walk_.parameters());
+    } else if (!monitor_.BeginFeasibly(problem_, walk_.parameters())) {
       return Finish(monitor_.Refusal());
     }
     const int n = problem_.sequence().num_junctions();

@@ -21,6 +21,7 @@ struct DichotomyOptions {
   double down_up_cap = 1.0;
   /// Where to begin, instead of at the planned motion.
   std::optional<HomotopyParameters> start = std::nullopt;
+  bool start_is_feasible = false;  ///< proved by the caller: not checked again
 };
 
 /// The paper's smoother: each junction's overlap in turn is bisected between the largest value
