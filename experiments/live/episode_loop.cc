@@ -1,6 +1,7 @@
 #include "experiments/live/episode_loop.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -173,6 +174,12 @@ bool EpisodeLoop::NeedsWork(double now) const {
 }
 
 void EpisodeLoop::Ask(double now) {
+  // Where nothing can move, a later world that is much the same says no more, and what is proved
+  // against the one that was looked at last stays.
+  const bool same = checked_->version >= world_->sound_since &&
+                    checked_->valid_until() == std::numeric_limits<double>::infinity() &&
+                    !DiffersClearly(*checked_, *world_);
+  asked_about_ = same ? checked_ : world_;
   thinker_.Ask({.plan = executor_->plan(),
                 .smoothed = smoothed_,
                 .grant = executor_->grant(),
@@ -181,12 +188,11 @@ void EpisodeLoop::Ask(double now) {
                 .stopped = executor_->stopped(),
                 .now = now,
                 .hand_over = now + patience_ + 2.0 * options_.period,
-                .world = world_,
+                .world = asked_about_,
                 .shorten = tries_ > 0,
                 .used_up = used_up_});
   thinking_ = true;
   asked_ = now;
-  asked_about_ = world_;
   again_ = false;
 }
 

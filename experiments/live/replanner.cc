@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/live/isolated_half_steps.h"
 #include "experiments/live/prepared_world.h"
 #include "experiments/run/planning.h"
 #include "planner/search/planner_registry.h"
 #include "smoothing/methods/dichotomy.h"
+#include "smoothing/proof/sampled_feasibility.h"
 #include "smoothing/proof/stoppable_feasibility.h"
 
 namespace halfstep {
@@ -15,8 +17,7 @@ Replanner::Replanner(const RobotModel& robot, const LiveConfig& config, const Sw
     : robot_(robot),
       config_(config),
       volumes_(volumes),
-      alone_(robot, Scene{}, config.experiment),
-      isolated_(robot, config.experiment, volumes) {}
+      alone_(robot, Scene{}, config.experiment) {}
 
 std::shared_ptr<const PreparedWorld> Replanner::Prepare(const World& world) const {
   return std::make_shared<const PreparedWorld>(world, robot_, config_.experiment, volumes_);
@@ -50,8 +51,10 @@ PlanResult Replanner::Plan(const std::array<Footprint, 2>& stance,
 
 std::optional<Margin> Replanner::Prove(const Situation& s, const SuperposedWalk& walk, int last,
                                        const PreparedWorld& among, Proposal* proposal) const {
-  const Safety robot = alone_.OfRobot(walk, std::max(proposal->robot_through + 1, s.begun), last,
-                                      [&](int j) { return isolated_.KeepsOfRobot(walk, j); });
+  const int from = std::max(proposal->robot_through + 1, s.begun);
+  const Safety robot =
+      alone_.OfRobot(walk, from, last, [&](int j) { return proved_alone_.Knows(walk, j); });
+  for (int j = from; j <= robot.through; ++j) proved_alone_.Remember(walk, j);
   proposal->robot_through = std::max(robot.through, proposal->robot_through);
   Grant& grant = proposal->grant;
   // What is proved against this world already need not be proved again.
@@ -68,7 +71,7 @@ std::optional<Margin> Replanner::Prove(const Situation& s, const SuperposedWalk&
   const bool by_volume = among.world.scene.no_step.empty();
   const Safety safety = among.safety.AmongObstacles(
       walk, first, std::min(last, proposal->robot_through), since,
-      [&](int j) { return by_volume && isolated_.Clears(walk, j, among.query); });
+      [&](int j) { return by_volume && IsolatedAndFree(walk, j, volumes_, among.query); });
   grant.through = safety.through;
   return safety.refused_by ? safety.refused_by : robot.refused_by;
 }
@@ -117,6 +120,7 @@ bool Replanner::Change(const Situation& s, const WalkPlan& plan, int junction,
 bool Replanner::Smooth(double from, int begun, int ahead, const PreparedWorld& among,
                        Proposal* proposal) const {
   constexpr double kLeastRoom = 0.05;  // [s]
+  constexpr double kSampled = 0.04;    // [s]
   const SuperposedWalk walk = proposal->plan.Walk();
   const int junctions = std::min(walk.num_half_steps() - 1, begun + ahead);
   std::vector<int> next;
@@ -152,6 +156,8 @@ bool Replanner::Smooth(double from, int begun, int ahead, const PreparedWorld& a
       std::make_shared<CertifiedFeasibility>(among.safety.evaluator(),
                                              config_.experiment.smoothing.certification, scope),
       StopBranches::kAll);
+  const auto sampled = std::make_shared<StoppableFeasibility>(
+      std::make_shared<SampledFeasibility>(among.safety.evaluator(), kSampled), StopBranches::kAll);
   const WalkProblem problem(proposal->plan.sequence, test, fixed);
   SmoothingMonitor monitor;
   const SmoothingResult result = Dichotomy(problem,
@@ -159,7 +165,8 @@ bool Replanner::Smooth(double from, int begun, int ahead, const PreparedWorld& a
                                             .up_down_cap = cap,
                                             .down_up_cap = cap,
                                             .start = proposal->plan.parameters,
-                                            .start_is_feasible = true},
+                                            .start_is_feasible = true,
+                                            .cheaper = sampled},
                                            monitor);
   proposal->plan.parameters = result.parameters;
   for (const int j : next) proposal->smoothed[static_cast<size_t>(j)] = true;

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "experiments/live/isolated_half_steps.h"
 #include "experiments/live/live_config.h"
 #include "experiments/live/proposal.h"
+#include "experiments/live/remembered_half_steps.h"
 #include "experiments/live/safety.h"
 #include "planner/swept/swept_volumes.h"
 
@@ -71,7 +71,7 @@ class Replanner {
   LiveConfig config_;
   const SweptVolumes& volumes_;
   SafetyCheck alone_;  // without obstacles
-  IsolatedHalfSteps isolated_;
+  mutable RememberedHalfSteps proved_alone_;
 };
 
 }  // namespace halfstep
