@@ -8,7 +8,7 @@ namespace halfstep {
 
 /// Whether no other half-step of the walk is under way together with half-step j, this one is a
 /// half-step of the set, and its swept volume is free: then it keeps the clearance of the volumes
-/// at all times, also when the robot rests behind it. `query` is of the same volumes. No-step areas
+/// at all times. `query` is of the same volumes. No-step areas
 /// that soles already stand on do not count.
 bool IsolatedAndFree(const SuperposedWalk& walk, int j, const SweptVolumes& volumes,
                      const SweptVolumeQuery& query);

@@ -16,8 +16,8 @@ namespace halfstep {
 /// How much of a walk that is being executed is safe.
 struct Safety {
   /// For every half-step j from the first that was looked at to this one, the walk cut after j
-  /// keeps every margin that was looked at: proved. One less than the first when that one is
-  /// refused.
+  /// keeps every margin that was looked at until it rests: proved. One less than the first when
+  /// that one is refused.
   int through = -1;
   std::optional<Margin> refused_by;  ///< what ended the proof; none when nothing was refused
 };
@@ -35,6 +35,7 @@ class SafetyCheck {
 
   /// Proves clearances and no-step distances of the walk and its stop branches from `since` [s] on,
   /// half-step after half-step from `first` to `last`, or the walk's last, until one is refused.
+  /// While the robot rests it touches nothing by moving: that is not looked at.
   Safety AmongObstacles(const SuperposedWalk& walk, int first, int last, double since,
                         const Known& known = {}) const;
   /// Proves all other margins, in the same way.
