@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "experiments/live/isolated_half_steps.h"
+#include "experiments/live/near_start_query.h"
 #include "experiments/live/prepared_world.h"
 #include "experiments/run/planning.h"
 #include "planner/search/planner_registry.h"
@@ -29,13 +30,14 @@ bool Replanner::Arrives(const WalkPlan& plan, const World& world) const {
 
 PlanResult Replanner::Plan(const std::array<Footprint, 2>& stance,
                            const std::optional<StepState>& in_air, const PreparedWorld& among,
-                           std::int64_t max_nodes, std::mt19937_64& random) const {
+                           const HalfStepQuery& query, std::int64_t max_nodes,
+                           std::mt19937_64& random) const {
   const PlannerConfig& options = config_.experiment.planner;
   PlanRequest request{.start = stance,
                       .in_air = in_air,
                       .goal = among.world.goal,
                       .set = volumes_.set,
-                      .query = among.query,
+                      .query = query,
                       .cost = options.Cost()};
   if (const auto& w = options.workspace; !w.empty()) {
     request.workspace = {Eigen::Vector2d(w[0], w[1]), Eigen::Vector2d(w[2], w[3])};
@@ -85,9 +87,16 @@ bool Replanner::Change(const Situation& s, const WalkPlan& plan, int junction,
   std::optional<StepState> in_air;
   if (half_step.kind == HalfStepKind::kUp) in_air = {X_WS, half_step.support};
   const std::int64_t left = config_.experiment.planner.max_nodes - proposal->nodes;
-  PlanResult result = Plan(StanceAfter(plan.sequence, junction), in_air, among, left, random);
-  proposal->planned = result;
+  const std::array<Footprint, 2> stance = StanceAfter(plan.sequence, junction);
+  PlanResult result = Plan(stance, in_air, among, among.query, left, random);
   proposal->nodes += result.nodes;
+  if (s.stopped && result.status == PlanStatus::kNoPlan) {
+    const NearStartQuery near(volumes_, among.query, among.certifier,
+                              MidFeet(stance[0], stance[1]).position());
+    result = Plan(stance, in_air, among, near, left - result.nodes, random);
+    proposal->nodes += result.nodes;
+  }
+  proposal->planned = result;
   proposal->plan_s += SteadySeconds() - begin;
   if (result.status != PlanStatus::kSolved) return false;
   if (result.footsteps.empty() && junction % 2 == 0) return false;
@@ -282,7 +291,8 @@ Proposal Replanner::Propose(const Situation& s, const PreparedWorld& among,
 Proposal Replanner::Begin(const std::array<Footprint, 2>& start, const PreparedWorld& among,
                           int junctions, std::mt19937_64& random) const {
   Proposal proposal{.kind = ProposalKind::kUnsafe};
-  proposal.planned = Plan(start, {}, among, config_.experiment.planner.max_nodes, random);
+  proposal.planned =
+      Plan(start, {}, among, among.query, config_.experiment.planner.max_nodes, random);
   proposal.reason = proposal.planned.sentence;
   if (proposal.planned.footsteps.empty()) return proposal;
   const HalfStep like = PrototypeOf(config_.experiment);

@@ -47,7 +47,7 @@ class Replanner {
  private:
   bool Arrives(const WalkPlan& plan, const World& world) const;
   PlanResult Plan(const std::array<Footprint, 2>& stance, const std::optional<StepState>& in_air,
-                  const PreparedWorld& among, std::int64_t max_nodes,
+                  const PreparedWorld& among, const HalfStepQuery& query, std::int64_t max_nodes,
                   std::mt19937_64& random) const;
   // Proves the walk of the proposal up to half-step `last` as far as it is not proved yet, and
   // grants it. Returns what refused it.
