@@ -5,12 +5,10 @@
 
 #include "experiments/live/isolated_half_steps.h"
 #include "experiments/live/near_start_query.h"
+#include "experiments/live/overlap_search.h"
 #include "experiments/live/prepared_world.h"
 #include "experiments/run/planning.h"
 #include "planner/search/planner_registry.h"
-#include "smoothing/methods/dichotomy.h"
-#include "smoothing/proof/sampled_feasibility.h"
-#include "smoothing/proof/stoppable_feasibility.h"
 
 namespace halfstep {
 
@@ -126,63 +124,6 @@ bool Replanner::Change(const Situation& s, const WalkPlan& plan, int junction,
   return true;
 }
 
-bool Replanner::Smooth(double from, int begun, int ahead, const PreparedWorld& among,
-                       Proposal* proposal) const {
-  constexpr double kLeastRoom = 0.05;  // [s]
-  constexpr double kSampled = 0.04;    // [s]
-  const SuperposedWalk walk = proposal->plan.Walk();
-  const int junctions = std::min(walk.num_half_steps() - 1, begun + ahead);
-  std::vector<int> next;
-  double cap = 1.0;
-  for (int j = begun; j < junctions && cap == 1.0; ++j) {
-    if (proposal->smoothed[static_cast<size_t>(j)]) continue;
-    // Half-step j + 1 must not begin before `from`.
-    const double room = walk.end_of(j) - from;
-    if (walk.start_of(j + 1) <= from || room < kLeastRoom) continue;
-    const double bound =
-        NaturalOverlapBound(proposal->plan.sequence, walk.parameters().durations, j);
-    if (room < bound && !next.empty()) break;
-    cap = std::min(1.0, room / bound);
-    next.push_back(j);
-    if (static_cast<int>(next.size()) == config_.live.smooth_at_once) break;
-  }
-  if (next.empty()) return false;
-  std::vector<FixedParameter> fixed;
-  for (const ParameterFamily family : AllParameterFamilies()) {
-    for (int i = 0; i < Traits(family).count(proposal->plan.sequence); ++i) {
-      const HomotopyParameter parameter{family, i};
-      const bool free =
-          family == ParameterFamily::kOverlap && std::ranges::find(next, i) != next.end();
-      if (!free) fixed.push_back({parameter, parameter.in(proposal->plan.parameters)});
-    }
-  }
-  // Half-steps that end later are not under way where these overlaps count, and only meet the same
-  // world earlier, when less is uncertain.
-  const int last = std::min(next.back() + 4, walk.num_half_steps() - 1);
-  const CertificationScope scope{.since = std::max(from, walk.start_of(next.front())),
-                                 .until = walk.end_of(last)};
-  const auto test = std::make_shared<StoppableFeasibility>(
-      std::make_shared<CertifiedFeasibility>(among.safety.evaluator(),
-                                             config_.experiment.smoothing.certification, scope),
-      StopBranches::kAll);
-  const auto sampled = std::make_shared<StoppableFeasibility>(
-      std::make_shared<SampledFeasibility>(among.safety.evaluator(), kSampled), StopBranches::kAll);
-  const WalkProblem problem(proposal->plan.sequence, test, fixed);
-  SmoothingMonitor monitor;
-  const SmoothingResult result = Dichotomy(problem,
-                                           {.tolerance = config_.live.tolerance,
-                                            .up_down_cap = cap,
-                                            .down_up_cap = cap,
-                                            .start = proposal->plan.parameters,
-                                            .start_is_feasible = true,
-                                            .cheaper = sampled},
-                                           monitor);
-  proposal->plan.parameters = result.parameters;
-  for (const int j : next) proposal->smoothed[static_cast<size_t>(j)] = true;
-  proposal->first_changed = next.front() + 1;
-  return true;
-}
-
 void Replanner::Shorten(const Situation& s, const PreparedWorld& among, std::mt19937_64& random,
                         Proposal* proposal) const {
   const SuperposedWalk walk = proposal->plan.Walk();
@@ -258,7 +199,8 @@ Proposal Replanner::Propose(const Situation& s, const PreparedWorld& among,
       return proposal;
     }
     const double smooth = SteadySeconds();
-    if (Smooth(s.hand_over, s.begun, config_.live.smooth_ahead, among, &proposal)) {
+    if (FindOverlaps(among.safety, config_, s.hand_over, s.begun, config_.live.smooth_ahead,
+                     &proposal)) {
       proposal.kind = ProposalKind::kSmoothed;
       proposal.reason = "overlaps";
     }
@@ -313,7 +255,7 @@ Proposal Replanner::Begin(const std::array<Footprint, 2>& start, const PreparedW
   proposal.kind = ProposalKind::kChanged;
   proposal.first_changed = 0;
   proposal.smoothed.resize(static_cast<size_t>(proposal.plan.sequence.num_junctions()), false);
-  while (Smooth(0.0, 0, junctions, among, &proposal)) {
+  while (FindOverlaps(among.safety, config_, 0.0, 0, junctions, &proposal)) {
   }
   return proposal;
 }

@@ -56,10 +56,6 @@ class Replanner {
   // Other footsteps after half-step `junction`; false when there are none that are safe.
   bool Change(const Situation& situation, const WalkPlan& plan, int junction,
               const PreparedWorld& among, std::mt19937_64& random, Proposal* proposal) const;
-  // The overlaps of the next junctions that were not found yet, no more than `ahead` behind
-  // `begun`; false when there are none.
-  bool Smooth(double from, int begun, int ahead, const PreparedWorld& among,
-              Proposal* proposal) const;
   // A way with fewer footsteps, where one is found.
   void Shorten(const Situation& situation, const PreparedWorld& among, std::mt19937_64& random,
                Proposal* proposal) const;
