@@ -1,6 +1,7 @@
 #include "experiments/live/episode_loop.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -11,6 +12,7 @@ namespace {
 
 constexpr int kTries = 3;       // to find a shorter way, after each clear change of the world
 constexpr double kRetry = 0.2;  // after a search that found no way [s]
+constexpr double kLongestRetry = 3.2;  // the same when the robot rests in much the same world [s]
 constexpr double kPause = 1.0;  // the same before the walk, when the world is much the same [s]
 constexpr double kAhead = 0.3;  // proofs are renewed so long before they are needed [s]
 
@@ -163,7 +165,9 @@ bool EpisodeLoop::NeedsWork(double now) const {
   if (held_) return false;
   if (again_ || world_->sound_since > checked_->version) return true;
   if (world_->version == checked_->version) return false;
-  if (stuck_) return now >= asked_ + kRetry;
+  if (stuck_) {
+    return now >= asked_ + retry_ || (now >= asked_ + kRetry && DiffersClearly(*checked_, *world_));
+  }
   if (DiffersClearly(*checked_, *world_)) return true;
   // What was proved runs out, for a half-step that begins soon.
   const SuperposedWalk& walk = executor_->walk();
@@ -173,6 +177,12 @@ bool EpisodeLoop::NeedsWork(double now) const {
 }
 
 void EpisodeLoop::Ask(double now) {
+  // Where nothing can move, a later world that is much the same says no more, and what is proved
+  // against the one that was looked at last stays. Where no way was found, another noise may help.
+  const bool same = !stuck_ && checked_->version >= world_->sound_since &&
+                    checked_->valid_until() == std::numeric_limits<double>::infinity() &&
+                    !DiffersClearly(*checked_, *world_);
+  asked_about_ = same ? checked_ : world_;
   thinker_.Ask({.plan = executor_->plan(),
                 .smoothed = smoothed_,
                 .grant = executor_->grant(),
@@ -181,18 +191,20 @@ void EpisodeLoop::Ask(double now) {
                 .stopped = executor_->stopped(),
                 .now = now,
                 .hand_over = now + patience_ + 2.0 * options_.period,
-                .world = world_,
+                .world = asked_about_,
                 .shorten = tries_ > 0,
                 .used_up = used_up_});
   thinking_ = true;
   asked_ = now;
-  asked_about_ = world_;
   again_ = false;
 }
 
 void EpisodeLoop::Take(const Proposal& proposal, double now) {
   thinking_ = false;
-  if (DiffersClearly(*checked_, *asked_about_)) tries_ = kTries;
+  const bool differs = DiffersClearly(*checked_, *asked_about_);
+  if (differs) tries_ = kTries;
+  const bool in_vain = stuck_ && executor_->stopped() && !differs;
+  retry_ = in_vain ? std::min(2.0 * retry_, kLongestRetry) : kRetry;
   checked_ = asked_about_;
   stuck_ = proposal.kind == ProposalKind::kUnsafe;
   const bool used_up = proposal.nodes >= replanner_.config().experiment.planner.max_nodes;

@@ -63,8 +63,9 @@ class EpisodeLoop {
   // What it is to do next.
   std::shared_ptr<const World> checked_;
   bool again_ = true, stuck_ = false;
-  int tries_ = 0;    // to shorten the way
-  int used_up_ = 0;  // as Situation says
+  double retry_ = 0.0;  // until the next search when one found no way [s]
+  int tries_ = 0;       // to shorten the way
+  int used_up_ = 0;     // as Situation says
 };
 
 }  // namespace halfstep

@@ -15,7 +15,7 @@ struct PreparedWorld {
                 const SweptVolumes& volumes)
       : world(w),
         safety(robot, w.scene, config),
-        certifier(robot, w.scene, config),
+        certifier(safety.evaluator(), config.smoothing.certification),
         query(volumes, robot.sole_outline, w.scene,
               config.smoothing.limits.demanded_of(MarginFamily::kNoStep)) {}
 

@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/live/isolated_half_steps.h"
+#include "experiments/live/near_start_query.h"
+#include "experiments/live/overlap_search.h"
 #include "experiments/live/prepared_world.h"
 #include "experiments/run/planning.h"
 #include "planner/search/planner_registry.h"
-#include "smoothing/methods/dichotomy.h"
-#include "smoothing/proof/stoppable_feasibility.h"
 
 namespace halfstep {
 
@@ -27,13 +28,14 @@ bool Replanner::Arrives(const WalkPlan& plan, const World& world) const {
 
 PlanResult Replanner::Plan(const std::array<Footprint, 2>& stance,
                            const std::optional<StepState>& in_air, const PreparedWorld& among,
-                           std::int64_t max_nodes, std::mt19937_64& random) const {
+                           const HalfStepQuery& query, std::int64_t max_nodes,
+                           std::mt19937_64& random) const {
   const PlannerConfig& options = config_.experiment.planner;
   PlanRequest request{.start = stance,
                       .in_air = in_air,
                       .goal = among.world.goal,
                       .set = volumes_.set,
-                      .query = among.query,
+                      .query = query,
                       .cost = options.Cost()};
   if (const auto& w = options.workspace; !w.empty()) {
     request.workspace = {Eigen::Vector2d(w[0], w[1]), Eigen::Vector2d(w[2], w[3])};
@@ -49,7 +51,10 @@ PlanResult Replanner::Plan(const std::array<Footprint, 2>& stance,
 
 std::optional<Margin> Replanner::Prove(const Situation& s, const SuperposedWalk& walk, int last,
                                        const PreparedWorld& among, Proposal* proposal) const {
-  const Safety robot = alone_.OfRobot(walk, std::max(proposal->robot_through + 1, s.begun), last);
+  const int from = std::max(proposal->robot_through + 1, s.begun);
+  const Safety robot =
+      alone_.OfRobot(walk, from, last, [&](int j) { return proved_alone_.Knows(walk, j); });
+  for (int j = from; j <= robot.through; ++j) proved_alone_.Remember(walk, j);
   proposal->robot_through = std::max(robot.through, proposal->robot_through);
   Grant& grant = proposal->grant;
   // What is proved against this world already need not be proved again.
@@ -62,8 +67,11 @@ std::optional<Margin> Replanner::Prove(const Situation& s, const SuperposedWalk&
   const int first = grant.through + 1;
   const double since =
       first == s.begun ? s.now : walk.start_of(std::min(first, walk.num_half_steps() - 1));
-  const Safety safety =
-      among.safety.AmongObstacles(walk, first, std::min(last, proposal->robot_through), since);
+  // Volumes know nothing of areas where soles already stand.
+  const bool by_volume = among.world.scene.no_step.empty();
+  const Safety safety = among.safety.AmongObstacles(
+      walk, first, std::min(last, proposal->robot_through), since,
+      [&](int j) { return by_volume && IsolatedAndFree(walk, j, volumes_, among.query); });
   grant.through = safety.through;
   return safety.refused_by ? safety.refused_by : robot.refused_by;
 }
@@ -77,9 +85,16 @@ bool Replanner::Change(const Situation& s, const WalkPlan& plan, int junction,
   std::optional<StepState> in_air;
   if (half_step.kind == HalfStepKind::kUp) in_air = {X_WS, half_step.support};
   const std::int64_t left = config_.experiment.planner.max_nodes - proposal->nodes;
-  PlanResult result = Plan(StanceAfter(plan.sequence, junction), in_air, among, left, random);
-  proposal->planned = result;
+  const std::array<Footprint, 2> stance = StanceAfter(plan.sequence, junction);
+  PlanResult result = Plan(stance, in_air, among, among.query, left, random);
   proposal->nodes += result.nodes;
+  if (s.stopped && result.status == PlanStatus::kNoPlan) {
+    const NearStartQuery near(volumes_, among.query, among.certifier,
+                              MidFeet(stance[0], stance[1]).position());
+    result = Plan(stance, in_air, among, near, left - result.nodes, random);
+    proposal->nodes += result.nodes;
+  }
+  proposal->planned = result;
   proposal->plan_s += SteadySeconds() - begin;
   if (result.status != PlanStatus::kSolved) return false;
   if (result.footsteps.empty() && junction % 2 == 0) return false;
@@ -106,58 +121,6 @@ bool Replanner::Change(const Situation& s, const WalkPlan& plan, int junction,
     return false;
   }
   *proposal = std::move(changed);
-  return true;
-}
-
-bool Replanner::Smooth(double from, int begun, int ahead, const PreparedWorld& among,
-                       Proposal* proposal) const {
-  constexpr double kLeastRoom = 0.05;  // [s]
-  const SuperposedWalk walk = proposal->plan.Walk();
-  const int junctions = std::min(walk.num_half_steps() - 1, begun + ahead);
-  std::vector<int> next;
-  double cap = 1.0;
-  for (int j = begun; j < junctions && cap == 1.0; ++j) {
-    if (proposal->smoothed[static_cast<size_t>(j)]) continue;
-    // Half-step j + 1 must not begin before `from`.
-    const double room = walk.end_of(j) - from;
-    if (walk.start_of(j + 1) <= from || room < kLeastRoom) continue;
-    const double bound =
-        NaturalOverlapBound(proposal->plan.sequence, walk.parameters().durations, j);
-    if (room < bound && !next.empty()) break;
-    cap = std::min(1.0, room / bound);
-    next.push_back(j);
-    if (static_cast<int>(next.size()) == config_.live.smooth_at_once) break;
-  }
-  if (next.empty()) return false;
-  std::vector<FixedParameter> fixed;
-  for (const ParameterFamily family : AllParameterFamilies()) {
-    for (int i = 0; i < Traits(family).count(proposal->plan.sequence); ++i) {
-      const HomotopyParameter parameter{family, i};
-      const bool free =
-          family == ParameterFamily::kOverlap && std::ranges::find(next, i) != next.end();
-      if (!free) fixed.push_back({parameter, parameter.in(proposal->plan.parameters)});
-    }
-  }
-  // Half-steps that end later are not under way where these overlaps count, and only meet the same
-  // world earlier, when less is uncertain.
-  const int last = std::min(next.back() + 4, walk.num_half_steps() - 1);
-  const CertificationScope scope{.since = std::max(from, walk.start_of(next.front())),
-                                 .until = walk.end_of(last)};
-  const auto test = std::make_shared<StoppableFeasibility>(
-      std::make_shared<CertifiedFeasibility>(among.safety.evaluator(),
-                                             config_.experiment.smoothing.certification, scope),
-      StopBranches::kAll);
-  const WalkProblem problem(proposal->plan.sequence, test, fixed);
-  SmoothingMonitor monitor;
-  const SmoothingResult result = Dichotomy(problem,
-                                           {.tolerance = config_.live.tolerance,
-                                            .up_down_cap = cap,
-                                            .down_up_cap = cap,
-                                            .start = proposal->plan.parameters},
-                                           monitor);
-  proposal->plan.parameters = result.parameters;
-  for (const int j : next) proposal->smoothed[static_cast<size_t>(j)] = true;
-  proposal->first_changed = next.front() + 1;
   return true;
 }
 
@@ -236,7 +199,8 @@ Proposal Replanner::Propose(const Situation& s, const PreparedWorld& among,
       return proposal;
     }
     const double smooth = SteadySeconds();
-    if (Smooth(s.hand_over, s.begun, config_.live.smooth_ahead, among, &proposal)) {
+    if (FindOverlaps(among.safety, config_, s.hand_over, s.begun, config_.live.smooth_ahead,
+                     &proposal)) {
       proposal.kind = ProposalKind::kSmoothed;
       proposal.reason = "overlaps";
     }
@@ -269,7 +233,8 @@ Proposal Replanner::Propose(const Situation& s, const PreparedWorld& among,
 Proposal Replanner::Begin(const std::array<Footprint, 2>& start, const PreparedWorld& among,
                           int junctions, std::mt19937_64& random) const {
   Proposal proposal{.kind = ProposalKind::kUnsafe};
-  proposal.planned = Plan(start, {}, among, config_.experiment.planner.max_nodes, random);
+  proposal.planned =
+      Plan(start, {}, among, among.query, config_.experiment.planner.max_nodes, random);
   proposal.reason = proposal.planned.sentence;
   if (proposal.planned.footsteps.empty()) return proposal;
   const HalfStep like = PrototypeOf(config_.experiment);
@@ -290,7 +255,7 @@ Proposal Replanner::Begin(const std::array<Footprint, 2>& start, const PreparedW
   proposal.kind = ProposalKind::kChanged;
   proposal.first_changed = 0;
   proposal.smoothed.resize(static_cast<size_t>(proposal.plan.sequence.num_junctions()), false);
-  while (Smooth(0.0, 0, junctions, among, &proposal)) {
+  while (FindOverlaps(among.safety, config_, 0.0, 0, junctions, &proposal)) {
   }
   return proposal;
 }

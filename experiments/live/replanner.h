@@ -9,6 +9,7 @@
 
 #include "experiments/live/live_config.h"
 #include "experiments/live/proposal.h"
+#include "experiments/live/remembered_half_steps.h"
 #include "experiments/live/safety.h"
 #include "planner/swept/swept_volumes.h"
 
@@ -46,7 +47,7 @@ class Replanner {
  private:
   bool Arrives(const WalkPlan& plan, const World& world) const;
   PlanResult Plan(const std::array<Footprint, 2>& stance, const std::optional<StepState>& in_air,
-                  const PreparedWorld& among, std::int64_t max_nodes,
+                  const PreparedWorld& among, const HalfStepQuery& query, std::int64_t max_nodes,
                   std::mt19937_64& random) const;
   // Proves the walk of the proposal up to half-step `last` as far as it is not proved yet, and
   // grants it. Returns what refused it.
@@ -55,10 +56,6 @@ class Replanner {
   // Other footsteps after half-step `junction`; false when there are none that are safe.
   bool Change(const Situation& situation, const WalkPlan& plan, int junction,
               const PreparedWorld& among, std::mt19937_64& random, Proposal* proposal) const;
-  // The overlaps of the next junctions that were not found yet, no more than `ahead` behind
-  // `begun`; false when there are none.
-  bool Smooth(double from, int begun, int ahead, const PreparedWorld& among,
-              Proposal* proposal) const;
   // A way with fewer footsteps, where one is found.
   void Shorten(const Situation& situation, const PreparedWorld& among, std::mt19937_64& random,
                Proposal* proposal) const;
@@ -70,6 +67,7 @@ class Replanner {
   LiveConfig config_;
   const SweptVolumes& volumes_;
   SafetyCheck alone_;  // without obstacles
+  mutable RememberedHalfSteps proved_alone_;
 };
 
 }  // namespace halfstep

@@ -23,37 +23,32 @@ SafetyCheck::SafetyCheck(const RobotModel& robot, const Scene& scene,
                          const ExperimentConfig& config)
     : evaluator_(robot, scene, config.smoothing.limits), options_(config.smoothing.certification) {}
 
-Safety SafetyCheck::AmongObstacles(const SuperposedWalk& walk, int first, int last,
-                                   double since) const {
-  return Prove(walk, first, last, since, Families(true));
+Safety SafetyCheck::AmongObstacles(const SuperposedWalk& walk, int first, int last, double since,
+                                   const Known& known) const {
+  return Prove(walk, first, last, since, Families(true), known);
 }
 
-Safety SafetyCheck::OfRobot(const SuperposedWalk& walk, int first, int last) const {
+Safety SafetyCheck::OfRobot(const SuperposedWalk& walk, int first, int last,
+                            const Known& known) const {
   const double since = first < walk.num_half_steps() ? walk.start_of(first) : walk.duration();
-  return Prove(walk, first, last, since, Families(false));
+  return Prove(walk, first, last, since, Families(false), known);
 }
 
-// Half-step j is safe when the walk keeps the margins until t_{j+1}, and its stop branch after
-// that.
+// Half-step j is safe when the walk that is cut after it is, from its beginning to its end: until
+// half-step j + 1 begins that is the walk itself.
 Safety SafetyCheck::Prove(const SuperposedWalk& walk, int first, int last, double since,
-                          const std::vector<MarginFamily>& families) const {
+                          const std::vector<MarginFamily>& families, const Known& known) const {
   const CertifiedFeasibility test(evaluator_, options_, {.since = since, .families = families});
   MarginEvaluator::Scratch scratch = evaluator_.MakeScratch();
   Safety safety{.through = first - 1, .refused_by = {}};
-  const int n = walk.num_half_steps();
-  for (int j = first; j <= std::min(last, n - 1); ++j) {
-    const double next = j + 1 < n ? walk.start_of(j + 1) : walk.duration();
-    Feasibility answer{.verdict = Verdict::kFeasible, .evidence = {}, .witness = {}};
-    if (next > since) {
-      answer = test.Check(walk, {std::max(walk.start_of(j), since), next}, &scratch);
-    }
-    if (answer.verdict == Verdict::kFeasible && walk.end_of(j) > std::max(next, since)) {
-      const double begin = std::max(next, since);
-      answer = test.Check(walk.StopBranch(j), {begin, walk.end_of(j)}, &scratch);
-    }
-    if (answer.verdict != Verdict::kFeasible) {
-      safety.refused_by = answer.witness;
-      return safety;
+  for (int j = first; j <= std::min(last, walk.num_half_steps() - 1); ++j) {
+    const TimeWindow window{std::max(walk.start_of(j), since), walk.end_of(j)};
+    if (window.end > window.begin && !(known && known(j))) {
+      const Feasibility answer = test.Check(walk.StopBranch(j), window, &scratch);
+      if (answer.verdict != Verdict::kFeasible) {
+        safety.refused_by = answer.witness;
+        return safety;
+      }
     }
     safety.through = j;
   }

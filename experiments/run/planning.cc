@@ -32,9 +32,14 @@ Termination StopOf(const PlannerConfig& config, const PlanningHooks& hooks) {
 
 HalfStepCertifier::HalfStepCertifier(const RobotModel& robot, const Scene& scene,
                                      const ExperimentConfig& config)
-    : lipm_{.com_height = robot.com_height},
-      evaluator_(robot, scene, config.smoothing.limits),
-      feasibility_(evaluator_, config.smoothing.certification) {}
+    : HalfStepCertifier(MarginEvaluator(robot, scene, config.smoothing.limits),
+                        config.smoothing.certification) {}
+
+HalfStepCertifier::HalfStepCertifier(const MarginEvaluator& evaluator,
+                                     const CertificationOptions& options)
+    : lipm_{.com_height = evaluator.robot().com_height},
+      evaluator_(evaluator),
+      feasibility_(evaluator, options) {}
 
 // The step in place that holds the half-step: up from its place, and down to it again.
 bool HalfStepCertifier::Certifies(const HalfStep& half_step, const Footprint& X_WS) const {

@@ -19,6 +19,8 @@ namespace halfstep {
 class HalfStepCertifier {
  public:
   HalfStepCertifier(const RobotModel& robot, const Scene& scene, const ExperimentConfig& config);
+  /// The same with a robot and a scene that are prepared already.
+  HalfStepCertifier(const MarginEvaluator& evaluator, const CertificationOptions& options);
   bool Certifies(const HalfStep& half_step, const Footprint& X_WS) const;
 
  private:

@@ -99,7 +99,8 @@ ConvexBody Enclosing(const TriangleMesh& mesh) {
 
 // The same body, with what makes its support function fast.
 ConvexBody Mapped(ConvexBody body) {
-  MapDirections(&body);
+  const bool mapped = !body.directions.Along(Eigen::Vector3d::UnitX()).empty();
+  if (!mapped) MapDirections(&body);
   return body;
 }
 

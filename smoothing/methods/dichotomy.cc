@@ -23,7 +23,9 @@ class Bisection {
         walk_(problem.sequence(), options.start.value_or(problem.Start())) {}
 
   SmoothingResult Run() {
-    if (!monitor_.BeginFeasibly(problem_, walk_.parameters())) {
+    if (options_.start_is_feasible) {
+      monitor_.BeginKnownFeasible(problem_, walk_.parameters());
+    } else if (!monitor_.BeginFeasibly(problem_, walk_.parameters())) {
       return Finish(monitor_.Refusal());
     }
     const int n = problem_.sequence().num_junctions();
@@ -51,23 +53,28 @@ class Bisection {
   // False when the search is to end.
   bool BisectJunction(int junction) {
     const size_t i = static_cast<size_t>(junction);
-    JunctionResult& result = monitor_.result().junctions[i];
     const HomotopyParameters& at = walk_.parameters();
-    double feasible = at.overlaps[i];
-    double infeasible =
+    const double feasible = at.overlaps[i];
+    double highest =
         CapOf(junction) * NaturalOverlapBound(problem_.sequence(), at.durations, junction);
-    if (feasible >= infeasible || !table_.free({ParameterFamily::kOverlap, junction})) {
+    if (feasible >= highest || !table_.free({ParameterFamily::kOverlap, junction})) {
       return !monitor_.stopped();
     }
+    monitor_.result().junctions[i].limited_by.reset();
+    if (options_.cheaper) highest = Bisect(junction, feasible, highest, *options_.cheaper);
+    if (highest > feasible) Bisect(junction, feasible, highest, problem_.test());
+    return !monitor_.stopped();
+  }
+
+  // Leaves the walk at the largest overlap of [feasible, highest] that is found, and returns it.
+  double Bisect(int junction, double feasible, double highest, const FeasibilityTest& test) {
     // The bound itself first; after that only what lies between counts.
-    std::optional<Margin> refused = Try(junction, infeasible);
-    if (!refused) {
-      result.limited_by.reset();
-      return !monitor_.stopped();
-    }
+    std::optional<Margin> refused = Try(junction, highest, test);
+    if (!refused) return highest;
+    double infeasible = highest;
     while (infeasible - feasible > options_.tolerance && !monitor_.stopped()) {
       const double middle = 0.5 * (feasible + infeasible);
-      const std::optional<Margin> refusal = Try(junction, middle);
+      const std::optional<Margin> refusal = Try(junction, middle, test);
       if (refusal) {
         infeasible = middle;
         refused = refusal;
@@ -76,12 +83,13 @@ class Bisection {
       }
     }
     walk_.SetOverlap(junction, feasible);
-    result.limited_by = refused;
-    return !monitor_.stopped();
+    monitor_.result().junctions[static_cast<size_t>(junction)].limited_by = refused;
+    return feasible;
   }
 
-  // Leaves the walk at the candidate and returns what refuses it, if anything does.
-  std::optional<Margin> Try(int junction, double candidate) {
+  // Leaves the walk at the candidate and returns what refuses it, if anything does. What only the
+  // cheaper test accepts is no result yet.
+  std::optional<Margin> Try(int junction, double candidate, const FeasibilityTest& test) {
     walk_.SetOverlap(junction, candidate);
     // Just before t_{i+1}: an interval that ends there is cut anew, also where e_i = t_{i+2} and
     // the window would be a whole stretch.
@@ -89,8 +97,9 @@ class Bisection {
     const double begin = std::nextafter(walk_.start_of(junction + 1), -1.0);
     const bool local = problem_.scene().OnlyGrowsFrom(begin);
     const TimeWindow window{begin, local ? walk_.end_of(junction) : walk_.duration()};
-    const Feasibility answer = problem_.test().Check(walk_, window, monitor_.scratch());
+    const Feasibility answer = test.Check(walk_, window, monitor_.scratch());
     const bool accepted = answer.verdict == Verdict::kFeasible;
+    if (&test != &problem_.test()) return accepted ? std::nullopt : std::optional(answer.witness);
     if (accepted) monitor_.Adopt(walk_.parameters(), walk_.duration(), walk_.duration());
     SmoothingIterate iterate{.candidate_duration = walk_.duration(),
                              .accepted = accepted,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "smoothing/methods/smoothing_monitor.h"
@@ -21,6 +22,11 @@ struct DichotomyOptions {
   double down_up_cap = 1.0;
   /// Where to begin, instead of at the planned motion.
   std::optional<HomotopyParameters> start = std::nullopt;
+  bool start_is_feasible = false;  ///< proved by the caller: not checked again
+  /// Where set: a cheaper test, of the same margins, that refuses nothing feasible. It is asked
+  /// first, so that the problem's test looks at fewer overlaps that are feasible but not the
+  /// largest. The overlaps found are the same, up to the tolerance.
+  std::shared_ptr<const FeasibilityTest> cheaper = nullptr;
 };
 
 /// The paper's smoother: each junction's overlap in turn is bisected between the largest value

@@ -48,6 +48,12 @@ bool SmoothingMonitor::BeginFeasibly(const WalkProblem& problem, const HomotopyP
   return true;
 }
 
+void SmoothingMonitor::BeginKnownFeasible(const WalkProblem& problem,
+                                          const HomotopyParameters& start) {
+  Begin(problem, start);
+  result_.feasible = true;
+}
+
 void SmoothingMonitor::Count(long instants, long collision_queries) {
   result_.instants += instants;
   result_.collision_queries += collision_queries;

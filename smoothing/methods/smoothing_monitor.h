@@ -41,6 +41,8 @@ class SmoothingMonitor {
   /// Begins and checks whether the walk of `start` keeps every margin for all its time. Returns
   /// false when it does not or the check was stopped; the result is then Refusal().
   bool BeginFeasibly(const WalkProblem& problem, const HomotopyParameters& start);
+  /// The same for a start that is known to keep them: nothing is checked.
+  void BeginKnownFeasible(const WalkProblem& problem, const HomotopyParameters& start);
   SmoothingResult Refusal() { return Finish(opt::Ending::kNotRun, refusal_); }
 
   /// Whether the search is to end: the caller asked for it, or the deadline has passed.

@@ -14,7 +14,6 @@ enum class StopBranches {
   kDown,  ///< after down half-steps: the robot can come to rest on both feet within a step
   kAll,   ///< after every half-step: at rest within a half-step, perhaps on one foot
 };
-inline constexpr int kNumStopBranches = 3;
 std::string_view Name(StopBranches branches);  ///< "none", "down" or "all", as in YAML
 
 /// Demands of a walk what another test demands, and the same of its stop branches: that at any time

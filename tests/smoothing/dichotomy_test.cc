@@ -64,6 +64,38 @@ TEST_F(DichotomyTest, FindsTheLimitFromBelowWithinTheToleranceInEitherOrderAndAn
   }
 }
 
+// Whatever the cheaper test overlooks, nothing is taken that the problem's test did not accept.
+TEST_F(DichotomyTest, ACheaperTestSavesQuestionsAndChangesNothingElse) {
+  for (const double limit : {0.3, 0.1234, 0.0}) {
+    for (const double overlooked : {0.0, 0.004, 1.0}) {
+      DichotomyOptions options{.tolerance = 0.001};
+      const FakeFeasibility alone = UpTo(limit), test = UpTo(limit);
+      const SmoothingResult slow = Smoothed(Dichotomy, ProblemOf(sequence_, alone), options);
+      options.cheaper = std::make_shared<FakeFeasibility>(UpTo(limit + overlooked));
+      const SmoothingResult quick = Smoothed(Dichotomy, ProblemOf(sequence_, test), options);
+      for (size_t i = 0; i < 5; ++i) {
+        EXPECT_LE(quick.parameters.overlaps[i], limit);
+        EXPECT_NEAR(quick.parameters.overlaps[i], slow.parameters.overlaps[i], options.tolerance);
+        EXPECT_EQ(quick.junctions[i].limited_by.has_value(),
+                  slow.junctions[i].limited_by.has_value());
+      }
+      if (overlooked == 0.0) {
+        EXPECT_EQ(quick.parameters, slow.parameters);
+      }
+    }
+  }
+}
+
+// The start is the caller's responsibility; nothing else is accepted unseen.
+TEST_F(DichotomyTest, AStartThatIsKnownToBeFeasibleIsNotChecked) {
+  const FakeFeasibility nothing =
+      Rule([](const HomotopyParameters&) { return Verdict::kViolated; });
+  const DichotomyOptions options{.start_is_feasible = true};
+  const SmoothingResult result = Smoothed(Dichotomy, ProblemOf(sequence_, nothing), options);
+  EXPECT_EQ(result.parameters, PlannedMotion(sequence_));
+  EXPECT_EQ(result.ending, opt::Ending::kNoImprovement);
+}
+
 TEST_F(DichotomyTest, WhenNoOverlapIsFeasibleItStaysExactlyZero) {
   const FakeFeasibility test = UpTo(0.0);
   const SmoothingResult result =

@@ -1,0 +1,44 @@
+#include "experiments/live/isolated_half_steps.h"
+
+#include <cmath>
+
+namespace halfstep {
+namespace {
+
+// Whether a place differs from that of an element by no more than the rounding of placing it in the
+// world.
+bool Same(const Footprint& a, const Footprint& b) {
+  constexpr double kRounding = 1e-12;  // [m], [rad]
+  return std::abs(a.x - b.x) <= kRounding && std::abs(a.y - b.y) <= kRounding &&
+         std::abs(a.yaw - b.yaw) <= kRounding && a.height == b.height;
+}
+
+// Whether half-step j is executed from rest to rest.
+bool IsIsolated(const SuperposedWalk& walk, int j) {
+  const std::vector<double>& overlaps = walk.parameters().overlaps;
+  const auto i = static_cast<size_t>(j);
+  return (i == 0 || overlaps[i - 1] <= 0.0) && (i == overlaps.size() || overlaps[i] <= 0.0);
+}
+
+}  // namespace
+
+bool IsolatedAndFree(const SuperposedWalk& walk, int j, const SweptVolumes& volumes,
+                     const SweptVolumeQuery& query) {
+  if (!IsIsolated(walk, j) || walk.X_WS(j).height != 0.0) return false;
+  const HalfStep& half_step = walk.half_step(j);
+  const bool down = half_step.kind == HalfStepKind::kDown;
+  // An element is told by the sole that supports its down half-step.
+  const Side support = down ? half_step.support : half_step.swing();
+  const Footprint placement = down ? half_step.X_SF : half_step.X_SF.Inverse();
+  for (int i = 0; i < volumes.set.size(); ++i) {
+    if (!Same(placement, volumes.set.Placement(i, support))) continue;
+    HalfStep like = down ? volumes.set.Down(i, support) : volumes.set.Up(i, support);
+    like.X_SF = half_step.X_SF;
+    if (like != half_step) return false;
+    return down ? query.DownIsFree(i, support, walk.X_WS(j))
+                : query.UpIsFree(i, support, walk.X_WS(j) * half_step.X_SF);
+  }
+  return false;
+}
+
+}  // namespace halfstep

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "planner/swept/swept_volume_query.h"
+#include "planner/swept/swept_volumes.h"
+#include "smoothing/walk/superposed_walk.h"
+
+namespace halfstep {
+
+/// Whether no other half-step of the walk is under way together with half-step j, this one is a
+/// half-step of the set, and its swept volume is free: then it keeps the clearance of the volumes
+/// at all times. `query` is of the same volumes. No-step areas
+/// that soles already stand on do not count.
+bool IsolatedAndFree(const SuperposedWalk& walk, int j, const SweptVolumes& volumes,
+                     const SweptVolumeQuery& query);
+
+}  // namespace halfstep

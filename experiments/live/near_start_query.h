@@ -1,0 +1,42 @@
+#pragma once
+
+#include "experiments/run/planning.h"
+#include "planner/swept/swept_volume_query.h"
+#include "planner/swept/swept_volumes.h"
+
+namespace halfstep {
+
+/// Asks swept volumes, and where these are in the way of the first steps from a place, proves the
+/// half-step itself. Volumes are larger than what the robot sweeps, so a robot that stands close to
+/// an obstacle may be free to go where they say no. Slow where they do: for a robot that rests and
+/// found no other way. For one search.
+class NearStartQuery : public HalfStepQuery {
+ public:
+  /// All are borrowed; the query and the certifier are of the same scene, the query of `volumes`.
+  NearStartQuery(const SweptVolumes& volumes, const SweptVolumeQuery& query,
+                 const HalfStepCertifier& certifier, const Eigen::Vector2d& start)
+      : volumes_(volumes), query_(query), certifier_(certifier), start_(start) {}
+
+  bool DownIsFree(int i, Side support, const Footprint& X_WS) const override {
+    return query_.DownIsFree(i, support, X_WS) ||
+           (IsNear(X_WS) && certifier_.Certifies(volumes_.set.Down(i, support), X_WS));
+  }
+  bool UpIsFree(int i, Side support, const Footprint& X_WS) const override {
+    if (query_.UpIsFree(i, support, X_WS)) return true;
+    const Footprint X_WF = X_WS * volumes_.set.Placement(i, support);
+    return IsNear(X_WS) && certifier_.Certifies(volumes_.set.Up(i, support), X_WF);
+  }
+
+ private:
+  bool IsNear(const Footprint& X_WS) const {
+    constexpr double kNear = 0.25;  // [m]
+    return (X_WS.position() - start_).norm() <= kNear;
+  }
+
+  const SweptVolumes& volumes_;
+  const SweptVolumeQuery& query_;
+  const HalfStepCertifier& certifier_;
+  Eigen::Vector2d start_;
+};
+
+}  // namespace halfstep

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <mutex>
+#include <string>
+#include <unordered_set>
+
+#include "smoothing/walk/superposed_walk.h"
+
+namespace halfstep {
+
+/// Remembers of which half-steps something was proved that depends on the robot alone, and so holds
+/// wherever in the world they are, and whenever: that a walk which is cut after half-step j keeps
+/// some margins from the half-step's beginning to its end. That depends on half-step j and on those
+/// before it that have not ended when it begins. Two walks are the same in this when they differ by
+/// the rounding of placing a half-step in the world. Safe to use from several threads.
+class RememberedHalfSteps {
+ public:
+  bool Knows(const SuperposedWalk& walk, int j) const;
+  void Remember(const SuperposedWalk& walk, int j);
+
+ private:
+  mutable std::mutex mutex_;
+  std::unordered_set<std::string> known_;
+};
+
+}  // namespace halfstep

@@ -1,0 +1,109 @@
+// What of a walk is proved without looking at it again, and that it is what looking would find.
+
+#include <gtest/gtest.h>
+
+#include "experiments/live/isolated_half_steps.h"
+#include "experiments/live/prepared_world.h"
+#include "experiments/live/remembered_half_steps.h"
+#include "experiments/live/replanner.h"
+#include "smoothing/walk/splice.h"
+#include "tests/draws.h"
+#include "tests/live/small_episode.h"
+
+namespace halfstep {
+namespace {
+
+class HalfStepProofsTest : public testing::Test {
+ protected:
+  HalfStepProofsTest() { world_.goal = small_.config.experiment.goal.Region(); }
+
+  Proposal Begin(int junctions) const {
+    std::mt19937_64 random(1);
+    return replanner_.Begin(small_.start, *replanner_.Prepare(world_), junctions, random);
+  }
+
+  const SmallWorld& small_ = SmallWorld::Get();
+  const Replanner replanner_{small_.place.robot, small_.config, *small_.baked.cached.volumes};
+  World world_;
+};
+
+TEST_F(HalfStepProofsTest, AreRememberedWhereverAndWheneverTheHalfStepIs) {
+  const WalkPlan plan = Begin(3).plan;
+  const SuperposedWalk walk = plan.Walk();
+  RememberedHalfSteps remembered;
+  for (int j = 0; j < walk.num_half_steps(); ++j) {
+    remembered.Remember(walk, j);
+    EXPECT_TRUE(remembered.Knows(walk, j));
+  }
+  const SuperposedWalk later = Delayed(plan, 5, walk.end_of(5) + 1.0).Walk();
+  EXPECT_TRUE(remembered.Knows(later, 4));
+  const int last = walk.num_half_steps() - 1;
+  EXPECT_TRUE(remembered.Knows(later, last));
+  int known = 0;
+  for (int draw = 0; draw < 20; ++draw) {
+    const double x = 0.37 * draw;
+    const SuperposedWalk elsewhere(Moved({x, -x, 0.1 * x}, plan.sequence), plan.parameters);
+    for (int j = 0; j <= last; ++j) known += remembered.Knows(elsewhere, j);
+  }
+  EXPECT_GT(known, 19 * (last + 1));  // few round apart
+}
+
+TEST_F(HalfStepProofsTest, AreNotRememberedOfAnotherOverlap) {
+  WalkPlan plan = Begin(3).plan;
+  RememberedHalfSteps remembered;
+  remembered.Remember(plan.Walk(), 1);
+  EXPECT_FALSE(remembered.Knows(plan.Walk(), 3));
+  plan.parameters.overlaps[1] += 1e-9;  // what comes after is no part of it
+  EXPECT_TRUE(remembered.Knows(plan.Walk(), 1));
+  plan.parameters.overlaps[0] -= 1e-9;
+  EXPECT_FALSE(remembered.Knows(plan.Walk(), 1));
+}
+
+// Where a swept volume is free the certificate finds the same, and it is not asked about half-steps
+// that overlap.
+TEST_F(HalfStepProofsTest, OfVolumesAreThoseOfTheCertificate) {
+  const WalkPlan plan = Begin(0).plan;
+  const SuperposedWalk walk = plan.Walk();
+  const SweptVolumes& volumes = *small_.baked.cached.volumes;
+  std::mt19937_64 random(2);
+  std::uniform_real_distribution<double> along(-0.3, 1.5), across(-0.5, 0.5);
+  int free = 0, met = 0;
+  for (int draw = 0; draw < Draws(40); ++draw) {
+    world_.scene.obstacles = {Bar("bar", along(random), across(random))};
+    const auto among = replanner_.Prepare(world_);
+    for (int j = 1; j < walk.num_half_steps(); ++j) {
+      const bool is_free = IsolatedAndFree(walk, j, volumes, among->query);
+      ++(is_free ? free : met);
+      if (!is_free) continue;
+      EXPECT_EQ(among->safety.AmongObstacles(walk, j, j, 0.0).through, j);
+    }
+  }
+  EXPECT_GT(free, met);
+  EXPECT_GT(met, 0);
+  WalkPlan overlapping = plan;
+  overlapping.parameters.overlaps[2] = 0.1;
+  world_.scene.obstacles.clear();
+  const auto empty = replanner_.Prepare(world_);
+  EXPECT_TRUE(IsolatedAndFree(walk, 2, volumes, empty->query));
+  EXPECT_FALSE(IsolatedAndFree(overlapping.Walk(), 2, volumes, empty->query));
+  EXPECT_FALSE(IsolatedAndFree(overlapping.Walk(), 3, volumes, empty->query));
+}
+
+// It was refused for what comes after the rest, and then nothing was ever planned again.
+TEST_F(HalfStepProofsTest, ARobotThatRestsIsNotRefusedForWhatWouldComeNext) {
+  const WalkPlan plan = Begin(0).plan;
+  WalkPlan delayed = Delayed(plan, 3, plan.Walk().end_of(3) + 2.0);
+  delayed.parameters.overlaps[4] =
+      NaturalOverlapBound(delayed.sequence, delayed.parameters.durations, 4);
+  const SuperposedWalk walk = delayed.Walk();
+  const Footprint ahead = walk.X_WS(5);
+  world_.scene.obstacles = {Bar("bar", ahead.x + 0.2, ahead.y)};
+  const auto among = replanner_.Prepare(world_);
+  const double now = walk.end_of(3) + 1.0;
+  const Safety safety = among->safety.AmongObstacles(walk, 3, walk.num_half_steps() - 1, now);
+  EXPECT_GE(safety.through, 3);
+  EXPECT_TRUE(safety.refused_by);
+}
+
+}  // namespace
+}  // namespace halfstep
