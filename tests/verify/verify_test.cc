@@ -142,7 +142,7 @@ std::vector<Mutation> Mutations() {
       {"ZmpBoundLowered", Certificate([](Table& t) { LowerBoundsOf(t, "zmp"); }), "beyond"},
       {"JointBoundLowered", Certificate([](Table& t) { LowerBoundsOf(t, "joint"); }), "beyond"},
       {"BoundNegative", Certificate([](Table& t) { t[100][kBound] = "-1"; }), "negative"},
-      {"BoundTooLarge", Certificate([](Table& t) { t[100][kMargin] = t[100][kBound] = "1"; }),
+      {"BoundTooLarge", Certificate([](Table& t) { t[100][kMargin] = "1", t[100][kBound] = "2"; }),
        "margin − bound"},
       {"SubjectUnknown", Certificate([](Table& t) { t[100][kSubject] = "tail"; }),
        "nothing is called"},
