@@ -9,7 +9,7 @@ namespace halfstep {
 /// Asks swept volumes, and where these are in the way of the first steps from a place, proves the
 /// half-step itself. Volumes are larger than what the robot sweeps, so a robot that stands close to
 /// an obstacle may be free to go where they say no. Slow where they do: for a robot that rests and
-/// found no other way. For one search.
+/// found no other way, and only so many times. For one search in one thread.
 class NearStartQuery : public HalfStepQuery {
  public:
   /// All are borrowed; the query and the certifier are of the same scene, the query of `volumes`.
@@ -19,24 +19,28 @@ class NearStartQuery : public HalfStepQuery {
 
   bool DownIsFree(int i, Side support, const Footprint& X_WS) const override {
     return query_.DownIsFree(i, support, X_WS) ||
-           (IsNear(X_WS) && certifier_.Certifies(volumes_.set.Down(i, support), X_WS));
+           Certifies(volumes_.set.Down(i, support), X_WS, X_WS);
   }
   bool UpIsFree(int i, Side support, const Footprint& X_WS) const override {
     if (query_.UpIsFree(i, support, X_WS)) return true;
     const Footprint X_WF = X_WS * volumes_.set.Placement(i, support);
-    return IsNear(X_WS) && certifier_.Certifies(volumes_.set.Up(i, support), X_WF);
+    return Certifies(volumes_.set.Up(i, support), X_WF, X_WS);
   }
 
  private:
-  bool IsNear(const Footprint& X_WS) const {
+  // Of a half-step whose sole stands at `support`; `from` is where the robot comes from.
+  bool Certifies(const HalfStep& half_step, const Footprint& support, const Footprint& from) const {
     constexpr double kNear = 0.25;  // [m]
-    return (X_WS.position() - start_).norm() <= kNear;
+    if (left_ == 0 || (from.position() - start_).norm() > kNear) return false;
+    --left_;
+    return certifier_.Certifies(half_step, support);
   }
 
   const SweptVolumes& volumes_;
   const SweptVolumeQuery& query_;
   const HalfStepCertifier& certifier_;
   Eigen::Vector2d start_;
+  mutable int left_ = 300;  // certificates
 };
 
 }  // namespace halfstep
