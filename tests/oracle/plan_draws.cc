@@ -65,8 +65,8 @@ WalkPlan DrawPlan(const PlainRobot& robot, Draw* draw) {
   }
   if (varied) {
     plan.bump_ramp = draw->Chance(0.5) ? 0 : draw->Uniform(0.15, 0.45);
-    plan.foot_ramp = draw->Uniform(0.1, 0.5);
-    plan.lift_share = draw->Uniform(0.5, 1);
+    plan.foot_ramp = draw->Uniform(0.35, 0.5);
+    plan.lift_share = draw->Uniform(0.85, 1);
   }
   return plan;
 }
