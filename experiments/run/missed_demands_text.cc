@@ -14,7 +14,9 @@ constexpr size_t kMost = 10;  // demands that are told
 
 std::string Demand(const MarginEvaluator& evaluator, const MissedDemand& demand, int instants) {
   return evaluator.Describe(demand.worst) +
-         Formatted("; missed at %d of %d instants", demand.instants, instants);
+         (demand.instants > 0
+              ? Formatted("; missed at %d of %d instants", demand.instants, instants)
+              : Formatted("; missed for a moment between the %d instants looked at", instants));
 }
 
 // Of obstacles that a body touches: a mesh that brings its floor along.

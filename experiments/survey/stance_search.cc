@@ -23,10 +23,10 @@
 namespace halfstep {
 namespace {
 
-constexpr double kFeetApart = 0.05;     // bodies of HRP-2's feet, standing [m]
-constexpr double kLeastLift = 0.12;     // of the swing foot, of the leg's length
-constexpr double kTorquePeriod = 0.02;  // [s]
-constexpr int kParts = 8;               // of a mesh whose hull touches what it should not
+constexpr double kFeetApart = 0.05;      // bodies of HRP-2's feet, standing [m]
+constexpr double kLeastLift = 0.12;      // of the swing foot, of the leg's length
+constexpr double kTorquePeriod = 0.002;  // [s]
+constexpr int kParts = 8;                // of a mesh whose hull touches what it should not
 
 // The least margin of a leg joint's torque in six steps, sampled [N m]; +∞ where nothing is known
 // of torques.
