@@ -22,7 +22,8 @@ namespace fs = std::filesystem;
 // Unit that a column's name ends in.
 std::string UnitInName(const std::string& name) {
   for (const auto& [ending, unit] :
-       std::vector<std::pair<std::string, std::string>>{{"_m_s2", "m/s2"},
+       std::vector<std::pair<std::string, std::string>>{{"_n_m", "N m"},
+                                                        {"_m_s2", "m/s2"},
                                                         {"_rad_s", "rad/s"},
                                                         {"_m_s", "m/s"},
                                                         {"_rad", "rad"},

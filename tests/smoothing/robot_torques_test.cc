@@ -236,7 +236,7 @@ TEST(LegTorques, AndFrictionHaveTheSlopesOfDifferences) {
       ++(support ? single : both);
       for (const Eigen::Index broken : {0, 9, 12}) {
         Eigen::MatrixXd wrong = slopes;
-        wrong(broken, 0) = 1.01 * wrong(broken, 0) + 1e-3;
+        wrong(broken, 0) += 1e-3 + 0.01 * std::abs(wrong(broken, 0));
         EXPECT_FALSE(CheckJacobian(function, here, wrong, kStep).Passed(1e-6)) << broken;
       }
     }
