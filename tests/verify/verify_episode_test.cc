@@ -141,6 +141,11 @@ ForgeEpisode InUsedGrant(const std::string& column,
   };
 }
 
+// The grant that allowed the last half-step names the last world of the record.
+void ByTheLastWorld(const fs::path& folder) {
+  InUsedGrant("world", CellValue(TableOf(folder / "worlds.csv").back()[0]))(folder);
+}
+
 // Everywhere in a column of a table.
 ForgeEpisode InAllRows(const std::string& file, const std::string& column,
                        const std::function<std::string(double)>& change) {
@@ -177,7 +182,7 @@ std::vector<EpisodeForgery> EpisodeForgeries() {
        InAllRows("obstacles.csv", "error_m", CellValue("0.001")),
        {},
        "error_m is 0.001, but 0.005 by config and scene"},
-      {"GrantBeforeItsWorldWasKnown", InUsedGrant("t_s", CellPlus(-0.5)), {}, "became known at"},
+      {"GrantBeforeItsWorldWasKnown", ByTheLastWorld, {}, "became known at"},
       {"GrantCountsTooLate", InUsedGrant("t_s", CellPlus(30)), {}, "but its grant counts from"},
       {"ThroughRaisedBeyondTheWalk",
        InUsedGrant("through", CellValue("99")),
