@@ -1,8 +1,8 @@
 #!/bin/sh
 # Builds and tests everything but the benchmarks.
-#   tests/run.sh           release
+#   tests/run.sh           release; what .ci/run does
 #   tests/run.sh --all     and debug with AddressSanitizer and UBSan, which leaves out a few slow
-#                          tests, and a quick look by every fuzz target; what .ci/run does
+#                          tests, and a quick look by every fuzz target: before a change lands
 # JOBS: how many compilers and tests at once (2).
 set -eu
 cd "$(dirname "$0")/.."
