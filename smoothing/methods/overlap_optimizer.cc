@@ -184,7 +184,9 @@ class Optimization {
     }
     Try(end, near ? solution_.final_violation : solution_.max_violation, program, path);
     result.raw_end_feasible = path->refusals().empty();
-    for (const Margin& refusal : path->refusals()) program.watched().Learn(walk, refusal.at);
+    for (const Margin& refusal : path->refusals()) {
+      program.watched().Learn(walk, refusal.at, refusal.stop_after >= 0);
+    }
     return promising;
   }
 
@@ -319,6 +321,7 @@ SmoothingResult OptimizeOverlaps(const WalkProblem& problem, const OptimizerOpti
   const opt::SolverTraits traits = solver->traits();
   OptimizerOptions own = options;
   WatchOptions& watch = own.program.watch;
+  watch.stop_branches = problem.test().stop_branches();
   watch.row_per_instant = traits.many_rows;
   if (traits.many_rows) {
     watch.sharpness = std::max(watch.sharpness, kRowsSharpness);

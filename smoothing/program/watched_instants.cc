@@ -74,17 +74,18 @@ std::vector<double> Events(const HalfStep& half_step) {
 
 using LeastSlacks = std::array<double, kNumMarginFamilies>;  // by family, at most a cutoff
 
-// At 0, period, … and at the end.
+// At `begin` [s], a period later, … and at the end.
 std::vector<LeastSlacks> Sampled(const SuperposedWalk& walk, const MarginEvaluator& evaluator,
-                                 double period, double cutoff) {
+                                 double begin, double period, double cutoff) {
   SlackEvaluator slacks(evaluator, cutoff);
   InstantSlacks instant;
-  const int n = static_cast<int>(std::ceil(walk.duration() / period));
+  const int n = static_cast<int>(std::ceil((walk.duration() - begin) / period));
   std::vector<LeastSlacks> samples(static_cast<size_t>(n) + 1);
   for (int i = 0; i <= n; ++i) {
     LeastSlacks& sample = samples[static_cast<size_t>(i)];
     sample.fill(cutoff);
-    slacks.At(walk, walk.Locate(std::min(i * period, walk.duration())), {}, false, &instant);
+    const double t = std::min(begin + i * period, walk.duration());
+    slacks.At(walk, walk.Locate(t), {}, false, &instant);
     for (const SlackRow& row : instant.rows) {
       double& least = sample[static_cast<size_t>(row.family)];
       least = std::min(least, row.slack);
@@ -115,15 +116,25 @@ WatchedInstants::WatchedInstants(const OverlapVariables& variables,
   for (int k = 0; k < n; ++k) {
     std::vector<Instant> instants;
     for (int m = 0; m < options.instants; ++m) {
-      instants.push_back({(m + 0.5) / options.instants, true});
+      instants.push_back({(m + 0.5) / options.instants, Instant::Of::kStretch});
     }
     for (double v : Events(variables.sequence().half_steps[static_cast<size_t>(k)].half_step)) {
-      instants.push_back({v, false});
+      instants.push_back({v, Instant::Of::kHalfStep});
+    }
+    const int in_branch = WatchesBranch(k) ? std::max(1, options.instants / 2) : 0;
+    for (int m = 0; m < in_branch; ++m) {
+      instants.push_back({(m + 0.5) / in_branch, Instant::Of::kBranch});
     }
     instants_.push_back(std::move(instants));
     bands_.push_back(variables.Band(k));
   }
   CountRows();
+}
+
+bool WatchedInstants::WatchesBranch(int k) const {
+  const std::vector<PlacedHalfStep>& half_steps = variables_.sequence().half_steps;
+  return k + 1 < variables_.sequence().size() &&
+         Demands(options_.stop_branches, half_steps[static_cast<size_t>(k)].half_step.kind);
 }
 
 void WatchedInstants::CountRows() {
@@ -158,47 +169,82 @@ size_t WatchedInstants::num_nonzeros() const {
 LocalTime WatchedInstants::At(const SuperposedWalk& walk, int k, const Instant& instant,
                               std::vector<std::pair<HomotopyParameter, double>>* moving) {
   moving->clear();
-  moving->push_back({{Family::kDuration, k}, instant.fraction});
-  if (!instant.of_stretch) return {k, instant.fraction * walk.profiles(k).duration()};
-  if (k + 1 < walk.num_half_steps()) {
-    moving->push_back({{Family::kOverlap, k}, -instant.fraction});
+  const double u = instant.fraction, T = walk.profiles(k).duration();
+  if (instant.of == Instant::Of::kHalfStep) {
+    moving->push_back({{Family::kDuration, k}, u});
+    return {k, u * T};
   }
-  return {k, instant.fraction * StretchOf(walk, k)};
+  const bool last = k + 1 == walk.num_half_steps();
+  if (instant.of == Instant::Of::kStretch) {
+    moving->push_back({{Family::kDuration, k}, u});
+    if (!last) moving->push_back({{Family::kOverlap, k}, -u});
+    return {k, u * StretchOf(walk, k)};
+  }
+  moving->push_back({{Family::kDuration, k}, 1.0});
+  const double overlap = T - StretchOf(walk, k);
+  if (overlap <= 0.0) return {k, T};
+  moving->push_back({{Family::kOverlap, k}, u - 1.0});
+  return {k, T - (1.0 - u) * overlap};
 }
 
-bool WatchedInstants::Learn(const SuperposedWalk& walk, const LocalTime& at) {
-  const bool learned = Look(walk, at, Instant::Why::kLearned);
+bool WatchedInstants::Learn(const SuperposedWalk& walk, const LocalTime& at, bool of_branch) {
+  const bool learned = Look(walk, at, of_branch, Instant::Why::kLearned);
   CountRows();
   return learned;
 }
 
-bool WatchedInstants::Look(const SuperposedWalk& walk, const LocalTime& at, Instant::Why why) {
+bool WatchedInstants::Look(const SuperposedWalk& walk, const LocalTime& at, bool of_branch,
+                           Instant::Why why) {
   constexpr double kSame = 1e-3;  // of T
-  const double v = at.tau / walk.profiles(at.half_step).duration();
+  const double T = walk.profiles(at.half_step).duration();
+  double fraction = at.tau / T;
+  const Instant::Of of = of_branch ? Instant::Of::kBranch : Instant::Of::kHalfStep;
+  if (of_branch) {
+    const double stretch = StretchOf(walk, at.half_step);
+    fraction = stretch < T ? (at.tau - stretch) / (T - stretch) : 1.0;
+  }
   std::vector<Instant>& instants = instants_[static_cast<size_t>(at.half_step)];
   for (const Instant& known : instants) {
-    if (!known.of_stretch && !known.far && std::abs(known.fraction - v) < kSame) return false;
+    if (known.of == of && !known.far && std::abs(known.fraction - fraction) < kSame) return false;
   }
-  instants.push_back({std::clamp(v, 0.0, 1.0), false, why});
+  instants.push_back({std::clamp(fraction, 0.0, 1.0), of, why});
   return true;
 }
 
 double WatchedInstants::Focus(const SuperposedWalk& walk, double period, double level) {
-  const double far = level + kFar;
   // Rows by half-step cost no more for looking at more instants; long rounds need them.
-  const bool forgets = options_.row_per_instant;
-  const std::vector<LeastSlacks> samples = Sampled(walk, evaluator_, period, far);
+  if (options_.row_per_instant) {
+    for (std::vector<Instant>& instants : instants_) {
+      std::erase_if(instants, [](const Instant& i) { return i.why == Instant::Why::kMinimum; });
+    }
+  }
+  double least = FocusOn(walk, std::nullopt, period, level);
+  for (int k = 0; k + 1 < walk.num_half_steps(); ++k) {
+    if (!WatchesBranch(k) || walk.end_of(k) <= walk.start_of(k + 1)) continue;
+    least = std::min(least, FocusOn(walk, k, period, level));
+  }
+  CountRows();
+  return least;
+}
+
+double WatchedInstants::FocusOn(const SuperposedWalk& walk, std::optional<int> branch,
+                                double period, double level) {
+  const double far = level + kFar;
+  const double begin = branch ? walk.start_of(*branch + 1) : 0.0;
+  const double end = branch ? walk.end_of(*branch) : walk.duration();
+  const std::vector<LeastSlacks> samples =
+      Sampled(branch ? walk.StopBranch(*branch) : walk, evaluator_, begin, period, far);
   const int last = static_cast<int>(samples.size()) - 1;
   const auto lowest = [&samples](int i) {
     return std::ranges::min(samples[static_cast<size_t>(i)]);
   };
   std::vector<std::pair<HomotopyParameter, double>> moving;
-  for (int k = 0; forgets && k < walk.num_half_steps(); ++k) {
-    std::vector<Instant>& instants = instants_[static_cast<size_t>(k)];
-    std::erase_if(instants, [](const Instant& i) { return i.why == Instant::Why::kMinimum; });
-    for (Instant& instant : instants) {
+  const int from = branch.value_or(0), to = branch.value_or(walk.num_half_steps() - 1);
+  for (int k = from; options_.row_per_instant && k <= to; ++k) {
+    for (Instant& instant : instants_[static_cast<size_t>(k)]) {
+      if ((instant.of == Instant::Of::kBranch) != branch.has_value()) continue;
       const double t = walk.start_of(k) + At(walk, k, instant, &moving).tau;
-      const int i = std::clamp(static_cast<int>(t / period), 0, last);
+      const int i = std::clamp(static_cast<int>((t - begin) / period), 0, last);
       instant.far = lowest(i) >= far && lowest(std::min(i + 1, last)) >= far;
     }
   }
@@ -210,11 +256,11 @@ double WatchedInstants::Focus(const SuperposedWalk& walk, double period, double 
     // It moves with the parameters.
     const int around = minimum < level + kNear ? 2 : 0;
     for (int j = -around; j <= around; ++j) {
-      const double t = std::clamp((i + j) * period, 0.0, walk.duration());
-      Look(walk, walk.Locate(t), Instant::Why::kMinimum);
+      const double t = std::clamp(begin + (i + j) * period, begin, end);
+      const LocalTime at = branch ? LocalTime{*branch, t - walk.start_of(*branch)} : walk.Locate(t);
+      Look(walk, at, branch.has_value(), Instant::Why::kMinimum);
     }
   }
-  CountRows();
   return least;
 }
 
@@ -238,12 +284,15 @@ void WatchedInstants::EvaluateHalfStep(const SuperposedWalk& walk, const Eigen::
   };
   std::vector<std::pair<HomotopyParameter, double>> moving;
   InstantSlacks instant;
+  std::optional<SuperposedWalk> branch;
+  if (WatchesBranch(k)) branch = walk.StopBranch(k);
   Eigen::MatrixXd pull;   // ∂parameter/∂x on the band (parameters × width)
   Eigen::VectorXd later;  // ∂t/∂x on the band (width); empty where obstacles rest
   for (const Instant& where : instants_[static_cast<size_t>(k)]) {
     if (where.far) continue;
     const LocalTime at = At(walk, k, where, &moving);
-    slacks->At(walk, at, moving, nonzeros != nullptr, &instant);
+    const bool of_branch = where.of == Instant::Of::kBranch;
+    slacks->At(of_branch ? *branch : walk, at, moving, nonzeros != nullptr, &instant);
     if (nonzeros && !instant.rows.empty()) {
       pull.setZero(static_cast<Eigen::Index>(instant.parameters.size()), width);
       later.setZero(instant.times.empty() ? 0 : width);
@@ -298,8 +347,11 @@ double WatchedInstants::LeastSlack(const HomotopyParameters& parameters,
   InstantSlacks instant;
   std::vector<std::pair<HomotopyParameter, double>> moving;
   for (int k = 0; k < walk.num_half_steps(); ++k) {
+    std::optional<SuperposedWalk> branch;
+    if (WatchesBranch(k)) branch = walk.StopBranch(k);
     for (const Instant& where : instants_[static_cast<size_t>(k)]) {
-      slacks.At(walk, At(walk, k, where, &moving), moving, false, &instant);
+      const bool of_branch = where.of == Instant::Of::kBranch;
+      slacks.At(of_branch ? *branch : walk, At(walk, k, where, &moving), moving, false, &instant);
       for (const SlackRow& row : instant.rows) {
         if (of[static_cast<size_t>(row.family)]) least = std::min(least, row.slack);
       }

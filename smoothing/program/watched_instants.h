@@ -2,10 +2,12 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "smoothing/margins/slack_evaluator.h"
 #include "smoothing/program/overlap_variables.h"
+#include "smoothing/walk/stop_branches.h"
 
 namespace halfstep {
 
@@ -15,13 +17,16 @@ struct WatchOptions {
   double cutoff = 1.5;    ///< c: statements with more slack do not count
   /// One row an instant and family instead of one a half-step and family.
   bool row_per_instant = false;
+  StopBranches stop_branches = StopBranches::kNone;  ///< of which slacks are gathered as well
 };
 
 /// The slacks of a walk, gathered by half-step and family. Half-step k is looked at
 ///   - on its own stretch [t_k, t_{k+1}], at τ = u·(T_k − Δ_k) for fixed u ∈ (0, 1);
 ///   - where statements begin or end to count, at τ = v·T_k: lift-off or landing, begin or end of
 ///     the horizontal motion of its foot;
-///   - where a proof failed before (Learn) or samples show small slacks (Focus), at τ = v·T_k.
+///   - where a proof failed before (Learn) or samples show small slacks (Focus), at τ = v·T_k;
+///   - where its stop branch is demanded, in the walk that is cut after it on [t_{k+1}, e_k], at
+///     τ = T_k − (1 − u)·max(Δ_k, 0): before t_{k+1} that is the walk.
 /// Row (k, family), or with `row_per_instant` (k, instant, family), is
 ///
 ///     −(3 + log(e^{−ρc} + Σ e^{−ρ·slack}))/ρ ≤ min(c, least slack at these instants) − 3/ρ,
@@ -50,14 +55,14 @@ class WatchedInstants {
   double sharpness() const { return options_.sharpness; }
   void SetSharpness(double sharpness) { options_.sharpness = sharpness; }
 
-  /// Adds an instant at which a slack turned out to be small. Returns false when it, or one very
-  /// near, is watched already.
-  bool Learn(const SuperposedWalk& walk, const LocalTime& at);
-  /// Samples `walk` every `period` [s] and adds the instants that matter: those where a family's
-  /// least slack has a local minimum in time, and some around it where that is near the `level`
-  /// that all slacks are to reach. With `row_per_instant`, instants added so for earlier walks are
-  /// dropped, and instants with no slack near the level get no row. Returns the least slack
-  /// sampled.
+  /// Adds an instant at which a slack turned out to be small, in the walk or in the stop branch
+  /// after its half-step. Returns false when it, or one very near, is watched already.
+  bool Learn(const SuperposedWalk& walk, const LocalTime& at, bool of_branch = false);
+  /// Samples `walk`, and its stop branches, every `period` [s] and adds the instants that matter:
+  /// those where a family's least slack has a local minimum in time, and some around it where that
+  /// is near the `level` that all slacks are to reach. With `row_per_instant`, instants added so
+  /// for earlier walks are dropped, and instants with no slack near the level get no row. Returns
+  /// the least slack sampled.
   double Focus(const SuperposedWalk& walk, double period, double level);
 
   /// Evaluates the rows at x (rows) and, unless `nonzeros` is null, the Jacobian, row by row in the
@@ -71,16 +76,25 @@ class WatchedInstants {
 
  private:
   struct Instant {
+    enum class Of {
+      kStretch,   // of T_k − Δ_k from t_k on
+      kHalfStep,  // of T_k from t_k on
+      kBranch,    // of Δ_k from t_{k+1} on, in the stop branch
+    };
     enum class Why { kGrid, kLearned, kMinimum };
     double fraction;
-    bool of_stretch;  // of T_k − Δ_k, else of T_k
+    Of of;
     Why why = Why::kGrid;
     bool far = false;  // nothing there is near its limit: no row
   };
   // (k, τ) of an instant, and dτ along the parameters that move it.
   static LocalTime At(const SuperposedWalk& walk, int half_step, const Instant& instant,
                       std::vector<std::pair<HomotopyParameter, double>>* moving);
-  bool Look(const SuperposedWalk& walk, const LocalTime& at, Instant::Why why);
+  bool WatchesBranch(int half_step) const;
+  bool Look(const SuperposedWalk& walk, const LocalTime& at, bool of_branch, Instant::Why why);
+  // Focus on the walk, or on the new part of the stop branch after a half-step.
+  double FocusOn(const SuperposedWalk& walk, std::optional<int> branch, double period,
+                 double level);
   void CountRows();
   void EvaluateHalfStep(const SuperposedWalk& walk, const Eigen::VectorXd& x, int half_step,
                         SlackEvaluator* slacks, Eigen::VectorXd* values, double* nonzeros) const;

@@ -5,6 +5,7 @@
 
 #include "smoothing/margins/margin.h"
 #include "smoothing/margins/margin_evaluator.h"
+#include "smoothing/walk/stop_branches.h"
 #include "smoothing/walk/superposed_walk.h"
 
 namespace halfstep {
@@ -43,6 +44,8 @@ class FeasibilityTest {
   /// How the test decides: "sampled every 5 ms".
   virtual std::string Description() const = 0;
   virtual const MarginEvaluator& evaluator() const = 0;
+  /// Which stop branches must keep the margins, too.
+  virtual StopBranches stop_branches() const { return StopBranches::kNone; }
   /// The same kind of test with the demands of another evaluator.
   virtual std::unique_ptr<FeasibilityTest> Over(const MarginEvaluator& evaluator) const = 0;
   /// Decides the absolute times of `window`.

@@ -4,18 +4,6 @@
 
 namespace halfstep {
 
-std::string_view Name(StopBranches branches) {
-  switch (branches) {
-    case StopBranches::kNone:
-      return "none";
-    case StopBranches::kDown:
-      return "down";
-    case StopBranches::kAll:
-      return "all";
-  }
-  return "";
-}
-
 StoppableFeasibility::StoppableFeasibility(std::shared_ptr<const FeasibilityTest> test,
                                            StopBranches branches)
     : test_(std::move(test)), branches_(branches) {}
@@ -40,11 +28,9 @@ std::unique_ptr<FeasibilityTest> StoppableFeasibility::Over(
 Feasibility StoppableFeasibility::Check(const SuperposedWalk& walk, const TimeWindow& window,
                                         MarginEvaluator::Scratch* scratch) const {
   Feasibility answer = test_->Check(walk, window, scratch);
-  if (branches_ == StopBranches::kNone) return answer;
   for (int k = 0; k + 1 < walk.num_half_steps(); ++k) {
     if (answer.verdict != Verdict::kFeasible) return answer;
-    const bool up = walk.half_step(k).kind == HalfStepKind::kUp;
-    if (up && branches_ == StopBranches::kDown) continue;
+    if (!Demands(branches_, walk.half_step(k).kind)) continue;
     const TimeWindow rest{walk.start_of(k + 1), walk.end_of(k)};
     if (rest.begin < window.begin || rest.begin > window.end || rest.end <= rest.begin) continue;
     answer = test_->Check(walk.StopBranch(k), rest, scratch);

@@ -2,19 +2,10 @@
 
 #include <memory>
 #include <string>
-#include <string_view>
 
 #include "smoothing/proof/feasibility_test.h"
 
 namespace halfstep {
-
-/// Which stop branches of a walk (SuperposedWalk::StopBranch) must be feasible as well.
-enum class StopBranches {
-  kNone,
-  kDown,  ///< after down half-steps: the robot can come to rest on both feet within a step
-  kAll,   ///< after every half-step: at rest within a half-step, perhaps on one foot
-};
-std::string_view Name(StopBranches branches);  ///< "none", "down" or "all", as in YAML
 
 /// Demands of a walk what another test demands, and the same of its stop branches: that at any time
 /// the robot may begin nothing more and come to rest with every margin kept. Of the branch after
@@ -29,6 +20,7 @@ class StoppableFeasibility : public FeasibilityTest {
   Evidence evidence() const override { return test_->evidence(); }
   std::string Description() const override;
   const MarginEvaluator& evaluator() const override { return test_->evaluator(); }
+  StopBranches stop_branches() const override { return branches_; }
   std::unique_ptr<FeasibilityTest> Over(const MarginEvaluator& evaluator) const override;
   /// The witness says whether it is of a branch (Margin::stop_after).
   Feasibility Check(const SuperposedWalk& walk, const TimeWindow& window,

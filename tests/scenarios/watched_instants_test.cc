@@ -27,6 +27,47 @@ class WatchedInstantsTest : public testing::Test {
     return x;
   }
 
+  // The Jacobian of `table` against differences of its rows.
+  void ExpectSlopes(const WatchedInstants& table, unsigned seed) const {
+    WalkDraw draw(seed);
+    int compared = 0, kinks = 0, caught = 0;
+    for (int i = 0; i < Draws(10); ++i) {
+      const Eigen::VectorXd x = Draw(&draw);
+      Eigen::VectorXd direction(x.size());
+      for (Eigen::Index v = 0; v < x.size(); ++v) direction[v] = draw.Uniform(-1, 1);
+      Eigen::VectorXd values;
+      std::vector<double> nonzeros;
+      table.Evaluate(x, &values, &nonzeros);
+      ASSERT_EQ(nonzeros.size(), table.num_nonzeros());
+      const auto slope = [&](double h) {
+        Eigen::VectorXd more, less;
+        table.Evaluate(x + h * direction, &more, nullptr);
+        table.Evaluate(x - h * direction, &less, nullptr);
+        return Eigen::VectorXd((more - less) / (2 * h));
+      };
+      const Eigen::VectorXd coarse = slope(1e-5), fine = slope(2e-6);
+      size_t entry = 0;
+      for (int row = 0; row < table.rows(); ++row) {
+        double analytic = 0.0;
+        for (int v : table.band(table.half_step_of(row))) {
+          analytic += nonzeros[entry++] * direction[v];
+        }
+        const double size = 1 + std::abs(fine[row]);
+        if (std::abs(coarse[row] - fine[row]) > 1e-3 * size) {
+          ++kinks;
+          continue;
+        }
+        ++compared;
+        EXPECT_NEAR(analytic, fine[row], 5e-3 * size)
+            << Name(WatchedInstants::family_of(row)) << " in half-step " << table.half_step_of(row);
+        caught += std::abs(-analytic - fine[row]) > 5e-3 * size;
+      }
+    }
+    EXPECT_GT(compared, Draws(10) * 50);
+    EXPECT_LT(kinks, compared / 20);
+    EXPECT_GT(caught, compared / 10);
+  }
+
   const Experiment e_ = LoadExperiment("bar_8cm");
   const MarginEvaluator evaluator_{e_.robot, e_.scene, e_.config.smoothing.limits};
   const OverlapVariables variables_{
@@ -83,43 +124,50 @@ TEST_F(WatchedInstantsTest, ARowNeverExceedsTheLeastSlackAndNearsItAsItSharpens)
 }
 
 TEST_F(WatchedInstantsTest, JacobianAlongRandomDirectionsAgreesWithDifferences) {
-  WalkDraw draw(362);
-  int compared = 0, kinks = 0, caught = 0;
-  for (int i = 0; i < Draws(10); ++i) {
+  ExpectSlopes(table_, 362);
+}
+
+TEST_F(WatchedInstantsTest, SoDoesThatOfStopBranches) {
+  ExpectSlopes({variables_, evaluator_, {.instants = 4, .stop_branches = StopBranches::kAll}}, 363);
+}
+
+// Every row that looks at branches is at most the one that does not, and the least slack is that of
+// the walk and of all its branches, sampled densely.
+TEST_F(WatchedInstantsTest, BranchesLowerRowsAndTheLeastSlack) {
+  WalkDraw draw(364);
+  WatchedInstants stoppable(variables_, evaluator_,
+                            {.instants = 32, .stop_branches = StopBranches::kAll});
+  const WatchedInstants plain(variables_, evaluator_, {.instants = 32});
+  std::array<bool, kNumMarginFamilies> all;
+  all.fill(true);
+  int lower = 0;
+  for (int i = 0; i < Draws(4); ++i) {
     const Eigen::VectorXd x = Draw(&draw);
-    Eigen::VectorXd direction(x.size());
-    for (Eigen::Index v = 0; v < x.size(); ++v) direction[v] = draw.Uniform(-1, 1);
-    Eigen::VectorXd values;
-    std::vector<double> nonzeros;
-    table_.Evaluate(x, &values, &nonzeros);
-    ASSERT_EQ(nonzeros.size(), table_.num_nonzeros());
-    const auto slope = [&](double h) {
-      Eigen::VectorXd more, less;
-      table_.Evaluate(x + h * direction, &more, nullptr);
-      table_.Evaluate(x - h * direction, &less, nullptr);
-      return Eigen::VectorXd((more - less) / (2 * h));
-    };
-    const Eigen::VectorXd coarse = slope(1e-5), fine = slope(2e-6);
-    size_t entry = 0;
-    for (int row = 0; row < table_.rows(); ++row) {
-      double analytic = 0.0;
-      for (int v : table_.band(table_.half_step_of(row))) {
-        analytic += nonzeros[entry++] * direction[v];
+    Eigen::VectorXd with, without;
+    stoppable.Evaluate(x, &with, nullptr);
+    plain.Evaluate(x, &without, nullptr);
+    ASSERT_EQ(with.size(), without.size());
+    EXPECT_LE((with - without).maxCoeff(), 1e-12);
+    lower += (with - without).minCoeff() < -0.05;
+    const HomotopyParameters parameters = variables_.ToParameters(x);
+    const SuperposedWalk walk(e_.sequence, parameters);
+    SlackEvaluator slacks(evaluator_, 1.5);
+    InstantSlacks instant;
+    double least = 1.5;
+    for (int k = 0; k + 1 < walk.num_half_steps(); ++k) {
+      const SuperposedWalk branch = walk.StopBranch(k);
+      for (double t = walk.start_of(k + 1); t < walk.end_of(k); t += 0.004) {
+        slacks.At(branch, branch.Locate(t), {}, false, &instant);
+        for (const SlackRow& row : instant.rows) least = std::min(least, row.slack);
       }
-      const double size = 1 + std::abs(fine[row]);
-      if (std::abs(coarse[row] - fine[row]) > 1e-3 * size) {
-        ++kinks;
-        continue;
-      }
-      ++compared;
-      EXPECT_NEAR(analytic, fine[row], 5e-3 * size)
-          << Name(WatchedInstants::family_of(row)) << " in half-step " << table_.half_step_of(row);
-      caught += std::abs(-analytic - fine[row]) > 5e-3 * size;
     }
+    const double known = plain.LeastSlack(parameters, all);
+    const double expected = std::min(least, known);
+    EXPECT_NEAR(stoppable.LeastSlack(parameters, all), expected, 0.03 * (1 + std::abs(expected)));
+    const double focused = stoppable.Focus(walk, 0.002, 0.0);
+    EXPECT_NEAR(stoppable.LeastSlack(parameters, all), focused, 0.01 * (1 + std::abs(focused)));
   }
-  EXPECT_GT(compared, Draws(10) * 50);
-  EXPECT_LT(kinks, compared / 20);
-  EXPECT_GT(caught, compared / 10);
+  EXPECT_GT(lower, 0);
 }
 
 TEST_F(WatchedInstantsTest, AnInstantIsLearnedOnce) {
