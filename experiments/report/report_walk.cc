@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "experiments/report/robot_zmp.h"
 #include "experiments/report/shortened.h"
 #include "experiments/tables/csv_reader.h"
 #include "experiments/tables/json_file.h"
@@ -86,7 +87,7 @@ std::string SupportOf(const ShownRows& shown) {
   return support;
 }
 
-json TrajectoryJson(const fs::path& path, double spacing) {
+json TrajectoryJson(const RobotModel& robot, const fs::path& path, double spacing) {
   const ShownRows shown = ReadRows(path, spacing);
   json columns = json::object();
   for (const std::string& column : shown.table.header) {
@@ -98,6 +99,13 @@ json TrajectoryJson(const fs::path& path, double spacing) {
     columns["speed_" + joint + "_rad_s"] =
         ColumnJson(Differences(shown.times, values), shown.rows, kSpeeds);
   }
+  std::vector<double> x, y;
+  for (const Eigen::Vector2d& zmp : RobotZmps(robot, shown.table)) {
+    x.push_back(zmp.x());
+    y.push_back(zmp.y());
+  }
+  columns["zmp_robot_x_m"] = ColumnJson(x, shown.rows, kFine);
+  columns["zmp_robot_y_m"] = ColumnJson(y, shown.rows, kFine);
   return {{"columns", std::move(columns)}, {"support", SupportOf(shown)}};
 }
 
@@ -132,10 +140,10 @@ json RowsJson(const fs::path& csv) {
   return rows;
 }
 
-json WalkJson(const fs::path& folder, double spacing) {
+json WalkJson(const RobotModel& robot, const fs::path& folder, double spacing) {
   const fs::path overlaps = folder / "overlaps.csv";
   const json certificate = ReadJsonObject(folder / "certificate.json");
-  json walk = TrajectoryJson(folder / "trajectory.csv", spacing);
+  json walk = TrajectoryJson(robot, folder / "trajectory.csv", spacing);
   walk["half_steps"] = RowsJson(folder / "half_steps.csv");
   walk["overlaps"] = fs::exists(overlaps) ? RowsJson(overlaps) : json::array();
   for (const char* key :

@@ -5,15 +5,19 @@
 #include <string>
 #include <vector>
 
+#include "wpg/robot/robot_model.h"
+
 namespace halfstep {
 
 /// What the page shows of one method's walk, from its folder in a run (trajectory.csv,
 /// half_steps.csv, overlaps.csv, certificate.json). The trajectory's rows are thinned to about
 /// `spacing` [s], the last one included. A column is {"step": s, "delta": [...]}: integers whose
 /// running sum times s is the value; null where it is not finite. Beside the columns of
-/// trajectory.csv: `speed_<joint>_rad_s`, central differences of its rows.
+/// trajectory.csv: `speed_<joint>_rad_s`, central differences of its rows, and `zmp_robot_x_m`,
+/// `zmp_robot_y_m` (RobotZmps).
 /// Throws InputError for what is no such folder.
-nlohmann::json WalkJson(const std::filesystem::path& folder, double spacing);
+nlohmann::json WalkJson(const RobotModel& robot, const std::filesystem::path& folder,
+                        double spacing);
 
 /// `columns` of a trajectory.csv in the same way, and `support`: the first letter of each row's.
 nlohmann::json MotionJson(const std::filesystem::path& trajectory,
