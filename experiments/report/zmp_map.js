@@ -56,8 +56,8 @@ export class ZmpMap {
     title.textContent = "Both ZMPs in the support polygon";
     const head = document.createElement("p");
     for (const [, colour, label] of this.lines) key(head, colour, label);
-    head.append(` The polygon and the bold lines are at the time of the walk, and ${trail} s before; ` +
-      "the robot's is from differences of the rows drawn, its margin in the table is exact. ");
+    head.append(` Shaded: the polygon at the time of the walk; bold: ${trail} s before it. ` +
+      "The robot's ZMP is drawn from differences of rows; its proved margin is in certificate.csv. ");
     this.note = document.createElement("span");
     this.note.className = "value";
     head.append(this.note);
@@ -81,7 +81,7 @@ export class ZmpMap {
     const last = walk.times.length - 1;
     for (const [name, colour] of this.lines) {
       made(svg, "polyline", { points: text(points(walk, name, 0, last)), fill: "none",
-        stroke: colour, "stroke-width": thin, opacity: 0.45 });
+        stroke: colour, "stroke-width": 1.3 * thin, opacity: 0.6 });
     }
     this.bold = this.lines.map(([, colour]) => made(svg, "polyline",
       { fill: "none", stroke: colour, "stroke-width": 2.2 * thin, points: "" }));
