@@ -87,7 +87,7 @@ std::string SupportOf(const ShownRows& shown) {
   return support;
 }
 
-json TrajectoryJson(const RobotModel& robot, const fs::path& path, double spacing) {
+json TrajectoryJson(const fs::path& path, double spacing) {
   const ShownRows shown = ReadRows(path, spacing);
   json columns = json::object();
   for (const std::string& column : shown.table.header) {
@@ -99,13 +99,6 @@ json TrajectoryJson(const RobotModel& robot, const fs::path& path, double spacin
     columns["speed_" + joint + "_rad_s"] =
         ColumnJson(Differences(shown.times, values), shown.rows, kSpeeds);
   }
-  std::vector<double> x, y;
-  for (const Eigen::Vector2d& zmp : RobotZmps(robot, shown.table)) {
-    x.push_back(zmp.x());
-    y.push_back(zmp.y());
-  }
-  columns["zmp_robot_x_m"] = ColumnJson(x, shown.rows, kFine);
-  columns["zmp_robot_y_m"] = ColumnJson(y, shown.rows, kFine);
   return {{"columns", std::move(columns)}, {"support", SupportOf(shown)}};
 }
 
@@ -140,10 +133,10 @@ json RowsJson(const fs::path& csv) {
   return rows;
 }
 
-json WalkJson(const RobotModel& robot, const fs::path& folder, double spacing) {
+json WalkJson(const fs::path& folder, double spacing) {
   const fs::path overlaps = folder / "overlaps.csv";
   const json certificate = ReadJsonObject(folder / "certificate.json");
-  json walk = TrajectoryJson(robot, folder / "trajectory.csv", spacing);
+  json walk = TrajectoryJson(folder / "trajectory.csv", spacing);
   walk["half_steps"] = RowsJson(folder / "half_steps.csv");
   walk["overlaps"] = fs::exists(overlaps) ? RowsJson(overlaps) : json::array();
   for (const char* key :
@@ -153,6 +146,19 @@ json WalkJson(const RobotModel& robot, const fs::path& folder, double spacing) {
     }
     walk["certificate"][key] = certificate[key];
   }
+  return walk;
+}
+
+json WalkJson(const RobotModel& robot, const fs::path& folder, double spacing) {
+  json walk = WalkJson(folder, spacing);
+  const ShownRows shown = ReadRows(folder / "trajectory.csv", spacing);
+  std::vector<double> x, y;
+  for (const Eigen::Vector2d& zmp : RobotZmps(robot, shown.table)) {
+    x.push_back(zmp.x());
+    y.push_back(zmp.y());
+  }
+  walk["columns"]["zmp_robot_x_m"] = ColumnJson(x, shown.rows, kFine);
+  walk["columns"]["zmp_robot_y_m"] = ColumnJson(y, shown.rows, kFine);
   return walk;
 }
 

@@ -13,9 +13,11 @@ namespace halfstep {
 /// half_steps.csv, overlaps.csv, certificate.json). The trajectory's rows are thinned to about
 /// `spacing` [s], the last one included. A column is {"step": s, "delta": [...]}: integers whose
 /// running sum times s is the value; null where it is not finite. Beside the columns of
-/// trajectory.csv: `speed_<joint>_rad_s`, central differences of its rows, and `zmp_robot_x_m`,
-/// `zmp_robot_y_m` (RobotZmps).
+/// trajectory.csv: `speed_<joint>_rad_s`, central differences of its rows.
 /// Throws InputError for what is no such folder.
+nlohmann::json WalkJson(const std::filesystem::path& folder, double spacing);
+
+/// The same with two columns more, `zmp_robot_x_m` and `zmp_robot_y_m` (RobotZmps).
 nlohmann::json WalkJson(const RobotModel& robot, const std::filesystem::path& folder,
                         double spacing);
 
