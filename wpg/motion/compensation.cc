@@ -1,7 +1,10 @@
 #include "wpg/motion/compensation.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <optional>
+#include <vector>
 
 #include "wpg/check.h"
 #include "wpg/motion/posture.h"
@@ -13,6 +16,7 @@ namespace {
 constexpr int kInstants = 10 * WaistSway::kPieces;  // intervals between instants looked at
 constexpr double kLeastTheta = 0.5;                 // ω·T (HalfStepProfiles)
 constexpr int kHalvings = 5;
+constexpr std::array<double, 3> kFractions = {1.0, 0.7071067811865476, 0.5};  // of the duration
 
 // A half-step of some duration, looked at from its start to its end.
 class Isolated {
@@ -81,22 +85,33 @@ WaistSway Compensation(const RobotModel& robot, const HalfStep& half_step, const
   HALFSTEP_CHECK(iterations >= 0, iterations << " iterations");
   HALFSTEP_CHECK(iterations == 0 || robot.masses.known(), robot.masses.fault);
   if (iterations == 0) return {};
-  const double half = std::max(0.5 * half_step.duration, kLeastTheta / lipm.omega());
-  Isolated planned(robot, half_step, lipm, half_step.duration), fast(robot, half_step, lipm, half);
+  std::vector<Isolated> all;
+  for (const double fraction : kFractions) {
+    all.emplace_back(robot, half_step, lipm,
+                     std::max(fraction * half_step.duration, kLeastTheta / lipm.omega()));
+  }
   const auto least_reach = [&](const WaistSway& sway) {
-    planned.Sway(sway);
-    fast.Sway(sway);
-    return std::min(planned.LeastReach(), fast.LeastReach());
+    double least = INFINITY;
+    for (Isolated& one : all) {
+      one.Sway(sway);
+      least = std::min(least, one.LeastReach());
+    }
+    return least;
   };
   const double reach = least_reach({});
-  const Eigen::MatrixXd Z = fast.ZmpOfSplines();
-  const Eigen::LDLT<Eigen::MatrixXd> normal(Z.transpose() * Z);
   WaistSway sway{std::vector<Eigen::Vector2d>(WaistSway::kControls, Eigen::Vector2d::Zero())};
   for (int i = 0; i < iterations; ++i) {
-    fast.Sway(sway);
-    const auto errors = fast.ZmpErrors();
-    if (!errors) return {};
-    const Eigen::MatrixX2d change = -normal.solve(Z.transpose() * *errors);
+    Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(WaistSway::kControls, WaistSway::kControls);
+    Eigen::MatrixX2d right = Eigen::MatrixX2d::Zero(WaistSway::kControls, 2);
+    for (Isolated& one : all) {
+      one.Sway(sway);
+      const auto errors = one.ZmpErrors();
+      if (!errors) return {};
+      const Eigen::MatrixXd Z = one.ZmpOfSplines();
+      normal += Z.transpose() * Z;
+      right -= Z.transpose() * *errors;
+    }
+    const Eigen::MatrixX2d change = normal.ldlt().solve(right);
     for (int k = 0; k < WaistSway::kControls; ++k) {
       sway.controls[static_cast<size_t>(k)] += change.row(k).transpose();
     }

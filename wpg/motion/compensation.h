@@ -10,13 +10,12 @@ namespace halfstep {
 ///
 ///     Σ ‖ p_robot − p_planned + Z(d) ‖²
 ///
-/// least over 121 instants, p_robot being the robot's ZMP with what was added before: a Newton
-/// iteration that takes the robot for the point mass Z(d) = d − (z_c/g)·d̈. It is computed at half
-/// of the half-step's duration, for which programs choose their durations from there on; the form
-/// d(σ) is kept at others. A leg keeps at least half of what it has left to stretch: else the
-/// motion is halved, or left out. No motion where a leg does not reach, or `iterations` is 0.
-/// Preconditions: the robot's masses are known, iterations ≥ 0 (std::logic_error).
-/// Source: wpg/README.md, "Compensation".
+/// least over 121 instants of the half-step as it is planned, of one 1/√2 and one half as long,
+/// p_robot being the robot's ZMP with what was added before: a Newton iteration that takes the
+/// robot for the point mass Z(d) = d − (z_c/g)·d̈. The form d(σ) is the same at all durations. A leg
+/// keeps at least half of what it has left to stretch: else the motion is halved, or left out. No
+/// motion where a leg does not reach, or `iterations` is 0. Preconditions: the robot's masses are
+/// known, iterations ≥ 0 (std::logic_error). Source: wpg/README.md, "Compensation".
 WaistSway Compensation(const RobotModel& robot, const HalfStep& half_step, const Lipm& lipm,
                        int iterations);
 
