@@ -248,7 +248,10 @@ void PrintReplayed(const std::string& run, const std::string& method) {
              off_y = column(replay, "zmp_error_y_m"), left = column(replay, "left_foot_force_n"),
              right = column(replay, "right_foot_force_n");
   double measured = 0, model = 0, rest = 0, most_measured = 0, most_model = 0, most_rest = 0;
-  long count = 0;
+  // Rows in which the load does not jump from sole to sole [m].
+  constexpr double kNear = 0.05;
+  double near_measured = 0, near_rest = 0;
+  long count = 0, near = 0;
   for (size_t i = 1; i < ends.size() && ends[i] <= t.back(); ++i) {
     const double middle = 0.5 * (ends[i - 1] + ends[i]);
     const size_t row =
@@ -263,6 +266,11 @@ void PrintReplayed(const std::string& run, const std::string& method) {
     const Eigen::Vector2d seen = Eigen::Rotation2Dd(-yaw) * (robots - planned);
     if (!seen.allFinite()) continue;
     ++count;
+    if (off.norm() < kNear) {
+      near_measured += off.squaredNorm();
+      near_rest += (off - seen).squaredNorm();
+      ++near;
+    }
     measured += off.squaredNorm();
     model += seen.squaredNorm();
     rest += (off - seen).squaredNorm();
@@ -271,9 +279,16 @@ void PrintReplayed(const std::string& run, const std::string& method) {
     most_rest = std::max(most_rest, (off - seen).norm());
   }
   const auto rms = [&](double sum) { return 1e3 * std::sqrt(sum / static_cast<double>(count)); };
-  std::printf("%-28s %-14s %7.1f %7.1f %9.1f %7.1f %9.1f %7.1f %6.0f %%\n", run.c_str(),
-              method.c_str(), rms(measured), 1e3 * most_measured, rms(model), 1e3 * most_model,
-              rms(rest), 1e3 * most_rest, 100 * (1 - rest / measured));
+  std::printf(
+      "%-28s %-14s %7.1f %7.1f %9.1f %7.1f %9.1f %7.1f %6.0f %%; %3.0f %% of rows below 50 mm: "
+      "%5.1f "
+      "%5.1f %6.0f %%\n",
+      run.c_str(), method.c_str(), rms(measured), 1e3 * most_measured, rms(model), 1e3 * most_model,
+      rms(rest), 1e3 * most_rest, 100 * (1 - rest / measured),
+      100.0 * static_cast<double>(near) / static_cast<double>(count),
+      1e3 * std::sqrt(near_measured / static_cast<double>(near)),
+      1e3 * std::sqrt(near_rest / static_cast<double>(near)),
+      100 * (1 - near_rest / near_measured));
 }
 
 }  // namespace
