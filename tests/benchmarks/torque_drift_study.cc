@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "smoothing/proof/interval_statements.h"
 #include "tests/smoothing/certificate_draws.h"
 #include "wpg/motion/foot_friction.h"
 #include "wpg/motion/foot_loads.h"
