@@ -4,6 +4,8 @@
 #include <cstdlib>
 
 #include "planner/scene/no_step_areas.h"
+#include "wpg/files/input_error.h"
+#include "wpg/motion/compensation.h"
 #include "wpg/robot/torque_limits.h"
 
 namespace halfstep {
@@ -103,6 +105,17 @@ HalfStep PrototypeOf(const ExperimentConfig& config) {
   return prototype;
 }
 
+HalfStepSequence CompensatedAsAsked(const ExperimentConfig& config, const RobotModel& robot,
+                                    const HalfStepSequence& sequence) {
+  const int iterations = config.half_step.compensation;
+  if (iterations == 0) return sequence;
+  if (!robot.masses.known()) {
+    throw InputError({robot.name + ": half_step.compensation: its masses are not known: " +
+                      robot.masses.fault + " (valid: `none`)"});
+  }
+  return Compensated(robot, sequence, iterations);
+}
+
 Experiment Prepare(const ExperimentConfig& config) { return Prepare(config, LoadPlace(config)); }
 
 Experiment Prepare(const ExperimentConfig& config, Place place) {
@@ -125,6 +138,7 @@ Experiment Prepare(const ExperimentConfig& config, Place place) {
   }
   experiment.sequence = MakeSequence(StartOf(config, experiment.robot), footsteps,
                                      config.half_step.via_lateral, ShapeOf(config.half_step), lipm);
+  experiment.sequence = CompensatedAsAsked(config, experiment.robot, experiment.sequence);
   return experiment;
 }
 

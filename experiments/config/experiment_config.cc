@@ -89,6 +89,14 @@ void DeclareHalfStep(Fields& fields, HalfStepConfig* c) {
                  .unit = "m",
                  .min = -1,
                  .max = 1});
+  static const std::vector<std::string> kIterations = {"none", "one", "two"};
+  std::string compensation = kIterations[static_cast<size_t>(c->compensation)];
+  fields.Text("compensation", &compensation,
+              {.meaning = "iterations that move the waist so that the whole robot's ZMP comes near "
+                          "the planned one in each isolated half-step",
+               .choices = kIterations});
+  const auto chosen = std::find(kIterations.begin(), kIterations.end(), compensation);
+  if (chosen != kIterations.end()) c->compensation = static_cast<int>(chosen - kIterations.begin());
 }
 
 void DeclareDichotomy(Fields& fields, DichotomyOptions* o) {
@@ -349,8 +357,14 @@ void DeclareFields(Fields& fields, ExperimentConfig* c) {
                [&](Fields& f) { DeclareHalfStepSet(f, &c->half_step_grid); });
   fields.Group("swept_volumes", {.meaning = "that are baked of them"},
                [&](Fields& f) { DeclareSweptVolumes(f, &c->swept_volumes); });
-  fields.Group("half_step", {.meaning = "the isolated half-step"},
-               [&](Fields& f) { DeclareHalfStep(f, &c->half_step); });
+  fields.Group("half_step", {.meaning = "the isolated half-step"}, [&](Fields& f) {
+    DeclareHalfStep(f, &c->half_step);
+    if (c->has_goal && c->half_step.compensation > 0) {
+      f.Complain("compensation",
+                 "swept volumes are of half-steps without it (valid: `none` with a "
+                 "`goal`)");
+    }
+  });
   fields.Group("smoothing", {.meaning = "the homotopy"}, [&](Fields& f) {
     DeclareSmoothing(f, &c->smoothing);
     const std::string complaint = ComplaintAboutFixed(*c);

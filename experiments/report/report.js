@@ -9,6 +9,7 @@ import { guarantee, junctionTable, scenarioTable, summaryTable } from "./tables.
 import { Timeline } from "./timeline.js";
 import { instants } from "./traces.js";
 import { Walk } from "./walk.js";
+import { ZmpMap } from "./zmp_map.js";
 
 const byId = (id) => document.getElementById(id);
 const report = JSON.parse(byId("data").textContent);
@@ -32,6 +33,7 @@ try {
 
 const shapes = report.robots.map((robot) => (stage ? new RobotShapes(robot) : null));
 const plots = new Plots(byId("plots"), (t) => timeline.seek(t));
+const zmpMap = new ZmpMap(byId("zmps"));
 const timeline = new Timeline(() => showTime());
 let current = null; // the case
 let walks = []; // A, and B when there is one
@@ -73,6 +75,7 @@ function showTime() {
     byId(`tag-${name}`).textContent = `${name.toUpperCase()} ${walk.label}: ${state}`;
   });
   plots.showTime(t);
+  zmpMap.showTime(t);
   redraw();
 }
 
@@ -127,6 +130,7 @@ function chooseWalks() {
   if (!a) return;
   stageWalks();
   plots.show(plotList(report.robots[current.robot], a.certificate, report.families), walks);
+  zmpMap.show(a, current.footsteps, report.robots[current.robot].sole);
   timeline.setDuration(Math.max(...walks.map((walk) => walk.duration)));
   timeline.showPhases(walks);
   junctionTable(byId("junctions"), walks);

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "experiments/report/robot_zmp.h"
 #include "experiments/report/shortened.h"
 #include "experiments/tables/csv_reader.h"
 #include "experiments/tables/json_file.h"
@@ -145,6 +146,19 @@ json WalkJson(const fs::path& folder, double spacing) {
     }
     walk["certificate"][key] = certificate[key];
   }
+  return walk;
+}
+
+json WalkJson(const RobotModel& robot, const fs::path& folder, double spacing) {
+  json walk = WalkJson(folder, spacing);
+  const ShownRows shown = ReadRows(folder / "trajectory.csv", spacing);
+  std::vector<double> x, y;
+  for (const Eigen::Vector2d& zmp : RobotZmps(robot, shown.table)) {
+    x.push_back(zmp.x());
+    y.push_back(zmp.y());
+  }
+  walk["columns"]["zmp_robot_x_m"] = ColumnJson(x, shown.rows, kFine);
+  walk["columns"]["zmp_robot_y_m"] = ColumnJson(y, shown.rows, kFine);
   return walk;
 }
 

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "wpg/robot/robot_model.h"
+
 namespace halfstep {
 
 /// What the page shows of one method's walk, from its folder in a run (trajectory.csv,
@@ -14,6 +16,10 @@ namespace halfstep {
 /// trajectory.csv: `speed_<joint>_rad_s`, central differences of its rows.
 /// Throws InputError for what is no such folder.
 nlohmann::json WalkJson(const std::filesystem::path& folder, double spacing);
+
+/// The same with two columns more, `zmp_robot_x_m` and `zmp_robot_y_m` (RobotZmps).
+nlohmann::json WalkJson(const RobotModel& robot, const std::filesystem::path& folder,
+                        double spacing);
 
 /// `columns` of a trajectory.csv in the same way, and `support`: the first letter of each row's.
 nlohmann::json MotionJson(const std::filesystem::path& trajectory,

@@ -1,5 +1,7 @@
 #include "smoothing/margins/friction_margin.h"
 
+#include <optional>
+
 #include "wpg/motion/dynamics_slope.h"
 #include "wpg/motion/foot_friction.h"
 
@@ -25,11 +27,6 @@ std::string FrictionMargin::Subject(const Margin& margin) const {
 Margin FrictionMargin::Least(Instant* at, double) const {
   const auto friction = FrictionAt(at);
   return Of(friction ? place_.scene.friction - friction->needed() : -kUnlimited, at->step_in_air());
-}
-
-std::optional<Margin> FrictionMargin::FirstBelow(Instant* at, double demanded) const {
-  if (demanded == kNotDemanded) return std::nullopt;
-  return WholeFamily::FirstBelow(at, demanded);
 }
 
 void FrictionMargin::AddRows(Instant* at, SlackSink* rows) const {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <string>
 
 #include "smoothing/margins/margin_statements.h"
@@ -42,7 +41,6 @@ class FrictionMargin final : public WholeFamily {
   int count() const override;
   std::string Subject(const Margin& margin) const override;
   Margin Least(Instant* at, double enough) const override;
-  std::optional<Margin> FirstBelow(Instant* at, double demanded) const override;
   void AddRows(Instant* at, SlackSink* rows) const override;
 
  protected:

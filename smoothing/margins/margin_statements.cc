@@ -22,6 +22,7 @@ bool TightestStatement::Pass(double spare) {
 }
 
 std::optional<Margin> MarginStatements::FirstBelow(Instant* at, double demanded) const {
+  if (demanded == kNotDemanded) return std::nullopt;
   const Margin least = Least(at, demanded);
   if (least.value >= demanded) return std::nullopt;
   return least;

@@ -1,6 +1,7 @@
 #include "smoothing/margins/torque_margin.h"
 
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "wpg/motion/leg_torques.h"
@@ -76,11 +77,6 @@ Margin TorqueMargin::LeastOf(Instant* at, const FootLoads& loads) const {
     }
   }
   return least;
-}
-
-std::optional<Margin> TorqueMargin::FirstBelow(Instant* at, double demanded) const {
-  if (demanded == kNotDemanded) return std::nullopt;
-  return WholeFamily::FirstBelow(at, demanded);
 }
 
 void TorqueMargin::AddRows(Instant* at, SlackSink* rows) const {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <optional>
 #include <string>
 
 #include "smoothing/margins/margin_statements.h"
@@ -42,7 +41,6 @@ class TorqueMargin final : public WholeFamily {
   int count() const override;
   std::string Subject(const Margin& margin) const override;
   Margin Least(Instant* at, double enough) const override;
-  std::optional<Margin> FirstBelow(Instant* at, double demanded) const override;
   void AddRows(Instant* at, SlackSink* rows) const override;
 
  protected:

@@ -45,11 +45,6 @@ Margin ZmpRobotMargin::Least(Instant* at, double) const {
   return least;
 }
 
-std::optional<Margin> ZmpRobotMargin::FirstBelow(Instant* at, double demanded) const {
-  if (demanded == kNotDemanded) return std::nullopt;
-  return WholeFamily::FirstBelow(at, demanded);
-}
-
 void ZmpRobotMargin::AddRows(Instant* at, SlackSink* rows) const {
   if (at->demanded(family()) == kNotDemanded) return;
   const auto zmp = ZmpAt(at);

@@ -37,7 +37,6 @@ class ZmpRobotMargin final : public WholeFamily {
   int count() const override;
   std::string Subject(const Margin& margin) const override;
   Margin Least(Instant* at, double enough) const override;
-  std::optional<Margin> FirstBelow(Instant* at, double demanded) const override;
   void AddRows(Instant* at, SlackSink* rows) const override;
 
  protected:

@@ -76,7 +76,8 @@ double OmegaSquared(const SuperposedWalk& walk) {
 
 }  // namespace
 
-WalkEffort EffortOf(const SuperposedWalk& walk) {
+WalkEffort EffortOf(const SuperposedWalk& compensated) {
+  const SuperposedWalk walk = compensated.WithoutSway();
   const double omega2 = OmegaSquared(walk);
   WalkEffort effort;
   ForEachNode(walk, [&](const LocalTime& at, double weight) {
@@ -88,8 +89,9 @@ WalkEffort EffortOf(const SuperposedWalk& walk) {
   return effort;
 }
 
-double WeightedEffort(const SuperposedWalk& walk, const EffortWeights& weights,
+double WeightedEffort(const SuperposedWalk& compensated, const EffortWeights& weights,
                       ParameterGradient* gradient) {
+  const SuperposedWalk walk = compensated.WithoutSway();
   const double omega2 = OmegaSquared(walk);
   double value = 0.0;
   std::vector<WalkSensitivity> sensitivities;

@@ -19,10 +19,10 @@ struct EffortWeights {
   double foot_speed = 0.0;        ///< [s²/m²]
 };
 
-/// The integrals of a walk: c̈ = ω²(c − p), c⃛ = ω²(ċ − ṗ). On each stretch between the ends of
-/// profiles' pieces the integrands are sums of polynomials and exponentials in closed form, and
-/// Gauss–Legendre quadrature with 10 nodes gives their integrals to about 1e-10 (relative).
-/// Source: smoothing/README.md, "Overlap program".
+/// The integrals of a walk without its sways: c̈ = ω²(c − p), c⃛ = ω²(ċ − ṗ). On each stretch between
+/// the ends of profiles' pieces the integrands are sums of polynomials and exponentials in closed
+/// form, and Gauss–Legendre quadrature with 10 nodes gives their integrals to about 1e-10
+/// (relative). Source: smoothing/README.md, "Overlap program".
 WalkEffort EffortOf(const SuperposedWalk& walk);
 
 /// Σ weights · integrals [s], and when `gradient` is not null its derivatives with respect to every

@@ -20,6 +20,17 @@ void AddProfileDerivative(const HalfStepJet& profiles, const WalkState& delta, d
   }
 }
 
+// The same of its sway.
+void AddSwayDerivative(const std::array<ProfileJet, 2>& sway, double dtau, double dT,
+                       WalkJet* jet) {
+  for (const int axis : {0, 1}) {
+    const ProfileJet& d = sway[static_cast<size_t>(axis)];
+    jet->value[kComX + axis] += d.first * dtau + d.value_T * dT;
+    jet->first[kComX + axis] += d.second * dtau + d.first_T * dT;
+    jet->second[kComX + axis] += d.third * dtau + d.second_T * dT;
+  }
+}
+
 // Derivative of quantity q of a half-step's contribution when q moves by `moved` in its state at
 // the via point. That is where an up half-step ends and a down half-step begins; `first`: the walk
 // is superposed from this half-step's start.
@@ -53,7 +64,8 @@ SuperposedWalk::SuperposedWalk(const HalfStepSequence& sequence,
                        .planned_height = planned_height,
                        .profiles = {half_step.kind, half_step.shape, half_step.duration, lipm_},
                        .from_W = from_W,
-                       .delta_W = Transformed(X_WS, half_step.End()) - from_W});
+                       .delta_W = Transformed(X_WS, half_step.End()) - from_W,
+                       .sway_W = half_step.sway.Turned(X_WS.rotation())});
   }
   UpdateStarts(1);
 }
@@ -76,6 +88,12 @@ void SuperposedWalk::SetOverlap(int junction, double overlap) {
       "overlap " << overlap << " s of junction " << junction << ", bound " << bound << " s");
   parameters_.overlaps[i] = overlap;
   UpdateStarts(junction + 1);
+}
+
+SuperposedWalk SuperposedWalk::WithoutSway() const {
+  SuperposedWalk plain = *this;
+  for (Piece& p : plain.pieces_) p.half_step.sway = p.sway_W = {};
+  return plain;
 }
 
 SuperposedWalk SuperposedWalk::StopBranch(int last) const {
@@ -124,6 +142,9 @@ WalkJet SuperposedWalk::At(const LocalTime& at) const {
       jet.first[q] += p.first * delta[q];
       jet.second[q] += p.second * delta[q];
     }
+    if (const WaistSway& sway = piece(i).sway_W; !sway.none()) {
+      AddSway(sway.At(LocalTo(i, at), piece(i).profiles.duration()), &jet);
+    }
   }
   return jet;
 }
@@ -137,6 +158,8 @@ WalkState SuperposedWalk::SecondBounds(double begin, double end) const {
     for (int q = 0; q < kNumQuantities; ++q) {
       bounds[q] += second.of(q).second * std::abs(p.delta_W[q]);
     }
+    bounds.segment<2>(kComX) +=
+        p.sway_W.SecondBound(begin - p.start, end - p.start, p.profiles.duration());
   }
   return bounds;
 }
@@ -153,6 +176,11 @@ WalkThirds SuperposedWalk::ThirdRanges(double begin, double end) const {
     };
     add(kComX, profiles.com);
     add(kComY, profiles.com);
+    const auto sway = p.sway_W.ThirdRange(begin - p.start, end - p.start, p.profiles.duration());
+    for (const int axis : {0, 1}) {
+      thirds.center[kComX + axis] += sway[static_cast<size_t>(axis)].center;
+      thirds.radius[kComX + axis] += sway[static_cast<size_t>(axis)].radius;
+    }
     add(kWaistYaw, profiles.yaw);
     for (const Side side : {Side::kLeft, Side::kRight}) {
       const int foot = FootIndex(side);
@@ -180,11 +208,17 @@ void SuperposedWalk::Sensitivities(const LocalTime& at, std::vector<WalkSensitiv
     const HalfStepJet profiles = p.profiles.At(LocalTo(i, at));
     // τ_i = τ + t_k − t_i, and every T_m − Δ_m between i and k moves it.
     const double sign = i < k ? 1.0 : -1.0;
+    const bool sways = !p.sway_W.none();
+    const auto sway = p.sway_W.At(LocalTo(i, at), p.profiles.duration());
     for (int m = std::min(i, k); m < std::max(i, k); ++m) {
       AddProfileDerivative(profiles, p.delta_W, -sign, 0.0, &jet_of({Family::kOverlap, m}));
       AddProfileDerivative(profiles, p.delta_W, sign, 0.0, &jet_of({Family::kDuration, m}));
+      if (!sways) continue;
+      AddSwayDerivative(sway, -sign, 0.0, &jet_of({Family::kOverlap, m}));
+      AddSwayDerivative(sway, sign, 0.0, &jet_of({Family::kDuration, m}));
     }
     AddProfileDerivative(profiles, p.delta_W, 0.0, 1.0, &jet_of({Family::kDuration, i}));
+    if (sways) AddSwayDerivative(sway, 0.0, 1.0, &jet_of({Family::kDuration, i}));
 
     const HalfStep& h = p.half_step;
     AddViaDerivative(profiles, h.kind, i == first, p.planned_height, FootIndex(h.swing()) + 2,

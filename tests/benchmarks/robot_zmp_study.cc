@@ -1,8 +1,10 @@
 // What the whole robot's ZMP costs beside the other families, and how tight its bound is. Prints
 // the tables of notebooks-data/measurements.md, "The whole robot's ZMP". Not a test.
-// Run: robot_zmp_study cost CONFIG... | drift [INTERVALS [SEED [ROBOT]]]
+// Run: robot_zmp_study cost CONFIG... | drift [INTERVALS [SEED [ROBOT]]] | compensation CONFIG... |
+//      replayed RUN METHOD_FOLDER
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
@@ -11,11 +13,14 @@
 #include <vector>
 
 #include "experiments/config/experiment.h"
+#include "experiments/report/robot_zmp.h"
+#include "experiments/tables/csv_reader.h"
 #include "smoothing/margins/slack_evaluator.h"
 #include "smoothing/methods/dichotomy.h"
 #include "smoothing/proof/certified_feasibility.h"
 #include "tests/smoothing/certificate_draws.h"
 #include "tests/smoothing/smoothed.h"
+#include "wpg/motion/compensation.h"
 #include "wpg/motion/zmp_drift.h"
 
 namespace halfstep {
@@ -161,6 +166,131 @@ void Drift(long intervals, unsigned seed, const std::string& name) {
   }
 }
 
+// How far the robot's ZMP is from the planned one, every 2 ms.
+struct ZmpErrors {
+  double squares = 0, largest = 0;
+  long count = 0;
+
+  void Add(const RobotModel& robot, const WalkJet& jet) {
+    Posture posture = SolvePosture(robot, jet.value);
+    if (!posture.reachable || !SolveJointSpeeds(robot, jet, &posture)) return;
+    const auto zmp = RobotDynamics(robot, jet, posture, Lipm{}.gravity).Zmp();
+    if (!zmp) return;
+    const double error = (*zmp - jet.value.segment<2>(kZmpX)).norm();
+    squares += error * error;
+    largest = std::max(largest, error);
+    ++count;
+  }
+  void Print() const {
+    std::printf(" %8.1f %8.1f", 1e3 * std::sqrt(squares / static_cast<double>(count)),
+                1e3 * largest);
+  }
+};
+
+// Of all half-steps executed alone, at a fraction of their durations; root mean square and largest.
+void PrintIsolated(const RobotModel& robot, const HalfStepSequence& sequence, double fraction) {
+  ZmpErrors errors;
+  for (const PlacedHalfStep& placed : sequence.half_steps) {
+    HalfStep half_step = placed.half_step;
+    half_step.duration *= fraction;
+    const HalfStepProfiles profiles(half_step.kind, half_step.shape, half_step.duration,
+                                    sequence.lipm);
+    for (double tau = 0; tau <= half_step.duration; tau += 0.002) {
+      errors.Add(robot, Evaluate(half_step, profiles, tau));
+    }
+  }
+  errors.Print();
+}
+
+// What remains after 0, 1, 2 and 3 iterations: of the isolated half-steps, and of the walk that the
+// dichotomy makes of them.
+void PrintCompensation(const std::string& name) {
+  const Experiment e = Prepare(
+      LoadConfig(std::string(HALFSTEP_SOURCE_DIR "/experiments/configs/") + name + ".yaml", {}));
+  const MarginEvaluator evaluator(e.robot, e.scene, e.config.smoothing.limits);
+  const CertifiedFeasibility proof(evaluator, {});
+  for (const int iterations : {0, 1, 2, 3}) {
+    const HalfStepSequence sequence = Compensated(e.robot, e.sequence, iterations);
+    double most = 0;
+    for (const PlacedHalfStep& placed : sequence.half_steps) {
+      for (const Eigen::Vector2d& control : placed.half_step.sway.controls) {
+        most = std::max(most, control.norm());
+      }
+    }
+    std::printf("%-20s %2d %6.1f", name.c_str(), iterations, 1e3 * most);
+    PrintIsolated(e.robot, sequence, 1.0);
+    PrintIsolated(e.robot, sequence, 0.5);
+    const SmoothingResult smoothed =
+        Smoothed(Dichotomy, ProblemOf(sequence, proof), e.config.smoothing.dichotomy);
+    const SuperposedWalk walk(sequence, smoothed.parameters);
+    ZmpErrors errors;
+    for (double t = 0; t <= walk.duration(); t += 0.002) errors.Add(e.robot, walk.At(t));
+    errors.Print();
+    std::printf(" %9.4f s\n", walk.duration());
+    std::fflush(stdout);
+  }
+}
+
+// How much of what MuJoCo measures (`halfstep replay RUN --out`: replay.csv) beyond the planned ZMP
+// is the ZMP of the whole robot, both seen from the sole that carries more.
+void PrintReplayed(const std::string& run, const std::string& method) {
+  const RobotModel robot = LoadPlace(LoadConfig(run + "/config.yaml", {})).robot;
+  const CsvTable walk = ReadCsv(run + "/" + method + "/trajectory.csv"),
+                 replay = ReadCsv(run + "/" + method + "/replay.csv");
+  const std::vector<Eigen::Vector2d> zmps = RobotZmps(robot, walk);
+  const auto column = [](const CsvTable& table, const std::string& name) {
+    return table.Numbers(name);
+  };
+  const auto t = column(walk, "t_s"), x = column(walk, "zmp_x_m"), y = column(walk, "zmp_y_m");
+  const std::vector<double> yaws[] = {column(walk, "left_foot_yaw_rad"),
+                                      column(walk, "right_foot_yaw_rad")};
+  const auto ends = column(replay, "t_s"), off_x = column(replay, "zmp_error_x_m"),
+             off_y = column(replay, "zmp_error_y_m"), left = column(replay, "left_foot_force_n"),
+             right = column(replay, "right_foot_force_n");
+  double measured = 0, model = 0, rest = 0, most_measured = 0, most_model = 0, most_rest = 0;
+  // Rows in which the load does not jump from sole to sole [m].
+  constexpr double kNear = 0.05;
+  double near_measured = 0, near_rest = 0;
+  long count = 0, near = 0;
+  for (size_t i = 1; i < ends.size() && ends[i] <= t.back(); ++i) {
+    const double middle = 0.5 * (ends[i - 1] + ends[i]);
+    const size_t row =
+        static_cast<size_t>(std::upper_bound(t.begin(), t.end(), middle) - t.begin());
+    const Eigen::Vector2d off(off_x[i], off_y[i]);
+    if (row == 0 || row >= t.size() || !off.allFinite()) continue;
+    const double part = (middle - t[row - 1]) / (t[row] - t[row - 1]);
+    const Eigen::Vector2d robots = (1 - part) * zmps[row - 1] + part * zmps[row],
+                          planned((1 - part) * x[row - 1] + part * x[row],
+                                  (1 - part) * y[row - 1] + part * y[row]);
+    const double yaw = yaws[left[i] >= right[i] ? 0 : 1][row];
+    const Eigen::Vector2d seen = Eigen::Rotation2Dd(-yaw) * (robots - planned);
+    if (!seen.allFinite()) continue;
+    ++count;
+    if (off.norm() < kNear) {
+      near_measured += off.squaredNorm();
+      near_rest += (off - seen).squaredNorm();
+      ++near;
+    }
+    measured += off.squaredNorm();
+    model += seen.squaredNorm();
+    rest += (off - seen).squaredNorm();
+    most_measured = std::max(most_measured, off.norm());
+    most_model = std::max(most_model, seen.norm());
+    most_rest = std::max(most_rest, (off - seen).norm());
+  }
+  const auto rms = [&](double sum) { return 1e3 * std::sqrt(sum / static_cast<double>(count)); };
+  std::printf(
+      "%-28s %-14s %7.1f %7.1f %9.1f %7.1f %9.1f %7.1f %6.0f %%; %3.0f %% of rows below 50 mm: "
+      "%5.1f "
+      "%5.1f %6.0f %%\n",
+      run.c_str(), method.c_str(), rms(measured), 1e3 * most_measured, rms(model), 1e3 * most_model,
+      rms(rest), 1e3 * most_rest, 100 * (1 - rest / measured),
+      100.0 * static_cast<double>(near) / static_cast<double>(count),
+      1e3 * std::sqrt(near_measured / static_cast<double>(near)),
+      1e3 * std::sqrt(near_rest / static_cast<double>(near)),
+      100 * (1 - near_rest / near_measured));
+}
+
 }  // namespace
 }  // namespace halfstep
 
@@ -169,13 +299,20 @@ int main(int argc, char** argv) {
   if (part == "cost" && argc > 2) {
     std::printf("%-14s %-34s %12s %12s %6s\n", "config", "", "without", "with", "ratio");
     for (int i = 2; i < argc; ++i) halfstep::Cost(argv[i]);
+  } else if (part == "compensation" && argc > 2) {
+    std::printf("%-20s %2s %6s %17s %17s %17s\n", "rms, largest [mm]", "n", "sway", "alone, T",
+                "alone, T/2", "dichotomy");
+    for (int i = 2; i < argc; ++i) halfstep::PrintCompensation(argv[i]);
+  } else if (part == "replayed" && argc == 4) {
+    halfstep::PrintReplayed(argv[2], argv[3]);
   } else if (part == "drift") {
     halfstep::Drift(argc > 2 ? std::atol(argv[2]) : 250000,
                     argc > 3 ? static_cast<unsigned>(std::atoi(argv[3])) : 1,
                     argc > 4 ? argv[4] : "hrp2");
   } else {
     std::fprintf(stderr,
-                 "usage: robot_zmp_study cost CONFIG... | drift [INTERVALS [SEED [ROBOT]]]\n");
+                 "usage: robot_zmp_study cost CONFIG... | drift [INTERVALS [SEED [ROBOT]]] | "
+                 "compensation CONFIG... | replayed RUN METHOD_FOLDER\n");
     return 2;
   }
 }

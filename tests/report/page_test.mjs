@@ -61,12 +61,16 @@ async function testRun(browser) {
     held: document.getElementById("junctions").textContent,
     elements: document.querySelectorAll("img, b *, script:not([type])").length,
     plots: document.querySelectorAll(".uplot").length,
+    zmps: [...document.querySelectorAll(".zmp-map polyline")].map((line) =>
+      line.getAttribute("points").split(" ").length),
     verdicts: document.querySelectorAll("#guarantee .yes").length,
     policy: document.querySelector("meta[http-equiv]").content };`);
   assert.equal(texts.title, hostile);
   assert.ok(texts.held.includes(hostile), texts.held);
   assert.equal(texts.elements, 1, "no element comes from a name");
   assert.equal(texts.plots, 5);
+  assert.equal(texts.zmps.length, 4, "two ZMPs, whole and lately");
+  assert.ok(texts.zmps[0] > 100 && texts.zmps[1] === texts.zmps[0], `drawn: ${texts.zmps}`);
   assert.equal(texts.verdicts, 3);
   assert.match(texts.policy, /^default-src 'none'; script-src 'sha256-/);
 

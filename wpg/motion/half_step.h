@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "wpg/motion/ramped_step.h"
 #include "wpg/motion/rest_to_rest.h"
 #include "wpg/motion/smoothstep.h"
+#include "wpg/motion/waist_sway.h"
 #include "wpg/motion/walk_state.h"
 
 namespace halfstep {
@@ -60,6 +62,7 @@ struct HalfStep {
   double via_height = 0.25;   ///< [m] ≥ 0
   double via_lateral = 0.24;  ///< distance of the via point from the support sole's centre [m].
   HalfStepShape shape;
+  WaistSway sway = {};  ///< added to the CoM, and so to the waist; the ZMP stays the planned one.
 
   Side swing() const { return Opposite(support); }
   /// The pose X_SV of the via point seen from above: there the swing foot is between up and down.
@@ -126,6 +129,9 @@ class HalfStepProfiles {
   Smoothstep height_;
   RestToRest shift_;
 };
+
+/// Adds a sway to the CoM of `jet`; `sway` and `jet` in the same frame.
+void AddSway(const std::array<ProfileJet, 2>& sway, WalkJet* jet);
 
 /// All quantities of an isolated half-step at local time τ [s], clamped to [0, T], in S.
 WalkJet Evaluate(const HalfStep& half_step, const HalfStepProfiles& profiles, double tau);

@@ -1,0 +1,74 @@
+#include "experiments/report/robot_zmp.h"
+
+#include <array>
+#include <limits>
+#include <optional>
+#include <string>
+
+#include "wpg/motion/lipm.h"
+#include "wpg/motion/posture.h"
+#include "wpg/motion/robot_dynamics.h"
+
+namespace halfstep {
+namespace {
+
+// The columns of the quantities, in the order of WalkState; what is not needed has none.
+constexpr std::array<const char*, kNumQuantities> kColumns = {"com_x_m",
+                                                              "com_y_m",
+                                                              "",
+                                                              "",
+                                                              "waist_yaw_rad",
+                                                              "left_foot_x_m",
+                                                              "left_foot_y_m",
+                                                              "left_foot_z_m",
+                                                              "left_foot_yaw_rad",
+                                                              "right_foot_x_m",
+                                                              "right_foot_y_m",
+                                                              "right_foot_z_m",
+                                                              "right_foot_yaw_rad"};
+
+// The derivatives of rows before, at and after an instant by the parabola through them.
+void Differentiate(const std::array<double, 3>& t, const std::array<WalkState, 3>& x,
+                   WalkJet* jet) {
+  const double before = t[1] - t[0], after = t[2] - t[1];
+  const WalkState in = (x[1] - x[0]) / before, out = (x[2] - x[1]) / after;
+  jet->first = (after * in + before * out) / (before + after);
+  jet->second = 2.0 * (out - in) / (before + after);
+}
+
+std::optional<Eigen::Vector2d> ZmpOf(const RobotModel& robot, const WalkJet& jet) {
+  Posture posture = SolvePosture(robot, jet.value);
+  if (!posture.reachable || !SolveJointSpeeds(robot, jet, &posture)) return std::nullopt;
+  return RobotDynamics(robot, jet, posture, Lipm{}.gravity).Zmp();
+}
+
+}  // namespace
+
+std::vector<Eigen::Vector2d> RobotZmps(const RobotModel& robot, const CsvTable& trajectory) {
+  const std::vector<double> t = trajectory.Numbers("t_s");
+  std::vector<WalkState> states(t.size(), WalkState::Zero());
+  for (size_t q = 0; q < kColumns.size(); ++q) {
+    if (*kColumns[q] == '\0') continue;
+    const std::vector<double> values = trajectory.Numbers(kColumns[q]);
+    for (size_t i = 0; i < t.size(); ++i) states[i][static_cast<Eigen::Index>(q)] = values[i];
+  }
+  const std::vector<double> vx = trajectory.Numbers("com_vx_m_s"),
+                            vy = trajectory.Numbers("com_vy_m_s"),
+                            ax = trajectory.Numbers("com_ax_m_s2"),
+                            ay = trajectory.Numbers("com_ay_m_s2");
+  const Eigen::Vector2d none = Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
+  std::vector<Eigen::Vector2d> zmps(t.size(), none);
+  if (!robot.masses.known()) return zmps;
+  for (size_t i = 0; i < t.size(); ++i) {
+    WalkJet jet{.value = states[i]};
+    if (i > 0 && i + 1 < t.size()) {  // the walk begins and ends at rest
+      Differentiate({t[i - 1], t[i], t[i + 1]}, {states[i - 1], states[i], states[i + 1]}, &jet);
+    }
+    jet.first.segment<2>(kComX) << vx[i], vy[i];
+    jet.second.segment<2>(kComX) << ax[i], ay[i];
+    zmps[i] = ZmpOf(robot, jet).value_or(none);
+  }
+  return zmps;
+}
+
+}  // namespace halfstep
