@@ -181,8 +181,13 @@ void DeclareOptimizer(Fields& fields, OptimizerConfig* c) {
            "`halfstep/sqp`, 30 for others",
        .min = 0,
        .max = 100000});
-  fields.Number("deadline_s", &o->deadline,
-                {.meaning = "of all solves together", .unit = "s", .min = 0.001, .max = 86400});
+  fields.Number(
+      "deadline_s", &o->deadline,
+      {.meaning =
+           "of all solves of a method together; of `dichotomy/uniform`, `coordinate`, `reference`",
+       .unit = "s",
+       .min = 0.001,
+       .max = 86400});
 }
 
 void DeclareFixed(Fields& fields, FixedConfig* c) {

@@ -60,9 +60,10 @@ Search DichotomyWith(const std::function<void(DichotomyOptions*)>& change) {
 }
 
 // What other methods are compared with. The families are those of smoothing.optimizer; `uniform`
-// takes heights and durations both when it names neither.
+// takes heights and durations both when it names neither. So is the deadline.
 SmoothingResult Uniform(const WalkProblem& problem, const SmootherOptions& options,
                         SmoothingMonitor& monitor) {
+  monitor.LimitTo(options.optimizer.deadline);
   const ParameterChoice& choice = options.optimizer.program.parameters;
   const bool neither = !choice.heights && !choice.durations;
   return UniformScan(problem,
@@ -74,6 +75,7 @@ SmoothingResult Uniform(const WalkProblem& problem, const SmootherOptions& optio
 
 SmoothingResult Coordinate(const WalkProblem& problem, const SmootherOptions& options,
                            SmoothingMonitor& monitor) {
+  monitor.LimitTo(options.optimizer.deadline);
   return CoordinateAscent(problem,
                           {.parameters = options.optimizer.program.parameters,
                            .tolerance = options.optimizer.tolerance},
@@ -82,6 +84,7 @@ SmoothingResult Coordinate(const WalkProblem& problem, const SmootherOptions& op
 
 SmoothingResult Reference(const WalkProblem& problem, const SmootherOptions& options,
                           SmoothingMonitor& monitor) {
+  monitor.LimitTo(options.optimizer.deadline);
   ReferenceOptions reference{.parameters = options.optimizer.program.parameters};
   const bool more = reference.parameters.heights || reference.parameters.durations;
   if (more && problem.scene().rests()) {

@@ -222,6 +222,34 @@ TEST_F(OptimizerTest, EveryPointOfAParetoCurveHoldsAtItsLevelAndSafetyGrowsWithT
   EXPECT_GT(result.pareto.back().least_slack, result.pareto.front().least_slack + 0.1);
 }
 
+TEST_F(OptimizerTest, AParetoCurveHasNoPointThatAShorterWalkIsAsSafeAs) {
+  OptimizerOptions options = Quick("halfstep/sqp");
+  SmoothingMonitor monitor;
+  const SmoothingResult result =
+      ParetoCurve(ProblemOf(e_.sequence, test_), options, {.points = 6}, monitor);
+  ASSERT_GE(result.pareto.size(), 2u) << result.message;
+  for (size_t i = 1; i < result.pareto.size(); ++i) {
+    EXPECT_GT(result.pareto[i].duration, result.pareto[i - 1].duration);
+    EXPECT_GT(result.pareto[i].least_slack, result.pareto[i - 1].least_slack);
+  }
+}
+
+// All solves together: each having its own, every one of 42 looked at its start at least.
+TEST_F(OptimizerTest, AParetoCurveHasOneDeadline) {
+  OptimizerOptions options = Quick("halfstep/sqp");
+  options.deadline = 1e-4;  // over before the first solve
+  SmoothingMonitor monitor;
+  const SmoothingResult result =
+      ParetoCurve(ProblemOf(e_.sequence, test_), options, {.points = 40}, monitor);
+  EXPECT_FALSE(HasOwnResult(result.ending)) << result.message;
+  EXPECT_TRUE(result.feasible);
+  EXPECT_THAT(result.message, testing::HasSubstr("the deadline passed"));
+  EXPECT_LE(result.pareto.size(), 1u);
+  const SmoothingResult dichotomy =
+      Smoothed(Dichotomy, ProblemOf(e_.sequence, test_), {.tolerance = options.tolerance});
+  EXPECT_LE(result.iterates.size(), dichotomy.iterates.size() + 4);
+}
+
 class ProgramDerivatives : public testing::TestWithParam<std::string> {};
 
 // Along random directions at a random point. Clearances have kinks where the nearest feature
