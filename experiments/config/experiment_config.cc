@@ -279,6 +279,9 @@ void DeclareSmoothing(Fields& fields, SmoothingConfig* c) {
   fields.Text("stop_branches", &c->stop_branches,
               {.meaning = "after which half-steps the walk can be stopped, every margin kept",
                .choices = {"none", "down", "all"}});
+  fields.Boolean("repair_plan", &c->repair_plan,
+                 {.meaning = "steps of a plan that is not feasible take longer, or go higher or "
+                             "lower, where that makes them feasible"});
   fields.Group("dichotomy", {.meaning = "options of the method `dichotomy`"},
                [&](Fields& f) { DeclareDichotomy(f, &c->dichotomy); });
   fields.Group(

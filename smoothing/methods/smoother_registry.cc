@@ -5,6 +5,7 @@
 
 #include "opt/adapters/solver_registry.h"
 #include "smoothing/methods/coordinate_ascent.h"
+#include "smoothing/methods/lipm_bound.h"
 #include "smoothing/methods/reference_search.h"
 #include "smoothing/methods/uniform_scan.h"
 #include "wpg/check.h"
@@ -117,6 +118,10 @@ std::vector<std::unique_ptr<const Smoother>> MakeSmoothers() {
   add("coordinate", "passes over overlaps, heights and durations, each bisected in turn",
       kOptimizer, Coordinate);
   add("reference", "dynamic programming over a grid of parameters; slow", kOptimizer, Reference);
+  add("reference/lipm", "a lower bound on every walk of a LIPM on the footsteps; finds no walk",
+      kNone, [](const WalkProblem& problem, const SmootherOptions&, SmoothingMonitor& monitor) {
+        return TellLipmBound(problem, monitor);
+      });
   for (const std::string& solver : opt::SolverNames()) {
     if (!opt::MakeSolver(solver)->available()) continue;
     add(solver, "smoothing.optimizer.program by this solver, from the dichotomy's result",
