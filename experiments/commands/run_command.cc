@@ -38,6 +38,11 @@ class ProgressBars {
   std::optional<ProgressBar> bar_;
 };
 
+// What became of steps that were to be repaired, on standard error.
+void TellRepaired(const ExperimentRun& run) {
+  for (const std::string& sentence : run.repaired()) std::cerr << "halfstep: " << sentence << '\n';
+}
+
 // Why the plan is not feasible, on standard error.
 void TellMissed(const ExperimentRun& run) {
   std::vector<std::string> lines = {run.runs().front().result.message};
@@ -79,6 +84,7 @@ ExitStatus Run(const RunCommand& command) {
   run.Smooth(hooks);
   bars.End();
   const bool feasible = run.runs().front().result.feasible;
+  TellRepaired(run);
   if (!feasible) TellMissed(run);  // before the tables, which take longer
   // What smoothing had found when it was stopped is proved all the same.
   run.Certify(interrupt.requested() ? interrupt.proof_token() : interrupt.token());

@@ -189,8 +189,13 @@ void DeclareOptimizer(Fields& fields, OptimizerConfig* c) {
            "`halfstep/sqp`, 30 for others",
        .min = 0,
        .max = 100000});
-  fields.Number("deadline_s", &o->deadline,
-                {.meaning = "of all solves together", .unit = "s", .min = 0.001, .max = 86400});
+  fields.Number(
+      "deadline_s", &o->deadline,
+      {.meaning =
+           "of all solves of a method together; of `dichotomy/uniform`, `coordinate`, `reference`",
+       .unit = "s",
+       .min = 0.001,
+       .max = 86400});
 }
 
 void DeclareFixed(Fields& fields, FixedConfig* c) {
@@ -282,6 +287,9 @@ void DeclareSmoothing(Fields& fields, SmoothingConfig* c) {
   fields.Text("stop_branches", &c->stop_branches,
               {.meaning = "after which half-steps the walk can be stopped, every margin kept",
                .choices = {"none", "down", "all"}});
+  fields.Boolean("repair_plan", &c->repair_plan,
+                 {.meaning = "steps of a plan that is not feasible take longer, or go higher or "
+                             "lower, where that makes them feasible"});
   fields.Group("dichotomy", {.meaning = "options of the method `dichotomy`"},
                [&](Fields& f) { DeclareDichotomy(f, &c->dichotomy); });
   fields.Group(

@@ -61,6 +61,7 @@ struct SmoothingConfig {
   std::string acceptance = "certified";
   double sampling = 0.005;  ///< period of acceptance `sampled` [s]
   std::string stop_branches = "none";
+  bool repair_plan = false;  ///< RepairPlan() before the methods
   CertificationOptions certification;
   DichotomyOptions dichotomy;
   OptimizerConfig optimizer;

@@ -4,9 +4,11 @@
 #include "experiments/run/manifest.h"
 #include "experiments/tables/parameter_tables.h"
 #include "smoothing/methods/overlap_prices.h"
+#include "smoothing/methods/plan_repair.h"
 #include "smoothing/methods/smoother_registry.h"
 #include "smoothing/proof/sampled_feasibility.h"
 #include "smoothing/proof/stoppable_feasibility.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {
@@ -88,11 +90,33 @@ ExperimentRun::ExperimentRun(const ExperimentConfig& config, const RunHooks& hoo
   }
 }
 
+// Steps that were repaired are footsteps of the config with a duration and a height of their own.
+void ExperimentRun::Repair(const RunHooks& hooks) {
+  const PlanRepair repair =
+      RepairPlan(experiment_->sequence, *MakeTest(*experiment_), {}, hooks.stop_step);
+  for (const RepairedStep& step : repair.steps) {
+    FootstepConfig& footstep = config_.footsteps[static_cast<size_t>(step.step)];
+    const double duration = footstep.duration.value_or(config_.half_step.duration);
+    const double height = footstep.via_height.value_or(config_.half_step.via_height);
+    repaired_.push_back(
+        Formatted("footstep %d was repaired: %.3f s in place of %.3f s, %.3f m "
+                  "high in place of %.3f m",
+                  step.step + 1, step.duration, duration, step.via_height, height));
+    footstep.duration = step.duration;
+    footstep.via_height = step.via_height;
+  }
+  for (const std::string& failure : repair.failures) repaired_.push_back(failure);
+  if (repair.steps.empty()) return;
+  experiment_ = Prepare(config_, {experiment_->robot, experiment_->scene});
+}
+
 void ExperimentRun::Smooth(const RunHooks& hooks) {
+  if (config_.smoothing.repair_plan) Repair(hooks);
   problem_.emplace(experiment_->sequence, MakeTest(*experiment_),
                    FixedParameters(config_.smoothing));
   certifier_.emplace(evaluator(), config_.smoothing.certification);
   runs_ = {PlannedRun(*problem_, hooks.stop_step, &missed_)};
+  for (const std::string& sentence : repaired_) runs_.front().result.message += "; " + sentence;
   if (hooks.keep && runs_.front().result.feasible) hooks.keep();
   for (const std::string& name : config_.smoothing.methods) {
     MethodRun run(name);

@@ -62,10 +62,15 @@ class ExperimentRun {
   /// What the planned motion misses; none when it is feasible.
   const std::optional<MissedDemands>& missed() const { return missed_; }
 
+  /// What `smoothing.repair_plan` made of the plan: a sentence on each step that it changed, or
+  /// could not make feasible. Empty: nothing was to repair, or nothing was asked for.
+  const std::vector<std::string>& repaired() const { return repaired_; }
+
   /// Writes every file of a run folder.
   void Write(RunFolder* folder) const;
 
  private:
+  void Repair(const RunHooks& hooks);
   void WriteMethod(const MethodRun& run, RunFolder* folder) const;
 
   const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
@@ -77,6 +82,7 @@ class ExperimentRun {
   std::optional<CertifiedFeasibility> certifier_;
   std::vector<MethodRun> runs_;
   std::optional<MissedDemands> missed_;
+  std::vector<std::string> repaired_;
 };
 
 /// Text of a config.yaml in a folder: with every key, paths relative to the folder.

@@ -46,6 +46,24 @@ std::string Holders(const MarginEvaluator& evaluator, const MethodRun& run, Junc
   return text + "\n";
 }
 
+// What a price says of one unit of the family's scale, or of all that is demanded where that is
+// less: to first order, and no more than the overlap has room.
+std::string Promise(const MarginLimits& limits, const JunctionResult& junction) {
+  const MarginFamily family = junction.limited_by->family;
+  const double demanded = limits.demanded_of(family);
+  const double less = demanded > 0.0 ? std::min(Scale(family), demanded) : Scale(family);
+  const double part = less / Scale(family);
+  const double room = std::max(0.0, junction.upper_bound - junction.overlap);
+  std::string text =
+      Formatted("%g %s %s would save %.3f s", less, std::string(Unit(family)).c_str(),
+                demanded > 0.0 ? "less demanded" : "beyond its limit",
+                std::min(part * *junction.price, room));
+  if (junction.multiplier && *junction.multiplier > 0.0) {
+    text += Formatted(" (%.3f s with all parameters adapting)", part * *junction.multiplier);
+  }
+  return text;
+}
+
 // The junctions where a little less demanded would save most: "junction 5 (up→down), 0.612 s …".
 std::string Prices(const MarginEvaluator& evaluator, const MethodRun& run) {
   constexpr size_t kMost = 3;
@@ -62,12 +80,8 @@ std::string Prices(const MarginEvaluator& evaluator, const MethodRun& run) {
                       junction.kind == JunctionKind::kUpDown ? "up→down" : "down→up",
                       junction.overlap) +
             std::string(Name(limit.family)) + " of " + evaluator.Subject(limit) +
-            Formatted(" at half-step %d, τ = %.3f s; %g %s less demanded would save %.3f s",
-                      limit.at.half_step + 1, limit.at.tau, Scale(limit.family),
-                      std::string(Unit(limit.family)).c_str(), *junction.price);
-    if (junction.multiplier && *junction.multiplier > 0.0) {
-      text += Formatted(" (%.3f s with all parameters adapting)", *junction.multiplier);
-    }
+            Formatted(" at half-step %d, τ = %.3f s; ", limit.at.half_step + 1, limit.at.tau) +
+            Promise(evaluator.limits(), junction);
     text += "\n";
   }
   return text;

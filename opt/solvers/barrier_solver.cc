@@ -36,7 +36,7 @@ class Barrier {
     for (int v = 0; v < x_.size(); ++v) {
       const double lower = problem_.lower()[v], upper = problem_.upper()[v];
       const double width = std::isfinite(upper - lower) ? upper - lower : 1.0;
-      if (lower == upper) continue;
+      if (Fixed(v)) continue;
       x_[v] = std::min(std::max(x_[v], lower + kPush * width), upper - kPush * width);
     }
   }
@@ -77,6 +77,8 @@ class Barrier {
  private:
   SolverEnd Broken() const { return {Ending::kFailed, "Barrier: broke off.", x_}; }
 
+  bool Fixed(int v) const { return problem_.lower()[v] == problem_.upper()[v]; }
+
   bool EvaluateAt(const VectorXd& x) {
     return monitor_.Constraints(x, &constraints_) && monitor_.Cost(x, &cost_) &&
            monitor_.Gradient(x, &gradient_) && EvaluateJacobian(x);
@@ -87,6 +89,7 @@ class Barrier {
     if (!monitor_.Jacobian(x, &nonzeros)) return false;
     std::vector<Eigen::Triplet<double>> triplets;
     for (size_t k = 0; k < nonzeros.size(); ++k) {
+      if (Fixed(problem_.pattern().cols[k])) continue;  // Newton's steps leave it where it is
       triplets.emplace_back(problem_.pattern().rows[k], problem_.pattern().cols[k], nonzeros[k]);
     }
     jacobian_.resize(problem_.num_constraints(), problem_.num_variables());
@@ -121,7 +124,7 @@ class Barrier {
     VectorXd result = CostGradient() + jacobian_.transpose() * weights;
     bounds_.AddGradient(x_, of_bounds, &result);
     for (int v = 0; v < x_.size(); ++v) {
-      if (problem_.lower()[v] == problem_.upper()[v]) result[v] = 0.0;
+      if (Fixed(v)) result[v] = 0.0;
     }
     return result;
   }

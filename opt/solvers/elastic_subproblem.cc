@@ -22,7 +22,7 @@ constexpr double kFractionToBoundary = 0.99;  // of the way to the boundary that
 class InteriorPoint {
  public:
   explicit InteriorPoint(const ElasticSubproblem& problem)
-      : p_(problem), nu_(problem.penalty), At_(problem.A.transpose()) {
+      : p_(problem), nu_(problem.penalty.array()), At_(problem.A.transpose()) {
     d_ = 0.5 * (p_.lower + p_.upper);
     const double width = (p_.upper - p_.lower).maxCoeff();
     mu_ = std::max(0.1 * p_.g.lpNorm<Eigen::Infinity>() * width, 1e-12);
@@ -32,8 +32,7 @@ class InteriorPoint {
     y_upper_ = mu_ / to_upper_;
     // The point of the central path for this d.
     const Array v = p_.c + p_.A * d_;
-    z_ =
-        2.0 * mu_ * nu_ / (nu_ * v + 2.0 * mu_ + (nu_ * nu_ * v.square() + 4.0 * mu_ * mu_).sqrt());
+    z_ = 2.0 * mu_ * nu_ / (nu_ * v + 2.0 * mu_ + ((nu_ * v).square() + 4.0 * mu_ * mu_).sqrt());
     z_ = z_.max(1e-12 * nu_).min((1.0 - 1e-12) * nu_);
     s_ = (mu_ / z_).max(v + 1e-300);
     u_ = s_ - v;
@@ -161,7 +160,8 @@ class InteriorPoint {
   }
 
   const ElasticSubproblem& p_;
-  double nu_, mu_;
+  Array nu_;
+  double mu_;
   SparseMatrix At_;
   VectorXd d_;
   Array s_, u_, z_, to_lower_, to_upper_, y_lower_, y_upper_;

@@ -9,22 +9,22 @@ namespace halfstep::opt {
 
 /// The quadratic program of a step d (n) with rows that may be violated at a price,
 ///
-///     minimize    gᵀd + ½ dᵀBd + ν Σ_i max(0, −(c + A d)_i)
+///     minimize    gᵀd + ½ dᵀBd + Σ_i ν_i max(0, −(c + A d)_i)
 ///     subject to  lower ≤ d ≤ upper
 ///
-/// B ≥ 0 as a LimitedMemoryHessian estimates it, ν > 0, lower < upper finite. Always solvable.
+/// B ≥ 0 as a LimitedMemoryHessian estimates it, ν_i > 0, lower < upper finite. Always solvable.
 struct ElasticSubproblem {
   const LimitedMemoryHessian& hessian;  ///< B; borrowed
   Eigen::VectorXd g;                    ///< (n)
   Eigen::SparseMatrix<double> A;        ///< (m×n)
   Eigen::VectorXd c;                    ///< (m)
   Eigen::VectorXd lower, upper;         ///< (n)
-  double penalty = 1.0;                 ///< ν
+  Eigen::VectorXd penalty;              ///< ν (m)
 };
 
 struct ElasticStep {
   Eigen::VectorXd d;      ///< (n), within its bounds
-  Eigen::VectorXd duals;  ///< of the rows (m), each in [0, ν]
+  Eigen::VectorXd duals;  ///< of the rows (m), each in [0, ν_i]
 };
 
 /// Solves it by a primal-dual interior point method with Mehrotra's corrector; O(n + m) an

@@ -36,8 +36,15 @@ Solution MonitoredSolve(
   SolverEnd end{Ending::kInvalidInput, WhyRefused(solver, problem, x0, options), {}};
   if (end.message.empty()) {
     const Eigen::VectorXd start = x0.cwiseMax(problem.lower()).cwiseMin(problem.upper());
+    const bool fixed = problem.lower() == problem.upper();
     try {
-      if (monitor.Begin(start)) end = run(monitor, start);
+      if (!monitor.Begin(start)) {
+        // The monitor knows why.
+      } else if (fixed) {
+        end = {Ending::kConverged, "Every variable is fixed.", start};
+      } else {
+        end = run(monitor, start);
+      }
     } catch (const std::exception& error) {
       end = {Ending::kFailed, std::string("The solver threw: ") + error.what(), {}};
     }

@@ -10,6 +10,7 @@
 #include "opt/problem/scaled_rows.h"
 #include "opt/solvers/elastic_subproblem.h"
 #include "opt/solvers/own_options.h"
+#include "opt/solvers/row_penalties.h"
 #include "opt/solvers/solve_monitor.h"
 
 namespace halfstep::opt {
@@ -23,29 +24,31 @@ constexpr double kPoor = 0.25, kGood = 0.75;  // below it the region shrinks, ab
 constexpr double kShrink = 0.3, kGrow = 1.5;
 constexpr double kLeastRegion = 1e-12, kMostRegion = 1e3;  // of the variables' widths
 constexpr double kFirstRegion = 0.02;                      // at least, of a later solve
-constexpr int kMostRaises = 6;                             // of the penalty in one iteration
+// Of a group's violation: what a step may leave of it at any penalty, and what counts as none.
+constexpr double kTolerated = 0.1, kNothing = 1e-9;
 
 struct SqpMemory : WarmStart {
   explicit SqpMemory(size_t memory) : hessian(memory) {}
 
-  VectorXd region;       // how far a step goes along each variable; empty: not known
-  double penalty = 0.0;  // ν
+  VectorXd region;  // how far a step goes along each variable; empty: not known
+  RowPenalties::Memory penalties;
   LimitedMemoryHessian hessian;
 };
 
 class Sqp {
  public:
-  Sqp(SolveMonitor* monitor, const VectorXd& start, double radius, double most_penalty,
-      const SqpMemory& memory)
+  Sqp(SolveMonitor* monitor, const VectorXd& start, double radius, double first_penalty,
+      double most_penalty, const SqpMemory& memory)
       : monitor_(*monitor),
         problem_(monitor->problem()),
         x_(start),
+        first_penalty_(first_penalty),
         most_penalty_(most_penalty),
-        penalty_(memory.penalty),
+        known_(memory.penalties),
         hessian_(memory.hessian) {
     width_ = problem_.upper() - problem_.lower();
     for (int v = 0; v < x_.size(); ++v) {
-      if (!std::isfinite(width_[v])) width_[v] = std::max(1.0, std::abs(x_[v]));
+      if (!std::isfinite(width_[v]) || Fixed(v)) width_[v] = std::max(1.0, std::abs(x_[v]));
     }
     region_ = radius * width_;
     if (memory.region.size() > 0) region_ = memory.region.cwiseMax(kFirstRegion * width_);
@@ -55,7 +58,7 @@ class Sqp {
     SolverEnd end = Iterate();
     auto memory = std::make_shared<SqpMemory>(0);
     memory->region = region_;
-    memory->penalty = penalty_;
+    if (penalties_) memory->penalties = penalties_->Remembered();
     memory->hessian = std::move(hessian_);
     end.warm_start = std::move(memory);
     return end;
@@ -69,20 +72,22 @@ class Sqp {
       return Broken();
     }
     rows_.emplace(problem_, jacobian);
+    penalties_.emplace(*rows_, known_, first_penalty_, most_penalty_);
     SparseMatrix A = rows_->Jacobian(jacobian);
     const SolverOptions& options = monitor_.options();
     while (monitor_.MayGoOn()) {
       const VectorXd c = rows_->Values(values_);
       const ElasticStep step = Step(c, A);
-      const double violation = TotalViolation(c);
       const double predicted = Predicted(step.d, c, A);
       const bool feasible =
           problem_.MaxViolation(x_, values_).amount <= options.feasibility_tolerance;
       if (feasible && Stationary(step.duals, A) <= options.optimality_tolerance) {
         return {Ending::kConverged, "SQP: first-order conditions hold.", x_};
       }
-      const double size = std::max(1.0, std::abs(cost_) + penalty_ * violation);
+      const double size = std::max(1.0, std::abs(cost_) + penalties_->Owed(c));
       if ((region_.array() < kLeastRegion * width_.array()).all() || predicted <= 1e-14 * size) {
+        // Exact or not, the penalty has a minimum here: violated rows have to cost more.
+        if (!feasible && RaiseViolated(c)) continue;
         if (!feasible) {
           return {Ending::kFailed, "SQP: the violation has a local minimum.", x_};
         }
@@ -98,14 +103,14 @@ class Sqp {
   bool Fixed(int v) const { return problem_.lower()[v] == problem_.upper()[v]; }
 
   // The step within the region, of those rows that it can violate.
-  ElasticStep Restricted(const VectorXd& c, const SparseMatrix& A, double penalty) const {
+  ElasticStep Restricted(const VectorXd& c, const SparseMatrix& A) const {
     ElasticSubproblem sub{.hessian = hessian_,
                           .g = gradient_,
                           .A = {},
                           .c = {},
                           .lower = {},
                           .upper = {},
-                          .penalty = penalty};
+                          .penalty = {}};
     sub.lower = (problem_.lower() - x_).cwiseMax(-region_);
     sub.upper = (problem_.upper() - x_).cwiseMin(region_);
     for (int v = 0; v < x_.size(); ++v) {
@@ -127,6 +132,7 @@ class Sqp {
     choose.setFromTriplets(ones.begin(), ones.end());
     sub.A = choose * A;
     sub.c = choose * c;
+    sub.penalty = choose * penalties_->OfRows();
     ElasticStep step = Solve(sub);
     step.duals = choose.transpose() * step.duals;
     for (int v = 0; v < x_.size(); ++v) {
@@ -135,26 +141,33 @@ class Sqp {
     return step;
   }
 
-  // Raises the penalty while that makes the linearized rows' violation much smaller.
+  // A local minimum of the penalty function that is not feasible: violated rows cost more from now
+  // on. False: they cost the most already.
+  bool RaiseViolated(const VectorXd& c) {
+    const std::vector<double> violations = penalties_->Violations(c);
+    if (!penalties_->Raise(violations, std::vector<double>(violations.size(), 0.0))) return false;
+    region_ = region_.cwiseMax(kFirstRegion * width_);
+    return true;
+  }
+
+  // The step, at penalties that are high enough: where it leaves a group of rows violated in the
+  // model although a higher penalty would halve that, the penalty is higher from now on.
   ElasticStep Step(const VectorXd& c, const SparseMatrix& A) {
-    ElasticStep step = Restricted(c, A, penalty_);
-    double left = TotalViolation(c + A * step.d);
-    for (int i = 0; i < kMostRaises && penalty_ < most_penalty_; ++i) {
-      if (left <= 1e-9 || left <= 0.1 * TotalViolation(c)) break;
-      const double raised = std::min(10.0 * penalty_, most_penalty_);
-      ElasticStep other = Restricted(c, A, raised);
-      const double then = TotalViolation(c + A * other.d);
-      if (then > 0.9 * left) break;
-      penalty_ = raised;
-      step = std::move(other);
-      left = then;
-    }
-    return step;
+    const ElasticStep step = Restricted(c, A);
+    const std::vector<double> left = penalties_->Violations(c + A * step.d);
+    std::vector<double> tolerated = penalties_->Violations(c), half = left;
+    for (double& v : tolerated) v = std::max(kNothing, kTolerated * v);
+    for (double& v : half) v *= 0.5;
+    const RowPenalties before = *penalties_;
+    if (!penalties_->Raise(left, tolerated)) return step;
+    const ElasticStep dearer = Restricted(c, A);
+    const std::vector<double> then = penalties_->Violations(c + A * dearer.d);
+    return penalties_->TakeBack(before, then, half) ? Restricted(c, A) : dearer;
   }
 
   double Predicted(const VectorXd& d, const VectorXd& c, const SparseMatrix& A) const {
-    return -gradient_.dot(d) - 0.5 * d.dot(hessian_.Times(d)) +
-           penalty_ * (TotalViolation(c) - TotalViolation(c + A * d));
+    return -gradient_.dot(d) - 0.5 * d.dot(hessian_.Times(d)) + penalties_->Owed(c) -
+           penalties_->Owed(c + A * d);
   }
 
   // The largest entry of the Lagrangian's gradient that no bound's multiplier takes, and
@@ -171,7 +184,7 @@ class Sqp {
            std::max(1.0, gradient_.lpNorm<Eigen::Infinity>());
   }
 
-  double Merit(double cost, const VectorXd& c) const { return cost + penalty_ * TotalViolation(c); }
+  double Merit(double cost, const VectorXd& c) const { return cost + penalties_->Owed(c); }
 
   struct Trial {
     VectorXd x, values, c;
@@ -202,9 +215,9 @@ class Sqp {
     const std::vector<std::vector<int>>& variables = rows_->variables();
     std::vector<double> surprise(variables.size(), 0.0), gain(variables.size(), 1e-12);
     for (Eigen::Index i = 0; i < c.size(); ++i) {
-      const size_t k = static_cast<size_t>(rows_->groups()[static_cast<size_t>(i)]);
-      surprise[k] += penalty_ * std::max(0.0, after[i] - expected[i]);
-      gain[k] += penalty_ * std::max(0.0, before[i] - expected[i]);
+      const size_t k = penalties_->GroupOf(i);
+      surprise[k] += penalties_->Of(k) * std::max(0.0, after[i] - expected[i]);
+      gain[k] += penalties_->Of(k) * std::max(0.0, before[i] - expected[i]);
     }
     VectorXd worst = VectorXd::Ones(x_.size());
     for (size_t k = 0; k < variables.size(); ++k) {
@@ -236,7 +249,7 @@ class Sqp {
     // Curved rows: the step is corrected by what they turned out to be.
     if (ratio < kPoor && trial.c.size() > 0 &&
         TotalViolation(trial.c) > TotalViolation(c + A * d)) {
-      const ElasticStep corrected = Restricted(trial.c - A * d, A, penalty_);
+      const ElasticStep corrected = Restricted(trial.c - A * d, A);
       Trial second = At(corrected.d);
       if (!monitor_.MayGoOn()) return false;
       if (second.merit < trial.merit) {
@@ -263,8 +276,9 @@ class Sqp {
   VectorXd x_, width_, region_, values_, gradient_;
   double cost_ = 0.0;
   std::optional<ScaledRows> rows_;  // after the first evaluation
-  double most_penalty_;
-  double penalty_;  // as in SqpMemory
+  double first_penalty_, most_penalty_;
+  RowPenalties::Memory known_;             // from an earlier solve
+  std::optional<RowPenalties> penalties_;  // after the first evaluation
   LimitedMemoryHessian hessian_;
 };
 
@@ -277,7 +291,7 @@ class SqpSolver : public Solver {
     return {.many_rows = true,
             .long_steps = true,
             .iterations = 3,
-            .nearly_linear = {{"memory", "0"}, {"penalty", "2"}, {"most_penalty", "2"}}};
+            .nearly_linear = {{"memory", "0"}, {"penalty", "2"}}};
   }
   bool available() const override { return true; }
   std::string WhyUnavailable() const override { return ""; }
@@ -292,10 +306,9 @@ class SqpSolver : public Solver {
                                       {"most_penalty", false, 1e8}};
     if (const auto refused = ReadOwnOptions(name(), &monitor, &options)) return *refused;
     SqpMemory memory(static_cast<size_t>(options[1].value));
-    memory.penalty = options[2].value;
     const auto* before = dynamic_cast<const SqpMemory*>(monitor.options().warm_start.get());
     if (before && before->region.size() == start.size()) memory = *before;
-    return Sqp(&monitor, start, options[0].value, options[3].value, memory).Run();
+    return Sqp(&monitor, start, options[0].value, options[2].value, options[3].value, memory).Run();
   }
 
   Solution Solve(const Problem& problem, const VectorXd& x0,

@@ -64,6 +64,7 @@ class Optimization {
                                    : "the walk is a dichotomy's"} {}
 
   SmoothingResult Run() {
+    if (options_.deadline <= monitor_.Remaining()) end_.deadline = options_.deadline;
     monitor_.Begin(problem_, options_.start.value_or(problem_.Start()));
     DichotomyOptions dichotomy{.tolerance = StartTolerance()};
     if (options_.start) {

@@ -12,6 +12,19 @@ namespace halfstep {
 
 namespace {
 
+// What an earlier, shorter walk does at least as safely is left out, `points` being sorted by
+// duration.
+std::vector<ParetoPoint> Undominated(const std::vector<ParetoPoint>& points) {
+  constexpr double kSafer = 1e-3;  // of a slack's scale: what a search for safer walks asks for
+  std::vector<ParetoPoint> kept;
+  for (const ParetoPoint& point : points) {
+    if (!kept.empty() && point.least_slack <= kept.back().least_slack + kSafer) continue;
+    if (!kept.empty() && point.duration <= kept.back().duration) kept.pop_back();
+    kept.push_back(point);
+  }
+  return kept;
+}
+
 std::string Sentence(const std::string& solver, size_t points, double least, double most,
                      const SmoothingResult& same) {
   return solver + ": safest walks of " + std::to_string(points) + " durations from " +
@@ -46,6 +59,11 @@ SmoothingResult ParetoCurve(const WalkProblem& problem, const OptimizerOptions& 
     return monitor.Finish(opt::Ending::kNotRun, dichotomy.message);
   }
   const double own = DurationOf(dichotomy.parameters);
+  // The solves share what is left of the deadline evenly; what one does not need others have.
+  const auto share = [&] {
+    return (options.deadline - monitor.Seconds()) / std::max(1.0, parts - part);
+  };
+  const auto over = [&] { return monitor.stopped() || share() <= 0.0; };
 
   std::vector<ParetoPoint>& points = monitor.result().pareto;
   opt::Ending weakest = opt::Ending::kConverged;  // of the solves that found something
@@ -56,6 +74,7 @@ SmoothingResult ParetoCurve(const WalkProblem& problem, const OptimizerOptions& 
     with.start = start;
     const double begun = monitor.Seconds();
     SmoothingMonitor within(monitor.Part(part / parts, (part + 1) / parts));
+    within.LimitTo(std::max(0.0, share()));
     SmoothingResult result = OptimizeOverlaps(problem, with, within);
     ++part;
     if (opt::HasOwnResult(result.ending)) weakest = std::max(weakest, result.ending);
@@ -78,7 +97,7 @@ SmoothingResult ParetoCurve(const WalkProblem& problem, const OptimizerOptions& 
   const double least = DurationOf(fastest.parameters);
   const double most = std::max(least, pareto.most_duration * planned);
   HomotopyParameters start = fastest.parameters;
-  for (int i = 0; i < pareto.points && !monitor.stopped(); ++i) {
+  for (int i = 0; i < pareto.points && !over(); ++i) {
     const double duration = least * std::pow(most / least, i / (pareto.points - 1.0));
     // From the safer one of the walk before and the one at the dichotomy's duration.
     const bool from_same =
@@ -88,8 +107,11 @@ SmoothingResult ParetoCurve(const WalkProblem& problem, const OptimizerOptions& 
   std::stable_sort(points.begin(), points.end(), [](const ParetoPoint& a, const ParetoPoint& b) {
     return a.duration < b.duration;
   });
+  points = Undominated(points);
+  if (over()) weakest = std::max(weakest, monitor.StopEnding());
   const opt::Ending ending = opt::HasOwnResult(same.ending) ? weakest : same.ending;
-  return monitor.Finish(ending, Sentence(options.solver, points.size(), least, most, same));
+  const std::string late = over() ? monitor.StopReason() + "; " : "";
+  return monitor.Finish(ending, late + Sentence(options.solver, points.size(), least, most, same));
 }
 
 }  // namespace halfstep

@@ -1,12 +1,24 @@
 #include "smoothing/methods/search_ending.h"
 
+#include <cmath>
+#include <sstream>
+
 namespace halfstep {
+namespace {
+
+constexpr double kViolated = 0.02;  // of a slack's scale: less may still be proved
+
+}  // namespace
 
 void SearchEnding::Note(const opt::Solution& solution) {
   called = true;
   all_failed = all_failed && solution.ending == opt::Ending::kFailed;
   last_ending = solution.ending;
   last_message = solution.message;
+  const bool violated =
+      !solution.feasible && !solution.worst_row.empty() && solution.max_violation > kViolated;
+  last_violation = violated ? solution.max_violation : 0.0;
+  last_violated = violated ? solution.worst_row : "";
 }
 
 opt::Ending SearchEnding::Ending() const {
@@ -18,19 +30,37 @@ opt::Ending SearchEnding::Ending() const {
   }
   if (stopped) return Ending::kInterrupted;
   if (past_deadline()) return Ending::kDeadline;
-  return exhausted || opt::DidNotWork(last_ending) ? Ending::kLimit : Ending::kConverged;
+  const bool unfinished = exhausted || last_violation > 0.0 || opt::DidNotWork(last_ending);
+  return unfinished ? Ending::kLimit : Ending::kConverged;
 }
 
 std::string SearchEnding::Sentence() const {
-  std::string why = stopped                                     ? "stopped from outside"
-                    : past_deadline()                           ? "the deadline passed"
-                    : last_ending == opt::Ending::kInvalidInput ? solver + " refused the program"
-                    : exhausted ? "all rounds from a start were used"
-                                : "the last rounds gained next to nothing";
-  if (!called) return why + " before " + solver + " was called; " + kept;
-  if (!own) why += "; nothing of its own was better and proved, " + kept;
-  return why + "; " + solver + " last ended " + std::string(opt::Name(last_ending)) + ": " +
-         last_message;
+  std::ostringstream why;
+  if (stopped) {
+    why << "stopped from outside";
+  } else if (past_deadline()) {
+    why << "the deadline ";
+    if (std::isfinite(deadline)) why << "of " << deadline << " s ";
+    why << "passed";
+  } else if (last_ending == opt::Ending::kInvalidInput) {
+    why << solver << " refused the program";
+  } else {
+    why << (exhausted ? "all rounds from a start were used"
+                      : "the last rounds gained next to nothing");
+  }
+  if (!called) {
+    why << " before " << solver << " was called; " << kept;
+    return why.str();
+  }
+  if (!own) why << "; nothing of its own was better and proved, " << kept;
+  if (last_violation > 0.0) {
+    why << "; points of the last round stayed violated, " << last_violated << " by at least "
+        << last_violation;
+  }
+  why << "; " << solver << " last ended " << opt::Name(last_ending);
+  // What was left of the deadline for the last round is nobody's concern.
+  if (last_ending != opt::Ending::kDeadline) why << ": " << last_message;
+  return why.str();
 }
 
 }  // namespace halfstep

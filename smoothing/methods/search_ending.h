@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <string>
 
 #include "opt/solvers/solution.h"
@@ -9,14 +10,19 @@ namespace halfstep {
 /// What is known when a search by a solver, in rounds from several starts, is over.
 struct SearchEnding {
   std::string solver;
-  bool stopped = false;          ///< from outside
-  bool deadline_passed = false;  ///< before all rounds were done
-  bool exhausted = false;        ///< all rounds from a start were used
-  bool called = false;           ///< the solver, at least once
-  bool all_failed = true;        ///< every solve ended kFailed
-  bool own = false;              ///< the result comes from the search, and beats what it began with
+  bool stopped = false;                                       ///< from outside
+  bool deadline_passed = false;                               ///< before all rounds were done
+  double deadline = std::numeric_limits<double>::infinity();  ///< that was given [s], for messages
+  bool exhausted = false;                                     ///< all rounds from a start were used
+  bool called = false;                                        ///< the solver, at least once
+  bool all_failed = true;                                     ///< every solve ended kFailed
+  bool own = false;  ///< the result comes from the search, and beats what it began with
   opt::Ending last_ending = opt::Ending::kNotRun;  ///< of the last solve
   std::string last_message = {};
+  /// The last solve saw no point that violates less than this (of a slack's scale), and where; 0:
+  /// it violates so little that it may be worth a proof.
+  double last_violation = 0.0;
+  std::string last_violated = {};
   /// What the result is when it does not come from the search: "the walk is a dichotomy's".
   std::string kept = {};
 

@@ -5,6 +5,7 @@
 
 #include "opt/adapters/solver_registry.h"
 #include "smoothing/methods/coordinate_ascent.h"
+#include "smoothing/methods/lipm_bound.h"
 #include "smoothing/methods/reference_search.h"
 #include "smoothing/methods/uniform_scan.h"
 #include "wpg/check.h"
@@ -60,9 +61,10 @@ Search DichotomyWith(const std::function<void(DichotomyOptions*)>& change) {
 }
 
 // What other methods are compared with. The families are those of smoothing.optimizer; `uniform`
-// takes heights and durations both when it names neither.
+// takes heights and durations both when it names neither. So is the deadline.
 SmoothingResult Uniform(const WalkProblem& problem, const SmootherOptions& options,
                         SmoothingMonitor& monitor) {
+  monitor.LimitTo(options.optimizer.deadline);
   const ParameterChoice& choice = options.optimizer.program.parameters;
   const bool neither = !choice.heights && !choice.durations;
   return UniformScan(problem,
@@ -74,6 +76,7 @@ SmoothingResult Uniform(const WalkProblem& problem, const SmootherOptions& optio
 
 SmoothingResult Coordinate(const WalkProblem& problem, const SmootherOptions& options,
                            SmoothingMonitor& monitor) {
+  monitor.LimitTo(options.optimizer.deadline);
   return CoordinateAscent(problem,
                           {.parameters = options.optimizer.program.parameters,
                            .tolerance = options.optimizer.tolerance},
@@ -82,6 +85,7 @@ SmoothingResult Coordinate(const WalkProblem& problem, const SmootherOptions& op
 
 SmoothingResult Reference(const WalkProblem& problem, const SmootherOptions& options,
                           SmoothingMonitor& monitor) {
+  monitor.LimitTo(options.optimizer.deadline);
   ReferenceOptions reference{.parameters = options.optimizer.program.parameters};
   const bool more = reference.parameters.heights || reference.parameters.durations;
   if (more && problem.scene().rests()) {
@@ -114,6 +118,10 @@ std::vector<std::unique_ptr<const Smoother>> MakeSmoothers() {
   add("coordinate", "passes over overlaps, heights and durations, each bisected in turn",
       kOptimizer, Coordinate);
   add("reference", "dynamic programming over a grid of parameters; slow", kOptimizer, Reference);
+  add("reference/lipm", "a lower bound on every walk of a LIPM on the footsteps; finds no walk",
+      kNone, [](const WalkProblem& problem, const SmootherOptions&, SmoothingMonitor& monitor) {
+        return TellLipmBound(problem, monitor);
+      });
   for (const std::string& solver : opt::SolverNames()) {
     if (!opt::MakeSolver(solver)->available()) continue;
     add(solver, "smoothing.optimizer.program by this solver, from the dichotomy's result",

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -35,6 +36,9 @@ class SmoothingMonitor {
   /// Options for a smoother that is called within this one: it stops with this one, at the same
   /// deadline, and its progress is reported as the part [from, to] of this one's.
   MonitorOptions Part(double from, double to) const;
+
+  /// The search ends after `seconds` at the latest, counted from when the monitor was made.
+  void LimitTo(double seconds) { options_.deadline = std::min(options_.deadline, seconds); }
 
   /// Forgets everything and begins at `start`. The problem is borrowed until Finish().
   void Begin(const WalkProblem& problem, const HomotopyParameters& start);

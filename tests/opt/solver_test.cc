@@ -10,6 +10,7 @@
 
 #include "opt/adapters/box_transform.h"
 #include "opt/solvers/option_text.h"
+#include "opt/solvers/row_penalties.h"
 #include "tests/problems/constructed_problems.h"
 #include "tests/problems/hock_schittkowski.h"
 
@@ -121,6 +122,64 @@ TEST(Sqp, ABoundOnThePenaltyIsKeptAndViolatedRowsAreNoSuccess) {
   const opt::Solution dear = solver->Solve(card.problem, card.problem.initial(), {});
   EXPECT_LT(dear.final_violation, 1e-4) << dear.BriefReport();
   EXPECT_NEAR(dear.cost, card.optimum, 1e-4);
+}
+
+// x_i + x_{i+1} ≤ 1 in a chain, each x_i worth 1 but two, which are worth 60: multipliers of 1 and
+// of
+// 60. Only the two rows' penalties have to grow from 2.
+TEST(Sqp, PenaltiesGrowWhereMultipliersAreLargeAndNowhereElse) {
+  constexpr int kSize = 20;
+  ProblemBuilder builder(Constant(kSize, 0.0), Constant(kSize, 0.0), Constant(kSize, 5.0));
+  builder.Minimize([](const auto& x) {
+    auto total = 0.0 * x[0];
+    for (size_t j = 0; j < kSize; ++j) total = total - (j == 8 || j == 9 ? 60.0 : 1.0) * x[j];
+    return total;
+  });
+  for (int i = 0; i + 1 < kSize; i += 2) {
+    const size_t k = static_cast<size_t>(i);
+    builder.Row("pair " + std::to_string(i), -kInfinity,
+                [k](const auto& x) { return x[k] + x[k + 1]; }, 1.0, {i, i + 1});
+  }
+  const opt::Problem problem = builder.Build();
+  const auto solver = opt::MakeSolver("halfstep/sqp");
+  opt::SolverOptions options;
+  options.solver_options = {{"memory", "0"}, {"penalty", "2"}};
+  const opt::Solution found = solver->Solve(problem, problem.initial(), options);
+  EXPECT_EQ(found.ending, opt::Ending::kConverged) << found.BriefReport();
+  EXPECT_NEAR(found.cost, -69.0, 1e-4);
+  EXPECT_LE(found.iterations, 30);
+  options.solver_options["most_penalty"] = "2";  // a fixed one: what grows is needed
+  const opt::Solution lost = solver->Solve(problem, problem.initial(), options);
+  EXPECT_FALSE(lost.ending == opt::Ending::kConverged) << lost.BriefReport();
+  EXPECT_GT(lost.final_violation, 1.0);
+}
+
+TEST(RowPenalties, AreRaisedByGroupAndRemembered) {
+  ProblemBuilder builder(Constant(3, 0.0));
+  builder.Minimize([](const auto& x) { return x[0]; });
+  for (int i = 0; i < 2; ++i) {
+    const size_t k = static_cast<size_t>(i);
+    builder.Row("row " + std::to_string(i), 0.0, [k](const auto& x) { return x[k] + x[k + 1]; },
+                kInfinity, {i, i + 1});
+  }
+  const opt::Problem problem = builder.Build();
+  const opt::ScaledRows rows(problem, problem.Jacobian(problem.initial()));
+  opt::RowPenalties penalties(rows, {}, 2.0, 30.0);
+  const Eigen::VectorXd c = Vector({-1.0, 0.5});
+  const std::vector<double> none(2, 0.0);
+  EXPECT_EQ(penalties.Violations(c), (std::vector<double>{1.0, 0.0}));
+  EXPECT_EQ(penalties.Owed(c), 2.0);
+  const opt::RowPenalties before = penalties;
+  EXPECT_TRUE(penalties.Raise(penalties.Violations(c), none));
+  EXPECT_EQ(penalties.OfRows(), Vector({20.0, 2.0}));
+  EXPECT_FALSE(penalties.TakeBack(before, {0.4, 9.0}, {0.5, 0.0})) << "it helped";
+  EXPECT_TRUE(penalties.Raise({1.0, 0.0}, none));
+  EXPECT_EQ(penalties.Of(0), 30.0) << "the most";
+  EXPECT_FALSE(penalties.Raise({1.0, 0.0}, none));
+  const opt::RowPenalties later(rows, penalties.Remembered(), 2.0, 30.0);
+  EXPECT_EQ(later.OfRows(), penalties.OfRows());
+  EXPECT_TRUE(penalties.TakeBack(before, {0.6, 0.0}, {0.5, 0.0}));
+  EXPECT_EQ(penalties.OfRows(), before.OfRows());
 }
 
 TEST(BoxTransform, StaysInsideAndInverts) {

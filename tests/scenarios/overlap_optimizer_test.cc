@@ -91,8 +91,8 @@ TEST_F(OptimizerTest, WithoutASearchItEndsWhereAFineDichotomyEnds) {
   const SmoothingResult result = Smoothed(OptimizeOverlaps, ProblemOf(e_.sequence, test_), options);
   EXPECT_LE(DurationOf(result.parameters), DurationOf(dichotomy.parameters));
   EXPECT_EQ(result.ending, opt::Ending::kNotRun);
-  EXPECT_EQ(result.message,
-            "the deadline passed before " + ASolver() + " was called; the walk is a dichotomy's");
+  EXPECT_EQ(result.message, "the deadline of 0 s passed before " + ASolver() +
+                                " was called; the walk is a dichotomy's");
 }
 
 TEST_F(OptimizerTest, ASolverThatRefusesTheProgramIsNotCreditedWithTheDichotomysWalk) {
@@ -116,6 +116,20 @@ TEST_F(OptimizerTest, ASolverThatRefusesTheProgramIsNotCreditedWithTheDichotomys
       ParetoCurve(ProblemOf(e_.sequence, test_), Quick("nlopt/bobyqa"), {.points = 2}, monitor)
           .ending,
       opt::Ending::kInvalidInput);
+}
+
+// With a penalty of 2 throughout, points of every round stayed violated, and the walk was the
+// dichotomy's of 13.48 s.
+TEST(SlowArc, RowsWhoseMultipliersAreLargeAreKeptAllTheSame) {
+  const Experiment e =
+      Prepare(LoadConfig(HALFSTEP_SOURCE_DIR "/tests/fixtures/walk/slow_arc.yaml", {}));
+  const CertifiedFeasibility test({e.robot, e.scene, e.config.smoothing.limits}, {});
+  OptimizerOptions options = e.config.smoothing.optimizer.options;
+  options.solver = "halfstep/sqp";
+  options.deadline = 100.0;
+  const SmoothingResult result = Smoothed(OptimizeOverlaps, ProblemOf(e.sequence, test), options);
+  EXPECT_EQ(result.ending, opt::Ending::kLimit) << result.message;  // of rounds
+  EXPECT_LT(DurationOf(result.parameters), 8.5) << result.message;
 }
 
 // Whatever a solver proposes is refused but the planned motion.
@@ -206,6 +220,34 @@ TEST_F(OptimizerTest, EveryPointOfAParetoCurveHoldsAtItsLevelAndSafetyGrowsWithT
     EXPECT_GE(point.least_slack, 0.0);
   }
   EXPECT_GT(result.pareto.back().least_slack, result.pareto.front().least_slack + 0.1);
+}
+
+TEST_F(OptimizerTest, AParetoCurveHasNoPointThatAShorterWalkIsAsSafeAs) {
+  OptimizerOptions options = Quick("halfstep/sqp");
+  SmoothingMonitor monitor;
+  const SmoothingResult result =
+      ParetoCurve(ProblemOf(e_.sequence, test_), options, {.points = 6}, monitor);
+  ASSERT_GE(result.pareto.size(), 2u) << result.message;
+  for (size_t i = 1; i < result.pareto.size(); ++i) {
+    EXPECT_GT(result.pareto[i].duration, result.pareto[i - 1].duration);
+    EXPECT_GT(result.pareto[i].least_slack, result.pareto[i - 1].least_slack);
+  }
+}
+
+// All solves together: each having its own, every one of 42 looked at its start at least.
+TEST_F(OptimizerTest, AParetoCurveHasOneDeadline) {
+  OptimizerOptions options = Quick("halfstep/sqp");
+  options.deadline = 1e-4;  // over before the first solve
+  SmoothingMonitor monitor;
+  const SmoothingResult result =
+      ParetoCurve(ProblemOf(e_.sequence, test_), options, {.points = 40}, monitor);
+  EXPECT_FALSE(HasOwnResult(result.ending)) << result.message;
+  EXPECT_TRUE(result.feasible);
+  EXPECT_THAT(result.message, testing::HasSubstr("the deadline passed"));
+  EXPECT_LE(result.pareto.size(), 1u);
+  const SmoothingResult dichotomy =
+      Smoothed(Dichotomy, ProblemOf(e_.sequence, test_), {.tolerance = options.tolerance});
+  EXPECT_LE(result.iterates.size(), dichotomy.iterates.size() + 4);
 }
 
 class ProgramDerivatives : public testing::TestWithParam<std::string> {};

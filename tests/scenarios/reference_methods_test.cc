@@ -10,6 +10,7 @@
 #include "smoothing/methods/dichotomy.h"
 #include "smoothing/methods/dynamic_program.h"
 #include "smoothing/methods/reference_search.h"
+#include "smoothing/methods/smoother_registry.h"
 #include "smoothing/methods/uniform_scan.h"
 #include "smoothing/program/overlap_program.h"
 #include "smoothing/proof/certified_feasibility.h"
@@ -131,6 +132,40 @@ TEST_F(ReferenceMethods, StoppedTheyKeepWhatWasFeasible) {
       Smoothed(ReferenceSearch, ProblemOf(sequence_, test), {}, {.stop = source.get_token()});
   EXPECT_EQ(grid.ending, opt::Ending::kNotRun);  // stopped before its first round
   EXPECT_TRUE(grid.feasible);
+}
+
+// From the question on at which a stop is asked for, or the deadline has passed, no method asks
+// many more: it finishes what it is at.
+TEST_F(ReferenceMethods, StoppedInTheMiddleTheyAskLittleMore) {
+  SmootherOptions options;
+  options.optimizer.program.parameters = {.heights = true, .durations = true};
+  for (const char* name : {"coordinate", "dichotomy/uniform", "reference"}) {
+    for (const size_t when : {20u, 100u}) {
+      std::stop_source source;
+      size_t count = 0;
+      const FakeFeasibility rule = LowFeetMayHurry(0.8);
+      const FakeFeasibility stops(evaluator_, [&](const HomotopyParameters& p) {
+        if (++count == when) source.request_stop();
+        MarginEvaluator::Scratch scratch = evaluator_.MakeScratch();
+        return rule.Check(SuperposedWalk(sequence_, p), {}, &scratch).verdict;
+      });
+      SmoothingMonitor monitor({.stop = source.get_token()});
+      const SmoothingResult result =
+          FindSmoother(name).Smooth(ProblemOf(sequence_, stops), options, monitor);
+      EXPECT_GE(count, when) << name << ": never stopped";
+      EXPECT_LE(count, when + 60) << name;
+      EXPECT_NE(result.ending, opt::Ending::kConverged) << name;
+      EXPECT_TRUE(result.feasible);
+    }
+    options.optimizer.deadline = 1e-6;
+    FakeFeasibility late = LowFeetMayHurry(0.8);
+    SmoothingMonitor monitor;
+    const SmoothingResult result =
+        FindSmoother(name).Smooth(ProblemOf(sequence_, late), options, monitor);
+    EXPECT_LE(late.questions.size(), 60u) << name;
+    EXPECT_NE(result.ending, opt::Ending::kConverged) << name << ": " << result.message;
+    options.optimizer.deadline = 30.0;
+  }
 }
 
 // Every combination of a few values, each looked at as a whole.

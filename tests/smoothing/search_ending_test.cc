@@ -29,8 +29,9 @@ TEST(SearchEnding, WithoutAResultOfItsOwnIsNeverOneOfTheFirstFour) {
         EXPECT_THAT(end.Sentence(), HasSubstr("the walk is a dichotomy's"));
         end.own = true;
         EXPECT_TRUE(HasOwnResult(end.Ending())) << end.Sentence();
+        const std::string because = last == Ending::kDeadline ? "" : ": Because.";
         EXPECT_THAT(end.Sentence(),
-                    HasSubstr("solver last ended " + std::string(Name(last)) + ": Because."));
+                    HasSubstr("solver last ended " + std::string(Name(last)) + because));
       }
     }
   }
@@ -58,6 +59,35 @@ TEST(SearchEnding, SaysWhy) {
   EXPECT_EQ(end.Ending(), Ending::kLimit);
   end.stopped = true;
   EXPECT_EQ(end.Ending(), Ending::kInterrupted);
+}
+
+// What was given, not what was left of it for the last round.
+TEST(SearchEnding, TellsTheDeadlineThatWasGiven) {
+  SearchEnding end = After(Ending::kDeadline, true);
+  end.deadline = 3.0;
+  end.last_message = "The deadline of 0.132 s passed.";
+  EXPECT_EQ(end.Sentence(), "the deadline of 3 s passed; solver last ended deadline");
+}
+
+// Rounds that gain nothing because rows stay violated are no convergence.
+TEST(SearchEnding, TellsThatPointsStayedViolated) {
+  SearchEnding end{.solver = "solver", .own = true};
+  opt::Solution solution;
+  solution.ending = Ending::kLimit;
+  solution.message = "Because.";
+  solution.max_violation = 0.43;
+  solution.worst_row = "foot_speed in half-step 21";
+  end.Note(solution);
+  EXPECT_EQ(end.Ending(), Ending::kLimit);
+  EXPECT_THAT(end.Sentence(), HasSubstr("stayed violated, foot_speed in half-step 21 by at least "
+                                        "0.43"));
+  solution.max_violation = 0.001;
+  end.Note(solution);
+  EXPECT_EQ(end.Ending(), Ending::kConverged) << "violated by next to nothing";
+  solution.max_violation = 0.43;
+  solution.feasible = true;
+  end.Note(solution);
+  EXPECT_EQ(end.Ending(), Ending::kConverged);
 }
 
 }  // namespace
