@@ -76,7 +76,7 @@ using LeastSlacks = std::array<double, kNumMarginFamilies>;  // by family, at mo
 
 // At 0, period, … and at the end.
 std::vector<LeastSlacks> Sampled(const SuperposedWalk& walk, const MarginEvaluator& evaluator,
-                                 double period, double cutoff) {
+                                 const StretchRange& range, double period, double cutoff) {
   SlackEvaluator slacks(evaluator, cutoff);
   InstantSlacks instant;
   const int n = static_cast<int>(std::ceil(walk.duration() / period));
@@ -84,7 +84,9 @@ std::vector<LeastSlacks> Sampled(const SuperposedWalk& walk, const MarginEvaluat
   for (int i = 0; i <= n; ++i) {
     LeastSlacks& sample = samples[static_cast<size_t>(i)];
     sample.fill(cutoff);
-    slacks.At(walk, walk.Locate(std::min(i * period, walk.duration())), {}, false, &instant);
+    const LocalTime at = walk.Locate(std::min(i * period, walk.duration()));
+    if (!range.contains(at.half_step)) continue;
+    slacks.At(walk, at, {}, false, &instant);
     for (const SlackRow& row : instant.rows) {
       double& least = sample[static_cast<size_t>(row.family)];
       least = std::min(least, row.slack);
@@ -114,11 +116,12 @@ WatchedInstants::WatchedInstants(const OverlapVariables& variables,
   const int n = variables.sequence().size();
   for (int k = 0; k < n; ++k) {
     std::vector<Instant> instants;
-    for (int m = 0; m < options.instants; ++m) {
+    const bool looked_at = options.range.contains(k);
+    for (int m = 0; looked_at && m < options.instants; ++m) {
       instants.push_back({(m + 0.5) / options.instants, true});
     }
     for (double v : Events(variables.sequence().half_steps[static_cast<size_t>(k)].half_step)) {
-      instants.push_back({v, false});
+      if (looked_at) instants.push_back({v, false});
     }
     instants_.push_back(std::move(instants));
     bands_.push_back(variables.Band(k));
@@ -174,6 +177,7 @@ bool WatchedInstants::Learn(const SuperposedWalk& walk, const LocalTime& at) {
 
 bool WatchedInstants::Look(const SuperposedWalk& walk, const LocalTime& at, Instant::Why why) {
   constexpr double kSame = 1e-3;  // of T
+  if (!options_.range.contains(at.half_step)) return false;
   const double v = at.tau / walk.profiles(at.half_step).duration();
   std::vector<Instant>& instants = instants_[static_cast<size_t>(at.half_step)];
   for (const Instant& known : instants) {
@@ -187,7 +191,7 @@ double WatchedInstants::Focus(const SuperposedWalk& walk, double period, double 
   const double far = level + kFar;
   // Rows by half-step cost no more for looking at more instants; long rounds need them.
   const bool forgets = options_.row_per_instant;
-  const std::vector<LeastSlacks> samples = Sampled(walk, evaluator_, period, far);
+  const std::vector<LeastSlacks> samples = Sampled(walk, evaluator_, options_.range, period, far);
   const int last = static_cast<int>(samples.size()) - 1;
   const auto lowest = [&samples](int i) {
     return std::ranges::min(samples[static_cast<size_t>(i)]);

@@ -6,6 +6,7 @@
 
 #include "smoothing/margins/slack_evaluator.h"
 #include "smoothing/program/overlap_variables.h"
+#include "smoothing/walk/stretch_range.h"
 
 namespace halfstep {
 
@@ -15,6 +16,7 @@ struct WatchOptions {
   double cutoff = 1.5;    ///< c: statements with more slack do not count
   /// One row an instant and family instead of one a half-step and family.
   bool row_per_instant = false;
+  StretchRange range = {};  ///< what is not in it is not looked at
 };
 
 /// The slacks of a walk, gathered by half-step and family. Half-step k is looked at
