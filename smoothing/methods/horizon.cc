@@ -22,6 +22,8 @@ constexpr double kFarBegin = 0.5, kNearBegin = 0.1;
 constexpr double kWorthAnotherPass = 1e-3;
 // Half-steps beside a window on which what it gains may bear.
 constexpr int kBeside = 4;
+// Rounds in a window: fewer in the first pass, whose windows end at rests that the next will move.
+constexpr int kFirstRounds = 4, kLaterRounds = 8;
 // A search that does not beat a plain dichotomy by this has found nothing [s].
 constexpr double kBeatsDichotomy = 1e-9;
 
@@ -121,7 +123,7 @@ class HorizonSearch {
         const int first = std::max(0, begin), last = std::min(begin + options_.window, size()) - 1;
         if (last < first || !Any(moved, first - kBeside, last + kBeside)) continue;
         if (Stopped()) return;
-        if (SearchAt(first, last) > Worth()) {
+        if (SearchAt(first, last, pass == 0 ? kFirstRounds : kLaterRounds) > Worth()) {
           std::fill(moves.begin() + first, moves.begin() + last + 1, true);
         }
         monitor_.Progress(0.2 + 0.6 * (pass + (last + 1.0) / size()) / options_.passes);
@@ -143,11 +145,12 @@ class HorizonSearch {
   }
 
   // What the window gains [s].
-  double SearchAt(int first, int last) {
+  double SearchAt(int first, int last, int rounds) {
     const WalkWindow window = WindowOf(problem_, at_, first, last);
     const double before = monitor_.cost();
     SearchWindow(
-        window, {.program = options_.program}, *solver_, options_.deadline, monitor_,
+        window, {.program = options_.program, .rounds = rounds}, *solver_, options_.deadline,
+        monitor_,
         [&](const HomotopyParameters& part, double gain) {
           window.Paste(part, &at_);
           Adopt(before - gain);

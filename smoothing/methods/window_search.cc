@@ -16,7 +16,7 @@ constexpr double kSampledEvery = 0.005;  // [s]
 constexpr double kWorthAProof = -0.02;
 constexpr double kSharper = 1.5, kSofter = 0.75, kMostSharp = 3000.0;
 constexpr double kFirstSharpness = 200.0;
-constexpr int kInstantsOfRows = 24;
+constexpr int kInstantsOfRows = 16;
 // A round that gains less, of the window's cost, is poor.
 constexpr double kLeastGain = 1e-3;
 constexpr int kMostPoor = 2;
