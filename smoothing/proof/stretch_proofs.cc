@@ -32,11 +32,14 @@ std::vector<double> StretchParameters(const SuperposedWalk& walk, int half_step)
 
 StretchProofs::StretchProofs(const FeasibilityTest& test, int num_half_steps,
                              const StretchRange& range)
-    : test_(test), range_(range), stretches_(static_cast<size_t>(num_half_steps)) {}
+    : test_(test),
+      range_(range),
+      rests_(test.evaluator().scene().rests()),
+      stretches_(static_cast<size_t>(num_half_steps)) {}
 
 StretchProofs::Key StretchProofs::KeyOf(const SuperposedWalk& walk, int k) const {
   Key key = StretchParameters(walk, k);
-  if (!test_.evaluator().scene().rests()) key.push_back(walk.start_of(k));
+  if (!rests_) key.push_back(walk.start_of(k));
   return key;
 }
 

@@ -38,6 +38,7 @@ class StretchProofs {
 
   const FeasibilityTest& test_;
   StretchRange range_;
+  bool rests_;  // the scene; asking costs as much as there are obstacles
   std::vector<Stretch> stretches_;
 };
 
