@@ -198,6 +198,25 @@ void DeclareOptimizer(Fields& fields, OptimizerConfig* c) {
        .max = 86400});
 }
 
+void DeclareHorizon(Fields& fields, HorizonOptions* o) {
+  const auto half_steps = [&](const char* key, int* count, const char* meaning) {
+    fields.Integer(key, count, {.meaning = meaning, .min = 2, .max = 1000});
+    if (*count % 2 == 0) return;
+    fields.Complain(key,
+                    std::to_string(*count) + " is odd (valid: whole steps, two half-steps each)");
+  };
+  half_steps("window", &o->window, "half-steps that are moved together");
+  half_steps("step", &o->step, "half-steps by which the next window lies further on");
+  if (o->step > o->window) {
+    fields.Complain("step", std::to_string(o->step) +
+                                " leaves half-steps between windows (valid: up to `window`, " +
+                                std::to_string(o->window) + ")");
+  }
+  fields.Integer(
+      "passes", &o->passes,
+      {.meaning = "over the walk at most; they end when nothing is gained", .min = 1, .max = 1000});
+}
+
 void DeclareFixed(Fields& fields, FixedConfig* c) {
   std::vector<std::string> names;
   for (const ParameterFamily family : AllParameterFamilies()) {
@@ -297,6 +316,10 @@ void DeclareSmoothing(Fields& fields, SmoothingConfig* c) {
       {.meaning =
            "options of the methods that are solvers (smoothing/README.md, \"Overlap program\")"},
       [&](Fields& f) { DeclareOptimizer(f, &c->optimizer); });
+  fields.Group("horizon",
+               {.meaning = "windows of `halfstep/horizon`; its program, variables and deadline are "
+                           "those of `optimizer`"},
+               [&](Fields& f) { DeclareHorizon(f, &c->horizon); });
   fields.List("fixed", {.meaning = "parameters that no method may move"}, &c->fixed, DeclareFixed);
   fields.Group("limits", {.meaning = "what the robot file does not limit"},
                [&](Fields& f) { DeclareLimits(f, &c->limits); });

@@ -7,6 +7,7 @@
 #include "experiments/config/planning_config.h"
 #include "smoothing/margins/margin.h"
 #include "smoothing/methods/dichotomy.h"
+#include "smoothing/methods/horizon.h"
 #include "smoothing/methods/overlap_optimizer.h"
 #include "smoothing/methods/pareto.h"
 #include "smoothing/proof/certificate.h"
@@ -65,6 +66,7 @@ struct SmoothingConfig {
   CertificationOptions certification;
   DichotomyOptions dichotomy;
   OptimizerConfig optimizer;
+  HorizonOptions horizon;  ///< window, step and passes
   std::vector<FixedConfig> fixed;
   MarginLimits limits;
 };

@@ -50,6 +50,7 @@ struct Proposal {
   std::vector<bool> smoothed = {};
   int robot_through = -1;
   int first_changed = -1;  ///< half-step; −1: none
+  bool refined = false;    ///< a program over half-steps to come was tried (Refine)
   Grant grant = {};
   PlanResult planned = {};                             ///< the last search
   std::int64_t nodes = 0;                              ///< of all searches

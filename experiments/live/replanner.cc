@@ -7,6 +7,7 @@
 #include "experiments/live/near_start_query.h"
 #include "experiments/live/overlap_search.h"
 #include "experiments/live/prepared_world.h"
+#include "experiments/live/refinement.h"
 #include "experiments/run/planning.h"
 #include "planner/search/planner_registry.h"
 
@@ -205,7 +206,13 @@ Proposal Replanner::Propose(const Situation& s, const PreparedWorld& among,
       proposal.reason = "overlaps";
     }
     proposal.smooth_s = SteadySeconds() - smooth;
-    if (proposal.kind == ProposalKind::kSafe && s.shorten) Shorten(s, among, random, &proposal);
+    if (proposal.kind != ProposalKind::kSafe) return proposal;
+    if (s.shorten) {
+      Shorten(s, among, random, &proposal);
+    } else if (config_.live.refine && !s.stopped) {
+      Refine(among.safety, config_, s.hand_over, s.begun, &proposal);
+      proposal.smooth_s = SteadySeconds() - smooth;
+    }
     return proposal;
   }
   proposal.reason =

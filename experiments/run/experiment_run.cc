@@ -61,7 +61,8 @@ std::shared_ptr<const FeasibilityTest> MakeTest(const Experiment& experiment) {
 
 SmootherOptions OptionsOf(const ExperimentConfig& config) {
   const OptimizerConfig& optimizer = config.smoothing.optimizer;
-  SmootherOptions options{config.smoothing.dichotomy, optimizer.options, {}};
+  SmootherOptions options{
+      config.smoothing.dichotomy, optimizer.options, {}, config.smoothing.horizon};
   options.optimizer.seed = static_cast<unsigned>(config.seed);
   if (optimizer.program == "pareto") options.pareto = optimizer.pareto;
   return options;

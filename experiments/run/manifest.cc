@@ -74,6 +74,14 @@ ordered_json Requested(const std::string& method, const SmoothingConfig& config)
               {"max_iterations", optimizer.max_iterations},
               {"deadline_s", optimizer.deadline},
               {"tolerance_s", optimizer.tolerance}};
+    case OptionGroup::kHorizon:
+      return {{"variables", Variables(program.parameters)},
+              {"objective", config.optimizer.program},
+              {"window", config.horizon.window},
+              {"step", config.horizon.step},
+              {"passes", config.horizon.passes},
+              {"deadline_s", optimizer.deadline},
+              {"tolerance_s", optimizer.tolerance}};
   }
   return {{"variables", "overlaps"}};
 }

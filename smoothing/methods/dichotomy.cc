@@ -20,6 +20,7 @@ class Bisection {
         options_(options),
         monitor_(monitor),
         table_(problem.Parameters()),
+        rests_(problem.scene().rests()),
         walk_(problem.sequence(), options.start.value_or(problem.Start())) {}
 
   SmoothingResult Run() {
@@ -95,7 +96,7 @@ class Bisection {
     // the window would be a whole stretch.
     // All that comes later meets the obstacles earlier, which matters where they move.
     const double begin = std::nextafter(walk_.start_of(junction + 1), -1.0);
-    const bool local = problem_.scene().OnlyGrowsFrom(begin);
+    const bool local = rests_ || problem_.scene().OnlyGrowsFrom(begin);
     const TimeWindow window{begin, local ? walk_.end_of(junction) : walk_.duration()};
     const Feasibility answer = test.Check(walk_, window, monitor_.scratch());
     const bool accepted = answer.verdict == Verdict::kFeasible;
@@ -126,6 +127,7 @@ class Bisection {
   const DichotomyOptions& options_;
   SmoothingMonitor& monitor_;
   ParameterTable table_;
+  bool rests_;  // the scene; asking costs as much as there are obstacles
   SuperposedWalk walk_;
 };
 

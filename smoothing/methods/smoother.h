@@ -4,6 +4,7 @@
 #include <string>
 
 #include "smoothing/methods/dichotomy.h"
+#include "smoothing/methods/horizon.h"
 #include "smoothing/methods/overlap_optimizer.h"
 #include "smoothing/methods/pareto.h"
 #include "smoothing/methods/smoothing_monitor.h"
@@ -16,10 +17,11 @@ struct SmootherOptions {
   DichotomyOptions dichotomy = {};
   OptimizerOptions optimizer = {};
   std::optional<ParetoOptions> pareto = std::nullopt;  ///< when set, solvers make a ParetoCurve
+  HorizonOptions horizon = {};  ///< window, step and passes; the rest is `optimizer`'s
 };
 
 /// The group of options that a method takes.
-enum class OptionGroup { kNone, kDichotomy, kOptimizer };
+enum class OptionGroup { kNone, kDichotomy, kOptimizer, kHorizon };
 
 /// A method of smoothing a walk, behind the common interface. Immutable: may be called again and
 /// from several threads, with a monitor each.

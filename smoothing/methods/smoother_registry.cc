@@ -96,6 +96,17 @@ SmoothingResult Reference(const WalkProblem& problem, const SmootherOptions& opt
   return ReferenceSearch(problem, reference, monitor);
 }
 
+SmoothingResult ByWindows(const WalkProblem& problem, const SmootherOptions& options,
+                          SmoothingMonitor& monitor) {
+  HorizonOptions horizon = options.horizon;
+  horizon.program = options.optimizer.program;
+  // A curve is made of programs that belong to the whole walk, as `safest` does.
+  if (options.pareto) horizon.program.kind = ProgramKind::kSafest;
+  horizon.deadline = options.optimizer.deadline;
+  horizon.tolerance = options.optimizer.tolerance;
+  return Horizon(problem, horizon, monitor);
+}
+
 std::vector<std::unique_ptr<const Smoother>> MakeSmoothers() {
   using enum OptionGroup;
   std::vector<std::unique_ptr<const Smoother>> all;
@@ -127,6 +138,9 @@ std::vector<std::unique_ptr<const Smoother>> MakeSmoothers() {
     add(solver, "smoothing.optimizer.program by this solver, from the dichotomy's result",
         kOptimizer, BySolver(solver));
   }
+  add("halfstep/horizon",
+      "the program of halfstep/sqp in short windows along the walk, for walks of any length",
+      kHorizon, ByWindows);
   return all;
 }
 

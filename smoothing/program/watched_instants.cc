@@ -76,7 +76,8 @@ using LeastSlacks = std::array<double, kNumMarginFamilies>;  // by family, at mo
 
 // At `begin` [s], a period later, … and at the end.
 std::vector<LeastSlacks> Sampled(const SuperposedWalk& walk, const MarginEvaluator& evaluator,
-                                 double begin, double period, double cutoff) {
+                                 const StretchRange& range, double begin, double period,
+                                 double cutoff) {
   SlackEvaluator slacks(evaluator, cutoff);
   InstantSlacks instant;
   const int n = static_cast<int>(std::ceil((walk.duration() - begin) / period));
@@ -84,8 +85,9 @@ std::vector<LeastSlacks> Sampled(const SuperposedWalk& walk, const MarginEvaluat
   for (int i = 0; i <= n; ++i) {
     LeastSlacks& sample = samples[static_cast<size_t>(i)];
     sample.fill(cutoff);
-    const double t = std::min(begin + i * period, walk.duration());
-    slacks.At(walk, walk.Locate(t), {}, false, &instant);
+    const LocalTime at = walk.Locate(std::min(begin + i * period, walk.duration()));
+    if (!range.contains(at.half_step)) continue;
+    slacks.At(walk, at, {}, false, &instant);
     for (const SlackRow& row : instant.rows) {
       double& least = sample[static_cast<size_t>(row.family)];
       least = std::min(least, row.slack);
@@ -115,11 +117,12 @@ WatchedInstants::WatchedInstants(const OverlapVariables& variables,
   const int n = variables.sequence().size();
   for (int k = 0; k < n; ++k) {
     std::vector<Instant> instants;
-    for (int m = 0; m < options.instants; ++m) {
+    const bool looked_at = options.range.contains(k);
+    for (int m = 0; looked_at && m < options.instants; ++m) {
       instants.push_back({(m + 0.5) / options.instants, Instant::Of::kStretch});
     }
     for (double v : Events(variables.sequence().half_steps[static_cast<size_t>(k)].half_step)) {
-      instants.push_back({v, Instant::Of::kHalfStep});
+      if (looked_at) instants.push_back({v, Instant::Of::kHalfStep});
     }
     const int in_branch = WatchesBranch(k) ? std::max(1, options.instants / 2) : 0;
     for (int m = 0; m < in_branch; ++m) {
@@ -133,7 +136,7 @@ WatchedInstants::WatchedInstants(const OverlapVariables& variables,
 
 bool WatchedInstants::WatchesBranch(int k) const {
   const std::vector<PlacedHalfStep>& half_steps = variables_.sequence().half_steps;
-  return k + 1 < variables_.sequence().size() &&
+  return k + 1 < variables_.sequence().size() && options_.range.contains(k) &&
          Demands(options_.stop_branches, half_steps[static_cast<size_t>(k)].half_step.kind);
 }
 
@@ -196,6 +199,7 @@ bool WatchedInstants::Learn(const SuperposedWalk& walk, const LocalTime& at, boo
 bool WatchedInstants::Look(const SuperposedWalk& walk, const LocalTime& at, bool of_branch,
                            Instant::Why why) {
   constexpr double kSame = 1e-3;  // of T
+  if (!options_.range.contains(at.half_step)) return false;
   const double T = walk.profiles(at.half_step).duration();
   double fraction = at.tau / T;
   const Instant::Of of = of_branch ? Instant::Of::kBranch : Instant::Of::kHalfStep;
@@ -232,8 +236,8 @@ double WatchedInstants::FocusOn(const SuperposedWalk& walk, std::optional<int> b
   const double far = level + kFar;
   const double begin = branch ? walk.start_of(*branch + 1) : 0.0;
   const double end = branch ? walk.end_of(*branch) : walk.duration();
-  const std::vector<LeastSlacks> samples =
-      Sampled(branch ? walk.StopBranch(*branch) : walk, evaluator_, begin, period, far);
+  const std::vector<LeastSlacks> samples = Sampled(branch ? walk.StopBranch(*branch) : walk,
+                                                   evaluator_, options_.range, begin, period, far);
   const int last = static_cast<int>(samples.size()) - 1;
   const auto lowest = [&samples](int i) {
     return std::ranges::min(samples[static_cast<size_t>(i)]);

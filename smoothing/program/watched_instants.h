@@ -8,6 +8,7 @@
 #include "smoothing/margins/slack_evaluator.h"
 #include "smoothing/program/overlap_variables.h"
 #include "smoothing/walk/stop_branches.h"
+#include "smoothing/walk/stretch_range.h"
 
 namespace halfstep {
 
@@ -18,6 +19,7 @@ struct WatchOptions {
   /// One row an instant and family instead of one a half-step and family.
   bool row_per_instant = false;
   StopBranches stop_branches = StopBranches::kNone;  ///< of which slacks are gathered as well
+  StretchRange range = {};  ///< what is not in it is not looked at
 };
 
 /// The slacks of a walk, gathered by half-step and family. Half-step k is looked at

@@ -30,12 +30,16 @@ std::vector<double> StretchParameters(const SuperposedWalk& walk, int half_step)
   return key;
 }
 
-StretchProofs::StretchProofs(const FeasibilityTest& test, int num_half_steps)
-    : test_(test), stretches_(static_cast<size_t>(num_half_steps)) {}
+StretchProofs::StretchProofs(const FeasibilityTest& test, int num_half_steps,
+                             const StretchRange& range)
+    : test_(test),
+      range_(range),
+      rests_(test.evaluator().scene().rests()),
+      stretches_(static_cast<size_t>(num_half_steps)) {}
 
 StretchProofs::Key StretchProofs::KeyOf(const SuperposedWalk& walk, int k) const {
   Key key = StretchParameters(walk, k);
-  if (!test_.evaluator().scene().rests()) key.push_back(walk.start_of(k));
+  if (!rests_) key.push_back(walk.start_of(k));
   return key;
 }
 
@@ -45,6 +49,7 @@ void StretchProofs::Keep(Key key, Stretch* stretch) {
 
 void StretchProofs::Remember(const SuperposedWalk& walk) {
   for (int k = 0; k < walk.num_half_steps(); ++k) {
+    if (!range_.contains(k)) continue;
     Keep(KeyOf(walk, k), &stretches_[static_cast<size_t>(k)]);
   }
 }
@@ -53,6 +58,7 @@ std::vector<Margin> StretchProofs::Refusals(const SuperposedWalk& walk,
                                             MarginEvaluator::Scratch* scratch) {
   std::vector<Margin> refusals;
   for (int k = 0; k < walk.num_half_steps(); ++k) {
+    if (!range_.contains(k)) continue;
     Stretch& stretch = stretches_[static_cast<size_t>(k)];
     Key key = KeyOf(walk, k);
     if (std::find(stretch.proved.begin(), stretch.proved.end(), key) != stretch.proved.end()) {

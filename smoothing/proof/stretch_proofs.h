@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "smoothing/proof/feasibility_test.h"
+#include "smoothing/walk/stretch_range.h"
 #include "smoothing/walk/superposed_walk.h"
 
 namespace halfstep {
@@ -14,11 +15,11 @@ namespace halfstep {
 /// are checked first. Source: smoothing/README.md, "The incumbent".
 class StretchProofs {
  public:
-  /// `test` is borrowed.
-  StretchProofs(const FeasibilityTest& test, int num_half_steps);
+  /// `test` is borrowed. Stretches outside of `range` are taken for proved.
+  StretchProofs(const FeasibilityTest& test, int num_half_steps, const StretchRange& range = {});
 
   /// Witnesses of the stretches that are not proved, at most one each, in their order. Empty: the
-  /// walk is proved for all t.
+  /// walk is proved for all t, or all in the range.
   std::vector<Margin> Refusals(const SuperposedWalk& walk, MarginEvaluator::Scratch* scratch);
 
   /// Records that the walk has been proved as a whole.
@@ -36,6 +37,8 @@ class StretchProofs {
   Key KeyOf(const SuperposedWalk& walk, int k) const;
 
   const FeasibilityTest& test_;
+  StretchRange range_;
+  bool rests_;  // the scene; asking costs as much as there are obstacles
   std::vector<Stretch> stretches_;
 };
 

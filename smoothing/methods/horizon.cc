@@ -1,0 +1,230 @@
+#include "smoothing/methods/horizon.h"
+
+#include <algorithm>
+#include <memory>
+#include <numeric>
+#include <vector>
+
+#include "opt/adapters/solver_registry.h"
+#include "smoothing/methods/dichotomy.h"
+#include "smoothing/methods/search_ending.h"
+#include "smoothing/methods/walk_window.h"
+#include "smoothing/methods/window_search.h"
+#include "smoothing/program/walk_effort.h"
+#include "wpg/check.h"
+
+namespace halfstep {
+namespace {
+
+// Of the dichotomy before the windows, for solvers that take long steps and for others [s].
+constexpr double kFarBegin = 0.5, kNearBegin = 0.1;
+// A window that gains less is not taken again [of the walk's mean cost a window].
+constexpr double kWorthAnotherPass = 1e-3;
+// Half-steps beside a window on which what it gains may bear.
+constexpr int kBeside = 4;
+// Rounds in a window: fewer in the first pass, whose windows end at rests that the next will move.
+constexpr int kFirstRounds = 4, kLaterRounds = 8;
+// A search that does not beat a plain dichotomy by this has found nothing [s].
+constexpr double kBeatsDichotomy = 1e-9;
+
+class HorizonSearch {
+ public:
+  HorizonSearch(const WalkProblem& problem, const HorizonOptions& options,
+                SmoothingMonitor& monitor)
+      : problem_(problem),
+        options_(options),
+        monitor_(monitor),
+        solver_(opt::MakeSolver(options.solver)),
+        end_{.solver = options.solver, .kept = "the walk is a dichotomy's"} {}
+
+  SmoothingResult Run() {
+    at_ = problem_.Start();
+    if (!monitor_.BeginFeasibly(problem_, at_)) return monitor_.Refusal();
+    if (options_.program.kind == ProgramKind::kSafest) {
+      return monitor_.Finish(opt::Ending::kInvalidInput,
+                             "halfstep/horizon has no program `safest` or `pareto` (valid: "
+                             "fastest, smooth); the walk is the one it began with");
+    }
+    const double coarse = solver_->traits().long_steps ? kFarBegin : kNearBegin;
+    Adopt(Cost(at_));
+    Dichotomize(Fastest() ? std::max(options_.tolerance, coarse) : options_.tolerance, 0.0, 0.2);
+    const HomotopyParameters begun = at_;
+    Search();
+    Conclude(begun);
+    return monitor_.Finish(end_.Ending(), end_.Sentence());
+  }
+
+ private:
+  bool Fastest() const { return options_.program.kind == ProgramKind::kFastest; }
+  int size() const { return problem_.sequence().size(); }
+
+  double Cost(const HomotopyParameters& parameters) const {
+    const double duration = DurationOf(parameters);
+    if (Fastest()) return duration;
+    return duration + WeightedEffort(SuperposedWalk(problem_.sequence(), parameters),
+                                     options_.program.weights, nullptr);
+  }
+
+  void Adopt(double cost) { monitor_.Adopt(at_, cost, DurationOf(at_)); }
+
+  bool Stopped() {
+    end_.deadline_passed = monitor_.Seconds() >= options_.deadline || monitor_.Remaining() <= 0.0;
+    return end_.deadline_passed || monitor_.stopped();
+  }
+
+  // Bisects every overlap of at_ in turn, window by window, and adopts what becomes of it.
+  void Dichotomize(double tolerance, double from, double to) {
+    double cost = monitor_.cost();
+    for (int first = 0; first < size() && !monitor_.stopped(); first += options_.window) {
+      const int last = std::min(first + options_.window, size()) - 1;
+      const WalkWindow window = WindowOf(problem_, at_, first, last);
+      const double begins =
+          std::accumulate(at_.durations.begin(), at_.durations.begin() + window.begin, 0.0) -
+          std::accumulate(at_.overlaps.begin(), at_.overlaps.begin() + window.begin, 0.0);
+      SmoothingMonitor within(monitor_.Part(0.0, 0.0));
+      const SmoothingResult part = Dichotomy(
+          window.problem,
+          {.tolerance = tolerance, .start = window.parameters, .start_is_feasible = true}, within);
+      const double elsewhere = DurationOf(at_) - DurationOf(window.parameters);
+      monitor_.Count(part);
+      for (SmoothingIterate iterate : part.iterates) {
+        iterate.wall += monitor_.Seconds() - part.wall;
+        iterate.instants = monitor_.instants();
+        iterate.candidate_duration += elsewhere;
+        iterate.incumbent_duration += elsewhere;
+        iterate.incumbent_cost = iterate.incumbent_duration;
+        monitor_.result().iterates.push_back(iterate);
+      }
+      for (int j = std::max(0, first - 1); j < last; ++j) {
+        std::optional<Margin> limit =
+            part.junctions[static_cast<size_t>(j - window.begin)].limited_by;
+        if (limit) {
+          limit->at.half_step += window.begin;
+          limit->t += begins;
+          if (limit->stop_after >= 0) limit->stop_after += window.begin;
+        }
+        monitor_.result().junctions[static_cast<size_t>(j)].limited_by = limit;
+      }
+      window.Paste(part.parameters, &at_);
+      cost = DurationOf(at_);
+      if (Fastest() && cost < monitor_.cost()) Adopt(cost);
+      monitor_.Progress(from + (to - from) * (last + 1) / size());
+    }
+    if (!Fastest() && (cost = Cost(at_)) < monitor_.cost()) Adopt(cost);
+  }
+
+  void Search() {
+    std::vector<bool> moved(static_cast<size_t>(size()), true);
+    for (int pass = 0; pass < options_.passes; ++pass) {
+      std::vector<bool> moves(moved.size(), false);
+      // Every other pass has its windows' ends elsewhere.
+      const int shift = pass % 2 == 0 ? 0 : options_.window / 4 * 2;
+      for (int begin = -shift; begin < size(); begin += options_.step) {
+        const int first = std::max(0, begin), last = std::min(begin + options_.window, size()) - 1;
+        if (last < first || !Any(moved, first - kBeside, last + kBeside)) continue;
+        if (Stopped()) return;
+        if (SearchAt(first, last, pass == 0 ? kFirstRounds : kLaterRounds) > Worth()) {
+          std::fill(moves.begin() + first, moves.begin() + last + 1, true);
+        }
+        monitor_.Progress(0.2 + 0.6 * (pass + (last + 1.0) / size()) / options_.passes);
+        if (last + 1 == size()) break;
+      }
+      if (!Any(moves, 0, size() - 1)) return;
+      moved = std::move(moves);
+    }
+    end_.exhausted = true;
+  }
+
+  double Worth() const { return kWorthAnotherPass * monitor_.cost() * options_.window / size(); }
+
+  static bool Any(const std::vector<bool>& flags, int first, int last) {
+    const int n = static_cast<int>(flags.size());
+    const auto begin = flags.begin() + std::clamp(first, 0, n);
+    const auto end = flags.begin() + std::clamp(last + 1, 0, n);
+    return std::find(begin, end, true) != end;
+  }
+
+  // What the window gains [s].
+  double SearchAt(int first, int last, int rounds) {
+    const WalkWindow window = WindowOf(problem_, at_, first, last);
+    const double before = monitor_.cost();
+    SearchWindow(
+        window, {.program = options_.program, .rounds = rounds}, *solver_, options_.deadline,
+        monitor_,
+        [&](const HomotopyParameters& part, double gain) {
+          window.Paste(part, &at_);
+          Adopt(before - gain);
+          gained_ = true;
+        },
+        &end_);
+    return before - monitor_.cost();
+  }
+
+  void Conclude(const HomotopyParameters& begun) {
+    // Proved stretch by stretch, in parts that begin at other times.
+    if (gained_ && !HoldsWhole()) {
+      at_ = begun;
+      gained_ = false;
+    }
+    Adopt(Cost(at_));
+    end_.own = gained_;
+    if (Fastest() && !monitor_.stopped()) {
+      Dichotomize(options_.tolerance, 0.8, 0.9);
+      AddPlainDichotomy();
+    } else {
+      for (JunctionResult& junction : monitor_.result().junctions) junction.limited_by.reset();
+    }
+    end_.stopped = monitor_.interrupted();
+    end_.deadline_passed = end_.deadline_passed || (monitor_.stopped() && !end_.stopped);
+  }
+
+  // A dichotomy from the planned motion; its walk counts if it is shorter.
+  void AddPlainDichotomy() {
+    SmoothingMonitor within(monitor_.Part(0.9, 1.0));
+    HorizonSearch plain(problem_, options_, within);
+    plain.at_ = problem_.Start();
+    within.BeginKnownFeasible(problem_, plain.at_);
+    plain.Dichotomize(options_.tolerance, 0.0, 1.0);
+    const SmoothingResult found = within.Finish(opt::Ending::kConverged, "");
+    monitor_.Count(found);
+    end_.own = end_.own && monitor_.cost() < found.cost - kBeatsDichotomy;
+    if (!(found.cost < monitor_.cost())) return;
+    const double before = monitor_.cost();
+    for (SmoothingIterate iterate : found.iterates) {
+      if (iterate.incumbent_duration > before) continue;
+      iterate.wall += monitor_.Seconds() - found.wall;
+      iterate.instants = monitor_.instants();
+      monitor_.result().iterates.push_back(iterate);
+    }
+    monitor_.result().junctions = found.junctions;
+    at_ = found.parameters;
+    Adopt(found.cost);
+  }
+
+  bool HoldsWhole() {
+    const SuperposedWalk walk(problem_.sequence(), at_);
+    const TimeWindow all{0.0, walk.duration()};
+    return problem_.test().Check(walk, all, monitor_.scratch()).verdict == Verdict::kFeasible;
+  }
+
+  const WalkProblem& problem_;
+  const HorizonOptions& options_;
+  SmoothingMonitor& monitor_;
+  std::unique_ptr<opt::Solver> solver_;
+  HomotopyParameters at_;  // the incumbent
+  bool gained_ = false;    // anything by windows
+  SearchEnding end_;
+};
+
+}  // namespace
+
+SmoothingResult Horizon(const WalkProblem& problem, const HorizonOptions& options,
+                        SmoothingMonitor& monitor) {
+  HALFSTEP_CHECK(options.window >= 2 && options.window % 2 == 0, "window = " << options.window);
+  HALFSTEP_CHECK(options.step >= 2 && options.step % 2 == 0 && options.step <= options.window,
+                 "step = " << options.step);
+  HALFSTEP_CHECK(options.passes >= 1, "passes = " << options.passes);
+  return HorizonSearch(problem, options, monitor).Run();
+}
+
+}  // namespace halfstep

@@ -1,0 +1,127 @@
+#include "smoothing/methods/walk_window.h"
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "smoothing/walk/splice.h"
+#include "wpg/check.h"
+
+namespace halfstep {
+namespace {
+
+// At most four half-steps are under way at once (smoothing/README.md, "Band"), so no more than
+// these before and behind a window bear on it. Even, since parts begin with an up half-step.
+constexpr int kNeighbours = 4;
+
+// Half-steps begin … end − 1 of a walk.
+struct Part {
+  int begin, end;
+
+  int first_of(ParameterFamily family) const { return Traits(family).index_at(begin); }
+  int count_of(ParameterFamily family) const {
+    const ParameterFamilyTraits& traits = Traits(family);
+    return traits.index_at(end - 1) + (traits.joins ? 0 : 1) - traits.index_at(begin);
+  }
+};
+
+// By family and index in the part: whether a parameter is to stay.
+using Stays = std::array<std::vector<bool>, kNumParameterFamilies>;
+
+Stays WhatStays(const Part& part, const WalkProblem& problem, int first, int last,
+                bool keeps_begin) {
+  Stays stays;
+  for (const ParameterFamily family : AllParameterFamilies()) {
+    const ParameterFamilyTraits& traits = Traits(family);
+    for (int i = 0; i < part.count_of(family); ++i) {
+      const auto [from, to] = traits.half_steps(part.first_of(family) + i);
+      const bool before = traits.joins && to == first && !keeps_begin;
+      stays[static_cast<size_t>(family)].push_back(to > last || (from < first && !before));
+    }
+  }
+  for (const FixedParameter& one : problem.fixed()) {
+    const ParameterFamily family = one.parameter.family;
+    const int i = one.parameter.index - part.first_of(family);
+    if (i < 0 || i >= part.count_of(family)) continue;
+    stays[static_cast<size_t>(family)][static_cast<size_t>(i)] = true;
+  }
+  return stays;
+}
+
+// Where an overlap that stays is too long for the planned durations beside it, these stay, too.
+void KeepDurationsOfLongOverlaps(const HalfStepSequence& sequence, const HomotopyParameters& at,
+                                 Stays* stays) {
+  std::vector<bool>& durations = (*stays)[static_cast<size_t>(ParameterFamily::kDuration)];
+  const std::vector<bool>& overlaps = (*stays)[static_cast<size_t>(ParameterFamily::kOverlap)];
+  const std::vector<double> planned = PlannedMotion(sequence).durations;
+  for (size_t i = 0; i < overlaps.size(); ++i) {
+    if (!overlaps[i]) continue;
+    std::vector<double> beside = at.durations;
+    for (const size_t k : {i, i + 1}) {
+      if (!durations[k]) beside[k] = planned[k];
+    }
+    if (at.overlaps[i] <= NaturalOverlapBound(sequence, beside, static_cast<int>(i))) continue;
+    durations[i] = durations[i + 1] = true;
+  }
+}
+
+}  // namespace
+
+WalkWindow WindowOf(const WalkProblem& problem, const HomotopyParameters& at, int first, int last,
+                    bool keeps_begin) {
+  const int n = problem.sequence().size();
+  HALFSTEP_CHECK(first >= 0 && first % 2 == 0 && last % 2 == 1 && first < last && last < n,
+                 "half-steps " << first << " to " << last << " of " << n);
+  // Where the window ends at rest, nothing behind it depends on it.
+  const bool to_rest = last + 1 == n || at.overlaps[static_cast<size_t>(last)] <= 0.0;
+  const bool local = problem.scene().rests();
+  const Part part = {
+      local ? std::max(0, first - kNeighbours) : 0,
+      local ? std::min(n, last + 1 + (to_rest ? 0 : kNeighbours)) : n,
+  };
+  HalfStepSequence sequence{.start = part.begin == 0
+                                         ? problem.sequence().start
+                                         : StanceAfter(problem.sequence(), part.begin - 1),
+                            .half_steps = {},
+                            .lipm = problem.sequence().lipm};
+  const auto begin = problem.sequence().half_steps.begin();
+  sequence.half_steps.assign(begin + part.begin, begin + part.end);
+  HomotopyParameters parameters;
+  for (const ParameterFamily family : AllParameterFamilies()) {
+    const auto from = at.of(family).begin() + part.first_of(family);
+    parameters.of(family).assign(from, from + part.count_of(family));
+  }
+  Stays stays = WhatStays(part, problem, first, last, keeps_begin);
+  KeepDurationsOfLongOverlaps(sequence, parameters, &stays);
+  std::vector<FixedParameter> fixed;
+  for (const ParameterFamily family : AllParameterFamilies()) {
+    for (int i = 0; i < part.count_of(family); ++i) {
+      if (!stays[static_cast<size_t>(family)][static_cast<size_t>(i)]) continue;
+      const HomotopyParameter parameter{family, i};
+      fixed.push_back({parameter, parameter.in(parameters)});
+    }
+  }
+  const int size = part.end - part.begin;
+  // The last neighbour is there only so that the stretch before it ends where it does.
+  const bool cut = part.end < n && !to_rest;
+  return {.begin = part.begin,
+          .proved_first = std::max(0, first - part.begin - (keeps_begin ? 0 : 1)),
+          .proved_last = size - (cut ? 2 : 1),
+          .parameters = parameters,
+          .problem = WalkProblem(
+              std::move(sequence),
+              std::shared_ptr<const FeasibilityTest>(std::shared_ptr<void>(), &problem.test()),
+              std::move(fixed))};
+}
+
+void WalkWindow::Paste(const HomotopyParameters& part, HomotopyParameters* walk) const {
+  for (const ParameterFamily family : AllParameterFamilies()) {
+    const std::vector<double>& values = part.of(family);
+    std::copy(values.begin(), values.end(),
+              walk->of(family).begin() + Traits(family).index_at(begin));
+  }
+}
+
+}  // namespace halfstep

@@ -1,0 +1,107 @@
+#include "smoothing/methods/window_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "smoothing/methods/incumbent.h"
+
+namespace halfstep {
+namespace {
+
+// As in overlap_optimizer.cc, where these are explained.
+constexpr int kTries = 8;
+constexpr double kUseless = 0.5;
+constexpr double kSampledEvery = 0.005;  // [s]
+constexpr double kWorthAProof = -0.02;
+constexpr double kSharper = 1.5, kSofter = 0.75, kMostSharp = 3000.0;
+constexpr double kFirstSharpness = 200.0;
+constexpr int kInstantsOfRows = 16;
+// A round that gains less, of the window's cost, is poor.
+constexpr double kLeastGain = 1e-3;
+constexpr int kMostPoor = 2;
+
+ProgramOptions OfWindow(const WalkWindow& window, const ProgramOptions& options,
+                        const opt::SolverTraits& traits) {
+  ProgramOptions own = options;
+  own.watch.range = {window.proved_first, window.proved_last};
+  own.watch.stop_branches = window.problem.test().stop_branches();
+  own.watch.row_per_instant = traits.many_rows;
+  if (traits.many_rows) {
+    own.watch.sharpness = std::max(own.watch.sharpness, kFirstSharpness);
+    own.watch.instants = kInstantsOfRows;
+  }
+  return own;
+}
+
+}  // namespace
+
+void SearchWindow(const WalkWindow& window, const WindowSearchOptions& options,
+                  const opt::Solver& solver, double deadline, SmoothingMonitor& monitor,
+                  const WindowGain& gained, SearchEnding* ending) {
+  const WalkProblem& part = window.problem;
+  const HalfStepSequence& sequence = part.sequence();
+  const opt::SolverTraits traits = solver.traits();
+  OverlapProgram program(sequence, part.evaluator(), OfWindow(window, options.program, traits), 0.0,
+                         part.fixed());
+  if (program.variables().size() == 0) return;
+  StretchProofs proofs(part.test(), sequence.size(), {window.proved_first, window.proved_last});
+  proofs.Remember(SuperposedWalk(sequence, window.parameters));
+  const double begun = program.Cost(window.parameters);
+  Incumbent path(sequence, DemandedRules(program, &proofs), window.parameters, begun,
+                 monitor.scratch());
+  Eigen::VectorXd x = program.ToVariables(window.parameters);
+  opt::Solution solution;
+  double solved = std::numeric_limits<double>::infinity();
+  int poor = 0;
+  for (int round = 0; round < options.rounds && poor < kMostPoor; ++round) {
+    const double remaining = std::min(deadline - monitor.Seconds(), monitor.Remaining());
+    if (remaining <= 0.0 || monitor.stopped()) return;
+    const opt::Problem problem = program.MakeProblem();
+    opt::SolverOptions solver_options;
+    solver_options.max_iterations = options.iterations > 0 ? options.iterations : traits.iterations;
+    solver_options.deadline = remaining;
+    solver_options.stop = monitor.stop();
+    solver_options.optimality_tolerance = 1e-4;
+    solver_options.warm_start = solution.warm_start;
+    if (options.program.kind != ProgramKind::kSmooth) {
+      solver_options.solver_options = traits.nearly_linear;
+    }
+    solution = solver.Solve(problem, x, solver_options);
+    ending->Note(solution);
+    if (solution.x.size() != x.size()) return;
+    const bool near = solution.final_x.size() == x.size() && solution.final_violation < kUseless;
+    x = near ? solution.final_x : solution.x;
+    const double violation = near ? solution.final_violation : solution.max_violation;
+    const double before = path.cost();
+    const HomotopyParameters end = program.ToParameters(x);
+    const SuperposedWalk walk(sequence, end);
+    const bool promising = program.watched().Focus(walk, kSampledEvery, 0.0) >= kWorthAProof;
+    const bool last = round + 1 == options.rounds || poor + 1 == kMostPoor;
+    const bool tried = violation <= kUseless && (promising || last);
+    const double lambda = tried ? path.Toward(end, kTries) : 0.0;
+    const bool refused = !promising || !tried || !path.refusals().empty();
+    if (refused) ++monitor.result().raw_infeasible;
+    if (tried) {
+      for (const Margin& refusal : path.refusals()) {
+        program.watched().Learn(walk, refusal.at, refusal.stop_after >= 0);
+      }
+    }
+    if (lambda > 0.0) gained(path.parameters(), begun - path.cost());
+    SmoothingIterate record{
+        .candidate_duration = monitor.duration() + DurationOf(end) - DurationOf(path.parameters()),
+        .accepted = lambda > 0.0,
+        .lambda = lambda};
+    if (violation > 0.0) record.candidate_slack = -violation;
+    monitor.Record(record);
+    const double cost = near ? solution.final_cost : solution.cost;
+    const double least = kLeastGain * std::abs(before);
+    const bool good = before - path.cost() >= least || !(solved - cost < least);
+    poor = good ? 0 : poor + 1;
+    solved = std::min(solved, cost);
+    program.watched().SetSharpness(
+        std::min(kMostSharp, (refused ? kSofter : kSharper) * program.watched().sharpness()));
+  }
+}
+
+}  // namespace halfstep

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <functional>
+
+#include "opt/solvers/solver.h"
+#include "smoothing/methods/search_ending.h"
+#include "smoothing/methods/smoothing_monitor.h"
+#include "smoothing/methods/walk_window.h"
+#include "smoothing/program/overlap_program.h"
+
+namespace halfstep {
+
+struct WindowSearchOptions {
+  ProgramOptions program;  ///< `fastest` or `smooth`
+  int rounds = 8;          ///< ≥ 1: most solves; the program is refined between them
+  int iterations = 0;      ///< of the solver in a round; 0: SolverTraits::iterations
+};
+
+/// Called with every new point of a window's part that was proved, and what it costs less than the
+/// window's own parameters [s].
+using WindowGain = std::function<void(const HomotopyParameters& part, double gain)>;
+
+/// Lowers the cost of a window by a program over what is free in it, in rounds as OptimizeOverlaps
+/// does, until two rounds in a row gain next to nothing. The window's own parameters must be proved
+/// on the stretches that it may change; all that `gained` is called with is. `ending` notes how the
+/// solves ended. Stops between rounds when the monitor is to stop or `deadline` [s] of its clock
+/// has passed.
+void SearchWindow(const WalkWindow& window, const WindowSearchOptions& options,
+                  const opt::Solver& solver, double deadline, SmoothingMonitor& monitor,
+                  const WindowGain& gained, SearchEnding* ending);
+
+}  // namespace halfstep

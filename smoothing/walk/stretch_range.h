@@ -1,0 +1,15 @@
+#pragma once
+
+#include <limits>
+
+namespace halfstep {
+
+/// Some stretches [t_k, t_{k+1}] of a walk: those of the half-steps first … last.
+struct StretchRange {
+  int first = 0;
+  int last = std::numeric_limits<int>::max();
+
+  bool contains(int half_step) const { return first <= half_step && half_step <= last; }
+};
+
+}  // namespace halfstep
