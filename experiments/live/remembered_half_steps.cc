@@ -25,9 +25,10 @@ std::string KeyOf(const SuperposedWalk& walk, int j) {
     key.push_back(half_step.kind == HalfStepKind::kUp ? 'u' : 'd');
     add_place(walk.X_WS(j).Inverse() * walk.X_WS(i));
     add_place(half_step.X_SF);
-    for (const double x : {begin - walk.start_of(i), walk.profiles(i).duration(),
-                           half_step.via_height, half_step.via_lateral, half_step.shape.shift,
-                           half_step.shape.horizontal_delay, walk.X_WS(i).height}) {
+    for (const double x :
+         {begin - walk.start_of(i), walk.profiles(i).duration(), half_step.via_height,
+          half_step.via_lateral, half_step.shape.shift, half_step.shape.horizontal_delay,
+          half_step.shape.support_offset, walk.X_WS(i).height}) {
       add(x);
     }
   }
