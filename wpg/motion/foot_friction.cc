@@ -79,6 +79,13 @@ double FootFriction::Drift(const RobotDrift& robot, const ZmpDrift& zmp) const {
     reach = std::min(reach, at_m.distance - length * zmp.Along(at_m.normal / length));
   });
   if (!(reach > 0.0) || !(zmp.least_push > 0.0)) return kNone;
+  // The ZMP may leave by an edge along `along_` as well, and then nothing suffices.
+  for (int i = 0; i < polygon_.size(); ++i) {
+    const Vector2d a = polygon_.corner(i), edge = polygon_.corner((i + 1) % polygon_.size()) - a;
+    if (edge.norm() < 1e-9) continue;
+    const Vector2d inward = Vector2d(-edge.y(), edge.x()).normalized();
+    if (!(inward.dot(zmp_ - a) > zmp.Along(inward))) return kNone;
+  }
   Eigen::Vector3d below(0, 0, 0);
   below.head<2>() = zmp_ - dynamics_.O().head<2>();
   const double pull = pull_.norm() + robot.ForceDrift();
