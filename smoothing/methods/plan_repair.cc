@@ -16,7 +16,7 @@ namespace {
 constexpr double kDurations[] = {1.0, 1.15, 1.3, 1.5, 1.75, 2.0, 2.5, 3.0};
 constexpr double kHeights[] = {1.0, 1.2, 1.5, 2.0, 0.8, 0.6, 0.4};
 constexpr double kPeriod = 0.02;        // of samples [s]
-constexpr double kPromising = -1e-9;    // a least slack below it is not worth a proof
+constexpr double kWorthProving = -1e-9;    // a least slack below it is not worth a proof
 constexpr double kDurationStep = 0.01;  // of the duration: how finely it is lowered
 
 class Repair {
@@ -131,7 +131,7 @@ class Repair {
           least_slack = Slack(worst);
           least_missed = worst;
         }
-        if (Slack(worst) < kPromising || !Proved(step, duration, height)) continue;
+        if (Slack(worst) < kWorthProving || !Proved(step, duration, height)) continue;
         Keep(step, Shortest(step, planned.duration, duration, height), height);
         return;
       }

@@ -280,6 +280,13 @@ TEST(TorqueDrift, AndThatOfFrictionAreNeverExceededOnRandomIntervals) {
             SupportAt(walk, walk.Locate(begin + 0.5 * length), motion.jet.value, robot.sole_size);
         const auto friction = FootFriction::Of(*at.dynamics, polygon);
         const double friction_drift = friction ? friction->Drift(drift, zmp) : 0.0;
+        // No bound where the ZMP may leave by an edge along the pressure's points.
+        const Eigen::Vector2d p = *at.dynamics->Zmp();
+        const double across = 0.5 * zmp.Along({0, 1}), ahead = 1.0 + 2.0 * zmp.Most();
+        if (across > 1e-9 && std::isfinite(ahead)) {
+          const SupportPolygon thin({p.x(), p.y(), 0.0}, {2.0 * ahead, 2.0 * across});
+          EXPECT_TRUE(std::isinf(FootFriction::Of(*at.dynamics, thin).value().Drift(drift, zmp)));
+        }
         const size_t which = support ? 0 : 1;
         for (const double part : {0.0, draw.Uniform(0, 1), draw.Uniform(0, 1), 1.0}) {
           const WalkJet jet = walk.At(begin + part * length);
