@@ -92,7 +92,7 @@ Obstacle MeshBall(int i, double x, double y, double radius, int n) {
 Problem Meshes(int seed) {
   Problem problem = Shipped("cylinders");
   std::mt19937_64 random(static_cast<std::uint64_t>(seed));
-  problem.scene = {.name = "meshes", .files = {}, .obstacles = {}, .no_step = {}};
+  problem.scene = {.name = "meshes", .files = {}, .obstacles = {}, .no_step = {}, .warnings = {}};
   for (int i = 0; i < 12; ++i) {
     const double x = Uniform(0.6, 3.4, random), y = Uniform(-1.0, 1.0, random);
     problem.scene.obstacles.push_back(MeshBall(i, x, y, Uniform(0.04, 0.12, random), 50));

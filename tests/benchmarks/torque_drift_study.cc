@@ -91,8 +91,8 @@ void Draw(long intervals, unsigned seed, const std::string& name) {
           continue;
         }
         ++drawn;
-        const auto support =
-            step < 0 ? std::nullopt : std::optional(walk.half_step(2 * step).support);
+        std::optional<Side> support;
+        if (step >= 0) support.emplace(walk.half_step(2 * step).support);
         IntervalMotion motion;
         BoundMotion(bounds, walk, begin, end, &motion);
         if (!motion.bounded) continue;
