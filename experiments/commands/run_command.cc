@@ -48,6 +48,10 @@ void TellMissed(const ExperimentRun& run) {
   std::vector<std::string> lines = {run.runs().front().result.message};
   if (run.missed()) lines = MissedDemandsText(run.evaluator(), *run.missed());
   lines.front().insert(0, "the plan is not feasible: ");
+  if (!run.config().smoothing.repair_plan) {
+    lines.push_back(
+        "`smoothing.repair_plan: true` looks for durations and heights of single steps that help");
+  }
   for (const std::string& line : lines) std::cerr << "halfstep: " << line << '\n';
 }
 
