@@ -400,6 +400,10 @@ void DeclareFields(Fields& fields, ExperimentConfig* c) {
     DeclareSmoothing(f, &c->smoothing);
     const std::string complaint = ComplaintAboutFixed(*c);
     if (!complaint.empty()) f.Complain("fixed", complaint);
+    if (c->has_goal && c->smoothing.repair_plan) {
+      f.Complain("repair_plan",
+                 "plans to a goal are of steps that were proved (valid: `false` with a `goal`)");
+    }
   });
   fields.Group("output", {.meaning = "what is written"}, [&](Fields& f) {
     f.Text("directory", &c->output_directory,
