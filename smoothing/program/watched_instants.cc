@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "smoothing/program/slack_samples.h"
+#include "smoothing/program/soft_minimum.h"
+
 namespace halfstep {
 namespace {
 
@@ -11,26 +14,6 @@ using Family = HomotopyParameter::Family;
 constexpr double kReserve = 3.0;
 // Slacks that are near the level, and that are far from it.
 constexpr double kNear = 0.3, kFar = 1.0;
-
-// Σ e^{−ρ·slack} and its gradient, both times e^{ρ·least}: no overflow, whatever the slacks.
-struct SoftMinimum {
-  double least;
-  double sum;
-  Eigen::VectorXd gradient;
-
-  // Weight of a further slack in the sum.
-  double Add(double slack, double sharpness) {
-    if (slack < least) {
-      const double shrink = std::exp(-sharpness * (least - slack));
-      sum *= shrink;
-      gradient *= shrink;
-      least = slack;
-    }
-    const double weight = std::exp(-sharpness * (slack - least));
-    sum += weight;
-    return weight;
-  }
-};
 
 // Families that have a row of their own, in their order; and by family the place of its row among
 // them, or of the family whose row it shares; −1: it has none.
@@ -70,43 +53,6 @@ std::vector<double> Events(const HalfStep& half_step) {
     return {shape.t2() + kInside, shape.t2() + delay + kInside, 1.0 - kInside};
   }
   return {kInside, shape.t1() - delay - kInside, shape.t1() - kInside};
-}
-
-using LeastSlacks = std::array<double, kNumMarginFamilies>;  // by family, at most a cutoff
-
-// At `begin` [s], a period later, … and at the end.
-std::vector<LeastSlacks> Sampled(const SuperposedWalk& walk, const MarginEvaluator& evaluator,
-                                 const StretchRange& range, double begin, double period,
-                                 double cutoff) {
-  SlackEvaluator slacks(evaluator, cutoff);
-  InstantSlacks instant;
-  const int n = static_cast<int>(std::ceil((walk.duration() - begin) / period));
-  std::vector<LeastSlacks> samples(static_cast<size_t>(n) + 1);
-  for (int i = 0; i <= n; ++i) {
-    LeastSlacks& sample = samples[static_cast<size_t>(i)];
-    sample.fill(cutoff);
-    const LocalTime at = walk.Locate(std::min(begin + i * period, walk.duration()));
-    if (!range.contains(at.half_step)) continue;
-    slacks.At(walk, at, {}, false, &instant);
-    for (const SlackRow& row : instant.rows) {
-      double& least = sample[static_cast<size_t>(row.family)];
-      least = std::min(least, row.slack);
-    }
-  }
-  return samples;
-}
-
-// The least slack of the families that have a local minimum in time at sample i; none: `otherwise`.
-double LocalMinimum(const std::vector<LeastSlacks>& samples, int i, double otherwise) {
-  const size_t at = static_cast<size_t>(i);
-  double lowest = otherwise;
-  for (size_t f = 0; f < kNumMarginFamilies; ++f) {
-    const double slack = samples[at][f];
-    const bool falls = i == 0 || slack < samples[at - 1][f];
-    const bool rises = at + 1 == samples.size() || slack <= samples[at + 1][f];
-    if (falls && rises) lowest = std::min(lowest, slack);
-  }
-  return lowest;
 }
 
 }  // namespace
@@ -236,8 +182,8 @@ double WatchedInstants::FocusOn(const SuperposedWalk& walk, std::optional<int> b
   const double far = level + kFar;
   const double begin = branch ? walk.start_of(*branch + 1) : 0.0;
   const double end = branch ? walk.end_of(*branch) : walk.duration();
-  const std::vector<LeastSlacks> samples = Sampled(branch ? walk.StopBranch(*branch) : walk,
-                                                   evaluator_, options_.range, begin, period, far);
+  const std::vector<LeastSlacks> samples = SampledSlacks(
+      branch ? walk.StopBranch(*branch) : walk, evaluator_, options_.range, begin, period, far);
   const int last = static_cast<int>(samples.size()) - 1;
   const auto lowest = [&samples](int i) {
     return std::ranges::min(samples[static_cast<size_t>(i)]);
