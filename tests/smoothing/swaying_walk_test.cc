@@ -183,7 +183,7 @@ TEST(SwayingWalk, TheRobotsZmpStaysWithinItsBoundAndBeyondOneThatForgetsTheSway)
       beyond += exceeded;
     }
   }
-  EXPECT_GT(bounded, 100);
+  EXPECT_GT(bounded, Draws(60) * 2);
   EXPECT_GT(beyond, bounded / 20);
 }
 
