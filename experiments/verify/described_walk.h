@@ -34,9 +34,9 @@ struct WalkDynamics {
 ///     f(t) = f_0(0) + Σ_i [ f_i(clamp(t − t_i, 0, T_i)) − f_i(0) ].
 ///
 /// The superposition, its compensation (DescribedSway), and which feet stand when are this class's
-/// own; the closed forms of a
-/// half-step and of a leg's inverse kinematics are wpg's, which the prover uses as well. Borrows
-/// the robot. Source: [Perrin2011] §IV; smoothing/README.md, "The homotopy".
+/// own; the closed forms of a half-step and of a leg's inverse kinematics are wpg's, which the
+/// prover uses as well. Borrows the robot. Source: [Perrin2011] §IV; smoothing/README.md, "The
+/// homotopy".
 class DescribedWalk {
  public:
   /// Precondition: as many rows as half-steps, at least one, durations > 0.

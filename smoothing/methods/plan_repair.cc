@@ -15,9 +15,9 @@ namespace {
 // Of the planned duration and height: what is tried, in this order.
 constexpr double kDurations[] = {1.0, 1.15, 1.3, 1.5, 1.75, 2.0, 2.5, 3.0};
 constexpr double kHeights[] = {1.0, 1.2, 1.5, 2.0, 0.8, 0.6, 0.4};
-constexpr double kPeriod = 0.02;        // of samples [s]
-constexpr double kWorthProving = -1e-9;    // a least slack below it is not worth a proof
-constexpr double kDurationStep = 0.01;  // of the duration: how finely it is lowered
+constexpr double kPeriod = 0.02;         // of samples [s]
+constexpr double kWorthProving = -1e-9;  // a least slack below it is not worth a proof
+constexpr double kDurationStep = 0.01;   // of the duration: how finely it is lowered
 
 class Repair {
  public:
