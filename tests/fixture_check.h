@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "wpg/files/input_error.h"
+#include "halfstep/wpg/files/input_error.h"
 
 namespace halfstep {
 

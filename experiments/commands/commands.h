@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "experiments/run/exit_status.h"
-#include "experiments/survey/robot_survey.h"
-#include "wpg/files/yaml_fields.h"
+#include "halfstep/experiments/run/exit_status.h"
+#include "halfstep/experiments/survey/robot_survey.h"
+#include "halfstep/wpg/files/yaml_fields.h"
 
 namespace halfstep {
 

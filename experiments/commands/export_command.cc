@@ -4,19 +4,19 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "experiments/build_info.h"
-#include "experiments/commands/command_line.h"
-#include "experiments/commands/commands.h"
-#include "experiments/config/experiment.h"
-#include "experiments/config/folder_name.h"
-#include "experiments/export/hrpsys_files.h"
-#include "experiments/export/ompl_log.h"
-#include "experiments/tables/certificate_files.h"
-#include "experiments/tables/csv_subset.h"
-#include "experiments/tables/result_tables.h"
-#include "experiments/tables/run_folder.h"
-#include "wpg/files/input_error.h"
-#include "wpg/files/number_text.h"
+#include "halfstep/experiments/build_info.h"
+#include "halfstep/experiments/commands/command_line.h"
+#include "halfstep/experiments/commands/commands.h"
+#include "halfstep/experiments/config/experiment.h"
+#include "halfstep/experiments/config/folder_name.h"
+#include "halfstep/experiments/export/hrpsys_files.h"
+#include "halfstep/experiments/export/ompl_log.h"
+#include "halfstep/experiments/tables/certificate_files.h"
+#include "halfstep/experiments/tables/csv_subset.h"
+#include "halfstep/experiments/tables/result_tables.h"
+#include "halfstep/experiments/tables/run_folder.h"
+#include "halfstep/wpg/files/input_error.h"
+#include "halfstep/wpg/files/number_text.h"
 
 namespace halfstep {
 namespace {

@@ -1,10 +1,10 @@
-#include "experiments/compare/comparison.h"
+#include "halfstep/experiments/compare/comparison.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "wpg/files/input_error.h"
-#include "wpg/files/text.h"
+#include "halfstep/wpg/files/input_error.h"
+#include "halfstep/wpg/files/text.h"
 
 namespace halfstep {
 namespace {

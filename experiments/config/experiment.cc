@@ -1,22 +1,15 @@
-#include "experiments/config/experiment.h"
+#include "halfstep/experiments/config/experiment.h"
 
-#include <algorithm>
-#include <cstdlib>
-
-#include "planner/scene/no_step_areas.h"
-#include "wpg/files/input_error.h"
-#include "wpg/motion/compensation.h"
-#include "wpg/robot/torque_limits.h"
+#include "halfstep/experiments/config/data_folder.h"
+#include "halfstep/planner/scene/no_step_areas.h"
+#include "halfstep/wpg/files/input_error.h"
+#include "halfstep/wpg/motion/compensation.h"
+#include "halfstep/wpg/robot/torque_limits.h"
 
 namespace halfstep {
 namespace {
 
 namespace fs = std::filesystem;
-
-fs::path DataFolder() {
-  const char* folder = std::getenv("HALFSTEP_DATA");
-  return folder != nullptr ? fs::path(folder) : fs::path(HALFSTEP_DATA_DIR);
-}
 
 // A bare word is a shipped robot, anything else a path relative to the config.
 bool IsShipped(const fs::path& robot) { return !robot.has_parent_path() && !robot.has_extension(); }
@@ -41,19 +34,6 @@ void LeaveOutWhatIsUnknown(Experiment* experiment) {
 }
 
 }  // namespace
-
-fs::path RobotsFolder() { return DataFolder() / "wpg" / "robots"; }
-fs::path ScenesFolder() { return DataFolder() / "experiments" / "scenes"; }
-
-std::vector<fs::path> YamlFiles(const fs::path& folder) {
-  std::vector<fs::path> files;
-  std::error_code ignored;
-  for (const auto& file : fs::directory_iterator(folder, ignored)) {
-    if (file.path().extension() == ".yaml") files.push_back(file.path());
-  }
-  std::sort(files.begin(), files.end());
-  return files;
-}
 
 fs::path RobotPath(const ExperimentConfig& config) {
   const fs::path path = IsShipped(config.robot) ? RobotsFolder() / (config.robot + ".yaml")

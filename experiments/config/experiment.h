@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "experiments/config/experiment_config.h"
-#include "planner/scene/scene.h"
-#include "smoothing/margins/margin_evaluator.h"
-#include "wpg/geometry/footprint.h"
-#include "wpg/motion/half_step_sequence.h"
-#include "wpg/robot/robot_model.h"
+#include "halfstep/experiments/config/experiment_config.h"
+#include "halfstep/planner/scene/scene.h"
+#include "halfstep/smoothing/margins/margin_evaluator.h"
+#include "halfstep/wpg/geometry/footprint.h"
+#include "halfstep/wpg/motion/half_step_sequence.h"
+#include "halfstep/wpg/robot/robot_model.h"
 
 namespace halfstep {
 
@@ -58,13 +58,5 @@ Experiment Prepare(const ExperimentConfig& config);
 /// The first footprint of the plan that touches a no-step polygon, as a sentence; none when no
 /// footprint does.
 std::optional<std::string> FootprintOnNoStep(const Experiment& experiment);
-
-/// Folders of the shipped robots (`NAME.yaml`) and of the shipped scenes: wpg/robots and
-/// experiments/scenes in the source tree, or in the folder that the environment variable
-/// HALFSTEP_DATA names.
-std::filesystem::path RobotsFolder();
-std::filesystem::path ScenesFolder();
-/// Paths of a folder's *.yaml, sorted; none when it cannot be read.
-std::vector<std::filesystem::path> YamlFiles(const std::filesystem::path& folder);
 
 }  // namespace halfstep

@@ -1,8 +1,8 @@
-#include "experiments/config/folder_name.h"
+#include "halfstep/experiments/config/folder_name.h"
 
 #include <algorithm>
 
-#include "wpg/files/text.h"
+#include "halfstep/wpg/files/text.h"
 
 namespace halfstep {
 

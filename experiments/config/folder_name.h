@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "wpg/files/fields.h"
+#include "halfstep/wpg/files/fields.h"
 
 namespace halfstep {
 

@@ -1,8 +1,8 @@
-#include "experiments/config/key_tables.h"
+#include "halfstep/experiments/config/key_tables.h"
 
 #include <limits>
 
-#include "wpg/files/number_text.h"
+#include "halfstep/wpg/files/number_text.h"
 
 namespace halfstep {
 namespace {

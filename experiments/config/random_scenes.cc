@@ -1,11 +1,11 @@
-#include "experiments/config/random_scenes.h"
+#include "halfstep/experiments/config/random_scenes.h"
 
 #include <cmath>
 #include <cstdio>
 #include <random>
 
-#include "planner/search/plan_shortcut.h"
-#include "wpg/check.h"
+#include "halfstep/planner/search/plan_shortcut.h"
+#include "halfstep/wpg/check.h"
 
 namespace halfstep {
 namespace {

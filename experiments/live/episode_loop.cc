@@ -1,11 +1,11 @@
-#include "experiments/live/episode_loop.h"
+#include "halfstep/experiments/live/episode_loop.h"
 
 #include <algorithm>
 #include <limits>
 #include <utility>
 #include <vector>
 
-#include "wpg/files/text.h"
+#include "halfstep/wpg/files/text.h"
 
 namespace halfstep {
 namespace {

@@ -1,9 +1,9 @@
-#include "experiments/live/episode_summary.h"
+#include "halfstep/experiments/live/episode_summary.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "wpg/files/text.h"
+#include "halfstep/wpg/files/text.h"
 
 namespace halfstep {
 namespace {

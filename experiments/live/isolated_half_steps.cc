@@ -1,4 +1,4 @@
-#include "experiments/live/isolated_half_steps.h"
+#include "halfstep/experiments/live/isolated_half_steps.h"
 
 #include <cmath>
 

@@ -1,10 +1,10 @@
-#include "experiments/live/live_config.h"
+#include "halfstep/experiments/live/live_config.h"
 
 #include <algorithm>
 #include <array>
 #include <filesystem>
 
-#include "experiments/config/scaled_defaults.h"
+#include "halfstep/experiments/config/scaled_defaults.h"
 
 namespace halfstep {
 namespace {

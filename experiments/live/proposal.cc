@@ -1,4 +1,4 @@
-#include "experiments/live/proposal.h"
+#include "halfstep/experiments/live/proposal.h"
 
 namespace halfstep {
 

@@ -1,10 +1,10 @@
-#include "experiments/live/refinement.h"
+#include "halfstep/experiments/live/refinement.h"
 
 #include <limits>
 #include <memory>
 
-#include "smoothing/methods/improve_ahead.h"
-#include "smoothing/proof/stoppable_feasibility.h"
+#include "halfstep/smoothing/methods/improve_ahead.h"
+#include "halfstep/smoothing/proof/stoppable_feasibility.h"
 
 namespace halfstep {
 

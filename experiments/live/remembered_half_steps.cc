@@ -1,4 +1,4 @@
-#include "experiments/live/remembered_half_steps.h"
+#include "halfstep/experiments/live/remembered_half_steps.h"
 
 #include <cmath>
 #include <cstdint>

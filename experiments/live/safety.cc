@@ -1,4 +1,4 @@
-#include "experiments/live/safety.h"
+#include "halfstep/experiments/live/safety.h"
 
 #include <algorithm>
 

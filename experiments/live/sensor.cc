@@ -1,4 +1,4 @@
-#include "experiments/live/sensor.h"
+#include "halfstep/experiments/live/sensor.h"
 
 namespace halfstep {
 

@@ -1,9 +1,9 @@
-#include "experiments/live/spare_boxes.h"
+#include "halfstep/experiments/live/spare_boxes.h"
 
 #include <algorithm>
 #include <utility>
 
-#include "wpg/files/input_error.h"
+#include "halfstep/wpg/files/input_error.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "experiments/live/thinker.h"
+#include "halfstep/experiments/live/thinker.h"
 
 #include <utility>
 

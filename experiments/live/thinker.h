@@ -7,7 +7,7 @@
 #include <random>
 #include <thread>
 
-#include "experiments/live/replanner.h"
+#include "halfstep/experiments/live/replanner.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "experiments/replay/mass_model_zmp.h"
+#include "halfstep/experiments/replay/mass_model_zmp.h"
 
 namespace halfstep::replay {
 namespace {

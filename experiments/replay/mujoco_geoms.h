@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "wpg/geometry/convex_body.h"
+#include "halfstep/wpg/geometry/convex_body.h"
 
 namespace halfstep::replay {
 

@@ -1,10 +1,10 @@
-#include "experiments/replay/mujoco_model.h"
+#include "halfstep/experiments/replay/mujoco_model.h"
 
 #include <Eigen/Eigenvalues>
 #include <array>
 
-#include "experiments/replay/mujoco_geoms.h"
-#include "wpg/files/number_text.h"
+#include "halfstep/experiments/replay/mujoco_geoms.h"
+#include "halfstep/wpg/files/number_text.h"
 
 namespace halfstep::replay {
 namespace {

@@ -4,8 +4,8 @@
 #include <map>
 #include <stdexcept>
 
-#include "experiments/replay/simulation.h"
-#include "wpg/check.h"
+#include "halfstep/experiments/replay/simulation.h"
+#include "halfstep/wpg/check.h"
 
 namespace halfstep::replay {
 namespace {

@@ -1,4 +1,4 @@
-#include "experiments/replay/player.h"
+#include "halfstep/experiments/replay/player.h"
 
 #include <algorithm>
 #include <cmath>

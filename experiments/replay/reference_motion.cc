@@ -1,4 +1,4 @@
-#include "experiments/replay/reference_motion.h"
+#include "halfstep/experiments/replay/reference_motion.h"
 
 #include <algorithm>
 

@@ -1,12 +1,12 @@
-#include "experiments/replay/replay.h"
+#include "halfstep/experiments/replay/replay.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
-#include "experiments/replay/mass_model_zmp.h"
-#include "experiments/tables/csv_writer.h"
+#include "halfstep/experiments/replay/mass_model_zmp.h"
+#include "halfstep/experiments/tables/csv_writer.h"
 
 namespace halfstep::replay {
 namespace {

@@ -1,10 +1,10 @@
-#include "experiments/replay/simulated_obstacles.h"
+#include "halfstep/experiments/replay/simulated_obstacles.h"
 
 #include <memory>
 #include <stdexcept>
 #include <utility>
 
-#include "wpg/files/text.h"
+#include "halfstep/wpg/files/text.h"
 
 namespace halfstep::replay {
 namespace {

@@ -1,4 +1,4 @@
-#include "experiments/replay/support_drift.h"
+#include "halfstep/experiments/replay/support_drift.h"
 
 #include <algorithm>
 

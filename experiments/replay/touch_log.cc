@@ -1,4 +1,4 @@
-#include "experiments/replay/touch_log.h"
+#include "halfstep/experiments/replay/touch_log.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "experiments/report/drawn_mesh.h"
+#include "halfstep/experiments/report/drawn_mesh.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

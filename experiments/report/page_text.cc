@@ -1,6 +1,6 @@
-#include "experiments/report/page_text.h"
+#include "halfstep/experiments/report/page_text.h"
 
-#include "wpg/check.h"
+#include "halfstep/wpg/check.h"
 
 namespace halfstep {
 namespace {

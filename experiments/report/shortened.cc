@@ -1,4 +1,4 @@
-#include "experiments/report/shortened.h"
+#include "halfstep/experiments/report/shortened.h"
 
 #include <array>
 #include <cstdio>

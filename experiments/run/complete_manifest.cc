@@ -1,9 +1,9 @@
-#include "experiments/run/complete_manifest.h"
+#include "halfstep/experiments/run/complete_manifest.h"
 
 #include <nlohmann/json.hpp>
 
-#include "wpg/files/input_error.h"
-#include "wpg/files/regular_file.h"
+#include "halfstep/wpg/files/input_error.h"
+#include "halfstep/wpg/files/regular_file.h"
 
 namespace halfstep {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "experiments/config/experiment.h"
-#include "experiments/tables/run_folder.h"
+#include "halfstep/experiments/config/experiment.h"
+#include "halfstep/experiments/tables/run_folder.h"
 
 namespace halfstep {
 

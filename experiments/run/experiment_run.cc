@@ -1,14 +1,14 @@
-#include "experiments/run/experiment_run.h"
+#include "halfstep/experiments/run/experiment_run.h"
 
-#include "experiments/config/folder_name.h"
-#include "experiments/run/manifest.h"
-#include "experiments/tables/parameter_tables.h"
-#include "smoothing/methods/overlap_prices.h"
-#include "smoothing/methods/plan_repair.h"
-#include "smoothing/methods/smoother_registry.h"
-#include "smoothing/proof/sampled_feasibility.h"
-#include "smoothing/proof/stoppable_feasibility.h"
-#include "wpg/files/text.h"
+#include "halfstep/experiments/config/folder_name.h"
+#include "halfstep/experiments/run/manifest.h"
+#include "halfstep/experiments/tables/parameter_tables.h"
+#include "halfstep/smoothing/methods/overlap_prices.h"
+#include "halfstep/smoothing/methods/plan_repair.h"
+#include "halfstep/smoothing/methods/smoother_registry.h"
+#include "halfstep/smoothing/proof/sampled_feasibility.h"
+#include "halfstep/smoothing/proof/stoppable_feasibility.h"
+#include "halfstep/wpg/files/text.h"
 
 namespace halfstep {
 namespace {

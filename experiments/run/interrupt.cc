@@ -1,4 +1,4 @@
-#include "experiments/run/interrupt.h"
+#include "halfstep/experiments/run/interrupt.h"
 
 #include <signal.h>
 #include <unistd.h>
@@ -7,7 +7,7 @@
 #include <optional>
 #include <string_view>
 
-#include "experiments/run/exit_status.h"
+#include "halfstep/experiments/run/exit_status.h"
 
 namespace halfstep {
 namespace {

@@ -1,4 +1,4 @@
-#include "experiments/run/progress_bar.h"
+#include "halfstep/experiments/run/progress_bar.h"
 
 #include <unistd.h>
 

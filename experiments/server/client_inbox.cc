@@ -1,4 +1,4 @@
-#include "experiments/server/client_inbox.h"
+#include "halfstep/experiments/server/client_inbox.h"
 
 #include <utility>
 

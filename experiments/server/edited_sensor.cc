@@ -1,10 +1,10 @@
-#include "experiments/server/edited_sensor.h"
+#include "halfstep/experiments/server/edited_sensor.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "experiments/server/quiet_from.h"
+#include "halfstep/experiments/server/quiet_from.h"
 
 namespace halfstep {
 namespace {

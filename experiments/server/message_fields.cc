@@ -1,13 +1,13 @@
-#include "experiments/server/message_fields.h"
+#include "halfstep/experiments/server/message_fields.h"
 
 #include <algorithm>
 #include <cmath>
 #include <set>
 #include <utility>
 
-#include "wpg/files/input_error.h"
-#include "wpg/files/nesting.h"
-#include "wpg/files/text.h"
+#include "halfstep/wpg/files/input_error.h"
+#include "halfstep/wpg/files/nesting.h"
+#include "halfstep/wpg/files/text.h"
 
 namespace halfstep {
 

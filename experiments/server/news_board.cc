@@ -1,4 +1,4 @@
-#include "experiments/server/news_board.h"
+#include "halfstep/experiments/server/news_board.h"
 
 #include <utility>
 

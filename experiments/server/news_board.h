@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/live/episode.h"
+#include "halfstep/experiments/live/episode.h"
 
 namespace halfstep {
 

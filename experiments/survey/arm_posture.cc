@@ -1,10 +1,10 @@
-#include "experiments/survey/arm_posture.h"
+#include "halfstep/experiments/survey/arm_posture.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "wpg/files/text.h"
+#include "halfstep/wpg/files/text.h"
 
 namespace halfstep {
 namespace {

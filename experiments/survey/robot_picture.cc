@@ -1,11 +1,11 @@
-#include "experiments/survey/robot_picture.h"
+#include "halfstep/experiments/survey/robot_picture.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
-#include "wpg/files/text.h"
+#include "halfstep/wpg/files/text.h"
 
 namespace halfstep {
 namespace {

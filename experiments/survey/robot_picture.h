@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "wpg/robot/robot_model.h"
+#include "halfstep/wpg/robot/robot_model.h"
 
 namespace halfstep {
 

@@ -1,11 +1,11 @@
-#include "experiments/survey/self_gaps.h"
+#include "halfstep/experiments/survey/self_gaps.h"
 
 #include <algorithm>
 #include <limits>
 #include <utility>
 
-#include "smoothing/walk/superposed_walk.h"
-#include "wpg/robot/robot_measures.h"
+#include "halfstep/smoothing/walk/superposed_walk.h"
+#include "halfstep/wpg/robot/robot_measures.h"
 
 namespace halfstep {
 

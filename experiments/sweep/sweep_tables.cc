@@ -1,9 +1,9 @@
-#include "experiments/sweep/sweep_tables.h"
+#include "halfstep/experiments/sweep/sweep_tables.h"
 
 #include <algorithm>
 
-#include "experiments/tables/csv_writer.h"
-#include "wpg/files/number_text.h"
+#include "halfstep/experiments/tables/csv_writer.h"
+#include "halfstep/wpg/files/number_text.h"
 
 namespace halfstep {
 namespace {

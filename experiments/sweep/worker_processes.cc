@@ -1,4 +1,4 @@
-#include "experiments/sweep/worker_processes.h"
+#include "halfstep/experiments/sweep/worker_processes.h"
 
 #include <fcntl.h>
 #include <signal.h>

@@ -1,8 +1,8 @@
-#include "experiments/tables/csv_columns.h"
+#include "halfstep/experiments/tables/csv_columns.h"
 
 #include <nlohmann/json.hpp>
 
-#include "experiments/tables/run_folder.h"
+#include "halfstep/experiments/tables/run_folder.h"
 
 namespace halfstep {
 namespace {

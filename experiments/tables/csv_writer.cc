@@ -1,11 +1,11 @@
-#include "experiments/tables/csv_writer.h"
+#include "halfstep/experiments/tables/csv_writer.h"
 
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <utility>
 
-#include "wpg/check.h"
+#include "halfstep/wpg/check.h"
 
 namespace halfstep {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "experiments/tables/csv_columns.h"
+#include "halfstep/experiments/tables/csv_columns.h"
 
 namespace halfstep {
 

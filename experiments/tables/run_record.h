@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "opt/solvers/ending.h"
+#include "halfstep/opt/solvers/ending.h"
 
 namespace halfstep {
 

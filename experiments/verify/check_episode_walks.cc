@@ -1,10 +1,10 @@
-#include "experiments/verify/check_episode_walks.h"
+#include "halfstep/experiments/verify/check_episode_walks.h"
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
-#include "experiments/verify/check_overlaps.h"
+#include "halfstep/experiments/verify/check_overlaps.h"
 
 namespace halfstep::verify {
 namespace {

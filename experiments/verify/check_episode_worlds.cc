@@ -1,4 +1,4 @@
-#include "experiments/verify/check_episode_worlds.h"
+#include "halfstep/experiments/verify/check_episode_worlds.h"
 
 #include <algorithm>
 #include <cmath>

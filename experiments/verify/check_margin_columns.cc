@@ -1,9 +1,9 @@
-#include "experiments/verify/check_margin_columns.h"
+#include "halfstep/experiments/verify/check_margin_columns.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/verify/check_rows.h"
+#include "halfstep/experiments/verify/check_rows.h"
 
 namespace halfstep::verify {
 namespace {

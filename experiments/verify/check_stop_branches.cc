@@ -1,8 +1,8 @@
-#include "experiments/verify/check_stop_branches.h"
+#include "halfstep/experiments/verify/check_stop_branches.h"
 
 #include <string_view>
 
-#include "experiments/verify/check_played.h"
+#include "halfstep/experiments/verify/check_played.h"
 
 namespace halfstep::verify {
 namespace {

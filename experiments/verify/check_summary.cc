@@ -1,4 +1,4 @@
-#include "experiments/verify/check_summary.h"
+#include "halfstep/experiments/verify/check_summary.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "experiments/verify/claim_subjects.h"
+#include "halfstep/experiments/verify/claim_subjects.h"
 
 namespace halfstep::verify {
 

@@ -1,4 +1,4 @@
-#include "experiments/verify/described_sway.h"
+#include "halfstep/experiments/verify/described_sway.h"
 
 #include <algorithm>
 #include <array>

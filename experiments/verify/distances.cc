@@ -1,4 +1,4 @@
-#include "experiments/verify/distances.h"
+#include "halfstep/experiments/verify/distances.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "experiments/verify/findings.h"
+#include "halfstep/experiments/verify/findings.h"
 
 namespace halfstep::verify {
 

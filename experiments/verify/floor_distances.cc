@@ -1,4 +1,4 @@
-#include "experiments/verify/floor_distances.h"
+#include "halfstep/experiments/verify/floor_distances.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "experiments/verify/played_motion.h"
+#include "halfstep/experiments/verify/played_motion.h"
 
 namespace halfstep::verify {
 

@@ -1,4 +1,4 @@
-#include "experiments/verify/given_files.h"
+#include "halfstep/experiments/verify/given_files.h"
 
 #include <filesystem>
 

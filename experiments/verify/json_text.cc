@@ -1,9 +1,9 @@
-#include "experiments/verify/json_text.h"
+#include "halfstep/experiments/verify/json_text.h"
 
 #include <algorithm>
 
-#include "wpg/files/input_error.h"
-#include "wpg/files/nesting.h"
+#include "halfstep/wpg/files/input_error.h"
+#include "halfstep/wpg/files/nesting.h"
 
 namespace halfstep::verify {
 

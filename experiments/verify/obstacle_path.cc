@@ -1,4 +1,4 @@
-#include "experiments/verify/obstacle_path.h"
+#include "halfstep/experiments/verify/obstacle_path.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,10 @@
-#include "experiments/verify/played_motion.h"
+#include "halfstep/experiments/verify/played_motion.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/verify/csv_text.h"
-#include "wpg/check.h"
+#include "halfstep/experiments/verify/csv_text.h"
+#include "halfstep/wpg/check.h"
 
 namespace halfstep::verify {
 

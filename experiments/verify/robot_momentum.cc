@@ -1,10 +1,10 @@
-#include "experiments/verify/robot_momentum.h"
+#include "halfstep/experiments/verify/robot_momentum.h"
 
 #include <Eigen/Eigenvalues>
 #include <array>
 #include <cmath>
 
-#include "wpg/motion/posture.h"
+#include "halfstep/wpg/motion/posture.h"
 
 namespace halfstep::verify {
 namespace {

@@ -1,4 +1,4 @@
-#include "experiments/verify/solid.h"
+#include "halfstep/experiments/verify/solid.h"
 
 #include <algorithm>
 #include <cmath>

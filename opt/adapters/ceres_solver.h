@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "opt/solvers/solver.h"
+#include "halfstep/opt/solvers/solver.h"
 
 namespace halfstep::opt {
 

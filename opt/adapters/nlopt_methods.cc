@@ -1,4 +1,4 @@
-#include "opt/adapters/nlopt_solver.h"
+#include "halfstep/opt/adapters/nlopt_solver.h"
 
 namespace halfstep::opt {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "opt/solvers/solver.h"
+#include "halfstep/opt/solvers/solver.h"
 
 namespace halfstep::opt {
 

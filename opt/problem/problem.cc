@@ -1,11 +1,11 @@
-#include "opt/problem/problem.h"
+#include "halfstep/opt/problem/problem.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
-#include "opt/problem/require.h"
+#include "halfstep/opt/problem/require.h"
 
 namespace halfstep::opt {
 namespace {

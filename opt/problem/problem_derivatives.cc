@@ -1,4 +1,4 @@
-#include "opt/problem/problem_derivatives.h"
+#include "halfstep/opt/problem/problem_derivatives.h"
 
 namespace halfstep::opt {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "opt/problem/problem.h"
+#include "halfstep/opt/problem/problem.h"
 
 namespace halfstep::opt {
 namespace {

@@ -1,4 +1,4 @@
-#include "opt/problem/stationarity.h"
+#include "halfstep/opt/problem/stationarity.h"
 
 #include <algorithm>
 #include <cmath>

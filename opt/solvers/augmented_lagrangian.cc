@@ -1,4 +1,4 @@
-#include "opt/solvers/augmented_lagrangian.h"
+#include "halfstep/opt/solvers/augmented_lagrangian.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "opt/solvers/barrier_terms.h"
+#include "halfstep/opt/solvers/barrier_terms.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "opt/solvers/ending.h"
+#include "halfstep/opt/solvers/ending.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "opt/solvers/option_text.h"
+#include "halfstep/opt/solvers/option_text.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
-#include "opt/solvers/own_options.h"
+#include "halfstep/opt/solvers/own_options.h"
 
 #include <algorithm>
 
-#include "opt/solvers/option_text.h"
+#include "halfstep/opt/solvers/option_text.h"
 
 namespace halfstep::opt {
 

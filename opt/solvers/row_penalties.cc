@@ -1,4 +1,4 @@
-#include "opt/solvers/row_penalties.h"
+#include "halfstep/opt/solvers/row_penalties.h"
 
 #include <algorithm>
 

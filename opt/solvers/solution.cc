@@ -1,4 +1,4 @@
-#include "opt/solvers/solution.h"
+#include "halfstep/opt/solvers/solution.h"
 
 #include <sstream>
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "opt/solvers/ending.h"
-#include "opt/solvers/warm_start.h"
+#include "halfstep/opt/solvers/ending.h"
+#include "halfstep/opt/solvers/warm_start.h"
 
 namespace halfstep::opt {
 

@@ -1,11 +1,11 @@
-#include "opt/solvers/solve_monitor.h"
+#include "halfstep/opt/solvers/solve_monitor.h"
 
 #include <cmath>
 #include <limits>
 #include <sstream>
 #include <utility>
 
-#include "opt/problem/stationarity.h"
+#include "halfstep/opt/problem/stationarity.h"
 
 namespace halfstep::opt {
 namespace {

@@ -1,9 +1,9 @@
-#include "planner/collision/bounds_tree.h"
+#include "halfstep/planner/collision/bounds_tree.h"
 
 #include <algorithm>
 #include <numeric>
 
-#include "wpg/check.h"
+#include "halfstep/wpg/check.h"
 
 namespace halfstep {
 

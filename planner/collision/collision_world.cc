@@ -1,4 +1,4 @@
-#include "planner/collision/collision_world.h"
+#include "halfstep/planner/collision/collision_world.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "wpg/check.h"
+#include "halfstep/wpg/check.h"
 
 namespace halfstep {
 namespace {

@@ -1,4 +1,4 @@
-#include "planner/collision/mesh_patches.h"
+#include "halfstep/planner/collision/mesh_patches.h"
 
 #include <algorithm>
 #include <array>

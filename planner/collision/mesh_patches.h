@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "planner/scene/scene.h"
+#include "halfstep/planner/scene/scene.h"
 
 namespace halfstep {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "planner/collision/triangle_tree.h"
+#include "halfstep/planner/collision/triangle_tree.h"
 
 namespace halfstep {
 

@@ -1,8 +1,8 @@
-#include "planner/collision/triangle_tree.h"
+#include "halfstep/planner/collision/triangle_tree.h"
 
 #include <Eigen/Geometry>
 
-#include "wpg/check.h"
+#include "halfstep/wpg/check.h"
 
 namespace halfstep {
 namespace {

@@ -1,4 +1,4 @@
-#include "planner/scene/mesh_floor.h"
+#include "halfstep/planner/scene/mesh_floor.h"
 
 #include <algorithm>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "planner/scene/motion_fields.h"
+#include "halfstep/planner/scene/motion_fields.h"
 
 #include <cstdio>
 #include <optional>

@@ -1,8 +1,8 @@
-#include "planner/scene/no_step_areas.h"
+#include "halfstep/planner/scene/no_step_areas.h"
 
 #include <algorithm>
 
-#include "planner/scene/simple_polygon.h"
+#include "halfstep/planner/scene/simple_polygon.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "planner/scene/shape.h"
+#include "halfstep/planner/scene/shape.h"
 
 #include <type_traits>
 

@@ -1,4 +1,4 @@
-#include "planner/scene/simple_polygon.h"
+#include "halfstep/planner/scene/simple_polygon.h"
 
 #include <algorithm>
 #include <cmath>

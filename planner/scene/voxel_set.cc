@@ -1,4 +1,4 @@
-#include "planner/scene/voxel_set.h"
+#include "halfstep/planner/scene/voxel_set.h"
 
 #include <algorithm>
 #include <array>

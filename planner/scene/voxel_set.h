@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "planner/scene/shape.h"
+#include "halfstep/planner/scene/shape.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "planner/search/box_path.h"
+#include "halfstep/planner/search/box_path.h"
 
 #include <algorithm>
 #include <array>
@@ -8,9 +8,9 @@
 #include <tuple>
 #include <unordered_map>
 
-#include "planner/scene/simple_polygon.h"
-#include "wpg/check.h"
-#include "wpg/geometry/support_polygon.h"
+#include "halfstep/planner/scene/simple_polygon.h"
+#include "halfstep/wpg/check.h"
+#include "halfstep/wpg/geometry/support_polygon.h"
 
 namespace halfstep {
 namespace {

@@ -1,4 +1,4 @@
-#include "planner/search/footstep_astar.h"
+#include "halfstep/planner/search/footstep_astar.h"
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,8 @@
-#include "planner/search/half_step_set.h"
+#include "halfstep/planner/search/half_step_set.h"
 
 #include <cmath>
 
-#include "wpg/check.h"
+#include "halfstep/wpg/check.h"
 
 namespace halfstep {
 

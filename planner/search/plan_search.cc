@@ -1,9 +1,9 @@
-#include "planner/search/plan_search.h"
+#include "halfstep/planner/search/plan_search.h"
 
 #include <cmath>
 #include <sstream>
 
-#include "wpg/check.h"
+#include "halfstep/wpg/check.h"
 
 namespace halfstep {
 namespace {

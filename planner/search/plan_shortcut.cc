@@ -1,11 +1,11 @@
-#include "planner/search/plan_shortcut.h"
+#include "halfstep/planner/search/plan_shortcut.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
 
-#include "planner/search/step_tree.h"
+#include "halfstep/planner/search/step_tree.h"
 
 namespace halfstep {
 namespace {

@@ -1,6 +1,6 @@
-#include "planner/search/planner_registry.h"
+#include "halfstep/planner/search/planner_registry.h"
 
-#include "wpg/check.h"
+#include "halfstep/wpg/check.h"
 
 namespace halfstep {
 

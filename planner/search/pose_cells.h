@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <numbers>
 
-#include "planner/search/step_graph.h"
+#include "halfstep/planner/search/step_graph.h"
 
 namespace halfstep {
 

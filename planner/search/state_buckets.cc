@@ -1,11 +1,11 @@
-#include "planner/search/state_buckets.h"
+#include "halfstep/planner/search/state_buckets.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
-#include "wpg/check.h"
+#include "halfstep/wpg/check.h"
 
 namespace halfstep {
 

@@ -1,10 +1,10 @@
-#include "planner/search/step_cost.h"
+#include "halfstep/planner/search/step_cost.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "wpg/check.h"
+#include "halfstep/wpg/check.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "planner/search/step_graph.h"
+#include "halfstep/planner/search/step_graph.h"
 
 #include <algorithm>
 #include <cmath>

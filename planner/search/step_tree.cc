@@ -1,4 +1,4 @@
-#include "planner/search/step_tree.h"
+#include "halfstep/planner/search/step_tree.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "planner/search/termination.h"
+#include "halfstep/planner/search/termination.h"
 
 #include <utility>
 

@@ -1,4 +1,4 @@
-#include "planner/swept/box_tree.h"
+#include "halfstep/planner/swept/box_tree.h"
 
 #include <limits>
 

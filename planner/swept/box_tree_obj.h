@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "planner/swept/box_tree.h"
+#include "halfstep/planner/swept/box_tree.h"
 
 namespace halfstep {
 

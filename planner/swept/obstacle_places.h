@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "planner/scene/scene.h"
+#include "halfstep/planner/scene/scene.h"
 
 namespace halfstep {
 

@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 
-#include "planner/swept/box_tree.h"
-#include "planner/swept/four_floats.h"
+#include "halfstep/planner/swept/box_tree.h"
+#include "halfstep/planner/swept/four_floats.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "planner/swept/swept_volume.h"
+#include "halfstep/planner/swept/swept_volume.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <numeric>
 #include <utility>
 
-#include "wpg/check.h"
+#include "halfstep/wpg/check.h"
 
 namespace halfstep {
 namespace {

@@ -1,4 +1,4 @@
-#include "planner/swept/swept_volume_bake.h"
+#include "halfstep/planner/swept/swept_volume_bake.h"
 
 #include <algorithm>
 #include <atomic>

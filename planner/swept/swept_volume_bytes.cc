@@ -1,4 +1,4 @@
-#include "planner/swept/swept_volume_bytes.h"
+#include "halfstep/planner/swept/swept_volume_bytes.h"
 
 #include <cstdint>
 #include <cstring>

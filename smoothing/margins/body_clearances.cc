@@ -1,8 +1,8 @@
-#include "smoothing/margins/body_clearances.h"
+#include "halfstep/smoothing/margins/body_clearances.h"
 
 #include <algorithm>
 
-#include "planner/collision/separation.h"
+#include "halfstep/planner/collision/separation.h"
 
 namespace halfstep {
 namespace {

@@ -1,4 +1,4 @@
-#include "smoothing/margins/body_heights.h"
+#include "halfstep/smoothing/margins/body_heights.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "smoothing/margins/clearance_margin.h"
+#include "halfstep/smoothing/margins/clearance_margin.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
-#include "smoothing/margins/family_traits.h"
+#include "halfstep/smoothing/margins/family_traits.h"
 
 #include <algorithm>
 
-#include "smoothing/margins/all_families.h"
+#include "halfstep/smoothing/margins/all_families.h"
 
 namespace halfstep {
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string_view>
 
-#include "smoothing/margins/margin.h"
+#include "halfstep/smoothing/margins/margin.h"
 
 namespace halfstep {
 

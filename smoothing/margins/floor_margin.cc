@@ -1,4 +1,4 @@
-#include "smoothing/margins/floor_margin.h"
+#include "halfstep/smoothing/margins/floor_margin.h"
 
 #include <cmath>
 

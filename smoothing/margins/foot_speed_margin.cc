@@ -1,4 +1,4 @@
-#include "smoothing/margins/foot_speed_margin.h"
+#include "halfstep/smoothing/margins/foot_speed_margin.h"
 
 namespace halfstep {
 

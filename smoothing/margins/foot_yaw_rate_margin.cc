@@ -1,4 +1,4 @@
-#include "smoothing/margins/foot_yaw_rate_margin.h"
+#include "halfstep/smoothing/margins/foot_yaw_rate_margin.h"
 
 #include <cmath>
 

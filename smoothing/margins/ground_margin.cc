@@ -1,4 +1,4 @@
-#include "smoothing/margins/ground_margin.h"
+#include "halfstep/smoothing/margins/ground_margin.h"
 
 #include <algorithm>
 #include <cmath>

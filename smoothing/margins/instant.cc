@@ -1,4 +1,4 @@
-#include "smoothing/margins/instant.h"
+#include "halfstep/smoothing/margins/instant.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "smoothing/margins/joint_margin.h"
+#include "halfstep/smoothing/margins/joint_margin.h"
 
 #include <algorithm>
 #include <cmath>

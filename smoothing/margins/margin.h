@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "smoothing/walk/superposed_walk.h"
+#include "halfstep/smoothing/walk/superposed_walk.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "smoothing/margins/no_step_margin.h"
+#include "halfstep/smoothing/margins/no_step_margin.h"
 
 #include <cmath>
 #include <limits>

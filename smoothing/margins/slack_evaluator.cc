@@ -1,4 +1,4 @@
-#include "smoothing/margins/slack_evaluator.h"
+#include "halfstep/smoothing/margins/slack_evaluator.h"
 
 #include <algorithm>
 #include <utility>

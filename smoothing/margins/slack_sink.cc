@@ -1,4 +1,4 @@
-#include "smoothing/margins/slack_sink.h"
+#include "halfstep/smoothing/margins/slack_sink.h"
 
 namespace halfstep {
 

@@ -1,8 +1,8 @@
-#include "smoothing/margins/zmp_margin.h"
+#include "halfstep/smoothing/margins/zmp_margin.h"
 
 #include <limits>
 
-#include "wpg/geometry/support_polygon.h"
+#include "halfstep/wpg/geometry/support_polygon.h"
 
 namespace halfstep {
 

@@ -1,12 +1,12 @@
-#include "smoothing/methods/coordinate_ascent.h"
+#include "halfstep/smoothing/methods/coordinate_ascent.h"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 
-#include "smoothing/proof/stretch_proofs.h"
-#include "smoothing/walk/superposed_walk.h"
-#include "wpg/check.h"
+#include "halfstep/smoothing/proof/stretch_proofs.h"
+#include "halfstep/smoothing/walk/superposed_walk.h"
+#include "halfstep/wpg/check.h"
 
 namespace halfstep {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "smoothing/methods/smoothing_monitor.h"
+#include "halfstep/smoothing/methods/smoothing_monitor.h"
 
 namespace halfstep {
 

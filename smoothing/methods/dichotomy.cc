@@ -1,12 +1,12 @@
-#include "smoothing/methods/dichotomy.h"
+#include "halfstep/smoothing/methods/dichotomy.h"
 
 #include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
 
-#include "smoothing/walk/superposed_walk.h"
-#include "wpg/check.h"
+#include "halfstep/smoothing/walk/superposed_walk.h"
+#include "halfstep/wpg/check.h"
 
 namespace halfstep {
 namespace {

@@ -1,12 +1,12 @@
-#include "smoothing/methods/improve_ahead.h"
+#include "halfstep/smoothing/methods/improve_ahead.h"
 
 #include <algorithm>
 #include <limits>
 #include <utility>
 
-#include "opt/adapters/solver_registry.h"
-#include "smoothing/methods/window_search.h"
-#include "wpg/check.h"
+#include "halfstep/opt/adapters/solver_registry.h"
+#include "halfstep/smoothing/methods/window_search.h"
+#include "halfstep/wpg/check.h"
 
 namespace halfstep {
 namespace {

@@ -1,4 +1,4 @@
-#include "smoothing/methods/search_ending.h"
+#include "halfstep/smoothing/methods/search_ending.h"
 
 #include <cmath>
 #include <sstream>

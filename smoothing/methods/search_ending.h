@@ -3,7 +3,7 @@
 #include <limits>
 #include <string>
 
-#include "opt/solvers/solution.h"
+#include "halfstep/opt/solvers/solution.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "smoothing/methods/smoothing_monitor.h"
+#include "halfstep/smoothing/methods/smoothing_monitor.h"
 
 #include <utility>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "smoothing/methods/smoothing_monitor.h"
+#include "halfstep/smoothing/methods/smoothing_monitor.h"
 
 namespace halfstep {
 

@@ -1,10 +1,10 @@
-#include "smoothing/methods/walk_problem.h"
+#include "halfstep/smoothing/methods/walk_problem.h"
 
 #include <string>
 #include <utility>
 
-#include "smoothing/proof/certified_feasibility.h"
-#include "wpg/check.h"
+#include "halfstep/smoothing/proof/certified_feasibility.h"
+#include "halfstep/wpg/check.h"
 
 namespace halfstep {
 

@@ -1,8 +1,8 @@
-#include "smoothing/program/overlap_costs.h"
+#include "halfstep/smoothing/program/overlap_costs.h"
 
 #include <string>
 
-#include "smoothing/program/overlap_program.h"
+#include "halfstep/smoothing/program/overlap_program.h"
 
 namespace halfstep {
 namespace {

@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <memory>
 
-#include "opt/problem/problem.h"
-#include "smoothing/program/overlap_variables.h"
+#include "halfstep/opt/problem/problem.h"
+#include "halfstep/smoothing/program/overlap_variables.h"
 
 namespace halfstep {
 

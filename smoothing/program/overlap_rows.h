@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "opt/problem/problem.h"
+#include "halfstep/opt/problem/problem.h"
 
 namespace halfstep {
 

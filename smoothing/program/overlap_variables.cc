@@ -1,4 +1,4 @@
-#include "smoothing/program/overlap_variables.h"
+#include "halfstep/smoothing/program/overlap_variables.h"
 
 #include <algorithm>
 #include <cmath>

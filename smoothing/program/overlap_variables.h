@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "smoothing/walk/parameter_table.h"
+#include "halfstep/smoothing/walk/parameter_table.h"
 
 namespace halfstep {
 

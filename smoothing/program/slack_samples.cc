@@ -1,4 +1,4 @@
-#include "smoothing/program/slack_samples.h"
+#include "halfstep/smoothing/program/slack_samples.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "smoothing/margins/margin.h"
+#include "halfstep/smoothing/margins/margin.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "smoothing/proof/certified_feasibility.h"
+#include "halfstep/smoothing/proof/certified_feasibility.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <tuple>
 #include <utility>
 
-#include "wpg/check.h"
+#include "halfstep/wpg/check.h"
 
 namespace halfstep {
 namespace {

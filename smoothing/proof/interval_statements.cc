@@ -1,4 +1,4 @@
-#include "smoothing/proof/interval_statements.h"
+#include "halfstep/smoothing/proof/interval_statements.h"
 
 #include <algorithm>
 

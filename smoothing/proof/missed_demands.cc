@@ -1,4 +1,4 @@
-#include "smoothing/proof/missed_demands.h"
+#include "halfstep/smoothing/proof/missed_demands.h"
 
 #include <algorithm>
 #include <cmath>

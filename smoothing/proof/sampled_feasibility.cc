@@ -1,11 +1,11 @@
-#include "smoothing/proof/sampled_feasibility.h"
+#include "halfstep/smoothing/proof/sampled_feasibility.h"
 
 #include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <utility>
 
-#include "wpg/check.h"
+#include "halfstep/wpg/check.h"
 
 namespace halfstep {
 namespace {

@@ -3,7 +3,7 @@
 #include <stop_token>
 #include <string>
 
-#include "smoothing/proof/feasibility_test.h"
+#include "halfstep/smoothing/proof/feasibility_test.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "smoothing/proof/stoppable_feasibility.h"
+#include "halfstep/smoothing/proof/stoppable_feasibility.h"
 
 #include <utility>
 

@@ -1,4 +1,4 @@
-#include "smoothing/proof/stretch_proofs.h"
+#include "halfstep/smoothing/proof/stretch_proofs.h"
 
 #include <algorithm>
 #include <optional>

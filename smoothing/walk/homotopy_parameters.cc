@@ -1,10 +1,10 @@
-#include "smoothing/walk/homotopy_parameters.h"
+#include "halfstep/smoothing/walk/homotopy_parameters.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "wpg/check.h"
+#include "halfstep/wpg/check.h"
 
 namespace halfstep {
 

@@ -1,10 +1,10 @@
-#include "smoothing/walk/parameter_table.h"
+#include "halfstep/smoothing/walk/parameter_table.h"
 
 #include <algorithm>
 #include <cmath>
 #include <sstream>
 
-#include "wpg/check.h"
+#include "halfstep/wpg/check.h"
 
 namespace halfstep {
 namespace {

@@ -1,9 +1,9 @@
-#include "smoothing/walk/splice.h"
+#include "halfstep/smoothing/walk/splice.h"
 
 #include <algorithm>
 #include <limits>
 
-#include "wpg/check.h"
+#include "halfstep/wpg/check.h"
 
 namespace halfstep {
 namespace {

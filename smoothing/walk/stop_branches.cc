@@ -1,4 +1,4 @@
-#include "smoothing/walk/stop_branches.h"
+#include "halfstep/smoothing/walk/stop_branches.h"
 
 namespace halfstep {
 

@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-#include "wpg/motion/half_step.h"
+#include "halfstep/wpg/motion/half_step.h"
 
 namespace halfstep {
 

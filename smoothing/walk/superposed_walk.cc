@@ -1,9 +1,9 @@
-#include "smoothing/walk/superposed_walk.h"
+#include "halfstep/smoothing/walk/superposed_walk.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "wpg/check.h"
+#include "halfstep/wpg/check.h"
 
 namespace halfstep {
 namespace {

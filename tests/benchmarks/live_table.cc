@@ -6,7 +6,7 @@
 #include <functional>
 #include <string>
 
-#include "wpg/files/text.h"
+#include "halfstep/wpg/files/text.h"
 
 namespace halfstep {
 namespace {

@@ -1,4 +1,4 @@
-#include "experiments/tables/csv_writer.h"
+#include "halfstep/experiments/tables/csv_writer.h"
 
 #include <gtest/gtest.h>
 

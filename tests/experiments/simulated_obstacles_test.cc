@@ -1,12 +1,13 @@
-#include "experiments/replay/simulated_obstacles.h"
+#include "halfstep/experiments/config/data_folder.h"
+#include "halfstep/experiments/replay/simulated_obstacles.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "experiments/config/experiment.h"
-#include "experiments/replay/mujoco_model.h"
-#include "experiments/replay/simulation.h"
-#include "wpg/robot/robot_tree.h"
+#include "halfstep/experiments/config/experiment.h"
+#include "halfstep/experiments/replay/mujoco_model.h"
+#include "halfstep/experiments/replay/simulation.h"
+#include "halfstep/wpg/robot/robot_tree.h"
 
 namespace halfstep::replay {
 namespace {

@@ -1,4 +1,4 @@
-#include "experiments/live/past_worlds.h"
+#include "halfstep/experiments/live/past_worlds.h"
 
 #include <gtest/gtest.h>
 

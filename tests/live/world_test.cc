@@ -1,11 +1,11 @@
-#include "experiments/live/world.h"
+#include "halfstep/experiments/live/world.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "experiments/live/past_worlds.h"
+#include "halfstep/experiments/live/past_worlds.h"
 #include "tests/live/small_episode.h"
 
 namespace halfstep {

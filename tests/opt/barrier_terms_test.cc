@@ -1,11 +1,11 @@
-#include "opt/solvers/barrier_terms.h"
+#include "halfstep/opt/solvers/barrier_terms.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "opt/problem/derivative_check.h"
+#include "halfstep/opt/problem/derivative_check.h"
 
 namespace halfstep::opt {
 namespace {

@@ -1,4 +1,4 @@
-#include "opt/problem/derivative_check.h"
+#include "halfstep/opt/problem/derivative_check.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "opt/solvers/solve_monitor.h"
+#include "halfstep/opt/solvers/solve_monitor.h"
 
 #include <gtest/gtest.h>
 

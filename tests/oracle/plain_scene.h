@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/verify/min_norm_point.h"
+#include "halfstep/experiments/verify/min_norm_point.h"
 
 namespace halfstep::oracle {
 

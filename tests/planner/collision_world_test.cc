@@ -1,4 +1,4 @@
-#include "planner/collision/collision_world.h"
+#include "halfstep/planner/collision/collision_world.h"
 
 #include <gtest/gtest.h>
 

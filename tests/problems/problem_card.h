@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "opt/problem/problem.h"
+#include "halfstep/opt/problem/problem.h"
 
 namespace halfstep::testing {
 

@@ -7,7 +7,7 @@
 #include <memory>
 #include <string>
 
-#include "opt/adapters/solver_registry.h"
+#include "halfstep/opt/adapters/solver_registry.h"
 
 namespace halfstep::testing {
 

@@ -1,4 +1,4 @@
-#include "smoothing/proof/sampled_feasibility.h"
+#include "halfstep/smoothing/proof/sampled_feasibility.h"
 
 #include <gtest/gtest.h>
 

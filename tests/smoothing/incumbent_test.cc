@@ -1,10 +1,10 @@
-#include "smoothing/methods/incumbent.h"
+#include "halfstep/smoothing/methods/incumbent.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "smoothing/program/overlap_program.h"
+#include "halfstep/smoothing/program/overlap_program.h"
 #include "tests/smoothing/fake_feasibility.h"
 #include "tests/smoothing/test_walks.h"
 

@@ -1,4 +1,4 @@
-#include "smoothing/proof/missed_demands.h"
+#include "halfstep/smoothing/proof/missed_demands.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <limits>
 #include <map>
 
-#include "smoothing/proof/certified_feasibility.h"
+#include "halfstep/smoothing/proof/certified_feasibility.h"
 #include "tests/wpg/hrp2.h"
 
 namespace halfstep {

@@ -1,4 +1,4 @@
-#include "smoothing/methods/search_ending.h"
+#include "halfstep/smoothing/methods/search_ending.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // Rests, and walks that follow on others. Statements by number: smoothing/README.md, "Successors".
 
-#include "smoothing/walk/splice.h"
+#include "halfstep/smoothing/walk/splice.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "wpg/geometry/convex_body.h"
+#include "halfstep/wpg/geometry/convex_body.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

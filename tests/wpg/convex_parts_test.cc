@@ -1,4 +1,4 @@
-#include "wpg/geometry/convex_parts.h"
+#include "halfstep/wpg/geometry/convex_parts.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "wpg/geometry/footprint.h"
+#include "halfstep/wpg/geometry/footprint.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "wpg/motion/half_step.h"
+#include "halfstep/wpg/motion/half_step.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "opt/problem/derivative_check.h"
+#include "halfstep/opt/problem/derivative_check.h"
 
 namespace halfstep {
 namespace {

@@ -1,4 +1,4 @@
-#include "wpg/robot/leg_ik.h"
+#include "halfstep/wpg/robot/leg_ik.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "wpg/files/nesting.h"
+#include "halfstep/wpg/files/nesting.h"
 
 #include <gtest/gtest.h>
 

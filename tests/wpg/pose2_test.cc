@@ -1,4 +1,4 @@
-#include "wpg/geometry/pose2.h"
+#include "halfstep/wpg/geometry/pose2.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "wpg/robot/robot_tree.h"
+#include "halfstep/wpg/robot/robot_tree.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "wpg/geometry/simplified_hull.h"
+#include "halfstep/wpg/geometry/simplified_hull.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "wpg/files/input_error.h"
+#include "halfstep/wpg/files/input_error.h"
 
 #include <algorithm>
 #include <numeric>

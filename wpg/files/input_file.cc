@@ -1,8 +1,8 @@
-#include "wpg/files/input_file.h"
+#include "halfstep/wpg/files/input_file.h"
 
 #include <filesystem>
 
-#include "wpg/files/sha256.h"
+#include "halfstep/wpg/files/sha256.h"
 
 namespace halfstep {
 

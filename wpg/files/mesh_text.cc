@@ -1,11 +1,11 @@
-#include "wpg/files/mesh_text.h"
+#include "halfstep/wpg/files/mesh_text.h"
 
 #include <charconv>
 #include <cmath>
 #include <utility>
 
-#include "wpg/files/input_error.h"
-#include "wpg/files/text.h"
+#include "halfstep/wpg/files/input_error.h"
+#include "halfstep/wpg/files/text.h"
 
 namespace halfstep {
 namespace {

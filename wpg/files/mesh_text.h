@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "wpg/files/mesh_file.h"
+#include "halfstep/wpg/files/mesh_file.h"
 
 namespace halfstep {
 

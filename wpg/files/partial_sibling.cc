@@ -1,4 +1,4 @@
-#include "wpg/files/partial_sibling.h"
+#include "halfstep/wpg/files/partial_sibling.h"
 
 #include <fcntl.h>
 #include <sys/file.h>

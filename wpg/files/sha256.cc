@@ -1,4 +1,4 @@
-#include "wpg/files/sha256.h"
+#include "halfstep/wpg/files/sha256.h"
 
 #include <openssl/evp.h>
 

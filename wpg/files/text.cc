@@ -1,4 +1,4 @@
-#include "wpg/files/text.h"
+#include "halfstep/wpg/files/text.h"
 
 #include <algorithm>
 #include <cstdarg>

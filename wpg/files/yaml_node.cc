@@ -1,10 +1,10 @@
-#include "wpg/files/yaml_node.h"
+#include "halfstep/wpg/files/yaml_node.h"
 
 #include <algorithm>
 #include <limits>
 
-#include "wpg/files/input_error.h"
-#include "wpg/files/text.h"
+#include "halfstep/wpg/files/input_error.h"
+#include "halfstep/wpg/files/text.h"
 
 namespace halfstep {
 namespace {

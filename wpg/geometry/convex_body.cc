@@ -1,11 +1,11 @@
-#include "wpg/geometry/convex_body.h"
+#include "halfstep/wpg/geometry/convex_body.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "wpg/check.h"
+#include "halfstep/wpg/check.h"
 
 namespace halfstep {
 namespace {

@@ -1,4 +1,4 @@
-#include "wpg/geometry/direction_map.h"
+#include "halfstep/wpg/geometry/direction_map.h"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 #include <limits>
 #include <numeric>
 
-#include "wpg/check.h"
+#include "halfstep/wpg/check.h"
 
 namespace halfstep {
 namespace {

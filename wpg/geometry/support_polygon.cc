@@ -1,8 +1,8 @@
-#include "wpg/geometry/support_polygon.h"
+#include "halfstep/wpg/geometry/support_polygon.h"
 
 #include <limits>
 
-#include "wpg/geometry/planar_hull.h"
+#include "halfstep/wpg/geometry/planar_hull.h"
 
 namespace halfstep {
 namespace {

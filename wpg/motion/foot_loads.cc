@@ -1,4 +1,4 @@
-#include "wpg/motion/foot_loads.h"
+#include "halfstep/wpg/motion/foot_loads.h"
 
 #include <algorithm>
 

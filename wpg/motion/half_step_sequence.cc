@@ -1,6 +1,6 @@
-#include "wpg/motion/half_step_sequence.h"
+#include "halfstep/wpg/motion/half_step_sequence.h"
 
-#include "wpg/check.h"
+#include "halfstep/wpg/check.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "wpg/motion/leg_drift.h"
+#include "halfstep/wpg/motion/leg_drift.h"
 
 #include <algorithm>
 #include <cmath>

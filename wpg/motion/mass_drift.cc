@@ -1,4 +1,4 @@
-#include "wpg/motion/mass_drift.h"
+#include "halfstep/wpg/motion/mass_drift.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "wpg/motion/posture.h"
+#include "halfstep/wpg/motion/posture.h"
 
 namespace halfstep {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "wpg/motion/smoothstep.h"
+#include "halfstep/wpg/motion/smoothstep.h"
 
 namespace halfstep {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "wpg/motion/vector_ball.h"
+#include "halfstep/wpg/motion/vector_ball.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "wpg/motion/robot_drift.h"
+#include "halfstep/wpg/motion/robot_drift.h"
 
 namespace halfstep {
 

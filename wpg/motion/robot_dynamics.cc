@@ -1,6 +1,6 @@
-#include "wpg/motion/robot_dynamics.h"
+#include "halfstep/wpg/motion/robot_dynamics.h"
 
-#include "wpg/check.h"
+#include "halfstep/wpg/check.h"
 
 namespace halfstep {
 namespace {

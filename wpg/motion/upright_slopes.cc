@@ -1,4 +1,4 @@
-#include "wpg/motion/upright_slopes.h"
+#include "halfstep/wpg/motion/upright_slopes.h"
 
 namespace halfstep {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "wpg/motion/robot_dynamics.h"
+#include "halfstep/wpg/motion/robot_dynamics.h"
 
 namespace halfstep {
 

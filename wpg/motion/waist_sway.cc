@@ -1,4 +1,4 @@
-#include "wpg/motion/waist_sway.h"
+#include "halfstep/wpg/motion/waist_sway.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "wpg/robot/link_anchors.h"
+#include "halfstep/wpg/robot/link_anchors.h"
 
 #include <algorithm>
 

@@ -1,9 +1,9 @@
-#include "wpg/robot/met_leg.h"
+#include "halfstep/wpg/robot/met_leg.h"
 
 #include <Eigen/QR>
 #include <cmath>
 
-#include "wpg/robot/leg_ik.h"
+#include "halfstep/wpg/robot/leg_ik.h"
 
 namespace halfstep {
 

@@ -1,9 +1,9 @@
-#include "wpg/robot/offset_leg_bound.h"
+#include "halfstep/wpg/robot/offset_leg_bound.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "wpg/robot/leg_neighbourhood.h"
+#include "halfstep/wpg/robot/leg_neighbourhood.h"
 
 namespace halfstep {
 namespace {

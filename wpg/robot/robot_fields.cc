@@ -1,12 +1,12 @@
-#include "wpg/robot/robot_fields.h"
+#include "halfstep/wpg/robot/robot_fields.h"
 
 #include <algorithm>
 #include <filesystem>
 
-#include "wpg/files/number_text.h"
-#include "wpg/files/text.h"
-#include "wpg/geometry/simplified_hull.h"
-#include "wpg/robot/robot_bodies.h"
+#include "halfstep/wpg/files/number_text.h"
+#include "halfstep/wpg/files/text.h"
+#include "halfstep/wpg/geometry/simplified_hull.h"
+#include "halfstep/wpg/robot/robot_bodies.h"
 
 namespace halfstep {
 namespace {

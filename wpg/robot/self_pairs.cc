@@ -1,4 +1,4 @@
-#include "wpg/robot/self_pairs.h"
+#include "halfstep/wpg/robot/self_pairs.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "wpg/robot/torque_limits.h"
+#include "halfstep/wpg/robot/torque_limits.h"
 
 #include <cmath>
 

@@ -1,9 +1,9 @@
-#include "wpg/robot/urdf_elements.h"
+#include "halfstep/wpg/robot/urdf_elements.h"
 
 #include <algorithm>
 #include <sstream>
 
-#include "wpg/files/number_text.h"
+#include "halfstep/wpg/files/number_text.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "wpg/robot/urdf_joint.h"
+#include "halfstep/wpg/robot/urdf_joint.h"
 
 #include <cmath>
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "wpg/robot/urdf_elements.h"
+#include "halfstep/wpg/robot/urdf_elements.h"
 
 namespace halfstep {
 

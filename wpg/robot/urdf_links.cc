@@ -1,4 +1,4 @@
-#include "wpg/robot/urdf_links.h"
+#include "halfstep/wpg/robot/urdf_links.h"
 
 #include <map>
 #include <set>

@@ -1,12 +1,12 @@
-#include "wpg/robot/urdf_masses.h"
+#include "halfstep/wpg/robot/urdf_masses.h"
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <optional>
 
-#include "wpg/files/input_error.h"
-#include "wpg/files/text.h"
-#include "wpg/geometry/side.h"
+#include "halfstep/wpg/files/input_error.h"
+#include "halfstep/wpg/files/text.h"
+#include "halfstep/wpg/geometry/side.h"
 
 namespace halfstep {
 namespace {

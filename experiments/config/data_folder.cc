@@ -1,0 +1,68 @@
+#include "halfstep/experiments/config/data_folder.h"
+
+#include <dlfcn.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <optional>
+#include <system_error>
+
+namespace halfstep {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The nearest share/halfstep in a folder above a file.
+std::optional<fs::path> ShareAbove(const fs::path& file) {
+  for (fs::path folder = file.parent_path();; folder = folder.parent_path()) {
+    std::error_code ignored;
+    const fs::path share = folder / "share" / "halfstep";
+    if (fs::is_directory(share / "robots", ignored)) return share;
+    if (!folder.has_relative_path()) return std::nullopt;
+  }
+}
+
+// The library that holds the code of this file. A program may be named as it was called, which need
+// not be a path.
+std::optional<fs::path> ThisLibrary() {
+  Dl_info info;
+  if (dladdr(reinterpret_cast<const void*>(&DataFolder), &info) == 0) return std::nullopt;
+  const fs::path path = info.dli_fname;
+  return path.is_absolute() ? std::optional(path) : std::nullopt;
+}
+
+fs::path Within(const std::string& folder) {
+  const fs::path path = DataFolder() / folder;
+  std::error_code error;
+  const fs::path real = fs::canonical(path, error);
+  return error ? path : real;
+}
+
+}  // namespace
+
+fs::path DataFolder() {
+  if (const char* folder = std::getenv("HALFSTEP_DATA")) return folder;
+  if (const std::optional<fs::path> library = ThisLibrary()) {
+    if (const std::optional<fs::path> share = ShareAbove(*library)) return *share;
+  }
+  std::error_code error;
+  if (const fs::path program = fs::read_symlink("/proc/self/exe", error); !error) {
+    if (const std::optional<fs::path> share = ShareAbove(program)) return *share;
+  }
+  return HALFSTEP_DATA_DIR;
+}
+
+fs::path RobotsFolder() { return Within("robots"); }
+fs::path ScenesFolder() { return Within("scenes"); }
+
+std::vector<fs::path> YamlFiles(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code ignored;
+  for (const auto& file : fs::directory_iterator(folder, ignored)) {
+    if (file.path().extension() == ".yaml") files.push_back(file.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+}  // namespace halfstep
