@@ -17,7 +17,7 @@ class Lift : public WalkCost {
       const double scale = walk.parameters().height_scales[static_cast<size_t>(step)];
       const double height = walk.half_step(2 * step).via_height;  // scaled
       sum += height;
-      if (gradient) gradient->push_back({{ParameterFamily::kHeight, step}, height / scale});
+      if (gradient) gradient->push_back({{ParameterFamily::kHeightScale, step}, height / scale});
     }
     return sum;
   }
