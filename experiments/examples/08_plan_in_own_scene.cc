@@ -12,13 +12,13 @@ int main() {
                                               {"planner.unimproved_nodes", "0"},
                                               {"step_set.x_min_m", "0"},
                                               {"step_set.x_max_m", "0.35"},
-                                              {"step_set.y_min_m", "-0.21"},
-                                              {"step_set.y_max_m", "-0.21"},
-                                              {"step_set.yaws_rad", "[0]"},
+                                              {"step_set.y_min_m", "-0.26"},
+                                              {"step_set.y_max_m", "-0.16"},
+                                              {"step_set.yaws_rad", "[-0.25, 0, 0.25]"},
                                               {"swept_volumes.cache", "volumes"}});
   Place place = LoadPlace(config);
   place.scene.obstacles = {{.name = "plank", .shape = Box{.size = {0.05, 2.0, 0.05}}}};
-  place.scene.obstacles.front().X_WO.translation() << 0.55, 0.0, 0.025;
+  place.scene.obstacles.front().X_WO.translation() << 0.1, 0.0, 0.025;
 
   const PlannedWalk walk = PlanWalk(config, place, {});
   std::printf("%s\n", walk.plan.sentence.c_str());
