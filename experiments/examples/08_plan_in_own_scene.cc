@@ -17,7 +17,7 @@ int main() {
                                               {"step_set.yaws_rad", "[-0.25, 0, 0.25]"},
                                               {"swept_volumes.cache", "volumes"}});
   Place place = LoadPlace(config);
-  place.scene.obstacles = {{.name = "plank", .shape = Box{.size = {0.05, 2.0, 0.05}}}};
+  place.scene.obstacles = {{.name = "plank", .shape = Box{.size = {0.02, 2.0, 0.05}}}};
   place.scene.obstacles.front().X_WO.translation() << 0.1, 0.0, 0.025;
 
   const PlannedWalk walk = PlanWalk(config, place, {});
