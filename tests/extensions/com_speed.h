@@ -9,7 +9,7 @@
 
 namespace halfstep {
 
-inline constexpr double kComSpeedLimit = 0.25;  // [m/s]
+inline constexpr double kComSpeedLimit = 0.27;  // [m/s]
 
 /// The margin that this test program registers: the CoM is never faster than kComSpeedLimit.
 class ComSpeedStatement : public OwnStatement {
