@@ -15,7 +15,9 @@
 #include "halfstep/experiments/tables/parameter_tables.h"
 #include "halfstep/experiments/tables/result_tables.h"
 #include "halfstep/experiments/tables/run_folder.h"
+#include "halfstep/experiments/tables/trajectory_match.h"
 #include "halfstep/wpg/files/input_error.h"
+#include "halfstep/wpg/files/sha256.h"
 
 namespace halfstep {
 namespace {
@@ -23,11 +25,9 @@ namespace {
 namespace fs = std::filesystem;
 
 // The methods of a run, from its manifest.
-std::vector<std::string> MethodsOf(const fs::path& run) {
-  const fs::path path = run / "manifest.json";
+std::vector<std::string> MethodsOf(const fs::path& path, const nlohmann::json& manifest) {
   std::vector<std::string> methods;
   try {
-    const nlohmann::json manifest = ReadJsonObject(path);
     for (const auto& method : manifest.at("methods")) {
       methods.push_back(method.at("name").get<std::string>());
     }
@@ -35,6 +35,35 @@ std::vector<std::string> MethodsOf(const fs::path& run) {
     throw InputError({path.string() + ": is not a run's manifest: " + error.what()});
   }
   return methods;
+}
+
+// Complains about tables of a method's walk that are not as the run wrote them, by the manifest.
+void CheckUnchanged(const fs::path& run, const nlohmann::json& manifest, const std::string& place,
+                    Complaints* complaints) {
+  if (!manifest.contains("files") || !manifest["files"].is_object()) return;
+  for (const std::string table : {"overlaps.csv", "half_steps.csv", "trajectory.csv"}) {
+    const auto listed = manifest["files"].find(place + table);
+    if (listed == manifest["files"].end() || !listed->is_object()) continue;
+    const std::string path = (run / place / table).string();
+    if (listed->value("sha256", "") == Sha256(ReadCsvText(path))) continue;
+    complaints->Add(path, 0, 0, "certify",
+                    "is not as the run wrote it, and the run's other tables would not be those of "
+                    "its walk (valid: as it was; `halfstep smooth " +
+                        run.string() +
+                        " --given OVERLAPS.csv --given HALF_STEPS.csv` certifies a walk of your "
+                        "own, in a run of its own)");
+  }
+}
+
+// Refuses a walk that the trajectory beside it is not of, as another config may make it.
+void CheckTrajectoryIsOf(const CertifyCommand& command, const RobotModel& robot,
+                         const SuperposedWalk& walk, const CsvTable& trajectory) {
+  const std::string mismatch = TrajectoryMismatch(robot, walk, trajectory);
+  if (mismatch.empty()) return;
+  throw InputError({trajectory.path + ": is of another walk than config and tables make" +
+                    (command.overrides.empty() ? "" : " with --set") + ": " + mismatch +
+                    " (valid: what does not change the walk; `halfstep smooth " + command.run +
+                    " --given OVERLAPS.csv --given HALF_STEPS.csv` makes a run of another walk)"});
 }
 
 }  // namespace
@@ -50,17 +79,27 @@ ExitStatus Certify(const CertifyCommand& command) {
   const Experiment experiment = Prepare(config);
   const MarginEvaluator evaluator(experiment.robot, experiment.scene, config.smoothing.limits);
   const CertifiedFeasibility test(evaluator, config.smoothing.certification);
+  const nlohmann::json manifest = ReadJsonObject(run / "manifest.json");
+  const std::vector<std::string> methods = MethodsOf(run / "manifest.json", manifest);
+  Complaints complaints;
+  for (const std::string& method : methods) {
+    CheckUnchanged(run, manifest, MethodFolder(method) + "/", &complaints);
+  }
+  complaints.ThrowIfAny();
   RunFolder folder(run, /*overwrite=*/true);
   folder.CopyOlder();
   bool all_certified = true;
-  for (const std::string& method : MethodsOf(run)) {
+  for (const std::string& method : methods) {
     const std::string place = MethodFolder(method) + "/";
+    const HomotopyParameters parameters = ReadParameters(run / place, experiment.sequence);
+    const std::string path = (run / place / "trajectory.csv").string();
+    const std::string trajectory = ReadCsvText(path);
+    CheckTrajectoryIsOf(command, experiment.robot, SuperposedWalk(experiment.sequence, parameters),
+                        ParseCsv(trajectory, path));
     const CertifiedWalk walk =
-        CertifyWalk(test, experiment.sequence, ReadParameters(run / place, experiment.sequence),
-                    interrupt.token());
+        CertifyWalk(test, experiment.sequence, parameters, interrupt.token());
     if (walk.answer.stopped) break;
-    WriteCertificate(experiment, test, walk, ReadCsvText((run / place / "trajectory.csv").string()),
-                     place, &folder);
+    WriteCertificate(experiment, test, walk, trajectory, place, &folder);
     const bool certified = walk.answer.verdict == Verdict::kFeasible;
     all_certified = all_certified && certified;
     if (command.quiet) continue;

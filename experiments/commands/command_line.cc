@@ -19,7 +19,8 @@ constexpr CommandEntry kEntries[] = {
      DeclareRun},
     {"smooth",
      "Smooth given footsteps with each method, write a run folder.\n\n"
-     "  example: halfstep smooth runs/bar_8cm --method ipopt --method halfstep/barrier",
+     "  example: halfstep smooth runs/bar_8cm --method ipopt --method halfstep/barrier\n"
+     "  example: halfstep smooth runs/bar_8cm --given overlaps.csv --given half_steps.csv",
      DeclareSmooth},
     {"compare",
      "Compare the methods of runs; failures count as failures.\n\n"
@@ -76,7 +77,8 @@ constexpr CommandEntry kEntries[] = {
     {"export",
      "Write the walks of a run in other programs' formats.\n\n"
      "  example: halfstep export runs/bar_8cm --format hrpsys --method dichotomy\n"
-     "  example: halfstep export runs/bar_8cm --format csv --columns 'com_*' 'q_R*'",
+     "  example: halfstep export runs/bar_8cm --format csv --columns 'com_*' 'q_R*'\n"
+     "  example: halfstep export runs/bar_8cm --format mjcf --method dichotomy",
      DeclareExport},
     {"replay",
      "Play the walks of a run on a robot with masses and contacts, by simulation.\n\n"

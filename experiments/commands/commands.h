@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "halfstep/experiments/export/whole_trajectory.h"
 #include "halfstep/experiments/run/exit_status.h"
 #include "halfstep/experiments/survey/robot_survey.h"
 #include "halfstep/wpg/files/yaml_fields.h"
@@ -61,6 +62,8 @@ ExitStatus SurveyRobotFile(const RobotCommand& command);
 struct SmoothCommand {
   RunCommand run;                    ///< `config` may be a run folder too; then its config.yaml
   std::vector<std::string> methods;  ///< in place of smoothing.methods when not empty
+  /// Tables of a walk of one's own: then the methods are `given` and `methods`.
+  std::vector<std::string> given;
 };
 
 /// `halfstep smooth`: what `run` does, for given footsteps. Writes the result of a run folder RUN
@@ -91,12 +94,14 @@ ExitStatus Certify(const CertifyCommand& command);
 
 struct ExportCommand {
   std::vector<std::string> runs;  ///< one run folder; several for "ompl"
-  std::string format;             ///< "csv", "hrpsys" or "ompl"
+  std::string format;             ///< "csv", "npz", "hrpsys", "joint_trajectory", "mjcf", "ompl"
   std::optional<std::string> method;
   std::optional<std::string> out;    ///< folder; none: RUN-FORMAT
   std::optional<double> period;      ///< between rows [s], a multiple of the run's
-  std::vector<std::string> columns;  ///< globs, for csv; empty: all
-  std::vector<std::string> joints;   ///< globs in joint order, for hrpsys; empty: URDF's
+  std::vector<std::string> columns;  ///< globs, for csv and npz; empty: all
+  TrajectoryForm form;               ///< of csv and npz
+  std::vector<std::string>
+      joints;  ///< globs in joint order, hrpsys, joint_trajectory; empty: URDF's
   bool overwrite = false;
   bool quiet = false;
 };

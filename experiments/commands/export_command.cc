@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
@@ -10,11 +11,16 @@
 #include "halfstep/experiments/config/experiment.h"
 #include "halfstep/experiments/config/folder_name.h"
 #include "halfstep/experiments/export/hrpsys_files.h"
+#include "halfstep/experiments/export/joint_trajectory.h"
+#include "halfstep/experiments/export/npz_file.h"
 #include "halfstep/experiments/export/ompl_log.h"
+#include "halfstep/experiments/replay/mujoco_keyframes.h"
 #include "halfstep/experiments/tables/certificate_files.h"
 #include "halfstep/experiments/tables/csv_subset.h"
+#include "halfstep/experiments/tables/parameter_tables.h"
 #include "halfstep/experiments/tables/result_tables.h"
 #include "halfstep/experiments/tables/run_folder.h"
+#include "halfstep/experiments/tables/trajectory_match.h"
 #include "halfstep/wpg/files/input_error.h"
 #include "halfstep/wpg/files/number_text.h"
 
@@ -23,6 +29,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr double kKeyPeriod = 0.05;  // of mjcf's keyframes, where nothing else is asked for [s]
+
 void Refuse(const std::string& what) { throw InputError({what}); }
 
 // Options that the format would ignore are mistakes.
@@ -30,13 +38,19 @@ void CheckOptions(const ExportCommand& command) {
   const bool ompl = command.format == "ompl";
   if (!ompl && command.runs.size() != 1) Refuse("RUN: --format " + command.format + " takes one");
   if (ompl && command.method) Refuse("--method: --format ompl exports all methods");
-  if (ompl && command.period) Refuse("--period: not of --format ompl (valid: csv, hrpsys)");
-  if (command.format != "csv" && !command.columns.empty()) {
-    Refuse("--columns: not of --format " + command.format + " (valid: csv)");
-  }
-  if (command.format != "hrpsys" && !command.joints.empty()) {
-    Refuse("--joints: not of --format " + command.format + " (valid: hrpsys)");
-  }
+  const auto only_of = [&](const std::string& option, bool is_set,
+                           const std::vector<std::string>& formats) {
+    if (!is_set || std::ranges::find(formats, command.format) != formats.end()) return;
+    std::string valid;
+    for (const std::string& format : formats) valid += (valid.empty() ? "" : ", ") + format;
+    Refuse(option + ": not of --format " + command.format + " (valid: " + valid + ")");
+  };
+  only_of("--period", command.period.has_value(),
+          {"csv", "npz", "hrpsys", "joint_trajectory", "mjcf"});
+  only_of("--columns", !command.columns.empty(), {"csv", "npz"});
+  only_of("--all-joints", command.form.all_joints, {"csv", "npz"});
+  only_of("--waist", command.form.waist_quaternion, {"csv", "npz"});
+  only_of("--joints", !command.joints.empty(), {"hrpsys", "joint_trajectory"});
   if (command.out && command.out->empty()) Refuse("--out: no folder is named (valid: a path)");
 }
 
@@ -60,33 +74,95 @@ size_t Stride(const ExperimentConfig& config, const std::optional<double>& perio
   return static_cast<size_t>(std::lround(rows));
 }
 
-// Exports of one run, method by method.
-void ExportWalks(const ExportCommand& command, RunFolder* folder) {
-  const fs::path run(command.runs.front());
-  const std::vector<std::string> methods = MethodsOfRun(run.string(), command.method);
-  const ExperimentConfig config = LoadConfig((run / "config.yaml").string(), {});
-  const auto [robot, tree] = LoadWholeRobot(RobotPath(config).string());
-  const size_t stride = Stride(config, command.period);
-  const double period = static_cast<double>(stride) * config.output_period;
-  const std::vector<int> joints = OrderedJoints(tree, command.joints);
-  for (const std::string& method : methods) {
-    const std::string name = MethodFolder(method);
-    const fs::path trajectory = run / name / "trajectory.csv";
-    if (command.format == "csv") {
-      WriteCsv(name,
-               CsvSubset(ReadCsv(trajectory.string()), TrajectoryColumns(robot), command.columns,
-                         stride),
-               folder);
-      continue;
+/// The walks of a run on their way into one format, method by method.
+class WalkExport {
+ public:
+  WalkExport(const ExportCommand& command, RunFolder* folder)
+      : command_(command),
+        run_(command.runs.front()),
+        config_(LoadConfig((run_ / "config.yaml").string(), {})),
+        whole_(LoadWholeRobot(RobotPath(config_).string())),
+        stride_(Stride(config_, command.period)),
+        joints_(OrderedJoints(whole_.tree, command.joints)),
+        folder_(*folder) {
+    if (command.format == "mjcf") {
+      if (!command.period) stride_ = KeyStride();
+      obstacles_ = Obstacles();
     }
-    const HrpsysFiles files =
-        WriteHrpsys(robot, tree, joints, ReadTrajectory(trajectory, robot), stride, period);
-    folder->Write(name + ".pos", files.pos);
-    folder->Write(name + ".zmp", files.zmp);
-    folder->Write(name + ".waist", files.waist);
-    folder->Write(name + ".joints", files.joints);
+    if (IsOfMotion()) experiment_ = Prepare(config_);
   }
-}
+
+  void Write(const std::string& method) {
+    const std::string name = MethodFolder(method);
+    const std::string trajectory = (run_ / name / "trajectory.csv").string();
+    if (IsOfMotion()) return WriteMotion(name, trajectory);
+    if (command_.format == "hrpsys") return WriteHrpsysFiles(name, trajectory);
+    const DeclaredTable whole =
+        InForm(ReadCsv(trajectory), whole_.model, whole_.tree, command_.form);
+    const CsvFile table = CsvSubset(whole.table, whole.columns, command_.columns, stride_);
+    if (command_.format == "csv") return WriteCsv(name, table, &folder_);
+    folder_.Write(name + ".npz", NpzFile(table, trajectory));
+  }
+
+ private:
+  // Formats that need the walk itself, for derivatives.
+  bool IsOfMotion() const {
+    return command_.format == "mjcf" || command_.format == "joint_trajectory";
+  }
+  size_t KeyStride() const {
+    return static_cast<size_t>(std::max(1L, std::lround(kKeyPeriod / config_.output_period)));
+  }
+
+  std::vector<replay::SimulatedObstacle> Obstacles() const {
+    const auto scene = ScenePath(config_);
+    if (!scene) return {};
+    replay::SimulatedObstacles world = replay::ObstaclesOf(LoadScene(scene->string()));
+    for (const std::string& note : world.notes) std::cerr << "halfstep: " << note << '\n';
+    return world.obstacles;
+  }
+
+  void WriteHrpsysFiles(const std::string& name, const std::string& trajectory) {
+    const double period = static_cast<double>(stride_) * config_.output_period;
+    const HrpsysFiles files =
+        WriteHrpsys(whole_.model, whole_.tree, joints_, ReadTrajectory(trajectory, whole_.model),
+                    stride_, period);
+    folder_.Write(name + ".pos", files.pos);
+    folder_.Write(name + ".zmp", files.zmp);
+    folder_.Write(name + ".waist", files.waist);
+    folder_.Write(name + ".joints", files.joints);
+  }
+
+  void WriteMotion(const std::string& name, const std::string& trajectory) {
+    const CsvTable table = ReadCsv(trajectory);
+    const std::vector<TrajectoryRow> rows = ReadTrajectory(trajectory, whole_.model);
+    const HalfStepSequence& sequence = experiment_->sequence;
+    const SuperposedWalk walk(sequence, ReadParameters(run_ / name, sequence));
+    const std::string mismatch = TrajectoryMismatch(whole_.model, walk, table);
+    if (!mismatch.empty()) {
+      Refuse(trajectory + ": is not of the walk that config and tables make: " + mismatch +
+             " (valid: a run as it was written)");
+    }
+    const std::vector<JointMotion> motion =
+        MotionOfRows(whole_.model, walk, rows, stride_, trajectory);
+    if (command_.format == "mjcf") {
+      folder_.Write(name + ".xml",
+                    replay::MujocoKeyframes(whole_.model, whole_.tree, obstacles_, motion));
+    } else {
+      folder_.Write(name + ".yaml",
+                    JointTrajectoryYaml(whole_.model, whole_.tree, joints_, motion));
+    }
+  }
+
+  const ExportCommand& command_;
+  fs::path run_;
+  ExperimentConfig config_;
+  WholeRobot whole_;
+  size_t stride_;
+  std::vector<int> joints_;
+  RunFolder& folder_;
+  std::vector<replay::SimulatedObstacle> obstacles_;
+  std::optional<Experiment> experiment_;
+};
 
 }  // namespace
 
@@ -97,7 +173,10 @@ ExitStatus Export(const ExportCommand& command) {
   if (command.format == "ompl") {
     for (const auto& [scenario, log] : OmplLogs(command.runs)) folder.Write(scenario + ".log", log);
   } else {
-    ExportWalks(command, &folder);
+    WalkExport walks(command, &folder);
+    for (const std::string& method : MethodsOfRun(command.runs.front(), command.method)) {
+      walks.Write(method);
+    }
   }
   nlohmann::ordered_json manifest = {{"format", 1},         {"program", "halfstep"},
                                      {"kind", "export"},    {"version", kVersion},
@@ -114,18 +193,33 @@ ExitStatus Export(const ExportCommand& command) {
 CommandAction DeclareExport(CLI::App* app) {
   const auto command = std::make_shared<ExportCommand>();
   app->add_option("RUN", command->runs, "run folder; several for ompl")->required();
-  app->add_option("--format", command->format, "csv, hrpsys or ompl")
+  app->add_option("--format", command->format,
+                  "csv: columns of trajectory.csv; npz: the same as NumPy arrays; hrpsys: files of "
+                  "its SequencePlayer; joint_trajectory: ROS' trajectory_msgs/JointTrajectory as "
+                  "YAML; mjcf: robot, obstacles and keyframes for MuJoCo; ompl: benchmark logs")
       ->required()
-      ->check(CLI::IsMember({"csv", "hrpsys", "ompl"}));
+      ->check(CLI::IsMember({"csv", "npz", "hrpsys", "joint_trajectory", "mjcf", "ompl"}));
   app->add_option("--method", command->method, "only this one (default: all)");
   app->add_option("--out", command->out, "folder (default: RUN-FORMAT)");
-  app->add_option("--period", command->period, "between rows [s] (default: the run's)");
-  app->add_option("--columns", command->columns, "csv: patterns of columns (default: all)");
+  app->add_option("--period", command->period,
+                  "between rows [s] (default: the run's; mjcf: about 0.05)");
+  app->add_option("--columns", command->columns, "csv, npz: patterns of columns (default: all)");
+  app->add_flag("--all-joints", command->form.all_joints,
+                "csv, npz: columns for all joints of the robot, not only those of the legs");
+  const auto waist = std::make_shared<std::string>();
+  app->add_option("--waist", *waist,
+                  "csv, npz: yaw, or quaternion: waist_qw, qx, qy, qz in place of waist_yaw_rad "
+                  "(default: yaw)")
+      ->check(CLI::IsMember({"yaw", "quaternion"}));
   app->add_option("--joints", command->joints,
-                  "hrpsys: patterns of joints in their order (default: the URDF's)");
+                  "hrpsys, joint_trajectory: patterns of joints in their order (default: the "
+                  "URDF's)");
   app->add_flag("--overwrite", command->overwrite, "replace an older export");
   app->add_flag("--quiet", command->quiet, "print nothing but errors");
-  return [command] { return Export(*command); };
+  return [command, waist] {
+    command->form.waist_quaternion = *waist == "quaternion";
+    return Export(*command);
+  };
 }
 
 }  // namespace halfstep

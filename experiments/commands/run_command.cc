@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -55,11 +56,25 @@ void TellMissed(const ExperimentRun& run) {
   for (const std::string& line : lines) std::cerr << "halfstep: " << line << '\n';
 }
 
+// Why the given walk is not feasible, on standard error.
+void TellGivenMissed(const ExperimentRun& run) {
+  std::vector<std::string> lines = MissedDemandsText(run.evaluator(), *run.given_missed());
+  lines.front().insert(0, "the given walk is not feasible: ");
+  for (const std::string& line : lines) std::cerr << "halfstep: " << line << '\n';
+}
+
+// Whether a method, or the user, wants the plan as a walk: `given` alone does not.
+bool WantsPlan(const ExperimentConfig& config) {
+  const std::vector<std::string>& methods = config.smoothing.methods;
+  return methods.empty() ||
+         std::ranges::any_of(methods, [](const std::string& method) { return method != "given"; });
+}
+
 // A sentence on standard error for each method that never searched or broke down.
-bool TellWhatDidNotWork(const std::vector<MethodRun>& runs) {
+bool TellWhatDidNotWork(const std::vector<MethodRun>& runs, bool wants_plan) {
   bool told = false;
   for (const MethodRun& run : runs) {
-    if (!DidNotWork(run.result.ending)) continue;
+    if (!DidNotWork(run.result.ending) || (run.method == "raw" && !wants_plan)) continue;
     std::cerr << "halfstep: " << run.method << ": " << Name(run.result.ending) << ": "
               << run.result.message << '\n';
     told = true;
@@ -87,9 +102,11 @@ ExitStatus Run(const RunCommand& command) {
   RunFolder folder(OutputFolder(command, config), command.overwrite);
   run.Smooth(hooks);
   bars.End();
-  const bool feasible = run.runs().front().result.feasible;
+  const bool wants_plan = WantsPlan(config);
+  const bool feasible = run.runs().front().result.feasible || !wants_plan;
   TellRepaired(run);
   if (!feasible) TellMissed(run);  // before the tables, which take longer
+  if (run.given_missed()) TellGivenMissed(run);
   // What smoothing had found when it was stopped is proved all the same.
   run.Certify(interrupt.requested() ? interrupt.proof_token() : interrupt.token());
   run.Write(&folder);
@@ -106,7 +123,7 @@ ExitStatus Run(const RunCommand& command) {
   }
   if (!feasible) return kFailed;
   if (interrupt.requested()) return kInterrupted;
-  return TellWhatDidNotWork(run.runs()) ? kFailed : kSuccess;
+  return TellWhatDidNotWork(run.runs(), wants_plan) ? kFailed : kSuccess;
 }
 
 CommandAction DeclareRun(CLI::App* app) {

@@ -1,10 +1,12 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "halfstep/experiments/commands/command_line.h"
 #include "halfstep/experiments/commands/commands.h"
 #include "halfstep/experiments/config/experiment_config.h"
+#include "halfstep/experiments/tables/given_walk_file.h"
 #include "halfstep/smoothing/methods/smoother_registry.h"
 #include "halfstep/wpg/files/input_error.h"
 #include "halfstep/wpg/files/text.h"
@@ -28,6 +30,20 @@ std::string MethodList(const std::vector<std::string>& methods) {
   return "[" + list + "]";
 }
 
+// The value of smoothing.given for files that are named from the working directory.
+std::string GivenGroup(const std::vector<std::string>& files) {
+  const GivenWalkFiles sorted = SortGivenFiles(files);
+  std::string group;
+  for (const auto& [key, path] :
+       {std::pair{"overlaps", sorted.overlaps}, std::pair{"half_steps", sorted.half_steps}}) {
+    if (path.empty()) continue;
+    const nlohmann::json absolute = fs::absolute(path).string();  // a text of JSON is one of YAML
+    group += (group.empty() ? "" : ", ") + std::string(key) + ": " +
+             absolute.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  }
+  return "{" + group + "}";
+}
+
 }  // namespace
 
 ExitStatus Smooth(const SmoothCommand& command) {
@@ -43,9 +59,13 @@ ExitStatus Smooth(const SmoothCommand& command) {
     if (!given.has_filename()) given = given.parent_path();  // a trailing slash
     if (!run.out) run.out = given.string() + "-smooth";
   }
-  if (!command.methods.empty()) {
-    run.overrides.push_back({"smoothing.methods", MethodList(command.methods)});
+  std::vector<std::string> methods = command.methods;
+  if (!command.given.empty()) {
+    run.overrides.push_back({"smoothing.given", GivenGroup(command.given)});
+    if (std::ranges::find(methods, "given") == methods.end())
+      methods.insert(methods.begin(), "given");
   }
+  if (!methods.empty()) run.overrides.push_back({"smoothing.methods", MethodList(methods)});
   if (LoadConfig(run.config, run.overrides).has_goal) {
     throw InputError({run.config +
                       ": goal: there are no footsteps to smooth (valid: a config with "
@@ -60,6 +80,11 @@ CommandAction DeclareSmooth(CLI::App* app) {
   app->add_option("CONFIG", command->run.config, "config with footsteps, or a run folder")
       ->required();
   app->add_option("--method", command->methods, "in place of smoothing.methods; repeatable")
+      ->allow_extra_args(false);
+  app->add_option(
+         "--given", command->given,
+         "CSV files of a walk of one's own, with columns of overlaps.csv or half_steps.csv: "
+         "the method `given`")
       ->allow_extra_args(false);
   DeclareOverrides(app, "the config", sets.get());
   app->add_option("--out", command->run.out,

@@ -46,11 +46,23 @@ std::optional<fs::path> ScenePath(const ExperimentConfig& config) {
   return (fs::path(config.directory) / config.scene).lexically_normal();
 }
 
+GivenWalkFiles GivenPaths(const ExperimentConfig& config) {
+  const auto found = [&config](const std::string& path) {
+    if (path.empty()) return path;
+    return (fs::path(config.directory) / path).lexically_normal().string();
+  };
+  return {found(config.smoothing.given.overlaps), found(config.smoothing.given.half_steps)};
+}
+
 ExperimentConfig MovedTo(const fs::path& folder, const ExperimentConfig& config) {
   ExperimentConfig moved = config;
   moved.directory = folder.string();
   if (!IsShipped(config.robot)) moved.robot = fs::proximate(RobotPath(config), folder).string();
   if (const auto scene = ScenePath(config)) moved.scene = fs::proximate(*scene, folder).string();
+  moved.smoothing.given = GivenPaths(config);
+  for (std::string* path : {&moved.smoothing.given.overlaps, &moved.smoothing.given.half_steps}) {
+    if (!path->empty()) *path = fs::proximate(*path, folder).string();
+  }
   if (!config.output_directory.empty()) moved.output_directory = ".";
   if (const std::string& cache = config.swept_volumes.cache; !cache.empty()) {
     const fs::path path = (fs::path(config.directory) / cache).lexically_normal();

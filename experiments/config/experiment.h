@@ -27,6 +27,9 @@ struct Experiment {
 std::filesystem::path RobotPath(const ExperimentConfig& config);
 std::optional<std::filesystem::path> ScenePath(const ExperimentConfig& config);
 
+/// The files of smoothing.given, as they are found from the working directory.
+GivenWalkFiles GivenPaths(const ExperimentConfig& config);
+
 /// The same config with its paths relative to another folder, so that it can be run from there. An
 /// output directory becomes that folder itself.
 ExperimentConfig MovedTo(const std::filesystem::path& folder, const ExperimentConfig& config);

@@ -267,6 +267,18 @@ std::string ComplaintAboutFixed(const ExperimentConfig& config) {
   return ComplaintAbout(sequence, FixedParameters(config.smoothing));
 }
 
+void DeclareGiven(Fields& fields, GivenWalkFiles* files) {
+  fields.Text("overlaps", &files->overlaps,
+              {.meaning = "path of a table like overlaps.csv, one row a junction",
+               .otherwise = "as planned"});
+  fields.Text("half_steps", &files->half_steps,
+              {.meaning = "path of a table like half_steps.csv, one row a half-step",
+               .otherwise = "as planned"});
+  if (files->overlaps.empty() && files->half_steps.empty()) {
+    fields.Complain("", "no table is named (valid: `overlaps`, `half_steps` or both)");
+  }
+}
+
 void DeclareLimits(Fields& fields, MarginLimits* l) {
   fields.OptionalNumber("foot_speed_m_s", &l->foot_speed,
                         {.meaning = "of the swing sole's centre; none: no limit",
@@ -341,6 +353,14 @@ void DeclareSmoothing(Fields& fields, SmoothingConfig* c) {
                            "those of `optimizer`"},
                [&](Fields& f) { DeclareHorizon(f, &c->horizon); });
   fields.List("fixed", {.meaning = "parameters that no method may move"}, &c->fixed, DeclareFixed);
+  fields.OptionalGroup("given", &c->has_given,
+                       {.meaning = "the walk of the method `given`, from tables with the columns "
+                                   "of a run; parameters without a column are as planned"},
+                       [&](Fields& f) { DeclareGiven(f, &c->given); });
+  const bool takes_given = std::ranges::find(c->methods, "given") != c->methods.end();
+  if (takes_given && !c->has_given) {
+    fields.Complain("methods", "'given' without a walk (valid: with `smoothing.given`)");
+  }
   fields.Group("limits", {.meaning = "what the robot file does not limit"},
                [&](Fields& f) { DeclareLimits(f, &c->limits); });
   fields.Group("margins", {.meaning = "demanded margins: feasible means at least this far inside"},

@@ -57,6 +57,12 @@ struct FixedConfig {
   std::optional<double> value;  ///< in the family's unit; none: as planned
 };
 
+/// Files that hold a walk of one's own, with columns of overlaps.csv and half_steps.csv; "": none.
+struct GivenWalkFiles {
+  std::string overlaps;    ///< one row a junction
+  std::string half_steps;  ///< one row a half-step
+};
+
 struct SmoothingConfig {
   std::vector<std::string> methods = {"dichotomy"};
   std::string acceptance = "certified";
@@ -68,6 +74,8 @@ struct SmoothingConfig {
   OptimizerConfig optimizer;
   HorizonOptions horizon;  ///< window, step and passes
   std::vector<FixedConfig> fixed;
+  bool has_given = false;
+  GivenWalkFiles given;  ///< of the method `given`, when has_given
   MarginLimits limits;
 };
 

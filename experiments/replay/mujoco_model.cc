@@ -116,7 +116,11 @@ class Writer {
 
   // Moved from outside, by nothing else.
   void AddObstacle(size_t index) {
-    text_ += "    <body mocap=\"true\">\n";
+    std::string place;
+    if (const auto X = obstacles_[index].pose(0.0); options_.obstacles_placed && X) {
+      place = PlaceAttributes(*X);
+    }
+    text_ += "    <body mocap=\"true\"" + place + ">\n";
     AddGeom(obstacles_[index].body, "obstacle_" + std::to_string(index), kObstacleBits, "      ");
     text_ += "    </body>\n";
   }

@@ -25,6 +25,8 @@ struct ModelOptions {
   /// Inertias by principal axes. MuJoCo finds these only so well that joint torques are off by
   /// 1e-7.
   bool principal_axes = false;
+  bool obstacles_placed =
+      false;  ///< where they are at t = 0; else at the origin until they are moved
 };
 
 /// The robot as a MuJoCo model (MJCF), standing on the floor z = 0: the URDF's links with their

@@ -149,6 +149,14 @@ void Simulation::Place(const Eigen::Isometry3d& X_WB, const std::array<Vector6d,
   mj_forward(state_->model(), data);
 }
 
+int Simulation::num_keyframes() const { return state_->model()->nkey; }
+
+void Simulation::PlaceAtKeyframe(int index) {
+  HALFSTEP_CHECK(index >= 0 && index < num_keyframes(), "keyframe " << index);
+  mj_resetDataKeyframe(state_->model(), state_->data.get(), index);
+  mj_forward(state_->model(), state_->data.get());
+}
+
 FloorForces Simulation::Step(const JointTargets& targets, const Eigen::Vector3d& push) {
   const State::Layout& layout = *state_->layout;
   const mjModel* model = layout.model.get();
@@ -249,6 +257,15 @@ std::vector<Touch> Simulation::touches() const {
 }
 
 Eigen::Isometry3d Simulation::X_WB() const { return state_->Body(state_->layout->waist); }
+
+Eigen::Isometry3d Simulation::X_WObstacle(int index) const {
+  const mjModel& model = *state_->model();
+  for (int body = 0; body < model.nbody; ++body) {
+    if (model.body_mocapid[body] == index) return state_->Body(body);
+  }
+  HALFSTEP_CHECK(false, "obstacle " << index);
+  return {};
+}
 
 Eigen::Isometry3d Simulation::X_WSole(Side side) const {
   const int geom = state_->layout->soles[static_cast<size_t>(Index(side))];

@@ -22,6 +22,8 @@ double Simulation::weight() const { throw std::logic_error(WhyNoSimulation()); }
 void Simulation::Place(const Eigen::Isometry3d&, const std::array<Vector6d, 2>&) {
   throw std::logic_error(WhyNoSimulation());
 }
+int Simulation::num_keyframes() const { throw std::logic_error(WhyNoSimulation()); }
+void Simulation::PlaceAtKeyframe(int) { throw std::logic_error(WhyNoSimulation()); }
 FloorForces Simulation::Step(const JointTargets&, const Eigen::Vector3d&) {
   throw std::logic_error(WhyNoSimulation());
 }
@@ -29,6 +31,7 @@ RobotForces Simulation::Needed(const RobotMotion&) { throw std::logic_error(WhyN
 void Simulation::MoveObstacles(double) { throw std::logic_error(WhyNoSimulation()); }
 std::vector<Touch> Simulation::touches() const { throw std::logic_error(WhyNoSimulation()); }
 Eigen::Isometry3d Simulation::X_WB() const { throw std::logic_error(WhyNoSimulation()); }
+Eigen::Isometry3d Simulation::X_WObstacle(int) const { throw std::logic_error(WhyNoSimulation()); }
 Eigen::Isometry3d Simulation::X_WSole(Side) const { throw std::logic_error(WhyNoSimulation()); }
 Eigen::Vector3d Simulation::com() const { throw std::logic_error(WhyNoSimulation()); }
 

@@ -69,6 +69,9 @@ class Simulation {
 
   /// Places the robot at rest with the waist at X_WB, and the obstacles where they are at t = 0.
   void Place(const Eigen::Isometry3d& X_WB, const std::array<Vector6d, 2>& q);
+  /// The keyframes of the model, and their state: robot and obstacles as keyframe `index` has them.
+  int num_keyframes() const;
+  void PlaceAtKeyframe(int index);
   /// Makes one time step: the servos follow `targets`, `push` [N] in W acts on the waist's CoM.
   /// Throws std::runtime_error when the simulation becomes unstable.
   FloorForces Step(const JointTargets& targets, const Eigen::Vector3d& push);
@@ -81,6 +84,8 @@ class Simulation {
   std::vector<Touch> touches() const;
 
   Eigen::Isometry3d X_WB() const;
+  /// Pose of an obstacle, by its index.
+  Eigen::Isometry3d X_WObstacle(int index) const;
   /// Pose of a sole's centre.
   Eigen::Isometry3d X_WSole(Side side) const;
   /// The CoM of all links, in W [m].

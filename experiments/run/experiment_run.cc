@@ -1,8 +1,11 @@
 #include "halfstep/experiments/run/experiment_run.h"
 
+#include <algorithm>
+
 #include "halfstep/experiments/config/folder_name.h"
 #include "halfstep/experiments/run/manifest.h"
 #include "halfstep/experiments/run/smoothing_of.h"
+#include "halfstep/experiments/tables/given_walk_file.h"
 #include "halfstep/experiments/tables/parameter_tables.h"
 #include "halfstep/smoothing/methods/overlap_prices.h"
 #include "halfstep/smoothing/methods/plan_repair.h"
@@ -41,6 +44,10 @@ MethodRun PlannedRun(const WalkProblem& problem, const std::stop_token& stop,
   return run;
 }
 
+bool TakesGiven(const ExperimentConfig& config) {
+  return std::ranges::find(config.smoothing.methods, "given") != config.smoothing.methods.end();
+}
+
 }  // namespace
 
 ExperimentRun::ExperimentRun(const ExperimentConfig& config, const RunHooks& hooks)
@@ -62,6 +69,13 @@ ExperimentRun::ExperimentRun(const ExperimentConfig& config, const RunHooks& hoo
   if (const auto stepped_on = FootprintOnNoStep(*experiment_)) {
     refusal_ = {"on_no_step_area", "the plan is not feasible: " + *stepped_on};
   }
+  ReadGiven();
+}
+
+void ExperimentRun::ReadGiven() {
+  if (!TakesGiven(config_)) return;
+  given_ =
+      ReadGivenWalk(GivenPaths(config_), experiment_->sequence, FixedParameters(config_.smoothing));
 }
 
 // Steps that were repaired are footsteps of the config with a duration and a height of their own.
@@ -82,6 +96,7 @@ void ExperimentRun::Repair(const RunHooks& hooks) {
   for (const std::string& failure : repair.failures) repaired_.push_back(failure);
   if (repair.steps.empty()) return;
   experiment_ = Prepare(config_, {experiment_->robot, experiment_->scene});
+  ReadGiven();  // what it does not say is as planned, which is something else now
 }
 
 void ExperimentRun::Smooth(const RunHooks& hooks) {
@@ -92,19 +107,31 @@ void ExperimentRun::Smooth(const RunHooks& hooks) {
   for (const std::string& sentence : repaired_) runs_.front().result.message += "; " + sentence;
   if (hooks.keep && runs_.front().result.feasible) hooks.keep();
   for (const std::string& name : config_.smoothing.methods) {
-    MethodRun run(name);
-    SmoothingMonitor monitor({.progress = [&](double done) { hooks.progress(name, done); },
-                              .stop = hooks.stop,
-                              .stop_proof = hooks.stop_step});
-    run.result = FindSmoother(name).Smooth(*problem_, OptionsOf(config_), monitor);
-    if (missed_ && run.result.ending == opt::Ending::kNotRun &&
-        run.result.parameters == runs_.front().result.parameters) {
-      run.result.message = "the planned motion is not feasible: " + runs_.front().result.message;
-    }
-    AddPrices(SuperposedWalk(experiment_->sequence, run.result.parameters), evaluator(),
-              &run.result.junctions);
-    runs_.push_back(std::move(run));
+    runs_.push_back(RunMethod(name, hooks));
   }
+}
+
+MethodRun ExperimentRun::RunMethod(const std::string& name, const RunHooks& hooks) {
+  MethodRun run(name);
+  SmoothingMonitor monitor({.progress = [&](double done) { hooks.progress(name, done); },
+                            .stop = hooks.stop,
+                            .stop_proof = hooks.stop_step});
+  SmootherOptions options = OptionsOf(config_);
+  options.given = given_;
+  run.result = FindSmoother(name).Smooth(*problem_, options, monitor);
+  const SuperposedWalk walk(experiment_->sequence, run.result.parameters);
+  if (missed_ && run.result.ending == opt::Ending::kNotRun &&
+      run.result.parameters == runs_.front().result.parameters) {
+    run.result.message = "the planned motion is not feasible: " + runs_.front().result.message;
+  }
+  if (name == "given" && run.result.ending == opt::Ending::kFailed) {
+    MarginEvaluator::Scratch scratch = evaluator().MakeScratch();
+    scratch.stop = hooks.stop_step;
+    const Feasibility answer = problem_->test().Check(walk, {0.0, walk.duration()}, &scratch);
+    given_missed_ = FindMissedDemands(evaluator(), walk, answer.witness);
+  }
+  AddPrices(walk, evaluator(), &run.result.junctions);
+  return run;
 }
 
 void ExperimentRun::Certify(const std::stop_token& stop) {
@@ -129,7 +156,12 @@ void ExperimentRun::WriteMethod(const MethodRun& run, RunFolder* folder) const {
 
 void ExperimentRun::Write(RunFolder* folder) const {
   for (const MethodRun& run : runs_) WriteMethod(run, folder);
-  const std::string resolved = ResolvedConfig(folder->path(), config_);
+  ExperimentConfig written = config_;
+  if (TakesGiven(config_)) {  // the run holds the given walk itself
+    written.smoothing.given.overlaps = (folder->path() / "given/overlaps.csv").string();
+    written.smoothing.given.half_steps = (folder->path() / "given/half_steps.csv").string();
+  }
+  const std::string resolved = ResolvedConfig(folder->path(), written);
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin_;
   folder->Write("config.yaml", resolved);
   if (planned_) folder->Write("plan.json", PlanJson(*planned_));

@@ -37,7 +37,7 @@ struct RunRefusal {
 /// certified, written.
 class ExperimentRun {
  public:
-  /// Plans and loads. Throws InputError.
+  /// Plans and loads, also the walk of the method `given`. Throws InputError.
   ExperimentRun(const ExperimentConfig& config, const RunHooks& hooks);
   ExperimentRun(const ExperimentRun&) = delete;
   ExperimentRun& operator=(const ExperimentRun&) = delete;
@@ -62,6 +62,9 @@ class ExperimentRun {
   /// What the planned motion misses; none when it is feasible.
   const std::optional<MissedDemands>& missed() const { return missed_; }
 
+  /// What the walk of the method `given` misses; none when it is feasible or not run.
+  const std::optional<MissedDemands>& given_missed() const { return given_missed_; }
+
   /// What `smoothing.repair_plan` made of the plan: a sentence on each step that it changed, or
   /// could not make feasible. Empty: nothing was to repair, or nothing was asked for.
   const std::vector<std::string>& repaired() const { return repaired_; }
@@ -70,7 +73,9 @@ class ExperimentRun {
   void Write(RunFolder* folder) const;
 
  private:
+  void ReadGiven();
   void Repair(const RunHooks& hooks);
+  MethodRun RunMethod(const std::string& name, const RunHooks& hooks);
   void WriteMethod(const MethodRun& run, RunFolder* folder) const;
 
   const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
@@ -81,7 +86,8 @@ class ExperimentRun {
   std::optional<WalkProblem> problem_;
   std::optional<CertifiedFeasibility> certifier_;
   std::vector<MethodRun> runs_;
-  std::optional<MissedDemands> missed_;
+  std::optional<MissedDemands> missed_, given_missed_;
+  std::optional<HomotopyParameters> given_;
   std::vector<std::string> repaired_;
 };
 

@@ -74,6 +74,9 @@ ordered_json Requested(const std::string& method, const SmoothingConfig& config)
               {"max_iterations", optimizer.max_iterations},
               {"deadline_s", optimizer.deadline},
               {"tolerance_s", optimizer.tolerance}};
+    case OptionGroup::kGiven:
+      return {
+          {"variables", Variables({.heights = true, .durations = true, .support_points = true})}};
     case OptionGroup::kHorizon:
       return {{"variables", Variables(program.parameters)},
               {"objective", config.optimizer.program},

@@ -31,16 +31,20 @@ CsvColumn ColumnOf(ParameterFamily family) {
           std::string(traits.meaning)};
 }
 
-CsvFile HalfStepsCsv(const HalfStepSequence& sequence, const HomotopyParameters& parameters) {
+CsvColumns HalfStepsColumns() {
   CsvColumns columns = {
       {"half_step", kInteger, "", "from 1"},
       {"kind", kString, "", "up or down"},
       {"support", kString, "", "foot that carries: left or right"},
       {"start_s", kNumber, "s", "when it begins"},
   };
+  for (const ParameterFamily family : FamiliesOf("half_steps")) columns.push_back(ColumnOf(family));
+  return columns;
+}
+
+CsvFile HalfStepsCsv(const HalfStepSequence& sequence, const HomotopyParameters& parameters) {
   const std::vector<ParameterFamily> families = FamiliesOf("half_steps");
-  for (const ParameterFamily family : families) columns.push_back(ColumnOf(family));
-  CsvWriter csv(columns);
+  CsvWriter csv(HalfStepsColumns());
   double start = 0.0;
   for (size_t i = 0; i < sequence.half_steps.size(); ++i) {
     const HalfStep& half_step = sequence.half_steps[i].half_step;

@@ -12,6 +12,8 @@ namespace halfstep {
 /// The column of a family.
 CsvColumn ColumnOf(ParameterFamily family);
 
+/// The columns of half_steps.csv.
+CsvColumns HalfStepsColumns();
 /// half_steps.csv: one row a half-step, with where the homotopy ended.
 CsvFile HalfStepsCsv(const HalfStepSequence& sequence, const HomotopyParameters& parameters);
 

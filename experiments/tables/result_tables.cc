@@ -44,8 +44,8 @@ CsvFile FootstepsCsv(const HalfStepSequence& sequence) {
   return csv.file();
 }
 
-CsvFile OverlapsCsv(const MarginEvaluator& evaluator, const MethodRun& run) {
-  CsvWriter csv({
+CsvColumns OverlapsColumns() {
+  return {
       {"junction", kInteger, "", "from 1: between half-steps `junction` and `junction` + 1"},
       {"kind", kString, "", "up_down or down_up"},
       ColumnOf(ParameterFamily::kOverlap),
@@ -62,7 +62,11 @@ CsvFile OverlapsCsv(const MarginEvaluator& evaluator, const MethodRun& run) {
       {"duration_after_s", kNumber, "s", "T of the half-step after"},
       {"height_scale_before", kNumber, "1", "height scale of the step before"},
       {"height_scale_after", kNumber, "1", "height scale of the step after"},
-  });
+  };
+}
+
+CsvFile OverlapsCsv(const MarginEvaluator& evaluator, const MethodRun& run) {
+  CsvWriter csv(OverlapsColumns());
   const HomotopyParameters& parameters = run.result.parameters;
   int index = 0;
   for (const JunctionResult& junction : run.result.junctions) {

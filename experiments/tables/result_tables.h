@@ -33,6 +33,7 @@ struct MethodRun {
 
 /// Each table of a run folder; columns: experiments/README.md.
 CsvFile FootstepsCsv(const HalfStepSequence& sequence);
+CsvColumns OverlapsColumns();
 CsvFile OverlapsCsv(const MarginEvaluator& evaluator, const MethodRun& run);
 /// One row a point of a Pareto curve: duration, proved least slack, and each family's least margin
 /// sampled every 5 ms (inf: it is nowhere watched).

@@ -9,6 +9,7 @@
 #include "halfstep/smoothing/methods/pareto.h"
 #include "halfstep/smoothing/methods/smoothing_monitor.h"
 #include "halfstep/smoothing/methods/walk_problem.h"
+#include "halfstep/smoothing/walk/homotopy_parameters.h"
 
 namespace halfstep {
 
@@ -18,10 +19,12 @@ struct SmootherOptions {
   OptimizerOptions optimizer = {};
   std::optional<ParetoOptions> pareto = std::nullopt;  ///< when set, solvers make a ParetoCurve
   HorizonOptions horizon = {};  ///< window, step and passes; the rest is `optimizer`'s
+  /// The walk of the method `given`; none: the one that the problem starts from.
+  std::optional<HomotopyParameters> given = std::nullopt;
 };
 
 /// The group of options that a method takes.
-enum class OptionGroup { kNone, kDichotomy, kOptimizer, kHorizon };
+enum class OptionGroup { kNone, kDichotomy, kOptimizer, kHorizon, kGiven };
 
 /// A method of smoothing a walk, behind the common interface. Immutable: may be called again and
 /// from several threads, with a monitor each.

@@ -7,6 +7,7 @@
 
 #include "halfstep/opt/adapters/solver_registry.h"
 #include "halfstep/smoothing/methods/coordinate_ascent.h"
+#include "halfstep/smoothing/methods/given_walk.h"
 #include "halfstep/smoothing/methods/lipm_bound.h"
 #include "halfstep/smoothing/methods/reference_search.h"
 #include "halfstep/smoothing/methods/uniform_scan.h"
@@ -149,6 +150,11 @@ SmootherList MakeSmoothers() {
   add("halfstep/horizon",
       "the program of halfstep/sqp in short windows along the walk, for walks of any length",
       kHorizon, ByWindows);
+  add("given", "no search: the walk of smoothing.given, checked and certified like any other",
+      kGiven,
+      [](const WalkProblem& problem, const SmootherOptions& options, SmoothingMonitor& monitor) {
+        return TakeGivenWalk(problem, options.given, monitor);
+      });
   return all;
 }
 

@@ -64,6 +64,8 @@ struct ParameterFamilyTraits {
   /// The least value that makes sense, and whether that value itself is allowed.
   double least;
   bool least_itself;
+  /// The largest value that files may give; +∞ where the natural bound limits it.
+  double most;
   /// The flag that lets methods move the family (null: they always may), its key in configs
   /// ("heights"), and what that key means.
   bool ParameterChoice::*chosen;

@@ -76,7 +76,7 @@ TEST(ExplainConfig, DefaultsAndKeysAreThoseOfAResolvedConfig) {
                 " start: {left: {x_m: 0, y_m: 0.1}, right: {x_m: 0, y_m: -0.1}},\n"
                 " smoothing: {fixed: [{parameter: height_scale}]}}"),
       {});
-  config.has_goal = true;  // so that its keys are written
+  config.has_goal = config.smoothing.has_given = true;  // so that their keys are written
   const YamlNode resolved =
       Parsed(WriteYaml([&config](Fields& fields) { DeclareFields(fields, &config); }));
   std::map<std::string, const YamlNode*> values;

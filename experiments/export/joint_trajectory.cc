@@ -1,0 +1,61 @@
+#include "halfstep/experiments/export/joint_trajectory.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "halfstep/wpg/files/number_text.h"
+
+namespace halfstep {
+namespace {
+
+// A float64 of a message: with a point or an exponent, so that no reader takes it for an integer.
+std::string MessageFloat(double value) {
+  std::string text = ShortestText(value);
+  if (text.find_first_of(".e") == std::string::npos) text += ".0";
+  // YAML 1.1 knows an exponent only behind a point.
+  const size_t exponent = text.find('e');
+  if (exponent != std::string::npos && text.find('.') == std::string::npos) {
+    text.insert(exponent, ".0");
+  }
+  return text;
+}
+
+std::string FloatList(const std::vector<double>& by_joint, const std::vector<int>& joints) {
+  std::string text = "[";
+  for (const int joint : joints) {
+    text += (text.size() == 1 ? "" : ", ") + MessageFloat(by_joint[static_cast<size_t>(joint)]);
+  }
+  return text + "]";
+}
+
+std::string DurationText(double t) {
+  const long nanoseconds = std::lround(t * 1e9);
+  return "{sec: " + std::to_string(nanoseconds / 1000000000) +
+         ", nanosec: " + std::to_string(nanoseconds % 1000000000) + "}";
+}
+
+}  // namespace
+
+std::string JointTrajectoryYaml(const RobotModel& robot, const RobotTree& tree,
+                                const std::vector<int>& joints,
+                                const std::vector<JointMotion>& motion) {
+  RobotTree still = tree;  // joints outside the legs have no speeds
+  still.posture.assign(tree.posture.size(), 0.0);
+  std::string text = "header:\n  stamp: {sec: 0, nanosec: 0}\n  frame_id: \"\"\njoint_names:\n";
+  for (const int joint : joints) {
+    // A text of JSON is one of YAML.
+    const nlohmann::json name = tree.urdf.joints[static_cast<size_t>(joint)].name;
+    text += "- " + name.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+  }
+  text += "points:\n";
+  for (const JointMotion& point : motion) {
+    text +=
+        "- positions: " + FloatList(JointAngles(robot, tree, point.row.q), joints) +
+        "\n  velocities: " + FloatList(JointAngles(robot, still, point.speeds), joints) +
+        "\n  accelerations: " + FloatList(JointAngles(robot, still, point.accelerations), joints) +
+        "\n  effort: []\n  time_from_start: " + DurationText(point.row.t) + "\n";
+  }
+  return text;
+}
+
+}  // namespace halfstep

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "halfstep/experiments/export/joint_motion.h"
+#include "halfstep/experiments/replay/mujoco_model.h"
+
+namespace halfstep::replay {
+
+/// MujocoModel() with the obstacles where they are at t = 0, their names as <custom> texts, and a
+/// keyframe for each of `motion`, "t=0.05" …: place and speed of the waist's tree, angles and
+/// speeds of the legs' joints, the servos' targets, and where the obstacles are then. One file that
+/// needs no other: MuJoCo's `simulate` loads it, and its keys walk through the motion.
+std::string MujocoKeyframes(const RobotModel& robot, const RobotTree& tree,
+                            const std::vector<SimulatedObstacle>& obstacles,
+                            const std::vector<JointMotion>& motion);
+
+}  // namespace halfstep::replay

@@ -1,0 +1,295 @@
+#include "halfstep/experiments/tables/given_walk_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "halfstep/experiments/tables/csv_places.h"
+#include "halfstep/experiments/tables/csv_reader.h"
+#include "halfstep/experiments/tables/parameter_tables.h"
+#include "halfstep/experiments/tables/result_tables.h"
+#include "halfstep/wpg/files/input_error.h"
+#include "halfstep/wpg/files/number_text.h"
+#include "halfstep/wpg/files/text.h"
+
+namespace halfstep {
+namespace {
+
+constexpr double kSameAsWalk = 1e-9;      // columns that tell what the walk has anyway
+constexpr int kMostComplaintsAFile = 30;  // then one says that there are more
+
+// As spreadsheets write CSV files: lines may end in CR LF, and a mark of UTF-8 may come first.
+std::string PlainCsvText(const std::string& path) {
+  std::string text = ReadCsvText(path);
+  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
+  for (size_t at = 0; (at = text.find("\r\n", at)) != std::string::npos;) text.erase(at, 1);
+  return text;
+}
+
+std::string NamesOf(const CsvColumns& columns) {
+  std::string names;
+  for (const CsvColumn& column : columns) names += (names.empty() ? "" : ", ") + column.name;
+  return names;
+}
+
+bool HasColumn(const std::vector<std::string>& header, const std::string& name) {
+  return std::ranges::find(header, name) != header.end();
+}
+
+/// A table that is being read, and the complaints about it.
+class GivenTable {
+ public:
+  /// `rows` is how many the sequence asks for, one for each of `what`.
+  GivenTable(const std::string& path, const CsvColumns& known, size_t rows, const std::string& what,
+             Complaints* complaints)
+      : text_(PlainCsvText(path)),
+        csv_(ParseCsv(text_, path)),
+        places_(CsvPlaces(text_)),
+        complaints_(complaints) {
+    CheckHeader(known);
+    if (csv_.rows.size() == rows) return;
+    Complain(0, 0,
+             std::to_string(csv_.rows.size()) + " rows for " + std::to_string(rows) + " " + what +
+                 " (valid: a row for each of them)");
+    fits_ = false;
+  }
+
+  bool fits() const { return fits_; }
+  size_t num_rows() const { return fits_ ? csv_.rows.size() : 0; }
+  std::optional<size_t> Find(const std::string& name) const {
+    const auto found = std::ranges::find(csv_.header, name);
+    if (found == csv_.header.end()) return std::nullopt;
+    return static_cast<size_t>(found - csv_.header.begin());
+  }
+  const std::string& Cell(size_t row, size_t column) const { return csv_.rows[row][column]; }
+
+  /// The number in a cell; none, after a complaint, when there is none.
+  std::optional<double> Number(size_t row, size_t column) {
+    const NumberText number = ParseNumber(Cell(row, column));
+    if (number.kind == NumberText::Kind::kNumber) return number.value;
+    const bool not_finite = number.kind == NumberText::Kind::kNotFinite;
+    Complain(row + 1, column,
+             Quote(Cell(row, column)) + (not_finite ? " is not finite" : " is not a number") +
+                 " (valid: a finite decimal number)");
+    return std::nullopt;
+  }
+
+  /// `row` counts from 0, the header.
+  void Complain(size_t row, size_t column, const std::string& what) {
+    if (++num_complaints_ > kMostComplaintsAFile + 1) return;
+    const CsvPlace& place = places_[row][column];
+    const bool last = num_complaints_ == kMostComplaintsAFile + 1;
+    complaints_->Add(csv_.path, place.line, place.column, csv_.header[column],
+                     last ? "and so on; the others are left out" : what);
+  }
+
+ private:
+  void CheckHeader(const CsvColumns& known) {
+    std::vector<std::string> names;
+    for (const CsvColumn& column : known) names.push_back(column.name);
+    for (size_t c = 0; c < csv_.header.size(); ++c) {
+      const std::string& name = csv_.header[c];
+      if (Find(name) != c) Complain(0, c, "is there twice (valid: once)");
+      if (HasColumn(names, name)) continue;
+      const std::string near = NearestWord(name, names);
+      Complain(0, c,
+               "no such column (" + (near.empty() ? "" : "did you mean " + Quote(near) + "? ") +
+                   "valid: " + NamesOf(known) + ")");
+    }
+  }
+
+  std::string text_;
+  CsvTable csv_;
+  std::vector<std::vector<CsvPlace>> places_;
+  Complaints* complaints_;
+  bool fits_ = true;
+  int num_complaints_ = 0;
+};
+
+/// Reads the two tables into the parameters of a sequence.
+class GivenWalkReader {
+ public:
+  GivenWalkReader(const HalfStepSequence& sequence, const std::vector<FixedParameter>& fixed)
+      : sequence_(sequence), fixed_(fixed), walk_(ParameterTable(sequence, fixed).Start()) {}
+
+  HomotopyParameters Read(const GivenWalkFiles& files) {
+    if (!files.overlaps.empty()) {
+      overlaps_.emplace(files.overlaps, OverlapsColumns(),
+                        static_cast<size_t>(sequence_.num_junctions()), "junctions", &complaints_);
+      CheckRowNames(&*overlaps_, "junction", [](size_t i) {
+        return KindOfJunction(static_cast<int>(i)) == JunctionKind::kUpDown ? "up_down" : "down_up";
+      });
+    }
+    if (!files.half_steps.empty()) {
+      half_steps_.emplace(files.half_steps, HalfStepsColumns(), sequence_.half_steps.size(),
+                          "half-steps", &complaints_);
+      CheckRowNames(&*half_steps_, "half_step", [this](size_t i) {
+        return sequence_.half_steps[i].half_step.kind == HalfStepKind::kUp ? "up" : "down";
+      });
+      CheckTexts(&*half_steps_, "support", [this](size_t i) {
+        return std::string(Name(sequence_.half_steps[i].half_step.support));
+      });
+    }
+    for (const ParameterFamily family : AllParameterFamilies()) ReadFamily(family);
+    complaints_.ThrowIfAny();
+    CheckNaturalBounds();
+    if (overlaps_) CheckWhatOverlapsTell();
+    complaints_.ThrowIfAny();
+    return walk_;
+  }
+
+ private:
+  GivenTable* TableOf(ParameterFamily family) {
+    std::optional<GivenTable>& table = Traits(family).table == "overlaps" ? overlaps_ : half_steps_;
+    return table ? &*table : nullptr;
+  }
+  // Whether a table says the values of a family.
+  bool IsGiven(ParameterFamily family) {
+    const GivenTable* const table = TableOf(family);
+    return table != nullptr && table->Find(std::string(Traits(family).column));
+  }
+
+  template <typename Expected>
+  void CheckTexts(GivenTable* table, const std::string& name, const Expected& expected) {
+    const std::optional<size_t> column = table->Find(name);
+    if (!column) return;
+    for (size_t row = 0; row < table->num_rows(); ++row) {
+      const std::string valid = expected(row);
+      if (table->Cell(row, *column) == valid) continue;
+      table->Complain(row + 1, *column,
+                      Quote(table->Cell(row, *column)) +
+                          " is not what the footsteps make of it (valid: " + valid + ")");
+    }
+  }
+  template <typename Kind>
+  void CheckRowNames(GivenTable* table, const std::string& index, const Kind& kind) {
+    CheckTexts(table, index, [](size_t row) { return std::to_string(row + 1); });
+    CheckTexts(table, "kind", [&kind](size_t row) { return std::string(kind(row)); });
+  }
+
+  void ReadFamily(ParameterFamily family) {
+    if (!IsGiven(family)) return;
+    const ParameterFamilyTraits& traits = Traits(family);
+    GivenTable& table = *TableOf(family);
+    const size_t column = *table.Find(std::string(traits.column));
+    int before = -1;
+    for (size_t row = 0; row < table.num_rows(); ++row) {
+      const std::optional<double> value = table.Number(row, column);
+      if (!value) continue;
+      const HomotopyParameter parameter{family, traits.index_at(static_cast<int>(row))};
+      const std::string mistake = parameter.index == before && *value != parameter.in(walk_)
+                                      ? "differs from the row before, of the same step (valid: " +
+                                            ShortestText(parameter.in(walk_)) + ")"
+                                      : MistakeOf(parameter, *value);
+      if (!mistake.empty()) {
+        table.Complain(row + 1, column, ShortestText(*value) + " " + mistake);
+        continue;
+      }
+      parameter.in(walk_) = *value;
+      before = parameter.index;
+    }
+  }
+
+  std::string MistakeOf(const HomotopyParameter& parameter, double value) const {
+    const ParameterFamilyTraits& traits = Traits(parameter.family);
+    const bool too_small = value < traits.least || (value == traits.least && !traits.least_itself);
+    if (too_small || value > traits.most) {
+      std::string valid = (traits.least_itself ? "from " : "above ") + ShortestText(traits.least);
+      if (std::isfinite(traits.most)) valid += " up to " + ShortestText(traits.most);
+      return std::string(too_small ? "is too small" : "is too large") + " (valid: " + valid + ")";
+    }
+    for (const FixedParameter& fixed : fixed_) {
+      if (!(fixed.parameter == parameter) || parameter.in(walk_) == value) continue;
+      return "is not where smoothing.fixed has it (valid: " + ShortestText(parameter.in(walk_)) +
+             ")";
+    }
+    return "";
+  }
+
+  // An overlap that is too long for the durations beside it, told where it is said, or else where
+  // the duration before it is.
+  void CheckNaturalBounds() {
+    for (int i = 0; i < sequence_.num_junctions(); ++i) {
+      const size_t row = static_cast<size_t>(i);
+      const double overlap = walk_.overlaps[row];
+      const double bound = NaturalOverlapBound(sequence_, walk_.durations, i);
+      if (overlap <= bound + kOverlapTolerance) continue;
+      const ParameterFamily told = IsGiven(ParameterFamily::kOverlap) ? ParameterFamily::kOverlap
+                                                                      : ParameterFamily::kDuration;
+      GivenTable& table = *TableOf(told);
+      table.Complain(row + 1, *table.Find(std::string(Traits(told).column)),
+                     "overlap " + std::to_string(i + 1) + " is " + ShortestText(overlap) +
+                         " s, above its natural bound (valid: up to " + ShortestText(bound) +
+                         " s with these durations)");
+    }
+  }
+
+  // overlaps.csv tells durations and height scales besides, which must be those of the walk where
+  // no half_steps.csv says them: else the file is of a walk that was not given whole.
+  void CheckWhatOverlapsTell() {
+    const auto check = [this](const std::string& name, ParameterFamily family, size_t offset) {
+      const std::optional<size_t> column = overlaps_->Find(name);
+      if (!column || IsGiven(family)) return;
+      for (size_t row = 0; row < overlaps_->num_rows(); ++row) {
+        const std::optional<double> told = overlaps_->Number(row, *column);
+        const HomotopyParameter parameter{family,
+                                          Traits(family).index_at(static_cast<int>(row + offset))};
+        if (!told || std::abs(*told - parameter.in(walk_)) <= kSameAsWalk) continue;
+        overlaps_->Complain(row + 1, *column,
+                            ShortestText(*told) + " is not that of the walk, " +
+                                ShortestText(parameter.in(walk_)) +
+                                " (valid: the walk's, or half_steps.csv with " +
+                                std::string(Traits(family).column) + " besides)");
+      }
+    };
+    check("duration_before_s", ParameterFamily::kDuration, 0);
+    check("duration_after_s", ParameterFamily::kDuration, 1);
+    check("height_scale_before", ParameterFamily::kHeightScale, 0);
+    check("height_scale_after", ParameterFamily::kHeightScale, 1);
+  }
+
+  const HalfStepSequence& sequence_;
+  const std::vector<FixedParameter>& fixed_;
+  HomotopyParameters walk_;
+  Complaints complaints_;
+  std::optional<GivenTable> overlaps_, half_steps_;
+};
+
+}  // namespace
+
+HomotopyParameters ReadGivenWalk(const GivenWalkFiles& files, const HalfStepSequence& sequence,
+                                 const std::vector<FixedParameter>& fixed) {
+  return GivenWalkReader(sequence, fixed).Read(files);
+}
+
+GivenWalkFiles SortGivenFiles(const std::vector<std::string>& paths) {
+  GivenWalkFiles files;
+  Complaints complaints;
+  for (const std::string& path : paths) {
+    const std::vector<std::string> header = ParseCsv(PlainCsvText(path), path).header;
+    const auto has_any = [&header](const CsvColumns& columns) {
+      return std::ranges::any_of(columns, [&header](const CsvColumn& column) {
+        return column.name != "kind" && HasColumn(header, column.name);
+      });
+    };
+    const bool of_overlaps = has_any(OverlapsColumns());
+    if (!of_overlaps && !has_any(HalfStepsColumns())) {
+      complaints.Add(path, 1, 1, "--given",
+                     "has neither overlaps nor half-steps (valid: columns of overlaps.csv, as "
+                     "overlap_s, or of half_steps.csv, as duration_s)");
+      continue;
+    }
+    std::string& file = of_overlaps ? files.overlaps : files.half_steps;
+    if (!file.empty()) {
+      complaints.Add(path, 1, 1, "--given",
+                     std::string("is a second file of ") +
+                         (of_overlaps ? "overlaps" : "half-steps") + " beside " + Quote(file) +
+                         " (valid: one of each)");
+    }
+    file = path;
+  }
+  complaints.ThrowIfAny();
+  return files;
+}
+
+}  // namespace halfstep
