@@ -17,10 +17,10 @@ namespace halfstep {
 
 /// An experiment ready to run: everything that its config names, loaded and checked.
 struct Experiment {
-  ExperimentConfig config;
-  RobotModel robot;
-  Scene scene;
-  HalfStepSequence sequence;
+  ExperimentConfig config;    ///< as resolved
+  RobotModel robot;           ///< with the margins' defaults of its size
+  Scene scene;                ///< empty when the config says `none`
+  HalfStepSequence sequence;  ///< the footsteps' half-steps, planned and placed in W
 };
 
 /// Paths of the files that a config names, which need not exist. No scene: an empty floor.
@@ -33,8 +33,8 @@ ExperimentConfig MovedTo(const std::filesystem::path& folder, const ExperimentCo
 
 /// Where a config's walk takes place.
 struct Place {
-  RobotModel robot;
-  Scene scene;
+  RobotModel robot;  ///< as in Experiment
+  Scene scene;       ///< as in Experiment
 };
 /// Loads the robot and the scene. Throws InputError.
 Place LoadPlace(const ExperimentConfig& config);

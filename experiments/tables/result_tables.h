@@ -20,10 +20,11 @@ namespace halfstep {
 
 /// The result of one method in an experiment, and a description of its walk.
 struct MethodRun {
+  /// A method that has not run.
   explicit MethodRun(std::string name) : method(std::move(name)) {}
 
-  std::string method;
-  SmoothingResult result;
+  std::string method;        ///< the method's name
+  SmoothingResult result;    ///< what it returned
   double duration = 0.0;     ///< of the walk [s]
   double lowest_apex = 0.0;  ///< least of the steps' highest sole heights [m]
   MarginSet margins;         ///< smallest of each family, at the trajectory's instants

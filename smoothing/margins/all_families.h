@@ -27,6 +27,7 @@ using MarginStatementsOfAll =
 /// The classes of families, in the order of MarginFamily.
 template <typename... Families>
 struct FamilyList {
+  /// Of each class, in that order.
   static constexpr std::array<FamilyTraits, sizeof...(Families)> kTraits = {Families::kTraits...};
   /// `place` is borrowed.
   static MarginStatementsOfAll Make(const MarginPlace& place) {

@@ -19,25 +19,28 @@ inline constexpr std::uint64_t kMaxMeshBytes = std::uint64_t{1} << 30;
 
 /// A word of a text file; empty at the end of the text (or of the line, where asked for).
 struct MeshWord {
-  std::string_view text;
-  int line = 0;  ///< line and column (in bytes) count from 1.
-  int column = 0;
+  std::string_view text;  ///< borrowed from the text
+  int line = 0;           ///< line and column (in bytes) count from 1.
+  int column = 0;         ///< in bytes
 };
 
 /// Walks over the words of an ASCII mesh file and complains with their place (InputError).
 class MeshText {
  public:
+  /// `text` is borrowed; `path` is for complaints.
   MeshText(std::string path, std::string_view text);
 
-  MeshWord Next();        ///< next word, across lines.
-  MeshWord NextInLine();  ///< next word of this line.
-  void SkipLine();        ///< to the start of the next line.
-  bool AtEnd() const { return at_ == text_.size(); }
-  size_t offset() const { return at_; }  ///< bytes before what comes next
+  MeshWord Next();                                    ///< next word, across lines.
+  MeshWord NextInLine();                              ///< next word of this line.
+  void SkipLine();                                    ///< to the start of the next line.
+  bool AtEnd() const { return at_ == text_.size(); }  ///< whether all bytes were read
+  size_t offset() const { return at_; }               ///< bytes before what comes next
 
   /// A coordinate: finite, at most kMaxMeshCoordinate in size.
   double Number(const MeshWord& word) const;
+  /// A whole number; `text` is the part of the word that holds it.
   long Integer(const MeshWord& word, std::string_view text) const;
+  /// Throws InputError about the place of a word.
   [[noreturn]] void Fail(const MeshWord& word, const std::string& what) const;
 
  private:

@@ -22,9 +22,9 @@ RigidDrift DriftOfSole(const IntervalMotion& motion, const WalkThirds& thirds, S
 /// interval, with J⁻¹ that at m and the bounds of q̈ that IntervalMotion has. For both kinds of
 /// legs. Source: smoothing/README.md, "The robot's ZMP between instants".
 struct LegDrift {
-  std::array<RigidDrift, 6> links;
+  std::array<RigidDrift, 6> links;        ///< of the six links, from the hip down
   std::array<Eigen::Vector3d, 6> points;  ///< the links' points at m, in W [m]
-  std::array<JointDrift, 6> joints;
+  std::array<JointDrift, 6> joints;       ///< of the six joints, from the hip down
 
   /// Preconditions: `motion` is bounded, `at_m` are the dynamics at m. `waist` and `sole` are those
   /// at the waist's and the sole's origins.

@@ -49,12 +49,14 @@ struct SpatialInertia {
         com(X_OBody * body.com),
         about_com(X_OBody.linear() * body.inertia * X_OBody.linear().transpose()) {}
 
+  /// The momentum of a twist v.
   Vector6d operator*(const Vector6d& v) const {
     const Eigen::Vector3d w = v.head<3>();
     const Eigen::Vector3d momentum = mass * (v.tail<3>() + w.cross(com));
     return Spatial(about_com * w + com.cross(momentum), momentum);
   }
 
+  /// The same as a matrix (6×6).
   Matrix6d Matrix() const {
     const Eigen::Matrix3d C = mass * CrossMatrix(com);
     Matrix6d I;

@@ -10,14 +10,14 @@ namespace halfstep {
 
 /// Where an XML element starts; both count from 1.
 struct UrdfPlace {
-  int line = 0;
-  int column = 0;
+  int line = 0;    ///< of the text
+  int column = 0;  ///< in bytes
 };
 
 /// What is found in a URDF text, and the text that is taken of it.
 struct UrdfFindings {
-  std::map<std::string, UrdfPlace> links;  ///< where the named elements stand
-  std::map<std::string, UrdfPlace> joints;
+  std::map<std::string, UrdfPlace> links;                    ///< where the named elements stand
+  std::map<std::string, UrdfPlace> joints;                   ///< the same of joints
   std::map<std::string, std::vector<UrdfPlace>> collisions;  ///< by link, in file order.
   /// Mistakes of a joint that only a leg's joint must not have, by joint: of its axis and limits,
   /// or that it mimics another one. Outside the legs it is held still.
