@@ -18,8 +18,8 @@ struct CertificationScope {
   double until = std::numeric_limits<double>::infinity();  ///< nothing after it [s]
   /// All, unless told otherwise.
   std::vector<MarginFamily> families = [] {
-    constexpr auto kAll = AllMarginFamilies();
-    return std::vector<MarginFamily>(kAll.begin(), kAll.end());
+    const auto all = AllMarginFamilies();
+    return std::vector<MarginFamily>(all.begin(), all.end());
   }();
 };
 
