@@ -11,9 +11,10 @@
 
 namespace halfstep {
 
+/// How many targets there are.
+constexpr int kNumTargets = 3;
 /// What counts as solved, by the gap to the best: within 1 %, within 5 %, and ∞: the method was not
 /// interrupted. The walk is certified and the method's own (MethodRecord::solved).
-constexpr int kNumTargets = 3;
 constexpr std::array<double, kNumTargets> kTargets = {0.01, 0.05,
                                                       std::numeric_limits<double>::infinity()};
 
@@ -78,6 +79,7 @@ struct ProfileCurve {
   std::vector<std::pair<double, double>>
       points;  ///< (ratio ≥ 1, fraction), both rising; a staircase
 };
+/// A curve for each target, each kind of effort and each method, in this order.
 std::vector<ProfileCurve> PerformanceProfiles(const Comparison& comparison);
 
 /// A method over all cases. A failure counts as ten times the largest effort that met the target in
@@ -94,6 +96,7 @@ struct MethodMeans {
   /// when no case counts.
   std::array<Effort, kNumTargets> effort;
 };
+/// One entry for each method of the comparison, in its order.
 std::vector<MethodMeans> Means(const Comparison& comparison);
 
 }  // namespace halfstep

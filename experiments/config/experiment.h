@@ -25,6 +25,7 @@ struct Experiment {
 
 /// Paths of the files that a config names, which need not exist. No scene: an empty floor.
 std::filesystem::path RobotPath(const ExperimentConfig& config);
+/// The same of the scene; none: an empty floor.
 std::optional<std::filesystem::path> ScenePath(const ExperimentConfig& config);
 
 /// The same config with its paths relative to another folder, so that it can be run from there. An

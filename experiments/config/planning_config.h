@@ -47,8 +47,11 @@ struct SweptVolumesConfig {
 
 /// Declare the keys of one group each.
 void DeclareGoal(Fields& fields, GoalConfig* config);
+/// The keys of `planner`.
 void DeclarePlanner(Fields& fields, PlannerConfig* config);
+/// The keys of `step_set`.
 void DeclareHalfStepSet(Fields& fields, HalfStepGrid* grid);
+/// The keys of `swept_volumes`.
 void DeclareSweptVolumes(Fields& fields, SweptVolumesConfig* config);
 
 }  // namespace halfstep

@@ -58,10 +58,12 @@ enum class EpisodeEnding {
   kFell,         ///< the simulated robot fell
   kKilled,       ///< its process was killed: what is recorded was recovered
 };
+/// All of them.
 inline constexpr std::array kEpisodeEndings = {EpisodeEnding::kArrived,     EpisodeEnding::kStuck,
                                                EpisodeEnding::kTooLong,     EpisodeEnding::kNoPlan,
                                                EpisodeEnding::kInterrupted, EpisodeEnding::kFell,
                                                EpisodeEnding::kKilled};
+/// As events.csv and manifests call it: "arrived".
 std::string_view Name(EpisodeEnding ending);
 
 /// The record of an episode.

@@ -34,6 +34,7 @@ EpisodeSummary Summarize(const Episode& episode, const TrueWorld* truth, const R
 /// What `halfstep live` prints; the same as one JSON object.
 std::string SummaryScreen(const Episode& episode, const EpisodeSummary& summary,
                           const std::string& folder);
+/// The same numbers as one JSON object.
 std::string SummaryJson(const Episode& episode, const EpisodeSummary& summary,
                         const std::string& folder);
 

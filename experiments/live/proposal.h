@@ -29,6 +29,7 @@ struct Situation {
   int used_up = 0;  ///< proposals in a row until now whose searches used up all nodes in vain
 };
 
+/// What kind of answer a replanner gives.
 enum class ProposalKind {
   kSafe,       ///< the walk stays, and is safe
   kResumed,    ///< the walk goes on after a stop, as it was planned
@@ -37,9 +38,11 @@ enum class ProposalKind {
   kSmoothed,   ///< other overlaps
   kUnsafe,     ///< there is no safe way on that was found: what is granted is executed
 };
+/// All of them.
 inline constexpr std::array kProposalKinds = {ProposalKind::kSafe,     ProposalKind::kResumed,
                                               ProposalKind::kChanged,  ProposalKind::kShortened,
                                               ProposalKind::kSmoothed, ProposalKind::kUnsafe};
+/// As walks.csv calls it: "changed".
 std::string_view Name(ProposalKind kind);
 
 /// What a replanner found.

@@ -49,6 +49,7 @@ struct WorldUpdate {
   World world;                              ///< the world after the frame
   std::vector<std::string> contradictions;  ///< names of what the world before did not allow
 };
+/// The world after `frame`, from the one before it, `last`.
 WorldUpdate Updated(const World& last, const PastWorlds& past, World frame,
                     const LiveOptions& options);
 

@@ -58,6 +58,8 @@ struct BakedHalfSteps {
   double wall = 0.0;      ///< of reading or baking [s]
   CachedVolumes cached;   ///< without volumes when stopped
 };
+/// Certifies the config's half-steps of a robot and takes their swept volumes from the cache, or
+/// bakes them and puts them there.
 BakedHalfSteps BakeHalfSteps(const RobotModel& robot, const ExperimentConfig& config,
                              const PlanningHooks& hooks);
 

@@ -41,6 +41,7 @@ struct SweepCase {
 
 /// Declares every key of a sweep file once.
 void DeclareFields(Fields& fields, SweepConfig* config);
+/// What DeclareFields says about each key.
 std::vector<KeyDescription> SweepKeys();
 
 /// The Cartesian product of the axes, the first one slowest; zipped axes count as one.

@@ -26,6 +26,7 @@ struct CsvColumn {
   std::string frame = {};                                    ///< "W": expressed in it; "": in none
   CsvInterpolation interpolation = CsvInterpolation::kNone;  ///< how values between rows are found
 };
+/// The columns of a table, in their order.
 using CsvColumns = std::vector<CsvColumn>;
 
 /// A table in memory: its columns and the whole text.

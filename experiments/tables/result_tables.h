@@ -34,12 +34,15 @@ struct MethodRun {
 
 /// Each table of a run folder; columns: experiments/README.md.
 CsvFile FootstepsCsv(const HalfStepSequence& sequence);
+/// One row a junction.
 CsvFile OverlapsCsv(const MarginEvaluator& evaluator, const MethodRun& run);
 /// One row a point of a Pareto curve: duration, proved least slack, and each family's least margin
 /// sampled every 5 ms (inf: it is nowhere watched).
 CsvFile ParetoCsv(const MarginEvaluator& evaluator, const HalfStepSequence& sequence,
                   const MethodRun& run);
+/// One row a candidate of the method's search.
 CsvFile IteratesCsv(const MethodRun& run);
+/// Of summary.csv, one row a method.
 CsvColumns SummaryColumns();
 /// Gives the table into which a summary's cell of that column goes.
 using SummaryCell = std::function<CsvWriter&(const CsvColumn&)>;
@@ -52,7 +55,9 @@ CsvFile SummaryCsv(const MarginEvaluator& evaluator, const std::vector<MethodRun
 /// Columns of trajectory.csv for a robot that tell its motion: all but the margins.
 CsvColumns MotionColumns(const RobotModel& robot);
 /// Their cells for a walk at t [s]. Where a leg does not reach, its joint angles are nan.
+/// A number, a count or a text.
 using MotionCell = std::variant<double, long, std::string_view>;
+/// The cells of one row, in the order of MotionColumns().
 std::vector<MotionCell> MotionRow(const RobotModel& robot, const SuperposedWalk& walk, double t);
 
 /// Columns of trajectory.csv for a robot: those of the motion, and the margins.

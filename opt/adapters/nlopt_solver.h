@@ -20,6 +20,7 @@ struct NloptMethod {
   int least_variables;     ///< fails below this number of variables
 };
 
+/// All that the list of solvers offers.
 const std::vector<NloptMethod>& NloptMethods();
 
 /// Returns an UnavailableSolver when NLopt is not compiled in.

@@ -27,6 +27,7 @@ struct CloudFields {
 
 /// Declares the keys and reads the file, relative to the scene's folder.
 void DeclarePoints(Fields& fields, CloudFields* cloud);
+/// The same for `octomap`.
 void DeclareOctomap(Fields& fields, CloudFields* cloud);
 
 /// The surface of a cloud at X_WO. Every ball around a point, or every cube that is occupied, is

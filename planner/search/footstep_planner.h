@@ -60,6 +60,7 @@ struct PlanRequest {
   Clock clock = {};       ///< for the times of the result only; empty: they are NaN
 };
 
+/// How planning ended.
 enum class PlanStatus {
   kNotRun,
   kSolved,        ///< there is a plan
@@ -69,6 +70,7 @@ enum class PlanStatus {
   kInterrupted,   ///< stopped before a plan was found
   kRefused,       ///< there were plans, but `accepts` refused them
 };
+/// As manifests call it: "solved".
 std::string_view Name(PlanStatus status);
 
 /// What a planner found, and its effort.

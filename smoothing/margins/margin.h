@@ -31,6 +31,7 @@ enum class MarginFamily : int {
   kFriction,       ///< friction coefficient of the floor less what the soles need [1]
   kOwn,            ///< what the program itself registered (own_margin.h), of its scale [1]
 };
+/// How many families there are.
 constexpr int kNumMarginFamilies = 15;
 
 std::string_view Name(MarginFamily family);  ///< "zmp", "joint_speed" … as in YAML and CSV

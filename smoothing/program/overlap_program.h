@@ -13,6 +13,7 @@
 
 namespace halfstep {
 
+/// What a program optimizes.
 enum class ProgramKind {
   kFastest,  ///< minimize D
   kSmooth,   ///< minimize D + weights · (effort, own costs)

@@ -15,7 +15,7 @@ enum class Evidence {
   kSampled,    ///< at finitely many instants; says nothing about the motion between them
   kCertified,  ///< for every instant
 };
-std::string_view Name(Evidence evidence);
+std::string_view Name(Evidence evidence);  ///< "sampled" or "certified".
 
 /// Undecided: neither proved nor refuted.
 enum class Verdict { kFeasible, kViolated, kUndecided };

@@ -47,6 +47,7 @@ struct HomotopyParameter {
   friend bool operator==(const HomotopyParameter&, const HomotopyParameter&) = default;
 };
 
+/// Whether a junction leads from an up to a down half-step, or the other way.
 enum class JunctionKind { kUpDown, kDownUp };
 
 /// Junction i leads from an up to a down half-step when i is even.
@@ -67,6 +68,7 @@ struct NaturalBound {
 };
 /// The natural bound of junction `junction`, between half-steps of these shapes, or of a sequence.
 NaturalBound NaturalBoundOf(int junction, const HalfStepShape& before, const HalfStepShape& after);
+/// The same of junction `junction` of a sequence.
 NaturalBound NaturalBoundOf(const HalfStepSequence& sequence, int junction);
 
 /// The bound of a junction for given durations [s].

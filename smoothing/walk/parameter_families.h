@@ -19,6 +19,7 @@ enum class ParameterFamily {
   kDuration,      ///< T of a half-step
   kSupportPoint,  ///< support offset of a step
 };
+/// How many families there are.
 inline constexpr int kNumParameterFamilies = 4;
 
 /// What a method may move besides overlaps, and how far.

@@ -10,8 +10,11 @@
 
 namespace halfstep {
 
+/// More triangles are refused.
 inline constexpr int kMaxMeshTriangles = 5'000'000;
+/// Larger coordinates are refused, in the unit of the file.
 inline constexpr double kMaxMeshCoordinate = 1e9;
+/// Larger files are refused.
 inline constexpr std::uint64_t kMaxMeshBytes = std::uint64_t{1} << 30;
 
 /// Complains about binary data: "path: byte N: what" (InputError).
@@ -53,9 +56,13 @@ class MeshText {
 /// A mesh of x, y, z after each other, and of three indices for each triangle.
 LoadedMesh MeshOf(const std::vector<double>& coordinates, const std::vector<int>& corners);
 
+/// STL as text; throws InputError, as the readers below.
 LoadedMesh ReadAsciiStl(const std::string& path, std::string_view text);
+/// STL with binary numbers.
 LoadedMesh ReadBinaryStl(const std::string& path, std::string_view bytes);
+/// OBJ: vertices and faces; the rest is passed over.
 LoadedMesh ReadObj(const std::string& path, std::string_view text);
+/// DAE (Collada): triangles of all geometries, placed by the scene's nodes.
 LoadedMesh ReadDae(const std::string& path, const std::string& text);
 
 }  // namespace halfstep

@@ -15,6 +15,7 @@ namespace halfstep {
 
 // What the readers of point clouds share.
 
+/// More points are refused.
 inline constexpr long kMaxPoints = 20'000'000;
 inline constexpr size_t kMaxPointFields = 1000;  ///< of a point
 
@@ -77,7 +78,9 @@ class PointData {
 /// Complains about a point at a byte that is not finite or too far.
 void CheckPoint(const std::string& path, size_t byte, const Eigen::Vector3d& p);
 
+/// PLY, as text or binary; throws InputError.
 LoadedPoints ReadPly(const std::string& path, std::string_view bytes);
+/// PCD, as text or binary, not compressed; throws InputError.
 LoadedPoints ReadPcd(const std::string& path, std::string_view bytes);
 
 }  // namespace halfstep

@@ -16,6 +16,7 @@
 
 namespace halfstep {
 
+/// From the floor up to the via point, or down from it to the floor.
 enum class HalfStepKind { kUp, kDown };
 
 /// How a half-step moves. Times are fractions of its duration T, so that they scale with T.

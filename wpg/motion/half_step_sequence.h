@@ -45,6 +45,7 @@ HalfStepSequence MakeSequence(const std::array<Footprint, 2>& start,
 
 /// The same plan seen in a mirror (xz plane of W), and moved by X_VW.
 HalfStepSequence Mirrored(const HalfStepSequence& sequence);
+/// The same plan moved by X_VW: frame W of the plan is placed in frame V.
 HalfStepSequence Moved(const Pose2& X_VW, const HalfStepSequence& sequence);
 
 }  // namespace halfstep

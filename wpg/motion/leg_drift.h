@@ -14,6 +14,7 @@ namespace halfstep {
 /// walk's second derivatives (IntervalMotion) and third ones.
 RigidDrift DriftOfWaist(const RobotModel& robot, const IntervalMotion& motion,
                         const WalkThirds& thirds);
+/// The same of the sole of that side.
 RigidDrift DriftOfSole(const IntervalMotion& motion, const WalkThirds& thirds, Side side);
 
 /// How much the motion of a leg's links, up to accelerations, differs over an interval from what it

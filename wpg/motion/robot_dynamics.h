@@ -57,6 +57,7 @@ class RobotDynamics {
 /// Spatial acceleration and velocity about O of a frame that stays upright: its origin is at `p`
 /// from O [m], and moves by `v`, `a`; its yaw by `rate`, `acceleration`.
 Vector6d UprightVelocity(const Eigen::Vector3d& p, const Eigen::Vector3d& v, double rate);
+/// The spatial acceleration of that frame about O.
 Vector6d UprightAcceleration(const Eigen::Vector3d& p, const Eigen::Vector3d& v,
                              const Eigen::Vector3d& a, double rate, double acceleration);
 

@@ -12,12 +12,14 @@ namespace halfstep {
 // the body's point that is just at O), its acceleration the componentwise derivative of that; a
 // force is (moment about O, force). Source: [Featherstone2008] ch. 2.
 
+/// The matrix of the cross product: CrossMatrix(a)·b = a × b (3×3).
 inline Eigen::Matrix3d CrossMatrix(const Eigen::Vector3d& a) {
   Eigen::Matrix3d A;
   A << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
   return A;
 }
 
+/// The six numbers of both halves.
 inline Vector6d Spatial(const Eigen::Vector3d& upper, const Eigen::Vector3d& lower) {
   Vector6d x;
   x << upper, lower;

@@ -47,6 +47,7 @@ struct VectorBall {
   }
 };
 
+/// All cross products of a vector of each.
 inline VectorBall Cross(const VectorBall& a, const VectorBall& b) {
   return {a.center.cross(b.center),
           a.center.norm() * b.radius + a.radius * (b.center.norm() + b.radius)};

@@ -52,6 +52,7 @@ std::vector<LegIkBranchSolution> SolveLegIkAll(const Leg& leg, const Eigen::Isom
 /// angular velocity [rad/s], the lower three the velocity of its frame's origin [m/s], both seen
 /// from B and expressed in B.
 Matrix6d LegJacobian(const LegFrames& frames);
+/// The same at joint angles q [rad].
 Matrix6d LegJacobian(const Leg& leg, const Vector6d& q);
 
 /// The hip–ankle distance as the knee alone changes it [m], and its derivative [m/rad]. The second
@@ -60,6 +61,7 @@ struct LegLength {
   /// At one angle of the knee [m], [m/rad]; product: P [m²].
   double distance = 0.0, slope = 0.0, product = 0.0;
 };
+/// At the knee's angle [rad], which the other joints do not change.
 LegLength LegLengthAt(const Leg& leg, double knee);
 
 /// The inverse of LegJacobian (6×6). Referred to the hip, where the three hip axes meet, J has the

@@ -21,6 +21,7 @@ struct RobotMeasures {
   double aside = 0.0, lift = 0.0;  ///< both [m]
 };
 
+/// What legs, joint limits and speed limits of the model give.
 RobotMeasures MeasuresOf(const RobotModel& robot);
 
 /// The same of a robot file, without its bodies, so meshes are not read. Throws InputError for what

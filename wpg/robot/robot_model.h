@@ -14,7 +14,9 @@
 
 namespace halfstep {
 
+/// Six joints of a leg, or a spatial vector.
 using Vector6d = Eigen::Matrix<double, 6, 1>;
+/// A Jacobian or an inertia (6×6).
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
 /// One revolute leg joint. Axis and point are given in the waist frame B at the zero posture q = 0.

@@ -33,7 +33,7 @@ struct UrdfFindings {
 /// Repairs, with a warning, what concerns neither legs nor the shape of bodies: negative moments of
 /// inertia (0), shapes without size (left out), links that hang on nothing (left out), joints
 /// outside the legs that have no axis, limits or speed (held still). What is only looked at,
-/// <visual>, is not read. `file` stands for the text in complaints.
+/// `<visual>`, is not read. `file` stands for the text in complaints.
 UrdfFindings CheckUrdf(const std::string& text, const std::string& file, Complaints* complaints);
 
 }  // namespace halfstep
