@@ -15,4 +15,4 @@ mkdir "$folder/pictures"
 node experiments/pages/draw_walk.mjs "$folder/run/report.html" "$folder/pictures" $rate \
   halfstep/sqp camera=corner
 python3=/usr/bin/python3
-$python3 experiments/pages/make_gif.py "$folder/pictures" $rate 560 "$out"
+$python3 experiments/pages/make_gif.py "$folder/pictures" $rate 440 "$out"
