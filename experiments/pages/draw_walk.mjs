@@ -26,7 +26,8 @@ try {
         Math.min(i / rate, duration));
       await pause(60);
     }
-    writeFileSync(join(folder, `${String(i).padStart(4, "0")}.png`), await browser.picture("#view"));
+    const name = `${String(i).padStart(4, "0")}.png`;
+    writeFileSync(join(folder, name), await browser.picture("#view"));
   }
 } finally {
   await browser.close();

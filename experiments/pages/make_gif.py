@@ -6,7 +6,8 @@ import sys
 
 from PIL import Image
 
-folder, rate, width, out = pathlib.Path(sys.argv[1]), float(sys.argv[2]), int(sys.argv[3]), sys.argv[4]
+folder, out = pathlib.Path(sys.argv[1]), sys.argv[4]
+rate, width = float(sys.argv[2]), int(sys.argv[3])
 pictures = [Image.open(path).convert("RGB") for path in sorted(folder.glob("*.png"))]
 pictures = [p.resize((width, round(p.height * width / p.width)), Image.LANCZOS) for p in pictures]
 # One palette for all, of some pictures beside each other, so that nothing flickers.

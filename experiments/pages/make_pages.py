@@ -23,7 +23,7 @@ nav { border-bottom: 1px solid #888; padding-bottom: .5em; } nav a { margin-righ
 pre { background: #8881; overflow-x: auto; padding: .6em; } code { font-size: 90%; }
 table { border-collapse: collapse; display: block; overflow-x: auto; }
 td, th { border: 1px solid #888; padding: .2em .5em; text-align: left; vertical-align: top; }
-img { max-width: 100%; } :root { color-scheme: light dark; }
+img { max-width: 100%; } img[align=right] { margin-left: 1em; } :root { color-scheme: light dark; }
 """
 MENU = {"README.md": "halfstep", "experiments/tutorial.md": "Tutorial", "examples.html": "Examples",
         "cpp/index.html": "C++", "python/halfstep.html": "Python",
@@ -143,8 +143,8 @@ class Pages:
         for page in self.out.rglob("*.html"):
             text = page.read_text(encoding="utf-8")
             anchors[page.resolve()] = set(re.findall(r'(?:id|name)="([^"]*)"', text))
-            for loaded in re.findall(r'<(?:script|img|link|iframe)[^>]*(?:src|href)="(https?:[^"]*)"',
-                                     text):
+            loads = r'<(?:script|img|link|iframe)[^>]*(?:src|href)="(https?:[^"]*)"'
+            for loaded in re.findall(loads, text):
                 self.faults.append(f"{page}: loads {loaded}")
         for name in self.texts:
             page = self.out / html_name(name)

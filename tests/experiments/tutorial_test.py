@@ -2,8 +2,8 @@
 """Does what experiments/tutorial.md says: tutorial_test.py HALFSTEP
 
 Files of its yaml and python blocks are written under the name of their first line. Blocks of sh are
-run in one folder; the lines of the text block behind one must be in what it prints, in any order, …
-standing for any text. Blocks of other kinds are for reading. What needs the Python module is left
+run in one folder; the lines of the text block behind one must be in what it prints, in any order;
+… stands for any text. Blocks of other kinds are for reading. What needs the Python module is left
 out when that is not built.
 """
 import os
@@ -52,8 +52,9 @@ def main():
             if kind in ("yaml", "python"):
                 (work / re.match(r"# (\S+)\n", body)[1]).write_text(body, encoding="utf-8")
             elif kind == "sh" and ("python3" not in body or module):
-                done = subprocess.run(["sh", "-eu", "-c", body], cwd=work, env=environment, text=True,
-                                      stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+                done = subprocess.run(["sh", "-eu", "-c", body], cwd=work, env=environment,
+                                      text=True, stdout=subprocess.PIPE,
+                                      stderr=subprocess.STDOUT)
                 wanted, ran = done.stdout, ran + 1
                 if done.returncode:
                     faults.append(f"{body}exit status {done.returncode}\n{done.stdout}")

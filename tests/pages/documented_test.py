@@ -48,7 +48,8 @@ def main():
         (folder / "opt").mkdir()
         (folder / "opt/silent.h").write_text("namespace halfstep {\nint Silent(int x);\n}\n")
         told = warnings(folder)
-    silent = [line for line in told if re.search(r"opt/silent\.h:2: .*Silent.* is not documented", line)]
+    silent = [line for line in told
+              if re.search(r"opt/silent\.h:2: .*Silent.* is not documented", line)]
     others = [line for line in told if line not in silent]
     print("\n".join(others))
     if not silent:
