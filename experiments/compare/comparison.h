@@ -11,9 +11,10 @@
 
 namespace halfstep {
 
+/// How many targets there are.
+constexpr int kNumTargets = 3;
 /// What counts as solved, by the gap to the best: within 1 %, within 5 %, and ∞: the method was not
 /// interrupted. The walk is certified and the method's own (MethodRecord::solved).
-constexpr int kNumTargets = 3;
 constexpr std::array<double, kNumTargets> kTargets = {0.01, 0.05,
                                                       std::numeric_limits<double>::infinity()};
 
@@ -23,8 +24,9 @@ struct Effort {
   double instants = 0.0;  ///< instants at which margins were evaluated
 };
 
+/// One method in one case, beside the best of that case.
 struct ComparedMethod {
-  MethodRecord record;
+  MethodRecord record;  ///< what its run folder says
   /// (cost − best)/|best|; +inf when the walk is not certified or not the method's own; nan for raw
   /// where the objective is not `fastest`: run folders do not hold its cost.
   double gap = 0.0;
@@ -34,25 +36,27 @@ struct ComparedMethod {
 
 /// The methods that worked on one problem: a scenario with one objective.
 struct ComparedCase {
+  /// What the methods of the case have in common; problem: RunRecord::problem.
   std::string scenario, objective, problem;
-  int half_steps = 0;
+  int half_steps = 0;  ///< of the walk
   /// Cost of the cheapest certified walk of its own that any method has, raw included for
   /// `fastest`; none when there is no such walk.
   std::optional<double> best_cost;
-  std::string best_method;
+  std::string best_method;              ///< "run folder: method" of that walk
   std::vector<ComparedMethod> methods;  ///< raw first
 };
 
 /// A method as it is compared over cases: the same solver with other variables or
 /// another objective is another one. Only cases of its objective count for it.
 struct MethodKey {
-  std::string name, variables, objective;
+  std::string name, variables, objective;  ///< as in MethodRecord
   bool operator==(const MethodKey&) const = default;
 };
 
+/// All runs that are compared.
 struct Comparison {
-  std::vector<ComparedCase> cases;
-  std::vector<MethodKey> methods;  ///< of all cases, in the order of appearance, without raw
+  std::vector<ComparedCase> cases;  ///< in the order of appearance
+  std::vector<MethodKey> methods;   ///< of all cases, in the order of appearance, without raw
 };
 
 /// Brings the methods together by scenario and the objective that each pursued. Targets of
@@ -69,20 +73,22 @@ const ComparedMethod* Find(const ComparedCase& one, const MethodKey& method);
 /// `ratio` times the least effort of any method there. Efforts below 1 ms or one evaluation count
 /// as that. Source: [DolanMore2002].
 struct ProfileCurve {
-  int target = 0;  ///< of kTargets
-  bool by_wall = false;
-  MethodKey method;
+  int target = 0;        ///< of kTargets
+  bool by_wall = false;  ///< the effort is wall time [s]; else instants
+  MethodKey method;      ///< whose curve this is
   std::vector<std::pair<double, double>>
       points;  ///< (ratio ≥ 1, fraction), both rising; a staircase
 };
+/// A curve for each target, each kind of effort and each method, in this order.
 std::vector<ProfileCurve> PerformanceProfiles(const Comparison& comparison);
 
 /// A method over all cases. A failure counts as ten times the largest effort that met the target in
 /// that case, and as speed-up 1; cases that nobody solved are left out of the means of efforts.
 struct MethodMeans {
-  MethodKey method;
+  MethodKey method;  ///< whose means these are
+  /// Cases of its objective; those where it was not run; those where its walk is certified.
   int cases = 0, missing = 0, certified = 0;
-  std::array<int, kNumTargets> solved{};
+  std::array<int, kNumTargets> solved{};  ///< by target of kTargets: cases that it solved
   /// Cases where it was interrupted, or has no certified walk of its own.
   int failed() const { return cases - solved.back(); }
   double speedup = 1.0;  ///< geometric mean
@@ -90,6 +96,7 @@ struct MethodMeans {
   /// when no case counts.
   std::array<Effort, kNumTargets> effort;
 };
+/// One entry for each method of the comparison, in its order.
 std::vector<MethodMeans> Means(const Comparison& comparison);
 
 }  // namespace halfstep

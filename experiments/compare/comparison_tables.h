@@ -10,9 +10,11 @@ namespace halfstep {
 
 /// Each table of a comparison; columns: experiments/README.md.
 CsvFile ComparisonCsv(const Comparison& comparison);
+/// The staircases of PerformanceProfiles().
 CsvFile PerformanceProfileCsv(const Comparison& comparison);
 /// The incumbents of every method, from the planned motion to its end.
 CsvFile AnytimeCsv(const Comparison& comparison);
+/// One row a method, of Means().
 CsvFile MeansCsv(const Comparison& comparison);
 
 /// Which runs were compared, each with the SHA-256 of its manifest, and by which program.

@@ -17,14 +17,15 @@ namespace halfstep {
 
 /// An experiment ready to run: everything that its config names, loaded and checked.
 struct Experiment {
-  ExperimentConfig config;
-  RobotModel robot;
-  Scene scene;
-  HalfStepSequence sequence;
+  ExperimentConfig config;    ///< as resolved
+  RobotModel robot;           ///< with the margins' defaults of its size
+  Scene scene;                ///< empty when the config says `none`
+  HalfStepSequence sequence;  ///< the footsteps' half-steps, planned and placed in W
 };
 
 /// Paths of the files that a config names, which need not exist. No scene: an empty floor.
 std::filesystem::path RobotPath(const ExperimentConfig& config);
+/// The same of the scene; none: an empty floor.
 std::optional<std::filesystem::path> ScenePath(const ExperimentConfig& config);
 
 /// The files of smoothing.given, as they are found from the working directory.
@@ -36,8 +37,8 @@ ExperimentConfig MovedTo(const std::filesystem::path& folder, const ExperimentCo
 
 /// Where a config's walk takes place.
 struct Place {
-  RobotModel robot;
-  Scene scene;
+  RobotModel robot;  ///< as in Experiment
+  Scene scene;       ///< as in Experiment
 };
 /// Loads the robot and the scene. Throws InputError.
 Place LoadPlace(const ExperimentConfig& config);

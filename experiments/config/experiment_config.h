@@ -21,12 +21,13 @@ namespace halfstep {
 
 /// One footstep of a config: a sole's place in the world, and what differs from `half_step`.
 struct FootstepConfig {
-  std::string foot = "left";
-  Footprint X_WF;
+  std::string foot = "left";         ///< "left" or "right"
+  Footprint X_WF;                    ///< the sole's place in W
   std::optional<double> via_height;  ///< [m]
   std::optional<double> duration;    ///< [s]
 };
 
+/// The group `half_step`: what holds for every half-step whose footstep says nothing else.
 struct HalfStepConfig {
   double duration = 2.0;                ///< T [s]
   double zmp_shift = 0.1;               ///< t2 − t1 at that T [s]; scales with the duration
@@ -45,16 +46,16 @@ HalfStepShape ShapeOf(const HalfStepConfig& config);
 
 /// Options of the methods that are solvers.
 struct OptimizerConfig {
-  std::string program = "fastest";
-  OptimizerOptions options;
-  ParetoOptions pareto;
+  std::string program = "fastest";  ///< one of the names of ProgramKind
+  OptimizerOptions options;         ///< also holds for the solvers of ParetoCurve
+  ParetoOptions pareto;             ///< used where `program` is `pareto`
 };
 
 /// A parameter that methods leave alone, as a config names it: "overlap", 3 (from 1).
 struct FixedConfig {
-  std::string parameter = "overlap";
-  int index = 1;
-  std::optional<double> value;  ///< in the family's unit; none: as planned
+  std::string parameter = "overlap";  ///< the name of a parameter family
+  int index = 1;                      ///< junction, step or half-step of the family, from 1
+  std::optional<double> value;        ///< in the family's unit; none: as planned
 };
 
 /// Files that hold a walk of one's own, with columns of overlaps.csv and half_steps.csv; "": none.
@@ -63,20 +64,21 @@ struct GivenWalkFiles {
   std::string half_steps;  ///< one row a half-step
 };
 
+/// The group `smoothing`: the methods, and what they have to keep.
 struct SmoothingConfig {
-  std::vector<std::string> methods = {"dichotomy"};
-  std::string acceptance = "certified";
-  double sampling = 0.005;  ///< period of acceptance `sampled` [s]
-  std::string stop_branches = "none";
-  bool repair_plan = false;  ///< RepairPlan() before the methods
-  CertificationOptions certification;
-  DichotomyOptions dichotomy;
-  OptimizerConfig optimizer;
-  HorizonOptions horizon;  ///< window, step and passes
-  std::vector<FixedConfig> fixed;
-  bool has_given = false;
-  GivenWalkFiles given;  ///< of the method `given`, when has_given
-  MarginLimits limits;
+  std::vector<std::string> methods = {"dichotomy"};  ///< in the order in which they run
+  std::string acceptance = "certified";  ///< "certified" or "sampled": how a method accepts a walk
+  double sampling = 0.005;               ///< period of acceptance `sampled` [s]
+  std::string stop_branches = "none";    ///< one of the names of StopBranches
+  bool repair_plan = false;              ///< RepairPlan() before the methods
+  CertificationOptions certification;    ///< of proofs, whatever `acceptance` is
+  DichotomyOptions dichotomy;            ///< of the dichotomy and of the methods that begin with it
+  OptimizerConfig optimizer;             ///< of the methods that are solvers
+  HorizonOptions horizon;                ///< window, step and passes
+  std::vector<FixedConfig> fixed;        ///< parameters that no method moves
+  bool has_given = false;                ///< whether `given` names files
+  GivenWalkFiles given;                  ///< of the method `given`
+  MarginLimits limits;                   ///< limits and demanded margins
 };
 
 /// An experiment as its YAML file says it (top keys: experiments/README.md). Paths are as written.
@@ -84,20 +86,21 @@ struct ExperimentConfig {
   std::string name;   ///< default: the file's stem
   std::string robot;  ///< a shipped robot's name or a path
   std::string scene;  ///< a path; "none": empty floor
+  /// Whether `start` is given; else the feet stand beside each other at the origin.
   bool has_start = false;
-  Footprint start_left, start_right;  ///< X_WF of the soles, when has_start
-  bool has_goal = false;              ///< else there are footsteps
-  GoalConfig goal;
-  std::vector<FootstepConfig> footsteps;
-  PlannerConfig planner;
-  HalfStepGrid half_step_grid;
-  SweptVolumesConfig swept_volumes;
-  HalfStepConfig half_step;
-  SmoothingConfig smoothing;
-  std::string output_directory;  ///< "": runs/<name> in the working directory
-  double output_period = 0.005;  ///< of trajectory.csv [s]
-  int seed = 1;
-  std::string directory;  ///< folder of the file, to which relative paths refer
+  Footprint start_left, start_right;      ///< X_WF of the soles, when has_start
+  bool has_goal = false;                  ///< else there are footsteps
+  GoalConfig goal;                        ///< used when has_goal
+  std::vector<FootstepConfig> footsteps;  ///< empty when has_goal
+  PlannerConfig planner;                  ///< used when has_goal
+  HalfStepGrid half_step_grid;            ///< the placements that planners choose from
+  SweptVolumesConfig swept_volumes;       ///< of the planners that ask them
+  HalfStepConfig half_step;               ///< of all half-steps
+  SmoothingConfig smoothing;              ///< methods, limits and margins
+  std::string output_directory;           ///< "": `runs/<name>` in the working directory
+  double output_period = 0.005;           ///< of trajectory.csv [s]
+  int seed = 1;                           ///< of planners' random numbers
+  std::string directory;                  ///< folder of the file, to which relative paths refer
 };
 
 /// Declares every key of a config once: reading, writing back and explaining all use this.

@@ -13,29 +13,33 @@ namespace halfstep {
 
 /// Where the walk shall end, in place of footsteps.
 struct GoalConfig {
-  std::string part = "either_foot";
-  Pose2 X_WG;
-  double radius = 0.1;                  ///< [m]
+  std::string part = "either_foot";  ///< a name of GoalPart
+  Pose2 X_WG;           ///< centre of the region, in W; its yaw is the middle of the range of yaw
+  double radius = 0.1;  ///< [m]
   std::vector<double> box;              ///< edge lengths [m]; empty: the disc
   std::optional<double> yaw_tolerance;  ///< [rad]; none: any yaw
 
+  /// The region as planners take it.
   GoalRegion Region() const;
 };
 
+/// The group `planner`.
 struct PlannerConfig {
-  std::string name = "rrt";
-  std::string cost = "steps";
-  StepCost estimate;  ///< its numbers; Cost() sets its kind by `cost`
-  int max_nodes = 100000;
-  int unimproved_nodes = 500;  ///< ends after these without a better plan; 0: at the first plan
-  double deadline = 60.0;      ///< [s]
-  int max_refusals = 5;
+  std::string name = "rrt";       ///< one of PlannerNames()
+  std::string cost = "steps";     ///< a name of CostKind
+  StepCost estimate;              ///< its numbers; Cost() sets its kind by `cost`
+  int max_nodes = 100000;         ///< ends the search
+  int unimproved_nodes = 500;     ///< ends after these without a better plan; 0: at the first plan
+  double deadline = 60.0;         ///< [s]
+  int max_refusals = 5;           ///< plans that the full check may refuse before planning ends
   std::vector<double> workspace;  ///< x_min, y_min, x_max, y_max [m]; empty: the planner's
-  PlannerOptions options;
+  PlannerOptions options;         ///< of the planner by that name
 
+  /// The cost that plans are compared by.
   StepCost Cost() const;
 };
 
+/// The group `swept_volumes`.
 struct SweptVolumesConfig {
   SweptVolumeOptions options;  ///< its clearance is the demanded margin's
   std::string cache;           ///< folder; "": DefaultCacheFolder()
@@ -43,8 +47,11 @@ struct SweptVolumesConfig {
 
 /// Declare the keys of one group each.
 void DeclareGoal(Fields& fields, GoalConfig* config);
+/// The keys of `planner`.
 void DeclarePlanner(Fields& fields, PlannerConfig* config);
+/// The keys of `step_set`.
 void DeclareHalfStepSet(Fields& fields, HalfStepGrid* grid);
+/// The keys of `swept_volumes`.
 void DeclareSweptVolumes(Fields& fields, SweptVolumesConfig* config);
 
 }  // namespace halfstep

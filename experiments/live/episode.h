@@ -15,37 +15,37 @@ namespace halfstep {
 
 /// Something that happened in an episode, in the order of time.
 struct EpisodeEvent {
-  double t = 0.0;    ///< [s]
-  std::string what;  ///< as the column `event` of events.csv
-  int version = 0;   ///< of the world that was known
-  int walk = 0;      ///< index of the walk in execution
-  int half_step = -1;
-  std::string text;
+  double t = 0.0;      ///< [s]
+  std::string what;    ///< as the column `event` of events.csv
+  int version = 0;     ///< of the world that was known
+  int walk = 0;        ///< index of the walk in execution
+  int half_step = -1;  ///< that the event is about; −1: none
+  std::string text;    ///< one line for people
 };
 
 /// A walk that was handed over.
 struct ExecutedWalk {
-  double t = 0.0;  ///< when [s]; the first one at 0
-  ProposalKind kind = ProposalKind::kChanged;
-  std::string reason;
-  WalkPlan plan;
-  int first_changed = 0;
-  double asked = 0.0;     ///< when the replanner began to work on it [s]
-  double measured = 0.0;  ///< t_m of the world that it was made for [s]
+  double t = 0.0;                              ///< when [s]; the first one at 0
+  ProposalKind kind = ProposalKind::kChanged;  ///< why it was proposed
+  std::string reason;                          ///< in words
+  WalkPlan plan;                               ///< the walk itself
+  int first_changed = 0;                       ///< half-step; those before are the walk's before
+  double asked = 0.0;                          ///< when the replanner began to work on it [s]
+  double measured = 0.0;                       ///< t_m of the world that it was made for [s]
   double check_s = 0.0, plan_s = 0.0, smooth_s = 0.0;  ///< of computing [s]
 };
 
 /// A permission to begin half-steps.
 struct EpisodeGrant {
   double t = 0.0;  ///< from when on it counted [s]
-  int walk = 0;
-  Grant grant;
+  int walk = 0;    ///< index of the walk that it allows
+  Grant grant;     ///< what may begin, and until when it may go on
 };
 
 /// A half-step that began.
 struct BegunHalfStep {
-  int half_step = 0;
-  int grant = 0;  ///< index of the grant that allowed it
+  int half_step = 0;  ///< index in its walk
+  int grant = 0;      ///< index of the grant that allowed it
 };
 
 /// How an episode ended.
@@ -58,22 +58,24 @@ enum class EpisodeEnding {
   kFell,         ///< the simulated robot fell
   kKilled,       ///< its process was killed: what is recorded was recovered
 };
+/// All of them.
 inline constexpr std::array kEpisodeEndings = {EpisodeEnding::kArrived,     EpisodeEnding::kStuck,
                                                EpisodeEnding::kTooLong,     EpisodeEnding::kNoPlan,
                                                EpisodeEnding::kInterrupted, EpisodeEnding::kFell,
                                                EpisodeEnding::kKilled};
+/// As events.csv and manifests call it: "arrived".
 std::string_view Name(EpisodeEnding ending);
 
 /// The record of an episode.
 struct Episode {
-  EpisodeEnding ending = EpisodeEnding::kNoPlan;
-  std::string message;
-  std::vector<World> worlds;  ///< by version, as they became known
-  std::vector<double> known;  ///< when each did [s]; at and before 0 those of the time waited
-  std::vector<ExecutedWalk> walks;
-  std::vector<EpisodeGrant> grants;
-  std::vector<BegunHalfStep> begun;
-  std::vector<EpisodeEvent> events;
+  EpisodeEnding ending = EpisodeEnding::kNoPlan;  ///< why the episode is over
+  std::string message;                            ///< the same in words
+  std::vector<World> worlds;                      ///< by version, as they became known
+  std::vector<double> known;        ///< when each did [s]; at and before 0 those of the time waited
+  std::vector<ExecutedWalk> walks;  ///< in the order of time
+  std::vector<EpisodeGrant> grants;  ///< in the order of time
+  std::vector<BegunHalfStep> begun;  ///< in the order of time
+  std::vector<EpisodeEvent> events;  ///< in the order of time
   double waited = 0.0;       ///< before the first walk began, at t = 0; a time of the script [s]
   bool stopped = false;      ///< the last walk was cut after its half-step `begun.back()`
   double end = 0.0;          ///< [s]
@@ -85,14 +87,14 @@ struct Episode {
 
 /// What an episode shows of itself after each tick. `record` grows only: what was in it stays.
 struct EpisodeTick {
-  double now;  ///< [s]
-  const Episode& record;
-  const Executor& executor;
+  double now;                ///< [s]
+  const Episode& record;     ///< of the episode so far
+  const Executor& executor;  ///< the walk in execution
 };
 
 /// Callbacks of an episode, called in the thread that runs it; they must return quickly.
 struct EpisodeHooks {
-  std::function<void(const EpisodeTick&)> on_tick = {};
+  std::function<void(const EpisodeTick&)> on_tick = {};  ///< called after each tick; may be empty
   /// Called at each look at the world before there is a walk, with the reason why not.
   std::function<void(const std::string& reason)> on_wait = {};
   /// Whether no half-step is to begin for the time being, so that the robot comes to rest.

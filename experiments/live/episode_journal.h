@@ -28,6 +28,7 @@ class EpisodeJournalLock {
 /// outlives the process, not the machine. `halfstep recover` makes the folder of it.
 class EpisodeJournal {
  public:
+  /// Where the journal of an episode lies that will be written into the folder `episode`.
   static std::filesystem::path FolderOf(const std::filesystem::path& episode);
 
   /// `episode` is the path NAME. With `overwrite` an older journal that no process writes is
@@ -38,6 +39,7 @@ class EpisodeJournal {
   /// Appends what is new since the last tick. A robot that walks does not stop for a full disk:
   /// when something cannot be written, nothing more is, and failure() says so.
   void Write(const EpisodeTick& tick);
+  /// Why nothing is written any more; "" while all is well.
   const std::string& failure() const { return failure_; }
 
   /// Removes it: to be called when the folder of the episode is there.

@@ -23,6 +23,7 @@ class EpisodeLoop {
   EpisodeLoop(const Replanner& replanner, Sensor* sensor, Thinker* thinker, EpisodeClock* clock,
               const EpisodeHooks& hooks);
 
+  /// Runs an episode from soles at rest at `start` (X_WF, by Index(Side)) until it ends.
   Episode Run(const std::array<Footprint, 2>& start);
 
  private:

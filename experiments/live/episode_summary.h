@@ -13,16 +13,17 @@ namespace halfstep {
 
 /// The numbers that tell how an episode went.
 struct EpisodeSummary {
-  std::string ending;
+  std::string ending;                                         ///< Name(EpisodeEnding)
   double waited = 0.0;                                        ///< before the walk began [s]
   double duration = 0.0;                                      ///< [s]
   int half_steps = 0;                                         ///< that began
   int changed = 0, shortened = 0, smoothed = 0, resumed = 0;  ///< successors that were handed over
+  /// How often: no successor, a world contradicted, a stop, no safe way.
   int refused = 0, contradicted = 0, stops = 0, unsafe = 0;
   /// From when the world that asked for it was measured to the hand-over, of each walk with other
   /// footsteps [s]; half-steps that began meanwhile, before the first changed one.
   std::vector<double> latencies;
-  std::vector<int> begun_meanwhile;
+  std::vector<int> begun_meanwhile;  ///< the same walks in the same order
   /// Sampled every 5 ms; none when it is not known where obstacles truly were.
   std::optional<Approach> nearest;
 };
@@ -33,6 +34,7 @@ EpisodeSummary Summarize(const Episode& episode, const TrueWorld* truth, const R
 /// What `halfstep live` prints; the same as one JSON object.
 std::string SummaryScreen(const Episode& episode, const EpisodeSummary& summary,
                           const std::string& folder);
+/// The same numbers as one JSON object.
 std::string SummaryJson(const Episode& episode, const EpisodeSummary& summary,
                         const std::string& folder);
 

@@ -12,13 +12,15 @@ namespace halfstep {
 /// A table of an episode's folder by its name.
 struct EpisodeTable {
   std::string name;  ///< "worlds"
-  CsvFile file;
+  CsvFile file;      ///< its columns and text
 };
 
 /// How much of an episode has been written: counts of its lists.
 struct EpisodeProgress {
+  /// Of worlds, walks, grants, half-steps that began, and events.
   size_t worlds = 0, walks = 0, grants = 0, begun = 0, events = 0;
 
+  /// All of an episode.
   static EpisodeProgress Of(const Episode& episode) {
     return {episode.worlds.size(), episode.walks.size(), episode.grants.size(),
             episode.begun.size(), episode.events.size()};

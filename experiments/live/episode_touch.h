@@ -14,7 +14,7 @@ struct Approach {
   double distance = 0.0;  ///< [m], at most the horizon that was asked for; ≤ 0: it touched
   double t = 0.0;         ///< [s]
   std::string obstacle;   ///< "": none within the horizon
-  std::string body;
+  std::string body;       ///< of the robot; "" where there is no obstacle
 };
 
 /// Looks at the executed motion every `period` [s] while it moves, at the obstacles where they

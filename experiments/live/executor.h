@@ -15,7 +15,8 @@ namespace halfstep {
 struct Grant {
   int version = 0;         ///< of the world that it was proved against
   double proved_at = 0.0;  ///< from this time of the walk on [s]
-  int through = -1;
+  int through = -1;        ///< the latest half-step that may begin; −1: none
+  /// Every half-step that begins ends by then [s].
   double valid_until = std::numeric_limits<double>::infinity();
 };
 
@@ -26,10 +27,10 @@ class Executor {
   /// The walk begins at t = 0 with its half-step 0.
   Executor(WalkPlan plan, const Grant& grant);
 
-  const WalkPlan& plan() const { return plan_; }
-  const SuperposedWalk& walk() const { return walk_; }
-  const Grant& grant() const { return grant_; }
-  int begun() const { return begun_; }  ///< the latest half-step that has begun
+  const WalkPlan& plan() const { return plan_; }        ///< the walk as data
+  const SuperposedWalk& walk() const { return walk_; }  ///< the same walk as a function of time
+  const Grant& grant() const { return grant_; }         ///< what may begin
+  int begun() const { return begun_; }                  ///< the latest half-step that has begun
   /// Whether nothing more begins: the walk ends with half-step begun().
   bool stopped() const { return stopped_; }
   /// When the motion comes to rest, as far as is known now [s].

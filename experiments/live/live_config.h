@@ -46,7 +46,9 @@ struct BudgetConfig {
 
 /// How an episode goes.
 struct LiveOptions {
+  /// "lockstep": computing takes the times of `budget`; "wall": the time that it takes.
   std::string clock = "lockstep";
+  /// What is done when the world changes: "replan", "paper" or "stop_and_replan".
   std::string policy = "replan";
   double period = 0.005;   ///< of control [s]
   double horizon = 2.5;    ///< H: the uncertainty of a measurement grows no longer than this [s]
@@ -57,15 +59,15 @@ struct LiveOptions {
   int smooth_ahead = 8;    ///< junctions behind the latest half-step that has begun
   double tolerance = 0.02;  ///< of their overlaps [s]
   bool refine = false;      ///< when nothing else is to be done: half-steps to come, by a program
-  SensingConfig sensing;
-  BudgetConfig budget;
-  std::vector<ScriptEvent> script;
+  SensingConfig sensing;    ///< how the world is measured
+  BudgetConfig budget;      ///< what computing costs in lockstep
+  std::vector<ScriptEvent> script;  ///< what happens to the world, in the order of time
 };
 
 /// An episode as its YAML file says it: an experiment with a goal, and `live:`.
 struct LiveConfig {
-  ExperimentConfig experiment;
-  LiveOptions live;
+  ExperimentConfig experiment;  ///< robot, scene, goal and all that the walk keeps
+  LiveOptions live;             ///< how it goes on while the world changes
 };
 
 /// Declares every key once: those of an experiment, and `live`.

@@ -23,11 +23,15 @@ constexpr int kProtocol = 1;
 /// `spare` names the boxes of the scene that a person may place.
 nlohmann::json HelloMessage(const LiveConfig& config, const RobotModel& robot, const Scene& scene,
                             const std::vector<std::string>& spare);
+/// The robot waits, and why.
 nlohmann::json WaitingMessage(std::string_view reason);
 /// `known`: when the world became known [s].
 nlohmann::json WorldMessage(const World& world, double known);
+/// A walk that was handed over; `index` counts them from 0.
 nlohmann::json WalkMessage(const ExecutedWalk& walk, size_t index);
+/// A grant; `index` counts them from 0.
 nlohmann::json GrantMessage(const EpisodeGrant& grant, size_t index);
+/// Something that happened.
 nlohmann::json EventMessage(const EpisodeEvent& event);
 /// The instant t [s] of the motion in execution. `held`: nothing more is to begin.
 nlohmann::json StateMessage(const RobotModel& robot, const SuperposedWalk& executed, double t,

@@ -21,14 +21,16 @@ class PastWorlds {
   /// Precondition: `worlds` in the order of their versions.
   explicit PastWorlds(std::span<const World> worlds = {});
 
+  /// Keeps a world for later questions.
   void Add(const World& world);
 
   /// The latest world, from version `since` on, that a newer one contradicts, −1: none; and names
   /// of what of it that one did not allow, for messages.
   struct Contradiction {
-    int version = -1;
-    std::vector<std::string> names = {};
+    int version = -1;                     ///< of the past world
+    std::vector<std::string> names = {};  ///< of obstacles and areas; empty when there is none
   };
+  /// See Contradiction; `now` is the newer world.
   Contradiction Latest(const World& now, int since) const;
 
  private:

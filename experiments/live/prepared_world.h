@@ -19,10 +19,10 @@ struct PreparedWorld {
         query(volumes, robot.sole_outline, w.scene,
               config.smoothing.limits.demanded_of(MarginFamily::kNoStep)) {}
 
-  const World world;
-  const SafetyCheck safety;
-  const HalfStepCertifier certifier;
-  const SweptVolumeQuery query;
+  const World world;                  ///< a copy: what follows borrows it
+  const SafetyCheck safety;           ///< proofs of walks against it
+  const HalfStepCertifier certifier;  ///< proofs of isolated half-steps
+  const SweptVolumeQuery query;       ///< of swept volumes, without the obstacles' past
 };
 
 }  // namespace halfstep

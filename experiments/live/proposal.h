@@ -16,7 +16,7 @@ namespace halfstep {
 
 /// What a replanner is asked about: a walk in execution, and the world.
 struct Situation {
-  WalkPlan plan;
+  WalkPlan plan;               ///< the walk in execution, from its first half-step
   std::vector<bool> smoothed;  ///< by junction: its overlap was found already
   Grant grant;                 ///< what is proved of it
   int robot_through = -1;      ///< what does not depend on the world is proved up to this half-step
@@ -24,11 +24,12 @@ struct Situation {
   bool stopped = false;        ///< nothing more begins unless a successor is handed over
   double now = 0.0;            ///< [s]
   double hand_over = 0.0;      ///< a successor is taken at this time at the earliest [s]
-  std::shared_ptr<const World> world;
-  bool shorten = false;  ///< when nothing else is to be done, look for a shorter way
-  int used_up = 0;       ///< proposals in a row until now whose searches used up all nodes in vain
+  std::shared_ptr<const World> world;  ///< the latest that is known; not null
+  bool shorten = false;                ///< when nothing else is to be done, look for a shorter way
+  int used_up = 0;  ///< proposals in a row until now whose searches used up all nodes in vain
 };
 
+/// What kind of answer a replanner gives.
 enum class ProposalKind {
   kSafe,       ///< the walk stays, and is safe
   kResumed,    ///< the walk goes on after a stop, as it was planned
@@ -37,23 +38,25 @@ enum class ProposalKind {
   kSmoothed,   ///< other overlaps
   kUnsafe,     ///< there is no safe way on that was found: what is granted is executed
 };
+/// All of them.
 inline constexpr std::array kProposalKinds = {ProposalKind::kSafe,     ProposalKind::kResumed,
                                               ProposalKind::kChanged,  ProposalKind::kShortened,
                                               ProposalKind::kSmoothed, ProposalKind::kUnsafe};
+/// As walks.csv calls it: "changed".
 std::string_view Name(ProposalKind kind);
 
 /// What a replanner found.
 struct Proposal {
-  ProposalKind kind = ProposalKind::kSafe;
-  std::string reason = {};  ///< in words
-  WalkPlan plan = {};       ///< a successor, or the walk itself
-  std::vector<bool> smoothed = {};
-  int robot_through = -1;
-  int first_changed = -1;  ///< half-step; −1: none
-  bool refined = false;    ///< a program over half-steps to come was tried (Refine)
-  Grant grant = {};
-  PlanResult planned = {};                             ///< the last search
-  std::int64_t nodes = 0;                              ///< of all searches
+  ProposalKind kind = ProposalKind::kSafe;  ///< what is proposed
+  std::string reason = {};                  ///< in words
+  WalkPlan plan = {};                       ///< a successor, or the walk itself
+  std::vector<bool> smoothed = {};          ///< of `plan`, as in Situation
+  int robot_through = -1;                   ///< of `plan`, as in Situation
+  int first_changed = -1;                   ///< half-step; −1: none
+  bool refined = false;     ///< a program over half-steps to come was tried (Refine)
+  Grant grant = {};         ///< what is proved of `plan`
+  PlanResult planned = {};  ///< the last search
+  std::int64_t nodes = 0;   ///< of all searches
   double check_s = 0.0, plan_s = 0.0, smooth_s = 0.0;  ///< where the time went [s]
 };
 

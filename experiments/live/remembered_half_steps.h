@@ -15,7 +15,9 @@ namespace halfstep {
 /// the rounding of placing a half-step in the world. Safe to use from several threads.
 class RememberedHalfSteps {
  public:
+  /// Whether half-step j of the walk was remembered, or one that moves in the same way.
   bool Knows(const SuperposedWalk& walk, int j) const;
+  /// Remembers half-step j of the walk as proved.
   void Remember(const SuperposedWalk& walk, int j);
 
  private:

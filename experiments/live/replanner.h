@@ -30,6 +30,7 @@ class Replanner {
   /// `volumes` is borrowed. Clearances of volumes are those that the config demands.
   Replanner(const RobotModel& robot, const LiveConfig& config, const SweptVolumes& volumes);
 
+  /// What questions about a world need, ready to be asked by several threads.
   std::shared_ptr<const PreparedWorld> Prepare(const World& world) const;
 
   /// `among` is prepared of the situation's world.
@@ -41,8 +42,8 @@ class Replanner {
   Proposal Begin(const std::array<Footprint, 2>& start, const PreparedWorld& world, int junctions,
                  std::mt19937_64& random) const;
 
-  const RobotModel& robot() const { return robot_; }
-  const LiveConfig& config() const { return config_; }
+  const RobotModel& robot() const { return robot_; }    ///< the robot that walks
+  const LiveConfig& config() const { return config_; }  ///< of the episode
 
  private:
   bool Arrives(const WalkPlan& plan, const World& world) const;

@@ -26,8 +26,10 @@ struct Safety {
 /// depends on the obstacles, since the first stays true when the world changes.
 class SafetyCheck {
  public:
+  /// Limits, margins and the resolution of proofs are those of the config.
   SafetyCheck(const RobotModel& robot, const Scene& scene, const ExperimentConfig& config);
 
+  /// With the scene it was made with.
   const MarginEvaluator& evaluator() const { return evaluator_; }
 
   /// Whether a half-step is known to keep what is to be proved, so that it need not be.

@@ -34,6 +34,7 @@ class Sensor {
 /// The stand-in for motion capture: what is truly there, off by a noise, late or lost.
 class StandInSensor final : public Sensor {
  public:
+  /// The noise is drawn from `seed`: the same truth, options and seed give the same frames.
   StandInSensor(TrueWorld truth, const LiveOptions& options, std::uint64_t seed)
       : truth_(std::move(truth)), options_(options), random_(seed) {}
   void Begin(double origin) override;

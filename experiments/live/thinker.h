@@ -24,7 +24,9 @@ class Thinker {
 /// Remembers what is prepared for a world as long as the same world is asked about.
 class PreparedWorlds {
  public:
+  /// `replanner` is borrowed.
   explicit PreparedWorlds(const Replanner& replanner) : replanner_(replanner) {}
+  /// What belongs to the world; prepared at the first question. Not null.
   const PreparedWorld& Of(const std::shared_ptr<const World>& world);
 
  private:

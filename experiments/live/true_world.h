@@ -39,12 +39,15 @@ class TrueWorld {
 
   const Scene& scene() const { return scene_; }  ///< as its file says it
 
+  /// Whether the obstacle of that index in scene() is in the world at time t [s].
   bool IsThere(size_t obstacle, double t) const;
+  /// X_WO of that obstacle at time t [s].
   Eigen::Isometry3d PoseAt(size_t obstacle, double t) const;
   /// A speed that the obstacle does not exceed but where it jumps [m/s].
   double SpeedOf(size_t obstacle) const;
+  /// Whether the no-step area of that index is there at time t [s].
   bool AreaIsThere(size_t area, double t) const;
-  GoalRegion GoalAt(double t) const;
+  GoalRegion GoalAt(double t) const;  ///< where the robot shall go, as of time t [s]
   /// Whether frames arrive at all.
   bool IsSeen(double t) const;
   /// The first time [s] from which on nothing happens any more, but for the drift.

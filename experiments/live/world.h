@@ -15,18 +15,18 @@ namespace halfstep {
 /// obstacle of the scene carries its measurement (ObstacleMotion: r, v, t_m, horizon), so what is
 /// proved against `scene` holds until valid_until() as long as obstacles keep to r and v.
 struct World {
-  int version = 0;
+  int version = 0;           ///< counts the frames of measurements, from 0
   double measured_at = 0.0;  ///< t_m of the frame, a time of the walk [s]
-  Scene scene;
+  Scene scene;               ///< what is there, as measured
   /// Of each obstacle: where it was first measured of all the places that are one up to the errors,
   /// and when [s].
   struct Stay {
-    Eigen::Isometry3d X_WO;
-    double since = 0.0;
+    Eigen::Isometry3d X_WO;  ///< that first measurement
+    double since = 0.0;      ///< its time [s]
   };
-  std::vector<Stay> stays;
+  std::vector<Stay> stays;    ///< by obstacle of `scene`
   std::vector<size_t> areas;  ///< which no-step areas of the scene file are there
-  GoalRegion goal;
+  GoalRegion goal;            ///< where to go
   /// The earliest version that no later one contradicts: an obstacle was not where it could not
   /// have been. What was proved against earlier versions is void; against this one and later ones
   /// it is not.
@@ -46,9 +46,10 @@ class PastWorlds;
 /// one, although never the last. What vanishes contradicts nothing. An obstacle that has stayed for
 /// `sensing.rests_after` is taken to rest: its speed is that of the drift.
 struct WorldUpdate {
-  World world;
-  std::vector<std::string> contradictions;
+  World world;                              ///< the world after the frame
+  std::vector<std::string> contradictions;  ///< names of what the world before did not allow
 };
+/// The world after `frame`, from the one before it, `last`.
 WorldUpdate Updated(const World& last, const PastWorlds& past, World frame,
                     const LiveOptions& options);
 

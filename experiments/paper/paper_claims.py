@@ -61,7 +61,7 @@ def rest(_):
     return f"no jump above {max(jumps):.0e} m/s at {len(jumps) // 2} seams", "better"
 
 
-@claim("[Fig. 3](notebooks-data/fig3_overlap.ipynb): two half-steps overlap, CoM and "
+@claim("[Fig. 3](fig3_overlap.ipynb): two half-steps overlap, CoM and "
        "ZMP still satisfy the LIPM", "by linearity", FIG3)
 def fig3(_):
     residual = 0.0
@@ -76,7 +76,7 @@ def fig3(_):
             "reproduced")
 
 
-@claim("[Fig. 4](notebooks-data/fig4_walk.ipynb): a sequence becomes about 3 times faster",
+@claim("[Fig. 4](fig4_walk.ipynb): a sequence becomes about 3 times faster",
        "about 3", FIG4)
 def fig4(_):
     raw, fine = duration("fig4_raw_sequence", "raw"), duration("fig4_raw_sequence")
@@ -115,7 +115,7 @@ def apex(printed):
             "differs: our foot moves by a profile with continuous acceleration, and stays higher")
 
 
-@claim("[Fig. 5](notebooks-data/fig5_box.ipynb): over a box, smoothing ends with the foot "
+@claim("[Fig. 5](fig5_box.ipynb): over a box, smoothing ends with the foot "
        "close to it", "close, without contact", FIG5)
 def fig5(_):
     junction = rows("fig5_box/dichotomy/overlaps.csv")[0]
@@ -159,7 +159,7 @@ def half_step_set(printed):
     number = len(printed.splitlines()) - 1
     hold(number >= 150, f"{number}")
     return f"{number}", ("differs: every one certified with margins; knees as in half-sitting "
-                         "([why](planner/README.md#half-step-set))")
+                         "([why](../planner/README.md#half-step-set))")
 
 
 @claim("a swept volume for each half-step", "276 of 17,000 to 25,600 triangles, 20 to 40 s each",

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Runs the claims of paper_claims.py and sets what was found in a table of README.md.
+"""Runs the claims of paper_claims.py and sets what was found in the table of
+notebooks-data/reproduction.md.
 
 The commands are run as they stand in the table. Called by reproduce.sh, which builds first.
 """
@@ -72,16 +73,16 @@ def run(what, paper, commands, function, execute):
     return f"| {what} | {listed} | {took} | {paper} | {ours} | {status} |", fine
 
 
-def write(table, readme):
+def write(table, page):
     """Between the markers, whole or not at all."""
-    text = readme.read_text()
+    text = page.read_text()
     begin, end = text.index(BEGIN) + len(BEGIN), text.index(END)
-    partial = readme.with_suffix(".md.partial")
+    partial = page.with_suffix(".md.partial")
     partial.write_text(f"{text[:begin]}\n{table}\n{text[end:]}")
-    partial.replace(readme)
+    partial.replace(page)
 
 
-def main(claims=CLAIMS, readme=ROOT / "README.md"):
+def main(claims=CLAIMS, page=ROOT / "notebooks-data/reproduction.md"):
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     load, start = os.getloadavg()[0], time.monotonic()
     version = subprocess.run(["git", "describe", "--always"], cwd=ROOT, text=True,
@@ -96,9 +97,9 @@ def main(claims=CLAIMS, readme=ROOT / "README.md"):
         "", "| figure or claim | command | time [s] | paper | ours | status |",
         "|---|---|---|---|---|---|", *(row for row, _ in results), "",
         f"*{version}, {os.cpu_count()} cores at a load of {load:.1f} when it began; "
-        f"{time.monotonic() - start:.0f} s in all.*", ""]), readme)
+        f"{time.monotonic() - start:.0f} s in all.*", ""]), page)
     failed = sum(not fine for _, fine in results)
-    print(f"{readme.name}: {len(results)} rows, {failed} that do not hold", file=sys.stderr)
+    print(f"{page.name}: {len(results)} rows, {failed} that do not hold", file=sys.stderr)
     return 1 if failed else 0
 
 
@@ -106,5 +107,5 @@ if __name__ == "__main__":
     try:
         sys.exit(main())
     except KeyboardInterrupt:
-        print("\nstopped; README.md is as it was", file=sys.stderr)
+        print("\nstopped; the table is as it was", file=sys.stderr)
         sys.exit(130)

@@ -1,7 +1,8 @@
 #!/bin/sh
-# Runs every figure and claim of the source paper and rewrites the table "The paper, reproduced" of
-# README.md. Builds what is needed (log: build/reproduce.log). Exit status 1: a claim does not hold.
-# JOBS: how many compilers at once (2). Minutes; Ctrl-C leaves README.md as it was.
+# Runs every figure and claim of the source paper and rewrites the table of
+# notebooks-data/reproduction.md. Builds what is needed (log: build/reproduce.log). Exit status 1: a
+# claim does not hold. JOBS: how many compilers at once (2). Minutes; Ctrl-C leaves the table as it
+# was.
 set -eu
 cd "$(dirname "$0")/../.."
 

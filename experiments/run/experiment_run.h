@@ -20,8 +20,8 @@ namespace halfstep {
 /// Callbacks and stop tokens of a run. `progress` is called with what is under way ("plan", a
 /// method) and the fraction of it that is done.
 struct RunHooks {
-  std::function<void(const std::string& what, double done)> progress;
-  std::stop_token stop;
+  std::function<void(const std::string& what, double done)> progress;  ///< may be empty
+  std::stop_token stop;  ///< ends the run at the next safe point; what is proved by then stays
   std::stop_token stop_step = {};  ///< requested later; also ends a proof under way
   /// Called when the planned motion is found feasible: from then on there is something to keep.
   std::function<void()> keep = {};
@@ -29,8 +29,8 @@ struct RunHooks {
 
 /// Why there is nothing to smooth.
 struct RunRefusal {
-  std::string status;  ///< "no_plan", "on_no_step_area"
-  std::string sentence;
+  std::string status;    ///< "no_plan", "on_no_step_area"
+  std::string sentence;  ///< in words, with what may help
 };
 
 /// A config on its way to a run folder: planned when it has a goal, smoothed with each method,
@@ -42,6 +42,7 @@ class ExperimentRun {
   ExperimentRun(const ExperimentRun&) = delete;
   ExperimentRun& operator=(const ExperimentRun&) = delete;
 
+  /// None: there is something to smooth.
   const std::optional<RunRefusal>& refusal() const { return refusal_; }
 
   /// Runs every method. Precondition, as for all that follows: there is no refusal. All that
@@ -53,8 +54,9 @@ class ExperimentRun {
 
   /// The config with planned footsteps in place of a goal.
   const ExperimentConfig& config() const { return config_; }
-  const Experiment& experiment() const { return *experiment_; }
-  const WalkProblem& problem() const { return *problem_; }
+  const Experiment& experiment() const { return *experiment_; }  ///< loaded from that config
+  const WalkProblem& problem() const { return *problem_; }       ///< what the methods are given
+  /// Of the problem, with the limits of the config.
   const MarginEvaluator& evaluator() const { return problem_->evaluator(); }
   /// One run for each method, "raw" first.
   const std::vector<MethodRun>& runs() const { return runs_; }

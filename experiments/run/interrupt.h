@@ -15,8 +15,9 @@ class InterruptGuard {
  public:
   InterruptGuard();
 
+  /// Stop is requested at the first SIGINT or SIGTERM.
   std::stop_token token() const { return stop_.get_token(); }
-  bool requested() const { return stop_.stop_requested(); }
+  bool requested() const { return stop_.stop_requested(); }  ///< whether it was
 
   /// Requested a second later, for steps of a search that take longer than that.
   std::stop_token step_token() const { return step_.get_token(); }

@@ -18,9 +18,11 @@ namespace halfstep {
 /// margin for all t.
 class HalfStepCertifier {
  public:
+  /// Margins and the resolution are those of the config.
   HalfStepCertifier(const RobotModel& robot, const Scene& scene, const ExperimentConfig& config);
   /// The same with a robot and a scene that are prepared already.
   HalfStepCertifier(const MarginEvaluator& evaluator, const CertificationOptions& options);
+  /// Whether it is proved; false as well when it is undecided.
   bool Certifies(const HalfStep& half_step, const Footprint& X_WS) const;
 
  private:
@@ -44,8 +46,8 @@ double SteadySeconds();
 /// Callbacks of planning. `progress` is called with what is under way and the fraction of it that
 /// is done.
 struct PlanningHooks {
-  std::function<void(const std::string& what, double done)> progress = {};
-  std::stop_token stop = {};
+  std::function<void(const std::string& what, double done)> progress = {};  ///< may be empty
+  std::stop_token stop = {};  ///< ends planning; the best plan so far is kept
 };
 
 /// The set and its swept volumes, from the cache or baked. Throws InputError when no half-step is
@@ -56,14 +58,16 @@ struct BakedHalfSteps {
   double wall = 0.0;      ///< of reading or baking [s]
   CachedVolumes cached;   ///< without volumes when stopped
 };
+/// Certifies the config's half-steps of a robot and takes their swept volumes from the cache, or
+/// bakes them and puts them there.
 BakedHalfSteps BakeHalfSteps(const RobotModel& robot, const ExperimentConfig& config,
                              const PlanningHooks& hooks);
 
 /// A plan and what it was made with.
 struct PlannedWalk {
-  ExperimentConfig config;  ///< with footsteps and start in place of the goal; when solved
-  PlanResult plan;
-  BakedHalfSteps half_steps;
+  ExperimentConfig config;    ///< with footsteps and start in place of the goal; when solved
+  PlanResult plan;            ///< status, footsteps and effort
+  BakedHalfSteps half_steps;  ///< the set that was searched, with its swept volumes
 };
 
 /// Plans from the config's start to its goal in the place that the config names, and certifies the

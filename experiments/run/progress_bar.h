@@ -9,6 +9,7 @@ namespace halfstep {
 /// not asked for and the work lasts more than a second; otherwise nothing.
 class ProgressBar {
  public:
+  /// Nothing is drawn before the first progress is told.
   ProgressBar(std::string label, bool quiet);
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;

@@ -21,7 +21,7 @@ namespace halfstep {
 /// and the board that it is given.
 class ClientHub {
  public:
-  static constexpr size_t kMostClients = 8;
+  static constexpr size_t kMostClients = 8;   ///< at one time
   static constexpr int kMostMessages = 1000;  ///< of a client in a second; one that sends more is
                                               ///< dropped
 
@@ -33,7 +33,7 @@ class ClientHub {
   /// A client has come: it is told what is known by now. Precondition: HasRoom(). `line` is
   /// borrowed until Leave().
   void Join(ClientLine* line);
-  void Leave(ClientLine* line);
+  void Leave(ClientLine* line);  ///< its line has ended
   /// Does what a client says; what is wrong with it is answered, and nothing is thrown.
   void Receive(ClientLine* line, std::string_view text);
 

@@ -14,9 +14,10 @@ namespace halfstep {
 /// it, which takes it at its ticks. Bounded; a mutex is held for a swap only.
 class ClientInbox {
  public:
+  /// A frame of measurements that a client sent.
   struct Measurement {
     std::chrono::steady_clock::time_point at;  ///< when it was measured
-    MeasuredFrame frame;
+    MeasuredFrame frame;                       ///< what was measured
   };
 
   /// False: there are too many that were not taken yet.
@@ -24,16 +25,16 @@ class ClientInbox {
   /// A carry takes the place of one of the same obstacle that came just before and was not taken
   /// yet; so does a goal.
   bool Add(const Edit& edit);
-  std::vector<Measurement> TakeMeasurements();
-  std::vector<Edit> TakeEdits();
+  std::vector<Measurement> TakeMeasurements();  ///< all that came since the last call, in order
+  std::vector<Edit> TakeEdits();                ///< all that came since the last call, in order
 
   /// Whether no half-step is to begin for the time being.
   void Hold(bool held) { held_ = held; }
-  bool held() const { return held_; }
+  bool held() const { return held_; }  ///< whether Hold(true) was said last
   /// Asks for the end of the episode, when the robot has come to rest.
   void End() { end_.request_stop(); }
-  bool ended() const { return end_.stop_requested(); }
-  std::stop_token end_token() const { return end_.get_token(); }
+  bool ended() const { return end_.stop_requested(); }            ///< whether End() was called
+  std::stop_token end_token() const { return end_.get_token(); }  ///< stop is requested by End()
 
  private:
   std::mutex mutex_;  // of the two that follow

@@ -14,9 +14,10 @@ class ClientLine {
   virtual void Send(std::shared_ptr<const std::string> message) = 0;
   /// Ends the line now, or when everything that was sent has left.
   virtual void Drop() = 0;
-  virtual void Finish() = 0;
+  virtual void Finish() = 0;  ///< when everything that was sent has left
 };
 
+/// A client that reads so slowly that more than this waits for it is dropped.
 inline constexpr size_t kMostQueuedBytes = size_t{16} << 20;
 
 }  // namespace halfstep

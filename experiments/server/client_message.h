@@ -20,6 +20,7 @@ struct Subscribe {
 struct Draw {};
 /// A measurement of everything that is there.
 struct MeasuredFrame {
+  /// A measured obstacle.
   struct Seen {
     size_t obstacle = 0;     ///< index in the scene
     Eigen::Isometry3d X_WO;  ///< finite, a rotation and a translation
@@ -31,25 +32,30 @@ struct MeasuredFrame {
 };
 /// What a person does to the true world.
 struct Carry {
-  size_t obstacle = 0;
-  Eigen::Vector3d to;  ///< origin of its frame in W [m]
-  double turn = 0.0;   ///< about the world's z meanwhile [rad]
+  size_t obstacle = 0;  ///< index into the scene
+  Eigen::Vector3d to;   ///< origin of its frame in W [m]
+  double turn = 0.0;    ///< about the world's z meanwhile [rad]
 };
+/// The goal's place is moved.
 struct MoveGoal {
   Eigen::Vector2d to;  ///< [m]
 };
+/// A spare box is put on the floor.
 struct AddBox {
   Eigen::Vector3d at;  ///< [m]
   double turn = 0.0;   ///< about the world's z [rad]
 };
+/// An obstacle is taken away.
 struct Remove {
-  size_t obstacle = 0;
+  size_t obstacle = 0;  ///< index into the scene
 };
-using Edit = std::variant<Carry, MoveGoal, AddBox, Remove>;
+using Edit = std::variant<Carry, MoveGoal, AddBox, Remove>;  ///< what a person does
+/// No half-step is to begin for the time being.
 struct Hold {
   bool held = true;  ///< false: release
 };
 struct End {};
+/// All that a client may say.
 using ClientMessage = std::variant<Subscribe, Draw, MeasuredFrame, Edit, Hold, End>;
 
 /// Reads messages of clients, strictly. Immutable.

@@ -21,10 +21,12 @@ nlohmann::json ParseMessage(std::string_view text);
 /// of range or unknown throws InputError "NAME.KEY: what is wrong (valid: …)". Borrows the object.
 class MessageFields {
  public:
+  /// `name` is the message's, for complaints.
   MessageFields(const nlohmann::json& object, std::string name);
 
+  /// Whether the key is there.
   bool Has(const std::string& key) const { return object_.contains(key); }
-  std::string Text(const std::string& key);
+  std::string Text(const std::string& key);  ///< a required text
   /// `otherwise`: where the key is missing; none: it may not be.
   double Number(const std::string& key, double min, double max,
                 std::optional<double> otherwise = {});
@@ -39,6 +41,7 @@ class MessageFields {
 
   /// To be called when every key that is known was read.
   void RefuseOthers() const;
+  /// Throws InputError about a key.
   [[noreturn]] void Fail(const std::string& key, const std::string& what) const;
 
  private:

@@ -13,17 +13,18 @@ namespace halfstep {
 
 /// What happened in an episode since one looked last, as values.
 struct EpisodeNews {
-  std::optional<std::string> waiting;  ///< there is no walk yet: why
-  std::vector<World> worlds;
-  std::vector<double> known;  ///< of each of them [s]
-  std::vector<ExecutedWalk> walks;
-  std::vector<EpisodeGrant> grants;
-  std::vector<EpisodeEvent> events;
+  std::optional<std::string> waiting;      ///< there is no walk yet: why
+  std::vector<World> worlds;               ///< that became known
+  std::vector<double> known;               ///< of each of them [s]
+  std::vector<ExecutedWalk> walks;         ///< that were handed over
+  std::vector<EpisodeGrant> grants;        ///< that were given
+  std::vector<EpisodeEvent> events;        ///< that happened
   size_t first_walk = 0, first_grant = 0;  ///< the index of the first of these
   /// The motion in execution, and the number of walks until now; null before there is one.
   std::shared_ptr<const SuperposedWalk> executed;
-  size_t num_walks = 0;
-  double now = 0.0;  ///< [s]
+  size_t num_walks = 0;  ///< so far
+  double now = 0.0;      ///< [s]
+  /// Whether nothing more begins; whether a client holds the robot.
   bool stopped = false, held = false;
   std::vector<std::string> refusals;  ///< of what clients wanted
 };
@@ -38,10 +39,10 @@ class NewsBoard {
 
   /// Of the thread of the episode.
   void Wait(const std::string& reason);
-  void Refuse(const std::string& sentence);
-  void Tick(const EpisodeTick& tick, bool held);
+  void Refuse(const std::string& sentence);       ///< the episode cannot begin, and why
+  void Tick(const EpisodeTick& tick, bool held);  ///< after each tick
 
-  EpisodeNews Take();
+  EpisodeNews Take();  ///< what is new; of the thread that tells it
 
  private:
   void Add(const std::function<void(EpisodeNews*)>& change);

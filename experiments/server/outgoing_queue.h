@@ -18,12 +18,14 @@ class OutgoingQueue {
     messages_.push_back(std::move(message));
     return true;
   }
+  /// It has left.
   void RemoveFirst() {
     bytes_ -= messages_.front()->size();
     messages_.pop_front();
   }
+  /// The oldest; precondition: there is one.
   const std::string& first() const { return *messages_.front(); }
-  size_t size() const { return messages_.size(); }
+  size_t size() const { return messages_.size(); }  ///< messages that wait
 
  private:
   std::deque<std::shared_ptr<const std::string>> messages_;

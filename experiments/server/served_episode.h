@@ -28,14 +28,16 @@ class ServedEpisode {
   ServedEpisode(const LiveConfig& config, const Place& place, const TrueWorld& truth,
                 const ServerOptions& options);
 
-  const std::string& address() const { return server_->address(); }
-  Sensor& sensor() { return *sensor_; }
+  const std::string& address() const { return server_->address(); }  ///< where clients find it
+  Sensor& sensor() { return *sensor_; }  ///< of the episode: what clients measure, or the stand-in
 
-  void Wait(const std::string& reason) { board_.Wait(reason); }
+  void Wait(const std::string& reason) { board_.Wait(reason); }  ///< there is no walk yet, and why
+  /// After each tick of the episode.
   void Tick(const EpisodeTick& tick) { board_.Tick(tick, held() || inbox_.ended()); }
-  bool held() const { return inbox_.held(); }
+  bool held() const { return inbox_.held(); }  ///< whether a client holds the robot
   /// Asks for the end of the episode, as clients do.
   void Stop() { inbox_.End(); }
+  /// Stop is requested when a client asks for the end.
   std::stop_token stop_token() const { return inbox_.end_token(); }
 
   /// The script that holds what people did, in times of the script.

@@ -12,11 +12,11 @@ namespace halfstep {
 /// A client on a Unix-domain socket: a message a line, both ways.
 class SocketClient final : public ClientLine, public std::enable_shared_from_this<SocketClient> {
  public:
-  using Socket = boost::asio::local::stream_protocol::socket;
+  using Socket = boost::asio::local::stream_protocol::socket;  ///< what a client is connected by
 
   /// Borrows the hub. It lives until its line ends.
   SocketClient(Socket socket, ClientHub* hub) : socket_(std::move(socket)), hub_(*hub) {}
-  void Start();
+  void Start();  ///< begins to read
 
   void Send(std::shared_ptr<const std::string> message) override;
   void Drop() override;

@@ -12,7 +12,7 @@ namespace halfstep {
 struct ArmTurn {
   int joint = -1;      ///< URDF joint index
   double angle = 0.0;  ///< [rad], within its limits
-  std::string why;
+  std::string why;     ///< what the turn is good for, for the robot file's comment
 };
 
 /// Which of the robot's bodies belong to limbs beside the plane of symmetry, the legs excepted.

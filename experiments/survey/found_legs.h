@@ -19,7 +19,7 @@ struct FoundLegs {
 
 /// What the user says of the legs; "" where it is to be found.
 struct LegNames {
-  std::string waist;
+  std::string waist;                ///< its link
   std::array<std::string, 2> feet;  ///< by Index(Side)
 };
 

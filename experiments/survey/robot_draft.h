@@ -16,25 +16,26 @@ namespace halfstep {
 
 /// A robot file in the making: what was found of a URDF, and why.
 struct RobotDraft {
-  std::string name;
-  std::filesystem::path urdf_path;
+  std::string name;                             ///< of the robot file
+  std::filesystem::path urdf_path;              ///< of the robot, as the user gave it
   std::map<std::string, std::string> packages;  ///< given by the user: name → folder
   UrdfTree urdf;                                ///< with the waist frame in its link
-  bool dae_up_axis = false;
-  FoundLegs legs;
+  bool dae_up_axis = false;  ///< whether DAE meshes are turned by their `up_axis`
+  FoundLegs legs;            ///< waist, feet and joints
+  /// Turns the waist frame B into that of its link; z up.
   Eigen::Matrix3d R_LinkB = Eigen::Matrix3d::Identity();
-  std::array<FoundSole, 2> soles;
-  int hull_vertices = 64;  ///< of a mesh's hull, at most
-  double excess = 0.0;     ///< of a body over its mesh's hull with the default of these [m]
+  std::array<FoundSole, 2> soles;  ///< by Index(Side)
+  int hull_vertices = 64;          ///< of a mesh's hull, at most
+  double excess = 0.0;             ///< of a body over its mesh's hull with the default of these [m]
   std::map<std::string, int> mesh_parts;         ///< link → convex parts of its meshes
   std::map<std::string, std::string> why_parts;  ///< why it is cut, by the same links
-  StandingRequest standing;
-  std::string why_bend;         ///< why the knees are bent so little; "": as usual
-  std::string why_width;        ///< why the stance is so wide
-  std::optional<double> lift;   ///< RobotModel::largest_lift [m]
-  std::string why_lift;         ///< why there is one
-  std::vector<double> posture;  ///< by URDF joint index [rad]
-  std::vector<ExcludedPair> excluded;
+  StandingRequest standing;                      ///< the posture from which the half-steps are made
+  std::string why_bend;                          ///< why the knees are bent so little; "": as usual
+  std::string why_width;                         ///< why the stance is so wide
+  std::optional<double> lift;                    ///< RobotModel::largest_lift [m]
+  std::string why_lift;                          ///< why there is one
+  std::vector<double> posture;                   ///< by URDF joint index [rad]
+  std::vector<ExcludedPair> excluded;  ///< pairs that are not checked for contact, and why
   /// Limits that are narrower than the URDF's [rad], by URDF joint index.
   std::map<int, std::array<double, 2>> limits;
   std::map<int, std::string> why_posture;  ///< of joints outside the legs, by URDF joint index

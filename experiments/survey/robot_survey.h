@@ -11,11 +11,11 @@ namespace halfstep {
 
 /// What is asked of a URDF, and what the user knows better.
 struct SurveyRequest {
-  std::filesystem::path urdf;
-  std::string name = {};  ///< "": that of the URDF's file
-  LegNames legs = {};
+  std::filesystem::path urdf;                        ///< of the robot
+  std::string name = {};                             ///< "": that of the URDF's file
+  LegNames legs = {};                                ///< waist and feet, where the user names them
   std::map<std::string, std::string> packages = {};  ///< name → folder
-  StanceRequest stance = {};
+  StanceRequest stance = {};                         ///< how the robot shall stand
 };
 
 /// Makes a robot file of a URDF: finds waist and legs; asks whether the robot is of the class;

@@ -15,6 +15,7 @@ namespace halfstep {
 struct SweepAxis {
   std::string key;                    ///< dotted, as after --set
   std::vector<std::string> values{};  ///< YAML texts; reading fills them from a range
+  /// A range in place of values, ends included; `step` or `count`.
   std::optional<double> from{}, to{}, step{};
   int count = 0;      ///< number of values of a range; 0: `step` gives it
   std::string zip{};  ///< axes with the same word advance together; "": by itself
@@ -22,12 +23,13 @@ struct SweepAxis {
 
 /// A sweep as its YAML file says it (experiments/README.md).
 struct SweepConfig {
-  std::string name;    ///< default: the file's stem
-  std::string config;  ///< path of the base config, relative to the file
-  std::vector<SweepAxis> vary;
+  std::string name;              ///< default: the file's stem
+  std::string config;            ///< path of the base config, relative to the file
+  std::vector<SweepAxis> vary;   ///< every combination is a case
   std::string keep = "summary";  ///< or "all"
   std::string directory;         ///< of the file
 
+  /// The base config as a path from the working directory.
   std::filesystem::path ConfigPath() const;
 };
 
@@ -39,6 +41,7 @@ struct SweepCase {
 
 /// Declares every key of a sweep file once.
 void DeclareFields(Fields& fields, SweepConfig* config);
+/// What DeclareFields says about each key.
 std::vector<KeyDescription> SweepKeys();
 
 /// The Cartesian product of the axes, the first one slowest; zipped axes count as one.

@@ -17,8 +17,10 @@ class SweepFolder {
   /// there: another definition, program or folder; std::runtime_error when it cannot be written.
   SweepFolder(const std::filesystem::path& path, const SweepConfig& sweep);
 
-  const std::filesystem::path& path() const { return path_; }
+  const std::filesystem::path& path() const { return path_; }  ///< of the sweep's folder
+  /// As it was defined when the folder was made.
   const SweepConfig& sweep() const { return sweep_; }
+  /// Folder of a case, whether it is there or not.
   std::filesystem::path CasePath(const SweepCase& one) const { return path_ / "cases" / one.id; }
   /// Whether a case is there and whole.
   bool IsDone(const SweepCase& one) const;

@@ -16,7 +16,7 @@ CsvFile EmptyTimings();
 
 /// A case's runs.csv and timings.csv.
 struct SweepTables {
-  CsvFile runs, timings;
+  CsvFile runs, timings;  ///< one row a method; what depends on the machine is in the second
 };
 /// One row a method. `wall` is of the whole case [s].
 SweepTables TablesOf(const SweepConfig& sweep, const SweepCase& one, const ExperimentRun& run,

@@ -9,8 +9,8 @@ namespace halfstep {
 
 /// How a worker ended: `status` when it exited, else −1 and the signal that killed it.
 struct WorkerEnd {
-  int status = -1;
-  int signal = 0;
+  int status = -1;    ///< of exit()
+  int signal = 0;     ///< 0: it exited
   double wall = 0.0;  ///< [s]
 };
 

@@ -15,8 +15,8 @@ namespace halfstep {
 
 /// The proof about one method's walk, and its verdict.
 struct CertifiedWalk {
-  Feasibility answer;
-  Certificate rows;
+  Feasibility answer;     ///< whether every demanded margin is proved
+  Certificate rows;       ///< by interval and family
   double duration = 0.0;  ///< [s]
 };
 

@@ -19,19 +19,20 @@ enum class CsvInterpolation {
 
 /// What a column of a CSV is. The header and the schema beside the file both come from here.
 struct CsvColumn {
-  std::string name;  ///< ends in its unit where it has one
-  CsvType type = CsvType::kNumber;
-  std::string unit = {};         ///< "m", "rad/s"; "": without
-  std::string description = {};  ///< a phrase
-  std::string frame = {};        ///< "W": expressed in it; "": in none
-  CsvInterpolation interpolation = CsvInterpolation::kNone;
+  std::string name;                                          ///< ends in its unit where it has one
+  CsvType type = CsvType::kNumber;                           ///< what a cell holds
+  std::string unit = {};                                     ///< "m", "rad/s"; "": without
+  std::string description = {};                              ///< a phrase
+  std::string frame = {};                                    ///< "W": expressed in it; "": in none
+  CsvInterpolation interpolation = CsvInterpolation::kNone;  ///< how values between rows are found
 };
+/// The columns of a table, in their order.
 using CsvColumns = std::vector<CsvColumn>;
 
 /// A table in memory: its columns and the whole text.
 struct CsvFile {
-  CsvColumns columns;
-  std::string text;
+  CsvColumns columns;  ///< in their order
+  std::string text;    ///< header and rows
 };
 
 /// The columns as a Table Schema, with `unit`, `frame` and `interpolation` as properties of our

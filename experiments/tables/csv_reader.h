@@ -8,9 +8,9 @@ namespace halfstep {
 
 /// A CSV file in memory, as CsvWriter writes it.
 struct CsvTable {
-  std::string path;
-  std::vector<std::string> header;
-  std::vector<std::vector<std::string>> rows;
+  std::string path;                            ///< as it was opened, for complaints
+  std::vector<std::string> header;             ///< the columns' names
+  std::vector<std::vector<std::string>> rows;  ///< texts, one for each column
 
   /// A column of numbers. Throws InputError, with the line, for what is not a number, and when
   /// there is no such column.

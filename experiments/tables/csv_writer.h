@@ -13,21 +13,22 @@ namespace halfstep {
 /// "inf", "-inf" and "nan". Texts with a comma, a quote or a line break are quoted (RFC 4180).
 class CsvWriter {
  public:
+  /// The header is written from the names of `columns`.
   explicit CsvWriter(CsvColumns columns);
 
-  CsvWriter& Cell(double value);
-  CsvWriter& Cell(long value);
-  CsvWriter& Cell(int value) { return Cell(static_cast<long>(value)); }
-  CsvWriter& Cell(bool value);
-  CsvWriter& Cell(std::string_view text);
-  CsvWriter& Cell(const char* text) { return Cell(std::string_view(text)); }
+  CsvWriter& Cell(double value);  ///< a number in its shortest exact form
+  CsvWriter& Cell(long value);    ///< an integer
+  CsvWriter& Cell(int value) { return Cell(static_cast<long>(value)); }  ///< an integer
+  CsvWriter& Cell(bool value);                                           ///< `true` or `false`
+  CsvWriter& Cell(std::string_view text);  ///< a text, quoted where it must be
+  CsvWriter& Cell(const char* text) { return Cell(std::string_view(text)); }  ///< the same
   /// Writes an empty cell, for what does not apply. In columns of numbers only: elsewhere it would
   /// change the type that pandas reads.
   CsvWriter& Empty();
   /// Ends a row. Throws std::logic_error when its number of cells is not the header's.
   void EndRow();
 
-  const std::string& text() const { return text_; }
+  const std::string& text() const { return text_; }  ///< header and rows so far
   /// The table, whole.
   CsvFile file() const { return {columns_, text_}; }
 

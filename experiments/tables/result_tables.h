@@ -20,10 +20,11 @@ namespace halfstep {
 
 /// The result of one method in an experiment, and a description of its walk.
 struct MethodRun {
+  /// A method that has not run.
   explicit MethodRun(std::string name) : method(std::move(name)) {}
 
-  std::string method;
-  SmoothingResult result;
+  std::string method;        ///< the method's name
+  SmoothingResult result;    ///< what it returned
   double duration = 0.0;     ///< of the walk [s]
   double lowest_apex = 0.0;  ///< least of the steps' highest sole heights [m]
   MarginSet margins;         ///< smallest of each family, at the trajectory's instants
@@ -33,13 +34,17 @@ struct MethodRun {
 
 /// Each table of a run folder; columns: experiments/README.md.
 CsvFile FootstepsCsv(const HalfStepSequence& sequence);
+/// Columns of overlaps.csv.
 CsvColumns OverlapsColumns();
+/// One row a junction.
 CsvFile OverlapsCsv(const MarginEvaluator& evaluator, const MethodRun& run);
 /// One row a point of a Pareto curve: duration, proved least slack, and each family's least margin
 /// sampled every 5 ms (inf: it is nowhere watched).
 CsvFile ParetoCsv(const MarginEvaluator& evaluator, const HalfStepSequence& sequence,
                   const MethodRun& run);
+/// One row a candidate of the method's search.
 CsvFile IteratesCsv(const MethodRun& run);
+/// Of summary.csv, one row a method.
 CsvColumns SummaryColumns();
 /// Gives the table into which a summary's cell of that column goes.
 using SummaryCell = std::function<CsvWriter&(const CsvColumn&)>;
@@ -52,7 +57,9 @@ CsvFile SummaryCsv(const MarginEvaluator& evaluator, const std::vector<MethodRun
 /// Columns of trajectory.csv for a robot that tell its motion: all but the margins.
 CsvColumns MotionColumns(const RobotModel& robot);
 /// Their cells for a walk at t [s]. Where a leg does not reach, its joint angles are nan.
+/// A number, a count or a text.
 using MotionCell = std::variant<double, long, std::string_view>;
+/// The cells of one row, in the order of MotionColumns().
 std::vector<MotionCell> MotionRow(const RobotModel& robot, const SuperposedWalk& walk, double t);
 
 /// Columns of trajectory.csv for a robot: those of the motion, and the margins.

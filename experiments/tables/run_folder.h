@@ -22,6 +22,7 @@ class RunFolder {
   /// not a run folder (a folder with a manifest.json), or when its parent cannot be made.
   RunFolder(std::filesystem::path path, bool overwrite);
 
+  /// The final one; while it is written the files lie beside it.
   const std::filesystem::path& path() const { return path_; }
 
   /// Where the files are until Publish(): a sibling of path(), so relative paths lead to the same.

@@ -18,22 +18,24 @@ struct IncumbentRecord {
 
 /// The result of one method in a scenario, as a run folder records it.
 struct MethodRecord {
-  std::string run;                    ///< the run folder, as it was named
-  std::string name;                   ///< "ipopt", or "LABEL:ipopt"
-  std::string variables;              ///< "overlaps+heights+durations"; "" for raw
-  std::string objective = "fastest";  ///< that the method pursued
-  std::string requested;              ///< its options, as JSON text
-  opt::Ending ending = opt::Ending::kNotRun;
-  bool certified = false;
-  double duration = 0.0;  ///< [s]
-  double speedup = 0.0;
-  double cost = 0.0;
+  std::string run;                            ///< the run folder, as it was named
+  std::string name;                           ///< "ipopt", or "LABEL:ipopt"
+  std::string variables;                      ///< "overlaps+heights+durations"; "" for raw
+  std::string objective = "fastest";          ///< that the method pursued
+  std::string requested;                      ///< its options, as JSON text
+  opt::Ending ending = opt::Ending::kNotRun;  ///< how the method ended
+  bool certified = false;                     ///< whether its walk is proved for all t
+  double duration = 0.0;                      ///< [s]
+  double speedup = 0.0;  ///< duration of the planned walk over that of this one
+  double cost = 0.0;     ///< by the objective, as in SmoothingResult::cost
+  /// (cost − reference)/|reference|; none without a reference.
   std::optional<double> gap_to_reference;
+  /// Effort: instants at which margins were evaluated; queries of distances.
   double instants = 0.0, collision_queries = 0.0;
-  double wall = 0.0;  ///< [s]
-  std::vector<IncumbentRecord> incumbents;
+  double wall = 0.0;                        ///< [s]
+  std::vector<IncumbentRecord> incumbents;  ///< in the order of time
 
-  bool raw() const { return name == "raw"; }
+  bool raw() const { return name == "raw"; }  ///< whether this is the planned walk itself
   /// Whether it has a proved walk of its own; no other is the best of a scenario or has solved it.
   bool solved() const { return certified && HasOwnResult(ending); }
 };
@@ -45,8 +47,8 @@ struct RunRecord {
   std::string objective;  ///< "fastest" …
   /// SHA-256 of all that defines the problem: footsteps, robot, scene, limits, demanded margins.
   std::string problem;
-  std::string manifest_sha256;
-  int half_steps = 0;
+  std::string manifest_sha256;        ///< of the folder's manifest, as hexadecimal text
+  int half_steps = 0;                 ///< of the walk
   std::vector<MethodRecord> methods;  ///< raw first
 };
 

@@ -13,14 +13,15 @@ namespace halfstep {
 
 /// What a robot or a simulator plays of a row of trajectory.csv. Places are in W.
 struct TrajectoryRow {
-  double t = 0.0;                ///< [s]
-  std::array<bool, 2> stands{};  ///< whether a sole carries, by Index(Side), as are the others
-  Eigen::Vector2d zmp{0, 0};
-  Eigen::Vector4d waist{0, 0, 0, 0};     ///< x, y, z [m], yaw [rad]
+  double t = 0.0;                     ///< [s]
+  std::array<bool, 2> stands{};       ///< whether a sole carries, by Index(Side), as are the others
+  Eigen::Vector2d zmp{0, 0};          ///< in W [m]
+  Eigen::Vector4d waist{0, 0, 0, 0};  ///< x, y, z [m], yaw [rad]
   std::array<Eigen::Vector4d, 2> soles;  ///< the same of the soles
   std::array<Vector6d, 2> q;             ///< joint angles [rad]
 
-  Eigen::Isometry3d X_WB() const { return Upright(waist); }
+  Eigen::Isometry3d X_WB() const { return Upright(waist); }  ///< the waist's pose in W; upright
+  /// The pose of an upright frame at x, y, z [m] and yaw [rad].
   static Eigen::Isometry3d Upright(const Eigen::Vector4d& place);
 };
 

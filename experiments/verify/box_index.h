@@ -12,6 +12,7 @@ namespace halfstep::verify {
 class BoxIndex {
  public:
   BoxIndex() = default;
+  /// Indices are places in `boxes`.
   explicit BoxIndex(std::vector<Eigen::AlignedBox3d> boxes);
 
   /// The indices of all boxes that share a point with a box, and of no others, in no order.

@@ -25,12 +25,13 @@ enum Family : int {
   kTorque,
   kFriction
 };
-constexpr int kNumFamilies = 14;
+constexpr int kNumFamilies = 14;  ///< how many families a certificate has
 /// Their names in certificate.csv and certificate.json, and their units.
 constexpr std::array<const char*, kNumFamilies> kFamilyNames = {
     "floor",   "foot_speed",  "foot_yaw_rate",  "zmp",       "reach",
     "joint",   "joint_speed", "self_clearance", "clearance", "ground",
     "no_step", "zmp_robot",   "torque",         "friction"};
+/// Of the families' margins.
 constexpr std::array<const char*, kNumFamilies> kUnits = {
     "m", "m/s", "rad/s", "m", "m", "rad", "rad/s", "m", "m", "m", "m", "m", "N m", "1"};
 
@@ -44,36 +45,39 @@ constexpr bool IsOfDynamics(Family family) {
 
 /// A row of certificate.csv.
 struct ClaimRow {
-  int line = 0;               ///< in its file.
-  double begin = 0, end = 0;  ///< [s]
-  Family family = kFloor;
-  int statements = 0;
-  std::string subject;
+  int line = 0;                                ///< in its file.
+  double begin = 0, end = 0;                   ///< [s]
+  Family family = kFloor;                      ///< of which the row speaks
+  int statements = 0;                          ///< how many it speaks for
+  std::string subject;                         ///< whose margin is the least of them
   double margin = 0, bound = 0, demanded = 0;  ///< [unit of the family]
 };
 
 /// Two bodies of the robot that the certificate says nothing about, and why.
 struct UnwatchedText {
-  std::string first, second, why;
+  std::string first, second, why;  ///< names of both, and the reason
   friend bool operator==(const UnwatchedText&, const UnwatchedText&) = default;
 };
 
 /// What certificate.json and certificate.csv claim; nothing of it is believed.
 struct CertificateText {
+  /// For the whole walk: "certified", and two texts for people.
   std::string verdict, message, statement;
   double duration = 0;  ///< [s]
   /// kNotDemanded where nothing is, which only what the whole robot's dynamics say may have.
   std::array<double, kNumFamilies> demanded{};
-  std::array<long, kNumFamilies> statements{};
-  std::vector<UnwatchedText> not_watched;
+  std::array<long, kNumFamilies> statements{};      ///< how many each family has at every instant
+  std::vector<UnwatchedText> not_watched;           ///< pairs of which nothing is claimed
   std::optional<double> foot_speed, foot_yaw_rate;  ///< [m/s], [rad/s]; none: no limit.
-  double joint_speed_scale = 1;
+  double joint_speed_scale = 1;                     ///< fraction of the robot's limits
   std::string robot, scene;  ///< paths relative to the run folder; scene: or "none".
+  /// SHA-256 as hexadecimal text.
   std::string trajectory_hash, certificate_hash, robot_hash, scene_hash;
 };
 
 /// Throws InputError for what is not such a file.
 CertificateText ReadCertificateJson(const std::string& path, const std::string& text);
+/// The rows, in file order.
 std::vector<ClaimRow> ReadCertificateCsv(const std::string& path, const std::string& text);
 
 }  // namespace halfstep::verify

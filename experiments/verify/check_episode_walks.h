@@ -13,16 +13,16 @@ namespace halfstep::verify {
 
 /// What all walks of an episode have in common, by its config.
 struct EpisodeWalkFrame {
-  const RobotModel& robot;
+  const RobotModel& robot;         ///< that walks
   std::array<Footprint, 2> start;  ///< soles, by Index(Side)
   double via_lateral = 0;          ///< [m]
-  HalfStepShape shape;
+  HalfStepShape shape;             ///< of every half-step
 };
 
 /// The walks of an episode, by number; those before the last only as rows. Borrows the robot.
 struct EpisodeWalks {
-  std::vector<HalfStepSequence> planned;
-  std::vector<DescribedWalk> walks;
+  std::vector<HalfStepSequence> planned;  ///< by number
+  std::vector<DescribedWalk> walks;       ///< by number
 };
 
 /// Makes the walks that walks/NNN/footsteps.csv and half_steps.csv describe, and checks that they

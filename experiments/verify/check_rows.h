@@ -53,12 +53,16 @@ SupportPolygon PolygonOf(const PlayedRow& row, const RobotModel& robot);
 /// joint's speed between row i and the next one [rad/s], with `scale` times the robot's limit.
 /// `side` is Index(Side).
 double ZmpMargin(const PlayedRow& row, const RobotModel& robot);
+/// Of one leg.
 double ReachMargin(const RobotModel& robot, const PlayedRow& row, int side);
+/// Of one joint.
 double JointMargin(const RobotModel& robot, const PlayedRow& row, int side, int joint);
+/// Of one joint between row i and the next.
 double JointSpeedMargin(const PlayedMotion& motion, size_t i, int side, int joint, double scale);
 /// Speed of the sole's centre [m/s], and size of its yaw rate [rad/s], between row i and the next
 /// one.
 double FootSpeed(const PlayedMotion& motion, size_t i, int side);
+/// Of the sole between row i and the next.
 double FootYawRate(const PlayedMotion& motion, size_t i, int side);
 /// Whether a sole moves horizontally or turns between row i and the next one.
 bool MovesHorizontally(const PlayedMotion& motion, size_t i, int side);

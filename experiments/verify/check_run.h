@@ -16,15 +16,15 @@ namespace halfstep::verify {
 
 /// The parts of a run that must agree, as they were read.
 struct RunParts {
-  const ExperimentConfig& config;
-  const RunManifest& manifest;
-  const CertificateText& certificate;
-  const RobotModel& robot;
-  const Scene& scene;
-  std::filesystem::path run;  ///< its folder
-  std::string folder;         ///< of the method
-  bool robot_given = false;   ///< on the command line; then paths are not compared
-  bool scene_given = false;
+  const ExperimentConfig& config;      ///< config.yaml
+  const RunManifest& manifest;         ///< manifest.json
+  const CertificateText& certificate;  ///< certificate.json
+  const RobotModel& robot;             ///< of which they speak
+  const Scene& scene;                  ///< of which they speak
+  std::filesystem::path run;           ///< its folder
+  std::string folder;                  ///< of the method
+  bool robot_given = false;            ///< on the command line; then paths are not compared
+  bool scene_given = false;            ///< the same of the scene
 };
 
 /// Whether the files that were parsed `now`, of the robot or the scene (`what`), are those of a

@@ -15,12 +15,13 @@ namespace halfstep::verify {
 /// What a row of a certificate is about, as indices: a side; a side and a joint; a body and an
 /// obstacle; two bodies; a foot and an area. −1: the row names none.
 struct ClaimSubject {
-  int first = -1, second = -1;
+  int first = -1, second = -1;  ///< −1: none
 };
 
 /// All subjects that a row of certificate.csv may have, by family and name.
 class ClaimSubjects {
  public:
+  /// Names of both are taken over.
   ClaimSubjects(const RobotModel& robot, const Distances& distances);
 
   /// None when nothing of the family is called so.

@@ -16,7 +16,8 @@ class CsvText {
   /// `header`.
   CsvText(std::string path, const std::string& text, const std::vector<std::string>& header);
 
-  size_t size() const { return rows_.size(); }
+  size_t size() const { return rows_.size(); }  ///< number of rows
+  /// Text of a cell.
   const std::string& Cell(size_t row, size_t column) const { return rows_[row][column]; }
   /// A decimal number, inf, -inf or nan. Throws InputError.
   double Number(size_t row, size_t column) const;

@@ -12,8 +12,8 @@ namespace halfstep::verify {
 ///
 /// zero before τ = 0 and after T.
 struct DescribedSway {
-  std::vector<Eigen::Vector2d> control_points;
-  double duration = 1;  ///< T [s] > 0
+  std::vector<Eigen::Vector2d> control_points;  ///< [m], in order of time
+  double duration = 1;                          ///< T [s] > 0
 
   /// d⁽ⁿ⁾(τ), n ∈ {0, 1, 2} [m/sⁿ].
   Eigen::Vector2d Derivative(int n, double tau) const;

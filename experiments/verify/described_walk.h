@@ -25,7 +25,7 @@ struct WalkDynamics {
 
   /// A joint's limit − |torque| [N m]; −∞ where nothing can be said.
   double TorqueMargin(const RobotModel& robot, size_t side, size_t joint) const;
-  double LeastTorqueMargin(const RobotModel& robot) const;
+  double LeastTorqueMargin(const RobotModel& robot) const;  ///< of all joints of both legs
 };
 
 /// The walk that the files of a run describe: the half-steps of its footsteps with the starts,
@@ -46,8 +46,9 @@ class DescribedWalk {
   /// The walk that ends with half-step `last`, from 0. Precondition: there is one.
   DescribedWalk StopBranch(int last) const;
 
-  const RobotModel& robot() const { return robot_; }
-  int num_half_steps() const { return static_cast<int>(pieces_.size()); }
+  const RobotModel& robot() const { return robot_; }                       ///< that walks
+  int num_half_steps() const { return static_cast<int>(pieces_.size()); }  ///< n
+  /// Whether it is an up half-step, from 0.
   bool IsUp(int half_step) const {
     return pieces_[static_cast<size_t>(half_step)].half_step.kind == HalfStepKind::kUp;
   }
@@ -65,9 +66,9 @@ class DescribedWalk {
   /// µs at the walk's ends.
   std::array<Vector6d, 2> JointSpeeds(double t) const;
 
-  WalkDynamics DynamicsAt(double t) const;
+  WalkDynamics DynamicsAt(double t) const;  ///< at t [s]
 
-  Support SupportAt(double t) const;
+  Support SupportAt(double t) const;  ///< who carries at t [s]
   /// The latest half-step that has begun, counted from 1.
   int HalfStepAt(double t) const;
   /// Whether a foot (Index(Side)) is in the air, and moves horizontally or may do so.

@@ -17,17 +17,18 @@ namespace halfstep::verify {
 /// queries.
 class Distances {
  public:
+  /// Both are borrowed.
   Distances(const RobotModel& robot, const Scene& scene);
 
-  const Scene& scene() const { return scene_; }
-  size_t num_bodies() const { return bodies_.size(); }
-  size_t num_obstacles() const { return obstacles_.size(); }
-  long queries() const { return queries_; }
+  const Scene& scene() const { return scene_; }               ///< as given
+  size_t num_bodies() const { return bodies_.size(); }        ///< those of the robot
+  size_t num_obstacles() const { return obstacles_.size(); }  ///< those of the scene
+  long queries() const { return queries_; }                   ///< distances asked so far
 
   /// A distance [m] or a lower bound of it. `exact`: the solids themselves were measured.
   struct Result {
-    double distance = 0;
-    bool exact = false;
+    double distance = 0;  ///< [m]
+    bool exact = false;   ///< whether the solids themselves were measured
   };
   /// Distance of a body from an obstacle at t [m], less the obstacle's uncertainty. Where by their
   /// bounding volumes it is at least `enough` [m], it is that of these.
@@ -54,7 +55,7 @@ class Distances {
   /// Smallest distance of any body from any obstacle at t, and of any watched pair of bodies; at
   /// most `horizon` [m].
   double NearestObstacle(const Placement& at, double t, double horizon);
-  double NearestPair(const Placement& at, double horizon);
+  double NearestPair(const Placement& at, double horizon);  ///< of any watched pair of bodies
 
   /// How far the program's distances may be from these [m]: its slabs and its meshes may be 1e-6 m
   /// too near (planner/collision/separation.h).
@@ -62,7 +63,7 @@ class Distances {
 
   /// "RLEG_LINK5 - bar", "LLEG_LINK5 - RLEG_LINK5".
   std::string NameOfObstaclePair(size_t body, size_t obstacle) const;
-  std::string NameOfPair(size_t a, size_t b) const;
+  std::string NameOfPair(size_t a, size_t b) const;  ///< of two bodies
 
  private:
   static Eigen::AlignedBox3d BoxOf(const Solid& solid, const Eigen::Isometry3d& X_WS);

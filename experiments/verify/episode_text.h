@@ -14,11 +14,12 @@ namespace halfstep::verify {
 
 /// What manifest.json says of an episode; nothing of it is believed.
 struct EpisodeManifest {
+  /// As the episode was asked for; hashes as hexadecimal text.
   std::string name, config_sha256, robot_sha256, scene_sha256, clock, policy, ending;
   std::vector<InputFile> robot_files, scene_files;  ///< without paths
   std::map<std::string, InputFile> files;           ///< of the episode, by relative path
-  long seed = 0, walks = 0;
-  double end = 0;        ///< [s]
+  long seed = 0, walks = 0;                         ///< of the noise; walks that were handed over
+  double end = 0;                                   ///< [s]
   bool stopped = false;  ///< the last walk was cut after the last half-step that began
 };
 
@@ -31,17 +32,17 @@ EpisodeManifest ReadEpisodeManifest(const std::string& path, const std::string& 
 
 /// A row of worlds.csv.
 struct WorldRow {
-  int world = 0;
+  int world = 0;                   ///< its version
   double known = 0, measured = 0;  ///< [s]
-  int sound_since = 0;
-  Eigen::Vector2d goal{0, 0};  ///< its centre, in W [m]
-  std::vector<size_t> areas;   ///< no-step areas of the scene that are there, from 0
+  int sound_since = 0;             ///< the earliest version that none contradicts
+  Eigen::Vector2d goal{0, 0};      ///< its centre, in W [m]
+  std::vector<size_t> areas;       ///< no-step areas of the scene that are there, from 0
 };
 
 /// A row of obstacles.csv.
 struct ObstacleRow {
-  int world = 0;
-  std::string name;
+  int world = 0;                             ///< version of the world
+  std::string name;                          ///< of the obstacle
   Eigen::Vector3d place{0, 0, 0};            ///< of its frame's origin, in W [m]
   std::array<double, 4> turn{1, 0, 0, 0};    ///< of its frame, a quaternion w, x, y, z
   double error = 0, speed = 0, horizon = 0;  ///< r [m], v [m/s], H [s]
@@ -50,47 +51,47 @@ struct ObstacleRow {
 /// A row of plans.csv; what it says of why and how a walk was made is not read.
 struct PlanRow {
   double handed_over = 0;  ///< [s]
-  int footsteps = 0;
-  double duration = 0;  ///< [s]
+  int footsteps = 0;       ///< of the walk
+  double duration = 0;     ///< [s]
 };
 
 /// A row of grants.csv. Half-steps count from 1; `through` 0: none may begin.
 struct GrantRow {
-  double t = 0;  ///< [s]
-  int walk = 0, world = 0;
-  double proved_from = 0;  ///< [s]
-  int through = 0;
-  double valid_until = 0;  ///< [s]
+  double t = 0;             ///< [s]
+  int walk = 0, world = 0;  ///< numbers of both
+  double proved_from = 0;   ///< [s]
+  int through = 0;          ///< the latest half-step, from 1, that may begin
+  double valid_until = 0;   ///< [s]
 };
 
 /// A row of begun.csv: a half-step, from 1, and a grant, from 0.
 struct BegunRow {
-  int half_step = 0, grant = 0;
+  int half_step = 0, grant = 0;  ///< from 1; from 0
 };
 
 /// A row of events.csv; half-step 0: none.
 struct EventRow {
-  double t = 0;  ///< [s]
-  std::string what;
-  int world = 0, walk = 0, half_step = 0;
+  double t = 0;                            ///< [s]
+  std::string what;                        ///< what happened
+  int world = 0, walk = 0, half_step = 0;  ///< numbers of what it is about
 };
 
 /// A walk of an episode as its two files say it.
 struct EpisodeWalkText {
-  std::vector<FootstepRow> footsteps;
-  std::vector<HalfStepRow> half_steps;
+  std::vector<FootstepRow> footsteps;   ///< footsteps.csv of that walk
+  std::vector<HalfStepRow> half_steps;  ///< half_steps.csv of that walk
 };
 
 /// The tables of an episode as they are read. Numbers that name a row of another table need not
 /// name one (CheckEpisodeNumbers).
 struct EpisodeText {
-  std::vector<WorldRow> worlds;
-  std::vector<ObstacleRow> obstacles;
-  std::vector<PlanRow> plans;
-  std::vector<GrantRow> grants;
-  std::vector<BegunRow> begun;
-  std::vector<EventRow> events;
-  std::vector<EpisodeWalkText> walks;
+  std::vector<WorldRow> worlds;        ///< worlds.csv
+  std::vector<ObstacleRow> obstacles;  ///< obstacles.csv
+  std::vector<PlanRow> plans;          ///< plans.csv
+  std::vector<GrantRow> grants;        ///< grants.csv
+  std::vector<BegunRow> begun;         ///< begun.csv
+  std::vector<EventRow> events;        ///< events.csv
+  std::vector<EpisodeWalkText> walks;  ///< one for each row of plans.csv
 };
 
 /// The folder of a walk, from 0: "walks/007".

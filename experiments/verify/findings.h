@@ -15,19 +15,21 @@ struct Reached {
   std::string name;  ///< of the check
   long count = 0;    ///< of values
   double spare = 0;  ///< least value, less what was demanded [unit of the check]; +∞ without values
-  std::string where;
+  std::string where;  ///< at which it was found
 };
 
 /// What a verification found: one line for each check, and the reasons why it disagrees.
 class Findings {
  public:
-  void Say(std::string line) { lines_.push_back(std::move(line)); }
+  void Say(std::string line) { lines_.push_back(std::move(line)); }  ///< notes a check that held
+  /// Notes a reason why it disagrees.
   void Disagree(const std::string& reason) {
     if (reasons_.size() < kKept) reasons_.push_back(reason);
     ++disagreements_;
   }
   /// Notes why the rows cannot settle a check, so that the walk is neither verified nor refused.
   void TooCoarse(std::string reason) { too_coarse_ = std::move(reason); }
+  /// Notes the least value of a check.
   void Reach(Reached reached) { reached_.push_back(std::move(reached)); }
   /// Adds the lines and disagreements of `other`, and what it reached.
   void Take(const Findings& other) {
@@ -40,12 +42,13 @@ class Findings {
     for (const std::string& reason : other.reasons_) Disagree(prefix + reason);
     disagreements_ += other.disagreements_ - std::ssize(other.reasons_);
   }
-  const std::vector<std::string>& lines() const { return lines_; }
+  const std::vector<std::string>& lines() const { return lines_; }  ///< of all checks
+  /// Of all checks that have values.
   const std::vector<Reached>& reached() const { return reached_; }
   const std::string& too_coarse() const { return too_coarse_; }  ///< "": the rows settle all checks
   /// The first twenty reasons; `disagreements()` counts them all.
   const std::vector<std::string>& reasons() const { return reasons_; }
-  long disagreements() const { return disagreements_; }
+  long disagreements() const { return disagreements_; }  ///< all, not the first twenty only
 
  private:
   static constexpr size_t kKept = 20;
@@ -62,9 +65,11 @@ std::string Count(long n);
 /// Mistakes of one kind: the first is reported, the others are counted.
 class Faults {
  public:
+  /// Notes one mistake.
   void Add(const std::string& what) {
     if (count_++ == 0) first_ = what;
   }
+  /// Reports them, if there are any.
   void Conclude(Findings* findings) const {
     if (count_ == 1) findings->Disagree(first_);
     if (count_ > 1) findings->Disagree(first_ + ", and " + Count(count_ - 1) + " more");
@@ -102,8 +107,10 @@ class Check {
   void Open(const std::string& what) {
     if (failures_++ == 0) first_failure_ = what;
   }
+  /// The least value that passes [unit of the check].
   double required() const { return demanded_ - tolerance_; }
-  long failures() const { return failures_; }
+  long failures() const { return failures_; }  ///< so far
+  /// Says how it went.
   void Conclude(Findings* findings) const;
 
  private:

@@ -17,7 +17,7 @@ struct ConvexSet {
 /// Two numbers that the distance of two sets lies between [m]: `upper` is the distance of two of
 /// their points, `lower` the width of a slab between them; both are 0 when they meet.
 struct Bracket {
-  double lower = 0, upper = 0;
+  double lower = 0, upper = 0;  ///< lower ≤ upper
 };
 
 /// The distance of two convex sets: the point of least norm of their difference, by Wolfe's method

@@ -15,6 +15,7 @@ enum class Support : int { kLeft = 0, kRight = 1, kBoth = 2 };
 
 /// The last columns of trajectory.csv: margins at the row's instant.
 constexpr size_t kNumMarginColumns = 9;
+/// Their names.
 constexpr std::array<const char*, kNumMarginColumns> kMarginColumns = {
     "zmp_margin_m",          "joint_margin_rad",  "joint_speed_margin_rad_s",
     "foot_speed_margin_m_s", "clearance_m",       "self_clearance_m",
@@ -22,24 +23,26 @@ constexpr std::array<const char*, kNumMarginColumns> kMarginColumns = {
 
 /// A row of trajectory.csv.
 struct PlayedRow {
-  double t = 0;  ///< [s]
-  int half_step = 0;
-  Support support = Support::kBoth;
-  Eigen::Vector3d com{0, 0, 0};  ///< in W, as all that follows but q [m]
+  double t = 0;                      ///< [s]
+  int half_step = 0;                 ///< that has begun last
+  Support support = Support::kBoth;  ///< who carries
+  Eigen::Vector3d com{0, 0, 0};      ///< in W, as all that follows but q [m]
   Eigen::Vector2d com_velocity{0, 0}, com_acceleration{0, 0}, zmp{0, 0};  ///< [m/s], [m/s²], [m]
-  Eigen::Vector4d waist{0, 0, 0, 0};     ///< x, y, z [m], yaw [rad]
-  std::array<Eigen::Vector4d, 2> soles;  ///< the same of the sole frames, by Index(Side)
-  std::array<Vector6d, 2> q;             ///< joint angles [rad], by Index(Side)
-  std::array<double, kNumMarginColumns> margins{};
+  Eigen::Vector4d waist{0, 0, 0, 0};                ///< x, y, z [m], yaw [rad]
+  std::array<Eigen::Vector4d, 2> soles;             ///< the same of the sole frames, by Index(Side)
+  std::array<Vector6d, 2> q;                        ///< joint angles [rad], by Index(Side)
+  std::array<double, kNumMarginColumns> margins{};  ///< by kMarginColumns
 
+  /// Place of a sole, in W, seen from above.
   Pose2 X_WS(int side) const {
     const Eigen::Vector4d& s = soles[static_cast<size_t>(side)];
     return {s[0], s[1], s[3]};
   }
+  /// Whether the foot of that side carries.
   bool Stands(int side) const {
     return support == Support::kBoth || static_cast<int>(support) == side;
   }
-  bool AllFinite() const;
+  bool AllFinite() const;  ///< whether no number of the row is infinite or NaN
 };
 
 /// Columns of trajectory.csv for a robot.
@@ -51,12 +54,14 @@ std::vector<PlayedRow> ReadTrajectory(const std::string& path, const std::string
 
 /// Where the robot is at an instant.
 struct Placement {
-  Eigen::Isometry3d X_WB;
+  Eigen::Isometry3d X_WB;                                   ///< the waist's pose in W
   std::array<std::array<Eigen::Isometry3d, 7>, 2> X_BLink;  ///< links and, last, the sole.
 
+  /// Pose of a body, in W.
   Eigen::Isometry3d OfBody(const RobotBody& body) const {
     return body.leg < 0 ? X_WB : X_WB * OfBody_B(body);
   }
+  /// Pose of a body in the waist frame B.
   Eigen::Isometry3d OfBody_B(const RobotBody& body) const {
     return body.leg < 0 ? Eigen::Isometry3d::Identity()
                         : X_BLink[static_cast<size_t>(body.leg)][static_cast<size_t>(body.link)];
@@ -70,17 +75,19 @@ Placement PlaceRobot(const RobotModel& robot, const PlayedRow& row);
 /// between rows. Borrows robot and rows. Precondition: at least two rows, increasing times, finite.
 class PlayedMotion {
  public:
+  /// Both are borrowed.
   PlayedMotion(const RobotModel& robot, const std::vector<PlayedRow>& rows);
 
-  const RobotModel& robot() const { return robot_; }
-  const std::vector<PlayedRow>& rows() const { return rows_; }
-  double end() const { return rows_.back().t; }
+  const RobotModel& robot() const { return robot_; }            ///< that moves
+  const std::vector<PlayedRow>& rows() const { return rows_; }  ///< at which it is given
+  double end() const { return rows_.back().t; }                 ///< of the motion [s]
 
   /// The row i with t_i ≤ t < t_{i+1} (the last but one at the end), and (t − t_i)/(t_{i+1} − t_i).
   std::pair<size_t, double> Locate(double t) const;
   /// Linear between the two rows around an instant; half-step and support of the earlier one.
   PlayedRow At(double t) const;
-  Placement Place(double t) const { return PlaceRow(At(t)); }
+  Placement Place(double t) const { return PlaceRow(At(t)); }  ///< at t [s]
+  /// As a row says it.
   Placement PlaceRow(const PlayedRow& row) const { return PlaceRobot(robot_, row); }
 
   /// For each row, a bound C of the way that any point of a body has moved from row 0 to it [m]: Σ

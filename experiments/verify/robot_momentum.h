@@ -11,7 +11,7 @@ namespace halfstep::verify {
 
 /// A force [N] and its moment about the origin of W [N m].
 struct Push {
-  Eigen::Vector3d force{0, 0, 0}, moment{0, 0, 0};
+  Eigen::Vector3d force{0, 0, 0}, moment{0, 0, 0};  ///< [N], [N m]
 
   /// Its moment about a point.
   Eigen::Vector3d About(const Eigen::Vector3d& point) const { return moment - point.cross(force); }

@@ -11,15 +11,16 @@ namespace halfstep::verify {
 
 /// What manifest.json says of a run; nothing of it is believed.
 struct RunManifest {
+  /// What it says of one method.
   struct Method {
-    std::string name, status;
-    double duration = 0;  ///< [s]
+    std::string name, status;  ///< its name, and how it ended
+    double duration = 0;       ///< [s]
   };
-  std::string name, robot, scene, objective, acceptance;
-  std::string config_sha256, robot_sha256, scene_sha256;
-  std::vector<InputFile> robot_files, scene_files;  ///< without paths
-  long seed = 0, half_steps = 0;
-  std::vector<Method> methods;
+  std::string name, robot, scene, objective, acceptance;  ///< as the run was asked for
+  std::string config_sha256, robot_sha256, scene_sha256;  ///< hexadecimal text
+  std::vector<InputFile> robot_files, scene_files;        ///< without paths
+  long seed = 0, half_steps = 0;           ///< of planners and random starts; of the walk
+  std::vector<Method> methods;             ///< raw first
   std::map<std::string, InputFile> files;  ///< of the run, by relative path
 
   /// Whether a method of this run has the folder; dichotomy/published's is dichotomy_published.

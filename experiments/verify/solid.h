@@ -17,10 +17,11 @@ class Solid {
  public:
   /// Of the body only vertices and radii are used.
   explicit Solid(const ConvexBody& body);
+  /// Its triangles, by parts that are connected.
   explicit Solid(const TriangleMesh& mesh);
 
-  const Eigen::Vector3d& lower() const { return lower_; }  ///< bounds in its own frame [m]
-  const Eigen::Vector3d& upper() const { return upper_; }
+  const Eigen::Vector3d& lower() const { return lower_; }    ///< bounds in its own frame [m]
+  const Eigen::Vector3d& upper() const { return upper_; }    ///< upper bounds [m]
   const Eigen::Vector3d& center() const { return center_; }  ///< of a ball that holds it
   double radius() const { return radius_; }                  ///< of that ball [m]
 

@@ -16,18 +16,18 @@ struct VerifyOptions {
   std::optional<std::string> method = {};  ///< none: every one of the run
   double tolerance = 0.001;                ///< see above; 0 … 1 [m]
   std::optional<std::string> robot = {};   ///< YAML instead of the certificate's
-  std::optional<std::string> scene = {};
+  std::optional<std::string> scene = {};   ///< YAML instead of the certificate's
 };
 
 /// What was found about one method of a run, or about an episode.
 struct MethodVerification {
-  std::string method;  ///< its folder's name; of an episode "episode"
-  bool verified = false;
-  bool readable = true;              ///< false: `complaints` says what cannot be read
-  std::vector<std::string> lines;    ///< one for each check
-  std::string too_coarse;            ///< why the rows cannot settle it; "": they can
-  std::vector<std::string> reasons;  ///< why it is not verified, the first twenty
-  long disagreements = 0;
+  std::string method;                   ///< its folder's name; of an episode "episode"
+  bool verified = false;                ///< whether it agrees in everything
+  bool readable = true;                 ///< false: `complaints` says what cannot be read
+  std::vector<std::string> lines;       ///< one for each check
+  std::string too_coarse;               ///< why the rows cannot settle it; "": they can
+  std::vector<std::string> reasons;     ///< why it is not verified, the first twenty
+  long disagreements = 0;               ///< all of them
   std::vector<std::string> complaints;  ///< of unreadable input, "file:line: …"
   std::string statement;                ///< the certificate's own
 };

@@ -20,30 +20,35 @@ struct HalfStepRow {
 struct OverlapRow {
   std::string kind;    ///< up_down or down_up
   double overlap = 0;  ///< [s]
+  /// Of the half-steps [s] and height scales on both sides.
   double duration_before = 0, duration_after = 0, scale_before = 0, scale_after = 0;
 };
 
 /// A row of footsteps.csv.
 struct FootstepRow {
-  int footstep = 0;  ///< 0: a foot at the start
-  std::string foot;  ///< left or right
-  Pose2 X_WF;
+  int footstep = 0;                     ///< 0: a foot at the start
+  std::string foot;                     ///< left or right
+  Pose2 X_WF;                           ///< place of the sole, in W
   double via_height = 0, duration = 0;  ///< [m], [s]
 };
 
 /// A row of summary.csv.
 struct SummaryRow {
-  std::string method, status, worst_family;
-  bool certified = false;
+  std::string method, status, worst_family;  ///< as the columns of these names say
+  bool certified = false;                    ///< whether its walk is said to be certified
+  /// [s], ratio, cost of the objective, unit of the family.
   double duration = 0, speedup = 0, cost = 0, worst_margin = 0;
-  long iterations = 0;
-  std::optional<double> gap_to_reference;
+  long iterations = 0;                     ///< of the method
+  std::optional<double> gap_to_reference;  ///< none: there is no reference
 };
 
 /// Each throws InputError for a text that is no such table.
 std::vector<HalfStepRow> ReadHalfSteps(const std::string& path, const std::string& text);
+/// The rows of overlaps.csv.
 std::vector<OverlapRow> ReadOverlaps(const std::string& path, const std::string& text);
+/// The rows of footsteps.csv.
 std::vector<FootstepRow> ReadFootsteps(const std::string& path, const std::string& text);
+/// The rows of summary.csv.
 std::vector<SummaryRow> ReadSummary(const std::string& path, const std::string& text);
 
 }  // namespace halfstep::verify

@@ -17,8 +17,10 @@ namespace halfstep::opt {
 /// Source: [James1994], section 1.2.
 class BoxTransform {
  public:
+  /// The box (n), lower ≤ upper; either may be infinite.
   BoxTransform(Eigen::VectorXd lower, Eigen::VectorXd upper);
 
+  /// The point of the box (n) that z (n) stands for.
   Eigen::VectorXd ToBox(const Eigen::VectorXd& z) const;
   /// An inverse image of x, which must lie in the box.
   Eigen::VectorXd FromBox(const Eigen::VectorXd& x) const;

@@ -13,13 +13,14 @@ struct NloptMethod {
   std::string name;        ///< "nlopt/auglag_mma"
   std::string algorithm;   ///< NLopt's spelling: "LD_AUGLAG"
   std::string subsidiary;  ///< inner algorithm of an augmented Lagrangian: "LD_MMA"; else ""
-  bool gradient;
-  bool inequalities;
-  bool equalities;
-  bool finite_bounds;  ///< requires finite bounds on every variable
-  int least_variables;
+  bool gradient;           ///< uses the gradient of cost and rows
+  bool inequalities;       ///< takes rows l ≤ g(x) ≤ u with l < u
+  bool equalities;         ///< takes rows with l = u
+  bool finite_bounds;      ///< requires finite bounds on every variable
+  int least_variables;     ///< fails below this number of variables
 };
 
+/// All that the list of solvers offers.
 const std::vector<NloptMethod>& NloptMethods();
 
 /// Returns an UnavailableSolver when NLopt is not compiled in.

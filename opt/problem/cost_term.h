@@ -10,8 +10,8 @@ class CostTerm {
  public:
   virtual ~CostTerm() = default;
 
-  virtual std::string name() const = 0;
-  virtual std::string unit() const = 0;
+  virtual std::string name() const = 0;  ///< for reports: "duration"
+  virtual std::string unit() const = 0;  ///< of f; "" for a number
   /// f(x) at the whole x (n).
   virtual double Evaluate(const Eigen::VectorXd& x) const = 0;
   /// gradient (n) += weight · ∇f(x).

@@ -9,13 +9,14 @@ namespace halfstep {
 /// Result of comparing a Jacobian with central differences.
 struct DerivativeReport {
   double worst_error =
-      0.0;  ///< |analytic − numeric| / (1 + |numeric| + |analytic|), largest entry.
-  int row = -1;
-  int column = -1;
+      0.0;                ///< |analytic − numeric| / (1 + |numeric| + |analytic|), largest entry.
+  int row = -1;           ///< of the worst entry; −1: nothing was compared
+  int column = -1;        ///< its column
   double analytic = 0.0;  ///< of that entry
-  double numeric = 0.0;
-  bool finite = true;  ///< false when any value or derivative is not finite
+  double numeric = 0.0;   ///< of that entry, by central differences
+  bool finite = true;     ///< false when any value or derivative is not finite
 
+  /// Whether all is finite and no entry is worse than `tolerance`.
   bool Passed(double tolerance) const { return finite && worst_error <= tolerance; }
   /// "row 3, column 1: analytic 2.0, numeric 1.5".
   std::string Describe() const;

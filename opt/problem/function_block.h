@@ -11,8 +11,8 @@ namespace halfstep::opt {
 /// have the same length, no entry stands twice; `rows` count within the block, `cols` in the whole
 /// x.
 struct SparsityPattern {
-  std::vector<int> rows;
-  std::vector<int> cols;
+  std::vector<int> rows;  ///< counted within the block
+  std::vector<int> cols;  ///< counted in the whole x
 };
 
 /// g: Rⁿ → Rᵐ with a sparse Jacobian. Evaluation is const: a block knows no current x. Any method
@@ -21,9 +21,9 @@ class FunctionBlock {
  public:
   virtual ~FunctionBlock() = default;
 
-  virtual std::string name() const = 0;
-  virtual std::string unit() const = 0;
-  virtual int rows() const = 0;
+  virtual std::string name() const = 0;  ///< for reports: "clearance"
+  virtual std::string unit() const = 0;  ///< of its rows; "" for a number
+  virtual int rows() const = 0;          ///< number of rows, constant
   /// Declared once: the same pattern in every call, whatever the values.
   virtual const SparsityPattern& pattern() const = 0;
   /// values (rows) at the whole x (n), in natural units.

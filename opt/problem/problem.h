@@ -16,7 +16,7 @@ namespace halfstep::opt {
 struct Violation {
   double amount = 0.0;  ///< ≥ 0, natural unit of the row; inf when a value there is not finite
   std::string row;      ///< name of that row or variable; "" when nothing is violated
-  std::string unit;
+  std::string unit;     ///< of that row or variable
 };
 
 /// The nonlinear program
@@ -32,14 +32,16 @@ class Problem {
   /// Broken preconditions (sizes, lower > upper, NaN bounds) are std::logic_error. All variables
   /// are added before the first constraint.
   BlockId AddVariables(VariableBlock block);
+  /// Rows l ≤ g(x) ≤ u, below those that are there.
   void AddConstraint(std::unique_ptr<ConstraintBlock> block);
+  /// Adds weight·f to the cost; weight is finite.
   void AddCost(std::unique_ptr<CostTerm> term, double weight);
 
-  int num_variables() const { return static_cast<int>(lower_.size()); }
-  int num_constraints() const { return static_cast<int>(constraint_lower_.size()); }
-  int num_equalities() const;    ///< rows with lower = upper
-  int offset(BlockId id) const;  ///< index in x of the block's first variable
-  const VariableBlock& variables(BlockId id) const;
+  int num_variables() const { return static_cast<int>(lower_.size()); }               ///< n
+  int num_constraints() const { return static_cast<int>(constraint_lower_.size()); }  ///< m
+  int num_equalities() const;                        ///< rows with lower = upper
+  int offset(BlockId id) const;                      ///< index in x of the block's first variable
+  const VariableBlock& variables(BlockId id) const;  ///< the block of that id
 
   const Eigen::VectorXd& initial() const { return initial_; }                    ///< (n)
   const Eigen::VectorXd& lower() const { return lower_; }                        ///< (n)
@@ -48,7 +50,7 @@ class Problem {
   const Eigen::VectorXd& constraint_upper() const { return constraint_upper_; }  ///< (m)
   const SparsityPattern& pattern() const { return pattern_; }  ///< of the stacked Jacobian
 
-  double Cost(const Eigen::VectorXd& x) const;
+  double Cost(const Eigen::VectorXd& x) const;                   ///< Σ weight·f at x (n)
   Eigen::VectorXd Gradient(const Eigen::VectorXd& x) const;      ///< (n)
   Eigen::VectorXd Constraints(const Eigen::VectorXd& x) const;   ///< (m)
   std::vector<double> Jacobian(const Eigen::VectorXd& x) const;  ///< in the order of pattern()
@@ -65,7 +67,7 @@ class Problem {
   std::string RowName(int row) const;            ///< of a constraint row, by its block
   std::string RowUnit(int row) const;            ///< of a constraint row
   std::string VariableName(int variable) const;  ///< "overlap[3]"
-  std::string VariableUnit(int variable) const;
+  std::string VariableUnit(int variable) const;  ///< as VariableBlock says it; "" for a number
 
   /// Aligned text table: the cost's terms, then the `max_rows` rows and variables with the least
   /// room to a bound (most violated first) with value, bounds, room and unit.

@@ -10,10 +10,11 @@ namespace halfstep::opt {
 
 /// Result of comparing all of a problem's derivatives with central differences.
 struct ProblemDerivativeReport {
-  DerivativeReport cost;  ///< its row is 0
-  DerivativeReport constraints;
-  std::string message;  ///< names the worst row and variable, both values
+  DerivativeReport cost;         ///< its row is 0
+  DerivativeReport constraints;  ///< of all rows, stacked
+  std::string message;           ///< names the worst row and variable, both values
 
+  /// Whether both have passed.
   bool Passed(double tolerance) const {
     return cost.Passed(tolerance) && constraints.Passed(tolerance);
   }

@@ -16,6 +16,7 @@ class ScaledRows {
   /// borrowed.
   ScaledRows(const Problem& problem, const std::vector<double>& jacobian);
 
+  /// Number of one-sided rows, m.
   Eigen::Index size() const { return static_cast<Eigen::Index>(sides_.size()); }
   /// The group of each row (m): rows with derivatives along the same variables form one.
   const std::vector<int>& groups() const { return groups_; }

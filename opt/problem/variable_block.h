@@ -16,7 +16,7 @@ struct VariableBlock {
 
 /// Identifies a block of variables; returned by Problem::AddVariables.
 struct BlockId {
-  int index = -1;
+  int index = -1;  ///< in the order in which blocks were added; −1: none
 };
 
 }  // namespace halfstep::opt

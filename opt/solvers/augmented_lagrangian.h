@@ -18,6 +18,7 @@ namespace halfstep::opt {
 /// Source: [Birgin2014], chapter 4; the two-sided form follows from their form with slacks.
 class AugmentedLagrangian {
  public:
+  /// `monitor` and its problem are borrowed.
   explicit AugmentedLagrangian(SolveMonitor* monitor) : monitor_(*monitor) {}
 
   /// Sets the scales, λ = 0 and ρ from the values at x. Returns false, as the others, when a value
@@ -33,7 +34,7 @@ class AugmentedLagrangian {
   /// Largest |G_i − proj(G_i + λ_i/ρ)| before the last Update: violation and missing
   /// complementarity.
   double infeasibility() const { return infeasibility_; }
-  double penalty() const { return penalty_; }
+  double penalty() const { return penalty_; }  ///< ρ
 
  private:
   Eigen::VectorXd Multipliers(const Eigen::VectorXd& g) const;  ///< the updated λ at values g (m)

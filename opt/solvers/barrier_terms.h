@@ -16,10 +16,11 @@ class BarrierTerms {
   /// be lowered. Else every slack must stay positive. Multipliers begin at 1.
   BarrierTerms(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, bool may_be_outside);
 
-  size_t size() const { return sides_.size(); }
+  size_t size() const { return sides_.size(); }  ///< number of sides with a finite bound
+  /// Whether any side is outside at these values.
   bool AnyOutside(const Eigen::VectorXd& values) const;
 
-  const Eigen::VectorXd& multipliers() const { return multipliers_; }
+  const Eigen::VectorXd& multipliers() const { return multipliers_; }  ///< one for each side, > 0
   /// μ/s_i.
   Eigen::VectorXd CentralMultipliers(const Eigen::VectorXd& values, double mu) const;
   /// Brings multipliers within a factor of 10⁶ of μ/s_i.

@@ -22,6 +22,7 @@ struct ElasticSubproblem {
   Eigen::VectorXd penalty;              ///< ν (m)
 };
 
+/// The step that solves the subproblem.
 struct ElasticStep {
   Eigen::VectorXd d;      ///< (n), within its bounds
   Eigen::VectorXd duals;  ///< of the rows (m), each in [0, ν_i]

@@ -21,6 +21,7 @@ enum class Ending {
   kFailed,         ///< exception, breakdown, a value that is not finite, a claim that does not hold
 };
 
+/// All of them.
 constexpr std::array<Ending, 8> kEndings = {
     Ending::kConverged,     Ending::kLimit,  Ending::kDeadline,     Ending::kInterrupted,
     Ending::kNoImprovement, Ending::kNotRun, Ending::kInvalidInput, Ending::kFailed};

@@ -15,11 +15,11 @@ class LimitedMemoryHessian {
 
   /// Records that a step s ≠ 0 (n) changed the gradient by y (n).
   void Update(const Eigen::VectorXd& s, Eigen::VectorXd y);
-  void Clear();
+  void Clear();                                           ///< forgets all pairs
   Eigen::VectorXd Times(const Eigen::VectorXd& v) const;  ///< B v (n)
 
-  double sigma() const { return sigma_; }
-  bool empty() const { return s_.empty(); }
+  double sigma() const { return sigma_; }          ///< σ of B, above; 0 before the first step
+  bool empty() const { return s_.empty(); }        ///< whether no pair is known
   const Eigen::MatrixXd& U() const { return U_; }  ///< (n × 2·pairs)
   const Eigen::MatrixXd& C() const { return C_; }  ///< (2·pairs × 2·pairs)
 

@@ -8,6 +8,7 @@ namespace halfstep::opt {
 
 /// The whole text as a number; nullopt when it is not one.
 std::optional<double> ParseNumber(const std::string& text);
+/// The whole text as an integer; nullopt when it is not one.
 std::optional<int> ParseInteger(const std::string& text);
 
 /// "ipopt: unknown option `tool` (valid: tol, …)": when many names are valid, only the nearest are

@@ -10,9 +10,9 @@ namespace halfstep::opt {
 
 /// An option of one of our own solvers: a number above 0, or an integer from 0 to 1000.
 struct OwnOption {
-  std::string name;
-  bool integer;
-  double value;  ///< the default; ReadOwnOptions replaces it
+  std::string name;  ///< as in SolverOptions::solver_options
+  bool integer;      ///< else a number above 0
+  double value;      ///< the default; ReadOwnOptions replaces it
 };
 
 /// Reads SolverOptions::solver_options into `known` and records in the monitor what was used.

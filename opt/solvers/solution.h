@@ -13,11 +13,12 @@
 
 namespace halfstep::opt {
 
+/// One iteration of a solve.
 struct HistoryEntry {
-  int iteration;
-  double cost;
-  double violation;
-  double wall;  ///< [s] since Solve began
+  int iteration;     ///< from 0
+  double cost;       ///< at the iterate
+  double violation;  ///< largest, in natural units; 0 when feasible
+  double wall;       ///< [s] since Solve began
 };
 
 /// The result of a solve. x, cost, max_violation and worst_row belong together and were evaluated
@@ -30,36 +31,38 @@ struct Solution {
   /// solver's claim does not hold, nothing feasible was found or the cost is unbounded. Never
   /// kNoImprovement: only the caller, who knows what x0 was, can say that.
   Ending ending = Ending::kNotRun;
-  std::string message = "Solve was not called.";
-  std::string solver;  ///< "nlopt/ccsaq"
+  std::string message = "Solve was not called.";  ///< how it ended, for people
+  std::string solver;                             ///< "nlopt/ccsaq"
   /// The best point seen (n): the cheapest among those feasible to the tolerance, else the least
   /// violated; empty when none was evaluated.
   Eigen::VectorXd x;
-  double cost = std::numeric_limits<double>::quiet_NaN();
+  double cost = std::numeric_limits<double>::quiet_NaN();          ///< at x
   double max_violation = std::numeric_limits<double>::infinity();  ///< natural unit of worst_row
   std::string worst_row;                                           ///< "" when nothing is violated
-  int iterations = 0;
-  long cost_evaluations = 0;
-  long gradient_evaluations = 0;
-  long constraint_evaluations = 0;
-  long jacobian_evaluations = 0;
-  double wall = 0.0;  ///< [s]
-  std::vector<HistoryEntry> history;
+  int iterations = 0;                                              ///< of the solver
+  long cost_evaluations = 0;                    ///< of the problem during this call of Solve
+  long gradient_evaluations = 0;                ///< as cost_evaluations
+  long constraint_evaluations = 0;              ///< as cost_evaluations
+  long jacobian_evaluations = 0;                ///< as cost_evaluations
+  double wall = 0.0;                            ///< [s]
+  std::vector<HistoryEntry> history;            ///< one entry an iteration
   std::shared_ptr<const WarmStart> warm_start;  ///< null when the solver provides none
+  /// SolverOptions::solver_options as they were given.
   std::map<std::string, std::string> requested_options;
   std::map<std::string, std::string> used_options;  ///< as handed to the library
 
   /// Where the solver itself ended, which may be worse than x.
   Eigen::VectorXd final_x;
-  double final_cost = std::numeric_limits<double>::quiet_NaN();
+  double final_cost = std::numeric_limits<double>::quiet_NaN();  ///< at final_x
+  /// At final_x, as max_violation.
   double final_violation = std::numeric_limits<double>::infinity();
 
   /// How far x is from the first-order conditions, and the multipliers (m, n) that fit them best,
   /// all by our own estimate (stationarity.h). NaN and empty where no estimate is made: after
   /// limits, stops and exceptions, and when x is not feasible.
   double stationarity = std::numeric_limits<double>::quiet_NaN();
-  Eigen::VectorXd multipliers;
-  Eigen::VectorXd bound_multipliers;
+  Eigen::VectorXd multipliers;        ///< of the rows, at x (m); signs as in stationarity.h
+  Eigen::VectorXd bound_multipliers;  ///< of the variables' bounds, at x (n)
 
   bool feasible = false;         ///< whether x is feasible to the tolerance of the solve
   std::exception_ptr exception;  ///< what a block or on_iterate threw; null when nothing

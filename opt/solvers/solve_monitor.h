@@ -19,11 +19,13 @@ namespace halfstep::opt {
 /// before each evaluation. Not thread-safe; lives for one solve.
 class SolveMonitor {
  public:
+  /// What counts as an iteration.
   enum class Iterations {
     kTold,          ///< the adapter calls ReportIterate; Begin evaluates the Jacobian, too
     kImprovements,  ///< each point better than all before it is an iteration
   };
 
+  /// Both are borrowed.
   SolveMonitor(const Problem& problem, const SolverOptions& options, Iterations iterations);
 
   /// Evaluates the start as iteration 0, whatever the limits. Returns false when its cost or
@@ -33,8 +35,8 @@ class SolveMonitor {
   /// Each evaluates at x, unless x is the last point. Returns false, and leaves the output
   /// untouched, when stopped, when a block threw or when a value is not finite.
   bool Cost(const Eigen::VectorXd& x, double* cost);
-  bool Gradient(const Eigen::VectorXd& x, Eigen::VectorXd* gradient);
-  bool Constraints(const Eigen::VectorXd& x, Eigen::VectorXd* values);
+  bool Gradient(const Eigen::VectorXd& x, Eigen::VectorXd* gradient);   ///< ∇f (n)
+  bool Constraints(const Eigen::VectorXd& x, Eigen::VectorXd* values);  ///< g (m)
   /// Also evaluates the constraints when they are not known at x.
   bool Jacobian(const Eigen::VectorXd& x, std::vector<double>* nonzeros);
 
@@ -44,11 +46,11 @@ class SolveMonitor {
   /// Returns false once a limit, the stop token, on_iterate or an exception has asked to stop.
   bool MayGoOn();
 
-  double RemainingTime() const;  ///< [s], inf without a deadline
-  const Problem& problem() const { return problem_; }
-  const SolverOptions& options() const { return options_; }
-  int iterations() const { return iterations_; }
-  bool saw_non_finite() const { return !non_finite_.empty(); }
+  double RemainingTime() const;                                 ///< [s], inf without a deadline
+  const Problem& problem() const { return problem_; }           ///< that is being solved
+  const SolverOptions& options() const { return options_; }     ///< as the caller gave them
+  int iterations() const { return iterations_; }                ///< so far
+  bool saw_non_finite() const { return !non_finite_.empty(); }  ///< whether a value was not finite
   double highest_cost() const { return highest_cost_; }  ///< of finite ones seen; −inf: none yet
   /// Records an option in Solution::used_options.
   void Use(const std::string& option, const std::string& value) { used_[option] = value; }
@@ -105,9 +107,10 @@ class SolveMonitor {
 /// solver's test of optimality held, and kFailed when only a weaker one or none did;
 /// SolveMonitor::Finish judges it.
 struct SolverEnd {
-  Ending claim;
-  std::string message;
-  Eigen::VectorXd x;
+  Ending claim;         ///< kConverged or kFailed as above, or why it stopped early
+  std::string message;  ///< the library's own words
+  Eigen::VectorXd x;    ///< where it ended (n)
+  /// For a later solve; null: the solver has none.
   std::shared_ptr<const WarmStart> warm_start = nullptr;
 };
 

@@ -28,8 +28,8 @@ class Solver {
  public:
   virtual ~Solver() = default;
 
-  virtual std::string name() const = 0;
-  virtual SolverTraits traits() const { return {}; }
+  virtual std::string name() const = 0;               ///< as SolverNames() lists it
+  virtual SolverTraits traits() const { return {}; }  ///< how to use it in rounds
   /// Whether the solver is compiled in.
   virtual bool available() const = 0;
   /// A sentence that says why it is not compiled in; "" when it is.

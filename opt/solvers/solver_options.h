@@ -16,9 +16,9 @@ namespace halfstep::opt {
 struct Iterate {
   int iteration;             ///< from 0
   const Eigen::VectorXd& x;  ///< (n)
-  double cost;
-  double violation;  ///< largest, in natural units; 0 when feasible
-  double wall;       ///< [s] since Solve began
+  double cost;               ///< at x
+  double violation;          ///< largest, in natural units; 0 when feasible
+  double wall;               ///< [s] since Solve began
 };
 
 /// Limits of one solve. The limits, `stop` and `on_iterate` hold for every solver; whether to stop
@@ -36,6 +36,7 @@ struct SolverOptions {
   /// Relative tolerance that the solver's own test of optimality is given (Ipopt `tol`, NLopt
   /// ftol_rel and xtol_rel, Ceres' gradient tolerance).
   double optimality_tolerance = 1e-6;
+  /// When it is requested, the solve ends as kInterrupted with the best point so far.
   std::stop_token stop;
   std::function<bool(const Iterate&)> on_iterate;  ///< called at each iteration; false: stop
   /// Options passed through to the solver; an unknown or refused one ends in kInvalidInput.

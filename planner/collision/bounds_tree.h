@@ -11,12 +11,13 @@ namespace halfstep {
 /// question about a place looks at what is near it only. Node 0 is the root; children come after
 /// their parents. No node for no item.
 struct BoundsTree {
+  /// A box, and the nodes or items in it.
   struct Node {
     Eigen::Vector3d center, half;  ///< a box that holds those of all its items [m]
     int32_t left = -1;             ///< the children are nodes left and left + 1; −1: a leaf
     int32_t first = 0, count = 0;  ///< its items: order[first] … order[first + count − 1]
   };
-  std::vector<Node> nodes;
+  std::vector<Node> nodes;     ///< empty for no item
   std::vector<int32_t> order;  ///< indices of the items, leaf by leaf
 
   BoundsTree() = default;

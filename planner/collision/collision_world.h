@@ -23,8 +23,9 @@ class CollisionWorld {
   /// thread.
   struct Scratch {
     std::map<int, Eigen::Vector3d> normals_W;  ///< by obstacle, of those that came near.
-    std::vector<int> near;
+    std::vector<int> near;  ///< indices of obstacles that the last query looked at
   };
+  /// The obstacle that is nearest to a body.
   struct Nearest {
     int obstacle = -1;  ///< index into the scene, −1: none within the horizon.
     /// From the obstacle, where it is said to be, to the body.
@@ -37,7 +38,7 @@ class CollisionWorld {
   /// tree, and what a query needs of one is built when a body first comes near it.
   explicit CollisionWorld(const Scene& scene);
 
-  int num_obstacles() const { return static_cast<int>(entries_.size()); }
+  int num_obstacles() const { return static_cast<int>(entries_.size()); }  ///< those of the scene
   /// The margin of an obstacle changes at no more than this speed [m/s] (Obstacle::speed).
   double speed(int obstacle) const { return entries_[static_cast<size_t>(obstacle)].speed; }
 

@@ -16,7 +16,7 @@ namespace halfstep {
 class MeshWinding {
  public:
   MeshWinding() = default;
-  explicit MeshWinding(const TriangleTree& tree);
+  explicit MeshWinding(const TriangleTree& tree);  ///< `tree` is borrowed.
 
   /// The winding number around a point of the mesh's frame [m] that is not on the surface. `tree`
   /// is that of the constructor.

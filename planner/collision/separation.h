@@ -41,12 +41,13 @@ class CollisionShape {
   /// The shape of an obstacle. The preconditions are those above and those of BodyOf.
   explicit CollisionShape(const Shape& shape);
 
-  bool is_mesh() const;
+  bool is_mesh() const;  ///< whether it is a surface of triangles, and not a convex body
   const ConvexBody& convex() const;       ///< of a mesh: a convex body that contains it.
   const Eigen::Vector3d& center() const;  ///< of a bounding sphere, own frame [m].
   double radius() const;                  ///< of that sphere [m].
 
   struct Impl;
+  /// For Separate alone: FCL's types stay in one source.
   const Impl& impl() const { return *impl_; }
 
  private:

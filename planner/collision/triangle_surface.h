@@ -17,20 +17,20 @@ class TriangleSurface {
  public:
   /// In one block: for a body that is small.
   static constexpr int kOneBlock = std::numeric_limits<int>::max();
-  static constexpr int kBlock = 512;
+  static constexpr int kBlock = 512;  ///< triangles of a block otherwise
 
   /// Precondition: at least one triangle, indices in range, finite vertices (std::logic_error).
   explicit TriangleSurface(TriangleMesh mesh, int block = kBlock);
   ~TriangleSurface();
 
-  const TriangleMesh& mesh() const;
+  const TriangleMesh& mesh() const;  ///< as given
   /// Blocks that were needed so far.
   int built() const;
 
   /// What was found between two surfaces.
   struct Nearest {
     double distance = 0.0;  ///< [m], 0 when they meet; exact up to FCL's rounding
-    Eigen::Vector3d point_a_W{0, 0, 0}, point_b_W{0, 0, 0};
+    Eigen::Vector3d point_a_W{0, 0, 0}, point_b_W{0, 0, 0};  ///< the two nearest points, in W [m]
   };
   /// The distance of surface a, which lies within the ball `radius` [m] around `center_W`, from b;
   /// none when it is at least `horizon` > 0 [m]. Of a only the first block is taken: it shall have

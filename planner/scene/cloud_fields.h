@@ -14,19 +14,20 @@ namespace halfstep {
 /// What a scene says under `points` or `octomap` (planner/README.md, "Scenes"): obstacles that are
 /// cubes of a lattice in the obstacle's frame.
 struct CloudFields {
-  std::optional<LoadedPoints> points;
-  double radius = 0.0;  ///< of the ball around each point [m]
-  std::optional<LoadedOctomap> map;
-  bool unknown_is_occupied = false;
-  std::optional<double> floor_below;  ///< what is not higher in the world is floor [m]
-  std::string told;                   ///< for the user: what was left out
+  std::optional<LoadedPoints> points;  ///< none: there is no `points`
+  double radius = 0.0;                 ///< of the ball around each point [m]
+  std::optional<LoadedOctomap> map;    ///< none: there is no `octomap`
+  bool unknown_is_occupied = false;    ///< whether cells of which nothing is known are obstacles
+  std::optional<double> floor_below;   ///< what is not higher in the world is floor [m]
+  std::string told;                    ///< for the user: what was left out
 
-  bool any() const { return points || map; }
-  InputFile file;
+  bool any() const { return points || map; }  ///< whether either is there
+  InputFile file;                             ///< what was read
 };
 
 /// Declares the keys and reads the file, relative to the scene's folder.
 void DeclarePoints(Fields& fields, CloudFields* cloud);
+/// The same for `octomap`.
 void DeclareOctomap(Fields& fields, CloudFields* cloud);
 
 /// The surface of a cloud at X_WO. Every ball around a point, or every cube that is occupied, is

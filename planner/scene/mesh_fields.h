@@ -13,10 +13,10 @@ namespace halfstep {
 
 /// What a scene says under `mesh` (planner/README.md, "Scenes").
 struct MeshFields {
-  TriangleMesh mesh;  ///< scaled [m]; without triangles when it could not be read
-  InputFile file;
+  TriangleMesh mesh;               ///< scaled [m]; without triangles when it could not be read
+  InputFile file;                  ///< what was read
   std::optional<ConvexBody> hull;  ///< in place of the mesh
-  bool brings_floor = false;
+  bool brings_floor = false;       ///< `floor: in_mesh`: its floor is no obstacle
   double floor_tolerance = kFloorTolerance;  ///< [m]
   std::string told;                          ///< for the user: of hull or floor
 };

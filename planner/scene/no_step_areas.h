@@ -17,10 +17,11 @@ class NoStepAreas {
   /// (2×k) in the sole frame [m] (RobotModel::sole_outline).
   NoStepAreas(const Scene& scene, const Eigen::Matrix2Xd& sole_outline);
 
-  bool empty() const { return areas_.empty(); }
+  bool empty() const { return areas_.empty(); }  ///< whether there are none
   /// The largest distance of a point of the outline from the sole frame's origin [m].
   double sole_reach() const { return reach_; }
 
+  /// The area nearest to a sole.
   struct Nearest {
     double distance = std::numeric_limits<double>::infinity();  ///< by PolygonDistance [m]
     int area = -1;  ///< index into Scene::no_step; −1: there is none

@@ -25,10 +25,10 @@ struct ObstacleMotion {
     double yaw = 0.0;  ///< R = R_z(yaw) · R at t = 0 [rad]; not wrapped: 2π is a full turn.
   };
 
-  std::vector<Waypoint> waypoints{};
-  double error = 0.0;        ///< r ≥ 0 [m]
-  double speed = 0.0;        ///< v ≥ 0 [m/s], beyond the known motion.
-  double measured_at = 0.0;  ///< t_m [s]
+  std::vector<Waypoint> waypoints{};  ///< known motion, in the order of time; empty: none is known
+  double error = 0.0;                 ///< r ≥ 0 [m]
+  double speed = 0.0;                 ///< v ≥ 0 [m/s], beyond the known motion.
+  double measured_at = 0.0;           ///< t_m [s]
   /// How long the uncertainty grows before and after t_m [s] ≥ 0. Where it is finite, what is
   /// proved holds until t_m + horizon, or until a new measurement.
   double horizon = std::numeric_limits<double>::infinity();

@@ -16,7 +16,7 @@ struct Obstacle {
   std::string name;                                        ///< unique in its scene.
   Shape shape;                                             ///< in its own frame.
   Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();  ///< at t ≤ 0
-  ObstacleMotion motion{};
+  ObstacleMotion motion{};                                 ///< from t = 0 on
 
   /// Where it is said to be at the time t of the walk [s].
   Eigen::Isometry3d PoseAt(double t) const { return motion.PoseAt(X_WO, t); }
@@ -26,14 +26,15 @@ struct Obstacle {
   /// at no more than this speed, at all times [m/s]: the fastest point of the known motion, and
   /// motion.speed.
   double speed() const;
+  /// Whether its pose and its uncertainty are the same at all times.
   bool rests() const { return motion.rests(); }
 };
 
 /// What the robot walks among. The floor z = 0 is no obstacle: the floor margin watches it.
 struct Scene {
-  std::string name;
-  std::vector<InputFile> files;  ///< the YAML file, and one entry for each reading of a mesh.
-  std::vector<Obstacle> obstacles;
+  std::string name;                 ///< the file's stem, or "none"
+  std::vector<InputFile> files;     ///< the YAML file, and one entry for each reading of a mesh.
+  std::vector<Obstacle> obstacles;  ///< names differ
   /// Simple polygons on the floor (2×n, counter-clockwise) that no sole may touch [m].
   std::vector<Eigen::Matrix2Xd> no_step;
   /// Friction coefficient between soles and floor > 0.

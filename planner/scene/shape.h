@@ -39,10 +39,15 @@ using Shape = std::variant<Box, Sphere, Cylinder, Capsule, ConvexBody, TriangleM
 /// The convex body that a shape is; a mesh is returned as it is. The preconditions are those of
 /// MakeBox, MakeSphere, MakeCylinder and MakeCapsule.
 inline ConvexBody BodyOf(const Box& box) { return MakeBox(box.size); }
+/// A ball around the origin.
 inline ConvexBody BodyOf(const Sphere& sphere) { return MakeSphere(sphere.radius); }
+/// A cylinder along z.
 inline ConvexBody BodyOf(const Cylinder& c) { return MakeCylinder(c.radius, c.length); }
+/// A capsule along z.
 inline ConvexBody BodyOf(const Capsule& c) { return MakeCapsule(c.radius, c.length); }
+/// The body itself.
 inline const ConvexBody& BodyOf(const ConvexBody& body) { return body; }
+/// The mesh itself.
 inline const TriangleMesh& BodyOf(const TriangleMesh& mesh) { return mesh; }
 
 /// A distance from the origin of its frame that no point of a shape exceeds [m]. The preconditions

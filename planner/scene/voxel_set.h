@@ -14,11 +14,12 @@ class VoxelSet {
  public:
   /// Cells that a set may have, along an axis from the origin, and in all.
   static constexpr int kFarthest = (1 << 20) - 1;
-  static constexpr size_t kMost = 20'000'000;
+  static constexpr size_t kMost = 20'000'000;  ///< cells in all
 
   /// `cell` > 0 [m].
   explicit VoxelSet(double cell) : cell_(cell) {}
 
+  /// Adds cell (i, j, k). Precondition: |i|, |j|, |k| ≤ kFarthest.
   void Add(const Eigen::Vector3i& cell);
   /// Adds every cell that a ball meets, and maybe some that it misses by rounding (1e-9 of the
   /// coordinates). Returns false, and adds nothing, where that is beyond kFarthest cells.
@@ -28,8 +29,8 @@ class VoxelSet {
 
   /// Sorts the cells, each once. To be called after cells were added, before what is below.
   void Finish();
-  size_t size() const { return keys_.size(); }
-  bool Has(const Eigen::Vector3i& cell) const;
+  size_t size() const { return keys_.size(); }  ///< number of cells
+  bool Has(const Eigen::Vector3i& cell) const;  ///< whether the cell is in the set
   /// The surface of their union: two triangles for each side of a cell beside none. Closed, turned
   /// outward, in metres.
   TriangleMesh Surface() const;

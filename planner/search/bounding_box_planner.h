@@ -6,11 +6,13 @@
 
 namespace halfstep {
 
+/// Options of the planner that looks for a path of a box first.
 struct BoundingBoxOptions {
-  RobotBox box;
-  BoxGrid grid;
+  RobotBox box;  ///< what stands for the robot
+  BoxGrid grid;  ///< where it is checked
   /// How far from the path, as StateDistance, the footsteps may stray [m] > 0.
   double corridor = 0.3;
+  /// Of the search for footsteps along the path.
   StepSearchOptions steps = {.weights = {2.0}, .cells = {.position = 0.03, .yaw = 0.1}};
 };
 

@@ -30,8 +30,9 @@ class BoxWorld {
  public:
   /// Borrows the scene. Precondition: a box and a grid as above (std::logic_error).
   BoxWorld(const Scene& scene, const RobotBox& box);
+  /// Whether the box, its middle of the feet at X_WM, touches nothing.
   bool IsClear(const Pose2& X_WM) const;
-  const RobotBox& box() const { return box_; }
+  const RobotBox& box() const { return box_; }  ///< as given
 
  private:
   const Scene& scene_;
@@ -40,10 +41,11 @@ class BoxWorld {
   CollisionShape shape_;
 };
 
+/// A path of the box, or why there is none.
 struct [[nodiscard]] BoxPath {
-  std::vector<Pose2> path;  ///< of the middle of the feet, from the start; empty: no path
-  bool stopped = false;     ///< by the monitor
-  bool start_blocked = false;
+  std::vector<Pose2> path;     ///< of the middle of the feet, from the start; empty: no path
+  bool stopped = false;        ///< by the monitor
+  bool start_blocked = false;  ///< the box touches something where it begins
 };
 
 /// A* over the grid, by steps to the eight neighbours and turns; walking sideways and backwards

@@ -13,7 +13,9 @@ namespace halfstep {
 /// so it never exceeds the true one, for every kind of cost. Does not use `random`.
 class FootstepAStar : public FootstepPlanner {
  public:
+  /// Which elements are used: all, or a small set as of earlier planners (ClassicElements).
   enum class Elements { kAll, kClassic };
+  /// Weights and cells hold for both kinds.
   FootstepAStar(Elements elements, const StepSearchOptions& options)
       : elements_(elements), options_(options) {}
 

@@ -24,16 +24,17 @@ namespace halfstep {
 
 /// The answer of a full check of the walk that a plan makes; a bool converts to it.
 struct Acceptance {
-  bool accepted = true;
+  bool accepted = true;       ///< whether the walk is as wanted
   int refused_footstep = -1;  ///< index of the footstep whose step is to blame; −1: not known
+  /// `refused` has a meaning only when the answer is no.
   Acceptance(bool yes, int refused = -1)  // NOLINT: a plain bool is an answer
       : accepted(yes), refused_footstep(refused) {}
 };
 
 /// The foot `support` stands at X_WS and carries, the other one is at its via point.
 struct StepState {
-  Footprint X_WS;
-  Side support = Side::kLeft;
+  Footprint X_WS;              ///< where the foot that carries stands, in W
+  Side support = Side::kLeft;  ///< that foot
   friend bool operator==(const StepState&, const StepState&) = default;
 };
 
@@ -43,10 +44,10 @@ struct PlanRequest {
   /// Where a walk is replanned with one foot in the air: the walk begins here, and `start` only
   /// says what the default workspace is around. The first footstep is that foot's.
   std::optional<StepState> in_air = {};
-  GoalRegion goal;
+  GoalRegion goal;             ///< where the walk shall end
   const HalfStepSet& set;      ///< not empty
   const HalfStepQuery& query;  ///< of the same set
-  StepCost cost = {};
+  StepCost cost = {};          ///< what is minimized
   /// Supporting soles' centres stay inside [m]. None: 2 m around the start and the goal.
   std::optional<Eigen::AlignedBox2d> workspace = {};
   /// Whether an up half-step from the start, which is in no set, is free: its support sole stands
@@ -59,6 +60,7 @@ struct PlanRequest {
   Clock clock = {};       ///< for the times of the result only; empty: they are NaN
 };
 
+/// How planning ended.
 enum class PlanStatus {
   kNotRun,
   kSolved,        ///< there is a plan
@@ -68,20 +70,23 @@ enum class PlanStatus {
   kInterrupted,   ///< stopped before a plan was found
   kRefused,       ///< there were plans, but `accepts` refused them
 };
+/// As manifests call it: "solved".
 std::string_view Name(PlanStatus status);
 
+/// What a planner found, and its effort.
 struct [[nodiscard]] PlanResult {
-  PlanStatus status = PlanStatus::kNotRun;
-  std::string sentence = "Plan was not called";
+  PlanStatus status = PlanStatus::kNotRun;       ///< how it ended
+  std::string sentence = "Plan was not called";  ///< the same for people
   /// Ends with both feet on the floor. Empty when the start is a goal, and without a plan.
   std::vector<Footstep> footsteps;
   std::vector<int> elements;  ///< of the set, one per footstep
+  /// Of the plan, by PlanRequest::cost; ∞ without one.
   double cost = std::numeric_limits<double>::infinity();
   bool exhausted = false;  ///< the search ended by itself: a longer budget changes nothing
-  StopReason stop = StopReason::kGoOn;
+  StopReason stop = StopReason::kGoOn;  ///< what ended it, when `exhausted` is false
   std::int64_t nodes = 0;    ///< states that a planner keeps or expands, over all its searches
   std::int64_t queries = 0;  ///< of half-steps: DownIsFree and UpIsFree
-  int refusals = 0;
+  int refusals = 0;          ///< plans that `accepts` refused
   double time_to_first = std::numeric_limits<double>::quiet_NaN();  ///< plan, by the clock [s]
   double time = std::numeric_limits<double>::quiet_NaN();           ///< in all [s]
 };

@@ -5,6 +5,7 @@
 
 namespace halfstep {
 
+/// Options of FootstepRrt.
 struct RrtOptions {
   /// Share of the samples that lie in the goal ∈ [0, 1]. Small: many nodes in open space; 1: never
   /// looks for a way round.
@@ -20,6 +21,7 @@ struct RrtOptions {
 /// the rest follows its old places as closely as free elements can; what is cheaper is kept.
 class FootstepRrt : public FootstepPlanner {
  public:
+  /// They hold for every call.
   explicit FootstepRrt(const RrtOptions& options) : options_(options) {}
   PlanResult Plan(const PlanRequest& request, std::mt19937_64& random) const override;
 

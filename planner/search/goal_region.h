@@ -16,7 +16,7 @@ enum class GoalPart { kLeftFoot, kRightFoot, kEitherFoot, kMidFeet };
 /// Where a walk may end: a disc or a box on the floor, borders included, and optionally a range of
 /// yaw.
 struct GoalRegion {
-  GoalPart part = GoalPart::kEitherFoot;
+  GoalPart part = GoalPart::kEitherFoot;  ///< what has to lie in it
   Pose2 X_WG;           ///< centre; its yaw turns the box and is the middle of the range of yaw
   double radius = 0.1;  ///< of the disc [m] ≥ 0; unused with a box
   std::optional<Eigen::Vector2d> box;        ///< full edge lengths along x and y of G [m] ≥ 0

@@ -26,7 +26,7 @@ struct HalfStepSet {
   HalfStep prototype;                 ///< duration, via point and shape of all of them
   std::vector<Footprint> placements;  ///< X_SF of each element, seen from a left support
 
-  int size() const { return static_cast<int>(placements.size()); }
+  int size() const { return static_cast<int>(placements.size()); }  ///< number of elements
   /// X_SF of element i when `support` supports.
   Footprint Placement(int i, Side support) const;
   /// The half-step on `support` that lands element i.

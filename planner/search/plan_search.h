@@ -11,26 +11,28 @@ namespace halfstep {
 
 /// A chain of elements from a state to the goal.
 struct StepPlan {
-  StepState start;
+  StepState start;      ///< where it begins, a foot in the air
   std::vector<int> ks;  ///< places in StepGraph::elements()
-  double cost = 0.0;
+  double cost = 0.0;    ///< of the chain, by PlanRequest::cost
 };
 
 /// Counts nodes, asks the termination and keeps the plans found, on behalf of one call of Plan.
 class PlanMonitor {
  public:
+  /// `request` is borrowed.
   explicit PlanMonitor(const PlanRequest& request) : request_(request) {}
 
   /// Whether to stop; true from then on. To be asked before every node.
   bool Stop();
-  void CountNode();
+  void CountNode();  ///< to be called for each node
   /// Keeps a plan if it is cheaper than all before, and returns whether it is.
   bool Offer(StepPlan plan);
 
-  double best_cost() const { return progress_.cost; }
+  double best_cost() const { return progress_.cost; }  ///< of the best plan so far; ∞: none
   const std::vector<StepPlan>& plans() const { return plans_; }  ///< each cheaper than the last
-  StopReason reason() const { return reason_; }
-  std::int64_t nodes() const { return progress_.nodes; }
+  StopReason reason() const { return reason_; }                  ///< why Stop() returned true
+  std::int64_t nodes() const { return progress_.nodes; }         ///< counted so far
+  /// Until the first plan, by the clock [s]; NaN: no plan or no clock.
   double time_to_first() const { return time_to_first_; }
   double elapsed() const;  ///< NaN without a clock [s]
   /// Forgets the plans and why it stopped.

@@ -12,10 +12,11 @@
 
 namespace halfstep {
 
+/// The options of all planners; each takes its own.
 struct PlannerOptions {
-  RrtOptions rrt;
-  StepSearchOptions astar;  ///< of astar and astar/classic
-  BoundingBoxOptions bounding_box;
+  RrtOptions rrt;                   ///< of `rrt`
+  StepSearchOptions astar;          ///< of astar and astar/classic
+  BoundingBoxOptions bounding_box;  ///< of `bounding_box`
 };
 
 /// Names of all planners: rrt, astar, astar/classic, bounding_box, and those that were registered.

@@ -16,14 +16,17 @@ double StateDistance(const Pose2& a, const Pose2& b, bool with_yaw);
 /// Indices of states, grouped by support foot and place to find the one nearest to a pose quickly.
 class StateBuckets {
  public:
+  /// Made for states in `area`, in W [m]; those outside are found more slowly.
   explicit StateBuckets(const Eigen::AlignedBox2d& area);
 
+  /// Adds a state under an index of the caller's.
   void Insert(int index, const StepState& state);
   /// Precondition: inserted before with this state (std::logic_error).
   void Remove(int index, const StepState& state);
   /// Index of the nearest state supported by `support`, the first inserted among equals;
   /// −1: there is none.
   int FindNearest(const Pose2& X_W, Side support, bool with_yaw) const;
+  /// States supported by that foot.
   int size(Side support) const { return sizes_[static_cast<size_t>(Index(support))]; }
 
  private:

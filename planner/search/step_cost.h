@@ -6,11 +6,13 @@
 
 namespace halfstep {
 
+/// What a planner minimizes: footsteps, T of the half-steps, or an estimate of the smoothed walk's
+/// duration.
 enum class CostKind { kSteps, kRawDuration, kSmoothedDuration };
 
 /// What a plan costs: the sum over its footsteps of what their elements cost.
 struct StepCost {
-  CostKind kind = CostKind::kSteps;
+  CostKind kind = CostKind::kSteps;  ///< which of them
   /// kSmoothedDuration: an estimate, to be fitted to smoothed walks. A step takes `step_time` at
   /// least, and longer when its swing foot travels far or turns: `time_per_metre` times its way on
   /// the floor from place to via point to place, `time_per_radian` times its turns.

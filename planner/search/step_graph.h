@@ -17,11 +17,13 @@ class StepGraph {
   /// Uses only `elements` of the set. The request is borrowed.
   StepGraph(const PlanRequest& request, std::vector<int> elements);
 
+  /// Indices into the set; k counts in this list.
   const std::vector<int>& elements() const { return elements_; }
-  int size() const { return static_cast<int>(elements_.size()); }
-  double cost(int k) const { return costs_[static_cast<size_t>(k)]; }
-  const StepReach& reach() const { return reach_; }
-  const GoalRegion& goal() const { return request_.goal; }
+  int size() const { return static_cast<int>(elements_.size()); }      ///< number of elements
+  double cost(int k) const { return costs_[static_cast<size_t>(k)]; }  ///< of one step by element k
+  const StepReach& reach() const { return reach_; }                    ///< how far steps go
+  const GoalRegion& goal() const { return request_.goal; }             ///< of the request
+  /// Where supporting soles stay, in W [m].
   const Eigen::AlignedBox2d& workspace() const { return workspace_; }
 
   /// The states after an up half-step from the start that is free: none, one or two. With a foot in
@@ -30,6 +32,7 @@ class StepGraph {
 
   /// Where element k lands from a state, X_WF; the state after its up half-step.
   Footprint Landing(const StepState& from, int k) const;
+  /// The state after that landing and its up half-step.
   StepState After(const StepState& from, int k) const {
     return {Landing(from, k), Opposite(from.support)};
   }
@@ -38,6 +41,7 @@ class StepGraph {
 
   /// Whether a half-step of element k is free; a forbidden down half-step is not.
   bool DownIsFree(const StepState& from, int k);
+  /// The same of its up half-step, after landing.
   bool UpIsFree(const StepState& from, int k);
   /// Whether landing there ends the walk.
   bool IsGoal(const StepState& from, const Footprint& X_WF) const {
@@ -47,11 +51,13 @@ class StepGraph {
   /// Lower bounds of the footsteps from a state to the goal: the least integer, and a number below
   /// it that falls steadily towards the goal.
   int LeastSteps(const StepState& from) const;
+  /// The number that falls steadily.
   double SteadySteps(const StepState& from) const;
 
+  /// From now on element k is not free from that state.
   void Forbid(const StepState& from, int k);
-  bool IsForbidden(const StepState& from, int k) const;
-  std::int64_t queries() const { return queries_; }
+  bool IsForbidden(const StepState& from, int k) const;  ///< whether Forbid() was called so
+  std::int64_t queries() const { return queries_; }      ///< of half-steps, so far
 
  private:
   struct Edge {

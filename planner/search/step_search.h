@@ -14,11 +14,12 @@ struct StepsToGo {
   double guess = 0.0;  ///< an estimate, to order the search
 };
 
+/// Options of a search by weighted costs.
 struct StepSearchOptions {
   /// Weights of the guess, largest first; each makes a search of its own. After 1 with guess ≤
   /// bound, the plan is the cheapest, as far as the cells tell states apart.
   std::vector<double> weights = {5.0, 2.5, 1.5, 1.0};
-  PoseCells cells;
+  PoseCells cells;  ///< states in one cell count as one
 };
 
 /// Weighted A*, restarted with smaller weights. Edges are taken in the order of cost so far plus

@@ -21,23 +21,26 @@ struct TreeTarget {
 
 /// Where a tree shall grow to: a foot `side` near X_WF.
 struct TreeSample {
+  /// Whether the sample's yaw counts for what is near to it.
   enum class Yaw {
     kCounts,
     kCountsWhenNear,  ///< counts when the foot is near; facing the sample counts when it is far
     kFree,            ///< does not count; facing the sample counts when the foot is far
   };
-  Footprint X_WF;
-  Side side = Side::kLeft;
-  Yaw yaw = Yaw::kCounts;
+  Footprint X_WF;           ///< where the foot shall land, about
+  Side side = Side::kLeft;  ///< the foot that lands
+  Yaw yaw = Yaw::kCounts;   ///< of X_WF
 };
 
 /// A tree of states over free edges. Every node tries each of its elements once, in the order in
 /// which samples ask for them, and grows no further after the last.
 class StepTree {
  public:
+  /// `graph` and `monitor` are borrowed.
   StepTree(const TreeTarget& target, const PoseCells& cells, StepGraph* graph,
            PlanMonitor* monitor);
 
+  /// What became of a sample: a node, none from that node, none from any node, or the target.
   enum class Growth { kAdded, kTrapped, kNothingLeft, kArrived };
 
   /// `cost` is that of getting to the root.
@@ -45,6 +48,7 @@ class StepTree {
   /// Lets the node nearest to the sample land as near to it as it can. kNothingLeft: no node can
   /// step with that foot any more.
   Growth Grow(const TreeSample& sample);
+  /// Whether no node can step any more.
   bool IsExhausted() const {
     return buckets_.size(Side::kLeft) == 0 && buckets_.size(Side::kRight) == 0;
   }

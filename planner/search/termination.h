@@ -13,6 +13,7 @@ struct PlanProgress {
   std::int64_t nodes = 0;                                 ///< so far
   double cost = std::numeric_limits<double>::infinity();  ///< of the best plan; ∞: none yet
   std::int64_t nodes_since_improvement = 0;  ///< since a plan got better; 0 while there is none
+  /// Whether there is one.
   bool has_plan() const { return cost < std::numeric_limits<double>::infinity(); }
 };
 

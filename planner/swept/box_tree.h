@@ -15,8 +15,8 @@ struct alignas(64) BoxNode {
   static constexpr int32_t kAbsent = -2;  ///< lower > upper: meets nothing
 
   uint16_t lower[3][4];  ///< by axis, child
-  uint16_t upper[3][4];
-  int32_t child[4];
+  uint16_t upper[3][4];  ///< see lower
+  int32_t child[4];      ///< index of the node, kSolid or kAbsent
 };
 static_assert(sizeof(BoxNode) == 64);
 
@@ -42,8 +42,8 @@ struct BoxTree {
 
   /// A solid box of cells [lower, upper).
   struct CellBox {
-    Eigen::Vector3i lower, upper;
-    int64_t Cells() const {  ///< 0 when it is empty or turned round
+    Eigen::Vector3i lower, upper;  ///< along x, y, z, in cells
+    int64_t Cells() const {        ///< 0 when it is empty or turned round
       const Eigen::Matrix<int64_t, 3, 1> size = (upper - lower).cast<int64_t>();
       return (size.array() <= 0).any() ? 0 : size.prod();
     }
@@ -56,7 +56,7 @@ struct BoxTree {
 
   /// Axis-aligned bounds [m]; lower > upper when empty.
   Eigen::Vector3d Lower() const;
-  Eigen::Vector3d Upper() const;
+  Eigen::Vector3d Upper() const;                  ///< see Lower
   double Volume() const;                          ///< [m³]
   bool Contains(const Eigen::Vector3d& p) const;  ///< closed boxes
 };

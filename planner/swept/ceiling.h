@@ -23,6 +23,7 @@ class Ceiling {
     lowest_.reserve(planes);
   }
 
+  /// Adds the half-space z ≤ at + per_x·x + per_y·y, in cells.
   void Add(double at, double per_x, double per_y) {
     const size_t lane = count_++ % 4;
     if (lane == 0) blocks_.emplace_back();

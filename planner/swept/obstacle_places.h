@@ -10,8 +10,8 @@ namespace halfstep {
 
 /// A pose of an obstacle's shape, which is to be grown by `extra` [m] in all directions.
 struct ObstaclePlace {
-  Eigen::Isometry3d X_WO;
-  double extra = 0.0;
+  Eigen::Isometry3d X_WO;  ///< in W
+  double extra = 0.0;      ///< ≥ 0 [m]
 };
 
 /// Places that together contain the obstacle at every time of [0, until] [s], wherever its

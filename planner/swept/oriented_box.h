@@ -12,9 +12,9 @@ namespace halfstep {
 
 /// A solid box: `axes` are unit and orthogonal columns, left-handed after a reflection.
 struct OrientedBox {
-  Eigen::Vector3d center{0, 0, 0};  ///< [m]
-  Eigen::Vector3d half{0, 0, 0};    ///< half edge lengths [m] ≥ 0
-  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d center{0, 0, 0};                     ///< [m]
+  Eigen::Vector3d half{0, 0, 0};                       ///< half edge lengths [m] ≥ 0
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< columns: the box's axes, orthonormal
 };
 
 /// Oriented boxes against BoxNodes, four boxes at once, by separating axes. Lengths here are half
@@ -37,6 +37,7 @@ class LatticeBoxTest {
     }
   }
 
+  /// Where the next boxes along the axes lie: centre and half edge lengths [m].
   void Place(const Eigen::Vector3d& center, const Eigen::Vector3d& half) {
     float sum = 0.0f, far = 0.0f;
     for (int i = 0; i < 3; ++i) {

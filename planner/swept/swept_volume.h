@@ -33,10 +33,10 @@ class SweptVolumeBaker {
   /// A body as it is posed in the middle of an interval of time, and how far any point of it can be
   /// from there within the interval.
   struct Placement {
-    size_t body = 0;
-    Eigen::Isometry3d X_SBody = Eigen::Isometry3d::Identity();
-    double displacement = 0.0;  ///< [m]
-    double time = 0.0;          ///< the middle of the interval [s]; it tells an interval of a body
+    size_t body = 0;                                            ///< index of RobotModel::bodies
+    Eigen::Isometry3d X_SBody = Eigen::Isometry3d::Identity();  ///< seen from the support sole
+    double displacement = 0.0;                                  ///< [m]
+    double time = 0.0;  ///< the middle of the interval [s]; it tells an interval of a body
   };
   /// Intervals that cover all of the half-step for every body of the robot. None when the motion
   /// has no bound somewhere: a leg does not reach, or is nearly stretched.
@@ -49,7 +49,7 @@ class SweptVolumeBaker {
   /// "Swept volumes".
   std::optional<BoxTree> Bake(const HalfStep& half_step, const Lipm& lipm) const;
 
-  const SweptVolumeOptions& options() const { return options_; }
+  const SweptVolumeOptions& options() const { return options_; }  ///< as given
 
  private:
   struct Outline {

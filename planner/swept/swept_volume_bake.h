@@ -11,6 +11,7 @@ namespace halfstep {
 
 /// The two volumes of one element of a set.
 struct ElementVolumes {
+  /// Of the down and of the up half-step, on a left support; none: its motion has no bound.
   std::optional<BoxTree> down, up;
 };
 
@@ -24,7 +25,7 @@ struct BakeHooks {
   /// `recall` returns an element that was baked before, or none; `keep` stores one that was baked
   /// now. Called by several threads at once. May be empty.
   std::function<std::optional<ElementVolumes>(int)> recall = {};
-  std::function<void(int, const ElementVolumes&)> keep = {};
+  std::function<void(int, const ElementVolumes&)> keep = {};  ///< see recall
 };
 
 /// Bakes all elements of a set, or none when stopped. An exception of a hook ends the bake and is

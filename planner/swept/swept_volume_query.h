@@ -43,6 +43,7 @@ class SweptVolumeQuery : public HalfStepQuery {
   /// obstacles in all directions of the axes; 0 when the half-step is not free. Found by halving to
   /// 1 mm; at most `horizon` [m]. No-step areas do not count.
   double DownClearance(int i, Side support, const Footprint& X_WS, double horizon) const;
+  /// The same of the up half-step.
   double UpClearance(int i, Side support, const Footprint& X_WS, double horizon) const;
 
   /// Moves one obstacle of the scene; the others stay as they are prepared, and so does how far it

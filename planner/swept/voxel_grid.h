@@ -25,19 +25,21 @@ class VoxelGrid {
   /// Occupies at least every cell that the region meets. Per column of cells the range of z is cut
   /// by each half-space where the column's rectangle leaves most. `region` shall lie in the grid.
   void Fill(const HalfSpaces& region);
+  /// Occupies one cell.
   void Occupy(int i, int j, int k) {
     words_[Word(i, j) + static_cast<size_t>(k / 64)] |= uint64_t{1} << (k % 64);
   }
 
+  /// Whether the cell is occupied.
   bool Occupied(int i, int j, int k) const {
     return (words_[Word(i, j) + static_cast<size_t>(k / 64)] >> (k % 64)) & 1;
   }
   /// The bits of column (i, j): cell k is bit k % 64 of word k / 64.
   const uint64_t* Column(int i, int j) const { return &words_[Word(i, j)]; }
-  int words_per_column() const { return words_per_column_; }
-  const Eigen::Vector3i& size() const { return size_; }      ///< cells along x, y, z
-  const Eigen::Vector3d& origin() const { return origin_; }  ///< [m]
-  double cell() const { return cell_; }                      ///< edge length [m]
+  int words_per_column() const { return words_per_column_; }  ///< number of words, each of 64 cells
+  const Eigen::Vector3i& size() const { return size_; }       ///< cells along x, y, z
+  const Eigen::Vector3d& origin() const { return origin_; }   ///< [m]
+  double cell() const { return cell_; }                       ///< edge length [m]
 
  private:
   size_t Word(int i, int j) const {

@@ -28,6 +28,7 @@ using MarginStatementsOfAll =
 /// The classes of families, in the order of MarginFamily.
 template <typename... Families>
 struct FamilyList {
+  /// Of each class, in that order.
   static constexpr std::array<FamilyTraits, sizeof...(Families)> kTraits = {Families::kTraits...};
   /// `place` is borrowed.
   static MarginStatementsOfAll Make(const MarginPlace& place) {
@@ -41,6 +42,7 @@ using AllFamilies =
                JointSpeedMargin, SelfClearanceMargin, ClearanceMargin, GroundMargin, NoStepMargin,
                ZmpRobotMargin, TorqueMargin, FrictionMargin, OwnMargin>;
 
+/// Whether each family's traits stand at its own index; checked when this is compiled.
 constexpr bool FamiliesAreInOrder() {
   for (size_t i = 0; i < AllFamilies::kTraits.size(); ++i) {
     if (static_cast<size_t>(AllFamilies::kTraits[i].family) != i) return false;

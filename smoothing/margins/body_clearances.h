@@ -20,20 +20,22 @@ class BodyClearances {
   /// What queries remember, such as separating directions of earlier postures. Use one for each
   /// thread.
   struct Scratch {
-    std::vector<CollisionWorld::Scratch> bodies;
+    std::vector<CollisionWorld::Scratch> bodies;  ///< by body of the robot
+    /// By pair: the direction that separated it last, in W.
     std::vector<Eigen::Vector3d> pair_normals_W;
-    std::vector<Eigen::Vector3d> centers_W;  // of the bodies' bounding spheres
-    std::vector<double> lateral;             // of each leg body: inner end along the waist's y axis
-    long queries = 0;  ///< body against scene, or pair of bodies, that were not culled
+    std::vector<Eigen::Vector3d> centers_W;  ///< of the bodies' bounding spheres, in W [m]
+    std::vector<double> lateral;  ///< of each leg body: its inner end along the waist's y axis [m]
+    long queries = 0;             ///< body against scene, or pair of bodies, that were not culled
   };
 
   /// `robot` is borrowed and must outlive this.
   BodyClearances(const RobotModel& robot, const Scene& scene);
 
-  Scratch MakeScratch() const;
-  size_t num_bodies() const { return shapes_.size(); }
+  Scratch MakeScratch() const;                          ///< for queries of this object
+  size_t num_bodies() const { return shapes_.size(); }  ///< those of the robot
   /// The margin of an obstacle changes at no more than this speed [m/s] (Obstacle::speed).
   double obstacle_speed(int obstacle) const { return world_.speed(obstacle); }
+  /// Pairs of the robot's own bodies that are watched.
   size_t num_pairs() const { return robot_.self_pairs.size(); }
 
   /// Notes where the bodies are in a posture. PairClears and OfPair need this to be called for
@@ -44,29 +46,34 @@ class BodyClearances {
   /// half_width, t + half_width]; whether the bodies of a pair keep it from each other.
   bool BodyClears(size_t body, const Posture& posture, double t, double clearance, Scratch* scratch,
                   double half_width = 0.0) const;
+  /// Whether the bodies of a pair keep `clearance` [m].
   bool PairClears(size_t pair, const Posture& posture, double clearance, Scratch* scratch) const;
   /// The clearance of one body, and that of one pair; `horizon` [m] when nothing is nearer. With a
   /// `half_width` [s], that of the obstacle whose margin may be the least within it
   /// (CollisionWorld::FindNearest).
   Margin OfBody(size_t body, const Posture& posture, double t, double horizon, Scratch* scratch,
                 double half_width = 0.0) const;
+  /// The clearance of one pair of bodies, as OfBody.
   Margin OfPair(size_t pair, const Posture& posture, double horizon, Scratch* scratch) const;
 
   /// The same with witness points and normals, which derivatives need. NearestTo looks for the
   /// nearest obstacle within `horizon` [m]; in SeparationOf, `a` is the first body of the pair.
   CollisionWorld::Nearest NearestTo(size_t body, const Posture& posture, double t, double horizon,
                                     Scratch* scratch, double half_width = 0.0) const;
+  /// How the bodies of a pair lie to each other; `a` is the first of them.
   Separation SeparationOf(size_t pair, const Posture& posture, Scratch* scratch) const;
 
   /// The first body, or the first pair, that is found to keep less than `clearance` [m]; none when
   /// all keep it.
   std::optional<Margin> FirstBodyBelow(const Posture& posture, double t, double clearance,
                                        Scratch* scratch) const;
+  /// The first pair of bodies that does not keep `clearance` [m]; none when all keep it.
   std::optional<Margin> FirstPairBelow(const Posture& posture, double clearance,
                                        Scratch* scratch) const;
   /// The smallest clearance of any body to the obstacles, and that of any pair; `horizon` [m] when
   /// nothing is nearer.
   Margin NearestObstacle(const Posture& posture, double t, double horizon, Scratch* scratch) const;
+  /// The smallest clearance of any pair, as NearestObstacle.
   Margin NearestPair(const Posture& posture, double horizon, Scratch* scratch) const;
 
  private:

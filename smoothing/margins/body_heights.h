@@ -33,7 +33,7 @@ class BodyHeights {
   /// Bodies of the legs that are not on a foot, and bodies on a foot, as indices of
   /// RobotModel::bodies.
   const std::vector<int>& of_legs() const { return of_legs_; }
-  const std::vector<int>& on_feet() const { return on_feet_; }
+  const std::vector<int>& on_feet() const { return on_feet_; }  ///< bodies on a foot, by index
   /// The margin of the waist's lowest body, which keeps its height while walking; +∞ when there is
   /// none.
   const Margin& of_waist() const { return of_waist_; }
@@ -41,6 +41,7 @@ class BodyHeights {
   /// The lowest point of a body of a leg, in W [m]; and a lower bound of its height [m], found with
   /// less work.
   Eigen::Vector3d LowestPoint(int body, const Posture& posture) const;
+  /// A lower bound of that point's height [m].
   double LowestPossible(int body, const Posture& posture) const;
 
   /// The least margin of all bodies [m]. Bodies that are at `enough` [m] or higher may be left out,

@@ -13,6 +13,7 @@ namespace halfstep {
 /// width. Subject: index of RobotModel::bodies. Other: the obstacle.
 class ClearanceMargin final : public MarginStatements {
  public:
+  /// Of the family `clearance`.
   static constexpr FamilyTraits kTraits = {
       .family = MarginFamily::kClearance,
       .name = "clearance",

@@ -20,7 +20,7 @@ enum class MarginCost : int {
 
 /// What a family is called and how it is used. Each class of a family has one as `kTraits`.
 struct FamilyTraits {
-  MarginFamily family;
+  MarginFamily family;       ///< of which this is told
   std::string_view name;     ///< in YAML, CSV and certificates
   std::string_view unit;     ///< "m", "rad" …; "1" for a pure number
   std::string_view key;      ///< under `smoothing.margins`: the name and, by its unit, an ending
@@ -28,8 +28,8 @@ struct FamilyTraits {
   std::string_view remedy;   ///< what may help a planned motion that misses the demand
   double scale;              ///< what counts as a clear change of the margin [its unit]
   double demanded;           ///< by default [its unit]
-  bool raised;  ///< whether the program `safest` raises it, not only keeps what is demanded
-  MarginCost cost;
+  bool raised;      ///< whether the program `safest` raises it, not only keeps what is demanded
+  MarginCost cost;  ///< what an evaluation needs
   /// The family whose row of the program it shares, mostly itself; none when no parameter moves the
   /// margin, so that it has no row.
   std::optional<MarginFamily> row;

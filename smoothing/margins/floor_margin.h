@@ -11,6 +11,7 @@ namespace halfstep {
 /// Index(Side).
 class FloorMargin final : public WholeFamily {
  public:
+  /// Of the family `floor`.
   static constexpr FamilyTraits kTraits = {
       .family = MarginFamily::kFloor,
       .name = "floor",
@@ -25,6 +26,7 @@ class FloorMargin final : public WholeFamily {
       .row = MarginFamily::kFloor,
   };
 
+  /// Needs nothing of the place.
   explicit FloorMargin(const MarginPlace&) : WholeFamily(kTraits) {}
 
   int count() const override;

@@ -10,6 +10,7 @@ namespace halfstep {
 /// Subject: Index(Side).
 class FootSpeedMargin final : public WholeFamily {
  public:
+  /// Of the family `foot_speed`.
   static constexpr FamilyTraits kTraits = {
       .family = MarginFamily::kFootSpeed,
       .name = "foot_speed",
@@ -24,6 +25,7 @@ class FootSpeedMargin final : public WholeFamily {
       .row = MarginFamily::kFootSpeed,
   };
 
+  /// Needs nothing of the place.
   explicit FootSpeedMargin(const MarginPlace&) : WholeFamily(kTraits) {}
 
   int count() const override;

@@ -10,6 +10,7 @@ namespace halfstep {
 /// Subject: Index(Side).
 class FootYawRateMargin final : public WholeFamily {
  public:
+  /// Of the family `foot_yaw_rate`.
   static constexpr FamilyTraits kTraits = {
       .family = MarginFamily::kFootYawRate,
       .name = "foot_yaw_rate",
@@ -24,6 +25,7 @@ class FootYawRateMargin final : public WholeFamily {
       .row = MarginFamily::kFootYawRate,
   };
 
+  /// Needs nothing of the place.
   explicit FootYawRateMargin(const MarginPlace&) : WholeFamily(kTraits) {}
 
   int count() const override;

@@ -16,6 +16,7 @@ namespace halfstep {
 /// and its proofs say nothing. Source: wpg/README.md, "Friction that is needed"; [Caron2015].
 class FrictionMargin final : public WholeFamily {
  public:
+  /// Of the family `friction`.
   static constexpr FamilyTraits kTraits = {
       .family = MarginFamily::kFriction,
       .name = "friction",

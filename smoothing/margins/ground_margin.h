@@ -10,6 +10,7 @@ namespace halfstep {
 /// foot may touch the floor (BodyHeights). Subject: index of RobotModel::bodies.
 class GroundMargin final : public WholeFamily {
  public:
+  /// Of the family `ground`.
   static constexpr FamilyTraits kTraits = {
       .family = MarginFamily::kGround,
       .name = "ground",

@@ -17,6 +17,7 @@ namespace halfstep {
 /// What the constructors take is borrowed.
 class Instant {
  public:
+  /// The instant `at` of a walk; the walk is evaluated here.
   Instant(const MarginPlace& place, const MarginLimits& limits, const SuperposedWalk& walk,
           const LocalTime& at, MarginScratch* scratch);
   /// The same with quantities and a posture that are known already. Precondition: its joint speeds
@@ -26,29 +27,31 @@ class Instant {
   Instant(const Instant&) = delete;
   Instant& operator=(const Instant&) = delete;
 
+  /// Robot, scene and what is prepared of them.
   const MarginPlace& place() const { return place_; }
-  const RobotModel& robot() const { return place_.robot; }
-  const MarginLimits& limits() const { return limits_; }
+  const RobotModel& robot() const { return place_.robot; }  ///< of the place
+  const MarginLimits& limits() const { return limits_; }    ///< limits and demanded margins
+  /// What is demanded of a family [its unit].
   double demanded(MarginFamily family) const { return limits_.demanded_of(family); }
-  const SuperposedWalk& walk() const { return walk_; }
-  const LocalTime& at() const { return at_; }
-  double t() const { return walk_.Absolute(at_); }  ///< absolute time in the walk [s]
-  const WalkJet& jet() const { return jet_; }
+  const SuperposedWalk& walk() const { return walk_; }  ///< to which the instant belongs
+  const LocalTime& at() const { return at_; }           ///< its name in the walk
+  double t() const { return walk_.Absolute(at_); }      ///< absolute time in the walk [s]
+  const WalkJet& jet() const { return jet_; }  ///< all quantities and two time derivatives, in W
   /// The step whose foot is in the air (its up half-step is 2·step), or −1. swing() is that foot,
   /// and has a meaning only when there is one.
   int step_in_air() const { return step_; }
-  Side swing() const { return walk_.half_step(2 * step_).swing(); }
+  Side swing() const { return walk_.half_step(2 * step_).swing(); }  ///< the foot in the air
 
   /// Whether both legs reach, which is a precondition of most uses of the posture.
   bool reachable() { return posture().reachable; }
   /// Whether both legs reach and neither is stretched to the singularity; then the posture's joint
   /// speeds are solved.
   bool regular();
-  const Posture& posture();
+  const Posture& posture();  ///< of the whole robot; joint speeds only when regular()
   /// The dynamics of the whole robot; null where nothing can be said, because a leg does not reach
   /// or is stretched, or masses are not known.
   const RobotDynamics* dynamics();
-  MarginScratch& scratch() const { return scratch_; }
+  MarginScratch& scratch() const { return scratch_; }  ///< what families remember between instants
 
  private:
   const MarginPlace& place_;
@@ -74,9 +77,9 @@ class MarginInterval {
   MarginInterval(Instant* mid_instant, const IntervalMotion& its_motion, bool margins_wanted)
       : mid(*mid_instant), motion(its_motion), with_margins(margins_wanted) {}
 
-  Instant& mid;
-  const IntervalMotion& motion;
-  const bool with_margins;
+  Instant& mid;                  ///< the instant at the interval's middle
+  const IntervalMotion& motion;  ///< bounds of the motion around it
+  const bool with_margins;       ///< whether margins are told where a bound would do
 
   /// How much the motion of all bodies differs from that at the midpoint. Precondition:
   /// mid.dynamics() is not null.

@@ -10,6 +10,7 @@ namespace halfstep {
 /// reach. Subject: 6·Index(Side) + joint.
 class JointMargin final : public WholeFamily {
  public:
+  /// Of the family `joint`.
   static constexpr FamilyTraits kTraits = {
       .family = MarginFamily::kJoint,
       .name = "joint",

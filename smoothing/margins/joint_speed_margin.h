@@ -10,6 +10,7 @@ namespace halfstep {
 /// reach or is stretched to the singularity. Subject: 6·Index(Side) + joint.
 class JointSpeedMargin final : public WholeFamily {
  public:
+  /// Of the family `joint_speed`.
   static constexpr FamilyTraits kTraits = {
       .family = MarginFamily::kJointSpeed,
       .name = "joint_speed",

@@ -31,6 +31,7 @@ enum class MarginFamily : int {
   kFriction,       ///< friction coefficient of the floor less what the soles need [1]
   kOwn,            ///< what the program itself registered (own_margin.h), of its scale [1]
 };
+/// How many families there are.
 constexpr int kNumMarginFamilies = 15;
 
 std::string_view Name(MarginFamily family);  ///< "zmp", "joint_speed" … as in YAML and CSV
@@ -50,10 +51,10 @@ inline constexpr double kNotDemanded = -kUnlimited;
 
 /// The value of one margin, and what it belongs to.
 struct Margin {
-  MarginFamily family = MarginFamily::kZmp;
-  double value = kUnlimited;
-  LocalTime at = {};
-  double t = 0.0;  ///< absolute time in the walk where it was found [s]
+  MarginFamily family = MarginFamily::kZmp;  ///< what it is a margin of
+  double value = kUnlimited;                 ///< ≥ 0: within the limit [unit of the family]
+  LocalTime at = {};                         ///< the same instant by half-step
+  double t = 0.0;                            ///< absolute time in the walk where it was found [s]
   /// What the margin belongs to, −1: nothing in particular. Both ZMPs: the step in the air, or −1.
   /// Floor, foot speed, foot yaw rate, no-step: Index(Side). Reach, joints, joint speeds,
   /// torques: 6·Index(Side) + joint. Clearances and ground: index of RobotModel::bodies.
@@ -76,7 +77,9 @@ struct MarginLimits {
   /// that is more.
   double clearance_horizon = 0.3;
 
+  /// What is demanded of a family [its unit]; kNotDemanded: nothing.
   double demanded_of(MarginFamily f) const { return demanded[static_cast<size_t>(f)]; }
+  /// The same, to be set.
   double& demanded_of(MarginFamily f) { return demanded[static_cast<size_t>(f)]; }
   /// (value − demanded) / Scale: negative when infeasible; comparable between families. +∞ where
   /// nothing is demanded.

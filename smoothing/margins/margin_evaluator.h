@@ -26,13 +26,16 @@ class MarginEvaluator {
   /// The same robot and scene, shared, with other limits.
   MarginEvaluator WithLimits(const MarginLimits& limits) const;
 
-  const RobotModel& robot() const { return place().robot; }
-  const Scene& scene() const { return place().scene; }
-  const MarginPlace& place() const { return shared_->place; }
-  const MarginLimits& limits() const { return limits_; }
-  const BodyClearances& clearances() const { return place().clearances; }
+  const RobotModel& robot() const { return place().robot; }    ///< as given
+  const Scene& scene() const { return place().scene; }         ///< as given
+  const MarginPlace& place() const { return shared_->place; }  ///< robot and scene, prepared
+  const MarginLimits& limits() const { return limits_; }       ///< limits and demanded margins
+  const BodyClearances& clearances() const { return place().clearances; }  ///< distances of bodies
+  /// Heights of bodies above the floor.
   const BodyHeights& heights() const { return place().heights; }
+  /// For evaluations by one thread.
   Scratch MakeScratch() const { return {.bodies = clearances().MakeScratch()}; }
+  /// All statements of a family.
   const MarginStatements& statements(MarginFamily family) const {
     return *shared_->statements[static_cast<size_t>(family)];
   }

@@ -16,6 +16,7 @@ namespace halfstep {
 /// A robot among the obstacles of a scene, prepared for the questions of all families. It cannot be
 /// moved, because its parts borrow from each other.
 struct MarginPlace {
+  /// Prepares both; takes as long as building the scene's trees.
   MarginPlace(RobotModel r, Scene s)
       : robot(std::move(r)),
         scene(std::move(s)),
@@ -25,11 +26,11 @@ struct MarginPlace {
   MarginPlace(const MarginPlace&) = delete;
   MarginPlace& operator=(const MarginPlace&) = delete;
 
-  RobotModel robot;
-  Scene scene;
-  BodyClearances clearances;
-  BodyHeights heights;
-  NoStepAreas areas;
+  RobotModel robot;           ///< the robot that walks
+  Scene scene;                ///< where it walks
+  BodyClearances clearances;  ///< of the robot's bodies in the scene
+  BodyHeights heights;        ///< of the robot's bodies above the floor
+  NoStepAreas areas;          ///< of the scene, for the robot's soles
 };
 
 /// What families remember from one instant to the next, and how many instants were asked about. Use
@@ -37,12 +38,12 @@ struct MarginPlace {
 struct MarginScratch {
   /// The no-step area that was nearest to a sole where it stood last.
   struct Standing {
-    Footprint X_WF;
-    NoStepAreas::Nearest nearest;
-    bool known = false;
+    Footprint X_WF;                ///< where the sole stood
+    NoStepAreas::Nearest nearest;  ///< the area nearest to it there
+    bool known = false;            ///< whether it has stood
   };
-  BodyClearances::Scratch bodies;
-  long instants = 0;
+  BodyClearances::Scratch bodies;         ///< of BodyClearances
+  long instants = 0;                      ///< evaluated so far
   std::stop_token stop = {};              ///< ends proofs; what is not decided then stays undecided
   std::array<Standing, 2> standing = {};  ///< by Index(Side)
 };

@@ -14,9 +14,9 @@ namespace halfstep {
 /// Of the statements that were added, the one with the least to spare (margin − change), and how
 /// many there were.
 struct TightestStatement {
-  Margin margin;
+  Margin margin;       ///< its value, subject and time
   double bound = 0.0;  ///< how much the margin changes at most [its unit]
-  int count = 0;
+  int count = 0;       ///< of all that were added
 
   /// Adds a statement whose margin changes by at most `change` [its unit].
   void Add(const Margin& added, double change);
@@ -37,13 +37,14 @@ struct FamilyProof {
 /// instant's.
 class MarginStatements {
  public:
+  /// `traits` are those of the class.
   explicit MarginStatements(const FamilyTraits& traits) : traits_(traits) {}
   virtual ~MarginStatements() = default;
   MarginStatements(const MarginStatements&) = delete;
   MarginStatements& operator=(const MarginStatements&) = delete;
 
-  const FamilyTraits& traits() const { return traits_; }
-  MarginFamily family() const { return traits_.family; }
+  const FamilyTraits& traits() const { return traits_; }  ///< name, unit and use of the family
+  MarginFamily family() const { return traits_.family; }  ///< which it is
 
   /// How many statements there are at every instant.
   virtual int count() const = 0;
@@ -78,6 +79,7 @@ class MarginStatements {
   /// intervals true displacements exceeded their bounds, which can be zero, by up to 2e-15 m.
   static constexpr double kRounding = 1e-12;
 
+  /// A margin of this family about a subject; its instant is filled in by the caller.
   Margin Of(double value, int subject, int other = -1) const {
     return {.family = family(), .value = value, .subject = subject, .other = other};
   }
@@ -85,7 +87,9 @@ class MarginStatements {
   static void Lower(const Margin& other, Margin* least);
   /// Names for Subject: "right foot", "both feet"; "LLEG_JOINT3", "legs"; "RLEG_LINK5", "robot".
   static std::string FootName(const Margin& margin);
+  /// As FootName, of joints.
   static std::string JointName(const RobotModel& robot, const Margin& margin);
+  /// As FootName, of bodies.
   static std::string BodyName(const RobotModel& robot, int body);
   /// Distances are told apart up to this [m]: MarginLimits::clearance_horizon, or twice the largest
   /// demanded clearance where that is more.
@@ -99,6 +103,7 @@ class MarginStatements {
 /// how much each changes.
 class WholeFamily : public MarginStatements {
  public:
+  /// The traits of the class.
   using MarginStatements::MarginStatements;
   FamilyProof Prove(const MarginInterval& interval, std::vector<uint16_t>* open) const final;
 

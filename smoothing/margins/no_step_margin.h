@@ -10,6 +10,7 @@ namespace halfstep {
 /// (NoStepAreas); +∞ for a foot in the air, and without areas. No parameter moves a footstep, so
 /// there are no rows. Subject: Index(Side). Other: the area.
 class NoStepMargin final : public WholeFamily {
+  /// Of the family `no_step`.
  public:
   static constexpr FamilyTraits kTraits = {
       .family = MarginFamily::kNoStep,

@@ -38,6 +38,7 @@ const std::vector<std::unique_ptr<const OwnStatement>>& OwnMargins();
 /// OwnMargins(). AllMarginFamilies() has this family only when something is registered.
 class OwnMargin final : public WholeFamily {
  public:
+  /// Of the family `own`.
   static constexpr FamilyTraits kTraits = {
       .family = MarginFamily::kOwn,
       .name = "own",
@@ -53,6 +54,7 @@ class OwnMargin final : public WholeFamily {
       .most = 1000.0,
   };
 
+  /// Needs nothing of the place.
   explicit OwnMargin(const MarginPlace&) : WholeFamily(kTraits) {}
 
   int count() const override;

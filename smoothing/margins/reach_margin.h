@@ -10,6 +10,7 @@ namespace halfstep {
 /// 6·Index(Side) + 3, the knee.
 class ReachMargin final : public WholeFamily {
  public:
+  /// Of the family `reach`.
   static constexpr FamilyTraits kTraits = {
       .family = MarginFamily::kReach,
       .name = "reach",
@@ -26,6 +27,7 @@ class ReachMargin final : public WholeFamily {
       .row = MarginFamily::kReach,
   };
 
+  /// Needs nothing of the place.
   explicit ReachMargin(const MarginPlace&) : WholeFamily(kTraits) {}
 
   int count() const override;

@@ -11,6 +11,7 @@ namespace halfstep {
 /// does not reach. Proved pair by pair. Subject and other: indices of RobotModel::bodies.
 class SelfClearanceMargin final : public MarginStatements {
  public:
+  /// Of the family `self_clearance`.
   static constexpr FamilyTraits kTraits = {
       .family = MarginFamily::kSelfClearance,
       .name = "self_clearance",

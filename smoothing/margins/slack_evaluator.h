@@ -15,7 +15,7 @@ namespace halfstep {
 /// along homotopy parameters. Each is smooth by itself (one for each polygon edge, or end of a
 /// joint's range).
 struct InstantSlacks {
-  std::vector<SlackRow> rows;
+  std::vector<SlackRow> rows;                 ///< one for each statement
   std::vector<HomotopyParameter> parameters;  ///< on which the robot's posture there depends
   Eigen::MatrixXd gradient;  ///< ∂slack/∂parameter, obstacles held still (rows × parameters)
   /// ∂t/∂parameter of the instant's absolute time, for every parameter that moves it; empty where
@@ -30,6 +30,7 @@ struct InstantSlacks {
 /// witness points. Use one for each thread.
 class SlackEvaluator {
  public:
+  /// Which parameters derivatives are wanted along.
   using Wanted = std::function<bool(const HomotopyParameter&)>;
 
   /// `evaluator` is borrowed. Statements with slack above `cutoff` are left out. Derivatives are

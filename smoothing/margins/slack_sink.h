@@ -12,8 +12,8 @@ namespace halfstep {
 /// One statement at one instant, as its slack (margin − demanded)/Scale(family): at least 0 when
 /// met.
 struct SlackRow {
-  MarginFamily family = MarginFamily::kZmp;
-  double slack = 0.0;
+  MarginFamily family = MarginFamily::kZmp;  ///< the statement's family
+  double slack = 0.0;                        ///< (margin − demanded)/Scale(family)
   /// ∂slack/∂t with the robot held still: what obstacles that move do to it [1/s].
   double rate = 0.0;
 };
@@ -28,8 +28,9 @@ class SlackSink {
   /// Derivatives along the parameters on which the instant depends: of the walk's quantities, and
   /// of the posture (empty where joint speeds have no bound).
   std::vector<WalkSensitivity> sensitivities;
-  std::vector<PostureTangent> tangents;
+  std::vector<PostureTangent> tangents;  ///< of the same parameters
 
+  /// Forgets the parameters, for another instant.
   void Clear() {
     sensitivities.clear();
     tangents.clear();
@@ -53,7 +54,7 @@ class SlackSink {
     }
   }
 
-  const std::vector<SlackRow>& rows() const { return rows_; }
+  const std::vector<SlackRow>& rows() const { return rows_; }  ///< added so far
   /// ∂slack/∂parameter (rows × parameters).
   Eigen::MatrixXd Gradient() const;
 

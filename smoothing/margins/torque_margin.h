@@ -16,6 +16,7 @@ namespace halfstep {
 /// "Joint torques".
 class TorqueMargin final : public WholeFamily {
  public:
+  /// Of the family `torque`.
   static constexpr FamilyTraits kTraits = {
       .family = MarginFamily::kTorque,
       .name = "torque",

@@ -10,6 +10,7 @@ namespace halfstep {
 /// air, or −1.
 class ZmpMargin final : public WholeFamily {
  public:
+  /// Of the family `zmp`.
   static constexpr FamilyTraits kTraits = {
       .family = MarginFamily::kZmp,
       .name = "zmp",
@@ -26,6 +27,7 @@ class ZmpMargin final : public WholeFamily {
       .row = MarginFamily::kZmp,
   };
 
+  /// Needs nothing of the place.
   explicit ZmpMargin(const MarginPlace&) : WholeFamily(kTraits) {}
 
   int count() const override;

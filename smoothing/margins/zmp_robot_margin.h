@@ -13,6 +13,7 @@ namespace halfstep {
 /// it reads −∞. Source: wpg/README.md, "Dynamics of the whole robot".
 class ZmpRobotMargin final : public WholeFamily {
  public:
+  /// Of the family `zmp_robot`.
   static constexpr FamilyTraits kTraits = {
       .family = MarginFamily::kZmpRobot,
       .name = "zmp_robot",
@@ -33,6 +34,7 @@ class ZmpRobotMargin final : public WholeFamily {
       .may_be_none = true,
   };
 
+  /// Needs nothing of the place.
   explicit ZmpRobotMargin(const MarginPlace&) : WholeFamily(kTraits) {}
 
   int count() const override;

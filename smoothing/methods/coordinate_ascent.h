@@ -6,6 +6,7 @@
 
 namespace halfstep {
 
+/// Options of the method `coordinate`.
 struct CoordinateAscentOptions {
   ParameterChoice parameters;  ///< coordinates beside the overlaps; durations only fall
   int passes = 10;             ///< ≥ 1, at most

@@ -7,19 +7,21 @@
 
 namespace halfstep {
 
+/// Options of the dichotomy.
 struct DichotomyOptions {
+  /// In which order junctions are bisected.
   enum class Order { kLeftToRight, kRightToLeft };
 
   /// Bisection of an overlap ends when the bracket is shorter than this [s] > 0. The published
   /// value is 0.05 s; a finer one gains up to the tolerance at each junction, in log₂ as many
   /// checks.
   double tolerance = 0.001;
-  Order order = Order::kLeftToRight;
+  Order order = Order::kLeftToRight;  ///< of the junctions
   int passes = 1;  ///< ≥ 0: later passes continue from the overlaps of the earlier ones; 0: only
                    ///< the start is checked.
   /// Upper bounds as fractions of the natural ones, ∈ [0, 1]. Published: 0.8 and 0.76.
   double up_down_cap = 1.0;
-  double down_up_cap = 1.0;
+  double down_up_cap = 1.0;  ///< the same of down→up overlaps
   /// Where to begin, instead of at the planned motion.
   std::optional<HomotopyParameters> start = std::nullopt;
   bool start_is_feasible = false;  ///< proved by the caller: not checked again

@@ -26,7 +26,7 @@ struct StretchChoice {
 /// about other values or between instants. Source: smoothing/README.md, "References".
 class DynamicProgram {
  public:
-  using Choices = std::vector<std::vector<StretchChoice>>;  // by half-step
+  using Choices = std::vector<std::vector<StretchChoice>>;  ///< by half-step
 
   /// `sequence` and `evaluator` are borrowed. `period` [s] > 0.
   DynamicProgram(const HalfStepSequence& sequence, const MarginEvaluator& evaluator, double period);
@@ -46,6 +46,7 @@ class DynamicProgram {
   /// The parameters that the indices stand for.
   HomotopyParameters ParametersOf(const Choices& choices, const std::vector<int>& indices) const;
 
+  /// Its counts tell the effort.
   const MarginEvaluator::Scratch& scratch() const { return scratch_; }
   long passes() const { return passes_; }  ///< passes over a stretch so far
 

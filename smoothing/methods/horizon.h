@@ -7,6 +7,7 @@
 
 namespace halfstep {
 
+/// Options of `halfstep/horizon`.
 struct HorizonOptions {
   int window = 6;  ///< half-steps that are moved together; even, ≥ 2
   int step = 4;    ///< half-steps by which the next window lies further on; even, 2 … window

@@ -9,11 +9,12 @@
 
 namespace halfstep {
 
+/// Options of ImproveAhead.
 struct AheadOptions {
-  int window = 6;               ///< half-steps that are moved together; even, ≥ 2
-  ParameterChoice choice = {};  ///< what is moved beside their overlaps
-  int rounds = 4;               ///< ≥ 1: most solves
-  std::string solver = "halfstep/sqp";
+  int window = 6;                       ///< half-steps that are moved together; even, ≥ 2
+  ParameterChoice choice = {};          ///< what is moved beside their overlaps
+  int rounds = 4;                       ///< ≥ 1: most solves
+  std::string solver = "halfstep/sqp";  ///< one of opt::SolverNames()
   double least_gain = 0.01;  ///< a walk that is shorter by less is not worth a change [s]
 };
 

@@ -16,6 +16,7 @@ namespace halfstep {
 /// and less. So whatever proposes candidates may stop at any moment.
 class Incumbent {
  public:
+  /// What the incumbent is compared by, and where it may move.
   struct Rules {
     /// What a point costs if it is feasible; +inf: the point is not wanted.
     std::function<double(const HomotopyParameters&)> cost;
@@ -39,10 +40,11 @@ class Incumbent {
   /// it moved, ∈ [0, 1], as a mean over the half-steps.
   double Toward(const HomotopyParameters& candidate, int attempts);
 
+  /// The best point that was proved.
   const HomotopyParameters& parameters() const { return parameters_; }
-  double cost() const { return cost_; }
-  long accepted() const { return accepted_; }
-  long refused() const { return refused_; }  ///< points that cost less and were not proved
+  double cost() const { return cost_; }        ///< of that point
+  long accepted() const { return accepted_; }  ///< points that became the incumbent
+  long refused() const { return refused_; }    ///< points that cost less and were not proved
   /// The margins that refused the last candidate itself; empty when none did.
   const std::vector<Margin>& refusals() const { return refusals_; }
 

@@ -9,7 +9,7 @@ struct LipmBound {
   double feet = 0.0;   ///< feet in the air: their ways, turns and limits of speed
   double first = 0.0;  ///< both feet standing before the first lift-off: the CoM has to be set off
   double last = 0.0;   ///< and after the last landing: it has to come to rest
-  double total() const { return feet + first + last; }
+  double total() const { return feet + first + last; }  ///< no walk on the footsteps is shorter [s]
 };
 
 /// A lower bound on the duration of every walk from rest to rest on the problem's footsteps in

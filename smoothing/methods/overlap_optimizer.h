@@ -8,9 +8,10 @@
 
 namespace halfstep {
 
+/// Options of the methods that are solvers.
 struct OptimizerOptions {
   std::string solver = "ipopt";  ///< one of opt::SolverNames()
-  ProgramOptions program;
+  ProgramOptions program;        ///< what is solved, and over which parameters
   /// Where to begin, instead of at the dichotomy's result.
   std::optional<HomotopyParameters> start = std::nullopt;
   /// For `safest`, the most that D may be [s]; 0: the duration of the walk that it begins with.

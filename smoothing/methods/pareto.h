@@ -4,6 +4,7 @@
 
 namespace halfstep {
 
+/// Options of ParetoCurve.
 struct ParetoOptions {
   int points = 8;              ///< ≥ 2, durations in geometric progression
   double most_duration = 1.0;  ///< of the planned motion's: where the curve ends

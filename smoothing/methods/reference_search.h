@@ -6,6 +6,7 @@
 
 namespace halfstep {
 
+/// Options of the methods `reference/…`.
 struct ReferenceOptions {
   ParameterChoice parameters;  ///< searched beside the overlaps
   double period = 0.01;        ///< between the instants at which the grid is checked [s] > 0

@@ -9,7 +9,7 @@ namespace halfstep {
 
 /// What is known when a search by a solver, in rounds from several starts, is over.
 struct SearchEnding {
-  std::string solver;
+  std::string solver;                                         ///< by its name
   bool stopped = false;                                       ///< from outside
   bool deadline_passed = false;                               ///< before all rounds were done
   double deadline = std::numeric_limits<double>::infinity();  ///< that was given [s], for messages
@@ -18,15 +18,16 @@ struct SearchEnding {
   bool all_failed = true;                                     ///< every solve ended kFailed
   bool own = false;  ///< the result comes from the search, and beats what it began with
   opt::Ending last_ending = opt::Ending::kNotRun;  ///< of the last solve
-  std::string last_message = {};
+  std::string last_message = {};                   ///< the solver's own words about the last solve
   /// The last solve saw no point that violates less than this (of a slack's scale), and where; 0:
   /// it violates so little that it may be worth a proof.
   double last_violation = 0.0;
-  std::string last_violated = {};
+  std::string last_violated = {};  ///< name of the row or variable
   /// What the result is when it does not come from the search: "the walk is a dichotomy's".
   std::string kept = {};
 
-  void Note(const opt::Solution& solution);
+  void Note(const opt::Solution& solution);  ///< takes note of a solve
+  /// Whether the deadline ended it.
   bool past_deadline() const { return deadline_passed || last_ending == opt::Ending::kDeadline; }
 
   /// How the whole search ended, as in SmoothingResult::ending.

@@ -15,8 +15,8 @@ namespace halfstep {
 
 /// The options of all methods; each takes those of its group.
 struct SmootherOptions {
-  DichotomyOptions dichotomy = {};
-  OptimizerOptions optimizer = {};
+  DichotomyOptions dichotomy = {};  ///< of the dichotomy, and of methods that begin with it
+  OptimizerOptions optimizer = {};  ///< of methods that are solvers
   std::optional<ParetoOptions> pareto = std::nullopt;  ///< when set, solvers make a ParetoCurve
   HorizonOptions horizon = {};  ///< window, step and passes; the rest is `optimizer`'s
   /// The walk of the method `given`; none: the one that the problem starts from.
@@ -34,7 +34,7 @@ class Smoother {
 
   virtual std::string name() const = 0;     ///< "dichotomy", "halfstep/sqp" …
   virtual std::string meaning() const = 0;  ///< one line, for `halfstep list methods`
-  virtual OptionGroup options() const = 0;
+  virtual OptionGroup options() const = 0;  ///< which group of SmootherOptions it takes
 
   /// Smooths from the problem's start. Feasible means by the problem's test
   /// (SmoothingResult::evidence). How the search ended, also for want of a feasible start, is a

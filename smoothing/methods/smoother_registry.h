@@ -12,6 +12,7 @@ namespace halfstep {
 /// compiled in or registered; then those of RegisterSmoother(). To build one in, add it to the list
 /// in the source.
 const std::vector<std::shared_ptr<const Smoother>>& Smoothers();
+/// Their names, in the same order.
 std::vector<std::string> SmootherNames();
 /// The method of that name. Throws std::logic_error when there is none, since configs are checked
 /// when they are read.

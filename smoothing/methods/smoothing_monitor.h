@@ -32,6 +32,7 @@ struct MonitorOptions {
 class SmoothingMonitor {
  public:
   SmoothingMonitor() : SmoothingMonitor(MonitorOptions{}) {}
+  /// How long it may take, and whom to tell.
   explicit SmoothingMonitor(MonitorOptions options) : options_(std::move(options)) {}
   /// Options for a smoother that is called within this one: it stops with this one, at the same
   /// deadline, and its progress is reported as the part [from, to] of this one's.
@@ -47,21 +48,24 @@ class SmoothingMonitor {
   bool BeginFeasibly(const WalkProblem& problem, const HomotopyParameters& start);
   /// The same for a start that is known to keep them: nothing is checked.
   void BeginKnownFeasible(const WalkProblem& problem, const HomotopyParameters& start);
+  /// The result when BeginFeasibly returned false: the start, not feasible.
   SmoothingResult Refusal() { return Finish(opt::Ending::kNotRun, refusal_); }
 
   /// Whether the search is to end: the caller asked for it, or the deadline has passed.
   bool stopped() const { return interrupted() || Remaining() <= 0.0; }
   bool interrupted() const { return options_.stop.stop_requested(); }  ///< the caller asked for it
-  std::stop_token stop() const { return options_.stop; }
+  std::stop_token stop() const { return options_.stop; }               ///< of the caller
   /// How a search ends that stopped() ended, and the words for it.
   opt::Ending StopEnding() const {
     return interrupted() ? opt::Ending::kInterrupted : opt::Ending::kDeadline;
   }
+  /// The same in words, for the result's message.
   std::string StopReason() const {
     return interrupted() ? "stopped from outside" : "the deadline passed";
   }
-  double Seconds() const { return stopwatch_.Seconds(); }
+  double Seconds() const { return stopwatch_.Seconds(); }  ///< since the monitor was made [s]
   double Remaining() const { return options_.deadline - Seconds(); }  ///< to the deadline [s]
+  /// Tells the caller which fraction ∈ [0, 1] is done.
   void Progress(double done) const {
     if (options_.progress) options_.progress(done);
   }
@@ -70,11 +74,13 @@ class SmoothingMonitor {
   MarginEvaluator::Scratch* scratch() { return &*scratch_; }
   /// Adds effort that scratch() did not count.
   void Count(long instants, long collision_queries);
+  /// Adds the effort of another search that was part of this one.
   void Count(const SmoothingResult& part) { Count(part.instants, part.collision_queries); }
-  long instants() const { return result_.instants + scratch_->instants; }
+  long instants() const { return result_.instants + scratch_->instants; }  ///< evaluated so far
 
+  /// The best point that was proved, or the start.
   const HomotopyParameters& incumbent() const { return result_.parameters; }
-  double cost() const { return result_.cost; }
+  double cost() const { return result_.cost; }   ///< of the incumbent, by the program [s]
   double duration() const { return duration_; }  ///< of the incumbent [s]
   /// Makes `parameters`, which were found feasible at that cost, the incumbent. `duration` [s] is
   /// that of their walk.

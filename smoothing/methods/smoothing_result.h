@@ -13,10 +13,10 @@ namespace halfstep {
 
 /// What limits one overlap.
 struct JunctionResult {
-  JunctionKind kind = JunctionKind::kUpDown;
-  double overlap = 0.0;      ///< accepted Δ [s]
-  double upper_bound = 0.0;  ///< largest that was allowed [s]
-  bool fixed = false;        ///< the caller fixed it
+  JunctionKind kind = JunctionKind::kUpDown;  ///< which half-steps the junction is between
+  double overlap = 0.0;                       ///< accepted Δ [s]
+  double upper_bound = 0.0;                   ///< largest that was allowed [s]
+  bool fixed = false;                         ///< the caller fixed it
   /// The margin that refused the smallest infeasible overlap tried; none: the upper bound holds.
   std::optional<Margin> limited_by = std::nullopt;
   /// Sum of the multipliers of the program's rows in the limiting family, of the half-steps on both
@@ -30,9 +30,9 @@ struct JunctionResult {
 
 /// A walk of a ParetoCurve: no safer one was found that lasts no longer.
 struct ParetoPoint {
-  double duration = 0.0;     ///< [s]
-  double least_slack = 0.0;  ///< proved for the families of Raised(), of their scales
-  HomotopyParameters parameters;
+  double duration = 0.0;          ///< [s]
+  double least_slack = 0.0;       ///< proved for the families of Raised(), of their scales
+  HomotopyParameters parameters;  ///< of the walk
 };
 
 /// One candidate that a method tried.
@@ -42,6 +42,7 @@ struct SmoothingIterate {
   double candidate_duration = 0.0;  ///< [s]
   std::optional<double> candidate_slack =
       std::nullopt;  ///< MarginLimits::Slack where it was violated
+  /// Whether the candidate, or a point on the way to it, became the incumbent.
   bool accepted = false;
   double lambda = 0.0;  ///< how far from incumbent to candidate it was accepted, ∈ [0, 1]
   double incumbent_duration = 0.0;  ///< after this iterate [s]
@@ -60,19 +61,19 @@ struct SmoothingResult {
   /// Whether `parameters` were found feasible, in the sense of `evidence`. If not, they are the
   /// start, which misses a margin.
   bool feasible = false;
-  Evidence evidence = Evidence::kSampled;
-  HomotopyParameters parameters;
+  Evidence evidence = Evidence::kSampled;  ///< how `feasible` was found
+  HomotopyParameters parameters;           ///< of the walk; the best that was proved
   /// Cost by the program [s]; for `safest` minus the proved least slack, +inf when no walk within
   /// its duration was proved.
   double cost = 0.0;
-  std::vector<JunctionResult> junctions;
-  std::vector<SmoothingIterate> iterates;
-  std::vector<ParetoPoint> pareto;  ///< by duration; empty but for ParetoCurve
-  long instants = 0;                ///< instants evaluated
-  long raw_infeasible = 0;          ///< candidates of a solver that were not feasible themselves
-  bool raw_end_feasible = true;     ///< the solver's end was accepted, or not better and not tried
-  long collision_queries = 0;       ///< of bodies with the scene or each other, not culled
-  double wall = 0.0;                ///< [s]
+  std::vector<JunctionResult> junctions;   ///< one for each junction, in their order
+  std::vector<SmoothingIterate> iterates;  ///< in the order of time; not all methods have any
+  std::vector<ParetoPoint> pareto;         ///< by duration; empty but for ParetoCurve
+  long instants = 0;                       ///< instants evaluated
+  long raw_infeasible = 0;       ///< candidates of a solver that were not feasible themselves
+  bool raw_end_feasible = true;  ///< the solver's end was accepted, or not better and not tried
+  long collision_queries = 0;    ///< of bodies with the scene or each other, not culled
+  double wall = 0.0;             ///< [s]
   /// Until the first accepted improvement [s]; none when nothing was improved.
   std::optional<double> time_to_first_improvement;
 };

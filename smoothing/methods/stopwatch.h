@@ -7,6 +7,7 @@ namespace halfstep {
 /// Wall time since it was made.
 class Stopwatch {
  public:
+  /// Since it was made [s].
   double Seconds() const {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
   }

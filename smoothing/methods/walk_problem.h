@@ -23,12 +23,13 @@ class WalkProblem {
   WalkProblem(HalfStepSequence sequence, std::shared_ptr<const FeasibilityTest> test,
               std::vector<FixedParameter> fixed = {});
 
-  const HalfStepSequence& sequence() const { return *sequence_; }
-  const RobotModel& robot() const { return evaluator().robot(); }
-  const Scene& scene() const { return evaluator().scene(); }
+  const HalfStepSequence& sequence() const { return *sequence_; }  ///< the half-steps, as planned
+  const RobotModel& robot() const { return evaluator().robot(); }  ///< the robot that walks
+  const Scene& scene() const { return evaluator().scene(); }       ///< where it walks
   const MarginLimits& limits() const { return evaluator().limits(); }  ///< demanded margins as well
-  const MarginEvaluator& evaluator() const { return test_->evaluator(); }
-  const FeasibilityTest& test() const { return *test_; }
+  const MarginEvaluator& evaluator() const { return test_->evaluator(); }  ///< of all margins
+  const FeasibilityTest& test() const { return *test_; }  ///< how walks are accepted
+  /// Parameters that methods must leave alone.
   const std::vector<FixedParameter>& fixed() const { return fixed_; }
 
   /// Every parameter, with the range within which a method may move it when it searches `choice`.

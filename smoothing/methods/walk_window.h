@@ -13,9 +13,9 @@ namespace halfstep {
 /// `proved_last`, counted in the part, is what the part does there, though at other times; no other
 /// stretch of the walk changes with the part. Source: smoothing/README.md, "Windows".
 struct WalkWindow {
-  int begin = 0;  ///< the part's first half-step, counted in the walk; even
-  int proved_first = 0, proved_last = 0;
-  HomotopyParameters parameters;  ///< the walk's, of the part
+  int begin = 0;                          ///< the part's first half-step, counted in the walk; even
+  int proved_first = 0, proved_last = 0;  ///< first and last stretch for which that holds
+  HomotopyParameters parameters;          ///< the walk's, of the part
   /// The part, with the test of the walk, which is borrowed. Fixed are the parameters that are to
   /// stay, at their values in the walk.
   WalkProblem problem;

@@ -10,6 +10,7 @@
 
 namespace halfstep {
 
+/// Options of SearchWindow.
 struct WindowSearchOptions {
   ProgramOptions program;  ///< `fastest` or `smooth`
   int rounds = 8;          ///< ≥ 1: most solves; the program is refined between them

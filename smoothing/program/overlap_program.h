@@ -13,6 +13,7 @@
 
 namespace halfstep {
 
+/// What a program optimizes.
 enum class ProgramKind {
   kFastest,  ///< minimize D
   kSmooth,   ///< minimize D + weights · (effort, own costs)
@@ -26,11 +27,11 @@ std::array<bool, kNumMarginFamilies> Raised();
 
 /// Selects a nonlinear program over a sequence's homotopy parameters.
 struct ProgramOptions {
-  ProgramKind kind = ProgramKind::kFastest;
-  ParameterChoice parameters;
+  ProgramKind kind = ProgramKind::kFastest;  ///< the objective
+  ParameterChoice parameters;                ///< beside the overlaps
   EffortWeights weights = {0.05, 0.0, 0.0};  ///< of `smooth`
   std::vector<WeightedWalkCost> own_costs;   ///< of `smooth`, too
-  WatchOptions watch;
+  WatchOptions watch;                        ///< instants at which margins are rows
 };
 
 /// A program over the variables of OverlapVariables, and for `safest` the slack z as the last one:
@@ -56,14 +57,15 @@ class OverlapProgram {
   /// The problem borrows this. It also watches instants that are learned later.
   opt::Problem MakeProblem() const;
 
-  const ProgramOptions& options() const { return options_; }
-  const OverlapVariables& variables() const { return variables_; }
-  const WatchedInstants& watched() const { return watched_; }
-  WatchedInstants& watched() { return watched_; }
-  double duration_limit() const { return duration_limit_; }
+  const ProgramOptions& options() const { return options_; }        ///< as given
+  const OverlapVariables& variables() const { return variables_; }  ///< what x stands for
+  const WatchedInstants& watched() const { return watched_; }       ///< instants, and their rows
+  WatchedInstants& watched() { return watched_; }  ///< the same, to learn further instants
+  double duration_limit() const { return duration_limit_; }  ///< of `safest` [s]; ∞: none
 
   /// x (n) of a point of the homotopy; for `safest` z is its least slack at the instants watched.
   Eigen::VectorXd ToVariables(const HomotopyParameters& parameters) const;
+  /// The point that x (n) stands for.
   HomotopyParameters ToParameters(const Eigen::VectorXd& x) const {
     return variables_.ToParameters(x);
   }

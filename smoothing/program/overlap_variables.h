@@ -23,15 +23,18 @@ class OverlapVariables {
   /// on its absolute time.
   OverlapVariables(const HalfStepSequence& sequence, ParameterTable table, bool resting = true);
 
-  const HalfStepSequence& sequence() const { return sequence_; }
-  int size() const { return static_cast<int>(variables_.size()); }
+  const HalfStepSequence& sequence() const { return sequence_; }    ///< whose parameters they are
+  int size() const { return static_cast<int>(variables_.size()); }  ///< n
+  /// The parameter that is x[variable].
   const HomotopyParameter& at(int variable) const {
     return variables_[static_cast<size_t>(variable)];
   }
+  /// Of all parameters, fixed ones included.
   const ParameterTable& table() const { return table_; }
 
   /// x (n) of a point of the homotopy (overlaps above B_i are lowered to it), and back.
   Eigen::VectorXd ToVariables(const HomotopyParameters& parameters) const;
+  /// The point of the homotopy that x (n) stands for.
   HomotopyParameters ToParameters(const Eigen::VectorXd& x) const;
 
   /// Index of a parameter's variable; −1 when it is not a variable.
@@ -40,7 +43,7 @@ class OverlapVariables {
   }
   /// The simple bounds of x (n).
   Eigen::VectorXd lower() const;
-  Eigen::VectorXd upper() const;
+  Eigen::VectorXd upper() const;  ///< the upper ones
   /// Calls add(variable, value) for each term of the gradient with respect to x that a derivative
   /// `slope` along `parameter` makes; a variable may come several times.
   template <typename Add>

@@ -31,8 +31,8 @@ const std::vector<std::shared_ptr<const WalkCost>>& WalkCosts();
 
 /// A registered cost and its weight.
 struct WeightedWalkCost {
-  std::shared_ptr<const WalkCost> cost;
-  double weight = 0.0;
+  std::shared_ptr<const WalkCost> cost;  ///< not null
+  double weight = 0.0;                   ///< of its value, beside the duration [s]
 };
 
 }  // namespace halfstep

@@ -12,6 +12,7 @@
 
 namespace halfstep {
 
+/// Which instants are looked at, and how their slacks become rows.
 struct WatchOptions {
   int instants = 32;      ///< per half-step, evenly spread over its own stretch
   double sharpness = 60;  ///< ρ > 0: a row lies at most log(count)/ρ below its least slack
@@ -19,7 +20,7 @@ struct WatchOptions {
   /// One row an instant and family instead of one a half-step and family.
   bool row_per_instant = false;
   StopBranches stop_branches = StopBranches::kNone;  ///< of which slacks are gathered as well
-  StretchRange range = {};  ///< what is not in it is not looked at
+  StretchRange range = {};                           ///< what is not in it is not looked at
 };
 
 /// The slacks of a walk, gathered by half-step and family. Half-step k is looked at
@@ -42,11 +43,11 @@ class WatchedInstants {
   WatchedInstants(const OverlapVariables& variables, const MarginEvaluator& evaluator,
                   const WatchOptions& options);
 
-  int rows() const { return first_rows_.back(); }
-  int half_step_of(int row) const;
+  int rows() const { return first_rows_.back(); }  ///< number of rows
+  int half_step_of(int row) const;                 ///< k of a row
   /// The family of a row; a half-step, or an instant, has one for each family that has its own.
   static MarginFamily family_of(int row);
-  static int NumRowFamilies();
+  static int NumRowFamilies();  ///< how many families have a row of their own
   /// The variables on which the rows of a half-step depend (OverlapVariables::Band).
   const std::vector<int>& band(int half_step) const {
     return bands_[static_cast<size_t>(half_step)];
@@ -54,7 +55,8 @@ class WatchedInstants {
   /// Number of entries of the Jacobian: every row has those of its band.
   size_t num_nonzeros() const;
 
-  double sharpness() const { return options_.sharpness; }
+  double sharpness() const { return options_.sharpness; }  ///< ρ [1 / scale of a slack]
+  /// Larger: nearer to the least slack, and less smooth.
   void SetSharpness(double sharpness) { options_.sharpness = sharpness; }
 
   /// Adds an instant at which a slack turned out to be small, in the walk or in the stop branch

@@ -10,12 +10,12 @@ namespace halfstep {
 /// one with the least to spare has margin `margin.value` at the midpoint and changes by at most
 /// `bound` from there: margin.value − bound ≥ demanded.
 struct CertificateRow {
-  double begin = 0.0;  ///< [s]
-  double end = 0.0;    ///< [s]
-  MarginFamily family = MarginFamily::kZmp;
-  int count = 0;
-  Margin margin;       ///< at the midpoint, in the family's unit
-  double bound = 0.0;  ///< in the family's unit
+  double begin = 0.0;                        ///< [s]
+  double end = 0.0;                          ///< [s]
+  MarginFamily family = MarginFamily::kZmp;  ///< of which statements are proved on [begin, end]
+  int count = 0;                             ///< how many statements those are
+  Margin margin;                             ///< at the midpoint, in the family's unit
+  double bound = 0.0;                        ///< in the family's unit
 };
 
 /// A proof that a walk keeps every demanded margin at all times: for each family, the counts of the

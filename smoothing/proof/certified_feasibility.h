@@ -16,6 +16,7 @@ namespace halfstep {
 struct CertificationScope {
   double since = 0.0;  ///< nothing before this time of the walk [s]
   double until = std::numeric_limits<double>::infinity();  ///< nothing after it [s]
+  /// All, unless told otherwise.
   std::vector<MarginFamily> families = [] {
     const auto all = AllMarginFamilies();
     return std::vector<MarginFamily>(all.begin(), all.end());
@@ -32,11 +33,13 @@ class CertifiedFeasibility : public FeasibilityTest {
   /// Throws std::logic_error for options out of their ranges.
   CertifiedFeasibility(MarginEvaluator evaluator, const CertificationOptions& options)
       : CertifiedFeasibility(std::move(evaluator), options, CertificationScope{}) {}
+  /// Proves no more than what is in `scope`.
   CertifiedFeasibility(MarginEvaluator evaluator, const CertificationOptions& options,
                        CertificationScope scope);
 
-  Evidence evidence() const override { return Evidence::kCertified; }
+  Evidence evidence() const override { return Evidence::kCertified; }  ///< always kCertified
   std::string Description() const override;
+  /// As given, or of Over().
   const MarginEvaluator& evaluator() const override { return evaluator_; }
   std::unique_ptr<FeasibilityTest> Over(const MarginEvaluator& evaluator) const override {
     return std::make_unique<CertifiedFeasibility>(evaluator, options_, scope_);
@@ -50,7 +53,7 @@ class CertifiedFeasibility : public FeasibilityTest {
   Feasibility Certify(const SuperposedWalk& walk, MarginEvaluator::Scratch* scratch,
                       Certificate* certificate, const std::stop_token& stop = {}) const;
 
-  const CertificationOptions& options() const { return options_; }
+  const CertificationOptions& options() const { return options_; }  ///< as given
   /// How many statements a family has at every instant.
   int CountOf(MarginFamily family) const { return evaluator_.statements(family).count(); }
 

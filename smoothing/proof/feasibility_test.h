@@ -15,21 +15,21 @@ enum class Evidence {
   kSampled,    ///< at finitely many instants; says nothing about the motion between them
   kCertified,  ///< for every instant
 };
-std::string_view Name(Evidence evidence);
+std::string_view Name(Evidence evidence);  ///< "sampled" or "certified".
 
 /// Undecided: neither proved nor refuted.
 enum class Verdict { kFeasible, kViolated, kUndecided };
 
 /// Absolute times [s] of a walk, begin ≤ end.
 struct TimeWindow {
-  double begin = 0.0;
-  double end = 0.0;
+  double begin = 0.0;  ///< [s]
+  double end = 0.0;    ///< [s]
 };
 
 /// The answer about a stretch of time.
 struct Feasibility {
-  Verdict verdict = Verdict::kUndecided;
-  Evidence evidence = Evidence::kSampled;
+  Verdict verdict = Verdict::kUndecided;   ///< what was found
+  Evidence evidence = Evidence::kSampled;  ///< how it was found
   /// Violated: a margin below what is demanded. Undecided: the one that could not be decided.
   Margin witness;
   bool stopped = false;  ///< undecided because the check was told to stop
@@ -40,9 +40,10 @@ struct Feasibility {
 class FeasibilityTest {
  public:
   virtual ~FeasibilityTest() = default;
-  virtual Evidence evidence() const = 0;
+  virtual Evidence evidence() const = 0;  ///< what its answers rest on
   /// How the test decides: "sampled every 5 ms".
   virtual std::string Description() const = 0;
+  /// Limits, demanded margins, robot and scene.
   virtual const MarginEvaluator& evaluator() const = 0;
   /// Which stop branches must keep the margins, too.
   virtual StopBranches stop_branches() const { return StopBranches::kNone; }

@@ -13,8 +13,8 @@ namespace halfstep {
 /// A group of a family's statements that is not yet proved over an interval of time: all of the
 /// family, or those of one body or pair of bodies (MarginStatements::groups).
 struct OpenGroup {
-  MarginFamily family;
-  uint16_t group = 0;
+  MarginFamily family;  ///< to which the group belongs
+  uint16_t group = 0;   ///< 0 when all statements of the family are one group
 };
 
 /// The groups that are not yet proved over one interval; those of one family are adjacent.
@@ -23,6 +23,7 @@ using OpenGroups = std::vector<OpenGroup>;
 /// Proves statements about one interval from its midpoint and a bound on the motion around it.
 class IntervalStatements {
  public:
+  /// Copies the evaluator, which shares robot and scene.
   explicit IntervalStatements(MarginEvaluator evaluator);
 
   /// All groups of all families.

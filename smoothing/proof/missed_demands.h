@@ -15,8 +15,8 @@ struct MissedDemand {
 
 /// What a walk misses, worst first (MarginLimits::Slack).
 struct MissedDemands {
-  std::vector<MissedDemand> demands;
-  int instants = 0;  ///< that were looked at
+  std::vector<MissedDemand> demands;  ///< worst first
+  int instants = 0;                   ///< that were looked at
 };
 
 /// Looks at some hundred instants of a walk, at most 20 ms apart unless it is longer than that

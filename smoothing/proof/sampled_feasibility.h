@@ -15,9 +15,9 @@ class SampledFeasibility : public FeasibilityTest {
   /// `period` [s] > 0 (std::logic_error).
   SampledFeasibility(MarginEvaluator evaluator, double period);
 
-  Evidence evidence() const override { return Evidence::kSampled; }
+  Evidence evidence() const override { return Evidence::kSampled; }  ///< always kSampled
   std::string Description() const override;
-  const MarginEvaluator& evaluator() const override { return evaluator_; }
+  const MarginEvaluator& evaluator() const override { return evaluator_; }  ///< as given
   std::unique_ptr<FeasibilityTest> Over(const MarginEvaluator& evaluator) const override {
     return std::make_unique<SampledFeasibility>(evaluator, period_);
   }

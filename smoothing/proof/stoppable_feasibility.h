@@ -15,10 +15,12 @@ namespace halfstep {
 /// Source: smoothing/README.md, "Stop branches".
 class StoppableFeasibility : public FeasibilityTest {
  public:
+  /// `test` decides about the walk and about each stop branch that is demanded.
   StoppableFeasibility(std::shared_ptr<const FeasibilityTest> test, StopBranches branches);
 
-  Evidence evidence() const override { return test_->evidence(); }
+  Evidence evidence() const override { return test_->evidence(); }  ///< that of the test
   std::string Description() const override;
+  /// That of the test.
   const MarginEvaluator& evaluator() const override { return test_->evaluator(); }
   StopBranches stop_branches() const override { return branches_; }
   std::unique_ptr<FeasibilityTest> Over(const MarginEvaluator& evaluator) const override;

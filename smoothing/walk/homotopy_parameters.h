@@ -19,6 +19,7 @@ struct HomotopyParameters {
 
   /// The values of a family.
   std::vector<double>& of(ParameterFamily family) { return this->*Traits(family).values; }
+  /// The same, to be read.
   const std::vector<double>& of(ParameterFamily family) const {
     return this->*Traits(family).values;
   }
@@ -31,20 +32,22 @@ HomotopyParameters PlannedMotion(const HalfStepSequence& sequence);
 
 /// One parameter: its family, and its index there from 0.
 struct HomotopyParameter {
-  using Family = ParameterFamily;
-  Family family = Family::kOverlap;
-  int index = 0;
+  using Family = ParameterFamily;    ///< see ParameterFamily
+  Family family = Family::kOverlap;  ///< to which it belongs
+  int index = 0;                     ///< in its family, from 0
 
   /// Its value in `parameters`.
   double& in(HomotopyParameters& parameters) const {
     return parameters.of(family).at(static_cast<size_t>(index));
   }
+  /// The same, to be read.
   double in(const HomotopyParameters& parameters) const {
     return parameters.of(family).at(static_cast<size_t>(index));
   }
   friend bool operator==(const HomotopyParameter&, const HomotopyParameter&) = default;
 };
 
+/// Whether a junction leads from an up to a down half-step, or the other way.
 enum class JunctionKind { kUpDown, kDownUp };
 
 /// Junction i leads from an up to a down half-step when i is even.
@@ -57,6 +60,7 @@ constexpr JunctionKind KindOfJunction(int junction) {
 /// go under the floor. Down→up it is the shorter of the two durations; beyond it half-steps would
 /// begin, or end, out of order. Source: smoothing/README.md, "Natural bounds".
 struct NaturalBound {
+  /// Fractions of the durations of the half-steps before and after the junction.
   double before = 1.0, after = 1.0;
 
   /// The bound [s] for the durations of both half-steps [s].
@@ -64,6 +68,7 @@ struct NaturalBound {
 };
 /// The natural bound of junction `junction`, between half-steps of these shapes, or of a sequence.
 NaturalBound NaturalBoundOf(int junction, const HalfStepShape& before, const HalfStepShape& after);
+/// The same of junction `junction` of a sequence.
 NaturalBound NaturalBoundOf(const HalfStepSequence& sequence, int junction);
 
 /// The bound of a junction for given durations [s].

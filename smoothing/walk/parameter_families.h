@@ -19,26 +19,27 @@ enum class ParameterFamily {
   kDuration,      ///< T of a half-step
   kSupportPoint,  ///< support offset of a step
 };
+/// How many families there are.
 inline constexpr int kNumParameterFamilies = 4;
 
 /// What a method may move besides overlaps, and how far.
 struct ParameterChoice {
-  bool heights = false;    ///< η
-  bool durations = false;  ///< T
-  bool support_points = false;
-  double least_height_scale = 0.2;
-  double least_duration = 0.5;  ///< as a fraction of the planned one
-  double most_duration = 1.5;   ///< as a fraction of the planned one
+  bool heights = false;             ///< η
+  bool durations = false;           ///< T
+  bool support_points = false;      ///< where CoM and ZMP rest on one foot
+  double least_height_scale = 0.2;  ///< η is at least this
+  double least_duration = 0.5;      ///< as a fraction of the planned one
+  double most_duration = 1.5;       ///< as a fraction of the planned one
   double least_support_point = -0.03, most_support_point = 0.06;  ///< support offset [m]
 };
 
 /// One number of ParameterChoice, and its key in configs.
 struct ParameterBoundKey {
-  std::string_view key;
-  std::string_view meaning;
-  double ParameterChoice::*value;
-  double min, max;        ///< valid range
-  std::string_view unit;  ///< "m"; "": a number
+  std::string_view key;            ///< in configs
+  std::string_view meaning;        ///< one line, for `halfstep explain-config`
+  double ParameterChoice::*value;  ///< where it is kept
+  double min, max;                 ///< valid range
+  std::string_view unit;           ///< "m"; "": a number
 };
 
 /// All that programs, proofs, files and messages need to know about a family. What its parameters
@@ -50,9 +51,9 @@ struct ParameterFamilyTraits {
   std::string_view column;   ///< their column in that table
   int rank;                  ///< order of the families' columns in one table, smallest first
   std::string_view meaning;  ///< one line, for the column and for messages
-  std::vector<double> HomotopyParameters::*values;
-  int (*count)(const HalfStepSequence&);
-  double (*planned)(const HalfStepSequence&, int index);
+  std::vector<double> HomotopyParameters::*values;        ///< where values are kept
+  int (*count)(const HalfStepSequence&);                  ///< how many a sequence has
+  double (*planned)(const HalfStepSequence&, int index);  ///< the value that is the plan
   /// First and last half-step that the parameter belongs to.
   std::pair<int, int> (*half_steps)(int index);
   /// Index of the parameter that a half-step carries. A parameter that joins two half-steps is
@@ -63,14 +64,14 @@ struct ParameterFamilyTraits {
   bool joins;
   /// The least value that makes sense, and whether that value itself is allowed.
   double least;
-  bool least_itself;
+  bool least_itself;  ///< whether `least` is allowed
   /// The largest value that files may give; +∞ where the natural bound limits it.
   double most;
   /// The flag that lets methods move the family (null: they always may), its key in configs
   /// ("heights"), and what that key means.
   bool ParameterChoice::*chosen;
-  std::string_view key, key_meaning;
-  std::span<const ParameterBoundKey> bounds;
+  std::string_view key, key_meaning;  ///< of `chosen`: its key in configs, and what that key means
+  std::span<const ParameterBoundKey> bounds;  ///< numbers that limit the range, each with its key
   /// The range that methods choose from, given the planned value. Overlaps have their natural
   /// bounds besides.
   std::pair<double, double> (*range)(const ParameterChoice&, double planned);

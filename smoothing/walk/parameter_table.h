@@ -11,18 +11,18 @@ namespace halfstep {
 
 /// A parameter that methods must leave alone.
 struct FixedParameter {
-  HomotopyParameter parameter;
+  HomotopyParameter parameter;                 ///< which one
   std::optional<double> value = std::nullopt;  ///< in the family's unit; none: as planned
 };
 
 /// One parameter of a sequence.
 struct ParameterRow {
-  HomotopyParameter parameter;
-  double start = 0.0;  ///< where methods begin: as planned, or where it is fixed
+  HomotopyParameter parameter;  ///< which one
+  double start = 0.0;           ///< where methods begin: as planned, or where it is fixed
   /// The range that methods may choose from, start included. An overlap's natural bound, which
   /// depends on durations, holds besides; beside a fixed overlap, `lower` keeps durations long
   /// enough for it.
-  double lower = 0.0, upper = 0.0;
+  double lower = 0.0, upper = 0.0;  ///< lower ≤ start ≤ upper, in the family's unit
   bool fixed = false;  ///< or of a family that methods may not move: lower = start = upper
 };
 
@@ -35,15 +35,18 @@ class ParameterTable {
                           const std::vector<FixedParameter>& fixed = {},
                           const ParameterChoice& choice = {});
 
+  /// In the order of ParameterFamily, then of the index.
   const std::vector<ParameterRow>& rows() const& { return rows_; }
   const std::vector<ParameterRow>& rows() const&& = delete;  // of a temporary: `for` would dangle
   /// The row of a parameter, and its number. Precondition: the sequence has it.
   const ParameterRow& row(const HomotopyParameter& parameter) const {
     return rows_[static_cast<size_t>(IndexOf(parameter))];
   }
+  /// Number of its row.
   int IndexOf(const HomotopyParameter& parameter) const {
     return first_[static_cast<size_t>(parameter.family)] + parameter.index;
   }
+  /// Whether methods may move it.
   bool free(const HomotopyParameter& parameter) const { return !row(parameter).fixed; }
 
   /// The planned motion, except for the parameters that are fixed at another value.

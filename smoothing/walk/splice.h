@@ -11,9 +11,10 @@ namespace halfstep {
 
 /// A walk as data: its half-steps, and a point of their homotopy.
 struct WalkPlan {
-  HalfStepSequence sequence;
-  HomotopyParameters parameters;
+  HalfStepSequence sequence;      ///< placed in W
+  HomotopyParameters parameters;  ///< of that sequence
 
+  /// The walk as a function of time.
   SuperposedWalk Walk() const { return {sequence, parameters}; }
 };
 

@@ -15,14 +15,14 @@ namespace halfstep {
 /// An instant of a walk, named by a half-step and the time since it began. The name stays when an
 /// overlap elsewhere changes, while the absolute time moves. One instant may have several names.
 struct LocalTime {
-  int half_step = 0;
-  double tau = 0.0;  ///< [s]
+  int half_step = 0;  ///< index, from 0
+  double tau = 0.0;   ///< [s]
 };
 
 /// Derivative of a WalkJet with respect to one homotopy parameter, at fixed (half-step, τ).
 struct WalkSensitivity {
-  HomotopyParameter parameter;
-  WalkJet jet;
+  HomotopyParameter parameter;  ///< with respect to which
+  WalkJet jet;                  ///< per unit of the parameter
 };
 
 /// The walk of a sequence at a point of the homotopy: a pure function of time. Half-step i starts
@@ -39,25 +39,28 @@ class SuperposedWalk {
   /// Throws std::logic_error when the parameters are not in bounds (CheckParameters).
   SuperposedWalk(const HalfStepSequence& sequence, const HomotopyParameters& parameters);
 
-  int num_half_steps() const { return static_cast<int>(pieces_.size()); }
+  int num_half_steps() const { return static_cast<int>(pieces_.size()); }  ///< n
   /// D = Σ T_i − Σ Δ_i [s].
   double duration() const { return pieces_.back().start + pieces_.back().profiles.duration(); }
   double start_of(int half_step) const { return piece(half_step).start; }  ///< t_i [s]
   double end_of(int half_step) const {                                     ///< t_i + T_i [s]
     return piece(half_step).start + piece(half_step).profiles.duration();
   }
-  const HomotopyParameters& parameters() const { return parameters_; }
+  const HomotopyParameters& parameters() const { return parameters_; }  ///< as given
+  /// Half-step i, with its own duration and heights.
   const HalfStep& half_step(int i) const { return piece(i).half_step; }
-  const HalfStepProfiles& profiles(int i) const { return piece(i).profiles; }
-  const Footprint& X_WS(int i) const { return piece(i).X_WS; }
-  const Lipm& lipm() const { return lipm_; }
+  const HalfStepProfiles& profiles(int i) const { return piece(i).profiles; }  ///< its profiles
+  const Footprint& X_WS(int i) const { return piece(i).X_WS; }  ///< place of its support sole, in W
+  const Lipm& lipm() const { return lipm_; }                    ///< the same for all half-steps
 
   /// The latest half-step that has begun at t [s] (clamped to the walk), and the time since.
   LocalTime Locate(double t) const;
+  /// Absolute time of a local one [s].
   double Absolute(const LocalTime& at) const { return start_of(at.half_step) + at.tau; }
 
   /// All quantities and two time derivatives, in W.
   WalkJet At(double t) const { return At(Locate(t)); }
+  /// The same at a local time, which may lie beyond its half-step.
   WalkJet At(const LocalTime& at) const;
 
   /// Derivatives at fixed (half-step, τ) with respect to every parameter on which the instant

@@ -3,6 +3,7 @@
 import contextlib
 import io
 import pathlib
+import re
 import sys
 import tempfile
 import unittest
@@ -27,14 +28,14 @@ TEXT = f"before\n{reproduce.BEGIN}\nstale\n{reproduce.END}\nafter\n"
 
 class Reproduce(unittest.TestCase):
     def run_claims(self, *claims):
-        """Exit status and the README afterwards."""
+        """Exit status and the page afterwards."""
         with tempfile.TemporaryDirectory() as folder:
-            readme = pathlib.Path(folder) / "README.md"
-            readme.write_text(TEXT)
+            page = pathlib.Path(folder) / "reproduction.md"
+            page.write_text(TEXT)
             with contextlib.redirect_stderr(io.StringIO()):
-                status = reproduce.main(list(claims), readme)
-            self.assertEqual([readme], list(pathlib.Path(folder).iterdir()))
-            return status, readme.read_text()
+                status = reproduce.main(list(claims), page)
+            self.assertEqual([page], list(pathlib.Path(folder).iterdir()))
+            return status, page.read_text()
 
     def test_rewrites_only_what_is_between_the_markers(self):
         status, text = self.run_claims(HOLDS)
@@ -59,9 +60,18 @@ class Reproduce(unittest.TestCase):
         self.assertEqual(0, status)
         self.assertIn("not run: no_such_study is not built", text)
 
-    def test_the_readme_has_the_markers(self):
-        text = (run_tables.ROOT / "README.md").read_text()
-        self.assertLess(text.index(reproduce.BEGIN), text.index(reproduce.END))
+    def test_the_readme_counts_the_rows_of_the_page(self):
+        page = (run_tables.ROOT / "notebooks-data/reproduction.md").read_text()
+        table = page[page.index(reproduce.BEGIN):page.index(reproduce.END)]
+        found = [re.split(r"[:(]", row.split("|")[6])[0].strip()
+                 for row in table.splitlines() if row.startswith("| ")][1:]
+        told = dict((word, int(count)) for count, word in re.findall(
+            r"(\d+) (reproduced|better|out of scope|differ)",
+            (run_tables.ROOT / "README.md").read_text()))
+        self.assertEqual({"reproduced": found.count("reproduced"), "better": found.count("better"),
+                          "differ": found.count("differs"),
+                          "out of scope": found.count("out of scope")}, told)
+        self.assertEqual(len(found), sum(told.values()))
 
 
 if __name__ == "__main__":

@@ -13,8 +13,8 @@ namespace halfstep {
 
 /// What a reader gets: the body, or a sentence why the file was refused.
 struct CheckedFile {
-  std::optional<std::string> body;
-  std::string refused;  ///< "" when the file was read, or does not exist
+  std::optional<std::string> body;  ///< none: refused, or there is no file
+  std::string refused;              ///< "" when the file was read, or does not exist
 };
 
 /// Reads a file whose header must be `header`. Anything else is refused with a sentence, not an

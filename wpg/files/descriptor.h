@@ -20,7 +20,7 @@ class Descriptor {
   Descriptor(const Descriptor&) = delete;
   Descriptor& operator=(const Descriptor&) = delete;
 
-  int get() const { return fd_; }
+  int get() const { return fd_; }  ///< −1: none
 
  private:
   int fd_;

@@ -15,22 +15,24 @@ namespace halfstep {
 /// finite.
 /// unit, min and max are those of the text: of a key in `_deg` they are in degrees.
 struct NumberSpec {
-  const char* meaning = "";
-  const char* unit = "";  ///< "s", "m", "rad", "deg" …; "" for a pure number.
-  double min = -std::numeric_limits<double>::infinity();
-  double max = std::numeric_limits<double>::infinity();
-  bool required = false;
+  const char* meaning = "";  ///< one line, for `halfstep explain-config`
+  const char* unit = "";     ///< "s", "m", "rad", "deg" …; "" for a pure number.
+  double min = -std::numeric_limits<double>::infinity();  ///< smallest valid value
+  double max = std::numeric_limits<double>::infinity();   ///< largest valid value
+  bool required = false;                                  ///< whether the key may not be left out
 };
+/// The valid values of a text or a truth value.
 struct TextSpec {
-  const char* meaning = "";
-  bool required = false;
+  const char* meaning = "";            ///< as in NumberSpec
+  bool required = false;               ///< as in NumberSpec
   std::vector<std::string> choices{};  ///< empty: any text.
   const char* listed_by = "";          ///< the command that lists choices that depend on the build
   const char* otherwise = "";  ///< what holds without the key, where no default value says it
 };
+/// What is said about a group of keys, or about a list of them.
 struct GroupSpec {
-  const char* meaning = "";
-  bool required = false;
+  const char* meaning = "";    ///< as in NumberSpec
+  bool required = false;       ///< as in NumberSpec
   size_t min_items = 0;        ///< lists only
   size_t max_items = 100000;   ///< lists only
   const char* otherwise = "";  ///< as in TextSpec
@@ -44,13 +46,18 @@ struct GroupSpec {
 class Fields {
  public:
   virtual ~Fields() = default;
+  /// A number within the bounds of `spec`; `value` keeps what it has when the key is absent.
   virtual void Number(const char* key, double* value, const NumberSpec& spec) = 0;
   /// Absent or `none` means no value.
   virtual void OptionalNumber(const char* key, std::optional<double>* value,
                               const NumberSpec& spec) = 0;
+  /// As Number, without a fraction.
   virtual void Integer(const char* key, int* value, const NumberSpec& spec) = 0;
+  /// `true` or `false`.
   virtual void Boolean(const char* key, bool* value, const TextSpec& spec) = 0;
+  /// One of spec.choices, or any text.
   virtual void Text(const char* key, std::string* value, const TextSpec& spec) = 0;
+  /// A list of such texts.
   virtual void Texts(const char* key, std::vector<std::string>* value, const TextSpec& spec) = 0;
   /// A list of exactly `count` numbers (count 0: any number of them).
   virtual void Numbers(const char* key, std::vector<double>* value, size_t count,

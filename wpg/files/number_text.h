@@ -7,15 +7,16 @@ namespace halfstep {
 
 /// What a text says about a number; `value` and `extended` are meaningful for kNumber only.
 struct NumberText {
+  /// What the text is.
   enum class Kind {
     kNumber,
     kNotANumber,   ///< also hexadecimal, octal 0o17, 1_000, 12:30.
     kNotFinite,    ///< nan, inf in YAML's and C's spellings, or beyond the range of a double.
     kLeadingZero,  ///< 010: octal for some readers, decimal for others.
   };
-  Kind kind = Kind::kNotANumber;
-  double value = 0.0;          ///< nearest double, finite.
-  long double extended = 0.0;  ///< the same in extended precision, for a change of unit.
+  Kind kind = Kind::kNotANumber;  ///< what it is
+  double value = 0.0;             ///< nearest double, finite.
+  long double extended = 0.0;     ///< the same in extended precision, for a change of unit.
 };
 
 /// Reads a decimal number, whole text, with an optional sign: 12, -0.5, .5, 5., +1e-3.

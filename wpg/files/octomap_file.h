@@ -13,9 +13,9 @@ namespace halfstep {
 struct LoadedOctomap {
   /// Cells lower … lower + size − 1 along each axis; cell i is [i, i + 1] times the resolution.
   struct Cube {
-    Eigen::Vector3i lower{0, 0, 0};
-    int size = 1;
-    bool occupied = false;
+    Eigen::Vector3i lower{0, 0, 0};  ///< in cells, from the map's origin
+    int size = 1;                    ///< cells along each edge
+    bool occupied = false;           ///< else free
   };
   double resolution = 0.0;  ///< edge of a cell [m], 1e-4 … 10
   std::vector<Cube> cubes;  ///< disjoint, at least one

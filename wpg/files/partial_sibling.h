@@ -11,6 +11,7 @@ namespace halfstep {
 /// ends in whatever way. The destructor removes it unless it was released.
 class PartialSibling {
  public:
+  /// What is made.
   enum class Kind { kFile, kFolder };
 
   /// Throws std::runtime_error that names `path` and the system's reason.
@@ -19,6 +20,7 @@ class PartialSibling {
   PartialSibling(const PartialSibling&) = delete;
   PartialSibling& operator=(const PartialSibling&) = delete;
 
+  /// Of the file or folder under its temporary name.
   const std::filesystem::path& path() const { return path_; }
   int descriptor() const { return descriptor_; }  ///< of a file: open for writing
   /// Says that it has been given its final name, so the destructor must not remove it.

@@ -15,20 +15,21 @@ namespace halfstep {
 
 // What the readers of point clouds share.
 
+/// More points are refused.
 inline constexpr long kMaxPoints = 20'000'000;
 inline constexpr size_t kMaxPointFields = 1000;  ///< of a point
 
 /// A number of binary data.
 struct PointScalar {
-  char kind = 'F';  ///< as PCD's TYPE: F float, I signed, U unsigned
-  size_t bytes = 4;
+  char kind = 'F';   ///< as PCD's TYPE: F float, I signed, U unsigned
+  size_t bytes = 4;  ///< 1, 2, 4 or 8
 };
 
 /// A number of each point, or so many after each other.
 struct PointField {
-  std::string name;
-  PointScalar scalar;
-  size_t count = 1;
+  std::string name;                   ///< as the file has it
+  PointScalar scalar;                 ///< type of its numbers
+  size_t count = 1;                   ///< numbers after each other
   std::optional<PointScalar> list{};  ///< PLY: the type of the count that goes before
 };
 
@@ -42,8 +43,8 @@ std::array<size_t, 3> PointAxes(const MeshText& text, const MeshWord& place,
 /// Gathers points, and counts those that are none.
 class PointList {
  public:
-  void Add(const Eigen::Vector3d& p) { all_.push_back(p); }
-  void AddInvalid() { ++invalid_; }
+  void Add(const Eigen::Vector3d& p) { all_.push_back(p); }  ///< coordinates, finite [m]
+  void AddInvalid() { ++invalid_; }                          ///< counts a point that is none
   /// Throws InputError when there is none.
   LoadedPoints Take(const std::string& path) const;
 
@@ -59,7 +60,7 @@ class PointData {
   PointData(const std::string& path, std::string_view bytes, size_t at, bool big_endian)
       : path_(path), bytes_(bytes), at_(at), big_endian_(big_endian) {}
 
-  size_t at() const { return at_; }
+  size_t at() const { return at_; }  ///< bytes that were read
   /// Reads past an element, and returns the fields `axes` of it; nullptr: nothing of it.
   Eigen::Vector3d Element(const std::vector<PointField>& fields, const std::array<size_t, 3>* axes);
 
@@ -77,7 +78,9 @@ class PointData {
 /// Complains about a point at a byte that is not finite or too far.
 void CheckPoint(const std::string& path, size_t byte, const Eigen::Vector3d& p);
 
+/// PLY, as text or binary; throws InputError.
 LoadedPoints ReadPly(const std::string& path, std::string_view bytes);
+/// PCD, as text or binary, not compressed; throws InputError.
 LoadedPoints ReadPcd(const std::string& path, std::string_view bytes);
 
 }  // namespace halfstep

@@ -7,7 +7,7 @@ namespace halfstep {
 
 /// The result of reading a file: its bytes, or a sentence that says why there are none.
 struct FileBytes {
-  std::string bytes;
+  std::string bytes;     ///< of the whole file
   std::string refused;   ///< "" when the file was read
   bool missing = false;  ///< refused because there is no such file
 };

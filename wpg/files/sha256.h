@@ -13,7 +13,7 @@ namespace halfstep {
 class Sha256Hash {
  public:
   Sha256Hash();
-  void Add(std::string_view bytes);
+  void Add(std::string_view bytes);  ///< more of what is hashed
   /// The 32 bytes of the digest; nothing may be added after it.
   std::string Finish();
 

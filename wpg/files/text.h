@@ -14,11 +14,11 @@ size_t FindInvalidUtf8(std::string_view text);
 bool HasControlCharacter(std::string_view text);
 
 /// The text between single quotes, fit for a complaint: control characters and invalid bytes shown
-/// as \xNN, and cut after 60 bytes.
+/// as `\xNN`, and cut after 60 bytes.
 std::string Quote(std::string_view text);
 
-/// The text with control characters other than line breaks and invalid bytes shown as \xNN: fit for
-/// a terminal.
+/// The text with control characters other than line breaks and invalid bytes shown as `\xNN`: fit
+/// for a terminal.
 std::string Printable(std::string_view text);
 
 /// What printf would print; %s takes a C string.

@@ -11,7 +11,7 @@ namespace halfstep {
 
 /// Replaces the value of a dotted key: "smoothing.margins.clearance_m=0.02". List items by index.
 struct YamlOverride {
-  std::string key;
+  std::string key;    ///< dotted, from the root
   std::string value;  ///< YAML text.
 };
 

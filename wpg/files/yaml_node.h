@@ -10,34 +10,37 @@ namespace halfstep {
 /// Where a value stands: line and column (in bytes) count from 1, 0 means unknown. A value given on
 /// the command line has its override key instead.
 struct YamlPlace {
-  int line = 0;
-  int column = 0;
-  std::string override_key{};
+  int line = 0;                ///< from 1
+  int column = 0;              ///< from 1, in bytes
+  std::string override_key{};  ///< of --set; "": the value is in the file
 };
 
 /// A YAML value as plain data, aliases expanded.
 struct YamlNode {
+  /// What a value is.
   enum class Kind { kNull, kScalar, kList, kMap };
-  Kind kind = Kind::kNull;
-  std::string text{};   ///< of a scalar.
-  bool quoted = false;  ///< scalar in quotes or a block scalar: text whatever it looks like.
+  Kind kind = Kind::kNull;  ///< of this value
+  std::string text{};       ///< of a scalar.
+  bool quoted = false;      ///< scalar in quotes or a block scalar: text whatever it looks like.
   std::vector<YamlNode> items{};  ///< of a list, or the values of a map in the order of the text.
   std::string key{};              ///< of a map's value.
-  YamlPlace key_place{};
+  YamlPlace key_place{};          ///< of the key in the text
   YamlPlace place{};  ///< of the value; of the key where the value begins on a later line.
   int height = 0;     ///< levels of nodes below.
   size_t weight = 1;  ///< what the subtree costs in the budget of nodes.
 
   /// The value of a map's key, or nullptr.
   const YamlNode* Find(const std::string& wanted) const;
-  YamlNode* Find(const std::string& wanted);
+  YamlNode* Find(const std::string& wanted);  ///< the same, to be changed
 };
 
 /// Complaints about one YAML text, gathered in any order, thrown in the order of the text.
 class YamlComplaints {
  public:
+  /// `name` is the file's, for complaints.
   explicit YamlComplaints(std::string name) : name_(std::move(name)) {}
 
+  /// What is wrong with the value of a key.
   void Add(const YamlPlace& place, const std::string& key, const std::string& what);
   /// Whether `key` or anything below it has been complained about.
   bool About(const std::string& key) const;

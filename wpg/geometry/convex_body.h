@@ -48,6 +48,7 @@ void MapDirections(ConvexBody* body);
 /// Axis-aligned box of full edge lengths `size` [m], centred at the origin. Precondition, here and
 /// below: finite positive sizes (std::logic_error).
 ConvexBody MakeBox(const Eigen::Vector3d& size);
+/// Ball of `radius` [m] around the origin.
 ConvexBody MakeSphere(double radius);
 /// Cylinder of `length` [m] along z, centred at the origin.
 ConvexBody MakeCylinder(double radius, double length);

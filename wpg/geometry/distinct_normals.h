@@ -12,6 +12,7 @@ namespace halfstep {
 /// a known one is short.
 class DistinctNormals {
  public:
+  /// Directions that differ by less than `tolerance` [rad] count as one.
   explicit DistinctNormals(double tolerance) : tolerance_(tolerance) {}
 
   /// The index of the first one within the tolerance of `normal`; of `normal` itself, which is then
@@ -30,6 +31,7 @@ class DistinctNormals {
     }
     return found;
   }
+  /// Unit vectors, in the order in which they were first seen.
   const std::vector<Eigen::Vector3d>& kept() const { return kept_; }
 
  private:

@@ -10,6 +10,7 @@ struct Footprint : Pose2 {
   double height = 0.0;  ///< above the origin of A [m]
 
   Footprint() = default;
+  /// X, y [m], yaw [rad] and z, the height [m].
   Footprint(double x, double y, double yaw, double z = 0.0) : Pose2{x, y, yaw}, height(z) {}
   /// On the floor.
   Footprint(const Pose2& X_AF) : Pose2(X_AF) {}  // NOLINT: every planar pose is a place
@@ -29,6 +30,7 @@ struct Footprint : Pose2 {
   Footprint Mirrored() const { return {x, -y, -yaw, height}; }
 
   friend bool operator==(const Footprint&, const Footprint&) = default;
+  /// Whether a is on the floor at b.
   friend bool operator==(const Footprint& a, const Pose2& b) { return a == Footprint(b); }
 };
 

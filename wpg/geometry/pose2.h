@@ -9,12 +9,14 @@ namespace halfstep {
 /// Planar pose X_AB of frame B in frame A: position (x, y) [m] and yaw [rad] (not wrapped: yaw is a
 /// real number, so that differences of yaw keep their number of turns).
 struct Pose2 {
-  double x = 0.0;
-  double y = 0.0;
-  double yaw = 0.0;
+  double x = 0.0;    ///< [m]
+  double y = 0.0;    ///< [m]
+  double yaw = 0.0;  ///< [rad]
 
+  /// Whether no number is infinite or NaN.
   bool AllFinite() const { return std::isfinite(x) && std::isfinite(y) && std::isfinite(yaw); }
-  Eigen::Vector2d position() const { return {x, y}; }
+  Eigen::Vector2d position() const { return {x, y}; }  ///< (x, y) [m]
+  /// R_AB (2×2).
   Eigen::Matrix2d rotation() const { return Eigen::Rotation2Dd(yaw).toRotationMatrix(); }
 
   /// p_A = X_AB · p_B [m].

@@ -15,7 +15,8 @@ class SupportPolygon {
   /// Two soles: their convex hull.
   SupportPolygon(const Pose2& X_WL, const Pose2& X_WR, const Eigen::Vector2d& sole_size);
 
-  int size() const { return size_; }
+  int size() const { return size_; }  ///< number of corners, 4 to 8
+  /// Corner i, counter-clockwise, in W [m].
   Eigen::Vector2d corner(int i) const { return corners_.col(i); }
 
   /// Least distance inside the edges' lines [m]: positive inside, where it is the distance to the

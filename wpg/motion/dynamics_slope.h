@@ -20,13 +20,16 @@ struct DynamicsTangent {
 /// wpg/README.md, "Dynamics of the whole robot".
 class DynamicsSlope {
  public:
+  /// Derivatives of one link's joint screw and of the force that moves it.
   struct Link {
-    Vector6d screw, force;
+    Vector6d screw, force;  ///< spatial vectors: turn or moment, then translation or force
   };
 
+  /// Per unit of the parameter that `tangent` belongs to.
   DynamicsSlope(const RobotModel& robot, const WalkJet& jet, const Posture& posture,
                 const RobotDynamics& dynamics, const DynamicsTangent& tangent);
 
+  /// Its six links, from the hip down.
   const std::array<Link, 6>& leg(Side side) const {
     return legs_[static_cast<size_t>(Index(side))];
   }

@@ -21,6 +21,7 @@ class FootFriction {
   static std::optional<FootFriction> Of(const RobotDynamics& dynamics,
                                         const SupportPolygon& polygon);
 
+  /// The least friction coefficient at which the sole does not slip.
   double needed() const { return (pull_.norm() + std::abs(turn_) / reach_.distance) / push_; }
   /// Its derivative when dynamics.contact() changes by `contact_slope`, about the same O, while the
   /// polygon rests.

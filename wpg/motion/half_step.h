@@ -16,6 +16,7 @@
 
 namespace halfstep {
 
+/// From the floor up to the via point, or down from it to the floor.
 enum class HalfStepKind { kUp, kDown };
 
 /// How a half-step moves. Times are fractions of its duration T, so that they scale with T.
@@ -55,27 +56,29 @@ struct HalfStepShape {
 /// (up) or [0, t1) (down). Left and right are mirror images.
 /// Source: [Perrin2011] §III; wpg/README.md, "Half-step".
 struct HalfStep {
-  Side support = Side::kLeft;
-  HalfStepKind kind = HalfStepKind::kUp;
+  Side support = Side::kLeft;             ///< the foot that stands
+  HalfStepKind kind = HalfStepKind::kUp;  ///< up: towards the via point; down: from it
   Footprint X_SF;             ///< the swing sole's place on the floor, seen from the support sole.
   double duration = 2.0;      ///< T [s]
   double via_height = 0.25;   ///< [m] ≥ 0
   double via_lateral = 0.24;  ///< distance of the via point from the support sole's centre [m].
-  HalfStepShape shape;
+  HalfStepShape shape;        ///< times and forms, as fractions of T
   WaistSway sway = {};  ///< added to the CoM, and so to the waist; the ZMP stays the planned one.
 
-  Side swing() const { return Opposite(support); }
+  Side swing() const { return Opposite(support); }  ///< the foot that moves
   /// The pose X_SV of the via point seen from above: there the swing foot is between up and down.
   Pose2 via() const { return {0.0, Sign(swing()) * via_lateral, 0.0}; }
   /// The support point, in S: CoM and ZMP are there while the swing foot is at the via point.
   Eigen::Vector2d support_point() const { return {0.0, Sign(swing()) * shape.support_offset}; }
   /// The states at rest, in S: with both feet on the floor, and at the via point.
   WalkState OnFloor() const;
-  WalkState AtVia() const;
+  WalkState AtVia() const;  ///< with the swing foot at the via point
+  /// Where the half-step begins.
   WalkState Start() const { return kind == HalfStepKind::kUp ? OnFloor() : AtVia(); }
+  /// Where it ends.
   WalkState End() const { return kind == HalfStepKind::kUp ? AtVia() : OnFloor(); }
 
-  HalfStep Mirrored() const;
+  HalfStep Mirrored() const;  ///< left and right exchanged: the reflection in the xz plane
   friend bool operator==(const HalfStep&, const HalfStep&) = default;
 };
 
@@ -108,15 +111,15 @@ class HalfStepProfiles {
   /// All values of the third time derivatives over local times [from, to] [s].
   HalfStepThirds ThirdRanges(double from, double to) const;
 
-  double duration() const { return duration_; }
+  double duration() const { return duration_; }          ///< T [s]
   double t1() const { return shape_.t1() * duration_; }  ///< end of the ZMP's first rest [s]
   double t2() const { return shape_.t2() * duration_; }  ///< begin of its second rest [s]
   /// The swing foot moves horizontally between these local times [s].
   double horizontal_begin() const { return foot_.begin * duration_; }
-  double horizontal_end() const { return foot_.end * duration_; }
+  double horizontal_end() const { return foot_.end * duration_; }  ///< and ends here [s]
   /// The swing foot rises (up) or sinks (down) between these local times [s].
   double lift_begin() const { return height_.begin * duration_; }
-  double lift_end() const { return height_.end * duration_; }
+  double lift_end() const { return height_.end * duration_; }  ///< and ends here [s]
   /// Local times at which a profile changes its formula, 0 left out, in no order [s].
   std::vector<double> Knots() const;
   double bump() const { return shift_.bump(); }  ///< of the ZMP (RestToRest::bump).

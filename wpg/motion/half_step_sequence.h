@@ -12,8 +12,8 @@ namespace halfstep {
 
 /// A foot's place on the floor, X_WF.
 struct Footstep {
-  Side side = Side::kLeft;
-  Footprint X_WF;
+  Side side = Side::kLeft;  ///< the foot that stands there
+  Footprint X_WF;           ///< the sole's place, in W
   /// What follows holds for both half-steps of the step that leads here.
   double via_height = 0.25;  ///< [m]
   double duration = 2.0;     ///< T of each half-step [s]
@@ -21,8 +21,8 @@ struct Footstep {
 
 /// A half-step placed in the world: X_WS is the pose of its support sole.
 struct PlacedHalfStep {
-  HalfStep half_step;
-  Footprint X_WS;
+  HalfStep half_step;  ///< seen from its support sole
+  Footprint X_WS;      ///< place of that sole, in W
 };
 
 /// A plan: half-steps 0 … n−1, alternately up and down, each beginning where the one before ends.
@@ -30,11 +30,11 @@ struct PlacedHalfStep {
 struct HalfStepSequence {
   std::array<Footprint, 2> start;          ///< soles at the start, by Index(Side); yaws unwrapped.
   std::vector<PlacedHalfStep> half_steps;  ///< n ≥ 2, even.
-  Lipm lipm;
+  Lipm lipm;                               ///< of all half-steps
 
-  int size() const { return static_cast<int>(half_steps.size()); }
-  int num_steps() const { return size() / 2; }
-  int num_junctions() const { return size() - 1; }
+  int size() const { return static_cast<int>(half_steps.size()); }  ///< n
+  int num_steps() const { return size() / 2; }                      ///< n/2
+  int num_junctions() const { return size() - 1; }                  ///< n − 1
 };
 
 /// The sequence that takes the footsteps in their order from the soles `start`. `via_lateral` [m]
@@ -45,6 +45,7 @@ HalfStepSequence MakeSequence(const std::array<Footprint, 2>& start,
 
 /// The same plan seen in a mirror (xz plane of W), and moved by X_VW.
 HalfStepSequence Mirrored(const HalfStepSequence& sequence);
+/// The same plan moved by X_VW: frame W of the plan is placed in frame V.
 HalfStepSequence Moved(const Pose2& X_VW, const HalfStepSequence& sequence);
 
 }  // namespace halfstep

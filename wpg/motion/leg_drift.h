@@ -14,6 +14,7 @@ namespace halfstep {
 /// walk's second derivatives (IntervalMotion) and third ones.
 RigidDrift DriftOfWaist(const RobotModel& robot, const IntervalMotion& motion,
                         const WalkThirds& thirds);
+/// The same of the sole of that side.
 RigidDrift DriftOfSole(const IntervalMotion& motion, const WalkThirds& thirds, Side side);
 
 /// How much the motion of a leg's links, up to accelerations, differs over an interval from what it
@@ -22,9 +23,9 @@ RigidDrift DriftOfSole(const IntervalMotion& motion, const WalkThirds& thirds, S
 /// interval, with J⁻¹ that at m and the bounds of q̈ that IntervalMotion has. For both kinds of
 /// legs. Source: smoothing/README.md, "The robot's ZMP between instants".
 struct LegDrift {
-  std::array<RigidDrift, 6> links;
+  std::array<RigidDrift, 6> links;        ///< of the six links, from the hip down
   std::array<Eigen::Vector3d, 6> points;  ///< the links' points at m, in W [m]
-  std::array<JointDrift, 6> joints;
+  std::array<JointDrift, 6> joints;       ///< of the six joints, from the hip down
 
   /// Preconditions: `motion` is bounded, `at_m` are the dynamics at m. `waist` and `sole` are those
   /// at the waist's and the sole's origins.

@@ -17,6 +17,7 @@ struct MassDrift {
   double p = 0.0, p2 = 0.0;               ///< drift of its place [m] and acceleration [m/s²]
   double moment = 0.0;                    ///< drift of I ω̇ + ω × I ω about it [N m]
 
+  /// Sup of its acceleration's size [m/s²].
   double MostAcceleration() const { return acceleration.norm() + p2; }
 
   /// `of_com` is the drift of the body with its centre of mass as the point.

@@ -11,7 +11,7 @@ namespace halfstep {
 
 /// What the robot's body does at one instant of a walk: upright waist, flat soles, leg joints.
 struct Posture {
-  Eigen::Isometry3d X_WB = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d X_WB = Eigen::Isometry3d::Identity();   ///< the waist's pose in W; upright
   std::array<Eigen::Isometry3d, 2> X_WSole;                 ///< by Index(Side), as are the others
   std::array<LegIkSolution, 2> ik;                          ///< joint angles and reach
   std::array<LegFrames, 2> frames;                          ///< seen from B
@@ -21,6 +21,7 @@ struct Posture {
   Eigen::Vector3d waist_velocity{0, 0, 0};   ///< of B's origin [m/s]
   bool reachable = false;                    ///< both legs solved
 
+  /// The pose in W of one of the robot's bodies.
   const Eigen::Isometry3d& OfBody(const RobotBody& body) const {
     return body.leg < 0 ? X_WB
                         : X_WLink[static_cast<size_t>(body.leg)][static_cast<size_t>(body.link)];

@@ -5,7 +5,7 @@ namespace halfstep {
 /// A profile F(σ, θ) from 0 to 1 in dimensionless time σ = τ/T ∈ [0, 1], with θ = ω·T, and the
 /// derivatives that its jet in time needs. Subscripts are partial derivatives.
 struct UnitJet {
-  double value = 0.0;
+  double value = 0.0;                   ///< F
   double s = 0.0, ss = 0.0, sss = 0.0;  ///< F_σ, F_σσ, F_σσσ (the last piecewise).
   double theta = 0.0, theta_s = 0.0, theta_ss = 0.0;  ///< F_θ, F_σθ, F_σσθ.
 };

@@ -16,10 +16,11 @@ namespace halfstep {
 /// Its greatest speed is v/(end − begin); that of S, which it is for r = ½, has 15/8 in place of v.
 /// Antisymmetric, as S is. Source: wpg/README.md, "Half-step".
 struct RampedStep {
-  double begin = 0.0;
-  double end = 1.0;   ///< > begin
-  double ramp = 0.5;  ///< ∈ (0, ½]
+  double begin = 0.0;  ///< of the window ∈ [0, 1)
+  double end = 1.0;    ///< > begin
+  double ramp = 0.5;   ///< ∈ (0, ½]
 
+  /// Value and derivatives at σ.
   UnitJet At(double sigma) const {
     if (ramp == 0.5) return Rise().At(sigma);
     if (sigma <= steady_begin()) return Scaled(Rise().At(sigma));
@@ -63,6 +64,7 @@ struct RampedStep {
 
   /// The speed is constant between these; when it never is, they are the window's ends.
   double steady_begin() const { return ramp == 0.5 ? begin : begin + ramp * (end - begin); }
+  /// The end of that stretch.
   double steady_end() const { return ramp == 0.5 ? end : end - ramp * (end - begin); }
 
  private:

@@ -32,7 +32,7 @@ class RestToRest {
 
   /// c and p at σ: 0 and at rest before 0, 1 and at rest after 1.
   UnitJet Com(double sigma) const;
-  UnitJet Zmp(double sigma) const;
+  UnitJet Zmp(double sigma) const;  ///< p; see Com
 
   /// sup |c_σσ| over all σ: θ²·(½ + a), since |c − p| ≤ ½ + a (wpg/README.md, "Rest to rest").
   double ComSecondBound() const { return theta_ * theta_ * (0.5 + bump_.value); }

@@ -32,6 +32,7 @@ struct RigidDrift {
 /// A joint's speed and acceleration at m, and how much they differ from that over the interval.
 struct JointDrift {
   double speed = 0.0, acceleration = 0.0;  ///< absolute values [rad/s], [rad/s²]
+  /// How much they differ from that at most [rad/s], [rad/s²].
   double speed_drift = 0.0, acceleration_drift = 0.0;
 };
 

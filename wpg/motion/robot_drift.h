@@ -12,8 +12,8 @@ namespace halfstep {
 struct RobotDrift {
   RigidDrift waist;              ///< of the waist's origin
   std::array<LegDrift, 2> legs;  ///< by Index(Side)
-  MassDrift waist_mass;
-  std::array<std::array<MassDrift, 6>, 2> link_masses;
+  MassDrift waist_mass;          ///< of the waist's body and all that is rigid with it
+  std::array<std::array<MassDrift, 6>, 2> link_masses;  ///< by Index(Side) and link
 
   /// Preconditions: `motion` is bounded, `at_m` are the dynamics at m.
   RobotDrift(const RobotModel& robot, const IntervalMotion& motion, const WalkThirds& thirds,

@@ -19,20 +19,21 @@ class RobotDynamics {
   /// A body: its parent joint's screw (zero for the waist), its velocity, its acceleration and that
   /// less gravity's −g ẑ, and the force that moves it against gravity and inertia.
   struct Body {
-    Vector6d screw = Vector6d::Zero();
-    Vector6d velocity = Vector6d::Zero();
+    Vector6d screw = Vector6d::Zero();         ///< of the joint that moves it, about O
+    Vector6d velocity = Vector6d::Zero();      ///< of the body, as a twist about O
     Vector6d acceleration = Vector6d::Zero();  ///< with + g ẑ: what an accelerometer feels
-    SpatialInertia inertia;
-    Vector6d force = Vector6d::Zero();
+    SpatialInertia inertia;                    ///< of the body, about O
+    Vector6d force = Vector6d::Zero();         ///< moment about O [N m], force [N]
   };
-  using LegBodies = std::array<Body, 6>;
+  using LegBodies = std::array<Body, 6>;  ///< of one leg, from the hip down
 
   /// Preconditions: masses are known, the posture is reachable and its joint speeds are solved.
   RobotDynamics(const RobotModel& robot, const WalkJet& jet, const Posture& posture,
                 double gravity);
 
   const Eigen::Vector3d& O() const { return O_; }  ///< in W [m]
-  const Body& waist() const { return waist_; }
+  const Body& waist() const { return waist_; }  ///< the waist's body and all that is rigid with it
+  /// Of that leg.
   const LegBodies& leg(Side side) const { return legs_[static_cast<size_t>(Index(side))]; }
   /// q̈ [rad/s²].
   const Vector6d& accelerations(Side side) const {
@@ -56,6 +57,7 @@ class RobotDynamics {
 /// Spatial acceleration and velocity about O of a frame that stays upright: its origin is at `p`
 /// from O [m], and moves by `v`, `a`; its yaw by `rate`, `acceleration`.
 Vector6d UprightVelocity(const Eigen::Vector3d& p, const Eigen::Vector3d& v, double rate);
+/// The spatial acceleration of that frame about O.
 Vector6d UprightAcceleration(const Eigen::Vector3d& p, const Eigen::Vector3d& v,
                              const Eigen::Vector3d& a, double rate, double acceleration);
 

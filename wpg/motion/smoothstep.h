@@ -11,9 +11,10 @@ namespace halfstep {
 /// The C² step S(x) = 10x³ − 15x⁴ + 6x⁵ on a window [begin, end] of σ: 0 before, 1 after, with zero
 /// first and second derivatives at both ends. Antisymmetric: S(x) + S(1 − x) = 1.
 struct Smoothstep {
-  double begin = 0.0;
-  double end = 1.0;  ///< > begin
+  double begin = 0.0;  ///< of the window ∈ [0, 1)
+  double end = 1.0;    ///< > begin
 
+  /// Value and derivatives at σ.
   UnitJet At(double sigma) const {
     if (sigma <= begin) return {};
     if (sigma >= end) return {.value = 1.0};

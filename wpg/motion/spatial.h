@@ -12,12 +12,14 @@ namespace halfstep {
 // the body's point that is just at O), its acceleration the componentwise derivative of that; a
 // force is (moment about O, force). Source: [Featherstone2008] ch. 2.
 
+/// The matrix of the cross product: CrossMatrix(a)·b = a × b (3×3).
 inline Eigen::Matrix3d CrossMatrix(const Eigen::Vector3d& a) {
   Eigen::Matrix3d A;
   A << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
   return A;
 }
 
+/// The six numbers of both halves.
 inline Vector6d Spatial(const Eigen::Vector3d& upper, const Eigen::Vector3d& lower) {
   Vector6d x;
   x << upper, lower;
@@ -49,12 +51,14 @@ struct SpatialInertia {
         com(X_OBody * body.com),
         about_com(X_OBody.linear() * body.inertia * X_OBody.linear().transpose()) {}
 
+  /// The momentum of a twist v.
   Vector6d operator*(const Vector6d& v) const {
     const Eigen::Vector3d w = v.head<3>();
     const Eigen::Vector3d momentum = mass * (v.tail<3>() + w.cross(com));
     return Spatial(about_com * w + com.cross(momentum), momentum);
   }
 
+  /// The same as a matrix (6×6).
   Matrix6d Matrix() const {
     const Eigen::Matrix3d C = mass * CrossMatrix(com);
     Matrix6d I;

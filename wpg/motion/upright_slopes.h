@@ -11,6 +11,7 @@ struct WaistSlope {
   Vector6d velocity;      ///< of RobotDynamics::Body::velocity
   Vector6d acceleration;  ///< and of its acceleration
 
+  /// Per unit of the parameter whose derivative of the walk is `tangent`.
   WaistSlope(const RobotModel& robot, const WalkJet& jet, const Posture& posture,
              const RobotDynamics& dynamics, const WalkJet& tangent);
 };

@@ -17,12 +17,13 @@ namespace halfstep {
 /// both ends, and d⃛ is constant on each twelfth of T. The form does not depend on T: where T
 /// varies, d(σ) stays and goes faster or slower. Source: wpg/README.md, "Compensation".
 struct WaistSway {
-  static constexpr int kPieces = 12;
+  static constexpr int kPieces = 12;  ///< pieces of a half-step, each T/12 long
+  /// Numbers of B-splines that begin and end at rest.
   static constexpr int kControls = kPieces - 3;
 
   std::vector<Eigen::Vector2d> controls;  ///< kControls of them [m], or none: no motion
 
-  bool none() const { return controls.empty(); }
+  bool none() const { return controls.empty(); }  ///< whether there is no motion
   /// The motion along x and y at local time τ [s] of a half-step that lasts T = `duration` [s],
   /// with derivatives as those of a profile, in metres; zero before 0 and after T.
   std::array<ProfileJet, 2> At(double tau, double duration) const;
@@ -34,8 +35,8 @@ struct WaistSway {
 
   /// The same motion turned by `R`, reflected in the xz plane, and multiplied.
   WaistSway Turned(const Eigen::Matrix2d& R) const;
-  WaistSway Mirrored() const;
-  WaistSway Scaled(double factor) const;
+  WaistSway Mirrored() const;             ///< reflected: y changes its sign
+  WaistSway Scaled(double factor) const;  ///< times a factor
 
   friend bool operator==(const WaistSway&, const WaistSway&) = default;
 };

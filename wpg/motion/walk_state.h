@@ -34,7 +34,7 @@ constexpr int FootIndex(Side side) { return side == Side::kLeft ? kLeftX : kRigh
 
 /// Value, first and second time derivative of all quantities at one instant.
 struct WalkJet {
-  WalkState value = WalkState::Zero();
+  WalkState value = WalkState::Zero();   ///< by Quantity: [m], or [rad] of yaws
   WalkState first = WalkState::Zero();   ///< [unit/s]
   WalkState second = WalkState::Zero();  ///< [unit/s²]
 };

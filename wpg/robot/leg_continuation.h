@@ -22,7 +22,7 @@ struct SoleDrift {
 
 /// Where the closed form leads a leg that has none.
 struct LegContinuation {
-  bool arrived = false;
+  bool arrived = false;           ///< whether q reaches the sole's pose
   Vector6d q = Vector6d::Zero();  ///< [rad], not wrapped; means something only when arrived.
   /// Unless arrived, by how much that fails [m], > 0: reach of the closed-form leg, or the part of
   /// the offsets that could not be added.

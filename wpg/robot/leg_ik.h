@@ -14,8 +14,9 @@ enum class LegIkStatus {
   kUnreachableOrientation,  ///< ankle or hip axes, not orthogonal, cannot give the rotation.
 };
 
+/// Joint angles of a leg, or why there are none.
 struct LegIkSolution {
-  LegIkStatus status = LegIkStatus::kOutOfReach;
+  LegIkStatus status = LegIkStatus::kOutOfReach;  ///< what `q` is worth
   /// [rad], meaningless unless solved. Each wrapped to (−π, π]; without closed form not wrapped.
   Vector6d q = Vector6d::Zero();
   /// Stretched length − hip–ankle distance [m]; where hip and ankle are nearer to each other than
@@ -41,8 +42,8 @@ LegBranch LegBranchOf(const Leg& leg, const Vector6d& q);
 
 /// A solution and its branch.
 struct LegIkBranchSolution {
-  LegBranch branch;
-  Vector6d q;  ///< [rad]
+  LegBranch branch;  ///< by the choices of the closed form
+  Vector6d q;        ///< [rad]
 };
 /// All solutions, at most 8; none when the pose cannot be reached.
 std::vector<LegIkBranchSolution> SolveLegIkAll(const Leg& leg, const Eigen::Isometry3d& X_BSole);
@@ -51,13 +52,16 @@ std::vector<LegIkBranchSolution> SolveLegIkAll(const Leg& leg, const Eigen::Isom
 /// angular velocity [rad/s], the lower three the velocity of its frame's origin [m/s], both seen
 /// from B and expressed in B.
 Matrix6d LegJacobian(const LegFrames& frames);
+/// The same at joint angles q [rad].
 Matrix6d LegJacobian(const Leg& leg, const Vector6d& q);
 
 /// The hip–ankle distance as the knee alone changes it [m], and its derivative [m/rad]. The second
 /// derivative is at most 2P/distance, the first at most √P, P the product of the two levers.
 struct LegLength {
+  /// At one angle of the knee [m], [m/rad]; product: P [m²].
   double distance = 0.0, slope = 0.0, product = 0.0;
 };
+/// At the knee's angle [rad], which the other joints do not change.
 LegLength LegLengthAt(const Leg& leg, double knee);
 
 /// The inverse of LegJacobian (6×6). Referred to the hip, where the three hip axes meet, J has the

@@ -14,14 +14,15 @@ namespace halfstep {
 /// waist and sole. Elsewhere an anchor turns with the link before.
 class LegAnchors {
  public:
+  /// Of one leg; nothing is borrowed.
   explicit LegAnchors(const Leg& leg);
 
   /// Whether a link's anchor is the hip and not the ankle.
   static bool OnHip(int link) { return link <= 2; }
   /// The ankle in B, the hip in B, the ankle in the sole frame [m].
   Eigen::Vector3d Ankle(const LegFrames& frames) const { return frames.X_BLink[6] * ankle_S_; }
-  const Eigen::Vector3d& hip_B() const { return hip_B_; }
-  const Eigen::Vector3d& ankle_S() const { return ankle_S_; }
+  const Eigen::Vector3d& hip_B() const { return hip_B_; }      ///< the hip, in B [m]
+  const Eigen::Vector3d& ankle_S() const { return ankle_S_; }  ///< the ankle, in the sole frame [m]
   /// How far the turns of each link carry a body, seen from waist (links 0–2) or sole (3–5): from
   /// its own link's anchor to its farthest point, and for the links between it and waist or sole
   /// from their anchor to the next one [m]. 0 for the others.

@@ -20,7 +20,7 @@ class LegNeighbourhood {
   static std::optional<LegNeighbourhood> Around(const Leg& leg, const Vector6d& q,
                                                 double share = 1.0);
 
-  const Eigen::Isometry3d& X_BSole() const { return X_BSole_; }
+  const Eigen::Isometry3d& X_BSole() const { return X_BSole_; }  ///< of the sole, at the middle
   /// Joint speeds per twist of the sole, exact here.
   const Matrix6d& inverse() const { return inverse_; }
   /// How the joints turn while the share grows and the sole stays, exact here [rad].
@@ -65,8 +65,8 @@ class LegNeighbourhood {
 /// A positive vector v and a share < 1 with M·v ≤ share·v, for a matrix M ≥ 0: then its spectral
 /// radius is below 1.
 struct Contraction {
-  Vector6d weights;
-  double share = 0.0;
+  Vector6d weights;    ///< v > 0 (6)
+  double share = 0.0;  ///< < 1
   /// None when none is found.
   static std::optional<Contraction> Of(const Matrix6d& M);
   /// An upper bound of (I − M)⁻¹·u, u ≥ 0.

@@ -7,9 +7,10 @@ namespace halfstep {
 
 /// A rotation angle as (cos, sin): composed and applied without trigonometric calls.
 struct Turn {
-  double cos = 1.0;
-  double sin = 0.0;
+  double cos = 1.0;  ///< of the angle
+  double sin = 0.0;  ///< of the angle
 
+  /// From an angle [rad].
   static Turn FromAngle(double angle) { return {std::cos(angle), std::sin(angle)}; }
   /// (x, y) need not be normalized; (0, 0), where every angle will do, gives 0.
   static Turn FromDirection(double x, double y) {
@@ -17,7 +18,8 @@ struct Turn {
     return norm > 0 ? Turn{x / norm, y / norm} : Turn{};
   }
   double angle() const { return std::atan2(sin, cos); }  ///< [rad] in (−π, π]
-  Turn Inverse() const { return {cos, -sin}; }
+  Turn Inverse() const { return {cos, -sin}; }           ///< by the negative angle
+  /// By the sum of both angles.
   Turn operator*(const Turn& other) const {
     return {cos * other.cos - sin * other.sin, sin * other.cos + cos * other.sin};
   }

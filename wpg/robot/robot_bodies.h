@@ -29,8 +29,8 @@ std::vector<std::string> MeshPackages(const UrdfTree& urdf);
 /// Bodies and, in the same order, the URDF links that they belong to.
 struct LinkBodies {
   std::vector<InputFile> meshes;  ///< one entry for each reading of a mesh, in bodies' order.
-  std::vector<RobotBody> bodies;
-  std::vector<int> links;
+  std::vector<RobotBody> bodies;  ///< convex, each in the frame of its link
+  std::vector<int> links;         ///< indices of URDF links
 };
 
 /// Convex bodies of all links. A link that hangs on a leg's link by joints outside the leg is rigid

@@ -15,36 +15,38 @@ struct RobotModel;
 
 /// The foot of one leg.
 struct LegFile {
-  std::string foot_link;
+  std::string foot_link;         ///< by its URDF name
   std::vector<double> sole_xyz;  ///< in the frame of the foot's link [m].
   std::vector<double> sole_rpy;  ///< [rad]; empty: zero.
 };
 
 /// A pair of links that is not checked for contact.
 struct ExcludedPair {
-  std::vector<std::string> links;
-  std::string why;
+  std::vector<std::string> links;  ///< two URDF names
+  std::string why;                 ///< for people: why they cannot touch
 };
 
 /// A robot file as it is written: each value is valid by itself, and joint angles are in the file's
 /// unit.
 struct RobotFile {
-  std::string name;
-  std::string urdf_path;
-  std::optional<UrdfTree> urdf;  ///< read as soon as its path is known.
-  std::map<std::string, std::string> packages;
+  std::string name;                             ///< of the robot; default: the file's stem
+  std::string urdf_path;                        ///< relative to the robot file
+  std::optional<UrdfTree> urdf;                 ///< read as soon as its path is known.
+  std::map<std::string, std::string> packages;  ///< ROS packages in mesh names → their folders
+  /// "applied": DAE meshes are turned by their `up_axis`; "ignored": they are not.
   std::string dae_up_axis = "ignored";
-  std::string waist_link;
+  std::string waist_link;         ///< by its URDF name
   std::vector<double> waist_rpy;  ///< waist frame in that of its link [rad]; empty: the same.
+  /// Above the floor while standing [m]; none: found from the posture.
   std::optional<double> com_height;
-  std::optional<double> lift;  ///< RobotModel::largest_lift [m]
-  std::array<LegFile, 2> legs;
-  std::vector<double> sole_size;
+  std::optional<double> lift;                   ///< RobotModel::largest_lift [m]
+  std::array<LegFile, 2> legs;                  ///< by Index(Side)
+  std::vector<double> sole_size;                ///< length and width [m]
   std::vector<double> posture_deg;              ///< by URDF joint index
   std::vector<std::vector<double>> limits_deg;  ///< by URDF joint index; empty: the URDF's
   /// By URDF joint index [N m]; 0: the URDF does not say, none: the file says so itself.
   std::vector<std::optional<double>> effort_limits;
-  std::vector<ExcludedPair> excluded;
+  std::vector<ExcludedPair> excluded;     ///< pairs that are not checked
   std::map<std::string, int> mesh_parts;  ///< link → convex parts of each of its meshes
   int hull_vertices = 64;                 ///< at most, of a mesh's hull, or of a part's
   std::vector<std::string> warnings;      ///< about what the file says and nothing needs

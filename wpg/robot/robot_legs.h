@@ -15,9 +15,10 @@ namespace halfstep {
 struct LegRequest {
   int waist = -1;  ///< link index of the waist.
   int foot = -1;   ///< link index of the foot.
+  /// The sole's pose in the frame of the foot's link.
   Eigen::Isometry3d X_FootSole = Eigen::Isometry3d::Identity();
-  std::vector<double> lower;  ///< limits by URDF joint index [rad].
-  std::vector<double> upper;
+  std::vector<double> lower;    ///< limits by URDF joint index [rad].
+  std::vector<double> upper;    ///< the same of the upper ones [rad]
   std::vector<double> torque;   ///< limits by URDF joint index [N m]; ∞: not known.
   std::vector<double> posture;  ///< standing posture by URDF joint index [rad].
 };

@@ -22,7 +22,7 @@ struct RobotMasses {
   /// they can.
   std::string fault = "no masses were read";
 
-  bool known() const { return fault.empty(); }
+  bool known() const { return fault.empty(); }  ///< whether dynamics of the whole robot can be told
 };
 
 }  // namespace halfstep

@@ -18,9 +18,10 @@ struct RobotMeasures {
   /// The farthest aside of the support sole, and there the highest, to which the swing foot goes
   /// within the joints' limits while the CoM is above the support sole [m]. At most 8/7 w; and half
   /// of ℓ and RobotModel::largest_lift.
-  double aside = 0.0, lift = 0.0;
+  double aside = 0.0, lift = 0.0;  ///< both [m]
 };
 
+/// What legs, joint limits and speed limits of the model give.
 RobotMeasures MeasuresOf(const RobotModel& robot);
 
 /// The same of a robot file, without its bodies, so meshes are not read. Throws InputError for what

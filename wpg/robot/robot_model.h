@@ -14,7 +14,9 @@
 
 namespace halfstep {
 
+/// Six joints of a leg, or a spatial vector.
 using Vector6d = Eigen::Matrix<double, 6, 1>;
+/// A Jacobian or an inertia (6×6).
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
 /// One revolute leg joint. Axis and point are given in the waist frame B at the zero posture q = 0.
@@ -32,9 +34,9 @@ struct LegJoint {
 
 /// Each two-fold choice of the closed-form leg inverse kinematics, 0 or 1.
 struct LegBranch {
-  int knee = 0;
-  int ankle = 0;
-  int hip = 0;
+  int knee = 0;   ///< the knee bends forward or backward
+  int ankle = 0;  ///< which of two turns of the ankle
+  int hip = 0;    ///< which of two turns of the hip
   friend bool operator==(const LegBranch&, const LegBranch&) = default;
 };
 
@@ -55,6 +57,7 @@ struct Leg {
   /// 50.0 mm".
   std::string offsets;
 
+  /// Whether inverse kinematics is in closed form.
   bool closed_form() const { return met.empty(); }
   /// A point of a joint's axis at q = 0: hip or ankle, or what of the axis is nearest to it.
   Eigen::Vector3d AxisPoint(size_t joint) const;
@@ -79,7 +82,7 @@ struct UnwatchedPair {
 
 /// A robot as walking needs it; immutable after loading. Waist frame B: z up when standing.
 struct RobotModel {
-  std::string name;
+  std::string name;               ///< in messages and manifests
   std::array<Leg, 2> legs;        ///< indexed by Index(Side).
   Eigen::Vector2d sole_size;      ///< full length (x) and width (y) of the sole rectangle [m].
   Eigen::Matrix2Xd sole_outline;  ///< of what touches the floor (wpg/robot/sole_outline.h) [m].
@@ -93,6 +96,7 @@ struct RobotModel {
   /// How high the swing foot goes at most in half-steps by default [m]; more only on demand.
   double largest_lift = std::numeric_limits<double>::infinity();
   std::vector<InputFile> files;  ///< files read: YAML, URDF and meshes, one entry for each reading.
+  /// All that may touch something, each on the waist or on a link of a leg.
   std::vector<RobotBody> bodies;
   std::vector<std::array<int, 2>> self_pairs;  ///< pairs of `bodies` that must not touch.
   /// What the URDF has that was repaired or left out, as "file:line:column: …", for the user.

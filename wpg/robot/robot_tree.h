@@ -12,7 +12,7 @@ namespace halfstep {
 /// All links and joints of a robot, for programs that need the whole machine (simulation, joint
 /// files); RobotModel has its legs only.
 struct RobotTree {
-  UrdfTree urdf;
+  UrdfTree urdf;                ///< links and joints as the file has them
   int waist = -1;               ///< link index
   std::array<int, 2> feet{};    ///< link indices by Index(Side)
   std::vector<double> posture;  ///< standing posture by joint index [rad]
@@ -20,8 +20,8 @@ struct RobotTree {
 
 /// A robot as walking needs it, with all of its URDF.
 struct WholeRobot {
-  RobotModel model;
-  RobotTree tree;
+  RobotModel model;  ///< its legs, bodies and masses
+  RobotTree tree;    ///< all of its joints
 };
 
 /// LoadRobot() and the tree, both from one reading of the robot file and its URDF. Throws

@@ -13,8 +13,8 @@ namespace halfstep {
 /// two lists: watched or not. Bodies of one link, and all bodies that are rigid with the waist, do
 /// not move relative to each other and are in neither list.
 struct SelfPairs {
-  std::vector<std::array<int, 2>> watched;
-  std::vector<UnwatchedPair> unwatched;
+  std::vector<std::array<int, 2>> watched;  ///< indices of RobotModel::bodies
+  std::vector<UnwatchedPair> unwatched;     ///< with the reason why not
 };
 
 /// The moving joints (URDF indices) on the way between two links.

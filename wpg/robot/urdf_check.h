@@ -10,14 +10,14 @@ namespace halfstep {
 
 /// Where an XML element starts; both count from 1.
 struct UrdfPlace {
-  int line = 0;
-  int column = 0;
+  int line = 0;    ///< of the text
+  int column = 0;  ///< in bytes
 };
 
 /// What is found in a URDF text, and the text that is taken of it.
 struct UrdfFindings {
-  std::map<std::string, UrdfPlace> links;  ///< where the named elements stand
-  std::map<std::string, UrdfPlace> joints;
+  std::map<std::string, UrdfPlace> links;                    ///< where the named elements stand
+  std::map<std::string, UrdfPlace> joints;                   ///< the same of joints
   std::map<std::string, std::vector<UrdfPlace>> collisions;  ///< by link, in file order.
   /// Mistakes of a joint that only a leg's joint must not have, by joint: of its axis and limits,
   /// or that it mimics another one. Outside the legs it is held still.
@@ -33,7 +33,7 @@ struct UrdfFindings {
 /// Repairs, with a warning, what concerns neither legs nor the shape of bodies: negative moments of
 /// inertia (0), shapes without size (left out), links that hang on nothing (left out), joints
 /// outside the legs that have no axis, limits or speed (held still). What is only looked at,
-/// <visual>, is not read. `file` stands for the text in complaints.
+/// `<visual>`, is not read. `file` stands for the text in complaints.
 UrdfFindings CheckUrdf(const std::string& text, const std::string& file, Complaints* complaints);
 
 }  // namespace halfstep

@@ -19,9 +19,11 @@ std::string AttributeOf(const TiXmlElement& element, const char* name);
 /// Reads attributes of a URDF's elements and complains at their places. Borrows both arguments.
 class UrdfElements {
  public:
+  /// `file` is for complaints.
   UrdfElements(const std::string& file, Complaints* complaints)
       : file_(file), complaints_(complaints) {}
 
+  /// Says what is wrong with an attribute of an element.
   void Complain(const TiXmlElement& at, const std::string& key, const std::string& what) const;
 
   /// `count` finite numbers of an attribute; complains and returns none otherwise.
@@ -35,7 +37,7 @@ class UrdfElements {
   /// The child with a tag; complains and returns null where there is none.
   TiXmlElement* Required(TiXmlElement& parent, const char* tag) const;
 
-  /// Complains about numbers of an <origin> that are not finite.
+  /// Complains about numbers of an `<origin>` that are not finite.
   void CheckOrigin(TiXmlElement& parent) const;
 
  private:
