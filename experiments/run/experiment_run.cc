@@ -2,12 +2,11 @@
 
 #include "halfstep/experiments/config/folder_name.h"
 #include "halfstep/experiments/run/manifest.h"
+#include "halfstep/experiments/run/method_options.h"
 #include "halfstep/experiments/tables/parameter_tables.h"
 #include "halfstep/smoothing/methods/overlap_prices.h"
 #include "halfstep/smoothing/methods/plan_repair.h"
 #include "halfstep/smoothing/methods/smoother_registry.h"
-#include "halfstep/smoothing/proof/sampled_feasibility.h"
-#include "halfstep/smoothing/proof/stoppable_feasibility.h"
 #include "halfstep/wpg/files/text.h"
 
 namespace halfstep {
@@ -42,32 +41,6 @@ MethodRun PlannedRun(const WalkProblem& problem, const std::stop_token& stop,
   return run;
 }
 
-std::shared_ptr<const FeasibilityTest> MakeTest(const Experiment& experiment) {
-  const SmoothingConfig& config = experiment.config.smoothing;
-  const MarginEvaluator evaluator(experiment.robot, experiment.scene, config.limits);
-  std::shared_ptr<const FeasibilityTest> test;
-  if (config.acceptance == "sampled") {
-    test = std::make_shared<SampledFeasibility>(evaluator, config.sampling);
-  } else {
-    test = std::make_shared<CertifiedFeasibility>(evaluator, config.certification);
-  }
-  for (const StopBranches branches : {StopBranches::kDown, StopBranches::kAll}) {
-    if (config.stop_branches == Name(branches)) {
-      return std::make_shared<StoppableFeasibility>(test, branches);
-    }
-  }
-  return test;
-}
-
-SmootherOptions OptionsOf(const ExperimentConfig& config) {
-  const OptimizerConfig& optimizer = config.smoothing.optimizer;
-  SmootherOptions options{
-      config.smoothing.dichotomy, optimizer.options, {}, config.smoothing.horizon};
-  options.optimizer.seed = static_cast<unsigned>(config.seed);
-  if (optimizer.program == "pareto") options.pareto = optimizer.pareto;
-  return options;
-}
-
 }  // namespace
 
 ExperimentRun::ExperimentRun(const ExperimentConfig& config, const RunHooks& hooks)
@@ -94,7 +67,7 @@ ExperimentRun::ExperimentRun(const ExperimentConfig& config, const RunHooks& hoo
 // Steps that were repaired are footsteps of the config with a duration and a height of their own.
 void ExperimentRun::Repair(const RunHooks& hooks) {
   const PlanRepair repair =
-      RepairPlan(experiment_->sequence, *MakeTest(*experiment_), {}, hooks.stop_step);
+      RepairPlan(experiment_->sequence, *FeasibilityTestOf(*experiment_), {}, hooks.stop_step);
   for (const RepairedStep& step : repair.steps) {
     FootstepConfig& footstep = config_.footsteps[static_cast<size_t>(step.step)];
     const double duration = footstep.duration.value_or(config_.half_step.duration);
@@ -113,7 +86,7 @@ void ExperimentRun::Repair(const RunHooks& hooks) {
 
 void ExperimentRun::Smooth(const RunHooks& hooks) {
   if (config_.smoothing.repair_plan) Repair(hooks);
-  problem_.emplace(experiment_->sequence, MakeTest(*experiment_),
+  problem_.emplace(experiment_->sequence, FeasibilityTestOf(*experiment_),
                    FixedParameters(config_.smoothing));
   certifier_.emplace(evaluator(), config_.smoothing.certification);
   runs_ = {PlannedRun(*problem_, hooks.stop_step, &missed_)};
@@ -124,7 +97,7 @@ void ExperimentRun::Smooth(const RunHooks& hooks) {
     SmoothingMonitor monitor({.progress = [&](double done) { hooks.progress(name, done); },
                               .stop = hooks.stop,
                               .stop_proof = hooks.stop_step});
-    run.result = FindSmoother(name).Smooth(*problem_, OptionsOf(config_), monitor);
+    run.result = FindSmoother(name).Smooth(*problem_, SmootherOptionsOf(config_), monitor);
     if (missed_ && run.result.ending == opt::Ending::kNotRun &&
         run.result.parameters == runs_.front().result.parameters) {
       run.result.message = "the planned motion is not feasible: " + runs_.front().result.message;

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "halfstep/experiments/python/walk_setting.h"
+#include "halfstep/opt/problem/problem.h"
+#include "halfstep/smoothing/program/overlap_program.h"
+
+namespace halfstep::python {
+
+/// Selects a program for Python.
+struct HeldProgramOptions {
+  ProgramOptions program;
+  bool overlaps = true;         ///< whether overlaps are variables
+  double duration_limit = 0.0;  ///< for `safest` [s]; 0: that of the walk where methods begin
+};
+
+/// What came of looking at the walk of a point.
+struct Refinement {
+  bool proved = false;       ///< by the test of the problem, for all t
+  double least_slack = 0.0;  ///< sampled, of the margins' scales
+  std::string sentence;      ///< what refuses the walk; "" when it is proved
+};
+
+/// An overlap program as Python holds it: it owns what it needs. Not thread-safe. It remembers its
+/// last point, since SciPy asks for values and derivatives in separate calls.
+class HeldProgram {
+ public:
+  HeldProgram(std::shared_ptr<const WalkSetting> setting, const HeldProgramOptions& options);
+
+  const opt::Problem& problem() const { return *problem_; }
+  const OverlapProgram& program() const { return program_; }
+  OverlapProgram& program() { return program_; }
+  const std::shared_ptr<const WalkSetting>& setting() const { return setting_; }
+
+  /// Each throws std::invalid_argument for an x of a wrong size or with a value that is not finite,
+  /// or outside of the simple bounds by more than rounding.
+  double Cost(const Eigen::VectorXd& x);
+  Eigen::VectorXd Gradient(const Eigen::VectorXd& x);            ///< (n)
+  const Eigen::VectorXd& Constraints(const Eigen::VectorXd& x);  ///< (m)
+  /// In the order of problem().pattern().
+  const std::vector<double>& Jacobian(const Eigen::VectorXd& x);
+  HomotopyParameters ToParameters(const Eigen::VectorXd& x) const;
+
+  /// Samples the walk of x, proves it, and watches the instants where that failed or slacks are
+  /// small: rows change. Rows grow sharper when the walk was proved and softer when it was not.
+  Refinement Refine(const Eigen::VectorXd& x, const std::stop_token& stop);
+  void SetSharpness(double sharpness);
+
+ private:
+  // x within its bounds; solvers step over them by rounding.
+  Eigen::VectorXd Checked(const Eigen::VectorXd& x) const;
+  void Forget();
+
+  std::shared_ptr<const WalkSetting> setting_;
+  OverlapProgram program_;
+  std::optional<opt::Problem> problem_;
+  Eigen::VectorXd at_;  // the last point
+  std::optional<Eigen::VectorXd> constraints_;
+  std::optional<std::vector<double>> jacobian_;
+};
+
+}  // namespace halfstep::python

@@ -1,0 +1,34 @@
+#include "halfstep/experiments/run/method_options.h"
+
+#include "halfstep/smoothing/proof/sampled_feasibility.h"
+#include "halfstep/smoothing/proof/stoppable_feasibility.h"
+
+namespace halfstep {
+
+std::shared_ptr<const FeasibilityTest> FeasibilityTestOf(const Experiment& experiment) {
+  const SmoothingConfig& config = experiment.config.smoothing;
+  const MarginEvaluator evaluator(experiment.robot, experiment.scene, config.limits);
+  std::shared_ptr<const FeasibilityTest> test;
+  if (config.acceptance == "sampled") {
+    test = std::make_shared<SampledFeasibility>(evaluator, config.sampling);
+  } else {
+    test = std::make_shared<CertifiedFeasibility>(evaluator, config.certification);
+  }
+  for (const StopBranches branches : {StopBranches::kDown, StopBranches::kAll}) {
+    if (config.stop_branches == Name(branches)) {
+      return std::make_shared<StoppableFeasibility>(test, branches);
+    }
+  }
+  return test;
+}
+
+SmootherOptions SmootherOptionsOf(const ExperimentConfig& config) {
+  const OptimizerConfig& optimizer = config.smoothing.optimizer;
+  SmootherOptions options{
+      config.smoothing.dichotomy, optimizer.options, {}, config.smoothing.horizon};
+  options.optimizer.seed = static_cast<unsigned>(config.seed);
+  if (optimizer.program == "pareto") options.pareto = optimizer.pareto;
+  return options;
+}
+
+}  // namespace halfstep
