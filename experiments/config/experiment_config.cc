@@ -132,6 +132,22 @@ void DeclareWeights(Fields& fields, EffortWeights* w) {
   weight("foot_speed", &w->foot_speed, "of ∫‖v‖² dt of both soles", "s²/m²");
 }
 
+// A weight for each cost that the program itself registered.
+void DeclareOwnCosts(Fields& fields, std::vector<WeightedWalkCost>* costs) {
+  std::vector<WeightedWalkCost> weighed;
+  for (const auto& cost : WalkCosts()) {
+    WeightedWalkCost own{.cost = cost};
+    for (const WeightedWalkCost& known : *costs) {
+      if (known.cost->name() == cost->name()) own.weight = known.weight;
+    }
+    const std::string name = cost->name(), meaning = cost->meaning(), unit = cost->unit();
+    fields.Number(name.c_str(), &own.weight,
+                  {.meaning = meaning.c_str(), .unit = unit.c_str(), .min = 0, .max = 1e6});
+    if (own.weight != 0.0) weighed.push_back(std::move(own));
+  }
+  *costs = std::move(weighed);
+}
+
 void DeclareOptimizer(Fields& fields, OptimizerConfig* c) {
   OptimizerOptions* o = &c->options;
   fields.Text("program", &c->program,
@@ -169,7 +185,10 @@ void DeclareOptimizer(Fields& fields, OptimizerConfig* c) {
       "pareto_longest", &c->pareto.most_duration,
       {.meaning = "`pareto`: longest duration, of the planned motion's", .min = 0.1, .max = 3});
   fields.Group("weights", {.meaning = "`smooth`: of the effort beside the duration"},
-               [&](Fields& f) { DeclareWeights(f, &o->program.weights); });
+               [&](Fields& f) {
+                 DeclareWeights(f, &o->program.weights);
+                 DeclareOwnCosts(f, &o->program.own_costs);
+               });
   fields.Integer(
       "instants", &o->instants,
       {.meaning = "per half-step at which the program looks; 0: 24 for `halfstep/sqp`, 32 for "

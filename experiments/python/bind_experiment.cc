@@ -10,7 +10,7 @@
 #include "halfstep/experiments/python/bindings.h"
 #include "halfstep/experiments/python/long_call.h"
 #include "halfstep/experiments/python/placed_experiment.h"
-#include "halfstep/experiments/run/method_options.h"
+#include "halfstep/experiments/run/smoothing_of.h"
 #include "halfstep/experiments/run/missed_demands_text.h"
 #include "halfstep/experiments/run/planning.h"
 #include "halfstep/experiments/tables/result_tables.h"

@@ -2,7 +2,7 @@
 
 #include "halfstep/experiments/config/folder_name.h"
 #include "halfstep/experiments/run/manifest.h"
-#include "halfstep/experiments/run/method_options.h"
+#include "halfstep/experiments/run/smoothing_of.h"
 #include "halfstep/experiments/tables/parameter_tables.h"
 #include "halfstep/smoothing/methods/overlap_prices.h"
 #include "halfstep/smoothing/methods/plan_repair.h"
@@ -67,7 +67,7 @@ ExperimentRun::ExperimentRun(const ExperimentConfig& config, const RunHooks& hoo
 // Steps that were repaired are footsteps of the config with a duration and a height of their own.
 void ExperimentRun::Repair(const RunHooks& hooks) {
   const PlanRepair repair =
-      RepairPlan(experiment_->sequence, *FeasibilityTestOf(*experiment_), {}, hooks.stop_step);
+      RepairPlan(experiment_->sequence, ProblemOf(*experiment_).test(), {}, hooks.stop_step);
   for (const RepairedStep& step : repair.steps) {
     FootstepConfig& footstep = config_.footsteps[static_cast<size_t>(step.step)];
     const double duration = footstep.duration.value_or(config_.half_step.duration);
@@ -86,8 +86,7 @@ void ExperimentRun::Repair(const RunHooks& hooks) {
 
 void ExperimentRun::Smooth(const RunHooks& hooks) {
   if (config_.smoothing.repair_plan) Repair(hooks);
-  problem_.emplace(experiment_->sequence, FeasibilityTestOf(*experiment_),
-                   FixedParameters(config_.smoothing));
+  problem_ = ProblemOf(*experiment_);
   certifier_.emplace(evaluator(), config_.smoothing.certification);
   runs_ = {PlannedRun(*problem_, hooks.stop_step, &missed_)};
   for (const std::string& sentence : repaired_) runs_.front().result.message += "; " + sentence;
@@ -97,7 +96,7 @@ void ExperimentRun::Smooth(const RunHooks& hooks) {
     SmoothingMonitor monitor({.progress = [&](double done) { hooks.progress(name, done); },
                               .stop = hooks.stop,
                               .stop_proof = hooks.stop_step});
-    run.result = FindSmoother(name).Smooth(*problem_, SmootherOptionsOf(config_), monitor);
+    run.result = FindSmoother(name).Smooth(*problem_, OptionsOf(config_), monitor);
     if (missed_ && run.result.ending == opt::Ending::kNotRun &&
         run.result.parameters == runs_.front().result.parameters) {
       run.result.message = "the planned motion is not feasible: " + runs_.front().result.message;

@@ -12,6 +12,7 @@
 #include "halfstep/smoothing/margins/joint_margin.h"
 #include "halfstep/smoothing/margins/joint_speed_margin.h"
 #include "halfstep/smoothing/margins/no_step_margin.h"
+#include "halfstep/smoothing/margins/own_margin.h"
 #include "halfstep/smoothing/margins/reach_margin.h"
 #include "halfstep/smoothing/margins/self_clearance_margin.h"
 #include "halfstep/smoothing/margins/torque_margin.h"
@@ -38,7 +39,7 @@ struct FamilyList {
 using AllFamilies =
     FamilyList<FloorMargin, FootSpeedMargin, FootYawRateMargin, ZmpMargin, ReachMargin, JointMargin,
                JointSpeedMargin, SelfClearanceMargin, ClearanceMargin, GroundMargin, NoStepMargin,
-               ZmpRobotMargin, TorqueMargin, FrictionMargin>;
+               ZmpRobotMargin, TorqueMargin, FrictionMargin, OwnMargin>;
 
 constexpr bool FamiliesAreInOrder() {
   for (size_t i = 0; i < AllFamilies::kTraits.size(); ++i) {

@@ -1,6 +1,7 @@
 #include "halfstep/smoothing/margins/family_traits.h"
 
 #include <algorithm>
+#include <vector>
 
 #include "halfstep/smoothing/margins/all_families.h"
 
@@ -22,9 +23,20 @@ std::array<double, kNumMarginFamilies> DefaultDemands() {
   return demands;
 }
 
-const std::array<MarginFamily, kNumMarginFamilies>& FamiliesByCost() {
-  static const std::array<MarginFamily, kNumMarginFamilies> kOrder = [] {
-    std::array<MarginFamily, kNumMarginFamilies> order = AllMarginFamilies();
+std::span<const MarginFamily> AllMarginFamilies() {
+  static constexpr std::array<MarginFamily, kNumMarginFamilies> kAll = [] {
+    std::array<MarginFamily, kNumMarginFamilies> all{};
+    for (int i = 0; i < kNumMarginFamilies; ++i) all[static_cast<size_t>(i)] = MarginFamily{i};
+    return all;
+  }();
+  static_assert(kAll.back() == MarginFamily::kOwn);
+  return std::span(kAll).first(OwnMargins().empty() ? kAll.size() - 1 : kAll.size());
+}
+
+std::span<const MarginFamily> FamiliesByCost() {
+  static const std::vector<MarginFamily> kOrder = [] {
+    const std::span<const MarginFamily> all = AllMarginFamilies();
+    std::vector<MarginFamily> order(all.begin(), all.end());
     std::ranges::stable_sort(order, {}, [](MarginFamily f) { return Traits(f).cost; });
     return order;
   }();

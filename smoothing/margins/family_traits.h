@@ -1,7 +1,7 @@
 #pragma once
 
-#include <array>
 #include <optional>
+#include <span>
 #include <string_view>
 
 #include "halfstep/smoothing/margins/margin.h"
@@ -41,6 +41,6 @@ struct FamilyTraits {
 const FamilyTraits& Traits(MarginFamily family);
 
 /// All families, those that need little work first.
-const std::array<MarginFamily, kNumMarginFamilies>& FamiliesByCost();
+std::span<const MarginFamily> FamiliesByCost();
 
 }  // namespace halfstep

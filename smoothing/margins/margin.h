@@ -3,6 +3,7 @@
 #include <array>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -28,8 +29,9 @@ enum class MarginFamily : int {
   kZmpRobot,       ///< distance of the whole robot's ZMP inside the support polygon [m]
   kTorque,         ///< torque limit − |torque| of a leg joint [N m]
   kFriction,       ///< friction coefficient of the floor less what the soles need [1]
+  kOwn,            ///< what the program itself registered (own_margin.h), of its scale [1]
 };
-constexpr int kNumMarginFamilies = 14;
+constexpr int kNumMarginFamilies = 15;
 
 std::string_view Name(MarginFamily family);  ///< "zmp", "joint_speed" … as in YAML and CSV
 std::string_view Unit(MarginFamily family);  ///< "m", "rad" …
@@ -38,11 +40,8 @@ std::string_view Unit(MarginFamily family);  ///< "m", "rad" …
 double Scale(MarginFamily family);
 /// What is demanded of each family unless the user says otherwise [its unit].
 std::array<double, kNumMarginFamilies> DefaultDemands();
-constexpr std::array<MarginFamily, kNumMarginFamilies> AllMarginFamilies() {
-  std::array<MarginFamily, kNumMarginFamilies> all{};
-  for (int i = 0; i < kNumMarginFamilies; ++i) all[static_cast<size_t>(i)] = MarginFamily{i};
-  return all;
-}
+/// The families that there are, in order: all, but kOwn only where something is registered.
+std::span<const MarginFamily> AllMarginFamilies();
 
 /// The margin of what has no limit [any unit].
 inline constexpr double kUnlimited = std::numeric_limits<double>::infinity();

@@ -1,6 +1,8 @@
 #include "halfstep/smoothing/methods/smoother_registry.h"
 
+#include <algorithm>
 #include <functional>
+#include <stdexcept>
 #include <utility>
 
 #include "halfstep/opt/adapters/solver_registry.h"
@@ -107,12 +109,20 @@ SmoothingResult ByWindows(const WalkProblem& problem, const SmootherOptions& opt
   return Horizon(problem, horizon, monitor);
 }
 
-std::vector<std::unique_ptr<const Smoother>> MakeSmoothers() {
+std::shared_ptr<const Smoother> SolverMethod(const std::string& solver) {
+  return std::make_shared<NamedSmoother>(
+      solver, "smoothing.optimizer.program by this solver, from the dichotomy's result",
+      OptionGroup::kOptimizer, BySolver(solver));
+}
+
+using SmootherList = std::vector<std::shared_ptr<const Smoother>>;
+
+SmootherList MakeSmoothers() {
   using enum OptionGroup;
-  std::vector<std::unique_ptr<const Smoother>> all;
+  SmootherList all;
   const auto add = [&all](const std::string& name, const std::string& meaning, OptionGroup group,
                           Search search) {
-    all.push_back(std::make_unique<NamedSmoother>(name, meaning, group, std::move(search)));
+    all.push_back(std::make_shared<NamedSmoother>(name, meaning, group, std::move(search)));
   };
   add("dichotomy", "bisect each overlap in turn, with the options of smoothing.dichotomy",
       kDichotomy, DichotomyWith([](DichotomyOptions*) {}));
@@ -134,9 +144,7 @@ std::vector<std::unique_ptr<const Smoother>> MakeSmoothers() {
         return TellLipmBound(problem, monitor);
       });
   for (const std::string& solver : opt::SolverNames()) {
-    if (!opt::MakeSolver(solver)->available()) continue;
-    add(solver, "smoothing.optimizer.program by this solver, from the dichotomy's result",
-        kOptimizer, BySolver(solver));
+    if (opt::MakeSolver(solver)->available()) all.push_back(SolverMethod(solver));
   }
   add("halfstep/horizon",
       "the program of halfstep/sqp in short windows along the walk, for walks of any length",
@@ -144,11 +152,43 @@ std::vector<std::unique_ptr<const Smoother>> MakeSmoothers() {
   return all;
 }
 
+auto FindByName(SmootherList* list, const std::string& name) {
+  return std::ranges::find_if(*list, [&](const auto& known) { return known->name() == name; });
+}
+
+struct SmootherRegistry {
+  SmootherList all = MakeSmoothers();
+  size_t built_in = all.size();
+};
+
+SmootherRegistry& TheSmoothers() {
+  static SmootherRegistry registry;
+  return registry;
+}
+
 }  // namespace
 
-const std::vector<std::unique_ptr<const Smoother>>& Smoothers() {
-  static const std::vector<std::unique_ptr<const Smoother>> smoothers = MakeSmoothers();
-  return smoothers;
+const std::vector<std::shared_ptr<const Smoother>>& Smoothers() {
+  SmootherList& all = TheSmoothers().all;
+  for (const std::string& solver : opt::SolverNames()) {  // one may have been registered since
+    if (FindByName(&all, solver) == all.end() && opt::MakeSolver(solver)->available()) {
+      all.push_back(SolverMethod(solver));
+    }
+  }
+  return all;
+}
+
+void RegisterSmoother(std::shared_ptr<const Smoother> smoother) {
+  auto& [all, built_in] = TheSmoothers();
+  const auto same = FindByName(&all, smoother->name());
+  if (same < all.begin() + static_cast<std::ptrdiff_t>(built_in)) {
+    throw std::invalid_argument("method `" + smoother->name() + "` is built in");
+  }
+  if (same != all.end()) {
+    *same = std::move(smoother);
+  } else {
+    all.push_back(std::move(smoother));
+  }
 }
 
 std::vector<std::string> SmootherNames() {

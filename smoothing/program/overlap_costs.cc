@@ -1,6 +1,7 @@
 #include "halfstep/smoothing/program/overlap_costs.h"
 
 #include <string>
+#include <utility>
 
 #include "halfstep/smoothing/program/overlap_program.h"
 
@@ -48,6 +49,31 @@ class EffortCost : public opt::CostTerm {
   const OverlapProgram& program_;
 };
 
+class OwnCost : public opt::CostTerm {
+ public:
+  OwnCost(const OverlapProgram& program, std::shared_ptr<const WalkCost> cost)
+      : program_(program), cost_(std::move(cost)) {}
+  std::string name() const override { return cost_->name(); }
+  std::string unit() const override { return "1/(" + cost_->unit() + ") s"; }
+  double Evaluate(const Eigen::VectorXd& x) const override {
+    return cost_->Evaluate(WalkAt(x), nullptr);
+  }
+  void AddGradient(const Eigen::VectorXd& x, double weight,
+                   Eigen::Ref<Eigen::VectorXd> gradient) const override {
+    ParameterGradient slopes;
+    cost_->Evaluate(WalkAt(x), &slopes);
+    gradient += weight * Pulled(program_.variables(), slopes, x);
+  }
+
+ private:
+  SuperposedWalk WalkAt(const Eigen::VectorXd& x) const {
+    return {program_.variables().sequence(), program_.ToParameters(x)};
+  }
+
+  const OverlapProgram& program_;
+  const std::shared_ptr<const WalkCost> cost_;
+};
+
 class LeastSlackCost : public opt::CostTerm {
  public:
   std::string name() const override { return "minus least slack"; }
@@ -87,6 +113,11 @@ std::unique_ptr<opt::CostTerm> MakeDurationCost(const OverlapProgram& program) {
 
 std::unique_ptr<opt::CostTerm> MakeEffortCost(const OverlapProgram& program) {
   return std::make_unique<EffortCost>(program);
+}
+
+std::unique_ptr<opt::CostTerm> MakeOwnCost(const OverlapProgram& program,
+                                           std::shared_ptr<const WalkCost> cost) {
+  return std::make_unique<OwnCost>(program, std::move(cost));
 }
 
 std::unique_ptr<opt::CostTerm> MakeLeastSlackCost() { return std::make_unique<LeastSlackCost>(); }

@@ -5,6 +5,7 @@
 
 #include "halfstep/opt/problem/problem.h"
 #include "halfstep/smoothing/program/overlap_variables.h"
+#include "halfstep/smoothing/program/walk_cost.h"
 
 namespace halfstep {
 
@@ -14,6 +15,9 @@ class OverlapProgram;
 std::unique_ptr<opt::CostTerm> MakeDurationCost(const OverlapProgram& program);  ///< D [s]
 /// Weighted effort (WeightedEffort) [s].
 std::unique_ptr<opt::CostTerm> MakeEffortCost(const OverlapProgram& program);
+/// A cost of one's own, in its unit.
+std::unique_ptr<opt::CostTerm> MakeOwnCost(const OverlapProgram& program,
+                                           std::shared_ptr<const WalkCost> cost);
 /// −z, where z is the last variable.
 std::unique_ptr<opt::CostTerm> MakeLeastSlackCost();
 

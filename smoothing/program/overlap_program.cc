@@ -89,6 +89,9 @@ opt::Problem OverlapProgram::MakeProblem() const {
     case ProgramKind::kSmooth:
       problem.AddCost(MakeDurationCost(*this), 1.0);
       problem.AddCost(MakeEffortCost(*this), 1.0);
+      for (const WeightedWalkCost& own : options_.own_costs) {
+        problem.AddCost(MakeOwnCost(*this, own.cost), own.weight);
+      }
       break;
     case ProgramKind::kSafest:
       problem.AddConstraint(MakeDurationRow(*this));
@@ -111,9 +114,14 @@ double OverlapProgram::Cost(const HomotopyParameters& parameters) const {
   switch (options_.kind) {
     case ProgramKind::kFastest:
       return duration;
-    case ProgramKind::kSmooth:
-      return duration + WeightedEffort(SuperposedWalk(variables_.sequence(), parameters),
-                                       options_.weights, nullptr);
+    case ProgramKind::kSmooth: {
+      const SuperposedWalk walk(variables_.sequence(), parameters);
+      double cost = duration + WeightedEffort(walk, options_.weights, nullptr);
+      for (const WeightedWalkCost& own : options_.own_costs) {
+        cost += own.weight * own.cost->Evaluate(walk, nullptr);
+      }
+      return cost;
+    }
     case ProgramKind::kSafest:
       constexpr double kRounding = 1e-9;  // [s]
       if (duration > duration_limit_ + kRounding) return std::numeric_limits<double>::infinity();

@@ -7,6 +7,7 @@
 
 #include "halfstep/opt/problem/problem.h"
 #include "halfstep/smoothing/program/overlap_variables.h"
+#include "halfstep/smoothing/program/walk_cost.h"
 #include "halfstep/smoothing/program/walk_effort.h"
 #include "halfstep/smoothing/program/watched_instants.h"
 
@@ -14,7 +15,7 @@ namespace halfstep {
 
 enum class ProgramKind {
   kFastest,  ///< minimize D
-  kSmooth,   ///< minimize D + weights · effort
+  kSmooth,   ///< minimize D + weights · (effort, own costs)
   kSafest,   ///< maximize the least slack of Raised() with D at most a given duration
 };
 std::string_view Name(ProgramKind kind);  ///< "fastest" …
@@ -28,6 +29,7 @@ struct ProgramOptions {
   ProgramKind kind = ProgramKind::kFastest;
   ParameterChoice parameters;
   EffortWeights weights = {0.05, 0.0, 0.0};  ///< of `smooth`
+  std::vector<WeightedWalkCost> own_costs;   ///< of `smooth`, too
   WatchOptions watch;
 };
 
@@ -35,6 +37,7 @@ struct ProgramOptions {
 ///
 ///     fastest   minimize D                        subject to  slacks ≥ 0
 ///     smooth    minimize D + weights · effort     subject to  slacks ≥ 0
+///               + weights · own costs
 ///     safest    minimize −z                       subject to  raised slacks ≥ z, others ≥ 0,
 ///                                                             D ≤ duration_limit
 ///

@@ -17,8 +17,8 @@ struct CertificationScope {
   double since = 0.0;  ///< nothing before this time of the walk [s]
   double until = std::numeric_limits<double>::infinity();  ///< nothing after it [s]
   std::vector<MarginFamily> families = [] {
-    constexpr auto kAll = AllMarginFamilies();
-    return std::vector<MarginFamily>(kAll.begin(), kAll.end());
+    const auto all = AllMarginFamilies();
+    return std::vector<MarginFamily>(all.begin(), all.end());
   }();
 };
 

@@ -1,11 +1,15 @@
-#include "halfstep/experiments/run/method_options.h"
+#include "halfstep/experiments/run/smoothing_of.h"
 
+#include <memory>
+
+#include "halfstep/smoothing/proof/certified_feasibility.h"
 #include "halfstep/smoothing/proof/sampled_feasibility.h"
 #include "halfstep/smoothing/proof/stoppable_feasibility.h"
 
 namespace halfstep {
+namespace {
 
-std::shared_ptr<const FeasibilityTest> FeasibilityTestOf(const Experiment& experiment) {
+std::shared_ptr<const FeasibilityTest> TestOf(const Experiment& experiment) {
   const SmoothingConfig& config = experiment.config.smoothing;
   const MarginEvaluator evaluator(experiment.robot, experiment.scene, config.limits);
   std::shared_ptr<const FeasibilityTest> test;
@@ -22,7 +26,13 @@ std::shared_ptr<const FeasibilityTest> FeasibilityTestOf(const Experiment& exper
   return test;
 }
 
-SmootherOptions SmootherOptionsOf(const ExperimentConfig& config) {
+}  // namespace
+
+WalkProblem ProblemOf(const Experiment& experiment) {
+  return {experiment.sequence, TestOf(experiment), FixedParameters(experiment.config.smoothing)};
+}
+
+SmootherOptions OptionsOf(const ExperimentConfig& config) {
   const OptimizerConfig& optimizer = config.smoothing.optimizer;
   SmootherOptions options{
       config.smoothing.dichotomy, optimizer.options, {}, config.smoothing.horizon};

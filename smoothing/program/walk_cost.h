@@ -1,0 +1,38 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "halfstep/smoothing/program/overlap_variables.h"
+#include "halfstep/smoothing/walk/superposed_walk.h"
+
+namespace halfstep {
+
+/// A cost of one's own: what the program `smooth` minimizes beside duration and effort, with the
+/// weight that `smoothing.optimizer.weights` gives to its name. Const and thread-safe.
+class WalkCost {
+ public:
+  virtual ~WalkCost() = default;
+  virtual std::string name() const = 0;     ///< a key of YAML: "foot_height"
+  virtual std::string meaning() const = 0;  ///< one line, for `halfstep explain-config`
+  virtual std::string unit() const = 0;     ///< of the weight, which makes seconds of the value
+  /// The value for a walk, and when `gradient` is not null its derivatives with respect to every
+  /// parameter, term by term (a parameter may come several times). Solvers believe them;
+  /// opt::CheckDerivatives compares them with differences.
+  virtual double Evaluate(const SuperposedWalk& walk, ParameterGradient* gradient) const = 0;
+};
+
+/// Makes a cost known by its name, in place of an earlier one of that name. Before configs are read
+/// that give it a weight, and not while another thread smooths.
+void RegisterWalkCost(std::shared_ptr<const WalkCost> cost);
+/// Those that are registered, in that order.
+const std::vector<std::shared_ptr<const WalkCost>>& WalkCosts();
+
+/// A registered cost and its weight.
+struct WeightedWalkCost {
+  std::shared_ptr<const WalkCost> cost;
+  double weight = 0.0;
+};
+
+}  // namespace halfstep
