@@ -57,7 +57,7 @@ py::tuple Plan(const PlacedExperiment& placed, const py::object& progress) {
 }
 
 // What Python knows of a method's result.
-py::dict ToPython(const std::shared_ptr<const WalkSetting>& setting, const std::string& method,
+py::dict ResultOf(const std::shared_ptr<const WalkSetting>& setting, const std::string& method,
                   SmoothingResult result) {
   MethodRun run(method);
   const MarginEvaluator& evaluator = setting->problem.evaluator();
@@ -94,7 +94,7 @@ py::dict Smooth(const PlacedExperiment& placed, const std::string& method, const
   const auto setting = placed.Setting();
   const Smoother& smoother = FindSmoother(method);
   const SmootherOptions options =
-      SmootherOptionsOf(text.empty() ? placed.config : ParseConfig(placed.path, text, {}));
+      OptionsOf(text.empty() ? placed.config : ParseConfig(placed.path, text, {}));
   SmoothingResult result;
   CallLong(progress, [&](const LongCallHooks& hooks) {
     SmoothingMonitor monitor({.progress = [&](double done) { hooks.progress(method, done); },
@@ -103,7 +103,7 @@ py::dict Smooth(const PlacedExperiment& placed, const std::string& method, const
                               .deadline = deadline});
     result = smoother.Smooth(setting->problem, options, monitor);
   });
-  return ToPython(setting, method, std::move(result));
+  return ResultOf(setting, method, std::move(result));
 }
 
 // Sentences on what the planned motion misses, the worst first.
@@ -137,9 +137,7 @@ PlacedExperiment::PlacedExperiment(const std::string& file, const std::string& t
   }
   if (config.has_goal) return;
   setting = std::make_shared<const WalkSetting>(
-      WalkSetting{WalkProblem(experiment.sequence, FeasibilityTestOf(experiment),
-                              FixedParameters(config.smoothing)),
-                  config.smoothing.certification});
+      WalkSetting{ProblemOf(experiment), config.smoothing.certification});
 }
 
 std::shared_ptr<const WalkSetting> PlacedExperiment::Setting() const {

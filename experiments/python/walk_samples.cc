@@ -132,7 +132,10 @@ py::tuple SampleMargins(const PlacedWalk& placed, const Times& times) {
       const double at = std::clamp(t[row], 0.0, placed.walk.duration());
       const MarginSet margins = evaluator.At(placed.walk, placed.walk.Locate(at), &scratch);
       arrays(0, row) = at;
-      for (size_t f = 0; f < margins.size(); ++f) arrays(f + 1, row) = margins[f].value;
+      size_t column = 1;
+      for (const MarginFamily family : AllMarginFamilies()) {
+        arrays(column++, row) = margins[static_cast<size_t>(family)].value;
+      }
     }
   }
   return py::make_tuple(ToPython(columns), arrays.ToPython());
