@@ -1,6 +1,7 @@
 #include "halfstep/experiments/python/held_program.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -53,51 +54,73 @@ void HeldProgram::Forget() {
   jacobian_.reset();
 }
 
-Eigen::VectorXd HeldProgram::Checked(const Eigen::VectorXd& x) const {
+Eigen::VectorXd HeldProgram::Within(const Eigen::VectorXd& x) const {
   const int n = problem_->num_variables();
   if (x.size() != n) {
     throw std::invalid_argument("x: " + std::to_string(x.size()) + " numbers (valid: " +
                                 std::to_string(n) + ")");
   }
-  for (int i = 0; i < n; ++i) {
-    const double least = problem_->lower()[i], most = problem_->upper()[i];
-    const double room = kRounding * std::max(1.0, most - least);
-    if (x[i] >= least - room && x[i] <= most + room) continue;
-    throw std::invalid_argument("x: " + problem_->VariableName(i) + " is " + std::to_string(x[i]) +
-                                " (valid: " + std::to_string(least) + " … " +
-                                std::to_string(most) + ")");
-  }
+  if (!x.allFinite()) throw std::invalid_argument("x: not finite (valid: finite numbers)");
   return x.cwiseMax(problem_->lower()).cwiseMin(problem_->upper());
 }
 
-double HeldProgram::Cost(const Eigen::VectorXd& x) { return problem_->Cost(Checked(x)); }
+double HeldProgram::Cost(const Eigen::VectorXd& x) {
+  const Eigen::VectorXd within = Within(x);
+  const double cost = problem_->Cost(within);
+  return within == x ? cost : cost + problem_->Gradient(within).dot(x - within);
+}
 
 Eigen::VectorXd HeldProgram::Gradient(const Eigen::VectorXd& x) {
-  return problem_->Gradient(Checked(x));
+  return problem_->Gradient(Within(x));
+}
+
+void HeldProgram::MoveTo(const Eigen::VectorXd& x) {
+  if (at_.size() == x.size() && at_ == x) return;
+  Forget();
+  within_ = Within(x);
+  at_ = x;
+}
+
+void HeldProgram::EvaluateWithJacobian() {
+  std::vector<double> nonzeros;
+  Eigen::VectorXd values = problem_->ConstraintsWithJacobian(within_, &nonzeros);
+  const opt::SparsityPattern& pattern = problem_->pattern();
+  const Eigen::VectorXd beyond = at_ - within_;
+  for (size_t k = 0; k < nonzeros.size(); ++k) {
+    values[pattern.rows[k]] += nonzeros[k] * beyond[pattern.cols[k]];
+  }
+  constraints_ = std::move(values);
+  jacobian_ = std::move(nonzeros);
 }
 
 const Eigen::VectorXd& HeldProgram::Constraints(const Eigen::VectorXd& x) {
-  const Eigen::VectorXd within = Checked(x);
-  if (at_.size() != x.size() || within != at_) Forget();
-  at_ = within;
-  if (!constraints_) constraints_ = problem_->Constraints(within);
+  MoveTo(x);
+  if (!constraints_) {
+    if (within_ == at_) {
+      constraints_ = problem_->Constraints(within_);
+    } else {
+      EvaluateWithJacobian();
+    }
+  }
   return *constraints_;
 }
 
 const std::vector<double>& HeldProgram::Jacobian(const Eigen::VectorXd& x) {
-  const Eigen::VectorXd within = Checked(x);
-  if (at_.size() != x.size() || within != at_) Forget();
-  at_ = within;
-  if (!jacobian_) {
-    std::vector<double> nonzeros;
-    constraints_ = problem_->ConstraintsWithJacobian(within, &nonzeros);
-    jacobian_ = std::move(nonzeros);
-  }
+  MoveTo(x);
+  if (!jacobian_) EvaluateWithJacobian();
   return *jacobian_;
 }
 
 HomotopyParameters HeldProgram::ToParameters(const Eigen::VectorXd& x) const {
-  return program_.ToParameters(Checked(x));
+  const Eigen::VectorXd within = Within(x);
+  for (int i = 0; i < problem_->num_variables(); ++i) {
+    const double least = problem_->lower()[i], most = problem_->upper()[i];
+    if (std::abs(x[i] - within[i]) <= kRounding * std::max(1.0, most - least)) continue;
+    throw std::invalid_argument("x: " + problem_->VariableName(i) + " is " + std::to_string(x[i]) +
+                                " (valid: " + std::to_string(least) + " … " +
+                                std::to_string(most) + ")");
+  }
+  return program_.ToParameters(within);
 }
 
 void HeldProgram::SetSharpness(double sharpness) {

@@ -36,13 +36,15 @@ class HeldProgram {
   OverlapProgram& program() { return program_; }
   const std::shared_ptr<const WalkSetting>& setting() const { return setting_; }
 
-  /// Each throws std::invalid_argument for an x of a wrong size or with a value that is not finite,
-  /// or outside of the simple bounds by more than rounding.
+  /// Each throws std::invalid_argument for an x of a wrong size. Outside of the simple bounds, where
+  /// there is no walk, values go on linearly from the nearest point within: SciPy's solvers look
+  /// there although they are asked not to.
   double Cost(const Eigen::VectorXd& x);
   Eigen::VectorXd Gradient(const Eigen::VectorXd& x);            ///< (n)
   const Eigen::VectorXd& Constraints(const Eigen::VectorXd& x);  ///< (m)
   /// In the order of problem().pattern().
   const std::vector<double>& Jacobian(const Eigen::VectorXd& x);
+  /// Throws std::invalid_argument for an x outside of the simple bounds by more than rounding.
   HomotopyParameters ToParameters(const Eigen::VectorXd& x) const;
 
   /// Samples the walk of x, proves it, and watches the instants where that failed or slacks are
@@ -51,14 +53,17 @@ class HeldProgram {
   void SetSharpness(double sharpness);
 
  private:
-  // x within its bounds; solvers step over them by rounding.
-  Eigen::VectorXd Checked(const Eigen::VectorXd& x) const;
+  // The nearest point within the bounds.
+  Eigen::VectorXd Within(const Eigen::VectorXd& x) const;
+  // Makes `x` the last point; what was known of another one is forgotten.
+  void MoveTo(const Eigen::VectorXd& x);
+  void EvaluateWithJacobian();
   void Forget();
 
   std::shared_ptr<const WalkSetting> setting_;
   OverlapProgram program_;
   std::optional<opt::Problem> problem_;
-  Eigen::VectorXd at_;  // the last point
+  Eigen::VectorXd at_, within_;  // the last point, and the nearest one within the bounds
   std::optional<Eigen::VectorXd> constraints_;
   std::optional<std::vector<double>> jacobian_;
 };

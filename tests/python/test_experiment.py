@@ -19,8 +19,6 @@ class Configs(unittest.TestCase):
         config = hs.load_config("bar_8cm", half_step__duration_s=1.5)
         self.assertEqual(config["half_step"]["duration_s"], 1.5)
         self.assertTrue(os.path.isabs(config["scene"]))
-        self.assertIsNone(config["smoothing"]["margins"]["torque_n_m"]
-                          if config["smoothing"]["margins"]["torque_n_m"] is None else None)
         config["smoothing"]["margins"]["clearance_m"] = np.float64(0.02)
         config["smoothing"]["margins"]["zmp_robot_m"] = None
         again = hs.Experiment(config).config

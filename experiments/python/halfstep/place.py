@@ -120,7 +120,7 @@ class Scene:
 
     @property
     def name(self) -> str:
-        """Its name."""
+        """As in its file, or the file's name."""
         return self._scene.name
 
     @property

@@ -65,7 +65,8 @@ class OverlapProgram:
             if program.refine(x).proved:
                 break
 
-    Not to be used from two threads at once. Points outside of the bounds are a ValueError.
+    Outside of the bounds there are no walks; values go on linearly from the nearest point within,
+    for solvers that look there. Not to be used from two threads at once.
     """
 
     def __init__(self, experiment: Experiment, program: str = "fastest", *, overlaps: bool = True,
@@ -151,7 +152,7 @@ class OverlapProgram:
                       "family": np.array(families, dtype=object)})
 
     def walk(self, x: np.ndarray) -> Walk:
-        """The walk of a point."""
+        """The walk of a point within the bounds; a ValueError outside."""
         return Walk(self._program.walk(self._x(x)))
 
     def to_x(self, walk: Walk) -> np.ndarray:

@@ -132,7 +132,8 @@ class Walk:
 
     def at(self, t: float, joints: bool = True) -> dict[str, Any]:
         """The walk at one time t [s]: the columns of ``sample`` as a dict of plain values."""
-        return of_arrays(self._walk.sample(np.array([_time(t)]), joints)).row(0)
+        return of_arrays(self._walk.sample(np.array([_time(t)]),
+                                           _flag("joints", joints))).row(0)
 
     def sample(self, period: float | None = None, times: Sequence[float] | np.ndarray | None = None,
                joints: bool = True) -> Table:
