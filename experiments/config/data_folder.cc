@@ -41,7 +41,8 @@ fs::path Within(const std::string& folder) {
 }  // namespace
 
 fs::path DataFolder() {
-  if (const char* folder = std::getenv("HALFSTEP_DATA")) return folder;
+  const char* folder = std::getenv("HALFSTEP_DATA");
+  if (folder != nullptr && *folder != '\0') return folder;
   if (const std::optional<fs::path> library = ThisLibrary()) {
     if (const std::optional<fs::path> share = ShareAbove(*library)) return *share;
   }

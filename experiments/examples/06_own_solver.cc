@@ -9,7 +9,7 @@ using namespace halfstep;
 Eigen::VectorXd Descend(opt::SolveMonitor& monitor, const Eigen::VectorXd& x0) {
   const opt::Problem& problem = monitor.problem();
   Eigen::VectorXd x = x0, rows;
-  for (int k = 0; k < 60 && monitor.Constraints(x, &rows); ++k) {
+  for (int k = 0; k < 40 && monitor.Constraints(x, &rows); ++k) {
     const Eigen::VectorXd missing = (problem.constraint_lower() - rows).cwiseMax(0.0);
     const Eigen::VectorXd slope =
         problem.Gradient(x) - 40.0 * problem.DenseJacobian(x).transpose() * missing;
@@ -24,7 +24,7 @@ int main(int argc, char** argv) {
   if (argc > 1) return RunExperiment(argc, argv);  // configs may name mine/descent now
   const ExperimentConfig config =
       LoadConfig((DataFolder() / "configs/bar_8cm.yaml").string(),
-                 {{"smoothing.optimizer.durations", "true"}, {"smoothing.optimizer.rounds", "5"}});
+                 {{"smoothing.optimizer.durations", "true"}, {"smoothing.optimizer.rounds", "2"}});
   const WalkProblem problem = ProblemOf(Prepare(config));
   for (const char* method : {"dichotomy", "mine/descent"}) {
     SmoothingMonitor monitor;

@@ -46,6 +46,5 @@ int main(int argc, char** argv) {
     if (!junction.limited_by) continue;
     std::printf("an overlap is limited by %s\n",
                 problem.evaluator().Describe(*junction.limited_by).c_str());
-    break;
   }
 }

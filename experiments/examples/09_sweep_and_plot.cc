@@ -12,15 +12,15 @@ int main() {
       Prepare(LoadConfig((DataFolder() / "configs/bar_8cm.yaml").string(), {}));
   const MarginEvaluator evaluator(experiment.robot, experiment.scene,
                                   experiment.config.smoothing.limits);
-  std::printf("# demanded clearance [m], duration [s]\n");
-  for (double clearance = 0.0; clearance <= 0.02; clearance += 0.005) {
+  std::printf("# demanded distance of the ZMP inside the support [m], duration [s]\n");
+  for (const double demanded : {0.01, 0.03, 0.04, 0.045, 0.05, 0.055}) {
     MarginLimits limits = evaluator.limits();
-    limits.demanded_of(MarginFamily::kClearance) = clearance;
+    limits.demanded_of(MarginFamily::kZmp) = demanded;
     // The robot and the scene, which take long to prepare, are shared.
     const auto test = std::make_shared<CertifiedFeasibility>(evaluator.WithLimits(limits),
                                                              CertificationOptions{});
     SmoothingMonitor monitor;
     const SmoothingResult result = Dichotomy({experiment.sequence, test}, {}, monitor);
-    if (result.feasible) std::printf("%.3f %.4f\n", clearance, result.cost);
+    if (result.feasible) std::printf("%.3f %.4f\n", demanded, result.cost);
   }
 }
