@@ -2,13 +2,15 @@
 import halfstep as hs
 
 scene = hs.Scene({
-    "name": "crate", "obstacles": [
-        {"name": "crate", "box": {"size_m": [0.2, 0.3, 0.3]}, "pose": {"xyz": [0.5, 0.1, 0.15]}},
-        {"name": "cable", "cylinder": {"radius_m": 0.01, "length_m": 2.0},
-         "pose": {"xyz": [0.9, 0, 0.05], "rpy_deg": [90, 0, 0]}}]})
-config = hs.load_config("plan_bar_5cm", goal__x_m=1.2, step_set__spacing_m=0.1,
-                        step_set__x_min_m=0, step_set__yaws_rad=[0])  # few: baked in seconds
-plan = hs.Experiment(config, scene=scene).plan(progress=lambda what, done: None)
+    "name": "hall", "no_step": [
+        {"name": "hole", "polygon_m": [[0.1, 0], [0.15, 0], [0.15, 0.3], [0.1, 0.3]]}],
+    "obstacles": [{"name": "crate", "box": {"size_m": [0.2, 0.2, 0.3]},
+                   "pose": {"xyz": [0.2, 0.6, 0.15]}}]})
+config = hs.load_config(
+    "plan_bar_8cm", planner__name="astar", planner__unimproved_nodes=0,
+    step_set__x_min_m=0, step_set__x_max_m=0.25, step_set__y_min_m=-0.26,
+    step_set__y_max_m=-0.16, step_set__yaws_rad=[0])  # few places: baked in seconds
+plan = hs.Experiment(config, scene=scene).plan()
 print(f"{plan.status}: {plan.sentence}")
 for i in range(plan.footsteps.rows):
     step = plan.footsteps.row(i)
