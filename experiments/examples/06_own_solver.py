@@ -5,7 +5,7 @@ import halfstep as hs
 
 
 def descend(problem, x):
-    """Steps against the slope of cost + 20 * sum of squares of what rows miss, back into the box."""
+    """Steps against the slope of cost + 20 * (what rows miss) squared, back into the box."""
     for k in range(60):
         missing = np.maximum(problem.constraint_lower - problem.constraints(x), 0.0)
         slope = problem.gradient(x) - 40.0 * problem.jacobian(x).T @ missing

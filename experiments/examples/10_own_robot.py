@@ -21,4 +21,5 @@ with tempfile.TemporaryDirectory() as folder:
     config["robot"] = path
     experiment = hs.Experiment(config)
     result = experiment.smooth("dichotomy", tolerance_s=0.02)
-    print(f"{experiment.planned.duration:.2f} -> {result.duration:.2f} s, {result.certify().status}")
+    print(f"{experiment.planned.duration:.2f} -> {result.duration:.2f} s, "
+          f"{result.certify().status}")

@@ -10,9 +10,9 @@
 #include "halfstep/experiments/python/bindings.h"
 #include "halfstep/experiments/python/long_call.h"
 #include "halfstep/experiments/python/placed_experiment.h"
-#include "halfstep/experiments/run/smoothing_of.h"
 #include "halfstep/experiments/run/missed_demands_text.h"
 #include "halfstep/experiments/run/planning.h"
+#include "halfstep/experiments/run/smoothing_of.h"
 #include "halfstep/experiments/tables/result_tables.h"
 #include "halfstep/smoothing/methods/overlap_prices.h"
 #include "halfstep/smoothing/methods/smoother_registry.h"
@@ -74,11 +74,12 @@ py::dict ResultOf(const std::shared_ptr<const WalkSetting>& setting, const std::
   dict["cost"] = run.result.cost;
   dict["wall"] = run.result.wall;
   dict["instants"] = run.result.instants;
-  dict["walk"] = PlacedWalk{
-      setting, SuperposedWalk(setting->problem.sequence(), run.result.parameters)};
+  dict["walk"] =
+      PlacedWalk{setting, SuperposedWalk(setting->problem.sequence(), run.result.parameters)};
   dict["iterates"] = ToPython(IteratesCsv(run));
-  dict["overlaps"] = run.result.junctions.empty() ? py::object(py::none())
-                                                  : py::object(ToPython(OverlapsCsv(evaluator, run)));
+  dict["overlaps"] = run.result.junctions.empty()
+                         ? py::object(py::none())
+                         : py::object(ToPython(OverlapsCsv(evaluator, run)));
   py::list pareto;
   for (const ParetoPoint& point : run.result.pareto) {
     pareto.append(py::make_tuple(
@@ -154,10 +155,8 @@ void BindExperiment(py::module_& module) {
              return std::make_shared<PlacedExperiment>(path, text, scene);
            }),
            py::call_guard<py::gil_scoped_release>())
-      .def_property_readonly("robot",
-                             [](const PlacedExperiment& p) { return p.experiment.robot; })
-      .def_property_readonly("scene",
-                             [](const PlacedExperiment& p) { return p.experiment.scene; })
+      .def_property_readonly("robot", [](const PlacedExperiment& p) { return p.experiment.robot; })
+      .def_property_readonly("scene", [](const PlacedExperiment& p) { return p.experiment.scene; })
       .def("walk", &WalkAt)
       .def("missed", &Missed)
       .def("plan", &Plan)

@@ -3,9 +3,11 @@
 #include <pybind11/stl.h>
 
 #include <memory>
+#include <stdexcept>
 
 #include "halfstep/experiments/python/bindings.h"
 #include "halfstep/experiments/python/held_program.h"
+#include "halfstep/experiments/python/long_call.h"
 #include "halfstep/experiments/python/program_options.h"
 #include "halfstep/experiments/python/python_smoother.h"
 #include "halfstep/experiments/python/python_solver.h"
@@ -23,6 +25,12 @@ std::shared_ptr<HeldProgram> ProgramOf(const SmoothingTask& task, const py::dict
   return std::make_shared<HeldProgram>(task.setting(), own);
 }
 
+// Searches read the registries without the GIL.
+void RequireNoSearch() {
+  if (!LongCallUnderWay()) return;
+  throw std::logic_error("a search is under way (valid: to register before it)");
+}
+
 void BindTasks(py::module_& module) {
   using Released = py::call_guard<py::gil_scoped_release>;
   py::class_<SmoothingTask, std::shared_ptr<SmoothingTask>>(module, "SmoothingTask")
@@ -30,25 +38,26 @@ void BindTasks(py::module_& module) {
       .def_property_readonly("stopped", &SmoothingTask::stopped)
       .def_property_readonly("remaining", &SmoothingTask::remaining)
       .def_property_readonly("duration", &SmoothingTask::duration)
-      .def_property_readonly("incumbent",
-                             [](const SmoothingTask& task) {
-                               return PlacedWalk{task.setting(),
-                                                 SuperposedWalk(task.setting()->problem.sequence(),
-                                                                task.incumbent())};
-                             })
+      .def_property_readonly(
+          "incumbent",
+          [](const SmoothingTask& task) {
+            return PlacedWalk{task.setting(),
+                              SuperposedWalk(task.setting()->problem.sequence(), task.incumbent())};
+          })
       .def("program", &ProgramOf)
-      .def("propose",
-           [](SmoothingTask& task, const PlacedWalk& walk) {
-             return task.Propose(walk.walk.parameters());
-           },
-           Released())
+      .def(
+          "propose",
+          [](SmoothingTask& task, const PlacedWalk& walk) {
+            return task.Propose(walk.walk.parameters());
+          },
+          Released())
       .def("walk",
            [](const SmoothingTask& task, const std::vector<double>& overlaps,
               const std::vector<double>& height_scales, const std::vector<double>& durations,
               const std::vector<double>& support_points) {
-             return PlacedWalk{task.setting(),
-                               SuperposedWalk(task.setting()->problem.sequence(),
-                                              {overlaps, height_scales, durations, support_points})};
+             return PlacedWalk{task.setting(), SuperposedWalk(task.setting()->problem.sequence(),
+                                                              {overlaps, height_scales, durations,
+                                                               support_points})};
            })
       .def("tell", &SmoothingTask::Tell);
   py::class_<SolvingTask, std::shared_ptr<SolvingTask>>(module, "SolvingTask")
@@ -90,11 +99,13 @@ void BindExtension(py::module_& module) {
       PyErr_SetString(type.ptr(), stop.what());
     }
   });
-  module.def("register_smoother", [](const std::string& name, const std::string& meaning,
-                                     const py::function& function) {
-    RegisterSmoother(MakePythonSmoother(name, meaning, function));
-  });
+  module.def("register_smoother",
+             [](const std::string& name, const std::string& meaning, const py::function& function) {
+               RequireNoSearch();
+               RegisterSmoother(MakePythonSmoother(name, meaning, function));
+             });
   module.def("register_solver", [](const std::string& name, const py::function& function) {
+    RequireNoSearch();
     const py::handle kept = function.inc_ref();  // for ever: solvers are never removed
     opt::RegisterSolver([name, kept] { return MakePythonSolver(name, kept); });
   });

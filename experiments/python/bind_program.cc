@@ -35,8 +35,7 @@ py::tuple Pattern(const HeldProgram& held) {
     at(row) = static_cast<int>(k);
   }
   return py::make_tuple(
-      starts,
-      py::array_t<int>(static_cast<py::ssize_t>(pattern.cols.size()), pattern.cols.data()));
+      starts, py::array_t<int>(static_cast<py::ssize_t>(pattern.cols.size()), pattern.cols.data()));
 }
 
 // Half-step, from 1, and family of each row of slacks.
@@ -58,7 +57,27 @@ double CppSeconds(const HeldProgram& held, const Eigen::VectorXd& x, int count) 
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
+// A function of the program that holds it for this thread.
+template <typename Get>
+auto Taking(Get get) {
+  return [get](HeldProgram& held) {
+    const auto use = held.Take();
+    return get(held);
+  };
+}
+
+// The same for one of the program and x, without the GIL. The result is a copy.
+template <typename Evaluate>
+auto Evaluating(Evaluate evaluate) {
+  return [evaluate](HeldProgram& held, const Eigen::VectorXd& x) {
+    const py::gil_scoped_release released;
+    const auto use = held.Take();
+    return evaluate(held, x);
+  };
+}
+
 py::tuple RefineAt(HeldProgram& held, const Eigen::VectorXd& x) {
+  const auto use = held.Take();
   Refinement result;
   CallLong(py::none(), [&](const LongCallHooks& hooks) { result = held.Refine(x, hooks.stop); });
   return py::make_tuple(result.proved, result.least_slack, result.sentence);
@@ -99,50 +118,51 @@ HeldProgramOptions ToProgramOptions(const py::dict& options) {
 }
 
 void BindProgram(py::module_& module) {
-  using Released = py::call_guard<py::gil_scoped_release>;
   py::class_<HeldProgram, std::shared_ptr<HeldProgram>>(module, "Program")
       .def(py::init([](const PlacedExperiment& experiment, const py::dict& options) {
         return std::make_shared<HeldProgram>(experiment.Setting(), ToProgramOptions(options));
       }))
-      .def_property_readonly("names", &VariableNames)
-      .def_property_readonly("x0", [](const HeldProgram& h) { return h.problem().initial(); })
-      .def_property_readonly("lower", [](const HeldProgram& h) { return h.problem().lower(); })
-      .def_property_readonly("upper", [](const HeldProgram& h) { return h.problem().upper(); })
+      .def_property_readonly("names", Taking(&VariableNames))
+      .def_property_readonly("x0", Taking([](HeldProgram& h) { return h.problem().initial(); }))
+      .def_property_readonly("lower", Taking([](HeldProgram& h) { return h.problem().lower(); }))
+      .def_property_readonly("upper", Taking([](HeldProgram& h) { return h.problem().upper(); }))
       .def_property_readonly("constraint_lower",
-                             [](const HeldProgram& h) { return h.problem().constraint_lower(); })
+                             Taking([](HeldProgram& h) { return h.problem().constraint_lower(); }))
       .def_property_readonly("constraint_upper",
-                             [](const HeldProgram& h) { return h.problem().constraint_upper(); })
-      .def_property_readonly("pattern", &Pattern)
-      .def_property_readonly("watched", &WatchedRows)
+                             Taking([](HeldProgram& h) { return h.problem().constraint_upper(); }))
+      .def_property_readonly("pattern", Taking(&Pattern))
+      .def_property_readonly("watched", Taking(&WatchedRows))
       .def_property("sharpness",
-                    [](const HeldProgram& h) { return h.program().watched().sharpness(); },
-                    &HeldProgram::SetSharpness)
-      .def("cost", &HeldProgram::Cost, Released())
-      .def("gradient", &HeldProgram::Gradient, Released())
-      .def("constraints", [](HeldProgram& h, const Eigen::VectorXd& x) {
-        return Eigen::VectorXd(h.Constraints(x)); }, Released())
-      .def("jacobian",
-           [](HeldProgram& h, const Eigen::VectorXd& x) {
-             const std::vector<double>* nonzeros = nullptr;
-             {
-               const py::gil_scoped_release released;
-               nonzeros = &h.Jacobian(x);
-             }
-             return py::array_t<double>(static_cast<py::ssize_t>(nonzeros->size()),
-                                        nonzeros->data());
-           })
-      .def("walk",
-           [](const HeldProgram& h, const Eigen::VectorXd& x) {
-             return PlacedWalk{h.setting(), SuperposedWalk(h.setting()->problem.sequence(),
-                                                           h.ToParameters(x))};
-           })
+                    Taking([](HeldProgram& h) { return h.program().watched().sharpness(); }),
+                    [](HeldProgram& h, double sharpness) {
+                      const auto use = h.Take();
+                      h.SetSharpness(sharpness);
+                    })
+      .def("cost", Evaluating([](HeldProgram& h, const Eigen::VectorXd& x) { return h.Cost(x); }))
+      .def("gradient",
+           Evaluating([](HeldProgram& h, const Eigen::VectorXd& x) { return h.Gradient(x); }))
+      .def("constraints",
+           Evaluating([](HeldProgram& h, const Eigen::VectorXd& x) { return h.Constraints(x); }))
+      .def("jacobian", Evaluating([](HeldProgram& h, const Eigen::VectorXd& x) -> Eigen::VectorXd {
+             const std::vector<double>& nonzeros = h.Jacobian(x);
+             return Eigen::Map<const Eigen::VectorXd>(nonzeros.data(),
+                                                      static_cast<Eigen::Index>(nonzeros.size()));
+           }))
+      .def("walk", Evaluating([](HeldProgram& h, const Eigen::VectorXd& x) {
+             return PlacedWalk{h.setting(),
+                               SuperposedWalk(h.setting()->problem.sequence(), h.ToParameters(x))};
+           }))
       .def("to_x",
-           [](const HeldProgram& h, const PlacedWalk& walk) {
+           [](HeldProgram& h, const PlacedWalk& walk) {
+             const auto use = h.Take();
              CheckParameters(h.setting()->problem.sequence(), walk.walk.parameters());
              return h.program().ToVariables(walk.walk.parameters());
            })
       .def("refine", &RefineAt)
-      .def("cpp_seconds", &CppSeconds, Released());
+      .def("cpp_seconds", [](HeldProgram& h, const Eigen::VectorXd& x, int count) {
+        const auto use = h.Take();
+        return CppSeconds(h, x, count);
+      });
 }
 
 }  // namespace halfstep::python

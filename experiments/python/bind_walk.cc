@@ -90,9 +90,9 @@ py::tuple MarginGradientsAt(const PlacedWalk& placed, double t, double cutoff) {
           scale * out.Slope(row, parameters[i]);
     }
   }
-  return py::make_tuple(families, py::array_t<double>(static_cast<py::ssize_t>(margins.size()),
-                                                      margins.data()),
-                        names, gradient);
+  return py::make_tuple(
+      families, py::array_t<double>(static_cast<py::ssize_t>(margins.size()), margins.data()),
+      names, gradient);
 }
 
 // (status, sentence, table of the proof).
@@ -104,10 +104,9 @@ py::tuple CertifyPlaced(const PlacedWalk& placed) {
     certified = CertifyWalk(test, problem.sequence(), placed.walk.parameters(), hooks.stop);
   });
   const bool holds = certified.answer.verdict == Verdict::kFeasible;
-  const std::string sentence =
-      holds ? "every demanded margin is kept at every instant, by " +
-                  std::to_string(certified.rows.size()) + " statements"
-            : problem.evaluator().Describe(certified.answer.witness);
+  const std::string sentence = holds ? "every demanded margin is kept at every instant, by " +
+                                           std::to_string(certified.rows.size()) + " statements"
+                                     : problem.evaluator().Describe(certified.answer.witness);
   return py::make_tuple(std::string(VerdictName(certified.answer.verdict)), sentence,
                         ToPython(CertificateCsv(problem.evaluator(), certified.rows)));
 }
@@ -121,19 +120,21 @@ void BindWalk(py::module_& module) {
                              [](const PlacedWalk& p) { return p.walk.num_half_steps(); })
       .def_property_readonly("parameters",
                              [](const PlacedWalk& p) { return ToPython(p.walk.parameters()); })
-      .def_property_readonly(
-          "starts",
-          [](const PlacedWalk& p) {
-            std::vector<double> starts;
-            for (int i = 0; i < p.walk.num_half_steps(); ++i) starts.push_back(p.walk.start_of(i));
-            return py::array_t<double>(static_cast<py::ssize_t>(starts.size()), starts.data());
-          })
-      .def_property_readonly("robot", [](const PlacedWalk& p) { return p.setting->problem.robot(); })
-      .def_property_readonly("half_steps",
+      .def_property_readonly("starts",
                              [](const PlacedWalk& p) {
-                               return ToPython(HalfStepsCsv(p.setting->problem.sequence(),
-                                                            p.walk.parameters()));
+                               std::vector<double> starts;
+                               for (int i = 0; i < p.walk.num_half_steps(); ++i)
+                                 starts.push_back(p.walk.start_of(i));
+                               return py::array_t<double>(static_cast<py::ssize_t>(starts.size()),
+                                                          starts.data());
                              })
+      .def_property_readonly("robot",
+                             [](const PlacedWalk& p) { return p.setting->problem.robot(); })
+      .def_property_readonly(
+          "half_steps",
+          [](const PlacedWalk& p) {
+            return ToPython(HalfStepsCsv(p.setting->problem.sequence(), p.walk.parameters()));
+          })
       .def("sample", &SampleMotion)
       .def("margins", &SampleMargins)
       .def("sensitivities", &SensitivitiesAt)

@@ -24,8 +24,7 @@ std::vector<FixedParameter> FixedBy(const WalkSetting& setting, bool overlaps) {
     return f.parameter.family == ParameterFamily::kOverlap;
   });
   for (int i = 0; i < setting.problem.sequence().num_junctions(); ++i) {
-    fixed.push_back(
-        {{ParameterFamily::kOverlap, i}, start.overlaps[static_cast<size_t>(i)]});
+    fixed.push_back({{ParameterFamily::kOverlap, i}, start.overlaps[static_cast<size_t>(i)]});
   }
   return fixed;
 }
@@ -36,6 +35,12 @@ ProgramOptions Watching(const WalkSetting& setting, ProgramOptions options) {
 }
 
 }  // namespace
+
+HeldProgram::Use::Use(std::atomic<bool>* taken) : taken_(taken) {
+  if (taken_->exchange(true)) {
+    throw std::logic_error("the program is in use by another thread (valid: one for each)");
+  }
+}
 
 HeldProgram::HeldProgram(std::shared_ptr<const WalkSetting> setting,
                          const HeldProgramOptions& options)
@@ -57,8 +62,8 @@ void HeldProgram::Forget() {
 Eigen::VectorXd HeldProgram::Within(const Eigen::VectorXd& x) const {
   const int n = problem_->num_variables();
   if (x.size() != n) {
-    throw std::invalid_argument("x: " + std::to_string(x.size()) + " numbers (valid: " +
-                                std::to_string(n) + ")");
+    throw std::invalid_argument("x: " + std::to_string(x.size()) +
+                                " numbers (valid: " + std::to_string(n) + ")");
   }
   if (!x.allFinite()) throw std::invalid_argument("x: not finite (valid: finite numbers)");
   return x.cwiseMax(problem_->lower()).cwiseMin(problem_->upper());
@@ -117,8 +122,8 @@ HomotopyParameters HeldProgram::ToParameters(const Eigen::VectorXd& x) const {
     const double least = problem_->lower()[i], most = problem_->upper()[i];
     if (std::abs(x[i] - within[i]) <= kRounding * std::max(1.0, most - least)) continue;
     throw std::invalid_argument("x: " + problem_->VariableName(i) + " is " + std::to_string(x[i]) +
-                                " (valid: " + std::to_string(least) + " … " +
-                                std::to_string(most) + ")");
+                                " (valid: " + std::to_string(least) + " … " + std::to_string(most) +
+                                ")");
   }
   return program_.ToParameters(within);
 }
@@ -144,8 +149,8 @@ Refinement HeldProgram::Refine(const Eigen::VectorXd& x, const std::stop_token& 
   }
   result.proved = refusals.empty();
   if (!result.proved) result.sentence = walk_problem.evaluator().Describe(refusals.front());
-  program_.watched().SetSharpness(std::min(
-      kMostSharp, (result.proved ? kSharper : kSofter) * program_.watched().sharpness()));
+  program_.watched().SetSharpness(
+      std::min(kMostSharp, (result.proved ? kSharper : kSofter) * program_.watched().sharpness()));
   problem_.emplace(program_.MakeProblem());
   Forget();
   return result;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <atomic>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -25,20 +26,35 @@ struct Refinement {
   std::string sentence;      ///< what refuses the walk; "" when it is proved
 };
 
-/// An overlap program as Python holds it: it owns what it needs. Not thread-safe. It remembers its
-/// last point, since SciPy asks for values and derivatives in separate calls.
+/// An overlap program as Python holds it: it owns what it needs. It remembers its last point, since
+/// SciPy asks for values and derivatives in separate calls.
 class HeldProgram {
  public:
+  /// Takes a program for one thread; std::logic_error where another thread has it.
+  class Use {
+   public:
+    explicit Use(std::atomic<bool>* taken);
+    ~Use() { taken_->store(false); }
+    Use(const Use&) = delete;
+    Use& operator=(const Use&) = delete;
+
+   private:
+    std::atomic<bool>* taken_;
+  };
+
   HeldProgram(std::shared_ptr<const WalkSetting> setting, const HeldProgramOptions& options);
+
+  /// To be held while anything below is called.
+  Use Take() const { return Use(&taken_); }
 
   const opt::Problem& problem() const { return *problem_; }
   const OverlapProgram& program() const { return program_; }
   OverlapProgram& program() { return program_; }
   const std::shared_ptr<const WalkSetting>& setting() const { return setting_; }
 
-  /// Each throws std::invalid_argument for an x of a wrong size. Outside of the simple bounds, where
-  /// there is no walk, values go on linearly from the nearest point within: SciPy's solvers look
-  /// there although they are asked not to.
+  /// Each throws std::invalid_argument for an x of a wrong size. Outside of the simple bounds,
+  /// where there is no walk, values go on linearly from the nearest point within: SciPy's solvers
+  /// look there although they are asked not to.
   double Cost(const Eigen::VectorXd& x);
   Eigen::VectorXd Gradient(const Eigen::VectorXd& x);            ///< (n)
   const Eigen::VectorXd& Constraints(const Eigen::VectorXd& x);  ///< (m)
@@ -60,6 +76,7 @@ class HeldProgram {
   void EvaluateWithJacobian();
   void Forget();
 
+  mutable std::atomic<bool> taken_ = false;
   std::shared_ptr<const WalkSetting> setting_;
   OverlapProgram program_;
   std::optional<opt::Problem> problem_;

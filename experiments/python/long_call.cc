@@ -1,5 +1,6 @@
 #include "halfstep/experiments/python/long_call.h"
 
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <exception>
@@ -25,6 +26,9 @@ struct CallState {
   std::stop_source stop;
   std::optional<py::error_already_set> error;  // only with the GIL
 };
+
+// How many long calls are under way.
+std::atomic<int> g_calls = 0;
 
 // Of the thread that runs the work of a long call.
 thread_local CallState* t_current = nullptr;
@@ -70,6 +74,11 @@ void Work(const std::function<void(const LongCallHooks&)>& work, CallState* stat
 }  // namespace
 
 void CallLong(const py::object& progress, const std::function<void(const LongCallHooks&)>& work) {
+  struct Counted {
+    Counted() { ++g_calls; }
+    ~Counted() { --g_calls; }
+  };
+  const Counted counted;
   CallState state;
   CallState* const enclosing = t_current;
   {
@@ -90,6 +99,8 @@ void CallLong(const py::object& progress, const std::function<void(const LongCal
   if (state.error) throw py::error_already_set(*state.error);
   if (state.thrown) std::rethrow_exception(state.thrown);
 }
+
+bool LongCallUnderWay() { return g_calls > 0; }
 
 void KeepPythonError(const py::error_already_set& error) {
   if (t_current != nullptr && !t_current->error) t_current->error = error;

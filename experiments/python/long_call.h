@@ -21,6 +21,9 @@ struct LongCallHooks {
 void CallLong(const pybind11::object& progress,
               const std::function<void(const LongCallHooks&)>& work);
 
+/// Whether any long call is under way.
+bool LongCallUnderWay();
+
 /// Keeps an exception that a function of the user's raised within the long call of this thread, to
 /// be raised when that call ends. Without a long call it is dropped. The first one counts. Needs
 /// the GIL.

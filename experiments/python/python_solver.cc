@@ -21,8 +21,8 @@ opt::SolveMonitor& SolvingTask::monitor() const {
 void SolvingTask::Require(const Eigen::VectorXd& x) const {
   const int n = problem().num_variables();
   if (x.size() != n) {
-    throw std::invalid_argument("x: " + std::to_string(x.size()) + " numbers (valid: " +
-                                std::to_string(n) + ")");
+    throw std::invalid_argument("x: " + std::to_string(x.size()) +
+                                " numbers (valid: " + std::to_string(n) + ")");
   }
 }
 

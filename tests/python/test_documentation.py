@@ -9,9 +9,9 @@ import halfstep as hs
 
 def members(cls):
     for name, item in vars(cls).items():
-        if name.startswith("_") or not (callable(item) or isinstance(item, (property, classmethod))):
-            continue
-        yield f"{cls.__name__}.{name}", item
+        public = not name.startswith("_")
+        if public and (callable(item) or isinstance(item, (property, classmethod))):
+            yield f"{cls.__name__}.{name}", item
 
 
 class Documentation(unittest.TestCase):

@@ -84,6 +84,33 @@ class Smoothing(unittest.TestCase):
             hs.Experiment("fig4_raw_sequence").smooth("reference", heights=True, durations=True)
         self.assertLess(time.monotonic() - begin, 60.0)
 
+    def test_other_threads_go_on_meanwhile(self):
+        counted, done = [0], threading.Event()
+
+        def count():
+            while not done.is_set():
+                counted[0] += 1
+                time.sleep(0.001)
+        thread = threading.Thread(target=count)
+        thread.start()
+        before = counted[0]
+        hs.Experiment("bar_8cm").smooth("dichotomy")
+        during = counted[0] - before
+        done.set()
+        thread.join()
+        self.assertGreater(during, 5)
+
+    def test_nothing_is_registered_during_a_search(self):
+        refused = []
+
+        def progress(what, done):
+            try:
+                hs.register_smoother("mine/late", print)
+            except ValueError as error:
+                refused.append(str(error))
+        hs.Experiment("fig3_two_half_steps").smooth("dichotomy", progress=progress)
+        self.assertIn("a search is under way", refused[0])
+
     def test_an_exception_of_progress_is_raised(self):
         def progress(what, done):
             raise LookupError("enough")

@@ -1,5 +1,4 @@
 """Walks: samples, derivatives, margins, certificates."""
-import time
 import unittest
 
 import numpy as np
@@ -73,7 +72,8 @@ class Walks(unittest.TestCase):
                     states.append([row[f"{q}_{'rad' if 'yaw' in q else 'm'}"]
                                    for q in found.quantities])
                 slope = np.subtract(*states) / (2 * h)
-                np.testing.assert_allclose(found.value[i], slope, atol=2e-6, err_msg=f"{family} {t}")
+                np.testing.assert_allclose(found.value[i], slope, atol=2e-6,
+                                           err_msg=f"{family} at {t} s")
 
     def test_margins_and_gradients(self):
         times = np.linspace(0, self.walk.duration, 50)
@@ -86,7 +86,7 @@ class Walks(unittest.TestCase):
         self.assertTrue(np.isfinite(near.gradient).all())
         least = self.walk.margins([1.5]).row(0)
         for family in set(near.families):
-            column = next(name for name in least if name.rsplit("_", 1)[0] in (family, f"{family}_m"))
+            column = next(name for name in least if name.startswith(family))
             values = [m for f, m in zip(near.families, near.margins) if f == family]
             self.assertAlmostEqual(min(values), least[column], places=9, msg=family)
 
@@ -119,10 +119,9 @@ class Walks(unittest.TestCase):
 
     def test_a_hundred_thousand_instants(self):
         times = np.linspace(0, self.walk.duration, 100_000)
-        begin = time.perf_counter()
-        table = self.walk.sample(times=times, joints=False)
+        table = self.walk.sample(times=times, joints=False)  # how fast: scipy_study.py
         self.assertEqual(table.rows, 100_000)
-        self.seconds = time.perf_counter() - begin  # told by examples, not asserted
+        self.assertTrue(np.isfinite(table["com_x_m"]).all())
 
 
 if __name__ == "__main__":

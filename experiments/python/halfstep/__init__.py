@@ -17,10 +17,11 @@ Mistakes in files and dicts raise ``InputError`` with every complaint.
 from . import _halfstep
 from .config import configs, load_config, methods, planners, robots, scenes, solvers
 from .errors import InputError, SolveStopped
-from .experiment import Experiment, Plan, Result
+from .experiment import Experiment, Plan
 from .extension import SmoothingProblem, SolverProblem, register_smoother, register_solver
 from .place import Robot, Scene
 from .program import OverlapProgram, Refinement
+from .result import Result
 from .run import Run, Verification
 from .tables import Table
 from .walk import Certificate, MarginGradients, Sensitivities, Walk
