@@ -1,0 +1,147 @@
+#include <pybind11/stl.h>
+
+#include <charconv>
+#include <filesystem>
+#include <string>
+
+#include "halfstep/experiments/config/data_folder.h"
+#include "halfstep/experiments/config/experiment.h"
+#include "halfstep/experiments/config/experiment_config.h"
+#include "halfstep/experiments/python/bindings.h"
+#include "halfstep/opt/adapters/solver_registry.h"
+#include "halfstep/planner/search/planner_registry.h"
+#include "halfstep/smoothing/methods/smoother_registry.h"
+#include "halfstep/wpg/files/yaml_node.h"
+
+namespace py = pybind11;
+
+namespace halfstep::python {
+namespace {
+
+namespace fs = std::filesystem;
+using Overrides = std::vector<std::pair<std::string, std::string>>;
+
+// A plain scalar of text that WriteYaml wrote; `none` is None.
+py::object PlainValue(const std::string& text) {
+  if (text == "none") return py::none();
+  if (text == "true" || text == "false") return py::bool_(text == "true");
+  const char* const end = text.data() + text.size();
+  long long integer = 0;
+  if (const auto read = std::from_chars(text.data(), end, integer);
+      read.ec == std::errc{} && read.ptr == end) {
+    return py::int_(integer);
+  }
+  double number = 0.0;
+  if (const auto read = std::from_chars(text.data(), end, number);
+      read.ec == std::errc{} && read.ptr == end) {
+    return py::float_(number);
+  }
+  return py::str(text);
+}
+
+py::object ToPython(const YamlNode& node) {
+  switch (node.kind) {
+    case YamlNode::Kind::kNull:
+      return py::none();
+    case YamlNode::Kind::kScalar:
+      return node.quoted ? py::object(py::str(node.text)) : PlainValue(node.text);
+    case YamlNode::Kind::kList: {
+      py::list list;
+      for (const YamlNode& item : node.items) list.append(ToPython(item));
+      return list;
+    }
+    case YamlNode::Kind::kMap: {
+      py::dict map;
+      for (const YamlNode& item : node.items) map[py::str(item.key)] = ToPython(item);
+      return map;
+    }
+  }
+  return py::none();
+}
+
+// The config with paths that hold in every folder, with every key.
+py::object Resolved(ExperimentConfig config) {
+  if (const auto scene = ScenePath(config)) config.scene = fs::absolute(*scene).string();
+  const fs::path robot(config.robot);
+  if (robot.has_parent_path() || robot.has_extension()) {
+    config.robot = fs::absolute(RobotPath(config)).string();
+  }
+  if (std::string& cache = config.swept_volumes.cache; !cache.empty()) {
+    cache = fs::absolute(fs::path(config.directory) / cache).lexically_normal().string();
+  }
+  if (std::string& out = config.output_directory; !out.empty()) {
+    out = fs::absolute(fs::path(config.directory) / out).lexically_normal().string();
+  }
+  const std::string text = WriteYaml([&](Fields& fields) { DeclareFields(fields, &config); });
+  YamlComplaints complaints("config");
+  const YamlNode root = ParseYaml(text, "", &complaints);
+  complaints.ThrowIfAny();
+  return ToPython(root);
+}
+
+std::vector<YamlOverride> ToOverrides(const Overrides& overrides) {
+  std::vector<YamlOverride> all;
+  for (const auto& [key, value] : overrides) all.push_back({key, value});
+  return all;
+}
+
+py::dict Stems(const fs::path& folder) {
+  py::dict files;
+  for (const fs::path& path : YamlFiles(folder)) {
+    files[py::str(path.stem().string())] = path.string();
+  }
+  return files;
+}
+
+py::dict SolverReasons() {
+  py::dict reasons;
+  for (const std::string& name : opt::SolverNames()) {
+    const auto solver = opt::MakeSolver(name);
+    reasons[py::str(name)] = solver->available() ? "" : solver->WhyUnavailable();
+  }
+  return reasons;
+}
+
+py::dict Methods() {
+  py::dict methods;
+  for (const std::string& name : SmootherNames()) {
+    methods[py::str(name)] = FindSmoother(name).meaning();
+  }
+  return methods;
+}
+
+// The groups of `smoothing` that hold the options of a method.
+std::vector<std::string> OptionGroups(const std::string& method) {
+  switch (FindSmoother(method).options()) {
+    case OptionGroup::kNone:
+      return {};
+    case OptionGroup::kDichotomy:
+      return {"dichotomy"};
+    case OptionGroup::kOptimizer:
+      return {"optimizer"};
+    case OptionGroup::kHorizon:
+      return {"horizon", "optimizer"};
+  }
+  return {};
+}
+
+}  // namespace
+
+void BindConfig(py::module_& module) {
+  module.def("load_config", [](const std::string& path, const Overrides& overrides) {
+    return Resolved(LoadConfig(path, ToOverrides(overrides)));
+  });
+  module.def("resolve_config", [](const std::string& path, const std::string& text) {
+    return Resolved(ParseConfig(path, text, {}));
+  });
+  module.def("data_folder", [] { return DataFolder().string(); });
+  module.def("robots", [] { return Stems(RobotsFolder()); });
+  module.def("scenes", [] { return Stems(ScenesFolder()); });
+  module.def("configs", [] { return Stems(DataFolder() / "configs"); });
+  module.def("methods", &Methods);
+  module.def("option_groups", &OptionGroups);
+  module.def("solvers", &SolverReasons);
+  module.def("planners", &PlannerNames);
+}
+
+}  // namespace halfstep::python

@@ -1,0 +1,166 @@
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+#include <limits>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+
+#include "halfstep/experiments/config/experiment.h"
+#include "halfstep/experiments/python/bindings.h"
+#include "halfstep/experiments/python/long_call.h"
+#include "halfstep/experiments/python/placed_experiment.h"
+#include "halfstep/experiments/run/missed_demands_text.h"
+#include "halfstep/experiments/run/planning.h"
+#include "halfstep/experiments/run/smoothing_of.h"
+#include "halfstep/experiments/tables/result_tables.h"
+#include "halfstep/smoothing/methods/overlap_prices.h"
+#include "halfstep/smoothing/methods/smoother_registry.h"
+#include "halfstep/smoothing/proof/missed_demands.h"
+
+namespace py = pybind11;
+
+namespace halfstep::python {
+namespace {
+
+using Values = std::optional<std::vector<double>>;
+
+PlacedWalk WalkAt(const PlacedExperiment& placed, const Values& overlaps,
+                  const Values& height_scales, const Values& durations,
+                  const Values& support_points) {
+  const auto setting = placed.Setting();
+  HomotopyParameters parameters = setting->problem.Start();
+  if (overlaps) parameters.overlaps = *overlaps;
+  if (height_scales) parameters.height_scales = *height_scales;
+  if (durations) parameters.durations = *durations;
+  if (support_points) parameters.support_points = *support_points;
+  return {setting, SuperposedWalk(setting->problem.sequence(), parameters)};
+}
+
+// (status, sentence, footsteps as rows (foot, x, y, yaw), wall time [s]).
+py::tuple Plan(const PlacedExperiment& placed, const py::object& progress) {
+  if (!placed.config.has_goal) throw std::invalid_argument("plan: the config has no goal");
+  PlannedWalk walk;
+  CallLong(progress, [&](const LongCallHooks& hooks) {
+    walk = PlanWalk(placed.config, {placed.experiment.robot, placed.experiment.scene},
+                    {.progress = hooks.progress, .stop = hooks.stop});
+  });
+  py::list footsteps;
+  for (const Footstep& step : walk.plan.footsteps) {
+    footsteps.append(
+        py::make_tuple(std::string(Name(step.side)), step.X_WF.x, step.X_WF.y, step.X_WF.yaw));
+  }
+  const auto pose = [](const Footprint& X) { return py::make_tuple(X.x, X.y, X.yaw); };
+  const auto start = StartOf(placed.config, placed.experiment.robot);
+  return py::make_tuple(std::string(Name(walk.plan.status)), walk.plan.sentence, footsteps,
+                        py::make_tuple(pose(start[0]), pose(start[1])), walk.plan.time);
+}
+
+// What Python knows of a method's result.
+py::dict ResultOf(const std::shared_ptr<const WalkSetting>& setting, const std::string& method,
+                  SmoothingResult result) {
+  MethodRun run(method);
+  const MarginEvaluator& evaluator = setting->problem.evaluator();
+  AddPrices(SuperposedWalk(setting->problem.sequence(), result.parameters), evaluator,
+            &result.junctions);
+  run.result = std::move(result);
+  run.duration = DurationOf(run.result.parameters);
+  py::dict dict;
+  dict["method"] = method;
+  dict["status"] = std::string(opt::Name(run.result.ending));
+  dict["message"] = run.result.message;
+  dict["feasible"] = run.result.feasible;
+  dict["evidence"] = std::string(Name(run.result.evidence));
+  dict["cost"] = run.result.cost;
+  dict["wall"] = run.result.wall;
+  dict["instants"] = run.result.instants;
+  dict["walk"] =
+      PlacedWalk{setting, SuperposedWalk(setting->problem.sequence(), run.result.parameters)};
+  dict["iterates"] = ToPython(IteratesCsv(run));
+  dict["overlaps"] = run.result.junctions.empty()
+                         ? py::object(py::none())
+                         : py::object(ToPython(OverlapsCsv(evaluator, run)));
+  py::list pareto;
+  for (const ParetoPoint& point : run.result.pareto) {
+    pareto.append(py::make_tuple(
+        point.duration, point.least_slack,
+        PlacedWalk{setting, SuperposedWalk(setting->problem.sequence(), point.parameters)}));
+  }
+  dict["pareto"] = pareto;
+  return dict;
+}
+
+py::dict Smooth(const PlacedExperiment& placed, const std::string& method, const std::string& text,
+                double deadline, const py::object& progress) {
+  const auto setting = placed.Setting();
+  const Smoother& smoother = FindSmoother(method);
+  const SmootherOptions options =
+      OptionsOf(text.empty() ? placed.config : ParseConfig(placed.path, text, {}));
+  SmoothingResult result;
+  CallLong(progress, [&](const LongCallHooks& hooks) {
+    SmoothingMonitor monitor({.progress = [&](double done) { hooks.progress(method, done); },
+                              .stop = hooks.stop,
+                              .stop_proof = hooks.stop,
+                              .deadline = deadline});
+    result = smoother.Smooth(setting->problem, options, monitor);
+  });
+  return ResultOf(setting, method, std::move(result));
+}
+
+// Sentences on what the planned motion misses, the worst first.
+std::vector<std::string> Missed(const PlacedExperiment& placed) {
+  const auto setting = placed.Setting();
+  std::vector<std::string> lines;
+  CallLong(py::none(), [&](const LongCallHooks& hooks) {
+    const WalkProblem& problem = setting->problem;
+    MarginEvaluator::Scratch scratch = problem.evaluator().MakeScratch();
+    scratch.stop = hooks.stop;
+    const SuperposedWalk walk(problem.sequence(), problem.Start());
+    const Feasibility answer = problem.test().Check(walk, {0.0, walk.duration()}, &scratch);
+    if (answer.verdict == Verdict::kFeasible || answer.stopped) return;
+    lines = MissedDemandsText(problem.evaluator(),
+                              FindMissedDemands(problem.evaluator(), walk, answer.witness));
+  });
+  return lines;
+}
+
+}  // namespace
+
+PlacedExperiment::PlacedExperiment(const std::string& file, const std::string& text,
+                                   const Scene* scene)
+    : path(file), config(ParseConfig(file, text, {})) {
+  Place place = LoadPlace(config);
+  if (scene != nullptr) place.scene = *scene;
+  experiment = Prepare(config, std::move(place));
+  config.smoothing.limits = experiment.config.smoothing.limits;
+  if (const auto stepped_on = FootprintOnNoStep(experiment)) {
+    throw std::invalid_argument("the plan is not feasible: " + *stepped_on);
+  }
+  if (config.has_goal) return;
+  setting = std::make_shared<const WalkSetting>(
+      WalkSetting{ProblemOf(experiment), config.smoothing.certification});
+}
+
+std::shared_ptr<const WalkSetting> PlacedExperiment::Setting() const {
+  if (!setting) {
+    throw std::invalid_argument(
+        "the config has a goal and no footsteps yet (valid: plan().experiment, which has them)");
+  }
+  return setting;
+}
+
+void BindExperiment(py::module_& module) {
+  py::class_<PlacedExperiment, std::shared_ptr<PlacedExperiment>>(module, "Experiment")
+      .def(py::init([](const std::string& path, const std::string& text, const Scene* scene) {
+             return std::make_shared<PlacedExperiment>(path, text, scene);
+           }),
+           py::call_guard<py::gil_scoped_release>())
+      .def_property_readonly("robot", [](const PlacedExperiment& p) { return p.experiment.robot; })
+      .def_property_readonly("scene", [](const PlacedExperiment& p) { return p.experiment.scene; })
+      .def("walk", &WalkAt)
+      .def("missed", &Missed)
+      .def("plan", &Plan)
+      .def("smooth", &Smooth);
+}
+
+}  // namespace halfstep::python

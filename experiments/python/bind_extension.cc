@@ -1,0 +1,114 @@
+#include <pybind11/eigen.h>
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+#include <memory>
+#include <stdexcept>
+
+#include "halfstep/experiments/python/bindings.h"
+#include "halfstep/experiments/python/held_program.h"
+#include "halfstep/experiments/python/long_call.h"
+#include "halfstep/experiments/python/program_options.h"
+#include "halfstep/experiments/python/python_smoother.h"
+#include "halfstep/experiments/python/python_solver.h"
+#include "halfstep/opt/adapters/solver_registry.h"
+#include "halfstep/smoothing/methods/smoother_registry.h"
+
+namespace py = pybind11;
+
+namespace halfstep::python {
+namespace {
+
+std::shared_ptr<HeldProgram> ProgramOf(const SmoothingTask& task, const py::dict& options) {
+  HeldProgramOptions own{.program = task.options().optimizer.program};
+  if (options.size() > 0) own = ToProgramOptions(options);
+  return std::make_shared<HeldProgram>(task.setting(), own);
+}
+
+// Searches read the registries without the GIL.
+void RequireNoSearch() {
+  if (!LongCallUnderWay()) return;
+  throw std::logic_error("a search is under way (valid: to register before it)");
+}
+
+void BindTasks(py::module_& module) {
+  using Released = py::call_guard<py::gil_scoped_release>;
+  py::class_<SmoothingTask, std::shared_ptr<SmoothingTask>>(module, "SmoothingTask")
+      .def_property_readonly("running", &SmoothingTask::running)
+      .def_property_readonly("stopped", &SmoothingTask::stopped)
+      .def_property_readonly("remaining", &SmoothingTask::remaining)
+      .def_property_readonly("duration", &SmoothingTask::duration)
+      .def_property_readonly(
+          "incumbent",
+          [](const SmoothingTask& task) {
+            return PlacedWalk{task.setting(),
+                              SuperposedWalk(task.setting()->problem.sequence(), task.incumbent())};
+          })
+      .def("program", &ProgramOf)
+      .def(
+          "propose",
+          [](SmoothingTask& task, const PlacedWalk& walk) {
+            return task.Propose(walk.walk.parameters());
+          },
+          Released())
+      .def("walk",
+           [](const SmoothingTask& task, const std::vector<double>& overlaps,
+              const std::vector<double>& height_scales, const std::vector<double>& durations,
+              const std::vector<double>& support_points) {
+             return PlacedWalk{task.setting(), SuperposedWalk(task.setting()->problem.sequence(),
+                                                              {overlaps, height_scales, durations,
+                                                               support_points})};
+           })
+      .def("tell", &SmoothingTask::Tell);
+  py::class_<SolvingTask, std::shared_ptr<SolvingTask>>(module, "SolvingTask")
+      .def_property_readonly("lower", [](const SolvingTask& t) { return t.problem().lower(); })
+      .def_property_readonly("upper", [](const SolvingTask& t) { return t.problem().upper(); })
+      .def_property_readonly("constraint_lower",
+                             [](const SolvingTask& t) { return t.problem().constraint_lower(); })
+      .def_property_readonly("constraint_upper",
+                             [](const SolvingTask& t) { return t.problem().constraint_upper(); })
+      .def_property_readonly("pattern",
+                             [](const SolvingTask& t) {
+                               const opt::SparsityPattern& pattern = t.problem().pattern();
+                               return py::make_tuple(pattern.rows, pattern.cols);
+                             })
+      .def_property_readonly("stopped", &SolvingTask::stopped)
+      .def_property_readonly("remaining", &SolvingTask::remaining)
+      .def("cost", &SolvingTask::Cost, Released())
+      .def("gradient", &SolvingTask::Gradient, Released())
+      .def("constraints", &SolvingTask::Constraints, Released())
+      .def("jacobian", [](const SolvingTask& task, const Eigen::VectorXd& x) {
+        std::vector<double> nonzeros;
+        {
+          const py::gil_scoped_release released;
+          nonzeros = task.Jacobian(x);
+        }
+        return py::array_t<double>(static_cast<py::ssize_t>(nonzeros.size()), nonzeros.data());
+      });
+}
+
+}  // namespace
+
+void BindExtension(py::module_& module) {
+  BindTasks(module);
+  py::register_exception_translator([](std::exception_ptr thrown) {
+    try {
+      if (thrown) std::rethrow_exception(thrown);
+    } catch (const SolveStopped& stop) {
+      const py::object type = py::module_::import("halfstep.errors").attr("SolveStopped");
+      PyErr_SetString(type.ptr(), stop.what());
+    }
+  });
+  module.def("register_smoother",
+             [](const std::string& name, const std::string& meaning, const py::function& function) {
+               RequireNoSearch();
+               RegisterSmoother(MakePythonSmoother(name, meaning, function));
+             });
+  module.def("register_solver", [](const std::string& name, const py::function& function) {
+    RequireNoSearch();
+    const py::handle kept = function.inc_ref();  // for ever: solvers are never removed
+    opt::RegisterSolver([name, kept] { return MakePythonSolver(name, kept); });
+  });
+}
+
+}  // namespace halfstep::python

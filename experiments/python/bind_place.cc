@@ -1,0 +1,71 @@
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+
+#include <memory>
+
+#include "halfstep/experiments/python/bindings.h"
+#include "halfstep/planner/scene/scene.h"
+#include "halfstep/wpg/robot/robot_model.h"
+
+namespace py = pybind11;
+
+namespace halfstep::python {
+namespace {
+
+// Name, lower [rad], upper [rad], speed [rad/s], torque [N m] of each leg joint, left leg first.
+py::list JointRows(const RobotModel& robot) {
+  py::list rows;
+  for (const Leg& leg : robot.legs) {
+    for (const LegJoint& joint : leg.joints) {
+      rows.append(
+          py::make_tuple(joint.name, joint.lower, joint.upper, joint.max_speed, joint.max_torque));
+    }
+  }
+  return rows;
+}
+
+template <typename Item>
+std::vector<std::string> NamesOf(const std::vector<Item>& items) {
+  std::vector<std::string> names;
+  for (const Item& item : items) names.push_back(item.name);
+  return names;
+}
+
+}  // namespace
+
+void BindPlace(py::module_& module) {
+  py::class_<RobotModel, std::shared_ptr<RobotModel>>(module, "Robot")
+      .def(py::init([](const std::string& path) {
+             return std::make_shared<RobotModel>(LoadRobot(path));
+           }),
+           py::call_guard<py::gil_scoped_release>())
+      .def_readonly("name", &RobotModel::name)
+      .def_readonly("mass", &RobotModel::mass)
+      .def_readonly("com_height", &RobotModel::com_height)
+      .def_readonly("waist_height", &RobotModel::waist_height)
+      .def_readonly("standing_width", &RobotModel::standing_width)
+      .def_property_readonly(
+          "sole_size", [](const RobotModel& robot) { return Eigen::Vector2d(robot.sole_size); })
+      .def_property_readonly("joints", &JointRows)
+      .def_property_readonly("bodies",
+                             [](const RobotModel& robot) { return NamesOf(robot.bodies); })
+      .def_readonly("warnings", &RobotModel::warnings);
+  py::class_<Scene, std::shared_ptr<Scene>>(module, "Scene")
+      .def(py::init(
+               [](const std::string& path) { return std::make_shared<Scene>(LoadScene(path)); }),
+           py::call_guard<py::gil_scoped_release>())
+      .def(py::init([](const std::string& path, const std::string& text) {
+             return std::make_shared<Scene>(ParseScene(path, text));
+           }),
+           py::call_guard<py::gil_scoped_release>())
+      .def_readonly("name", &Scene::name)
+      .def_property_readonly("obstacles",
+                             [](const Scene& scene) { return NamesOf(scene.obstacles); })
+      .def_property_readonly("no_step_areas",
+                             [](const Scene& scene) { return scene.no_step.size(); })
+      .def_readonly("friction", &Scene::friction)
+      .def("rests", &Scene::rests)
+      .def_readonly("warnings", &Scene::warnings);
+}
+
+}  // namespace halfstep::python

@@ -1,0 +1,163 @@
+"""Smoothers and solvers of your own, as methods beside those built in."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+
+from . import _halfstep
+from .program import OverlapProgram, csr, program_options
+from .walk import Walk, vector
+
+__all__ = ["SmoothingProblem", "SolverProblem", "register_smoother", "register_solver"]
+
+
+class SmoothingProblem:
+    """What a smoother of yours is given. It is over when your function returns."""
+
+    def __init__(self, task: Any) -> None:
+        self._task = task
+
+    @property
+    def incumbent(self) -> Walk:
+        """The shortest walk that was proved so far; at first the planned motion."""
+        return Walk(self._task.incumbent)
+
+    @property
+    def duration(self) -> float:
+        """Of the incumbent [s]."""
+        return self._task.duration
+
+    @property
+    def stopped(self) -> bool:
+        """Whether your function is to return: Ctrl-C came or the deadline passed."""
+        return self._task.stopped
+
+    @property
+    def remaining(self) -> float:
+        """Until the deadline [s]."""
+        return self._task.remaining
+
+    def program(self, program: str | None = None, **options: Any) -> OverlapProgram:
+        """The overlap program of the walk: that of ``smoothing.optimizer`` in the config, or with
+        the options of OverlapProgram."""
+        if program is None and not options:
+            return OverlapProgram._of(self._task.program({}))
+        return OverlapProgram._of(self._task.program(
+            program_options(program=program or "fastest", **options)))
+
+    def walk(self, overlaps: Sequence[float] | None = None,
+             height_scales: Sequence[float] | None = None,
+             durations: Sequence[float] | None = None,
+             support_points: Sequence[float] | None = None) -> Walk:
+        """The walk at given parameters; what is not given is the incumbent's."""
+        parameters = self.incumbent.parameters
+        given = {"overlaps": overlaps, "height_scales": height_scales, "durations": durations,
+                 "support_points": support_points}
+        for name, values in given.items():
+            if values is not None:
+                parameters[name] = vector(name, values, len(parameters[name]))
+        return Walk(self._task.walk(*(list(values) for values in parameters.values())))
+
+    def propose(self, walk: Walk) -> bool:
+        """Proves a walk by the experiment's test, unless it lasts no shorter than the incumbent.
+        True: it is the incumbent now. Whatever is proposed, nothing unproved is returned."""
+        if not isinstance(walk, Walk):
+            raise TypeError(f"walk: {type(walk).__name__} (valid: a Walk)")
+        return self._task.propose(walk._walk)
+
+    def tell(self, done: float) -> None:
+        """Tells the progress, a fraction from 0 to 1."""
+        self._task.tell(float(done))
+
+
+class SolverProblem:
+    """What a solver of yours is given: minimize ``cost(x)`` subject to ``constraint_lower <=
+    constraints(x) <= constraint_upper`` and ``lower <= x <= upper``. Evaluations are counted and
+    raise SolveStopped when the solve is to end; the best point that was evaluated is kept."""
+
+    def __init__(self, task: Any) -> None:
+        self._task = task
+        self.lower: np.ndarray = task.lower
+        """The least values of x (n)."""
+        self.upper: np.ndarray = task.upper
+        """The largest values of x (n)."""
+        self.constraint_lower: np.ndarray = task.constraint_lower
+        """The least values of the rows (m)."""
+        self.constraint_upper: np.ndarray = task.constraint_upper
+        """The largest values of the rows (m)."""
+        rows, columns = task.pattern
+        self._order = np.argsort(rows, kind="stable")
+        self._starts = np.searchsorted(np.asarray(rows)[self._order],
+                                       np.arange(len(self.constraint_lower) + 1)).astype(np.int32)
+        self._columns = np.asarray(columns, dtype=np.int32)[self._order]
+
+    @property
+    def stopped(self) -> bool:
+        """Whether your function is to return."""
+        return self._task.stopped
+
+    @property
+    def remaining(self) -> float:
+        """Until the deadline [s]."""
+        return self._task.remaining
+
+    def cost(self, x: np.ndarray) -> float:
+        """The cost at x (n)."""
+        return self._task.cost(vector("x", x))
+
+    def gradient(self, x: np.ndarray) -> np.ndarray:
+        """Its gradient (n)."""
+        return self._task.gradient(vector("x", x))
+
+    def constraints(self, x: np.ndarray) -> np.ndarray:
+        """The rows (m)."""
+        return self._task.constraints(vector("x", x))
+
+    def jacobian(self, x: np.ndarray) -> Any:
+        """Their Jacobian (m×n): scipy.sparse.csr_matrix, an array without SciPy."""
+        data = self._task.jacobian(vector("x", x))[self._order]
+        return csr(self._starts, self._columns, data, len(self.lower))
+
+
+def register_smoother(name: str, function: Callable[[SmoothingProblem], Any],
+                      meaning: str = "") -> None:
+    """Makes a function a method of smoothing, by name: for ``Experiment.smooth(name)`` and in
+    ``smoothing.methods`` of experiments that this program runs. A later one of the same name takes
+    its place; a name of a method that is built in is a ValueError.
+
+    ``function(problem)`` proposes walks; what it returns is not looked at. The families that it
+    moves, and its deadline, are up to ``smoothing.optimizer``, if it uses ``problem.program()``.
+    It is called in another thread than that of ``smooth``.
+    """
+    _require(name, function)
+    _halfstep.register_smoother(name, meaning or _first_line(function),
+                                lambda task: function(SmoothingProblem(task)))
+
+
+def register_solver(name: str,
+                    function: Callable[[SolverProblem, np.ndarray], np.ndarray]) -> None:
+    """Makes a function a solver of overlap programs, by name, and with it a method of smoothing
+    beside ``ipopt`` or ``halfstep/sqp``: rounds of solving, proving and refining the program, a
+    dichotomy before and after.
+
+    ``function(problem, x0)`` returns x (n). A later one of the same name takes its place; a name
+    of a solver that is built in is a ValueError. It is called in another thread than ``smooth``.
+    """
+    _require(name, function)
+    _halfstep.register_solver(name, lambda task, x0: function(SolverProblem(task), x0))
+
+
+def _require(name: Any, function: Any) -> None:
+    if not isinstance(name, str):
+        raise TypeError(f"name: {type(name).__name__} (valid: text)")
+    if not name or not name.replace("/", "").replace("_", "").isalnum() or not name.isascii():
+        raise ValueError(f"name: {name!r} (valid: letters, digits, '_' and '/')")
+    if not callable(function):
+        raise TypeError(f"function: {type(function).__name__} (valid: a function)")
+
+
+def _first_line(function: Any) -> str:
+    return (getattr(function, "__doc__", None) or "a Python function").strip().splitlines()[0]

@@ -1,0 +1,19 @@
+// The module _halfstep: what the Python package `halfstep` is written on. It checks shapes and
+// values; names, units and explanations for users are the package's.
+#include "halfstep/experiments/build_info.h"
+#include "halfstep/experiments/python/bindings.h"
+
+PYBIND11_MODULE(_halfstep, module) {
+  using namespace halfstep::python;
+  module.doc() = "The compiled part of the package halfstep. Use `import halfstep`.";
+  module.attr("version") = halfstep::kVersion;
+  module.attr("commit") = halfstep::kCommit;
+  BindExceptions(module);
+  BindConfig(module);
+  BindPlace(module);
+  BindWalk(module);
+  BindExperiment(module);
+  BindProgram(module);
+  BindRun(module);
+  BindExtension(module);
+}

@@ -1,0 +1,113 @@
+#include "halfstep/experiments/python/python_smoother.h"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include "halfstep/experiments/python/long_call.h"
+
+namespace py = pybind11;
+
+namespace halfstep::python {
+
+SmoothingTask::SmoothingTask(const WalkProblem& problem, const SmootherOptions& options,
+                             SmoothingMonitor* monitor)
+    : setting_(std::make_shared<const WalkSetting>(WalkSetting{problem, {}})),
+      options_(options),
+      monitor_(monitor) {}
+
+SmoothingMonitor& SmoothingTask::monitor() const {
+  if (monitor_ == nullptr) {
+    throw std::logic_error("the method has ended (valid: within the registered function)");
+  }
+  return *monitor_;
+}
+
+double SmoothingTask::remaining() const {
+  return stopped() ? 0.0 : std::max(0.0, monitor_->Remaining());
+}
+
+HomotopyParameters SmoothingTask::incumbent() const { return monitor().incumbent(); }
+double SmoothingTask::duration() const { return monitor().duration(); }
+void SmoothingTask::Tell(double done) const { monitor().Progress(done); }
+
+bool SmoothingTask::Propose(const HomotopyParameters& candidate) {
+  SmoothingMonitor& monitor = this->monitor();
+  const WalkProblem& problem = setting_->problem;
+  const SuperposedWalk walk(problem.sequence(), candidate);
+  SmoothingIterate record{.candidate_duration = walk.duration()};
+  if (walk.duration() < monitor.cost()) {
+    const Feasibility answer =
+        problem.test().Check(walk, {0.0, walk.duration()}, monitor.scratch());
+    record.accepted = answer.verdict == Verdict::kFeasible;
+    if (record.accepted) {
+      record.lambda = 1.0;
+      monitor.Adopt(candidate, walk.duration(), walk.duration());
+    } else {
+      ++monitor.result().raw_infeasible;
+      if (answer.verdict == Verdict::kViolated) {
+        record.candidate_slack = problem.limits().Slack(answer.witness);
+      }
+    }
+  }
+  const bool accepted = record.accepted;
+  monitor.Record(std::move(record));
+  return accepted;
+}
+
+namespace {
+
+class PythonSmoother : public Smoother {
+ public:
+  PythonSmoother(std::string name, std::string meaning, const py::function& function)
+      : name_(std::move(name)), meaning_(std::move(meaning)), function_(function.inc_ref()) {}
+
+  std::string name() const override { return name_; }
+  std::string meaning() const override { return meaning_; }
+  OptionGroup options() const override { return OptionGroup::kOptimizer; }
+
+  SmoothingResult Smooth(const WalkProblem& problem, const SmootherOptions& options,
+                         SmoothingMonitor& monitor) const override {
+    monitor.LimitTo(options.optimizer.deadline);
+    if (!monitor.BeginFeasibly(problem, problem.Start())) return monitor.Refusal();
+    const std::string failure = Call(problem, options, &monitor);
+    if (monitor.stopped()) {
+      return monitor.FinishAgainstStart(monitor.StopEnding(), monitor.StopReason(),
+                                        ", nothing shorter than the start was proved");
+    }
+    if (!failure.empty()) return monitor.Finish(opt::Ending::kFailed, failure);
+    return monitor.FinishAgainstStart(opt::Ending::kConverged, "the function returned",
+                                      ", nothing shorter than the start was proved");
+  }
+
+ private:
+  // "" or what the function raised.
+  std::string Call(const WalkProblem& problem, const SmootherOptions& options,
+                   SmoothingMonitor* monitor) const {
+    const py::gil_scoped_acquire acquired;
+    const auto task = std::make_shared<SmoothingTask>(problem, options, monitor);
+    std::string failure;
+    try {
+      py::reinterpret_borrow<py::function>(function_)(task);
+    } catch (const py::error_already_set& error) {
+      failure = error.what();
+      KeepPythonError(error);
+    }
+    task->End();
+    return failure;
+  }
+
+  std::string name_, meaning_;
+  py::handle function_;
+};
+
+}  // namespace
+
+std::unique_ptr<const Smoother> MakePythonSmoother(const std::string& name,
+                                                   const std::string& meaning,
+                                                   const py::function& function) {
+  return std::make_unique<PythonSmoother>(name, meaning, function);
+}
+
+}  // namespace halfstep::python

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <atomic>
+#include <memory>
+#include <string>
+
+#include "halfstep/experiments/python/walk_setting.h"
+#include "halfstep/smoothing/methods/smoother.h"
+
+namespace halfstep::python {
+
+/// What a smoother of the user's gets: the walk to be smoothed while the method runs. It refuses
+/// everything afterwards.
+class SmoothingTask {
+ public:
+  /// `monitor` is borrowed until End().
+  SmoothingTask(const WalkProblem& problem, const SmootherOptions& options,
+                SmoothingMonitor* monitor);
+
+  const std::shared_ptr<const WalkSetting>& setting() const { return setting_; }
+  const SmootherOptions& options() const { return options_; }
+  bool running() const { return monitor_ != nullptr; }
+  /// Whether the method is to end: by Ctrl-C, its deadline or because it has ended.
+  bool stopped() const { return monitor_ == nullptr || monitor_->stopped(); }
+  double remaining() const;  ///< [s]; 0 when stopped
+  HomotopyParameters incumbent() const;
+  double duration() const;  ///< of the incumbent [s]
+
+  /// Proves the walk of `candidate` by the problem's test, unless it lasts no shorter than the
+  /// incumbent, and makes it the incumbent. Throws std::logic_error when the method has ended.
+  bool Propose(const HomotopyParameters& candidate);
+  void Tell(double done) const;  ///< the progress ∈ [0, 1]
+  void End() { monitor_ = nullptr; }
+
+ private:
+  SmoothingMonitor& monitor() const;
+
+  std::shared_ptr<const WalkSetting> setting_;
+  SmootherOptions options_;
+  SmoothingMonitor* monitor_;
+};
+
+/// A smoother that is a Python function of a SmoothingTask. `function` is kept for ever: methods
+/// are never removed. Needs the GIL.
+std::unique_ptr<const Smoother> MakePythonSmoother(const std::string& name,
+                                                   const std::string& meaning,
+                                                   const pybind11::function& function);
+
+}  // namespace halfstep::python

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <memory>
+
+#include "halfstep/experiments/tables/csv_columns.h"
+#include "halfstep/smoothing/methods/walk_problem.h"
+#include "halfstep/smoothing/proof/certificate.h"
+#include "halfstep/smoothing/walk/superposed_walk.h"
+
+namespace halfstep::python {
+
+/// What a walk belongs to: robot, scene, half-steps, demands, and how it is certified.
+struct WalkSetting {
+  WalkProblem problem;
+  CertificationOptions certification;
+};
+
+/// A walk as Python holds it: it owns all that it needs.
+struct PlacedWalk {
+  std::shared_ptr<const WalkSetting> setting;
+  SuperposedWalk walk;
+};
+
+/// A table for Python: (columns, text), each column (name, type, unit, description).
+pybind11::tuple ToPython(const CsvFile& file);
+/// The columns alone.
+pybind11::list ToPython(const CsvColumns& columns);
+
+/// A point of the homotopy as a dict of arrays: overlaps, height_scales, durations, support_points.
+pybind11::dict ToPython(const HomotopyParameters& parameters);
+
+/// (family, index from 0) of a parameter.
+pybind11::tuple ToPython(const HomotopyParameter& parameter);
+
+}  // namespace halfstep::python

@@ -1,0 +1,109 @@
+"""Smoothers and solvers written in Python."""
+import os
+import tempfile
+import unittest
+
+import numpy as np
+
+import halfstep as hs
+
+
+def scale_all(problem):
+    """All overlaps together, bisected."""
+    program = problem.program()
+    full, low, high = program.upper, 0.0, 1.0
+    for _ in range(6):
+        middle = 0.5 * (low + high)
+        proved = problem.propose(program.walk(program.x0 + middle * (full - program.x0)))
+        low, high = (middle, high) if proved else (low, middle)
+        problem.tell(high)
+
+
+def descend(problem, x0):
+    x = x0
+    for k in range(40):
+        missing = np.maximum(problem.constraint_lower - problem.constraints(x), 0.0)
+        slope = problem.gradient(x) - 40.0 * problem.jacobian(x).T @ missing
+        x = np.clip(x - 0.05 / (1 + 0.1 * k) * slope / abs(slope).max(), problem.lower,
+                    problem.upper)
+    return x
+
+
+class Smoothers(unittest.TestCase):
+    def test_a_function_is_a_method(self):
+        hs.register_smoother("mine/scale", scale_all)
+        self.assertEqual(hs.methods()["mine/scale"], "All overlaps together, bisected.")
+        result = hs.Experiment("fig3_two_half_steps").smooth("mine/scale")
+        self.assertEqual(result.status, "converged")
+        self.assertLess(result.duration, 3.4)
+        self.assertTrue(result.certify())
+        self.assertEqual(result.iterates.rows, 6)
+
+    def test_it_runs_by_name_in_a_config(self):
+        hs.register_smoother("mine/scale", scale_all)
+        config = hs.load_config("fig3_two_half_steps", smoothing__methods=["mine/scale"])
+        with tempfile.TemporaryDirectory() as place:
+            run = hs.Experiment(config).run(os.path.join(place, "run"))
+            self.assertEqual(run.methods, ["raw", "mine/scale"])
+            self.assertTrue(all(run.verify()))
+
+    def test_nothing_unproved_is_accepted(self):
+        answers = []
+
+        def bold(problem):
+            wild = problem.walk(overlaps=[0.94])
+            answers.append(problem.propose(wild))
+        hs.register_smoother("mine/bold", bold)
+        result = hs.Experiment("fig5_box").smooth("mine/bold")
+        self.assertEqual(answers, [False])
+        self.assertEqual((result.status, result.duration), ("no_improvement", 4.0))
+
+    def test_a_problem_is_over_when_the_function_returns(self):
+        kept = []
+        hs.register_smoother("mine/keeper", kept.append)
+        hs.Experiment("fig3_two_half_steps").smooth("mine/keeper")
+        self.assertTrue(kept[0].stopped)
+        with self.assertRaisesRegex(ValueError, "has ended"):
+            kept[0].incumbent
+
+    def test_what_it_raises_is_raised(self):
+        def broken(problem):
+            raise LookupError("mine")
+        hs.register_smoother("mine/broken", broken)
+        with self.assertRaisesRegex(LookupError, "mine"):
+            hs.Experiment("fig3_two_half_steps").smooth("mine/broken")
+
+    def test_a_deadline_stops_it(self):
+        def endless(problem):
+            while not problem.stopped:
+                pass
+        hs.register_smoother("mine/endless", endless)
+        result = hs.Experiment("fig3_two_half_steps").smooth("mine/endless", deadline=0.3)
+        self.assertEqual(result.status, "no_improvement")
+
+
+class Solvers(unittest.TestCase):
+    def test_a_function_is_a_solver_and_a_method(self):
+        hs.register_solver("mine/descent", descend)
+        self.assertEqual(hs.solvers()["mine/descent"], "")
+        experiment = hs.Experiment("fig3_two_half_steps")
+        result = experiment.smooth("mine/descent", durations=True, rounds=3)
+        self.assertLess(result.duration, 3.1)
+        self.assertTrue(result.certify())
+
+    def test_what_it_raises_is_raised(self):
+        def broken(problem, x0):
+            problem.cost(x0[:-1])
+        hs.register_solver("mine/short", broken)
+        with self.assertRaisesRegex(ValueError, "numbers"):
+            hs.Experiment("fig3_two_half_steps").smooth("mine/short", durations=True)
+
+    def test_what_is_no_x_is_refused(self):
+        for answer in (None, [1.0], [np.nan] * 3, "x"):
+            hs.register_solver("mine/odd", lambda problem, x0, answer=answer: answer)
+            with self.assertRaises((ValueError, TypeError)):
+                hs.Experiment("fig3_two_half_steps").smooth("mine/odd", durations=True)
+
+
+if __name__ == "__main__":
+    unittest.main()
