@@ -14,7 +14,7 @@ namespace halfstep {
 /// A row of a trajectory, and how it goes on: derivatives of the walk in closed form, not
 /// differences of rows.
 struct JointMotion {
-  TrajectoryRow row;
+  TrajectoryRow row;                        ///< the instant, soles, waist and joint angles
   std::array<Vector6d, 2> speeds;           ///< of the legs' joints by Index(Side) [rad/s]
   std::array<Vector6d, 2> accelerations;    ///< [rad/s²]
   Eigen::Vector3d waist_velocity{0, 0, 0};  ///< of B's origin in W [m/s]

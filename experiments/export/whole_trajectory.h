@@ -14,8 +14,8 @@ struct TrajectoryForm {
 
 /// A table and what its columns are.
 struct DeclaredTable {
-  CsvTable table;
-  CsvColumns columns;
+  CsvTable table;      ///< texts, as they are read
+  CsvColumns columns;  ///< of the table, in its order
 };
 
 /// A trajectory.csv in that form. Further joints come after those of the legs, in the URDF file's
