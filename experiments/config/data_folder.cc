@@ -12,12 +12,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
+bool HasData(const fs::path& share) {
+  std::error_code ignored;
+  return fs::is_directory(share / "robots", ignored);
+}
+
 // The nearest share/halfstep in a folder above a file.
 std::optional<fs::path> ShareAbove(const fs::path& file) {
   for (fs::path folder = file.parent_path();; folder = folder.parent_path()) {
-    std::error_code ignored;
     const fs::path share = folder / "share" / "halfstep";
-    if (fs::is_directory(share / "robots", ignored)) return share;
+    if (HasData(share)) return share;
     if (!folder.has_relative_path()) return std::nullopt;
   }
 }
@@ -50,7 +54,10 @@ fs::path DataFolder() {
   if (const fs::path program = fs::read_symlink("/proc/self/exe", error); !error) {
     if (const std::optional<fs::path> share = ShareAbove(program)) return *share;
   }
-  return HALFSTEP_DATA_DIR;
+  for (const char* share : {HALFSTEP_DATA_DIR, "/usr/local/share/halfstep"}) {
+    if (HasData(share)) return share;
+  }
+  return "/usr/share/halfstep";
 }
 
 fs::path RobotsFolder() { return Within("robots"); }

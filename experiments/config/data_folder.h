@@ -8,7 +8,8 @@ namespace halfstep {
 /// The folder of what halfstep ships: `robots`, `scenes`, `configs`, `episodes`, `sweeps`. The one
 /// that the environment variable HALFSTEP_DATA names; else the nearest `share/halfstep` above the
 /// library or program that holds this function, so that an installed copy finds its own wherever it
-/// is; else the one of the prefix that halfstep was configured for. Need not exist.
+/// is; else that of the prefix that halfstep was configured for, of /usr/local or of /usr. Need not
+/// exist.
 std::filesystem::path DataFolder();
 std::filesystem::path RobotsFolder();  ///< of the shipped robots, `NAME.yaml`
 std::filesystem::path ScenesFolder();  ///< of the shipped scenes

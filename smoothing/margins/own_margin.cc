@@ -36,7 +36,11 @@ const std::vector<std::unique_ptr<const OwnStatement>>& OwnMargins() {
 int OwnMargin::count() const { return static_cast<int>(OwnMargins().size()); }
 
 std::string OwnMargin::Subject(const Margin& margin) const {
-  return margin.subject < 0 ? "" : OwnMargins()[static_cast<size_t>(margin.subject)]->name();
+  const auto& all = OwnMargins();
+  if (margin.subject >= 0) return all[static_cast<size_t>(margin.subject)]->name();
+  std::string names;  // where it is not known which one
+  for (const auto& own : all) names += (names.empty() ? "" : ", ") + own->name();
+  return names;
 }
 
 Margin OwnMargin::Least(Instant* at, double) const {

@@ -1,0 +1,175 @@
+// What a program registers is named in configs beside what is built in.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+#include "halfstep/experiments/config/experiment_config.h"
+#include "halfstep/experiments/run/smoothing_of.h"
+#include "halfstep/opt/adapters/function_solver.h"
+#include "halfstep/opt/adapters/solver_registry.h"
+#include "halfstep/opt/problem/derivative_check.h"
+#include "halfstep/planner/search/planner_registry.h"
+#include "halfstep/smoothing/methods/smoother_registry.h"
+#include "halfstep/smoothing/program/overlap_program.h"
+#include "halfstep/smoothing/program/walk_cost.h"
+#include "halfstep/wpg/files/input_error.h"
+#include "tests/scenarios/load_experiment.h"
+
+namespace halfstep {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+
+class PlanAsItIs : public Smoother {
+ public:
+  explicit PlanAsItIs(std::string meaning) : meaning_(std::move(meaning)) {}
+  std::string name() const override { return "mine/plan"; }
+  std::string meaning() const override { return meaning_; }
+  OptionGroup options() const override { return OptionGroup::kNone; }
+  SmoothingResult Smooth(const WalkProblem& problem, const SmootherOptions&,
+                         SmoothingMonitor& monitor) const override {
+    if (!monitor.BeginFeasibly(problem, problem.Start())) return monitor.Refusal();
+    return monitor.Finish(opt::Ending::kConverged, "the plan");
+  }
+
+ private:
+  const std::string meaning_;
+};
+
+ExperimentConfig WithOptions(const std::vector<YamlOverride>& overrides) {
+  return LoadConfig(HALFSTEP_SOURCE_DIR "/experiments/configs/fig3_two_half_steps.yaml", overrides);
+}
+
+TEST(RegisterSmoother, MakesAMethodThatConfigsName) {
+  EXPECT_THROW(WithOptions({{"smoothing.methods", "[mine/plan]"}}), InputError);
+  RegisterSmoother(std::make_shared<PlanAsItIs>("first"));
+  const Experiment experiment = Prepare(WithOptions({{"smoothing.methods", "[mine/plan]"}}));
+  SmoothingMonitor monitor;
+  const SmoothingResult result =
+      FindSmoother("mine/plan")
+          .Smooth(ProblemOf(experiment), OptionsOf(experiment.config), monitor);
+  EXPECT_EQ(result.message, "the plan");
+  RegisterSmoother(std::make_shared<PlanAsItIs>("second"));
+  EXPECT_EQ(FindSmoother("mine/plan").meaning(), "second");
+  EXPECT_EQ(std::ranges::count(SmootherNames(), "mine/plan"), 1);
+}
+
+class Dichotomous : public PlanAsItIs {
+ public:
+  using PlanAsItIs::PlanAsItIs;
+  std::string name() const override { return "dichotomy"; }
+};
+
+TEST(RegisterSmoother, RefusesTheNameOfOneThatIsBuiltIn) {
+  EXPECT_THROW(RegisterSmoother(std::make_shared<Dichotomous>("")), std::invalid_argument);
+}
+
+TEST(RegisterSolver, MakesASolverAndAMethod) {
+  SmootherNames();  // those that are built in are there already
+  opt::RegisterSolver([] {
+    return opt::MakeFunctionSolver(
+        "mine/stay", [](opt::SolveMonitor&, const Eigen::VectorXd& x0) { return x0; });
+  });
+  EXPECT_THAT(opt::SolverNames(), Contains("mine/stay"));
+  const Experiment experiment = Prepare(WithOptions({{"smoothing.methods", "[mine/stay]"}}));
+  SmoothingMonitor monitor;
+  const SmoothingResult result =
+      FindSmoother("mine/stay")
+          .Smooth(ProblemOf(experiment), OptionsOf(experiment.config), monitor);
+  EXPECT_TRUE(result.feasible);
+  EXPECT_EQ(result.ending, opt::Ending::kNoImprovement);
+  EXPECT_THROW(opt::RegisterSolver([] { return opt::MakeSolver("halfstep/sqp"); }),
+               std::invalid_argument);
+}
+
+TEST(RegisterSolver, WhatThrowsIsToldAndNotBelieved) {
+  const auto solver = opt::MakeFunctionSolver(
+      "mine/throws", [](opt::SolveMonitor&, const Eigen::VectorXd&) -> Eigen::VectorXd {
+        throw std::runtime_error("no more");
+      });
+  opt::Problem problem;
+  problem.AddVariables({.name = "x",
+                        .unit = "",
+                        .initial = Eigen::VectorXd::Zero(1),
+                        .lower = Eigen::VectorXd::Constant(1, -1),
+                        .upper = Eigen::VectorXd::Constant(1, 1)});
+  const opt::Solution solution = solver->Solve(problem, Eigen::VectorXd::Zero(1), {});
+  EXPECT_THAT(solution.message, HasSubstr("no more"));
+}
+
+class NoPlan : public FootstepPlanner {
+ public:
+  PlanResult Plan(const PlanRequest&, std::mt19937_64&) const override {
+    PlanResult result;
+    result.status = PlanStatus::kNoPlan;
+    result.sentence = "mine finds none";
+    return result;
+  }
+};
+
+TEST(RegisterPlanner, MakesAPlannerThatConfigsName) {
+  const auto make = [](const Scene&, const PlannerOptions&) { return std::make_unique<NoPlan>(); };
+  EXPECT_THROW(RegisterPlanner("rrt", make), std::invalid_argument);
+  RegisterPlanner("mine/none", make);
+  RegisterPlanner("mine/none", make);
+  EXPECT_EQ(std::ranges::count(PlannerNames(), "mine/none"), 1);
+  EXPECT_NE(dynamic_cast<NoPlan*>(MakePlanner("mine/none", {}).get()), nullptr);
+  EXPECT_THROW(MakePlanner("mine/other", {}), std::logic_error);
+}
+
+// Σ T², so that a long half-step costs more than two short ones.
+class LongHalfSteps : public WalkCost {
+ public:
+  std::string name() const override { return "long_half_steps"; }
+  std::string meaning() const override { return "of Σ T²"; }
+  std::string unit() const override { return "1/s"; }
+  double Evaluate(const SuperposedWalk& walk, ParameterGradient* gradient) const override {
+    double sum = 0.0;
+    for (int i = 0; i < walk.num_half_steps(); ++i) {
+      const double T = walk.parameters().durations[static_cast<size_t>(i)];
+      sum += T * T;
+      if (gradient) gradient->push_back({{ParameterFamily::kDuration, i}, 2.0 * T});
+    }
+    return sum;
+  }
+};
+
+TEST(RegisterWalkCost, IsAWeightOfTheProgramSmooth) {
+  const std::vector<YamlOverride> weighed = {{"smoothing.optimizer.program", "smooth"},
+                                             {"smoothing.optimizer.durations", "true"},
+                                             {"smoothing.optimizer.weights.long_half_steps", "3"}};
+  EXPECT_THROW(WithOptions(weighed), InputError);
+  RegisterWalkCost(std::make_shared<LongHalfSteps>());
+  EXPECT_TRUE(WithOptions({}).smoothing.optimizer.options.program.own_costs.empty());
+  const Experiment experiment = Prepare(WithOptions(weighed));
+  const WalkProblem walk = ProblemOf(experiment);
+  const ProgramOptions& options = experiment.config.smoothing.optimizer.options.program;
+  const OverlapProgram program(walk.sequence(), walk.evaluator(), options, 0.0);
+  ProgramOptions without = options;
+  without.own_costs.clear();
+  const OverlapProgram plain(walk.sequence(), walk.evaluator(), without, 0.0);
+  const HomotopyParameters start = walk.Start();
+  EXPECT_NEAR(program.Cost(start) - plain.Cost(start),
+              3.0 * LongHalfSteps().Evaluate(SuperposedWalk(walk.sequence(), start), nullptr),
+              1e-12);
+
+  const opt::Problem problem = program.MakeProblem();
+  const Eigen::VectorXd x = 0.6 * problem.lower() + 0.4 * problem.upper();
+  const auto cost = [&](const Eigen::VectorXd& at) {
+    return Eigen::VectorXd::Constant(1, problem.Cost(at));
+  };
+  const Eigen::MatrixXd gradient = problem.Gradient(x).transpose();
+  EXPECT_TRUE(CheckJacobian(cost, x, gradient).Passed(1e-7));
+  EXPECT_FALSE(CheckJacobian(cost, x, 1.01 * gradient).Passed(1e-7));
+
+  // A config that is written and read back keeps it.
+  ExperimentConfig written = experiment.config;
+  const std::string text = WriteYaml([&](Fields& fields) { DeclareFields(fields, &written); });
+  EXPECT_THAT(text, HasSubstr("long_half_steps: 3"));
+}
+
+}  // namespace
+}  // namespace halfstep
