@@ -81,6 +81,15 @@ class Smoothers(unittest.TestCase):
         result = hs.Experiment("fig3_two_half_steps").smooth("mine/endless", deadline=0.3)
         self.assertEqual(result.status, "no_improvement")
 
+    def test_proposing_ends_it(self):
+        def stubborn(problem):
+            while True:
+                problem.propose(problem.walk(overlaps=[0.3]))
+        hs.register_smoother("mine/stubborn", stubborn)
+        result = hs.Experiment("fig3_two_half_steps").smooth("mine/stubborn", deadline=0.3)
+        self.assertEqual(result.status, "deadline")
+        self.assertAlmostEqual(result.duration, 3.7)
+
 
 class Solvers(unittest.TestCase):
     def test_a_function_is_a_solver_and_a_method(self):

@@ -21,8 +21,8 @@ class InputError(ValueError):
 
 
 class SolveStopped(RuntimeError):
-    """Says to a solver of yours that it is to end: by its deadline, a limit or Ctrl-C.
+    """Says to a solver or smoother of yours that it is to end: by its deadline, a limit or Ctrl-C.
 
-    Raised by the evaluations of the problem that the solver was given. There is no need to catch
-    it: the best point that was evaluated is kept.
+    Raised by the evaluations of the problem that it was given. There is no need to catch it: the
+    best point that was evaluated, or the incumbent, is kept.
     """

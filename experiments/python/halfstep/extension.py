@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from . import _halfstep
+from .errors import SolveStopped
 from .program import OverlapProgram, csr, program_options
 from .walk import Walk, vector
 
@@ -63,9 +64,12 @@ class SmoothingProblem:
 
     def propose(self, walk: Walk) -> bool:
         """Proves a walk by the experiment's test, unless it lasts no shorter than the incumbent.
-        True: it is the incumbent now. Whatever is proposed, nothing unproved is returned."""
+        True: it is the incumbent now. Whatever is proposed, nothing unproved is returned. Raises
+        SolveStopped when the method is to end; there is no need to catch it."""
         if not isinstance(walk, Walk):
             raise TypeError(f"walk: {type(walk).__name__} (valid: a Walk)")
+        if self._task.running and self._task.stopped:
+            raise SolveStopped("the method is to end")
         return self._task.propose(walk._walk)
 
     def tell(self, done: float) -> None:
@@ -128,13 +132,19 @@ def register_smoother(name: str, function: Callable[[SmoothingProblem], Any],
     ``smoothing.methods`` of experiments that this program runs. A later one of the same name takes
     its place; a name of a method that is built in is a ValueError.
 
-    ``function(problem)`` proposes walks; what it returns is not looked at. The families that it
+    ``function(problem)`` proposes walks; what it returns is not looked at. A loop that proposes
+    nothing has to look at ``problem.stopped``, or Ctrl-C waits for it. The families that it
     moves, and its deadline, are up to ``smoothing.optimizer``, if it uses ``problem.program()``.
     It is called in another thread than that of ``smooth``.
     """
     _require(name, function)
-    _halfstep.register_smoother(name, meaning or _first_line(function),
-                                lambda task: function(SmoothingProblem(task)))
+    def call(task: Any) -> None:
+        try:
+            function(SmoothingProblem(task))
+        except SolveStopped:
+            pass  # the incumbent is the result
+
+    _halfstep.register_smoother(name, meaning or _first_line(function), call)
 
 
 def register_solver(name: str,

@@ -35,7 +35,8 @@ def csr(starts: np.ndarray, columns: np.ndarray, data: np.ndarray, size: int) ->
         dense = np.zeros((rows, size))
         dense[np.repeat(np.arange(rows), np.diff(starts)), columns] = data
         return dense
-    return csr_matrix((data, columns, starts), shape=(rows, size))
+    # Copies: SciPy sorts indices in place.
+    return csr_matrix((data, columns.copy(), starts.copy()), shape=(rows, size))
 
 
 class OverlapProgram:
@@ -80,11 +81,13 @@ class OverlapProgram:
             program=program, overlaps=overlaps, heights=heights, durations=durations,
             support_points=support_points, instants=instants, sharpness=sharpness,
             row_per_instant=row_per_instant, duration_limit=duration_limit, weights=weights))
+        self._pattern: tuple[np.ndarray, np.ndarray, int] | None = None
 
     @classmethod
     def _of(cls, handle: Any) -> OverlapProgram:
         program = cls.__new__(cls)
         program._program = handle
+        program._pattern = None
         return program
 
     @property
@@ -143,7 +146,10 @@ class OverlapProgram:
     def jacobian(self, x: np.ndarray) -> Any:
         """Their Jacobian (m×n), analytic: scipy.sparse.csr_matrix, an array without SciPy."""
         data = self._program.jacobian(self._x(x))
-        return csr(*self._program.pattern, data, len(self.lower))
+        if self._pattern is None:
+            self._pattern = (*self._program.pattern, len(self.lower))
+        starts, columns, size = self._pattern
+        return csr(starts, columns, data, size)
 
     def watched(self) -> Table:
         """What each row of slacks is about: its ``half_step``, from 1, and its ``family``."""
@@ -165,6 +171,7 @@ class OverlapProgram:
         """Proves the walk of x for all times, and makes the rows look where that failed and where
         slacks are small. Rows grow sharper when it was proved, and keep more in reserve when not.
         With ``row_per_instant`` the number of rows changes."""
+        self._pattern = None
         return Refinement(*self._program.refine(self._x(x)))
 
     def _x(self, x: Any) -> np.ndarray:

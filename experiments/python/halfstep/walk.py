@@ -149,7 +149,7 @@ class Walk:
 
     def margins(self, times: Sequence[float] | np.ndarray | None = None,
                 period: float | None = None) -> Table:
-        """The least margin of each family at each time: ``zmp_m``, ``joint_deg`` ... (n), positive
+        """The least margin of each family at each time: ``zmp_m``, ``joint_rad`` ... (n), positive
         is inside the limit, inf where there is no limit. By default every 5 ms.
 
         These are samples; ``certify`` proves what lies between. A clearance beyond the horizon
