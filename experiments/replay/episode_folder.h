@@ -11,9 +11,9 @@ namespace halfstep::replay {
 
 /// What an episode's folder says of what happened.
 struct RecordedEpisode {
-  LiveConfig config;
-  WholeRobot robot;
-  TrueWorld truth;
+  LiveConfig config;       ///< what the episode was run with
+  WholeRobot robot;        ///< with every link of its URDF
+  TrueWorld truth;         ///< how the obstacles really moved
   ReferenceMotion motion;  ///< that was executed, to the end of the walk or of the episode
 };
 

@@ -8,8 +8,8 @@ namespace halfstep::replay {
 
 /// A shape in MuJoCo's language.
 struct MujocoGeom {
-  std::string shape;  ///< attributes of a <geom> in the body's frame: type, size, place
-  std::string asset;  ///< the element of <asset> that they name, "": none
+  std::string shape;  ///< attributes of a `geom` in the body's frame: type, size, place
+  std::string asset;  ///< the element of `asset` that they name, "": none
 };
 
 /// Spheres, capsules and cylinders are MuJoCo's own, all else is the convex hull of its vertices as

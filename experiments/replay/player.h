@@ -42,8 +42,8 @@ struct ReplayRow {
   /// The farthest that the waist's origin or a sole's centre is from its plan when that is shifted
   /// on the floor by the support's drift [m]; nan: none carries.
   double stray = 0.0;
-  double touch = 0.0;  ///< greatest force between a body and an obstacle [N]; 0: none touch
-  bool fallen = false;
+  double touch = 0.0;   ///< greatest force between a body and an obstacle [N]; 0: none touch
+  bool fallen = false;  ///< tilted beyond fallen_tilt
 };
 
 /// The place of a body on the floor, and its yaw.
@@ -56,8 +56,8 @@ class Player {
   /// Places the robot in the first row's posture and lets it settle.
   Player(const Simulation& robot, const ReferenceMotion& motion, const PlayOptions& options);
 
-  double time() const { return t_; }
-  const Simulation& robot() const { return robot_; }
+  double time() const { return t_; }                  ///< played so far [s]
+  const Simulation& robot() const { return robot_; }  ///< as it is now
   /// Horizontal distance of the waist from where the motion has it now [m].
   double DriftFrom(const ReferenceMotion& motion) const;
   /// Plays the next row period of the motion, with the part of the push that falls into it. What

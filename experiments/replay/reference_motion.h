@@ -14,9 +14,9 @@ class ReferenceMotion {
   /// Precondition: at least two rows, times that increase.
   explicit ReferenceMotion(std::vector<TrajectoryRow> rows);
 
-  const std::vector<TrajectoryRow>& rows() const { return rows_; }
-  double end() const { return rows_.back().t; }
-  JointTargets TargetsAt(double t) const;
+  const std::vector<TrajectoryRow>& rows() const { return rows_; }  ///< of the file
+  double end() const { return rows_.back().t; }                     ///< of the last row [s]
+  JointTargets TargetsAt(double t) const;                           ///< between rows, at t [s]
   /// Planned ZMP, waist and soles, linear between rows; support of the earlier row.
   TrajectoryRow RowAt(double t) const;
   /// Whether the two rows about t are the same posture at the same place; true before the first row

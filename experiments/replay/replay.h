@@ -13,20 +13,20 @@ namespace halfstep::replay {
 
 /// The outcome of playing a walk.
 struct ReplayResult {
-  bool stayed_up = true;       ///< to the end, the time of standing after the walk included
-  double ended = 0.0;          ///< time at which the waist had fallen, else the end [s]
-  double largest_tilt = 0.0;   ///< of the waist, until then [rad]
-  double zmp_rms = 0.0;        ///< of the ZMP's error during the walk [m]
-  double zmp_largest = 0.0;    ///< [m]
-  double model_rms = 0.0;      ///< of the mass model's ZMP against the planned one [m]
-  double model_largest = 0.0;  ///< [m]
-  double slip = 0.0;           ///< largest of a carrying sole [m]
-  double drift = 0.0;          ///< of the waist on the floor, at the end [m]
-  double weight_share = 0.0;   ///< mean vertical force during the walk, of the weight
-  SupportDrift support;        ///< of the support feet, the time after the walk included
-  double stray = 0.0;          ///< largest ReplayRow::stray, likewise [m]
-  std::vector<TouchRecord> touches;
-  std::vector<ReplayRow> rows;  ///< from t = 0
+  bool stayed_up = true;             ///< to the end, the time of standing after the walk included
+  double ended = 0.0;                ///< time at which the waist had fallen, else the end [s]
+  double largest_tilt = 0.0;         ///< of the waist, until then [rad]
+  double zmp_rms = 0.0;              ///< of the ZMP's error during the walk [m]
+  double zmp_largest = 0.0;          ///< [m]
+  double model_rms = 0.0;            ///< of the mass model's ZMP against the planned one [m]
+  double model_largest = 0.0;        ///< [m]
+  double slip = 0.0;                 ///< largest of a carrying sole [m]
+  double drift = 0.0;                ///< of the waist on the floor, at the end [m]
+  double weight_share = 0.0;         ///< mean vertical force during the walk, of the weight
+  SupportDrift support;              ///< of the support feet, the time after the walk included
+  double stray = 0.0;                ///< largest ReplayRow::stray, likewise [m]
+  std::vector<TouchRecord> touches;  ///< of bodies with obstacles, in order
+  std::vector<ReplayRow> rows;       ///< from t = 0
 };
 
 /// What rows say, which were played from t = 0 on, of a walk that ends at `walk_end` [s]; `weight`
@@ -52,6 +52,7 @@ struct PushLimit {
   double fell = 0.0;       ///< least impulse tried that made it fall; inf: none did [N s]
 };
 
+/// How the largest push that is survived is looked for.
 struct PushOptions {
   double largest = 80.0;   ///< tried [N s]
   double tolerance = 1.0;  ///< [N s]

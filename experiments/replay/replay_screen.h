@@ -9,11 +9,11 @@ namespace halfstep::replay {
 
 /// A walk that was played, and what is told of it.
 struct Replayed {
-  std::string method;     ///< of a run; "episode"
-  double duration = 0.0;  ///< of the walk [s]
-  double window = 0.0;    ///< of the drift [s]
-  ReplayResult result;
-  std::vector<PushLimit> pushes;
+  std::string method;             ///< of a run; "episode"
+  double duration = 0.0;          ///< of the walk [s]
+  double window = 0.0;            ///< of the drift [s]
+  ReplayResult result;            ///< how it went
+  std::vector<PushLimit> pushes;  ///< that were survived, where they were asked for
   /// Names of the robot's bodies and of the obstacles, by the indices of TouchRecord; no obstacles:
   /// nothing is said of touches.
   std::vector<std::string> bodies, obstacles;

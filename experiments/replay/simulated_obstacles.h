@@ -14,15 +14,15 @@ namespace halfstep::replay {
 
 /// A body in the simulated robot's way. Nothing that the robot does moves it.
 struct SimulatedObstacle {
-  std::string name;
-  ConvexBody body;  ///< in its own frame; a mesh is its convex hull
+  std::string name;  ///< as in its scene
+  ConvexBody body;   ///< in its own frame; a mesh is its convex hull
   /// Its pose in W at the time t of the walk [s]; none: it is not there.
   std::function<std::optional<Eigen::Isometry3d>(double t)> pose;
 };
 
 /// Obstacles as MuJoCo takes them, and in words what it takes otherwise than the scene says.
 struct SimulatedObstacles {
-  std::vector<SimulatedObstacle> obstacles;
+  std::vector<SimulatedObstacle> obstacles;  ///< in the order of the scene
   /// One sentence for each mesh: it stands for its convex hull, or is left out since it is flat.
   std::vector<std::string> notes;
 };

@@ -19,15 +19,15 @@ std::string EngineVersion();
 
 /// Joint angles of both legs by Index(Side) [rad], and their speeds [rad/s].
 struct JointTargets {
-  std::array<Vector6d, 2> q;
-  std::array<Vector6d, 2> speed;
+  std::array<Vector6d, 2> q;      ///< joint angles by Index(Side) [rad]
+  std::array<Vector6d, 2> speed;  ///< of the joints [rad/s]
 };
 
 /// What the floor does to the robot during a time step, in W.
 struct FloorForces {
   std::array<double, 2> vertical{};  ///< on each sole, by Index(Side) [N]
   Eigen::Vector2d moment{0, 0};  ///< Σ vertical · place [N m]; / Σ vertical: the measured ZMP
-  double total() const { return vertical[0] + vertical[1]; }
+  double total() const { return vertical[0] + vertical[1]; }  ///< of both soles [N]
 };
 
 /// A body of the robot and an obstacle in contact.
@@ -39,7 +39,7 @@ struct Touch {
 
 /// How the robot moves at an instant, in W.
 struct RobotMotion {
-  Eigen::Isometry3d X_WB;
+  Eigen::Isometry3d X_WB;                  ///< pose of the waist
   Eigen::Vector3d velocity, acceleration;  ///< of the waist's origin [m/s], [m/s²]
   Eigen::Vector3d turn, turn1;             ///< ω of the waist [rad/s], and ω̇ [rad/s²]
   std::array<Vector6d, 2> q, speeds, accelerations;  ///< of the legs' joints by Index(Side)
@@ -60,10 +60,10 @@ class Simulation {
   Simulation(const std::string& mjcf, const RobotModel& robot, const std::string& waist_link,
              const std::vector<SimulatedObstacle>& obstacles = {});
   ~Simulation();
-  Simulation(const Simulation& other);
+  Simulation(const Simulation& other);  ///< in the same state, independent from then on
   Simulation& operator=(const Simulation&) = delete;
 
-  double timestep() const;
+  double timestep() const;  ///< [s]
   /// The weight of the model [N].
   double weight() const;
 
@@ -71,7 +71,7 @@ class Simulation {
   void Place(const Eigen::Isometry3d& X_WB, const std::array<Vector6d, 2>& q);
   /// The keyframes of the model, and their state: robot and obstacles as keyframe `index` has them.
   int num_keyframes() const;
-  void PlaceAtKeyframe(int index);
+  void PlaceAtKeyframe(int index);  ///< index ∈ [0, num_keyframes())
   /// Makes one time step: the servos follow `targets`, `push` [N] in W acts on the waist's CoM.
   /// Throws std::runtime_error when the simulation becomes unstable.
   FloorForces Step(const JointTargets& targets, const Eigen::Vector3d& push);
@@ -83,7 +83,7 @@ class Simulation {
   /// The robot's contacts with obstacles in the last time step, one for each pair of bodies.
   std::vector<Touch> touches() const;
 
-  Eigen::Isometry3d X_WB() const;
+  Eigen::Isometry3d X_WB() const;  ///< pose of the waist
   /// Pose of an obstacle, by its index.
   Eigen::Isometry3d X_WObstacle(int index) const;
   /// Pose of a sole's centre.
