@@ -48,6 +48,7 @@ std::vector<Entry> Planners() {
 std::vector<Entry> Entries(const std::string& what) {
   if (what == "robots") return FilesOf(RobotsFolder());
   if (what == "scenes") return FilesOf(ScenesFolder());
+  if (what == "configs") return FilesOf(DataFolder() / "configs");
   if (what == "solvers") return Solvers();
   if (what == "planners") return Planners();
   std::vector<Entry> entries;
@@ -85,9 +86,11 @@ CommandAction DeclareList(CLI::App* app) {
     bool json = false;
   };
   const auto options = std::make_shared<Options>();
-  app->add_option("WHAT", options->what, "robots, scenes, solvers, methods, planners or half-steps")
+  app->add_option("WHAT", options->what,
+                  "robots, scenes, configs, solvers, methods, planners or half-steps")
       ->required()
-      ->check(CLI::IsMember({"robots", "scenes", "solvers", "methods", "planners", "half-steps"}));
+      ->check(CLI::IsMember(
+          {"robots", "scenes", "configs", "solvers", "methods", "planners", "half-steps"}));
   app->add_option("CONFIG", options->config, "whose half-steps (half-steps only)");
   app->add_flag("--json", options->json, "print JSON");
   return [options] {

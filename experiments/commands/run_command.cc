@@ -7,6 +7,7 @@
 #include "halfstep/experiments/commands/command_line.h"
 #include "halfstep/experiments/commands/commands.h"
 #include "halfstep/experiments/report/report.h"
+#include "halfstep/experiments/report/report_page.h"
 #include "halfstep/experiments/run/complete_manifest.h"
 #include "halfstep/experiments/run/experiment_run.h"
 #include "halfstep/experiments/run/interrupt.h"
@@ -71,15 +72,16 @@ bool WantsPlan(const ExperimentConfig& config) {
 }
 
 // A sentence on standard error for each method that never searched or broke down.
-bool TellWhatDidNotWork(const std::vector<MethodRun>& runs, bool wants_plan) {
-  bool told = false;
-  for (const MethodRun& run : runs) {
+bool TellWhatDidNotWork(const ExperimentRun& whole, bool wants_plan) {
+  bool did_not = false;
+  for (const MethodRun& run : whole.runs()) {
     if (!DidNotWork(run.result.ending) || (run.method == "raw" && !wants_plan)) continue;
+    did_not = true;
+    if (run.method == "given" && whole.given_missed()) continue;  // told already
     std::cerr << "halfstep: " << run.method << ": " << Name(run.result.ending) << ": "
               << run.result.message << '\n';
-    told = true;
   }
-  return told;
+  return did_not;
 }
 
 }  // namespace
@@ -120,10 +122,11 @@ ExitStatus Run(const RunCommand& command) {
     std::cout << RunJson(run.evaluator(), run.runs(), place);
   } else if (!command.quiet) {
     std::cout << RunTable(run.experiment(), run.problem(), run.runs(), place);
+    if (HasReport()) std::cout << "report:  " << (folder.path() / "report.html").string() << '\n';
   }
   if (!feasible) return kFailed;
   if (interrupt.requested()) return kInterrupted;
-  return TellWhatDidNotWork(run.runs(), wants_plan) ? kFailed : kSuccess;
+  return TellWhatDidNotWork(run, wants_plan) ? kFailed : kSuccess;
 }
 
 CommandAction DeclareRun(CLI::App* app) {

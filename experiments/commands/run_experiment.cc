@@ -13,6 +13,7 @@
 #include "halfstep/experiments/commands/printable_stream.h"
 #include "halfstep/experiments/run/exit_status.h"
 #include "halfstep/wpg/files/input_error.h"
+#include "halfstep/wpg/files/text.h"
 
 namespace halfstep {
 namespace {
@@ -34,6 +35,24 @@ int RunAction(const CommandAction& action) {
   }
 }
 
+// What is wrong with the first word of a command line, when it is meant for a command and is none;
+// "": nothing.
+std::string CommandMistake(int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return "";
+  const std::string word = argv[1];
+  std::vector<std::string> names;
+  std::string valid;
+  for (const CommandEntry& entry : CommandEntries()) {
+    if (word == entry.name) return "";
+    names.emplace_back(entry.name);
+    valid += (valid.empty() ? "" : ", ") + names.back();
+  }
+  const std::string near = NearestWord(word, names);
+  return Quote(word) + ": no such command (" +
+         (near.empty() ? "" : "did you mean " + Quote(near) + "? ") + "valid: " + valid +
+         "; `halfstep -h` explains)";
+}
+
 }  // namespace
 
 int RunExperiment(int argc, char** argv) {
@@ -49,6 +68,10 @@ int RunExperiment(int argc, char** argv) {
     CLI::App* const command = app.add_subcommand(entry.name, entry.help);
     commands.emplace_back(command, entry.declare(command));
     names += (names.empty() ? "" : ", ") + std::string(entry.name);
+  }
+  if (const std::string mistake = CommandMistake(argc, argv); !mistake.empty()) {
+    std::cerr << "halfstep: " << mistake << '\n';
+    return kBadInput;
   }
   try {
     app.parse(argc, argv);

@@ -128,7 +128,10 @@ MethodRun ExperimentRun::RunMethod(const std::string& name, const RunHooks& hook
     MarginEvaluator::Scratch scratch = evaluator().MakeScratch();
     scratch.stop = hooks.stop_step;
     const Feasibility answer = problem_->test().Check(walk, {0.0, walk.duration()}, &scratch);
+    if (answer.stopped) return run;
     given_missed_ = FindMissedDemands(evaluator(), walk, answer.witness);
+    run.result.message = "the given walk is not feasible: " +
+                         evaluator().Describe(given_missed_->demands.front().worst);
   }
   AddPrices(walk, evaluator(), &run.result.junctions);
   return run;

@@ -30,6 +30,7 @@ std::string Holders(const MarginEvaluator& evaluator, const MethodRun& run, Junc
         junction.limited_by ? std::string(Name(junction.limited_by->family)) + " of " +
                                   evaluator.Subject(*junction.limited_by)
         : junction.fixed                                 ? "smoothing.fixed"
+        : run.method == "given"                          ? "what was given"
         : junction.overlap < junction.upper_bound - 1e-9 ? "the balance of the program"
                                                          : "their upper bound";
     ++holders[what];

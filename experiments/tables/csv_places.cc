@@ -12,8 +12,8 @@ std::vector<std::vector<CsvPlace>> CsvPlaces(const std::string& text) {
   };
   while (i < text.size()) {
     std::vector<CsvPlace>& row = rows.emplace_back(1, here);
-    bool quoted = false, empty = true;
-    for (bool ended = false; i < text.size() && !ended;) {
+    bool quoted = false, empty = true, ended = false;
+    while (i < text.size() && !ended) {
       const char c = text[i];
       const bool doubled = quoted && c == '"' && i + 1 < text.size() && text[i + 1] == '"';
       if (doubled) step();
@@ -28,6 +28,7 @@ std::vector<std::vector<CsvPlace>> CsvPlaces(const std::string& text) {
         empty = false;
       }
     }
+    if (!ended) rows.pop_back();  // no row, but an empty cell after the last line
   }
   return rows;
 }

@@ -267,13 +267,15 @@ GivenWalkFiles SortGivenFiles(const std::vector<std::string>& paths) {
   Complaints complaints;
   for (const std::string& path : paths) {
     const std::vector<std::string> header = ParseCsv(PlainCsvText(path), path).header;
-    const auto has_any = [&header](const CsvColumns& columns) {
-      return std::ranges::any_of(columns, [&header](const CsvColumn& column) {
+    // Most of a file's columns are those of its table.
+    const auto is_like = [&header](const CsvColumns& columns) {
+      const auto known = std::ranges::count_if(columns, [&header](const CsvColumn& column) {
         return column.name != "kind" && HasColumn(header, column.name);
       });
+      return 2 * known >= std::ssize(header);
     };
-    const bool of_overlaps = has_any(OverlapsColumns());
-    if (!of_overlaps && !has_any(HalfStepsColumns())) {
+    const bool of_overlaps = is_like(OverlapsColumns());
+    if (!of_overlaps && !is_like(HalfStepsColumns())) {
       complaints.Add(path, 1, 1, "--given",
                      "has neither overlaps nor half-steps (valid: columns of overlaps.csv, as "
                      "overlap_s, or of half_steps.csv, as duration_s)");

@@ -10,9 +10,11 @@ namespace {
 
 using enum CsvType;
 
-std::string Active(const MarginEvaluator& evaluator, const JunctionResult& junction) {
+std::string Active(const MarginEvaluator& evaluator, const std::string& method,
+                   const JunctionResult& junction) {
   if (junction.limited_by) return evaluator.Describe(*junction.limited_by);
   if (junction.fixed) return "fixed";
+  if (method == "given") return "given";
   return junction.overlap < junction.upper_bound ? "not bisected" : "upper bound";
 }
 
@@ -72,7 +74,7 @@ CsvFile OverlapsCsv(const MarginEvaluator& evaluator, const MethodRun& run) {
   for (const JunctionResult& junction : run.result.junctions) {
     csv.Cell(++index).Cell(junction.kind == JunctionKind::kUpDown ? "up_down" : "down_up");
     csv.Cell(junction.overlap).Cell(junction.upper_bound);
-    csv.Cell(Active(evaluator, junction));
+    csv.Cell(Active(evaluator, run.method, junction));
     if (junction.limited_by) {
       csv.Cell(Name(junction.limited_by->family)).Cell(Scale(junction.limited_by->family));
     } else {

@@ -363,13 +363,17 @@ INSTANTIATE_TEST_SUITE_P(
         {"SetItemThatIsNot", {"run", kGood, "--set", "footsteps.1.x_m=0"}, "footsteps.1"},
         {"EmptyOut", {"run", kGood, "--out", ""}, "--out: no folder"},
         {"ListOfWhat", {"list", "shoes"}, "shoes"},
+        {"MisspeltCommand", {"verfy", "a"}, "did you mean 'verify'?"},
     }),
     [](const auto& info) { return info.param.name; });
 
 TEST(ListCommand, NamesWhatThereIs) {
   const TemporaryFolder place;
-  for (const auto& [what, name] : std::vector<std::pair<std::string, std::string>>{
-           {"robots", "hrp2"}, {"scenes", "bar_8cm"}, {"methods", "dichotomy/published"}}) {
+  for (const auto& [what, name] :
+       std::vector<std::pair<std::string, std::string>>{{"robots", "hrp2"},
+                                                        {"scenes", "bar_8cm"},
+                                                        {"configs", "bar_8cm"},
+                                                        {"methods", "dichotomy/published"}}) {
     EXPECT_THAT(Halfstep(place.path(), {"list", what}).out, HasSubstr(name + "  "));
     const auto json = nlohmann::json::parse(Halfstep(place.path(), {"list", what, "--json"}).out);
     EXPECT_TRUE(std::any_of(json.begin(), json.end(),

@@ -373,7 +373,7 @@ TEST_F(CompareCommandTest, CertifyRefusesOverlapsThatDoNotFit) {
   const std::string run = Damaged(here, "dichotomy/overlaps.csv", "up_down,", "up_down,9");
   const Outcome outcome = Halfstep(here.path(), {"certify", run});
   EXPECT_EQ(outcome.status, kBadInput);
-  EXPECT_THAT(outcome.err, HasSubstr("overlaps.csv: does not fit the run's config"));
+  EXPECT_THAT(outcome.err, HasSubstr("overlaps.csv: certify: is not as the run wrote it"));
   EXPECT_EQ(Halfstep(here.path(), {"certify", "nowhere"}).status, kBadInput);
 }
 

@@ -24,13 +24,13 @@ using nlohmann::json;
 using testing::HasSubstr;
 namespace fs = std::filesystem;
 
-/// A folder with a run over a box, "run", a row each 20 ms.
+/// A folder with a run over a box, "run", a row each 10 ms.
 class ExportFormats : public testing::Test {
  protected:
   void SetUp() override {
     ASSERT_EQ(Halfstep(place_.path(),
                        {"run", ShippedConfig("fig5_box"), "--out", "run", "--quiet", "--set",
-                        "smoothing.methods=[dichotomy]", "--set", "output.period_s=0.02"})
+                        "smoothing.methods=[dichotomy]", "--set", "output.period_s=0.01"})
                   .status,
               kSuccess);
   }
@@ -82,7 +82,8 @@ TEST_F(ExportFormats, CsvHasAllJointsAndTheWaistsQuaternion) {
   double before = 1.0;
   for (size_t i = 0; i < table.size(); ++i) {
     for (const std::string& column : run.header()) {
-      if (column != "waist_yaw_rad") ASSERT_EQ(table.Text(i, column), run.Text(i, column));
+      if (column == "waist_yaw_rad") continue;
+      ASSERT_EQ(table.Text(i, column), run.Text(i, column));
     }
     EXPECT_NEAR(table.Number(i, "q_RARM_JOINT3_rad"), -M_PI / 6, 1e-15);
     const double w = table.Number(i, "waist_qw"), z = table.Number(i, "waist_qz");
@@ -139,7 +140,8 @@ TEST_F(ExportFormats, JointTrajectoryIsTheMessageAndMovesAsTheWalk) {
   const auto number = [&points](size_t i, const char* what, size_t j) {
     return points[i][what][j].get<double>();
   };
-  double fastest = 0.0;
+  double fastest = 0.0, off = 0.0;
+  long compared = 0;
   for (size_t i = 0; i < points.size(); ++i) {
     const json& time = points[i]["time_from_start"];
     const double t = time["sec"].get<double>() + 1e-9 * time["nanosec"].get<double>();
@@ -157,13 +159,16 @@ TEST_F(ExportFormats, JointTrajectoryIsTheMessageAndMovesAsTheWalk) {
       }
       if (i < 1 || i + 2 >= points.size()) continue;
       const auto slope = [&](const char* what) {
-        return (number(i + 1, what, j) - number(i - 1, what, j)) / 0.04;
+        return (number(i + 1, what, j) - number(i - 1, what, j)) / 0.02;
       };
       fastest = std::max(fastest, std::abs(number(i, "velocities", j)));
       ASSERT_NEAR(number(i, "velocities", j), slope("positions"), 0.05) << name << " " << i;
-      ASSERT_NEAR(number(i, "accelerations", j), slope("velocities"), 0.8) << name << " " << i;
+      off += std::abs(number(i, "accelerations", j) - slope("velocities"));
+      ++compared;
     }
   }
+  // Where the third derivative jumps, differences of velocities are off by more.
+  EXPECT_LT(off / static_cast<double>(compared), 0.02);
   EXPECT_GT(fastest, 0.5);  // so the bounds above say something
 }
 
@@ -178,10 +183,10 @@ TEST_F(ExportFormats, MujocoStandsAtTheKeysAsTheWalkDoesAmongItsObstacles) {
   replay::Simulation engine(mjcf, whole.model, "WAIST", obstacles);
   const std::vector<TrajectoryRow> rows =
       ReadTrajectory(place_ / "run/dichotomy/trajectory.csv", whole.model);
-  ASSERT_EQ(engine.num_keyframes(), static_cast<int>((rows.size() + 8) / 5));
+  ASSERT_EQ(engine.num_keyframes(), static_cast<int>((rows.size() + 18) / 10));
   for (int key = 0; key < engine.num_keyframes(); ++key) {
     SCOPED_TRACE(key);
-    const TrajectoryRow& row = rows[std::min(5 * static_cast<size_t>(key), rows.size() - 1)];
+    const TrajectoryRow& row = rows[std::min(10 * static_cast<size_t>(key), rows.size() - 1)];
     engine.PlaceAtKeyframe(key);
     EXPECT_TRUE(engine.X_WB().isApprox(row.X_WB(), 1e-9));
     for (const Side side : {Side::kLeft, Side::kRight}) {
@@ -209,8 +214,8 @@ TEST_F(ExportFormats, SayWhatIsWrong) {
   EXPECT_THAT(refusal({"npz", "--joints", "RLEG*"}),
               HasSubstr("--joints: not of --format npz (valid: hrpsys, joint_trajectory)"));
   EXPECT_THAT(refusal({"npz", "--columns", "zmq*"}), HasSubstr("--columns: zmq*: no such column"));
-  EXPECT_THAT(refusal({"mjcf", "--period", "0.03"}),
-              HasSubstr("--period 0.03: is no multiple of the run's output.period_s"));
+  EXPECT_THAT(refusal({"mjcf", "--period", "0.013"}),
+              HasSubstr("--period 0.013: is no multiple of the run's output.period_s"));
   EXPECT_THAT(refusal({"csv", "--waist", "euler"}), HasSubstr("--waist"));
   const std::string table = (place_ / "run/dichotomy/half_steps.csv").string();
   const std::string text = ReadText(table);

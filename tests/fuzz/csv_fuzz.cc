@@ -1,5 +1,7 @@
 // A CSV table, by both readers: what the checker's strict one accepts, the other reads the same.
+// Every cell has a place.
 
+#include "halfstep/experiments/tables/csv_places.h"
 #include "halfstep/experiments/tables/csv_reader.h"
 #include "halfstep/experiments/verify/csv_text.h"
 #include "tests/fuzz/fuzz.h"
@@ -10,6 +12,11 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const std::string text = fuzz::Text(data, size), path = "fuzz.csv";
   CsvTable table;
   if (!fuzz::Reads(path, [&] { table = ParseCsv(text, path); })) return 0;
+  const auto places = CsvPlaces(text);
+  fuzz::Require(places.size() == table.rows.size() + 1, "places of other rows", text);
+  for (const auto& row : places) {
+    fuzz::Require(row.size() == table.header.size(), "places of other cells", text);
+  }
   for (const std::string& column : table.header) {
     fuzz::Require(table.Texts(column).size() == table.rows.size(), "a column is too short");
     fuzz::Reads(path, [&] { (void)table.NumbersOrEmpty(column); });
