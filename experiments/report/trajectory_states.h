@@ -7,8 +7,8 @@
 
 namespace halfstep {
 
-/// The quantities of a walk at each row of a trajectory.csv, [m] and [rad]; the ZMP's
-/// places, which a posture does not ask for, are 0. Throws InputError where a column is missing or no
+/// The quantities of a walk at each row of a trajectory.csv, [m] and [rad]; the places of the ZMP,
+/// which a posture does not ask for, are 0. Throws InputError where a column is missing or no
 /// number.
 std::vector<WalkState> StatesOf(const CsvTable& trajectory);
 

@@ -1,11 +1,14 @@
 // Opens report.html in Chromium: node page_test.mjs HALFSTEP SOURCE_FOLDER
 // Exit status 77, which ctest counts as skipped, when there is no Chromium or no report.
 import assert from "node:assert/strict";
-import { execFileSync } from "node:child_process";
+import { execFileSync, spawnSync } from "node:child_process";
 import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { Browser, hasBrowser, pause } from "./browser.mjs";
+import {
+  testAddressAndWorst, testInfeasible, testPhoneInTheDark, testPlots, testSaving,
+} from "./page_controls.mjs";
 import { countColours, partThatDiffers, readPng } from "./png.mjs";
 
 const [halfstep, source] = process.argv.slice(2);
@@ -28,6 +31,10 @@ function makeRun() {
     "run", join(source, "experiments/configs/fig5_box.yaml"), "--out", "run", "--quiet",
     "--set", `scene=${place}/box.yaml`, "--set", `robot=${place}/robot.yaml`,
     "--set", `name=${JSON.stringify(hostile)}`,
+  ], { cwd: place });
+  spawnSync(halfstep, [
+    "run", join(source, "experiments/configs/fig5_box.yaml"), "--out", "low", "--quiet",
+    "--set", "half_step.via_height_m=0.14", "--set", "smoothing.methods=[dichotomy]",
   ], { cwd: place });
   execFileSync(halfstep, ["compare", "run", "--out", "comparison", "--quiet"], { cwd: place });
 }
@@ -117,6 +124,16 @@ async function testComparison(browser) {
   assert.deepEqual(await browser.console(), []);
 }
 
+async function testControls(browser) {
+  const url = `file://${place}/run/report.html`;
+  for (const test of [testAddressAndWorst, testPlots, testSaving, testPhoneInTheDark]) {
+    await browser.load("about:blank"); // an address that differs after # only loads nothing
+    await test(browser, url);
+    assert.deepEqual(await browser.console(), [], `the console is empty: ${test.name}`);
+  }
+  await testInfeasible(browser, `file://${place}/low/report.html`);
+}
+
 async function testWithoutWebGl(browser) {
   await browser.load(`file://${place}/run/report.html`);
   const page = await browser.run(`return { view: document.getElementById("view").innerText,
@@ -137,7 +154,7 @@ try {
     console.log("Skipped: this build of halfstep has no report");
     process.exitCode = 77;
   } else {
-    for (const [flags, tests] of [[[], [testRun, testComparison]],
+    for (const [flags, tests] of [[[], [testRun, testComparison, testControls]],
                                   [["--disable-3d-apis"], [testWithoutWebGl]]]) {
       const browser = await Browser.open(1366, 768, flags);
       try {
