@@ -6,8 +6,8 @@ const told = { m: ["cm", 100], rad: ["°", 180 / Math.PI], "rad/s": ["rad/s", 1]
 
 /** A margin of a family as text. */
 export function marginText(value, unit) {
-  const [name, factor] = told[unit] ?? [unit, 1];
-  return Number.isFinite(value) ? `${Number((value * factor).toPrecision(3))} ${name}` : "–";
+  const [name, factor] = told[unit] ?? [unit === "1" ? "" : unit, 1];
+  return Number.isFinite(value) ? `${Number((value * factor).toPrecision(3))} ${name}`.trim() : "–";
 }
 
 // The instant of a violation that no column shows, as the certificate's message tells it [s].

@@ -118,6 +118,7 @@ export async function recorded(canvas, play) {
   const over = new Promise((resolve) => recorder.addEventListener("stop", resolve));
   recorder.start();
   await play();
+  await new Promise((resolve) => setTimeout(resolve, 300)); // the last picture stays for a moment
   recorder.stop();
   await over;
   return new Blob(chunks, { type: "video/webm" });

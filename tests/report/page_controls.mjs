@@ -12,7 +12,7 @@ const state = (browser) => browser.run(`
     outcome: of("outcome").textContent, hash: location.hash };`);
 
 /** A run of which the methods raw, dichotomy and dichotomy/published are proved. */
-export async function testAddressAndWorst(browser, url) {
+export async function testControls(browser, url) {
   await browser.load(`${url}#t=1.25&a=raw&b=dichotomy%2Fpublished`);
   const { t, a, b } = await state(browser);
   assert.deepEqual([t, a, b], [1.25, "raw", "dichotomy/published"], "as the address says");
@@ -35,10 +35,13 @@ export async function testAddressAndWorst(browser, url) {
   assert.ok(await browser.run("return document.getElementById('help').open"), "? shows the keys");
   await browser.key("\uE00C");
   assert.ok(!(await browser.run("return document.getElementById('help').open")));
+  await browser.set("method-b", "0");
+  await testPlots(browser);
+  await testSaving(browser);
 }
 
-export async function testPlots(browser, url) {
-  await browser.load(url);
+/** Of a page that is open, with two walks. */
+async function testPlots(browser) {
   const shown = () => browser.run(`
     return [...document.querySelectorAll(".plot")].map((plot) =>
       [...plot.querySelectorAll(".key")].map((key) => key.getAttribute("aria-pressed")).join());`);
@@ -60,8 +63,7 @@ export async function testPlots(browser, url) {
 }
 
 // What the page saves, by the types and sizes of the files.
-export async function testSaving(browser, url) {
-  await browser.load(url);
+async function testSaving(browser) {
   await browser.run(`window.saved = [];
     URL.createObjectURL = (blob) => { window.saved.push(blob); return "data:,"; };
     HTMLAnchorElement.prototype.click = function () {
@@ -69,7 +71,7 @@ export async function testSaving(browser, url) {
     };
     for (const button of document.querySelector(".plot").querySelectorAll(".save")) button.click();`);
   await click(browser, "picture");
-  await browser.set("scrub", "3.2");
+  await browser.set("scrub", "3.4");
   await click(browser, "record");
   const deadline = Date.now() + 20000;
   const saved = () => browser.run("return window.saved.map((s) => s.type ? [s.type, s.size] : s)");
@@ -109,11 +111,13 @@ export async function testPhoneInTheDark(browser, url) {
 /** A run whose plan is not feasible: too low over the obstacle. */
 export async function testInfeasible(browser, url) {
   await browser.load(url);
-  const { t, a, b, pair, outcome } = await state(browser);
+  const { t, a, b, outcome } = await state(browser);
   assert.ok(t > 0, "opens at the worst instant");
   assert.deepEqual([a, b], ["raw", "none"]);
   assert.match(outcome, /not proved: clearance/);
-  assert.match(pair, /nearest: .*LEG_LINK5 – /);
+  await browser.run(`[...document.querySelectorAll("#least tr")]
+    .find((row) => /^[\\d.]+ sclearance/.test(row.textContent)).querySelector("button").click()`);
+  assert.match((await state(browser)).pair, /nearest: .*LEG_LINK5 – /);
   const missed = await browser.run("return document.querySelectorAll('#least .no').length");
   assert.ok(missed >= 2, "the missed demand is told");
   assert.deepEqual(await browser.console(), [], "the console is empty");
