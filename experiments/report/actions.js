@@ -13,12 +13,12 @@ async function savePicture({ stage, timeline, draw }) {
   return tell("");
 }
 
-async function saveVideo({ stage, timeline }) {
+async function saveVideo({ stage, timeline, draw }) {
   if (!stage) return tell("There is no view to record.");
   byId("record").disabled = true;
   tell("Recording …");
   try {
-    const blob = await recorded(byId("canvas"), () => new Promise((resolve) => {
+    const blob = await recorded(byId("canvas"), draw, () => new Promise((resolve) => {
       timeline.onPause = resolve;
       timeline.toggle(true);
     }));

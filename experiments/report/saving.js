@@ -104,21 +104,31 @@ export function plotSvg(u, title, keys, xLabel = "time [s]") {
     `<text x="${(left + width - right) / 2}" y="${height - 8}" text-anchor="middle">${escaped(xLabel)}</text></svg>`;
 }
 
+const pause = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
+const leastBytes = 1000; // of a video that has a picture
+
 /**
  * Records a canvas while `play` runs, which resolves when it is over; resolves to a WebM Blob.
- * Frames are those that are drawn, 30 a second at most. Throws where the browser cannot record.
+ * Frames are those that are drawn, 30 a second at most; `draw` draws the last one again until the
+ * recorder, which may be slow, has it. Throws where the browser cannot record.
  */
-export async function recorded(canvas, play) {
+export async function recorded(canvas, draw, play) {
   const type = ["video/webm;codecs=vp9", "video/webm;codecs=vp8", "video/webm"]
     .find((known) => window.MediaRecorder?.isTypeSupported(known));
   if (!type) throw new Error("This browser does not record WebM.");
   const recorder = new MediaRecorder(canvas.captureStream(30), { mimeType: type, videoBitsPerSecond: 8e6 });
   const chunks = [];
+  const bytes = () => chunks.reduce((sum, chunk) => sum + chunk.size, 0);
   recorder.addEventListener("dataavailable", (event) => chunks.push(event.data));
   const over = new Promise((resolve) => recorder.addEventListener("stop", resolve));
-  recorder.start();
+  const begun = new Promise((resolve) => recorder.addEventListener("start", resolve));
+  recorder.start(200);
+  await begun;
   await play();
-  await new Promise((resolve) => setTimeout(resolve, 300)); // the last picture stays for a moment
+  for (let i = 0; i < 3 || (i < 50 && bytes() < leastBytes); ++i) {
+    await pause(100);
+    draw();
+  }
   recorder.stop();
   await over;
   return new Blob(chunks, { type: "video/webm" });
