@@ -1,7 +1,10 @@
 # Seconds against centimetres: the safest walks of a range of durations.
 # Run: gnuplot -e "run='runs/pareto'; method='halfstep_barrier'" notebooks-data/plot_pareto.gp
-# Reads run/method/pareto.csv (method: ipopt by default), writes pareto.png beside it.
-if (!exists("method")) method = "ipopt"
+# Reads run/method/pareto.csv (by default of the first method that has one), writes pareto.png
+# beside it. `facts`: run_facts.py, which finds that method (python3).
+if (!exists("run")) run = "runs/pareto"
+if (!exists("facts")) facts = "notebooks-data/run_facts.py"
+if (!exists("method")) method = system("python3 '" . facts . "' '" . run . "' pareto")
 table = run."/".method."/pareto.csv"
 set terminal pngcairo size 1000,640 font "DejaVu Sans,15" linewidth 1.6
 set output run."/".method."/pareto.png"

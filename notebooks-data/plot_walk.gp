@@ -2,15 +2,18 @@
 #   gnuplot -e "run='runs/fig4_raw_sequence'" notebooks-data/plot_walk.gp
 # Variables (-e "a=1; b='x'"), all with defaults:
 #   run          run folder
-#   method       folder of the smoothed walk in it
+#   method       folder of the smoothed walk in it (default: dichotomy, else another one)
 #   out          PNG file written (default: walk.png in the run folder)
 #   span         length of the time axis [s] (default: the smoothed walk's duration)
-#   sole_length, sole_width   of the soles [m] (default: HRP-2's)
+#   sole_length, sole_width   of the soles [m] (default: those of the run's robot)
+#   facts        run_facts.py, which reads what is left to it (python3)
 if (!exists("run")) run = "runs/fig4_raw_sequence"
-if (!exists("method")) method = "dichotomy"
+if (!exists("facts")) facts = "notebooks-data/run_facts.py"
+ask = "python3 '" . facts . "' '" . run . "' "
+if (!exists("method")) method = system(ask . "method")
 if (!exists("out")) out = run . "/walk.png"
-if (!exists("sole_length")) sole_length = 0.2172
-if (!exists("sole_width")) sole_width = 0.137
+if (!exists("sole_length")) sole_length = real(word(system(ask . "sole"), 1))
+if (!exists("sole_width")) sole_width = real(word(system(ask . "sole"), 2))
 
 raw = run . "/raw/trajectory.csv"
 smooth = run . "/" . method . "/trajectory.csv"

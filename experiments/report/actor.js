@@ -5,6 +5,7 @@ import {
   convexHull, mark, numberMark, polygonGeometry, ribbonGeometry, soleCorners,
 } from "./floor_marks.js";
 import { RobotFigure, ghostMaterial } from "./robot.js";
+import { PairLines } from "./pair_line.js";
 import { onLayer } from "./stage.js";
 import { paths, soleTraces, strobe } from "./traces.js";
 
@@ -17,7 +18,7 @@ export function footprints(footsteps, sole) {
     const corners = soleCorners(place, sole);
     group.add(mark(polygonGeometry(corners, 0.002), colour, 0.16, 2));
     group.add(mark(ribbonGeometry(corners, 0.005, 0.002, true), colour, 0.75, 2));
-    if (step.footstep > 0) group.add(numberMark(step.footstep, place, palette.ink, 0.1, 4));
+    if (step.footstep > 0) group.add(numberMark(step.footstep, place, palette.theme.ink, 0.1, 4));
   }
   return group;
 }
@@ -50,7 +51,8 @@ export class Actor {
     this.balance = new THREE.Group(); // ZMP, support polygon, CoM
     this.balance.add(this.polygon, this.zmp, this.com, this.plumb);
     this.extras = {};
-    this.group.add(this.figure.group, this.balance);
+    this.pairs = new PairLines(walk, layer);
+    this.group.add(this.figure.group, this.balance, this.pairs.group);
     onLayer(this.group, layer);
   }
 
@@ -84,6 +86,7 @@ export class Actor {
   pose(t) {
     const at = this.walk.locate(t);
     const of = (name) => this.walk.value(name, at);
+    this.pairs.showTime(t);
     this.figure.pose(this.walk, at);
     this.zmp.position.set(of("zmp_x_m"), of("zmp_y_m"), 0.007);
     this.com.position.set(of("com_x_m"), of("com_y_m"), 0.006);

@@ -1,10 +1,9 @@
 // How soon each method had found walks how short: durations of the incumbents over run time.
 import uPlot from "uplot";
+import { element, lineKey } from "./elements.js";
 import * as palette from "./palette.js";
+import { themedAxis } from "./plots.js";
 
-const font = "11px system-ui, sans-serif";
-const thin = { stroke: "#e6eaef", width: 1 };
-const axis = { font, labelFont: font, labelSize: 16, stroke: "#4a5563", grid: thin, ticks: thin };
 const least = 1e-3; // run times below this are drawn as this [s]
 
 // Each method's steps on the run times of all: [times, durations of the first, …].
@@ -21,15 +20,8 @@ function staircases(walks) {
   }))];
 }
 
-function key(walk, i) {
-  const made = document.createElement("span");
-  made.className = "key";
-  const line = document.createElement("i");
-  line.className = "line";
-  line.style.background = palette.sequence[i % palette.sequence.length];
-  made.append(line, walk.label);
-  return made;
-}
+const colourOf = (i) => palette.sequence[i % palette.sequence.length] === "#000000"
+  ? palette.theme.ink : palette.sequence[i % palette.sequence.length];
 
 /** Fills the section, or hides it when there is nothing to show. */
 export function anytimePlot(parent, walks) {
@@ -37,13 +29,11 @@ export function anytimePlot(parent, walks) {
   parent.hidden = shown.length === 0;
   parent.replaceChildren();
   if (parent.hidden) return;
-  const title = document.createElement("h2");
-  title.textContent = "Durations found over run time";
-  const keys = document.createElement("div");
-  keys.className = "keys";
-  keys.append(...shown.map(key));
-  const body = document.createElement("div");
-  parent.append(title, keys, body);
+  const keys = element("div", { className: "keys" },
+    ...shown.map((walk, i) => lineKey(colourOf(i), walk.label)));
+  const body = element("div");
+  parent.append(element("h2", { text: "Durations found over run time" }), keys, body);
+  const axis = { ...themedAxis(), labelSize: 16 };
   const plot = new uPlot({
     width: body.clientWidth,
     height: 220,
@@ -55,7 +45,7 @@ export function anytimePlot(parent, walks) {
       { ...axis, size: 44, label: "duration of the walk [s]" },
     ],
     series: [{}, ...shown.map((_, i) => ({
-      stroke: palette.sequence[i % palette.sequence.length],
+      stroke: colourOf(i),
       width: 2,
       dash: i < palette.sequence.length ? undefined : [6, 3],
       points: { show: false },

@@ -7,6 +7,7 @@ export const limit = "#D55E00";
 export const second = "#CC79A7"; // walk B
 export const sky = "#56B4E9";
 export const yellow = "#F0E442";
+export const olive = "#8a7d00";
 export const grey = "#8a94a0";
 export const ink = "#1d2733";
 
@@ -23,4 +24,20 @@ export const sequence = [left, zmp, com, second, right, sky, "#000000"];
 /** The colour with an opacity from 0 to 1. */
 export function faded(colour, opacity) {
   return colour + Math.round(255 * opacity).toString(16).padStart(2, "0");
+}
+
+const light = {
+  ink: "#1d2733", sky: "#f3f5f8", grid: "#5f7084", page: "#ffffff", lines: "#e6eaef",
+  ticks: "#c9d1da", numbers: "#4a5563", support: "#e3eef6", sole: "#c9d1da",
+};
+const dark = {
+  ink: "#e6ebf1", sky: "#1b222b", grid: "#8fa0b3", page: "#12171d", lines: "#2a333d",
+  ticks: "#465361", numbers: "#b4bfcb", support: "#22384a", sole: "#465361",
+};
+
+/** Colours of what is neither a walk nor a quantity; useTheme chooses them. */
+export const theme = { ...light };
+
+export function useTheme(isDark) {
+  Object.assign(theme, isDark ? dark : light);
 }

@@ -1,16 +1,16 @@
 // Plots over one time axis, with a cursor at the time of the walk.
 import uPlot from "uplot";
+import { element, lineKey } from "./elements.js";
 import * as palette from "./palette.js";
+import { fileName, plotPng, plotSvg, save } from "./saving.js";
 
 const font = "11px system-ui, sans-serif";
-const grid = { stroke: "#e6eaef", width: 1 };
-const axis = { font, stroke: "#4a5563", grid, ticks: { stroke: "#c9d1da", size: 4 }, gap: 3 };
 
-function element(name, className, text = "") {
-  const made = document.createElement(name);
-  made.className = className;
-  made.textContent = text;
-  return made;
+/** An axis in the colours of the theme. */
+export function themedAxis() {
+  const { lines, numbers, ticks } = palette.theme;
+  return { font, labelFont: font, stroke: numbers, grid: { stroke: lines, width: 1 },
+           ticks: { stroke: ticks, size: 4 }, gap: 3 };
 }
 
 // Values of a curve at the times of the plot; null after the walk's end, where nothing is known.
@@ -23,37 +23,73 @@ function sampled(curve, walk, times) {
 }
 
 class Plot {
-  constructor(parent, spec, walks, last, onSeek, onZoom) {
+  constructor(parent, spec, walks, last, hidden, onSeek, onZoom) {
     this.last = last; // with the numbers of the time axis
     this.spec = spec;
     this.walks = walks;
-    const head = element("div", "plot-head");
-    const title = element("b", "", spec.title);
-    if (spec.hint) title.title = spec.hint;
-    head.append(title);
+    this.hidden = hidden; // names of curves that are not shown, kept by the page
+    const head = element("div", { className: "plot-head" });
+    head.append(element("b", { text: spec.title, title: spec.hint }));
     this.keys = spec.curves.filter((curve) => !curve.quiet).map((curve) => {
-      const key = element("span", "key");
-      const swatch = element("i", "line");
-      swatch.style.background = curve.colour;
-      const value = element("span", "value");
-      key.append(swatch, element("span", "", curve.label), value);
-      head.append(key);
-      return { curve, value };
+      const value = element("span", { className: "value" });
+      const button = this.key(curve.label, curve.colour);
+      button.append(value);
+      head.append(button);
+      return { curve, value, name: curve.label, button };
     });
-    for (const [label, colour] of spec.keys ?? []) {
-      const key = element("span", "key");
-      const swatch = element("i", "line");
-      swatch.style.background = colour;
-      key.append(swatch, element("span", "", label));
-      head.append(key);
-    }
-    this.note = element("span", "note");
-    head.append(this.note);
-    this.body = element("div", "plot-body");
-    this.root = element("div", last ? "plot last" : "plot");
+    this.groups = (spec.keys ?? []).map(([label, colour]) => {
+      const button = this.key(label, colour);
+      head.append(button);
+      return { name: label, button };
+    });
+    this.note = element("span", { className: "note" });
+    head.append(this.note, this.saver("PNG"), this.saver("SVG"));
+    this.body = element("div", { className: "plot-body" });
+    this.root = element("div", { className: last ? "plot last" : "plot" });
     this.root.append(head, this.body);
     parent.append(this.root);
     this.make(onSeek, onZoom);
+    this.showCurves();
+  }
+
+  // A click hides a curve or shows it; with shift, or twice, it is shown alone, or all are again.
+  key(name, colour) {
+    const button = lineKey(colour, name, "button");
+    button.title = "hide or show; with shift: alone";
+    button.addEventListener("click", (event) => {
+      const others = [...this.keys, ...this.groups].map((key) => key.name).filter((n) => n !== name);
+      if (event.shiftKey) {
+        const alone = !this.hidden.has(name) && others.every((other) => this.hidden.has(other));
+        this.hidden.clear();
+        if (!alone) for (const other of others) this.hidden.add(other);
+      } else if (!this.hidden.delete(name)) {
+        this.hidden.add(name);
+      }
+      this.showCurves();
+    });
+    return button;
+  }
+
+  saver(kind) {
+    const button = element("button", { text: kind, className: "save", title: `save this plot as ${kind}` });
+    button.addEventListener("click", async () => {
+      const shown = [...this.keys, ...this.groups].filter(({ name }) => !this.hidden.has(name));
+      const keys = shown.map(({ name, button: key }) => [name, key.firstChild.style.background]);
+      save(kind === "PNG" ? await plotPng(this.u, this.spec.title)
+        : new Blob([plotSvg(this.u, this.spec.title, keys)], { type: "image/svg+xml" }),
+           fileName(this.spec.title, kind.toLowerCase()));
+    });
+    return button;
+  }
+
+  showCurves() {
+    for (const { name, button } of [...this.keys, ...this.groups]) {
+      button.setAttribute("aria-pressed", String(!this.hidden.has(name)));
+    }
+    this.u.batch(() => this.curveOf.forEach((curve, i) => {
+      const show = !this.hidden.has(curve.group ?? curve.label);
+      if (this.u.series[i + 1].show !== show) this.u.setSeries(i + 1, { show });
+    }));
   }
 
   make(onSeek, onZoom) {
@@ -63,6 +99,8 @@ class Plot {
     const shown = spec.onlyFirst ? walks.slice(0, 1) : [...walks].reverse();
     const series = [{}];
     const data = [times];
+    const axis = themedAxis();
+    this.curveOf = []; // of each series
     for (const walk of shown) {
       const first = walk === walks[0];
       for (const curve of spec.curves) {
@@ -73,6 +111,7 @@ class Plot {
           points: { show: false },
         });
         data.push(sampled(curve, walk, times));
+        this.curveOf.push(curve);
       }
     }
     const range = spec.fixed
@@ -101,7 +140,7 @@ class Plot {
       data,
       this.body,
     );
-    this.cursor = element("div", "cursor");
+    this.cursor = element("div", { className: "cursor" });
     this.u.over.append(this.cursor);
     const seek = (event) => {
       if (event.buttons !== 1) return;
@@ -163,11 +202,12 @@ export class Plots {
     this.parent = parent;
     this.onSeek = onSeek;
     this.plots = [];
+    this.hidden = new Map(); // by a plot's title
     new ResizeObserver(() => this.resize()).observe(parent);
   }
 
-  /** Curves of the first walk, and behind them those of the second. */
-  show(specs, walks) {
+  /** Curves of the first walk, and behind them those of the second; `label` is of the time axis. */
+  show(specs, walks, label = "time [s]") {
     for (const plot of this.plots) plot.u.destroy();
     this.parent.replaceChildren();
     const zoom = (from, span) => {
@@ -176,10 +216,12 @@ export class Plots {
         plot.showTime(plot.t);
       }
     };
-    this.plots = specs.map((spec, i) =>
-      new Plot(this.parent, spec, walks, i === specs.length - 1, this.onSeek, zoom));
-    const axisLabel = element("div", "axis-label", "time [s]");
-    this.parent.append(axisLabel);
+    this.plots = specs.map((spec, i) => {
+      if (!this.hidden.has(spec.title)) this.hidden.set(spec.title, new Set());
+      const last = i === specs.length - 1;
+      return new Plot(this.parent, spec, walks, last, this.hidden.get(spec.title), this.onSeek, zoom);
+    });
+    this.parent.append(element("div", { className: "axis-label", text: label }));
     this.resize();
   }
 

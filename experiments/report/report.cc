@@ -155,7 +155,7 @@ json CaseOf(const ComparedCase& one, double spacing, json* report) {
     const Place place = PlaceOfRun(run);
     std::vector<json> walks;
     for (const ComparedMethod& method : one.methods) {
-      walks.push_back(WalkJson(place.robot, FolderOf(method.record), spacing));
+      walks.push_back(WalkJson(place.robot, place.scene, FolderOf(method.record), spacing));
     }
     return WithTables(CaseOf(one.scenario, run, place.robot, place.scene, report), one,
                       std::move(walks));
@@ -190,7 +190,7 @@ std::string RunReport(const RobotModel& robot, const Scene& scene, const fs::pat
   }
   for (const json& row : summary) {
     const auto method = row.at("method").get<std::string>();
-    json walk = WalkJson(robot, folder / MethodFolder(method), SpacingFor(total));
+    json walk = WalkJson(robot, scene, folder / MethodFolder(method), SpacingFor(total));
     walk["summary"] = WithOwn(row, folder / "summary.csv");
     one["walks"].push_back(std::move(walk));
   }

@@ -1,6 +1,14 @@
 // Brings a report's data and the page together.
 import { Actor, footprints } from "./actor.js";
+import { connectActions } from "./actions.js";
+import { readAddress } from "./address.js";
 import { anytimePlot } from "./anytime.js";
+import { firstChoice, isInfeasible, secondChoice } from "./choices.js";
+import { marginText, worstInstant } from "./least_margins.js";
+import { leastTable } from "./least_table.js";
+import { middleOf } from "./pair_line.js";
+import * as palette from "./palette.js";
+import { paretoPlots } from "./pareto.js";
 import { Plots } from "./plots.js";
 import { RobotShapes } from "./robot.js";
 import { plotList } from "./series.js";
@@ -23,6 +31,9 @@ const layers = [
   ["strobe", `body at ${instants} instants`, false],
 ];
 
+const darkness = window.matchMedia("(prefers-color-scheme: dark)");
+palette.useTheme(darkness.matches);
+
 let stage = null;
 try {
   stage = new Stage(byId("canvas"), () => redraw());
@@ -40,9 +51,21 @@ let walks = []; // A, and B when there is one
 let actors = [];
 let pending = false;
 
-function waistNow(walk) {
+// What the camera follows: the waist, or the middle between the feet.
+function centreNow(walk) {
   const at = walk.locate(timeline.t);
-  return [walk.value("waist_x_m", at), walk.value("waist_y_m", at)];
+  const of = (name) => walk.value(name, at);
+  if (byId("camera").value !== "feet") return [of("waist_x_m"), of("waist_y_m")];
+  return ["x_m", "y_m"].map((axis) => (of(`left_foot_${axis}`) + of(`right_foot_${axis}`)) / 2);
+}
+
+function draw() {
+  const beside = actors.length === 2 && byId("layout").value === "beside";
+  if (!beside) return stage.draw([{ layers: [1, 2], shift: [0, 0] }]);
+  // Each view follows its own robot.
+  const [a, b] = walks.map(centreNow);
+  const shift = byId("follow").checked ? [b[0] - a[0], b[1] - a[1]] : [0, 0];
+  stage.draw([{ layers: [1], shift: [0, 0] }, { layers: [2], shift }]);
 }
 
 function redraw() {
@@ -50,12 +73,7 @@ function redraw() {
   pending = true;
   requestAnimationFrame(() => {
     pending = false;
-    const beside = actors.length === 2 && byId("layout").value === "beside";
-    if (!beside) return stage.draw([{ layers: [1, 2], shift: [0, 0] }]);
-    // Each view follows its own robot.
-    const [a, b] = walks.map(waistNow);
-    const shift = byId("follow").checked ? [b[0] - a[0], b[1] - a[1]] : [0, 0];
-    stage.draw([{ layers: [1], shift: [0, 0] }, { layers: [2], shift }]);
+    draw();
   });
 }
 
@@ -64,20 +82,48 @@ function showTime() {
   for (const actor of actors) actor.pose(t);
   stage?.showTime(t);
   if (actors.length > 0 && byId("follow").checked) {
-    stage.followTo(...waistNow(walks[0]));
+    stage.followTo(...centreNow(walks[0]));
   }
   ["a", "b"].forEach((name, i) => {
     const walk = walks[i];
     if (!walk) return;
     const half = walk.halfStepAt(walk.locate(t));
-    const state = t >= walk.duration ? `at its end, ${walk.duration.toFixed(2)} s`
+    const ownDuration = (walk.original ?? walk).duration;
+    const state = t >= walk.duration ? `at its end, ${ownDuration.toFixed(2)} s`
       : half ? `half-step ${half.half_step} of ${walk.halfSteps.length}, ${half.kind}` : "";
     byId(`tag-${name}`).textContent = `${name.toUpperCase()} ${walk.label}: ${state}`;
   });
+  showPair(t);
   plots.showTime(t);
   zmpMap.showTime(t);
   redraw();
 }
+
+function showPair(t) {
+  const near = walks[0]?.nearest.find((pair) => Math.abs(pair.t_s - t) < 0.011);
+  byId("pair").hidden = !near;
+  if (near) {
+    byId("pair").textContent = `A is nearest: ${near.between.join(" – ")}, ` +
+      `${marginText(near.margin_m, "m")} at ${timeline.t.toFixed(2)} s`;
+  }
+}
+
+// Shows the instant of a margin; the camera goes where a pair of bodies is nearest.
+function goTo({ t, pair }) {
+  timeline.toggle(false);
+  timeline.seek(t);
+  if (!pair || !stage) return;
+  const [x, y, z] = middleOf(pair);
+  byId("camera").value = "feet";
+  byId("follow").checked = false;
+  stage.look("feet", [x, y], 1.15, z);
+  redraw();
+}
+
+const goToWorst = () => {
+  const worst = walks[0] && worstInstant(walks[0], report.families);
+  if (worst) goTo(worst);
+};
 
 function look() {
   if (!stage || walks.length === 0 || !walks[0].drawn) return;
@@ -86,8 +132,10 @@ function look() {
   const ys = feet.map((step) => step.y_m);
   const [x0, x1, y0, y1] = [Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)];
   const extent = Math.hypot(x1 - x0, y1 - y0);
-  if (byId("follow").checked) {
-    stage.look(byId("camera").value, waistNow(walks[0]), 2.75);
+  if (byId("camera").value === "feet") {
+    stage.look("feet", centreNow(walks[0]), 1.6, 0.15);
+  } else if (byId("follow").checked) {
+    stage.look(byId("camera").value, centreNow(walks[0]), 2.75);
   } else {
     stage.look(byId("camera").value, [(x0 + x1) / 2, (y0 + y1) / 2], 2.3 + 0.62 * extent);
   }
@@ -125,27 +173,46 @@ function chooseWalks() {
   const a = drawn[byId("method-a").selectedIndex];
   const b = drawn[byId("method-b").selectedIndex - 1];
   walks = !a ? [] : b && b !== a ? [a, b] : [a];
-  byId("layout-choice").hidden = walks.length < 2;
+  byId("layout-choice").hidden = byId("pace-choice").hidden = walks.length < 2;
+  const shortest = Math.min(...walks.map((walk) => walk.duration));
+  const squeezed = byId("pace").value === "squeezed" && walks.length === 2;
+  if (squeezed) {
+    walks = walks.map((walk) => (walk.duration > shortest ? walk.stretchedTo(shortest) : walk));
+  }
   byId("tag-b").hidden = walks.length < 2;
   if (!a) return;
   stageWalks();
-  plots.show(plotList(report.robots[current.robot], a.certificate, report.families), walks);
-  zmpMap.show(a, current.footsteps, report.robots[current.robot].sole);
+  plots.show(plotList(report.robots[current.robot], a.certificate, report.families), walks,
+             squeezed ? "time [s], of the longer walk squeezed" : "time [s]");
+  leastTable(byId("least"), walks[0], report.families, goTo);
+  zmpMap.show(walks[0], current.footsteps, report.robots[current.robot].sole);
   timeline.setDuration(Math.max(...walks.map((walk) => walk.duration)));
   timeline.showPhases(walks);
   junctionTable(byId("junctions"), walks);
   const { duration_s: duration, speedup } = a.summary;
   byId("outcome").textContent = `A: ${duration.toFixed(3)} s` +
     (a.method === "raw" ? "" : `, ${speedup.toFixed(2)} × as fast as raw`) +
-    (a.certified ? ", proved for all t" : ", not proved");
+    (a.certified ? ", proved for all t" : `, not proved: ${a.certificate.message}`);
+  byId("outcome").classList.toggle("no", !a.certified);
 }
 
-// The fastest proved walk beside the planned motion.
-function firstChoice(drawn) {
-  const smoothed = drawn.filter((walk) => walk.method !== "raw");
-  const proved = smoothed.filter((walk) => walk.certified && walk.summary.own);
-  const list = proved.length ? proved : smoothed.length ? smoothed : drawn;
-  return list.reduce((best, walk) => (walk.duration < best.duration ? walk : best), list[0]);
+// What the page's address asks for, of a case that is chosen.
+function applyAddress() {
+  const asked = readAddress();
+  const drawn = current.walks.filter((walk) => walk.drawn);
+  const index = (name) => drawn.findIndex((walk) => walk.label === name);
+  if (index(asked.a) >= 0) byId("method-a").selectedIndex = index(asked.a);
+  if (asked.b === "none" || index(asked.b) >= 0) byId("method-b").selectedIndex = index(asked.b) + 1;
+  if (index(asked.a) >= 0 || asked.b !== undefined) chooseWalks();
+  const t = Number.parseFloat(asked.t);
+  if (Number.isFinite(t)) timeline.seek(t);
+  return Number.isFinite(t);
+}
+
+function addressNow() {
+  const [a, b] = walks;
+  const shown = { t: String(Number(timeline.t.toFixed(3))), a: a?.label ?? "", b: b?.label ?? "none" };
+  return cases.length > 1 ? { ...shown, scenario: current.scenario } : shown;
 }
 
 function chooseCase(index) {
@@ -154,15 +221,15 @@ function chooseCase(index) {
   const options = () => drawn.map((walk, i) => new Option(walk.label, i));
   byId("method-a").replaceChildren(...options());
   byId("method-b").replaceChildren(new Option("none", -1), ...options());
-  const first = drawn.indexOf(firstChoice(drawn));
-  byId("method-a").selectedIndex = first;
-  const raw = drawn.findIndex((walk) => walk.method === "raw");
-  byId("method-b").selectedIndex = raw === first ? 0 : raw + 1;
+  const first = firstChoice(drawn);
+  byId("method-a").selectedIndex = drawn.indexOf(first);
+  byId("method-b").selectedIndex = drawn.indexOf(secondChoice(drawn, first)) + 1;
   summaryTable(byId("summary"), current.walks, report.families, report.endings);
   if (cases.length > 1) byId("summary").append(...scenarioTable(cases));
   anytimePlot(byId("anytime"), current.walks);
+  paretoPlots(byId("pareto"), current.walks);
   guarantee(byId("guarantee"), report.statement, current.walks);
-  byId("stage").hidden = byId("plots").hidden = drawn.length === 0;
+  byId("stage").hidden = byId("plots").hidden = byId("least").hidden = drawn.length === 0;
   const halfSteps = drawn[0]?.halfSteps.length;
   byId("subtitle").textContent = current.not_drawn
     ? `not drawn: ${current.not_drawn}`
@@ -180,6 +247,21 @@ function chooseCase(index) {
   timeline.t = 0;
   chooseWalks();
   look();
+  if (!applyAddress() && isInfeasible(drawn)) goToWorst();
+}
+
+// The colours of what is drawn change with the system's.
+function changeTheme() {
+  palette.useTheme(darkness.matches);
+  stage?.useTheme();
+  const shown = addressNow();
+  const index = byId("scenario").selectedIndex;
+  const [a, b] = ["method-a", "method-b"].map((id) => byId(id).selectedIndex);
+  chooseCase(Math.max(0, index));
+  byId("method-a").selectedIndex = a;
+  byId("method-b").selectedIndex = b;
+  chooseWalks();
+  timeline.seek(Number(shown.t));
 }
 
 function start() {
@@ -202,11 +284,17 @@ function start() {
   byId("scenario").addEventListener("change", () => chooseCase(byId("scenario").selectedIndex));
   byId("method-a").addEventListener("change", chooseWalks);
   byId("method-b").addEventListener("change", chooseWalks);
+  byId("pace").addEventListener("change", chooseWalks);
   byId("layout").addEventListener("change", () => { stageWalks(); showTime(); });
   byId("camera").addEventListener("change", look);
   byId("follow").addEventListener("change", look);
   new ResizeObserver(redraw).observe(byId("view"));
-  if (cases.length > 0) chooseCase(0);
+  connectActions({ stage, timeline, draw, goToWorst, addressNow });
+  window.addEventListener("hashchange", applyAddress);
+  darkness.addEventListener("change", changeTheme);
+  const asked = cases.findIndex((one) => one.scenario === readAddress().scenario);
+  if (asked > 0) byId("scenario").selectedIndex = asked;
+  if (cases.length > 0) chooseCase(Math.max(0, asked));
 }
 
 start();

@@ -3,29 +3,14 @@
 #include <array>
 #include <limits>
 #include <optional>
-#include <string>
 
+#include "halfstep/experiments/report/trajectory_states.h"
 #include "halfstep/wpg/motion/lipm.h"
 #include "halfstep/wpg/motion/posture.h"
 #include "halfstep/wpg/motion/robot_dynamics.h"
 
 namespace halfstep {
 namespace {
-
-// The columns of the quantities, in the order of WalkState; what is not needed has none.
-constexpr std::array<const char*, kNumQuantities> kColumns = {"com_x_m",
-                                                              "com_y_m",
-                                                              "",
-                                                              "",
-                                                              "waist_yaw_rad",
-                                                              "left_foot_x_m",
-                                                              "left_foot_y_m",
-                                                              "left_foot_z_m",
-                                                              "left_foot_yaw_rad",
-                                                              "right_foot_x_m",
-                                                              "right_foot_y_m",
-                                                              "right_foot_z_m",
-                                                              "right_foot_yaw_rad"};
 
 // The derivatives of rows before, at and after an instant by the parabola through them.
 void Differentiate(const std::array<double, 3>& t, const std::array<WalkState, 3>& x,
@@ -46,12 +31,7 @@ std::optional<Eigen::Vector2d> ZmpOf(const RobotModel& robot, const WalkJet& jet
 
 std::vector<Eigen::Vector2d> RobotZmps(const RobotModel& robot, const CsvTable& trajectory) {
   const std::vector<double> t = trajectory.Numbers("t_s");
-  std::vector<WalkState> states(t.size(), WalkState::Zero());
-  for (size_t q = 0; q < kColumns.size(); ++q) {
-    if (*kColumns[q] == '\0') continue;
-    const std::vector<double> values = trajectory.Numbers(kColumns[q]);
-    for (size_t i = 0; i < t.size(); ++i) states[i][static_cast<Eigen::Index>(q)] = values[i];
-  }
+  const std::vector<WalkState> states = StatesOf(trajectory);
   const std::vector<double> vx = trajectory.Numbers("com_vx_m_s"),
                             vy = trajectory.Numbers("com_vy_m_s"),
                             ax = trajectory.Numbers("com_ax_m_s2"),

@@ -35,6 +35,7 @@ function jointSpeeds(robot, limits) {
       label: joint.name,
       colour: palette.faded(palette.feet[joint.side], 0.85),
       value: ratio(joint),
+      group: joint.side === 0 ? "left leg" : "right leg",
       quiet: true,
     })),
     keys: [["left leg", palette.left], ["right leg", palette.right]],
@@ -43,16 +44,17 @@ function jointSpeeds(robot, limits) {
   };
 }
 
-const marginColumns = [
+/** Families of margins: name, column of trajectory.csv, short label, colour. */
+export const marginColumns = [
   ["zmp", "zmp_margin_m", "ZMP", palette.zmp],
   ["zmp_robot", "zmp_robot_margin_m", "robot", palette.left],
-  ["clearance", "clearance_m", "scene", palette.ink],
+  ["clearance", "clearance_m", "scene", "ink"],
   ["self_clearance", "self_clearance_m", "self", palette.second],
   ["joint", "joint_margin_rad", "joints", palette.com],
   ["joint_speed", "joint_speed_margin_rad_s", "speeds", palette.sky],
   ["foot_speed", "foot_speed_margin_m_s", "foot", palette.right],
   ["torque", "torque_margin_n_m", "torque", palette.grey],
-  ["friction", "friction_margin", "friction", palette.yellow],
+  ["friction", "friction_margin", "friction", palette.olive],
 ];
 
 function margins(families, demanded) {
@@ -66,7 +68,7 @@ function margins(families, demanded) {
     fixed: [-0.6, 6],
     curves: shown.map(([name, column, label, colour]) => ({
       label,
-      colour,
+      colour: colour === "ink" ? palette.theme.ink : colour,
       value: (walk, at) =>
         (walk.value(column, at) - (demanded[name] ?? 0)) / unitOf[name].scale,
     })),

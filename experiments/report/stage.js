@@ -5,8 +5,6 @@ import * as palette from "./palette.js";
 import { mark, polygonGeometry, ribbonGeometry } from "./floor_marks.js";
 import { meshGeometry } from "./robot.js";
 
-const sky = "#f3f5f8";
-
 /** Objects of layer 0 are seen in every view, of layer 1 and 2 in A's and in B's. */
 export function onLayer(object, layer) {
   object.traverse((part) => part.layers.set(layer));
@@ -23,7 +21,7 @@ function floor() {
   plane.renderOrder = -2;
   group.add(plane);
   for (const [size, count, opacity] of [[16, 160, 0.16], [60, 60, 0.42]]) {
-    const grid = new THREE.GridHelper(size, count, "#5f7084", "#5f7084");
+    const grid = new THREE.GridHelper(size, count, palette.theme.grid, palette.theme.grid);
     Object.assign(grid.material, { transparent: true, opacity, depthWrite: false });
     grid.rotation.x = Math.PI / 2;
     grid.renderOrder = -1;
@@ -79,6 +77,7 @@ const directions = {
   side: [0.02, -1.25, 0.12],
   front: [1.25, 0.01, 0.12],
   top: [-0.001, 0, 1.3],
+  feet: [0.72, -0.92, 0.34],
 };
 
 export class Stage {
@@ -90,8 +89,6 @@ export class Stage {
     this.renderer.shadowMap.type = THREE.PCFShadowMap;
     this.renderer.setScissorTest(true);
     this.scene = new THREE.Scene();
-    this.scene.background = new THREE.Color(sky);
-    this.scene.fog = new THREE.Fog(sky, 9, 22);
     this.scene.add(new THREE.HemisphereLight("#ffffff", "#b3bac4", 2.1));
     this.sun = new THREE.DirectionalLight("#fffaf2", 1.7);
     this.sun.castShadow = true;
@@ -102,7 +99,8 @@ export class Stage {
     Object.assign(this.sun.shadow.camera, {
       left: -2.5, right: 2.5, top: 2.5, bottom: -2.5, near: 0.5, far: 12,
     });
-    this.scene.add(this.sun, this.sun.target, floor());
+    this.scene.add(this.sun, this.sun.target);
+    this.useTheme();
     this.place = new THREE.Group();
     this.scene.add(this.place);
     this.camera = new THREE.PerspectiveCamera(36, 1, 0.05, 60);
@@ -111,6 +109,15 @@ export class Stage {
     this.controls.maxPolarAngle = 0.495 * Math.PI;
     this.controls.zoomToCursor = false;
     this.controls.addEventListener("change", onChange);
+  }
+
+  /** Takes the colours of palette.theme for floor and sky. */
+  useTheme() {
+    if (this.floor) this.scene.remove(this.floor);
+    this.floor = floor();
+    this.scene.add(this.floor);
+    this.scene.background = new THREE.Color(palette.theme.sky);
+    this.scene.fog = new THREE.Fog(palette.theme.sky, 9, 22);
   }
 
   setScene(json) {

@@ -1,26 +1,9 @@
-// The tables below the stage. Everything is set as text.
+// The tables below the stage.
+import { element, table } from "./elements.js";
+
 const seconds = (value) => value.toFixed(3);
 const number = (value, digits = 4) =>
   typeof value === "number" ? String(Number(value.toPrecision(digits))) : value ?? "–";
-
-function element(name, { text, className, title } = {}, ...children) {
-  const made = document.createElement(name);
-  if (text !== undefined) made.textContent = text;
-  if (className) made.className = className;
-  if (title) made.title = title;
-  made.append(...children);
-  return made;
-}
-
-function table(header, rows) {
-  const head = element("tr", {}, ...header.map((text) => element("th", { text })));
-  const body = rows.map((cells) =>
-    element("tr", {}, ...cells.map((cell) =>
-      cell instanceof Node ? element("td", {}, cell) : element("td", { text: cell }))),
-  );
-  return element("div", { className: "scroll" },
-    element("table", {}, element("thead", {}, head), element("tbody", {}, ...body)));
-}
 
 function bar(fraction, className) {
   const fill = element("i", { className });

@@ -18,6 +18,7 @@ export class Timeline {
     this.t = 0;
     this.duration = 1;
     this.playing = false;
+    this.onPause = () => {};
     this.scrub = document.getElementById("scrub");
     this.clock = document.getElementById("clock");
     this.speed = document.getElementById("speed");
@@ -64,11 +65,13 @@ export class Timeline {
       else requestAnimationFrame(frame);
     };
     if (playing) requestAnimationFrame(frame);
+    else this.onPause();
   }
 
   key(event) {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
-    if (/^(SELECT|TEXTAREA)$/.test(event.target.tagName)) return;
+    if (/^(SELECT|TEXTAREA)$/.test(event.target.tagName) || document.querySelector("dialog[open]")) return;
+    if (event.key === " " && event.target.tagName === "BUTTON" && event.target !== this.button) return;
     const step = event.shiftKey ? 0.5 : 0.05;
     const action = {
       " ": () => this.toggle(),

@@ -20,6 +20,8 @@ export class Walk {
     this.overlaps = json.overlaps ?? [];
     this.halfSteps = json.half_steps ?? [];
     this.certificate = json.certificate;
+    this.nearest = json.nearest ?? [];
+    this.pareto = json.pareto ?? [];
     this.certified = json.summary.certified === "true" || json.summary.certified === true;
     this.support = json.support ?? "";
     this.encoded = json.columns;
@@ -34,6 +36,18 @@ export class Walk {
     const symbols = this.variables.split("+").map((name) =>
       ({ overlaps: "Δ", heights: "η", durations: "T" })[name] ?? name);
     return plain ? this.method : `${this.method} (${symbols.join(", ")})`;
+  }
+
+  /** The same walk, shown as if it lasted `duration` [s]; `summary` tells how long it does. */
+  stretchedTo(duration) {
+    const factor = duration / this.duration;
+    const shown = Object.create(this);
+    shown.duration = duration;
+    shown.times = this.times.map((t) => factor * t);
+    shown.locate = (t) => this.locate(t / factor);
+    shown.nearest = this.nearest.map((pair) => ({ ...pair, t_s: factor * pair.t_s }));
+    shown.original = this;
+    return shown;
   }
 
   column(name) {

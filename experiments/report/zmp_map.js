@@ -1,5 +1,6 @@
 // Both ZMPs on the floor, in what supports the robot, as it goes on: a map of the first walk.
 import { convexHull, soleCorners } from "./floor_marks.js";
+import { element, lineKey } from "./elements.js";
 import * as palette from "./palette.js";
 
 const svgSpace = "http://www.w3.org/2000/svg";
@@ -26,42 +27,29 @@ function points(walk, name, from, to) {
   return list;
 }
 
-function key(parent, colour, label) {
-  const element = document.createElement("span");
-  element.className = "key";
-  const line = document.createElement("i");
-  line.className = "line";
-  line.style.background = colour;
-  element.append(line, label);
-  parent.append(element, " ");
-}
-
 export class ZmpMap {
   constructor(parent) {
     this.parent = parent;
   }
 
-  /** The map of a walk with soles of `sole` [m]; hidden where the robot's ZMP is not known. */
+  /** The map of a walk with soles of `sole` [m]; the robot's ZMP where it is known. */
   show(walk, footsteps, sole) {
     this.walk = walk;
     this.sole = sole;
     this.parent.replaceChildren();
-    const known = walk.drawn && walk.encoded.zmp_robot_x_m !== undefined &&
+    this.parent.hidden = !walk.drawn;
+    if (this.parent.hidden) return;
+    const known = walk.encoded.zmp_robot_x_m !== undefined &&
       points(walk, "zmp_robot", 0, walk.times.length - 1).length > 1;
-    this.parent.hidden = !known;
-    if (!known) return;
-    this.lines = [["zmp", palette.zmp, "planned ZMP, of a point mass"],
-                  ["zmp_robot", palette.left, "ZMP of the whole robot"]];
-    const title = document.createElement("h2");
-    title.textContent = "Both ZMPs in the support polygon";
-    const head = document.createElement("p");
-    for (const [, colour, label] of this.lines) key(head, colour, label);
+    this.lines = [["zmp", palette.zmp, "planned ZMP, of a point mass"]];
+    if (known) this.lines.push(["zmp_robot", palette.left, "ZMP of the whole robot"]);
+    const head = element("p");
+    for (const [, colour, label] of this.lines) head.append(lineKey(colour, label), " ");
     head.append(` Shaded: the polygon at the time of the walk; bold: ${trail} s before it. ` +
-      "The robot's ZMP is drawn from differences of rows; its proved margin is in certificate.csv. ");
-    this.note = document.createElement("span");
-    this.note.className = "value";
+      (known ? "The robot's ZMP is drawn from differences of rows; its proved margin is in certificate.csv. " : ""));
+    this.note = element("span", { className: "value" });
     head.append(this.note);
-    this.parent.append(title, head);
+    this.parent.append(element("h2", { text: known ? "Both ZMPs in the support polygon" : "The ZMP in the support polygon" }), head);
 
     const corners = footsteps.flatMap(({ x_m: x, y_m: y, yaw_rad: yaw }) =>
       soleCorners({ x, y, yaw }, sole));
@@ -72,12 +60,13 @@ export class ZmpMap {
     const svg = made(this.parent, "svg", { viewBox: `${left} ${top} ${width} ${height}` });
     svg.classList.add("zmp-map");
     const thin = Math.max(0.0012, width / 900);
+    this.scaleBar(svg, left + 0.02, top + height - 0.018, thin);
     for (const { x_m: x, y_m: y, yaw_rad: yaw } of footsteps) {
       made(svg, "polygon", { points: text(soleCorners({ x, y, yaw }, sole)),
-        fill: "none", stroke: "#c9d1da", "stroke-width": thin });
+        fill: "none", stroke: palette.theme.sole, "stroke-width": thin });
     }
     this.polygon = made(svg, "polygon",
-      { fill: "#e3eef6", stroke: palette.ink, "stroke-width": thin, points: "" });
+      { fill: palette.theme.support, stroke: palette.theme.ink, "stroke-width": thin, points: "" });
     const last = walk.times.length - 1;
     for (const [name, colour] of this.lines) {
       made(svg, "polyline", { points: text(points(walk, name, 0, last)), fill: "none",
@@ -86,7 +75,15 @@ export class ZmpMap {
     this.bold = this.lines.map(([, colour]) => made(svg, "polyline",
       { fill: "none", stroke: colour, "stroke-width": 2.2 * thin, points: "" }));
     this.dots = this.lines.map(([, colour]) => made(svg, "circle",
-      { r: 4 * thin, fill: colour, stroke: "#ffffff", "stroke-width": thin, cx: 0, cy: 0 }));
+      { r: 4 * thin, fill: colour, stroke: palette.theme.page, "stroke-width": thin, cx: 0, cy: 0 }));
+  }
+
+  // 10 cm, with its label, from a point of the drawing on.
+  scaleBar(svg, x, y, thin) {
+    made(svg, "path", { d: `M${x} ${y}h0.1`, stroke: palette.theme.ink, "stroke-width": 2 * thin });
+    const label = made(svg, "text", { x: x + 0.11, y: y + 5 * thin, fill: palette.theme.ink,
+      "font-size": 14 * thin });
+    label.textContent = "0.1 m";
   }
 
   showTime(t) {
@@ -108,6 +105,7 @@ export class ZmpMap {
         text([...points(walk, name, from, at.row), ...(known ? [[x, y]] : [])]));
       return [x, y];
     });
+    if (places.length < 2) return;
     const apart = 1000 * Math.hypot(places[0][0] - places[1][0], places[0][1] - places[1][1]);
     this.note.textContent = Number.isFinite(apart) ? `Apart now: ${apart.toFixed(1)} mm.` : "";
   }

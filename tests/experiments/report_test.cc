@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -151,8 +152,20 @@ TEST_F(ReportTest, HoldsTheWalksOfTheRun) {
   EXPECT_EQ(walk["summary"]["method"], "dichotomy");
   EXPECT_EQ(walk["certificate"]["verdict"], "certified");
   EXPECT_THAT(walk["overlaps"][0]["active"].get<std::string>(), HasSubstr(obstacle));
-  // Columns add up to the trajectory's rows, every fourth and the last.
+  // The nearest pair is that of the row with the least clearance.
+  const json& nearest = walk["nearest"][0];
+  EXPECT_EQ(nearest["family"], "clearance");
+  EXPECT_EQ(nearest["between"][1], obstacle);
   const ParsedCsv rows(ReadText(place_ / "run/dichotomy/trajectory.csv"));
+  double least = 1.0;
+  for (size_t i = 0; i < rows.size(); ++i) least = std::min(least, rows.Number(i, "clearance_m"));
+  EXPECT_NEAR(nearest["margin_m"].get<double>(), least, 1e-6);
+  Eigen::Vector3d between;
+  for (int k = 0; k < 3; ++k) {
+    between[k] = nearest["points"][0][k].get<double>() - nearest["points"][1][k].get<double>();
+  }
+  EXPECT_NEAR(between.norm(), least, 1e-5);
+  // Columns add up to the trajectory's rows, every fourth and the last.
   for (const std::string column : {"t_s", "com_x_m", "right_foot_z_m", "q_RLEG_JOINT3_rad"}) {
     const json& shown = walk["columns"][column];
     ASSERT_EQ(shown["delta"].size(), (rows.size() - 1 + 3) / 4 + 1);

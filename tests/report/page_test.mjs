@@ -1,11 +1,12 @@
 // Opens report.html in Chromium: node page_test.mjs HALFSTEP SOURCE_FOLDER
 // Exit status 77, which ctest counts as skipped, when there is no Chromium or no report.
 import assert from "node:assert/strict";
-import { execFileSync } from "node:child_process";
+import { execFileSync, spawnSync } from "node:child_process";
 import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { Browser, hasBrowser, pause } from "./browser.mjs";
+import { testControls, testInfeasible, testPhoneInTheDark } from "./page_controls.mjs";
 import { countColours, partThatDiffers, readPng } from "./png.mjs";
 
 const [halfstep, source] = process.argv.slice(2);
@@ -29,7 +30,22 @@ function makeRun() {
     "--set", `scene=${place}/box.yaml`, "--set", `robot=${place}/robot.yaml`,
     "--set", `name=${JSON.stringify(hostile)}`,
   ], { cwd: place });
+  spawnSync(halfstep, [
+    "run", join(source, "experiments/configs/fig5_box.yaml"), "--out", "low", "--quiet",
+    "--set", "half_step.via_height_m=0.14", "--set", "smoothing.methods=[dichotomy]",
+  ], { cwd: place });
   execFileSync(halfstep, ["compare", "run", "--out", "comparison", "--quiet"], { cwd: place });
+}
+
+// What plot_foot.gp draws of the box: 1.8 cm deep, 8 cm high, 13.7 cm ahead.
+function testOutlines() {
+  const facts = execFileSync("python3", [join(source, "notebooks-data/run_facts.py"),
+    join(place, "run"), "outlines", "right", "dichotomy"], { encoding: "utf8" });
+  const corners = facts.trim().split("\n").map((line) => line.split(",").map(Number));
+  assert.equal(corners.length, 5, "a closed rectangle");
+  const [xs, zs] = [0, 1].map((k) => corners.map((corner) => corner[k]));
+  const ends = [xs, zs].flatMap((values) => [Math.min(...values), Math.max(...values)]);
+  [12.8, 14.6, 0, 8].forEach((end, i) => assert.ok(Math.abs(ends[i] - end) < 0.02, `${ends}`));
 }
 
 // The view once it satisfies `condition`, or as it is after 20 s: a slow machine draws late.
@@ -117,6 +133,16 @@ async function testComparison(browser) {
   assert.deepEqual(await browser.console(), []);
 }
 
+async function testEveryControl(browser) {
+  const url = `file://${place}/run/report.html`;
+  await browser.load("about:blank"); // an address that differs after # only loads nothing
+  await testControls(browser, url);
+  await browser.load("about:blank");
+  await testPhoneInTheDark(browser, url);
+  assert.deepEqual(await browser.console(), [], "the console is empty");
+  await testInfeasible(browser, `file://${place}/low/report.html`);
+}
+
 async function testWithoutWebGl(browser) {
   await browser.load(`file://${place}/run/report.html`);
   const page = await browser.run(`return { view: document.getElementById("view").innerText,
@@ -137,7 +163,8 @@ try {
     console.log("Skipped: this build of halfstep has no report");
     process.exitCode = 77;
   } else {
-    for (const [flags, tests] of [[[], [testRun, testComparison]],
+    testOutlines();
+    for (const [flags, tests] of [[[], [testRun, testComparison, testEveryControl]],
                                   [["--disable-3d-apis"], [testWithoutWebGl]]]) {
       const browser = await Browser.open(1366, 768, flags);
       try {

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <vector>
+
+#include "halfstep/experiments/tables/csv_reader.h"
+#include "halfstep/wpg/motion/walk_state.h"
+
+namespace halfstep {
+
+/// The quantities of a walk at each row of a trajectory.csv, [m] and [rad]; the places of the ZMP,
+/// which a posture does not ask for, are 0. Throws InputError where a column is missing or no
+/// number.
+std::vector<WalkState> StatesOf(const CsvTable& trajectory);
+
+}  // namespace halfstep
