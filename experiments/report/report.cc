@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "halfstep/experiments/config/folder_name.h"
+#include "halfstep/experiments/report/nearest_pairs.h"
 #include "halfstep/experiments/report/report_page.h"
 #include "halfstep/experiments/report/report_place.h"
 #include "halfstep/experiments/report/report_walk.h"
@@ -149,13 +150,23 @@ json WithTables(json result, const ComparedCase& one, std::vector<json> drawn) {
   return result;
 }
 
+// A walk with the pairs that are nearest, as `nearest`, and the rows of its pareto.csv, if any.
+json DrawnWalk(const RobotModel& robot, const Scene& scene, const fs::path& folder,
+               double spacing) {
+  json walk = WalkJson(robot, folder, spacing);
+  walk["nearest"] = NearestPairsJson(robot, scene, ReadCsv((folder / "trajectory.csv").string()));
+  const fs::path pareto = folder / "pareto.csv";
+  if (fs::exists(pareto)) walk["pareto"] = RowsJson(pareto);
+  return walk;
+}
+
 json CaseOf(const ComparedCase& one, double spacing, json* report) {
   const fs::path run(one.methods.front().record.run);
   try {
     const Place place = PlaceOfRun(run);
     std::vector<json> walks;
     for (const ComparedMethod& method : one.methods) {
-      walks.push_back(WalkJson(place.robot, place.scene, FolderOf(method.record), spacing));
+      walks.push_back(DrawnWalk(place.robot, place.scene, FolderOf(method.record), spacing));
     }
     return WithTables(CaseOf(one.scenario, run, place.robot, place.scene, report), one,
                       std::move(walks));
@@ -190,7 +201,7 @@ std::string RunReport(const RobotModel& robot, const Scene& scene, const fs::pat
   }
   for (const json& row : summary) {
     const auto method = row.at("method").get<std::string>();
-    json walk = WalkJson(robot, scene, folder / MethodFolder(method), SpacingFor(total));
+    json walk = DrawnWalk(robot, scene, folder / MethodFolder(method), SpacingFor(total));
     walk["summary"] = WithOwn(row, folder / "summary.csv");
     one["walks"].push_back(std::move(walk));
   }

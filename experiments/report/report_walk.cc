@@ -6,7 +6,6 @@
 #include <optional>
 #include <vector>
 
-#include "halfstep/experiments/report/nearest_pairs.h"
 #include "halfstep/experiments/report/robot_zmp.h"
 #include "halfstep/experiments/report/shortened.h"
 #include "halfstep/experiments/tables/csv_reader.h"
@@ -150,7 +149,7 @@ json WalkJson(const fs::path& folder, double spacing) {
   return walk;
 }
 
-json WalkJson(const RobotModel& robot, const Scene& scene, const fs::path& folder, double spacing) {
+json WalkJson(const RobotModel& robot, const fs::path& folder, double spacing) {
   json walk = WalkJson(folder, spacing);
   const ShownRows shown = ReadRows(folder / "trajectory.csv", spacing);
   std::vector<double> x, y;
@@ -160,9 +159,6 @@ json WalkJson(const RobotModel& robot, const Scene& scene, const fs::path& folde
   }
   walk["columns"]["zmp_robot_x_m"] = ColumnJson(x, shown.rows, kFine);
   walk["columns"]["zmp_robot_y_m"] = ColumnJson(y, shown.rows, kFine);
-  walk["nearest"] = NearestPairsJson(robot, scene, shown.table);
-  const fs::path pareto = folder / "pareto.csv";
-  if (fs::exists(pareto)) walk["pareto"] = RowsJson(pareto);
   return walk;
 }
 

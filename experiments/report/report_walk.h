@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/planner/scene/scene.h"
 #include "halfstep/wpg/robot/robot_model.h"
 
 namespace halfstep {
@@ -18,10 +17,9 @@ namespace halfstep {
 /// Throws InputError for what is no such folder.
 nlohmann::json WalkJson(const std::filesystem::path& folder, double spacing);
 
-/// The same with two columns more, `zmp_robot_x_m` and `zmp_robot_y_m` (RobotZmps), the nearest
-/// pairs (NearestPairsJson) as `nearest`, and the rows of pareto.csv, if there is one, as `pareto`.
-nlohmann::json WalkJson(const RobotModel& robot, const Scene& scene,
-                        const std::filesystem::path& folder, double spacing);
+/// The same with two columns more, `zmp_robot_x_m` and `zmp_robot_y_m` (RobotZmps).
+nlohmann::json WalkJson(const RobotModel& robot, const std::filesystem::path& folder,
+                        double spacing);
 
 /// `columns` of a trajectory.csv in the same way, and `support`: the first letter of each row's.
 nlohmann::json MotionJson(const std::filesystem::path& trajectory,
