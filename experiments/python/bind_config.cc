@@ -114,6 +114,7 @@ py::dict Methods() {
 std::vector<std::string> OptionGroups(const std::string& method) {
   switch (FindSmoother(method).options()) {
     case OptionGroup::kNone:
+    case OptionGroup::kGiven:  // its files are `smoothing.given`, which need not be there
       return {};
     case OptionGroup::kDichotomy:
       return {"dichotomy"};
