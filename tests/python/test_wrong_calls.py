@@ -82,6 +82,7 @@ CALLS = [
     (ValueError, "different lengths", lambda: hs.Table({"a": [1], "b": [1, 2]})),
     # methods
     (ValueError, "no method 'best'", lambda: EXPERIMENT.smooth("best")),
+    (ValueError, "given: its files are", lambda: EXPERIMENT.smooth("given")),
     (TypeError, "method: int", lambda: EXPERIMENT.smooth(1)),
     (TypeError, "no option 'speed'", lambda: EXPERIMENT.smooth("dichotomy", speed=1)),
     (INPUT, "tolerance_s", lambda: EXPERIMENT.smooth("dichotomy", tolerance_s=NAN)),

@@ -177,6 +177,9 @@ class Experiment:
             raise TypeError(f"method: {type(method).__name__} (valid: a method's name)")
         if method not in methods():
             raise ValueError(f"no method {method!r} (valid: {', '.join(methods())})")
+        if method == "given":
+            raise ValueError("given: its files are for run() (valid here: walk(overlaps=…), which "
+                             "needs no method)")
         limit = math.inf
         if deadline is not None:
             if isinstance(deadline, bool) or not isinstance(deadline, (int, float)):
