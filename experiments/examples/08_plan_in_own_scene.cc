@@ -14,8 +14,7 @@ int main() {
                                               {"step_set.x_max_m", "0.35"},
                                               {"step_set.y_min_m", "-0.26"},
                                               {"step_set.y_max_m", "-0.16"},
-                                              {"step_set.yaws_rad", "[-0.25, 0, 0.25]"},
-                                              {"swept_volumes.cache", "volumes"}});
+                                              {"step_set.yaws_rad", "[-0.25, 0, 0.25]"}});
   Place place = LoadPlace(config);
   place.scene.obstacles = {{.name = "plank", .shape = Box{.size = {0.02, 2.0, 0.05}}}};
   place.scene.obstacles.front().X_WO.translation() << 0.1, 0.0, 0.025;

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Runs the examples in C++ and looks for what each says.   examples_test.py FOLDER_OF_PROGRAMS"""
+import os
 import pathlib
 import re
 import subprocess
@@ -18,7 +19,7 @@ class Examples(unittest.TestCase):
     def told_by(self, name, *arguments):
         with tempfile.TemporaryDirectory() as place:
             done = subprocess.run([FOLDER / name, *arguments], cwd=place, text=True,
-                                  capture_output=True)
+                                  env=os.environ | {"XDG_CACHE_HOME": place}, capture_output=True)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         return done.stdout
 
