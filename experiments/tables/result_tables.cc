@@ -105,8 +105,9 @@ CsvFile ParetoCsv(const MarginEvaluator& evaluator, const HalfStepSequence& sequ
   for (const ParetoPoint& point : run.result.pareto) {
     csv.Cell(point.duration).Cell(point.least_slack);
     const SuperposedWalk walk(sequence, point.parameters);
-    for (const Margin& margin : SampleMargins(evaluator, walk, kPeriod, &scratch)) {
-      csv.Cell(margin.value);
+    const MarginSet margins = SampleMargins(evaluator, walk, kPeriod, &scratch);
+    for (const MarginFamily family : AllMarginFamilies()) {
+      csv.Cell(margins[static_cast<size_t>(family)].value);
     }
     csv.EndRow();
   }

@@ -42,6 +42,7 @@ MarginSet MarginEvaluator::At(const SuperposedWalk& walk, const LocalTime& at,
   ++scratch->instants;
   Instant instant(place(), limits_, walk, at, scratch);
   MarginSet margins;
+  margins.back().family = MarginFamily::kOwn;  // where nothing is registered: without a limit
   for (const MarginFamily family : AllMarginFamilies()) {
     Margin& margin = margins[static_cast<size_t>(family)];
     margin = statements(family).Least(&instant, std::numeric_limits<double>::infinity());
