@@ -121,9 +121,7 @@ export async function recorded(canvas, draw, play) {
   const bytes = () => chunks.reduce((sum, chunk) => sum + chunk.size, 0);
   recorder.addEventListener("dataavailable", (event) => chunks.push(event.data));
   const over = new Promise((resolve) => recorder.addEventListener("stop", resolve));
-  const begun = new Promise((resolve) => recorder.addEventListener("start", resolve));
   recorder.start(200);
-  await begun;
   await play();
   for (let i = 0; i < 3 || (i < 50 && bytes() < leastBytes); ++i) {
     await pause(100);
