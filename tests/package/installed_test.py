@@ -62,6 +62,17 @@ class Installed(unittest.TestCase):
                     env={"PKG_CONFIG_PATH": str(next(self.prefix.rglob("pkgconfig")))})
         self.assertIn("-lhalfstep_smoothing", found)
 
+    def test_the_python_module(self):
+        packages = list(self.prefix.rglob("dist-packages"))
+        if not packages:
+            self.skipTest("built without the Python module")
+        told = run("/usr/bin/python3", "-c", "import halfstep as hs; "
+                   "print(hs.__file__, hs.Experiment('fig3_two_half_steps').smooth().duration)",
+                   cwd=self.place, env={"PYTHONPATH": str(packages[0])})
+        file, duration = told.split()
+        self.assertTrue(file.startswith(str(self.prefix)), file)
+        self.assertLess(float(duration), 4.0)
+
     def test_find_package(self):
         build = self.place / "examples"
         run("cmake", "-S", SOURCE / "experiments/examples", "-B", build, "-G", "Ninja",
