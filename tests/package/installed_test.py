@@ -58,9 +58,11 @@ class Installed(unittest.TestCase):
         self.assertTrue((self.prefix / "include/halfstep/smoothing/walk/splice.h").exists())
 
     def test_pkg_config(self):
-        found = run("pkg-config", "--cflags", "--libs", "halfstep",
+        found = run("pkg-config", "--cflags", "--libs", "--static", "halfstep",
                     env={"PKG_CONFIG_PATH": str(next(self.prefix.rglob("pkgconfig")))})
         self.assertIn("-lhalfstep_smoothing", found)
+        self.assertIn("-lfcl", found)
+        self.assertNotIn("-std", found)  # which one is the user's
 
     def test_the_python_module(self):
         packages = list(self.prefix.rglob("dist-packages"))
