@@ -1,3 +1,3 @@
-#include "halfstep/experiments/commands/run_experiment.h"
+#include "experiments/commands/run_experiment.h"
 
 int main(int argc, char** argv) { return halfstep::RunExperiment(argc, argv); }

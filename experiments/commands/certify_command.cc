@@ -2,22 +2,22 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "halfstep/experiments/commands/command_line.h"
-#include "halfstep/experiments/commands/commands.h"
-#include "halfstep/experiments/config/experiment.h"
-#include "halfstep/experiments/config/folder_name.h"
-#include "halfstep/experiments/report/report.h"
-#include "halfstep/experiments/run/complete_manifest.h"
-#include "halfstep/experiments/run/interrupt.h"
-#include "halfstep/experiments/tables/certificate_files.h"
-#include "halfstep/experiments/tables/csv_reader.h"
-#include "halfstep/experiments/tables/json_file.h"
-#include "halfstep/experiments/tables/parameter_tables.h"
-#include "halfstep/experiments/tables/result_tables.h"
-#include "halfstep/experiments/tables/run_folder.h"
-#include "halfstep/experiments/tables/trajectory_match.h"
-#include "halfstep/wpg/files/input_error.h"
-#include "halfstep/wpg/files/sha256.h"
+#include "experiments/commands/command_line.h"
+#include "experiments/commands/commands.h"
+#include "experiments/config/experiment.h"
+#include "experiments/config/folder_name.h"
+#include "experiments/report/report.h"
+#include "experiments/run/complete_manifest.h"
+#include "experiments/run/interrupt.h"
+#include "experiments/tables/certificate_files.h"
+#include "experiments/tables/csv_reader.h"
+#include "experiments/tables/json_file.h"
+#include "experiments/tables/parameter_tables.h"
+#include "experiments/tables/result_tables.h"
+#include "experiments/tables/run_folder.h"
+#include "experiments/tables/trajectory_match.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/sha256.h"
 
 namespace halfstep {
 namespace {

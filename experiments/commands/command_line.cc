@@ -1,11 +1,11 @@
-#include "halfstep/experiments/commands/command_line.h"
+#include "experiments/commands/command_line.h"
 
 #include <iostream>
 
-#include "halfstep/experiments/commands/commands.h"
-#include "halfstep/experiments/config/experiment_config.h"
-#include "halfstep/wpg/files/input_error.h"
-#include "halfstep/wpg/robot/robot_model.h"
+#include "experiments/commands/commands.h"
+#include "experiments/config/experiment_config.h"
+#include "wpg/files/input_error.h"
+#include "wpg/robot/robot_model.h"
 
 namespace halfstep {
 

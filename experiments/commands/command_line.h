@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/planner/scene/scene.h"
-#include "halfstep/wpg/files/yaml_fields.h"
+#include "planner/scene/scene.h"
+#include "wpg/files/yaml_fields.h"
 
 namespace halfstep {
 

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/experiments/export/whole_trajectory.h"
-#include "halfstep/experiments/run/exit_status.h"
-#include "halfstep/experiments/survey/robot_survey.h"
-#include "halfstep/wpg/files/yaml_fields.h"
+#include "experiments/export/whole_trajectory.h"
+#include "experiments/run/exit_status.h"
+#include "experiments/survey/robot_survey.h"
+#include "wpg/files/yaml_fields.h"
 
 namespace halfstep {
 

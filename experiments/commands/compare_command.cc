@@ -2,13 +2,13 @@
 #include <iostream>
 #include <memory>
 
-#include "halfstep/experiments/commands/command_line.h"
-#include "halfstep/experiments/commands/commands.h"
-#include "halfstep/experiments/compare/comparison_tables.h"
-#include "halfstep/experiments/report/report.h"
-#include "halfstep/experiments/report/report_page.h"
-#include "halfstep/experiments/tables/run_folder.h"
-#include "halfstep/wpg/files/input_error.h"
+#include "experiments/commands/command_line.h"
+#include "experiments/commands/commands.h"
+#include "experiments/compare/comparison_tables.h"
+#include "experiments/report/report.h"
+#include "experiments/report/report_page.h"
+#include "experiments/tables/run_folder.h"
+#include "wpg/files/input_error.h"
 
 namespace halfstep {
 namespace {

@@ -2,9 +2,9 @@
 #include <iostream>
 #include <memory>
 
-#include "halfstep/experiments/commands/command_line.h"
-#include "halfstep/experiments/config/random_scenes.h"
-#include "halfstep/experiments/run/exit_status.h"
+#include "experiments/commands/command_line.h"
+#include "experiments/config/random_scenes.h"
+#include "experiments/run/exit_status.h"
 
 namespace halfstep {
 

@@ -3,16 +3,16 @@
 #include <iostream>
 #include <memory>
 
-#include "halfstep/experiments/commands/command_line.h"
-#include "halfstep/experiments/commands/commands.h"
-#include "halfstep/experiments/config/experiment.h"
-#include "halfstep/experiments/config/experiment_config.h"
-#include "halfstep/experiments/config/key_tables.h"
-#include "halfstep/experiments/config/scaled_defaults.h"
-#include "halfstep/experiments/live/live_config.h"
-#include "halfstep/wpg/files/input_error.h"
-#include "halfstep/wpg/files/text.h"
-#include "halfstep/wpg/robot/robot_measures.h"
+#include "experiments/commands/command_line.h"
+#include "experiments/commands/commands.h"
+#include "experiments/config/experiment.h"
+#include "experiments/config/experiment_config.h"
+#include "experiments/config/key_tables.h"
+#include "experiments/config/scaled_defaults.h"
+#include "experiments/live/live_config.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/text.h"
+#include "wpg/robot/robot_measures.h"
 
 namespace halfstep {
 namespace {

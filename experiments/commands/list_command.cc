@@ -4,12 +4,12 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "halfstep/experiments/commands/command_line.h"
-#include "halfstep/experiments/commands/commands.h"
-#include "halfstep/experiments/config/data_folder.h"
-#include "halfstep/opt/adapters/solver_registry.h"
-#include "halfstep/smoothing/methods/smoother_registry.h"
-#include "halfstep/wpg/files/input_error.h"
+#include "experiments/commands/command_line.h"
+#include "experiments/commands/commands.h"
+#include "experiments/config/data_folder.h"
+#include "opt/adapters/solver_registry.h"
+#include "smoothing/methods/smoother_registry.h"
+#include "wpg/files/input_error.h"
 
 namespace halfstep {
 namespace {

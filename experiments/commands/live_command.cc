@@ -2,21 +2,21 @@
 #include <memory>
 #include <optional>
 
-#include "halfstep/experiments/commands/command_line.h"
-#include "halfstep/experiments/commands/commands.h"
-#include "halfstep/experiments/live/episode.h"
-#include "halfstep/experiments/live/episode_files.h"
-#include "halfstep/experiments/live/episode_journal.h"
-#include "halfstep/experiments/live/episode_summary.h"
-#include "halfstep/experiments/live/spare_boxes.h"
-#include "halfstep/experiments/replay/physics_record.h"
-#include "halfstep/experiments/report/live_page.h"
-#include "halfstep/experiments/report/report_page.h"
-#include "halfstep/experiments/run/interrupt.h"
-#include "halfstep/experiments/run/planning.h"
-#include "halfstep/experiments/run/progress_bar.h"
-#include "halfstep/experiments/server/served_episode.h"
-#include "halfstep/wpg/files/input_error.h"
+#include "experiments/commands/command_line.h"
+#include "experiments/commands/commands.h"
+#include "experiments/live/episode.h"
+#include "experiments/live/episode_files.h"
+#include "experiments/live/episode_journal.h"
+#include "experiments/live/episode_summary.h"
+#include "experiments/live/spare_boxes.h"
+#include "experiments/replay/physics_record.h"
+#include "experiments/report/live_page.h"
+#include "experiments/report/report_page.h"
+#include "experiments/run/interrupt.h"
+#include "experiments/run/planning.h"
+#include "experiments/run/progress_bar.h"
+#include "experiments/server/served_episode.h"
+#include "wpg/files/input_error.h"
 
 namespace halfstep {
 namespace {

@@ -5,13 +5,13 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "halfstep/experiments/commands/command_line.h"
-#include "halfstep/experiments/commands/commands.h"
-#include "halfstep/experiments/config/experiment.h"
-#include "halfstep/experiments/run/interrupt.h"
-#include "halfstep/experiments/run/planning.h"
-#include "halfstep/experiments/run/progress_bar.h"
-#include "halfstep/wpg/files/input_error.h"
+#include "experiments/commands/command_line.h"
+#include "experiments/commands/commands.h"
+#include "experiments/config/experiment.h"
+#include "experiments/run/interrupt.h"
+#include "experiments/run/planning.h"
+#include "experiments/run/progress_bar.h"
+#include "wpg/files/input_error.h"
 
 namespace halfstep {
 namespace {

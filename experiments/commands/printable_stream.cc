@@ -1,6 +1,6 @@
-#include "halfstep/experiments/commands/printable_stream.h"
+#include "experiments/commands/printable_stream.h"
 
-#include "halfstep/wpg/files/text.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 

@@ -1,14 +1,14 @@
 #include <iostream>
 #include <memory>
 
-#include "halfstep/experiments/commands/command_line.h"
-#include "halfstep/experiments/commands/commands.h"
-#include "halfstep/experiments/live/episode_files.h"
-#include "halfstep/experiments/live/episode_journal.h"
-#include "halfstep/experiments/live/episode_reader.h"
-#include "halfstep/experiments/live/spare_boxes.h"
-#include "halfstep/wpg/files/input_error.h"
-#include "halfstep/wpg/files/text.h"
+#include "experiments/commands/command_line.h"
+#include "experiments/commands/commands.h"
+#include "experiments/live/episode_files.h"
+#include "experiments/live/episode_journal.h"
+#include "experiments/live/episode_reader.h"
+#include "experiments/live/spare_boxes.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 

@@ -2,21 +2,21 @@
 #include <iostream>
 #include <memory>
 
-#include "halfstep/experiments/commands/command_line.h"
-#include "halfstep/experiments/commands/commands.h"
-#include "halfstep/experiments/config/experiment.h"
-#include "halfstep/experiments/config/folder_name.h"
-#include "halfstep/experiments/replay/episode_folder.h"
-#include "halfstep/experiments/replay/mujoco_model.h"
-#include "halfstep/experiments/replay/replay_screen.h"
-#include "halfstep/experiments/replay/simulated_obstacles.h"
-#include "halfstep/experiments/run/interrupt.h"
-#include "halfstep/experiments/run/progress_bar.h"
-#include "halfstep/experiments/tables/certificate_files.h"
-#include "halfstep/experiments/tables/run_folder.h"
-#include "halfstep/experiments/tables/run_record.h"
-#include "halfstep/wpg/files/input_error.h"
-#include "halfstep/wpg/files/number_text.h"
+#include "experiments/commands/command_line.h"
+#include "experiments/commands/commands.h"
+#include "experiments/config/experiment.h"
+#include "experiments/config/folder_name.h"
+#include "experiments/replay/episode_folder.h"
+#include "experiments/replay/mujoco_model.h"
+#include "experiments/replay/replay_screen.h"
+#include "experiments/replay/simulated_obstacles.h"
+#include "experiments/run/interrupt.h"
+#include "experiments/run/progress_bar.h"
+#include "experiments/tables/certificate_files.h"
+#include "experiments/tables/run_folder.h"
+#include "experiments/tables/run_record.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/number_text.h"
 
 namespace halfstep {
 namespace {

@@ -3,19 +3,19 @@
 #include <memory>
 #include <stdexcept>
 
-#include "halfstep/experiments/commands/command_line.h"
-#include "halfstep/experiments/commands/commands.h"
-#include "halfstep/experiments/live/episode_reader.h"
-#include "halfstep/experiments/live/episode_report.h"
-#include "halfstep/experiments/live/spare_boxes.h"
-#include "halfstep/experiments/report/report.h"
-#include "halfstep/experiments/report/report_page.h"
-#include "halfstep/experiments/run/complete_manifest.h"
-#include "halfstep/experiments/tables/json_file.h"
-#include "halfstep/experiments/tables/run_folder.h"
-#include "halfstep/experiments/tables/run_record.h"
-#include "halfstep/wpg/files/input_error.h"
-#include "halfstep/wpg/files/whole_file.h"
+#include "experiments/commands/command_line.h"
+#include "experiments/commands/commands.h"
+#include "experiments/live/episode_reader.h"
+#include "experiments/live/episode_report.h"
+#include "experiments/live/spare_boxes.h"
+#include "experiments/report/report.h"
+#include "experiments/report/report_page.h"
+#include "experiments/run/complete_manifest.h"
+#include "experiments/tables/json_file.h"
+#include "experiments/tables/run_folder.h"
+#include "experiments/tables/run_record.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/whole_file.h"
 
 namespace halfstep {
 

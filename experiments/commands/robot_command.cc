@@ -4,19 +4,19 @@
 #include <memory>
 #include <optional>
 
-#include "halfstep/experiments/commands/command_line.h"
-#include "halfstep/experiments/commands/commands.h"
-#include "halfstep/experiments/run/experiment_run.h"
-#include "halfstep/experiments/run/interrupt.h"
-#include "halfstep/experiments/run/progress_bar.h"
-#include "halfstep/experiments/run/run_screen.h"
-#include "halfstep/experiments/survey/robot_picture.h"
-#include "halfstep/experiments/survey/robot_survey.h"
-#include "halfstep/experiments/survey/six_steps_config.h"
-#include "halfstep/wpg/files/input_error.h"
-#include "halfstep/wpg/files/text.h"
-#include "halfstep/wpg/files/whole_file.h"
-#include "halfstep/wpg/robot/robot_measures.h"
+#include "experiments/commands/command_line.h"
+#include "experiments/commands/commands.h"
+#include "experiments/run/experiment_run.h"
+#include "experiments/run/interrupt.h"
+#include "experiments/run/progress_bar.h"
+#include "experiments/run/run_screen.h"
+#include "experiments/survey/robot_picture.h"
+#include "experiments/survey/robot_survey.h"
+#include "experiments/survey/six_steps_config.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/text.h"
+#include "wpg/files/whole_file.h"
+#include "wpg/robot/robot_measures.h"
 
 namespace halfstep {
 namespace {

@@ -4,17 +4,17 @@
 #include <memory>
 #include <optional>
 
-#include "halfstep/experiments/commands/command_line.h"
-#include "halfstep/experiments/commands/commands.h"
-#include "halfstep/experiments/report/report.h"
-#include "halfstep/experiments/report/report_page.h"
-#include "halfstep/experiments/run/complete_manifest.h"
-#include "halfstep/experiments/run/experiment_run.h"
-#include "halfstep/experiments/run/interrupt.h"
-#include "halfstep/experiments/run/missed_demands_text.h"
-#include "halfstep/experiments/run/progress_bar.h"
-#include "halfstep/experiments/run/run_screen.h"
-#include "halfstep/wpg/files/input_error.h"
+#include "experiments/commands/command_line.h"
+#include "experiments/commands/commands.h"
+#include "experiments/report/report.h"
+#include "experiments/report/report_page.h"
+#include "experiments/run/complete_manifest.h"
+#include "experiments/run/experiment_run.h"
+#include "experiments/run/interrupt.h"
+#include "experiments/run/missed_demands_text.h"
+#include "experiments/run/progress_bar.h"
+#include "experiments/run/run_screen.h"
+#include "wpg/files/input_error.h"
 
 namespace halfstep {
 namespace {

@@ -1,4 +1,4 @@
-#include "halfstep/experiments/commands/run_experiment.h"
+#include "experiments/commands/run_experiment.h"
 
 #include <CLI/CLI.hpp>
 #include <iostream>
@@ -8,12 +8,12 @@
 #include <utility>
 #include <vector>
 
-#include "halfstep/experiments/build_info.h"
-#include "halfstep/experiments/commands/command_line.h"
-#include "halfstep/experiments/commands/printable_stream.h"
-#include "halfstep/experiments/run/exit_status.h"
-#include "halfstep/wpg/files/input_error.h"
-#include "halfstep/wpg/files/text.h"
+#include "experiments/build_info.h"
+#include "experiments/commands/command_line.h"
+#include "experiments/commands/printable_stream.h"
+#include "experiments/run/exit_status.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {

@@ -3,13 +3,13 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "halfstep/experiments/commands/command_line.h"
-#include "halfstep/experiments/commands/commands.h"
-#include "halfstep/experiments/config/experiment_config.h"
-#include "halfstep/experiments/tables/given_walk_file.h"
-#include "halfstep/smoothing/methods/smoother_registry.h"
-#include "halfstep/wpg/files/input_error.h"
-#include "halfstep/wpg/files/text.h"
+#include "experiments/commands/command_line.h"
+#include "experiments/commands/commands.h"
+#include "experiments/config/experiment_config.h"
+#include "experiments/tables/given_walk_file.h"
+#include "smoothing/methods/smoother_registry.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {

@@ -7,15 +7,15 @@
 #include <map>
 #include <thread>
 
-#include "halfstep/experiments/commands/command_line.h"
-#include "halfstep/experiments/commands/commands.h"
-#include "halfstep/experiments/run/interrupt.h"
-#include "halfstep/experiments/run/progress_bar.h"
-#include "halfstep/experiments/sweep/sweep_case.h"
-#include "halfstep/experiments/sweep/worker_processes.h"
-#include "halfstep/experiments/tables/csv_reader.h"
-#include "halfstep/wpg/files/input_error.h"
-#include "halfstep/wpg/files/text.h"
+#include "experiments/commands/command_line.h"
+#include "experiments/commands/commands.h"
+#include "experiments/run/interrupt.h"
+#include "experiments/run/progress_bar.h"
+#include "experiments/sweep/sweep_case.h"
+#include "experiments/sweep/worker_processes.h"
+#include "experiments/tables/csv_reader.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {

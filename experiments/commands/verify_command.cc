@@ -1,9 +1,9 @@
 #include <iostream>
 #include <memory>
 
-#include "halfstep/experiments/commands/command_line.h"
-#include "halfstep/experiments/run/exit_status.h"
-#include "halfstep/experiments/verify/verify_run.h"
+#include "experiments/commands/command_line.h"
+#include "experiments/run/exit_status.h"
+#include "experiments/verify/verify_run.h"
 
 namespace halfstep {
 namespace {

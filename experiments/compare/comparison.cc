@@ -1,10 +1,10 @@
-#include "halfstep/experiments/compare/comparison.h"
+#include "experiments/compare/comparison.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "halfstep/wpg/files/input_error.h"
-#include "halfstep/wpg/files/text.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {

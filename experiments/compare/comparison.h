@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "halfstep/experiments/tables/run_record.h"
+#include "experiments/tables/run_record.h"
 
 namespace halfstep {
 

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "halfstep/experiments/compare/comparison_tables.h"
-#include "halfstep/wpg/files/text.h"
+#include "experiments/compare/comparison_tables.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {

@@ -1,11 +1,11 @@
-#include "halfstep/experiments/compare/comparison_tables.h"
+#include "experiments/compare/comparison_tables.h"
 
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "halfstep/experiments/build_info.h"
-#include "halfstep/experiments/tables/csv_writer.h"
-#include "halfstep/wpg/files/text.h"
+#include "experiments/build_info.h"
+#include "experiments/tables/csv_writer.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {

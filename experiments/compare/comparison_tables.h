@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/experiments/compare/comparison.h"
-#include "halfstep/experiments/tables/csv_columns.h"
+#include "experiments/compare/comparison.h"
+#include "experiments/tables/csv_columns.h"
 
 namespace halfstep {
 

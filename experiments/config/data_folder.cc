@@ -1,4 +1,4 @@
-#include "halfstep/experiments/config/data_folder.h"
+#include "experiments/config/data_folder.h"
 
 #include <dlfcn.h>
 

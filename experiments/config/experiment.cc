@@ -1,10 +1,10 @@
-#include "halfstep/experiments/config/experiment.h"
+#include "experiments/config/experiment.h"
 
-#include "halfstep/experiments/config/data_folder.h"
-#include "halfstep/planner/scene/no_step_areas.h"
-#include "halfstep/wpg/files/input_error.h"
-#include "halfstep/wpg/motion/compensation.h"
-#include "halfstep/wpg/robot/torque_limits.h"
+#include "experiments/config/data_folder.h"
+#include "planner/scene/no_step_areas.h"
+#include "wpg/files/input_error.h"
+#include "wpg/motion/compensation.h"
+#include "wpg/robot/torque_limits.h"
 
 namespace halfstep {
 namespace {

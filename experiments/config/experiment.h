@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/experiments/config/experiment_config.h"
-#include "halfstep/planner/scene/scene.h"
-#include "halfstep/smoothing/margins/margin_evaluator.h"
-#include "halfstep/wpg/geometry/footprint.h"
-#include "halfstep/wpg/motion/half_step_sequence.h"
-#include "halfstep/wpg/robot/robot_model.h"
+#include "experiments/config/experiment_config.h"
+#include "planner/scene/scene.h"
+#include "smoothing/margins/margin_evaluator.h"
+#include "wpg/geometry/footprint.h"
+#include "wpg/motion/half_step_sequence.h"
+#include "wpg/robot/robot_model.h"
 
 namespace halfstep {
 

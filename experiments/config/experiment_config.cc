@@ -1,17 +1,17 @@
-#include "halfstep/experiments/config/experiment_config.h"
+#include "experiments/config/experiment_config.h"
 
 #include <algorithm>
 #include <filesystem>
 
-#include "halfstep/experiments/config/data_folder.h"
-#include "halfstep/experiments/config/experiment.h"
-#include "halfstep/experiments/config/folder_name.h"
-#include "halfstep/experiments/config/scaled_defaults.h"
-#include "halfstep/smoothing/margins/family_traits.h"
-#include "halfstep/smoothing/methods/smoother_registry.h"
-#include "halfstep/wpg/files/input_error.h"
-#include "halfstep/wpg/files/text.h"
-#include "halfstep/wpg/robot/robot_measures.h"
+#include "experiments/config/data_folder.h"
+#include "experiments/config/experiment.h"
+#include "experiments/config/folder_name.h"
+#include "experiments/config/scaled_defaults.h"
+#include "smoothing/margins/family_traits.h"
+#include "smoothing/methods/smoother_registry.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/text.h"
+#include "wpg/robot/robot_measures.h"
 
 namespace halfstep {
 namespace {

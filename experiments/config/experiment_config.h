@@ -4,18 +4,18 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/experiments/config/planning_config.h"
-#include "halfstep/smoothing/margins/margin.h"
-#include "halfstep/smoothing/methods/dichotomy.h"
-#include "halfstep/smoothing/methods/horizon.h"
-#include "halfstep/smoothing/methods/overlap_optimizer.h"
-#include "halfstep/smoothing/methods/pareto.h"
-#include "halfstep/smoothing/proof/certificate.h"
-#include "halfstep/wpg/files/fields.h"
-#include "halfstep/wpg/files/key_description.h"
-#include "halfstep/wpg/files/yaml_fields.h"
-#include "halfstep/wpg/geometry/footprint.h"
-#include "halfstep/wpg/geometry/side.h"
+#include "experiments/config/planning_config.h"
+#include "smoothing/margins/margin.h"
+#include "smoothing/methods/dichotomy.h"
+#include "smoothing/methods/horizon.h"
+#include "smoothing/methods/overlap_optimizer.h"
+#include "smoothing/methods/pareto.h"
+#include "smoothing/proof/certificate.h"
+#include "wpg/files/fields.h"
+#include "wpg/files/key_description.h"
+#include "wpg/files/yaml_fields.h"
+#include "wpg/geometry/footprint.h"
+#include "wpg/geometry/side.h"
 
 namespace halfstep {
 

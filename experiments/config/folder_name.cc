@@ -1,8 +1,8 @@
-#include "halfstep/experiments/config/folder_name.h"
+#include "experiments/config/folder_name.h"
 
 #include <algorithm>
 
-#include "halfstep/wpg/files/text.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "halfstep/wpg/files/fields.h"
+#include "wpg/files/fields.h"
 
 namespace halfstep {
 

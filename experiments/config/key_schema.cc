@@ -2,9 +2,9 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "halfstep/experiments/config/key_tables.h"
-#include "halfstep/wpg/files/number_text.h"
-#include "halfstep/wpg/files/yaml_node.h"
+#include "experiments/config/key_tables.h"
+#include "wpg/files/number_text.h"
+#include "wpg/files/yaml_node.h"
 
 namespace halfstep {
 namespace {

@@ -1,8 +1,8 @@
-#include "halfstep/experiments/config/key_tables.h"
+#include "experiments/config/key_tables.h"
 
 #include <limits>
 
-#include "halfstep/wpg/files/number_text.h"
+#include "wpg/files/number_text.h"
 
 namespace halfstep {
 namespace {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/wpg/files/key_description.h"
+#include "wpg/files/key_description.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "halfstep/experiments/config/planning_config.h"
+#include "experiments/config/planning_config.h"
 
 namespace halfstep {
 namespace {

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/planner/search/half_step_set.h"
-#include "halfstep/planner/search/planner_registry.h"
-#include "halfstep/planner/swept/swept_volume.h"
-#include "halfstep/wpg/files/fields.h"
+#include "planner/search/half_step_set.h"
+#include "planner/search/planner_registry.h"
+#include "planner/swept/swept_volume.h"
+#include "wpg/files/fields.h"
 
 namespace halfstep {
 

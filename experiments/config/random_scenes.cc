@@ -1,11 +1,11 @@
-#include "halfstep/experiments/config/random_scenes.h"
+#include "experiments/config/random_scenes.h"
 
 #include <cmath>
 #include <cstdio>
 #include <random>
 
-#include "halfstep/planner/search/plan_shortcut.h"
-#include "halfstep/wpg/check.h"
+#include "planner/search/plan_shortcut.h"
+#include "wpg/check.h"
 
 namespace halfstep {
 namespace {

@@ -1,13 +1,13 @@
-#include "halfstep/experiments/config/scaled_defaults.h"
+#include "experiments/config/scaled_defaults.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <span>
 
-#include "halfstep/experiments/config/experiment_config.h"
-#include "halfstep/wpg/files/number_text.h"
-#include "halfstep/wpg/files/text.h"
+#include "experiments/config/experiment_config.h"
+#include "wpg/files/number_text.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "halfstep/wpg/files/key_description.h"
-#include "halfstep/wpg/robot/robot_measures.h"
+#include "wpg/files/key_description.h"
+#include "wpg/robot/robot_measures.h"
 
 namespace halfstep {
 

@@ -1,11 +1,11 @@
-#include "halfstep/experiments/export/hrpsys_files.h"
+#include "experiments/export/hrpsys_files.h"
 
 #include <fnmatch.h>
 
 #include <algorithm>
 
-#include "halfstep/wpg/files/input_error.h"
-#include "halfstep/wpg/files/number_text.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/number_text.h"
 
 namespace halfstep {
 namespace {

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/experiments/tables/trajectory_file.h"
-#include "halfstep/wpg/robot/robot_tree.h"
+#include "experiments/tables/trajectory_file.h"
+#include "wpg/robot/robot_tree.h"
 
 namespace halfstep {
 

@@ -1,9 +1,9 @@
-#include "halfstep/experiments/export/joint_motion.h"
+#include "experiments/export/joint_motion.h"
 
-#include "halfstep/smoothing/walk/posture_tangent.h"
-#include "halfstep/wpg/files/input_error.h"
-#include "halfstep/wpg/files/number_text.h"
-#include "halfstep/wpg/motion/posture.h"
+#include "smoothing/walk/posture_tangent.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/number_text.h"
+#include "wpg/motion/posture.h"
 
 namespace halfstep {
 namespace {

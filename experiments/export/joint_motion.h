@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/experiments/tables/trajectory_file.h"
-#include "halfstep/smoothing/walk/superposed_walk.h"
-#include "halfstep/wpg/robot/robot_model.h"
+#include "experiments/tables/trajectory_file.h"
+#include "smoothing/walk/superposed_walk.h"
+#include "wpg/robot/robot_model.h"
 
 namespace halfstep {
 

@@ -1,9 +1,9 @@
-#include "halfstep/experiments/export/joint_trajectory.h"
+#include "experiments/export/joint_trajectory.h"
 
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "halfstep/wpg/files/number_text.h"
+#include "wpg/files/number_text.h"
 
 namespace halfstep {
 namespace {

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/experiments/export/joint_motion.h"
-#include "halfstep/wpg/robot/robot_tree.h"
+#include "experiments/export/joint_motion.h"
+#include "wpg/robot/robot_tree.h"
 
 namespace halfstep {
 

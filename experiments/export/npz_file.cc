@@ -1,4 +1,4 @@
-#include "halfstep/experiments/export/npz_file.h"
+#include "experiments/export/npz_file.h"
 
 #include <algorithm>
 #include <array>
@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <limits>
 
-#include "halfstep/experiments/tables/csv_reader.h"
-#include "halfstep/wpg/files/input_error.h"
+#include "experiments/tables/csv_reader.h"
+#include "wpg/files/input_error.h"
 
 namespace halfstep {
 namespace {

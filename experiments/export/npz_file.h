@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "halfstep/experiments/tables/csv_columns.h"
+#include "experiments/tables/csv_columns.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "halfstep/experiments/export/ompl_log.h"
+#include "experiments/export/ompl_log.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,13 +6,13 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "halfstep/experiments/tables/json_file.h"
-#include "halfstep/experiments/tables/run_record.h"
-#include "halfstep/planner/search/footstep_planner.h"
-#include "halfstep/smoothing/methods/smoothing_result.h"
-#include "halfstep/wpg/files/input_error.h"
-#include "halfstep/wpg/files/number_text.h"
-#include "halfstep/wpg/files/text.h"
+#include "experiments/tables/json_file.h"
+#include "experiments/tables/run_record.h"
+#include "planner/search/footstep_planner.h"
+#include "smoothing/methods/smoothing_result.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/number_text.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {

@@ -1,12 +1,12 @@
-#include "halfstep/experiments/export/whole_trajectory.h"
+#include "experiments/export/whole_trajectory.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "halfstep/experiments/tables/csv_writer.h"
-#include "halfstep/experiments/tables/result_tables.h"
-#include "halfstep/wpg/files/input_error.h"
+#include "experiments/tables/csv_writer.h"
+#include "experiments/tables/result_tables.h"
+#include "wpg/files/input_error.h"
 
 namespace halfstep {
 namespace {

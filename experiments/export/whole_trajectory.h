@@ -1,8 +1,8 @@
 #pragma once
 
-#include "halfstep/experiments/tables/csv_columns.h"
-#include "halfstep/experiments/tables/csv_reader.h"
-#include "halfstep/wpg/robot/robot_tree.h"
+#include "experiments/tables/csv_columns.h"
+#include "experiments/tables/csv_reader.h"
+#include "wpg/robot/robot_tree.h"
 
 namespace halfstep {
 

@@ -1,7 +1,7 @@
-#include "halfstep/experiments/live/episode.h"
+#include "experiments/live/episode.h"
 
-#include "halfstep/experiments/live/episode_loop.h"
-#include "halfstep/experiments/live/thinker.h"
+#include "experiments/live/episode_loop.h"
+#include "experiments/live/thinker.h"
 
 namespace halfstep {
 

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/experiments/live/executor.h"
-#include "halfstep/experiments/live/replanner.h"
-#include "halfstep/experiments/live/sensor.h"
-#include "halfstep/experiments/live/world.h"
+#include "experiments/live/executor.h"
+#include "experiments/live/replanner.h"
+#include "experiments/live/sensor.h"
+#include "experiments/live/world.h"
 
 namespace halfstep {
 

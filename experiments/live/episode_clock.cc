@@ -1,4 +1,4 @@
-#include "halfstep/experiments/live/episode_clock.h"
+#include "experiments/live/episode_clock.h"
 
 #include <algorithm>
 #include <thread>

@@ -1,15 +1,15 @@
-#include "halfstep/experiments/live/episode_files.h"
+#include "experiments/live/episode_files.h"
 
 #include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "halfstep/experiments/build_info.h"
-#include "halfstep/experiments/live/episode_report.h"
-#include "halfstep/experiments/live/episode_tables.h"
-#include "halfstep/experiments/run/complete_manifest.h"
-#include "halfstep/experiments/tables/result_tables.h"
-#include "halfstep/wpg/files/sha256.h"
+#include "experiments/build_info.h"
+#include "experiments/live/episode_report.h"
+#include "experiments/live/episode_tables.h"
+#include "experiments/run/complete_manifest.h"
+#include "experiments/tables/result_tables.h"
+#include "wpg/files/sha256.h"
 
 namespace halfstep {
 

@@ -3,10 +3,10 @@
 #include <filesystem>
 #include <string>
 
-#include "halfstep/experiments/config/experiment.h"
-#include "halfstep/experiments/live/episode.h"
-#include "halfstep/experiments/live/live_config.h"
-#include "halfstep/experiments/tables/run_folder.h"
+#include "experiments/config/experiment.h"
+#include "experiments/live/episode.h"
+#include "experiments/live/live_config.h"
+#include "experiments/tables/run_folder.h"
 
 namespace halfstep {
 

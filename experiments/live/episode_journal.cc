@@ -1,4 +1,4 @@
-#include "halfstep/experiments/live/episode_journal.h"
+#include "experiments/live/episode_journal.h"
 
 #include <sys/file.h>
 
@@ -6,8 +6,8 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "halfstep/experiments/live/episode_files.h"
-#include "halfstep/wpg/files/text.h"
+#include "experiments/live/episode_files.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {

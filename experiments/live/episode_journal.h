@@ -4,10 +4,10 @@
 #include <map>
 #include <string>
 
-#include "halfstep/experiments/live/episode.h"
-#include "halfstep/experiments/live/episode_tables.h"
-#include "halfstep/experiments/live/live_config.h"
-#include "halfstep/wpg/files/descriptor.h"
+#include "experiments/live/episode.h"
+#include "experiments/live/episode_tables.h"
+#include "experiments/live/live_config.h"
+#include "wpg/files/descriptor.h"
 
 namespace halfstep {
 

@@ -1,11 +1,11 @@
-#include "halfstep/experiments/live/episode_loop.h"
+#include "experiments/live/episode_loop.h"
 
 #include <algorithm>
 #include <limits>
 #include <utility>
 #include <vector>
 
-#include "halfstep/wpg/files/text.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {

@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/experiments/live/episode.h"
-#include "halfstep/experiments/live/episode_clock.h"
-#include "halfstep/experiments/live/executor.h"
-#include "halfstep/experiments/live/past_worlds.h"
-#include "halfstep/experiments/live/sensor.h"
-#include "halfstep/experiments/live/thinker.h"
+#include "experiments/live/episode.h"
+#include "experiments/live/episode_clock.h"
+#include "experiments/live/executor.h"
+#include "experiments/live/past_worlds.h"
+#include "experiments/live/sensor.h"
+#include "experiments/live/thinker.h"
 
 namespace halfstep {
 

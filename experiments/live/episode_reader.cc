@@ -1,15 +1,15 @@
-#include "halfstep/experiments/live/episode_reader.h"
+#include "experiments/live/episode_reader.h"
 
 #include <algorithm>
 #include <charconv>
 #include <sstream>
 
-#include "halfstep/experiments/live/episode_tables.h"
-#include "halfstep/experiments/tables/csv_reader.h"
-#include "halfstep/experiments/tables/json_file.h"
-#include "halfstep/experiments/tables/parameter_tables.h"
-#include "halfstep/wpg/files/input_error.h"
-#include "halfstep/wpg/files/text.h"
+#include "experiments/live/episode_tables.h"
+#include "experiments/tables/csv_reader.h"
+#include "experiments/tables/json_file.h"
+#include "experiments/tables/parameter_tables.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <filesystem>
 
-#include "halfstep/experiments/config/experiment.h"
-#include "halfstep/experiments/live/episode.h"
-#include "halfstep/experiments/live/live_config.h"
+#include "experiments/config/experiment.h"
+#include "experiments/live/episode.h"
+#include "experiments/live/live_config.h"
 
 namespace halfstep {
 

@@ -1,16 +1,16 @@
-#include "halfstep/experiments/live/episode_report.h"
+#include "experiments/live/episode_report.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "halfstep/experiments/live/messages.h"
-#include "halfstep/experiments/report/live_page.h"
-#include "halfstep/experiments/report/report_page.h"
-#include "halfstep/experiments/report/report_walk.h"
-#include "halfstep/experiments/report/shortened.h"
-#include "halfstep/experiments/tables/result_tables.h"
-#include "halfstep/wpg/files/text.h"
+#include "experiments/live/messages.h"
+#include "experiments/report/live_page.h"
+#include "experiments/report/report_page.h"
+#include "experiments/report/report_walk.h"
+#include "experiments/report/shortened.h"
+#include "experiments/tables/result_tables.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {

@@ -1,9 +1,9 @@
-#include "halfstep/experiments/live/episode_summary.h"
+#include "experiments/live/episode_summary.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "halfstep/wpg/files/text.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/experiments/live/episode.h"
-#include "halfstep/experiments/live/episode_touch.h"
-#include "halfstep/experiments/live/true_world.h"
-#include "halfstep/wpg/robot/robot_model.h"
+#include "experiments/live/episode.h"
+#include "experiments/live/episode_touch.h"
+#include "experiments/live/true_world.h"
+#include "wpg/robot/robot_model.h"
 
 namespace halfstep {
 

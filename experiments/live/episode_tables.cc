@@ -1,11 +1,11 @@
-#include "halfstep/experiments/live/episode_tables.h"
+#include "experiments/live/episode_tables.h"
 
 #include <ranges>
 
-#include "halfstep/experiments/tables/csv_writer.h"
-#include "halfstep/experiments/tables/parameter_tables.h"
-#include "halfstep/experiments/tables/result_tables.h"
-#include "halfstep/wpg/files/text.h"
+#include "experiments/tables/csv_writer.h"
+#include "experiments/tables/parameter_tables.h"
+#include "experiments/tables/result_tables.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 

@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include "halfstep/experiments/live/episode.h"
-#include "halfstep/experiments/tables/csv_columns.h"
+#include "experiments/live/episode.h"
+#include "experiments/tables/csv_columns.h"
 
 namespace halfstep {
 

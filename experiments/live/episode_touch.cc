@@ -1,11 +1,11 @@
-#include "halfstep/experiments/live/episode_touch.h"
+#include "experiments/live/episode_touch.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
-#include "halfstep/planner/collision/collision_world.h"
-#include "halfstep/wpg/motion/posture.h"
+#include "planner/collision/collision_world.h"
+#include "wpg/motion/posture.h"
 
 namespace halfstep {
 namespace {

@@ -3,9 +3,9 @@
 #include <optional>
 #include <string>
 
-#include "halfstep/experiments/live/episode.h"
-#include "halfstep/experiments/live/true_world.h"
-#include "halfstep/wpg/robot/robot_model.h"
+#include "experiments/live/episode.h"
+#include "experiments/live/true_world.h"
+#include "wpg/robot/robot_model.h"
 
 namespace halfstep {
 

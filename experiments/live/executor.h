@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/smoothing/walk/splice.h"
-#include "halfstep/smoothing/walk/superposed_walk.h"
+#include "smoothing/walk/splice.h"
+#include "smoothing/walk/superposed_walk.h"
 
 namespace halfstep {
 

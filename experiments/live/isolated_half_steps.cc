@@ -1,4 +1,4 @@
-#include "halfstep/experiments/live/isolated_half_steps.h"
+#include "experiments/live/isolated_half_steps.h"
 
 #include <cmath>
 

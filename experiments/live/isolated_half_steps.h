@@ -1,8 +1,8 @@
 #pragma once
 
-#include "halfstep/planner/swept/swept_volume_query.h"
-#include "halfstep/planner/swept/swept_volumes.h"
-#include "halfstep/smoothing/walk/superposed_walk.h"
+#include "planner/swept/swept_volume_query.h"
+#include "planner/swept/swept_volumes.h"
+#include "smoothing/walk/superposed_walk.h"
 
 namespace halfstep {
 

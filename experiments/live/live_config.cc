@@ -1,10 +1,10 @@
-#include "halfstep/experiments/live/live_config.h"
+#include "experiments/live/live_config.h"
 
 #include <algorithm>
 #include <array>
 #include <filesystem>
 
-#include "halfstep/experiments/config/scaled_defaults.h"
+#include "experiments/config/scaled_defaults.h"
 
 namespace halfstep {
 namespace {

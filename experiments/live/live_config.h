@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/experiments/config/experiment_config.h"
-#include "halfstep/wpg/files/fields.h"
-#include "halfstep/wpg/files/key_description.h"
+#include "experiments/config/experiment_config.h"
+#include "wpg/files/fields.h"
+#include "wpg/files/key_description.h"
 
 namespace halfstep {
 

@@ -1,13 +1,13 @@
-#include "halfstep/experiments/live/messages.h"
+#include "experiments/live/messages.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 #include <variant>
 
-#include "halfstep/experiments/report/report_place.h"
-#include "halfstep/experiments/tables/result_tables.h"
-#include "halfstep/wpg/geometry/side.h"
+#include "experiments/report/report_place.h"
+#include "experiments/tables/result_tables.h"
+#include "wpg/geometry/side.h"
 
 namespace halfstep {
 

@@ -5,10 +5,10 @@
 #include <string_view>
 #include <vector>
 
-#include "halfstep/experiments/live/episode.h"
-#include "halfstep/experiments/live/live_config.h"
-#include "halfstep/planner/scene/scene.h"
-#include "halfstep/wpg/robot/robot_model.h"
+#include "experiments/live/episode.h"
+#include "experiments/live/live_config.h"
+#include "planner/scene/scene.h"
+#include "wpg/robot/robot_model.h"
 
 namespace halfstep {
 

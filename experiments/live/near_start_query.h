@@ -1,8 +1,8 @@
 #pragma once
 
-#include "halfstep/experiments/run/planning.h"
-#include "halfstep/planner/swept/swept_volume_query.h"
-#include "halfstep/planner/swept/swept_volumes.h"
+#include "experiments/run/planning.h"
+#include "planner/swept/swept_volume_query.h"
+#include "planner/swept/swept_volumes.h"
 
 namespace halfstep {
 

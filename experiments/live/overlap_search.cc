@@ -1,11 +1,11 @@
-#include "halfstep/experiments/live/overlap_search.h"
+#include "experiments/live/overlap_search.h"
 
 #include <algorithm>
 #include <memory>
 
-#include "halfstep/smoothing/methods/dichotomy.h"
-#include "halfstep/smoothing/proof/sampled_feasibility.h"
-#include "halfstep/smoothing/proof/stoppable_feasibility.h"
+#include "smoothing/methods/dichotomy.h"
+#include "smoothing/proof/sampled_feasibility.h"
+#include "smoothing/proof/stoppable_feasibility.h"
 
 namespace halfstep {
 namespace {

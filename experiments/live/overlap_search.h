@@ -1,8 +1,8 @@
 #pragma once
 
-#include "halfstep/experiments/live/live_config.h"
-#include "halfstep/experiments/live/proposal.h"
-#include "halfstep/experiments/live/safety.h"
+#include "experiments/live/live_config.h"
+#include "experiments/live/proposal.h"
+#include "experiments/live/safety.h"
 
 namespace halfstep {
 

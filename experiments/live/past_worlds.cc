@@ -1,4 +1,4 @@
-#include "halfstep/experiments/live/past_worlds.h"
+#include "experiments/live/past_worlds.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/experiments/live/world.h"
+#include "experiments/live/world.h"
 
 namespace halfstep {
 

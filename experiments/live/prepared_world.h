@@ -1,9 +1,9 @@
 #pragma once
 
-#include "halfstep/experiments/live/safety.h"
-#include "halfstep/experiments/live/world.h"
-#include "halfstep/experiments/run/planning.h"
-#include "halfstep/planner/swept/swept_volume_query.h"
+#include "experiments/live/safety.h"
+#include "experiments/live/world.h"
+#include "experiments/run/planning.h"
+#include "planner/swept/swept_volume_query.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "halfstep/experiments/live/proposal.h"
+#include "experiments/live/proposal.h"
 
 namespace halfstep {
 

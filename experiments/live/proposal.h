@@ -7,10 +7,10 @@
 #include <string_view>
 #include <vector>
 
-#include "halfstep/experiments/live/executor.h"
-#include "halfstep/experiments/live/world.h"
-#include "halfstep/planner/search/footstep_planner.h"
-#include "halfstep/smoothing/walk/splice.h"
+#include "experiments/live/executor.h"
+#include "experiments/live/world.h"
+#include "planner/search/footstep_planner.h"
+#include "smoothing/walk/splice.h"
 
 namespace halfstep {
 

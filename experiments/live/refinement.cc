@@ -1,10 +1,10 @@
-#include "halfstep/experiments/live/refinement.h"
+#include "experiments/live/refinement.h"
 
 #include <limits>
 #include <memory>
 
-#include "halfstep/smoothing/methods/improve_ahead.h"
-#include "halfstep/smoothing/proof/stoppable_feasibility.h"
+#include "smoothing/methods/improve_ahead.h"
+#include "smoothing/proof/stoppable_feasibility.h"
 
 namespace halfstep {
 

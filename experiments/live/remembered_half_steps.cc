@@ -1,4 +1,4 @@
-#include "halfstep/experiments/live/remembered_half_steps.h"
+#include "experiments/live/remembered_half_steps.h"
 
 #include <cmath>
 #include <cstdint>

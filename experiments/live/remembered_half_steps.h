@@ -4,7 +4,7 @@
 #include <string>
 #include <unordered_set>
 
-#include "halfstep/smoothing/walk/superposed_walk.h"
+#include "smoothing/walk/superposed_walk.h"
 
 namespace halfstep {
 

@@ -1,15 +1,15 @@
-#include "halfstep/experiments/live/replanner.h"
+#include "experiments/live/replanner.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "halfstep/experiments/live/isolated_half_steps.h"
-#include "halfstep/experiments/live/near_start_query.h"
-#include "halfstep/experiments/live/overlap_search.h"
-#include "halfstep/experiments/live/prepared_world.h"
-#include "halfstep/experiments/live/refinement.h"
-#include "halfstep/experiments/run/planning.h"
-#include "halfstep/planner/search/planner_registry.h"
+#include "experiments/live/isolated_half_steps.h"
+#include "experiments/live/near_start_query.h"
+#include "experiments/live/overlap_search.h"
+#include "experiments/live/prepared_world.h"
+#include "experiments/live/refinement.h"
+#include "experiments/run/planning.h"
+#include "planner/search/planner_registry.h"
 
 namespace halfstep {
 

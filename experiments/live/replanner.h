@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/experiments/live/live_config.h"
-#include "halfstep/experiments/live/proposal.h"
-#include "halfstep/experiments/live/remembered_half_steps.h"
-#include "halfstep/experiments/live/safety.h"
-#include "halfstep/planner/swept/swept_volumes.h"
+#include "experiments/live/live_config.h"
+#include "experiments/live/proposal.h"
+#include "experiments/live/remembered_half_steps.h"
+#include "experiments/live/safety.h"
+#include "planner/swept/swept_volumes.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "halfstep/experiments/live/safety.h"
+#include "experiments/live/safety.h"
 
 #include <algorithm>
 

@@ -5,11 +5,11 @@
 #include <optional>
 #include <vector>
 
-#include "halfstep/experiments/config/experiment_config.h"
-#include "halfstep/experiments/live/world.h"
-#include "halfstep/smoothing/proof/certified_feasibility.h"
-#include "halfstep/smoothing/walk/superposed_walk.h"
-#include "halfstep/wpg/robot/robot_model.h"
+#include "experiments/config/experiment_config.h"
+#include "experiments/live/world.h"
+#include "smoothing/proof/certified_feasibility.h"
+#include "smoothing/walk/superposed_walk.h"
+#include "wpg/robot/robot_model.h"
 
 namespace halfstep {
 

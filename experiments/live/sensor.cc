@@ -1,4 +1,4 @@
-#include "halfstep/experiments/live/sensor.h"
+#include "experiments/live/sensor.h"
 
 namespace halfstep {
 

@@ -3,9 +3,9 @@
 #include <optional>
 #include <random>
 
-#include "halfstep/experiments/live/live_config.h"
-#include "halfstep/experiments/live/true_world.h"
-#include "halfstep/experiments/live/world.h"
+#include "experiments/live/live_config.h"
+#include "experiments/live/true_world.h"
+#include "experiments/live/world.h"
 
 namespace halfstep {
 

@@ -1,9 +1,9 @@
-#include "halfstep/experiments/live/spare_boxes.h"
+#include "experiments/live/spare_boxes.h"
 
 #include <algorithm>
 #include <utility>
 
-#include "halfstep/wpg/files/input_error.h"
+#include "wpg/files/input_error.h"
 
 namespace halfstep {
 

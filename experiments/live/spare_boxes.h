@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/experiments/config/experiment.h"
-#include "halfstep/experiments/live/live_config.h"
-#include "halfstep/planner/scene/scene.h"
+#include "experiments/config/experiment.h"
+#include "experiments/live/live_config.h"
+#include "planner/scene/scene.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "halfstep/experiments/live/thinker.h"
+#include "experiments/live/thinker.h"
 
 #include <utility>
 

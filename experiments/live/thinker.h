@@ -7,7 +7,7 @@
 #include <random>
 #include <thread>
 
-#include "halfstep/experiments/live/replanner.h"
+#include "experiments/live/replanner.h"
 
 namespace halfstep {
 

@@ -1,10 +1,10 @@
-#include "halfstep/experiments/live/true_world.h"
+#include "experiments/live/true_world.h"
 
 #include <algorithm>
 #include <string>
 
-#include "halfstep/wpg/files/input_error.h"
-#include "halfstep/wpg/files/text.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {

@@ -4,10 +4,10 @@
 #include <functional>
 #include <vector>
 
-#include "halfstep/experiments/config/planning_config.h"
-#include "halfstep/experiments/live/live_config.h"
-#include "halfstep/planner/scene/scene.h"
-#include "halfstep/wpg/geometry/pose2.h"
+#include "experiments/config/planning_config.h"
+#include "experiments/live/live_config.h"
+#include "planner/scene/scene.h"
+#include "wpg/geometry/pose2.h"
 
 namespace halfstep {
 

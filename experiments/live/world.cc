@@ -1,11 +1,11 @@
-#include "halfstep/experiments/live/world.h"
+#include "experiments/live/world.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
 
-#include "halfstep/experiments/live/past_worlds.h"
+#include "experiments/live/past_worlds.h"
 
 namespace halfstep {
 namespace {

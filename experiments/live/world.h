@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/experiments/live/live_config.h"
-#include "halfstep/experiments/live/true_world.h"
-#include "halfstep/planner/scene/scene.h"
-#include "halfstep/planner/search/goal_region.h"
+#include "experiments/live/live_config.h"
+#include "experiments/live/true_world.h"
+#include "planner/scene/scene.h"
+#include "planner/search/goal_region.h"
 
 namespace halfstep {
 

@@ -4,14 +4,14 @@
 #include <filesystem>
 #include <string>
 
-#include "halfstep/experiments/config/data_folder.h"
-#include "halfstep/experiments/config/experiment.h"
-#include "halfstep/experiments/config/experiment_config.h"
-#include "halfstep/experiments/python/bindings.h"
-#include "halfstep/opt/adapters/solver_registry.h"
-#include "halfstep/planner/search/planner_registry.h"
-#include "halfstep/smoothing/methods/smoother_registry.h"
-#include "halfstep/wpg/files/yaml_node.h"
+#include "experiments/config/data_folder.h"
+#include "experiments/config/experiment.h"
+#include "experiments/config/experiment_config.h"
+#include "experiments/python/bindings.h"
+#include "opt/adapters/solver_registry.h"
+#include "planner/search/planner_registry.h"
+#include "smoothing/methods/smoother_registry.h"
+#include "wpg/files/yaml_node.h"
 
 namespace py = pybind11;
 

@@ -1,9 +1,9 @@
 #include <exception>
 #include <stdexcept>
 
-#include "halfstep/experiments/python/bindings.h"
-#include "halfstep/wpg/files/input_error.h"
-#include "halfstep/wpg/files/text.h"
+#include "experiments/python/bindings.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/text.h"
 
 namespace py = pybind11;
 

@@ -6,17 +6,17 @@
 #include <optional>
 #include <stdexcept>
 
-#include "halfstep/experiments/config/experiment.h"
-#include "halfstep/experiments/python/bindings.h"
-#include "halfstep/experiments/python/long_call.h"
-#include "halfstep/experiments/python/placed_experiment.h"
-#include "halfstep/experiments/run/missed_demands_text.h"
-#include "halfstep/experiments/run/planning.h"
-#include "halfstep/experiments/run/smoothing_of.h"
-#include "halfstep/experiments/tables/result_tables.h"
-#include "halfstep/smoothing/methods/overlap_prices.h"
-#include "halfstep/smoothing/methods/smoother_registry.h"
-#include "halfstep/smoothing/proof/missed_demands.h"
+#include "experiments/config/experiment.h"
+#include "experiments/python/bindings.h"
+#include "experiments/python/long_call.h"
+#include "experiments/python/placed_experiment.h"
+#include "experiments/run/missed_demands_text.h"
+#include "experiments/run/planning.h"
+#include "experiments/run/smoothing_of.h"
+#include "experiments/tables/result_tables.h"
+#include "smoothing/methods/overlap_prices.h"
+#include "smoothing/methods/smoother_registry.h"
+#include "smoothing/proof/missed_demands.h"
 
 namespace py = pybind11;
 

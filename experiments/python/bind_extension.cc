@@ -5,14 +5,14 @@
 #include <memory>
 #include <stdexcept>
 
-#include "halfstep/experiments/python/bindings.h"
-#include "halfstep/experiments/python/held_program.h"
-#include "halfstep/experiments/python/long_call.h"
-#include "halfstep/experiments/python/program_options.h"
-#include "halfstep/experiments/python/python_smoother.h"
-#include "halfstep/experiments/python/python_solver.h"
-#include "halfstep/opt/adapters/solver_registry.h"
-#include "halfstep/smoothing/methods/smoother_registry.h"
+#include "experiments/python/bindings.h"
+#include "experiments/python/held_program.h"
+#include "experiments/python/long_call.h"
+#include "experiments/python/program_options.h"
+#include "experiments/python/python_smoother.h"
+#include "experiments/python/python_solver.h"
+#include "opt/adapters/solver_registry.h"
+#include "smoothing/methods/smoother_registry.h"
 
 namespace py = pybind11;
 

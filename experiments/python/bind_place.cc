@@ -3,9 +3,9 @@
 
 #include <memory>
 
-#include "halfstep/experiments/python/bindings.h"
-#include "halfstep/planner/scene/scene.h"
-#include "halfstep/wpg/robot/robot_model.h"
+#include "experiments/python/bindings.h"
+#include "planner/scene/scene.h"
+#include "wpg/robot/robot_model.h"
 
 namespace py = pybind11;
 

@@ -5,11 +5,11 @@
 #include <chrono>
 #include <stdexcept>
 
-#include "halfstep/experiments/python/bindings.h"
-#include "halfstep/experiments/python/held_program.h"
-#include "halfstep/experiments/python/long_call.h"
-#include "halfstep/experiments/python/placed_experiment.h"
-#include "halfstep/experiments/python/program_options.h"
+#include "experiments/python/bindings.h"
+#include "experiments/python/held_program.h"
+#include "experiments/python/long_call.h"
+#include "experiments/python/placed_experiment.h"
+#include "experiments/python/program_options.h"
 
 namespace py = pybind11;
 

@@ -3,13 +3,13 @@
 #include <optional>
 #include <string>
 
-#include "halfstep/experiments/config/folder_name.h"
-#include "halfstep/experiments/python/bindings.h"
-#include "halfstep/experiments/python/long_call.h"
-#include "halfstep/experiments/report/report.h"
-#include "halfstep/experiments/run/complete_manifest.h"
-#include "halfstep/experiments/run/experiment_run.h"
-#include "halfstep/experiments/verify/verify_run.h"
+#include "experiments/config/folder_name.h"
+#include "experiments/python/bindings.h"
+#include "experiments/python/long_call.h"
+#include "experiments/report/report.h"
+#include "experiments/run/complete_manifest.h"
+#include "experiments/run/experiment_run.h"
+#include "experiments/verify/verify_run.h"
 
 namespace py = pybind11;
 

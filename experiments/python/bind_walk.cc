@@ -3,13 +3,13 @@
 
 #include <stdexcept>
 
-#include "halfstep/experiments/python/bindings.h"
-#include "halfstep/experiments/python/long_call.h"
-#include "halfstep/experiments/python/walk_samples.h"
-#include "halfstep/experiments/python/walk_setting.h"
-#include "halfstep/experiments/tables/certificate_files.h"
-#include "halfstep/experiments/tables/parameter_tables.h"
-#include "halfstep/smoothing/margins/slack_evaluator.h"
+#include "experiments/python/bindings.h"
+#include "experiments/python/long_call.h"
+#include "experiments/python/walk_samples.h"
+#include "experiments/python/walk_setting.h"
+#include "experiments/tables/certificate_files.h"
+#include "experiments/tables/parameter_tables.h"
+#include "smoothing/margins/slack_evaluator.h"
 
 namespace py = pybind11;
 

@@ -1,11 +1,11 @@
-#include "halfstep/experiments/python/held_program.h"
+#include "experiments/python/held_program.h"
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 
-#include "halfstep/smoothing/proof/stretch_proofs.h"
+#include "smoothing/proof/stretch_proofs.h"
 
 namespace halfstep::python {
 namespace {

@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "halfstep/experiments/python/walk_setting.h"
-#include "halfstep/opt/problem/problem.h"
-#include "halfstep/smoothing/program/overlap_program.h"
+#include "experiments/python/walk_setting.h"
+#include "opt/problem/problem.h"
+#include "smoothing/program/overlap_program.h"
 
 namespace halfstep::python {
 

@@ -1,4 +1,4 @@
-#include "halfstep/experiments/python/long_call.h"
+#include "experiments/python/long_call.h"
 
 #include <atomic>
 #include <chrono>

@@ -1,7 +1,7 @@
 // The module _halfstep: what the Python package `halfstep` is written on. It checks shapes and
 // values; names, units and explanations for users are the package's.
-#include "halfstep/experiments/build_info.h"
-#include "halfstep/experiments/python/bindings.h"
+#include "experiments/build_info.h"
+#include "experiments/python/bindings.h"
 
 PYBIND11_MODULE(_halfstep, module) {
   using namespace halfstep::python;

@@ -3,8 +3,8 @@
 #include <memory>
 #include <string>
 
-#include "halfstep/experiments/config/experiment.h"
-#include "halfstep/experiments/python/walk_setting.h"
+#include "experiments/config/experiment.h"
+#include "experiments/python/walk_setting.h"
 
 namespace halfstep::python {
 

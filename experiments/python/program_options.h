@@ -2,7 +2,7 @@
 
 #include <pybind11/pybind11.h>
 
-#include "halfstep/experiments/python/held_program.h"
+#include "experiments/python/held_program.h"
 
 namespace halfstep::python {
 

@@ -1,11 +1,11 @@
-#include "halfstep/experiments/python/python_smoother.h"
+#include "experiments/python/python_smoother.h"
 
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
 #include <utility>
 
-#include "halfstep/experiments/python/long_call.h"
+#include "experiments/python/long_call.h"
 
 namespace py = pybind11;
 

@@ -6,8 +6,8 @@
 #include <memory>
 #include <string>
 
-#include "halfstep/experiments/python/walk_setting.h"
-#include "halfstep/smoothing/methods/smoother.h"
+#include "experiments/python/walk_setting.h"
+#include "smoothing/methods/smoother.h"
 
 namespace halfstep::python {
 

@@ -1,11 +1,11 @@
-#include "halfstep/experiments/python/python_solver.h"
+#include "experiments/python/python_solver.h"
 
 #include <pybind11/eigen.h>
 
 #include <stdexcept>
 #include <utility>
 
-#include "halfstep/experiments/python/long_call.h"
+#include "experiments/python/long_call.h"
 
 namespace py = pybind11;
 

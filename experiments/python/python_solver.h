@@ -5,8 +5,8 @@
 #include <memory>
 #include <string>
 
-#include "halfstep/opt/solvers/solve_monitor.h"
-#include "halfstep/opt/solvers/solver.h"
+#include "opt/solvers/solve_monitor.h"
+#include "opt/solvers/solver.h"
 
 namespace halfstep::python {
 

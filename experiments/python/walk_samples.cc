@@ -1,12 +1,12 @@
-#include "halfstep/experiments/python/walk_samples.h"
+#include "experiments/python/walk_samples.h"
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <vector>
 
-#include "halfstep/experiments/tables/result_tables.h"
-#include "halfstep/smoothing/margins/family_traits.h"
+#include "experiments/tables/result_tables.h"
+#include "smoothing/margins/family_traits.h"
 
 namespace py = pybind11;
 

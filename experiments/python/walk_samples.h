@@ -3,7 +3,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
-#include "halfstep/experiments/python/walk_setting.h"
+#include "experiments/python/walk_setting.h"
 
 namespace halfstep::python {
 

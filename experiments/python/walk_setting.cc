@@ -1,4 +1,4 @@
-#include "halfstep/experiments/python/walk_setting.h"
+#include "experiments/python/walk_setting.h"
 
 #include <pybind11/numpy.h>
 

@@ -4,10 +4,10 @@
 
 #include <memory>
 
-#include "halfstep/experiments/tables/csv_columns.h"
-#include "halfstep/smoothing/methods/walk_problem.h"
-#include "halfstep/smoothing/proof/certificate.h"
-#include "halfstep/smoothing/walk/superposed_walk.h"
+#include "experiments/tables/csv_columns.h"
+#include "smoothing/methods/walk_problem.h"
+#include "smoothing/proof/certificate.h"
+#include "smoothing/walk/superposed_walk.h"
 
 namespace halfstep::python {
 

@@ -1,11 +1,11 @@
-#include "halfstep/experiments/replay/episode_folder.h"
+#include "experiments/replay/episode_folder.h"
 
 #include <optional>
 
-#include "halfstep/experiments/config/experiment.h"
-#include "halfstep/experiments/live/spare_boxes.h"
-#include "halfstep/experiments/tables/json_file.h"
-#include "halfstep/wpg/files/input_error.h"
+#include "experiments/config/experiment.h"
+#include "experiments/live/spare_boxes.h"
+#include "experiments/tables/json_file.h"
+#include "wpg/files/input_error.h"
 
 namespace halfstep::replay {
 namespace {

@@ -2,10 +2,10 @@
 
 #include <filesystem>
 
-#include "halfstep/experiments/live/live_config.h"
-#include "halfstep/experiments/live/true_world.h"
-#include "halfstep/experiments/replay/reference_motion.h"
-#include "halfstep/wpg/robot/robot_tree.h"
+#include "experiments/live/live_config.h"
+#include "experiments/live/true_world.h"
+#include "experiments/replay/reference_motion.h"
+#include "wpg/robot/robot_tree.h"
 
 namespace halfstep::replay {
 

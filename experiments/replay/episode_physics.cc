@@ -1,12 +1,12 @@
-#include "halfstep/experiments/replay/episode_physics.h"
+#include "experiments/replay/episode_physics.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "halfstep/experiments/replay/planned_row.h"
-#include "halfstep/experiments/replay/simulated_obstacles.h"
-#include "halfstep/planner/scene/no_step_areas.h"
+#include "experiments/replay/planned_row.h"
+#include "experiments/replay/simulated_obstacles.h"
+#include "planner/scene/no_step_areas.h"
 
 namespace halfstep::replay {
 namespace {

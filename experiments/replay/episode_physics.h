@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/experiments/live/episode.h"
-#include "halfstep/experiments/live/true_world.h"
-#include "halfstep/experiments/replay/mujoco_model.h"
-#include "halfstep/experiments/replay/replay_screen.h"
-#include "halfstep/wpg/geometry/pose2.h"
-#include "halfstep/wpg/robot/robot_tree.h"
+#include "experiments/live/episode.h"
+#include "experiments/live/true_world.h"
+#include "experiments/replay/mujoco_model.h"
+#include "experiments/replay/replay_screen.h"
+#include "wpg/geometry/pose2.h"
+#include "wpg/robot/robot_tree.h"
 
 namespace halfstep::replay {
 

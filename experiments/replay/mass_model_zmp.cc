@@ -1,4 +1,4 @@
-#include "halfstep/experiments/replay/mass_model_zmp.h"
+#include "experiments/replay/mass_model_zmp.h"
 
 namespace halfstep::replay {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "halfstep/experiments/tables/trajectory_file.h"
-#include "halfstep/wpg/robot/robot_tree.h"
+#include "experiments/tables/trajectory_file.h"
+#include "wpg/robot/robot_tree.h"
 
 namespace halfstep::replay {
 

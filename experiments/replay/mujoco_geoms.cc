@@ -1,7 +1,7 @@
-#include "halfstep/experiments/replay/mujoco_geoms.h"
+#include "experiments/replay/mujoco_geoms.h"
 
-#include "halfstep/wpg/check.h"
-#include "halfstep/wpg/files/number_text.h"
+#include "wpg/check.h"
+#include "wpg/files/number_text.h"
 
 namespace halfstep::replay {
 namespace {

@@ -1,9 +1,9 @@
-#include "halfstep/experiments/replay/mujoco_keyframes.h"
+#include "experiments/replay/mujoco_keyframes.h"
 
 #include <Eigen/Geometry>
 
-#include "halfstep/experiments/replay/mujoco_geoms.h"
-#include "halfstep/wpg/files/number_text.h"
+#include "experiments/replay/mujoco_geoms.h"
+#include "wpg/files/number_text.h"
 
 namespace halfstep::replay {
 namespace {

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/experiments/export/joint_motion.h"
-#include "halfstep/experiments/replay/mujoco_model.h"
+#include "experiments/export/joint_motion.h"
+#include "experiments/replay/mujoco_model.h"
 
 namespace halfstep::replay {
 

@@ -1,10 +1,10 @@
-#include "halfstep/experiments/replay/mujoco_model.h"
+#include "experiments/replay/mujoco_model.h"
 
 #include <Eigen/Eigenvalues>
 #include <array>
 
-#include "halfstep/experiments/replay/mujoco_geoms.h"
-#include "halfstep/wpg/files/number_text.h"
+#include "experiments/replay/mujoco_geoms.h"
+#include "wpg/files/number_text.h"
 
 namespace halfstep::replay {
 namespace {

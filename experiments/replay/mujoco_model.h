@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/experiments/replay/simulated_obstacles.h"
-#include "halfstep/wpg/robot/robot_model.h"
-#include "halfstep/wpg/robot/robot_tree.h"
+#include "experiments/replay/simulated_obstacles.h"
+#include "wpg/robot/robot_model.h"
+#include "wpg/robot/robot_tree.h"
 
 namespace halfstep::replay {
 

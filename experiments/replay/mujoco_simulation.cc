@@ -4,8 +4,8 @@
 #include <map>
 #include <stdexcept>
 
-#include "halfstep/experiments/replay/simulation.h"
-#include "halfstep/wpg/check.h"
+#include "experiments/replay/simulation.h"
+#include "wpg/check.h"
 
 namespace halfstep::replay {
 namespace {

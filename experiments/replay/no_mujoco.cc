@@ -1,7 +1,7 @@
 // Stands in for mujoco_simulation.cc where MuJoCo is absent or unwanted.
 #include <stdexcept>
 
-#include "halfstep/experiments/replay/simulation.h"
+#include "experiments/replay/simulation.h"
 
 namespace halfstep::replay {
 

@@ -1,13 +1,13 @@
-#include "halfstep/experiments/replay/physics_record.h"
+#include "experiments/replay/physics_record.h"
 
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "halfstep/experiments/run/complete_manifest.h"
-#include "halfstep/experiments/tables/json_file.h"
-#include "halfstep/wpg/files/input_error.h"
-#include "halfstep/wpg/files/text.h"
+#include "experiments/run/complete_manifest.h"
+#include "experiments/tables/json_file.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/text.h"
 
 namespace halfstep::replay {
 namespace {

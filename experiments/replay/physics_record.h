@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "halfstep/experiments/replay/episode_physics.h"
-#include "halfstep/experiments/tables/run_folder.h"
+#include "experiments/replay/episode_physics.h"
+#include "experiments/tables/run_folder.h"
 
 namespace halfstep::replay {
 

@@ -1,7 +1,7 @@
-#include "halfstep/experiments/replay/planned_row.h"
+#include "experiments/replay/planned_row.h"
 
-#include "halfstep/wpg/check.h"
-#include "halfstep/wpg/motion/posture.h"
+#include "wpg/check.h"
+#include "wpg/motion/posture.h"
 
 namespace halfstep::replay {
 

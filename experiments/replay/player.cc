@@ -1,4 +1,4 @@
-#include "halfstep/experiments/replay/player.h"
+#include "experiments/replay/player.h"
 
 #include <algorithm>
 #include <cmath>

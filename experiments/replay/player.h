@@ -2,9 +2,9 @@
 
 #include <optional>
 
-#include "halfstep/experiments/replay/reference_motion.h"
-#include "halfstep/experiments/replay/touch_log.h"
-#include "halfstep/wpg/geometry/pose2.h"
+#include "experiments/replay/reference_motion.h"
+#include "experiments/replay/touch_log.h"
+#include "wpg/geometry/pose2.h"
 
 namespace halfstep::replay {
 

@@ -1,4 +1,4 @@
-#include "halfstep/experiments/replay/reference_motion.h"
+#include "experiments/replay/reference_motion.h"
 
 #include <algorithm>
 

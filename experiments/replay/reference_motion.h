@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "halfstep/experiments/replay/simulation.h"
-#include "halfstep/experiments/tables/trajectory_file.h"
+#include "experiments/replay/simulation.h"
+#include "experiments/tables/trajectory_file.h"
 
 namespace halfstep::replay {
 

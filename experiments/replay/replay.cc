@@ -1,12 +1,12 @@
-#include "halfstep/experiments/replay/replay.h"
+#include "experiments/replay/replay.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
-#include "halfstep/experiments/replay/mass_model_zmp.h"
-#include "halfstep/experiments/tables/csv_writer.h"
+#include "experiments/replay/mass_model_zmp.h"
+#include "experiments/tables/csv_writer.h"
 
 namespace halfstep::replay {
 namespace {

@@ -4,10 +4,10 @@
 #include <stop_token>
 #include <vector>
 
-#include "halfstep/experiments/replay/player.h"
-#include "halfstep/experiments/replay/support_drift.h"
-#include "halfstep/experiments/tables/csv_columns.h"
-#include "halfstep/wpg/robot/robot_tree.h"
+#include "experiments/replay/player.h"
+#include "experiments/replay/support_drift.h"
+#include "experiments/tables/csv_columns.h"
+#include "wpg/robot/robot_tree.h"
 
 namespace halfstep::replay {
 

@@ -1,4 +1,4 @@
-#include "halfstep/experiments/replay/replay_screen.h"
+#include "experiments/replay/replay_screen.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <numbers>
 #include <optional>
 
-#include "halfstep/wpg/files/text.h"
+#include "wpg/files/text.h"
 
 namespace halfstep::replay {
 

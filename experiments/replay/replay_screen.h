@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/experiments/replay/replay.h"
+#include "experiments/replay/replay.h"
 
 namespace halfstep::replay {
 

@@ -1,10 +1,10 @@
-#include "halfstep/experiments/replay/simulated_obstacles.h"
+#include "experiments/replay/simulated_obstacles.h"
 
 #include <memory>
 #include <stdexcept>
 #include <utility>
 
-#include "halfstep/wpg/files/text.h"
+#include "wpg/files/text.h"
 
 namespace halfstep::replay {
 namespace {

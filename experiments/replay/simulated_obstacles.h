@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/experiments/live/true_world.h"
-#include "halfstep/planner/scene/scene.h"
-#include "halfstep/wpg/geometry/convex_body.h"
+#include "experiments/live/true_world.h"
+#include "planner/scene/scene.h"
+#include "wpg/geometry/convex_body.h"
 
 namespace halfstep::replay {
 

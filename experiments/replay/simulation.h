@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "halfstep/experiments/replay/simulated_obstacles.h"
-#include "halfstep/wpg/robot/robot_model.h"
+#include "experiments/replay/simulated_obstacles.h"
+#include "wpg/robot/robot_model.h"
 
 namespace halfstep::replay {
 

@@ -1,4 +1,4 @@
-#include "halfstep/experiments/replay/support_drift.h"
+#include "experiments/replay/support_drift.h"
 
 #include <algorithm>
 

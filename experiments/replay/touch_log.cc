@@ -1,4 +1,4 @@
-#include "halfstep/experiments/replay/touch_log.h"
+#include "experiments/replay/touch_log.h"
 
 #include <algorithm>
 

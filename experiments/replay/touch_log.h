@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "halfstep/experiments/replay/simulation.h"
+#include "experiments/replay/simulation.h"
 
 namespace halfstep::replay {
 

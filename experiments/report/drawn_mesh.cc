@@ -1,4 +1,4 @@
-#include "halfstep/experiments/report/drawn_mesh.h"
+#include "experiments/report/drawn_mesh.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

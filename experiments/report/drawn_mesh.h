@@ -1,7 +1,7 @@
 #pragma once
 
-#include "halfstep/planner/scene/scene.h"
-#include "halfstep/wpg/geometry/convex_body.h"
+#include "planner/scene/scene.h"
+#include "wpg/geometry/convex_body.h"
 
 namespace halfstep {
 

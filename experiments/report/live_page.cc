@@ -1,7 +1,7 @@
-#include "halfstep/experiments/report/live_page.h"
+#include "experiments/report/live_page.h"
 
-#include "halfstep/experiments/report/page_text.h"
-#include "halfstep/wpg/check.h"
+#include "experiments/report/page_text.h"
+#include "wpg/check.h"
 
 // page_templates.S
 extern "C" {

@@ -1,4 +1,4 @@
-#include "halfstep/experiments/report/nearest_pairs.h"
+#include "experiments/report/nearest_pairs.h"
 
 #include <array>
 #include <cmath>
@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/experiments/report/shortened.h"
-#include "halfstep/experiments/report/trajectory_states.h"
-#include "halfstep/smoothing/margins/body_clearances.h"
-#include "halfstep/wpg/motion/posture.h"
+#include "experiments/report/shortened.h"
+#include "experiments/report/trajectory_states.h"
+#include "smoothing/margins/body_clearances.h"
+#include "wpg/motion/posture.h"
 
 namespace halfstep {
 namespace {

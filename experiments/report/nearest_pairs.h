@@ -2,9 +2,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "halfstep/experiments/tables/csv_reader.h"
-#include "halfstep/planner/scene/scene.h"
-#include "halfstep/wpg/robot/robot_model.h"
+#include "experiments/tables/csv_reader.h"
+#include "planner/scene/scene.h"
+#include "wpg/robot/robot_model.h"
 
 namespace halfstep {
 

@@ -1,6 +1,6 @@
-#include "halfstep/experiments/report/live_page.h"
-#include "halfstep/experiments/report/report_page.h"
-#include "halfstep/wpg/check.h"
+#include "experiments/report/live_page.h"
+#include "experiments/report/report_page.h"
+#include "wpg/check.h"
 
 namespace halfstep {
 namespace {

@@ -1,6 +1,6 @@
-#include "halfstep/experiments/report/page_text.h"
+#include "experiments/report/page_text.h"
 
-#include "halfstep/wpg/check.h"
+#include "wpg/check.h"
 
 namespace halfstep {
 namespace {

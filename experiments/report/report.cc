@@ -1,24 +1,24 @@
-#include "halfstep/experiments/report/report.h"
+#include "experiments/report/report.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
 
-#include "halfstep/experiments/config/folder_name.h"
-#include "halfstep/experiments/report/nearest_pairs.h"
-#include "halfstep/experiments/report/report_page.h"
-#include "halfstep/experiments/report/report_place.h"
-#include "halfstep/experiments/report/report_walk.h"
-#include "halfstep/experiments/report/shortened.h"
-#include "halfstep/experiments/tables/certificate_files.h"
-#include "halfstep/experiments/tables/certificate_statement.h"
-#include "halfstep/experiments/tables/csv_reader.h"
-#include "halfstep/experiments/tables/json_file.h"
-#include "halfstep/opt/solvers/ending.h"
-#include "halfstep/smoothing/margins/margin.h"
-#include "halfstep/wpg/files/input_error.h"
-#include "halfstep/wpg/files/text.h"
+#include "experiments/config/folder_name.h"
+#include "experiments/report/nearest_pairs.h"
+#include "experiments/report/report_page.h"
+#include "experiments/report/report_place.h"
+#include "experiments/report/report_walk.h"
+#include "experiments/report/shortened.h"
+#include "experiments/tables/certificate_files.h"
+#include "experiments/tables/certificate_statement.h"
+#include "experiments/tables/csv_reader.h"
+#include "experiments/tables/json_file.h"
+#include "opt/solvers/ending.h"
+#include "smoothing/margins/margin.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {

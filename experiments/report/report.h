@@ -3,11 +3,11 @@
 #include <filesystem>
 #include <string>
 
-#include "halfstep/experiments/compare/comparison.h"
-#include "halfstep/experiments/config/experiment.h"
-#include "halfstep/experiments/tables/run_folder.h"
-#include "halfstep/planner/scene/scene.h"
-#include "halfstep/wpg/robot/robot_model.h"
+#include "experiments/compare/comparison.h"
+#include "experiments/config/experiment.h"
+#include "experiments/tables/run_folder.h"
+#include "planner/scene/scene.h"
+#include "wpg/robot/robot_model.h"
 
 namespace halfstep {
 

@@ -1,6 +1,6 @@
-#include "halfstep/experiments/report/report_page.h"
+#include "experiments/report/report_page.h"
 
-#include "halfstep/experiments/report/page_text.h"
+#include "experiments/report/page_text.h"
 
 // page_templates.S
 extern "C" {

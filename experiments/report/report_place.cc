@@ -1,4 +1,4 @@
-#include "halfstep/experiments/report/report_place.h"
+#include "experiments/report/report_place.h"
 
 #include <algorithm>
 #include <array>
@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "halfstep/experiments/report/drawn_mesh.h"
-#include "halfstep/experiments/report/shortened.h"
+#include "experiments/report/drawn_mesh.h"
+#include "experiments/report/shortened.h"
 
 namespace halfstep {
 namespace {

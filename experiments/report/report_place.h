@@ -2,8 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "halfstep/planner/scene/scene.h"
-#include "halfstep/wpg/robot/robot_model.h"
+#include "planner/scene/scene.h"
+#include "wpg/robot/robot_model.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "halfstep/experiments/report/report_walk.h"
+#include "experiments/report/report_walk.h"
 
 #include <algorithm>
 #include <charconv>
@@ -6,11 +6,11 @@
 #include <optional>
 #include <vector>
 
-#include "halfstep/experiments/report/robot_zmp.h"
-#include "halfstep/experiments/report/shortened.h"
-#include "halfstep/experiments/tables/csv_reader.h"
-#include "halfstep/experiments/tables/json_file.h"
-#include "halfstep/wpg/files/input_error.h"
+#include "experiments/report/robot_zmp.h"
+#include "experiments/report/shortened.h"
+#include "experiments/tables/csv_reader.h"
+#include "experiments/tables/json_file.h"
+#include "wpg/files/input_error.h"
 
 namespace halfstep {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/wpg/robot/robot_model.h"
+#include "wpg/robot/robot_model.h"
 
 namespace halfstep {
 

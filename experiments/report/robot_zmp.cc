@@ -1,13 +1,13 @@
-#include "halfstep/experiments/report/robot_zmp.h"
+#include "experiments/report/robot_zmp.h"
 
 #include <array>
 #include <limits>
 #include <optional>
 
-#include "halfstep/experiments/report/trajectory_states.h"
-#include "halfstep/wpg/motion/lipm.h"
-#include "halfstep/wpg/motion/posture.h"
-#include "halfstep/wpg/motion/robot_dynamics.h"
+#include "experiments/report/trajectory_states.h"
+#include "wpg/motion/lipm.h"
+#include "wpg/motion/posture.h"
+#include "wpg/motion/robot_dynamics.h"
 
 namespace halfstep {
 namespace {

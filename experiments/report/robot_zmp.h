@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "halfstep/experiments/tables/csv_reader.h"
-#include "halfstep/wpg/robot/robot_model.h"
+#include "experiments/tables/csv_reader.h"
+#include "wpg/robot/robot_model.h"
 
 namespace halfstep {
 

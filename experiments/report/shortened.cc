@@ -1,4 +1,4 @@
-#include "halfstep/experiments/report/shortened.h"
+#include "experiments/report/shortened.h"
 
 #include <array>
 #include <cstdio>

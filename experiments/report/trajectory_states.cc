@@ -1,4 +1,4 @@
-#include "halfstep/experiments/report/trajectory_states.h"
+#include "experiments/report/trajectory_states.h"
 
 #include <array>
 #include <cstddef>

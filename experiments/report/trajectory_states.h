@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "halfstep/experiments/tables/csv_reader.h"
-#include "halfstep/wpg/motion/walk_state.h"
+#include "experiments/tables/csv_reader.h"
+#include "wpg/motion/walk_state.h"
 
 namespace halfstep {
 

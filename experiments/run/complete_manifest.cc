@@ -1,9 +1,9 @@
-#include "halfstep/experiments/run/complete_manifest.h"
+#include "experiments/run/complete_manifest.h"
 
 #include <nlohmann/json.hpp>
 
-#include "halfstep/wpg/files/input_error.h"
-#include "halfstep/wpg/files/regular_file.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/regular_file.h"
 
 namespace halfstep {
 namespace {

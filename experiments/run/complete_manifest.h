@@ -1,7 +1,7 @@
 #pragma once
 
-#include "halfstep/experiments/config/experiment.h"
-#include "halfstep/experiments/tables/run_folder.h"
+#include "experiments/config/experiment.h"
+#include "experiments/tables/run_folder.h"
 
 namespace halfstep {
 

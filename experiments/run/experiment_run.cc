@@ -1,16 +1,16 @@
-#include "halfstep/experiments/run/experiment_run.h"
+#include "experiments/run/experiment_run.h"
 
 #include <algorithm>
 
-#include "halfstep/experiments/config/folder_name.h"
-#include "halfstep/experiments/run/manifest.h"
-#include "halfstep/experiments/run/smoothing_of.h"
-#include "halfstep/experiments/tables/given_walk_file.h"
-#include "halfstep/experiments/tables/parameter_tables.h"
-#include "halfstep/smoothing/methods/overlap_prices.h"
-#include "halfstep/smoothing/methods/plan_repair.h"
-#include "halfstep/smoothing/methods/smoother_registry.h"
-#include "halfstep/wpg/files/text.h"
+#include "experiments/config/folder_name.h"
+#include "experiments/run/manifest.h"
+#include "experiments/run/smoothing_of.h"
+#include "experiments/tables/given_walk_file.h"
+#include "experiments/tables/parameter_tables.h"
+#include "smoothing/methods/overlap_prices.h"
+#include "smoothing/methods/plan_repair.h"
+#include "smoothing/methods/smoother_registry.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {

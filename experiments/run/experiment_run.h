@@ -7,13 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/experiments/config/experiment.h"
-#include "halfstep/experiments/run/planning.h"
-#include "halfstep/experiments/tables/result_tables.h"
-#include "halfstep/experiments/tables/run_folder.h"
-#include "halfstep/smoothing/methods/walk_problem.h"
-#include "halfstep/smoothing/proof/certified_feasibility.h"
-#include "halfstep/smoothing/proof/missed_demands.h"
+#include "experiments/config/experiment.h"
+#include "experiments/run/planning.h"
+#include "experiments/tables/result_tables.h"
+#include "experiments/tables/run_folder.h"
+#include "smoothing/methods/walk_problem.h"
+#include "smoothing/proof/certified_feasibility.h"
+#include "smoothing/proof/missed_demands.h"
 
 namespace halfstep {
 

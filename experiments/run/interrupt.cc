@@ -1,4 +1,4 @@
-#include "halfstep/experiments/run/interrupt.h"
+#include "experiments/run/interrupt.h"
 
 #include <signal.h>
 #include <unistd.h>
@@ -7,7 +7,7 @@
 #include <optional>
 #include <string_view>
 
-#include "halfstep/experiments/run/exit_status.h"
+#include "experiments/run/exit_status.h"
 
 namespace halfstep {
 namespace {

@@ -1,4 +1,4 @@
-#include "halfstep/experiments/run/manifest.h"
+#include "experiments/run/manifest.h"
 
 #include <sys/utsname.h>
 
@@ -8,10 +8,10 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "halfstep/experiments/build_info.h"
-#include "halfstep/smoothing/methods/smoother_registry.h"
-#include "halfstep/smoothing/proof/sampled_feasibility.h"
-#include "halfstep/wpg/files/sha256.h"
+#include "experiments/build_info.h"
+#include "smoothing/methods/smoother_registry.h"
+#include "smoothing/proof/sampled_feasibility.h"
+#include "wpg/files/sha256.h"
 
 namespace halfstep {
 namespace {

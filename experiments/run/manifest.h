@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/experiments/config/experiment.h"
-#include "halfstep/experiments/tables/result_tables.h"
+#include "experiments/config/experiment.h"
+#include "experiments/tables/result_tables.h"
 
 namespace halfstep {
 

@@ -1,11 +1,11 @@
-#include "halfstep/experiments/run/missed_demands_text.h"
+#include "experiments/run/missed_demands_text.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "halfstep/planner/scene/mesh_floor.h"
-#include "halfstep/smoothing/margins/family_traits.h"
-#include "halfstep/wpg/files/text.h"
+#include "planner/scene/mesh_floor.h"
+#include "smoothing/margins/family_traits.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/smoothing/proof/missed_demands.h"
+#include "smoothing/proof/missed_demands.h"
 
 namespace halfstep {
 

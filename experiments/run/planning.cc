@@ -1,14 +1,14 @@
-#include "halfstep/experiments/run/planning.h"
+#include "experiments/run/planning.h"
 
 #include <chrono>
 #include <nlohmann/json.hpp>
 
-#include "halfstep/experiments/run/missed_demands_text.h"
-#include "halfstep/planner/search/planner_registry.h"
-#include "halfstep/planner/swept/obstacle_places.h"
-#include "halfstep/planner/swept/swept_volume_query.h"
-#include "halfstep/wpg/check.h"
-#include "halfstep/wpg/files/input_error.h"
+#include "experiments/run/missed_demands_text.h"
+#include "planner/search/planner_registry.h"
+#include "planner/swept/obstacle_places.h"
+#include "planner/swept/swept_volume_query.h"
+#include "wpg/check.h"
+#include "wpg/files/input_error.h"
 
 namespace halfstep {
 namespace {

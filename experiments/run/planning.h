@@ -5,12 +5,12 @@
 #include <stop_token>
 #include <string>
 
-#include "halfstep/experiments/config/experiment.h"
-#include "halfstep/planner/search/footstep_planner.h"
-#include "halfstep/planner/swept/swept_volume_cache.h"
-#include "halfstep/smoothing/proof/certified_feasibility.h"
-#include "halfstep/wpg/geometry/footprint.h"
-#include "halfstep/wpg/robot/robot_model.h"
+#include "experiments/config/experiment.h"
+#include "planner/search/footstep_planner.h"
+#include "planner/swept/swept_volume_cache.h"
+#include "smoothing/proof/certified_feasibility.h"
+#include "wpg/geometry/footprint.h"
+#include "wpg/robot/robot_model.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "halfstep/experiments/run/progress_bar.h"
+#include "experiments/run/progress_bar.h"
 
 #include <unistd.h>
 

@@ -1,4 +1,4 @@
-#include "halfstep/experiments/run/run_screen.h"
+#include "experiments/run/run_screen.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "halfstep/smoothing/proof/sampled_feasibility.h"
-#include "halfstep/wpg/files/text.h"
+#include "smoothing/proof/sampled_feasibility.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {

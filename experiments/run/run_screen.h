@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/experiments/config/experiment.h"
-#include "halfstep/experiments/tables/result_tables.h"
-#include "halfstep/smoothing/methods/walk_problem.h"
+#include "experiments/config/experiment.h"
+#include "experiments/tables/result_tables.h"
+#include "smoothing/methods/walk_problem.h"
 
 namespace halfstep {
 

@@ -1,10 +1,10 @@
-#include "halfstep/experiments/run/smoothing_of.h"
+#include "experiments/run/smoothing_of.h"
 
 #include <memory>
 
-#include "halfstep/smoothing/proof/certified_feasibility.h"
-#include "halfstep/smoothing/proof/sampled_feasibility.h"
-#include "halfstep/smoothing/proof/stoppable_feasibility.h"
+#include "smoothing/proof/certified_feasibility.h"
+#include "smoothing/proof/sampled_feasibility.h"
+#include "smoothing/proof/stoppable_feasibility.h"
 
 namespace halfstep {
 namespace {

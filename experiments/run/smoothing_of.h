@@ -1,8 +1,8 @@
 #pragma once
 
-#include "halfstep/experiments/config/experiment.h"
-#include "halfstep/smoothing/methods/smoother.h"
-#include "halfstep/smoothing/methods/walk_problem.h"
+#include "experiments/config/experiment.h"
+#include "smoothing/methods/smoother.h"
+#include "smoothing/methods/walk_problem.h"
 
 namespace halfstep {
 

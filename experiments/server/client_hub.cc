@@ -1,12 +1,12 @@
-#include "halfstep/experiments/server/client_hub.h"
+#include "experiments/server/client_hub.h"
 
 #include <algorithm>
 #include <exception>
 #include <utility>
 
-#include "halfstep/experiments/live/messages.h"
-#include "halfstep/experiments/live/spare_boxes.h"
-#include "halfstep/wpg/files/input_error.h"
+#include "experiments/live/messages.h"
+#include "experiments/live/spare_boxes.h"
+#include "wpg/files/input_error.h"
 
 namespace halfstep {
 namespace {

@@ -8,12 +8,12 @@
 #include <string>
 #include <string_view>
 
-#include "halfstep/experiments/config/experiment.h"
-#include "halfstep/experiments/live/live_config.h"
-#include "halfstep/experiments/server/client_inbox.h"
-#include "halfstep/experiments/server/client_line.h"
-#include "halfstep/experiments/server/client_message.h"
-#include "halfstep/experiments/server/news_board.h"
+#include "experiments/config/experiment.h"
+#include "experiments/live/live_config.h"
+#include "experiments/server/client_inbox.h"
+#include "experiments/server/client_line.h"
+#include "experiments/server/client_message.h"
+#include "experiments/server/news_board.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "halfstep/experiments/server/client_inbox.h"
+#include "experiments/server/client_inbox.h"
 
 #include <utility>
 

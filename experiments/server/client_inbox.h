@@ -6,7 +6,7 @@
 #include <stop_token>
 #include <vector>
 
-#include "halfstep/experiments/server/client_message.h"
+#include "experiments/server/client_message.h"
 
 namespace halfstep {
 

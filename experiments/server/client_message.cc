@@ -1,13 +1,13 @@
-#include "halfstep/experiments/server/client_message.h"
+#include "experiments/server/client_message.h"
 
 #include <algorithm>
 #include <functional>
 #include <map>
 #include <numbers>
 
-#include "halfstep/experiments/server/message_fields.h"
-#include "halfstep/wpg/files/input_error.h"
-#include "halfstep/wpg/files/text.h"
+#include "experiments/server/message_fields.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {

@@ -7,8 +7,8 @@
 #include <variant>
 #include <vector>
 
-#include "halfstep/experiments/live/live_config.h"
-#include "halfstep/planner/scene/scene.h"
+#include "experiments/live/live_config.h"
+#include "planner/scene/scene.h"
 
 namespace halfstep {
 

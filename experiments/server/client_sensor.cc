@@ -1,10 +1,10 @@
-#include "halfstep/experiments/server/client_sensor.h"
+#include "experiments/server/client_sensor.h"
 
 #include <chrono>
 #include <limits>
 #include <numeric>
 
-#include "halfstep/experiments/server/quiet_from.h"
+#include "experiments/server/quiet_from.h"
 
 namespace halfstep {
 

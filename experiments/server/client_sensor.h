@@ -3,11 +3,11 @@
 #include <deque>
 #include <optional>
 
-#include "halfstep/experiments/live/live_config.h"
-#include "halfstep/experiments/live/sensor.h"
-#include "halfstep/experiments/server/client_inbox.h"
-#include "halfstep/planner/scene/scene.h"
-#include "halfstep/planner/search/goal_region.h"
+#include "experiments/live/live_config.h"
+#include "experiments/live/sensor.h"
+#include "experiments/server/client_inbox.h"
+#include "planner/scene/scene.h"
+#include "planner/search/goal_region.h"
 
 namespace halfstep {
 

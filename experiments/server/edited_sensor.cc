@@ -1,10 +1,10 @@
-#include "halfstep/experiments/server/edited_sensor.h"
+#include "experiments/server/edited_sensor.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "halfstep/experiments/server/quiet_from.h"
+#include "experiments/server/quiet_from.h"
 
 namespace halfstep {
 namespace {

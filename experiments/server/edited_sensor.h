@@ -4,10 +4,10 @@
 #include <optional>
 #include <string>
 
-#include "halfstep/experiments/live/live_config.h"
-#include "halfstep/experiments/live/sensor.h"
-#include "halfstep/experiments/live/true_world.h"
-#include "halfstep/experiments/server/client_inbox.h"
+#include "experiments/live/live_config.h"
+#include "experiments/live/sensor.h"
+#include "experiments/live/true_world.h"
+#include "experiments/server/client_inbox.h"
 
 namespace halfstep {
 

@@ -1,13 +1,13 @@
-#include "halfstep/experiments/server/message_fields.h"
+#include "experiments/server/message_fields.h"
 
 #include <algorithm>
 #include <cmath>
 #include <set>
 #include <utility>
 
-#include "halfstep/wpg/files/input_error.h"
-#include "halfstep/wpg/files/nesting.h"
-#include "halfstep/wpg/files/text.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/nesting.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 

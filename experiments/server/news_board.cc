@@ -1,4 +1,4 @@
-#include "halfstep/experiments/server/news_board.h"
+#include "experiments/server/news_board.h"
 
 #include <utility>
 

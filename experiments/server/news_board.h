@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/experiments/live/episode.h"
+#include "experiments/live/episode.h"
 
 namespace halfstep {
 

@@ -1,7 +1,7 @@
 // Stands in for server.cc where Boost is absent or unwanted.
 #include <stdexcept>
 
-#include "halfstep/experiments/server/server.h"
+#include "experiments/server/server.h"
 
 namespace halfstep {
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "halfstep/experiments/server/client_line.h"
+#include "experiments/server/client_line.h"
 
 namespace halfstep {
 

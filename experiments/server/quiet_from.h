@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include "halfstep/experiments/live/live_config.h"
-#include "halfstep/experiments/server/client_inbox.h"
+#include "experiments/live/live_config.h"
+#include "experiments/server/client_inbox.h"
 
 namespace halfstep {
 

@@ -1,10 +1,10 @@
-#include "halfstep/experiments/server/served_episode.h"
+#include "experiments/server/served_episode.h"
 
 #include <algorithm>
 #include <utility>
 
-#include "halfstep/experiments/live/messages.h"
-#include "halfstep/experiments/server/client_sensor.h"
+#include "experiments/live/messages.h"
+#include "experiments/server/client_sensor.h"
 
 namespace halfstep {
 namespace {

@@ -4,15 +4,15 @@
 #include <memory>
 #include <string>
 
-#include "halfstep/experiments/config/experiment.h"
-#include "halfstep/experiments/live/episode.h"
-#include "halfstep/experiments/live/live_config.h"
-#include "halfstep/experiments/live/true_world.h"
-#include "halfstep/experiments/server/client_hub.h"
-#include "halfstep/experiments/server/client_inbox.h"
-#include "halfstep/experiments/server/edited_sensor.h"
-#include "halfstep/experiments/server/news_board.h"
-#include "halfstep/experiments/server/server.h"
+#include "experiments/config/experiment.h"
+#include "experiments/live/episode.h"
+#include "experiments/live/live_config.h"
+#include "experiments/live/true_world.h"
+#include "experiments/server/client_hub.h"
+#include "experiments/server/client_inbox.h"
+#include "experiments/server/edited_sensor.h"
+#include "experiments/server/news_board.h"
+#include "experiments/server/server.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "halfstep/experiments/server/server.h"
+#include "experiments/server/server.h"
 
 #include <sys/random.h>
 #include <sys/stat.h>
@@ -19,10 +19,10 @@
 #include <thread>
 #include <utility>
 
-#include "halfstep/experiments/server/socket_client.h"
-#include "halfstep/experiments/server/web_client.h"
-#include "halfstep/wpg/files/input_error.h"
-#include "halfstep/wpg/files/text.h"
+#include "experiments/server/socket_client.h"
+#include "experiments/server/web_client.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {

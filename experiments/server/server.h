@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "halfstep/experiments/server/client_hub.h"
+#include "experiments/server/client_hub.h"
 
 namespace halfstep {
 

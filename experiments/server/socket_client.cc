@@ -1,12 +1,12 @@
-#include "halfstep/experiments/server/socket_client.h"
+#include "experiments/server/socket_client.h"
 
 #include <boost/asio/buffer.hpp>
 #include <boost/asio/read_until.hpp>
 #include <boost/asio/write.hpp>
 #include <utility>
 
-#include "halfstep/experiments/live/messages.h"
-#include "halfstep/experiments/server/message_fields.h"
+#include "experiments/live/messages.h"
+#include "experiments/server/message_fields.h"
 
 namespace halfstep {
 

@@ -4,8 +4,8 @@
 #include <memory>
 #include <string>
 
-#include "halfstep/experiments/server/client_hub.h"
-#include "halfstep/experiments/server/outgoing_queue.h"
+#include "experiments/server/client_hub.h"
+#include "experiments/server/outgoing_queue.h"
 
 namespace halfstep {
 

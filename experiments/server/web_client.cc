@@ -1,4 +1,4 @@
-#include "halfstep/experiments/server/web_client.h"
+#include "experiments/server/web_client.h"
 
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
@@ -7,9 +7,9 @@
 #include <memory>
 #include <utility>
 
-#include "halfstep/experiments/live/messages.h"
-#include "halfstep/experiments/server/message_fields.h"
-#include "halfstep/experiments/server/outgoing_queue.h"
+#include "experiments/live/messages.h"
+#include "experiments/server/message_fields.h"
+#include "experiments/server/outgoing_queue.h"
 
 namespace halfstep {
 namespace {

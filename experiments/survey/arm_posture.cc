@@ -1,10 +1,10 @@
-#include "halfstep/experiments/survey/arm_posture.h"
+#include "experiments/survey/arm_posture.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "halfstep/wpg/files/text.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {

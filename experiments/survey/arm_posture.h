@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/experiments/survey/self_gaps.h"
-#include "halfstep/wpg/robot/urdf_file.h"
+#include "experiments/survey/self_gaps.h"
+#include "wpg/robot/urdf_file.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "halfstep/experiments/survey/found_frames.h"
+#include "experiments/survey/found_frames.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +6,8 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "halfstep/wpg/geometry/planar_hull.h"
-#include "halfstep/wpg/geometry/side.h"
+#include "wpg/geometry/planar_hull.h"
+#include "wpg/geometry/side.h"
 
 namespace halfstep {
 namespace {

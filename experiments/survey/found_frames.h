@@ -4,8 +4,8 @@
 #include <array>
 #include <vector>
 
-#include "halfstep/experiments/survey/found_legs.h"
-#include "halfstep/wpg/robot/robot_model.h"
+#include "experiments/survey/found_legs.h"
+#include "wpg/robot/robot_model.h"
 
 namespace halfstep {
 

@@ -1,13 +1,13 @@
-#include "halfstep/experiments/survey/found_legs.h"
+#include "experiments/survey/found_legs.h"
 
 #include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <limits>
 
-#include "halfstep/wpg/files/input_error.h"
-#include "halfstep/wpg/files/text.h"
-#include "halfstep/wpg/geometry/side.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/text.h"
+#include "wpg/geometry/side.h"
 
 namespace halfstep {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/wpg/robot/urdf_file.h"
+#include "wpg/robot/urdf_file.h"
 
 namespace halfstep {
 

@@ -1,11 +1,11 @@
-#include "halfstep/experiments/survey/robot_draft.h"
+#include "experiments/survey/robot_draft.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "halfstep/wpg/files/text.h"
-#include "halfstep/wpg/geometry/side.h"
+#include "wpg/files/text.h"
+#include "wpg/geometry/side.h"
 
 namespace halfstep {
 namespace {

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/experiments/survey/found_frames.h"
-#include "halfstep/experiments/survey/standing.h"
-#include "halfstep/wpg/robot/robot_fields.h"
-#include "halfstep/wpg/robot/urdf_file.h"
+#include "experiments/survey/found_frames.h"
+#include "experiments/survey/standing.h"
+#include "wpg/robot/robot_fields.h"
+#include "wpg/robot/urdf_file.h"
 
 namespace halfstep {
 

@@ -1,11 +1,11 @@
-#include "halfstep/experiments/survey/robot_picture.h"
+#include "experiments/survey/robot_picture.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
-#include "halfstep/wpg/files/text.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {

@@ -1,4 +1,4 @@
-#include "halfstep/experiments/survey/robot_survey.h"
+#include "experiments/survey/robot_survey.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,14 +7,14 @@
 #include <optional>
 #include <stdexcept>
 
-#include "halfstep/experiments/survey/arm_posture.h"
-#include "halfstep/experiments/survey/self_gaps.h"
-#include "halfstep/experiments/survey/touching_neighbours.h"
-#include "halfstep/planner/collision/separation.h"
-#include "halfstep/wpg/files/input_error.h"
-#include "halfstep/wpg/files/text.h"
-#include "halfstep/wpg/robot/robot_bodies.h"
-#include "halfstep/wpg/robot/robot_legs.h"
+#include "experiments/survey/arm_posture.h"
+#include "experiments/survey/self_gaps.h"
+#include "experiments/survey/touching_neighbours.h"
+#include "planner/collision/separation.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/text.h"
+#include "wpg/robot/robot_bodies.h"
+#include "wpg/robot/robot_legs.h"
 
 namespace halfstep {
 namespace {

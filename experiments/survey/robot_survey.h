@@ -4,8 +4,8 @@
 #include <map>
 #include <string>
 
-#include "halfstep/experiments/survey/robot_draft.h"
-#include "halfstep/experiments/survey/stance_search.h"
+#include "experiments/survey/robot_draft.h"
+#include "experiments/survey/stance_search.h"
 
 namespace halfstep {
 

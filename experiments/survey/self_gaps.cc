@@ -1,11 +1,11 @@
-#include "halfstep/experiments/survey/self_gaps.h"
+#include "experiments/survey/self_gaps.h"
 
 #include <algorithm>
 #include <limits>
 #include <utility>
 
-#include "halfstep/smoothing/walk/superposed_walk.h"
-#include "halfstep/wpg/robot/robot_measures.h"
+#include "smoothing/walk/superposed_walk.h"
+#include "wpg/robot/robot_measures.h"
 
 namespace halfstep {
 

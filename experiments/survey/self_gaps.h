@@ -2,10 +2,10 @@
 
 #include <vector>
 
-#include "halfstep/planner/collision/separation.h"
-#include "halfstep/wpg/motion/half_step_sequence.h"
-#include "halfstep/wpg/motion/posture.h"
-#include "halfstep/wpg/robot/robot_model.h"
+#include "planner/collision/separation.h"
+#include "wpg/motion/half_step_sequence.h"
+#include "wpg/motion/posture.h"
+#include "wpg/robot/robot_model.h"
 
 namespace halfstep {
 

@@ -1,9 +1,9 @@
-#include "halfstep/experiments/survey/six_steps_config.h"
+#include "experiments/survey/six_steps_config.h"
 
-#include "halfstep/experiments/survey/self_gaps.h"
-#include "halfstep/experiments/survey/stance_search.h"
-#include "halfstep/smoothing/walk/superposed_walk.h"
-#include "halfstep/wpg/files/text.h"
+#include "experiments/survey/self_gaps.h"
+#include "experiments/survey/stance_search.h"
+#include "smoothing/walk/superposed_walk.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "halfstep/wpg/robot/robot_model.h"
+#include "wpg/robot/robot_model.h"
 
 namespace halfstep {
 

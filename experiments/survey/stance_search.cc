@@ -1,4 +1,4 @@
-#include "halfstep/experiments/survey/stance_search.h"
+#include "experiments/survey/stance_search.h"
 
 #include <algorithm>
 #include <limits>
@@ -7,18 +7,18 @@
 #include <string>
 #include <utility>
 
-#include "halfstep/experiments/config/experiment.h"
-#include "halfstep/experiments/config/scaled_defaults.h"
-#include "halfstep/experiments/survey/arm_posture.h"
-#include "halfstep/experiments/survey/self_gaps.h"
-#include "halfstep/experiments/survey/touching_neighbours.h"
-#include "halfstep/smoothing/margins/margin_evaluator.h"
-#include "halfstep/smoothing/walk/superposed_walk.h"
-#include "halfstep/wpg/files/input_error.h"
-#include "halfstep/wpg/files/text.h"
-#include "halfstep/wpg/robot/robot_legs.h"
-#include "halfstep/wpg/robot/robot_measures.h"
-#include "halfstep/wpg/robot/torque_limits.h"
+#include "experiments/config/experiment.h"
+#include "experiments/config/scaled_defaults.h"
+#include "experiments/survey/arm_posture.h"
+#include "experiments/survey/self_gaps.h"
+#include "experiments/survey/touching_neighbours.h"
+#include "smoothing/margins/margin_evaluator.h"
+#include "smoothing/walk/superposed_walk.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/text.h"
+#include "wpg/robot/robot_legs.h"
+#include "wpg/robot/robot_measures.h"
+#include "wpg/robot/torque_limits.h"
 
 namespace halfstep {
 namespace {

@@ -3,9 +3,9 @@
 #include <array>
 #include <vector>
 
-#include "halfstep/experiments/survey/robot_draft.h"
-#include "halfstep/wpg/motion/half_step.h"
-#include "halfstep/wpg/motion/posture.h"
+#include "experiments/survey/robot_draft.h"
+#include "wpg/motion/half_step.h"
+#include "wpg/motion/posture.h"
 
 namespace halfstep {
 

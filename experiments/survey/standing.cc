@@ -1,12 +1,12 @@
-#include "halfstep/experiments/survey/standing.h"
+#include "experiments/survey/standing.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
-#include "halfstep/wpg/robot/leg_ik.h"
-#include "halfstep/wpg/robot/robot_legs.h"
+#include "wpg/robot/leg_ik.h"
+#include "wpg/robot/robot_legs.h"
 
 namespace halfstep {
 namespace {

@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "halfstep/experiments/survey/found_frames.h"
-#include "halfstep/wpg/robot/robot_model.h"
+#include "experiments/survey/found_frames.h"
+#include "wpg/robot/robot_model.h"
 
 namespace halfstep {
 

@@ -1,10 +1,10 @@
-#include "halfstep/experiments/survey/touching_neighbours.h"
+#include "experiments/survey/touching_neighbours.h"
 
 #include <algorithm>
 
-#include "halfstep/experiments/survey/arm_posture.h"
-#include "halfstep/wpg/files/text.h"
-#include "halfstep/wpg/robot/self_pairs.h"
+#include "experiments/survey/arm_posture.h"
+#include "wpg/files/text.h"
+#include "wpg/robot/self_pairs.h"
 
 namespace halfstep {
 namespace {

@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/experiments/survey/found_legs.h"
-#include "halfstep/experiments/survey/self_gaps.h"
-#include "halfstep/wpg/robot/robot_fields.h"
+#include "experiments/survey/found_legs.h"
+#include "experiments/survey/self_gaps.h"
+#include "wpg/robot/robot_fields.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "halfstep/experiments/sweep/sweep_case.h"
+#include "experiments/sweep/sweep_case.h"
 
 #include <chrono>
 #include <filesystem>
@@ -6,11 +6,11 @@
 #include <stdexcept>
 #include <utility>
 
-#include "halfstep/experiments/run/complete_manifest.h"
-#include "halfstep/experiments/run/experiment_run.h"
-#include "halfstep/experiments/sweep/sweep_tables.h"
-#include "halfstep/experiments/tables/csv_columns.h"
-#include "halfstep/experiments/tables/run_folder.h"
+#include "experiments/run/complete_manifest.h"
+#include "experiments/run/experiment_run.h"
+#include "experiments/sweep/sweep_tables.h"
+#include "experiments/tables/csv_columns.h"
+#include "experiments/tables/run_folder.h"
 
 namespace halfstep {
 namespace {

@@ -3,8 +3,8 @@
 #include <stop_token>
 #include <string>
 
-#include "halfstep/experiments/run/exit_status.h"
-#include "halfstep/experiments/sweep/sweep_folder.h"
+#include "experiments/run/exit_status.h"
+#include "experiments/sweep/sweep_folder.h"
 
 namespace halfstep {
 

@@ -1,16 +1,16 @@
-#include "halfstep/experiments/sweep/sweep_config.h"
+#include "experiments/sweep/sweep_config.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 
-#include "halfstep/experiments/config/experiment_config.h"
-#include "halfstep/experiments/config/folder_name.h"
-#include "halfstep/wpg/files/input_error.h"
-#include "halfstep/wpg/files/number_text.h"
-#include "halfstep/wpg/files/sha256.h"
-#include "halfstep/wpg/files/text.h"
+#include "experiments/config/experiment_config.h"
+#include "experiments/config/folder_name.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/number_text.h"
+#include "wpg/files/sha256.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/wpg/files/fields.h"
-#include "halfstep/wpg/files/key_description.h"
-#include "halfstep/wpg/files/yaml_fields.h"
+#include "wpg/files/fields.h"
+#include "wpg/files/key_description.h"
+#include "wpg/files/yaml_fields.h"
 
 namespace halfstep {
 

@@ -1,21 +1,21 @@
-#include "halfstep/experiments/sweep/sweep_folder.h"
+#include "experiments/sweep/sweep_folder.h"
 
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
 
-#include "halfstep/experiments/build_info.h"
-#include "halfstep/experiments/config/experiment.h"
-#include "halfstep/experiments/sweep/sweep_tables.h"
-#include "halfstep/experiments/tables/csv_reader.h"
-#include "halfstep/experiments/tables/csv_writer.h"
-#include "halfstep/wpg/files/input_error.h"
-#include "halfstep/wpg/files/nesting.h"
-#include "halfstep/wpg/files/partial_sibling.h"
-#include "halfstep/wpg/files/regular_file.h"
-#include "halfstep/wpg/files/sha256.h"
-#include "halfstep/wpg/files/whole_file.h"
+#include "experiments/build_info.h"
+#include "experiments/config/experiment.h"
+#include "experiments/sweep/sweep_tables.h"
+#include "experiments/tables/csv_reader.h"
+#include "experiments/tables/csv_writer.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/nesting.h"
+#include "wpg/files/partial_sibling.h"
+#include "wpg/files/regular_file.h"
+#include "wpg/files/sha256.h"
+#include "wpg/files/whole_file.h"
 
 namespace halfstep {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/experiments/sweep/sweep_config.h"
-#include "halfstep/experiments/tables/csv_columns.h"
+#include "experiments/sweep/sweep_config.h"
+#include "experiments/tables/csv_columns.h"
 
 namespace halfstep {
 

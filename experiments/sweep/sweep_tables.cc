@@ -1,9 +1,9 @@
-#include "halfstep/experiments/sweep/sweep_tables.h"
+#include "experiments/sweep/sweep_tables.h"
 
 #include <algorithm>
 
-#include "halfstep/experiments/tables/csv_writer.h"
-#include "halfstep/wpg/files/number_text.h"
+#include "experiments/tables/csv_writer.h"
+#include "wpg/files/number_text.h"
 
 namespace halfstep {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <string>
 
-#include "halfstep/experiments/run/experiment_run.h"
-#include "halfstep/experiments/sweep/sweep_config.h"
-#include "halfstep/experiments/tables/csv_columns.h"
+#include "experiments/run/experiment_run.h"
+#include "experiments/sweep/sweep_config.h"
+#include "experiments/tables/csv_columns.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "halfstep/experiments/sweep/worker_processes.h"
+#include "experiments/sweep/worker_processes.h"
 
 #include <fcntl.h>
 #include <signal.h>

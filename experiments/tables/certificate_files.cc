@@ -1,9 +1,9 @@
-#include "halfstep/experiments/tables/certificate_files.h"
+#include "experiments/tables/certificate_files.h"
 
 #include <nlohmann/json.hpp>
 
-#include "halfstep/experiments/tables/csv_writer.h"
-#include "halfstep/wpg/files/sha256.h"
+#include "experiments/tables/csv_writer.h"
+#include "wpg/files/sha256.h"
 
 namespace halfstep {
 namespace {

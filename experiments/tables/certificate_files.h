@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/experiments/config/experiment.h"
-#include "halfstep/experiments/tables/certificate_statement.h"
-#include "halfstep/experiments/tables/csv_columns.h"
-#include "halfstep/experiments/tables/run_folder.h"
-#include "halfstep/smoothing/proof/certified_feasibility.h"
+#include "experiments/config/experiment.h"
+#include "experiments/tables/certificate_statement.h"
+#include "experiments/tables/csv_columns.h"
+#include "experiments/tables/run_folder.h"
+#include "smoothing/proof/certified_feasibility.h"
 
 namespace halfstep {
 

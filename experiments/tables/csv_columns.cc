@@ -1,8 +1,8 @@
-#include "halfstep/experiments/tables/csv_columns.h"
+#include "experiments/tables/csv_columns.h"
 
 #include <nlohmann/json.hpp>
 
-#include "halfstep/experiments/tables/run_folder.h"
+#include "experiments/tables/run_folder.h"
 
 namespace halfstep {
 namespace {

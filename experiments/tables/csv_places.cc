@@ -1,4 +1,4 @@
-#include "halfstep/experiments/tables/csv_places.h"
+#include "experiments/tables/csv_places.h"
 
 namespace halfstep {
 

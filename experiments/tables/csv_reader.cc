@@ -1,11 +1,11 @@
-#include "halfstep/experiments/tables/csv_reader.h"
+#include "experiments/tables/csv_reader.h"
 
 #include <algorithm>
 #include <charconv>
 
-#include "halfstep/wpg/files/input_error.h"
-#include "halfstep/wpg/files/regular_file.h"
-#include "halfstep/wpg/files/text.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/regular_file.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {

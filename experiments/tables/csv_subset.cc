@@ -1,11 +1,11 @@
-#include "halfstep/experiments/tables/csv_subset.h"
+#include "experiments/tables/csv_subset.h"
 
 #include <fnmatch.h>
 
 #include <charconv>
 
-#include "halfstep/experiments/tables/csv_writer.h"
-#include "halfstep/wpg/files/input_error.h"
+#include "experiments/tables/csv_writer.h"
+#include "wpg/files/input_error.h"
 
 namespace halfstep {
 namespace {

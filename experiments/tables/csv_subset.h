@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/experiments/tables/csv_columns.h"
-#include "halfstep/experiments/tables/csv_reader.h"
-#include "halfstep/experiments/tables/csv_writer.h"
+#include "experiments/tables/csv_columns.h"
+#include "experiments/tables/csv_reader.h"
+#include "experiments/tables/csv_writer.h"
 
 namespace halfstep {
 

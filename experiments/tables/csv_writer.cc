@@ -1,11 +1,11 @@
-#include "halfstep/experiments/tables/csv_writer.h"
+#include "experiments/tables/csv_writer.h"
 
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <utility>
 
-#include "halfstep/wpg/check.h"
+#include "wpg/check.h"
 
 namespace halfstep {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "halfstep/experiments/tables/csv_columns.h"
+#include "experiments/tables/csv_columns.h"
 
 namespace halfstep {
 

@@ -1,16 +1,16 @@
-#include "halfstep/experiments/tables/given_walk_file.h"
+#include "experiments/tables/given_walk_file.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
-#include "halfstep/experiments/tables/csv_places.h"
-#include "halfstep/experiments/tables/csv_reader.h"
-#include "halfstep/experiments/tables/parameter_tables.h"
-#include "halfstep/experiments/tables/result_tables.h"
-#include "halfstep/wpg/files/input_error.h"
-#include "halfstep/wpg/files/number_text.h"
-#include "halfstep/wpg/files/text.h"
+#include "experiments/tables/csv_places.h"
+#include "experiments/tables/csv_reader.h"
+#include "experiments/tables/parameter_tables.h"
+#include "experiments/tables/result_tables.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/number_text.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {

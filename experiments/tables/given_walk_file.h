@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/experiments/config/experiment_config.h"
-#include "halfstep/smoothing/walk/homotopy_parameters.h"
-#include "halfstep/smoothing/walk/parameter_table.h"
+#include "experiments/config/experiment_config.h"
+#include "smoothing/walk/homotopy_parameters.h"
+#include "smoothing/walk/parameter_table.h"
 
 namespace halfstep {
 

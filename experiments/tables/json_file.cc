@@ -1,8 +1,8 @@
-#include "halfstep/experiments/tables/json_file.h"
+#include "experiments/tables/json_file.h"
 
-#include "halfstep/wpg/files/input_error.h"
-#include "halfstep/wpg/files/nesting.h"
-#include "halfstep/wpg/files/regular_file.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/nesting.h"
+#include "wpg/files/regular_file.h"
 
 namespace halfstep {
 

@@ -1,11 +1,11 @@
-#include "halfstep/experiments/tables/parameter_tables.h"
+#include "experiments/tables/parameter_tables.h"
 
 #include <algorithm>
 #include <stdexcept>
 #include <string>
 
-#include "halfstep/experiments/tables/csv_reader.h"
-#include "halfstep/wpg/files/input_error.h"
+#include "experiments/tables/csv_reader.h"
+#include "wpg/files/input_error.h"
 
 namespace halfstep {
 

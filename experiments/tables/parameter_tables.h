@@ -3,9 +3,9 @@
 #include <filesystem>
 #include <vector>
 
-#include "halfstep/experiments/tables/csv_columns.h"
-#include "halfstep/experiments/tables/csv_writer.h"
-#include "halfstep/smoothing/walk/homotopy_parameters.h"
+#include "experiments/tables/csv_columns.h"
+#include "experiments/tables/csv_writer.h"
+#include "smoothing/walk/homotopy_parameters.h"
 
 namespace halfstep {
 

@@ -1,9 +1,9 @@
-#include "halfstep/experiments/tables/result_tables.h"
+#include "experiments/tables/result_tables.h"
 
 #include <algorithm>
 
-#include "halfstep/experiments/tables/parameter_tables.h"
-#include "halfstep/smoothing/proof/sampled_feasibility.h"
+#include "experiments/tables/parameter_tables.h"
+#include "smoothing/proof/sampled_feasibility.h"
 
 namespace halfstep {
 namespace {

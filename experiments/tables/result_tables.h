@@ -8,13 +8,13 @@
 #include <variant>
 #include <vector>
 
-#include "halfstep/experiments/config/experiment.h"
-#include "halfstep/experiments/tables/certificate_files.h"
-#include "halfstep/experiments/tables/csv_columns.h"
-#include "halfstep/experiments/tables/csv_writer.h"
-#include "halfstep/smoothing/margins/margin_evaluator.h"
-#include "halfstep/smoothing/methods/smoothing_result.h"
-#include "halfstep/smoothing/walk/superposed_walk.h"
+#include "experiments/config/experiment.h"
+#include "experiments/tables/certificate_files.h"
+#include "experiments/tables/csv_columns.h"
+#include "experiments/tables/csv_writer.h"
+#include "smoothing/margins/margin_evaluator.h"
+#include "smoothing/methods/smoothing_result.h"
+#include "smoothing/walk/superposed_walk.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "halfstep/experiments/tables/run_folder.h"
+#include "experiments/tables/run_folder.h"
 
 #include <fcntl.h>
 #include <stdio.h>
@@ -8,8 +8,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "halfstep/wpg/files/sha256.h"
-#include "halfstep/wpg/files/whole_file.h"
+#include "wpg/files/sha256.h"
+#include "wpg/files/whole_file.h"
 
 namespace halfstep {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <string_view>
 
-#include "halfstep/wpg/files/input_file.h"
-#include "halfstep/wpg/files/partial_sibling.h"
+#include "wpg/files/input_file.h"
+#include "wpg/files/partial_sibling.h"
 
 namespace halfstep {
 

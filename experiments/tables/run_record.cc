@@ -1,4 +1,4 @@
-#include "halfstep/experiments/tables/run_record.h"
+#include "experiments/tables/run_record.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,12 +6,12 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "halfstep/experiments/config/folder_name.h"
-#include "halfstep/experiments/tables/csv_reader.h"
-#include "halfstep/experiments/tables/json_file.h"
-#include "halfstep/wpg/files/input_error.h"
-#include "halfstep/wpg/files/sha256.h"
-#include "halfstep/wpg/files/text.h"
+#include "experiments/config/folder_name.h"
+#include "experiments/tables/csv_reader.h"
+#include "experiments/tables/json_file.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/sha256.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/opt/solvers/ending.h"
+#include "opt/solvers/ending.h"
 
 namespace halfstep {
 

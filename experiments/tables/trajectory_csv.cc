@@ -2,9 +2,9 @@
 #include <cmath>
 #include <tuple>
 
-#include "halfstep/experiments/tables/csv_writer.h"
-#include "halfstep/experiments/tables/result_tables.h"
-#include "halfstep/wpg/motion/posture.h"
+#include "experiments/tables/csv_writer.h"
+#include "experiments/tables/result_tables.h"
+#include "wpg/motion/posture.h"
 
 namespace halfstep {
 namespace {

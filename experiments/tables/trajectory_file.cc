@@ -1,12 +1,12 @@
-#include "halfstep/experiments/tables/trajectory_file.h"
+#include "experiments/tables/trajectory_file.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "halfstep/experiments/tables/csv_reader.h"
-#include "halfstep/experiments/tables/run_record.h"
-#include "halfstep/wpg/files/input_error.h"
-#include "halfstep/wpg/files/text.h"
+#include "experiments/tables/csv_reader.h"
+#include "experiments/tables/run_record.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {

@@ -1,11 +1,11 @@
-#include "halfstep/experiments/tables/trajectory_match.h"
+#include "experiments/tables/trajectory_match.h"
 
 #include <cmath>
 #include <vector>
 
-#include "halfstep/experiments/tables/result_tables.h"
-#include "halfstep/wpg/files/input_error.h"
-#include "halfstep/wpg/files/number_text.h"
+#include "experiments/tables/result_tables.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/number_text.h"
 
 namespace halfstep {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <string>
 
-#include "halfstep/experiments/tables/csv_reader.h"
-#include "halfstep/smoothing/walk/superposed_walk.h"
-#include "halfstep/wpg/robot/robot_model.h"
+#include "experiments/tables/csv_reader.h"
+#include "smoothing/walk/superposed_walk.h"
+#include "wpg/robot/robot_model.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "halfstep/experiments/verify/box_index.h"
+#include "experiments/verify/box_index.h"
 
 #include <algorithm>
 #include <numeric>

@@ -1,12 +1,12 @@
-#include "halfstep/experiments/verify/certificate_text.h"
+#include "experiments/verify/certificate_text.h"
 
 #include <algorithm>
 
-#include "halfstep/experiments/verify/csv_text.h"
-#include "halfstep/experiments/verify/findings.h"
-#include "halfstep/experiments/verify/json_text.h"
-#include "halfstep/wpg/files/input_error.h"
-#include "halfstep/wpg/files/text.h"
+#include "experiments/verify/csv_text.h"
+#include "experiments/verify/findings.h"
+#include "experiments/verify/json_text.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/text.h"
 
 namespace halfstep::verify {
 

@@ -1,10 +1,10 @@
-#include "halfstep/experiments/verify/check_certificate.h"
+#include "experiments/verify/check_certificate.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "halfstep/experiments/tables/certificate_statement.h"
-#include "halfstep/wpg/files/text.h"
+#include "experiments/tables/certificate_statement.h"
+#include "wpg/files/text.h"
 
 namespace halfstep::verify {
 namespace {

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "halfstep/experiments/verify/certificate_text.h"
-#include "halfstep/experiments/verify/findings.h"
-#include "halfstep/smoothing/margins/margin.h"
-#include "halfstep/wpg/robot/robot_model.h"
+#include "experiments/verify/certificate_text.h"
+#include "experiments/verify/findings.h"
+#include "smoothing/margins/margin.h"
+#include "wpg/robot/robot_model.h"
 
 namespace halfstep::verify {
 

@@ -1,13 +1,13 @@
-#include "halfstep/experiments/verify/check_claims.h"
+#include "experiments/verify/check_claims.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
-#include "halfstep/experiments/verify/check_rows.h"
-#include "halfstep/experiments/verify/claim_subjects.h"
-#include "halfstep/experiments/verify/floor_distances.h"
-#include "halfstep/wpg/files/text.h"
+#include "experiments/verify/check_rows.h"
+#include "experiments/verify/claim_subjects.h"
+#include "experiments/verify/floor_distances.h"
+#include "wpg/files/text.h"
 
 namespace halfstep::verify {
 namespace {

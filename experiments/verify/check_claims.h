@@ -1,9 +1,9 @@
 #pragma once
 
-#include "halfstep/experiments/verify/certificate_text.h"
-#include "halfstep/experiments/verify/described_walk.h"
-#include "halfstep/experiments/verify/distances.h"
-#include "halfstep/experiments/verify/findings.h"
+#include "experiments/verify/certificate_text.h"
+#include "experiments/verify/described_walk.h"
+#include "experiments/verify/distances.h"
+#include "experiments/verify/findings.h"
 
 namespace halfstep::verify {
 

@@ -1,4 +1,4 @@
-#include "halfstep/experiments/verify/check_clearance.h"
+#include "experiments/verify/check_clearance.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "halfstep/experiments/verify/certificate_text.h"
-#include "halfstep/experiments/verify/distances.h"
-#include "halfstep/experiments/verify/findings.h"
-#include "halfstep/experiments/verify/played_motion.h"
+#include "experiments/verify/certificate_text.h"
+#include "experiments/verify/distances.h"
+#include "experiments/verify/findings.h"
+#include "experiments/verify/played_motion.h"
 
 namespace halfstep::verify {
 

@@ -1,4 +1,4 @@
-#include "halfstep/experiments/verify/check_episode_grants.h"
+#include "experiments/verify/check_episode_grants.h"
 
 #include <algorithm>
 #include <cmath>

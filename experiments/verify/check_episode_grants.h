@@ -1,8 +1,8 @@
 #pragma once
 
-#include "halfstep/experiments/verify/check_episode_walks.h"
-#include "halfstep/experiments/verify/episode_text.h"
-#include "halfstep/experiments/verify/findings.h"
+#include "experiments/verify/check_episode_walks.h"
+#include "experiments/verify/episode_text.h"
+#include "experiments/verify/findings.h"
 
 namespace halfstep::verify {
 

@@ -1,12 +1,12 @@
-#include "halfstep/experiments/verify/check_episode_motion.h"
+#include "experiments/verify/check_episode_motion.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
-#include "halfstep/experiments/verify/check_rows.h"
-#include "halfstep/experiments/verify/check_walk.h"
+#include "experiments/verify/check_rows.h"
+#include "experiments/verify/check_walk.h"
 
 namespace halfstep::verify {
 namespace {

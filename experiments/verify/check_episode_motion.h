@@ -2,11 +2,11 @@
 
 #include <vector>
 
-#include "halfstep/experiments/config/planning_config.h"
-#include "halfstep/experiments/verify/check_episode_walks.h"
-#include "halfstep/experiments/verify/episode_text.h"
-#include "halfstep/experiments/verify/findings.h"
-#include "halfstep/experiments/verify/played_motion.h"
+#include "experiments/config/planning_config.h"
+#include "experiments/verify/check_episode_walks.h"
+#include "experiments/verify/episode_text.h"
+#include "experiments/verify/findings.h"
+#include "experiments/verify/played_motion.h"
 
 namespace halfstep::verify {
 

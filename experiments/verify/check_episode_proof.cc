@@ -1,14 +1,14 @@
-#include "halfstep/experiments/verify/check_episode_proof.h"
+#include "experiments/verify/check_episode_proof.h"
 
 #include <algorithm>
 #include <limits>
 #include <memory>
 #include <set>
 
-#include "halfstep/experiments/verify/check_clearance.h"
-#include "halfstep/experiments/verify/check_episode_worlds.h"
-#include "halfstep/experiments/verify/check_played.h"
-#include "halfstep/experiments/verify/distances.h"
+#include "experiments/verify/check_clearance.h"
+#include "experiments/verify/check_episode_worlds.h"
+#include "experiments/verify/check_played.h"
+#include "experiments/verify/distances.h"
 
 namespace halfstep::verify {
 namespace {

@@ -1,11 +1,11 @@
 #pragma once
 
-#include "halfstep/experiments/config/experiment_config.h"
-#include "halfstep/experiments/verify/certificate_text.h"
-#include "halfstep/experiments/verify/described_walk.h"
-#include "halfstep/experiments/verify/episode_text.h"
-#include "halfstep/experiments/verify/findings.h"
-#include "halfstep/planner/scene/scene.h"
+#include "experiments/config/experiment_config.h"
+#include "experiments/verify/certificate_text.h"
+#include "experiments/verify/described_walk.h"
+#include "experiments/verify/episode_text.h"
+#include "experiments/verify/findings.h"
+#include "planner/scene/scene.h"
 
 namespace halfstep::verify {
 

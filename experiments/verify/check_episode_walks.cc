@@ -1,10 +1,10 @@
-#include "halfstep/experiments/verify/check_episode_walks.h"
+#include "experiments/verify/check_episode_walks.h"
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
-#include "halfstep/experiments/verify/check_overlaps.h"
+#include "experiments/verify/check_overlaps.h"
 
 namespace halfstep::verify {
 namespace {

@@ -3,11 +3,11 @@
 #include <array>
 #include <vector>
 
-#include "halfstep/experiments/verify/described_walk.h"
-#include "halfstep/experiments/verify/episode_text.h"
-#include "halfstep/experiments/verify/findings.h"
-#include "halfstep/wpg/motion/half_step_sequence.h"
-#include "halfstep/wpg/robot/robot_model.h"
+#include "experiments/verify/described_walk.h"
+#include "experiments/verify/episode_text.h"
+#include "experiments/verify/findings.h"
+#include "wpg/motion/half_step_sequence.h"
+#include "wpg/robot/robot_model.h"
 
 namespace halfstep::verify {
 

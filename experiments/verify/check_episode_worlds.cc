@@ -1,4 +1,4 @@
-#include "halfstep/experiments/verify/check_episode_worlds.h"
+#include "experiments/verify/check_episode_worlds.h"
 
 #include <algorithm>
 #include <cmath>

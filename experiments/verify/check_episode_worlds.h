@@ -1,9 +1,9 @@
 #pragma once
 
-#include "halfstep/experiments/live/live_config.h"
-#include "halfstep/experiments/verify/episode_text.h"
-#include "halfstep/experiments/verify/findings.h"
-#include "halfstep/planner/scene/scene.h"
+#include "experiments/live/live_config.h"
+#include "experiments/verify/episode_text.h"
+#include "experiments/verify/findings.h"
+#include "planner/scene/scene.h"
 
 namespace halfstep::verify {
 

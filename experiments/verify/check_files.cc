@@ -1,11 +1,11 @@
-#include "halfstep/experiments/verify/check_files.h"
+#include "experiments/verify/check_files.h"
 
 #include <algorithm>
 #include <filesystem>
 
-#include "halfstep/experiments/verify/csv_text.h"
-#include "halfstep/wpg/files/sha256.h"
-#include "halfstep/wpg/files/text.h"
+#include "experiments/verify/csv_text.h"
+#include "wpg/files/sha256.h"
+#include "wpg/files/text.h"
 
 namespace halfstep::verify {
 namespace {

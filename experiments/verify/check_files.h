@@ -4,9 +4,9 @@
 #include <set>
 #include <string>
 
-#include "halfstep/experiments/verify/findings.h"
-#include "halfstep/experiments/verify/run_manifest.h"
-#include "halfstep/wpg/files/input_file.h"
+#include "experiments/verify/findings.h"
+#include "experiments/verify/run_manifest.h"
+#include "wpg/files/input_file.h"
 
 namespace halfstep::verify {
 

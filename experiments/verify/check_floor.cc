@@ -2,8 +2,8 @@
 #include <array>
 #include <optional>
 
-#include "halfstep/experiments/verify/check_rows.h"
-#include "halfstep/experiments/verify/floor_distances.h"
+#include "experiments/verify/check_rows.h"
+#include "experiments/verify/floor_distances.h"
 
 namespace halfstep::verify {
 namespace {

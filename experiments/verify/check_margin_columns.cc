@@ -1,9 +1,9 @@
-#include "halfstep/experiments/verify/check_margin_columns.h"
+#include "experiments/verify/check_margin_columns.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "halfstep/experiments/verify/check_rows.h"
+#include "experiments/verify/check_rows.h"
 
 namespace halfstep::verify {
 namespace {

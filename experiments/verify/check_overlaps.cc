@@ -1,4 +1,4 @@
-#include "halfstep/experiments/verify/check_overlaps.h"
+#include "experiments/verify/check_overlaps.h"
 
 #include <algorithm>
 #include <cmath>

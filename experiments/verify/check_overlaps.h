@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/experiments/config/experiment_config.h"
-#include "halfstep/experiments/verify/findings.h"
-#include "halfstep/experiments/verify/walk_text.h"
-#include "halfstep/wpg/motion/half_step_sequence.h"
+#include "experiments/config/experiment_config.h"
+#include "experiments/verify/findings.h"
+#include "experiments/verify/walk_text.h"
+#include "wpg/motion/half_step_sequence.h"
 
 namespace halfstep::verify {
 

@@ -1,11 +1,11 @@
-#include "halfstep/experiments/verify/check_played.h"
+#include "experiments/verify/check_played.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "halfstep/experiments/verify/check_clearance.h"
-#include "halfstep/experiments/verify/check_rows.h"
-#include "halfstep/experiments/verify/check_walk.h"
+#include "experiments/verify/check_clearance.h"
+#include "experiments/verify/check_rows.h"
+#include "experiments/verify/check_walk.h"
 
 namespace halfstep::verify {
 namespace {

@@ -1,12 +1,12 @@
-#include "halfstep/experiments/verify/check_rows.h"
+#include "experiments/verify/check_rows.h"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <utility>
 
-#include "halfstep/wpg/geometry/support_polygon.h"
-#include "halfstep/wpg/motion/lipm.h"
+#include "wpg/geometry/support_polygon.h"
+#include "wpg/motion/lipm.h"
 
 namespace halfstep::verify {
 namespace {

@@ -2,12 +2,12 @@
 
 #include <limits>
 
-#include "halfstep/experiments/verify/certificate_text.h"
-#include "halfstep/experiments/verify/described_walk.h"
-#include "halfstep/experiments/verify/findings.h"
-#include "halfstep/experiments/verify/played_motion.h"
-#include "halfstep/planner/scene/scene.h"
-#include "halfstep/wpg/geometry/support_polygon.h"
+#include "experiments/verify/certificate_text.h"
+#include "experiments/verify/described_walk.h"
+#include "experiments/verify/findings.h"
+#include "experiments/verify/played_motion.h"
+#include "planner/scene/scene.h"
+#include "wpg/geometry/support_polygon.h"
 
 namespace halfstep::verify {
 

@@ -1,8 +1,8 @@
-#include "halfstep/experiments/verify/check_run.h"
+#include "experiments/verify/check_run.h"
 
-#include "halfstep/experiments/config/experiment.h"
-#include "halfstep/wpg/files/sha256.h"
-#include "halfstep/wpg/files/text.h"
+#include "experiments/config/experiment.h"
+#include "wpg/files/sha256.h"
+#include "wpg/files/text.h"
 
 namespace halfstep::verify {
 namespace {

@@ -4,13 +4,13 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/experiments/config/experiment_config.h"
-#include "halfstep/experiments/verify/certificate_text.h"
-#include "halfstep/experiments/verify/findings.h"
-#include "halfstep/experiments/verify/run_manifest.h"
-#include "halfstep/planner/scene/scene.h"
-#include "halfstep/wpg/files/input_file.h"
-#include "halfstep/wpg/robot/robot_model.h"
+#include "experiments/config/experiment_config.h"
+#include "experiments/verify/certificate_text.h"
+#include "experiments/verify/findings.h"
+#include "experiments/verify/run_manifest.h"
+#include "planner/scene/scene.h"
+#include "wpg/files/input_file.h"
+#include "wpg/robot/robot_model.h"
 
 namespace halfstep::verify {
 

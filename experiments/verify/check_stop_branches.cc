@@ -1,8 +1,8 @@
-#include "halfstep/experiments/verify/check_stop_branches.h"
+#include "experiments/verify/check_stop_branches.h"
 
 #include <string_view>
 
-#include "halfstep/experiments/verify/check_played.h"
+#include "experiments/verify/check_played.h"
 
 namespace halfstep::verify {
 namespace {

@@ -1,4 +1,4 @@
-#include "halfstep/experiments/verify/check_summary.h"
+#include "experiments/verify/check_summary.h"
 
 #include <cmath>
 

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "halfstep/experiments/verify/certificate_text.h"
-#include "halfstep/experiments/verify/findings.h"
-#include "halfstep/experiments/verify/run_manifest.h"
-#include "halfstep/experiments/verify/walk_text.h"
+#include "experiments/verify/certificate_text.h"
+#include "experiments/verify/findings.h"
+#include "experiments/verify/run_manifest.h"
+#include "experiments/verify/walk_text.h"
 
 namespace halfstep::verify {
 

@@ -1,4 +1,4 @@
-#include "halfstep/experiments/verify/check_walk.h"
+#include "experiments/verify/check_walk.h"
 
 #include <algorithm>
 #include <cmath>

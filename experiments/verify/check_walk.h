@@ -1,7 +1,7 @@
 #pragma once
 
-#include "halfstep/experiments/verify/described_walk.h"
-#include "halfstep/experiments/verify/findings.h"
+#include "experiments/verify/described_walk.h"
+#include "experiments/verify/findings.h"
 
 namespace halfstep::verify {
 

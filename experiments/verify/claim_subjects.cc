@@ -1,4 +1,4 @@
-#include "halfstep/experiments/verify/claim_subjects.h"
+#include "experiments/verify/claim_subjects.h"
 
 namespace halfstep::verify {
 

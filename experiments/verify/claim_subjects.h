@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/experiments/verify/certificate_text.h"
-#include "halfstep/experiments/verify/distances.h"
-#include "halfstep/wpg/robot/robot_model.h"
+#include "experiments/verify/certificate_text.h"
+#include "experiments/verify/distances.h"
+#include "wpg/robot/robot_model.h"
 
 namespace halfstep::verify {
 

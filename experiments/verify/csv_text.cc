@@ -1,12 +1,12 @@
-#include "halfstep/experiments/verify/csv_text.h"
+#include "experiments/verify/csv_text.h"
 
 #include <charconv>
 #include <string_view>
 
-#include "halfstep/experiments/verify/findings.h"
-#include "halfstep/wpg/files/input_error.h"
-#include "halfstep/wpg/files/regular_file.h"
-#include "halfstep/wpg/files/text.h"
+#include "experiments/verify/findings.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/regular_file.h"
+#include "wpg/files/text.h"
 
 namespace halfstep::verify {
 namespace {

@@ -1,4 +1,4 @@
-#include "halfstep/experiments/verify/described_sway.h"
+#include "experiments/verify/described_sway.h"
 
 #include <algorithm>
 #include <array>

@@ -1,13 +1,13 @@
-#include "halfstep/experiments/verify/described_walk.h"
+#include "experiments/verify/described_walk.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "halfstep/experiments/verify/check_rows.h"
-#include "halfstep/experiments/verify/foot_forces.h"
-#include "halfstep/wpg/check.h"
-#include "halfstep/wpg/motion/posture.h"
+#include "experiments/verify/check_rows.h"
+#include "experiments/verify/foot_forces.h"
+#include "wpg/check.h"
+#include "wpg/motion/posture.h"
 
 namespace halfstep::verify {
 

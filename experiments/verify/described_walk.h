@@ -5,11 +5,11 @@
 #include <utility>
 #include <vector>
 
-#include "halfstep/experiments/verify/described_sway.h"
-#include "halfstep/experiments/verify/played_motion.h"
-#include "halfstep/experiments/verify/walk_text.h"
-#include "halfstep/wpg/motion/half_step_sequence.h"
-#include "halfstep/wpg/robot/robot_model.h"
+#include "experiments/verify/described_sway.h"
+#include "experiments/verify/played_motion.h"
+#include "experiments/verify/walk_text.h"
+#include "wpg/motion/half_step_sequence.h"
+#include "wpg/robot/robot_model.h"
 
 namespace halfstep::verify {
 

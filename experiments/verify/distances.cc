@@ -1,4 +1,4 @@
-#include "halfstep/experiments/verify/distances.h"
+#include "experiments/verify/distances.h"
 
 #include <algorithm>
 #include <cmath>

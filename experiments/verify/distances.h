@@ -3,11 +3,11 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/experiments/verify/box_index.h"
-#include "halfstep/experiments/verify/obstacle_path.h"
-#include "halfstep/experiments/verify/played_motion.h"
-#include "halfstep/experiments/verify/solid.h"
-#include "halfstep/planner/scene/scene.h"
+#include "experiments/verify/box_index.h"
+#include "experiments/verify/obstacle_path.h"
+#include "experiments/verify/played_motion.h"
+#include "experiments/verify/solid.h"
+#include "planner/scene/scene.h"
 
 namespace halfstep::verify {
 

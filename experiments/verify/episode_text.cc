@@ -1,11 +1,11 @@
-#include "halfstep/experiments/verify/episode_text.h"
+#include "experiments/verify/episode_text.h"
 
 #include <charconv>
 #include <string_view>
 
-#include "halfstep/experiments/verify/csv_text.h"
-#include "halfstep/experiments/verify/json_text.h"
-#include "halfstep/wpg/files/text.h"
+#include "experiments/verify/csv_text.h"
+#include "experiments/verify/json_text.h"
+#include "wpg/files/text.h"
 
 namespace halfstep::verify {
 namespace {

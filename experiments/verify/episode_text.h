@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/experiments/verify/walk_text.h"
-#include "halfstep/wpg/files/input_file.h"
+#include "experiments/verify/walk_text.h"
+#include "wpg/files/input_file.h"
 
 namespace halfstep::verify {
 

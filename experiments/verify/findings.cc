@@ -1,4 +1,4 @@
-#include "halfstep/experiments/verify/findings.h"
+#include "experiments/verify/findings.h"
 
 namespace halfstep::verify {
 

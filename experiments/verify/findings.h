@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/wpg/files/text.h"
+#include "wpg/files/text.h"
 
 namespace halfstep::verify {
 

@@ -1,4 +1,4 @@
-#include "halfstep/experiments/verify/floor_distances.h"
+#include "experiments/verify/floor_distances.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "halfstep/experiments/verify/played_motion.h"
+#include "experiments/verify/played_motion.h"
 
 namespace halfstep::verify {
 

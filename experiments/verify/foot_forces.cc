@@ -1,11 +1,11 @@
-#include "halfstep/experiments/verify/foot_forces.h"
+#include "experiments/verify/foot_forces.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "halfstep/experiments/verify/check_rows.h"
-#include "halfstep/wpg/geometry/support_polygon.h"
+#include "experiments/verify/check_rows.h"
+#include "wpg/geometry/support_polygon.h"
 
 namespace halfstep::verify {
 namespace {

@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <array>
 
-#include "halfstep/experiments/verify/played_motion.h"
-#include "halfstep/experiments/verify/robot_momentum.h"
+#include "experiments/verify/played_motion.h"
+#include "experiments/verify/robot_momentum.h"
 
 namespace halfstep::verify {
 

@@ -1,4 +1,4 @@
-#include "halfstep/experiments/verify/given_files.h"
+#include "experiments/verify/given_files.h"
 
 #include <filesystem>
 

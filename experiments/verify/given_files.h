@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "halfstep/experiments/verify/verify_run.h"
-#include "halfstep/wpg/files/yaml_fields.h"
+#include "experiments/verify/verify_run.h"
+#include "wpg/files/yaml_fields.h"
 
 namespace halfstep::verify {
 

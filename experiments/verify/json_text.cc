@@ -1,9 +1,9 @@
-#include "halfstep/experiments/verify/json_text.h"
+#include "experiments/verify/json_text.h"
 
 #include <algorithm>
 
-#include "halfstep/wpg/files/input_error.h"
-#include "halfstep/wpg/files/nesting.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/nesting.h"
 
 namespace halfstep::verify {
 

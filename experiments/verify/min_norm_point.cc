@@ -1,4 +1,4 @@
-#include "halfstep/experiments/verify/min_norm_point.h"
+#include "experiments/verify/min_norm_point.h"
 
 #include <Eigen/LU>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "halfstep/experiments/verify/obstacle_path.h"
+#include "experiments/verify/obstacle_path.h"
 
 #include <algorithm>
 #include <cmath>

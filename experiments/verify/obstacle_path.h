@@ -2,7 +2,7 @@
 
 #include <Eigen/Geometry>
 
-#include "halfstep/planner/scene/scene.h"
+#include "planner/scene/scene.h"
 
 namespace halfstep::verify {
 

@@ -1,10 +1,10 @@
-#include "halfstep/experiments/verify/played_motion.h"
+#include "experiments/verify/played_motion.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "halfstep/experiments/verify/csv_text.h"
-#include "halfstep/wpg/check.h"
+#include "experiments/verify/csv_text.h"
+#include "wpg/check.h"
 
 namespace halfstep::verify {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/wpg/geometry/pose2.h"
-#include "halfstep/wpg/robot/robot_model.h"
+#include "wpg/geometry/pose2.h"
+#include "wpg/robot/robot_model.h"
 
 namespace halfstep::verify {
 

@@ -1,10 +1,10 @@
-#include "halfstep/experiments/verify/robot_momentum.h"
+#include "experiments/verify/robot_momentum.h"
 
 #include <Eigen/Eigenvalues>
 #include <array>
 #include <cmath>
 
-#include "halfstep/wpg/motion/posture.h"
+#include "wpg/motion/posture.h"
 
 namespace halfstep::verify {
 namespace {

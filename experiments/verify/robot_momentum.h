@@ -4,8 +4,8 @@
 #include <array>
 #include <optional>
 
-#include "halfstep/wpg/motion/walk_state.h"
-#include "halfstep/wpg/robot/robot_model.h"
+#include "wpg/motion/walk_state.h"
+#include "wpg/robot/robot_model.h"
 
 namespace halfstep::verify {
 

@@ -1,10 +1,10 @@
-#include "halfstep/experiments/verify/run_manifest.h"
+#include "experiments/verify/run_manifest.h"
 
 #include <algorithm>
 
-#include "halfstep/experiments/verify/json_text.h"
-#include "halfstep/wpg/files/input_error.h"
-#include "halfstep/wpg/files/text.h"
+#include "experiments/verify/json_text.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/text.h"
 
 namespace halfstep::verify {
 namespace {

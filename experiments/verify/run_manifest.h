@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/wpg/files/input_file.h"
+#include "wpg/files/input_file.h"
 
 namespace halfstep::verify {
 

@@ -1,4 +1,4 @@
-#include "halfstep/experiments/verify/solid.h"
+#include "experiments/verify/solid.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,10 +4,10 @@
 #include <array>
 #include <vector>
 
-#include "halfstep/experiments/verify/box_index.h"
-#include "halfstep/experiments/verify/min_norm_point.h"
-#include "halfstep/planner/scene/scene.h"
-#include "halfstep/wpg/geometry/convex_body.h"
+#include "experiments/verify/box_index.h"
+#include "experiments/verify/min_norm_point.h"
+#include "planner/scene/scene.h"
+#include "wpg/geometry/convex_body.h"
 
 namespace halfstep::verify {
 

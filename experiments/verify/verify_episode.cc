@@ -1,22 +1,22 @@
-#include "halfstep/experiments/verify/verify_episode.h"
+#include "experiments/verify/verify_episode.h"
 
 #include <filesystem>
 #include <set>
 
-#include "halfstep/experiments/config/experiment.h"
-#include "halfstep/experiments/live/live_config.h"
-#include "halfstep/experiments/live/spare_boxes.h"
-#include "halfstep/experiments/verify/check_episode_grants.h"
-#include "halfstep/experiments/verify/check_episode_motion.h"
-#include "halfstep/experiments/verify/check_episode_proof.h"
-#include "halfstep/experiments/verify/check_episode_walks.h"
-#include "halfstep/experiments/verify/check_episode_worlds.h"
-#include "halfstep/experiments/verify/check_files.h"
-#include "halfstep/experiments/verify/check_run.h"
-#include "halfstep/experiments/verify/csv_text.h"
-#include "halfstep/experiments/verify/episode_text.h"
-#include "halfstep/experiments/verify/given_files.h"
-#include "halfstep/wpg/files/sha256.h"
+#include "experiments/config/experiment.h"
+#include "experiments/live/live_config.h"
+#include "experiments/live/spare_boxes.h"
+#include "experiments/verify/check_episode_grants.h"
+#include "experiments/verify/check_episode_motion.h"
+#include "experiments/verify/check_episode_proof.h"
+#include "experiments/verify/check_episode_walks.h"
+#include "experiments/verify/check_episode_worlds.h"
+#include "experiments/verify/check_files.h"
+#include "experiments/verify/check_run.h"
+#include "experiments/verify/csv_text.h"
+#include "experiments/verify/episode_text.h"
+#include "experiments/verify/given_files.h"
+#include "wpg/files/sha256.h"
 
 namespace halfstep::verify {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "halfstep/experiments/verify/findings.h"
-#include "halfstep/experiments/verify/verify_run.h"
+#include "experiments/verify/findings.h"
+#include "experiments/verify/verify_run.h"
 
 namespace halfstep::verify {
 

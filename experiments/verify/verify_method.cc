@@ -1,28 +1,28 @@
-#include "halfstep/experiments/verify/verify_method.h"
+#include "experiments/verify/verify_method.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
 
-#include "halfstep/experiments/config/experiment.h"
-#include "halfstep/experiments/verify/certificate_text.h"
-#include "halfstep/experiments/verify/check_certificate.h"
-#include "halfstep/experiments/verify/check_claims.h"
-#include "halfstep/experiments/verify/check_files.h"
-#include "halfstep/experiments/verify/check_margin_columns.h"
-#include "halfstep/experiments/verify/check_overlaps.h"
-#include "halfstep/experiments/verify/check_played.h"
-#include "halfstep/experiments/verify/check_rows.h"
-#include "halfstep/experiments/verify/check_run.h"
-#include "halfstep/experiments/verify/check_stop_branches.h"
-#include "halfstep/experiments/verify/check_summary.h"
-#include "halfstep/experiments/verify/check_walk.h"
-#include "halfstep/experiments/verify/csv_text.h"
-#include "halfstep/experiments/verify/described_walk.h"
-#include "halfstep/experiments/verify/given_files.h"
-#include "halfstep/wpg/files/input_error.h"
-#include "halfstep/wpg/files/sha256.h"
+#include "experiments/config/experiment.h"
+#include "experiments/verify/certificate_text.h"
+#include "experiments/verify/check_certificate.h"
+#include "experiments/verify/check_claims.h"
+#include "experiments/verify/check_files.h"
+#include "experiments/verify/check_margin_columns.h"
+#include "experiments/verify/check_overlaps.h"
+#include "experiments/verify/check_played.h"
+#include "experiments/verify/check_rows.h"
+#include "experiments/verify/check_run.h"
+#include "experiments/verify/check_stop_branches.h"
+#include "experiments/verify/check_summary.h"
+#include "experiments/verify/check_walk.h"
+#include "experiments/verify/csv_text.h"
+#include "experiments/verify/described_walk.h"
+#include "experiments/verify/given_files.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/sha256.h"
 
 namespace halfstep::verify {
 namespace {

@@ -3,9 +3,9 @@
 #include <filesystem>
 #include <string>
 
-#include "halfstep/experiments/verify/findings.h"
-#include "halfstep/experiments/verify/run_manifest.h"
-#include "halfstep/experiments/verify/verify_run.h"
+#include "experiments/verify/findings.h"
+#include "experiments/verify/run_manifest.h"
+#include "experiments/verify/verify_run.h"
 
 namespace halfstep::verify {
 

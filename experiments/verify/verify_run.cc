@@ -1,16 +1,16 @@
-#include "halfstep/experiments/verify/verify_run.h"
+#include "experiments/verify/verify_run.h"
 
 #include <algorithm>
 #include <filesystem>
 
-#include "halfstep/experiments/verify/csv_text.h"
-#include "halfstep/experiments/verify/episode_text.h"
-#include "halfstep/experiments/verify/findings.h"
-#include "halfstep/experiments/verify/run_manifest.h"
-#include "halfstep/experiments/verify/verify_episode.h"
-#include "halfstep/experiments/verify/verify_method.h"
-#include "halfstep/wpg/files/input_error.h"
-#include "halfstep/wpg/files/text.h"
+#include "experiments/verify/csv_text.h"
+#include "experiments/verify/episode_text.h"
+#include "experiments/verify/findings.h"
+#include "experiments/verify/run_manifest.h"
+#include "experiments/verify/verify_episode.h"
+#include "experiments/verify/verify_method.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/text.h"
 
 namespace halfstep::verify {
 namespace {

@@ -1,6 +1,6 @@
-#include "halfstep/experiments/verify/walk_text.h"
+#include "experiments/verify/walk_text.h"
 
-#include "halfstep/experiments/verify/csv_text.h"
+#include "experiments/verify/csv_text.h"
 
 namespace halfstep::verify {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/wpg/motion/half_step_sequence.h"
+#include "wpg/motion/half_step_sequence.h"
 
 namespace halfstep::verify {
 

@@ -1,4 +1,4 @@
-#include "halfstep/opt/adapters/box_transform.h"
+#include "opt/adapters/box_transform.h"
 
 #include <algorithm>
 #include <cmath>

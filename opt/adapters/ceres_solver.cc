@@ -1,4 +1,4 @@
-#include "halfstep/opt/adapters/ceres_solver.h"
+#include "opt/adapters/ceres_solver.h"
 
 #include <ceres/gradient_problem.h>
 #include <ceres/gradient_problem_solver.h>
@@ -10,10 +10,10 @@
 #include <mutex>
 #include <utility>
 
-#include "halfstep/opt/adapters/box_transform.h"
-#include "halfstep/opt/solvers/augmented_lagrangian.h"
-#include "halfstep/opt/solvers/option_text.h"
-#include "halfstep/opt/solvers/solve_monitor.h"
+#include "opt/adapters/box_transform.h"
+#include "opt/solvers/augmented_lagrangian.h"
+#include "opt/solvers/option_text.h"
+#include "opt/solvers/solve_monitor.h"
 
 namespace halfstep::opt {
 namespace {

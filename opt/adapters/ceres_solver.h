@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "halfstep/opt/solvers/solver.h"
+#include "opt/solvers/solver.h"
 
 namespace halfstep::opt {
 

@@ -1,4 +1,4 @@
-#include "halfstep/opt/adapters/function_solver.h"
+#include "opt/adapters/function_solver.h"
 
 #include <utility>
 

@@ -1,4 +1,4 @@
-#include "halfstep/opt/adapters/ipopt_solver.h"
+#include "opt/adapters/ipopt_solver.h"
 
 #include <IpIpoptApplication.hpp>
 #include <IpIpoptCalculatedQuantities.hpp>
@@ -11,8 +11,8 @@
 #include <mutex>
 #include <utility>
 
-#include "halfstep/opt/solvers/option_text.h"
-#include "halfstep/opt/solvers/solve_monitor.h"
+#include "opt/solvers/option_text.h"
+#include "opt/solvers/solve_monitor.h"
 
 namespace halfstep::opt {
 namespace {

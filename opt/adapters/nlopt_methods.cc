@@ -1,4 +1,4 @@
-#include "halfstep/opt/adapters/nlopt_solver.h"
+#include "opt/adapters/nlopt_solver.h"
 
 namespace halfstep::opt {
 

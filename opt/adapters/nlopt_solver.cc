@@ -1,4 +1,4 @@
-#include "halfstep/opt/adapters/nlopt_solver.h"
+#include "opt/adapters/nlopt_solver.h"
 
 #include <nlopt.h>
 
@@ -6,8 +6,8 @@
 #include <memory>
 #include <utility>
 
-#include "halfstep/opt/solvers/option_text.h"
-#include "halfstep/opt/solvers/solve_monitor.h"
+#include "opt/solvers/option_text.h"
+#include "opt/solvers/solve_monitor.h"
 
 namespace halfstep::opt {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/opt/solvers/solver.h"
+#include "opt/solvers/solver.h"
 
 namespace halfstep::opt {
 

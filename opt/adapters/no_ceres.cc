@@ -1,5 +1,5 @@
-#include "halfstep/opt/adapters/ceres_solver.h"
-#include "halfstep/opt/adapters/unavailable_solver.h"
+#include "opt/adapters/ceres_solver.h"
+#include "opt/adapters/unavailable_solver.h"
 
 namespace halfstep::opt {
 

@@ -1,14 +1,14 @@
-#include "halfstep/opt/adapters/solver_registry.h"
+#include "opt/adapters/solver_registry.h"
 
 #include <algorithm>
 #include <stdexcept>
 #include <utility>
 
-#include "halfstep/opt/adapters/ceres_solver.h"
-#include "halfstep/opt/adapters/ipopt_solver.h"
-#include "halfstep/opt/adapters/nlopt_solver.h"
-#include "halfstep/opt/solvers/barrier_solver.h"
-#include "halfstep/opt/solvers/sqp_solver.h"
+#include "opt/adapters/ceres_solver.h"
+#include "opt/adapters/ipopt_solver.h"
+#include "opt/adapters/nlopt_solver.h"
+#include "opt/solvers/barrier_solver.h"
+#include "opt/solvers/sqp_solver.h"
 
 namespace halfstep::opt {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/opt/solvers/solver.h"
+#include "opt/solvers/solver.h"
 
 namespace halfstep::opt {
 

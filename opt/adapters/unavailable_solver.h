@@ -3,8 +3,8 @@
 #include <string>
 #include <utility>
 
-#include "halfstep/opt/solvers/solve_monitor.h"
-#include "halfstep/opt/solvers/solver.h"
+#include "opt/solvers/solve_monitor.h"
+#include "opt/solvers/solver.h"
 
 namespace halfstep::opt {
 

@@ -1,4 +1,4 @@
-#include "halfstep/opt/problem/derivative_check.h"
+#include "opt/problem/derivative_check.h"
 
 #include <cmath>
 #include <sstream>

@@ -1,4 +1,4 @@
-#include "halfstep/opt/problem/function_block.h"
+#include "opt/problem/function_block.h"
 
 namespace halfstep::opt {
 

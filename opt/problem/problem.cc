@@ -1,11 +1,11 @@
-#include "halfstep/opt/problem/problem.h"
+#include "opt/problem/problem.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
-#include "halfstep/opt/problem/require.h"
+#include "opt/problem/require.h"
 
 namespace halfstep::opt {
 namespace {

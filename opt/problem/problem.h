@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/opt/problem/cost_term.h"
-#include "halfstep/opt/problem/function_block.h"
-#include "halfstep/opt/problem/variable_block.h"
+#include "opt/problem/cost_term.h"
+#include "opt/problem/function_block.h"
+#include "opt/problem/variable_block.h"
 
 namespace halfstep::opt {
 

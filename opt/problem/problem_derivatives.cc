@@ -1,4 +1,4 @@
-#include "halfstep/opt/problem/problem_derivatives.h"
+#include "opt/problem/problem_derivatives.h"
 
 namespace halfstep::opt {
 

@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <string>
 
-#include "halfstep/opt/problem/derivative_check.h"
-#include "halfstep/opt/problem/problem.h"
+#include "opt/problem/derivative_check.h"
+#include "opt/problem/problem.h"
 
 namespace halfstep::opt {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/opt/problem/problem.h"
+#include "opt/problem/problem.h"
 
 namespace halfstep::opt {
 namespace {

@@ -1,4 +1,4 @@
-#include "halfstep/opt/problem/scaled_rows.h"
+#include "opt/problem/scaled_rows.h"
 
 #include <algorithm>
 #include <cmath>

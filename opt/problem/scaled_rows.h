@@ -4,7 +4,7 @@
 #include <Eigen/SparseCore>
 #include <vector>
 
-#include "halfstep/opt/problem/problem.h"
+#include "opt/problem/problem.h"
 
 namespace halfstep::opt {
 

@@ -1,4 +1,4 @@
-#include "halfstep/opt/problem/stationarity.h"
+#include "opt/problem/stationarity.h"
 
 #include <algorithm>
 #include <cmath>

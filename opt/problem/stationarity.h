@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "halfstep/opt/problem/problem.h"
+#include "opt/problem/problem.h"
 
 namespace halfstep::opt {
 

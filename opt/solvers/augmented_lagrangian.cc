@@ -1,4 +1,4 @@
-#include "halfstep/opt/solvers/augmented_lagrangian.h"
+#include "opt/solvers/augmented_lagrangian.h"
 
 #include <algorithm>
 #include <cmath>

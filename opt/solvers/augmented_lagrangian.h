@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <limits>
 
-#include "halfstep/opt/solvers/solve_monitor.h"
+#include "opt/solvers/solve_monitor.h"
 
 namespace halfstep::opt {
 

@@ -1,4 +1,4 @@
-#include "halfstep/opt/solvers/barrier_solver.h"
+#include "opt/solvers/barrier_solver.h"
 
 #include <Eigen/LU>
 #include <Eigen/SparseCholesky>
@@ -7,10 +7,10 @@
 #include <limits>
 #include <utility>
 
-#include "halfstep/opt/solvers/barrier_terms.h"
-#include "halfstep/opt/solvers/limited_memory_hessian.h"
-#include "halfstep/opt/solvers/own_options.h"
-#include "halfstep/opt/solvers/solve_monitor.h"
+#include "opt/solvers/barrier_terms.h"
+#include "opt/solvers/limited_memory_hessian.h"
+#include "opt/solvers/own_options.h"
+#include "opt/solvers/solve_monitor.h"
 
 namespace halfstep::opt {
 namespace {

@@ -1,4 +1,4 @@
-#include "halfstep/opt/solvers/barrier_terms.h"
+#include "opt/solvers/barrier_terms.h"
 
 #include <algorithm>
 #include <cmath>

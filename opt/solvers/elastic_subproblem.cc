@@ -1,4 +1,4 @@
-#include "halfstep/opt/solvers/elastic_subproblem.h"
+#include "opt/solvers/elastic_subproblem.h"
 
 #include <Eigen/LU>
 #include <Eigen/SparseCholesky>

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
-#include "halfstep/opt/solvers/limited_memory_hessian.h"
+#include "opt/solvers/limited_memory_hessian.h"
 
 namespace halfstep::opt {
 

@@ -1,4 +1,4 @@
-#include "halfstep/opt/solvers/ending.h"
+#include "opt/solvers/ending.h"
 
 #include <algorithm>
 

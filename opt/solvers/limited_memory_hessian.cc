@@ -1,4 +1,4 @@
-#include "halfstep/opt/solvers/limited_memory_hessian.h"
+#include "opt/solvers/limited_memory_hessian.h"
 
 #include <Eigen/LU>
 #include <algorithm>

@@ -1,8 +1,8 @@
 #include <cmath>
 #include <exception>
 
-#include "halfstep/opt/problem/require.h"
-#include "halfstep/opt/solvers/solve_monitor.h"
+#include "opt/problem/require.h"
+#include "opt/solvers/solve_monitor.h"
 
 namespace halfstep::opt {
 namespace {

@@ -1,4 +1,4 @@
-#include "halfstep/opt/solvers/option_text.h"
+#include "opt/solvers/option_text.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
-#include "halfstep/opt/solvers/own_options.h"
+#include "opt/solvers/own_options.h"
 
 #include <algorithm>
 
-#include "halfstep/opt/solvers/option_text.h"
+#include "opt/solvers/option_text.h"
 
 namespace halfstep::opt {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/opt/solvers/solve_monitor.h"
+#include "opt/solvers/solve_monitor.h"
 
 namespace halfstep::opt {
 

@@ -1,4 +1,4 @@
-#include "halfstep/opt/solvers/row_penalties.h"
+#include "opt/solvers/row_penalties.h"
 
 #include <algorithm>
 

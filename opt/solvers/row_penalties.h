@@ -4,7 +4,7 @@
 #include <map>
 #include <vector>
 
-#include "halfstep/opt/problem/scaled_rows.h"
+#include "opt/problem/scaled_rows.h"
 
 namespace halfstep::opt {
 

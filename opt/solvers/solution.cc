@@ -1,4 +1,4 @@
-#include "halfstep/opt/solvers/solution.h"
+#include "opt/solvers/solution.h"
 
 #include <sstream>
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/opt/solvers/ending.h"
-#include "halfstep/opt/solvers/warm_start.h"
+#include "opt/solvers/ending.h"
+#include "opt/solvers/warm_start.h"
 
 namespace halfstep::opt {
 

@@ -1,11 +1,11 @@
-#include "halfstep/opt/solvers/solve_monitor.h"
+#include "opt/solvers/solve_monitor.h"
 
 #include <cmath>
 #include <limits>
 #include <sstream>
 #include <utility>
 
-#include "halfstep/opt/problem/stationarity.h"
+#include "opt/problem/stationarity.h"
 
 namespace halfstep::opt {
 namespace {

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/opt/problem/problem.h"
-#include "halfstep/opt/solvers/solution.h"
-#include "halfstep/opt/solvers/solver.h"
-#include "halfstep/opt/solvers/solver_options.h"
+#include "opt/problem/problem.h"
+#include "opt/solvers/solution.h"
+#include "opt/solvers/solver.h"
+#include "opt/solvers/solver_options.h"
 
 namespace halfstep::opt {
 

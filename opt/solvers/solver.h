@@ -3,9 +3,9 @@
 #include <Eigen/Core>
 #include <string>
 
-#include "halfstep/opt/problem/problem.h"
-#include "halfstep/opt/solvers/solution.h"
-#include "halfstep/opt/solvers/solver_options.h"
+#include "opt/problem/problem.h"
+#include "opt/solvers/solution.h"
+#include "opt/solvers/solver_options.h"
 
 namespace halfstep::opt {
 

@@ -8,7 +8,7 @@
 #include <stop_token>
 #include <string>
 
-#include "halfstep/opt/solvers/warm_start.h"
+#include "opt/solvers/warm_start.h"
 
 namespace halfstep::opt {
 

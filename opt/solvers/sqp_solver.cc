@@ -1,4 +1,4 @@
-#include "halfstep/opt/solvers/sqp_solver.h"
+#include "opt/solvers/sqp_solver.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,11 +7,11 @@
 #include <utility>
 #include <vector>
 
-#include "halfstep/opt/problem/scaled_rows.h"
-#include "halfstep/opt/solvers/elastic_subproblem.h"
-#include "halfstep/opt/solvers/own_options.h"
-#include "halfstep/opt/solvers/row_penalties.h"
-#include "halfstep/opt/solvers/solve_monitor.h"
+#include "opt/problem/scaled_rows.h"
+#include "opt/solvers/elastic_subproblem.h"
+#include "opt/solvers/own_options.h"
+#include "opt/solvers/row_penalties.h"
+#include "opt/solvers/solve_monitor.h"
 
 namespace halfstep::opt {
 namespace {

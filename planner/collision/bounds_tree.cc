@@ -1,9 +1,9 @@
-#include "halfstep/planner/collision/bounds_tree.h"
+#include "planner/collision/bounds_tree.h"
 
 #include <algorithm>
 #include <numeric>
 
-#include "halfstep/wpg/check.h"
+#include "wpg/check.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "halfstep/planner/collision/collision_world.h"
+#include "planner/collision/collision_world.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "halfstep/wpg/check.h"
+#include "wpg/check.h"
 
 namespace halfstep {
 namespace {

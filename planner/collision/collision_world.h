@@ -5,9 +5,9 @@
 #include <memory>
 #include <vector>
 
-#include "halfstep/planner/collision/bounds_tree.h"
-#include "halfstep/planner/collision/separation.h"
-#include "halfstep/planner/scene/scene.h"
+#include "planner/collision/bounds_tree.h"
+#include "planner/collision/separation.h"
+#include "planner/scene/scene.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "halfstep/planner/collision/convex_distance.h"
+#include "planner/collision/convex_distance.h"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "halfstep/wpg/geometry/triangle_weights.h"
+#include "wpg/geometry/triangle_weights.h"
 
 namespace halfstep {
 namespace {

@@ -1,4 +1,4 @@
-#include "halfstep/planner/collision/mesh_interior.h"
+#include "planner/collision/mesh_interior.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,11 +8,11 @@
 #include <utility>
 #include <vector>
 
-#include "halfstep/planner/collision/bounds_tree.h"
-#include "halfstep/planner/collision/mesh_patches.h"
-#include "halfstep/planner/collision/mesh_winding.h"
-#include "halfstep/planner/collision/triangle_tree.h"
-#include "halfstep/wpg/check.h"
+#include "planner/collision/bounds_tree.h"
+#include "planner/collision/mesh_patches.h"
+#include "planner/collision/mesh_winding.h"
+#include "planner/collision/triangle_tree.h"
+#include "wpg/check.h"
 
 namespace halfstep {
 namespace {

@@ -5,7 +5,7 @@
 #include <memory>
 #include <mutex>
 
-#include "halfstep/planner/scene/shape.h"
+#include "planner/scene/shape.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "halfstep/planner/collision/mesh_patches.h"
+#include "planner/collision/mesh_patches.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "halfstep/planner/collision/mesh_winding.h"
+#include "planner/collision/mesh_winding.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "halfstep/planner/collision/triangle_tree.h"
+#include "planner/collision/triangle_tree.h"
 
 namespace halfstep {
 

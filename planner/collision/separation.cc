@@ -1,4 +1,4 @@
-#include "halfstep/planner/collision/separation.h"
+#include "planner/collision/separation.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,10 +11,10 @@
 #include <utility>
 #include <vector>
 
-#include "halfstep/planner/collision/convex_distance.h"
-#include "halfstep/planner/collision/mesh_interior.h"
-#include "halfstep/planner/collision/triangle_surface.h"
-#include "halfstep/wpg/check.h"
+#include "planner/collision/convex_distance.h"
+#include "planner/collision/mesh_interior.h"
+#include "planner/collision/triangle_surface.h"
+#include "wpg/check.h"
 
 namespace halfstep {
 namespace {

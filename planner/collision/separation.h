@@ -4,8 +4,8 @@
 #include <limits>
 #include <memory>
 
-#include "halfstep/planner/scene/scene.h"
-#include "halfstep/wpg/geometry/convex_body.h"
+#include "planner/scene/scene.h"
+#include "wpg/geometry/convex_body.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "halfstep/planner/collision/triangle_surface.h"
+#include "planner/collision/triangle_surface.h"
 
 #include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/narrowphase/distance.h>
@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "halfstep/planner/collision/bounds_tree.h"
-#include "halfstep/planner/collision/triangle_tree.h"
-#include "halfstep/wpg/check.h"
+#include "planner/collision/bounds_tree.h"
+#include "planner/collision/triangle_tree.h"
+#include "wpg/check.h"
 
 namespace halfstep {
 namespace {

@@ -1,8 +1,8 @@
-#include "halfstep/planner/collision/triangle_tree.h"
+#include "planner/collision/triangle_tree.h"
 
 #include <Eigen/Geometry>
 
-#include "halfstep/wpg/check.h"
+#include "wpg/check.h"
 
 namespace halfstep {
 namespace {

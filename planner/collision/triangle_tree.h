@@ -4,8 +4,8 @@
 #include <Eigen/Geometry>
 #include <vector>
 
-#include "halfstep/planner/collision/bounds_tree.h"
-#include "halfstep/planner/scene/shape.h"
+#include "planner/collision/bounds_tree.h"
+#include "planner/scene/shape.h"
 
 namespace halfstep {
 

@@ -1,13 +1,13 @@
-#include "halfstep/planner/scene/cloud_fields.h"
+#include "planner/scene/cloud_fields.h"
 
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <utility>
 
-#include "halfstep/planner/scene/voxel_set.h"
-#include "halfstep/wpg/files/input_error.h"
-#include "halfstep/wpg/files/text.h"
+#include "planner/scene/voxel_set.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {

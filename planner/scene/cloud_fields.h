@@ -4,10 +4,10 @@
 #include <optional>
 #include <string>
 
-#include "halfstep/planner/scene/shape.h"
-#include "halfstep/wpg/files/fields.h"
-#include "halfstep/wpg/files/octomap_file.h"
-#include "halfstep/wpg/files/point_file.h"
+#include "planner/scene/shape.h"
+#include "wpg/files/fields.h"
+#include "wpg/files/octomap_file.h"
+#include "wpg/files/point_file.h"
 
 namespace halfstep {
 

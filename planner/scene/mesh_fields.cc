@@ -1,13 +1,13 @@
-#include "halfstep/planner/scene/mesh_fields.h"
+#include "planner/scene/mesh_fields.h"
 
 #include <filesystem>
 #include <stdexcept>
 #include <utility>
 
-#include "halfstep/wpg/files/input_error.h"
-#include "halfstep/wpg/files/mesh_file.h"
-#include "halfstep/wpg/files/text.h"
-#include "halfstep/wpg/geometry/simplified_hull.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/mesh_file.h"
+#include "wpg/files/text.h"
+#include "wpg/geometry/simplified_hull.h"
 
 namespace halfstep {
 namespace {

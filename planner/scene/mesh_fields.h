@@ -4,10 +4,10 @@
 #include <optional>
 #include <string>
 
-#include "halfstep/planner/scene/mesh_floor.h"
-#include "halfstep/planner/scene/shape.h"
-#include "halfstep/wpg/files/fields.h"
-#include "halfstep/wpg/files/input_file.h"
+#include "planner/scene/mesh_floor.h"
+#include "planner/scene/shape.h"
+#include "wpg/files/fields.h"
+#include "wpg/files/input_file.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "halfstep/planner/scene/mesh_floor.h"
+#include "planner/scene/mesh_floor.h"
 
 #include <algorithm>
 #include <limits>

@@ -2,7 +2,7 @@
 
 #include <Eigen/Geometry>
 
-#include "halfstep/planner/scene/shape.h"
+#include "planner/scene/shape.h"
 
 namespace halfstep {
 

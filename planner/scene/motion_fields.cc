@@ -1,4 +1,4 @@
-#include "halfstep/planner/scene/motion_fields.h"
+#include "planner/scene/motion_fields.h"
 
 #include <cstdio>
 #include <optional>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "halfstep/planner/scene/obstacle_motion.h"
-#include "halfstep/wpg/files/fields.h"
+#include "planner/scene/obstacle_motion.h"
+#include "wpg/files/fields.h"
 
 namespace halfstep {
 

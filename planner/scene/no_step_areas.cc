@@ -1,8 +1,8 @@
-#include "halfstep/planner/scene/no_step_areas.h"
+#include "planner/scene/no_step_areas.h"
 
 #include <algorithm>
 
-#include "halfstep/planner/scene/simple_polygon.h"
+#include "planner/scene/simple_polygon.h"
 
 namespace halfstep {
 

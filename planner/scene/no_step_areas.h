@@ -4,8 +4,8 @@
 #include <limits>
 #include <vector>
 
-#include "halfstep/planner/scene/scene.h"
-#include "halfstep/wpg/geometry/footprint.h"
+#include "planner/scene/scene.h"
+#include "wpg/geometry/footprint.h"
 
 namespace halfstep {
 

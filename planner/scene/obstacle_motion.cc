@@ -1,4 +1,4 @@
-#include "halfstep/planner/scene/obstacle_motion.h"
+#include "planner/scene/obstacle_motion.h"
 
 #include <algorithm>
 #include <cmath>

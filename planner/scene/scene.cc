@@ -1,4 +1,4 @@
-#include "halfstep/planner/scene/scene.h"
+#include "planner/scene/scene.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -6,13 +6,13 @@
 #include <map>
 #include <utility>
 
-#include "halfstep/planner/scene/cloud_fields.h"
-#include "halfstep/planner/scene/mesh_fields.h"
-#include "halfstep/planner/scene/motion_fields.h"
-#include "halfstep/planner/scene/simple_polygon.h"
-#include "halfstep/wpg/files/input_error.h"
-#include "halfstep/wpg/files/text.h"
-#include "halfstep/wpg/files/yaml_fields.h"
+#include "planner/scene/cloud_fields.h"
+#include "planner/scene/mesh_fields.h"
+#include "planner/scene/motion_fields.h"
+#include "planner/scene/simple_polygon.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/text.h"
+#include "wpg/files/yaml_fields.h"
 
 namespace halfstep {
 namespace {

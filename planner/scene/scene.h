@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/planner/scene/obstacle_motion.h"
-#include "halfstep/planner/scene/shape.h"
-#include "halfstep/wpg/files/input_file.h"
+#include "planner/scene/obstacle_motion.h"
+#include "planner/scene/shape.h"
+#include "wpg/files/input_file.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "halfstep/planner/scene/shape.h"
+#include "planner/scene/shape.h"
 
 #include <type_traits>
 

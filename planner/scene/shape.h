@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <variant>
 
-#include "halfstep/wpg/geometry/convex_body.h"
+#include "wpg/geometry/convex_body.h"
 
 namespace halfstep {
 

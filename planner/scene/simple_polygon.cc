@@ -1,4 +1,4 @@
-#include "halfstep/planner/scene/simple_polygon.h"
+#include "planner/scene/simple_polygon.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "halfstep/planner/scene/voxel_set.h"
+#include "planner/scene/voxel_set.h"
 
 #include <algorithm>
 #include <array>

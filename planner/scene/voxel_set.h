@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "halfstep/planner/scene/shape.h"
+#include "planner/scene/shape.h"
 
 namespace halfstep {
 

@@ -1,9 +1,9 @@
-#include "halfstep/planner/search/bounding_box_planner.h"
+#include "planner/search/bounding_box_planner.h"
 
 #include <algorithm>
 #include <limits>
 
-#include "halfstep/planner/search/state_buckets.h"
+#include "planner/search/state_buckets.h"
 
 namespace halfstep {
 namespace {

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "halfstep/planner/search/box_path.h"
-#include "halfstep/planner/search/footstep_planner.h"
-#include "halfstep/planner/search/step_search.h"
+#include "planner/search/box_path.h"
+#include "planner/search/footstep_planner.h"
+#include "planner/search/step_search.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "halfstep/planner/search/box_path.h"
+#include "planner/search/box_path.h"
 
 #include <algorithm>
 #include <array>
@@ -8,9 +8,9 @@
 #include <tuple>
 #include <unordered_map>
 
-#include "halfstep/planner/scene/simple_polygon.h"
-#include "halfstep/wpg/check.h"
-#include "halfstep/wpg/geometry/support_polygon.h"
+#include "planner/scene/simple_polygon.h"
+#include "wpg/check.h"
+#include "wpg/geometry/support_polygon.h"
 
 namespace halfstep {
 namespace {

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/planner/collision/collision_world.h"
-#include "halfstep/planner/scene/scene.h"
-#include "halfstep/planner/search/plan_search.h"
+#include "planner/collision/collision_world.h"
+#include "planner/scene/scene.h"
+#include "planner/search/plan_search.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "halfstep/planner/search/footstep_astar.h"
+#include "planner/search/footstep_astar.h"
 
 #include <algorithm>
 #include <array>

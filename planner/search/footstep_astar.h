@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "halfstep/planner/search/footstep_planner.h"
-#include "halfstep/planner/search/step_search.h"
+#include "planner/search/footstep_planner.h"
+#include "planner/search/step_search.h"
 
 namespace halfstep {
 

@@ -12,13 +12,13 @@
 #include <string_view>
 #include <vector>
 
-#include "halfstep/planner/search/goal_region.h"
-#include "halfstep/planner/search/half_step_query.h"
-#include "halfstep/planner/search/half_step_set.h"
-#include "halfstep/planner/search/step_cost.h"
-#include "halfstep/planner/search/termination.h"
-#include "halfstep/wpg/geometry/footprint.h"
-#include "halfstep/wpg/motion/half_step_sequence.h"
+#include "planner/search/goal_region.h"
+#include "planner/search/half_step_query.h"
+#include "planner/search/half_step_set.h"
+#include "planner/search/step_cost.h"
+#include "planner/search/termination.h"
+#include "wpg/geometry/footprint.h"
+#include "wpg/motion/half_step_sequence.h"
 
 namespace halfstep {
 

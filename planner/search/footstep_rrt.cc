@@ -1,11 +1,11 @@
-#include "halfstep/planner/search/footstep_rrt.h"
+#include "planner/search/footstep_rrt.h"
 
 #include <cmath>
 #include <numbers>
 
-#include "halfstep/planner/search/plan_search.h"
-#include "halfstep/planner/search/plan_shortcut.h"
-#include "halfstep/planner/search/step_tree.h"
+#include "planner/search/plan_search.h"
+#include "planner/search/plan_shortcut.h"
+#include "planner/search/step_tree.h"
 
 namespace halfstep {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "halfstep/planner/search/footstep_planner.h"
-#include "halfstep/planner/search/pose_cells.h"
+#include "planner/search/footstep_planner.h"
+#include "planner/search/pose_cells.h"
 
 namespace halfstep {
 

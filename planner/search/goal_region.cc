@@ -1,4 +1,4 @@
-#include "halfstep/planner/search/goal_region.h"
+#include "planner/search/goal_region.h"
 
 #include <cmath>
 #include <numbers>

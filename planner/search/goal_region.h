@@ -4,8 +4,8 @@
 #include <array>
 #include <optional>
 
-#include "halfstep/wpg/geometry/footprint.h"
-#include "halfstep/wpg/geometry/side.h"
+#include "wpg/geometry/footprint.h"
+#include "wpg/geometry/side.h"
 
 namespace halfstep {
 

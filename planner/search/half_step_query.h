@@ -1,7 +1,7 @@
 #pragma once
 
-#include "halfstep/wpg/geometry/footprint.h"
-#include "halfstep/wpg/geometry/side.h"
+#include "wpg/geometry/footprint.h"
+#include "wpg/geometry/side.h"
 
 namespace halfstep {
 

@@ -1,8 +1,8 @@
-#include "halfstep/planner/search/half_step_set.h"
+#include "planner/search/half_step_set.h"
 
 #include <cmath>
 
-#include "halfstep/wpg/check.h"
+#include "wpg/check.h"
 
 namespace halfstep {
 

@@ -3,9 +3,9 @@
 #include <functional>
 #include <vector>
 
-#include "halfstep/wpg/geometry/footprint.h"
-#include "halfstep/wpg/geometry/side.h"
-#include "halfstep/wpg/motion/half_step.h"
+#include "wpg/geometry/footprint.h"
+#include "wpg/geometry/side.h"
+#include "wpg/motion/half_step.h"
 
 namespace halfstep {
 

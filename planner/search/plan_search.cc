@@ -1,9 +1,9 @@
-#include "halfstep/planner/search/plan_search.h"
+#include "planner/search/plan_search.h"
 
 #include <cmath>
 #include <sstream>
 
-#include "halfstep/wpg/check.h"
+#include "wpg/check.h"
 
 namespace halfstep {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/planner/search/footstep_planner.h"
-#include "halfstep/planner/search/step_graph.h"
+#include "planner/search/footstep_planner.h"
+#include "planner/search/step_graph.h"
 
 namespace halfstep {
 

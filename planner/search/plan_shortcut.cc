@@ -1,11 +1,11 @@
-#include "halfstep/planner/search/plan_shortcut.h"
+#include "planner/search/plan_shortcut.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
 
-#include "halfstep/planner/search/step_tree.h"
+#include "planner/search/step_tree.h"
 
 namespace halfstep {
 namespace {

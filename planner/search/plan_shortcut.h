@@ -2,8 +2,8 @@
 
 #include <random>
 
-#include "halfstep/planner/search/plan_search.h"
-#include "halfstep/planner/search/pose_cells.h"
+#include "planner/search/plan_search.h"
+#include "planner/search/pose_cells.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "halfstep/planner/search/planner_registry.h"
+#include "planner/search/planner_registry.h"
 
 #include <stdexcept>
 #include <utility>

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/planner/search/bounding_box_planner.h"
-#include "halfstep/planner/search/footstep_astar.h"
-#include "halfstep/planner/search/footstep_planner.h"
-#include "halfstep/planner/search/footstep_rrt.h"
+#include "planner/search/bounding_box_planner.h"
+#include "planner/search/footstep_astar.h"
+#include "planner/search/footstep_planner.h"
+#include "planner/search/footstep_rrt.h"
 
 namespace halfstep {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <numbers>
 
-#include "halfstep/planner/search/step_graph.h"
+#include "planner/search/step_graph.h"
 
 namespace halfstep {
 

@@ -1,11 +1,11 @@
-#include "halfstep/planner/search/state_buckets.h"
+#include "planner/search/state_buckets.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
-#include "halfstep/wpg/check.h"
+#include "wpg/check.h"
 
 namespace halfstep {
 

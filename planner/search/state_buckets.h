@@ -4,8 +4,8 @@
 #include <array>
 #include <vector>
 
-#include "halfstep/planner/search/step_graph.h"
-#include "halfstep/wpg/geometry/footprint.h"
+#include "planner/search/step_graph.h"
+#include "wpg/geometry/footprint.h"
 
 namespace halfstep {
 

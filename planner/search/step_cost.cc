@@ -1,10 +1,10 @@
-#include "halfstep/planner/search/step_cost.h"
+#include "planner/search/step_cost.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "halfstep/wpg/check.h"
+#include "wpg/check.h"
 
 namespace halfstep {
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "halfstep/planner/search/half_step_set.h"
+#include "planner/search/half_step_set.h"
 
 namespace halfstep {
 

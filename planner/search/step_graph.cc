@@ -1,4 +1,4 @@
-#include "halfstep/planner/search/step_graph.h"
+#include "planner/search/step_graph.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "halfstep/planner/search/footstep_planner.h"
-#include "halfstep/wpg/geometry/footprint.h"
+#include "planner/search/footstep_planner.h"
+#include "wpg/geometry/footprint.h"
 
 namespace halfstep {
 

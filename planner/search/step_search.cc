@@ -1,4 +1,4 @@
-#include "halfstep/planner/search/step_search.h"
+#include "planner/search/step_search.h"
 
 #include <algorithm>
 #include <cmath>

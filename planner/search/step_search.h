@@ -3,8 +3,8 @@
 #include <functional>
 #include <vector>
 
-#include "halfstep/planner/search/plan_search.h"
-#include "halfstep/planner/search/pose_cells.h"
+#include "planner/search/plan_search.h"
+#include "planner/search/pose_cells.h"
 
 namespace halfstep {
 

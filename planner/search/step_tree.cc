@@ -1,4 +1,4 @@
-#include "halfstep/planner/search/step_tree.h"
+#include "planner/search/step_tree.h"
 
 #include <algorithm>
 #include <cmath>

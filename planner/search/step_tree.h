@@ -5,10 +5,10 @@
 #include <unordered_set>
 #include <vector>
 
-#include "halfstep/planner/search/plan_search.h"
-#include "halfstep/planner/search/pose_cells.h"
-#include "halfstep/planner/search/state_buckets.h"
-#include "halfstep/wpg/geometry/footprint.h"
+#include "planner/search/plan_search.h"
+#include "planner/search/pose_cells.h"
+#include "planner/search/state_buckets.h"
+#include "wpg/geometry/footprint.h"
 
 namespace halfstep {
 

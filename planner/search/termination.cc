@@ -1,4 +1,4 @@
-#include "halfstep/planner/search/termination.h"
+#include "planner/search/termination.h"
 
 #include <utility>
 

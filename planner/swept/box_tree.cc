@@ -1,4 +1,4 @@
-#include "halfstep/planner/swept/box_tree.h"
+#include "planner/swept/box_tree.h"
 
 #include <limits>
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "halfstep/planner/swept/voxel_grid.h"
+#include "planner/swept/voxel_grid.h"
 
 namespace halfstep {
 

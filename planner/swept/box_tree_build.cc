@@ -4,7 +4,7 @@
 #include <limits>
 #include <numeric>
 
-#include "halfstep/planner/swept/box_tree.h"
+#include "planner/swept/box_tree.h"
 
 namespace halfstep {
 namespace {

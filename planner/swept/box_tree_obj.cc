@@ -1,4 +1,4 @@
-#include "halfstep/planner/swept/box_tree_obj.h"
+#include "planner/swept/box_tree_obj.h"
 
 #include <cstdio>
 #include <map>

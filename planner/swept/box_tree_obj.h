@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "halfstep/planner/swept/box_tree.h"
+#include "planner/swept/box_tree.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "halfstep/planner/swept/box_tree_query.h"
+#include "planner/swept/box_tree_query.h"
 
 #include <algorithm>
 #include <bit>

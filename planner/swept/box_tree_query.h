@@ -2,9 +2,9 @@
 
 #include <Eigen/Core>
 
-#include "halfstep/planner/collision/triangle_tree.h"
-#include "halfstep/planner/swept/box_tree.h"
-#include "halfstep/planner/swept/oriented_box.h"
+#include "planner/collision/triangle_tree.h"
+#include "planner/swept/box_tree.h"
+#include "planner/swept/oriented_box.h"
 
 namespace halfstep {
 

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "halfstep/planner/swept/four_floats.h"
+#include "planner/swept/four_floats.h"
 
 namespace halfstep {
 

@@ -1,11 +1,11 @@
-#include "halfstep/planner/swept/obstacle_places.h"
+#include "planner/swept/obstacle_places.h"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 
-#include "halfstep/wpg/files/input_error.h"
-#include "halfstep/wpg/files/text.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {

@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "halfstep/planner/scene/scene.h"
+#include "planner/scene/scene.h"
 
 namespace halfstep {
 

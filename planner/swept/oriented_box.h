@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 
-#include "halfstep/planner/swept/box_tree.h"
-#include "halfstep/planner/swept/four_floats.h"
+#include "planner/swept/box_tree.h"
+#include "planner/swept/four_floats.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "halfstep/planner/swept/swept_volume.h"
+#include "planner/swept/swept_volume.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <numeric>
 #include <utility>
 
-#include "halfstep/wpg/check.h"
+#include "wpg/check.h"
 
 namespace halfstep {
 namespace {

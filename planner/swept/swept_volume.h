@@ -3,12 +3,12 @@
 #include <optional>
 #include <vector>
 
-#include "halfstep/planner/swept/box_tree.h"
-#include "halfstep/planner/swept/voxel_grid.h"
-#include "halfstep/wpg/motion/half_step.h"
-#include "halfstep/wpg/motion/lipm.h"
-#include "halfstep/wpg/motion/motion_bounds.h"
-#include "halfstep/wpg/robot/robot_model.h"
+#include "planner/swept/box_tree.h"
+#include "planner/swept/voxel_grid.h"
+#include "wpg/motion/half_step.h"
+#include "wpg/motion/lipm.h"
+#include "wpg/motion/motion_bounds.h"
+#include "wpg/robot/robot_model.h"
 
 namespace halfstep {
 

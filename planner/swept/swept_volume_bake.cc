@@ -1,4 +1,4 @@
-#include "halfstep/planner/swept/swept_volume_bake.h"
+#include "planner/swept/swept_volume_bake.h"
 
 #include <algorithm>
 #include <atomic>

@@ -4,8 +4,8 @@
 #include <optional>
 #include <stop_token>
 
-#include "halfstep/planner/swept/swept_volume.h"
-#include "halfstep/planner/swept/swept_volumes.h"
+#include "planner/swept/swept_volume.h"
+#include "planner/swept/swept_volumes.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "halfstep/planner/swept/swept_volume_bytes.h"
+#include "planner/swept/swept_volume_bytes.h"
 
 #include <cstdint>
 #include <cstring>

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "halfstep/planner/swept/box_tree.h"
+#include "planner/swept/box_tree.h"
 
 namespace halfstep {
 

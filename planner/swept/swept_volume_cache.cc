@@ -1,4 +1,4 @@
-#include "halfstep/planner/swept/swept_volume_cache.h"
+#include "planner/swept/swept_volume_cache.h"
 
 #include <cmath>
 #include <cstdio>
@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "halfstep/planner/swept/swept_volume_bytes.h"
-#include "halfstep/wpg/files/checked_file.h"
-#include "halfstep/wpg/files/sha256.h"
+#include "planner/swept/swept_volume_bytes.h"
+#include "wpg/files/checked_file.h"
+#include "wpg/files/sha256.h"
 
 namespace halfstep {
 namespace {

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "halfstep/planner/swept/swept_volume_bake.h"
+#include "planner/swept/swept_volume_bake.h"
 
 namespace halfstep {
 

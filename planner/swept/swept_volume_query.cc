@@ -1,4 +1,4 @@
-#include "halfstep/planner/swept/swept_volume_query.h"
+#include "planner/swept/swept_volume_query.h"
 
 #include <algorithm>
 #include <bit>
@@ -6,8 +6,8 @@
 #include <limits>
 #include <utility>
 
-#include "halfstep/planner/swept/four_floats.h"
-#include "halfstep/wpg/check.h"
+#include "planner/swept/four_floats.h"
+#include "wpg/check.h"
 
 namespace halfstep {
 namespace {

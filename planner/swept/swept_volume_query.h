@@ -7,16 +7,16 @@
 #include <variant>
 #include <vector>
 
-#include "halfstep/planner/collision/bounds_tree.h"
-#include "halfstep/planner/collision/mesh_interior.h"
-#include "halfstep/planner/collision/triangle_tree.h"
-#include "halfstep/planner/scene/no_step_areas.h"
-#include "halfstep/planner/scene/scene.h"
-#include "halfstep/planner/search/half_step_query.h"
-#include "halfstep/planner/swept/box_tree_query.h"
-#include "halfstep/planner/swept/obstacle_places.h"
-#include "halfstep/planner/swept/swept_volumes.h"
-#include "halfstep/wpg/geometry/footprint.h"
+#include "planner/collision/bounds_tree.h"
+#include "planner/collision/mesh_interior.h"
+#include "planner/collision/triangle_tree.h"
+#include "planner/scene/no_step_areas.h"
+#include "planner/scene/scene.h"
+#include "planner/search/half_step_query.h"
+#include "planner/swept/box_tree_query.h"
+#include "planner/swept/obstacle_places.h"
+#include "planner/swept/swept_volumes.h"
+#include "wpg/geometry/footprint.h"
 
 namespace halfstep {
 

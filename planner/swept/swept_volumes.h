@@ -3,8 +3,8 @@
 #include <optional>
 #include <vector>
 
-#include "halfstep/planner/search/half_step_set.h"
-#include "halfstep/planner/swept/box_tree.h"
+#include "planner/search/half_step_set.h"
+#include "planner/swept/box_tree.h"
 
 namespace halfstep {
 

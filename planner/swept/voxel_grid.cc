@@ -1,11 +1,11 @@
-#include "halfstep/planner/swept/voxel_grid.h"
+#include "planner/swept/voxel_grid.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "halfstep/planner/swept/ceiling.h"
-#include "halfstep/planner/swept/four_floats.h"
-#include "halfstep/wpg/check.h"
+#include "planner/swept/ceiling.h"
+#include "planner/swept/four_floats.h"
+#include "wpg/check.h"
 
 namespace halfstep {
 namespace {

@@ -3,21 +3,21 @@
 #include <array>
 #include <memory>
 
-#include "halfstep/smoothing/margins/clearance_margin.h"
-#include "halfstep/smoothing/margins/floor_margin.h"
-#include "halfstep/smoothing/margins/foot_speed_margin.h"
-#include "halfstep/smoothing/margins/foot_yaw_rate_margin.h"
-#include "halfstep/smoothing/margins/friction_margin.h"
-#include "halfstep/smoothing/margins/ground_margin.h"
-#include "halfstep/smoothing/margins/joint_margin.h"
-#include "halfstep/smoothing/margins/joint_speed_margin.h"
-#include "halfstep/smoothing/margins/no_step_margin.h"
-#include "halfstep/smoothing/margins/own_margin.h"
-#include "halfstep/smoothing/margins/reach_margin.h"
-#include "halfstep/smoothing/margins/self_clearance_margin.h"
-#include "halfstep/smoothing/margins/torque_margin.h"
-#include "halfstep/smoothing/margins/zmp_margin.h"
-#include "halfstep/smoothing/margins/zmp_robot_margin.h"
+#include "smoothing/margins/clearance_margin.h"
+#include "smoothing/margins/floor_margin.h"
+#include "smoothing/margins/foot_speed_margin.h"
+#include "smoothing/margins/foot_yaw_rate_margin.h"
+#include "smoothing/margins/friction_margin.h"
+#include "smoothing/margins/ground_margin.h"
+#include "smoothing/margins/joint_margin.h"
+#include "smoothing/margins/joint_speed_margin.h"
+#include "smoothing/margins/no_step_margin.h"
+#include "smoothing/margins/own_margin.h"
+#include "smoothing/margins/reach_margin.h"
+#include "smoothing/margins/self_clearance_margin.h"
+#include "smoothing/margins/torque_margin.h"
+#include "smoothing/margins/zmp_margin.h"
+#include "smoothing/margins/zmp_robot_margin.h"
 
 namespace halfstep {
 

@@ -1,8 +1,8 @@
-#include "halfstep/smoothing/margins/body_clearances.h"
+#include "smoothing/margins/body_clearances.h"
 
 #include <algorithm>
 
-#include "halfstep/planner/collision/separation.h"
+#include "planner/collision/separation.h"
 
 namespace halfstep {
 namespace {

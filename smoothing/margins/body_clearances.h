@@ -4,11 +4,11 @@
 #include <optional>
 #include <vector>
 
-#include "halfstep/planner/collision/collision_world.h"
-#include "halfstep/planner/scene/scene.h"
-#include "halfstep/smoothing/margins/margin.h"
-#include "halfstep/wpg/motion/posture.h"
-#include "halfstep/wpg/robot/robot_model.h"
+#include "planner/collision/collision_world.h"
+#include "planner/scene/scene.h"
+#include "smoothing/margins/margin.h"
+#include "wpg/motion/posture.h"
+#include "wpg/robot/robot_model.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "halfstep/smoothing/margins/body_heights.h"
+#include "smoothing/margins/body_heights.h"
 
 #include <algorithm>
 

@@ -4,9 +4,9 @@
 #include <utility>
 #include <vector>
 
-#include "halfstep/smoothing/margins/margin.h"
-#include "halfstep/wpg/motion/posture.h"
-#include "halfstep/wpg/robot/robot_model.h"
+#include "smoothing/margins/margin.h"
+#include "wpg/motion/posture.h"
+#include "wpg/robot/robot_model.h"
 
 namespace halfstep {
 

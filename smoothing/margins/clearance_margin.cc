@@ -1,4 +1,4 @@
-#include "halfstep/smoothing/margins/clearance_margin.h"
+#include "smoothing/margins/clearance_margin.h"
 
 #include <algorithm>
 #include <cmath>

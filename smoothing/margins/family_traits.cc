@@ -1,9 +1,9 @@
-#include "halfstep/smoothing/margins/family_traits.h"
+#include "smoothing/margins/family_traits.h"
 
 #include <algorithm>
 #include <vector>
 
-#include "halfstep/smoothing/margins/all_families.h"
+#include "smoothing/margins/all_families.h"
 
 namespace halfstep {
 

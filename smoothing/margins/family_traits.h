@@ -4,7 +4,7 @@
 #include <span>
 #include <string_view>
 
-#include "halfstep/smoothing/margins/margin.h"
+#include "smoothing/margins/margin.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "halfstep/smoothing/margins/floor_margin.h"
+#include "smoothing/margins/floor_margin.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "halfstep/smoothing/margins/foot_speed_margin.h"
+#include "smoothing/margins/foot_speed_margin.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "halfstep/smoothing/margins/foot_yaw_rate_margin.h"
+#include "smoothing/margins/foot_yaw_rate_margin.h"
 
 #include <cmath>
 

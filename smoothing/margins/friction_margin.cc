@@ -1,9 +1,9 @@
-#include "halfstep/smoothing/margins/friction_margin.h"
+#include "smoothing/margins/friction_margin.h"
 
 #include <optional>
 
-#include "halfstep/wpg/motion/dynamics_slope.h"
-#include "halfstep/wpg/motion/foot_friction.h"
+#include "wpg/motion/dynamics_slope.h"
+#include "wpg/motion/foot_friction.h"
 
 namespace halfstep {
 namespace {

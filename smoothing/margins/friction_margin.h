@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "halfstep/smoothing/margins/margin_statements.h"
+#include "smoothing/margins/margin_statements.h"
 
 namespace halfstep {
 

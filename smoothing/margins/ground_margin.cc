@@ -1,4 +1,4 @@
-#include "halfstep/smoothing/margins/ground_margin.h"
+#include "smoothing/margins/ground_margin.h"
 
 #include <algorithm>
 #include <cmath>

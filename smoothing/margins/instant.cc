@@ -1,4 +1,4 @@
-#include "halfstep/smoothing/margins/instant.h"
+#include "smoothing/margins/instant.h"
 
 namespace halfstep {
 

@@ -2,14 +2,14 @@
 
 #include <optional>
 
-#include "halfstep/smoothing/margins/margin.h"
-#include "halfstep/smoothing/margins/margin_place.h"
-#include "halfstep/smoothing/walk/superposed_walk.h"
-#include "halfstep/wpg/motion/motion_bounds.h"
-#include "halfstep/wpg/motion/posture.h"
-#include "halfstep/wpg/motion/robot_drift.h"
-#include "halfstep/wpg/motion/robot_dynamics.h"
-#include "halfstep/wpg/motion/zmp_drift.h"
+#include "smoothing/margins/margin.h"
+#include "smoothing/margins/margin_place.h"
+#include "smoothing/walk/superposed_walk.h"
+#include "wpg/motion/motion_bounds.h"
+#include "wpg/motion/posture.h"
+#include "wpg/motion/robot_drift.h"
+#include "wpg/motion/robot_dynamics.h"
+#include "wpg/motion/zmp_drift.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "halfstep/smoothing/margins/joint_margin.h"
+#include "smoothing/margins/joint_margin.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "halfstep/smoothing/margins/joint_speed_margin.h"
+#include "smoothing/margins/joint_speed_margin.h"
 
 #include <cmath>
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "halfstep/smoothing/walk/superposed_walk.h"
+#include "smoothing/walk/superposed_walk.h"
 
 namespace halfstep {
 

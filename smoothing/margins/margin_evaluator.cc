@@ -1,4 +1,4 @@
-#include "halfstep/smoothing/margins/margin_evaluator.h"
+#include "smoothing/margins/margin_evaluator.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +6,8 @@
 #include <sstream>
 #include <utility>
 
-#include "halfstep/smoothing/margins/all_families.h"
-#include "halfstep/wpg/robot/torque_limits.h"
+#include "smoothing/margins/all_families.h"
+#include "wpg/robot/torque_limits.h"
 
 namespace halfstep {
 

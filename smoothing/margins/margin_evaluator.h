@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/smoothing/margins/margin_statements.h"
-#include "halfstep/smoothing/walk/superposed_walk.h"
+#include "smoothing/margins/margin_statements.h"
+#include "smoothing/walk/superposed_walk.h"
 
 namespace halfstep {
 

@@ -4,12 +4,12 @@
 #include <stop_token>
 #include <utility>
 
-#include "halfstep/planner/scene/no_step_areas.h"
-#include "halfstep/planner/scene/scene.h"
-#include "halfstep/smoothing/margins/body_clearances.h"
-#include "halfstep/smoothing/margins/body_heights.h"
-#include "halfstep/wpg/geometry/footprint.h"
-#include "halfstep/wpg/robot/robot_model.h"
+#include "planner/scene/no_step_areas.h"
+#include "planner/scene/scene.h"
+#include "smoothing/margins/body_clearances.h"
+#include "smoothing/margins/body_heights.h"
+#include "wpg/geometry/footprint.h"
+#include "wpg/robot/robot_model.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "halfstep/smoothing/margins/margin_statements.h"
+#include "smoothing/margins/margin_statements.h"
 
 #include <algorithm>
 #include <cmath>

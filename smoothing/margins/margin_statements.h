@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/smoothing/margins/family_traits.h"
-#include "halfstep/smoothing/margins/instant.h"
-#include "halfstep/smoothing/margins/slack_sink.h"
+#include "smoothing/margins/family_traits.h"
+#include "smoothing/margins/instant.h"
+#include "smoothing/margins/slack_sink.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "halfstep/smoothing/margins/no_step_margin.h"
+#include "smoothing/margins/no_step_margin.h"
 
 #include <cmath>
 #include <limits>

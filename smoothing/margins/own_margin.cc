@@ -1,4 +1,4 @@
-#include "halfstep/smoothing/margins/own_margin.h"
+#include "smoothing/margins/own_margin.h"
 
 #include <cmath>
 #include <stdexcept>

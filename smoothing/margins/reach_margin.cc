@@ -1,4 +1,4 @@
-#include "halfstep/smoothing/margins/reach_margin.h"
+#include "smoothing/margins/reach_margin.h"
 
 #include <algorithm>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "halfstep/smoothing/margins/self_clearance_margin.h"
+#include "smoothing/margins/self_clearance_margin.h"
 
 #include <algorithm>
 #include <cmath>

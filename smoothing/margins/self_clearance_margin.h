@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/smoothing/margins/margin_statements.h"
+#include "smoothing/margins/margin_statements.h"
 
 namespace halfstep {
 

@@ -5,9 +5,9 @@
 #include <utility>
 #include <vector>
 
-#include "halfstep/smoothing/margins/margin_evaluator.h"
-#include "halfstep/smoothing/margins/slack_sink.h"
-#include "halfstep/smoothing/walk/superposed_walk.h"
+#include "smoothing/margins/margin_evaluator.h"
+#include "smoothing/margins/slack_sink.h"
+#include "smoothing/walk/superposed_walk.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "halfstep/smoothing/margins/slack_sink.h"
+#include "smoothing/margins/slack_sink.h"
 
 namespace halfstep {
 

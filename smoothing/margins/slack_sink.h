@@ -3,9 +3,9 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "halfstep/smoothing/margins/family_traits.h"
-#include "halfstep/smoothing/walk/posture_tangent.h"
-#include "halfstep/smoothing/walk/superposed_walk.h"
+#include "smoothing/margins/family_traits.h"
+#include "smoothing/walk/posture_tangent.h"
+#include "smoothing/walk/superposed_walk.h"
 
 namespace halfstep {
 

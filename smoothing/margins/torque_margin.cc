@@ -1,11 +1,11 @@
-#include "halfstep/smoothing/margins/torque_margin.h"
+#include "smoothing/margins/torque_margin.h"
 
 #include <cmath>
 #include <optional>
 #include <vector>
 
-#include "halfstep/wpg/motion/leg_torques.h"
-#include "halfstep/wpg/motion/torque_drift.h"
+#include "wpg/motion/leg_torques.h"
+#include "wpg/motion/torque_drift.h"
 
 namespace halfstep {
 namespace {

@@ -3,8 +3,8 @@
 #include <array>
 #include <string>
 
-#include "halfstep/smoothing/margins/margin_statements.h"
-#include "halfstep/wpg/motion/foot_loads.h"
+#include "smoothing/margins/margin_statements.h"
+#include "wpg/motion/foot_loads.h"
 
 namespace halfstep {
 

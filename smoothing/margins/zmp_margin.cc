@@ -1,8 +1,8 @@
-#include "halfstep/smoothing/margins/zmp_margin.h"
+#include "smoothing/margins/zmp_margin.h"
 
 #include <limits>
 
-#include "halfstep/wpg/geometry/support_polygon.h"
+#include "wpg/geometry/support_polygon.h"
 
 namespace halfstep {
 

@@ -1,9 +1,9 @@
-#include "halfstep/smoothing/margins/zmp_robot_margin.h"
+#include "smoothing/margins/zmp_robot_margin.h"
 
 #include <algorithm>
 
-#include "halfstep/wpg/geometry/support_polygon.h"
-#include "halfstep/wpg/motion/zmp_slopes.h"
+#include "wpg/geometry/support_polygon.h"
+#include "wpg/motion/zmp_slopes.h"
 
 namespace halfstep {
 namespace {

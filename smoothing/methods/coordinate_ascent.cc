@@ -1,12 +1,12 @@
-#include "halfstep/smoothing/methods/coordinate_ascent.h"
+#include "smoothing/methods/coordinate_ascent.h"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 
-#include "halfstep/smoothing/proof/stretch_proofs.h"
-#include "halfstep/smoothing/walk/superposed_walk.h"
-#include "halfstep/wpg/check.h"
+#include "smoothing/proof/stretch_proofs.h"
+#include "smoothing/walk/superposed_walk.h"
+#include "wpg/check.h"
 
 namespace halfstep {
 namespace {

@@ -1,12 +1,12 @@
-#include "halfstep/smoothing/methods/dichotomy.h"
+#include "smoothing/methods/dichotomy.h"
 
 #include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
 
-#include "halfstep/smoothing/walk/superposed_walk.h"
-#include "halfstep/wpg/check.h"
+#include "smoothing/walk/superposed_walk.h"
+#include "wpg/check.h"
 
 namespace halfstep {
 namespace {

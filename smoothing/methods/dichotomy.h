@@ -3,7 +3,7 @@
 #include <memory>
 #include <optional>
 
-#include "halfstep/smoothing/methods/smoothing_monitor.h"
+#include "smoothing/methods/smoothing_monitor.h"
 
 namespace halfstep {
 

@@ -1,10 +1,10 @@
-#include "halfstep/smoothing/methods/dynamic_program.h"
+#include "smoothing/methods/dynamic_program.h"
 
 #include <algorithm>
 #include <limits>
 
-#include "halfstep/smoothing/proof/certified_feasibility.h"
-#include "halfstep/smoothing/walk/superposed_walk.h"
+#include "smoothing/proof/certified_feasibility.h"
+#include "smoothing/walk/superposed_walk.h"
 
 namespace halfstep {
 namespace {

@@ -3,8 +3,8 @@
 #include <unordered_map>
 #include <vector>
 
-#include "halfstep/smoothing/margins/margin_evaluator.h"
-#include "halfstep/wpg/motion/half_step_sequence.h"
+#include "smoothing/margins/margin_evaluator.h"
+#include "wpg/motion/half_step_sequence.h"
 
 namespace halfstep {
 

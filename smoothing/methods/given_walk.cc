@@ -1,6 +1,6 @@
-#include "halfstep/smoothing/methods/given_walk.h"
+#include "smoothing/methods/given_walk.h"
 
-#include "halfstep/smoothing/walk/superposed_walk.h"
+#include "smoothing/walk/superposed_walk.h"
 
 namespace halfstep {
 

@@ -2,10 +2,10 @@
 
 #include <optional>
 
-#include "halfstep/smoothing/methods/smoothing_monitor.h"
-#include "halfstep/smoothing/methods/smoothing_result.h"
-#include "halfstep/smoothing/methods/walk_problem.h"
-#include "halfstep/smoothing/walk/homotopy_parameters.h"
+#include "smoothing/methods/smoothing_monitor.h"
+#include "smoothing/methods/smoothing_result.h"
+#include "smoothing/methods/walk_problem.h"
+#include "smoothing/walk/homotopy_parameters.h"
 
 namespace halfstep {
 

@@ -1,17 +1,17 @@
-#include "halfstep/smoothing/methods/horizon.h"
+#include "smoothing/methods/horizon.h"
 
 #include <algorithm>
 #include <memory>
 #include <numeric>
 #include <vector>
 
-#include "halfstep/opt/adapters/solver_registry.h"
-#include "halfstep/smoothing/methods/dichotomy.h"
-#include "halfstep/smoothing/methods/search_ending.h"
-#include "halfstep/smoothing/methods/walk_window.h"
-#include "halfstep/smoothing/methods/window_search.h"
-#include "halfstep/smoothing/program/walk_effort.h"
-#include "halfstep/wpg/check.h"
+#include "opt/adapters/solver_registry.h"
+#include "smoothing/methods/dichotomy.h"
+#include "smoothing/methods/search_ending.h"
+#include "smoothing/methods/walk_window.h"
+#include "smoothing/methods/window_search.h"
+#include "smoothing/program/walk_effort.h"
+#include "wpg/check.h"
 
 namespace halfstep {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "halfstep/smoothing/methods/smoothing_monitor.h"
-#include "halfstep/smoothing/program/overlap_program.h"
+#include "smoothing/methods/smoothing_monitor.h"
+#include "smoothing/program/overlap_program.h"
 
 namespace halfstep {
 

@@ -1,12 +1,12 @@
-#include "halfstep/smoothing/methods/improve_ahead.h"
+#include "smoothing/methods/improve_ahead.h"
 
 #include <algorithm>
 #include <limits>
 #include <utility>
 
-#include "halfstep/opt/adapters/solver_registry.h"
-#include "halfstep/smoothing/methods/window_search.h"
-#include "halfstep/wpg/check.h"
+#include "opt/adapters/solver_registry.h"
+#include "smoothing/methods/window_search.h"
+#include "wpg/check.h"
 
 namespace halfstep {
 namespace {

@@ -3,9 +3,9 @@
 #include <memory>
 #include <optional>
 
-#include "halfstep/smoothing/methods/smoothing_monitor.h"
-#include "halfstep/smoothing/program/overlap_program.h"
-#include "halfstep/smoothing/walk/splice.h"
+#include "smoothing/methods/smoothing_monitor.h"
+#include "smoothing/program/overlap_program.h"
+#include "smoothing/walk/splice.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "halfstep/smoothing/methods/incumbent.h"
+#include "smoothing/methods/incumbent.h"
 
 #include <algorithm>
 #include <limits>
@@ -6,7 +6,7 @@
 #include <numeric>
 #include <utility>
 
-#include "halfstep/smoothing/walk/superposed_walk.h"
+#include "smoothing/walk/superposed_walk.h"
 
 namespace halfstep {
 

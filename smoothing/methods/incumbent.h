@@ -3,10 +3,10 @@
 #include <functional>
 #include <vector>
 
-#include "halfstep/smoothing/program/overlap_program.h"
-#include "halfstep/smoothing/proof/stretch_proofs.h"
-#include "halfstep/smoothing/walk/homotopy_parameters.h"
-#include "halfstep/wpg/motion/half_step_sequence.h"
+#include "smoothing/program/overlap_program.h"
+#include "smoothing/proof/stretch_proofs.h"
+#include "smoothing/walk/homotopy_parameters.h"
+#include "wpg/motion/half_step_sequence.h"
 
 namespace halfstep {
 

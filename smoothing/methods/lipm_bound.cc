@@ -1,4 +1,4 @@
-#include "halfstep/smoothing/methods/lipm_bound.h"
+#include "smoothing/methods/lipm_bound.h"
 
 #include <algorithm>
 #include <array>
@@ -8,8 +8,8 @@
 #include <sstream>
 #include <vector>
 
-#include "halfstep/smoothing/walk/superposed_walk.h"
-#include "halfstep/wpg/geometry/support_polygon.h"
+#include "smoothing/walk/superposed_walk.h"
+#include "wpg/geometry/support_polygon.h"
 
 namespace halfstep {
 namespace {

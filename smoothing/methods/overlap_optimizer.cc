@@ -1,4 +1,4 @@
-#include "halfstep/smoothing/methods/overlap_optimizer.h"
+#include "smoothing/methods/overlap_optimizer.h"
 
 #include <algorithm>
 #include <array>
@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/opt/adapters/solver_registry.h"
-#include "halfstep/smoothing/methods/dichotomy.h"
-#include "halfstep/smoothing/methods/incumbent.h"
-#include "halfstep/smoothing/methods/overlap_prices.h"
-#include "halfstep/smoothing/methods/search_ending.h"
+#include "opt/adapters/solver_registry.h"
+#include "smoothing/methods/dichotomy.h"
+#include "smoothing/methods/incumbent.h"
+#include "smoothing/methods/overlap_prices.h"
+#include "smoothing/methods/search_ending.h"
 
 namespace halfstep {
 namespace {

@@ -3,8 +3,8 @@
 #include <optional>
 #include <string>
 
-#include "halfstep/smoothing/methods/smoothing_monitor.h"
-#include "halfstep/smoothing/program/overlap_program.h"
+#include "smoothing/methods/smoothing_monitor.h"
+#include "smoothing/program/overlap_program.h"
 
 namespace halfstep {
 

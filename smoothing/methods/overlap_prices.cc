@@ -1,10 +1,10 @@
-#include "halfstep/smoothing/methods/overlap_prices.h"
+#include "smoothing/methods/overlap_prices.h"
 
 #include <cmath>
 #include <limits>
 
-#include "halfstep/opt/problem/stationarity.h"
-#include "halfstep/smoothing/margins/slack_evaluator.h"
+#include "opt/problem/stationarity.h"
+#include "smoothing/margins/slack_evaluator.h"
 
 namespace halfstep {
 

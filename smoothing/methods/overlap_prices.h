@@ -2,10 +2,10 @@
 
 #include <vector>
 
-#include "halfstep/smoothing/margins/margin_evaluator.h"
-#include "halfstep/smoothing/methods/smoothing_result.h"
-#include "halfstep/smoothing/program/overlap_program.h"
-#include "halfstep/smoothing/walk/superposed_walk.h"
+#include "smoothing/margins/margin_evaluator.h"
+#include "smoothing/methods/smoothing_result.h"
+#include "smoothing/program/overlap_program.h"
+#include "smoothing/walk/superposed_walk.h"
 
 namespace halfstep {
 

@@ -1,12 +1,12 @@
-#include "halfstep/smoothing/methods/pareto.h"
+#include "smoothing/methods/pareto.h"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
 
-#include "halfstep/smoothing/methods/dichotomy.h"
-#include "halfstep/wpg/check.h"
+#include "smoothing/methods/dichotomy.h"
+#include "wpg/check.h"
 
 namespace halfstep {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "halfstep/smoothing/methods/overlap_optimizer.h"
+#include "smoothing/methods/overlap_optimizer.h"
 
 namespace halfstep {
 

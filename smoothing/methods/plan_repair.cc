@@ -1,4 +1,4 @@
-#include "halfstep/smoothing/methods/plan_repair.h"
+#include "smoothing/methods/plan_repair.h"
 
 #include <algorithm>
 #include <limits>
@@ -6,8 +6,8 @@
 #include <sstream>
 #include <utility>
 
-#include "halfstep/smoothing/proof/sampled_feasibility.h"
-#include "halfstep/smoothing/walk/superposed_walk.h"
+#include "smoothing/proof/sampled_feasibility.h"
+#include "smoothing/walk/superposed_walk.h"
 
 namespace halfstep {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/smoothing/proof/feasibility_test.h"
-#include "halfstep/wpg/motion/half_step_sequence.h"
+#include "smoothing/proof/feasibility_test.h"
+#include "wpg/motion/half_step_sequence.h"
 
 namespace halfstep {
 

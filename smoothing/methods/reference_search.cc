@@ -1,4 +1,4 @@
-#include "halfstep/smoothing/methods/reference_search.h"
+#include "smoothing/methods/reference_search.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,11 +7,11 @@
 #include <string>
 #include <utility>
 
-#include "halfstep/smoothing/methods/dichotomy.h"
-#include "halfstep/smoothing/methods/dynamic_program.h"
-#include "halfstep/smoothing/methods/incumbent.h"
-#include "halfstep/smoothing/proof/stretch_proofs.h"
-#include "halfstep/wpg/check.h"
+#include "smoothing/methods/dichotomy.h"
+#include "smoothing/methods/dynamic_program.h"
+#include "smoothing/methods/incumbent.h"
+#include "smoothing/proof/stretch_proofs.h"
+#include "wpg/check.h"
 
 namespace halfstep {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "halfstep/smoothing/methods/smoothing_monitor.h"
+#include "smoothing/methods/smoothing_monitor.h"
 
 namespace halfstep {
 

@@ -3,7 +3,7 @@
 #include <limits>
 #include <string>
 
-#include "halfstep/opt/solvers/solution.h"
+#include "opt/solvers/solution.h"
 
 namespace halfstep {
 

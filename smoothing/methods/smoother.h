@@ -3,13 +3,13 @@
 #include <optional>
 #include <string>
 
-#include "halfstep/smoothing/methods/dichotomy.h"
-#include "halfstep/smoothing/methods/horizon.h"
-#include "halfstep/smoothing/methods/overlap_optimizer.h"
-#include "halfstep/smoothing/methods/pareto.h"
-#include "halfstep/smoothing/methods/smoothing_monitor.h"
-#include "halfstep/smoothing/methods/walk_problem.h"
-#include "halfstep/smoothing/walk/homotopy_parameters.h"
+#include "smoothing/methods/dichotomy.h"
+#include "smoothing/methods/horizon.h"
+#include "smoothing/methods/overlap_optimizer.h"
+#include "smoothing/methods/pareto.h"
+#include "smoothing/methods/smoothing_monitor.h"
+#include "smoothing/methods/walk_problem.h"
+#include "smoothing/walk/homotopy_parameters.h"
 
 namespace halfstep {
 

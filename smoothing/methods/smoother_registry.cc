@@ -1,17 +1,17 @@
-#include "halfstep/smoothing/methods/smoother_registry.h"
+#include "smoothing/methods/smoother_registry.h"
 
 #include <algorithm>
 #include <functional>
 #include <stdexcept>
 #include <utility>
 
-#include "halfstep/opt/adapters/solver_registry.h"
-#include "halfstep/smoothing/methods/coordinate_ascent.h"
-#include "halfstep/smoothing/methods/given_walk.h"
-#include "halfstep/smoothing/methods/lipm_bound.h"
-#include "halfstep/smoothing/methods/reference_search.h"
-#include "halfstep/smoothing/methods/uniform_scan.h"
-#include "halfstep/wpg/check.h"
+#include "opt/adapters/solver_registry.h"
+#include "smoothing/methods/coordinate_ascent.h"
+#include "smoothing/methods/given_walk.h"
+#include "smoothing/methods/lipm_bound.h"
+#include "smoothing/methods/reference_search.h"
+#include "smoothing/methods/uniform_scan.h"
+#include "wpg/check.h"
 
 namespace halfstep {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/smoothing/methods/smoother.h"
+#include "smoothing/methods/smoother.h"
 
 namespace halfstep {
 

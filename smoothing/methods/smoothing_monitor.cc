@@ -1,4 +1,4 @@
-#include "halfstep/smoothing/methods/smoothing_monitor.h"
+#include "smoothing/methods/smoothing_monitor.h"
 
 #include <utility>
 

@@ -7,9 +7,9 @@
 #include <stop_token>
 #include <string>
 
-#include "halfstep/smoothing/methods/smoothing_result.h"
-#include "halfstep/smoothing/methods/stopwatch.h"
-#include "halfstep/smoothing/methods/walk_problem.h"
+#include "smoothing/methods/smoothing_result.h"
+#include "smoothing/methods/stopwatch.h"
+#include "smoothing/methods/walk_problem.h"
 
 namespace halfstep {
 

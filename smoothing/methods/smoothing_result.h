@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/opt/solvers/ending.h"
-#include "halfstep/smoothing/margins/margin.h"
-#include "halfstep/smoothing/proof/feasibility_test.h"
-#include "halfstep/smoothing/walk/homotopy_parameters.h"
+#include "opt/solvers/ending.h"
+#include "smoothing/margins/margin.h"
+#include "smoothing/proof/feasibility_test.h"
+#include "smoothing/walk/homotopy_parameters.h"
 
 namespace halfstep {
 

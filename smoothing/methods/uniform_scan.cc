@@ -1,4 +1,4 @@
-#include "halfstep/smoothing/methods/uniform_scan.h"
+#include "smoothing/methods/uniform_scan.h"
 
 #include <algorithm>
 #include <sstream>
@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "halfstep/smoothing/methods/dichotomy.h"
-#include "halfstep/wpg/check.h"
+#include "smoothing/methods/dichotomy.h"
+#include "wpg/check.h"
 
 namespace halfstep {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "halfstep/smoothing/methods/smoothing_monitor.h"
+#include "smoothing/methods/smoothing_monitor.h"
 
 namespace halfstep {
 

@@ -1,10 +1,10 @@
-#include "halfstep/smoothing/methods/walk_problem.h"
+#include "smoothing/methods/walk_problem.h"
 
 #include <string>
 #include <utility>
 
-#include "halfstep/smoothing/proof/certified_feasibility.h"
-#include "halfstep/wpg/check.h"
+#include "smoothing/proof/certified_feasibility.h"
+#include "wpg/check.h"
 
 namespace halfstep {
 

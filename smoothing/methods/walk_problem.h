@@ -3,10 +3,10 @@
 #include <memory>
 #include <vector>
 
-#include "halfstep/smoothing/margins/margin_evaluator.h"
-#include "halfstep/smoothing/proof/feasibility_test.h"
-#include "halfstep/smoothing/walk/parameter_table.h"
-#include "halfstep/wpg/motion/half_step_sequence.h"
+#include "smoothing/margins/margin_evaluator.h"
+#include "smoothing/proof/feasibility_test.h"
+#include "smoothing/walk/parameter_table.h"
+#include "wpg/motion/half_step_sequence.h"
 
 namespace halfstep {
 

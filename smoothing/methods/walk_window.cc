@@ -1,4 +1,4 @@
-#include "halfstep/smoothing/methods/walk_window.h"
+#include "smoothing/methods/walk_window.h"
 
 #include <algorithm>
 #include <array>
@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "halfstep/smoothing/walk/splice.h"
-#include "halfstep/wpg/check.h"
+#include "smoothing/walk/splice.h"
+#include "wpg/check.h"
 
 namespace halfstep {
 namespace {

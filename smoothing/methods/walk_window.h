@@ -1,7 +1,7 @@
 #pragma once
 
-#include "halfstep/smoothing/methods/walk_problem.h"
-#include "halfstep/smoothing/walk/homotopy_parameters.h"
+#include "smoothing/methods/walk_problem.h"
+#include "smoothing/walk/homotopy_parameters.h"
 
 namespace halfstep {
 

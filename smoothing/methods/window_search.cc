@@ -1,10 +1,10 @@
-#include "halfstep/smoothing/methods/window_search.h"
+#include "smoothing/methods/window_search.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "halfstep/smoothing/methods/incumbent.h"
+#include "smoothing/methods/incumbent.h"
 
 namespace halfstep {
 namespace {

@@ -2,11 +2,11 @@
 
 #include <functional>
 
-#include "halfstep/opt/solvers/solver.h"
-#include "halfstep/smoothing/methods/search_ending.h"
-#include "halfstep/smoothing/methods/smoothing_monitor.h"
-#include "halfstep/smoothing/methods/walk_window.h"
-#include "halfstep/smoothing/program/overlap_program.h"
+#include "opt/solvers/solver.h"
+#include "smoothing/methods/search_ending.h"
+#include "smoothing/methods/smoothing_monitor.h"
+#include "smoothing/methods/walk_window.h"
+#include "smoothing/program/overlap_program.h"
 
 namespace halfstep {
 

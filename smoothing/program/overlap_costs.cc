@@ -1,9 +1,9 @@
-#include "halfstep/smoothing/program/overlap_costs.h"
+#include "smoothing/program/overlap_costs.h"
 
 #include <string>
 #include <utility>
 
-#include "halfstep/smoothing/program/overlap_program.h"
+#include "smoothing/program/overlap_program.h"
 
 namespace halfstep {
 namespace {

@@ -3,9 +3,9 @@
 #include <Eigen/Core>
 #include <memory>
 
-#include "halfstep/opt/problem/problem.h"
-#include "halfstep/smoothing/program/overlap_variables.h"
-#include "halfstep/smoothing/program/walk_cost.h"
+#include "opt/problem/problem.h"
+#include "smoothing/program/overlap_variables.h"
+#include "smoothing/program/walk_cost.h"
 
 namespace halfstep {
 

@@ -1,12 +1,12 @@
-#include "halfstep/smoothing/program/overlap_program.h"
+#include "smoothing/program/overlap_program.h"
 
 #include <algorithm>
 #include <limits>
 #include <random>
 #include <string>
 
-#include "halfstep/smoothing/program/overlap_costs.h"
-#include "halfstep/smoothing/program/overlap_rows.h"
+#include "smoothing/program/overlap_costs.h"
+#include "smoothing/program/overlap_rows.h"
 
 namespace halfstep {
 namespace {

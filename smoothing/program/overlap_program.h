@@ -5,11 +5,11 @@
 #include <string_view>
 #include <vector>
 
-#include "halfstep/opt/problem/problem.h"
-#include "halfstep/smoothing/program/overlap_variables.h"
-#include "halfstep/smoothing/program/walk_cost.h"
-#include "halfstep/smoothing/program/walk_effort.h"
-#include "halfstep/smoothing/program/watched_instants.h"
+#include "opt/problem/problem.h"
+#include "smoothing/program/overlap_variables.h"
+#include "smoothing/program/walk_cost.h"
+#include "smoothing/program/walk_effort.h"
+#include "smoothing/program/watched_instants.h"
 
 namespace halfstep {
 

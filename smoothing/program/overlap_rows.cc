@@ -1,11 +1,11 @@
-#include "halfstep/smoothing/program/overlap_rows.h"
+#include "smoothing/program/overlap_rows.h"
 
 #include <limits>
 #include <string>
 #include <vector>
 
-#include "halfstep/smoothing/program/overlap_costs.h"
-#include "halfstep/smoothing/program/overlap_program.h"
+#include "smoothing/program/overlap_costs.h"
+#include "smoothing/program/overlap_program.h"
 
 namespace halfstep {
 namespace {

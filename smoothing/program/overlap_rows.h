@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "halfstep/opt/problem/problem.h"
+#include "opt/problem/problem.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "halfstep/smoothing/program/overlap_variables.h"
+#include "smoothing/program/overlap_variables.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "halfstep/smoothing/walk/parameter_table.h"
+#include "smoothing/walk/parameter_table.h"
 
 namespace halfstep {
 

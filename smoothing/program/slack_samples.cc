@@ -1,4 +1,4 @@
-#include "halfstep/smoothing/program/slack_samples.h"
+#include "smoothing/program/slack_samples.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,8 +3,8 @@
 #include <array>
 #include <vector>
 
-#include "halfstep/smoothing/margins/slack_evaluator.h"
-#include "halfstep/smoothing/walk/stretch_range.h"
+#include "smoothing/margins/slack_evaluator.h"
+#include "smoothing/walk/stretch_range.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "halfstep/smoothing/program/walk_cost.h"
+#include "smoothing/program/walk_cost.h"
 
 #include <algorithm>
 #include <utility>

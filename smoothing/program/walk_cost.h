@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/smoothing/program/overlap_variables.h"
-#include "halfstep/smoothing/walk/superposed_walk.h"
+#include "smoothing/program/overlap_variables.h"
+#include "smoothing/walk/superposed_walk.h"
 
 namespace halfstep {
 

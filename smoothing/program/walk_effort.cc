@@ -1,4 +1,4 @@
-#include "halfstep/smoothing/program/walk_effort.h"
+#include "smoothing/program/walk_effort.h"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "halfstep/smoothing/program/overlap_variables.h"
-#include "halfstep/smoothing/walk/superposed_walk.h"
+#include "smoothing/program/overlap_variables.h"
+#include "smoothing/walk/superposed_walk.h"
 
 namespace halfstep {
 

@@ -1,10 +1,10 @@
-#include "halfstep/smoothing/program/watched_instants.h"
+#include "smoothing/program/watched_instants.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "halfstep/smoothing/program/slack_samples.h"
-#include "halfstep/smoothing/program/soft_minimum.h"
+#include "smoothing/program/slack_samples.h"
+#include "smoothing/program/soft_minimum.h"
 
 namespace halfstep {
 namespace {

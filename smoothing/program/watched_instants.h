@@ -5,10 +5,10 @@
 #include <optional>
 #include <vector>
 
-#include "halfstep/smoothing/margins/slack_evaluator.h"
-#include "halfstep/smoothing/program/overlap_variables.h"
-#include "halfstep/smoothing/walk/stop_branches.h"
-#include "halfstep/smoothing/walk/stretch_range.h"
+#include "smoothing/margins/slack_evaluator.h"
+#include "smoothing/program/overlap_variables.h"
+#include "smoothing/walk/stop_branches.h"
+#include "smoothing/walk/stretch_range.h"
 
 namespace halfstep {
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "halfstep/smoothing/margins/margin.h"
+#include "smoothing/margins/margin.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "halfstep/smoothing/proof/certified_feasibility.h"
+#include "smoothing/proof/certified_feasibility.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <tuple>
 #include <utility>
 
-#include "halfstep/wpg/check.h"
+#include "wpg/check.h"
 
 namespace halfstep {
 namespace {

@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "halfstep/smoothing/proof/certificate.h"
-#include "halfstep/smoothing/proof/feasibility_test.h"
-#include "halfstep/smoothing/proof/interval_statements.h"
+#include "smoothing/proof/certificate.h"
+#include "smoothing/proof/feasibility_test.h"
+#include "smoothing/proof/interval_statements.h"
 
 namespace halfstep {
 

@@ -3,10 +3,10 @@
 #include <memory>
 #include <string_view>
 
-#include "halfstep/smoothing/margins/margin.h"
-#include "halfstep/smoothing/margins/margin_evaluator.h"
-#include "halfstep/smoothing/walk/stop_branches.h"
-#include "halfstep/smoothing/walk/superposed_walk.h"
+#include "smoothing/margins/margin.h"
+#include "smoothing/margins/margin_evaluator.h"
+#include "smoothing/walk/stop_branches.h"
+#include "smoothing/walk/superposed_walk.h"
 
 namespace halfstep {
 

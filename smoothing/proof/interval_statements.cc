@@ -1,4 +1,4 @@
-#include "halfstep/smoothing/proof/interval_statements.h"
+#include "smoothing/proof/interval_statements.h"
 
 #include <algorithm>
 

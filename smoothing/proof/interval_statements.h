@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
-#include "halfstep/smoothing/margins/margin_evaluator.h"
-#include "halfstep/smoothing/proof/certificate.h"
-#include "halfstep/wpg/motion/motion_bounds.h"
+#include "smoothing/margins/margin_evaluator.h"
+#include "smoothing/proof/certificate.h"
+#include "wpg/motion/motion_bounds.h"
 
 namespace halfstep {
 

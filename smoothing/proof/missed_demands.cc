@@ -1,4 +1,4 @@
-#include "halfstep/smoothing/proof/missed_demands.h"
+#include "smoothing/proof/missed_demands.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "halfstep/smoothing/margins/margin_evaluator.h"
-#include "halfstep/smoothing/walk/superposed_walk.h"
+#include "smoothing/margins/margin_evaluator.h"
+#include "smoothing/walk/superposed_walk.h"
 
 namespace halfstep {
 

@@ -1,11 +1,11 @@
-#include "halfstep/smoothing/proof/sampled_feasibility.h"
+#include "smoothing/proof/sampled_feasibility.h"
 
 #include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <utility>
 
-#include "halfstep/wpg/check.h"
+#include "wpg/check.h"
 
 namespace halfstep {
 namespace {

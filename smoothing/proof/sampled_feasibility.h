@@ -3,7 +3,7 @@
 #include <stop_token>
 #include <string>
 
-#include "halfstep/smoothing/proof/feasibility_test.h"
+#include "smoothing/proof/feasibility_test.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "halfstep/smoothing/proof/stoppable_feasibility.h"
+#include "smoothing/proof/stoppable_feasibility.h"
 
 #include <utility>
 

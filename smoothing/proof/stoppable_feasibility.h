@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-#include "halfstep/smoothing/proof/feasibility_test.h"
+#include "smoothing/proof/feasibility_test.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "halfstep/smoothing/proof/stretch_proofs.h"
+#include "smoothing/proof/stretch_proofs.h"
 
 #include <algorithm>
 #include <optional>

@@ -3,9 +3,9 @@
 #include <utility>
 #include <vector>
 
-#include "halfstep/smoothing/proof/feasibility_test.h"
-#include "halfstep/smoothing/walk/stretch_range.h"
-#include "halfstep/smoothing/walk/superposed_walk.h"
+#include "smoothing/proof/feasibility_test.h"
+#include "smoothing/walk/stretch_range.h"
+#include "smoothing/walk/superposed_walk.h"
 
 namespace halfstep {
 

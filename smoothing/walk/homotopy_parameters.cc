@@ -1,10 +1,10 @@
-#include "halfstep/smoothing/walk/homotopy_parameters.h"
+#include "smoothing/walk/homotopy_parameters.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "halfstep/wpg/check.h"
+#include "wpg/check.h"
 
 namespace halfstep {
 

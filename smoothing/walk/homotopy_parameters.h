@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "halfstep/smoothing/walk/parameter_families.h"
-#include "halfstep/wpg/motion/half_step_sequence.h"
+#include "smoothing/walk/parameter_families.h"
+#include "wpg/motion/half_step_sequence.h"
 
 namespace halfstep {
 

@@ -1,9 +1,9 @@
-#include "halfstep/smoothing/walk/parameter_families.h"
+#include "smoothing/walk/parameter_families.h"
 
 #include <algorithm>
 #include <limits>
 
-#include "halfstep/smoothing/walk/homotopy_parameters.h"
+#include "smoothing/walk/homotopy_parameters.h"
 
 namespace halfstep {
 namespace {

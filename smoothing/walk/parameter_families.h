@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "halfstep/wpg/motion/half_step_sequence.h"
+#include "wpg/motion/half_step_sequence.h"
 
 namespace halfstep {
 

@@ -1,10 +1,10 @@
-#include "halfstep/smoothing/walk/parameter_table.h"
+#include "smoothing/walk/parameter_table.h"
 
 #include <algorithm>
 #include <cmath>
 #include <sstream>
 
-#include "halfstep/wpg/check.h"
+#include "wpg/check.h"
 
 namespace halfstep {
 namespace {

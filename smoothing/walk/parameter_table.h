@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/smoothing/walk/homotopy_parameters.h"
+#include "smoothing/walk/homotopy_parameters.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "halfstep/smoothing/walk/posture_tangent.h"
+#include "smoothing/walk/posture_tangent.h"
 
 namespace halfstep {
 namespace {

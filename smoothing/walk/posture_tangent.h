@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 
-#include "halfstep/wpg/motion/posture.h"
+#include "wpg/motion/posture.h"
 
 namespace halfstep {
 

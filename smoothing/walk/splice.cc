@@ -1,9 +1,9 @@
-#include "halfstep/smoothing/walk/splice.h"
+#include "smoothing/walk/splice.h"
 
 #include <algorithm>
 #include <limits>
 
-#include "halfstep/wpg/check.h"
+#include "wpg/check.h"
 
 namespace halfstep {
 namespace {

@@ -2,10 +2,10 @@
 
 #include <vector>
 
-#include "halfstep/smoothing/walk/homotopy_parameters.h"
-#include "halfstep/smoothing/walk/parameter_table.h"
-#include "halfstep/smoothing/walk/superposed_walk.h"
-#include "halfstep/wpg/motion/half_step_sequence.h"
+#include "smoothing/walk/homotopy_parameters.h"
+#include "smoothing/walk/parameter_table.h"
+#include "smoothing/walk/superposed_walk.h"
+#include "wpg/motion/half_step_sequence.h"
 
 namespace halfstep {
 

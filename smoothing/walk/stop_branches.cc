@@ -1,4 +1,4 @@
-#include "halfstep/smoothing/walk/stop_branches.h"
+#include "smoothing/walk/stop_branches.h"
 
 namespace halfstep {
 

@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-#include "halfstep/wpg/motion/half_step.h"
+#include "wpg/motion/half_step.h"
 
 namespace halfstep {
 

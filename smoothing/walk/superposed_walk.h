@@ -3,12 +3,12 @@
 #include <utility>
 #include <vector>
 
-#include "halfstep/smoothing/walk/homotopy_parameters.h"
-#include "halfstep/wpg/geometry/footprint.h"
-#include "halfstep/wpg/geometry/support_polygon.h"
-#include "halfstep/wpg/motion/half_step_sequence.h"
-#include "halfstep/wpg/motion/walk_state.h"
-#include "halfstep/wpg/motion/walk_thirds.h"
+#include "smoothing/walk/homotopy_parameters.h"
+#include "wpg/geometry/footprint.h"
+#include "wpg/geometry/support_polygon.h"
+#include "wpg/motion/half_step_sequence.h"
+#include "wpg/motion/walk_state.h"
+#include "wpg/motion/walk_thirds.h"
 
 namespace halfstep {
 

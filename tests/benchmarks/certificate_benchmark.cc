@@ -7,9 +7,9 @@
 #include <map>
 #include <memory>
 
-#include "halfstep/smoothing/methods/dichotomy.h"
-#include "halfstep/smoothing/proof/certified_feasibility.h"
-#include "halfstep/smoothing/proof/sampled_feasibility.h"
+#include "smoothing/methods/dichotomy.h"
+#include "smoothing/proof/certified_feasibility.h"
+#include "smoothing/proof/sampled_feasibility.h"
 #include "tests/smoothing/certificate_draws.h"
 #include "tests/smoothing/smoothed.h"
 

@@ -9,10 +9,10 @@
 #include <cstdlib>
 #include <string>
 
-#include "halfstep/experiments/config/data_folder.h"
-#include "halfstep/experiments/config/experiment.h"
-#include "halfstep/smoothing/methods/dichotomy.h"
-#include "halfstep/smoothing/proof/certified_feasibility.h"
+#include "experiments/config/data_folder.h"
+#include "experiments/config/experiment.h"
+#include "smoothing/methods/dichotomy.h"
+#include "smoothing/proof/certified_feasibility.h"
 #include "tests/smoothing/certificate_draws.h"
 #include "tests/smoothing/smoothed.h"
 

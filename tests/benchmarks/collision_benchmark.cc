@@ -6,8 +6,8 @@
 #include <numbers>
 #include <random>
 
-#include "halfstep/planner/collision/collision_world.h"
-#include "halfstep/planner/collision/separation.h"
+#include "planner/collision/collision_world.h"
+#include "planner/collision/separation.h"
 
 namespace halfstep {
 namespace {

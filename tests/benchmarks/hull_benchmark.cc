@@ -8,12 +8,12 @@
 #include <random>
 #include <string>
 
-#include "halfstep/planner/collision/convex_distance.h"
-#include "halfstep/planner/swept/swept_volume.h"
-#include "halfstep/smoothing/proof/missed_demands.h"
-#include "halfstep/wpg/geometry/simplified_hull.h"
-#include "halfstep/wpg/motion/half_step_sequence.h"
-#include "halfstep/wpg/robot/robot_model.h"
+#include "planner/collision/convex_distance.h"
+#include "planner/swept/swept_volume.h"
+#include "smoothing/proof/missed_demands.h"
+#include "wpg/geometry/simplified_hull.h"
+#include "wpg/motion/half_step_sequence.h"
+#include "wpg/robot/robot_model.h"
 
 namespace halfstep {
 namespace {

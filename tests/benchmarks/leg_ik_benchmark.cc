@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/wpg/robot/leg_ik.h"
 #include "tests/wpg/generated_robots.h"
 #include "tests/wpg/shipped_robots.h"
+#include "wpg/robot/leg_ik.h"
 
 namespace halfstep {
 namespace {

@@ -13,9 +13,9 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/experiments/live/past_worlds.h"
-#include "halfstep/experiments/live/prepared_world.h"
-#include "halfstep/experiments/live/replanner.h"
+#include "experiments/live/past_worlds.h"
+#include "experiments/live/prepared_world.h"
+#include "experiments/live/replanner.h"
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include <functional>
 #include <string>
 
-#include "halfstep/wpg/files/text.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {

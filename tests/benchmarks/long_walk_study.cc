@@ -16,9 +16,9 @@
 #include <utility>
 #include <vector>
 
-#include "halfstep/experiments/config/experiment.h"
-#include "halfstep/smoothing/methods/smoother_registry.h"
-#include "halfstep/smoothing/proof/certified_feasibility.h"
+#include "experiments/config/experiment.h"
+#include "smoothing/methods/smoother_registry.h"
+#include "smoothing/proof/certified_feasibility.h"
 #include "tests/smoothing/smoothed.h"
 
 namespace halfstep {

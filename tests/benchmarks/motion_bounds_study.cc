@@ -10,11 +10,11 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/smoothing/margins/margin_evaluator.h"
-#include "halfstep/smoothing/proof/interval_statements.h"
-#include "halfstep/wpg/motion/motion_bounds.h"
+#include "smoothing/margins/margin_evaluator.h"
+#include "smoothing/proof/interval_statements.h"
 #include "tests/smoothing/certificate_draws.h"
 #include "tests/smoothing/motion_truth.h"
+#include "wpg/motion/motion_bounds.h"
 
 namespace halfstep {
 namespace {

@@ -15,13 +15,13 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/experiments/config/experiment.h"
-#include "halfstep/opt/adapters/solver_registry.h"
-#include "halfstep/opt/problem/problem_derivatives.h"
-#include "halfstep/smoothing/methods/dichotomy.h"
-#include "halfstep/smoothing/methods/overlap_optimizer.h"
-#include "halfstep/smoothing/methods/smoother_registry.h"
-#include "halfstep/smoothing/proof/certified_feasibility.h"
+#include "experiments/config/experiment.h"
+#include "opt/adapters/solver_registry.h"
+#include "opt/problem/problem_derivatives.h"
+#include "smoothing/methods/dichotomy.h"
+#include "smoothing/methods/overlap_optimizer.h"
+#include "smoothing/methods/smoother_registry.h"
+#include "smoothing/proof/certified_feasibility.h"
 #include "tests/smoothing/smoothed.h"
 
 namespace halfstep {

@@ -13,11 +13,11 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/experiments/config/experiment.h"
-#include "halfstep/experiments/config/random_scenes.h"
-#include "halfstep/experiments/run/planning.h"
-#include "halfstep/planner/search/plan_shortcut.h"
-#include "halfstep/planner/swept/swept_volume_query.h"
+#include "experiments/config/experiment.h"
+#include "experiments/config/random_scenes.h"
+#include "experiments/run/planning.h"
+#include "planner/search/plan_shortcut.h"
+#include "planner/swept/swept_volume_query.h"
 #include "tests/planner/flat_world.h"
 
 namespace {

@@ -2,8 +2,8 @@
 
 #include <cstdint>
 
-#include "halfstep/experiments/live/live_config.h"
-#include "halfstep/planner/scene/scene.h"
+#include "experiments/live/live_config.h"
+#include "planner/scene/scene.h"
 
 namespace halfstep {
 

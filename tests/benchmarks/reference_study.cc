@@ -6,13 +6,13 @@
 #include <cstdio>
 #include <string>
 
-#include "halfstep/experiments/config/experiment.h"
-#include "halfstep/smoothing/methods/coordinate_ascent.h"
-#include "halfstep/smoothing/methods/dichotomy.h"
-#include "halfstep/smoothing/methods/overlap_optimizer.h"
-#include "halfstep/smoothing/methods/reference_search.h"
-#include "halfstep/smoothing/methods/uniform_scan.h"
-#include "halfstep/smoothing/proof/certified_feasibility.h"
+#include "experiments/config/experiment.h"
+#include "smoothing/methods/coordinate_ascent.h"
+#include "smoothing/methods/dichotomy.h"
+#include "smoothing/methods/overlap_optimizer.h"
+#include "smoothing/methods/reference_search.h"
+#include "smoothing/methods/uniform_scan.h"
+#include "smoothing/proof/certified_feasibility.h"
 #include "tests/smoothing/smoothed.h"
 
 namespace halfstep {

@@ -12,17 +12,17 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/experiments/config/experiment.h"
-#include "halfstep/experiments/replay/mujoco_model.h"
-#include "halfstep/smoothing/margins/slack_evaluator.h"
-#include "halfstep/smoothing/methods/dichotomy.h"
-#include "halfstep/smoothing/proof/certified_feasibility.h"
-#include "halfstep/wpg/motion/foot_friction.h"
-#include "halfstep/wpg/motion/foot_loads.h"
+#include "experiments/config/experiment.h"
+#include "experiments/replay/mujoco_model.h"
+#include "smoothing/margins/slack_evaluator.h"
+#include "smoothing/methods/dichotomy.h"
+#include "smoothing/proof/certified_feasibility.h"
 #include "tests/experiments/robot_motion_at.h"
 #include "tests/smoothing/certificate_draws.h"
 #include "tests/smoothing/robot_truth.h"
 #include "tests/smoothing/smoothed.h"
+#include "wpg/motion/foot_friction.h"
+#include "wpg/motion/foot_loads.h"
 
 namespace halfstep {
 namespace {

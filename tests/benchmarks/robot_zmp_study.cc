@@ -12,16 +12,16 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/experiments/config/experiment.h"
-#include "halfstep/experiments/report/robot_zmp.h"
-#include "halfstep/experiments/tables/csv_reader.h"
-#include "halfstep/smoothing/margins/slack_evaluator.h"
-#include "halfstep/smoothing/methods/dichotomy.h"
-#include "halfstep/smoothing/proof/certified_feasibility.h"
-#include "halfstep/wpg/motion/compensation.h"
-#include "halfstep/wpg/motion/zmp_drift.h"
+#include "experiments/config/experiment.h"
+#include "experiments/report/robot_zmp.h"
+#include "experiments/tables/csv_reader.h"
+#include "smoothing/margins/slack_evaluator.h"
+#include "smoothing/methods/dichotomy.h"
+#include "smoothing/proof/certified_feasibility.h"
 #include "tests/smoothing/certificate_draws.h"
 #include "tests/smoothing/smoothed.h"
+#include "wpg/motion/compensation.h"
+#include "wpg/motion/zmp_drift.h"
 
 namespace halfstep {
 namespace {

@@ -10,9 +10,9 @@
 #include <cstdlib>
 #include <string>
 
-#include "halfstep/experiments/config/experiment.h"
-#include "halfstep/experiments/run/planning.h"
-#include "halfstep/planner/swept/swept_volume_query.h"
+#include "experiments/config/experiment.h"
+#include "experiments/run/planning.h"
+#include "planner/swept/swept_volume_query.h"
 #include "tests/planner/swept_volume_draws.h"
 #include "tests/wpg/shipped_robots.h"
 

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <random>
 
-#include "halfstep/experiments/live/episode_summary.h"
-#include "halfstep/experiments/live/episode_touch.h"
-#include "halfstep/experiments/live/sensor.h"
-#include "halfstep/smoothing/proof/certified_feasibility.h"
+#include "experiments/live/episode_summary.h"
+#include "experiments/live/episode_touch.h"
+#include "experiments/live/sensor.h"
+#include "smoothing/proof/certified_feasibility.h"
 #include "tests/benchmarks/random_episode.h"
 
 namespace halfstep {

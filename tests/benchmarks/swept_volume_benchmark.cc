@@ -16,9 +16,9 @@
 #include <sstream>
 #include <vector>
 
-#include "halfstep/planner/collision/collision_world.h"
-#include "halfstep/planner/swept/box_tree_obj.h"
-#include "halfstep/planner/swept/swept_volume_cache.h"
+#include "planner/collision/collision_world.h"
+#include "planner/swept/box_tree_obj.h"
+#include "planner/swept/swept_volume_cache.h"
 #include "tests/planner/swept_volume_draws.h"
 
 namespace halfstep {

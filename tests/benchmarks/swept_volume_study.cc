@@ -17,9 +17,9 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/planner/collision/collision_world.h"
-#include "halfstep/planner/collision/convex_distance.h"
-#include "halfstep/planner/swept/swept_volume_cache.h"
+#include "planner/collision/collision_world.h"
+#include "planner/collision/convex_distance.h"
+#include "planner/swept/swept_volume_cache.h"
 #include "tests/planner/swept_volume_draws.h"
 
 namespace halfstep {

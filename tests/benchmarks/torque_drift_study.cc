@@ -12,12 +12,12 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/smoothing/proof/interval_statements.h"
-#include "halfstep/wpg/motion/foot_friction.h"
-#include "halfstep/wpg/motion/foot_loads.h"
-#include "halfstep/wpg/motion/leg_torques.h"
-#include "halfstep/wpg/motion/torque_drift.h"
+#include "smoothing/proof/interval_statements.h"
 #include "tests/smoothing/certificate_draws.h"
+#include "wpg/motion/foot_friction.h"
+#include "wpg/motion/foot_loads.h"
+#include "wpg/motion/leg_torques.h"
+#include "wpg/motion/torque_drift.h"
 
 namespace halfstep {
 namespace {

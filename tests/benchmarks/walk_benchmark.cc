@@ -3,12 +3,12 @@
 
 #include <benchmark/benchmark.h>
 
-#include "halfstep/experiments/config/experiment.h"
-#include "halfstep/smoothing/margins/margin_evaluator.h"
-#include "halfstep/smoothing/methods/dichotomy.h"
-#include "halfstep/smoothing/proof/sampled_feasibility.h"
-#include "halfstep/wpg/motion/posture.h"
+#include "experiments/config/experiment.h"
+#include "smoothing/margins/margin_evaluator.h"
+#include "smoothing/methods/dichotomy.h"
+#include "smoothing/proof/sampled_feasibility.h"
 #include "tests/smoothing/smoothed.h"
+#include "wpg/motion/posture.h"
 
 namespace halfstep {
 namespace {

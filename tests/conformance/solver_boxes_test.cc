@@ -6,7 +6,7 @@
 #include <string>
 #include <type_traits>
 
-#include "halfstep/opt/adapters/solver_registry.h"
+#include "opt/adapters/solver_registry.h"
 #include "tests/problems/auto_blocks.h"
 #include "tests/problems/solver_test.h"
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/opt/adapters/solver_registry.h"
-#include "halfstep/opt/problem/problem_derivatives.h"
+#include "opt/adapters/solver_registry.h"
+#include "opt/problem/problem_derivatives.h"
 #include "tests/problems/constructed_problems.h"
 #include "tests/problems/hock_schittkowski.h"
 #include "tests/problems/hock_schittkowski_large.h"

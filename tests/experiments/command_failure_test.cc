@@ -17,7 +17,7 @@
 #include <random>
 #include <thread>
 
-#include "halfstep/experiments/commands/commands.h"
+#include "experiments/commands/commands.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/long_walk.h"
 #include "tests/experiments/run_check.h"

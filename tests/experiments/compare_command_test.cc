@@ -3,12 +3,12 @@
 
 #include <cmath>
 
-#include "halfstep/experiments/commands/commands.h"
-#include "halfstep/experiments/compare/comparison.h"
-#include "halfstep/wpg/files/input_error.h"
+#include "experiments/commands/commands.h"
+#include "experiments/compare/comparison.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/run_check.h"
 #include "tests/temporary_folder.h"
+#include "wpg/files/input_error.h"
 
 namespace halfstep {
 namespace {

@@ -8,13 +8,13 @@
 #include <filesystem>
 #include <sstream>
 
-#include "halfstep/experiments/commands/commands.h"
-#include "halfstep/experiments/config/data_folder.h"
-#include "halfstep/experiments/config/experiment.h"
-#include "halfstep/wpg/robot/robot_model.h"
+#include "experiments/commands/commands.h"
+#include "experiments/config/data_folder.h"
+#include "experiments/config/experiment.h"
 #include "tests/experiments/parsed_csv.h"
 #include "tests/temporary_folder.h"
 #include "tests/wpg/generated_robots.h"
+#include "wpg/robot/robot_model.h"
 
 namespace halfstep {
 

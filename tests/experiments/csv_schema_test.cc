@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
-#include "halfstep/experiments/commands/commands.h"
-#include "halfstep/experiments/tables/csv_columns.h"
+#include "experiments/commands/commands.h"
+#include "experiments/tables/csv_columns.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/parsed_csv.h"
 #include "tests/temporary_folder.h"

@@ -1,4 +1,4 @@
-#include "halfstep/experiments/tables/csv_writer.h"
+#include "experiments/tables/csv_writer.h"
 
 #include <gtest/gtest.h>
 

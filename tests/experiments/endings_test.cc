@@ -5,9 +5,9 @@
 
 #include <algorithm>
 
-#include "halfstep/experiments/commands/commands.h"
-#include "halfstep/opt/solvers/ending.h"
-#include "halfstep/smoothing/methods/smoother_registry.h"
+#include "experiments/commands/commands.h"
+#include "opt/solvers/ending.h"
+#include "smoothing/methods/smoother_registry.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/run_check.h"
 #include "tests/temporary_folder.h"

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "halfstep/experiments/run/exit_status.h"
+#include "experiments/run/exit_status.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/run_check.h"
 #include "tests/temporary_folder.h"

@@ -1,5 +1,5 @@
-#include "halfstep/experiments/config/data_folder.h"
-#include "halfstep/experiments/config/experiment_config.h"
+#include "experiments/config/data_folder.h"
+#include "experiments/config/experiment_config.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <numbers>
 
-#include "halfstep/experiments/config/experiment.h"
+#include "experiments/config/experiment.h"
 #include "tests/fixture_check.h"
 #include "tests/temporary_folder.h"
 

@@ -7,14 +7,14 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "halfstep/experiments/commands/commands.h"
-#include "halfstep/experiments/config/data_folder.h"
-#include "halfstep/experiments/config/key_tables.h"
-#include "halfstep/experiments/sweep/sweep_config.h"
-#include "halfstep/wpg/files/yaml_node.h"
+#include "experiments/commands/commands.h"
+#include "experiments/config/data_folder.h"
+#include "experiments/config/key_tables.h"
+#include "experiments/sweep/sweep_config.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/schema_check.h"
 #include "tests/temporary_folder.h"
+#include "wpg/files/yaml_node.h"
 
 namespace halfstep {
 namespace {

@@ -6,16 +6,16 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
-#include "halfstep/experiments/commands/commands.h"
-#include "halfstep/experiments/config/experiment.h"
-#include "halfstep/experiments/replay/simulation.h"
-#include "halfstep/experiments/tables/trajectory_file.h"
-#include "halfstep/wpg/files/yaml_node.h"
-#include "halfstep/wpg/robot/robot_tree.h"
+#include "experiments/commands/commands.h"
+#include "experiments/config/experiment.h"
+#include "experiments/replay/simulation.h"
+#include "experiments/tables/trajectory_file.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/parsed_csv.h"
 #include "tests/experiments/schema_check.h"
 #include "tests/temporary_folder.h"
+#include "wpg/files/yaml_node.h"
+#include "wpg/robot/robot_tree.h"
 
 namespace halfstep {
 namespace {

@@ -7,15 +7,15 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "halfstep/experiments/commands/commands.h"
-#include "halfstep/experiments/config/experiment_config.h"
-#include "halfstep/planner/scene/scene.h"
-#include "halfstep/wpg/files/input_error.h"
-#include "halfstep/wpg/files/text.h"
-#include "halfstep/wpg/robot/robot_model.h"
+#include "experiments/commands/commands.h"
+#include "experiments/config/experiment_config.h"
+#include "planner/scene/scene.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/parsed_csv.h"
 #include "tests/temporary_folder.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/text.h"
+#include "wpg/robot/robot_model.h"
 
 namespace halfstep {
 namespace {

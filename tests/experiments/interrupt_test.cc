@@ -9,8 +9,8 @@
 #include <random>
 #include <thread>
 
-#include "halfstep/experiments/commands/commands.h"
-#include "halfstep/smoothing/methods/smoother_registry.h"
+#include "experiments/commands/commands.h"
+#include "smoothing/methods/smoother_registry.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/long_walk.h"
 #include "tests/experiments/run_check.h"

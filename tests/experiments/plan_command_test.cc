@@ -3,10 +3,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "halfstep/experiments/commands/commands.h"
-#include "halfstep/experiments/config/random_scenes.h"
-#include "halfstep/experiments/run/planning.h"
-#include "halfstep/planner/scene/scene.h"
+#include "experiments/commands/commands.h"
+#include "experiments/config/random_scenes.h"
+#include "experiments/run/planning.h"
+#include "planner/scene/scene.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/run_check.h"
 #include "tests/temporary_folder.h"

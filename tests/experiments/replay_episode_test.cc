@@ -3,8 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "halfstep/experiments/commands/commands.h"
-#include "halfstep/experiments/replay/simulation.h"
+#include "experiments/commands/commands.h"
+#include "experiments/replay/simulation.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/parsed_csv.h"
 #include "tests/temporary_folder.h"

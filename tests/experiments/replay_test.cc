@@ -1,5 +1,5 @@
-#include "halfstep/experiments/config/data_folder.h"
-#include "halfstep/experiments/replay/replay.h"
+#include "experiments/config/data_folder.h"
+#include "experiments/replay/replay.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,17 +7,17 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "halfstep/experiments/commands/commands.h"
-#include "halfstep/experiments/config/experiment.h"
-#include "halfstep/experiments/replay/mass_model_zmp.h"
-#include "halfstep/experiments/replay/mujoco_model.h"
-#include "halfstep/experiments/replay/planned_row.h"
-#include "halfstep/smoothing/walk/superposed_walk.h"
-#include "halfstep/wpg/robot/leg_ik.h"
+#include "experiments/commands/commands.h"
+#include "experiments/config/experiment.h"
+#include "experiments/replay/mass_model_zmp.h"
+#include "experiments/replay/mujoco_model.h"
+#include "experiments/replay/planned_row.h"
+#include "smoothing/walk/superposed_walk.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/parsed_csv.h"
 #include "tests/experiments/robot_motion_at.h"
 #include "tests/temporary_folder.h"
+#include "wpg/robot/leg_ik.h"
 
 namespace halfstep::replay {
 namespace {

@@ -1,4 +1,4 @@
-#include "halfstep/experiments/report/report.h"
+#include "experiments/report/report.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,10 +7,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "halfstep/experiments/commands/commands.h"
-#include "halfstep/experiments/report/drawn_mesh.h"
-#include "halfstep/experiments/report/report_page.h"
-#include "halfstep/experiments/report/report_walk.h"
+#include "experiments/commands/commands.h"
+#include "experiments/report/drawn_mesh.h"
+#include "experiments/report/report_page.h"
+#include "experiments/report/report_walk.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/run_check.h"
 #include "tests/temporary_folder.h"

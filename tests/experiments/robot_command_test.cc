@@ -3,16 +3,16 @@
 
 #include <regex>
 
-#include "halfstep/experiments/commands/commands.h"
-#include "halfstep/experiments/config/experiment.h"
-#include "halfstep/experiments/config/scaled_defaults.h"
-#include "halfstep/experiments/survey/robot_survey.h"
-#include "halfstep/wpg/files/input_error.h"
+#include "experiments/commands/commands.h"
+#include "experiments/config/experiment.h"
+#include "experiments/config/scaled_defaults.h"
+#include "experiments/survey/robot_survey.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/run_check.h"
 #include "tests/replaced.h"
 #include "tests/temporary_folder.h"
 #include "tests/wpg/generated_robots.h"
+#include "wpg/files/input_error.h"
 
 namespace halfstep {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "halfstep/experiments/replay/simulation.h"
-#include "halfstep/wpg/motion/leg_torques.h"
+#include "experiments/replay/simulation.h"
+#include "wpg/motion/leg_torques.h"
 
 namespace halfstep::replay {
 

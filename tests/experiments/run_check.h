@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/experiments/report/report_page.h"
+#include "experiments/report/report_page.h"
 #include "tests/experiments/parsed_csv.h"
 #include "tests/temporary_folder.h"
 

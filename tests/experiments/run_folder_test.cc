@@ -1,4 +1,4 @@
-#include "halfstep/experiments/tables/run_folder.h"
+#include "experiments/tables/run_folder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -3,8 +3,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "halfstep/wpg/files/number_text.h"
-#include "halfstep/wpg/files/yaml_node.h"
+#include "wpg/files/number_text.h"
+#include "wpg/files/yaml_node.h"
 
 namespace halfstep {
 

@@ -1,13 +1,13 @@
-#include "halfstep/experiments/config/data_folder.h"
-#include "halfstep/experiments/replay/simulated_obstacles.h"
+#include "experiments/config/data_folder.h"
+#include "experiments/replay/simulated_obstacles.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "halfstep/experiments/config/experiment.h"
-#include "halfstep/experiments/replay/mujoco_model.h"
-#include "halfstep/experiments/replay/simulation.h"
-#include "halfstep/wpg/robot/robot_tree.h"
+#include "experiments/config/experiment.h"
+#include "experiments/replay/mujoco_model.h"
+#include "experiments/replay/simulation.h"
+#include "wpg/robot/robot_tree.h"
 
 namespace halfstep::replay {
 namespace {

@@ -8,9 +8,9 @@
 #include <set>
 #include <thread>
 
-#include "halfstep/experiments/commands/commands.h"
-#include "halfstep/experiments/sweep/sweep_case.h"
-#include "halfstep/experiments/sweep/sweep_config.h"
+#include "experiments/commands/commands.h"
+#include "experiments/sweep/sweep_case.h"
+#include "experiments/sweep/sweep_config.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/run_check.h"
 #include "tests/fixture_check.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/smoothing/margins/own_margin.h"
+#include "smoothing/margins/own_margin.h"
 
 namespace halfstep {
 

@@ -1,17 +1,17 @@
 // A margin of one's own is demanded, proved and followed as those that are built in.
 
-#include "halfstep/smoothing/margins/own_margin.h"
+#include "smoothing/margins/own_margin.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <stdexcept>
 
-#include "halfstep/experiments/run/smoothing_of.h"
-#include "halfstep/opt/problem/derivative_check.h"
-#include "halfstep/smoothing/methods/smoother_registry.h"
-#include "halfstep/smoothing/program/overlap_program.h"
-#include "halfstep/smoothing/proof/certified_feasibility.h"
+#include "experiments/run/smoothing_of.h"
+#include "opt/problem/derivative_check.h"
+#include "smoothing/methods/smoother_registry.h"
+#include "smoothing/program/overlap_program.h"
+#include "smoothing/proof/certified_feasibility.h"
 #include "tests/extensions/com_speed.h"
 #include "tests/scenarios/load_experiment.h"
 

@@ -5,17 +5,17 @@
 
 #include <stdexcept>
 
-#include "halfstep/experiments/config/experiment_config.h"
-#include "halfstep/experiments/run/smoothing_of.h"
-#include "halfstep/opt/adapters/function_solver.h"
-#include "halfstep/opt/adapters/solver_registry.h"
-#include "halfstep/opt/problem/derivative_check.h"
-#include "halfstep/planner/search/planner_registry.h"
-#include "halfstep/smoothing/methods/smoother_registry.h"
-#include "halfstep/smoothing/program/overlap_program.h"
-#include "halfstep/smoothing/program/walk_cost.h"
-#include "halfstep/wpg/files/input_error.h"
+#include "experiments/config/experiment_config.h"
+#include "experiments/run/smoothing_of.h"
+#include "opt/adapters/function_solver.h"
+#include "opt/adapters/solver_registry.h"
+#include "opt/problem/derivative_check.h"
+#include "planner/search/planner_registry.h"
+#include "smoothing/methods/smoother_registry.h"
+#include "smoothing/program/overlap_program.h"
+#include "smoothing/program/walk_cost.h"
 #include "tests/scenarios/load_experiment.h"
+#include "wpg/files/input_error.h"
 
 namespace halfstep {
 namespace {

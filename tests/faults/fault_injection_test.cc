@@ -14,8 +14,8 @@
 #include <numeric>
 #include <random>
 
-#include "halfstep/experiments/commands/commands.h"
-#include "halfstep/experiments/report/report_page.h"
+#include "experiments/commands/commands.h"
+#include "experiments/report/report_page.h"
 #include "tests/experiments/child_process.h"
 #include "tests/faults/command_files.h"
 

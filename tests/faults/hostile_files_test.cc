@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
-#include "halfstep/experiments/commands/commands.h"
-#include "halfstep/experiments/report/report_page.h"
+#include "experiments/commands/commands.h"
+#include "experiments/report/report_page.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/run_check.h"
 #include "tests/temporary_folder.h"

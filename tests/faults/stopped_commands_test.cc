@@ -8,7 +8,7 @@
 #include <random>
 #include <thread>
 
-#include "halfstep/experiments/commands/commands.h"
+#include "experiments/commands/commands.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/run_check.h"
 #include "tests/temporary_folder.h"

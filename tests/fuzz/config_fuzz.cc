@@ -1,6 +1,6 @@
 // A config, and whether what is written back says the same.
 
-#include "halfstep/experiments/config/experiment_config.h"
+#include "experiments/config/experiment_config.h"
 #include "tests/fuzz/fuzz.h"
 
 using namespace halfstep;

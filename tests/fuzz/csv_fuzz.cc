@@ -1,9 +1,9 @@
 // A CSV table, by both readers: what the checker's strict one accepts, the other reads the same.
 // Every cell has a place.
 
-#include "halfstep/experiments/tables/csv_places.h"
-#include "halfstep/experiments/tables/csv_reader.h"
-#include "halfstep/experiments/verify/csv_text.h"
+#include "experiments/tables/csv_places.h"
+#include "experiments/tables/csv_reader.h"
+#include "experiments/verify/csv_text.h"
 #include "tests/fuzz/fuzz.h"
 
 using namespace halfstep;

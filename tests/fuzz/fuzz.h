@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "halfstep/wpg/files/input_error.h"
+#include "wpg/files/input_error.h"
 
 /// What libFuzzer calls with every input; each target defines it.
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size);

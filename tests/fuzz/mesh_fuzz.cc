@@ -1,7 +1,7 @@
 // The same bytes as STL, ASCII or binary, as OBJ and as DAE.
 
-#include "halfstep/wpg/files/mesh_file.h"
 #include "tests/fuzz/fuzz.h"
+#include "wpg/files/mesh_file.h"
 
 using namespace halfstep;
 

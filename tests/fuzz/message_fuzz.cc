@@ -1,6 +1,6 @@
 // A message of a client of an episode, where clients measure and where they do not.
 
-#include "halfstep/experiments/server/client_message.h"
+#include "experiments/server/client_message.h"
 #include "tests/fuzz/fuzz.h"
 
 using namespace halfstep;

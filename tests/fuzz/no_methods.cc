@@ -1,7 +1,7 @@
 // Names of methods, planners and programs for the readers of configs, without what they name.
 
-#include "halfstep/planner/search/planner_registry.h"
-#include "halfstep/smoothing/methods/smoother_registry.h"
+#include "planner/search/planner_registry.h"
+#include "smoothing/methods/smoother_registry.h"
 
 namespace halfstep {
 

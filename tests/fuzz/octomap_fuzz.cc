@@ -1,7 +1,7 @@
 // The same bytes as .bt and as .ot.
 
-#include "halfstep/wpg/files/octomap_file.h"
 #include "tests/fuzz/fuzz.h"
+#include "wpg/files/octomap_file.h"
 
 using namespace halfstep;
 

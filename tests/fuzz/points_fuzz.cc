@@ -1,7 +1,7 @@
 // The same bytes as PLY and as PCD.
 
-#include "halfstep/wpg/files/point_file.h"
 #include "tests/fuzz/fuzz.h"
+#include "wpg/files/point_file.h"
 
 using namespace halfstep;
 

@@ -1,8 +1,8 @@
 // The keys of a robot file against the shipped robot's URDF, which is read once; no model is built.
 
-#include "halfstep/wpg/files/yaml_fields.h"
-#include "halfstep/wpg/robot/robot_fields.h"
 #include "tests/fuzz/fuzz.h"
+#include "wpg/files/yaml_fields.h"
+#include "wpg/robot/robot_fields.h"
 
 using namespace halfstep;
 

@@ -1,8 +1,8 @@
 // A whole robot: its YAML file, a line "--- 8< ---", its URDF. Slow: legs are checked, hulls made.
 
-#include "halfstep/wpg/robot/robot_fields.h"
-#include "halfstep/wpg/robot/robot_model.h"
 #include "tests/fuzz/fuzz.h"
+#include "wpg/robot/robot_fields.h"
+#include "wpg/robot/robot_model.h"
 
 using namespace halfstep;
 

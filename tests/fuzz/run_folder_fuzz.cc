@@ -1,7 +1,7 @@
 // The files of a run folder, as `compare` and `report` read them.
 
-#include "halfstep/experiments/report/report_walk.h"
-#include "halfstep/experiments/tables/run_record.h"
+#include "experiments/report/report_walk.h"
+#include "experiments/tables/run_record.h"
 #include "tests/fuzz/files.h"
 #include "tests/fuzz/fuzz.h"
 

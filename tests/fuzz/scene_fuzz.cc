@@ -1,6 +1,6 @@
 // A scene; its folder has meshes that it may name.
 
-#include "halfstep/planner/scene/scene.h"
+#include "planner/scene/scene.h"
 #include "tests/fuzz/fuzz.h"
 
 using namespace halfstep;

@@ -1,6 +1,6 @@
 // A sweep file, what is written back, and its cases.
 
-#include "halfstep/experiments/sweep/sweep_config.h"
+#include "experiments/sweep/sweep_config.h"
 #include "tests/fuzz/fuzz.h"
 
 using namespace halfstep;

@@ -1,9 +1,9 @@
 // Two swept volumes, as a cache file holds them, and the file around them.
 
-#include "halfstep/planner/swept/swept_volume_bytes.h"
-#include "halfstep/wpg/files/checked_file.h"
-#include "halfstep/wpg/files/sha256.h"
+#include "planner/swept/swept_volume_bytes.h"
 #include "tests/fuzz/fuzz.h"
+#include "wpg/files/checked_file.h"
+#include "wpg/files/sha256.h"
 
 using namespace halfstep;
 

@@ -1,7 +1,7 @@
 // A URDF as a tree, without a robot file and without meshes.
 
-#include "halfstep/wpg/robot/urdf_file.h"
 #include "tests/fuzz/fuzz.h"
+#include "wpg/robot/urdf_file.h"
 
 using namespace halfstep;
 

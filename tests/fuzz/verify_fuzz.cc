@@ -2,11 +2,11 @@
 // certificate, manifest, overlaps and summary: the robot is loaded once, and distances are not
 // asked.
 
-#include "halfstep/experiments/tables/trajectory_file.h"
-#include "halfstep/experiments/verify/check_certificate.h"
-#include "halfstep/experiments/verify/check_overlaps.h"
-#include "halfstep/experiments/verify/check_summary.h"
-#include "halfstep/experiments/verify/played_motion.h"
+#include "experiments/tables/trajectory_file.h"
+#include "experiments/verify/check_certificate.h"
+#include "experiments/verify/check_overlaps.h"
+#include "experiments/verify/check_summary.h"
+#include "experiments/verify/played_motion.h"
 #include "tests/fuzz/files.h"
 #include "tests/fuzz/fuzz.h"
 

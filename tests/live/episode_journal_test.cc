@@ -1,4 +1,4 @@
-#include "halfstep/experiments/live/episode_journal.h"
+#include "experiments/live/episode_journal.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "halfstep/experiments/live/episode_reader.h"
+#include "experiments/live/episode_reader.h"
 #include "tests/live/small_episode.h"
 #include "tests/temporary_folder.h"
 

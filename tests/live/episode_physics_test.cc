@@ -1,5 +1,5 @@
-#include "halfstep/experiments/config/data_folder.h"
-#include "halfstep/experiments/replay/episode_physics.h"
+#include "experiments/config/data_folder.h"
+#include "experiments/replay/episode_physics.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "halfstep/experiments/commands/commands.h"
-#include "halfstep/experiments/replay/simulation.h"
+#include "experiments/commands/commands.h"
+#include "experiments/replay/simulation.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/parsed_csv.h"
 #include "tests/live/small_episode.h"

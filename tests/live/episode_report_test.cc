@@ -1,6 +1,6 @@
 // report.html of an episode: what it holds, its size, and who writes it.
 
-#include "halfstep/experiments/live/episode_report.h"
+#include "experiments/live/episode_report.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,10 +9,10 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "halfstep/experiments/live/messages.h"
-#include "halfstep/experiments/report/live_page.h"
-#include "halfstep/experiments/report/report_page.h"
-#include "halfstep/experiments/run/exit_status.h"
+#include "experiments/live/messages.h"
+#include "experiments/report/live_page.h"
+#include "experiments/report/report_page.h"
+#include "experiments/run/exit_status.h"
 #include "tests/experiments/child_process.h"
 #include "tests/live/small_episode.h"
 #include "tests/temporary_folder.h"

@@ -1,4 +1,4 @@
-#include "halfstep/experiments/live/episode.h"
+#include "experiments/live/episode.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,10 +7,10 @@
 #include <random>
 #include <string>
 
-#include "halfstep/experiments/live/episode_loop.h"
-#include "halfstep/experiments/live/episode_touch.h"
-#include "halfstep/experiments/live/thinker.h"
-#include "halfstep/smoothing/proof/certified_feasibility.h"
+#include "experiments/live/episode_loop.h"
+#include "experiments/live/episode_touch.h"
+#include "experiments/live/thinker.h"
+#include "smoothing/proof/certified_feasibility.h"
 #include "tests/live/small_episode.h"
 
 namespace halfstep {

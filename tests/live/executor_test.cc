@@ -1,4 +1,4 @@
-#include "halfstep/experiments/live/executor.h"
+#include "experiments/live/executor.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

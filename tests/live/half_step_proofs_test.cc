@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include "halfstep/experiments/live/isolated_half_steps.h"
-#include "halfstep/experiments/live/prepared_world.h"
-#include "halfstep/experiments/live/remembered_half_steps.h"
-#include "halfstep/experiments/live/replanner.h"
-#include "halfstep/smoothing/walk/splice.h"
+#include "experiments/live/isolated_half_steps.h"
+#include "experiments/live/prepared_world.h"
+#include "experiments/live/remembered_half_steps.h"
+#include "experiments/live/replanner.h"
+#include "smoothing/walk/splice.h"
 #include "tests/draws.h"
 #include "tests/live/small_episode.h"
 

@@ -8,8 +8,8 @@
 #include <fstream>
 #include <thread>
 
-#include "halfstep/experiments/live/episode_journal.h"
-#include "halfstep/experiments/run/exit_status.h"
+#include "experiments/live/episode_journal.h"
+#include "experiments/run/exit_status.h"
 #include "tests/experiments/child_process.h"
 #include "tests/live/small_episode.h"
 #include "tests/temporary_folder.h"

@@ -1,11 +1,11 @@
-#include "halfstep/experiments/config/data_folder.h"
-#include "halfstep/experiments/live/live_config.h"
+#include "experiments/config/data_folder.h"
+#include "experiments/live/live_config.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "halfstep/experiments/config/experiment.h"
-#include "halfstep/experiments/live/true_world.h"
+#include "experiments/config/experiment.h"
+#include "experiments/live/true_world.h"
 #include "tests/fixture_check.h"
 
 namespace halfstep {

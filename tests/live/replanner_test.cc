@@ -1,8 +1,8 @@
-#include "halfstep/experiments/live/replanner.h"
+#include "experiments/live/replanner.h"
 
 #include <gtest/gtest.h>
 
-#include "halfstep/experiments/live/prepared_world.h"
+#include "experiments/live/prepared_world.h"
 #include "tests/live/small_episode.h"
 
 namespace halfstep {

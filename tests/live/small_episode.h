@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/experiments/config/experiment.h"
-#include "halfstep/experiments/live/episode.h"
-#include "halfstep/experiments/live/episode_tables.h"
-#include "halfstep/experiments/live/live_config.h"
-#include "halfstep/experiments/live/replanner.h"
-#include "halfstep/experiments/run/planning.h"
+#include "experiments/config/experiment.h"
+#include "experiments/live/episode.h"
+#include "experiments/live/episode_tables.h"
+#include "experiments/live/live_config.h"
+#include "experiments/live/replanner.h"
+#include "experiments/run/planning.h"
 
 namespace halfstep {
 

@@ -1,10 +1,10 @@
-#include "halfstep/experiments/live/true_world.h"
+#include "experiments/live/true_world.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "halfstep/wpg/files/input_error.h"
 #include "tests/live/small_episode.h"
+#include "wpg/files/input_error.h"
 
 namespace halfstep {
 namespace {

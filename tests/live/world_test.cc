@@ -1,11 +1,11 @@
-#include "halfstep/experiments/live/world.h"
+#include "experiments/live/world.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "halfstep/experiments/live/past_worlds.h"
+#include "experiments/live/past_worlds.h"
 #include "tests/live/small_episode.h"
 
 namespace halfstep {

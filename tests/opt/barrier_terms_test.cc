@@ -1,11 +1,11 @@
-#include "halfstep/opt/solvers/barrier_terms.h"
+#include "opt/solvers/barrier_terms.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "halfstep/opt/problem/derivative_check.h"
+#include "opt/problem/derivative_check.h"
 
 namespace halfstep::opt {
 namespace {

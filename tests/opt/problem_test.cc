@@ -1,4 +1,4 @@
-#include "halfstep/opt/problem/problem.h"
+#include "opt/problem/problem.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "halfstep/opt/problem/problem_derivatives.h"
+#include "opt/problem/problem_derivatives.h"
 #include "tests/problems/auto_blocks.h"
 #include "tests/problems/hock_schittkowski.h"
 

@@ -1,4 +1,4 @@
-#include "halfstep/opt/solvers/solve_monitor.h"
+#include "opt/solvers/solve_monitor.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "halfstep/opt/adapters/solver_registry.h"
+#include "opt/adapters/solver_registry.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,9 +8,9 @@
 #include <thread>
 #include <vector>
 
-#include "halfstep/opt/adapters/box_transform.h"
-#include "halfstep/opt/solvers/option_text.h"
-#include "halfstep/opt/solvers/row_penalties.h"
+#include "opt/adapters/box_transform.h"
+#include "opt/solvers/option_text.h"
+#include "opt/solvers/row_penalties.h"
 #include "tests/problems/constructed_problems.h"
 #include "tests/problems/hock_schittkowski.h"
 

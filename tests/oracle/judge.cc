@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <memory>
 
-#include "halfstep/wpg/files/input_error.h"
+#include "wpg/files/input_error.h"
 
 namespace halfstep::oracle {
 namespace {

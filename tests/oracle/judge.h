@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/planner/scene/scene.h"
-#include "halfstep/smoothing/proof/certified_feasibility.h"
-#include "halfstep/wpg/robot/robot_model.h"
+#include "planner/scene/scene.h"
+#include "smoothing/proof/certified_feasibility.h"
 #include "tests/oracle/nasty_draws.h"
 #include "tests/oracle/walk_truth.h"
+#include "wpg/robot/robot_model.h"
 
 namespace halfstep::oracle {
 

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <set>
 
-#include "halfstep/smoothing/walk/superposed_walk.h"
+#include "smoothing/walk/superposed_walk.h"
 #include "tests/oracle/judge.h"
 #include "tests/temporary_folder.h"
 #include "tests/wpg/shipped_robots.h"

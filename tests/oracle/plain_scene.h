@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/experiments/verify/min_norm_point.h"
+#include "experiments/verify/min_norm_point.h"
 
 namespace halfstep::oracle {
 

@@ -1,4 +1,4 @@
-#include "halfstep/planner/swept/box_tree.h"
+#include "planner/swept/box_tree.h"
 
 #include <gtest/gtest.h>
 
@@ -9,10 +9,10 @@
 #include <random>
 #include <sstream>
 
-#include "halfstep/planner/collision/convex_distance.h"
-#include "halfstep/planner/swept/box_tree_obj.h"
-#include "halfstep/planner/swept/box_tree_query.h"
-#include "halfstep/planner/swept/swept_volume_bytes.h"
+#include "planner/collision/convex_distance.h"
+#include "planner/swept/box_tree_obj.h"
+#include "planner/swept/box_tree_query.h"
+#include "planner/swept/swept_volume_bytes.h"
 #include "tests/planner/swept_volume_draws.h"
 
 namespace halfstep {

@@ -6,8 +6,8 @@
 #include <limits>
 #include <vector>
 
-#include "halfstep/planner/scene/scene.h"
-#include "halfstep/wpg/geometry/convex_body.h"
+#include "planner/scene/scene.h"
+#include "wpg/geometry/convex_body.h"
 
 namespace halfstep {
 

@@ -6,13 +6,13 @@
 #include <fstream>
 #include <random>
 
-#include "halfstep/planner/collision/mesh_interior.h"
-#include "halfstep/planner/collision/separation.h"
-#include "halfstep/planner/scene/scene.h"
-#include "halfstep/planner/scene/voxel_set.h"
-#include "halfstep/wpg/files/input_error.h"
+#include "planner/collision/mesh_interior.h"
+#include "planner/collision/separation.h"
+#include "planner/scene/scene.h"
+#include "planner/scene/voxel_set.h"
 #include "tests/temporary_folder.h"
 #include "tests/wpg/octomap_bytes.h"
+#include "wpg/files/input_error.h"
 
 namespace halfstep {
 namespace {

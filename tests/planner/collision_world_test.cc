@@ -1,4 +1,4 @@
-#include "halfstep/planner/collision/collision_world.h"
+#include "planner/collision/collision_world.h"
 
 #include <gtest/gtest.h>
 

@@ -2,12 +2,12 @@
 
 #include <vector>
 
-#include "halfstep/planner/scene/scene.h"
-#include "halfstep/planner/scene/simple_polygon.h"
-#include "halfstep/planner/search/half_step_query.h"
-#include "halfstep/planner/search/half_step_set.h"
-#include "halfstep/wpg/geometry/footprint.h"
-#include "halfstep/wpg/geometry/support_polygon.h"
+#include "planner/scene/scene.h"
+#include "planner/scene/simple_polygon.h"
+#include "planner/search/half_step_query.h"
+#include "planner/search/half_step_set.h"
+#include "wpg/geometry/footprint.h"
+#include "wpg/geometry/support_polygon.h"
 
 namespace halfstep {
 

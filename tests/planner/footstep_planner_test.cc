@@ -1,4 +1,4 @@
-#include "halfstep/planner/search/footstep_planner.h"
+#include "planner/search/footstep_planner.h"
 
 #include <gtest/gtest.h>
 
@@ -10,12 +10,12 @@
 #include <random>
 #include <set>
 
-#include "halfstep/planner/search/footstep_astar.h"
-#include "halfstep/planner/search/footstep_rrt.h"
-#include "halfstep/planner/search/plan_search.h"
-#include "halfstep/planner/search/plan_shortcut.h"
-#include "halfstep/planner/search/state_buckets.h"
-#include "halfstep/planner/search/step_graph.h"
+#include "planner/search/footstep_astar.h"
+#include "planner/search/footstep_rrt.h"
+#include "planner/search/plan_search.h"
+#include "planner/search/plan_shortcut.h"
+#include "planner/search/state_buckets.h"
+#include "planner/search/step_graph.h"
 #include "tests/planner/flat_world.h"
 
 namespace halfstep {

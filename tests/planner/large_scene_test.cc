@@ -6,12 +6,12 @@
 #include <random>
 #include <vector>
 
-#include "halfstep/planner/collision/bounds_tree.h"
-#include "halfstep/planner/collision/collision_world.h"
-#include "halfstep/planner/collision/mesh_interior.h"
-#include "halfstep/planner/collision/triangle_surface.h"
-#include "halfstep/wpg/geometry/support_polygon.h"
+#include "planner/collision/bounds_tree.h"
+#include "planner/collision/collision_world.h"
+#include "planner/collision/mesh_interior.h"
+#include "planner/collision/triangle_surface.h"
 #include "tests/planner/swept_volume_draws.h"
+#include "wpg/geometry/support_polygon.h"
 
 namespace halfstep {
 namespace {

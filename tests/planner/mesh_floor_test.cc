@@ -1,4 +1,4 @@
-#include "halfstep/planner/scene/mesh_floor.h"
+#include "planner/scene/mesh_floor.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,9 +7,9 @@
 #include <fstream>
 #include <variant>
 
-#include "halfstep/planner/scene/scene.h"
-#include "halfstep/wpg/files/input_error.h"
+#include "planner/scene/scene.h"
 #include "tests/temporary_folder.h"
+#include "wpg/files/input_error.h"
 
 namespace halfstep {
 namespace {

@@ -1,4 +1,4 @@
-#include "halfstep/planner/collision/mesh_interior.h"
+#include "planner/collision/mesh_interior.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <random>
 #include <utility>
 
-#include "halfstep/planner/collision/mesh_patches.h"
-#include "halfstep/planner/collision/separation.h"
+#include "planner/collision/mesh_patches.h"
+#include "planner/collision/separation.h"
 
 namespace halfstep {
 namespace {

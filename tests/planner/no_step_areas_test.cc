@@ -1,4 +1,4 @@
-#include "halfstep/planner/scene/no_step_areas.h"
+#include "planner/scene/no_step_areas.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-#include "halfstep/planner/scene/simple_polygon.h"
+#include "planner/scene/simple_polygon.h"
 #include "tests/draws.h"
 
 namespace halfstep {

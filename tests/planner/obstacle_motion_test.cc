@@ -1,4 +1,4 @@
-#include "halfstep/planner/scene/obstacle_motion.h"
+#include "planner/scene/obstacle_motion.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/planner/collision/collision_world.h"
-#include "halfstep/planner/scene/scene.h"
+#include "planner/collision/collision_world.h"
+#include "planner/scene/scene.h"
 
 namespace halfstep {
 namespace {

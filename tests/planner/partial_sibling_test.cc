@@ -1,4 +1,4 @@
-#include "halfstep/wpg/files/partial_sibling.h"
+#include "wpg/files/partial_sibling.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,8 +12,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "halfstep/wpg/files/whole_file.h"
 #include "tests/temporary_folder.h"
+#include "wpg/files/whole_file.h"
 
 namespace halfstep {
 namespace {

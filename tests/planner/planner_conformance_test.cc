@@ -8,7 +8,7 @@
 #include <stop_token>
 #include <string>
 
-#include "halfstep/planner/search/planner_registry.h"
+#include "planner/search/planner_registry.h"
 #include "tests/planner/flat_world.h"
 
 namespace halfstep {

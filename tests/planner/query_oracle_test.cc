@@ -8,14 +8,14 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/planner/collision/collision_world.h"
-#include "halfstep/planner/collision/separation.h"
-#include "halfstep/planner/collision/triangle_tree.h"
-#include "halfstep/planner/swept/box_tree_query.h"
-#include "halfstep/planner/swept/swept_volume_query.h"
-#include "halfstep/wpg/geometry/support_polygon.h"
+#include "planner/collision/collision_world.h"
+#include "planner/collision/separation.h"
+#include "planner/collision/triangle_tree.h"
+#include "planner/swept/box_tree_query.h"
+#include "planner/swept/swept_volume_query.h"
 #include "tests/draws.h"
 #include "tests/planner/swept_volume_draws.h"
+#include "wpg/geometry/support_polygon.h"
 
 namespace halfstep {
 namespace {

@@ -1,4 +1,4 @@
-#include "halfstep/planner/scene/scene.h"
+#include "planner/scene/scene.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,10 +12,10 @@
 #include <string>
 #include <variant>
 
-#include "halfstep/planner/collision/separation.h"
-#include "halfstep/planner/scene/simple_polygon.h"
-#include "halfstep/wpg/files/input_error.h"
+#include "planner/collision/separation.h"
+#include "planner/scene/simple_polygon.h"
 #include "tests/fixture_check.h"
+#include "wpg/files/input_error.h"
 
 namespace halfstep {
 namespace {

@@ -1,4 +1,4 @@
-#include "halfstep/planner/collision/separation.h"
+#include "planner/collision/separation.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-#include "halfstep/planner/collision/convex_distance.h"
+#include "planner/collision/convex_distance.h"
 #include "tests/draws.h"
 #include "tests/planner/brute_force_distance.h"
 

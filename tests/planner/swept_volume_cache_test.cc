@@ -1,4 +1,4 @@
-#include "halfstep/planner/swept/swept_volume_cache.h"
+#include "planner/swept/swept_volume_cache.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,9 +13,9 @@
 #include <stdexcept>
 #include <thread>
 
-#include "halfstep/planner/swept/swept_volume_bytes.h"
-#include "halfstep/wpg/files/checked_file.h"
+#include "planner/swept/swept_volume_bytes.h"
 #include "tests/planner/swept_volume_draws.h"
+#include "wpg/files/checked_file.h"
 
 namespace halfstep {
 namespace {

@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/planner/swept/swept_volume.h"
-#include "halfstep/planner/swept/swept_volume_bake.h"
-#include "halfstep/planner/swept/swept_volume_query.h"
-#include "halfstep/wpg/motion/posture.h"
-#include "halfstep/wpg/robot/robot_model.h"
+#include "planner/swept/swept_volume.h"
+#include "planner/swept/swept_volume_bake.h"
+#include "planner/swept/swept_volume_query.h"
+#include "wpg/motion/posture.h"
+#include "wpg/robot/robot_model.h"
 
 namespace halfstep {
 

@@ -2,7 +2,7 @@
 
 #include <random>
 
-#include "halfstep/planner/search/planner_registry.h"
+#include "planner/search/planner_registry.h"
 #include "tests/planner/swept_volume_draws.h"
 
 namespace halfstep {

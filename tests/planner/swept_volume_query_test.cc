@@ -1,4 +1,4 @@
-#include "halfstep/planner/swept/swept_volume_query.h"
+#include "planner/swept/swept_volume_query.h"
 
 #include <gtest/gtest.h>
 
@@ -8,12 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/planner/collision/collision_world.h"
-#include "halfstep/planner/collision/mesh_interior.h"
-#include "halfstep/planner/collision/mesh_winding.h"
-#include "halfstep/wpg/files/input_error.h"
-#include "halfstep/wpg/geometry/support_polygon.h"
+#include "planner/collision/collision_world.h"
+#include "planner/collision/mesh_interior.h"
+#include "planner/collision/mesh_winding.h"
 #include "tests/planner/swept_volume_draws.h"
+#include "wpg/files/input_error.h"
+#include "wpg/geometry/support_polygon.h"
 
 namespace halfstep {
 namespace {

@@ -1,4 +1,4 @@
-#include "halfstep/planner/swept/swept_volume.h"
+#include "planner/swept/swept_volume.h"
 
 #include <gtest/gtest.h>
 

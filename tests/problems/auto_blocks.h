@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "halfstep/opt/problem/problem.h"
+#include "opt/problem/problem.h"
 #include "tests/problems/dual.h"
 
 namespace halfstep::testing {

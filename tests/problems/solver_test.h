@@ -7,7 +7,7 @@
 #include <memory>
 #include <string>
 
-#include "halfstep/opt/adapters/solver_registry.h"
+#include "opt/adapters/solver_registry.h"
 
 namespace halfstep::testing {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
-#include "halfstep/planner/collision/separation.h"
-#include "halfstep/smoothing/margins/margin_evaluator.h"
+#include "planner/collision/separation.h"
+#include "smoothing/margins/margin_evaluator.h"
 #include "tests/scenarios/load_experiment.h"
 #include "tests/smoothing/test_walks.h"
 

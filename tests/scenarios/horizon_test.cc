@@ -1,17 +1,17 @@
 // Windows of a walk, and the method that goes along a walk by them.
 
-#include "halfstep/smoothing/methods/horizon.h"
+#include "smoothing/methods/horizon.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <memory>
 
-#include "halfstep/smoothing/methods/dichotomy.h"
-#include "halfstep/smoothing/methods/smoother_registry.h"
-#include "halfstep/smoothing/methods/walk_window.h"
-#include "halfstep/smoothing/proof/certified_feasibility.h"
-#include "halfstep/smoothing/proof/stoppable_feasibility.h"
+#include "smoothing/methods/dichotomy.h"
+#include "smoothing/methods/smoother_registry.h"
+#include "smoothing/methods/walk_window.h"
+#include "smoothing/proof/certified_feasibility.h"
+#include "smoothing/proof/stoppable_feasibility.h"
 #include "tests/scenarios/load_experiment.h"
 #include "tests/smoothing/smoothed.h"
 #include "tests/smoothing/test_walks.h"

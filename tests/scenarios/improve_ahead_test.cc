@@ -1,12 +1,12 @@
-#include "halfstep/smoothing/methods/improve_ahead.h"
+#include "smoothing/methods/improve_ahead.h"
 
 #include <gtest/gtest.h>
 
 #include <memory>
 
-#include "halfstep/smoothing/methods/dichotomy.h"
-#include "halfstep/smoothing/proof/certified_feasibility.h"
-#include "halfstep/smoothing/proof/stoppable_feasibility.h"
+#include "smoothing/methods/dichotomy.h"
+#include "smoothing/proof/certified_feasibility.h"
+#include "smoothing/proof/stoppable_feasibility.h"
 #include "tests/scenarios/load_experiment.h"
 #include "tests/smoothing/smoothed.h"
 

@@ -1,6 +1,6 @@
 // A lower bound on all walks: never above a certified one, and what it is made of.
 
-#include "halfstep/smoothing/methods/lipm_bound.h"
+#include "smoothing/methods/lipm_bound.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,8 +10,8 @@
 #include <string>
 #include <utility>
 
-#include "halfstep/smoothing/methods/dichotomy.h"
-#include "halfstep/smoothing/proof/certified_feasibility.h"
+#include "smoothing/methods/dichotomy.h"
+#include "smoothing/proof/certified_feasibility.h"
 #include "tests/scenarios/load_experiment.h"
 #include "tests/smoothing/smoothed.h"
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "halfstep/experiments/config/experiment.h"
+#include "experiments/config/experiment.h"
 
 namespace halfstep {
 

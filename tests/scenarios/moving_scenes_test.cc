@@ -10,11 +10,11 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/smoothing/margins/slack_evaluator.h"
-#include "halfstep/smoothing/methods/dichotomy.h"
-#include "halfstep/smoothing/methods/smoother_registry.h"
-#include "halfstep/smoothing/program/watched_instants.h"
-#include "halfstep/smoothing/proof/certified_feasibility.h"
+#include "smoothing/margins/slack_evaluator.h"
+#include "smoothing/methods/dichotomy.h"
+#include "smoothing/methods/smoother_registry.h"
+#include "smoothing/program/watched_instants.h"
+#include "smoothing/proof/certified_feasibility.h"
 #include "tests/scenarios/load_experiment.h"
 #include "tests/smoothing/smoothed.h"
 #include "tests/smoothing/test_walks.h"

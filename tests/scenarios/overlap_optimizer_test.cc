@@ -1,6 +1,6 @@
 // The programs and the optimizer on shipped experiments.
 
-#include "halfstep/smoothing/methods/overlap_optimizer.h"
+#include "smoothing/methods/overlap_optimizer.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,11 +10,11 @@
 #include <stop_token>
 #include <utility>
 
-#include "halfstep/opt/adapters/solver_registry.h"
-#include "halfstep/smoothing/methods/dichotomy.h"
-#include "halfstep/smoothing/methods/incumbent.h"
-#include "halfstep/smoothing/methods/pareto.h"
-#include "halfstep/smoothing/proof/certified_feasibility.h"
+#include "opt/adapters/solver_registry.h"
+#include "smoothing/methods/dichotomy.h"
+#include "smoothing/methods/incumbent.h"
+#include "smoothing/methods/pareto.h"
+#include "smoothing/proof/certified_feasibility.h"
 #include "tests/scenarios/load_experiment.h"
 #include "tests/smoothing/fake_feasibility.h"
 #include "tests/smoothing/smoothed.h"

@@ -1,11 +1,11 @@
 // What a junction's overlap costs, against bisecting it anew with less demanded.
 
-#include "halfstep/smoothing/methods/overlap_prices.h"
+#include "smoothing/methods/overlap_prices.h"
 
 #include <gtest/gtest.h>
 
-#include "halfstep/smoothing/methods/dichotomy.h"
-#include "halfstep/smoothing/proof/certified_feasibility.h"
+#include "smoothing/methods/dichotomy.h"
+#include "smoothing/proof/certified_feasibility.h"
 #include "tests/scenarios/load_experiment.h"
 #include "tests/smoothing/smoothed.h"
 #include "tests/smoothing/test_walks.h"

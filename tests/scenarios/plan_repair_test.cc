@@ -1,12 +1,12 @@
 // Plans that are not feasible: too fast, too low, out of reach.
 
-#include "halfstep/smoothing/methods/plan_repair.h"
+#include "smoothing/methods/plan_repair.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "halfstep/smoothing/proof/certified_feasibility.h"
-#include "halfstep/smoothing/walk/superposed_walk.h"
+#include "smoothing/proof/certified_feasibility.h"
+#include "smoothing/walk/superposed_walk.h"
 #include "tests/scenarios/load_experiment.h"
 
 namespace halfstep {

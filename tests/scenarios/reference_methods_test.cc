@@ -6,14 +6,14 @@
 #include <cmath>
 #include <stop_token>
 
-#include "halfstep/smoothing/methods/coordinate_ascent.h"
-#include "halfstep/smoothing/methods/dichotomy.h"
-#include "halfstep/smoothing/methods/dynamic_program.h"
-#include "halfstep/smoothing/methods/reference_search.h"
-#include "halfstep/smoothing/methods/smoother_registry.h"
-#include "halfstep/smoothing/methods/uniform_scan.h"
-#include "halfstep/smoothing/program/overlap_program.h"
-#include "halfstep/smoothing/proof/certified_feasibility.h"
+#include "smoothing/methods/coordinate_ascent.h"
+#include "smoothing/methods/dichotomy.h"
+#include "smoothing/methods/dynamic_program.h"
+#include "smoothing/methods/reference_search.h"
+#include "smoothing/methods/smoother_registry.h"
+#include "smoothing/methods/uniform_scan.h"
+#include "smoothing/program/overlap_program.h"
+#include "smoothing/proof/certified_feasibility.h"
 #include "tests/scenarios/load_experiment.h"
 #include "tests/smoothing/fake_feasibility.h"
 #include "tests/smoothing/smoothed.h"

@@ -1,4 +1,4 @@
-#include "halfstep/smoothing/proof/sampled_feasibility.h"
+#include "smoothing/proof/sampled_feasibility.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "halfstep/smoothing/margins/slack_evaluator.h"
+#include "smoothing/margins/slack_evaluator.h"
 
 #include <gtest/gtest.h>
 

@@ -5,10 +5,10 @@
 #include <memory>
 #include <vector>
 
-#include "halfstep/smoothing/methods/dichotomy.h"
-#include "halfstep/smoothing/methods/overlap_optimizer.h"
-#include "halfstep/smoothing/proof/certified_feasibility.h"
-#include "halfstep/smoothing/proof/stoppable_feasibility.h"
+#include "smoothing/methods/dichotomy.h"
+#include "smoothing/methods/overlap_optimizer.h"
+#include "smoothing/proof/certified_feasibility.h"
+#include "smoothing/proof/stoppable_feasibility.h"
 #include "tests/scenarios/load_experiment.h"
 #include "tests/smoothing/smoothed.h"
 

@@ -1,9 +1,9 @@
-#include "halfstep/smoothing/proof/stretch_proofs.h"
+#include "smoothing/proof/stretch_proofs.h"
 
 #include <gtest/gtest.h>
 
-#include "halfstep/smoothing/methods/dichotomy.h"
-#include "halfstep/smoothing/proof/certified_feasibility.h"
+#include "smoothing/methods/dichotomy.h"
+#include "smoothing/proof/certified_feasibility.h"
 #include "tests/scenarios/load_experiment.h"
 #include "tests/smoothing/fake_feasibility.h"
 #include "tests/smoothing/smoothed.h"

@@ -1,4 +1,4 @@
-#include "halfstep/smoothing/program/watched_instants.h"
+#include "smoothing/program/watched_instants.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "halfstep/experiments/server/client_message.h"
+#include "experiments/server/client_message.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,8 +6,8 @@
 #include <random>
 #include <string>
 
-#include "halfstep/experiments/server/message_fields.h"
-#include "halfstep/wpg/files/input_error.h"
+#include "experiments/server/message_fields.h"
+#include "wpg/files/input_error.h"
 
 namespace halfstep {
 namespace {

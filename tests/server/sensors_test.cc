@@ -3,14 +3,14 @@
 
 #include <chrono>
 
-#include "halfstep/experiments/live/messages.h"
-#include "halfstep/experiments/live/past_worlds.h"
-#include "halfstep/experiments/live/spare_boxes.h"
-#include "halfstep/experiments/server/client_sensor.h"
-#include "halfstep/experiments/server/edited_sensor.h"
-#include "halfstep/experiments/server/served_episode.h"
-#include "halfstep/wpg/files/input_error.h"
+#include "experiments/live/messages.h"
+#include "experiments/live/past_worlds.h"
+#include "experiments/live/spare_boxes.h"
+#include "experiments/server/client_sensor.h"
+#include "experiments/server/edited_sensor.h"
+#include "experiments/server/served_episode.h"
 #include "tests/live/small_episode.h"
+#include "wpg/files/input_error.h"
 
 namespace halfstep {
 namespace {

@@ -10,9 +10,9 @@
 #include <thread>
 #include <vector>
 
-#include "halfstep/experiments/report/report_page.h"
-#include "halfstep/experiments/run/exit_status.h"
-#include "halfstep/experiments/server/server.h"
+#include "experiments/report/report_page.h"
+#include "experiments/run/exit_status.h"
+#include "experiments/server/server.h"
 #include "tests/experiments/child_process.h"
 #include "tests/live/small_episode.h"
 #include "tests/server/test_client.h"

@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/planner/scene/scene.h"
-#include "halfstep/smoothing/proof/sampled_feasibility.h"
-#include "halfstep/wpg/geometry/footprint.h"
+#include "planner/scene/scene.h"
+#include "smoothing/proof/sampled_feasibility.h"
 #include "tests/smoothing/test_walks.h"
 #include "tests/wpg/generated_robots.h"
 #include "tests/wpg/shipped_robots.h"
+#include "wpg/geometry/footprint.h"
 
 namespace halfstep {
 

@@ -6,8 +6,8 @@
 #include <limits>
 #include <vector>
 
-#include "halfstep/smoothing/proof/certified_feasibility.h"
-#include "halfstep/smoothing/proof/interval_statements.h"
+#include "smoothing/proof/certified_feasibility.h"
+#include "smoothing/proof/interval_statements.h"
 #include "tests/smoothing/certificate_draws.h"
 #include "tests/smoothing/motion_truth.h"
 #include "tests/wpg/torque_limits.h"

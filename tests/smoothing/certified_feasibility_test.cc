@@ -1,4 +1,4 @@
-#include "halfstep/smoothing/proof/certified_feasibility.h"
+#include "smoothing/proof/certified_feasibility.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <set>
 #include <stop_token>
 
-#include "halfstep/smoothing/methods/dichotomy.h"
-#include "halfstep/smoothing/proof/sampled_feasibility.h"
+#include "smoothing/methods/dichotomy.h"
+#include "smoothing/proof/sampled_feasibility.h"
 #include "tests/smoothing/certificate_draws.h"
 #include "tests/smoothing/smoothed.h"
 

@@ -1,6 +1,6 @@
 // The bisection itself, with feasibility given by a rule on the overlaps.
 
-#include "halfstep/smoothing/methods/dichotomy.h"
+#include "smoothing/methods/dichotomy.h"
 
 #include <gtest/gtest.h>
 

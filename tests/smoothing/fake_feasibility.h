@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/smoothing/proof/feasibility_test.h"
-#include "halfstep/smoothing/walk/homotopy_parameters.h"
+#include "smoothing/proof/feasibility_test.h"
+#include "smoothing/walk/homotopy_parameters.h"
 
 namespace halfstep {
 

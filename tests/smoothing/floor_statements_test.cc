@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 
-#include "halfstep/smoothing/margins/body_heights.h"
-#include "halfstep/smoothing/margins/slack_evaluator.h"
-#include "halfstep/smoothing/proof/certified_feasibility.h"
-#include "halfstep/smoothing/proof/sampled_feasibility.h"
+#include "smoothing/margins/body_heights.h"
+#include "smoothing/margins/slack_evaluator.h"
+#include "smoothing/proof/certified_feasibility.h"
+#include "smoothing/proof/sampled_feasibility.h"
 #include "tests/smoothing/test_walks.h"
 
 namespace halfstep {

@@ -1,4 +1,4 @@
-#include "halfstep/smoothing/walk/homotopy_parameters.h"
+#include "smoothing/walk/homotopy_parameters.h"
 
 #include <gtest/gtest.h>
 

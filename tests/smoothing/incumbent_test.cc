@@ -1,10 +1,10 @@
-#include "halfstep/smoothing/methods/incumbent.h"
+#include "smoothing/methods/incumbent.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "halfstep/smoothing/program/overlap_program.h"
+#include "smoothing/program/overlap_program.h"
 #include "tests/smoothing/fake_feasibility.h"
 #include "tests/smoothing/test_walks.h"
 

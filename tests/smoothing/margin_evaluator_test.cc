@@ -1,4 +1,4 @@
-#include "halfstep/smoothing/margins/margin_evaluator.h"
+#include "smoothing/margins/margin_evaluator.h"
 
 #include <gtest/gtest.h>
 
@@ -7,13 +7,13 @@
 #include <limits>
 #include <string>
 
-#include "halfstep/planner/collision/separation.h"
-#include "halfstep/smoothing/proof/certified_feasibility.h"
-#include "halfstep/wpg/robot/torque_limits.h"
+#include "planner/collision/separation.h"
+#include "smoothing/proof/certified_feasibility.h"
 #include "tests/smoothing/test_scenes.h"
 #include "tests/smoothing/test_walks.h"
 #include "tests/wpg/symmetric_masses.h"
 #include "tests/wpg/torque_limits.h"
+#include "wpg/robot/torque_limits.h"
 
 namespace halfstep {
 namespace {

@@ -1,4 +1,4 @@
-#include "halfstep/smoothing/proof/missed_demands.h"
+#include "smoothing/proof/missed_demands.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <limits>
 #include <map>
 
-#include "halfstep/smoothing/proof/certified_feasibility.h"
+#include "smoothing/proof/certified_feasibility.h"
 #include "tests/wpg/hrp2.h"
 
 namespace halfstep {

@@ -1,5 +1,5 @@
-#include "halfstep/smoothing/proof/interval_statements.h"
-#include "halfstep/wpg/motion/motion_bounds.h"
+#include "smoothing/proof/interval_statements.h"
+#include "wpg/motion/motion_bounds.h"
 
 #include <gtest/gtest.h>
 

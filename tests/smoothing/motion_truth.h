@@ -7,11 +7,11 @@
 #include <string_view>
 #include <vector>
 
-#include "halfstep/smoothing/walk/superposed_walk.h"
-#include "halfstep/wpg/geometry/convex_body.h"
-#include "halfstep/wpg/motion/motion_bounds.h"
-#include "halfstep/wpg/motion/posture.h"
-#include "halfstep/wpg/robot/robot_model.h"
+#include "smoothing/walk/superposed_walk.h"
+#include "wpg/geometry/convex_body.h"
+#include "wpg/motion/motion_bounds.h"
+#include "wpg/motion/posture.h"
+#include "wpg/robot/robot_model.h"
 
 namespace halfstep {
 

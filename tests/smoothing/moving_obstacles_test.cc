@@ -4,11 +4,11 @@
 
 #include <cmath>
 
-#include "halfstep/smoothing/methods/dichotomy.h"
-#include "halfstep/smoothing/methods/reference_search.h"
-#include "halfstep/smoothing/program/overlap_variables.h"
-#include "halfstep/smoothing/proof/certified_feasibility.h"
-#include "halfstep/smoothing/proof/stretch_proofs.h"
+#include "smoothing/methods/dichotomy.h"
+#include "smoothing/methods/reference_search.h"
+#include "smoothing/program/overlap_variables.h"
+#include "smoothing/proof/certified_feasibility.h"
+#include "smoothing/proof/stretch_proofs.h"
 #include "tests/smoothing/fake_feasibility.h"
 #include "tests/smoothing/smoothed.h"
 #include "tests/smoothing/test_walks.h"

@@ -1,10 +1,10 @@
-#include "halfstep/smoothing/program/overlap_variables.h"
+#include "smoothing/program/overlap_variables.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "halfstep/opt/problem/derivative_check.h"
+#include "opt/problem/derivative_check.h"
 #include "tests/smoothing/test_walks.h"
 
 namespace halfstep {

@@ -1,4 +1,4 @@
-#include "halfstep/smoothing/walk/parameter_table.h"
+#include "smoothing/walk/parameter_table.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <string>
 
-#include "halfstep/smoothing/methods/coordinate_ascent.h"
-#include "halfstep/smoothing/methods/dichotomy.h"
-#include "halfstep/smoothing/methods/reference_search.h"
-#include "halfstep/smoothing/methods/uniform_scan.h"
-#include "halfstep/smoothing/program/overlap_variables.h"
+#include "smoothing/methods/coordinate_ascent.h"
+#include "smoothing/methods/dichotomy.h"
+#include "smoothing/methods/reference_search.h"
+#include "smoothing/methods/uniform_scan.h"
+#include "smoothing/program/overlap_variables.h"
 #include "tests/smoothing/fake_feasibility.h"
 #include "tests/smoothing/smoothed.h"
 #include "tests/smoothing/test_walks.h"

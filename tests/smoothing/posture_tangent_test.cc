@@ -1,8 +1,8 @@
-#include "halfstep/smoothing/walk/posture_tangent.h"
+#include "smoothing/walk/posture_tangent.h"
 
 #include <gtest/gtest.h>
 
-#include "halfstep/opt/problem/derivative_check.h"
+#include "opt/problem/derivative_check.h"
 #include "tests/smoothing/test_walks.h"
 
 namespace halfstep {

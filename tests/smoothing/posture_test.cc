@@ -1,12 +1,12 @@
-#include "halfstep/wpg/motion/posture.h"
+#include "wpg/motion/posture.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "halfstep/opt/problem/derivative_check.h"
-#include "halfstep/smoothing/walk/superposed_walk.h"
+#include "opt/problem/derivative_check.h"
+#include "smoothing/walk/superposed_walk.h"
 #include "tests/smoothing/test_walks.h"
 
 namespace halfstep {

@@ -1,21 +1,21 @@
 // The dynamics of the whole robot: its ZMP against momentum by differences, slopes against
 // differences, the drift over intervals against dense samples.
 
-#include "halfstep/wpg/motion/robot_dynamics.h"
+#include "wpg/motion/robot_dynamics.h"
 
 #include <gtest/gtest.h>
 
 #include <optional>
 
-#include "halfstep/opt/problem/derivative_check.h"
-#include "halfstep/smoothing/proof/interval_statements.h"
-#include "halfstep/smoothing/walk/posture_tangent.h"
-#include "halfstep/wpg/motion/leg_drift.h"
-#include "halfstep/wpg/motion/zmp_drift.h"
-#include "halfstep/wpg/motion/zmp_slopes.h"
+#include "opt/problem/derivative_check.h"
+#include "smoothing/proof/interval_statements.h"
+#include "smoothing/walk/posture_tangent.h"
 #include "tests/smoothing/certificate_draws.h"
 #include "tests/smoothing/robot_truth.h"
 #include "tests/wpg/symmetric_masses.h"
+#include "wpg/motion/leg_drift.h"
+#include "wpg/motion/zmp_drift.h"
+#include "wpg/motion/zmp_slopes.h"
 
 namespace halfstep {
 namespace {

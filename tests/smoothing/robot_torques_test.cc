@@ -5,18 +5,18 @@
 
 #include <optional>
 
-#include "halfstep/opt/problem/derivative_check.h"
-#include "halfstep/smoothing/proof/certified_feasibility.h"
-#include "halfstep/smoothing/proof/interval_statements.h"
-#include "halfstep/smoothing/walk/posture_tangent.h"
-#include "halfstep/wpg/geometry/support_polygon.h"
-#include "halfstep/wpg/motion/foot_friction.h"
-#include "halfstep/wpg/motion/foot_loads.h"
-#include "halfstep/wpg/motion/leg_torques.h"
-#include "halfstep/wpg/motion/torque_drift.h"
-#include "halfstep/wpg/motion/zmp_slopes.h"
+#include "opt/problem/derivative_check.h"
+#include "smoothing/proof/certified_feasibility.h"
+#include "smoothing/proof/interval_statements.h"
+#include "smoothing/walk/posture_tangent.h"
 #include "tests/smoothing/certificate_draws.h"
 #include "tests/smoothing/robot_truth.h"
+#include "wpg/geometry/support_polygon.h"
+#include "wpg/motion/foot_friction.h"
+#include "wpg/motion/foot_loads.h"
+#include "wpg/motion/leg_torques.h"
+#include "wpg/motion/torque_drift.h"
+#include "wpg/motion/zmp_slopes.h"
 
 namespace halfstep {
 namespace {

@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/smoothing/walk/superposed_walk.h"
-#include "halfstep/wpg/motion/posture.h"
-#include "halfstep/wpg/robot/robot_tree.h"
+#include "smoothing/walk/superposed_walk.h"
 #include "tests/smoothing/test_walks.h"
 #include "tests/wpg/generated_robots.h"
 #include "tests/wpg/shipped_robots.h"
+#include "wpg/motion/posture.h"
+#include "wpg/robot/robot_tree.h"
 
 namespace halfstep {
 

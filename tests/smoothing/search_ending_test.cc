@@ -1,4 +1,4 @@
-#include "halfstep/smoothing/methods/search_ending.h"
+#include "smoothing/methods/search_ending.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "halfstep/smoothing/methods/smoothing_monitor.h"
-#include "halfstep/smoothing/methods/walk_problem.h"
+#include "smoothing/methods/smoothing_monitor.h"
+#include "smoothing/methods/walk_problem.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "halfstep/smoothing/methods/smoothing_monitor.h"
+#include "smoothing/methods/smoothing_monitor.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/smoothing/methods/smoother_registry.h"
+#include "smoothing/methods/smoother_registry.h"
 #include "tests/smoothing/fake_feasibility.h"
 #include "tests/smoothing/smoothed.h"
 #include "tests/smoothing/test_walks.h"

@@ -1,6 +1,6 @@
 // Rests, and walks that follow on others. Statements by number: smoothing/README.md, "Successors".
 
-#include "halfstep/smoothing/walk/splice.h"
+#include "smoothing/walk/splice.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "halfstep/smoothing/proof/stoppable_feasibility.h"
+#include "smoothing/proof/stoppable_feasibility.h"
 #include "tests/smoothing/fake_feasibility.h"
 #include "tests/smoothing/test_walks.h"
 

@@ -1,4 +1,4 @@
-#include "halfstep/smoothing/walk/superposed_walk.h"
+#include "smoothing/walk/superposed_walk.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "halfstep/opt/problem/derivative_check.h"
+#include "opt/problem/derivative_check.h"
 #include "tests/smoothing/test_walks.h"
 
 namespace halfstep {

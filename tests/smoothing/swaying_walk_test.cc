@@ -5,15 +5,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "halfstep/opt/problem/derivative_check.h"
-#include "halfstep/smoothing/margins/margin_evaluator.h"
-#include "halfstep/smoothing/program/walk_effort.h"
-#include "halfstep/smoothing/proof/certified_feasibility.h"
-#include "halfstep/wpg/motion/robot_drift.h"
-#include "halfstep/wpg/motion/robot_dynamics.h"
-#include "halfstep/wpg/motion/zmp_drift.h"
+#include "opt/problem/derivative_check.h"
+#include "smoothing/margins/margin_evaluator.h"
+#include "smoothing/program/walk_effort.h"
+#include "smoothing/proof/certified_feasibility.h"
 #include "tests/smoothing/motion_truth.h"
 #include "tests/smoothing/test_walks.h"
+#include "wpg/motion/robot_drift.h"
+#include "wpg/motion/robot_dynamics.h"
+#include "wpg/motion/zmp_drift.h"
 
 namespace halfstep {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "halfstep/planner/scene/scene.h"
+#include "planner/scene/scene.h"
 #include "tests/smoothing/test_walks.h"
 
 namespace halfstep {

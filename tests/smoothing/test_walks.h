@@ -4,9 +4,9 @@
 #include <cmath>
 #include <vector>
 
-#include "halfstep/smoothing/margins/margin.h"
-#include "halfstep/smoothing/walk/parameter_table.h"
-#include "halfstep/smoothing/walk/superposed_walk.h"
+#include "smoothing/margins/margin.h"
+#include "smoothing/walk/parameter_table.h"
+#include "smoothing/walk/superposed_walk.h"
 #include "tests/wpg/sequence_draw.h"
 
 namespace halfstep {

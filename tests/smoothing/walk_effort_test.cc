@@ -1,10 +1,10 @@
-#include "halfstep/smoothing/program/walk_effort.h"
+#include "smoothing/program/walk_effort.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "halfstep/opt/problem/derivative_check.h"
+#include "opt/problem/derivative_check.h"
 #include "tests/smoothing/test_walks.h"
 
 namespace halfstep {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "halfstep/smoothing/walk/superposed_walk.h"
+#include "smoothing/walk/superposed_walk.h"
 #include "tests/smoothing/test_walks.h"
 
 namespace halfstep {

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <limits>
 
-#include "halfstep/opt/problem/derivative_check.h"
-#include "halfstep/smoothing/walk/superposed_walk.h"
-#include "halfstep/wpg/motion/posture.h"
+#include "opt/problem/derivative_check.h"
+#include "smoothing/walk/superposed_walk.h"
 #include "tests/smoothing/test_walks.h"
+#include "wpg/motion/posture.h"
 
 namespace halfstep {
 namespace {

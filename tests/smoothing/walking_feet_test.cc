@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "halfstep/smoothing/walk/superposed_walk.h"
+#include "smoothing/walk/superposed_walk.h"
 #include "tests/smoothing/test_walks.h"
 
 namespace halfstep {

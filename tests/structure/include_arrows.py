@@ -23,7 +23,6 @@ BELOW = {
 
 def includes_of(path):
     found = re.findall(r'^#include "([^"]+)"', path.read_text(encoding="utf-8"), re.M)
-    found = [name.removeprefix("halfstep/") for name in found]
     return [name for name in found if (ROOT / name).exists()]
 
 

@@ -1,10 +1,10 @@
 // The distances of `halfstep verify` against the program's.
 
-#include "halfstep/experiments/verify/solid.h"
+#include "experiments/verify/solid.h"
 
 #include <gtest/gtest.h>
 
-#include "halfstep/planner/collision/separation.h"
+#include "planner/collision/separation.h"
 #include "tests/oracle/nasty_draws.h"
 
 namespace halfstep::verify {

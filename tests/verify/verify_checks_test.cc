@@ -7,15 +7,15 @@
 #include <algorithm>
 #include <functional>
 
-#include "halfstep/experiments/config/experiment.h"
-#include "halfstep/experiments/verify/certificate_text.h"
-#include "halfstep/experiments/verify/check_certificate.h"
-#include "halfstep/experiments/verify/check_claims.h"
-#include "halfstep/experiments/verify/check_clearance.h"
-#include "halfstep/experiments/verify/check_margin_columns.h"
-#include "halfstep/experiments/verify/check_overlaps.h"
-#include "halfstep/experiments/verify/check_rows.h"
-#include "halfstep/experiments/verify/check_walk.h"
+#include "experiments/config/experiment.h"
+#include "experiments/verify/certificate_text.h"
+#include "experiments/verify/check_certificate.h"
+#include "experiments/verify/check_claims.h"
+#include "experiments/verify/check_clearance.h"
+#include "experiments/verify/check_margin_columns.h"
+#include "experiments/verify/check_overlaps.h"
+#include "experiments/verify/check_rows.h"
+#include "experiments/verify/check_walk.h"
 #include "tests/verify/verify_mutation.h"
 
 namespace halfstep::verify {

@@ -5,10 +5,10 @@
 
 #include <random>
 
-#include "halfstep/experiments/run/exit_status.h"
-#include "halfstep/experiments/verify/described_sway.h"
-#include "halfstep/wpg/motion/waist_sway.h"
+#include "experiments/run/exit_status.h"
+#include "experiments/verify/described_sway.h"
 #include "tests/verify/verify_mutation.h"
+#include "wpg/motion/waist_sway.h"
 
 namespace halfstep {
 namespace {

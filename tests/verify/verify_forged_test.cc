@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "halfstep/experiments/verify/verify_run.h"
+#include "experiments/verify/verify_run.h"
 #include "tests/verify/verify_mutation.h"
 
 namespace halfstep {

@@ -4,11 +4,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include "halfstep/experiments/run/complete_manifest.h"
-#include "halfstep/experiments/run/experiment_run.h"
-#include "halfstep/experiments/verify/verify_run.h"
-#include "halfstep/wpg/files/sha256.h"
+#include "experiments/run/complete_manifest.h"
+#include "experiments/run/experiment_run.h"
+#include "experiments/verify/verify_run.h"
 #include "tests/temporary_folder.h"
+#include "wpg/files/sha256.h"
 
 namespace halfstep {
 namespace {

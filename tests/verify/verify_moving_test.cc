@@ -5,8 +5,8 @@
 #include <cmath>
 #include <random>
 
-#include "halfstep/experiments/commands/commands.h"
-#include "halfstep/experiments/verify/obstacle_path.h"
+#include "experiments/commands/commands.h"
+#include "experiments/verify/obstacle_path.h"
 #include "tests/verify/verify_mutation.h"
 
 namespace halfstep {

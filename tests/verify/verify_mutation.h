@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/planner/scene/scene.h"
-#include "halfstep/wpg/files/sha256.h"
-#include "halfstep/wpg/robot/robot_model.h"
+#include "planner/scene/scene.h"
 #include "tests/experiments/child_process.h"
 #include "tests/temporary_folder.h"
+#include "wpg/files/sha256.h"
+#include "wpg/robot/robot_model.h"
 
 namespace halfstep {
 

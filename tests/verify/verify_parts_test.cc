@@ -7,15 +7,15 @@
 #include <cmath>
 #include <random>
 
-#include "halfstep/experiments/config/experiment.h"
-#include "halfstep/experiments/verify/check_clearance.h"
-#include "halfstep/experiments/verify/check_overlaps.h"
-#include "halfstep/experiments/verify/check_rows.h"
-#include "halfstep/experiments/verify/described_walk.h"
-#include "halfstep/experiments/verify/distances.h"
-#include "halfstep/experiments/verify/floor_distances.h"
-#include "halfstep/experiments/verify/played_motion.h"
-#include "halfstep/smoothing/walk/superposed_walk.h"
+#include "experiments/config/experiment.h"
+#include "experiments/verify/check_clearance.h"
+#include "experiments/verify/check_overlaps.h"
+#include "experiments/verify/check_rows.h"
+#include "experiments/verify/described_walk.h"
+#include "experiments/verify/distances.h"
+#include "experiments/verify/floor_distances.h"
+#include "experiments/verify/played_motion.h"
+#include "smoothing/walk/superposed_walk.h"
 #include "tests/experiments/child_process.h"
 
 namespace halfstep::verify {

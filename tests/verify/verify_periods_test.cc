@@ -2,9 +2,9 @@
 
 #include <gmock/gmock.h>
 
-#include "halfstep/experiments/commands/commands.h"
-#include "halfstep/wpg/files/number_text.h"
+#include "experiments/commands/commands.h"
 #include "tests/verify/verify_mutation.h"
+#include "wpg/files/number_text.h"
 
 namespace halfstep {
 namespace {

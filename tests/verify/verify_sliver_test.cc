@@ -3,9 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "halfstep/experiments/verify/verify_run.h"
-#include "halfstep/wpg/files/number_text.h"
+#include "experiments/verify/verify_run.h"
 #include "tests/verify/verify_mutation.h"
+#include "wpg/files/number_text.h"
 
 namespace halfstep {
 namespace {

@@ -6,9 +6,9 @@
 #include <set>
 #include <sstream>
 
-#include "halfstep/experiments/verify/certificate_text.h"
-#include "halfstep/wpg/files/number_text.h"
+#include "experiments/verify/certificate_text.h"
 #include "tests/verify/what_is_claimed.h"
+#include "wpg/files/number_text.h"
 
 namespace halfstep {
 namespace {

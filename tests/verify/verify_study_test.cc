@@ -6,9 +6,9 @@
 #include <cstdio>
 #include <map>
 
-#include "halfstep/experiments/verify/verify_run.h"
-#include "halfstep/wpg/files/input_error.h"
+#include "experiments/verify/verify_run.h"
 #include "tests/verify/verify_study.h"
+#include "wpg/files/input_error.h"
 
 namespace halfstep {
 namespace {

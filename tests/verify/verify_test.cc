@@ -1,4 +1,4 @@
-#include "halfstep/experiments/verify/verify_run.h"
+#include "experiments/verify/verify_run.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,9 +7,9 @@
 #include <cmath>
 #include <random>
 
-#include "halfstep/experiments/commands/commands.h"
-#include "halfstep/wpg/files/number_text.h"
+#include "experiments/commands/commands.h"
 #include "tests/verify/verify_mutation.h"
+#include "wpg/files/number_text.h"
 
 namespace halfstep {
 namespace {

@@ -1,4 +1,4 @@
-#include "halfstep/wpg/geometry/convex_body.h"
+#include "wpg/geometry/convex_body.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "halfstep/wpg/geometry/convex_parts.h"
+#include "wpg/geometry/convex_parts.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "halfstep/wpg/geometry/direction_map.h"
+#include "wpg/geometry/direction_map.h"
 
 #include <gtest/gtest.h>
 
@@ -9,9 +9,9 @@
 #include <stdexcept>
 #include <vector>
 
-#include "halfstep/wpg/geometry/convex_body.h"
 #include "tests/draws.h"
 #include "tests/wpg/random_direction.h"
+#include "wpg/geometry/convex_body.h"
 
 namespace halfstep {
 namespace {

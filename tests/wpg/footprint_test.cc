@@ -1,4 +1,4 @@
-#include "halfstep/wpg/geometry/footprint.h"
+#include "wpg/geometry/footprint.h"
 
 #include <gtest/gtest.h>
 

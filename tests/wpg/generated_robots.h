@@ -12,9 +12,9 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/wpg/check.h"
-#include "halfstep/wpg/geometry/side.h"
-#include "halfstep/wpg/robot/leg_ik.h"
+#include "wpg/check.h"
+#include "wpg/geometry/side.h"
+#include "wpg/robot/leg_ik.h"
 
 namespace halfstep {
 

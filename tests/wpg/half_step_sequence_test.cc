@@ -1,12 +1,12 @@
-#include "halfstep/wpg/motion/half_step_sequence.h"
+#include "wpg/motion/half_step_sequence.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 #include <stdexcept>
 
-#include "halfstep/wpg/motion/walk_state.h"
 #include "tests/wpg/sequence_draw.h"
+#include "wpg/motion/walk_state.h"
 
 namespace halfstep {
 namespace {

@@ -1,4 +1,4 @@
-#include "halfstep/wpg/motion/half_step.h"
+#include "wpg/motion/half_step.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "halfstep/opt/problem/derivative_check.h"
+#include "opt/problem/derivative_check.h"
 
 namespace halfstep {
 namespace {

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <random>
 
-#include "halfstep/wpg/files/input_error.h"
-#include "halfstep/wpg/files/number_text.h"
-#include "halfstep/wpg/files/text.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/number_text.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {

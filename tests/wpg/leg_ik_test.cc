@@ -1,4 +1,4 @@
-#include "halfstep/wpg/robot/leg_ik.h"
+#include "wpg/robot/leg_ik.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "halfstep/wpg/files/mesh_file.h"
+#include "wpg/files/mesh_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include <numbers>
 #include <string>
 
-#include "halfstep/wpg/files/input_error.h"
+#include "wpg/files/input_error.h"
 
 namespace halfstep {
 namespace {

@@ -1,12 +1,12 @@
-#include "halfstep/wpg/files/octomap_file.h"
+#include "wpg/files/octomap_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "halfstep/wpg/files/input_error.h"
 #include "tests/wpg/octomap_bytes.h"
+#include "wpg/files/input_error.h"
 
 namespace halfstep {
 namespace {

@@ -6,12 +6,12 @@
 #include <numbers>
 #include <random>
 
-#include "halfstep/wpg/robot/leg_continuation.h"
-#include "halfstep/wpg/robot/leg_ik.h"
-#include "halfstep/wpg/robot/leg_neighbourhood.h"
 #include "tests/wpg/generated_robots.h"
 #include "tests/wpg/hrp2.h"
 #include "tests/wpg/leg_differences.h"
+#include "wpg/robot/leg_continuation.h"
+#include "wpg/robot/leg_ik.h"
+#include "wpg/robot/leg_neighbourhood.h"
 
 namespace halfstep {
 namespace {

@@ -1,4 +1,4 @@
-#include "halfstep/wpg/files/point_file.h"
+#include "wpg/files/point_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <cstring>
 #include <vector>
 
-#include "halfstep/wpg/files/input_error.h"
+#include "wpg/files/input_error.h"
 
 namespace halfstep {
 namespace {

@@ -1,4 +1,4 @@
-#include "halfstep/wpg/geometry/pose2.h"
+#include "wpg/geometry/pose2.h"
 
 #include <gtest/gtest.h>
 

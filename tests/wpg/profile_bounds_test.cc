@@ -5,9 +5,9 @@
 #include <optional>
 #include <random>
 
-#include "halfstep/wpg/motion/half_step.h"
-#include "halfstep/wpg/motion/rest_to_rest.h"
-#include "halfstep/wpg/motion/smoothstep.h"
+#include "wpg/motion/half_step.h"
+#include "wpg/motion/rest_to_rest.h"
+#include "wpg/motion/smoothstep.h"
 
 namespace halfstep {
 namespace {

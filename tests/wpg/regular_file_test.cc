@@ -1,4 +1,4 @@
-#include "halfstep/wpg/files/regular_file.h"
+#include "wpg/files/regular_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,8 +7,8 @@
 
 #include <string>
 
-#include "halfstep/wpg/files/input_error.h"
 #include "tests/temporary_folder.h"
+#include "wpg/files/input_error.h"
 
 namespace halfstep {
 namespace {

@@ -1,4 +1,4 @@
-#include "halfstep/wpg/motion/rest_to_rest.h"
+#include "wpg/motion/rest_to_rest.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <random>
 #include <stdexcept>
 
-#include "halfstep/opt/problem/derivative_check.h"
-#include "halfstep/wpg/motion/lipm.h"
-#include "halfstep/wpg/motion/smoothstep.h"
+#include "opt/problem/derivative_check.h"
+#include "wpg/motion/lipm.h"
+#include "wpg/motion/smoothstep.h"
 
 namespace halfstep {
 namespace {

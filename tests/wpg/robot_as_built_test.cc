@@ -8,13 +8,13 @@
 #include <numbers>
 #include <string>
 
-#include "halfstep/wpg/files/input_error.h"
-#include "halfstep/wpg/files/regular_file.h"
-#include "halfstep/wpg/files/yaml_fields.h"
-#include "halfstep/wpg/robot/robot_fields.h"
-#include "halfstep/wpg/robot/robot_measures.h"
 #include "tests/replaced.h"
 #include "tests/wpg/hrp2.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/regular_file.h"
+#include "wpg/files/yaml_fields.h"
+#include "wpg/robot/robot_fields.h"
+#include "wpg/robot/robot_measures.h"
 
 namespace halfstep {
 namespace {

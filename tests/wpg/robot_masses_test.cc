@@ -1,15 +1,15 @@
 // Masses of the bodies that walking moves, and what is told about those of a URDF.
 
-#include "halfstep/wpg/robot/robot_masses.h"
+#include "wpg/robot/robot_masses.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <string>
 
-#include "halfstep/wpg/robot/robot_tree.h"
 #include "tests/wpg/generated_robots.h"
 #include "tests/wpg/shipped_robots.h"
+#include "wpg/robot/robot_tree.h"
 
 namespace halfstep {
 namespace {

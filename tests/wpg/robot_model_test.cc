@@ -1,4 +1,4 @@
-#include "halfstep/wpg/robot/robot_model.h"
+#include "wpg/robot/robot_model.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,17 +12,17 @@
 #include <set>
 #include <string>
 
-#include "halfstep/wpg/files/input_error.h"
-#include "halfstep/wpg/files/text.h"
-#include "halfstep/wpg/robot/leg_ik.h"
-#include "halfstep/wpg/robot/robot_fields.h"
-#include "halfstep/wpg/robot/sole_outline.h"
-#include "halfstep/wpg/robot/urdf_file.h"
 #include "tests/fixture_check.h"
 #include "tests/replaced.h"
 #include "tests/temporary_folder.h"
 #include "tests/wpg/generated_robots.h"
 #include "tests/wpg/shipped_robots.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/text.h"
+#include "wpg/robot/leg_ik.h"
+#include "wpg/robot/robot_fields.h"
+#include "wpg/robot/sole_outline.h"
+#include "wpg/robot/urdf_file.h"
 
 namespace halfstep {
 namespace {

@@ -1,4 +1,4 @@
-#include "halfstep/wpg/robot/robot_tree.h"
+#include "wpg/robot/robot_tree.h"
 
 #include <gtest/gtest.h>
 

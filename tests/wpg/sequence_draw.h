@@ -6,10 +6,10 @@
 #include <random>
 #include <vector>
 
-#include "halfstep/wpg/geometry/footprint.h"
-#include "halfstep/wpg/motion/half_step_sequence.h"
 #include "tests/draws.h"
 #include "tests/wpg/hrp2.h"
+#include "wpg/geometry/footprint.h"
+#include "wpg/motion/half_step_sequence.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "halfstep/wpg/geometry/simplified_hull.h"
+#include "wpg/geometry/simplified_hull.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "halfstep/wpg/geometry/support_polygon.h"
+#include "wpg/geometry/support_polygon.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "halfstep/wpg/geometry/footprint.h"
+#include "wpg/geometry/footprint.h"
 
 namespace halfstep {
 namespace {

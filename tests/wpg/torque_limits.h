@@ -1,6 +1,6 @@
 #pragma once
 
-#include "halfstep/wpg/robot/robot_model.h"
+#include "wpg/robot/robot_model.h"
 
 namespace halfstep {
 

@@ -1,13 +1,13 @@
-#include "halfstep/wpg/robot/urdf_file.h"
+#include "wpg/robot/urdf_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <string>
 
-#include "halfstep/wpg/files/input_error.h"
 #include "tests/temporary_folder.h"
 #include "tests/wpg/repeated.h"
+#include "wpg/files/input_error.h"
 
 namespace halfstep {
 namespace {

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/wpg/files/input_error.h"
-#include "halfstep/wpg/robot/urdf_file.h"
+#include "wpg/files/input_error.h"
+#include "wpg/robot/urdf_file.h"
 
 namespace halfstep {
 namespace {

@@ -1,4 +1,4 @@
-#include "halfstep/wpg/motion/waist_sway.h"
+#include "wpg/motion/waist_sway.h"
 
 #include <gtest/gtest.h>
 
@@ -7,12 +7,12 @@
 #include <random>
 #include <stdexcept>
 
-#include "halfstep/wpg/motion/compensation.h"
-#include "halfstep/wpg/motion/posture.h"
-#include "halfstep/wpg/motion/robot_dynamics.h"
 #include "tests/wpg/hrp2.h"
 #include "tests/wpg/sequence_draw.h"
 #include "tests/wpg/symmetric_masses.h"
+#include "wpg/motion/compensation.h"
+#include "wpg/motion/posture.h"
+#include "wpg/motion/robot_dynamics.h"
 
 namespace halfstep {
 namespace {

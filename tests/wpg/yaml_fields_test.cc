@@ -1,4 +1,4 @@
-#include "halfstep/wpg/files/yaml_fields.h"
+#include "wpg/files/yaml_fields.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,8 +7,8 @@
 #include <limits>
 #include <numbers>
 
-#include "halfstep/wpg/files/number_text.h"
 #include "tests/wpg/yaml_test_config.h"
+#include "wpg/files/number_text.h"
 
 namespace halfstep {
 namespace {

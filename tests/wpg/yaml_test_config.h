@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/wpg/files/input_error.h"
-#include "halfstep/wpg/files/yaml_fields.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/yaml_fields.h"
 
 namespace halfstep::yaml_test {
 

@@ -1,4 +1,4 @@
-#include "halfstep/wpg/files/checked_file.h"
+#include "wpg/files/checked_file.h"
 
 #include <bit>
 #include <cstdint>
@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "halfstep/wpg/files/regular_file.h"
-#include "halfstep/wpg/files/sha256.h"
-#include "halfstep/wpg/files/whole_file.h"
+#include "wpg/files/regular_file.h"
+#include "wpg/files/sha256.h"
+#include "wpg/files/whole_file.h"
 
 namespace halfstep {
 namespace {

@@ -1,4 +1,4 @@
-#include "halfstep/wpg/files/input_error.h"
+#include "wpg/files/input_error.h"
 
 #include <algorithm>
 #include <numeric>

@@ -1,8 +1,8 @@
-#include "halfstep/wpg/files/input_file.h"
+#include "wpg/files/input_file.h"
 
 #include <filesystem>
 
-#include "halfstep/wpg/files/sha256.h"
+#include "wpg/files/sha256.h"
 
 namespace halfstep {
 

@@ -1,10 +1,10 @@
-#include "halfstep/wpg/files/key_description.h"
+#include "wpg/files/key_description.h"
 
 #include <algorithm>
 #include <utility>
 
-#include "halfstep/wpg/check.h"
-#include "halfstep/wpg/files/yaml_fields.h"
+#include "wpg/check.h"
+#include "wpg/files/yaml_fields.h"
 
 namespace halfstep {
 namespace {

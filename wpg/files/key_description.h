@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/wpg/files/fields.h"
+#include "wpg/files/fields.h"
 
 namespace halfstep {
 

@@ -12,10 +12,10 @@
 #include <set>
 #include <vector>
 
-#include "halfstep/wpg/files/input_error.h"
-#include "halfstep/wpg/files/mesh_text.h"
-#include "halfstep/wpg/files/nesting.h"
-#include "halfstep/wpg/files/text.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/mesh_text.h"
+#include "wpg/files/nesting.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {

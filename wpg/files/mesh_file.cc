@@ -1,4 +1,4 @@
-#include "halfstep/wpg/files/mesh_file.h"
+#include "wpg/files/mesh_file.h"
 
 #include <algorithm>
 #include <cctype>
@@ -7,9 +7,9 @@
 #include <filesystem>
 #include <utility>
 
-#include "halfstep/wpg/files/input_error.h"
-#include "halfstep/wpg/files/mesh_text.h"
-#include "halfstep/wpg/files/regular_file.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/mesh_text.h"
+#include "wpg/files/regular_file.h"
 
 namespace halfstep {
 namespace {

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <string>
 
-#include "halfstep/wpg/files/input_file.h"
+#include "wpg/files/input_file.h"
 
 namespace halfstep {
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/wpg/files/mesh_text.h"
-#include "halfstep/wpg/files/text.h"
+#include "wpg/files/mesh_text.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {

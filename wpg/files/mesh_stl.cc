@@ -7,9 +7,9 @@
 #include <unordered_map>
 #include <vector>
 
-#include "halfstep/wpg/files/input_error.h"
-#include "halfstep/wpg/files/mesh_text.h"
-#include "halfstep/wpg/files/text.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/mesh_text.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {

@@ -1,11 +1,11 @@
-#include "halfstep/wpg/files/mesh_text.h"
+#include "wpg/files/mesh_text.h"
 
 #include <charconv>
 #include <cmath>
 #include <utility>
 
-#include "halfstep/wpg/files/input_error.h"
-#include "halfstep/wpg/files/text.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "halfstep/wpg/files/mesh_file.h"
+#include "wpg/files/mesh_file.h"
 
 namespace halfstep {
 

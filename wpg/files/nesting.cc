@@ -1,4 +1,4 @@
-#include "halfstep/wpg/files/nesting.h"
+#include "wpg/files/nesting.h"
 
 #include <algorithm>
 #include <cctype>

@@ -1,4 +1,4 @@
-#include "halfstep/wpg/files/number_text.h"
+#include "wpg/files/number_text.h"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 #include <numbers>
 #include <system_error>
 
-#include "halfstep/wpg/check.h"
+#include "wpg/check.h"
 
 namespace halfstep {
 namespace {

@@ -1,4 +1,4 @@
-#include "halfstep/wpg/files/octomap_file.h"
+#include "wpg/files/octomap_file.h"
 
 #include <octomap/OcTree.h>
 
@@ -10,10 +10,10 @@
 #include <string_view>
 #include <vector>
 
-#include "halfstep/wpg/files/input_error.h"
-#include "halfstep/wpg/files/mesh_text.h"
-#include "halfstep/wpg/files/regular_file.h"
-#include "halfstep/wpg/files/text.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/mesh_text.h"
+#include "wpg/files/regular_file.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {

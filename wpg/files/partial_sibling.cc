@@ -1,4 +1,4 @@
-#include "halfstep/wpg/files/partial_sibling.h"
+#include "wpg/files/partial_sibling.h"
 
 #include <fcntl.h>
 #include <sys/file.h>

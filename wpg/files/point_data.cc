@@ -1,4 +1,4 @@
-#include "halfstep/wpg/files/point_data.h"
+#include "wpg/files/point_data.h"
 
 #include <algorithm>
 #include <charconv>
@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <cstring>
 
-#include "halfstep/wpg/files/input_error.h"
-#include "halfstep/wpg/files/text.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "halfstep/wpg/files/mesh_text.h"
-#include "halfstep/wpg/files/point_file.h"
+#include "wpg/files/mesh_text.h"
+#include "wpg/files/point_file.h"
 
 namespace halfstep {
 

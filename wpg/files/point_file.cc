@@ -1,10 +1,10 @@
-#include "halfstep/wpg/files/point_file.h"
+#include "wpg/files/point_file.h"
 
 #include <filesystem>
 
-#include "halfstep/wpg/files/input_error.h"
-#include "halfstep/wpg/files/point_data.h"
-#include "halfstep/wpg/files/regular_file.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/point_data.h"
+#include "wpg/files/regular_file.h"
 
 namespace halfstep {
 

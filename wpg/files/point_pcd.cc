@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include "halfstep/wpg/files/point_data.h"
-#include "halfstep/wpg/files/text.h"
+#include "wpg/files/point_data.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "halfstep/wpg/files/regular_file.h"
+#include "wpg/files/regular_file.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -11,8 +11,8 @@
 #include <system_error>
 #include <utility>
 
-#include "halfstep/wpg/files/descriptor.h"
-#include "halfstep/wpg/files/input_error.h"
+#include "wpg/files/descriptor.h"
+#include "wpg/files/input_error.h"
 
 namespace halfstep {
 namespace {

@@ -1,4 +1,4 @@
-#include "halfstep/wpg/files/sha256.h"
+#include "wpg/files/sha256.h"
 
 #include <openssl/evp.h>
 

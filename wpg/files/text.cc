@@ -1,4 +1,4 @@
-#include "halfstep/wpg/files/text.h"
+#include "wpg/files/text.h"
 
 #include <algorithm>
 #include <cstdarg>

@@ -1,4 +1,4 @@
-#include "halfstep/wpg/files/whole_file.h"
+#include "wpg/files/whole_file.h"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -10,8 +10,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "halfstep/wpg/files/descriptor.h"
-#include "halfstep/wpg/files/partial_sibling.h"
+#include "wpg/files/descriptor.h"
+#include "wpg/files/partial_sibling.h"
 
 namespace halfstep {
 namespace {

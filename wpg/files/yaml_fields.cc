@@ -1,11 +1,11 @@
-#include "halfstep/wpg/files/yaml_fields.h"
+#include "wpg/files/yaml_fields.h"
 
 #include <filesystem>
 #include <utility>
 
-#include "halfstep/wpg/files/regular_file.h"
-#include "halfstep/wpg/files/yaml_node.h"
-#include "halfstep/wpg/files/yaml_reader.h"
+#include "wpg/files/regular_file.h"
+#include "wpg/files/yaml_node.h"
+#include "wpg/files/yaml_reader.h"
 
 namespace halfstep {
 

@@ -1,10 +1,10 @@
-#include "halfstep/wpg/files/yaml_node.h"
+#include "wpg/files/yaml_node.h"
 
 #include <algorithm>
 #include <limits>
 
-#include "halfstep/wpg/files/input_error.h"
-#include "halfstep/wpg/files/text.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {

@@ -2,8 +2,8 @@
 #include <charconv>
 #include <system_error>
 
-#include "halfstep/wpg/files/text.h"
-#include "halfstep/wpg/files/yaml_node.h"
+#include "wpg/files/text.h"
+#include "wpg/files/yaml_node.h"
 
 namespace halfstep {
 namespace {

@@ -8,8 +8,8 @@
 #include <sstream>
 #include <unordered_map>
 
-#include "halfstep/wpg/files/text.h"
-#include "halfstep/wpg/files/yaml_node.h"
+#include "wpg/files/text.h"
+#include "wpg/files/yaml_node.h"
 
 namespace halfstep {
 namespace {

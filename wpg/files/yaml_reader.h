@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/wpg/files/fields.h"
-#include "halfstep/wpg/files/yaml_node.h"
+#include "wpg/files/fields.h"
+#include "wpg/files/yaml_node.h"
 
 namespace halfstep {
 

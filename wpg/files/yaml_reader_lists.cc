@@ -1,8 +1,8 @@
 #include <limits>
 #include <utility>
 
-#include "halfstep/wpg/files/number_text.h"
-#include "halfstep/wpg/files/yaml_reader.h"
+#include "wpg/files/number_text.h"
+#include "wpg/files/yaml_reader.h"
 
 namespace halfstep {
 namespace {

@@ -2,10 +2,10 @@
 #include <string_view>
 #include <utility>
 
-#include "halfstep/wpg/check.h"
-#include "halfstep/wpg/files/number_text.h"
-#include "halfstep/wpg/files/text.h"
-#include "halfstep/wpg/files/yaml_fields.h"
+#include "wpg/check.h"
+#include "wpg/files/number_text.h"
+#include "wpg/files/text.h"
+#include "wpg/files/yaml_fields.h"
 
 namespace halfstep {
 namespace {

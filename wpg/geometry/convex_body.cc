@@ -1,11 +1,11 @@
-#include "halfstep/wpg/geometry/convex_body.h"
+#include "wpg/geometry/convex_body.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "halfstep/wpg/check.h"
+#include "wpg/check.h"
 
 namespace halfstep {
 namespace {

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "halfstep/wpg/geometry/direction_map.h"
+#include "wpg/geometry/direction_map.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "halfstep/wpg/geometry/convex_body.h"
+#include "wpg/geometry/convex_body.h"
 
 extern "C" {  // its C++ interface does not compile as C++20
 #include <libqhull_r/libqhull_r.h>
@@ -14,8 +14,8 @@ extern "C" {  // its C++ interface does not compile as C++20
 #include <string>
 #include <unordered_map>
 
-#include "halfstep/wpg/geometry/distinct_normals.h"
-#include "halfstep/wpg/geometry/outside_bound.h"
+#include "wpg/geometry/distinct_normals.h"
+#include "wpg/geometry/outside_bound.h"
 
 namespace halfstep {
 namespace {

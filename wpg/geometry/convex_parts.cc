@@ -1,4 +1,4 @@
-#include "halfstep/wpg/geometry/convex_parts.h"
+#include "wpg/geometry/convex_parts.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "halfstep/wpg/geometry/planar_hull.h"
+#include "wpg/geometry/planar_hull.h"
 
 namespace halfstep {
 namespace {

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "halfstep/wpg/geometry/convex_body.h"
+#include "wpg/geometry/convex_body.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "halfstep/wpg/geometry/direction_map.h"
+#include "wpg/geometry/direction_map.h"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 #include <limits>
 #include <numeric>
 
-#include "halfstep/wpg/check.h"
+#include "wpg/check.h"
 
 namespace halfstep {
 namespace {

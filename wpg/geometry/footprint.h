@@ -1,6 +1,6 @@
 #pragma once
 
-#include "halfstep/wpg/geometry/pose2.h"
+#include "wpg/geometry/pose2.h"
 
 namespace halfstep {
 

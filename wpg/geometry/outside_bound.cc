@@ -1,4 +1,4 @@
-#include "halfstep/wpg/geometry/outside_bound.h"
+#include "wpg/geometry/outside_bound.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>

@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "halfstep/wpg/geometry/convex_body.h"
+#include "wpg/geometry/convex_body.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "halfstep/wpg/geometry/simplified_hull.h"
+#include "wpg/geometry/simplified_hull.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "halfstep/wpg/check.h"
-#include "halfstep/wpg/geometry/distinct_normals.h"
-#include "halfstep/wpg/geometry/outside_bound.h"
-#include "halfstep/wpg/geometry/triangle_weights.h"
+#include "wpg/check.h"
+#include "wpg/geometry/distinct_normals.h"
+#include "wpg/geometry/outside_bound.h"
+#include "wpg/geometry/triangle_weights.h"
 
 namespace halfstep {
 namespace {

@@ -1,8 +1,8 @@
-#include "halfstep/wpg/geometry/support_polygon.h"
+#include "wpg/geometry/support_polygon.h"
 
 #include <limits>
 
-#include "halfstep/wpg/geometry/planar_hull.h"
+#include "wpg/geometry/planar_hull.h"
 
 namespace halfstep {
 namespace {

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 
-#include "halfstep/wpg/geometry/pose2.h"
+#include "wpg/geometry/pose2.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "halfstep/wpg/motion/compensation.h"
+#include "wpg/motion/compensation.h"
 
 #include <algorithm>
 #include <array>
@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "halfstep/wpg/check.h"
-#include "halfstep/wpg/motion/posture.h"
-#include "halfstep/wpg/motion/robot_dynamics.h"
+#include "wpg/check.h"
+#include "wpg/motion/posture.h"
+#include "wpg/motion/robot_dynamics.h"
 
 namespace halfstep {
 namespace {

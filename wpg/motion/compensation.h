@@ -1,7 +1,7 @@
 #pragma once
 
-#include "halfstep/wpg/motion/half_step_sequence.h"
-#include "halfstep/wpg/robot/robot_model.h"
+#include "wpg/motion/half_step_sequence.h"
+#include "wpg/robot/robot_model.h"
 
 namespace halfstep {
 

@@ -1,6 +1,6 @@
-#include "halfstep/wpg/motion/dynamics_slope.h"
+#include "wpg/motion/dynamics_slope.h"
 
-#include "halfstep/wpg/motion/upright_slopes.h"
+#include "wpg/motion/upright_slopes.h"
 
 namespace halfstep {
 namespace {

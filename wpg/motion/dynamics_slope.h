@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "halfstep/wpg/motion/robot_dynamics.h"
+#include "wpg/motion/robot_dynamics.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "halfstep/wpg/motion/foot_friction.h"
+#include "wpg/motion/foot_friction.h"
 
 #include <algorithm>
 #include <limits>

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <optional>
 
-#include "halfstep/wpg/geometry/support_polygon.h"
-#include "halfstep/wpg/motion/robot_drift.h"
-#include "halfstep/wpg/motion/zmp_drift.h"
+#include "wpg/geometry/support_polygon.h"
+#include "wpg/motion/robot_drift.h"
+#include "wpg/motion/zmp_drift.h"
 
 namespace halfstep {
 

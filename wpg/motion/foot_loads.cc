@@ -1,4 +1,4 @@
-#include "halfstep/wpg/motion/foot_loads.h"
+#include "wpg/motion/foot_loads.h"
 
 #include <algorithm>
 

@@ -3,9 +3,9 @@
 #include <Eigen/Core>
 #include <array>
 
-#include "halfstep/wpg/geometry/pose2.h"
-#include "halfstep/wpg/geometry/side.h"
-#include "halfstep/wpg/robot/robot_model.h"
+#include "wpg/geometry/pose2.h"
+#include "wpg/geometry/side.h"
+#include "wpg/robot/robot_model.h"
 
 namespace halfstep {
 

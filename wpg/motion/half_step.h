@@ -4,15 +4,15 @@
 #include <optional>
 #include <vector>
 
-#include "halfstep/wpg/geometry/footprint.h"
-#include "halfstep/wpg/geometry/side.h"
-#include "halfstep/wpg/motion/lipm.h"
-#include "halfstep/wpg/motion/profile_jet.h"
-#include "halfstep/wpg/motion/ramped_step.h"
-#include "halfstep/wpg/motion/rest_to_rest.h"
-#include "halfstep/wpg/motion/smoothstep.h"
-#include "halfstep/wpg/motion/waist_sway.h"
-#include "halfstep/wpg/motion/walk_state.h"
+#include "wpg/geometry/footprint.h"
+#include "wpg/geometry/side.h"
+#include "wpg/motion/lipm.h"
+#include "wpg/motion/profile_jet.h"
+#include "wpg/motion/ramped_step.h"
+#include "wpg/motion/rest_to_rest.h"
+#include "wpg/motion/smoothstep.h"
+#include "wpg/motion/waist_sway.h"
+#include "wpg/motion/walk_state.h"
 
 namespace halfstep {
 

@@ -1,6 +1,6 @@
-#include "halfstep/wpg/motion/half_step_sequence.h"
+#include "wpg/motion/half_step_sequence.h"
 
-#include "halfstep/wpg/check.h"
+#include "wpg/check.h"
 
 namespace halfstep {
 

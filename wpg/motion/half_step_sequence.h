@@ -3,10 +3,10 @@
 #include <array>
 #include <vector>
 
-#include "halfstep/wpg/geometry/footprint.h"
-#include "halfstep/wpg/geometry/side.h"
-#include "halfstep/wpg/motion/half_step.h"
-#include "halfstep/wpg/motion/lipm.h"
+#include "wpg/geometry/footprint.h"
+#include "wpg/geometry/side.h"
+#include "wpg/motion/half_step.h"
+#include "wpg/motion/lipm.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "halfstep/wpg/motion/leg_drift.h"
+#include "wpg/motion/leg_drift.h"
 
 #include <algorithm>
 #include <cmath>

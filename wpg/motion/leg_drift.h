@@ -3,10 +3,10 @@
 #include <Eigen/Core>
 #include <array>
 
-#include "halfstep/wpg/motion/motion_bounds.h"
-#include "halfstep/wpg/motion/rigid_drift.h"
-#include "halfstep/wpg/motion/robot_dynamics.h"
-#include "halfstep/wpg/motion/walk_thirds.h"
+#include "wpg/motion/motion_bounds.h"
+#include "wpg/motion/rigid_drift.h"
+#include "wpg/motion/robot_dynamics.h"
+#include "wpg/motion/walk_thirds.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "halfstep/wpg/motion/leg_torques.h"
+#include "wpg/motion/leg_torques.h"
 
 namespace halfstep {
 

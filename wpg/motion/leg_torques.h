@@ -1,7 +1,7 @@
 #pragma once
 
-#include "halfstep/wpg/motion/dynamics_slope.h"
-#include "halfstep/wpg/motion/robot_dynamics.h"
+#include "wpg/motion/dynamics_slope.h"
+#include "wpg/motion/robot_dynamics.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "halfstep/wpg/motion/mass_drift.h"
+#include "wpg/motion/mass_drift.h"
 
 #include <algorithm>
 

@@ -2,8 +2,8 @@
 
 #include <Eigen/Core>
 
-#include "halfstep/wpg/motion/rigid_drift.h"
-#include "halfstep/wpg/motion/robot_dynamics.h"
+#include "wpg/motion/rigid_drift.h"
+#include "wpg/motion/robot_dynamics.h"
 
 namespace halfstep {
 

@@ -1,10 +1,10 @@
-#include "halfstep/wpg/motion/motion_bounds.h"
+#include "wpg/motion/motion_bounds.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "halfstep/wpg/check.h"
-#include "halfstep/wpg/robot/offset_leg_bound.h"
+#include "wpg/check.h"
+#include "wpg/robot/offset_leg_bound.h"
 
 namespace halfstep {
 namespace {

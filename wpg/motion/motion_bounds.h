@@ -4,10 +4,10 @@
 #include <array>
 #include <vector>
 
-#include "halfstep/wpg/motion/posture.h"
-#include "halfstep/wpg/motion/walk_state.h"
-#include "halfstep/wpg/robot/leg_motion_bound.h"
-#include "halfstep/wpg/robot/robot_model.h"
+#include "wpg/motion/posture.h"
+#include "wpg/motion/walk_state.h"
+#include "wpg/robot/leg_motion_bound.h"
+#include "wpg/robot/robot_model.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "halfstep/wpg/motion/posture.h"
+#include "wpg/motion/posture.h"
 
 namespace halfstep {
 

@@ -3,9 +3,9 @@
 #include <Eigen/Geometry>
 #include <array>
 
-#include "halfstep/wpg/motion/walk_state.h"
-#include "halfstep/wpg/robot/leg_ik.h"
-#include "halfstep/wpg/robot/robot_model.h"
+#include "wpg/motion/walk_state.h"
+#include "wpg/robot/leg_ik.h"
+#include "wpg/robot/robot_model.h"
 
 namespace halfstep {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "halfstep/wpg/motion/smoothstep.h"
+#include "wpg/motion/smoothstep.h"
 
 namespace halfstep {
 

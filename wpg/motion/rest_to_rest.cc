@@ -1,11 +1,11 @@
-#include "halfstep/wpg/motion/rest_to_rest.h"
+#include "wpg/motion/rest_to_rest.h"
 
 #include <Eigen/Core>
 #include <cmath>
 #include <unsupported/Eigen/AutoDiff>
 
-#include "halfstep/wpg/check.h"
-#include "halfstep/wpg/motion/smoothstep.h"
+#include "wpg/check.h"
+#include "wpg/motion/smoothstep.h"
 
 namespace halfstep {
 namespace {

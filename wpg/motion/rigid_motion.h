@@ -1,6 +1,6 @@
 #pragma once
 
-#include "halfstep/wpg/motion/vector_ball.h"
+#include "wpg/motion/vector_ball.h"
 
 namespace halfstep {
 

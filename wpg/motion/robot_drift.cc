@@ -1,4 +1,4 @@
-#include "halfstep/wpg/motion/robot_drift.h"
+#include "wpg/motion/robot_drift.h"
 
 namespace halfstep {
 

@@ -2,8 +2,8 @@
 
 #include <array>
 
-#include "halfstep/wpg/motion/leg_drift.h"
-#include "halfstep/wpg/motion/mass_drift.h"
+#include "wpg/motion/leg_drift.h"
+#include "wpg/motion/mass_drift.h"
 
 namespace halfstep {
 

@@ -1,6 +1,6 @@
-#include "halfstep/wpg/motion/robot_dynamics.h"
+#include "wpg/motion/robot_dynamics.h"
 
-#include "halfstep/wpg/check.h"
+#include "wpg/check.h"
 
 namespace halfstep {
 namespace {

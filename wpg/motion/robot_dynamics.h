@@ -4,8 +4,8 @@
 #include <array>
 #include <optional>
 
-#include "halfstep/wpg/motion/posture.h"
-#include "halfstep/wpg/motion/spatial.h"
+#include "wpg/motion/posture.h"
+#include "wpg/motion/spatial.h"
 
 namespace halfstep {
 

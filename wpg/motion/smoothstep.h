@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "halfstep/wpg/motion/profile_jet.h"
-#include "halfstep/wpg/motion/vector_ball.h"
+#include "wpg/motion/profile_jet.h"
+#include "wpg/motion/vector_ball.h"
 
 namespace halfstep {
 

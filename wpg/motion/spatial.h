@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include "halfstep/wpg/robot/robot_masses.h"
-#include "halfstep/wpg/robot/robot_model.h"
+#include "wpg/robot/robot_masses.h"
+#include "wpg/robot/robot_model.h"
 
 namespace halfstep {
 

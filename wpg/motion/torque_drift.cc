@@ -1,4 +1,4 @@
-#include "halfstep/wpg/motion/torque_drift.h"
+#include "wpg/motion/torque_drift.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "halfstep/wpg/motion/foot_loads.h"
-#include "halfstep/wpg/motion/robot_drift.h"
+#include "wpg/motion/foot_loads.h"
+#include "wpg/motion/robot_drift.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "halfstep/wpg/motion/upright_slopes.h"
+#include "wpg/motion/upright_slopes.h"
 
 namespace halfstep {
 namespace {

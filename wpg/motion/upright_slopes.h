@@ -1,6 +1,6 @@
 #pragma once
 
-#include "halfstep/wpg/motion/robot_dynamics.h"
+#include "wpg/motion/robot_dynamics.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "halfstep/wpg/motion/waist_sway.h"
+#include "wpg/motion/waist_sway.h"
 
 #include <algorithm>
 #include <cmath>

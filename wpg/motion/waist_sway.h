@@ -4,8 +4,8 @@
 #include <array>
 #include <vector>
 
-#include "halfstep/wpg/motion/profile_jet.h"
-#include "halfstep/wpg/motion/vector_ball.h"
+#include "wpg/motion/profile_jet.h"
+#include "wpg/motion/vector_ball.h"
 
 namespace halfstep {
 

@@ -2,8 +2,8 @@
 
 #include <Eigen/Core>
 
-#include "halfstep/wpg/geometry/pose2.h"
-#include "halfstep/wpg/geometry/side.h"
+#include "wpg/geometry/pose2.h"
+#include "wpg/geometry/side.h"
 
 namespace halfstep {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "halfstep/wpg/motion/vector_ball.h"
-#include "halfstep/wpg/motion/walk_state.h"
+#include "wpg/motion/vector_ball.h"
+#include "wpg/motion/walk_state.h"
 
 namespace halfstep {
 

@@ -1,10 +1,10 @@
-#include "halfstep/wpg/motion/zmp_drift.h"
+#include "wpg/motion/zmp_drift.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "halfstep/wpg/motion/rigid_motion.h"
+#include "wpg/motion/rigid_motion.h"
 
 namespace halfstep {
 namespace {

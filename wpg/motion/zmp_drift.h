@@ -2,11 +2,11 @@
 
 #include <Eigen/Core>
 
-#include "halfstep/wpg/motion/motion_bounds.h"
-#include "halfstep/wpg/motion/robot_drift.h"
-#include "halfstep/wpg/motion/robot_dynamics.h"
-#include "halfstep/wpg/motion/vector_ball.h"
-#include "halfstep/wpg/motion/walk_thirds.h"
+#include "wpg/motion/motion_bounds.h"
+#include "wpg/motion/robot_drift.h"
+#include "wpg/motion/robot_dynamics.h"
+#include "wpg/motion/vector_ball.h"
+#include "wpg/motion/walk_thirds.h"
 
 namespace halfstep {
 

@@ -1,7 +1,7 @@
-#include "halfstep/wpg/motion/zmp_slopes.h"
+#include "wpg/motion/zmp_slopes.h"
 
-#include "halfstep/wpg/check.h"
-#include "halfstep/wpg/motion/upright_slopes.h"
+#include "wpg/check.h"
+#include "wpg/motion/upright_slopes.h"
 
 namespace halfstep {
 namespace {

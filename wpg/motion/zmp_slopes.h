@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <array>
 
-#include "halfstep/wpg/motion/dynamics_slope.h"
-#include "halfstep/wpg/motion/robot_dynamics.h"
+#include "wpg/motion/dynamics_slope.h"
+#include "wpg/motion/robot_dynamics.h"
 
 namespace halfstep {
 

@@ -1,10 +1,10 @@
-#include "halfstep/wpg/robot/leg_continuation.h"
+#include "wpg/robot/leg_continuation.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "halfstep/wpg/robot/leg_ik.h"
-#include "halfstep/wpg/robot/leg_neighbourhood.h"
+#include "wpg/robot/leg_ik.h"
+#include "wpg/robot/leg_neighbourhood.h"
 
 namespace halfstep {
 namespace {

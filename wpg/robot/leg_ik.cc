@@ -1,12 +1,12 @@
-#include "halfstep/wpg/robot/leg_ik.h"
+#include "wpg/robot/leg_ik.h"
 
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
-#include "halfstep/wpg/check.h"
-#include "halfstep/wpg/robot/leg_continuation.h"
-#include "halfstep/wpg/robot/paden_kahan.h"
+#include "wpg/check.h"
+#include "wpg/robot/leg_continuation.h"
+#include "wpg/robot/paden_kahan.h"
 
 namespace halfstep {
 namespace {

@@ -1,4 +1,4 @@
-#include "halfstep/wpg/robot/leg_motion_bound.h"
+#include "wpg/robot/leg_motion_bound.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,8 +4,8 @@
 #include <array>
 #include <optional>
 
-#include "halfstep/wpg/robot/leg_ik.h"
-#include "halfstep/wpg/robot/robot_model.h"
+#include "wpg/robot/leg_ik.h"
+#include "wpg/robot/robot_model.h"
 
 namespace halfstep {
 

@@ -1,11 +1,11 @@
-#include "halfstep/wpg/robot/leg_neighbourhood.h"
+#include "wpg/robot/leg_neighbourhood.h"
 
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
-#include "halfstep/wpg/check.h"
-#include "halfstep/wpg/robot/paden_kahan.h"
+#include "wpg/check.h"
+#include "wpg/robot/paden_kahan.h"
 
 namespace halfstep {
 namespace {

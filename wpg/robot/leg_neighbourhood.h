@@ -4,7 +4,7 @@
 #include <array>
 #include <optional>
 
-#include "halfstep/wpg/robot/robot_model.h"
+#include "wpg/robot/robot_model.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "halfstep/wpg/robot/link_anchors.h"
+#include "wpg/robot/link_anchors.h"
 
 #include <algorithm>
 

@@ -1,9 +1,9 @@
-#include "halfstep/wpg/robot/met_leg.h"
+#include "wpg/robot/met_leg.h"
 
 #include <Eigen/QR>
 #include <cmath>
 
-#include "halfstep/wpg/robot/leg_ik.h"
+#include "wpg/robot/leg_ik.h"
 
 namespace halfstep {
 

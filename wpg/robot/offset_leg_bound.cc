@@ -1,9 +1,9 @@
-#include "halfstep/wpg/robot/offset_leg_bound.h"
+#include "wpg/robot/offset_leg_bound.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "halfstep/wpg/robot/leg_neighbourhood.h"
+#include "wpg/robot/leg_neighbourhood.h"
 
 namespace halfstep {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <optional>
 
-#include "halfstep/wpg/robot/leg_continuation.h"
-#include "halfstep/wpg/robot/leg_ik.h"
-#include "halfstep/wpg/robot/leg_motion_bound.h"
+#include "wpg/robot/leg_continuation.h"
+#include "wpg/robot/leg_ik.h"
+#include "wpg/robot/leg_motion_bound.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "halfstep/wpg/robot/robot_bodies.h"
+#include "wpg/robot/robot_bodies.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,10 +10,10 @@
 #include <stdexcept>
 #include <utility>
 
-#include "halfstep/wpg/files/mesh_file.h"
-#include "halfstep/wpg/geometry/convex_parts.h"
-#include "halfstep/wpg/geometry/simplified_hull.h"
-#include "halfstep/wpg/robot/link_anchors.h"
+#include "wpg/files/mesh_file.h"
+#include "wpg/geometry/convex_parts.h"
+#include "wpg/geometry/simplified_hull.h"
+#include "wpg/robot/link_anchors.h"
 
 namespace halfstep {
 namespace {

@@ -1,12 +1,12 @@
-#include "halfstep/wpg/robot/robot_fields.h"
+#include "wpg/robot/robot_fields.h"
 
 #include <algorithm>
 #include <filesystem>
 
-#include "halfstep/wpg/files/number_text.h"
-#include "halfstep/wpg/files/text.h"
-#include "halfstep/wpg/geometry/simplified_hull.h"
-#include "halfstep/wpg/robot/robot_bodies.h"
+#include "wpg/files/number_text.h"
+#include "wpg/files/text.h"
+#include "wpg/geometry/simplified_hull.h"
+#include "wpg/robot/robot_bodies.h"
 
 namespace halfstep {
 namespace {

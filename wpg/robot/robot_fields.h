@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/wpg/files/fields.h"
-#include "halfstep/wpg/robot/urdf_file.h"
+#include "wpg/files/fields.h"
+#include "wpg/robot/urdf_file.h"
 
 namespace halfstep {
 

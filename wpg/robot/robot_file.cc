@@ -6,17 +6,17 @@
 #include <optional>
 #include <string_view>
 
-#include "halfstep/wpg/files/number_text.h"
-#include "halfstep/wpg/files/text.h"
-#include "halfstep/wpg/files/yaml_fields.h"
-#include "halfstep/wpg/robot/link_anchors.h"
-#include "halfstep/wpg/robot/robot_bodies.h"
-#include "halfstep/wpg/robot/robot_fields.h"
-#include "halfstep/wpg/robot/robot_legs.h"
-#include "halfstep/wpg/robot/robot_model.h"
-#include "halfstep/wpg/robot/self_pairs.h"
-#include "halfstep/wpg/robot/sole_outline.h"
-#include "halfstep/wpg/robot/urdf_masses.h"
+#include "wpg/files/number_text.h"
+#include "wpg/files/text.h"
+#include "wpg/files/yaml_fields.h"
+#include "wpg/robot/link_anchors.h"
+#include "wpg/robot/robot_bodies.h"
+#include "wpg/robot/robot_fields.h"
+#include "wpg/robot/robot_legs.h"
+#include "wpg/robot/robot_model.h"
+#include "wpg/robot/self_pairs.h"
+#include "wpg/robot/sole_outline.h"
+#include "wpg/robot/urdf_masses.h"
 
 namespace halfstep {
 namespace {

@@ -1,4 +1,4 @@
-#include "halfstep/wpg/robot/robot_legs.h"
+#include "wpg/robot/robot_legs.h"
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -6,10 +6,10 @@
 #include <cstdio>
 #include <numbers>
 
-#include "halfstep/wpg/robot/leg_continuation.h"
-#include "halfstep/wpg/robot/leg_ik.h"
-#include "halfstep/wpg/robot/leg_neighbourhood.h"
-#include "halfstep/wpg/robot/met_leg.h"
+#include "wpg/robot/leg_continuation.h"
+#include "wpg/robot/leg_ik.h"
+#include "wpg/robot/leg_neighbourhood.h"
+#include "wpg/robot/met_leg.h"
 
 namespace halfstep {
 namespace {

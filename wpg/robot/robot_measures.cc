@@ -1,14 +1,14 @@
-#include "halfstep/wpg/robot/robot_measures.h"
+#include "wpg/robot/robot_measures.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "halfstep/wpg/files/yaml_fields.h"
-#include "halfstep/wpg/robot/leg_ik.h"
-#include "halfstep/wpg/robot/robot_fields.h"
-#include "halfstep/wpg/robot/robot_legs.h"
-#include "halfstep/wpg/robot/robot_model.h"
+#include "wpg/files/yaml_fields.h"
+#include "wpg/robot/leg_ik.h"
+#include "wpg/robot/robot_fields.h"
+#include "wpg/robot/robot_legs.h"
+#include "wpg/robot/robot_model.h"
 
 namespace halfstep {
 namespace {

@@ -1,6 +1,6 @@
-#include "halfstep/wpg/robot/robot_model.h"
+#include "wpg/robot/robot_model.h"
 
-#include "halfstep/wpg/robot/paden_kahan.h"
+#include "wpg/robot/paden_kahan.h"
 
 namespace halfstep {
 

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/wpg/files/input_file.h"
-#include "halfstep/wpg/geometry/convex_body.h"
-#include "halfstep/wpg/geometry/side.h"
-#include "halfstep/wpg/robot/robot_masses.h"
+#include "wpg/files/input_file.h"
+#include "wpg/geometry/convex_body.h"
+#include "wpg/geometry/side.h"
+#include "wpg/robot/robot_masses.h"
 
 namespace halfstep {
 

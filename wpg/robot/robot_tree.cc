@@ -1,11 +1,11 @@
-#include "halfstep/wpg/robot/robot_tree.h"
+#include "wpg/robot/robot_tree.h"
 
 #include <algorithm>
 #include <utility>
 
-#include "halfstep/wpg/files/number_text.h"
-#include "halfstep/wpg/files/yaml_fields.h"
-#include "halfstep/wpg/robot/robot_fields.h"
+#include "wpg/files/number_text.h"
+#include "wpg/files/yaml_fields.h"
+#include "wpg/robot/robot_fields.h"
 
 namespace halfstep {
 

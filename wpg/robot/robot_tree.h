@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/wpg/robot/robot_model.h"
-#include "halfstep/wpg/robot/urdf_file.h"
+#include "wpg/robot/robot_model.h"
+#include "wpg/robot/urdf_file.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "halfstep/wpg/robot/self_pairs.h"
+#include "wpg/robot/self_pairs.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,9 +3,9 @@
 #include <array>
 #include <vector>
 
-#include "halfstep/wpg/robot/robot_bodies.h"
-#include "halfstep/wpg/robot/robot_fields.h"
-#include "halfstep/wpg/robot/robot_model.h"
+#include "wpg/robot/robot_bodies.h"
+#include "wpg/robot/robot_fields.h"
+#include "wpg/robot/robot_model.h"
 
 namespace halfstep {
 

@@ -1,4 +1,4 @@
-#include "halfstep/wpg/robot/sole_outline.h"
+#include "wpg/robot/sole_outline.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +6,8 @@
 #include <numbers>
 #include <vector>
 
-#include "halfstep/wpg/geometry/planar_hull.h"
-#include "halfstep/wpg/geometry/support_polygon.h"
+#include "wpg/geometry/planar_hull.h"
+#include "wpg/geometry/support_polygon.h"
 
 namespace halfstep {
 namespace {

@@ -1,4 +1,4 @@
-#include "halfstep/wpg/robot/torque_limits.h"
+#include "wpg/robot/torque_limits.h"
 
 #include <cmath>
 

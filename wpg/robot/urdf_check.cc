@@ -1,15 +1,15 @@
-#include "halfstep/wpg/robot/urdf_check.h"
+#include "wpg/robot/urdf_check.h"
 
 #include <algorithm>
 #include <sstream>
 #include <utility>
 
-#include "halfstep/wpg/files/nesting.h"
-#include "halfstep/wpg/files/number_text.h"
-#include "halfstep/wpg/files/text.h"
-#include "halfstep/wpg/robot/urdf_elements.h"
-#include "halfstep/wpg/robot/urdf_joint.h"
-#include "halfstep/wpg/robot/urdf_links.h"
+#include "wpg/files/nesting.h"
+#include "wpg/files/number_text.h"
+#include "wpg/files/text.h"
+#include "wpg/robot/urdf_elements.h"
+#include "wpg/robot/urdf_joint.h"
+#include "wpg/robot/urdf_links.h"
 
 namespace halfstep {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/wpg/files/input_error.h"
+#include "wpg/files/input_error.h"
 
 namespace halfstep {
 

@@ -1,9 +1,9 @@
-#include "halfstep/wpg/robot/urdf_elements.h"
+#include "wpg/robot/urdf_elements.h"
 
 #include <algorithm>
 #include <sstream>
 
-#include "halfstep/wpg/files/number_text.h"
+#include "wpg/files/number_text.h"
 
 namespace halfstep {
 

@@ -1,11 +1,11 @@
-#include "halfstep/wpg/robot/urdf_file.h"
+#include "wpg/robot/urdf_file.h"
 
 #include <console_bridge/console.h>
 #include <urdf_parser/urdf_parser.h>
 
 #include <mutex>
 
-#include "halfstep/wpg/files/regular_file.h"
+#include "wpg/files/regular_file.h"
 
 namespace halfstep {
 namespace {

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "halfstep/wpg/files/input_file.h"
-#include "halfstep/wpg/robot/urdf_check.h"
+#include "wpg/files/input_file.h"
+#include "wpg/robot/urdf_check.h"
 
 namespace halfstep {
 

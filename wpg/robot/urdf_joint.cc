@@ -1,4 +1,4 @@
-#include "halfstep/wpg/robot/urdf_joint.h"
+#include "wpg/robot/urdf_joint.h"
 
 #include <cmath>
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/wpg/robot/urdf_elements.h"
+#include "wpg/robot/urdf_elements.h"
 
 namespace halfstep {
 

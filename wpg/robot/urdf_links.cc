@@ -1,4 +1,4 @@
-#include "halfstep/wpg/robot/urdf_links.h"
+#include "wpg/robot/urdf_links.h"
 
 #include <map>
 #include <set>

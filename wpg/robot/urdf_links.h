@@ -1,7 +1,7 @@
 #pragma once
 
-#include "halfstep/wpg/robot/urdf_check.h"
-#include "halfstep/wpg/robot/urdf_elements.h"
+#include "wpg/robot/urdf_check.h"
+#include "wpg/robot/urdf_elements.h"
 
 namespace halfstep {
 

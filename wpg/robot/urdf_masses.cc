@@ -1,12 +1,12 @@
-#include "halfstep/wpg/robot/urdf_masses.h"
+#include "wpg/robot/urdf_masses.h"
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <optional>
 
-#include "halfstep/wpg/files/input_error.h"
-#include "halfstep/wpg/files/text.h"
-#include "halfstep/wpg/geometry/side.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/text.h"
+#include "wpg/geometry/side.h"
 
 namespace halfstep {
 namespace {

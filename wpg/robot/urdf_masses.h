@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "halfstep/wpg/robot/link_anchors.h"
-#include "halfstep/wpg/robot/robot_masses.h"
-#include "halfstep/wpg/robot/urdf_file.h"
+#include "wpg/robot/link_anchors.h"
+#include "wpg/robot/robot_masses.h"
+#include "wpg/robot/urdf_file.h"
 
 namespace halfstep {
 
