@@ -1,6 +1,6 @@
 #!/bin/sh
 # Makes the CSV sets of this folder anew:  notebooks-data/make_data.sh [SET]...
-# Sets: fig3 fig4 fig5 sweep methods certificate planners; all by default. Runs take minutes.
+# Sets: fig4 fig5 sweep methods certificate planners; all by default. Runs take minutes.
 # HALFSTEP: the command (build/release/experiments/halfstep). The sets `planners` and `certificate`
 # also need planner_study and motion_bounds_study, built beside it with -DHALFSTEP_BENCHMARKS=ON.
 set -eu
@@ -43,17 +43,6 @@ keep() {  # SET/FILE: $work/table, which is whole by now
   mkdir -p "notebooks-data/$(dirname "$1")"
   mv "$work/table" "notebooks-data/$1"
   echo "notebooks-data/$1: $(($(wc -l <"notebooks-data/$1") - 1)) rows"
-}
-
-make_fig3() {  # Two half-steps at growing overlaps; a cap of 1 ends where the floor margin holds it.
-  { header overlap_s t_s com_y_m zmp_y_m right_foot_z_m
-    for cap in 0 0.25 0.5 0.75 1; do
-      run fig3_two_half_steps --set 'smoothing.methods=[dichotomy]' --set output.period_s=0.02 \
-        --set "smoothing.dichotomy.up_down_cap=$cap"
-      overlap=$(pick "$work/run/dichotomy/overlaps.csv" overlap_s)
-      pick "$work/run/dichotomy/trajectory.csv" "overlap=$overlap" t_s com_y_m zmp_y_m right_foot_z_m
-    done; } >"$work/table"
-  keep fig3/walks.csv
 }
 
 make_fig4() {  # The curved walk, raw and smoothed.
@@ -153,9 +142,9 @@ make_planners() {  # Twenty problems of each kind, four planners.
   keep planners/plans.csv
 }
 
-for set in ${*:-fig3 fig4 fig5 sweep methods certificate planners}; do
+for set in ${*:-fig4 fig5 sweep methods certificate planners}; do
   case $set in
-    fig3 | fig4 | fig5 | sweep | methods | certificate | planners) "make_$set" ;;
+    fig4 | fig5 | sweep | methods | certificate | planners) "make_$set" ;;
     *) echo "$0: no set $set" >&2; exit 2 ;;
   esac
 done
