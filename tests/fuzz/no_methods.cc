@@ -1,7 +1,9 @@
 // Names of methods, planners and programs for the readers of configs, without what they name.
 
 #include "planner/search/planner_registry.h"
+#include "smoothing/margins/own_margin.h"
 #include "smoothing/methods/smoother_registry.h"
+#include "smoothing/program/walk_cost.h"
 
 namespace halfstep {
 
@@ -15,6 +17,16 @@ std::string_view Name(ProgramKind kind) {
   return kind == ProgramKind::kFastest  ? "fastest"
          : kind == ProgramKind::kSmooth ? "smooth"
                                         : "safest";
+}
+
+const std::vector<std::unique_ptr<const OwnStatement>>& OwnMargins() {
+  static const std::vector<std::unique_ptr<const OwnStatement>> none;
+  return none;
+}
+
+const std::vector<std::shared_ptr<const WalkCost>>& WalkCosts() {
+  static const std::vector<std::shared_ptr<const WalkCost>> none;
+  return none;
 }
 
 }  // namespace halfstep
