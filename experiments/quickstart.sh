@@ -4,6 +4,8 @@
 set -eu
 cd "$(dirname "$0")/.."
 
+echo "Installs the Debian packages that are missing, builds into build/ (about 10 minutes on two"
+echo "cores), runs six scenarios into runs/. It asks for nothing."
 experiments/install_dependencies.sh gnuplot-nox
 
 echo "Building (log: build/quickstart.log)"

@@ -12,6 +12,10 @@ namespace halfstep {
 namespace {
 
 constexpr CommandEntry kEntries[] = {
+    {"init",
+     "Write a config to begin with, commented.\n\n"
+     "  example: halfstep init my_walk --robot hrp2 --goal 2 0.5",
+     DeclareInit},
     {"run",
      "Concatenate, smooth with each method, write the run folder.\n\n"
      "  example: halfstep run experiments/configs/bar_8cm.yaml --set "
@@ -129,6 +133,11 @@ void TellWarnings(const RobotModel& robot, const Scene& scene) {
       std::cerr << "halfstep: warning: " << warning << '\n';
     }
   }
+}
+
+void TellUnder(const std::string& heading, const std::vector<std::string>& lines) {
+  std::cerr << "halfstep: " << heading << '\n';
+  for (const std::string& line : lines) std::cerr << "  " << line << '\n';
 }
 
 }  // namespace halfstep

@@ -46,6 +46,10 @@ std::filesystem::path OutputFolder(const RunCommand& command, const ExperimentCo
 /// error.
 void TellWarnings(const RobotModel& robot, const Scene& scene = {});
 
+/// Lines under a heading, on standard error.
+void TellUnder(const std::string& heading, const std::vector<std::string>& lines);
+
+CommandAction DeclareInit(CLI::App* app);
 CommandAction DeclareRun(CLI::App* app);
 CommandAction DeclareSmooth(CLI::App* app);
 CommandAction DeclareCompare(CLI::App* app);

@@ -178,7 +178,8 @@ struct ExplainCommand {
 /// for an unknown key.
 ExitStatus ExplainConfig(const ExplainCommand& command);
 
-/// `halfstep list robots|scenes|configs|solvers|methods|planners`. Precondition: `what` is one of these.
+/// `halfstep list robots|scenes|configs|solvers|methods|planners`. Precondition: `what` is one of
+/// these.
 ExitStatus List(const std::string& what, bool json);
 
 }  // namespace halfstep

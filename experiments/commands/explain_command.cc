@@ -45,6 +45,29 @@ void Find(const std::vector<KeyDescription>& keys, const std::string& wanted,
   }
 }
 
+std::string Lower(std::string text) {
+  std::ranges::transform(text, text.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+// Whether a text has a word that is in lower case, however the text spells it.
+bool Contains(const std::string& text, const std::string& lower) {
+  return Lower(text).find(lower) != std::string::npos;
+}
+
+// The keys, at any depth and without what is in them, whose path or meaning has the word.
+void FindByMeaning(const std::vector<KeyDescription>& keys, const std::string& lower,
+                   std::vector<KeyDescription>* found) {
+  for (const KeyDescription& key : keys) {
+    if (Contains(key.path, lower) || Contains(key.meaning, lower)) {
+      found->push_back(key);
+      found->back().keys.clear();
+    }
+    FindByMeaning(key.keys, lower, found);
+  }
+}
+
 }  // namespace
 
 ExitStatus ExplainConfig(const ExplainCommand& command) {
@@ -60,11 +83,13 @@ ExitStatus ExplainConfig(const ExplainCommand& command) {
     std::vector<KeyDescription> found;
     std::vector<std::string> paths;
     Find(keys, WithoutIndices(command.key), &found, &paths);
+    if (found.empty() && command.key.size() > 1) FindByMeaning(keys, Lower(command.key), &found);
     if (found.empty()) {
       const std::string nearest = NearestWord(command.key, paths);
       throw InputError({"explain-config: " + Quote(command.key) + ": no such key (" +
                         (nearest.empty() ? "" : "did you mean '" + nearest + "'? ") +
-                        "valid: a key, or its last part; none for all)"});
+                        "valid: a key, its last part, or a word of what it means; none for "
+                        "all)"});
     }
     keys = std::move(found);
   }
@@ -76,7 +101,8 @@ ExitStatus ExplainConfig(const ExplainCommand& command) {
 
 CommandAction DeclareExplain(CLI::App* app) {
   const auto command = std::make_shared<ExplainCommand>();
-  app->add_option("KEY", command->key, "a key or its last part (default: all)");
+  app->add_option("KEY", command->key,
+                  "a key, its last part, or a word of what it means (default: all)");
   app->add_option("--robot", command->robot,
                   "name or file of a robot: shows the defaults that go by its size");
   app->add_flag("--json-schema", command->json_schema, "print a JSON schema, for editors");

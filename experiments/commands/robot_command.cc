@@ -7,12 +7,13 @@
 #include "experiments/commands/command_line.h"
 #include "experiments/commands/commands.h"
 #include "experiments/run/experiment_run.h"
+#include "experiments/run/infeasible_plan.h"
 #include "experiments/run/interrupt.h"
 #include "experiments/run/progress_bar.h"
 #include "experiments/run/run_screen.h"
 #include "experiments/survey/robot_picture.h"
 #include "experiments/survey/robot_survey.h"
-#include "experiments/survey/six_steps_config.h"
+#include "experiments/survey/starter_config.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/text.h"
 #include "wpg/files/whole_file.h"
@@ -88,8 +89,8 @@ bool Walk(const RobotFiles& files, bool quiet) {
   }
   const MethodRun& last = run.runs().back();
   if (last.certified.answer.verdict == Verdict::kFeasible) return true;
-  std::cerr << "halfstep: the robot file stands, but its six steps are not certified: "
-            << run.runs().front().result.message << '\n';
+  TellUnder("the robot file stands, but its six steps are not certified; worst first:",
+            InfeasiblePlanText(run, interrupt.token()));
   return false;
 }
 
@@ -102,7 +103,8 @@ ExitStatus SurveyRobotFile(const RobotCommand& command) {
   const fs::path folder = fs::absolute(files.robot).parent_path();
   WriteWhole(files.robot, {YamlOf(draft, folder)});
   WriteWhole(files.picture, {RobotPicture(robot)});
-  WriteWhole(files.walk, {SixStepsConfig(robot, files.robot.filename().string())});
+  WriteWhole(files.walk,
+             {StarterConfigText(robot, {.robot_file = files.robot.filename().string()})});
   TellWarnings(robot);
   if (!command.quiet) Tell(draft, robot);
   return Walk(files, command.quiet) ? kSuccess : kFailed;
@@ -127,7 +129,8 @@ CommandAction DeclareRobot(CLI::App* app) {
                   "distance of hip and ankle when standing, over the stretched leg (default: 0.9, "
                   "or what the limits need)")
       ->check(CLI::Range(0.5, 0.99));
-  app->add_option("--width", survey->stance.width, "of the stance [m] (default: as narrow as feet allow)")
+  app->add_option("--width", survey->stance.width,
+                  "of the stance [m] (default: as narrow as feet allow)")
       ->check(CLI::Range(0.01, 2.0));
   app->add_flag("--overwrite", command->overwrite, "replace older files");
   app->add_flag("--quiet", command->quiet, "print nothing but errors");

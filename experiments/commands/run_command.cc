@@ -10,6 +10,7 @@
 #include "experiments/report/report_page.h"
 #include "experiments/run/complete_manifest.h"
 #include "experiments/run/experiment_run.h"
+#include "experiments/run/infeasible_plan.h"
 #include "experiments/run/interrupt.h"
 #include "experiments/run/missed_demands_text.h"
 #include "experiments/run/progress_bar.h"
@@ -45,23 +46,20 @@ void TellRepaired(const ExperimentRun& run) {
   for (const std::string& sentence : run.repaired()) std::cerr << "halfstep: " << sentence << '\n';
 }
 
-// Why the plan is not feasible, on standard error.
-void TellMissed(const ExperimentRun& run) {
-  std::vector<std::string> lines = {run.runs().front().result.message};
-  if (run.missed()) lines = MissedDemandsText(run.evaluator(), *run.missed());
-  lines.front().insert(0, "the plan is not feasible: ");
-  if (!run.config().smoothing.repair_plan) {
-    lines.push_back(
-        "`smoothing.repair_plan: true` looks for durations and heights of single steps that help");
+// Why the plan is not feasible, and what would help.
+void TellMissed(const ExperimentRun& run, const std::stop_token& stop) {
+  if (!run.missed()) {
+    std::cerr << "halfstep: the plan is not feasible: " << run.runs().front().result.message
+              << '\n';
+    return;
   }
-  for (const std::string& line : lines) std::cerr << "halfstep: " << line << '\n';
+  TellUnder("the plan is not feasible; worst first:", InfeasiblePlanText(run, stop));
 }
 
-// Why the given walk is not feasible, on standard error.
+// Why the given walk is not feasible.
 void TellGivenMissed(const ExperimentRun& run) {
-  std::vector<std::string> lines = MissedDemandsText(run.evaluator(), *run.given_missed());
-  lines.front().insert(0, "the given walk is not feasible: ");
-  for (const std::string& line : lines) std::cerr << "halfstep: " << line << '\n';
+  TellUnder("the given walk is not feasible; worst first:",
+            MissedDemandsText(run.evaluator(), run.problem().sequence(), *run.given_missed()));
 }
 
 // Whether a method, or the user, wants the plan as a walk: `given` alone does not.
@@ -107,7 +105,7 @@ ExitStatus Run(const RunCommand& command) {
   const bool wants_plan = WantsPlan(config);
   const bool feasible = run.runs().front().result.feasible || !wants_plan;
   TellRepaired(run);
-  if (!feasible) TellMissed(run);  // before the tables, which take longer
+  if (!feasible) TellMissed(run, interrupt.step_token());  // before the tables, which take longer
   if (run.given_missed()) TellGivenMissed(run);
   // What smoothing had found when it was stopped is proved all the same.
   run.Certify(interrupt.requested() ? interrupt.proof_token() : interrupt.token());

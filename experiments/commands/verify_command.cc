@@ -8,11 +8,17 @@
 namespace halfstep {
 namespace {
 
+enum class Telling { kErrors, kSummary, kEverything };
+
 // Nothing of the smoothing takes part.
-ExitStatus Verify(const verify::VerifyOptions& options, bool quiet) {
+ExitStatus Verify(const verify::VerifyOptions& options, Telling telling) {
+  const bool quiet = telling == Telling::kErrors;
   ExitStatus status = kSuccess;
   for (const verify::MethodVerification& result : verify::VerifyRun(options)) {
-    if (!quiet) std::cout << verify::Describe(result);
+    if (!quiet) {
+      std::cout << (telling == Telling::kSummary ? verify::Summary(result)
+                                                 : verify::Describe(result));
+    }
     for (const std::string& complaint : result.complaints) std::cerr << complaint << '\n';
     if (quiet && result.disagreements > 0) {
       std::cerr << result.method << ": NOT verified: " << result.reasons.front() << '\n';
@@ -30,6 +36,9 @@ ExitStatus Verify(const verify::VerifyOptions& options, bool quiet) {
       status = of_method;
     }
   }
+  if (telling == Telling::kSummary) {
+    std::cout << "(--verbose shows every check and what a verified certificate guarantees)\n";
+  }
   return status;
 }
 
@@ -37,15 +46,21 @@ ExitStatus Verify(const verify::VerifyOptions& options, bool quiet) {
 
 CommandAction DeclareVerify(CLI::App* app) {
   const auto options = std::make_shared<verify::VerifyOptions>();
-  const auto quiet = std::make_shared<bool>(false);
+  const auto quiet = std::make_shared<bool>(false), verbose = std::make_shared<bool>(false);
   app->add_option("RUN", options->run, "run folder")->required();
   app->add_option("--method", options->method, "only this one (default: all)");
   app->add_option("--tolerance", options->tolerance,
                   "between the certified walk and its trajectory, 0.001 by default [m]");
   app->add_option("--robot", options->robot, "robot file in place of the certificate's");
   app->add_option("--scene", options->scene, "scene file in place of it, or none");
-  app->add_flag("--quiet", *quiet, "print nothing but what is wrong");
-  return [options, quiet] { return Verify(*options, *quiet); };
+  CLI::Option* only_errors = app->add_flag("--quiet", *quiet, "print nothing but what is wrong");
+  app->add_flag("--verbose", *verbose, "print every check and the certificate's statement")
+      ->excludes(only_errors);
+  return [options, quiet, verbose] {
+    return Verify(*options, *quiet     ? Telling::kErrors
+                            : *verbose ? Telling::kEverything
+                                       : Telling::kSummary);
+  };
 }
 
 }  // namespace halfstep

@@ -3,6 +3,7 @@
 #include "experiments/config/data_folder.h"
 #include "planner/scene/no_step_areas.h"
 #include "wpg/files/input_error.h"
+#include "wpg/files/text.h"
 #include "wpg/motion/compensation.h"
 #include "wpg/robot/torque_limits.h"
 
@@ -72,6 +73,18 @@ ExperimentConfig MovedTo(const fs::path& folder, const ExperimentConfig& config)
 }
 
 Place LoadPlace(const ExperimentConfig& config) {
+  if (IsShipped(config.robot) && !fs::exists(RobotPath(config))) {
+    std::vector<std::string> names;
+    std::string valid;
+    for (const fs::path& path : YamlFiles(RobotsFolder())) {
+      names.push_back(path.stem().string());
+      valid += names.back() + ", ";
+    }
+    const std::string near = NearestWord(config.robot, names);
+    throw InputError({"robot: no robot is called " + Quote(config.robot) + " (" +
+                      (near.empty() ? "" : "did you mean " + Quote(near) + "? ") +
+                      "valid: " + valid + "the path of a robot file)"});
+  }
   Place place;
   place.robot = LoadRobot(RobotPath(config).string());
   if (const auto scene = ScenePath(config)) {
@@ -110,17 +123,9 @@ HalfStepSequence CompensatedAsAsked(const ExperimentConfig& config, const RobotM
 
 Experiment Prepare(const ExperimentConfig& config) { return Prepare(config, LoadPlace(config)); }
 
-Experiment Prepare(const ExperimentConfig& config, Place place) {
-  Experiment experiment{.config = config,
-                        .robot = std::move(place.robot),
-                        .scene = std::move(place.scene),
-                        .sequence = {}};
-  LeaveOutWhatIsUnknown(&experiment);
-  const Lipm lipm{.com_height = experiment.robot.com_height};
-  if (config.footsteps.empty()) {
-    experiment.sequence = {StartOf(config, experiment.robot), {}, lipm};
-    return experiment;
-  }
+HalfStepSequence SequenceOf(const ExperimentConfig& config, const RobotModel& robot) {
+  const Lipm lipm{.com_height = robot.com_height};
+  if (config.footsteps.empty()) return {StartOf(config, robot), {}, lipm};
   std::vector<Footstep> footsteps;
   for (const FootstepConfig& step : config.footsteps) {
     footsteps.push_back({.side = step.foot == "left" ? Side::kLeft : Side::kRight,
@@ -128,9 +133,19 @@ Experiment Prepare(const ExperimentConfig& config, Place place) {
                          .via_height = step.via_height.value_or(config.half_step.via_height),
                          .duration = step.duration.value_or(config.half_step.duration)});
   }
-  experiment.sequence = MakeSequence(StartOf(config, experiment.robot), footsteps,
-                                     config.half_step.via_lateral, ShapeOf(config.half_step), lipm);
-  experiment.sequence = CompensatedAsAsked(config, experiment.robot, experiment.sequence);
+  return CompensatedAsAsked(
+      config, robot,
+      MakeSequence(StartOf(config, robot), footsteps, config.half_step.via_lateral,
+                   ShapeOf(config.half_step), lipm));
+}
+
+Experiment Prepare(const ExperimentConfig& config, Place place) {
+  Experiment experiment{.config = config,
+                        .robot = std::move(place.robot),
+                        .scene = std::move(place.scene),
+                        .sequence = {}};
+  LeaveOutWhatIsUnknown(&experiment);
+  experiment.sequence = SequenceOf(config, experiment.robot);
   return experiment;
 }
 

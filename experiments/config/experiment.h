@@ -53,6 +53,9 @@ HalfStep PrototypeOf(const ExperimentConfig& config);
 HalfStepSequence CompensatedAsAsked(const ExperimentConfig& config, const RobotModel& robot,
                                     const HalfStepSequence& sequence);
 
+/// The half-steps of a config's footsteps, compensated where it asks for that; empty without
+/// footsteps. Throws InputError as CompensatedAsAsked() does.
+HalfStepSequence SequenceOf(const ExperimentConfig& config, const RobotModel& robot);
 /// Makes the experiment in a place that is loaded; without footsteps its sequence is empty. Throws
 /// InputError as CompensatedAsAsked() does.
 Experiment Prepare(const ExperimentConfig& config, Place place);

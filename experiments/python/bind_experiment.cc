@@ -118,7 +118,7 @@ std::vector<std::string> Missed(const PlacedExperiment& placed) {
     const SuperposedWalk walk(problem.sequence(), problem.Start());
     const Feasibility answer = problem.test().Check(walk, {0.0, walk.duration()}, &scratch);
     if (answer.verdict == Verdict::kFeasible || answer.stopped) return;
-    lines = MissedDemandsText(problem.evaluator(),
+    lines = MissedDemandsText(problem.evaluator(), problem.sequence(),
                               FindMissedDemands(problem.evaluator(), walk, answer.witness));
   });
   return lines;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/run/margin_words.h"
 #include "planner/scene/mesh_floor.h"
 #include "smoothing/margins/family_traits.h"
 #include "wpg/files/text.h"
@@ -10,13 +11,14 @@
 namespace halfstep {
 namespace {
 
-constexpr size_t kMost = 10;  // demands that are told
+constexpr size_t kMost = 10;  // demands that are told, unless there are more families
 
-std::string Demand(const MarginEvaluator& evaluator, const MissedDemand& demand, int instants) {
-  return evaluator.Describe(demand.worst) +
+std::string Demand(const MarginEvaluator& evaluator, const HalfStepSequence& sequence,
+                   const MissedDemand& demand, int instants) {
+  return PlaceInPlan(sequence, demand.worst) + ": " + MissedWords(evaluator, demand.worst) +
          (demand.instants > 0
-              ? Formatted("; missed at %d of %d instants", demand.instants, instants)
-              : Formatted("; missed for a moment between the %d instants looked at", instants));
+              ? Formatted(" (at %d of %d instants)", demand.instants, instants)
+              : Formatted(" (for a moment between the %d instants looked at)", instants));
 }
 
 // Of obstacles that a body touches: a mesh that brings its floor along.
@@ -51,25 +53,45 @@ std::string Remedy(const MarginEvaluator& evaluator, const MissedDemand& demand)
   return text;
 }
 
+// The worst of each family, then the worst of all until there are kMost, in the order of `demands`.
+std::vector<const MissedDemand*> Told(const std::vector<MissedDemand>& demands) {
+  std::vector<MarginFamily> families;
+  std::vector<bool> told(demands.size(), false);
+  for (size_t k = 0; k < demands.size(); ++k) {
+    const MarginFamily family = demands[k].worst.family;
+    if (std::ranges::find(families, family) != families.end()) continue;
+    families.push_back(family);
+    told[k] = true;
+  }
+  size_t count = families.size();
+  for (size_t k = 0; k < demands.size() && count < kMost; ++k) {
+    if (!told[k]) ++count;
+    told[k] = true;
+  }
+  std::vector<const MissedDemand*> chosen;
+  for (size_t k = 0; k < demands.size(); ++k) {
+    if (told[k]) chosen.push_back(&demands[k]);
+  }
+  return chosen;
+}
+
 }  // namespace
 
 std::vector<std::string> MissedDemandsText(const MarginEvaluator& evaluator,
+                                           const HalfStepSequence& sequence,
                                            const MissedDemands& missed) {
   std::vector<std::string> lines;
-  std::vector<MarginFamily> told;
+  std::vector<MarginFamily> families;
   std::vector<std::string> remedies;
-  for (const MissedDemand& demand : missed.demands) {
-    if (lines.size() < kMost) {
-      lines.push_back((lines.empty() ? "" : "missed too: ") +
-                      Demand(evaluator, demand, missed.instants));
-    }
-    const MarginFamily family = demand.worst.family;
-    if (std::ranges::find(told, family) != told.end()) continue;
-    told.push_back(family);  // its worst demand
-    remedies.push_back(Remedy(evaluator, demand));
+  for (const MissedDemand* demand : Told(missed.demands)) {
+    lines.push_back(Demand(evaluator, sequence, *demand, missed.instants));
+    const MarginFamily family = demand->worst.family;
+    if (std::ranges::find(families, family) != families.end()) continue;
+    families.push_back(family);  // its worst demand
+    remedies.push_back(Remedy(evaluator, *demand));
   }
-  if (missed.demands.size() > kMost) {
-    lines.push_back(Formatted("and %zu demands more", missed.demands.size() - kMost));
+  if (missed.demands.size() > lines.size()) {
+    lines.push_back(Formatted("and %zu more", missed.demands.size() - lines.size()));
   }
   if (std::string hint = FloorHint(evaluator, missed); !hint.empty()) lines.push_back(hint);
   lines.insert(lines.end(), remedies.begin(), remedies.end());

@@ -99,10 +99,10 @@ std::string MissedInPlace(const RobotModel& robot, const Scene& scene,
   MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
   const Feasibility answer = test.Check(walk, {0.0, walk.duration()}, &scratch);
   if (answer.verdict == Verdict::kFeasible) return "";
-  std::string text = "; a step in place misses ";
+  std::string text = "; a step in place is not feasible either, worst first:\n  ";
   std::string separator;
   for (const std::string& line :
-       MissedDemandsText(evaluator, FindMissedDemands(evaluator, walk, answer.witness))) {
+       MissedDemandsText(evaluator, sequence, FindMissedDemands(evaluator, walk, answer.witness))) {
     text += separator + line;
     separator = "\n  ";
   }

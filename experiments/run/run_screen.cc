@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "experiments/run/margin_words.h"
 #include "smoothing/proof/sampled_feasibility.h"
 #include "wpg/files/text.h"
 
@@ -16,7 +17,8 @@ const Margin& Of(const MethodRun& run, MarginFamily family) {
   return run.margins[static_cast<size_t>(family)];
 }
 
-// "11 up_down overlaps: 0.412 s on average of 0.950 s; held by clearance of RLEG_LINK5 - bar (2) …"
+// "11 up_down overlaps: 0.412 s on average of 0.950 s, limited by clearance of RLEG_LINK5 - bar (2)
+// …"
 std::string Holders(const MarginEvaluator& evaluator, const MethodRun& run, JunctionKind kind) {
   std::map<std::string, int> holders;
   double overlap = 0.0, bound = 0.0;
@@ -36,9 +38,9 @@ std::string Holders(const MarginEvaluator& evaluator, const MethodRun& run, Junc
     ++holders[what];
   }
   if (count == 0) return "";
-  std::string text = Formatted("  %s: %d overlaps, mean %.3f s of %.3f s, held by ",
+  std::string text = Formatted("  %s: %d overlap%s, mean %.3f s of %.3f s, limited by ",
                                kind == JunctionKind::kUpDown ? "up→down" : "down→up", count,
-                               overlap / count, bound / count);
+                               count == 1 ? "" : "s", overlap / count, bound / count);
   std::string separator;
   for (const auto& [what, times] : holders) {
     text += separator + what + Formatted(" (%d)", times);
@@ -56,11 +58,11 @@ std::string Promise(const MarginLimits& limits, const JunctionResult& junction) 
   const double part = less / Scale(family);
   const double room = std::max(0.0, junction.upper_bound - junction.overlap);
   std::string text =
-      Formatted("%g %s %s would save %.3f s", less, std::string(Unit(family)).c_str(),
-                demanded > 0.0 ? "less demanded" : "beyond its limit",
-                std::min(part * *junction.price, room));
+      Amount(less, Unit(family)) + Formatted(" %s would save %.2g s",
+                                             demanded > 0.0 ? "less demanded" : "beyond its limit",
+                                             std::min(part * *junction.price, room));
   if (junction.multiplier && *junction.multiplier > 0.0) {
-    text += Formatted(" (%.3f s with all parameters adapting)", part * *junction.multiplier);
+    text += Formatted(" (%.2g s with all parameters adapting)", part * *junction.multiplier);
   }
   return text;
 }
@@ -81,7 +83,7 @@ std::string Prices(const MarginEvaluator& evaluator, const MethodRun& run) {
                       junction.kind == JunctionKind::kUpDown ? "up→down" : "down→up",
                       junction.overlap) +
             std::string(Name(limit.family)) + " of " + evaluator.Subject(limit) +
-            Formatted(" at half-step %d, τ = %.3f s; ", limit.at.half_step + 1, limit.at.tau) +
+            Formatted(" at half-step %d, τ = %.2f s; ", limit.at.half_step + 1, limit.at.tau) +
             Promise(evaluator.limits(), junction);
     text += "\n";
   }
@@ -106,7 +108,8 @@ std::string RunTable(const Experiment& experiment, const WalkProblem& problem,
   std::ostringstream out;
   out << experiment.config.name << ": " << experiment.robot.name << ", "
       << experiment.sequence.size() << " half-steps, " << experiment.scene.obstacles.size()
-      << " obstacles; feasible means " << problem.test().Description() << "\n\n";
+      << (experiment.scene.obstacles.size() == 1 ? " obstacle" : " obstacles")
+      << "; feasible means " << problem.test().Description() << "\n\n";
   out << Formatted("%-22s %-16s %-10s %10s %8s %9s %10s %s\n", "method", "status", "for all t",
                    "duration", "speed-up", "low apex", "clearance", "worst margin");
   for (const MethodRun& run : runs) {
@@ -120,10 +123,15 @@ std::string RunTable(const Experiment& experiment, const WalkProblem& problem,
             : clearance.other < 0
                 ? Formatted("   > %2.0f cm", 100.0 * evaluator.limits().clearance_horizon)
                 : Formatted("%7.1f cm", 100.0 * clearance.value))
-        << Formatted(" %s %.4g %s\n", std::string(Name(worst.family)).c_str(), worst.value,
-                     std::string(Unit(worst.family)).c_str());
+        << " " << Name(worst.family) << " "
+        << (std::isinf(worst.value) ? "cannot be kept" : Amount(worst.value, Unit(worst.family)))
+        << "\n";
   }
   for (const MethodRun& run : runs) {
+    // What the planned motion misses is told before this table.
+    if (!runs.front().result.feasible && run.result.parameters == runs.front().result.parameters) {
+      continue;
+    }
     if (!HasOwnResult(run.result.ending)) {
       out << "\n"
           << run.method << ": " << Name(run.result.ending) << ": " << run.result.message << "\n";

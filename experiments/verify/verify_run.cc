@@ -107,6 +107,21 @@ std::vector<MethodVerification> VerifyRun(const VerifyOptions& options) {
   return results;
 }
 
+std::string Summary(const MethodVerification& result) {
+  constexpr std::ptrdiff_t kMost = 3;
+  std::string text = Formatted("%-22s ", result.method.c_str());
+  if (!result.readable) return text + "cannot be read\n";
+  if (result.verified) return text + Formatted("verified (%zu checks)\n", result.lines.size());
+  if (result.disagreements == 0) return text + "too coarse to verify: " + result.too_coarse + "\n";
+  text += "NOT verified\n";
+  const std::ptrdiff_t told = std::min(kMost, std::ssize(result.reasons));
+  for (std::ptrdiff_t i = 0; i < told; ++i) {
+    text += "  " + result.reasons[static_cast<size_t>(i)] + "\n";
+  }
+  const long more = result.disagreements - told;
+  return text + (more > 0 ? "  … and " + Count(more) + " more\n" : "");
+}
+
 std::string Describe(const MethodVerification& result) {
   std::string text = result.method + "\n";
   for (const std::string& line : result.lines) text += "  " + line + "\n";

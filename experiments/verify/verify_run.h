@@ -42,7 +42,10 @@ struct MethodVerification {
 /// folder of an episode gives one result (VerifyEpisode), and has no methods.
 std::vector<MethodVerification> VerifyRun(const VerifyOptions& options);
 
-/// The result as `halfstep verify` prints it.
+/// The result as `halfstep verify` prints it: a line, and the first reasons when it is not
+/// verified.
+std::string Summary(const MethodVerification& result);
+/// The same with a line for each check, all reasons that are kept, and the certificate's statement.
 std::string Describe(const MethodVerification& result);
 
 }  // namespace halfstep::verify

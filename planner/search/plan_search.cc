@@ -73,7 +73,7 @@ void Explain(const SearchEnd& end, PlanResult* result) {
   } else if (result->exhausted) {
     Fail(PlanStatus::kNoPlan,
          end.sentence.empty()
-             ? "no plan: all that the half-steps reach inside the workspace was searched"
+             ? "all that the half-steps reach inside the workspace was searched"
              : end.sentence,
          result);
   } else if (result->stop == StopReason::kInterrupted) {

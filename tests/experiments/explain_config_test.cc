@@ -141,6 +141,9 @@ TEST(ExplainConfig, FindsAKeyByItsPathOrItsEnd) {
               HasSubstr("footsteps.N.foot: text, required, valid: left, right\n"));
   EXPECT_THAT(explained({"smoothing.dichotomy"}).out,
               HasSubstr("smoothing.dichotomy.passes: integer, default 1, valid: 1 … 100\n"));
+  // A word that ends no key is looked for in what keys mean.
+  EXPECT_THAT(explained({"via point"}).out, HasSubstr("half_step.via_height_m: number [m]"));
+  EXPECT_THAT(explained({"Swing"}).out, HasSubstr("smoothing.limits.foot_speed_m_s: number"));
   const Outcome unknown = explained({"smothing.margins"});
   EXPECT_EQ(unknown.status, kBadInput);
   EXPECT_THAT(unknown.err, HasSubstr("'smothing.margins': no such key (did you mean "

@@ -182,7 +182,7 @@ TEST(HostileNames, ThatAreAcceptedReadBackFromEveryTable) {
   const Outcome run = Halfstep(place.path(), {"run", "c.yaml", "--out", "r"});
   ASSERT_EQ(run.status, kSuccess) << run.err;
   ExpectFitForATerminal(run.out + run.err);
-  EXPECT_THAT(run.out, HasSubstr(meant + ": hrp2, 2 half-steps, 1 obstacles"));
+  EXPECT_THAT(run.out, HasSubstr(meant + ": hrp2, 2 half-steps, 1 obstacle"));
   for (const std::string& file : FilesBelow(place / "r")) {
     SCOPED_TRACE(file);
     const std::string text = ReadText(place / "r" / file);

@@ -66,7 +66,7 @@ TEST(LiveCommand, WhatAKilledEpisodeLeftVerifies) {
   const Outcome recovered = Halfstep(place.path(), {"recover", "one"});
   EXPECT_EQ(recovered.status, kSuccess) << recovered.err;
   EXPECT_THAT(recovered.out, HasSubstr("recovered"));
-  const Outcome verified = Halfstep(place.path(), {"verify", "one"});
+  const Outcome verified = Halfstep(place.path(), {"verify", "one", "--verbose"});
   EXPECT_EQ(verified.status, kSuccess) << verified.out << verified.err;
   EXPECT_THAT(verified.out, HasSubstr("killed"));
   EXPECT_FALSE(fs::exists(EpisodeJournal::FolderOf(place / "one")));
@@ -82,7 +82,7 @@ TEST(LiveCommand, AnInterruptedEpisodeIsWritten) {
   child.Signal(SIGINT);
   const Outcome outcome = child.Wait();
   EXPECT_EQ(outcome.status, kInterrupted) << outcome.err;
-  const Outcome verified = Halfstep(place.path(), {"verify", "one"});
+  const Outcome verified = Halfstep(place.path(), {"verify", "one", "--verbose"});
   EXPECT_EQ(verified.status, kSuccess) << verified.out << verified.err;
   EXPECT_THAT(verified.out, HasSubstr("interrupted"));
   std::ifstream events(place / "one/events.csv");

@@ -64,7 +64,9 @@ class TamperedEpisode {
   }
 
   fs::path folder() const { return place_ / "walk/episode"; }
-  Outcome Verify() const { return Halfstep(place_.path(), {"verify", "walk/episode"}); }
+  Outcome Verify() const {
+    return Halfstep(place_.path(), {"verify", "walk/episode", "--verbose"});
+  }
 
   void Rehash() const {
     const fs::path manifest = folder() / "manifest.json";

@@ -211,7 +211,9 @@ TEST(StopBranches, AreCheckedWhenTheConfigDemandsThem) {
         {.overrides = {"smoothing.methods=[halfstep/sqp]", "smoothing.optimizer.heights=true",
                        "smoothing.optimizer.durations=true",
                        std::string("smoothing.stop_branches=") + demanded}});
-    const auto verify = [&] { return Halfstep(run.run().parent_path(), {"verify", "run"}); };
+    const auto verify = [&] {
+      return Halfstep(run.run().parent_path(), {"verify", "run", "--verbose"});
+    };
     EXPECT_EQ(verify().status, 0);
     if (demanded == std::string("all")) {
       EXPECT_THAT(verify().out, HasSubstr("stop branches: 1 keep every margin to their end"));

@@ -54,7 +54,7 @@ class TamperedRun {
   std::filesystem::path urdf() const { return place_ / "robots/hrp2.urdf"; }
 
   Outcome Verify() const {
-    return Halfstep(place_.path(), {"verify", "run", "--method", "dichotomy"});
+    return Halfstep(place_.path(), {"verify", "run", "--method", "dichotomy", "--verbose"});
   }
 
   /// Cells of a CSV, the header first, and back.

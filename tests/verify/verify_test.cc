@@ -355,6 +355,10 @@ TEST(Verify, AcceptsARunAndSaysWhatIsGuaranteed) {
   EXPECT_EQ(outcome.status, kSuccess) << outcome.out << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("\n  verified\n"));
   EXPECT_THAT(outcome.out, HasSubstr("Guaranteed for every instant"));
+  const Outcome brief = Halfstep(run.run().parent_path(), {"verify", "run"});
+  EXPECT_EQ(brief.status, kSuccess);
+  EXPECT_THAT(brief.out, testing::ContainsRegex("^dichotomy +verified \\([0-9]+ checks\\)\n"));
+  EXPECT_THAT(brief.out, testing::Not(HasSubstr("Guaranteed")));
   // The tampering itself, without a change, spoils nothing.
   run.EditTrajectory([](Table&) {});
   run.EditCertificate([](Table&) {});

@@ -1,0 +1,60 @@
+#include "experiments/survey/starter_config.h"
+
+#include "experiments/survey/self_gaps.h"
+#include "experiments/survey/stance_search.h"
+#include "smoothing/walk/superposed_walk.h"
+#include "wpg/files/text.h"
+
+namespace halfstep {
+namespace {
+
+// Six steps straight ahead, as items of a list.
+std::string FootstepLines(const RobotModel& robot, const HalfStep& half_step) {
+  const HalfStepSequence sequence = SixSteps(robot, half_step);
+  const SuperposedWalk walk(sequence, PlannedMotion(sequence));
+  std::string text;
+  for (int i = 1; i < walk.num_half_steps(); i += 2) {
+    const Side foot = Opposite(walk.half_step(i).support);
+    const Pose2 at = FootPose(walk.At(walk.end_of(i)).value, foot);
+    text += Formatted("  - {foot: %s, x_m: %.4f, y_m: %.4f}\n", std::string(Name(foot)).c_str(),
+                      at.x, at.y);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string StarterConfigText(const RobotModel& robot, const StarterConfig& config) {
+  const HalfStep half_step = DefaultHalfStep(robot);
+  std::string text =
+      "# Keys and their values for this robot: `halfstep explain-config --robot " +
+      config.robot_file +
+      "`\n"
+      "# (or with a key, or with a word). Any key can be set on the command line:\n"
+      "# `halfstep run THIS.yaml --set half_step.duration_s=1.5`.\n"
+      "robot: " +
+      config.robot_file + "  # `halfstep list robots`; `halfstep robot` makes one of a URDF\n" +
+      "scene: " + config.scene + (config.scene == "none" ? "  # an empty floor; " : "  # ") +
+      "`halfstep list scenes`\n";
+  if (config.goal) {
+    text += Formatted(
+        "goal: {x_m: %g, y_m: %g, radius_m: 0.1}  # a planner finds the footsteps; in place of it "
+        "`footsteps:`\n",
+        (*config.goal)[0], (*config.goal)[1]);
+  } else {
+    text +=
+        "footsteps:  # of the soles' centres; in place of them `goal: {x_m: 2, y_m: 0}` plans\n" +
+        FootstepLines(robot, half_step);
+  }
+  text += Formatted(
+      "# half_step: {duration_s: %.3g, via_height_m: %.3g}  # so long lasts each, so high goes the "
+      "foot\n"
+      "# smoothing:  # more than one after the other: `halfstep list methods`\n"
+      "#   methods: [dichotomy, halfstep/sqp]\n"
+      "#   optimizer: {heights: true, durations: true}  # beside the overlaps\n"
+      "#   margins: {clearance_m: 0.005}\n",
+      half_step.duration, half_step.via_height);
+  return text;
+}
+
+}  // namespace halfstep

@@ -1,0 +1,68 @@
+// What `halfstep init` writes can be run as it is, and after its comments are taken away.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <regex>
+
+#include "experiments/run/exit_status.h"
+#include "tests/experiments/child_process.h"
+#include "tests/experiments/run_check.h"
+#include "tests/temporary_folder.h"
+
+namespace halfstep {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(InitCommand, WritesAConfigThatRuns) {
+  const TemporaryFolder place;
+  const Outcome outcome = Halfstep(place.path(), {"init", "walk"});
+  ASSERT_EQ(outcome.status, kSuccess) << outcome.err;
+  EXPECT_EQ(outcome.out, "written: walk.yaml\nnext:    halfstep run walk.yaml\n");
+  EXPECT_EQ(Halfstep(place.path(), {"run", "walk.yaml", "--quiet"}).status, kSuccess);
+}
+
+TEST(InitCommand, ItsCommentsAreKeysOfTheRobot) {
+  for (const std::string robot : {"hrp2", "wren", "bison"}) {
+    const TemporaryFolder place;
+    ASSERT_EQ(Halfstep(place.path(), {"init", "walk", "--robot", robot}).status, kSuccess);
+    std::string text = ReadText(place / "walk.yaml");
+    text = std::regex_replace(text, std::regex("\n# (half_step|smoothing)"), "\n$1");
+    text = std::regex_replace(text, std::regex("\n#   "), "\n  ");
+    text = std::regex_replace(text, std::regex("methods: .*"), "methods: [dichotomy]");
+    WriteText(place / "all.yaml", text);
+    const Outcome outcome = Halfstep(place.path(), {"run", "all.yaml", "--quiet"});
+    EXPECT_EQ(outcome.status, kSuccess) << text << outcome.err;
+  }
+}
+
+TEST(InitCommand, NamesASceneAndAGoal) {
+  const TemporaryFolder place;
+  std::filesystem::create_directory(place / "configs");
+  WriteText(place / "floor.yaml", "no_step: []\n");
+  ASSERT_EQ(Halfstep(place.path(),
+                     {"init", "configs/there", "--scene", "floor.yaml", "--goal", "1", "-0.2"})
+                .status,
+            kSuccess);
+  const std::string text = ReadText(place / "configs/there.yaml");
+  EXPECT_THAT(text, HasSubstr("\nscene: ../floor.yaml "));
+  EXPECT_THAT(text, HasSubstr("\ngoal: {x_m: 1, y_m: -0.2, "));
+}
+
+TEST(InitCommand, RefusesWhatItWouldLose) {
+  const TemporaryFolder place;
+  WriteText(place / "walk.yaml", "mine");
+  const Outcome there = Halfstep(place.path(), {"init", "walk"});
+  EXPECT_EQ(there.status, kBadInput);
+  EXPECT_EQ(there.err, "walk.yaml: is there already (--overwrite replaces it)\n");
+  EXPECT_EQ(ReadText(place / "walk.yaml"), "mine");
+  const Outcome robot = Halfstep(place.path(), {"init", "other", "--robot", "hrp"});
+  EXPECT_EQ(robot.status, kBadInput);
+  EXPECT_THAT(robot.err, HasSubstr("no robot is called 'hrp' (did you mean 'hrp2'? valid: "));
+  EXPECT_EQ(Halfstep(place.path(), {"init", "=sum"}).status, kBadInput);
+  EXPECT_FALSE(std::filesystem::exists(place / "other.yaml"));
+}
+
+}  // namespace
+}  // namespace halfstep
