@@ -5,12 +5,7 @@
 #include <vector>
 
 #include "experiments/config/planning_config.h"
-#include "smoothing/margins/margin.h"
-#include "smoothing/methods/dichotomy.h"
-#include "smoothing/methods/horizon.h"
-#include "smoothing/methods/overlap_optimizer.h"
-#include "smoothing/methods/pareto.h"
-#include "smoothing/proof/certificate.h"
+#include "experiments/config/smoothing_config.h"
 #include "wpg/files/fields.h"
 #include "wpg/files/key_description.h"
 #include "wpg/files/yaml_fields.h"
@@ -44,43 +39,6 @@ struct HalfStepConfig {
 /// Fractions of T, as half-steps have them.
 HalfStepShape ShapeOf(const HalfStepConfig& config);
 
-/// Options of the methods that are solvers.
-struct OptimizerConfig {
-  std::string program = "fastest";  ///< one of the names of ProgramKind
-  OptimizerOptions options;         ///< also holds for the solvers of ParetoCurve
-  ParetoOptions pareto;             ///< used where `program` is `pareto`
-};
-
-/// A parameter that methods leave alone, as a config names it: "overlap", 3 (from 1).
-struct FixedConfig {
-  std::string parameter = "overlap";  ///< the name of a parameter family
-  int index = 1;                      ///< junction, step or half-step of the family, from 1
-  std::optional<double> value;        ///< in the family's unit; none: as planned
-};
-
-/// Files that hold a walk of one's own, with columns of overlaps.csv and half_steps.csv; "": none.
-struct GivenWalkFiles {
-  std::string overlaps;    ///< one row a junction
-  std::string half_steps;  ///< one row a half-step
-};
-
-/// The group `smoothing`: the methods, and what they have to keep.
-struct SmoothingConfig {
-  std::vector<std::string> methods = {"dichotomy"};  ///< in the order in which they run
-  std::string acceptance = "certified";  ///< "certified" or "sampled": how a method accepts a walk
-  double sampling = 0.005;               ///< period of acceptance `sampled` [s]
-  std::string stop_branches = "none";    ///< one of the names of StopBranches
-  bool repair_plan = false;              ///< RepairPlan() before the methods
-  CertificationOptions certification;    ///< of proofs, whatever `acceptance` is
-  DichotomyOptions dichotomy;            ///< of the dichotomy and of the methods that begin with it
-  OptimizerConfig optimizer;             ///< of the methods that are solvers
-  HorizonOptions horizon;                ///< window, step and passes
-  std::vector<FixedConfig> fixed;        ///< parameters that no method moves
-  bool has_given = false;                ///< whether `given` names files
-  GivenWalkFiles given;                  ///< of the method `given`
-  MarginLimits limits;                   ///< limits and demanded margins
-};
-
 /// An experiment as its YAML file says it (top keys: experiments/README.md). Paths are as written.
 struct ExperimentConfig {
   std::string name;   ///< default: the file's stem
@@ -109,9 +67,6 @@ void DeclareFields(Fields& fields, ExperimentConfig* config);
 /// Complains, at the place that names it, about a file of the config that is not there. To be
 /// called after DeclareFields(), when the config knows its folder.
 void DeclareFilesThere(Fields& fields, const ExperimentConfig& config);
-
-/// The parameters that a config fixes. Precondition: each names a family, which reading ensures.
-std::vector<FixedParameter> FixedParameters(const SmoothingConfig& config);
 
 /// The keys that DeclareFields declares, as data; defaults that go by the robot as formulas.
 std::vector<KeyDescription> ConfigKeys();

@@ -1,0 +1,124 @@
+#include "experiments/config/smoothing_config.h"
+#include "smoothing/methods/smoother_registry.h"
+#include "wpg/files/text.h"
+
+namespace halfstep {
+namespace {
+
+void DeclareWeights(Fields& fields, EffortWeights* w) {
+  const auto weight = [&](const char* key, double* value, const char* meaning, const char* unit) {
+    fields.Number(key, value, {.meaning = meaning, .unit = unit, .min = 0, .max = 1000});
+  };
+  weight("com_acceleration", &w->com_acceleration, "of ∫‖c̈‖² dt", "s⁴/m²");
+  weight("com_jerk", &w->com_jerk, "of ∫‖c⃛‖² dt", "s⁶/m²");
+  weight("foot_speed", &w->foot_speed, "of ∫‖v‖² dt of both soles", "s²/m²");
+}
+
+// A weight for each cost that the program itself registered.
+void DeclareOwnCosts(Fields& fields, std::vector<WeightedWalkCost>* costs) {
+  std::vector<WeightedWalkCost> weighed;
+  for (const auto& cost : WalkCosts()) {
+    WeightedWalkCost own{.cost = cost};
+    for (const WeightedWalkCost& known : *costs) {
+      if (known.cost->name() == cost->name()) own.weight = known.weight;
+    }
+    const std::string name = cost->name(), meaning = cost->meaning(), unit = cost->unit();
+    fields.Number(name.c_str(), &own.weight,
+                  {.meaning = meaning.c_str(), .unit = unit.c_str(), .min = 0, .max = 1e6});
+    if (own.weight != 0.0) weighed.push_back(std::move(own));
+  }
+  *costs = std::move(weighed);
+}
+
+}  // namespace
+
+void DeclareOptimizer(Fields& fields, OptimizerConfig* c) {
+  OptimizerOptions* o = &c->options;
+  fields.Text("program", &c->program,
+              {.meaning = "what is optimized: duration; duration and effort; the least slack for a "
+                          "duration; that for a range of durations",
+               .choices = {"fastest", "smooth", "safest", "pareto"}});
+  for (ProgramKind kind : {ProgramKind::kFastest, ProgramKind::kSmooth, ProgramKind::kSafest}) {
+    if (c->program == Name(kind)) o->program.kind = kind;
+  }
+  ParameterChoice* const choice = &o->program.parameters;
+  for (const ParameterFamily family : AllParameterFamilies()) {
+    const ParameterFamilyTraits& traits = Traits(family);
+    if (traits.chosen == nullptr) continue;
+    fields.Boolean(traits.key.data(), &(choice->*traits.chosen),
+                   {.meaning = traits.key_meaning.data()});
+  }
+  for (const ParameterFamily family : AllParameterFamilies()) {
+    for (const ParameterBoundKey& bound : Traits(family).bounds) {
+      fields.Number(bound.key.data(), &(choice->*bound.value),
+                    {.meaning = bound.meaning.data(),
+                     .unit = bound.unit.data(),
+                     .min = bound.min,
+                     .max = bound.max});
+    }
+  }
+  fields.Number("duration_s", &o->duration_limit,
+                {.meaning = "`safest`: of the walk at most; 0: the dichotomy's own",
+                 .unit = "s",
+                 .min = 0,
+                 .max = 100000});
+  fields.Integer(
+      "pareto_points", &c->pareto.points,
+      {.meaning = "`pareto`: durations, from the fastest to the longest", .min = 2, .max = 200});
+  fields.Number(
+      "pareto_longest", &c->pareto.most_duration,
+      {.meaning = "`pareto`: longest duration, of the planned motion's", .min = 0.1, .max = 3});
+  fields.Group("weights", {.meaning = "`smooth`: of the effort beside the duration"},
+               [&](Fields& f) {
+                 DeclareWeights(f, &o->program.weights);
+                 DeclareOwnCosts(f, &o->program.own_costs);
+               });
+  fields.Integer(
+      "instants", &o->instants,
+      {.meaning = "per half-step at which the program looks; 0: 24 for `halfstep/sqp`, 32 for "
+                  "others",
+       .min = 0,
+       .max = 1000});
+  fields.Integer("rounds", &o->rounds,
+                 {.meaning = "solves from each start, each looking closer", .min = 1, .max = 100});
+  fields.Boolean("planned_start", &o->planned_start,
+                 {.meaning = "solve also from the planned motion, not only from the dichotomy's "
+                             "result"});
+  fields.Integer("random_starts", &o->random_starts,
+                 {.meaning = "further starts, drawn from `seed`", .min = 0, .max = 1000});
+  fields.Integer(
+      "max_iterations", &o->max_iterations,
+      {.meaning =
+           "that the solver may make in a round, NLopt's excepted, which count none; 0: 3 for "
+           "`halfstep/sqp`, 30 for others",
+       .min = 0,
+       .max = 100000});
+  fields.Number(
+      "deadline_s", &o->deadline,
+      {.meaning =
+           "of all solves of a method together; of `dichotomy/uniform`, `coordinate`, `reference`",
+       .unit = "s",
+       .min = 0.001,
+       .max = 86400});
+}
+
+void DeclareHorizon(Fields& fields, HorizonOptions* o) {
+  const auto half_steps = [&](const char* key, int* count, const char* meaning) {
+    fields.Integer(key, count, {.meaning = meaning, .min = 2, .max = 1000});
+    if (*count % 2 == 0) return;
+    fields.Complain(key,
+                    std::to_string(*count) + " is odd (valid: whole steps, two half-steps each)");
+  };
+  half_steps("window", &o->window, "half-steps that are moved together");
+  half_steps("step", &o->step, "half-steps by which the next window lies further on");
+  if (o->step > o->window) {
+    fields.Complain("step", std::to_string(o->step) +
+                                " leaves half-steps between windows (valid: up to `window`, " +
+                                std::to_string(o->window) + ")");
+  }
+  fields.Integer(
+      "passes", &o->passes,
+      {.meaning = "over the walk at most; they end when nothing is gained", .min = 1, .max = 1000});
+}
+
+}  // namespace halfstep

@@ -1,0 +1,164 @@
+#include "experiments/config/smoothing_config.h"
+
+#include <algorithm>
+
+#include "smoothing/margins/family_traits.h"
+#include "smoothing/methods/smoother_registry.h"
+#include "wpg/files/text.h"
+
+namespace halfstep {
+namespace {
+
+void DeclareDichotomy(Fields& fields, DichotomyOptions* o) {
+  fields.Number("tolerance_s", &o->tolerance,
+                {.meaning = "bisection of an overlap ends below this (published: 0.05)",
+                 .unit = "s",
+                 .min = 1e-6,
+                 .max = 1});
+  std::string order =
+      o->order == DichotomyOptions::Order::kLeftToRight ? "left_to_right" : "right_to_left";
+  fields.Text("order", &order,
+              {.meaning = "of the junctions", .choices = {"left_to_right", "right_to_left"}});
+  o->order = order == "left_to_right" ? DichotomyOptions::Order::kLeftToRight
+                                      : DichotomyOptions::Order::kRightToLeft;
+  fields.Integer("passes", &o->passes, {.meaning = "over all junctions", .min = 1, .max = 100});
+  fields.Number("up_down_cap", &o->up_down_cap,
+                {.meaning = "largest overlap as a fraction of its natural bound (published: 0.8)",
+                 .min = 0,
+                 .max = 1});
+  fields.Number("down_up_cap", &o->down_up_cap,
+                {.meaning = "largest overlap as a fraction of its natural bound (published: 0.76)",
+                 .min = 0,
+                 .max = 1});
+}
+
+void DeclareFixed(Fields& fields, FixedConfig* c) {
+  std::vector<std::string> names;
+  for (const ParameterFamily family : AllParameterFamilies()) {
+    names.emplace_back(Traits(family).name);
+  }
+  fields.Text("parameter", &c->parameter,
+              {.meaning = "which kind of them", .required = true, .choices = names});
+  fields.Integer("index", &c->index,
+                 {.meaning = "of its junction, step or half-step, from 1", .min = 1, .max = 20000});
+  fields.OptionalNumber(
+      "value", &c->value,
+      {.meaning = "s (an overlap below 0 is a rest), of the planned height, or m; none: as planned",
+       .min = -kLongestRest,
+       .max = 6});
+}
+
+void DeclareGiven(Fields& fields, GivenWalkFiles* files) {
+  fields.Text("overlaps", &files->overlaps,
+              {.meaning = "path of a table like overlaps.csv, one row a junction",
+               .otherwise = "as planned"});
+  fields.Text("half_steps", &files->half_steps,
+              {.meaning = "path of a table like half_steps.csv, one row a half-step",
+               .otherwise = "as planned"});
+  if (files->overlaps.empty() && files->half_steps.empty()) {
+    fields.Complain("", "no table is named (valid: `overlaps`, `half_steps` or both)");
+  }
+}
+
+void DeclareLimits(Fields& fields, MarginLimits* l) {
+  fields.OptionalNumber("foot_speed_m_s", &l->foot_speed,
+                        {.meaning = "of the swing sole's centre; none: no limit",
+                         .unit = "m/s",
+                         .min = 0.01,
+                         .max = 20});
+  fields.OptionalNumber(
+      "foot_yaw_rate_rad_s", &l->foot_yaw_rate,
+      {.meaning = "of the swing sole; none: no limit", .unit = "rad/s", .min = 0.01, .max = 50});
+  fields.Number("joint_speed_scale", &l->joint_speed_scale,
+                {.meaning = "fraction of the robot's joint speed limits", .min = 0.01, .max = 1});
+}
+
+void DeclareMargins(Fields& fields, MarginLimits* l) {
+  for (const MarginFamily family : AllMarginFamilies()) {
+    const FamilyTraits& traits = Traits(family);
+    const NumberSpec spec{.meaning = traits.meaning.data(),
+                          .unit = traits.unit == "1" ? "" : traits.unit.data(),
+                          .min = 0,
+                          .max = traits.most};
+    double& demanded = l->demanded_of(family);
+    if (!traits.may_be_none) {
+      fields.Number(traits.key.data(), &demanded, spec);
+      continue;
+    }
+    std::optional<double> or_none;
+    if (demanded != kNotDemanded) or_none = demanded;
+    fields.OptionalNumber(traits.key.data(), &or_none, spec);
+    demanded = or_none.value_or(kNotDemanded);
+  }
+}
+
+}  // namespace
+
+void DeclareSmoothing(Fields& fields, SmoothingConfig* c) {
+  fields.Texts("methods", &c->methods,
+               {.meaning = "to run and compare, each once; `raw` is always written",
+                .choices = SmootherNames(),
+                .listed_by = "halfstep list methods"});
+  for (auto method = c->methods.begin(); method != c->methods.end(); ++method) {
+    if (std::find(c->methods.begin(), method, *method) != method) {
+      fields.Complain("methods", Quote(*method) + " is there twice (valid: each method once)");
+      break;
+    }
+  }
+  fields.Text(
+      "acceptance", &c->acceptance,
+      {.meaning = "what makes a candidate acceptable", .choices = {"certified", "sampled"}});
+  fields.Number("sampling_s", &c->sampling,
+                {.meaning = "period of the sampled checks (`sampled` only)",
+                 .unit = "s",
+                 .min = 1e-4,
+                 .max = 0.1});
+  fields.Number("resolution_s", &c->certification.resolution,
+                {.meaning = "certification gives up on shorter intervals: undecided",
+                 .unit = "s",
+                 .min = 1e-7,
+                 .max = 0.01});
+  fields.Text("stop_branches", &c->stop_branches,
+              {.meaning = "after which half-steps the walk can be stopped, every margin kept",
+               .choices = {"none", "down", "all"}});
+  fields.Boolean("repair_plan", &c->repair_plan,
+                 {.meaning = "steps of a plan that is not feasible take longer, or go higher or "
+                             "lower, where that makes them feasible"});
+  fields.Group("dichotomy", {.meaning = "options of the method `dichotomy`"},
+               [&](Fields& f) { DeclareDichotomy(f, &c->dichotomy); });
+  fields.Group(
+      "optimizer",
+      {.meaning =
+           "options of the methods that are solvers (smoothing/README.md, \"Overlap program\")"},
+      [&](Fields& f) { DeclareOptimizer(f, &c->optimizer); });
+  fields.Group("horizon",
+               {.meaning = "windows of `halfstep/horizon`; its program, variables and deadline are "
+                           "those of `optimizer`"},
+               [&](Fields& f) { DeclareHorizon(f, &c->horizon); });
+  fields.List("fixed", {.meaning = "parameters that no method may move"}, &c->fixed, DeclareFixed);
+  fields.OptionalGroup("given", &c->has_given,
+                       {.meaning = "the walk of the method `given`, from tables with the columns "
+                                   "of a run; parameters without a column are as planned"},
+                       [&](Fields& f) { DeclareGiven(f, &c->given); });
+  const bool takes_given = std::ranges::find(c->methods, "given") != c->methods.end();
+  if (takes_given && !c->has_given) {
+    fields.Complain("methods", "'given' without a walk (valid: with `smoothing.given`)");
+  }
+  fields.Group("limits", {.meaning = "what the robot file does not limit"},
+               [&](Fields& f) { DeclareLimits(f, &c->limits); });
+  fields.Group("margins", {.meaning = "demanded margins: feasible means at least this far inside"},
+               [&](Fields& f) { DeclareMargins(f, &c->limits); });
+}
+
+std::vector<FixedParameter> FixedParameters(const SmoothingConfig& config) {
+  std::vector<FixedParameter> fixed;
+  for (const FixedConfig& one : config.fixed) {
+    for (const ParameterFamily family : AllParameterFamilies()) {
+      if (one.parameter == Traits(family).name)
+        fixed.push_back({{family, one.index - 1}, one.value});
+    }
+  }
+  return fixed;
+}
+
+}  // namespace halfstep
