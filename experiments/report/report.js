@@ -1,9 +1,10 @@
 // Brings a report's data and the page together.
 import { Actor, footprints } from "./actor.js";
 import { connectActions } from "./actions.js";
-import { readAddress } from "./address.js";
+import { parsedAddress, readAddress, unknownIn } from "./address.js";
 import { anytimePlot } from "./anytime.js";
 import { firstChoice, isInfeasible, secondChoice } from "./choices.js";
+import { filmByCommand } from "./film.js";
 import { marginText, worstInstant } from "./least_margins.js";
 import { leastTable } from "./least_table.js";
 import { middleOf } from "./pair_line.js";
@@ -196,14 +197,17 @@ function chooseWalks() {
   byId("outcome").classList.toggle("no", !a.certified);
 }
 
-// What the page's address asks for, of a case that is chosen.
-function applyAddress() {
-  const asked = readAddress();
+// What an address asks for, of a case that is chosen.
+function applyAddress(asked = readAddress()) {
   const drawn = current.walks.filter((walk) => walk.drawn);
   const index = (name) => drawn.findIndex((walk) => walk.label === name);
   if (index(asked.a) >= 0) byId("method-a").selectedIndex = index(asked.a);
   if (asked.b === "none" || index(asked.b) >= 0) byId("method-b").selectedIndex = index(asked.b) + 1;
   if (index(asked.a) >= 0 || asked.b !== undefined) chooseWalks();
+  if ([...byId("camera").options].some((option) => option.value === asked.camera)) {
+    byId("camera").value = asked.camera;
+    look();
+  }
   const t = Number.parseFloat(asked.t);
   if (Number.isFinite(t)) timeline.seek(t);
   return Number.isFinite(t);
@@ -264,6 +268,27 @@ function changeTheme() {
   timeline.seek(Number(shown.t));
 }
 
+// What a film of this page needs.
+const filmed = {
+  canvas: byId("canvas"),
+  hasView: () => stage !== null && actors.length > 0,
+  begin: () => (timeline.t < timeline.duration ? timeline.t : 0),
+  duration: () => timeline.duration,
+  show: (t) => { timeline.seek(t); draw(); },
+  captions: () => ({
+    names: walks.map((walk, i) => byId(`tag-${"ab"[i]}`).textContent),
+    beside: byId("view").classList.contains("beside"),
+    clock: `${timeline.t.toFixed(2)} s`,
+  }),
+  choose(address) {
+    timeline.seek(0);
+    const asked = parsedAddress(address);
+    const unknown = unknownIn(asked, current.walks.filter((walk) => walk.drawn), byId("camera"));
+    if (!unknown) applyAddress(asked);
+    return unknown;
+  },
+};
+
 function start() {
   const title = report.name ??
     (cases.length === 1 ? `${cases[0].scenario}, compared` : `Comparison of ${cases.length} scenarios`);
@@ -289,8 +314,9 @@ function start() {
   byId("camera").addEventListener("change", look);
   byId("follow").addEventListener("change", look);
   new ResizeObserver(redraw).observe(byId("view"));
-  connectActions({ stage, timeline, draw, goToWorst, addressNow });
-  window.addEventListener("hashchange", applyAddress);
+  connectActions({ stage, timeline, draw, goToWorst, addressNow, film: filmed });
+  window.halfstepFilm = filmByCommand(filmed);
+  window.addEventListener("hashchange", () => applyAddress());
   darkness.addEventListener("change", changeTheme);
   const asked = cases.findIndex((one) => one.scenario === readAddress().scenario);
   if (asked > 0) byId("scenario").selectedIndex = asked;

@@ -7,6 +7,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { Browser, hasBrowser, pause } from "./browser.mjs";
 import { testControls, testInfeasible, testPhoneInTheDark } from "./page_controls.mjs";
+import { testVideo } from "./page_video.mjs";
 import { countColours, partThatDiffers, readPng } from "./png.mjs";
 
 const [halfstep, source] = process.argv.slice(2);
@@ -143,6 +144,8 @@ async function testEveryControl(browser) {
   await testInfeasible(browser, `file://${place}/low/report.html`);
 }
 
+const testVideoOfRun = (browser) => testVideo(browser, halfstep, place);
+
 async function testWithoutWebGl(browser) {
   await browser.load(`file://${place}/run/report.html`);
   const page = await browser.run(`return { view: document.getElementById("view").innerText,
@@ -164,7 +167,7 @@ try {
     process.exitCode = 77;
   } else {
     testOutlines();
-    for (const [flags, tests] of [[[], [testRun, testComparison, testEveryControl]],
+    for (const [flags, tests] of [[[], [testRun, testComparison, testEveryControl, testVideoOfRun]],
                                   [["--disable-3d-apis"], [testWithoutWebGl]]]) {
       const browser = await Browser.open(1366, 768, flags);
       try {
