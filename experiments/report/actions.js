@@ -52,7 +52,7 @@ async function saveVideo(page) {
 
 /**
  * Buttons below the view, and their keys. `page` has: stage or null, timeline, draw(), which draws
- * at once, goToWorst(), addressNow(), what is looked at, and film, the page of a Film.
+ * at once, goToWorst(), toggleVolumes(), addressNow(), what is looked at, and film, the page of a Film.
  */
 export function connectActions(page) {
   const { goToWorst } = page;
@@ -65,6 +65,6 @@ export function connectActions(page) {
   window.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey || byId("help").open) return;
     if (event.target.tagName === "SELECT") return;
-    ({ w: goToWorst, c: copy, "?": help })[event.key]?.();
+    ({ w: goToWorst, c: copy, v: page.toggleVolumes, "?": help })[event.key]?.();
   });
 }

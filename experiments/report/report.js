@@ -1,11 +1,15 @@
 // Brings a report's data and the page together.
 import { Actor, footprints } from "./actor.js";
 import { connectActions } from "./actions.js";
-import { parsedAddress, readAddress, unknownIn } from "./address.js";
+import { readAddress } from "./address.js";
 import { anytimePlot } from "./anytime.js";
 import { firstChoice, isInfeasible, secondChoice } from "./choices.js";
 import { filmByCommand } from "./film.js";
-import { marginText, worstInstant } from "./least_margins.js";
+import { filmedPage } from "./filmed.js";
+import { extentOf } from "./floor_marks.js";
+import { handWalk } from "./hand_walk.js";
+import { addLayerBoxes, layers, offerLayer } from "./layers.js";
+import { worstInstant } from "./least_margins.js";
 import { leastTable } from "./least_table.js";
 import { middleOf } from "./pair_line.js";
 import * as palette from "./palette.js";
@@ -13,24 +17,18 @@ import { paretoPlots } from "./pareto.js";
 import { Plots } from "./plots.js";
 import { RobotShapes } from "./robot.js";
 import { plotList } from "./series.js";
+import { Sliders } from "./sliders.js";
 import { Stage } from "./stage.js";
+import { volumesInPlaceOf } from "./swept_volumes.js";
 import { guarantee, junctionTable, scenarioTable, summaryTable } from "./tables.js";
 import { Timeline } from "./timeline.js";
-import { instants } from "./traces.js";
 import { Walk } from "./walk.js";
+import { tellInstant, tellOutcome } from "./words.js";
 import { ZmpMap } from "./zmp_map.js";
 
 const byId = (id) => document.getElementById(id);
 const report = JSON.parse(byId("data").textContent);
 const cases = report.cases.map((one) => ({ ...one, walks: one.walks.map((walk) => new Walk(walk)) }));
-
-const layers = [
-  ["footprints", "footprints", true],
-  ["balance", "ZMP, CoM, support polygon", true],
-  ["paths", "paths", false],
-  ["soles", "sole traces (sampled)", false],
-  ["strobe", `body at ${instants} instants`, false],
-];
 
 const darkness = window.matchMedia("(prefers-color-scheme: dark)");
 palette.useTheme(darkness.matches);
@@ -47,7 +45,10 @@ const shapes = report.robots.map((robot) => (stage ? new RobotShapes(robot) : nu
 const plots = new Plots(byId("plots"), (t) => timeline.seek(t));
 const zmpMap = new ZmpMap(byId("zmps"));
 const timeline = new Timeline(() => showTime());
+const sliders = new Sliders(byId("by-hand"), (parameters) => moveByHand(parameters));
 let current = null; // the case
+let volumes = null; // the plan's, where they are known
+let hand = null; // the walk by hand
 let walks = []; // A, and B when there is one
 let actors = [];
 let pending = false;
@@ -82,31 +83,15 @@ function showTime() {
   const t = timeline.t;
   for (const actor of actors) actor.pose(t);
   stage?.showTime(t);
+  const half = walks[0]?.halfStepAt(walks[0].locate(t));
+  volumes?.showHalfStep(half ? half.half_step - 1 : -1);
   if (actors.length > 0 && byId("follow").checked) {
     stage.followTo(...centreNow(walks[0]));
   }
-  ["a", "b"].forEach((name, i) => {
-    const walk = walks[i];
-    if (!walk) return;
-    const half = walk.halfStepAt(walk.locate(t));
-    const ownDuration = (walk.original ?? walk).duration;
-    const state = t >= walk.duration ? `at its end, ${ownDuration.toFixed(2)} s`
-      : half ? `half-step ${half.half_step} of ${walk.halfSteps.length}, ${half.kind}` : "";
-    byId(`tag-${name}`).textContent = `${name.toUpperCase()} ${walk.label}: ${state}`;
-  });
-  showPair(t);
+  tellInstant(walks, t);
   plots.showTime(t);
   zmpMap.showTime(t);
   redraw();
-}
-
-function showPair(t) {
-  const near = walks[0]?.nearest.find((pair) => Math.abs(pair.t_s - t) < 0.011);
-  byId("pair").hidden = !near;
-  if (near) {
-    byId("pair").textContent = `A is nearest: ${near.between.join(" – ")}, ` +
-      `${marginText(near.margin_m, "m")} at ${timeline.t.toFixed(2)} s`;
-  }
 }
 
 // Shows the instant of a margin; the camera goes where a pair of bodies is nearest.
@@ -128,17 +113,13 @@ const goToWorst = () => {
 
 function look() {
   if (!stage || walks.length === 0 || !walks[0].drawn) return;
-  const feet = current.footsteps;
-  const xs = feet.map((step) => step.x_m);
-  const ys = feet.map((step) => step.y_m);
-  const [x0, x1, y0, y1] = [Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)];
-  const extent = Math.hypot(x1 - x0, y1 - y0);
+  const { middle, extent } = extentOf(current.footsteps);
   if (byId("camera").value === "feet") {
     stage.look("feet", centreNow(walks[0]), 1.6, 0.15);
   } else if (byId("follow").checked) {
     stage.look(byId("camera").value, centreNow(walks[0]), 2.75);
   } else {
-    stage.look(byId("camera").value, [(x0 + x1) / 2, (y0 + y1) / 2], 2.3 + 0.62 * extent);
+    stage.look(byId("camera").value, middle, 2.3 + 0.62 * extent);
   }
   redraw();
 }
@@ -162,17 +143,32 @@ function applyLayers() {
     const visible = byId(`show-${name}`).checked;
     if (name === "footprints") {
       if (stage?.prints) stage.prints.visible = visible;
+    } else if (name === "volumes") {
+      volumes?.show(visible);
+      byId("volumes-note").hidden = !visible;
     } else {
       for (const actor of actors) actor.show(name, visible);
     }
   }
+  if (volumes && walks[0]) showTime();
   redraw();
+}
+
+// The walk by hand as A, beside the one that it was made of; null: no longer.
+function moveByHand(parameters) {
+  const base = sliders.walk;
+  hand = parameters && handWalk(base, current.closed_form, report.robots[current.robot], parameters);
+  if (hand) sliders.tell(hand);
+  chooseWalks();
 }
 
 function chooseWalks() {
   const drawn = current.walks.filter((walk) => walk.drawn);
-  const a = drawn[byId("method-a").selectedIndex];
-  const b = drawn[byId("method-b").selectedIndex - 1];
+  const chosen = drawn[byId("method-a").selectedIndex];
+  if (sliders.walk !== chosen) hand = null;
+  sliders.show(chosen, current.closed_form);
+  const a = hand ?? chosen;
+  const b = hand ? chosen : drawn[byId("method-b").selectedIndex - 1];
   walks = !a ? [] : b && b !== a ? [a, b] : [a];
   byId("layout-choice").hidden = byId("pace-choice").hidden = walks.length < 2;
   const shortest = Math.min(...walks.map((walk) => walk.duration));
@@ -190,11 +186,7 @@ function chooseWalks() {
   timeline.setDuration(Math.max(...walks.map((walk) => walk.duration)));
   timeline.showPhases(walks);
   junctionTable(byId("junctions"), walks);
-  const { duration_s: duration, speedup } = a.summary;
-  byId("outcome").textContent = `A: ${duration.toFixed(3)} s` +
-    (a.method === "raw" ? "" : `, ${speedup.toFixed(2)} × as fast as raw`) +
-    (a.certified ? ", proved for all t" : `, not proved: ${a.certificate.message}`);
-  byId("outcome").classList.toggle("no", !a.certified);
+  tellOutcome(a);
 }
 
 // What an address asks for, of a case that is chosen.
@@ -245,6 +237,8 @@ function chooseCase(index) {
     stage.prints = footprints(current.footsteps, report.robots[current.robot].sole);
     stage.place.add(stage.prints);
   }
+  volumes = stage && volumesInPlaceOf(volumes, stage, current.swept_volumes, byId("volumes-note"));
+  offerLayer("volumes", Boolean(volumes));
   const feet = current.footsteps;
   byId("follow").checked =
     feet.some((p) => Math.hypot(p.x_m - feet[0].x_m, p.y_m - feet[0].y_m) > 1.6);
@@ -268,42 +262,19 @@ function changeTheme() {
   timeline.seek(Number(shown.t));
 }
 
-// What a film of this page needs.
-const filmed = {
-  canvas: byId("canvas"),
+const filmed = filmedPage({
   hasView: () => stage !== null && actors.length > 0,
-  begin: () => (timeline.t < timeline.duration ? timeline.t : 0),
-  duration: () => timeline.duration,
-  show: (t) => { timeline.seek(t); draw(); },
-  captions: () => ({
-    names: walks.map((walk, i) => byId(`tag-${"ab"[i]}`).textContent),
-    beside: byId("view").classList.contains("beside"),
-    clock: `${timeline.t.toFixed(2)} s`,
-  }),
-  choose(address) {
-    timeline.seek(0);
-    const asked = parsedAddress(address);
-    const unknown = unknownIn(asked, current.walks.filter((walk) => walk.drawn), byId("camera"));
-    if (!unknown) applyAddress(asked);
-    return unknown;
-  },
-};
+  walks: () => walks,
+  timeline, draw, applyAddress,
+  drawnWalks: () => current.walks.filter((walk) => walk.drawn),
+});
 
 function start() {
   const title = report.name ??
     (cases.length === 1 ? `${cases[0].scenario}, compared` : `Comparison of ${cases.length} scenarios`);
   document.title = `${title} – halfstep`;
   byId("title").textContent = title;
-  for (const [name, label, checked] of layers) {
-    const box = document.createElement("input");
-    box.type = "checkbox";
-    box.id = `show-${name}`;
-    box.checked = checked;
-    box.addEventListener("change", applyLayers);
-    const choice = document.createElement("label");
-    choice.append(box, label);
-    byId("shown").append(choice);
-  }
+  addLayerBoxes(byId("shown"), applyLayers);
   cases.forEach((one, i) => byId("scenario").add(new Option(`${one.scenario}, ${one.objective ?? ""}`, i)));
   byId("scenario-choice").hidden = cases.length < 2;
   byId("scenario").addEventListener("change", () => chooseCase(byId("scenario").selectedIndex));
@@ -314,8 +285,10 @@ function start() {
   byId("camera").addEventListener("change", look);
   byId("follow").addEventListener("change", look);
   new ResizeObserver(redraw).observe(byId("view"));
-  connectActions({ stage, timeline, draw, goToWorst, addressNow, film: filmed });
+  const toggleVolumes = () => { if (volumes) byId("show-volumes").click(); };
+  connectActions({ stage, timeline, draw, goToWorst, addressNow, toggleVolumes, film: filmed });
   window.halfstepFilm = filmByCommand(filmed);
+  window.halfstepByHand = { rows: (times) => sliders.rowsAt(times, report.robots[current.robot]) };
   window.addEventListener("hashchange", () => applyAddress());
   darkness.addEventListener("change", changeTheme);
   const asked = cases.findIndex((one) => one.scenario === readAddress().scenario);
