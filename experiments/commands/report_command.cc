@@ -83,6 +83,7 @@ void TellFrames(int done, int frames) {
 
 ExitStatus Video(const ReportCommand& command, const fs::path& run, const fs::path& out) {
   InterruptGuard interrupt;
+  interrupt.Keep();  // a folder is to be removed
   const Place place = PlaceOfRun(run);
   const std::optional<std::string> video =
       WalkVideo(RunReport(place.robot, place.scene, run), command.options,

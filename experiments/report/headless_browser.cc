@@ -116,16 +116,12 @@ HeadlessBrowser::Process::~Process() {
     if (fd >= 0) close(fd);
   }
   if (pid <= 0) return;
-  // It ends by itself when its pipe is closed; its helpers end with it.
-  for (int i = 0; i < 200; ++i) {
-    if (waitpid(pid, nullptr, WNOHANG) == pid) {
-      kill(-pid, SIGKILL);
-      return;
-    }
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  }
   kill(-pid, SIGKILL);
   waitpid(pid, nullptr, 0);
+  // Its helpers may still write into the profile until they are gone.
+  for (int i = 0; i < 100 && kill(-pid, 0) == 0; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
 }
 
 void HeadlessBrowser::Load(const fs::path& file) {

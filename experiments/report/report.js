@@ -83,8 +83,7 @@ function showTime() {
   const t = timeline.t;
   for (const actor of actors) actor.pose(t);
   stage?.showTime(t);
-  const half = walks[0]?.halfStepAt(walks[0].locate(t));
-  volumes?.showHalfStep(half ? half.half_step - 1 : -1);
+  volumes?.showHalfSteps(walks.map((walk) => (walk.halfStepAt(walk.locate(t))?.half_step ?? 0) - 1));
   if (actors.length > 0 && byId("follow").checked) {
     stage.followTo(...centreNow(walks[0]));
   }

@@ -70,47 +70,64 @@ const material = (opacity) => new THREE.MeshBasicMaterial({
   color: palette.second, transparent: true, opacity, depthWrite: false, side: THREE.DoubleSide,
 });
 
+// One of a half-step; the frame of its support sole is that of a left one.
+function meshOf(shape, look, order) {
+  const mesh = new THREE.Mesh(shape, look);
+  mesh.renderOrder = order;
+  return mesh;
+}
+
+function place(mesh, { X_WS: [x, y, yaw], mirrored }) {
+  mesh.position.set(x, y, 0);
+  mesh.rotation.z = yaw;
+  mesh.scale.y = mirrored ? -1 : 1;
+}
+
 class SweptVolumes {
-  /** Of a case's data, on a layer; its shapes are made when it is first shown. */
-  constructor(json, layer) {
+  /** Of a case's data; shapes are made when it is first shown. */
+  constructor(json) {
     this.json = json;
-    this.layer = layer;
     this.group = new THREE.Group();
     this.group.visible = false;
     this.faint = material(0.035);
-    this.strong = material(0.16);
+    this.strong = material(0.14);
   }
 
   show(visible) {
-    if (visible && !this.meshes) this.make();
+    if (visible && !this.shapes) this.make();
     this.group.visible = visible;
   }
 
   make() {
-    const shapes = this.json.volumes.map((volume) => surfaceOf(volume, this.json.cell_m));
-    this.meshes = this.json.half_steps.map((half) => {
-      const shape = half && shapes[half.volume];
-      if (!shape) return null;
-      const mesh = new THREE.Mesh(shape, this.faint);
-      mesh.position.set(half.X_WS[0], half.X_WS[1], 0);
-      mesh.rotation.z = half.X_WS[2];
-      if (half.mirrored) mesh.scale.y = -1;
-      mesh.renderOrder = 30;
+    this.shapes = this.json.volumes.map((volume) => surfaceOf(volume, this.json.cell_m));
+    for (const half of this.json.half_steps) {
+      const shape = half && this.shapes[half.volume];
+      if (!shape) continue;
+      const mesh = meshOf(shape, this.faint, 30);
+      place(mesh, half);
+      this.group.add(mesh);
+    }
+    this.present = [1, 2].map((layer) => {
+      const mesh = onLayer(meshOf(new THREE.BufferGeometry(), this.strong, 31), layer);
       this.group.add(mesh);
       return mesh;
     });
-    onLayer(this.group, this.layer);
   }
 
-  /** Draws that of the half-step `index`, from 0, more strongly. */
-  showHalfStep(index) {
-    this.meshes?.forEach((mesh, i) => {
-      if (mesh) mesh.material = i === index ? this.strong : this.faint;
+  /** Draws those of A's and of B's present half-step, from 0, more strongly; −1: none. */
+  showHalfSteps(indices) {
+    this.present?.forEach((mesh, i) => {
+      const half = this.json.half_steps[indices[i] ?? -1];
+      const shape = half && this.shapes[half.volume];
+      mesh.visible = Boolean(shape);
+      if (!shape) return;
+      mesh.geometry = shape;
+      place(mesh, half);
     });
   }
 
   dispose() {
-    for (const mesh of this.meshes ?? []) mesh?.geometry.dispose();
+    for (const shape of this.shapes ?? []) shape?.dispose();
     this.faint.dispose();
     this.strong.dispose();
   }
@@ -122,10 +139,9 @@ function volumesNote({ baked_cell_m: baked, cell_m: cell, half_steps: halfSteps 
   const drawn = cell > baked
     ? `drawn by cells of ${centimetres(cell)} around those of ${centimetres(baked)} that it asked`
     : `by its cells of ${centimetres(cell)}`;
-  const missing = halfSteps.filter((half) => half === null).length;
   return `Swept volumes: all that the robot sweeps in each half-step of the plan, as the planner proved ` +
-    `before it searched, ${drawn}; the present half-step's stronger. ` +
-    (missing ? `${missing} of ${halfSteps.length} half-steps (those from the start) have none and were proved singly. ` : "") +
+    `before it searched, ${drawn}; that of the present half-step stronger. ` +
+    (halfSteps[0] === null ? "The first one, from the start, has none: it was proved by itself. " : "") +
     "A smoothed walk leaves them: its own proof is below.";
 }
 
@@ -137,7 +153,7 @@ export function volumesInPlaceOf(old, stage, json, note) {
   }
   if (!json) return null;
   note.textContent = volumesNote(json);
-  const volumes = new SweptVolumes(json, 0);
+  const volumes = new SweptVolumes(json);
   stage.scene.add(volumes.group);
   return volumes;
 }

@@ -2,12 +2,14 @@
 
 #include <unistd.h>
 
+#include <chrono>
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <system_error>
+#include <thread>
 #include <utility>
 
 #include "experiments/report/headless_browser.h"
@@ -34,8 +36,13 @@ class VideoFolder {
     path_ = name;
   }
   ~VideoFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
+    // Again where the browser's last process has made a file meanwhile.
+    std::error_code failed;
+    for (int i = 0; i < 20; ++i) {
+      fs::remove_all(path_, failed);
+      if (!failed) return;
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
   }
   VideoFolder(const VideoFolder&) = delete;
   VideoFolder& operator=(const VideoFolder&) = delete;

@@ -1,4 +1,4 @@
-// Opens report.html in Chromium: node page_test.mjs HALFSTEP SOURCE_FOLDER PACKAGES
+// Opens report.html in Chromium: node page_test.mjs HALFSTEP SOURCE_FOLDER PACKAGES CACHE_OF_SWEPT_VOLUMES
 // PACKAGES: where axe-core is fetched to; without it faults of access are not looked for.
 // Exit status 77, which ctest counts as skipped, when there is no Chromium or no report.
 import assert from "node:assert/strict";
@@ -8,11 +8,13 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { faultsOf } from "./axe.mjs";
 import { Browser, hasBrowser, pause } from "./browser.mjs";
-import { testByHand, testControls, testInfeasible, testPhoneInTheDark } from "./page_controls.mjs";
+import { testByHand } from "./page_by_hand.mjs";
+import { testControls, testInfeasible, testPhoneInTheDark } from "./page_controls.mjs";
 import { testVideo } from "./page_video.mjs";
+import { testVolumes } from "./page_volumes.mjs";
 import { countColours, partThatDiffers, readPng } from "./png.mjs";
 
-const [halfstep, source, packages = ""] = process.argv.slice(2);
+const [halfstep, source, packages = "", cache = ""] = process.argv.slice(2);
 const hostile = "<img src=x onerror=alert(1)> \"&'";
 const place = mkdtempSync(join(tmpdir(), "halfstep_page_"));
 
@@ -162,6 +164,7 @@ async function testAccess(browser) {
 }
 
 const testSliders = (browser) => testByHand(browser, halfstep, place);
+const testVolumesOfPlan = (browser) => testVolumes(browser, halfstep, place, cache);
 const testVideoOfRun = (browser) => testVideo(browser, halfstep, place);
 
 async function testWithoutWebGl(browser) {
@@ -185,7 +188,7 @@ try {
     process.exitCode = 77;
   } else {
     testOutlines();
-    for (const [flags, tests] of [[[], [testRun, testComparison, testEveryControl, testSliders, testAccess, testVideoOfRun]],
+    for (const [flags, tests] of [[[], [testRun, testComparison, testEveryControl, testSliders, testVolumesOfPlan, testAccess, testVideoOfRun]],
                                   [["--disable-3d-apis"], [testWithoutWebGl]]]) {
       const browser = await Browser.open(1366, 768, flags);
       try {
