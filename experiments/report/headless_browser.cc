@@ -47,8 +47,31 @@ std::vector<std::string> WordsOf(const fs::path& program, const fs::path& folder
   return words;
 }
 
+// This process's variables, but with the folders for what else a browser leaves behind.
+std::vector<std::string> VariablesOf(const fs::path& folder) {
+  constexpr std::array<const char*, 3> kFolders = {
+      "TMPDIR=", "XDG_CONFIG_HOME=", "XDG_CACHE_HOME="};
+  std::vector<std::string> variables;
+  for (char** variable = environ; *variable != nullptr; ++variable) {
+    const std::string_view text = *variable;
+    if (std::ranges::none_of(kFolders, [&](const char* name) { return text.starts_with(name); })) {
+      variables.emplace_back(text);
+    }
+  }
+  for (const char* name : kFolders) variables.push_back(name + folder.string());
+  return variables;
+}
+
+std::vector<char*> PointersTo(std::vector<std::string>* texts) {
+  std::vector<char*> pointers;
+  for (std::string& text : *texts) pointers.push_back(text.data());
+  pointers.push_back(nullptr);
+  return pointers;
+}
+
 // In the new process: only what is safe between fork and exec.
-[[noreturn]] void BecomeBrowser(char* const* argv, int commands, int answers, pid_t parent) {
+[[noreturn]] void BecomeBrowser(char* const* argv, char* const* variables, int commands,
+                                int answers, pid_t parent) {
   setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(127);
@@ -63,7 +86,7 @@ std::vector<std::string> WordsOf(const fs::path& program, const fs::path& folder
   dup2(safe_commands, kCommands);
   dup2(safe_answers, kAnswers);
   for (const int fd : {safe_commands, safe_answers}) close(fd);
-  execv(argv[0], argv);
+  execve(argv[0], argv, variables);
   _exit(127);
 }
 
@@ -92,13 +115,12 @@ HeadlessBrowser::HeadlessBrowser(const fs::path& program, const fs::path& folder
   if (pipe2(commands.data(), O_CLOEXEC) != 0) FailBySystem("no pipe");
   if (pipe2(answers.data(), O_CLOEXEC) != 0) FailBySystem("no pipe");
   std::vector<std::string> words = WordsOf(program, folder, width, height);
-  std::vector<char*> argv;
-  for (std::string& word : words) argv.push_back(word.data());
-  argv.push_back(nullptr);
+  std::vector<std::string> variables = VariablesOf(folder);
+  const std::vector<char*> argv = PointersTo(&words), envp = PointersTo(&variables);
   signal(SIGPIPE, SIG_IGN);  // a browser that has ended is told by its answers
   const pid_t parent = getpid();
   process_.pid = fork();
-  if (process_.pid == 0) BecomeBrowser(argv.data(), commands[0], answers[1], parent);
+  if (process_.pid == 0) BecomeBrowser(argv.data(), envp.data(), commands[0], answers[1], parent);
   for (const int fd : {commands[0], answers[1]}) close(fd);
   process_.to = commands[1];
   process_.from = answers[0];
