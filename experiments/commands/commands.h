@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "experiments/export/whole_trajectory.h"
+#include "experiments/report/walk_video.h"
 #include "experiments/run/exit_status.h"
 #include "experiments/survey/robot_survey.h"
 #include "wpg/files/yaml_fields.h"
@@ -125,15 +126,17 @@ struct ReplayCommand {
 ExitStatus Replay(const ReplayCommand& command);
 
 struct ReportCommand {
-  std::string run;                 ///< a run folder
-  std::optional<std::string> out;  ///< the page; none: report.html in the run folder, renewed
-  bool overwrite = false;          ///< replaces `out` when it is there
+  std::string run;                   ///< a run folder
+  std::optional<std::string> out;    ///< the page; none: report.html in the run folder, renewed
+  std::optional<std::string> video;  ///< a WebM in place of the page
+  VideoOptions options;              ///< of the video
+  bool overwrite = false;            ///< replaces `out` or `video` when it is there
   bool quiet = false;
 };
 
-/// `halfstep report`: the page of a run (report/report.h). kFailed when this build has none. Throws
-/// InputError for a run that cannot be read, also when robot or scene are no longer those of the
-/// run.
+/// `halfstep report`: the page of a run (report/report.h), or a video of it (report/walk_video.h).
+/// Throws InputError for a run that cannot be read, also when robot or scene are no longer those of
+/// the run; std::runtime_error when this build has no page, or no browser draws the video.
 ExitStatus Report(const ReportCommand& command);
 
 struct PlanCommand {

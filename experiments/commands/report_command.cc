@@ -1,6 +1,9 @@
+#include <unistd.h>
+
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 
 #include "experiments/commands/command_line.h"
@@ -10,7 +13,9 @@
 #include "experiments/live/spare_boxes.h"
 #include "experiments/report/report.h"
 #include "experiments/report/report_page.h"
+#include "experiments/report/walk_video.h"
 #include "experiments/run/complete_manifest.h"
+#include "experiments/run/interrupt.h"
 #include "experiments/tables/json_file.h"
 #include "experiments/tables/run_folder.h"
 #include "experiments/tables/run_record.h"
@@ -68,6 +73,50 @@ void ReportOfEpisode(const ReportCommand& command, const fs::path& folder) {
 
 }  // namespace
 
+namespace {
+
+// A line that the next one replaces, where it is a person who reads.
+void TellFrames(int done, int frames) {
+  if (isatty(STDERR_FILENO) != 1) return;
+  std::cerr << "\rframe " << done << " of " << frames << (done == frames ? "\n" : "") << std::flush;
+}
+
+ExitStatus Video(const ReportCommand& command, const fs::path& run, const fs::path& out) {
+  InterruptGuard interrupt;
+  interrupt.Keep();  // a folder is to be removed
+  const Place place = PlaceOfRun(run);
+  const std::optional<std::string> video =
+      WalkVideo(RunReport(place.robot, place.scene, run), command.options,
+                command.quiet ? VideoProgress() : TellFrames, interrupt.token());
+  if (!video) {
+    std::cerr << "halfstep: stopped; nothing is written\n";
+    return kInterrupted;
+  }
+  WriteWhole(out, {*video});
+  return kSuccess;
+}
+
+// The mistakes that a command line may have.
+void CheckOptions(const ReportCommand& command, const fs::path& run) {
+  if (!command.video) {
+    const bool shown = !command.options.show.empty();
+    if (command.options.seconds || shown) {
+      throw InputError({std::string(shown ? "--show" : "--seconds") +
+                        ": there is no video (valid: with --video OUT.webm)"});
+    }
+    return;
+  }
+  if (command.out) throw InputError({"--video: not with --out (valid: one of them)"});
+  if (fs::path(*command.video).extension() != ".webm") {
+    throw InputError({"--video: " + *command.video + " (valid: a name that ends in .webm)"});
+  }
+  if (IsEpisode(run)) {
+    throw InputError({"--video: " + command.run + " is an episode (valid: a run folder)"});
+  }
+}
+
+}  // namespace
+
 ExitStatus Report(const ReportCommand& command) {
   const fs::path run(command.run);
   if (!fs::is_directory(run) || !fs::exists(run / "manifest.json")) {
@@ -80,12 +129,16 @@ ExitStatus Report(const ReportCommand& command) {
         "this build has no report: npm was not there or could not fetch its packages when it was "
         "configured, or HALFSTEP_REPORT was OFF");
   }
-  const fs::path out = command.out ? fs::path(*command.out) : run / "report.html";
+  CheckOptions(command, run);
+  const std::optional<std::string>& named = command.video ? command.video : command.out;
+  const fs::path out = named ? fs::path(*named) : run / "report.html";
   if (out.empty()) throw InputError({"--out: no file is named (valid: a path)"});
-  if (command.out && !command.overwrite && fs::exists(fs::symlink_status(out))) {
+  if (named && !command.overwrite && fs::exists(fs::symlink_status(out))) {
     throw std::runtime_error(out.string() + ": is there already (--overwrite replaces it)");
   }
-  if (IsEpisode(run)) {
+  if (command.video) {
+    if (const ExitStatus status = Video(command, run, out); status != kSuccess) return status;
+  } else if (IsEpisode(run)) {
     ReportOfEpisode(command, run);
   } else {
     ReportOfRun(command, run);
@@ -98,7 +151,15 @@ CommandAction DeclareReport(CLI::App* app) {
   const auto command = std::make_shared<ReportCommand>();
   app->add_option("RUN", command->run, "folder of a run or an episode")->required();
   app->add_option("--out", command->out, "the file (default: report.html in the run folder)");
-  app->add_flag("--overwrite", command->overwrite, "replace --out");
+  app->add_option("--video", command->video,
+                  "a WebM of the walk in place of the page; needs chromium");
+  app->add_option("--seconds", command->options.seconds,
+                  "how long the video lasts [s] (default: as long as the walk)")
+      ->check(CLI::Range(0.1, 3600.0));
+  app->add_option("--show", command->options.show,
+                  "what the video shows, as after # in the address that the page's \"copy link\" "
+                  "copies: 'a=raw&b=none&camera=side' (default: as the page opens)");
+  app->add_flag("--overwrite", command->overwrite, "replace --out or --video");
   app->add_flag("--quiet", command->quiet, "print nothing but errors");
   return [command] { return Report(*command); };
 }

@@ -1,5 +1,6 @@
 // What the reader does beside looking: links, pictures, videos, keys.
 import { copyAddress } from "./address.js";
+import { Film } from "./film.js";
 import { fileName, recorded, save } from "./saving.js";
 
 const byId = (id) => document.getElementById(id);
@@ -13,28 +14,45 @@ async function savePicture({ stage, timeline, draw }) {
   return tell("");
 }
 
-async function saveVideo({ stage, timeline, draw }) {
-  if (!stage) return tell("There is no view to record.");
-  byId("record").disabled = true;
-  tell("Recording …");
-  try {
-    const blob = await recorded(byId("canvas"), draw, () => new Promise((resolve) => {
+// Frame by frame where the browser can encode, else as it plays.
+async function videoOf(page) {
+  const { timeline } = page;
+  if (!window.VideoEncoder) {
+    return recorded(byId("canvas"), page.draw, () => new Promise((resolve) => {
       timeline.onPause = resolve;
       timeline.toggle(true);
     }));
-    save(blob, fileName(document.title, "webm"));
+  }
+  timeline.toggle(false);
+  const from = timeline.t < timeline.duration ? timeline.t : 0;
+  const seconds = (timeline.duration - from) / Number(byId("speed").value);
+  const film = await Film.begin(page.film, from, timeline.duration, seconds);
+  while (film.done < film.frames) {
+    await film.next(5);
+    tell(`Recording: frame ${film.done} of ${film.frames}`);
+    await new Promise((resolve) => setTimeout(resolve));
+  }
+  return new Blob(film.takeParts(), { type: "video/webm" });
+}
+
+async function saveVideo(page) {
+  if (!page.stage) return tell("There is no view to record.");
+  byId("record").disabled = true;
+  tell("Recording …");
+  try {
+    save(await videoOf(page), fileName(document.title, "webm"));
     tell("");
   } catch (error) {
     tell(error.message);
   }
-  timeline.onPause = () => {};
+  page.timeline.onPause = () => {};
   byId("record").disabled = false;
   return undefined;
 }
 
 /**
  * Buttons below the view, and their keys. `page` has: stage or null, timeline, draw(), which draws
- * at once, goToWorst(), and addressNow(), what is looked at.
+ * at once, goToWorst(), toggleVolumes(), addressNow(), what is looked at, and film, the page of a Film.
  */
 export function connectActions(page) {
   const { goToWorst } = page;
@@ -47,6 +65,6 @@ export function connectActions(page) {
   window.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey || byId("help").open) return;
     if (event.target.tagName === "SELECT") return;
-    ({ w: goToWorst, c: copy, "?": help })[event.key]?.();
+    ({ w: goToWorst, c: copy, v: page.toggleVolumes, "?": help })[event.key]?.();
   });
 }

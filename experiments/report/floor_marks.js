@@ -91,3 +91,12 @@ export function numberMark(number, { x, y, yaw }, colour, size, order) {
   mesh.renderOrder = order;
   return mesh;
 }
+
+/** The middle of footsteps on the floor [x, y], and the diagonal of the rectangle around them [m]. */
+export function extentOf(footsteps) {
+  const [x, y] = ["x_m", "y_m"].map((key) => {
+    const values = footsteps.map((step) => step[key]);
+    return [Math.min(...values), Math.max(...values)];
+  });
+  return { middle: [(x[0] + x[1]) / 2, (y[0] + y[1]) / 2], extent: Math.hypot(x[1] - x[0], y[1] - y[0]) };
+}

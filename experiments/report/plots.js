@@ -43,7 +43,7 @@ class Plot {
       return { name: label, button };
     });
     this.note = element("span", { className: "note" });
-    head.append(this.note, this.saver("PNG"), this.saver("SVG"));
+    head.append(this.note, element("span", { className: "savers" }, this.saver("PNG"), " ", this.saver("SVG")));
     this.body = element("div", { className: "plot-body" });
     this.root = element("div", { className: last ? "plot last" : "plot" });
     this.root.append(head, this.body);

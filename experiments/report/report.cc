@@ -5,7 +5,9 @@
 #include <limits>
 #include <optional>
 
+#include "experiments/config/experiment.h"
 #include "experiments/config/folder_name.h"
+#include "experiments/report/closed_form.h"
 #include "experiments/report/nearest_pairs.h"
 #include "experiments/report/report_page.h"
 #include "experiments/report/report_place.h"
@@ -175,6 +177,17 @@ json CaseOf(const ComparedCase& one, double spacing, json* report) {
   }
 }
 
+// Beside a run's walks what the page needs to move their parameters by itself.
+void AddClosedForm(const RobotModel& robot, const Scene& scene, const fs::path& folder, json* one) {
+  const Experiment experiment =
+      Prepare(LoadConfig((folder / "config.yaml").string(), {}), Place{robot, scene});
+  (*one)["closed_form"] = ClosedFormJson(experiment.robot, experiment.sequence);
+  for (json& walk : (*one)["walks"]) {
+    const auto method = walk["summary"].at("method").get<std::string>();
+    walk["parameters"] = ParametersJson(folder / MethodFolder(method), experiment.sequence.size());
+  }
+}
+
 }  // namespace
 
 Place PlaceOfRun(const fs::path& run) {
@@ -205,6 +218,9 @@ std::string RunReport(const RobotModel& robot, const Scene& scene, const fs::pat
     walk["summary"] = WithOwn(row, folder / "summary.csv");
     one["walks"].push_back(std::move(walk));
   }
+  AddClosedForm(robot, scene, folder, &one);
+  const fs::path volumes = folder / "swept_volumes.json";
+  if (fs::exists(volumes)) one["swept_volumes"] = ReadJsonObject(volumes);
   report["cases"].push_back(std::move(one));
   return ReportPage(report);
 }

@@ -4,7 +4,12 @@ import { connectActions } from "./actions.js";
 import { readAddress } from "./address.js";
 import { anytimePlot } from "./anytime.js";
 import { firstChoice, isInfeasible, secondChoice } from "./choices.js";
-import { marginText, worstInstant } from "./least_margins.js";
+import { filmByCommand } from "./film.js";
+import { filmedPage } from "./filmed.js";
+import { extentOf } from "./floor_marks.js";
+import { handWalk } from "./hand_walk.js";
+import { addLayerBoxes, layers, offerLayer } from "./layers.js";
+import { worstInstant } from "./least_margins.js";
 import { leastTable } from "./least_table.js";
 import { middleOf } from "./pair_line.js";
 import * as palette from "./palette.js";
@@ -12,24 +17,18 @@ import { paretoPlots } from "./pareto.js";
 import { Plots } from "./plots.js";
 import { RobotShapes } from "./robot.js";
 import { plotList } from "./series.js";
+import { Sliders } from "./sliders.js";
 import { Stage } from "./stage.js";
+import { volumesInPlaceOf } from "./swept_volumes.js";
 import { guarantee, junctionTable, scenarioTable, summaryTable } from "./tables.js";
 import { Timeline } from "./timeline.js";
-import { instants } from "./traces.js";
 import { Walk } from "./walk.js";
+import { tellInstant, tellOutcome } from "./words.js";
 import { ZmpMap } from "./zmp_map.js";
 
 const byId = (id) => document.getElementById(id);
 const report = JSON.parse(byId("data").textContent);
 const cases = report.cases.map((one) => ({ ...one, walks: one.walks.map((walk) => new Walk(walk)) }));
-
-const layers = [
-  ["footprints", "footprints", true],
-  ["balance", "ZMP, CoM, support polygon", true],
-  ["paths", "paths", false],
-  ["soles", "sole traces (sampled)", false],
-  ["strobe", `body at ${instants} instants`, false],
-];
 
 const darkness = window.matchMedia("(prefers-color-scheme: dark)");
 palette.useTheme(darkness.matches);
@@ -46,7 +45,10 @@ const shapes = report.robots.map((robot) => (stage ? new RobotShapes(robot) : nu
 const plots = new Plots(byId("plots"), (t) => timeline.seek(t));
 const zmpMap = new ZmpMap(byId("zmps"));
 const timeline = new Timeline(() => showTime());
+const sliders = new Sliders(byId("by-hand"), (parameters) => moveByHand(parameters));
 let current = null; // the case
+let volumes = null; // the plan's, where they are known
+let hand = null; // the walk by hand
 let walks = []; // A, and B when there is one
 let actors = [];
 let pending = false;
@@ -81,31 +83,14 @@ function showTime() {
   const t = timeline.t;
   for (const actor of actors) actor.pose(t);
   stage?.showTime(t);
+  volumes?.showHalfSteps(walks.map((walk) => (walk.halfStepAt(walk.locate(t))?.half_step ?? 0) - 1));
   if (actors.length > 0 && byId("follow").checked) {
     stage.followTo(...centreNow(walks[0]));
   }
-  ["a", "b"].forEach((name, i) => {
-    const walk = walks[i];
-    if (!walk) return;
-    const half = walk.halfStepAt(walk.locate(t));
-    const ownDuration = (walk.original ?? walk).duration;
-    const state = t >= walk.duration ? `at its end, ${ownDuration.toFixed(2)} s`
-      : half ? `half-step ${half.half_step} of ${walk.halfSteps.length}, ${half.kind}` : "";
-    byId(`tag-${name}`).textContent = `${name.toUpperCase()} ${walk.label}: ${state}`;
-  });
-  showPair(t);
+  tellInstant(walks, t);
   plots.showTime(t);
   zmpMap.showTime(t);
   redraw();
-}
-
-function showPair(t) {
-  const near = walks[0]?.nearest.find((pair) => Math.abs(pair.t_s - t) < 0.011);
-  byId("pair").hidden = !near;
-  if (near) {
-    byId("pair").textContent = `A is nearest: ${near.between.join(" – ")}, ` +
-      `${marginText(near.margin_m, "m")} at ${timeline.t.toFixed(2)} s`;
-  }
 }
 
 // Shows the instant of a margin; the camera goes where a pair of bodies is nearest.
@@ -127,17 +112,13 @@ const goToWorst = () => {
 
 function look() {
   if (!stage || walks.length === 0 || !walks[0].drawn) return;
-  const feet = current.footsteps;
-  const xs = feet.map((step) => step.x_m);
-  const ys = feet.map((step) => step.y_m);
-  const [x0, x1, y0, y1] = [Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)];
-  const extent = Math.hypot(x1 - x0, y1 - y0);
+  const { middle, extent } = extentOf(current.footsteps);
   if (byId("camera").value === "feet") {
     stage.look("feet", centreNow(walks[0]), 1.6, 0.15);
   } else if (byId("follow").checked) {
     stage.look(byId("camera").value, centreNow(walks[0]), 2.75);
   } else {
-    stage.look(byId("camera").value, [(x0 + x1) / 2, (y0 + y1) / 2], 2.3 + 0.62 * extent);
+    stage.look(byId("camera").value, middle, 2.3 + 0.62 * extent);
   }
   redraw();
 }
@@ -161,17 +142,32 @@ function applyLayers() {
     const visible = byId(`show-${name}`).checked;
     if (name === "footprints") {
       if (stage?.prints) stage.prints.visible = visible;
+    } else if (name === "volumes") {
+      volumes?.show(visible);
+      byId("volumes-note").hidden = !visible;
     } else {
       for (const actor of actors) actor.show(name, visible);
     }
   }
+  if (volumes && walks[0]) showTime();
   redraw();
+}
+
+// The walk by hand as A, beside the one that it was made of; null: no longer.
+function moveByHand(parameters) {
+  const base = sliders.walk;
+  hand = parameters && handWalk(base, current.closed_form, report.robots[current.robot], parameters);
+  if (hand) sliders.tell(hand);
+  chooseWalks();
 }
 
 function chooseWalks() {
   const drawn = current.walks.filter((walk) => walk.drawn);
-  const a = drawn[byId("method-a").selectedIndex];
-  const b = drawn[byId("method-b").selectedIndex - 1];
+  const chosen = drawn[byId("method-a").selectedIndex];
+  if (sliders.walk !== chosen) hand = null;
+  sliders.show(chosen, current.closed_form);
+  const a = hand ?? chosen;
+  const b = hand ? chosen : drawn[byId("method-b").selectedIndex - 1];
   walks = !a ? [] : b && b !== a ? [a, b] : [a];
   byId("layout-choice").hidden = byId("pace-choice").hidden = walks.length < 2;
   const shortest = Math.min(...walks.map((walk) => walk.duration));
@@ -189,21 +185,20 @@ function chooseWalks() {
   timeline.setDuration(Math.max(...walks.map((walk) => walk.duration)));
   timeline.showPhases(walks);
   junctionTable(byId("junctions"), walks);
-  const { duration_s: duration, speedup } = a.summary;
-  byId("outcome").textContent = `A: ${duration.toFixed(3)} s` +
-    (a.method === "raw" ? "" : `, ${speedup.toFixed(2)} × as fast as raw`) +
-    (a.certified ? ", proved for all t" : `, not proved: ${a.certificate.message}`);
-  byId("outcome").classList.toggle("no", !a.certified);
+  tellOutcome(a);
 }
 
-// What the page's address asks for, of a case that is chosen.
-function applyAddress() {
-  const asked = readAddress();
+// What an address asks for, of a case that is chosen.
+function applyAddress(asked = readAddress()) {
   const drawn = current.walks.filter((walk) => walk.drawn);
   const index = (name) => drawn.findIndex((walk) => walk.label === name);
   if (index(asked.a) >= 0) byId("method-a").selectedIndex = index(asked.a);
   if (asked.b === "none" || index(asked.b) >= 0) byId("method-b").selectedIndex = index(asked.b) + 1;
   if (index(asked.a) >= 0 || asked.b !== undefined) chooseWalks();
+  if ([...byId("camera").options].some((option) => option.value === asked.camera)) {
+    byId("camera").value = asked.camera;
+    look();
+  }
   const t = Number.parseFloat(asked.t);
   if (Number.isFinite(t)) timeline.seek(t);
   return Number.isFinite(t);
@@ -241,6 +236,8 @@ function chooseCase(index) {
     stage.prints = footprints(current.footsteps, report.robots[current.robot].sole);
     stage.place.add(stage.prints);
   }
+  volumes = stage && volumesInPlaceOf(volumes, stage, current.swept_volumes, byId("volumes-note"));
+  offerLayer("volumes", Boolean(volumes));
   const feet = current.footsteps;
   byId("follow").checked =
     feet.some((p) => Math.hypot(p.x_m - feet[0].x_m, p.y_m - feet[0].y_m) > 1.6);
@@ -264,21 +261,19 @@ function changeTheme() {
   timeline.seek(Number(shown.t));
 }
 
+const filmed = filmedPage({
+  hasView: () => stage !== null && actors.length > 0,
+  walks: () => walks,
+  timeline, draw, applyAddress,
+  drawnWalks: () => current.walks.filter((walk) => walk.drawn),
+});
+
 function start() {
   const title = report.name ??
     (cases.length === 1 ? `${cases[0].scenario}, compared` : `Comparison of ${cases.length} scenarios`);
   document.title = `${title} – halfstep`;
   byId("title").textContent = title;
-  for (const [name, label, checked] of layers) {
-    const box = document.createElement("input");
-    box.type = "checkbox";
-    box.id = `show-${name}`;
-    box.checked = checked;
-    box.addEventListener("change", applyLayers);
-    const choice = document.createElement("label");
-    choice.append(box, label);
-    byId("shown").append(choice);
-  }
+  addLayerBoxes(byId("shown"), applyLayers);
   cases.forEach((one, i) => byId("scenario").add(new Option(`${one.scenario}, ${one.objective ?? ""}`, i)));
   byId("scenario-choice").hidden = cases.length < 2;
   byId("scenario").addEventListener("change", () => chooseCase(byId("scenario").selectedIndex));
@@ -289,8 +284,11 @@ function start() {
   byId("camera").addEventListener("change", look);
   byId("follow").addEventListener("change", look);
   new ResizeObserver(redraw).observe(byId("view"));
-  connectActions({ stage, timeline, draw, goToWorst, addressNow });
-  window.addEventListener("hashchange", applyAddress);
+  const toggleVolumes = () => { if (volumes) byId("show-volumes").click(); };
+  connectActions({ stage, timeline, draw, goToWorst, addressNow, toggleVolumes, film: filmed });
+  window.halfstepFilm = filmByCommand(filmed);
+  window.halfstepByHand = { rows: (times) => sliders.rowsAt(times, report.robots[current.robot]) };
+  window.addEventListener("hashchange", () => applyAddress());
   darkness.addEventListener("change", changeTheme);
   const asked = cases.findIndex((one) => one.scenario === readAddress().scenario);
   if (asked > 0) byId("scenario").selectedIndex = asked;

@@ -9,6 +9,7 @@
 
 #include "experiments/report/drawn_mesh.h"
 #include "experiments/report/shortened.h"
+#include "wpg/robot/robot_legs.h"
 
 namespace halfstep {
 namespace {
@@ -19,8 +20,34 @@ constexpr double kDecimals = 1e4;      // of metres
 constexpr int kMostTriangles = 20000;  // of all meshes of a scene
 constexpr size_t kMostObstacles = 2000;
 
-json Vector(const Eigen::Vector3d& v, int digits) {
-  return {Shortened(v.x(), digits), Shortened(v.y(), digits), Shortened(v.z(), digits)};
+json Vector(const Eigen::Vector3d& v) {
+  return {Shortened(v.x(), 12), Shortened(v.y(), 12), Shortened(v.z(), 12)};
+}
+
+// A leg's joints, its sole at q = 0 as the rows of a 3×4 matrix, and what its reach goes by: null
+// where its hip or ankle axes do not meet.
+json LegJson(const Leg& leg) {
+  json joints = json::array(), sole = json::array();
+  for (const LegJoint& joint : leg.joints) {
+    joints.push_back({{"name", joint.name},
+                      {"axis", Vector(joint.axis_B)},
+                      {"point", Vector(joint.point_B)},
+                      {"lower", Shortened(joint.lower)},
+                      {"upper", Shortened(joint.upper)},
+                      {"speed", Shortened(joint.max_speed)}});
+  }
+  const auto matrix = leg.X_BSole.matrix();
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 4; ++column) sole.push_back(Shortened(matrix(row, column), 12));
+  }
+  json made = {{"joints", std::move(joints)}, {"sole", std::move(sole)}, {"reach", nullptr}};
+  for (const double q : leg.standing_q) made["standing"].push_back(Shortened(q, 12));
+  if (leg.closed_form()) {
+    made["reach"] = {{"hip", Vector(leg.hip_B)},
+                     {"ankle", Vector(leg.ankle_B)},
+                     {"length", Shortened(StretchedLength(leg), 12)}};
+  }
+  return made;
 }
 
 // Coordinates as integers of 0.1 mm: x, y, z of each vertex in a row.
@@ -54,18 +81,7 @@ json PlacesJson(const Obstacle& obstacle) {
 
 json RobotJson(const RobotModel& robot) {
   json legs = json::array(), bodies = json::array();
-  for (const Leg& leg : robot.legs) {
-    json joints = json::array();
-    for (const LegJoint& joint : leg.joints) {
-      joints.push_back({{"name", joint.name},
-                        {"axis", Vector(joint.axis_B, 12)},
-                        {"point", Vector(joint.point_B, 12)},
-                        {"lower", Shortened(joint.lower)},
-                        {"upper", Shortened(joint.upper)},
-                        {"speed", Shortened(joint.max_speed)}});
-    }
-    legs.push_back(std::move(joints));
-  }
+  for (const Leg& leg : robot.legs) legs.push_back(LegJson(leg));
   for (const RobotBody& body : robot.bodies) {
     Eigen::Isometry3d X_BBody = Eigen::Isometry3d::Identity();
     if (body.leg >= 0) {

@@ -36,7 +36,7 @@ export class RobotShapes {
       const geometry = meshGeometry(body);
       return { ...body, geometry, edges: new THREE.EdgesGeometry(geometry, 32) };
     });
-    this.joints = json.legs.map((leg) =>
+    this.joints = json.legs.map(({ joints: leg }) =>
       leg.map((joint) => ({
         ...joint,
         axis: new THREE.Vector3(...joint.axis).normalize(),

@@ -16,7 +16,7 @@ function axisPlot(axis) {
 
 function jointSpeeds(robot, limits) {
   const scale = limits.joint_speed_scale ?? 1;
-  const joints = robot.legs.flatMap((leg, side) =>
+  const joints = robot.legs.flatMap(({ joints: leg }, side) =>
     leg.map((joint) => ({ ...joint, side, limit: joint.speed * scale })),
   );
   const ratio = (joint) => (walk, at) =>

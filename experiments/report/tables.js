@@ -66,8 +66,9 @@ export function junctionTable(parent, [a, b]) {
     parent.replaceChildren(title, element("p", { text: "None: half-steps one after the other." }));
     return;
   }
-  const widest = Math.max(...a.overlaps.map((row) => row.upper_bound_s));
   const other = b?.overlaps.length === a.overlaps.length ? b.overlaps : null;
+  const widest = Math.max(...a.overlaps.map((row) => row.upper_bound_s),
+                          ...(other ?? []).map((row) => row.overlap_s));
   if (other) title.append(element("small", {}, element("i", { className: "swatch b" }), ` B, ${b.label}`));
   const rows = a.overlaps.map((row, i) => {
     const bound = element("i", { className: "bound" });

@@ -71,6 +71,7 @@ export class Timeline {
   key(event) {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     if (/^(SELECT|TEXTAREA)$/.test(event.target.tagName) || document.querySelector("dialog[open]")) return;
+    if (event.target.type === "range" && event.target !== this.scrub) return; // another slider
     if (event.key === " " && event.target.tagName === "BUTTON" && event.target !== this.button) return;
     const step = event.shiftKey ? 0.5 : 0.05;
     const action = {

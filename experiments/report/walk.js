@@ -24,9 +24,10 @@ export class Walk {
     this.pareto = json.pareto ?? [];
     this.certified = json.summary.certified === "true" || json.summary.certified === true;
     this.support = json.support ?? "";
-    this.encoded = json.columns;
-    this.columns = {};
-    this.drawn = json.columns !== undefined;
+    this.parameters = json.parameters ?? null; // of the closed form
+    this.columns = { ...json.values }; // those that are not encoded
+    this.encoded = json.columns ?? json.values;
+    this.drawn = this.encoded !== undefined;
     this.times = this.drawn ? this.column("t_s") : new Float64Array([0]);
     this.duration = this.times[this.times.length - 1];
   }
@@ -50,8 +51,10 @@ export class Walk {
     return shown;
   }
 
+  /** NaN where the walk has no such column. */
   column(name) {
-    return (this.columns[name] ??= decoded(this.encoded[name]));
+    return (this.columns[name] ??= this.encoded[name] ? decoded(this.encoded[name])
+      : new Float64Array(this.times.length).fill(NaN));
   }
 
   /** The row before t and how far t is from it to the next one, from 0 to 1. */

@@ -4,6 +4,7 @@
 
 #include "experiments/config/folder_name.h"
 #include "experiments/run/manifest.h"
+#include "experiments/run/plan_volumes.h"
 #include "experiments/run/smoothing_of.h"
 #include "experiments/tables/given_walk_file.h"
 #include "experiments/tables/parameter_tables.h"
@@ -167,7 +168,12 @@ void ExperimentRun::Write(RunFolder* folder) const {
   const std::string resolved = ResolvedConfig(folder->path(), written);
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin_;
   folder->Write("config.yaml", resolved);
-  if (planned_) folder->Write("plan.json", PlanJson(*planned_));
+  if (planned_) {
+    folder->Write("plan.json", PlanJson(*planned_));
+    if (!planned_->plan.footsteps.empty()) {
+      folder->Write("swept_volumes.json", PlanVolumesJson(*planned_));
+    }
+  }
   WriteCsv("footsteps", FootstepsCsv(experiment_->sequence), folder);
   WriteCsv("summary", SummaryCsv(evaluator(), runs_), folder);
   folder->Write("manifest.json", ManifestJson(*experiment_, resolved,

@@ -1,5 +1,5 @@
 // Opens the page of an episode in Chromium, as it goes on and as it was recorded:
-// node live_page_test.mjs HALFSTEP SOURCE_FOLDER CACHE_OF_SWEPT_VOLUMES [across]
+// node live_page_test.mjs HALFSTEP SOURCE_FOLDER CACHE_OF_SWEPT_VOLUMES PACKAGES [across]
 // `across`, which ctest leaves out since it takes minutes: HRP-2's whole set of half-steps, and the
 // bar is dragged across all of a corridor, so that the robot has to step over it.
 // Exit status 77, which ctest counts as skipped, when there is no Chromium, no page or no server.
@@ -8,10 +8,11 @@ import { execFileSync, spawn } from "node:child_process";
 import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
+import { faultsOf } from "./axe.mjs";
 import { Browser, hasBrowser, pause } from "./browser.mjs";
 import { countColours, partThatDiffers, readPng } from "./png.mjs";
 
-const [halfstep, source, cache, variant] = process.argv.slice(2);
+const [halfstep, source, cache, packages, variant] = process.argv.slice(2);
 const across = variant === "across";
 const place = mkdtempSync(join(tmpdir(), "halfstep_live_page_"));
 const children = [];
@@ -291,6 +292,7 @@ try {
     try {
       await narrow.load(`file://${place}/one/report.html`);
       assert.deepEqual(await overflows(narrow), [], "everything fits at 390 x 844");
+      assert.deepEqual(await faultsOf(narrow, packages) ?? [], [], "serious and critical faults");
     } finally {
       await narrow.close();
     }

@@ -1,15 +1,20 @@
-// Opens report.html in Chromium: node page_test.mjs HALFSTEP SOURCE_FOLDER
+// Opens report.html in Chromium: node page_test.mjs HALFSTEP SOURCE_FOLDER PACKAGES CACHE_OF_SWEPT_VOLUMES
+// PACKAGES: where axe-core is fetched to; without it faults of access are not looked for.
 // Exit status 77, which ctest counts as skipped, when there is no Chromium or no report.
 import assert from "node:assert/strict";
 import { execFileSync, spawnSync } from "node:child_process";
 import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
+import { faultsOf } from "./axe.mjs";
 import { Browser, hasBrowser, pause } from "./browser.mjs";
+import { testByHand } from "./page_by_hand.mjs";
 import { testControls, testInfeasible, testPhoneInTheDark } from "./page_controls.mjs";
+import { testVideo } from "./page_video.mjs";
+import { testVolumes } from "./page_volumes.mjs";
 import { countColours, partThatDiffers, readPng } from "./png.mjs";
 
-const [halfstep, source] = process.argv.slice(2);
+const [halfstep, source, packages = "", cache = ""] = process.argv.slice(2);
 const hostile = "<img src=x onerror=alert(1)> \"&'";
 const place = mkdtempSync(join(tmpdir(), "halfstep_page_"));
 
@@ -33,6 +38,10 @@ function makeRun() {
   spawnSync(halfstep, [
     "run", join(source, "experiments/configs/fig5_box.yaml"), "--out", "low", "--quiet",
     "--set", "half_step.via_height_m=0.14", "--set", "smoothing.methods=[dichotomy]",
+  ], { cwd: place });
+  execFileSync(halfstep, [
+    "run", join(source, "experiments/configs/fig3_two_half_steps.yaml"), "--out", "pareto", "--quiet",
+    "--set", "smoothing.methods=[halfstep/sqp]", "--set", "smoothing.optimizer.program=pareto",
   ], { cwd: place });
   execFileSync(halfstep, ["compare", "run", "--out", "comparison", "--quiet"], { cwd: place });
 }
@@ -143,6 +152,21 @@ async function testEveryControl(browser) {
   await testInfeasible(browser, `file://${place}/low/report.html`);
 }
 
+async function testAccess(browser) {
+  for (const folder of ["low", "run", "comparison", "pareto"]) {
+    await browser.load("about:blank");
+    await browser.load(`file://${place}/${folder}/report.html`);
+    const faults = await faultsOf(browser, packages, folder === "run");
+    if (faults === null) return console.log("Without axe-core: faults of access are not looked for.");
+    assert.deepEqual(faults, [], `${folder}: serious and critical faults`);
+  }
+  return undefined;
+}
+
+const testSliders = (browser) => testByHand(browser, halfstep, place);
+const testVolumesOfPlan = (browser) => testVolumes(browser, halfstep, place, cache);
+const testVideoOfRun = (browser) => testVideo(browser, halfstep, place);
+
 async function testWithoutWebGl(browser) {
   await browser.load(`file://${place}/run/report.html`);
   const page = await browser.run(`return { view: document.getElementById("view").innerText,
@@ -164,7 +188,7 @@ try {
     process.exitCode = 77;
   } else {
     testOutlines();
-    for (const [flags, tests] of [[[], [testRun, testComparison, testEveryControl]],
+    for (const [flags, tests] of [[[], [testRun, testComparison, testEveryControl, testSliders, testVolumesOfPlan, testAccess, testVideoOfRun]],
                                   [["--disable-3d-apis"], [testWithoutWebGl]]]) {
       const browser = await Browser.open(1366, 768, flags);
       try {

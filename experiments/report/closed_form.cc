@@ -1,0 +1,79 @@
+#include "experiments/report/closed_form.h"
+
+#include <vector>
+
+#include "experiments/report/shortened.h"
+#include "experiments/tables/csv_reader.h"
+
+namespace halfstep {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+json PlaceJson(const Footprint& X) {
+  return {Shortened(X.x, 12), Shortened(X.y, 12), Shortened(X.yaw, 12)};
+}
+
+json ShapeJson(const HalfStepShape& shape) {
+  return {{"shift", shape.shift},
+          {"horizontal_delay", shape.horizontal_delay},
+          {"bump_ramp", shape.bump_ramp ? json(*shape.bump_ramp) : json(nullptr)},
+          {"foot_ramp", shape.foot_ramp},
+          {"lift_share", shape.lift_share}};
+}
+
+json HalfStepJson(const PlacedHalfStep& placed) {
+  const HalfStep& half_step = placed.half_step;
+  json sway = json::array();
+  for (const Eigen::Vector2d& control : half_step.sway.controls) {
+    sway.push_back({Shortened(control.x(), 12), Shortened(control.y(), 12)});
+  }
+  return {{"support", half_step.support == Side::kLeft ? "left" : "right"},
+          {"kind", half_step.kind == HalfStepKind::kUp ? "up" : "down"},
+          {"X_WS", PlaceJson(placed.X_WS)},
+          {"X_SF", PlaceJson(half_step.X_SF)},
+          {"duration_s", half_step.duration},
+          {"via_height_m", half_step.via_height},
+          {"via_lateral_m", half_step.via_lateral},
+          {"shape", ShapeJson(half_step.shape)},
+          {"sway", std::move(sway)}};
+}
+
+}  // namespace
+
+json ClosedFormJson(const RobotModel& robot, const HalfStepSequence& sequence) {
+  json half_steps = json::array();
+  for (const PlacedHalfStep& placed : sequence.half_steps) {
+    half_steps.push_back(HalfStepJson(placed));
+  }
+  return {{"half_steps", std::move(half_steps)},
+          {"com_height_m", sequence.lipm.com_height},
+          {"gravity_m_s2", sequence.lipm.gravity},
+          {"waist_height_m", robot.waist_height},
+          {"com_ahead_m", robot.com_x_B}};
+}
+
+json ParametersJson(const fs::path& folder, int size) {
+  const CsvTable half_steps = ReadCsv((folder / "half_steps.csv").string());
+  const size_t count = static_cast<size_t>(size);
+  if (half_steps.rows.size() != count || count % 2 != 0) return nullptr;
+  std::vector<double> overlaps(count - 1, 0.0);  // those of `raw`, which has no table
+  if (const fs::path path = folder / "overlaps.csv"; fs::exists(path)) {
+    overlaps = ReadCsv(path.string()).Numbers("overlap_s");
+    if (overlaps.size() != count - 1) return nullptr;
+  }
+  const std::vector<double> heights = half_steps.Numbers("height_scale"),
+                            points = half_steps.Numbers("support_point_m");
+  json step_heights = json::array(), step_points = json::array();
+  for (size_t i = 0; i < count; i += 2) {
+    step_heights.push_back(heights[i]);
+    step_points.push_back(points[i]);
+  }
+  return {{"overlaps", overlaps},
+          {"durations", half_steps.Numbers("duration_s")},
+          {"height_scales", std::move(step_heights)},
+          {"support_points", std::move(step_points)}};
+}
+
+}  // namespace halfstep

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "wpg/motion/half_step_sequence.h"
+#include "wpg/robot/robot_model.h"
+
+namespace halfstep {
+
+/// What the page needs to evaluate the closed form of walks on the same footsteps by itself:
+/// half-steps in S with their places X_WS [m, rad], the LIPM and the robot's posture over it.
+/// Places and sways to 12 digits.
+nlohmann::json ClosedFormJson(const RobotModel& robot, const HalfStepSequence& sequence);
+
+/// The homotopy parameters of a method's folder, exactly as its half_steps.csv and overlaps.csv
+/// have them: overlaps [s], durations [s], height_scales, support_points [m]. Null where they are
+/// not those of `size` half-steps. Throws InputError for tables that cannot be read.
+nlohmann::json ParametersJson(const std::filesystem::path& folder, int size);
+
+}  // namespace halfstep

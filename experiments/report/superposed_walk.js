@@ -1,0 +1,116 @@
+// A walk in closed form at any overlaps, durations, heights and support points, as the C++ has it.
+// Source: smoothing/README.md, "The homotopy".
+import { RestToRest, rampedStep, smoothstep, swayAt } from "./rest_to_rest.js";
+
+// Quantities of a walk: com x y, zmp x y, waist yaw, and of each foot x y z yaw.
+const footAt = { left: 5, right: 9 };
+
+const moved = ([x, y, yaw], [px, py]) => [
+  x + Math.cos(yaw) * px - Math.sin(yaw) * py, y + Math.sin(yaw) * px + Math.cos(yaw) * py,
+];
+
+// The state at rest in W, on the floor or at the via point.
+function restState(half, onFloor, height, supportPoint) {
+  const { support, X_WS: place, X_SF: foot } = half;
+  const swing = support === "left" ? "right" : "left";
+  const sign = swing === "left" ? 1 : -1;
+  const point = onFloor ? [0.5 * foot[0], 0.5 * foot[1]] : [0, sign * supportPoint];
+  const sole = onFloor ? foot : [0, sign * half.via_lateral_m, 0];
+  const state = new Float64Array(13);
+  state.set([...moved(place, point), ...moved(place, point), place[2] + (onFloor ? 0.5 * foot[2] : 0)]);
+  state.set([place[0], place[1], 0, place[2]], footAt[support]);
+  state.set([...moved(place, sole), onFloor ? 0 : height, place[2] + sole[2]], footAt[swing]);
+  return state;
+}
+
+class Piece {
+  constructor(half, { duration, heightScale, supportPoint, omega }) {
+    const { shape } = half;
+    this.half = half;
+    this.duration = duration;
+    this.up = half.kind === "up";
+    this.t1 = 0.5 - 0.5 * shape.shift;
+    this.t2 = 0.5 + 0.5 * shape.shift;
+    this.shift = new RestToRest(omega * duration, shape.shift, shape.bump_ramp);
+    this.foot = this.up ? [this.t2 + shape.horizontal_delay, 1] : [0, this.t1 - shape.horizontal_delay];
+    this.lift = this.up ? [this.t2, this.t2 + shape.lift_share * (1 - this.t2)]
+      : [this.t1 - shape.lift_share * this.t1, this.t1];
+    const height = half.via_height_m * heightScale;
+    this.from = restState(half, this.up, height, supportPoint);
+    const to = restState(half, !this.up, height, supportPoint);
+    this.delta = to.map((value, q) => value - this.from[q]);
+    const [c, s] = [Math.cos(half.X_WS[2]), Math.sin(half.X_WS[2])];
+    this.sway = half.sway.map(([x, y]) => [c * x - s * y, s * x + c * y]);
+  }
+
+  addTo(state, tau) {
+    const sigma = tau / this.duration;
+    const { delta } = this;
+    const com = this.shift.com(sigma);
+    const zmp = this.shift.zmp(sigma);
+    const foot = rampedStep(sigma, ...this.foot, this.half.shape.foot_ramp);
+    const height = smoothstep(sigma, ...this.lift);
+    const sway = swayAt(this.sway, sigma);
+    const profiles = [com, com, zmp, zmp, smoothstep(sigma),
+                      foot, foot, height, foot, foot, foot, height, foot];
+    profiles.forEach((profile, q) => { state[q] += profile * delta[q]; });
+    state[0] += sway[0];
+    state[1] += sway[1];
+  }
+}
+
+/** min(before·T, after·T) [s], beyond which an overlap makes no walk. `junction`: from 0. */
+export function naturalBound(halfSteps, durations, junction) {
+  if (junction % 2 === 1) return Math.min(durations[junction], durations[junction + 1]);
+  const t2 = 0.5 + 0.5 * halfSteps[junction].shape.shift;
+  const t1 = 0.5 - 0.5 * halfSteps[junction + 1].shape.shift;
+  return Math.min((1 - t2) * durations[junction], t1 * durations[junction + 1]);
+}
+
+export class SuperposedWalk {
+  /** `form`: closed_form of a report; `parameters`: overlaps, durations, height_scales, support_points. */
+  constructor(form, parameters) {
+    const omega = Math.sqrt(form.gravity_m_s2 / form.com_height_m);
+    let start = 0;
+    this.form = form;
+    this.pieces = form.half_steps.map((half, i) => {
+      const step = Math.floor(i / 2);
+      const piece = new Piece(half, {
+        duration: parameters.durations[i], heightScale: parameters.height_scales[step],
+        supportPoint: parameters.support_points[step], omega,
+      });
+      piece.start = start;
+      start += piece.duration - (parameters.overlaps[i] ?? 0);
+      return piece;
+    });
+    const last = this.pieces.at(-1);
+    this.duration = last.start + last.duration;
+  }
+
+  /** All 13 quantities at t [s]. */
+  stateAt(t) {
+    const state = Float64Array.from(this.pieces[0].from);
+    for (const piece of this.pieces) {
+      if (t <= piece.start) break;
+      piece.addTo(state, t - piece.start);
+    }
+    return state;
+  }
+
+  /** Index of the latest half-step that has begun. */
+  halfStepAt(t) {
+    let i = 0;
+    while (i + 1 < this.pieces.length && this.pieces[i + 1].start <= t) ++i;
+    return i;
+  }
+
+  /** The side that stands alone, or "both". */
+  supportAt(t) {
+    for (let up = 0; up < this.pieces.length; up += 2) {
+      const [rising, sinking] = [this.pieces[up], this.pieces[up + 1]];
+      if (t - rising.start < rising.t2 * rising.duration) break;
+      if (t - sinking.start <= sinking.t1 * sinking.duration) return rising.half.support;
+    }
+    return "both";
+  }
+}

@@ -1,0 +1,34 @@
+// What the page says of A and B: how long A takes, and where they are at an instant.
+import { marginText } from "./least_margins.js";
+
+const byId = (id) => document.getElementById(id);
+
+function stateOf(walk, t) {
+  const half = walk.halfStepAt(walk.locate(t));
+  const ownDuration = (walk.original ?? walk).duration;
+  if (t >= walk.duration) return `at its end, ${ownDuration.toFixed(2)} s`;
+  return half ? `half-step ${half.half_step} of ${walk.halfSteps.length}, ${half.kind}` : "";
+}
+
+/** Of A, and of B where there is one, at t [s]. */
+export function tellInstant(walks, t) {
+  walks.forEach((walk, i) => {
+    const name = "ab"[i];
+    byId(`tag-${name}`).textContent = `${name.toUpperCase()} ${walk.label}: ${stateOf(walk, t)}`;
+  });
+  const near = walks[0]?.nearest.find((pair) => Math.abs(pair.t_s - t) < 0.011);
+  byId("pair").hidden = !near;
+  if (near) {
+    byId("pair").textContent = `A is nearest: ${near.between.join(" – ")}, ` +
+      `${marginText(near.margin_m, "m")} at ${t.toFixed(2)} s`;
+  }
+}
+
+/** The walk A in the page's head. */
+export function tellOutcome(a) {
+  const { duration_s: duration, speedup } = a.summary;
+  byId("outcome").textContent = `A: ${duration.toFixed(3)} s` +
+    (a.method === "raw" ? "" : `, ${speedup.toFixed(2)} × as fast as raw`) +
+    (a.certified ? ", proved for all t" : `, not proved: ${a.certificate.message}`);
+  byId("outcome").classList.toggle("no", !a.certified);
+}
