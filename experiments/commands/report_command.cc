@@ -10,6 +10,7 @@
 #include "experiments/live/spare_boxes.h"
 #include "experiments/report/report.h"
 #include "experiments/report/report_page.h"
+#include "experiments/report/sweep_report.h"
 #include "experiments/run/complete_manifest.h"
 #include "experiments/tables/json_file.h"
 #include "experiments/tables/run_folder.h"
@@ -73,7 +74,7 @@ ExitStatus Report(const ReportCommand& command) {
   if (!fs::is_directory(run) || !fs::exists(run / "manifest.json")) {
     throw InputError(
         {command.run +
-         ": no such run folder (valid: a folder that `halfstep run` or `halfstep live` wrote)"});
+         ": no such run folder (valid: a folder that `halfstep run`, `live` or `sweep` wrote)"});
   }
   if (!HasReport()) {
     throw std::runtime_error(
@@ -85,7 +86,9 @@ ExitStatus Report(const ReportCommand& command) {
   if (command.out && !command.overwrite && fs::exists(fs::symlink_status(out))) {
     throw std::runtime_error(out.string() + ": is there already (--overwrite replaces it)");
   }
-  if (IsEpisode(run)) {
+  if (IsSweep(run)) {
+    WriteWhole(out, {SweepReport(run, out)});
+  } else if (IsEpisode(run)) {
     ReportOfEpisode(command, run);
   } else {
     ReportOfRun(command, run);
@@ -96,8 +99,8 @@ ExitStatus Report(const ReportCommand& command) {
 
 CommandAction DeclareReport(CLI::App* app) {
   const auto command = std::make_shared<ReportCommand>();
-  app->add_option("RUN", command->run, "folder of a run or an episode")->required();
-  app->add_option("--out", command->out, "the file (default: report.html in the run folder)");
+  app->add_option("RUN", command->run, "folder of a run, an episode or a sweep")->required();
+  app->add_option("--out", command->out, "the file (default: report.html in that folder)");
   app->add_flag("--overwrite", command->overwrite, "replace --out");
   app->add_flag("--quiet", command->quiet, "print nothing but errors");
   return [command] { return Report(*command); };

@@ -9,6 +9,8 @@
 
 #include "experiments/commands/command_line.h"
 #include "experiments/commands/commands.h"
+#include "experiments/report/report_page.h"
+#include "experiments/report/sweep_report.h"
 #include "experiments/run/interrupt.h"
 #include "experiments/run/progress_bar.h"
 #include "experiments/sweep/sweep_case.h"
@@ -16,6 +18,7 @@
 #include "experiments/tables/csv_reader.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/text.h"
+#include "wpg/files/whole_file.h"
 
 namespace halfstep {
 namespace {
@@ -57,6 +60,8 @@ bool IsCrash(int signal) {
 int Finish(const SweepCommand& command, const SweepFolder& folder,
            const std::vector<SweepCase>& cases) {
   const CsvTable runs = ParseCsv(folder.Collect(cases), "runs.csv");
+  const std::filesystem::path report = folder.path() / "report.html";
+  if (HasReport()) WriteWhole(report, {SweepReport(folder.path(), report)});
   if (command.quiet) return kSuccess;
   std::map<std::string, int> statuses;
   for (const std::string& status : runs.Texts("status")) ++statuses[status];
@@ -69,7 +74,7 @@ int Finish(const SweepCommand& command, const SweepFolder& folder,
   }
   const std::vector<std::string> certified = runs.Texts("certified");
   std::cout << "; " << std::count(certified.begin(), certified.end(), "true") << " certified\n"
-            << "written: " << (folder.path() / "runs.csv").string() << '\n';
+            << "written: " << (HasReport() ? report : folder.path() / "runs.csv").string() << '\n';
   return kSuccess;
 }
 
