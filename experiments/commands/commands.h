@@ -159,6 +159,8 @@ struct SweepCommand {
   int jobs = 1;                         ///< worker processes
   bool list_cases = false;              ///< only prints the cases
   std::string one_case;                 ///< runs only this case, in this process; "": all
+  std::string range;                    ///< "FROM-TO", numbers of cases from 1; "": all
+  bool check = false;                   ///< only reads the configs of the cases
   bool collect = false;                 ///< writes runs.csv from cases that are done
   bool quiet = false;
 };
@@ -178,7 +180,8 @@ struct ExplainCommand {
 /// for an unknown key.
 ExitStatus ExplainConfig(const ExplainCommand& command);
 
-/// `halfstep list robots|scenes|configs|solvers|methods|planners`. Precondition: `what` is one of these.
+/// `halfstep list robots|scenes|configs|solvers|methods|planners`. Precondition: `what` is one of
+/// these.
 ExitStatus List(const std::string& what, bool json);
 
 }  // namespace halfstep

@@ -81,9 +81,9 @@ export function frame(width, height, { x, y, left, right, top, bottom, xLabel, y
     if (grid) root.append(shape("path", { d: `M${left} ${at}H${right}`, stroke: palette.theme.lines }));
     root.append(text(left - 5, at + 4, shortened(words, most), { "text-anchor": "end" }));
   }
-  root.append(text((left + right) / 2, bottom + 31, xLabel, { "text-anchor": "middle" }));
+  root.append(text((left + right) / 2, bottom + 31, shortened(xLabel, Math.floor((right - left) / 6)), { "text-anchor": "middle" }));
   const middle = (top + bottom) / 2;
-  root.append(text(12, middle, yLabel, { "text-anchor": "middle", transform: `rotate(-90 12 ${middle})` }));
+  root.append(text(12, middle, shortened(yLabel, Math.floor((bottom - top) / 5.6)), { "text-anchor": "middle", transform: `rotate(-90 12 ${middle})` }));
   return root;
 }
 

@@ -53,7 +53,8 @@ export class HeatMap {
   }
 
   prepare(cases, what, m, x, y, list, width) {
-    const [left, right, top] = [Math.min(96, Math.max(58, width * 0.17)), width - 12, 34];
+    const longest = Math.max(...cases.axes[y].texts.map((words) => words.length));
+    const [left, right, top] = [Math.max(58, Math.min(0.35 * width, 30 + 6.4 * longest)), width - 12, 34];
     const across = bandsOf(cases.axes[x], Math.floor((right - left) / leastCell));
     const height = Math.max(180, Math.min(460, 24 * cases.axes[y].size));
     const up = bandsOf(cases.axes[y], Math.floor(height / leastCell));

@@ -2,7 +2,6 @@
 import { Actor, footprints } from "./actor.js";
 import { connectActions } from "./actions.js";
 import { readAddress } from "./address.js";
-import { anytimePlot } from "./anytime.js";
 import { firstChoice, isInfeasible, secondChoice } from "./choices.js";
 import { marginText, worstInstant } from "./least_margins.js";
 import { leastTable } from "./least_table.js";
@@ -13,6 +12,7 @@ import { Plots } from "./plots.js";
 import { RobotShapes } from "./robot.js";
 import { plotList } from "./series.js";
 import { Stage } from "./stage.js";
+import { methodCharts } from "./method_charts.js";
 import { guarantee, junctionTable, scenarioTable, summaryTable } from "./tables.js";
 import { Timeline } from "./timeline.js";
 import { instants } from "./traces.js";
@@ -226,7 +226,7 @@ function chooseCase(index) {
   byId("method-b").selectedIndex = drawn.indexOf(secondChoice(drawn, first)) + 1;
   summaryTable(byId("summary"), current.walks, report.families, report.endings);
   if (cases.length > 1) byId("summary").append(...scenarioTable(cases));
-  anytimePlot(byId("anytime"), current.walks);
+  methodCharts(current, cases, report.profiles ?? []);
   paretoPlots(byId("pareto"), current.walks);
   guarantee(byId("guarantee"), report.statement, current.walks);
   byId("stage").hidden = byId("plots").hidden = byId("least").hidden = drawn.length === 0;

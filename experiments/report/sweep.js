@@ -32,7 +32,7 @@ function showWords() {
   const thinned = cases.axes.filter((axis) => axis.size < axis.of);
   byId("thinned").hidden = thinned.length === 0;
   byId("thinned").textContent = `Drawn are ${count(cases.ids.length, "case")} of ${data.cases.toLocaleString("en")}, so ` +
-    `that the page stays small: ${thinned.map((axis) => `every ${Math.ceil(axis.of / axis.size)}. value of ${axis.label}`).join(", ")}. ` +
+    `that the page stays small: ${thinned.map((axis) => `every ${axis.stride}${axis.stride % 10 === 2 ? "nd" : "th"} value of ${axis.label}`).join(", ")}. ` +
     "The table of endings counts all of them, and runs.csv has them.";
   byId("made").textContent = `halfstep ${data.version}, ${data.commit}. What is shown stands in runs.csv; run times are ` +
     "in timings.csv and not here, so that the same sweep makes the same page.";

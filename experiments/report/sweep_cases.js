@@ -13,9 +13,10 @@ const number = (words) => (words.trim() === "" ? NaN : Number(words));
 
 /** Keys that advance together. Values are rising where they are numbers. */
 class Axis {
-  constructor({ keys, values, of, at }) {
+  constructor({ keys, values, stride, of, at }) {
     this.keys = keys;
     this.of = of; // number of values before any were left out
+    this.stride = stride; // which was every stride-th of them
     this.label = keys.map(keyLabel).join(" & ");
     const numbers = values.map(([first]) => number(first));
     this.isNumeric = numbers.every(Number.isFinite);

@@ -56,7 +56,7 @@ export class Lines {
       this.chart.parent.querySelector("select").focus();
     });
     return element("div", { className: "keys" }, element("label", { text: "a line a " }, select),
-      ...lines.map(({ name }, i) => lineKey(colourOf(i), axis ? name : name)));
+      ...lines.map(({ name }, i) => lineKey(colourOf(i), name)));
   }
 
   draw(width, cases, what, x, lines) {

@@ -76,6 +76,7 @@ json AxesJson(const SweepGrid& grid, const Thinning& thinning) {
     for (const size_t i : thinning.kept) at.push_back(axis.at[i] / thinning.stride[k]);
     axes.push_back({{"keys", axis.keys},
                     {"values", std::move(values)},
+                    {"stride", stride},
                     {"of", axis.values.size()},
                     {"at", std::move(at)}});
   }
@@ -102,8 +103,8 @@ json CountsJson(const Runs& runs) {
 // A column a quantity for each method; null: no row, or no number.
 json EmptyTable(size_t cases) {
   json table = json::object();
-  for (const char* column :
-       {"status", "solved", "duration", "margin", "margin_of", "iterations", "instants", "message"}) {
+  for (const char* column : {"status", "solved", "duration", "margin", "margin_of", "iterations",
+                             "instants", "message"}) {
     table[column] = json(std::vector<json>(cases));
   }
   return table;
@@ -182,23 +183,25 @@ std::string SweepReport(const fs::path& folder, const fs::path& page_path) {
   const CsvTable table = ReadCsv((folder / "runs.csv").string());
   const SweepGrid grid = GridOf(table, keys);
   const Runs runs(table);
-  const size_t per_case = (runs.method.size() + grid.ids.size()) / std::max<size_t>(1, grid.ids.size());
+  const size_t per_case =
+      (runs.method.size() + grid.ids.size()) / std::max<size_t>(1, grid.ids.size());
   const Thinning thinning = ThinnedTo(
       grid, kMostBytes / (kBytesOfCase + kBytesOfAxis * grid.axes.size() + kBytesOfRow * per_case));
-  json page = {{"kind", "sweep"},
-               {"name", manifest.value("name", "")},
-               {"version", manifest.value("version", "")},
-               {"commit", manifest.value("commit", "")},
-               {"cases", grid.ids.size()},
-               {"rows", runs.method.size()},
-               {"counts", CountsJson(runs)},
-               {"meanings", MeaningsJson()},
-               {"axes", AxesJson(grid, thinning)},
-               {"constants", grid.constants},
-               {"ids", json::array()},
-               {"reports", json::array()},
-               {"place", fs::proximate(fs::absolute(folder) / "cases",
-                                       fs::absolute(page_path).parent_path()).generic_string()}};
+  json page = {
+      {"kind", "sweep"},
+      {"name", manifest.value("name", "")},
+      {"version", manifest.value("version", "")},
+      {"commit", manifest.value("commit", "")},
+      {"cases", grid.ids.size()},
+      {"rows", runs.method.size()},
+      {"counts", CountsJson(runs)},
+      {"meanings", MeaningsJson()},
+      {"axes", AxesJson(grid, thinning)},
+      {"constants", grid.constants},
+      {"ids", json::array()},
+      {"reports", json::array()},
+      {"place", fs::proximate(fs::absolute(folder) / "cases", fs::absolute(page_path).parent_path())
+                    .generic_string()}};
   for (size_t i = 0; i < thinning.kept.size(); ++i) {
     const std::string& id = grid.ids[thinning.kept[i]];
     page["ids"].push_back(id);
