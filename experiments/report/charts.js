@@ -83,7 +83,7 @@ export function frame(width, height, { x, y, left, right, top, bottom, xLabel, y
   }
   root.append(text((left + right) / 2, bottom + 31, shortened(xLabel, Math.floor((right - left) / 6)), { "text-anchor": "middle" }));
   const middle = (top + bottom) / 2;
-  root.append(text(12, middle, shortened(yLabel, Math.floor((bottom - top) / 5.6)), { "text-anchor": "middle", transform: `rotate(-90 12 ${middle})` }));
+  if (yLabel) root.append(text(12, middle, shortened(yLabel, Math.floor((bottom - top) / 5.6)), { "text-anchor": "middle", transform: `rotate(-90 12 ${middle})` }));
   return root;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 #include <unordered_map>
 
 #include "experiments/report/report_page.h"
@@ -22,7 +23,8 @@ using nlohmann::json;
 // What the page's data may have, so that the page stays below 5 MB.
 constexpr size_t kMostBytes = 3'600'000;
 constexpr size_t kMostMessageBytes = 300'000;
-constexpr size_t kBytesOfCase = 20, kBytesOfAxis = 4, kBytesOfRow = 32;  // at most, as JSON
+constexpr size_t kBytesOfCase = 20, kBytesOfAxis = 4,
+                 kBytesOfRow = 40;  // as JSON, also where there is no row
 
 // Numbers for texts that come again and again.
 class Dictionary {
@@ -183,10 +185,9 @@ std::string SweepReport(const fs::path& folder, const fs::path& page_path) {
   const CsvTable table = ReadCsv((folder / "runs.csv").string());
   const SweepGrid grid = GridOf(table, keys);
   const Runs runs(table);
-  const size_t per_case =
-      (runs.method.size() + grid.ids.size()) / std::max<size_t>(1, grid.ids.size());
+  const size_t methods = std::set<std::string>(runs.method.begin(), runs.method.end()).size();
   const Thinning thinning = ThinnedTo(
-      grid, kMostBytes / (kBytesOfCase + kBytesOfAxis * grid.axes.size() + kBytesOfRow * per_case));
+      grid, kMostBytes / (kBytesOfCase + kBytesOfAxis * grid.axes.size() + kBytesOfRow * methods));
   json page = {
       {"kind", "sweep"},
       {"name", manifest.value("name", "")},
