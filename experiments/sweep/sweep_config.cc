@@ -128,7 +128,7 @@ std::vector<size_t> CheckedCases(size_t cases) {
                                             : static_cast<size_t>((turn - std::floor(turn)) *
                                                                   static_cast<double>(cases)));
   }
-  checked.push_back(cases - 1);
+  if (cases > 0) checked.push_back(cases - 1);
   return checked;
 }
 
