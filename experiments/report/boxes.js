@@ -30,7 +30,7 @@ function draw(width, label, groups) {
     const at = y.at(i) + 8;
     const failed = group.all - sorted.length;
     root.append(text(left, at - 14, `${group.label}: ${sorted.length} of ${group.all}` +
-      (failed ? ` (${failed} not proved)` : ""), { fill: failed ? palette.theme.ink : palette.theme.numbers }));
+      (failed ? ` (${failed} failed)` : ""), { fill: failed ? palette.theme.ink : palette.theme.numbers }));
     if (!sorted.length) return;
     const [least, first, middle, third, most] = [0, 0.25, 0.5, 0.75, 1].map((q) => x.at(quantile(sorted, q)));
     const colour = colourOf(group.colour ?? i);
@@ -56,6 +56,6 @@ export class Boxes {
   show(label, groups, of) {
     this.chart.show(`Box plots by method: ${label}`, (width) => draw(width, label, groups), [], [
       element("p", { className: "small", text: `Box: quartiles and median; whiskers: least and most, over the ${of} ` +
-        "where the method has a proved walk of its own. The others are counted beside its name." })]);
+        "that the method solved: by a proved walk of its own. The others are counted beside its name." })]);
   }
 }

@@ -47,7 +47,7 @@ export class HeatMap {
 
   legend(cases, fixed, x, y) {
     const free = cases.axes.filter((_, k) => k !== x && k !== y && fixed[k] === undefined);
-    const words = ["×: none proved", "◣: some not proved"];
+    const words = ["×: failed, no proved walk of the method's own", "◣: some of the cases failed"];
     if (free.length) words.push(`each cell: the median over ${free.map((axis) => axis.label).join(", ")}`);
     return element("p", { className: "small", text: `${words.join("; ")}. A click, or the arrow keys, choose a cell.` });
   }
@@ -149,9 +149,9 @@ export class HeatMap {
     const keys = `${this.cases.axes[this.x].label} ${this.across.texts[column]}${this.put ? " …" : ""}, ` +
       `${this.cases.axes[this.y].label} ${this.up.texts[row]}${this.put ? " …" : ""}`;
     if (cell.all === 0) return `${keys}: no case`;
-    const value = cell.value === null ? "none proved" : `${figure(cell.value)}`;
+    const value = cell.value === null ? "failed" : figure(cell.value);
     return cell.all === 1 ? `${keys}: ${value}`
-      : `${keys}: ${cell.value === null ? value : `median ${value}`}, ${cell.solved} of ${cell.all} cases proved`;
+      : `${keys}: ${cell.value === null ? value : `median ${value}`}, ${cell.solved} of ${cell.all} cases solved`;
   }
 
   tell(i) {

@@ -10,6 +10,10 @@ const targets = ["to within 1 % of the best", "to within 5 % of the best", "to t
 const byId = (id) => document.getElementById(id);
 let made = null; // charts, which redraw themselves
 
+// As in the anytime curves, where raw is none.
+const colourOfMethod = (methods, label) =>
+  (label === "raw" ? 6 : methods.filter((method) => method !== "raw").indexOf(label));
+
 function kindsOf(objective, profiles, methods) {
   const kinds = [];
   for (const [target, words] of targets.entries()) {
@@ -22,7 +26,7 @@ function kindsOf(objective, profiles, methods) {
         note: "A scenario is solved by a proved walk of the method's own.",
         curves: curves.map(({ method, variables, points }) => {
           const name = methodLabel(method, variables);
-          return { name, colour: methods.indexOf(name), points };
+          return { name, colour: colourOfMethod(methods, name), points };
         }),
       });
     }
@@ -43,8 +47,8 @@ export function methodCharts(current, cases, profiles) {
   made.profile.show(several ? kindsOf(current.objective, profiles, methods) : []);
   byId("boxes").hidden = !several;
   if (!several) return;
-  made.boxes.show("speed-up over raw [×]", methods.map((label, colour) => ({
-    label, colour, all: compared.length,
+  made.boxes.show("speed-up over raw [×]", methods.map((label) => ({
+    label, colour: colourOfMethod(methods, label), all: compared.length,
     values: compared.flatMap(({ walks }) => walks.filter((walk) =>
       walk.label === label && walk.certified && walk.summary.own).map((walk) => walk.summary.speedup)),
   })), "scenarios");

@@ -41,7 +41,7 @@ export class Lines {
       [element("p", { className: "small", text: [
         axis && axis.size > lines.length ? `${lines.length} of ${axis.size} values of ${axis.label}` : "",
         left.length ? `medians, and a band from the least to the most, over ${left.map((one) => one.label).join(", ")}` : "",
-        "×: none proved; a click on a point chooses its cases",
+        "×: failed; a click on a point chooses its cases",
       ].filter(Boolean).join("; ") + "." })]);
   }
 
@@ -66,7 +66,7 @@ export class Lines {
     const known = lines.flatMap(({ points }) => points.filter((point) => point.value !== null));
     const low = known.reduce((a, { low: b }) => Math.min(a, b), Infinity);
     const high = known.reduce((a, { high: b }) => Math.max(a, b), -Infinity);
-    const pad = Math.max(0.06 * (high - low), 1e-9);
+    const pad = 0.06 * (high - low); // 0 where all are the same, which the axis widens
     const y = known.length ? numberAxis(low - pad, high + pad, bottom, top) : numberAxis(0, 1, bottom, top);
     const numeric = axis.isNumeric && new Set(axis.numbers).size === axis.size;
     const xAxis = numeric ? numberAxis(axis.numbers[0], axis.numbers.at(-1), left + 8, right - 8)
@@ -85,8 +85,8 @@ export class Lines {
     points.forEach((point, k) => {
       if (point.all === 0) return;
       const words = `${name}, ${this.arguments[0].axes[this.arguments[3]].texts[k]}: ` +
-        (point.value === null ? "none proved" : figure(point.value)) +
-        (point.all > 1 ? `, ${point.solved} of ${point.all} cases proved` : "");
+        (point.value === null ? "failed" : figure(point.value)) +
+        (point.all > 1 ? `, ${point.solved} of ${point.all} cases solved` : "");
       if (point.value === null) {
         root.append(this.target(shape("path", { d: `M${at(k) - 4} ${floor - 4}l8 8m0 -8l-8 8`, stroke: colour, "stroke-width": 1.6 }), point, words));
         joined = false;

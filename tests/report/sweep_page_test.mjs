@@ -78,7 +78,7 @@ async function testCharts(browser) {
   assert.ok(links.every((link) => existsSync(decodeURIComponent(link.replace("file://", "")))), `${links}`);
   assert.ok(links.includes(`file://${place}/swept/cases/${id}/report.html`), `${links}`);
   await clickCell(browser, 1);
-  assert.match((await texts(browser, "#chosen"))[0], /none proved.*not_run✗ not proved/s);
+  assert.match((await texts(browser, "#chosen"))[0], /0 of 2 cases solved.*not_run✗ not proved/s);
 
   await browser.run("document.querySelector('#map svg').focus()");
   await browser.key("\uE013");
@@ -98,7 +98,7 @@ async function testCharts(browser) {
   await browser.run("const s = document.querySelector('#lines select'); s.value = '0'; s.dispatchEvent(new Event('change'))");
   assert.deepEqual((await texts(browser, "#lines .key")), ["0.2", "0.32"], "a line a value");
 
-  assert.ok((await texts(browser, "#boxes text")).includes("dichotomy: 4 of 8 (4 not proved)"));
+  assert.ok((await texts(browser, "#boxes text")).includes("dichotomy: 4 of 8 (4 failed)"));
   assert.equal((await texts(browser, "#profile option")).length, 2);
   await browser.run("const s = document.querySelector('#profile select'); s.value = '1'; s.dispatchEvent(new Event('change'))");
   assert.match((await texts(browser, "#profile svg"))[0], /factor of the least instants evaluated/);
