@@ -162,6 +162,8 @@ struct SweepCommand {
   int jobs = 1;                         ///< worker processes
   bool list_cases = false;              ///< only prints the cases
   std::string one_case;                 ///< runs only this case, in this process; "": all
+  std::string range;                    ///< "FROM-TO", numbers of cases from 1; "": all
+  bool check = false;                   ///< only reads the configs of the cases
   bool collect = false;                 ///< writes runs.csv from cases that are done
   bool quiet = false;
 };

@@ -13,6 +13,7 @@
 #include "experiments/live/spare_boxes.h"
 #include "experiments/report/report.h"
 #include "experiments/report/report_page.h"
+#include "experiments/report/sweep_report.h"
 #include "experiments/report/walk_video.h"
 #include "experiments/run/complete_manifest.h"
 #include "experiments/run/interrupt.h"
@@ -71,10 +72,6 @@ void ReportOfEpisode(const ReportCommand& command, const fs::path& folder) {
   }
 }
 
-}  // namespace
-
-namespace {
-
 // A line that the next one replaces, where it is a person who reads.
 void TellFrames(int done, int frames) {
   if (isatty(STDERR_FILENO) != 1) return;
@@ -110,8 +107,9 @@ void CheckOptions(const ReportCommand& command, const fs::path& run) {
   if (fs::path(*command.video).extension() != ".webm") {
     throw InputError({"--video: " + *command.video + " (valid: a name that ends in .webm)"});
   }
-  if (IsEpisode(run)) {
-    throw InputError({"--video: " + command.run + " is an episode (valid: a run folder)"});
+  if (IsEpisode(run) || IsSweep(run)) {
+    throw InputError(
+        {"--video: " + command.run + " is an episode or a sweep (valid: a run folder)"});
   }
 }
 
@@ -122,7 +120,7 @@ ExitStatus Report(const ReportCommand& command) {
   if (!fs::is_directory(run) || !fs::exists(run / "manifest.json")) {
     throw InputError(
         {command.run +
-         ": no such run folder (valid: a folder that `halfstep run` or `halfstep live` wrote)"});
+         ": no such run folder (valid: a folder that `halfstep run`, `live` or `sweep` wrote)"});
   }
   if (!HasReport()) {
     throw std::runtime_error(
@@ -138,6 +136,8 @@ ExitStatus Report(const ReportCommand& command) {
   }
   if (command.video) {
     if (const ExitStatus status = Video(command, run, out); status != kSuccess) return status;
+  } else if (IsSweep(run)) {
+    WriteWhole(out, {SweepReport(run, out)});
   } else if (IsEpisode(run)) {
     ReportOfEpisode(command, run);
   } else {
@@ -149,8 +149,8 @@ ExitStatus Report(const ReportCommand& command) {
 
 CommandAction DeclareReport(CLI::App* app) {
   const auto command = std::make_shared<ReportCommand>();
-  app->add_option("RUN", command->run, "folder of a run or an episode")->required();
-  app->add_option("--out", command->out, "the file (default: report.html in the run folder)");
+  app->add_option("RUN", command->run, "folder of a run, an episode or a sweep")->required();
+  app->add_option("--out", command->out, "the file (default: report.html in that folder)");
   app->add_option("--video", command->video,
                   "a WebM of the walk in place of the page; needs chromium");
   app->add_option("--seconds", command->options.seconds,

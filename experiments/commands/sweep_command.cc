@@ -2,6 +2,7 @@
 #include <memory>
 
 #include <algorithm>
+#include <charconv>
 #include <cstring>
 #include <iostream>
 #include <map>
@@ -9,6 +10,8 @@
 
 #include "experiments/commands/command_line.h"
 #include "experiments/commands/commands.h"
+#include "experiments/report/report_page.h"
+#include "experiments/report/sweep_report.h"
 #include "experiments/run/interrupt.h"
 #include "experiments/run/progress_bar.h"
 #include "experiments/sweep/sweep_case.h"
@@ -16,6 +19,7 @@
 #include "experiments/tables/csv_reader.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/text.h"
+#include "wpg/files/whole_file.h"
 
 namespace halfstep {
 namespace {
@@ -26,6 +30,38 @@ std::filesystem::path OutputFolder(const SweepCommand& command, const SweepConfi
   }
   return command.out ? std::filesystem::path(*command.out)
                      : std::filesystem::path("sweeps") / sweep.name;
+}
+
+// The case of an ID, "0007-3f2a9c1b".
+SweepCase CaseOfId(const SweepConfig& sweep, const std::string& id) {
+  size_t number = 0;
+  std::from_chars(id.data(), id.data() + id.size(), number);
+  if (number >= 1 && number <= NumSweepCases(sweep)) {
+    SweepCase one = SweepCaseAt(sweep, number - 1);
+    if (one.id == id) return one;
+  }
+  throw InputError({"--case " + Quote(id) + ": no such case (valid: what --list-cases prints)"});
+}
+
+// The cases with the numbers "FROM-TO", all when `range` is "".
+std::vector<SweepCase> CasesOf(const SweepConfig& sweep, const std::string& range) {
+  if (range.empty()) return SweepCases(sweep);
+  const size_t last = NumSweepCases(sweep);
+  const char* const end = range.data() + range.size();
+  size_t from = 0, to = 0;
+  const auto [dash, error] = std::from_chars(range.data(), end, from);
+  const bool has_dash = error == std::errc() && dash != end && *dash == '-';
+  const bool is_range = has_dash && std::from_chars(dash + 1, end, to).ptr == end;
+  if (!is_range || from < 1 || to < from || to > last) {
+    throw InputError({"--cases " + Quote(range) +
+                      ": no numbers of cases (valid: FROM-TO from 1-1 to 1-" +
+                      std::to_string(last) + ")"});
+  }
+  std::vector<SweepCase> cases;
+  for (size_t number = from; number <= to; ++number) {
+    cases.push_back(SweepCaseAt(sweep, number - 1));
+  }
+  return cases;
 }
 
 std::vector<SweepCase> Missing(const SweepFolder& folder, const std::vector<SweepCase>& cases) {
@@ -57,6 +93,8 @@ bool IsCrash(int signal) {
 int Finish(const SweepCommand& command, const SweepFolder& folder,
            const std::vector<SweepCase>& cases) {
   const CsvTable runs = ParseCsv(folder.Collect(cases), "runs.csv");
+  const std::filesystem::path report = folder.path() / "report.html";
+  if (HasReport()) WriteWhole(report, {SweepReport(folder.path(), report)});
   if (command.quiet) return kSuccess;
   std::map<std::string, int> statuses;
   for (const std::string& status : runs.Texts("status")) ++statuses[status];
@@ -69,10 +107,12 @@ int Finish(const SweepCommand& command, const SweepFolder& folder,
   }
   const std::vector<std::string> certified = runs.Texts("certified");
   std::cout << "; " << std::count(certified.begin(), certified.end(), "true") << " certified\n"
-            << "written: " << (folder.path() / "runs.csv").string() << '\n';
+            << "written: " << (HasReport() ? report : folder.path() / "runs.csv").string() << '\n';
   return kSuccess;
 }
 
+// Runs those of the cases that are missing, each in a process of its own, and collects them when
+// they are all cases of the sweep.
 int RunAll(const SweepCommand& command, const SweepFolder& folder,
            const std::vector<SweepCase>& cases, InterruptGuard& interrupt) {
   const std::vector<SweepCase> missing = Missing(folder, cases);
@@ -108,7 +148,9 @@ int RunAll(const SweepCommand& command, const SweepFolder& folder,
         [&] { bar.Update(static_cast<double>(done) / static_cast<double>(missing.size())); },
         interrupt.token());
   }
-  if (done == missing.size()) return Finish(command, folder, cases);
+  if (done == missing.size()) {
+    return command.range.empty() ? Finish(command, folder, cases) : kSuccess;
+  }
   std::cerr << "halfstep: " << (interrupt.requested() ? "stopped; " : "") << missing.size() - done
             << " of " << cases.size() << " cases are not done (the same command goes on)\n";
   return interrupt.requested() ? kInterrupted : failure != kSuccess ? failure : kFailed;
@@ -118,21 +160,23 @@ int RunAll(const SweepCommand& command, const SweepFolder& folder,
 
 int Sweep(const SweepCommand& command) {
   InterruptGuard interrupt;
-  const bool check = command.one_case.empty() && !command.collect;
-  const SweepConfig sweep = LoadSweep(command.sweep, command.overrides, check);
-  const std::vector<SweepCase> cases = SweepCases(sweep);
+  const bool all = command.one_case.empty() && command.range.empty();
+  const SweepConfig sweep =
+      LoadSweep(command.sweep, command.overrides, all && !command.collect && !command.list_cases);
+  if (command.check) {
+    if (!command.quiet) std::cout << sweep.name << ": " << NumSweepCases(sweep) << " cases\n";
+    return kSuccess;
+  }
+  if (!command.one_case.empty()) {
+    const SweepCase one = CaseOfId(sweep, command.one_case);
+    return DoSweepCase(SweepFolder(OutputFolder(command, sweep), sweep), one, interrupt.token());
+  }
+  const std::vector<SweepCase> cases = CasesOf(sweep, command.range);
   if (command.list_cases) {
     for (const SweepCase& one : cases) std::cout << one.id << " " << OverrideText(one) << '\n';
     return kSuccess;
   }
-  const auto wanted = std::find_if(
-      cases.begin(), cases.end(), [&](const SweepCase& one) { return one.id == command.one_case; });
-  if (!command.one_case.empty() && wanted == cases.end()) {
-    throw InputError(
-        {"--case " + Quote(command.one_case) + ": no such case (valid: what --list-cases prints)"});
-  }
   const SweepFolder folder(OutputFolder(command, sweep), sweep);
-  if (wanted != cases.end()) return DoSweepCase(folder, *wanted, interrupt.token());
   if (!command.collect) return RunAll(command, folder, cases, interrupt);
   const std::vector<SweepCase> missing = Missing(folder, cases);
   if (missing.empty()) return Finish(command, folder, cases);
@@ -155,9 +199,18 @@ CommandAction DeclareSweep(CLI::App* app) {
   CLI::Option* one_case =
       app->add_option("--case", command->one_case, "do this one only, for schedulers")
           ->excludes(list_cases);
+  CLI::Option* range =
+      app->add_option("--cases", command->range, "do those with the numbers FROM-TO only")
+          ->excludes(list_cases)
+          ->excludes(one_case);
+  app->add_flag("--check", command->check, "read the configs of the cases and do none")
+      ->excludes(list_cases)
+      ->excludes(one_case)
+      ->excludes(range);
   app->add_flag("--collect", command->collect, "write runs.csv from cases that are done")
       ->excludes(list_cases)
-      ->excludes(one_case);
+      ->excludes(one_case)
+      ->excludes(range);
   app->add_flag("--quiet", command->quiet, "print nothing but errors");
   return [command, sets] {
     command->overrides = ParseOverrides(*sets);

@@ -14,6 +14,7 @@ std::string NoPage() {
 
 bool HasReport() { return false; }
 std::string ReportPage(const nlohmann::json&) { return NoPage(); }
+std::string SweepPage(const nlohmann::json&) { return NoPage(); }
 std::string LivePage(std::string_view) { return NoPage(); }
 std::string RecordingPage(const nlohmann::json&) { return NoPage(); }
 

@@ -12,4 +12,10 @@ halfstep_live_template:
   .incbin HALFSTEP_LIVE_TEMPLATE
 halfstep_live_template_end:
   .byte 0
+  .global halfstep_sweep_template
+  .global halfstep_sweep_template_end
+halfstep_sweep_template:
+  .incbin HALFSTEP_SWEEP_TEMPLATE
+halfstep_sweep_template_end:
+  .byte 0
   .section .note.GNU-stack,"",%progbits

@@ -162,6 +162,23 @@ json DrawnWalk(const RobotModel& robot, const Scene& scene, const fs::path& fold
   return walk;
 }
 
+json ProfilesJson(const Comparison& comparison) {
+  json curves = json::array();
+  for (const ProfileCurve& curve : PerformanceProfiles(comparison)) {
+    json points = json::array();
+    for (const auto& [ratio, fraction] : curve.points) {
+      points.push_back({Shortened(ratio), Shortened(fraction)});
+    }
+    curves.push_back({{"target", curve.target},
+                      {"by_wall", curve.by_wall},
+                      {"method", curve.method.name},
+                      {"variables", curve.method.variables},
+                      {"objective", curve.method.objective},
+                      {"points", std::move(points)}});
+  }
+  return curves;
+}
+
 json CaseOf(const ComparedCase& one, double spacing, json* report) {
   const fs::path run(one.methods.front().record.run);
   try {
@@ -235,6 +252,7 @@ std::string ComparisonReport(const Comparison& comparison) {
     for (const ComparedMethod& method : one.methods) total += method.record.duration;
   }
   json report = EmptyReport("comparison");
+  report["profiles"] = ProfilesJson(comparison);
   for (const ComparedCase& one : comparison.cases) {
     report["cases"].push_back(CaseOf(one, SpacingFor(total), &report));
   }

@@ -2,7 +2,6 @@
 import { Actor, footprints } from "./actor.js";
 import { connectActions } from "./actions.js";
 import { readAddress } from "./address.js";
-import { anytimePlot } from "./anytime.js";
 import { firstChoice, isInfeasible, secondChoice } from "./choices.js";
 import { filmByCommand } from "./film.js";
 import { filmedPage } from "./filmed.js";
@@ -11,6 +10,7 @@ import { handWalk } from "./hand_walk.js";
 import { addLayerBoxes, layers, offerLayer } from "./layers.js";
 import { worstInstant } from "./least_margins.js";
 import { leastTable } from "./least_table.js";
+import { methodCharts } from "./method_charts.js";
 import { middleOf } from "./pair_line.js";
 import * as palette from "./palette.js";
 import { paretoPlots } from "./pareto.js";
@@ -221,7 +221,7 @@ function chooseCase(index) {
   byId("method-b").selectedIndex = drawn.indexOf(secondChoice(drawn, first)) + 1;
   summaryTable(byId("summary"), current.walks, report.families, report.endings);
   if (cases.length > 1) byId("summary").append(...scenarioTable(cases));
-  anytimePlot(byId("anytime"), current.walks);
+  methodCharts(current, cases, report.profiles ?? []);
   paretoPlots(byId("pareto"), current.walks);
   guarantee(byId("guarantee"), report.statement, current.walks);
   byId("stage").hidden = byId("plots").hidden = byId("least").hidden = drawn.length === 0;

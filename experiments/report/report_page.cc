@@ -6,6 +6,8 @@
 extern "C" {
 extern const char halfstep_report_template[];
 extern const char halfstep_report_template_end[];
+extern const char halfstep_sweep_template[];
+extern const char halfstep_sweep_template_end[];
 }
 
 namespace halfstep {
@@ -15,6 +17,12 @@ bool HasReport() { return true; }
 std::string ReportPage(const nlohmann::json& data) {
   return WithData({halfstep_report_template,
                    static_cast<size_t>(halfstep_report_template_end - halfstep_report_template)},
+                  data);
+}
+
+std::string SweepPage(const nlohmann::json& data) {
+  return WithData({halfstep_sweep_template,
+                   static_cast<size_t>(halfstep_sweep_template_end - halfstep_sweep_template)},
                   data);
 }
 

@@ -12,4 +12,7 @@ bool HasReport();
 /// in `data` may hold anything (page_text.h). Precondition: HasReport().
 std::string ReportPage(const nlohmann::json& data);
 
+/// The page of a sweep (sweep_report.h), in the same way. Precondition: HasReport().
+std::string SweepPage(const nlohmann::json& data);
+
 }  // namespace halfstep

@@ -34,8 +34,8 @@ export function plotPng(u, title) {
 
 const escaped = (text) => text.replace(/[&<>"]/g, (c) => `&#${c.charCodeAt(0)};`);
 
-// Ticks of a uPlot axis within a range, about `count` of them.
-function ticks(low, high, count) {
+/** Ticks of an axis within a range, about `count` of them. */
+export function ticks(low, high, count) {
   const rough = (high - low) / count;
   const power = 10 ** Math.floor(Math.log10(rough));
   const step = power * [1, 2, 5, 10].find((factor) => factor * power >= rough);

@@ -10,6 +10,14 @@ function decoded({ step, delta }) {
   return values;
 }
 
+/** A method with the variables that it has beside the overlaps. */
+export function methodLabel(method, variables) {
+  const plain = variables === "" || variables === "overlaps";
+  const symbols = variables.split("+").map((name) =>
+    ({ overlaps: "Δ", heights: "η", durations: "T" })[name] ?? name);
+  return plain ? method : `${method} (${symbols.join(", ")})`;
+}
+
 export class Walk {
   constructor(json) {
     this.summary = json.summary;
@@ -33,10 +41,7 @@ export class Walk {
   }
 
   get label() {
-    const plain = this.variables === "" || this.variables === "overlaps";
-    const symbols = this.variables.split("+").map((name) =>
-      ({ overlaps: "Δ", heights: "η", durations: "T" })[name] ?? name);
-    return plain ? this.method : `${this.method} (${symbols.join(", ")})`;
+    return methodLabel(this.method, this.variables);
   }
 
   /** The same walk, shown as if it lasted `duration` [s]; `summary` tells how long it does. */

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "experiments/report/report.h"
 #include "experiments/run/complete_manifest.h"
 #include "experiments/run/experiment_run.h"
 #include "experiments/sweep/sweep_tables.h"
@@ -28,7 +29,8 @@ void Publish(const SweepFolder& folder, const SweepCase& one, const ExperimentCo
   if (folder.IsDone(one)) return;  // another process did it meanwhile
   const std::filesystem::path path = folder.CasePath(one);
   if (!std::filesystem::is_symlink(path)) std::filesystem::remove_all(path);
-  RunFolder place(folder.CasePath(one), /*overwrite=*/false);
+  // Collect() tidies once for all: here it would be a look at every case for each case.
+  RunFolder place(folder.CasePath(one), /*overwrite=*/false, /*tidy=*/false);
   if (kept != nullptr) {
     kept->Write(&place);
   } else {
@@ -37,6 +39,7 @@ void Publish(const SweepFolder& folder, const SweepCase& one, const ExperimentCo
   WriteCsv("timings", tables.timings, &place);
   WriteCsv("runs", tables.runs, &place);
   if (kept != nullptr) {
+    WriteReport(kept->experiment().robot, kept->experiment().scene, &place);
     CompleteManifest(kept->experiment().robot, kept->experiment().scene, &place);
   }
   try {

@@ -16,6 +16,7 @@ namespace halfstep {
 namespace {
 
 constexpr size_t kMostCases = 100000;
+constexpr size_t kMostChecked = 5000;  // their configs are read before anything runs
 
 // Twelve digits: 0.3 and not 0.30000000000000004, 100000 and not 1e+05.
 std::string ValueText(double value) {
@@ -117,9 +118,24 @@ std::string MistakeInAxes(const std::vector<SweepAxis>& axes) {
                    std::to_string(kMostCases) + ")";
 }
 
-// What is wrong with the config of the first case that cannot be read.
+// Indices of the cases whose configs are read before anything runs: of a large sweep some that are
+// spread evenly, by multiples of the golden ratio, so that they meet all values of short axes.
+std::vector<size_t> CheckedCases(size_t cases) {
+  std::vector<size_t> checked;
+  for (size_t i = 0; i < std::min(cases, kMostChecked); ++i) {
+    const double turn = static_cast<double>(i) * 0.6180339887498949;
+    checked.push_back(cases <= kMostChecked ? i
+                                            : static_cast<size_t>((turn - std::floor(turn)) *
+                                                                  static_cast<double>(cases)));
+  }
+  if (cases > 0) checked.push_back(cases - 1);
+  return checked;
+}
+
+// What is wrong with the config of the first case that is read and cannot be.
 std::string MistakeInCases(const SweepConfig& config) {
-  for (const SweepCase& one : SweepCases(config)) {
+  for (const size_t index : CheckedCases(NumSweepCases(config))) {
+    const SweepCase one = SweepCaseAt(config, index);
     try {
       LoadConfig(config.ConfigPath().string(), one.overrides);
     } catch (const InputError& error) {
@@ -127,6 +143,14 @@ std::string MistakeInCases(const SweepConfig& config) {
     }
   }
   return "";
+}
+
+// The first axis that advances together with this one; itself when it is that.
+size_t FirstOfZip(const std::vector<SweepAxis>& axes, size_t axis) {
+  for (size_t k = 0; k < axis; ++k) {
+    if (!axes[axis].zip.empty() && axes[k].zip == axes[axis].zip) return k;
+  }
+  return axis;
 }
 
 }  // namespace
@@ -159,35 +183,37 @@ std::vector<KeyDescription> SweepKeys() {
   return DescribeKeys([&config](Fields& fields) { DeclareFields(fields, &config); });
 }
 
+size_t NumSweepCases(const SweepConfig& config) {
+  size_t cases = 1;
+  for (size_t k = 0; k < config.vary.size(); ++k) {
+    if (FirstOfZip(config.vary, k) == k) cases *= config.vary[k].values.size();
+  }
+  return cases;
+}
+
+SweepCase SweepCaseAt(const SweepConfig& config, size_t index) {
+  SweepCase one;
+  one.overrides.resize(config.vary.size());
+  std::vector<size_t> at(config.vary.size());
+  size_t rest = index;
+  for (size_t k = config.vary.size(); k-- > 0;) {  // the last key varies fastest
+    if (FirstOfZip(config.vary, k) != k) continue;
+    at[k] = rest % config.vary[k].values.size();
+    rest /= config.vary[k].values.size();
+  }
+  for (size_t k = 0; k < config.vary.size(); ++k) {
+    const SweepAxis& axis = config.vary[k];
+    one.overrides[k] = {axis.key, axis.values[at[FirstOfZip(config.vary, k)]]};
+  }
+  std::array<char, 24> number{};
+  std::snprintf(number.data(), number.size(), "%04zu-", index + 1);
+  one.id = number.data() + Sha256(OverrideText(one)).substr(0, 8);
+  return one;
+}
+
 std::vector<SweepCase> SweepCases(const SweepConfig& config) {
-  std::vector<SweepCase> cases(1);
-  cases[0].overrides.resize(config.vary.size());
-  for (size_t first = 0; first < config.vary.size(); ++first) {
-    const SweepAxis& axis = config.vary[first];
-    const auto together = [&](const SweepAxis& other) {
-      return &other == &axis || (!axis.zip.empty() && other.zip == axis.zip);
-    };
-    if (std::find_if(config.vary.begin(), config.vary.end(), together) !=
-        config.vary.begin() + static_cast<std::ptrdiff_t>(first)) {
-      continue;  // advances with an earlier one
-    }
-    std::vector<SweepCase> longer;
-    for (const SweepCase& one : cases) {
-      for (size_t i = 0; i < axis.values.size(); ++i) {
-        longer.push_back(one);
-        for (size_t k = first; k < config.vary.size(); ++k) {
-          const SweepAxis& other = config.vary[k];
-          if (together(other)) longer.back().overrides[k] = {other.key, other.values[i]};
-        }
-      }
-    }
-    cases = std::move(longer);
-  }
-  for (size_t i = 0; i < cases.size(); ++i) {
-    std::array<char, 24> number{};
-    std::snprintf(number.data(), number.size(), "%04zu-", i + 1);
-    cases[i].id = number.data() + Sha256(OverrideText(cases[i])).substr(0, 8);
-  }
+  std::vector<SweepCase> cases(NumSweepCases(config));
+  for (size_t i = 0; i < cases.size(); ++i) cases[i] = SweepCaseAt(config, i);
   return cases;
 }
 

@@ -48,11 +48,16 @@ std::vector<KeyDescription> SweepKeys();
 /// Precondition: zipped axes have as many values as each other.
 std::vector<SweepCase> SweepCases(const SweepConfig& config);
 
+/// How many there are.
+size_t NumSweepCases(const SweepConfig& config);
+/// One of them alone, at a cost that does not grow with their number. Precondition: it is there.
+SweepCase SweepCaseAt(const SweepConfig& config, size_t index);
+
 /// "smoothing.margins.clearance_m=0.01 seed=3"
 std::string OverrideText(const SweepCase& one);
 
 /// Reads a sweep file strictly, ranges turned into values. With `check` the config of every case is
-/// read too. Throws InputError.
+/// read too, of more than 5000 those of 5000 that are spread evenly. Throws InputError.
 SweepConfig LoadSweep(const std::string& path, const std::vector<YamlOverride>& overrides,
                       bool check);
 /// The same for a sweep file's text.

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
+#include <tuple>
 
 #include "experiments/build_info.h"
 #include "experiments/config/experiment.h"
@@ -45,13 +46,34 @@ ordered_json FilesOf(const SweepConfig& sweep) {
   return hashes;
 }
 
-// Text of manifest.json: what a sweep is, and nothing that another run of it would not say.
-std::string Definition(const SweepConfig& sweep) {
+std::string HashOfCases(const SweepConfig& sweep) {
   std::string cases;
+  for (const SweepCase& one : SweepCases(sweep)) cases += one.id + " " + OverrideText(one) + "\n";
+  return Sha256(cases);
+}
+
+std::string Resolved(const fs::path& folder, const SweepConfig& sweep) {
+  SweepConfig moved = sweep;
+  moved.config = fs::proximate(sweep.ConfigPath(), folder).string();
+  return WriteYaml([&](Fields& fields) { DeclareFields(fields, &moved); });
+}
+
+// The same from the folder of a sweep that was begun with the same sweep.yaml, which says the
+// cases; the workers of a large sweep need not list them all.
+std::string KnownHashOfCases(const fs::path& folder, const SweepConfig& sweep) {
+  const std::string text = Content(folder / "manifest.json");
+  if (text.empty() || JsonDepth(text) > kMostJsonLevels) return "";
+  const ordered_json there = ordered_json::parse(text, nullptr, /*allow_exceptions=*/false);
+  if (!there.is_object() || Content(folder / "sweep.yaml") != Resolved(folder, sweep)) return "";
+  const auto hash = there.find("cases_sha256");
+  return hash != there.end() && hash->is_string() ? hash->get<std::string>() : "";
+}
+
+// Text of manifest.json: what a sweep is, and nothing that another run of it would not say.
+std::string Definition(const fs::path& folder, const SweepConfig& sweep) {
   std::vector<std::string> keys;
   for (const SweepAxis& axis : sweep.vary) keys.push_back(axis.key);
-  const std::vector<SweepCase> all = SweepCases(sweep);
-  for (const SweepCase& one : all) cases += one.id + " " + OverrideText(one) + "\n";
+  const std::string known = KnownHashOfCases(folder, sweep);
   ordered_json manifest = {{"format", 1},
                            {"program", "halfstep"},
                            {"kind", "sweep"},
@@ -62,8 +84,8 @@ std::string Definition(const SweepConfig& sweep) {
                            {"name", sweep.name},
                            {"keep", sweep.keep},
                            {"keys", keys},
-                           {"cases", all.size()},
-                           {"cases_sha256", Sha256(cases)},
+                           {"cases", NumSweepCases(sweep)},
+                           {"cases_sha256", known.empty() ? HashOfCases(sweep) : known},
                            {"config_sha256", Sha256(ReadYamlFile(sweep.ConfigPath().string()))},
                            {"files_sha256", FilesOf(sweep)}};
   for (const auto& [library, version] : kLibraries) manifest["libraries"][library] = version;
@@ -108,21 +130,17 @@ void CheckPlace(const fs::path& path, const std::string& manifest) {
        " (valid: a new folder, or one that the same sweep by the same program began)"});
 }
 
-std::string Resolved(const fs::path& folder, const SweepConfig& sweep) {
-  SweepConfig moved = sweep;
-  moved.config = fs::proximate(sweep.ConfigPath(), folder).string();
-  return WriteYaml([&](Fields& fields) { DeclareFields(fields, &moved); });
-}
-
 }  // namespace
 
 SweepFolder::SweepFolder(const fs::path& path, const SweepConfig& sweep)
     : path_(fs::absolute(path).lexically_normal()),
       sweep_(sweep),
       runs_(EmptyRuns(sweep)),
-      timings_(EmptyTimings()) {
+      timings_(EmptyTimings()),
+      runs_schema_(SchemaJson(runs_.columns)),
+      timings_schema_(SchemaJson(timings_.columns)) {
   if (!path_.has_filename()) path_ = path_.parent_path();  // a trailing slash
-  const std::string manifest = Definition(sweep_);
+  const std::string manifest = Definition(path_, sweep_);
   CheckPlace(path_, manifest);
   std::error_code error;
   fs::create_directories(path_ / "cases", error);
@@ -142,11 +160,12 @@ SweepFolder::SweepFolder(const fs::path& path, const SweepConfig& sweep)
 bool SweepFolder::IsDone(const SweepCase& one) const {
   const fs::path place = CasePath(one);
   if (!fs::exists(place / "config.yaml")) return false;
-  for (const auto& [name, empty] : {std::pair{"runs", &runs_}, std::pair{"timings", &timings_}}) {
+  for (const auto& [name, empty, schema] : {std::tuple{"runs", &runs_, &runs_schema_},
+                                            std::tuple{"timings", &timings_, &timings_schema_}}) {
     const std::string file = (place / name).string();
     const std::string text = Content(file + ".csv");
     if (!text.starts_with(empty->text)) return false;
-    if (Content(file + ".schema.json") != SchemaJson(empty->columns)) return false;
+    if (Content(file + ".schema.json") != *schema) return false;
     try {
       const CsvTable table = ParseCsv(text, file + ".csv");
       if (table.rows.empty()) return false;
@@ -167,8 +186,8 @@ std::string SweepFolder::Collect(const std::vector<SweepCase>& cases) const {
     timings += Content(CasePath(one) / "timings.csv").substr(timings_.text.size());
   }
   RemoveAbandonedSiblings(path_ / "cases", "");
-  WriteWhole(path_ / "runs.schema.json", {SchemaJson(runs_.columns)});
-  WriteWhole(path_ / "timings.schema.json", {SchemaJson(timings_.columns)});
+  WriteWhole(path_ / "runs.schema.json", {runs_schema_});
+  WriteWhole(path_ / "timings.schema.json", {timings_schema_});
   WriteWhole(path_ / "timings.csv", {timings});
   WriteWhole(path_ / "runs.csv", {runs});
   return runs;

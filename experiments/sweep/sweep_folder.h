@@ -33,6 +33,7 @@ class SweepFolder {
   std::filesystem::path path_;
   SweepConfig sweep_;
   CsvFile runs_, timings_;  // without rows
+  std::string runs_schema_, timings_schema_;
 };
 
 }  // namespace halfstep

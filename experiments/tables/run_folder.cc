@@ -61,14 +61,14 @@ void Exchange(const fs::path& from, const fs::path& to) {
 
 }  // namespace
 
-RunFolder::RunFolder(fs::path path, bool overwrite)
+RunFolder::RunFolder(fs::path path, bool overwrite, bool tidy)
     : path_(fs::absolute(std::move(path)).lexically_normal()), overwrite_(overwrite) {
   if (!path_.has_filename()) path_ = path_.parent_path();  // a trailing slash
   if (IsThere(path_)) CheckReplaceable();
   std::error_code error;
   fs::create_directories(path_.parent_path(), error);
   if (error) Fail("cannot make the folder", path_.parent_path(), error.value());
-  RemoveAbandonedSiblings(path_.parent_path(), path_.filename().string());
+  if (tidy) RemoveAbandonedSiblings(path_.parent_path(), path_.filename().string());
   staging_.emplace(path_, PartialSibling::Kind::kFolder);
 }
 

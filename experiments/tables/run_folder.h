@@ -19,8 +19,10 @@ namespace halfstep {
 class RunFolder {
  public:
   /// Throws std::runtime_error when `path` exists and `overwrite` is false, when it exists and is
-  /// not a run folder (a folder with a manifest.json), or when its parent cannot be made.
-  RunFolder(std::filesystem::path path, bool overwrite);
+  /// not a run folder (a folder with a manifest.json), or when its parent cannot be made. Removes
+  /// what a killed run of this name left behind unless `tidy` is false, for which it has to look at
+  /// every name beside it.
+  RunFolder(std::filesystem::path path, bool overwrite, bool tidy = true);
 
   /// The final one; while it is written the files lie beside it.
   const std::filesystem::path& path() const { return path_; }

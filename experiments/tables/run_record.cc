@@ -171,14 +171,18 @@ std::string ProblemOf(const json& manifest, const fs::path& run, const fs::path&
   return Sha256(text);
 }
 
-}  // namespace
-
-bool IsEpisode(const fs::path& folder) {
+bool IsOfKind(const fs::path& folder, const char* kind) {
   const fs::path path = folder / "manifest.json";
   if (!fs::exists(path)) return false;
   const json manifest = ReadJsonObject(path);
-  return manifest.contains("kind") && manifest["kind"] == "episode";
+  return manifest.contains("kind") && manifest["kind"] == kind;
 }
+
+}  // namespace
+
+bool IsEpisode(const fs::path& folder) { return IsOfKind(folder, "episode"); }
+
+bool IsSweep(const fs::path& folder) { return IsOfKind(folder, "sweep"); }
 
 RunRecord ReadRun(const std::string& argument) {
   const auto [label, folder] = LabelAndRun(argument);
@@ -192,6 +196,10 @@ RunRecord ReadRun(const std::string& argument) {
   if (IsEpisode(run)) {
     throw InputError({folder + ": is the folder of an episode (valid: a run folder; `halfstep "
                                "report`, `verify` and `replay` take episodes)"});
+  }
+  if (IsSweep(run)) {
+    throw InputError({folder + ": is the folder of a sweep (valid: a run folder, as cases/ID of a "
+                               "sweep with keep: all; `halfstep report` takes sweeps)"});
   }
   RunRecord record;
   record.run = folder;

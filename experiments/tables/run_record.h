@@ -56,6 +56,9 @@ struct RunRecord {
 /// InputError for a manifest that cannot be read.
 bool IsEpisode(const std::filesystem::path& folder);
 
+/// The same for a sweep's folder.
+bool IsSweep(const std::filesystem::path& folder);
+
 /// Reads a run folder that `halfstep run` wrote: manifest.json, summary.csv, footsteps.csv,
 /// raw/certificate.json and each method's iterates.csv. `argument` is RUN or LABEL=RUN; the label
 /// (letters, digits, "_", ".", "-", "-" not first) goes before the names of its methods but raw.

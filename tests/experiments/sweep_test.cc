@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "experiments/commands/commands.h"
+#include "experiments/report/report_page.h"
 #include "experiments/sweep/sweep_case.h"
 #include "experiments/sweep/sweep_config.h"
 #include "tests/experiments/child_process.h"
@@ -117,7 +118,7 @@ class SweepCommandTest : public testing::Test {
   }
   static void ExpectAsReference(const std::string& out) {
     EXPECT_TRUE(Bytes(out) == Bytes("reference")) << out;
-    EXPECT_EQ(FilesBelow(Folder(out)).size(), 6u * 5 + 6);
+    EXPECT_EQ(FilesBelow(Folder(out)).size(), 6u * 5 + 6 + (HasReport() ? 1 : 0));
   }
   static size_t Done(const std::string& out) {
     size_t done = 0;
@@ -244,6 +245,45 @@ TEST_F(SweepCommandTest, CasesAloneThenCollectedAreTheSame) {
   const Outcome unknown = Sweep("alone", {"--case", "0001-00000000"});
   EXPECT_EQ(unknown.status, kBadInput);
   EXPECT_THAT(unknown.err, HasSubstr("'0001-00000000': no such case"));
+}
+
+TEST_F(SweepCommandTest, RangesOfCasesThenCollectedAreTheSame) {
+  for (const std::string range : {"4-6", "1-1", "1-4"}) {
+    const Outcome outcome = Sweep("ranges", {"--cases", range, "--jobs", "1"});
+    EXPECT_EQ(outcome.status, kSuccess) << outcome.err;
+    EXPECT_FALSE(fs::exists(Folder("ranges") / "runs.csv"));
+  }
+  EXPECT_EQ(Sweep("ranges", {"--collect"}).status, kSuccess);
+  ExpectAsReference("ranges");
+  for (const std::string range : {"0-2", "3-2", "1-7", "1", "1-2x", "a-b", "-1-2", "1-"}) {
+    const Outcome outcome = Sweep("ranges", {"--cases=" + range});
+    EXPECT_EQ(outcome.status, kBadInput);
+    EXPECT_THAT(outcome.err, HasSubstr("--cases '" + range +
+                                       "': no numbers of cases (valid: "
+                                       "FROM-TO from 1-1 to 1-6)"));
+  }
+  const Outcome checked = Halfstep(place_->path(), {"sweep", "sweep.yaml", "--check"});
+  EXPECT_EQ(checked.out, "sweep: 6 cases\n");
+}
+
+TEST_F(SweepCommandTest, IsReportedOnceItIsCollected) {
+  if (!HasReport()) GTEST_SKIP() << "this build has no report";
+  ASSERT_EQ(Sweep("begun", {"--cases", "1-1"}).status, kSuccess);
+  const Outcome early = Halfstep(place_->path(), {"report", "begun"});
+  EXPECT_EQ(early.status, kBadInput);
+  EXPECT_THAT(early.err, HasSubstr("begun: has no runs.csv, since not all cases are done"));
+  const std::string page = ReadText(Folder("reference") / "report.html");
+  EXPECT_THAT(page, HasSubstr(R"("counts":{"dichotomy":{"converged":[4,4]},)"
+                              R"("none":{"on_no_step_area":[2,0]},"raw":{"converged":[4,4]}})"));
+  EXPECT_THAT(page, HasSubstr(R"("solved":[1,1,1,1,0,0])"));
+  const Outcome again =
+      Halfstep(place_->path(), {"report", "reference", "--out", "reference/again.html"});
+  EXPECT_EQ(again.status, kSuccess) << again.err;
+  EXPECT_TRUE(ReadText(Folder("reference") / "again.html") == page);
+  fs::remove(Folder("reference") / "again.html");
+  const Outcome compared = Halfstep(place_->path(), {"compare", "reference"});
+  EXPECT_EQ(compared.status, kBadInput);
+  EXPECT_THAT(compared.err, HasSubstr("is the folder of a sweep"));
 }
 
 TEST_F(SweepCommandTest, AnotherDefinitionIsRefused) {
