@@ -1,0 +1,34 @@
+#include "experiments/live/near_rest.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace halfstep {
+
+std::optional<NearRest> NearRest::At(const SafetyCheck& among, const ExperimentConfig& config,
+                                     const SuperposedWalk& walk, int half_step, double begin) {
+  constexpr double kNearer = 1e-3;  // [m]
+  const double demanded = config.smoothing.limits.demanded_of(MarginFamily::kClearance);
+  const LocalTime at = walk.Locate(std::min(begin, walk.duration()));
+  std::optional<SafetyCheck> safety;
+  double nearest = demanded;
+  Scene scene = among.evaluator().scene();
+  // One obstacle after the other, the nearest first.
+  while (true) {
+    const MarginEvaluator& evaluator = (safety ? *safety : among).evaluator();
+    MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
+    const Margin margin =
+        evaluator.At(walk, at, &scratch)[static_cast<size_t>(MarginFamily::kClearance)];
+    if (margin.value >= demanded) break;
+    if (!(margin.value >= 0.0) || margin.other < 0) return std::nullopt;
+    nearest = std::min(nearest, margin.value);
+    // To demand less of an obstacle is to know better where it is.
+    scene.obstacles[static_cast<size_t>(margin.other)].motion.error -=
+        demanded - std::max(0.0, margin.value - kNearer);
+    safety.emplace(evaluator.robot(), scene, config);
+  }
+  if (!safety) return std::nullopt;
+  return NearRest(half_step, nearest, *std::move(safety), config);
+}
+
+}  // namespace halfstep
