@@ -5,6 +5,23 @@
 
 namespace halfstep {
 
+bool BeginsAtRest(const SuperposedWalk& walk, int half_step) {
+  return half_step > 0 && walk.start_of(half_step) >= walk.end_of(half_step - 1);
+}
+
+std::optional<NearRest> NearRest::Of(const Situation& s, const SuperposedWalk& walk,
+                                     const SafetyCheck& among, const ExperimentConfig& config) {
+  const bool under_way = std::ranges::count(s.grant.near, s.begun) > 0;
+  const bool next = std::ranges::count(s.grant.near, s.begun + 1) > 0;
+  if (!s.stopped && !under_way && !next) return std::nullopt;
+  const int j = !s.stopped && under_way ? s.begun : s.begun + 1;
+  if (j == walk.num_half_steps()) {
+    return At(among, config, walk, j, std::max(s.hand_over, walk.duration()));
+  }
+  if (!BeginsAtRest(walk, j)) return std::nullopt;
+  return At(among, config, walk, j, walk.start_of(j));
+}
+
 std::optional<NearRest> NearRest::At(const SafetyCheck& among, const ExperimentConfig& config,
                                      const SuperposedWalk& walk, int half_step, double begin) {
   constexpr double kNearer = 1e-3;  // [m]

@@ -2,10 +2,14 @@
 
 #include <optional>
 
+#include "experiments/live/proposal.h"
 #include "experiments/live/safety.h"
 #include "experiments/run/planning.h"
 
 namespace halfstep {
+
+/// Whether a half-step begins when all those before it have ended.
+bool BeginsAtRest(const SuperposedWalk& walk, int half_step);
 
 /// Proofs for one half-step of a robot that came to rest nearer to obstacles than demanded. Every
 /// half-step from there begins by violating the demand, so from these obstacles it keeps less:
@@ -19,6 +23,11 @@ class NearRest {
   /// rests when it begins, at `begin` [s].
   static std::optional<NearRest> At(const SafetyCheck& among, const ExperimentConfig& config,
                                     const SuperposedWalk& walk, int half_step, double begin);
+
+  /// For the half-step that may follow the stop of a situation, or that followed one and is under
+  /// way. `walk` goes on from there.
+  static std::optional<NearRest> Of(const Situation& situation, const SuperposedWalk& walk,
+                                    const SafetyCheck& among, const ExperimentConfig& config);
 
   int half_step() const { return half_step_; }  ///< for which the proofs are
   double margin() const { return margin_; }     ///< of the nearest obstacle when it begins [m]

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "experiments/run/planning.h"
-#include "planner/search/footstep_planner.h"
 #include "planner/swept/swept_volume_query.h"
 #include "planner/swept/swept_volumes.h"
 
@@ -17,40 +16,30 @@ class NearStartQuery : public HalfStepQuery {
   NearStartQuery(const SweptVolumes& volumes, const SweptVolumeQuery& query,
                  const HalfStepCertifier& certifier, const Eigen::Vector2d& start)
       : volumes_(volumes), query_(query), certifier_(certifier), start_(start) {}
-  /// Down half-steps from `in_air`, where the robot rests, are proved by this one instead; it is
-  /// borrowed.
-  void ProveFrom(const StepState& in_air, const HalfStepCertifier& certifier) {
-    in_air_ = in_air;
-    first_ = &certifier;
-  }
 
   bool DownIsFree(int i, Side support, const Footprint& X_WS) const override {
     return query_.DownIsFree(i, support, X_WS) ||
-           Certifies(volumes_.set.Down(i, support), X_WS, X_WS,
-                     first_ && in_air_ == StepState{X_WS, support} ? *first_ : certifier_);
+           Certifies(volumes_.set.Down(i, support), X_WS, X_WS);
   }
   bool UpIsFree(int i, Side support, const Footprint& X_WS) const override {
     if (query_.UpIsFree(i, support, X_WS)) return true;
     const Footprint X_WF = X_WS * volumes_.set.Placement(i, support);
-    return Certifies(volumes_.set.Up(i, support), X_WF, X_WS, certifier_);
+    return Certifies(volumes_.set.Up(i, support), X_WF, X_WS);
   }
 
  private:
   // Of a half-step whose sole stands at `support`; `from` is where the robot comes from.
-  bool Certifies(const HalfStep& half_step, const Footprint& support, const Footprint& from,
-                 const HalfStepCertifier& certifier) const {
+  bool Certifies(const HalfStep& half_step, const Footprint& support, const Footprint& from) const {
     constexpr double kNear = 0.25;  // [m]
     if (left_ == 0 || (from.position() - start_).norm() > kNear) return false;
     --left_;
-    return certifier.Certifies(half_step, support);
+    return certifier_.Certifies(half_step, support);
   }
 
   const SweptVolumes& volumes_;
   const SweptVolumeQuery& query_;
   const HalfStepCertifier& certifier_;
   Eigen::Vector2d start_;
-  StepState in_air_{};
-  const HalfStepCertifier* first_ = nullptr;
   mutable int left_ = 300;  // certificates
 };
 

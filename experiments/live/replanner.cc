@@ -15,21 +15,7 @@
 namespace halfstep {
 namespace {
 
-bool BeginsAtRest(const SuperposedWalk& walk, int j) {
-  return j > 0 && walk.start_of(j) >= walk.end_of(j - 1);
-}
-
-// Of the half-step that may follow a stop, or that followed one and is under way.
-std::optional<NearRest> Near(const Situation& s, const SuperposedWalk& walk,
-                             const PreparedWorld& among, const ExperimentConfig& config) {
-  const int j = s.stopped ? s.begun + 1 : s.grant.near;
-  if (j < s.begun || j < 1) return std::nullopt;
-  if (j == walk.num_half_steps()) {
-    return NearRest::At(among.safety, config, walk, j, std::max(s.hand_over, walk.duration()));
-  }
-  if (!BeginsAtRest(walk, j)) return std::nullopt;
-  return NearRest::At(among.safety, config, walk, j, walk.start_of(j));
-}
+constexpr int kMostNear = 4;  // half-steps one after the other that keep less than demanded
 
 }  // namespace
 
@@ -85,7 +71,7 @@ std::optional<Margin> Replanner::Prove(const Situation& s, const SuperposedWalk&
              .proved_at = s.now,
              .through = s.begun - 1,
              .valid_until = among.world.valid_until(),
-             .near = -1};
+             .near = {}};
   }
   const int first = grant.through + 1;
   const double since =
@@ -97,16 +83,15 @@ std::optional<Margin> Replanner::Prove(const Situation& s, const SuperposedWalk&
   };
   const int until = std::min({last, proposal->robot_through, walk.num_half_steps() - 1});
   Safety safety = among.safety.AmongObstacles(walk, first, until, since, known);
-  const int j = safety.through + 1;
-  if (near && j == near->half_step() && j <= until && BeginsAtRest(walk, j)) {
+  for (int j = safety.through + 1; near && j <= until; j = safety.through + 1) {
+    const bool follows = j == near->half_step() || std::ranges::count(grant.near, j - 1) > 0;
+    if (!follows || j >= near->half_step() + kMostNear || !BeginsAtRest(walk, j)) break;
+    const auto rest = NearRest::At(among.safety, config_.experiment, walk, j, walk.start_of(j));
     const double begin = j == first ? since : walk.start_of(j);
-    if (near->safety().AmongObstacles(walk, j, j, begin).through == j) {
-      grant.near = j;
-      safety = {.through = j, .refused_by = {}};
-      if (j < until) {
-        safety = among.safety.AmongObstacles(walk, j + 1, until, walk.start_of(j + 1), known);
-      }
-    }
+    if (!rest || rest->safety().AmongObstacles(walk, j, j, begin).through < j) break;
+    grant.near.push_back(j);
+    const int next = std::min(j + 1, walk.num_half_steps() - 1);
+    safety = among.safety.AmongObstacles(walk, j + 1, until, walk.start_of(next), known);
   }
   grant.through = safety.through;
   return safety.refused_by ? safety.refused_by : robot.refused_by;
@@ -127,9 +112,10 @@ bool Replanner::Change(const Situation& s, const WalkPlan& plan, int junction,
   PlanResult result = Plan(stance, in_air, among, from_rest, among.query, left, random);
   proposal->nodes += result.nodes;
   if (s.stopped && result.status == PlanStatus::kNoPlan) {
-    NearStartQuery query(volumes_, among.query, among.certifier,
-                         MidFeet(stance[0], stance[1]).position());
-    if (in_air && from_rest) query.ProveFrom(*in_air, from_rest->certifier());
+    // Where the robot rests near an obstacle, it may take more than one half-step to get away.
+    const NearStartQuery query(volumes_, among.query,
+                               from_rest ? from_rest->certifier() : among.certifier,
+                               MidFeet(stance[0], stance[1]).position());
     result = Plan(stance, in_air, among, from_rest, query, left - result.nodes, random);
     proposal->nodes += result.nodes;
   }
@@ -227,7 +213,7 @@ Proposal Replanner::Propose(const Situation& s, const PreparedWorld& among,
     return proposal;
   }
   const int all = walk.num_half_steps() - 1;
-  const std::optional<NearRest> near_rest = Near(s, walk, among, config_.experiment);
+  const std::optional<NearRest> near_rest = NearRest::Of(s, walk, among.safety, config_.experiment);
   const NearRest* near = near_rest ? &*near_rest : nullptr;
   const std::optional<Margin> refused = Prove(s, walk, all, among, near, &proposal);
   const bool arrives = Arrives(proposal.plan, among.world);
