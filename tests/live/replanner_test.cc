@@ -77,7 +77,8 @@ TEST(ReplannerTest, ARobotThatStandsTooNearDrawsAway) {
   const double demanded = limits.demanded_of(MarginFamily::kClearance);
   std::mt19937_64 random(1);
   World world;
-  world.goal = small.config.experiment.goal;
+  world.goal.X_WG = {1.2, 0.0, 0.0};
+  world.goal.radius = 0.15;
   const Proposal first = replanner.Begin(small.start, *replanner.Prepare(world), 0, random);
   ASSERT_EQ(first.kind, ProposalKind::kChanged) << first.reason;
   const SuperposedWalk begun = first.plan.Walk();
