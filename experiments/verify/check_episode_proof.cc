@@ -125,7 +125,7 @@ void CheckEpisodeProof(const EpisodeText& episode, const DescribedWalk& walk, co
                 (coarse == 0 ? "" : "; " + Count(coarse) + " are too coarse to tell"));
   if (near > 0) {
     findings->Say("near: " + Count(near) + " half-steps began at rest nearer to an obstacle than " +
-                  "demanded, came no nearer, and touched none");
+                  "demanded, and are held to what they had there");
   }
   const double seen = kQuick - options.tolerance;
   findings->Say(
