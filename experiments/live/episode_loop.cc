@@ -158,6 +158,13 @@ void EpisodeLoop::Advance(double now) {
 void EpisodeLoop::Begins(int half_step) {
   record_.begun.push_back({half_step, static_cast<int>(record_.grants.size()) - 1});
   Tell(executor_->walk().start_of(half_step), "begins", "", half_step);
+  const SuperposedWalk& executed = executor_->walk();
+  const bool near = std::ranges::count(executor_->grant().near, half_step) > 0;
+  if (near && executed.start_of(half_step) >= executed.end_of(half_step - 1)) {
+    Tell(executed.start_of(half_step), "near",
+         "from rest nearer to an obstacle than demanded, and no nearer than there or than 0",
+         half_step);
+  }
   again_ = true;  // more junctions are near
 }
 

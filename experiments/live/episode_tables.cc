@@ -16,13 +16,14 @@ namespace {
 std::string OrNone(const std::string& text) { return text.empty() ? "none" : text; }
 
 CsvFile EventsCsv(const Episode& episode, size_t from) {
-  CsvWriter csv({{"t_s", kNumber, "s", "when"},
-                 {"event", kString, "",
-                  "measured, lost, contradicted, begins, handed_over, refused, unsafe, stopped"},
-                 {"world", kInteger, "", "version that was known then"},
-                 {"walk", kInteger, "", "in execution then, from 0"},
-                 {"half_step", kInteger, "", "that it is about, from 1; 0: none"},
-                 {"text", kString, "", "in words"}});
+  CsvWriter csv(
+      {{"t_s", kNumber, "s", "when"},
+       {"event", kString, "",
+        "measured, lost, contradicted, begins, near, handed_over, refused, unsafe, stopped"},
+       {"world", kInteger, "", "version that was known then"},
+       {"walk", kInteger, "", "in execution then, from 0"},
+       {"half_step", kInteger, "", "that it is about, from 1; 0: none"},
+       {"text", kString, "", "in words"}});
   for (const EpisodeEvent& event : episode.events | std::views::drop(from)) {
     csv.Cell(event.t).Cell(event.what).Cell(event.version).Cell(event.walk);
     csv.Cell(event.half_step + 1).Cell(OrNone(event.text)).EndRow();

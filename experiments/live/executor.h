@@ -18,6 +18,9 @@ struct Grant {
   int through = -1;        ///< the latest half-step that may begin; −1: none
   /// Every half-step that begins ends by then [s].
   double valid_until = std::numeric_limits<double>::infinity();
+  /// Half-steps that are proved to keep less than the demanded clearance from what is near where
+  /// they begin (NearRest).
+  std::vector<int> near{};
 };
 
 /// Holds the walk that is being executed, and lets a half-step begin only when it is safe. A value;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "experiments/live/isolated_half_steps.h"
+#include "experiments/live/near_rest.h"
 #include "experiments/live/near_start_query.h"
 #include "experiments/live/overlap_search.h"
 #include "experiments/live/prepared_world.h"
@@ -12,6 +13,11 @@
 #include "planner/search/planner_registry.h"
 
 namespace halfstep {
+namespace {
+
+constexpr int kMostNear = 4;  // half-steps one after the other that keep less than demanded
+
+}  // namespace
 
 Replanner::Replanner(const RobotModel& robot, const LiveConfig& config, const SweptVolumes& volumes)
     : robot_(robot),
@@ -29,7 +35,7 @@ bool Replanner::Arrives(const WalkPlan& plan, const World& world) const {
 
 PlanResult Replanner::Plan(const std::array<Footprint, 2>& stance,
                            const std::optional<StepState>& in_air, const PreparedWorld& among,
-                           const HalfStepQuery& query, std::int64_t max_nodes,
+                           const NearRest* near, const HalfStepQuery& query, std::int64_t max_nodes,
                            std::mt19937_64& random) const {
   const PlannerConfig& options = config_.experiment.planner;
   PlanRequest request{.start = stance,
@@ -42,7 +48,7 @@ PlanResult Replanner::Plan(const std::array<Footprint, 2>& stance,
     request.workspace = {Eigen::Vector2d(w[0], w[1]), Eigen::Vector2d(w[2], w[3])};
   }
   request.start_is_free = [&](const HalfStep& up, const Footprint& X_WS) {
-    return among.certifier.Certifies(up, X_WS);
+    return (near ? near->certifier() : among.certifier).Certifies(up, X_WS);
   };
   request.stop = AnyOf({AfterNodes(max_nodes), options.unimproved_nodes == 0
                                                    ? AtFirstPlan()
@@ -51,7 +57,8 @@ PlanResult Replanner::Plan(const std::array<Footprint, 2>& stance,
 }
 
 std::optional<Margin> Replanner::Prove(const Situation& s, const SuperposedWalk& walk, int last,
-                                       const PreparedWorld& among, Proposal* proposal) const {
+                                       const PreparedWorld& among, const NearRest* near,
+                                       Proposal* proposal) const {
   const int from = std::max(proposal->robot_through + 1, s.begun);
   const Safety robot =
       alone_.OfRobot(walk, from, last, [&](int j) { return proved_alone_.Knows(walk, j); });
@@ -63,22 +70,35 @@ std::optional<Margin> Replanner::Prove(const Situation& s, const SuperposedWalk&
     grant = {.version = among.world.version,
              .proved_at = s.now,
              .through = s.begun - 1,
-             .valid_until = among.world.valid_until()};
+             .valid_until = among.world.valid_until(),
+             .near = {}};
   }
   const int first = grant.through + 1;
   const double since =
       first == s.begun ? s.now : walk.start_of(std::min(first, walk.num_half_steps() - 1));
   // Volumes know nothing of areas where soles already stand.
   const bool by_volume = among.world.scene.no_step.empty();
-  const Safety safety = among.safety.AmongObstacles(
-      walk, first, std::min(last, proposal->robot_through), since,
-      [&](int j) { return by_volume && IsolatedAndFree(walk, j, volumes_, among.query); });
+  const auto known = [&](int j) {
+    return by_volume && IsolatedAndFree(walk, j, volumes_, among.query);
+  };
+  const int until = std::min({last, proposal->robot_through, walk.num_half_steps() - 1});
+  Safety safety = among.safety.AmongObstacles(walk, first, until, since, known);
+  for (int j = safety.through + 1; near && j <= until; j = safety.through + 1) {
+    const bool follows = j == near->half_step() || std::ranges::count(grant.near, j - 1) > 0;
+    if (!follows || j >= near->half_step() + kMostNear || !BeginsAtRest(walk, j)) break;
+    const auto rest = NearRest::At(among.safety, config_.experiment, walk, j, walk.start_of(j));
+    const double begin = j == first ? since : walk.start_of(j);
+    if (!rest || rest->safety().AmongObstacles(walk, j, j, begin).through < j) break;
+    grant.near.push_back(j);
+    const int next = std::min(j + 1, walk.num_half_steps() - 1);
+    safety = among.safety.AmongObstacles(walk, j + 1, until, walk.start_of(next), known);
+  }
   grant.through = safety.through;
   return safety.refused_by ? safety.refused_by : robot.refused_by;
 }
 
 bool Replanner::Change(const Situation& s, const WalkPlan& plan, int junction,
-                       const PreparedWorld& among, std::mt19937_64& random,
+                       const PreparedWorld& among, const NearRest* near, std::mt19937_64& random,
                        Proposal* proposal) const {
   constexpr int kProvedAtOnce = 4;  // half-steps behind the junction
   const double begin = SteadySeconds();
@@ -87,12 +107,16 @@ bool Replanner::Change(const Situation& s, const WalkPlan& plan, int junction,
   if (half_step.kind == HalfStepKind::kUp) in_air = {X_WS, half_step.support};
   const std::int64_t left = config_.experiment.planner.max_nodes - proposal->nodes;
   const std::array<Footprint, 2> stance = StanceAfter(plan.sequence, junction);
-  PlanResult result = Plan(stance, in_air, among, among.query, left, random);
+  // Other footsteps after another junction do not begin where the robot rests.
+  const NearRest* from_rest = near && near->half_step() == junction + 1 ? near : nullptr;
+  PlanResult result = Plan(stance, in_air, among, from_rest, among.query, left, random);
   proposal->nodes += result.nodes;
   if (s.stopped && result.status == PlanStatus::kNoPlan) {
-    const NearStartQuery near(volumes_, among.query, among.certifier,
-                              MidFeet(stance[0], stance[1]).position());
-    result = Plan(stance, in_air, among, near, left - result.nodes, random);
+    // Where the robot rests near an obstacle, it may take more than one half-step to get away.
+    const NearStartQuery query(volumes_, among.query,
+                               from_rest ? from_rest->certifier() : among.certifier,
+                               MidFeet(stance[0], stance[1]).position());
+    result = Plan(stance, in_air, among, from_rest, query, left - result.nodes, random);
     proposal->nodes += result.nodes;
   }
   proposal->planned = result;
@@ -115,7 +139,7 @@ bool Replanner::Change(const Situation& s, const WalkPlan& plan, int junction,
   const double check = SteadySeconds();
   const SuperposedWalk walk = changed.plan.Walk();
   const int last = std::min(junction + kProvedAtOnce, walk.num_half_steps() - 1);
-  const bool proved = !Prove(s, walk, last, among, &changed);
+  const bool proved = !Prove(s, walk, last, among, near, &changed);
   changed.check_s += SteadySeconds() - check;
   if (!proved) {
     proposal->check_s = changed.check_s;
@@ -125,14 +149,14 @@ bool Replanner::Change(const Situation& s, const WalkPlan& plan, int junction,
   return true;
 }
 
-void Replanner::Shorten(const Situation& s, const PreparedWorld& among, std::mt19937_64& random,
-                        Proposal* proposal) const {
+void Replanner::Shorten(const Situation& s, const PreparedWorld& among, const NearRest* near,
+                        std::mt19937_64& random, Proposal* proposal) const {
   const SuperposedWalk walk = proposal->plan.Walk();
   const std::vector<int> junctions =
       Junctions(s, walk, walk.num_half_steps() - 1, /*arrives=*/false);
   if (junctions.empty()) return;
   Proposal shorter = *proposal;
-  const bool changed = Change(s, proposal->plan, junctions.front(), among, random, &shorter);
+  const bool changed = Change(s, proposal->plan, junctions.front(), among, near, random, &shorter);
   proposal->planned = shorter.planned;
   proposal->nodes = shorter.nodes;
   if (!changed || shorter.plan.sequence.size() >= proposal->plan.sequence.size()) return;
@@ -189,7 +213,9 @@ Proposal Replanner::Propose(const Situation& s, const PreparedWorld& among,
     return proposal;
   }
   const int all = walk.num_half_steps() - 1;
-  const std::optional<Margin> refused = Prove(s, walk, all, among, &proposal);
+  const std::optional<NearRest> near_rest = NearRest::Of(s, walk, among.safety, config_.experiment);
+  const NearRest* near = near_rest ? &*near_rest : nullptr;
+  const std::optional<Margin> refused = Prove(s, walk, all, among, near, &proposal);
   const bool arrives = Arrives(proposal.plan, among.world);
   proposal.check_s = SteadySeconds() - begin;
   if (!refused && arrives) {
@@ -208,7 +234,7 @@ Proposal Replanner::Propose(const Situation& s, const PreparedWorld& among,
     proposal.smooth_s = SteadySeconds() - smooth;
     if (proposal.kind != ProposalKind::kSafe) return proposal;
     if (s.shorten) {
-      Shorten(s, among, random, &proposal);
+      Shorten(s, among, near, random, &proposal);
     } else if (config_.live.refine && !s.stopped) {
       Refine(among.safety, config_, s.hand_over, s.begun, &proposal);
       proposal.smooth_s = SteadySeconds() - smooth;
@@ -224,7 +250,7 @@ Proposal Replanner::Propose(const Situation& s, const PreparedWorld& among,
   const WalkPlan plan = proposal.plan;
   for (const int junction : Junctions(s, walk, proposal.grant.through, arrives)) {
     if (proposal.nodes >= config_.experiment.planner.max_nodes) break;
-    if (Change(s, plan, junction, among, random, &proposal)) {
+    if (Change(s, plan, junction, among, near, random, &proposal)) {
       proposal.kind = ProposalKind::kChanged;
       return proposal;
     }
@@ -241,7 +267,7 @@ Proposal Replanner::Begin(const std::array<Footprint, 2>& start, const PreparedW
                           int junctions, std::mt19937_64& random) const {
   Proposal proposal{.kind = ProposalKind::kUnsafe};
   proposal.planned =
-      Plan(start, {}, among, among.query, config_.experiment.planner.max_nodes, random);
+      Plan(start, {}, among, nullptr, among.query, config_.experiment.planner.max_nodes, random);
   proposal.reason = proposal.planned.sentence;
   if (proposal.planned.footsteps.empty()) return proposal;
   const HalfStep like = PrototypeOf(config_.experiment);
@@ -251,7 +277,8 @@ Proposal Replanner::Begin(const std::array<Footprint, 2>& start, const PreparedW
   const SuperposedWalk walk = proposal.plan.Walk();
   Situation situation;
   proposal.grant.version = -1;
-  if (const auto refused = Prove(situation, walk, walk.num_half_steps() - 1, among, &proposal)) {
+  if (const auto refused =
+          Prove(situation, walk, walk.num_half_steps() - 1, among, nullptr, &proposal)) {
     proposal.reason = among.safety.evaluator().Describe(*refused);
     return proposal;
   }

@@ -15,6 +15,7 @@
 
 namespace halfstep {
 
+class NearRest;
 struct PreparedWorld;
 
 /// Looks at a walk that is being executed, in this order of urgency: which half-steps are safe in
@@ -48,18 +49,21 @@ class Replanner {
  private:
   bool Arrives(const WalkPlan& plan, const World& world) const;
   PlanResult Plan(const std::array<Footprint, 2>& stance, const std::optional<StepState>& in_air,
-                  const PreparedWorld& among, const HalfStepQuery& query, std::int64_t max_nodes,
-                  std::mt19937_64& random) const;
+                  const PreparedWorld& among, const NearRest* near, const HalfStepQuery& query,
+                  std::int64_t max_nodes, std::mt19937_64& random) const;
   // Proves the walk of the proposal up to half-step `last` as far as it is not proved yet, and
-  // grants it. Returns what refused it.
+  // grants it. Returns what refused it. `near`, here and below: of the half-step that begins, or
+  // began, at rest near an obstacle; null: none.
   std::optional<Margin> Prove(const Situation& situation, const SuperposedWalk& walk, int last,
-                              const PreparedWorld& among, Proposal* proposal) const;
+                              const PreparedWorld& among, const NearRest* near,
+                              Proposal* proposal) const;
   // Other footsteps after half-step `junction`; false when there are none that are safe.
   bool Change(const Situation& situation, const WalkPlan& plan, int junction,
-              const PreparedWorld& among, std::mt19937_64& random, Proposal* proposal) const;
+              const PreparedWorld& among, const NearRest* near, std::mt19937_64& random,
+              Proposal* proposal) const;
   // A way with fewer footsteps, where one is found.
-  void Shorten(const Situation& situation, const PreparedWorld& among, std::mt19937_64& random,
-               Proposal* proposal) const;
+  void Shorten(const Situation& situation, const PreparedWorld& among, const NearRest* near,
+               std::mt19937_64& random, Proposal* proposal) const;
   // Half-steps after which other footsteps may follow, best first.
   std::vector<int> Junctions(const Situation& situation, const SuperposedWalk& walk, int through,
                              bool arrives) const;

@@ -24,6 +24,42 @@ struct KnownWorld {
   Distances distances;
 };
 
+// Whether events.csv says that a half-step, from 1, began nearer to an obstacle than demanded.
+bool SaysNear(const EpisodeText& episode, int half_step) {
+  return std::ranges::any_of(episode.events, [&](const EventRow& event) {
+    return event.what == "near" && event.half_step == half_step;
+  });
+}
+
+// What a half-step, from 0, is held to that begins at rest nearer to obstacles than demanded: from
+// these it keeps what it has when it begins, less kNearer, and at least 0. To demand less of an
+// obstacle is said here as a smaller error.
+Scene SceneFromRest(const DescribedWalk& walk, int half_step, Scene scene, double demanded,
+                    double tolerance, Findings* findings) {
+  constexpr double kNearer = 1e-3, kAtRest = 1e-9;  // [m], [s]
+  const std::string name = Formatted("half-step %d begins near an obstacle, ", half_step + 1);
+  const double t = walk.WindowOf(half_step).first;
+  if (half_step == 0 || !(walk.WindowOf(half_step - 1).second <= t + kAtRest)) {
+    findings->Disagree(name + "but not from rest");
+    return scene;
+  }
+  Distances distances(walk.robot(), scene);
+  const Placement at = PlaceRobot(walk.robot(), walk.Row(t));
+  for (size_t o = 0; o < distances.num_obstacles(); ++o) {
+    double margin = demanded;
+    for (size_t b = 0; b < distances.num_bodies(); ++b) {
+      margin = std::min(margin, distances.FromObstacle(b, o, at, t, demanded + kQuick).distance);
+    }
+    if (!(margin >= -tolerance)) {
+      findings->Disagree(name + Formatted("which may be touched there: %.4g m from ", margin) +
+                         Quote(scene.obstacles[o].name));
+    }
+    if (margin >= demanded) continue;
+    scene.obstacles[o].motion.error -= demanded - std::max(0.0, margin - kNearer);
+  }
+  return scene;
+}
+
 }  // namespace
 
 CertificateText DemandsOf(const MarginLimits& limits, Findings* findings) {
@@ -48,7 +84,7 @@ void CheckEpisodeProof(const EpisodeText& episode, const DescribedWalk& walk, co
   std::set<int> worlds;
   int of_world = -1;
   std::unique_ptr<KnownWorld> world;
-  long statements = 0, kept = 0, coarse = 0;
+  long statements = 0, kept = 0, coarse = 0, near = 0;
   Reached nearest;
   nearest.spare = std::numeric_limits<double>::infinity();
   for (const BegunRow& begun : episode.begun) {
@@ -60,8 +96,15 @@ void CheckEpisodeProof(const EpisodeText& episode, const DescribedWalk& walk, co
       worlds.insert(of_world);
     }
     Findings of_branch;
+    std::unique_ptr<KnownWorld> from_rest;
+    if (SaysNear(episode, begun.half_step)) {
+      from_rest = std::make_unique<KnownWorld>(
+          walk.robot(), SceneFromRest(walk, begun.half_step - 1, world->scene,
+                                      demands.demanded[kClearance], options.tolerance, findings));
+      ++near;
+    }
     CheckStopBranch(walk, begun.half_step - 1, 0, options.period, demands, options.tolerance,
-                    &world->distances, &of_branch);
+                    &(from_rest ? from_rest : world)->distances, &of_branch);
     const std::string where =
         Formatted("stopped after half-step %d, against world %d: ", begun.half_step, grant.world);
     findings->TakeReasons(of_branch, where);
@@ -80,6 +123,10 @@ void CheckEpisodeProof(const EpisodeText& episode, const DescribedWalk& walk, co
                 " stop branches keep every margin, against " + Count(std::ssize(worlds)) +
                 " worlds, by " + Count(statements) + " statements" +
                 (coarse == 0 ? "" : "; " + Count(coarse) + " are too coarse to tell"));
+  if (near > 0) {
+    findings->Say("near: " + Count(near) + " half-steps began at rest nearer to an obstacle than " +
+                  "demanded, and are held to what they had there");
+  }
   const double seen = kQuick - options.tolerance;
   findings->Say(
       nearest.spare < seen

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "experiments/live/prepared_world.h"
 #include "tests/live/small_episode.h"
 
@@ -33,6 +35,84 @@ TEST(ReplannerTest, AllSearchesOfAProposalShareTheNodes) {
     EXPECT_EQ(proposal.kind, ProposalKind::kUnsafe);
     EXPECT_EQ(proposal.planned.status, PlanStatus::kBudget);
     EXPECT_EQ(proposal.nodes, small.config.experiment.planner.max_nodes);
+  }
+}
+
+// The least clearance of a walk from begin to end [s].
+double LeastClearance(const MarginEvaluator& evaluator, const SuperposedWalk& walk, double begin,
+                      double end) {
+  MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
+  double least = 1.0;
+  for (int k = 0; k <= 200; ++k) {
+    const LocalTime at = walk.Locate(begin + (end - begin) * k / 200.0);
+    least = std::min(
+        least,
+        evaluator.At(walk, at, &scratch)[static_cast<size_t>(MarginFamily::kClearance)].value);
+  }
+  return least;
+}
+
+// A low box beside the left foot of a robot that rests on both feet, so far from it [m].
+Scene BesideLeftFoot(const WalkPlan& plan, const RobotModel& robot, const MarginLimits& limits,
+                     double gap) {
+  const Footprint foot = StanceAfter(plan.sequence, 1)[static_cast<size_t>(Index(Side::kLeft))];
+  const SuperposedWalk walk = plan.Walk();
+  Obstacle box{.name = "box", .shape = Box{{0.05, 0.05, 0.04}}};
+  box.X_WO.translation() = Eigen::Vector3d(foot.x, foot.y + 0.15, 0.02);
+  Scene scene{.name = "box", .files = {}, .obstacles = {box}, .no_step = {}, .warnings = {}};
+  for (int i = 0; i < 5; ++i) {
+    const MarginEvaluator evaluator(robot, scene, limits);
+    const double t = walk.end_of(1);
+    scene.obstacles[0].X_WO.translation().y() -= LeastClearance(evaluator, walk, t, t) - gap;
+  }
+  return scene;
+}
+
+// What is demanded cannot be kept where the robot stands. It may go where it gets no nearer than
+// that, by 1 mm, as long as it touches nothing.
+TEST(ReplannerTest, ARobotThatStandsTooNearDrawsAway) {
+  const SmallWorld& small = SmallWorld::Get();
+  const Replanner replanner(small.place.robot, small.config, *small.baked.cached.volumes);
+  const MarginLimits& limits = small.config.experiment.smoothing.limits;
+  const double demanded = limits.demanded_of(MarginFamily::kClearance);
+  std::mt19937_64 random(1);
+  World world;
+  world.goal.X_WG = {1.2, 0.0, 0.0};
+  world.goal.radius = 0.15;
+  const Proposal first = replanner.Begin(small.start, *replanner.Prepare(world), 0, random);
+  ASSERT_EQ(first.kind, ProposalKind::kChanged) << first.reason;
+  const SuperposedWalk begun = first.plan.Walk();
+  const double now = begun.end_of(1) + 1.0;
+  world.version = 1;
+  for (const double gap : {0.002, -0.001}) {
+    world.scene = BesideLeftFoot(first.plan, small.place.robot, limits, gap);
+    const Proposal proposal = replanner.Propose({.plan = first.plan,
+                                                 .smoothed = first.smoothed,
+                                                 .grant = first.grant,
+                                                 .robot_through = first.robot_through,
+                                                 .begun = 1,
+                                                 .stopped = true,
+                                                 .now = now,
+                                                 .hand_over = now + 0.1,
+                                                 .world = std::make_shared<const World>(world)},
+                                                *replanner.Prepare(world), random);
+    if (gap < 0.0) {
+      EXPECT_EQ(proposal.kind, ProposalKind::kUnsafe);
+      EXPECT_TRUE(proposal.grant.near.empty());
+      continue;
+    }
+    ASSERT_NE(proposal.kind, ProposalKind::kUnsafe) << proposal.reason;
+    ASSERT_FALSE(proposal.grant.near.empty());
+    EXPECT_EQ(proposal.grant.near.front(), 2);
+    const MarginEvaluator evaluator(small.place.robot, world.scene, limits);
+    const SuperposedWalk walk = proposal.plan.Walk();
+    for (int j = 2; j <= proposal.grant.through; ++j) {
+      const bool near = std::ranges::count(proposal.grant.near, j) > 0;
+      const double start = LeastClearance(evaluator, walk, walk.start_of(j), walk.start_of(j));
+      const double least = LeastClearance(evaluator, walk, walk.start_of(j), walk.end_of(j));
+      EXPECT_GE(least, (near ? std::max(0.0, start - 1e-3) : demanded) - 1e-9) << j;
+      EXPECT_EQ(near, start < demanded) << j;
+    }
   }
 }
 

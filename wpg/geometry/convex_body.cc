@@ -10,6 +10,10 @@
 namespace halfstep {
 namespace {
 
+bool HasVertex(const ConvexBody& body, const Eigen::Vector3d& p) {
+  return (body.vertices.colwise() - p).colwise().squaredNorm().minCoeff() == 0.0;
+}
+
 double FarthestFrom(const ConvexBody& body, const Eigen::Vector3d& center, int* vertex) {
   double farthest = -1.0;
   for (int i = 0; i < static_cast<int>(body.vertices.cols()); ++i) {
@@ -79,7 +83,8 @@ Eigen::Vector3d SupportPoint(const ConvexBody& body, const Eigen::Vector3d& dire
 }
 
 // Badoiu & Clarkson 2003, "Smaller core-sets for balls": the centre walks towards the farthest
-// point by 1/(i + 1). It starts at the middle of the axis-aligned bounds, often the best.
+// point by 1/(i + 1). It starts at the middle of the axis-aligned bounds, often the best: it is
+// when the farthest vertex has its mirror image there, as in boxes, cylinders and capsules.
 void BoundBySphere(ConvexBody* body) {
   HALFSTEP_CHECK(body->vertices.cols() > 0, "a body without vertices");
   Eigen::Vector3d center =
@@ -92,6 +97,7 @@ void BoundBySphere(ConvexBody* body) {
       body->center = center;
       body->radius = radius;
     }
+    if (i == 1 && HasVertex(*body, 2.0 * center - body->vertices.col(vertex))) break;
     center += (body->vertices.col(vertex) - center) / (i + 1);
   }
   body->radius += 1e-12 * (body->radius + body->center.norm());
