@@ -371,7 +371,7 @@ const std::string kGood = ShippedConfig("fig3_two_half_steps");
 INSTANTIATE_TEST_SUITE_P(
     Command, BadInputTest,
     testing::ValuesIn(std::vector<BadInput>{
-        {"NoCommand", {}, "(valid: run, "},
+        {"NoCommand", {}, "(valid: init, run, "},
         {"UnknownCommand", {"walk"}, "walk"},
         {"NoConfig", {"run"}, "CONFIG is required"},
         {"UnknownOption", {"run", kGood, "--outt", "a"}, "--outt"},

@@ -176,8 +176,11 @@ TEST_F(GivenWalkCommand, WhatIsNotFeasibleIsToldWithTheMarginItMisses) {
   WriteText(place_ / "fast.csv", durations);
   const Outcome outcome = Do({"smooth", "run", "--given", "fast.csv", "--out", "mine", "--quiet"});
   EXPECT_EQ(outcome.status, kFailed);
-  EXPECT_THAT(outcome.err, AllOf(StartsWith("halfstep: the given walk is not feasible: "),
-                                 HasSubstr("half-step "), HasSubstr("what may help with ")));
+  EXPECT_THAT(
+      outcome.err,
+      AllOf(StartsWith(
+                "halfstep: the given walk is not feasible; worst first:\n  footstep 1 (right)"),
+            HasSubstr("half-step "), HasSubstr("what may help with ")));
   const ParsedCsv summary(ReadText(place_ / "mine/summary.csv"));
   EXPECT_EQ(summary.Text(1, "status"), "failed");
   EXPECT_EQ(summary.Text(1, "certified"), "false");
