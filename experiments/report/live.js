@@ -6,6 +6,7 @@ import { Latency } from "./latency.js";
 import { LiveControls } from "./live_controls.js";
 import { LiveView, layers } from "./live_view.js";
 import { legend, planRows, shortened } from "./live_words.js";
+import * as palette from "./palette.js";
 import * as THREE from "three";
 import { SocketSource } from "./socket_source.js";
 import { Stage } from "./stage.js";
@@ -21,6 +22,15 @@ const slowFrame = 40; // [ms]
 const longestRest = 300;
 const motionSpan = 3; // of a recording's traces [s]
 const ghostSpan = 4; // [s]
+
+const darkness = window.matchMedia("(prefers-color-scheme: dark)");
+palette.useTheme(darkness.matches);
+darkness.addEventListener("change", () => {
+  palette.useTheme(darkness.matches);
+  stage?.useTheme();
+  view?.useTheme();
+  redraw();
+});
 
 const record = new EpisodeRecord();
 let stage = null;

@@ -79,6 +79,9 @@ export class LiveView {
     this.strobeMaterial = ghostMaterial(palette.sky, 0.1);
   }
 
+  /** Draws the plan anew at the next time, in the colours of the theme. */
+  useTheme() { this.planKey = null; }
+
   show(layer, visible) {
     if (layer === "balance") this.balance = visible;
     else this.groups[layer].visible = visible;
@@ -127,7 +130,7 @@ export class LiveView {
       const corners = soleCorners(place, this.sole);
       if (fill > 0) group.add(mark(polygonGeometry(corners, 0.002), colour, fill, 2));
       group.add(outline(corners, width, 0.002, colour, 0.9, 3, dashed));
-      if (i >= 2) group.add(numberMark(i - 1, place, palette.ink, 0.1, 4));
+      if (i >= 2) group.add(numberMark(i - 1, place, palette.theme.ink, 0.1, 4));
     });
   }
 

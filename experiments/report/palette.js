@@ -9,7 +9,6 @@ export const sky = "#56B4E9";
 export const yellow = "#F0E442";
 export const olive = "#8a7d00";
 export const grey = "#8a94a0";
-export const ink = "#1d2733";
 
 // Muted, for the robot: what is rigid with the waist, and the links of its legs.
 export const trunk = "#e1e5ea";

@@ -1,5 +1,6 @@
 // The tables below the stage.
 import { element, table } from "./elements.js";
+import { readable } from "./words.js";
 
 const seconds = (value) => value.toFixed(3);
 const number = (value, digits = 4) =>
@@ -82,13 +83,13 @@ export function junctionTable(parent, [a, b]) {
     }
     return [number(row.junction), row.kind === "up_down" ? "up → down" : "down → up", meter,
             seconds(row.overlap_s), seconds(row.upper_bound_s),
-            row.price_s === null ? "" : seconds(row.price_s), row.active];
+            row.price_s === null ? "" : seconds(row.price_s), readable(row.active)];
   });
   parent.replaceChildren(title,
     table(["junction", "kind", "overlap and its bound", "overlap [s]", "bound [s]",
-           "price [s]", "held by"], rows),
+           "price [s]", "limited by"], rows),
     element("p", { className: "small", text: "Price: how much shorter the walk would be if one scale " +
-      "less were demanded of what holds the overlap, by this overlap alone, to first order." }));
+      "less were demanded of what limits the overlap, by this overlap alone, to first order." }));
 }
 
 /** Pairs of bodies that nothing is promised about, by the reason. */
@@ -108,7 +109,7 @@ export function guarantee(parent, statement, walks) {
   const list = shown.map((walk) => {
     const c = walk.certificate;
     const count = Object.values(c.statements).reduce((a, b) => a + b, 0);
-    return [walk.label, verdict(walk), number(count), c.message];
+    return [walk.label, verdict(walk), number(count), readable(c.message)];
   });
   const one = shown[0]?.certificate;
   const limits = { foot_speed: one?.limits.foot_speed_m_s, foot_yaw_rate: one?.limits.foot_yaw_rate_rad_s };

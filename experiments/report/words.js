@@ -1,6 +1,15 @@
 // What the page says of A and B: how long A takes, and where they are at an instant.
 import { marginText } from "./least_margins.js";
 
+/** The description of a margin, as tables have it, with the digits that mean something. */
+export function readable(description) {
+  return description
+    .replace(/(\S+) (m\/s|rad\/s|N m|m|rad) \(demanded (\S+)\)/,
+      (_, value, unit, demanded) =>
+        `${marginText(Number(value), unit)} (${marginText(Number(demanded), unit)} demanded)`)
+    .replace(/tau = (\S+) s/, (_, tau) => `τ = ${Number(tau).toFixed(2)} s`);
+}
+
 const byId = (id) => document.getElementById(id);
 
 function stateOf(walk, t) {
@@ -29,6 +38,6 @@ export function tellOutcome(a) {
   const { duration_s: duration, speedup } = a.summary;
   byId("outcome").textContent = `A: ${duration.toFixed(3)} s` +
     (a.method === "raw" ? "" : `, ${speedup.toFixed(2)} × as fast as raw`) +
-    (a.certified ? ", proved for all t" : `, not proved: ${a.certificate.message}`);
+    (a.certified ? ", proved for all t" : `, not proved: ${readable(a.certificate.message)}`);
   byId("outcome").classList.toggle("no", !a.certified);
 }

@@ -92,6 +92,7 @@ async function testRun(browser) {
     policy: document.querySelector("meta[http-equiv]").content };`);
   assert.equal(texts.title, hostile);
   assert.ok(texts.held.includes(hostile), texts.held);
+  assert.doesNotMatch(texts.held, /tau = |\(demanded/, "margins are told with the digits that mean something");
   assert.equal(texts.elements, 1, "no element comes from a name");
   assert.equal(texts.plots, 5);
   assert.equal(texts.zmps.length, 4, "two ZMPs, whole and lately");
