@@ -1,4 +1,4 @@
-// The pair of bodies that is nearest at an instant, as a line between its points with a ring.
+// The pair of bodies that is nearest at an instant: a ring, and a line between its points.
 import * as THREE from "three";
 import { onLayer } from "./stage.js";
 
@@ -34,9 +34,16 @@ function tube(from, to) {
   return mesh;
 }
 
-/** The middle of a pair of a walk's data [m]. */
-export function middleOf({ points: [p, q] }) {
-  return p.map((value, k) => (value + q[k]) / 2);
+// Where faces or edges are parallel inside each other, the points of a pair may be anywhere on them;
+// then they do not face each other.
+function facing({ points: [p, q], margin_m: margin }) {
+  return margin > 0 || Math.hypot(...p.map((value, k) => value - q[k])) <= 0.01 - margin;
+}
+
+/** Where a pair of a walk's data is: between its points, or else at the robot's own [m]. */
+export function middleOf(pair) {
+  const [p, q] = pair.points;
+  return facing(pair) ? p.map((value, k) => (value + q[k]) / 2) : p;
 }
 
 export class PairLines {
@@ -47,8 +54,9 @@ export class PairLines {
       const [from, to] = pair.points.map((p) => new THREE.Vector3(...p));
       const drawn = new THREE.Group();
       const mark = ring();
-      mark.position.copy(from).add(to).multiplyScalar(0.5);
-      drawn.add(tube(from, to), mark);
+      mark.position.set(...middleOf(pair));
+      drawn.add(mark);
+      if (facing(pair)) drawn.add(tube(from, to));
       drawn.visible = false;
       this.group.add(drawn);
       return { t: pair.t_s, drawn };
