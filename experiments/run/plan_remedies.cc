@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "planner/scene/no_step_areas.h"
 #include "smoothing/walk/superposed_walk.h"
 #include "wpg/files/text.h"
 
@@ -32,7 +33,10 @@ struct FoundRemedy {
 class Trials {
  public:
   Trials(const Experiment& experiment, const WalkProblem& problem, const std::stop_token& stop)
-      : experiment_(experiment), problem_(problem), scratch_(problem.evaluator().MakeScratch()) {
+      : experiment_(experiment),
+        problem_(problem),
+        areas_(experiment.scene, experiment.robot.sole_outline),
+        scratch_(problem.evaluator().MakeScratch()) {
     scratch_.stop = stop;
   }
 
@@ -150,7 +154,12 @@ class Trials {
 
   Feasibility Check(const ExperimentConfig& config, int step, int steps) {
     if (stopped()) return {};
-    if (FootprintOnNoStep({config, experiment_.robot, experiment_.scene, {}})) return {};
+    const double apart = problem_.limits().demanded_of(MarginFamily::kNoStep);
+    if (!std::ranges::all_of(config.footsteps, [&](const FootstepConfig& footstep) {
+          return areas_.Clears(footstep.X_WF, apart);
+        })) {
+      return {};
+    }
     const HalfStepSequence sequence = SequenceOf(config, experiment_.robot);
     const SuperposedWalk walk(sequence, PlannedMotion(sequence));
     const int last = std::min(step + steps, sequence.num_steps()) - 1;
@@ -160,6 +169,7 @@ class Trials {
 
   const Experiment& experiment_;
   const WalkProblem& problem_;
+  NoStepAreas areas_;
   MarginEvaluator::Scratch scratch_;
 };
 
