@@ -53,7 +53,10 @@ void Cost(const std::string& name) {
       LoadConfig(std::string(HALFSTEP_SOURCE_DIR "/experiments/configs/") + name + ".yaml", {}));
   const MarginLimits limits = e.config.smoothing.limits;
   MarginLimits without = limits;
-  without.demanded_of(MarginFamily::kZmpRobot) = kNotDemanded;
+  for (const MarginFamily family :
+       {MarginFamily::kZmpRobot, MarginFamily::kTorque, MarginFamily::kFriction}) {
+    without.demanded_of(family) = kNotDemanded;
+  }
   const MarginEvaluator all(e.robot, e.scene, limits), some = all.WithLimits(without);
   const CertifiedFeasibility proof(all, {}), proof_without(some, {});
   const SmoothingResult smoothed =

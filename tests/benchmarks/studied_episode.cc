@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <random>
 
 #include "experiments/live/episode_summary.h"
 #include "experiments/live/episode_touch.h"
+#include "experiments/live/near_rest.h"
 #include "experiments/live/sensor.h"
 #include "smoothing/proof/certified_feasibility.h"
 #include "tests/benchmarks/random_episode.h"
@@ -81,16 +83,22 @@ bool BrokeItsBounds(const Episode& episode, const std::string& obstacle, double 
 }
 
 // Whether the walk that is cut after half-step k, which has begun, comes to rest with every margin
-// kept in the world that allowed that half-step to begin: proved.
+// kept in the world that allowed that half-step to begin: proved. A half-step that draws away from
+// an obstacle is held to what NearRest demands of it.
 bool ComesToRest(const Episode& episode, const SuperposedWalk& branch, size_t k,
                  const LiveStudy& study) {
   const Grant& grant = episode.grants[static_cast<size_t>(episode.begun[k].grant)].grant;
   const auto world = std::ranges::find(episode.worlds, grant.version, &World::version);
-  const SmoothingConfig& smoothing = study.base.experiment.smoothing;
-  const MarginEvaluator evaluator(study.place.robot, world->scene, smoothing.limits);
-  const CertifiedFeasibility test(evaluator, smoothing.certification);
+  const ExperimentConfig& config = study.base.experiment;
+  const int half_step = static_cast<int>(k);
+  const double from = branch.start_of(half_step);
+  const SafetyCheck among(study.place.robot, world->scene, config);
+  const bool draws_away = std::ranges::count(grant.near, half_step) > 0;
+  const std::optional<NearRest> near =
+      draws_away ? NearRest::At(among, config, branch, half_step, from) : std::nullopt;
+  const MarginEvaluator& evaluator = near ? near->safety().evaluator() : among.evaluator();
+  const CertifiedFeasibility test(evaluator, config.smoothing.certification);
   MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
-  const double from = branch.start_of(static_cast<int>(k));
   return test.Check(branch, {from, branch.duration()}, &scratch).verdict == Verdict::kFeasible;
 }
 

@@ -79,10 +79,9 @@ ZmpSlopes::ZmpSlopes(const RobotModel& robot, const WalkJet& jet, const Posture&
     // δq̈ = J⁻¹ (what the sole's acceleration gains − what q and q̇ give it).
     const Rows by_twist = by_acceleration * posture.jacobian_inverse[s];
     const Vector3d sole = posture.X_WSole[s].translation() - dynamics.O();
-    const Rows in_W =
-        (Rows() << by_twist.leftCols<3>() * R_BW, by_twist.rightCols<3>() * R_BW).finished();
-    rows.by_sole.rightCols<3>() = in_W.rightCols<3>();
-    rows.by_sole.leftCols<3>() = in_W.leftCols<3>() - in_W.rightCols<3>() * CrossMatrix(sole);
+    rows.by_sole.rightCols<3>() = by_twist.rightCols<3>() * R_BW;
+    rows.by_sole.leftCols<3>() =
+        by_twist.leftCols<3>() * R_BW - rows.by_sole.rightCols<3>() * CrossMatrix(sole);
     for (size_t j = 0; j < 6; ++j) {
       const Eigen::Index column = static_cast<Eigen::Index>(j);
       const RobotDynamics::Body& parent = j == 0 ? dynamics.waist() : leg[j - 1];
