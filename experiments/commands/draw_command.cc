@@ -1,29 +1,102 @@
+#include <algorithm>
 #include <cstdint>
+#include <filesystem>
 #include <iostream>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "experiments/commands/command_line.h"
+#include "experiments/config/experiment.h"
 #include "experiments/config/random_scenes.h"
 #include "experiments/run/exit_status.h"
+#include "experiments/survey/drawn_walk.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/partial_sibling.h"
+#include "wpg/files/text.h"
+#include "wpg/files/whole_file.h"
 
 namespace halfstep {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kMostWalks = 1000;
+
+struct DrawCommand {
+  std::string what, robot = "hrp2", out;
+  int count = 0, seed = 1;
+};
+
+// The folder of walks and the sweep over them, under its name whole or not at all.
+ExitStatus DrawWalks(const DrawCommand& command) {
+  if (command.out.empty())
+    throw InputError({"draw: walks: --out is missing (valid: a new folder)"});
+  const fs::path folder = fs::absolute(command.out).lexically_normal();
+  if (fs::exists(folder)) throw InputError({command.out + ": is there already"});
+  const int count = command.count == 0 ? 60 : command.count;
+  if (count > kMostWalks) {
+    throw InputError({Formatted("--count: %d walks (valid: 1 … %d)", count, kMostWalks)});
+  }
+  ExperimentConfig config;  // its paths are relative to the working directory
+  config.robot = command.robot;
+  config.scene = "none";
+  const Place place = LoadPlace(config);
+  const std::string robot = fs::is_regular_file(command.robot)
+                                ? fs::absolute(command.robot).lexically_normal().string()
+                                : command.robot;
+  std::mt19937_64 random(static_cast<std::uint64_t>(command.seed));
+  fs::create_directories(folder.parent_path());
+  PartialSibling files(folder, PartialSibling::Kind::kFolder);
+  std::string sweep = Formatted(
+      "# halfstep draw walks --count %d --seed %d\n# Walks that nobody tuned for; `config` varies, "
+      "the other keys are the same in every case.\nconfig: walk_%0*d.yaml\nvary:\n"
+      "  - {key: smoothing.methods, values: [\"[dichotomy, dichotomy/uniform, halfstep/sqp, "
+      "reference/lipm]\"]}\n"
+      "  - {key: smoothing.optimizer.heights, values: [true]}\n"
+      "  - {key: smoothing.optimizer.durations, values: [true]}\n"
+      "  - {key: smoothing.optimizer.deadline_s, values: [600]}\n"
+      "  - key: config\n    values:\n",
+      count, command.seed, static_cast<int>(std::to_string(count).size()), 1);
+  for (int i = 1; i <= count; ++i) {
+    const std::string name =
+        Formatted("walk_%0*d", static_cast<int>(std::to_string(count).size()), i);
+    const DrawnWalk walk = DrawWalk(name, robot, place.robot, random);
+    WriteWhole(files.path() / (name + ".yaml"), {walk.config});
+    WriteWhole(files.path() / (name + "_scene.yaml"), {walk.scene});
+    sweep += "      - " + name + ".yaml  # " + walk.kind + "\n";
+  }
+  WriteWhole(files.path() / "walks.yaml", {sweep});
+  fs::rename(files.path(), folder);
+  files.Release();
+  std::cout << "written: " << command.out << "\nnext:    halfstep sweep "
+            << (fs::path(command.out) / "walks.yaml").string() << '\n';
+  return kSuccess;
+}
+
+}  // namespace
 
 CommandAction DeclareDraw(CLI::App* app) {
-  struct Options {
-    std::string what;
-    int count = 40, seed = 1;
-  };
-  const auto options = std::make_shared<Options>();
-  app->add_option("WHAT", options->what, "cylinders or random_room")
+  const auto command = std::make_shared<DrawCommand>();
+  std::vector<std::string> kinds = RandomSceneNames();
+  kinds.push_back("walks");
+  app->add_option("WHAT", command->what,
+                  "a scene, cylinders or random_room, which is printed; or walks, a folder of "
+                  "configs and a sweep over them")
       ->required()
-      ->check(CLI::IsMember(RandomSceneNames()));
-  app->add_option("--count", options->count, "obstacles (default: 40)")
+      ->check(CLI::IsMember(kinds));
+  app->add_option("--count", command->count, "obstacles (default: 40), or walks (default: 60)")
       ->check(CLI::Range(0, 100000));
-  app->add_option("--seed", options->seed, "of the draw (default: 1)")
+  app->add_option("--seed", command->seed, "of the draw (default: 1)")
       ->check(CLI::Range(0, 2147483647));
-  return [options] {
-    std::cout << DrawScene(options->what, options->count,
-                           static_cast<std::uint64_t>(options->seed));
+  app->add_option("--out", command->out, "of walks: the folder, which must be new");
+  app->add_option("--robot", command->robot, "of walks: name or file of a robot (default: hrp2)");
+  const CLI::Option* count = app->get_option("--count");
+  return [command, count] {
+    if (command->what == "walks") return DrawWalks(*command);
+    if (!command->out.empty()) throw InputError({"draw: --out is for walks (a scene is printed)"});
+    std::cout << DrawScene(command->what, count->count() == 0 ? 40 : command->count,
+                           static_cast<std::uint64_t>(command->seed));
     return kSuccess;
   };
 }

@@ -17,7 +17,7 @@ namespace halfstep {
 namespace {
 
 ExperimentConfig ConfigOf(const SweepFolder& folder, const SweepCase& one) {
-  ExperimentConfig config = LoadConfig(folder.sweep().ConfigPath().string(), one.overrides);
+  ExperimentConfig config = LoadCase(folder.sweep(), one);
   config.name += "-" + one.id;  // a scenario of its own for `halfstep compare`
   config.output_directory.clear();
   return config;

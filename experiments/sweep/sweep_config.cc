@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdio>
 
-#include "experiments/config/experiment_config.h"
 #include "experiments/config/folder_name.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/number_text.h"
@@ -53,7 +52,9 @@ std::vector<std::string> ValuesOf(const SweepAxis& axis) {
 
 void DeclareAxis(Fields& fields, SweepAxis* axis) {
   fields.Text("key", &axis->key,
-              {.meaning = "of the config, dotted as after `--set`", .required = true});
+              {.meaning = "of the config, dotted as after `--set`; `config`: another config in its "
+                          "place, by its path from the folder of `config`",
+               .required = true});
   if (axis->key == "name" || axis->key == "output" || axis->key.starts_with("output.directory")) {
     fields.Complain("key", Quote(axis->key) + " is what tells the cases apart (valid: other keys)");
   }
@@ -137,7 +138,7 @@ std::string MistakeInCases(const SweepConfig& config) {
   for (const size_t index : CheckedCases(NumSweepCases(config))) {
     const SweepCase one = SweepCaseAt(config, index);
     try {
-      LoadConfig(config.ConfigPath().string(), one.overrides);
+      LoadCase(config, one);
     } catch (const InputError& error) {
       return "case " + one.id + ": " + error.complaints().front();
     }
@@ -157,6 +158,23 @@ size_t FirstOfZip(const std::vector<SweepAxis>& axes, size_t axis) {
 
 std::filesystem::path SweepConfig::ConfigPath() const {
   return (std::filesystem::path(directory) / config).lexically_normal();
+}
+
+std::filesystem::path SweepConfig::ConfigPath(const std::string& other) const {
+  return (ConfigPath().parent_path() / other).lexically_normal();
+}
+
+ExperimentConfig LoadCase(const SweepConfig& config, const SweepCase& one) {
+  std::filesystem::path path = config.ConfigPath();
+  std::vector<YamlOverride> overrides;
+  for (const YamlOverride& set : one.overrides) {
+    if (set.key == kConfigKey) {
+      path = config.ConfigPath(set.value);
+    } else {
+      overrides.push_back(set);
+    }
+  }
+  return LoadConfig(path.string(), overrides);
 }
 
 void DeclareFields(Fields& fields, SweepConfig* c) {

@@ -3,13 +3,18 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "experiments/config/experiment_config.h"
 #include "wpg/files/fields.h"
 #include "wpg/files/key_description.h"
 #include "wpg/files/yaml_fields.h"
 
 namespace halfstep {
+
+/// The key of an axis that names other configs in place of the base config.
+inline constexpr std::string_view kConfigKey = "config";
 
 /// A key of the config and the values that it takes.
 struct SweepAxis {
@@ -31,6 +36,8 @@ struct SweepConfig {
 
   /// The base config as a path from the working directory.
   std::filesystem::path ConfigPath() const;
+  /// The same of another config, whose path is relative to the base config.
+  std::filesystem::path ConfigPath(const std::string& other) const;
 };
 
 /// One case of a sweep: the base config with some keys set.
@@ -52,6 +59,10 @@ std::vector<SweepCase> SweepCases(const SweepConfig& config);
 size_t NumSweepCases(const SweepConfig& config);
 /// One of them alone, at a cost that does not grow with their number. Precondition: it is there.
 SweepCase SweepCaseAt(const SweepConfig& config, size_t index);
+
+/// The config of a case: the base config, or the one that its key `config` names, with the other
+/// keys set. Throws InputError.
+ExperimentConfig LoadCase(const SweepConfig& config, const SweepCase& one);
 
 /// "smoothing.margins.clearance_m=0.01 seed=3"
 std::string OverrideText(const SweepCase& one);

@@ -29,16 +29,21 @@ std::string Content(const fs::path& path) {
   return TryReadRegularFile(path.string(), std::uint64_t{1} << 30).bytes;
 }
 
-// SHA-256 over the files of each robot and each scene that any case names.
+// SHA-256 over each other config that cases name, and over the files of each robot and each scene.
 ordered_json FilesOf(const SweepConfig& sweep) {
-  std::vector<std::vector<YamlOverride>> variants = {{}};
-  for (const SweepAxis& axis : sweep.vary) {
-    if (axis.key != "robot" && axis.key != "scene") continue;
-    for (const std::string& value : axis.values) variants.push_back({{axis.key, value}});
-  }
+  std::vector<SweepCase> variants(1);
   std::map<std::string, std::string> hashes;
-  for (const std::vector<YamlOverride>& overrides : variants) {
-    const ExperimentConfig config = LoadConfig(sweep.ConfigPath().string(), overrides);
+  for (const SweepAxis& axis : sweep.vary) {
+    if (axis.key != "robot" && axis.key != "scene" && axis.key != kConfigKey) continue;
+    for (const std::string& value : axis.values) {
+      variants.push_back({"", {{axis.key, value}}});
+      if (axis.key == kConfigKey) {
+        hashes[value] = Sha256(ReadYamlFile(sweep.ConfigPath(value).string()));
+      }
+    }
+  }
+  for (const SweepCase& variant : variants) {
+    const ExperimentConfig config = LoadCase(sweep, variant);
     const Place place = LoadPlace(config);
     hashes[config.robot] = CombinedSha256(place.robot.files);
     hashes[config.scene] = CombinedSha256(place.scene.files);
