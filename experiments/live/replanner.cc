@@ -84,7 +84,8 @@ bool Replanner::Change(const Situation& s, const WalkPlan& plan, int junction,
   const std::array<Footprint, 2> stance = StanceAfter(plan.sequence, junction);
   // Other footsteps after another junction do not begin where the robot rests.
   const NearRest* from_rest = near && near->half_step() == junction + 1 ? near : nullptr;
-  const bool rests = s.stopped || (from_rest && s.begun == junction);
+  const bool rests =
+      s.stopped || (junction + 1 == plan.sequence.size() && plan.Walk().duration() <= s.hand_over);
   const PlanResult result = Plan(stance, in_air, among, from_rest, rests, left, random);
   proposal->nodes += result.nodes;
   proposal->planned = result;
@@ -239,7 +240,7 @@ Proposal Replanner::Begin(const std::array<Footprint, 2>& start, const PreparedW
       NearRest::AtStart(among.safety, config_.experiment, start, like);
   const NearRest* near = near_rest ? &*near_rest : nullptr;
   proposal.planned =
-      Plan(start, {}, among, near, near != nullptr, config_.experiment.planner.max_nodes, random);
+      Plan(start, {}, among, near, /*rests=*/true, config_.experiment.planner.max_nodes, random);
   proposal.reason = proposal.planned.sentence;
   if (proposal.planned.footsteps.empty()) return proposal;
   proposal.plan.sequence = MakeSequence(start, proposal.planned.footsteps, like.via_lateral,

@@ -140,7 +140,7 @@ TEST(ReplannerTest, ItDrawsAwayBeforeAFirstWalkAndAfterAFinishedOne) {
   const double now = walked.plan.Walk().duration() + 1.0;
   world.version = 1;
   world.goal.X_WG = {1.7, 0.0, 0.0};
-  for (const double gap : {0.002, -0.001}) {
+  for (const double gap : {0.006, 0.002, -0.001}) {
     world.scene = BesideLeftFoot(walked.plan, small.place.robot, limits, gap, last);
     const Proposal on = replanner.Propose({.plan = walked.plan,
                                            .smoothed = walked.smoothed,
@@ -153,7 +153,12 @@ TEST(ReplannerTest, ItDrawsAwayBeforeAFirstWalkAndAfterAFinishedOne) {
                                           *replanner.Prepare(world), random);
     const std::array<Footprint, 2> stance = StanceAfter(walked.plan.sequence, last);
     const Proposal anew = replanner.Begin(stance, *replanner.Prepare(world), 0, random);
-    if (gap > 0.0) {
+    if (gap > limits.demanded_of(MarginFamily::kClearance)) {
+      // Swept volumes, which are larger, leave no way.
+      EXPECT_NE(on.kind, ProposalKind::kUnsafe);
+      EXPECT_NE(anew.kind, ProposalKind::kUnsafe);
+      EXPECT_TRUE(on.grant.near.empty() && anew.grant.near.empty());
+    } else if (gap > 0.0) {
       ExpectDrawsAway(on, world.scene, last + 1);
       ExpectDrawsAway(anew, world.scene, 0);
     } else {
