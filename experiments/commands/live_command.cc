@@ -126,16 +126,18 @@ ExitStatus Live(const LiveCommand& command) {
   const bool silent = command.run.quiet || command.run.json;
   std::optional<ProgressBar> bar;
   bar.emplace("half-steps", silent);
-  const BakedHalfSteps baked =
+  const auto baked = std::make_shared<const BakedHalfSteps>(
       BakeHalfSteps(place.robot, config.experiment,
                     {.progress = [&bar](const std::string&, double done) { bar->Update(done); },
-                     .stop = interrupt.token()});
-  if (!baked.cached.volumes) {
+                     .stop = interrupt.token()}));
+  if (!baked->cached.volumes) {
     bar.reset();
     std::cerr << "halfstep: interrupted while half-steps were baked\n";
     return kInterrupted;
   }
-  const Replanner replanner(place.robot, config, *baked.cached.volumes);
+  const std::shared_ptr<const SweptVolumes> volumes(baked, &*baked->cached.volumes);
+  if (served) served->Prepare(volumes);
+  const Replanner replanner(place.robot, config, *volumes);
   RunFolder folder(OutputFolder(command.run, config.experiment), command.run.overwrite);
   bar.emplace("episode", silent);
   EpisodeJournal journal(folder.path(), config, command.run.overwrite);

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "experiments/live/near_rest.h"
 #include "wpg/files/text.h"
 
 namespace halfstep {
@@ -160,7 +161,7 @@ void EpisodeLoop::Begins(int half_step) {
   Tell(executor_->walk().start_of(half_step), "begins", "", half_step);
   const SuperposedWalk& executed = executor_->walk();
   const bool near = std::ranges::count(executor_->grant().near, half_step) > 0;
-  if (near && executed.start_of(half_step) >= executed.end_of(half_step - 1)) {
+  if (near && BeginsAtRest(executed, half_step)) {
     Tell(executed.start_of(half_step), "near",
          "from rest nearer to an obstacle than demanded, and no nearer than there or than 0",
          half_step);

@@ -22,23 +22,30 @@ bool IsIsolated(const SuperposedWalk& walk, int j) {
 
 }  // namespace
 
-bool IsolatedAndFree(const SuperposedWalk& walk, int j, const SweptVolumes& volumes,
-                     const SweptVolumeQuery& query) {
-  if (!IsIsolated(walk, j) || walk.X_WS(j).height != 0.0) return false;
-  const HalfStep& half_step = walk.half_step(j);
+std::optional<SetElement> ElementOf(const HalfStep& half_step, const HalfStepSet& set) {
   const bool down = half_step.kind == HalfStepKind::kDown;
   // An element is told by the sole that supports its down half-step.
   const Side support = down ? half_step.support : half_step.swing();
   const Footprint placement = down ? half_step.X_SF : half_step.X_SF.Inverse();
-  for (int i = 0; i < volumes.set.size(); ++i) {
-    if (!Same(placement, volumes.set.Placement(i, support))) continue;
-    HalfStep like = down ? volumes.set.Down(i, support) : volumes.set.Up(i, support);
+  for (int i = 0; i < set.size(); ++i) {
+    if (!Same(placement, set.Placement(i, support))) continue;
+    HalfStep like = down ? set.Down(i, support) : set.Up(i, support);
     like.X_SF = half_step.X_SF;
-    if (like != half_step) return false;
-    return down ? query.DownIsFree(i, support, walk.X_WS(j))
-                : query.UpIsFree(i, support, walk.X_WS(j) * half_step.X_SF);
+    if (like != half_step) return std::nullopt;
+    return SetElement{i, support};
   }
-  return false;
+  return std::nullopt;
+}
+
+bool IsolatedAndFree(const SuperposedWalk& walk, int j, const SweptVolumes& volumes,
+                     const SweptVolumeQuery& query) {
+  if (!IsIsolated(walk, j) || walk.X_WS(j).height != 0.0) return false;
+  const HalfStep& half_step = walk.half_step(j);
+  const std::optional<SetElement> element = ElementOf(half_step, volumes.set);
+  if (!element) return false;
+  return half_step.kind == HalfStepKind::kDown
+             ? query.DownIsFree(element->index, element->support, walk.X_WS(j))
+             : query.UpIsFree(element->index, element->support, walk.X_WS(j) * half_step.X_SF);
 }
 
 }  // namespace halfstep

@@ -1,10 +1,22 @@
 #pragma once
 
+#include <optional>
+
 #include "planner/swept/swept_volume_query.h"
 #include "planner/swept/swept_volumes.h"
 #include "smoothing/walk/superposed_walk.h"
 
 namespace halfstep {
+
+/// An element of a half-step set, and the sole that supports its down half-step.
+struct SetElement {
+  int index = 0;               ///< in the set
+  Side support = Side::kLeft;  ///< of the down half-step
+};
+
+/// The element whose down or up half-step this is; none when it is of no element, or lasts longer
+/// or goes higher than the set's.
+std::optional<SetElement> ElementOf(const HalfStep& half_step, const HalfStepSet& set);
 
 /// Whether no other half-step of the walk is under way together with half-step j, this one is a
 /// half-step of the set, and its swept volume is free: then it keeps the clearance of the volumes

@@ -6,20 +6,35 @@
 namespace halfstep {
 
 bool BeginsAtRest(const SuperposedWalk& walk, int half_step) {
-  return half_step > 0 && walk.start_of(half_step) >= walk.end_of(half_step - 1);
+  return half_step == 0 || walk.start_of(half_step) >= walk.end_of(half_step - 1);
 }
 
 std::optional<NearRest> NearRest::Of(const Situation& s, const SuperposedWalk& walk,
                                      const SafetyCheck& among, const ExperimentConfig& config) {
   const bool under_way = std::ranges::count(s.grant.near, s.begun) > 0;
   const bool next = std::ranges::count(s.grant.near, s.begun + 1) > 0;
-  if (!s.stopped && !under_way && !next) return std::nullopt;
+  const bool ends =
+      s.begun + 1 == walk.num_half_steps() && !under_way && walk.duration() <= s.hand_over;
+  if (!s.stopped && !under_way && !next && !ends) return std::nullopt;
   const int j = !s.stopped && under_way ? s.begun : s.begun + 1;
   if (j == walk.num_half_steps()) {
     return At(among, config, walk, j, std::max(s.hand_over, walk.duration()));
   }
   if (!BeginsAtRest(walk, j)) return std::nullopt;
   return At(among, config, walk, j, walk.start_of(j));
+}
+
+std::optional<NearRest> NearRest::AtStart(const SafetyCheck& among, const ExperimentConfig& config,
+                                          const std::array<Footprint, 2>& start,
+                                          const HalfStep& like) {
+  // Where a walk begins does not depend on where it goes.
+  const Footstep in_place{.side = Side::kRight,
+                          .X_WF = start[static_cast<size_t>(Index(Side::kRight))]};
+  WalkPlan plan;
+  plan.sequence = MakeSequence(start, {in_place}, like.via_lateral, like.shape,
+                               {.com_height = among.evaluator().robot().com_height});
+  plan.parameters = PlannedMotion(plan.sequence);
+  return At(among, config, plan.Walk(), 0, 0.0);
 }
 
 std::optional<NearRest> NearRest::At(const SafetyCheck& among, const ExperimentConfig& config,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "experiments/live/proposal.h"
@@ -8,7 +9,7 @@
 
 namespace halfstep {
 
-/// Whether a half-step begins when all those before it have ended.
+/// Whether a half-step begins when all those before it have ended, as the first one does.
 bool BeginsAtRest(const SuperposedWalk& walk, int half_step);
 
 /// Proofs for one half-step of a robot that came to rest nearer to obstacles than demanded. Every
@@ -24,10 +25,16 @@ class NearRest {
   static std::optional<NearRest> At(const SafetyCheck& among, const ExperimentConfig& config,
                                     const SuperposedWalk& walk, int half_step, double begin);
 
-  /// For the half-step that may follow the stop of a situation, or that followed one and is under
-  /// way. `walk` goes on from there.
+  /// For the half-step that may follow the stop of a situation or the end of its walk, or that
+  /// followed one and is under way. `walk` goes on from there.
   static std::optional<NearRest> Of(const Situation& situation, const SuperposedWalk& walk,
                                     const SafetyCheck& among, const ExperimentConfig& config);
+
+  /// For the first half-step of any walk from the soles `start`, at t = 0. `like`: a half-step of
+  /// the robot.
+  static std::optional<NearRest> AtStart(const SafetyCheck& among, const ExperimentConfig& config,
+                                         const std::array<Footprint, 2>& start,
+                                         const HalfStep& like);
 
   int half_step() const { return half_step_; }  ///< for which the proofs are
   double margin() const { return margin_; }     ///< of the nearest obstacle when it begins [m]

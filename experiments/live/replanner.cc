@@ -5,12 +5,10 @@
 
 #include "experiments/live/isolated_half_steps.h"
 #include "experiments/live/near_rest.h"
-#include "experiments/live/near_start_query.h"
 #include "experiments/live/overlap_search.h"
 #include "experiments/live/prepared_world.h"
 #include "experiments/live/refinement.h"
 #include "experiments/run/planning.h"
-#include "planner/search/planner_registry.h"
 
 namespace halfstep {
 namespace {
@@ -31,29 +29,6 @@ std::shared_ptr<const PreparedWorld> Replanner::Prepare(const World& world) cons
 
 bool Replanner::Arrives(const WalkPlan& plan, const World& world) const {
   return world.goal.ContainsStance(StanceAfter(plan.sequence, plan.sequence.size() - 1));
-}
-
-PlanResult Replanner::Plan(const std::array<Footprint, 2>& stance,
-                           const std::optional<StepState>& in_air, const PreparedWorld& among,
-                           const NearRest* near, const HalfStepQuery& query, std::int64_t max_nodes,
-                           std::mt19937_64& random) const {
-  const PlannerConfig& options = config_.experiment.planner;
-  PlanRequest request{.start = stance,
-                      .in_air = in_air,
-                      .goal = among.world.goal,
-                      .set = volumes_.set,
-                      .query = query,
-                      .cost = options.Cost()};
-  if (const auto& w = options.workspace; !w.empty()) {
-    request.workspace = {Eigen::Vector2d(w[0], w[1]), Eigen::Vector2d(w[2], w[3])};
-  }
-  request.start_is_free = [&](const HalfStep& up, const Footprint& X_WS) {
-    return (near ? near->certifier() : among.certifier).Certifies(up, X_WS);
-  };
-  request.stop = AnyOf({AfterNodes(max_nodes), options.unimproved_nodes == 0
-                                                   ? AtFirstPlan()
-                                                   : WhenNotImprovedFor(options.unimproved_nodes)});
-  return MakePlanner(options.name, among.world.scene, options.options)->Plan(request, random);
 }
 
 std::optional<Margin> Replanner::Prove(const Situation& s, const SuperposedWalk& walk, int last,
@@ -109,16 +84,10 @@ bool Replanner::Change(const Situation& s, const WalkPlan& plan, int junction,
   const std::array<Footprint, 2> stance = StanceAfter(plan.sequence, junction);
   // Other footsteps after another junction do not begin where the robot rests.
   const NearRest* from_rest = near && near->half_step() == junction + 1 ? near : nullptr;
-  PlanResult result = Plan(stance, in_air, among, from_rest, among.query, left, random);
+  const bool rests =
+      s.stopped || (junction + 1 == plan.sequence.size() && plan.Walk().duration() <= s.hand_over);
+  const PlanResult result = Plan(stance, in_air, among, from_rest, rests, left, random);
   proposal->nodes += result.nodes;
-  if (s.stopped && result.status == PlanStatus::kNoPlan) {
-    // Where the robot rests near an obstacle, it may take more than one half-step to get away.
-    const NearStartQuery query(volumes_, among.query,
-                               from_rest ? from_rest->certifier() : among.certifier,
-                               MidFeet(stance[0], stance[1]).position());
-    result = Plan(stance, in_air, among, from_rest, query, left - result.nodes, random);
-    proposal->nodes += result.nodes;
-  }
   proposal->planned = result;
   proposal->plan_s += SteadySeconds() - begin;
   if (result.status != PlanStatus::kSolved) return false;
@@ -266,11 +235,14 @@ Proposal Replanner::Propose(const Situation& s, const PreparedWorld& among,
 Proposal Replanner::Begin(const std::array<Footprint, 2>& start, const PreparedWorld& among,
                           int junctions, std::mt19937_64& random) const {
   Proposal proposal{.kind = ProposalKind::kUnsafe};
+  const HalfStep like = PrototypeOf(config_.experiment);
+  const std::optional<NearRest> near_rest =
+      NearRest::AtStart(among.safety, config_.experiment, start, like);
+  const NearRest* near = near_rest ? &*near_rest : nullptr;
   proposal.planned =
-      Plan(start, {}, among, nullptr, among.query, config_.experiment.planner.max_nodes, random);
+      Plan(start, {}, among, near, /*rests=*/true, config_.experiment.planner.max_nodes, random);
   proposal.reason = proposal.planned.sentence;
   if (proposal.planned.footsteps.empty()) return proposal;
-  const HalfStep like = PrototypeOf(config_.experiment);
   proposal.plan.sequence = MakeSequence(start, proposal.planned.footsteps, like.via_lateral,
                                         like.shape, {.com_height = robot_.com_height});
   proposal.plan.parameters = PlannedMotion(proposal.plan.sequence);
@@ -278,7 +250,7 @@ Proposal Replanner::Begin(const std::array<Footprint, 2>& start, const PreparedW
   Situation situation;
   proposal.grant.version = -1;
   if (const auto refused =
-          Prove(situation, walk, walk.num_half_steps() - 1, among, nullptr, &proposal)) {
+          Prove(situation, walk, walk.num_half_steps() - 1, among, near, &proposal)) {
     proposal.reason = among.safety.evaluator().Describe(*refused);
     return proposal;
   }

@@ -48,9 +48,14 @@ class Replanner {
 
  private:
   bool Arrives(const WalkPlan& plan, const World& world) const;
+  // `near`: of the first half-step, null: none. `rests`: before it the robot rests, so that there
+  // is time to prove half-steps themselves where volumes are in the way.
   PlanResult Plan(const std::array<Footprint, 2>& stance, const std::optional<StepState>& in_air,
-                  const PreparedWorld& among, const NearRest* near, const HalfStepQuery& query,
+                  const PreparedWorld& among, const NearRest* near, bool rests,
                   std::int64_t max_nodes, std::mt19937_64& random) const;
+  PlanResult Search(const std::array<Footprint, 2>& stance, const std::optional<StepState>& in_air,
+                    const PreparedWorld& among, const NearRest* near, const HalfStepQuery& query,
+                    std::int64_t max_nodes, std::mt19937_64& random) const;
   // Proves the walk of the proposal up to half-step `last` as far as it is not proved yet, and
   // grants it. Returns what refused it. `near`, here and below: of the half-step that begins, or
   // began, at rest near an obstacle; null: none.

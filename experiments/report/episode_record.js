@@ -31,6 +31,8 @@ export class EpisodeRecord {
     this.waiting = null; // why there is no walk yet
     this.state = null;
     this.motion = null;
+    this.volumes = null; // of the motion in execution
+    this.cells = new Map(); // messages `volume` by their numbers
     this.end = null;
   }
 
@@ -44,6 +46,8 @@ export class EpisodeRecord {
       event: () => this.events.push(message),
       state: () => { this.state = message; },
       motion: () => { this.motion = message; },
+      volume: () => this.cells.set(message.volume, message),
+      volumes: () => { this.volumes = message; },
       end: () => { this.end = message; },
     }[message.type];
     what?.();

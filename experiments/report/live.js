@@ -5,7 +5,7 @@ import { Instant, Rows, rowsOf } from "./instants.js";
 import { Latency } from "./latency.js";
 import { LiveControls } from "./live_controls.js";
 import { LiveView, layers } from "./live_view.js";
-import { legend, planRows, shortened } from "./live_words.js";
+import { legend, planRows, shortened, volumesNote } from "./live_words.js";
 import * as palette from "./palette.js";
 import * as THREE from "three";
 import { SocketSource } from "./socket_source.js";
@@ -122,6 +122,7 @@ function drawView(t, world, plan, begun, grant) {
   }
   view.showReplaced(record.replaced(t, ghostSpan));
   showMotion(t);
+  showVolumes(begun);
   dragging.show(world ? thingsIn(world) : []);
   stage.draw([{ layers: [1, 2], shift: [0, 0] }]);
   dragging.draw();
@@ -136,6 +137,14 @@ function showMotion(t) {
   motionKey = [key, full];
   if (walk) view.showMotion(rowsOf(walk, t, motionSpan));
   else if (record.motion) view.showMotion(new Rows(record.hello.columns, record.motion.rows));
+}
+
+// Volumes are asked for when they are first wanted.
+let askedForVolumes = false;
+function showVolumes(begun) {
+  const wanted = byId("show-volumes").checked;
+  if (wanted && !askedForVolumes) askedForVolumes = controls?.askForVolumes() ?? false;
+  volumesNote(byId("volumes-note"), wanted && record.volumes, record.cells, view.showVolumes(record, begun));
 }
 
 function thingsIn(world) {
@@ -250,6 +259,7 @@ function start() {
     choice.append(box, label);
     byId("choices").append(choice);
   }
+  byId("show-volumes").parentElement.hidden = recorded;
   legend(byId("legend"), recorded);
   byId("camera").addEventListener("change", look);
   byId("follow").addEventListener("change", look);

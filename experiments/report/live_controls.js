@@ -56,6 +56,9 @@ export class LiveControls {
     ] });
   }
 
+  /** Whether the episode was asked for the swept volumes of the plan. */
+  askForVolumes() { return this.send({ type: "volumes" }); }
+
   select(name) { this.selected = name; }
 
   /** What can be done now, as the buttons say it. */

@@ -8,6 +8,7 @@ import { RobotFigure, RobotShapes, ghostMaterial } from "./robot.js";
 import { areaMark, obstacleMesh } from "./stage.js";
 import { soleTraces } from "./traces.js";
 import { UncertaintyShell, uncertainty } from "./uncertainty.js";
+import { VolumesToCome } from "./volumes_to_come.js";
 
 const ghostSeconds = 4; // replaced plans fade for so long [s]
 const strobeInstants = 6;
@@ -19,6 +20,7 @@ export const layers = [
   ["soles", "sole traces (sampled)", true],
   ["strobe", "body (sampled)", false],
   ["balance", "ZMP, CoM", false],
+  ["volumes", "swept volumes", false],
 ];
 
 function emptied(group) {
@@ -61,6 +63,8 @@ export class LiveView {
     this.sole = drawn.robot.sole;
     this.groups = Object.fromEntries(
       ["shells", "footsteps", "ghosts", "soles", "strobe"].map((name) => [name, new THREE.Group()]));
+    this.volumes = new VolumesToCome();
+    this.groups.volumes = this.volumes.group;
     this.obstacles = new Map(drawn.scene.obstacles.map((json) => {
       const mesh = obstacleMesh(json);
       const shell = new UncertaintyShell(json);
@@ -132,6 +136,12 @@ export class LiveView {
       group.add(outline(corners, width, 0.002, colour, 0.9, 3, dashed));
       if (i >= 2) group.add(numberMark(i - 1, place, palette.theme.ink, 0.1, 4));
     });
+  }
+
+  /** The proven swept volumes of half-steps after the latest that has begun; returns how many. */
+  showVolumes(record, begun) {
+    if (!this.groups.volumes.visible || !record.volumes) return 0;
+    return this.volumes.show(record.volumes, record.cells, begun);
   }
 
   /** Footsteps of plans that were replaced, fading: [walk, successor, age [s]]. */

@@ -35,6 +35,23 @@ export function planRows(table, { t, plan, grant, world, begun }) {
   }));
 }
 
+/** What the volumes are: of the message `volumes`, null when they are not drawn; `drawn` of them. */
+export function volumesNote(note, volumes, cells, drawn) {
+  note.hidden = !volumes;
+  if (!volumes) return;
+  const centimetres = (metres) => Number((100 * metres).toPrecision(2));
+  const sizes = [...cells.values()].map(({ cell_m: cell }) => centimetres(cell));
+  const range = [...new Set([Math.min(...sizes), Math.max(...sizes)])].join(" to ");
+  const missing = volumes.half_steps.filter((half) => half === null).length;
+  const text = `Swept volumes of ${drawn} half-step${drawn === 1 ? "" : "s"} still to come` +
+    (drawn > 0 ? `, by cells of ${range} cm, the next one stronger` : "") +
+    ": all that the robot sweeps in each, from rest to rest, as it was proved before the walk." +
+    (missing > 0 ? ` ${missing} of the plan ${missing === 1 ? "has" : "have"} none, as from the start: ` +
+      "proved one by one." : "") +
+    " Where half-steps overlap the walk leaves them; its grant is the proof.";
+  if (note.textContent !== text) note.textContent = text;
+}
+
 /** What the view shows, in words. */
 export function legend(list, recorded) {
   const motion = recorded ? "the executed motion of the next 3 s" : "the walk to come, 3 s of it";

@@ -14,8 +14,8 @@ function cellsOf({ size, runs }) {
   return at === full.length ? full : null;
 }
 
-// The faces of the surface, those in a row along z (or x, of level ones) as one rectangle.
-function surfaceOf(volume, cell) {
+/** The faces of the surface, those in a row along z (or x, of level ones) as one rectangle. */
+export function surfaceOf(volume, cell) {
   const full = cellsOf(volume);
   if (!full) return null;
   const { size, lower } = volume;
@@ -66,18 +66,19 @@ function surfaceOf(volume, cell) {
   return geometry;
 }
 
-const material = (opacity) => new THREE.MeshBasicMaterial({
+export const material = (opacity) => new THREE.MeshBasicMaterial({
   color: palette.second, transparent: true, opacity, depthWrite: false, side: THREE.DoubleSide,
 });
 
-// One of a half-step; the frame of its support sole is that of a left one.
-function meshOf(shape, look, order) {
+/** One of a half-step; the frame of its support sole is that of a left one. */
+export function meshOf(shape, look, order) {
   const mesh = new THREE.Mesh(shape, look);
   mesh.renderOrder = order;
   return mesh;
 }
 
-function place(mesh, { X_WS: [x, y, yaw], mirrored }) {
+/** Puts it where the half-step is. */
+export function place(mesh, { X_WS: [x, y, yaw], mirrored }) {
   mesh.position.set(x, y, 0);
   mesh.rotation.z = yaw;
   mesh.scale.y = mirrored ? -1 : 1;

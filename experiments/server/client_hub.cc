@@ -6,6 +6,7 @@
 
 #include "experiments/live/messages.h"
 #include "experiments/live/spare_boxes.h"
+#include "experiments/live/volume_messages.h"
 #include "wpg/files/input_error.h"
 
 namespace halfstep {
@@ -67,6 +68,9 @@ void ClientHub::Do(ClientLine* line, Client* client, const ClientMessage& messag
     if (latest_.executed && wants->motion > 0.0) line->Send(Motion(wants->motion));
   } else if (std::holds_alternative<Draw>(message)) {
     line->Send(Drawing());
+  } else if (std::holds_alternative<TellVolumes>(message)) {
+    if (!client->volumes) client->volumes.emplace();
+    TellVolumesTo(line, client);
   } else if (const auto* frame = std::get_if<MeasuredFrame>(&message)) {
     const auto at = steady_clock::now() - std::chrono::duration_cast<steady_clock::duration>(
                                               std::chrono::duration<double>(frame->age));
@@ -94,6 +98,7 @@ void ClientHub::Keep(const std::string& kind, const nlohmann::json& message) {
 
 void ClientHub::Announce() {
   EpisodeNews news = board_.Take();
+  if (news.volumes) volumes_ = news.volumes;
   if (news.waiting) Keep("waiting", WaitingMessage(*news.waiting));
   for (size_t i = 0; i < news.worlds.size(); ++i) {
     Keep("world", WorldMessage(news.worlds[i], news.known[i]));
@@ -108,9 +113,13 @@ void ClientHub::Announce() {
   for (const EpisodeEvent& event : news.events) Broadcast(TextOf(EventMessage(event)));
   for (const std::string& refusal : news.refusals) Broadcast(TextOf(ErrorMessage(refusal)));
   if (!news.executed) return;
-  const bool another = news.executed != latest_.executed || !news.grants.empty();
+  const bool another = news.executed != latest_.executed;
+  const bool granted = !news.grants.empty();
   latest_ = std::move(news);
-  if (another) TellMotion();
+  if (another || granted) TellMotion();
+  if (another) {
+    for (auto& [line, client] : clients_) TellVolumesTo(line, &client);
+  }
   TellStates();
 }
 
@@ -136,6 +145,18 @@ void ClientHub::TellStates() {
     }
     line->Send(state);
   }
+}
+
+void ClientHub::TellVolumesTo(ClientLine* line, Client* client) {
+  if (!client->volumes || !volumes_ || !latest_.executed) return;
+  const auto placed = VolumesOf(*latest_.executed, *volumes_);
+  for (const std::optional<PlacedVolume>& one : placed) {
+    if (!one || !client->volumes->insert(one->volume).second) continue;
+    Text& text = volume_texts_[one->volume];
+    if (!text) text = TextOf(VolumeMessage(one->volume, *volumes_));
+    line->Send(text);
+  }
+  line->Send(TextOf(VolumesMessage(placed, latest_.num_walks - 1)));
 }
 
 ClientHub::Text ClientHub::Motion(double ahead) const {

@@ -5,6 +5,8 @@
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 
@@ -48,7 +50,8 @@ class ClientHub {
  private:
   struct Client {
     Subscribe wants;
-    double state_due = 0.0;  // when it is to be told the next state [s]
+    std::optional<std::set<int>> volumes;  // it was told of; none: it wants none
+    double state_due = 0.0;                // when it is to be told the next state [s]
     std::chrono::steady_clock::time_point second = {};
     int messages = 0;  // since then
   };
@@ -61,6 +64,8 @@ class ClientHub {
   void Keep(const std::string& kind, const nlohmann::json& message);
   void TellMotion();
   void TellStates();
+  // Tells a client that wants them the volumes of the motion in execution.
+  void TellVolumesTo(ClientLine* line, Client* client);
   Text Motion(double ahead) const;
   Text Drawing();
 
@@ -72,7 +77,9 @@ class ClientHub {
   NewsBoard& board_;
   std::map<ClientLine*, Client> clients_;
   Text hello_, drawing_;
-  std::map<std::string, Text> newest_;                // by kind
+  std::map<std::string, Text> newest_;  // by kind
+  std::shared_ptr<const SweptVolumes> volumes_;
+  std::map<int, Text> volume_texts_;                  // that somebody wanted
   EpisodeNews latest_;                                // its motion and its time
   std::chrono::steady_clock::time_point measured_{};  // the newest measurement of a client
 };

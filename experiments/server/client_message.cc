@@ -109,6 +109,7 @@ ClientMessage ClientMessageReader::Read(std::string_view text) const {
   std::map<std::string, Reader> readers = {
       {"subscribe", [&](MessageFields& f) { return ReadSubscribe(f, control_period_); }},
       {"draw", [](MessageFields&) { return Draw{}; }},
+      {"volumes", [](MessageFields&) { return TellVolumes{}; }},
       {"hold", [](MessageFields&) { return Hold{true}; }},
       {"release", [](MessageFields&) { return Hold{false}; }},
       {"end", [](MessageFields&) { return End{}; }}};

@@ -18,6 +18,8 @@ struct Subscribe {
   double motion = 0.0;        ///< how far ahead the motion is told [s]; 0: not at all
 };
 struct Draw {};
+/// It is told the swept volumes of each walk from now on.
+struct TellVolumes {};
 /// A measurement of everything that is there.
 struct MeasuredFrame {
   /// A measured obstacle.
@@ -56,7 +58,7 @@ struct Hold {
 };
 struct End {};
 /// All that a client may say.
-using ClientMessage = std::variant<Subscribe, Draw, MeasuredFrame, Edit, Hold, End>;
+using ClientMessage = std::variant<Subscribe, Draw, TellVolumes, MeasuredFrame, Edit, Hold, End>;
 
 /// Reads messages of clients, strictly. Immutable.
 class ClientMessageReader {

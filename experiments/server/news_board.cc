@@ -33,6 +33,10 @@ void NewsBoard::Wait(const std::string& reason) {
   Add([&](EpisodeNews* news) { news->waiting = reason; });
 }
 
+void NewsBoard::Prepare(std::shared_ptr<const SweptVolumes> volumes) {
+  Add([&](EpisodeNews* news) { news->volumes = std::move(volumes); });
+}
+
 void NewsBoard::Refuse(const std::string& sentence) {
   Add([&](EpisodeNews* news) {
     constexpr size_t kMost = 100;

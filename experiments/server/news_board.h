@@ -13,13 +13,14 @@ namespace halfstep {
 
 /// What happened in an episode since one looked last, as values.
 struct EpisodeNews {
-  std::optional<std::string> waiting;      ///< there is no walk yet: why
-  std::vector<World> worlds;               ///< that became known
-  std::vector<double> known;               ///< of each of them [s]
-  std::vector<ExecutedWalk> walks;         ///< that were handed over
-  std::vector<EpisodeGrant> grants;        ///< that were given
-  std::vector<EpisodeEvent> events;        ///< that happened
-  size_t first_walk = 0, first_grant = 0;  ///< the index of the first of these
+  std::shared_ptr<const SweptVolumes> volumes;  ///< of the half-steps, once they are prepared
+  std::optional<std::string> waiting;           ///< there is no walk yet: why
+  std::vector<World> worlds;                    ///< that became known
+  std::vector<double> known;                    ///< of each of them [s]
+  std::vector<ExecutedWalk> walks;              ///< that were handed over
+  std::vector<EpisodeGrant> grants;             ///< that were given
+  std::vector<EpisodeEvent> events;             ///< that happened
+  size_t first_walk = 0, first_grant = 0;       ///< the index of the first of these
   /// The motion in execution, and the number of walks until now; null before there is one.
   std::shared_ptr<const SuperposedWalk> executed;
   size_t num_walks = 0;  ///< so far
@@ -39,8 +40,9 @@ class NewsBoard {
 
   /// Of the thread of the episode.
   void Wait(const std::string& reason);
-  void Refuse(const std::string& sentence);       ///< the episode cannot begin, and why
-  void Tick(const EpisodeTick& tick, bool held);  ///< after each tick
+  void Prepare(std::shared_ptr<const SweptVolumes> volumes);  ///< half-steps are prepared
+  void Refuse(const std::string& sentence);                   ///< the episode cannot begin, and why
+  void Tick(const EpisodeTick& tick, bool held);              ///< after each tick
 
   EpisodeNews Take();  ///< what is new; of the thread that tells it
 

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "experiments/config/experiment.h"
 #include "experiments/live/episode.h"
@@ -31,6 +32,8 @@ class ServedEpisode {
   const std::string& address() const { return server_->address(); }  ///< where clients find it
   Sensor& sensor() { return *sensor_; }  ///< of the episode: what clients measure, or the stand-in
 
+  /// Half-steps are prepared: clients that want them are told these volumes.
+  void Prepare(std::shared_ptr<const SweptVolumes> volumes) { board_.Prepare(std::move(volumes)); }
   void Wait(const std::string& reason) { board_.Wait(reason); }  ///< there is no walk yet, and why
   /// After each tick of the episode.
   void Tick(const EpisodeTick& tick) { board_.Tick(tick, held() || inbox_.ended()); }

@@ -39,7 +39,8 @@ Scene SceneFromRest(const DescribedWalk& walk, int half_step, Scene scene, doubl
   constexpr double kNearer = 1e-3, kAtRest = 1e-9;  // [m], [s]
   const std::string name = Formatted("half-step %d begins near an obstacle, ", half_step + 1);
   const double t = walk.WindowOf(half_step).first;
-  if (half_step == 0 || !(walk.WindowOf(half_step - 1).second <= t + kAtRest)) {
+  // A walk begins at rest.
+  if (half_step > 0 && !(walk.WindowOf(half_step - 1).second <= t + kAtRest)) {
     findings->Disagree(name + "but not from rest");
     return scene;
   }

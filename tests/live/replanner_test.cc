@@ -52,20 +52,41 @@ double LeastClearance(const MarginEvaluator& evaluator, const SuperposedWalk& wa
   return least;
 }
 
-// A low box beside the left foot of a robot that rests on both feet, so far from it [m].
+// A low box beside the left foot of a robot that rests on both feet after a half-step, so far from
+// it [m].
 Scene BesideLeftFoot(const WalkPlan& plan, const RobotModel& robot, const MarginLimits& limits,
-                     double gap) {
-  const Footprint foot = StanceAfter(plan.sequence, 1)[static_cast<size_t>(Index(Side::kLeft))];
+                     double gap, int half_step = 1) {
+  const Footprint foot =
+      StanceAfter(plan.sequence, half_step)[static_cast<size_t>(Index(Side::kLeft))];
   const SuperposedWalk walk = plan.Walk();
   Obstacle box{.name = "box", .shape = Box{{0.05, 0.05, 0.04}}};
   box.X_WO.translation() = Eigen::Vector3d(foot.x, foot.y + 0.15, 0.02);
   Scene scene{.name = "box", .files = {}, .obstacles = {box}, .no_step = {}, .warnings = {}};
   for (int i = 0; i < 5; ++i) {
     const MarginEvaluator evaluator(robot, scene, limits);
-    const double t = walk.end_of(1);
+    const double t = walk.end_of(half_step);
     scene.obstacles[0].X_WO.translation().y() -= LeastClearance(evaluator, walk, t, t) - gap;
   }
   return scene;
+}
+
+// Half-steps that begin near an obstacle draw away from it; the others keep what is demanded.
+void ExpectDrawsAway(const Proposal& proposal, const Scene& scene, int first) {
+  const SmallWorld& small = SmallWorld::Get();
+  const MarginLimits& limits = small.config.experiment.smoothing.limits;
+  const double demanded = limits.demanded_of(MarginFamily::kClearance);
+  ASSERT_NE(proposal.kind, ProposalKind::kUnsafe) << proposal.reason;
+  ASSERT_FALSE(proposal.grant.near.empty());
+  EXPECT_EQ(proposal.grant.near.front(), first);
+  const MarginEvaluator evaluator(small.place.robot, scene, limits);
+  const SuperposedWalk walk = proposal.plan.Walk();
+  for (int j = first; j <= proposal.grant.through; ++j) {
+    const bool near = std::ranges::count(proposal.grant.near, j) > 0;
+    const double start = LeastClearance(evaluator, walk, walk.start_of(j), walk.start_of(j));
+    const double least = LeastClearance(evaluator, walk, walk.start_of(j), walk.end_of(j));
+    EXPECT_GE(least, (near ? std::max(0.0, start - 1e-3) : demanded) - 1e-9) << j;
+    EXPECT_EQ(near, start < demanded) << j;
+  }
 }
 
 // What is demanded cannot be kept where the robot stands. It may go where it gets no nearer than
@@ -74,7 +95,6 @@ TEST(ReplannerTest, ARobotThatStandsTooNearDrawsAway) {
   const SmallWorld& small = SmallWorld::Get();
   const Replanner replanner(small.place.robot, small.config, *small.baked.cached.volumes);
   const MarginLimits& limits = small.config.experiment.smoothing.limits;
-  const double demanded = limits.demanded_of(MarginFamily::kClearance);
   std::mt19937_64 random(1);
   World world;
   world.goal.X_WG = {1.2, 0.0, 0.0};
@@ -101,17 +121,49 @@ TEST(ReplannerTest, ARobotThatStandsTooNearDrawsAway) {
       EXPECT_TRUE(proposal.grant.near.empty());
       continue;
     }
-    ASSERT_NE(proposal.kind, ProposalKind::kUnsafe) << proposal.reason;
-    ASSERT_FALSE(proposal.grant.near.empty());
-    EXPECT_EQ(proposal.grant.near.front(), 2);
-    const MarginEvaluator evaluator(small.place.robot, world.scene, limits);
-    const SuperposedWalk walk = proposal.plan.Walk();
-    for (int j = 2; j <= proposal.grant.through; ++j) {
-      const bool near = std::ranges::count(proposal.grant.near, j) > 0;
-      const double start = LeastClearance(evaluator, walk, walk.start_of(j), walk.start_of(j));
-      const double least = LeastClearance(evaluator, walk, walk.start_of(j), walk.end_of(j));
-      EXPECT_GE(least, (near ? std::max(0.0, start - 1e-3) : demanded) - 1e-9) << j;
-      EXPECT_EQ(near, start < demanded) << j;
+    ExpectDrawsAway(proposal, world.scene, 2);
+  }
+}
+
+// Nothing was stopped: the walk has ended, or there was none.
+TEST(ReplannerTest, ItDrawsAwayBeforeAFirstWalkAndAfterAFinishedOne) {
+  const SmallWorld& small = SmallWorld::Get();
+  const Replanner replanner(small.place.robot, small.config, *small.baked.cached.volumes);
+  const MarginLimits& limits = small.config.experiment.smoothing.limits;
+  std::mt19937_64 random(1);
+  World world;
+  world.goal.X_WG = {0.5, 0.0, 0.0};
+  world.goal.radius = 0.15;
+  const Proposal walked = replanner.Begin(small.start, *replanner.Prepare(world), 0, random);
+  ASSERT_EQ(walked.kind, ProposalKind::kChanged) << walked.reason;
+  const int last = walked.plan.sequence.size() - 1;
+  const double now = walked.plan.Walk().duration() + 1.0;
+  world.version = 1;
+  world.goal.X_WG = {1.7, 0.0, 0.0};
+  for (const double gap : {0.006, 0.002, -0.001}) {
+    world.scene = BesideLeftFoot(walked.plan, small.place.robot, limits, gap, last);
+    const Proposal on = replanner.Propose({.plan = walked.plan,
+                                           .smoothed = walked.smoothed,
+                                           .grant = walked.grant,
+                                           .robot_through = walked.robot_through,
+                                           .begun = last,
+                                           .now = now,
+                                           .hand_over = now + 0.1,
+                                           .world = std::make_shared<const World>(world)},
+                                          *replanner.Prepare(world), random);
+    const std::array<Footprint, 2> stance = StanceAfter(walked.plan.sequence, last);
+    const Proposal anew = replanner.Begin(stance, *replanner.Prepare(world), 0, random);
+    if (gap > limits.demanded_of(MarginFamily::kClearance)) {
+      // Swept volumes, which are larger, leave no way.
+      EXPECT_NE(on.kind, ProposalKind::kUnsafe);
+      EXPECT_NE(anew.kind, ProposalKind::kUnsafe);
+      EXPECT_TRUE(on.grant.near.empty() && anew.grant.near.empty());
+    } else if (gap > 0.0) {
+      ExpectDrawsAway(on, world.scene, last + 1);
+      ExpectDrawsAway(anew, world.scene, 0);
+    } else {
+      EXPECT_EQ(on.kind, ProposalKind::kUnsafe);
+      EXPECT_EQ(anew.kind, ProposalKind::kUnsafe);
     }
   }
 }

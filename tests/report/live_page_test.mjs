@@ -78,9 +78,23 @@ async function isDrawn(browser, condition) {
   }
 }
 const isPicture = (picture) => countColours(picture) > 100;
+// The part of a picture that is pink, as swept volumes are.
+function pinkPart({ width, height, pixel }) {
+  let pink = 0;
+  for (let y = 0; y < height; ++y) {
+    for (let x = 0; x < width; ++x) {
+      const colour = pixel(x, y);
+      const [red, green, blue] = [colour >> 16, (colour >> 8) & 255, colour & 255];
+      if (red > green + 8 && blue > green + 3) ++pink;
+    }
+  }
+  return pink / (width * height);
+}
 const textOf = (browser, id) => browser.run("return document.getElementById(arguments[0]).textContent", id);
 const stateIs = (browser, pattern) =>
   until(async () => pattern.test(await textOf(browser, "state")), `the state ${pattern}`);
+const volumesAre = (browser, pattern) =>
+  until(async () => pattern.test(await textOf(browser, "volumes-note")), `the volumes ${pattern}`);
 const click = (browser, id) => browser.run("document.getElementById(arguments[0]).click()", id);
 const labels = (browser) =>
   browser.run("return [...document.querySelectorAll('.tag-of')].map((label) => label.textContent)");
@@ -183,8 +197,13 @@ async function testLive(browser, episode) {
   // machine may let it walk before it is told to wait.
   await drag(browser, "goal", [2.8, 0]);
   const before = await until(() => walkWithOtherFootsteps(browser, 0), "a walk to the goal");
+  await browser.set("show-volumes", true);
+  await volumesAre(browser, /of [1-9]\d* half-steps? still to come, by cells of 2 cm/);
+  await until(() => isDrawn(browser, (picture) => pinkPart(picture) > 0.01), "the volumes to be drawn");
+  assert.deepEqual(await overflows(browser), []);
   await click(browser, "hold");
   await stateIs(browser, /paused/);
+  await volumesAre(browser, /of 0 half-steps/);
   assert.equal(await textOf(browser, "hold"), "Walk on");
   await drag(browser, "bar", barTo);
 
@@ -197,6 +216,10 @@ async function testLive(browser, episode) {
 
   await click(browser, "hold");
   await until(async () => !/paused/.test(await textOf(browser, "state")), "the robot to walk on");
+  await volumesAre(browser, /of [1-9]\d* half-steps?/);
+  await browser.set("show-volumes", false);
+  await until(async () => !(await browser.run(
+    "return document.getElementById('volumes-note').checkVisibility()")), "the volumes to be hidden");
   await stateIs(browser, /half-step (\d+) of \1, at rest/);
   await click(browser, "stop");
   await stateIs(browser, /^(arrived|stuck|too long|no plan|interrupted)/);
@@ -241,6 +264,7 @@ async function testRecording(browser) {
   await until(() => isDrawn(browser, (picture) => isPicture(standing = picture)), "a picture");
   assert.deepEqual(await overflows(browser), []);
   assert.equal(await browser.run("return document.getElementById('controls').hidden"), true);
+  assert.equal(await browser.run("return document.getElementById('show-volumes').checkVisibility()"), false);
   const clock = async () => Number.parseFloat(await textOf(browser, "clock"));
   await click(browser, "play");
   await until(async () => (await clock()) > 0.2, "it to play");

@@ -52,6 +52,7 @@ TEST(ClientMessage, IsReadAsItIsMeant) {
   EXPECT_EQ(carry.to, Eigen::Vector3d(1, -2, 0.5));
   EXPECT_EQ(carry.turn, 0.0);
   EXPECT_FALSE(std::get<Hold>(reader.Read(R"({"type":"release"})")).held);
+  EXPECT_TRUE(std::holds_alternative<TellVolumes>(reader.Read(R"({"type":"volumes"})")));
   EXPECT_TRUE(std::holds_alternative<End>(reader.Read(R"({"type":"end"})")));
 }
 
@@ -91,6 +92,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"client", R"({"type":"carry"})", "'carry' is not taken here"},
         Refused{"stand_in", R"({"type":"end","type":"end"})", "'type' stands twice"},
         Refused{"stand_in", R"({"type":"end","now":1})", "end.now: unknown key"},
+        Refused{"stand_in", R"({"type":"volumes","of":1})", "volumes.of: unknown key"},
         Refused{"stand_in", R"({"type":"goal","x_m":1,"y":2})", "goal.y_m: is missing"},
         Refused{"stand_in", R"({"type":"goal","x_m":NaN,"y_m":2})", "is not JSON"},
         Refused{"stand_in", R"({"type":"goal","x_m":1e999,"y_m":2})", "too large"},

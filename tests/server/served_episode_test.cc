@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <regex>
+#include <set>
 #include <string>
 #include <thread>
 #include <vector>
@@ -106,6 +107,53 @@ class Served {
 #define SKIP_WITHOUT_SERVER()                                \
   if (!WhyNoServer().empty()) GTEST_SKIP() << WhyNoServer(); \
   if (!HasReport()) GTEST_SKIP() << "this build has no page"
+
+TEST(ServedEpisode, TellsTheSweptVolumesOfEachWalk) {
+  SKIP_WITHOUT_SERVER();
+  Served served;
+  Connection client = served.Socket();
+  client.SendLine({{"type", "volumes"}});
+  json walk;
+  std::set<int> told;
+  // Each volume once, and before a walk that has it.
+  const auto next = [&] {
+    for (;;) {
+      const json one = client.ReadLine();
+      if (one.is_null() || one["type"] == "volumes") return one;
+      if (one["type"] == "walk") walk = one;
+      if (one["type"] != "volume") continue;
+      EXPECT_TRUE(told.insert(one["volume"].get<int>()).second);
+      EXPECT_EQ(one["baked_cell_m"], 0.03);
+      EXPECT_LE(one["runs"].size(), 8000U);
+      std::int64_t cells = 1, sum = 0;
+      for (const json& size : one["size"]) cells *= size.get<int>();
+      for (const json& run : one["runs"]) sum += run.get<int>();
+      EXPECT_EQ(sum, cells);
+    }
+  };
+  json volumes = next();
+  ASSERT_FALSE(volumes.is_null());
+  const json& half_steps = volumes["half_steps"];
+  EXPECT_EQ(half_steps.size(), walk["half_steps"].size());
+  EXPECT_TRUE(half_steps[0].is_null()) << "the start is in no set";
+  for (size_t i = 1; i < half_steps.size(); ++i) {
+    // On the latest footstep of the other foot.
+    const json& swings = walk["footsteps"][i / 2 + 2];
+    json stands = walk["footsteps"][i / 2 + 1];
+    if (stands["foot"] == swings["foot"]) stands = walk["footsteps"][0];
+    EXPECT_NEAR(half_steps[i]["X_WS"][0], stands["x_m"].get<double>(), 1e-9);
+    EXPECT_NEAR(half_steps[i]["X_WS"][1], stands["y_m"].get<double>(), 1e-9);
+    EXPECT_EQ(half_steps[i]["mirrored"], stands["foot"] == "right");
+    EXPECT_EQ(told.count(half_steps[i]["volume"]), 1U);
+  }
+  client.SendLine({{"type", "carry"}, {"obstacle", "bar"}, {"xyz_m", {0.75, 0.1, 0.02}}});
+  const json before = volumes;
+  while (!volumes.is_null() && (walk["walk"] == 0 || walk["kind"] != "changed")) volumes = next();
+  EXPECT_NE(volumes["half_steps"], before["half_steps"]);
+  client.SendLine({{"type", "end"}});
+  client.ReadUntil("end");
+  EXPECT_NE(served.Wait().status, kBadInput);
+}
 
 TEST(ServedEpisode, ABarThatIsCarriedIntoTheWayIsWalkedAround) {
   SKIP_WITHOUT_SERVER();

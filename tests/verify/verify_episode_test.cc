@@ -301,14 +301,14 @@ std::vector<EpisodeForgery> EpisodeForgeries() {
        },
        {},
        "scene: not the one that manifest.json is about"},
-      {"LessDemandedOfTheFirst",
+      {"LessDemandedInTheWalk",
        [](const fs::path& folder) {
          TamperedRun::EditCsv(folder / "events.csv", [](Table& table) {
-           table.push_back({"0.0", "near", "0", "0", "1", "none"});
+           table.push_back({"0.0", "near", "0", "0", "4", "none"});
          });
        },
        {},
-       "half-step 1 begins near an obstacle, but not from rest"},
+       "half-step 4 begins near an obstacle, but not from rest"},
       {"ClearanceDemandedLater",
        [](const fs::path& folder) {
          TamperedRun::Replace(folder / "config.yaml", "\n    clearance_m: 0.005",

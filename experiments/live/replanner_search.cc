@@ -1,0 +1,50 @@
+// How the replanner searches for footsteps.
+
+#include "experiments/live/near_rest.h"
+#include "experiments/live/near_start_query.h"
+#include "experiments/live/prepared_world.h"
+#include "experiments/live/replanner.h"
+#include "experiments/run/planning.h"
+#include "planner/search/planner_registry.h"
+
+namespace halfstep {
+
+PlanResult Replanner::Plan(const std::array<Footprint, 2>& stance,
+                           const std::optional<StepState>& in_air, const PreparedWorld& among,
+                           const NearRest* near, bool rests, std::int64_t max_nodes,
+                           std::mt19937_64& random) const {
+  PlanResult result = Search(stance, in_air, among, near, among.query, max_nodes, random);
+  if (!rests || result.status != PlanStatus::kNoPlan) return result;
+  // Where the robot rests near an obstacle, it may take more than one half-step to get away.
+  const NearStartQuery query(volumes_, among.query, near ? near->certifier() : among.certifier,
+                             MidFeet(stance[0], stance[1]).position());
+  const std::int64_t nodes = result.nodes;
+  result = Search(stance, in_air, among, near, query, max_nodes - nodes, random);
+  result.nodes += nodes;
+  return result;
+}
+
+PlanResult Replanner::Search(const std::array<Footprint, 2>& stance,
+                             const std::optional<StepState>& in_air, const PreparedWorld& among,
+                             const NearRest* near, const HalfStepQuery& query,
+                             std::int64_t max_nodes, std::mt19937_64& random) const {
+  const PlannerConfig& options = config_.experiment.planner;
+  PlanRequest request{.start = stance,
+                      .in_air = in_air,
+                      .goal = among.world.goal,
+                      .set = volumes_.set,
+                      .query = query,
+                      .cost = options.Cost()};
+  if (const auto& w = options.workspace; !w.empty()) {
+    request.workspace = {Eigen::Vector2d(w[0], w[1]), Eigen::Vector2d(w[2], w[3])};
+  }
+  request.start_is_free = [&](const HalfStep& up, const Footprint& X_WS) {
+    return (near ? near->certifier() : among.certifier).Certifies(up, X_WS);
+  };
+  request.stop = AnyOf({AfterNodes(max_nodes), options.unimproved_nodes == 0
+                                                   ? AtFirstPlan()
+                                                   : WhenNotImprovedFor(options.unimproved_nodes)});
+  return MakePlanner(options.name, among.world.scene, options.options)->Plan(request, random);
+}
+
+}  // namespace halfstep
