@@ -82,6 +82,7 @@ class Optimization {
     const double own = DurationOf(start_);
     const double limit = options_.duration_limit > 0.0 ? options_.duration_limit : own;
     OverlapProgram program(sequence_, test_.evaluator(), options_.program, limit, problem_.fixed());
+    program.watched().SetWorkers(monitor_.workers());
     const bool within = own <= limit + 1e-9;
     Incumbent::Rules rules =
         Safest() ? SafestRules(program, test_, within) : DemandedRules(program, &proofs_);
@@ -296,6 +297,7 @@ class Optimization {
     const SuperposedWalk walk(sequence_, parameters);
     MarginEvaluator::Scratch scratch = test_.evaluator().MakeScratch();
     scratch.stop = monitor_.scratch()->stop;
+    scratch.workers = monitor_.workers();
     return test_.Check(walk, {0.0, walk.duration()}, &scratch).verdict == Verdict::kFeasible;
   }
 

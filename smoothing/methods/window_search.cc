@@ -45,6 +45,7 @@ void SearchWindow(const WalkWindow& window, const WindowSearchOptions& options,
   OverlapProgram program(sequence, part.evaluator(), OfWindow(window, options.program, traits), 0.0,
                          part.fixed());
   if (program.variables().size() == 0) return;
+  program.watched().SetWorkers(monitor.workers());
   StretchProofs proofs(part.test(), sequence.size(), {window.proved_first, window.proved_last});
   proofs.Remember(SuperposedWalk(sequence, window.parameters));
   const double begun = program.Cost(window.parameters);

@@ -6,6 +6,7 @@
 //      overlap_study reach METHOD[:ITERATIONS] DEADLINE SCENE…   (a config, bars:N or FILE.yaml:N)
 //      overlap_study solve SCENE METHOD VARIABLES KIND [DEADLINE]
 //      overlap_study rows CONFIG
+//      overlap_study threads METHOD THREADS SCENE…   (no deadline; the same again with one thread)
 
 #include <algorithm>
 #include <chrono>
@@ -292,6 +293,43 @@ void Rows(const std::string& config) {
   }
 }
 
+// What a method takes by the clock with one thread and with more, and whether it finds the same.
+void Threads(const std::string& what, const std::string& method, int threads) {
+  const Experiment e = LoadScene(what);
+  const MarginEvaluator evaluator(e.robot, e.scene, e.config.smoothing.limits);
+  const CertifiedFeasibility test(evaluator, {});
+  SmootherOptions options;
+  options.optimizer.program.parameters.heights = true;
+  options.optimizer.program.parameters.durations = true;
+  options.optimizer.rounds = 12;
+  options.optimizer.deadline = options.horizon.deadline = 1e4;
+  options.horizon.program = options.optimizer.program;
+  std::vector<SmoothingResult> results;
+  std::vector<double> proofs;
+  for (const int n : {1, threads}) {
+    const auto workers = std::make_shared<Workers>(n);
+    SmoothingMonitor monitor({.workers = workers});
+    results.push_back(FindSmoother(method).Smooth(ProblemOf(e.sequence, test), options, monitor));
+    const SuperposedWalk walk(e.sequence, results.back().parameters);
+    MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
+    scratch.workers = workers.get();
+    const double begin = Now();
+    test.Check(walk, {0.0, walk.duration()}, &scratch);
+    proofs.push_back(Now() - begin);
+  }
+  const bool same = results[0].parameters == results[1].parameters &&
+                    results[0].instants == results[1].instants &&
+                    results[0].iterates.size() == results[1].iterates.size() &&
+                    results[0].collision_queries == results[1].collision_queries;
+  std::printf(
+      "%-14s %-18s n %4d  D %.6f  1 thread %7.3f s, %d threads %7.3f s: %.2f; proof %.2f ms, "
+      "%.2f ms: %.2f; %s\n",
+      what.c_str(), method.c_str(), e.sequence.size(), DurationOf(results[0].parameters),
+      results[0].wall, threads, results[1].wall, results[0].wall / results[1].wall, 1e3 * proofs[0],
+      1e3 * proofs[1], proofs[0] / proofs[1], same ? "the same" : "NOT the same");
+  std::fflush(stdout);
+}
+
 }  // namespace
 }  // namespace halfstep
 
@@ -310,6 +348,8 @@ int main(int argc, char** argv) {
     for (int i = 3; i < argc; ++i) halfstep::Grow(argv[2], std::atoi(argv[i]));
   } else if (part == "reach") {
     for (int i = 4; i < argc; ++i) halfstep::Reach(argv[i], argv[2], std::atof(argv[3]));
+  } else if (part == "threads") {
+    for (int i = 4; i < argc; ++i) halfstep::Threads(argv[i], argv[2], std::atoi(argv[3]));
   } else if (part == "rows") {
     halfstep::Rows(arg(2, "bar_8cm"));
   } else {
