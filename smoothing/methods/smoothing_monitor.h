@@ -26,7 +26,7 @@ struct MonitorOptions {
   /// Threads that may be used beside the caller's, by one search at a time; null: none. What a
   /// search finds does not depend on them unless a deadline ends it.
   std::shared_ptr<Workers> workers = {};
-  /// Called with every new incumbent.
+  /// Called with every new incumbent, by the caller's thread or, while that waits, by a worker.
   std::function<void(const HomotopyParameters&)> on_incumbent = {};
 };
 
