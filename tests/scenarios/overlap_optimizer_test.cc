@@ -398,7 +398,11 @@ TEST(OptimizerScenario, SupportPointsShortenAWalkOverABar) {
       EXPECT_LE(s, table.row(point).upper + 1e-12);
       moved = std::max(moved, std::abs(s));
     }
-    points ? EXPECT_GE(moved, 0.01) : EXPECT_EQ(moved, 0.0);
+    if (points) {
+      EXPECT_GE(moved, 0.01);
+    } else {
+      EXPECT_EQ(moved, 0.0);
+    }
   }
   EXPECT_LE(durations[1], 0.97 * durations[0]);
 }
