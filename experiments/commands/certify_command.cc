@@ -9,6 +9,7 @@
 #include "experiments/report/report.h"
 #include "experiments/run/complete_manifest.h"
 #include "experiments/run/interrupt.h"
+#include "experiments/run/smoothing_of.h"
 #include "experiments/tables/certificate_files.h"
 #include "experiments/tables/csv_reader.h"
 #include "experiments/tables/json_file.h"
@@ -88,6 +89,7 @@ ExitStatus Certify(const CertifyCommand& command) {
   complaints.ThrowIfAny();
   RunFolder folder(run, /*overwrite=*/true);
   folder.CopyOlder();
+  const std::shared_ptr<Workers> workers = WorkersOf(config);
   bool all_certified = true;
   for (const std::string& method : methods) {
     const std::string place = MethodFolder(method) + "/";
@@ -97,7 +99,7 @@ ExitStatus Certify(const CertifyCommand& command) {
     CheckTrajectoryIsOf(command, experiment.robot, SuperposedWalk(experiment.sequence, parameters),
                         ParseCsv(trajectory, path));
     const CertifiedWalk walk =
-        CertifyWalk(test, experiment.sequence, parameters, interrupt.token());
+        CertifyWalk(test, experiment.sequence, parameters, interrupt.token(), workers.get());
     if (walk.answer.stopped) break;
     WriteCertificate(experiment, test, walk, trajectory, place, &folder);
     const bool certified = walk.answer.verdict == Verdict::kFeasible;

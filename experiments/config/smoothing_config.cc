@@ -124,6 +124,11 @@ void DeclareSmoothing(Fields& fields, SmoothingConfig* c) {
   fields.Boolean("repair_plan", &c->repair_plan,
                  {.meaning = "steps of a plan that is not feasible take longer, or go higher or "
                              "lower, where that makes them feasible"});
+  fields.Integer("threads", &c->threads,
+                 {.meaning = "that search and prove; the walks are the same for any number, unless "
+                             "a deadline ends the search",
+                  .min = 1,
+                  .max = 64});
   fields.Group("dichotomy", {.meaning = "options of the method `dichotomy`"},
                [&](Fields& f) { DeclareDichotomy(f, &c->dichotomy); });
   fields.Group(

@@ -41,6 +41,7 @@ struct SmoothingConfig {
   double sampling = 0.005;               ///< period of acceptance `sampled` [s]
   std::string stop_branches = "none";    ///< one of the names of StopBranches
   bool repair_plan = false;              ///< RepairPlan() before the methods
+  int threads = 1;                       ///< of searches and proofs, the caller's included
   CertificationOptions certification;    ///< of proofs, whatever `acceptance` is
   DichotomyOptions dichotomy;            ///< of the dichotomy and of the methods that begin with it
   OptimizerConfig optimizer;             ///< of the methods that are solvers

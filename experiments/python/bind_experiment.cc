@@ -94,14 +94,15 @@ py::dict Smooth(const PlacedExperiment& placed, const std::string& method, const
                 double deadline, const py::object& progress) {
   const auto setting = placed.Setting();
   const Smoother& smoother = FindSmoother(method);
-  const SmootherOptions options =
-      OptionsOf(text.empty() ? placed.config : ParseConfig(placed.path, text, {}));
+  const ExperimentConfig config = text.empty() ? placed.config : ParseConfig(placed.path, text, {});
+  const SmootherOptions options = OptionsOf(config);
   SmoothingResult result;
   CallLong(progress, [&](const LongCallHooks& hooks) {
     SmoothingMonitor monitor({.progress = [&](double done) { hooks.progress(method, done); },
                               .stop = hooks.stop,
                               .stop_proof = hooks.stop,
-                              .deadline = deadline});
+                              .deadline = deadline,
+                              .workers = WorkersOf(config)});
     result = smoother.Smooth(setting->problem, options, monitor);
   });
   return ResultOf(setting, method, std::move(result));

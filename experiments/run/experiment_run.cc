@@ -17,11 +17,12 @@ namespace halfstep {
 namespace {
 
 // The planned motion as the first row of every comparison, and what it misses.
-MethodRun PlannedRun(const WalkProblem& problem, const std::stop_token& stop,
+MethodRun PlannedRun(const WalkProblem& problem, const std::stop_token& stop, Workers* workers,
                      std::optional<MissedDemands>* missed) {
   MethodRun run("raw");
   MarginEvaluator::Scratch scratch = problem.evaluator().MakeScratch();
   scratch.stop = stop;
+  scratch.workers = workers;
   const SuperposedWalk walk(problem.sequence(), PlannedMotion(problem.sequence()));
   const Feasibility answer = problem.test().Check(walk, {0.0, walk.duration()}, &scratch);
   run.result.parameters = walk.parameters();
@@ -104,7 +105,8 @@ void ExperimentRun::Smooth(const RunHooks& hooks) {
   if (config_.smoothing.repair_plan) Repair(hooks);
   problem_ = ProblemOf(*experiment_);
   certifier_.emplace(evaluator(), config_.smoothing.certification);
-  runs_ = {PlannedRun(*problem_, hooks.stop_step, &missed_)};
+  workers_ = WorkersOf(config_);
+  runs_ = {PlannedRun(*problem_, hooks.stop_step, workers_.get(), &missed_)};
   for (const std::string& sentence : repaired_) runs_.front().result.message += "; " + sentence;
   if (hooks.keep && runs_.front().result.feasible) hooks.keep();
   for (const std::string& name : config_.smoothing.methods) {
@@ -116,7 +118,8 @@ MethodRun ExperimentRun::RunMethod(const std::string& name, const RunHooks& hook
   MethodRun run(name);
   SmoothingMonitor monitor({.progress = [&](double done) { hooks.progress(name, done); },
                             .stop = hooks.stop,
-                            .stop_proof = hooks.stop_step});
+                            .stop_proof = hooks.stop_step,
+                            .workers = workers_});
   SmootherOptions options = OptionsOf(config_);
   options.given = given_;
   run.result = FindSmoother(name).Smooth(*problem_, options, monitor);
@@ -141,7 +144,8 @@ MethodRun ExperimentRun::RunMethod(const std::string& name, const RunHooks& hook
 void ExperimentRun::Certify(const std::stop_token& stop) {
   for (MethodRun& run : runs_) {
     SampleTrajectory(evaluator(), experiment_->sequence, config_.output_period, &run);
-    run.certified = CertifyWalk(*certifier_, experiment_->sequence, run.result.parameters, stop);
+    run.certified = CertifyWalk(*certifier_, experiment_->sequence, run.result.parameters, stop,
+                                workers_.get());
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -14,6 +15,7 @@
 #include "smoothing/methods/walk_problem.h"
 #include "smoothing/proof/certified_feasibility.h"
 #include "smoothing/proof/missed_demands.h"
+#include "wpg/workers.h"
 
 namespace halfstep {
 
@@ -86,6 +88,7 @@ class ExperimentRun {
   std::optional<RunRefusal> refusal_;
   std::optional<Experiment> experiment_;
   std::optional<WalkProblem> problem_;
+  std::shared_ptr<Workers> workers_;  // null: the caller's thread only
   std::optional<CertifiedFeasibility> certifier_;
   std::vector<MethodRun> runs_;
   std::optional<MissedDemands> missed_, given_missed_;

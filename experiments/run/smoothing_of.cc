@@ -32,6 +32,11 @@ WalkProblem ProblemOf(const Experiment& experiment) {
   return {experiment.sequence, TestOf(experiment), FixedParameters(experiment.config.smoothing)};
 }
 
+std::shared_ptr<Workers> WorkersOf(const ExperimentConfig& config) {
+  if (config.smoothing.threads == 1) return nullptr;
+  return std::make_shared<Workers>(config.smoothing.threads);
+}
+
 SmootherOptions OptionsOf(const ExperimentConfig& config) {
   const OptimizerConfig& optimizer = config.smoothing.optimizer;
   SmootherOptions options{

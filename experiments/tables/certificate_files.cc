@@ -17,9 +17,11 @@ ordered_json OrNull(const std::optional<double>& value) {
 }  // namespace
 
 CertifiedWalk CertifyWalk(const CertifiedFeasibility& test, const HalfStepSequence& sequence,
-                          const HomotopyParameters& parameters, const std::stop_token& stop) {
+                          const HomotopyParameters& parameters, const std::stop_token& stop,
+                          Workers* workers) {
   const SuperposedWalk walk(sequence, parameters);
   MarginEvaluator::Scratch scratch = test.evaluator().MakeScratch();
+  scratch.workers = workers;
   CertifiedWalk certified;
   certified.duration = walk.duration();
   certified.answer = test.Certify(walk, &scratch, &certified.rows, stop);

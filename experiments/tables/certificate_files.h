@@ -10,6 +10,7 @@
 #include "experiments/tables/csv_columns.h"
 #include "experiments/tables/run_folder.h"
 #include "smoothing/proof/certified_feasibility.h"
+#include "wpg/workers.h"
 
 namespace halfstep {
 
@@ -20,9 +21,11 @@ struct CertifiedWalk {
   double duration = 0.0;  ///< [s]
 };
 
-/// Certifies the walk of `parameters` over all its time; undecided when stopped before.
+/// Certifies the walk of `parameters` over all its time; undecided when stopped before. `workers`,
+/// which may be null, share the work.
 CertifiedWalk CertifyWalk(const CertifiedFeasibility& test, const HalfStepSequence& sequence,
-                          const HomotopyParameters& parameters, const std::stop_token& stop);
+                          const HomotopyParameters& parameters, const std::stop_token& stop,
+                          Workers* workers = nullptr);
 
 /// "certified", "violated" or "undecided".
 std::string_view VerdictName(Verdict verdict);

@@ -195,9 +195,22 @@ void AddSummaryRow(const MarginEvaluator& evaluator, const std::vector<MethodRun
 }
 
 CsvFile SummaryCsv(const MarginEvaluator& evaluator, const std::vector<MethodRun>& runs) {
-  CsvWriter csv(SummaryColumns());
+  // A column only of runs that know a bound, so that the tables of others stay as they are.
+  const auto knows = std::ranges::find_if(
+      runs, [](const MethodRun& run) { return run.result.lower_bound.has_value(); });
+  CsvColumns columns = SummaryColumns();
+  if (knows != runs.end()) {
+    columns.push_back({"gap_lipm", kNumber, "1",
+                       "duration divided by the lower bound that `reference/lipm` proved, less 1; "
+                       "empty: of that method itself"});
+  }
+  CsvWriter csv(columns);
   for (size_t i = 0; i < runs.size(); ++i) {
     AddSummaryRow(evaluator, runs, i, [&csv](const CsvColumn&) -> CsvWriter& { return csv; });
+    if (knows != runs.end()) {
+      runs[i].result.lower_bound ? csv.Empty()
+                                 : csv.Cell(runs[i].duration / *knows->result.lower_bound - 1.0);
+    }
     csv.EndRow();
   }
   return csv.file();

@@ -77,11 +77,23 @@ std::vector<FootstepRow> ReadFootsteps(const std::string& path, const std::strin
 }
 
 std::vector<SummaryRow> ReadSummary(const std::string& path, const std::string& text) {
-  const CsvText csv(
-      path, text,
-      {"method", "status", "certified", "duration_s", "speedup", "cost", "worst_margin",
-       "worst_margin_name", "iterations", "instants", "collision_queries", "wall_s",
-       "time_to_first_improvement_s", "gap_to_reference"});
+  std::vector<std::string> columns = {"method",
+                                      "status",
+                                      "certified",
+                                      "duration_s",
+                                      "speedup",
+                                      "cost",
+                                      "worst_margin",
+                                      "worst_margin_name",
+                                      "iterations",
+                                      "instants",
+                                      "collision_queries",
+                                      "wall_s",
+                                      "time_to_first_improvement_s",
+                                      "gap_to_reference"};
+  const bool has_bound = text.substr(0, text.find('\n')).ends_with(",gap_lipm");
+  if (has_bound) columns.push_back("gap_lipm");
+  const CsvText csv(path, text, columns);
   std::vector<SummaryRow> rows;
   for (size_t i = 0; i < csv.size(); ++i) {
     SummaryRow row{.method = csv.Cell(i, 0),
@@ -95,6 +107,7 @@ std::vector<SummaryRow> ReadSummary(const std::string& path, const std::string& 
                    .iterations = static_cast<long>(csv.Number(i, 8)),
                    .gap_to_reference = {}};
     for (size_t column : {9, 10, 11}) (void)csv.Number(i, column);
+    if (has_bound && !csv.Cell(i, 14).empty()) (void)csv.Number(i, 14);
     if (!csv.Cell(i, 12).empty()) (void)csv.Number(i, 12);
     if (!csv.Cell(i, 13).empty()) row.gap_to_reference = csv.Number(i, 13);
     rows.push_back(std::move(row));

@@ -26,6 +26,10 @@ constexpr double kTriangleRounding = 1e-12, kLeastRounding = 1e-10;
 // Taken off slabs to a mesh's hull for rounding: of the mesh's coordinates.
 constexpr double kSlabRounding = 4e-15;
 constexpr Eigen::Index kMostOfAHull = 20'000;  // triangles of a mesh that is given its hull
+// By this much more than asked must a remembered direction separate [m]. It is more than a slab may
+// be narrower than the distance where the search for it ends, so the answer is the same as without
+// a memory. Deep overlaps are searched locally: there the memory might know better.
+constexpr double kRemembered = 1e-9;
 // Asked of a slab: whether there is any, not how wide it is or how deep the overlap.
 constexpr double kAny = std::numeric_limits<double>::min();
 
@@ -272,8 +276,8 @@ bool ClearsAlongCached(const CollisionShape& a, const Eigen::Isometry3d& X_Wa,
   HALFSTEP_CHECK(IsFinite(X_Wa) && IsFinite(X_Wb), "a pose is not finite");
   const double spheres = (X_Wa * a.center() - X_Wb * b.center()).norm() - a.radius() - b.radius();
   if (spheres >= clearance) return true;
-  if (normal_W->squaredNorm() > 0.5 &&
-      SeparationAlong(a.convex(), X_Wa, b.convex(), X_Wb, *normal_W) >= clearance) {
+  if (clearance >= 0 && normal_W->squaredNorm() > 0.5 &&
+      SeparationAlong(a.convex(), X_Wa, b.convex(), X_Wb, *normal_W) >= clearance + kRemembered) {
     return true;
   }
   const ConvexDistance slab = Slab(a, X_Wa, b, X_Wb, clearance);

@@ -72,7 +72,7 @@ Separation Separate(const CollisionShape& a, const Eigen::Isometry3d& X_Wa, cons
 
 /// Whether the bodies are at least `clearance` [m] apart, by the same lower bound as Separate.
 /// `normal_W` is the direction that separated them last (zero: none yet). It is tried first, and
-/// updated. The preconditions are those of Separate.
+/// updated; the answer does not depend on it. The preconditions are those of Separate.
 bool ClearsAlongCached(const CollisionShape& a, const Eigen::Isometry3d& X_Wa,
                        const CollisionShape& b, const Eigen::Isometry3d& X_Wb, double clearance,
                        Eigen::Vector3d* normal_W);

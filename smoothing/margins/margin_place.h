@@ -3,6 +3,7 @@
 #include <array>
 #include <stop_token>
 #include <utility>
+#include <vector>
 
 #include "planner/scene/no_step_areas.h"
 #include "planner/scene/scene.h"
@@ -10,6 +11,7 @@
 #include "smoothing/margins/body_heights.h"
 #include "wpg/geometry/footprint.h"
 #include "wpg/robot/robot_model.h"
+#include "wpg/workers.h"
 
 namespace halfstep {
 
@@ -46,6 +48,9 @@ struct MarginScratch {
   long instants = 0;                      ///< evaluated so far
   std::stop_token stop = {};              ///< ends proofs; what is not decided then stays undecided
   std::array<Standing, 2> standing = {};  ///< by Index(Side)
+  /// Threads that proofs may use beside the caller's, borrowed; null: none.
+  Workers* workers = nullptr;
+  std::vector<MarginScratch> of_others = {};  ///< of those threads, made when they are first used
 };
 
 }  // namespace halfstep

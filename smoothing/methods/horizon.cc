@@ -81,7 +81,7 @@ class HorizonSearch {
       const double begins =
           std::accumulate(at_.durations.begin(), at_.durations.begin() + window.begin, 0.0) -
           std::accumulate(at_.overlaps.begin(), at_.overlaps.begin() + window.begin, 0.0);
-      SmoothingMonitor within(monitor_.Part(0.0, 0.0));
+      SmoothingMonitor within(Part(0.0, 0.0));
       const SmoothingResult part = Dichotomy(
           window.problem,
           {.tolerance = tolerance, .start = window.parameters, .start_is_feasible = true}, within);
@@ -108,7 +108,7 @@ class HorizonSearch {
       window.Paste(part.parameters, &at_);
       cost = DurationOf(at_);
       if (Fastest() && cost < monitor_.cost()) Adopt(cost);
-      monitor_.Progress(from + (to - from) * (last + 1) / size());
+      if (!alone_) monitor_.Progress(from + (to - from) * (last + 1) / size());
     }
     if (!Fastest() && (cost = Cost(at_)) < monitor_.cost()) Adopt(cost);
   }
@@ -169,8 +169,7 @@ class HorizonSearch {
     Adopt(Cost(at_));
     end_.own = gained_;
     if (Fastest() && !monitor_.stopped()) {
-      Dichotomize(options_.tolerance, 0.8, 0.9);
-      AddPlainDichotomy();
+      FineDichotomies();
     } else {
       for (JunctionResult& junction : monitor_.result().junctions) junction.limited_by.reset();
     }
@@ -178,14 +177,44 @@ class HorizonSearch {
     end_.deadline_passed = end_.deadline_passed || (monitor_.stopped() && !end_.stopped);
   }
 
-  // A dichotomy from the planned motion; its walk counts if it is shorter.
-  void AddPlainDichotomy() {
-    SmoothingMonitor within(monitor_.Part(0.9, 1.0));
+  // One from the incumbent and one from the planned motion, at the same time where there are
+  // workers; the shorter walk counts.
+  void FineDichotomies() {
+    SmoothingResult plain;
+    alone_ = monitor_.workers() != nullptr;
+    RunWith(monitor_.workers(), 2, [&](int index, int) {
+      if (index == 0) {
+        Dichotomize(options_.tolerance, 0.8, 0.9);
+      } else {
+        plain = PlainDichotomy();
+      }
+      return true;
+    });
+    alone_ = false;
+    TakePlain(plain);
+  }
+
+  // Of the planned motion. Changes nothing here.
+  SmoothingResult PlainDichotomy() const {
+    SmoothingMonitor within(Part(0.9, 1.0));
     HorizonSearch plain(problem_, options_, within);
     plain.at_ = problem_.Start();
     within.BeginKnownFeasible(problem_, plain.at_);
     plain.Dichotomize(options_.tolerance, 0.0, 1.0);
-    const SmoothingResult found = within.Finish(opt::Ending::kConverged, "");
+    return within.Finish(opt::Ending::kConverged, "");
+  }
+
+  // What a search within this one is given. Where two run at once each has its own thread only,
+  // and the caller, who hears of progress from its own thread, hears nothing.
+  MonitorOptions Part(double from, double to) const {
+    MonitorOptions part = monitor_.Part(from, to);
+    if (!alone_) return part;
+    part.workers = nullptr;
+    part.progress = {};
+    return part;
+  }
+
+  void TakePlain(const SmoothingResult& found) {
     monitor_.Count(found);
     end_.own = end_.own && monitor_.cost() < found.cost - kBeatsDichotomy;
     if (!(found.cost < monitor_.cost())) return;
@@ -213,6 +242,7 @@ class HorizonSearch {
   std::unique_ptr<opt::Solver> solver_;
   HomotopyParameters at_;  // the incumbent
   bool gained_ = false;    // anything by windows
+  bool alone_ = false;     // another search runs at the same time
   SearchEnding end_;
 };
 

@@ -115,6 +115,7 @@ LipmBound LowerBound(const WalkProblem& problem) {
 SmoothingResult TellLipmBound(const WalkProblem& problem, SmoothingMonitor& monitor) {
   if (!monitor.BeginFeasibly(problem, problem.Start())) return monitor.Refusal();
   const LipmBound bound = LowerBound(problem);
+  monitor.result().lower_bound = bound.total();
   std::ostringstream message;
   message << "no walk of a LIPM on these footsteps is shorter than " << bound.total()
           << " s: feet in the air " << bound.feet << " s, the CoM set off and stopped "

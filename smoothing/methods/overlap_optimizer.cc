@@ -10,9 +10,11 @@
 
 #include "opt/adapters/solver_registry.h"
 #include "smoothing/methods/dichotomy.h"
+#include "smoothing/methods/fine_dichotomies.h"
 #include "smoothing/methods/incumbent.h"
 #include "smoothing/methods/overlap_prices.h"
 #include "smoothing/methods/search_ending.h"
+#include "smoothing/methods/search_rounds.h"
 
 namespace halfstep {
 namespace {
@@ -20,21 +22,9 @@ namespace {
 // Of the dichotomy before a search that is to shorten the walk anyway [s]; the larger one for
 // solvers that take long steps.
 constexpr double kNearStart = 0.1, kFarStart = 0.5;
-// Points tried towards a candidate.
-constexpr int kAttempts = 8;
-// A candidate whose rows are violated by more than this is not worth a proof, nor a place to go on
-// from.
-constexpr double kHopeless = 0.5;
 // A solver's iterates between two proofs, in rounds that are longer.
 constexpr int kPatience = 10;
-constexpr double kLookPeriod = 0.005;  // [s]: how far apart the program looks for small slacks
-// A point where less slack is seen is not worth a proof.
-constexpr double kPromising = -0.02;
-// After a round whose end was proved rows grow sharper by a factor, up to a bound; after one whose
-// end was refused they grow softer, so that more is left in reserve.
-constexpr double kSharpen = 1.5, kSoften = 0.75, kSharpest = 3000.0;
-// Where every instant has rows of its own, from the first round on.
-constexpr double kRowsSharpness = 200.0;
+// Instants a half-step where each has rows of its own.
 constexpr int kRowsInstants = 24;
 // A round that gains less, for the incumbent and for the solver, is poor (relative); so many in a
 // row end the search.
@@ -82,6 +72,7 @@ class Optimization {
     const double own = DurationOf(start_);
     const double limit = options_.duration_limit > 0.0 ? options_.duration_limit : own;
     OverlapProgram program(sequence_, test_.evaluator(), options_.program, limit, problem_.fixed());
+    program.watched().SetWorkers(monitor_.workers());
     const bool within = own <= limit + 1e-9;
     Incumbent::Rules rules =
         Safest() ? SafestRules(program, test_, within) : DemandedRules(program, &proofs_);
@@ -160,9 +151,7 @@ class Optimization {
         const double cost = near ? solution_.final_cost : solution_.cost;
         poor = Gained(before, path->cost()) || Gained(solved, cost) ? 0 : poor + 1;
         solved = std::min(solved, cost);
-        const double sharpen = promising && path->refusals().empty() ? kSharpen : kSoften;
-        program.watched().SetSharpness(
-            std::min(kSharpest, sharpen * program.watched().sharpness()));
+        Sharpen(promising && path->refusals().empty(), &program.watched());
         monitor_.Progress(0.2 + 0.7 * (static_cast<double>(s) + (round + 1.0) / options_.rounds) /
                                     static_cast<double>(starts.size()));
       }
@@ -194,16 +183,11 @@ class Optimization {
   opt::Solution Solve(const OverlapProgram& program, const Eigen::VectorXd& x, double deadline,
                       Incumbent* path) {
     const opt::Problem problem = program.MakeProblem();
-    opt::SolverOptions solver_options;
-    solver_options.max_iterations = options_.max_iterations;
+    opt::SolverOptions solver_options =
+        RoundOptions(solver_.traits(), options_.program.kind, options_.max_iterations);
     solver_options.deadline = deadline;
     solver_options.stop = monitor_.stop();
-    solver_options.optimality_tolerance = 1e-4;
     solver_options.warm_start = solution_.warm_start;
-    // Rows are nearly linear, and so is every cost but the effort.
-    if (options_.program.kind != ProgramKind::kSmooth) {
-      solver_options.solver_options = solver_.traits().nearly_linear;
-    }
     solver_options.on_iterate = [&](const opt::Iterate& iterate) {
       const HomotopyParameters candidate = program.ToParameters(iterate.x);
       const bool wait = options_.max_iterations < kPatience || ++since_proof_ < kPatience;
@@ -252,10 +236,13 @@ class Optimization {
       if (!Fastest() || monitor_.stopped()) junction.limited_by.reset();
     }
     if (Fastest() && !monitor_.stopped()) {
-      AddDichotomy(monitor_.incumbent());
-      if (!options_.start) {
-        const double plain = AddDichotomy(problem_.Start());
-        end_.own = end_.own && monitor_.cost() < plain - kGainedTime;
+      const FineDichotomies fine =
+          RunFineDichotomies(problem_, options_.tolerance, !options_.start, monitor_);
+      TakeDichotomy(fine.from_incumbent, /*from_incumbent=*/true, monitor_);
+      if (fine.from_start) {
+        const bool same = monitor_.incumbent() == problem_.Start();
+        TakeDichotomy(*fine.from_start, same, monitor_);
+        end_.own = end_.own && monitor_.cost() < fine.from_start->cost - kGainedTime;
       }
     }
     if (!Safest()) AddMultipliers(program, monitor_.incumbent(), &monitor_.result().junctions);
@@ -273,29 +260,11 @@ class Optimization {
     end_.deadline_passed = end_.deadline_passed || (monitor_.stopped() && !end_.stopped);
   }
 
-  // A dichotomy's pass over all junctions, which counts if it ends with a shorter walk. Its
-  // duration [s].
-  double AddDichotomy(const HomotopyParameters& start) {
-    const SmoothingResult added =
-        RunDichotomy({.tolerance = options_.tolerance, .start = start}, 0.9, 1.0);
-    const bool first = monitor_.incumbent() == start;
-    if (!first && !(added.cost < monitor_.cost())) return added.cost;
-    const double before = monitor_.cost();
-    for (SmoothingIterate iterate : added.iterates) {
-      if (iterate.incumbent_duration > before) continue;
-      iterate.wall += monitor_.Seconds() - added.wall;
-      iterate.instants += monitor_.instants() - added.instants;
-      monitor_.result().iterates.push_back(iterate);
-    }
-    monitor_.Adopt(added.parameters, added.cost, added.cost);
-    monitor_.result().junctions = added.junctions;
-    return added.cost;
-  }
-
   bool HoldsWhole(const HomotopyParameters& parameters) {
     const SuperposedWalk walk(sequence_, parameters);
     MarginEvaluator::Scratch scratch = test_.evaluator().MakeScratch();
     scratch.stop = monitor_.scratch()->stop;
+    scratch.workers = monitor_.workers();
     return test_.Check(walk, {0.0, walk.duration()}, &scratch).verdict == Verdict::kFeasible;
   }
 
@@ -321,14 +290,8 @@ SmoothingResult OptimizeOverlaps(const WalkProblem& problem, const OptimizerOpti
   const std::unique_ptr<opt::Solver> solver = opt::MakeSolver(options.solver);
   const opt::SolverTraits traits = solver->traits();
   OptimizerOptions own = options;
-  WatchOptions& watch = own.program.watch;
-  watch.stop_branches = problem.test().stop_branches();
-  watch.row_per_instant = traits.many_rows;
-  if (traits.many_rows) {
-    watch.sharpness = std::max(watch.sharpness, kRowsSharpness);
-    watch.instants = kRowsInstants;
-  }
-  if (own.instants > 0) watch.instants = own.instants;
+  own.program.watch = RowsFor(traits, problem.test(), kRowsInstants, own.program.watch);
+  if (own.instants > 0) own.program.watch.instants = own.instants;
   if (own.max_iterations == 0) own.max_iterations = traits.iterations;
   return Optimization(problem, own, *solver, monitor).Run();
 }

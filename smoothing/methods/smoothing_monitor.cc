@@ -7,8 +7,10 @@ namespace halfstep {
 using opt::Ending;
 
 MonitorOptions SmoothingMonitor::Part(double from, double to) const {
-  MonitorOptions part{
-      .stop = options_.stop, .stop_proof = options_.stop_proof, .deadline = Remaining()};
+  MonitorOptions part{.stop = options_.stop,
+                      .stop_proof = options_.stop_proof,
+                      .deadline = Remaining(),
+                      .workers = options_.workers};
   if (options_.progress) {
     part.progress = [this, from, to](double done) { Progress(from + (to - from) * done); };
   }
@@ -21,6 +23,7 @@ void SmoothingMonitor::Begin(const WalkProblem& problem, const HomotopyParameter
   refusal_.clear();
   scratch_ = problem.evaluator().MakeScratch();
   scratch_->stop = options_.stop_proof;
+  scratch_->workers = workers();
   result_.evidence = problem.test().evidence();
   for (int i = 0; i < problem.sequence().num_junctions(); ++i) {
     result_.junctions.push_back({.kind = KindOfJunction(i)});

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -10,6 +11,7 @@
 #include "smoothing/methods/smoothing_result.h"
 #include "smoothing/methods/stopwatch.h"
 #include "smoothing/methods/walk_problem.h"
+#include "wpg/workers.h"
 
 namespace halfstep {
 
@@ -21,7 +23,10 @@ struct MonitorOptions {
   /// Ends the search, too [s]: counted from when the monitor is made. A proof that is under way
   /// then is finished.
   double deadline = std::numeric_limits<double>::infinity();
-  /// Called with every new incumbent.
+  /// Threads that may be used beside the caller's, by one search at a time; null: none. What a
+  /// search finds does not depend on them unless a deadline ends it.
+  std::shared_ptr<Workers> workers = {};
+  /// Called with every new incumbent, by the caller's thread or, while that waits, by a worker.
   std::function<void(const HomotopyParameters&)> on_incumbent = {};
 };
 
@@ -55,6 +60,7 @@ class SmoothingMonitor {
   bool stopped() const { return interrupted() || Remaining() <= 0.0; }
   bool interrupted() const { return options_.stop.stop_requested(); }  ///< the caller asked for it
   std::stop_token stop() const { return options_.stop; }               ///< of the caller
+  Workers* workers() const { return options_.workers.get(); }  ///< of the caller; null: none
   /// How a search ends that stopped() ended, and the words for it.
   opt::Ending StopEnding() const {
     return interrupted() ? opt::Ending::kInterrupted : opt::Ending::kDeadline;

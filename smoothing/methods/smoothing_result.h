@@ -66,6 +66,8 @@ struct SmoothingResult {
   /// Cost by the program [s]; for `safest` minus the proved least slack, +inf when no walk within
   /// its duration was proved.
   double cost = 0.0;
+  /// Proved: no walk of the problem is shorter [s]. Only `reference/lipm` tells it.
+  std::optional<double> lower_bound;
   std::vector<JunctionResult> junctions;   ///< one for each junction, in their order
   std::vector<SmoothingIterate> iterates;  ///< in the order of time; not all methods have any
   std::vector<ParetoPoint> pareto;         ///< by duration; empty but for ParetoCurve

@@ -5,17 +5,12 @@
 #include <limits>
 
 #include "smoothing/methods/incumbent.h"
+#include "smoothing/methods/search_rounds.h"
 
 namespace halfstep {
 namespace {
 
-// As in overlap_optimizer.cc, where these are explained.
-constexpr int kTries = 8;
-constexpr double kUseless = 0.5;
-constexpr double kSampledEvery = 0.005;  // [s]
-constexpr double kWorthAProof = -0.02;
-constexpr double kSharper = 1.5, kSofter = 0.75, kMostSharp = 3000.0;
-constexpr double kFirstSharpness = 200.0;
+// Fewer than in a search over the whole walk, which has to last longer.
 constexpr int kInstantsOfRows = 16;
 // A round that gains less, of the window's cost, is poor.
 constexpr double kLeastGain = 1e-3;
@@ -25,12 +20,7 @@ ProgramOptions OfWindow(const WalkWindow& window, const ProgramOptions& options,
                         const opt::SolverTraits& traits) {
   ProgramOptions own = options;
   own.watch.range = {window.proved_first, window.proved_last};
-  own.watch.stop_branches = window.problem.test().stop_branches();
-  own.watch.row_per_instant = traits.many_rows;
-  if (traits.many_rows) {
-    own.watch.sharpness = std::max(own.watch.sharpness, kFirstSharpness);
-    own.watch.instants = kInstantsOfRows;
-  }
+  own.watch = RowsFor(traits, window.problem.test(), kInstantsOfRows, own.watch);
   return own;
 }
 
@@ -45,6 +35,7 @@ void SearchWindow(const WalkWindow& window, const WindowSearchOptions& options,
   OverlapProgram program(sequence, part.evaluator(), OfWindow(window, options.program, traits), 0.0,
                          part.fixed());
   if (program.variables().size() == 0) return;
+  program.watched().SetWorkers(monitor.workers());
   StretchProofs proofs(part.test(), sequence.size(), {window.proved_first, window.proved_last});
   proofs.Remember(SuperposedWalk(sequence, window.parameters));
   const double begun = program.Cost(window.parameters);
@@ -58,28 +49,25 @@ void SearchWindow(const WalkWindow& window, const WindowSearchOptions& options,
     const double remaining = std::min(deadline - monitor.Seconds(), monitor.Remaining());
     if (remaining <= 0.0 || monitor.stopped()) return;
     const opt::Problem problem = program.MakeProblem();
-    opt::SolverOptions solver_options;
-    solver_options.max_iterations = options.iterations > 0 ? options.iterations : traits.iterations;
+    opt::SolverOptions solver_options =
+        RoundOptions(traits, options.program.kind,
+                     options.iterations > 0 ? options.iterations : traits.iterations);
     solver_options.deadline = remaining;
     solver_options.stop = monitor.stop();
-    solver_options.optimality_tolerance = 1e-4;
     solver_options.warm_start = solution.warm_start;
-    if (options.program.kind != ProgramKind::kSmooth) {
-      solver_options.solver_options = traits.nearly_linear;
-    }
     solution = solver.Solve(problem, x, solver_options);
     ending->Note(solution);
     if (solution.x.size() != x.size()) return;
-    const bool near = solution.final_x.size() == x.size() && solution.final_violation < kUseless;
+    const bool near = solution.final_x.size() == x.size() && solution.final_violation < kHopeless;
     x = near ? solution.final_x : solution.x;
     const double violation = near ? solution.final_violation : solution.max_violation;
     const double before = path.cost();
     const HomotopyParameters end = program.ToParameters(x);
     const SuperposedWalk walk(sequence, end);
-    const bool promising = program.watched().Focus(walk, kSampledEvery, 0.0) >= kWorthAProof;
+    const bool promising = program.watched().Focus(walk, kLookPeriod, 0.0) >= kPromising;
     const bool last = round + 1 == options.rounds || poor + 1 == kMostPoor;
-    const bool tried = violation <= kUseless && (promising || last);
-    const double lambda = tried ? path.Toward(end, kTries) : 0.0;
+    const bool tried = violation <= kHopeless && (promising || last);
+    const double lambda = tried ? path.Toward(end, kAttempts) : 0.0;
     const bool refused = !promising || !tried || !path.refusals().empty();
     if (refused) ++monitor.result().raw_infeasible;
     if (tried) {
@@ -99,8 +87,7 @@ void SearchWindow(const WalkWindow& window, const WindowSearchOptions& options,
     const bool good = before - path.cost() >= least || !(solved - cost < least);
     poor = good ? 0 : poor + 1;
     solved = std::min(solved, cost);
-    program.watched().SetSharpness(
-        std::min(kMostSharp, (refused ? kSofter : kSharper) * program.watched().sharpness()));
+    Sharpen(!refused, &program.watched());
   }
 }
 

@@ -6,23 +6,29 @@
 namespace halfstep {
 
 std::vector<LeastSlacks> SampledSlacks(const SuperposedWalk& walk, const MarginEvaluator& evaluator,
-                                       const StretchRange& range, double begin, double period,
-                                       double cutoff) {
-  SlackEvaluator slacks(evaluator, cutoff);
-  InstantSlacks instant;
-  const int n = static_cast<int>(std::ceil((walk.duration() - begin) / period));
+                                       const StretchRange& range, const SampleOptions& options,
+                                       Workers* workers) {
+  constexpr int kAtOnce = 8;  // samples that a thread takes
+  const int n = static_cast<int>(std::ceil((walk.duration() - options.begin) / options.period));
   std::vector<LeastSlacks> samples(static_cast<size_t>(n) + 1);
-  for (int i = 0; i <= n; ++i) {
-    LeastSlacks& sample = samples[static_cast<size_t>(i)];
-    sample.fill(cutoff);
-    const LocalTime at = walk.Locate(std::min(begin + i * period, walk.duration()));
-    if (!range.contains(at.half_step)) continue;
-    slacks.At(walk, at, {}, false, &instant);
-    for (const SlackRow& row : instant.rows) {
-      double& least = sample[static_cast<size_t>(row.family)];
-      least = std::min(least, row.slack);
+  std::vector<SlackEvaluator> slacks(static_cast<size_t>(NumThreads(workers)),
+                                     SlackEvaluator(evaluator, options.cutoff));
+  RunWith(workers, n / kAtOnce + 1, [&](int part, int thread) {
+    InstantSlacks instant;
+    for (int i = part * kAtOnce; i <= std::min(n, part * kAtOnce + kAtOnce - 1); ++i) {
+      LeastSlacks& sample = samples[static_cast<size_t>(i)];
+      sample.fill(options.cutoff);
+      const double t = std::min(options.begin + i * options.period, walk.duration());
+      const LocalTime at = walk.Locate(t);
+      if (!range.contains(at.half_step)) continue;
+      slacks[static_cast<size_t>(thread)].At(walk, at, {}, false, &instant);
+      for (const SlackRow& row : instant.rows) {
+        double& least = sample[static_cast<size_t>(row.family)];
+        least = std::min(least, row.slack);
+      }
     }
-  }
+    return true;
+  });
   return samples;
 }
 

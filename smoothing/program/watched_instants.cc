@@ -182,8 +182,9 @@ double WatchedInstants::FocusOn(const SuperposedWalk& walk, std::optional<int> b
   const double far = level + kFar;
   const double begin = branch ? walk.start_of(*branch + 1) : 0.0;
   const double end = branch ? walk.end_of(*branch) : walk.duration();
-  const std::vector<LeastSlacks> samples = SampledSlacks(
-      branch ? walk.StopBranch(*branch) : walk, evaluator_, options_.range, begin, period, far);
+  const std::vector<LeastSlacks> samples =
+      SampledSlacks(branch ? walk.StopBranch(*branch) : walk, evaluator_, options_.range,
+                    {.begin = begin, .period = period, .cutoff = far}, workers_);
   const int last = static_cast<int>(samples.size()) - 1;
   const auto lowest = [&samples](int i) {
     return std::ranges::min(samples[static_cast<size_t>(i)]);
@@ -276,35 +277,54 @@ void WatchedInstants::EvaluateHalfStep(const SuperposedWalk& walk, const Eigen::
 void WatchedInstants::Evaluate(const Eigen::VectorXd& x, Eigen::VectorXd* values,
                                std::vector<double>* nonzeros) const {
   const SuperposedWalk walk(variables_.sequence(), variables_.ToParameters(x));
-  SlackEvaluator slacks(
-      evaluator_, options_.cutoff + 20.0 / options_.sharpness,
+  std::vector<SlackEvaluator> slacks = Evaluators(
+      options_.cutoff + 20.0 / options_.sharpness,
       [this](const HomotopyParameter& parameter) { return variables_.IndexOf(parameter) >= 0; });
   values->resize(rows());
   if (nonzeros) nonzeros->resize(num_nonzeros());
-  size_t first = 0;
-  for (int k = 0; k < walk.num_half_steps(); ++k) {
-    EvaluateHalfStep(walk, x, k, &slacks, values, nonzeros ? nonzeros->data() + first : nullptr);
-    first += band(k).size() * static_cast<size_t>(first_rows_[static_cast<size_t>(k) + 1] -
-                                                  first_rows_[static_cast<size_t>(k)]);
+  std::vector<size_t> first = {0};  // entry of each half-step
+  for (size_t k = 0; k < bands_.size(); ++k) {
+    first.push_back(first.back() +
+                    bands_[k].size() * static_cast<size_t>(first_rows_[k + 1] - first_rows_[k]));
   }
+  RunWith(workers_, walk.num_half_steps(), [&](int k, int thread) {
+    EvaluateHalfStep(walk, x, k, &slacks[static_cast<size_t>(thread)], values,
+                     nonzeros ? nonzeros->data() + first[static_cast<size_t>(k)] : nullptr);
+    return true;
+  });
+}
+
+std::vector<SlackEvaluator> WatchedInstants::Evaluators(
+    double cutoff, const SlackEvaluator::Wanted& wanted) const {
+  return std::vector<SlackEvaluator>(static_cast<size_t>(NumThreads(workers_)),
+                                     SlackEvaluator(evaluator_, cutoff, wanted));
 }
 
 double WatchedInstants::LeastSlack(const HomotopyParameters& parameters,
                                    const std::array<bool, kNumMarginFamilies>& of) const {
   const SuperposedWalk walk(variables_.sequence(), parameters);
-  SlackEvaluator slacks(evaluator_, options_.cutoff);
+  std::vector<SlackEvaluator> slacks = Evaluators(options_.cutoff, nullptr);
+  std::vector<double> least(bands_.size(), options_.cutoff);
+  RunWith(workers_, walk.num_half_steps(), [&](int k, int thread) {
+    least[static_cast<size_t>(k)] = LeastSlackOf(walk, k, of, &slacks[static_cast<size_t>(thread)]);
+    return true;
+  });
+  return std::ranges::min(least);
+}
+
+double WatchedInstants::LeastSlackOf(const SuperposedWalk& walk, int k,
+                                     const std::array<bool, kNumMarginFamilies>& of,
+                                     SlackEvaluator* slacks) const {
   double least = options_.cutoff;
   InstantSlacks instant;
   std::vector<std::pair<HomotopyParameter, double>> moving;
-  for (int k = 0; k < walk.num_half_steps(); ++k) {
-    std::optional<SuperposedWalk> branch;
-    if (WatchesBranch(k)) branch = walk.StopBranch(k);
-    for (const Instant& where : instants_[static_cast<size_t>(k)]) {
-      const bool of_branch = where.of == Instant::Of::kBranch;
-      slacks.At(of_branch ? *branch : walk, At(walk, k, where, &moving), moving, false, &instant);
-      for (const SlackRow& row : instant.rows) {
-        if (of[static_cast<size_t>(row.family)]) least = std::min(least, row.slack);
-      }
+  std::optional<SuperposedWalk> branch;
+  if (WatchesBranch(k)) branch = walk.StopBranch(k);
+  for (const Instant& where : instants_[static_cast<size_t>(k)]) {
+    const bool of_branch = where.of == Instant::Of::kBranch;
+    slacks->At(of_branch ? *branch : walk, At(walk, k, where, &moving), moving, false, &instant);
+    for (const SlackRow& row : instant.rows) {
+      if (of[static_cast<size_t>(row.family)]) least = std::min(least, row.slack);
     }
   }
   return least;

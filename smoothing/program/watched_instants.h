@@ -9,6 +9,7 @@
 #include "smoothing/program/overlap_variables.h"
 #include "smoothing/walk/stop_branches.h"
 #include "smoothing/walk/stretch_range.h"
+#include "wpg/workers.h"
 
 namespace halfstep {
 
@@ -59,6 +60,10 @@ class WatchedInstants {
   /// Larger: nearer to the least slack, and less smooth.
   void SetSharpness(double sharpness) { options_.sharpness = sharpness; }
 
+  /// Half-steps and samples are shared out among `workers` (borrowed; null: none) from now on. What
+  /// is found is the same, to the bit.
+  void SetWorkers(Workers* workers) { workers_ = workers; }
+
   /// Adds an instant at which a slack turned out to be small, in the walk or in the stop branch
   /// after its half-step. Returns false when it, or one very near, is watched already.
   bool Learn(const SuperposedWalk& walk, const LocalTime& at, bool of_branch = false);
@@ -100,12 +105,17 @@ class WatchedInstants {
   double FocusOn(const SuperposedWalk& walk, std::optional<int> branch, double period,
                  double level);
   void CountRows();
+  // One for each thread that SetWorkers allows.
+  std::vector<SlackEvaluator> Evaluators(double cutoff, const SlackEvaluator::Wanted& wanted) const;
+  double LeastSlackOf(const SuperposedWalk& walk, int half_step,
+                      const std::array<bool, kNumMarginFamilies>& of, SlackEvaluator* slacks) const;
   void EvaluateHalfStep(const SuperposedWalk& walk, const Eigen::VectorXd& x, int half_step,
                         SlackEvaluator* slacks, Eigen::VectorXd* values, double* nonzeros) const;
 
   const OverlapVariables& variables_;
   const MarginEvaluator& evaluator_;
   WatchOptions options_;
+  Workers* workers_ = nullptr;
   std::vector<std::vector<int>> bands_;
   std::vector<std::vector<Instant>> instants_;  // by half-step
   std::vector<int> first_rows_;                 // of each half-step, and the number of all

@@ -2,28 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <sstream>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 #include "wpg/check.h"
+#include "wpg/workers.h"
 
 namespace halfstep {
 namespace {
 
-struct Open {
-  double begin;
-  double end;
-  OpenGroups groups;
-};
-
 // The statement an open interval is undecided for, to name it.
-Margin OpenStatement(const Open& open, const MarginEvaluator& evaluator,
+Margin OpenStatement(const OpenGroup& group, double t, const MarginEvaluator& evaluator,
                      const SuperposedWalk& walk) {
-  const OpenGroup& group = open.groups.front();
   Margin margin = evaluator.statements(group.family).OfGroup(group.group);
-  margin.t = 0.5 * (open.begin + open.end);
+  margin.t = t;
   margin.at = walk.Locate(margin.t);
   return margin;
 }
@@ -69,6 +63,21 @@ TimeWindow ExtendedToKnots(const SuperposedWalk& walk, const TimeWindow& window)
   return extended;
 }
 
+// An interval with what is not yet proved of it.
+struct CertifiedFeasibility::Open {
+  double begin;
+  double end;
+  OpenGroups groups;
+};
+
+// What a proof of an open interval found.
+struct CertifiedFeasibility::Settled {
+  bool stopped = false;  // before it began
+  std::optional<Margin> violated;
+  Certificate rows;
+  long instants = 0, queries = 0;
+};
+
 CertifiedFeasibility::CertifiedFeasibility(MarginEvaluator evaluator,
                                            const CertificationOptions& options,
                                            CertificationScope scope)
@@ -97,7 +106,7 @@ Feasibility CertifiedFeasibility::Decide(const SuperposedWalk& walk, const TimeW
   const TimeWindow window{std::max(asked.begin, scope_.since), std::min(asked.end, scope_.until)};
   if (window.end < window.begin) return {Verdict::kFeasible, Evidence::kCertified, {}};
   // Coarse intervals of the whole window first: a violation that lasts is met early.
-  std::deque<Open> open;
+  std::vector<Open> open;
   std::vector<double> knots = KnotsInside(walk, window);
   knots.push_back(window.end);
   double begin = window.begin;
@@ -111,24 +120,65 @@ Feasibility CertifiedFeasibility::Decide(const SuperposedWalk& walk, const TimeW
     begin = end;
   }
   while (!open.empty()) {
-    if (stop.stop_requested()) {
-      return {Verdict::kUndecided, Evidence::kCertified,
-              OpenStatement(open.front(), evaluator_, walk), /*stopped=*/true};
+    std::vector<Settled> settled(open.size());
+    const int met = ProveOpen(walk, stop, &open, scratch, certificate != nullptr, &settled);
+    for (size_t i = 0; i <= static_cast<size_t>(met) && i < open.size(); ++i) {
+      scratch->instants += settled[i].instants;
+      scratch->bodies.queries += settled[i].queries;
+      if (certificate == nullptr) continue;
+      certificate->insert(certificate->end(), settled[i].rows.begin(), settled[i].rows.end());
     }
-    Open now = std::move(open.front());
-    open.pop_front();
-    const auto violated =
-        statements_.Prove(walk, now.begin, now.end, &now.groups, scratch, certificate);
-    if (violated) return {Verdict::kViolated, Evidence::kCertified, *violated};
-    if (now.groups.empty()) continue;
-    if (now.end - now.begin < options_.resolution) {
-      return {Verdict::kUndecided, Evidence::kCertified, OpenStatement(now, evaluator_, walk)};
+    if (met < static_cast<int>(open.size())) {
+      const size_t i = static_cast<size_t>(met);
+      if (settled[i].violated) {
+        return {Verdict::kViolated, Evidence::kCertified, *settled[i].violated};
+      }
+      const Margin undecided = OpenStatement(open[i].groups.front(),
+                                             0.5 * (open[i].begin + open[i].end), evaluator_, walk);
+      return {Verdict::kUndecided, Evidence::kCertified, undecided, settled[i].stopped};
     }
-    const double middle = 0.5 * (now.begin + now.end);
-    open.push_back({now.begin, middle, now.groups});
-    open.push_back({middle, now.end, std::move(now.groups)});
+    std::vector<Open> halves;
+    for (Open& now : open) {
+      if (now.groups.empty()) continue;
+      const double middle = 0.5 * (now.begin + now.end);
+      halves.push_back({now.begin, middle, now.groups});
+      halves.push_back({middle, now.end, std::move(now.groups)});
+    }
+    open = std::move(halves);
   }
   return {Verdict::kFeasible, Evidence::kCertified, {}};
+}
+
+int CertifiedFeasibility::ProveOpen(const SuperposedWalk& walk, const std::stop_token& stop,
+                                    std::vector<Open>* open, MarginEvaluator::Scratch* scratch,
+                                    bool with_rows, std::vector<Settled>* settled) const {
+  const size_t others = static_cast<size_t>(NumThreads(scratch->workers) - 1);
+  while (scratch->of_others.size() < others) {
+    scratch->of_others.push_back(evaluator_.MakeScratch());
+  }
+  const long instants = scratch->instants, queries = scratch->bodies.queries;
+  const int met =
+      RunWith(scratch->workers, static_cast<int>(open->size()), [&](int index, int thread) {
+        Open& now = (*open)[static_cast<size_t>(index)];
+        Settled& found = (*settled)[static_cast<size_t>(index)];
+        if (stop.stop_requested()) {
+          found.stopped = true;
+          return false;
+        }
+        MarginEvaluator::Scratch& own =
+            thread == 0 ? *scratch : scratch->of_others[static_cast<size_t>(thread) - 1];
+        const long instants_before = own.instants, queries_before = own.bodies.queries;
+        found.violated = statements_.Prove(walk, now.begin, now.end, &now.groups, &own,
+                                           with_rows ? &found.rows : nullptr);
+        found.instants = own.instants - instants_before;
+        found.queries = own.bodies.queries - queries_before;
+        return !found.violated &&
+               (now.groups.empty() || now.end - now.begin >= options_.resolution);
+      });
+  // What was done beyond that interval depends on the threads.
+  scratch->instants = instants;
+  scratch->bodies.queries = queries;
+  return met;
 }
 
 Feasibility CertifiedFeasibility::Check(const SuperposedWalk& walk, const TimeWindow& window,

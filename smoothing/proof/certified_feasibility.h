@@ -26,7 +26,8 @@ struct CertificationScope {
 /// Decides for every instant of a window whether the demanded margins are kept. An interval is
 /// settled by its midpoint and a bound on the motion around it, else bisected; what is still open
 /// at the resolution is undecided. Feasible is a proof; violated has a witness; a walk that keeps
-/// every margin with a little to spare is never undecided at a fine enough resolution.
+/// every margin with a little to spare is never undecided at a fine enough resolution. Intervals
+/// are shared out among the scratch's workers; answer, rows and counts do not depend on how many.
 /// Source: [Schwarzer2005]; bounds: smoothing/README.md, "Certificates".
 class CertifiedFeasibility : public FeasibilityTest {
  public:
@@ -58,9 +59,18 @@ class CertifiedFeasibility : public FeasibilityTest {
   int CountOf(MarginFamily family) const { return evaluator_.statements(family).count(); }
 
  private:
+  struct Open;
+  struct Settled;
+
   Feasibility Decide(const SuperposedWalk& walk, const TimeWindow& window,
                      MarginEvaluator::Scratch* scratch, Certificate* certificate,
                      const std::stop_token& stop) const;
+
+  // Proves what it can of all `open` intervals, which keep what is still open. The first one that
+  // is violated, or undecided at the resolution, or met when told to stop; their number: none.
+  int ProveOpen(const SuperposedWalk& walk, const std::stop_token& stop, std::vector<Open>* open,
+                MarginEvaluator::Scratch* scratch, bool with_rows,
+                std::vector<Settled>* settled) const;
 
   MarginEvaluator evaluator_;
   CertificationOptions options_;

@@ -6,6 +6,7 @@
 //      overlap_study reach METHOD[:ITERATIONS] DEADLINE SCENE…   (a config, bars:N or FILE.yaml:N)
 //      overlap_study solve SCENE METHOD VARIABLES KIND [DEADLINE]
 //      overlap_study rows CONFIG
+//      overlap_study threads METHOD THREADS SCENE…   (no deadline; the same again with one thread)
 
 #include <algorithm>
 #include <chrono>
@@ -33,6 +34,13 @@ double Now() {
 
 Experiment Load(const std::string& name) {
   return Prepare(LoadConfig(HALFSTEP_SOURCE_DIR "/experiments/configs/" + name + ".yaml", {}));
+}
+
+// Processor time of the calling thread [s].
+double OwnProcessor() {
+  std::timespec t;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
 // The four steps of bar_8cm again and again, n half-steps, each time 0.454 m further, over a bar of
@@ -292,6 +300,47 @@ void Rows(const std::string& config) {
   }
 }
 
+// What a method takes with one thread and with more, by the clock and by the processor time of the
+// calling thread, which tells more where others use the machine; and whether it finds the same.
+void Threads(const std::string& what, const std::string& method, int threads) {
+  const Experiment e = LoadScene(what);
+  const MarginEvaluator evaluator(e.robot, e.scene, e.config.smoothing.limits);
+  const CertifiedFeasibility test(evaluator, {});
+  SmootherOptions options;
+  options.optimizer.program.parameters.heights = true;
+  options.optimizer.program.parameters.durations = true;
+  options.optimizer.rounds = 12;
+  options.optimizer.deadline = options.horizon.deadline = 1e4;
+  options.horizon.program = options.optimizer.program;
+  std::vector<SmoothingResult> results;
+  std::vector<double> proofs, own;
+  for (const int n : {1, threads}) {
+    const auto workers = std::make_shared<Workers>(n);
+    SmoothingMonitor monitor({.workers = workers});
+    const double started = OwnProcessor();
+    results.push_back(FindSmoother(method).Smooth(ProblemOf(e.sequence, test), options, monitor));
+    own.push_back(OwnProcessor() - started);
+    const SuperposedWalk walk(e.sequence, results.back().parameters);
+    MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
+    scratch.workers = workers.get();
+    const double begin = Now();
+    test.Check(walk, {0.0, walk.duration()}, &scratch);
+    proofs.push_back(Now() - begin);
+  }
+  const bool same = results[0].parameters == results[1].parameters &&
+                    results[0].instants == results[1].instants &&
+                    results[0].iterates.size() == results[1].iterates.size() &&
+                    results[0].collision_queries == results[1].collision_queries;
+  std::printf("%-10s %-16s n %4d  D %.6f, %s;", what.c_str(), method.c_str(), e.sequence.size(),
+              DurationOf(results[0].parameters), same ? "the same" : "NOT the same");
+  std::printf(" 1 and %d threads: clock %.2f, %.2f s: %.2f; own %.2f, %.2f s: %.2f;", threads,
+              results[0].wall, results[1].wall, results[0].wall / results[1].wall, own[0], own[1],
+              own[0] / own[1]);
+  std::printf(" proof of the end %.1f, %.1f ms: %.2f\n", 1e3 * proofs[0], 1e3 * proofs[1],
+              proofs[0] / proofs[1]);
+  std::fflush(stdout);
+}
+
 }  // namespace
 }  // namespace halfstep
 
@@ -310,6 +359,8 @@ int main(int argc, char** argv) {
     for (int i = 3; i < argc; ++i) halfstep::Grow(argv[2], std::atoi(argv[i]));
   } else if (part == "reach") {
     for (int i = 4; i < argc; ++i) halfstep::Reach(argv[i], argv[2], std::atof(argv[3]));
+  } else if (part == "threads") {
+    for (int i = 4; i < argc; ++i) halfstep::Threads(argv[i], argv[2], std::atoi(argv[3]));
   } else if (part == "rows") {
     halfstep::Rows(arg(2, "bar_8cm"));
   } else {

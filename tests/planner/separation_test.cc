@@ -372,6 +372,29 @@ TEST(Separation, PosesThatAreNotFiniteThrow) {
                std::logic_error);
 }
 
+TEST(Separation, WhatIsRememberedDoesNotChangeTheAnswer) {
+  Draw draw(171);
+  int remembered = 0;
+  for (int i = 0; i < Draws(200); ++i) {
+    const CollisionShape a(draw.Any()),
+        b(i % 8 ? CollisionShape(draw.Any()) : CollisionShape(LShape()));
+    const Isometry3d X_Wa = draw.Pose(0.6), X_Wb = draw.Pose(0.2);
+    const double distance = Distance(a, X_Wa, b, X_Wb);
+    if (distance <= 0) continue;
+    // Near the distance, where rounding decides.
+    for (const double off :
+         {-1e-6, -2e-9, -1e-9, -3e-10, -1e-10, -1e-12, 0.0, 1e-12, 1e-10, 2e-9}) {
+      Vector3d nothing = Vector3d::Zero(), best = Vector3d::Zero();
+      ClearsAlongCached(a, X_Wa, b, X_Wb, 10.0, &best);  // too much: the widest slab
+      remembered += best.norm() > 0;
+      EXPECT_EQ(ClearsAlongCached(a, X_Wa, b, X_Wb, distance + off, &best),
+                ClearsAlongCached(a, X_Wa, b, X_Wb, distance + off, &nothing))
+          << off;
+    }
+  }
+  EXPECT_GT(remembered, Draws(500));
+}
+
 TEST(Separation, CachedDirectionGivesTheVerdictOfSeparate) {
   Draw draw(17);
   for (int i = 0; i < 40; ++i) {

@@ -7,9 +7,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <string>
 #include <utility>
+#include <vector>
 
+#include "experiments/tables/result_tables.h"
 #include "smoothing/methods/dichotomy.h"
 #include "smoothing/proof/certified_feasibility.h"
 #include "tests/scenarios/load_experiment.h"
@@ -53,6 +56,36 @@ TEST(LipmBound, AMethodThatFindsNoWalkSaysIt) {
   strict.demanded_of(MarginFamily::kZmp) = 0.4;  // more than a sole has
   SmoothingMonitor other;
   EXPECT_EQ(TellLipmBound(ProblemOf(e, strict), other).ending, opt::Ending::kNotRun);
+}
+
+// The header and the last cell of each row of summary.csv.
+std::vector<std::string> LastColumn(const std::string& table) {
+  std::vector<std::string> cells;
+  std::istringstream lines(table);
+  for (std::string line; std::getline(lines, line);)
+    cells.push_back(line.substr(line.rfind(',') + 1));
+  return cells;
+}
+
+TEST(LipmBound, SummariesTellTheGapOfOtherMethodsWhereItIsKnown) {
+  const Experiment e = LoadExperiment("fig3_two_half_steps");
+  const WalkProblem problem = ProblemOf(e, e.config.smoothing.limits);
+  std::vector<MethodRun> runs;
+  for (const char* name : {"raw", "dichotomy", "reference/lipm"}) runs.emplace_back(name);
+  runs[0].result.parameters = PlannedMotion(e.sequence);
+  runs[1].result = Smoothed(Dichotomy, problem, {.tolerance = 0.05});
+  SmoothingMonitor monitor;
+  runs[2].result = TellLipmBound(problem, monitor);
+  for (MethodRun& run : runs) SampleTrajectory(problem.evaluator(), e.sequence, 0.1, &run);
+  const std::vector<std::string> gaps = LastColumn(SummaryCsv(problem.evaluator(), runs).text);
+  ASSERT_EQ(gaps.size(), 4u);
+  EXPECT_EQ(gaps[0], "gap_lipm");
+  const double bound = LowerBound(problem).total();
+  EXPECT_NEAR(std::stod(gaps[1]), 4.0 / bound - 1.0, 1e-9);
+  EXPECT_NEAR(std::stod(gaps[2]), DurationOf(runs[1].result.parameters) / bound - 1.0, 1e-9);
+  EXPECT_EQ(gaps[3], "");
+  runs.pop_back();
+  EXPECT_EQ(LastColumn(SummaryCsv(problem.evaluator(), runs).text).front(), "gap_to_reference");
 }
 
 TEST(LipmBound, FollowsTheLimitsAndNotTheFrame) {

@@ -367,5 +367,45 @@ TEST_F(OptimizerTest, SafestRefusesWalksBelowWhatIsDemanded) {
   }
 }
 
+// CoM and ZMP may rest nearer to the other foot, step by step.
+TEST(OptimizerScenario, SupportPointsShortenAWalkOverABar) {
+  Experiment e = LoadExperiment("bar_8cm");
+  e.config.footsteps.resize(4);
+  e = Prepare(e.config);
+  const MarginEvaluator evaluator(e.robot, e.scene, e.config.smoothing.limits);
+  const CertifiedFeasibility test(evaluator, {});
+  double durations[2];
+  for (const bool points : {false, true}) {
+    OptimizerOptions options;
+    options.solver = "halfstep/sqp";
+    options.program.parameters = {.heights = true, .durations = true, .support_points = points};
+    options.rounds = 6;
+    options.planned_start = false;
+    options.deadline = 60.0;
+    options.tolerance = 0.02;
+    const WalkProblem problem = ProblemOf(e.sequence, test);
+    const SmoothingResult result = Smoothed(OptimizeOverlaps, problem, options);
+    durations[points] = DurationOf(result.parameters);
+    const SuperposedWalk walk(e.sequence, result.parameters);
+    MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
+    EXPECT_EQ(test.Check(walk, {0.0, walk.duration()}, &scratch).verdict, Verdict::kFeasible);
+    const ParameterTable table = problem.Parameters(options.program.parameters);
+    double moved = 0.0;
+    for (int step = 0; step < e.sequence.num_steps(); ++step) {
+      const HomotopyParameter point{ParameterFamily::kSupportPoint, step};
+      const double s = point.in(result.parameters);
+      EXPECT_GE(s, table.row(point).lower - 1e-12);
+      EXPECT_LE(s, table.row(point).upper + 1e-12);
+      moved = std::max(moved, std::abs(s));
+    }
+    if (points) {
+      EXPECT_GE(moved, 0.01);
+    } else {
+      EXPECT_EQ(moved, 0.0);
+    }
+  }
+  EXPECT_LE(durations[1], 0.97 * durations[0]);
+}
+
 }  // namespace
 }  // namespace halfstep

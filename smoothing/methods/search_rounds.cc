@@ -1,0 +1,39 @@
+#include "smoothing/methods/search_rounds.h"
+
+#include <algorithm>
+
+namespace halfstep {
+namespace {
+
+constexpr double kSharpen = 1.5, kSoften = 0.75, kSharpest = 3000.0;
+// Where every instant has rows of its own, from the first round on.
+constexpr double kRowsSharpness = 200.0;
+
+}  // namespace
+
+WatchOptions RowsFor(const opt::SolverTraits& traits, const FeasibilityTest& test, int instants,
+                     const WatchOptions& given) {
+  WatchOptions watch = given;
+  watch.stop_branches = test.stop_branches();
+  watch.row_per_instant = traits.many_rows;
+  if (traits.many_rows) {
+    watch.sharpness = std::max(watch.sharpness, kRowsSharpness);
+    watch.instants = instants;
+  }
+  return watch;
+}
+
+opt::SolverOptions RoundOptions(const opt::SolverTraits& traits, ProgramKind kind, int iterations) {
+  opt::SolverOptions options;
+  options.max_iterations = iterations;
+  options.optimality_tolerance = 1e-4;
+  // Rows are nearly linear, and so is every cost but the effort.
+  if (kind != ProgramKind::kSmooth) options.solver_options = traits.nearly_linear;
+  return options;
+}
+
+void Sharpen(bool proved, WatchedInstants* watched) {
+  watched->SetSharpness(std::min(kSharpest, (proved ? kSharpen : kSoften) * watched->sharpness()));
+}
+
+}  // namespace halfstep

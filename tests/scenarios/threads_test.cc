@@ -1,0 +1,145 @@
+// Several threads find what one finds: walks, candidates, counts and certificates, to the bit.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+#include <tuple>
+
+#include "smoothing/methods/smoother_registry.h"
+#include "smoothing/proof/certified_feasibility.h"
+#include "tests/scenarios/load_experiment.h"
+#include "tests/smoothing/smoothed.h"
+
+namespace halfstep {
+namespace {
+
+using testing::TestWithParam;
+
+auto Content(const Margin& m) {
+  return std::tuple(m.family, m.value, m.subject, m.other, m.t, m.at.half_step, m.at.tau);
+}
+
+void ExpectSame(const Certificate& a, const Certificate& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(std::tuple(a[i].begin, a[i].end, a[i].family, a[i].count, a[i].bound),
+              std::tuple(b[i].begin, b[i].end, b[i].family, b[i].count, b[i].bound));
+    EXPECT_EQ(Content(a[i].margin), Content(b[i].margin));
+  }
+}
+
+// All but times by the clock.
+void ExpectSame(const SmoothingResult& a, const SmoothingResult& b) {
+  EXPECT_EQ(a.parameters, b.parameters);
+  EXPECT_EQ(a.cost, b.cost);
+  EXPECT_EQ(a.ending, b.ending);
+  EXPECT_EQ(a.message, b.message);
+  EXPECT_EQ(a.instants, b.instants);
+  EXPECT_EQ(a.collision_queries, b.collision_queries);
+  EXPECT_EQ(a.raw_infeasible, b.raw_infeasible);
+  ASSERT_EQ(a.iterates.size(), b.iterates.size());
+  for (size_t i = 0; i < a.iterates.size(); ++i) {
+    const auto content = [](const SmoothingIterate& it) {
+      return std::tuple(it.instants, it.candidate_duration, it.candidate_slack, it.accepted,
+                        it.lambda, it.incumbent_duration, it.incumbent_slack);
+    };
+    EXPECT_EQ(content(a.iterates[i]), content(b.iterates[i])) << i;
+  }
+  ASSERT_EQ(a.junctions.size(), b.junctions.size());
+  for (size_t i = 0; i < a.junctions.size(); ++i) {
+    ASSERT_EQ(a.junctions[i].limited_by.has_value(), b.junctions[i].limited_by.has_value());
+    if (a.junctions[i].limited_by) {
+      EXPECT_EQ(Content(*a.junctions[i].limited_by), Content(*b.junctions[i].limited_by));
+    }
+    EXPECT_EQ(a.junctions[i].multiplier, b.junctions[i].multiplier);
+  }
+}
+
+SmootherOptions Few() {
+  SmootherOptions options;
+  options.dichotomy.tolerance = options.optimizer.tolerance = options.horizon.tolerance = 0.01;
+  options.optimizer.program.parameters = {.heights = true, .durations = true};
+  options.optimizer.rounds = 2;
+  options.optimizer.instants = 12;
+  options.optimizer.deadline = options.horizon.deadline = 1e4;
+  options.horizon.program = options.optimizer.program;
+  options.horizon.passes = 1;
+  return options;
+}
+
+class ThreadsTest : public TestWithParam<const char*> {
+ protected:
+  // Two steps over a bar.
+  static Experiment Load() {
+    Experiment e = LoadExperiment("bar_8cm");
+    e.config.footsteps.resize(2);
+    return Prepare(e.config);
+  }
+};
+
+TEST_P(ThreadsTest, FindWhatOneFinds) {
+  const Experiment e = Load();
+  const CertifiedFeasibility test({e.robot, e.scene, e.config.smoothing.limits}, {});
+  SmoothingResult alone;
+  Certificate alone_rows;
+  for (const int threads : {0, 2, 3}) {
+    SCOPED_TRACE(threads);
+    const auto workers = threads > 0 ? std::make_shared<Workers>(threads) : nullptr;
+    SmoothingMonitor monitor({.workers = workers});
+    SmoothingResult result =
+        FindSmoother(GetParam()).Smooth(ProblemOf(e.sequence, test), Few(), monitor);
+    const SuperposedWalk walk(e.sequence, result.parameters);
+    MarginEvaluator::Scratch scratch = test.evaluator().MakeScratch();
+    scratch.workers = workers.get();
+    Certificate rows;
+    EXPECT_EQ(test.Certify(walk, &scratch, &rows).verdict, Verdict::kFeasible);
+    if (threads == 0) {
+      EXPECT_LT(result.cost, 0.8 * DurationOf(PlannedMotion(e.sequence)));
+      alone = std::move(result);
+      alone_rows = std::move(rows);
+      continue;
+    }
+    ExpectSame(alone, result);
+    ExpectSame(alone_rows, rows);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, ThreadsTest,
+                         testing::Values("dichotomy", "halfstep/sqp", "halfstep/horizon",
+                                         "halfstep/barrier"),
+                         [](const auto& info) {
+                           const std::string name = info.param;
+                           return name.substr(name.find('/') + 1);
+                         });
+
+// Where a walk is refused the same interval refuses it, and no effort beyond it is counted.
+TEST(Threads, RefuseWhatOneRefuses) {
+  const Experiment e = LoadExperiment("bar_8cm");
+  const CertifiedFeasibility test({e.robot, e.scene, e.config.smoothing.limits}, {});
+  Workers workers(3);
+  int refused = 0;
+  for (int junction = 0; junction < e.sequence.num_junctions(); ++junction) {
+    HomotopyParameters parameters = PlannedMotion(e.sequence);
+    parameters.overlaps[static_cast<size_t>(junction)] =
+        NaturalOverlapBound(e.sequence, parameters.durations, junction);
+    const SuperposedWalk walk(e.sequence, parameters);
+    MarginEvaluator::Scratch alone = test.evaluator().MakeScratch();
+    MarginEvaluator::Scratch shared = test.evaluator().MakeScratch();
+    shared.workers = &workers;
+    for (int repeat = 0; repeat < 3; ++repeat) {
+      const TimeWindow all{0.0, walk.duration()};
+      const Feasibility a = test.Check(walk, all, &alone), b = test.Check(walk, all, &shared);
+      ASSERT_EQ(a.verdict, b.verdict);
+      EXPECT_EQ(Content(a.witness), Content(b.witness));
+      EXPECT_EQ(alone.instants, shared.instants);
+      EXPECT_EQ(alone.bodies.queries, shared.bodies.queries);
+      refused += a.verdict == Verdict::kViolated;
+    }
+  }
+  EXPECT_GE(refused, 9);
+}
+
+}  // namespace
+}  // namespace halfstep
