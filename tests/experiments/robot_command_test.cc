@@ -101,6 +101,21 @@ TEST(RobotSurvey, FindsLegsSolesAndAPostureOfRobotsWithOtherAxes) {
   }
 }
 
+// Knees of half the torque: bison stands straighter, and the file says why.
+TEST(RobotSurvey, BendsKneesLessForTheirTorque) {
+  const TemporaryFolder place;
+  const std::string urdf = std::regex_replace(ReadText(kRobots / "bison.urdf"),
+                                              std::regex("effort=\"300\""), "effort=\"150\"");
+  const RobotDraft draft =
+      SurveyRobot({.urdf = WriteText(place / "bison.urdf", urdf),
+                   .packages = {{"bison_bodies", (kRobots / "bison").string()}}});
+  EXPECT_EQ(draft.standing.bend, 0.94);
+  EXPECT_THAT(YamlOf(draft, place.path()),
+              testing::ContainsRegex("94 % of the stretched leg apart \\(with more bend a joint "
+                                     "lacks [0-9.]+ N m in six steps\\)"));
+  EXPECT_GE(LeastInSixSteps(ModelOf(draft), MarginFamily::kTorque, 0.01), 0.0);
+}
+
 // On soles of 6 cm the whole robot's ZMP comes nearer to their edges than is demanded.
 TEST(RobotSurvey, MovesTheSupportPointsOfNarrowSolesOnly) {
   RobotModel robot = ShippedRobot("bison");
