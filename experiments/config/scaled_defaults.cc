@@ -23,7 +23,7 @@ constexpr double kViaHeight = 0.25;  // of HRP-2's half-steps [m]
 constexpr double kRise = 6e-3;    // of a foot before it moves ahead: more than the floor margin [m]
 constexpr double kOfLift = 0.95;  // of the highest place of the swing foot
 
-enum class Law { kLength, kGrid, kAcross, kWidth, kDuration, kHeight, kAside, kDelay };
+enum class Law { kLength, kGrid, kAcross, kWidth, kDuration, kHeight, kAside, kDelay, kSupport };
 
 // The decimal number of three digits that is nearest: HRP-2's numbers stay what they are.
 double Rounded(double value, int digits = 3) {
@@ -62,6 +62,8 @@ double Scaled(Law law, double hrp2, const RobotMeasures& robot) {
       return Rounded(std::min(hrp2 * width, robot.aside));
     case Law::kDelay:
       return std::max(hrp2, Rounded(DelayToRise(kRise / Scaled(Law::kHeight, kViaHeight, robot))));
+    case Law::kSupport:
+      return robot.support_offset;
   }
   return hrp2;
 }
@@ -83,6 +85,8 @@ std::string FormulaOf(Law law, const std::string& hrp2) {
       return "min(`" + hrp2 + "` · w/0.21 m, aside)";
     case Law::kDelay:
       return "max(`" + hrp2 + "`, until the foot is 6 mm high)";
+    case Law::kSupport:
+      return "`support_offset_m` of the robot";
   }
   return hrp2;
 }
@@ -106,6 +110,8 @@ std::span<const ScaledDefault> ScaledDefaults() {
        [](C* c) { return &c->half_step.horizontal_delay; }, 0, 0.2},
       {"half_step.via_lateral_m", Law::kAside, [](C* c) { return &c->half_step.via_lateral; }, 0.01,
        1},
+      {"half_step.support_offset_m", Law::kSupport,
+       [](C* c) { return &c->half_step.support_offset; }, -1, 1},
       {"smoothing.optimizer.least_support_point_m", Law::kWidth,
        [](C* c) { return &c->smoothing.optimizer.options.program.parameters.least_support_point; },
        -1, 1},

@@ -9,6 +9,8 @@
 
 namespace halfstep {
 
+inline constexpr double kStride = 0.3;  ///< of SixSteps at most, over the leg's length ℓ
+
 /// Six steps straight ahead, feet side by side in the end: of 0.3 of the leg's length ℓ, or of the
 /// largest smaller multiple of 0.025 ℓ for which the sampled planned motion is within reach and
 /// limits of the legs. `prototype` gives duration, via point and shape.

@@ -11,9 +11,8 @@
 #include "experiments/config/scaled_defaults.h"
 #include "experiments/survey/arm_posture.h"
 #include "experiments/survey/self_gaps.h"
+#include "experiments/survey/support_search.h"
 #include "experiments/survey/touching_neighbours.h"
-#include "smoothing/margins/margin_evaluator.h"
-#include "smoothing/walk/superposed_walk.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/text.h"
 #include "wpg/robot/robot_legs.h"
@@ -32,16 +31,7 @@ constexpr int kParts = 8;                // of a mesh whose hull touches what it
 // of torques.
 double LeastTorqueMargin(const RobotModel& robot) {
   if (!TorqueFault(robot).empty()) return std::numeric_limits<double>::infinity();
-  const HalfStepSequence sequence = SixSteps(robot, DefaultHalfStep(robot));
-  const SuperposedWalk walk(sequence, PlannedMotion(sequence));
-  const MarginEvaluator evaluator(robot, Scene{}, MarginLimits{});
-  MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
-  double least = std::numeric_limits<double>::infinity();
-  for (double t = 0.0; t < walk.duration(); t += kTorquePeriod) {
-    Instant at(evaluator.place(), evaluator.limits(), walk, walk.Locate(t), &scratch);
-    least = std::min(least, evaluator.statements(MarginFamily::kTorque).Least(&at, least).value);
-  }
-  return least;
+  return LeastInSixSteps(robot, MarginFamily::kTorque, kTorquePeriod);
 }
 
 class StanceSearch {
@@ -72,6 +62,7 @@ class StanceSearch {
         draft_ = std::move(narrower);
       }
     }
+    Support(&best.model);
     return best.model;
   }
 
@@ -216,6 +207,17 @@ class StanceSearch {
       }
     }
     return best;
+  }
+
+  // Moves the support points where the whole robot's ZMP would come too near to the soles' edges.
+  void Support(RobotModel* model) {
+    const FoundSupport found = FindSupport(*model);
+    if (found.offset == 0.0) return;
+    draft_.support_offset = model->support_offset = found.offset;
+    draft_.why_support = Formatted(
+        "Where the soles' centres carry, the robot's ZMP is %.1f mm inside the support polygon in "
+        "six steps; so %.1f mm.",
+        1e3 * found.before, 1e3 * found.after);
   }
 
   void Stand() {

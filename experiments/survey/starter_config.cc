@@ -4,6 +4,7 @@
 #include "experiments/survey/stance_search.h"
 #include "smoothing/walk/superposed_walk.h"
 #include "wpg/files/text.h"
+#include "wpg/robot/robot_measures.h"
 
 namespace halfstep {
 namespace {
@@ -12,10 +13,16 @@ namespace {
 std::string FootstepLines(const RobotModel& robot, const HalfStep& half_step) {
   const HalfStepSequence sequence = SixSteps(robot, half_step);
   const SuperposedWalk walk(sequence, PlannedMotion(sequence));
+  const double usual = kStride * MeasuresOf(robot).leg_length;
   std::string text;
   for (int i = 1; i < walk.num_half_steps(); i += 2) {
     const Side foot = Opposite(walk.half_step(i).support);
     const Pose2 at = FootPose(walk.At(walk.end_of(i)).value, foot);
+    if (i == 1 && at.x < usual - 1e-6) {
+      text += Formatted(
+          "  # Steps of %.3f m in place of %.3f m: with longer ones a leg comes to its limits.\n",
+          at.x, usual);
+    }
     text += Formatted("  - {foot: %s, x_m: %.4f, y_m: %.4f}\n", std::string(Name(foot)).c_str(),
                       at.x, at.y);
   }

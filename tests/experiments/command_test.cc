@@ -9,6 +9,8 @@
 #include <sstream>
 
 #include "experiments/commands/commands.h"
+#include "experiments/run/missed_demands_text.h"
+#include "smoothing/proof/missed_demands.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/run_check.h"
 #include "tests/temporary_folder.h"
@@ -278,6 +280,25 @@ TEST(RunCommand, AnInfeasiblePlanTellsWhatHelps) {
   EXPECT_GE(for_all, 1) << outcome.err;
   EXPECT_GE(for_one, 2) << outcome.err;
   EXPECT_EQ(Halfstep(place.path(), with_each).status, kSuccess);
+}
+
+// A plan misses a demand between the instants that are looked at, where the proof found it.
+TEST(RunCommand, AnInfeasiblePlanTellsWhatItMissesForAMoment) {
+  const RobotModel robot = LoadRobot(HALFSTEP_SOURCE_DIR "/wpg/robots/hrp2.yaml");
+  const double y = 0.5 * robot.standing_width;
+  const HalfStepSequence sequence = MakeSequence(
+      {Pose2{0, y, 0}, Pose2{0, -y, 0}},
+      {{.side = Side::kLeft, .X_WF = {0.2, y, 0}, .via_height = 0.25, .duration = 2.0}}, 0.24, {},
+      {.com_height = robot.com_height});
+  const SuperposedWalk walk(sequence, PlannedMotion(sequence));
+  const MarginEvaluator evaluator(robot, Scene{}, MarginLimits{});
+  const Margin witness{
+      .family = MarginFamily::kFloor, .value = 0.004, .at = {1, 1.9}, .t = 3.9, .subject = 0};
+  const MissedDemands missed = FindMissedDemands(evaluator, walk, witness);
+  const std::vector<std::string> lines = MissedDemandsText(evaluator, sequence, missed);
+  EXPECT_THAT(lines, testing::Contains(testing::AllOf(
+                         testing::StartsWith("footstep 1 (left), half-step down, at 3.90 s: "),
+                         HasSubstr(" (for a moment between the 201 instants looked at)"))));
 }
 
 // Of many pairs of bodies that are too near each other, the nearest at its nearest comes first.

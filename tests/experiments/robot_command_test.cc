@@ -7,11 +7,14 @@
 #include "experiments/config/experiment.h"
 #include "experiments/config/scaled_defaults.h"
 #include "experiments/survey/robot_survey.h"
+#include "experiments/survey/starter_config.h"
+#include "experiments/survey/support_search.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/run_check.h"
 #include "tests/replaced.h"
 #include "tests/temporary_folder.h"
 #include "tests/wpg/generated_robots.h"
+#include "tests/wpg/shipped_robots.h"
 #include "wpg/files/input_error.h"
 
 namespace halfstep {
@@ -98,6 +101,46 @@ TEST(RobotSurvey, FindsLegsSolesAndAPostureOfRobotsWithOtherAxes) {
   }
 }
 
+// Knees of half the torque: bison stands straighter, and the file says why.
+TEST(RobotSurvey, BendsKneesLessForTheirTorque) {
+  const TemporaryFolder place;
+  const std::string urdf = std::regex_replace(ReadText(kRobots / "bison.urdf"),
+                                              std::regex("effort=\"300\""), "effort=\"150\"");
+  const RobotDraft draft =
+      SurveyRobot({.urdf = WriteText(place / "bison.urdf", urdf),
+                   .packages = {{"bison_bodies", (kRobots / "bison").string()}}});
+  EXPECT_EQ(draft.standing.bend, 0.94);
+  EXPECT_THAT(YamlOf(draft, place.path()),
+              testing::ContainsRegex("94 % of the stretched leg apart \\(with more bend a joint "
+                                     "lacks [0-9.]+ N m in six steps\\)"));
+  EXPECT_GE(LeastInSixSteps(ModelOf(draft), MarginFamily::kTorque, 0.01), 0.0);
+}
+
+// On soles of 4 cm the whole robot's ZMP comes nearer to their edges than is demanded.
+TEST(RobotSurvey, MovesTheSupportPointsOfNarrowSolesOnly) {
+  RobotModel robot = ShippedRobot("bison");
+  EXPECT_EQ(FindSupport(robot).offset, 0.0);
+  robot.sole_size.y() = 0.04;
+  const FoundSupport found = FindSupport(robot);
+  EXPECT_LT(found.before, 0.01);
+  EXPECT_NE(found.offset, 0.0);
+  EXPECT_GT(found.after, found.before);
+  // What the search left is what a config without numbers gets.
+  robot.support_offset = found.offset;
+  EXPECT_NEAR(std::min(LeastInSixSteps(robot, MarginFamily::kZmp, 0.01),
+                       LeastInSixSteps(robot, MarginFamily::kZmpRobot, 0.01)),
+              found.after, 1e-12);
+}
+
+TEST(StarterConfig, SaysWhyStepsAreShort) {
+  RobotModel robot = ShippedRobot("hrp2");
+  const StarterConfig config{.robot_file = "r.yaml"};
+  EXPECT_THAT(StarterConfigText(robot, config), testing::Not(HasSubstr("in place of 0.212 m")));
+  for (Leg& leg : robot.legs) leg.joints[4].lower = -0.65;  // ankles [rad]
+  EXPECT_THAT(StarterConfigText(robot, config),
+              HasSubstr("m in place of 0.211 m: with longer ones a leg comes to its limits."));
+}
+
 std::string RefusalOf(const std::string& urdf) {
   const TemporaryFolder place;
   try {
@@ -148,9 +191,12 @@ TEST(ScaledDefaults, GoByTheLegUnlessAKeySaysOtherwise) {
   EXPECT_EQ(config.half_step.via_lateral, 0.12);
   EXPECT_EQ(config.half_step.horizontal_delay, 0.115);  // 0.0625 m · S(0.115/0.475) = 6 mm
   EXPECT_DOUBLE_EQ(config.half_step_grid.x_max, 7 * config.half_step_grid.spacing);
+  EXPECT_EQ(config.half_step.support_offset, 0.0);
+  half.support_offset = -0.011;
   half.slowest_joint = 1.7;  // [rad/s]
   ScaleDefaults(half, &(config = {}));
   EXPECT_EQ(config.half_step.duration, 4.0);
+  EXPECT_EQ(config.half_step.support_offset, -0.011);
   const TemporaryFolder place;
   const Outcome outcome =
       Halfstep(place.path(), {"explain-config", "via_height_m", "--robot", "hrp2"});

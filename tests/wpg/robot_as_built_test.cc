@@ -71,6 +71,13 @@ TEST(RobotAsBuilt, HalfStepsByDefaultAreNoHigherThanTheFileSays) {
   EXPECT_EQ(MeasuresOf(low).lift, 0.1);
 }
 
+TEST(RobotAsBuilt, SupportPointsByDefaultAreWhereTheFileSays) {
+  const std::string text = ReadYamlFile(kHrp2);
+  EXPECT_EQ(MeasuresOf(Built(text, Hrp2Tree())).support_offset, 0.0);
+  const RobotModel outward = Built(text + "support_offset_m: -0.011\n", Hrp2Tree());
+  EXPECT_EQ(MeasuresOf(outward).support_offset, -0.011);
+}
+
 TEST(RobotAsBuilt, TheWaistFrameMayPointAnywhereInItsLink) {
   const RobotModel expected = LoadRobot(kHrp2);
   UrdfTree urdf = Hrp2Tree();

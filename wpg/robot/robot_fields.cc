@@ -167,6 +167,12 @@ void DeclareFields(Fields& fields, RobotFile* file) {
                                     "default; none: what the legs reach",
                          .unit = "m",
                          .min = 0.01});
+  fields.Number("support_offset_m", &file->support_offset,
+                {.meaning = "where CoM and ZMP rest on one foot by default: from the support "
+                            "sole's centre, along its y, towards the other foot",
+                 .unit = "m",
+                 .min = -1,
+                 .max = 1});
   fields.Group("legs", {.meaning = "the feet", .required = true}, [&](Fields& f) {
     DeclareLeg(f, "left", links, &file->legs[0]);
     DeclareLeg(f, "right", links, &file->legs[1]);

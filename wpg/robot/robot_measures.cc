@@ -52,7 +52,8 @@ RobotMeasures MeasuresOf(const RobotModel& robot) {
   const Leg& leg = robot.legs[0];
   RobotMeasures m{.leg_length = StretchedLength(leg) + (leg.X_BSole.inverse() * leg.ankle_B).z(),
                   .standing_width = robot.standing_width,
-                  .slowest_joint = std::numeric_limits<double>::infinity()};
+                  .slowest_joint = std::numeric_limits<double>::infinity(),
+                  .support_offset = robot.support_offset};
   for (const Leg& each : robot.legs) {
     for (const LegJoint& joint : each.joints) {
       m.slowest_joint = std::min(m.slowest_joint, joint.max_speed / ShareOf(joint));

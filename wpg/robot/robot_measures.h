@@ -19,6 +19,7 @@ struct RobotMeasures {
   /// within the joints' limits while the CoM is above the support sole [m]. At most 8/7 w; and half
   /// of ℓ and RobotModel::largest_lift.
   double aside = 0.0, lift = 0.0;  ///< both [m]
+  double support_offset = 0.0;     ///< RobotModel::support_offset [m]
 };
 
 /// What legs, joint limits and speed limits of the model give.

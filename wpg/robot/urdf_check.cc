@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <sstream>
+#include <string_view>
 #include <utility>
 
 #include "wpg/files/nesting.h"
@@ -50,12 +51,24 @@ class Checker {
   }
 
  private:
-  bool IsXacro(const TiXmlElement& robot) {
-    for (auto* e = robot.FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
-      if (!e->ValueStr().starts_with("xacro:")) continue;
-      elements_.Complain(*e, e->ValueStr(),
-                         "is xacro, which has to be expanded (`xacro FILE > robot.urdf`)");
-      return true;
+  // Whether the file waits for xacro: a tag of it, or an attribute with something to be replaced.
+  // Looks where links and joints are, deeper where they nest; other extensions are not read.
+  bool IsXacro(const TiXmlElement& parent) {
+    for (auto* e = parent.FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
+      std::string found = e->ValueStr().starts_with("xacro:") ? e->ValueStr() : "";
+      for (auto* a = e->FirstAttribute(); a != nullptr && found.empty(); a = a->Next()) {
+        const bool replaced = a->ValueStr().find("${") != std::string::npos ||
+                              a->ValueStr().find("$(") != std::string::npos;
+        if (replaced) found = "`" + a->ValueStr() + "`";
+      }
+      if (!found.empty()) {
+        elements_.Complain(*e, found,
+                           "is xacro, which has to be expanded (`xacro FILE > robot.urdf`)");
+        return true;
+      }
+      static constexpr std::string_view kRead[] = {"link",   "joint", "visual",   "collision",
+                                                   "origin", "limit", "inertial", "geometry"};
+      if (std::ranges::find(kRead, e->ValueStr()) != std::end(kRead) && IsXacro(*e)) return true;
     }
     return false;
   }
@@ -129,8 +142,12 @@ class Checker {
       }
       CheckScale(*shape);
     } else {
-      elements_.Complain(geometry, "geometry",
-                         "`" + kind + "` is no shape of URDF (valid: box, sphere, cylinder, mesh)");
+      elements_.Complain(
+          geometry, "geometry",
+          "`" + kind + "` is no shape of URDF (valid: box, sphere, cylinder, mesh" +
+              (kind == "capsule" ? "; a capsule is a <collision> with its cylinder and two with "
+                                   "the spheres at its ends)"
+                                 : ")"));
     }
     return true;
   }
