@@ -23,17 +23,10 @@ namespace py = pybind11;
 namespace halfstep::python {
 namespace {
 
-using Values = std::optional<std::vector<double>>;
-
-PlacedWalk WalkAt(const PlacedExperiment& placed, const Values& overlaps,
-                  const Values& height_scales, const Values& durations,
-                  const Values& support_points) {
+PlacedWalk WalkAt(const PlacedExperiment& placed, const py::dict& given) {
   const auto setting = placed.Setting();
   HomotopyParameters parameters = setting->problem.Start();
-  if (overlaps) parameters.overlaps = *overlaps;
-  if (height_scales) parameters.height_scales = *height_scales;
-  if (durations) parameters.durations = *durations;
-  if (support_points) parameters.support_points = *support_points;
+  Take(given, &parameters);
   return {setting, SuperposedWalk(setting->problem.sequence(), parameters)};
 }
 

@@ -52,12 +52,11 @@ void BindTasks(py::module_& module) {
           },
           Released())
       .def("walk",
-           [](const SmoothingTask& task, const std::vector<double>& overlaps,
-              const std::vector<double>& height_scales, const std::vector<double>& durations,
-              const std::vector<double>& support_points) {
-             return PlacedWalk{task.setting(), SuperposedWalk(task.setting()->problem.sequence(),
-                                                              {overlaps, height_scales, durations,
-                                                               support_points})};
+           [](const SmoothingTask& task, const py::dict& given) {
+             HomotopyParameters parameters = task.incumbent();
+             Take(given, &parameters);
+             return PlacedWalk{task.setting(),
+                               SuperposedWalk(task.setting()->problem.sequence(), parameters)};
            })
       .def("tell", &SmoothingTask::Tell);
   py::class_<SolvingTask, std::shared_ptr<SolvingTask>>(module, "SolvingTask")

@@ -103,9 +103,10 @@ HeldProgramOptions ToProgramOptions(const py::dict& options) {
     throw std::invalid_argument("program: '" + name + "' (valid: fastest, smooth, safest)");
   }
   take("overlaps", &result.overlaps);
-  take("heights", &choice.heights);
-  take("durations", &choice.durations);
-  take("support_points", &choice.support_points);
+  for (const ParameterFamily family : AllParameterFamilies()) {
+    const ParameterFamilyTraits& traits = Traits(family);
+    if (traits.chosen != nullptr) take(traits.key.data(), &(choice.*traits.chosen));
+  }
   take("instants", &result.program.watch.instants);
   take("sharpness", &result.program.watch.sharpness);
   take("row_per_instant", &result.program.watch.row_per_instant);

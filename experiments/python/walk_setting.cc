@@ -1,10 +1,16 @@
 #include "experiments/python/walk_setting.h"
 
 #include <pybind11/numpy.h>
+#include <pybind11/stl.h>
 
 namespace py = pybind11;
 
 namespace halfstep::python {
+namespace {
+
+std::string PluralOf(ParameterFamily family) { return std::string(Traits(family).name) + "s"; }
+
+}  // namespace
 
 py::list ToPython(const CsvColumns& columns) {
   static constexpr std::array<const char*, 4> kTypes = {"integer", "number", "boolean", "string"};
@@ -25,11 +31,18 @@ py::dict ToPython(const HomotopyParameters& parameters) {
     return py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data());
   };
   py::dict dict;
-  dict["overlaps"] = array(parameters.overlaps);
-  dict["height_scales"] = array(parameters.height_scales);
-  dict["durations"] = array(parameters.durations);
-  dict["support_points"] = array(parameters.support_points);
+  for (const ParameterFamily family : AllParameterFamilies()) {
+    dict[PluralOf(family).c_str()] = array(parameters.of(family));
+  }
   return dict;
+}
+
+void Take(const py::dict& dict, HomotopyParameters* parameters) {
+  for (const ParameterFamily family : AllParameterFamilies()) {
+    const std::string name = PluralOf(family);
+    if (dict.contains(name))
+      parameters->of(family) = dict[name.c_str()].cast<std::vector<double>>();
+  }
 }
 
 py::tuple ToPython(const HomotopyParameter& parameter) {

@@ -28,8 +28,11 @@ pybind11::tuple ToPython(const CsvFile& file);
 /// The columns alone.
 pybind11::list ToPython(const CsvColumns& columns);
 
-/// A point of the homotopy as a dict of arrays: overlaps, height_scales, durations, support_points.
+/// A point of the homotopy as a dict of arrays, by the families' names in the plural: overlaps,
+/// height_scales, durations, support_points, via_laterals, foot_ramps, foot_delays, lift_shares.
 pybind11::dict ToPython(const HomotopyParameters& parameters);
+/// Replaces the families that are in such a dict.
+void Take(const pybind11::dict& dict, HomotopyParameters* parameters);
 
 /// (family, index from 0) of a parameter.
 pybind11::tuple ToPython(const HomotopyParameter& parameter);

@@ -63,17 +63,23 @@ json ParametersJson(const fs::path& folder, int size) {
     overlaps = ReadCsv(path.string()).Numbers("overlap_s");
     if (overlaps.size() != count - 1) return nullptr;
   }
-  const std::vector<double> heights = half_steps.Numbers("height_scale"),
-                            points = half_steps.Numbers("support_point_m");
-  json step_heights = json::array(), step_points = json::array();
-  for (size_t i = 0; i < count; i += 2) {
-    step_heights.push_back(heights[i]);
-    step_points.push_back(points[i]);
+  const auto by_step = [&half_steps](const char* column) {
+    json values = json::array();
+    const std::vector<double> rows = half_steps.Numbers(column);
+    for (size_t i = 0; i < rows.size(); i += 2) values.push_back(rows[i]);
+    return values;
+  };
+  json parameters = {{"overlaps", overlaps},
+                     {"durations", half_steps.Numbers("duration_s")},
+                     {"height_scales", by_step("height_scale")},
+                     {"support_points", by_step("support_point_m")}};
+  if (half_steps.Has("lift_share")) {
+    parameters["via_laterals"] = by_step("via_lateral_m");
+    parameters["foot_ramps"] = half_steps.Numbers("foot_ramp");
+    parameters["foot_delays"] = half_steps.Numbers("foot_delay");
+    parameters["lift_shares"] = half_steps.Numbers("lift_share");
   }
-  return {{"overlaps", overlaps},
-          {"durations", half_steps.Numbers("duration_s")},
-          {"height_scales", std::move(step_heights)},
-          {"support_points", std::move(step_points)}};
+  return parameters;
 }
 
 }  // namespace halfstep

@@ -14,7 +14,8 @@ namespace halfstep {
 nlohmann::json ClosedFormJson(const RobotModel& robot, const HalfStepSequence& sequence);
 
 /// The homotopy parameters of a method's folder, exactly as its half_steps.csv and overlaps.csv
-/// have them: overlaps [s], durations [s], height_scales, support_points [m]. Null where they are
+/// have them: overlaps [s], durations [s], height_scales, support_points [m], and those of forms
+/// where the walk has its own (via_laterals [m], foot_ramps, ...). Null where they are
 /// not those of `size` half-steps. Throws InputError for tables that cannot be read.
 nlohmann::json ParametersJson(const std::filesystem::path& folder, int size);
 

@@ -18,15 +18,19 @@ const copyOf = (parameters) => Object.fromEntries(
 /** The two tables that `halfstep smooth --given` reads, {name: text}; numbers are exact. */
 export function givenTables(form, parameters) {
   const line = (cells) => `${cells.join(",")}\n`;
+  const forms = "lift_shares" in parameters;
   const halfSteps = form.half_steps.map((half, i) => {
     const step = Math.floor(i / 2);
     return line([i + 1, half.kind, half.support, parameters.durations[i],
-                 parameters.height_scales[step], parameters.support_points[step]]);
+                 parameters.height_scales[step], parameters.support_points[step],
+                 ...(forms ? [parameters.via_laterals[step], parameters.foot_ramps[i],
+                              parameters.foot_delays[i], parameters.lift_shares[i]] : [])]);
   });
   const overlaps = parameters.overlaps.map((overlap, i) =>
     line([i + 1, i % 2 === 0 ? "up_down" : "down_up", overlap]));
   return {
-    "half_steps.csv": "half_step,kind,support,duration_s,height_scale,support_point_m\n" + halfSteps.join(""),
+    "half_steps.csv": "half_step,kind,support,duration_s,height_scale,support_point_m" +
+      (forms ? ",via_lateral_m,foot_ramp,foot_delay,lift_share\n" : "\n") + halfSteps.join(""),
     "overlaps.csv": "junction,kind,overlap_s\n" + overlaps.join(""),
   };
 }

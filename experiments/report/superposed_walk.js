@@ -23,6 +23,16 @@ function restState(half, onFloor, height, supportPoint) {
   return state;
 }
 
+// The half-step with the form that the parameters give it, where they do.
+function formed(half, parameters, i) {
+  if (!parameters.lift_shares) return half;
+  return {
+    ...half, via_lateral_m: parameters.via_laterals[Math.floor(i / 2)],
+    shape: { ...half.shape, foot_ramp: parameters.foot_ramps[i], lift_share: parameters.lift_shares[i],
+             horizontal_delay: parameters.foot_delays[i] },
+  };
+}
+
 class Piece {
   constructor(half, { duration, heightScale, supportPoint, omega }) {
     const { shape } = half;
@@ -68,14 +78,15 @@ export function naturalBound(halfSteps, durations, junction) {
 }
 
 export class SuperposedWalk {
-  /** `form`: closed_form of a report; `parameters`: overlaps, durations, height_scales, support_points. */
+  /** `form`: closed_form of a report; `parameters`: overlaps, durations, height_scales, support_points,
+   * and via_laterals, foot_ramps, foot_delays, lift_shares where the walk has forms of its own. */
   constructor(form, parameters) {
     const omega = Math.sqrt(form.gravity_m_s2 / form.com_height_m);
     let start = 0;
     this.form = form;
     this.pieces = form.half_steps.map((half, i) => {
       const step = Math.floor(i / 2);
-      const piece = new Piece(half, {
+      const piece = new Piece(formed(half, parameters, i), {
         duration: parameters.durations[i], heightScale: parameters.height_scales[step],
         supportPoint: parameters.support_points[step], omega,
       });

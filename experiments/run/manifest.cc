@@ -75,8 +75,7 @@ ordered_json Requested(const std::string& method, const SmoothingConfig& config)
               {"deadline_s", optimizer.deadline},
               {"tolerance_s", optimizer.tolerance}};
     case OptionGroup::kGiven:
-      return {
-          {"variables", Variables({.heights = true, .durations = true, .support_points = true})}};
+      return {{"variables", Variables(EveryFamily())}};
     case OptionGroup::kHorizon:
       return {{"variables", Variables(program.parameters)},
               {"objective", config.optimizer.program},

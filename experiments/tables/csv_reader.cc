@@ -62,6 +62,10 @@ CsvTable ParseCsv(const std::string& text, const std::string& path) {
   return table;
 }
 
+bool CsvTable::Has(const std::string& column) const {
+  return std::ranges::find(header, column) != header.end();
+}
+
 size_t CsvTable::Index(const std::string& column) const {
   const auto found = std::find(header.begin(), header.end(), column);
   if (found == header.end()) Refuse(path, 1, "no column '" + column + "'");

@@ -12,6 +12,8 @@ struct CsvTable {
   std::vector<std::string> header;             ///< the columns' names
   std::vector<std::vector<std::string>> rows;  ///< texts, one for each column
 
+  /// Whether there is such a column.
+  bool Has(const std::string& column) const;
   /// A column of numbers. Throws InputError, with the line, for what is not a number, and when
   /// there is no such column.
   std::vector<double> Numbers(const std::string& column) const;

@@ -13,14 +13,22 @@ using enum CsvType;
 
 namespace {
 
-// The families whose values stand in a table of a method's folder, in the order of their columns.
-std::vector<ParameterFamily> FamiliesOf(std::string_view table) {
+// The families whose values stand in half_steps.csv, in the order of their columns.
+std::vector<ParameterFamily> FamiliesOfHalfSteps(bool forms) {
   std::vector<ParameterFamily> families;
   for (const ParameterFamily family : AllParameterFamilies()) {
-    if (Traits(family).table == table) families.push_back(family);
+    const ParameterFamilyTraits& traits = Traits(family);
+    if (traits.table == "half_steps" && (forms || !traits.of_form)) families.push_back(family);
   }
   std::ranges::stable_sort(families, {}, [](ParameterFamily f) { return Traits(f).rank; });
   return families;
+}
+
+bool HasForms(const HalfStepSequence& sequence, const HomotopyParameters& parameters) {
+  const HomotopyParameters planned = PlannedMotion(sequence);
+  return std::ranges::any_of(AllParameterFamilies(), [&](ParameterFamily family) {
+    return Traits(family).of_form && parameters.of(family) != planned.of(family);
+  });
 }
 
 }  // namespace
@@ -31,20 +39,23 @@ CsvColumn ColumnOf(ParameterFamily family) {
           std::string(traits.meaning)};
 }
 
-CsvColumns HalfStepsColumns() {
+CsvColumns HalfStepsColumns(bool forms) {
   CsvColumns columns = {
       {"half_step", kInteger, "", "from 1"},
       {"kind", kString, "", "up or down"},
       {"support", kString, "", "foot that carries: left or right"},
       {"start_s", kNumber, "s", "when it begins"},
   };
-  for (const ParameterFamily family : FamiliesOf("half_steps")) columns.push_back(ColumnOf(family));
+  for (const ParameterFamily family : FamiliesOfHalfSteps(forms)) {
+    columns.push_back(ColumnOf(family));
+  }
   return columns;
 }
 
 CsvFile HalfStepsCsv(const HalfStepSequence& sequence, const HomotopyParameters& parameters) {
-  const std::vector<ParameterFamily> families = FamiliesOf("half_steps");
-  CsvWriter csv(HalfStepsColumns());
+  const bool forms = HasForms(sequence, parameters);
+  const std::vector<ParameterFamily> families = FamiliesOfHalfSteps(forms);
+  CsvWriter csv(HalfStepsColumns(forms));
   double start = 0.0;
   for (size_t i = 0; i < sequence.half_steps.size(); ++i) {
     const HalfStep& half_step = sequence.half_steps[i].half_step;
@@ -67,7 +78,9 @@ HomotopyParameters ReadParameters(const std::filesystem::path& folder,
     const ParameterFamilyTraits& traits = Traits(family);
     const std::filesystem::path path = folder / (std::string(traits.table) + ".csv");
     if (!std::filesystem::exists(path)) continue;
-    const std::vector<double> column = ReadCsv(path.string()).Numbers(std::string(traits.column));
+    const CsvTable table = ReadCsv(path.string());
+    if (traits.of_form && !table.Has(std::string(traits.column))) continue;
+    const std::vector<double> column = table.Numbers(std::string(traits.column));
     std::vector<double>& values = parameters.of(family);
     values.clear();
     for (size_t row = 0; row < column.size(); ++row) {

@@ -12,9 +12,10 @@ namespace halfstep {
 /// The column of a family.
 CsvColumn ColumnOf(ParameterFamily family);
 
-/// The columns of half_steps.csv.
-CsvColumns HalfStepsColumns();
-/// half_steps.csv: one row a half-step, with where the homotopy ended.
+/// The columns of half_steps.csv; those of the families of form with `forms` only.
+CsvColumns HalfStepsColumns(bool forms);
+/// half_steps.csv: one row a half-step, with where the homotopy ended. The columns of forms are
+/// there where one of their values is not the plan's.
 CsvFile HalfStepsCsv(const HalfStepSequence& sequence, const HomotopyParameters& parameters);
 
 /// The point of the homotopy in the tables of a method's folder. Families whose table is not there,

@@ -74,6 +74,11 @@ bool CheckHalfSteps(const std::vector<HalfStepRow>& rows, const HalfStepSequence
   return findings->disagreements() == before;
 }
 
+bool NearForms(const FormColumns& a, const FormColumns& b) {
+  return Near(a.via_lateral, b.via_lateral) && Near(a.foot_ramp, b.foot_ramp) &&
+         Near(a.foot_delay, b.foot_delay) && Near(a.lift_share, b.lift_share);
+}
+
 // Whether half-step i is the same in two walks.
 bool SameHalfStep(const EpisodeText& episode, const EpisodeWalks& all, size_t a, size_t b,
                   size_t i) {
@@ -83,7 +88,7 @@ bool SameHalfStep(const EpisodeText& episode, const EpisodeWalks& all, size_t a,
   return p.kind == q.kind && p.support == q.support && Near(X_WS, Y_WS) && Near(p.X_SF, q.X_SF) &&
          Near(p.via_height, q.via_height) && Near(x.start, y.start) &&
          Near(x.duration, y.duration) && Near(x.height_scale, y.height_scale) &&
-         Near(x.support_point, y.support_point);
+         Near(x.support_point, y.support_point) && NearForms(x.FormOf(p), y.FormOf(q));
 }
 
 // Whether the robot had stopped in a walk, with so many half-steps begun.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace halfstep::verify {
 namespace {
@@ -13,6 +14,22 @@ constexpr double kLongestRest = 3600;
 
 bool Same(double a, double b) { return std::abs(a - b) <= kTwiceRounding; }  // false for nan
 
+bool Same(const FormColumns& a, const FormColumns& b) {
+  return Same(a.via_lateral, b.via_lateral) && Same(a.foot_ramp, b.foot_ramp) &&
+         Same(a.foot_delay, b.foot_delay) && Same(a.lift_share, b.lift_share);
+}
+
+// What is wrong with a form, of whatever plan; "": nothing. Numbers that are not finite are out of
+// every range.
+std::string FaultOfForm(const FormColumns& form) {
+  const auto within = [](double x, double least, double most) { return x >= least && x <= most; };
+  if (!within(form.via_lateral, 0.01, 1)) return Formatted("via point at %.9g", form.via_lateral);
+  if (!within(form.foot_ramp, 0.1, 0.5)) return Formatted("foot ramp %.9g", form.foot_ramp);
+  if (!within(form.foot_delay, 0, 0.2)) return Formatted("foot delay %.9g", form.foot_delay);
+  if (!within(form.lift_share, 0.2, 1)) return Formatted("lift share %.9g", form.lift_share);
+  return "";
+}
+
 // What is wrong with a row of the planned motion; "": nothing.
 std::string FaultOfRaw(const HalfStepRow& row, const HalfStep& planned) {
   if (!Same(row.duration, planned.duration)) {
@@ -22,6 +39,8 @@ std::string FaultOfRaw(const HalfStepRow& row, const HalfStep& planned) {
     return Formatted("support point %.9g, planned %.9g", row.support_point,
                      planned.shape.support_offset);
   }
+  const FormColumns as_planned = HalfStepRow{}.FormOf(planned);
+  if (!Same(row.FormOf(planned), as_planned)) return "a form that is not planned";
   return Same(row.height_scale, 1) ? ""
                                    : Formatted("height scale %.9g, planned 1", row.height_scale);
 }
@@ -46,6 +65,14 @@ std::string FaultOf(const OverlapRow& row, const HalfStepRow& before, const Half
   return "";
 }
 
+// The column of a parameter that each half-step has for itself.
+std::optional<double FormColumns::*> FormNamed(const std::string& parameter) {
+  if (parameter == "foot_ramp") return &FormColumns::foot_ramp;
+  if (parameter == "foot_delay") return &FormColumns::foot_delay;
+  if (parameter == "lift_share") return &FormColumns::lift_share;
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::string FaultOfHalfStep(const HalfStepRow& row, const HalfStep& planned) {
@@ -57,12 +84,15 @@ std::string FaultOfHalfStep(const HalfStepRow& row, const HalfStep& planned) {
   }
   if (!(row.duration > 0)) return Formatted("duration %.9g", row.duration);
   if (!(row.height_scale >= 0)) return Formatted("height scale %.9g", row.height_scale);
-  return "";
+  return row.form ? FaultOfForm(*row.form) : "";
 }
 
 std::string FaultOfStep(const HalfStepRow& up, const HalfStepRow& down) {
   if (!Same(down.height_scale, up.height_scale)) {
     return "another height scale than the step's up half-step";
+  }
+  if (up.form && down.form && !Same(down.form->via_lateral, up.form->via_lateral)) {
+    return "another via point than the step's up half-step";
   }
   return Same(down.support_point, up.support_point)
              ? ""
@@ -136,6 +166,14 @@ void CheckFixed(const std::vector<HalfStepRow>& half_steps, const std::vector<Ov
     } else if (one.parameter == "support_point" && 2 * i < half_steps.size()) {
       is = half_steps[2 * i].support_point;
       demanded = planned.half_steps[2 * i].half_step.shape.support_offset;
+    } else if (one.parameter == "via_lateral" && 2 * i < half_steps.size()) {
+      const HalfStep& plan = planned.half_steps[2 * i].half_step;
+      is = half_steps[2 * i].FormOf(plan).via_lateral;
+      demanded = plan.via_lateral;
+    } else if (const auto form = FormNamed(one.parameter); form && i < half_steps.size()) {
+      const HalfStep& plan = planned.half_steps[i].half_step;
+      is = half_steps[i].FormOf(plan).**form;
+      demanded = HalfStepRow{}.FormOf(plan).**form;
     } else {
       findings->Disagree("config.yaml: smoothing.fixed: " + one.parameter +
                          Formatted(" %d is not known here", one.index));

@@ -26,9 +26,13 @@ void CheckIndex(const CsvText& csv, size_t row) {
 }  // namespace
 
 std::vector<HalfStepRow> ReadHalfSteps(const std::string& path, const std::string& text) {
-  const CsvText csv(
-      path, text,
-      {"half_step", "kind", "support", "start_s", "duration_s", "height_scale", "support_point_m"});
+  std::vector<std::string> columns = {"half_step",  "kind",         "support",        "start_s",
+                                      "duration_s", "height_scale", "support_point_m"};
+  const bool has_forms = text.substr(0, text.find('\n')).ends_with(",lift_share");
+  if (has_forms) {
+    columns.insert(columns.end(), {"via_lateral_m", "foot_ramp", "foot_delay", "lift_share"});
+  }
+  const CsvText csv(path, text, columns);
   std::vector<HalfStepRow> rows;
   for (size_t i = 0; i < csv.size(); ++i) {
     CheckIndex(csv, i);
@@ -38,6 +42,11 @@ std::vector<HalfStepRow> ReadHalfSteps(const std::string& path, const std::strin
                     .duration = csv.Number(i, 4),
                     .height_scale = csv.Number(i, 5),
                     .support_point = csv.Number(i, 6)});
+    if (!has_forms) continue;
+    rows.back().form = {.via_lateral = csv.Number(i, 7),
+                        .foot_ramp = csv.Number(i, 8),
+                        .foot_delay = csv.Number(i, 9),
+                        .lift_share = csv.Number(i, 10)};
   }
   return rows;
 }

@@ -8,11 +8,24 @@
 
 namespace halfstep::verify {
 
+/// The columns of half_steps.csv that are there when half-steps have forms of their own.
+struct FormColumns {
+  double via_lateral = 0;                                ///< [m]
+  double foot_ramp = 0, foot_delay = 0, lift_share = 0;  ///< as HalfStepShape has them
+};
+
 /// A row of half_steps.csv.
 struct HalfStepRow {
   std::string kind, support;                         ///< up or down; left or right
   double start = 0, duration = 0, height_scale = 0;  ///< [s], [s], 1
   double support_point = 0;                          ///< [m]
+  std::optional<FormColumns> form = {};              ///< none: as planned
+
+  /// The form of the half-step whose plan is `planned`.
+  FormColumns FormOf(const HalfStep& planned) const {
+    return form.value_or(FormColumns{planned.via_lateral, planned.shape.foot_ramp,
+                                     planned.shape.horizontal_delay, planned.shape.lift_share});
+  }
 };
 
 /// A row of overlaps.csv; its columns about what was allowed, what holds the overlap and what that

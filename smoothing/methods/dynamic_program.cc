@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "smoothing/proof/certified_feasibility.h"
 #include "smoothing/walk/superposed_walk.h"
@@ -14,9 +15,10 @@ constexpr double kRounding = 1e-9;  // [s]
 }  // namespace
 
 DynamicProgram::DynamicProgram(const HalfStepSequence& sequence, const MarginEvaluator& evaluator,
-                               double period)
+                               HomotopyParameters start, double period)
     : sequence_(sequence),
       evaluator_(evaluator),
+      start_(std::move(start)),
       period_(period),
       scratch_(evaluator.MakeScratch()) {}
 
@@ -82,11 +84,15 @@ double DynamicProgram::Longest(int k, const State& state, double longest) {
   part.half_steps.assign(sequence_.half_steps.begin() + from,
                          sequence_.half_steps.begin() + to + 1);
   HomotopyParameters parameters = PlannedMotion(part);
+  for (const ParameterFamily family : AllParameterFamilies()) {
+    if (Traits(family).joins) continue;  // overlaps are chosen
+    const auto first = start_.of(family).begin() + Traits(family).index_at(from);
+    std::copy_n(first, parameters.of(family).size(), parameters.of(family).begin());
+  }
   for (int i = std::max(0, k - 3); i <= k; ++i) {
     const int index = state.indices[i - k + 3];
     const size_t local = static_cast<size_t>(i - from);
     parameters.durations[local] = choice(i, index).duration;
-    parameters.support_points[local / 2] = choice(i, index).support_point;
     if (i % 2 == 0) parameters.height_scales[local / 2] = choice(i, index).height;
     if (i > std::max(0, k - 3)) {
       parameters.overlaps[local - 1] = Overlap(i, state.indices[i - 1 - k + 3], index);
@@ -167,11 +173,10 @@ std::vector<int> DynamicProgram::End() {
 
 HomotopyParameters DynamicProgram::ParametersOf(const Choices& choices,
                                                 const std::vector<int>& indices) const {
-  HomotopyParameters parameters = PlannedMotion(sequence_);
+  HomotopyParameters parameters = start_;
   for (size_t k = 0; k < indices.size(); ++k) {
     const StretchChoice& c = choices[k][static_cast<size_t>(indices[k])];
     parameters.durations[k] = c.duration;
-    parameters.support_points[k / 2] = c.support_point;
     if (k % 2 == 0) parameters.height_scales[k / 2] = c.height;
     if (k == 0) continue;
     parameters.overlaps[k - 1] = c.overlap;

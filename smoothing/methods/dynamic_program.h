@@ -10,10 +10,9 @@ namespace halfstep {
 
 /// One choice of the parameters of a half-step.
 struct StretchChoice {
-  double overlap = 0.0;        ///< Δ with the half-step before [s]; lowered to its natural bound
-  double duration = 0.0;       ///< T [s]
-  double height = 1.0;         ///< η of its step; counts for up half-steps
-  double support_point = 0.0;  ///< s of its step [m]; the same in all choices of a half-step
+  double overlap = 0.0;   ///< Δ with the half-step before [s]; lowered to its natural bound
+  double duration = 0.0;  ///< T [s]
+  double height = 1.0;    ///< η of its step; counts for up half-steps
 };
 
 /// Finds the shortest walk whose half-steps each choose from a finite list, by dynamic programming.
@@ -28,8 +27,10 @@ class DynamicProgram {
  public:
   using Choices = std::vector<std::vector<StretchChoice>>;  ///< by half-step
 
-  /// `sequence` and `evaluator` are borrowed. `period` [s] > 0.
-  DynamicProgram(const HalfStepSequence& sequence, const MarginEvaluator& evaluator, double period);
+  /// `sequence` and `evaluator` are borrowed. `start`: parameters of the sequence, which hold what
+  /// choices do not say. `period` [s] > 0.
+  DynamicProgram(const HalfStepSequence& sequence, const MarginEvaluator& evaluator,
+                 HomotopyParameters start, double period);
 
   /// The indices of the best choices, by half-step; empty when none is feasible and lasts at most
   /// `duration` [s], or when `stop`, asked before each half-step, returns true.
@@ -76,6 +77,7 @@ class DynamicProgram {
 
   const HalfStepSequence& sequence_;
   const MarginEvaluator& evaluator_;
+  HomotopyParameters start_;
   double period_;
   MarginEvaluator::Scratch scratch_;
   long passes_ = 0;

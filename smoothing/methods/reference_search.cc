@@ -30,7 +30,7 @@ class Reference {
         monitor_(monitor),
         table_(problem.Parameters(options.parameters)),
         planned_(problem.Start()),
-        grid_(sequence_, problem.evaluator(), options.period),
+        grid_(sequence_, problem.evaluator(), planned_, options.period),
         proofs_(problem.test(), sequence_.size()),
         random_(options.seed) {}
 
@@ -100,8 +100,7 @@ class Reference {
   }
 
   StretchChoice At(const HomotopyParameters& point, size_t k) const {
-    return {k > 0 ? point.overlaps[k - 1] : 0.0, point.durations[k], point.height_scales[k / 2],
-            point.support_points[k / 2]};
+    return {k > 0 ? point.overlaps[k - 1] : 0.0, point.durations[k], point.height_scales[k / 2]};
   }
 
   DynamicProgram::Choices GlobalChoices() const {

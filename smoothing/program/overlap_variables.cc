@@ -74,7 +74,9 @@ HomotopyParameters OverlapVariables::ToParameters(const Eigen::VectorXd& x) cons
         value = std::max(x[v], table_.row(at(v)).lower);
         break;
       default:
-        value = x[v];
+        value = Traits(at(v).family).of_form
+                    ? std::clamp(x[v], table_.row(at(v)).lower, table_.row(at(v)).upper)
+                    : x[v];
     }
   }
   return parameters;

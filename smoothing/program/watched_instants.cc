@@ -44,15 +44,24 @@ double StretchOf(const SuperposedWalk& walk, int half_step) {
   return (last ? walk.duration() : walk.start_of(half_step + 1)) - walk.start_of(half_step);
 }
 
-// Fractions of T just inside the times at which a statement begins or ends to count.
-std::vector<double> Events(const HalfStep& half_step) {
-  constexpr double kInside = 1e-9;
+constexpr double kInside = 1e-9;  // of T, from an event
+
+// Just inside the horizontal motion, next to the floor, as a fraction of T.
+double MotionEvent(const HalfStep& half_step) {
   const HalfStepShape& shape = half_step.shape;
   const double delay = shape.horizontal_delay;
+  return half_step.kind == HalfStepKind::kUp ? shape.t2() + delay + kInside
+                                             : shape.t1() - delay - kInside;
+}
+
+// Fractions of T just inside the times at which a statement begins or ends to count; the middle one
+// is the motion's.
+std::array<double, 3> Events(const HalfStep& half_step) {
+  const HalfStepShape& shape = half_step.shape;
   if (half_step.kind == HalfStepKind::kUp) {
-    return {shape.t2() + kInside, shape.t2() + delay + kInside, 1.0 - kInside};
+    return {shape.t2() + kInside, MotionEvent(half_step), 1.0 - kInside};
   }
-  return {kInside, shape.t1() - delay - kInside, shape.t1() - kInside};
+  return {kInside, MotionEvent(half_step), shape.t1() - kInside};
 }
 
 }  // namespace
@@ -67,8 +76,12 @@ WatchedInstants::WatchedInstants(const OverlapVariables& variables,
     for (int m = 0; looked_at && m < options.instants; ++m) {
       instants.push_back({(m + 0.5) / options.instants, Instant::Of::kStretch});
     }
-    for (double v : Events(variables.sequence().half_steps[static_cast<size_t>(k)].half_step)) {
-      if (looked_at) instants.push_back({v, Instant::Of::kHalfStep});
+    const auto events = Events(variables.sequence().half_steps[static_cast<size_t>(k)].half_step);
+    const bool moves = variables.IndexOf({Family::kFootDelay, k}) >= 0;
+    for (double v : events) {
+      if (!looked_at) break;
+      const bool of_motion = moves && v == events[1];
+      instants.push_back({v, of_motion ? Instant::Of::kMotion : Instant::Of::kHalfStep});
     }
     const int in_branch = WatchesBranch(k) ? std::max(1, options.instants / 2) : 0;
     for (int m = 0; m < in_branch; ++m) {
@@ -122,6 +135,13 @@ LocalTime WatchedInstants::At(const SuperposedWalk& walk, int k, const Instant& 
   if (instant.of == Instant::Of::kHalfStep) {
     moving->push_back({{Family::kDuration, k}, u});
     return {k, u * T};
+  }
+  if (instant.of == Instant::Of::kMotion) {
+    const double v = MotionEvent(walk.half_step(k));
+    moving->push_back({{Family::kDuration, k}, v});
+    moving->push_back(
+        {{Family::kFootDelay, k}, walk.half_step(k).kind == HalfStepKind::kUp ? T : -T});
+    return {k, v * T};
   }
   const bool last = k + 1 == walk.num_half_steps();
   if (instant.of == Instant::Of::kStretch) {

@@ -27,7 +27,7 @@ struct WatchOptions {
 /// The slacks of a walk, gathered by half-step and family. Half-step k is looked at
 ///   - on its own stretch [t_k, t_{k+1}], at τ = u·(T_k − Δ_k) for fixed u ∈ (0, 1);
 ///   - where statements begin or end to count, at τ = v·T_k: lift-off or landing, begin or end of
-///     the horizontal motion of its foot;
+///     the horizontal motion of its foot, which follows the delay of that motion;
 ///   - where a proof failed before (Learn) or samples show small slacks (Focus), at τ = v·T_k;
 ///   - where its stop branch is demanded, in the walk that is cut after it on [t_{k+1}, e_k], at
 ///     τ = T_k − (1 − u)·max(Δ_k, 0): before t_{k+1} that is the walk.
@@ -88,6 +88,7 @@ class WatchedInstants {
     enum class Of {
       kStretch,   // of T_k − Δ_k from t_k on
       kHalfStep,  // of T_k from t_k on
+      kMotion,    // of T_k from t_k on; moves with the begin or end of the horizontal motion
       kBranch,    // of Δ_k from t_{k+1} on, in the stop branch
     };
     enum class Why { kGrid, kLearned, kMinimum };

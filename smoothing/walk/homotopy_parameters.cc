@@ -49,7 +49,8 @@ void CheckParameters(const HalfStepSequence& sequence, const HomotopyParameters&
                                  << " half-steps");
     for (double value : values) {
       HALFSTEP_CHECK(std::isfinite(value) &&
-                         (value > traits.least || (traits.least_itself && value == traits.least)),
+                         (value > traits.least || (traits.least_itself && value == traits.least)) &&
+                         (value <= traits.most || !traits.of_form),
                      traits.name << " " << value << " " << traits.unit);
     }
   }

@@ -16,6 +16,11 @@ struct HomotopyParameters {
   std::vector<double> durations;      ///< T_i of half-step i [s] (n).
   /// Support offset of step j [m]: of both its half-steps, which share the support foot (n/2).
   std::vector<double> support_points;
+  std::vector<double> via_laterals;  ///< of the via point of step j from the support sole [m] (n/2)
+  // Of half-step i, as in its HalfStepShape (n).
+  std::vector<double> foot_ramps;   ///< foot_ramp
+  std::vector<double> foot_delays;  ///< horizontal_delay
+  std::vector<double> lift_shares;  ///< lift_share
 
   /// The values of a family.
   std::vector<double>& of(ParameterFamily family) { return this->*Traits(family).values; }
@@ -27,7 +32,7 @@ struct HomotopyParameters {
   friend bool operator==(const HomotopyParameters&, const HomotopyParameters&) = default;
 };
 
-/// The planned motion, where the homotopy starts: Δ = 0, η = 1, T and support points as planned.
+/// The planned motion, where the homotopy starts: Δ = 0, η = 1, all else as planned.
 HomotopyParameters PlannedMotion(const HalfStepSequence& sequence);
 
 /// One parameter: its family, and its index there from 0.
@@ -80,8 +85,9 @@ inline constexpr double kOverlapTolerance = 1e-12;
 /// The robot rests no longer than this at a junction [s].
 inline constexpr double kLongestRest = 3600.0;
 
-/// Throws std::logic_error unless the sizes fit the sequence, all values are finite, T > 0, η ≥ 0,
-/// Δ ≥ −kLongestRest and no overlap exceeds its natural bound by more than kOverlapTolerance.
+/// Throws std::logic_error unless the sizes fit the sequence, all values are finite and between
+/// `least` and `most` of their families (those of forms) or at least `least` (all), and no overlap
+/// exceeds its natural bound by more than kOverlapTolerance.
 void CheckParameters(const HalfStepSequence& sequence, const HomotopyParameters& parameters);
 
 /// Lowers every overlap that is above its natural bound to it, and raises negative ones to 0 except

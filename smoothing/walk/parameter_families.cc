@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "smoothing/walk/form_families.h"
 #include "smoothing/walk/homotopy_parameters.h"
 
 namespace halfstep {
@@ -17,6 +18,8 @@ constexpr ParameterFamilyTraits kOverlap = {
     .column = "overlap_s",
     .rank = 0,
     .meaning = "how long both half-steps are under way; below 0: a rest between them",
+    .of_form = false,
+    .shape = nullptr,
     .values = &HomotopyParameters::overlaps,
     .count = [](const HalfStepSequence& sequence) { return sequence.num_junctions(); },
     .planned = [](const HalfStepSequence&, int) { return 0.0; },
@@ -49,6 +52,8 @@ constexpr ParameterFamilyTraits kHeightScale = {
     .column = "height_scale",
     .rank = 1,
     .meaning = "scale of the foot's height in its step",
+    .of_form = false,
+    .shape = nullptr,
     .values = &HomotopyParameters::height_scales,
     .count = [](const HalfStepSequence& sequence) { return sequence.num_steps(); },
     .planned = [](const HalfStepSequence&, int) { return 1.0; },
@@ -84,6 +89,8 @@ constexpr ParameterFamilyTraits kDuration = {
     .column = "duration_s",
     .rank = 0,
     .meaning = "T",
+    .of_form = false,
+    .shape = nullptr,
     .values = &HomotopyParameters::durations,
     .count = [](const HalfStepSequence& sequence) { return sequence.size(); },
     .planned = [](const HalfStepSequence& sequence,
@@ -120,6 +127,8 @@ constexpr ParameterFamilyTraits kSupportPoint = {
     .column = "support_point_m",
     .rank = 2,
     .meaning = "where CoM and ZMP rest on one foot, from its centre towards the other foot",
+    .of_form = false,
+    .shape = nullptr,
     .values = &HomotopyParameters::support_points,
     .count = [](const HalfStepSequence& sequence) { return sequence.num_steps(); },
     .planned =
@@ -148,6 +157,14 @@ constexpr ParameterFamilyTraits kSupportPoint = {
 
 }  // namespace
 
+ParameterChoice EveryFamily() {
+  ParameterChoice all;
+  for (const ParameterFamily family : AllParameterFamilies()) {
+    if (Traits(family).chosen != nullptr) all.*Traits(family).chosen = true;
+  }
+  return all;
+}
+
 const ParameterFamilyTraits& Traits(ParameterFamily family) {
   switch (family) {
     case ParameterFamily::kOverlap:
@@ -158,8 +175,9 @@ const ParameterFamilyTraits& Traits(ParameterFamily family) {
       return kDuration;
     case ParameterFamily::kSupportPoint:
       return kSupportPoint;
+    default:
+      return FormTraits(family);
   }
-  return kOverlap;
 }
 
 }  // namespace halfstep

@@ -18,19 +18,31 @@ enum class ParameterFamily {
   kHeightScale,   ///< η of a step
   kDuration,      ///< T of a half-step
   kSupportPoint,  ///< support offset of a step
+  kViaLateral,    ///< how far aside the via point of a step is
+  kFootRamp,      ///< ramps of the swing foot's speed in a half-step
+  kFootDelay,     ///< the fraction of a half-step between floor and horizontal motion
+  kLiftShare,     ///< the fraction of a half-step's flight in which the foot rises or sinks
 };
 /// How many families there are.
-inline constexpr int kNumParameterFamilies = 4;
+inline constexpr int kNumParameterFamilies = 8;
 
 /// What a method may move besides overlaps, and how far.
 struct ParameterChoice {
   bool heights = false;             ///< η
   bool durations = false;           ///< T
   bool support_points = false;      ///< where CoM and ZMP rest on one foot
+  bool via_laterals = false;        ///< how far aside via points are
+  bool foot_ramps = false;          ///< HalfStepShape::foot_ramp
+  bool foot_delays = false;         ///< HalfStepShape::horizontal_delay
+  bool lift_shares = false;         ///< HalfStepShape::lift_share
   double least_height_scale = 0.2;  ///< η is at least this
   double least_duration = 0.5;      ///< as a fraction of the planned one
   double most_duration = 1.5;       ///< as a fraction of the planned one
   double least_support_point = -0.03, most_support_point = 0.06;  ///< support offset [m]
+  double least_via_lateral = 0.18, most_via_lateral = 0.3;        ///< [m]
+  double least_foot_ramp = 0.2;                                   ///< of its motion, to ½
+  double least_foot_delay = 0.02, most_foot_delay = 0.2;          ///< of T
+  double least_lift_share = 0.4;                                  ///< of its flight, to 1
 };
 
 /// One number of ParameterChoice, and its key in configs.
@@ -51,6 +63,9 @@ struct ParameterFamilyTraits {
   std::string_view column;   ///< their column in that table
   int rank;                  ///< order of the families' columns in one table, smallest first
   std::string_view meaning;  ///< one line, for the column and for messages
+  /// Its column is in tables only of walks in which a value of such a family is not the plan's.
+  bool of_form;
+  double HalfStepShape::*shape;  ///< the number of the half-step's shape that it is; null: of none
   std::vector<double> HomotopyParameters::*values;        ///< where values are kept
   int (*count)(const HalfStepSequence&);                  ///< how many a sequence has
   double (*planned)(const HalfStepSequence&, int index);  ///< the value that is the plan
@@ -65,7 +80,7 @@ struct ParameterFamilyTraits {
   /// The least value that makes sense, and whether that value itself is allowed.
   double least;
   bool least_itself;  ///< whether `least` is allowed
-  /// The largest value that files may give; +∞ where the natural bound limits it.
+  /// The largest value; +∞ where the natural bound limits it.
   double most;
   /// The flag that lets methods move the family (null: they always may), its key in configs
   /// ("heights"), and what that key means.
@@ -77,14 +92,18 @@ struct ParameterFamilyTraits {
   std::pair<double, double> (*range)(const ParameterChoice&, double planned);
 };
 
+/// Every family may be moved, as far as the defaults say.
+ParameterChoice EveryFamily();
+
 /// The traits of a family. A family is a row of the table behind this function, a member of
 /// HomotopyParameters, and what SuperposedWalk makes of its values.
 const ParameterFamilyTraits& Traits(ParameterFamily family);
 
 /// Every family, in the order of programs and files.
 constexpr std::array<ParameterFamily, kNumParameterFamilies> AllParameterFamilies() {
-  return {ParameterFamily::kOverlap, ParameterFamily::kHeightScale, ParameterFamily::kDuration,
-          ParameterFamily::kSupportPoint};
+  return {ParameterFamily::kOverlap,      ParameterFamily::kHeightScale, ParameterFamily::kDuration,
+          ParameterFamily::kSupportPoint, ParameterFamily::kViaLateral,  ParameterFamily::kFootRamp,
+          ParameterFamily::kFootDelay,    ParameterFamily::kLiftShare};
 }
 
 }  // namespace halfstep

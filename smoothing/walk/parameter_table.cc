@@ -84,6 +84,10 @@ std::string ComplaintAbout(const HalfStepSequence& sequence,
            << ")";
       return text.str();
     }
+    if (traits.of_form && value > traits.most) {
+      text << value << " " << traits.unit << " is too large (valid: up to " << traits.most << ")";
+      return text.str();
+    }
     text.str("");
   }
   const HomotopyParameters start = StartOf(sequence, fixed);

@@ -32,11 +32,7 @@ int FirstOf(int foot) { return 5 + 4 * foot; }
 }  // namespace
 
 ClosedFormWalk::ClosedFormWalk(const WalkPlan& plan)
-    : sigma1_((1 - Real(plan.shift)) / 2),
-      sigma2_((1 + Real(plan.shift)) / 2),
-      delay_(plan.horizontal_delay),
-      ramp_(plan.foot_ramp),
-      share_(plan.lift_share) {
+    : sigma1_((1 - Real(plan.shift)) / 2), sigma2_((1 + Real(plan.shift)) / 2) {
   const Real omega = Sqrt(Real(kGravity) / Real(plan.com_height));
   std::array<FloorPose, 2> feet = plan.start;
   // With both feet on the floor.
@@ -60,7 +56,7 @@ ClosedFormWalk::ClosedFormWalk(const WalkPlan& plan)
     via[1] = via[3] = support.y + Cos(Real(support.yaw)) * inward;
     via[4] = support.yaw;
     const size_t f = static_cast<size_t>(FirstOf(step.foot));
-    const Real aside = (step.foot == 0 ? 1 : -1) * Real(plan.via_lateral);
+    const Real aside = (step.foot == 0 ? 1 : -1) * Real(plan.via_lateral_of(i));
     via[f] = support.x - Sin(Real(support.yaw)) * aside;
     via[f + 1] = support.y + Cos(Real(support.yaw)) * aside;
     via[f + 2] = Real(plan.height_scales[i / 2]) * Real(step.via_height);
@@ -71,6 +67,9 @@ ClosedFormWalk::ClosedFormWalk(const WalkPlan& plan)
                        .begin = begin,
                        .end = begin + T,
                        .T = T,
+                       .delay = plan.foot_delay_of(i),
+                       .ramp = plan.foot_ramp_of(i),
+                       .share = plan.lift_share_of(i),
                        .profile = RestToRestClosedForm(omega * T, plan.shift, plan.bump_ramp)};
     half_step.from = up ? on_floor : via;
     const Quantities& to = up ? via : on_floor;
@@ -86,16 +85,16 @@ void ClosedFormWalk::Fractionize(const HalfStep& h, Real tau, Fractions* value,
   const Real sigma = tau / h.T;
   const ComZmp pair = h.profile.At(sigma);
   // Windows of the foot's horizontal motion and of its height.
-  const Real foot_begin = h.up ? sigma2_ + delay_ : Real(0);
-  const Real foot_end = h.up ? Real(1) : sigma1_ - delay_;
+  const Real foot_begin = h.up ? sigma2_ + h.delay : Real(0);
+  const Real foot_end = h.up ? Real(1) : sigma1_ - h.delay;
   const Real flight = h.up ? 1 - sigma2_ : sigma1_;
-  const Real height_begin = h.up ? sigma2_ : sigma1_ - share_ * flight;
-  const Real height_end = height_begin + share_ * flight;
+  const Real height_begin = h.up ? sigma2_ : sigma1_ - h.share * flight;
+  const Real height_end = height_begin + h.share * flight;
   const Real foot = (sigma - foot_begin) / (foot_end - foot_begin);
   const Real height = (sigma - height_begin) / (height_end - height_begin);
-  *value = {pair.c, pair.p, Smooth(sigma), Ramped(foot, ramp_), Smooth(height)};
+  *value = {pair.c, pair.p, Smooth(sigma), Ramped(foot, h.ramp), Smooth(height)};
   *rate = {pair.c_rate / h.T, pair.p_rate / h.T, SmoothSlope(sigma) / h.T,
-           RampedSlope(foot, ramp_) / (h.T * (foot_end - foot_begin)),
+           RampedSlope(foot, h.ramp) / (h.T * (foot_end - foot_begin)),
            SmoothSlope(height) / (h.T * (height_end - height_begin))};
 }
 
@@ -138,8 +137,8 @@ void ClosedFormWalk::CutIntoStretches() {
   std::vector<double> knots;
   for (size_t i = 0; i + 1 < half_steps_.size(); i += 2) {
     const HalfStep &up = half_steps_[i], &down = half_steps_[i + 1];
-    const Real up_moves = up.begin + (sigma2_ + delay_) * up.T;
-    const Real down_moves_end = down.begin + (sigma1_ - delay_) * down.T;
+    const Real up_moves = up.begin + (sigma2_ + up.delay) * up.T;
+    const Real down_moves_end = down.begin + (sigma1_ - down.delay) * down.T;
     flights.push_back({up.swing, up.begin + sigma2_ * up.T, down.begin + sigma1_ * down.T,
                        std::min(up_moves, down.begin), std::max(down_moves_end, up.end)});
     for (Real knot : {flights.back().begin, flights.back().end, up_moves, down_moves_end}) {

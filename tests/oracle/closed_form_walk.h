@@ -39,6 +39,18 @@ struct WalkPlan {
   /// Of step j: how far from the support sole's centre, along its y towards the other foot, CoM and
   /// ZMP rest [m].
   std::vector<double> support_points;
+  /// Of step j [m], and of half-step i, in place of via_lateral and of the numbers above; empty:
+  /// these.
+  std::vector<double> via_laterals, foot_ramps, foot_delays, lift_shares;
+
+  double via_lateral_of(size_t i) const {  ///< of half-step i
+    return via_laterals.empty() ? via_lateral : via_laterals[i / 2];
+  }
+  double foot_ramp_of(size_t i) const { return foot_ramps.empty() ? foot_ramp : foot_ramps[i]; }
+  double foot_delay_of(size_t i) const {  ///< of half-step i
+    return foot_delays.empty() ? horizontal_delay : foot_delays[i];
+  }
+  double lift_share_of(size_t i) const { return lift_shares.empty() ? lift_share : lift_shares[i]; }
 };
 
 /// The walk at one instant, in W [m, rad]; `rate` per second.
@@ -82,6 +94,7 @@ class ClosedFormWalk {
     bool up = true;
     int swing = 0;
     Real begin = 0, end = 0, T = 0;
+    Real delay = 0, ramp = 0, share = 0;  // of the foot's motions, as the plan has them
     Quantities from{}, change{};
     RestToRestClosedForm profile;
   };
@@ -93,7 +106,7 @@ class ClosedFormWalk {
   void CutIntoStretches();
   static Real Of(const Fractions& fractions, int quantity);
 
-  Real sigma1_, sigma2_, delay_, ramp_, share_;
+  Real sigma1_, sigma2_;
   std::vector<HalfStep> half_steps_;
   std::vector<Stretch> stretches_;
 };

@@ -60,10 +60,18 @@ HalfStepSequence ToSequence(const WalkPlan& plan) {
 }
 
 HomotopyParameters ToParameters(const WalkPlan& plan) {
-  return {.overlaps = plan.overlaps,
-          .height_scales = plan.height_scales,
-          .durations = plan.durations,
-          .support_points = plan.support_points};
+  HomotopyParameters parameters;
+  parameters.overlaps = plan.overlaps;
+  parameters.height_scales = plan.height_scales;
+  parameters.durations = plan.durations;
+  parameters.support_points = plan.support_points;
+  for (size_t i = 0; i < plan.durations.size(); ++i) {
+    if (i % 2 == 0) parameters.via_laterals.push_back(plan.via_lateral_of(i));
+    parameters.foot_ramps.push_back(plan.foot_ramp_of(i));
+    parameters.foot_delays.push_back(plan.foot_delay_of(i));
+    parameters.lift_shares.push_back(plan.lift_share_of(i));
+  }
+  return parameters;
 }
 
 void Tally::Add(const Tally& other) {

@@ -68,6 +68,14 @@ WalkPlan DrawPlan(const PlainRobot& robot, Draw* draw) {
     plan.foot_ramp = draw->Uniform(0.35, 0.5);
     plan.lift_share = draw->Uniform(0.85, 1);
   }
+  if (varied && draw->Chance(0.5)) {  // every half-step in a form of its own
+    for (size_t i = 0; i < plan.durations.size(); ++i) {
+      if (i % 2 == 0) plan.via_laterals.push_back(plan.via_lateral * draw->Uniform(0.95, 1.1));
+      plan.foot_ramps.push_back(draw->Uniform(0.3, 0.5));
+      plan.foot_delays.push_back(draw->Uniform(0.02, 0.2));
+      plan.lift_shares.push_back(draw->Uniform(0.6, 1));
+    }
+  }
   return plan;
 }
 

@@ -34,13 +34,17 @@ TEST(HomotopyParameters, PlannedMotionHasNoOverlapFullHeightAndTheRestAsPlanned)
 TEST(HomotopyParameters, EachParameterIsNamedOnceAndReachesItsOwnValue) {
   const HalfStepSequence sequence = ThreeSteps();
   const std::vector<HomotopyParameter> all = AllParameters(sequence);
-  ASSERT_EQ(all.size(), 5u + 3u + 6u + 3u);
+  ASSERT_EQ(all.size(), 5u + 3u + 6u + 3u + 3u + 3u * 6u);
   HomotopyParameters parameters = PlannedMotion(sequence);
   for (size_t i = 0; i < all.size(); ++i) all[i].in(parameters) = static_cast<double>(i);
   EXPECT_EQ(parameters.overlaps, (std::vector<double>{0, 1, 2, 3, 4}));
   EXPECT_EQ(parameters.height_scales, (std::vector<double>{5, 6, 7}));
   EXPECT_EQ(parameters.durations, (std::vector<double>{8, 9, 10, 11, 12, 13}));
   EXPECT_EQ(parameters.support_points, (std::vector<double>{14, 15, 16}));
+  EXPECT_EQ(parameters.via_laterals, (std::vector<double>{17, 18, 19}));
+  EXPECT_EQ(parameters.foot_ramps, (std::vector<double>{20, 21, 22, 23, 24, 25}));
+  EXPECT_EQ(parameters.foot_delays.front(), 26);
+  EXPECT_EQ(parameters.lift_shares.back(), 37);
   const HomotopyParameter beyond{Family::kHeightScale, 3};
   EXPECT_THROW(beyond.in(parameters), std::out_of_range);
 }
@@ -88,6 +92,11 @@ TEST(CheckParameters, RefusesEachSingleFault) {
       [=](auto* p) { p->height_scales[1] = infinity; },
       [](auto* p) { p->support_points.pop_back(); },
       [](auto* p) { p->support_points[2] = -1.1; },
+      [](auto* p) { p->via_laterals[0] = 0.0; },
+      [](auto* p) { p->foot_ramps[5] = 0.51; },
+      [](auto* p) { p->foot_delays[1] = 0.21; },
+      [](auto* p) { p->lift_shares[3] = 0.19; },
+      [](auto* p) { p->lift_shares.pop_back(); },
       [=](auto* p) { p->support_points[2] = nan; },
       [](auto* p) { p->durations[3] = 0; },
       [](auto* p) { p->durations[3] = -1; },

@@ -179,6 +179,10 @@ TEST(Successor, EqualWalksAgreeForEver) {
   WalkPlan aside = plan;
   aside.parameters.support_points[1] += 0.01;
   EXPECT_EQ(CommonHalfSteps(plan.Walk(), aside.Walk()), 2);
+  // Nor one of another form.
+  WalkPlan later = plan;
+  later.parameters.foot_delays[3] += 0.01;
+  EXPECT_EQ(CommonHalfSteps(plan.Walk(), later.Walk()), 3);
 }
 
 TEST(Successor, WhatHasBegunIsFixed) {
@@ -186,13 +190,12 @@ TEST(Successor, WhatHasBegunIsFixed) {
   const HalfStepSequence sequence = draw.Sequence(4);
   const WalkPlan plan{sequence, draw.Parameters(sequence, 0.0, 0.9)};
   for (int last = 0; last < sequence.size(); ++last) {
-    const ParameterTable table(sequence, FixedByBeginning(plan, last),
-                               {.heights = true, .durations = true, .support_points = true});
+    const ParameterTable table(sequence, FixedByBeginning(plan, last), EveryFamily());
     for (const ParameterRow& row : table.rows()) {
       const int i = row.parameter.index;
-      const bool begun = row.parameter.family == ParameterFamily::kOverlap    ? i < last
-                         : row.parameter.family == ParameterFamily::kDuration ? i <= last
-                                                                              : 2 * i <= last;
+      const auto [first, second] = Traits(row.parameter.family).half_steps(i);
+      const bool begun =
+          row.parameter.family == ParameterFamily::kOverlap ? second <= last : first <= last;
       EXPECT_EQ(row.fixed, begun) << last << " " << i;
       if (begun) {
         EXPECT_EQ(row.start, row.parameter.in(plan.parameters));

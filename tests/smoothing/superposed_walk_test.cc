@@ -196,6 +196,10 @@ TEST(SuperposedWalk, IsTheSumOverAllHalfSteps) {
         h.duration = parameters.durations[static_cast<size_t>(k)];
         h.via_height *= parameters.height_scales[static_cast<size_t>(k / 2)];
         h.shape.support_offset = parameters.support_points[static_cast<size_t>(k / 2)];
+        h.via_lateral = parameters.via_laterals[static_cast<size_t>(k / 2)];
+        h.shape.foot_ramp = parameters.foot_ramps[static_cast<size_t>(k)];
+        h.shape.horizontal_delay = parameters.foot_delays[static_cast<size_t>(k)];
+        h.shape.lift_share = parameters.lift_shares[static_cast<size_t>(k)];
         const HalfStepProfiles profiles(h.kind, h.shape, h.duration, sequence.lipm);
         const WalkJet own = Evaluate(h, profiles, t - walk.start_of(k));
         const WalkState from = Transformed(X_WS, h.Start());

@@ -114,6 +114,26 @@ HalfStepJet HalfStepProfiles::At(double tau) const {
           .height = to_time(height_.At(sigma))};
 }
 
+HalfStepJet HalfStepProfiles::ByShape(double HalfStepShape::*number, double tau) const {
+  const double sigma = tau / duration_, r = 1.0 / duration_;
+  const bool up = foot_.end == 1.0;
+  const auto to_time = [r](const UnitJet& f, double rate) {
+    return ProfileJet{
+        .value = rate * f.value, .first = rate * r * f.s, .second = rate * r * r * f.ss};
+  };
+  HalfStepJet jet;
+  if (number == &HalfStepShape::foot_ramp) {
+    jet.foot = to_time(foot_.ByRamp(sigma), 1.0);
+  } else if (number == &HalfStepShape::horizontal_delay) {
+    jet.foot = up ? to_time(foot_.ByBegin(sigma), 1.0) : to_time(foot_.ByEnd(sigma), -1.0);
+  } else {
+    HALFSTEP_CHECK(number == &HalfStepShape::lift_share, "this number of the shape is not offered");
+    jet.height = up ? to_time(height_.ByEnd(sigma), 1.0 - shape_.t2())
+                    : to_time(height_.ByBegin(sigma), -shape_.t1());
+  }
+  return jet;
+}
+
 HalfStepJet HalfStepProfiles::SecondBounds(double from, double to) const {
   const double a = from / duration_, b = to / duration_;
   const double r = 1.0 / (duration_ * duration_);

@@ -105,6 +105,10 @@ class HalfStepProfiles {
   /// The profiles at local time τ [s]: 0 and at rest before 0, 1 and at rest after T.
   HalfStepJet At(double tau) const;
 
+  /// Derivatives of value, first and second at τ with respect to horizontal_delay, foot_ramp or
+  /// lift_share of the shape (std::logic_error for another number). At a knot: of one side.
+  HalfStepJet ByShape(double HalfStepShape::*number, double tau) const;
+
   /// sup |π̈| [1/s²] of each profile over local times [from, to] [s]; only `second` is filled.
   HalfStepJet SecondBounds(double from, double to) const;
 

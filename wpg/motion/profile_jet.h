@@ -8,6 +8,12 @@ struct UnitJet {
   double value = 0.0;                   ///< F
   double s = 0.0, ss = 0.0, sss = 0.0;  ///< F_σ, F_σσ, F_σσσ (the last piecewise).
   double theta = 0.0, theta_s = 0.0, theta_ss = 0.0;  ///< F_θ, F_σθ, F_σσθ.
+
+  /// The derivative with respect to a parameter that moves the time of every value: F at σ becomes
+  /// F at σ + w·dr, with w affine in σ, `w` at this σ and `w_s` its slope. Only value, s and ss.
+  UnitJet Moved(double w, double w_s) const {
+    return {.value = w * s, .s = w_s * s + w * ss, .ss = 2.0 * w_s * ss + w * sss};
+  }
 };
 
 /// A profile π(τ; T) of local time τ ∈ [0, T] [s]: value, first and second time derivative, and the

@@ -33,6 +33,32 @@ struct RampedStep {
     return jet;
   }
 
+  /// Derivatives of At(σ) with respect to `begin` and to `end`: only value, s and ss.
+  UnitJet ByBegin(double sigma) const {
+    return At(sigma).Moved((sigma - end) / (end - begin), 1.0 / (end - begin));
+  }
+  UnitJet ByEnd(double sigma) const {  ///< see ByBegin
+    return At(sigma).Moved((begin - sigma) / (end - begin), -1.0 / (end - begin));
+  }
+  /// The derivative of At(σ) with respect to `ramp`, towards 0 for a ramp of ½: only value, s, ss.
+  UnitJet ByRamp(double sigma) const {
+    if (sigma <= begin || sigma >= end) return {};
+    const double q = 15.0 - 14.0 * ramp, middle = 0.5 * (begin + end);
+    if (sigma > begin + ramp * (end - begin) && sigma < end - ramp * (end - begin)) {
+      const double faster = 210.0 / (q * q * (end - begin));  // dv/dr over the window
+      return {.value = faster * (sigma - middle), .s = faster};
+    }
+    UnitJet f = At(sigma);
+    const bool rises = sigma < middle;
+    UnitJet moved = f.Moved((rises ? begin - sigma : end - sigma) / ramp, -1.0 / ramp);
+    if (!rises) f.value -= 1.0;
+    const double higher = 15.0 / (ramp * q);  // a'/a
+    moved.value += higher * f.value;
+    moved.s += higher * f.s;
+    moved.ss += higher * f.ss;
+    return moved;
+  }
+
   /// sup |second derivative| on [from, to]: exact.
   double SecondBound(double from, double to) const {
     if (ramp == 0.5) return Rise().SecondBound(from, to);

@@ -30,6 +30,14 @@ struct Smoothstep {
             .sss = 60.0 * (1.0 - 6.0 * x * y) * r * r * r};
   }
 
+  /// Derivatives of At(σ) with respect to `begin` and to `end`: only value, s and ss.
+  UnitJet ByBegin(double sigma) const {
+    return At(sigma).Moved((sigma - end) / (end - begin), 1.0 / (end - begin));
+  }
+  UnitJet ByEnd(double sigma) const {  ///< see ByBegin
+    return At(sigma).Moved((begin - sigma) / (end - begin), -1.0 / (end - begin));
+  }
+
   /// sup |S_σσ| on [from, to]: exact. S_σσ is extremal at x = ½ ± 1/√12, where it is ∓10/√3 /
   /// width².
   double SecondBound(double from, double to) const {

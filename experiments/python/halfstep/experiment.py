@@ -121,24 +121,31 @@ class Experiment:
     @property
     def planned(self) -> Walk:
         """The planned motion: every half-step from rest to rest, one after the other."""
-        return Walk(self._experiment.walk(None, None, None, None))
+        return Walk(self._experiment.walk({}))
 
     def walk(self, overlaps: Sequence[float] | None = None,
              height_scales: Sequence[float] | None = None,
              durations: Sequence[float] | None = None,
-             support_points: Sequence[float] | None = None) -> Walk:
+             support_points: Sequence[float] | None = None,
+             via_laterals: Sequence[float] | None = None,
+             foot_ramps: Sequence[float] | None = None,
+             foot_delays: Sequence[float] | None = None,
+             lift_shares: Sequence[float] | None = None) -> Walk:
         """The walk at given parameters; what is not given is as planned.
 
         For n half-steps: ``overlaps`` (n-1) [s], ``height_scales`` (n/2) of the planned heights,
-        ``durations`` (n) [s], ``support_points`` (n/2) [m]. An overlap beyond its natural bound
-        is a ValueError. Whether the walk is feasible is for ``Walk.certify`` to say.
+        ``durations`` (n) [s], ``support_points`` (n/2) [m]; and those of form: ``via_laterals``
+        (n/2) [m], ``foot_ramps`` (n), ``foot_delays`` (n), ``lift_shares`` (n), as fractions of
+        what the keys of ``half_step`` in configs say. An overlap beyond its natural bound is a
+        ValueError. Whether the walk is feasible is for ``Walk.certify`` to say.
         """
         sizes = {name: len(values) for name, values in self.planned.parameters.items()}
         given = {"overlaps": overlaps, "height_scales": height_scales, "durations": durations,
-                 "support_points": support_points}
-        return Walk(self._experiment.walk(*(
-            None if values is None else list(vector(name, values, sizes[name]))
-            for name, values in given.items())))
+                 "support_points": support_points, "via_laterals": via_laterals,
+                 "foot_ramps": foot_ramps, "foot_delays": foot_delays, "lift_shares": lift_shares}
+        return Walk(self._experiment.walk({
+            name: list(vector(name, values, sizes[name]))
+            for name, values in given.items() if values is not None}))
 
     def missed(self) -> list[str]:
         """What the planned motion misses of the demanded margins, as sentences, the worst first;

@@ -52,15 +52,19 @@ class SmoothingProblem:
     def walk(self, overlaps: Sequence[float] | None = None,
              height_scales: Sequence[float] | None = None,
              durations: Sequence[float] | None = None,
-             support_points: Sequence[float] | None = None) -> Walk:
+             support_points: Sequence[float] | None = None,
+             via_laterals: Sequence[float] | None = None,
+             foot_ramps: Sequence[float] | None = None,
+             foot_delays: Sequence[float] | None = None,
+             lift_shares: Sequence[float] | None = None) -> Walk:
         """The walk at given parameters; what is not given is the incumbent's."""
-        parameters = self.incumbent.parameters
+        sizes = {name: len(values) for name, values in self.incumbent.parameters.items()}
         given = {"overlaps": overlaps, "height_scales": height_scales, "durations": durations,
-                 "support_points": support_points}
-        for name, values in given.items():
-            if values is not None:
-                parameters[name] = vector(name, values, len(parameters[name]))
-        return Walk(self._task.walk(*(list(values) for values in parameters.values())))
+                 "support_points": support_points, "via_laterals": via_laterals,
+                 "foot_ramps": foot_ramps, "foot_delays": foot_delays, "lift_shares": lift_shares}
+        return Walk(self._task.walk({
+            name: list(vector(name, values, sizes[name]))
+            for name, values in given.items() if values is not None}))
 
     def propose(self, walk: Walk) -> bool:
         """Proves a walk by the experiment's test, unless it lasts no shorter than the incumbent.

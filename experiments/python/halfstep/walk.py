@@ -117,7 +117,8 @@ class Walk:
     @property
     def parameters(self) -> dict[str, np.ndarray]:
         """All parameters: ``overlaps`` (n-1) [s], ``height_scales`` (n/2) of the planned height,
-        ``durations`` (n) [s], ``support_points`` (n/2) [m]."""
+        ``durations`` (n) [s], ``support_points`` and ``via_laterals`` (n/2) [m], and fractions:
+        ``foot_ramps``, ``foot_delays``, ``lift_shares`` (n)."""
         return self._walk.parameters
 
     @property
