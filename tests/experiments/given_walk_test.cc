@@ -171,6 +171,33 @@ TEST_F(GivenWalkCommand, AWalkThatWasWrittenComesBackToTheByte) {
             ReadText(place_ / "elsewhere/given/trajectory.csv"));
 }
 
+// Columns of forms are written where half-steps have their own, read again, and verified.
+TEST_F(GivenWalkCommand, AWalkInFormsOfItsOwnComesBackToTheByte) {
+  const std::string config = ShippedConfig("fig3_two_half_steps");
+  const auto smooth = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words = {"smooth", config, "--quiet"};
+    words.insert(words.end(), more.begin(), more.end());
+    return Halfstep(place_.path(), words);
+  };
+  ASSERT_EQ(smooth({"--method", "halfstep/sqp", "--out", "sqp", "--set",
+                    "smoothing.optimizer.foot_delays=true", "--set",
+                    "smoothing.optimizer.lift_shares=true", "--set",
+                    "smoothing.optimizer.durations=true"})
+                .status,
+            0);
+  const std::string half_steps = ReadText(place_ / "sqp/halfstep_sqp/half_steps.csv");
+  EXPECT_THAT(half_steps, HasSubstr(",via_lateral_m,foot_ramp,foot_delay,lift_share\n"));
+  const Outcome again =
+      smooth({"--given", (place_ / "sqp/halfstep_sqp/half_steps.csv").string(), "--given",
+              (place_ / "sqp/halfstep_sqp/overlaps.csv").string(), "--out", "again"});
+  ASSERT_EQ(again.status, 0) << again.err;
+  for (const std::string file : {"trajectory.csv", "half_steps.csv"}) {
+    EXPECT_EQ(ReadText(place_ / "again/given" / file),
+              ReadText(place_ / "sqp/halfstep_sqp" / file));
+  }
+  EXPECT_EQ(Halfstep(place_.path(), {"verify", "again"}).status, 0);
+}
+
 TEST_F(GivenWalkCommand, WhatIsNotFeasibleIsToldWithTheMarginItMisses) {
   const std::string durations = "half_step,duration_s\n1,0.2\n2,0.2\n";
   WriteText(place_ / "fast.csv", durations);

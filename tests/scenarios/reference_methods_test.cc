@@ -191,7 +191,7 @@ TEST(DynamicProgramTest, FindsWhatTryingEverythingFinds) {
       }
     }
     constexpr double kPeriod = 0.02;
-    DynamicProgram grid(sequence, evaluator, kPeriod);
+    DynamicProgram grid(sequence, evaluator, planned, kPeriod);
     const std::vector<int> found = grid.Solve(choices, 1e9, [] { return false; });
     ASSERT_EQ(found.size(), 4u);
     const double best = DurationOf(grid.ParametersOf(choices, found));

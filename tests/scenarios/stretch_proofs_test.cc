@@ -18,6 +18,8 @@ HomotopyParameters Changed(const HalfStepSequence& sequence, HomotopyParameters 
   for (const HomotopyParameter& p : AllParameters(sequence)) {
     if (draw->Uniform(0, 1) > 0.12) continue;
     p.in(parameters) *= draw->Uniform(0.8, 1.2);
+    const ParameterFamilyTraits& traits = Traits(p.family);
+    if (traits.of_form) p.in(parameters) = std::clamp(p.in(parameters), traits.least, traits.most);
   }
   for (int i = 0; i < sequence.num_junctions(); ++i) {
     double& overlap = parameters.overlaps[static_cast<size_t>(i)];

@@ -14,25 +14,43 @@ namespace {
 class WatchedInstantsTest : public testing::Test {
  protected:
   // Overlaps about where smoothing ends, everything else about as planned.
-  Eigen::VectorXd Draw(WalkDraw* draw) const {
-    Eigen::VectorXd x(variables_.size());
+  Eigen::VectorXd Draw(WalkDraw* draw) const { return Draw(variables_, draw); }
+  Eigen::VectorXd Draw(const OverlapVariables& variables, WalkDraw* draw) const {
+    Eigen::VectorXd x(variables.size());
     const HomotopyParameters planned = PlannedMotion(e_.sequence);
-    for (int v = 0; v < variables_.size(); ++v) {
-      const HomotopyParameter& p = variables_.at(v);
-      x[v] = p.family == HomotopyParameter::Family::kOverlap ? draw->Uniform(0.6, 0.95)
-             : p.family == HomotopyParameter::Family::kHeightScale
-                 ? draw->Uniform(0.7, 1.0)
-                 : draw->Uniform(0.9, 1.1) * planned.durations[static_cast<size_t>(p.index)];
+    for (int v = 0; v < variables.size(); ++v) {
+      const HomotopyParameter& p = variables.at(v);
+      switch (p.family) {
+        case ParameterFamily::kOverlap:
+          x[v] = draw->Uniform(0.6, 0.95);
+          break;
+        case ParameterFamily::kHeightScale:
+        case ParameterFamily::kLiftShare:
+          x[v] = draw->Uniform(0.7, 1.0);
+          break;
+        case ParameterFamily::kSupportPoint:
+          x[v] = draw->Uniform(-0.01, 0.02);
+          break;
+        case ParameterFamily::kFootDelay:
+          x[v] = draw->Uniform(0.12, 0.19);
+          break;
+        case ParameterFamily::kFootRamp:
+          x[v] = draw->Uniform(0.35, 0.48);
+          break;
+        default:
+          x[v] = draw->Uniform(0.9, 1.1) * p.in(planned);
+      }
     }
     return x;
   }
 
-  // The Jacobian of `table` against differences of its rows.
-  void ExpectSlopes(const WatchedInstants& table, unsigned seed) const {
+  // The Jacobian of `table`, of these variables, against differences of its rows.
+  void ExpectSlopes(const WatchedInstants& table, const OverlapVariables& variables,
+                    unsigned seed) const {
     WalkDraw draw(seed);
     int compared = 0, kinks = 0, caught = 0;
     for (int i = 0; i < Draws(10); ++i) {
-      const Eigen::VectorXd x = Draw(&draw);
+      const Eigen::VectorXd x = Draw(variables, &draw);
       Eigen::VectorXd direction(x.size());
       for (Eigen::Index v = 0; v < x.size(); ++v) direction[v] = draw.Uniform(-1, 1);
       Eigen::VectorXd values;
@@ -124,11 +142,18 @@ TEST_F(WatchedInstantsTest, ARowNeverExceedsTheLeastSlackAndNearsItAsItSharpens)
 }
 
 TEST_F(WatchedInstantsTest, JacobianAlongRandomDirectionsAgreesWithDifferences) {
-  ExpectSlopes(table_, 362);
+  ExpectSlopes(table_, variables_, 362);
+}
+
+// With the instants that move with the horizontal motion.
+TEST_F(WatchedInstantsTest, SoDoesThatOfForms) {
+  const OverlapVariables variables(e_.sequence, ParameterTable(e_.sequence, {}, EveryFamily()));
+  ExpectSlopes(WatchedInstants(variables, evaluator_, {.instants = 4}), variables, 366);
 }
 
 TEST_F(WatchedInstantsTest, SoDoesThatOfStopBranches) {
-  ExpectSlopes({variables_, evaluator_, {.instants = 4, .stop_branches = StopBranches::kAll}}, 363);
+  ExpectSlopes({variables_, evaluator_, {.instants = 4, .stop_branches = StopBranches::kAll}},
+               variables_, 363);
 }
 
 // Every row that looks at branches is at most the one that does not, and the least slack is that of

@@ -21,6 +21,8 @@ Eigen::VectorXd Draw(const OverlapVariables& variables, WalkDraw* draw) {
     x[v] = draw->Uniform(0.02, 0.98);
     if (p.family == Family::kDuration) {
       x[v] = draw->Uniform(0.5, 1.5) * planned.durations[static_cast<size_t>(p.index)];
+    } else if (Traits(p.family).of_form) {
+      x[v] = variables.lower()[v] + x[v] * (variables.upper()[v] - variables.lower()[v]);
     }
   }
   return x;

@@ -33,10 +33,10 @@ class WalkDraw : public SequenceDraw {
     for (double& T : parameters.durations) T *= Uniform(0.8, 1.2);
     for (double& eta : parameters.height_scales) eta = Uniform(0.1, 1.0);
     for (double& offset : parameters.support_points) offset += Form(-0.03, 0.03);
-    for (double& via : parameters.via_laterals) via += Form(-0.03, 0.05);
-    for (double& ramp : parameters.foot_ramps) ramp = Form(0.15, 0.45);
+    for (double& via : parameters.via_laterals) via += Form(-0.02, 0.03);
+    for (double& ramp : parameters.foot_ramps) ramp = Form(0.3, 0.45);
     for (double& delay : parameters.foot_delays) delay = Form(0.02, 0.18);
-    for (double& share : parameters.lift_shares) share = Form(0.3, 0.95);
+    for (double& share : parameters.lift_shares) share = Form(0.6, 0.95);
     for (int i = 0; i < sequence.num_junctions(); ++i) {
       const double bound = NaturalOverlapBound(sequence, parameters.durations, i);
       parameters.overlaps[static_cast<size_t>(i)] = Uniform(low, high) * bound;

@@ -38,10 +38,12 @@ std::vector<HalfStepRow> RowsOf(const SuperposedWalk& walk) {
   std::vector<HalfStepRow> rows;
   for (int i = 0; i < walk.num_half_steps(); ++i) {
     const auto n = static_cast<size_t>(i);
-    rows.push_back({i % 2 == 0 ? "up" : "down", std::string(Name(walk.half_step(i).support)),
-                    walk.start_of(i), walk.parameters().durations[n],
-                    walk.parameters().height_scales[n / 2],
-                    walk.parameters().support_points[n / 2]});
+    rows.push_back(
+        {i % 2 == 0 ? "up" : "down", std::string(Name(walk.half_step(i).support)), walk.start_of(i),
+         walk.parameters().durations[n], walk.parameters().height_scales[n / 2],
+         walk.parameters().support_points[n / 2],
+         FormColumns{walk.parameters().via_laterals[n / 2], walk.parameters().foot_ramps[n],
+                     walk.parameters().foot_delays[n], walk.parameters().lift_shares[n]}});
   }
   return rows;
 }
@@ -54,14 +56,18 @@ std::vector<OverlapRow> OverlapsOf(const HomotopyParameters& at) {
   return rows;
 }
 
-// Durations, heights, support points and overlaps are drawn; `fullness` of the natural bounds at
-// most.
+// Durations, heights, support points, forms and overlaps are drawn; `fullness` of the natural
+// bounds at most.
 HomotopyParameters Drawn(const HalfStepSequence& sequence, double fullness, std::mt19937* random) {
   std::uniform_real_distribution<double> unit(0, 1);
   HomotopyParameters at = PlannedMotion(sequence);
   for (double& duration : at.durations) duration *= 0.8 + 0.4 * unit(*random);
   for (double& scale : at.height_scales) scale = 0.5 + unit(*random);
   for (double& offset : at.support_points) offset = 0.05 * unit(*random);
+  for (double& via : at.via_laterals) via += 0.02 * unit(*random);
+  for (double& ramp : at.foot_ramps) ramp = 0.5 - 0.2 * unit(*random);
+  for (double& delay : at.foot_delays) delay = 0.05 + 0.1 * unit(*random);
+  for (double& share : at.lift_shares) share = 1 - 0.3 * unit(*random);
   for (size_t i = 0; i < at.overlaps.size(); ++i) {
     at.overlaps[i] =
         fullness * unit(*random) * NaturalOverlapBound(sequence, at.durations, static_cast<int>(i));
@@ -178,7 +184,11 @@ TEST(CheckFixed, NamesEveryParameterThatMoved) {
   EXPECT_THAT(reasons({{"overlap", 2, at.overlaps[1]},
                        {"duration", 3, at.durations[2]},
                        {"height_scale", 2, at.height_scales[1]},
-                       {"support_point", 2, at.support_points[1]}}),
+                       {"support_point", 2, at.support_points[1]},
+                       {"via_lateral", 1, at.via_laterals[0]},
+                       {"foot_ramp", 2, at.foot_ramps[1]},
+                       {"foot_delay", 3, at.foot_delays[2]},
+                       {"lift_share", 4, at.lift_shares[3]}}),
               testing::IsEmpty());
   EXPECT_THAT(reasons({{"overlap", 2, at.overlaps[1] + 1e-6}}),
               testing::ElementsAre(HasSubstr("overlap 2 is")));
@@ -188,6 +198,8 @@ TEST(CheckFixed, NamesEveryParameterThatMoved) {
               testing::ElementsAre(HasSubstr("height_scale 2 is")));
   EXPECT_THAT(reasons({{"support_point", 2, at.support_points[1] + 1e-6}}),
               testing::ElementsAre(HasSubstr("support_point 2 is")));
+  EXPECT_THAT(reasons({{"via_lateral", 1, {}}, {"lift_share", 4, {}}}),
+              testing::ElementsAre(HasSubstr("via_lateral 1 is"), HasSubstr("lift_share 4 is")));
   const std::string planned = Formatted("fixed at %.9g", sequence.half_steps[2].half_step.duration);
   EXPECT_THAT(reasons({{"overlap", 2, {}},
                        {"duration", 3, {}},

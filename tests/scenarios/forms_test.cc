@@ -1,0 +1,72 @@
+// Half-steps in forms of their own: what they gain, and that every walk found is certified.
+
+#include <gtest/gtest.h>
+
+#include "smoothing/methods/overlap_optimizer.h"
+#include "smoothing/proof/certified_feasibility.h"
+#include "tests/scenarios/load_experiment.h"
+#include "tests/smoothing/smoothed.h"
+
+namespace halfstep {
+namespace {
+
+// The walk of `halfstep/sqp` over Δ, η, T and what `choice` adds, certified.
+HomotopyParameters FastestOf(const Experiment& e, ParameterChoice choice) {
+  const MarginEvaluator evaluator(e.robot, e.scene, e.config.smoothing.limits);
+  const CertifiedFeasibility test(evaluator, {});
+  OptimizerOptions options;
+  options.solver = "halfstep/sqp";
+  choice.heights = choice.durations = true;
+  options.program.parameters = choice;
+  options.rounds = 6;
+  options.planned_start = false;
+  options.deadline = 60.0;
+  options.tolerance = 0.02;
+  const WalkProblem problem = ProblemOf(e.sequence, test);
+  const SmoothingResult result = Smoothed(OptimizeOverlaps, problem, options);
+  const SuperposedWalk walk(e.sequence, result.parameters);
+  MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
+  EXPECT_EQ(test.Check(walk, {0.0, walk.duration()}, &scratch).verdict, Verdict::kFeasible);
+  const ParameterTable table = problem.Parameters(choice);
+  for (const ParameterRow& row : table.rows()) {
+    if (!Traits(row.parameter.family).of_form) continue;
+    EXPECT_GE(row.parameter.in(result.parameters), row.lower - 1e-12);
+    EXPECT_LE(row.parameter.in(result.parameters), row.upper + 1e-12);
+  }
+  return result.parameters;
+}
+
+TEST(FormsScenario, TogetherTheyShortenAWalkOverABox) {
+  const Experiment e = LoadExperiment("fig5_box");
+  const HomotopyParameters plain = FastestOf(e, {}), formed = FastestOf(e, EveryFamily());
+  EXPECT_LE(DurationOf(formed), 0.85 * DurationOf(plain));
+  for (const ParameterFamily family : AllParameterFamilies()) {
+    if (!Traits(family).of_form) continue;
+    EXPECT_EQ(plain.of(family), PlannedMotion(e.sequence).of(family)) << Traits(family).name;
+    EXPECT_NE(formed.of(family), plain.of(family)) << Traits(family).name;
+  }
+}
+
+TEST(FormsScenario, AFormThatIsFixedStays) {
+  Experiment e = LoadExperiment("fig3_two_half_steps");
+  const MarginEvaluator evaluator(e.robot, e.scene, e.config.smoothing.limits);
+  const CertifiedFeasibility test(evaluator, {});
+  const std::vector<FixedParameter> fixed = {{{ParameterFamily::kFootDelay, 1}, 0.15},
+                                             {{ParameterFamily::kLiftShare, 0}, 0.9}};
+  const WalkProblem problem = ProblemOf(e.sequence, test, fixed);
+  for (const bool free : {false, true}) {
+    OptimizerOptions options;
+    options.solver = "halfstep/sqp";
+    options.rounds = 2;
+    if (free) options.program.parameters = EveryFamily();
+    const SmoothingResult result = Smoothed(OptimizeOverlaps, problem, options);
+    EXPECT_EQ(result.parameters.foot_delays[1], 0.15);
+    EXPECT_EQ(result.parameters.lift_shares[0], 0.9);
+    EXPECT_EQ(result.parameters.foot_delays[0] != e.config.half_step.horizontal_delay, free);
+  }
+  EXPECT_EQ(ComplaintAbout(e.sequence, {{{ParameterFamily::kFootRamp, 1}, 0.6}}),
+            "foot_ramp 2: 0.6  is too large (valid: up to 0.5)");
+}
+
+}  // namespace
+}  // namespace halfstep
