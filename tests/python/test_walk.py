@@ -15,7 +15,8 @@ class Walks(unittest.TestCase):
     def test_parameters_have_the_shapes_of_the_half_steps(self):
         sizes = {name: len(values) for name, values in self.walk.parameters.items()}
         self.assertEqual(sizes, {"overlaps": 1, "height_scales": 1, "durations": 2,
-                                 "support_points": 1})
+                                 "support_points": 1, "via_laterals": 1, "foot_ramps": 2,
+                                 "foot_delays": 2, "lift_shares": 2})
         self.assertAlmostEqual(self.walk.duration, self.experiment.planned.duration - 0.6)
         np.testing.assert_allclose(self.walk.starts, [0.0, 1.4])
 
@@ -56,18 +57,16 @@ class Walks(unittest.TestCase):
 
     def test_sensitivities_are_those_of_differences(self):
         h = 1e-6
+        walk = self.experiment.walk(overlaps=[0.6], foot_ramps=[0.45, 0.4],
+                                    foot_delays=[0.12, 0.1], lift_shares=[0.9, 0.95])
         for t in (0.5, 1.2, 1.7, 2.6):
-            found = self.walk.sensitivities(t, hold="time")
+            found = walk.sensitivities(t, hold="time")
             self.assertEqual(found.value.shape, (len(found.parameters), 13))
             for i, (family, index) in enumerate(found.parameters):
-                if family == "support_point":
-                    continue
-                name = {"overlap": "overlaps", "height_scale": "height_scales",
-                        "duration": "durations"}[family]
                 states = []
                 for sign in (1, -1):
-                    parameters = self.walk.parameters
-                    parameters[name][index] += sign * h
+                    parameters = walk.parameters
+                    parameters[family + "s"][index] += sign * h
                     row = self.experiment.walk(**parameters).at(t, joints=False)
                     states.append([row[f"{q}_{'rad' if 'yaw' in q else 'm'}"]
                                    for q in found.quantities])
