@@ -5,11 +5,12 @@ import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { rowsOf } from "./csv.mjs";
 
-/** The sliders of a run in `place`/run: A is its dichotomy. `halfstep` is the program. */
-export async function testByHand(browser, halfstep, place) {
+// The page evaluates the walk of a run's method as the run did.
+async function sameClosedForm(browser, place, folder, method) {
   await browser.load("about:blank");
-  await browser.load(`file://${place}/run/report.html#a=dichotomy&b=none`);
-  const rows = rowsOf(join(place, "run/dichotomy/trajectory.csv")).filter((_, i) => i % 7 === 0);
+  await browser.load(`file://${place}/${folder}/report.html#a=${method}&b=none`);
+  const table = join(place, folder, method.replace("/", "_"), "trajectory.csv");
+  const rows = rowsOf(table).filter((_, i) => i % 7 === 0);
   const ours = await browser.run("return halfstepByHand.rows(arguments[0])", rows.map((row) => Number(row.t_s)));
   const columns = Object.keys(rows[0]).filter((name) => /^(com_[xyz]|zmp|waist|left_foot|right_foot)_.*(m|rad)$|^q_/
     .test(name) && !name.includes("margin"));
@@ -20,6 +21,16 @@ export async function testByHand(browser, halfstep, place) {
     assert.equal(ours[i].support, row.support);
   });
   assert.ok(most < 1e-6, `the closed form is that of the run: ${most}`);
+}
+
+/** The sliders of a run in `place`/run: A is its dichotomy. `halfstep` is the program. */
+export async function testByHand(browser, halfstep, place) {
+  execFileSync(halfstep, ["smooth", "run", "--method", "halfstep/sqp", "--out", "forms", "--quiet",
+    ...["durations", "via_laterals", "foot_ramps", "foot_delays", "lift_shares"].flatMap(
+      (family) => ["--set", `smoothing.optimizer.${family}=true`]),
+    "--set", "smoothing.optimizer.rounds=2"], { cwd: place });
+  await sameClosedForm(browser, place, "forms", "halfstep/sqp");
+  await sameClosedForm(browser, place, "run", "dichotomy");
 
   await browser.run(`document.querySelector("#by-hand summary").click();
     window.files = {};
