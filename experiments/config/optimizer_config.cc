@@ -42,6 +42,13 @@ void DeclareOptimizer(Fields& fields, OptimizerConfig* c) {
     if (c->program == Name(kind)) o->program.kind = kind;
   }
   ParameterChoice* const choice = &o->program.parameters;
+  fields.Boolean("all_families", &c->all_families,
+                 {.meaning = "whichever of the next seven keys is not given is true, and "
+                             "`least_duration` is 0.2"});
+  for (const ParameterFamily family : AllParameterFamilies()) {
+    if (c->all_families && Traits(family).chosen != nullptr) choice->*Traits(family).chosen = true;
+  }
+  if (c->all_families) choice->least_duration = 0.2;
   for (const ParameterFamily family : AllParameterFamilies()) {
     const ParameterFamilyTraits& traits = Traits(family);
     if (traits.chosen == nullptr) continue;

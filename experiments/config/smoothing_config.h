@@ -17,6 +17,7 @@ namespace halfstep {
 /// Options of the methods that are solvers.
 struct OptimizerConfig {
   std::string program = "fastest";  ///< one of the names of ProgramKind
+  bool all_families = false;        ///< all families of `options` are variables unless told not to
   OptimizerOptions options;         ///< also holds for the solvers of ParetoCurve
   ParetoOptions pareto;             ///< used where `program` is `pareto`
 };

@@ -1,5 +1,5 @@
-#include "experiments/config/data_folder.h"
 #include "experiments/config/experiment_config.h"
+#include "experiments/config/data_folder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -148,6 +148,28 @@ TEST(ExperimentConfig, EveryKeyReachesItsField) {
   EXPECT_EQ(MovedTo(place / "out", c).output_directory, ".");
   const std::string text = Written(c);
   EXPECT_EQ(Written(LoadConfig(WriteText(place / "again.yaml", text), {})), text);
+}
+
+TEST(ExperimentConfig, AllFamiliesAreVariablesUnlessToldNot) {
+  const TemporaryFolder place;
+  const auto choice_of = [&place](const std::string& optimizer) {
+    const std::string text =
+        "robot: hrp2\nscene: none\nfootsteps: [{foot: right, x_m: 0.2, y_m: -0.105}]\n"
+        "smoothing: {optimizer: {" +
+        optimizer + "}}\n";
+    return LoadConfig(WriteText(place / "c.yaml", text), {})
+        .smoothing.optimizer.options.program.parameters;
+  };
+  const ParameterChoice all = choice_of("all_families: true, foot_ramps: false");
+  for (const ParameterFamily family : AllParameterFamilies()) {
+    const ParameterFamilyTraits& traits = Traits(family);
+    if (traits.chosen == nullptr) continue;
+    EXPECT_EQ(all.*traits.chosen, family != ParameterFamily::kFootRamp) << traits.key;
+    EXPECT_FALSE(choice_of("").*traits.chosen) << traits.key;
+  }
+  EXPECT_EQ(all.least_duration, 0.2);
+  EXPECT_EQ(choice_of("").least_duration, 0.5);
+  EXPECT_EQ(choice_of("all_families: true, least_duration: 0.4").least_duration, 0.4);
 }
 
 TEST(ExperimentConfig, NothingNeedBeDemandedOfTheWholeRobotsZmp) {
