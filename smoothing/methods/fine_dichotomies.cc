@@ -32,7 +32,7 @@ FineDichotomies RunFineDichotomies(const WalkProblem& problem, double tolerance,
   return found;
 }
 
-void TakeDichotomy(const SmoothingResult& found, bool from_incumbent, SmoothingMonitor& monitor) {
+void TakeSearch(const SmoothingResult& found, bool from_incumbent, SmoothingMonitor& monitor) {
   monitor.Count(found);
   if (!from_incumbent && !(found.cost < monitor.cost())) return;
   const double before = monitor.cost();

@@ -67,6 +67,11 @@ class Optimization {
       return monitor_.Finish(end_.Ending(),
                              monitor_.result().feasible ? end_.Sentence() : start_message_);
     }
+    const ParameterChoice without = WithoutForms(options_.program.parameters);
+    if (Fastest() && without != options_.program.parameters) {
+      const SmoothingResult found = SearchFirst(without);
+      if (monitor_.stopped()) return monitor_.Finish(found.ending, found.message);
+    }
     start_ = monitor_.incumbent();
 
     const double own = DurationOf(start_);
@@ -117,6 +122,25 @@ class Optimization {
     result.time_to_first_improvement = dichotomy.time_to_first_improvement;
   }
 
+  // The same search over fewer families, from the incumbent. With all of them at once the solver
+  // can miss walks that it finds when it begins at the best walk of fewer.
+  SmoothingResult SearchFirst(const ParameterChoice& families) {
+    OptimizerOptions options = options_;
+    options.program.parameters = families;
+    options.start = monitor_.incumbent();
+    options.deadline = 0.5 * (options_.deadline - monitor_.Seconds());
+    const double before = monitor_.cost();
+    SmoothingMonitor within(monitor_.Part(search_from_, 0.5));
+    SmoothingResult found = Optimization(problem_, options, solver_, within).Run();
+    search_from_ = 0.5;
+    TakeSearch(found, /*from_incumbent=*/false, monitor_);
+    if (monitor_.cost() < before) {
+      own_without_forms_ = true;
+      end_.kept = "the walk is the search's with the forms as planned";
+    }
+    return found;
+  }
+
   // The slack that the program asks for at x: z ≥ 0 of `safest`.
   double Level(const Eigen::VectorXd& x) const {
     return Safest() ? std::max(0.0, x.tail(1)[0]) : 0;
@@ -152,8 +176,10 @@ class Optimization {
         poor = Gained(before, path->cost()) || Gained(solved, cost) ? 0 : poor + 1;
         solved = std::min(solved, cost);
         Sharpen(promising && path->refusals().empty(), &program.watched());
-        monitor_.Progress(0.2 + 0.7 * (static_cast<double>(s) + (round + 1.0) / options_.rounds) /
-                                    static_cast<double>(starts.size()));
+        monitor_.Progress(search_from_ +
+                          (0.9 - search_from_) *
+                              (static_cast<double>(s) + (round + 1.0) / options_.rounds) /
+                              static_cast<double>(starts.size()));
       }
       end_.exhausted = end_.exhausted || poor < kPoorRounds;
     }
@@ -232,16 +258,17 @@ class Optimization {
     } else if (path.accepted() > 0) {
       monitor_.Adopt(start_, program.Cost(start_), DurationOf(start_));
     }
+    end_.own = end_.own || own_without_forms_;
     for (JunctionResult& junction : monitor_.result().junctions) {
       if (!Fastest() || monitor_.stopped()) junction.limited_by.reset();
     }
     if (Fastest() && !monitor_.stopped()) {
       const FineDichotomies fine =
           RunFineDichotomies(problem_, options_.tolerance, !options_.start, monitor_);
-      TakeDichotomy(fine.from_incumbent, /*from_incumbent=*/true, monitor_);
+      TakeSearch(fine.from_incumbent, /*from_incumbent=*/true, monitor_);
       if (fine.from_start) {
         const bool same = monitor_.incumbent() == problem_.Start();
-        TakeDichotomy(*fine.from_start, same, monitor_);
+        TakeSearch(*fine.from_start, same, monitor_);
         end_.own = end_.own && monitor_.cost() < fine.from_start->cost - kGainedTime;
       }
     }
@@ -275,7 +302,9 @@ class Optimization {
   const opt::Solver& solver_;
   SmoothingMonitor& monitor_;
   StretchProofs proofs_;
-  HomotopyParameters start_;  // the dichotomy's result
+  HomotopyParameters start_;  // the dichotomy's result, or that of the search over fewer families
+  double search_from_ = 0.2;  // of the progress
+  bool own_without_forms_ = false;  // the search over fewer families beat what it began with
   std::string start_message_;
   opt::Solution solution_;                 // the last one
   std::optional<double> incumbent_slack_;  // at the instants watched

@@ -165,6 +165,13 @@ ParameterChoice EveryFamily() {
   return all;
 }
 
+ParameterChoice WithoutForms(ParameterChoice choice) {
+  for (const ParameterFamily family : AllParameterFamilies()) {
+    if (Traits(family).of_form) choice.*Traits(family).chosen = false;
+  }
+  return choice;
+}
+
 const ParameterFamilyTraits& Traits(ParameterFamily family) {
   switch (family) {
     case ParameterFamily::kOverlap:

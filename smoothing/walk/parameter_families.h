@@ -43,6 +43,8 @@ struct ParameterChoice {
   double least_foot_ramp = 0.2;                                   ///< of its motion, to ½
   double least_foot_delay = 0.02, most_foot_delay = 0.2;          ///< of T
   double least_lift_share = 0.4;                                  ///< of its flight, to 1
+
+  bool operator==(const ParameterChoice&) const = default;  ///< the same families, and as far
 };
 
 /// One number of ParameterChoice, and its key in configs.
@@ -94,6 +96,9 @@ struct ParameterFamilyTraits {
 
 /// Every family may be moved, as far as the defaults say.
 ParameterChoice EveryFamily();
+
+/// The same choice with every form as planned.
+ParameterChoice WithoutForms(ParameterChoice choice);
 
 /// The traits of a family. A family is a row of the table behind this function, a member of
 /// HomotopyParameters, and what SuperposedWalk makes of its values.
