@@ -46,12 +46,14 @@ void DeclareOptimizer(Fields& fields, OptimizerConfig* c) {
                  {.meaning = "whichever of the next seven keys is not given is true, and "
                              "`least_duration` is 0.2"});
   for (const ParameterFamily family : AllParameterFamilies()) {
-    if (c->all_families && Traits(family).chosen != nullptr) choice->*Traits(family).chosen = true;
+    const ParameterFamilyTraits& traits = Traits(family);
+    const bool of_half_steps = traits.chosen != nullptr && traits.move == nullptr;
+    if (c->all_families && of_half_steps) choice->*traits.chosen = true;
   }
   if (c->all_families) choice->least_duration = 0.2;
   for (const ParameterFamily family : AllParameterFamilies()) {
     const ParameterFamilyTraits& traits = Traits(family);
-    if (traits.chosen == nullptr) continue;
+    if (traits.chosen == nullptr || traits.key.empty()) continue;
     fields.Boolean(traits.key.data(), &(choice->*traits.chosen),
                    {.meaning = traits.key_meaning.data()});
   }

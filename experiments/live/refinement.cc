@@ -25,9 +25,10 @@ void Refine(const SafetyCheck& safety, const LiveConfig& config, double from, in
                                              config.experiment.smoothing.certification),
       StopBranches::kAll);
   proposal->refined = true;
-  const auto found = ImproveAhead(
-      proposal->plan, test, first,
-      {.choice = config.experiment.smoothing.optimizer.options.program.parameters}, monitor);
+  ParameterChoice choice = config.experiment.smoothing.optimizer.options.program.parameters;
+  choice.footsteps = false;  // footsteps are the planner's while the world changes
+  const auto found =
+      ImproveAhead(proposal->plan, test, first, {.choice = choice}, monitor);
   if (!found) return;
   proposal->plan.parameters = *found;
   proposal->first_changed = first;

@@ -105,7 +105,7 @@ HeldProgramOptions ToProgramOptions(const py::dict& options) {
   take("overlaps", &result.overlaps);
   for (const ParameterFamily family : AllParameterFamilies()) {
     const ParameterFamilyTraits& traits = Traits(family);
-    if (traits.chosen != nullptr) take(traits.key.data(), &(choice.*traits.chosen));
+    if (traits.chosen != nullptr && !traits.key.empty()) take(traits.key.data(), &(choice.*traits.chosen));
   }
   take("instants", &result.program.watch.instants);
   take("sharpness", &result.program.watch.sharpness);

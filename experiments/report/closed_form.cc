@@ -79,6 +79,11 @@ json ParametersJson(const fs::path& folder, int size) {
     parameters["foot_delays"] = half_steps.Numbers("foot_delay");
     parameters["lift_shares"] = half_steps.Numbers("lift_share");
   }
+  if (half_steps.Has("footstep_x_m")) {
+    parameters["footstep_xs"] = by_step("footstep_x_m");
+    parameters["footstep_ys"] = by_step("footstep_y_m");
+    parameters["footstep_yaws"] = by_step("footstep_yaw_rad");
+  }
   return parameters;
 }
 

@@ -19,18 +19,22 @@ const copyOf = (parameters) => Object.fromEntries(
 export function givenTables(form, parameters) {
   const line = (cells) => `${cells.join(",")}\n`;
   const forms = "lift_shares" in parameters;
+  const footsteps = "footstep_xs" in parameters;
   const halfSteps = form.half_steps.map((half, i) => {
     const step = Math.floor(i / 2);
     return line([i + 1, half.kind, half.support, parameters.durations[i],
                  parameters.height_scales[step], parameters.support_points[step],
                  ...(forms ? [parameters.via_laterals[step], parameters.foot_ramps[i],
-                              parameters.foot_delays[i], parameters.lift_shares[i]] : [])]);
+                              parameters.foot_delays[i], parameters.lift_shares[i]] : []),
+                 ...(footsteps ? [parameters.footstep_xs[step], parameters.footstep_ys[step],
+                                  parameters.footstep_yaws[step]] : [])]);
   });
   const overlaps = parameters.overlaps.map((overlap, i) =>
     line([i + 1, i % 2 === 0 ? "up_down" : "down_up", overlap]));
   return {
     "half_steps.csv": "half_step,kind,support,duration_s,height_scale,support_point_m" +
-      (forms ? ",via_lateral_m,foot_ramp,foot_delay,lift_share\n" : "\n") + halfSteps.join(""),
+      (forms ? ",via_lateral_m,foot_ramp,foot_delay,lift_share" : "") +
+      (footsteps ? ",footstep_x_m,footstep_y_m,footstep_yaw_rad\n" : "\n") + halfSteps.join(""),
     "overlaps.csv": "junction,kind,overlap_s\n" + overlaps.join(""),
   };
 }

@@ -23,6 +23,30 @@ function restState(half, onFloor, height, supportPoint) {
   return state;
 }
 
+// X_AC = X_AB · X_BC of planar poses [x, y, yaw], and X_BA.
+const composed = (a, b) => [...moved(a, b), a[2] + b[2]];
+const inverse = ([x, y, yaw]) => [
+  -Math.cos(yaw) * x - Math.sin(yaw) * y, Math.sin(yaw) * x - Math.cos(yaw) * y, -yaw,
+];
+
+// The half-steps on the footsteps that the parameters move.
+function placed(halfSteps, { footstep_xs: xs, footstep_ys: ys, footstep_yaws: yaws }) {
+  if (!xs) return halfSteps;
+  const soles = {}; // where each foot stands, once it has moved
+  const all = [];
+  for (let i = 0; i < halfSteps.length; i += 2) {
+    const { support } = halfSteps[i];
+    const swing = support === "left" ? "right" : "left";
+    const planned = (half) => composed(half.X_WS, half.X_SF);
+    const X_WS = soles[support] ?? halfSteps[i].X_WS;
+    const onSupport = (half, X_WF) => ({ ...half, X_WS, X_SF: composed(inverse(X_WS), X_WF) });
+    all.push(onSupport(halfSteps[i], soles[swing] ?? planned(halfSteps[i])));
+    soles[swing] = composed(planned(halfSteps[i + 1]), [xs[i / 2], ys[i / 2], yaws[i / 2]]);
+    all.push(onSupport(halfSteps[i + 1], soles[swing]));
+  }
+  return all;
+}
+
 // The half-step with the form that the parameters give it, where they do.
 function formed(half, parameters, i) {
   if (!parameters.lift_shares) return half;
@@ -79,12 +103,13 @@ export function naturalBound(halfSteps, durations, junction) {
 
 export class SuperposedWalk {
   /** `form`: closed_form of a report; `parameters`: overlaps, durations, height_scales, support_points,
-   * and via_laterals, foot_ramps, foot_delays, lift_shares where the walk has forms of its own. */
+   * via_laterals, foot_ramps, foot_delays, lift_shares where the walk has forms of its own, and
+   * footstep_xs, footstep_ys, footstep_yaws where footsteps are moved. */
   constructor(form, parameters) {
     const omega = Math.sqrt(form.gravity_m_s2 / form.com_height_m);
     let start = 0;
     this.form = form;
-    this.pieces = form.half_steps.map((half, i) => {
+    this.pieces = placed(form.half_steps, parameters).map((half, i) => {
       const step = Math.floor(i / 2);
       const piece = new Piece(formed(half, parameters, i), {
         duration: parameters.durations[i], heightScale: parameters.height_scales[step],

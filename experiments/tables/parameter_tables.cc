@@ -13,22 +13,31 @@ using enum CsvType;
 
 namespace {
 
+HalfStepsExtent ExtentOf(ParameterFamily family) {
+  const ParameterFamilyTraits& traits = Traits(family);
+  if (traits.move != nullptr) return HalfStepsExtent::kFootsteps;
+  return traits.of_form ? HalfStepsExtent::kForms : HalfStepsExtent::kTimes;
+}
+
 // The families whose values stand in half_steps.csv, in the order of their columns.
-std::vector<ParameterFamily> FamiliesOfHalfSteps(bool forms) {
+std::vector<ParameterFamily> FamiliesOfHalfSteps(HalfStepsExtent extent) {
   std::vector<ParameterFamily> families;
   for (const ParameterFamily family : AllParameterFamilies()) {
     const ParameterFamilyTraits& traits = Traits(family);
-    if (traits.table == "half_steps" && (forms || !traits.of_form)) families.push_back(family);
+    if (traits.table == "half_steps" && ExtentOf(family) <= extent) families.push_back(family);
   }
   std::ranges::stable_sort(families, {}, [](ParameterFamily f) { return Traits(f).rank; });
   return families;
 }
 
-bool HasForms(const HalfStepSequence& sequence, const HomotopyParameters& parameters) {
+// As far as values are not the plan's.
+HalfStepsExtent ExtentOf(const HalfStepSequence& sequence, const HomotopyParameters& parameters) {
   const HomotopyParameters planned = PlannedMotion(sequence);
-  return std::ranges::any_of(AllParameterFamilies(), [&](ParameterFamily family) {
-    return Traits(family).of_form && parameters.of(family) != planned.of(family);
-  });
+  HalfStepsExtent extent = HalfStepsExtent::kTimes;
+  for (const ParameterFamily family : AllParameterFamilies()) {
+    if (parameters.of(family) != planned.of(family)) extent = std::max(extent, ExtentOf(family));
+  }
+  return extent;
 }
 
 }  // namespace
@@ -39,23 +48,23 @@ CsvColumn ColumnOf(ParameterFamily family) {
           std::string(traits.meaning)};
 }
 
-CsvColumns HalfStepsColumns(bool forms) {
+CsvColumns HalfStepsColumns(HalfStepsExtent extent) {
   CsvColumns columns = {
       {"half_step", kInteger, "", "from 1"},
       {"kind", kString, "", "up or down"},
       {"support", kString, "", "foot that carries: left or right"},
       {"start_s", kNumber, "s", "when it begins"},
   };
-  for (const ParameterFamily family : FamiliesOfHalfSteps(forms)) {
+  for (const ParameterFamily family : FamiliesOfHalfSteps(extent)) {
     columns.push_back(ColumnOf(family));
   }
   return columns;
 }
 
 CsvFile HalfStepsCsv(const HalfStepSequence& sequence, const HomotopyParameters& parameters) {
-  const bool forms = HasForms(sequence, parameters);
-  const std::vector<ParameterFamily> families = FamiliesOfHalfSteps(forms);
-  CsvWriter csv(HalfStepsColumns(forms));
+  const HalfStepsExtent extent = ExtentOf(sequence, parameters);
+  const std::vector<ParameterFamily> families = FamiliesOfHalfSteps(extent);
+  CsvWriter csv(HalfStepsColumns(extent));
   double start = 0.0;
   for (size_t i = 0; i < sequence.half_steps.size(); ++i) {
     const HalfStep& half_step = sequence.half_steps[i].half_step;

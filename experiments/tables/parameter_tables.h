@@ -12,10 +12,13 @@ namespace halfstep {
 /// The column of a family.
 CsvColumn ColumnOf(ParameterFamily family);
 
-/// The columns of half_steps.csv; those of the families of form with `forms` only.
-CsvColumns HalfStepsColumns(bool forms);
-/// half_steps.csv: one row a half-step, with where the homotopy ended. The columns of forms are
-/// there where one of their values is not the plan's.
+/// Which columns half_steps.csv has: those that it always has; with those of forms; with those of
+/// the moves of footsteps, too.
+enum class HalfStepsExtent { kTimes, kForms, kFootsteps };
+/// The columns of half_steps.csv.
+CsvColumns HalfStepsColumns(HalfStepsExtent extent);
+/// half_steps.csv: one row a half-step, with where the homotopy ended. The columns of forms and
+/// footsteps are there where one of their values is not the plan's.
 CsvFile HalfStepsCsv(const HalfStepSequence& sequence, const HomotopyParameters& parameters);
 
 /// The point of the homotopy in the tables of a method's folder. Families whose table is not there,

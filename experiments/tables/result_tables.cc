@@ -4,6 +4,7 @@
 
 #include "experiments/tables/parameter_tables.h"
 #include "smoothing/proof/sampled_feasibility.h"
+#include "smoothing/walk/footstep_families.h"
 
 namespace halfstep {
 namespace {
@@ -202,14 +203,15 @@ CsvFile SummaryCsv(const MarginEvaluator& evaluator, const std::vector<MethodRun
   if (knows != runs.end()) {
     columns.push_back({"gap_lipm", kNumber, "1",
                        "duration divided by the lower bound that `reference/lipm` proved, less 1; "
-                       "empty: of that method itself"});
+                       "empty: of that method itself, and of walks that move footsteps"});
   }
   CsvWriter csv(columns);
   for (size_t i = 0; i < runs.size(); ++i) {
     AddSummaryRow(evaluator, runs, i, [&csv](const CsvColumn&) -> CsvWriter& { return csv; });
     if (knows != runs.end()) {
-      runs[i].result.lower_bound ? csv.Empty()
-                                 : csv.Cell(runs[i].duration / *knows->result.lower_bound - 1.0);
+      const bool holds =
+          !runs[i].result.lower_bound && MovesOfFootsteps(runs[i].result.parameters).empty();
+      !holds ? csv.Empty() : csv.Cell(runs[i].duration / *knows->result.lower_bound - 1.0);
     }
     csv.EndRow();
   }

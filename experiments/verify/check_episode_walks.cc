@@ -67,6 +67,9 @@ bool CheckHalfSteps(const std::vector<HalfStepRow>& rows, const HalfStepSequence
       const double overlap = rows[i - 1].start + rows[i - 1].duration - rows[i].start;
       fault = FaultOfOverlap(overlap, rows[i - 1], rows[i], half_step.shape);
     }
+    if (fault.empty() && rows[i].FormOf(half_step).footstep != Pose2{}) {
+      fault = "a footstep that is moved, which no walk of an episode has";
+    }
     if (!fault.empty()) faults.Add(line + fault);
   }
   const long before = findings->disagreements();

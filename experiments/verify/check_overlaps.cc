@@ -14,9 +14,14 @@ constexpr double kLongestRest = 3600;
 
 bool Same(double a, double b) { return std::abs(a - b) <= kTwiceRounding; }  // false for nan
 
+bool SameMove(const Pose2& a, const Pose2& b) {
+  return Same(a.x, b.x) && Same(a.y, b.y) && Same(a.yaw, b.yaw);
+}
+
 bool Same(const FormColumns& a, const FormColumns& b) {
   return Same(a.via_lateral, b.via_lateral) && Same(a.foot_ramp, b.foot_ramp) &&
-         Same(a.foot_delay, b.foot_delay) && Same(a.lift_share, b.lift_share);
+         Same(a.foot_delay, b.foot_delay) && Same(a.lift_share, b.lift_share) &&
+         SameMove(a.footstep, b.footstep);
 }
 
 // What is wrong with a form, of whatever plan; "": nothing. Numbers that are not finite are out of
@@ -27,6 +32,10 @@ std::string FaultOfForm(const FormColumns& form) {
   if (!within(form.foot_ramp, 0.1, 0.5)) return Formatted("foot ramp %.9g", form.foot_ramp);
   if (!within(form.foot_delay, 0, 0.2)) return Formatted("foot delay %.9g", form.foot_delay);
   if (!within(form.lift_share, 0.2, 1)) return Formatted("lift share %.9g", form.lift_share);
+  const Pose2& move = form.footstep;
+  if (!within(move.x, -0.5, 0.5) || !within(move.y, -0.5, 0.5) || !within(move.yaw, -1, 1)) {
+    return Formatted("footstep moved by %.9g, %.9g, turned by %.9g", move.x, move.y, move.yaw);
+  }
   return "";
 }
 
@@ -73,6 +82,14 @@ std::optional<double FormColumns::*> FormNamed(const std::string& parameter) {
   return std::nullopt;
 }
 
+// The number of a footstep's move that a parameter is.
+std::optional<double Pose2::*> MoveNamed(const std::string& parameter) {
+  if (parameter == "footstep_x") return &Pose2::x;
+  if (parameter == "footstep_y") return &Pose2::y;
+  if (parameter == "footstep_yaw") return &Pose2::yaw;
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::string FaultOfHalfStep(const HalfStepRow& row, const HalfStep& planned) {
@@ -93,6 +110,9 @@ std::string FaultOfStep(const HalfStepRow& up, const HalfStepRow& down) {
   }
   if (up.form && down.form && !Same(down.form->via_lateral, up.form->via_lateral)) {
     return "another via point than the step's up half-step";
+  }
+  if (up.form && down.form && !SameMove(down.form->footstep, up.form->footstep)) {
+    return "another footstep than the step's up half-step";
   }
   return Same(down.support_point, up.support_point)
              ? ""
@@ -170,6 +190,8 @@ void CheckFixed(const std::vector<HalfStepRow>& half_steps, const std::vector<Ov
       const HalfStep& plan = planned.half_steps[2 * i].half_step;
       is = half_steps[2 * i].FormOf(plan).via_lateral;
       demanded = plan.via_lateral;
+    } else if (const auto move = MoveNamed(one.parameter); move && 2 * i < half_steps.size()) {
+      is = half_steps[2 * i].FormOf(planned.half_steps[2 * i].half_step).footstep.**move;
     } else if (const auto form = FormNamed(one.parameter); form && i < half_steps.size()) {
       const HalfStep& plan = planned.half_steps[i].half_step;
       is = half_steps[i].FormOf(plan).**form;

@@ -7,6 +7,7 @@
 #include "experiments/verify/check_rows.h"
 #include "experiments/verify/foot_forces.h"
 #include "wpg/check.h"
+#include "wpg/motion/moved_footsteps.h"
 #include "wpg/motion/posture.h"
 
 namespace halfstep::verify {
@@ -16,8 +17,13 @@ DescribedWalk::DescribedWalk(const RobotModel& robot, const HalfStepSequence& pl
     : robot_(robot), lipm_(planned.lipm) {
   HALFSTEP_CHECK(!rows.empty() && rows.size() == planned.half_steps.size(),
                  rows.size() << " rows, " << planned.half_steps.size() << " half-steps");
+  std::vector<Pose2> moves;
+  for (size_t i = 0; i < rows.size(); i += 2) {
+    moves.push_back(rows[i].FormOf(planned.half_steps[i].half_step).footstep);
+  }
+  const std::vector<PlacedHalfStep> placed = WithFootstepsMoved(planned, moves).half_steps;
   for (size_t i = 0; i < rows.size(); ++i) {
-    const auto& [as_planned, X_WS] = planned.half_steps[i];
+    const auto& [as_planned, X_WS] = placed[i];
     HalfStep half_step = as_planned;
     half_step.duration = rows[i].duration;
     half_step.via_height *= rows[i].height_scale;

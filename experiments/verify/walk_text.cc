@@ -28,9 +28,14 @@ void CheckIndex(const CsvText& csv, size_t row) {
 std::vector<HalfStepRow> ReadHalfSteps(const std::string& path, const std::string& text) {
   std::vector<std::string> columns = {"half_step",  "kind",         "support",        "start_s",
                                       "duration_s", "height_scale", "support_point_m"};
-  const bool has_forms = text.substr(0, text.find('\n')).ends_with(",lift_share");
+  const std::string head = text.substr(0, text.find('\n'));
+  const bool has_footsteps = head.ends_with(",footstep_yaw_rad");
+  const bool has_forms = has_footsteps || head.ends_with(",lift_share");
   if (has_forms) {
     columns.insert(columns.end(), {"via_lateral_m", "foot_ramp", "foot_delay", "lift_share"});
+  }
+  if (has_footsteps) {
+    columns.insert(columns.end(), {"footstep_x_m", "footstep_y_m", "footstep_yaw_rad"});
   }
   const CsvText csv(path, text, columns);
   std::vector<HalfStepRow> rows;
@@ -47,6 +52,8 @@ std::vector<HalfStepRow> ReadHalfSteps(const std::string& path, const std::strin
                         .foot_ramp = csv.Number(i, 8),
                         .foot_delay = csv.Number(i, 9),
                         .lift_share = csv.Number(i, 10)};
+    if (!has_footsteps) continue;
+    rows.back().form->footstep = {csv.Number(i, 11), csv.Number(i, 12), csv.Number(i, 13)};
   }
   return rows;
 }

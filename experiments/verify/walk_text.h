@@ -8,10 +8,12 @@
 
 namespace halfstep::verify {
 
-/// The columns of half_steps.csv that are there when half-steps have forms of their own.
+/// The columns of half_steps.csv that are there when half-steps have forms of their own, or
+/// footsteps are moved.
 struct FormColumns {
   double via_lateral = 0;                                ///< [m]
   double foot_ramp = 0, foot_delay = 0, lift_share = 0;  ///< as HalfStepShape has them
+  Pose2 footstep = {};  ///< the step's, seen from where it is planned; as planned without columns
 };
 
 /// A row of half_steps.csv.
@@ -24,7 +26,7 @@ struct HalfStepRow {
   /// The form of the half-step whose plan is `planned`.
   FormColumns FormOf(const HalfStep& planned) const {
     return form.value_or(FormColumns{planned.via_lateral, planned.shape.foot_ramp,
-                                     planned.shape.horizontal_delay, planned.shape.lift_share});
+                                     planned.shape.horizontal_delay, planned.shape.lift_share, {}});
   }
 };
 

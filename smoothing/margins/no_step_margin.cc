@@ -33,7 +33,23 @@ Margin NoStepMargin::Least(Instant* at, double) const {
   return least;
 }
 
-void NoStepMargin::AddRows(Instant*, SlackSink*) const {}
+void NoStepMargin::AddRows(Instant* at, SlackSink* rows) const {
+  if (!rows->footsteps_move || place_.areas.empty()) return;
+  // The distance of two polygons is smooth but where another pair of features becomes the nearest,
+  // so differences tell its slope to some nine digits.
+  constexpr double kStep = 1e-6;
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    const Margin margin = OfSole(*at, side);
+    if (std::isinf(margin.value)) continue;
+    rows->Add(margin.value, [&](size_t i) {
+      const WalkState& x = at->jet().value;
+      const WalkState move = kStep * rows->sensitivities[i].jet.value;
+      return (place_.areas.NearestTo(FootPose(x + move, side)).distance -
+              place_.areas.NearestTo(FootPose(x - move, side)).distance) /
+             (2.0 * kStep);
+    });
+  }
+}
 
 void NoStepMargin::AddBounds(const MarginInterval& interval, TightestStatement* tightest) const {
   for (Side side : {Side::kLeft, Side::kRight}) {

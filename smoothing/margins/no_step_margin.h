@@ -7,8 +7,8 @@
 namespace halfstep {
 
 /// Distance of a standing foot from the no-step areas [m], by the outline of what touches the floor
-/// (NoStepAreas); +∞ for a foot in the air, and without areas. No parameter moves a footstep, so
-/// there are no rows. Subject: Index(Side). Other: the area.
+/// (NoStepAreas); +∞ for a foot in the air, and without areas. There are rows where footsteps move
+/// (SlackSink::footsteps_move). Subject: Index(Side). Other: the area.
 class NoStepMargin final : public WholeFamily {
   /// Of the family `no_step`.
  public:
@@ -23,7 +23,7 @@ class NoStepMargin final : public WholeFamily {
       .demanded = 0.0,
       .raised = false,
       .cost = MarginCost::kWalk,
-      .row = std::nullopt,
+      .row = MarginFamily::kFloor,
   };
 
   /// `place` is borrowed.

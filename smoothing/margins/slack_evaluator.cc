@@ -17,11 +17,14 @@ double InstantSlacks::Slope(size_t row, const HomotopyParameter& parameter) cons
   return slope;
 }
 
-SlackEvaluator::SlackEvaluator(const MarginEvaluator& evaluator, double cutoff, Wanted wanted)
+SlackEvaluator::SlackEvaluator(const MarginEvaluator& evaluator, double cutoff,
+                               ParameterFilter wanted, bool footsteps_move)
     : evaluator_(evaluator),
       wanted_(std::move(wanted)),
       sink_(cutoff),
-      scratch_(evaluator.MakeScratch()) {}
+      scratch_(evaluator.MakeScratch()) {
+  sink_.footsteps_move = footsteps_move;
+}
 
 void SlackEvaluator::At(const SuperposedWalk& walk, const LocalTime& at,
                         const std::vector<std::pair<HomotopyParameter, double>>& moving,
@@ -36,10 +39,11 @@ void SlackEvaluator::At(const SuperposedWalk& walk, const LocalTime& at,
   if (gradient) {
     std::vector<WalkSensitivity>& sensitivities = sink_.sensitivities;
     const WalkJet& jet = instant.jet();
-    walk.Sensitivities(at, &sensitivities);
+    walk.Sensitivities(at, &sensitivities, wanted_);
     WalkState third = WalkState::Zero();
     if (!moving.empty()) third = walk.ThirdRanges(instant.t(), instant.t()).center;
     for (const auto& [parameter, rate] : moving) {
+      if (wanted_ && !wanted_(parameter)) continue;
       auto found = std::find_if(sensitivities.begin(), sensitivities.end(),
                                 [&](const WalkSensitivity& s) { return s.parameter == parameter; });
       if (found == sensitivities.end()) {
@@ -49,10 +53,6 @@ void SlackEvaluator::At(const SuperposedWalk& walk, const LocalTime& at,
       found->jet.value += rate * jet.first;
       found->jet.first += rate * jet.second;
       found->jet.second += rate * third;
-    }
-    if (wanted_) {
-      std::erase_if(sensitivities,
-                    [this](const WalkSensitivity& s) { return !wanted_(s.parameter); });
     }
     if (!evaluator_.scene().rests()) {
       walk.StartSensitivities(at.half_step, &out->times);

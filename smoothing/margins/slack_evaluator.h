@@ -30,12 +30,11 @@ struct InstantSlacks {
 /// witness points. Use one for each thread.
 class SlackEvaluator {
  public:
-  /// Which parameters derivatives are wanted along.
-  using Wanted = std::function<bool(const HomotopyParameter&)>;
-
   /// `evaluator` is borrowed. Statements with slack above `cutoff` are left out. Derivatives are
-  /// taken along the parameters that are `wanted`; without it, along all.
-  SlackEvaluator(const MarginEvaluator& evaluator, double cutoff, Wanted wanted = nullptr);
+  /// taken along the parameters that are `wanted`; without it, along all. Soles that stand are looked
+  /// at when `footsteps_move`.
+  SlackEvaluator(const MarginEvaluator& evaluator, double cutoff, ParameterFilter wanted = {},
+                 bool footsteps_move = false);
 
   /// Evaluates the instant (half-step, τ). Where the instant itself moves with some parameters,
   /// `moving` has the rate dτ/dparameter of each. Among obstacles that move, `times` lists the
@@ -51,7 +50,7 @@ class SlackEvaluator {
 
  private:
   const MarginEvaluator& evaluator_;
-  Wanted wanted_;
+  ParameterFilter wanted_;
   SlackSink sink_;
   MarginEvaluator::Scratch scratch_;
 };

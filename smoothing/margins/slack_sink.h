@@ -29,6 +29,8 @@ class SlackSink {
   /// of the posture (empty where joint speeds have no bound).
   std::vector<WalkSensitivity> sensitivities;
   std::vector<PostureTangent> tangents;  ///< of the same parameters
+  /// Whether footsteps are among the variables. If not, nothing is said of soles that stand.
+  bool footsteps_move = false;
 
   /// Forgets the parameters, for another instant.
   void Clear() {

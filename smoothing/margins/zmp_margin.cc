@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "smoothing/margins/support_edges.h"
 #include "wpg/geometry/support_polygon.h"
 
 namespace halfstep {
@@ -22,16 +23,14 @@ Margin ZmpMargin::Least(Instant* at, double) const {
 
 void ZmpMargin::AddRows(Instant* at, SlackSink* rows) const {
   const WalkState& x = at->jet().value;
-  const SupportPolygon polygon = SupportAt(at->walk(), at->at(), x, at->robot().sole_size);
-  for (int i = 0; i < polygon.size(); ++i) {
-    const Eigen::Vector2d a = polygon.corner(i);
-    const Eigen::Vector2d edge = polygon.corner((i + 1) % polygon.size()) - a;
-    if (edge.norm() < 1e-9) continue;
-    const Eigen::Vector2d inward = Eigen::Vector2d(-edge.y(), edge.x()).normalized();
-    rows->Add(inward.dot(x.segment<2>(kZmpX) - a), [&](size_t p) {
-      return inward.dot(rows->sensitivities[p].jet.value.segment<2>(kZmpX));
+  const SupportEdges edges(at->walk(), at->at(), x, at->robot().sole_size);
+  const Eigen::Vector2d zmp = x.segment<2>(kZmpX);
+  edges.ForEach([&](int i, const Eigen::Vector2d& inward) {
+    rows->Add(edges.Inside(i, inward, zmp), [&](size_t p) {
+      const WalkSensitivity& along = rows->sensitivities[p];
+      return edges.Slope(i, inward, zmp, along.jet.value.segment<2>(kZmpX), along);
     });
-  }
+  });
 }
 
 void ZmpMargin::AddBounds(const MarginInterval& interval, TightestStatement* tightest) const {

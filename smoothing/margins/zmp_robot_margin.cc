@@ -2,25 +2,15 @@
 
 #include <algorithm>
 
-#include "wpg/geometry/support_polygon.h"
+#include "smoothing/margins/support_edges.h"
 #include "wpg/motion/zmp_slopes.h"
 
 namespace halfstep {
 namespace {
 
-// What bears the robot at an instant, and calls visit(corner, inward unit normal) for each edge.
-SupportPolygon PolygonAt(const Instant& at) {
-  return SupportAt(at.walk(), at.at(), at.jet().value, at.robot().sole_size);
-}
-
-template <typename Visit>
-void ForEachEdge(const SupportPolygon& polygon, const Visit& visit) {
-  for (int i = 0; i < polygon.size(); ++i) {
-    const Eigen::Vector2d a = polygon.corner(i);
-    const Eigen::Vector2d edge = polygon.corner((i + 1) % polygon.size()) - a;
-    if (edge.norm() < 1e-9) continue;
-    visit(a, Eigen::Vector2d(-edge.y(), edge.x()).normalized());
-  }
+// What bears the robot at an instant.
+SupportEdges EdgesAt(const Instant& at) {
+  return {at.walk(), at.at(), at.jet().value, at.robot().sole_size};
 }
 
 // None where nothing can be said, or the floor does not push.
@@ -41,7 +31,7 @@ Margin ZmpRobotMargin::Least(Instant* at, double) const {
   const auto zmp = ZmpAt(at);
   if (!zmp) return Of(-kUnlimited, at->step_in_air());
   Margin least = Of(kUnlimited, -1);
-  Lower(Of(PolygonAt(*at).Margin(*zmp), at->step_in_air()), &least);
+  Lower(Of(EdgesAt(*at).polygon().Margin(*zmp), at->step_in_air()), &least);
   return least;
 }
 
@@ -50,16 +40,17 @@ void ZmpRobotMargin::AddRows(Instant* at, SlackSink* rows) const {
   const auto zmp = ZmpAt(at);
   if (!zmp) return;
   std::vector<Eigen::Vector2d> slopes;  // along each parameter, made when a row needs them
-  ForEachEdge(PolygonAt(*at), [&](const Eigen::Vector2d& a, const Eigen::Vector2d& inward) {
-    rows->Add(inward.dot(*zmp - a), [&](size_t p) {
+  const SupportEdges edges = EdgesAt(*at);
+  edges.ForEach([&](int i, const Eigen::Vector2d& inward) {
+    rows->Add(edges.Inside(i, inward, *zmp), [&](size_t p) {
       if (slopes.empty()) {
         const ZmpSlopes all(at->robot(), at->jet(), at->posture(), *at->dynamics());
-        for (size_t i = 0; i < rows->sensitivities.size(); ++i) {
-          const PostureTangent& tangent = rows->tangents[i];
-          slopes.push_back(all.Along({rows->sensitivities[i].jet, tangent.q, tangent.speeds}));
+        for (size_t k = 0; k < rows->sensitivities.size(); ++k) {
+          const PostureTangent& tangent = rows->tangents[k];
+          slopes.push_back(all.Along({rows->sensitivities[k].jet, tangent.q, tangent.speeds}));
         }
       }
-      return inward.dot(slopes[p]);
+      return edges.Slope(i, inward, *zmp, slopes[p], rows->sensitivities[p]);
     });
   });
 }
@@ -76,13 +67,13 @@ void ZmpRobotMargin::AddBounds(const MarginInterval& interval, TightestStatement
     tightest->Add(Of(-kUnlimited, step), 0.0);
     return;
   }
-  const SupportPolygon polygon = PolygonAt(mid);
-  const double margin = polygon.Margin(*zmp);
+  const SupportEdges edges = EdgesAt(mid);
+  const double margin = edges.polygon().Margin(*zmp);
   double least = margin;
   if (margin >= mid.demanded(family())) {
     const ZmpDrift& drift = interval.zmp_drift();
-    ForEachEdge(polygon, [&](const Eigen::Vector2d& a, const Eigen::Vector2d& inward) {
-      least = std::min(least, inward.dot(*zmp - a) - drift.Along(inward));
+    edges.ForEach([&](int i, const Eigen::Vector2d& inward) {
+      least = std::min(least, edges.Inside(i, inward, *zmp) - drift.Along(inward));
     });
   }
   tightest->Add(Of(margin, step), margin - least + kDynamicsRounding);

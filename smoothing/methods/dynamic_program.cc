@@ -1,3 +1,4 @@
+#include "smoothing/walk/footstep_families.h"
 #include "smoothing/methods/dynamic_program.h"
 
 #include <algorithm>
@@ -16,7 +17,7 @@ constexpr double kRounding = 1e-9;  // [s]
 
 DynamicProgram::DynamicProgram(const HalfStepSequence& sequence, const MarginEvaluator& evaluator,
                                HomotopyParameters start, double period)
-    : sequence_(sequence),
+    : sequence_(WithFootsteps(sequence, start)),
       evaluator_(evaluator),
       start_(std::move(start)),
       period_(period),
@@ -85,7 +86,8 @@ double DynamicProgram::Longest(int k, const State& state, double longest) {
                          sequence_.half_steps.begin() + to + 1);
   HomotopyParameters parameters = PlannedMotion(part);
   for (const ParameterFamily family : AllParameterFamilies()) {
-    if (Traits(family).joins) continue;  // overlaps are chosen
+    // Overlaps are chosen, and the part stands where its footsteps are moved to.
+    if (Traits(family).joins || Traits(family).move != nullptr) continue;
     const auto first = start_.of(family).begin() + Traits(family).index_at(from);
     std::copy_n(first, parameters.of(family).size(), parameters.of(family).begin());
   }

@@ -75,7 +75,7 @@ class DynamicProgram {
   // The end of the longest stretch of `state` without a violation, at most `longest` [s].
   double Longest(int half_step, const State& state, double longest);
 
-  const HalfStepSequence& sequence_;
+  HalfStepSequence sequence_;  // its footsteps where start_ has them
   const MarginEvaluator& evaluator_;
   HomotopyParameters start_;
   double period_;

@@ -26,8 +26,8 @@ HomotopyParameters Incumbent::Between(const HomotopyParameters& candidate,
     const std::vector<double>& to = candidate.of(family);
     for (size_t k = 0; k < values.size(); ++k) {
       const auto [first, last] = Traits(family).half_steps(static_cast<int>(k));
-      const double part =
-          std::min(lambda[static_cast<size_t>(first)], lambda[static_cast<size_t>(last)]);
+      const auto end = std::min(lambda.end(), lambda.begin() + last + 1);
+      const double part = *std::min_element(lambda.begin() + first, end);
       values[k] += part * (to[k] - values[k]);
     }
   }

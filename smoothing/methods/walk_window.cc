@@ -6,8 +6,10 @@
 #include <utility>
 #include <vector>
 
+#include "smoothing/walk/footstep_families.h"
 #include "smoothing/walk/splice.h"
 #include "wpg/check.h"
+#include "wpg/motion/moved_footsteps.h"
 
 namespace halfstep {
 namespace {
@@ -26,6 +28,29 @@ struct Part {
     return traits.index_at(end - 1) + (traits.joins ? 0 : 1) - traits.index_at(begin);
   }
 };
+
+// Half-steps begin … end − 1 as they are planned.
+HalfStepSequence PlannedPart(const HalfStepSequence& walk, int begin, int end) {
+  HalfStepSequence part{.start = begin == 0 ? walk.start : StanceAfter(walk, begin - 1),
+                        .half_steps = {},
+                        .lipm = walk.lipm};
+  part.half_steps.assign(walk.half_steps.begin() + begin, walk.half_steps.begin() + end);
+  return part;
+}
+
+// The plan of a part. It begins on footsteps of the two steps before it, where the walk `at` has
+// them; its own are where they are planned.
+HalfStepSequence SequenceOf(const Part& part, const HalfStepSequence& walk,
+                            const HomotopyParameters& at) {
+  const int from = std::max(0, part.begin - 4), before = (part.begin - from) / 2;
+  std::vector<Pose2> moves = MovesOfFootsteps(at);
+  if (moves.empty() || before == 0) return PlannedPart(walk, part.begin, part.end);
+  moves.erase(moves.begin(), moves.begin() + from / 2);
+  moves.resize(static_cast<size_t>(before));
+  moves.resize(static_cast<size_t>((part.end - from) / 2));
+  return PlannedPart(WithFootstepsMoved(PlannedPart(walk, from, part.end), moves), 2 * before,
+                     part.end - from);
+}
 
 // By family and index in the part: whether a parameter is to stay.
 using Stays = std::array<std::vector<bool>, kNumParameterFamilies>;
@@ -81,13 +106,7 @@ WalkWindow WindowOf(const WalkProblem& problem, const HomotopyParameters& at, in
       local ? std::max(0, first - kNeighbours) : 0,
       local ? std::min(n, last + 1 + (to_rest ? 0 : kNeighbours)) : n,
   };
-  HalfStepSequence sequence{.start = part.begin == 0
-                                         ? problem.sequence().start
-                                         : StanceAfter(problem.sequence(), part.begin - 1),
-                            .half_steps = {},
-                            .lipm = problem.sequence().lipm};
-  const auto begin = problem.sequence().half_steps.begin();
-  sequence.half_steps.assign(begin + part.begin, begin + part.end);
+  HalfStepSequence sequence = SequenceOf(part, problem.sequence(), at);
   HomotopyParameters parameters;
   for (const ParameterFamily family : AllParameterFamilies()) {
     const auto from = at.of(family).begin() + part.first_of(family);

@@ -69,6 +69,9 @@ std::array<double, 3> Events(const HalfStep& half_step) {
 WatchedInstants::WatchedInstants(const OverlapVariables& variables,
                                  const MarginEvaluator& evaluator, const WatchOptions& options)
     : variables_(variables), evaluator_(evaluator), options_(options) {
+  for (int v = 0; v < variables.size() && !footsteps_move_; ++v) {
+    footsteps_move_ = Traits(variables.at(v).family).move != nullptr;
+  }
   const int n = variables.sequence().size();
   for (int k = 0; k < n; ++k) {
     std::vector<Instant> instants;
@@ -315,9 +318,9 @@ void WatchedInstants::Evaluate(const Eigen::VectorXd& x, Eigen::VectorXd* values
 }
 
 std::vector<SlackEvaluator> WatchedInstants::Evaluators(
-    double cutoff, const SlackEvaluator::Wanted& wanted) const {
+    double cutoff, const ParameterFilter& wanted) const {
   return std::vector<SlackEvaluator>(static_cast<size_t>(NumThreads(workers_)),
-                                     SlackEvaluator(evaluator_, cutoff, wanted));
+                                     SlackEvaluator(evaluator_, cutoff, wanted, footsteps_move_));
 }
 
 double WatchedInstants::LeastSlack(const HomotopyParameters& parameters,

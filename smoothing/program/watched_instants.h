@@ -107,7 +107,7 @@ class WatchedInstants {
                  double level);
   void CountRows();
   // One for each thread that SetWorkers allows.
-  std::vector<SlackEvaluator> Evaluators(double cutoff, const SlackEvaluator::Wanted& wanted) const;
+  std::vector<SlackEvaluator> Evaluators(double cutoff, const ParameterFilter& wanted) const;
   double LeastSlackOf(const SuperposedWalk& walk, int half_step,
                       const std::array<bool, kNumMarginFamilies>& of, SlackEvaluator* slacks) const;
   void EvaluateHalfStep(const SuperposedWalk& walk, const Eigen::VectorXd& x, int half_step,
@@ -116,6 +116,7 @@ class WatchedInstants {
   const OverlapVariables& variables_;
   const MarginEvaluator& evaluator_;
   WatchOptions options_;
+  bool footsteps_move_ = false;  // whether any is a variable
   Workers* workers_ = nullptr;
   std::vector<std::vector<int>> bands_;
   std::vector<std::vector<Instant>> instants_;  // by half-step

@@ -26,6 +26,12 @@ std::vector<double> StretchParameters(const SuperposedWalk& walk, int half_step)
       const std::vector<double>& values = p.of(family);
       key.push_back(index < values.size() ? values[index] : 0.0);
     }
+    // The half-step stands on the footsteps of the two steps before its own.
+    for (int step = i / 2 - 1; step >= std::max(0, i / 2 - 2); --step) {
+      for (const ParameterFamily family : AllParameterFamilies()) {
+        if (Traits(family).move != nullptr) key.push_back(p.of(family)[static_cast<size_t>(step)]);
+      }
+    }
   }
   return key;
 }

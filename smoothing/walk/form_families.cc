@@ -41,10 +41,12 @@ constexpr ParameterFamilyTraits kViaLateral = {
     .meaning = "of the via point from the support sole's centre",
     .of_form = true,
     .shape = nullptr,
+    .move = nullptr,
     .values = &HomotopyParameters::via_laterals,
     .count = [](const HalfStepSequence& sequence) { return sequence.num_steps(); },
     .planned = [](const HalfStepSequence& sequence,
                   int j) { return PlannedHalfStep(sequence, 2 * j).via_lateral; },
+    .stays = nullptr,
     .half_steps =
         [](int j) {
           return std::pair{2 * j, 2 * j + 1};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "smoothing/walk/parameter_families.h"
@@ -21,6 +22,10 @@ struct HomotopyParameters {
   std::vector<double> foot_ramps;   ///< foot_ramp
   std::vector<double> foot_delays;  ///< horizontal_delay
   std::vector<double> lift_shares;  ///< lift_share
+  // Where the footstep of step j is, seen from where it is planned (n/2).
+  std::vector<double> footstep_xs;    ///< [m]
+  std::vector<double> footstep_ys;    ///< [m]
+  std::vector<double> footstep_yaws;  ///< [rad]
 
   /// The values of a family.
   std::vector<double>& of(ParameterFamily family) { return this->*Traits(family).values; }
@@ -51,6 +56,9 @@ struct HomotopyParameter {
   }
   friend bool operator==(const HomotopyParameter&, const HomotopyParameter&) = default;
 };
+
+/// Which parameters are meant; empty: all.
+using ParameterFilter = std::function<bool(const HomotopyParameter&)>;
 
 /// Whether a junction leads from an up to a down half-step, or the other way.
 enum class JunctionKind { kUpDown, kDownUp };

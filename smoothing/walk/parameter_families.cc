@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "smoothing/walk/footstep_families.h"
 #include "smoothing/walk/form_families.h"
 #include "smoothing/walk/homotopy_parameters.h"
 
@@ -20,9 +21,11 @@ constexpr ParameterFamilyTraits kOverlap = {
     .meaning = "how long both half-steps are under way; below 0: a rest between them",
     .of_form = false,
     .shape = nullptr,
+    .move = nullptr,
     .values = &HomotopyParameters::overlaps,
     .count = [](const HalfStepSequence& sequence) { return sequence.num_junctions(); },
     .planned = [](const HalfStepSequence&, int) { return 0.0; },
+    .stays = nullptr,
     .half_steps =
         [](int i) {
           return std::pair{i, i + 1};
@@ -54,9 +57,11 @@ constexpr ParameterFamilyTraits kHeightScale = {
     .meaning = "scale of the foot's height in its step",
     .of_form = false,
     .shape = nullptr,
+    .move = nullptr,
     .values = &HomotopyParameters::height_scales,
     .count = [](const HalfStepSequence& sequence) { return sequence.num_steps(); },
     .planned = [](const HalfStepSequence&, int) { return 1.0; },
+    .stays = nullptr,
     .half_steps =
         [](int j) {
           return std::pair{2 * j, 2 * j + 1};
@@ -91,10 +96,12 @@ constexpr ParameterFamilyTraits kDuration = {
     .meaning = "T",
     .of_form = false,
     .shape = nullptr,
+    .move = nullptr,
     .values = &HomotopyParameters::durations,
     .count = [](const HalfStepSequence& sequence) { return sequence.size(); },
     .planned = [](const HalfStepSequence& sequence,
                   int i) { return sequence.half_steps[static_cast<size_t>(i)].half_step.duration; },
+    .stays = nullptr,
     .half_steps =
         [](int i) {
           return std::pair{i, i};
@@ -129,12 +136,14 @@ constexpr ParameterFamilyTraits kSupportPoint = {
     .meaning = "where CoM and ZMP rest on one foot, from its centre towards the other foot",
     .of_form = false,
     .shape = nullptr,
+    .move = nullptr,
     .values = &HomotopyParameters::support_points,
     .count = [](const HalfStepSequence& sequence) { return sequence.num_steps(); },
     .planned =
         [](const HalfStepSequence& sequence, int j) {
           return sequence.half_steps[2 * static_cast<size_t>(j)].half_step.shape.support_offset;
         },
+    .stays = nullptr,
     .half_steps =
         [](int j) {
           return std::pair{2 * j, 2 * j + 1};
@@ -182,6 +191,10 @@ const ParameterFamilyTraits& Traits(ParameterFamily family) {
       return kDuration;
     case ParameterFamily::kSupportPoint:
       return kSupportPoint;
+    case ParameterFamily::kFootstepX:
+    case ParameterFamily::kFootstepY:
+    case ParameterFamily::kFootstepYaw:
+      return FootstepTraits(family);
     default:
       return FormTraits(family);
   }

@@ -22,9 +22,12 @@ enum class ParameterFamily {
   kFootRamp,      ///< ramps of the swing foot's speed in a half-step
   kFootDelay,     ///< the fraction of a half-step between floor and horizontal motion
   kLiftShare,     ///< the fraction of a half-step's flight in which the foot rises or sinks
+  kFootstepX,     ///< how far the footstep of a step is moved along its planned x
+  kFootstepY,     ///< and along its planned y
+  kFootstepYaw,   ///< how far it is turned
 };
 /// How many families there are.
-inline constexpr int kNumParameterFamilies = 8;
+inline constexpr int kNumParameterFamilies = 11;
 
 /// What a method may move besides overlaps, and how far.
 struct ParameterChoice {
@@ -35,6 +38,7 @@ struct ParameterChoice {
   bool foot_ramps = false;          ///< HalfStepShape::foot_ramp
   bool foot_delays = false;         ///< HalfStepShape::horizontal_delay
   bool lift_shares = false;         ///< HalfStepShape::lift_share
+  bool footsteps = false;           ///< where feet stand, but the last of each foot
   double least_height_scale = 0.2;  ///< η is at least this
   double least_duration = 0.5;      ///< as a fraction of the planned one
   double most_duration = 1.5;       ///< as a fraction of the planned one
@@ -43,6 +47,8 @@ struct ParameterChoice {
   double least_foot_ramp = 0.2;                                   ///< of its motion, to ½
   double least_foot_delay = 0.02, most_foot_delay = 0.2;          ///< of T
   double least_lift_share = 0.4;                                  ///< of its flight, to 1
+  double most_footstep_x = 0.05, most_footstep_y = 0.03;          ///< to either side [m]
+  double most_footstep_yaw = 0.1;                                 ///< to either side [rad]
 
   bool operator==(const ParameterChoice&) const = default;  ///< the same families, and as far
 };
@@ -68,10 +74,13 @@ struct ParameterFamilyTraits {
   /// Its column is in tables only of walks in which a value of such a family is not the plan's.
   bool of_form;
   double HalfStepShape::*shape;  ///< the number of the half-step's shape that it is; null: of none
+  double Pose2::*move;           ///< the number of a footstep's move that it is; null: of none
   std::vector<double> HomotopyParameters::*values;        ///< where values are kept
   int (*count)(const HalfStepSequence&);                  ///< how many a sequence has
   double (*planned)(const HalfStepSequence&, int index);  ///< the value that is the plan
-  /// First and last half-step that the parameter belongs to.
+  /// Whether methods leave one of the parameters alone though they may move the family; null: none.
+  bool (*stays)(const HalfStepSequence&, int index);
+  /// First and last half-step that the parameter belongs to; the last may be beyond the sequence.
   std::pair<int, int> (*half_steps)(int index);
   /// Index of the parameter that a half-step carries. A parameter that joins two half-steps is
   /// carried by the first of them, so the index of the last half-step may not exist.
@@ -85,7 +94,7 @@ struct ParameterFamilyTraits {
   /// The largest value; +∞ where the natural bound limits it.
   double most;
   /// The flag that lets methods move the family (null: they always may), its key in configs
-  /// ("heights"), and what that key means.
+  /// ("heights"), and what that key means. The key is "" where another family's key is for both.
   bool ParameterChoice::*chosen;
   std::string_view key, key_meaning;  ///< of `chosen`: its key in configs, and what that key means
   std::span<const ParameterBoundKey> bounds;  ///< numbers that limit the range, each with its key
@@ -94,10 +103,10 @@ struct ParameterFamilyTraits {
   std::pair<double, double> (*range)(const ParameterChoice&, double planned);
 };
 
-/// Every family may be moved, as far as the defaults say.
+/// Every family may be moved, footsteps as well, as far as the defaults say.
 ParameterChoice EveryFamily();
 
-/// The same choice with every form as planned.
+/// The same choice with every form and footstep as planned.
 ParameterChoice WithoutForms(ParameterChoice choice);
 
 /// The traits of a family. A family is a row of the table behind this function, a member of
@@ -108,7 +117,8 @@ const ParameterFamilyTraits& Traits(ParameterFamily family);
 constexpr std::array<ParameterFamily, kNumParameterFamilies> AllParameterFamilies() {
   return {ParameterFamily::kOverlap,      ParameterFamily::kHeightScale, ParameterFamily::kDuration,
           ParameterFamily::kSupportPoint, ParameterFamily::kViaLateral,  ParameterFamily::kFootRamp,
-          ParameterFamily::kFootDelay,    ParameterFamily::kLiftShare};
+          ParameterFamily::kFootDelay,    ParameterFamily::kLiftShare,
+          ParameterFamily::kFootstepX,    ParameterFamily::kFootstepY,   ParameterFamily::kFootstepYaw};
 }
 
 }  // namespace halfstep

@@ -87,7 +87,9 @@ WalkPlan Changed(const WalkPlan& walk, int last, const std::vector<Footstep>& fo
   changed.parameters = PlannedMotion(sequence);
   for (const ParameterFamily family : AllParameterFamilies()) {
     const ParameterFamilyTraits& traits = Traits(family);
-    const int kept = traits.index_at(last) + (traits.joins ? 0 : 1);
+    // The step that `last` begins lands on a footstep of its own.
+    const bool lands_anew = traits.move != nullptr && last % 2 == 0;
+    const int kept = traits.index_at(last) + (traits.joins || lands_anew ? 0 : 1);
     std::copy_n(old.of(family).begin(), kept, changed.parameters.of(family).begin());
   }
   return changed;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "smoothing/walk/footstep_families.h"
 #include "wpg/check.h"
 
 namespace halfstep {
@@ -10,9 +11,11 @@ SuperposedWalk::SuperposedWalk(const HalfStepSequence& sequence,
                                const HomotopyParameters& parameters)
     : parameters_(parameters), lipm_(sequence.lipm) {
   CheckParameters(sequence, parameters);
-  pieces_.reserve(sequence.half_steps.size());
-  for (size_t i = 0; i < sequence.half_steps.size(); ++i) {
-    HalfStep half_step = sequence.half_steps[i].half_step;
+  const std::vector<PlacedHalfStep> placed = WithFootsteps(sequence, parameters).half_steps;
+  const std::vector<HalfStepFootsteps> footsteps = FootstepsOf(sequence);
+  pieces_.reserve(placed.size());
+  for (size_t i = 0; i < placed.size(); ++i) {
+    HalfStep half_step = placed[i].half_step;
     half_step.duration = parameters.durations[i];
     const double planned_height = half_step.via_height;
     half_step.via_height *= parameters.height_scales[i / 2];
@@ -22,10 +25,11 @@ SuperposedWalk::SuperposedWalk(const HalfStepSequence& sequence,
       const ParameterFamilyTraits& traits = Traits(family);
       if (traits.shape != nullptr) half_step.shape.*traits.shape = parameters.of(family)[i];
     }
-    const Footprint& X_WS = sequence.half_steps[i].X_WS;
+    const Footprint& X_WS = placed[i].X_WS;
     const WalkState from_W = Transformed(X_WS, half_step.Start());
     pieces_.push_back({.half_step = half_step,
                        .X_WS = X_WS,
+                       .on = footsteps[i],
                        .planned_height = planned_height,
                        .profiles = {half_step.kind, half_step.shape, half_step.duration, lipm_},
                        .from_W = from_W,

@@ -7,6 +7,7 @@
 #include "wpg/geometry/footprint.h"
 #include "wpg/geometry/support_polygon.h"
 #include "wpg/motion/half_step_sequence.h"
+#include "wpg/motion/moved_footsteps.h"
 #include "wpg/motion/walk_state.h"
 #include "wpg/motion/walk_thirds.h"
 
@@ -47,7 +48,7 @@ class SuperposedWalk {
     return piece(half_step).start + piece(half_step).profiles.duration();
   }
   const HomotopyParameters& parameters() const { return parameters_; }  ///< as given
-  /// Half-step i, with its own duration and heights.
+  /// Half-step i, with its own duration, heights, form and footsteps.
   const HalfStep& half_step(int i) const { return piece(i).half_step; }
   const HalfStepProfiles& profiles(int i) const { return piece(i).profiles; }  ///< its profiles
   const Footprint& X_WS(int i) const { return piece(i).X_WS; }  ///< place of its support sole, in W
@@ -64,8 +65,10 @@ class SuperposedWalk {
   WalkJet At(const LocalTime& at) const;
 
   /// Derivatives at fixed (half-step, τ) with respect to every parameter on which the instant
-  /// depends: the half-steps under way there and the junctions between them. Replaces `out`.
-  void Sensitivities(const LocalTime& at, std::vector<WalkSensitivity>* out) const;
+  /// depends: the half-steps under way there, the junctions between them and the footsteps that
+  /// they stand on. Parameters for which `wanted` returns false are left out. Replaces `out`.
+  void Sensitivities(const LocalTime& at, std::vector<WalkSensitivity>* out,
+                     const ParameterFilter& wanted = {}) const;
 
   /// Derivatives of start_of(half_step): −1 along every earlier overlap, +1 along every earlier
   /// duration. Replaces `out`.
@@ -115,6 +118,7 @@ class SuperposedWalk {
   struct Piece {
     HalfStep half_step;
     Footprint X_WS;
+    HalfStepFootsteps on;
     double planned_height = 0.0;  // before scaling [m]
     HalfStepProfiles profiles;
     double start = 0.0;         // t_i

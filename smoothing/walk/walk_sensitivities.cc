@@ -41,9 +41,99 @@ void AddViaDerivative(const HalfStepJet& profiles, HalfStepKind kind, bool first
   jet->second[q] += change * p.second;
 }
 
+// How a sole's place moves along a parameter, in W: (x, y, yaw).
+using SoleMove = Eigen::Vector3d;
+
+// A point that stands still on a sole at X_WF.
+Eigen::Vector2d Moved(const SoleMove& move, const Eigen::Vector2d& from_sole_W) {
+  return move.head<2>() + move.z() * Eigen::Vector2d(-from_sole_W.y(), from_sole_W.x());
+}
+
+void MoveFoot(Side side, const Eigen::Vector2d& by, double yaw, WalkState* x) {
+  x->segment<2>(FootIndex(side)) = by;
+  (*x)[FootIndex(side) + 3] = yaw;
+}
+
+// Of the state with both feet on the floor, in W.
+WalkState OnFloorMoved(const HalfStep& h, const SoleMove& support, const SoleMove& swing) {
+  const SoleMove middle = 0.5 * (support + swing);
+  WalkState x = WalkState::Zero();
+  x.segment<2>(kComX) = x.segment<2>(kZmpX) = middle.head<2>();
+  x[kWaistYaw] = middle.z();
+  MoveFoot(h.support, support.head<2>(), support.z(), &x);
+  MoveFoot(h.swing(), swing.head<2>(), swing.z(), &x);
+  return x;
+}
+
+// Of the state at the via point, which goes with the support sole.
+WalkState AtViaMoved(const HalfStep& h, const Eigen::Matrix2d& R_WS, const SoleMove& support) {
+  WalkState x = WalkState::Zero();
+  x.segment<2>(kComX) = x.segment<2>(kZmpX) = Moved(support, R_WS * h.support_point());
+  x[kWaistYaw] = support.z();
+  MoveFoot(h.support, support.head<2>(), support.z(), &x);
+  MoveFoot(h.swing(), Moved(support, R_WS * h.via().position()), support.z(), &x);
+  return x;
+}
+
+// A sway's derivative where it turns with the support sole.
+void AddTurnedSway(const std::array<ProfileJet, 2>& sway, WalkJet* jet) {
+  const auto turn = [](double x, double y) { return Eigen::Vector2d(-y, x); };
+  jet->value.segment<2>(kComX) += turn(sway[0].value, sway[1].value);
+  jet->first.segment<2>(kComX) += turn(sway[0].first, sway[1].first);
+  jet->second.segment<2>(kComX) += turn(sway[0].second, sway[1].second);
+}
+
+// What a half-step under way, its support sole at X_WS, has to do with the moves of footsteps.
+struct OnFootsteps {
+  const HalfStep& half_step;
+  const Footprint& X_WS;
+  const HalfStepFootsteps& on;
+  const HomotopyParameters& parameters;
+  bool first;  // whether the walk is superposed from its start
+};
+
+// Adds its derivatives along these moves; jet_of(parameter) is where a derivative is summed up.
+template <typename JetOf>
+void AddFootstepDerivatives(const OnFootsteps& p, const HalfStepJet& profiles,
+                            const std::array<ProfileJet, 2>& sway, const ParameterFilter& wanted,
+                            const JetOf& jet_of) {
+  using Family = ParameterFamily;
+  const HalfStep& h = p.half_step;
+  const Eigen::Matrix2d R_WS = p.X_WS.rotation();
+  const bool up = h.kind == HalfStepKind::kUp;
+  for (const auto& [step, is_support] : {std::pair{p.on.support, true}, {p.on.swing, false}}) {
+    if (step < 0) continue;
+    const double turned = p.parameters.footstep_yaws[static_cast<size_t>(step)];
+    const double yaw = p.X_WS.yaw + (is_support ? 0.0 : h.X_SF.yaw);
+    const Eigen::Matrix2d planned = Eigen::Rotation2Dd(yaw - turned).toRotationMatrix();
+    const std::array<std::pair<Family, SoleMove>, 3> moves = {
+        {{Family::kFootstepX, {planned(0, 0), planned(1, 0), 0.0}},
+         {Family::kFootstepY, {planned(0, 1), planned(1, 1), 0.0}},
+         {Family::kFootstepYaw, SoleMove::UnitZ()}}};
+    for (const auto& [family, move] : moves) {
+      if (wanted && !wanted({family, step})) continue;
+      const SoleMove support = is_support ? move : SoleMove::Zero();
+      const WalkState floor = OnFloorMoved(h, support, is_support ? SoleMove::Zero() : move);
+      const WalkState via = AtViaMoved(h, R_WS, support);
+      const WalkState &from = up ? floor : via, &to = up ? via : floor;
+      WalkJet& jet = jet_of({family, step});
+      if (p.first) jet.value += from;
+      for (int q = 0; q < kNumQuantities; ++q) {
+        const ProfileJet& profile = profiles.of(q);
+        jet.value[q] += profile.value * (to[q] - from[q]);
+        jet.first[q] += profile.first * (to[q] - from[q]);
+        jet.second[q] += profile.second * (to[q] - from[q]);
+      }
+      if (h.sway.none() || support.z() == 0.0) continue;
+      AddTurnedSway(sway, &jet);
+    }
+  }
+}
+
 }  // namespace
 
-void SuperposedWalk::Sensitivities(const LocalTime& at, std::vector<WalkSensitivity>* out) const {
+void SuperposedWalk::Sensitivities(const LocalTime& at, std::vector<WalkSensitivity>* out,
+                                   const ParameterFilter& wanted) const {
   using Family = HomotopyParameter::Family;
   out->clear();
   const auto jet_of = [out](HomotopyParameter parameter) -> WalkJet& {
@@ -93,6 +183,11 @@ void SuperposedWalk::Sensitivities(const LocalTime& at, std::vector<WalkSensitiv
         jet.second[q] += by.of(q).second * p.delta_W[q];
       }
     }
+    AddFootstepDerivatives({h, p.X_WS, p.on, parameters_, i == first}, profiles, sway, wanted,
+                           jet_of);
+  }
+  if (wanted) {
+    std::erase_if(*out, [&](const WalkSensitivity& s) { return !wanted(s.parameter); });
   }
 }
 

@@ -34,7 +34,7 @@ TEST(HomotopyParameters, PlannedMotionHasNoOverlapFullHeightAndTheRestAsPlanned)
 TEST(HomotopyParameters, EachParameterIsNamedOnceAndReachesItsOwnValue) {
   const HalfStepSequence sequence = ThreeSteps();
   const std::vector<HomotopyParameter> all = AllParameters(sequence);
-  ASSERT_EQ(all.size(), 5u + 3u + 6u + 3u + 3u + 3u * 6u);
+  ASSERT_EQ(all.size(), 5u + 3u + 6u + 3u + 3u + 3u * 6u + 3u * 3u);
   HomotopyParameters parameters = PlannedMotion(sequence);
   for (size_t i = 0; i < all.size(); ++i) all[i].in(parameters) = static_cast<double>(i);
   EXPECT_EQ(parameters.overlaps, (std::vector<double>{0, 1, 2, 3, 4}));
@@ -45,6 +45,9 @@ TEST(HomotopyParameters, EachParameterIsNamedOnceAndReachesItsOwnValue) {
   EXPECT_EQ(parameters.foot_ramps, (std::vector<double>{20, 21, 22, 23, 24, 25}));
   EXPECT_EQ(parameters.foot_delays.front(), 26);
   EXPECT_EQ(parameters.lift_shares.back(), 37);
+  EXPECT_EQ(parameters.footstep_xs.front(), 38);
+  EXPECT_EQ(parameters.footstep_ys, (std::vector<double>{41, 42, 43}));
+  EXPECT_EQ(parameters.footstep_yaws.back(), 46);
   const HomotopyParameter beyond{Family::kHeightScale, 3};
   EXPECT_THROW(beyond.in(parameters), std::out_of_range);
 }
@@ -97,6 +100,10 @@ TEST(CheckParameters, RefusesEachSingleFault) {
       [](auto* p) { p->foot_delays[1] = 0.21; },
       [](auto* p) { p->lift_shares[3] = 0.19; },
       [](auto* p) { p->lift_shares.pop_back(); },
+      [](auto* p) { p->footstep_xs[1] = 0.51; },
+      [](auto* p) { p->footstep_ys[0] = -0.51; },
+      [=](auto* p) { p->footstep_yaws[2] = nan; },
+      [](auto* p) { p->footstep_yaws.pop_back(); },
       [=](auto* p) { p->support_points[2] = nan; },
       [](auto* p) { p->durations[3] = 0; },
       [](auto* p) { p->durations[3] = -1; },

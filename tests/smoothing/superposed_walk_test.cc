@@ -1,4 +1,5 @@
 #include "smoothing/walk/superposed_walk.h"
+#include "smoothing/walk/footstep_families.h"
 
 #include <gtest/gtest.h>
 
@@ -188,11 +189,12 @@ TEST(SuperposedWalk, IsTheSumOverAllHalfSteps) {
     const HalfStepSequence sequence = draw.Sequence(4);
     const HomotopyParameters parameters = draw.ExtremeParameters(sequence);
     const SuperposedWalk walk(sequence, parameters);
+    const HalfStepSequence placed = WithFootsteps(sequence, parameters);
     for (int n = 0; n < 30; ++n) {
       const double t = draw.Uniform(0, walk.duration());
       WalkJet sum;
       for (int k = 0; k < sequence.size(); ++k) {
-        auto [h, X_WS] = sequence.half_steps[static_cast<size_t>(k)];
+        auto [h, X_WS] = placed.half_steps[static_cast<size_t>(k)];
         h.duration = parameters.durations[static_cast<size_t>(k)];
         h.via_height *= parameters.height_scales[static_cast<size_t>(k / 2)];
         h.shape.support_offset = parameters.support_points[static_cast<size_t>(k / 2)];

@@ -27,7 +27,8 @@ class WalkDraw : public SequenceDraw {
   using SequenceDraw::SequenceDraw;
 
   /// Durations within 20 % of the planned ones, heights from a tenth to all, support points within
-  /// 3 cm of the planned ones, forms of each half-step's own, and overlaps between `low` and `high` of their natural bounds.
+  /// 3 cm of the planned ones, forms of each half-step's own, footsteps moved by
+  /// some cm, and overlaps between `low` and `high` of their natural bounds.
   HomotopyParameters Parameters(const HalfStepSequence& sequence, double low, double high) {
     HomotopyParameters parameters = PlannedMotion(sequence);
     for (double& T : parameters.durations) T *= Uniform(0.8, 1.2);
@@ -37,6 +38,12 @@ class WalkDraw : public SequenceDraw {
     for (double& ramp : parameters.foot_ramps) ramp = Form(0.3, 0.45);
     for (double& delay : parameters.foot_delays) delay = Form(0.02, 0.18);
     for (double& share : parameters.lift_shares) share = Form(0.6, 0.95);
+    for (size_t j = 0; j < parameters.footstep_xs.size(); ++j) {
+      if (Form(0, 1) < 0.3) continue;
+      parameters.footstep_xs[j] = Form(-0.02, 0.02);
+      parameters.footstep_ys[j] = Form(-0.01, 0.01);
+      parameters.footstep_yaws[j] = Form(-0.1, 0.1);
+    }
     for (int i = 0; i < sequence.num_junctions(); ++i) {
       const double bound = NaturalOverlapBound(sequence, parameters.durations, i);
       parameters.overlaps[static_cast<size_t>(i)] = Uniform(low, high) * bound;

@@ -130,19 +130,26 @@ class Experiment:
              via_laterals: Sequence[float] | None = None,
              foot_ramps: Sequence[float] | None = None,
              foot_delays: Sequence[float] | None = None,
-             lift_shares: Sequence[float] | None = None) -> Walk:
+             lift_shares: Sequence[float] | None = None,
+             footstep_xs: Sequence[float] | None = None,
+             footstep_ys: Sequence[float] | None = None,
+             footstep_yaws: Sequence[float] | None = None) -> Walk:
         """The walk at given parameters; what is not given is as planned.
 
         For n half-steps: ``overlaps`` (n-1) [s], ``height_scales`` (n/2) of the planned heights,
         ``durations`` (n) [s], ``support_points`` (n/2) [m]; and those of form: ``via_laterals``
         (n/2) [m], ``foot_ramps`` (n), ``foot_delays`` (n), ``lift_shares`` (n), as fractions of
-        what the keys of ``half_step`` in configs say. An overlap beyond its natural bound is a
+        what the keys of ``half_step`` in configs say; and where each step's footstep is, seen from
+        where it is planned: ``footstep_xs``, ``footstep_ys`` (n/2) [m], ``footstep_yaws`` (n/2)
+        [rad]. An overlap beyond its natural bound is a
         ValueError. Whether the walk is feasible is for ``Walk.certify`` to say.
         """
         sizes = {name: len(values) for name, values in self.planned.parameters.items()}
         given = {"overlaps": overlaps, "height_scales": height_scales, "durations": durations,
                  "support_points": support_points, "via_laterals": via_laterals,
-                 "foot_ramps": foot_ramps, "foot_delays": foot_delays, "lift_shares": lift_shares}
+                 "foot_ramps": foot_ramps, "foot_delays": foot_delays, "lift_shares": lift_shares,
+                 "footstep_xs": footstep_xs, "footstep_ys": footstep_ys,
+                 "footstep_yaws": footstep_yaws}
         return Walk(self._experiment.walk({
             name: list(vector(name, values, sizes[name]))
             for name, values in given.items() if values is not None}))

@@ -56,12 +56,17 @@ class SmoothingProblem:
              via_laterals: Sequence[float] | None = None,
              foot_ramps: Sequence[float] | None = None,
              foot_delays: Sequence[float] | None = None,
-             lift_shares: Sequence[float] | None = None) -> Walk:
+             lift_shares: Sequence[float] | None = None,
+             footstep_xs: Sequence[float] | None = None,
+             footstep_ys: Sequence[float] | None = None,
+             footstep_yaws: Sequence[float] | None = None) -> Walk:
         """The walk at given parameters; what is not given is the incumbent's."""
         sizes = {name: len(values) for name, values in self.incumbent.parameters.items()}
         given = {"overlaps": overlaps, "height_scales": height_scales, "durations": durations,
                  "support_points": support_points, "via_laterals": via_laterals,
-                 "foot_ramps": foot_ramps, "foot_delays": foot_delays, "lift_shares": lift_shares}
+                 "foot_ramps": foot_ramps, "foot_delays": foot_delays, "lift_shares": lift_shares,
+                 "footstep_xs": footstep_xs, "footstep_ys": footstep_ys,
+                 "footstep_yaws": footstep_yaws}
         return Walk(self._task.walk({
             name: list(vector(name, values, sizes[name]))
             for name, values in given.items() if values is not None}))

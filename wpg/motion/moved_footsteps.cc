@@ -1,0 +1,50 @@
+#include "wpg/motion/moved_footsteps.h"
+
+#include "wpg/check.h"
+
+namespace halfstep {
+namespace {
+
+size_t Of(Side side) { return static_cast<size_t>(Index(side)); }
+
+}  // namespace
+
+std::vector<HalfStepFootsteps> FootstepsOf(const HalfStepSequence& sequence) {
+  std::vector<HalfStepFootsteps> all;
+  std::array<int, 2> last = {-1, -1};
+  for (int step = 0; step < sequence.num_steps(); ++step) {
+    const HalfStep& up = sequence.half_steps[2 * static_cast<size_t>(step)].half_step;
+    const int support = last[Of(up.support)];
+    all.push_back({support, last[Of(up.swing())]});
+    all.push_back({support, step});
+    last[Of(up.swing())] = step;
+  }
+  return all;
+}
+
+HalfStepSequence WithFootstepsMoved(const HalfStepSequence& sequence,
+                                    const std::vector<Pose2>& moves) {
+  HALFSTEP_CHECK(moves.size() == static_cast<size_t>(sequence.num_steps()),
+                 moves.size() << " moves of " << sequence.num_steps() << " footsteps");
+  HalfStepSequence result = sequence;
+  std::array<Footprint, 2> soles = sequence.start;
+  std::array<bool, 2> moved = {false, false};
+  for (size_t step = 0; step < moves.size(); ++step) {
+    PlacedHalfStep &up = result.half_steps[2 * step], &down = result.half_steps[2 * step + 1];
+    const size_t support = Of(up.half_step.support), swing = Of(up.half_step.swing());
+    const bool next_stands = 2 * step + 2 < sequence.half_steps.size() &&
+                             result.half_steps[2 * step + 2].half_step.swing() != down.half_step.swing();
+    // The next half-step knows to the bit where this one lands when it stands there.
+    const Footprint planned = next_stands ? result.half_steps[2 * step + 2].X_WS
+                                          : down.X_WS * down.half_step.X_SF;
+    if (!moved[support]) soles[support] = up.X_WS;
+    up.X_WS = down.X_WS = soles[support];
+    if (moved[support] || moved[swing]) up.half_step.X_SF = up.X_WS.Inverse() * soles[swing];
+    moved[swing] = moves[step] != Pose2{};
+    soles[swing] = moved[swing] ? planned * Footprint(moves[step]) : planned;
+    if (moved[support] || moved[swing]) down.half_step.X_SF = down.X_WS.Inverse() * soles[swing];
+  }
+  return result;
+}
+
+}  // namespace halfstep
