@@ -27,8 +27,7 @@ void Refine(const SafetyCheck& safety, const LiveConfig& config, double from, in
   proposal->refined = true;
   ParameterChoice choice = config.experiment.smoothing.optimizer.options.program.parameters;
   choice.footsteps = false;  // footsteps are the planner's while the world changes
-  const auto found =
-      ImproveAhead(proposal->plan, test, first, {.choice = choice}, monitor);
+  const auto found = ImproveAhead(proposal->plan, test, first, {.choice = choice}, monitor);
   if (!found) return;
   proposal->plan.parameters = *found;
   proposal->first_changed = first;

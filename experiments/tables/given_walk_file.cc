@@ -121,8 +121,8 @@ class GivenWalkReader {
       });
     }
     if (!files.half_steps.empty()) {
-      half_steps_.emplace(files.half_steps, HalfStepsColumns(HalfStepsExtent::kFootsteps), sequence_.half_steps.size(),
-                          "half-steps", &complaints_);
+      half_steps_.emplace(files.half_steps, HalfStepsColumns(HalfStepsExtent::kFootsteps),
+                          sequence_.half_steps.size(), "half-steps", &complaints_);
       CheckRowNames(&*half_steps_, "half_step", [this](size_t i) {
         return sequence_.half_steps[i].half_step.kind == HalfStepKind::kUp ? "up" : "down";
       });

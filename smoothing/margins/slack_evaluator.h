@@ -31,8 +31,8 @@ struct InstantSlacks {
 class SlackEvaluator {
  public:
   /// `evaluator` is borrowed. Statements with slack above `cutoff` are left out. Derivatives are
-  /// taken along the parameters that are `wanted`; without it, along all. Soles that stand are looked
-  /// at when `footsteps_move`.
+  /// taken along the parameters that are `wanted`; without it, along all. Soles that stand are
+  /// looked at when `footsteps_move`.
   SlackEvaluator(const MarginEvaluator& evaluator, double cutoff, ParameterFilter wanted = {},
                  bool footsteps_move = false);
 

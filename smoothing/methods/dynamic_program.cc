@@ -1,5 +1,5 @@
-#include "smoothing/walk/footstep_families.h"
 #include "smoothing/methods/dynamic_program.h"
+#include "smoothing/walk/footstep_families.h"
 
 #include <algorithm>
 #include <limits>

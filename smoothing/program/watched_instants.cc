@@ -317,8 +317,8 @@ void WatchedInstants::Evaluate(const Eigen::VectorXd& x, Eigen::VectorXd* values
   });
 }
 
-std::vector<SlackEvaluator> WatchedInstants::Evaluators(
-    double cutoff, const ParameterFilter& wanted) const {
+std::vector<SlackEvaluator> WatchedInstants::Evaluators(double cutoff,
+                                                        const ParameterFilter& wanted) const {
   return std::vector<SlackEvaluator>(static_cast<size_t>(NumThreads(workers_)),
                                      SlackEvaluator(evaluator_, cutoff, wanted, footsteps_move_));
 }

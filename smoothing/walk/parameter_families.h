@@ -115,10 +115,11 @@ const ParameterFamilyTraits& Traits(ParameterFamily family);
 
 /// Every family, in the order of programs and files.
 constexpr std::array<ParameterFamily, kNumParameterFamilies> AllParameterFamilies() {
-  return {ParameterFamily::kOverlap,      ParameterFamily::kHeightScale, ParameterFamily::kDuration,
-          ParameterFamily::kSupportPoint, ParameterFamily::kViaLateral,  ParameterFamily::kFootRamp,
-          ParameterFamily::kFootDelay,    ParameterFamily::kLiftShare,
-          ParameterFamily::kFootstepX,    ParameterFamily::kFootstepY,   ParameterFamily::kFootstepYaw};
+  return {
+      ParameterFamily::kOverlap,      ParameterFamily::kHeightScale, ParameterFamily::kDuration,
+      ParameterFamily::kSupportPoint, ParameterFamily::kViaLateral,  ParameterFamily::kFootRamp,
+      ParameterFamily::kFootDelay,    ParameterFamily::kLiftShare,   ParameterFamily::kFootstepX,
+      ParameterFamily::kFootstepY,    ParameterFamily::kFootstepYaw};
 }
 
 }  // namespace halfstep

@@ -73,12 +73,10 @@ TEST(MovedFootsteps, TurnAndMirrorWithThePlan) {
   WalkDraw draw(72);
   for (int i = 0; i < 50; ++i) {
     const HalfStepSequence sequence = draw.Sequence(4);
-    HomotopyParameters parameters = draw.Parameters(sequence, 0.1, 0.9);
+    const HomotopyParameters parameters = draw.Parameters(sequence, 0.1, 0.9);
     const Pose2 X_VW{draw.Uniform(-2, 2), draw.Uniform(-2, 2), draw.Uniform(-3, 3)};
     const SuperposedWalk walk(sequence, parameters), turned(Moved(X_VW, sequence), parameters);
-    for (double& y : parameters.footstep_ys) y = -y;
-    for (double& yaw : parameters.footstep_yaws) yaw = -yaw;
-    const SuperposedWalk mirrored(Mirrored(sequence), parameters);
+    const SuperposedWalk mirrored(Mirrored(sequence), Mirrored(parameters));
     const double t = draw.Uniform(0, walk.duration());
     const WalkState x = walk.At(t).value;
     EXPECT_LT(Largest(turned.At(t).value - Transformed(X_VW, x)), 1e-12);
@@ -102,12 +100,12 @@ TEST(FootstepFamilies, TheLastFootstepOfEachFootStays) {
 // A foot that steps twice in a row stands on footsteps for other half-steps than the families say.
 TEST(FootstepFamilies, AFootThatStepsTwiceStays) {
   std::vector<Footstep> footsteps;
-  for (const Side side : {Side::kRight, Side::kLeft, Side::kLeft, Side::kRight, Side::kLeft,
-                          Side::kRight}) {
+  for (const Side side :
+       {Side::kRight, Side::kLeft, Side::kLeft, Side::kRight, Side::kLeft, Side::kRight}) {
     footsteps.push_back({.side = side, .X_WF = {0.0, 0.105 * Sign(side), 0.0}});
   }
-  const HalfStepSequence sequence = MakeSequence(
-      {Footprint{0, 0.105, 0}, Footprint{0, -0.105, 0}}, footsteps, 0.24, HalfStepShape{}, Lipm{});
+  const HalfStepSequence sequence = MakeSequence({Footprint{0, 0.105, 0}, Footprint{0, -0.105, 0}},
+                                                 footsteps, 0.24, HalfStepShape{}, Lipm{});
   const ParameterTable table(sequence, {}, {.footsteps = true});
   const std::vector<bool> free = {false, false, true, true, false, false};
   for (int step = 0; step < 6; ++step) {

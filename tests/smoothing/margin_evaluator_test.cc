@@ -227,7 +227,7 @@ TEST_F(MarginEvaluatorTest, MarginsDoNotDependOnWhereAndOnWhichSide) {
     scene = Moved({x[kComX], x[kComY], x[kWaistYaw]}, scene);
     const Pose2 X_VW = draw.Pose(2, 3);
     const MarginSet plain = At(walk, walk.Locate(t), scene);
-    const SuperposedWalk mirrored(Mirrored(sequence), parameters);
+    const SuperposedWalk mirrored(Mirrored(sequence), Mirrored(parameters));
     const SuperposedWalk moved(Moved(X_VW, sequence), parameters);
     const MarginSet m = At(mirrored, mirrored.Locate(t), Mirrored(scene));
     const MarginSet v = At(moved, moved.Locate(t), Moved(X_VW, scene));

@@ -1,5 +1,5 @@
-#include "smoothing/proof/interval_statements.h"
 #include "wpg/motion/motion_bounds.h"
+#include "smoothing/proof/interval_statements.h"
 
 #include <gtest/gtest.h>
 

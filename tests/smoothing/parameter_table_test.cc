@@ -29,7 +29,7 @@ class ParameterTableTest : public testing::Test {
 
 TEST_F(ParameterTableTest, HoldsEveryParameterOnceAndStartsAsPlanned) {
   const ParameterTable table(sequence_);
-  ASSERT_EQ(table.rows().size(), 5u + 3u + 6u + 3u + 3u + 3u * 6u);
+  ASSERT_EQ(table.rows().size(), 5u + 3u + 6u + 3u + 3u + 3u * 6u + 3u * 3u);
   EXPECT_EQ(table.Start(), planned_);
   for (size_t row = 0; row < table.rows().size(); ++row) {
     const HomotopyParameter& parameter = table.rows()[row].parameter;

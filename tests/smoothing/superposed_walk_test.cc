@@ -78,9 +78,10 @@ TEST(SuperposedWalk, BeginsAndEndsAtRest) {
   WalkDraw draw(22);
   for (int i = 0; i < 300; ++i) {
     const HalfStepSequence sequence = draw.Sequence(3);
-    const SuperposedWalk walk(sequence, draw.ExtremeParameters(sequence));
-    const PlacedHalfStep& first = sequence.half_steps.front();
-    const PlacedHalfStep& last = sequence.half_steps.back();
+    const HomotopyParameters parameters = draw.ExtremeParameters(sequence);
+    const SuperposedWalk walk(sequence, parameters);
+    const HalfStepSequence placed = WithFootsteps(sequence, parameters);
+    const PlacedHalfStep &first = placed.half_steps.front(), &last = placed.half_steps.back();
     const WalkState from = Transformed(first.X_WS, first.half_step.Start());
     const WalkState to = Transformed(last.X_WS, last.half_step.End());
     for (double inside : {0.0, 1e-9}) {
@@ -257,7 +258,7 @@ TEST(SuperposedWalk, MirroredAndMovedSequencesWalkMirroredAndMoved) {
     const HomotopyParameters parameters = draw.ExtremeParameters(sequence);
     const Pose2 X_VW = draw.Pose(2, 3);
     const SuperposedWalk walk(sequence, parameters);
-    const SuperposedWalk mirrored(Mirrored(sequence), parameters);
+    const SuperposedWalk mirrored(Mirrored(sequence), Mirrored(parameters));
     const SuperposedWalk moved(Moved(X_VW, sequence), parameters);
     EXPECT_EQ(walk.duration(), mirrored.duration());
     EXPECT_EQ(walk.duration(), moved.duration());

@@ -18,7 +18,7 @@
 namespace halfstep {
 namespace {
 
-constexpr double kG = 9.81;
+constexpr double kSwayGravity = 9.81;
 
 // Every half-step sways by up to `most` [m] along each axis.
 HalfStepSequence Swaying(HalfStepSequence sequence, double most, SequenceDraw* draw) {
@@ -156,12 +156,13 @@ TEST(SwayingWalk, TheRobotsZmpStaysWithinItsBoundAndBeyondOneThatForgetsTheSway)
       bounds.Bound(middle, walk.SecondBounds(begin, end), 0.5 * length, &motion);
       bounds.Bound(middle, plain.SecondBounds(begin, end), 0.5 * length, &forgetful);
       if (!motion.bounded || !forgetful.bounded) continue;
-      const RobotDynamics dynamics(robot, middle, motion.posture, kG);
+      const RobotDynamics dynamics(robot, middle, motion.posture, kSwayGravity);
       const auto zmp = dynamics.Zmp();
       if (!zmp) continue;
       const auto drift_of = [&](const IntervalMotion& of, const WalkThirds& thirds) {
-        return ZmpDrift::Over(robot, of, thirds, RobotDrift(robot, of, thirds, dynamics, kG),
-                              dynamics, kG);
+        return ZmpDrift::Over(robot, of, thirds,
+                              RobotDrift(robot, of, thirds, dynamics, kSwayGravity), dynamics,
+                              kSwayGravity);
       };
       const ZmpDrift drift = drift_of(motion, walk.ThirdRanges(begin, end)),
                      wrong = drift_of(forgetful, plain.ThirdRanges(begin, end));
@@ -172,7 +173,7 @@ TEST(SwayingWalk, TheRobotsZmpStaysWithinItsBoundAndBeyondOneThatForgetsTheSway)
         const WalkJet jet = walk.At(begin + part * length);
         Posture posture = SolvePosture(robot, jet.value);
         ASSERT_TRUE(posture.reachable && SolveJointSpeeds(robot, jet, &posture));
-        const auto there = RobotDynamics(robot, jet, posture, kG).Zmp();
+        const auto there = RobotDynamics(robot, jet, posture, kSwayGravity).Zmp();
         ASSERT_TRUE(there);
         for (const Eigen::Vector2d& along : {Eigen::Vector2d(1, 0), Eigen::Vector2d(0, 1)}) {
           const double moved = std::abs(along.dot(*there - *zmp));

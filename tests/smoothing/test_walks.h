@@ -40,9 +40,9 @@ class WalkDraw : public SequenceDraw {
     for (double& share : parameters.lift_shares) share = Form(0.6, 0.95);
     for (size_t j = 0; j < parameters.footstep_xs.size(); ++j) {
       if (Form(0, 1) < 0.3) continue;
-      parameters.footstep_xs[j] = Form(-0.02, 0.02);
-      parameters.footstep_ys[j] = Form(-0.01, 0.01);
-      parameters.footstep_yaws[j] = Form(-0.1, 0.1);
+      parameters.footstep_xs[j] = Form(-0.01, 0.01);
+      parameters.footstep_ys[j] = Form(-0.005, 0.005);
+      parameters.footstep_yaws[j] = Form(-0.05, 0.05);
     }
     for (int i = 0; i < sequence.num_junctions(); ++i) {
       const double bound = NaturalOverlapBound(sequence, parameters.durations, i);
@@ -63,6 +63,13 @@ class WalkDraw : public SequenceDraw {
     return parameters;
   }
 };
+
+/// The same walk of the mirrored sequence.
+inline HomotopyParameters Mirrored(HomotopyParameters parameters) {
+  for (double& y : parameters.footstep_ys) y = -y;
+  for (double& yaw : parameters.footstep_yaws) yaw = -yaw;
+  return parameters;
+}
 
 /// Every parameter of a sequence.
 inline std::vector<HomotopyParameter> AllParameters(const HalfStepSequence& sequence) {

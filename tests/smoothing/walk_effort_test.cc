@@ -58,7 +58,7 @@ TEST(WalkEffort, DoesNotDependOnWhereTheWalkIsOrOnItsSide) {
     const HalfStepSequence sequence = draw.Sequence(2);
     const HomotopyParameters parameters = draw.Parameters(sequence, 0.0, 1.0);
     const WalkEffort effort = EffortOf(SuperposedWalk(sequence, parameters));
-    ExpectNear(EffortOf(SuperposedWalk(Mirrored(sequence), parameters)), effort, 1e-9);
+    ExpectNear(EffortOf(SuperposedWalk(Mirrored(sequence), Mirrored(parameters))), effort, 1e-9);
     ExpectNear(EffortOf(SuperposedWalk(Moved(draw.Pose(3, 3), sequence), parameters)), effort,
                1e-9);
   }

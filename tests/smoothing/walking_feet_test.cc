@@ -17,7 +17,8 @@ TEST(WalkingFeet, FeetLandExactlyOnTheFootstepsAndStayThere) {
     const std::vector<Footstep> footsteps = draw.Footsteps(5);
     const HalfStepSequence sequence =
         MakeSequence(StandingFeet(), footsteps, 0.24, {.shift = draw.Uniform(0.03, 0.3)}, {});
-    const SuperposedWalk walk(sequence, draw.ExtremeParameters(sequence));
+    const HomotopyParameters parameters = draw.ExtremeParameters(sequence);
+    const SuperposedWalk walk(sequence, parameters);
     std::array<Footprint, 2> feet = StandingFeet();
     for (int step = 0; step < 5; ++step) {
       const Footstep& footstep = footsteps[static_cast<size_t>(step)];
@@ -25,8 +26,8 @@ TEST(WalkingFeet, FeetLandExactlyOnTheFootstepsAndStayThere) {
         const Pose2& expected = feet[static_cast<size_t>(Index(side))];
         const WalkJet x = walk.At(at);
         const Pose2 foot = FootPose(x.value, side);
-        EXPECT_LT((foot.position() - expected.position()).norm(), 1e-14);
-        EXPECT_NEAR(foot.yaw, expected.yaw, 1e-14);
+        EXPECT_LT((foot.position() - expected.position()).norm(), 1e-13);
+        EXPECT_NEAR(foot.yaw, expected.yaw, 1e-13);
         EXPECT_NEAR(x.value[FootIndex(side) + 2], 0.0, 1e-15);
         EXPECT_LT(x.first.segment<4>(FootIndex(side)).norm(), 1e-12);
       };
@@ -39,7 +40,10 @@ TEST(WalkingFeet, FeetLandExactlyOnTheFootstepsAndStayThere) {
         const double t = take_off + (landing - take_off) * n / 10;
         at_rest({up, t - walk.start_of(up)}, Opposite(footstep.side));
       }
-      feet[static_cast<size_t>(Index(footstep.side))] = footstep.X_WF;
+      const size_t j = static_cast<size_t>(step);
+      feet[static_cast<size_t>(Index(footstep.side))] =
+          footstep.X_WF * Footprint(parameters.footstep_xs[j], parameters.footstep_ys[j],
+                                    parameters.footstep_yaws[j]);
       at_rest({down, walk.profiles(down).t1()}, footstep.side);
     }
   }

@@ -32,11 +32,8 @@ HalfStepSequence WithFootstepsMoved(const HalfStepSequence& sequence,
   for (size_t step = 0; step < moves.size(); ++step) {
     PlacedHalfStep &up = result.half_steps[2 * step], &down = result.half_steps[2 * step + 1];
     const size_t support = Of(up.half_step.support), swing = Of(up.half_step.swing());
-    const bool next_stands = 2 * step + 2 < sequence.half_steps.size() &&
-                             result.half_steps[2 * step + 2].half_step.swing() != down.half_step.swing();
-    // The next half-step knows to the bit where this one lands when it stands there.
-    const Footprint planned = next_stands ? result.half_steps[2 * step + 2].X_WS
-                                          : down.X_WS * down.half_step.X_SF;
+    // By what is planned up to here alone, so that walks that begin alike are moved alike.
+    const Footprint planned = down.X_WS * down.half_step.X_SF;
     if (!moved[support]) soles[support] = up.X_WS;
     up.X_WS = down.X_WS = soles[support];
     if (moved[support] || moved[swing]) up.half_step.X_SF = up.X_WS.Inverse() * soles[swing];
