@@ -198,6 +198,35 @@ TEST_F(GivenWalkCommand, AWalkInFormsOfItsOwnComesBackToTheByte) {
   EXPECT_EQ(Halfstep(place_.path(), {"verify", "again"}).status, 0);
 }
 
+// So are footsteps that a solver moved.
+TEST_F(GivenWalkCommand, AWalkOnMovedFootstepsComesBackToTheByte) {
+  const std::string config = ShippedConfig("bar_8cm");
+  ASSERT_EQ(Halfstep(place_.path(), {"smooth", config, "--quiet", "--method", "halfstep/sqp",
+                                     "--out", "sqp", "--set", "smoothing.optimizer.footsteps=true",
+                                     "--set", "smoothing.optimizer.rounds=3"})
+                .status,
+            0);
+  const std::string half_steps = ReadText(place_ / "sqp/halfstep_sqp/half_steps.csv");
+  EXPECT_THAT(half_steps, HasSubstr(",footstep_x_m,footstep_y_m,footstep_yaw_rad\n"));
+  const Outcome again = Halfstep(
+      place_.path(), {"smooth", config, "--quiet", "--given",
+                      (place_ / "sqp/halfstep_sqp/half_steps.csv").string(), "--given",
+                      (place_ / "sqp/halfstep_sqp/overlaps.csv").string(), "--out", "again"});
+  ASSERT_EQ(again.status, 0) << again.err;
+  EXPECT_EQ(ReadText(place_ / "again/given/trajectory.csv"),
+            ReadText(place_ / "sqp/halfstep_sqp/trajectory.csv"));
+  EXPECT_EQ(Halfstep(place_.path(), {"verify", "again"}).status, 0);
+  // A footstep that the file moves a little: the trajectory is not of these tables any more.
+  std::string forged = ReadText(place_ / "again/given/half_steps.csv");
+  const ParsedCsv rows(forged);
+  const std::string x = rows.Text(2, "footstep_x_m");
+  for (size_t at = forged.find(x); at != std::string::npos; at = forged.find(x, at + 7)) {
+    forged.replace(at, x.size(), "0.0111");
+  }
+  WriteText(place_ / "again/given/half_steps.csv", forged);
+  EXPECT_EQ(Halfstep(place_.path(), {"verify", "again"}).status, 1);
+}
+
 TEST_F(GivenWalkCommand, WhatIsNotFeasibleIsToldWithTheMarginItMisses) {
   const std::string durations = "half_step,duration_s\n1,0.2\n2,0.2\n";
   WriteText(place_ / "fast.csv", durations);

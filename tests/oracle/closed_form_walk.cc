@@ -48,7 +48,7 @@ ClosedFormWalk::ClosedFormWalk(const WalkPlan& plan)
     const PlannedStep& step = plan.steps[i / 2];
     const FloorPose support = feet[static_cast<size_t>(1 - step.foot)];
     const bool up = i % 2 == 0;
-    if (!up) feet[static_cast<size_t>(step.foot)] = step.landing;
+    if (!up) feet[static_cast<size_t>(step.foot)] = plan.landing_of(i / 2);
     const Quantities on_floor = standing(1 - step.foot);
     Quantities via = on_floor;
     const Real inward = (step.foot == 0 ? 1 : -1) * Real(plan.support_points[i / 2]);

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "tests/oracle/real.h"
@@ -42,6 +43,8 @@ struct WalkPlan {
   /// Of step j [m], and of half-step i, in place of via_lateral and of the numbers above; empty:
   /// these.
   std::vector<double> via_laterals, foot_ramps, foot_delays, lift_shares;
+  /// Of step j: its landing's place seen from where it is planned; empty: it is there.
+  std::vector<FloorPose> footsteps;
 
   double via_lateral_of(size_t i) const {  ///< of half-step i
     return via_laterals.empty() ? via_lateral : via_laterals[i / 2];
@@ -49,6 +52,14 @@ struct WalkPlan {
   double foot_ramp_of(size_t i) const { return foot_ramps.empty() ? foot_ramp : foot_ramps[i]; }
   double foot_delay_of(size_t i) const {  ///< of half-step i
     return foot_delays.empty() ? horizontal_delay : foot_delays[i];
+  }
+  FloorPose landing_of(size_t step) const {
+    const FloorPose& planned = steps[step].landing;
+    if (footsteps.empty()) return planned;
+    const FloorPose& move = footsteps[step];
+    const double c = std::cos(planned.yaw), s = std::sin(planned.yaw);
+    return {planned.x + c * move.x - s * move.y, planned.y + s * move.x + c * move.y,
+            planned.yaw + move.yaw};
   }
   double lift_share_of(size_t i) const { return lift_shares.empty() ? lift_share : lift_shares[i]; }
 };

@@ -70,6 +70,11 @@ HomotopyParameters ToParameters(const WalkPlan& plan) {
     parameters.foot_ramps.push_back(plan.foot_ramp_of(i));
     parameters.foot_delays.push_back(plan.foot_delay_of(i));
     parameters.lift_shares.push_back(plan.lift_share_of(i));
+    if (i % 2 == 1) continue;
+    const FloorPose move = plan.footsteps.empty() ? FloorPose{} : plan.footsteps[i / 2];
+    parameters.footstep_xs.push_back(move.x);
+    parameters.footstep_ys.push_back(move.y);
+    parameters.footstep_yaws.push_back(move.yaw);
   }
   return parameters;
 }

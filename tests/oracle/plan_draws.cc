@@ -76,6 +76,12 @@ WalkPlan DrawPlan(const PlainRobot& robot, Draw* draw) {
       plan.lift_shares.push_back(draw->Uniform(0.6, 1));
     }
   }
+  if (varied && draw->Chance(0.5)) {  // footsteps that are moved
+    for (size_t j = 0; j < plan.steps.size(); ++j) {
+      plan.footsteps.push_back({draw->Uniform(-0.1, 0.1) * width, draw->Uniform(-0.05, 0.1) * width,
+                                draw->Uniform(-0.1, 0.1)});
+    }
+  }
   return plan;
 }
 

@@ -96,6 +96,53 @@ TEST_F(SlackRows, GradientsAgreeWithDifferences) {
   EXPECT_GT(caught, compared / 4);
 }
 
+// Soles that stand near an area where none may: footsteps move, so there are rows with slopes.
+TEST_F(SlackRows, OfNoStepAreasAgreeWithDifferences) {
+  Scene scene;
+  scene.no_step.push_back((Eigen::Matrix2Xd(2, 3) << 0.2, 0.5, 0.45, 0.2, 0.22, 0.4).finished());
+  const MarginEvaluator evaluator(e_.robot, scene, e_.config.smoothing.limits);
+  SlackEvaluator slacks(evaluator, 40.0, {}, /*footsteps_move=*/true), without(evaluator, 40.0);
+  WalkDraw draw(353);
+  const auto slack_of = [](const InstantSlacks& instant) {
+    double least = 1e9;
+    for (const SlackRow& row : instant.rows) {
+      if (row.family == MarginFamily::kNoStep) least = std::min(least, row.slack);
+    }
+    return least;
+  };
+  int compared = 0, sloped = 0;
+  for (int i = 0; i < Draws(60); ++i) {
+    const HomotopyParameters parameters = draw.Parameters(e_.sequence, 0.05, 0.85);
+    const SuperposedWalk walk(e_.sequence, parameters);
+    const LocalTime at = walk.Locate(draw.Uniform(0, walk.duration()));
+    InstantSlacks here, none;
+    slacks.At(walk, at, {}, true, &here);
+    without.At(walk, at, {}, true, &none);
+    EXPECT_EQ(slack_of(none), 1e9);
+    size_t row = 0;
+    while (row < here.rows.size() && here.rows[row].family != MarginFamily::kNoStep) ++row;
+    if (row == here.rows.size()) continue;
+    const bool two =
+        row + 1 < here.rows.size() && here.rows[row + 1].family == MarginFamily::kNoStep;
+    if (two && here.rows[row + 1].slack < here.rows[row].slack) ++row;
+    for (const HomotopyParameter& parameter : here.parameters) {
+      const auto with = [&](double change) {
+        HomotopyParameters moved = parameters;
+        parameter.in(moved) += change;
+        InstantSlacks there;
+        slacks.At(SuperposedWalk(e_.sequence, moved), at, {}, false, &there);
+        return slack_of(there);
+      };
+      const double slope = (with(1e-5) - with(-1e-5)) / 2e-5;
+      EXPECT_NEAR(here.Slope(row, parameter), slope, 1e-3 * (1 + std::abs(slope)));
+      ++compared;
+      sloped += std::abs(slope) > 1.0;
+    }
+  }
+  EXPECT_GT(compared, Draws(60));
+  EXPECT_GT(sloped, Draws(60) / 3);
+}
+
 // Feet that turn fast both ways, and joints that come near their upper limits: of a straight walk
 // neither is seen.
 TEST_F(SlackRows, OfTurningFeetAndUpperLimitsAgreeWithDifferences) {

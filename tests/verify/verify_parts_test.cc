@@ -42,8 +42,12 @@ std::vector<HalfStepRow> RowsOf(const SuperposedWalk& walk) {
         {i % 2 == 0 ? "up" : "down", std::string(Name(walk.half_step(i).support)), walk.start_of(i),
          walk.parameters().durations[n], walk.parameters().height_scales[n / 2],
          walk.parameters().support_points[n / 2],
-         FormColumns{walk.parameters().via_laterals[n / 2], walk.parameters().foot_ramps[n],
-                     walk.parameters().foot_delays[n], walk.parameters().lift_shares[n]}});
+         FormColumns{walk.parameters().via_laterals[n / 2],
+                     walk.parameters().foot_ramps[n],
+                     walk.parameters().foot_delays[n],
+                     walk.parameters().lift_shares[n],
+                     {walk.parameters().footstep_xs[n / 2], walk.parameters().footstep_ys[n / 2],
+                      walk.parameters().footstep_yaws[n / 2]}}});
   }
   return rows;
 }
@@ -68,6 +72,9 @@ HomotopyParameters Drawn(const HalfStepSequence& sequence, double fullness, std:
   for (double& ramp : at.foot_ramps) ramp = 0.5 - 0.2 * unit(*random);
   for (double& delay : at.foot_delays) delay = 0.05 + 0.1 * unit(*random);
   for (double& share : at.lift_shares) share = 1 - 0.3 * unit(*random);
+  for (double& x : at.footstep_xs) x = 0.02 * unit(*random);
+  for (double& y : at.footstep_ys) y = 0.01 * unit(*random);
+  for (double& yaw : at.footstep_yaws) yaw = 0.1 * unit(*random);
   for (size_t i = 0; i < at.overlaps.size(); ++i) {
     at.overlaps[i] =
         fullness * unit(*random) * NaturalOverlapBound(sequence, at.durations, static_cast<int>(i));
@@ -188,7 +195,10 @@ TEST(CheckFixed, NamesEveryParameterThatMoved) {
                        {"via_lateral", 1, at.via_laterals[0]},
                        {"foot_ramp", 2, at.foot_ramps[1]},
                        {"foot_delay", 3, at.foot_delays[2]},
-                       {"lift_share", 4, at.lift_shares[3]}}),
+                       {"lift_share", 4, at.lift_shares[3]},
+                       {"footstep_x", 1, at.footstep_xs[0]},
+                       {"footstep_y", 2, at.footstep_ys[1]},
+                       {"footstep_yaw", 1, at.footstep_yaws[0]}}),
               testing::IsEmpty());
   EXPECT_THAT(reasons({{"overlap", 2, at.overlaps[1] + 1e-6}}),
               testing::ElementsAre(HasSubstr("overlap 2 is")));
@@ -198,8 +208,9 @@ TEST(CheckFixed, NamesEveryParameterThatMoved) {
               testing::ElementsAre(HasSubstr("height_scale 2 is")));
   EXPECT_THAT(reasons({{"support_point", 2, at.support_points[1] + 1e-6}}),
               testing::ElementsAre(HasSubstr("support_point 2 is")));
-  EXPECT_THAT(reasons({{"via_lateral", 1, {}}, {"lift_share", 4, {}}}),
-              testing::ElementsAre(HasSubstr("via_lateral 1 is"), HasSubstr("lift_share 4 is")));
+  EXPECT_THAT(reasons({{"via_lateral", 1, {}}, {"lift_share", 4, {}}, {"footstep_y", 1, {}}}),
+              testing::ElementsAre(HasSubstr("via_lateral 1 is"), HasSubstr("lift_share 4 is"),
+                                   HasSubstr("footstep_y 1 is")));
   const std::string planned = Formatted("fixed at %.9g", sequence.half_steps[2].half_step.duration);
   EXPECT_THAT(reasons({{"overlap", 2, {}},
                        {"duration", 3, {}},
