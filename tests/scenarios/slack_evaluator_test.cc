@@ -43,8 +43,8 @@ TEST_F(SlackRows, TheLeastOfEachFamilyIsItsMargin) {
   EXPECT_GT(compared, Draws(100));
 }
 
-// Clearances have kinks where the nearest feature changes: a row counts where differences with two
-// steps agree.
+// Clearances have kinks where the nearest feature changes, as where soles that stand parallel turn:
+// a row counts where differences with two steps, and to both sides, agree.
 TEST_F(SlackRows, GradientsAgreeWithDifferences) {
   SlackEvaluator slacks(evaluator_, 6.0);
   WalkDraw draw(351);
@@ -60,7 +60,7 @@ TEST_F(SlackRows, GradientsAgreeWithDifferences) {
     ASSERT_EQ(here.gradient.rows(), static_cast<Eigen::Index>(here.rows.size()));
     ASSERT_EQ(here.gradient.cols(), static_cast<Eigen::Index>(here.parameters.size()));
     for (size_t p = 0; p < here.parameters.size(); ++p) {
-      const auto slopes = [&](double h, std::vector<double>* out) {
+      const auto slopes = [&](double h, std::vector<double>* out, std::vector<double>* sided) {
         InstantSlacks sides[2];
         for (int s : {0, 1}) {
           HomotopyParameters moved = parameters;
@@ -71,14 +71,17 @@ TEST_F(SlackRows, GradientsAgreeWithDifferences) {
         for (size_t r = 0; r < here.rows.size(); ++r) {
           if (sides[0].rows[r].family != here.rows[r].family) return false;
           out->push_back((sides[1].rows[r].slack - sides[0].rows[r].slack) / (2 * h));
+          sided->push_back((sides[1].rows[r].slack - here.rows[r].slack) / h);
         }
         return true;
       };
-      std::vector<double> coarse, fine;
-      if (!slopes(1e-5, &coarse) || !slopes(2e-6, &fine)) continue;
+      std::vector<double> coarse, fine, sided;
+      if (!slopes(1e-5, &coarse, &sided) || !slopes(2e-6, &fine, &sided)) continue;
+      sided.erase(sided.begin(), sided.begin() + std::ssize(here.rows));
       for (size_t r = 0; r < here.rows.size(); ++r) {
         const double size = 1 + std::abs(fine[r]);
-        if (std::abs(coarse[r] - fine[r]) > 1e-4 * size) {
+        if (std::abs(coarse[r] - fine[r]) > 1e-4 * size ||
+            std::abs(sided[r] - fine[r]) > 2e-2 * size) {
           ++kinks;
           continue;
         }

@@ -37,6 +37,14 @@ class WatchedInstantsTest : public testing::Test {
         case ParameterFamily::kFootRamp:
           x[v] = draw->Uniform(0.35, 0.48);
           break;
+        // Soles that stand parallel are at a kink of their distance.
+        case ParameterFamily::kFootstepX:
+        case ParameterFamily::kFootstepY:
+          x[v] = draw->Uniform(-0.01, 0.01);
+          break;
+        case ParameterFamily::kFootstepYaw:
+          x[v] = draw->Uniform(-0.08, 0.08);
+          break;
         default:
           x[v] = draw->Uniform(0.9, 1.1) * p.in(planned);
       }
