@@ -1,5 +1,6 @@
 #include "experiments/compare/comparison_tables.h"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -34,7 +35,12 @@ void DurationGapCell(const ComparedCase& one, double duration, CsvWriter* csv) {
 }  // namespace
 
 CsvFile ComparisonCsv(const Comparison& comparison) {
-  CsvWriter csv({
+  // A column only of runs that know a bound.
+  const bool with_bound = std::ranges::any_of(comparison.cases, [](const ComparedCase& one) {
+    return std::ranges::any_of(
+        one.methods, [](const ComparedMethod& m) { return m.record.gap_lipm.has_value(); });
+  });
+  CsvColumns columns = {
       {"scenario", kString, "", "name of the experiment"},
       {"objective", kString, "", "what the methods pursued"},
       {"half_steps", kInteger, "", "of the walk"},
@@ -59,7 +65,9 @@ CsvFile ComparisonCsv(const Comparison& comparison) {
       {"instants_to_5pct", kNumber, "", "instants until then; empty: never"},
       {"instants_to_1pct", kNumber, "", "instants until then; empty: never"},
       {"run", kString, "", "run folder, as it was named; after ./ where it begins like a formula"},
-  });
+  };
+  if (with_bound) columns.push_back({"gap_lipm", kNumber, "1", "as in summary.csv"});
+  CsvWriter csv(columns);
   for (const ComparedCase& one : comparison.cases) {
     for (const ComparedMethod& method : one.methods) {
       const MethodRecord& record = method.record;
@@ -78,7 +86,9 @@ CsvFile ComparisonCsv(const Comparison& comparison) {
         EffortCell(method.reached[kFivePercent], by_wall, &csv);
         EffortCell(method.reached[kOnePercent], by_wall, &csv);
       }
-      csv.Cell(LooksLikeFormula(record.run) ? "./" + record.run : record.run).EndRow();
+      csv.Cell(LooksLikeFormula(record.run) ? "./" + record.run : record.run);
+      if (with_bound) record.gap_lipm ? csv.Cell(*record.gap_lipm) : csv.Empty();
+      csv.EndRow();
     }
   }
   return csv.file();

@@ -88,14 +88,16 @@ json CaseOf(const std::string& scenario, const fs::path& run, const RobotModel& 
 }
 
 json SummaryOf(const MethodRecord& record) {
-  return {{"method", record.name},
-          {"status", Name(record.ending)},
-          {"own", HasOwnResult(record.ending)},
-          {"certified", record.certified},
-          {"duration_s", Shortened(record.duration, 6)},
-          {"speedup", Shortened(record.speedup, 6)},
-          {"cost", Shortened(record.cost, 6)},
-          {"wall_s", Shortened(record.wall, 6)}};
+  json row = {{"method", record.name},
+              {"status", Name(record.ending)},
+              {"own", HasOwnResult(record.ending)},
+              {"certified", record.certified},
+              {"duration_s", Shortened(record.duration, 6)},
+              {"speedup", Shortened(record.speedup, 6)},
+              {"cost", Shortened(record.cost, 6)},
+              {"wall_s", Shortened(record.wall, 6)}};
+  if (record.gap_lipm) row["gap_lipm"] = Shortened(*record.gap_lipm, 6);
+  return row;
 }
 
 // A row of a run's summary.csv, with whether the walk is the method's own.

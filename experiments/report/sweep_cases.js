@@ -43,6 +43,9 @@ export const quantities = [
     value: (cases, m, i) => cases.tables[cases.raw].duration[i] / cases.tables[m].duration[i] },
   { name: "excess", label: "longer than the case's shortest walk [%]",
     value: (cases, m, i) => 100 * (cases.tables[m].duration[i] / cases.shortest[i] - 1) },
+  { name: "bound", label: "longer than the lower bound [%]", needsBound: true,
+    value: (cases, m, i) => (cases.tables[m].gap_lipm[i] === null ? null
+      : 100 * cases.tables[m].gap_lipm[i]) },
   { name: "instants", label: "instants evaluated",
     value: (cases, m, i) => cases.tables[m].instants[i] },
   { name: "candidates", label: "candidates",
@@ -60,7 +63,9 @@ export class Cases {
     if (this.methods.length === 0) this.methods = ["none"]; // no case has a walk
     this.shortest = this.ids.map((_, i) => this.tables.reduce((least, table) =>
       (table.solved[i] ? Math.min(least, table.duration[i]) : least), Infinity));
-    this.quantities = quantities.filter((what) => !what.needsRaw || this.raw >= 0);
+    const bounded = this.tables.some((table) => "gap_lipm" in table);
+    this.quantities = quantities.filter((what) =>
+      (!what.needsRaw || this.raw >= 0) && (!what.needsBound || bounded));
   }
 
   /** Whether the method has a row in the case. */

@@ -52,7 +52,9 @@ struct Runs {
         duration(table.NumbersOrEmpty("duration_s")),
         margin(table.NumbersOrEmpty("worst_margin")),
         iterations(table.NumbersOrEmpty("iterations")),
-        instants(table.NumbersOrEmpty("instants")) {}
+        instants(table.NumbersOrEmpty("instants")) {
+    if (table.Has("gap_lipm")) gap_lipm = table.NumbersOrEmpty("gap_lipm");
+  }
 
   // Whether the method has a proved walk of its own.
   bool Solved(size_t row) const {
@@ -62,6 +64,7 @@ struct Runs {
 
   std::vector<std::string> method, status, certified, margin_name, message;
   std::vector<std::optional<double>> duration, margin, iterations, instants;
+  std::vector<std::optional<double>> gap_lipm;  // empty: no case knows a bound
 };
 
 json NumberJson(const std::optional<double>& value, int digits) {
@@ -103,12 +106,13 @@ json CountsJson(const Runs& runs) {
 }
 
 // A column a quantity for each method; null: no row, or no number.
-json EmptyTable(size_t cases) {
+json EmptyTable(size_t cases, bool with_bound) {
   json table = json::object();
   for (const char* column : {"status", "solved", "duration", "margin", "margin_of", "iterations",
                              "instants", "message"}) {
     table[column] = json(std::vector<json>(cases));
   }
+  if (with_bound) table["gap_lipm"] = json(std::vector<json>(cases));
   return table;
 }
 
@@ -122,7 +126,7 @@ void FillTables(const Runs& runs, const SweepGrid& grid, const Thinning& thinnin
     place[thinning.kept[i]] = static_cast<int>(i);
   }
   std::vector<json> tables(std::max<size_t>(1, methods.texts().size()),
-                           EmptyTable(thinning.kept.size()));
+                           EmptyTable(thinning.kept.size(), !runs.gap_lipm.empty()));
   size_t message_bytes = 0;
   for (size_t row = 0; row < runs.method.size(); ++row) {
     const int at = place[grid.case_of_row[row]];
@@ -140,6 +144,7 @@ void FillTables(const Runs& runs, const SweepGrid& grid, const Thinning& thinnin
       table["margin_of"][one] = families.Index(runs.margin_name[row]);
       table["iterations"][one] = NumberJson(runs.iterations[row], 6);
       table["instants"][one] = NumberJson(runs.instants[row], 6);
+      if (!runs.gap_lipm.empty()) table["gap_lipm"][one] = NumberJson(runs.gap_lipm[row], 6);
       if (solved || message_bytes > kMostMessageBytes) continue;
       const size_t before = messages.texts().size();
       table["message"][one] = messages.Index(runs.message[row]);

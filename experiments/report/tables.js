@@ -22,8 +22,10 @@ export function summaryTable(parent, walks, families, endings) {
   const longest = Math.max(...walks.map((walk) => walk.summary.duration_s));
   const unit = Object.fromEntries(families.map((family) => [family.name, family.unit]));
   const compared = walks.some((walk) => walk.gap !== undefined);
+  const bounded = walks.some((walk) => Number.isFinite(walk.summary.gap_lipm));
   const rows = walks.map((walk) => {
     const s = walk.summary;
+    const above = Number.isFinite(s.gap_lipm) ? `${number(100 * s.gap_lipm, 3)} %` : "–";
     const last = compared
       ? [walk.gap === null || walk.gap === undefined ? "–" : `${number(100 * walk.gap, 3)} %`]
       : [`${family(s.worst_margin_name)} ${number(s.worst_margin, 3)} ${unit[s.worst_margin_name] ?? ""}`,
@@ -31,11 +33,12 @@ export function summaryTable(parent, walks, families, endings) {
     const status = { text: s.status, title: endings[s.status], className: s.own ? "" : "no" };
     return [walk.label, element("span", status), verdict(walk),
             seconds(s.duration_s), bar(s.duration_s / longest, "a"), s.speedup.toFixed(2),
-            ...last, number(s.wall_s, 3)];
+            ...(bounded ? [above] : []), ...last, number(s.wall_s, 3)];
   });
   parent.replaceChildren(
     element("h2", { text: "Methods" }),
     table(["method", "status", "for all t", "duration [s]", "", "speed-up",
+           ...(bounded ? ["above the bound"] : []),
            ...(compared ? ["gap to the best"] : ["worst margin", "candidates", "instants evaluated"]),
            "run time [s]"], rows),
   );

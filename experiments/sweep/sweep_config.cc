@@ -146,6 +146,23 @@ std::string MistakeInCases(const SweepConfig& config) {
   return "";
 }
 
+// Whether `reference/lipm` is among the methods of the first case, or of an axis.
+bool RunsBound(const SweepConfig& config) {
+  constexpr char kBound[] = "reference/lipm";
+  for (const SweepAxis& axis : config.vary) {
+    for (const std::string& value : axis.values) {
+      if (value.find(kBound) != std::string::npos) return true;
+    }
+  }
+  try {
+    const std::vector<std::string> methods =
+        LoadCase(config, SweepCaseAt(config, 0)).smoothing.methods;
+    return std::ranges::find(methods, kBound) != methods.end();
+  } catch (const InputError&) {
+    return false;  // which is told where the case is run
+  }
+}
+
 // The first axis that advances together with this one; itself when it is that.
 size_t FirstOfZip(const std::vector<SweepAxis>& axes, size_t axis) {
   for (size_t k = 0; k < axis; ++k) {
@@ -264,7 +281,11 @@ SweepConfig ParseSweep(const std::string& path, const std::string& text,
     }
     std::string mistake = MistakeInAxes(config.vary);
     if (mistake.empty() && there && check) mistake = MistakeInCases(config);
-    if (!mistake.empty()) fields.Complain("vary", mistake);
+    if (!mistake.empty()) {
+      fields.Complain("vary", mistake);
+    } else if (there) {
+      config.with_bound = RunsBound(config);
+    }
   });
   return config;
 }

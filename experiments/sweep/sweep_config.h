@@ -33,6 +33,8 @@ struct SweepConfig {
   std::vector<SweepAxis> vary;   ///< every combination is a case
   std::string keep = "summary";  ///< or "all"
   std::string directory;         ///< of the file
+  /// Whether a case runs `reference/lipm`, so that runs.csv has gap_lipm.
+  bool with_bound = false;
 
   /// The base config as a path from the working directory.
   std::filesystem::path ConfigPath() const;

@@ -19,6 +19,14 @@ std::string Active(const MarginEvaluator& evaluator, const std::string& method,
   return junction.overlap < junction.upper_bound ? "not bisected" : "upper bound";
 }
 
+// The bound that a method knows; none: none does.
+std::optional<double> BoundOf(const std::vector<MethodRun>& runs) {
+  for (const MethodRun& run : runs) {
+    if (run.result.lower_bound) return run.result.lower_bound;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 CsvFile FootstepsCsv(const HalfStepSequence& sequence) {
@@ -141,8 +149,8 @@ CsvFile IteratesCsv(const MethodRun& run) {
   return csv.file();
 }
 
-CsvColumns SummaryColumns() {
-  return {
+CsvColumns SummaryColumns(bool with_bound) {
+  CsvColumns columns = {
       {"method", kString, "", "raw first"},
       {"status", kString, "", "how it ended: " + opt::EndingNames()},
       {"certified", kBoolean, "", "whether the walk is proved for all its time"},
@@ -162,14 +170,20 @@ CsvColumns SummaryColumns() {
       {"gap_to_reference", kNumber, "1",
        "duration divided by that of the method `reference`, less 1; empty: it was not run"},
   };
+  if (with_bound) {
+    columns.push_back({"gap_lipm", kNumber, "1",
+                       "duration divided by the lower bound that `reference/lipm` proved, less 1; "
+                       "empty: of that method itself, and of walks that move footsteps"});
+  }
+  return columns;
 }
 
 void AddSummaryRow(const MarginEvaluator& evaluator, const std::vector<MethodRun>& runs,
-                   size_t index, const SummaryCell& cell) {
+                   size_t index, bool with_bound, const SummaryCell& cell) {
   const MethodRun& run = runs[index];
   const SmoothingResult& result = run.result;
   const Margin& worst = WorstOf(run.margins, evaluator.limits());
-  const CsvColumns columns = SummaryColumns();
+  const CsvColumns columns = SummaryColumns(with_bound);
   size_t column = 0;
   const auto next = [&]() -> CsvWriter& { return cell(columns[column++]); };
   const auto optional = [&](const std::optional<double>& value) {
@@ -193,26 +207,19 @@ void AddSummaryRow(const MarginEvaluator& evaluator, const std::vector<MethodRun
   next().Cell(result.wall);
   optional(result.time_to_first_improvement);
   optional(gap);
+  if (!with_bound) return;
+  const std::optional<double> bound = BoundOf(runs);
+  const bool holds = bound && !result.lower_bound && MovesOfFootsteps(result.parameters).empty();
+  optional(holds ? std::optional(run.duration / *bound - 1.0) : std::nullopt);
 }
 
 CsvFile SummaryCsv(const MarginEvaluator& evaluator, const std::vector<MethodRun>& runs) {
   // A column only of runs that know a bound, so that the tables of others stay as they are.
-  const auto knows = std::ranges::find_if(
-      runs, [](const MethodRun& run) { return run.result.lower_bound.has_value(); });
-  CsvColumns columns = SummaryColumns();
-  if (knows != runs.end()) {
-    columns.push_back({"gap_lipm", kNumber, "1",
-                       "duration divided by the lower bound that `reference/lipm` proved, less 1; "
-                       "empty: of that method itself, and of walks that move footsteps"});
-  }
-  CsvWriter csv(columns);
+  const bool with_bound = BoundOf(runs).has_value();
+  CsvWriter csv(SummaryColumns(with_bound));
   for (size_t i = 0; i < runs.size(); ++i) {
-    AddSummaryRow(evaluator, runs, i, [&csv](const CsvColumn&) -> CsvWriter& { return csv; });
-    if (knows != runs.end()) {
-      const bool holds =
-          !runs[i].result.lower_bound && MovesOfFootsteps(runs[i].result.parameters).empty();
-      !holds ? csv.Empty() : csv.Cell(runs[i].duration / *knows->result.lower_bound - 1.0);
-    }
+    AddSummaryRow(evaluator, runs, i, with_bound,
+                  [&csv](const CsvColumn&) -> CsvWriter& { return csv; });
     csv.EndRow();
   }
   return csv.file();

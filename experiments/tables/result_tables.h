@@ -44,13 +44,14 @@ CsvFile ParetoCsv(const MarginEvaluator& evaluator, const HalfStepSequence& sequ
                   const MethodRun& run);
 /// One row a candidate of the method's search.
 CsvFile IteratesCsv(const MethodRun& run);
-/// Of summary.csv, one row a method.
-CsvColumns SummaryColumns();
+/// Of summary.csv, one row a method; with gap_lipm, how far it is above the lower bound of
+/// `reference/lipm`, where a method knows that.
+CsvColumns SummaryColumns(bool with_bound = false);
 /// Gives the table into which a summary's cell of that column goes.
 using SummaryCell = std::function<CsvWriter&(const CsvColumn&)>;
-/// Adds the cells of one method's row, in the order of SummaryColumns().
+/// Adds the cells of one method's row, in the order of SummaryColumns(with_bound).
 void AddSummaryRow(const MarginEvaluator& evaluator, const std::vector<MethodRun>& runs,
-                   size_t index, const SummaryCell& cell);
+                   size_t index, bool with_bound, const SummaryCell& cell);
 /// One row a method; speed-up against the first run, which is the planned motion.
 CsvFile SummaryCsv(const MarginEvaluator& evaluator, const std::vector<MethodRun>& runs);
 

@@ -97,6 +97,8 @@ std::vector<MethodRecord> ReadSummary(const fs::path& run, const std::string& la
                             queries = NotNegative(table, "collision_queries"),
                             walls = NotNegative(table, "wall_s");
   const std::vector<std::optional<double>> gaps = table.NumbersOrEmpty("gap_to_reference");
+  std::vector<std::optional<double>> above;
+  if (table.Has("gap_lipm")) above = table.NumbersOrEmpty("gap_lipm");
   std::vector<MethodRecord> methods;
   for (size_t i = 0; i < names.size(); ++i) {
     const std::string line = table.path + ":" + std::to_string(i + 2);
@@ -118,6 +120,7 @@ std::vector<MethodRecord> ReadSummary(const fs::path& run, const std::string& la
     method.speedup = speedups[i];
     method.cost = costs[i];
     method.gap_to_reference = gaps[i];
+    if (!above.empty()) method.gap_lipm = above[i];
     method.instants = instants[i];
     method.collision_queries = queries[i];
     method.wall = walls[i];

@@ -30,6 +30,8 @@ struct MethodRecord {
   double cost = 0.0;     ///< by the objective, as in SmoothingResult::cost
   /// (cost − reference)/|reference|; none without a reference.
   std::optional<double> gap_to_reference;
+  std::optional<double>
+      gap_lipm;  ///< above the lower bound; none where summary.csv does not say it
   /// Effort: instants at which margins were evaluated; queries of distances.
   double instants = 0.0, collision_queries = 0.0;
   double wall = 0.0;                        ///< [s]

@@ -58,6 +58,15 @@ void CheckSummary(const std::vector<SummaryRow>& rows, const RunManifest& manife
        !close(*row->gap_to_reference, row->duration / reference->duration - 1))) {
     disagree("gap_to_reference", "is not the duration divided by that of `reference`, less 1");
   }
+  // The bound itself is not proved again, but there is one for all methods.
+  for (const SummaryRow& one : rows) {
+    if (!row->gap_lipm || !one.gap_lipm) continue;
+    const double bound = row->duration / (1 + *row->gap_lipm);
+    if (!(bound > 0) || !close(one.duration / (1 + *one.gap_lipm) / bound, 1)) {
+      disagree("gap_lipm", "is above another bound than that of " + one.method);
+      break;
+    }
+  }
 }
 
 }  // namespace halfstep::verify

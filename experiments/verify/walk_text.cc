@@ -123,7 +123,7 @@ std::vector<SummaryRow> ReadSummary(const std::string& path, const std::string& 
                    .iterations = static_cast<long>(csv.Number(i, 8)),
                    .gap_to_reference = {}};
     for (size_t column : {9, 10, 11}) (void)csv.Number(i, column);
-    if (has_bound && !csv.Cell(i, 14).empty()) (void)csv.Number(i, 14);
+    if (has_bound && !csv.Cell(i, 14).empty()) row.gap_lipm = csv.Number(i, 14);
     if (!csv.Cell(i, 12).empty()) (void)csv.Number(i, 12);
     if (!csv.Cell(i, 13).empty()) row.gap_to_reference = csv.Number(i, 13);
     rows.push_back(std::move(row));

@@ -55,6 +55,7 @@ struct SummaryRow {
   double duration = 0, speedup = 0, cost = 0, worst_margin = 0;
   long iterations = 0;                     ///< of the method
   std::optional<double> gap_to_reference;  ///< none: there is no reference
+  std::optional<double> gap_lipm = {};     ///< none: no bound is told
 };
 
 /// Each throws InputError for a text that is no such table.

@@ -8,6 +8,7 @@
 #include "experiments/config/experiment.h"
 #include "experiments/sweep/sweep_config.h"
 #include "smoothing/proof/certified_feasibility.h"
+#include "tests/experiments/parsed_csv.h"
 #include "tests/experiments/run_check.h"
 #include "tests/temporary_folder.h"
 #include "wpg/files/input_error.h"
@@ -48,12 +49,20 @@ TEST(DrawnWalks, AreSweptOver) {
   ASSERT_EQ(Halfstep(place.path(), {"draw", "walks", "--count", "2", "--out", "w"}).status,
             kSuccess);
   const Outcome swept =
-      Halfstep(place.path(), {"sweep", "w/walks.yaml", "--set", "vary.0.values=[\"[dichotomy]\"]",
+      Halfstep(place.path(), {"sweep", "w/walks.yaml", "--set", "vary.0.values=[\"[dichotomy, reference/lipm]\"]",
                               "--out", "s", "--quiet"});
   EXPECT_EQ(swept.status, kSuccess) << swept.err;
   const std::string rows = ReadText(place / "s/runs.csv");
   EXPECT_THAT(rows, HasSubstr(",walk_1.yaml,"));
   EXPECT_THAT(rows, HasSubstr(",walk_2.yaml,"));
+  // How far above the lower bound, but of the planned motion and the dichotomy's walk alone.
+  const ParsedCsv runs(rows);
+  for (int row = 0; row < 3; ++row) {
+    const bool is_bound = runs.Text(row, "method") == "reference/lipm";
+    EXPECT_EQ(runs.Text(row, "gap_lipm").empty(), is_bound);
+    if (!is_bound) EXPECT_GT(runs.Number(row, "gap_lipm"), 0.0);
+  }
+  EXPECT_GT(runs.Number(0, "gap_lipm"), runs.Number(1, "gap_lipm"));
   const std::string config = ReadText(place / "s/cases" /
                                       SweepCases(LoadSweep((place / "s/sweep.yaml").string(), {},
                                                            /*check=*/true))[1]
