@@ -150,6 +150,7 @@ std::string MistakeInCases(const SweepConfig& config) {
 bool RunsBound(const SweepConfig& config) {
   constexpr char kBound[] = "reference/lipm";
   for (const SweepAxis& axis : config.vary) {
+    if (axis.values.empty()) return false;  // a mistake that is told elsewhere
     for (const std::string& value : axis.values) {
       if (value.find(kBound) != std::string::npos) return true;
     }
