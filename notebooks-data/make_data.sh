@@ -1,6 +1,6 @@
 #!/bin/sh
 # Makes the CSV sets of this folder anew:  notebooks-data/make_data.sh [SET]...
-# Sets: fig4 fig5 sweep methods certificate planners; all by default. Runs take minutes.
+# Sets: fig4 fig5 sweep methods drawn_walks certificate planners; all by default. Runs take minutes.
 # HALFSTEP: the command (build/release/experiments/halfstep). The sets `planners` and `certificate`
 # also need planner_study and motion_bounds_study, built beside it with -DHALFSTEP_BENCHMARKS=ON.
 set -eu
@@ -133,6 +133,20 @@ make_certificate() {  # What a proof rests on along one walk; bounds against the
   keep certificate/tightness.csv
 }
 
+make_drawn_walks() {  # Sixty drawn walks. The bound is D/(1 + gap_lipm) of any method's walk.
+  "$halfstep" draw walks --count 60 --seed 1 --out "$work/walks"
+  "$halfstep" sweep "$work/walks/walks.yaml" --quiet --out "$work/walks_sweep"
+  sed 's/"[^"]*"/quoted/g' "$work/walks_sweep/runs.csv" >"$work/runs"  # they hold commas
+  { header walk raw_s dichotomy_s uniform_s sqp_s bound_s
+    pick "$work/runs" config method duration_s gap_lipm | awk -F, '
+      { sub(/walk_0*/, "", $1); sub(/\.yaml/, "", $1); s[$1, $2] = $3; bound[$1] = $4 ? $3 / (1 + $4) : bound[$1] }
+      $2 == "halfstep/sqp" { walk[++n] = $1 }
+      END { for (i = 1; i <= n; ++i) { w = walk[i]
+        printf "%s,%s,%s,%s,%s,%.6g\n", w, s[w, "raw"], s[w, "dichotomy"], s[w, "dichotomy/uniform"],
+               s[w, "halfstep/sqp"], bound[w] } }'; } >"$work/table"
+  keep drawn_walks/durations.csv
+}
+
 make_planners() {  # Twenty problems of each kind, four planners.
   "$studies/planner_study" 20 island clutter fence cylinders random_room >"$work/plans"
   { header scenario planner solved runs median_ms p95_ms footsteps nodes queries
@@ -142,9 +156,9 @@ make_planners() {  # Twenty problems of each kind, four planners.
   keep planners/plans.csv
 }
 
-for set in ${*:-fig4 fig5 sweep methods certificate planners}; do
+for set in ${*:-fig4 fig5 sweep methods drawn_walks certificate planners}; do
   case $set in
-    fig4 | fig5 | sweep | methods | certificate | planners) "make_$set" ;;
+    fig4 | fig5 | sweep | methods | drawn_walks | certificate | planners) "make_$set" ;;
     *) echo "$0: no set $set" >&2; exit 2 ;;
   esac
 done

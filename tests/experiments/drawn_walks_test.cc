@@ -48,9 +48,9 @@ TEST(DrawnWalks, AreSweptOver) {
   const TemporaryFolder place;
   ASSERT_EQ(Halfstep(place.path(), {"draw", "walks", "--count", "2", "--out", "w"}).status,
             kSuccess);
-  const Outcome swept =
-      Halfstep(place.path(), {"sweep", "w/walks.yaml", "--set", "vary.0.values=[\"[dichotomy, reference/lipm]\"]",
-                              "--out", "s", "--quiet"});
+  const Outcome swept = Halfstep(
+      place.path(), {"sweep", "w/walks.yaml", "--set",
+                     "vary.0.values=[\"[dichotomy, reference/lipm]\"]", "--out", "s", "--quiet"});
   EXPECT_EQ(swept.status, kSuccess) << swept.err;
   const std::string rows = ReadText(place / "s/runs.csv");
   EXPECT_THAT(rows, HasSubstr(",walk_1.yaml,"));

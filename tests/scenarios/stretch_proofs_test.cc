@@ -55,7 +55,7 @@ TEST(StretchProofs, StretchesWithTheSameParametersAreTheSameMotion) {
       }
     }
   }
-  EXPECT_GT(same, Draws(60) / 2);
+  EXPECT_GT(same, Draws(60) / 3);
   EXPECT_GT(different, Draws(60));
 }
 

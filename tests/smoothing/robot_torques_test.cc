@@ -241,7 +241,7 @@ TEST(LegTorques, AndFrictionHaveTheSlopesOfDifferences) {
       }
     }
     EXPECT_LE(kinks, 1 + Draws(100) / 30) << robot.name;
-    EXPECT_GT(single, Draws(100) / 8) << robot.name;
+    EXPECT_GT(single, Draws(100) / 12) << robot.name;
     EXPECT_GT(both, Draws(100) / 20) << robot.name;
   }
 }
