@@ -60,7 +60,9 @@ TEST(DrawnWalks, AreSweptOver) {
   for (int row = 0; row < 3; ++row) {
     const bool is_bound = runs.Text(row, "method") == "reference/lipm";
     EXPECT_EQ(runs.Text(row, "gap_lipm").empty(), is_bound);
-    if (!is_bound) EXPECT_GT(runs.Number(row, "gap_lipm"), 0.0);
+    if (!is_bound) {
+      EXPECT_GT(runs.Number(row, "gap_lipm"), 0.0);
+    }
   }
   EXPECT_GT(runs.Number(0, "gap_lipm"), runs.Number(1, "gap_lipm"));
   const std::string config = ReadText(place / "s/cases" /
