@@ -69,9 +69,9 @@ void DeclareHalfStep(Fields& fields, HalfStepConfig* c) {
       "zmp_bump_ramp", &c->zmp_bump_ramp,
       {.meaning =
            "fraction of the ZMP's bump in which it rises, and in which it falls; constant in "
-           "between; `none`: a round bump",
+           "between; from 0.5 on it has no flat top, and 1 or `none` is a round bump",
        .min = 0.1,
-       .max = 0.5});
+       .max = 1});
   fields.Number(
       "foot_ramp", &c->foot_ramp,
       {.meaning = "fraction of the foot's horizontal motion in which its speed rises, and "
@@ -223,7 +223,7 @@ void DeclareFilesThere(Fields& fields, const ExperimentConfig& config) {
 HalfStepShape ShapeOf(const HalfStepConfig& config) {
   return {.shift = config.zmp_shift / config.duration,
           .horizontal_delay = config.horizontal_delay,
-          .bump_ramp = config.zmp_bump_ramp,
+          .bump_ramp = config.zmp_bump_ramp.value_or(1.0),
           .foot_ramp = config.foot_ramp,
           .lift_share = config.lift_share,
           .support_offset = config.support_offset};

@@ -1,3 +1,7 @@
+#include <algorithm>
+#include <string>
+#include <vector>
+
 #include "experiments/config/smoothing_config.h"
 #include "smoothing/methods/smoother_registry.h"
 #include "wpg/files/text.h"
@@ -30,6 +34,24 @@ void DeclareOwnCosts(Fields& fields, std::vector<WeightedWalkCost>* costs) {
   *costs = std::move(weighed);
 }
 
+bool OfHalfSteps(const ParameterFamilyTraits& traits) {
+  return traits.chosen != nullptr && traits.move == nullptr;
+}
+
+bool NamesFamilyOfHalfSteps(const std::vector<std::string>& keys) {
+  return std::ranges::any_of(AllParameterFamilies(), [&keys](ParameterFamily family) {
+    const ParameterFamilyTraits& traits = Traits(family);
+    return OfHalfSteps(traits) && std::ranges::find(keys, traits.key) != keys.end();
+  });
+}
+
+void ChooseFamiliesOfHalfSteps(ParameterChoice* choice) {
+  for (const ParameterFamily family : AllParameterFamilies()) {
+    if (OfHalfSteps(Traits(family))) choice->*Traits(family).chosen = true;
+  }
+  choice->least_duration = 0.2;
+}
+
 }  // namespace
 
 void DeclareOptimizer(Fields& fields, OptimizerConfig* c) {
@@ -42,15 +64,13 @@ void DeclareOptimizer(Fields& fields, OptimizerConfig* c) {
     if (c->program == Name(kind)) o->program.kind = kind;
   }
   ParameterChoice* const choice = &o->program.parameters;
+  if (NamesFamilyOfHalfSteps(fields.Keys())) c->all_families = false;
   fields.Boolean("all_families", &c->all_families,
-                 {.meaning = "whichever of the next seven keys is not given is true, and "
-                             "`least_duration` is 0.2"});
-  for (const ParameterFamily family : AllParameterFamilies()) {
-    const ParameterFamilyTraits& traits = Traits(family);
-    const bool of_half_steps = traits.chosen != nullptr && traits.move == nullptr;
-    if (c->all_families && of_half_steps) choice->*traits.chosen = true;
-  }
-  if (c->all_families) choice->least_duration = 0.2;
+                 {.meaning = "whichever of the next ten keys is not given is true, and "
+                             "`least_duration` is 0.2; false by default where one of the ten is "
+                             "given"});
+  if (c->all_families && !c->families_chosen) ChooseFamiliesOfHalfSteps(choice);
+  c->families_chosen = true;
   for (const ParameterFamily family : AllParameterFamilies()) {
     const ParameterFamilyTraits& traits = Traits(family);
     if (traits.chosen == nullptr || traits.key.empty()) continue;

@@ -17,7 +17,8 @@ namespace halfstep {
 /// Options of the methods that are solvers.
 struct OptimizerConfig {
   std::string program = "fastest";  ///< one of the names of ProgramKind
-  bool all_families = false;        ///< all families of `options` are variables unless told not to
+  bool all_families = true;         ///< all families of `options` are variables unless told not to
+  bool families_chosen = false;     ///< whether `options` has heard of `all_families` already
   OptimizerOptions options;         ///< also holds for the solvers of ParetoCurve
   ParetoOptions pareto;             ///< used where `program` is `pareto`
 };

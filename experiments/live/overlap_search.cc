@@ -27,8 +27,7 @@ Next NextJunctions(const SuperposedWalk& walk, const LiveOptions& live, double f
     // Half-step j + 1 must not begin before `from`.
     const double room = walk.end_of(j) - from;
     if (walk.start_of(j + 1) <= from || room < kLeastRoom) continue;
-    const double bound =
-        NaturalOverlapBound(proposal.plan.sequence, walk.parameters().durations, j);
+    const double bound = NaturalOverlapBound(walk.parameters(), j);
     if (room < bound && !next.empty()) break;
     cap = std::min(1.0, room / bound);
     next.push_back(j);

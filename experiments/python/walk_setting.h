@@ -30,7 +30,7 @@ pybind11::list ToPython(const CsvColumns& columns);
 
 /// A point of the homotopy as a dict of arrays, by the families' names in the plural: overlaps,
 /// height_scales, durations, support_points, via_laterals, foot_ramps, foot_delays, lift_shares,
-/// footstep_xs, footstep_ys, footstep_yaws.
+/// via_alongs, zmp_shifts, zmp_bump_ramps, footstep_xs, footstep_ys, footstep_yaws.
 pybind11::dict ToPython(const HomotopyParameters& parameters);
 /// Replaces the families that are in such a dict.
 void Take(const pybind11::dict& dict, HomotopyParameters* parameters);

@@ -18,7 +18,7 @@ json PlaceJson(const Footprint& X) {
 json ShapeJson(const HalfStepShape& shape) {
   return {{"shift", shape.shift},
           {"horizontal_delay", shape.horizontal_delay},
-          {"bump_ramp", shape.bump_ramp ? json(*shape.bump_ramp) : json(nullptr)},
+          {"bump_ramp", shape.bump_ramp},
           {"foot_ramp", shape.foot_ramp},
           {"lift_share", shape.lift_share}};
 }
@@ -36,6 +36,7 @@ json HalfStepJson(const PlacedHalfStep& placed) {
           {"duration_s", half_step.duration},
           {"via_height_m", half_step.via_height},
           {"via_lateral_m", half_step.via_lateral},
+          {"via_along_m", half_step.via_along},
           {"shape", ShapeJson(half_step.shape)},
           {"sway", std::move(sway)}};
 }
@@ -78,6 +79,9 @@ json ParametersJson(const fs::path& folder, int size) {
     parameters["foot_ramps"] = half_steps.Numbers("foot_ramp");
     parameters["foot_delays"] = half_steps.Numbers("foot_delay");
     parameters["lift_shares"] = half_steps.Numbers("lift_share");
+    parameters["via_alongs"] = by_step("via_along_m");
+    parameters["zmp_shifts"] = half_steps.Numbers("zmp_shift");
+    parameters["zmp_bump_ramps"] = half_steps.Numbers("zmp_bump_ramp");
   }
   if (half_steps.Has("footstep_x_m")) {
     parameters["footstep_xs"] = by_step("footstep_x_m");

@@ -26,6 +26,8 @@ const roundBump = [0, 0, 0, -64, 192, -192, 64];
 const rise = [0, 0, 0, -10, 15, -6];
 const top = [-1];
 const fall = [-1, 0, 0, 10, -15, 6];
+const roundRise = [0, 0, 0, -8, 12, -6, 1]; // the halves of the round bump
+const roundFall = [-1, 0, 3, 0, -3, 0, 1];
 const shift = [0.5, 15 / 16, 0, -10 / 16, 0, 3 / 16];
 
 // The power series of c'' = λ²·(c − p) from c(0) and c'(0).
@@ -58,7 +60,7 @@ function at(pieces, sigma) {
   return piece.series.reduceRight((value, coefficient) => value * x + coefficient, 0);
 }
 
-/** CoM and ZMP from 0 to 1, both at rest at both ends. `theta`: ω·T; `bumpRamp`: null of a round bump. */
+/** CoM and ZMP from 0 to 1, both at rest at both ends. `theta`: ω·T; `bumpRamp`: 1 of a round bump. */
 export class RestToRest {
   constructor(theta, shiftFraction, bumpRamp) {
     const first = 0.5 - 0.5 * shiftFraction;
@@ -73,7 +75,11 @@ export class RestToRest {
       }
       bump.push({ center, width, zmp, com: solved(theta * width, zmp, value, slope) });
     };
-    if (bumpRamp !== null) {
+    if (bumpRamp > 0.5 && bumpRamp < 1) {
+      const mixed = (a, b) => a.map((value, k) => (2 * bumpRamp - 1) * value + (2 - 2 * bumpRamp) * (b[k] ?? 0));
+      extend(0, 0.5 * first, mixed(roundRise, rise));
+      extend(0.5 * first, 0.5 * first, mixed(roundFall, fall));
+    } else if (bumpRamp !== 1) {
       const ramp = bumpRamp * first;
       extend(0, ramp, rise);
       if (bumpRamp < 0.5) extend(ramp, first - 2 * ramp, top);

@@ -25,7 +25,9 @@ export function givenTables(form, parameters) {
     return line([i + 1, half.kind, half.support, parameters.durations[i],
                  parameters.height_scales[step], parameters.support_points[step],
                  ...(forms ? [parameters.via_laterals[step], parameters.foot_ramps[i],
-                              parameters.foot_delays[i], parameters.lift_shares[i]] : []),
+                              parameters.foot_delays[i], parameters.lift_shares[i],
+                              parameters.via_alongs[step], parameters.zmp_shifts[i],
+                              parameters.zmp_bump_ramps[i]] : []),
                  ...(footsteps ? [parameters.footstep_xs[step], parameters.footstep_ys[step],
                                   parameters.footstep_yaws[step]] : [])]);
   });
@@ -33,7 +35,7 @@ export function givenTables(form, parameters) {
     line([i + 1, i % 2 === 0 ? "up_down" : "down_up", overlap]));
   return {
     "half_steps.csv": "half_step,kind,support,duration_s,height_scale,support_point_m" +
-      (forms ? ",via_lateral_m,foot_ramp,foot_delay,lift_share" : "") +
+      (forms ? ",via_lateral_m,foot_ramp,foot_delay,lift_share,via_along_m,zmp_shift,zmp_bump_ramp" : "") +
       (footsteps ? ",footstep_x_m,footstep_y_m,footstep_yaw_rad\n" : "\n") + halfSteps.join(""),
     "overlaps.csv": "junction,kind,overlap_s\n" + overlaps.join(""),
   };
@@ -117,7 +119,7 @@ export class Sliders {
     durations.forEach((value, i) => this.durations[i].set(value, Math.min(value, 0.3),
       Math.max(value, longest * planned[i].duration_s)));
     overlaps.forEach((value, i) => {
-      const most = naturalBound(planned, durations, i);
+      const most = naturalBound(planned, this.parameters, i);
       if (value > most) overlaps[i] = most;
       this.overlaps[i].set(overlaps[i], Math.min(0, overlaps[i]), most);
     });

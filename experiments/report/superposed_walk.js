@@ -15,7 +15,7 @@ function restState(half, onFloor, height, supportPoint) {
   const swing = support === "left" ? "right" : "left";
   const sign = swing === "left" ? 1 : -1;
   const point = onFloor ? [0.5 * foot[0], 0.5 * foot[1]] : [0, sign * supportPoint];
-  const sole = onFloor ? foot : [0, sign * half.via_lateral_m, 0];
+  const sole = onFloor ? foot : [half.via_along_m, sign * half.via_lateral_m, 0];
   const state = new Float64Array(13);
   state.set([...moved(place, point), ...moved(place, point), place[2] + (onFloor ? 0.5 * foot[2] : 0)]);
   state.set([place[0], place[1], 0, place[2]], footAt[support]);
@@ -52,8 +52,10 @@ function formed(half, parameters, i) {
   if (!parameters.lift_shares) return half;
   return {
     ...half, via_lateral_m: parameters.via_laterals[Math.floor(i / 2)],
+    via_along_m: parameters.via_alongs[Math.floor(i / 2)],
     shape: { ...half.shape, foot_ramp: parameters.foot_ramps[i], lift_share: parameters.lift_shares[i],
-             horizontal_delay: parameters.foot_delays[i] },
+             horizontal_delay: parameters.foot_delays[i], shift: parameters.zmp_shifts[i],
+             bump_ramp: parameters.zmp_bump_ramps[i] },
   };
 }
 
@@ -94,16 +96,18 @@ class Piece {
 }
 
 /** min(before·T, after·T) [s], beyond which an overlap makes no walk. `junction`: from 0. */
-export function naturalBound(halfSteps, durations, junction) {
+export function naturalBound(halfSteps, { durations, zmp_shifts: shifts }, junction) {
   if (junction % 2 === 1) return Math.min(durations[junction], durations[junction + 1]);
-  const t2 = 0.5 + 0.5 * halfSteps[junction].shape.shift;
-  const t1 = 0.5 - 0.5 * halfSteps[junction + 1].shape.shift;
+  const shiftOf = (i) => shifts?.[i] ?? halfSteps[i].shape.shift;
+  const t2 = 0.5 + 0.5 * shiftOf(junction);
+  const t1 = 0.5 - 0.5 * shiftOf(junction + 1);
   return Math.min((1 - t2) * durations[junction], t1 * durations[junction + 1]);
 }
 
 export class SuperposedWalk {
   /** `form`: closed_form of a report; `parameters`: overlaps, durations, height_scales, support_points,
-   * via_laterals, foot_ramps, foot_delays, lift_shares where the walk has forms of its own, and
+   * via_laterals, via_alongs, foot_ramps, foot_delays, lift_shares, zmp_shifts, zmp_bump_ramps where
+   * the walk has forms of its own, and
    * footstep_xs, footstep_ys, footstep_yaws where footsteps are moved. */
   constructor(form, parameters) {
     const omega = Math.sqrt(form.gravity_m_s2 / form.com_height_m);

@@ -58,7 +58,7 @@ std::string StarterConfigText(const RobotModel& robot, const StarterConfig& conf
       "foot\n"
       "# smoothing:  # more than one after the other: `halfstep list methods`\n"
       "#   methods: [dichotomy, halfstep/sqp]\n"
-      "#   optimizer: {all_families: true}  # heights, durations and forms beside the overlaps\n"
+      "#   optimizer: {footsteps: true}  # footsteps move a little, too\n"
       "#   margins: {clearance_m: 0.005}\n",
       half_step.duration, half_step.via_height);
   return text;

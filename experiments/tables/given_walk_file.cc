@@ -212,7 +212,7 @@ class GivenWalkReader {
     for (int i = 0; i < sequence_.num_junctions(); ++i) {
       const size_t row = static_cast<size_t>(i);
       const double overlap = walk_.overlaps[row];
-      const double bound = NaturalOverlapBound(sequence_, walk_.durations, i);
+      const double bound = NaturalOverlapBound(walk_, i);
       if (overlap <= bound + kOverlapTolerance) continue;
       const ParameterFamily told = IsGiven(ParameterFamily::kOverlap) ? ParameterFamily::kOverlap
                                                                       : ParameterFamily::kDuration;

@@ -79,7 +79,9 @@ bool CheckHalfSteps(const std::vector<HalfStepRow>& rows, const HalfStepSequence
 
 bool NearForms(const FormColumns& a, const FormColumns& b) {
   return Near(a.via_lateral, b.via_lateral) && Near(a.foot_ramp, b.foot_ramp) &&
-         Near(a.foot_delay, b.foot_delay) && Near(a.lift_share, b.lift_share);
+         Near(a.foot_delay, b.foot_delay) && Near(a.lift_share, b.lift_share) &&
+         Near(a.via_along, b.via_along) && Near(a.zmp_shift, b.zmp_shift) &&
+         Near(a.zmp_bump_ramp, b.zmp_bump_ramp);
 }
 
 // Whether half-step i is the same in two walks.

@@ -21,7 +21,8 @@ bool SameMove(const Pose2& a, const Pose2& b) {
 bool Same(const FormColumns& a, const FormColumns& b) {
   return Same(a.via_lateral, b.via_lateral) && Same(a.foot_ramp, b.foot_ramp) &&
          Same(a.foot_delay, b.foot_delay) && Same(a.lift_share, b.lift_share) &&
-         SameMove(a.footstep, b.footstep);
+         Same(a.via_along, b.via_along) && Same(a.zmp_shift, b.zmp_shift) &&
+         Same(a.zmp_bump_ramp, b.zmp_bump_ramp) && SameMove(a.footstep, b.footstep);
 }
 
 // What is wrong with a form, of whatever plan; "": nothing. Numbers that are not finite are out of
@@ -32,6 +33,11 @@ std::string FaultOfForm(const FormColumns& form) {
   if (!within(form.foot_ramp, 0.1, 0.5)) return Formatted("foot ramp %.9g", form.foot_ramp);
   if (!within(form.foot_delay, 0, 0.2)) return Formatted("foot delay %.9g", form.foot_delay);
   if (!within(form.lift_share, 0.2, 1)) return Formatted("lift share %.9g", form.lift_share);
+  if (!within(form.via_along, -0.5, 0.5)) return Formatted("via point %.9g ahead", form.via_along);
+  if (!within(form.zmp_shift, 0.01, 0.5)) return Formatted("ZMP's shift %.9g", form.zmp_shift);
+  if (!within(form.zmp_bump_ramp, 0.1, 1)) {
+    return Formatted("ZMP's bump ramp %.9g", form.zmp_bump_ramp);
+  }
   const Pose2& move = form.footstep;
   if (!within(move.x, -0.5, 0.5) || !within(move.y, -0.5, 0.5) || !within(move.yaw, -1, 1)) {
     return Formatted("footstep moved by %.9g, %.9g, turned by %.9g", move.x, move.y, move.yaw);
@@ -57,9 +63,13 @@ std::string FaultOfRaw(const HalfStepRow& row, const HalfStep& planned) {
 // Largest overlap that the homotopy allows at a junction [s].
 // Source: smoothing/README.md, "Natural bounds".
 double NaturalBound(const HalfStepRow& before, const HalfStepRow& after,
-                    const HalfStepShape& shape) {
+                    const HalfStepShape& planned) {
   if (before.kind == "down") return std::min(before.duration, after.duration);
-  return std::min(before.duration * (1 - shape.t2()), after.duration * shape.t1());
+  const auto flight = [&planned](const HalfStepRow& row) {
+    const double shift = row.form ? row.form->zmp_shift : planned.shift;
+    return row.duration * (1 - shift) / 2;
+  };
+  return std::min(flight(before), flight(after));
 }
 
 std::string FaultOf(const OverlapRow& row, const HalfStepRow& before, const HalfStepRow& after,
@@ -79,6 +89,8 @@ std::optional<double FormColumns::*> FormNamed(const std::string& parameter) {
   if (parameter == "foot_ramp") return &FormColumns::foot_ramp;
   if (parameter == "foot_delay") return &FormColumns::foot_delay;
   if (parameter == "lift_share") return &FormColumns::lift_share;
+  if (parameter == "zmp_shift") return &FormColumns::zmp_shift;
+  if (parameter == "zmp_bump_ramp") return &FormColumns::zmp_bump_ramp;
   return std::nullopt;
 }
 
@@ -110,6 +122,9 @@ std::string FaultOfStep(const HalfStepRow& up, const HalfStepRow& down) {
   }
   if (up.form && down.form && !Same(down.form->via_lateral, up.form->via_lateral)) {
     return "another via point than the step's up half-step";
+  }
+  if (up.form && down.form && !Same(down.form->via_along, up.form->via_along)) {
+    return "a via point elsewhere along than the step's up half-step";
   }
   if (up.form && down.form && !SameMove(down.form->footstep, up.form->footstep)) {
     return "another footstep than the step's up half-step";
@@ -190,6 +205,10 @@ void CheckFixed(const std::vector<HalfStepRow>& half_steps, const std::vector<Ov
       const HalfStep& plan = planned.half_steps[2 * i].half_step;
       is = half_steps[2 * i].FormOf(plan).via_lateral;
       demanded = plan.via_lateral;
+    } else if (one.parameter == "via_along" && 2 * i < half_steps.size()) {
+      const HalfStep& plan = planned.half_steps[2 * i].half_step;
+      is = half_steps[2 * i].FormOf(plan).via_along;
+      demanded = plan.via_along;
     } else if (const auto move = MoveNamed(one.parameter); move && 2 * i < half_steps.size()) {
       is = half_steps[2 * i].FormOf(planned.half_steps[2 * i].half_step).footstep.**move;
     } else if (const auto form = FormNamed(one.parameter); form && i < half_steps.size()) {

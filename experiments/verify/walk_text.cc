@@ -30,9 +30,10 @@ std::vector<HalfStepRow> ReadHalfSteps(const std::string& path, const std::strin
                                       "duration_s", "height_scale", "support_point_m"};
   const std::string head = text.substr(0, text.find('\n'));
   const bool has_footsteps = head.ends_with(",footstep_yaw_rad");
-  const bool has_forms = has_footsteps || head.ends_with(",lift_share");
+  const bool has_forms = has_footsteps || head.ends_with(",zmp_bump_ramp");
   if (has_forms) {
-    columns.insert(columns.end(), {"via_lateral_m", "foot_ramp", "foot_delay", "lift_share"});
+    columns.insert(columns.end(), {"via_lateral_m", "foot_ramp", "foot_delay", "lift_share",
+                                   "via_along_m", "zmp_shift", "zmp_bump_ramp"});
   }
   if (has_footsteps) {
     columns.insert(columns.end(), {"footstep_x_m", "footstep_y_m", "footstep_yaw_rad"});
@@ -51,9 +52,12 @@ std::vector<HalfStepRow> ReadHalfSteps(const std::string& path, const std::strin
     rows.back().form = {.via_lateral = csv.Number(i, 7),
                         .foot_ramp = csv.Number(i, 8),
                         .foot_delay = csv.Number(i, 9),
-                        .lift_share = csv.Number(i, 10)};
+                        .lift_share = csv.Number(i, 10),
+                        .via_along = csv.Number(i, 11),
+                        .zmp_shift = csv.Number(i, 12),
+                        .zmp_bump_ramp = csv.Number(i, 13)};
     if (!has_footsteps) continue;
-    rows.back().form->footstep = {csv.Number(i, 11), csv.Number(i, 12), csv.Number(i, 13)};
+    rows.back().form->footstep = {csv.Number(i, 14), csv.Number(i, 15), csv.Number(i, 16)};
   }
   return rows;
 }

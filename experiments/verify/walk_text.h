@@ -13,6 +13,8 @@ namespace halfstep::verify {
 struct FormColumns {
   double via_lateral = 0;                                ///< [m]
   double foot_ramp = 0, foot_delay = 0, lift_share = 0;  ///< as HalfStepShape has them
+  double via_along = 0;                                  ///< [m]
+  double zmp_shift = 0, zmp_bump_ramp = 0;               ///< shift and bump_ramp of HalfStepShape
   Pose2 footstep = {};  ///< the step's, seen from where it is planned; as planned without columns
 };
 
@@ -25,8 +27,15 @@ struct HalfStepRow {
 
   /// The form of the half-step whose plan is `planned`.
   FormColumns FormOf(const HalfStep& planned) const {
-    return form.value_or(FormColumns{planned.via_lateral, planned.shape.foot_ramp,
-                                     planned.shape.horizontal_delay, planned.shape.lift_share, {}});
+    const HalfStepShape& shape = planned.shape;
+    return form.value_or(FormColumns{planned.via_lateral,
+                                     shape.foot_ramp,
+                                     shape.horizontal_delay,
+                                     shape.lift_share,
+                                     planned.via_along,
+                                     shape.shift,
+                                     shape.bump_ramp,
+                                     {}});
   }
 };
 

@@ -106,10 +106,11 @@ std::string SweptVolumeProvenance(const RobotModel& robot, const Lipm& lipm, con
   const auto line_unless = [&](const char* key, double value, double always) {
     if (value != always) line(key, Exactly(value));
   };
-  line_unless("bump_ramp", shape.bump_ramp.value_or(0.0), 0.0);
+  line_unless("bump_ramp", shape.bump_ramp, 1.0);
   line_unless("foot_ramp", shape.foot_ramp, 0.5);
   line_unless("lift_share", shape.lift_share, 1.0);
   line_unless("support_offset", shape.support_offset, 0.0);
+  line_unless("via_along", set.prototype.via_along, 0.0);
   line("elements", std::to_string(set.size()));
   line("placements", Sha256(placements));
   line("cell", Exactly(options.cell));

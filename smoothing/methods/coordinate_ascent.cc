@@ -80,7 +80,7 @@ class Ascent {
   void RaiseOverlap(int i) {
     const size_t j = static_cast<size_t>(i);
     HomotopyParameters target = point_;
-    target.overlaps[j] = NaturalOverlapBound(sequence_, point_.durations, i);
+    target.overlaps[j] = NaturalOverlapBound(point_, i);
     monitor_.result().junctions[j].limited_by = MoveTowards(target);
   }
 
@@ -146,7 +146,7 @@ class Ascent {
     for (size_t i = 0; i < point.durations.size(); ++i) {
       point.durations[i] += lambda * (to.durations[i] - from.durations[i]);
     }
-    ClampOverlaps(sequence_, from, &point);
+    ClampOverlaps(from, &point);
     return point;
   }
 

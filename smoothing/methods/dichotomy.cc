@@ -56,8 +56,7 @@ class Bisection {
     const size_t i = static_cast<size_t>(junction);
     const HomotopyParameters& at = walk_.parameters();
     const double feasible = at.overlaps[i];
-    double highest =
-        CapOf(junction) * NaturalOverlapBound(problem_.sequence(), at.durations, junction);
+    double highest = CapOf(junction) * NaturalOverlapBound(at, junction);
     if (feasible >= highest || !table_.free({ParameterFamily::kOverlap, junction})) {
       return !monitor_.stopped();
     }

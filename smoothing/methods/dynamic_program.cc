@@ -38,14 +38,14 @@ void DynamicProgram::Begin(const Choices& choices, double duration) {
   }
   overlaps_.assign(choices.size(), {});
   remaining_.assign(choices.size(), 0.0);
-  std::vector<double> durations(choices.size(), 1.0);
+  HomotopyParameters beside = start_;
   for (size_t k = choices.size() - 1; k > 0; --k) {
     double least = std::numeric_limits<double>::infinity();
     for (const StretchChoice& before : choices[k - 1]) {
       for (const StretchChoice& here : choices[k]) {
-        durations[k - 1] = before.duration;
-        durations[k] = here.duration;
-        const double bound = NaturalOverlapBound(sequence_, durations, static_cast<int>(k) - 1);
+        beside.durations[k - 1] = before.duration;
+        beside.durations[k] = here.duration;
+        const double bound = NaturalOverlapBound(beside, static_cast<int>(k) - 1);
         overlaps_[k].push_back(std::clamp(here.overlap, 0.0, bound));
         least = std::min(least, here.duration - overlaps_[k].back());
       }
@@ -185,7 +185,7 @@ HomotopyParameters DynamicProgram::ParametersOf(const Choices& choices,
   }
   for (int i = 0; i < sequence_.num_junctions(); ++i) {
     double& overlap = parameters.overlaps[static_cast<size_t>(i)];
-    overlap = std::clamp(overlap, 0.0, NaturalOverlapBound(sequence_, parameters.durations, i));
+    overlap = std::clamp(overlap, 0.0, NaturalOverlapBound(parameters, i));
   }
   return parameters;
 }

@@ -31,7 +31,7 @@ HomotopyParameters Incumbent::Between(const HomotopyParameters& candidate,
       values[k] += part * (to[k] - values[k]);
     }
   }
-  ClampOverlaps(sequence_, parameters_, &point);
+  ClampOverlaps(parameters_, &point);
   return point;
 }
 

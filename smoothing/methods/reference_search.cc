@@ -113,8 +113,7 @@ class Reference {
       for (int i = 0; i < values; ++i) {
         if (!one) {
           choice.overlap =
-              NaturalOverlapBound(sequence_, planned_.durations, static_cast<int>(k) - 1) * i /
-              (values - 1);
+              NaturalOverlapBound(planned_, static_cast<int>(k) - 1) * i / (values - 1);
         }
         choices.back().push_back(choice);
       }

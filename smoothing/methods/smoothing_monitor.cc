@@ -94,8 +94,7 @@ SmoothingResult SmoothingMonitor::Finish(Ending ending, const std::string& messa
     const size_t at = static_cast<size_t>(i);
     JunctionResult& junction = result_.junctions[at];
     junction.overlap = result_.parameters.overlaps[at];
-    junction.upper_bound =
-        NaturalOverlapBound(problem_->sequence(), result_.parameters.durations, i);
+    junction.upper_bound = NaturalOverlapBound(result_.parameters, i);
     junction.fixed = !table.free({ParameterFamily::kOverlap, i});
   }
   result_.ending = ending;

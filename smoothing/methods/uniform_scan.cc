@@ -77,7 +77,7 @@ class Scan {
     }
     for (int i = 0; i < problem_.sequence().num_junctions(); ++i) {  // fixed ones may not fit
       if (start.overlaps[static_cast<size_t>(i)] >
-          NaturalOverlapBound(problem_.sequence(), start.durations, i) + kOverlapTolerance) {
+          NaturalOverlapBound(start, i) + kOverlapTolerance) {
         return;
       }
     }

@@ -75,19 +75,23 @@ Stays WhatStays(const Part& part, const WalkProblem& problem, int first, int las
   return stays;
 }
 
-// Where an overlap that stays is too long for the planned durations beside it, these stay, too.
-void KeepDurationsOfLongOverlaps(const HalfStepSequence& sequence, const HomotopyParameters& at,
-                                 Stays* stays) {
+// Beside an overlap that stays, the ZMP's shifts stay, and where it is too long for the planned
+// durations, these stay, too.
+void KeepWhatBoundsOverlaps(const HalfStepSequence& sequence, const HomotopyParameters& at,
+                            Stays* stays) {
   std::vector<bool>& durations = (*stays)[static_cast<size_t>(ParameterFamily::kDuration)];
+  std::vector<bool>& shifts = (*stays)[static_cast<size_t>(ParameterFamily::kZmpShift)];
   const std::vector<bool>& overlaps = (*stays)[static_cast<size_t>(ParameterFamily::kOverlap)];
   const std::vector<double> planned = PlannedMotion(sequence).durations;
   for (size_t i = 0; i < overlaps.size(); ++i) {
     if (!overlaps[i]) continue;
-    std::vector<double> beside = at.durations;
+    const int junction = static_cast<int>(i);
+    if (KindOfJunction(junction) == JunctionKind::kUpDown) shifts[i] = shifts[i + 1] = true;
+    HomotopyParameters beside = at;
     for (const size_t k : {i, i + 1}) {
-      if (!durations[k]) beside[k] = planned[k];
+      if (!durations[k]) beside.durations[k] = planned[k];
     }
-    if (at.overlaps[i] <= NaturalOverlapBound(sequence, beside, static_cast<int>(i))) continue;
+    if (at.overlaps[i] <= NaturalOverlapBound(beside, junction)) continue;
     durations[i] = durations[i + 1] = true;
   }
 }
@@ -113,7 +117,7 @@ WalkWindow WindowOf(const WalkProblem& problem, const HomotopyParameters& at, in
     parameters.of(family).assign(from, from + part.count_of(family));
   }
   Stays stays = WhatStays(part, problem, first, last, keeps_begin);
-  KeepDurationsOfLongOverlaps(sequence, parameters, &stays);
+  KeepWhatBoundsOverlaps(sequence, parameters, &stays);
   std::vector<FixedParameter> fixed;
   for (const ParameterFamily family : AllParameterFamilies()) {
     for (int i = 0; i < part.count_of(family); ++i) {

@@ -98,10 +98,10 @@ ParameterGradient DurationGradient(const HalfStepSequence& sequence) {
 
 Eigen::VectorXd Pulled(const OverlapVariables& variables, const ParameterGradient& gradient,
                        const Eigen::VectorXd& x) {
-  const std::vector<double> durations = variables.ToParameters(x).durations;
+  const HomotopyParameters at = variables.ToParameters(x);
   Eigen::VectorXd pulled = Eigen::VectorXd::Zero(x.size());
   for (const auto& [parameter, slope] : gradient) {
-    variables.Pull(parameter, slope, x, durations,
+    variables.Pull(parameter, slope, x, at,
                    [&](int variable, double value) { pulled[variable] += value; });
   }
   return pulled;

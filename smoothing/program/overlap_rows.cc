@@ -85,7 +85,7 @@ class DurationRow : public opt::ConstraintBlock {
     const HomotopyParameters start = variables.table().Start();
     const Eigen::VectorXd x = variables.ToVariables(start);
     for (const auto& [parameter, slope] : DurationGradient(variables.sequence())) {
-      variables.Pull(parameter, slope, x, start.durations,
+      variables.Pull(parameter, slope, x, start,
                      [&met](int variable, double) { met[static_cast<size_t>(variable)] = true; });
     }
     for (int v = 0; v < variables.size(); ++v) {

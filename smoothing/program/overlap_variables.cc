@@ -37,18 +37,24 @@ Eigen::VectorXd OverlapVariables::upper() const {
 }
 
 OverlapVariables::Bound OverlapVariables::OverlapBound(int junction,
-                                                       const std::vector<double>& durations) const {
-  const auto [a, b] = NaturalBoundOf(sequence_, junction);
+                                                       const HomotopyParameters& at) const {
+  const auto [a, b] = NaturalBoundOf(at, junction);
   const size_t i = static_cast<size_t>(junction);
-  const double u = a * durations[i], v = b * durations[i + 1];
-  if (!table_.free({Family::kDuration, junction}) &&
-      !table_.free({Family::kDuration, junction + 1})) {
-    return {std::min(u, v), 0.0, 0.0};
-  }
+  const double u = a * at.durations[i], v = b * at.durations[i + 1];
+  const bool shifts = KindOfJunction(junction) == JunctionKind::kUpDown;
+  const auto moves = [&](int half_step) {
+    return table_.free({Family::kDuration, half_step}) ||
+           (shifts && table_.free({Family::kZmpShift, half_step}));
+  };
+  if (!moves(junction) && !moves(junction + 1)) return {.value = std::min(u, v)};
   // (u + v)/2 − √((u − v)²/4 + ε²) ≤ min(u, v)
   const double half = 0.5 * (u - v);
   const double root = std::sqrt(half * half + kBoundSmoothing * kBoundSmoothing);
-  return {0.5 * (u + v) - root, a * (0.5 - 0.5 * half / root), b * (0.5 + 0.5 * half / root)};
+  const double by_u = 0.5 - 0.5 * half / root, by_v = 0.5 + 0.5 * half / root;
+  const double flight = shifts ? -0.5 : 0.0;  // u = (1 − shift)·T/2, and v
+  return {.value = 0.5 * (u + v) - root,
+          .by_duration = {a * by_u, b * by_v},
+          .by_shift = {flight * at.durations[i] * by_u, flight * at.durations[i + 1] * by_v}};
 }
 
 Eigen::VectorXd OverlapVariables::ToVariables(const HomotopyParameters& parameters) const {
@@ -56,7 +62,7 @@ Eigen::VectorXd OverlapVariables::ToVariables(const HomotopyParameters& paramete
   for (int v = 0; v < size(); ++v) {
     x[v] = at(v).in(parameters);
     if (at(v).family == Family::kOverlap) {
-      x[v] = std::clamp(x[v] / OverlapBound(at(v).index, parameters.durations).value, 0.0, 1.0);
+      x[v] = std::clamp(x[v] / OverlapBound(at(v).index, parameters).value, 0.0, 1.0);
     }
   }
   return x;
@@ -64,11 +70,11 @@ Eigen::VectorXd OverlapVariables::ToVariables(const HomotopyParameters& paramete
 
 HomotopyParameters OverlapVariables::ToParameters(const Eigen::VectorXd& x) const {
   HomotopyParameters parameters = start_;
-  for (int v = size() - 1; v >= 0; --v) {  // durations before the overlaps they bound
+  for (int v = size() - 1; v >= 0; --v) {  // what bounds overlaps before these
     double& value = at(v).in(parameters);
     switch (at(v).family) {
       case Family::kOverlap:
-        value = std::clamp(x[v], 0.0, 1.0) * OverlapBound(at(v).index, parameters.durations).value;
+        value = std::clamp(x[v], 0.0, 1.0) * OverlapBound(at(v).index, parameters).value;
         break;
       case Family::kDuration:  // some solvers leave bounds a little; fixed overlaps must fit
         value = std::max(x[v], table_.row(at(v)).lower);

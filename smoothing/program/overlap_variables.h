@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <utility>
 #include <vector>
 
@@ -12,9 +13,9 @@ namespace halfstep {
 using ParameterGradient = std::vector<std::pair<HomotopyParameter, double>>;
 
 /// The variables x of a program over a sequence: the free rows of a parameter table in its order.
-/// An overlap's variable is s_i = Δ_i/B_i(T). B_i(T) is the natural overlap bound or, where T_i or
-/// T_{i+1} is a variable, a smooth function at most 1 ms below it, so 0 ≤ s_i ≤ 1 are simple bounds
-/// at all T. What is fixed keeps the value at which the table starts.
+/// An overlap's variable is s_i = Δ_i/B_i(T). B_i(T) is the natural overlap bound or, where T_i,
+/// T_{i+1} or a ZMP's shift there is a variable, a smooth function at most 1 ms below it, so
+/// 0 ≤ s_i ≤ 1 are simple bounds at all T. What is fixed keeps the value at which the table starts.
 /// Source: smoothing/README.md, "Overlap program".
 class OverlapVariables {
  public:
@@ -48,19 +49,22 @@ class OverlapVariables {
   /// `slope` along `parameter` makes; a variable may come several times.
   template <typename Add>
   void Pull(const HomotopyParameter& parameter, double slope, const Eigen::VectorXd& x,
-            const std::vector<double>& durations, const Add& add) const {
+            const HomotopyParameters& at, const Add& add) const {
     const int v = IndexOf(parameter);
     if (parameter.family != HomotopyParameter::Family::kOverlap) {
       if (v >= 0) add(v, slope);
       return;
     }
     if (v < 0) return;
-    const Bound bound = OverlapBound(parameter.index, durations);
+    const Bound bound = OverlapBound(parameter.index, at);
     add(v, slope * bound.value);
-    const int before = IndexOf({HomotopyParameter::Family::kDuration, parameter.index});
-    const int after = IndexOf({HomotopyParameter::Family::kDuration, parameter.index + 1});
-    if (before >= 0) add(before, slope * x[v] * bound.before);
-    if (after >= 0) add(after, slope * x[v] * bound.after);
+    for (size_t side : {0, 1}) {
+      const int half_step = parameter.index + static_cast<int>(side);
+      const int T = IndexOf({HomotopyParameter::Family::kDuration, half_step});
+      const int shift = IndexOf({HomotopyParameter::Family::kZmpShift, half_step});
+      if (T >= 0) add(T, slope * x[v] * bound.by_duration[side]);
+      if (shift >= 0) add(shift, slope * x[v] * bound.by_shift[side]);
+    }
   }
 
   /// The variables on which an instant of half-step k may depend, at any x. At most four half-steps
@@ -69,11 +73,12 @@ class OverlapVariables {
   std::vector<int> Band(int half_step) const;
 
  private:
-  // B_i and its derivatives with respect to T_i and T_{i+1}.
+  // B_i, and its derivatives with respect to T and the ZMP's shift of half-steps i and i + 1.
   struct Bound {
-    double value, before, after;
+    double value;
+    std::array<double, 2> by_duration = {}, by_shift = {};
   };
-  Bound OverlapBound(int junction, const std::vector<double>& durations) const;
+  Bound OverlapBound(int junction, const HomotopyParameters& at) const;
 
   const HalfStepSequence& sequence_;
   ParameterTable table_;

@@ -54,14 +54,10 @@ double MotionEvent(const HalfStep& half_step) {
                                              : shape.t1() - delay - kInside;
 }
 
-// Fractions of T just inside the times at which a statement begins or ends to count; the middle one
-// is the motion's.
-std::array<double, 3> Events(const HalfStep& half_step) {
-  const HalfStepShape& shape = half_step.shape;
-  if (half_step.kind == HalfStepKind::kUp) {
-    return {shape.t2() + kInside, MotionEvent(half_step), 1.0 - kInside};
-  }
-  return {kInside, MotionEvent(half_step), shape.t1() - kInside};
+// Just inside the flight, next to the floor, as a fraction of T.
+double FlightEvent(const HalfStep& half_step) {
+  return half_step.kind == HalfStepKind::kUp ? half_step.shape.t2() + kInside
+                                             : half_step.shape.t1() - kInside;
 }
 
 }  // namespace
@@ -79,12 +75,19 @@ WatchedInstants::WatchedInstants(const OverlapVariables& variables,
     for (int m = 0; looked_at && m < options.instants; ++m) {
       instants.push_back({(m + 0.5) / options.instants, Instant::Of::kStretch});
     }
-    const auto events = Events(variables.sequence().half_steps[static_cast<size_t>(k)].half_step);
-    const bool moves = variables.IndexOf({Family::kFootDelay, k}) >= 0;
-    for (double v : events) {
-      if (!looked_at) break;
-      const bool of_motion = moves && v == events[1];
-      instants.push_back({v, of_motion ? Instant::Of::kMotion : Instant::Of::kHalfStep});
+    const HalfStep& planned = variables.sequence().half_steps[static_cast<size_t>(k)].half_step;
+    const bool flight_moves = variables.IndexOf({Family::kZmpShift, k}) >= 0;
+    const bool motion_moves = flight_moves || variables.IndexOf({Family::kFootDelay, k}) >= 0;
+    if (looked_at) {  // just inside where a statement begins or ends to count, in order of time
+      const bool up = planned.kind == HalfStepKind::kUp;
+      std::array<Instant, 3> events = {
+          Instant{FlightEvent(planned),
+                  flight_moves ? Instant::Of::kFlight : Instant::Of::kHalfStep},
+          Instant{MotionEvent(planned),
+                  motion_moves ? Instant::Of::kMotion : Instant::Of::kHalfStep},
+          Instant{up ? 1.0 - kInside : kInside, Instant::Of::kHalfStep}};
+      if (!up) std::ranges::reverse(events);
+      instants.insert(instants.end(), events.begin(), events.end());
     }
     const int in_branch = WatchesBranch(k) ? std::max(1, options.instants / 2) : 0;
     for (int m = 0; m < in_branch; ++m) {
@@ -139,11 +142,14 @@ LocalTime WatchedInstants::At(const SuperposedWalk& walk, int k, const Instant& 
     moving->push_back({{Family::kDuration, k}, u});
     return {k, u * T};
   }
-  if (instant.of == Instant::Of::kMotion) {
-    const double v = MotionEvent(walk.half_step(k));
+  if (instant.of == Instant::Of::kMotion || instant.of == Instant::Of::kFlight) {
+    const bool motion = instant.of == Instant::Of::kMotion;
+    const HalfStep& half_step = walk.half_step(k);
+    const double v = motion ? MotionEvent(half_step) : FlightEvent(half_step);
+    const double inwards = half_step.kind == HalfStepKind::kUp ? T : -T;
     moving->push_back({{Family::kDuration, k}, v});
-    moving->push_back(
-        {{Family::kFootDelay, k}, walk.half_step(k).kind == HalfStepKind::kUp ? T : -T});
+    moving->push_back({{Family::kZmpShift, k}, 0.5 * inwards});
+    if (motion) moving->push_back({{Family::kFootDelay, k}, inwards});
     return {k, v * T};
   }
   const bool last = k + 1 == walk.num_half_steps();
@@ -272,10 +278,9 @@ void WatchedInstants::EvaluateHalfStep(const SuperposedWalk& walk, const Eigen::
       later.setZero(instant.times.empty() ? 0 : width);
       // Adds what a derivative along a parameter makes of x.
       const auto add = [&](const HomotopyParameter& parameter, double slope, auto&& row) {
-        variables_.Pull(
-            parameter, slope, x, walk.parameters().durations, [&](int variable, double value) {
-              row(std::find(columns.begin(), columns.end(), variable) - columns.begin()) += value;
-            });
+        variables_.Pull(parameter, slope, x, walk.parameters(), [&](int variable, double value) {
+          row(std::find(columns.begin(), columns.end(), variable) - columns.begin()) += value;
+        });
       };
       for (size_t p = 0; p < instant.parameters.size(); ++p) {
         add(instant.parameters[p], 1.0, pull.row(static_cast<Eigen::Index>(p)));

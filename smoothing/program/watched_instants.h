@@ -89,6 +89,7 @@ class WatchedInstants {
       kStretch,   // of T_k − Δ_k from t_k on
       kHalfStep,  // of T_k from t_k on
       kMotion,    // of T_k from t_k on; moves with the begin or end of the horizontal motion
+      kFlight,    // the same with the begin or end of the flight
       kBranch,    // of Δ_k from t_{k+1} on, in the stop branch
     };
     enum class Why { kGrid, kLearned, kMinimum };

@@ -4,8 +4,9 @@
 
 namespace halfstep {
 
-/// The traits of the families that give half-steps forms of their own: kViaLateral, kFootRamp,
-/// kFootDelay, kLiftShare. None of them changes natural bounds, times of landing or the ZMP.
+/// The traits of the families that give half-steps forms of their own: kViaLateral, kViaAlong,
+/// kFootRamp, kFootDelay, kLiftShare, kZmpShift, kZmpBumpRamp. The ZMP's shift moves natural bounds
+/// and the times of lift-off and landing; the others do not.
 /// Source: smoothing/README.md, "Forms".
 const ParameterFamilyTraits& FormTraits(ParameterFamily family);
 

@@ -23,21 +23,21 @@ double NaturalBound::At(double T_before, double T_after) const {
   return std::min(before * T_before, after * T_after);
 }
 
-NaturalBound NaturalBoundOf(int junction, const HalfStepShape& before, const HalfStepShape& after) {
+NaturalBound NaturalBoundOf(int junction, double shift_before, double shift_after) {
   if (KindOfJunction(junction) == JunctionKind::kDownUp) return {};
-  return {1.0 - before.t2(), after.t1()};
+  return {1.0 - HalfStepShape{.shift = shift_before}.t2(),
+          HalfStepShape{.shift = shift_after}.t1()};
 }
 
-NaturalBound NaturalBoundOf(const HalfStepSequence& sequence, int junction) {
+NaturalBound NaturalBoundOf(const HomotopyParameters& parameters, int junction) {
   const size_t i = static_cast<size_t>(junction);
-  return NaturalBoundOf(junction, sequence.half_steps[i].half_step.shape,
-                        sequence.half_steps[i + 1].half_step.shape);
+  return NaturalBoundOf(junction, parameters.zmp_shifts[i], parameters.zmp_shifts[i + 1]);
 }
 
-double NaturalOverlapBound(const HalfStepSequence& sequence, const std::vector<double>& durations,
-                           int junction) {
+double NaturalOverlapBound(const HomotopyParameters& parameters, int junction) {
   const size_t i = static_cast<size_t>(junction);
-  return NaturalBoundOf(sequence, junction).At(durations[i], durations[i + 1]);
+  return NaturalBoundOf(parameters, junction)
+      .At(parameters.durations[i], parameters.durations[i + 1]);
 }
 
 void CheckParameters(const HalfStepSequence& sequence, const HomotopyParameters& parameters) {
@@ -56,18 +56,17 @@ void CheckParameters(const HalfStepSequence& sequence, const HomotopyParameters&
   }
   for (int i = 0; i < sequence.num_junctions(); ++i) {
     const double overlap = parameters.overlaps[static_cast<size_t>(i)];
-    const double bound = NaturalOverlapBound(sequence, parameters.durations, i);
+    const double bound = NaturalOverlapBound(parameters, i);
     HALFSTEP_CHECK(overlap <= bound + kOverlapTolerance,
                    "overlap " << overlap << " s of junction " << i << ", bound " << bound << " s");
   }
 }
 
-void ClampOverlaps(const HalfStepSequence& sequence, const HomotopyParameters& rests,
-                   HomotopyParameters* parameters) {
-  for (int i = 0; i < sequence.num_junctions(); ++i) {
+void ClampOverlaps(const HomotopyParameters& rests, HomotopyParameters* parameters) {
+  for (int i = 0; i < static_cast<int>(parameters->overlaps.size()); ++i) {
     const double least = std::min(0.0, rests.overlaps[static_cast<size_t>(i)]);
     double& overlap = parameters->overlaps[static_cast<size_t>(i)];
-    overlap = std::clamp(overlap, least, NaturalOverlapBound(sequence, parameters->durations, i));
+    overlap = std::clamp(overlap, least, NaturalOverlapBound(*parameters, i));
   }
 }
 

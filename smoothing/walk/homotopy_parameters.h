@@ -22,6 +22,10 @@ struct HomotopyParameters {
   std::vector<double> foot_ramps;   ///< foot_ramp
   std::vector<double> foot_delays;  ///< horizontal_delay
   std::vector<double> lift_shares;  ///< lift_share
+  std::vector<double>
+      via_alongs;  ///< of the via point of step j, ahead of the support sole [m] (n/2)
+  std::vector<double> zmp_shifts;      ///< shift of half-step i, as in its HalfStepShape (n)
+  std::vector<double> zmp_bump_ramps;  ///< bump_ramp of half-step i (n)
   // Where the footstep of step j is, seen from where it is planned (n/2).
   std::vector<double> footstep_xs;    ///< [m]
   std::vector<double> footstep_ys;    ///< [m]
@@ -79,14 +83,14 @@ struct NaturalBound {
   /// The bound [s] for the durations of both half-steps [s].
   double At(double T_before, double T_after) const;
 };
-/// The natural bound of junction `junction`, between half-steps of these shapes, or of a sequence.
-NaturalBound NaturalBoundOf(int junction, const HalfStepShape& before, const HalfStepShape& after);
-/// The same of junction `junction` of a sequence.
-NaturalBound NaturalBoundOf(const HalfStepSequence& sequence, int junction);
+/// The natural bound of junction `junction` between half-steps whose ZMPs shift in these fractions
+/// of their durations (HalfStepShape::shift).
+NaturalBound NaturalBoundOf(int junction, double shift_before, double shift_after);
+/// The same at a point of the homotopy.
+NaturalBound NaturalBoundOf(const HomotopyParameters& parameters, int junction);
 
-/// The bound of a junction for given durations [s].
-double NaturalOverlapBound(const HalfStepSequence& sequence, const std::vector<double>& durations,
-                           int junction);
+/// The bound of a junction's overlap at a point of the homotopy [s].
+double NaturalOverlapBound(const HomotopyParameters& parameters, int junction);
 
 /// An overlap may exceed its natural bound by this and still counts as within it [s].
 inline constexpr double kOverlapTolerance = 1e-12;
@@ -100,8 +104,7 @@ void CheckParameters(const HalfStepSequence& sequence, const HomotopyParameters&
 
 /// Lowers every overlap that is above its natural bound to it, and raises negative ones to 0 except
 /// where `rests` rests, too.
-void ClampOverlaps(const HalfStepSequence& sequence, const HomotopyParameters& rests,
-                   HomotopyParameters* parameters);
+void ClampOverlaps(const HomotopyParameters& rests, HomotopyParameters* parameters);
 
 /// D = Σ T_i − Σ Δ_i [s].
 double DurationOf(const HomotopyParameters& parameters);

@@ -22,12 +22,15 @@ enum class ParameterFamily {
   kFootRamp,      ///< ramps of the swing foot's speed in a half-step
   kFootDelay,     ///< the fraction of a half-step between floor and horizontal motion
   kLiftShare,     ///< the fraction of a half-step's flight in which the foot rises or sinks
+  kViaAlong,      ///< how far ahead of the support sole's centre the via point of a step is
+  kZmpShift,      ///< the fraction of a half-step in which its ZMP shifts
+  kZmpBumpRamp,   ///< ramps of the bump of a half-step's ZMP
   kFootstepX,     ///< how far the footstep of a step is moved along its planned x
   kFootstepY,     ///< and along its planned y
   kFootstepYaw,   ///< how far it is turned
 };
 /// How many families there are.
-inline constexpr int kNumParameterFamilies = 11;
+inline constexpr int kNumParameterFamilies = 14;
 
 /// What a method may move besides overlaps, and how far.
 struct ParameterChoice {
@@ -38,6 +41,9 @@ struct ParameterChoice {
   bool foot_ramps = false;          ///< HalfStepShape::foot_ramp
   bool foot_delays = false;         ///< HalfStepShape::horizontal_delay
   bool lift_shares = false;         ///< HalfStepShape::lift_share
+  bool via_alongs = false;          ///< how far ahead via points are
+  bool zmp_shifts = false;          ///< HalfStepShape::shift
+  bool zmp_bump_ramps = false;      ///< HalfStepShape::bump_ramp
   bool footsteps = false;           ///< where feet stand, but the last of each foot
   double least_height_scale = 0.2;  ///< η is at least this
   double least_duration = 0.5;      ///< as a fraction of the planned one
@@ -47,6 +53,9 @@ struct ParameterChoice {
   double least_foot_ramp = 0.2;                                   ///< of its motion, to ½
   double least_foot_delay = 0.02, most_foot_delay = 0.2;          ///< of T
   double least_lift_share = 0.4;                                  ///< of its flight, to 1
+  double most_via_along = 0.08;                                   ///< to either side [m]
+  double least_zmp_shift = 0.02, most_zmp_shift = 0.1;            ///< of T
+  double least_zmp_bump_ramp = 0.1;                               ///< of the bump, to 1
   double most_footstep_x = 0.05, most_footstep_y = 0.03;          ///< to either side [m]
   double most_footstep_yaw = 0.1;                                 ///< to either side [rad]
 
@@ -118,7 +127,8 @@ constexpr std::array<ParameterFamily, kNumParameterFamilies> AllParameterFamilie
   return {
       ParameterFamily::kOverlap,      ParameterFamily::kHeightScale, ParameterFamily::kDuration,
       ParameterFamily::kSupportPoint, ParameterFamily::kViaLateral,  ParameterFamily::kFootRamp,
-      ParameterFamily::kFootDelay,    ParameterFamily::kLiftShare,   ParameterFamily::kFootstepX,
+      ParameterFamily::kFootDelay,    ParameterFamily::kLiftShare,   ParameterFamily::kViaAlong,
+      ParameterFamily::kZmpShift,     ParameterFamily::kZmpBumpRamp, ParameterFamily::kFootstepX,
       ParameterFamily::kFootstepY,    ParameterFamily::kFootstepYaw};
 }
 

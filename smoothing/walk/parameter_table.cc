@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 #include "wpg/check.h"
 
@@ -41,16 +42,25 @@ ParameterTable::ParameterTable(const HalfStepSequence& sequence,
     ParameterRow& row = rows_[static_cast<size_t>(IndexOf(one.parameter))];
     row.start = row.lower = row.upper = one.value.value_or(row.start);
     row.fixed = true;
-    if (one.parameter.family != ParameterFamily::kOverlap || row.start <= 0.0) continue;
-    // The durations beside a fixed overlap stay so long that it is within its natural bound.
-    const NaturalBound bound = NaturalBoundOf(sequence, one.parameter.index);
-    const auto keep_longer = [&](int half_step, double least) {
-      ParameterRow& T =
-          rows_[static_cast<size_t>(IndexOf({ParameterFamily::kDuration, half_step}))];
-      if (!T.fixed) T.lower = std::min(T.start, std::max(T.lower, least));
-    };
-    keep_longer(one.parameter.index, row.start / bound.before);
-    keep_longer(one.parameter.index + 1, row.start / bound.after);
+  }
+  const HomotopyParameters start = Start();
+  for (const FixedParameter& one : fixed) {
+    if (one.parameter.family == ParameterFamily::kOverlap) LeaveRoomFor(one.parameter.index, start);
+  }
+}
+
+void ParameterTable::LeaveRoomFor(int junction, const HomotopyParameters& start) {
+  const double overlap = start.overlaps[static_cast<size_t>(junction)];
+  if (overlap <= 0.0) return;
+  const auto row_of = [this](ParameterFamily family, int half_step) -> ParameterRow& {
+    return rows_[static_cast<size_t>(IndexOf({family, half_step}))];
+  };
+  const auto [before, after] = NaturalBoundOf(start, junction);
+  for (const auto& [half_step, fraction] : {std::pair{junction, before}, {junction + 1, after}}) {
+    ParameterRow& T = row_of(ParameterFamily::kDuration, half_step);
+    if (!T.fixed) T.lower = std::min(T.start, std::max(T.lower, overlap / fraction));
+    ParameterRow& shift = row_of(ParameterFamily::kZmpShift, half_step);
+    shift.upper = shift.start;
   }
 }
 
@@ -93,7 +103,7 @@ std::string ComplaintAbout(const HalfStepSequence& sequence,
   }
   const HomotopyParameters start = StartOf(sequence, fixed);
   for (int i = 0; i < sequence.num_junctions(); ++i) {
-    const double bound = NaturalOverlapBound(sequence, start.durations, i);
+    const double bound = NaturalOverlapBound(start, i);
     if (start.overlaps[static_cast<size_t>(i)] <= bound + kOverlapTolerance) continue;
     text << "overlap " << i + 1 << ": " << start.overlaps[static_cast<size_t>(i)]
          << " s is above its natural bound (valid: up to " << bound << " s)";

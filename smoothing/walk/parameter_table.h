@@ -20,8 +20,8 @@ struct ParameterRow {
   HomotopyParameter parameter;  ///< which one
   double start = 0.0;           ///< where methods begin: as planned, or where it is fixed
   /// The range that methods may choose from, start included. An overlap's natural bound, which
-  /// depends on durations, holds besides; beside a fixed overlap, `lower` keeps durations long
-  /// enough for it.
+  /// depends on durations, holds besides; beside a fixed overlap, durations stay long
+  /// enough for it, and the ZMP's shifts short enough.
   double lower = 0.0, upper = 0.0;  ///< lower ≤ start ≤ upper, in the family's unit
   bool fixed = false;  ///< or of a family that methods may not move: lower = start = upper
 };
@@ -53,6 +53,10 @@ class ParameterTable {
   HomotopyParameters Start() const;
 
  private:
+  // Durations beside a fixed overlap stay so long, and the ZMP's shifts so short, that it is within
+  // its natural bound.
+  void LeaveRoomFor(int junction, const HomotopyParameters& start);
+
   std::vector<ParameterRow> rows_;
   std::array<int, kNumParameterFamilies> first_{};  // row of each family
 };

@@ -21,6 +21,7 @@ SuperposedWalk::SuperposedWalk(const HalfStepSequence& sequence,
     half_step.via_height *= parameters.height_scales[i / 2];
     half_step.shape.support_offset = parameters.support_points[i / 2];
     half_step.via_lateral = parameters.via_laterals[i / 2];
+    half_step.via_along = parameters.via_alongs[i / 2];
     for (const ParameterFamily family : AllParameterFamilies()) {
       const ParameterFamilyTraits& traits = Traits(family);
       if (traits.shape != nullptr) half_step.shape.*traits.shape = parameters.of(family)[i];
@@ -49,9 +50,7 @@ void SuperposedWalk::UpdateStarts(int from) {
 void SuperposedWalk::SetOverlap(int junction, double overlap) {
   HALFSTEP_CHECK(junction >= 0 && junction + 1 < num_half_steps(), "junction " << junction);
   const size_t i = static_cast<size_t>(junction);
-  const HalfStep &before = half_step(junction), &after = half_step(junction + 1);
-  const double bound = NaturalBoundOf(junction, before.shape, after.shape)
-                           .At(parameters_.durations[i], parameters_.durations[i + 1]);
+  const double bound = NaturalOverlapBound(parameters_, junction);
   HALFSTEP_CHECK(
       overlap >= -kLongestRest && overlap <= bound + kOverlapTolerance,
       "overlap " << overlap << " s of junction " << junction << ", bound " << bound << " s");

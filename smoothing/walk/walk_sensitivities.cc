@@ -166,18 +166,21 @@ void SuperposedWalk::Sensitivities(const LocalTime& at, std::vector<WalkSensitiv
     AddViaDerivative(profiles, h.kind, i == first, p.planned_height, FootIndex(h.swing()) + 2,
                      &jet_of({Family::kHeightScale, i / 2}));
     const Eigen::Vector2d aside = p.X_WS.rotation().col(1) * Sign(h.swing());
-    const auto move_via = [&](int q, WalkJet* jet) {
-      AddViaDerivative(profiles, h.kind, i == first, aside.x(), q, jet);
-      AddViaDerivative(profiles, h.kind, i == first, aside.y(), q + 1, jet);
+    const auto move_via = [&](const Eigen::Vector2d& by, int q, WalkJet* jet) {
+      AddViaDerivative(profiles, h.kind, i == first, by.x(), q, jet);
+      AddViaDerivative(profiles, h.kind, i == first, by.y(), q + 1, jet);
     };
     WalkJet& support = jet_of({Family::kSupportPoint, i / 2});
-    move_via(kComX, &support);
-    move_via(kZmpX, &support);
-    move_via(FootIndex(h.swing()), &jet_of({Family::kViaLateral, i / 2}));
-    for (const Family family : {Family::kFootRamp, Family::kFootDelay, Family::kLiftShare}) {
-      const HalfStepJet by = p.profiles.ByShape(Traits(family).shape, LocalTo(i, at));
+    move_via(aside, kComX, &support);
+    move_via(aside, kZmpX, &support);
+    move_via(aside, FootIndex(h.swing()), &jet_of({Family::kViaLateral, i / 2}));
+    move_via(p.X_WS.rotation().col(0), FootIndex(h.swing()), &jet_of({Family::kViaAlong, i / 2}));
+    for (const Family family : AllParameterFamilies()) {
+      const auto number = Traits(family).shape;
+      if (number == nullptr || (wanted && !wanted({family, i}))) continue;
+      const HalfStepJet by = p.profiles.ByShape(number, LocalTo(i, at));
       WalkJet& jet = jet_of({family, i});
-      for (int q = FootIndex(h.swing()); q < FootIndex(h.swing()) + 4; ++q) {
+      for (int q = 0; q < kNumQuantities; ++q) {
         jet.value[q] += by.of(q).value * p.delta_W[q];
         jet.first[q] += by.of(q).first * p.delta_W[q];
         jet.second[q] += by.of(q).second * p.delta_W[q];

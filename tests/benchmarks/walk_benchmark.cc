@@ -20,8 +20,7 @@ Experiment Load(const std::string& name) {
 HomotopyParameters Overlapped(const HalfStepSequence& sequence, double fraction) {
   HomotopyParameters parameters = PlannedMotion(sequence);
   for (int i = 0; i < sequence.num_junctions(); ++i) {
-    parameters.overlaps[static_cast<size_t>(i)] =
-        fraction * NaturalOverlapBound(sequence, parameters.durations, i);
+    parameters.overlaps[static_cast<size_t>(i)] = fraction * NaturalOverlapBound(parameters, i);
   }
   return parameters;
 }

@@ -179,14 +179,18 @@ TEST_F(GivenWalkCommand, AWalkInFormsOfItsOwnComesBackToTheByte) {
     words.insert(words.end(), more.begin(), more.end());
     return Halfstep(place_.path(), words);
   };
-  ASSERT_EQ(smooth({"--method", "halfstep/sqp", "--out", "sqp", "--set",
-                    "smoothing.optimizer.foot_delays=true", "--set",
-                    "smoothing.optimizer.lift_shares=true", "--set",
-                    "smoothing.optimizer.durations=true"})
-                .status,
-            0);
+  ASSERT_EQ(
+      smooth({"--method", "halfstep/sqp", "--out", "sqp", "--set",
+              "smoothing.optimizer.foot_delays=true", "--set",
+              "smoothing.optimizer.lift_shares=true", "--set",
+              "smoothing.optimizer.zmp_shifts=true", "--set",
+              "smoothing.optimizer.zmp_bump_ramps=true", "--set",
+              "smoothing.optimizer.via_alongs=true", "--set", "smoothing.optimizer.durations=true"})
+          .status,
+      0);
   const std::string half_steps = ReadText(place_ / "sqp/halfstep_sqp/half_steps.csv");
-  EXPECT_THAT(half_steps, HasSubstr(",via_lateral_m,foot_ramp,foot_delay,lift_share\n"));
+  EXPECT_THAT(half_steps, HasSubstr(",via_lateral_m,foot_ramp,foot_delay,lift_share,via_along_m,"
+                                    "zmp_shift,zmp_bump_ramp\n"));
   const Outcome again =
       smooth({"--given", (place_ / "sqp/halfstep_sqp/half_steps.csv").string(), "--given",
               (place_ / "sqp/halfstep_sqp/overlaps.csv").string(), "--out", "again"});

@@ -93,8 +93,7 @@ TEST_F(HalfStepProofsTest, OfVolumesAreThoseOfTheCertificate) {
 TEST_F(HalfStepProofsTest, ARobotThatRestsIsNotRefusedForWhatWouldComeNext) {
   const WalkPlan plan = Begin(0).plan;
   WalkPlan delayed = Delayed(plan, 3, plan.Walk().end_of(3) + 2.0);
-  delayed.parameters.overlaps[4] =
-      NaturalOverlapBound(delayed.sequence, delayed.parameters.durations, 4);
+  delayed.parameters.overlaps[4] = NaturalOverlapBound(delayed.parameters, 4);
   const SuperposedWalk walk = delayed.Walk();
   const Footprint ahead = walk.X_WS(5);
   world_.scene.obstacles = {Bar("bar", ahead.x + 0.2, ahead.y)};

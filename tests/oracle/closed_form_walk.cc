@@ -31,8 +31,7 @@ int FirstOf(int foot) { return 5 + 4 * foot; }
 
 }  // namespace
 
-ClosedFormWalk::ClosedFormWalk(const WalkPlan& plan)
-    : sigma1_((1 - Real(plan.shift)) / 2), sigma2_((1 + Real(plan.shift)) / 2) {
+ClosedFormWalk::ClosedFormWalk(const WalkPlan& plan) {
   const Real omega = Sqrt(Real(kGravity) / Real(plan.com_height));
   std::array<FloorPose, 2> feet = plan.start;
   // With both feet on the floor.
@@ -57,20 +56,24 @@ ClosedFormWalk::ClosedFormWalk(const WalkPlan& plan)
     via[4] = support.yaw;
     const size_t f = static_cast<size_t>(FirstOf(step.foot));
     const Real aside = (step.foot == 0 ? 1 : -1) * Real(plan.via_lateral_of(i));
-    via[f] = support.x - Sin(Real(support.yaw)) * aside;
-    via[f + 1] = support.y + Cos(Real(support.yaw)) * aside;
+    const Real ahead = plan.via_along_of(i);
+    via[f] = support.x + Cos(Real(support.yaw)) * ahead - Sin(Real(support.yaw)) * aside;
+    via[f + 1] = support.y + Sin(Real(support.yaw)) * ahead + Cos(Real(support.yaw)) * aside;
     via[f + 2] = Real(plan.height_scales[i / 2]) * Real(step.via_height);
     via[f + 3] = support.yaw;
     const Real T = plan.durations[i];
-    HalfStep half_step{.up = up,
-                       .swing = step.foot,
-                       .begin = begin,
-                       .end = begin + T,
-                       .T = T,
-                       .delay = plan.foot_delay_of(i),
-                       .ramp = plan.foot_ramp_of(i),
-                       .share = plan.lift_share_of(i),
-                       .profile = RestToRestClosedForm(omega * T, plan.shift, plan.bump_ramp)};
+    HalfStep half_step{
+        .up = up,
+        .swing = step.foot,
+        .begin = begin,
+        .end = begin + T,
+        .T = T,
+        .sigma1 = (1 - Real(plan.shift_of(i))) / 2,
+        .sigma2 = (1 + Real(plan.shift_of(i))) / 2,
+        .delay = plan.foot_delay_of(i),
+        .ramp = plan.foot_ramp_of(i),
+        .share = plan.lift_share_of(i),
+        .profile = RestToRestClosedForm(omega * T, plan.shift_of(i), plan.bump_ramp_of(i))};
     half_step.from = up ? on_floor : via;
     const Quantities& to = up ? via : on_floor;
     for (size_t q = 0; q < to.size(); ++q) half_step.change[q] = to[q] - half_step.from[q];
@@ -85,10 +88,10 @@ void ClosedFormWalk::Fractionize(const HalfStep& h, Real tau, Fractions* value,
   const Real sigma = tau / h.T;
   const ComZmp pair = h.profile.At(sigma);
   // Windows of the foot's horizontal motion and of its height.
-  const Real foot_begin = h.up ? sigma2_ + h.delay : Real(0);
-  const Real foot_end = h.up ? Real(1) : sigma1_ - h.delay;
-  const Real flight = h.up ? 1 - sigma2_ : sigma1_;
-  const Real height_begin = h.up ? sigma2_ : sigma1_ - h.share * flight;
+  const Real foot_begin = h.up ? h.sigma2 + h.delay : Real(0);
+  const Real foot_end = h.up ? Real(1) : h.sigma1 - h.delay;
+  const Real flight = h.up ? 1 - h.sigma2 : h.sigma1;
+  const Real height_begin = h.up ? h.sigma2 : h.sigma1 - h.share * flight;
   const Real height_end = height_begin + h.share * flight;
   const Real foot = (sigma - foot_begin) / (foot_end - foot_begin);
   const Real height = (sigma - height_begin) / (height_end - height_begin);
@@ -137,16 +140,16 @@ void ClosedFormWalk::CutIntoStretches() {
   std::vector<double> knots;
   for (size_t i = 0; i + 1 < half_steps_.size(); i += 2) {
     const HalfStep &up = half_steps_[i], &down = half_steps_[i + 1];
-    const Real up_moves = up.begin + (sigma2_ + up.delay) * up.T;
-    const Real down_moves_end = down.begin + (sigma1_ - down.delay) * down.T;
-    flights.push_back({up.swing, up.begin + sigma2_ * up.T, down.begin + sigma1_ * down.T,
+    const Real up_moves = up.begin + (up.sigma2 + up.delay) * up.T;
+    const Real down_moves_end = down.begin + (down.sigma1 - down.delay) * down.T;
+    flights.push_back({up.swing, up.begin + up.sigma2 * up.T, down.begin + down.sigma1 * down.T,
                        std::min(up_moves, down.begin), std::max(down_moves_end, up.end)});
     for (Real knot : {flights.back().begin, flights.back().end, up_moves, down_moves_end}) {
       knots.push_back(static_cast<double>(knot));
     }
   }
   for (const HalfStep& h : half_steps_) {
-    for (Real knot : {h.begin, h.end, h.begin + sigma1_ * h.T, h.begin + sigma2_ * h.T}) {
+    for (Real knot : {h.begin, h.end, h.begin + h.sigma1 * h.T, h.begin + h.sigma2 * h.T}) {
       knots.push_back(static_cast<double>(knot));
     }
   }

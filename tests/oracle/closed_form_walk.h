@@ -30,7 +30,7 @@ struct WalkPlan {
   double via_lateral = 0;             ///< [m]
   double shift = 0;                   ///< (t2 − t1)/T
   double horizontal_delay = 0;        ///< of T
-  double bump_ramp = 0;               ///< of the ZMP's bump; 0: it is round
+  double bump_ramp = 1;               ///< of the ZMP's bump; 1: it is round
   double foot_ramp = 0.5;             ///< of the foot's horizontal motion
   double lift_share = 1;              ///< of the foot's flight
   double com_height = 0;              ///< z_c [m]
@@ -43,6 +43,8 @@ struct WalkPlan {
   /// Of step j [m], and of half-step i, in place of via_lateral and of the numbers above; empty:
   /// these.
   std::vector<double> via_laterals, foot_ramps, foot_delays, lift_shares;
+  /// The same; and of step j, how far its via point is ahead of the support sole's centre [m].
+  std::vector<double> zmp_shifts, zmp_bump_ramps, via_alongs;
   /// Of step j: its landing's place seen from where it is planned; empty: it is there.
   std::vector<FloorPose> footsteps;
 
@@ -61,6 +63,11 @@ struct WalkPlan {
     return {planned.x + c * move.x - s * move.y, planned.y + s * move.x + c * move.y,
             planned.yaw + move.yaw};
   }
+  double shift_of(size_t i) const { return zmp_shifts.empty() ? shift : zmp_shifts[i]; }
+  double bump_ramp_of(size_t i) const {  ///< of half-step i
+    return zmp_bump_ramps.empty() ? bump_ramp : zmp_bump_ramps[i];
+  }
+  double via_along_of(size_t i) const { return via_alongs.empty() ? 0 : via_alongs[i / 2]; }
   double lift_share_of(size_t i) const { return lift_shares.empty() ? lift_share : lift_shares[i]; }
 };
 
@@ -105,6 +112,7 @@ class ClosedFormWalk {
     bool up = true;
     int swing = 0;
     Real begin = 0, end = 0, T = 0;
+    Real sigma1 = 0, sigma2 = 0;          // between which the ZMP shifts
     Real delay = 0, ramp = 0, share = 0;  // of the foot's motions, as the plan has them
     Quantities from{}, change{};
     RestToRestClosedForm profile;
@@ -117,7 +125,6 @@ class ClosedFormWalk {
   void CutIntoStretches();
   static Real Of(const Fractions& fractions, int quantity);
 
-  Real sigma1_, sigma2_;
   std::vector<HalfStep> half_steps_;
   std::vector<Stretch> stretches_;
 };

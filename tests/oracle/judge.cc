@@ -49,14 +49,13 @@ HalfStepSequence ToSequence(const WalkPlan& plan) {
                          .via_height = step.via_height,
                          .duration = step.duration});
   }
-  return MakeSequence(
-      {ToPose(plan.start[0]), ToPose(plan.start[1])}, footsteps, plan.via_lateral,
-      {.shift = plan.shift,
-       .horizontal_delay = plan.horizontal_delay,
-       .bump_ramp = plan.bump_ramp == 0 ? std::nullopt : std::optional(plan.bump_ramp),
-       .foot_ramp = plan.foot_ramp,
-       .lift_share = plan.lift_share},
-      {.com_height = plan.com_height});
+  return MakeSequence({ToPose(plan.start[0]), ToPose(plan.start[1])}, footsteps, plan.via_lateral,
+                      {.shift = plan.shift,
+                       .horizontal_delay = plan.horizontal_delay,
+                       .bump_ramp = plan.bump_ramp,
+                       .foot_ramp = plan.foot_ramp,
+                       .lift_share = plan.lift_share},
+                      {.com_height = plan.com_height});
 }
 
 HomotopyParameters ToParameters(const WalkPlan& plan) {
@@ -67,6 +66,9 @@ HomotopyParameters ToParameters(const WalkPlan& plan) {
   parameters.support_points = plan.support_points;
   for (size_t i = 0; i < plan.durations.size(); ++i) {
     if (i % 2 == 0) parameters.via_laterals.push_back(plan.via_lateral_of(i));
+    if (i % 2 == 0) parameters.via_alongs.push_back(plan.via_along_of(i));
+    parameters.zmp_shifts.push_back(plan.shift_of(i));
+    parameters.zmp_bump_ramps.push_back(plan.bump_ramp_of(i));
     parameters.foot_ramps.push_back(plan.foot_ramp_of(i));
     parameters.foot_delays.push_back(plan.foot_delay_of(i));
     parameters.lift_shares.push_back(plan.lift_share_of(i));

@@ -13,8 +13,9 @@ double Draw::Logarithmic(double low, double high) {
 
 double NaturalBound(const WalkPlan& plan, size_t i) {
   const double T = plan.durations[i], next = plan.durations[i + 1];
-  const double sigma1 = 0.5 - 0.5 * plan.shift, sigma2 = 0.5 + 0.5 * plan.shift;
-  return i % 2 == 0 ? std::min(T - sigma2 * T, sigma1 * next) : std::min(T, next);
+  if (i % 2 == 1) return std::min(T, next);
+  const double sigma2 = 0.5 + 0.5 * plan.shift_of(i), sigma1 = 0.5 - 0.5 * plan.shift_of(i + 1);
+  return std::min(T - sigma2 * T, sigma1 * next);
 }
 
 WalkPlan DrawPlan(const PlainRobot& robot, Draw* draw) {
@@ -57,14 +58,11 @@ WalkPlan DrawPlan(const PlainRobot& robot, Draw* draw) {
       plan.durations.push_back(step.duration * (varied ? draw->Uniform(0.9, 1.2) : 1));
     }
   }
-  for (size_t i = 0; i + 1 < plan.durations.size(); ++i) {
-    plan.overlaps.push_back(NaturalBound(plan, i) * draw->Uniform(0.3, 1));
-  }
   for (size_t j = 0; j < plan.steps.size(); ++j) {
     plan.support_points.push_back(varied ? draw->Uniform(-0.05, 0.1) * width : 0);
   }
   if (varied) {
-    plan.bump_ramp = draw->Chance(0.5) ? 0 : draw->Uniform(0.15, 0.45);
+    plan.bump_ramp = draw->Chance(0.5) ? 1 : draw->Uniform(0.15, 0.45);
     plan.foot_ramp = draw->Uniform(0.35, 0.5);
     plan.lift_share = draw->Uniform(0.85, 1);
   }
@@ -74,6 +72,10 @@ WalkPlan DrawPlan(const PlainRobot& robot, Draw* draw) {
       plan.foot_ramps.push_back(draw->Uniform(0.3, 0.5));
       plan.foot_delays.push_back(draw->Uniform(0.02, 0.2));
       plan.lift_shares.push_back(draw->Uniform(0.6, 1));
+      if (i % 2 == 0) plan.via_alongs.push_back(draw->Uniform(-0.3, 0.3) * width);
+      plan.zmp_shifts.push_back(draw->Uniform(0.02, 0.2));
+      const double ramps[] = {1, draw->Uniform(0.15, 0.45), draw->Uniform(0.55, 0.95)};
+      plan.zmp_bump_ramps.push_back(ramps[draw->Below(3)]);
     }
   }
   if (varied && draw->Chance(0.5)) {  // footsteps that are moved
@@ -81,6 +83,9 @@ WalkPlan DrawPlan(const PlainRobot& robot, Draw* draw) {
       plan.footsteps.push_back({draw->Uniform(-0.1, 0.1) * width, draw->Uniform(-0.05, 0.1) * width,
                                 draw->Uniform(-0.1, 0.1)});
     }
+  }
+  for (size_t i = 0; i + 1 < plan.durations.size(); ++i) {
+    plan.overlaps.push_back(NaturalBound(plan, i) * draw->Uniform(0.3, 1));
   }
   return plan;
 }

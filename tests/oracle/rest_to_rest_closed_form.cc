@@ -58,8 +58,26 @@ RestToRestClosedForm::Piece RestToRestClosedForm::Begun(Real theta, Real center,
 RestToRestClosedForm::RestToRestClosedForm(Real theta, Real shift, Real bump_ramp)
     : sigma1_((1 - shift) / 2), delta_(shift / 2) {
   // −B on its pieces, from rest at 0, and (15x − 10x³ + 3x⁵)/16, the shift less its centre ½.
-  if (bump_ramp == 0) {
+  if (bump_ramp == 1) {
     bump_ = {Begun(theta, 0, sigma1_, {0, 0, 0, -64, 192, -192, 64}, {})};
+  } else if (bump_ramp > Real(1) / 2) {
+    // Of both halves: (1 − w)·S(x) + w·64y³(1 − y)³ with y = x/2, and the same with 1 − x.
+    const Real w = 2 * bump_ramp - 1, half = sigma1_ / 2;
+    const Polynomial up = {0, 0, 0, 10 - 2 * w, -15 + 3 * w, 6, -w};
+    Polynomial rise{}, fall{};
+    const Real binomial[7][7] = {{1},
+                                 {1, 1},
+                                 {1, 2, 1},
+                                 {1, 3, 3, 1},
+                                 {1, 4, 6, 4, 1},
+                                 {1, 5, 10, 10, 5, 1},
+                                 {1, 6, 15, 20, 15, 6, 1}};
+    for (size_t k = 0; k < kTerms; ++k) {
+      rise[k] = -up[k];
+      for (size_t j = 0; j <= k; ++j) fall[j] -= (j % 2 == 0 ? 1 : -1) * binomial[k][j] * up[k];
+    }
+    bump_ = {Begun(theta, 0, half, rise, {})};
+    bump_.push_back(Begun(theta, half, half, fall, bump_.back().At(1)));
   } else {
     const Real ramp = bump_ramp * sigma1_;
     bump_ = {Begun(theta, 0, ramp, {0, 0, 0, -10, 15, -6}, {})};

@@ -17,7 +17,7 @@ struct ComZmp {
 /// quadruple precision bears.
 class RestToRestClosedForm {
  public:
-  /// `theta` = ωT, `shift` = 2δ, `bump_ramp` = r of a flat-topped bump; 0: the round bump.
+  /// `theta` = ωT, `shift` = 2δ, `bump_ramp` = r of the bump; 1: the round bump.
   RestToRestClosedForm(Real theta, Real shift, Real bump_ramp);
   /// σ is clamped to [0, 1].
   ComZmp At(Real sigma) const;

@@ -16,7 +16,8 @@ class Walks(unittest.TestCase):
         sizes = {name: len(values) for name, values in self.walk.parameters.items()}
         self.assertEqual(sizes, {"overlaps": 1, "height_scales": 1, "durations": 2,
                                  "support_points": 1, "via_laterals": 1, "foot_ramps": 2,
-                                 "foot_delays": 2, "lift_shares": 2, "footstep_xs": 1,
+                                 "foot_delays": 2, "lift_shares": 2, "via_alongs": 1,
+                                 "zmp_shifts": 2, "zmp_bump_ramps": 2, "footstep_xs": 1,
                                  "footstep_ys": 1, "footstep_yaws": 1})
         self.assertAlmostEqual(self.walk.duration, self.experiment.planned.duration - 0.6)
         np.testing.assert_allclose(self.walk.starts, [0.0, 1.4])
@@ -60,6 +61,8 @@ class Walks(unittest.TestCase):
         h = 1e-6
         walk = self.experiment.walk(overlaps=[0.6], foot_ramps=[0.45, 0.4],
                                     foot_delays=[0.12, 0.1], lift_shares=[0.9, 0.95],
+                                    via_alongs=[0.02], zmp_shifts=[0.06, 0.04],
+                                    zmp_bump_ramps=[0.3, 0.8],
                                     footstep_xs=[0.01], footstep_yaws=[0.05])
         for t in (0.5, 1.2, 1.7, 2.6):
             found = walk.sensitivities(t, hold="time")

@@ -26,7 +26,8 @@ async function sameClosedForm(browser, place, folder, method) {
 /** The sliders of a run in `place`/run: A is its dichotomy. `halfstep` is the program. */
 export async function testByHand(browser, halfstep, place) {
   execFileSync(halfstep, ["smooth", "run", "--method", "halfstep/sqp", "--out", "forms", "--quiet",
-    ...["durations", "via_laterals", "foot_ramps", "foot_delays", "lift_shares", "footsteps"].flatMap(
+    ...["durations", "via_laterals", "foot_ramps", "foot_delays", "lift_shares", "via_alongs", "zmp_shifts",
+     "zmp_bump_ramps", "footsteps"].flatMap(
       (family) => ["--set", `smoothing.optimizer.${family}=true`]),
     "--set", "smoothing.optimizer.rounds=2"], { cwd: place });
   await sameClosedForm(browser, place, "forms", "halfstep/sqp");

@@ -71,8 +71,7 @@ TEST_F(WindowTest, ThePartDoesWhatTheWalkDoesOnWhatIsProvedAndNothingElseChanges
     for (int j = 0; j < window.problem.sequence().num_junctions(); ++j) {
       const size_t at_j = static_cast<size_t>(j);
       if (!table.free({ParameterFamily::kOverlap, j})) continue;
-      moved.overlaps[at_j] = std::min(
-          moved.overlaps[at_j], NaturalOverlapBound(window.problem.sequence(), moved.durations, j));
+      moved.overlaps[at_j] = std::min(moved.overlaps[at_j], NaturalOverlapBound(moved, j));
     }
     HomotopyParameters whole = at;
     window.Paste(moved, &whole);

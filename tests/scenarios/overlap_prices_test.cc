@@ -21,8 +21,7 @@ double LargestOverlap(const Experiment& e, const MarginEvaluator& evaluator, Hom
   MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
   const int junction = static_cast<int>(j);
   double feasible = at.overlaps[j];
-  double infeasible =
-      std::min(feasible + 0.1, NaturalOverlapBound(e.sequence, at.durations, junction));
+  double infeasible = std::min(feasible + 0.1, NaturalOverlapBound(at, junction));
   while (infeasible - feasible > 1e-5) {
     at.overlaps[j] = 0.5 * (feasible + infeasible);
     const SuperposedWalk walk(e.sequence, at);

@@ -180,9 +180,7 @@ TEST(DynamicProgramTest, FindsWhatTryingEverythingFinds) {
     for (size_t k = 0; k < 4; ++k) {
       choices.push_back({});
       for (double overlap : {0.5, 0.65, 0.8, 0.95}) {
-        const double bound =
-            k == 0 ? 0.0
-                   : NaturalOverlapBound(sequence, planned.durations, static_cast<int>(k) - 1);
+        const double bound = k == 0 ? 0.0 : NaturalOverlapBound(planned, static_cast<int>(k) - 1);
         const bool hurried = durations && choices.back().size() % 2 == 1;
         choices.back().push_back(
             {overlap * bound, planned.durations[k] * (hurried ? 0.9 : 1.0), hurried ? 0.9 : 1.0});

@@ -23,7 +23,7 @@ HomotopyParameters Changed(const HalfStepSequence& sequence, HomotopyParameters 
   }
   for (int i = 0; i < sequence.num_junctions(); ++i) {
     double& overlap = parameters.overlaps[static_cast<size_t>(i)];
-    overlap = std::min(overlap, NaturalOverlapBound(sequence, parameters.durations, i));
+    overlap = std::min(overlap, NaturalOverlapBound(parameters, i));
   }
   return parameters;
 }

@@ -122,8 +122,7 @@ TEST(Threads, RefuseWhatOneRefuses) {
   int refused = 0;
   for (int junction = 0; junction < e.sequence.num_junctions(); ++junction) {
     HomotopyParameters parameters = PlannedMotion(e.sequence);
-    parameters.overlaps[static_cast<size_t>(junction)] =
-        NaturalOverlapBound(e.sequence, parameters.durations, junction);
+    parameters.overlaps[static_cast<size_t>(junction)] = NaturalOverlapBound(parameters, junction);
     const SuperposedWalk walk(e.sequence, parameters);
     MarginEvaluator::Scratch alone = test.evaluator().MakeScratch();
     MarginEvaluator::Scratch shared = test.evaluator().MakeScratch();

@@ -37,6 +37,15 @@ class WatchedInstantsTest : public testing::Test {
         case ParameterFamily::kFootRamp:
           x[v] = draw->Uniform(0.35, 0.48);
           break;
+        case ParameterFamily::kViaAlong:
+          x[v] = draw->Uniform(-0.01, 0.01);
+          break;
+        case ParameterFamily::kZmpShift:
+          x[v] = draw->Uniform(0.03, 0.08);
+          break;
+        case ParameterFamily::kZmpBumpRamp:
+          x[v] = draw->Uniform(0.6, 0.98);
+          break;
         // Soles that stand parallel are at a kink of their distance.
         case ParameterFamily::kFootstepX:
         case ParameterFamily::kFootstepY:

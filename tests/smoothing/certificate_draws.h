@@ -154,7 +154,7 @@ inline std::optional<DrawnWalk> DrawNearLimit(const RobotModel& robot, SceneKind
   HomotopyParameters farthest = PlannedMotion(sequence);
   for (int i = 0; i < sequence.num_junctions(); ++i) {
     farthest.overlaps[static_cast<size_t>(i)] =
-        draw->Uniform(0.4, 1.0) * NaturalOverlapBound(sequence, farthest.durations, i);
+        draw->Uniform(0.4, 1.0) * NaturalOverlapBound(farthest, i);
   }
   drawn.scene = DrawScene(SuperposedWalk(sequence, farthest), kind, 12, draw, LegScale(robot));
   for (;;) {  // without the obstacles that stand in the planned way

@@ -30,7 +30,7 @@ class DichotomyTest : public testing::Test {
   }
   FakeFeasibility Rule(FakeFeasibility::Rule rule) const { return {evaluator_, std::move(rule)}; }
   double Bound(int junction) const {
-    return NaturalOverlapBound(sequence_, PlannedMotion(sequence_).durations, junction);
+    return NaturalOverlapBound(PlannedMotion(sequence_), junction);
   }
 
   const MarginEvaluator evaluator_{Hrp2(), {}, {}};

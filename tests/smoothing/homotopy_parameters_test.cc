@@ -29,12 +29,15 @@ TEST(HomotopyParameters, PlannedMotionHasNoOverlapFullHeightAndTheRestAsPlanned)
   EXPECT_EQ(planned.height_scales, std::vector<double>(3, 1.0));
   EXPECT_EQ(planned.durations, (std::vector<double>{2, 2, 1, 1, 3, 3}));
   EXPECT_EQ(planned.support_points, std::vector<double>(3, 0.02));
+  EXPECT_EQ(planned.via_alongs, std::vector<double>(3, 0.0));
+  EXPECT_EQ(planned.zmp_shifts, std::vector<double>(6, 0.1));
+  EXPECT_EQ(planned.zmp_bump_ramps, std::vector<double>(6, 1.0));
 }
 
 TEST(HomotopyParameters, EachParameterIsNamedOnceAndReachesItsOwnValue) {
   const HalfStepSequence sequence = ThreeSteps();
   const std::vector<HomotopyParameter> all = AllParameters(sequence);
-  ASSERT_EQ(all.size(), 5u + 3u + 6u + 3u + 3u + 3u * 6u + 3u * 3u);
+  ASSERT_EQ(all.size(), 5u + 3u + 6u + 3u + 3u + 3u * 6u + 3u + 2u * 6u + 3u * 3u);
   HomotopyParameters parameters = PlannedMotion(sequence);
   for (size_t i = 0; i < all.size(); ++i) all[i].in(parameters) = static_cast<double>(i);
   EXPECT_EQ(parameters.overlaps, (std::vector<double>{0, 1, 2, 3, 4}));
@@ -45,26 +48,37 @@ TEST(HomotopyParameters, EachParameterIsNamedOnceAndReachesItsOwnValue) {
   EXPECT_EQ(parameters.foot_ramps, (std::vector<double>{20, 21, 22, 23, 24, 25}));
   EXPECT_EQ(parameters.foot_delays.front(), 26);
   EXPECT_EQ(parameters.lift_shares.back(), 37);
-  EXPECT_EQ(parameters.footstep_xs.front(), 38);
-  EXPECT_EQ(parameters.footstep_ys, (std::vector<double>{41, 42, 43}));
-  EXPECT_EQ(parameters.footstep_yaws.back(), 46);
+  EXPECT_EQ(parameters.via_alongs, (std::vector<double>{38, 39, 40}));
+  EXPECT_EQ(parameters.zmp_shifts.front(), 41);
+  EXPECT_EQ(parameters.zmp_bump_ramps.back(), 52);
+  EXPECT_EQ(parameters.footstep_xs.front(), 53);
+  EXPECT_EQ(parameters.footstep_ys, (std::vector<double>{56, 57, 58}));
+  EXPECT_EQ(parameters.footstep_yaws.back(), 61);
   const HomotopyParameter beyond{Family::kHeightScale, 3};
   EXPECT_THROW(beyond.in(parameters), std::out_of_range);
 }
 
 TEST(NaturalOverlapBound, ByHand) {
   const HalfStepSequence sequence = ThreeSteps();
-  const std::vector<double> planned = PlannedMotion(sequence).durations;
+  const HomotopyParameters planned = PlannedMotion(sequence);
   const double expected[] = {0.9, 1.0, 0.45, 1.0, 1.35};
   for (int i = 0; i < 5; ++i) {
     EXPECT_EQ(KindOfJunction(i), i % 2 == 0 ? JunctionKind::kUpDown : JunctionKind::kDownUp);
-    EXPECT_NEAR(NaturalOverlapBound(sequence, planned, i), expected[i], 1e-15);
+    EXPECT_NEAR(NaturalOverlapBound(planned, i), expected[i], 1e-15);
   }
   // The durations given count, not the planned ones.
-  const std::vector<double> given = {2, 1, 0.5, 4, 4, 4};
+  HomotopyParameters given = planned;
+  given.durations = {2, 1, 0.5, 4, 4, 4};
   const double changed[] = {0.45, 0.5, 0.225, 4, 1.8};
   for (int i = 0; i < 5; ++i) {
-    EXPECT_NEAR(NaturalOverlapBound(sequence, given, i), changed[i], 1e-15);
+    EXPECT_NEAR(NaturalOverlapBound(given, i), changed[i], 1e-15);
+  }
+  // So do their ZMPs' shifts, up→down only.
+  HomotopyParameters shifted = planned;
+  shifted.zmp_shifts = {0.2, 0.1, 0.1, 0.3, 0.05, 0.02};
+  const double moved[] = {0.8, 1.0, 0.35, 1.0, 1.425};
+  for (int i = 0; i < 5; ++i) {
+    EXPECT_NEAR(NaturalOverlapBound(shifted, i), moved[i], 1e-15);
   }
 }
 
@@ -100,6 +114,11 @@ TEST(CheckParameters, RefusesEachSingleFault) {
       [](auto* p) { p->foot_delays[1] = 0.21; },
       [](auto* p) { p->lift_shares[3] = 0.19; },
       [](auto* p) { p->lift_shares.pop_back(); },
+      [](auto* p) { p->via_alongs[2] = 0.51; },
+      [](auto* p) { p->zmp_shifts[4] = 0.009; },
+      [](auto* p) { p->overlaps[0] = 0.9, p->zmp_shifts[1] = 0.12; },
+      [](auto* p) { p->zmp_bump_ramps[0] = 1.01; },
+      [](auto* p) { p->zmp_bump_ramps.pop_back(); },
       [](auto* p) { p->footstep_xs[1] = 0.51; },
       [](auto* p) { p->footstep_ys[0] = -0.51; },
       [=](auto* p) { p->footstep_yaws[2] = nan; },

@@ -29,7 +29,7 @@ class ParameterTableTest : public testing::Test {
 
 TEST_F(ParameterTableTest, HoldsEveryParameterOnceAndStartsAsPlanned) {
   const ParameterTable table(sequence_);
-  ASSERT_EQ(table.rows().size(), 5u + 3u + 6u + 3u + 3u + 3u * 6u + 3u * 3u);
+  ASSERT_EQ(table.rows().size(), 5u + 3u + 6u + 3u + 3u + 3u * 6u + 3u + 2u * 6u + 3u * 3u);
   EXPECT_EQ(table.Start(), planned_);
   for (size_t row = 0; row < table.rows().size(); ++row) {
     const HomotopyParameter& parameter = table.rows()[row].parameter;
@@ -42,7 +42,7 @@ TEST_F(ParameterTableTest, HoldsEveryParameterOnceAndStartsAsPlanned) {
 }
 
 TEST_F(ParameterTableTest, WhatACallerFixesKeepsItsValueAndIsNoVariable) {
-  const double overlap = 0.5 * NaturalOverlapBound(sequence_, planned_.durations, 1);
+  const double overlap = 0.5 * NaturalOverlapBound(planned_, 1);
   const ParameterTable table(sequence_,
                              {{{Family::kOverlap, 1}, overlap},
                               {{Family::kDuration, 4}},

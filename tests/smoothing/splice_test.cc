@@ -95,10 +95,10 @@ TEST(Rest, IsKeptByClampingWhereItWasWanted) {
   HomotopyParameters point = rests;
   point.overlaps[0] = -0.1;
   point.overlaps[2] = 100.0;
-  ClampOverlaps(sequence, rests, &point);
+  ClampOverlaps(rests, &point);
   EXPECT_EQ(point.overlaps[0], 0.0);
   EXPECT_EQ(point.overlaps[1], -2.0);
-  EXPECT_EQ(point.overlaps[2], NaturalOverlapBound(sequence, point.durations, 2));
+  EXPECT_EQ(point.overlaps[2], NaturalOverlapBound(point, 2));
 }
 
 // Statement 1.

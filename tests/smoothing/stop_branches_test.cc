@@ -80,7 +80,7 @@ TEST(StopBranch, ChangesOnlyWhereTheWalkChangedWhenItsNewPartBegins) {
     const SuperposedWalk before(sequence, draw.Parameters(sequence, 0.0, 1.0));
     SuperposedWalk after = before;
     const int junction = static_cast<int>(draw.Uniform(0, 7));
-    const double bound = NaturalOverlapBound(sequence, before.parameters().durations, junction);
+    const double bound = NaturalOverlapBound(before.parameters(), junction);
     const double was_overlap = before.parameters().overlaps[static_cast<size_t>(junction)];
     after.SetOverlap(junction, was_overlap + draw.Uniform(0, 1) * (bound - was_overlap));
     for (int k = 0; k + 1 < before.num_half_steps(); ++k) {

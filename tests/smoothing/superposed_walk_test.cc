@@ -203,6 +203,9 @@ TEST(SuperposedWalk, IsTheSumOverAllHalfSteps) {
         h.shape.foot_ramp = parameters.foot_ramps[static_cast<size_t>(k)];
         h.shape.horizontal_delay = parameters.foot_delays[static_cast<size_t>(k)];
         h.shape.lift_share = parameters.lift_shares[static_cast<size_t>(k)];
+        h.via_along = parameters.via_alongs[static_cast<size_t>(k / 2)];
+        h.shape.shift = parameters.zmp_shifts[static_cast<size_t>(k)];
+        h.shape.bump_ramp = parameters.zmp_bump_ramps[static_cast<size_t>(k)];
         const HalfStepProfiles profiles(h.kind, h.shape, h.duration, sequence.lipm);
         const WalkJet own = Evaluate(h, profiles, t - walk.start_of(k));
         const WalkState from = Transformed(X_WS, h.Start());

@@ -38,6 +38,11 @@ class WalkDraw : public SequenceDraw {
     for (double& ramp : parameters.foot_ramps) ramp = Form(0.3, 0.45);
     for (double& delay : parameters.foot_delays) delay = Form(0.02, 0.18);
     for (double& share : parameters.lift_shares) share = Form(0.6, 0.95);
+    for (double& ahead : parameters.via_alongs) ahead = Form(-0.02, 0.02);
+    for (double& shift : parameters.zmp_shifts) shift = Form(0.03, 0.2);
+    for (double& ramp : parameters.zmp_bump_ramps) {
+      ramp = Form(0, 1) < 0.5 ? Form(0.3, 0.45) : Form(0.55, 0.95);
+    }
     for (size_t j = 0; j < parameters.footstep_xs.size(); ++j) {
       if (Form(0, 1) < 0.3) continue;
       parameters.footstep_xs[j] = Form(-0.01, 0.01);
@@ -45,7 +50,7 @@ class WalkDraw : public SequenceDraw {
       parameters.footstep_yaws[j] = Form(-0.05, 0.05);
     }
     for (int i = 0; i < sequence.num_junctions(); ++i) {
-      const double bound = NaturalOverlapBound(sequence, parameters.durations, i);
+      const double bound = NaturalOverlapBound(parameters, i);
       parameters.overlaps[static_cast<size_t>(i)] = Uniform(low, high) * bound;
     }
     return parameters;
@@ -55,7 +60,7 @@ class WalkDraw : public SequenceDraw {
   HomotopyParameters ExtremeParameters(const HalfStepSequence& sequence) {
     HomotopyParameters parameters = Parameters(sequence, 0.0, 1.0);
     for (int i = 0; i < sequence.num_junctions(); ++i) {
-      const double bound = NaturalOverlapBound(sequence, parameters.durations, i);
+      const double bound = NaturalOverlapBound(parameters, i);
       const double choice = Uniform(0, 3);
       if (choice < 1) parameters.overlaps[static_cast<size_t>(i)] = 0.0;
       if (choice > 2) parameters.overlaps[static_cast<size_t>(i)] = bound;
@@ -83,8 +88,7 @@ inline std::vector<HomotopyParameter> AllParameters(const HalfStepSequence& sequ
 inline HomotopyParameters Overlapped(const HalfStepSequence& sequence, double fraction) {
   HomotopyParameters parameters = PlannedMotion(sequence);
   for (int i = 0; i < sequence.num_junctions(); ++i) {
-    parameters.overlaps[static_cast<size_t>(i)] =
-        fraction * NaturalOverlapBound(sequence, parameters.durations, i);
+    parameters.overlaps[static_cast<size_t>(i)] = fraction * NaturalOverlapBound(parameters, i);
   }
   return parameters;
 }

@@ -17,7 +17,7 @@ TEST(WalkOverlap, SetOverlapGivesTheWalkOfTheChangedParameters) {
   SuperposedWalk walk(sequence, PlannedMotion(sequence));
   for (int i = 0; i < 100; ++i) {
     const int junction = static_cast<int>(draw.Uniform(0, 7));
-    const double bound = NaturalOverlapBound(sequence, walk.parameters().durations, junction);
+    const double bound = NaturalOverlapBound(walk.parameters(), junction);
     walk.SetOverlap(junction, draw.Uniform(0, 1) * bound);
     const SuperposedWalk fresh(sequence, walk.parameters());
     for (int k = 0; k < walk.num_half_steps(); ++k) EXPECT_EQ(walk.start_of(k), fresh.start_of(k));
@@ -28,7 +28,7 @@ TEST(WalkOverlap, SetOverlapGivesTheWalkOfTheChangedParameters) {
   EXPECT_THROW(walk.SetOverlap(7, 0.1), std::logic_error);
   EXPECT_THROW(walk.SetOverlap(0, -3601.0), std::logic_error);
   for (int junction = 0; junction < 7; ++junction) {
-    const double bound = NaturalOverlapBound(sequence, walk.parameters().durations, junction);
+    const double bound = NaturalOverlapBound(walk.parameters(), junction);
     EXPECT_NO_THROW(walk.SetOverlap(junction, bound));
     EXPECT_THROW(walk.SetOverlap(junction, bound + 1e-6), std::logic_error);
   }
@@ -41,7 +41,7 @@ TEST(WalkOverlap, AnOverlapChangesNothingBeforeItsStretchAndOnlyTheTimeAfterIt) 
     const SuperposedWalk before(sequence, draw.ExtremeParameters(sequence));
     SuperposedWalk after = before;
     const int junction = static_cast<int>(draw.Uniform(0, 7));
-    const double bound = NaturalOverlapBound(sequence, before.parameters().durations, junction);
+    const double bound = NaturalOverlapBound(before.parameters(), junction);
     after.SetOverlap(junction, draw.Uniform(0, 1) * bound);
     const double begin = std::min(before.start_of(junction + 1), after.start_of(junction + 1));
     const double end = before.end_of(junction);  // of all half-steps up to the junction

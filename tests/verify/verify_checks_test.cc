@@ -391,28 +391,50 @@ std::vector<Wrong> Others() {
          m.half_steps[1].form->via_lateral += 1e-6;
        },
        "half_steps.csv:3: another via point"},
-      {"FormNotANumber", Of::kOverlaps,
+      {"ViaPointsOfAStepDifferAlong", Of::kOverlaps,
        [](Material& m) {
-         m.half_steps[0].form = FormColumns{0.24, NAN, 0.1, 1};
+         for (size_t i : {0, 1}) {
+           m.half_steps[i].form = m.half_steps[i].FormOf(m.planned.half_steps[i].half_step);
+         }
+         m.half_steps[1].form->via_along += 1e-6;
        },
+       "half_steps.csv:3: a via point elsewhere along"},
+      {"OverlapBeyondTheBoundOfALongerShift", Of::kOverlaps,
+       [](Material& m) {
+         for (size_t i : {0, 1}) {
+           m.half_steps[i].form = m.half_steps[i].FormOf(m.planned.half_steps[i].half_step);
+           m.half_steps[i].form->zmp_shift = 0.5;
+         }
+       },
+       "overlaps.csv:2: overlap"},
+      {"ZmpShiftOfNoHalfStep", Of::kOverlaps,
+       [](Material& m) {
+         m.half_steps[0].form = m.half_steps[0].FormOf(m.planned.half_steps[0].half_step);
+         m.half_steps[0].form->zmp_shift = NAN;
+       },
+       "half_steps.csv:2: ZMP's shift nan"},
+      {"ZmpBumpOfNoHalfStep", Of::kOverlaps,
+       [](Material& m) {
+         m.half_steps[0].form = m.half_steps[0].FormOf(m.planned.half_steps[0].half_step);
+         m.half_steps[0].form->zmp_bump_ramp = 1.1;
+       },
+       "half_steps.csv:2: ZMP's bump ramp 1.1"},
+      {"FormNotANumber", Of::kOverlaps,
+       [](Material& m) { m.half_steps[0].form = FormColumns{0.24, NAN, 0.1, 1, 0, 0.05, 1}; },
        "half_steps.csv:2: foot ramp nan"},
       {"FormOfNoHalfStep", Of::kOverlaps,
-       [](Material& m) {
-         m.half_steps[0].form = FormColumns{0.24, 0.5, 0.1, 0.1};
-       },
+       [](Material& m) { m.half_steps[0].form = FormColumns{0.24, 0.5, 0.1, 0.1, 0, 0.05, 1}; },
        "half_steps.csv:2: lift share 0.1"},
       {"RawHalfStepInAForm", Of::kOverlaps,
        [](Material& m) {
          m.overlaps.reset();
          m.half_steps[0].duration = m.planned.half_steps[0].half_step.duration;
          m.half_steps[0].height_scale = 1;
-         m.half_steps[0].form = FormColumns{0.24, 0.4, 0.1, 1};
+         m.half_steps[0].form = FormColumns{0.24, 0.4, 0.1, 1, 0, 0.05, 1};
        },
        "half_steps.csv:2: a form that is not planned"},
       {"FormThatWasNotWalked", Of::kWalk,
-       [](Material& m) {
-         m.half_steps[0].form = FormColumns{0.24, 0.3, 0.1, 1};
-       },
+       [](Material& m) { m.half_steps[0].form = FormColumns{0.24, 0.3, 0.1, 1, 0, 0.05, 1}; },
        "trajectory.csv:"},
       {"OverlapNegative", Of::kOverlaps, [](Material& m) { (*m.overlaps)[0].overlap = -3601; },
        "overlaps.csv:2: overlap"},

@@ -46,6 +46,9 @@ std::vector<HalfStepRow> RowsOf(const SuperposedWalk& walk) {
                      walk.parameters().foot_ramps[n],
                      walk.parameters().foot_delays[n],
                      walk.parameters().lift_shares[n],
+                     walk.parameters().via_alongs[n / 2],
+                     walk.parameters().zmp_shifts[n],
+                     walk.parameters().zmp_bump_ramps[n],
                      {walk.parameters().footstep_xs[n / 2], walk.parameters().footstep_ys[n / 2],
                       walk.parameters().footstep_yaws[n / 2]}}});
   }
@@ -72,12 +75,14 @@ HomotopyParameters Drawn(const HalfStepSequence& sequence, double fullness, std:
   for (double& ramp : at.foot_ramps) ramp = 0.5 - 0.2 * unit(*random);
   for (double& delay : at.foot_delays) delay = 0.05 + 0.1 * unit(*random);
   for (double& share : at.lift_shares) share = 1 - 0.3 * unit(*random);
+  for (double& ahead : at.via_alongs) ahead = 0.05 * unit(*random);
+  for (double& shift : at.zmp_shifts) shift = 0.03 + 0.1 * unit(*random);
+  for (double& ramp : at.zmp_bump_ramps) ramp = 0.2 + 0.8 * unit(*random);
   for (double& x : at.footstep_xs) x = 0.02 * unit(*random);
   for (double& y : at.footstep_ys) y = 0.01 * unit(*random);
   for (double& yaw : at.footstep_yaws) yaw = 0.1 * unit(*random);
   for (size_t i = 0; i < at.overlaps.size(); ++i) {
-    at.overlaps[i] =
-        fullness * unit(*random) * NaturalOverlapBound(sequence, at.durations, static_cast<int>(i));
+    at.overlaps[i] = fullness * unit(*random) * NaturalOverlapBound(at, static_cast<int>(i));
   }
   return at;
 }
@@ -161,7 +166,7 @@ TEST(CheckOverlaps, AcceptsNothingBeyondTheNaturalBounds) {
   const HomotopyParameters start = Drawn(sequence, 0, &random);
   for (size_t i = 0; i < start.overlaps.size(); ++i) {
     HomotopyParameters at = start;
-    at.overlaps[i] = NaturalOverlapBound(sequence, at.durations, static_cast<int>(i));
+    at.overlaps[i] = NaturalOverlapBound(at, static_cast<int>(i));
     std::vector<HalfStepRow> half_steps = RowsOf(SuperposedWalk(sequence, at));
     std::vector<OverlapRow> overlaps = OverlapsOf(at);
     Findings right, wrong;
@@ -196,6 +201,9 @@ TEST(CheckFixed, NamesEveryParameterThatMoved) {
                        {"foot_ramp", 2, at.foot_ramps[1]},
                        {"foot_delay", 3, at.foot_delays[2]},
                        {"lift_share", 4, at.lift_shares[3]},
+                       {"via_along", 2, at.via_alongs[1]},
+                       {"zmp_shift", 3, at.zmp_shifts[2]},
+                       {"zmp_bump_ramp", 1, at.zmp_bump_ramps[0]},
                        {"footstep_x", 1, at.footstep_xs[0]},
                        {"footstep_y", 2, at.footstep_ys[1]},
                        {"footstep_yaw", 1, at.footstep_yaws[0]}}),
@@ -208,9 +216,15 @@ TEST(CheckFixed, NamesEveryParameterThatMoved) {
               testing::ElementsAre(HasSubstr("height_scale 2 is")));
   EXPECT_THAT(reasons({{"support_point", 2, at.support_points[1] + 1e-6}}),
               testing::ElementsAre(HasSubstr("support_point 2 is")));
-  EXPECT_THAT(reasons({{"via_lateral", 1, {}}, {"lift_share", 4, {}}, {"footstep_y", 1, {}}}),
+  EXPECT_THAT(reasons({{"via_lateral", 1, {}},
+                       {"lift_share", 4, {}},
+                       {"via_along", 2, {}},
+                       {"zmp_shift", 3, {}},
+                       {"zmp_bump_ramp", 1, {}},
+                       {"footstep_y", 1, {}}}),
               testing::ElementsAre(HasSubstr("via_lateral 1 is"), HasSubstr("lift_share 4 is"),
-                                   HasSubstr("footstep_y 1 is")));
+                                   HasSubstr("via_along 2 is"), HasSubstr("zmp_shift 3 is"),
+                                   HasSubstr("zmp_bump_ramp 1 is"), HasSubstr("footstep_y 1 is")));
   const std::string planned = Formatted("fixed at %.9g", sequence.half_steps[2].half_step.duration);
   EXPECT_THAT(reasons({{"overlap", 2, {}},
                        {"duration", 3, {}},

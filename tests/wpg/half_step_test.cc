@@ -28,10 +28,7 @@ class HalfStepTest : public testing::Test {
             .lift_share = Uniform(0, 1) < 0.5 ? 1.0 : Uniform(0.2, 1.0),
             .support_offset = Uniform(-0.03, 0.06)};
   }
-  std::optional<double> Bump() {
-    if (Uniform(0, 1) < 0.5) return std::nullopt;
-    return Uniform(0.1, 0.5);
-  }
+  double Bump() { return Uniform(0, 1) < 0.5 ? 1.0 : Uniform(0.1, 1.0); }
   HalfStep Random() {
     HalfStep half_step;
     half_step.support = Uniform(0, 1) < 0.5 ? Side::kLeft : Side::kRight;

@@ -108,7 +108,7 @@ TEST(ProfileBounds, RestToRestSecondsHoldAndTheShiftIsExact) {
   for (int i = 0; i < 1000; ++i) {
     const RestToRest profile(std::exp(Uniform(random, std::log(0.5), std::log(60.0))),
                              Uniform(random, 0.01, 0.5),
-                             i % 2 == 0 ? std::nullopt : std::optional(Uniform(random, 0.1, 0.5)));
+                             i % 2 == 0 ? 1.0 : Uniform(random, 0.1, 1.0));
     // The CoM's bound takes the pre-bump to go backward.
     ASSERT_GT(profile.bump(), 0.0);
     const Window window(random);
@@ -125,12 +125,11 @@ TEST(ProfileBounds, HalfStepSecondsHoldInLocalTime) {
   for (int i = 0; i < 500; ++i) {
     const double shift = Uniform(random, 0.01, 0.5);
     const double longest = std::min(0.3, 0.9 * 0.5 * (1 - shift));
-    const HalfStepShape shape{
-        .shift = shift,
-        .horizontal_delay = Uniform(random, 0.0, longest),
-        .bump_ramp = i % 3 == 0 ? std::nullopt : std::optional(Uniform(random, 0.1, 0.5)),
-        .foot_ramp = Uniform(random, 0.1, 0.5),
-        .lift_share = Uniform(random, 0.2, 1.0)};
+    const HalfStepShape shape{.shift = shift,
+                              .horizontal_delay = Uniform(random, 0.0, longest),
+                              .bump_ramp = i % 3 == 0 ? 1.0 : Uniform(random, 0.1, 1.0),
+                              .foot_ramp = Uniform(random, 0.1, 0.5),
+                              .lift_share = Uniform(random, 0.2, 1.0)};
     const HalfStepKind kind = i % 2 == 0 ? HalfStepKind::kUp : HalfStepKind::kDown;
     const double duration = Uniform(random, 0.4, 4.0);
     const HalfStepProfiles profiles(kind, shape, duration, {});

@@ -1,5 +1,7 @@
 #include "wpg/motion/half_step.h"
 
+#include <algorithm>
+
 #include "wpg/check.h"
 
 namespace halfstep {
@@ -21,6 +23,12 @@ Smoothstep LiftWindow(HalfStepKind kind, const HalfStepShape& shape) {
   return kind == HalfStepKind::kUp
              ? Smoothstep{shape.t2(), shape.t2() + shape.lift_share * (1.0 - shape.t2())}
              : Smoothstep{shape.t1() - shape.lift_share * shape.t1(), shape.t1()};
+}
+
+// A derivative by a parameter on which F's own argument depends at the given rate: per T in time.
+ProfileJet InTime(const UnitJet& f, double rate, double duration) {
+  const double r = 1.0 / duration;
+  return {.value = rate * f.value, .first = rate * r * f.s, .second = rate * r * r * f.ss};
 }
 
 }  // namespace
@@ -95,8 +103,9 @@ std::vector<double> HalfStepProfiles::Knots() const {
                                lift_end(),
                                0.5 * duration_,
                                duration_};
-  if (const auto ramp = shape_.bump_ramp) {
-    for (const double sigma : {*ramp * shape_.t1(), (1.0 - *ramp) * shape_.t1()}) {
+  if (shape_.bump_ramp < 1.0) {
+    const double ramp = std::min(shape_.bump_ramp, 0.5);
+    for (const double sigma : {ramp * shape_.t1(), (1.0 - ramp) * shape_.t1()}) {
       knots.push_back(sigma * duration_);
       knots.push_back((1.0 - sigma) * duration_);
     }
@@ -115,22 +124,40 @@ HalfStepJet HalfStepProfiles::At(double tau) const {
 }
 
 HalfStepJet HalfStepProfiles::ByShape(double HalfStepShape::*number, double tau) const {
-  const double sigma = tau / duration_, r = 1.0 / duration_;
+  const double sigma = tau / duration_;
+  if (number == &HalfStepShape::shift) return ByShift(sigma);
   const bool up = foot_.end == 1.0;
-  const auto to_time = [r](const UnitJet& f, double rate) {
-    return ProfileJet{
-        .value = rate * f.value, .first = rate * r * f.s, .second = rate * r * r * f.ss};
-  };
+  const auto in_time = [this](const UnitJet& f, double rate) { return InTime(f, rate, duration_); };
   HalfStepJet jet;
-  if (number == &HalfStepShape::foot_ramp) {
-    jet.foot = to_time(foot_.ByRamp(sigma), 1.0);
+  if (number == &HalfStepShape::bump_ramp) {
+    jet.com = in_time(shift_.ComByBumpRamp(sigma), 1.0);
+    jet.zmp = in_time(shift_.ZmpByBumpRamp(sigma), 1.0);
+  } else if (number == &HalfStepShape::foot_ramp) {
+    jet.foot = in_time(foot_.ByRamp(sigma), 1.0);
   } else if (number == &HalfStepShape::horizontal_delay) {
-    jet.foot = up ? to_time(foot_.ByBegin(sigma), 1.0) : to_time(foot_.ByEnd(sigma), -1.0);
+    jet.foot = up ? in_time(foot_.ByBegin(sigma), 1.0) : in_time(foot_.ByEnd(sigma), -1.0);
   } else {
     HALFSTEP_CHECK(number == &HalfStepShape::lift_share, "this number of the shape is not offered");
-    jet.height = up ? to_time(height_.ByEnd(sigma), 1.0 - shape_.t2())
-                    : to_time(height_.ByBegin(sigma), -shape_.t1());
+    jet.height = up ? in_time(height_.ByEnd(sigma), 1.0 - shape_.t2())
+                    : in_time(height_.ByBegin(sigma), -shape_.t1());
   }
+  return jet;
+}
+
+// t1 and t2, between which the ZMP shifts, move by ∓½, and with them the flight.
+HalfStepJet HalfStepProfiles::ByShift(double sigma) const {
+  const bool up = foot_.end == 1.0;
+  const double far_end = 0.5 - 0.5 * shape_.lift_share;
+  const ProfileJet low = InTime(height_.ByBegin(sigma), up ? 0.5 : -far_end, duration_);
+  const ProfileJet high = InTime(height_.ByEnd(sigma), up ? far_end : -0.5, duration_);
+  HalfStepJet jet;
+  jet.com = InTime(shift_.ComByShift(sigma), 1.0, duration_);
+  jet.zmp = InTime(shift_.ZmpByShift(sigma), 1.0, duration_);
+  jet.foot = up ? InTime(foot_.ByBegin(sigma), 0.5, duration_)
+                : InTime(foot_.ByEnd(sigma), -0.5, duration_);
+  jet.height = {.value = low.value + high.value,
+                .first = low.first + high.first,
+                .second = low.second + high.second};
   return jet;
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <optional>
 #include <vector>
 
 #include "wpg/geometry/footprint.h"
@@ -25,9 +24,9 @@ struct HalfStepShape {
   /// The swing foot's horizontal motion begins this fraction of T after take-off and ends this
   /// fraction before landing. ∈ [0, 0.3], ≤ 0.9·t1
   double horizontal_delay = 0.1;
-  /// The ZMP's bump rises, and falls, for this fraction of its length and is constant in between
-  /// (RestToRest); none: it is round. ∈ [0.1, 0.5]
-  std::optional<double> bump_ramp = std::nullopt;
+  /// The ZMP's bump rises, and falls, for this fraction of its length and is constant in between;
+  /// from ½ on it has no flat top, and 1 is the round bump (RestToRest). ∈ [0.1, 1]
+  double bump_ramp = 1.0;
   /// The swing foot's horizontal speed rises, and falls, for this fraction of its motion, and is
   /// constant in between; ½: never constant. ∈ [0.1, 0.5]
   double foot_ramp = 0.5;
@@ -45,7 +44,7 @@ struct HalfStepShape {
 
 /// Half a step, from rest to rest, the support foot fixed at the origin of S.
 ///
-///   z │            ╭──● via point (0, ±via_lateral, via_height)
+///   z │            ╭──● via point (via_along, ±via_lateral, via_height)
 ///     │          ╭─╯        Up:   the swing foot goes from X_SF to the via point, the CoM and the
 ///     │        ╭─╯                ZMP from mid-feet to the support point, the waist's yaw from
 ///     │        │                  the mean of the feet's yaws to the support's.
@@ -62,12 +61,13 @@ struct HalfStep {
   double duration = 2.0;      ///< T [s]
   double via_height = 0.25;   ///< [m] ≥ 0
   double via_lateral = 0.24;  ///< distance of the via point from the support sole's centre [m].
+  double via_along = 0.0;     ///< how far the via point is ahead of that centre, along its x [m]
   HalfStepShape shape;        ///< times and forms, as fractions of T
   WaistSway sway = {};  ///< added to the CoM, and so to the waist; the ZMP stays the planned one.
 
   Side swing() const { return Opposite(support); }  ///< the foot that moves
   /// The pose X_SV of the via point seen from above: there the swing foot is between up and down.
-  Pose2 via() const { return {0.0, Sign(swing()) * via_lateral, 0.0}; }
+  Pose2 via() const { return {via_along, Sign(swing()) * via_lateral, 0.0}; }
   /// The support point, in S: CoM and ZMP are there while the swing foot is at the via point.
   Eigen::Vector2d support_point() const { return {0.0, Sign(swing()) * shape.support_offset}; }
   /// The states at rest, in S: with both feet on the floor, and at the via point.
@@ -105,8 +105,9 @@ class HalfStepProfiles {
   /// The profiles at local time τ [s]: 0 and at rest before 0, 1 and at rest after T.
   HalfStepJet At(double tau) const;
 
-  /// Derivatives of value, first and second at τ with respect to horizontal_delay, foot_ramp or
-  /// lift_share of the shape (std::logic_error for another number). At a knot: of one side.
+  /// Derivatives of value, first and second at τ with respect to shift, bump_ramp,
+  /// horizontal_delay, foot_ramp or lift_share of the shape (std::logic_error for another number).
+  /// At a knot: of one side.
   HalfStepJet ByShape(double HalfStepShape::*number, double tau) const;
 
   /// sup |π̈| [1/s²] of each profile over local times [from, to] [s]; only `second` is filled.
@@ -129,6 +130,8 @@ class HalfStepProfiles {
   double bump() const { return shift_.bump(); }  ///< of the ZMP (RestToRest::bump).
 
  private:
+  HalfStepJet ByShift(double sigma) const;
+
   HalfStepShape shape_;
   double duration_;
   double omega_;

@@ -131,6 +131,9 @@ class Experiment:
              foot_ramps: Sequence[float] | None = None,
              foot_delays: Sequence[float] | None = None,
              lift_shares: Sequence[float] | None = None,
+             via_alongs: Sequence[float] | None = None,
+             zmp_shifts: Sequence[float] | None = None,
+             zmp_bump_ramps: Sequence[float] | None = None,
              footstep_xs: Sequence[float] | None = None,
              footstep_ys: Sequence[float] | None = None,
              footstep_yaws: Sequence[float] | None = None) -> Walk:
@@ -138,18 +141,19 @@ class Experiment:
 
         For n half-steps: ``overlaps`` (n-1) [s], ``height_scales`` (n/2) of the planned heights,
         ``durations`` (n) [s], ``support_points`` (n/2) [m]; and those of form: ``via_laterals``
-        (n/2) [m], ``foot_ramps`` (n), ``foot_delays`` (n), ``lift_shares`` (n), as fractions of
-        what the keys of ``half_step`` in configs say; and where each step's footstep is, seen from
-        where it is planned: ``footstep_xs``, ``footstep_ys`` (n/2) [m], ``footstep_yaws`` (n/2)
-        [rad]. An overlap beyond its natural bound is a
-        ValueError. Whether the walk is feasible is for ``Walk.certify`` to say.
+        and ``via_alongs`` (n/2) [m], ``foot_ramps`` (n), ``foot_delays`` (n), ``lift_shares`` (n)
+        and ``zmp_bump_ramps`` (n), as fractions of what the keys of ``half_step`` in configs say,
+        ``zmp_shifts`` (n), as fractions of the durations; and where each step's footstep is, seen
+        from where it is planned: ``footstep_xs``, ``footstep_ys`` (n/2) [m], ``footstep_yaws``
+        (n/2) [rad]. An overlap beyond its natural bound is a ValueError. Whether the walk is feasible is for ``Walk.certify`` to say.
         """
         sizes = {name: len(values) for name, values in self.planned.parameters.items()}
         given = {"overlaps": overlaps, "height_scales": height_scales, "durations": durations,
                  "support_points": support_points, "via_laterals": via_laterals,
                  "foot_ramps": foot_ramps, "foot_delays": foot_delays, "lift_shares": lift_shares,
-                 "footstep_xs": footstep_xs, "footstep_ys": footstep_ys,
-                 "footstep_yaws": footstep_yaws}
+                 "via_alongs": via_alongs, "zmp_shifts": zmp_shifts,
+                 "zmp_bump_ramps": zmp_bump_ramps, "footstep_xs": footstep_xs,
+                 "footstep_ys": footstep_ys, "footstep_yaws": footstep_yaws}
         return Walk(self._experiment.walk({
             name: list(vector(name, values, sizes[name]))
             for name, values in given.items() if values is not None}))

@@ -57,6 +57,9 @@ class SmoothingProblem:
              foot_ramps: Sequence[float] | None = None,
              foot_delays: Sequence[float] | None = None,
              lift_shares: Sequence[float] | None = None,
+             via_alongs: Sequence[float] | None = None,
+             zmp_shifts: Sequence[float] | None = None,
+             zmp_bump_ramps: Sequence[float] | None = None,
              footstep_xs: Sequence[float] | None = None,
              footstep_ys: Sequence[float] | None = None,
              footstep_yaws: Sequence[float] | None = None) -> Walk:
@@ -65,8 +68,9 @@ class SmoothingProblem:
         given = {"overlaps": overlaps, "height_scales": height_scales, "durations": durations,
                  "support_points": support_points, "via_laterals": via_laterals,
                  "foot_ramps": foot_ramps, "foot_delays": foot_delays, "lift_shares": lift_shares,
-                 "footstep_xs": footstep_xs, "footstep_ys": footstep_ys,
-                 "footstep_yaws": footstep_yaws}
+                 "via_alongs": via_alongs, "zmp_shifts": zmp_shifts,
+                 "zmp_bump_ramps": zmp_bump_ramps, "footstep_xs": footstep_xs,
+                 "footstep_ys": footstep_ys, "footstep_yaws": footstep_yaws}
         return Walk(self._task.walk({
             name: list(vector(name, values, sizes[name]))
             for name, values in given.items() if values is not None}))

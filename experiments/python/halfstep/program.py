@@ -73,7 +73,8 @@ class OverlapProgram:
     def __init__(self, experiment: Experiment, program: str = "fastest", *, overlaps: bool = True,
                  heights: bool = False, durations: bool = False, support_points: bool = False,
                  via_laterals: bool = False, foot_ramps: bool = False, foot_delays: bool = False,
-                 lift_shares: bool = False, footsteps: bool = False, instants: int = 32,
+                 lift_shares: bool = False, via_alongs: bool = False, zmp_shifts: bool = False,
+                 zmp_bump_ramps: bool = False, footsteps: bool = False, instants: int = 32,
                  sharpness: float = 60.0, row_per_instant: bool = False,
                  duration_limit: float = 0.0,
                  weights: Sequence[float] = (0.05, 0.0, 0.0)) -> None:
@@ -82,7 +83,8 @@ class OverlapProgram:
         self._program = _halfstep.Program(experiment._experiment, program_options(
             program=program, overlaps=overlaps, heights=heights, durations=durations,
             support_points=support_points, via_laterals=via_laterals, foot_ramps=foot_ramps,
-            foot_delays=foot_delays, lift_shares=lift_shares, footsteps=footsteps,
+            foot_delays=foot_delays, lift_shares=lift_shares, via_alongs=via_alongs,
+            zmp_shifts=zmp_shifts, zmp_bump_ramps=zmp_bump_ramps, footsteps=footsteps,
             instants=instants, sharpness=sharpness, row_per_instant=row_per_instant,
             duration_limit=duration_limit, weights=weights))
         self._pattern: tuple[np.ndarray, np.ndarray, int] | None = None

@@ -117,8 +117,9 @@ class Walk:
     @property
     def parameters(self) -> dict[str, np.ndarray]:
         """All parameters: ``overlaps`` (n-1) [s], ``height_scales`` (n/2) of the planned height,
-        ``durations`` (n) [s], ``support_points`` and ``via_laterals`` (n/2) [m], and fractions:
-        ``foot_ramps``, ``foot_delays``, ``lift_shares`` (n); and the moves of footsteps:
+        ``durations`` (n) [s], ``support_points``, ``via_laterals`` and ``via_alongs`` (n/2) [m],
+        and fractions: ``foot_ramps``, ``foot_delays``, ``lift_shares``, ``zmp_shifts`` and
+        ``zmp_bump_ramps`` (n); and the moves of footsteps:
         ``footstep_xs``, ``footstep_ys`` (n/2) [m], ``footstep_yaws`` (n/2) [rad]."""
         return self._walk.parameters
 
