@@ -134,7 +134,9 @@ class Optimization {
     SmoothingResult found = Optimization(problem_, options, solver_, within).Run();
     search_from_ = 0.5;
     TakeSearch(found, /*from_incumbent=*/false, monitor_);
-    if (monitor_.cost() < before) {
+    const bool searched =
+        found.ending == opt::Ending::kConverged || found.ending == opt::Ending::kLimit;
+    if (searched && monitor_.cost() < before) {  // not by a dichotomy alone
       own_without_forms_ = true;
       end_.kept = "the walk is the search's with the forms as planned";
     }

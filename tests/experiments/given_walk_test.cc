@@ -207,7 +207,8 @@ TEST_F(GivenWalkCommand, AWalkOnMovedFootstepsComesBackToTheByte) {
   const std::string config = ShippedConfig("bar_8cm");
   ASSERT_EQ(Halfstep(place_.path(), {"smooth", config, "--quiet", "--method", "halfstep/sqp",
                                      "--out", "sqp", "--set", "smoothing.optimizer.footsteps=true",
-                                     "--set", "smoothing.optimizer.rounds=3"})
+                                     "--set", "smoothing.optimizer.all_families=false", "--set",
+                                     "smoothing.optimizer.rounds=3"})
                 .status,
             0);
   const std::string half_steps = ReadText(place_ / "sqp/halfstep_sqp/half_steps.csv");

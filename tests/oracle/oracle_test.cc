@@ -20,7 +20,7 @@ constexpr char kRobot[] = HALFSTEP_SOURCE_DIR "/wpg/robots/hrp2.yaml";
 TEST(RestToRestClosedFormTest, KeepsTheLipmAndItsEnds) {
   for (const double theta : {0.6, 3.0, 6.94, 20.0}) {
     for (const double shift : {0.01, 0.05, 0.5}) {
-      for (const double ramp : {0.0, 0.24}) {
+      for (const double ramp : {1.0, 0.24, 0.7}) {
         const RestToRestClosedForm pair(theta, shift, ramp);
         const auto c = [&](double sigma) { return pair.At(static_cast<Real>(sigma)); };
         // c″ = θ²(c − p) by differences of the slope, away from the knots.

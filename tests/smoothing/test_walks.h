@@ -38,7 +38,9 @@ class WalkDraw : public SequenceDraw {
     for (double& ramp : parameters.foot_ramps) ramp = Form(0.3, 0.45);
     for (double& delay : parameters.foot_delays) delay = Form(0.02, 0.18);
     for (double& share : parameters.lift_shares) share = Form(0.6, 0.95);
-    for (double& ahead : parameters.via_alongs) ahead = Form(-0.02, 0.02);
+    for (size_t j = 0; j < parameters.via_alongs.size(); ++j) {
+      parameters.via_alongs[j] = Form(-0.1, 0.1) * parameters.via_laterals[j];
+    }
     for (double& shift : parameters.zmp_shifts) shift = Form(0.03, 0.2);
     for (double& ramp : parameters.zmp_bump_ramps) {
       ramp = Form(0, 1) < 0.5 ? Form(0.3, 0.45) : Form(0.55, 0.95);
