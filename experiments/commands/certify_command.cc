@@ -119,7 +119,7 @@ ExitStatus Certify(const CertifyCommand& command) {
   WriteReport(experiment.robot, experiment.scene, &folder);
   CompleteManifest(experiment.robot, experiment.scene, &folder);
   folder.Publish();
-  if (!command.quiet) std::cout << '\n' << kCertificateStatement << '\n';
+  if (!command.quiet) std::cout << '\n' << CertificateStatement(experiment.robot) << '\n';
   return all_certified ? kSuccess : kFailed;
 }
 

@@ -5,6 +5,7 @@
 #include "wpg/files/input_error.h"
 #include "wpg/files/text.h"
 #include "wpg/motion/compensation.h"
+#include "wpg/robot/acceleration_limits.h"
 #include "wpg/robot/torque_limits.h"
 
 namespace halfstep {
@@ -32,6 +33,12 @@ void LeaveOutWhatIsUnknown(Experiment* experiment) {
     limits.demanded_of(MarginFamily::kFriction) = kNotDemanded;
   }
   if (!TorqueFault(robot).empty()) limits.demanded_of(MarginFamily::kTorque) = kNotDemanded;
+  if (limits.demanded_of(MarginFamily::kJointAcceleration) > 0.0 &&
+      !StatesAccelerationLimits(robot)) {
+    robot.warnings.push_back(robot.name +
+                             ": nothing is demanded of joint accelerations: the robot file states "
+                             "no limits (`acceleration_limits_rad_s2`)");
+  }
 }
 
 }  // namespace

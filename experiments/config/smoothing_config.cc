@@ -76,10 +76,12 @@ void DeclareLimits(Fields& fields, MarginLimits* l) {
 void DeclareMargins(Fields& fields, MarginLimits* l) {
   for (const MarginFamily family : AllMarginFamilies()) {
     const FamilyTraits& traits = Traits(family);
-    const NumberSpec spec{.meaning = traits.meaning.data(),
-                          .unit = traits.unit == "1" ? "" : traits.unit.data(),
-                          .min = 0,
-                          .max = traits.most};
+    const NumberSpec spec{
+        .meaning = traits.meaning.data(),
+        .unit = traits.unit == "1" ? "" : traits.unit.data(),
+        .min = 0,
+        .max = traits.most,
+        .left_out = traits.for_some_robots ? std::optional(traits.demanded) : std::nullopt};
     double& demanded = l->demanded_of(family);
     if (!traits.may_be_none) {
       fields.Number(traits.key.data(), &demanded, spec);

@@ -12,13 +12,14 @@ namespace py = pybind11;
 namespace halfstep::python {
 namespace {
 
-// Name, lower [rad], upper [rad], speed [rad/s], torque [N m] of each leg joint, left leg first.
+// Name, lower [rad], upper [rad], speed [rad/s], torque [N m], acceleration [rad/s²] of each leg
+// joint, left leg first.
 py::list JointRows(const RobotModel& robot) {
   py::list rows;
   for (const Leg& leg : robot.legs) {
     for (const LegJoint& joint : leg.joints) {
-      rows.append(
-          py::make_tuple(joint.name, joint.lower, joint.upper, joint.max_speed, joint.max_torque));
+      rows.append(py::make_tuple(joint.name, joint.lower, joint.upper, joint.max_speed,
+                                 joint.max_torque, joint.max_acceleration));
     }
   }
   return rows;

@@ -115,7 +115,8 @@ py::tuple SampleMotion(const PlacedWalk& placed, const Times& times, bool joints
 py::tuple SampleMargins(const PlacedWalk& placed, const Times& times) {
   RequireTimes(times);
   CsvColumns columns = {{"t_s", CsvType::kNumber, "s", "time since the start"}};
-  for (const MarginFamily family : AllMarginFamilies()) {
+  const MarginEvaluator& evaluator = placed.setting->problem.evaluator();
+  for (const MarginFamily family : evaluator.families()) {
     const FamilyTraits& traits = Traits(family);
     columns.push_back({std::string(traits.key), CsvType::kNumber,
                        traits.unit == "1" ? "" : std::string(traits.unit),
@@ -126,14 +127,13 @@ py::tuple SampleMargins(const PlacedWalk& placed, const Times& times) {
   const double* const t = times.data();
   {
     const py::gil_scoped_release released;
-    const MarginEvaluator& evaluator = placed.setting->problem.evaluator();
     MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
     for (py::ssize_t row = 0; row < rows; ++row) {
       const double at = std::clamp(t[row], 0.0, placed.walk.duration());
       const MarginSet margins = evaluator.At(placed.walk, placed.walk.Locate(at), &scratch);
       arrays(0, row) = at;
       size_t column = 1;
-      for (const MarginFamily family : AllMarginFamilies()) {
+      for (const MarginFamily family : evaluator.families()) {
         arrays(column++, row) = margins[static_cast<size_t>(family)].value;
       }
     }

@@ -26,7 +26,7 @@ export function leastMargins(walk, families) {
   const { demanded } = walk.certificate;
   const least = [];
   for (const [family, column, label] of marginColumns) {
-    if (demanded[family] === null || walk.encoded[column] === undefined) continue;
+    if ((demanded[family] ?? null) === null || walk.encoded[column] === undefined) continue;
     const { unit, scale } = families.find(({ name }) => name === family);
     const values = walk.column(column);
     let row = -1;

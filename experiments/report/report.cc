@@ -18,7 +18,7 @@
 #include "experiments/tables/csv_reader.h"
 #include "experiments/tables/json_file.h"
 #include "opt/solvers/ending.h"
-#include "smoothing/margins/margin.h"
+#include "smoothing/margins/family_traits.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/text.h"
 
@@ -44,12 +44,24 @@ size_t IndexIn(json* list, json value) {
   return index;
 }
 
+json FamilyJson(MarginFamily family) {
+  return {{"name", Name(family)}, {"unit", Unit(family)}, {"scale", Scale(family)}};
+}
+
+// Those that every robot has.
 json FamiliesJson() {
   json families = json::array();
-  for (MarginFamily family : AllMarginFamilies()) {
-    families.push_back({{"name", Name(family)}, {"unit", Unit(family)}, {"scale", Scale(family)}});
+  for (const MarginFamily family : AllMarginFamilies()) {
+    if (!Traits(family).for_some_robots) families.push_back(FamilyJson(family));
   }
   return families;
+}
+
+// Adds the family that only some robots have, if this one does.
+void AddAccelerations(const RobotModel& robot, json* report) {
+  if (!StatesAccelerationLimits(robot)) return;
+  IndexIn(&(*report)["families"], FamilyJson(MarginFamily::kJointAcceleration));
+  (*report)["statement"] = CertificateStatement(robot);
 }
 
 // What is shown of each status.
@@ -80,6 +92,7 @@ Eigen::Vector2d MiddleOf(const fs::path& footsteps) {
 
 json CaseOf(const std::string& scenario, const fs::path& run, const RobotModel& robot,
             const Scene& scene, json* report) {
+  AddAccelerations(robot, report);
   return {
       {"scenario", scenario},
       {"robot", IndexIn(&(*report)["robots"], RobotJson(robot))},

@@ -55,11 +55,12 @@ export const marginColumns = [
   ["foot_speed", "foot_speed_margin_m_s", "foot", palette.right],
   ["torque", "torque_margin_n_m", "torque", palette.grey],
   ["friction", "friction_margin", "friction", palette.olive],
+  ["joint_acceleration", "joint_acceleration_margin_rad_s2", "accelerations", palette.limit],
 ];
 
 function margins(families, demanded) {
   const unitOf = Object.fromEntries(families.map((family) => [family.name, family]));
-  const shown = marginColumns.filter(([name]) => demanded[name] !== null);
+  const shown = marginColumns.filter(([name]) => (demanded[name] ?? null) !== null);
   return {
     title: "Slack",
     hint: "(margin − demanded) / scale; " + shown.map(([name, , label]) =>

@@ -69,6 +69,7 @@ class Surveyor {
     }
     leg.posture.assign(urdf.joints.size(), 0.0);
     leg.torque.assign(urdf.joints.size(), std::numeric_limits<double>::infinity());
+    leg.acceleration = leg.torque;
     Complaints complaints;
     for (size_t side = 0; side < 2; ++side) {
       leg.foot = draft_.legs.feet[side];

@@ -66,7 +66,7 @@ std::string CertificateJson(const Experiment& experiment, const CertifiedFeasibi
                             const std::string& trajectory_csv, const std::string& certificate_csv) {
   const MarginLimits& limits = test.evaluator().limits();
   ordered_json demanded, statements;
-  for (MarginFamily family : AllMarginFamilies()) {
+  for (const MarginFamily family : test.evaluator().families()) {
     const double least = limits.demanded_of(family);
     demanded[std::string(Name(family))] =
         OrNull(least == kNotDemanded ? std::nullopt : std::optional<double>(least));
@@ -88,7 +88,7 @@ std::string CertificateJson(const Experiment& experiment, const CertifiedFeasibi
       {"message", certified             ? "every margin is kept at all times"
                   : walk.answer.stopped ? "interrupted before all of it was proved"
                                         : test.evaluator().Describe(walk.answer.witness)},
-      {"statement", kCertificateStatement},
+      {"statement", CertificateStatement(robot)},
       {"duration_s", walk.duration},
       {"resolution_s", test.options().resolution},
       {"demanded", demanded},

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <string>
+
+#include "wpg/robot/acceleration_limits.h"
+
 namespace halfstep {
 
 /// What a certificate guarantees, for which file, with which δ, and what not; the same words in
@@ -21,5 +25,15 @@ inline constexpr char kCertificateStatement[] =
     "guaranteed: that bodies in pairs listed under not_watched do not touch, that robot and "
     "scene are as their files describe them, that a controller tracks the motion, and any "
     "dynamics beyond these two ZMPs, torques and friction.";
+
+/// The same for a robot: where its file states limits of joint accelerations, these are named, too.
+inline std::string CertificateStatement(const RobotModel& robot) {
+  std::string statement = kCertificateStatement;
+  if (StatesAccelerationLimits(robot)) {
+    statement.insert(statement.find("clearance between"),
+                     "joint accelerations where the robot file limits them, ");
+  }
+  return statement;
+}
 
 }  // namespace halfstep

@@ -105,7 +105,7 @@ CsvFile ParetoCsv(const MarginEvaluator& evaluator, const HalfStepSequence& sequ
   CsvColumns columns = {
       {"duration_s", kNumber, "s", "of the walk"},
       {"least_slack", kNumber, "1", "proved for all families but floor, of their scales"}};
-  for (MarginFamily family : AllMarginFamilies()) {
+  for (const MarginFamily family : evaluator.families()) {
     columns.push_back({std::string(Traits(family).key), kNumber, std::string(Unit(family)),
                        "least margin of the family, sampled every 5 ms; inf: nowhere watched"});
   }
@@ -115,7 +115,7 @@ CsvFile ParetoCsv(const MarginEvaluator& evaluator, const HalfStepSequence& sequ
     csv.Cell(point.duration).Cell(point.least_slack);
     const SuperposedWalk walk(sequence, point.parameters);
     const MarginSet margins = SampleMargins(evaluator, walk, kPeriod, &scratch);
-    for (const MarginFamily family : AllMarginFamilies()) {
+    for (const MarginFamily family : evaluator.families()) {
       csv.Cell(margins[static_cast<size_t>(family)].value);
     }
     csv.EndRow();

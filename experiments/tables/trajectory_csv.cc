@@ -1,10 +1,12 @@
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <tuple>
 
 #include "experiments/tables/csv_writer.h"
 #include "experiments/tables/result_tables.h"
 #include "wpg/motion/posture.h"
+#include "wpg/robot/acceleration_limits.h"
 
 namespace halfstep {
 namespace {
@@ -13,8 +15,10 @@ using enum CsvType;
 constexpr CsvInterpolation kConstant = CsvInterpolation::kPiecewiseConstant;
 constexpr CsvInterpolation kLinear = CsvInterpolation::kLinear;
 
-// In the order of the margin columns.
-constexpr std::array<std::pair<MarginFamily, const char*>, 9> kMarginColumns = {{
+using MarginColumn = std::pair<MarginFamily, const char*>;
+
+// In the order of the margin columns; the last one only for robots that have the family.
+constexpr std::array<MarginColumn, 10> kMarginColumns = {{
     {MarginFamily::kZmp, "zmp_margin"},
     {MarginFamily::kJoint, "joint_margin"},
     {MarginFamily::kJointSpeed, "joint_speed_margin"},
@@ -24,7 +28,13 @@ constexpr std::array<std::pair<MarginFamily, const char*>, 9> kMarginColumns = {
     {MarginFamily::kZmpRobot, "zmp_robot_margin"},
     {MarginFamily::kTorque, "torque_margin"},
     {MarginFamily::kFriction, "friction_margin"},
+    {MarginFamily::kJointAcceleration, "joint_acceleration_margin"},
 }};
+
+std::span<const MarginColumn> MarginColumnsOf(const RobotModel& robot) {
+  const size_t all = kMarginColumns.size();
+  return std::span(kMarginColumns).first(StatesAccelerationLimits(robot) ? all : all - 1);
+}
 
 // Columns of a place on the floor's axes, "com" …, in W.
 void AddPlace(const std::string& name, const std::string& what, bool with_z, bool with_yaw,
@@ -48,7 +58,7 @@ void WriteRow(const MarginEvaluator& evaluator, const SuperposedWalk& walk, doub
   for (const MotionCell& cell : MotionRow(evaluator.robot(), walk, t)) {
     std::visit([csv](const auto& value) { csv->Cell(value); }, cell);
   }
-  for (const auto& [family, column] : kMarginColumns) {
+  for (const auto& [family, column] : MarginColumnsOf(evaluator.robot())) {
     csv->Cell(margins[static_cast<size_t>(family)].value);
   }
   csv->EndRow();
@@ -105,7 +115,7 @@ std::vector<MotionCell> MotionRow(const RobotModel& robot, const SuperposedWalk&
 
 CsvColumns TrajectoryColumns(const RobotModel& robot) {
   CsvColumns columns = MotionColumns(robot);
-  for (const auto& [family, column] : kMarginColumns) {
+  for (const auto& [family, column] : MarginColumnsOf(robot)) {
     const FamilyTraits& traits = Traits(family);
     const std::string ending(traits.key.substr(traits.name.size()));  // "_m"
     columns.push_back({column + ending, kNumber, std::string(Unit(family)),

@@ -23,24 +23,29 @@ enum Family : int {
   kNoStep,
   kZmpRobot,
   kTorque,
-  kFriction
+  kFriction,
+  kJointAcceleration
 };
-constexpr int kNumFamilies = 14;  ///< how many families a certificate has
+constexpr int kNumFamilies = 15;  ///< how many families a certificate has
 /// Their names in certificate.csv and certificate.json, and their units.
 constexpr std::array<const char*, kNumFamilies> kFamilyNames = {
     "floor",   "foot_speed",  "foot_yaw_rate",  "zmp",       "reach",
     "joint",   "joint_speed", "self_clearance", "clearance", "ground",
-    "no_step", "zmp_robot",   "torque",         "friction"};
+    "no_step", "zmp_robot",   "torque",         "friction",  "joint_acceleration"};
 /// Of the families' margins.
 constexpr std::array<const char*, kNumFamilies> kUnits = {
-    "m", "m/s", "rad/s", "m", "m", "rad", "rad/s", "m", "m", "m", "m", "m", "N m", "1"};
+    "m", "m/s", "rad/s", "m", "m", "rad", "rad/s", "m", "m", "m", "m", "m", "N m", "1", "rad/s²"};
 
 /// What is demanded of a family of which nothing is demanded: `null` in certificate.json.
 inline constexpr double kNotDemanded = -std::numeric_limits<double>::infinity();
 
-/// Whether a family rests on the whole robot's dynamics, so that it may be left out.
+/// Whether a family rests on the whole robot's dynamics.
 constexpr bool IsOfDynamics(Family family) {
   return family == kZmpRobot || family == kTorque || family == kFriction;
+}
+/// Whether nothing may be demanded of a family.
+constexpr bool MayBeLeftOut(Family family) {
+  return IsOfDynamics(family) || family == kJointAcceleration;
 }
 
 /// A row of certificate.csv.
@@ -64,7 +69,7 @@ struct CertificateText {
   /// For the whole walk: "certified", and two texts for people.
   std::string verdict, message, statement;
   double duration = 0;  ///< [s]
-  /// kNotDemanded where nothing is, which only what the whole robot's dynamics say may have.
+  /// kNotDemanded where nothing is, which only families that may be left out have.
   std::array<double, kNumFamilies> demanded{};
   std::array<long, kNumFamilies> statements{};      ///< how many each family has at every instant
   std::vector<UnwatchedText> not_watched;           ///< pairs of which nothing is claimed

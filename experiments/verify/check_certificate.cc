@@ -5,6 +5,7 @@
 
 #include "experiments/tables/certificate_statement.h"
 #include "wpg/files/text.h"
+#include "wpg/robot/acceleration_limits.h"
 
 namespace halfstep::verify {
 namespace {
@@ -18,6 +19,8 @@ long CountOf(Family family, const RobotModel& robot) {
     case kJointSpeed:
     case kTorque:
       return std::ssize(robot.legs[0].joints) + std::ssize(robot.legs[1].joints);
+    case kJointAcceleration:
+      return StatesAccelerationLimits(robot) ? CountOf(kJoint, robot) : 0;
     case kSelfClearance:
       return std::ssize(robot.self_pairs);
     case kClearance:
@@ -110,7 +113,7 @@ void CheckArithmetic(const CertificateText& certificate, const std::vector<Claim
     findings->Disagree("the certificate's verdict is " + Quote(certificate.verdict) + ": " +
                        Quote(certificate.message));
   }
-  if (certificate.statement != kCertificateStatement) {
+  if (certificate.statement != CertificateStatement(robot)) {
     findings->Disagree("the certificate's statement is not the one that is verified");
   }
   if (certificate.duration != end) {
@@ -147,7 +150,9 @@ void CheckArithmetic(const CertificateText& certificate, const std::vector<Claim
   std::string counts;
   for (size_t f = 0; f < kNumFamilies; ++f) {
     const long count = CountOf(static_cast<Family>(f), robot);
-    counts += std::string(f == 0 ? "" : ", ") + kFamilyNames[f] + " " + std::to_string(count);
+    if (f != kJointAcceleration || count > 0) {
+      counts += std::string(f == 0 ? "" : ", ") + kFamilyNames[f] + " " + std::to_string(count);
+    }
     if (certificate.statements[f] != count) {
       findings->Disagree(Formatted("%s: certificate.json has %ld statements, the robot %ld",
                                    kFamilyNames[f], certificate.statements[f], count));
@@ -159,9 +164,10 @@ void CheckArithmetic(const CertificateText& certificate, const std::vector<Claim
   CheckNotWatched(certificate, robot, findings);
 }
 
-void CheckAgainstConfig(const CertificateText& certificate, const MarginLimits& config,
-                        Findings* findings) {
+void CheckAgainstConfig(const CertificateText& certificate, const RobotModel& robot,
+                        const MarginLimits& config, Findings* findings) {
   for (const MarginFamily family : AllMarginFamilies()) {
+    if (family == MarginFamily::kJointAcceleration && !StatesAccelerationLimits(robot)) continue;
     const auto name = std::find(kFamilyNames.begin(), kFamilyNames.end(), Name(family));
     const double demanded = config.demanded_of(family);
     if (name == kFamilyNames.end()) {

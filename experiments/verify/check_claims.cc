@@ -7,6 +7,7 @@
 #include "experiments/verify/check_rows.h"
 #include "experiments/verify/claim_subjects.h"
 #include "experiments/verify/floor_distances.h"
+#include "experiments/verify/joint_accelerations.h"
 #include "wpg/files/text.h"
 
 namespace halfstep::verify {
@@ -33,8 +34,9 @@ class Claims {
     if (!found) return "nothing is called " + Quote(row.subject);
     const ClaimSubject subject = *found;
     if (row.margin == kNoLimit) {
-      if (IsOfDynamics(row.family)) {
-        return certificate_.demanded[row.family] == kNotDemanded ? "" : "the robot has a ZMP";
+      if (MayBeLeftOut(row.family)) {
+        if (certificate_.demanded[row.family] == kNotDemanded) return "";
+        return IsOfDynamics(row.family) ? "the robot has a ZMP" : "the robot has limits";
       }
       return row.family == kGround || row.family == kNoStep ? FaultOfNothing(row)
                                                             : FaultOfUnwatched(row);
@@ -113,6 +115,9 @@ class Claims {
       case kTorque:
         return walk_.DynamicsAt(t).TorqueMargin(robot_, static_cast<size_t>(s.first),
                                                 static_cast<size_t>(s.second));
+      case kJointAcceleration:
+        return JointAccelerationMargin(walk_, t, static_cast<size_t>(s.first),
+                                       static_cast<size_t>(s.second));
       case kFriction:
         return distances_.scene().friction - walk_.DynamicsAt(t).friction;
       case kReach:
@@ -142,10 +147,11 @@ class Claims {
   }
 
   std::string FaultOfScalar(const ClaimRow& row, ClaimSubject subject) const {
-    const double rounding = row.family == kJointSpeed ? kSpeedClaimRounding
-                            : row.family == kTorque   ? kTorqueRounding
-                            : row.family == kFriction ? kFrictionRounding
-                                                      : kClaimRounding;
+    const double rounding = row.family == kJointSpeed          ? kSpeedClaimRounding
+                            : row.family == kTorque            ? kTorqueRounding
+                            : row.family == kFriction          ? kFrictionRounding
+                            : row.family == kJointAcceleration ? kAccelerationRounding
+                                                               : kClaimRounding;
     const std::array<double, 5> instants = Instants(row);
     const double middle = Scalar(row.family, subject, instants[0]);
     if (!(std::abs(middle - row.margin) <= rounding)) {

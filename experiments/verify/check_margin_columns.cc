@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "experiments/verify/check_rows.h"
+#include "experiments/verify/joint_accelerations.h"
 
 namespace halfstep::verify {
 namespace {
@@ -58,18 +59,20 @@ std::array<double, kNumMarginColumns> MarginsAt(const DescribedWalk& walk, const
           distances->NearestPair(at, horizon),
           dynamics.zmp,
           dynamics.LeastTorqueMargin(walk.robot()),
-          distances->scene().friction - dynamics.friction};
+          distances->scene().friction - dynamics.friction,
+          LeastJointAccelerationMargin(walk, row.t)};
 }
 
 void CheckMarginColumns(const std::vector<PlayedRow>& rows, const DescribedWalk& walk,
                         const CertificateText& certificate, Distances* distances,
                         Findings* findings) {
   constexpr std::array<double, kNumMarginColumns> kTolerances = {
-      kColumnRounding,         kColumnRounding,      kSpeedColumnRounding,
-      kColumnRounding,         Distances::kAccuracy, Distances::kAccuracy,
-      kMomentumColumnRounding, kTorqueRounding,      kFrictionRounding};
+      kColumnRounding,      kColumnRounding,      kSpeedColumnRounding,    kColumnRounding,
+      Distances::kAccuracy, Distances::kAccuracy, kMomentumColumnRounding, kTorqueRounding,
+      kFrictionRounding,    kAccelerationRounding};
   const double horizon = std::max(
       {kHorizon, 2 * certificate.demanded[kClearance], 2 * certificate.demanded[kSelfClearance]});
+  const size_t columns = NumMarginColumns(walk.robot());
   std::array<Faults, kNumMarginColumns> faults;
   for (size_t i = 0; i < rows.size(); ++i) {
     // Whatever is farther than both columns say need not be asked.
@@ -77,14 +80,14 @@ void CheckMarginColumns(const std::vector<PlayedRow>& rows, const DescribedWalk&
     const double enough =
         stated < horizon ? std::min(horizon, stated + 2 * Distances::kAccuracy) : horizon;
     const auto found = MarginsAt(walk, rows[i], certificate, enough, distances);
-    for (size_t k = 0; k < kNumMarginColumns; ++k) {
+    for (size_t k = 0; k < columns; ++k) {
       if (Same(found[k], rows[i].margins[k], kTolerances[k])) continue;
       faults[k].Add(Formatted("trajectory.csv:%zu: %s is %.9g, but %.9g by the walk", i + 2,
                               kMarginColumns[k], rows[i].margins[k], found[k]));
     }
   }
   for (const Faults& of_column : faults) of_column.Conclude(findings);
-  findings->Say("margin columns: " + Count(std::ssize(rows) * long{kNumMarginColumns}) +
+  findings->Say("margin columns: " + Count(std::ssize(rows) * static_cast<long>(columns)) +
                 " values computed again");
 }
 

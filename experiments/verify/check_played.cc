@@ -6,6 +6,7 @@
 #include "experiments/verify/check_clearance.h"
 #include "experiments/verify/check_rows.h"
 #include "experiments/verify/check_walk.h"
+#include "experiments/verify/joint_accelerations.h"
 
 namespace halfstep::verify {
 namespace {
@@ -21,6 +22,7 @@ void CheckPlayed(const PlayedMotion& motion, const DescribedWalk& walk,
   const auto check = [&](const PlayedMotion& of, Findings* into) {
     CheckRowMargins(of, certificate, tolerance, into);
     CheckDynamics(of.rows(), walk, distances->scene().friction, certificate, into);
+    CheckJointAccelerations(of.rows(), walk, certificate, into);
     CheckFloor(of, distances->scene(), certificate, tolerance, into);
     CheckClearances(of, certificate, tolerance, distances, into);
   };

@@ -12,6 +12,7 @@ ClaimSubjects::ClaimSubjects(const RobotModel& robot, const Distances& distances
       const std::string& name =
           robot.legs[static_cast<size_t>(s)].joints[static_cast<size_t>(j)].name;
       subjects[kJoint][name] = subjects[kJointSpeed][name] = subjects[kTorque][name] = {s, j};
+      subjects[kJointAcceleration][name] = {s, j};
     }
     subjects[kNoStep][side + " foot"] = {s, -1};
     for (size_t a = 0; a < distances.scene().no_step.size(); ++a) {

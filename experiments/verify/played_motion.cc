@@ -5,6 +5,7 @@
 
 #include "experiments/verify/csv_text.h"
 #include "wpg/check.h"
+#include "wpg/robot/acceleration_limits.h"
 
 namespace halfstep::verify {
 
@@ -12,6 +13,10 @@ bool PlayedRow::AllFinite() const {
   return std::isfinite(t) && com.allFinite() && com_velocity.allFinite() &&
          com_acceleration.allFinite() && zmp.allFinite() && waist.allFinite() &&
          soles[0].allFinite() && soles[1].allFinite() && q[0].allFinite() && q[1].allFinite();
+}
+
+size_t NumMarginColumns(const RobotModel& robot) {
+  return StatesAccelerationLimits(robot) ? kNumMarginColumns : kNumMarginColumns - 1;
 }
 
 std::vector<std::string> TrajectoryHeader(const RobotModel& robot) {
@@ -27,7 +32,8 @@ std::vector<std::string> TrajectoryHeader(const RobotModel& robot) {
   for (const Leg& leg : robot.legs) {
     for (const LegJoint& joint : leg.joints) header.push_back("q_" + joint.name + "_rad");
   }
-  header.insert(header.end(), kMarginColumns.begin(), kMarginColumns.end());
+  header.insert(header.end(), kMarginColumns.begin(),
+                kMarginColumns.begin() + static_cast<std::ptrdiff_t>(NumMarginColumns(robot)));
   return header;
 }
 
@@ -58,7 +64,7 @@ std::vector<PlayedRow> ReadTrajectory(const std::string& path, const std::string
     read(row.waist);
     for (auto& sole : row.soles) read(sole);
     for (auto& q : row.q) read(q);
-    read(row.margins);
+    for (size_t k = 0; k < NumMarginColumns(robot); ++k) row.margins[k] = csv.Number(i, column++);
   }
   return rows;
 }

@@ -14,12 +14,21 @@ namespace halfstep::verify {
 enum class Support : int { kLeft = 0, kRight = 1, kBoth = 2 };
 
 /// The last columns of trajectory.csv: margins at the row's instant.
-constexpr size_t kNumMarginColumns = 9;
-/// Their names.
+constexpr size_t kNumMarginColumns = 10;
+/// Their names; the last is there for robots whose file limits joint accelerations.
 constexpr std::array<const char*, kNumMarginColumns> kMarginColumns = {
-    "zmp_margin_m",          "joint_margin_rad",  "joint_speed_margin_rad_s",
-    "foot_speed_margin_m_s", "clearance_m",       "self_clearance_m",
-    "zmp_robot_margin_m",    "torque_margin_n_m", "friction_margin"};
+    "zmp_margin_m",
+    "joint_margin_rad",
+    "joint_speed_margin_rad_s",
+    "foot_speed_margin_m_s",
+    "clearance_m",
+    "self_clearance_m",
+    "zmp_robot_margin_m",
+    "torque_margin_n_m",
+    "friction_margin",
+    "joint_acceleration_margin_rad_s2"};
+/// How many of them a robot's trajectory has.
+size_t NumMarginColumns(const RobotModel& robot);
 
 /// A row of trajectory.csv.
 struct PlayedRow {

@@ -137,7 +137,7 @@ std::string VerifyMethod(const VerifyOptions& options, const RunManifest& manife
   findings->Say(Formatted("SHA-256: trajectory, certificate, %zu robot files, %zu scene files",
                           robot.files.size(), scene.files.size()));
   CheckFiles(options.run, folder, manifest, findings);
-  CheckAgainstConfig(certificate, config.smoothing.limits, findings);
+  CheckAgainstConfig(certificate, robot, config.smoothing.limits, findings);
   CheckDemandOfStopBranches(config.smoothing.stop_branches, manifest.acceptance, findings);
   const auto iterations =
       !files.Has("iterates.csv")

@@ -9,6 +9,7 @@
 #include "smoothing/margins/foot_yaw_rate_margin.h"
 #include "smoothing/margins/friction_margin.h"
 #include "smoothing/margins/ground_margin.h"
+#include "smoothing/margins/joint_acceleration_margin.h"
 #include "smoothing/margins/joint_margin.h"
 #include "smoothing/margins/joint_speed_margin.h"
 #include "smoothing/margins/no_step_margin.h"
@@ -40,7 +41,7 @@ struct FamilyList {
 using AllFamilies =
     FamilyList<FloorMargin, FootSpeedMargin, FootYawRateMargin, ZmpMargin, ReachMargin, JointMargin,
                JointSpeedMargin, SelfClearanceMargin, ClearanceMargin, GroundMargin, NoStepMargin,
-               ZmpRobotMargin, TorqueMargin, FrictionMargin, OwnMargin>;
+               ZmpRobotMargin, TorqueMargin, FrictionMargin, JointAccelerationMargin, OwnMargin>;
 
 /// Whether each family's traits stand at its own index; checked when this is compiled.
 constexpr bool FamiliesAreInOrder() {

@@ -35,6 +35,9 @@ struct FamilyTraits {
   std::optional<MarginFamily> row;
   bool may_be_none = false;  ///< whether it can be left out: then nothing is demanded of it
   double most = 0.5;         ///< that may be demanded [its unit]
+  /// Whether only some robots have it (MarginStatements::present): then a config that is written
+  /// back has its key only where something else than `demanded` is demanded.
+  bool for_some_robots = false;
 };
 
 /// The traits of a family.

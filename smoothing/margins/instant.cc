@@ -42,12 +42,14 @@ bool Instant::regular() {
   return regular_;
 }
 
-const RobotDynamics* Instant::dynamics() {
-  if (!dynamics_) {
-    if (!robot().masses.known() || !regular()) return nullptr;
-    dynamics_.emplace(robot(), jet_, posture(), walk_.lipm().gravity);
+const RobotDynamics* Instant::dynamics() { return robot().masses.known() ? motion() : nullptr; }
+
+const RobotDynamics* Instant::motion() {
+  if (!motion_) {
+    if (!regular()) return nullptr;
+    motion_.emplace(robot(), jet_, posture(), walk_.lipm().gravity);
   }
-  return &*dynamics_;
+  return &*motion_;
 }
 
 WalkThirds MarginInterval::Thirds() const {
@@ -57,7 +59,7 @@ WalkThirds MarginInterval::Thirds() const {
 
 const RobotDrift& MarginInterval::drift() const {
   if (!drift_) {
-    drift_.emplace(mid.robot(), motion, Thirds(), *mid.dynamics(), mid.walk().lipm().gravity);
+    drift_.emplace(mid.robot(), motion, Thirds(), *mid.motion(), mid.walk().lipm().gravity);
   }
   return *drift_;
 }

@@ -51,6 +51,8 @@ class Instant {
   /// The dynamics of the whole robot; null where nothing can be said, because a leg does not reach
   /// or is stretched, or masses are not known.
   const RobotDynamics* dynamics();
+  /// The same where masses are not known: then it has velocities and accelerations only.
+  const RobotDynamics* motion();
   MarginScratch& scratch() const { return scratch_; }  ///< what families remember between instants
 
  private:
@@ -64,7 +66,7 @@ class Instant {
   Posture own_;
   const Posture* posture_ = nullptr;  // null: not solved yet
   bool speeds_tried_ = false, regular_ = false;
-  std::optional<RobotDynamics> dynamics_;
+  std::optional<RobotDynamics> motion_;
 };
 
 /// An interval of time around an instant, [mid − h, mid + h], and bounds of how much the motion
@@ -82,7 +84,7 @@ class MarginInterval {
   const bool with_margins;       ///< whether margins are told where a bound would do
 
   /// How much the motion of all bodies differs from that at the midpoint. Precondition:
-  /// mid.dynamics() is not null.
+  /// mid.motion() is not null. Where masses are not known, what it says of masses means nothing.
   const RobotDrift& drift() const;
   /// How far the robot's ZMP goes. Precondition: there is one at the midpoint.
   const ZmpDrift& zmp_drift() const;

@@ -29,10 +29,12 @@ enum class MarginFamily : int {
   kZmpRobot,       ///< distance of the whole robot's ZMP inside the support polygon [m]
   kTorque,         ///< torque limit − |torque| of a leg joint [N m]
   kFriction,       ///< friction coefficient of the floor less what the soles need [1]
-  kOwn,            ///< what the program itself registered (own_margin.h), of its scale [1]
+  /// limit that the robot file states − |q̈| of a leg joint [rad/s²]
+  kJointAcceleration,
+  kOwn,  ///< what the program itself registered (own_margin.h), of its scale [1]
 };
 /// How many families there are.
-constexpr int kNumMarginFamilies = 15;
+constexpr int kNumMarginFamilies = 16;
 
 std::string_view Name(MarginFamily family);  ///< "zmp", "joint_speed" … as in YAML and CSV
 std::string_view Unit(MarginFamily family);  ///< "m", "rad" …
@@ -41,7 +43,8 @@ std::string_view Unit(MarginFamily family);  ///< "m", "rad" …
 double Scale(MarginFamily family);
 /// What is demanded of each family unless the user says otherwise [its unit].
 std::array<double, kNumMarginFamilies> DefaultDemands();
-/// The families that there are, in order: all, but kOwn only where something is registered.
+/// The families that there are, in order: all, but kOwn only where something is registered. Of one
+/// robot: MarginEvaluator::families().
 std::span<const MarginFamily> AllMarginFamilies();
 
 /// The margin of what has no limit [any unit].
@@ -56,8 +59,9 @@ struct Margin {
   LocalTime at = {};                         ///< the same instant by half-step
   double t = 0.0;                            ///< absolute time in the walk where it was found [s]
   /// What the margin belongs to, −1: nothing in particular. Both ZMPs: the step in the air, or −1.
-  /// Floor, foot speed, foot yaw rate, no-step: Index(Side). Reach, joints, joint speeds,
-  /// torques: 6·Index(Side) + joint. Clearances and ground: index of RobotModel::bodies.
+  /// Floor, foot speed, foot yaw rate, no-step: Index(Side). Reach, joints, joint speeds
+  /// and accelerations, torques: 6·Index(Side) + joint. Clearances and ground: index of
+  /// RobotModel::bodies.
   int subject = -1;
   int other = -1;  ///< index of the obstacle (clearance), second body (self-clearance) or area
   /// Not −1: found in the stop branch after this half-step; `at` and `t` are times of the branch.

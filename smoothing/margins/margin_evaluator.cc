@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "smoothing/margins/all_families.h"
+#include "wpg/robot/acceleration_limits.h"
 #include "wpg/robot/torque_limits.h"
 
 namespace halfstep {
@@ -19,13 +20,20 @@ MarginLimits Possible(MarginLimits limits, const RobotModel& robot) {
     limits.demanded_of(MarginFamily::kFriction) = kNotDemanded;
   }
   if (!TorqueFault(robot).empty()) limits.demanded_of(MarginFamily::kTorque) = kNotDemanded;
+  if (!StatesAccelerationLimits(robot)) {
+    limits.demanded_of(MarginFamily::kJointAcceleration) = kNotDemanded;
+  }
   return limits;
 }
 
 }  // namespace
 
 MarginEvaluator::Shared::Shared(RobotModel robot, Scene scene)
-    : place(std::move(robot), std::move(scene)), statements(AllFamilies::Make(place)) {}
+    : place(std::move(robot), std::move(scene)), statements(AllFamilies::Make(place)) {
+  for (const MarginFamily family : AllMarginFamilies()) {
+    if (statements[static_cast<size_t>(family)]->present()) families.push_back(family);
+  }
+}
 
 MarginEvaluator::MarginEvaluator(RobotModel robot, Scene scene, MarginLimits limits)
     : shared_(std::make_shared<const Shared>(std::move(robot), std::move(scene))),

@@ -3,6 +3,7 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,7 +21,7 @@ class MarginEvaluator {
   using Scratch = MarginScratch;
 
   /// `robot` and `scene` are copied. Where the robot's masses are not known, limits() demands
-  /// nothing of its ZMP.
+  /// nothing of its ZMP, and nothing of what the robot's files do not limit.
   MarginEvaluator(RobotModel robot, Scene scene, MarginLimits limits);
 
   /// The same robot and scene, shared, with other limits.
@@ -35,6 +36,8 @@ class MarginEvaluator {
   const BodyHeights& heights() const { return place().heights; }
   /// For evaluations by one thread.
   Scratch MakeScratch() const { return {.bodies = clearances().MakeScratch()}; }
+  /// The families that there are for this robot, in order.
+  std::span<const MarginFamily> families() const { return shared_->families; }
   /// All statements of a family.
   const MarginStatements& statements(MarginFamily family) const {
     return *shared_->statements[static_cast<size_t>(family)];
@@ -69,6 +72,7 @@ class MarginEvaluator {
     MarginPlace place;
     // By family; borrow place.
     std::array<std::unique_ptr<const MarginStatements>, kNumMarginFamilies> statements;
+    std::vector<MarginFamily> families;  // that are present
   };
 
   std::shared_ptr<const Shared> shared_;

@@ -94,7 +94,7 @@ smoothing:
   margins: {floor_m: 0.001, zmp_m: 0.002, reach_m: 0.003, joint_rad: 0.004,
             joint_speed_rad_s: 0.005, foot_speed_m_s: 0.006, foot_yaw_rate_rad_s: 0.007,
             clearance_m: 0.008, self_clearance_m: 0.009, ground_m: 0.011, no_step_m: 0.012,
-            zmp_robot_m: 0.013, torque_n_m: 14, friction: 0.015}
+            zmp_robot_m: 0.013, torque_n_m: 14, friction: 0.015, joint_acceleration_rad_s2: 1.6}
 output: {directory: ../out, period_s: 0.02}
 seed: 42
 )";
@@ -142,6 +142,7 @@ TEST(ExperimentConfig, EveryKeyReachesItsField) {
   EXPECT_EQ(s.limits.demanded_of(MarginFamily::kZmpRobot), 0.013);
   EXPECT_EQ(s.limits.demanded_of(MarginFamily::kTorque), 14);
   EXPECT_EQ(s.limits.demanded_of(MarginFamily::kFriction), 0.015);
+  EXPECT_EQ(s.limits.demanded_of(MarginFamily::kJointAcceleration), 1.6);
   EXPECT_EQ(c.output_directory, "../out");
   EXPECT_EQ(c.output_period, 0.02);
   EXPECT_EQ(c.seed, 42);
@@ -202,6 +203,24 @@ TEST(ExperimentConfig, NothingNeedBeDemandedOfTheWholeRobotsZmp) {
   EXPECT_THROW(
       LoadConfig(WriteText(place / "zmp.yaml", kAllKeys), {{"smoothing.margins.zmp_m", "none"}}),
       InputError);
+}
+
+// Written back it is there only where it says something; of a robot without limits it says nothing.
+TEST(ExperimentConfig, WhatIsDemandedOfJointAccelerationsIsWrittenWhereItIsNotTheDefault) {
+  const TemporaryFolder place;
+  const std::string key = "smoothing.margins.joint_acceleration_rad_s2";
+  const auto config = [&](const std::string& value) {
+    return LoadConfig(WriteText(place / "c.yaml", kAllKeys), {{key, value}});
+  };
+  EXPECT_THAT(Written(config("0")), testing::Not(testing::HasSubstr("joint_acceleration")));
+  for (const std::string value : {"1.6", "none"}) {
+    const std::string text = Written(config(value));
+    EXPECT_THAT(text, testing::HasSubstr("joint_acceleration_rad_s2: " + value));
+    EXPECT_EQ(Written(LoadConfig(WriteText(place / "again.yaml", text), {})), text);
+  }
+  const auto warned = testing::Contains(testing::HasSubstr("the robot file states no limits"));
+  EXPECT_THAT(Prepare(config("1.6")).robot.warnings, warned);
+  EXPECT_THAT(Prepare(config("0")).robot.warnings, testing::Not(warned));
 }
 
 TEST(ExperimentConfig, DefaultsAreThoseOfTheReadme) {

@@ -168,7 +168,7 @@ void Judge::JudgeViolated(const Case& drawn, const WalkPlan& plan, const MarginL
 // certified answer, which has next to nothing to spare.
 void Judge::PushDemands(const Case& drawn, const WalkPlan& plan, MarginLimits limits, Draw* draw,
                         Tally* tally) const {
-  const auto families = AllMarginFamilies();
+  const auto families = drawn.evaluator->families();
   MarginFamily family = MarginFamily::kClearance;
   if (drawn.plain_scene.obstacles.empty() || draw->Chance(0.4)) {
     family = families[static_cast<size_t>(draw->Below(static_cast<int>(families.size())))];

@@ -7,6 +7,7 @@
 
 #include "tests/scenarios/load_experiment.h"
 #include "tests/smoothing/test_walks.h"
+#include "tests/wpg/acceleration_limits.h"
 
 namespace halfstep {
 namespace {
@@ -14,7 +15,8 @@ namespace {
 class SlackRows : public testing::Test {
  protected:
   const Experiment e_ = LoadExperiment("bar_8cm");
-  const MarginEvaluator evaluator_{e_.robot, e_.scene, e_.config.smoothing.limits};
+  const MarginEvaluator evaluator_{WithAccelerationLimits(e_.robot, 30.0), e_.scene,
+                                   e_.config.smoothing.limits};
 };
 
 TEST_F(SlackRows, TheLeastOfEachFamilyIsItsMargin) {
@@ -80,8 +82,10 @@ TEST_F(SlackRows, GradientsAgreeWithDifferences) {
       sided.erase(sided.begin(), sided.begin() + std::ssize(here.rows));
       for (size_t r = 0; r < here.rows.size(); ++r) {
         const double size = 1 + std::abs(fine[r]);
+        // The size of what is zero and grows both ways, as q̈ of a joint that does not turn.
+        const bool tip = std::abs(fine[r]) < 1e-6 && std::abs(sided[r]) > 5e-4;
         if (std::abs(coarse[r] - fine[r]) > 1e-4 * size ||
-            std::abs(sided[r] - fine[r]) > 2e-2 * size) {
+            std::abs(sided[r] - fine[r]) > 2e-2 * size || tip) {
           ++kinks;
           continue;
         }

@@ -10,6 +10,7 @@
 #include "smoothing/proof/interval_statements.h"
 #include "tests/smoothing/certificate_draws.h"
 #include "tests/smoothing/motion_truth.h"
+#include "tests/wpg/acceleration_limits.h"
 #include "tests/wpg/torque_limits.h"
 
 namespace halfstep {
@@ -33,7 +34,7 @@ MarginLimits Undemanding() {
 // Whether a family's bound is one by norms.
 bool IsOfDynamics(MarginFamily family) {
   return family == MarginFamily::kZmpRobot || family == MarginFamily::kTorque ||
-         family == MarginFamily::kFriction;
+         family == MarginFamily::kFriction || family == MarginFamily::kJointAcceleration;
 }
 
 // By family: rows compared, and the largest (margin at the midpoint − true margin) / bound.
@@ -75,7 +76,8 @@ TEST(CertificateRows, HoldInsideWholeCertificates) {
   Tally tally;
   WalkDraw draw(41);
   int certified = 0;
-  for (const RobotModel& robot : RobotsOfAllKinds()) {
+  for (const RobotModel& plain : RobotsOfAllKinds()) {
+    const RobotModel robot = WithAccelerationLimits(plain, 30.0);
     for (int i = 0; i < Draws(3); ++i) {
       const HalfStepSequence sequence = DrawQuickSequence(robot, &draw);
       const SuperposedWalk walk(sequence, Overlapped(sequence, draw.Uniform(0.2, 0.9)));
@@ -271,7 +273,7 @@ TEST(CertificateRows, HoldForEveryJoint) {
 // A statement is proved when margin − bound is what is demanded, and not when it is less, though
 // the margin at the midpoint be more.
 TEST(CertificateRows, AreGivenWhereTheyKeepWhatIsDemandedAndOnlyThere) {
-  const RobotModel robot = WithTorqueLimits(Hrp2(), 300.0);
+  const RobotModel robot = WithAccelerationLimits(WithTorqueLimits(Hrp2(), 300.0), 300.0);
   WalkDraw draw(45);
   std::array<int, kNumMarginFamilies> refused{};
   const auto pending_of = [&](MarginFamily family) -> OpenGroups {

@@ -11,6 +11,7 @@
 #include "smoothing/proof/certified_feasibility.h"
 #include "tests/smoothing/test_scenes.h"
 #include "tests/smoothing/test_walks.h"
+#include "tests/wpg/acceleration_limits.h"
 #include "tests/wpg/symmetric_masses.h"
 #include "tests/wpg/torque_limits.h"
 #include "wpg/robot/torque_limits.h"
@@ -33,7 +34,8 @@ class MarginEvaluatorTest : public testing::Test {
     return evaluator.At(walk, at, &scratch);
   }
 
-  const RobotModel robot_ = WithTorqueLimits(WithSymmetricMasses(Hrp2()), 300.0);
+  const RobotModel robot_ =
+      WithAccelerationLimits(WithTorqueLimits(WithSymmetricMasses(Hrp2()), 300.0), 300.0);
   const HalfStepSequence sequence_ = OneStep(robot_);
   const SuperposedWalk walk_{sequence_, PlannedMotion(sequence_)};
 };

@@ -22,6 +22,7 @@ struct TamperedWalk {
   std::string config = "fig5_box";          ///< a shipped one
   std::vector<std::string> overrides = {};  ///< KEY=VALUE
   std::optional<double> com_height = {};    ///< of the robot [m]; none: as shipped
+  std::optional<double> acceleration = {};  ///< limit of every leg joint [rad/s²]; none: none
 };
 
 /// A run with its own copy of robot and scene, to be tampered with; by default of the Fig. 5 walk.
@@ -34,6 +35,7 @@ class TamperedRun {
     std::string name = Version() + " " + walk.config;
     for (const std::string& item : walk.overrides) name += " " + item;
     if (walk.com_height) name += " " + std::to_string(*walk.com_height);
+    if (walk.acceleration) name += " acceleration " + std::to_string(*walk.acceleration);
     const fs::path made =
         fs::path(HALFSTEP_BINARY_DIR) / ("verify_run_" + Sha256(name).substr(0, 16));
     if (!fs::exists(made)) {
@@ -184,6 +186,16 @@ class TamperedRun {
     WriteText(place / "robots/hrp2.yaml",
               std::regex_replace(ReadText(place / "robots/hrp2.yaml"),
                                  std::regex("(LEG_JOINT[0-5]): none"), "$1: 200"));
+    if (walk.acceleration) {
+      std::string limits = "acceleration_limits_rad_s2:\n";
+      for (const std::string side : {"L", "R"}) {
+        for (const char joint : {'0', '1', '2', '3', '4', '5'}) {
+          limits +=
+              "  " + side + "LEG_JOINT" + joint + ": " + std::to_string(*walk.acceleration) + "\n";
+        }
+      }
+      WriteText(place / "robots/hrp2.yaml", ReadText(place / "robots/hrp2.yaml") + limits);
+    }
     const std::string config = "configs/" + walk.config + ".yaml";
     fs::create_directories(place / "configs");
     fs::copy(source / "experiments" / config, place / config);

@@ -16,6 +16,7 @@
 #include "tests/wpg/generated_robots.h"
 #include "tests/wpg/shipped_robots.h"
 #include "wpg/files/text.h"
+#include "wpg/robot/acceleration_limits.h"
 #include "wpg/robot/robot_fields.h"
 #include "wpg/robot/sole_outline.h"
 
@@ -161,6 +162,25 @@ TEST(RobotModel, TorqueLimitsAreTheEffortsOrTheRobotFiles) {
       TemporaryRobot("silent", silent, GeneratedYaml(robot, "robot.urdf")).Load();
   ASSERT_EQ(unknown.warnings.size(), 1u);
   EXPECT_THAT(unknown.warnings[0], HasSubstr("no effort limit of "));
+}
+
+TEST(RobotModel, AccelerationLimitsAreTheRobotFiles) {
+  for (const std::string& name : kShippedRobots) {
+    EXPECT_FALSE(StatesAccelerationLimits(ShippedRobot(name))) << name;
+  }
+  const GeneratedRobot robot = GeneratedRobots()[0];
+  const std::string yaml = GeneratedYaml(robot, "robot.urdf"), urdf = GeneratedUrdf(robot);
+  const std::string key = "acceleration_limits_rad_s2: ";
+  const RobotModel model =
+      TemporaryRobot("limited", urdf, yaml + key + "{left_joint0: 12.5, left_joint1: none}\n")
+          .Load();
+  EXPECT_TRUE(StatesAccelerationLimits(model));
+  EXPECT_EQ(model.legs[0].joints[0].max_acceleration, 12.5);
+  EXPECT_TRUE(std::isinf(model.legs[0].joints[1].max_acceleration));
+  EXPECT_TRUE(std::isinf(model.legs[1].joints[0].max_acceleration));
+  EXPECT_THAT(model.warnings, testing::IsEmpty());
+  EXPECT_FALSE(StatesAccelerationLimits(
+      TemporaryRobot("unlimited", urdf, yaml + key + "{left_joint0: none}\n").Load()));
 }
 
 // Half as many vertices as its hulls have; the feet stand where they stood.

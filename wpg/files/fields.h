@@ -20,6 +20,8 @@ struct NumberSpec {
   double min = -std::numeric_limits<double>::infinity();  ///< smallest valid value
   double max = std::numeric_limits<double>::infinity();   ///< largest valid value
   bool required = false;                                  ///< whether the key may not be left out
+  /// Of an optional number that few files need: writing leaves the key out at this value.
+  std::optional<double> left_out = std::nullopt;
 };
 /// The valid values of a text or a truth value.
 struct TextSpec {

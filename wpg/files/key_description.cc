@@ -31,8 +31,10 @@ class Describer : public Fields {
   }
   void OptionalNumber(const char* key, std::optional<double>* value,
                       const NumberSpec& spec) override {
+    NumberSpec written = spec;
+    written.left_out.reset();  // the default is told, too, where files leave it out
     AddNumber(Kind::kOptionalNumber, key, spec,
-              [&](Fields& f) { f.OptionalNumber(key, value, spec); });
+              [&](Fields& f) { f.OptionalNumber(key, value, written); });
   }
   void Integer(const char* key, int* value, const NumberSpec& spec) override {
     KeyDescription& added =

@@ -59,7 +59,9 @@ class YamlWriter : public Fields {
   void Number(const char* key, double* value, const NumberSpec&) override {
     Line(key, TextOfNumber(key, *value));
   }
-  void OptionalNumber(const char* key, std::optional<double>* value, const NumberSpec&) override {
+  void OptionalNumber(const char* key, std::optional<double>* value,
+                      const NumberSpec& spec) override {
+    if (value->has_value() && *value == spec.left_out) return;
     Line(key, value->has_value() ? TextOfNumber(key, **value) : "none");
   }
   void Integer(const char* key, int* value, const NumberSpec&) override {

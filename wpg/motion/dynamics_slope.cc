@@ -56,11 +56,11 @@ DynamicsSlope::DynamicsSlope(const RobotModel& robot, const WalkJet& jet, const 
     const Vector6d missing =
         SoleAccelerationSlope(side, jet, posture, dynamics, tangent.jet) - before.acceleration;
     const Vector3d sole = posture.X_WSole[s].translation() - dynamics.O(), turn = missing.head<3>();
-    const Vector6d gained = posture.jacobian_inverse[s] *
-                            Spatial(R_BW * turn, R_BW * (missing.tail<3>() + turn.cross(sole)));
+    accelerations_[s] = posture.jacobian_inverse[s] *
+                        Spatial(R_BW * turn, R_BW * (missing.tail<3>() + turn.cross(sole)));
     Vector6d added = Vector6d::Zero();
     for (size_t j = 0; j < 6; ++j) {
-      added += gained[static_cast<Eigen::Index>(j)] * bodies[j].screw;
+      added += accelerations_[s][static_cast<Eigen::Index>(j)] * bodies[j].screw;
       changes[j].acceleration += added;
       links[j].force = ForceSlope(bodies[j], changes[j]);
       contact_ += links[j].force;

@@ -14,10 +14,10 @@ struct DynamicsTangent {
   const std::array<Vector6d, 2>& speeds;  ///< [rad/s]
 };
 
-/// The derivative of RobotDynamics along one tangent: of each leg link's screw and force, and of
-/// what the floor gives. Exact, by one sweep from the waist to the soles. Where only the ZMP is
-/// asked for, ZmpSlopes is faster. About the dynamics' O, which is held where it is. Source:
-/// wpg/README.md, "Dynamics of the whole robot".
+/// The derivative of RobotDynamics along one tangent: of each leg link's screw and force, of the
+/// joints' accelerations, and of what the floor gives. Exact, by one sweep from the waist to the
+/// soles. Where only the ZMP is asked for, ZmpSlopes is faster. About the dynamics' O, which is
+/// held where it is. Source: wpg/README.md, "Dynamics of the whole robot".
 class DynamicsSlope {
  public:
   /// Derivatives of one link's joint screw and of the force that moves it.
@@ -33,10 +33,15 @@ class DynamicsSlope {
   const std::array<Link, 6>& leg(Side side) const {
     return legs_[static_cast<size_t>(Index(side))];
   }
+  /// Of RobotDynamics::accelerations [rad/s² per unit].
+  const Vector6d& accelerations(Side side) const {
+    return accelerations_[static_cast<size_t>(Index(side))];
+  }
   const Vector6d& contact() const { return contact_; }  ///< of RobotDynamics::contact
 
  private:
   std::array<std::array<Link, 6>, 2> legs_;
+  std::array<Vector6d, 2> accelerations_;
   Vector6d contact_;
 };
 

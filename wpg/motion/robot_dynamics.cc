@@ -1,6 +1,6 @@
 #include "wpg/motion/robot_dynamics.h"
 
-#include "wpg/check.h"
+#include <cmath>
 
 namespace halfstep {
 namespace {
@@ -36,7 +36,6 @@ Vector3d WaistAcceleration(const RobotModel& robot, const WalkJet& jet, const Po
 RobotDynamics::RobotDynamics(const RobotModel& robot, const WalkJet& jet, const Posture& posture,
                              double gravity)
     : O_(posture.X_WB.translation().x(), posture.X_WB.translation().y(), 0.0) {
-  HALFSTEP_CHECK(robot.masses.known(), robot.masses.fault);
   const auto from_O = [this](Eigen::Isometry3d X) {
     X.translation() -= O_;
     return X;
@@ -88,6 +87,7 @@ RobotDynamics::RobotDynamics(const RobotModel& robot, const WalkJet& jet, const 
       contact_ += body.force;
     }
   }
+  if (!robot.masses.known()) contact_.setConstant(std::nan(""));
 }
 
 std::optional<Eigen::Vector2d> RobotDynamics::Zmp() const {

@@ -27,7 +27,9 @@ class RobotDynamics {
   };
   using LegBodies = std::array<Body, 6>;  ///< of one leg, from the hip down
 
-  /// Preconditions: masses are known, the posture is reachable and its joint speeds are solved.
+  /// Preconditions: the posture is reachable and its joint speeds are solved. Where masses are not
+  /// known, only velocities and accelerations mean something: contact() is not a number, and there
+  /// is no ZMP.
   RobotDynamics(const RobotModel& robot, const WalkJet& jet, const Posture& posture,
                 double gravity);
 

@@ -84,6 +84,20 @@ void DeclareEfforts(Fields& fields, RobotFile* file) {
                });
 }
 
+void DeclareAccelerations(Fields& fields, RobotFile* file) {
+  file->acceleration_limits.resize(file->urdf ? file->urdf->joints.size() : 0);
+  fields.Group("acceleration_limits_rad_s2",
+               {.meaning = "accelerations that joints are allowed, either way; none: no limit"},
+               [&](Fields& f) {
+                 for (size_t i = 0; i < file->acceleration_limits.size(); ++i) {
+                   const UrdfJoint& joint = file->urdf->joints[i];
+                   if (joint.kind != UrdfJoint::Kind::kRevolute) continue;
+                   f.OptionalNumber(joint.name.c_str(), &file->acceleration_limits[i],
+                                    {.unit = "rad/s²", .min = 1e-3, .max = 1e5});
+                 }
+               });
+}
+
 void DeclarePackages(Fields& fields, RobotFile* file) {
   fields.Group("packages", {.meaning = "folders of the package:// names in the URDF"},
                [&](Fields& f) {
@@ -184,6 +198,7 @@ void DeclareFields(Fields& fields, RobotFile* file) {
                   .required = true});
   DeclareJoints(fields, file);
   DeclareEfforts(fields, file);
+  DeclareAccelerations(fields, file);
   DeclareExcluded(fields, links, file);
   DeclareMeshParts(fields, file);
   fields.Integer("hull_vertices", &file->hull_vertices,

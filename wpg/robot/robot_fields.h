@@ -47,6 +47,8 @@ struct RobotFile {
   std::vector<std::vector<double>> limits_deg;  ///< by URDF joint index; empty: the URDF's
   /// By URDF joint index [N m]; 0: the URDF does not say, none: the file says so itself.
   std::vector<std::optional<double>> effort_limits;
+  /// By URDF joint index [rad/s²]; none: the file states no limit.
+  std::vector<std::optional<double>> acceleration_limits;
   std::vector<ExcludedPair> excluded;     ///< pairs that are not checked
   std::map<std::string, int> mesh_parts;  ///< link → convex parts of each of its meshes
   int hull_vertices = 64;                 ///< at most, of a mesh's hull, or of a part's

@@ -57,6 +57,8 @@ class Builder {
       leg_.posture.push_back(DegreesToRadians(file_.posture_deg[i]));
       const double torque = file_.effort_limits[i].value_or(0.0);
       leg_.torque.push_back(torque > 0.0 ? torque : std::numeric_limits<double>::infinity());
+      leg_.acceleration.push_back(
+          file_.acceleration_limits[i].value_or(std::numeric_limits<double>::infinity()));
     }
     CheckPostureInLimits();
     leg_.waist = urdf_.FindLink(file_.waist_link);

@@ -175,6 +175,7 @@ std::optional<Leg> LegGeometry(const UrdfTree& urdf, const LegRequest& request,
     }
     out.max_speed = joint.max_speed;
     out.max_torque = request.torque[index];
+    out.max_acceleration = request.acceleration[index];
     leg.standing_q[static_cast<Eigen::Index>(i)] = request.posture[index];
   }
   leg.X_BSole = X_BRoot * X[static_cast<size_t>(request.foot)] * request.X_FootSole;

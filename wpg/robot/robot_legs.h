@@ -17,9 +17,11 @@ struct LegRequest {
   int foot = -1;   ///< link index of the foot.
   /// The sole's pose in the frame of the foot's link.
   Eigen::Isometry3d X_FootSole = Eigen::Isometry3d::Identity();
-  std::vector<double> lower;    ///< limits by URDF joint index [rad].
-  std::vector<double> upper;    ///< the same of the upper ones [rad]
-  std::vector<double> torque;   ///< limits by URDF joint index [N m]; ∞: not known.
+  std::vector<double> lower;   ///< limits by URDF joint index [rad].
+  std::vector<double> upper;   ///< the same of the upper ones [rad]
+  std::vector<double> torque;  ///< limits by URDF joint index [N m]; ∞: not known.
+  /// Limits by URDF joint index [rad/s²]; ∞: none is stated.
+  std::vector<double> acceleration;
   std::vector<double> posture;  ///< standing posture by URDF joint index [rad].
 };
 

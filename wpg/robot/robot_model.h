@@ -29,6 +29,8 @@ struct LegJoint {
   double max_speed = 0.0;   ///< [rad/s] > 0.
   /// Torque that its motor gives, either way [N m] > 0; ∞: not known.
   double max_torque = std::numeric_limits<double>::infinity();
+  /// Acceleration that it is allowed, either way [rad/s²] > 0; ∞: the robot file states none.
+  double max_acceleration = std::numeric_limits<double>::infinity();
   Eigen::Isometry3d X_BLink;  ///< frame of the link that it moves, at q = 0.
 };
 

@@ -32,7 +32,7 @@ class Robot:
     waist_height: float
     standing_width: float
     sole_size: np.ndarray
-    joints: list[tuple[str, float, float, float, float]]
+    joints: list[tuple[str, float, float, float, float, float]]
     bodies: list[str]
     warnings: list[str]
     def __init__(self, path: str) -> None: ...

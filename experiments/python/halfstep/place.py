@@ -66,9 +66,11 @@ class Robot:
     @property
     def joints(self) -> Table:
         """The twelve leg joints, the left leg's first: ``name``, ``lower_rad``, ``upper_rad``,
-        ``speed_rad_s``, ``torque_n_m`` (inf: not known)."""
+        ``speed_rad_s``, ``torque_n_m`` (inf: not known), ``acceleration_rad_s2`` (inf:
+        no limit)."""
         rows = self._robot.joints
-        names = ("name", "lower_rad", "upper_rad", "speed_rad_s", "torque_n_m")
+        names = ("name", "lower_rad", "upper_rad", "speed_rad_s", "torque_n_m",
+                 "acceleration_rad_s2")
         return Table({name: np.array([row[i] for row in rows], dtype=object if i == 0 else float)
                       for i, name in enumerate(names)})
 

@@ -1,0 +1,74 @@
+#include "experiments/verify/joint_accelerations.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "wpg/files/text.h"
+#include "wpg/motion/posture.h"
+#include "wpg/robot/acceleration_limits.h"
+
+namespace halfstep::verify {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kAngleStep = 5e-4;  // between the angles of a difference [s]
+// Of the angle here, and of those one step and more away.
+constexpr std::array<double, 5> kWeights = {-205.0 / 72, 8.0 / 5, -1.0 / 5, 8.0 / 315, -1.0 / 560};
+
+double MarginOf(const RobotModel& robot, const std::array<Vector6d, 2>& accelerations, size_t side,
+                size_t joint) {
+  const double size = std::abs(accelerations[side][static_cast<Eigen::Index>(joint)]);
+  return std::isnan(size) ? -kInfinity : robot.legs[side].joints[joint].max_acceleration - size;
+}
+
+}  // namespace
+
+std::array<Vector6d, 2> JointAccelerations(const DescribedWalk& walk, double t) {
+  const WalkJet jet = walk.At(t);
+  std::array<Vector6d, 2> sum = {Vector6d::Zero(), Vector6d::Zero()};
+  for (int k = -4; k <= 4; ++k) {
+    const double s = k * kAngleStep;
+    const Posture posture =
+        SolvePosture(walk.robot(), jet.value + s * jet.first + 0.5 * s * s * jet.second);
+    const double weight =
+        posture.reachable ? kWeights[static_cast<size_t>(std::abs(k))] : std::nan("");
+    for (size_t side = 0; side < 2; ++side) sum[side] += weight * posture.ik[side].q;
+  }
+  for (Vector6d& of_leg : sum) of_leg /= kAngleStep * kAngleStep;
+  return sum;
+}
+
+double JointAccelerationMargin(const DescribedWalk& walk, double t, size_t side, size_t joint) {
+  return MarginOf(walk.robot(), JointAccelerations(walk, t), side, joint);
+}
+
+double LeastJointAccelerationMargin(const DescribedWalk& walk, double t) {
+  double least = kInfinity;
+  if (!StatesAccelerationLimits(walk.robot())) return least;
+  const std::array<Vector6d, 2> accelerations = JointAccelerations(walk, t);
+  for (size_t side = 0; side < 2; ++side) {
+    for (size_t joint = 0; joint < 6; ++joint) {
+      least = std::min(least, MarginOf(walk.robot(), accelerations, side, joint));
+    }
+  }
+  return least;
+}
+
+void CheckJointAccelerations(const std::vector<PlayedRow>& rows, const DescribedWalk& walk,
+                             const CertificateText& certificate, Findings* findings) {
+  if (!StatesAccelerationLimits(walk.robot())) return;
+  const double demanded = certificate.demanded[kJointAcceleration];
+  if (demanded == kNotDemanded) {
+    findings->Say("joint accelerations: nothing is demanded");
+    return;
+  }
+  Check check("joint accelerations", kUnits[kJointAcceleration], demanded, kAccelerationRounding);
+  for (const PlayedRow& row : rows) {
+    check.Add(LeastJointAccelerationMargin(walk, row.t),
+              [&row] { return Formatted("at t = %.6g s", row.t); });
+  }
+  check.Conclude(findings);
+}
+
+}  // namespace halfstep::verify
