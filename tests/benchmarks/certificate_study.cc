@@ -1,6 +1,7 @@
 // What the certificate is worth: how often it errs, and what it costs in seconds of walk. Prints
 // the tables of notebooks-data/measurements.md, "Certificates". Not a test.
-// Run: certificate_study walks [WALKS [SEED [ROBOT]]] | dichotomy
+// Run: certificate_study walks [WALKS [SEED [ROBOT [all]]]] | dichotomy
+// all: walks that move along every family of homotopy parameters, not along overlaps alone.
 
 #include <algorithm>
 #include <array>
@@ -48,7 +49,7 @@ double LeastSlack(const MarginEvaluator& evaluator, const SuperposedWalk& walk,
   return least;
 }
 
-void Walks(long walks, unsigned seed, const std::string& name) {
+void Walks(long walks, unsigned seed, const std::string& name, bool all) {
   constexpr std::array<double, 5> kSpares = {0.0, 0.01, 0.03, 0.1, 0.3};  // of the scale
   constexpr std::array<const char*, 3> kKinds = {"cylinders", "clutter", "fence"};
   struct Row {
@@ -67,7 +68,8 @@ void Walks(long walks, unsigned seed, const std::string& name) {
   for (long w = 0; w < walks;) {
     const size_t kind = static_cast<size_t>(w % 3);
     const double spare = kSpares[static_cast<size_t>(draw.Uniform(0, 5))];
-    const auto drawn = DrawNearLimit(robot, static_cast<SceneKind>(kind), limits, spare, &draw);
+    const auto drawn =
+        DrawNearLimit(robot, static_cast<SceneKind>(kind), limits, spare, &draw, all);
     ++plans;
     if (!drawn) continue;
     ++w;
@@ -188,11 +190,13 @@ int main(int argc, char** argv) {
   const long number = argc > 2 ? std::atol(argv[2]) : 0;
   const unsigned seed = argc > 3 ? static_cast<unsigned>(std::atoi(argv[3])) : 1;
   if (part == "walks") {
-    halfstep::Walks(number > 0 ? number : 2000, seed, argc > 4 ? argv[4] : "hrp2");
+    const bool all = argc > 5 && std::string(argv[5]) == "all";
+    halfstep::Walks(number > 0 ? number : 2000, seed, argc > 4 ? argv[4] : "hrp2", all);
   } else if (part == "dichotomy") {
     halfstep::Dichotomies();
   } else {
-    std::fprintf(stderr, "usage: certificate_study walks [WALKS [SEED [ROBOT]]] | dichotomy\n");
+    std::fprintf(stderr,
+                 "usage: certificate_study walks [WALKS [SEED [ROBOT [all]]]] | dichotomy\n");
     return 2;
   }
 }

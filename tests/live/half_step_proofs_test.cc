@@ -59,6 +59,21 @@ TEST_F(HalfStepProofsTest, AreNotRememberedOfAnotherOverlap) {
   EXPECT_FALSE(remembered.Knows(plan.Walk(), 1));
 }
 
+// Nor of another form, whatever number of it differs.
+TEST_F(HalfStepProofsTest, AreNotRememberedOfAnotherForm) {
+  const WalkPlan plan = Begin(3).plan;
+  RememberedHalfSteps remembered;
+  remembered.Remember(plan.Walk(), 1);
+  for (const ParameterFamily family : AllParameterFamilies()) {
+    const ParameterFamilyTraits& traits = Traits(family);
+    if (!traits.of_form || traits.move != nullptr) continue;
+    WalkPlan other = plan;
+    double& value = other.parameters.of(family)[static_cast<size_t>(traits.index_at(1))];
+    value += value > traits.least ? -1e-6 : 1e-6;
+    EXPECT_FALSE(remembered.Knows(other.Walk(), 1)) << traits.name;
+  }
+}
+
 // Where a swept volume is free the certificate finds the same, and it is not asked about half-steps
 // that overlap.
 TEST_F(HalfStepProofsTest, OfVolumesAreThoseOfTheCertificate) {

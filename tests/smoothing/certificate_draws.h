@@ -131,9 +131,11 @@ struct DrawnWalk {
 /// A random walk of 2 to 6 half-steps that, sampled every 5 ms, keeps every margin `spare` × its
 /// scale beyond what `limits` demand, and hardly more: it is as far along a random way from the
 /// planned motion as that allows. None when the drawn plan itself does not keep them, or when no
-/// margin stops the way.
+/// margin stops the way. The way leads along overlaps alone, or along `all` families of homotopy
+/// parameters, footsteps included.
 inline std::optional<DrawnWalk> DrawNearLimit(const RobotModel& robot, SceneKind kind,
-                                              MarginLimits limits, double spare, WalkDraw* draw) {
+                                              MarginLimits limits, double spare, WalkDraw* draw,
+                                              bool all = false) {
   for (MarginFamily family : AllMarginFamilies()) {
     limits.demanded_of(family) += spare * Scale(family);
   }
@@ -151,7 +153,8 @@ inline std::optional<DrawnWalk> DrawNearLimit(const RobotModel& robot, SceneKind
   const SuperposedWalk planned(sequence, PlannedMotion(sequence));
   if (feasible({}, planned, 0.02).verdict != Verdict::kFeasible) return std::nullopt;
 
-  HomotopyParameters farthest = PlannedMotion(sequence);
+  const HomotopyParameters plan = PlannedMotion(sequence);
+  HomotopyParameters farthest = all ? draw->Parameters(sequence, 0.0, 0.0) : plan;
   for (int i = 0; i < sequence.num_junctions(); ++i) {
     farthest.overlaps[static_cast<size_t>(i)] =
         draw->Uniform(0.4, 1.0) * NaturalOverlapBound(farthest, i);
@@ -168,6 +171,12 @@ inline std::optional<DrawnWalk> DrawNearLimit(const RobotModel& robot, SceneKind
   const auto at = [&](double lambda) {
     drawn.parameters = farthest;
     for (double& overlap : drawn.parameters.overlaps) overlap *= lambda;
+    for (const HomotopyParameter& parameter : AllParameters(sequence)) {
+      if (!all || parameter.family == ParameterFamily::kOverlap) continue;
+      const double from = parameter.in(plan);
+      parameter.in(drawn.parameters) = from + lambda * (parameter.in(farthest)-from);
+    }
+    if (all) ClampOverlaps(plan, &drawn.parameters);
     const SuperposedWalk walk(sequence, drawn.parameters);
     return feasible(drawn.scene, walk, 0.005).verdict == Verdict::kFeasible;
   };
