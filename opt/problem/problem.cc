@@ -46,7 +46,7 @@ void RequirePattern(const ConstraintBlock& block, int num_variables) {
     refuse(entries.back(), "is outside " + std::to_string(block.rows()) + " rows and " +
                                std::to_string(num_variables) + " variables");
   }
-  std::sort(entries.begin(), entries.end());
+  if (!std::is_sorted(entries.begin(), entries.end())) std::sort(entries.begin(), entries.end());
   const auto twice = std::adjacent_find(entries.begin(), entries.end());
   if (twice != entries.end()) refuse(*twice, "stands twice");
 }

@@ -4,6 +4,8 @@
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 namespace halfstep::opt {
 namespace {
@@ -74,20 +76,60 @@ class InteriorPoint {
 
   bool Factorize() {
     stiffness_ = s_ + z_ * u_ / (nu_ - z_);
-    const VectorXd theta = z_ / stiffness_;
-    SparseMatrix K = At_ * theta.asDiagonal() * p_.A;
-    SparseMatrix diagonal(d_.size(), d_.size());
-    diagonal.setIdentity();
-    const VectorXd entries = y_lower_ / to_lower_ + y_upper_ / to_upper_ + p_.hessian.sigma();
-    K += SparseMatrix(diagonal * entries.asDiagonal());
-    if (!analyzed_) factors_.analyzePattern(K);
-    analyzed_ = true;
-    factors_.factorize(K);
+    if (K_.size() == 0) {
+      MakePattern();
+      factors_.analyzePattern(K_);
+    }
+    Assemble(z_ / stiffness_, y_lower_ / to_lower_ + y_upper_ / to_upper_ + p_.hessian.sigma());
+    factors_.factorize(K_);
     if (factors_.info() != Eigen::Success) return false;
     if (p_.hessian.empty()) return true;
     KU_ = factors_.solve(p_.hessian.U());
     small_.compute(p_.hessian.C() - p_.hessian.U().transpose() * KU_);
     return true;
+  }
+
+  // Calls add(j, i, a_ij) for the entries of AᵀA's column b on and below the diagonal, once for
+  // each row i of A that makes one.
+  template <typename Add>
+  void ForColumn(Eigen::Index b, const Add& add) const {
+    for (SparseMatrix::InnerIterator of_b(p_.A, b); of_b; ++of_b) {
+      for (SparseMatrix::InnerIterator entry(At_, of_b.row()); entry; ++entry) {
+        if (entry.row() >= b) add(entry.row(), of_b.row(), of_b.value() * entry.value());
+      }
+    }
+  }
+
+  // Where K_, the lower triangle of σI + AᵀΘA + the bounds' diagonal, has entries.
+  void MakePattern() {
+    const Eigen::Index n = d_.size();
+    K_.resize(n, n);
+    std::vector<Eigen::Index> rows;
+    std::vector<Eigen::Index> met(static_cast<size_t>(n), -1);  // the last column that has it
+    for (Eigen::Index b = 0; b < n; ++b) {
+      rows.assign(1, b);
+      met[static_cast<size_t>(b)] = b;
+      ForColumn(b, [&](Eigen::Index j, Eigen::Index, double) {
+        if (std::exchange(met[static_cast<size_t>(j)], b) != b) rows.push_back(j);
+      });
+      std::sort(rows.begin(), rows.end());
+      K_.startVec(b);
+      for (const Eigen::Index j : rows) K_.insertBack(j, b) = 0.0;
+    }
+    K_.finalize();
+  }
+
+  void Assemble(const Array& theta, const Array& diagonal) {
+    VectorXd column = VectorXd::Zero(d_.size());
+    for (Eigen::Index b = 0; b < d_.size(); ++b) {
+      ForColumn(b, [&](Eigen::Index j, Eigen::Index i, double product) {
+        column[j] += theta[i] * product;
+      });
+      column[b] += diagonal[b];
+      for (SparseMatrix::InnerIterator entry(K_, b); entry; ++entry) {
+        entry.valueRef() = std::exchange(column[entry.row()], 0.0);
+      }
+    }
   }
 
   // Newton's step to complementarities `mu`, with the products of `affine` as second order terms.
@@ -167,7 +209,7 @@ class InteriorPoint {
   Array s_, u_, z_, to_lower_, to_upper_, y_lower_, y_upper_;
   Array stiffness_;  // s + z u/(ν − z): Δz = … − z/stiffness · AΔd
   Eigen::SimplicialLDLT<SparseMatrix> factors_;
-  bool analyzed_ = false;
+  SparseMatrix K_;
   Eigen::MatrixXd KU_;
   Eigen::PartialPivLU<Eigen::MatrixXd> small_;
 };

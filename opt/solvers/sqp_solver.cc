@@ -76,6 +76,7 @@ class Sqp {
     SparseMatrix A = rows_->Jacobian(jacobian);
     const SolverOptions& options = monitor_.options();
     while (monitor_.MayGoOn()) {
+      if (moved_ && !Differentiate(&A)) return Broken();
       const VectorXd c = rows_->Values(values_);
       const ElasticStep step = Step(c, A);
       const double predicted = Predicted(step.d, c, A);
@@ -188,15 +189,13 @@ class Sqp {
 
   struct Trial {
     VectorXd x, values, c;
-    std::vector<double> jacobian;
     double cost = 0.0, merit = std::numeric_limits<double>::infinity();
   };
-  // With derivatives: most trials are taken.
+  // Without derivatives: not every trial is taken, nor does every one that is have a successor.
   Trial At(const VectorXd& d) {
     Trial trial;
     trial.x = (x_ + d).cwiseMax(problem_.lower()).cwiseMin(problem_.upper());
-    if (monitor_.Jacobian(trial.x, &trial.jacobian) &&
-        monitor_.Constraints(trial.x, &trial.values) && monitor_.Cost(trial.x, &trial.cost)) {
+    if (monitor_.Constraints(trial.x, &trial.values) && monitor_.Cost(trial.x, &trial.cost)) {
       trial.c = rows_->Values(trial.values);
       trial.merit = Merit(trial.cost, trial.c);
     }
@@ -235,8 +234,18 @@ class Sqp {
     }
   }
 
-  // Goes there, with the derivatives there, if the merit falls as predicted, and adapts the region.
-  // False: the monitor ends.
+  // The derivatives after a step, and what the estimate of the Hessian learns from it. False: the
+  // monitor ends.
+  bool Differentiate(SparseMatrix* A) {
+    std::vector<double> jacobian;
+    if (!monitor_.Jacobian(x_, &jacobian) || !monitor_.Gradient(x_, &gradient_)) return false;
+    *A = rows_->Jacobian(jacobian);
+    hessian_.Update(moved_->by, gradient_ - A->transpose() * moved_->duals - moved_->slope);
+    moved_.reset();
+    return true;
+  }
+
+  // Goes there if the merit falls as predicted, and adapts the region. False: the monitor ends.
   bool Try(const ElasticStep& step, const VectorXd& c, double predicted,
            SparseMatrix* derivatives) {
     const SparseMatrix& A = *derivatives;
@@ -260,21 +269,26 @@ class Sqp {
     }
     Adapt(d, c, (-c - A * step.d).cwiseMax(0.0), trial, ratio);
     if (!(ratio > kAccept)) return true;
-    const VectorXd moved = trial.x - x_;
-    const VectorXd before = gradient_ - A.transpose() * step.duals;
+    moved_ = {trial.x - x_, step.duals, gradient_ - A.transpose() * step.duals};
     x_ = trial.x;
     values_ = trial.values;
-    *derivatives = rows_->Jacobian(trial.jacobian);
     cost_ = trial.cost;
-    if (!monitor_.Gradient(x_, &gradient_)) return false;
-    hessian_.Update(moved, gradient_ - A.transpose() * step.duals - before);
+    // What is learned of curvature is for a later solve, too.
+    if (hessian_.remembers() && !Differentiate(derivatives)) return false;
     return monitor_.ReportIterate(x_);
   }
+
+  // A step that was taken, until the derivatives at its end are known: the rows' duals and the
+  // Lagrangian's gradient before it.
+  struct Moved {
+    VectorXd by, duals, slope;
+  };
 
   SolveMonitor& monitor_;
   const Problem& problem_;
   VectorXd x_, width_, region_, values_, gradient_;
   double cost_ = 0.0;
+  std::optional<Moved> moved_;      // none: the derivatives at x_ are known
   std::optional<ScaledRows> rows_;  // after the first evaluation
   double first_penalty_, most_penalty_;
   RowPenalties::Memory known_;             // from an earlier solve

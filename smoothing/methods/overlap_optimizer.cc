@@ -15,6 +15,7 @@
 #include "smoothing/methods/overlap_prices.h"
 #include "smoothing/methods/search_ending.h"
 #include "smoothing/methods/search_rounds.h"
+#include "smoothing/methods/shortened_start.h"
 
 namespace halfstep {
 namespace {
@@ -26,6 +27,8 @@ constexpr double kNearStart = 0.1, kFarStart = 0.5;
 constexpr int kPatience = 10;
 // Instants a half-step where each has rows of its own.
 constexpr int kRowsInstants = 24;
+// The same where it is asked how far half-steps may be shortened.
+constexpr int kShorteningInstants = 8;
 // A round that gains less, for the incumbent and for the solver, is poor (relative); so many in a
 // row end the search.
 constexpr double kGain = 1e-3;
@@ -150,7 +153,7 @@ class Optimization {
 
   void Search(OverlapProgram& program, Incumbent* path) {
     std::vector<HomotopyParameters> starts = {start_};
-    if (options_.planned_start) starts.push_back(problem_.Start());
+    if (options_.planned_start) starts.push_back(Fastest() ? Shortened() : problem_.Start());
     AddRandomPoints(program, options_.random_starts, options_.seed, &starts);
     for (size_t s = 0; s < starts.size(); ++s) {
       program.watched().SetSharpness(options_.program.watch.sharpness);
@@ -185,6 +188,16 @@ class Optimization {
       }
       end_.exhausted = end_.exhausted || poor < kPoorRounds;
     }
+  }
+
+  // The planned motion at the durations that a look at a few instants allows.
+  HomotopyParameters Shortened() const {
+    ProgramOptions coarse = options_.program;
+    coarse.watch.instants = kShorteningInstants;
+    coarse.watch.row_per_instant = false;
+    OverlapProgram program(sequence_, test_.evaluator(), coarse, 0.0, problem_.fixed());
+    program.watched().SetWorkers(monitor_.workers());
+    return ShortenedStart(program, problem_.Start());
   }
 
   // Tries the end of a round where it looks good, or `always`; the program learns where to look.

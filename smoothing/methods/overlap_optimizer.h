@@ -16,7 +16,7 @@ struct OptimizerOptions {
   std::optional<HomotopyParameters> start = std::nullopt;
   /// For `safest`, the most that D may be [s]; 0: the duration of the walk that it begins with.
   double duration_limit = 0.0;
-  bool planned_start = true;  ///< solve also from the planned motion, after the dichotomy's result
+  bool planned_start = true;  ///< solve also from the planned motion, for `fastest` shortened
   int random_starts = 0;      ///< and from random points of the variables' box
   unsigned seed = 1;          ///< of the random starts
   int rounds = 40;  ///< ≥ 1: most solves from each start; the program is refined between them

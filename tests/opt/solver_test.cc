@@ -111,6 +111,19 @@ TEST(Sqp, WithoutMemoryItSolvesLinearProgramsOnly) {
   EXPECT_TRUE(solution.feasible);
 }
 
+// Trials that are refused are not differentiated, nor is a step that was taken last.
+TEST(Sqp, DerivativesAreAskedForOnlyWhereAStepBegins) {
+  const ProblemCard card = Hs65();
+  opt::SolverOptions options;
+  options.solver_options["memory"] = "0";
+  options.max_iterations = 8;
+  const opt::Solution limited =
+      opt::MakeSolver("halfstep/sqp")->Solve(card.problem, card.problem.initial(), options);
+  ASSERT_EQ(limited.ending, opt::Ending::kLimit) << limited.message;
+  EXPECT_LE(limited.jacobian_evaluations, limited.iterations);
+  EXPECT_GT(limited.constraint_evaluations, limited.iterations) << "no trial was refused";
+}
+
 TEST(Sqp, ABoundOnThePenaltyIsKeptAndViolatedRowsAreNoSuccess) {
   opt::SolverOptions options;
   options.solver_options["penalty"] = options.solver_options["most_penalty"] = "1e-6";

@@ -132,6 +132,23 @@ TEST(SlowArc, RowsWhoseMultipliersAreLargeAreKeptAllTheSame) {
   EXPECT_LT(DurationOf(result.parameters), 8.5) << result.message;
 }
 
+// Searches from the dichotomy's walk and from the planned motion as it is end at 9.16 s, the best
+// uniform choice of durations and heights at 8.96 s.
+TEST(Turn, ShortHalfStepsAreFoundWhereLongOnesAreALocalOptimum) {
+  const Experiment e =
+      Prepare(LoadConfig(HALFSTEP_SOURCE_DIR "/tests/fixtures/walk/turn.yaml", {}));
+  const CertifiedFeasibility test({e.robot, e.scene, e.config.smoothing.limits}, {});
+  OptimizerOptions options = e.config.smoothing.optimizer.options;
+  options.solver = "halfstep/sqp";
+  options.deadline = 100.0;
+  const SmoothingResult result = Smoothed(OptimizeOverlaps, ProblemOf(e.sequence, test), options);
+  EXPECT_TRUE(HasOwnResult(result.ending)) << result.message;
+  EXPECT_LT(DurationOf(result.parameters), 8.96) << result.message;
+  MarginEvaluator::Scratch scratch = test.evaluator().MakeScratch();
+  const SuperposedWalk walk(e.sequence, result.parameters);
+  EXPECT_EQ(test.Check(walk, {0.0, walk.duration()}, &scratch).verdict, Verdict::kFeasible);
+}
+
 // Whatever a solver proposes is refused but the planned motion.
 TEST_F(OptimizerTest, WithoutAProofOfAnythingNewItDidNotImprove) {
   const HomotopyParameters planned = PlannedMotion(e_.sequence);
