@@ -163,21 +163,30 @@ void SuperposedWalk::Sensitivities(const LocalTime& at, std::vector<WalkSensitiv
     if (sways) AddSwayDerivative(sway, 0.0, 1.0, &jet_of({Family::kDuration, i}));
 
     const HalfStep& h = p.half_step;
-    AddViaDerivative(profiles, h.kind, i == first, p.planned_height, FootIndex(h.swing()) + 2,
-                     &jet_of({Family::kHeightScale, i / 2}));
-    const Eigen::Vector2d aside = p.X_WS.rotation().col(1) * Sign(h.swing());
-    const auto move_via = [&](const Eigen::Vector2d& by, int q, WalkJet* jet) {
-      AddViaDerivative(profiles, h.kind, i == first, by.x(), q, jet);
-      AddViaDerivative(profiles, h.kind, i == first, by.y(), q + 1, jet);
+    const auto is_wanted = [&wanted](const HomotopyParameter& parameter) {
+      return !wanted || wanted(parameter);
     };
-    WalkJet& support = jet_of({Family::kSupportPoint, i / 2});
-    move_via(aside, kComX, &support);
-    move_via(aside, kZmpX, &support);
-    move_via(aside, FootIndex(h.swing()), &jet_of({Family::kViaLateral, i / 2}));
-    move_via(p.X_WS.rotation().col(0), FootIndex(h.swing()), &jet_of({Family::kViaAlong, i / 2}));
+    // `parameter` moves quantities q and q + 1 of the state at the via point along `by`.
+    const auto move_via = [&](const HomotopyParameter& parameter, const Eigen::Vector2d& by,
+                              int q) {
+      if (!is_wanted(parameter)) return;
+      WalkJet& jet = jet_of(parameter);
+      AddViaDerivative(profiles, h.kind, i == first, by.x(), q, &jet);
+      AddViaDerivative(profiles, h.kind, i == first, by.y(), q + 1, &jet);
+    };
+    if (const HomotopyParameter height{Family::kHeightScale, i / 2}; is_wanted(height)) {
+      AddViaDerivative(profiles, h.kind, i == first, p.planned_height, FootIndex(h.swing()) + 2,
+                       &jet_of(height));
+    }
+    const Eigen::Matrix2d R_WS = p.X_WS.rotation();
+    const Eigen::Vector2d aside = R_WS.col(1) * Sign(h.swing());
+    move_via({Family::kSupportPoint, i / 2}, aside, kComX);
+    move_via({Family::kSupportPoint, i / 2}, aside, kZmpX);
+    move_via({Family::kViaLateral, i / 2}, aside, FootIndex(h.swing()));
+    move_via({Family::kViaAlong, i / 2}, R_WS.col(0), FootIndex(h.swing()));
     for (const Family family : AllParameterFamilies()) {
       const auto number = Traits(family).shape;
-      if (number == nullptr || (wanted && !wanted({family, i}))) continue;
+      if (number == nullptr || !is_wanted({family, i})) continue;
       const HalfStepJet by = p.profiles.ByShape(number, LocalTo(i, at));
       WalkJet& jet = jet_of({family, i});
       for (int q = 0; q < kNumQuantities; ++q) {
