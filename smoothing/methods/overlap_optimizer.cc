@@ -41,6 +41,15 @@ bool Gained(double before, double after) {
   return before - after >= kGain * std::abs(before);
 }
 
+// What to search over first: without footsteps where half-steps have forms, too; else with every
+// form and footstep as planned.
+ParameterChoice FewerFamilies(const ParameterChoice& choice) {
+  ParameterChoice standing = choice;
+  standing.footsteps = false;
+  const bool has_forms = standing != WithoutForms(standing);
+  return choice.footsteps && has_forms ? standing : WithoutForms(choice);
+}
+
 class Optimization {
  public:
   Optimization(const WalkProblem& problem, const OptimizerOptions& options,
@@ -70,9 +79,9 @@ class Optimization {
       return monitor_.Finish(end_.Ending(),
                              monitor_.result().feasible ? end_.Sentence() : start_message_);
     }
-    const ParameterChoice without = WithoutForms(options_.program.parameters);
-    if (Fastest() && without != options_.program.parameters) {
-      const SmoothingResult found = SearchFirst(without);
+    const ParameterChoice fewer = FewerFamilies(options_.program.parameters);
+    if (Fastest() && fewer != options_.program.parameters) {
+      const SmoothingResult found = SearchFirst(fewer);
       if (monitor_.stopped()) return monitor_.Finish(found.ending, found.message);
     }
     start_ = monitor_.incumbent();
@@ -140,8 +149,8 @@ class Optimization {
     const bool searched =
         found.ending == opt::Ending::kConverged || found.ending == opt::Ending::kLimit;
     if (searched && monitor_.cost() < before) {  // not by a dichotomy alone
-      own_without_forms_ = true;
-      end_.kept = "the walk is the search's with the forms as planned";
+      own_with_fewer_ = true;
+      end_.kept = "the walk is the search's over fewer families";
     }
     return found;
   }
@@ -273,7 +282,7 @@ class Optimization {
     } else if (path.accepted() > 0) {
       monitor_.Adopt(start_, program.Cost(start_), DurationOf(start_));
     }
-    end_.own = end_.own || own_without_forms_;
+    end_.own = end_.own || own_with_fewer_;
     for (JunctionResult& junction : monitor_.result().junctions) {
       if (!Fastest() || monitor_.stopped()) junction.limited_by.reset();
     }
@@ -319,7 +328,7 @@ class Optimization {
   StretchProofs proofs_;
   HomotopyParameters start_;  // the dichotomy's result, or that of the search over fewer families
   double search_from_ = 0.2;  // of the progress
-  bool own_without_forms_ = false;  // the search over fewer families beat what it began with
+  bool own_with_fewer_ = false;  // the search over fewer families beat what it began with
   std::string start_message_;
   opt::Solution solution_;                 // the last one
   std::optional<double> incumbent_slack_;  // at the instants watched

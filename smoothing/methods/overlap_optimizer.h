@@ -33,8 +33,9 @@ struct OptimizerOptions {
 /// Smooths a whole sequence by a nonlinear program. Whatever the solver does, what is returned was
 /// found feasible by the problem's test, and its cost with it:
 ///   1. the planned motion is the first incumbent, the result of a dichotomy the next (a coarse one
-///      for `fastest`), unless a feasible `start` is given; `fastest` that also moves forms then
-///      runs steps 2 and 3 with the forms as planned, in half of its time, and goes on from there;
+///      for `fastest`), unless a feasible `start` is given; `fastest` that also moves forms or
+///      footsteps then runs steps 2 and 3 over fewer families, in half of its time, and goes on
+///      from there: over all but footsteps, before that with forms as planned, too;
 ///   2. in rounds from each start the solver takes a few steps; where they end is a candidate for
 ///      the Incumbent, and the program learns to look where the test refused it and where
 ///      sampling finds small slacks;
