@@ -33,6 +33,9 @@ constexpr int kShorteningInstants = 8;
 // row end the search.
 constexpr double kGain = 1e-3;
 constexpr int kPoorRounds = 5;
+// The end of a round is tried although samples show that it is not feasible, after so many rounds
+// of which none was tried: most of a long walk may be feasible.
+constexpr int kUntriedRounds = 4;
 // A search that does not beat a plain dichotomy by this has found nothing [s].
 constexpr double kGainedTime = 1e-9;
 
@@ -146,9 +149,7 @@ class Optimization {
     SmoothingResult found = Optimization(problem_, options, solver_, within).Run();
     search_from_ = 0.5;
     TakeSearch(found, /*from_incumbent=*/false, monitor_);
-    const bool searched =
-        found.ending == opt::Ending::kConverged || found.ending == opt::Ending::kLimit;
-    if (searched && monitor_.cost() < before) {  // not by a dichotomy alone
+    if (HasOwnResult(found.ending) && monitor_.cost() < before) {
       own_with_fewer_ = true;
       end_.kept = "the walk is the search's over fewer families";
     }
@@ -184,7 +185,8 @@ class Optimization {
         const bool near =
             solution_.final_x.size() == x.size() && solution_.final_violation < kHopeless;
         x = near ? solution_.final_x : solution_.x;
-        const bool last = monitor_.Seconds() >= options_.deadline || round + 1 == options_.rounds;
+        const bool last = monitor_.Seconds() >= options_.deadline || round + 1 == options_.rounds ||
+                          untried_rounds_ + 1 >= kUntriedRounds;
         const bool promising = LookAt(program, x, near, last, path);
         const double cost = near ? solution_.final_cost : solution_.cost;
         poor = Gained(before, path->cost()) || Gained(solved, cost) ? 0 : poor + 1;
@@ -217,12 +219,13 @@ class Optimization {
     const SuperposedWalk walk(sequence_, end);
     const bool promising = program.watched().Focus(walk, kLookPeriod, Level(x)) >= kPromising;
     SmoothingResult& result = monitor_.result();
+    untried_rounds_ = promising || always ? 0 : untried_rounds_ + 1;
     if (!promising && !always) {
       ++result.raw_infeasible;
       result.raw_end_feasible = false;
       return false;
     }
-    Try(end, near ? solution_.final_violation : solution_.max_violation, program, path);
+    Try(end, near ? solution_.final_violation : solution_.max_violation, always, program, path);
     result.raw_end_feasible = path->refusals().empty();
     for (const Margin& refusal : path->refusals()) {
       program.watched().Learn(walk, refusal.at, refusal.stop_after >= 0);
@@ -244,19 +247,21 @@ class Optimization {
       if (wait) {
         Record(candidate, iterate.violation, 0.0);
       } else {
-        Try(candidate, iterate.violation, program, path);
+        Try(candidate, iterate.violation, false, program, path);
       }
       return true;
     };
     return solver_.Solve(problem, x, solver_options);
   }
 
-  void Try(const HomotopyParameters& candidate, double violation, const OverlapProgram& program,
-           Incumbent* path) {
+  // Proves the candidate, or what of it is near the incumbent where it is refused; `always`: also
+  // where it is violated so much that all of it is hardly feasible.
+  void Try(const HomotopyParameters& candidate, double violation, bool always,
+           const OverlapProgram& program, Incumbent* path) {
     since_proof_ = 0;
-    double lambda = 0.0;
-    if (violation <= kHopeless) lambda = path->Toward(candidate, kAttempts);
-    if (violation > kHopeless || !path->refusals().empty()) ++monitor_.result().raw_infeasible;
+    const bool tried = always || violation <= kHopeless;
+    const double lambda = tried ? path->Toward(candidate, kAttempts) : 0.0;
+    if (!tried || !path->refusals().empty()) ++monitor_.result().raw_infeasible;
     if (lambda > 0.0) {
       monitor_.Adopt(path->parameters(), path->cost(), DurationOf(path->parameters()));
       std::array<bool, kNumMarginFamilies> all;
@@ -333,6 +338,7 @@ class Optimization {
   opt::Solution solution_;                 // the last one
   std::optional<double> incumbent_slack_;  // at the instants watched
   int since_proof_ = 0;                    // candidates
+  int untried_rounds_ = 0;                 // in a row
   SearchEnding end_;
 };
 
