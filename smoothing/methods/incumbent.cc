@@ -35,25 +35,33 @@ HomotopyParameters Incumbent::Between(const HomotopyParameters& candidate,
   return point;
 }
 
+bool Incumbent::Replace(const HomotopyParameters& point, std::vector<Margin>* refusals) {
+  refusals->clear();
+  const double cost = rules_.cost(point);
+  if (!(cost < cost_ - rules_.improvement)) return false;
+  *refusals = rules_.prove(SuperposedWalk(sequence_, point), cost, scratch_);
+  if (!refusals->empty()) {
+    ++refused_;
+    return false;
+  }
+  ++accepted_;
+  parameters_ = point;
+  cost_ = cost;
+  if (rules_.accepted) rules_.accepted(point);
+  return true;
+}
+
 double Incumbent::Toward(const HomotopyParameters& candidate, int attempts) {
   constexpr double kLeastPart = 0.4;  // below it: none
   refusals_.clear();
   const size_t n = candidate.durations.size();
   std::vector<double> lambda(n, 1.0);
+  std::vector<Margin> refusals;
   for (int attempt = 0; attempt < attempts; ++attempt) {
-    const HomotopyParameters point = Between(candidate, lambda);
-    const double cost = rules_.cost(point);
-    if (!(cost < cost_ - rules_.improvement)) return 0.0;
-    const std::vector<Margin> refusals =
-        rules_.prove(SuperposedWalk(sequence_, point), cost, scratch_);
-    if (refusals.empty()) {
-      ++accepted_;
-      parameters_ = point;
-      cost_ = cost;
-      if (rules_.accepted) rules_.accepted(point);
+    if (Replace(Between(candidate, lambda), &refusals)) {
       return std::accumulate(lambda.begin(), lambda.end(), 0.0) / static_cast<double>(n);
     }
-    ++refused_;
+    if (refusals.empty()) break;  // it would not cost less
     if (attempt == 0) refusals_ = refusals;
     std::vector<bool> held(n, !rules_.local);
     for (const Margin& refusal : refusals) {
@@ -64,6 +72,10 @@ double Incumbent::Toward(const HomotopyParameters& candidate, int attempts) {
       if (held[i]) lambda[i] *= 0.5;
       if (rules_.local && lambda[i] < kLeastPart) lambda[i] = 0.0;
     }
+  }
+  // Where nearly all half-steps are held back, a part of the way of all may still do.
+  for (double part = 0.5; rules_.local && !refusals_.empty() && part > 0.1; part *= 0.5) {
+    if (Replace(Between(candidate, std::vector<double>(n, part)), &refusals)) return part;
   }
   return 0.0;
 }

@@ -13,7 +13,8 @@ namespace halfstep {
 /// Keeps the best point of the homotopy that was proved, the incumbent. A candidate replaces it
 /// only if it costs less and that was proved. One that is refused is approached instead: around the
 /// half-steps where it was refused, parameters go only a part of the way from the incumbent, less
-/// and less. So whatever proposes candidates may stop at any moment.
+/// and less; where nothing comes of that, all go a half, a quarter or an eighth of the way. So
+/// whatever proposes candidates may stop at any moment.
 class Incumbent {
  public:
   /// What the incumbent is compared by, and where it may move.
@@ -49,6 +50,8 @@ class Incumbent {
   const std::vector<Margin>& refusals() const { return refusals_; }
 
  private:
+  // Takes the point if it costs less and is proved; `refusals`: why it is not proved.
+  bool Replace(const HomotopyParameters& point, std::vector<Margin>* refusals);
   HomotopyParameters Between(const HomotopyParameters& candidate,
                              const std::vector<double>& lambda) const;
 

@@ -36,6 +36,8 @@ constexpr int kPoorRounds = 5;
 // The end of a round is tried although samples show that it is not feasible, after so many rounds
 // of which none was tried: most of a long walk may be feasible.
 constexpr int kUntriedRounds = 4;
+// Searches from the incumbent, at most, as long as each gains.
+constexpr int kMostRepeats = 10;
 // A search that does not beat a plain dichotomy by this has found nothing [s].
 constexpr double kGainedTime = 1e-9;
 
@@ -166,39 +168,52 @@ class Optimization {
     if (options_.planned_start) starts.push_back(Fastest() ? Shortened() : problem_.Start());
     AddRandomPoints(program, options_.random_starts, options_.seed, &starts);
     for (size_t s = 0; s < starts.size(); ++s) {
-      program.watched().SetSharpness(options_.program.watch.sharpness);
-      solution_.warm_start = nullptr;
-      Eigen::VectorXd x = program.ToVariables(starts[s]);
-      double solved = std::numeric_limits<double>::infinity();  // cost of the last end
-      int poor = 0;
-      for (int round = 0; round < options_.rounds && poor < kPoorRounds; ++round) {
-        const double before = path->cost();
-        const double remaining =
-            std::min(options_.deadline - monitor_.Seconds(), monitor_.Remaining());
-        end_.deadline_passed = remaining <= 0.0;
-        if (end_.deadline_passed || monitor_.stopped()) return;
-        solution_ = Solve(program, x, remaining, path);
-        end_.Note(solution_);
-        const bool refused = solution_.ending == opt::Ending::kInvalidInput;
-        if (refused || solution_.x.size() != x.size()) return;
-        // Cheap and nearly feasible is a better place to go on from than the best feasible one.
-        const bool near =
-            solution_.final_x.size() == x.size() && solution_.final_violation < kHopeless;
-        x = near ? solution_.final_x : solution_.x;
-        const bool last = monitor_.Seconds() >= options_.deadline || round + 1 == options_.rounds ||
-                          untried_rounds_ + 1 >= kUntriedRounds;
-        const bool promising = LookAt(program, x, near, last, path);
-        const double cost = near ? solution_.final_cost : solution_.cost;
-        poor = Gained(before, path->cost()) || Gained(solved, cost) ? 0 : poor + 1;
-        solved = std::min(solved, cost);
-        Sharpen(promising && path->refusals().empty(), &program.watched());
-        monitor_.Progress(search_from_ +
-                          (0.9 - search_from_) *
-                              (static_cast<double>(s) + (round + 1.0) / options_.rounds) /
-                              static_cast<double>(starts.size()));
-      }
-      end_.exhausted = end_.exhausted || poor < kPoorRounds;
+      const double part = static_cast<double>(s) / static_cast<double>(starts.size());
+      if (!SearchFrom(program, starts[s], part, path)) return;
     }
+    // Where rounds lead into what cannot be mended, the incumbent, which has come a part of the
+    // way, is a place to set out from again.
+    for (int again = 0; again < kMostRepeats && path->accepted() > 0; ++again) {
+      const double before = path->cost();
+      if (!SearchFrom(program, path->parameters(), 1.0, path)) return;
+      if (!Gained(before, path->cost())) return;
+    }
+  }
+
+  // Rounds from `start` until they gain next to nothing; `part`: of the search that is done. False:
+  // there is to be no further one.
+  bool SearchFrom(OverlapProgram& program, const HomotopyParameters& start, double part,
+                  Incumbent* path) {
+    program.watched().SetSharpness(options_.program.watch.sharpness);
+    solution_.warm_start = nullptr;
+    Eigen::VectorXd x = program.ToVariables(start);
+    double solved = std::numeric_limits<double>::infinity();  // cost of the last end
+    int poor = 0;
+    for (int round = 0; round < options_.rounds && poor < kPoorRounds; ++round) {
+      const double before = path->cost();
+      const double remaining =
+          std::min(options_.deadline - monitor_.Seconds(), monitor_.Remaining());
+      end_.deadline_passed = remaining <= 0.0;
+      if (end_.deadline_passed || monitor_.stopped()) return false;
+      solution_ = Solve(program, x, remaining, path);
+      end_.Note(solution_);
+      const bool refused = solution_.ending == opt::Ending::kInvalidInput;
+      if (refused || solution_.x.size() != x.size()) return false;
+      // Cheap and nearly feasible is a better place to go on from than the best feasible one.
+      const bool near =
+          solution_.final_x.size() == x.size() && solution_.final_violation < kHopeless;
+      x = near ? solution_.final_x : solution_.x;
+      const bool last = monitor_.Seconds() >= options_.deadline || round + 1 == options_.rounds ||
+                        untried_rounds_ + 1 >= kUntriedRounds;
+      const bool promising = LookAt(program, x, near, last, path);
+      const double cost = near ? solution_.final_cost : solution_.cost;
+      poor = Gained(before, path->cost()) || Gained(solved, cost) ? 0 : poor + 1;
+      solved = std::min(solved, cost);
+      Sharpen(promising && path->refusals().empty(), &program.watched());
+      monitor_.Progress(search_from_ + (0.9 - search_from_) * part);
+    }
+    end_.exhausted = end_.exhausted || poor < kPoorRounds;
+    return true;
   }
 
   // The planned motion at the durations that a look at a few instants allows.
