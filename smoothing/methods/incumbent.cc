@@ -57,12 +57,14 @@ double Incumbent::Toward(const HomotopyParameters& candidate, int attempts) {
   const size_t n = candidate.durations.size();
   std::vector<double> lambda(n, 1.0);
   std::vector<Margin> refusals;
-  for (int attempt = 0; attempt < attempts; ++attempt) {
+  int attempt = 0;
+  for (; attempt < attempts; ++attempt) {
     if (Replace(Between(candidate, lambda), &refusals)) {
       return std::accumulate(lambda.begin(), lambda.end(), 0.0) / static_cast<double>(n);
     }
     if (refusals.empty()) break;  // it would not cost less
-    if (attempt == 0) refusals_ = refusals;
+    if (refusals_.empty()) refusals_ = refusals;
+    const std::vector<double> before = lambda;
     std::vector<bool> held(n, !rules_.local);
     for (const Margin& refusal : refusals) {
       const size_t k = static_cast<size_t>(refusal.at.half_step);
@@ -72,10 +74,12 @@ double Incumbent::Toward(const HomotopyParameters& candidate, int attempts) {
       if (held[i]) lambda[i] *= 0.5;
       if (rules_.local && lambda[i] < kLeastPart) lambda[i] = 0.0;
     }
+    if (lambda == before) break;  // what is refused does not move
   }
   // Where nearly all half-steps are held back, a part of the way of all may still do.
-  for (double part = 0.5; rules_.local && !refusals_.empty() && part > 0.1; part *= 0.5) {
+  for (double part = 0.5; rules_.local && part > 0.1 && attempt < attempts; part *= 0.5) {
     if (Replace(Between(candidate, std::vector<double>(n, part)), &refusals)) return part;
+    ++attempt;
   }
   return 0.0;
 }

@@ -83,6 +83,22 @@ TEST_F(IncumbentTest, ARefusedCandidateIsApproachedWhereItWasRefused) {
   EXPECT_EQ(path.cost(), DurationOf(path.parameters()));
 }
 
+// Where every half-step is held back, all go a part of the way.
+TEST_F(IncumbentTest, ACandidateThatIsRefusedEverywhereIsApproachedAsAWhole) {
+  const HomotopyParameters candidate = Overlapped(sequence_, 0.9);
+  const FakeFeasibility test(evaluator_, [&](const HomotopyParameters& p) {
+    for (size_t i = 0; i < p.overlaps.size(); ++i) {
+      if (p.overlaps[i] > 0.3 * candidate.overlaps[i]) return Verdict::kViolated;
+    }
+    return Verdict::kFeasible;
+  });
+  Incumbent path = Path(test, planned_);
+  EXPECT_EQ(path.Toward(candidate, 8), 0.25);
+  for (size_t i = 0; i < candidate.overlaps.size(); ++i) {
+    EXPECT_NEAR(path.parameters().overlaps[i], 0.25 * candidate.overlaps[i], 1e-12);
+  }
+}
+
 TEST_F(IncumbentTest, WithoutLocalityAllIsHeldBackAlike) {
   const HomotopyParameters candidate = Overlapped(sequence_, 0.9);
   const FakeFeasibility test = UpTo(0.3 * candidate.overlaps[0]);
