@@ -38,6 +38,8 @@ constexpr int kPoorRounds = 5;
 constexpr int kUntriedRounds = 4;
 // Searches from the incumbent, at most, as long as each gains.
 constexpr int kMostRepeats = 10;
+// Every other one of them keeps so much more in reserve at first, so that it goes another way.
+constexpr double kMoreReserve = 5.0;
 // A search that does not beat a plain dichotomy by this has found nothing [s].
 constexpr double kGainedTime = 1e-9;
 
@@ -169,22 +171,24 @@ class Optimization {
     AddRandomPoints(program, options_.random_starts, options_.seed, &starts);
     for (size_t s = 0; s < starts.size(); ++s) {
       const double part = static_cast<double>(s) / static_cast<double>(starts.size());
-      if (!SearchFrom(program, starts[s], part, path)) return;
+      if (!SearchFrom(program, starts[s], part, 1.0, path)) return;
     }
     // Where rounds lead into what cannot be mended, the incumbent, which has come a part of the
     // way, is a place to set out from again.
-    for (int again = 0; again < kMostRepeats && path->accepted() > 0; ++again) {
-      const double before = path->cost();
-      if (!SearchFrom(program, path->parameters(), 1.0, path)) return;
-      if (!Gained(before, path->cost())) return;
+    int poor = 0;
+    for (int again = 0; again < kMostRepeats && poor < 2 && path->accepted() > 0; ++again) {
+      const double before = path->cost(), reserve = again % 2 == 0 ? 1.0 : kMoreReserve;
+      if (!SearchFrom(program, path->parameters(), 1.0, reserve, path)) return;
+      poor = Gained(before, path->cost()) ? 0 : poor + 1;
     }
   }
 
-  // Rounds from `start` until they gain next to nothing; `part`: of the search that is done. False:
-  // there is to be no further one.
+  // Rounds from `start` until they gain next to nothing; `part`: of the search that is done;
+  // `reserve`: how much more than usual the first round's rows keep. False: there is to be no
+  // further one.
   bool SearchFrom(OverlapProgram& program, const HomotopyParameters& start, double part,
-                  Incumbent* path) {
-    program.watched().SetSharpness(options_.program.watch.sharpness);
+                  double reserve, Incumbent* path) {
+    program.watched().SetSharpness(options_.program.watch.sharpness / reserve);
     solution_.warm_start = nullptr;
     Eigen::VectorXd x = program.ToVariables(start);
     double solved = std::numeric_limits<double>::infinity();  // cost of the last end
