@@ -31,7 +31,8 @@ class ComSpeed : public OwnStatement {
 int main(int argc, char** argv) {
   const bool limited = argc < 2 || std::string(argv[1]) != "without";
   if (limited) RegisterOwnMargin(std::make_unique<ComSpeed>());
-  const ExperimentConfig config = LoadConfig((DataFolder() / "configs/bar_8cm.yaml").string(), {});
+  const ExperimentConfig config = LoadConfig((DataFolder() / "configs/bar_8cm.yaml").string(),
+                                             {{"smoothing.optimizer.all_families", "false"}});
   const WalkProblem problem = ProblemOf(Prepare(config));
   SmoothingMonitor monitor;
   const SmoothingResult result =
