@@ -25,7 +25,8 @@ Smoothstep LiftWindow(HalfStepKind kind, const HalfStepShape& shape) {
              : Smoothstep{shape.t1() - shape.lift_share * shape.t1(), shape.t1()};
 }
 
-// A derivative by a parameter on which F's own argument depends at the given rate: per T in time.
+// The derivative of a profile along a parameter, from f, its derivative along a number that changes
+// by `rate` per unit of that parameter; time derivatives per second of the duration [s].
 ProfileJet InTime(const UnitJet& f, double rate, double duration) {
   const double r = 1.0 / duration;
   return {.value = rate * f.value, .first = rate * r * f.s, .second = rate * r * r * f.ss};
