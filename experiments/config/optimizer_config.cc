@@ -109,7 +109,10 @@ void DeclareOptimizer(Fields& fields, OptimizerConfig* c) {
        .min = 0,
        .max = 1000});
   fields.Integer("rounds", &o->rounds,
-                 {.meaning = "solves from each start, each looking closer", .min = 1, .max = 100});
+                 {.meaning = "solves from each start, each looking closer; and a quarter as many "
+                             "times from the best walk",
+                  .min = 1,
+                  .max = 100});
   fields.Boolean("planned_start", &o->planned_start,
                  {.meaning = "solve also from the planned motion, not only from the dichotomy's "
                              "result"});

@@ -14,6 +14,7 @@
 #include "smoothing/methods/incumbent.h"
 #include "smoothing/methods/overlap_prices.h"
 #include "smoothing/methods/search_ending.h"
+#include "smoothing/methods/search_pace.h"
 #include "smoothing/methods/search_rounds.h"
 #include "smoothing/methods/shortened_start.h"
 
@@ -29,24 +30,25 @@ constexpr int kPatience = 10;
 constexpr int kRowsInstants = 24;
 // The same where it is asked how far half-steps may be shortened.
 constexpr int kShorteningInstants = 8;
-// A round that gains less, for the incumbent and for the solver, is poor (relative); so many in a
-// row end the search.
-constexpr double kGain = 1e-3;
-constexpr int kPoorRounds = 5;
 // The end of a round is tried although samples show that it is not feasible, after so many rounds
 // of which none was tried: most of a long walk may be feasible.
 constexpr int kUntriedRounds = 4;
-// Searches from the incumbent, at most, as long as each gains.
-constexpr int kMostRepeats = 10;
 // Every other one of them keeps so much more in reserve at first, so that it goes another way.
 constexpr double kMoreReserve = 5.0;
 // A search that does not beat a plain dichotomy by this has found nothing [s].
 constexpr double kGainedTime = 1e-9;
 
-bool Gained(double before, double after) {
-  if (!std::isfinite(before)) return std::isfinite(after);
-  return before - after >= kGain * std::abs(before);
-}
+// How long a search goes on.
+struct Effort {
+  int poor_rounds;  // in a row end the rounds from a start
+  bool repeats;     // from the incumbent, as long as that gains
+  bool compares;    // with fine dichotomies, at last
+};
+constexpr Effort kWhole = {5, true, true};
+// Before a search over more families, which goes on from what it finds.
+constexpr Effort kBefore = {2, false, false};
+// Of the rounds from each start: searches from the incumbent at most.
+constexpr int kRoundsARepeat = 4;
 
 // What to search over first: without footsteps where half-steps have forms, too; else with every
 // form and footstep as planned.
@@ -60,12 +62,13 @@ ParameterChoice FewerFamilies(const ParameterChoice& choice) {
 class Optimization {
  public:
   Optimization(const WalkProblem& problem, const OptimizerOptions& options,
-               const opt::Solver& solver, SmoothingMonitor& monitor)
+               const opt::Solver& solver, const Effort& effort, SmoothingMonitor& monitor)
       : problem_(problem),
         sequence_(problem.sequence()),
         test_(problem.test()),
         options_(options),
         solver_(solver),
+        effort_(effort),
         monitor_(monitor),
         proofs_(test_, sequence_.size()),
         end_{.solver = options.solver,
@@ -150,7 +153,7 @@ class Optimization {
     options.deadline = 0.5 * (options_.deadline - monitor_.Seconds());
     const double before = monitor_.cost();
     SmoothingMonitor within(monitor_.Part(search_from_, 0.5));
-    SmoothingResult found = Optimization(problem_, options, solver_, within).Run();
+    SmoothingResult found = Optimization(problem_, options, solver_, kBefore, within).Run();
     search_from_ = 0.5;
     TakeSearch(found, /*from_incumbent=*/false, monitor_);
     if (HasOwnResult(found.ending) && monitor_.cost() < before) {
@@ -175,11 +178,12 @@ class Optimization {
     }
     // Where rounds lead into what cannot be mended, the incumbent, which has come a part of the
     // way, is a place to set out from again.
+    const int repeats = effort_.repeats ? options_.rounds / kRoundsARepeat : 0;
     int poor = 0;
-    for (int again = 0; again < kMostRepeats && poor < 2 && path->accepted() > 0; ++again) {
+    for (int again = 0; again < repeats && poor < 2 && path->accepted() > 0; ++again) {
       const double before = path->cost(), reserve = again % 2 == 0 ? 1.0 : kMoreReserve;
       if (!SearchFrom(program, path->parameters(), 1.0, reserve, path)) return;
-      poor = Gained(before, path->cost()) ? 0 : poor + 1;
+      poor = SearchPace::Gained(before, path->cost()) ? 0 : poor + 1;
     }
   }
 
@@ -188,12 +192,11 @@ class Optimization {
   // further one.
   bool SearchFrom(OverlapProgram& program, const HomotopyParameters& start, double part,
                   double reserve, Incumbent* path) {
-    program.watched().SetSharpness(options_.program.watch.sharpness / reserve);
+    ResetRows(options_.program.watch.sharpness, reserve, &program.watched());
     solution_.warm_start = nullptr;
     Eigen::VectorXd x = program.ToVariables(start);
-    double solved = std::numeric_limits<double>::infinity();  // cost of the last end
-    int poor = 0;
-    for (int round = 0; round < options_.rounds && poor < kPoorRounds; ++round) {
+    SearchPace pace(options_.rounds, effort_.poor_rounds);
+    for (int round = 0; !pace.over(); ++round) {
       const double before = path->cost();
       const double remaining =
           std::min(options_.deadline - monitor_.Seconds(), monitor_.Remaining());
@@ -209,14 +212,12 @@ class Optimization {
       x = near ? solution_.final_x : solution_.x;
       const bool last = monitor_.Seconds() >= options_.deadline || round + 1 == options_.rounds ||
                         untried_rounds_ + 1 >= kUntriedRounds;
-      const bool promising = LookAt(program, x, near, last, path);
-      const double cost = near ? solution_.final_cost : solution_.cost;
-      poor = Gained(before, path->cost()) || Gained(solved, cost) ? 0 : poor + 1;
-      solved = std::min(solved, cost);
-      Sharpen(promising && path->refusals().empty(), &program.watched());
+      const bool tried = LookAt(program, x, near, last, path);
+      pace.Note(near ? solution_.final_cost : solution_.cost, before, path->cost());
+      AdaptRows(tried, tried ? path->refusals() : std::vector<Margin>(), &program.watched());
       monitor_.Progress(search_from_ + (0.9 - search_from_) * part);
     }
-    end_.exhausted = end_.exhausted || poor < kPoorRounds;
+    end_.exhausted = end_.exhausted || pace.exhausted();
     return true;
   }
 
@@ -231,7 +232,7 @@ class Optimization {
   }
 
   // Tries the end of a round where it looks good, or `always`; the program learns where to look.
-  // False: samples show that it is not feasible.
+  // False: it was not tried.
   bool LookAt(OverlapProgram& program, const Eigen::VectorXd& x, bool near, bool always,
               Incumbent* path) {
     const HomotopyParameters end = program.ToParameters(x);
@@ -244,12 +245,14 @@ class Optimization {
       result.raw_end_feasible = false;
       return false;
     }
-    Try(end, near ? solution_.final_violation : solution_.max_violation, always, program, path);
-    result.raw_end_feasible = path->refusals().empty();
+    const double violation = near ? solution_.final_violation : solution_.max_violation;
+    const bool tried = Try(end, violation, always, program, path);
+    result.raw_end_feasible = tried && path->refusals().empty();
+    if (!tried) return false;
     for (const Margin& refusal : path->refusals()) {
       program.watched().Learn(walk, refusal.at, refusal.stop_after >= 0);
     }
-    return promising;
+    return true;
   }
 
   opt::Solution Solve(const OverlapProgram& program, const Eigen::VectorXd& x, double deadline,
@@ -274,8 +277,8 @@ class Optimization {
   }
 
   // Proves the candidate, or what of it is near the incumbent where it is refused; `always`: also
-  // where it is violated so much that all of it is hardly feasible.
-  void Try(const HomotopyParameters& candidate, double violation, bool always,
+  // where it is violated so much that all of it is hardly feasible. False: it is not tried.
+  bool Try(const HomotopyParameters& candidate, double violation, bool always,
            const OverlapProgram& program, Incumbent* path) {
     since_proof_ = 0;
     const bool tried = always || violation <= kHopeless;
@@ -288,6 +291,7 @@ class Optimization {
       incumbent_slack_ = program.watched().LeastSlack(path->parameters(), all);
     }
     Record(candidate, violation, lambda);
+    return tried;
   }
 
   void Record(const HomotopyParameters& candidate, double violation, double lambda) {
@@ -310,7 +314,7 @@ class Optimization {
     for (JunctionResult& junction : monitor_.result().junctions) {
       if (!Fastest() || monitor_.stopped()) junction.limited_by.reset();
     }
-    if (Fastest() && !monitor_.stopped()) {
+    if (effort_.compares && Fastest() && !monitor_.stopped()) {
       const FineDichotomies fine =
           RunFineDichotomies(problem_, options_.tolerance, !options_.start, monitor_);
       TakeSearch(fine.from_incumbent, /*from_incumbent=*/true, monitor_);
@@ -348,6 +352,7 @@ class Optimization {
   const FeasibilityTest& test_;
   const OptimizerOptions& options_;
   const opt::Solver& solver_;
+  const Effort& effort_;
   SmoothingMonitor& monitor_;
   StretchProofs proofs_;
   HomotopyParameters start_;  // the dichotomy's result, or that of the search over fewer families
@@ -371,7 +376,7 @@ SmoothingResult OptimizeOverlaps(const WalkProblem& problem, const OptimizerOpti
   own.program.watch = RowsFor(traits, problem.test(), kRowsInstants, own.program.watch);
   if (own.instants > 0) own.program.watch.instants = own.instants;
   if (own.max_iterations == 0) own.max_iterations = traits.iterations;
-  return Optimization(problem, own, *solver, monitor).Run();
+  return Optimization(problem, own, *solver, kWhole, monitor).Run();
 }
 
 }  // namespace halfstep

@@ -32,7 +32,18 @@ opt::SolverOptions RoundOptions(const opt::SolverTraits& traits, ProgramKind kin
   return options;
 }
 
-void Sharpen(bool proved, WatchedInstants* watched) {
+void ResetRows(double sharpness, double more, WatchedInstants* watched) {
+  const bool by_instant = watched->row_per_instant();
+  watched->SetSharpness(by_instant ? sharpness : sharpness / more);
+  if (by_instant) watched->SetReserves(more);
+}
+
+void AdaptRows(bool tried, const std::vector<Margin>& refusals, WatchedInstants* watched) {
+  if (watched->row_per_instant()) {
+    watched->LearnReserves(tried, refusals);
+    return;
+  }
+  const bool proved = tried && refusals.empty();
   watched->SetSharpness(std::min(kSharpest, (proved ? kSharpen : kSoften) * watched->sharpness()));
 }
 

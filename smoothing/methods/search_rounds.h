@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "opt/solvers/solver.h"
 #include "smoothing/program/overlap_program.h"
 #include "smoothing/proof/feasibility_test.h"
@@ -28,8 +30,13 @@ WatchOptions RowsFor(const opt::SolverTraits& traits, const FeasibilityTest& tes
 /// Options of a round with at most `iterations` of the solver.
 opt::SolverOptions RoundOptions(const opt::SolverTraits& traits, ProgramKind kind, int iterations);
 
-/// After a round whose end was `proved` rows grow sharper by a factor, up to a bound; after one
-/// whose end was refused they grow softer, so that more is left in reserve.
-void Sharpen(bool proved, WatchedInstants* watched);
+/// Rows as sharp as at first, with `more` times the reserve.
+void ResetRows(double sharpness, double more, WatchedInstants* watched);
+
+/// After a round whose end was proved but for `refusals`, or was not `tried`. Rows by instant stay
+/// as sharp as they are, and keep more or less in reserve where that is needed. Rows by half-step
+/// grow sharper by a factor, up to a bound, where all is proved, and else softer, so that more is
+/// left in reserve.
+void AdaptRows(bool tried, const std::vector<Margin>& refusals, WatchedInstants* watched);
 
 }  // namespace halfstep

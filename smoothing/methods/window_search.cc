@@ -1,10 +1,10 @@
 #include "smoothing/methods/window_search.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
+#include <vector>
 
 #include "smoothing/methods/incumbent.h"
+#include "smoothing/methods/search_pace.h"
 #include "smoothing/methods/search_rounds.h"
 
 namespace halfstep {
@@ -12,9 +12,7 @@ namespace {
 
 // Fewer than in a search over the whole walk, which has to last longer.
 constexpr int kInstantsOfRows = 16;
-// A round that gains less, of the window's cost, is poor.
-constexpr double kLeastGain = 1e-3;
-constexpr int kMostPoor = 2;
+constexpr int kPoorRounds = 2;
 
 ProgramOptions OfWindow(const WalkWindow& window, const ProgramOptions& options,
                         const opt::SolverTraits& traits) {
@@ -43,9 +41,8 @@ void SearchWindow(const WalkWindow& window, const WindowSearchOptions& options,
                  monitor.scratch());
   Eigen::VectorXd x = program.ToVariables(window.parameters);
   opt::Solution solution;
-  double solved = std::numeric_limits<double>::infinity();
-  int poor = 0;
-  for (int round = 0; round < options.rounds && poor < kMostPoor; ++round) {
+  SearchPace pace(options.rounds, kPoorRounds);
+  for (int round = 0; !pace.over(); ++round) {
     const double remaining = std::min(deadline - monitor.Seconds(), monitor.Remaining());
     if (remaining <= 0.0 || monitor.stopped()) return;
     const opt::Problem problem = program.MakeProblem();
@@ -65,7 +62,7 @@ void SearchWindow(const WalkWindow& window, const WindowSearchOptions& options,
     const HomotopyParameters end = program.ToParameters(x);
     const SuperposedWalk walk(sequence, end);
     const bool promising = program.watched().Focus(walk, kLookPeriod, 0.0) >= kPromising;
-    const bool last = round + 1 == options.rounds || poor + 1 == kMostPoor;
+    const bool last = round + 1 == options.rounds || pace.poor() + 1 == kPoorRounds;
     const bool tried = violation <= kHopeless && (promising || last);
     const double lambda = tried ? path.Toward(end, kAttempts) : 0.0;
     const bool refused = !promising || !tried || !path.refusals().empty();
@@ -82,12 +79,8 @@ void SearchWindow(const WalkWindow& window, const WindowSearchOptions& options,
         .lambda = lambda};
     if (violation > 0.0) record.candidate_slack = -violation;
     monitor.Record(record);
-    const double cost = near ? solution.final_cost : solution.cost;
-    const double least = kLeastGain * std::abs(before);
-    const bool good = before - path.cost() >= least || !(solved - cost < least);
-    poor = good ? 0 : poor + 1;
-    solved = std::min(solved, cost);
-    Sharpen(!refused, &program.watched());
+    pace.Note(near ? solution.final_cost : solution.cost, before, path.cost());
+    AdaptRows(tried, tried ? path.refusals() : std::vector<Margin>(), &program.watched());
   }
 }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "smoothing/program/slack_samples.h"
+#include "smoothing/program/row_order.h"
 #include "smoothing/program/soft_minimum.h"
 
 namespace halfstep {
@@ -12,38 +12,6 @@ namespace {
 using Family = HomotopyParameter::Family;
 
 constexpr double kReserve = 3.0;
-// Slacks that are near the level, and that are far from it.
-constexpr double kNear = 0.3, kFar = 1.0;
-
-// Families that have a row of their own, in their order; and by family the place of its row among
-// them, or of the family whose row it shares; −1: it has none.
-struct RowOrder {
-  std::vector<MarginFamily> families;
-  std::array<int, kNumMarginFamilies> place{};
-};
-
-const RowOrder& Rows() {
-  static const RowOrder kRows = [] {
-    RowOrder rows;
-    for (const MarginFamily family : AllMarginFamilies()) {
-      if (Traits(family).row == family) rows.families.push_back(family);
-    }
-    for (const MarginFamily family : AllMarginFamilies()) {
-      const auto& own = Traits(family).row;
-      const auto found = own ? std::ranges::find(rows.families, *own) : rows.families.end();
-      rows.place[static_cast<size_t>(family)] =
-          found == rows.families.end() ? -1 : static_cast<int>(found - rows.families.begin());
-    }
-    return rows;
-  }();
-  return kRows;
-}
-
-double StretchOf(const SuperposedWalk& walk, int half_step) {
-  const bool last = half_step + 1 == walk.num_half_steps();
-  return (last ? walk.duration() : walk.start_of(half_step + 1)) - walk.start_of(half_step);
-}
-
 constexpr double kInside = 1e-9;  // of T, from an event
 
 // Just inside the horizontal motion, next to the floor, as a fraction of T.
@@ -64,7 +32,10 @@ double FlightEvent(const HalfStep& half_step) {
 
 WatchedInstants::WatchedInstants(const OverlapVariables& variables,
                                  const MarginEvaluator& evaluator, const WatchOptions& options)
-    : variables_(variables), evaluator_(evaluator), options_(options) {
+    : variables_(variables),
+      evaluator_(evaluator),
+      options_(options),
+      reserves_(variables.sequence().size(), NumRowFamilies(), kReserve / options.sharpness) {
   for (int v = 0; v < variables.size() && !footsteps_move_; ++v) {
     footsteps_move_ = Traits(variables.at(v).family).move != nullptr;
   }
@@ -99,6 +70,15 @@ WatchedInstants::WatchedInstants(const OverlapVariables& variables,
   CountRows();
 }
 
+void WatchedInstants::SetSharpness(double sharpness) {
+  options_.sharpness = sharpness;
+  SetReserves(1.0);
+}
+
+void WatchedInstants::SetReserves(double times) {
+  reserves_.SetAll(times * kReserve / options_.sharpness);
+}
+
 bool WatchedInstants::WatchesBranch(int k) const {
   const std::vector<PlacedHalfStep>& half_steps = variables_.sequence().half_steps;
   return k + 1 < variables_.sequence().size() && options_.range.contains(k) &&
@@ -115,10 +95,10 @@ void WatchedInstants::CountRows() {
   }
 }
 
-int WatchedInstants::NumRowFamilies() { return static_cast<int>(Rows().families.size()); }
+int WatchedInstants::NumRowFamilies() { return static_cast<int>(RowFamilies().size()); }
 
 MarginFamily WatchedInstants::family_of(int row) {
-  return Rows().families[static_cast<size_t>(row % NumRowFamilies())];
+  return RowFamilies()[static_cast<size_t>(row % NumRowFamilies())];
 }
 
 int WatchedInstants::half_step_of(int row) const {
@@ -132,6 +112,11 @@ size_t WatchedInstants::num_nonzeros() const {
     sum += bands_[k].size() * static_cast<size_t>(first_rows_[k + 1] - first_rows_[k]);
   }
   return sum;
+}
+
+double WatchedInstants::StretchOf(const SuperposedWalk& walk, int half_step) {
+  const bool last = half_step + 1 == walk.num_half_steps();
+  return (last ? walk.duration() : walk.start_of(half_step + 1)) - walk.start_of(half_step);
 }
 
 LocalTime WatchedInstants::At(const SuperposedWalk& walk, int k, const Instant& instant,
@@ -165,85 +150,6 @@ LocalTime WatchedInstants::At(const SuperposedWalk& walk, int k, const Instant& 
   return {k, T - (1.0 - u) * overlap};
 }
 
-bool WatchedInstants::Learn(const SuperposedWalk& walk, const LocalTime& at, bool of_branch) {
-  const bool learned = Look(walk, at, of_branch, Instant::Why::kLearned);
-  CountRows();
-  return learned;
-}
-
-bool WatchedInstants::Look(const SuperposedWalk& walk, const LocalTime& at, bool of_branch,
-                           Instant::Why why) {
-  constexpr double kSame = 1e-3;  // of T
-  if (!options_.range.contains(at.half_step)) return false;
-  const double T = walk.profiles(at.half_step).duration();
-  double fraction = at.tau / T;
-  const Instant::Of of = of_branch ? Instant::Of::kBranch : Instant::Of::kHalfStep;
-  if (of_branch) {
-    const double stretch = StretchOf(walk, at.half_step);
-    fraction = stretch < T ? (at.tau - stretch) / (T - stretch) : 1.0;
-  }
-  std::vector<Instant>& instants = instants_[static_cast<size_t>(at.half_step)];
-  for (const Instant& known : instants) {
-    if (known.of == of && !known.far && std::abs(known.fraction - fraction) < kSame) return false;
-  }
-  instants.push_back({std::clamp(fraction, 0.0, 1.0), of, why});
-  return true;
-}
-
-double WatchedInstants::Focus(const SuperposedWalk& walk, double period, double level) {
-  // Rows by half-step cost no more for looking at more instants; long rounds need them.
-  if (options_.row_per_instant) {
-    for (std::vector<Instant>& instants : instants_) {
-      std::erase_if(instants, [](const Instant& i) { return i.why == Instant::Why::kMinimum; });
-    }
-  }
-  double least = FocusOn(walk, std::nullopt, period, level);
-  for (int k = 0; k + 1 < walk.num_half_steps(); ++k) {
-    if (!WatchesBranch(k) || walk.end_of(k) <= walk.start_of(k + 1)) continue;
-    least = std::min(least, FocusOn(walk, k, period, level));
-  }
-  CountRows();
-  return least;
-}
-
-double WatchedInstants::FocusOn(const SuperposedWalk& walk, std::optional<int> branch,
-                                double period, double level) {
-  const double far = level + kFar;
-  const double begin = branch ? walk.start_of(*branch + 1) : 0.0;
-  const double end = branch ? walk.end_of(*branch) : walk.duration();
-  const std::vector<LeastSlacks> samples =
-      SampledSlacks(branch ? walk.StopBranch(*branch) : walk, evaluator_, options_.range,
-                    {.begin = begin, .period = period, .cutoff = far}, workers_);
-  const int last = static_cast<int>(samples.size()) - 1;
-  const auto lowest = [&samples](int i) {
-    return std::ranges::min(samples[static_cast<size_t>(i)]);
-  };
-  std::vector<std::pair<HomotopyParameter, double>> moving;
-  const int from = branch.value_or(0), to = branch.value_or(walk.num_half_steps() - 1);
-  for (int k = from; options_.row_per_instant && k <= to; ++k) {
-    for (Instant& instant : instants_[static_cast<size_t>(k)]) {
-      if ((instant.of == Instant::Of::kBranch) != branch.has_value()) continue;
-      const double t = walk.start_of(k) + At(walk, k, instant, &moving).tau;
-      const int i = std::clamp(static_cast<int>((t - begin) / period), 0, last);
-      instant.far = lowest(i) >= far && lowest(std::min(i + 1, last)) >= far;
-    }
-  }
-  double least = far;
-  for (int i = 0; i <= last; ++i) {
-    least = std::min(least, lowest(i));
-    const double minimum = LocalMinimum(samples, i, far);
-    if (minimum >= far) continue;
-    // It moves with the parameters.
-    const int around = minimum < level + kNear ? 2 : 0;
-    for (int j = -around; j <= around; ++j) {
-      const double t = std::clamp(begin + (i + j) * period, begin, end);
-      const LocalTime at = branch ? LocalTime{*branch, t - walk.start_of(*branch)} : walk.Locate(t);
-      Look(walk, at, branch.has_value(), Instant::Why::kMinimum);
-    }
-  }
-  return least;
-}
-
 void WatchedInstants::EvaluateHalfStep(const SuperposedWalk& walk, const Eigen::VectorXd& x, int k,
                                        SlackEvaluator* slacks, Eigen::VectorXd* values,
                                        double* nonzeros) const {
@@ -254,8 +160,8 @@ void WatchedInstants::EvaluateHalfStep(const SuperposedWalk& walk, const Eigen::
   std::vector<SoftMinimum> minima(static_cast<size_t>(NumRowFamilies()), nothing);
   double* value = values->data() + first_rows_[static_cast<size_t>(k)];
   const auto write = [&] {
-    for (SoftMinimum& minimum : minima) {
-      *value++ = minimum.least - (std::log(minimum.sum) + kReserve) / rho;
+    for (int place = 0; SoftMinimum & minimum : minima) {
+      *value++ = minimum.least - std::log(minimum.sum) / rho - reserves_.of(k, place++);
       for (Eigen::Index c = 0; nonzeros && c < width; ++c) {
         *nonzeros++ = minimum.gradient[c] / minimum.sum;
       }
@@ -288,7 +194,7 @@ void WatchedInstants::EvaluateHalfStep(const SuperposedWalk& walk, const Eigen::
       for (const auto& [parameter, slope] : instant.times) add(parameter, slope, later);
     }
     for (size_t r = 0; r < instant.rows.size(); ++r) {
-      const int place = Rows().place[static_cast<size_t>(instant.rows[r].family)];
+      const int place = RowOf(instant.rows[r].family);
       SoftMinimum& minimum = minima[static_cast<size_t>(place)];
       const double weight = minimum.Add(instant.rows[r].slack, rho);
       if (!nonzeros || weight < 1e-9) continue;
@@ -304,7 +210,12 @@ void WatchedInstants::EvaluateHalfStep(const SuperposedWalk& walk, const Eigen::
 
 void WatchedInstants::Evaluate(const Eigen::VectorXd& x, Eigen::VectorXd* values,
                                std::vector<double>* nonzeros) const {
-  const SuperposedWalk walk(variables_.sequence(), variables_.ToParameters(x));
+  EvaluateOn(SuperposedWalk(variables_.sequence(), variables_.ToParameters(x)), x, values,
+             nonzeros);
+}
+
+void WatchedInstants::EvaluateOn(const SuperposedWalk& walk, const Eigen::VectorXd& x,
+                                 Eigen::VectorXd* values, std::vector<double>* nonzeros) const {
   std::vector<SlackEvaluator> slacks = Evaluators(
       options_.cutoff + 20.0 / options_.sharpness,
       [this](const HomotopyParameter& parameter) { return variables_.IndexOf(parameter) >= 0; });

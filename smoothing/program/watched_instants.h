@@ -7,6 +7,8 @@
 
 #include "smoothing/margins/slack_evaluator.h"
 #include "smoothing/program/overlap_variables.h"
+#include "smoothing/program/row_reserves.h"
+#include "smoothing/program/slack_samples.h"
 #include "smoothing/walk/stop_branches.h"
 #include "smoothing/walk/stretch_range.h"
 #include "wpg/workers.h"
@@ -33,9 +35,10 @@ struct WatchOptions {
 ///     τ = T_k − (1 − u)·max(Δ_k, 0): before t_{k+1} that is the walk.
 /// Row (k, family), or with `row_per_instant` (k, instant, family), is
 ///
-///     −(3 + log(e^{−ρc} + Σ e^{−ρ·slack}))/ρ ≤ min(c, least slack at these instants) − 3/ρ,
+///     −log(e^{−ρc} + Σ e^{−ρ·slack})/ρ − r ≤ min(c, least slack at these instants) − r,
 ///
-/// so that a point that keeps it has something in reserve for what lies between the instants.
+/// so that a point that keeps it has the reserve r of its half-step and family, at first 3/ρ, for
+/// what lies between the instants.
 /// Smooth; rows of k depend on the variables of Band(k) only. Cost: linear in n.
 /// Source: smoothing/README.md, "Overlap program".
 class WatchedInstants {
@@ -57,8 +60,11 @@ class WatchedInstants {
   size_t num_nonzeros() const;
 
   double sharpness() const { return options_.sharpness; }  ///< ρ [1 / scale of a slack]
-  /// Larger: nearer to the least slack, and less smooth.
-  void SetSharpness(double sharpness) { options_.sharpness = sharpness; }
+  /// Larger: nearer to the least slack, and less smooth. Every reserve is 3/ρ from now on.
+  void SetSharpness(double sharpness);
+  bool row_per_instant() const { return options_.row_per_instant; }  ///< as in WatchOptions
+  /// Every reserve is `times` 3/ρ from now on.
+  void SetReserves(double times);
 
   /// Half-steps and samples are shared out among `workers` (borrowed; null: none) from now on. What
   /// is found is the same, to the bit.
@@ -73,6 +79,9 @@ class WatchedInstants {
   /// for earlier walks are dropped, and instants with no slack near the level get no row. Returns
   /// the least slack sampled.
   double Focus(const SuperposedWalk& walk, double period, double level);
+  /// After Focus on a walk that was proved but for `refusals`, or that was not even `tried`:
+  /// reserves grow where they were too small for it (RowReserves::Learn).
+  void LearnReserves(bool tried, const std::vector<Margin>& refusals);
 
   /// Evaluates the rows at x (rows) and, unless `nonzeros` is null, the Jacobian, row by row in the
   /// order of its band.
@@ -101,6 +110,7 @@ class WatchedInstants {
   // (k, τ) of an instant, and dτ along the parameters that move it.
   static LocalTime At(const SuperposedWalk& walk, int half_step, const Instant& instant,
                       std::vector<std::pair<HomotopyParameter, double>>* moving);
+  static double StretchOf(const SuperposedWalk& walk, int half_step);  // its length [s]
   bool WatchesBranch(int half_step) const;
   bool Look(const SuperposedWalk& walk, const LocalTime& at, bool of_branch, Instant::Why why);
   // Focus on the walk, or on the new part of the stop branch after a half-step.
@@ -111,6 +121,12 @@ class WatchedInstants {
   std::vector<SlackEvaluator> Evaluators(double cutoff, const ParameterFilter& wanted) const;
   double LeastSlackOf(const SuperposedWalk& walk, int half_step,
                       const std::array<bool, kNumMarginFamilies>& of, SlackEvaluator* slacks) const;
+  void EvaluateOn(const SuperposedWalk& walk, const Eigen::VectorXd& x, Eigen::VectorXd* values,
+                  std::vector<double>* nonzeros) const;
+  // Notes the least rows of a walk before Focus, with `level` taken off.
+  void NoteRows(const SuperposedWalk& walk, double level);
+  // Notes what a sample shows of a half-step.
+  void NoteSample(int half_step, const LeastSlacks& slacks, double level);
   void EvaluateHalfStep(const SuperposedWalk& walk, const Eigen::VectorXd& x, int half_step,
                         SlackEvaluator* slacks, Eigen::VectorXd* values, double* nonzeros) const;
 
@@ -122,6 +138,8 @@ class WatchedInstants {
   std::vector<std::vector<int>> bands_;
   std::vector<std::vector<Instant>> instants_;  // by half-step
   std::vector<int> first_rows_;                 // of each half-step, and the number of all
+  RowReserves reserves_;
+  RowReserves::Seen seen_;  // in the last Focus
 };
 
 }  // namespace halfstep

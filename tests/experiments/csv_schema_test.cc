@@ -68,11 +68,12 @@ void CheckSchema(const fs::path& path) {
 
 // A run with every table that there is, and a comparison of it.
 void MakeTables(const TemporaryFolder& place) {
-  const Outcome run = Halfstep(
-      place.path(), {"run", ShippedConfig("fig3_two_half_steps"), "--out", "run", "--quiet",
-                     "--set", "smoothing.methods=[dichotomy, halfstep/barrier]", "--set",
-                     "smoothing.optimizer.program=pareto", "--set",
-                     "smoothing.optimizer.pareto_points=2", "--set", "output.period_s=0.02"});
+  const Outcome run =
+      Halfstep(place.path(), {"run", ShippedConfig("fig3_two_half_steps"), "--out", "run",
+                              "--quiet", "--set", "smoothing.methods=[dichotomy, halfstep/barrier]",
+                              "--set", "smoothing.optimizer.program=pareto", "--set",
+                              "smoothing.optimizer.pareto_points=2", "--set",
+                              "smoothing.optimizer.rounds=2", "--set", "output.period_s=0.02"});
   ASSERT_EQ(run.status, kSuccess) << run.err;
   const Outcome plain =
       Halfstep(place.path(), {"run", ShippedConfig("fig3_two_half_steps"), "--out", "raw",

@@ -209,6 +209,13 @@ class FaultyCommand : public testing::TestWithParam<Scenario> {
       if (call.number == at) injured += call.operation + " " + call.path + "; ";
     }
     SCOPED_TRACE(injured);
+    if (injured.empty()) {
+      // Threads that race for a folder make a call or two more in one run than in another.
+      EXPECT_EQ(outcome.status, kSuccess) << outcome.err;
+      EXPECT_TRUE(Is(StateOf(Output()), newer_)) << "no call was injured";
+      ++missed_;
+      return;
+    }
     if (fault == "kill") {
       // A sweep's worker may be killed in place of the sweep.
       EXPECT_TRUE(outcome.signal == SIGKILL || (scenario_.name == "Sweep" && outcome.status != 0));
@@ -231,7 +238,7 @@ class FaultyCommand : public testing::TestWithParam<Scenario> {
   FolderState older_, newer_;
   std::set<std::string> same_;  // files that are the same every time
   std::vector<FileCall> calls_;
-  int killed_ = 0, failed_ = 0, tolerated_ = 0;
+  int killed_ = 0, failed_ = 0, tolerated_ = 0, missed_ = 0;
 };
 
 TEST_P(FaultyCommand, LeavesTheOlderOrTheNewAndSaysWhatFailed) {
@@ -253,7 +260,9 @@ TEST_P(FaultyCommand, LeavesTheOlderOrTheNewAndSaysWhatFailed) {
     }
   }
   std::cout << scenario_.name << ": " << last << " calls; " << killed_ << " kills, " << failed_
-            << " errors with exit status 1, " << tolerated_ << " tolerated\n";
+            << " errors with exit status 1, " << tolerated_ << " tolerated, " << missed_
+            << " of a call that was not made\n";
+  EXPECT_LT(missed_, killed_ + failed_ + tolerated_) << "most faults must find their call";
 }
 
 // So that a name on the disk never leads to content that is not there yet.

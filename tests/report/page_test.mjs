@@ -42,6 +42,7 @@ function makeRun() {
   execFileSync(halfstep, [
     "run", join(source, "experiments/configs/fig3_two_half_steps.yaml"), "--out", "pareto", "--quiet",
     "--set", "smoothing.methods=[halfstep/sqp]", "--set", "smoothing.optimizer.program=pareto",
+    "--set", "smoothing.optimizer.durations=true",
   ], { cwd: place });
   execFileSync(halfstep, ["compare", "run", "--out", "comparison", "--quiet"], { cwd: place });
 }

@@ -96,7 +96,7 @@ TEST_P(ThreadsTest, FindWhatOneFinds) {
     Certificate rows;
     EXPECT_EQ(test.Certify(walk, &scratch, &rows).verdict, Verdict::kFeasible);
     if (threads == 0) {
-      EXPECT_LT(result.cost, 0.8 * DurationOf(PlannedMotion(e.sequence)));
+      EXPECT_LT(result.cost, 0.85 * DurationOf(PlannedMotion(e.sequence)));
       alone = std::move(result);
       alone_rows = std::move(rows);
       continue;

@@ -249,5 +249,33 @@ TEST_F(WatchedInstantsTest, FocusSeesTheLeastSlackWithFewerRows) {
   EXPECT_EQ(table.rows(), focused);  // nothing piles up
 }
 
+// The rows of what was refused ask for more from then on, and no others.
+TEST_F(WatchedInstantsTest, ARefusalCostsOnlyTheRowsOfItsHalfStep) {
+  WatchedInstants table(variables_, evaluator_, {.instants = 8, .row_per_instant = true});
+  const HomotopyParameters parameters = PlannedMotion(e_.sequence);
+  const Eigen::VectorXd x = variables_.ToVariables(parameters);
+  table.Focus(SuperposedWalk(e_.sequence, parameters), 0.01, 0.0);
+  Eigen::VectorXd before, after;
+  table.Evaluate(x, &before, nullptr);
+  table.LearnReserves(true, {{.family = MarginFamily::kZmp, .value = 0.0, .at = {2, 0.1}}});
+  table.Evaluate(x, &after, nullptr);
+  int lower = 0;
+  for (int row = 0; row < table.rows(); ++row) {
+    const double change = before[row] - after[row];
+    if (table.half_step_of(row) != 2) {
+      EXPECT_EQ(change, 0.0) << row;
+    } else if (WatchedInstants::family_of(row) == MarginFamily::kZmp) {
+      EXPECT_NEAR(change, 3.0 / table.sharpness(), 1e-9) << row;
+      ++lower;
+    } else {
+      EXPECT_GE(change, 0.0) << row;
+    }
+  }
+  EXPECT_GT(lower, 3);
+  table.SetReserves(1.0);
+  table.Evaluate(x, &after, nullptr);
+  EXPECT_EQ(before, after);
+}
+
 }  // namespace
 }  // namespace halfstep
