@@ -8,6 +8,8 @@ namespace {
 constexpr double kSharpen = 1.5, kSoften = 0.75, kSharpest = 3000.0;
 // Where every instant has rows of its own, from the first round on.
 constexpr double kRowsSharpness = 200.0;
+// Their reserve at first, of what sharpness asks for: proofs in most of a long walk succeed with it.
+constexpr double kRowsReserve = 2.0;
 
 }  // namespace
 
@@ -35,7 +37,7 @@ opt::SolverOptions RoundOptions(const opt::SolverTraits& traits, ProgramKind kin
 void ResetRows(double sharpness, double more, WatchedInstants* watched) {
   const bool by_instant = watched->row_per_instant();
   watched->SetSharpness(by_instant ? sharpness : sharpness / more);
-  if (by_instant) watched->SetReserves(more);
+  if (by_instant) watched->SetReserves(kRowsReserve * more);
 }
 
 void AdaptRows(bool tried, const std::vector<Margin>& refusals, WatchedInstants* watched) {
