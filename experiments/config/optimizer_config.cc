@@ -109,8 +109,8 @@ void DeclareOptimizer(Fields& fields, OptimizerConfig* c) {
        .min = 0,
        .max = 1000});
   fields.Integer("rounds", &o->rounds,
-                 {.meaning = "solves from each start, each looking closer; and a quarter as many "
-                             "times from the best walk",
+                 {.meaning = "solves from each start, each looking closer; the best walk is such a "
+                             "start up to a quarter as many times",
                   .min = 1,
                   .max = 100});
   fields.Boolean("planned_start", &o->planned_start,

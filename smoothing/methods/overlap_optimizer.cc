@@ -47,7 +47,7 @@ struct Effort {
 constexpr Effort kWhole = {5, true, true};
 // Before a search over more families, which goes on from what it finds.
 constexpr Effort kBefore = {2, false, false};
-// Of the rounds from each start: searches from the incumbent at most.
+// There is at most one search from the incumbent for so many rounds that each start may have.
 constexpr int kRoundsARepeat = 4;
 
 // What to search over first: without footsteps where half-steps have forms, too; else with every

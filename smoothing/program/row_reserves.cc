@@ -5,6 +5,8 @@
 namespace halfstep {
 namespace {
 
+// What a reserve is multiplied by: where a proof refused, where a sample is violated or the next
+// proof may refuse, and after a proof of all.
 constexpr double kRefused = 2.0, kViolated = 1.3, kShrink = 0.8;
 // Of a reserve that was refused: what it does not shrink below again.
 constexpr double kAboveRefused = 1.5;
@@ -31,7 +33,6 @@ void RowReserves::Learn(const Seen& seen, const std::vector<Place>& refused, boo
     if (seen.rows[i] < -kKept) return;
     reserves_[i] = std::max(reserves_[i], std::min(kMost, factor * reserves_[i]));
   };
-  // A proof ends at the first family that it cannot prove.
   std::vector<bool> refused_here(reserves_.size(), false), refused_near(reserves_.size(), false);
   for (const Place& place : refused) {
     const size_t i = Index(place);

@@ -25,11 +25,13 @@ class RowReserves {
   double of(int half_step, int family) const { return reserves_[Index({half_step, family})]; }
   void SetAll(double reserve);  ///< everywhere the same; what was refused is forgotten
 
-  /// After a candidate that was proved but at the places `refused`, one a half-step at most; or,
-  /// unless it was `tried`, that was only sampled. Where the solver kept a row, reserve and all,
-  /// and yet something between the instants is violated or was refused, the reserve grows. Where
-  /// the solver did not keep it more would not help. If all is proved, all shrink, but not down to
-  /// what was refused before.
+  /// Adapts the reserves to a candidate. A proof refused it at the places `refused`, at most one a
+  /// half-step; none: it was proved. If it was not `tried`, it was only sampled.
+  ///   - A reserve grows where a proof refused the candidate or a sample is violated. The other
+  ///     families of a refused half-step that are near their limits get more, too, since a proof
+  ///     ends at the first family that it cannot prove.
+  ///   - It stays where the solver did not keep the row as it is: more would not help there.
+  ///   - All shrink after a candidate that was proved, but not down to what was refused before.
   void Learn(const Seen& seen, const std::vector<Place>& refused, bool tried);
 
  private:

@@ -160,8 +160,9 @@ void WatchedInstants::EvaluateHalfStep(const SuperposedWalk& walk, const Eigen::
   std::vector<SoftMinimum> minima(static_cast<size_t>(NumRowFamilies()), nothing);
   double* value = values->data() + first_rows_[static_cast<size_t>(k)];
   const auto write = [&] {
-    for (int place = 0; SoftMinimum & minimum : minima) {
-      *value++ = minimum.least - std::log(minimum.sum) / rho - reserves_.of(k, place++);
+    for (int row = 0; row < NumRowFamilies(); ++row) {
+      SoftMinimum& minimum = minima[static_cast<size_t>(row)];
+      *value++ = minimum.least - std::log(minimum.sum) / rho - reserves_.of(k, row);
       for (Eigen::Index c = 0; nonzeros && c < width; ++c) {
         *nonzeros++ = minimum.gradient[c] / minimum.sum;
       }

@@ -79,8 +79,9 @@ class WatchedInstants {
   /// for earlier walks are dropped, and instants with no slack near the level get no row. Returns
   /// the least slack sampled.
   double Focus(const SuperposedWalk& walk, double period, double level);
-  /// After Focus on a walk that was proved but for `refusals`, or that was not even `tried`:
-  /// reserves grow where they were too small for it (RowReserves::Learn).
+  /// Adapts the reserves (RowReserves::Learn) to the walk of the last Focus: a proof refused it for
+  /// `refusals`, none where it was proved; not `tried`: it was only sampled. Only with
+  /// `row_per_instant`, and after a Focus; else nothing changes.
   void LearnReserves(bool tried, const std::vector<Margin>& refusals);
 
   /// Evaluates the rows at x (rows) and, unless `nonzeros` is null, the Jacobian, row by row in the
@@ -123,9 +124,9 @@ class WatchedInstants {
                       const std::array<bool, kNumMarginFamilies>& of, SlackEvaluator* slacks) const;
   void EvaluateOn(const SuperposedWalk& walk, const Eigen::VectorXd& x, Eigen::VectorXd* values,
                   std::vector<double>* nonzeros) const;
-  // Notes the least rows of a walk before Focus, with `level` taken off.
+  // Begins to note what a walk shows (seen_) with its least rows, above the `level`.
   void NoteRows(const SuperposedWalk& walk, double level);
-  // Notes what a sample shows of a half-step.
+  // Adds what a sample of the walk shows of a half-step.
   void NoteSample(int half_step, const LeastSlacks& slacks, double level);
   void EvaluateHalfStep(const SuperposedWalk& walk, const Eigen::VectorXd& x, int half_step,
                         SlackEvaluator* slacks, Eigen::VectorXd* values, double* nonzeros) const;

@@ -41,9 +41,9 @@ bool WatchedInstants::Look(const SuperposedWalk& walk, const LocalTime& at, bool
 }
 
 double WatchedInstants::Focus(const SuperposedWalk& walk, double period, double level) {
-  if (options_.row_per_instant) NoteRows(walk, level);
   // Rows by half-step cost no more for looking at more instants; long rounds need them.
   if (options_.row_per_instant) {
+    NoteRows(walk, level);
     for (std::vector<Instant>& instants : instants_) {
       std::erase_if(instants, [](const Instant& i) { return i.why == Instant::Why::kMinimum; });
     }
@@ -124,6 +124,7 @@ void WatchedInstants::NoteSample(int half_step, const LeastSlacks& slacks, doubl
 }
 
 void WatchedInstants::LearnReserves(bool tried, const std::vector<Margin>& refusals) {
+  if (seen_.rows.empty()) return;
   std::vector<RowReserves::Place> refused;
   for (const Margin& refusal : refusals) {
     if (RowOf(refusal.family) >= 0) {
