@@ -61,15 +61,14 @@ fs::path OutputFolder(const ExportCommand& command) {
   return run += "-" + command.format;
 }
 
-// How many rows of trajectory.csv make a period.
-size_t Stride(const ExperimentConfig& config, const std::optional<double>& period) {
+// How many rows of a trajectory.csv, `apart` [s], make a period.
+size_t Stride(double apart, const std::optional<double>& period) {
   if (!period) return 1;
-  const double rows = *period / config.output_period;
+  const double rows = *period / apart;
   if (!(rows > 0.5) || std::abs(rows - std::round(rows)) > 1e-6) {
-    const std::string one = ShortestText(config.output_period);
     Refuse("--period " + ShortestText(*period) +
-           ": is no multiple of the run's output.period_s (valid: " + one + ", " +
-           ShortestText(2 * config.output_period) + ", ...)");
+           ": is no multiple of the run's output.period_s (valid: " + ShortestText(apart) + ", " +
+           ShortestText(2 * apart) + ", ...)");
   }
   return static_cast<size_t>(std::lround(rows));
 }
@@ -82,19 +81,19 @@ class WalkExport {
         run_(command.runs.front()),
         config_(LoadConfig((run_ / "config.yaml").string(), {})),
         whole_(LoadWholeRobot(RobotPath(config_).string())),
-        stride_(Stride(config_, command.period)),
         joints_(OrderedJoints(whole_.tree, command.joints)),
         folder_(*folder) {
-    if (command.format == "mjcf") {
-      if (!command.period) stride_ = KeyStride();
-      obstacles_ = Obstacles();
-    }
+    if (command.format == "mjcf") obstacles_ = Obstacles();
     if (IsOfMotion()) experiment_ = Prepare(config_);
   }
 
   void Write(const std::string& method) {
     const std::string name = MethodFolder(method);
     const std::string trajectory = (run_ / name / "trajectory.csv").string();
+    period_ = PeriodOf(trajectory);
+    stride_ = command_.format == "mjcf" && !command_.period
+                  ? static_cast<size_t>(std::max(1L, std::lround(kKeyPeriod / period_)))
+                  : Stride(period_, command_.period);
     if (IsOfMotion()) return WriteMotion(name, trajectory);
     if (command_.format == "hrpsys") return WriteHrpsysFiles(name, trajectory);
     const DeclaredTable whole =
@@ -109,8 +108,12 @@ class WalkExport {
   bool IsOfMotion() const {
     return command_.format == "mjcf" || command_.format == "joint_trajectory";
   }
-  size_t KeyStride() const {
-    return static_cast<size_t>(std::max(1L, std::lround(kKeyPeriod / config_.output_period)));
+  // Between the rows of a trajectory.csv [s].
+  double PeriodOf(const std::string& trajectory) const {
+    if (config_.output_period) return *config_.output_period;
+    const std::vector<TrajectoryRow> rows = ReadTrajectory(trajectory, whole_.model);
+    const bool fine = rows.size() > 1 && rows[1].t < 0.5 * (kRowPeriod + kFineRowPeriod);
+    return fine ? kFineRowPeriod : kRowPeriod;
   }
 
   std::vector<replay::SimulatedObstacle> Obstacles() const {
@@ -122,7 +125,7 @@ class WalkExport {
   }
 
   void WriteHrpsysFiles(const std::string& name, const std::string& trajectory) {
-    const double period = static_cast<double>(stride_) * config_.output_period;
+    const double period = static_cast<double>(stride_) * period_;
     const HrpsysFiles files =
         WriteHrpsys(whole_.model, whole_.tree, joints_, ReadTrajectory(trajectory, whole_.model),
                     stride_, period);
@@ -157,9 +160,10 @@ class WalkExport {
   fs::path run_;
   ExperimentConfig config_;
   WholeRobot whole_;
-  size_t stride_;
   std::vector<int> joints_;
   RunFolder& folder_;
+  double period_ = kRowPeriod;  // of the method that is written
+  size_t stride_ = 1;
   std::vector<replay::SimulatedObstacle> obstacles_;
   std::optional<Experiment> experiment_;
 };

@@ -56,10 +56,16 @@ struct ExperimentConfig {
   HalfStepConfig half_step;               ///< of all half-steps
   SmoothingConfig smoothing;              ///< methods, limits and margins
   std::string output_directory;           ///< "": `runs/<name>` in the working directory
-  double output_period = 0.005;           ///< of trajectory.csv [s]
+  std::optional<double> output_period;    ///< of trajectory.csv [s]; none: as its ZMP shifts
   int seed = 1;                           ///< of planners' random numbers
   std::string directory;                  ///< folder of the file, to which relative paths refer
 };
+
+/// Between the rows of trajectory.csv [s] where the config does not say.
+inline constexpr double kRowPeriod = 0.005;
+/// The same of a walk with a half-step whose ZMP shifts in less than kCoarseRows times that [s].
+inline constexpr double kFineRowPeriod = 0.001;
+inline constexpr int kCoarseRows = 5;  ///< see kFineRowPeriod
 
 /// Declares every key of a config once: reading, writing back and explaining all use this.
 void DeclareFields(Fields& fields, ExperimentConfig* config);

@@ -113,6 +113,9 @@ void DeclareOptimizer(Fields& fields, OptimizerConfig* c) {
                              "start up to a quarter as many times",
                   .min = 1,
                   .max = 100});
+  fields.Boolean("windows", &o->windows,
+                 {.meaning = "`fastest` over forms or footsteps, more than 6 half-steps and "
+                             "`halfstep/sqp`: search in windows first"});
   fields.Boolean("planned_start", &o->planned_start,
                  {.meaning = "solve also from the planned motion, not only from the dichotomy's "
                              "result"});

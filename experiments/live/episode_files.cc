@@ -32,7 +32,7 @@ void WriteTrajectory(const Episode& episode, const LiveConfig& config, const Rob
   };
   const SuperposedWalk walk = episode.Executed();
   const double end = std::min(walk.duration(), episode.end);
-  const double period = config.experiment.output_period;
+  const double period = config.experiment.output_period.value_or(kRowPeriod);
   WriteCsv("trajectory", TrajectoryCsv(walk, end, period, at), folder);
 }
 

@@ -1,6 +1,7 @@
 #include "experiments/run/experiment_run.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "experiments/config/folder_name.h"
 #include "experiments/run/manifest.h"
@@ -15,6 +16,18 @@
 
 namespace halfstep {
 namespace {
+
+// Between the rows of a walk's trajectory.csv [s]. Rows that are played straight from one to the
+// next cut the corners of a ZMP that shifts within few of them.
+double RowPeriod(const ExperimentConfig& config, const MethodRun& run) {
+  const HomotopyParameters& walk = run.result.parameters;
+  double quickest = std::numeric_limits<double>::infinity();
+  for (size_t i = 0; i < walk.durations.size(); ++i) {
+    quickest = std::min(quickest, walk.zmp_shifts[i] * walk.durations[i]);
+  }
+  return config.output_period.value_or(quickest < kCoarseRows * kRowPeriod ? kFineRowPeriod
+                                                                           : kRowPeriod);
+}
 
 // The planned motion as the first row of every comparison, and what it misses.
 MethodRun PlannedRun(const WalkProblem& problem, const std::stop_token& stop, Workers* workers,
@@ -143,7 +156,7 @@ MethodRun ExperimentRun::RunMethod(const std::string& name, const RunHooks& hook
 
 void ExperimentRun::Certify(const std::stop_token& stop) {
   for (MethodRun& run : runs_) {
-    SampleTrajectory(evaluator(), experiment_->sequence, config_.output_period, &run);
+    SampleTrajectory(evaluator(), experiment_->sequence, RowPeriod(config_, run), &run);
     run.certified = CertifyWalk(*certifier_, experiment_->sequence, run.result.parameters, stop,
                                 workers_.get());
   }

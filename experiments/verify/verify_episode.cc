@@ -79,11 +79,12 @@ void CheckEpisodeWalking(const VerifyOptions& options, const EpisodeText& episod
   CheckEpisodeGrants(episode, all, findings);
   const DescribedWalk executed = ExecutedWalk(episode, all, manifest.stopped);
   CheckWhatBegan(episode, manifest, executed, findings);
-  CheckEpisodeTrajectory(rows, manifest, executed, experiment.output_period, findings);
+  const double period = experiment.output_period.value_or(kRowPeriod);
+  CheckEpisodeTrajectory(rows, manifest, executed, period, findings);
   CheckEpisodeEnding(episode, manifest, all, executed, experiment.goal, findings);
   CheckEpisodeProof(episode, all.walks.back(), place.scene,
                     DemandsOf(experiment.smoothing.limits, findings),
-                    {.period = experiment.output_period, .tolerance = options.tolerance}, findings);
+                    {.period = period, .tolerance = options.tolerance}, findings);
 }
 
 }  // namespace

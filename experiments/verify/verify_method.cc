@@ -154,15 +154,17 @@ std::string VerifyMethod(const VerifyOptions& options, const RunManifest& manife
   if (!CheckIsMotion(rows, findings) || !walk) return certificate.statement;
   const PlayedMotion motion(robot, rows);
   Distances distances(robot, scene);
-  CheckRowsOnWalk(rows, *walk, config.output_period, walk->end(), findings);
+  const double period = config.output_period.value_or(
+      rows[1].t < 0.5 * (kRowPeriod + kFineRowPeriod) ? kFineRowPeriod : kRowPeriod);
+  CheckRowsOnWalk(rows, *walk, period, walk->end(), findings);
   CheckConsistency(motion, *walk, findings);
   if (!same_files) {
     findings->Say("clearances: not examined, for these are not the certificate's files");
     return certificate.statement;
   }
   CheckPlayed(motion, *walk, certificate, options.tolerance, &distances, findings);
-  CheckStopBranches(*walk, {config.smoothing.stop_branches, config.output_period}, certificate,
-                    options.tolerance, &distances, findings);
+  CheckStopBranches(*walk, {config.smoothing.stop_branches, period}, certificate, options.tolerance,
+                    &distances, findings);
   CheckMarginColumns(rows, *walk, certificate, &distances, findings);
   if (IsFinite(claimed)) CheckClaims(*walk, certificate, claimed, &distances, findings);
   findings->Say("distances measured: " + Count(distances.queries()));

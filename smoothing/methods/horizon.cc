@@ -9,8 +9,7 @@
 #include "smoothing/methods/dichotomy.h"
 #include "smoothing/methods/search_ending.h"
 #include "smoothing/methods/walk_window.h"
-#include "smoothing/methods/window_search.h"
-#include "smoothing/program/walk_effort.h"
+#include "smoothing/methods/window_passes.h"
 #include "wpg/check.h"
 
 namespace halfstep {
@@ -18,12 +17,6 @@ namespace {
 
 // Of the dichotomy before the windows, for solvers that take long steps and for others [s].
 constexpr double kFarBegin = 0.5, kNearBegin = 0.1;
-// A window that gains less is not taken again [of the walk's mean cost a window].
-constexpr double kWorthAnotherPass = 1e-3;
-// Half-steps beside a window on which what it gains may bear.
-constexpr int kBeside = 4;
-// Rounds in a window: fewer in the first pass, whose windows end at rests that the next will move.
-constexpr int kFirstRounds = 4, kLaterRounds = 8;
 // A search that does not beat a plain dichotomy by this has found nothing [s].
 constexpr double kBeatsDichotomy = 1e-9;
 
@@ -48,9 +41,8 @@ class HorizonSearch {
     const double coarse = solver_->traits().long_steps ? kFarBegin : kNearBegin;
     Adopt(Cost(at_));
     Dichotomize(Fastest() ? std::max(options_.tolerance, coarse) : options_.tolerance, 0.0, 0.2);
-    const HomotopyParameters begun = at_;
     Search();
-    Conclude(begun);
+    Conclude();
     return monitor_.Finish(end_.Ending(), end_.Sentence());
   }
 
@@ -59,18 +51,10 @@ class HorizonSearch {
   int size() const { return problem_.sequence().size(); }
 
   double Cost(const HomotopyParameters& parameters) const {
-    const double duration = DurationOf(parameters);
-    if (Fastest()) return duration;
-    return duration + WeightedEffort(SuperposedWalk(problem_.sequence(), parameters),
-                                     options_.program.weights, nullptr);
+    return CostOf(problem_.sequence(), parameters, options_.program);
   }
 
   void Adopt(double cost) { monitor_.Adopt(at_, cost, DurationOf(at_)); }
-
-  bool Stopped() {
-    end_.deadline_passed = monitor_.Seconds() >= options_.deadline || monitor_.Remaining() <= 0.0;
-    return end_.deadline_passed || monitor_.stopped();
-  }
 
   // Bisects every overlap of at_ in turn, window by window, and adopts what becomes of it.
   void Dichotomize(double tolerance, double from, double to) {
@@ -114,60 +98,16 @@ class HorizonSearch {
   }
 
   void Search() {
-    std::vector<bool> moved(static_cast<size_t>(size()), true);
-    for (int pass = 0; pass < options_.passes; ++pass) {
-      std::vector<bool> moves(moved.size(), false);
-      // Every other pass has its windows' ends elsewhere.
-      const int shift = pass % 2 == 0 ? 0 : options_.window / 4 * 2;
-      for (int begin = -shift; begin < size(); begin += options_.step) {
-        const int first = std::max(0, begin), last = std::min(begin + options_.window, size()) - 1;
-        if (last < first || !Any(moved, first - kBeside, last + kBeside)) continue;
-        if (Stopped()) return;
-        if (SearchAt(first, last, pass == 0 ? kFirstRounds : kLaterRounds) > Worth()) {
-          std::fill(moves.begin() + first, moves.begin() + last + 1, true);
-        }
-        monitor_.Progress(0.2 + 0.6 * (pass + (last + 1.0) / size()) / options_.passes);
-        if (last + 1 == size()) break;
-      }
-      if (!Any(moves, 0, size() - 1)) return;
-      moved = std::move(moves);
-    }
-    end_.exhausted = true;
+    const WindowPassesOptions passes{.window = options_.window,
+                                     .step = options_.step,
+                                     .passes = options_.passes,
+                                     .program = options_.program,
+                                     .deadline = options_.deadline};
+    end_.own = SearchWindows(problem_, passes, *solver_, 0.2, 0.8, monitor_, &end_);
+    at_ = monitor_.incumbent();
   }
 
-  double Worth() const { return kWorthAnotherPass * monitor_.cost() * options_.window / size(); }
-
-  static bool Any(const std::vector<bool>& flags, int first, int last) {
-    const int n = static_cast<int>(flags.size());
-    const auto begin = flags.begin() + std::clamp(first, 0, n);
-    const auto end = flags.begin() + std::clamp(last + 1, 0, n);
-    return std::find(begin, end, true) != end;
-  }
-
-  // What the window gains [s].
-  double SearchAt(int first, int last, int rounds) {
-    const WalkWindow window = WindowOf(problem_, at_, first, last);
-    const double before = monitor_.cost();
-    SearchWindow(
-        window, {.program = options_.program, .rounds = rounds}, *solver_, options_.deadline,
-        monitor_,
-        [&](const HomotopyParameters& part, double gain) {
-          window.Paste(part, &at_);
-          Adopt(before - gain);
-          gained_ = true;
-        },
-        &end_);
-    return before - monitor_.cost();
-  }
-
-  void Conclude(const HomotopyParameters& begun) {
-    // Proved stretch by stretch, in parts that begin at other times.
-    if (gained_ && !HoldsWhole()) {
-      at_ = begun;
-      gained_ = false;
-    }
-    Adopt(Cost(at_));
-    end_.own = gained_;
+  void Conclude() {
     if (Fastest() && !monitor_.stopped()) {
       FineDichotomies();
     } else {
@@ -230,18 +170,11 @@ class HorizonSearch {
     Adopt(found.cost);
   }
 
-  bool HoldsWhole() {
-    const SuperposedWalk walk(problem_.sequence(), at_);
-    const TimeWindow all{0.0, walk.duration()};
-    return problem_.test().Check(walk, all, monitor_.scratch()).verdict == Verdict::kFeasible;
-  }
-
   const WalkProblem& problem_;
   const HorizonOptions& options_;
   SmoothingMonitor& monitor_;
   std::unique_ptr<opt::Solver> solver_;
-  HomotopyParameters at_;  // the incumbent
-  bool gained_ = false;    // anything by windows
+  HomotopyParameters at_;  // what dichotomies begin at
   bool alone_ = false;     // another search runs at the same time
   SearchEnding end_;
 };

@@ -16,6 +16,9 @@ struct OptimizerOptions {
   std::optional<HomotopyParameters> start = std::nullopt;
   /// For `safest`, the most that D may be [s]; 0: the duration of the walk that it begins with.
   double duration_limit = 0.0;
+  /// Before it solves for the whole walk, `fastest` with forms or footsteps lets a solver that likes
+  /// many rows (SolverTraits::many_rows) go through walks of more than 6 half-steps in windows.
+  bool windows = true;
   bool planned_start = true;  ///< solve also from the planned motion, for `fastest` shortened
   int random_starts = 0;      ///< and from random points of the variables' box
   unsigned seed = 1;          ///< of the random starts
@@ -33,13 +36,15 @@ struct OptimizerOptions {
 /// Smooths a whole sequence by a nonlinear program. Whatever the solver does, what is returned was
 /// found feasible by the problem's test, and its cost with it:
 ///   1. the planned motion is the first incumbent, the result of a dichotomy the next (a coarse one
-///      for `fastest`), unless a feasible `start` is given; `fastest` that also moves forms or
-///      footsteps then runs steps 2 and 3 over fewer families, in half of its time, and goes on
-///      from there: over all but footsteps, before that with forms as planned, too;
-///   2. in rounds from each start the solver takes a few steps; where they end is a candidate for
-///      the Incumbent, and the program learns to look where the test refused it and where
-///      sampling finds small slacks;
-///   3. `fastest`: a dichotomy's pass from the incumbent over all junctions, with `tolerance`, and
+///      for `fastest`), unless a feasible `start` is given;
+///   2. `fastest` that also moves forms or footsteps goes through longer walks in windows
+///      (SearchWindows) and then, where these leave half of the time, searches a second time
+///      without windows from where it began; the shorter walk counts. Shorter walks, and that
+///      second search, are searched over fewer families first, in half of the time: over all but
+///      footsteps, before that with forms as planned, too;
+///   3. rounds over the whole walk, from there and from other starts (SearchWhole);
+///   4. where time is left, 2 and 3 in longer windows; the shorter walk counts;
+///   5. `fastest`: a dichotomy's pass from the incumbent over all junctions, with `tolerance`, and
 ///      without a `start` one from the planned motion, too.
 /// So no method ends worse than the dichotomy. Ending: kConverged when rounds stopped to gain from
 /// every start; kLimit when all rounds were used, or the last solve broke down; kNoImprovement,

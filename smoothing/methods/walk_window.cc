@@ -139,6 +139,16 @@ WalkWindow WindowOf(const WalkProblem& problem, const HomotopyParameters& at, in
               std::move(fixed))};
 }
 
+HomotopyParameters WalkWindow::Cut(const HomotopyParameters& walk) const {
+  HomotopyParameters part = parameters;
+  for (const ParameterFamily family : AllParameterFamilies()) {
+    std::vector<double>& values = part.of(family);
+    std::copy_n(walk.of(family).begin() + Traits(family).index_at(begin), values.size(),
+                values.begin());
+  }
+  return part;
+}
+
 void WalkWindow::Paste(const HomotopyParameters& part, HomotopyParameters* walk) const {
   for (const ParameterFamily family : AllParameterFamilies()) {
     const std::vector<double>& values = part.of(family);

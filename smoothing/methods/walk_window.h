@@ -20,6 +20,8 @@ struct WalkWindow {
   /// stay, at their values in the walk.
   WalkProblem problem;
 
+  /// The part's parameters of those of the walk.
+  HomotopyParameters Cut(const HomotopyParameters& walk) const;
   /// Puts parameters of the part into those of the walk.
   void Paste(const HomotopyParameters& part, HomotopyParameters* walk) const;
 };

@@ -39,7 +39,14 @@ void SearchWindow(const WalkWindow& window, const WindowSearchOptions& options,
   const double begun = program.Cost(window.parameters);
   Incumbent path(sequence, DemandedRules(program, &proofs), window.parameters, begun,
                  monitor.scratch());
-  Eigen::VectorXd x = program.ToVariables(window.parameters);
+  Eigen::VectorXd x = program.ToVariables(options.start.value_or(window.parameters));
+  if (options.start) {
+    const OverlapVariables& variables = program.variables();
+    x = x.cwiseMax(variables.lower()).cwiseMin(variables.upper());
+    if (path.Toward(program.ToParameters(x), kAttempts) > 0.0) {
+      gained(path.parameters(), begun - path.cost());
+    }
+  }
   opt::Solution solution;
   SearchPace pace(options.rounds, kPoorRounds);
   for (int round = 0; !pace.over(); ++round) {

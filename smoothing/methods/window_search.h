@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "opt/solvers/solver.h"
 #include "smoothing/methods/search_ending.h"
@@ -13,8 +14,11 @@ namespace halfstep {
 /// Options of SearchWindow.
 struct WindowSearchOptions {
   ProgramOptions program;  ///< `fastest` or `smooth`
-  int rounds = 8;          ///< ≥ 1: most solves; the program is refined between them
-  int iterations = 0;      ///< of the solver in a round; 0: SolverTraits::iterations
+  /// What is tried first and where the first round begins, feasible or not, but for what the window
+  /// fixes; none: the window's own parameters.
+  std::optional<HomotopyParameters> start = std::nullopt;
+  int rounds = 8;      ///< ≥ 1: most solves; the program is refined between them
+  int iterations = 0;  ///< of the solver in a round; 0: SolverTraits::iterations
 };
 
 /// Called with every new point of a window's part that was proved, and what it costs less than the

@@ -43,6 +43,18 @@ std::string_view Name(ProgramKind kind) {
   return "";
 }
 
+double CostOf(const HalfStepSequence& sequence, const HomotopyParameters& parameters,
+              const ProgramOptions& options) {
+  double cost = DurationOf(parameters);
+  if (options.kind == ProgramKind::kFastest) return cost;
+  const SuperposedWalk walk(sequence, parameters);
+  cost += WeightedEffort(walk, options.weights, nullptr);
+  for (const WeightedWalkCost& own : options.own_costs) {
+    cost += own.weight * own.cost->Evaluate(walk, nullptr);
+  }
+  return cost;
+}
+
 OverlapProgram::OverlapProgram(const HalfStepSequence& sequence, const MarginEvaluator& evaluator,
                                const ProgramOptions& options, double duration_limit,
                                const std::vector<FixedParameter>& fixed)
@@ -110,24 +122,14 @@ Eigen::VectorXd OverlapProgram::ToVariables(const HomotopyParameters& parameters
 }
 
 double OverlapProgram::Cost(const HomotopyParameters& parameters) const {
-  const double duration = DurationOf(parameters);
-  switch (options_.kind) {
-    case ProgramKind::kFastest:
-      return duration;
-    case ProgramKind::kSmooth: {
-      const SuperposedWalk walk(variables_.sequence(), parameters);
-      double cost = duration + WeightedEffort(walk, options_.weights, nullptr);
-      for (const WeightedWalkCost& own : options_.own_costs) {
-        cost += own.weight * own.cost->Evaluate(walk, nullptr);
-      }
-      return cost;
-    }
-    case ProgramKind::kSafest:
-      constexpr double kRounding = 1e-9;  // [s]
-      if (duration > duration_limit_ + kRounding) return std::numeric_limits<double>::infinity();
-      return -watched_.LeastSlack(parameters, Raised());
+  if (options_.kind != ProgramKind::kSafest) {
+    return CostOf(variables_.sequence(), parameters, options_);
   }
-  return std::numeric_limits<double>::infinity();
+  constexpr double kRounding = 1e-9;  // [s]
+  if (DurationOf(parameters) > duration_limit_ + kRounding) {
+    return std::numeric_limits<double>::infinity();
+  }
+  return -watched_.LeastSlack(parameters, Raised());
 }
 
 void AddRandomPoints(const OverlapProgram& program, int count, unsigned seed,

@@ -34,6 +34,10 @@ struct ProgramOptions {
   WatchOptions watch;                        ///< instants at which margins are rows
 };
 
+/// What the walk of `parameters` costs by `fastest` or `smooth` [s]. Precondition: not `safest`.
+double CostOf(const HalfStepSequence& sequence, const HomotopyParameters& parameters,
+              const ProgramOptions& options);
+
 /// A program over the variables of OverlapVariables, and for `safest` the slack z as the last one:
 ///
 ///     fastest   minimize D                        subject to  slacks ≥ 0

@@ -232,7 +232,7 @@ TEST(ExperimentConfig, DefaultsAreThoseOfTheReadme) {
   EXPECT_EQ(c.name, "short");
   EXPECT_FALSE(c.has_start);
   EXPECT_THAT(c.smoothing.methods, testing::ElementsAre("dichotomy"));
-  EXPECT_EQ(c.output_period, 0.005);
+  EXPECT_EQ(c.output_period, std::nullopt);
   const Experiment experiment = Prepare(c);
   EXPECT_EQ(experiment.sequence.start[0], (Pose2{0, 0.5 * experiment.robot.standing_width, 0}));
   EXPECT_EQ(experiment.sequence.start[1], experiment.sequence.start[0].Mirrored());

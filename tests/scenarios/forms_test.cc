@@ -11,7 +11,8 @@ namespace halfstep {
 namespace {
 
 // The walk of `halfstep/sqp` over Δ, η, T and what `choice` adds, certified.
-HomotopyParameters FastestOf(const Experiment& e, ParameterChoice choice, int rounds = 6) {
+HomotopyParameters FastestOf(const Experiment& e, ParameterChoice choice, int rounds = 6,
+                             bool windows = false) {
   const MarginEvaluator evaluator(e.robot, e.scene, e.config.smoothing.limits);
   const CertifiedFeasibility test(evaluator, {});
   OptimizerOptions options;
@@ -20,6 +21,7 @@ HomotopyParameters FastestOf(const Experiment& e, ParameterChoice choice, int ro
   options.program.parameters = choice;
   options.rounds = rounds;
   options.planned_start = false;
+  options.windows = windows;
   options.deadline = 60.0;
   options.tolerance = 0.02;
   const WalkProblem problem = ProblemOf(e.sequence, test);
@@ -70,6 +72,14 @@ TEST(FormsScenario, MoreFamiliesNeverMakeAWalkLonger) {
     const double plain = DurationOf(FastestOf(e, {}, 1));
     EXPECT_LE(DurationOf(FastestOf(e, EveryFamily(), 1)), 1.001 * plain) << name;
   }
+}
+
+// By windows, too, all that is found is within its range and certified.
+TEST(FormsScenario, WindowsShortenAWalkOverABar) {
+  const Experiment e = LoadExperiment("bar_8cm");
+  ParameterChoice forms = EveryFamily();
+  forms.footsteps = false;
+  EXPECT_LE(DurationOf(FastestOf(e, forms, 1, true)), 0.85 * DurationOf(FastestOf(e, {}, 1)));
 }
 
 TEST(FormsScenario, AFormThatIsFixedStays) {

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "smoothing/methods/dichotomy.h"
+#include "smoothing/methods/repeated_steps.h"
 #include "smoothing/methods/smoother_registry.h"
 #include "smoothing/methods/walk_window.h"
 #include "smoothing/proof/certified_feasibility.h"
@@ -75,6 +76,7 @@ TEST_F(WindowTest, ThePartDoesWhatTheWalkDoesOnWhatIsProvedAndNothingElseChanges
     }
     HomotopyParameters whole = at;
     window.Paste(moved, &whole);
+    EXPECT_EQ(window.Cut(whole), moved);
     const SuperposedWalk after(sequence, whole), part(window.problem.sequence(), moved);
     for (int k = 0; k < sequence.size(); ++k) {
       const int in_part = k - window.begin;
@@ -111,6 +113,25 @@ TEST_F(WindowTest, WhatTheProblemFixesStaysFixed) {
   }
   for (const int i : {3, 4, 5, 7, 8}) {
     EXPECT_TRUE(table.free({ParameterFamily::kOverlap, i - begin})) << i;
+  }
+}
+
+TEST_F(WindowTest, RepeatedStepsAreThoseOfAStrideBefore) {
+  WalkDraw draw(1703);
+  const HalfStepSequence sequence = draw.Sequence(6);
+  const std::vector<double> planned = PlannedMotion(sequence).durations;
+  const HomotopyParameters at = draw.ExtremeParameters(sequence);
+  const HomotopyParameters like = RepeatSteps(sequence, at, 6, 9);
+  for (const ParameterFamily family : AllParameterFamilies()) {
+    const ParameterFamilyTraits& traits = Traits(family);
+    for (size_t i = 0; i < at.of(family).size(); ++i) {
+      const auto [from, to] = traits.half_steps(static_cast<int>(i));
+      const bool repeats = traits.move == nullptr && from >= 4 && to >= 6 && to <= 9;
+      const size_t before = i - (traits.count(sequence) <= sequence.size() / 2 ? 2 : 4);
+      double expected = at.of(family)[repeats ? before : i];
+      if (repeats && family == ParameterFamily::kDuration) expected *= planned[i] / planned[before];
+      EXPECT_EQ(like.of(family)[i], expected) << traits.name << ' ' << i;
+    }
   }
 }
 

@@ -22,7 +22,9 @@ std::vector<Case> Cases() {
   const std::string fig4 = "fig4_raw_sequence";
   return {{"RowsEvery10ms", {.overrides = {"output.period_s=0.01"}}},
           {"RowsEvery50ms", {.overrides = {"output.period_s=0.05"}}, false},
-          {"ZmpShiftsIn20ms", {.config = fig4, .overrides = {"half_step.zmp_shift_s=0.02"}}},
+          {"ZmpShiftsIn20ms",
+           {.config = fig4, .overrides = {"half_step.zmp_shift_s=0.02", "output.period_s=0.005"}}},
+          {"RowsAsTheZmpShifts", {.overrides = {"half_step.zmp_shift_s=0.02"}}},
           {"ZmpShiftsIn46ms", {.config = fig4, .overrides = {"half_step.zmp_shift_s=0.046"}}},
           {"LowRobot", {.config = fig4, .overrides = {}, .com_height = 0.577}}};
 }
@@ -35,6 +37,17 @@ TEST_P(Periods, WhatIsRightIsNotRefused) {
   EXPECT_EQ(outcome.status, GetParam().verified ? kSuccess : kTooCoarse)
       << outcome.out << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr(GetParam().verified ? "\n  verified\n" : "too coarse"));
+}
+
+// Where the config does not say how far rows are apart, quick shifts of the ZMP do.
+TEST(RowPeriod, IsFineWhereTheZmpShiftsWithinFiveRows) {
+  for (const auto& [shift, period] : {std::pair{"0.024", 0.001}, {"0.026", 0.005}}) {
+    TamperedRun run({.overrides = {std::string("half_step.zmp_shift_s=") + shift}});
+    run.EditTrajectory([&](TamperedRun::Table& table) {
+      EXPECT_EQ(std::stod(table[2][0]), period) << shift;
+      EXPECT_EQ(std::stod(table[101][0]), 100 * period) << shift;
+    });
+  }
 }
 
 // One row's knee bent by 10 mrad, the CoM a millimetre aside, its acceleration changed by 0.05
