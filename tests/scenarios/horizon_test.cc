@@ -174,11 +174,12 @@ TEST(Horizon, EveryIncumbentIsCertifiedAndTheWalkIsShorterThanTheDichotomys) {
 // long as planned.
 class Stubborn : public CertifiedFeasibility {
  public:
-  Stubborn(const CertifiedFeasibility& test, const PlacedHalfStep& half_step)
-      : CertifiedFeasibility(test), half_step_(half_step) {}
+  /// Only of walks of at least so many half-steps.
+  Stubborn(const CertifiedFeasibility& test, const PlacedHalfStep& half_step, int least = 1)
+      : CertifiedFeasibility(test), half_step_(half_step), least_(least) {}
   Feasibility Check(const SuperposedWalk& walk, const TimeWindow& window,
                     MarginEvaluator::Scratch* scratch) const override {
-    for (int k = 0; k < walk.num_half_steps(); ++k) {
+    for (int k = 0; k < walk.num_half_steps() && walk.num_half_steps() >= least_; ++k) {
       const bool it = walk.X_WS(k).position() == half_step_.X_WS.position() &&
                       walk.half_step(k).kind == half_step_.half_step.kind;
       const bool asked = walk.end_of(k) > window.begin && walk.start_of(k) < window.end;
@@ -196,6 +197,7 @@ class Stubborn : public CertifiedFeasibility {
 
  private:
   PlacedHalfStep half_step_;
+  int least_;
 };
 
 TEST(Horizon, OneBadHalfStepCostsItsWindowOnly) {
@@ -207,6 +209,31 @@ TEST(Horizon, OneBadHalfStepCostsItsWindowOnly) {
   const std::vector<double> planned = PlannedMotion(e.sequence).durations;
   EXPECT_EQ(T[7], planned[7]);
   for (const size_t k : {0u, 1u, 2u}) EXPECT_LT(T[k], 0.95 * planned[k]) << k;
+}
+
+HalfStepSequence StraightWalk(const Experiment& e, int steps) {
+  std::vector<Footstep> footsteps;
+  for (int i = 1; i <= steps; ++i) {
+    const Side side = i % 2 == 0 ? Side::kLeft : Side::kRight;
+    footsteps.push_back({.side = side, .X_WF = {0.1 * i, Sign(side) * 0.105, 0.0}});
+  }
+  const HalfStep& like = e.sequence.half_steps.front().half_step;
+  return MakeSequence(StandingFeet(), footsteps, like.via_lateral, like.shape, e.sequence.lipm);
+}
+
+// Regression: what a window gained is refused in the whole walk, and the gain of all was lost.
+TEST(Horizon, WhatIsRefusedInTheWholeCostsNothingElsewhere) {
+  const Experiment e = LoadExperiment("fig3_two_half_steps");
+  const CertifiedFeasibility test({e.robot, Scene{}, e.config.smoothing.limits}, {});
+  const HalfStepSequence sequence = StraightWalk(e, 8);
+  const Stubborn stubborn(test, sequence.half_steps[3], sequence.size());
+  HorizonOptions options = Few(true);
+  options.passes = 1;
+  const SmoothingResult result = Smoothed(Horizon, ProblemOf(sequence, stubborn), options);
+  const std::vector<double>& T = result.parameters.durations;
+  const std::vector<double> planned = PlannedMotion(sequence).durations;
+  EXPECT_EQ(T[3], planned[3]);
+  for (const size_t k : {0u, 8u, 10u, 12u, 15u}) EXPECT_LT(T[k], 0.95 * planned[k]) << k;
 }
 
 TEST(Horizon, ProvesStopBranchesWhereTheyAreDemanded) {
@@ -226,14 +253,7 @@ TEST(Horizon, ItsCostIsLinearInTheWalk) {
   const CertifiedFeasibility test({e.robot, Scene{}, e.config.smoothing.limits}, {});
   std::vector<double> instants;
   for (const int steps : {8, 16}) {
-    std::vector<Footstep> footsteps;
-    for (int i = 1; i <= steps; ++i) {
-      const Side side = i % 2 == 0 ? Side::kLeft : Side::kRight;
-      footsteps.push_back({.side = side, .X_WF = {0.1 * i, Sign(side) * 0.105, 0.0}});
-    }
-    const HalfStep& like = e.sequence.half_steps.front().half_step;
-    const HalfStepSequence sequence =
-        MakeSequence(StandingFeet(), footsteps, like.via_lateral, like.shape, e.sequence.lipm);
+    const HalfStepSequence sequence = StraightWalk(e, steps);
     HorizonOptions options = Few(false);
     options.passes = 1;
     const SmoothingResult result = Smoothed(Horizon, ProblemOf(sequence, test), options);
