@@ -9,6 +9,7 @@
 #include "smoothing/methods/dichotomy.h"
 #include "smoothing/methods/search_ending.h"
 #include "smoothing/methods/walk_window.h"
+#include "smoothing/methods/whole_proof.h"
 #include "smoothing/methods/window_passes.h"
 #include "wpg/check.h"
 
@@ -120,6 +121,8 @@ class HorizonSearch {
   // One from the incumbent and one from the planned motion, at the same time where there are
   // workers; the shorter walk counts.
   void FineDichotomies() {
+    const HomotopyParameters searched = at_;
+    const double cost = monitor_.cost();
     SmoothingResult plain;
     alone_ = monitor_.workers() != nullptr;
     RunWith(monitor_.workers(), 2, [&](int index, int) {
@@ -131,6 +134,8 @@ class HorizonSearch {
       return true;
     });
     alone_ = false;
+    KeepWhatHolds(problem_, searched, cost, monitor_);
+    at_ = monitor_.incumbent();
     TakePlain(plain);
   }
 

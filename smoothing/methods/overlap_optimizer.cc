@@ -11,6 +11,7 @@
 #include "smoothing/methods/overlap_prices.h"
 #include "smoothing/methods/search_ending.h"
 #include "smoothing/methods/search_rounds.h"
+#include "smoothing/methods/whole_proof.h"
 #include "smoothing/methods/whole_search.h"
 #include "smoothing/methods/window_passes.h"
 
@@ -180,9 +181,12 @@ class Optimization {
       if (!Fastest() || monitor_.stopped()) junction.limited_by.reset();
     }
     if (stages_.compares && Fastest() && !monitor_.stopped()) {
+      const HomotopyParameters searched = monitor_.incumbent();
+      const double cost = monitor_.cost();
       const FineDichotomies fine =
           RunFineDichotomies(problem_, options_.tolerance, !options_.start, monitor_);
       TakeSearch(fine.from_incumbent, /*from_incumbent=*/true, monitor_);
+      KeepWhatHolds(problem_, searched, cost, monitor_);
       if (fine.from_start) {
         const bool same = monitor_.incumbent() == problem_.Start();
         TakeSearch(*fine.from_start, same, monitor_);

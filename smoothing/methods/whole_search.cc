@@ -9,6 +9,7 @@
 #include "smoothing/methods/search_pace.h"
 #include "smoothing/methods/search_rounds.h"
 #include "smoothing/methods/shortened_start.h"
+#include "smoothing/methods/whole_proof.h"
 
 namespace halfstep {
 namespace {
@@ -59,7 +60,7 @@ class WholeSearch {
     Search(&path);
     if (path.accepted() == 0) return false;
     // Safest walks were proved whole, the others stretch by stretch.
-    if (Safest() || HoldsWhole(path.parameters())) return true;
+    if (Safest() || HoldsWhole(problem_, path.parameters(), monitor_)) return true;
     monitor_.Adopt(start_, program_.Cost(start_), own);
     return false;
   }
@@ -203,14 +204,6 @@ class WholeSearch {
                             .incumbent_slack = incumbent_slack_};
     if (violation > 0.0) record.candidate_slack = -violation;
     monitor_.Record(record);
-  }
-
-  bool HoldsWhole(const HomotopyParameters& parameters) {
-    const SuperposedWalk walk(sequence_, parameters);
-    MarginEvaluator::Scratch scratch = test_.evaluator().MakeScratch();
-    scratch.stop = monitor_.scratch()->stop;
-    scratch.workers = monitor_.workers();
-    return test_.Check(walk, {0.0, walk.duration()}, &scratch).verdict == Verdict::kFeasible;
   }
 
   const WalkProblem& problem_;

@@ -1,6 +1,7 @@
 #include "wpg/motion/half_step.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "wpg/check.h"
 
@@ -23,6 +24,13 @@ Smoothstep LiftWindow(HalfStepKind kind, const HalfStepShape& shape) {
   return kind == HalfStepKind::kUp
              ? Smoothstep{shape.t2(), shape.t2() + shape.lift_share * (1.0 - shape.t2())}
              : Smoothstep{shape.t1() - shape.lift_share * shape.t1(), shape.t1()};
+}
+
+// The unit times of [a, b] without what the rounding of absolute times may have added at its ends:
+// there knots lie, mostly of this half-step, and beyond one a derivative may be much larger.
+std::pair<double, double> WithoutRounding(double a, double b) {
+  constexpr double kRounding = 2e-13;
+  return b - a > 2.0 * kRounding ? std::pair{a + kRounding, b - kRounding} : std::pair{a, b};
 }
 
 // The derivative of a profile along a parameter, from f, its derivative along a number that changes
@@ -163,7 +171,7 @@ HalfStepJet HalfStepProfiles::ByShift(double sigma) const {
 }
 
 HalfStepJet HalfStepProfiles::SecondBounds(double from, double to) const {
-  const double a = from / duration_, b = to / duration_;
+  const auto [a, b] = WithoutRounding(from / duration_, to / duration_);
   const double r = 1.0 / (duration_ * duration_);
   HalfStepJet bounds;
   if (b <= 0.0 || a >= 1.0) return bounds;
@@ -176,7 +184,7 @@ HalfStepJet HalfStepProfiles::SecondBounds(double from, double to) const {
 }
 
 HalfStepThirds HalfStepProfiles::ThirdRanges(double from, double to) const {
-  const double a = from / duration_, b = to / duration_;
+  const auto [a, b] = WithoutRounding(from / duration_, to / duration_);
   const double r = 1.0 / (duration_ * duration_ * duration_);
   const auto to_time = [r](const Range& x) { return Range{r * x.center, r * x.radius}; };
   return {.com = to_time(shift_.ComThirdRange(a, b)),

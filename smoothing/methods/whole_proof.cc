@@ -1,0 +1,21 @@
+#include "smoothing/methods/whole_proof.h"
+
+namespace halfstep {
+
+bool HoldsWhole(const WalkProblem& problem, const HomotopyParameters& parameters,
+                SmoothingMonitor& monitor) {
+  const SuperposedWalk walk(problem.sequence(), parameters);
+  MarginEvaluator::Scratch scratch = problem.evaluator().MakeScratch();
+  scratch.stop = monitor.scratch()->stop;
+  scratch.workers = monitor.workers();
+  const TimeWindow all{0.0, walk.duration()};
+  return problem.test().Check(walk, all, &scratch).verdict == Verdict::kFeasible;
+}
+
+void KeepWhatHolds(const WalkProblem& problem, const HomotopyParameters& before, double cost,
+                   SmoothingMonitor& monitor) {
+  if (monitor.incumbent() == before || HoldsWhole(problem, monitor.incumbent(), monitor)) return;
+  monitor.Adopt(before, cost, DurationOf(before));
+}
+
+}  // namespace halfstep
