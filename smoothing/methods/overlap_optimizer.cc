@@ -23,11 +23,11 @@ namespace {
 constexpr double kNearStart = 0.1, kFarStart = 0.5;
 // Instants a half-step where each has rows of its own.
 constexpr int kRowsInstants = 24;
-// Windows have this much of the time that is left, and another search follows where they took less
-// than the other part of the whole.
-constexpr double kWindowsPart = 0.8, kAnotherPart = 0.5;
-// One more search begins where so much of the whole time is not used up.
-constexpr double kMostPart = 0.9;
+// Windows have this part of the time that is left at most.
+constexpr double kWindowsPart = 0.8;
+// A search without windows follows where these end before this part of the whole time, and one in
+// longer windows where the rounds over the whole end before the other.
+constexpr double kAnotherPart = 0.5, kLongerPart = 0.9;
 // A search that does not beat a plain dichotomy by this has found nothing [s].
 constexpr double kGainedTime = 1e-9;
 
@@ -106,7 +106,7 @@ class Optimization {
         SearchWhole(problem_, options_, solver_, effort, search_from_, &program, monitor_, &end_) ||
         found_apart_;
     const bool longer = problem_.sequence().size() > kInLongerWindows.window;
-    const bool time_is_left = monitor_.Seconds() < kMostPart * options_.deadline;
+    const bool time_is_left = monitor_.Seconds() < kLongerPart * options_.deadline;
     if (by_windows && stages_.compares && longer && time_is_left && !monitor_.stopped()) {
       SearchApart(all, begun, kInLongerWindows, 1.0);
       end_.own = end_.own || found_apart_;

@@ -171,7 +171,7 @@ HalfStepJet HalfStepProfiles::ByShift(double sigma) const {
 }
 
 HalfStepJet HalfStepProfiles::SecondBounds(double from, double to) const {
-  const auto [a, b] = WithoutRounding(from / duration_, to / duration_);
+  const double a = from / duration_, b = to / duration_;
   const double r = 1.0 / (duration_ * duration_);
   HalfStepJet bounds;
   if (b <= 0.0 || a >= 1.0) return bounds;

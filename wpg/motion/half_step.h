@@ -110,13 +110,12 @@ class HalfStepProfiles {
   /// At a knot: of one side.
   HalfStepJet ByShape(double HalfStepShape::*number, double tau) const;
 
-  /// sup |π̈| [1/s²] of each profile over local times [from, to] [s]; only `second` is filled. Of an
-  /// interval between knots at absolute times, 2·10⁻¹³ T at either end may belong to the piece
-  /// beyond the knot, by rounding, and are left out: what the walk does in that time is far below
-  /// what margins add for rounding.
+  /// sup |π̈| [1/s²] of each profile over local times [from, to] [s]; only `second` is filled.
   HalfStepJet SecondBounds(double from, double to) const;
 
-  /// All values of the third time derivatives over local times [from, to] [s], but for these ends.
+  /// All values of the third time derivatives over local times [from, to] [s], but for 2·10⁻¹³ T at
+  /// either end: between knots at absolute times these may belong to the piece beyond the knot, by
+  /// rounding. What the walk does in that time is far below what margins add for rounding.
   HalfStepThirds ThirdRanges(double from, double to) const;
 
   double duration() const { return duration_; }          ///< T [s]
