@@ -17,8 +17,8 @@ struct WindowPassesOptions {
 };
 
 /// Lowers the cost of the monitor's incumbent, which is proved, by SearchWindow in windows from its
-/// first half-step to its last, again and again until a pass gains nothing. In the first pass half-
-/// steps that no window has met begin as those a stride before them have become (RepeatSteps). A
+/// first half-step to its last, again and again until a pass gains nothing. In the first pass
+/// half-steps that no window has met begin as those a stride before have become (RepeatSteps). A
 /// later pass takes only windows near which the one before gained something. A gain is proved by
 /// the stretches that it changes, and adopted. In the end all stretches of the walk are proved
 /// again, at their times in it; where that fails, the walk goes back a part of the way there. Tells
