@@ -112,8 +112,7 @@ class WalkExport {
   double PeriodOf(const std::string& trajectory) const {
     if (config_.output_period) return *config_.output_period;
     const std::vector<TrajectoryRow> rows = ReadTrajectory(trajectory, whole_.model);
-    const bool fine = rows.size() > 1 && rows[1].t < 0.5 * (kRowPeriod + kFineRowPeriod);
-    return fine ? kFineRowPeriod : kRowPeriod;
+    return RowPeriodOf(config_, rows.size() > 1 ? rows[1].t : kRowPeriod);
   }
 
   std::vector<replay::SimulatedObstacle> Obstacles() const {

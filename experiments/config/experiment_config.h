@@ -66,6 +66,12 @@ inline constexpr double kRowPeriod = 0.005;
 /// The same of a walk with a half-step whose ZMP shifts in less than kCoarseRows times that [s].
 inline constexpr double kFineRowPeriod = 0.001;
 inline constexpr int kCoarseRows = 5;  ///< see kFineRowPeriod
+/// Which of them a trajectory.csv was written with whose second row is at `second` [s]; what the
+/// config says where it does.
+inline double RowPeriodOf(const ExperimentConfig& config, double second) {
+  const bool fine = second < 0.5 * (kRowPeriod + kFineRowPeriod);
+  return config.output_period.value_or(fine ? kFineRowPeriod : kRowPeriod);
+}
 
 /// Declares every key of a config once: reading, writing back and explaining all use this.
 void DeclareFields(Fields& fields, ExperimentConfig* config);

@@ -154,8 +154,7 @@ std::string VerifyMethod(const VerifyOptions& options, const RunManifest& manife
   if (!CheckIsMotion(rows, findings) || !walk) return certificate.statement;
   const PlayedMotion motion(robot, rows);
   Distances distances(robot, scene);
-  const double period = config.output_period.value_or(
-      rows[1].t < 0.5 * (kRowPeriod + kFineRowPeriod) ? kFineRowPeriod : kRowPeriod);
+  const double period = RowPeriodOf(config, rows[1].t);
   CheckRowsOnWalk(rows, *walk, period, walk->end(), findings);
   CheckConsistency(motion, *walk, findings);
   if (!same_files) {

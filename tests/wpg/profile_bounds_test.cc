@@ -144,5 +144,20 @@ TEST(ProfileBounds, HalfStepSecondsHoldInLocalTime) {
   }
 }
 
+// Regression: an interval that ends at a knot took the piece beyond it along where rounding put its
+// end behind the knot.
+TEST(ProfileBounds, ThirdsOfAnIntervalThatEndsAtAKnotAreNotThoseBeyond) {
+  const HalfStepProfiles up(HalfStepKind::kUp, HalfStepShape{.horizontal_delay = 0.2}, 0.75, {});
+  const double knot = up.horizontal_begin();
+  const auto farthest = [&](double to) {
+    const Range foot = up.ThirdRanges(knot - 1e-4, to).foot;
+    return std::abs(foot.center) + foot.radius;
+  };
+  for (const double to : {knot, std::nextafter(knot, 1.0), knot + 1e-13}) {
+    EXPECT_EQ(farthest(to), 0.0) << to - knot;
+  }
+  EXPECT_GT(farthest(knot + 1e-9), 1.0);
+}
+
 }  // namespace
 }  // namespace halfstep
