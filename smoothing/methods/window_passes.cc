@@ -20,6 +20,9 @@ constexpr double kWorthAnotherPass = 1e-3;
 constexpr int kBeside = 4;
 // Rounds in a window: fewer in the first pass, whose windows end at rests that the next will move.
 constexpr int kFirstRounds = 4, kLaterRounds = 8;
+// Where passes take long, of more than so many windows, the first one has up to so many rounds in a
+// window while they gain: half-steps that are planned slow would else take many passes to shrink.
+constexpr int kManyWindows = 4, kFallingRounds = 16;
 
 bool Any(const std::vector<bool>& flags, int first, int last) {
   const int n = static_cast<int>(flags.size());
@@ -86,7 +89,7 @@ class WindowPasses {
         const int first = std::max(0, begin), last = std::min(begin + options_.window, size()) - 1;
         if (last < first || !Any(moved, first - kBeside, last + kBeside)) continue;
         if (Stopped()) return;
-        if (SearchAt(first, last, pass == 0 ? kFirstRounds : kLaterRounds) > Worth()) {
+        if (SearchAt(first, last, pass == 0) > Worth()) {
           std::fill(moves.begin() + first, moves.begin() + last + 1, true);
         }
         monitor_.Progress(from_ + (to_ - from_) * (pass + (last + 1.0) / size()) / options_.passes);
@@ -101,9 +104,13 @@ class WindowPasses {
   double Worth() const { return kWorthAnotherPass * monitor_.cost() * options_.window / size(); }
 
   // What the window gains [s].
-  double SearchAt(int first, int last, int rounds) {
+  double SearchAt(int first, int last, bool in_first_pass) {
     const WalkWindow window = WindowOf(problem_, at_, first, last);
-    WindowSearchOptions options{.program = options_.program, .rounds = rounds};
+    WindowSearchOptions options{.program = options_.program, .rounds = kLaterRounds};
+    if (in_first_pass) {
+      options.rounds = kFirstRounds;
+      if (size() > kManyWindows * options_.window) options.most_rounds = kFallingRounds;
+    }
     if (met_ > 0 && met_ <= last) {
       options.start = window.Cut(RepeatSteps(problem_.sequence(), at_, met_, last));
     }

@@ -1,6 +1,7 @@
 #include "smoothing/methods/window_search.h"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "smoothing/methods/incumbent.h"
@@ -13,6 +14,8 @@ namespace {
 // Fewer than in a search over the whole walk, which has to last longer.
 constexpr int kInstantsOfRows = 16;
 constexpr int kPoorRounds = 2;
+// Rounds go on up to most_rounds as long as their ends fall by more than this [of their cost].
+constexpr double kFalling = 0.01;
 
 ProgramOptions OfWindow(const WalkWindow& window, const ProgramOptions& options,
                         const opt::SolverTraits& traits) {
@@ -49,7 +52,9 @@ void SearchWindow(const WalkWindow& window, const WindowSearchOptions& options,
   }
   opt::Solution solution;
   SearchPace pace(options.rounds, kPoorRounds);
-  for (int round = 0; !pace.over(); ++round) {
+  double end_cost = begun;
+  bool falling = false;
+  for (int round = 0; !pace.over() || (falling && round < options.most_rounds); ++round) {
     const double remaining = std::min(deadline - monitor.Seconds(), monitor.Remaining());
     if (remaining <= 0.0 || monitor.stopped()) return;
     const opt::Problem problem = program.MakeProblem();
@@ -64,6 +69,8 @@ void SearchWindow(const WalkWindow& window, const WindowSearchOptions& options,
     if (solution.x.size() != x.size()) return;
     const bool near = solution.final_x.size() == x.size() && solution.final_violation < kHopeless;
     x = near ? solution.final_x : solution.x;
+    const double end_before = std::exchange(end_cost, near ? solution.final_cost : solution.cost);
+    falling = end_cost < (1.0 - kFalling) * end_before;
     const double violation = near ? solution.final_violation : solution.max_violation;
     const double before = path.cost();
     const HomotopyParameters end = program.ToParameters(x);
@@ -86,7 +93,7 @@ void SearchWindow(const WalkWindow& window, const WindowSearchOptions& options,
         .lambda = lambda};
     if (violation > 0.0) record.candidate_slack = -violation;
     monitor.Record(record);
-    pace.Note(near ? solution.final_cost : solution.cost, before, path.cost());
+    pace.Note(end_cost, before, path.cost());
     AdaptRows(tried, tried ? path.refusals() : std::vector<Margin>(), &program.watched());
   }
 }

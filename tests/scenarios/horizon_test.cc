@@ -6,11 +6,14 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <utility>
 
+#include "opt/adapters/solver_registry.h"
 #include "smoothing/methods/dichotomy.h"
 #include "smoothing/methods/repeated_steps.h"
 #include "smoothing/methods/smoother_registry.h"
 #include "smoothing/methods/walk_window.h"
+#include "smoothing/methods/window_search.h"
 #include "smoothing/proof/certified_feasibility.h"
 #include "smoothing/proof/stoppable_feasibility.h"
 #include "tests/scenarios/load_experiment.h"
@@ -234,6 +237,34 @@ TEST(Horizon, WhatIsRefusedInTheWholeCostsNothingElsewhere) {
   const std::vector<double> planned = PlannedMotion(sequence).durations;
   EXPECT_EQ(T[3], planned[3]);
   for (const size_t k : {0u, 8u, 10u, 12u, 15u}) EXPECT_LT(T[k], 0.95 * planned[k]) << k;
+}
+
+// Regression: where half-steps were planned slow, windows ended while each round still gained.
+TEST(WindowSearch, GoesOnWhereRoundsStillGain) {
+  const Experiment e = LoadExperiment("fig3_two_half_steps");
+  const CertifiedFeasibility test({e.robot, Scene{}, e.config.smoothing.limits}, {});
+  const HalfStepSequence sequence = StraightWalk(e, 4);
+  HomotopyParameters slow = PlannedMotion(sequence);
+  for (double& T : slow.durations) T *= 1.5;
+  const WalkWindow window = WindowOf(ProblemOf(sequence, test), slow, 0, 3);
+  const auto gain_with = [&](int most_rounds) {
+    SmoothingMonitor monitor;
+    monitor.BeginKnownFeasible(window.problem, window.parameters);
+    WindowSearchOptions options{.program = {}, .rounds = 1, .most_rounds = most_rounds};
+    options.program.parameters = EveryFamily();
+    double gained = 0.0;
+    SearchEnding ending;
+    SearchWindow(
+        window, options, *opt::MakeSolver("halfstep/sqp"), 30.0, monitor,
+        [&gained](const HomotopyParameters&, double gain) { gained = gain; }, &ending);
+    return std::pair(gained, monitor.result().iterates.size());
+  };
+  const auto [few, few_rounds] = gain_with(0);
+  const auto [many, many_rounds] = gain_with(8);
+  EXPECT_EQ(few_rounds, 1u);
+  EXPECT_GT(many_rounds, 1u);
+  EXPECT_LE(many_rounds, 8u);
+  EXPECT_GT(many, few + 0.1) << many_rounds << " rounds";
 }
 
 TEST(Horizon, ProvesStopBranchesWhereTheyAreDemanded) {
