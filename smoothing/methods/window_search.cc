@@ -37,6 +37,7 @@ void SearchWindow(const WalkWindow& window, const WindowSearchOptions& options,
                          part.fixed());
   if (program.variables().size() == 0) return;
   program.watched().SetWorkers(monitor.workers());
+  ResetRows(program.watched().sharpness(), 1.0, &program.watched());
   StretchProofs proofs(part.test(), sequence.size(), {window.proved_first, window.proved_last});
   proofs.Remember(SuperposedWalk(sequence, window.parameters));
   const double begun = program.Cost(window.parameters);
@@ -76,7 +77,8 @@ void SearchWindow(const WalkWindow& window, const WindowSearchOptions& options,
     const HomotopyParameters end = program.ToParameters(x);
     const SuperposedWalk walk(sequence, end);
     const bool promising = program.watched().Focus(walk, kLookPeriod, 0.0) >= kPromising;
-    const bool last = round + 1 == options.rounds || pace.poor() + 1 == kPoorRounds;
+    const bool goes_on = round + 1 < options.rounds || (falling && round + 1 < options.most_rounds);
+    const bool last = !goes_on || round + 1 == options.rounds || pace.poor() + 1 == kPoorRounds;
     const bool tried = violation <= kHopeless && (promising || last);
     const double lambda = tried ? path.Toward(end, kAttempts) : 0.0;
     const bool refused = !promising || !tried || !path.refusals().empty();

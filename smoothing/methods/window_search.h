@@ -17,9 +17,11 @@ struct WindowSearchOptions {
   /// What is tried first and where the first round begins, feasible or not, but for what the window
   /// fixes; none: the window's own parameters.
   std::optional<HomotopyParameters> start = std::nullopt;
-  int rounds = 8;       ///< ≥ 1: most solves; the program is refined between them
-  int most_rounds = 0;  ///< more follow up to this number while each end costs less by 1 %
-  int iterations = 0;   ///< of the solver in a round; 0: SolverTraits::iterations
+  int rounds = 8;  ///< ≥ 1: most solves; the program is refined between them
+  /// Where this is more than `rounds`, further solves follow up to this number, as long as the end
+  /// of each costs at least 1 % less than the end before it.
+  int most_rounds = 0;
+  int iterations = 0;  ///< of the solver in a round; 0: SolverTraits::iterations
 };
 
 /// Called with every new point of a window's part that was proved, and what it costs less than the
