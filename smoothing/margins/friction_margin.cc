@@ -1,5 +1,6 @@
 #include "smoothing/margins/friction_margin.h"
 
+#include <algorithm>
 #include <optional>
 
 #include "wpg/motion/dynamics_slope.h"
@@ -50,7 +51,12 @@ void FrictionMargin::AddBounds(const MarginInterval& interval, TightestStatement
   const Margin margin = Least(&mid, kUnlimited);
   double change = 0.0;
   if (margin.value >= mid.demanded(family())) {
-    change = FrictionAt(&mid)->Drift(interval.drift(), interval.zmp_drift()) + kFrictionRounding;
+    const auto friction = FrictionAt(&mid);
+    const double spare = margin.value - mid.demanded(family()) - kFrictionRounding;
+    change = friction->Drift(interval.drift(), interval.zmp_drift());
+    const ContactRate* rate = change <= spare ? nullptr : interval.contact_rate();
+    if (rate != nullptr) change = std::min(change, friction->Drift(*rate));
+    change += kFrictionRounding;
   }
   tightest->Add(margin, change);
 }

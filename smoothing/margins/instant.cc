@@ -72,4 +72,12 @@ const ZmpDrift& MarginInterval::zmp_drift() const {
   return *zmp_drift_;
 }
 
+const ContactRate* MarginInterval::contact_rate() const {
+  if (!contact_rate_) {
+    contact_rate_ = ContactRate::Over(mid.robot(), motion, Thirds(), drift(), *mid.dynamics(),
+                                      mid.walk().lipm().gravity);
+  }
+  return *contact_rate_ ? &**contact_rate_ : nullptr;
+}
+
 }  // namespace halfstep

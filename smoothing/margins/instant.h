@@ -5,6 +5,7 @@
 #include "smoothing/margins/margin.h"
 #include "smoothing/margins/margin_place.h"
 #include "smoothing/walk/superposed_walk.h"
+#include "wpg/motion/contact_rate.h"
 #include "wpg/motion/motion_bounds.h"
 #include "wpg/motion/posture.h"
 #include "wpg/motion/robot_drift.h"
@@ -88,6 +89,9 @@ class MarginInterval {
   const RobotDrift& drift() const;
   /// How far the robot's ZMP goes. Precondition: there is one at the midpoint.
   const ZmpDrift& zmp_drift() const;
+  /// How fast what the floor gives changes; null where the interval is too long to say. It costs
+  /// several times as much as the drifts, and says more. Precondition: as zmp_drift().
+  const ContactRate* contact_rate() const;
 
  private:
   WalkThirds Thirds() const;
@@ -95,6 +99,7 @@ class MarginInterval {
   // Made when they are first asked for.
   mutable std::optional<RobotDrift> drift_;
   mutable std::optional<ZmpDrift> zmp_drift_;
+  mutable std::optional<std::optional<ContactRate>> contact_rate_;
 };
 
 }  // namespace halfstep

@@ -71,10 +71,19 @@ void ZmpRobotMargin::AddBounds(const MarginInterval& interval, TightestStatement
   const double margin = edges.polygon().Margin(*zmp);
   double least = margin;
   if (margin >= mid.demanded(family())) {
-    const ZmpDrift& drift = interval.zmp_drift();
-    edges.ForEach([&](int i, const Eigen::Vector2d& inward) {
-      least = std::min(least, edges.Inside(i, inward, *zmp) - drift.Along(inward));
-    });
+    const auto least_over = [&](const ZmpDrift& drift) {
+      double over = margin;
+      edges.ForEach([&](int i, const Eigen::Vector2d& inward) {
+        over = std::min(over, edges.Inside(i, inward, *zmp) - drift.Along(inward));
+      });
+      return over;
+    };
+    least = least_over(interval.zmp_drift());
+    const bool decided = least - kDynamicsRounding >= mid.demanded(family());
+    const ContactRate* rate = decided ? nullptr : interval.contact_rate();
+    if (rate != nullptr) {
+      least = std::max(least, least_over(ZmpDrift::At(*rate, mid.dynamics()->contact()[5])));
+    }
   }
   tightest->Add(Of(margin, step), margin - least + kDynamicsRounding);
 }

@@ -120,8 +120,8 @@ void Drift(long intervals, unsigned seed, const std::string& name) {
   WalkDraw draw(seed);
   constexpr double kLengths[] = {0.001, 0.003, 0.01, 0.03};
   for (const double length : kLengths) {
-    long drawn = 0, moving = 0, bounded = 0, exceeded = 0;
-    std::vector<double> ratios;
+    long drawn = 0, moving = 0, bounded = 0, exceeded = 0, exceeded_by_rates = 0, unbounded = 0;
+    std::vector<double> ratios, by_rates;
     while (drawn < intervals) {
       const HalfStepSequence sequence = DrawSequence(robot, 2, {.stride = 0.7}, &draw);
       const SuperposedWalk walk(sequence, draw.Parameters(sequence, 0.0, 0.8));
@@ -143,6 +143,10 @@ void Drift(long intervals, unsigned seed, const std::string& name) {
         const double angle = draw.Uniform(0, 6.28);
         const Eigen::Vector2d direction(std::cos(angle), std::sin(angle));
         const double bound = drift.Along(direction);
+        const auto rate = ContactRate::Over(robot, motion, thirds, of_robot, dynamics, gravity);
+        const double bound_by_rates =
+            rate ? ZmpDrift::At(*rate, dynamics.contact()[5]).Along(direction) : INFINITY;
+        unbounded += !std::isfinite(bound_by_rates);
         double most = 0;
         for (int i = 0; i <= 8; ++i) {
           const WalkJet jet = walk.At(begin + length * i / 8);
@@ -152,20 +156,29 @@ void Drift(long intervals, unsigned seed, const std::string& name) {
           most = std::max(most, std::abs(direction.dot(*there - *zmp)));
         }
         exceeded += most > bound + 1e-9;
-        if (most > 1e-5) ratios.push_back(bound / most);
+        exceeded_by_rates += most > bound_by_rates + 1e-9;
+        if (most <= 1e-5) continue;
+        ratios.push_back(bound / most);
+        by_rates.push_back(bound_by_rates / most);
       }
     }
-    std::sort(ratios.begin(), ratios.end());
-    const auto at = [&](double share) {
-      return ratios.empty()
-                 ? 0.0
-                 : ratios[static_cast<size_t>(share * static_cast<double>(ratios.size() - 1))];
-    };
     std::printf(
-        "%-12s %5.0f ms %9ld intervals, the motion bounded %9ld, the ZMP %9ld, exceeded %ld; bound "
-        "/ "
-        "largest change: median %.2f, 90 %% %.2f, 99 %% %.2f\n",
-        name.c_str(), 1e3 * length, drawn, moving, bounded, exceeded, at(0.5), at(0.9), at(0.99));
+        "%-12s %5.0f ms %9ld intervals, the motion bounded %9ld, the ZMP %9ld; bound / "
+        "largest change:\n",
+        name.c_str(), 1e3 * length, drawn, moving, bounded);
+    const auto print = [](const char* what, std::vector<double>* of, long wrong) {
+      std::sort(of->begin(), of->end());
+      const auto at = [&](double share) {
+        return of->empty()
+                   ? 0.0
+                   : (*of)[static_cast<size_t>(share * static_cast<double>(of->size() - 1))];
+      };
+      std::printf("  %-9s exceeded %ld; median %.2f, 90 %% %.2f, 99 %% %.2f\n", what, wrong,
+                  at(0.5), at(0.9), at(0.99));
+    };
+    print("by norms", &ratios, exceeded);
+    print("by rates", &by_rates, exceeded_by_rates);
+    std::printf("  without a bound by rates: %ld\n", unbounded);
   }
 }
 

@@ -76,7 +76,7 @@ void Draw(long intervals, unsigned seed, const std::string& name) {
   const MotionBounds bounds(robot);
   WalkDraw draw(seed);
   for (const double length : {0.001, 0.003, 0.01, 0.03}) {
-    std::array<Ratios, 2> torque, friction;  // one foot stands, both do
+    std::array<Ratios, 2> torque, friction, by_rates;  // one foot stands, both do
     long drawn = 0, bounded = 0;
     while (drawn < intervals) {
       const HalfStepSequence sequence = DrawSequence(robot, 2, {.stride = 0.7}, &draw);
@@ -108,6 +108,9 @@ void Draw(long intervals, unsigned seed, const std::string& name) {
         const SupportPolygon polygon = SupportAt(walk, middle, motion.jet.value, robot.sole_size);
         const auto needed = FootFriction::Of(at->dynamics, polygon);
         const double friction_bound = needed ? needed->Drift(drift, zmp) : INFINITY;
+        const auto rate = ContactRate::Over(robot, motion, thirds, drift, at->dynamics, kGravity);
+        const double bound_by_rates = needed && rate ? needed->Drift(*rate) : INFINITY;
+        const bool said = std::isfinite(std::min(friction_bound, bound_by_rates));
         std::array<Vector6d, 2> most = {Vector6d::Zero(), Vector6d::Zero()};
         double grown = 0;
         for (int i = 0; i <= kInstants; ++i) {
@@ -117,7 +120,7 @@ void Draw(long intervals, unsigned seed, const std::string& name) {
           for (size_t s = 0; s < 2; ++s) {
             most[s] = most[s].cwiseMax((there->torques[s] - at->torques[s]).cwiseAbs());
           }
-          if (!std::isfinite(friction_bound)) continue;
+          if (!said) continue;
           const auto then = FootFriction::Of(there->dynamics, polygon);
           grown = std::max(grown, then ? then->needed() - needed->needed() : INFINITY);
         }
@@ -129,6 +132,7 @@ void Draw(long intervals, unsigned seed, const std::string& name) {
           }
         }
         friction[which].Add(friction_bound, grown, 1e-5, 1e-9);
+        by_rates[which].Add(bound_by_rates, grown, 1e-5, 1e-9);
       }
     }
     std::printf("%s, %.0f ms: %ld intervals, bounded %ld; bound over largest of %d changes\n",
@@ -137,6 +141,8 @@ void Draw(long intervals, unsigned seed, const std::string& name) {
     torque[1].Print("torque, both feet");
     friction[0].Print("friction, one foot");
     friction[1].Print("friction, both feet");
+    by_rates[0].Print("the same by rates");
+    by_rates[1].Print("the same by rates");
     std::fflush(stdout);
   }
 }

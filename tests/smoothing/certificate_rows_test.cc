@@ -300,6 +300,15 @@ TEST(CertificateRows, AreGivenWhereTheyKeepWhatIsDemandedAndOnlyThere) {
       EXPECT_GT(RowOf(undemanding.WithLimits(limits), walk, begin, end, pending).count, 0)
           << Name(family);
       limits.demanded_of(family) = row.margin.value - 0.5 * row.bound;
+      const bool has_rates = family == MarginFamily::kZmpRobot || family == MarginFamily::kFriction;
+      if (has_rates) {  // They are asked for where norms do not suffice.
+        const CertificateRow tight =
+            RowOf(undemanding.WithLimits(limits), walk, begin, end, pending);
+        if (tight.count > 0) {
+          EXPECT_LE(tight.bound, 0.5 * row.bound) << Name(family);
+          limits.demanded_of(family) = row.margin.value - 0.5 * tight.bound;
+        }
+      }
       EXPECT_EQ(RowOf(undemanding.WithLimits(limits), walk, begin, end, pending).count, 0)
           << Name(family);
       ++refused[static_cast<size_t>(family)];

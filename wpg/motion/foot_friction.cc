@@ -8,6 +8,8 @@ namespace {
 
 using Eigen::Vector2d;
 
+constexpr double kNone = std::numeric_limits<double>::infinity();
+
 // About the vertical axis, of a force in the plane at the end of an arm.
 double YawMoment(const Vector2d& arm, const Vector2d& force) {
   return arm.x() * force.y() - arm.y() * force.x();
@@ -71,26 +73,68 @@ double FootFriction::Slope(const Vector6d& slope) const {
   return (sum_slope - needed() * slope[5]) / push_;
 }
 
+// It may leave by an edge along u as well, and then nothing suffices.
+bool FootFriction::StaysInside(const ZmpDrift& zmp) const {
+  for (int i = 0; i < polygon_.size(); ++i) {
+    const Vector2d a = polygon_.corner(i), edge = polygon_.corner((i + 1) % polygon_.size()) - a;
+    if (edge.norm() < 1e-9) continue;
+    const Vector2d inward = Vector2d(-edge.y(), edge.x()).normalized();
+    if (!(inward.dot(zmp_ - a) > zmp.Along(inward))) return false;
+  }
+  return true;
+}
+
 double FootFriction::Drift(const RobotDrift& robot, const ZmpDrift& zmp) const {
-  constexpr double kNone = std::numeric_limits<double>::infinity();
   double reach = kNone;
   ForEachReach(along_, [&](const Reach& at_m) {
     const double length = at_m.normal.norm();
     reach = std::min(reach, at_m.distance - length * zmp.Along(at_m.normal / length));
   });
-  if (!(reach > 0.0) || !(zmp.least_push > 0.0)) return kNone;
-  // The ZMP may leave by an edge along `along_` as well, and then nothing suffices.
-  for (int i = 0; i < polygon_.size(); ++i) {
-    const Vector2d a = polygon_.corner(i), edge = polygon_.corner((i + 1) % polygon_.size()) - a;
-    if (edge.norm() < 1e-9) continue;
-    const Vector2d inward = Vector2d(-edge.y(), edge.x()).normalized();
-    if (!(inward.dot(zmp_ - a) > zmp.Along(inward))) return kNone;
-  }
+  if (!(reach > 0.0) || !(zmp.least_push > 0.0) || !StaysInside(zmp)) return kNone;
   Eigen::Vector3d below(0, 0, 0);
   below.head<2>() = zmp_ - dynamics_.O().head<2>();
   const double pull = pull_.norm() + robot.ForceDrift();
   const double turn = std::abs(turn_) + robot.YawMomentDrift(below) + zmp.Most() * pull;
   return (pull + turn / reach) / zmp.least_push - needed();
+}
+
+double FootFriction::Drift(const ContactRate& rate) const {
+  const double h = rate.half_width;
+  const ZmpDrift zmp = ZmpDrift::At(rate, push_);
+  if (!StaysInside(zmp)) return kNone;
+  const Vector2d pull_rate = rate.force.center.head<2>();
+  const double least_push = zmp.least_push, force_off = rate.force.radius;
+  // The ZMP is at p + τ·(way + what is at most way_off), |τ| ≤ h.
+  const Vector2d way = Vector2d(-rate.moment.center.y(), rate.moment.center.x()) / push_;
+  const double way_off = (rate.moment.radius + way.norm() * (push_ - least_push)) / least_push;
+  // The yaw moment about it is turn + τ·(turn_rate + what is at most turn_off).
+  const double turn_rate = rate.moment.center.z() - YawMoment(way, pull_);
+  const double turn_off = rate.moment.radius + way_off * pull_.norm() +
+                          h * (way.norm() + way_off) * (pull_rate.norm() + force_off);
+  double most = 0.0;
+  ForEachReach(along_, [&](const Reach& at_m) {
+    // The points' distance is at least ρ + τ ρ'.
+    const double off = h * at_m.normal.norm() * way_off, distance = at_m.distance - off;
+    const double distance_rate = at_m.normal.dot(way);
+    const double least = distance - h * std::abs(distance_rate);
+    if (!(least > 0.0)) {
+      most = kNone;
+      return;
+    }
+    for (const double sign : {-1.0, 1.0}) {
+      const double moment = sign * turn_ + h * turn_off, moment_rate = sign * turn_rate;
+      const double bend = h * h * std::abs(distance_rate) *
+                          std::abs(distance_rate * moment - moment_rate * distance) /
+                          (least * least * least);
+      for (const double tau : {-h, h}) {
+        const double pull = (pull_ + tau * pull_rate).norm() + h * force_off;
+        const double turn = (moment + tau * moment_rate) / (distance + tau * distance_rate);
+        const double push = push_ + tau * rate.force.center.z() - h * force_off;
+        most = std::max(most, (pull + turn + bend) / push);
+      }
+    }
+  });
+  return most - needed();
 }
 
 }  // namespace halfstep

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "wpg/geometry/support_polygon.h"
+#include "wpg/motion/contact_rate.h"
 #include "wpg/motion/robot_drift.h"
 #include "wpg/motion/zmp_drift.h"
 
@@ -28,6 +29,8 @@ class FootFriction {
   double Slope(const Vector6d& contact_slope) const;
   /// How much needed() grows at most over an interval; ∞: there is no bound.
   double Drift(const RobotDrift& robot, const ZmpDrift& zmp) const;
+  /// The same from rates of what the floor gives: tighter by far where the interval is short.
+  double Drift(const ContactRate& rate) const;
 
  private:
   // How far the ZMP is inside an edge along u, and the edge's inward normal for each metre along u.
@@ -41,6 +44,8 @@ class FootFriction {
   // Calls visit(reach) for every edge that is not along `direction`.
   template <typename Visit>
   void ForEachReach(const Eigen::Vector2d& direction, const Visit& visit) const;
+  // Whether the ZMP stays inside all edges of the polygon.
+  bool StaysInside(const ZmpDrift& zmp) const;
   // The ZMP's distance from the polygon's edges along `direction` either way.
   Reach ReachAlong(const Eigen::Vector2d& direction) const;
 

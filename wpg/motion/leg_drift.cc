@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wpg/motion/knee_match.h"
+
 namespace halfstep {
 namespace {
 
@@ -16,79 +18,56 @@ class Chain {
       : waist_(waist),
         sole_(sole),
         turns_(motion.joints[static_cast<size_t>(Index(side))].turns),
-        h_(motion.half_width) {
-    const size_t s = static_cast<size_t>(Index(side));
-    const Posture& posture = motion.posture;
-    const Eigen::Matrix3d& R = posture.X_WB.linear();
+        h_(motion.half_width),
+        knee_(motion, side),
+        waist_point_(motion.posture.X_WB.translation()),
+        sole_point_(motion.posture.X_WSole[static_cast<size_t>(Index(side))].translation()) {
     for (size_t j = 0; j < 6; ++j) {
       const RobotDynamics::Body& link = at_m.leg(side)[j];
-      point_[j] = posture.X_WB * posture.frames[s].point_B[j];
       speed_[j] = link.velocity.head<3>().norm();
       acceleration_[j] = link.acceleration.head<3>().norm();
       const RobotDynamics::Body& base =
           LegAnchors::OnHip(static_cast<int>(j)) ? at_m.waist() : at_m.leg(side)[5];
       from_base_[j] = (link.acceleration - base.acceleration).head<3>().norm();
     }
-    waist_point_ = posture.X_WB.translation();
-    sole_point_ = posture.X_WSole[s].translation();
-    // Norms of the rows of J⁻¹ for twists about the knee's point.
-    const Matrix6d& inverse = posture.jacobian_inverse[s];
-    const Eigen::Matrix<double, 6, 3> by_velocity = inverse.rightCols<3>() * R.transpose();
-    by_velocity_ = by_velocity.rowwise().norm();
-    by_turn_ =
-        (inverse.leftCols<3>() * R.transpose() - by_velocity * CrossMatrix(sole_point_ - point_[3]))
-            .rowwise()
-            .norm();
   }
-
-  double Distance(size_t i, size_t j) const { return (point_[i] - point_[j]).norm(); }
 
   // Places the links. With `true_motion`, joints move as the robot's do, not with the q̈ of m.
   void Place(const std::array<JointDrift, 6>& joints, bool true_motion) {
-    RigidDrift parent = waist_.At((point_[0] - waist_point_).norm());
+    RigidDrift parent = waist_.At((knee_.points()[0] - waist_point_).norm());
     for (size_t j = 0; j < 3; ++j) {
       links[j] = Turned(parent, joints[j], speed_[j], acceleration_[j], h_);
       Narrow(j, waist_, true_motion);
-      parent = links[j].At(Distance(j, j + 1));
+      parent = links[j].At(knee_.Distance(j, j + 1));
     }
     links[5] = sole_;
-    links[4] = Turned(sole_.At((point_[5] - sole_point_).norm()), joints[5], speed_[4],
+    links[4] = Turned(sole_.At((knee_.points()[5] - sole_point_).norm()), joints[5], speed_[4],
                       acceleration_[4], h_);
     Narrow(4, sole_, true_motion);
-    links[3] = Turned(links[4].At(Distance(5, 4)), joints[4], speed_[3], acceleration_[3], h_);
+    links[3] =
+        Turned(links[4].At(knee_.Distance(5, 4)), joints[4], speed_[3], acceleration_[3], h_);
     Narrow(3, sole_, true_motion);
   }
 
   // Bounds of how much q̈ drifts, from links that were placed with the q̈ of m, and any bounds.
   // With q̈(t) = q̈(m) + δ the knee of thigh and shank is J(t) δ = E(t) apart, E(m) = 0.
   Vector6d AccelerationDrift(const std::array<JointDrift, 6>& joints, Vector6d bound) const {
-    const RigidDrift thigh = links[2].At(Distance(2, 3)), shank = links[3].At(Distance(4, 3));
+    const RigidDrift thigh = links[2].At(knee_.Distance(2, 3)),
+                     shank = links[3].At(knee_.Distance(4, 3));
     const JointDrift& knee = joints[3];
     const double turn = thigh.turn1 + shank.turn1 + knee.acceleration * thigh.turned +
                         knee.speed_drift * thigh.fastest() + knee.speed * thigh.carried1();
-    const Vector6d asked = by_turn_ * turn + by_velocity_ * (thigh.p2 + shank.p2);
-    // How much the columns of J, (axis, axis × arm to the knee), differ.
-    const std::array<double, 6> turned = {links[0].turned, links[1].turned, links[2].turned,
-                                          links[2].turned, links[4].turned, links[5].turned};
-    std::array<double, 6> arm_drift;
-    arm_drift[2] = turned[2] * Distance(2, 3);
-    arm_drift[1] = arm_drift[2] + links[1].turned * Distance(1, 2);
-    arm_drift[0] = arm_drift[1] + links[0].turned * Distance(0, 1);
-    arm_drift[3] = 0.0;
-    arm_drift[4] = links[3].turned * Distance(4, 3);
-    arm_drift[5] = arm_drift[4] + links[4].turned * Distance(5, 4);
-    Matrix6d change;
-    for (size_t j = 0; j < 6; ++j) {
-      const double arm = j == 3 ? 0.0 : Distance(j, 3);
-      change.col(static_cast<Eigen::Index>(j)) =
-          by_turn_ * turned[j] + by_velocity_ * (turned[j] * arm + arm_drift[j]);
-    }
+    const Vector6d asked = knee_.Most(turn, thigh.p2 + shank.p2);
+    std::array<double, 6> turned;
+    for (size_t j = 0; j < 6; ++j) turned[j] = links[j].turned;
+    const Matrix6d change = knee_.Change(turned);
     for (int round = 0; round < 3; ++round) bound = bound.cwiseMin(asked + change * bound);
     return bound;
   }
 
   LegDrift Result(const std::array<JointDrift, 6>& joints) const {
-    return {links, {point_[0], point_[1], point_[2], point_[4], point_[5], sole_point_}, joints};
+    const std::array<Vector3d, 6>& at = knee_.points();
+    return {links, {at[0], at[1], at[2], at[4], at[5], sole_point_}, joints};
   }
 
   std::array<RigidDrift, 6> links;
@@ -107,11 +86,10 @@ class Chain {
   const RigidDrift &waist_, &sole_;
   const std::array<TurnBound, 6>& turns_;  // of the links, seen from waist or sole
   double h_;
-  std::array<Vector3d, 6> point_;  // of the joints' axes in W at m
+  KneeMatch knee_;
   Vector3d waist_point_, sole_point_;
   std::array<double, 6> speed_, acceleration_;  // of the links at m
   std::array<double, 6> from_base_;             // ‖ω̇ less that of waist or sole‖ at m
-  Vector6d by_turn_, by_velocity_;
 };
 
 // Of an upright frame whose origin moves as `size` quantities from `x` on.

@@ -32,4 +32,23 @@ struct RigidMotion {
   }
 };
 
+/// A joint's speed [rad/s] and its two derivatives over an interval.
+struct JointRates {
+  Range speed, acceleration, third;  ///< q̇, q̈, q⃛
+};
+
+/// The motion of a body that turns by a joint about an axis through `base`'s point that is fixed in
+/// both and has the direction `axis` at m. Its point is that of `base`.
+inline RigidMotion Turned(const RigidMotion& base, const Eigen::Vector3d& axis,
+                          const JointRates& joint, double half_width) {
+  const VectorBall a = base.Carried(axis), a1 = Cross(base.turn, a);
+  const VectorBall a2 = Cross(base.turn1, a) + Cross(base.turn, a1);
+  RigidMotion body = base;
+  body.turn += joint.speed * a;
+  body.turn1 += joint.acceleration * a + joint.speed * a1;
+  body.turn2 += joint.third * a + 2.0 * (joint.acceleration * a1) + joint.speed * a2;
+  body.BoundTurned(half_width);
+  return body;
+}
+
 }  // namespace halfstep

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 
+#include "wpg/motion/contact_rate.h"
 #include "wpg/motion/motion_bounds.h"
 #include "wpg/motion/robot_drift.h"
 #include "wpg/motion/robot_dynamics.h"
@@ -27,6 +28,9 @@ struct ZmpDrift {
 
   /// A bound of ‖p(t) − p(m)‖ [m]; ∞: none.
   double Most() const;
+
+  /// From the rates of all parts; the floor pushes with `push` at m [N].
+  static ZmpDrift At(const ContactRate& rate, double push);
 
   /// Preconditions: `motion` is bounded, `of_robot` is its drift, `at_m` are the dynamics at m, and
   /// at_m.Zmp() exists.

@@ -1,0 +1,38 @@
+#include "wpg/motion/knee_match.h"
+
+#include "wpg/motion/spatial.h"
+
+namespace halfstep {
+
+KneeMatch::KneeMatch(const IntervalMotion& motion, Side side) {
+  const size_t s = static_cast<size_t>(Index(side));
+  const Posture& posture = motion.posture;
+  const Eigen::Matrix3d& R = posture.X_WB.linear();
+  for (size_t j = 0; j < 6; ++j) points_[j] = posture.X_WB * posture.frames[s].point_B[j];
+  const Matrix6d& inverse = posture.jacobian_inverse[s];
+  by_velocity_ = inverse.rightCols<3>() * R.transpose();
+  by_turn_ = inverse.leftCols<3>() * R.transpose() -
+             by_velocity_ * CrossMatrix(posture.X_WSole[s].translation() - points_[3]);
+  turn_norms_ = by_turn_.rowwise().norm();
+  velocity_norms_ = by_velocity_.rowwise().norm();
+}
+
+// A column of J is an axis, and the axis × its arm to the knee. Both turn with the links.
+Matrix6d KneeMatch::Change(const std::array<double, 6>& turned) const {
+  const std::array<double, 6> axis = {turned[0], turned[1], turned[2],
+                                      turned[2], turned[4], turned[5]};
+  std::array<double, 6> arm;
+  arm[2] = turned[2] * Distance(2, 3);
+  arm[1] = arm[2] + turned[1] * Distance(1, 2);
+  arm[0] = arm[1] + turned[0] * Distance(0, 1);
+  arm[3] = 0.0;
+  arm[4] = turned[3] * Distance(4, 3);
+  arm[5] = arm[4] + turned[4] * Distance(5, 4);
+  Matrix6d change;
+  for (size_t j = 0; j < 6; ++j) {
+    change.col(static_cast<Eigen::Index>(j)) = Most(axis[j], axis[j] * Distance(j, 3) + arm[j]);
+  }
+  return change;
+}
+
+}  // namespace halfstep

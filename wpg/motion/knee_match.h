@@ -1,0 +1,42 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+
+#include "wpg/motion/motion_bounds.h"
+
+namespace halfstep {
+
+/// Thigh and shank of one leg, the one hanging on the waist and the other on the sole, whose motion
+/// must be the same at the knee: J q = the twist that is missing there, with the leg's Jacobian J
+/// for twists about the knee's point. For q̇, q̈ and q⃛ alike, for both kinds of legs. In the axes of
+/// W. Source: smoothing/README.md, "The robot's ZMP between instants".
+class KneeMatch {
+ public:
+  /// Precondition: `motion` is bounded.
+  KneeMatch(const IntervalMotion& motion, Side side);
+
+  /// Of the six joints' axes at the interval's midpoint m, in W [m].
+  const std::array<Eigen::Vector3d, 6>& points() const { return points_; }
+  /// Between the points of two joints at m [m].
+  double Distance(size_t i, size_t j) const { return (points_[i] - points_[j]).norm(); }
+
+  /// J(m)⁻¹ of a missing twist: its turning, and the velocity of the knee's point.
+  Vector6d Joints(const Eigen::Vector3d& turn, const Eigen::Vector3d& velocity) const {
+    return by_turn_ * turn + by_velocity_ * velocity;
+  }
+  /// Bounds of the absolute values of that for twists of at most these norms.
+  Vector6d Most(double turn, double velocity) const {
+    return turn * turn_norms_ + velocity * velocity_norms_;
+  }
+  /// A bound of every entry of |J(m)⁻¹(J(t) − J(m))| when links have turned by no more than
+  /// `turned` since m (by link, from the hip down) [rad].
+  Matrix6d Change(const std::array<double, 6>& turned) const;
+
+ private:
+  std::array<Eigen::Vector3d, 6> points_;
+  Eigen::Matrix<double, 6, 3> by_turn_, by_velocity_;
+  Vector6d turn_norms_, velocity_norms_;  // of their rows
+};
+
+}  // namespace halfstep
