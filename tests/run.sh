@@ -44,6 +44,7 @@ release_only="$release_only|CertificateRows.HoldInside|Ground.AShin|FarVerticesO
 release_only="$release_only|FewOfAllForgeries|OracleTest.NoAnswer"
 release_only="$release_only|Verify/Checks|Verify/Tampered|Verify/Periods|Verify/Forged"
 release_only="$release_only|StoppedScene|StoppedBar|StopBranches.AreChecked|Verify.ToleranceIs|Verify.MethodWithout"
+release_only="$release_only|Horizon.WhatIsRefused|Horizon.ProvesStop|FindWhatOneFinds/barrier"
 release_only="$release_only|OneCharacter|GeneratedRobotPhysics|FindsKnownOptima/nlopt_auglag"
 
 for preset in $presets; do
