@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "wpg/check.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {
@@ -67,9 +68,37 @@ NumberText ParseNumber(std::string_view text) {
   return number;
 }
 
+std::string PointNeeded(std::string_view text) {
+  std::string pointed(text);
+  std::replace(pointed.begin(), pointed.end(), ',', '.');
+  if (pointed == text || ParseNumber(pointed).kind != NumberText::Kind::kNumber) return "";
+  return "a decimal point is needed: " + pointed + "?";
+}
+
+std::string NumberMistake(std::string_view text) {
+  const std::string quoted = Quote(text), hint = PointNeeded(text);
+  switch (ParseNumber(text).kind) {
+    case NumberText::Kind::kNotFinite:
+      return quoted + " is not a finite number";
+    case NumberText::Kind::kLeadingZero:
+      return quoted + " is not a decimal number (leading zero)";
+    default:
+      return quoted + " is not a number" + (hint.empty() ? "" : " (" + hint + ")");
+  }
+}
+
 std::string ShortestText(double value) {
   HALFSTEP_CHECK(std::isfinite(value), "value = " << value);
   return ShortestOf(value);
+}
+
+double Shortened(double value, int digits) {
+  std::array<char, 64> text;
+  const char* const end = std::to_chars(text.data(), text.data() + text.size(), value,
+                                        std::chars_format::scientific, digits - 1)
+                              .ptr;
+  (void)std::from_chars(text.data(), end, value);
+  return value;
 }
 
 double DegreesToRadians(long double degrees) {

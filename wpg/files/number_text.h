@@ -22,8 +22,20 @@ struct NumberText {
 /// Reads a decimal number, whole text, with an optional sign: 12, -0.5, .5, 5., +1e-3.
 NumberText ParseNumber(std::string_view text);
 
+/// What to say of a number with a decimal comma: "a decimal point is needed: 0.5?" for 0,5; ""
+/// where a point in place of the comma makes no number.
+std::string PointNeeded(std::string_view text);
+
+/// What is wrong with a text as a number: "'0,5' is not a number (a decimal point …)".
+/// Precondition: ParseNumber finds no number in it.
+std::string NumberMistake(std::string_view text);
+
 /// Shortest decimal text that reads back to the same double. Precondition: finite.
 std::string ShortestText(double value);
+
+/// The double whose shortest decimal form has at most `digits` significant digits, nearest to the
+/// value.
+double Shortened(double value, int digits = 5);
 
 /// Whether a key's number is written in degrees and stored in radians.
 inline bool IsDegrees(std::string_view key) { return key.ends_with("_deg"); }

@@ -145,6 +145,9 @@ LoadedOctomap ParseOctomap(const std::string& path, const std::string& bytes) {
   std::istringstream stream(bytes.substr(header.data));
   octomap::OcTree tree(header.resolution);
   binary ? tree.readBinaryData(stream) : tree.readData(stream);
+  if (!stream || static_cast<long>(tree.size()) != header.nodes) {
+    throw InputError({path + ": octomap reads another number of nodes than stand in the file"});
+  }
   LoadedOctomap loaded;
   loaded.resolution = header.resolution;
   for (auto leaf = tree.begin_leafs(), end = tree.end_leafs(); leaf != end; ++leaf) {

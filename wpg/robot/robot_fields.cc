@@ -35,6 +35,16 @@ void DeclareLeg(Fields& fields, const char* side, const std::vector<std::string>
   });
 }
 
+// Whether a joint has an angle, which keys of its name are about. Where there is such a key, and
+// none, the reason is told.
+bool Turns(Fields& fields, const UrdfJoint& joint) {
+  if (joint.kind == UrdfJoint::Kind::kRevolute) return true;
+  fields.Misplaced(joint.name.c_str(), joint.faults.empty()
+                                           ? "is no revolute joint"
+                                           : "is held still: " + joint.faults.front());
+  return false;
+}
+
 // Keys under the names of the URDF's joints.
 void DeclareJoints(Fields& fields, RobotFile* file) {
   const std::vector<UrdfJoint> none;
@@ -46,14 +56,14 @@ void DeclareJoints(Fields& fields, RobotFile* file) {
   fields.Group("standing_posture_deg", {.meaning = "joint angles of the standing posture"},
                [&](Fields& f) {
                  for (size_t i = 0; i < joints.size(); ++i) {
-                   if (joints[i].kind != UrdfJoint::Kind::kRevolute) continue;
+                   if (!Turns(f, joints[i])) continue;
                    f.Number(joints[i].name.c_str(), &file->posture_deg[i], {.unit = "deg"});
                  }
                });
   fields.Group("joint_limits_deg", {.meaning = "joint limits tighter than the URDF's"},
                [&](Fields& f) {
                  for (size_t i = 0; i < joints.size(); ++i) {
-                   if (joints[i].kind != UrdfJoint::Kind::kRevolute) continue;
+                   if (!Turns(f, joints[i])) continue;
                    std::vector<double>& limits = file->limits_deg[i];
                    const char* name = joints[i].name.c_str();
                    f.Numbers(name, &limits, 2, {.unit = "deg"});
@@ -77,7 +87,7 @@ void DeclareEfforts(Fields& fields, RobotFile* file) {
                [&](Fields& f) {
                  for (size_t i = 0; i < file->effort_limits.size(); ++i) {
                    const UrdfJoint& joint = file->urdf->joints[i];
-                   if (joint.kind != UrdfJoint::Kind::kRevolute) continue;
+                   if (!Turns(f, joint)) continue;
                    f.OptionalNumber(joint.name.c_str(), &file->effort_limits[i],
                                     {.unit = "N m", .min = 1e-3, .max = 1e5});
                  }
@@ -91,7 +101,7 @@ void DeclareAccelerations(Fields& fields, RobotFile* file) {
                [&](Fields& f) {
                  for (size_t i = 0; i < file->acceleration_limits.size(); ++i) {
                    const UrdfJoint& joint = file->urdf->joints[i];
-                   if (joint.kind != UrdfJoint::Kind::kRevolute) continue;
+                   if (!Turns(f, joint)) continue;
                    f.OptionalNumber(joint.name.c_str(), &file->acceleration_limits[i],
                                     {.unit = "rad/s²", .min = 1e-3, .max = 1e5});
                  }

@@ -1,7 +1,6 @@
 #include "wpg/robot/urdf_check.h"
 
 #include <algorithm>
-#include <sstream>
 #include <string_view>
 #include <utility>
 
@@ -9,6 +8,7 @@
 #include "wpg/files/number_text.h"
 #include "wpg/files/text.h"
 #include "wpg/robot/urdf_elements.h"
+#include "wpg/robot/urdf_grammar.h"
 #include "wpg/robot/urdf_joint.h"
 #include "wpg/robot/urdf_links.h"
 
@@ -19,7 +19,7 @@ namespace {
 constexpr size_t kMostLinks = 5000;
 constexpr int kMostSuggestions = 20;  // each is a look at all names
 
-bool IsZero(const std::string& word) {
+bool IsZero(std::string_view word) {
   const NumberText number = ParseNumber(word);
   return number.kind == NumberText::Kind::kNumber && number.value == 0.0;
 }
@@ -43,6 +43,8 @@ class Checker {
                              std::to_string(kMostLinks) + ")");
       return std::move(found_);
     }
+    CheckUrdfGrammar(elements_, robot);
+    found_.robot = {robot.Row(), robot.Column()};
     for (TiXmlElement* link : links) CheckLink(*link);
     for (TiXmlElement* joint : ChildrenOf(robot, "joint")) CheckJoint(*joint);
     CheckUrdfTree(elements_, warn_, &robot, &found_);
@@ -89,11 +91,13 @@ class Checker {
     const std::string name = Name(link, &found_.links);
     if (TiXmlElement* inertial = link.FirstChildElement("inertial")) {
       elements_.CheckOrigin(*inertial);
-      if (auto* mass = elements_.Required(*inertial, "mass"))
-        elements_.Bounded(*mass, "value", 1, true);
+      if (auto* mass = elements_.Required(*inertial, "mass")) {
+        if (const auto value = elements_.Bounded(*mass, "value", 1, true)) {
+          found_.masses[name] = value->front();
+        }
+      }
       CheckInertia(name, inertial);
     }
-    for (TiXmlElement* visual : ChildrenOf(link, "visual")) link.RemoveChild(visual);
     for (TiXmlElement* shape : ChildrenOf(link, "collision")) {
       elements_.CheckOrigin(*shape);
       TiXmlElement* geometry = elements_.Required(*shape, "geometry");
@@ -106,7 +110,8 @@ class Checker {
     }
   }
 
-  // No walk depends on inertias; they serve a simulation, which looks at them itself.
+  // What is missing or negative is repaired: what the whole robot's dynamics makes of it is told
+  // where masses are added up.
   void CheckInertia(const std::string& link, TiXmlElement* inertial) {
     TiXmlElement* inertia = inertial->FirstChildElement("inertia");
     const bool is_given = inertia != nullptr;
@@ -115,15 +120,18 @@ class Checker {
       inertia = inertial->InsertEndChild(TiXmlElement("inertia"))->ToElement();
     }
     for (const char* attribute : {"ixx", "ixy", "ixz", "iyy", "iyz", "izz"}) {
-      const std::string text = AttributeOf(*inertia, attribute);
-      const NumberText number = ParseNumber(text);
-      const bool is_number = number.kind == NumberText::Kind::kNumber;
+      const bool is_there = inertia->Attribute(attribute) != nullptr;
       const bool is_moment = attribute[1] == attribute[2];
-      if (is_number && !(is_moment && number.value < 0.0)) continue;
+      if (is_there) {
+        const auto value = elements_.Numbers(*inertia, attribute, 1);
+        if (!value || !(is_moment && value->front() < 0.0)) continue;
+      }
       if (is_given) {
         warn_.Complain(*inertia, link,
-                       std::string(attribute) + " " + Quote(text) + " is " +
-                           (is_number ? "negative" : "no number") + ": it is taken as 0");
+                       std::string(attribute) +
+                           (is_there ? " " + AttributeOf(*inertia, attribute) + " is negative"
+                                     : " is missing") +
+                           ": it is taken as 0");
       }
       inertia->SetAttribute(attribute, "0");
     }
@@ -157,11 +165,9 @@ class Checker {
                const std::vector<std::pair<const char*, size_t>>& attributes) {
     bool is_point = true;
     for (const auto& [attribute, count] : attributes) {
-      std::istringstream words(AttributeOf(shape, attribute));
-      std::string word;
-      size_t zeros = 0;
-      while (words >> word && IsZero(word)) ++zeros;
-      is_point = is_point && zeros == count;
+      const std::string text = AttributeOf(shape, attribute);
+      const std::vector<std::string_view> words = XmlWords(text);
+      is_point = is_point && words.size() == count && std::ranges::all_of(words, IsZero);
     }
     if (is_point) return false;
     for (const auto& [attribute, count] : attributes) {
@@ -239,11 +245,14 @@ UrdfFindings CheckUrdf(const std::string& text, const std::string& file, Complai
     complaints->Add(file, 1, 1, "XML", "there is no element in the file");
     return {};
   }
-  UrdfFindings found = Checker(file, complaints).Check(*document.RootElement());
-  TiXmlPrinter printer;
-  printer.SetStreamPrinting();
-  document.Accept(&printer);
-  found.text = printer.Str();
+  TiXmlElement& robot = *document.RootElement();
+  if (const TiXmlElement* second = robot.NextSiblingElement()) {
+    complaints->Add(file, second->Row(), second->Column(), second->ValueStr(),
+                    "a second top element (valid: one)");
+  }
+  const bool was_empty = complaints->empty();
+  UrdfFindings found = Checker(file, complaints).Check(robot);
+  if (was_empty && complaints->empty()) found.text = PlainUrdf(robot);
   return found;
 }
 

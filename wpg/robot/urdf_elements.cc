@@ -1,7 +1,6 @@
 #include "wpg/robot/urdf_elements.h"
 
 #include <algorithm>
-#include <sstream>
 
 #include "wpg/files/number_text.h"
 
@@ -20,6 +19,17 @@ std::string AttributeOf(const TiXmlElement& element, const char* name) {
   return value == nullptr ? "" : value;
 }
 
+std::vector<std::string_view> XmlWords(std::string_view text) {
+  constexpr std::string_view kSpace = " \t\r\n";
+  std::vector<std::string_view> words;
+  for (size_t at = text.find_first_not_of(kSpace); at != std::string_view::npos;) {
+    const size_t end = std::min(text.find_first_of(kSpace, at), text.size());
+    words.push_back(text.substr(at, end - at));
+    at = text.find_first_not_of(kSpace, end);
+  }
+  return words;
+}
+
 void UrdfElements::Complain(const TiXmlElement& at, const std::string& key,
                             const std::string& what) const {
   complaints_->Add(file_, at.Row(), at.Column(), key, what);
@@ -33,12 +43,12 @@ std::optional<std::vector<double>> UrdfElements::Numbers(const TiXmlElement& ele
     Complain(element, key, "is missing");
     return std::nullopt;
   }
-  std::istringstream words(AttributeOf(element, attribute));
+  const std::string text = AttributeOf(element, attribute);
   std::vector<double> values;
-  for (std::string word; words >> word;) {
+  for (const std::string_view word : XmlWords(text)) {
     const NumberText number = ParseNumber(word);
     if (number.kind != NumberText::Kind::kNumber) {
-      Complain(element, key, "`" + word + "` is not a finite number");
+      Complain(element, key, NumberMistake(word));
       return std::nullopt;
     }
     values.push_back(number.value);

@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "wpg/files/input_error.h"
@@ -15,6 +16,10 @@ std::vector<TiXmlElement*> ChildrenOf(TiXmlElement& parent, const char* tag);
 
 /// The text of an attribute; "" where there is none.
 std::string AttributeOf(const TiXmlElement& element, const char* name);
+
+/// The words of an attribute's text: what stands between XML's white space (blanks, tabs, line
+/// breaks), and nothing else. Borrowed from the text.
+std::vector<std::string_view> XmlWords(std::string_view text);
 
 /// Reads attributes of a URDF's elements and complains at their places. Borrows both arguments.
 class UrdfElements {

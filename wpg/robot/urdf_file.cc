@@ -15,19 +15,23 @@ using Eigen::Vector3d;
 
 constexpr std::uint64_t kMostUrdfBytes = 16 << 20;
 
-// Keeps what urdfdom would print. console_bridge has one handler a process, so one listener at a
-// time.
+// Keeps what urdfdom would print, warnings too, whatever of it the host program lets pass.
+// console_bridge has one handler and one level a process, so one listener at a time.
 class Listener : public console_bridge::OutputHandler {
  public:
-  Listener() : lock_(Mutex()) { console_bridge::useOutputHandler(this); }
-  ~Listener() override { console_bridge::restorePreviousOutputHandler(); }
+  Listener() : lock_(Mutex()), level_(console_bridge::getLogLevel()) {
+    console_bridge::setLogLevel(console_bridge::CONSOLE_BRIDGE_LOG_WARN);
+    console_bridge::useOutputHandler(this);
+  }
+  ~Listener() override {
+    console_bridge::restorePreviousOutputHandler();
+    console_bridge::setLogLevel(level_);
+  }
   Listener(const Listener&) = delete;
   Listener& operator=(const Listener&) = delete;
 
-  void log(const std::string& text, console_bridge::LogLevel level, const char*, int) override {
-    if (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR) {
-      text_ += (text_.empty() ? "" : "; ") + text;
-    }
+  void log(const std::string& text, console_bridge::LogLevel, const char*, int) override {
+    text_ += (text_.empty() ? "" : "; ") + text;
   }
   const std::string& text() const { return text_; }
 
@@ -37,6 +41,7 @@ class Listener : public console_bridge::OutputHandler {
     return mutex;
   }
   std::lock_guard<std::mutex> lock_;
+  console_bridge::LogLevel level_;
   std::string text_;
 };
 
@@ -156,6 +161,43 @@ void AddTree(const urdf::Link& root, const UrdfFindings& found, UrdfTree* tree) 
   }
 }
 
+// Where the link or joint stands that urdfdom speaks of, "… for Link [CHEST]"; else the robot.
+UrdfPlace PlaceOf(const std::string& told, const UrdfFindings& found) {
+  for (const auto* named : {&found.links, &found.joints}) {
+    for (const auto& [name, place] : *named) {
+      if (told.find("[" + name + "]") != std::string::npos) return place;
+    }
+  }
+  return found.robot;
+}
+
+// Complains where the model has other links and joints, or a link other shapes or another mass,
+// than CheckUrdf found in the text: two readers, one file.
+void CheckAgainst(const urdf::ModelInterface& model, const UrdfFindings& found,
+                  const std::string& file, Complaints* complaints) {
+  const auto differ = [&](const UrdfPlace& at, const std::string& name, const std::string& what) {
+    complaints->Add(file, at.line, at.column, name,
+                    "urdfdom reads another number of " + what + " than stand in the file");
+  };
+  if (model.links_.size() != found.links.size()) differ(found.robot, "robot", "links");
+  if (model.joints_.size() != found.joints.size()) differ(found.robot, "robot", "joints");
+  for (const auto& [name, place] : found.links) {
+    const urdf::LinkConstSharedPtr link = model.getLink(name);
+    if (!link) {
+      complaints->Add(file, place.line, place.column, name, "urdfdom leaves this link out");
+      continue;
+    }
+    const auto collisions = found.collisions.find(name);
+    const size_t shapes = collisions == found.collisions.end() ? 0 : collisions->second.size();
+    if (link->collision_array.size() != shapes) differ(place, name, "collision shapes");
+    const auto mass = found.masses.find(name);
+    if ((link->inertial != nullptr) != (mass != found.masses.end()) ||
+        (link->inertial && link->inertial->mass != mass->second)) {
+      complaints->Add(file, place.line, place.column, name, "urdfdom reads another mass");
+    }
+  }
+}
+
 }  // namespace
 
 bool HasMesh(const UrdfLink& link, std::string_view ending) {
@@ -219,10 +261,13 @@ UrdfTree ParseUrdf(const std::string& path, const std::string& text) {
   // The byte order mark makes it UTF-8, whatever the file says of its encoding, as CheckUrdf takes
   // it: else characters such as &#282; would make other names.
   const urdf::ModelInterfaceSharedPtr model = urdf::parseURDF("\xEF\xBB\xBF" + found.text);
-  if (!model || !model->getRoot()) {
-    complaints.Add(path, 0, 0, "robot", "urdfdom refuses it: " + listener.text());
+  if (!model || !model->getRoot() || !listener.text().empty()) {
+    const UrdfPlace at = PlaceOf(listener.text(), found);
+    complaints.Add(path, at.line, at.column, "robot", "urdfdom refuses it: " + listener.text());
     complaints.ThrowIfAny();
   }
+  CheckAgainst(*model, found, path, &complaints);
+  complaints.ThrowIfAny();
   AddTree(*model->getRoot(), found, &tree);
   return tree;
 }

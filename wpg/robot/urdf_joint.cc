@@ -5,6 +5,13 @@
 namespace halfstep {
 namespace {
 
+// What makes a joint move, of which a fixed one has nothing.
+void ForgetMotion(TiXmlElement* joint) {
+  for (const char* tag : {"axis", "limit"}) {
+    for (TiXmlElement* element : ChildrenOf(*joint, tag)) joint->RemoveChild(element);
+  }
+}
+
 void LimitToATurn(TiXmlElement* joint) {
   joint->SetAttribute("type", "revolute");
   TiXmlElement* limit = joint->FirstChildElement("limit");
@@ -57,8 +64,7 @@ std::vector<std::string> RepairMotion(const std::string& file, const std::string
                                       TiXmlElement* joint) {
   const std::string type = AttributeOf(*joint, "type");
   if (type != "revolute" && type != "continuous" && type != "prismatic") {
-    // An axis of no direction is usual where nothing turns.
-    for (TiXmlElement* axis : ChildrenOf(*joint, "axis")) joint->RemoveChild(axis);
+    ForgetMotion(joint);  // an axis of no direction is usual where nothing turns
     return {};
   }
   Complaints faults;
@@ -74,7 +80,10 @@ std::vector<std::string> RepairMotion(const std::string& file, const std::string
   if (const TiXmlElement* mimic = joint->FirstChildElement("mimic")) {
     elements.Complain(*mimic, name, "mimics another joint");
   }
-  if (!understood) joint->SetAttribute("type", "fixed");
+  if (!understood) {
+    joint->SetAttribute("type", "fixed");
+    ForgetMotion(joint);
+  }
   return faults.lines();
 }
 
