@@ -1,6 +1,7 @@
 #include "experiments/config/experiment.h"
 
 #include "experiments/config/data_folder.h"
+#include "planner/scene/doubtful_obstacles.h"
 #include "planner/scene/no_step_areas.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/text.h"
@@ -39,6 +40,16 @@ void LeaveOutWhatIsUnknown(Experiment* experiment) {
                              ": nothing is demanded of joint accelerations: the robot file states "
                              "no limits (`acceleration_limits_rad_s2`)");
   }
+}
+
+// Where the walk begins, steps and ends, on the floor.
+Eigen::AlignedBox2d WalkBounds(const ExperimentConfig& config, const RobotModel& robot) {
+  Eigen::AlignedBox2d bounds;
+  const auto extend = [&bounds](const Pose2& X) { bounds.extend(Eigen::Vector2d(X.x, X.y)); };
+  for (const Footprint& sole : StartOf(config, robot)) extend(sole);
+  for (const FootstepConfig& step : config.footsteps) extend(step.X_WF);
+  if (config.has_goal) extend(config.goal.X_WG);
+  return bounds;
 }
 
 }  // namespace
@@ -96,6 +107,11 @@ Place LoadPlace(const ExperimentConfig& config) {
   place.robot = LoadRobot(RobotPath(config).string());
   if (const auto scene = ScenePath(config)) {
     place.scene = LoadScene(scene->string());
+    // A robot is about twice as high as its CoM.
+    for (std::string& told : DoubtfulObstacles(place.scene, 2 * place.robot.com_height,
+                                               WalkBounds(config, place.robot))) {
+      place.scene.warnings.push_back(std::move(told));
+    }
   } else {
     place.scene.name = "none";
   }

@@ -22,33 +22,6 @@ void CheckFinite(const Eigen::Isometry3d& X) {
 
 void CheckTime(double t) { HALFSTEP_CHECK(std::isfinite(t), "t = " << t); }
 
-// The bounds of a shape at a pose.
-Eigen::AlignedBox3d BoundsOf(const Shape& shape, const Eigen::Isometry3d& X_WO) {
-  Eigen::AlignedBox3d bounds;
-  if (const auto* mesh = std::get_if<TriangleMesh>(&shape)) {
-    for (const Eigen::Vector3d& p : mesh->vertices.colwise()) bounds.extend(X_WO * p);
-  } else {
-    const auto extend = [&](const ConvexBody& body) {
-      for (int axis = 0; axis < 3; ++axis) {
-        const Eigen::Vector3d direction = X_WO.linear().row(axis);
-        const double origin = X_WO.translation()[axis];
-        bounds.max()[axis] = origin + Support(body, direction);
-        bounds.min()[axis] = origin - Support(body, -direction);
-      }
-    };
-    std::visit(
-        [&extend](const auto& s) {
-          if constexpr (!std::is_same_v<std::decay_t<decltype(s)>, TriangleMesh>) extend(BodyOf(s));
-        },
-        shape);
-  }
-  // Also for what a mesh's hull is widened by.
-  const double rounding = 1e-12 * (1 + bounds.min().norm() + bounds.max().norm());
-  bounds.max().array() += rounding;
-  bounds.min().array() -= rounding;
-  return bounds;
-}
-
 // From a point to a box along each axis, 0 where it is beside or inside [m].
 Eigen::Vector3d ToBox(const Eigen::Vector3d& p, const Eigen::AlignedBox3d& box) {
   return (box.min() - p).cwiseMax(p - box.max()).cwiseMax(0.0);

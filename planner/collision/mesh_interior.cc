@@ -12,6 +12,7 @@
 #include "planner/collision/mesh_patches.h"
 #include "planner/collision/mesh_winding.h"
 #include "planner/collision/triangle_tree.h"
+#include "planner/scene/voxel_set.h"
 #include "wpg/check.h"
 
 namespace halfstep {
@@ -64,6 +65,12 @@ struct MeshInterior::Patches {
 
 MeshInterior::Patches::Patches(const TriangleMesh& mesh) {
   std::vector<Eigen::AlignedBox3d> at_points, around_closed, around_open;
+  if (mesh.cubes) {
+    points = CornerOfEachPart(mesh);
+    for (const Eigen::Vector3d& point : points) at_points.emplace_back(point);
+    of_points = BoundsTree(at_points, 4);
+    return;
+  }
   std::vector<double> open_areas;
   for (MeshPatch& found : FindPatches(mesh)) {
     points.emplace_back(found.mesh.vertices.col(0));
@@ -152,6 +159,7 @@ const MeshInterior::Patches& MeshInterior::patches() const {
 
 bool MeshInterior::Contains(const Eigen::Vector3d& point) const {
   if (mesh_.hollow) return false;
+  if (mesh_.cubes) return mesh_.cubes->Contains(point);
   return patches().ClosedContain(point) || patches().OpenContain(point);
 }
 

@@ -24,7 +24,8 @@ namespace halfstep {
 /// winds around it (rule 1: patches never cancel), and when patches can be turned so that they make
 /// a closed surface that winds around it (rule 3). So a cavity counts as inside, and so may a point
 /// that large open patches surround; what is inside an open mesh is for rules 1 and 2 to say.
-/// Nothing is inside a hollow mesh.
+/// Nothing is inside a hollow mesh, and inside a surface of cubes are these cubes: no winding number
+/// is asked for, of which a scanned room has very many patches.
 /// Nothing is promised where a single closed patch passes through itself and winds once each way.
 /// Source: winding numbers, [Jacobson2013].
 class MeshInterior {
@@ -38,7 +39,7 @@ class MeshInterior {
   /// open ones little.
   bool Contains(const Eigen::Vector3d& point) const;
   /// Whether `holds` is true of some point of the mesh's surface within `radius` [m] of `center`,
-  /// of one vertex of each patch, in the mesh's frame.
+  /// of one vertex of each patch (of cubes: of each connected part), in the mesh's frame.
   bool AnyPatch(const Eigen::Vector3d& center, double radius,
                 const std::function<bool(const Eigen::Vector3d&)>& holds) const;
 

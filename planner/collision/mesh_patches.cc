@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/pending/disjoint_sets.hpp>
 #include <cstdint>
 #include <numeric>
 #include <tuple>
@@ -153,6 +154,22 @@ std::vector<MeshPatch> FindPatches(const TriangleMesh& mesh) {
     if (orientable) patches.push_back(MakePatch(mesh.vertices, all, closed));
   }
   return patches;
+}
+
+std::vector<Eigen::Vector3d> CornerOfEachPart(const TriangleMesh& mesh) {
+  boost::disjoint_sets_with_storage<> parts(static_cast<size_t>(mesh.vertices.cols()));
+  for (const Eigen::Vector3i& t : mesh.triangles.colwise()) {
+    parts.union_set(t[0], t[1]);
+    parts.union_set(t[0], t[2]);
+  }
+  std::vector<Eigen::Vector3d> corners;
+  std::vector<bool> told(static_cast<size_t>(mesh.vertices.cols()), false);
+  for (const Eigen::Vector3i& t : mesh.triangles.colwise()) {
+    const auto part = static_cast<size_t>(parts.find_set(t[0]));
+    if (!told[part]) corners.emplace_back(mesh.vertices.col(t[0]));
+    told[part] = true;
+  }
+  return corners;
 }
 
 }  // namespace halfstep

@@ -16,4 +16,7 @@ struct MeshPatch {
 /// of its triangles are.
 std::vector<MeshPatch> FindPatches(const TriangleMesh& mesh);
 
+/// A corner [m] of each part of a mesh whose triangles are joined by the numbers of their corners.
+std::vector<Eigen::Vector3d> CornerOfEachPart(const TriangleMesh& mesh);
+
 }  // namespace halfstep

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <utility>
 
 #include "planner/scene/voxel_set.h"
@@ -176,6 +177,7 @@ TriangleMesh MeshOfCloud(Fields& obstacle, const Eigen::Isometry3d& X_WO, CloudF
     return mesh;
   }
   mesh = cells.Surface();
+  mesh.cubes = std::make_shared<const VoxelSet>(std::move(cells));
   if (mesh.triangles.cols() > kMostTriangles) {
     obstacle.Complain(key, std::to_string(mesh.triangles.cols()) +
                                " triangles around its cubes (valid: at most 5 million; a larger "
@@ -183,12 +185,12 @@ TriangleMesh MeshOfCloud(Fields& obstacle, const Eigen::Isometry3d& X_WO, CloudF
     return {};
   }
   if (of_floor > 0) {
-    cloud->told = Formatted("%ld %s at or below z = %.3g m are floor", of_floor,
-                            is_map ? "cells" : "points", *cloud->floor_below);
+    cloud->told.push_back(Formatted("%ld %s at or below z = %.3g m are floor", of_floor,
+                                    is_map ? "cells" : "points", *cloud->floor_below));
   }
   if (!is_map && cloud->points->invalid > 0) {
-    cloud->told += (cloud->told.empty() ? "" : "; ") +
-                   Formatted("%d points are nan, which marks them as none", cloud->points->invalid);
+    cloud->told.push_back(
+        Formatted("%d points are nan, which marks them as none", cloud->points->invalid));
   }
   return mesh;
 }

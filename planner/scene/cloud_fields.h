@@ -19,7 +19,7 @@ struct CloudFields {
   std::optional<LoadedOctomap> map;    ///< none: there is no `octomap`
   bool unknown_is_occupied = false;    ///< whether cells of which nothing is known are obstacles
   std::optional<double> floor_below;   ///< what is not higher in the world is floor [m]
-  std::string told;                    ///< for the user: what was left out
+  std::vector<std::string> told;       ///< for the user: what was left out
 
   bool any() const { return points || map; }  ///< whether either is there
   InputFile file;                             ///< what was read

@@ -26,16 +26,30 @@ void TakeHull(Fields& fields, int vertices, MeshFields* mesh) {
     const ConvexBody hull = MakeHull(mesh->mesh.vertices);
     SimplifiedHull simplified = SimplifyOutward(hull, vertices);
     if (simplified.body.vertices.cols() < hull.vertices.cols()) {
-      mesh->told = Formatted(
+      mesh->told.push_back(Formatted(
           "the hull of the mesh has %d vertices; a simpler one around it, with %d, is at most %.2g "
           "mm larger",
           static_cast<int>(hull.vertices.cols()), static_cast<int>(simplified.body.vertices.cols()),
-          1e3 * simplified.excess);
+          1e3 * simplified.excess));
     }
     mesh->hull = std::move(simplified.body);
   } catch (const std::runtime_error& error) {
     fields.Complain("hull_vertices", error.what());
   }
+}
+
+// Some programs turn a mesh by the `up_axis` of its file, others do not: what was done is told.
+void TakeUpAxis(bool applied, LoadedMesh* loaded, MeshFields* mesh) {
+  if (loaded->R_ZUp.isIdentity()) return;
+  if (applied) {
+    loaded->vertices = loaded->R_ZUp * loaded->vertices;
+    return;
+  }
+  const char* const up = loaded->R_ZUp.row(2).y() == 1.0 ? "y" : "x";
+  mesh->told.push_back(Formatted(
+      "its file calls %s up, and that turns nothing: its z is the scene's z (`mesh.dae_up_axis: "
+      "applied` turns it)",
+      up));
 }
 
 }  // namespace
@@ -44,7 +58,7 @@ void DeclareMesh(Fields& fields, MeshFields* mesh) {
   std::string file;
   double scale = 1.0;
   int hull_vertices = 0;
-  std::string floor = "none";
+  std::string floor = "none", dae_up_axis = "ignored";
   fields.Text("file", &file, {.meaning = "STL or OBJ file, beside the scene", .required = true});
   fields.Number("scale", &scale,
                 {.meaning = "metres per unit of the file", .min = 1e-6, .max = 1e6});
@@ -63,6 +77,9 @@ void DeclareMesh(Fields& fields, MeshFields* mesh) {
                  .unit = "m",
                  .min = 0.0,
                  .max = kMostFloorTolerance});
+  fields.Text("dae_up_axis", &dae_up_axis,
+              {.meaning = "applied: a mesh in DAE is turned so that its `up_axis` becomes z",
+               .choices = {"ignored", "applied"}});
   mesh->brings_floor = floor == "in_mesh";
   if (mesh->brings_floor && hull_vertices != 0) {
     fields.Complain("floor", "in_mesh beside hull_vertices (valid: one of them)");
@@ -75,6 +92,7 @@ void DeclareMesh(Fields& fields, MeshFields* mesh) {
   try {
     const std::filesystem::path path = std::filesystem::path(fields.directory()) / file;
     LoadedMesh loaded = LoadMesh(path.string());
+    TakeUpAxis(dae_up_axis == "applied", &loaded, mesh);
     mesh->mesh = {scale * loaded.vertices, std::move(loaded.triangles)};
     mesh->file = std::move(loaded.file);
     mesh->file.name = file;
@@ -100,18 +118,19 @@ void TakeFloor(Fields& obstacle, const Eigen::Isometry3d& X_WO, bool rests, Mesh
                       "above floor_tolerance_m, or no such obstacle)");
     return;
   }
-  mesh->told = Formatted(
+  std::string told = Formatted(
       "floor: in_mesh: %d of %d triangles lie at or below z = %.3g mm and are floor (%.3g m² of it "
       "level%s); the other %d are in the way, what they surround is room",
       cut.floor, static_cast<int>(mesh->mesh.triangles.cols()), 1e3 * tolerance, cut.area,
       cut.floor == 0 ? "" : Formatted(", up to %.3g mm", 1e3 * cut.highest).c_str(),
       static_cast<int>(cut.rest.triangles.cols()));
   if (cut.deep > 0) {
-    mesh->told += Formatted(
+    told += Formatted(
         "; %d triangles of the floor reach below −%.3g mm: where that is a hole, name it in "
         "no_step",
         cut.deep, 1e3 * tolerance);
   }
+  mesh->told.push_back(std::move(told));
   mesh->mesh = std::move(cut.rest);
 }
 

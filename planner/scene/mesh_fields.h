@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "planner/scene/mesh_floor.h"
 #include "planner/scene/shape.h"
@@ -18,7 +19,7 @@ struct MeshFields {
   std::optional<ConvexBody> hull;  ///< in place of the mesh
   bool brings_floor = false;       ///< `floor: in_mesh`: its floor is no obstacle
   double floor_tolerance = kFloorTolerance;  ///< [m]
-  std::string told;                          ///< for the user: of hull or floor
+  std::vector<std::string> told;             ///< for the user: of axes, hull and floor
 };
 
 /// Declares the keys of a mesh and reads its file, relative to the scene's folder.

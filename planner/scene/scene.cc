@@ -236,9 +236,10 @@ Scene ParseScene(const std::string& yaml_path, const std::string& text) {
   for (ObstacleFields& from : obstacles) {
     if (from.has_mesh) scene.files.push_back(from.mesh.file);
     if (from.cloud.any()) scene.files.push_back(from.cloud.file);
-    for (const std::string& told : {from.mesh.told, from.cloud.told}) {
-      if (told.empty()) continue;
-      scene.warnings.push_back(yaml_path + ": obstacle " + from.name + ": " + told);
+    for (const std::vector<std::string>& all : {from.mesh.told, from.cloud.told}) {
+      for (const std::string& told : all) {
+        scene.warnings.push_back(yaml_path + ": obstacle " + from.name + ": " + told);
+      }
     }
     scene.obstacles.push_back(
         {from.name, MakeShape(&from), MakePose(from.xyz, from.rpy), std::move(from.motion)});

@@ -39,7 +39,8 @@ struct Scene {
   std::vector<Eigen::Matrix2Xd> no_step;
   /// Friction coefficient between soles and floor > 0.
   double friction = 0.7;
-  /// What of the files was replaced by something larger, as "file: …", for the user.
+  /// What of the files was replaced by something larger, left out or is hard to believe, as
+  /// "file: …", for the user.
   std::vector<std::string> warnings;
 
   /// Whether all obstacles rest, so that what holds at one time holds at every time.

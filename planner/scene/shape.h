@@ -1,11 +1,14 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <memory>
 #include <variant>
 
 #include "wpg/geometry/convex_body.h"
 
 namespace halfstep {
+
+class VoxelSet;
 
 /// A box centred at the origin of its frame, with edges along the axes.
 struct Box {
@@ -30,6 +33,9 @@ struct TriangleMesh {
   Eigen::Matrix3Xi triangles;  ///< (3×m), indices of vertices.
   /// Only the surface is in the way. What it surrounds is room, in which the robot may stand.
   bool hollow = false;
+  /// When set, the triangles are the surface of these cubes (VoxelSet::Surface), and these are all
+  /// that is inside.
+  std::shared_ptr<const VoxelSet> cubes = nullptr;
 };
 
 /// What an obstacle is made of, in the type that the scene file names, so that no query has to
@@ -53,6 +59,10 @@ inline const TriangleMesh& BodyOf(const TriangleMesh& mesh) { return mesh; }
 /// A distance from the origin of its frame that no point of a shape exceeds [m]. The preconditions
 /// are those of BodyOf.
 double RadiusAboutOrigin(const Shape& shape);
+
+/// A box along the world's axes that holds a shape at a pose [m], wider by the rounding of its
+/// coordinates and of its mesh's hull, 1e-12 of them. The preconditions are those of BodyOf.
+Eigen::AlignedBox3d BoundsOf(const Shape& shape, const Eigen::Isometry3d& X_WO);
 
 /// The faces of the convex hull of a body's vertices, without its disc and its ball. There are none
 /// when it has fewer than 4 vertices.

@@ -66,6 +66,11 @@ bool VoxelSet::Has(const Eigen::Vector3i& cell) const {
   return std::binary_search(keys_.begin(), keys_.end(), KeyOf(cell));
 }
 
+bool VoxelSet::Contains(const Eigen::Vector3d& point) const {
+  const Eigen::Array3d cell = (point.array() / cell_).floor();
+  return (cell.abs() <= kFarthest).all() && Has(cell.cast<int>().matrix());
+}
+
 TriangleMesh VoxelSet::Surface() const {
   std::unordered_map<std::uint64_t, int> numbers;  // of corners
   std::vector<Eigen::Vector3i> corners;

@@ -31,8 +31,11 @@ class VoxelSet {
   void Finish();
   size_t size() const { return keys_.size(); }  ///< number of cells
   bool Has(const Eigen::Vector3i& cell) const;  ///< whether the cell is in the set
+  /// Whether a point [m] lies in a cell of the set; on a side between two cells that with the
+  /// larger coordinates counts.
+  bool Contains(const Eigen::Vector3d& point) const;
   /// The surface of their union: two triangles for each side of a cell beside none. Closed, turned
-  /// outward, in metres.
+  /// outward, in metres, each corner once.
   TriangleMesh Surface() const;
 
  private:

@@ -86,6 +86,58 @@ TEST(VoxelSet, WhatIsInACellIsInsideTheSurface) {
   EXPECT_GT(outside, 1000);
 }
 
+VoxelSet DrawnCells(int count, int edge, std::mt19937* random) {
+  std::uniform_int_distribution<int> draw(0, edge - 1);
+  VoxelSet cells(0.05);
+  for (int i = 0; i < count; ++i) cells.Add({draw(*random), draw(*random), draw(*random)});
+  cells.Finish();
+  return cells;
+}
+
+TriangleMesh SolidOf(const VoxelSet& cells) {
+  TriangleMesh mesh = cells.Surface();
+  mesh.cubes = std::make_shared<const VoxelSet>(cells);
+  return mesh;
+}
+
+// The surface of many cubes falls into very many patches that are not closed, and their winding
+// numbers took minutes of a run. Nothing is asked of them: what is inside is exact.
+TEST(VoxelSet, InsideItsSurfaceAreItsCellsAndNothingElse) {
+  std::mt19937 random(5);
+  const VoxelSet cells = DrawnCells(10'000, 30, &random);
+  const MeshInterior interior(SolidOf(cells));
+  std::uniform_real_distribution<double> draw(-0.2, 1.7);
+  int inside = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    const Vector3d point(draw(random), draw(random), draw(random));
+    const Vector3i cell = (point / 0.05).array().floor().cast<int>();
+    EXPECT_EQ(interior.Contains(point), cells.Has(cell)) << point.transpose();
+    inside += cells.Has(cell);
+  }
+  EXPECT_GT(inside, 2000);
+  EXPECT_FALSE(interior.Contains(Vector3d::Constant(1e9))) << "beyond all cells";
+}
+
+// A wall of one cube around a room, of which nothing is known to be inside: the room is free.
+TEST(VoxelSet, ARoomBetweenCubesIsFreeAndABodyAroundACubeTouchesIt) {
+  VoxelSet walls(0.5);
+  for (int i = 0; i < 125; ++i) {
+    const Vector3i cell(i % 5, i / 5 % 5, i / 25);
+    if (cell.minCoeff() == 0 || cell.maxCoeff() == 4) walls.Add(cell);
+  }
+  walls.Finish();
+  Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
+  X.translation().setConstant(1.25);
+  const Eigen::Isometry3d at_origin = Eigen::Isometry3d::Identity();
+  const CollisionShape body(MakeBox({0.5, 0.5, 0.5}));
+  EXPECT_NEAR(Separate(body, X, CollisionShape(SolidOf(walls)), at_origin).distance, 0.5, 1e-9);
+  VoxelSet two(0.1);
+  two.Add({12, 12, 12});
+  two.Add({99, 0, 0});
+  two.Finish();
+  EXPECT_LE(Separate(body, X, CollisionShape(SolidOf(two)), at_origin).distance, 0);
+}
+
 class CloudScene : public testing::Test {
  protected:
   std::string Write(const std::string& name, const std::string& bytes) {
@@ -143,6 +195,21 @@ TEST_F(CloudScene, NoBodyIsFartherFromACloudThanFromItsBalls) {
     apart += told > 0;
   }
   EXPECT_GT(apart, 30);
+}
+
+TEST_F(CloudScene, KnowsItsCubesAndTellsOfPointsThatAreNone) {
+  Write("a.ply", Ply({{0, 0, 1}, {0.5, 0, 1}}));
+  std::string bytes = Ply({{0, 0, 1}, {0.5, 0, 1}, {7, 7, 7}});
+  bytes.replace(bytes.find("7.000000"), 8, "nan");
+  Write("b.ply", bytes);
+  const Scene scene = Load("points: {file: b.ply, radius_m: 0.01}");
+  const auto& mesh = std::get<TriangleMesh>(scene.obstacles[0].shape);
+  ASSERT_NE(mesh.cubes, nullptr);
+  EXPECT_TRUE(mesh.cubes->Contains({0.5, 0, 1}));
+  EXPECT_FALSE(mesh.cubes->Contains({0.25, 0, 1}));
+  ASSERT_EQ(scene.warnings.size(), 1u);
+  EXPECT_THAT(scene.warnings[0], HasSubstr("1 points are nan"));
+  EXPECT_TRUE(Load("points: {file: a.ply, radius_m: 0.01}").warnings.empty());
 }
 
 TEST_F(CloudScene, FloorIsLeftOutWhereThePosePutsIt) {

@@ -89,6 +89,28 @@ std::string BallOfPoints() {
   return text.str();
 }
 
+// What another program shows upright would lie on its side without a word.
+TEST_F(SceneTest, WhatADaeCallsUpIsToldAndAppliedWhenAsked) {
+  std::ifstream file(HALFSTEP_SOURCE_DIR "/tests/fixtures/mesh/good/cube_triangles.dae");
+  std::string dae((std::istreambuf_iterator<char>(file)), {});
+  dae.insert(dae.find('>', dae.find("<COLLADA")) + 1, "<asset><up_axis>Y_UP</up_axis></asset>");
+  Write("cube.dae", dae);
+  const auto load = [&](const std::string& keys) {
+    return LoadScene(Write(
+        "up.yaml", "obstacles: [{name: cube, mesh: {file: cube.dae, scale: 0.1" + keys + "}}]"));
+  };
+  const auto highest = [](const Scene& scene) {
+    return std::get<TriangleMesh>(scene.obstacles[0].shape).vertices.rowwise().maxCoeff().eval();
+  };
+  const Scene taken = load(", dae_up_axis: ignored"), turned = load(", dae_up_axis: applied");
+  ASSERT_EQ(taken.warnings.size(), 1u);
+  EXPECT_THAT(taken.warnings[0], HasSubstr("obstacle cube: its file calls y up, and that turns "
+                                           "nothing: its z is the scene's z"));
+  EXPECT_TRUE(highest(taken).isApprox(Eigen::Vector3d(0.1, 0.1, 0.1)));
+  EXPECT_TRUE(turned.warnings.empty());
+  EXPECT_TRUE((highest(turned) - Eigen::Vector3d(0.1, 0.0, 0.1)).isZero(1e-12));
+}
+
 TEST_F(SceneTest, AMeshIsItsHullOrASimplerBodyAroundItWhenAsked) {
   Write("ball.obj", BallOfPoints());
   const auto load = [&](const std::string& vertices) {

@@ -71,6 +71,23 @@ constexpr const char* kPcdHeader =
     "# .PCD v0.7\nVERSION 0.7\nFIELDS x y z rgb\nSIZE 4 4 4 4\nTYPE F F F U\nCOUNT 1 1 1 1\n"
     "WIDTH 3\nHEIGHT 1\nVIEWPOINT 9 9 9 1 0 0 0\nPOINTS 3\n";
 
+TEST(PointFile, PlyLeavesOutWhatItMarksAsNoneToo) {
+  const std::string head =
+      "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
+  const LoadedPoints text =
+      ParsePoints("a.ply", "ply\nformat ascii 1.0\n" + head + "1 2 3\nnan 0 NaN\n-0.5 0.25 4\n");
+  ExpectPoints(text, kTwo);
+  EXPECT_EQ(text.invalid, 1);
+  std::string bytes = "ply\nformat binary_little_endian 1.0\n" + head;
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  for (const auto& p : std::vector<std::array<float, 3>>{{1, 2, 3}, {0, nan, 0}, {-0.5, 0.25, 4}}) {
+    bytes += BytesOf(p[0]) + BytesOf(p[1]) + BytesOf(p[2]);
+  }
+  const LoadedPoints binary = ParsePoints("a.ply", bytes);
+  ExpectPoints(binary, kTwo);
+  EXPECT_EQ(binary.invalid, 1);
+}
+
 TEST(PointFile, PcdLeavesOutWhatItMarksAsNone) {
   const LoadedPoints text = ParsePoints(
       "a.pcd", std::string(kPcdHeader) + "DATA ascii\n1 2 3 7\nnan nan nan 0\n-0.5 0.25 4 7\n");
@@ -96,7 +113,8 @@ TEST(PointFile, WhatIsNoCloudIsRefusedWithItsPlace) {
   EXPECT_THAT(Refusal("a.ply", ply + "1 2 x\n"), HasSubstr("a.ply:8:5: 'x' is not a number"));
   EXPECT_THAT(Refusal("a.ply", ply + "1 2\n"), HasSubstr("a.ply:8:4: a number is missing"));
   EXPECT_THAT(Refusal("a.ply", ply), HasSubstr("a number is missing"));
-  EXPECT_THAT(Refusal("a.ply", ply + "1 2 nan\n"), HasSubstr("is not a finite coordinate"));
+  EXPECT_THAT(Refusal("a.ply", ply + "1 2 inf\n"), HasSubstr("is not a finite coordinate"));
+  EXPECT_THAT(Refusal("a.ply", ply + "1 2 nan\n"), HasSubstr("has no point"));
   EXPECT_THAT(Refusal("a.ply", head + "end_header\n1\n"), HasSubstr("one number `y`"));
   EXPECT_THAT(
       Refusal("a.ply", head + "property list uchar float y\nproperty float z\nend_header\n"),

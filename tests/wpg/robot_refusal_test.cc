@@ -131,9 +131,10 @@ TEST(RobotRefusal, LegsThatAreNoClosedFormLegs) {
 TEST(RobotRefusal, BodiesThatReachTooFar) {
   const GeneratedRobot good = GeneratedRobots()[0];
   const std::string urdf =
-      Replaced(GeneratedUrdf(good), "<sphere radius='0.035'/>", "<sphere radius='101'/>");
+      Replaced(GeneratedUrdf(good), "<sphere radius='0.035'/>", "<sphere radius='35'/>");
   EXPECT_THAT(RefusalOf({"far", urdf, GeneratedYaml(good, "robot.urdf")}),
-              HasSubstr("left_link4: reaches more than 100 m from its link"));
+              HasSubstr("left_link4: reaches 35 m from its link, farther than a robot of this size "
+                        "does (valid: at most "));
 }
 
 TEST(RobotRefusal, StretchedStandingPosture) {

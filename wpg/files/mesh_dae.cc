@@ -148,6 +148,9 @@ class DaeReader {
       const std::string& kind = e->ValueStr();
       if (kind == "matrix") {
         const std::vector<double> m = Exactly(*e, 16);
+        if (m[12] != 0.0 || m[13] != 0.0 || m[14] != 0.0 || m[15] != 1.0) {
+          Fail(*e, "its last row is no 0 0 0 1 (valid: the numbers row by row)");
+        }
         X = X * Eigen::Affine3d(
                     Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(m.data()));
       } else if (kind == "translate") {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <cstdint>
 #include <cstring>
 
@@ -71,6 +72,14 @@ std::array<size_t, 3> PointAxes(const MeshText& text, const MeshWord& place,
   return axes;
 }
 
+void PointList::Add(const Eigen::Vector3d& p) {
+  if (p.hasNaN()) {
+    ++invalid_;
+  } else {
+    all_.push_back(p);
+  }
+}
+
 LoadedPoints PointList::Take(const std::string& path) const {
   if (all_.empty()) throw InputError({path + ": has no point"});
   LoadedPoints loaded;
@@ -122,8 +131,15 @@ Eigen::Vector3d PointData::Element(const std::vector<PointField>& fields,
   return p;
 }
 
+double PointNumber(const MeshText& text, const MeshWord& word) {
+  for (const char* const nan : {"nan", "-nan", "NaN", "NAN"}) {
+    if (word.text == nan) return std::numeric_limits<double>::quiet_NaN();
+  }
+  return text.Number(word);
+}
+
 void CheckPoint(const std::string& path, size_t byte, const Eigen::Vector3d& p) {
-  if (!(p.cwiseAbs().maxCoeff() <= kMaxMeshCoordinate) || !p.allFinite()) {
+  if ((p.array().abs() > kMaxMeshCoordinate).any()) {
     RefuseByte(path, byte, "a coordinate is not finite or too large (valid: -1e9 … 1e9)");
   }
 }

@@ -43,8 +43,8 @@ std::array<size_t, 3> PointAxes(const MeshText& text, const MeshWord& place,
 /// Gathers points, and counts those that are none.
 class PointList {
  public:
-  void Add(const Eigen::Vector3d& p) { all_.push_back(p); }  ///< coordinates, finite [m]
-  void AddInvalid() { ++invalid_; }                          ///< counts a point that is none
+  /// Coordinates, finite; one with a nan marks the point as none, which is counted.
+  void Add(const Eigen::Vector3d& p);
   /// Throws InputError when there is none.
   LoadedPoints Take(const std::string& path) const;
 
@@ -75,7 +75,10 @@ class PointData {
   bool big_endian_;
 };
 
-/// Complains about a point at a byte that is not finite or too far.
+/// A coordinate as text: as MeshText::Number has it, or nan.
+double PointNumber(const MeshText& text, const MeshWord& word);
+
+/// Complains about a point at a byte that is infinite or too far; nan is for PointList.
 void CheckPoint(const std::string& path, size_t byte, const Eigen::Vector3d& p);
 
 /// PLY, as text or binary; throws InputError.

@@ -10,7 +10,7 @@ namespace halfstep {
 /// The points of a cloud as its file has them, in the file's unit.
 struct LoadedPoints {
   Eigen::Matrix3Xd points;  ///< (3×n), n ≥ 1, finite, at most 1e9 in size
-  int invalid = 0;          ///< points of a PCD file that are marked as none by nan: left out
+  int invalid = 0;          ///< points that are marked as none by nan: left out
   InputFile file;           ///< what was read
 };
 
@@ -19,7 +19,7 @@ struct LoadedPoints {
 /// and what follows them is not read. PCD: ascii and binary; VIEWPOINT moves nothing, as in PCL.
 /// Throws InputError "file:line:column: …" (binary data: "file: byte N: …") at the first mistake:
 /// another extension, a header that is not understood, no x, y or z, truncated, a number that is
-/// not finite or beyond 1e9 (PCD: nan marks a point as none), no point, more than 20 million or
+/// infinite or beyond 1e9 (nan marks a point as none), no point, more than 20 million or
 /// 1 GiB, compressed data.
 LoadedPoints LoadPoints(const std::string& path);
 /// The same for a file's bytes; the kind of file is that of the path's extension.

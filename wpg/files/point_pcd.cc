@@ -79,25 +79,19 @@ LoadedPoints ReadPcd(const std::string& path, std::string_view bytes) {
   if (kind.text == "ascii") {
     for (long i = 0; i < count; ++i) {
       Eigen::Vector3d p(0, 0, 0);
-      bool none = false;
       for (size_t f = 0; f < fields.size(); ++f) {
         const auto axis = std::find(axes.begin(), axes.end(), f) - axes.begin();
         for (size_t k = 0; k < fields[f].count; ++k) {
           const MeshWord number = text.NextInLine();
           if (number.text.empty()) text.Fail(number, "a number is missing");
-          if (axis == 3) continue;
-          if (number.text == "nan" || number.text == "-nan" || number.text == "NaN") {
-            none = true;
-          } else {
-            p[axis] = text.Number(number);
-          }
+          if (axis < 3) p[axis] = PointNumber(text, number);
         }
       }
       if (const MeshWord more = text.NextInLine(); !more.text.empty()) {
         text.Fail(more, "more numbers than fields");
       }
       text.SkipLine();
-      none ? points.AddInvalid() : points.Add(p);
+      points.Add(p);
     }
     return points.Take(path);
   }
@@ -110,10 +104,6 @@ LoadedPoints ReadPcd(const std::string& path, std::string_view bytes) {
   for (long i = 0; i < count; ++i) {
     const size_t begin = data.at();
     const Eigen::Vector3d p = data.Element(fields, &axes);
-    if (p.array().isNaN().any()) {
-      points.AddInvalid();
-      continue;
-    }
     CheckPoint(path, begin, p);
     points.Add(p);
   }

@@ -104,7 +104,7 @@ LoadedPoints ReadPly(const std::string& path, std::string_view bytes) {
           const MeshWord number = text.NextInLine();
           if (number.text.empty()) text.Fail(number, "a number is missing");
           if (element->fields[f].list) break;  // and what is after it in this line
-          if (axis < 3) p[axis] = text.Number(number);
+          if (axis < 3) p[axis] = PointNumber(text, number);
         }
         text.SkipLine();
         points.Add(p);

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "wpg/files/mesh_file.h"
+#include "wpg/files/text.h"
 #include "wpg/geometry/convex_parts.h"
 #include "wpg/geometry/simplified_hull.h"
 #include "wpg/robot/link_anchors.h"
@@ -25,7 +26,6 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kPackage = "package://";
 constexpr std::string_view kFile = "file://";
-constexpr double kFarthest = 100.0;  // of a body from its link's frame, or the waist's [m]
 
 // What comes after "package://"; some files have a third slash.
 std::string PathInPackages(const std::string& mesh) {
@@ -196,8 +196,12 @@ LinkBodies BuildBodies(const UrdfTree& urdf, const BodyRequest& request, Complai
                  parts == request.mesh_parts.end() ? 1 : parts->second, request, &all.meshes)) {
           body = {.name = next_name(), .leg = anchor.leg, .link = anchor.link};
           body.shape = std::move(shape);
-          if (body.shape.center.norm() + body.shape.radius > kFarthest) {
-            throw std::runtime_error("reaches more than 100 m from its link (look at `scale`)");
+          const double reach = body.shape.center.norm() + body.shape.radius;
+          if (reach > request.farthest) {
+            throw std::runtime_error(
+                Formatted("reaches %.4g m from its link, farther than a robot of this size does "
+                          "(valid: at most %.3g m; look at `scale`)",
+                          reach, request.farthest));
           }
           if (collision.kind == UrdfCollision::Kind::kMesh) Simplify(request, &body);
           MapDirections(&body.shape);

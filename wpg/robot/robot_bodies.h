@@ -21,6 +21,7 @@ struct BodyRequest {
   std::map<std::string, int> mesh_parts = {};  ///< link → convex parts of its meshes; others: one.
   int hull_vertices = 64;                      ///< at most, of a mesh's hull, or of a part's.
   bool dae_up_axis = false;                    ///< meshes in DAE are turned by their `up_axis`
+  double farthest = 100.0;  ///< of a body from its link's frame, or the waist's [m]
 };
 
 /// Package names in the `package://` paths of the collision meshes, sorted.
@@ -40,7 +41,7 @@ struct LinkBodies {
 /// reaches no farther along the axes of the sole when it belongs to a foot); and a cylinder that is
 /// not parallel to its frame's z becomes a prism of 32 sides around it. The bodies of a link are
 /// named after it, the second and further ones with #2, #3 … behind. Complains about meshes that
-/// cannot be read or have no volume, and about bodies that reach more than 100 m from their link.
+/// cannot be read or have no volume, and about bodies that reach farther than `farthest`.
 LinkBodies BuildBodies(const UrdfTree& urdf, const BodyRequest& request, Complaints* complaints);
 
 }  // namespace halfstep

@@ -32,6 +32,8 @@ constexpr double kStanding = 1e-4;
 // How far the right leg may be from the left one's mirror image ([m], [rad] and [rad/s]); what is
 // more than rounding is told. Nothing that is proved takes one leg for the other.
 constexpr double kMirror = 1e-4, kRounding = 1e-6;
+// How far a body may reach from its link, in heights of the waist: in other units it would.
+constexpr double kFarthestBody = 10.0;
 constexpr double kBelowSole = 1e-6;  // a foot's bodies may reach this far below its sole [m]
 
 Isometry3d SoleInFoot(const LegFile& leg) {
@@ -236,6 +238,7 @@ class Builder {
       body_.R_FootSole[side] = leg.joints[5].X_BLink.linear().transpose() * leg.X_BSole.linear();
     }
     body_.dae_up_axis = file_.dae_up_axis == "applied";
+    if (model_.waist_height > 0) body_.farthest = kFarthestBody * model_.waist_height;
     LinkBodies all = BuildBodies(urdf_, body_, complaints_);
     SelfPairs pairs = BuildSelfPairs(urdf_, file_.excluded, all, body_.leg_joints, model_.legs);
     model_.self_pairs = std::move(pairs.watched);
