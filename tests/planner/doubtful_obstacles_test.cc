@@ -44,11 +44,11 @@ TEST(DoubtfulObstacles, RoomsAndCablesAreNone) {
 }
 
 TEST(DoubtfulObstacles, AMeshInMillimetresIsTold) {
-  EXPECT_THAT(Told(With({Crate(900, 1)})),
-              ElementsAre("room: obstacle crate is 900 m long, 562 times as the robot is high: is "
+  EXPECT_THAT(Told(With({Crate(880, 1)})),
+              ElementsAre("room: obstacle crate is 880 m long, 550 times as the robot is high: is "
                           "its file in other units (`mesh.scale`: 0.001 for millimetres)?"));
   EXPECT_THAT(Told(With({Crate(0.5, 140)})),
-              ElementsAre(HasSubstr("crate is 136.8 m away from the walk, 85.5 times as far")));
+              ElementsAre(HasSubstr("crate is 136.7 m away from the walk, 85.5 times")));
   EXPECT_THAT(Told(With({Crate(0.0005, 1)})),
               ElementsAre(HasSubstr("is 0.0005 m small, 1/3.2e+03 of the robot's height")));
 }
@@ -68,8 +68,8 @@ TEST(DoubtfulObstacles, AnOriginFarFromAMeshThatTurnsIsTold) {
 }
 
 TEST(DoubtfulObstacles, BoxesAskForMetres) {
-  EXPECT_THAT(Told(With({{.name = "slab", .shape = Box{{900, 1, 1}}}})),
-              ElementsAre(HasSubstr("slab is 900 m long, 562 times as the robot is high: are its "
+  EXPECT_THAT(Told(With({{.name = "slab", .shape = Box{{880, 1, 1}}}})),
+              ElementsAre(HasSubstr("slab is 880 m long, 550 times as the robot is high: are its "
                                     "numbers metres?")));
 }
 
