@@ -135,7 +135,6 @@ class Builder {
       for (const std::string& line : told.lines()) model_.warnings.push_back(line);
     }
     TellHeldJoints();
-    TellEfforts();
   }
 
   // Joints with the same fault, such as the fingers of a hand, share a line.
@@ -151,21 +150,6 @@ class Builder {
         if (!first) warning += (warning.ends_with("still") ? ", so are " : ", ") + joint.name;
       }
     }
-  }
-
-  void TellEfforts() {
-    std::string names;
-    for (const auto& leg : body_.leg_joints) {
-      for (const int joint : leg) {
-        const size_t i = static_cast<size_t>(joint);
-        if (file_.effort_limits[i] != 0.0) continue;
-        names += (names.empty() ? "" : ", ") + urdf_.joints[i].name;
-      }
-    }
-    if (names.empty()) return;
-    model_.warnings.push_back(urdf_.file + ": no effort limit of " + names +
-                              ": nothing is demanded of their torques (`effort_limits_n_m` of the "
-                              "robot file: what they give, or none)");
   }
 
   // Waist height and width of stance; complains about feet that do not stand side by side.

@@ -152,6 +152,10 @@ double StretchedLength(const Leg& leg) {
   return DistanceToAxis(knee, leg.hip_B) + DistanceToAxis(knee, leg.ankle_B);
 }
 
+double LegLength(const Leg& leg) {
+  return StretchedLength(leg) + (leg.X_BSole.inverse() * leg.ankle_B).z();
+}
+
 std::optional<Leg> LegGeometry(const UrdfTree& urdf, const LegRequest& request,
                                const std::array<int, 6>& indices, Complaints* complaints) {
   const std::vector<Isometry3d> X = urdf.LinkPoses(std::vector<double>(urdf.joints.size(), 0.0));

@@ -34,6 +34,10 @@ std::optional<std::array<int, 6>> FindLegJoints(const UrdfTree& urdf, int waist,
 /// The stretched length of a leg: hip over knee to ankle [m].
 double StretchedLength(const Leg& leg);
 
+/// From the hip over the knee to the ankle, and from there down to the sole, knee and ankle
+/// stretched [m].
+double LegLength(const Leg& leg);
+
 /// The leg with the points nearest to its hip and ankle axes, and with the sentence `offsets` where
 /// these do not meet; without branch and closed-form neighbour, so that the closed form takes the
 /// axes as meeting there: soles are level, but as far off as the axes. Complains and returns none
