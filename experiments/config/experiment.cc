@@ -3,11 +3,11 @@
 #include "experiments/config/data_folder.h"
 #include "planner/scene/doubtful_obstacles.h"
 #include "planner/scene/no_step_areas.h"
+#include "smoothing/margins/demandable.h"
+#include "smoothing/margins/family_traits.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/text.h"
 #include "wpg/motion/compensation.h"
-#include "wpg/robot/acceleration_limits.h"
-#include "wpg/robot/torque_limits.h"
 
 namespace halfstep {
 namespace {
@@ -17,28 +17,14 @@ namespace fs = std::filesystem;
 // A bare word is a shipped robot, anything else a path relative to the config.
 bool IsShipped(const fs::path& robot) { return !robot.has_parent_path() && !robot.has_extension(); }
 
-// Demands nothing of the families for which the robot's files do not say enough. What the URDF does
-// not say of torques is told when it is read.
+// Demands nothing of the families for which the robot's files do not say enough; what only some
+// robots have stays as the config says.
 void LeaveOutWhatIsUnknown(Experiment* experiment) {
-  RobotModel& robot = experiment->robot;
   MarginLimits& limits = experiment->config.smoothing.limits;
-  const std::string& fault = robot.masses.fault;
-  if (!fault.empty() && limits.demanded_of(MarginFamily::kZmpRobot) != kNotDemanded) {
-    robot.warnings.push_back(robot.name +
-                             ": nothing is demanded of the whole robot's ZMP, only of the point "
-                             "mass's (zmp_robot_m: none), nor of joint torques and friction: " +
-                             fault);
-  }
-  if (!fault.empty()) {
-    limits.demanded_of(MarginFamily::kZmpRobot) = kNotDemanded;
-    limits.demanded_of(MarginFamily::kFriction) = kNotDemanded;
-  }
-  if (!TorqueFault(robot).empty()) limits.demanded_of(MarginFamily::kTorque) = kNotDemanded;
-  if (limits.demanded_of(MarginFamily::kJointAcceleration) > 0.0 &&
-      !StatesAccelerationLimits(robot)) {
-    robot.warnings.push_back(robot.name +
-                             ": nothing is demanded of joint accelerations: the robot file states "
-                             "no limits (`acceleration_limits_rad_s2`)");
+  for (const MarginFamily family : AllMarginFamilies()) {
+    if (Traits(family).for_some_robots) continue;
+    if (WhyNotDemandable(family, experiment->robot).empty()) continue;
+    limits.demanded_of(family) = kNotDemanded;
   }
 }
 

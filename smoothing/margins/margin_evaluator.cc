@@ -7,26 +7,9 @@
 #include <utility>
 
 #include "smoothing/margins/all_families.h"
-#include "wpg/robot/acceleration_limits.h"
-#include "wpg/robot/torque_limits.h"
+#include "smoothing/margins/demandable.h"
 
 namespace halfstep {
-
-namespace {
-
-MarginLimits Possible(MarginLimits limits, const RobotModel& robot) {
-  if (!robot.masses.known()) {
-    limits.demanded_of(MarginFamily::kZmpRobot) = kNotDemanded;
-    limits.demanded_of(MarginFamily::kFriction) = kNotDemanded;
-  }
-  if (!TorqueFault(robot).empty()) limits.demanded_of(MarginFamily::kTorque) = kNotDemanded;
-  if (!StatesAccelerationLimits(robot)) {
-    limits.demanded_of(MarginFamily::kJointAcceleration) = kNotDemanded;
-  }
-  return limits;
-}
-
-}  // namespace
 
 MarginEvaluator::Shared::Shared(RobotModel robot, Scene scene)
     : place(std::move(robot), std::move(scene)), statements(AllFamilies::Make(place)) {
@@ -37,11 +20,11 @@ MarginEvaluator::Shared::Shared(RobotModel robot, Scene scene)
 
 MarginEvaluator::MarginEvaluator(RobotModel robot, Scene scene, MarginLimits limits)
     : shared_(std::make_shared<const Shared>(std::move(robot), std::move(scene))),
-      limits_(Possible(limits, this->robot())) {}
+      limits_(Demandable(limits, this->robot())) {}
 
 MarginEvaluator MarginEvaluator::WithLimits(const MarginLimits& limits) const {
   MarginEvaluator other = *this;
-  other.limits_ = Possible(limits, robot());
+  other.limits_ = Demandable(limits, robot());
   return other;
 }
 
