@@ -17,6 +17,7 @@
 #include "experiments/tables/result_tables.h"
 #include "experiments/tables/run_folder.h"
 #include "experiments/tables/trajectory_match.h"
+#include "smoothing/margins/not_covered_by.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/sha256.h"
 
@@ -119,7 +120,13 @@ ExitStatus Certify(const CertifyCommand& command) {
   WriteReport(experiment.robot, experiment.scene, &folder);
   CompleteManifest(experiment.robot, experiment.scene, &folder);
   folder.Publish();
-  if (!command.quiet) std::cout << '\n' << CertificateStatement(experiment.robot) << '\n';
+  if (!command.quiet) {
+    std::cout << '\n'
+              << CertificateStatement(experiment.robot) << "\n\n"
+              << NotCoveredText(
+                     NotCoveredBy(experiment.robot, experiment.scene, evaluator.limits()),
+                     "not_covered in certificate.json");
+  }
   return all_certified ? kSuccess : kFailed;
 }
 

@@ -16,6 +16,7 @@
 #include "experiments/run/planning.h"
 #include "experiments/run/progress_bar.h"
 #include "experiments/server/served_episode.h"
+#include "smoothing/margins/not_covered_by.h"
 #include "wpg/files/input_error.h"
 
 namespace halfstep {
@@ -102,9 +103,10 @@ std::optional<TrueWorld> WhatWasTrue(const LiveConfig& config, const Place& plac
 }
 
 void PrintSummary(const LiveCommand& command, const Episode& episode, const TrueWorld* truth,
-                  const RobotModel& robot, const std::string& folder,
+                  const Place& place, const LiveConfig& config, const std::string& folder,
                   const std::optional<replay::PhysicalOutcome>& outcome) {
-  const EpisodeSummary summary = Summarize(episode, truth, robot);
+  EpisodeSummary summary = Summarize(episode, truth, place.robot);
+  summary.not_covered = NotCoveredBy(place.robot, place.scene, config.experiment.smoothing.limits);
   if (command.run.json) {
     const std::string json = SummaryJson(episode, summary, folder);
     std::cout << (outcome ? WithPhysics(json, *outcome) : json);
@@ -170,7 +172,7 @@ ExitStatus Live(const LiveCommand& command) {
   journal.Remove();
   if (served) served->End(episode, folder.path().string());
   const std::optional<TrueWorld> was_true = WhatWasTrue(config, place, simulated);
-  PrintSummary(command, episode, was_true ? &*was_true : nullptr, place.robot,
+  PrintSummary(command, episode, was_true ? &*was_true : nullptr, place, config,
                folder.path().string(), outcome);
   if (episode.ending == EpisodeEnding::kInterrupted) return kInterrupted;
   const bool fell = outcome && !outcome->replayed.result.stayed_up;

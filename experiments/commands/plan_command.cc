@@ -50,7 +50,8 @@ void PrintPlan(const PlannedWalk& walk) {
   std::cout << "# " << walk.config.planner.name << ": " << plan.sentence << ", " << plan.nodes
             << " nodes, " << plan.queries << " queries of " << walk.half_steps.size
             << " half-steps, " << std::fixed << std::setprecision(1) << 1e3 * plan.time << " ms\n"
-            << std::defaultfloat << std::setprecision(6);
+            << std::defaultfloat << std::setprecision(6)
+            << NotCoveredText(walk.not_covered, "--json", "# ");
   std::vector<FootstepConfig> footsteps = walk.config.footsteps;
   std::cout << WriteYaml([&](Fields& fields) {
     fields.List("footsteps", {}, &footsteps, [](Fields& f, FootstepConfig* step) {

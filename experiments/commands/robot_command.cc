@@ -84,8 +84,9 @@ bool Walk(const RobotFiles& files, bool quiet) {
   if (!quiet) {
     std::cout << '\n'
               << RunTable(run.experiment(), run.problem(), run.runs(),
-                          files.robot.string() + ", " + files.picture.string() + ", " +
-                              files.walk.string());
+                          {files.robot.string() + ", " + files.picture.string() + ", " +
+                               files.walk.string(),
+                           "`halfstep run " + files.walk.string() + " --json`"});
   }
   const MethodRun& last = run.runs().back();
   if (last.certified.answer.verdict == Verdict::kFeasible) return true;

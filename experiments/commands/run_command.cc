@@ -119,7 +119,8 @@ ExitStatus Run(const RunCommand& command) {
   if (command.json) {
     std::cout << RunJson(run.evaluator(), run.runs(), place);
   } else if (!command.quiet) {
-    std::cout << RunTable(run.experiment(), run.problem(), run.runs(), place);
+    std::cout << RunTable(run.experiment(), run.problem(), run.runs(),
+                          {place, "not_covered in certificate.json"});
     if (HasReport()) std::cout << "report:  " << (folder.path() / "report.html").string() << '\n';
   }
   if (!feasible) return kFailed;

@@ -90,6 +90,12 @@ bool IsCrash(int signal) {
          signal == SIGABRT;
 }
 
+std::vector<NotCovered> ThingsOf(const SweepFolder& folder, const std::vector<SweepCase>& cases) {
+  std::vector<NotCovered> things;
+  for (const SweptNotCovered& one : folder.NotCoveredOf(cases)) things.push_back(one.thing);
+  return things;
+}
+
 int Finish(const SweepCommand& command, const SweepFolder& folder,
            const std::vector<SweepCase>& cases) {
   const CsvTable runs = ParseCsv(folder.Collect(cases), "runs.csv");
@@ -107,6 +113,7 @@ int Finish(const SweepCommand& command, const SweepFolder& folder,
   }
   const std::vector<std::string> certified = runs.Texts("certified");
   std::cout << "; " << std::count(certified.begin(), certified.end(), "true") << " certified\n"
+            << NotCoveredText(ThingsOf(folder, cases), "not_covered.json")
             << "written: " << (HasReport() ? report : folder.path() / "runs.csv").string() << '\n';
   return kSuccess;
 }

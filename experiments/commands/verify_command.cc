@@ -14,11 +14,13 @@ enum class Telling { kErrors, kSummary, kEverything };
 ExitStatus Verify(const verify::VerifyOptions& options, Telling telling) {
   const bool quiet = telling == Telling::kErrors;
   ExitStatus status = kSuccess;
+  std::vector<NotCovered> not_covered;  // by the certificates, which are of one robot and scene
   for (const verify::MethodVerification& result : verify::VerifyRun(options)) {
     if (!quiet) {
       std::cout << (telling == Telling::kSummary ? verify::Summary(result)
                                                  : verify::Describe(result));
     }
+    if (!result.not_covered.empty()) not_covered = result.not_covered;
     for (const std::string& complaint : result.complaints) std::cerr << complaint << '\n';
     if (quiet && result.disagreements > 0) {
       std::cerr << result.method << ": NOT verified: " << result.reasons.front() << '\n';
@@ -37,7 +39,8 @@ ExitStatus Verify(const verify::VerifyOptions& options, Telling telling) {
     }
   }
   if (telling == Telling::kSummary) {
-    std::cout << "(--verbose shows every check and what a verified certificate guarantees)\n";
+    std::cout << NotCoveredText(not_covered, "--verbose")
+              << "(--verbose shows every check and what a verified certificate guarantees)\n";
   }
   return status;
 }

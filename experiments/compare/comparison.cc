@@ -52,6 +52,7 @@ ComparedCase& CaseOf(const RunRecord& run, const std::string& objective, Compari
   one.objective = objective;
   one.problem = run.problem;
   one.half_steps = run.half_steps;
+  one.not_covered = run.not_covered;
   Add(run.methods.front(), &one);
   return one;
 }

@@ -38,7 +38,8 @@ struct ComparedMethod {
 struct ComparedCase {
   /// What the methods of the case have in common; problem: RunRecord::problem.
   std::string scenario, objective, problem;
-  int half_steps = 0;  ///< of the walk
+  int half_steps = 0;                   ///< of the walk
+  std::vector<NotCovered> not_covered;  ///< RunRecord::not_covered, of its first run
   /// Cost of the cheapest certified walk of its own that any method has, raw included for
   /// `fastest`; none when there is no such walk.
   std::optional<double> best_cost;

@@ -63,12 +63,34 @@ std::string CaseTable(const ComparedCase& one, const Widths& widths) {
   return text + "\n";
 }
 
+// What the certificates of the cases do not speak of, cases of which that is the same together.
+std::string NotCoveredOfCases(const Comparison& comparison) {
+  std::vector<std::pair<const std::vector<NotCovered>*, std::string>> lists;
+  for (const ComparedCase& one : comparison.cases) {
+    const auto same = std::ranges::find_if(
+        lists, [&one](const auto& list) { return *list.first == one.not_covered; });
+    if (same == lists.end()) {
+      lists.emplace_back(&one.not_covered, one.scenario);
+    } else {
+      same->second += ", " + one.scenario;
+    }
+  }
+  std::string text;
+  for (const auto& [list, scenarios] : lists) {
+    if (list->empty()) continue;
+    text +=
+        scenarios + ":\n" + NotCoveredText(*list, "not_covered in certificate.json", "  ") + "\n";
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string ComparisonScreen(const Comparison& comparison) {
   const Widths widths = WidthsOf(comparison);
   std::string text;
   for (const ComparedCase& one : comparison.cases) text += CaseTable(one, widths);
+  text += NotCoveredOfCases(comparison);
   const std::vector<MethodMeans> means = Means(comparison);
   if (means.empty()) return text;
   text += Formatted(

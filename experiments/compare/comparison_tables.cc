@@ -6,6 +6,7 @@
 
 #include "experiments/build_info.h"
 #include "experiments/tables/csv_writer.h"
+#include "experiments/tables/not_covered_json.h"
 #include "wpg/files/text.h"
 
 namespace halfstep {
@@ -194,7 +195,8 @@ std::string ComparisonManifest(const std::vector<RunRecord>& runs) {
                                 {"scenario", run.scenario},
                                 {"objective", run.objective},
                                 {"problem_sha256", run.problem},
-                                {"manifest_sha256", run.manifest_sha256}});
+                                {"manifest_sha256", run.manifest_sha256},
+                                {"not_covered", NotCoveredJson(run.not_covered)}});
   }
   return manifest.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }

@@ -8,7 +8,9 @@
 #include "experiments/live/episode_report.h"
 #include "experiments/live/episode_tables.h"
 #include "experiments/run/complete_manifest.h"
+#include "experiments/tables/not_covered_json.h"
 #include "experiments/tables/result_tables.h"
+#include "smoothing/margins/not_covered_by.h"
 #include "wpg/files/sha256.h"
 
 namespace halfstep {
@@ -36,25 +38,28 @@ void WriteTrajectory(const Episode& episode, const LiveConfig& config, const Rob
   WriteCsv("trajectory", TrajectoryCsv(walk, end, period, at), folder);
 }
 
-std::string ManifestJson(const Episode& episode, const LiveConfig& config,
+std::string ManifestJson(const Episode& episode, const LiveConfig& config, const Place& place,
                          const std::string& resolved) {
-  nlohmann::ordered_json manifest = {{"format", 2},
-                                     {"kind", "episode"},
-                                     {"program", "halfstep"},
-                                     {"version", kVersion},
-                                     {"commit", kCommit},
-                                     {"build_type", kBuildType},
-                                     {"name", config.experiment.name},
-                                     {"config_sha256", Sha256(resolved)},
-                                     {"seed", config.experiment.seed},
-                                     {"clock", config.live.clock},
-                                     {"policy", config.live.policy},
-                                     {"ending", Name(episode.ending)},
-                                     {"message", episode.message},
-                                     {"waited_s", episode.waited},
-                                     {"end_s", episode.end},
-                                     {"stopped", episode.stopped},
-                                     {"walks", episode.walks.size()}};
+  nlohmann::ordered_json manifest = {
+      {"format", 2},
+      {"kind", "episode"},
+      {"program", "halfstep"},
+      {"version", kVersion},
+      {"commit", kCommit},
+      {"build_type", kBuildType},
+      {"name", config.experiment.name},
+      {"config_sha256", Sha256(resolved)},
+      {"seed", config.experiment.seed},
+      {"clock", config.live.clock},
+      {"policy", config.live.policy},
+      {"ending", Name(episode.ending)},
+      {"message", episode.message},
+      {"waited_s", episode.waited},
+      {"end_s", episode.end},
+      {"stopped", episode.stopped},
+      {"walks", episode.walks.size()},
+      {"not_covered",
+       NotCoveredJson(NotCoveredBy(place.robot, place.scene, config.experiment.smoothing.limits))}};
   return manifest.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
@@ -79,7 +84,7 @@ void WriteEpisode(const Episode& episode, const LiveConfig& config, const Place&
   if (!episode.walks.empty()) WriteTrajectory(episode, config, place.robot, folder);
   const std::string resolved = ResolvedFor(folder->path(), config);
   folder->Write("config.yaml", resolved);
-  folder->Write("manifest.json", ManifestJson(episode, config, resolved));
+  folder->Write("manifest.json", ManifestJson(episode, config, place, resolved));
   WriteEpisodeReport(episode, config, place, folder);
   CompleteManifest(place.robot, place.scene, folder);
 }

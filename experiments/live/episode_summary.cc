@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "experiments/tables/not_covered_json.h"
 #include "wpg/files/text.h"
 
 namespace halfstep {
@@ -80,6 +81,7 @@ std::string SummaryScreen(const Episode& episode, const EpisodeSummary& summary,
     text += Formatted("wall clock   ticks at most %.1f ms late\n", 1e3 * episode.latest_tick);
   }
   if (summary.nearest) text += NearestLine(*summary.nearest);
+  text += NotCoveredText(summary.not_covered, "not_covered in manifest.json");
   return text + "written to   " + folder + "\n";
 }
 
@@ -105,6 +107,7 @@ std::string SummaryJson(const Episode& episode, const EpisodeSummary& summary,
     json["nearest_obstacle"] = nearest->obstacle;
     json["nearest_t_s"] = nearest->t;
   }
+  json["not_covered"] = NotCoveredJson(summary.not_covered);
   if (!folder.empty()) json["folder"] = folder;
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }

@@ -7,6 +7,7 @@
 #include "experiments/live/episode.h"
 #include "experiments/live/episode_touch.h"
 #include "experiments/live/true_world.h"
+#include "wpg/robot/not_covered.h"
 #include "wpg/robot/robot_model.h"
 
 namespace halfstep {
@@ -24,6 +25,7 @@ struct EpisodeSummary {
   /// footsteps [s]; half-steps that began meanwhile, before the first changed one.
   std::vector<double> latencies;
   std::vector<int> begun_meanwhile;  ///< the same walks in the same order
+  std::vector<NotCovered> not_covered;  ///< what the episode's proofs do not speak of
   /// Sampled every 5 ms; none when it is not known where obstacles truly were.
   std::optional<Approach> nearest;
 };

@@ -14,6 +14,7 @@
 #include "experiments/run/planning.h"
 #include "experiments/run/smoothing_of.h"
 #include "experiments/tables/result_tables.h"
+#include "smoothing/margins/not_covered_by.h"
 #include "smoothing/methods/overlap_prices.h"
 #include "smoothing/methods/smoother_registry.h"
 #include "smoothing/proof/missed_demands.h"
@@ -151,6 +152,11 @@ void BindExperiment(py::module_& module) {
            py::call_guard<py::gil_scoped_release>())
       .def_property_readonly("robot", [](const PlacedExperiment& p) { return p.experiment.robot; })
       .def_property_readonly("scene", [](const PlacedExperiment& p) { return p.experiment.scene; })
+      .def_property_readonly("not_covered",
+                             [](const PlacedExperiment& p) {
+                               return ToPython(NotCoveredBy(p.experiment.robot, p.experiment.scene,
+                                                            p.config.smoothing.limits));
+                             })
       .def("walk", &WalkAt)
       .def("missed", &Missed)
       .def("plan", &Plan)

@@ -4,7 +4,9 @@
 #include <memory>
 
 #include "experiments/python/bindings.h"
+#include "experiments/python/walk_setting.h"
 #include "planner/scene/scene.h"
+#include "wpg/robot/not_covered.h"
 #include "wpg/robot/robot_model.h"
 
 namespace py = pybind11;
@@ -34,6 +36,14 @@ std::vector<std::string> NamesOf(const std::vector<Item>& items) {
 
 }  // namespace
 
+py::list ToPython(const std::vector<NotCovered>& list) {
+  py::list rows;
+  for (const NotCovered& one : list) {
+    rows.append(py::make_tuple(std::string(Name(one.kind)), one.subject, one.sentence));
+  }
+  return rows;
+}
+
 void BindPlace(py::module_& module) {
   py::class_<RobotModel, std::shared_ptr<RobotModel>>(module, "Robot")
       .def(py::init([](const std::string& path) {
@@ -50,7 +60,9 @@ void BindPlace(py::module_& module) {
       .def_property_readonly("joints", &JointRows)
       .def_property_readonly("bodies",
                              [](const RobotModel& robot) { return NamesOf(robot.bodies); })
-      .def_readonly("warnings", &RobotModel::warnings);
+      .def_readonly("warnings", &RobotModel::warnings)
+      .def_property_readonly("not_covered",
+                             [](const RobotModel& robot) { return ToPython(NotCoveredOf(robot)); });
   py::class_<Scene, std::shared_ptr<Scene>>(module, "Scene")
       .def(py::init(
                [](const std::string& path) { return std::make_shared<Scene>(LoadScene(path)); }),

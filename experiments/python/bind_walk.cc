@@ -9,6 +9,7 @@
 #include "experiments/python/walk_setting.h"
 #include "experiments/tables/certificate_files.h"
 #include "experiments/tables/parameter_tables.h"
+#include "smoothing/margins/not_covered_by.h"
 #include "smoothing/margins/slack_evaluator.h"
 
 namespace py = pybind11;
@@ -95,6 +96,11 @@ py::tuple MarginGradientsAt(const PlacedWalk& placed, double t, double cutoff) {
       names, gradient);
 }
 
+std::vector<NotCovered> NotCoveredOfWalk(const PlacedWalk& placed) {
+  const MarginEvaluator& of = placed.setting->problem.evaluator();
+  return NotCoveredBy(of.robot(), of.scene(), of.limits());
+}
+
 // (status, sentence, table of the proof).
 py::tuple CertifyPlaced(const PlacedWalk& placed) {
   const WalkProblem& problem = placed.setting->problem;
@@ -105,7 +111,9 @@ py::tuple CertifyPlaced(const PlacedWalk& placed) {
   });
   const bool holds = certified.answer.verdict == Verdict::kFeasible;
   const std::string sentence = holds ? "every demanded margin is kept at every instant, by " +
-                                           std::to_string(certified.rows.size()) + " statements"
+                                           std::to_string(certified.rows.size()) + " statements; " +
+                                           std::to_string(NotCoveredOfWalk(placed).size()) +
+                                           " things are not covered"
                                      : problem.evaluator().Describe(certified.answer.witness);
   return py::make_tuple(std::string(VerdictName(certified.answer.verdict)), sentence,
                         ToPython(CertificateCsv(problem.evaluator(), certified.rows)));
@@ -130,6 +138,8 @@ void BindWalk(py::module_& module) {
                              })
       .def_property_readonly("robot",
                              [](const PlacedWalk& p) { return p.setting->problem.robot(); })
+      .def_property_readonly("not_covered",
+                             [](const PlacedWalk& p) { return ToPython(NotCoveredOfWalk(p)); })
       .def_property_readonly(
           "half_steps",
           [](const PlacedWalk& p) {

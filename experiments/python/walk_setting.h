@@ -8,6 +8,7 @@
 #include "smoothing/methods/walk_problem.h"
 #include "smoothing/proof/certificate.h"
 #include "smoothing/walk/superposed_walk.h"
+#include "wpg/robot/not_covered.h"
 
 namespace halfstep::python {
 
@@ -22,6 +23,9 @@ struct PlacedWalk {
   std::shared_ptr<const WalkSetting> setting;
   SuperposedWalk walk;
 };
+
+/// What is not covered for Python: (kind, subject, sentence) of each thing.
+pybind11::list ToPython(const std::vector<NotCovered>& list);
 
 /// A table for Python: (columns, text), each column (name, type, unit, description).
 pybind11::tuple ToPython(const CsvFile& file);

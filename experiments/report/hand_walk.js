@@ -113,17 +113,30 @@ export function handWalk(base, form, robot, parameters) {
   const looked = sampled.map(([family]) => family);
   const message = "moved by hand: sampled, not certified";
   return new Walk({
-    summary: { method: "by hand", certified: false, duration_s: walk.duration,
-               speedup: base.summary.speedup * (base.duration / walk.duration) },
+    summary: {
+      method: 'by hand',
+      certified: false,
+      duration_s: walk.duration,
+      speedup: base.summary.speedup * (base.duration / walk.duration)
+    },
     values: columns,
-    support: rows.map((row) => row.support[0]).join(""),
+    support: rows.map((row) => row.support[0]).join(''),
     half_steps: walk.pieces.map((piece, i) => ({
-      half_step: i + 1, kind: piece.half.kind, support: piece.half.support, start_s: piece.start,
-      duration_s: piece.duration })),
+                                  half_step: i + 1,
+                                  kind: piece.half.kind,
+                                  support: piece.half.support,
+                                  start_s: piece.start,
+                                  duration_s: piece.duration
+                                })),
     certificate: {
-      verdict: "sampled", message, statements: {}, not_watched: [], limits, statement: "",
-      demanded: Object.fromEntries(Object.entries(demanded).map(([family, value]) =>
-        [family, looked.includes(family) ? value : null])),
+      verdict: 'sampled',
+      message,
+      statements: {},
+      not_covered: [],
+      limits,
+      statement: '',
+      demanded: Object.fromEntries(Object.entries(demanded).map(
+          ([family, value]) => [family, looked.includes(family) ? value : null])),
     },
   });
 }

@@ -140,7 +140,7 @@ json WalkJson(const fs::path& folder, double spacing) {
   walk["half_steps"] = RowsJson(folder / "half_steps.csv");
   walk["overlaps"] = fs::exists(overlaps) ? RowsJson(overlaps) : json::array();
   for (const char* key :
-       {"verdict", "message", "statement", "demanded", "limits", "statements", "not_watched"}) {
+       {"verdict", "message", "statement", "demanded", "limits", "statements", "not_covered"}) {
     if (!certificate.contains(key)) {
       throw InputError({(folder / "certificate.json").string() + ": no '" + key + "'"});
     }

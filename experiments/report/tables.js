@@ -95,15 +95,32 @@ export function junctionTable(parent, [a, b]) {
       "less were demanded of what limits the overlap, by this overlap alone, to first order." }));
 }
 
-/** Pairs of bodies that nothing is promised about, by the reason. */
-function notWatched(pairs) {
-  const reasons = [...new Set(pairs.map((pair) => pair.why))];
-  const rows = reasons.map((why) => [why, pairs.filter((pair) => pair.why === why)
-    .map((pair) => pair.bodies.join(" – ")).join(", ")]);
-  const details = element("details", {},
-    element("summary", { text: `Not watched: ${pairs.length} pairs of bodies` }),
-    table(["why", "bodies"], rows));
-  return pairs.length ? details : element("p", { text: "Every pair of bodies that move against each other is watched." });
+/**
+ * What certificates do not speak of, and why: the list by its kinds, pairs of bodies by the
+ * reason.
+ */
+function notCovered(list) {
+  if (!list.length) return element('p', {text: 'All that is demanded is covered.'});
+  const [pairs, others] =
+      [list.filter((one) => one.kind === 'pair'), list.filter((one) => one.kind !== 'pair')];
+  const reason = (pair) =>
+      pair.sentence.slice(pair.subject.length).replace(/^: (not watched: )?/, '');
+  const reasons = [...new Set(pairs.map(reason))];
+  const rows = reasons.map(
+      (why) =>
+          [why,
+           pairs.filter((pair) => reason(pair) === why).map((pair) => pair.subject).join(', ')]);
+  return element(
+      'div', {className: 'not-covered'},
+      element(
+          'h3', {text: `Not covered: ${list.length} ${list.length === 1 ? 'thing' : 'things'}`}),
+      element('ul', {}, ...others.map((one) => element('li', {text: one.sentence}))),
+      ...(pairs.length ?
+              [element(
+                  'details', {},
+                  element('summary', {text: `Not watched: ${pairs.length} pairs of bodies`}),
+                  table(['why', 'bodies'], rows))] :
+              []));
 }
 
 /** The statement, and the verdict on each walk. */
@@ -121,11 +138,14 @@ export function guarantee(parent, statement, walks) {
     (limits[name] ? ` (limit ${number(limits[name])})` : ""));
   const [promised, excepted] = statement.split(/(?=Not guaranteed:)/);
   parent.replaceChildren(
-    element("h2", { text: "What is guaranteed" }),
-    element("p", { text: promised }),
-    table(["method", "verdict", "statements at every instant", ""], list),
-    element("p", { className: "small", text: demanded.length ? `Demanded [m, rad, s]: ${demanded.join(", ")}.` : "" }),
-    element("p", { text: excepted ?? "" }),
-    notWatched(one?.not_watched ?? []),
+      element('h2', {text: 'What is guaranteed'}),
+      element('p', {text: promised}),
+      table(['method', 'verdict', 'statements at every instant', ''], list),
+      element('p', {
+        className: 'small',
+        text: demanded.length ? `Demanded [m, rad, s]: ${demanded.join(', ')}.` : ''
+      }),
+      element('p', {text: excepted ?? ''}),
+      notCovered(one?.not_covered ?? []),
   );
 }

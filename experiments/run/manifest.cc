@@ -9,6 +9,8 @@
 #include <thread>
 
 #include "experiments/build_info.h"
+#include "experiments/tables/not_covered_json.h"
+#include "smoothing/margins/not_covered_by.h"
 #include "smoothing/methods/smoother_registry.h"
 #include "smoothing/proof/sampled_feasibility.h"
 #include "wpg/files/sha256.h"
@@ -120,6 +122,8 @@ std::string ManifestJson(const Experiment& experiment, const std::string& resolv
                            {"acceptance", acceptance},
                            {"host", Host()},
                            {"wall_s", total_wall}};
+  manifest["not_covered"] = NotCoveredJson(
+      NotCoveredBy(experiment.robot, experiment.scene, experiment.config.smoothing.limits));
   if (!experiment.scene.warnings.empty()) manifest["scene_warnings"] = experiment.scene.warnings;
   for (const auto& [library, version] : kLibraries) manifest["libraries"][library] = version;
   for (const MethodRun& run : runs) {

@@ -4,9 +4,11 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/run/missed_demands_text.h"
+#include "experiments/tables/not_covered_json.h"
 #include "planner/search/planner_registry.h"
 #include "planner/swept/obstacle_places.h"
 #include "planner/swept/swept_volume_query.h"
+#include "smoothing/margins/not_covered_by.h"
 #include "wpg/check.h"
 #include "wpg/files/input_error.h"
 
@@ -149,7 +151,10 @@ PlannedWalk PlanWalk(const ExperimentConfig& config, const Place& place,
                      const PlanningHooks& hooks) {
   HALFSTEP_CHECK(config.has_goal, "no goal");
   CheckPlaces(place.scene);  // before minutes of baking
-  PlannedWalk walk{.config = config, .plan = {}, .half_steps = {}};
+  PlannedWalk walk{.config = config,
+                   .plan = {},
+                   .half_steps = {},
+                   .not_covered = NotCoveredBy(place.robot, place.scene, config.smoothing.limits)};
   walk.half_steps = BakeHalfSteps(place.robot, config, hooks);
   if (!walk.half_steps.cached.volumes) {
     walk.plan.status = PlanStatus::kInterrupted;
@@ -236,7 +241,8 @@ std::string PlanJson(const PlannedWalk& walk) {
       {"time_to_first_s", number(plan.time_to_first)},
       {"plan_wall_s", number(plan.time)},
       {"set_wall_s", walk.half_steps.set_wall},
-      {"volumes_wall_s", walk.half_steps.wall}};
+      {"volumes_wall_s", walk.half_steps.wall},
+      {"not_covered", NotCoveredJson(walk.not_covered)}};
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 

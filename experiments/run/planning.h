@@ -4,12 +4,14 @@
 #include <optional>
 #include <stop_token>
 #include <string>
+#include <vector>
 
 #include "experiments/config/experiment.h"
 #include "planner/search/footstep_planner.h"
 #include "planner/swept/swept_volume_cache.h"
 #include "smoothing/proof/certified_feasibility.h"
 #include "wpg/geometry/footprint.h"
+#include "wpg/robot/not_covered.h"
 #include "wpg/robot/robot_model.h"
 
 namespace halfstep {
@@ -68,6 +70,7 @@ struct PlannedWalk {
   ExperimentConfig config;    ///< with footsteps and start in place of the goal; when solved
   PlanResult plan;            ///< status, footsteps and effort
   BakedHalfSteps half_steps;  ///< the set that was searched, with its swept volumes
+  std::vector<NotCovered> not_covered = {};  ///< what no proof behind the plan speaks of
 };
 
 /// Plans from the config's start to its goal in the place that the config names, and certifies the

@@ -7,6 +7,8 @@
 #include <sstream>
 
 #include "experiments/run/margin_words.h"
+#include "experiments/tables/not_covered_json.h"
+#include "smoothing/margins/not_covered_by.h"
 #include "smoothing/proof/sampled_feasibility.h"
 #include "wpg/files/text.h"
 
@@ -90,6 +92,10 @@ std::string Prices(const MarginEvaluator& evaluator, const MethodRun& run) {
   return text;
 }
 
+std::vector<NotCovered> ListOf(const MarginEvaluator& evaluator) {
+  return NotCoveredBy(evaluator.robot(), evaluator.scene(), evaluator.limits());
+}
+
 // Rows of a Pareto curve.
 std::string Curve(const MethodRun& run) {
   std::string text;
@@ -103,7 +109,7 @@ std::string Curve(const MethodRun& run) {
 }  // namespace
 
 std::string RunTable(const Experiment& experiment, const WalkProblem& problem,
-                     const std::vector<MethodRun>& runs, const std::string& folder) {
+                     const std::vector<MethodRun>& runs, const RunPlaces& places) {
   const MarginEvaluator& evaluator = problem.evaluator();
   std::ostringstream out;
   out << experiment.config.name << ": " << experiment.robot.name << ", "
@@ -145,13 +151,15 @@ std::string RunTable(const Experiment& experiment, const WalkProblem& problem,
         << Holders(evaluator, run, JunctionKind::kDownUp) << Prices(evaluator, run) << Curve(run)
         << "  " << run.result.message << "\n";
   }
-  out << "\nwritten: " << folder << "\n";
+  out << "\n" << NotCoveredText(ListOf(evaluator), places.not_covered);
+  out << "\nwritten: " << places.folder << "\n";
   return out.str();
 }
 
 std::string RunJson(const MarginEvaluator& evaluator, const std::vector<MethodRun>& runs,
                     const std::string& folder) {
-  nlohmann::ordered_json json = {{"folder", folder}};
+  nlohmann::ordered_json json = {{"folder", folder},
+                                 {"not_covered", NotCoveredJson(ListOf(evaluator))}};
   for (const MethodRun& run : runs) {
     const Margin& worst = WorstOf(run.margins, evaluator.limits());
     json["methods"].push_back({{"method", run.method},

@@ -9,9 +9,16 @@
 
 namespace halfstep {
 
-/// What `halfstep run` prints: one row for each method, then what limits the overlaps of each.
+/// Where the files of a run are.
+struct RunPlaces {
+  std::string folder;       ///< or the files' names
+  std::string not_covered;  ///< what has every thing that is not covered
+};
+
+/// What `halfstep run` prints: one row for each method, what limits the overlaps of each, and what
+/// the certificates do not cover.
 std::string RunTable(const Experiment& experiment, const WalkProblem& problem,
-                     const std::vector<MethodRun>& runs, const std::string& folder);
+                     const std::vector<MethodRun>& runs, const RunPlaces& places);
 
 /// The same as one JSON object.
 std::string RunJson(const MarginEvaluator& evaluator, const std::vector<MethodRun>& runs,

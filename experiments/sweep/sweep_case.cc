@@ -11,7 +11,9 @@
 #include "experiments/run/experiment_run.h"
 #include "experiments/sweep/sweep_tables.h"
 #include "experiments/tables/csv_columns.h"
+#include "experiments/tables/not_covered_json.h"
 #include "experiments/tables/run_folder.h"
+#include "smoothing/margins/not_covered_by.h"
 
 namespace halfstep {
 namespace {
@@ -23,14 +25,26 @@ ExperimentConfig ConfigOf(const SweepFolder& folder, const SweepCase& one) {
   return config;
 }
 
-// Writes a case's folder in place of a damaged one.
+// Text of a case's not_covered.json: what its certificates do not speak of.
+std::string NotCoveredFile(const ExperimentRun& run) {
+  const Experiment& experiment = run.experiment();
+  const nlohmann::ordered_json list = NotCoveredJson(
+      NotCoveredBy(experiment.robot, experiment.scene, experiment.config.smoothing.limits));
+  return nlohmann::ordered_json({{"not_covered", list}})
+             .dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) +
+         "\n";
+}
+
+// Writes a case's folder in place of a damaged one. `run` is null where there is no walk.
 void Publish(const SweepFolder& folder, const SweepCase& one, const ExperimentConfig& config,
-             const SweepTables& tables, const ExperimentRun* kept) {
+             const SweepTables& tables, const ExperimentRun* run) {
   if (folder.IsDone(one)) return;  // another process did it meanwhile
   const std::filesystem::path path = folder.CasePath(one);
   if (!std::filesystem::is_symlink(path)) std::filesystem::remove_all(path);
   // Collect() tidies once for all: here it would be a look at every case for each case.
   RunFolder place(folder.CasePath(one), /*overwrite=*/false, /*tidy=*/false);
+  const ExperimentRun* const kept = folder.sweep().keep == "all" ? run : nullptr;
+  if (run != nullptr) place.Write("not_covered.json", NotCoveredFile(*run));
   if (kept != nullptr) {
     kept->Write(&place);
   } else {
@@ -78,8 +92,7 @@ ExitStatus DoSweepCase(const SweepFolder& folder, const SweepCase& one, std::sto
   }
   if (stop.stop_requested()) return kInterrupted;
   if (smoothed) tables = TablesOf(folder.sweep(), one, *run, wall());
-  const bool keep = smoothed && folder.sweep().keep == "all";
-  Publish(folder, one, smoothed ? run->config() : config, tables, keep ? &*run : nullptr);
+  Publish(folder, one, smoothed ? run->config() : config, tables, smoothed ? &*run : nullptr);
   return kSuccess;
 }
 

@@ -1,5 +1,6 @@
 #include "experiments/sweep/sweep_folder.h"
 
+#include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -11,6 +12,8 @@
 #include "experiments/sweep/sweep_tables.h"
 #include "experiments/tables/csv_reader.h"
 #include "experiments/tables/csv_writer.h"
+#include "experiments/tables/json_file.h"
+#include "experiments/tables/not_covered_json.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/nesting.h"
 #include "wpg/files/partial_sibling.h"
@@ -184,13 +187,39 @@ bool SweepFolder::IsDone(const SweepCase& one) const {
   return true;
 }
 
+std::vector<SweptNotCovered> SweepFolder::NotCoveredOf(const std::vector<SweepCase>& cases) const {
+  std::vector<SweptNotCovered> all;
+  for (const SweepCase& one : cases) {
+    const fs::path path = CasePath(one) / "not_covered.json";
+    if (!fs::exists(path)) continue;  // a case without a walk
+    for (const NotCovered& thing : ReadNotCovered(ReadJsonObject(path), path.string())) {
+      const auto known = std::ranges::find(all, thing, &SweptNotCovered::thing);
+      if (known == all.end()) {
+        all.push_back({thing, 1});
+      } else {
+        ++known->cases;
+      }
+    }
+  }
+  return all;
+}
+
 std::string SweepFolder::Collect(const std::vector<SweepCase>& cases) const {
   std::string runs = runs_.text, timings = timings_.text;
   for (const SweepCase& one : cases) {
     runs += Content(CasePath(one) / "runs.csv").substr(runs_.text.size());
     timings += Content(CasePath(one) / "timings.csv").substr(timings_.text.size());
   }
+  ordered_json not_covered = ordered_json::array();
+  for (const SweptNotCovered& one : NotCoveredOf(cases)) {
+    not_covered.push_back(NotCoveredJson({one.thing})[0]);
+    not_covered.back()["cases"] = one.cases;
+  }
   RemoveAbandonedSiblings(path_ / "cases", "");
+  WriteWhole(path_ / "not_covered.json",
+             {ordered_json({{"not_covered", not_covered}})
+                  .dump(2, ' ', false, ordered_json::error_handler_t::replace) +
+              "\n"});
   WriteWhole(path_ / "runs.schema.json", {runs_schema_});
   WriteWhole(path_ / "timings.schema.json", {timings_schema_});
   WriteWhole(path_ / "timings.csv", {timings});

@@ -3,6 +3,8 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/tables/csv_writer.h"
+#include "experiments/tables/not_covered_json.h"
+#include "smoothing/margins/not_covered_by.h"
 #include "wpg/files/sha256.h"
 
 namespace halfstep {
@@ -72,20 +74,13 @@ std::string CertificateJson(const Experiment& experiment, const CertifiedFeasibi
         OrNull(least == kNotDemanded ? std::nullopt : std::optional<double>(least));
     statements[std::string(Name(family))] = test.CountOf(family);
   }
-  ordered_json not_watched = ordered_json::array();
   const RobotModel& robot = experiment.robot;
-  for (const UnwatchedPair& pair : robot.unwatched_pairs) {
-    not_watched.push_back({{"bodies",
-                            {robot.bodies[static_cast<size_t>(pair.a)].name,
-                             robot.bodies[static_cast<size_t>(pair.b)].name}},
-                           {"why", pair.why}});
-  }
   const bool certified = walk.answer.verdict == Verdict::kFeasible;
   const auto scene = ScenePath(experiment.config);
   const ordered_json json = {
       {"format", 2},
       {"verdict", VerdictName(walk.answer.verdict)},
-      {"message", certified             ? "every margin is kept at all times"
+      {"message", certified             ? "every demanded margin is kept at all times"
                   : walk.answer.stopped ? "interrupted before all of it was proved"
                                         : test.evaluator().Describe(walk.answer.witness)},
       {"statement", CertificateStatement(robot)},
@@ -97,7 +92,7 @@ std::string CertificateJson(const Experiment& experiment, const CertifiedFeasibi
         {"foot_yaw_rate_rad_s", OrNull(limits.foot_yaw_rate)},
         {"joint_speed_scale", limits.joint_speed_scale}}},
       {"statements", statements},
-      {"not_watched", not_watched},
+      {"not_covered", NotCoveredJson(NotCoveredBy(robot, experiment.scene, limits))},
       {"robot", std::filesystem::proximate(RobotPath(experiment.config), run_folder).string()},
       {"scene", scene ? std::filesystem::proximate(*scene, run_folder).string() : "none"},
       {"sha256",

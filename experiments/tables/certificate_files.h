@@ -33,8 +33,8 @@ std::string_view VerdictName(Verdict verdict);
 /// certificate.csv. Columns: experiments/README.md.
 CsvFile CertificateCsv(const MarginEvaluator& evaluator, const Certificate& rows);
 
-/// Text of certificate.json: verdict, the statement, what was demanded, counts of statements, the
-/// pairs of bodies that are not watched, and SHA-256 of everything that the certificate is about,
+/// Text of certificate.json: verdict, the statement, what was demanded, counts of statements, what
+/// is not covered (NotCoveredBy), and SHA-256 of everything that the certificate is about,
 /// as it was parsed. Paths relative to `run_folder`.
 std::string CertificateJson(const Experiment& experiment, const CertifiedFeasibility& test,
                             const CertifiedWalk& walk, const std::filesystem::path& run_folder,

@@ -19,10 +19,14 @@ inline constexpr char kCertificateStatement[] =
     "inertias of all links, inside the support polygon, torque of each leg joint whose limit is "
     "known, where two feet that stand share the load as wpg/README.md says, friction coefficient "
     "of the scene beyond what the soles need) is at least the delta demanded there; "
-    "where that is null, nothing is said of this margin. "
+    "where that is null, nothing is said of this margin. What is not covered, each with the "
+    "reason, "
+    "stands in not_covered: families of which nothing is demanded, limits that are not known or "
+    "placeholders, values that are assumed, mass without bodies, pairs of bodies that are not "
+    "watched. "
     "trajectory.csv samples that walk; `halfstep verify` checks, without the smoothing code, the "
     "motion that interpolates its rows linearly, with the same deltas less its tolerance. Not "
-    "guaranteed: that bodies in pairs listed under not_watched do not touch, that robot and "
+    "guaranteed: what is listed under not_covered, that robot and "
     "scene are as their files describe them, that a controller tracks the motion, and any "
     "dynamics beyond these two ZMPs, torques and friction.";
 

@@ -9,6 +9,7 @@
 #include "experiments/config/folder_name.h"
 #include "experiments/tables/csv_reader.h"
 #include "experiments/tables/json_file.h"
+#include "experiments/tables/not_covered_json.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/sha256.h"
 #include "wpg/files/text.h"
@@ -216,6 +217,8 @@ RunRecord ReadRun(const std::string& argument) {
   record.half_steps = half_steps.get<int>();
   record.manifest_sha256 = Sha256(text);
   record.problem = ProblemOf(manifest, run, path);
+  const fs::path claims = run / "raw" / "certificate.json";
+  record.not_covered = ReadNotCovered(ReadJsonObject(claims), claims.string());
   record.methods = ReadSummary(run, label);
   AddRequested(manifest, path, label, &record.methods);
   for (MethodRecord& method : record.methods) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "opt/solvers/ending.h"
+#include "wpg/robot/not_covered.h"
 
 namespace halfstep {
 
@@ -49,9 +50,10 @@ struct RunRecord {
   std::string objective;  ///< "fastest" …
   /// SHA-256 of all that defines the problem: footsteps, robot, scene, limits, demanded margins.
   std::string problem;
-  std::string manifest_sha256;        ///< of the folder's manifest, as hexadecimal text
-  int half_steps = 0;                 ///< of the walk
-  std::vector<MethodRecord> methods;  ///< raw first
+  std::string manifest_sha256;          ///< of the folder's manifest, as hexadecimal text
+  int half_steps = 0;                   ///< of the walk
+  std::vector<NotCovered> not_covered;  ///< what its certificates do not speak of
+  std::vector<MethodRecord> methods;    ///< raw first
 };
 
 /// Whether the manifest.json of a folder says that it is an episode's; false without one. Throws

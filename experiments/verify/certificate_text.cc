@@ -10,6 +10,14 @@
 
 namespace halfstep::verify {
 
+std::vector<NotCoveredItem> NotCoveredItems(const JsonMember& root) {
+  std::vector<NotCoveredItem> items;
+  for (const JsonMember& item : root.Items("not_covered")) {
+    items.push_back({item.String("kind"), item.String("subject"), item.String("sentence")});
+  }
+  return items;
+}
+
 CertificateText ReadCertificateJson(const std::string& path, const std::string& text) {
   const nlohmann::json document = ParseJson(path, text);
   const JsonMember root(path, document, "");
@@ -31,14 +39,7 @@ CertificateText ReadCertificateJson(const std::string& path, const std::string& 
                         : demanded.Number(kFamilyNames[f]);
     c.statements[f] = statements.Whole(kFamilyNames[f]);
   }
-  for (const JsonMember& pair : root.Items("not_watched")) {
-    const nlohmann::json& bodies = pair.List("bodies");
-    if (bodies.size() != 2 || !bodies[0].is_string() || !bodies[1].is_string()) {
-      pair.Fail("bodies: is not a list of two texts");
-    }
-    c.not_watched.push_back(
-        {bodies[0].get<std::string>(), bodies[1].get<std::string>(), pair.String("why")});
-  }
+  c.not_covered = NotCoveredItems(root);
   const JsonMember limits = root.Object("limits");
   c.foot_speed = limits.NumberOrNull("foot_speed_m_s");
   c.foot_yaw_rate = limits.NumberOrNull("foot_yaw_rate_rad_s");

@@ -8,6 +8,8 @@
 
 namespace halfstep::verify {
 
+class JsonMember;
+
 /// The families of a certificate, in the order of the program's own list.
 enum Family : int {
   kFloor,
@@ -58,10 +60,10 @@ struct ClaimRow {
   double margin = 0, bound = 0, demanded = 0;  ///< [unit of the family]
 };
 
-/// Two bodies of the robot that the certificate says nothing about, and why.
-struct UnwatchedText {
-  std::string first, second, why;  ///< names of both, and the reason
-  friend bool operator==(const UnwatchedText&, const UnwatchedText&) = default;
+/// One thing that a certificate or a manifest says it does not cover, as it is written there.
+struct NotCoveredItem {
+  std::string kind, subject, sentence;  ///< as in wpg/robot/not_covered.h
+  friend bool operator==(const NotCoveredItem&, const NotCoveredItem&) = default;
 };
 
 /// What certificate.json and certificate.csv claim; nothing of it is believed.
@@ -72,13 +74,16 @@ struct CertificateText {
   /// kNotDemanded where nothing is, which only families that may be left out have.
   std::array<double, kNumFamilies> demanded{};
   std::array<long, kNumFamilies> statements{};      ///< how many each family has at every instant
-  std::vector<UnwatchedText> not_watched;           ///< pairs of which nothing is claimed
+  std::vector<NotCoveredItem> not_covered;          ///< of which nothing is claimed
   std::optional<double> foot_speed, foot_yaw_rate;  ///< [m/s], [rad/s]; none: no limit.
   double joint_speed_scale = 1;                     ///< fraction of the robot's limits
   std::string robot, scene;  ///< paths relative to the run folder; scene: or "none".
   /// SHA-256 as hexadecimal text.
   std::string trajectory_hash, certificate_hash, robot_hash, scene_hash;
 };
+
+/// The list `not_covered` of an object. Throws InputError for what is no such list.
+std::vector<NotCoveredItem> NotCoveredItems(const JsonMember& root);
 
 /// Throws InputError for what is not such a file.
 CertificateText ReadCertificateJson(const std::string& path, const std::string& text);

@@ -81,30 +81,6 @@ std::string GapIn(const std::vector<const ClaimRow*>& rows, long count, double e
   return "";
 }
 
-// The pairs of bodies that the certificate leaves out, against those of the robot.
-void CheckNotWatched(const CertificateText& certificate, const RobotModel& robot,
-                     Findings* findings) {
-  std::vector<UnwatchedText> pairs;
-  for (const UnwatchedPair& pair : robot.unwatched_pairs) {
-    pairs.push_back({robot.bodies[static_cast<size_t>(pair.a)].name,
-                     robot.bodies[static_cast<size_t>(pair.b)].name, pair.why});
-  }
-  for (size_t i = 0; i < std::max(pairs.size(), certificate.not_watched.size()); ++i) {
-    if (i < std::min(pairs.size(), certificate.not_watched.size()) &&
-        pairs[i] == certificate.not_watched[i]) {
-      continue;
-    }
-    const auto name = [i](const std::vector<UnwatchedText>& list) {
-      return i < list.size() ? Quote(list[i].first + " - " + list[i].second + ": " + list[i].why)
-                             : std::string("nothing more");
-    };
-    findings->Disagree("not_watched: the certificate has " + name(certificate.not_watched) +
-                       ", the robot " + name(pairs));
-    break;
-  }
-  findings->Say("pairs of bodies that are not watched: " + Count(std::ssize(pairs)));
-}
-
 }  // namespace
 
 void CheckArithmetic(const CertificateText& certificate, const std::vector<ClaimRow>& rows,
@@ -161,7 +137,6 @@ void CheckArithmetic(const CertificateText& certificate, const std::vector<Claim
     if (!gap.empty()) findings->Disagree(std::string(kFamilyNames[f]) + ": " + gap);
   }
   findings->Say("statements at every instant: " + counts);
-  CheckNotWatched(certificate, robot, findings);
 }
 
 void CheckAgainstConfig(const CertificateText& certificate, const RobotModel& robot,

@@ -8,10 +8,9 @@
 namespace halfstep::verify {
 
 /// Checks verdict and statement, limits and demands, the duration (`end` is the trajectory's [s]),
-/// the counts of statements, the pairs that are not watched (which must be the robot's, whatever
-/// the certificate says), and every row by itself: begin < end, margin − bound ≥ demanded, finite
-/// where it must be. At every instant of [0, D] the statements of a family must add up to its
-/// count, exactly.
+/// the counts of statements, and every row by itself: begin < end, margin − bound ≥ demanded,
+/// finite where it must be. At every instant of [0, D] the statements of a family must add up to
+/// its count, exactly.
 void CheckArithmetic(const CertificateText& certificate, const std::vector<ClaimRow>& rows,
                      const RobotModel& robot, double end, Findings* findings);
 

@@ -178,7 +178,8 @@ EpisodeManifest ReadEpisodeManifest(const std::string& path, const std::string& 
                     .seed = root.Whole("seed"),
                     .walks = root.Whole("walks"),
                     .end = root.Number("end_s"),
-                    .stopped = document["stopped"].get<bool>()};
+                    .stopped = document["stopped"].get<bool>(),
+                    .not_covered = NotCoveredItems(root)};
   if (m.walks < 0 || m.walks > kMostWalks) root.Fail("walks: out of range (valid: 0 … 100000)");
   const JsonMember files = root.Object("files");
   for (const auto& [name, item] : files.object().items()) {

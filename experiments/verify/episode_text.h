@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/verify/certificate_text.h"
 #include "experiments/verify/walk_text.h"
 #include "wpg/files/input_file.h"
 
@@ -21,6 +22,7 @@ struct EpisodeManifest {
   long seed = 0, walks = 0;                         ///< of the noise; walks that were handed over
   double end = 0;                                   ///< [s]
   bool stopped = false;  ///< the last walk was cut after the last half-step that began
+  std::vector<NotCoveredItem> not_covered;  ///< by its proofs
 };
 
 /// Whether the text of a manifest.json says that it is of an episode. Throws InputError for what is

@@ -56,6 +56,7 @@ RunManifest ReadManifest(const std::string& path, const std::string& text) {
                 .seed = root.Whole("seed"),
                 .half_steps = root.Whole("half_steps"),
                 .methods = {},
+                .not_covered = NotCoveredItems(root),
                 .files = {}};
   for (const json& item : root.List("methods")) {
     const JsonMember method(path, item, "methods");

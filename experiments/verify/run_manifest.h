@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/verify/certificate_text.h"
 #include "wpg/files/input_file.h"
 
 namespace halfstep::verify {
@@ -19,9 +20,10 @@ struct RunManifest {
   std::string name, robot, scene, objective, acceptance;  ///< as the run was asked for
   std::string config_sha256, robot_sha256, scene_sha256;  ///< hexadecimal text
   std::vector<InputFile> robot_files, scene_files;        ///< without paths
-  long seed = 0, half_steps = 0;           ///< of planners and random starts; of the walk
-  std::vector<Method> methods;             ///< raw first
-  std::map<std::string, InputFile> files;  ///< of the run, by relative path
+  long seed = 0, half_steps = 0;            ///< of planners and random starts; of the walk
+  std::vector<Method> methods;              ///< raw first
+  std::vector<NotCoveredItem> not_covered;  ///< by certificates of the run
+  std::map<std::string, InputFile> files;   ///< of the run, by relative path
 
   /// Whether a method of this run has the folder; dichotomy/published's is dichotomy_published.
   bool HasFolder(const std::string& folder) const { return MethodOf(folder) != nullptr; }

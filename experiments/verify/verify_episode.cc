@@ -12,6 +12,7 @@
 #include "experiments/verify/check_episode_walks.h"
 #include "experiments/verify/check_episode_worlds.h"
 #include "experiments/verify/check_files.h"
+#include "experiments/verify/check_not_covered.h"
 #include "experiments/verify/check_run.h"
 #include "experiments/verify/csv_text.h"
 #include "experiments/verify/episode_text.h"
@@ -89,8 +90,8 @@ void CheckEpisodeWalking(const VerifyOptions& options, const EpisodeText& episod
 
 }  // namespace
 
-void VerifyEpisode(const VerifyOptions& options, const std::string& manifest_text,
-                   Findings* findings) {
+std::vector<NotCovered> VerifyEpisode(const VerifyOptions& options,
+                                      const std::string& manifest_text, Findings* findings) {
   const fs::path folder(options.run);
   const EpisodeManifest manifest =
       ReadEpisodeManifest((folder / "manifest.json").string(), manifest_text);
@@ -100,18 +101,22 @@ void VerifyEpisode(const VerifyOptions& options, const std::string& manifest_tex
   const LiveConfig config = LoadLiveConfig(config_path, GivenFiles(options));
   const Place place = LoadEpisodePlace(config);
   CheckEpisodeInputs(manifest, config, ReadBytes(config_path), place, findings);
+  const std::vector<NotCovered> not_covered = FindNotCovered(
+      DemandsOf(config.experiment.smoothing.limits, findings), place.robot, place.scene);
+  CheckNotCovered("manifest.json", manifest.not_covered, not_covered, findings);
   const EpisodeText episode = ReadEpisode(folder, walks);
-  if (!CheckEpisodeNumbers(episode, place.scene, findings)) return;
+  if (!CheckEpisodeNumbers(episode, place.scene, findings)) return not_covered;
   CheckEpisodeWorlds(episode, config.live, place.scene, findings);
   if (walks > 0) {
     CheckEpisodeWalking(options, episode, manifest, config, place, findings);
-    return;
+    return not_covered;
   }
   findings->Say("ending: no walk");
   if (manifest.ending != "no_plan" || !episode.grants.empty() || !episode.begun.empty()) {
     findings->Disagree(
         "manifest.json: no walk, but not the ending no_plan, a grant or a half-step");
   }
+  return not_covered;
 }
 
 }  // namespace halfstep::verify

@@ -10,9 +10,9 @@ namespace halfstep::verify {
 /// Checks all that an episode's folder says (experiments/README.md, "Episodes"): files and hashes,
 /// config, robot and scene, worlds, walks, grants, and, by its own geometry, that the robot began
 /// each half-step only with a way to come to rest. Of what made the episode it includes the reader
-/// of its config alone. `manifest_text` is that of manifest.json. Throws InputError for what cannot
-/// be read.
-void VerifyEpisode(const VerifyOptions& options, const std::string& manifest_text,
-                   Findings* findings);
+/// of its config alone. `manifest_text` is that of manifest.json. Returns what the episode's proofs
+/// do not speak of. Throws InputError for what cannot be read.
+std::vector<NotCovered> VerifyEpisode(const VerifyOptions& options,
+                                      const std::string& manifest_text, Findings* findings);
 
 }  // namespace halfstep::verify

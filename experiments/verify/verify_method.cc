@@ -9,8 +9,10 @@
 #include "experiments/verify/certificate_text.h"
 #include "experiments/verify/check_certificate.h"
 #include "experiments/verify/check_claims.h"
+#include "experiments/verify/check_episode_proof.h"
 #include "experiments/verify/check_files.h"
 #include "experiments/verify/check_margin_columns.h"
+#include "experiments/verify/check_not_covered.h"
 #include "experiments/verify/check_overlaps.h"
 #include "experiments/verify/check_played.h"
 #include "experiments/verify/check_rows.h"
@@ -104,8 +106,8 @@ bool IsFinite(const std::vector<ClaimRow>& rows) {
 
 }  // namespace
 
-std::string VerifyMethod(const VerifyOptions& options, const RunManifest& manifest,
-                         const std::string& folder, Findings* findings) {
+VerifiedStatement VerifyMethod(const VerifyOptions& options, const RunManifest& manifest,
+                               const std::string& folder, Findings* findings) {
   const MethodFiles files(options, folder);
   const CertificateText certificate =
       ReadCertificateJson(files.PathOf("certificate.json"), files.Read("certificate.json"));
@@ -150,8 +152,13 @@ std::string VerifyMethod(const VerifyOptions& options, const RunManifest& manife
   const std::vector<PlayedRow> rows =
       ReadTrajectory(files.PathOf("trajectory.csv"), trajectory, robot);
   CheckArithmetic(certificate, claimed, robot, rows.empty() ? 0 : rows.back().t, findings);
+  const std::vector<NotCovered> not_covered = FindNotCovered(certificate, robot, scene);
+  CheckNotCovered("certificate.json", certificate.not_covered, not_covered, findings);
+  CheckNotCovered("manifest.json", manifest.not_covered,
+                  FindNotCovered(DemandsOf(config.smoothing.limits, findings), robot, scene),
+                  findings);
   const std::optional<DescribedWalk> walk = WalkOf(files, config, robot, findings);
-  if (!CheckIsMotion(rows, findings) || !walk) return certificate.statement;
+  if (!CheckIsMotion(rows, findings) || !walk) return {certificate.statement, not_covered};
   const PlayedMotion motion(robot, rows);
   Distances distances(robot, scene);
   const double period = RowPeriodOf(config, rows[1].t);
@@ -159,7 +166,7 @@ std::string VerifyMethod(const VerifyOptions& options, const RunManifest& manife
   CheckConsistency(motion, *walk, findings);
   if (!same_files) {
     findings->Say("clearances: not examined, for these are not the certificate's files");
-    return certificate.statement;
+    return {certificate.statement, not_covered};
   }
   CheckPlayed(motion, *walk, certificate, options.tolerance, &distances, findings);
   CheckStopBranches(*walk, {config.smoothing.stop_branches, period}, certificate, options.tolerance,
@@ -167,7 +174,7 @@ std::string VerifyMethod(const VerifyOptions& options, const RunManifest& manife
   CheckMarginColumns(rows, *walk, certificate, &distances, findings);
   if (IsFinite(claimed)) CheckClaims(*walk, certificate, claimed, &distances, findings);
   findings->Say("distances measured: " + Count(distances.queries()));
-  return certificate.statement;
+  return {certificate.statement, not_covered};
 }
 
 }  // namespace halfstep::verify

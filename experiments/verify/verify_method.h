@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "experiments/verify/findings.h"
 #include "experiments/verify/run_manifest.h"
@@ -9,9 +10,15 @@
 
 namespace halfstep::verify {
 
-/// Checks all that a run says of one method, whose folder is named `folder`. Returns the
-/// certificate's statement. Throws InputError for what cannot be read.
-std::string VerifyMethod(const VerifyOptions& options, const RunManifest& manifest,
-                         const std::string& folder, Findings* findings);
+/// What a certificate says that it guarantees, and what it does not speak of, as found here.
+struct VerifiedStatement {
+  std::string statement;                ///< the certificate's own
+  std::vector<NotCovered> not_covered;  ///< MethodVerification::not_covered
+};
+
+/// Checks all that a run says of one method, whose folder is named `folder`. Throws InputError for
+/// what cannot be read.
+VerifiedStatement VerifyMethod(const VerifyOptions& options, const RunManifest& manifest,
+                               const std::string& folder, Findings* findings);
 
 }  // namespace halfstep::verify

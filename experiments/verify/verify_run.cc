@@ -88,8 +88,8 @@ std::vector<MethodVerification> VerifyRun(const VerifyOptions& options) {
     if (options.method) {
       throw InputError({"--method: an episode has none (valid: without it)"});
     }
-    return {Verified("episode", [&](MethodVerification*, Findings* findings) {
-      VerifyEpisode(options, manifest_text, findings);
+    return {Verified("episode", [&](MethodVerification* result, Findings* findings) {
+      result->not_covered = VerifyEpisode(options, manifest_text, findings);
     })};
   }
   const RunManifest manifest = ReadManifest(manifest_path.string(), manifest_text);
@@ -98,7 +98,10 @@ std::vector<MethodVerification> VerifyRun(const VerifyOptions& options) {
     results.push_back(
         Verified(folder.filename().string(), [&](MethodVerification* result, Findings* findings) {
           if (HasCertificate(folder)) {
-            result->statement = VerifyMethod(options, manifest, result->method, findings);
+            const VerifiedStatement verified =
+                VerifyMethod(options, manifest, result->method, findings);
+            result->statement = verified.statement;
+            result->not_covered = verified.not_covered;
           } else {
             findings->Disagree("there is no certificate (`halfstep certify` makes it)");
           }
@@ -139,6 +142,8 @@ std::string Describe(const MethodVerification& result) {
     const long more = result.disagreements - std::ssize(result.reasons);
     if (more > 0) text += "    … and " + Count(more) + " more\n";
   }
+  if (!result.not_covered.empty()) text += "  not covered:\n";
+  for (const NotCovered& one : result.not_covered) text += "    " + one.sentence + "\n";
   if (result.statement.empty()) return text;
   // A statement that could write anything on a terminal is not repeated.
   const bool clean = FindInvalidUtf8(result.statement) == std::string::npos &&

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "wpg/robot/not_covered.h"
+
 namespace halfstep::verify {
 
 /// `tolerance` is how far the played motion, which is straight between rows, may leave the
@@ -30,6 +32,7 @@ struct MethodVerification {
   long disagreements = 0;               ///< all of them
   std::vector<std::string> complaints;  ///< of unreadable input, "file:line: …"
   std::string statement;                ///< the certificate's own
+  std::vector<NotCovered> not_covered;  ///< what it does not speak of, as found here
 };
 
 /// Checks the certificates of a run against its other files, robot and scene: that they speak of

@@ -86,7 +86,7 @@ TEST(WalkJson, NumbersTooLargeToDrawAreGaps) {
   const TemporaryFolder place;
   WriteText(place / "certificate.json",
             R"({"verdict": 0, "message": 0, "statement": 0, "demanded": 0, "limits": 0,
-                "statements": 0, "not_watched": []})");
+                "statements": 0, "not_covered": []})");
   WriteText(place / "half_steps.csv", "half_step\n1\n");
   WriteText(place / "trajectory.csv",
             "t_s,support,zmp_x_m\n0,both,-1e300\n0.02,both,0.5\n0.04,both,nan\n0.06,both,1e12\n"

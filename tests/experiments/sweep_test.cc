@@ -118,7 +118,7 @@ class SweepCommandTest : public testing::Test {
   }
   static void ExpectAsReference(const std::string& out) {
     EXPECT_TRUE(Bytes(out) == Bytes("reference")) << out;
-    EXPECT_EQ(FilesBelow(Folder(out)).size(), 6u * 5 + 6 + (HasReport() ? 1 : 0));
+    EXPECT_EQ(FilesBelow(Folder(out)).size(), 6u * 5 + 4 + 7 + (HasReport() ? 1 : 0));
   }
   static size_t Done(const std::string& out) {
     size_t done = 0;

@@ -48,6 +48,26 @@ class Configs(unittest.TestCase):
         self.assertEqual(hs.Experiment("fig3_two_half_steps", scene="box").scene.name, "box")
 
 
+class NotCovered(unittest.TestCase):
+    def test_every_object_with_a_certificate_has_the_one_list(self):
+        config = hs.load_config("fig3_two_half_steps")
+        config["smoothing"]["margins"]["zmp_robot_m"] = None
+        experiment = hs.Experiment(config)
+        told = {(one.kind, one.subject): one.sentence for one in experiment.not_covered}
+        self.assertEqual(told["family", "zmp_robot"],
+                         "zmp_robot: nothing is demanded: the config says none")
+        self.assertIn("no effort limit of a leg joint", told["family", "torque"])
+        self.assertIn(("assumed", "friction"), told)
+        self.assertEqual(experiment.planned.certify().not_covered, experiment.not_covered)
+        of_robot = hs.Robot("hrp2").not_covered
+        self.assertEqual(experiment.not_covered[-len(of_robot):], of_robot)
+        self.assertEqual({one.kind for one in of_robot}, {"pair"})
+        with tempfile.TemporaryDirectory() as folder:
+            run = experiment.run(os.path.join(folder, "run"))
+            self.assertEqual(run.not_covered, experiment.not_covered)
+            self.assertTrue(all(run.verify()))
+
+
 class Smoothing(unittest.TestCase):
     def test_the_dichotomy_as_the_command_does_it(self):
         told = []

@@ -90,6 +90,7 @@ async function testRun(browser) {
     zmps: [...document.querySelectorAll(".zmp-map polyline")].map((line) =>
       line.getAttribute("points").split(" ").length),
     verdicts: document.querySelectorAll("#guarantee .yes").length,
+    left: document.querySelector("#guarantee .not-covered").textContent,
     policy: document.querySelector("meta[http-equiv]").content };`);
   assert.equal(texts.title, hostile);
   assert.ok(texts.held.includes(hostile), texts.held);
@@ -99,6 +100,7 @@ async function testRun(browser) {
   assert.equal(texts.zmps.length, 4, "two ZMPs, whole and lately");
   assert.ok(texts.zmps[0] > 100 && texts.zmps[1] === texts.zmps[0], `drawn: ${texts.zmps}`);
   assert.equal(texts.verdicts, 3);
+  assert.match(texts.left, /^Not covered: \d+ things.*torque: nothing is demanded: the URDF has no effort.*Not watched: /s);
   assert.match(texts.policy, /^default-src 'none'; script-src 'sha256-/);
 
   const standing = await view(browser, isDrawn);

@@ -99,6 +99,17 @@ void LeaveOutABody(TamperedRun& run) {
   });
 }
 
+// Leaves out the first thing of a kind that is not covered.
+void LeaveOut(const std::string& kind, Json& json) {
+  Json& list = json["not_covered"];
+  for (size_t i = 0; i < list.size(); ++i) {
+    if (list[i]["kind"] != kind) continue;
+    list.erase(i);
+    return;
+  }
+  ADD_FAILURE() << "there is none";
+}
+
 void LowerDemand(TamperedRun& run) {
   run.EditJson([](Json& json) { json["demanded"]["clearance"] = 0.001; });
   run.EditCertificate([](Table& table) {
@@ -307,16 +318,28 @@ std::vector<Mutation> Mutations() {
          TamperedRun::Replace(run.scene(), "no_step:", "friction: 0.05\nno_step:");
        },
        "friction"},
-      {"PairLeftOutOfNotWatched", InJson([](Json& j) { j["not_watched"].erase(0); }),
-       "not_watched: "},
-      {"PairAddedToNotWatched", InJson([](Json& j) {
-         j["not_watched"].push_back({{"bodies", {"LLEG_LINK5", "RLEG_LINK5"}}, {"why", "far"}});
+      {"PairLeftOutOfNotCovered", InJson([](Json& j) { LeaveOut("pair", j); }),
+       "not_covered: certificate.json has "},
+      {"FamilyLeftOutOfNotCovered", InJson([](Json& j) { LeaveOut("family", j); }),
+       "found was family 'joint_acceleration: "},
+      {"AssumptionLeftOutOfNotCovered", InJson([](Json& j) { LeaveOut("assumed", j); }),
+       "found was assumed 'friction: "},
+      {"PairAddedToNotCovered", InJson([](Json& j) {
+         j["not_covered"].push_back(
+             {{"kind", "pair"}, {"subject", "LLEG_LINK5 - RLEG_LINK5"}, {"sentence", "far"}});
        }),
-       "the robot nothing more"},
-      {"ReasonOfNotWatchedChanged",
-       InJson([](Json& j) { j["not_watched"][0]["why"] = "never near"; }), "never near"},
-      {"NotWatchedMissing", InJson([](Json& j) { j.erase("not_watched"); }), "not_watched", false,
+       "found was nothing more"},
+      {"ReasonOfNotCoveredChanged",
+       InJson([](Json& j) { j["not_covered"].back()["sentence"] = "never near"; }), "never near"},
+      {"NotCoveredEmptied", InJson([](Json& j) { j["not_covered"] = Json::array(); }),
+       "not_covered: certificate.json has nothing more"},
+      {"NotCoveredMissing", InJson([](Json& j) { j.erase("not_covered"); }), "not_covered", false,
        kBadInput},
+      {"NotCoveredOfTheManifestShortened",
+       [](TamperedRun& run) {
+         run.EditManifest([](Json& j) { LeaveOut("pair", j); });
+       },
+       "not_covered: manifest.json has "},
       {"DemandLowered", LowerDemand, "config.yaml 0.005"},
       {"FootSpeedLimitRaised", InJson([](Json& j) { j["limits"]["foot_speed_m_s"] = 2.0; }),
        "foot_speed_m_s"},

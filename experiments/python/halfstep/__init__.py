@@ -19,7 +19,7 @@ from .config import configs, load_config, methods, planners, robots, scenes, sol
 from .errors import InputError, SolveStopped
 from .experiment import Experiment, Plan
 from .extension import SmoothingProblem, SolverProblem, register_smoother, register_solver
-from .place import Robot, Scene
+from .place import NotCovered, Robot, Scene
 from .program import OverlapProgram, Refinement
 from .result import Result
 from .run import Run, Verification
@@ -29,7 +29,7 @@ from .walk import Certificate, MarginGradients, Sensitivities, Walk
 __version__: str = _halfstep.version
 
 __all__ = [
-    "Certificate", "Experiment", "InputError", "MarginGradients", "OverlapProgram", "Plan",
-    "Refinement", "Result", "Robot", "Run", "Scene", "Sensitivities", "SmoothingProblem",
+    "Certificate", "Experiment", "InputError", "MarginGradients", "NotCovered",
+    "OverlapProgram", "Plan", "Refinement", "Result", "Robot", "Run", "Scene", "Sensitivities", "SmoothingProblem",
     "SolveStopped", "SolverProblem", "Table", "Verification", "Walk", "configs", "load_config",
     "methods", "planners", "register_smoother", "register_solver", "robots", "scenes", "solvers"]

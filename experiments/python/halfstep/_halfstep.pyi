@@ -35,6 +35,7 @@ class Robot:
     joints: list[tuple[str, float, float, float, float, float]]
     bodies: list[str]
     warnings: list[str]
+    not_covered: list[tuple[str, str, str]]
     def __init__(self, path: str) -> None: ...
 
 class Scene:
@@ -52,6 +53,7 @@ class Walk:
     parameters: dict[str, np.ndarray]
     starts: np.ndarray
     robot: Robot
+    not_covered: list[tuple[str, str, str]]
     half_steps: tuple[list[tuple[str, str, str, str]], str]
     def sample(self, times: np.ndarray, joints: bool) -> tuple[list, list[np.ndarray]]: ...
     def margins(self, times: np.ndarray) -> tuple[list, list[np.ndarray]]: ...
@@ -62,6 +64,7 @@ class Walk:
 class Experiment:
     robot: Robot
     scene: Scene
+    not_covered: list[tuple[str, str, str]]
     def __init__(self, path: str, text: str, scene: Scene | None) -> None: ...
     def walk(self, given: dict[str, list[float]]) -> Walk: ...
     def missed(self) -> list[str]: ...

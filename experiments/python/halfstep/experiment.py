@@ -12,7 +12,7 @@ import numpy as np
 
 from . import _halfstep
 from .config import load_config, methods, path_of_config, path_of_scene, to_document
-from .place import Robot, Scene
+from .place import NotCovered, Robot, Scene
 from .result import Result
 from .tables import Table
 from .walk import Walk, vector
@@ -117,6 +117,13 @@ class Experiment:
     def scene(self) -> Scene:
         """The scene."""
         return Scene._of(self._experiment.scene)
+
+    @property
+    def not_covered(self) -> list[NotCovered]:
+        """What certificates of this experiment do not speak of, each with the reason: margin
+        families of which nothing is demanded, limits that are not known or placeholders, values
+        that are assumed, mass without bodies, pairs of bodies that are not watched."""
+        return [NotCovered(*one) for one in self._experiment.not_covered]
 
     @property
     def planned(self) -> Walk:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -12,7 +12,21 @@ from . import _halfstep
 from .config import path_of_robot, path_of_scene, to_document
 from .tables import Table
 
-__all__ = ["Robot", "Scene"]
+__all__ = ["NotCovered", "Robot", "Scene"]
+
+
+class NotCovered(NamedTuple):
+    """One thing that a certificate does not speak of."""
+
+    kind: str
+    """"family" (a margin family of which nothing is demanded, or that has no limit), "limit" (a
+    joint's limit that no file states), "placeholder" (a limit that walking cannot meet), "assumed"
+    (a value that no file states), "mass" (without a body) or "pair" (of bodies whose
+    distance is not watched)."""
+    subject: str
+    """What it is: a family, a joint, "friction", "mass", "A - B" of two bodies."""
+    sentence: str
+    """The whole of it, with the reason."""
 
 
 class Robot:
@@ -83,6 +97,11 @@ class Robot:
     def warnings(self) -> list[str]:
         """What of its files was repaired or left out, as sentences."""
         return self._robot.warnings
+
+    @property
+    def not_covered(self) -> list[NotCovered]:
+        """What no certificate about this robot speaks of, whatever is demanded."""
+        return [NotCovered(*one) for one in self._robot.not_covered]
 
     def __repr__(self) -> str:
         return f"<halfstep.Robot {self.name}: {self.mass:.1f} kg, CoM at {self.com_height:.3f} m>"

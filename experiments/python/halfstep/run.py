@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 from . import _halfstep
 from .config import load_config
 from .errors import InputError
+from .place import NotCovered
 from .tables import Table, of_file
 
 __all__ = ["Run", "Verification"]
@@ -57,6 +58,12 @@ class Run:
         return self._json("manifest.json")
 
     @property
+    def not_covered(self) -> list[NotCovered]:
+        """What the run's certificates do not speak of, each with the reason."""
+        return [NotCovered(one["kind"], one["subject"], one["sentence"])
+                for one in self.manifest["not_covered"]]
+
+    @property
     def summary(self) -> Table:
         """One row a method, "raw" first: summary.csv."""
         return self._table("summary.csv")
@@ -88,7 +95,7 @@ class Run:
         return self._table(self._place(method), "iterates.csv")
 
     def certificate(self, method: str) -> dict[str, Any]:
-        """certificate.json of a method: verdict, statement, what was demanded, hashes."""
+        """certificate.json of a method: verdict, statement, demands, what is not covered, hashes."""
         return self._json(self._place(method), "certificate.json")
 
     def verify(self, method: str | None = None, tolerance: float = 0.001) -> list[Verification]:

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from . import _halfstep
-from .place import Robot
+from .place import NotCovered, Robot
 from .tables import Table, of_arrays, of_text
 
 __all__ = ["Certificate", "MarginGradients", "Sensitivities", "Walk"]
@@ -53,13 +53,16 @@ class Certificate:
 
     ``status`` is "certified" (every demanded margin is kept at every instant), "violated" or
     "undecided"; ``sentence`` says the same with the margin that refuses it; ``rows`` is the proof,
-    one interval of time and family a row, as certificate.csv of a run. True if certified.
+    one interval of time and family a row, as certificate.csv of a run; ``not_covered`` lists what
+    the proof does not speak of, each with the reason. True if certified.
     """
 
-    def __init__(self, status: str, sentence: str, rows: Table) -> None:
+    def __init__(self, status: str, sentence: str, rows: Table,
+                 not_covered: list[NotCovered]) -> None:
         self.status = status
         self.sentence = sentence
         self.rows = rows
+        self.not_covered = not_covered
 
     @property
     def certified(self) -> bool:
@@ -180,7 +183,8 @@ class Walk:
     def certify(self) -> Certificate:
         """Proves, or refutes, that every demanded margin is kept at every instant."""
         status, sentence, rows = self._walk.certify()
-        return Certificate(status, sentence, of_text(rows))
+        return Certificate(status, sentence, of_text(rows),
+                           [NotCovered(*one) for one in self._walk.not_covered])
 
     def _times(self, period: float | None, times: Any) -> np.ndarray:
         if times is not None:
