@@ -21,7 +21,7 @@ using nlohmann::json;
 using testing::HasSubstr;
 
 const std::string kDropped =
-    ": nothing is demanded: what the waist carries has 44.4 kg and a moment of inertia of ";
+    ": nothing is demanded: what the waist carries has 40.6 kg and a moment of inertia of ";
 
 class NotCoveredDoors : public testing::Test {
  protected:
