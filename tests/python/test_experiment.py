@@ -61,7 +61,7 @@ class NotCovered(unittest.TestCase):
         self.assertEqual(experiment.planned.certify().not_covered, experiment.not_covered)
         of_robot = hs.Robot("hrp2").not_covered
         self.assertEqual(experiment.not_covered[-len(of_robot):], of_robot)
-        self.assertEqual({one.kind for one in of_robot}, {"pair"})
+        self.assertEqual({one.kind for one in of_robot}, {"mass", "pair"})
         with tempfile.TemporaryDirectory() as folder:
             run = experiment.run(os.path.join(folder, "run"))
             self.assertEqual(run.not_covered, experiment.not_covered)

@@ -1,9 +1,6 @@
 #include "wpg/robot/not_covered.h"
 
-#include <algorithm>
-
 #include "wpg/files/text.h"
-#include "wpg/geometry/side.h"
 #include "wpg/robot/placeholder_limits.h"
 #include "wpg/robot/torque_limits.h"
 
@@ -34,31 +31,19 @@ void AddUnknownTorques(const RobotModel& robot, std::vector<NotCovered>* list) {
   }
 }
 
-// What is rigid while walking, the waist or a link of a leg, has a mass and no body at all.
 void AddMassWithoutBodies(const RobotModel& robot, std::vector<NotCovered>* list) {
+  if (robot.bare_links.empty()) return;
   double mass = 0.0;
-  std::string parts;
-  const auto look = [&](int leg, int link, const BodyMass& of, const std::string& name) {
-    const bool bare = std::ranges::none_of(
-        robot.bodies, [&](const RobotBody& body) { return body.leg == leg && body.link == link; });
-    if (!bare || !(of.mass > 0.0)) return;
-    mass += of.mass;
-    parts += (parts.empty() ? "" : ", ") + name + Formatted(" (%.3g kg)", of.mass);
-  };
-  look(-1, -1, robot.masses.waist, "the waist and what it carries");
-  for (const Side side : {Side::kLeft, Side::kRight}) {
-    const auto leg = static_cast<size_t>(Index(side));
-    for (size_t link = 0; link < robot.legs[leg].joints.size(); ++link) {
-      look(Index(side), static_cast<int>(link), robot.masses.links[leg][link],
-           "what " + robot.legs[leg].joints[link].name + " moves");
-    }
+  std::string links;
+  for (const BareLink& link : robot.bare_links) {
+    mass += link.mass;
+    links += (links.empty() ? "" : ", ") + link.name + Formatted(" (%.3g kg)", link.mass);
   }
-  if (!(mass > 0.0)) return;
   list->push_back({NotCoveredKind::kMass, "mass",
                    Formatted("%.3g %% of the mass (%.3g of %.3g kg) has no body, so that nothing "
                              "watches what it touches: ",
                              100.0 * mass / robot.mass, mass, robot.mass) +
-                       parts});
+                       links});
 }
 
 void AddPairs(const RobotModel& robot, std::vector<NotCovered>* list) {

@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <limits>
 #include <map>
 #include <numbers>
@@ -228,10 +230,21 @@ class Builder {
     model_.self_pairs = std::move(pairs.watched);
     model_.unwatched_pairs = std::move(pairs.unwatched);
     model_.bodies = std::move(all.bodies);
+    FindBareLinks(all.links);
     TellSimplified();
     model_.files = std::move(all.meshes);
     model_.sole_outline = SoleOutline(model_);
     CheckSoles();
+  }
+
+  // `with_bodies`: the links of the bodies.
+  void FindBareLinks(const std::vector<int>& with_bodies) {
+    for (size_t i = 0; i < urdf_.links.size(); ++i) {
+      const UrdfLink& link = urdf_.links[i];
+      if (!(link.mass > 0.0) || std::ranges::count(with_bodies, static_cast<int>(i)) > 0) continue;
+      model_.bare_links.push_back({link.name, link.mass});
+    }
+    std::ranges::stable_sort(model_.bare_links, std::ranges::greater(), &BareLink::mass);
   }
 
   void TellSimplified() {

@@ -82,6 +82,12 @@ struct UnwatchedPair {
   std::string why;     ///< such as "joined by LLEG_JOINT3"; never empty.
 };
 
+/// A link that has a mass, and no shape of its own.
+struct BareLink {
+  std::string name;   ///< as in the URDF
+  double mass = 0.0;  ///< [kg] > 0
+};
+
 /// A robot as walking needs it; immutable after loading. Waist frame B: z up when standing.
 struct RobotModel {
   std::string name;               ///< in messages and manifests
@@ -108,6 +114,8 @@ struct RobotModel {
   std::vector<std::string> warnings;
   /// All other pairs of bodies that move relative to each other (wpg/robot/self_pairs.h).
   std::vector<UnwatchedPair> unwatched_pairs;
+  /// Links of which nothing is among `bodies`, the heaviest first.
+  std::vector<BareLink> bare_links;
 };
 
 /// Loads and validates a robot YAML file and the URDF that it names. Format: wpg/README.md,
