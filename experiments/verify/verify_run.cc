@@ -128,6 +128,8 @@ std::string Summary(const MethodVerification& result) {
 std::string Describe(const MethodVerification& result) {
   std::string text = result.method + "\n";
   for (const std::string& line : result.lines) text += "  " + line + "\n";
+  if (!result.not_covered.empty()) text += "  not covered:\n";
+  for (const NotCovered& one : result.not_covered) text += "    " + one.sentence + "\n";
   if (!result.readable) {
     text += "  cannot be read:\n";
     for (const std::string& line : result.complaints) text += "    " + line + "\n";
@@ -142,8 +144,6 @@ std::string Describe(const MethodVerification& result) {
     const long more = result.disagreements - std::ssize(result.reasons);
     if (more > 0) text += "    … and " + Count(more) + " more\n";
   }
-  if (!result.not_covered.empty()) text += "  not covered:\n";
-  for (const NotCovered& one : result.not_covered) text += "    " + one.sentence + "\n";
   if (result.statement.empty()) return text;
   // A statement that could write anything on a terminal is not repeated.
   const bool clean = FindInvalidUtf8(result.statement) == std::string::npos &&

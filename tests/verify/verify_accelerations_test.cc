@@ -146,17 +146,25 @@ TEST(VerifyAccelerations, WhatIsUntouchedIsVerifiedAndSaysWhatWasLookedAt) {
   EXPECT_THAT(ReadText(run.run() / "config.yaml"), Not(HasSubstr("joint_acceleration")));
 }
 
-// The tables, config and certificate of a robot without limits have nothing of it.
-TEST(VerifyAccelerations, OfARobotWithoutLimitsNothingIsWritten) {
+// The tables, config and claims of a robot without limits have nothing of it; that nothing is
+// demanded is told.
+TEST(VerifyAccelerations, OfARobotWithoutLimitsNothingIsClaimed) {
   const TamperedRun run;
-  for (const char* file : {"config.yaml", "dichotomy/trajectory.csv", "dichotomy/certificate.csv",
-                           "dichotomy/certificate.json", "summary.csv", "manifest.json"}) {
+  for (const char* file :
+       {"config.yaml", "dichotomy/trajectory.csv", "dichotomy/certificate.csv", "summary.csv"}) {
     EXPECT_THAT(ReadText(run.run() / file), Not(HasSubstr("accelerations"))) << file;
     EXPECT_THAT(ReadText(run.run() / file), Not(HasSubstr(kAccelerations))) << file;
   }
+  Json json = Json::parse(ReadText(run.json()));
+  const std::string told =
+      kAccelerations + ": nothing is demanded: the robot file states no limits";
+  EXPECT_THAT(json["not_covered"].dump(), HasSubstr(told));
+  json.erase("not_covered");
+  EXPECT_THAT(json.dump(), Not(HasSubstr("accelerations")));
+  EXPECT_THAT(json.dump(), Not(HasSubstr(kAccelerations)));
   const Outcome outcome = run.Verify();
   EXPECT_EQ(outcome.status, kSuccess) << outcome.out << outcome.err;
-  EXPECT_THAT(outcome.out, Not(HasSubstr(kAccelerations)));
+  EXPECT_THAT(outcome.out, HasSubstr(told));
 }
 
 // Nothing may be demanded, by the config; then nothing is said.

@@ -117,7 +117,7 @@ std::string NotCoveredText(const std::vector<NotCovered>& list, const std::strin
   if (list.empty()) return "";
   std::string text =
       begin + (list.size() == 1 ? std::string("1 thing") : Formatted("%zu things", list.size())) +
-      " that certificates of this robot do not cover (each with its reason: " + all + ")\n";
+      " that these certificates do not cover (each with its reason: " + all + ")\n";
   for (const std::string& line : SummaryOf(list)) text += begin + "  " + line + "\n";
   return text;
 }
