@@ -2,7 +2,8 @@
 # Builds and tests everything but the benchmarks.
 #   tests/run.sh           release; what .ci/run does
 #   tests/run.sh --all     and debug with AddressSanitizer and UBSan, which leaves out a few slow
-#                          tests, and a quick look by every fuzz target: before a change lands
+#                          tests, a look for types that have two definitions (-flto -Wodr), and a
+#                          quick look by every fuzz target: before a change lands
 # JOBS: how many compilers and tests at once (2).
 set -eu
 cd "$(dirname "$0")/.."
@@ -61,6 +62,10 @@ for preset in $presets; do
 done
 
 if [ "${1:-}" = --all ]; then
+  start=$(date +%s)
+  quietly build/odr-configure.log cmake --preset odr
+  quietly build/odr-build.log cmake --build --preset odr -j "$jobs"
+  echo "one definition of each type in the whole program, in $(($(date +%s) - start)) s"
   start=$(date +%s)
   quietly build/fuzz-test.log tests/fuzz/run.sh --short
   echo "fuzz targets: $(tail -n 1 build/fuzz-test.log), nothing found, in $(($(date +%s) - start)) s"

@@ -22,6 +22,9 @@ ExitStatus Verify(const verify::VerifyOptions& options, Telling telling) {
     }
     if (!result.not_covered.empty()) not_covered = result.not_covered;
     for (const std::string& complaint : result.complaints) std::cerr << complaint << '\n';
+    for (const std::string& what : result.not_examined) {
+      if (quiet) std::cerr << result.method << ": not examined: " << what << '\n';
+    }
     if (quiet && result.disagreements > 0) {
       std::cerr << result.method << ": NOT verified: " << result.reasons.front() << '\n';
     }

@@ -10,15 +10,17 @@ namespace halfstep {
 namespace {
 
 constexpr double kRounding = 1e-9;  // relative: a gap of 1 % that is met exactly is met
-constexpr Effort kLeast = {.wall = 0.001, .instants = 1.0};
-constexpr Effort kShift = {.wall = 0.1, .instants = 1000.0};
+constexpr RuntimeToTarget kLeast = {.wall = 0.001, .instants = 1.0};
+constexpr RuntimeToTarget kShift = {.wall = 0.1, .instants = 1000.0};
 constexpr double kPenalty = 10.0;
 
 MethodKey KeyOf(const MethodRecord& record) {
   return {record.name, record.variables, record.objective};
 }
 
-double Of(const Effort& effort, bool by_wall) { return by_wall ? effort.wall : effort.instants; }
+double Of(const RuntimeToTarget& effort, bool by_wall) {
+  return by_wall ? effort.wall : effort.instants;
+}
 
 // Puts a method into its case, unless it is there already with the same outcome.
 void Add(const MethodRecord& record, ComparedCase* one) {
@@ -62,18 +64,19 @@ bool Within(double value, double best, double target) {
 }
 
 // When a method's incumbent first met a finite target; along the way `fastest` is looked at only.
-std::optional<Effort> Reached(const ComparedCase& one, const MethodRecord& record, double target) {
+std::optional<RuntimeToTarget> Reached(const ComparedCase& one, const MethodRecord& record,
+                                       double target) {
   if (!record.solved() || !one.best_cost) return std::nullopt;
-  const Effort end{record.wall, record.instants};
+  const RuntimeToTarget end{record.wall, record.instants};
   if (std::isinf(target)) {
     return record.ending == opt::Ending::kInterrupted ? std::nullopt : std::optional(end);
   }
   if (one.objective == "fastest") {
     const MethodRecord& raw = one.methods.front().record;
-    if (raw.certified && Within(raw.duration, *one.best_cost, target)) return Effort{};
+    if (raw.certified && Within(raw.duration, *one.best_cost, target)) return RuntimeToTarget{};
     for (const IncumbentRecord& incumbent : record.incumbents) {
       if (Within(incumbent.duration, *one.best_cost, target)) {
-        return Effort{incumbent.wall, incumbent.instants};
+        return RuntimeToTarget{incumbent.wall, incumbent.instants};
       }
     }
   }

@@ -18,8 +18,8 @@ constexpr int kNumTargets = 3;
 constexpr std::array<double, kNumTargets> kTargets = {0.01, 0.05,
                                                       std::numeric_limits<double>::infinity()};
 
-/// The effort of a method to reach a target.
-struct Effort {
+/// What it took a method to reach a target.
+struct RuntimeToTarget {
   double wall = 0.0;      ///< [s]
   double instants = 0.0;  ///< instants at which margins were evaluated
 };
@@ -30,8 +30,8 @@ struct ComparedMethod {
   /// (cost − best)/|best|; +inf when the walk is not certified or not the method's own; nan for raw
   /// where the objective is not `fastest`: run folders do not hold its cost.
   double gap = 0.0;
-  /// Effort until each target was first met; none: it was not met, a failure.
-  std::array<std::optional<Effort>, kNumTargets> reached;
+  /// What it took until each target was first met; none: it was not met, a failure.
+  std::array<std::optional<RuntimeToTarget>, kNumTargets> reached;
 };
 
 /// The methods that worked on one problem: a scenario with one objective.
@@ -95,7 +95,7 @@ struct MethodMeans {
   double speedup = 1.0;  ///< geometric mean
   /// Shifted geometric means exp(mean log(v + s)) − s with s = 0.1 s and 1000 instants; nan
   /// when no case counts.
-  std::array<Effort, kNumTargets> effort;
+  std::array<RuntimeToTarget, kNumTargets> effort;
 };
 /// One entry for each method of the comparison, in its order.
 std::vector<MethodMeans> Means(const Comparison& comparison);

@@ -11,7 +11,7 @@ std::string Left(const std::string& text, size_t width) {
   return text + std::string(width - std::min(width, text.size()) + 2, ' ');
 }
 
-std::string Seconds(const std::optional<Effort>& effort) {
+std::string Seconds(const std::optional<RuntimeToTarget>& effort) {
   return effort ? Formatted("%9.3f s", effort->wall) : Formatted("%11s", "never");
 }
 

@@ -15,7 +15,7 @@ namespace {
 using enum CsvType;
 constexpr size_t kOnePercent = 0, kFivePercent = 1;
 
-void EffortCell(const std::optional<Effort>& effort, bool by_wall, CsvWriter* csv) {
+void EffortCell(const std::optional<RuntimeToTarget>& effort, bool by_wall, CsvWriter* csv) {
   effort ? csv->Cell(by_wall ? effort->wall : effort->instants) : csv->Empty();
 }
 
@@ -179,8 +179,8 @@ CsvFile MeansCsv(const Comparison& comparison) {
     csv.Cell(mean.certified).Cell(mean.failed());
     for (int solved : mean.solved) csv.Cell(solved);
     csv.Cell(mean.speedup);
-    for (const Effort& effort : mean.effort) csv.Cell(effort.wall);
-    for (const Effort& effort : mean.effort) csv.Cell(effort.instants);
+    for (const RuntimeToTarget& effort : mean.effort) csv.Cell(effort.wall);
+    for (const RuntimeToTarget& effort : mean.effort) csv.Cell(effort.instants);
     csv.EndRow();
   }
   return csv.file();

@@ -31,6 +31,7 @@ class ComSpeed : public OwnStatement {
 int main(int argc, char** argv) {
   const bool limited = argc < 2 || std::string(argv[1]) != "without";
   if (limited) RegisterOwnMargin(std::make_unique<ComSpeed>());
+  if (argc > 2) return RunExperiment(argc, argv);  // `run CONFIG` keeps it, too
   const ExperimentConfig config = LoadConfig((DataFolder() / "configs/bar_8cm.yaml").string(),
                                              {{"smoothing.optimizer.all_families", "false"}});
   const WalkProblem problem = ProblemOf(Prepare(config));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "smoothing/methods/accepted_in_parts.h"
 #include "smoothing/methods/dichotomy.h"
 #include "smoothing/proof/sampled_feasibility.h"
 #include "smoothing/proof/stoppable_feasibility.h"
@@ -71,14 +72,14 @@ bool FindOverlaps(const SafetyCheck& safety, const LiveConfig& config, double fr
       std::make_shared<SampledFeasibility>(safety.evaluator(), kSampled), StopBranches::kAll);
   const WalkProblem problem(proposal->plan.sequence, test, AllBut(next, proposal->plan));
   SmoothingMonitor monitor;
-  const SmoothingResult result = Dichotomy(problem,
-                                           {.tolerance = config.live.tolerance,
-                                            .up_down_cap = cap,
-                                            .down_up_cap = cap,
-                                            .start = proposal->plan.parameters,
-                                            .start_is_feasible = true,
-                                            .cheaper = sampled},
-                                           monitor);
+  const SmoothingResult result =
+      Dichotomy(problem,
+                {.tolerance = config.live.tolerance,
+                 .up_down_cap = cap,
+                 .down_up_cap = cap,
+                 .accepted_start = AcceptedInParts::Walk(proposal->plan.parameters),
+                 .cheaper = sampled},
+                monitor);
   proposal->plan.parameters = result.parameters;
   for (const int j : next) proposal->smoothed[static_cast<size_t>(j)] = true;
   proposal->first_changed = next.front() + 1;

@@ -16,6 +16,7 @@
 #include "experiments/tables/result_tables.h"
 #include "smoothing/margins/not_covered_by.h"
 #include "smoothing/methods/overlap_prices.h"
+#include "smoothing/methods/run_smoother.h"
 #include "smoothing/methods/smoother_registry.h"
 #include "smoothing/proof/missed_demands.h"
 
@@ -26,9 +27,7 @@ namespace {
 
 PlacedWalk WalkAt(const PlacedExperiment& placed, const py::dict& given) {
   const auto setting = placed.Setting();
-  HomotopyParameters parameters = setting->problem.Start();
-  Take(given, &parameters);
-  return {setting, SuperposedWalk(setting->problem.sequence(), parameters)};
+  return WalkWith(setting, setting->problem.Start(), given);
 }
 
 // (status, sentence, footsteps as rows (foot, x, y, yaw), wall time [s]).
@@ -64,7 +63,7 @@ py::dict ResultOf(const std::shared_ptr<const WalkSetting>& setting, const std::
   dict["status"] = std::string(opt::Name(run.result.ending));
   dict["message"] = run.result.message;
   dict["feasible"] = run.result.feasible;
-  dict["evidence"] = std::string(Name(run.result.evidence));
+  dict["judged_by"] = std::string(Name(run.result.evidence));
   dict["cost"] = run.result.cost;
   dict["wall"] = run.result.wall;
   dict["instants"] = run.result.instants;
@@ -97,7 +96,7 @@ py::dict Smooth(const PlacedExperiment& placed, const std::string& method, const
                               .stop_proof = hooks.stop,
                               .deadline = deadline,
                               .workers = WorkersOf(config)});
-    result = smoother.Smooth(setting->problem, options, monitor);
+    result = RunSmoother(smoother, setting->problem, options, monitor);
   });
   return ResultOf(setting, method, std::move(result));
 }

@@ -28,7 +28,7 @@ std::shared_ptr<HeldProgram> ProgramOf(const SmoothingTask& task, const py::dict
 // Searches read the registries without the GIL.
 void RequireNoSearch() {
   if (!LongCallUnderWay()) return;
-  throw std::logic_error("a search is under way (valid: to register before it)");
+  throw std::invalid_argument("a search is under way (valid: to register before it)");
 }
 
 void BindTasks(py::module_& module) {
@@ -53,10 +53,7 @@ void BindTasks(py::module_& module) {
           Released())
       .def("walk",
            [](const SmoothingTask& task, const py::dict& given) {
-             HomotopyParameters parameters = task.incumbent();
-             Take(given, &parameters);
-             return PlacedWalk{task.setting(),
-                               SuperposedWalk(task.setting()->problem.sequence(), parameters)};
+             return WalkWith(task.setting(), task.incumbent(), given);
            })
       .def("tell", &SmoothingTask::Tell);
   py::class_<SolvingTask, std::shared_ptr<SolvingTask>>(module, "SolvingTask")

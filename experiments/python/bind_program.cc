@@ -10,6 +10,7 @@
 #include "experiments/python/long_call.h"
 #include "experiments/python/placed_experiment.h"
 #include "experiments/python/program_options.h"
+#include "smoothing/walk/parameter_complaint.h"
 
 namespace py = pybind11;
 
@@ -105,7 +106,8 @@ HeldProgramOptions ToProgramOptions(const py::dict& options) {
   take("overlaps", &result.overlaps);
   for (const ParameterFamily family : AllParameterFamilies()) {
     const ParameterFamilyTraits& traits = Traits(family);
-    if (traits.chosen != nullptr && !traits.key.empty()) take(traits.key.data(), &(choice.*traits.chosen));
+    if (traits.chosen != nullptr && !traits.key.empty())
+      take(traits.key.data(), &(choice.*traits.chosen));
   }
   take("instants", &result.program.watch.instants);
   take("sharpness", &result.program.watch.sharpness);
@@ -156,7 +158,9 @@ void BindProgram(py::module_& module) {
       .def("to_x",
            [](HeldProgram& h, const PlacedWalk& walk) {
              const auto use = h.Take();
-             CheckParameters(h.setting()->problem.sequence(), walk.walk.parameters());
+             const std::string complaint =
+                 ComplaintAbout(h.setting()->problem.sequence(), walk.walk.parameters());
+             if (!complaint.empty()) throw std::invalid_argument("walk: " + complaint);
              return h.program().ToVariables(walk.walk.parameters());
            })
       .def("refine", &RefineAt)

@@ -2,6 +2,8 @@
 
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "experiments/config/folder_name.h"
 #include "experiments/python/bindings.h"
@@ -16,11 +18,15 @@ namespace py = pybind11;
 namespace halfstep::python {
 namespace {
 
-// As `halfstep run`. "" or why there is nothing to smooth.
-std::string RunInto(const std::string& path, const std::string& text, const std::string& out,
-                    bool overwrite, const py::object& progress) {
+// As `halfstep run`: "" or why there is nothing to smooth, and a sentence on each method that
+// failed.
+std::pair<std::string, std::vector<std::string>> RunInto(const std::string& path,
+                                                         const std::string& text,
+                                                         const std::string& out, bool overwrite,
+                                                         const py::object& progress) {
   std::string refusal;
-  CallLong(progress, [&](const LongCallHooks& call) {
+  std::vector<std::string> failed;
+  const auto work = [&](const LongCallHooks& call) {
     const ExperimentConfig config = ParseConfig(path, text, {});
     const RunHooks hooks{
         .progress = call.progress, .stop = call.stop, .stop_step = call.stop, .keep = {}};
@@ -38,8 +44,13 @@ std::string RunInto(const std::string& path, const std::string& text, const std:
     WriteReport(run.experiment().robot, run.experiment().scene, &folder);
     CompleteManifest(run.experiment().robot, run.experiment().scene, &folder);
     folder.Publish();
-  });
-  return refusal;
+    for (const MethodRun& method : run.runs()) {
+      if (method.result.ending != opt::Ending::kFailed) continue;
+      failed.push_back(method.method + ": failed: " + method.result.message);
+    }
+  };
+  CallLong(progress, work, RaisedBySearch::kEndsTheMethodOnly);
+  return {refusal, failed};
 }
 
 py::list VerifyFolder(const std::string& run, const std::optional<std::string>& method,

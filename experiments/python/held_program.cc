@@ -38,7 +38,7 @@ ProgramOptions Watching(const WalkSetting& setting, ProgramOptions options) {
 
 HeldProgram::Use::Use(std::atomic<bool>* taken) : taken_(taken) {
   if (taken_->exchange(true)) {
-    throw std::logic_error("the program is in use by another thread (valid: one for each)");
+    throw std::invalid_argument("the program is in use by another thread (valid: one for each)");
   }
 }
 
@@ -80,7 +80,8 @@ Eigen::VectorXd HeldProgram::Gradient(const Eigen::VectorXd& x) {
 }
 
 void HeldProgram::MoveTo(const Eigen::VectorXd& x) {
-  if (at_.size() == x.size() && at_ == x) return;
+  const bool known = constraints_ || jacobian_;
+  if (known && at_.size() == x.size() && at_ == x) return;
   Forget();
   within_ = Within(x);
   at_ = x;

@@ -30,7 +30,7 @@ struct Refinement {
 /// SciPy asks for values and derivatives in separate calls.
 class HeldProgram {
  public:
-  /// Takes a program for one thread; std::logic_error where another thread has it.
+  /// Takes a program for one thread; std::invalid_argument where another thread has it.
   class Use {
    public:
     explicit Use(std::atomic<bool>* taken);

@@ -24,6 +24,7 @@ struct CallState {
   double fraction = 0.0;
   std::exception_ptr thrown;  // by the work
   std::stop_source stop;
+  RaisedBySearch raised = RaisedBySearch::kEndsTheCall;
   std::optional<py::error_already_set> error;  // only with the GIL
 };
 
@@ -73,13 +74,15 @@ void Work(const std::function<void(const LongCallHooks&)>& work, CallState* stat
 
 }  // namespace
 
-void CallLong(const py::object& progress, const std::function<void(const LongCallHooks&)>& work) {
+void CallLong(const py::object& progress, const std::function<void(const LongCallHooks&)>& work,
+              RaisedBySearch raised) {
   struct Counted {
     Counted() { ++g_calls; }
     ~Counted() { --g_calls; }
   };
   const Counted counted;
   CallState state;
+  state.raised = raised;
   CallState* const enclosing = t_current;
   {
     const py::gil_scoped_release released;
@@ -103,7 +106,11 @@ void CallLong(const py::object& progress, const std::function<void(const LongCal
 bool LongCallUnderWay() { return g_calls > 0; }
 
 void KeepPythonError(const py::error_already_set& error) {
-  if (t_current != nullptr && !t_current->error) t_current->error = error;
+  if (t_current == nullptr || t_current->error) return;
+  const bool of_method = t_current->raised == RaisedBySearch::kEndsTheMethodOnly;
+  if (of_method && error.matches(PyExc_Exception)) return;
+  t_current->error = error;
+  t_current->stop.request_stop();
 }
 
 }  // namespace halfstep::python

@@ -19,7 +19,7 @@ SmoothingTask::SmoothingTask(const WalkProblem& problem, const SmootherOptions& 
 
 SmoothingMonitor& SmoothingTask::monitor() const {
   if (monitor_ == nullptr) {
-    throw std::logic_error("the method has ended (valid: within the registered function)");
+    throw std::invalid_argument("the method has ended (valid: within the registered function)");
   }
   return *monitor_;
 }
@@ -30,31 +30,10 @@ double SmoothingTask::remaining() const {
 
 HomotopyParameters SmoothingTask::incumbent() const { return monitor().incumbent(); }
 double SmoothingTask::duration() const { return monitor().duration(); }
-void SmoothingTask::Tell(double done) const { monitor().Progress(done); }
-
 bool SmoothingTask::Propose(const HomotopyParameters& candidate) {
-  SmoothingMonitor& monitor = this->monitor();
-  const WalkProblem& problem = setting_->problem;
-  const SuperposedWalk walk(problem.sequence(), candidate);
-  SmoothingIterate record{.candidate_duration = walk.duration()};
-  if (walk.duration() < monitor.cost()) {
-    const Feasibility answer =
-        problem.test().Check(walk, {0.0, walk.duration()}, monitor.scratch());
-    record.accepted = answer.verdict == Verdict::kFeasible;
-    if (record.accepted) {
-      record.lambda = 1.0;
-      monitor.Adopt(candidate, walk.duration(), walk.duration());
-    } else {
-      ++monitor.result().raw_infeasible;
-      if (answer.verdict == Verdict::kViolated) {
-        record.candidate_slack = problem.limits().Slack(answer.witness);
-      }
-    }
-  }
-  const bool accepted = record.accepted;
-  monitor.Record(std::move(record));
-  return accepted;
+  return monitor().Propose(candidate);
 }
+void SmoothingTask::Tell(double done) const { monitor().Progress(done); }
 
 namespace {
 
@@ -92,6 +71,7 @@ class PythonSmoother : public Smoother {
       py::reinterpret_borrow<py::function>(function_)(task);
     } catch (const py::error_already_set& error) {
       failure = error.what();
+      failure.erase(std::min(failure.size(), failure.find("\n\nAt:\n")));  // no traceback
       KeepPythonError(error);
     }
     task->End();

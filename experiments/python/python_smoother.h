@@ -28,8 +28,7 @@ class SmoothingTask {
   HomotopyParameters incumbent() const;
   double duration() const;  ///< of the incumbent [s]
 
-  /// Proves the walk of `candidate` by the problem's test, unless it lasts no shorter than the
-  /// incumbent, and makes it the incumbent. Throws std::logic_error when the method has ended.
+  /// SmoothingMonitor::Propose. Throws std::invalid_argument when the method has ended, too.
   bool Propose(const HomotopyParameters& candidate);
   void Tell(double done) const;  ///< the progress ∈ [0, 1]
   void End() { monitor_ = nullptr; }

@@ -13,7 +13,7 @@ namespace halfstep::python {
 
 opt::SolveMonitor& SolvingTask::monitor() const {
   if (monitor_ == nullptr) {
-    throw std::logic_error("the solve has ended (valid: within the registered function)");
+    throw std::invalid_argument("the solve has ended (valid: within the registered function)");
   }
   return *monitor_;
 }

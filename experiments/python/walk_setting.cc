@@ -3,6 +3,11 @@
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
+#include <utility>
+
+#include "smoothing/walk/parameter_complaint.h"
+#include "wpg/files/input_error.h"
+
 namespace py = pybind11;
 
 namespace halfstep::python {
@@ -37,12 +42,17 @@ py::dict ToPython(const HomotopyParameters& parameters) {
   return dict;
 }
 
-void Take(const py::dict& dict, HomotopyParameters* parameters) {
+PlacedWalk WalkWith(const std::shared_ptr<const WalkSetting>& setting,
+                    HomotopyParameters parameters, const py::dict& given) {
   for (const ParameterFamily family : AllParameterFamilies()) {
     const std::string name = PluralOf(family);
-    if (dict.contains(name))
-      parameters->of(family) = dict[name.c_str()].cast<std::vector<double>>();
+    if (!given.contains(name)) continue;
+    parameters.of(family) = given[name.c_str()].cast<std::vector<double>>();
   }
+  const HalfStepSequence& sequence = setting->problem.sequence();
+  const std::string complaint = ComplaintAbout(sequence, parameters);
+  if (!complaint.empty()) throw InputError({complaint});
+  return {setting, SuperposedWalk(sequence, parameters)};
 }
 
 py::tuple ToPython(const HomotopyParameter& parameter) {

@@ -36,8 +36,10 @@ pybind11::list ToPython(const CsvColumns& columns);
 /// height_scales, durations, support_points, via_laterals, foot_ramps, foot_delays, lift_shares,
 /// via_alongs, zmp_shifts, zmp_bump_ramps, footstep_xs, footstep_ys, footstep_yaws.
 pybind11::dict ToPython(const HomotopyParameters& parameters);
-/// Replaces the families that are in such a dict.
-void Take(const pybind11::dict& dict, HomotopyParameters* parameters);
+/// The walk of `parameters`, but for the families that are in such a dict. Throws InputError where
+/// no walk of the setting has them.
+PlacedWalk WalkWith(const std::shared_ptr<const WalkSetting>& setting,
+                    HomotopyParameters parameters, const pybind11::dict& given);
 
 /// (family, index from 0) of a parameter.
 pybind11::tuple ToPython(const HomotopyParameter& parameter);

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "experiments/config/folder_name.h"
+#include "experiments/run/final_verdict.h"
 #include "experiments/run/manifest.h"
 #include "experiments/run/plan_volumes.h"
 #include "experiments/run/smoothing_of.h"
@@ -11,6 +12,7 @@
 #include "experiments/tables/parameter_tables.h"
 #include "smoothing/methods/overlap_prices.h"
 #include "smoothing/methods/plan_repair.h"
+#include "smoothing/methods/run_smoother.h"
 #include "smoothing/methods/smoother_registry.h"
 #include "wpg/files/text.h"
 
@@ -135,7 +137,7 @@ MethodRun ExperimentRun::RunMethod(const std::string& name, const RunHooks& hook
                             .workers = workers_});
   SmootherOptions options = OptionsOf(config_);
   options.given = given_;
-  run.result = FindSmoother(name).Smooth(*problem_, options, monitor);
+  run.result = RunSmoother(FindSmoother(name), *problem_, options, monitor);
   const SuperposedWalk walk(experiment_->sequence, run.result.parameters);
   if (missed_ && run.result.ending == opt::Ending::kNotRun &&
       run.result.parameters == runs_.front().result.parameters) {
@@ -159,6 +161,7 @@ void ExperimentRun::Certify(const std::stop_token& stop) {
     SampleTrajectory(evaluator(), experiment_->sequence, RowPeriod(config_, run), &run);
     run.certified = CertifyWalk(*certifier_, experiment_->sequence, run.result.parameters, stop,
                                 workers_.get());
+    JudgeAtTheEnd(*problem_, *certifier_, stop, workers_.get(), &run);
   }
 }
 

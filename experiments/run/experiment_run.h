@@ -50,7 +50,8 @@ class ExperimentRun {
   /// Runs every method. Precondition, as for all that follows: there is no refusal. All that
   /// follows needs Smooth() to have run.
   void Smooth(const RunHooks& hooks);
-  /// Samples and certifies every walk; those whose turn comes after a stop are undecided.
+  /// Samples and certifies every walk; those whose turn comes after a stop are undecided. A method
+  /// that says that it worked, and whose walk is not accepted now, has failed (JudgeAtTheEnd).
   /// Must be called before Write().
   void Certify(const std::stop_token& stop);
 

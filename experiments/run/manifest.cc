@@ -95,7 +95,8 @@ ordered_json MethodJson(const MethodRun& run, const SmoothingConfig& config) {
           {"requested", Requested(run.method, config)},
           {"status", Name(run.result.ending)},
           {"message", run.result.message},
-          {"evidence", Name(run.result.evidence)},
+          {"judged_by", Name(run.result.evidence)},
+          {"verdict", VerdictName(run.certified.answer.verdict)},
           {"duration_s", run.duration},
           {"wall_s", run.result.wall}};
 }

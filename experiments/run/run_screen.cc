@@ -165,7 +165,7 @@ std::string RunJson(const MarginEvaluator& evaluator, const std::vector<MethodRu
     json["methods"].push_back({{"method", run.method},
                                {"status", Name(run.result.ending)},
                                {"message", run.result.message},
-                               {"evidence", Name(run.result.evidence)},
+                               {"judged_by", Name(run.result.evidence)},
                                {"verdict", VerdictName(run.certified.answer.verdict)},
                                {"duration_s", run.duration},
                                {"speedup", runs.front().duration / run.duration},

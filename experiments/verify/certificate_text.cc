@@ -29,8 +29,7 @@ CertificateText ReadCertificateJson(const std::string& path, const std::string& 
   c.duration = root.Number("duration_s");
   const JsonMember demanded = root.Object("demanded"), statements = root.Object("statements");
   for (size_t f = 0; f < kNumFamilies; ++f) {
-    // Only the certificate of a robot with limits has this family.
-    if (f == kJointAcceleration && !statements.object().contains(kFamilyNames[f])) {
+    if (MayBeAbsent(static_cast<Family>(f)) && !statements.object().contains(kFamilyNames[f])) {
       c.demanded[f] = kNotDemanded;
       continue;
     }

@@ -26,17 +26,19 @@ enum Family : int {
   kZmpRobot,
   kTorque,
   kFriction,
-  kJointAcceleration
+  kJointAcceleration,
+  kOwn  ///< what the program that made the run registered; its formula is not known here
 };
-constexpr int kNumFamilies = 15;  ///< how many families a certificate has
+constexpr int kNumFamilies = 16;  ///< how many families a certificate has
 /// Their names in certificate.csv and certificate.json, and their units.
 constexpr std::array<const char*, kNumFamilies> kFamilyNames = {
-    "floor",   "foot_speed",  "foot_yaw_rate",  "zmp",       "reach",
-    "joint",   "joint_speed", "self_clearance", "clearance", "ground",
-    "no_step", "zmp_robot",   "torque",         "friction",  "joint_acceleration"};
+    "floor",       "foot_speed",     "foot_yaw_rate",      "zmp",    "reach",   "joint",
+    "joint_speed", "self_clearance", "clearance",          "ground", "no_step", "zmp_robot",
+    "torque",      "friction",       "joint_acceleration", "own"};
 /// Of the families' margins.
-constexpr std::array<const char*, kNumFamilies> kUnits = {
-    "m", "m/s", "rad/s", "m", "m", "rad", "rad/s", "m", "m", "m", "m", "m", "N m", "1", "rad/s²"};
+constexpr std::array<const char*, kNumFamilies> kUnits = {"m",     "m/s", "rad/s",  "m", "m", "rad",
+                                                          "rad/s", "m",   "m",      "m", "m", "m",
+                                                          "N m",   "1",   "rad/s²", "1"};
 
 /// What is demanded of a family of which nothing is demanded: `null` in certificate.json.
 inline constexpr double kNotDemanded = -std::numeric_limits<double>::infinity();
@@ -45,6 +47,8 @@ inline constexpr double kNotDemanded = -std::numeric_limits<double>::infinity();
 constexpr bool IsOfDynamics(Family family) {
   return family == kZmpRobot || family == kTorque || family == kFriction;
 }
+/// Whether only certificates of some robots or programs have a family.
+constexpr bool MayBeAbsent(Family family) { return family == kJointAcceleration || family == kOwn; }
 /// Whether nothing may be demanded of a family.
 constexpr bool MayBeLeftOut(Family family) {
   return IsOfDynamics(family) || family == kJointAcceleration;

@@ -66,6 +66,7 @@ Scene SceneFromRest(const DescribedWalk& walk, int half_step, Scene scene, doubl
 CertificateText DemandsOf(const MarginLimits& limits, Findings* findings) {
   CertificateText demands;
   for (const MarginFamily family : AllMarginFamilies()) {
+    if (family == MarginFamily::kOwn) continue;  // its formula is not known here
     const auto name = std::ranges::find(kFamilyNames, Name(family));
     if (name == kFamilyNames.end()) {
       findings->Disagree("the family " + Quote(std::string(Name(family))) + " is not known here");

@@ -65,9 +65,15 @@ void CheckMethods(const RunParts& parts, Findings* findings) {
   const RunManifest::Method* const method = parts.manifest.MethodOf(parts.folder);
   if (method == nullptr) {
     findings->Disagree("manifest.json knows no method with this folder");
-  } else if (method->duration != parts.certificate.duration) {
+    return;
+  }
+  if (method->duration != parts.certificate.duration) {
     findings->Disagree(Formatted("duration: manifest.json has %.9g s, the certificate %.9g s",
                                  method->duration, parts.certificate.duration));
+  }
+  if (!method->verdict.empty() && method->verdict != parts.certificate.verdict) {
+    findings->Disagree("verdict: manifest.json has " + Quote(method->verdict) +
+                       ", the certificate " + Quote(parts.certificate.verdict));
   }
 }
 

@@ -22,6 +22,8 @@ struct Reached {
 class Findings {
  public:
   void Say(std::string line) { lines_.push_back(std::move(line)); }  ///< notes a check that held
+  /// Notes what no check could look at, and why.
+  void NotExamined(std::string what) { not_examined_.push_back(std::move(what)); }
   /// Notes a reason why it disagrees.
   void Disagree(const std::string& reason) {
     if (reasons_.size() < kKept) reasons_.push_back(reason);
@@ -34,6 +36,8 @@ class Findings {
   /// Adds the lines and disagreements of `other`, and what it reached.
   void Take(const Findings& other) {
     lines_.insert(lines_.end(), other.lines_.begin(), other.lines_.end());
+    not_examined_.insert(not_examined_.end(), other.not_examined_.begin(),
+                         other.not_examined_.end());
     TakeReasons(other, "");
     reached_.insert(reached_.end(), other.reached_.begin(), other.reached_.end());
   }
@@ -43,6 +47,8 @@ class Findings {
     disagreements_ += other.disagreements_ - std::ssize(other.reasons_);
   }
   const std::vector<std::string>& lines() const { return lines_; }  ///< of all checks
+  /// What no check could look at.
+  const std::vector<std::string>& not_examined() const { return not_examined_; }
   /// Of all checks that have values.
   const std::vector<Reached>& reached() const { return reached_; }
   const std::string& too_coarse() const { return too_coarse_; }  ///< "": the rows settle all checks
@@ -53,6 +59,7 @@ class Findings {
  private:
   static constexpr size_t kKept = 20;
   std::vector<std::string> lines_;
+  std::vector<std::string> not_examined_;
   std::vector<std::string> reasons_;
   std::vector<Reached> reached_;
   long disagreements_ = 0;

@@ -60,8 +60,9 @@ RunManifest ReadManifest(const std::string& path, const std::string& text) {
                 .files = {}};
   for (const json& item : root.List("methods")) {
     const JsonMember method(path, item, "methods");
-    m.methods.push_back(
-        {method.String("name"), method.String("status"), method.Number("duration_s")});
+    m.methods.push_back({method.String("name"), method.String("status"),
+                         item.contains("verdict") ? method.String("verdict") : "",
+                         method.Number("duration_s")});
     const std::string& name = m.methods.back().name;
     if (name.empty() || name.front() == '.' || !NameMistake(name).empty()) {
       method.Fail("name: unfit: " + Quote(name));

@@ -15,6 +15,7 @@ struct RunManifest {
   /// What it says of one method.
   struct Method {
     std::string name, status;  ///< its name, and how it ended
+    std::string verdict;       ///< on its walk; "": of a run that is older than this member
     double duration = 0;       ///< [s]
   };
   std::string name, robot, scene, objective, acceptance;  ///< as the run was asked for

@@ -23,6 +23,8 @@
 #include "experiments/verify/csv_text.h"
 #include "experiments/verify/described_walk.h"
 #include "experiments/verify/given_files.h"
+#include "experiments/verify/own_names.h"
+#include "smoothing/margins/own_margin.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/sha256.h"
 
@@ -38,9 +40,25 @@ void CheckHash(const char* what, const std::string& bytes, const std::string& st
                      ": not the one that the certificate is about (SHA-256 differs)");
 }
 
-// The config of a run, read as `halfstep run` reads it: unknown keys are refused.
-ExperimentConfig ReadConfig(const VerifyOptions& options, const std::string& path) {
-  ExperimentConfig config = LoadConfig(path, GivenFiles(options));
+// The config of a run, read as `halfstep run` reads it: unknown keys are refused. Names that the
+// run's program registered are told, since only that one knows what they do.
+ExperimentConfig ReadConfig(const VerifyOptions& options, const std::string& path,
+                            const std::string& text, Findings* findings) {
+  const OwnNames own = FindOwnNames(path, text);
+  std::vector<YamlOverride> overrides = GivenFiles(options);
+  overrides.insert(overrides.end(), own.overrides.begin(), own.overrides.end());
+  ExperimentConfig config = ParseConfig(path, text, overrides);
+  if (own.methods) config.smoothing.methods = *own.methods;
+  if (OwnMargins().empty()) {
+    config.smoothing.limits.demanded_of(MarginFamily::kOwn) =
+        own.own_margin.value_or(verify::kNotDemanded);
+  }
+  std::string told;
+  for (const std::string& name : own.told) told += (told.empty() ? "" : ", ") + name;
+  if (!told.empty()) {
+    findings->Say("names in config.yaml that this program does not have: " + told +
+                  "; what a walk is does not depend on them");
+  }
   if (config.footsteps.empty()) {
     throw InputError({path + ": footsteps: are missing (valid: the config.yaml of a run)"});
   }
@@ -114,7 +132,8 @@ VerifiedStatement VerifyMethod(const VerifyOptions& options, const RunManifest& 
   const std::string claims = files.Read("certificate.csv");
   const std::string trajectory = files.Read("trajectory.csv");
   const std::string config_bytes = files.ReadOfRun("config.yaml");
-  const ExperimentConfig config = ReadConfig(options, files.PathInRun("config.yaml"));
+  const ExperimentConfig config =
+      ReadConfig(options, files.PathInRun("config.yaml"), config_bytes, findings);
   const RobotModel robot = LoadRobot(
       options.robot ? *options.robot : (files.run / certificate.robot).lexically_normal().string());
   Scene scene;

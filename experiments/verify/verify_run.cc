@@ -67,6 +67,7 @@ MethodVerification Verified(const std::string& method, const Check& check) {
     result.complaints = error.complaints();
   }
   result.lines = findings.lines();
+  result.not_examined = findings.not_examined();
   result.reasons = findings.reasons();
   result.disagreements = findings.disagreements();
   return result;
@@ -114,7 +115,11 @@ std::string Summary(const MethodVerification& result) {
   constexpr std::ptrdiff_t kMost = 3;
   std::string text = Formatted("%-22s ", result.method.c_str());
   if (!result.readable) return text + "cannot be read\n";
-  if (result.verified) return text + Formatted("verified (%zu checks)\n", result.lines.size());
+  if (result.verified) {
+    text += Formatted("verified (%zu checks)", result.lines.size());
+    for (const std::string& what : result.not_examined) text += "\n  not examined: " + what;
+    return text + "\n";
+  }
   if (result.disagreements == 0) return text + "too coarse to verify: " + result.too_coarse + "\n";
   text += "NOT verified\n";
   const std::ptrdiff_t told = std::min(kMost, std::ssize(result.reasons));
@@ -130,6 +135,7 @@ std::string Describe(const MethodVerification& result) {
   for (const std::string& line : result.lines) text += "  " + line + "\n";
   if (!result.not_covered.empty()) text += "  not covered:\n";
   for (const NotCovered& one : result.not_covered) text += "    " + one.sentence + "\n";
+  for (const std::string& what : result.not_examined) text += "  not examined: " + what + "\n";
   if (!result.readable) {
     text += "  cannot be read:\n";
     for (const std::string& line : result.complaints) text += "    " + line + "\n";

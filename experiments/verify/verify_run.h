@@ -27,6 +27,8 @@ struct MethodVerification {
   bool verified = false;                ///< whether it agrees in everything
   bool readable = true;                 ///< false: `complaints` says what cannot be read
   std::vector<std::string> lines;       ///< one for each check
+  /// What no check could look at, with the reason: it is not part of `verified`.
+  std::vector<std::string> not_examined;
   std::string too_coarse;               ///< why the rows cannot settle it; "": they can
   std::vector<std::string> reasons;     ///< why it is not verified, the first twenty
   long disagreements = 0;               ///< all of them

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "smoothing/methods/accepted_in_parts.h"
 #include "smoothing/proof/stretch_proofs.h"
 #include "smoothing/walk/superposed_walk.h"
 #include "wpg/check.h"
@@ -62,7 +63,9 @@ class Ascent {
  private:
   using Family = ParameterFamily;
 
-  void Keep() { monitor_.Adopt(point_, DurationOf(point_), DurationOf(point_)); }
+  void Keep() {
+    monitor_.Adopt(AcceptedInParts::Walk(point_), DurationOf(point_), DurationOf(point_));
+  }
 
   // Overlaps and durations of a step and the junctions beside it.
   void Improve(int step) {

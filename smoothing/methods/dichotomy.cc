@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "smoothing/methods/accepted_in_parts.h"
 #include "smoothing/walk/superposed_walk.h"
 #include "wpg/check.h"
 
@@ -21,11 +22,13 @@ class Bisection {
         monitor_(monitor),
         table_(problem.Parameters()),
         rests_(problem.scene().rests()),
-        walk_(problem.sequence(), options.start.value_or(problem.Start())) {}
+        walk_(problem.sequence(), options.accepted_start
+                                      ? options.accepted_start->parameters()
+                                      : options.start.value_or(problem.Start())) {}
 
   SmoothingResult Run() {
-    if (options_.start_is_feasible) {
-      monitor_.BeginKnownFeasible(problem_, walk_.parameters());
+    if (options_.accepted_start) {
+      monitor_.BeginAccepted(problem_, *options_.accepted_start);
     } else if (!monitor_.BeginFeasibly(problem_, walk_.parameters())) {
       return Finish(monitor_.Refusal());
     }
@@ -100,7 +103,9 @@ class Bisection {
     const Feasibility answer = test.Check(walk_, window, monitor_.scratch());
     const bool accepted = answer.verdict == Verdict::kFeasible;
     if (&test != &problem_.test()) return accepted ? std::nullopt : std::optional(answer.witness);
-    if (accepted) monitor_.Adopt(walk_.parameters(), walk_.duration(), walk_.duration());
+    if (accepted) {
+      monitor_.Adopt(AcceptedInParts::Walk(walk_.parameters()), walk_.duration(), walk_.duration());
+    }
     SmoothingIterate iterate{.candidate_duration = walk_.duration(),
                              .accepted = accepted,
                              .lambda = accepted ? 1.0 : 0.0};

@@ -24,7 +24,8 @@ struct DichotomyOptions {
   double down_up_cap = 1.0;  ///< the same of down→up overlaps
   /// Where to begin, instead of at the planned motion.
   std::optional<HomotopyParameters> start = std::nullopt;
-  bool start_is_feasible = false;  ///< proved by the caller: not checked again
+  /// Where set: in place of `start`, and not checked again.
+  std::optional<AcceptedWalk> accepted_start = std::nullopt;
   /// Where set: a cheaper test, of the same margins, that refuses nothing feasible. It is asked
   /// first, so that the problem's test looks at fewer overlaps that are feasible but not the
   /// largest. The overlaps found are the same, up to the tolerance.

@@ -34,7 +34,7 @@ FineDichotomies RunFineDichotomies(const WalkProblem& problem, double tolerance,
 
 void TakeSearch(const SmoothingResult& found, bool from_incumbent, SmoothingMonitor& monitor) {
   monitor.Count(found);
-  if (!from_incumbent && !(found.cost < monitor.cost())) return;
+  if (!found.accepted || (!from_incumbent && !(found.cost < monitor.cost()))) return;
   const double before = monitor.cost();
   for (SmoothingIterate iterate : found.iterates) {
     if (iterate.incumbent_duration > before) continue;
@@ -42,7 +42,7 @@ void TakeSearch(const SmoothingResult& found, bool from_incumbent, SmoothingMoni
     iterate.instants += monitor.instants() - found.instants;
     monitor.result().iterates.push_back(iterate);
   }
-  monitor.Adopt(found.parameters, found.cost, found.cost);
+  monitor.Adopt(*found.accepted, found.cost, found.cost);
   monitor.result().junctions = found.junctions;
 }
 

@@ -13,16 +13,17 @@ SmoothingResult TakeGivenWalk(const WalkProblem& problem,
     return monitor.Finish(opt::Ending::kNotRun,
                           monitor.StopReason() + " before the given walk was looked at");
   }
-  const Feasibility answer = problem.test().Check(walk, {0.0, walk.duration()}, monitor.scratch());
+  Feasibility answer;
+  const std::optional<AcceptedWalk> accepted = monitor.Accept(walk.parameters(), &answer);
   if (answer.stopped) {
     return monitor.Finish(opt::Ending::kInterrupted,
                           "stopped from outside while the given walk was looked at");
   }
-  monitor.result().feasible = answer.verdict == Verdict::kFeasible;
-  if (!monitor.result().feasible) {
+  if (!accepted) {
     return monitor.Finish(opt::Ending::kFailed, "the given walk is not feasible: " +
                                                     problem.evaluator().Describe(answer.witness));
   }
+  monitor.Adopt(*accepted, monitor.cost(), monitor.duration());
   return monitor.Finish(opt::Ending::kConverged, "the walk that was given, unchanged");
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "opt/adapters/solver_registry.h"
+#include "smoothing/methods/accepted_in_parts.h"
 #include "smoothing/methods/dichotomy.h"
 #include "smoothing/methods/search_ending.h"
 #include "smoothing/methods/walk_window.h"
@@ -55,7 +56,8 @@ class HorizonSearch {
     return CostOf(problem_.sequence(), parameters, options_.program);
   }
 
-  void Adopt(double cost) { monitor_.Adopt(at_, cost, DurationOf(at_)); }
+  // at_ was proved in parts: of a proved walk, window by window.
+  void Adopt(double cost) { monitor_.Adopt(AcceptedInParts::Walk(at_), cost, DurationOf(at_)); }
 
   // Bisects every overlap of at_ in turn, window by window, and adopts what becomes of it.
   void Dichotomize(double tolerance, double from, double to) {
@@ -69,7 +71,8 @@ class HorizonSearch {
       SmoothingMonitor within(Part(0.0, 0.0));
       const SmoothingResult part = Dichotomy(
           window.problem,
-          {.tolerance = tolerance, .start = window.parameters, .start_is_feasible = true}, within);
+          {.tolerance = tolerance, .accepted_start = AcceptedInParts::Walk(window.parameters)},
+          within);
       const double elsewhere = DurationOf(at_) - DurationOf(window.parameters);
       monitor_.Count(part);
       for (SmoothingIterate iterate : part.iterates) {
@@ -121,7 +124,7 @@ class HorizonSearch {
   // One from the incumbent and one from the planned motion, at the same time where there are
   // workers; the shorter walk counts.
   void FineDichotomies() {
-    const HomotopyParameters searched = at_;
+    const AcceptedWalk searched = *monitor_.accepted();
     const double cost = monitor_.cost();
     SmoothingResult plain;
     alone_ = monitor_.workers() != nullptr;
@@ -144,7 +147,7 @@ class HorizonSearch {
     SmoothingMonitor within(Part(0.9, 1.0));
     HorizonSearch plain(problem_, options_, within);
     plain.at_ = problem_.Start();
-    within.BeginKnownFeasible(problem_, plain.at_);
+    within.BeginAccepted(problem_, AcceptedInParts::Walk(plain.at_));  // Run() has begun with it
     plain.Dichotomize(options_.tolerance, 0.0, 1.0);
     return within.Finish(opt::Ending::kConverged, "");
   }

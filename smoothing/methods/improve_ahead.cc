@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "opt/adapters/solver_registry.h"
+#include "smoothing/methods/accepted_in_parts.h"
 #include "smoothing/methods/window_search.h"
 #include "wpg/check.h"
 
@@ -45,7 +46,7 @@ std::optional<HomotopyParameters> ImproveAhead(const WalkPlan& walk,
   // The part begins when the walk does, so that obstacles are met at their times.
   WalkWindow window = WindowOf(problem, part.parameters, begin, last, /*keeps_begin=*/true);
   if (window.begin + window.proved_last + 1 == count && count < n) --window.proved_last;
-  monitor.BeginKnownFeasible(window.problem, window.parameters);
+  monitor.BeginAccepted(window.problem, AcceptedInParts::Walk(window.parameters));
   HomotopyParameters found = walk.parameters;
   double gained = 0.0;
   SearchEnding ending;

@@ -33,16 +33,16 @@ constexpr double kGainedTime = 1e-9;
 
 // What a search does beside the rounds over all that it moves.
 struct Stages {
-  Effort effort;
+  RestartPolicy restarts;
   int window = 6;        // half-steps of the windows before them, where forms move; 0: none
   bool compares = true;  // with other searches and with fine dichotomies
 };
 // Before a search over more families, which goes on from what it finds.
 constexpr Stages kBefore = {
-    .effort = {.poor_rounds = 2, .repeats = false}, .window = 0, .compares = false};
+    .restarts = {.poor_rounds = 2, .repeats = false}, .window = 0, .compares = false};
 // Searches beside that in windows, which may come to a better walk.
-constexpr Stages kWithoutWindows = {.effort = {.repeats = false}, .window = 0, .compares = false};
-constexpr Stages kInLongerWindows = {.effort = {}, .window = 8, .compares = false};
+constexpr Stages kWithoutWindows = {.restarts = {.repeats = false}, .window = 0, .compares = false};
+constexpr Stages kInLongerWindows = {.restarts = {}, .window = 8, .compares = false};
 
 // What to search over first: without footsteps where half-steps have forms, too; else with every
 // form and footstep as planned.
@@ -75,21 +75,20 @@ class Optimization {
       dichotomy.passes = 0;
     }
     Take(RunDichotomy(dichotomy, 0.0, 0.2));
-    if (!monitor_.result().feasible || monitor_.stopped()) {
+    if (!monitor_.accepted() || monitor_.stopped()) {
       NoteStop();
-      return monitor_.Finish(end_.Ending(),
-                             monitor_.result().feasible ? end_.Sentence() : start_message_);
+      return monitor_.Finish(end_.Ending(), monitor_.accepted() ? end_.Sentence() : start_message_);
     }
     const ParameterChoice& all = options_.program.parameters;
     const ParameterChoice fewer = FewerFamilies(all);
     const HomotopyParameters begun = monitor_.incumbent();
-    Effort effort = stages_.effort;
+    RestartPolicy restarts = stages_.restarts;
     const bool staged = Fastest() && fewer != all;
     const bool by_windows = staged && options_.windows && solver_.traits().many_rows &&
                             stages_.window > 0 && problem_.sequence().size() > stages_.window;
     if (by_windows) {
       SearchInWindows();
-      effort.planned_start = false;  // the search without windows has it
+      restarts.planned_start = false;  // the search without windows has it
       const bool soon = monitor_.Seconds() < kAnotherPart * options_.deadline;
       if (stages_.compares && soon) SearchApart(all, begun, kWithoutWindows, 0.5);
     } else if (staged) {
@@ -102,9 +101,9 @@ class Optimization {
     OverlapProgram program(problem_.sequence(), problem_.evaluator(), options_.program, limit,
                            problem_.fixed());
     program.watched().SetWorkers(monitor_.workers());
-    end_.own =
-        SearchWhole(problem_, options_, solver_, effort, search_from_, &program, monitor_, &end_) ||
-        found_apart_;
+    end_.own = SearchWhole(problem_, options_, solver_, restarts, search_from_, &program, monitor_,
+                           &end_) ||
+               found_apart_;
     const bool longer = problem_.sequence().size() > kInLongerWindows.window;
     const bool time_is_left = monitor_.Seconds() < kLongerPart * options_.deadline;
     if (by_windows && stages_.compares && longer && time_is_left && !monitor_.stopped()) {
@@ -136,9 +135,9 @@ class Optimization {
     start_message_ = dichotomy.message;
     SmoothingResult& result = monitor_.result();
     result.iterates = dichotomy.iterates;
-    if (dichotomy.feasible) {
-      monitor_.Adopt(dichotomy.parameters, DurationOf(dichotomy.parameters),
-                     DurationOf(dichotomy.parameters));
+    if (dichotomy.accepted) {
+      const double duration = DurationOf(dichotomy.parameters);
+      monitor_.Adopt(*dichotomy.accepted, duration, duration);
     }
     result.junctions = dichotomy.junctions;
     result.time_to_first_improvement = dichotomy.time_to_first_improvement;
@@ -181,7 +180,7 @@ class Optimization {
       if (!Fastest() || monitor_.stopped()) junction.limited_by.reset();
     }
     if (stages_.compares && Fastest() && !monitor_.stopped()) {
-      const HomotopyParameters searched = monitor_.incumbent();
+      const AcceptedWalk searched = *monitor_.accepted();
       const double cost = monitor_.cost();
       const FineDichotomies fine =
           RunFineDichotomies(problem_, options_.tolerance, !options_.start, monitor_);

@@ -42,7 +42,7 @@ SmoothingResult BeginWithDichotomy(const WalkProblem& problem, double tolerance,
   monitor.result().iterates = dichotomy.iterates;
   monitor.result().junctions = dichotomy.junctions;
   const double own = DurationOf(dichotomy.parameters);
-  if (dichotomy.feasible) monitor.Adopt(dichotomy.parameters, own, own);
+  if (dichotomy.accepted) monitor.Adopt(*dichotomy.accepted, own, own);
   return dichotomy;
 }
 
@@ -91,7 +91,7 @@ SmoothingResult ParetoCurve(const WalkProblem& problem, const OptimizerOptions& 
   };
   const SmoothingResult fastest = solve(ProgramKind::kFastest, 0.0, dichotomy.parameters);
   const SmoothingResult same = solve(ProgramKind::kSafest, own, dichotomy.parameters);
-  monitor.Adopt(same.parameters, same.cost, DurationOf(same.parameters));
+  if (same.accepted) monitor.Adopt(*same.accepted, same.cost, DurationOf(same.parameters));
   monitor.result().junctions = same.junctions;
 
   const double least = DurationOf(fastest.parameters);

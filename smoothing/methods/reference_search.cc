@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "smoothing/methods/accepted_in_parts.h"
 #include "smoothing/methods/dichotomy.h"
 #include "smoothing/methods/dynamic_program.h"
 #include "smoothing/methods/incumbent.h"
@@ -79,16 +80,21 @@ class Reference {
         starts.begin(), starts.end(), [](const HomotopyParameters& a, const HomotopyParameters& b) {
           return DurationOf(a) < DurationOf(b);
         });
-    monitor_.Begin(problem_, starts.empty() ? planned_ : *shortest);
+    if (starts.empty()) {
+      monitor_.Begin(problem_, planned_);
+    } else {
+      monitor_.BeginAccepted(problem_, AcceptedInParts::Walk(*shortest));
+    }
     monitor_.Count(dichotomy);
     monitor_.Count(scratch.instants, scratch.bodies.queries);
-    monitor_.result().feasible = !starts.empty();
     return starts;
   }
 
   void Keep(const HomotopyParameters& point) {
     const double duration = DurationOf(point);
-    if (duration < monitor_.duration()) monitor_.Adopt(point, duration, duration);
+    if (duration < monitor_.duration()) {
+      monitor_.Adopt(AcceptedInParts::Walk(point), duration, duration);
+    }
   }
 
   Incumbent::Rules Rules() {

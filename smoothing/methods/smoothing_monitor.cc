@@ -1,6 +1,11 @@
 #include "smoothing/methods/smoothing_monitor.h"
 
+#include <stdexcept>
 #include <utility>
+
+#include "smoothing/walk/parameter_complaint.h"
+#include "smoothing/walk/superposed_walk.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 
@@ -18,7 +23,7 @@ MonitorOptions SmoothingMonitor::Part(double from, double to) const {
 }
 
 void SmoothingMonitor::Begin(const WalkProblem& problem, const HomotopyParameters& start) {
-  problem_ = &problem;
+  problem_ = problem;
   result_ = {};
   refusal_.clear();
   scratch_ = problem.evaluator().MakeScratch();
@@ -28,7 +33,8 @@ void SmoothingMonitor::Begin(const WalkProblem& problem, const HomotopyParameter
   for (int i = 0; i < problem.sequence().num_junctions(); ++i) {
     result_.junctions.push_back({.kind = KindOfJunction(i)});
   }
-  result_.parameters = start;
+  start_ = start;
+  accepted_.reset();
   begun_ = result_.cost = duration_ = DurationOf(start);
 }
 
@@ -47,14 +53,13 @@ bool SmoothingMonitor::BeginFeasibly(const WalkProblem& problem, const HomotopyP
                " is not feasible: " + problem.evaluator().Describe(answer.witness);
     return false;
   }
-  result_.feasible = true;
+  accepted_ = AcceptedWalk(start);
   return true;
 }
 
-void SmoothingMonitor::BeginKnownFeasible(const WalkProblem& problem,
-                                          const HomotopyParameters& start) {
-  Begin(problem, start);
-  result_.feasible = true;
+void SmoothingMonitor::BeginAccepted(const WalkProblem& problem, AcceptedWalk start) {
+  Begin(problem, start.parameters());
+  accepted_ = std::move(start);
 }
 
 void SmoothingMonitor::Count(long instants, long collision_queries) {
@@ -62,15 +67,60 @@ void SmoothingMonitor::Count(long instants, long collision_queries) {
   result_.collision_queries += collision_queries;
 }
 
-void SmoothingMonitor::Adopt(const HomotopyParameters& parameters, double cost, double duration) {
+void SmoothingMonitor::Require(const HomotopyParameters& candidate) const {
+  const std::string complaint = ComplaintAbout(problem_->sequence(), candidate);
+  if (!complaint.empty()) throw std::invalid_argument(complaint);
+  const HomotopyParameters start = problem_->Start();
+  for (const FixedParameter& fixed : problem_->fixed()) {
+    const double value = fixed.parameter.in(candidate), kept = fixed.parameter.in(start);
+    if (value == kept) continue;
+    throw std::invalid_argument(
+        Formatted("%ss[%d]: %.17g (valid: %.17g, where the problem fixes it)",
+                  std::string(Traits(fixed.parameter.family).name).c_str(), fixed.parameter.index,
+                  value, kept));
+  }
+}
+
+bool SmoothingMonitor::Propose(const HomotopyParameters& candidate) {
+  Require(candidate);
+  const double duration = SuperposedWalk(problem_->sequence(), candidate).duration();
+  SmoothingIterate record{.candidate_duration = duration};
+  if (duration < cost()) {
+    Feasibility answer;
+    if (const std::optional<AcceptedWalk> walk = Accept(candidate, &answer)) {
+      record.accepted = true;
+      record.lambda = 1.0;
+      Adopt(*walk, duration, duration);
+    } else {
+      ++result_.raw_infeasible;
+      if (answer.verdict == Verdict::kViolated) {
+        record.candidate_slack = problem_->limits().Slack(answer.witness);
+      }
+    }
+  }
+  const bool accepted = record.accepted;
+  Record(std::move(record));
+  return accepted;
+}
+
+std::optional<AcceptedWalk> SmoothingMonitor::Accept(const HomotopyParameters& candidate,
+                                                     Feasibility* answer) {
+  Require(candidate);
+  const SuperposedWalk walk(problem_->sequence(), candidate);
+  const Feasibility found = problem_->test().Check(walk, {0.0, walk.duration()}, scratch());
+  if (answer != nullptr) *answer = found;
+  if (found.verdict != Verdict::kFeasible) return std::nullopt;
+  return AcceptedWalk(candidate);
+}
+
+void SmoothingMonitor::Adopt(const AcceptedWalk& walk, double cost, double duration) {
   if (cost < result_.cost && !result_.time_to_first_improvement) {
     result_.time_to_first_improvement = Seconds();
   }
-  result_.parameters = parameters;
+  accepted_ = walk;
   result_.cost = cost;
-  result_.feasible = true;
   duration_ = duration;
-  if (options_.on_incumbent) options_.on_incumbent(parameters);
+  if (options_.on_incumbent) options_.on_incumbent(incumbent());
 }
 
 void SmoothingMonitor::Record(SmoothingIterate iterate) {
@@ -89,7 +139,12 @@ SmoothingResult SmoothingMonitor::FinishAgainstStart(Ending ending, const std::s
 }
 
 SmoothingResult SmoothingMonitor::Finish(Ending ending, const std::string& message) {
+  result_.parameters = incumbent();
+  result_.feasible = accepted_.has_value();
+  result_.accepted = std::move(accepted_);
+  accepted_.reset();
   const ParameterTable table = problem_->Parameters();
+  result_.junctions.resize(static_cast<size_t>(problem_->sequence().num_junctions()));
   for (int i = 0; i < problem_->sequence().num_junctions(); ++i) {
     const size_t at = static_cast<size_t>(i);
     JunctionResult& junction = result_.junctions[at];

@@ -8,6 +8,7 @@
 #include <stop_token>
 #include <string>
 
+#include "smoothing/methods/accepted_walk.h"
 #include "smoothing/methods/smoothing_result.h"
 #include "smoothing/methods/stopwatch.h"
 #include "smoothing/methods/walk_problem.h"
@@ -32,8 +33,8 @@ struct MonitorOptions {
 
 /// Keeps what one call of a smoother found so far: the incumbent, which is feasible in the sense of
 /// the problem's test, the candidates and the effort; knows when to stop. At any moment Finish()
-/// makes the result of it, so smoothers differ in how they search only. Its clock starts when it is
-/// made.
+/// makes the result of it, so smoothers differ in how they search only. Only a walk that was judged
+/// becomes the incumbent: Propose() asks the test. Its clock starts when it is made.
 class SmoothingMonitor {
  public:
   SmoothingMonitor() : SmoothingMonitor(MonitorOptions{}) {}
@@ -46,13 +47,13 @@ class SmoothingMonitor {
   /// The search ends after `seconds` at the latest, counted from when the monitor was made.
   void LimitTo(double seconds) { options_.deadline = std::min(options_.deadline, seconds); }
 
-  /// Forgets everything and begins at `start`. The problem is borrowed until Finish().
+  /// Forgets everything and begins at `start`.
   void Begin(const WalkProblem& problem, const HomotopyParameters& start);
   /// Begins and checks whether the walk of `start` keeps every margin for all its time. Returns
   /// false when it does not or the check was stopped; the result is then Refusal().
   bool BeginFeasibly(const WalkProblem& problem, const HomotopyParameters& start);
-  /// The same for a start that is known to keep them: nothing is checked.
-  void BeginKnownFeasible(const WalkProblem& problem, const HomotopyParameters& start);
+  /// The same for a start that the problem's test has accepted: nothing is checked.
+  void BeginAccepted(const WalkProblem& problem, AcceptedWalk start);
   /// The result when BeginFeasibly returned false: the start, not feasible.
   SmoothingResult Refusal() { return Finish(opt::Ending::kNotRun, refusal_); }
 
@@ -84,13 +85,27 @@ class SmoothingMonitor {
   void Count(const SmoothingResult& part) { Count(part.instants, part.collision_queries); }
   long instants() const { return result_.instants + scratch_->instants; }  ///< evaluated so far
 
-  /// The best point that was proved, or the start.
-  const HomotopyParameters& incumbent() const { return result_.parameters; }
+  /// The best walk that was accepted; none: not even the start.
+  const std::optional<AcceptedWalk>& accepted() const { return accepted_; }
+  /// Its parameters, or those of the start.
+  const HomotopyParameters& incumbent() const {
+    return accepted() ? accepted()->parameters() : start_;
+  }
   double cost() const { return result_.cost; }   ///< of the incumbent, by the program [s]
   double duration() const { return duration_; }  ///< of the incumbent [s]
-  /// Makes `parameters`, which were found feasible at that cost, the incumbent. `duration` [s] is
-  /// that of their walk.
-  void Adopt(const HomotopyParameters& parameters, double cost, double duration);
+
+  /// For methods that look for short walks: makes `candidate` the incumbent if it lasts shorter
+  /// than the incumbent and the problem's test accepts it for all its time; records it either way.
+  /// Returns whether it did. Throws std::invalid_argument for parameters that are out of bounds, or
+  /// move what the problem fixes.
+  bool Propose(const HomotopyParameters& candidate);
+  /// Asks the problem's test about the whole walk of `candidate`. None: it is refused, and
+  /// `answer`, unless null, says why. Throws as Propose() does.
+  std::optional<AcceptedWalk> Accept(const HomotopyParameters& candidate,
+                                     Feasibility* answer = nullptr);
+  /// Makes a walk that was accepted the incumbent. `cost`: by the program of the method. `duration`
+  /// [s] is that of the walk.
+  void Adopt(const AcceptedWalk& walk, double cost, double duration);
   /// Records that the start turned out not to be feasible, so that whatever was adopted is an
   /// improvement.
   void DropStart() { begun_ = std::numeric_limits<double>::infinity(); }
@@ -98,22 +113,29 @@ class SmoothingMonitor {
   /// concerns the incumbent.
   void Record(SmoothingIterate iterate);
 
-  /// The result so far, for smoothers to add to: junctions, evidence …
+  /// The result so far, for smoothers to add to: junctions, candidates … Which walk it has, and
+  /// whether that is feasible, is the monitor's to say, whatever is written there.
   SmoothingResult& result() { return result_; }
 
   /// Makes the result, with this ending and message.
   SmoothingResult Finish(opt::Ending ending, const std::string& message);
+  /// Whether it has begun and not finished.
+  bool under_way() const { return scratch_.has_value(); }
   /// The same, but when the incumbent costs no less than the start, any ending but kNotRun becomes
   /// kNoImprovement, and `no_gain` is added to the message.
   SmoothingResult FinishAgainstStart(opt::Ending ending, const std::string& message,
                                      const std::string& no_gain);
 
  private:
+  void Require(const HomotopyParameters& candidate) const;
+
   MonitorOptions options_;
   Stopwatch stopwatch_;
-  const WalkProblem* problem_ = nullptr;
+  std::optional<WalkProblem> problem_;
   std::optional<MarginEvaluator::Scratch> scratch_;
   SmoothingResult result_;
+  HomotopyParameters start_;
+  std::optional<AcceptedWalk> accepted_;
   double begun_ = 0.0;     // what the start costs
   double duration_ = 0.0;  // of the incumbent
   std::string refusal_;

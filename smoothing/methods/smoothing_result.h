@@ -6,6 +6,7 @@
 
 #include "opt/solvers/ending.h"
 #include "smoothing/margins/margin.h"
+#include "smoothing/methods/accepted_walk.h"
 #include "smoothing/proof/feasibility_test.h"
 #include "smoothing/walk/homotopy_parameters.h"
 
@@ -62,6 +63,8 @@ struct SmoothingResult {
   /// start, which misses a margin.
   bool feasible = false;
   Evidence evidence = Evidence::kSampled;  ///< how `feasible` was found
+  /// The same walk as it was accepted; none unless `feasible`, which nobody believes without it.
+  std::optional<AcceptedWalk> accepted = std::nullopt;
   HomotopyParameters parameters;           ///< of the walk; the best that was proved
   /// Cost by the program [s]; for `safest` minus the proved least slack, +inf when no walk within
   /// its duration was proved.

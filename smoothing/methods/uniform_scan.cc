@@ -97,10 +97,10 @@ class Scan {
         Dichotomy(problem_, {.tolerance = tolerance, .start = start}, within);
     monitor_.Count(smoothed);
     smoothed.cost = DurationOf(smoothed.parameters);
-    const bool better = smoothed.feasible && (!found_ || smoothed.cost < monitor_.cost());
+    const bool better = smoothed.accepted && (!found_ || smoothed.cost < monitor_.cost());
     if (better) {
       found_ = true;
-      monitor_.Adopt(smoothed.parameters, smoothed.cost, smoothed.cost);
+      monitor_.Adopt(*smoothed.accepted, smoothed.cost, smoothed.cost);
       monitor_.result().junctions = smoothed.junctions;
       best_ = {point.duration, point.height, {}};
     }

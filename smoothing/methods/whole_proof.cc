@@ -12,10 +12,11 @@ bool HoldsWhole(const WalkProblem& problem, const HomotopyParameters& parameters
   return problem.test().Check(walk, all, &scratch).verdict == Verdict::kFeasible;
 }
 
-void KeepWhatHolds(const WalkProblem& problem, const HomotopyParameters& before, double cost,
+void KeepWhatHolds(const WalkProblem& problem, const AcceptedWalk& before, double cost,
                    SmoothingMonitor& monitor) {
-  if (monitor.incumbent() == before || HoldsWhole(problem, monitor.incumbent(), monitor)) return;
-  monitor.Adopt(before, cost, DurationOf(before));
+  const HomotopyParameters& now = monitor.incumbent();
+  if (now == before.parameters() || HoldsWhole(problem, now, monitor)) return;
+  monitor.Adopt(before, cost, DurationOf(before.parameters()));
 }
 
 }  // namespace halfstep

@@ -11,9 +11,9 @@ namespace halfstep {
 bool HoldsWhole(const WalkProblem& problem, const HomotopyParameters& parameters,
                 SmoothingMonitor& monitor);
 
-/// Makes `before`, which cost `cost` and holds, the incumbent again unless the present one is the
-/// same or holds as a whole.
-void KeepWhatHolds(const WalkProblem& problem, const HomotopyParameters& before, double cost,
+/// Makes `before`, which cost `cost`, the incumbent again unless the present one is the same or
+/// holds as a whole.
+void KeepWhatHolds(const WalkProblem& problem, const AcceptedWalk& before, double cost,
                    SmoothingMonitor& monitor);
 
 }  // namespace halfstep

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "smoothing/methods/accepted_in_parts.h"
 #include "smoothing/methods/incumbent.h"
 #include "smoothing/methods/search_pace.h"
 #include "smoothing/methods/search_rounds.h"
@@ -30,20 +31,21 @@ constexpr int kRoundsARepeat = 4;
 class WholeSearch {
  public:
   WholeSearch(const WalkProblem& problem, const OptimizerOptions& options,
-              const opt::Solver& solver, const Effort& effort, double from, OverlapProgram* program,
-              SmoothingMonitor& monitor, SearchEnding* ending)
+              const opt::Solver& solver, const RestartPolicy& restarts, double from,
+              OverlapProgram* program, SmoothingMonitor& monitor, SearchEnding* ending)
       : problem_(problem),
         sequence_(problem.sequence()),
         test_(problem.test()),
         options_(options),
         solver_(solver),
-        effort_(effort),
+        restarts_(restarts),
         from_(from),
         program_(*program),
         monitor_(monitor),
         end_(*ending),
         proofs_(test_, sequence_.size()),
-        start_(monitor.incumbent()) {}
+        begun_(*monitor.accepted()),
+        start_(begun_.parameters()) {}
 
   bool Run() {
     const double own = DurationOf(start_), limit = program_.duration_limit();
@@ -54,14 +56,14 @@ class WholeSearch {
     const double cost = !Safest() ? program_.Cost(start_)
                         : within  ? 0.0
                                   : std::numeric_limits<double>::infinity();
-    monitor_.Adopt(start_, cost, own);
+    monitor_.Adopt(begun_, cost, own);
     proofs_.Remember(SuperposedWalk(sequence_, start_));
     Incumbent path(sequence_, rules, start_, cost, monitor_.scratch());
     Search(&path);
     if (path.accepted() == 0) return false;
     // Safest walks were proved whole, the others stretch by stretch.
     if (Safest() || HoldsWhole(problem_, path.parameters(), monitor_)) return true;
-    monitor_.Adopt(start_, program_.Cost(start_), own);
+    monitor_.Adopt(begun_, program_.Cost(start_), own);
     return false;
   }
 
@@ -76,7 +78,7 @@ class WholeSearch {
 
   void Search(Incumbent* path) {
     std::vector<HomotopyParameters> starts = {start_};
-    if (options_.planned_start && effort_.planned_start)
+    if (options_.planned_start && restarts_.planned_start)
       starts.push_back(Fastest() ? Shortened() : problem_.Start());
     AddRandomPoints(program_, options_.random_starts, options_.seed, &starts);
     for (size_t s = 0; s < starts.size(); ++s) {
@@ -85,7 +87,7 @@ class WholeSearch {
     }
     // Where rounds lead into what cannot be mended, the incumbent, which has come a part of the
     // way, is a place to set out from again.
-    const int repeats = effort_.repeats ? options_.rounds / kRoundsARepeat : 0;
+    const int repeats = restarts_.repeats ? options_.rounds / kRoundsARepeat : 0;
     int poor = 0;
     for (int again = 0; again < repeats && poor < 2 && path->accepted() > 0; ++again) {
       const double before = path->cost(), reserve = again % 2 == 0 ? 1.0 : kMoreReserve;
@@ -101,7 +103,7 @@ class WholeSearch {
     ResetRows(options_.program.watch.sharpness, reserve, &program_.watched());
     solution_.warm_start = nullptr;
     Eigen::VectorXd x = program_.ToVariables(start);
-    SearchPace pace(options_.rounds, effort_.poor_rounds);
+    SearchPace pace(options_.rounds, restarts_.poor_rounds);
     for (int round = 0; !pace.over(); ++round) {
       const double before = path->cost();
       const double remaining =
@@ -188,7 +190,8 @@ class WholeSearch {
     const double lambda = tried ? path->Toward(candidate, kAttempts) : 0.0;
     if (!tried || !path->refusals().empty()) ++monitor_.result().raw_infeasible;
     if (lambda > 0.0) {
-      monitor_.Adopt(path->parameters(), path->cost(), DurationOf(path->parameters()));
+      monitor_.Adopt(AcceptedInParts::Walk(path->parameters()), path->cost(),
+                     DurationOf(path->parameters()));
       std::array<bool, kNumMarginFamilies> all;
       all.fill(true);
       incumbent_slack_ = program_.watched().LeastSlack(path->parameters(), all);
@@ -211,13 +214,14 @@ class WholeSearch {
   const FeasibilityTest& test_;
   const OptimizerOptions& options_;
   const opt::Solver& solver_;
-  const Effort& effort_;
+  const RestartPolicy& restarts_;
   const double from_;  // of the progress
   OverlapProgram& program_;
   SmoothingMonitor& monitor_;
   SearchEnding& end_;
   StretchProofs proofs_;
-  const HomotopyParameters start_;         // proved
+  const AcceptedWalk begun_;
+  const HomotopyParameters& start_;        // its parameters
   opt::Solution solution_;                 // the last one
   std::optional<double> incumbent_slack_;  // at the instants watched
   int since_proof_ = 0;                    // candidates
@@ -227,9 +231,9 @@ class WholeSearch {
 }  // namespace
 
 bool SearchWhole(const WalkProblem& problem, const OptimizerOptions& options,
-                 const opt::Solver& solver, const Effort& effort, double from,
+                 const opt::Solver& solver, const RestartPolicy& restarts, double from,
                  OverlapProgram* program, SmoothingMonitor& monitor, SearchEnding* ending) {
-  return WholeSearch(problem, options, solver, effort, from, program, monitor, ending).Run();
+  return WholeSearch(problem, options, solver, restarts, from, program, monitor, ending).Run();
 }
 
 }  // namespace halfstep

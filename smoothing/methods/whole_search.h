@@ -8,8 +8,8 @@
 
 namespace halfstep {
 
-/// How long SearchWhole goes on.
-struct Effort {
+/// From where SearchWhole begins its rounds, and how long it goes on.
+struct RestartPolicy {
   int poor_rounds = 5;        ///< in a row that end the rounds from a start
   bool planned_start = true;  ///< whether there are rounds from the planned motion, too
   bool repeats = true;  ///< whether rounds begin again at the incumbent, as long as that gains
@@ -24,7 +24,7 @@ struct Effort {
 /// the incumbent now. `ending` notes how the solves ended. Source: smoothing/README.md, "The
 /// incumbent".
 bool SearchWhole(const WalkProblem& problem, const OptimizerOptions& options,
-                 const opt::Solver& solver, const Effort& effort, double from,
+                 const opt::Solver& solver, const RestartPolicy& restarts, double from,
                  OverlapProgram* program, SmoothingMonitor& monitor, SearchEnding* ending);
 
 }  // namespace halfstep

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "smoothing/methods/accepted_in_parts.h"
 #include "smoothing/methods/incumbent.h"
 #include "smoothing/methods/repeated_steps.h"
 #include "smoothing/methods/search_rounds.h"
@@ -66,7 +67,8 @@ class WindowPasses {
         begun, cost, monitor_.scratch());
     whole.Toward(at_, kAttempts);
     if (whole.parameters() != at_) {
-      monitor_.Adopt(whole.parameters(), whole.cost(), DurationOf(whole.parameters()));
+      monitor_.Adopt(AcceptedInParts::Walk(whole.parameters()), whole.cost(),
+                     DurationOf(whole.parameters()));
     }
     return whole.accepted() > 0;
   }
@@ -120,7 +122,7 @@ class WindowPasses {
         window, options, solver_, options_.deadline, monitor_,
         [&](const HomotopyParameters& part, double gain) {
           window.Paste(part, &at_);
-          monitor_.Adopt(at_, before - gain, DurationOf(at_));
+          monitor_.Adopt(AcceptedInParts::Walk(at_), before - gain, DurationOf(at_));
         },
         &end_);
     return before - monitor_.cost();

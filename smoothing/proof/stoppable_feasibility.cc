@@ -27,7 +27,14 @@ std::unique_ptr<FeasibilityTest> StoppableFeasibility::Over(
 
 Feasibility StoppableFeasibility::Check(const SuperposedWalk& walk, const TimeWindow& window,
                                         MarginEvaluator::Scratch* scratch) const {
-  Feasibility answer = test_->Check(walk, window, scratch);
+  const Feasibility answer = test_->Check(walk, window, scratch);
+  return answer.verdict == Verdict::kFeasible ? CheckBranches(walk, window, scratch) : answer;
+}
+
+Feasibility StoppableFeasibility::CheckBranches(const SuperposedWalk& walk,
+                                                const TimeWindow& window,
+                                                MarginEvaluator::Scratch* scratch) const {
+  Feasibility answer{.verdict = Verdict::kFeasible, .evidence = evidence(), .witness = {}};
   for (int k = 0; k + 1 < walk.num_half_steps(); ++k) {
     if (answer.verdict != Verdict::kFeasible) return answer;
     if (!Demands(branches_, walk.half_step(k).kind)) continue;

@@ -27,6 +27,9 @@ class StoppableFeasibility : public FeasibilityTest {
   /// The witness says whether it is of a branch (Margin::stop_after).
   Feasibility Check(const SuperposedWalk& walk, const TimeWindow& window,
                     MarginEvaluator::Scratch* scratch) const override;
+  /// The same of the branches alone, for a walk that the test is known to accept itself.
+  Feasibility CheckBranches(const SuperposedWalk& walk, const TimeWindow& window,
+                            MarginEvaluator::Scratch* scratch) const;
 
  private:
   std::shared_ptr<const FeasibilityTest> test_;

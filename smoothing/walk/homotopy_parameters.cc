@@ -1,9 +1,10 @@
 #include "smoothing/walk/homotopy_parameters.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
+#include <string>
 
+#include "smoothing/walk/parameter_complaint.h"
 #include "wpg/check.h"
 
 namespace halfstep {
@@ -41,25 +42,8 @@ double NaturalOverlapBound(const HomotopyParameters& parameters, int junction) {
 }
 
 void CheckParameters(const HalfStepSequence& sequence, const HomotopyParameters& parameters) {
-  for (const ParameterFamily family : AllParameterFamilies()) {
-    const ParameterFamilyTraits& traits = Traits(family);
-    const std::vector<double>& values = parameters.of(family);
-    HALFSTEP_CHECK(values.size() == static_cast<size_t>(traits.count(sequence)),
-                   values.size() << " values of " << traits.name << " for " << sequence.size()
-                                 << " half-steps");
-    for (double value : values) {
-      HALFSTEP_CHECK(std::isfinite(value) &&
-                         (value > traits.least || (traits.least_itself && value == traits.least)) &&
-                         (value <= traits.most || !traits.of_form),
-                     traits.name << " " << value << " " << traits.unit);
-    }
-  }
-  for (int i = 0; i < sequence.num_junctions(); ++i) {
-    const double overlap = parameters.overlaps[static_cast<size_t>(i)];
-    const double bound = NaturalOverlapBound(parameters, i);
-    HALFSTEP_CHECK(overlap <= bound + kOverlapTolerance,
-                   "overlap " << overlap << " s of junction " << i << ", bound " << bound << " s");
-  }
+  const std::string complaint = ComplaintAbout(sequence, parameters);
+  HALFSTEP_CHECK(complaint.empty(), complaint);
 }
 
 void ClampOverlaps(const HomotopyParameters& rests, HomotopyParameters* parameters) {

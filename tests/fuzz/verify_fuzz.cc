@@ -48,7 +48,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     }
   });
   if (!all) return 0;
-  verify::CheckAgainstConfig(certificate, {}, &findings);
+  verify::CheckAgainstConfig(certificate, robot, {}, &findings);
   verify::CheckArithmetic(certificate, claims, robot, rows.empty() ? 0 : rows.back().t, &findings);
   return 0;
 }

@@ -9,6 +9,7 @@ import tempfile
 import unittest
 
 FOLDER = pathlib.Path(sys.argv[1]).resolve()
+SOURCE = pathlib.Path(__file__).resolve().parents[2]
 
 
 def number(pattern, text):
@@ -54,6 +55,30 @@ class Examples(unittest.TestCase):
         self.assertLessEqual(number(r"at most ([\d.]+) m/s", told), 0.3)
         self.assertIn("own of CoM's speed", told)
 
+    def test_a_run_with_an_own_margin_is_verified_but_for_that(self):
+        told, verified = self.run_of("07_own_margin", "dichotomy")
+        self.assertIn("certified", told)
+        self.assertEqual(verified.count("\n  verified\n"), 2, verified)  # raw and dichotomy
+        self.assertEqual(verified.count("not examined: whether the family `own` holds (1 "), 2)
+
+    def test_a_run_of_an_own_smoother_is_verified(self):
+        told, verified = self.run_of("11_own_smoother", "mine/scale")
+        self.assertIn("mine/scale             converged", told)
+        self.assertEqual(verified.count("\n  verified\n"), 2, verified)
+        self.assertIn("does not have: the method mine/scale", verified)
+
+    def run_of(self, name, method):
+        """What `run` of a program with RunExperiment says, and then `halfstep verify`."""
+        with tempfile.TemporaryDirectory() as place:
+            run = pathlib.Path(place) / "run"
+            config = SOURCE / "experiments/configs/fig3_two_half_steps.yaml"
+            told = self.told_by(name, "run", str(config), "--out", str(run), "--set",
+                                f"smoothing.methods=[{method}]")
+            done = subprocess.run([FOLDER.parent / "halfstep", "verify", "--verbose", run],
+                                  text=True, capture_output=True)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        return told, done.stdout
+
     def test_08(self):
         self.assertGreater(self.told_by("08_plan_in_own_scene").count("left"), 1)
 
@@ -64,6 +89,11 @@ class Examples(unittest.TestCase):
 
     def test_10(self):
         self.assertIn("wren", self.told_by("10_own_robot"))
+
+    def test_11(self):
+        told = self.told_by("11_own_smoother")
+        self.assertLess(number(r"mine/scale +proved, ([\d.]+)", told), 15.0)  # raw: 16 s
+        self.assertIn("mine/scale", self.told_by("11_own_smoother", "list", "methods"))
 
 
 if __name__ == "__main__":

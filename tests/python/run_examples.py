@@ -33,6 +33,7 @@ CHECKS = {
     "08": lambda t: t.startswith("solved") and t.rstrip().endswith("certified"),
     "09": lambda t: numbers(r"mm +([\d.]+) s", t) == sorted(numbers(r"mm +([\d.]+) s", t)),
     "10": lambda t: "mine" in t and t.rstrip().endswith("certified"),
+    "11": lambda t: t.count("certified") == 2 and numbers(r"mine/scale +([\d.]+)", t)[0] < 15.0,
 }
 
 

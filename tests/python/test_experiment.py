@@ -74,7 +74,7 @@ class Smoothing(unittest.TestCase):
         result = hs.Experiment("fig3_two_half_steps").smooth(
             "dichotomy", progress=lambda what, done: told.append((what, done)))
         self.assertAlmostEqual(result.duration, 3.179, places=3)
-        self.assertEqual((result.status, result.evidence), ("converged", "certified"))
+        self.assertEqual((result.status, result.judged_by), ("converged", "certified"))
         self.assertTrue(result.certify().certified)
         self.assertGreater(result.iterates.rows, 3)
         self.assertEqual(result.overlaps.rows, 1)

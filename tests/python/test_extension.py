@@ -75,6 +75,39 @@ class Smoothers(unittest.TestCase):
         with self.assertRaisesRegex(LookupError, "mine"):
             hs.Experiment("fig3_two_half_steps").smooth("mine/broken")
 
+    def test_in_a_run_what_it_raises_is_its_own_failure(self):
+        def broken(problem):
+            problem.propose(problem.walk(overlaps=[0.1]))
+            raise LookupError("mine")
+        hs.register_smoother("mine/broken", broken)
+        config = hs.load_config("fig3_two_half_steps",
+                                smoothing__methods=["mine/broken", "dichotomy"])
+        with tempfile.TemporaryDirectory() as place:
+            with self.assertWarnsRegex(RuntimeWarning, "mine/broken: failed: LookupError: mine$"):
+                run = hs.Experiment(config).run(os.path.join(place, "run"))
+            raw, mine, dichotomy = run.manifest["methods"]
+            self.assertEqual((mine["status"], mine["message"]), ("failed", "LookupError: mine"))
+            self.assertEqual((mine["judged_by"], mine["verdict"]), ("certified", "certified"))
+            self.assertAlmostEqual(mine["duration_s"], 3.9)  # what it had proved by then
+            self.assertEqual(dichotomy["status"], "converged")
+
+    def test_in_a_run_ctrl_c_keeps_its_meaning(self):
+        def impatient(problem):
+            raise KeyboardInterrupt
+        hs.register_smoother("mine/impatient", impatient)
+        config = hs.load_config("fig3_two_half_steps", smoothing__methods=["mine/impatient"])
+        with tempfile.TemporaryDirectory() as place:
+            with self.assertRaises(KeyboardInterrupt):
+                hs.Experiment(config).run(os.path.join(place, "run"))
+            self.assertEqual(os.listdir(place), [])
+
+    def test_what_is_no_walk_is_an_input_error(self):
+        def wild(problem):
+            problem.walk(overlaps=[7.0])
+        hs.register_smoother("mine/wild", wild)
+        with self.assertRaisesRegex(hs.InputError, r"overlaps\[0\]: 7 s \(valid: at most 0.95 s"):
+            hs.Experiment("fig3_two_half_steps").smooth("mine/wild")
+
     def test_a_deadline_stops_it(self):
         def endless(problem):
             while not problem.stopped:

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "opt/adapters/solver_registry.h"
+#include "smoothing/methods/accepted_in_parts.h"
 #include "smoothing/methods/dichotomy.h"
 #include "smoothing/methods/repeated_steps.h"
 #include "smoothing/methods/smoother_registry.h"
@@ -249,7 +250,7 @@ TEST(WindowSearch, GoesOnWhereRoundsStillGain) {
   const WalkWindow window = WindowOf(ProblemOf(sequence, test), slow, 0, 3);
   const auto gain_with = [&](int most_rounds) {
     SmoothingMonitor monitor;
-    monitor.BeginKnownFeasible(window.problem, window.parameters);
+    monitor.BeginAccepted(window.problem, AcceptedInParts::Walk(window.parameters));
     WindowSearchOptions options{.program = {}, .rounds = 1, .most_rounds = most_rounds};
     options.program.parameters = EveryFamily();
     double gained = 0.0;

@@ -122,7 +122,7 @@ inline Scene DrawScene(const SuperposedWalk& walk, SceneKind kind, int count, Wa
 }
 
 /// A walk among obstacles.
-struct DrawnWalk {
+struct WalkNearLimit {
   Scene scene;
   HalfStepSequence sequence;
   HomotopyParameters parameters;
@@ -133,7 +133,7 @@ struct DrawnWalk {
 /// planned motion as that allows. None when the drawn plan itself does not keep them, or when no
 /// margin stops the way. The way leads along overlaps alone, or along `all` families of homotopy
 /// parameters, footsteps included.
-inline std::optional<DrawnWalk> DrawNearLimit(const RobotModel& robot, SceneKind kind,
+inline std::optional<WalkNearLimit> DrawNearLimit(const RobotModel& robot, SceneKind kind,
                                               MarginLimits limits, double spare, WalkDraw* draw,
                                               bool all = false) {
   for (MarginFamily family : AllMarginFamilies()) {
@@ -147,7 +147,7 @@ inline std::optional<DrawnWalk> DrawNearLimit(const RobotModel& robot, SceneKind
   const int steps = 1 + static_cast<int>(draw->Uniform(0, 3));
   const WalkVariety variety{
       .stride = 0.7, .shortest = 1.2, .longest = 2.2, .lowest = 0.05, .highest = 0.2};
-  DrawnWalk drawn{
+  WalkNearLimit drawn{
       .scene = {}, .sequence = DrawSequence(robot, steps, variety, draw), .parameters = {}};
   const HalfStepSequence& sequence = drawn.sequence;
   const SuperposedWalk planned(sequence, PlannedMotion(sequence));

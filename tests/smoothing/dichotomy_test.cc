@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <stop_token>
 
+#include "smoothing/methods/accepted_in_parts.h"
 #include "tests/smoothing/fake_feasibility.h"
 #include "tests/smoothing/smoothed.h"
 #include "tests/smoothing/test_walks.h"
@@ -90,7 +91,8 @@ TEST_F(DichotomyTest, ACheaperTestSavesQuestionsAndChangesNothingElse) {
 TEST_F(DichotomyTest, AStartThatIsKnownToBeFeasibleIsNotChecked) {
   const FakeFeasibility nothing =
       Rule([](const HomotopyParameters&) { return Verdict::kViolated; });
-  const DichotomyOptions options{.start_is_feasible = true};
+  const DichotomyOptions options{
+      .accepted_start = AcceptedInParts::Walk(PlannedMotion(sequence_))};
   const SmoothingResult result = Smoothed(Dichotomy, ProblemOf(sequence_, nothing), options);
   EXPECT_EQ(result.parameters, PlannedMotion(sequence_));
   EXPECT_EQ(result.ending, opt::Ending::kNoImprovement);

@@ -5,7 +5,9 @@
 #include <functional>
 #include <limits>
 #include <stdexcept>
+#include <string>
 
+#include "smoothing/walk/parameter_complaint.h"
 #include "tests/smoothing/test_walks.h"
 
 namespace halfstep {
@@ -89,6 +91,23 @@ TEST(CheckParameters, AcceptsAllThatIsInBoundsBothEndsIncluded) {
     EXPECT_NO_THROW(CheckParameters(sequence, draw.ExtremeParameters(sequence)));
     EXPECT_NO_THROW(CheckParameters(sequence, PlannedMotion(sequence)));
   }
+}
+
+TEST(ComplaintAbout, NamesTheParameterItsValueAndWhatIsValid) {
+  const HalfStepSequence sequence = ThreeSteps();
+  const auto complaint = [&](const std::function<void(HomotopyParameters*)>& fault) {
+    HomotopyParameters parameters = PlannedMotion(sequence);
+    fault(&parameters);
+    return ComplaintAbout(sequence, parameters);
+  };
+  EXPECT_EQ(complaint([](auto*) {}), "");
+  EXPECT_EQ(complaint([](auto* p) { p->durations.pop_back(); }),
+            "durations: 5 numbers (valid: 6, for 6 half-steps)");
+  EXPECT_EQ(complaint([](auto* p) { p->durations[2] = -1; }),
+            "durations[2]: -1 s (valid: above 0 s)");
+  const std::string overlap = complaint([](auto* p) { p->overlaps[0] = 7; });
+  EXPECT_EQ(overlap.find("overlaps[0]: 7 s (valid: at most 0.9 s, the natural bound"), 0u)
+      << overlap;
 }
 
 TEST(CheckParameters, RefusesEachSingleFault) {

@@ -60,7 +60,7 @@ TEST_F(SmoothingMonitorTest, AnEndingIsMeasuredAgainstTheStartOnlyWhenAsked) {
   const auto finish = [&](const HomotopyParameters& found, Ending ending, bool against_start) {
     SmoothingMonitor monitor;
     EXPECT_TRUE(monitor.BeginFeasibly(problem, start));
-    monitor.Adopt(found, DurationOf(found), DurationOf(found));
+    monitor.Adopt(*monitor.Accept(found), DurationOf(found), DurationOf(found));
     return against_start ? monitor.FinishAgainstStart(ending, "done", "; no gain")
                          : monitor.Finish(ending, "done");
   };

@@ -11,12 +11,15 @@
 #include "experiments/verify/check_clearance.h"
 #include "experiments/verify/check_overlaps.h"
 #include "experiments/verify/check_rows.h"
+#include "experiments/verify/csv_text.h"
 #include "experiments/verify/described_walk.h"
 #include "experiments/verify/distances.h"
 #include "experiments/verify/floor_distances.h"
+#include "experiments/verify/own_names.h"
 #include "experiments/verify/played_motion.h"
 #include "smoothing/walk/superposed_walk.h"
 #include "tests/experiments/child_process.h"
+#include "wpg/files/input_error.h"
 
 namespace halfstep::verify {
 namespace {
@@ -480,6 +483,35 @@ TEST(FloorDistances, OnlyTheLastLinkOfALegIsAFoot) {
       EXPECT_EQ(verify::IsOnFoot(body), leg >= 0 && link == 5);
     }
   }
+}
+
+// A config that only the program can read that registered its names is read without them, and they
+// are told; what is a mistake anywhere stays one.
+TEST(OwnNames, AreTakenOutOfTheConfigAndTold) {
+  const std::string path = ShippedConfig("fig5_box");
+  const std::string shipped = ReadBytes(path);
+  const std::string text = shipped.substr(0, shipped.find("\nsmoothing:")) + R"(
+planner: {name: mine/grid}
+smoothing:
+  methods: [dichotomy, mine/scale]
+  margins: {own: 0.25, zmp_m: 0.012}
+  optimizer: {weights: {com_jerk: 0.5, mine: 3}}
+)";
+  EXPECT_THROW(ParseConfig(path, text, {}), InputError);
+  const OwnNames own = FindOwnNames(path, text);
+  EXPECT_THAT(own.told, testing::UnorderedElementsAre("the method mine/scale",
+                                                      "the planner mine/grid", "the weight mine"));
+  EXPECT_EQ(own.methods, (std::vector<std::string>{"dichotomy", "mine/scale"}));
+  EXPECT_EQ(own.own_margin, 0.25);
+  const ExperimentConfig config = ParseConfig(path, text, own.overrides);
+  EXPECT_EQ(config.smoothing.methods, std::vector<std::string>{"dichotomy"});
+  EXPECT_EQ(config.smoothing.limits.demanded_of(MarginFamily::kZmp), 0.012);
+  EXPECT_EQ(config.smoothing.optimizer.options.program.weights.com_jerk, 0.5);
+
+  EXPECT_TRUE(FindOwnNames(path, shipped).overrides.empty());
+  EXPECT_TRUE(FindOwnNames(path, "smoothing: [").told.empty());
+  const std::string wrong = text + "speed: 3\n";
+  EXPECT_THROW(ParseConfig(path, wrong, FindOwnNames(path, wrong).overrides), InputError);
 }
 
 }  // namespace

@@ -41,11 +41,12 @@ const char* HarmlessInManifest(const std::string& pointer) {
                             "/acceptance", "/host", "/wall_s", "/libraries"}) {
     if (pointer.starts_with(begin)) return kHow;
   }
-  for (const char* part : {"/requested", "/message", "/evidence", "/wall_s"}) {
+  for (const char* part : {"/requested", "/message", "/judged_by", "/wall_s"}) {
     if (pointer.starts_with("/methods/") && pointer.find(part) != std::string::npos) return kHow;
   }
   // Of raw, whose row verify is not asked about.
-  if (pointer == "/methods/0/status" || pointer == "/methods/0/duration_s") {
+  if (pointer == "/methods/0/status" || pointer == "/methods/0/duration_s" ||
+      pointer == "/methods/0/verdict") {
     return "verify is asked about the other method";
   }
   return "";

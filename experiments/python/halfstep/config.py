@@ -10,6 +10,7 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from . import _halfstep
+from .errors import InputError
 
 __all__ = ["configs", "load_config", "methods", "planners", "robots", "scenes", "solvers"]
 
@@ -56,7 +57,7 @@ def load_config(config: str | os.PathLike, **overrides: Any) -> dict[str, Any]:
     Keys, units and ranges: ``halfstep explain-config``. Raises InputError.
     """
     return _halfstep.load_config(path_of_config(config),
-                                 [(key.replace("__", "."), to_yaml(value))
+                                 [(text("config: a key", key).replace("__", "."), to_yaml(value))
                                   for key, value in overrides.items()])
 
 
@@ -81,11 +82,22 @@ def path_of_scene(scene: str | os.PathLike) -> str:
 def _path_or_shipped(name: str, shipped: Mapping[str, str], what: str = "config") -> str:
     if not isinstance(name, str):
         raise TypeError(f"{what}: {type(name).__name__} (valid: text)")
+    text(what, name)
     if name in shipped and not os.path.exists(name):
         return shipped[name]
     if os.sep not in name and not name.endswith((".yaml", ".yml")) and not os.path.exists(name):
-        raise ValueError(f"no {what} {name!r} (valid: a path, or one of {', '.join(shipped)})")
+        raise InputError(f"no {what} {name!r} (valid: a path, or one of {', '.join(shipped)})")
     return name
+
+
+def text(what: str, value: str) -> str:
+    """Text that UTF-8 can hold, or an InputError: halves of surrogate pairs cannot be written."""
+    try:
+        value.encode()
+    except UnicodeEncodeError as error:
+        raise InputError(f"{what}: character {error.start + 1} is half of a surrogate pair (valid: "
+                         "text that UTF-8 can hold)") from None
+    return value
 
 
 def to_yaml(value: Any) -> str:
@@ -93,7 +105,8 @@ def to_yaml(value: Any) -> str:
     if value is None:
         return "none"
     if isinstance(value, str):
-        return "none" if value == "none" else json.dumps(value, ensure_ascii=False)
+        return "none" if value == "none" else json.dumps(text("config", value),
+                                                         ensure_ascii=False)
     if isinstance(value, bool) or type(value).__name__ == "bool_":
         return "true" if value else "false"
     if isinstance(value, numbers.Integral):
@@ -129,4 +142,5 @@ def to_document(config: Mapping[str, Any]) -> str:
 def _key(key: Any) -> str:
     if not isinstance(key, str):
         raise TypeError(f"a key of a config is {type(key).__name__} (valid: text)")
+    text("config: a key", key)
     return key if key.replace("_", "").isalnum() and key.isascii() else json.dumps(key)

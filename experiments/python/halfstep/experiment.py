@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 import math
 import os
+import warnings
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -12,6 +13,7 @@ import numpy as np
 
 from . import _halfstep
 from .config import load_config, methods, path_of_config, path_of_scene, to_document
+from .errors import InputError
 from .place import NotCovered, Robot, Scene
 from .result import Result
 from .tables import Table
@@ -174,7 +176,7 @@ class Experiment:
         """Finds footsteps to the goal of the config. ``progress(what, done)`` is told the part that
         is under way and the fraction of it that is done. Ctrl-C ends it."""
         if not self.config.get("goal"):
-            raise ValueError("plan: the config has footsteps and no goal (valid: a `goal`)")
+            raise InputError("plan: the config has footsteps and no goal (valid: a `goal`)")
         status, sentence, steps, start, wall = self._experiment.plan(_progress(progress))
         table = Table({"foot": np.array([s[0] for s in steps], dtype=object),
                        **{name: np.array([s[i + 1] for s in steps], dtype=float)
@@ -201,16 +203,16 @@ class Experiment:
         if not isinstance(method, str):
             raise TypeError(f"method: {type(method).__name__} (valid: a method's name)")
         if method not in methods():
-            raise ValueError(f"no method {method!r} (valid: {', '.join(methods())})")
+            raise InputError(f"no method {method!r} (valid: {', '.join(methods())})")
         if method == "given":
-            raise ValueError("given: its files are for run() (valid here: walk(overlaps=…), which "
+            raise InputError("given: its files are for run() (valid here: walk(overlaps=…), which "
                              "needs no method)")
         limit = math.inf
         if deadline is not None:
             if isinstance(deadline, bool) or not isinstance(deadline, (int, float)):
                 raise TypeError(f"deadline: {type(deadline).__name__} (valid: seconds)")
             if not deadline > 0.0:
-                raise ValueError(f"deadline: {deadline} (valid: above 0 s)")
+                raise InputError(f"deadline: {deadline} (valid: above 0 s)")
             limit = float(deadline)
         text = self._with_options(method, options) if options else ""
         return Result(self._experiment.smooth(method, text, limit, _progress(progress)))
@@ -221,7 +223,9 @@ class Experiment:
         of the config, certifies and writes the run folder ``out``.
 
         A scene that was made of a dict is written beside the folder, as OUT_scene.yaml. Raises
-        FileExistsError when the folder is there and ``overwrite`` is False.
+        FileExistsError when the folder is there and ``overwrite`` is False. A method that fails,
+        also because a function of yours raised, has the status "failed" in the folder and is a
+        RuntimeWarning; the others are written all the same.
         """
         from .run import Run
         out = os.path.abspath(os.fspath(out))
@@ -231,9 +235,12 @@ class Experiment:
         if self._scene is not None:
             self._scene.save(out + "_scene.yaml")
             text = to_document({**self._config, "scene": out + "_scene.yaml"})
-        refusal = _halfstep.run(self._path, text, out, bool(overwrite), _progress(progress))
+        refusal, failed = _halfstep.run(self._path, text, out, bool(overwrite),
+                                        _progress(progress))
         if refusal:
             raise ValueError(refusal)
+        for sentence in failed:
+            warnings.warn(sentence, RuntimeWarning, stacklevel=2)
         return Run(out)
 
     def _text(self) -> str:

@@ -8,9 +8,10 @@ from typing import Any
 import numpy as np
 
 from . import _halfstep
-from .errors import SolveStopped
+from .config import text
+from .errors import InputError, SolveStopped
 from .program import OverlapProgram, csr, program_options
-from .walk import Walk, vector
+from .walk import Walk, number, vector
 
 __all__ = ["SmoothingProblem", "SolverProblem", "register_smoother", "register_solver"]
 
@@ -19,6 +20,8 @@ class SmoothingProblem:
     """What a smoother of yours is given. It is over when your function returns."""
 
     def __init__(self, task: Any) -> None:
+        if not isinstance(task, _halfstep.SmoothingTask):
+            raise TypeError("a SmoothingProblem is made for a function that is registered")
         self._task = task
 
     @property
@@ -87,7 +90,7 @@ class SmoothingProblem:
 
     def tell(self, done: float) -> None:
         """Tells the progress, a fraction from 0 to 1."""
-        self._task.tell(float(done))
+        self._task.tell(min(1.0, max(0.0, number("done", done))))
 
 
 class SolverProblem:
@@ -96,6 +99,8 @@ class SolverProblem:
     raise SolveStopped when the solve is to end; the best point that was evaluated is kept."""
 
     def __init__(self, task: Any) -> None:
+        if not isinstance(task, _halfstep.SolvingTask):
+            raise TypeError("a SolverProblem is made for a function that is registered")
         self._task = task
         self.lower: np.ndarray = task.lower
         """The least values of x (n)."""
@@ -151,6 +156,10 @@ def register_smoother(name: str, function: Callable[[SmoothingProblem], Any],
     It is called in another thread than that of ``smooth``.
     """
     _require(name, function)
+    if not isinstance(meaning, str):
+        raise TypeError(f"meaning: {type(meaning).__name__} (valid: text)")
+    text("meaning", meaning)
+
     def call(task: Any) -> None:
         try:
             function(SmoothingProblem(task))
@@ -170,14 +179,15 @@ def register_solver(name: str,
     of a solver that is built in is a ValueError. It is called in another thread than ``smooth``.
     """
     _require(name, function)
-    _halfstep.register_solver(name, lambda task, x0: function(SolverProblem(task), x0))
+    _halfstep.register_solver(name, lambda task, x0: vector(
+        f"what solver {name} returned", function(SolverProblem(task), x0), len(x0)))
 
 
 def _require(name: Any, function: Any) -> None:
     if not isinstance(name, str):
         raise TypeError(f"name: {type(name).__name__} (valid: text)")
     if not name or not name.replace("/", "").replace("_", "").isalnum() or not name.isascii():
-        raise ValueError(f"name: {name!r} (valid: letters, digits, '_' and '/')")
+        raise InputError(f"name: {name!r} (valid: letters, digits, '_' and '/')")
     if not callable(function):
         raise TypeError(f"function: {type(function).__name__} (valid: a function)")
 

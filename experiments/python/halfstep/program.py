@@ -8,9 +8,10 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from . import _halfstep
+from .errors import InputError
 from .experiment import Experiment
 from .tables import Table
-from .walk import Walk, _flag, _number, vector
+from .walk import Walk, _flag, number, vector
 
 __all__ = ["OverlapProgram", "Refinement"]
 
@@ -133,8 +134,8 @@ class OverlapProgram:
 
     @sharpness.setter
     def sharpness(self, value: float) -> None:
-        if not _number("sharpness", value) > 0.0:
-            raise ValueError(f"sharpness: {value} (valid: above 0)")
+        if not number("sharpness", value) > 0.0:
+            raise InputError(f"sharpness: {value} (valid: above 0)")
         self._program.sharpness = value
 
     def cost(self, x: np.ndarray) -> float:
@@ -199,19 +200,19 @@ def program_options(**options: Any) -> dict[str, Any]:
         elif name == "weights":
             weights = vector("weights", value, 3)
             if (weights < 0.0).any():
-                raise ValueError("weights: below 0 (valid: 0 or more)")
+                raise InputError("weights: below 0 (valid: 0 or more)")
             checked[name] = list(weights)
         elif name == "instants":
             if isinstance(value, bool) or not isinstance(value, (int, np.integer)):
                 raise TypeError(f"instants: {type(value).__name__} (valid: an integer)")
             if not 1 <= value <= 1000:
-                raise ValueError(f"instants: {value} (valid: 1 ... 1000)")
+                raise InputError(f"instants: {value} (valid: 1 ... 1000)")
             checked[name] = int(value)
         elif name in ("sharpness", "duration_limit"):
-            number = _number(name, value)
-            if number < 0.0 or (name == "sharpness" and number == 0.0):
-                raise ValueError(f"{name}: {number} (valid: above 0)")
-            checked[name] = number
+            amount = number(name, value)
+            if amount < 0.0 or (name == "sharpness" and amount == 0.0):
+                raise InputError(f"{name}: {value} (valid: above 0)")
+            checked[name] = amount
         else:
             checked[name] = _flag(name, value)
     return checked

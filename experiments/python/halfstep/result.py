@@ -17,7 +17,7 @@ class Result:
     """What a method of smoothing found.
 
     Whatever the method does, ``walk`` was found feasible by the experiment's test if ``feasible``;
-    ``evidence`` says how: "certified" (for all times) or "sampled".
+    ``judged_by`` says how that was asked: "certified" (for all times) or "sampled".
     """
 
     def __init__(self, found: Mapping[str, Any]) -> None:
@@ -32,8 +32,8 @@ class Result:
         """A sentence on the status."""
         self.feasible: bool = found["feasible"]
         """Whether the walk keeps every demanded margin."""
-        self.evidence: str = found["evidence"]
-        """How that was found: "certified" or "sampled"."""
+        self.judged_by: str = found["judged_by"]
+        """What judged it, whatever was found: "certified" (for all times) or "sampled"."""
         self.cost: float = found["cost"]
         """By the program; for "fastest" the duration [s]."""
         self.wall: float = found["wall"]

@@ -12,6 +12,7 @@ from .config import load_config
 from .errors import InputError
 from .place import NotCovered
 from .tables import Table, of_file
+from .walk import number
 
 __all__ = ["Run", "Verification"]
 
@@ -102,6 +103,8 @@ class Run:
         """Checks the certificates without the smoothing code, as ``halfstep verify``; one entry a
         method. ``tolerance``: how far the played motion may leave the certified walk [m]."""
         name = None if method is None else self._place(method)
+        if not 0.0 <= number("tolerance", tolerance) <= 1.0:
+            raise InputError(f"tolerance: {tolerance} (valid: 0 ... 1 m)")
         return [Verification(*found) for found in _halfstep.verify(self.folder, name, tolerance)]
 
     def show(self, height: int = 800) -> Any:
@@ -129,7 +132,7 @@ class Run:
         if not isinstance(method, str):
             raise TypeError(f"method: {type(method).__name__} (valid: a method's name)")
         if method not in self.methods:
-            raise ValueError(f"no method {method!r} (valid: {', '.join(self.methods)})")
+            raise InputError(f"no method {method!r} (valid: {', '.join(self.methods)})")
         return _halfstep.method_folder(method)
 
     def _table(self, *parts: str) -> Table:

@@ -27,7 +27,13 @@ class Table(Mapping):
 
     def __init__(self, columns: Mapping[str, Any], units: Mapping[str, str] | None = None,
                  meanings: Mapping[str, str] | None = None) -> None:
+        for what, given in (("columns", columns), ("units", units), ("meanings", meanings)):
+            if not isinstance(given, Mapping) and (given is not None or what == "columns"):
+                raise TypeError(f"{what}: {type(given).__name__} (valid: a dict by column)")
         self._columns = {name: np.asarray(values) for name, values in columns.items()}
+        for name, values in self._columns.items():
+            if values.ndim != 1:
+                raise ValueError(f"{name}: shape {values.shape} (valid: one row of values)")
         lengths = {len(values) for values in self._columns.values()}
         if len(lengths) > 1:
             raise ValueError(f"columns of different lengths: {sorted(lengths)}")

@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from . import _halfstep
+from .errors import InputError
 from .place import NotCovered, Robot
 from .tables import Table, of_arrays, of_text
 
@@ -170,14 +171,14 @@ class Walk:
         with it when earlier parameters change. ``hold="time"``: at the same absolute time.
         """
         if hold not in ("half_step", "time"):
-            raise ValueError(f"hold: {hold!r} (valid: 'half_step', 'time')")
+            raise InputError(f"hold: {hold!r} (valid: 'half_step', 'time')")
         return Sensitivities(*self._walk.sensitivities(_time(t), hold == "time"))
 
     def margin_gradients(self, t: float, cutoff: float = 1.5) -> MarginGradients:
         """All margins at t [s] that are nearer to what is demanded than ``cutoff`` (of the family's
         scale), each smooth by itself, and their derivatives at fixed (half-step, time since it
         began)."""
-        cutoff = _number("cutoff", cutoff)
+        cutoff = number("cutoff", cutoff)
         return MarginGradients(*self._walk.margin_gradients(_time(t), cutoff))
 
     def certify(self) -> Certificate:
@@ -191,11 +192,11 @@ class Walk:
             if period is not None:
                 raise TypeError("period and times are both given (valid: one of them)")
             return vector("times", times)
-        period = 0.005 if period is None else _number("period", period)
+        period = 0.005 if period is None else number("period", period)
         if not period > 0.0:
-            raise ValueError(f"period: {period} (valid: above 0 s)")
+            raise InputError(f"period: {period} (valid: above 0 s)")
         if self.duration / period > 2e8:
-            raise ValueError(f"period: {period} makes more than 2e8 rows")
+            raise InputError(f"period: {period} makes more than 2e8 rows")
         full = np.arange(math.floor(self.duration / period * (1.0 - 1e-12)) + 1) * period
         return np.append(full, self.duration)
 
@@ -207,27 +208,33 @@ def vector(name: str, values: Any, size: int | None = None) -> np.ndarray:
     """Finite numbers in one row (n), or a TypeError or ValueError that names them."""
     try:
         array = np.asarray(values, dtype=float)
+    except OverflowError:
+        raise InputError(f"{name}: a number beyond 1.8e308 (valid: finite numbers)") from None
     except (TypeError, ValueError):
         raise TypeError(f"{name}: not numbers (valid: an array of numbers)") from None
     if array.ndim != 1:
-        raise ValueError(f"{name}: shape {array.shape} (valid: one row of numbers)")
+        raise InputError(f"{name}: shape {array.shape} (valid: one row of numbers)")
     if size is not None and len(array) != size:
-        raise ValueError(f"{name}: {len(array)} numbers (valid: {size})")
+        raise InputError(f"{name}: {len(array)} numbers (valid: {size})")
     if not np.isfinite(array).all():
-        raise ValueError(f"{name}: number {int(np.argmin(np.isfinite(array)))} is not finite")
+        raise InputError(f"{name}: number {int(np.argmin(np.isfinite(array)))} is not finite")
     return np.ascontiguousarray(array)
 
 
-def _number(name: str, value: Any) -> float:
+def number(name: str, value: Any) -> float:
     if isinstance(value, bool) or not isinstance(value, numbers.Real):
         raise TypeError(f"{name}: {type(value).__name__} (valid: a number)")
-    if not math.isfinite(value):
-        raise ValueError(f"{name}: {value} (valid: a finite number)")
-    return float(value)
+    try:
+        finite = float(value)
+    except OverflowError:
+        finite = math.inf
+    if not math.isfinite(finite):
+        raise InputError(f"{name}: {finite} (valid: a finite number)")
+    return finite
 
 
 def _time(t: Any) -> float:
-    return _number("t", t)
+    return number("t", t)
 
 
 def _flag(name: str, value: Any) -> bool:

@@ -1,0 +1,44 @@
+// 11: a smoother of one's own. What it proposes is proved before it counts.
+#include <halfstep/experiments/halfstep.h>
+
+#include <cstdio>
+
+using namespace halfstep;
+
+// All overlaps at once, as parts of their natural bounds: bisects the part that is feasible.
+class ScaleAll : public Smoother {
+ public:
+  std::string name() const override { return "mine/scale"; }
+  std::string meaning() const override { return "all overlaps together, bisected"; }
+  OptionGroup options() const override { return OptionGroup::kNone; }
+  SmoothingResult Smooth(const WalkProblem& problem, const SmootherOptions&,
+                         SmoothingMonitor& monitor) const override {
+    if (!monitor.BeginFeasibly(problem, problem.Start())) return monitor.Refusal();
+    const ParameterTable table = problem.Parameters();  // overlaps are free, unless fixed
+    double low = 0.0, high = 1.0;
+    while (high - low > 0.01 && !monitor.stopped()) {
+      const double part = 0.5 * (low + high);
+      HomotopyParameters candidate = problem.Start();
+      for (const ParameterRow& row : table.rows()) {
+        if (!row.fixed) row.parameter.in(candidate) = row.start + part * (row.upper - row.start);
+      }
+      (monitor.Propose(candidate) ? low : high) = part;
+    }
+    return monitor.FinishAgainstStart(
+        monitor.stopped() ? monitor.StopEnding() : opt::Ending::kConverged,
+        std::to_string(100 * low) + " % of every overlap", "; nothing shorter was proved");
+  }
+};
+
+int main(int argc, char** argv) {
+  RegisterSmoother(std::make_shared<ScaleAll>());
+  if (argc > 1) return RunExperiment(argc, argv);  // configs may name mine/scale now
+  const WalkProblem problem =
+      ProblemOf(Prepare(LoadConfig((DataFolder() / "configs/bar_8cm.yaml").string(), {})));
+  for (const char* method : {"mine/scale", "dichotomy"}) {
+    SmoothingMonitor monitor;
+    const SmoothingResult result = FindSmoother(method).Smooth(problem, {}, monitor);
+    std::printf("%-10s %s, %.3f s: %s\n", method, result.accepted ? "proved" : "not proved",
+                result.cost, result.message.c_str());
+  }
+}

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <stop_token>
+
+#include "experiments/tables/result_tables.h"
+#include "smoothing/methods/walk_problem.h"
+#include "smoothing/proof/certified_feasibility.h"
+#include "wpg/workers.h"
+
+namespace halfstep {
+
+/// Compares what a method says of its walk with what was found when the walk was certified: where
+/// it says that it worked, and the problem's own kind of judge does not accept the walk, the run
+/// becomes `failed` and not feasible, with a sentence. Walks that were accepted by samples are
+/// asked of samples again, and stop branches where they are demanded. Precondition:
+/// `run->certified` is what `certifier` found. What is told to stop changes nothing.
+void JudgeAtTheEnd(const WalkProblem& problem, const CertifiedFeasibility& certifier,
+                   const std::stop_token& stop, Workers* workers, MethodRun* run);
+
+}  // namespace halfstep

@@ -1,0 +1,116 @@
+#include "experiments/verify/own_names.h"
+
+#include <algorithm>
+
+#include "planner/search/planner_registry.h"
+#include "smoothing/margins/family_traits.h"
+#include "smoothing/methods/smoother_registry.h"
+#include "smoothing/program/walk_cost.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/number_text.h"
+#include "wpg/files/yaml_node.h"
+
+namespace halfstep::verify {
+namespace {
+
+using Kind = YamlNode::Kind;
+
+const YamlNode* At(const YamlNode& root, std::initializer_list<const char*> keys) {
+  const YamlNode* node = &root;
+  for (const char* key : keys) {
+    node = node->kind == Kind::kMap ? node->Find(key) : nullptr;
+    if (node == nullptr) return nullptr;
+  }
+  return node;
+}
+
+bool Has(const std::vector<std::string>& names, const std::string& name) {
+  return std::ranges::find(names, name) != names.end();
+}
+
+std::string Quoted(const std::string& text) {
+  std::string yaml = "'";
+  for (const char c : text) yaml += c == '\'' ? std::string("''") : std::string(1, c);
+  return yaml + "'";
+}
+
+void FindMethods(const YamlNode& root, OwnNames* own) {
+  const YamlNode* methods = At(root, {"smoothing", "methods"});
+  if (methods == nullptr || methods->kind != Kind::kList) return;
+  const std::vector<std::string> known = SmootherNames();
+  std::vector<std::string> all;
+  std::string rest;
+  for (const YamlNode& method : methods->items) {
+    if (method.kind != Kind::kScalar) return;
+    all.push_back(method.text);
+    if (Has(known, method.text)) {
+      rest += (rest.empty() ? "" : ", ") + Quoted(method.text);
+    } else {
+      own->told.push_back("the method " + method.text);
+    }
+  }
+  if (own->told.empty()) return;
+  own->methods = all;
+  own->overrides.push_back({"smoothing.methods", "[" + rest + "]"});
+}
+
+// Leaves out the numbers of a group for which `is_own` holds; calls it once for each.
+template <typename IsOwn>
+void LeaveOut(const YamlNode& root, std::initializer_list<const char*> keys, OwnNames* own,
+              const IsOwn& is_own) {
+  const YamlNode* group = At(root, keys);
+  if (group == nullptr || group->kind != Kind::kMap) return;
+  std::string rest, path;
+  bool found = false;
+  for (const YamlNode& item : group->items) {
+    if (item.kind != Kind::kScalar) return;
+    if (is_own(item)) {
+      found = true;
+    } else {
+      rest += (rest.empty() ? "" : ", ") + Quoted(item.key) + ": " +
+              (item.quoted ? Quoted(item.text) : item.text);
+    }
+  }
+  if (!found) return;
+  for (const char* key : keys) path += (path.empty() ? "" : ".") + std::string(key);
+  own->overrides.push_back({path, "{" + rest + "}"});
+}
+
+}  // namespace
+
+OwnNames FindOwnNames(const std::string& path, const std::string& text) {
+  OwnNames own;
+  YamlNode root;
+  try {
+    YamlComplaints complaints(path);
+    root = ParseYaml(text, "", &complaints);
+  } catch (const InputError&) {
+    return own;
+  }
+  FindMethods(root, &own);
+  const YamlNode* planner = At(root, {"planner", "name"});
+  if (planner != nullptr && planner->kind == Kind::kScalar && !Has(PlannerNames(), planner->text)) {
+    own.told.push_back("the planner " + planner->text);
+    own.overrides.push_back({"planner.name", PlannerNames().front()});
+  }
+  const auto families = AllMarginFamilies();
+  if (std::ranges::find(families, MarginFamily::kOwn) == families.end()) {
+    LeaveOut(root, {"smoothing", "margins"}, &own, [&own](const YamlNode& item) {
+      if (item.key != Traits(MarginFamily::kOwn).key) return false;
+      own.own_margin = ParseNumber(item.text).value;
+      return true;
+    });
+  }
+  LeaveOut(root, {"smoothing", "optimizer", "weights"}, &own, [&own](const YamlNode& item) {
+    if (Has({"com_acceleration", "com_jerk", "foot_speed"}, item.key) ||
+        std::ranges::any_of(WalkCosts(),
+                            [&](const auto& cost) { return cost->name() == item.key; })) {
+      return false;
+    }
+    own.told.push_back("the weight " + item.key);
+    return true;
+  });
+  return own;
+}
+
+}  // namespace halfstep::verify
