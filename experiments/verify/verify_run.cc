@@ -61,6 +61,7 @@ MethodVerification Verified(const std::string& method, const Check& check) {
   try {
     check(&result, &findings);
     result.too_coarse = findings.too_coarse();
+    result.remark = findings.remark();
     result.verified = findings.disagreements() == 0 && result.too_coarse.empty();
   } catch (const InputError& error) {
     result.readable = false;
@@ -114,7 +115,10 @@ std::string Summary(const MethodVerification& result) {
   constexpr std::ptrdiff_t kMost = 3;
   std::string text = Formatted("%-22s ", result.method.c_str());
   if (!result.readable) return text + "cannot be read\n";
-  if (result.verified) return text + Formatted("verified (%zu checks)\n", result.lines.size());
+  if (result.verified) {
+    text += Formatted("verified (%zu checks)", result.lines.size());
+    return text + (result.remark.empty() ? "\n" : ", but " + result.remark + "\n");
+  }
   if (result.disagreements == 0) return text + "too coarse to verify: " + result.too_coarse + "\n";
   text += "NOT verified\n";
   const std::ptrdiff_t told = std::min(kMost, std::ssize(result.reasons));
@@ -132,7 +136,7 @@ std::string Describe(const MethodVerification& result) {
     text += "  cannot be read:\n";
     for (const std::string& line : result.complaints) text += "    " + line + "\n";
   } else if (result.verified) {
-    text += "  verified\n";
+    text += "  verified" + (result.remark.empty() ? "" : ", but " + result.remark) + "\n";
   } else if (result.disagreements == 0) {
     text += "  too coarse to verify: " + result.too_coarse + "\n";
   }
