@@ -104,8 +104,10 @@ TEST_F(ReplayTest, LinksAndJointsMayHaveAnyName) {
       }
       joint.name = names[i];
     }
-    SimulatedObstacle box{.name = "world", .body = MakeBox({0.1, 0.1, 0.1})};
-    box.pose = [](double) { return Eigen::Isometry3d(Eigen::Translation3d(3.0, 0.0, 0.0)); };
+    const SimulatedObstacle box{
+        .name = "world", .body = MakeBox({0.1, 0.1, 0.1}), .pose = [](double) {
+          return Eigen::Isometry3d(Eigen::Translation3d(3.0, 0.0, 0.0));
+        }};
     const Simulation engine(MujocoModel(robot, tree, {}, {box}), robot,
                             tree.urdf.links[static_cast<size_t>(tree.waist)].name, {box});
     EXPECT_NEAR(engine.weight(), weight, 1e-9) << names[0];
