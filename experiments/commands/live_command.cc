@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -8,6 +9,7 @@
 #include "experiments/live/episode_files.h"
 #include "experiments/live/episode_journal.h"
 #include "experiments/live/episode_summary.h"
+#include "experiments/live/judged_promise.h"
 #include "experiments/live/spare_boxes.h"
 #include "experiments/replay/physics_record.h"
 #include "experiments/report/live_page.h"
@@ -24,8 +26,8 @@ namespace {
 
 bool IsServed(const LiveCommand& command) { return command.view || command.socket; }
 
-LiveConfig ConfigOf(const LiveCommand& command) {
-  const LiveConfig config = LoadLiveConfig(command.run.config, command.run.overrides);
+// The config as the episode goes on. Throws InputError for what this build or command cannot do.
+LiveConfig Adapted(const LiveCommand& command, const LiveConfig& config) {
   if (const std::string why = replay::WhyNoSimulation(); command.in_physics && !why.empty()) {
     throw InputError({"--in-physics: " + why});
   }
@@ -91,15 +93,28 @@ Episode Walk(const LiveConfig& config, const Replanner& replanner, const Place& 
               .on_wait = [served](const std::string& reason) { served->Wait(reason); },
               .held = [served] { return served->held(); },
               .fallen = {},
-              .stop = served->stop_token()});
+              .stop = hooks.stop,
+              .ended = served->stop_token()});
 }
 
-// What truly happened, by the script and by what clients did; none when only they know.
+// What truly happened, in times of the walk, by the script and by what clients did; none when only
+// they know.
 std::optional<TrueWorld> WhatWasTrue(const LiveConfig& config, const Place& place,
-                                     const std::optional<PhysicalRobot>& simulated) {
+                                     const std::optional<PhysicalRobot>& simulated, double waited) {
   if (config.live.sensing.source != "stand_in") return std::nullopt;
-  if (simulated) return simulated->physics.SeenByRobot();
-  return TrueWorld(place.scene, config.experiment.goal, config.live);
+  if (simulated) return simulated->physics.SeenByRobot().Since(waited);
+  return TrueWorld(place.scene, config.experiment.goal, config.live).Since(waited);
+}
+
+// Whether the robot arrived, or was told to end, and touched nothing while it moved.
+bool WentWell(const Episode& episode, const std::optional<replay::PhysicalOutcome>& outcome) {
+  if (episode.promise.status() == PromiseStatus::kTouched) return false;
+  if (outcome && (!outcome->replayed.result.stayed_up ||
+                  std::ranges::count(outcome->replayed.result.touches, false,
+                                     &replay::TouchRecord::at_rest) > 0)) {
+    return false;
+  }
+  return episode.ending == EpisodeEnding::kArrived || episode.ending == EpisodeEnding::kEnded;
 }
 
 void PrintSummary(const LiveCommand& command, const Episode& episode, const TrueWorld* truth,
@@ -116,24 +131,31 @@ void PrintSummary(const LiveCommand& command, const Episode& episode, const True
   }
 }
 
+// Without volumes when it was stopped.
+std::shared_ptr<const BakedHalfSteps> Baked(const LiveConfig& config, const Place& place,
+                                            bool silent, const std::stop_token& stop) {
+  ProgressBar bar("half-steps", silent);
+  return std::make_shared<const BakedHalfSteps>(BakeHalfSteps(
+      place.robot, config.experiment,
+      {.progress = [&bar](const std::string&, double done) { bar.Update(done); }, .stop = stop}));
+}
+
 }  // namespace
 
 ExitStatus Live(const LiveCommand& command) {
   InterruptGuard interrupt;
-  LiveConfig config = ConfigOf(command);
-  const Place place = LoadEpisodePlace(config);
+  LoadedEpisode loaded =
+      LoadEpisode(command.run.config, command.run.overrides,
+                  [&](const LiveConfig& config) { return Adapted(command, config); });
+  LiveConfig& config = loaded.config;
+  const Place& place = loaded.place;
   TellWarnings(place.robot, place.scene);
   const TrueWorld truth(place.scene, config.experiment.goal, config.live);
   const std::unique_ptr<ServedEpisode> served = Serve(command, config, place, truth);
   const bool silent = command.run.quiet || command.run.json;
-  std::optional<ProgressBar> bar;
-  bar.emplace("half-steps", silent);
-  const auto baked = std::make_shared<const BakedHalfSteps>(
-      BakeHalfSteps(place.robot, config.experiment,
-                    {.progress = [&bar](const std::string&, double done) { bar->Update(done); },
-                     .stop = interrupt.token()}));
+  const std::shared_ptr<const BakedHalfSteps> baked =
+      Baked(config, place, silent, interrupt.token());
   if (!baked->cached.volumes) {
-    bar.reset();
     std::cerr << "halfstep: interrupted while half-steps were baked\n";
     return kInterrupted;
   }
@@ -141,6 +163,7 @@ ExitStatus Live(const LiveCommand& command) {
   if (served) served->Prepare(volumes);
   const Replanner replanner(place.robot, config, *volumes);
   RunFolder folder(OutputFolder(command.run, config.experiment), command.run.overwrite);
+  std::optional<ProgressBar> bar;
   bar.emplace("episode", silent);
   EpisodeJournal journal(folder.path(), config, command.run.overwrite);
   interrupt.Keep();
@@ -153,15 +176,18 @@ ExitStatus Live(const LiveCommand& command) {
     journal.Write(tick);
     bar->Update(tick.now / config.live.longest);
   };
-  const Episode episode = Walk(config, replanner, place, &sensor, served.get(),
-                               {.on_tick = on_tick,
-                                .on_wait = {},
-                                .held = {},
-                                .fallen = [&] { return simulated && simulated->physics.fallen(); },
-                                .stop = interrupt.token()});
+  Episode episode = Walk(config, replanner, place, &sensor, served.get(),
+                         {.on_tick = on_tick,
+                          .on_wait = {},
+                          .held = {},
+                          .fallen = [&] { return simulated && simulated->physics.fallen(); },
+                          .stop = interrupt.token()});
   bar.reset();
   if (!journal.failure().empty()) std::cerr << "halfstep: warning: " << journal.failure() << '\n';
   if (served) config.live.script = served->Script();
+  const std::optional<TrueWorld> was_true = WhatWasTrue(config, place, simulated, episode.waited);
+  episode.promise = JudgePromise(episode, was_true ? &*was_true : nullptr, place, config.live);
+  if (simulated) episode.promise.judged_by = "simulation";
   WriteEpisode(episode, config, place, &folder);
   std::optional<replay::PhysicalOutcome> outcome;
   if (simulated) {
@@ -171,12 +197,10 @@ ExitStatus Live(const LiveCommand& command) {
   folder.Publish();
   journal.Remove();
   if (served) served->End(episode, folder.path().string());
-  const std::optional<TrueWorld> was_true = WhatWasTrue(config, place, simulated);
   PrintSummary(command, episode, was_true ? &*was_true : nullptr, place, config,
                folder.path().string(), outcome);
-  if (episode.ending == EpisodeEnding::kInterrupted) return kInterrupted;
-  const bool fell = outcome && !outcome->replayed.result.stayed_up;
-  return episode.ending == EpisodeEnding::kArrived && !fell ? kSuccess : kFailed;
+  if (interrupt.requested() && episode.ending != EpisodeEnding::kArrived) return kInterrupted;
+  return WentWell(episode, outcome) ? kSuccess : kFailed;
 }
 
 CommandAction DeclareLive(CLI::App* app) {

@@ -6,6 +6,7 @@
 #include "experiments/live/episode_files.h"
 #include "experiments/live/episode_journal.h"
 #include "experiments/live/episode_reader.h"
+#include "experiments/live/promise_words.h"
 #include "experiments/live/spare_boxes.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/text.h"
@@ -29,7 +30,8 @@ ExitStatus Recover(const RecoverCommand& command) {
   std::filesystem::remove_all(left, ignored);
   if (!command.quiet) {
     std::cout << Formatted("recovered %.3f s, ", episode.end) << episode.begun.size()
-              << " half-steps\n\nThe files are in " << folder.path().string()
+              << " half-steps; " << PromiseSentence(episode.promise)
+              << ", as far as measurements tell\n\nThe files are in " << folder.path().string()
               << "; `halfstep verify` checks them.\n";
   }
   return kSuccess;

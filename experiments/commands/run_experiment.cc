@@ -13,6 +13,7 @@
 #include "experiments/commands/printable_stream.h"
 #include "experiments/run/exit_status.h"
 #include "wpg/files/input_error.h"
+#include "wpg/files/leftovers.h"
 #include "wpg/files/text.h"
 
 namespace halfstep {
@@ -56,6 +57,7 @@ std::string CommandMistake(int argc, char** argv) {
 }  // namespace
 
 int RunExperiment(int argc, char** argv) {
+  RemoveLeftoversAtSignals();
   const PrintableStream out(&std::cout), err(&std::cerr);
   CLI::App app{
       "Plans and smooths humanoid walks made of half-steps.\n\n"

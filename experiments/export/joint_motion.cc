@@ -8,6 +8,8 @@
 namespace halfstep {
 namespace {
 
+constexpr double kApart = 1e-6;  // rows are at least [s]; messages count whole nanoseconds
+
 JointMotion MotionOf(const RobotModel& robot, const SuperposedWalk& walk, const TrajectoryRow& row,
                      const std::string& path) {
   const WalkJet jet = walk.At(row.t);
@@ -34,7 +36,8 @@ std::vector<JointMotion> MotionOfRows(const RobotModel& robot, const SuperposedW
                                       const std::string& path) {
   std::vector<JointMotion> motion;
   for (size_t i = 0; i < rows.size(); ++i) {
-    if (i % stride != 0 && i + 1 != rows.size()) continue;
+    const bool last = i + 1 == rows.size();
+    if (!last && (i % stride != 0 || rows.back().t - rows[i].t < kApart)) continue;
     motion.push_back(MotionOf(robot, walk, rows[i], path));
   }
   return motion;

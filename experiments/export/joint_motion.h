@@ -21,9 +21,9 @@ struct JointMotion {
   double waist_yaw_rate = 0.0;              ///< [rad/s]
 };
 
-/// Every `stride`-th row and the last, with the derivatives of `walk`, whose rows they are. `path`
-/// stands for the rows in complaints. Throws InputError where a leg is stretched so far that its
-/// joint speeds have no bound.
+/// Every `stride`-th row and the last, but those within a microsecond of the last, with the
+/// derivatives of `walk`, whose rows they are. `path` stands for the rows in complaints. Throws
+/// InputError where a leg is stretched so far that its joint speeds have no bound.
 std::vector<JointMotion> MotionOfRows(const RobotModel& robot, const SuperposedWalk& walk,
                                       const std::vector<TrajectoryRow>& rows, size_t stride,
                                       const std::string& path);

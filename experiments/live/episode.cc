@@ -15,6 +15,8 @@ std::string_view Name(EpisodeEnding ending) {
       return "too_long";
     case EpisodeEnding::kNoPlan:
       return "no_plan";
+    case EpisodeEnding::kEnded:
+      return "ended";
     case EpisodeEnding::kInterrupted:
       return "interrupted";
     case EpisodeEnding::kFell:

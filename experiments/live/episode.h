@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "experiments/live/executor.h"
+#include "experiments/live/promise.h"
 #include "experiments/live/replanner.h"
 #include "experiments/live/sensor.h"
 #include "experiments/live/world.h"
@@ -54,15 +55,16 @@ enum class EpisodeEnding {
   kStuck,        ///< at rest elsewhere when the time was up
   kTooLong,      ///< walking when the time was up
   kNoPlan,       ///< there was no walk to begin with
+  kEnded,        ///< a client ended it
   kInterrupted,  ///< stopped from outside
   kFell,         ///< the simulated robot fell
   kKilled,       ///< its process was killed: what is recorded was recovered
 };
 /// All of them.
-inline constexpr std::array kEpisodeEndings = {EpisodeEnding::kArrived,     EpisodeEnding::kStuck,
-                                               EpisodeEnding::kTooLong,     EpisodeEnding::kNoPlan,
-                                               EpisodeEnding::kInterrupted, EpisodeEnding::kFell,
-                                               EpisodeEnding::kKilled};
+inline constexpr std::array kEpisodeEndings = {EpisodeEnding::kArrived, EpisodeEnding::kStuck,
+                                               EpisodeEnding::kTooLong, EpisodeEnding::kNoPlan,
+                                               EpisodeEnding::kEnded,   EpisodeEnding::kInterrupted,
+                                               EpisodeEnding::kFell,    EpisodeEnding::kKilled};
 /// As events.csv and manifests call it: "arrived".
 std::string_view Name(EpisodeEnding ending);
 
@@ -79,6 +81,7 @@ struct Episode {
   double waited = 0.0;       ///< before the first walk began, at t = 0; a time of the script [s]
   bool stopped = false;      ///< the last walk was cut after its half-step `begun.back()`
   double end = 0.0;          ///< [s]
+  Promise promise{};         ///< whether it held (JudgePromise)
   double latest_tick = 0.0;  ///< by how much a tick of the wall clock came late at most [s]
 
   /// The motion that was executed, which every walk of the record agrees with while it lasted.
@@ -101,7 +104,8 @@ struct EpisodeHooks {
   std::function<bool()> held = {};
   /// Whether the robot that executes the walk has fallen; then the episode ends.
   std::function<bool()> fallen = {};
-  std::stop_token stop = {};  ///< the robot comes to rest, then the episode ends
+  std::stop_token stop = {};   ///< the robot comes to rest, then the episode ends, interrupted
+  std::stop_token ended = {};  ///< the same, but that is how it was meant to end
 };
 
 /// Lets the robot walk from `start` by the config's clock lockstep: time stands still while the

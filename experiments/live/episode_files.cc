@@ -7,6 +7,7 @@
 #include "experiments/build_info.h"
 #include "experiments/live/episode_report.h"
 #include "experiments/live/episode_tables.h"
+#include "experiments/live/promise_words.h"
 #include "experiments/run/complete_manifest.h"
 #include "experiments/tables/not_covered_json.h"
 #include "experiments/tables/result_tables.h"
@@ -58,6 +59,7 @@ std::string ManifestJson(const Episode& episode, const LiveConfig& config, const
       {"end_s", episode.end},
       {"stopped", episode.stopped},
       {"walks", episode.walks.size()},
+      {"promise", PromiseJson(episode.promise)},
       {"not_covered",
        NotCoveredJson(NotCoveredBy(place.robot, place.scene, config.experiment.smoothing.limits))}};
   return manifest.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";

@@ -50,6 +50,7 @@ Episode EpisodeLoop::Run(const std::array<Footprint, 2>& start) {
   const Proposal first = Wait(start);
   if (first.kind == ProposalKind::kUnsafe) {
     record_.message = first.reason;
+    if (IsToEnd()) record_.message += "; it was ended before there was a walk";
     return std::move(record_);
   }
   executor_.emplace(first.plan, first.grant);
@@ -83,7 +84,7 @@ Proposal EpisodeLoop::Wait(const std::array<Footprint, 2>& start) {
     // A search may have taken the time of many frames.
     frame = std::max(frame, static_cast<long>(clock_.Time(0.0) / options_.sensing.period));
     const double now = static_cast<double>(frame) * options_.sensing.period;
-    if (now > options_.longest || hooks_.stop.stop_requested()) break;
+    if (now > options_.longest || IsToEnd()) break;
     clock_.WaitUntil(now);
     if (hooks_.on_wait) hooks_.on_wait(first.reason);
     while (std::optional<Frame> taken = sensor_.Next(now)) {
@@ -138,13 +139,15 @@ void EpisodeLoop::Sense(double now) {
     world_ = std::make_shared<const World>(std::move(update.world));
     Know(now);
     Tell(now, "measured", Formatted("frame of %.3f s", frame->taken));
-    for (const std::string& name : update.contradictions) Tell(now, "contradicted", name);
+    for (const Contradiction& one : update.contradictions) {
+      Tell(now, "contradicted", one.Text());
+    }
     if (executor_->grant().version < world_->sound_since) executor_->Revoke();
   }
 }
 
 void EpisodeLoop::Advance(double now) {
-  const bool held = hooks_.stop.stop_requested() || (hooks_.held && hooks_.held());
+  const bool held = IsToEnd() || (hooks_.held && hooks_.held());
   if (held) executor_->Revoke();
   if (held_ && !held) again_ = true;
   held_ = held;
@@ -260,20 +263,23 @@ void EpisodeLoop::HandOver(const Proposal& proposal, double now) {
 bool EpisodeLoop::Ends(double now) {
   const bool at_rest = executor_->rests_from() <= now;
   const bool over = now >= options_.longest;
-  const bool interrupted = at_rest && hooks_.stop.stop_requested();
+  const bool ended = at_rest && IsToEnd();
   const std::array<Footprint, 2> stance =
       StanceAfter(executor_->plan().sequence, executor_->begun());
   const bool on_both = executor_->begun() % 2 == 1;
   const bool arrived =
       at_rest && on_both && now > sensor_.QuietFrom() && world_->goal.ContainsStance(stance);
   const bool fell = hooks_.fallen && hooks_.fallen();
-  if (!arrived && !over && !interrupted && !fell) return false;
+  if (!arrived && !over && !ended && !fell) return false;
   if (fell) record_.message = Formatted("the robot fell at %.3f s", now);
-  record_.ending = fell          ? EpisodeEnding::kFell
-                   : arrived     ? EpisodeEnding::kArrived
-                   : interrupted ? EpisodeEnding::kInterrupted
-                   : at_rest     ? EpisodeEnding::kStuck
-                                 : EpisodeEnding::kTooLong;
+  record_.ending = fell      ? EpisodeEnding::kFell
+                   : arrived ? EpisodeEnding::kArrived
+                   : !ended  ? (at_rest ? EpisodeEnding::kStuck : EpisodeEnding::kTooLong)
+                   : hooks_.stop.stop_requested() ? EpisodeEnding::kInterrupted
+                                                  : EpisodeEnding::kEnded;
+  if (record_.ending == EpisodeEnding::kEnded) {
+    record_.message = "a client ended it, and the robot has come to rest";
+  }
   record_.end = now;
   record_.stopped = executor_->stopped();
   return true;

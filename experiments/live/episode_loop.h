@@ -38,6 +38,8 @@ class EpisodeLoop {
   void Take(const Proposal& proposal, double now);
   void HandOver(const Proposal& proposal, double now);
   bool Ends(double now);
+  // Whether the robot is to come to rest for good.
+  bool IsToEnd() const { return hooks_.stop.stop_requested() || hooks_.ended.stop_requested(); }
   void Know(double t);
   void Tell(double t, const std::string& what, const std::string& text, int half_step = -1);
   int walk() const { return static_cast<int>(record_.walks.size()) - 1; }

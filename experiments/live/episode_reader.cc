@@ -5,6 +5,8 @@
 #include <sstream>
 
 #include "experiments/live/episode_tables.h"
+#include "experiments/live/judged_promise.h"
+#include "experiments/live/promise_words.h"
 #include "experiments/tables/csv_reader.h"
 #include "experiments/tables/json_file.h"
 #include "experiments/tables/parameter_tables.h"
@@ -238,6 +240,7 @@ Episode ReadEpisode(const fs::path& folder, const LiveConfig& config, const Plac
     episode.waited = manifest.at("waited_s").get<double>();
     episode.stopped = manifest.at("stopped").get<bool>();
     episode.end = manifest.at("end_s").get<double>();
+    episode.promise = PromiseOf(manifest.at("promise"));
   } catch (const nlohmann::json::exception& error) {
     throw InputError({path.string() + ": is not an episode's manifest: " + error.what()});
   }
@@ -260,6 +263,8 @@ Episode ReadJournal(const fs::path& folder, const LiveConfig& config, const Plac
     if (event.what == "stopped") episode.stopped = true;
     if (event.what == "handed_over") episode.stopped = false;
   }
+  // What clients did to the world is not in the script of a killed episode.
+  episode.promise = JudgePromise(episode, nullptr, place, config.live);
   return episode;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "experiments/live/promise_words.h"
 #include "experiments/tables/not_covered_json.h"
 #include "wpg/files/text.h"
 
@@ -51,7 +52,7 @@ EpisodeSummary Summarize(const Episode& episode, const TrueWorld* truth, const R
   summary.unsafe = CountOf(episode, "unsafe");
   summary.waited = episode.waited;
   if (truth != nullptr) {
-    summary.nearest = NearestApproach(episode, truth->Since(episode.waited), robot, 0.005, 0.3);
+    summary.nearest = NearestApproach(episode, *truth, robot, 0.005, 0.3);
   }
   return summary;
 }
@@ -62,7 +63,11 @@ std::string SummaryScreen(const Episode& episode, const EpisodeSummary& summary,
   if (!episode.message.empty()) text += ": " + episode.message;
   if (summary.waited > 0.0) text += Formatted(", waited %.2f s", summary.waited);
   text += Formatted(", %.2f s, ", summary.duration);
-  text += Counted(summary.half_steps, "half-step", "half-steps") + "\n";
+  text += Counted(summary.half_steps, "half-step", "half-steps");
+  if (episode.promise.status() != PromiseStatus::kKept) {
+    text += ", but " + PromiseSentence(episode.promise);
+  }
+  text += "\n";
   text += "handed over  " +
           Counted(summary.changed, "walk with other footsteps", "walks with other footsteps") +
           ", " + std::to_string(summary.shortened) + " with fewer footsteps, " +
@@ -81,6 +86,7 @@ std::string SummaryScreen(const Episode& episode, const EpisodeSummary& summary,
     text += Formatted("wall clock   ticks at most %.1f ms late\n", 1e3 * episode.latest_tick);
   }
   if (summary.nearest) text += NearestLine(*summary.nearest);
+  text += PromiseText(episode.promise);
   text += NotCoveredText(summary.not_covered, "not_covered in manifest.json");
   return text + "written to   " + folder + "\n";
 }
@@ -107,6 +113,7 @@ std::string SummaryJson(const Episode& episode, const EpisodeSummary& summary,
     json["nearest_obstacle"] = nearest->obstacle;
     json["nearest_t_s"] = nearest->t;
   }
+  json["promise"] = PromiseJson(episode.promise);
   json["not_covered"] = NotCoveredJson(summary.not_covered);
   if (!folder.empty()) json["folder"] = folder;
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";

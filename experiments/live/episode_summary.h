@@ -30,7 +30,8 @@ struct EpisodeSummary {
   std::optional<Approach> nearest;
 };
 
-/// `truth`: null when clients measured, so that it is not known.
+/// `truth`: in times of the walk (TrueWorld::Since); null when clients measured, so that it is not
+/// known.
 EpisodeSummary Summarize(const Episode& episode, const TrueWorld* truth, const RobotModel& robot);
 
 /// What `halfstep live` prints; the same as one JSON object.

@@ -10,6 +10,8 @@
 namespace halfstep {
 namespace {
 
+constexpr double kTouch = 1e-3;  // what is nearer is looked at for touches [m]
+
 Scene SceneAt(const TrueWorld& truth, double t) {
   Scene scene;
   for (size_t i = 0; i < truth.scene().obstacles.size(); ++i) {
@@ -28,7 +30,63 @@ bool SamePlaces(const Scene& a, const Scene& b) {
   });
 }
 
+// Whether t is within a half-step that began.
+bool IsUnderWay(const SuperposedWalk& walk, const std::vector<BegunHalfStep>& begun, double t) {
+  constexpr double kAtRest = 1e-9;  // [s]
+  return std::ranges::any_of(begun, [&](const BegunHalfStep& one) {
+    return walk.start_of(one.half_step) + kAtRest < t && t < walk.end_of(one.half_step) - kAtRest;
+  });
+}
+
+// Notes each obstacle that a body touches; the deepest is asked for until none is left.
+void AddTouches(const CollisionShape& shape, const Eigen::Isometry3d& X_WB, const std::string& body,
+                double t, Scene scene, const CollisionWorld& world,
+                std::vector<TouchedObstacle>* touches) {
+  auto found = world.FindNearest(shape, X_WB, t, kTouch);
+  while (found.obstacle >= 0 && found.separation.distance <= 0.0) {
+    const auto obstacle = scene.obstacles.begin() + found.obstacle;
+    auto touch = std::ranges::find(*touches, obstacle->name, &TouchedObstacle::obstacle);
+    if (touch == touches->end()) {
+      touch = touches->insert(touch, {.obstacle = obstacle->name, .body = body, .from = t});
+      touch->depth = -1.0;
+    }
+    if (const double depth = -found.separation.distance; depth > touch->depth) {
+      touch->body = body;
+      touch->depth = depth;
+      touch->deepest = t;
+    }
+    scene.obstacles.erase(obstacle);
+    found = CollisionWorld(scene).FindNearest(shape, X_WB, t, kTouch);
+  }
+}
+
 }  // namespace
+
+std::vector<TouchedObstacle> FindTouches(const Episode& episode, const TrueWorld& truth,
+                                         const RobotModel& robot) {
+  std::vector<TouchedObstacle> touches;
+  if (episode.walks.empty()) return touches;
+  const SuperposedWalk walk = episode.Executed();
+  const double end = std::min(walk.duration(), episode.end);
+  std::vector<CollisionShape> shapes;
+  for (const RobotBody& body : robot.bodies) shapes.emplace_back(body.shape);
+  Scene scene;
+  std::optional<CollisionWorld> world;
+  for (long i = 0; static_cast<double>(i) * kLook <= end; ++i) {
+    const double t = static_cast<double>(i) * kLook;
+    if (!IsUnderWay(walk, episode.begun, t)) continue;
+    if (Scene now = SceneAt(truth, t); !world || !SamePlaces(now, scene)) {
+      scene = std::move(now);
+      world.emplace(scene);
+    }
+    const Posture posture = SolvePosture(robot, walk.At(t).value);
+    for (size_t b = 0; b < shapes.size(); ++b) {
+      AddTouches(shapes[b], posture.OfBody(robot.bodies[b]), robot.bodies[b].name, t, scene, *world,
+                 &touches);
+    }
+  }
+  return touches;
+}
 
 Approach NearestApproach(const Episode& episode, const TrueWorld& truth, const RobotModel& robot,
                          double period, double horizon, bool also_at_rest) {

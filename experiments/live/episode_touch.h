@@ -2,8 +2,10 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "experiments/live/episode.h"
+#include "experiments/live/promise.h"
 #include "experiments/live/true_world.h"
 #include "wpg/robot/robot_model.h"
 
@@ -23,5 +25,11 @@ struct Approach {
 /// doing. Obstacles nearer than `horizon` [m] are told.
 Approach NearestApproach(const Episode& episode, const TrueWorld& truth, const RobotModel& robot,
                          double period, double horizon, bool also_at_rest = false);
+
+/// The obstacles that the robot touches while it moves: each with the first instant, every kLook,
+/// that lies within a half-step at which it touches the obstacle where it truly is. In the order of
+/// these instants.
+std::vector<TouchedObstacle> FindTouches(const Episode& episode, const TrueWorld& truth,
+                                         const RobotModel& robot);
 
 }  // namespace halfstep

@@ -5,9 +5,19 @@
 #include <filesystem>
 
 #include "experiments/config/scaled_defaults.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {
+
+std::string Listed(const std::vector<std::string>& names) {
+  constexpr size_t kListed = 8;
+  std::string text;
+  for (size_t i = 0; i < std::min(names.size(), kListed); ++i) {
+    text += (i == 0 ? "" : ", ") + names[i];
+  }
+  return names.size() > kListed ? text + ", …" : text;
+}
 
 void DeclareEvent(Fields& fields, ScriptEvent* e) {
   fields.Number(
@@ -92,7 +102,7 @@ void DeclareBudget(Fields& fields, BudgetConfig* c) {
        "what `refine` costs in lockstep, and how long it may take by the wall clock");
 }
 
-void DeclareLive(Fields& fields, LiveOptions* c, double half_step) {
+void DeclareLive(Fields& fields, LiveOptions* c, double half_step, const Scene* scene) {
   fields.Text("clock", &c->clock,
               {.meaning = "lockstep: time stands still while the planner computes, and its budget "
                           "is charged; wall: it computes beside the walking robot",
@@ -146,7 +156,18 @@ void DeclareLive(Fields& fields, LiveOptions* c, double half_step) {
     }
   });
   fields.List("script", {.meaning = "what happens, in the order of time", .max_items = 10000},
-              &c->script, DeclareEvent);
+              &c->script, [c, scene](Fields& f, ScriptEvent* event) {
+                DeclareEvent(f, event);
+                if (scene == nullptr) return;
+                for (const SceneMistake& one : MistakesOf(*event, *scene)) {
+                  f.Complain(one.key.c_str(), one.what);
+                }
+              });
+  if (scene != nullptr) {
+    for (const SceneMistake& one : MistakesOf(*c, *scene)) {
+      fields.Complain(one.key.c_str(), one.what);
+    }
+  }
   if (c->sensing.source == "client" && !c->script.empty()) {
     fields.Complain("script",
                     "says what happens, but clients say what is measured (valid: [], or "
@@ -159,10 +180,47 @@ void DeclareLive(Fields& fields, LiveOptions* c, double half_step) {
 
 }  // namespace
 
-void DeclareFields(Fields& fields, LiveConfig* config) {
+std::vector<std::string> SpareNames(const LiveOptions& options) {
+  std::vector<std::string> names;
+  for (int i = 1; i <= options.spare_boxes; ++i) names.push_back("spare_" + std::to_string(i));
+  return names;
+}
+
+std::vector<SceneMistake> MistakesOf(const ScriptEvent& event, const Scene& scene) {
+  std::vector<SceneMistake> mistakes;
+  if (event.what == "forbid" && static_cast<size_t>(event.area) > scene.no_step.size()) {
+    mistakes.push_back(
+        {"area", Formatted("%d: the scene has %zu no-step areas (valid: one of these)", event.area,
+                           scene.no_step.size())});
+  }
+  std::vector<std::string> names;
+  for (const Obstacle& obstacle : scene.obstacles) names.push_back(obstacle.name);
+  if (!event.obstacle.empty() && std::ranges::find(names, event.obstacle) == names.end()) {
+    mistakes.push_back(
+        {"obstacle", Quote(event.obstacle) + " is not in the scene (valid: " +
+                         (names.empty() ? "none, it has no obstacles" : Listed(names)) + ")"});
+  }
+  return mistakes;
+}
+
+std::vector<SceneMistake> MistakesOf(const LiveOptions& options, const Scene& scene) {
+  std::vector<SceneMistake> mistakes;
+  if (options.drift > 0.0 && !scene.no_step.empty()) {
+    mistakes.push_back(
+        {"drift_m_s", "the scene has no-step areas, whose place is taken as exact (valid: 0)"});
+  }
+  for (const std::string& name : SpareNames(options)) {
+    if (std::ranges::count(scene.obstacles, name, &Obstacle::name) < 2) continue;
+    mistakes.push_back({"spare_boxes", Quote(name) + " is an obstacle of the scene already (valid: "
+                                                     "fewer, or another name in the scene)"});
+  }
+  return mistakes;
+}
+
+void DeclareFields(Fields& fields, LiveConfig* config, const Scene* scene) {
   DeclareFields(fields, &config->experiment);
   fields.Group("live", {.meaning = "the episode", .required = true}, [&](Fields& f) {
-    DeclareLive(f, &config->live, config->experiment.half_step.duration);
+    DeclareLive(f, &config->live, config->experiment.half_step.duration, scene);
   });
   if (!config->experiment.has_goal) {
     fields.Complain("goal", "is missing (valid: an episode needs a goal)");
@@ -182,12 +240,12 @@ LiveConfig LoadLiveConfig(const std::string& path, const std::vector<YamlOverrid
 }
 
 LiveConfig ParseLiveConfig(const std::string& path, const std::string& text,
-                           const std::vector<YamlOverride>& overrides) {
+                           const std::vector<YamlOverride>& overrides, const Scene* scene) {
   const std::filesystem::path file(path);
   LiveConfig config;
   config.experiment.name = file.stem().string();
   ReadYamlText(text, path, file.parent_path().string(), overrides, [&](Fields& fields) {
-    DeclareFields(fields, &config);
+    DeclareFields(fields, &config, scene);
     config.experiment.directory = fields.directory();
     DeclareFilesThere(fields, config.experiment);
   });

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "experiments/config/experiment_config.h"
+#include "planner/scene/scene.h"
 #include "wpg/files/fields.h"
 #include "wpg/files/key_description.h"
 
@@ -64,22 +65,39 @@ struct LiveOptions {
   std::vector<ScriptEvent> script;  ///< what happens to the world, in the order of time
 };
 
+/// Names of the boxes of `live.spare_boxes`: "spare_1", … They are obstacles of an episode that no
+/// scene file has, and are not there until something makes them appear.
+std::vector<std::string> SpareNames(const LiveOptions& options);
+
 /// An episode as its YAML file says it: an experiment with a goal, and `live:`.
 struct LiveConfig {
   ExperimentConfig experiment;  ///< robot, scene, goal and all that the walk keeps
   LiveOptions live;             ///< how it goes on while the world changes
 };
 
-/// Declares every key once: those of an experiment, and `live`.
-void DeclareFields(Fields& fields, LiveConfig* config);
+/// A key of `live`, or of an event of its script, that does not fit the scene.
+struct SceneMistake {
+  std::string key;   ///< "obstacle"
+  std::string what;  ///< "'crate' is not in the scene (valid: bar)"
+};
+/// Those of an event: it names an obstacle or an area that the scene, with its spare boxes, does
+/// not have.
+std::vector<SceneMistake> MistakesOf(const ScriptEvent& event, const Scene& scene);
+/// Those of all else.
+std::vector<SceneMistake> MistakesOf(const LiveOptions& options, const Scene& scene);
+
+/// Declares every key once: those of an experiment, and `live`. With a scene, which has its spare
+/// boxes, what does not fit it is complained about.
+void DeclareFields(Fields& fields, LiveConfig* config, const Scene* scene = nullptr);
 
 /// The keys that DeclareFields declares, as data; defaults that go by the robot as formulas.
 std::vector<KeyDescription> EpisodeKeys();
 
 /// Reads a config file strictly. Throws InputError with every complaint at once.
 LiveConfig LoadLiveConfig(const std::string& path, const std::vector<YamlOverride>& overrides);
-/// The same for a config file's text.
+/// The same for a config file's text; `scene` as in DeclareFields.
 LiveConfig ParseLiveConfig(const std::string& path, const std::string& text,
-                           const std::vector<YamlOverride>& overrides);
+                           const std::vector<YamlOverride>& overrides,
+                           const Scene* scene = nullptr);
 
 }  // namespace halfstep

@@ -5,6 +5,7 @@
 #include <utility>
 #include <variant>
 
+#include "experiments/live/promise_words.h"
 #include "experiments/report/report_place.h"
 #include "experiments/tables/result_tables.h"
 #include "wpg/geometry/side.h"
@@ -161,6 +162,8 @@ json EndMessage(const Episode& episode, const std::string& folder) {
   return {{"type", "end"},
           {"ending", Name(episode.ending)},
           {"message", episode.message},
+          {"promise", PromiseSentence(episode.promise)},
+          {"promise_status", Name(episode.promise.status())},
           {"folder", folder}};
 }
 

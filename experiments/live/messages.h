@@ -13,7 +13,7 @@
 namespace halfstep {
 
 /// The version of the messages between an episode and its clients; every change of a key raises it.
-constexpr int kProtocol = 1;
+constexpr int kProtocol = 2;
 
 /// What an episode tells its clients, one JSON object each, with the key `type`; the other keys:
 /// experiments/server/README.md. Lengths [m], angles [rad], times of the walk [s], frame W.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace halfstep {
 namespace {
@@ -19,17 +20,23 @@ double TurnBetween(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
 
 double Displacement(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to,
                     const Shape& shape) {
-  const double turn = TurnBetween(from.linear(), to.linear());
-  return (to.translation() - from.translation()).norm() +
-         (turn == 0.0 ? 0.0 : turn * RadiusAboutOrigin(shape));
+  const bool turns = TurnBetween(from.linear(), to.linear()) != 0.0;
+  return Displacement(from, to, turns ? RadiusAboutOrigin(shape) : 0.0);
 }
 
-bool PastWorlds::Contradicts(const Place& before, const Obstacle& now, double radius) {
-  const double elapsed = now.motion.measured_at - before.measured_at;
-  const double allowed = before.error + now.motion.error + before.speed * elapsed;
-  const double way = (now.X_WO.translation() - before.X_WO.translation()).norm();
-  const double turn = TurnBetween(before.X_WO.linear(), now.X_WO.linear());
-  return way + turn * radius > allowed + kRoundingOfPlaces;
+double Displacement(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to, double radius) {
+  return (to.translation() - from.translation()).norm() +
+         TurnBetween(from.linear(), to.linear()) * radius;
+}
+
+Contradiction PastWorlds::Between(const Place& before, const Obstacle& now, double radius) {
+  return {.name = now.name,
+          .version = before.version,
+          .was_there = true,
+          .moved = Displacement(before.X_WO, now.X_WO, radius),
+          .elapsed = now.motion.measured_at - before.measured_at,
+          .errors = before.error + now.motion.error,
+          .speed = before.speed};
 }
 
 bool PastWorlds::MayContradict(const Run& run, const Obstacle& now, double radius) {
@@ -97,31 +104,30 @@ void PastWorlds::Add(const World& world) {
   last_ = world.version;
 }
 
-PastWorlds::Contradiction PastWorlds::Latest(const World& now, int since) const {
-  Contradiction latest;
-  const auto found = [&](int version, const std::string& name) {
-    if (version < 0 || version < since || version < latest.version) return;
-    if (version > latest.version) latest = {.version = version};
-    latest.names.push_back(name);
+std::vector<Contradiction> PastWorlds::Latest(const World& now, int since) const {
+  std::vector<Contradiction> latest;
+  const auto add = [&](Contradiction found) {
+    if (found.version >= std::max(since, 0)) latest.push_back(std::move(found));
   };
-  for (const Obstacle& obstacle : now.scene.obstacles) {
-    found(Latest(obstacle, std::max(since, latest.version)), obstacle.name);
-  }
-  int absent = -1;
+  for (const Obstacle& obstacle : now.scene.obstacles) add(Latest(obstacle, since));
   for (const size_t area : now.areas) {
     const auto before = areas_absent_.find(area);
-    absent = std::max(absent, before == areas_absent_.end() ? last_ : before->second);
+    add({.name = "no-step area " + std::to_string(area + 1),
+         .version = before == areas_absent_.end() ? last_ : before->second,
+         .was_there = false});
   }
-  if (absent >= 0) found(absent, "a no-step area");
   return latest;
 }
 
-int PastWorlds::Latest(const Obstacle& now, int since) const {
+Contradiction PastWorlds::Latest(const Obstacle& now, int since) const {
+  const auto absent = [&](int version) {
+    return Contradiction{.name = now.name, .version = version, .was_there = false};
+  };
   const auto it = tracks_.find(now.name);
-  if (it == tracks_.end() || it->second.places.back().version != last_) return last_;
+  if (it == tracks_.end() || it->second.places.back().version != last_) return absent(last_);
   const Track& track = it->second;
   for (size_t end = track.places.size(); end > 0;) {
-    if (track.places[end - 1].version < since) return -1;
+    if (track.places[end - 1].version < since) return {};
     const size_t i = end / kRun;
     if (end % (kRun * kRun) == 0 &&
         !MayContradict(track.long_runs[i / kRun - 1], now, track.radius)) {
@@ -133,12 +139,13 @@ int PastWorlds::Latest(const Obstacle& now, int since) const {
       const size_t begin = (end - 1) / kRun * kRun;
       for (; end > begin; --end) {
         const Place& place = track.places[end - 1];
-        if (place.version < since) return -1;
-        if (Contradicts(place, now, track.radius)) return place.version;
+        if (place.version < since) return {};
+        Contradiction found = Between(place, now, track.radius);
+        if (found.beyond() > kRoundingOfPlaces) return found;
       }
     }
   }
-  return track.absent;
+  return absent(track.absent);
 }
 
 }  // namespace halfstep

@@ -13,6 +13,8 @@ namespace halfstep {
 /// How far a point of a shape is, when its frame is at one pose, from where it is at another, at
 /// most [m].
 double Displacement(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to, const Shape& shape);
+/// The same of a shape no point of which is farther than `radius` [m] from its frame's origin.
+double Displacement(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to, double radius);
 
 /// Where everything was measured in the worlds so far, kept so that a new one is compared with all
 /// of them without looking at each: runs of measurements are known by a ball around them.
@@ -24,14 +26,9 @@ class PastWorlds {
   /// Keeps a world for later questions.
   void Add(const World& world);
 
-  /// The latest world, from version `since` on, that a newer one contradicts, −1: none; and names
-  /// of what of it that one did not allow, for messages.
-  struct Contradiction {
-    int version = -1;                     ///< of the past world
-    std::vector<std::string> names = {};  ///< of obstacles and areas; empty when there is none
-  };
-  /// See Contradiction; `now` is the newer world.
-  Contradiction Latest(const World& now, int since) const;
+  /// What of `now` contradicts a world from version `since` on, in the order of its obstacles, then
+  /// of its areas; `now` is newer than all of them.
+  std::vector<Contradiction> Latest(const World& now, int since) const;
 
  private:
   struct Place {
@@ -57,10 +54,10 @@ class PastWorlds {
   };
 
   static Run Together(std::span<const Place> places);
-  static bool Contradicts(const Place& before, const Obstacle& now, double radius);
+  static Contradiction Between(const Place& before, const Obstacle& now, double radius);
   static bool MayContradict(const Run& run, const Obstacle& now, double radius);
-  // The latest version, from `since` on, that the obstacle contradicts; −1: none.
-  int Latest(const Obstacle& now, int since) const;
+  // The latest version that the obstacle contradicts, as long as it is from `since` on; −1: none.
+  Contradiction Latest(const Obstacle& now, int since) const;
 
   int last_ = -1;  // version
   std::map<std::string, Track> tracks_;

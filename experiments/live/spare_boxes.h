@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -9,15 +10,21 @@
 
 namespace halfstep {
 
-/// Names of the boxes of `live.spare_boxes`: "spare_1", … They are obstacles of an episode that no
-/// scene file has, and are not there until something makes them appear.
-std::vector<std::string> SpareNames(const LiveOptions& options);
-
 /// The scene with them, behind its own obstacles: 0.2 × 0.2 × 0.1 m, at rest on the floor about the
-/// origin. Throws InputError when an obstacle of the scene has such a name.
+/// origin.
 Scene WithSpareBoxes(Scene scene, const LiveOptions& options);
 
 /// Where an episode takes place: what its config names, and the spare boxes. Throws InputError.
 Place LoadEpisodePlace(const LiveConfig& config);
+
+/// An episode ready to begin.
+struct LoadedEpisode {
+  LiveConfig config;  ///< as its file says it
+  Place place;        ///< with the spare boxes
+};
+/// Reads a config file, changes what it says, and loads what it names. Throws InputError with every
+/// complaint, those about what does not fit the scene at their places in the file.
+LoadedEpisode LoadEpisode(const std::string& path, const std::vector<YamlOverride>& overrides,
+                          const std::function<LiveConfig(LiveConfig)>& change);
 
 }  // namespace halfstep

@@ -47,24 +47,17 @@ TrueWorld::TrueWorld(const Scene& scene, const GoalConfig& goal, const LiveOptio
   of_obstacle_.resize(scene.obstacles.size());
   for (size_t k = 0; k < script_.size(); ++k) {
     const ScriptEvent& event = script_[k];
-    const std::string place = Formatted("live.script[%zu]: ", k + 1);
     end_ = std::max(end_, event.at + event.lasts);
-    if (event.what == "forbid" && static_cast<size_t>(event.area) > scene.no_step.size()) {
-      complaints.push_back(place + Formatted("area %d: the scene has %zu (valid: one of these)",
-                                             event.area, scene.no_step.size()));
+    const std::vector<SceneMistake> mistakes = MistakesOf(event, scene);
+    for (const SceneMistake& one : mistakes) {
+      complaints.push_back(Formatted("live.script[%zu].", k) + one.key + ": " + one.what);
     }
-    if (event.obstacle.empty()) continue;
-    const size_t index = IndexOf(event.obstacle);
-    if (index == scene.obstacles.size()) {
-      complaints.push_back(place + "obstacle '" + event.obstacle +
-                           "' is not in the scene (valid: the name of one of its obstacles)");
-      continue;
-    }
+    const size_t index = event.obstacle.empty() ? scene.obstacles.size() : IndexOf(event.obstacle);
+    if (index == scene.obstacles.size()) continue;
     TakeIn(index, event);
   }
-  if (drift_ > 0.0 && !scene.no_step.empty()) {
-    complaints.push_back(
-        "live.drift_m_s: the scene has no-step areas, whose place is taken as exact (valid: 0)");
+  for (const SceneMistake& one : MistakesOf(options, scene)) {
+    complaints.push_back("live." + one.key + ": " + one.what);
   }
   if (!complaints.empty()) throw InputError(complaints);
 }

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "experiments/live/past_worlds.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {
@@ -41,14 +42,22 @@ double World::valid_until() const {
   return until;
 }
 
+std::string Contradiction::Text() const {
+  if (!was_there) return name + Formatted(": was not there in world %d", version);
+  return name + Formatted(": %.4g m from where world %d had it %.4g s before, %.4g m are allowed",
+                          moved, version, elapsed, allowed());
+}
+
 WorldUpdate Updated(const World& last, const PastWorlds& past, World frame,
                     const LiveOptions& options) {
   WorldUpdate update{.world = std::move(frame), .contradictions = {}};
   World& world = update.world;
   world.version = last.version + 1;
-  PastWorlds::Contradiction latest = past.Latest(world, last.sound_since);
-  world.sound_since = std::max(last.sound_since, latest.version + 1);
-  update.contradictions = std::move(latest.names);
+  world.sound_since = last.sound_since;
+  update.contradictions = past.Latest(world, last.sound_since);
+  for (const Contradiction& one : update.contradictions) {
+    world.sound_since = std::max(world.sound_since, one.version + 1);
+  }
   for (size_t i = 0; i < world.scene.obstacles.size(); ++i) {
     Obstacle& now = world.scene.obstacles[i];
     const std::optional<size_t> old = Find(last.scene.obstacles, now.name, i);

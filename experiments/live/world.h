@@ -38,16 +38,35 @@ struct World {
 
 class PastWorlds;
 
-/// The world after a frame, and which obstacles or areas contradict what was known: names for
-/// messages. `past` has the versions so far, up to `last`. An obstacle contradicts an earlier
-/// version when a point of it is farther from where it was measured then than both errors and its
-/// speed then allow, and when it was not there; a no-step area when it was not there. Every version
-/// that is not void yet counts: an obstacle that is taken to rest and creeps contradicts an old
-/// one, although never the last. What vanishes contradicts nothing. An obstacle that has stayed for
-/// `sensing.rests_after` is taken to rest: its speed is that of the drift.
+/// An obstacle or a no-step area that is not as a past world said: the latest such world.
+struct Contradiction {
+  std::string name;       ///< of the obstacle; of an area "no-step area 1"
+  int version = -1;       ///< of the past world; −1: there is none
+  bool was_there = true;  ///< in that world; where it was not, the rest is 0
+  double moved = 0.0;     ///< how far a point of it is from where it was measured then [m]
+  double elapsed = 0.0;   ///< between both measurements [s]
+  double errors = 0.0;    ///< those of both measurements, added [m]
+  double speed = 0.0;     ///< that the past world states [m/s]
+
+  /// How far it may have moved [m].
+  double allowed() const { return errors + speed * elapsed; }
+  /// By how much it has moved farther than that [m].
+  double beyond() const { return moved - allowed(); }
+  /// "bar: 0.534 m from where world 4 had it 0.2 s before, 0.01 m are allowed".
+  std::string Text() const;
+  bool operator==(const Contradiction&) const = default;  ///< in all of these
+};
+
+/// The world after a frame, and which obstacles or areas contradict what was known. `past` has the
+/// versions so far, up to `last`. An obstacle contradicts an earlier version when a point of it is
+/// farther from where it was measured then than both errors and its speed then allow, and when it
+/// was not there; a no-step area when it was not there. Every version that is not void yet counts:
+/// an obstacle that is taken to rest and creeps contradicts an old one, although never the last.
+/// What vanishes contradicts nothing. An obstacle that has stayed for `sensing.rests_after` is
+/// taken to rest: its speed is that of the drift.
 struct WorldUpdate {
-  World world;                              ///< the world after the frame
-  std::vector<std::string> contradictions;  ///< names of what the world before did not allow
+  World world;                                ///< the world after the frame
+  std::vector<Contradiction> contradictions;  ///< of worlds that were not void, each name once
 };
 /// The world after `frame`, from the one before it, `last`.
 WorldUpdate Updated(const World& last, const PastWorlds& past, World frame,

@@ -20,7 +20,23 @@ std::string VertexText(const ConvexBody& body) {
 }  // namespace
 
 std::string Attribute(const std::string& name, const std::string& value) {
-  return " " + name + "=\"" + value + "\"";
+  std::string text = " " + name + "=\"";
+  for (const char c : value) {
+    switch (c) {
+      case '&':
+        text += "&amp;";
+        break;
+      case '<':
+        text += "&lt;";
+        break;
+      case '"':
+        text += "&quot;";
+        break;
+      default:
+        text += c;
+    }
+  }
+  return text + "\"";
 }
 
 MujocoGeom GeomOf(const ConvexBody& body, const std::string& name) {

@@ -16,7 +16,7 @@ struct MujocoGeom {
 /// a mesh called `name`. Precondition: the body is one that MakeBox … MakeHull make.
 MujocoGeom GeomOf(const ConvexBody& body, const std::string& name);
 
-/// ` name="value"`. The value is written as it is.
+/// ` name="value"`, the value as XML has it: of any text, `&`, `<` and `"` included.
 std::string Attribute(const std::string& name, const std::string& value);
 
 }  // namespace halfstep::replay

@@ -23,26 +23,6 @@ void AppendTurn(const Eigen::Matrix3d& R, std::string* text) {
   AppendNumbers(Eigen::Vector4d(q.w(), q.x(), q.y(), q.z()), text);
 }
 
-std::string EscapedXml(const std::string& text) {
-  std::string escaped;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      default:
-        escaped += c;
-    }
-  }
-  return escaped;
-}
-
 /// A joint of a leg: its side, and its number from the hip.
 struct LegPlace {
   size_t side = 0;
@@ -129,7 +109,7 @@ std::string MujocoKeyframes(const RobotModel& robot, const RobotTree& tree,
     text += "  <custom>\n";
     for (size_t i = 0; i < obstacles.size(); ++i) {
       text += "    <text" + Attribute("name", "obstacle_" + std::to_string(i)) +
-              Attribute("data", EscapedXml(obstacles[i].name)) + "/>\n";
+              Attribute("data", obstacles[i].name) + "/>\n";
     }
     text += "  </custom>\n";
   }

@@ -143,7 +143,7 @@ class Writer {
         X.rotate(Eigen::AngleAxisd(angle, joint.axis));
       }
     }
-    text_ += indent + "<body" + Attribute("name", link.name) + PlaceAttributes(X) + ">\n";
+    text_ += indent + "<body" + Attribute("name", BodyName(link.name)) + PlaceAttributes(X) + ">\n";
     if (!joint_text.empty()) text_ += inner + joint_text + "\n";
     if (link.mass > 0) AddMass(link, inner);
     AddBodies(index, inner);
@@ -205,6 +205,13 @@ class Writer {
 };
 
 }  // namespace
+
+std::string BodyName(const std::string& link) {
+  const std::string taken = "world";
+  const bool like_it =
+      link.starts_with(taken) && link.find_first_not_of('_', taken.size()) == std::string::npos;
+  return like_it ? link + "_" : link;
+}
 
 std::string MujocoModel(const RobotModel& robot, const RobotTree& tree, const ModelOptions& options,
                         const std::vector<SimulatedObstacle>& obstacles) {

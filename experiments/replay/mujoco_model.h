@@ -29,13 +29,19 @@ struct ModelOptions {
       false;  ///< where they are at t = 0; else at the origin until they are moved
 };
 
+/// The name of a link's body. MuJoCo calls its own root "world" and refuses a second body of that
+/// name, so a link "world" is "world_", and, lest that be another link's, "world_" is "world__" and
+/// so on. Every other name is the link's.
+std::string BodyName(const std::string& link);
+
 /// The robot as a MuJoCo model (MJCF), standing on the floor z = 0: the URDF's links with their
 /// masses and inertias, a free base, hinges in the legs with servos (actuators: left leg from the
 /// hip, then right), every other joint welded in the standing posture, and soles as boxes that
-/// touch the floor and nothing else. Names are the URDF's; soles are "left_sole", "right_sole".
-/// Obstacles are mocap bodies in their order; with them the robot gets its convex bodies, which
-/// touch obstacles and nothing else: "body_I" by their index in RobotModel::bodies. Principal
-/// moments of inertia below 1e-6 kg m², which MuJoCo refuses when they are 0, are raised to it.
+/// touch the floor and nothing else. Names are the URDF's, those of links as BodyName() says; soles
+/// are "left_sole", "right_sole". Obstacles are mocap bodies in their order; with them the robot
+/// gets its convex bodies, which touch obstacles and nothing else: "body_I" by their index in
+/// RobotModel::bodies. Principal moments of inertia below 1e-6 kg m², which MuJoCo refuses when
+/// they are 0, are raised to it.
 std::string MujocoModel(const RobotModel& robot, const RobotTree& tree, const ModelOptions& options,
                         const std::vector<SimulatedObstacle>& obstacles = {});
 

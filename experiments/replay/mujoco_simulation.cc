@@ -4,6 +4,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "experiments/replay/mujoco_model.h"
 #include "experiments/replay/simulation.h"
 #include "wpg/check.h"
 
@@ -94,7 +95,7 @@ Simulation::Simulation(const std::string& mjcf, const RobotModel& robot,
   layout.model = Compile(mjcf);
   const mjModel& model = *layout.model;
   layout.floor = Find(model, mjOBJ_GEOM, "floor");
-  layout.waist = Find(model, mjOBJ_BODY, waist_link);
+  layout.waist = Find(model, mjOBJ_BODY, BodyName(waist_link));
   for (size_t side = 0; side < 2; ++side) {
     const std::string name(Name(static_cast<Side>(side)));
     layout.soles[side] = Find(model, mjOBJ_GEOM, name + "_sole");

@@ -1,4 +1,4 @@
-// What was told of an episode, by messages of protocol 1, and what of it was true at a time.
+// What was told of an episode, by messages of protocol 2, and what of it was true at a time.
 
 // The last element of a list in the order of `key` that is not after t.
 function lastUntil(list, key, t) {
@@ -95,7 +95,7 @@ const words = {
   handed_over: ({ walk, text, half_step: from }) =>
     `walk ${walk} taken over, from half-step ${from} on: ${text}`,
   lost: ({ text }) => `lost: ${text}`,
-  contradicted: ({ text }) => `${text} is not where it could be: earlier proofs are void`,
+  contradicted: ({ text }) => `did not keep its error and speed: earlier proofs are void: ${text}`,
   refused: ({ text }) => `a walk was refused: ${text}`,
   unsafe: ({ text }) => `no safe way on was found: ${text}`,
   stopped: ({ text, half_step: last }) => `stops after half-step ${last}: ${text}`,

@@ -17,6 +17,8 @@
 #include <utility>
 #include <vector>
 
+#include "wpg/files/leftovers.h"
+
 namespace halfstep {
 namespace {
 
@@ -125,6 +127,7 @@ HeadlessBrowser::HeadlessBrowser(const fs::path& program, const fs::path& folder
   process_.to = commands[1];
   process_.from = answers[0];
   if (process_.pid < 0) FailBySystem("no process for " + program.string());
+  AddLeftoverGroup(process_.pid);
   const json target = Send("Target.createTarget", {{"url", "about:blank"}});
   session_ = Send("Target.attachToTarget", {{"targetId", target.at("targetId")}, {"flatten", true}})
                  .at("sessionId")
@@ -138,6 +141,7 @@ HeadlessBrowser::Process::~Process() {
     if (fd >= 0) close(fd);
   }
   if (pid <= 0) return;
+  ForgetLeftoverGroup(pid);
   kill(-pid, SIGKILL);
   waitpid(pid, nullptr, 0);
   // Its helpers may still write into the profile until they are gone.

@@ -159,8 +159,9 @@ function thingsIn(world) {
 
 function stateText(t, plan, begun) {
   if (record.end && (!timeline || t >= timeline.duration)) {
-    return `${record.end.ending.replaceAll("_", " ")}${record.end.message ? `: ${record.end.message}` : ""}` +
-      ` at ${t.toFixed(2)} s`;
+    const { ending, message, promise, promise_status: status } = record.end;
+    const but = status && status !== "kept" ? `; ${promise}` : "";
+    return `${ending.replaceAll("_", " ")}${message ? `: ${message}` : ""} at ${t.toFixed(2)} s${but}`;
   }
   if (record.waiting !== null && !plan) return `waits for a walk: ${record.waiting}`;
   if (!plan) return "nothing is known yet";

@@ -1,7 +1,5 @@
 #include "experiments/report/walk_video.h"
 
-#include <unistd.h>
-
 #include <chrono>
 #include <cstdint>
 #include <cstdlib>
@@ -15,6 +13,7 @@
 #include "experiments/report/headless_browser.h"
 #include "wpg/check.h"
 #include "wpg/files/input_error.h"
+#include "wpg/files/partial_sibling.h"
 #include "wpg/files/whole_file.h"
 
 namespace halfstep {
@@ -25,21 +24,25 @@ using nlohmann::json;
 
 constexpr int kFramesAtOnce = 10;  // between two looks at Ctrl-C
 
-// A folder of its own for the page and the browser's profile, gone with this object.
+// Where a folder for the page and the browser's profile is made. What a killed process left there
+// is removed, as a partial file's is.
+fs::path PlaceOfVideos() {
+  const fs::path place = fs::temp_directory_path() / "halfstep_video";
+  RemoveAbandonedSiblings(place.parent_path(), place.filename().string());
+  return place;
+}
+
+// Such a folder, which no other user reads, gone with this object.
 class VideoFolder {
  public:
-  VideoFolder() {
-    std::string name = (fs::temp_directory_path() / "halfstep_video_XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) {
-      throw std::system_error(errno, std::generic_category(), name);
-    }
-    path_ = name;
+  VideoFolder() : folder_(PlaceOfVideos(), PartialSibling::Kind::kFolder) {
+    fs::permissions(path(), fs::perms::owner_all);
   }
   ~VideoFolder() {
     // Again where the browser's last process has made a file meanwhile.
     std::error_code failed;
     for (int i = 0; i < 20; ++i) {
-      fs::remove_all(path_, failed);
+      fs::remove_all(path(), failed);
       if (!failed) return;
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
     }
@@ -47,10 +50,10 @@ class VideoFolder {
   VideoFolder(const VideoFolder&) = delete;
   VideoFolder& operator=(const VideoFolder&) = delete;
 
-  const fs::path& path() const { return path_; }
+  const fs::path& path() const { return folder_.path(); }
 
  private:
-  fs::path path_;
+  PartialSibling folder_;
 };
 
 int Digit(char c) {

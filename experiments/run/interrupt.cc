@@ -4,10 +4,12 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <ctime>
 #include <optional>
 #include <string_view>
 
 #include "experiments/run/exit_status.h"
+#include "wpg/files/leftovers.h"
 
 namespace halfstep {
 namespace {
@@ -22,10 +24,22 @@ sigset_t Signals() {
   return signals;
 }
 
-// Files are whole at any moment, so nothing is left to be done.
-[[noreturn]] void EndAtOnce(std::string_view sentence) {
+void Rest(int /*signal*/) {
+  while (true) pause();
+}
+
+// Files are whole at any moment, so what is left to be done is to remove partial ones. Nothing may
+// write meanwhile, so the thread that made the guard rests.
+[[noreturn]] void EndAtOnce(pthread_t maker, std::string_view sentence, int status) {
   (void)!write(STDERR_FILENO, sentence.data(), sentence.size());
-  _exit(kInterrupted);
+  struct sigaction action = {};
+  action.sa_handler = Rest;
+  sigaction(SIGUSR2, &action, nullptr);
+  pthread_kill(maker, SIGUSR2);
+  const timespec a_moment{0, 20'000'000};
+  nanosleep(&a_moment, nullptr);
+  RemoveLeftovers();
+  _exit(status);
 }
 
 }  // namespace
@@ -33,16 +47,18 @@ sigset_t Signals() {
 InterruptGuard::InterruptGuard() {
   const sigset_t signals = Signals();
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
-  waiter_ = std::jthread([this](const std::stop_token& ended) { WaitForSignals(ended); });
+  waiter_ = std::jthread([this, maker = pthread_self()](const std::stop_token& ended) {
+    WaitForSignals(ended, maker);
+  });
 }
 
-void InterruptGuard::WaitForSignals(const std::stop_token& ended) {
+void InterruptGuard::WaitForSignals(const std::stop_token& ended, pthread_t maker) {
   const sigset_t signals = Signals();
   const timespec patience{0, 50'000'000};  // looks that often whether the guard has ended
   std::optional<std::chrono::steady_clock::time_point> first;
   while (!ended.stop_requested()) {
     const int received = sigtimedwait(&signals, nullptr, &patience);
-    if (received > 0 && first) _exit(128 + received);
+    if (received > 0 && first) EndAtOnce(maker, "", 128 + received);
     if (received > 0) {
       first = std::chrono::steady_clock::now();
       stop_.request_stop();
@@ -50,14 +66,16 @@ void InterruptGuard::WaitForSignals(const std::stop_token& ended) {
     if (!first) continue;
     const std::chrono::steady_clock::duration since = std::chrono::steady_clock::now() - *first;
     if (since > seconds(1)) {
-      if (!keep_) EndAtOnce("halfstep: interrupted\n");
+      if (!keep_) EndAtOnce(maker, "halfstep: interrupted\n", kInterrupted);
       step_.request_stop();
     }
     if (since > seconds(10)) proof_.request_stop();
     if (since > seconds(20)) {
       EndAtOnce(
+          maker,
           "halfstep: interrupted; what was found could not be proved and written within 20 s, so "
-          "it is lost\n");
+          "it is lost\n",
+          kInterrupted);
     }
   }
 }

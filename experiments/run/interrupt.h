@@ -1,5 +1,7 @@
 #pragma once
 
+#include <pthread.h>
+
 #include <atomic>
 #include <stop_token>
 #include <thread>
@@ -9,8 +11,9 @@ namespace halfstep {
 /// Turns Ctrl-C (SIGINT) and SIGTERM into a stop request while it lives. The process ends soon
 /// after the first signal, whatever it is doing: what does not obey the request is ended with exit
 /// status 130, after a second when there is nothing to keep (files are loaded, a scene is
-/// prepared), after 20 once there is. A second signal ends it at once. Make it before any other
-/// thread, so that they inherit the blocked signals.
+/// prepared), after 20 once there is. A second signal ends it at once. Whatever ends it, nothing is
+/// left of what was not written whole (RemoveLeftovers). Make it before any other thread, so that
+/// they inherit the blocked signals.
 class InterruptGuard {
  public:
   InterruptGuard();
@@ -28,7 +31,8 @@ class InterruptGuard {
   void Keep() { keep_ = true; }
 
  private:
-  void WaitForSignals(const std::stop_token& ended);
+  // `maker`: the thread that made the guard.
+  void WaitForSignals(const std::stop_token& ended, pthread_t maker);
 
   std::stop_source stop_, step_, proof_;
   std::atomic<bool> keep_ = false;

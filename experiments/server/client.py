@@ -68,7 +68,7 @@ def main():
                 print(message["text"], file=sys.stderr)
             elif message["type"] == "end":
                 print(f"{message['ending']}; the record is in {message['folder']}")
-                return 0 if message["ending"] == "arrived" else 1
+                return 0 if message["ending"] in ("arrived", "ended") else 1
     return 1
 
 

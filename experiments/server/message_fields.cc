@@ -117,7 +117,7 @@ std::vector<MessageFields> MessageFields::Objects(const std::string& key) {
   }
   std::vector<MessageFields> objects;
   for (size_t i = 0; i < list.size(); ++i) {
-    const std::string name = key + Formatted("[%zu]", i + 1);
+    const std::string name = key + Formatted("[%zu]", i);
     if (!list[i].is_object()) Fail(name, "is no object (valid: {…})");
     objects.emplace_back(list[i], name);
   }

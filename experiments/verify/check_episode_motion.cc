@@ -98,7 +98,7 @@ void CheckEpisodeTrajectory(const std::vector<PlayedRow>& rows, const EpisodeMan
 void CheckEpisodeEnding(const EpisodeText& episode, const EpisodeManifest& manifest,
                         const EpisodeWalks& all, const DescribedWalk& executed,
                         const GoalConfig& goal, Findings* findings) {
-  constexpr std::array<const char*, 6> kOthers = {"stuck", "too_long", "interrupted",
+  constexpr std::array<const char*, 7> kOthers = {"stuck", "too_long", "ended",  "interrupted",
                                                   "fell",  "killed",   "no_plan"};
   findings->Say("ending: " + (manifest.ending.size() < 20 ? manifest.ending : "unknown") +
                 Formatted(" at %.6g s", manifest.end));

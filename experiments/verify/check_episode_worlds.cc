@@ -30,18 +30,6 @@ std::string FaultOfObstacle(const ObstacleRow& row, const Scene& scene) {
   return "";
 }
 
-// An upper bound of how far a point of an obstacle has moved between two measurements [m].
-double Moved(const ObstacleRow& from, const ObstacleRow& to, double radius) {
-  // Of the quaternion to · from⁻¹: scalar part and length of the vector part.
-  const auto [w, x, y, z] = from.turn;
-  const auto [a, b, c, d] = to.turn;
-  const double scalar = a * w + b * x + c * y + d * z;
-  const Eigen::Vector3d vector(-a * x + b * w - c * z + d * y, -a * y + b * z + c * w - d * x,
-                               -a * z - b * y + c * x + d * w);
-  const double angle = 2 * std::atan2(vector.norm(), std::abs(scalar));
-  return (to.place - from.place).norm() + angle * radius;
-}
-
 // The obstacles of one world by name, and the rows that they are in.
 using ByName = std::map<std::string, size_t>;
 
@@ -108,6 +96,17 @@ class Worlds {
 };
 
 }  // namespace
+
+double Moved(const ObstacleRow& from, const ObstacleRow& to, double radius) {
+  // Of the quaternion to · from⁻¹: scalar part and length of the vector part.
+  const auto [w, x, y, z] = from.turn;
+  const auto [a, b, c, d] = to.turn;
+  const double scalar = a * w + b * x + c * y + d * z;
+  const Eigen::Vector3d vector(-a * x + b * w - c * z + d * y, -a * y + b * z + c * w - d * x,
+                               -a * z - b * y + c * x + d * w);
+  const double angle = 2 * std::atan2(vector.norm(), std::abs(scalar));
+  return (to.place - from.place).norm() + angle * radius;
+}
 
 bool CheckEpisodeNumbers(const EpisodeText& episode, const Scene& scene, Findings* findings) {
   Faults worlds, obstacles;

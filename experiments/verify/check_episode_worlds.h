@@ -22,6 +22,10 @@ bool CheckEpisodeNumbers(const EpisodeText& episode, const Scene& scene, Finding
 void CheckEpisodeWorlds(const EpisodeText& episode, const LiveOptions& options, const Scene& scene,
                         Findings* findings);
 
+/// An upper bound of how far a point of an obstacle, within `radius` of its frame's origin, is at
+/// one measured place from where it is at another [m].
+double Moved(const ObstacleRow& from, const ObstacleRow& to, double radius);
+
 /// The scene as world `version` knows it: obstacles with their measurements (ObstacleMotion), and
 /// the no-step areas that are there. Preconditions: as above; there is such a world.
 Scene SceneOfWorld(const EpisodeText& episode, const Scene& scene, size_t version);

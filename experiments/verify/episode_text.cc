@@ -177,6 +177,7 @@ EpisodeManifest ReadEpisodeManifest(const std::string& path, const std::string& 
                     .files = {},
                     .seed = root.Whole("seed"),
                     .walks = root.Whole("walks"),
+                    .waited = root.Number("waited_s"),
                     .end = root.Number("end_s"),
                     .stopped = document["stopped"].get<bool>(),
                     .not_covered = NotCoveredItems(root)};

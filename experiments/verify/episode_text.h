@@ -20,7 +20,7 @@ struct EpisodeManifest {
   std::vector<InputFile> robot_files, scene_files;  ///< without paths
   std::map<std::string, InputFile> files;           ///< of the episode, by relative path
   long seed = 0, walks = 0;                         ///< of the noise; walks that were handed over
-  double end = 0;                                   ///< [s]
+  double waited = 0, end = 0;                       ///< before time 0, and at the end [s]
   bool stopped = false;  ///< the last walk was cut after the last half-step that began
   std::vector<NotCoveredItem> not_covered;  ///< by its proofs
 };

@@ -31,6 +31,9 @@ class Findings {
   }
   /// Notes why the rows cannot settle a check, so that the walk is neither verified nor refused.
   void TooCoarse(std::string reason) { too_coarse_ = std::move(reason); }
+  /// Notes what the verdict of one who reads only that must say.
+  void Remark(std::string remark) { remark_ = std::move(remark); }
+  const std::string& remark() const { return remark_; }  ///< "": nothing
   /// Notes the least value of a check.
   void Reach(Reached reached) { reached_.push_back(std::move(reached)); }
   /// Adds the lines and disagreements of `other`, and what it reached.
@@ -63,7 +66,7 @@ class Findings {
   std::vector<std::string> reasons_;
   std::vector<Reached> reached_;
   long disagreements_ = 0;
-  std::string too_coarse_;
+  std::string too_coarse_, remark_;
 };
 
 /// "41,230".

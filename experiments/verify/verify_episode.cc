@@ -8,6 +8,7 @@
 #include "experiments/live/spare_boxes.h"
 #include "experiments/verify/check_episode_grants.h"
 #include "experiments/verify/check_episode_motion.h"
+#include "experiments/verify/check_episode_promise.h"
 #include "experiments/verify/check_episode_proof.h"
 #include "experiments/verify/check_episode_walks.h"
 #include "experiments/verify/check_episode_worlds.h"
@@ -65,7 +66,7 @@ void CheckEpisodeInputs(const EpisodeManifest& manifest, const LiveConfig& confi
 // All that is about walks; there is one.
 void CheckEpisodeWalking(const VerifyOptions& options, const EpisodeText& episode,
                          const EpisodeManifest& manifest, const LiveConfig& config,
-                         const Place& place, Findings* findings) {
+                         const Place& place, const EpisodePromise& promise, Findings* findings) {
   const ExperimentConfig& experiment = config.experiment;
   const EpisodeWalks all = CheckEpisodeWalks(episode,
                                              {.robot = place.robot,
@@ -87,6 +88,8 @@ void CheckEpisodeWalking(const VerifyOptions& options, const EpisodeText& episod
   CheckEpisodeProof(episode, all.walks.back(), place.scene,
                     DemandsOf(experiment.smoothing.limits, findings),
                     {.period = period, .tolerance = options.tolerance}, findings);
+  CheckEpisodePromise(promise, {episode, &executed, manifest.end, place.scene, config.live},
+                      findings);
 }
 
 }  // namespace
@@ -111,10 +114,14 @@ std::vector<NotCovered> VerifyEpisode(const VerifyOptions& options,
   const EpisodeText episode = ReadEpisode(folder, walks);
   if (!CheckEpisodeNumbers(episode, place.scene, findings)) return not_covered;
   CheckEpisodeWorlds(episode, config.live, place.scene, findings);
+  const EpisodePromise promise =
+      ReadEpisodePromise((folder / "manifest.json").string(), manifest_text, manifest);
   if (walks > 0) {
-    CheckEpisodeWalking(options, episode, manifest, config, place, findings);
+    CheckEpisodeWalking(options, episode, manifest, config, place, promise, findings);
     return not_covered;
   }
+  CheckEpisodePromise(promise, {episode, nullptr, manifest.end, place.scene, config.live},
+                      findings);
   findings->Say("ending: no walk");
   if (manifest.ending != "no_plan" || !episode.grants.empty() || !episode.begun.empty()) {
     findings->Disagree(

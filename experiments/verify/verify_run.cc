@@ -61,6 +61,7 @@ MethodVerification Verified(const std::string& method, const Check& check) {
   try {
     check(&result, &findings);
     result.too_coarse = findings.too_coarse();
+    result.remark = findings.remark();
     result.verified = findings.disagreements() == 0 && result.too_coarse.empty();
   } catch (const InputError& error) {
     result.readable = false;
@@ -117,6 +118,7 @@ std::string Summary(const MethodVerification& result) {
   if (!result.readable) return text + "cannot be read\n";
   if (result.verified) {
     text += Formatted("verified (%zu checks)", result.lines.size());
+    if (!result.remark.empty()) text += ", but " + result.remark;
     for (const std::string& what : result.not_examined) text += "\n  not examined: " + what;
     return text + "\n";
   }
@@ -140,7 +142,7 @@ std::string Describe(const MethodVerification& result) {
     text += "  cannot be read:\n";
     for (const std::string& line : result.complaints) text += "    " + line + "\n";
   } else if (result.verified) {
-    text += "  verified\n";
+    text += "  verified" + (result.remark.empty() ? "" : ", but " + result.remark) + "\n";
   } else if (result.disagreements == 0) {
     text += "  too coarse to verify: " + result.too_coarse + "\n";
   }

@@ -35,6 +35,7 @@ struct MethodVerification {
   std::vector<std::string> complaints;  ///< of unreadable input, "file:line: …"
   std::string statement;                ///< the certificate's own
   std::vector<NotCovered> not_covered;  ///< what it does not speak of, as found here
+  std::string remark;                   ///< what to say beside "verified"; "": nothing
 };
 
 /// Checks the certificates of a run against its other files, robot and scene: that they speak of

@@ -76,7 +76,7 @@ bool BrokeItsBounds(const Episode& episode, const std::string& obstacle, double 
   constexpr double kBefore = 3.0;  // [s] a half-step, and what it takes to notice
   bool known = false;
   for (const EpisodeEvent& event : episode.events) {
-    known = known || (event.what == "contradicted" && event.text == obstacle &&
+    known = known || (event.what == "contradicted" && event.text.starts_with(obstacle + ": ") &&
                       event.t > t - kBefore && event.t < t + kBefore);
   }
   return known;
@@ -171,7 +171,8 @@ StudiedEpisode WalkEpisode(const LiveStudy& study, std::uint64_t seed) {
   const auto run = live.clock == "wall" ? RunWallClock : RunLockstep;
   const Episode episode = run(replanner, &sensor, study.start, {});
   studied.cpu = ThreadSeconds() - begin;
-  const EpisodeSummary summary = Summarize(episode, &truth, study.place.robot);
+  const TrueWorld seen = truth.Since(episode.waited);
+  const EpisodeSummary summary = Summarize(episode, &seen, study.place.robot);
   studied.ending = episode.ending;
   studied.waited = episode.waited;
   studied.duration = episode.end;
@@ -185,9 +186,9 @@ StudiedEpisode WalkEpisode(const LiveStudy& study, std::uint64_t seed) {
   if (episode.walks.empty()) return studied;
   studied.excused =
       studied.touched() && BrokeItsBounds(episode, summary.nearest->obstacle, summary.nearest->t);
-  studied.pressed = NearestApproach(episode, truth.Since(episode.waited), study.place.robot, 0.05,
-                                    0.3, /*also_at_rest=*/true)
-                        .distance <= 0.0;
+  studied.pressed =
+      NearestApproach(episode, seen, study.place.robot, 0.05, 0.3, /*also_at_rest=*/true)
+          .distance <= 0.0;
   Time(episode, &studied);
   StopAtRandom(episode, study, &studied);
   ExamineMotion(episode, &studied);

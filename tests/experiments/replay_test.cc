@@ -1,5 +1,5 @@
-#include "experiments/config/data_folder.h"
 #include "experiments/replay/replay.h"
+#include "experiments/config/data_folder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -83,6 +83,35 @@ TEST_F(ReplayTest, TheDynamicsAreThoseOfTheEngine) {
 TEST_F(ReplayTest, ModelWeighsWhatTheRobotDoes) {
   SKIP_WITHOUT_SIMULATION();
   EXPECT_NEAR(Robot().weight(), 9.81 * robot_.mass, 1e-2);
+}
+
+// MuJoCo's root body is called "world", its floor "floor", and it reads XML.
+TEST_F(ReplayTest, LinksAndJointsMayHaveAnyName) {
+  SKIP_WITHOUT_SIMULATION();
+  const double weight = Robot().weight();
+  for (const std::vector<std::string>& names :
+       {std::vector<std::string>{"world", "world_", "floor"},
+        {"world_", "world", "world__"},
+        {"a<b&\"c\"", "body_0", "obstacle_0"},
+        {"left_sole", "null", "</body>"}}) {
+    RobotModel robot = robot_;
+    RobotTree tree = tree_;
+    for (size_t i = 0; i < names.size(); ++i) {
+      tree.urdf.links[i].name = names[i];
+      LegJoint& joint = robot.legs[0].joints[i];
+      for (UrdfJoint& one : tree.urdf.joints) {
+        if (one.name == joint.name) one.name = names[i];
+      }
+      joint.name = names[i];
+    }
+    const SimulatedObstacle box{
+        .name = "world", .body = MakeBox({0.1, 0.1, 0.1}), .pose = [](double) {
+          return Eigen::Isometry3d(Eigen::Translation3d(3.0, 0.0, 0.0));
+        }};
+    const Simulation engine(MujocoModel(robot, tree, {}, {box}), robot,
+                            tree.urdf.links[static_cast<size_t>(tree.waist)].name, {box});
+    EXPECT_NEAR(engine.weight(), weight, 1e-9) << names[0];
+  }
 }
 
 TEST_F(ReplayTest, RefusesAModelThatIsNone) {

@@ -5,6 +5,7 @@
 //   HALFSTEP_FAULT_LOG=FILE   appends "number TAB operation TAB path [TAB path]" a call
 //   HALFSTEP_FAULT_AT=N       the N-th call of a process, from 1 …
 //   HALFSTEP_FAULT=kill       … is not made (of a write: half of it is), the process killed
+//   HALFSTEP_FAULT=term       … is made after the program has been sent SIGTERM
 //   HALFSTEP_FAULT=EIO|ENOSPC … is not made and fails so
 //
 // Standard output and error, pipes and devices do not count.
@@ -30,7 +31,8 @@ namespace {
 
 struct Plan {
   long at = 0;
-  int error = 0;  // 0: kill
+  int error = 0;  // 0: a signal
+  bool term = false;
   int log = -1;
 };
 
@@ -42,6 +44,7 @@ const Plan& ThePlan() {
     if (at != nullptr) made.at = atol(at);
     if (what != nullptr && strcmp(what, "EIO") == 0) made.error = EIO;
     if (what != nullptr && strcmp(what, "ENOSPC") == 0) made.error = ENOSPC;
+    made.term = what != nullptr && strcmp(what, "term") == 0;
     if (log != nullptr) {
       made.log = static_cast<int>(
           syscall(SYS_openat, AT_FDCWD, log, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600));
@@ -96,6 +99,10 @@ Fate Count(const char* operation, const Path& path, const Path* other = nullptr)
     syscall(SYS_write, plan.log, line, static_cast<size_t>(n));
   }
   if (number != plan.at) return Fate::kGoOn;
+  if (plan.term) {
+    kill(getpid(), SIGTERM);
+    return Fate::kGoOn;
+  }
   return plan.error != 0 ? Fate::kFail : Fate::kKill;
 }
 

@@ -1,6 +1,7 @@
-// Every command that writes, killed at, or let fail by, one of the calls by which it changes files:
-// under a final name stands the older state or the new one, errors end with a sentence and exit
-// status 1, and the same command goes through afterwards.
+// Every command that writes, killed or ended at, or let fail by, one of the calls by which it
+// changes files: under a final name stands the older state or the new one, errors end with a
+// sentence and exit status 1, SIGTERM leaves no partial file, and the same command goes through
+// afterwards.
 //
 // A few calls of each command, drawn from a seed; HALFSTEP_FAULTS=all for every call of each.
 
@@ -218,6 +219,17 @@ class FaultyCommand : public testing::TestWithParam<Scenario> {
       ++missed_;
       return;
     }
+    if (fault == "term") {
+      // Commands that keep what they have found go on to write it.
+      EXPECT_TRUE(outcome.signal == SIGTERM || outcome.signal == 0) << outcome.signal;
+      for (const fs::path& folder : {place_ / "work", Output()}) {
+        for (const std::string& left : StateOf(folder).hidden) {
+          EXPECT_THAT(left, testing::Not(HasSubstr(".partial-")));
+        }
+      }
+      ++ended_;
+      return;
+    }
     if (fault == "kill") {
       // A sweep's worker may be killed in place of the sweep.
       EXPECT_TRUE(outcome.signal == SIGKILL || (scenario_.name == "Sweep" && outcome.status != 0));
@@ -240,7 +252,7 @@ class FaultyCommand : public testing::TestWithParam<Scenario> {
   FolderState older_, newer_;
   std::set<std::string> same_;  // files that are the same every time
   std::vector<FileCall> calls_;
-  int killed_ = 0, failed_ = 0, tolerated_ = 0, missed_ = 0;
+  int killed_ = 0, ended_ = 0, failed_ = 0, tolerated_ = 0, missed_ = 0;
 };
 
 TEST_P(FaultyCommand, LeavesTheOlderOrTheNewAndSaysWhatFailed) {
@@ -252,7 +264,7 @@ TEST_P(FaultyCommand, LeavesTheOlderOrTheNewAndSaysWhatFailed) {
   }
   ASSERT_GT(last, 0);
   std::mt19937 random(15);
-  for (const std::string fault : {"kill", "EIO", "ENOSPC"}) {
+  for (const std::string fault : {"kill", "term", "EIO", "ENOSPC"}) {
     std::vector<long> numbers(static_cast<size_t>(last));
     std::iota(numbers.begin(), numbers.end(), 1);
     std::shuffle(numbers.begin(), numbers.end(), random);
@@ -261,10 +273,10 @@ TEST_P(FaultyCommand, LeavesTheOlderOrTheNewAndSaysWhatFailed) {
       if (!HasFailure()) Injure(fault, at);
     }
   }
-  std::cout << scenario_.name << ": " << last << " calls; " << killed_ << " kills, " << failed_
-            << " errors with exit status 1, " << tolerated_ << " tolerated, " << missed_
-            << " of a call that was not made\n";
-  EXPECT_LT(missed_, killed_ + failed_ + tolerated_) << "most faults must find their call";
+  std::cout << scenario_.name << ": " << last << " calls; " << killed_ << " kills, " << ended_
+            << " ended by SIGTERM, " << failed_ << " errors with exit status 1, " << tolerated_
+            << " tolerated, " << missed_ << " of a call that was not made\n";
+  EXPECT_LT(missed_, killed_ + ended_ + failed_ + tolerated_) << "most faults must find their call";
 }
 
 // So that a name on the disk never leads to content that is not there yet.

@@ -1,10 +1,11 @@
-#include "experiments/config/data_folder.h"
 #include "experiments/live/live_config.h"
+#include "experiments/config/data_folder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "experiments/config/experiment.h"
+#include "experiments/live/spare_boxes.h"
 #include "experiments/live/true_world.h"
 #include "tests/fixture_check.h"
 
@@ -16,6 +17,15 @@ TEST_P(BadEpisode, IsRefusedWithItsPlace) {
   CheckFixture(GetParam(), [](const std::string& path) { LoadLiveConfig(path, {}); });
 }
 INSTANTIATE_TEST_SUITE_P(Fixtures, BadEpisode, testing::ValuesIn(Fixtures("live")), FixtureName);
+
+class EpisodeThatDoesNotFit : public testing::TestWithParam<std::string> {};
+TEST_P(EpisodeThatDoesNotFit, IsRefusedAtItsPlaceInTheFile) {
+  CheckFixture(GetParam(), [](const std::string& path) {
+    LoadEpisode(path, {}, [](const LiveConfig& config) { return config; });
+  });
+}
+INSTANTIATE_TEST_SUITE_P(Fixtures, EpisodeThatDoesNotFit, testing::ValuesIn(Fixtures("live_scene")),
+                         FixtureName);
 
 TEST(LiveConfig, TheShippedEpisodesAreRead) {
   for (const auto& path : YamlFiles(HALFSTEP_SOURCE_DIR "/experiments/episodes")) {

@@ -161,7 +161,7 @@ TEST(ServedEpisode, ABarThatIsCarriedIntoTheWayIsWalkedAround) {
   Connection client = served.Socket();
   const json hello = client.ReadLine();
   EXPECT_EQ(hello["type"], "hello");
-  EXPECT_EQ(hello["protocol"], 1);
+  EXPECT_EQ(hello["protocol"], 2);
   EXPECT_EQ(hello["source"], "stand_in");
   EXPECT_EQ(hello["spare"].size(), 8U);
   EXPECT_EQ(hello["obstacles"][0]["name"], "bar");
@@ -342,6 +342,24 @@ TEST(ServedEpisode, ClientsMayMeasureInPlaceOfTheStandIn) {
   EXPECT_THAT(TextOf(served.place() / "screen.txt"), testing::Not(HasSubstr("nearest")));
   const Outcome replayed = Halfstep(served.place(), {"replay", "one"});
   EXPECT_NE(replayed.status, kSuccess);
+}
+
+// On the way, with the robot far from the goal.
+TEST(ServedEpisode, AClientThatEndsItEndsItAsItWasMeant) {
+  SKIP_WITHOUT_SERVER();
+  Served served;
+  Connection client = served.Socket();
+  client.SendLine({{"type", "subscribe"}, {"state_period_s", 0.05}, {"motion_s", 0}});
+  client.ReadUntil("state");
+  client.SendLine({{"type", "end"}});
+  const json end = client.ReadUntil("end");
+  EXPECT_EQ(end["ending"], "ended");
+  EXPECT_THAT(std::string(end["message"]), HasSubstr("a client ended it"));
+  EXPECT_EQ(end["promise"], "the promise held");
+  EXPECT_EQ(end["promise_status"], "kept");
+  const Outcome outcome = served.Wait();
+  EXPECT_EQ(outcome.status, kSuccess) << outcome.err;
+  served.ExpectItVerifies();
 }
 
 TEST(ServedEpisode, CtrlCEndsItAndTellsClients) {

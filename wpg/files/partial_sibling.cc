@@ -15,6 +15,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "wpg/files/leftovers.h"
+
 namespace halfstep {
 namespace {
 
@@ -92,8 +94,10 @@ PartialSibling::PartialSibling(const fs::path& path, Kind kind) {
   const std::string prefix = "." + path.filename().string() + std::string(kMark);
   while (true) {
     path_ = path.parent_path() / (prefix + RandomDigits());
+    AddLeftover(path_);  // before it is there, so that no signal comes between
     if (Make(kind) && Lock()) return;
     const int reason = errno;
+    ForgetLeftover(path_);
     if (descriptor_ >= 0) close(descriptor_);
     descriptor_ = -1;
     // Taken by chance, or removed by another process before it was locked: another name.
@@ -107,6 +111,7 @@ PartialSibling::PartialSibling(const fs::path& path, Kind kind) {
 PartialSibling::~PartialSibling() {
   std::error_code ignored;
   if (!released_) fs::remove_all(path_, ignored);
+  ForgetLeftover(path_);
   if (descriptor_ >= 0) close(descriptor_);  // the lock goes last
 }
 
