@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,6 +19,7 @@
 #include "wpg/motion/mass_drift.h"
 #include "wpg/motion/rigid_motion.h"
 #include "wpg/motion/spatial.h"
+#include "wpg/motion/zmp_drift.h"
 
 namespace halfstep {
 namespace {
@@ -355,6 +357,100 @@ TEST(KneeMatch, HoldsHowMuchTheJacobianChanges) {
   }
   EXPECT_LT(change.excess, 1.0);
   EXPECT_GT(change.nearest, 0.9);
+}
+
+// What solves J(t)·x = r, with r in balls and asked for along each row of J(m)⁻¹, where it counts
+// most.
+TEST(KneeMatch, HoldsAllSolutionsWhileLinksTurn) {
+  AlgebraDraw draw(8);
+  AlgebraTally solved, lowered;
+  int none = 0;
+  for (int i = 0; i < Draws(20000); ++i) {
+    IntervalMotion motion;
+    Posture& posture = motion.posture;
+    posture.X_WB.linear() = draw.Turn(1.0);
+    posture.X_WSole[0].setIdentity();
+    posture.X_WSole[0].translation() = draw.Sparse3(1);
+    for (Vector3d& point : posture.frames[0].point_B) point = draw.Uniform(0, 1) * draw.Direction();
+    KneeAxes leg;
+    for (size_t j = 0; j < 6; ++j) {
+      leg.axes[j] = draw.Direction();
+      leg.points[j] = posture.X_WB * posture.frames[0].point_B[j];
+    }
+    std::array<Eigen::Matrix3d, 6> turned, still;
+    still.fill(Eigen::Matrix3d::Identity());
+    const Matrix6d J = leg.Jacobian(still), Y = J.inverse();
+    if (!(Y.norm() < 100)) continue;
+    // Twists of the sole in B, from those of the knee's point.
+    const Eigen::Matrix3d& R = posture.X_WB.linear();
+    Matrix6d of_sole = Matrix6d::Zero();
+    of_sole.topLeftCorner<3, 3>() = of_sole.bottomRightCorner<3, 3>() = R.transpose();
+    of_sole.bottomLeftCorner<3, 3>() =
+        -R.transpose() * CrossMatrix(posture.X_WSole[0].translation() - leg.points[3]);
+    posture.jacobian_inverse[0] = Y * of_sole.inverse();
+    const KneeMatch knee(motion, Side::kLeft);
+    std::array<double, 6> angles;
+    const double far = draw.Uniform(0, 1) < 0.1 ? 1.0 : 0.1;
+    for (size_t link = 0; link < 6; ++link) {
+      angles[link] = draw.Sparse(far);
+      turned[link] = draw.Turn(angles[link]);
+    }
+    const Matrix6d there = leg.Jacobian(turned).inverse();
+    const Eigen::Index row = static_cast<Eigen::Index>(draw.Uniform(0, 6));
+    Vector6d along;
+    along << Vector3d(Y.row(row).head<3>()).normalized(),
+        Vector3d(Y.row(row).tail<3>()).normalized();
+    VectorBall turn = draw.Ball(3), velocity = draw.Ball(3);
+    const double sign = draw.Uniform(0, 1) < 0.5 ? -1 : 1;
+    const Vector6d off =
+        sign * Spatial(turn.radius * along.head<3>(), velocity.radius * along.tail<3>());
+    const auto all = knee.Solve(turn, velocity, angles);
+    none += !all;
+    if (all) {
+      const Vector6d x = there * (Spatial(turn.center, velocity.center) + off);
+      for (Eigen::Index k = 0; k < 6; ++k) {
+        solved.Compare(std::abs(x[k] - all->center[k]), all->radius[k], x.norm());
+      }
+    }
+    const Vector6d x = (there * off).cwiseAbs();
+    const Vector6d less =
+        knee.Lowered(draw.Uniform(1, 3) * x, turn.radius, velocity.radius, angles);
+    for (Eigen::Index k = 0; k < 6; ++k) lowered.Compare(x[k], less[k], x.norm());
+  }
+  EXPECT_GT(none, Draws(20000) / 100);
+  EXPECT_LT(solved.excess, 1.0);
+  EXPECT_LT(lowered.excess, 1.0);
+  EXPECT_GT(solved.nearest, 0.85);  // an eighth is added to what is found
+  EXPECT_GT(lowered.nearest, 0.99);
+}
+
+// Each part of the floor's moment, and its push, at the edge of what rates let them be.
+TEST(ZmpDrift, ByRatesIsNotExceeded) {
+  AlgebraDraw draw(9);
+  AlgebraTally along, most;
+  for (int i = 0; i < Draws(20000); ++i) {
+    const ContactRate rate{
+        .half_width = 0.01, .moment = draw.Ball(3000), .force = draw.Ball(40000)};
+    const double push = 300;
+    const ZmpDrift drift = ZmpDrift::At(rate, push);
+    if (!(drift.least_push > 0)) {
+      EXPECT_TRUE(std::isinf(drift.Most()));
+      continue;
+    }
+    const double tau = draw.Uniform(0, 1) < 0.5 ? -0.01 : 0.01;
+    const Vector3d moment = tau * draw.In(rate.moment);
+    const double up =
+        tau * (rate.force.center.z() + (draw.Uniform(0, 1) < 0.5 ? -1 : 1) * rate.force.radius);
+    const Eigen::Vector2d way = Eigen::Vector2d(-moment.y(), moment.x()) / (push + up);
+    const double angle = draw.Uniform(0, 6.3);
+    const Eigen::Vector2d direction(std::cos(angle), std::sin(angle));
+    along.Compare(std::abs(direction.dot(way)), drift.Along(direction), way.norm());
+    most.Compare(way.norm(), drift.Most(), way.norm());
+  }
+  for (const AlgebraTally& part : {along, most}) {
+    EXPECT_LT(part.excess, 1.0);
+    EXPECT_GT(part.nearest, 0.95);
+  }
 }
 
 }  // namespace
