@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """Puts wrong lines into what soundness rests on, one at a time, and tells which tests notice them.
 
-The lists (*.mutants, format: README.md) say where, what and which tests. Every listed source is
-copied once with all its wrong lines behind a switch, `kMutant == n ? wrong : right`, compiled
-by the command of the build tree and linked before the libraries into the test executables; then the
-tests run once for each n. Standard library only; needs a build tree of Ninja whose tests are built.
+The lists (*.mutants, format: README.md) say where, what and which tests. Every listed file is
+copied once with all its wrong lines behind a switch, `kMutant… == n ? wrong : right`, compiled by
+the commands of the build tree, as part of its batch where the tree has batches, and linked before
+the libraries into the test executables; then the tests run once for each n. Standard library only;
+needs a build tree of Ninja whose tests are built.
 """
 
 import argparse
@@ -89,7 +90,8 @@ def locate(mutant, source):
 
 
 def rewritten(file, source, mutants):
-    """The source with every mutant behind its switch; spans must nest or be apart."""
+    """The file with every mutant behind its switch; spans must nest or be apart."""
+    chosen = "kMutantOf_" + re.sub(r"\W", "_", file)  # files of one batch have one each
 
     def emit(begin, end, inside):
         out, at = [], begin
@@ -104,57 +106,117 @@ def rewritten(file, source, mutants):
             out.append(source[at:a])
             right, wrong = emit(a, b, children), first.text(first.new)
             if source[b - 1] in ";}":
-                out.append(f"if (kMutant == {first.number}) {{ {wrong} }} else {{ {right} }}")
+                out.append(f"if ({chosen} == {first.number}) {{ {wrong} }} else {{ {right} }}")
             else:
-                out.append(f"(kMutant == {first.number} ? ({wrong}) : ({right}))")
+                out.append(f"({chosen} == {first.number} ? ({wrong}) : ({right}))")
             at = b
         return "".join(out) + source[at:end]
 
     ordered = sorted(mutants, key=lambda m: (m.span[0], -m.span[1]))
-    switch = f'static const int kMutant = HalfstepMutantOf("{file}");'
-    return f'#include "halfstep_mutant.h"\n{switch}\n#line 1\n' + emit(0, len(source), ordered)
+    switch = f'inline const int {chosen} = HalfstepMutantOf("{file}");'
+    guard = "#pragma once\n" if file.endswith(".h") else ""
+    return (f'{guard}#include "halfstep_mutant.h"\n{switch}\n#line 1\n'
+            + emit(0, len(source), ordered))
+
+
+class Unit:
+    """What one compile command compiles: a source, or a batch of them."""
+
+    def __init__(self, command):
+        self.words, self.directory = shlex.split(command["command"]), command["directory"]
+        self.source = pathlib.Path(command["file"])
+        self.object = self.words[self.words.index("-o") + 1]  # in the build tree
+        self.owner = re.search(r"CMakeFiles/([^/]+)\.dir/", self.object).group(1)  # its target
+        self.files = [os.path.relpath(self.source, ROOT)]
+        self.is_batch = self.source.parent.name == "Unity"
+        if self.is_batch:
+            included = re.findall(r'#include "([^"]+)"', self.source.read_text())
+            self.files = [os.path.relpath(file, ROOT) for file in included]
 
 
 class Build:
-    """Compiles rewritten sources and links them into executables beside a build tree."""
+    """Compiles rewritten files and links them into executables beside a build tree."""
 
     def __init__(self, tree, place):
         self.tree, self.place = tree, place
         commands = json.loads((tree / "compile_commands.json").read_text())
-        self.compile = {os.path.relpath(c["file"], ROOT): c for c in commands}
-        self.objects = {}  # file: (object, archive of the library that it is of)
+        self.units = [Unit(c) for c in commands if c["file"].endswith((".cc", "_cxx.cxx"))]
+        self.objects = {}  # object in the tree: (object beside it, the target that it is of)
 
-    def compile_file(self, file, source):
-        if file not in self.compile:
-            sys.exit(f"{file} is not compiled by itself (configure with -DCMAKE_UNITY_BUILD=OFF)")
-        command = self.compile[file]
-        words = shlex.split(command["command"])
-        built = words[words.index("-o") + 1]
-        library = re.search(r"CMakeFiles/([^/]+)\.dir/", built).group(1)
-        copy, output = self.place / file, (self.place / file).with_suffix(".o")
-        copy.parent.mkdir(parents=True, exist_ok=True)
-        unchanged = copy.exists() and copy.read_text() == source and output.exists()
-        newer = unchanged and output.stat().st_mtime > (self.tree / built).stat().st_mtime
-        self.objects[file] = (output, f"lib{library}.a")
-        if newer:
+    def units_of(self, files, targets):
+        """The units of these targets that hold these sources or read these headers."""
+        headers = {file for file in files if file.endswith(".h")}
+        for file in files - headers - {file for unit in self.units for file in unit.files}:
+            sys.exit(f"{file} is compiled by no command of {self.tree}")
+        readers = set()
+        if headers:
+            text = subprocess.run(["ninja", "-C", str(self.tree), "-t", "deps"],
+                                  capture_output=True, text=True, check=True).stdout
+            for block in text.split("\n\n"):
+                name, _, read = block.partition(":")
+                paths = {os.path.relpath(self.tree / line.strip(), ROOT)
+                         for line in read.splitlines()[1:]}
+                if paths & headers:
+                    readers.add(name.strip())
+        return [unit for unit in self.units if unit.owner in targets and
+                (files.intersection(unit.files) or unit.object in readers)]
+
+    def write(self, texts):
+        """Lays the rewritten files down; those that have not changed stay as they are."""
+        for file, text in texts.items():
+            copy = self.place / file
+            copy.parent.mkdir(parents=True, exist_ok=True)
+            if not copy.exists() or copy.read_text() != text:
+                copy.write_text(text)
+
+    def compile(self, unit, texts):
+        copy = self.place / unit.files[0]
+        if unit.is_batch or unit.files[0] not in texts:  # a batch, or one that reads a header
+            text = f'#include "{unit.source}"\n'
+            if unit.is_batch:
+                text = unit.source.read_text()
+                for file in unit.files:
+                    if file in texts:
+                        text = text.replace(f'"{ROOT / file}"', f'"{self.place / file}"')
+            copy = self.place / "units" / unit.object
+            copy = copy.with_suffix("")  # its name, without .o
+            copy.parent.mkdir(parents=True, exist_ok=True)
+            if not copy.exists() or copy.read_text() != text:
+                copy.write_text(text)
+        output = pathlib.Path(f"{copy}.o")
+        self.objects[unit.object] = (output, unit.owner)
+        read = [self.place / f for f in texts if f in unit.files or f.endswith(".h")]
+        sources = [copy, self.tree / unit.object, *read]
+        if output.exists() and output.stat().st_mtime > max(s.stat().st_mtime for s in sources):
             return
-        copy.write_text(source)
+        words = list(unit.words)
         words[words.index("-o") + 1] = str(output)
         words[words.index("-c") + 1] = str(copy)
-        words += ["-w", f"-I{HERE}"]
-        done = subprocess.run(words, cwd=command["directory"], capture_output=True, text=True)
+        words[1:1] = [f"-I{self.place}"]  # rewritten headers before the right ones
+        words += ["-w", "-O1", f"-I{HERE}"]  # a third of the time of -O2
+        done = subprocess.run(words, cwd=unit.directory, capture_output=True, text=True)
         if done.returncode != 0:
             output.unlink(missing_ok=True)
-            sys.exit(f"{file} does not compile with its mutants:\n{done.stderr[:4000]}")
+            sys.exit(f"{unit.source} does not compile with mutants:\n{done.stderr[:4000]}")
 
-    def link(self, target):
-        """The executable `target` with all rewritten objects of the libraries that it links."""
+    def link_words(self, target):
         lines = subprocess.run(["ninja", "-C", str(self.tree), "-t", "commands", target],
                                capture_output=True, text=True, check=True).stdout.splitlines()
         links = [line for line in lines if f" -o {target} " in line]
-        words = shlex.split(links[-1].split("&&")[1])
-        archives = {os.path.basename(word) for word in words if word.endswith(".a")}
-        objects = [str(o) for o, archive in self.objects.values() if archive in archives]
+        return shlex.split(links[-1].split("&&")[1])
+
+    def targets_of(self, target):
+        """The CMake targets whose objects are linked into an executable, itself included."""
+        archives = [os.path.basename(w) for w in self.link_words(target) if w.endswith(".a")]
+        return {re.sub(r"^lib|\.a$", "", a) for a in archives} | {os.path.basename(target)}
+
+    def link(self, target):
+        """The executable `target` with all rewritten objects of what it links."""
+        words, linked = self.link_words(target), self.targets_of(target)
+        own = {place: str(output) for place, (output, _) in self.objects.items()}
+        objects = [own[place] for place, (_, owner) in self.objects.items()
+                   if owner in linked and place not in words]
+        words = [own.get(word, word) for word in words]
         first = next(i for i, word in enumerate(words) if word.endswith(".a"))
         output = self.place / os.path.basename(target)
         words[words.index("-o") + 1] = str(output)
@@ -254,14 +316,23 @@ def main():
         return
 
     tree = pathlib.Path(options.build).resolve()
-    build = Build(tree, tree / "mutation")
-    files = sorted({m.file for m in chosen})
+    files = {m.file for m in chosen}
+    headers = {file for file in by_file if file.endswith(".h")}
+    if files & headers:  # all or none, so that what was compiled with them stays right
+        files |= headers
+    build = Build(tree, tree / "mutation" / ("headers" if files & headers else "sources"))
     texts = {file: rewritten(file, sources[file], by_file[file]) for file in files}
-    with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
-        list(pool.map(lambda file: build.compile_file(file, texts[file]), files))
     names = {name for m in chosen for name, _ in m.tests}
-    executables = {name: build.link(f"tests/{name}_tests") for name in names}
-    command = build.link("experiments/halfstep") if names & {"experiments", "verify"} else ""
+    programs = {name: f"tests/{name}_tests" for name in names}
+    if names & {"experiments", "verify"}:
+        programs["command"] = "experiments/halfstep"
+    targets = set().union(*(build.targets_of(program) for program in programs.values()))
+    build.write(texts)
+    units = build.units_of(files, targets)
+    with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
+        list(pool.map(lambda unit: build.compile(unit, texts), units))
+    executables = {name: build.link(program) for name, program in programs.items()}
+    command = executables.get("command", "")
     expected = {}
     for name, test_filter in sorted({test for m in chosen for test in m.tests}):
         outcome = run(executables[name], test_filter, "", 600.0, command)

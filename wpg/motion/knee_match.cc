@@ -3,6 +3,20 @@
 #include "wpg/motion/spatial.h"
 
 namespace halfstep {
+namespace {
+
+// A bound v of all |δ| ≤ asked + change·|δ|: one with asked + change·v < v, for `change` then has a
+// spectral radius below 1. None is found where `change` is too large.
+std::optional<Vector6d> Bounded(const Vector6d& asked, const Matrix6d& change) {
+  constexpr double kMore = 1.125;
+  Vector6d v = asked;
+  for (int round = 0; round < 3; ++round) v = asked + change * v;
+  v = kMore * v.array() + 1e-9;
+  if (((asked + change * v).array() < v.array()).all()) return v;
+  return std::nullopt;
+}
+
+}  // namespace
 
 KneeMatch::KneeMatch(const IntervalMotion& motion, Side side) {
   const size_t s = static_cast<size_t>(Index(side));
@@ -33,6 +47,27 @@ Matrix6d KneeMatch::Change(const std::array<double, 6>& turned) const {
     change.col(static_cast<Eigen::Index>(j)) = Most(axis[j], axis[j] * Distance(j, 3) + arm[j]);
   }
   return change;
+}
+
+// J(m)⁻¹ times what is asked, and the change of J: |x| ≤ asked + change·|x|.
+Vector6d KneeMatch::Lowered(Vector6d bound, double turn, double velocity,
+                            const std::array<double, 6>& turned) const {
+  const Vector6d asked = Most(turn, velocity);
+  const Matrix6d change = Change(turned);
+  for (int round = 0; round < 3; ++round) bound = bound.cwiseMin(asked + change * bound);
+  return bound;
+}
+
+// x = J(m)⁻¹·centre + δ, and so J(t) δ = what is off the centre − (J(t) − J(m))·J(m)⁻¹·centre.
+std::optional<KneeMatch::JointBall> KneeMatch::Solve(const VectorBall& turn,
+                                                     const VectorBall& velocity,
+                                                     const std::array<double, 6>& turned) const {
+  const Matrix6d change = Change(turned);
+  const Vector6d center = Joints(turn.center, velocity.center);
+  const auto radius =
+      Bounded(Most(turn.radius, velocity.radius) + change * center.cwiseAbs(), change);
+  if (!radius) return std::nullopt;
+  return JointBall{center, *radius};
 }
 
 }  // namespace halfstep

@@ -2,8 +2,10 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 
 #include "wpg/motion/motion_bounds.h"
+#include "wpg/motion/vector_ball.h"
 
 namespace halfstep {
 
@@ -32,6 +34,20 @@ class KneeMatch {
   /// A bound of every entry of |J(m)⁻¹(J(t) − J(m))| when links have turned by no more than
   /// `turned` since m (by link, from the hip down) [rad].
   Matrix6d Change(const std::array<double, 6>& turned) const;
+
+  /// Bounds of all |x| for which J(t)·x has at most these norms, while links have turned by no more
+  /// than `turned` since m: none above `bound`, of which it is known already that it is one.
+  Vector6d Lowered(Vector6d bound, double turn, double velocity,
+                   const std::array<double, 6>& turned) const;
+
+  /// Vectors that are off `center` by no more than `radius`, entry by entry.
+  struct JointBall {
+    Vector6d center, radius;  ///< any, ≥ 0
+  };
+  /// All x for which J(t)·x is in these balls, while links have turned by no more than `turned`
+  /// since m. None where links turn too far for that.
+  std::optional<JointBall> Solve(const VectorBall& turn, const VectorBall& velocity,
+                                 const std::array<double, 6>& turned) const;
 
  private:
   std::array<Eigen::Vector3d, 6> points_;

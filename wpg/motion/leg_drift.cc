@@ -49,20 +49,16 @@ class Chain {
     Narrow(3, sole_, true_motion);
   }
 
-  // Bounds of how much q̈ drifts, from links that were placed with the q̈ of m, and any bounds.
+  // Bounds of how much q̈ drifts, from links that were placed with the q̈ of m, and from `bound`.
   // With q̈(t) = q̈(m) + δ the knee of thigh and shank is J(t) δ = E(t) apart, E(m) = 0.
-  Vector6d AccelerationDrift(const std::array<JointDrift, 6>& joints, Vector6d bound) const {
-    const RigidDrift thigh = links[2].At(knee_.Distance(2, 3)),
-                     shank = links[3].At(knee_.Distance(4, 3));
-    const JointDrift& knee = joints[3];
-    const double turn = thigh.turn1 + shank.turn1 + knee.acceleration * thigh.turned +
-                        knee.speed_drift * thigh.fastest() + knee.speed * thigh.carried1();
-    const Vector6d asked = knee_.Most(turn, thigh.p2 + shank.p2);
+  Vector6d AccelerationDrift(const std::array<JointDrift, 6>& joints, const Vector6d& bound) const {
+    // The knee's joint hangs on the thigh; it moves with the q̈ of m, too.
+    const RigidDrift knee = Turned(links[2].At(knee_.Distance(2, 3)), joints[3], /*speed=*/0.0,
+                                   /*acceleration=*/0.0, h_);
+    const RigidDrift shank = links[3].At(knee_.Distance(4, 3));
     std::array<double, 6> turned;
     for (size_t j = 0; j < 6; ++j) turned[j] = links[j].turned;
-    const Matrix6d change = knee_.Change(turned);
-    for (int round = 0; round < 3; ++round) bound = bound.cwiseMin(asked + change * bound);
-    return bound;
+    return knee_.Lowered(bound, knee.turn1 + shank.turn1, knee.p2 + shank.p2, turned);
   }
 
   LegDrift Result(const std::array<JointDrift, 6>& joints) const {

@@ -96,17 +96,6 @@ class LinkChain {
   const KneeMatch& knee_;
 };
 
-// A bound v of all |δ| ≤ asked + change·|δ|: one with asked + change·v < v, for `change` then has a
-// spectral radius below 1. None is found where `change` is too large.
-std::optional<Vector6d> Bound(const Vector6d& asked, const Matrix6d& change) {
-  constexpr double kMore = 1.125;
-  Vector6d v = asked;
-  for (int round = 0; round < 3; ++round) v = asked + change * v;
-  v = kMore * v.array() + 1e-9;
-  if (((asked + change * v).array() < v.array()).all()) return v;
-  return std::nullopt;
-}
-
 }  // namespace
 
 RigidMotion MotionOfWaist(const RobotModel& robot, const IntervalMotion& motion,
@@ -135,20 +124,16 @@ std::optional<LegMotion> LegMotion::Over(Side side, const IntervalMotion& motion
                  .acceleration = {at_m.accelerations(side)[i], drift.joints[j].acceleration_drift},
                  .third = {0.0, 0.0}};
   }
-  // With q⃛ = 0 first. Then q⃛(t) = q⃛(m) + δ, with J δ = what is missing that is not known at m.
+  // With q⃛ = 0 first, so that J q⃛ is what is missing.
   chain.Place(joints, /*true_thirds=*/false);
-  const Vector6d third = knee.Joints(chain.missing_turn.center, chain.missing_velocity.center);
   std::array<double, 6> turned;
   for (size_t j = 0; j < 6; ++j) turned[j] = chain.links[j].turned;
-  const Matrix6d change = knee.Change(turned);
-  const auto radius = Bound(knee.Most(chain.missing_turn.radius, chain.missing_velocity.radius) +
-                                change * third.cwiseAbs(),
-                            change);
-  if (!radius) return std::nullopt;
+  const auto third = knee.Solve(chain.missing_turn, chain.missing_velocity, turned);
+  if (!third) return std::nullopt;
   for (size_t j = 0; j < 6; ++j) {
     JointRates& joint = joints[j];
     const Eigen::Index i = static_cast<Eigen::Index>(j);
-    joint.third = {third[i], (*radius)[i]};
+    joint.third = {third->center[i], third->radius[i]};
     Lower(h * joint.third.most(), &joint.acceleration);
     Lower(h * joint.acceleration.most(), &joint.speed);
   }

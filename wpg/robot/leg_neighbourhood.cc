@@ -149,14 +149,17 @@ std::optional<Vector6d> LegNeighbourhood::Ways(const Vector6d& asked, double sha
   return std::nullopt;
 }
 
-// Poses as 4×4 matrices F have differences. Along the straight way between two postures, the
-// functional J⁻¹·vee(dF·F(here)⁻¹) differs from J⁻¹ξ by what the sole has turned and moved.
-bool LegNeighbourhood::InjectiveWithin(const Vector6d& radius) const {
-  const double turn = radius.sum();
-  if (!(turn < 0.5)) return false;
-  const double moved = radius.dot(lever_) / (1.0 - turn);
+// The functional differs from J⁻¹ξ by what the sole has turned and moved.
+Matrix6d LegNeighbourhood::PoseChange(const Vector6d& radius) const {
+  const double turn = radius.sum(), moved = radius.dot(lever_) / (1.0 - turn);
   const Vector6d more = 0.5 * turn * angular_ + moved * linear_;
-  return Contraction::Of(Change(radius).colwise() + more).has_value();
+  return Change(radius).colwise() + more;
+}
+
+// Poses as matrices have differences: along the straight way between two postures that of poses is
+// the mean of its derivatives, of which none is singular.
+bool LegNeighbourhood::InjectiveWithin(const Vector6d& radius) const {
+  return radius.sum() < 0.5 && Contraction::Of(PoseChange(radius)).has_value();
 }
 
 std::optional<Contraction> Contraction::Of(const Matrix6d& M) {

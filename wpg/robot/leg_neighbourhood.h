@@ -42,6 +42,10 @@ class LegNeighbourhood {
   /// Where there is a result, the path has a lift into joint space, J stays regular along it, and
   /// it differs from share·by_share + ∫J(here)⁻¹·V by at most result − asked − share·|by_share|.
   std::optional<Vector6d> Ways(const Vector6d& asked, double share = 0.0) const;
+  /// A bound of |J(here)⁻¹·vee(∂F/∂q·F(here)⁻¹) − 1|, entry by entry, within `radius`, for the sole's
+  /// pose F as a 4×4 matrix; vee takes the antisymmetric part's vector, then the last column.
+  /// Precondition: the radii's sum is below 1.
+  Matrix6d PoseChange(const Vector6d& radius) const;
   /// Whether no two postures within `radius` of here have one pose of the sole.
   bool InjectiveWithin(const Vector6d& radius) const;
 
