@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <utility>
 
 #include "smoothing/margins/all_families.h"
+#include "wpg/files/plain_locale.h"
 #include "wpg/robot/acceleration_limits.h"
 #include "wpg/robot/torque_limits.h"
 
@@ -97,7 +97,7 @@ std::vector<Margin> MarginEvaluator::Violations(const SuperposedWalk& walk, cons
 }
 
 std::string MarginEvaluator::Describe(const Margin& margin) const {
-  std::ostringstream out;
+  PlainStream out;
   out.precision(6);
   out << Name(margin.family) << " of " << Subject(margin);
   if (std::isnan(margin.value)) {
