@@ -18,10 +18,10 @@ case "${1:-}" in
 esac
 
 experiments/install_dependencies.sh
-# For the tests of report, notebooks and replay: without them they are skipped.
+# For the tests of report, notebooks, replay and other locales: without them they are skipped.
 experiments/install_dependencies.sh chromium chromium-driver libmujoco-dev python3-nbconvert \
-  python3-ipykernel python3-pandas python3-matplotlib ||
-  echo "Report, notebooks and replay will not be tested" >&2
+  python3-ipykernel python3-pandas python3-matplotlib locales ||
+  echo "Report, notebooks, replay or locales will not be tested" >&2
 mkdir -p build
 
 # Runs a command; its output goes to a log, and to the screen only when it fails.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "experiments/commands/command_line.h"
+#include "experiments/commands/command_mistake.h"
 #include "experiments/config/experiment.h"
 #include "experiments/config/random_scenes.h"
 #include "experiments/run/exit_status.h"
@@ -84,7 +85,7 @@ CommandAction DeclareDraw(CLI::App* app) {
                   "a scene, cylinders or random_room, which is printed; or walks, a folder of "
                   "configs and a sweep over them")
       ->required()
-      ->check(CLI::IsMember(kinds));
+      ->check(OneOf(kinds));
   app->add_option("--count", command->count, "obstacles (default: 40), or walks (default: 60)")
       ->check(CLI::Range(0, 100000));
   app->add_option("--seed", command->seed, "of the draw (default: 1)")

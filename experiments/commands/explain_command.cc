@@ -11,6 +11,7 @@
 #include "experiments/config/scaled_defaults.h"
 #include "experiments/live/live_config.h"
 #include "wpg/files/input_error.h"
+#include "wpg/files/suggestion.h"
 #include "wpg/files/text.h"
 #include "wpg/robot/robot_measures.h"
 
@@ -85,9 +86,8 @@ ExitStatus ExplainConfig(const ExplainCommand& command) {
     Find(keys, WithoutIndices(command.key), &found, &paths);
     if (found.empty() && command.key.size() > 1) FindByMeaning(keys, Lower(command.key), &found);
     if (found.empty()) {
-      const std::string nearest = NearestWord(command.key, paths);
       throw InputError({"explain-config: " + Quote(command.key) + ": no such key (" +
-                        (nearest.empty() ? "" : "did you mean '" + nearest + "'? ") +
+                        DidYouMean(command.key, paths) +
                         "valid: a key, its last part, or a word of what it means; none for "
                         "all)"});
     }

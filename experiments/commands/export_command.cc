@@ -7,6 +7,7 @@
 
 #include "experiments/build_info.h"
 #include "experiments/commands/command_line.h"
+#include "experiments/commands/command_mistake.h"
 #include "experiments/commands/commands.h"
 #include "experiments/config/experiment.h"
 #include "experiments/config/folder_name.h"
@@ -201,7 +202,7 @@ CommandAction DeclareExport(CLI::App* app) {
                   "its SequencePlayer; joint_trajectory: ROS' trajectory_msgs/JointTrajectory as "
                   "YAML; mjcf: robot, obstacles and keyframes for MuJoCo; ompl: benchmark logs")
       ->required()
-      ->check(CLI::IsMember({"csv", "npz", "hrpsys", "joint_trajectory", "mjcf", "ompl"}));
+      ->check(OneOf({"csv", "npz", "hrpsys", "joint_trajectory", "mjcf", "ompl"}));
   app->add_option("--method", command->method, "only this one (default: all)");
   app->add_option("--out", command->out, "folder (default: RUN-FORMAT)");
   app->add_option("--period", command->period,
@@ -213,7 +214,7 @@ CommandAction DeclareExport(CLI::App* app) {
   app->add_option("--waist", *waist,
                   "csv, npz: yaw, or quaternion: waist_qw, qx, qy, qz in place of waist_yaw_rad "
                   "(default: yaw)")
-      ->check(CLI::IsMember({"yaw", "quaternion"}));
+      ->check(OneOf({"yaw", "quaternion"}));
   app->add_option("--joints", command->joints,
                   "hrpsys, joint_trajectory: patterns of joints in their order (default: the "
                   "URDF's)");

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "experiments/commands/command_line.h"
+#include "experiments/commands/command_mistake.h"
 #include "experiments/commands/commands.h"
 #include "experiments/config/data_folder.h"
 #include "opt/adapters/solver_registry.h"
@@ -89,8 +90,8 @@ CommandAction DeclareList(CLI::App* app) {
   app->add_option("WHAT", options->what,
                   "robots, scenes, configs, solvers, methods, planners or half-steps")
       ->required()
-      ->check(CLI::IsMember(
-          {"robots", "scenes", "configs", "solvers", "methods", "planners", "half-steps"}));
+      ->check(
+          OneOf({"robots", "scenes", "configs", "solvers", "methods", "planners", "half-steps"}));
   app->add_option("CONFIG", options->config, "whose half-steps (half-steps only)");
   app->add_flag("--json", options->json, "print JSON");
   return [options] {

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "experiments/commands/command_line.h"
+#include "experiments/commands/command_mistake.h"
 #include "experiments/commands/commands.h"
 #include "experiments/config/experiment.h"
 #include "experiments/config/folder_name.h"
@@ -154,7 +155,7 @@ CommandAction DeclareReplay(CLI::App* app) {
   const auto command = std::make_shared<ReplayCommand>();
   const auto engine = std::make_shared<std::string>("mujoco");
   app->add_option("RUN", command->run, "folder of a run or of an episode")->required();
-  app->add_option("--engine", *engine, "mujoco")->check(CLI::IsMember({"mujoco"}));
+  app->add_option("--engine", *engine, "mujoco")->check(OneOf({"mujoco"}));
   app->add_option("--method", command->method, "only this one (default: all)");
   app->add_flag("--push", command->push, "find the largest push that each walk survives");
   app->add_option("--push-at", command->push_at, "instants of the push [s]");

@@ -10,11 +10,12 @@
 
 #include "experiments/build_info.h"
 #include "experiments/commands/command_line.h"
+#include "experiments/commands/command_mistake.h"
 #include "experiments/commands/printable_stream.h"
 #include "experiments/run/exit_status.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/leftovers.h"
-#include "wpg/files/text.h"
+#include "wpg/files/plain_locale.h"
 
 namespace halfstep {
 namespace {
@@ -36,24 +37,6 @@ int RunAction(const CommandAction& action) {
   }
 }
 
-// What is wrong with the first word of a command line, when it is meant for a command and is none;
-// "": nothing.
-std::string CommandMistake(int argc, char** argv) {
-  if (argc < 2 || argv[1][0] == '-') return "";
-  const std::string word = argv[1];
-  std::vector<std::string> names;
-  std::string valid;
-  for (const CommandEntry& entry : CommandEntries()) {
-    if (word == entry.name) return "";
-    names.emplace_back(entry.name);
-    valid += (valid.empty() ? "" : ", ") + names.back();
-  }
-  const std::string near = NearestWord(word, names);
-  return Quote(word) + ": no such command (" +
-         (near.empty() ? "" : "did you mean " + Quote(near) + "? ") + "valid: " + valid +
-         "; `halfstep -h` explains)";
-}
-
 }  // namespace
 
 int RunExperiment(int argc, char** argv) {
@@ -69,6 +52,7 @@ int RunExperiment(int argc, char** argv) {
   for (const CommandEntry& entry : CommandEntries()) {
     CLI::App* const command = app.add_subcommand(entry.name, entry.help);
     commands.emplace_back(command, entry.declare(command));
+    RefuseDecimalCommas(command);
     names += (names.empty() ? "" : ", ") + std::string(entry.name);
   }
   if (const std::string mistake = CommandMistake(argc, argv); !mistake.empty()) {
@@ -76,7 +60,16 @@ int RunExperiment(int argc, char** argv) {
     return kBadInput;
   }
   try {
+    const PlainLocale plain;  // CLI11 reads numbers by strtold
     app.parse(argc, argv);
+  } catch (const CLI::ExtrasError& error) {
+    for (const auto& [command, action] : commands) {
+      const std::string mistake = *command ? OptionMistake(*command) : "";
+      if (mistake.empty()) continue;
+      std::cerr << "halfstep: " << command->get_name() << ": " << mistake << '\n';
+      return kBadInput;
+    }
+    return app.exit(error) == 0 ? kSuccess : kBadInput;
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? kSuccess : kBadInput;
   }

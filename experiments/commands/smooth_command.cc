@@ -9,6 +9,7 @@
 #include "experiments/tables/given_walk_file.h"
 #include "smoothing/methods/smoother_registry.h"
 #include "wpg/files/input_error.h"
+#include "wpg/files/suggestion.h"
 #include "wpg/files/text.h"
 
 namespace halfstep {
@@ -19,11 +20,11 @@ namespace fs = std::filesystem;
 // "[dichotomy, ipopt]": the value of smoothing.methods.
 std::string MethodList(const std::vector<std::string>& methods) {
   const std::vector<std::string> known = SmootherNames();
-  std::string list, valid;
-  for (const std::string& name : known) valid += (valid.empty() ? "" : ", ") + name;
+  std::string list;
   for (const std::string& method : methods) {
     if (std::find(known.begin(), known.end(), method) == known.end()) {
-      throw InputError({"--method " + Quote(method) + ": no such method (valid: " + valid + ")"});
+      throw InputError(
+          {"--method " + Quote(method) + ": no such method" + Suggestion(method, known)});
     }
     list += (list.empty() ? "" : ", ") + method;
   }

@@ -7,6 +7,9 @@
 #include <optional>
 #include <system_error>
 
+#include "wpg/files/suggestion.h"
+#include "wpg/files/text.h"
+
 namespace halfstep {
 namespace {
 
@@ -71,6 +74,25 @@ std::vector<fs::path> YamlFiles(const fs::path& folder) {
   }
   std::sort(files.begin(), files.end());
   return files;
+}
+
+std::string UnknownRobot(const std::string& robot) {
+  if (robot.ends_with(".urdf")) {
+    return "no such file: " + Quote(robot) +
+           " (valid: a robot file; `halfstep robot URDF` makes one of a URDF)";
+  }
+  std::vector<std::string> names;
+  for (const fs::path& path : YamlFiles(RobotsFolder())) names.push_back(path.stem().string());
+  return "no such robot: " + Quote(robot) + " (" + DidYouMean(robot, names) +
+         "valid: " + Joined(names) + ", or the path of a robot file)";
+}
+
+std::string NearestFile(const fs::path& missing) {
+  std::vector<std::string> names;
+  for (const fs::path& path : YamlFiles(missing.parent_path())) {
+    names.push_back(path.filename().string());
+  }
+  return DidYouMean(missing.filename().string(), names);
 }
 
 }  // namespace halfstep

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace halfstep {
@@ -16,5 +17,12 @@ std::filesystem::path ScenesFolder();  ///< of the shipped scenes
 
 /// Paths of a folder's *.yaml, sorted; none when it cannot be read.
 std::vector<std::filesystem::path> YamlFiles(const std::filesystem::path& folder);
+
+/// What to say of a text that names no robot: the nearest shipped one, what is valid, and for a URDF
+/// which command makes a robot file of it.
+std::string UnknownRobot(const std::string& robot);
+/// "did you mean 'x.yaml'? " for the nearest file of the folder where `missing` was looked for; ""
+/// when none is near.
+std::string NearestFile(const std::filesystem::path& missing);
 
 }  // namespace halfstep

@@ -78,16 +78,7 @@ ExperimentConfig MovedTo(const fs::path& folder, const ExperimentConfig& config)
 
 Place LoadPlace(const ExperimentConfig& config) {
   if (IsShipped(config.robot) && !fs::exists(RobotPath(config))) {
-    std::vector<std::string> names;
-    std::string valid;
-    for (const fs::path& path : YamlFiles(RobotsFolder())) {
-      names.push_back(path.stem().string());
-      valid += names.back() + ", ";
-    }
-    const std::string near = NearestWord(config.robot, names);
-    throw InputError({"robot: no robot is called " + Quote(config.robot) + " (" +
-                      (near.empty() ? "" : "did you mean " + Quote(near) + "? ") +
-                      "valid: " + valid + "the path of a robot file)"});
+    throw InputError({"robot: " + UnknownRobot(config.robot)});
   }
   Place place;
   place.robot = LoadRobot(RobotPath(config).string());

@@ -212,15 +212,13 @@ void DeclareFields(Fields& fields, ExperimentConfig* c) {
 void DeclareFilesThere(Fields& fields, const ExperimentConfig& config) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(RobotPath(config), ignored)) {
-    std::string shipped;
-    for (const auto& path : YamlFiles(RobotsFolder())) shipped += path.stem().string() + ", ";
-    fields.Complain("robot", "no such robot: " + Quote(config.robot) + " (valid: " + shipped +
-                                 "or the path of a robot file, relative to this file)");
+    fields.Complain("robot", UnknownRobot(config.robot));
   }
   const std::optional<std::filesystem::path> scene = ScenePath(config);
   if (scene && !std::filesystem::is_regular_file(*scene, ignored)) {
-    fields.Complain("scene", "no such file: " + Quote(scene->string()) +
-                                 " (valid: `none`, or a path relative to this file)");
+    fields.Complain("scene", "no such file: " + Quote(scene->string()) + " (" +
+                                 NearestFile(*scene) +
+                                 "valid: `none`, or a path relative to this file)");
   }
 }
 

@@ -23,7 +23,7 @@ ordered_json JsonOf(const YamlNode& node, bool numbers) {
   }
   const NumberText number = ParseNumber(node.text);
   if (!numbers || number.kind != NumberText::Kind::kNumber) return node.text;
-  if (node.text.find_first_of(".eE") == std::string::npos) return std::stol(node.text);
+  if (node.text.find_first_of(".eE") == std::string::npos) return std::llrint(number.extended);
   return number.value;
 }
 

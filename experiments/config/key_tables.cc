@@ -3,17 +3,12 @@
 #include <limits>
 
 #include "wpg/files/number_text.h"
+#include "wpg/files/suggestion.h"
 
 namespace halfstep {
 namespace {
 
 using Kind = KeyDescription::Kind;
-
-std::string Joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
-}
 
 std::string BoundText(double bound) {
   if (bound < std::numeric_limits<double>::lowest()) return "−∞";

@@ -1,21 +1,17 @@
 #include "experiments/config/random_scenes.h"
 
 #include <cmath>
-#include <cstdio>
 #include <random>
 
 #include "planner/search/plan_shortcut.h"
 #include "wpg/check.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {
 
 // Written to 0.1 mm, so that the text says exactly what is there.
-std::string Metres(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4f", value);
-  return text;
-}
+std::string Metres(double value) { return Formatted("%.4f", value); }
 
 std::string CylinderYaml(int i, double x, double y, double radius, double length) {
   return "  - name: cylinder " + std::to_string(i) +

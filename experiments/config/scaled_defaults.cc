@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <span>
 
 #include "experiments/config/experiment_config.h"
 #include "wpg/files/number_text.h"
-#include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {
@@ -26,9 +24,7 @@ constexpr double kOfLift = 0.95;  // of the highest place of the swing foot
 enum class Law { kLength, kGrid, kAcross, kWidth, kDuration, kHeight, kAside, kDelay, kSupport };
 
 // The decimal number of three digits that is nearest: HRP-2's numbers stay what they are.
-double Rounded(double value, int digits = 3) {
-  return std::strtod(Formatted("%.*g", digits, value).c_str(), nullptr);
-}
+double Rounded(double value, int digits = 3) { return Shortened(value, digits); }
 
 // The part of T after take-off in which a foot rises to a fraction of the via height: its height
 // follows the step 10x³ − 15x⁴ + 6x⁵ over the time from the ZMP's shift to the half-step's end.

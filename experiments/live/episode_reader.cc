@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <charconv>
-#include <sstream>
+#include <ranges>
+#include <string_view>
 
 #include "experiments/live/episode_tables.h"
 #include "experiments/live/judged_promise.h"
@@ -11,6 +12,7 @@
 #include "experiments/tables/json_file.h"
 #include "experiments/tables/parameter_tables.h"
 #include "wpg/files/input_error.h"
+#include "wpg/files/number_text.h"
 #include "wpg/files/text.h"
 
 namespace halfstep {
@@ -83,9 +85,11 @@ void ReadWorlds(const Tables& tables, const LiveConfig& config, const Place& pla
     world.goal.X_WG.x = x[k];
     world.goal.X_WG.y = y[k];
     world.scene.name = place.scene.name;
-    std::istringstream words(areas[k] == "none" ? "" : areas[k]);
-    for (double area = 0.0; words >> area;) {
-      const size_t index = IndexIn(place.scene.no_step.size(), area - 1.0, table, k, "areas");
+    for (const auto word : std::views::split(areas[k], ' ')) {
+      const std::string_view text(word.begin(), word.end());
+      if (text == "none") break;
+      const double area = ParseNumber(text).value - 1.0;  // no number: −1, which is no index
+      const size_t index = IndexIn(place.scene.no_step.size(), area, table, k, "areas");
       world.areas.push_back(index);
       world.scene.no_step.push_back(place.scene.no_step[index]);
     }

@@ -9,8 +9,8 @@
 #include "experiments/report/live_page.h"
 #include "experiments/report/report_page.h"
 #include "experiments/report/report_walk.h"
-#include "experiments/report/shortened.h"
 #include "experiments/tables/result_tables.h"
+#include "wpg/files/number_text.h"
 #include "wpg/files/text.h"
 
 namespace halfstep {

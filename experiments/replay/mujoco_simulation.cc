@@ -35,7 +35,9 @@ std::shared_ptr<const mjModel> Compile(const std::string& mjcf) {
   mjModel* model = mj_loadXML("robot.xml", files.get(), reason.data(), reason.size());
   mj_deleteVFS(files.get());
   if (model == nullptr) Refuse(reason.data());
-  return {model, mj_deleteModel};
+  const std::shared_ptr<const mjModel> compiled(model, mj_deleteModel);
+  if (reason[0] != '\0') Refuse(reason.data());  // a warning: it took something in another way
+  return compiled;
 }
 
 int Find(const mjModel& model, mjtObj kind, const std::string& name) {

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "experiments/report/shortened.h"
 #include "experiments/tables/csv_reader.h"
+#include "wpg/files/number_text.h"
 
 namespace halfstep {
 namespace {

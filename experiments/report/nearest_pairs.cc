@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "experiments/report/shortened.h"
 #include "experiments/report/trajectory_states.h"
 #include "smoothing/margins/body_clearances.h"
+#include "wpg/files/number_text.h"
 #include "wpg/motion/posture.h"
 
 namespace halfstep {

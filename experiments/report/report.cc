@@ -12,7 +12,6 @@
 #include "experiments/report/report_page.h"
 #include "experiments/report/report_place.h"
 #include "experiments/report/report_walk.h"
-#include "experiments/report/shortened.h"
 #include "experiments/tables/certificate_files.h"
 #include "experiments/tables/certificate_statement.h"
 #include "experiments/tables/csv_reader.h"
@@ -20,6 +19,7 @@
 #include "opt/solvers/ending.h"
 #include "smoothing/margins/family_traits.h"
 #include "wpg/files/input_error.h"
+#include "wpg/files/number_text.h"
 #include "wpg/files/text.h"
 
 namespace halfstep {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "experiments/report/drawn_mesh.h"
-#include "experiments/report/shortened.h"
+#include "wpg/files/number_text.h"
 #include "wpg/robot/robot_legs.h"
 
 namespace halfstep {

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "experiments/report/robot_zmp.h"
-#include "experiments/report/shortened.h"
 #include "experiments/tables/csv_reader.h"
 #include "experiments/tables/json_file.h"
 #include "wpg/files/input_error.h"
+#include "wpg/files/number_text.h"
 
 namespace halfstep {
 namespace {

@@ -8,11 +8,11 @@
 #include <unordered_map>
 
 #include "experiments/report/report_page.h"
-#include "experiments/report/shortened.h"
 #include "experiments/report/sweep_grid.h"
 #include "experiments/tables/json_file.h"
 #include "opt/solvers/ending.h"
 #include "wpg/files/input_error.h"
+#include "wpg/files/number_text.h"
 
 namespace halfstep {
 namespace {

@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <utility>
 
+#include "wpg/files/text.h"
+
 namespace halfstep {
 
 ProgressBar::ProgressBar(std::string label, bool quiet)
@@ -26,8 +28,10 @@ void ProgressBar::Update(double done) {
   constexpr int kWidth = 30;
   const int filled = static_cast<int>(done * kWidth);
   const double left = done > 0.0 ? elapsed.count() * (1.0 - done) / done : 0.0;
-  std::fprintf(stderr, "\r\033[K%s [%.*s%*s] %3.0f %%, %.0f s left", label_.c_str(), filled,
-               "##############################", kWidth - filled, "", 100.0 * done, left);
+  std::fputs(Formatted("\r\033[K%s [%.*s%*s] %3.0f %%, %.0f s left", label_.c_str(), filled,
+                       "##############################", kWidth - filled, "", 100.0 * done, left)
+                 .c_str(),
+             stderr);
 }
 
 }  // namespace halfstep

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "experiments/run/margin_words.h"
 #include "experiments/tables/not_covered_json.h"
 #include "smoothing/margins/not_covered_by.h"
 #include "smoothing/proof/sampled_feasibility.h"
+#include "wpg/files/plain_locale.h"
 #include "wpg/files/text.h"
 
 namespace halfstep {
@@ -111,7 +111,7 @@ std::string Curve(const MethodRun& run) {
 std::string RunTable(const Experiment& experiment, const WalkProblem& problem,
                      const std::vector<MethodRun>& runs, const RunPlaces& places) {
   const MarginEvaluator& evaluator = problem.evaluator();
-  std::ostringstream out;
+  PlainStream out;
   out << experiment.config.name << ": " << experiment.robot.name << ", "
       << experiment.sequence.size() << " half-steps, " << experiment.scene.obstacles.size()
       << (experiment.scene.obstacles.size() == 1 ? " obstacle" : " obstacles")

@@ -7,6 +7,7 @@
 
 #include "wpg/files/input_error.h"
 #include "wpg/files/nesting.h"
+#include "wpg/files/suggestion.h"
 #include "wpg/files/text.h"
 
 namespace halfstep {
@@ -142,12 +143,8 @@ std::vector<int> MessageFields::Indices(const std::string& key, int max) {
 void MessageFields::RefuseOthers() const {
   for (const auto& item : object_.items()) {
     if (std::ranges::find(known_, item.key()) != known_.end()) continue;
-    const std::string nearest = NearestWord(item.key(), known_);
-    std::string valid;
-    for (const std::string& key : known_) valid += (valid.empty() ? "" : ", ") + key;
     Fail(item.key().size() <= 60 ? item.key() : Quote(item.key()),
-         "unknown key" + (nearest.empty() ? "" : ", did you mean '" + nearest + "'?") +
-             " (valid: " + valid + ")");
+         "unknown key" + Suggestion(item.key(), known_));
   }
 }
 

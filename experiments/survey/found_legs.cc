@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "wpg/files/input_error.h"
+#include "wpg/files/suggestion.h"
 #include "wpg/files/text.h"
 #include "wpg/geometry/side.h"
 
@@ -116,9 +117,7 @@ int LinkNamed(const UrdfTree& urdf, const std::string& name) {
   if (link >= 0) return link;
   std::vector<std::string> names;
   for (const UrdfLink& each : urdf.links) names.push_back(each.name);
-  const std::string nearest = NearestWord(name, names);
-  Refuse(urdf, "has no link " + Quote(name) +
-                   (nearest.empty() ? "" : " (did you mean '" + nearest + "'?)"));
+  Refuse(urdf, "has no link " + Quote(name) + Suggestion(name, names));
 }
 
 }  // namespace

@@ -1,9 +1,7 @@
 #include "experiments/sweep/sweep_config.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "experiments/config/folder_name.h"
 #include "wpg/files/input_error.h"
@@ -18,11 +16,7 @@ constexpr size_t kMostCases = 100000;
 constexpr size_t kMostChecked = 5000;  // their configs are read before anything runs
 
 // Twelve digits: 0.3 and not 0.30000000000000004, 100000 and not 1e+05.
-std::string ValueText(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.12g", value == 0.0 ? 0.0 : value);
-  return text.data();
-}
+std::string ValueText(double value) { return Formatted("%.12g", value == 0.0 ? 0.0 : value); }
 
 // What is wrong with a range, "" if nothing: the key and the sentence.
 std::pair<const char*, std::string> MistakeInRange(const SweepAxis& axis) {
@@ -241,9 +235,7 @@ SweepCase SweepCaseAt(const SweepConfig& config, size_t index) {
     const SweepAxis& axis = config.vary[k];
     one.overrides[k] = {axis.key, axis.values[at[FirstOfZip(config.vary, k)]]};
   }
-  std::array<char, 24> number{};
-  std::snprintf(number.data(), number.size(), "%04zu-", index + 1);
-  one.id = number.data() + Sha256(OverrideText(one)).substr(0, 8);
+  one.id = Formatted("%04zu-", index + 1) + Sha256(OverrideText(one)).substr(0, 8);
   return one;
 }
 

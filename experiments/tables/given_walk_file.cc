@@ -10,6 +10,7 @@
 #include "experiments/tables/result_tables.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/number_text.h"
+#include "wpg/files/suggestion.h"
 #include "wpg/files/text.h"
 
 namespace halfstep {
@@ -91,10 +92,8 @@ class GivenTable {
       const std::string& name = csv_.header[c];
       if (Find(name) != c) Complain(0, c, "is there twice (valid: once)");
       if (HasColumn(names, name)) continue;
-      const std::string near = NearestWord(name, names);
       Complain(0, c,
-               "no such column (" + (near.empty() ? "" : "did you mean " + Quote(near) + "? ") +
-                   "valid: " + NamesOf(known) + ")");
+               "no such column (" + DidYouMean(name, names) + "valid: " + NamesOf(known) + ")");
     }
   }
 

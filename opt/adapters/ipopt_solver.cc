@@ -11,6 +11,7 @@
 #include <mutex>
 #include <utility>
 
+#include "opt/problem/plain_stream.h"
 #include "opt/solvers/option_text.h"
 #include "opt/solvers/solve_monitor.h"
 
@@ -125,6 +126,13 @@ class Adapter : public Ipopt::TNLP {
   Eigen::VectorXd final_;
 };
 
+std::string Digits(double value) {
+  PlainStream text;
+  text.precision(17);
+  text << value;
+  return text.str();
+}
+
 /// Ours first, then the user's on top; "" or why one is refused.
 std::string SetOptions(SolveMonitor& monitor, Ipopt::IpoptApplication& ipopt) {
   const SolverOptions& options = monitor.options();
@@ -133,14 +141,10 @@ std::string SetOptions(SolveMonitor& monitor, Ipopt::IpoptApplication& ipopt) {
       {"sb", "yes"},
       {"bound_relax_factor", "0"},
       {"hessian_approximation", "limited-memory"},
-      {"tol", std::to_string(options.optimality_tolerance)},
+      {"tol", Digits(options.optimality_tolerance)},
+      {"constr_viol_tol", Digits(0.5 * options.feasibility_tolerance)},
       {"max_iter", std::to_string(options.max_iterations)},
   };
-  char number[32];
-  std::snprintf(number, sizeof number, "%.17g", options.optimality_tolerance);
-  values["tol"] = number;
-  std::snprintf(number, sizeof number, "%.17g", 0.5 * options.feasibility_tolerance);
-  values["constr_viol_tol"] = number;
   for (const auto& [name, value] : options.solver_options) {
     if (name == "print_level" || name == "sb" || name == "output_file") {
       return RefusedOption("ipopt", name, value, "the library does not print");

@@ -1,14 +1,15 @@
 #include "opt/problem/derivative_check.h"
 
 #include <cmath>
-#include <sstream>
 
 #include <stdexcept>
+
+#include "opt/problem/plain_stream.h"
 
 namespace halfstep {
 
 std::string DerivativeReport::Describe() const {
-  std::ostringstream out;
+  opt::PlainStream out;
   out << "row " << row << ", column " << column << ": analytic " << analytic << ", numeric "
       << numeric << ", relative error " << worst_error;
   return out.str();

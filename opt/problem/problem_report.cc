@@ -1,19 +1,18 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <sstream>
 #include <string>
 #include <vector>
 
+#include "opt/problem/plain_stream.h"
 #include "opt/problem/problem.h"
 
 namespace halfstep::opt {
 namespace {
 
 std::string Number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", value);
-  return text;
+  PlainStream text;
+  text << value;
+  return text.str();
 }
 
 /// Columns padded to their widest cell: the first to the left, the others to the right.
@@ -48,7 +47,7 @@ struct Row {
 }  // namespace
 
 std::string Problem::Report(const Eigen::VectorXd& x, int max_rows) const {
-  std::ostringstream out;
+  PlainStream out;
   out << num_variables() << " variables, " << num_constraints() << " constraint rows ("
       << num_equalities() << " equalities), " << pattern_.rows.size() << " Jacobian entries\n";
 

@@ -1,10 +1,11 @@
 #include "opt/solvers/option_text.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <numeric>
+#include <system_error>
 
 namespace halfstep::opt {
 namespace {
@@ -28,9 +29,12 @@ size_t EditDistance(const std::string& a, const std::string& b) {
 }  // namespace
 
 std::optional<double> ParseNumber(const std::string& text) {
-  char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  if (text.empty() || *end != '\0' || std::isnan(value)) return std::nullopt;
+  const bool has_plus = text.starts_with('+') && !text.starts_with("+-");
+  const char *const begin = text.data() + (has_plus ? 1 : 0), *const end =
+                                                                  text.data() + text.size();
+  double value = 0.0;
+  const auto [stop, error] = std::from_chars(begin, end, value);
+  if (error != std::errc() || stop != end || std::isnan(value)) return std::nullopt;
   return value;
 }
 

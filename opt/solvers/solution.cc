@@ -1,11 +1,11 @@
 #include "opt/solvers/solution.h"
 
-#include <sstream>
+#include "opt/problem/plain_stream.h"
 
 namespace halfstep::opt {
 
 std::string Solution::BriefReport() const {
-  std::ostringstream out;
+  PlainStream out;
   out << (solver.empty() ? "no solver" : solver) << ": " << Name(ending);
   if (x.size() > 0) {
     out << ", cost " << cost;
@@ -21,7 +21,7 @@ std::string Solution::BriefReport() const {
 }
 
 std::string Solution::FullReport() const {
-  std::ostringstream out;
+  PlainStream out;
   out << BriefReport() << '\n'
       << "cost evaluations        " << cost_evaluations << '\n'
       << "gradient evaluations    " << gradient_evaluations << '\n'

@@ -2,9 +2,9 @@
 
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <utility>
 
+#include "opt/problem/plain_stream.h"
 #include "opt/problem/stationarity.h"
 
 namespace halfstep::opt {
@@ -269,7 +269,7 @@ void SolveMonitor::Judge(Ending claim, const std::string& message, const Point& 
     return;
   }
   if (!judged) return;
-  std::ostringstream more;
+  PlainStream more;
   const bool success = claim == Ending::kConverged;
   if (success && !end.complete) {
     more << " But there: " << non_finite_;

@@ -1,9 +1,10 @@
 #include "planner/scene/motion_fields.h"
 
-#include <cstdio>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {
@@ -45,11 +46,9 @@ void DeclareMotion(Fields& fields, ObstacleMotion* motion) {
                 if (waypoint == waypoints.data()) return;
                 const double last = (waypoint - 1)->t;
                 if (waypoint->t > last) return;
-                char text[80];
-                std::snprintf(text, sizeof text,
-                              "%.6g is not after the waypoint before it, at %.6g s", waypoint->t,
-                              last);
-                item.Complain("t_s", std::string(text) + " (valid: increasing times)");
+                item.Complain("t_s", Formatted("%.6g is not after the waypoint before it, at %.6g "
+                                               "s (valid: increasing times)",
+                                               waypoint->t, last));
               });
   for (const WaypointFields& from : waypoints) {
     if (from.xyz.size() != 3) continue;  // complained about

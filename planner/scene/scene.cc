@@ -1,7 +1,6 @@
 #include "planner/scene/scene.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <map>
 #include <utility>
@@ -126,12 +125,10 @@ void CheckReach(Fields& fields, const ObstacleFields& obstacle) {
     farthest = std::max(farthest, waypoint.translation.norm() + radius);
   }
   if (farthest <= kFarthestPoint) return;
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", farthest);
   fields.Complain(obstacle.has_mesh ? "mesh" : "",
-                  std::string("reaches ") + text +
-                      " m from the world's origin (valid: at most 10000 m; look at "
-                      "`scale`, and for stray vertices)");
+                  Formatted("reaches %.4g m from the world's origin (valid: at most 10000 m; look "
+                            "at `scale`, and for stray vertices)",
+                            farthest));
 }
 
 void DeclareObstacle(Fields& fields, ObstacleFields* obstacle) {

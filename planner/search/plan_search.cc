@@ -1,9 +1,9 @@
 #include "planner/search/plan_search.h"
 
 #include <cmath>
-#include <sstream>
 
 #include "wpg/check.h"
+#include "wpg/files/plain_locale.h"
 
 namespace halfstep {
 namespace {
@@ -53,7 +53,7 @@ void Solve(const PlanRequest& request, const StepGraph& graph, const StepPlan& p
   result->footsteps = FootstepsOf(request, graph, plan);
   for (int k : plan.ks) result->elements.push_back(graph.elements()[static_cast<size_t>(k)]);
   result->cost = plan.cost;
-  std::ostringstream sentence;
+  PlainStream sentence;
   sentence << plan.ks.size() << (plan.ks.size() == 1 ? " footstep" : " footsteps");
   if (result->stop == StopReason::kBudget) sentence << ", when the budget was used up";
   if (result->stop == StopReason::kInterrupted) sentence << ", when it was interrupted";
@@ -72,9 +72,8 @@ void Explain(const SearchEnd& end, PlanResult* result) {
          result);
   } else if (result->exhausted) {
     Fail(PlanStatus::kNoPlan,
-         end.sentence.empty()
-             ? "all that the half-steps reach inside the workspace was searched"
-             : end.sentence,
+         end.sentence.empty() ? "all that the half-steps reach inside the workspace was searched"
+                              : end.sentence,
          result);
   } else if (result->stop == StopReason::kInterrupted) {
     Fail(PlanStatus::kInterrupted, "interrupted before a plan was found", result);

@@ -1,8 +1,9 @@
 #include "planner/swept/box_tree_obj.h"
 
-#include <cstdio>
 #include <map>
 #include <vector>
+
+#include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {
@@ -50,9 +51,7 @@ class ObjText {
                                                     static_cast<int>(numbers_.size()) + 1);
       if (fresh) {
         const Eigen::Vector3d p = tree_.Corner(corner);
-        char line[96];
-        std::snprintf(line, sizeof line, "v %.6f %.6f %.6f\n", p.x(), p.y(), p.z());
-        vertices_ += line;
+        vertices_ += Formatted("v %.6f %.6f %.6f\n", p.x(), p.y(), p.z());
       }
       faces_ += " " + std::to_string(at->second);
     }

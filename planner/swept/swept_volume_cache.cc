@@ -1,7 +1,6 @@
 #include "planner/swept/swept_volume_cache.h"
 
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <mutex>
@@ -12,6 +11,7 @@
 #include "planner/swept/swept_volume_bytes.h"
 #include "wpg/files/checked_file.h"
 #include "wpg/files/sha256.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {
@@ -19,11 +19,7 @@ namespace {
 constexpr int kFormat = 1;     // of the file: change when the bytes change
 constexpr int kGenerator = 5;  // change when the same input bakes another volume
 
-std::string Exactly(double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%a", value);
-  return text;
-}
+std::string Exactly(double value) { return Formatted("%a", value); }
 
 template <typename Matrix>
 void Append(const Matrix& matrix, std::string* text) {

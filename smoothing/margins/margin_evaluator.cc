@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <utility>
 
 #include "smoothing/margins/all_families.h"
 #include "smoothing/margins/demandable.h"
+#include "wpg/files/plain_locale.h"
 
 namespace halfstep {
 
@@ -80,7 +80,7 @@ std::vector<Margin> MarginEvaluator::Violations(const SuperposedWalk& walk, cons
 }
 
 std::string MarginEvaluator::Describe(const Margin& margin) const {
-  std::ostringstream out;
+  PlainStream out;
   out.precision(6);
   out << Name(margin.family) << " of " << Subject(margin);
   if (std::isnan(margin.value)) {

@@ -8,6 +8,7 @@
 #include "smoothing/proof/stretch_proofs.h"
 #include "smoothing/walk/superposed_walk.h"
 #include "wpg/check.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {
@@ -52,8 +53,8 @@ class Ascent {
                        .lambda = now < before ? 1.0 : 0.0});
       if (before - now < options_.tolerance) {
         return monitor_.FinishAgainstStart(
-            Ending::kConverged,
-            "a pass gained less than " + std::to_string(options_.tolerance) + " s", kNoGain);
+            Ending::kConverged, Formatted("a pass gained less than %f s", options_.tolerance),
+            kNoGain);
       }
     }
     return monitor_.FinishAgainstStart(Ending::kLimit, "all passes done, the last one still gained",

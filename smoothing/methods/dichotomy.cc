@@ -8,6 +8,7 @@
 #include "smoothing/methods/accepted_in_parts.h"
 #include "smoothing/walk/superposed_walk.h"
 #include "wpg/check.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {
@@ -45,7 +46,7 @@ class Bisection {
       }
     }
     return Finish(Ending::kConverged,
-                  "every junction bisected to " + std::to_string(options_.tolerance) + " s");
+                  Formatted("every junction bisected to %f s", options_.tolerance));
   }
 
  private:

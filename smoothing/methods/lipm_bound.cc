@@ -5,10 +5,10 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
-#include <sstream>
 #include <vector>
 
 #include "smoothing/walk/superposed_walk.h"
+#include "wpg/files/plain_locale.h"
 #include "wpg/geometry/support_polygon.h"
 
 namespace halfstep {
@@ -116,7 +116,7 @@ SmoothingResult TellLipmBound(const WalkProblem& problem, SmoothingMonitor& moni
   if (!monitor.BeginFeasibly(problem, problem.Start())) return monitor.Refusal();
   const LipmBound bound = LowerBound(problem);
   monitor.result().lower_bound = bound.total();
-  std::ostringstream message;
+  PlainStream message;
   message << "no walk of a LIPM on these footsteps is shorter than " << bound.total()
           << " s: feet in the air " << bound.feet << " s, the CoM set off and stopped "
           << bound.first << " and " << bound.last << " s; the walk is what it started from";

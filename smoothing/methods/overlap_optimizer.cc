@@ -14,6 +14,7 @@
 #include "smoothing/methods/whole_proof.h"
 #include "smoothing/methods/whole_search.h"
 #include "smoothing/methods/window_passes.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {
@@ -196,8 +197,8 @@ class Optimization {
     NoteStop();
     std::string message = end_.Sentence();
     if (Safest() && !std::isfinite(monitor_.cost())) {
-      message += "; no walk of at most " + std::to_string(program.duration_limit()) +
-                 " s was proved, the dichotomy's is kept";
+      message += Formatted("; no walk of at most %f s was proved, the dichotomy's is kept",
+                           program.duration_limit());
     }
     return monitor_.Finish(end_.Ending(), message);
   }

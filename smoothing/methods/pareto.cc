@@ -7,6 +7,7 @@
 
 #include "smoothing/methods/dichotomy.h"
 #include "wpg/check.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 
@@ -27,9 +28,10 @@ std::vector<ParetoPoint> Undominated(const std::vector<ParetoPoint>& points) {
 
 std::string Sentence(const std::string& solver, size_t points, double least, double most,
                      const SmoothingResult& same) {
-  return solver + ": safest walks of " + std::to_string(points) + " durations from " +
-         std::to_string(least) + " to " + std::to_string(most) +
-         " s; at the dichotomy's duration " + same.message;
+  return solver +
+         Formatted(": safest walks of %zu durations from %f to %f s; at the dichotomy's duration ",
+                   points, least, most) +
+         same.message;
 }
 
 // The dichotomy's walk, which the curve is measured against, becomes the incumbent.

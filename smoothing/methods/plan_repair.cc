@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
-#include <sstream>
 #include <utility>
 
 #include "smoothing/proof/sampled_feasibility.h"
 #include "smoothing/walk/superposed_walk.h"
+#include "wpg/files/plain_locale.h"
 
 namespace halfstep {
 namespace {
@@ -111,7 +111,7 @@ class Repair {
   void RepairStep(int step) {
     const HalfStep& planned = plan_.half_steps[static_cast<size_t>(2 * step)].half_step;
     if (Proved(step, planned.duration, planned.via_height) || Stopped()) return;
-    std::ostringstream why;
+    PlainStream why;
     why << "footstep " << step + 1;
     if (const std::optional<Margin> missed = MissedAtRest(step)) {
       why << " cannot be made at any duration and height: " << Told(*missed);
@@ -144,7 +144,7 @@ class Repair {
 
   // "reach −0.031 m, 0 demanded"
   std::string Told(const Margin& margin) const {
-    std::ostringstream told;
+    PlainStream told;
     told << Name(margin.family) << " of " << test_.evaluator().Subject(margin) << " "
          << margin.value << " " << Unit(margin.family) << ", "
          << test_.evaluator().limits().demanded_of(margin.family) << " demanded";

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
-#include <sstream>
 #include <string>
 #include <utility>
 
@@ -13,6 +12,7 @@
 #include "smoothing/methods/incumbent.h"
 #include "smoothing/proof/stretch_proofs.h"
 #include "wpg/check.h"
+#include "wpg/files/plain_locale.h"
 
 namespace halfstep {
 namespace {
@@ -205,7 +205,7 @@ class Reference {
   }
 
   SmoothingResult Finish() {
-    std::ostringstream message;
+    PlainStream message;
     message << "dynamic programming, last step " << 1e3 * finest_ << " ms, looked at every "
             << 1e3 * options_.period << " ms; " << monitor_.result().iterates.size() << " rounds, "
             << grid_.passes() << " stretches";

@@ -1,7 +1,8 @@
 #include "smoothing/methods/search_ending.h"
 
 #include <cmath>
-#include <sstream>
+
+#include "wpg/files/plain_locale.h"
 
 namespace halfstep {
 namespace {
@@ -35,7 +36,7 @@ opt::Ending SearchEnding::Ending() const {
 }
 
 std::string SearchEnding::Sentence() const {
-  std::ostringstream why;
+  PlainStream why;
   if (stopped) {
     why << "stopped from outside";
   } else if (past_deadline()) {

@@ -1,13 +1,13 @@
 #include "smoothing/methods/uniform_scan.h"
 
 #include <algorithm>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "smoothing/methods/dichotomy.h"
 #include "wpg/check.h"
+#include "wpg/files/plain_locale.h"
 
 namespace halfstep {
 namespace {
@@ -114,7 +114,7 @@ class Scan {
     // Also when stopped: there is no feasible walk to keep.
     if (!found_) return monitor_.Finish(Ending::kNotRun, refusal_);
     if (!planned_feasible_) monitor_.DropStart();
-    std::ostringstream message;
+    PlainStream message;
     message << (monitor_.stopped() ? monitor_.StopReason() + "; " : "") << "best of "
             << points_.size() << " feasible grid points: durations times " << best_.duration
             << ", heights times " << best_.height;

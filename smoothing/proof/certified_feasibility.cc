@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <tuple>
 #include <utility>
 #include <vector>
 
 #include "wpg/check.h"
+#include "wpg/files/plain_locale.h"
 #include "wpg/workers.h"
 
 namespace halfstep {
@@ -94,7 +94,7 @@ CertifiedFeasibility::CertifiedFeasibility(MarginEvaluator evaluator,
 }
 
 std::string CertifiedFeasibility::Description() const {
-  std::ostringstream out;
+  PlainStream out;
   out << "certified for all time, resolution " << 1e3 * options_.resolution << " ms";
   return out.str();
 }

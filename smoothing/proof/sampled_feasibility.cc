@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <utility>
 
 #include "wpg/check.h"
+#include "wpg/files/plain_locale.h"
 
 namespace halfstep {
 namespace {
@@ -36,7 +36,7 @@ SampledFeasibility::SampledFeasibility(MarginEvaluator evaluator, double period)
 }
 
 std::string SampledFeasibility::Description() const {
-  std::ostringstream out;
+  PlainStream out;
   out << "sampled every " << 1e3 * period_ << " ms";
   return out.str();
 }

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <utility>
 
 #include "wpg/check.h"
+#include "wpg/files/plain_locale.h"
 
 namespace halfstep {
 namespace {
@@ -72,7 +72,7 @@ HomotopyParameters ParameterTable::Start() const {
 
 std::string ComplaintAbout(const HalfStepSequence& sequence,
                            const std::vector<FixedParameter>& fixed) {
-  std::ostringstream text;
+  PlainStream text;
   for (size_t k = 0; k < fixed.size(); ++k) {
     const HomotopyParameter& parameter = fixed[k].parameter;
     const ParameterFamilyTraits& traits = Traits(parameter.family);

@@ -388,6 +388,7 @@ TEST_P(BadInputTest, ExitsWithTwoAndWritesNothing) {
 }
 
 const std::string kGood = ShippedConfig("fig3_two_half_steps");
+const std::string kUrdf = HALFSTEP_SOURCE_DIR "/wpg/robots/hrp2.urdf";
 
 INSTANTIATE_TEST_SUITE_P(
     Command, BadInputTest,
@@ -415,6 +416,39 @@ INSTANTIATE_TEST_SUITE_P(
         {"EmptyOut", {"run", kGood, "--out", ""}, "--out: no folder"},
         {"ListOfWhat", {"list", "shoes"}, "shoes"},
         {"MisspeltCommand", {"verfy", "a"}, "did you mean 'verify'?"},
+        {"MisspeltOption",
+         {"run", kGood, "--overwrit"},
+         "halfstep: run: '--overwrit': no such option (did you mean '--overwrite'? valid: "},
+        {"MisspeltOptionWithValue",
+         {"run", kGood, "--ot=a"},
+         "'--ot': no such option (did you mean '--out'? valid: "},
+        {"OneWordTooMany", {"run", kGood, kGood}, "': one argument too many (`halfstep run -h`"},
+        {"MisspeltChoice", {"list", "planers"}, "'planers' is none of the choices (did you mean "},
+        {"MisspeltFormat", {"export", "a", "--format", "cvs"}, "did you mean 'csv'? valid: "},
+        {"MisspeltMethod", {"smooth", kGood, "--method", "dichotmy"}, "did you mean 'dichotomy'?"},
+        {"MisspeltRobot", {"run", kGood, "--set", "robot=hrp"}, "did you mean 'hrp2'? valid: "},
+        {"MisspeltScene",
+         {"run", kGood, "--set", "scene=../scenes/bar8cm.yaml"},
+         "did you mean 'bar_8cm.yaml'? valid: "},
+        {"DecimalCommaInSet",
+         {"run", kGood, "--set", "output.period_s=0,05"},
+         "not a number: '0,05' (a decimal point is needed: 0.05? valid: "},
+        {"DecimalCommaInOption",
+         {"export", "a", "--format", "csv", "--period", "0,01"},
+         "--period: '0,01' is not a number (a decimal point is needed: 0.01?)"},
+        {"DecimalCommaInRange",
+         {"init", "a", "--goal", "1,5", "2"},
+         "--goal: '1,5' is not a number (a decimal point is needed: 1.5?)"},
+        {"UrdfAsRobot",
+         {"init", "a", "--robot", kUrdf},
+         "hrp2.urdf:1:1: is a URDF (valid: YAML; `halfstep robot "},
+        {"UrdfAsRobotOfAConfig",
+         {"run", kGood, "--set", "robot=" + kUrdf},
+         "is a URDF (valid: YAML; `halfstep robot "},
+        {"UrdfThatIsNotThere",
+         {"init", "a", "--robot", "a.urdf"},
+         "(valid: a robot file; `halfstep robot URDF` makes one of a URDF)"},
+        {"UrdfAsConfig", {"run", kUrdf}, "is a URDF (valid: YAML; `halfstep robot "},
     }),
     [](const auto& info) { return info.param.name; });
 

@@ -59,7 +59,7 @@ TEST(InitCommand, RefusesWhatItWouldLose) {
   EXPECT_EQ(ReadText(place / "walk.yaml"), "mine");
   const Outcome robot = Halfstep(place.path(), {"init", "other", "--robot", "hrp"});
   EXPECT_EQ(robot.status, kBadInput);
-  EXPECT_THAT(robot.err, HasSubstr("no robot is called 'hrp' (did you mean 'hrp2'? valid: "));
+  EXPECT_THAT(robot.err, HasSubstr("no such robot: 'hrp' (did you mean 'hrp2'? valid: "));
   EXPECT_EQ(Halfstep(place.path(), {"init", "=sum"}).status, kBadInput);
   EXPECT_FALSE(std::filesystem::exists(place / "other.yaml"));
 }

@@ -36,6 +36,24 @@ TEST(NumberText, ReadsBackRadiansWrittenInDegrees) {
   }
 }
 
+TEST(NumberText, TellsWhichNumberADecimalCommaMeans) {
+  EXPECT_EQ(PointNeeded("0,5"), "a decimal point is needed: 0.5?");
+  EXPECT_EQ(PointNeeded("-,5e-3"), "a decimal point is needed: -.5e-3?");
+  for (const char* other : {"0.5", "1,000,000", "a,b", ",", "", "1,2.3"}) {
+    EXPECT_EQ(PointNeeded(other), "") << other;
+  }
+  EXPECT_EQ(NumberMistake("0,5"), "'0,5' is not a number (a decimal point is needed: 0.5?)");
+  EXPECT_EQ(NumberMistake("nan"), "'nan' is not a finite number");
+  EXPECT_EQ(NumberMistake("010"), "'010' is not a decimal number (leading zero)");
+}
+
+TEST(NumberText, IsShortenedToAFewDigits) {
+  EXPECT_EQ(Shortened(3.14159265, 3), 3.14);
+  EXPECT_EQ(Shortened(-1234567.0), -1234600.0);
+  EXPECT_EQ(Shortened(0.0), 0.0);
+  EXPECT_EQ(Shortened(2.5, 1), 2.0) << "half to even";
+}
+
 TEST(NearestWord, FindsSlipsOnly) {
   const std::vector<std::string> words{"overlap_max_s", "clearance_m", "x"};
   EXPECT_EQ(NearestWord("ovrlap_max_s", words), "overlap_max_s");

@@ -55,6 +55,8 @@ const Refusal kNumbers[] = {
      "c.yaml:1:7: seed: 2147483648 is out of range (valid: an integer, 0 … 2147483647)"},
     {"polygon: [[0, 0], [1, 0], [1, 1], [0, 1], [0, 0]]",
      "c.yaml:1:10: polygon: 5 points (valid: 0 … 4 points)"},
+    {"deadline_s: 2,5",
+     "c.yaml:1:13: deadline_s: not a number: '2,5' (a decimal point is needed: 2.5? valid: ≥ 0 s)"},
     {"polygon: [[0, 0, 0]]", "c.yaml:1:11: polygon[0]: 3 numbers (valid: 2 numbers)"},
 };
 INSTANTIATE_TEST_SUITE_P(Numbers, YamlRefusal, testing::ValuesIn(kNumbers));

@@ -92,6 +92,15 @@ std::string ShortestText(double value) {
   return ShortestOf(value);
 }
 
+double Shortened(double value, int digits) {
+  std::array<char, 64> text;
+  const char* const end = std::to_chars(text.data(), text.data() + text.size(), value,
+                                        std::chars_format::scientific, digits - 1)
+                              .ptr;
+  (void)std::from_chars(text.data(), end, value);
+  return value;
+}
+
 double DegreesToRadians(long double degrees) {
   return static_cast<double>(degrees * std::numbers::pi_v<long double> / 180.0L);
 }

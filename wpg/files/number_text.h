@@ -33,6 +33,10 @@ std::string NumberMistake(std::string_view text);
 /// Shortest decimal text that reads back to the same double. Precondition: finite.
 std::string ShortestText(double value);
 
+/// The double whose shortest decimal form has at most `digits` significant digits, nearest to the
+/// value.
+double Shortened(double value, int digits = 5);
+
 /// Whether a key's number is written in degrees and stored in radians.
 inline bool IsDegrees(std::string_view key) { return key.ends_with("_deg"); }
 

@@ -4,6 +4,8 @@
 #include <cstdarg>
 #include <cstdio>
 
+#include "wpg/files/plain_locale.h"
+
 namespace halfstep {
 namespace {
 
@@ -88,7 +90,9 @@ std::string Printable(std::string_view text) {
   return shown;
 }
 
+// As in the C locale, whatever locale the program around us has set.
 std::string Formatted(const char* format, ...) {
+  const PlainLocale plain;
   std::va_list arguments, again;
   va_start(arguments, format);
   va_copy(again, arguments);

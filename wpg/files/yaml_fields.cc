@@ -1,6 +1,8 @@
 #include "wpg/files/yaml_fields.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <string_view>
 #include <utility>
 
 #include "wpg/files/regular_file.h"
@@ -9,10 +11,24 @@
 
 namespace halfstep {
 
+namespace {
+
+bool IsUrdf(const std::string& path, std::string_view text) {
+  text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n\xEF\xBB\xBF"), text.size()));
+  return path.ends_with(".urdf") || text.starts_with("<?xml") || text.starts_with("<robot");
+}
+
+}  // namespace
+
 std::string ReadYamlFile(const std::string& path, const YamlLimits& limits) {
   YamlComplaints complaints(path);
   FileBytes file = TryReadRegularFile(path, limits.bytes);
   if (!file.refused.empty()) complaints.Fail({}, "", file.refused);
+  if (IsUrdf(path, file.bytes)) {
+    complaints.Fail(
+        {1, 1, ""}, "",
+        "is a URDF (valid: YAML; `halfstep robot " + path + "` makes a robot file of it)");
+  }
   return std::move(file.bytes);
 }
 

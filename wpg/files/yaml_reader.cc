@@ -8,6 +8,7 @@
 #include "wpg/check.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/number_text.h"
+#include "wpg/files/suggestion.h"
 #include "wpg/files/text.h"
 
 namespace halfstep {
@@ -30,26 +31,8 @@ std::string ValidNumbers(const NumberSpec& spec, const std::string& any = "a fin
   return WithUnit(ShortestText(spec.min) + " … " + ShortestText(spec.max), spec);
 }
 
-// A robot may have thousands of links; a reader takes in a few dozen names.
-std::string Joined(const std::vector<std::string>& words) {
-  constexpr size_t kMost = 40;
-  std::string text;
-  for (size_t i = 0; i < std::min(words.size(), kMost); ++i) {
-    text += (text.empty() ? "" : ", ") + words[i];
-  }
-  if (words.size() > kMost) text += " and " + std::to_string(words.size() - kMost) + " more";
-  return text.empty() ? "none" : text;
-}
-
 std::string ValidText(const TextSpec& spec) {
   return spec.choices.empty() ? "text" : Joined(spec.choices);
-}
-
-// "(did you mean 'x'? valid: …)"
-std::string Suggestion(const std::string& word, const std::vector<std::string>& choices) {
-  const std::string nearest = NearestWord(word, choices);
-  const std::string guess = nearest.empty() ? "" : "did you mean '" + nearest + "'? ";
-  return " (" + guess + "valid: " + Joined(choices) + ")";
 }
 
 // What is wrong with a text as a number, "" if nothing.
@@ -67,6 +50,12 @@ std::string Mistake(const YamlNode& node, const NumberText& number) {
       break;
   }
   return "";
+}
+
+// " (valid: …)" behind a mistake of a number, with a word on a decimal comma.
+std::string ValidWith(const YamlNode& node, const std::string& valid) {
+  const std::string hint = node.kind == NodeKind::kScalar ? PointNeeded(node.text) : "";
+  return " (" + (hint.empty() ? "" : hint + " ") + "valid: " + valid + ")";
 }
 
 }  // namespace
@@ -127,7 +116,7 @@ std::optional<double> YamlReader::ToNumber(const YamlNode& node, const std::stri
     mistake = node.text + " is out of range";
   }
   if (!mistake.empty()) {
-    complaints_->Add(node.place, path, mistake + " (valid: " + ValidNumbers(spec) + ")");
+    complaints_->Add(node.place, path, mistake + ValidWith(node, ValidNumbers(spec)));
     return std::nullopt;
   }
   return degrees ? DegreesToRadians(number.extended) : number.value;

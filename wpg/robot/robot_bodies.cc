@@ -5,9 +5,10 @@
 #include <cstdlib>
 #include <filesystem>
 #include <numbers>
+#include <ranges>
 #include <set>
-#include <sstream>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
 #include "wpg/files/mesh_file.h"
@@ -44,8 +45,9 @@ std::string PackageOf(const std::string& mesh) {
 std::string FindPackage(const std::string& package, const std::string& urdf_file) {
   std::vector<fs::path> places;
   if (const char* paths = std::getenv("ROS_PACKAGE_PATH")) {
-    std::istringstream words(paths);
-    for (std::string path; std::getline(words, path, ':');) places.emplace_back(path);
+    for (const auto path : std::views::split(std::string_view(paths), ':')) {
+      if (!path.empty()) places.emplace_back(path.begin(), path.end());
+    }
   }
   std::error_code ignored;
   fs::path above = fs::absolute(urdf_file, ignored).lexically_normal().parent_path();

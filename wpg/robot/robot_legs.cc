@@ -3,9 +3,9 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 
+#include "wpg/files/text.h"
 #include "wpg/robot/leg_continuation.h"
 #include "wpg/robot/leg_ik.h"
 #include "wpg/robot/leg_neighbourhood.h"
@@ -22,9 +22,7 @@ constexpr double kParallel = 1e-3;  // |sine| below which axes count as parallel
 constexpr double kLever = 1e-3;     // least distance of hip and ankle from the knee axis [m]
 
 std::string Millimetres(double metres) {
-  char text[32];
-  std::snprintf(text, sizeof text, metres < 1e-4 ? "%.4f mm" : "%.1f mm", metres * 1e3);
-  return text;
+  return Formatted(metres < 1e-4 ? "%.4f mm" : "%.1f mm", metres * 1e3);
 }
 
 double AxisDistance(const LegJoint& a, const LegJoint& b) {

@@ -6,6 +6,7 @@
 
 #include "wpg/files/nesting.h"
 #include "wpg/files/number_text.h"
+#include "wpg/files/suggestion.h"
 #include "wpg/files/text.h"
 #include "wpg/robot/urdf_elements.h"
 #include "wpg/robot/urdf_grammar.h"
@@ -206,17 +207,16 @@ class Checker {
       if (element != nullptr && !found_.links.contains(AttributeOf(*element, "link"))) {
         elements_.Complain(*element, name,
                            "no link is called `" + AttributeOf(*element, "link") + "`" +
-                               Suggestion(AttributeOf(*element, "link")));
+                               NearestLinks(AttributeOf(*element, "link")));
       }
     }
   }
 
-  std::string Suggestion(const std::string& word) {
+  std::string NearestLinks(const std::string& word) {
     if (++suggestions_ > kMostSuggestions) return "";
     std::vector<std::string> names;
     for (const auto& [name, place] : found_.links) names.push_back(name);
-    const std::string nearest = NearestWord(word, names);
-    return nearest.empty() ? "" : " (did you mean `" + nearest + "`?)";
+    return Suggestion(word, names);
   }
 
   const std::string& file_;
