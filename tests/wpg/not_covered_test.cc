@@ -87,7 +87,7 @@ TEST(PlaceholderLimits, TheWeightAsksOfHipsWhatItAsksOverTheLeg) {
   for (const std::string& name : kShippedRobots) {
     const RobotModel robot = ShippedRobot(name);
     const Leg& leg = robot.legs[0];
-    const double of_leg = robot.mass * kGravity * LegLength(leg);
+    const double of_leg = robot.mass * kGravity * LengthOfLeg(leg);
     double most = 0.0;
     for (size_t j = 0; j < 6; ++j) most = std::max(most, TorqueByWeight(robot, leg, j));
     EXPECT_GT(most, 0.8 * of_leg) << name;

@@ -40,7 +40,7 @@ double TorqueByWeight(const RobotModel& robot, const Leg& leg, size_t joint) {
 std::vector<PlaceholderLimit> PlaceholderLimits(const RobotModel& robot) {
   std::vector<PlaceholderLimit> found;
   for (const Leg& leg : robot.legs) {
-    const double rate = std::sqrt(kGravity / LegLength(leg));
+    const double rate = std::sqrt(kGravity / LengthOfLeg(leg));
     for (size_t j = 0; j < leg.joints.size(); ++j) {
       const LegJoint& joint = leg.joints[j];
       const auto add = [&](const std::string& why) { found.push_back({joint.name, why}); };

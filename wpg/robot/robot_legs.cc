@@ -150,7 +150,7 @@ double StretchedLength(const Leg& leg) {
   return DistanceToAxis(knee, leg.hip_B) + DistanceToAxis(knee, leg.ankle_B);
 }
 
-double LegLength(const Leg& leg) {
+double LengthOfLeg(const Leg& leg) {
   return StretchedLength(leg) + (leg.X_BSole.inverse() * leg.ankle_B).z();
 }
 

@@ -36,7 +36,7 @@ double StretchedLength(const Leg& leg);
 
 /// From the hip over the knee to the ankle, and from there down to the sole, knee and ankle
 /// stretched [m].
-double LegLength(const Leg& leg);
+double LengthOfLeg(const Leg& leg);
 
 /// The leg with the points nearest to its hip and ankle axes, and with the sentence `offsets` where
 /// these do not meet; without branch and closed-form neighbour, so that the closed form takes the

@@ -50,7 +50,7 @@ double Last(double begin, double end, int steps, const Does& does) {
 
 RobotMeasures MeasuresOf(const RobotModel& robot) {
   const Leg& leg = robot.legs[0];
-  RobotMeasures m{.leg_length = LegLength(leg),
+  RobotMeasures m{.leg_length = LengthOfLeg(leg),
                   .standing_width = robot.standing_width,
                   .slowest_joint = std::numeric_limits<double>::infinity(),
                   .support_offset = robot.support_offset};
