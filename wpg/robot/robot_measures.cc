@@ -48,9 +48,13 @@ double Last(double begin, double end, int steps, const Does& does) {
 
 }  // namespace
 
-RobotMeasures MeasuresOf(const RobotModel& robot) {
+double LegLengthOf(const RobotModel& robot) {
   const Leg& leg = robot.legs[0];
-  RobotMeasures m{.leg_length = StretchedLength(leg) + (leg.X_BSole.inverse() * leg.ankle_B).z(),
+  return StretchedLength(leg) + (leg.X_BSole.inverse() * leg.ankle_B).z();
+}
+
+RobotMeasures MeasuresOf(const RobotModel& robot) {
+  RobotMeasures m{.leg_length = LegLengthOf(robot),
                   .standing_width = robot.standing_width,
                   .slowest_joint = std::numeric_limits<double>::infinity(),
                   .support_offset = robot.support_offset};
