@@ -9,6 +9,7 @@
 #include "experiments/live/episode_tables.h"
 #include "experiments/run/complete_manifest.h"
 #include "experiments/tables/result_tables.h"
+#include "experiments/tables/run_inputs.h"
 #include "wpg/files/sha256.h"
 
 namespace halfstep {
@@ -77,7 +78,9 @@ void WriteEpisode(const Episode& episode, const LiveConfig& config, const Place&
     }
   }
   if (!episode.walks.empty()) WriteTrajectory(episode, config, place.robot, folder);
-  const std::string resolved = ResolvedFor(folder->path(), config);
+  LiveConfig named = config;
+  named.experiment = WithInputs(config.experiment, place.robot, place.scene, folder);
+  const std::string resolved = ResolvedFor(folder->path(), named);
   folder->Write("config.yaml", resolved);
   folder->Write("manifest.json", ManifestJson(episode, config, resolved));
   WriteEpisodeReport(episode, config, place, folder);
