@@ -43,7 +43,7 @@ std::string RunInto(const std::string& path, const std::string& text, const std:
 }
 
 py::list VerifyFolder(const std::string& run, const std::optional<std::string>& method,
-                      double tolerance) {
+                      const std::optional<double>& tolerance) {
   std::vector<verify::MethodVerification> results;
   CallLong(py::none(), [&](const LongCallHooks&) {
     results = verify::VerifyRun({.run = run, .method = method, .tolerance = tolerance});

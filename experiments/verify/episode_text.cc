@@ -177,6 +177,7 @@ EpisodeManifest ReadEpisodeManifest(const std::string& path, const std::string& 
                     .files = {},
                     .seed = root.Whole("seed"),
                     .walks = root.Whole("walks"),
+                    .waited = root.Number("waited_s"),
                     .end = root.Number("end_s"),
                     .stopped = document["stopped"].get<bool>()};
   if (m.walks < 0 || m.walks > kMostWalks) root.Fail("walks: out of range (valid: 0 … 100000)");
@@ -200,8 +201,10 @@ EpisodeText ReadEpisode(const std::filesystem::path& folder, size_t walks) {
   for (size_t k = 0; k < walks; ++k) {
     const std::string footsteps = (folder / FolderOfWalk(k) / "footsteps.csv").string();
     const std::string half_steps = (folder / FolderOfWalk(k) / "half_steps.csv").string();
+    const std::string overlaps = (folder / FolderOfWalk(k) / "overlaps.csv").string();
     text.walks.push_back({.footsteps = ReadFootsteps(footsteps, ReadBytes(footsteps)),
-                          .half_steps = ReadHalfSteps(half_steps, ReadBytes(half_steps))});
+                          .half_steps = ReadHalfSteps(half_steps, ReadBytes(half_steps)),
+                          .overlaps = ReadOverlapsOfEpisode(overlaps, ReadBytes(overlaps))});
   }
   return text;
 }

@@ -19,7 +19,7 @@ struct EpisodeManifest {
   std::vector<InputFile> robot_files, scene_files;  ///< without paths
   std::map<std::string, InputFile> files;           ///< of the episode, by relative path
   long seed = 0, walks = 0;                         ///< of the noise; walks that were handed over
-  double end = 0;                                   ///< [s]
+  double waited = 0, end = 0;                       ///< before time 0, and at the end [s]
   bool stopped = false;  ///< the last walk was cut after the last half-step that began
 };
 
@@ -80,6 +80,7 @@ struct EventRow {
 struct EpisodeWalkText {
   std::vector<FootstepRow> footsteps;   ///< footsteps.csv of that walk
   std::vector<HalfStepRow> half_steps;  ///< half_steps.csv of that walk
+  std::vector<double> overlaps;         ///< overlaps.csv of that walk [s]
 };
 
 /// The tables of an episode as they are read. Numbers that name a row of another table need not

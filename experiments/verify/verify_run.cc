@@ -6,6 +6,7 @@
 #include "experiments/verify/csv_text.h"
 #include "experiments/verify/episode_text.h"
 #include "experiments/verify/findings.h"
+#include "experiments/verify/not_examined.h"
 #include "experiments/verify/run_manifest.h"
 #include "experiments/verify/verify_episode.h"
 #include "experiments/verify/verify_method.h"
@@ -75,7 +76,7 @@ MethodVerification Verified(const std::string& method, const Check& check) {
 }  // namespace
 
 std::vector<MethodVerification> VerifyRun(const VerifyOptions& options) {
-  if (!(options.tolerance >= 0 && options.tolerance <= 1)) {
+  if (options.tolerance && !(*options.tolerance >= 0 && *options.tolerance <= 1)) {
     throw InputError({"--tolerance: out of range (valid: 0 … 1 m)"});
   }
   const fs::path manifest_path = fs::path(options.run) / "manifest.json";
@@ -88,7 +89,8 @@ std::vector<MethodVerification> VerifyRun(const VerifyOptions& options) {
     if (options.method) {
       throw InputError({"--method: an episode has none (valid: without it)"});
     }
-    return {Verified("episode", [&](MethodVerification*, Findings* findings) {
+    return {Verified("episode", [&](MethodVerification* result, Findings* findings) {
+      result->of_episode = true;
       VerifyEpisode(options, manifest_text, findings);
     })};
   }
@@ -120,6 +122,10 @@ std::string Summary(const MethodVerification& result) {
   }
   const long more = result.disagreements - told;
   return text + (more > 0 ? "  … and " + Count(more) + " more\n" : "");
+}
+
+std::string TellNotExamined(const MethodVerification& result) {
+  return NotExaminedText(result.of_episode ? NotExaminedOfEpisode() : NotExaminedOfRun());
 }
 
 std::string Describe(const MethodVerification& result) {

@@ -91,9 +91,10 @@ class Run:
         """certificate.json of a method: verdict, statement, what was demanded, hashes."""
         return self._json(self._place(method), "certificate.json")
 
-    def verify(self, method: str | None = None, tolerance: float = 0.001) -> list[Verification]:
+    def verify(self, method: str | None = None, tolerance: float | None = None) -> list[Verification]:
         """Checks the certificates without the smoothing code, as ``halfstep verify``; one entry a
-        method. ``tolerance``: how far the played motion may leave the certified walk [m]."""
+        method. ``tolerance``: how far the played motion may leave the certified walk [m]; None: 1 mm
+        for HRP-2, and for other robots by the length of their legs."""
         name = None if method is None else self._place(method)
         return [Verification(*found) for found in _halfstep.verify(self.folder, name, tolerance)]
 
