@@ -9,6 +9,7 @@
 #include "experiments/verify/verify_run.h"
 #include "tests/verify/tampered_episode.h"
 #include "tests/verify/verify_mutation.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {

@@ -112,13 +112,13 @@ class TamperedRun {
   }
 
   /// Edits the manifest.
-  void EditManifest(const std::function<void(nlohmann::ordered_json&)>& edit) {
+  void EditManifest(const std::function<void(nlohmann::ordered_json&)>& edit) const {
     EditJsonFile(run() / "manifest.json", edit);
   }
 
   /// Makes every hash and length that the run states those of the files as they are now, of all its
   /// methods: what a forger would do.
-  void Rehash() {
+  void Rehash() const {
     const auto robot = LoadRobot((run() / "inputs/robot" / (robot_ + ".yaml")).string()).files;
     std::vector<InputFile> scene;
     if (!scene_.empty()) scene = LoadScene(this->scene().string()).files;
@@ -212,8 +212,8 @@ class TamperedRun {
     fs::create_directories(place / "configs");
     fs::copy(source / "experiments" / config, place / config);
     std::vector<std::string> arguments = {"run", config, "--quiet", "--out", "run"};
-    for (const std::string item : {"robot=../robots/" + walk.robot + ".yaml",
-                                   std::string("smoothing.methods=[dichotomy]")}) {
+    for (const std::string& item : {"robot=../robots/" + walk.robot + ".yaml",
+                                    std::string("smoothing.methods=[dichotomy]")}) {
       arguments.insert(arguments.end(), {"--set", item});
     }
     for (const std::string& item : walk.overrides) {
