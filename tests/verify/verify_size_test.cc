@@ -19,13 +19,14 @@ std::string Times(const std::string& key, double value) { return key + "=" + Sho
 
 // Two half-steps on the empty floor, and demanded margins of the robot's size.
 TamperedWalk WalkOf(double size) {
-  return {.overrides = {"scene=none", Times("footsteps.0.x_m", 0.274 * size),
-                        Times("footsteps.0.y_m", -0.105 * size),
-                        Times("smoothing.margins.floor_m", 0.005 * size),
-                        Times("smoothing.margins.zmp_m", 0.01 * size),
-                        Times("smoothing.margins.zmp_robot_m", 0.01 * size),
-                        Times("smoothing.margins.self_clearance_m", 0.005 * size)},
-          .size = size};
+  return {
+      .overrides = {"scene=none", "smoothing.limits.foot_speed_m_s=none",
+                    Times("footsteps.0.x_m", 0.274 * size), Times("footsteps.0.y_m", -0.105 * size),
+                    Times("smoothing.margins.floor_m", 0.005 * size),
+                    Times("smoothing.margins.zmp_m", 0.01 * size),
+                    Times("smoothing.margins.zmp_robot_m", 0.01 * size),
+                    Times("smoothing.margins.self_clearance_m", 0.005 * size)},
+      .size = size};
 }
 
 verify::MethodVerification Verified(const TamperedRun& run) {
