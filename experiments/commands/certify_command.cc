@@ -102,7 +102,7 @@ ExitStatus Certify(const CertifyCommand& command) {
     const CertifiedWalk walk =
         CertifyWalk(test, experiment.sequence, parameters, interrupt.token(), workers.get());
     if (walk.answer.stopped) break;
-    WriteCertificate(experiment, test, walk, trajectory, place, &folder);
+    WriteCertificate(experiment, test, walk, config, trajectory, place, &folder);
     const bool certified = walk.answer.verdict == Verdict::kFeasible;
     all_certified = all_certified && certified;
     if (command.quiet) continue;

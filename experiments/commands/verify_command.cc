@@ -3,20 +3,22 @@
 
 #include "experiments/commands/command_line.h"
 #include "experiments/run/exit_status.h"
+#include "experiments/verify/verification_json.h"
 #include "experiments/verify/verify_run.h"
 
 namespace halfstep {
 namespace {
 
-enum class Telling { kErrors, kSummary, kEverything };
+enum class Telling { kErrors, kSummary, kEverything, kJson };
 
 // Nothing of the smoothing takes part.
 ExitStatus Verify(const verify::VerifyOptions& options, Telling telling) {
   const bool quiet = telling == Telling::kErrors;
   ExitStatus status = kSuccess;
   std::vector<NotCovered> not_covered;  // by the certificates, which are of one robot and scene
-  for (const verify::MethodVerification& result : verify::VerifyRun(options)) {
-    if (!quiet) {
+  const std::vector<verify::MethodVerification> results = verify::VerifyRun(options);
+  for (const verify::MethodVerification& result : results) {
+    if (telling == Telling::kSummary || telling == Telling::kEverything) {
       std::cout << (telling == Telling::kSummary ? verify::Summary(result)
                                                  : verify::Describe(result));
     }
@@ -43,7 +45,12 @@ ExitStatus Verify(const verify::VerifyOptions& options, Telling telling) {
   }
   if (telling == Telling::kSummary) {
     std::cout << NotCoveredText(not_covered, "--verbose")
-              << "(--verbose shows every check and what a verified certificate guarantees)\n";
+              << "(--verbose shows every check, what a verified certificate guarantees, and what "
+                 "is not examined)\n";
+  } else if (telling == Telling::kEverything) {
+    std::cout << "\nNot examined:\n" << verify::TellNotExamined(results.front());
+  } else if (telling == Telling::kJson) {
+    std::cout << verify::VerificationJson(results);
   }
   return status;
 }
@@ -52,18 +59,26 @@ ExitStatus Verify(const verify::VerifyOptions& options, Telling telling) {
 
 CommandAction DeclareVerify(CLI::App* app) {
   const auto options = std::make_shared<verify::VerifyOptions>();
-  const auto quiet = std::make_shared<bool>(false), verbose = std::make_shared<bool>(false);
+  const auto quiet = std::make_shared<bool>(false), verbose = std::make_shared<bool>(false),
+             json = std::make_shared<bool>(false);
   app->add_option("RUN", options->run, "run folder")->required();
   app->add_option("--method", options->method, "only this one (default: all)");
-  app->add_option("--tolerance", options->tolerance,
-                  "between the certified walk and its trajectory, 0.001 by default [m]");
+  app->add_option(
+      "--tolerance", options->tolerance,
+      "between the certified walk and its trajectory, 0.001 · ℓ/0.705 m by default [m]");
   app->add_option("--robot", options->robot, "robot file in place of the certificate's");
   app->add_option("--scene", options->scene, "scene file in place of it, or none");
   CLI::Option* only_errors = app->add_flag("--quiet", *quiet, "print nothing but what is wrong");
-  app->add_flag("--verbose", *verbose, "print every check and the certificate's statement")
-      ->excludes(only_errors);
-  return [options, quiet, verbose] {
+  CLI::Option* everything =
+      app->add_flag("--verbose", *verbose,
+                    "print every check, the certificate's statement, and what is not examined")
+          ->excludes(only_errors);
+  app->add_flag("--json", *json, "print all of it as JSON")
+      ->excludes(only_errors)
+      ->excludes(everything);
+  return [options, quiet, verbose, json] {
     return Verify(*options, *quiet     ? Telling::kErrors
+                            : *json    ? Telling::kJson
                             : *verbose ? Telling::kEverything
                                        : Telling::kSummary);
   };

@@ -11,6 +11,7 @@
 #include "experiments/run/complete_manifest.h"
 #include "experiments/tables/not_covered_json.h"
 #include "experiments/tables/result_tables.h"
+#include "experiments/tables/run_inputs.h"
 #include "smoothing/margins/not_covered_by.h"
 #include "wpg/files/sha256.h"
 
@@ -84,7 +85,9 @@ void WriteEpisode(const Episode& episode, const LiveConfig& config, const Place&
     }
   }
   if (!episode.walks.empty()) WriteTrajectory(episode, config, place.robot, folder);
-  const std::string resolved = ResolvedFor(folder->path(), config);
+  LiveConfig named = config;
+  named.experiment = WithInputs(config.experiment, place.robot, place.scene, folder);
+  const std::string resolved = ResolvedFor(folder->path(), named);
   folder->Write("config.yaml", resolved);
   folder->Write("manifest.json", ManifestJson(episode, config, place, resolved));
   WriteEpisodeReport(episode, config, place, folder);

@@ -54,7 +54,7 @@ std::pair<std::string, std::vector<std::string>> RunInto(const std::string& path
 }
 
 py::list VerifyFolder(const std::string& run, const std::optional<std::string>& method,
-                      double tolerance) {
+                      const std::optional<double>& tolerance) {
   std::vector<verify::MethodVerification> results;
   CallLong(py::none(), [&](const LongCallHooks&) {
     results = verify::VerifyRun({.run = run, .method = method, .tolerance = tolerance});

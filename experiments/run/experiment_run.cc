@@ -10,6 +10,7 @@
 #include "experiments/run/smoothing_of.h"
 #include "experiments/tables/given_walk_file.h"
 #include "experiments/tables/parameter_tables.h"
+#include "experiments/tables/run_inputs.h"
 #include "smoothing/methods/overlap_prices.h"
 #include "smoothing/methods/plan_repair.h"
 #include "smoothing/methods/run_smoother.h"
@@ -165,12 +166,14 @@ void ExperimentRun::Certify(const std::stop_token& stop) {
   }
 }
 
-void ExperimentRun::WriteMethod(const MethodRun& run, RunFolder* folder) const {
+void ExperimentRun::WriteMethod(const MethodRun& run, const ExperimentConfig& named,
+                                RunFolder* folder) const {
   const std::string place = MethodFolder(run.method) + "/";
   WriteCsv(place + "trajectory", run.trajectory, folder);
   WriteCsv(place + "half_steps", HalfStepsCsv(experiment_->sequence, run.result.parameters),
            folder);
-  WriteCertificate(*experiment_, *certifier_, run.certified, run.trajectory.text, place, folder);
+  WriteCertificate(*experiment_, *certifier_, run.certified, named, run.trajectory.text, place,
+                   folder);
   if (run.result.junctions.empty()) return;
   WriteCsv(place + "overlaps", OverlapsCsv(evaluator(), run), folder);
   WriteCsv(place + "iterates", IteratesCsv(run), folder);
@@ -179,8 +182,8 @@ void ExperimentRun::WriteMethod(const MethodRun& run, RunFolder* folder) const {
 }
 
 void ExperimentRun::Write(RunFolder* folder) const {
-  for (const MethodRun& run : runs_) WriteMethod(run, folder);
-  ExperimentConfig written = config_;
+  ExperimentConfig written = WithInputs(config_, experiment_->robot, experiment_->scene, folder);
+  for (const MethodRun& run : runs_) WriteMethod(run, written, folder);
   if (TakesGiven(config_)) {  // the run holds the given walk itself
     written.smoothing.given.overlaps = (folder->path() / "given/overlaps.csv").string();
     written.smoothing.given.half_steps = (folder->path() / "given/half_steps.csv").string();

@@ -81,7 +81,7 @@ class ExperimentRun {
   void ReadGiven();
   void Repair(const RunHooks& hooks);
   MethodRun RunMethod(const std::string& name, const RunHooks& hooks);
-  void WriteMethod(const MethodRun& run, RunFolder* folder) const;
+  void WriteMethod(const MethodRun& run, const ExperimentConfig& named, RunFolder* folder) const;
 
   const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
   ExperimentConfig config_;

@@ -64,7 +64,8 @@ CsvFile CertificateCsv(const MarginEvaluator& evaluator, const Certificate& rows
 }
 
 std::string CertificateJson(const Experiment& experiment, const CertifiedFeasibility& test,
-                            const CertifiedWalk& walk, const std::filesystem::path& run_folder,
+                            const CertifiedWalk& walk, const ExperimentConfig& named,
+                            const std::filesystem::path& run_folder,
                             const std::string& trajectory_csv, const std::string& certificate_csv) {
   const MarginLimits& limits = test.evaluator().limits();
   ordered_json demanded, statements;
@@ -76,7 +77,7 @@ std::string CertificateJson(const Experiment& experiment, const CertifiedFeasibi
   }
   const RobotModel& robot = experiment.robot;
   const bool certified = walk.answer.verdict == Verdict::kFeasible;
-  const auto scene = ScenePath(experiment.config);
+  const auto scene = ScenePath(named);
   const ordered_json json = {
       {"format", 2},
       {"verdict", VerdictName(walk.answer.verdict)},
@@ -93,7 +94,7 @@ std::string CertificateJson(const Experiment& experiment, const CertifiedFeasibi
         {"joint_speed_scale", limits.joint_speed_scale}}},
       {"statements", statements},
       {"not_covered", NotCoveredJson(NotCoveredBy(robot, experiment.scene, limits))},
-      {"robot", std::filesystem::proximate(RobotPath(experiment.config), run_folder).string()},
+      {"robot", std::filesystem::proximate(RobotPath(named), run_folder).string()},
       {"scene", scene ? std::filesystem::proximate(*scene, run_folder).string() : "none"},
       {"sha256",
        {{"trajectory.csv", Sha256(trajectory_csv)},
@@ -104,12 +105,14 @@ std::string CertificateJson(const Experiment& experiment, const CertifiedFeasibi
 }
 
 void WriteCertificate(const Experiment& experiment, const CertifiedFeasibility& test,
-                      const CertifiedWalk& walk, const std::string& trajectory_csv,
-                      const std::string& place, RunFolder* folder) {
+                      const CertifiedWalk& walk, const ExperimentConfig& named,
+                      const std::string& trajectory_csv, const std::string& place,
+                      RunFolder* folder) {
   const CsvFile csv = CertificateCsv(test.evaluator(), walk.rows);
   WriteCsv(place + "certificate", csv, folder);
-  folder->Write(place + "certificate.json",
-                CertificateJson(experiment, test, walk, folder->path(), trajectory_csv, csv.text));
+  folder->Write(
+      place + "certificate.json",
+      CertificateJson(experiment, test, walk, named, folder->path(), trajectory_csv, csv.text));
 }
 
 }  // namespace halfstep

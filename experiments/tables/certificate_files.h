@@ -34,16 +34,19 @@ std::string_view VerdictName(Verdict verdict);
 CsvFile CertificateCsv(const MarginEvaluator& evaluator, const Certificate& rows);
 
 /// Text of certificate.json: verdict, the statement, what was demanded, counts of statements, what
-/// is not covered (NotCoveredBy), and SHA-256 of everything that the certificate is about,
-/// as it was parsed. Paths relative to `run_folder`.
+/// is not covered (NotCoveredBy), and SHA-256 of everything that the certificate is about, as it
+/// was parsed. The files of robot and scene lie where `named`, the run's own config, says; paths
+/// are relative to `run_folder`.
 std::string CertificateJson(const Experiment& experiment, const CertifiedFeasibility& test,
-                            const CertifiedWalk& walk, const std::filesystem::path& run_folder,
+                            const CertifiedWalk& walk, const ExperimentConfig& named,
+                            const std::filesystem::path& run_folder,
                             const std::string& trajectory_csv, const std::string& certificate_csv);
 
 /// Writes certificate.csv, its schema and certificate.json into a method's folder, `place`
-/// ("dichotomy/"), of a run.
+/// ("dichotomy/"), of a run whose own config is `named`.
 void WriteCertificate(const Experiment& experiment, const CertifiedFeasibility& test,
-                      const CertifiedWalk& walk, const std::string& trajectory_csv,
-                      const std::string& place, RunFolder* folder);
+                      const CertifiedWalk& walk, const ExperimentConfig& named,
+                      const std::string& trajectory_csv, const std::string& place,
+                      RunFolder* folder);
 
 }  // namespace halfstep

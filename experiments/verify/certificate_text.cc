@@ -9,6 +9,40 @@
 #include "wpg/files/text.h"
 
 namespace halfstep::verify {
+namespace {
+
+// The first key of an object that is not one of those, with `prefix` before it; "": all are.
+std::string UnknownKey(const JsonMember& member, const std::string& prefix,
+                       const std::vector<std::string>& known) {
+  for (const auto& [key, value] : member.object().items()) {
+    if (std::ranges::find(known, key) == known.end()) return prefix + key;
+  }
+  return "";
+}
+
+// Whatever stood beside what is verified could pass for verified, too.
+std::string UnknownKeyOf(const JsonMember& root) {
+  const std::vector<std::string> families(kFamilyNames.begin(), kFamilyNames.end());
+  for (const std::string& unknown :
+       {UnknownKey(root, "",
+                   {"format", "verdict", "message", "statement", "duration_s", "resolution_s",
+                    "demanded", "limits", "statements", "not_watched", "robot", "scene", "sha256"}),
+        UnknownKey(root.Object("demanded"), "demanded.", families),
+        UnknownKey(root.Object("statements"), "statements.", families),
+        UnknownKey(root.Object("limits"), "limits.",
+                   {"foot_speed_m_s", "foot_yaw_rate_rad_s", "joint_speed_scale"}),
+        UnknownKey(root.Object("sha256"), "sha256.",
+                   {"trajectory.csv", "certificate.csv", "robot", "scene"})}) {
+    if (!unknown.empty()) return unknown;
+  }
+  for (const JsonMember& pair : root.Items("not_watched")) {
+    const std::string unknown = UnknownKey(pair, "not_watched.", {"bodies", "why"});
+    if (!unknown.empty()) return unknown;
+  }
+  return "";
+}
+
+}  // namespace
 
 std::vector<NotCoveredItem> NotCoveredItems(const JsonMember& root) {
   std::vector<NotCoveredItem> items;
@@ -27,6 +61,7 @@ CertificateText ReadCertificateJson(const std::string& path, const std::string& 
   c.message = root.String("message");
   c.statement = root.String("statement");
   c.duration = root.Number("duration_s");
+  c.unknown = UnknownKeyOf(root);
   const JsonMember demanded = root.Object("demanded"), statements = root.Object("statements");
   for (size_t f = 0; f < kNumFamilies; ++f) {
     if (MayBeAbsent(static_cast<Family>(f)) && !statements.object().contains(kFamilyNames[f])) {

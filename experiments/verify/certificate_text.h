@@ -75,6 +75,7 @@ struct CertificateText {
   /// For the whole walk: "certified", and two texts for people.
   std::string verdict, message, statement;
   double duration = 0;  ///< [s]
+  std::string unknown;  ///< the first key that is not known here; "": none is
   /// kNotDemanded where nothing is, which only families that may be left out have.
   std::array<double, kNumFamilies> demanded{};
   std::array<long, kNumFamilies> statements{};      ///< how many each family has at every instant

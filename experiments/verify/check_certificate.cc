@@ -10,6 +10,9 @@
 namespace halfstep::verify {
 namespace {
 
+// What a certificate says of a walk that it is about.
+constexpr char kCertified[] = "every margin is kept at all times";
+
 long CountOf(Family family, const RobotModel& robot) {
   switch (family) {
     case kReach:
@@ -95,6 +98,13 @@ void CheckArithmetic(const CertificateText& certificate, const std::vector<Claim
   if (certificate.verdict != "certified") {
     findings->Disagree("the certificate's verdict is " + Quote(certificate.verdict) + ": " +
                        Quote(certificate.message));
+  }
+  if (certificate.verdict == "certified" && certificate.message != kCertified) {
+    findings->Disagree("the certificate's message is " + Quote(certificate.message));
+  }
+  if (!certificate.unknown.empty()) {
+    findings->Disagree("certificate.json: " + Quote(certificate.unknown) +
+                       " is no key that is known here, so nothing can be said of it");
   }
   if (certificate.statement != CertificateStatement(robot)) {
     findings->Disagree("the certificate's statement is not the one that is verified");

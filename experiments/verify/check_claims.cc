@@ -8,16 +8,11 @@
 #include "experiments/verify/claim_subjects.h"
 #include "experiments/verify/floor_distances.h"
 #include "experiments/verify/joint_accelerations.h"
+#include "experiments/verify/tolerances.h"
 #include "wpg/files/text.h"
 
 namespace halfstep::verify {
 namespace {
-
-// The interval's ends are looked at this far inside: support and motion may change there [s].
-constexpr double kInside = 1e-9;
-// Two evaluations of one margin differ by rounding [its unit], joint speeds by that of differences.
-constexpr double kClaimRounding = 1e-7;
-constexpr double kSpeedClaimRounding = 1e-6;
 
 class Claims {
  public:
@@ -26,6 +21,7 @@ class Claims {
         robot_(walk.robot()),
         certificate_(certificate),
         distances_(*distances),
+        near_(robot_),
         subjects_(robot_, *distances) {}
 
   // What is wrong with a row; "": nothing.
@@ -34,7 +30,11 @@ class Claims {
     const std::optional<ClaimSubject> found = subjects_.Find(row.family, row.subject);
     if (!found) return "nothing is called " + Quote(row.subject);
     const ClaimSubject subject = *found;
+    if (NamesSoles(row.family) && !BearsAsNamed(row)) {
+      return Quote(row.subject) + " does not bear the robot there";
+    }
     if (row.margin == kNoLimit) {
+      if (row.family <= kFootYawRate && subject.first >= 0) return "a foot without a margin";
       if (MayBeLeftOut(row.family)) {
         if (certificate_.demanded[row.family] == kNotDemanded) return "";
         return IsOfDynamics(row.family) ? "the robot has a ZMP" : "the robot has limits";
@@ -58,16 +58,29 @@ class Claims {
 
  private:
   // Ends and quarters of an interval, the midpoint first.
-  static std::array<double, 5> Instants(const ClaimRow& row) {
-    const double inside = std::min(kInside, 0.25 * (row.end - row.begin));
+  std::array<double, 5> Instants(const ClaimRow& row) const {
+    const double inside = std::min(near_.inside, 0.25 * (row.end - row.begin));
     const double middle = 0.5 * (row.begin + row.end), quarter = 0.25 * (row.end - row.begin);
     return {middle, row.begin + inside, middle - quarter, middle + quarter, row.end - inside};
+  }
+
+  static bool NamesSoles(Family family) {
+    return family == kZmp || family == kZmpRobot || family == kFriction;
+  }
+  // Whether what bears the robot at the row's middle, or a little beside it, is what it names.
+  bool BearsAsNamed(const ClaimRow& row) const {
+    const double middle = 0.5 * (row.begin + row.end);
+    const bool both = row.subject == "both soles";
+    return std::ranges::any_of(
+        std::array{middle - near_.inside, middle, middle + near_.inside},
+        [&](double t) { return (walk_.SupportAt(t) == Support::kBoth) == both; });
   }
 
   // Whether a foot moves horizontally from a little before t to a little after it: a row may be
   // shorter than what the two walks' ends of the motion are rounded by.
   bool MovesAround(double t, int side) const {
-    return walk_.MovesHorizontally(t - kInside, side) && walk_.MovesHorizontally(t + kInside, side);
+    return walk_.MovesHorizontally(t - near_.inside, side) &&
+           walk_.MovesHorizontally(t + near_.inside, side);
   }
 
   // A margin without a value is one of a foot that stands, or that has no limit.
@@ -76,10 +89,10 @@ class Claims {
     if (row.family == kFootYawRate && !certificate_.foot_yaw_rate) return "";
     for (const double t : Instants(row)) {
       for (int side = 0; side < 2; ++side) {
-        const bool moves = row.family == kFloor
-                               ? MovesAround(t, side)
-                               : walk_.At(t).first.segment<4>(side == 0 ? kLeftX : kRightX).norm() >
-                                     kClaimRounding;
+        const bool moves =
+            row.family == kFloor
+                ? MovesAround(t, side)
+                : walk_.At(t).first.segment<4>(side == 0 ? kLeftX : kRightX).norm() > near_.claim;
         if (moves) return Formatted("a foot moves at t = %.6g s", t);
       }
     }
@@ -149,11 +162,12 @@ class Claims {
   }
 
   std::string FaultOfScalar(const ClaimRow& row, ClaimSubject subject) const {
-    const double rounding = row.family == kJointSpeed          ? kSpeedClaimRounding
-                            : row.family == kTorque            ? kTorqueRounding
-                            : row.family == kFriction          ? kFrictionRounding
-                            : row.family == kJointAcceleration ? kAccelerationRounding
-                                                               : kClaimRounding;
+    const double rounding = row.family == kJointSpeed          ? near_.joint_speed
+                            : row.family == kZmpRobot          ? near_.momentum
+                            : row.family == kTorque            ? near_.torque
+                            : row.family == kFriction          ? near_.friction
+                            : row.family == kJointAcceleration ? near_.acceleration
+                                                               : near_.claim;
     const std::array<double, 5> instants = Instants(row);
     const double middle = Scalar(row.family, subject, instants[0]);
     if (!(std::abs(middle - row.margin) <= rounding)) {
@@ -184,14 +198,14 @@ class Claims {
     const std::array<double, 5> instants = Instants(row);
     const Placement middle = PlaceRobot(robot_, walk_.Row(instants[0]));
     const double value = Distance(row, subject, middle, instants[0], row.margin);
-    if (!(value >= row.margin - Distances::kAccuracy)) {
+    if (!(value >= row.margin - near_.distance)) {
       return Formatted("margin %.9g, but %.9g by the walk", row.margin, value);
     }
     for (const double t : {instants[1], instants[4]}) {
       const Placement at = PlaceRobot(robot_, walk_.Row(t));
       const double least = row.margin - row.bound;
       const double there = Distance(row, subject, at, t, least);
-      if (!(there >= least - Distances::kAccuracy)) {
+      if (!(there >= least - near_.distance)) {
         return Formatted("%.9g at t = %.6g s, below %.9g − %.9g", there, t, row.margin, row.bound);
       }
       if (row.family != kClearance) continue;
@@ -199,7 +213,7 @@ class Claims {
       if (subject.second >= 0) {
         moved += distances_.ObstacleChange(static_cast<size_t>(subject.second), instants[0], t);
       }
-      if (!(moved <= row.bound + kClaimRounding)) {
+      if (!(moved <= row.bound + near_.claim)) {
         return Formatted("body and obstacle move %.9g until t = %.6g s, more than %.9g", moved, t,
                          row.bound);
       }
@@ -223,6 +237,7 @@ class Claims {
   const RobotModel& robot_;
   const CertificateText& certificate_;
   Distances& distances_;
+  const Tolerances near_;
   const ClaimSubjects subjects_;
 };
 

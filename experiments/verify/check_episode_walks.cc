@@ -49,11 +49,18 @@ HalfStepSequence SequenceOf(const std::vector<FootstepRow>& rows, const EpisodeW
 }
 
 // Whether the rows of half_steps.csv make a walk of the half-steps.
-bool CheckHalfSteps(const std::vector<HalfStepRow>& rows, const HalfStepSequence& planned,
-                    const std::string& path, Findings* findings) {
+bool CheckHalfSteps(const EpisodeWalkText& text, const HalfStepSequence& planned,
+                    const std::string& folder, Findings* findings) {
+  const std::vector<HalfStepRow>& rows = text.half_steps;
+  const std::string path = folder + "/half_steps.csv";
   if (rows.size() != planned.half_steps.size()) {
     findings->Disagree(path + Formatted(": %zu half-steps, the footsteps make %zu", rows.size(),
                                         planned.half_steps.size()));
+    return false;
+  }
+  if (text.overlaps.size() + 1 != rows.size()) {
+    findings->Disagree(folder + Formatted("/overlaps.csv: %zu overlaps of %zu half-steps",
+                                          text.overlaps.size(), rows.size()));
     return false;
   }
   Faults faults;
@@ -66,6 +73,10 @@ bool CheckHalfSteps(const std::vector<HalfStepRow>& rows, const HalfStepSequence
     if (fault.empty() && i > 0) {
       const double overlap = rows[i - 1].start + rows[i - 1].duration - rows[i].start;
       fault = FaultOfOverlap(overlap, rows[i - 1], rows[i], half_step.shape);
+      if (fault.empty() && !Near(overlap, text.overlaps[i - 1])) {
+        fault = Formatted("overlap %.9g by starts and durations, %.9g in overlaps.csv", overlap,
+                          text.overlaps[i - 1]);
+      }
     }
     if (fault.empty() && rows[i].FormOf(half_step).footstep != Pose2{}) {
       fault = "a footstep that is moved, which no walk of an episode has";
@@ -125,8 +136,7 @@ EpisodeWalks CheckEpisodeWalks(const EpisodeText& episode, const EpisodeWalkFram
     const std::string folder = FolderOfWalk(k);
     const HalfStepSequence planned =
         SequenceOf(text.footsteps, frame, folder + "/footsteps.csv", findings);
-    if (planned.half_steps.empty() ||
-        !CheckHalfSteps(text.half_steps, planned, folder + "/half_steps.csv", findings)) {
+    if (planned.half_steps.empty() || !CheckHalfSteps(text, planned, folder, findings)) {
       return all;
     }
     try {

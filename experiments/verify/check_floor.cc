@@ -4,24 +4,17 @@
 
 #include "experiments/verify/check_rows.h"
 #include "experiments/verify/floor_distances.h"
+#include "experiments/verify/tolerances.h"
 
 namespace halfstep::verify {
-namespace {
-
-// What may lie between a foot's columns and its bodies by forward kinematics: 1e-6 m of the sole's
-// place, 1e-6 m that a robot file grants a body below it [m].
-constexpr double kFootPlace = 2e-6;
-constexpr double kFloorRounding = 1e-9;  // of a distance that is computed twice [m]
-
-}  // namespace
-
 void CheckFloor(const PlayedMotion& motion, const Scene& scene, const CertificateText& certificate,
                 double tolerance, Findings* findings) {
   const RobotModel& robot = motion.robot();
   const std::vector<PlayedRow>& rows = motion.rows();
-  Check feet("feet above the floor", "m", 0, kFootPlace);
+  const Tolerances near(robot);
+  Check feet("feet above the floor", "m", 0, near.foot);
   Check ground("bodies above the floor", "m", certificate.demanded[kGround], tolerance);
-  Check areas("no-step areas", "m", certificate.demanded[kNoStep], kFloorRounding);
+  Check areas("no-step areas", "m", certificate.demanded[kNoStep], near.length);
   std::vector<double> before(robot.bodies.size());
   std::array<std::optional<Pose2>, 2> footprint;
   for (size_t i = 0; i < rows.size(); ++i) {

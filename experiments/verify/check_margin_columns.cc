@@ -5,6 +5,7 @@
 
 #include "experiments/verify/check_rows.h"
 #include "experiments/verify/joint_accelerations.h"
+#include "experiments/verify/tolerances.h"
 
 namespace halfstep::verify {
 namespace {
@@ -12,9 +13,6 @@ namespace {
 // Distances beyond this are not told apart, or beyond twice what is demanded [m].
 // Source: smoothing/README.md, "Margins".
 constexpr double kHorizon = 0.3;
-constexpr double kColumnRounding = 1e-8;
-constexpr double kSpeedColumnRounding = 1e-6;
-constexpr double kMomentumColumnRounding = 1e-7;  // of RobotMomentum, by second differences
 
 double JointSpeedMarginAt(const DescribedWalk& walk, double t, double scale) {
   const std::array<Vector6d, 2> speeds = walk.JointSpeeds(t);
@@ -66,10 +64,10 @@ std::array<double, kNumMarginColumns> MarginsAt(const DescribedWalk& walk, const
 void CheckMarginColumns(const std::vector<PlayedRow>& rows, const DescribedWalk& walk,
                         const CertificateText& certificate, Distances* distances,
                         Findings* findings) {
-  constexpr std::array<double, kNumMarginColumns> kTolerances = {
-      kColumnRounding,      kColumnRounding,      kSpeedColumnRounding,    kColumnRounding,
-      Distances::kAccuracy, Distances::kAccuracy, kMomentumColumnRounding, kTorqueRounding,
-      kFrictionRounding,    kAccelerationRounding};
+  const Tolerances near(walk.robot());
+  const std::array<double, kNumMarginColumns> tolerances = {
+      near.column, near.column,   near.joint_speed, near.column,   near.slab,
+      near.slab,   near.momentum, near.torque,      near.friction, near.acceleration};
   const double horizon = std::max(
       {kHorizon, 2 * certificate.demanded[kClearance], 2 * certificate.demanded[kSelfClearance]});
   const size_t columns = NumMarginColumns(walk.robot());
@@ -77,11 +75,10 @@ void CheckMarginColumns(const std::vector<PlayedRow>& rows, const DescribedWalk&
   for (size_t i = 0; i < rows.size(); ++i) {
     // Whatever is farther than both columns say need not be asked.
     const double stated = std::max(rows[i].margins[4], rows[i].margins[5]);
-    const double enough =
-        stated < horizon ? std::min(horizon, stated + 2 * Distances::kAccuracy) : horizon;
+    const double enough = stated < horizon ? std::min(horizon, stated + 2 * near.slab) : horizon;
     const auto found = MarginsAt(walk, rows[i], certificate, enough, distances);
     for (size_t k = 0; k < columns; ++k) {
-      if (Same(found[k], rows[i].margins[k], kTolerances[k])) continue;
+      if (Same(found[k], rows[i].margins[k], tolerances[k])) continue;
       faults[k].Add(Formatted("trajectory.csv:%zu: %s is %.9g, but %.9g by the walk", i + 2,
                               kMarginColumns[k], rows[i].margins[k], found[k]));
     }

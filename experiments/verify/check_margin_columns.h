@@ -16,9 +16,8 @@ std::array<double, kNumMarginColumns> MarginsAt(const DescribedWalk& walk, const
                                                 const CertificateText& certificate, double horizon,
                                                 Distances* distances);
 
-/// Whether the margin columns of trajectory.csv are what they say: within 1e-8 m and rad, 1e-6
-/// rad/s for joint speeds (differences of angles 20 µs apart) and Distances::kAccuracy for
-/// distances.
+/// Whether the margin columns of trajectory.csv are what they say, within Tolerances: of a column,
+/// of joint speeds, of dynamics, and for distances of slabs.
 void CheckMarginColumns(const std::vector<PlayedRow>& rows, const DescribedWalk& walk,
                         const CertificateText& certificate, Distances* distances,
                         Findings* findings);

@@ -184,6 +184,27 @@ bool CheckOverlaps(const std::vector<HalfStepRow>& half_steps,
   return findings->disagreements() == before;
 }
 
+void CheckUpperBounds(const std::string& method, const std::vector<HalfStepRow>& half_steps,
+                      const std::vector<OverlapRow>& overlaps, const HalfStepSequence& planned,
+                      const DichotomyOptions& config, Findings* findings) {
+  const bool published = method == "dichotomy/published";
+  const bool capped = method == "dichotomy" || method == "dichotomy/right_to_left" ||
+                      method == "dichotomy/three_passes";
+  Faults faults;
+  for (size_t i = 0; i < overlaps.size(); ++i) {
+    const bool up = half_steps[i].kind == "up";
+    const double cap = published ? (up ? 0.8 : 0.76)
+                       : capped  ? (up ? config.up_down_cap : config.down_up_cap)
+                                 : 1;
+    const double bound =
+        cap * NaturalBound(half_steps[i], half_steps[i + 1], planned.half_steps[i].half_step.shape);
+    if (Same(overlaps[i].upper_bound, bound)) continue;
+    faults.Add(Formatted("overlaps.csv:%zu: upper_bound_s is %.9g, but %.9g by half_steps.csv",
+                         i + 2, overlaps[i].upper_bound, bound));
+  }
+  faults.Conclude(findings);
+}
+
 void CheckFixed(const std::vector<HalfStepRow>& half_steps, const std::vector<OverlapRow>& overlaps,
                 const HalfStepSequence& planned, const std::vector<FixedConfig>& fixed,
                 Findings* findings) {

@@ -35,6 +35,13 @@ bool CheckOverlaps(const std::vector<HalfStepRow>& half_steps,
                    const std::optional<std::vector<OverlapRow>>& overlaps,
                    const HalfStepSequence& planned, Findings* findings);
 
+/// Whether `upper_bound_s` of overlaps.csv is the largest overlap that was allowed: the natural
+/// bound, times the caps of the dichotomy that `method` is, if it is one. Precondition:
+/// CheckOverlaps() returned true.
+void CheckUpperBounds(const std::string& method, const std::vector<HalfStepRow>& half_steps,
+                      const std::vector<OverlapRow>& overlaps, const HalfStepSequence& planned,
+                      const DichotomyOptions& config, Findings* findings);
+
 /// Whether each parameter in smoothing.fixed has the value that is given there, or else the planned
 /// one. A family that is not known here is a disagreement. Precondition: CheckOverlaps() returned
 /// true.

@@ -7,15 +7,9 @@
 #include "experiments/verify/check_rows.h"
 #include "experiments/verify/check_walk.h"
 #include "experiments/verify/joint_accelerations.h"
+#include "experiments/verify/tolerances.h"
 
 namespace halfstep::verify {
-namespace {
-
-// Rows of the walk itself, where those of the trajectory are too coarse to be played [s].
-constexpr double kFine = 0.001;
-
-}  // namespace
-
 void CheckPlayed(const PlayedMotion& motion, const DescribedWalk& walk,
                  const CertificateText& certificate, double tolerance, Distances* distances,
                  Findings* findings) {
@@ -32,7 +26,9 @@ void CheckPlayed(const PlayedMotion& motion, const DescribedWalk& walk,
     findings->Take(played);
     return;
   }
-  const std::vector<PlayedRow> rows = FinerRows(motion.rows(), walk, kFine);
+  // Rows of the walk itself, where those of the trajectory are too coarse to be played.
+  const double finest = Tolerances(motion.robot()).fine_rows;
+  const std::vector<PlayedRow> rows = FinerRows(motion.rows(), walk, finest);
   const bool finite =
       std::all_of(rows.begin(), rows.end(), [](const PlayedRow& row) { return row.AllFinite(); });
   if (!finite) {
@@ -44,7 +40,7 @@ void CheckPlayed(const PlayedMotion& motion, const DescribedWalk& walk,
   findings->Take(fine);
   if (fine.disagreements() > 0) return;
   findings->TooCoarse("played straight from row to row the walk leaves its margins by more than " +
-                      Formatted("%.3g; rows every %.3g s keep them: ", tolerance, kFine) +
+                      Formatted("%.3g; rows every %.3g s keep them: ", tolerance, finest) +
                       played.reasons().front());
 }
 

@@ -5,6 +5,7 @@
 #include <functional>
 #include <utility>
 
+#include "experiments/verify/tolerances.h"
 #include "wpg/geometry/support_polygon.h"
 #include "wpg/motion/lipm.h"
 
@@ -13,16 +14,6 @@ namespace {
 
 // Numbers beyond this are no walk: [m], [rad], [m/s²] …
 constexpr double kHuge = 1e4;
-// What rounding may do to a number that is computed twice [m], [rad].
-constexpr double kRowRounding = 1e-9;
-// Second differences of joint angles that are known to 3e-14 (legs without closed form) [m].
-constexpr double kMomentumRounding = 1e-7;
-// Sole by forward kinematics against the foot columns [m], [rad].
-constexpr double kSolePlace = 1e-6;
-// Residual of z_c/g·c̈ − c + p [m].
-constexpr double kPendulum = 1e-8;
-// [m], [rad]: a foot that stands may move this much between two rows by rounding.
-constexpr double kStill = 1e-9;
 
 std::string At(double t) { return Formatted("at t = %.6g s", t); }
 const char* SideName(int side) { return side == 0 ? "left" : "right"; }
@@ -61,7 +52,8 @@ bool CheckIsMotion(const std::vector<PlayedRow>& rows, Findings* findings) {
 
 bool MovesHorizontally(const PlayedMotion& motion, size_t i, int side) {
   const Eigen::Vector4d d = motion.rows()[i + 1].soles[Of(side)] - motion.rows()[i].soles[Of(side)];
-  return d.head<2>().norm() > kStill || std::abs(d[3]) > kStill;
+  const double moved = Tolerances(motion.robot()).moved;
+  return d.head<2>().norm() > moved || std::abs(d[3]) > moved;
 }
 
 double FootSpeed(const PlayedMotion& motion, size_t i, int side) {
@@ -113,14 +105,15 @@ double JointSpeedMargin(const PlayedMotion& motion, size_t i, int side, int join
 void CheckConsistency(const PlayedMotion& motion, const DescribedWalk& walk, Findings* findings) {
   const RobotModel& robot = motion.robot();
   const std::vector<PlayedRow>& rows = motion.rows();
+  const Tolerances near(robot);
   const double k = robot.com_height / Lipm{}.gravity;  // z_c/g
-  Check soles("soles by forward kinematics", "m or rad", 0, kSolePlace);
-  Check waist("waist under the CoM", "m", 0, kSolePlace);
-  Check pendulum("pendulum", "m", 0, kPendulum);
+  Check soles("soles by forward kinematics", "m or rad", 0, near.sole);
+  Check waist("waist under the CoM", "m", 0, near.sole);
+  Check pendulum("pendulum", "m", 0, near.pendulum);
   // What the trapezoidal rule's error leaves.
   Check velocity("CoM velocity", "m/s", 0, 0);
   Check acceleration("CoM acceleration", "m/s²", 0, 0);
-  Check standing("standing feet", "m or rad", 0, kStill);
+  Check standing("standing feet", "m or rad", 0, near.length);
   for (size_t i = 0; i < rows.size(); ++i) {
     const PlayedRow& row = rows[i];
     const auto here = [&row] { return At(row.t); };
@@ -156,7 +149,7 @@ void CheckConsistency(const PlayedMotion& motion, const DescribedWalk& walk, Fin
     const Eigen::Vector2d v = (row.com - last.com).head<2>() / dt;
     const Eigen::Vector2d a = (row.com_velocity - last.com_velocity) / dt;
     // Differences of rounded numbers say nothing over a short last interval.
-    const double rounding = kRowRounding + 1e-14 / dt;
+    const double rounding = near.length + 1e-14 * near.size / dt;
     const double fourth = walk.ComFourthBound(last.t, row.t);
     const double jump = (row.com_acceleration - last.com_acceleration).norm();
     // Sways are cubic between knots, where their third derivative jumps by twice its bound at most.
@@ -180,16 +173,17 @@ void CheckRowMargins(const PlayedMotion& motion, const CertificateText& certific
   const auto make = [&](Family family, const char* name, double slack) {
     return Check(name, kUnits[family], certificate.demanded[family], slack);
   };
-  Check joint = make(kJoint, "joint limits", kRowRounding);
-  Check joint_speed = make(kJointSpeed, "joint speeds", 1e-6);
-  Check reach = make(kReach, "leg reach", kRowRounding);
+  const Tolerances near(robot);
+  Check joint = make(kJoint, "joint limits", near.length);
+  Check joint_speed = make(kJointSpeed, "joint speeds", near.joint_speed);
+  Check reach = make(kReach, "leg reach", near.length);
   Check floor = make(kFloor, "height of a moving sole", tolerance);
-  Check foot_speed = make(kFootSpeed, "foot speed", 1e-6);
-  Check foot_yaw_rate = make(kFootYawRate, "foot yaw rate", 1e-6);
-  Check zmp = make(kZmp, "ZMP", kRowRounding);
+  Check foot_speed = make(kFootSpeed, "foot speed", near.foot_speed);
+  Check foot_yaw_rate = make(kFootYawRate, "foot yaw rate", near.joint_speed);
+  Check zmp = make(kZmp, "ZMP", near.length);
   Check change("ZMP where the support changes", "m", std::min(0.0, certificate.demanded[kZmp]),
                tolerance);
-  Check above("soles above the floor", "m", 0, kRowRounding);
+  Check above("soles above the floor", "m", 0, near.length);
   for (size_t i = 0; i < rows.size(); ++i) {
     const PlayedRow& row = rows[i];
     zmp.Add(ZmpMargin(row, robot), [&] { return At(row.t); });
@@ -242,6 +236,7 @@ void CheckDynamics(const std::vector<PlayedRow>& rows, const DescribedWalk& walk
     Check check;
     std::function<double(const WalkDynamics&)> margin;
   };
+  const Tolerances near(walk.robot());
   std::vector<Checked> all;
   const auto add = [&](Family family, const char* what, const char* unit, double rounding,
                        std::function<double(const WalkDynamics&)> margin) {
@@ -253,11 +248,11 @@ void CheckDynamics(const std::vector<PlayedRow>& rows, const DescribedWalk& walk
     }
     all.push_back({Check(what, unit, certificate.demanded[family], rounding), std::move(margin)});
   };
-  add(kZmpRobot, "ZMP of the whole robot", "m", kMomentumRounding,
+  add(kZmpRobot, "ZMP of the whole robot", "m", near.momentum,
       [](const WalkDynamics& at) { return at.zmp; });
-  add(kTorque, "joint torques", "N m", kTorqueRounding,
+  add(kTorque, "joint torques", "N m", near.torque,
       [&](const WalkDynamics& at) { return at.LeastTorqueMargin(walk.robot()); });
-  add(kFriction, "friction", "", kFrictionRounding,
+  add(kFriction, "friction", "", near.friction,
       [&](const WalkDynamics& at) { return friction - at.friction; });
   if (all.empty()) return;
   for (const PlayedRow& row : rows) {

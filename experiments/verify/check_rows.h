@@ -11,10 +11,6 @@
 
 namespace halfstep::verify {
 
-/// What second differences of joint angles (RobotMomentum) do to torques [N m] and to the needed
-/// friction coefficient, which shares of the feet and a short lever magnify.
-inline constexpr double kTorqueRounding = 1e-3, kFrictionRounding = 1e-6;
-
 /// The margin of what has no limit [any unit].
 inline constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 

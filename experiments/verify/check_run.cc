@@ -1,13 +1,10 @@
 #include "experiments/verify/check_run.h"
 
-#include "experiments/config/experiment.h"
 #include "wpg/files/sha256.h"
 #include "wpg/files/text.h"
 
 namespace halfstep::verify {
 namespace {
-
-namespace fs = std::filesystem;
 
 // The first file that is not as it was, as a sentence; "": all are.
 std::string Changed(const std::vector<InputFile>& now, const std::vector<InputFile>& then) {
@@ -31,27 +28,6 @@ void CheckInputs(const std::string& what, const std::vector<InputFile>& now,
                        (changed.empty() ? ")" : "; " + changed + ")"));
   }
   CheckManifestInputs(what, now, then, manifest_hash, findings);
-}
-
-bool SameFile(const fs::path& a, const fs::path& b) {
-  std::error_code ignored;
-  return fs::weakly_canonical(a, ignored) == fs::weakly_canonical(b, ignored);
-}
-
-void CheckPlaces(const RunParts& parts, Findings* findings) {
-  const CertificateText& certificate = parts.certificate;
-  if (!parts.robot_given && !SameFile(parts.run / certificate.robot, RobotPath(parts.config))) {
-    findings->Disagree("the certificate is about the robot " + Quote(certificate.robot) +
-                       ", config.yaml about " + Quote(parts.config.robot));
-  }
-  const auto scene = ScenePath(parts.config);
-  const bool same = scene.has_value() ? certificate.scene != "none" &&
-                                            SameFile(parts.run / certificate.scene, *scene)
-                                      : certificate.scene == "none";
-  if (!parts.scene_given && !same) {
-    findings->Disagree("the certificate is about the scene " + Quote(certificate.scene) +
-                       ", config.yaml about " + Quote(parts.config.scene));
-  }
 }
 
 void CheckMethods(const RunParts& parts, Findings* findings) {
@@ -96,7 +72,6 @@ void CheckRun(const RunParts& parts, const std::string& config_bytes, Findings* 
               manifest.robot_sha256, findings);
   CheckInputs("scene", parts.scene.files, manifest.scene_files, certificate.scene_hash,
               manifest.scene_sha256, findings);
-  CheckPlaces(parts, findings);
   CheckMethods(parts, findings);
   const auto agree = [findings](const char* what, bool same) {
     if (!same) findings->Disagree(std::string(what) + ": manifest.json disagrees with config.yaml");

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -21,10 +20,7 @@ struct RunParts {
   const CertificateText& certificate;  ///< certificate.json
   const RobotModel& robot;             ///< of which they speak
   const Scene& scene;                  ///< of which they speak
-  std::filesystem::path run;           ///< its folder
   std::string folder;                  ///< of the method
-  bool robot_given = false;            ///< on the command line; then paths are not compared
-  bool scene_given = false;            ///< the same of the scene
 };
 
 /// Whether the files that were parsed `now`, of the robot or the scene (`what`), are those of a

@@ -1,13 +1,64 @@
 #include "experiments/verify/check_summary.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 namespace halfstep::verify {
 namespace {
 
+// The families of kMarginColumns.
+constexpr std::array<Family, kNumMarginColumns> kFamilyOfColumn = {
+    kZmp,           kJoint,    kJointSpeed, kFootSpeed, kClearance,
+    kSelfClearance, kZmpRobot, kTorque,     kFriction,  kJointAcceleration};
+
 constexpr double kRatioRounding = 1e-12;  // of ratios that are computed twice
 
 }  // namespace
+
+void CheckWorstMargin(const std::vector<SummaryRow>& summary, const std::string& folder,
+                      const std::vector<PlayedRow>& rows, const RobotModel& robot,
+                      const CertificateText& certificate, const MarginLimits& config,
+                      Findings* findings) {
+  const auto row = std::ranges::find_if(
+      summary, [&](const SummaryRow& one) { return FolderOfMethod(one.method) == folder; });
+  if (row == summary.end() || rows.empty()) return;  // CheckSummary says so
+  double nearest = std::numeric_limits<double>::infinity(), named = nearest;
+  std::string name;
+  std::optional<double> least_named;
+  for (const MarginFamily family : AllMarginFamilies()) {
+    const std::string of(Name(family));
+    const auto column =
+        std::ranges::find_if(kFamilyOfColumn, [&](Family one) { return of == kFamilyNames[one]; });
+    const bool has_column =
+        column != kFamilyOfColumn.end() &&
+        static_cast<size_t>(column - kFamilyOfColumn.begin()) < NumMarginColumns(robot);
+    if (of == row->worst_family) {
+      named = (row->worst_margin - config.demanded_of(family)) / Scale(family);
+    }
+    if (!has_column || certificate.demanded[*column] == kNotDemanded) continue;
+    const auto k = static_cast<size_t>(column - kFamilyOfColumn.begin());
+    double least = std::numeric_limits<double>::infinity();
+    for (const PlayedRow& played : rows) least = std::min(least, played.margins[k]);
+    if (of == row->worst_family) least_named = least;
+    const double slack = (least - config.demanded_of(family)) / Scale(family);
+    if (slack < nearest) {
+      nearest = slack;
+      name = of;
+    }
+  }
+  if (least_named && *least_named != row->worst_margin) {
+    findings->Disagree("summary.csv: " + row->method + ": worst_margin " +
+                       Formatted("is %.9g, but the least %s of trajectory.csv %.9g",
+                                 row->worst_margin, row->worst_family.c_str(), *least_named));
+  }
+  if (!(named <= nearest + kRatioRounding)) {
+    findings->Disagree("summary.csv: " + row->method + ": worst_margin_name is " +
+                       Quote(row->worst_family) + ", but " + name + " is nearer to its limit");
+  }
+}
 
 void CheckSummary(const std::vector<SummaryRow>& rows, const RunManifest& manifest,
                   const std::string& folder, const CertificateText& certificate, long iterations,

@@ -3,13 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/verify/tolerances.h"
+
 namespace halfstep::verify {
 namespace {
-
-// What rounding may do to a number that is computed twice: [m], [rad], [m/s], [m/s²].
-constexpr double kSame = 1e-8;
-// Instants this close to a change of support or half-step belong to either side [s].
-constexpr double kInstant = 1e-9;
 
 // The largest difference, and the name of the columns that it is in.
 struct Difference {
@@ -44,22 +41,25 @@ void CheckRowsOnWalk(const std::vector<PlayedRow>& rows, const DescribedWalk& wa
     findings->Disagree(Formatted("trajectory.csv: %zu rows, the walk has %zu every %.9g s",
                                  rows.size(), expected, period));
   }
+  const Tolerances near(walk.robot());
+  // Instants this close to a change of support or half-step belong to either side [s].
+  const double instant = near.inside;
   double largest = 0;
   Faults times, places, supports, half_steps;
   for (size_t i = 0; i < rows.size(); ++i) {
     const PlayedRow& row = rows[i];
     const std::string line = Formatted("trajectory.csv:%zu: ", i + 2);
     const double t = i + 1 == rows.size() ? end : static_cast<double>(i) * period;
-    if (!(std::abs(row.t - t) <= kInstant)) {
+    if (!(std::abs(row.t - t) <= instant)) {
       times.Add(line + Formatted("t_s is %.9g instead of %.9g", row.t, t));
     }
     const Difference difference = LargestDifference(row, walk.Row(row.t));
     largest = std::max(largest, difference.size);
-    if (!(difference.size <= kSame)) {
+    if (!(difference.size <= near.row)) {
       places.Add(line + difference.columns +
                  Formatted(" is off the walk of half_steps.csv by %.6g", difference.size));
     }
-    const double before = row.t - kInstant, after = row.t + kInstant;
+    const double before = row.t - instant, after = row.t + instant;
     if (row.support != walk.SupportAt(before) && row.support != walk.SupportAt(row.t) &&
         row.support != walk.SupportAt(after)) {
       supports.Add(line + "another support than the walk of half_steps.csv has");

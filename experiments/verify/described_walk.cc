@@ -6,6 +6,7 @@
 
 #include "experiments/verify/check_rows.h"
 #include "experiments/verify/foot_forces.h"
+#include "experiments/verify/tolerances.h"
 #include "wpg/check.h"
 #include "wpg/motion/moved_footsteps.h"
 #include "wpg/motion/posture.h"
@@ -149,8 +150,8 @@ PlayedRow DescribedWalk::Row(double t) const {
 }
 
 std::array<Vector6d, 2> DescribedWalk::JointSpeeds(double t) const {
-  constexpr double kHalf = 1e-5;  // [s]
-  const double from = std::max(t - kHalf, 0.0), to = std::min(t + kHalf, end());
+  const double half = Tolerances(robot_).speed_step;
+  const double from = std::max(t - half, 0.0), to = std::min(t + half, end());
   const Posture a = SolvePosture(robot_, At(from).value), b = SolvePosture(robot_, At(to).value);
   std::array<Vector6d, 2> speeds;
   for (size_t s = 0; s < 2; ++s) speeds[s] = (b.ik[s].q - a.ik[s].q) / (to - from);

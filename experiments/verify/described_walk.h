@@ -62,8 +62,8 @@ class DescribedWalk {
   /// All that a row of trajectory.csv says at t [s], but for the margins. Joint angles are nan
   /// where a leg does not reach.
   PlayedRow Row(double t) const;
-  /// q̇ of both legs by Index(Side) [rad/s]: central differences over 20 µs, one-sided ones over 10
-  /// µs at the walk's ends.
+  /// q̇ of both legs by Index(Side) [rad/s]: central differences over twice
+  /// Tolerances::speed_step, one-sided ones over one at the walk's ends.
   std::array<Vector6d, 2> JointSpeeds(double t) const;
 
   WalkDynamics DynamicsAt(double t) const;  ///< at t [s]

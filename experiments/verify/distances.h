@@ -57,10 +57,6 @@ class Distances {
   double NearestObstacle(const Placement& at, double t, double horizon);
   double NearestPair(const Placement& at, double horizon);  ///< of any watched pair of bodies
 
-  /// How far the program's distances may be from these [m]: its slabs and its meshes may be 1e-6 m
-  /// too near (planner/collision/separation.h).
-  static constexpr double kAccuracy = 2e-6;
-
   /// "RLEG_LINK5 - bar", "LLEG_LINK5 - RLEG_LINK5".
   std::string NameOfObstaclePair(size_t body, size_t obstacle) const;
   std::string NameOfPair(size_t a, size_t b) const;  ///< of two bodies

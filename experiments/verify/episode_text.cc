@@ -202,8 +202,10 @@ EpisodeText ReadEpisode(const std::filesystem::path& folder, size_t walks) {
   for (size_t k = 0; k < walks; ++k) {
     const std::string footsteps = (folder / FolderOfWalk(k) / "footsteps.csv").string();
     const std::string half_steps = (folder / FolderOfWalk(k) / "half_steps.csv").string();
+    const std::string overlaps = (folder / FolderOfWalk(k) / "overlaps.csv").string();
     text.walks.push_back({.footsteps = ReadFootsteps(footsteps, ReadBytes(footsteps)),
-                          .half_steps = ReadHalfSteps(half_steps, ReadBytes(half_steps))});
+                          .half_steps = ReadHalfSteps(half_steps, ReadBytes(half_steps)),
+                          .overlaps = ReadOverlapsOfEpisode(overlaps, ReadBytes(overlaps))});
   }
   return text;
 }

@@ -82,6 +82,7 @@ struct EventRow {
 struct EpisodeWalkText {
   std::vector<FootstepRow> footsteps;   ///< footsteps.csv of that walk
   std::vector<HalfStepRow> half_steps;  ///< half_steps.csv of that walk
+  std::vector<double> overlaps;         ///< overlaps.csv of that walk [s]
 };
 
 /// The tables of an episode as they are read. Numbers that name a row of another table need not

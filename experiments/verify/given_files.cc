@@ -4,18 +4,21 @@
 
 namespace halfstep::verify {
 
+YamlOverride NamedInstead(const char* key, const std::string& path) {
+  std::string yaml = "'";
+  for (const char c : std::filesystem::absolute(path).string()) {
+    yaml += c == '\'' ? std::string("''") : std::string(1, c);
+  }
+  return {key, yaml + "'"};
+}
+
 std::vector<YamlOverride> GivenFiles(const VerifyOptions& options) {
-  const auto quoted = [](const std::string& path) {
-    std::string yaml = "'";
-    for (const char c : std::filesystem::absolute(path).string()) {
-      yaml += c == '\'' ? std::string("''") : std::string(1, c);
-    }
-    return yaml + "'";
-  };
   std::vector<YamlOverride> given;
-  if (options.robot) given.push_back({"robot", quoted(*options.robot)});
-  if (options.scene) {
-    given.push_back({"scene", *options.scene == "none" ? "none" : quoted(*options.scene)});
+  if (options.robot) given.push_back(NamedInstead("robot", *options.robot));
+  if (options.scene && *options.scene != "none") {
+    given.push_back(NamedInstead("scene", *options.scene));
+  } else if (options.scene) {
+    given.push_back({"scene", "none"});
   }
   return given;
 }

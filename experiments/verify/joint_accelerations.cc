@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "experiments/verify/tolerances.h"
 #include "wpg/files/text.h"
 #include "wpg/motion/posture.h"
 #include "wpg/robot/acceleration_limits.h"
@@ -12,7 +13,6 @@ namespace halfstep::verify {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kAngleStep = 5e-4;  // between the angles of a difference [s]
 // Of the angle here, and of those one step and more away.
 constexpr std::array<double, 5> kWeights = {-205.0 / 72, 8.0 / 5, -1.0 / 5, 8.0 / 315, -1.0 / 560};
 
@@ -26,16 +26,17 @@ double MarginOf(const RobotModel& robot, const std::array<Vector6d, 2>& accelera
 
 std::array<Vector6d, 2> JointAccelerations(const DescribedWalk& walk, double t) {
   const WalkJet jet = walk.At(t);
+  const double step = Tolerances(walk.robot()).acceleration_step;
   std::array<Vector6d, 2> sum = {Vector6d::Zero(), Vector6d::Zero()};
   for (int k = -4; k <= 4; ++k) {
-    const double s = k * kAngleStep;
+    const double s = k * step;
     const Posture posture =
         SolvePosture(walk.robot(), jet.value + s * jet.first + 0.5 * s * s * jet.second);
     const double weight =
         posture.reachable ? kWeights[static_cast<size_t>(std::abs(k))] : std::nan("");
     for (size_t side = 0; side < 2; ++side) sum[side] += weight * posture.ik[side].q;
   }
-  for (Vector6d& of_leg : sum) of_leg /= kAngleStep * kAngleStep;
+  for (Vector6d& of_leg : sum) of_leg /= step * step;
   return sum;
 }
 
@@ -63,7 +64,8 @@ void CheckJointAccelerations(const std::vector<PlayedRow>& rows, const Described
     findings->Say("joint accelerations: nothing is demanded");
     return;
   }
-  Check check("joint accelerations", kUnits[kJointAcceleration], demanded, kAccelerationRounding);
+  Check check("joint accelerations", kUnits[kJointAcceleration], demanded,
+              Tolerances(walk.robot()).acceleration);
   for (const PlayedRow& row : rows) {
     check.Add(LeastJointAccelerationMargin(walk, row.t),
               [&row] { return Formatted("at t = %.6g s", row.t); });

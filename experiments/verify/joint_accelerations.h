@@ -10,9 +10,6 @@
 
 namespace halfstep::verify {
 
-/// What second differences of joint angles do to joint accelerations [rad/s²].
-inline constexpr double kAccelerationRounding = 1e-5;
-
 /// q̈ of both legs by Index(Side) [rad/s²] at an instant of a walk: differences of eighth order of
 /// the joint angles that inverse kinematics gives while the walk's quantities go along the parabola
 /// that they describe there. Not a number where a leg does not reach on it. Nothing of the

@@ -4,12 +4,12 @@
 #include <array>
 #include <cmath>
 
+#include "experiments/verify/tolerances.h"
 #include "wpg/motion/posture.h"
 
 namespace halfstep::verify {
 namespace {
 
-constexpr double kStep = 2e-3;  // between the places of a difference [s]
 constexpr std::array<double, 5> kSecond = {-205.0 / 72, 8.0 / 5, -1.0 / 5, 8.0 / 315, -1.0 / 560};
 
 using Points = Eigen::Matrix<double, 3, 6>;
@@ -34,9 +34,10 @@ Points PointsOf(const BodyMass& body) {
 std::optional<RobotMomentum> RobotMomentum::Of(const RobotModel& robot, const WalkJet& jet,
                                                double gravity) {
   if (!robot.masses.known()) return std::nullopt;
+  const double step = Tolerances(robot).momentum_step;
   std::array<Posture, 9> postures;
   for (size_t k = 0; k < postures.size(); ++k) {
-    const double t = kStep * (static_cast<double>(k) - 4);
+    const double t = step * (static_cast<double>(k) - 4);
     postures[k] = SolvePosture(robot, jet.value + t * jet.first + 0.5 * t * t * jet.second);
     if (!postures[k].reachable) return std::nullopt;
   }
@@ -50,7 +51,7 @@ std::optional<RobotMomentum> RobotMomentum::Of(const RobotModel& robot, const Wa
     for (size_t k = 1; k <= 4; ++k) {
       a += kSecond[k] * (pose(postures[4 + k]) * points + pose(postures[4 - k]) * points);
     }
-    a /= kStep * kStep;
+    a /= step * step;
     for (Eigen::Index i = 0; i < 6; ++i) {
       const Eigen::Vector3d force = body.mass / 6 * (a.col(i) + gravity * Eigen::Vector3d::UnitZ());
       push.force += force;

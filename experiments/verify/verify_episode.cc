@@ -10,6 +10,7 @@
 #include "experiments/verify/check_episode_motion.h"
 #include "experiments/verify/check_episode_promise.h"
 #include "experiments/verify/check_episode_proof.h"
+#include "experiments/verify/check_episode_times.h"
 #include "experiments/verify/check_episode_walks.h"
 #include "experiments/verify/check_episode_worlds.h"
 #include "experiments/verify/check_files.h"
@@ -17,7 +18,9 @@
 #include "experiments/verify/check_run.h"
 #include "experiments/verify/csv_text.h"
 #include "experiments/verify/episode_text.h"
+#include "experiments/verify/found_inputs.h"
 #include "experiments/verify/given_files.h"
+#include "experiments/verify/tolerances.h"
 #include "smoothing/margins/own_margin.h"
 #include "wpg/files/sha256.h"
 
@@ -37,9 +40,36 @@ FolderFiles FilesOf(const fs::path& folder, size_t walks) {
   for (size_t k = 0; k < walks; ++k) {
     files.needed.insert(FolderOfWalk(k) + "/footsteps.csv");
     files.needed.insert(FolderOfWalk(k) + "/half_steps.csv");
+    files.needed.insert(FolderOfWalk(k) + "/overlaps.csv");
   }
   if (walks > 0) files.needed.insert("trajectory.csv");
   return files;
+}
+
+// Robot and scene of an episode, by their hashes, with the boxes to spare.
+Place PlaceOf(const VerifyOptions& options, const LiveConfig& config,
+              const EpisodeManifest& manifest) {
+  Place place;
+  place.scene.name = "none";
+  const ExperimentConfig& experiment = config.experiment;
+  place.robot = options.robot ? LoadRobot(*options.robot)
+                              : FindRobot({.what = "robot",
+                                           .run = options.run,
+                                           .places = {RobotPath(experiment)},
+                                           .sha256 = manifest.robot_sha256})
+                                    .input;
+  const auto scene = ScenePath(experiment);
+  if (scene && options.scene) {
+    place.scene = LoadScene(scene->string());
+  } else if (scene) {
+    place.scene = FindScene({.what = "scene",
+                             .run = options.run,
+                             .places = {*scene},
+                             .sha256 = manifest.scene_sha256})
+                      .input;
+  }
+  place.scene = WithSpareBoxes(std::move(place.scene), config.live);
+  return place;
 }
 
 // Whether manifest and config speak of the same episode, robot and scene.
@@ -85,9 +115,10 @@ void CheckEpisodeWalking(const VerifyOptions& options, const EpisodeText& episod
   const double period = experiment.output_period.value_or(kRowPeriod);
   CheckEpisodeTrajectory(rows, manifest, executed, period, findings);
   CheckEpisodeEnding(episode, manifest, all, executed, experiment.goal, findings);
-  CheckEpisodeProof(episode, all.walks.back(), place.scene,
-                    DemandsOf(experiment.smoothing.limits, findings),
-                    {.period = period, .tolerance = options.tolerance}, findings);
+  CheckEpisodeProof(
+      episode, all.walks.back(), place.scene, DemandsOf(experiment.smoothing.limits, findings),
+      {.period = period, .tolerance = options.tolerance.value_or(Tolerances(place.robot).played)},
+      findings);
   CheckEpisodePromise(promise, {episode, &executed, manifest.end, place.scene, config.live},
                       findings);
 }
@@ -103,7 +134,7 @@ std::vector<NotCovered> VerifyEpisode(const VerifyOptions& options,
   CheckListedFiles(options.run, FilesOf(folder, walks), manifest.files, findings);
   const std::string config_path = (folder / "config.yaml").string();
   const LiveConfig config = LoadLiveConfig(config_path, GivenFiles(options));
-  const Place place = LoadEpisodePlace(config);
+  const Place place = PlaceOf(options, config, manifest);
   CheckEpisodeInputs(manifest, config, ReadBytes(config_path), place, findings);
   if (!OwnMargins().empty()) {
     findings->NotExamined("whether the family `own` holds: its formula is not known here");
@@ -114,6 +145,7 @@ std::vector<NotCovered> VerifyEpisode(const VerifyOptions& options,
   const EpisodeText episode = ReadEpisode(folder, walks);
   if (!CheckEpisodeNumbers(episode, place.scene, findings)) return not_covered;
   CheckEpisodeWorlds(episode, config.live, place.scene, findings);
+  CheckEpisodeTimes(episode, manifest, config.live, findings);
   const EpisodePromise promise =
       ReadEpisodePromise((folder / "manifest.json").string(), manifest_text, manifest);
   if (walks > 0) {

@@ -8,6 +8,7 @@
 #include "experiments/config/experiment.h"
 #include "experiments/verify/certificate_text.h"
 #include "experiments/verify/check_certificate.h"
+#include "experiments/verify/check_chosen.h"
 #include "experiments/verify/check_claims.h"
 #include "experiments/verify/check_episode_proof.h"
 #include "experiments/verify/check_files.h"
@@ -22,8 +23,10 @@
 #include "experiments/verify/check_walk.h"
 #include "experiments/verify/csv_text.h"
 #include "experiments/verify/described_walk.h"
+#include "experiments/verify/found_inputs.h"
 #include "experiments/verify/given_files.h"
 #include "experiments/verify/own_names.h"
+#include "experiments/verify/tolerances.h"
 #include "smoothing/margins/own_margin.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/sha256.h"
@@ -41,13 +44,28 @@ void CheckHash(const char* what, const std::string& bytes, const std::string& st
 }
 
 // The config of a run, read as `halfstep run` reads it: unknown keys are refused. Names that the
-// run's program registered are told, since only that one knows what they do.
+// run's program registered are told, since only that one knows what they do. Defaults go by the
+// robot's size; where the config's robot is not to be had, the certificate's place of it serves.
 ExperimentConfig ReadConfig(const VerifyOptions& options, const std::string& path,
-                            const std::string& text, Findings* findings) {
+                            const std::string& text, const InputSearch& robot,
+                            Findings* findings) {
   const OwnNames own = FindOwnNames(path, text);
-  std::vector<YamlOverride> overrides = GivenFiles(options);
-  overrides.insert(overrides.end(), own.overrides.begin(), own.overrides.end());
-  ExperimentConfig config = ParseConfig(path, text, overrides);
+  std::vector<YamlOverride> given = GivenFiles(options);
+  given.insert(given.end(), own.overrides.begin(), own.overrides.end());
+  ExperimentConfig config;
+  try {
+    config = ParseConfig(path, text, given);
+  } catch (const InputError& error) {
+    if (options.robot) throw;
+    std::error_code ignored;
+    if (!fs::is_regular_file(robot.places.front(), ignored)) {
+      std::vector<std::string> complaints = error.complaints();
+      complaints.push_back(NotFound(robot));
+      throw InputError(complaints);
+    }
+    given.push_back(NamedInstead("robot", robot.places.front().string()));
+    config = ParseConfig(path, text, given);
+  }
   if (own.methods) config.smoothing.methods = *own.methods;
   if (OwnMargins().empty()) {
     config.smoothing.limits.demanded_of(MarginFamily::kOwn) =
@@ -95,7 +113,8 @@ struct MethodFiles {
 
 // The walk that half_steps.csv and overlaps.csv describe; none when they do not fit.
 std::optional<DescribedWalk> WalkOf(const MethodFiles& files, const ExperimentConfig& config,
-                                    const RobotModel& robot, Findings* findings) {
+                                    const RobotModel& robot, const RunManifest::Method* of_method,
+                                    Findings* findings) {
   const HalfStepSequence planned = PlannedOf(config, robot);
   CheckFootsteps(ReadFootsteps(files.PathInRun("footsteps.csv"), files.ReadOfRun("footsteps.csv")),
                  planned, findings);
@@ -106,13 +125,66 @@ std::optional<DescribedWalk> WalkOf(const MethodFiles& files, const ExperimentCo
     overlaps = ReadOverlaps(files.PathOf("overlaps.csv"), files.Read("overlaps.csv"));
   }
   if (!CheckOverlaps(half_steps, overlaps, planned, findings)) return std::nullopt;
-  if (overlaps) CheckFixed(half_steps, *overlaps, planned, config.smoothing.fixed, findings);
+  const std::string& method = of_method == nullptr ? "" : of_method->name;
+  if (overlaps) {
+    CheckFixed(half_steps, *overlaps, planned, config.smoothing.fixed, findings);
+    CheckUpperBounds(method, half_steps, *overlaps, planned, config.smoothing.dichotomy, findings);
+    CheckChosen(method, half_steps, planned, config.smoothing, findings);
+  }
   try {
     return DescribedWalk(robot, planned, half_steps);
   } catch (const std::logic_error& error) {
     findings->Disagree(std::string("half_steps.csv: describes no walk: ") + error.what());
     return std::nullopt;
   }
+}
+
+// Robot and scene that the certificate is about, by their hashes.
+struct Inputs {
+  RobotModel robot;
+  Scene scene;
+};
+
+// Says so where config.yaml names another file than that of the certificate. A shipped robot, which
+// is named by a word, may be another one in another copy of halfstep.
+void CheckPassed(const std::string& what, const std::string& passed, const std::string& named,
+                 Findings* findings) {
+  const fs::path name(named);
+  if (passed.empty() || (!name.has_parent_path() && !name.has_extension())) return;
+  findings->Disagree("config.yaml names the " + what + " " + Quote(named) +
+                     ", which is not the one that the certificate is about");
+}
+
+Inputs InputsOf(const VerifyOptions& options, const ExperimentConfig& config,
+                const RunManifest& manifest, const CertificateText& certificate,
+                InputSearch of_robot, Findings* findings) {
+  Inputs inputs;
+  if (options.robot) {
+    inputs.robot = LoadRobot(*options.robot);
+  } else {
+    of_robot.places.insert(of_robot.places.begin(), RobotPath(config));
+    Found<RobotModel> found = FindRobot(of_robot);
+    CheckPassed("robot", found.passed, config.robot, findings);
+    inputs.robot = std::move(found.input);
+  }
+  inputs.scene.name = "none";
+  const fs::path run(options.run);
+  const auto named = ScenePath(config);
+  if (!options.scene && named.has_value() == (certificate.scene == "none")) {
+    findings->Disagree("the certificate is about the scene " + Quote(certificate.scene) +
+                       ", config.yaml about " + Quote(config.scene));
+  }
+  if (options.scene) {
+    if (*options.scene != "none") inputs.scene = LoadScene(*options.scene);
+  } else if (named) {
+    Found<Scene> found = FindScene({.what = "scene",
+                                    .run = run,
+                                    .places = {*named, run / certificate.scene},
+                                    .sha256 = manifest.scene_sha256});
+    CheckPassed("scene", found.passed, config.scene, findings);
+    inputs.scene = std::move(found.input);
+  }
+  return inputs;
 }
 
 bool IsFinite(const std::vector<ClaimRow>& rows) {
@@ -132,15 +204,13 @@ VerifiedStatement VerifyMethod(const VerifyOptions& options, const RunManifest& 
   const std::string claims = files.Read("certificate.csv");
   const std::string trajectory = files.Read("trajectory.csv");
   const std::string config_bytes = files.ReadOfRun("config.yaml");
+  const InputSearch of_robot{.what = "robot",
+                             .run = files.run,
+                             .places = {files.run / certificate.robot},
+                             .sha256 = manifest.robot_sha256};
   const ExperimentConfig config =
-      ReadConfig(options, files.PathInRun("config.yaml"), config_bytes, findings);
-  const RobotModel robot = LoadRobot(
-      options.robot ? *options.robot : (files.run / certificate.robot).lexically_normal().string());
-  Scene scene;
-  scene.name = "none";
-  if (const std::string named = options.scene.value_or(certificate.scene); named != "none") {
-    scene = LoadScene(options.scene ? named : (files.run / named).lexically_normal().string());
-  }
+      ReadConfig(options, files.PathInRun("config.yaml"), config_bytes, of_robot, findings);
+  const auto [robot, scene] = InputsOf(options, config, manifest, certificate, of_robot, findings);
 
   CheckHash("trajectory.csv", trajectory, certificate.trajectory_hash, findings);
   CheckHash("certificate.csv", claims, certificate.certificate_hash, findings);
@@ -149,10 +219,7 @@ VerifiedStatement VerifyMethod(const VerifyOptions& options, const RunManifest& 
             .certificate = certificate,
             .robot = robot,
             .scene = scene,
-            .run = files.run,
-            .folder = folder,
-            .robot_given = options.robot.has_value(),
-            .scene_given = options.scene.has_value()},
+            .folder = folder},
            config_bytes, findings);
   const bool same_files = findings->disagreements() == 0;
   findings->Say(Formatted("SHA-256: trajectory, certificate, %zu robot files, %zu scene files",
@@ -164,31 +231,35 @@ VerifiedStatement VerifyMethod(const VerifyOptions& options, const RunManifest& 
       !files.Has("iterates.csv")
           ? 0
           : std::ranges::count(files.Read("iterates.csv"), '\n') - 1;  // and the header
-  CheckSummary(ReadSummary(files.PathInRun("summary.csv"), files.ReadOfRun("summary.csv")),
-               manifest, folder, certificate, iterations, findings);
+  const std::vector<SummaryRow> summary =
+      ReadSummary(files.PathInRun("summary.csv"), files.ReadOfRun("summary.csv"));
+  CheckSummary(summary, manifest, folder, certificate, iterations, findings);
 
   const std::vector<ClaimRow> claimed = ReadCertificateCsv(files.PathOf("certificate.csv"), claims);
   const std::vector<PlayedRow> rows =
       ReadTrajectory(files.PathOf("trajectory.csv"), trajectory, robot);
+  CheckWorstMargin(summary, folder, rows, robot, certificate, config.smoothing.limits, findings);
   CheckArithmetic(certificate, claimed, robot, rows.empty() ? 0 : rows.back().t, findings);
   const std::vector<NotCovered> not_covered = FindNotCovered(certificate, robot, scene);
   CheckNotCovered("certificate.json", certificate.not_covered, not_covered, findings);
   CheckNotCovered("manifest.json", manifest.not_covered,
                   FindNotCovered(DemandsOf(config.smoothing.limits, findings), robot, scene),
                   findings);
-  const std::optional<DescribedWalk> walk = WalkOf(files, config, robot, findings);
+  const std::optional<DescribedWalk> walk =
+      WalkOf(files, config, robot, manifest.MethodOf(folder), findings);
   if (!CheckIsMotion(rows, findings) || !walk) return {certificate.statement, not_covered};
   const PlayedMotion motion(robot, rows);
   Distances distances(robot, scene);
   const double period = RowPeriodOf(config, rows[1].t);
+  const double tolerance = options.tolerance.value_or(Tolerances(robot).played);
   CheckRowsOnWalk(rows, *walk, period, walk->end(), findings);
   CheckConsistency(motion, *walk, findings);
   if (!same_files) {
     findings->Say("clearances: not examined, for these are not the certificate's files");
     return {certificate.statement, not_covered};
   }
-  CheckPlayed(motion, *walk, certificate, options.tolerance, &distances, findings);
-  CheckStopBranches(*walk, {config.smoothing.stop_branches, period}, certificate, options.tolerance,
+  CheckPlayed(motion, *walk, certificate, tolerance, &distances, findings);
+  CheckStopBranches(*walk, {config.smoothing.stop_branches, period}, certificate, tolerance,
                     &distances, findings);
   CheckMarginColumns(rows, *walk, certificate, &distances, findings);
   if (IsFinite(claimed)) CheckClaims(*walk, certificate, claimed, &distances, findings);

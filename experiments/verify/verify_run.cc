@@ -6,6 +6,7 @@
 #include "experiments/verify/csv_text.h"
 #include "experiments/verify/episode_text.h"
 #include "experiments/verify/findings.h"
+#include "experiments/verify/not_examined.h"
 #include "experiments/verify/run_manifest.h"
 #include "experiments/verify/verify_episode.h"
 #include "experiments/verify/verify_method.h"
@@ -77,7 +78,7 @@ MethodVerification Verified(const std::string& method, const Check& check) {
 }  // namespace
 
 std::vector<MethodVerification> VerifyRun(const VerifyOptions& options) {
-  if (!(options.tolerance >= 0 && options.tolerance <= 1)) {
+  if (options.tolerance && !(*options.tolerance >= 0 && *options.tolerance <= 1)) {
     throw InputError({"--tolerance: out of range (valid: 0 … 1 m)"});
   }
   const fs::path manifest_path = fs::path(options.run) / "manifest.json";
@@ -91,6 +92,7 @@ std::vector<MethodVerification> VerifyRun(const VerifyOptions& options) {
       throw InputError({"--method: an episode has none (valid: without it)"});
     }
     return {Verified("episode", [&](MethodVerification* result, Findings* findings) {
+      result->of_episode = true;
       result->not_covered = VerifyEpisode(options, manifest_text, findings);
     })};
   }
@@ -130,6 +132,10 @@ std::string Summary(const MethodVerification& result) {
   }
   const long more = result.disagreements - told;
   return text + (more > 0 ? "  … and " + Count(more) + " more\n" : "");
+}
+
+std::string TellNotExamined(const MethodVerification& result) {
+  return NotExaminedText(result.of_episode ? NotExaminedOfEpisode() : NotExaminedOfRun());
 }
 
 std::string Describe(const MethodVerification& result) {

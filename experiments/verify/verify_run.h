@@ -9,14 +9,15 @@
 namespace halfstep::verify {
 
 /// `tolerance` is how far the played motion, which is straight between rows, may leave the
-/// certified walk [m] (chord against curve: about 0.3 mm at rows every 5 ms). It is taken off what
+/// certified walk [m] (chord against curve: about 0.3 mm at rows every 5 ms for HRP-2); where it is
+/// not given, Tolerances::played of the robot, 1 mm for HRP-2. It is taken off what
 /// is demanded of clearances, of the heights of a moving sole and of bodies that are not on a foot,
 /// and of the ZMP where the support changes (0 there), and off nothing else: rows and claims are
 /// compared with the walk itself.
 struct VerifyOptions {
   std::string run;                         ///< run folder
   std::optional<std::string> method = {};  ///< none: every one of the run
-  double tolerance = 0.001;                ///< see above; 0 … 1 [m]
+  std::optional<double> tolerance = {};    ///< see above; 0 … 1 [m]
   std::optional<std::string> robot = {};   ///< YAML instead of the certificate's
   std::optional<std::string> scene = {};   ///< YAML instead of the certificate's
 };
@@ -36,6 +37,7 @@ struct MethodVerification {
   std::string statement;                ///< the certificate's own
   std::vector<NotCovered> not_covered;  ///< what it does not speak of, as found here
   std::string remark;                   ///< what to say beside "verified"; "": nothing
+  bool of_episode = false;              ///< which list of NotExamined is its own
 };
 
 /// Checks the certificates of a run against its other files, robot and scene: that they speak of
@@ -53,5 +55,7 @@ std::vector<MethodVerification> VerifyRun(const VerifyOptions& options);
 std::string Summary(const MethodVerification& result);
 /// The same with a line for each check, all reasons that are kept, and the certificate's statement.
 std::string Describe(const MethodVerification& result);
+/// What is not examined of a result, one line an entry.
+std::string TellNotExamined(const MethodVerification& result);
 
 }  // namespace halfstep::verify

@@ -72,12 +72,23 @@ std::vector<OverlapRow> ReadOverlaps(const std::string& path, const std::string&
     CheckIndex(csv, i);
     rows.push_back({.kind = Word(csv, i, 1, {"up_down", "down_up"}),
                     .overlap = csv.Number(i, 2),
+                    .upper_bound = csv.Number(i, 3),
                     .duration_before = csv.Number(i, 9),
                     .duration_after = csv.Number(i, 10),
                     .scale_before = csv.Number(i, 11),
                     .scale_after = csv.Number(i, 12)});
   }
   return rows;
+}
+
+std::vector<double> ReadOverlapsOfEpisode(const std::string& path, const std::string& text) {
+  const CsvText csv(path, text, {"junction", "overlap_s"});
+  std::vector<double> overlaps;
+  for (size_t i = 0; i < csv.size(); ++i) {
+    CheckIndex(csv, i);
+    overlaps.push_back(csv.Number(i, 1));
+  }
+  return overlaps;
 }
 
 std::vector<FootstepRow> ReadFootsteps(const std::string& path, const std::string& text) {

@@ -39,11 +39,12 @@ struct HalfStepRow {
   }
 };
 
-/// A row of overlaps.csv; its columns about what was allowed, what holds the overlap and what that
-/// costs are not read: no statement is about them.
+/// A row of overlaps.csv; its columns about what holds the overlap and what that costs are not
+/// read: no statement is about them.
 struct OverlapRow {
-  std::string kind;    ///< up_down or down_up
-  double overlap = 0;  ///< [s]
+  std::string kind;        ///< up_down or down_up
+  double overlap = 0;      ///< [s]
+  double upper_bound = 0;  ///< the largest that was allowed [s]
   /// Of the half-steps [s] and height scales on both sides.
   double duration_before = 0, duration_after = 0, scale_before = 0, scale_after = 0;
 };
@@ -71,6 +72,8 @@ struct SummaryRow {
 std::vector<HalfStepRow> ReadHalfSteps(const std::string& path, const std::string& text);
 /// The rows of overlaps.csv.
 std::vector<OverlapRow> ReadOverlaps(const std::string& path, const std::string& text);
+/// The overlaps of an episode's walks/NNN/overlaps.csv [s].
+std::vector<double> ReadOverlapsOfEpisode(const std::string& path, const std::string& text);
 /// The rows of footsteps.csv.
 std::vector<FootstepRow> ReadFootsteps(const std::string& path, const std::string& text);
 /// The rows of summary.csv.

@@ -68,16 +68,17 @@ FamilyProof ClearanceMargin::Prove(const MarginInterval& interval,
   const Posture& posture = interval.motion.posture;
   BodyClearances::Scratch& scratch = interval.mid.scratch().bodies;
   const double demanded = interval.mid.demanded(family());
+  const double rounding = interval.mid.rounding();
   const double horizon = interval.mid.limits().clearance_horizon;
   const double t = interval.mid.t();
   const double half_width = interval.motion.half_width;
   FamilyProof proof;
   std::erase_if(*open, [&](uint16_t body) {
     if (proof.violated) return false;
-    const double bound = interval.motion.displacement[body] + kRounding;  // of the body alone
+    const double bound = interval.motion.displacement[body] + rounding;  // of the body alone
     if (clearances.BodyClears(body, posture, t, demanded + bound, &scratch, half_width)) {
       if (interval.with_margins) {
-        const double enough = std::max(horizon, demanded + bound + kRounding);
+        const double enough = std::max(horizon, demanded + bound + rounding);
         const Margin margin = clearances.OfBody(body, posture, t, enough, &scratch, half_width);
         const double of_obstacle =
             margin.other < 0 ? 0.0 : clearances.obstacle_speed(margin.other) * half_width;

@@ -28,7 +28,7 @@ void FloorMargin::AddBounds(const MarginInterval& interval, TightestStatement* t
   const Margin margin = Least(&interval.mid, kUnlimited);
   const bool moves = margin.subject >= 0;
   const int z = moves ? FootIndex(interval.mid.swing()) + 2 : 0;
-  tightest->Add(margin, (moves ? interval.motion.Change(z) : 0.0) + kRounding);
+  tightest->Add(margin, (moves ? interval.motion.Change(z) : 0.0) + interval.mid.rounding());
 }
 
 }  // namespace halfstep

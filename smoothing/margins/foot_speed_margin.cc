@@ -36,7 +36,7 @@ void FootSpeedMargin::AddBounds(const MarginInterval& interval, TightestStatemen
     const int foot = FootIndex(interval.mid.swing());
     change = motion.half_width * motion.second.segment<3>(foot).norm();
   }
-  tightest->Add(margin, change + kRounding);
+  tightest->Add(margin, change + interval.mid.rounding());
 }
 
 }  // namespace halfstep

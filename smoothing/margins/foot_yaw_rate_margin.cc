@@ -36,7 +36,7 @@ void FootYawRateMargin::AddBounds(const MarginInterval& interval,
   if (margin.subject >= 0) {
     change = interval.motion.RateChange(FootIndex(interval.mid.swing()) + 3);
   }
-  tightest->Add(margin, change + kRounding);
+  tightest->Add(margin, change + interval.mid.rounding());
 }
 
 }  // namespace halfstep

@@ -45,18 +45,18 @@ void FrictionMargin::AddRows(Instant* at, SlackSink* rows) const {
 void FrictionMargin::AddBounds(const MarginInterval& interval, TightestStatement* tightest) const {
   Instant& mid = interval.mid;
   if (mid.demanded(family()) == kNotDemanded) {
-    tightest->Add(Of(kUnlimited, mid.step_in_air()), kFrictionRounding);
+    tightest->Add(Of(kUnlimited, mid.step_in_air()), place_.rounding.friction);
     return;
   }
   const Margin margin = Least(&mid, kUnlimited);
   double change = 0.0;
   if (margin.value >= mid.demanded(family())) {
     const auto friction = FrictionAt(&mid);
-    const double spare = margin.value - mid.demanded(family()) - kFrictionRounding;
+    const double spare = margin.value - mid.demanded(family()) - place_.rounding.friction;
     change = friction->Drift(interval.drift(), interval.zmp_drift());
     const ContactRate* rate = change <= spare ? nullptr : interval.contact_rate();
     if (rate != nullptr) change = std::min(change, friction->Drift(*rate));
-    change += kFrictionRounding;
+    change += place_.rounding.friction;
   }
   tightest->Add(margin, change);
 }

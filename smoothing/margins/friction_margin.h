@@ -48,9 +48,6 @@ class FrictionMargin final : public WholeFamily {
   void AddBounds(const MarginInterval& interval, TightestStatement* tightest) const override;
 
  private:
-  // Added to every bound for rounding, which is that of joint accelerations.
-  static constexpr double kFrictionRounding = 1e-9;
-
   const MarginPlace& place_;
 };
 

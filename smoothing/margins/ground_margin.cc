@@ -34,6 +34,7 @@ void GroundMargin::AddBounds(const MarginInterval& interval, TightestStatement* 
   const IntervalMotion& motion = interval.motion;
   const WalkState& x = motion.jet.value;
   const double h = motion.half_width, t = interval.mid.t();
+  const double rounding = interval.mid.rounding();
   const int step = interval.mid.step_in_air();
   for (int body : heights.on_feet()) {
     const Side side = static_cast<Side>(place_.robot.bodies[static_cast<size_t>(body)].leg);
@@ -45,15 +46,15 @@ void GroundMargin::AddBounds(const MarginInterval& interval, TightestStatement* 
     // On the floor or above it for all t, below it at the midpoint, or neither is known.
     const double margin = heights.OnFoot(body, x);
     const bool open = least < -kSoleRounding && margin > 0.0;
-    tightest->Add(Of(open ? std::nan("") : margin, body), kRounding);
+    tightest->Add(Of(open ? std::nan("") : margin, body), rounding);
   }
   for (int body : heights.of_legs()) {
     const double change = motion.displacement[static_cast<size_t>(body)];
     const double possible = heights.LowestPossible(body, motion.posture);
-    if (tightest->Pass(possible - change - kRounding)) continue;
-    tightest->Add(Of(heights.LowestPoint(body, motion.posture).z(), body), change + kRounding);
+    if (tightest->Pass(possible - change - rounding)) continue;
+    tightest->Add(Of(heights.LowestPoint(body, motion.posture).z(), body), change + rounding);
   }
-  tightest->Add(Of(heights.of_waist().value, heights.of_waist().subject), kRounding);
+  tightest->Add(Of(heights.of_waist().value, heights.of_waist().subject), rounding);
   tightest->count = count();  // the lowest of the waist's bodies for all
 }
 

@@ -95,7 +95,7 @@ void JointAccelerationMargin::AddBounds(const MarginInterval& interval,
       // |q̈| grows by no more than q̈ drifts, and to no more than it can be.
       const double rise = interval.motion.joints[s].acceleration[j] - here;
       tightest->Add(Of(Limit(side, j) - here, AccelerationSubject(side, j)),
-                    std::max(0.0, std::min(drift, rise)) + kAccelerationRounding);
+                    std::max(0.0, std::min(drift, rise)) + place_.rounding.acceleration);
     }
   }
 }

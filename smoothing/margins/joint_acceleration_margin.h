@@ -51,10 +51,6 @@ class JointAccelerationMargin final : public WholeFamily {
   void AddBounds(const MarginInterval& interval, TightestStatement* tightest) const override;
 
  private:
-  // Added to every bound for rounding [rad/s²]. Joint accelerations are differences of nearly equal
-  // numbers, and those of legs without closed form follow from angles with residuals of 3e-14.
-  static constexpr double kAccelerationRounding = 1e-6;
-
   double Limit(Side side, Eigen::Index joint) const;
 
   const MarginPlace& place_;

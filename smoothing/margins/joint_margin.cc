@@ -51,7 +51,7 @@ void JointMargin::AddBounds(const MarginInterval& interval, TightestStatement* t
       const LegJoint& joint = place_.robot.legs[i].joints[static_cast<size_t>(j)];
       const double q = motion.posture.ik[i].q[j];
       tightest->Add(Of(std::min(q - joint.lower, joint.upper - q), 6 * s + j),
-                    h * (std::abs(speed[j]) + 0.5 * h * acceleration[j]) + kRounding);
+                    h * (std::abs(speed[j]) + 0.5 * h * acceleration[j]) + interval.mid.rounding());
     }
   }
 }

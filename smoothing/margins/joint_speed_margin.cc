@@ -47,7 +47,7 @@ void JointSpeedMargin::AddBounds(const MarginInterval& interval,
       const LegJoint& joint = place_.robot.legs[i].joints[static_cast<size_t>(j)];
       const double limit = interval.mid.limits().joint_speed_scale * joint.max_speed;
       tightest->Add(Of(limit - std::abs(motion.posture.speeds[i][j]), 6 * s + j),
-                    motion.half_width * motion.joints[i].acceleration[j] + kRounding);
+                    motion.half_width * motion.joints[i].acceleration[j] + interval.mid.rounding());
     }
   }
 }

@@ -9,6 +9,7 @@
 #include "planner/scene/scene.h"
 #include "smoothing/margins/body_clearances.h"
 #include "smoothing/margins/body_heights.h"
+#include "smoothing/margins/rounding.h"
 #include "wpg/geometry/footprint.h"
 #include "wpg/robot/robot_model.h"
 #include "wpg/workers.h"
@@ -24,7 +25,8 @@ struct MarginPlace {
         scene(std::move(s)),
         clearances(robot, scene),
         heights(robot),
-        areas(scene, robot.sole_outline) {}
+        areas(scene, robot.sole_outline),
+        rounding(robot) {}
   MarginPlace(const MarginPlace&) = delete;
   MarginPlace& operator=(const MarginPlace&) = delete;
 
@@ -33,6 +35,7 @@ struct MarginPlace {
   BodyClearances clearances;  ///< of the robot's bodies in the scene
   BodyHeights heights;        ///< of the robot's bodies above the floor
   NoStepAreas areas;          ///< of the scene, for the robot's soles
+  Rounding rounding;          ///< of the robot's walks
 };
 
 /// What families remember from one instant to the next, and how many instants were asked about. Use

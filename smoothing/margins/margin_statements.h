@@ -78,10 +78,6 @@ class MarginStatements {
   virtual FamilyProof Prove(const MarginInterval& interval, std::vector<uint16_t>* open) const = 0;
 
  protected:
-  /// Added to every bound, in its unit, for the rounding of postures and margins. On random
-  /// intervals true displacements exceeded their bounds, which can be zero, by up to 2e-15 m.
-  static constexpr double kRounding = 1e-12;
-
   /// A margin of this family about a subject; its instant is filled in by the caller.
   Margin Of(double value, int subject, int other = -1) const {
     return {.family = family(), .value = value, .subject = subject, .other = other};

@@ -59,7 +59,7 @@ void NoStepMargin::AddBounds(const MarginInterval& interval, TightestStatement* 
     const double moved = std::hypot(motion.Change(foot), motion.Change(foot + 1)) +
                          place_.areas.sole_reach() * motion.Change(foot + 3);
     const Margin margin = OfSole(interval.mid, side);
-    tightest->Add(margin, (std::isinf(margin.value) ? 0.0 : moved) + kRounding);
+    tightest->Add(margin, (std::isinf(margin.value) ? 0.0 : moved) + interval.mid.rounding());
   }
 }
 

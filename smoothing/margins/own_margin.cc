@@ -66,7 +66,7 @@ void OwnMargin::AddBounds(const MarginInterval& interval, TightestStatement* tig
   for (size_t i = 0; i < all.size(); ++i) {
     const Margin margin = Of(all[i]->Value(&interval.mid) / all[i]->scale(), static_cast<int>(i));
     if (margin.value == kUnlimited) continue;
-    tightest->Add(margin, all[i]->Change(interval) / all[i]->scale() + kRounding);
+    tightest->Add(margin, all[i]->Change(interval) / all[i]->scale() + interval.mid.rounding());
   }
 }
 

@@ -65,6 +65,7 @@ FamilyProof SelfClearanceMargin::Prove(const MarginInterval& interval,
   const IntervalMotion& motion = interval.motion;
   BodyClearances::Scratch& scratch = interval.mid.scratch().bodies;
   const double demanded = interval.mid.demanded(family());
+  const double rounding = interval.mid.rounding();
   const double horizon = interval.mid.limits().clearance_horizon;
   FamilyProof proof;
   clearances.Place(motion.posture, &scratch);
@@ -74,10 +75,10 @@ FamilyProof SelfClearanceMargin::Prove(const MarginInterval& interval,
     const size_t a = static_cast<size_t>(i), b = static_cast<size_t>(j);
     const double bound = std::min(motion.displacement[a] + motion.displacement[b],
                                   motion.displacement_B[a] + motion.displacement_B[b]) +
-                         kRounding;
+                         rounding;
     if (clearances.PairClears(pair, motion.posture, demanded + bound, &scratch)) {
       if (interval.with_margins) {
-        const double enough = std::max(horizon, demanded + bound + kRounding);
+        const double enough = std::max(horizon, demanded + bound + rounding);
         proof.held.Add(clearances.OfPair(pair, motion.posture, enough, &scratch), bound);
       }
       return true;

@@ -102,7 +102,7 @@ void TorqueMargin::AddBounds(const MarginInterval& interval, TightestStatement* 
   const auto loads = demanded ? LoadsAt(&mid) : std::nullopt;
   if (!loads) {
     for (int i = 0; i < count(); ++i) {
-      tightest->Add(Of(demanded ? -kUnlimited : kUnlimited, i), kTorqueRounding);
+      tightest->Add(Of(demanded ? -kUnlimited : kUnlimited, i), place_.rounding.torque);
     }
     return;
   }
@@ -118,7 +118,7 @@ void TorqueMargin::AddBounds(const MarginInterval& interval, TightestStatement* 
     const Vector6d torques = TorquesAt(&mid, *loads, side), drifts = drift.Of(side);
     for (Eigen::Index j = 0; j < 6; ++j) {
       tightest->Add(Of(Limit(side, j) - std::abs(torques[j]), SubjectOf(side, j)),
-                    drifts[j] + kTorqueRounding);
+                    drifts[j] + place_.rounding.torque);
     }
   }
 }

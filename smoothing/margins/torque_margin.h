@@ -48,10 +48,6 @@ class TorqueMargin final : public WholeFamily {
   void AddBounds(const MarginInterval& interval, TightestStatement* tightest) const override;
 
  private:
-  // Added to every bound for rounding [N m]. Joint accelerations are differences of nearly equal
-  // numbers, and the feet's shares multiply the ZMP's rounding.
-  static constexpr double kTorqueRounding = 1e-6;
-
   Margin LeastOf(Instant* at, const FootLoads& loads) const;
   double Limit(Side side, Eigen::Index joint) const;
 

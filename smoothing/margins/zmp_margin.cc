@@ -42,7 +42,7 @@ void ZmpMargin::AddBounds(const MarginInterval& interval, TightestStatement* tig
   const SupportPolygon polygon =
       SupportAt(interval.mid.walk(), interval.mid.at(), x, interval.mid.robot().sole_size);
   tightest->Add(Of(polygon.Margin(x.segment<2>(kZmpX)), interval.mid.step_in_air()),
-                change + kRounding);
+                change + interval.mid.rounding());
 }
 
 }  // namespace halfstep

@@ -79,13 +79,13 @@ void ZmpRobotMargin::AddBounds(const MarginInterval& interval, TightestStatement
       return over;
     };
     least = least_over(interval.zmp_drift());
-    const bool decided = least - kDynamicsRounding >= mid.demanded(family());
+    const bool decided = least - mid.place().rounding.zmp >= mid.demanded(family());
     const ContactRate* rate = decided ? nullptr : interval.contact_rate();
     if (rate != nullptr) {
       least = std::max(least, least_over(ZmpDrift::At(*rate, mid.dynamics()->contact()[5])));
     }
   }
-  tightest->Add(Of(margin, step), margin - least + kDynamicsRounding);
+  tightest->Add(Of(margin, step), margin - least + mid.place().rounding.zmp);
 }
 
 }  // namespace halfstep

@@ -24,7 +24,8 @@ class ZmpRobotMargin final : public WholeFamily {
           "demanded",
       .remedy =
           "a longer `half_step.duration_s` or a lower `half_step.via_height_m` (the legs' momentum "
-          "moves the ZMP), or another `half_step.support_offset_m` where it is missed at rest on one "
+          "moves the ZMP), or another `half_step.support_offset_m` where it is missed at rest on "
+          "one "
           "foot",
       .scale = 0.01,
       .demanded = 0.01,
@@ -44,11 +45,6 @@ class ZmpRobotMargin final : public WholeFamily {
 
  protected:
   void AddBounds(const MarginInterval& interval, TightestStatement* tightest) const override;
-
- private:
-  // Added to every bound for rounding [m]. Joint accelerations are differences of nearly equal
-  // numbers, and those of legs without closed form follow from angles with residuals of 3e-14.
-  static constexpr double kDynamicsRounding = 1e-9;
 };
 
 }  // namespace halfstep

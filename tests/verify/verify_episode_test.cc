@@ -7,7 +7,9 @@
 #include <functional>
 
 #include "experiments/verify/verify_run.h"
+#include "tests/verify/tampered_episode.h"
 #include "tests/verify/verify_mutation.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {
@@ -17,84 +19,6 @@ using testing::Contains;
 using testing::HasSubstr;
 using Json = nlohmann::ordered_json;
 using Table = TamperedRun::Table;
-
-constexpr char kScene[] =
-    "name: beside\n"
-    "obstacles:\n"
-    "  - name: bar\n"
-    "    box: {size_m: [0.1, 0.1, 1.0]}\n"
-    "    pose: {xyz: [0.4, 1.5, 0.5]}\n"
-    "    motion: {speed_m_s: 0.05}\n";
-
-// Two half-steps on coarse cells. A bar jumps beside the way, and later the goal goes on.
-constexpr char kConfig[] =
-    "name: beside\n"
-    "robot: ../robots/hrp2.yaml\n"
-    "scene: scene.yaml\n"
-    "goal: {x_m: 0.4, y_m: 0.1, radius_m: 0.05}\n"
-    "half_step: {duration_s: 1.5, zmp_shift_s: 0.075}\n"
-    "step_set: {x_min_m: 0, x_max_m: 0.2, y_min_m: -0.21, y_max_m: -0.21, spacing_m: 0.2, "
-    "yaws_rad: [0]}\n"
-    "swept_volumes: {cell_m: 0.05, displacement_m: 0.05, cache: cache}\n"
-    "planner: {unimproved_nodes: 0, max_nodes: 2000}\n"
-    "output: {period_s: 0.01}\n"
-    "live:\n"
-    "  horizon_s: 4\n"
-    "  sensing: {rests_after_s: 0.5}\n"
-    "  script:\n"
-    "    - {at_s: 0.3, do: jump, obstacle: bar, xyz: [0.4, 0.95, 0.5]}\n"
-    "    - {at_s: 1.5, do: goal, goal_m: [0.6, 0.1]}\n";
-
-// A folder of an episode, with its own copy of robot and scene. The episode is made once a build.
-class TamperedEpisode {
- public:
-  TamperedEpisode() {
-    const std::string build =
-        std::to_string(fs::last_write_time(HALFSTEP_COMMAND).time_since_epoch().count());
-    const fs::path made = fs::path(HALFSTEP_BINARY_DIR) /
-                          ("verify_episode_" + Sha256(build + kScene + kConfig).substr(0, 16));
-    if (!fs::exists(made)) {
-      const fs::path mine = made.string() + "." + std::to_string(getpid());
-      Make(mine);
-      std::error_code lost_the_race;
-      fs::rename(mine, made, lost_the_race);
-      if (lost_the_race) fs::remove_all(mine);
-    }
-    fs::copy(made, place_.path(), fs::copy_options::recursive);
-  }
-
-  fs::path folder() const { return place_ / "walk/episode"; }
-  Outcome Verify() const {
-    return Halfstep(place_.path(), {"verify", "walk/episode", "--verbose"});
-  }
-
-  void Rehash() const {
-    const fs::path manifest = folder() / "manifest.json";
-    Json json = Json::parse(ReadText(manifest));
-    json["config_sha256"] = Sha256(ReadText(folder() / "config.yaml"));
-    const Json listed = json["files"];
-    for (const auto& item : listed.items()) {
-      if (!fs::exists(folder() / item.key())) continue;
-      const std::string bytes = ReadText(folder() / item.key());
-      json["files"][item.key()] = {{"bytes", bytes.size()}, {"sha256", Sha256(bytes)}};
-    }
-    WriteText(manifest, json.dump(2) + "\n");
-  }
-
- private:
-  static void Make(const fs::path& place) {
-    fs::create_directories(place / "walk");
-    fs::copy(fs::path(HALFSTEP_SOURCE_DIR) / "wpg/robots", place / "robots",
-             fs::copy_options::recursive);
-    WriteText(place / "walk/scene.yaml", kScene);
-    WriteText(place / "walk/walk.yaml", kConfig);
-    const Outcome outcome =
-        Halfstep(place / "walk", {"live", "walk.yaml", "--quiet", "--out", "episode"});
-    if (outcome.status != 0) throw std::runtime_error("halfstep live: " + outcome.err);
-  }
-
-  TemporaryFolder place_;
-};
 
 size_t ColumnNamed(const Table& table, const std::string& name) {
   const auto& header = table.front();
@@ -304,7 +228,7 @@ std::vector<EpisodeForgery> EpisodeForgeries() {
        "manifest.json does not list walks/000/half_steps.csv"},
       {"SceneChanged",
        [](const fs::path& folder) {
-         TamperedRun::Replace(folder.parent_path() / "scene.yaml", "[0.1, 0.1, 1.0]",
+         TamperedRun::Replace(folder / "inputs/scene/scene.yaml", "[0.1, 0.1, 1.0]",
                               "[0.1, 0.1, 0.9]");
        },
        {},

@@ -43,15 +43,6 @@ Forge InTable(const std::string& file, const std::string& column, const std::str
     });
   };
 }
-// The certificate names a copy of the robot's or the scene's folder.
-Forge Elsewhere(const std::string& member, const std::string& folder, const std::string& file) {
-  return [=](TamperedRun& run) {
-    const auto place = run.run().parent_path();
-    std::filesystem::copy(place / folder, place / "copy", std::filesystem::copy_options::recursive);
-    run.EditJson([&](Json& json) { json[member] = "../copy/" + file; });
-  };
-}
-
 std::vector<Forgery> OfTheManifest() {
   std::vector<Forgery> all = {
       {"LengthOfARobotFile",
@@ -74,14 +65,17 @@ std::vector<Forgery> OfTheManifest() {
        {},
        InCertificate([](Json& j) { j["sha256"]["trajectory.csv"] = kNoHash; }),
        "trajectory.csv: not the one that the certificate is about"},
-      {"RobotElsewhere",
-       Elsewhere("robot", "robots", "hrp2.yaml"),
+      {"AnotherSceneInTheConfig",
+       [](TamperedRun& run) {
+         std::filesystem::copy(run.scene(), run.scene().parent_path() / "other.yaml");
+         TamperedRun::Replace(run.run() / "config.yaml", "scene/box.yaml", "scene/other.yaml");
+       },
        {},
-       "the certificate is about the robot '../copy/hrp2.yaml'"},
-      {"SceneElsewhere",
-       Elsewhere("scene", "scenes", "box.yaml"),
+       "scene: not the one that the certificate is about"},
+      {"NoSceneInTheCertificate",
+       InCertificate([](Json& j) { j["scene"] = "none"; }),
        {},
-       "the certificate is about the scene '../copy/box.yaml'"},
+       "the certificate is about the scene 'none'"},
       {"MethodMore",
        InManifest([](Json& j) { j["methods"].push_back(j["methods"].back()); }),
        {},

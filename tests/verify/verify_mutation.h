@@ -12,6 +12,7 @@
 #include "planner/scene/scene.h"
 #include "tests/experiments/child_process.h"
 #include "tests/temporary_folder.h"
+#include "tests/verify/scaled_hrp2.h"
 #include "wpg/files/sha256.h"
 #include "wpg/robot/robot_model.h"
 
@@ -23,6 +24,8 @@ struct TamperedWalk {
   std::vector<std::string> overrides = {};  ///< KEY=VALUE
   std::optional<double> com_height = {};    ///< of the robot [m]; none: as shipped
   std::optional<double> acceleration = {};  ///< limit of every leg joint [rad/s²]; none: none
+  std::string robot = "hrp2";               ///< a shipped one
+  double size = 1;                          ///< of the robot: HRP-2, its lengths times this
 };
 
 /// A run with its own copy of robot and scene, to be tampered with; by default of the Fig. 5 walk.
@@ -30,12 +33,14 @@ struct TamperedWalk {
 /// The run itself is made once a build by the command and copied for each object.
 class TamperedRun {
  public:
-  explicit TamperedRun(const TamperedWalk& walk = {}) : scene_(SceneOf(walk.config)) {
+  explicit TamperedRun(const TamperedWalk& walk = {}) : robot_(walk.robot), scene_(SceneOf(walk)) {
     namespace fs = std::filesystem;
     std::string name = Version() + " " + walk.config;
     for (const std::string& item : walk.overrides) name += " " + item;
     if (walk.com_height) name += " " + std::to_string(*walk.com_height);
     if (walk.acceleration) name += " acceleration " + std::to_string(*walk.acceleration);
+    if (walk.size != 1) name += " size " + std::to_string(walk.size);
+    if (walk.robot != "hrp2") name += " robot " + walk.robot;
     const fs::path made =
         fs::path(HALFSTEP_BINARY_DIR) / ("verify_run_" + Sha256(name).substr(0, 16));
     if (!fs::exists(made)) {
@@ -52,8 +57,9 @@ class TamperedRun {
   std::filesystem::path trajectory() const { return run() / "dichotomy/trajectory.csv"; }
   std::filesystem::path certificate() const { return run() / "dichotomy/certificate.csv"; }
   std::filesystem::path json() const { return run() / "dichotomy/certificate.json"; }
-  std::filesystem::path scene() const { return place_ / "scenes" / scene_; }
-  std::filesystem::path urdf() const { return place_ / "robots/hrp2.urdf"; }
+  /// The copies in the run.
+  std::filesystem::path scene() const { return run() / "inputs/scene" / scene_; }
+  std::filesystem::path urdf() const { return run() / "inputs/robot/hrp2.urdf"; }
 
   Outcome Verify() const {
     return Halfstep(place_.path(), {"verify", "run", "--method", "dichotomy", "--verbose"});
@@ -106,14 +112,14 @@ class TamperedRun {
   }
 
   /// Edits the manifest.
-  void EditManifest(const std::function<void(nlohmann::ordered_json&)>& edit) {
+  void EditManifest(const std::function<void(nlohmann::ordered_json&)>& edit) const {
     EditJsonFile(run() / "manifest.json", edit);
   }
 
   /// Makes every hash and length that the run states those of the files as they are now, of all its
   /// methods: what a forger would do.
-  void Rehash() {
-    const auto robot = LoadRobot((place_ / "robots/hrp2.yaml").string()).files;
+  void Rehash() const {
+    const auto robot = LoadRobot((run() / "inputs/robot" / (robot_ + ".yaml")).string()).files;
     std::vector<InputFile> scene;
     if (!scene_.empty()) scene = LoadScene(this->scene().string()).files;
     for (const auto& folder : std::filesystem::directory_iterator(run())) {
@@ -160,8 +166,13 @@ class TamperedRun {
         std::filesystem::last_write_time(HALFSTEP_COMMAND).time_since_epoch().count());
   }
 
-  static std::string SceneOf(const std::string& config) {
-    return config == "fig5_box" ? "box.yaml" : config == "crossing" ? "crossing_bar.yaml" : "";
+  static std::string SceneOf(const TamperedWalk& walk) {
+    for (const std::string& item : walk.overrides) {
+      if (item == "scene=none") return "";
+    }
+    return walk.config == "fig5_box"   ? "box.yaml"
+           : walk.config == "crossing" ? "crossing_bar.yaml"
+                                       : "";
   }
 
   static void Make(const std::filesystem::path& place, const TamperedWalk& walk) {
@@ -196,11 +207,13 @@ class TamperedRun {
       }
       WriteText(place / "robots/hrp2.yaml", ReadText(place / "robots/hrp2.yaml") + limits);
     }
+    if (walk.size != 1) ScaleHrp2(place / "robots", walk.size);
     const std::string config = "configs/" + walk.config + ".yaml";
     fs::create_directories(place / "configs");
     fs::copy(source / "experiments" / config, place / config);
     std::vector<std::string> arguments = {"run", config, "--quiet", "--out", "run"};
-    for (const std::string item : {"robot=../robots/hrp2.yaml", "smoothing.methods=[dichotomy]"}) {
+    for (const std::string& item : {"robot=../robots/" + walk.robot + ".yaml",
+                                    std::string("smoothing.methods=[dichotomy]")}) {
       arguments.insert(arguments.end(), {"--set", item});
     }
     for (const std::string& item : walk.overrides) {
@@ -218,7 +231,7 @@ class TamperedRun {
   }
 
   TemporaryFolder place_;
-  std::string scene_;  // file name; "": none of its own
+  std::string robot_, scene_;  // of the robot and the scene's file; "": no scene of its own
 };
 
 }  // namespace halfstep

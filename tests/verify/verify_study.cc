@@ -269,8 +269,9 @@ void Swaps(StudyList* list) {
 
 // The forgeries that were accepted once.
 void Forgeries(StudyList* list) {
-  const auto forge = [list](const std::string& name, std::function<void(TamperedRun&)> by) {
-    list->push_back({"forged whole", name, std::move(by)});
+  const auto forge = [list](const std::string& name, std::function<void(TamperedRun&)> by,
+                            const char* harmless = "") {
+    list->push_back({"forged whole", name, std::move(by), harmless});
   };
   const auto demand_no_clearance = [](TamperedRun& to) {
     to.EditJson([](Json& json) { json["demanded"]["clearance"] = 0.0; });
@@ -282,13 +283,16 @@ void Forgeries(StudyList* list) {
   };
   forge("the certificate names no scene",
         [](TamperedRun& to) { to.EditJson([](Json& json) { json["scene"] = "none"; }); });
-  forge("the certificate names another scene", [](TamperedRun& to) {
-    fs::copy(to.scene(), to.scene().parent_path() / "other.yaml");
-    to.EditJson([](Json& json) { json["scene"] = "../scenes/other.yaml"; });
-  });
+  forge(
+      "the certificate names another scene",
+      [](TamperedRun& to) {
+        fs::copy(to.scene(), to.scene().parent_path() / "other.yaml");
+        to.EditJson([](Json& json) { json["scene"] = "inputs/scene/other.yaml"; });
+      },
+      "its hash says which it is");
   forge("the config names another scene", [](TamperedRun& to) {
     fs::copy(to.scene(), to.scene().parent_path() / "other.yaml");
-    TamperedRun::Replace(to.run() / "config.yaml", "scenes/box.yaml", "scenes/other.yaml");
+    TamperedRun::Replace(to.run() / "config.yaml", "scene/box.yaml", "scene/other.yaml");
   });
   forge("overlaps.csv is nonsense",
         [](TamperedRun& to) { WriteText(to.run() / "dichotomy/overlaps.csv", "nonsense\n"); });

@@ -351,8 +351,6 @@ std::vector<Mutation> Mutations() {
        InJson([](Json& j) { j["statement"] = j["statement"].get<std::string>() + " And speed."; }),
        "the certificate's statement is not the one that is verified"},
       {"VerdictUndecided", InJson([](Json& j) { j["verdict"] = "undecided"; }), "undecided"},
-      {"AnotherRobotNamed", InJson([](Json& j) { j["robot"] = "../robots/none.yaml"; }),
-       "none.yaml", false, kBadInput},
       {"MemberMissing", InJson([](Json& j) { j["demanded"].erase("zmp"); }), "demanded.zmp", false,
        kBadInput},
   };

@@ -53,7 +53,8 @@ const char* HarmlessInManifest(const std::string& pointer) {
 }
 
 const char* HarmlessInCertificate(const std::string& pointer) {
-  return pointer == "/message" || pointer == "/resolution_s" ? kHow : "";
+  if (pointer == "/robot" || pointer == "/scene") return "its hash says which it is";
+  return pointer == "/resolution_s" ? kHow : "";
 }
 
 std::string SaysTheSame(const std::string& name, const std::string& a, const std::string& b) {

@@ -89,7 +89,7 @@ void DeclareEfforts(Fields& fields, RobotFile* file) {
                    const UrdfJoint& joint = file->urdf->joints[i];
                    if (!Turns(f, joint)) continue;
                    f.OptionalNumber(joint.name.c_str(), &file->effort_limits[i],
-                                    {.unit = "N m", .min = 1e-3, .max = 1e5});
+                                    {.unit = "N m", .min = 1e-9, .max = 1e5});
                  }
                });
 }

@@ -48,9 +48,14 @@ double Last(double begin, double end, int steps, const Does& does) {
 
 }  // namespace
 
+double LegLengthOf(const RobotModel& robot) {
+  const Leg& leg = robot.legs[0];
+  return LengthOfLeg(leg);
+}
+
 RobotMeasures MeasuresOf(const RobotModel& robot) {
   const Leg& leg = robot.legs[0];
-  RobotMeasures m{.leg_length = LengthOfLeg(leg),
+  RobotMeasures m{.leg_length = LegLengthOf(robot),
                   .standing_width = robot.standing_width,
                   .slowest_joint = std::numeric_limits<double>::infinity(),
                   .support_offset = robot.support_offset};

@@ -22,6 +22,9 @@ struct RobotMeasures {
   double support_offset = 0.0;     ///< RobotModel::support_offset [m]
 };
 
+/// RobotMeasures::leg_length of the left leg [m].
+double LegLengthOf(const RobotModel& robot);
+
 /// What legs, joint limits and speed limits of the model give.
 RobotMeasures MeasuresOf(const RobotModel& robot);
 

@@ -99,9 +99,10 @@ class Run:
         """certificate.json of a method: verdict, statement, demands, what is not covered, hashes."""
         return self._json(self._place(method), "certificate.json")
 
-    def verify(self, method: str | None = None, tolerance: float = 0.001) -> list[Verification]:
+    def verify(self, method: str | None = None, tolerance: float | None = None) -> list[Verification]:
         """Checks the certificates without the smoothing code, as ``halfstep verify``; one entry a
-        method. ``tolerance``: how far the played motion may leave the certified walk [m]."""
+        method. ``tolerance``: how far the played motion may leave the certified walk [m]; None: 1 mm
+        for HRP-2, and for other robots by the length of their legs."""
         name = None if method is None else self._place(method)
         if not 0.0 <= number("tolerance", tolerance) <= 1.0:
             raise InputError(f"tolerance: {tolerance} (valid: 0 ... 1 m)")

@@ -1,0 +1,76 @@
+#include "experiments/verify/check_chosen.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace halfstep::verify {
+namespace {
+
+constexpr double kMoved = 1e-9;  // of a number that is written in two tables
+
+// A form that each half-step or each step has, the key that lets methods move it, and its name in
+// smoothing.fixed.
+struct Form {
+  const char* key;
+  const char* name;
+  bool ParameterChoice::*chosen;
+  double FormColumns::*value;
+  bool of_step;
+};
+
+constexpr std::array<Form, 7> kForms = {{
+    {"via_laterals", "via_lateral", &ParameterChoice::via_laterals, &FormColumns::via_lateral,
+     true},
+    {"foot_ramps", "foot_ramp", &ParameterChoice::foot_ramps, &FormColumns::foot_ramp, false},
+    {"foot_delays", "foot_delay", &ParameterChoice::foot_delays, &FormColumns::foot_delay, false},
+    {"lift_shares", "lift_share", &ParameterChoice::lift_shares, &FormColumns::lift_share, false},
+    {"via_alongs", "via_along", &ParameterChoice::via_alongs, &FormColumns::via_along, true},
+    {"zmp_shifts", "zmp_shift", &ParameterChoice::zmp_shifts, &FormColumns::zmp_shift, false},
+    {"zmp_bump_ramps", "zmp_bump_ramp", &ParameterChoice::zmp_bump_ramps,
+     &FormColumns::zmp_bump_ramp, false},
+}};
+
+}  // namespace
+
+void CheckChosen(const std::string& method, const std::vector<HalfStepRow>& half_steps,
+                 const HalfStepSequence& planned, const SmoothingConfig& config,
+                 Findings* findings) {
+  if (method == "given") return;
+  const ParameterChoice& choice = config.optimizer.options.program.parameters;
+  const auto is_fixed = [&](const std::string& name, size_t index) {
+    return std::ranges::any_of(config.fixed, [&](const FixedConfig& one) {
+      return one.parameter == name && one.index == static_cast<int>(index) + 1;
+    });
+  };
+  Faults faults;
+  const auto look = [&](size_t i, const char* key, const std::string& name, size_t index,
+                        double value, double plan) {
+    if (std::abs(value - plan) <= kMoved || is_fixed(name, index)) return;
+    faults.Add(
+        Formatted("half_steps.csv:%zu: %s is %.9g, planned %.9g, and config.yaml does not "
+                  "let it move (smoothing.optimizer.%s: false)",
+                  i + 2, name.c_str(), value, plan, key));
+  };
+  for (size_t i = 0; i < half_steps.size(); ++i) {
+    const HalfStep& plan = planned.half_steps[i].half_step;
+    const FormColumns is = half_steps[i].FormOf(plan), as_planned = HalfStepRow{}.FormOf(plan);
+    for (const Form& form : kForms) {
+      if (choice.*form.chosen) continue;
+      look(i, form.key, form.name, form.of_step ? i / 2 : i, is.*form.value,
+           as_planned.*form.value);
+    }
+    if (!choice.support_points) {
+      look(i, "support_points", "support_point", i / 2, half_steps[i].support_point,
+           plan.shape.support_offset);
+    }
+    if (choice.footsteps) continue;
+    look(i, "footsteps", "footstep_x", i / 2, is.footstep.x, 0);
+    look(i, "footsteps", "footstep_y", i / 2, is.footstep.y, 0);
+    look(i, "footsteps", "footstep_yaw", i / 2, is.footstep.yaw, 0);
+  }
+  faults.Conclude(findings);
+  findings->Say("forms and footsteps: moved only where config.yaml lets methods move them");
+}
+
+}  // namespace halfstep::verify

@@ -1,0 +1,28 @@
+#include "smoothing/margins/rounding.h"
+
+#include <algorithm>
+
+#include "wpg/motion/lipm.h"
+#include "wpg/robot/robot_measures.h"
+
+namespace halfstep {
+namespace {
+
+constexpr double kLegLength = 0.705;  // of HRP-2 [m]
+constexpr double kOfWeight = 2.5e-9;  // of m·g·ℓ: 1e-6 N m for HRP-2
+
+}  // namespace
+
+Rounding::Rounding(const RobotModel& robot)
+    : zmp(1e-9 * LegLengthOf(robot) / kLegLength),
+      torque(kOfWeight * robot.mass * Lipm{}.gravity * LegLengthOf(robot)),
+      friction(1e-9),
+      acceleration(1e-6 * kLegLength / LegLengthOf(robot)),
+      length_(LegLengthOf(robot)) {}
+
+double Rounding::Of(const WalkState& quantities) const {
+  const double far = 0.1 * quantities.cwiseAbs().maxCoeff();
+  return 1e-12 * std::max({1.0, length_, far});
+}
+
+}  // namespace halfstep

@@ -1,0 +1,118 @@
+// Whatever stands in a run's or an episode's folder is computed again by verify, or it is on
+// verify's own list of what it does not examine: every column of every table and every key of every
+// JSON.
+
+#include <gmock/gmock.h>
+
+#include "experiments/verify/not_examined.h"
+#include "experiments/verify/verification_json.h"
+#include "experiments/verify/verify_run.h"
+#include "tests/verify/drawn_forgeries.h"
+#include "tests/verify/tampered_episode.h"
+#include "tests/verify/verify_mutation.h"
+#include "wpg/files/input_error.h"
+
+namespace halfstep {
+namespace {
+
+using testing::HasSubstr;
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+bool IsVerified(const verify::VerifyOptions& options) {
+  try {
+    return verify::VerifyRun(options).front().verified;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+// Forges each value that is not on the list, by itself, and puts it back; the accepted ones.
+template <typename Tampered>
+std::string Accepted(const Tampered& tampered, const fs::path& folder, const std::string& method,
+                     std::span<const verify::NotExamined> list, int* tried) {
+  std::mt19937 random(5);
+  std::string accepted;
+  verify::VerifyOptions options{.run = folder.string()};
+  if (!method.empty()) options.method = method;
+  for (const NamedValue& value : ValuesOf(folder, method)) {
+    if (verify::FindNotExamined(list, value.file, value.name) != nullptr) continue;
+    // Of raw verify is not asked.
+    if (!method.empty() && value.pointer.starts_with("/methods/0/")) continue;
+    const TemporaryFolder aside;
+    fs::copy(folder, aside / "before", fs::copy_options::recursive);
+    const std::string what = Forge(folder, value, &random);
+    if (what.empty()) continue;
+    ++*tried;
+    tampered.Rehash();
+    if (IsVerified(options)) accepted += value.file + " " + value.name + ": " + what + "\n";
+    fs::remove_all(folder);
+    fs::copy(aside / "before", folder, fs::copy_options::recursive);
+  }
+  return accepted;
+}
+
+TEST(Examined, EveryValueOfARunIsComputedAgainOrOnTheList) {
+  TamperedRun run;
+  // Rows of methods that verify is not asked about.
+  TamperedRun::EditCsv(run.run() / "summary.csv",
+                       [](TamperedRun::Table& table) { ASSERT_EQ(table.size(), 3u); });
+  int tried = 0;
+  EXPECT_EQ(Accepted(run, run.run(), "dichotomy", verify::NotExaminedOfRun(), &tried), "");
+  EXPECT_GT(tried, 90);
+}
+
+TEST(Examined, EveryValueOfAnEpisodeIsComputedAgainOrOnTheList) {
+  const TamperedEpisode episode;
+  int tried = 0;
+  EXPECT_EQ(Accepted(episode, episode.folder(), "", verify::NotExaminedOfEpisode(), &tried), "");
+  EXPECT_GT(tried, 60);
+}
+
+// What stands beside what is verified passes for verified.
+TEST(Examined, AKeyThatVerifyDoesNotKnowIsRefused) {
+  for (const char* pointer : {"/friction_of_any_floor", "/demanded/friction_of_any_floor",
+                              "/limits/friction_of_any_floor"}) {
+    TamperedRun run;
+    run.EditJson([&](Json& json) { json[Json::json_pointer(pointer)] = 0.1; });
+    run.Rehash();
+    const auto results = verify::VerifyRun({.run = run.run().string(), .method = "dichotomy"});
+    EXPECT_THAT(
+        results.front().reasons,
+        testing::Contains(HasSubstr("friction_of_any_floor' is no key that is known here")));
+  }
+}
+
+// `footsteps: false`, `zmp_shifts: false` and their like under a walk that moves them.
+TEST(Examined, FormsMoveOnlyWhereTheConfigLetsThem) {
+  TamperedRun run(
+      {.overrides = {"smoothing.methods=[halfstep/sqp]", "smoothing.optimizer.footsteps=true",
+                     "smoothing.optimizer.deadline_s=3"}});
+  const auto verified = [&] {
+    return verify::VerifyRun({.run = run.run().string(), .method = "halfstep/sqp"}).front();
+  };
+  EXPECT_TRUE(verified().verified) << verify::Describe(verified());
+  TamperedRun::Replace(run.run() / "config.yaml", "    zmp_shifts: true", "    zmp_shifts: false");
+  run.Rehash();
+  EXPECT_THAT(verified().reasons,
+              testing::Contains(HasSubstr("does not let it move (smoothing.optimizer.zmp_shifts: "
+                                          "false)")));
+}
+
+TEST(Examined, TheListIsToldByTheCommandAndByThePage) {
+  const TamperedRun run;
+  const Outcome verbose = run.Verify();
+  EXPECT_THAT(verbose.out, HasSubstr("\nNot examined:\n"));
+  EXPECT_THAT(verbose.out, HasSubstr("METHOD/overlaps.csv: price_s: how it went"));
+  const Outcome outcome = Halfstep(run.run(), {"verify", ".", "--json"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  const Json json = Json::parse(outcome.out);
+  EXPECT_EQ(json["methods"].size(), 2u);
+  EXPECT_EQ(json["methods"][0]["verified"], true);
+  EXPECT_EQ(json["not_examined"].size(), verify::NotExaminedOfRun().size());
+  EXPECT_THAT(ReadText(HALFSTEP_SOURCE_DIR "/experiments/README.md"),
+              HasSubstr(verify::NotExaminedMarkdown()));
+}
+
+}  // namespace
+}  // namespace halfstep
