@@ -5,8 +5,6 @@
 namespace halfstep::oracle {
 namespace {
 
-constexpr double kGravity = 9.81;  // [m/s²]
-
 // 10x³ − 15x⁴ + 6x⁵ on [0, 1] and its slope.
 Real Smooth(Real x) {
   if (x <= 0) return 0;
@@ -14,6 +12,7 @@ Real Smooth(Real x) {
   return x * x * x * (10 + x * (6 * x - 15));
 }
 Real SmoothSlope(Real x) { return x <= 0 || x >= 1 ? Real(0) : 30 * x * x * (1 - x) * (1 - x); }
+Real SmoothSecond(Real x) { return x <= 0 || x >= 1 ? Real(0) : 60 * x * (1 - x) * (1 - 2 * x); }
 
 // The same with a constant speed between the fractions r and 1 − r; the ramps are stretched halves
 // of it, so that their slopes meet that speed 15/(15 − 14r).
@@ -25,6 +24,25 @@ Real Ramped(Real x, Real r) {
 Real RampedSlope(Real x, Real r) {
   if (x > Real(0.5)) return RampedSlope(1 - x, r);
   return x <= r ? 8 / (15 - 14 * r) * SmoothSlope(x / (2 * r)) : 15 / (15 - 14 * r);
+}
+
+Real RampedSecond(Real x, Real r) {
+  if (x > Real(0.5)) return -RampedSecond(1 - x, r);
+  return x <= r ? 4 / (r * (15 - 14 * r)) * SmoothSecond(x / (2 * r)) : Real(0);
+}
+
+// The cubic B-spline on [0, 4] and two derivatives, as a sum of truncated powers.
+std::array<Real, 3> Spline(Real u) {
+  constexpr std::array<int, 5> kBinomial = {1, -4, 6, -4, 1};
+  std::array<Real, 3> b{};
+  if (u >= 4) return b;
+  for (int j = 0; j < 5 && u > j; ++j) {
+    const Real x = u - j, sign = kBinomial[static_cast<size_t>(j)];
+    b[0] += sign * x * x * x / 6;
+    b[1] += sign * x * x / 2;
+    b[2] += sign * x;
+  }
+  return b;
 }
 
 int FirstOf(int foot) { return 5 + 4 * foot; }
@@ -73,32 +91,52 @@ ClosedFormWalk::ClosedFormWalk(const WalkPlan& plan) {
         .delay = plan.foot_delay_of(i),
         .ramp = plan.foot_ramp_of(i),
         .share = plan.lift_share_of(i),
+        .bump_ramp = plan.bump_ramp_of(i),
         .profile = RestToRestClosedForm(omega * T, plan.shift_of(i), plan.bump_ramp_of(i))};
     half_step.from = up ? on_floor : via;
     const Quantities& to = up ? via : on_floor;
     for (size_t q = 0; q < to.size(); ++q) half_step.change[q] = to[q] - half_step.from[q];
+    if (!plan.sways.empty()) {
+      const Real c = Cos(Real(support.yaw)), s = Sin(Real(support.yaw));
+      for (const Eigen::Vector2d& d : plan.sways[i]) {
+        half_step.sway.push_back({c * d.x() - s * d.y(), s * d.x() + c * d.y()});
+      }
+    }
     half_steps_.push_back(half_step);
     if (i < plan.overlaps.size()) begin += T - Real(plan.overlaps[i]);
   }
   CutIntoStretches();
 }
 
-void ClosedFormWalk::Fractionize(const HalfStep& h, Real tau, Fractions* value,
-                                 Fractions* rate) const {
-  const Real sigma = tau / h.T;
+void ClosedFormWalk::Fractionize(const HalfStep& h, Real tau, Jet* jet) const {
+  const Real sigma = tau / h.T, TT = h.T * h.T;
   const ComZmp pair = h.profile.At(sigma);
   // Windows of the foot's horizontal motion and of its height.
   const Real foot_begin = h.up ? h.sigma2 + h.delay : Real(0);
-  const Real foot_end = h.up ? Real(1) : h.sigma1 - h.delay;
+  const Real foot_window = (h.up ? Real(1) : h.sigma1 - h.delay) - foot_begin;
   const Real flight = h.up ? 1 - h.sigma2 : h.sigma1;
   const Real height_begin = h.up ? h.sigma2 : h.sigma1 - h.share * flight;
-  const Real height_end = height_begin + h.share * flight;
-  const Real foot = (sigma - foot_begin) / (foot_end - foot_begin);
-  const Real height = (sigma - height_begin) / (height_end - height_begin);
-  *value = {pair.c, pair.p, Smooth(sigma), Ramped(foot, h.ramp), Smooth(height)};
-  *rate = {pair.c_rate / h.T, pair.p_rate / h.T, SmoothSlope(sigma) / h.T,
-           RampedSlope(foot, h.ramp) / (h.T * (foot_end - foot_begin)),
-           SmoothSlope(height) / (h.T * (height_end - height_begin))};
+  const Real height_window = h.share * flight;
+  const Real foot = (sigma - foot_begin) / foot_window;
+  const Real height = (sigma - height_begin) / height_window;
+  (*jet)[0] = {pair.c, pair.p, Smooth(sigma), Ramped(foot, h.ramp), Smooth(height)};
+  (*jet)[1] = {pair.c_rate / h.T, pair.p_rate / h.T, SmoothSlope(sigma) / h.T,
+               RampedSlope(foot, h.ramp) / (h.T * foot_window),
+               SmoothSlope(height) / (h.T * height_window)};
+  (*jet)[2] = {pair.c_second / TT, 0, SmoothSecond(sigma) / TT,
+               RampedSecond(foot, h.ramp) / (TT * foot_window * foot_window),
+               SmoothSecond(height) / (TT * height_window * height_window)};
+}
+
+void ClosedFormWalk::AddSway(const HalfStep& h, Real tau, std::array<Quantities, 3>* walk) {
+  if (tau <= 0 || tau >= h.T) return;
+  for (size_t k = 0; k < h.sway.size(); ++k) {
+    const std::array<Real, 3> b = Spline(12 * tau / h.T - static_cast<Real>(k));
+    Real rate = 1;
+    for (size_t d = 0; d < 3; ++d, rate *= 12 / h.T) {
+      for (size_t axis = 0; axis < 2; ++axis) (*walk)[d][axis] += h.sway[k][axis] * b[d] * rate;
+    }
+  }
 }
 
 Real ClosedFormWalk::Of(const Fractions& fractions, int quantity) {
@@ -109,16 +147,22 @@ Real ClosedFormWalk::Of(const Fractions& fractions, int quantity) {
 }
 
 WalkState ClosedFormWalk::At(Real t) const {
-  Quantities value = half_steps_.front().from, rate{};
+  std::array<Quantities, 3> walk{half_steps_.front().from};
   for (const HalfStep& h : half_steps_) {
     if (t <= h.begin) break;
-    Fractions fraction{1, 1, 1, 1, 1}, slope{};
-    if (t < h.end) Fractionize(h, t - h.begin, &fraction, &slope);
-    for (int q = 0; q < 13; ++q) {
-      const size_t k = static_cast<size_t>(q);
-      value[k] += h.change[k] * Of(fraction, q);
-      rate[k] += h.change[k] * Of(slope, q);
+    if (t >= h.end) {
+      for (size_t k = 0; k < 13; ++k) walk[0][k] += h.change[k];
+      continue;
     }
+    Jet jet;
+    Fractionize(h, t - h.begin, &jet);
+    for (size_t d = 0; d < 3; ++d) {
+      for (int q = 0; q < 13; ++q) {
+        const size_t k = static_cast<size_t>(q);
+        walk[d][k] += h.change[k] * Of(jet[d], q);
+      }
+    }
+    AddSway(h, t - h.begin, &walk);
   }
   const auto pack = [](const Quantities& x) {
     const auto d = [&x](size_t q) { return static_cast<double>(x[q]); };
@@ -128,7 +172,7 @@ WalkState ClosedFormWalk::At(Real t) const {
         d(4),
         {Eigen::Vector4d(d(5), d(6), d(7), d(8)), Eigen::Vector4d(d(9), d(10), d(11), d(12))}};
   };
-  return {pack(value), pack(rate)};
+  return {pack(walk[0]), pack(walk[1]), pack(walk[2])};
 }
 
 void ClosedFormWalk::CutIntoStretches() {
@@ -149,8 +193,16 @@ void ClosedFormWalk::CutIntoStretches() {
     }
   }
   for (const HalfStep& h : half_steps_) {
-    for (Real knot : {h.begin, h.end, h.begin + h.sigma1 * h.T, h.begin + h.sigma2 * h.T}) {
-      knots.push_back(static_cast<double>(knot));
+    // Where a profile changes its formula: the ZMP's shift and its bump's ramps, the foot's ramps
+    // and its lift.
+    const Real bump = std::min(h.bump_ramp, 1 - h.bump_ramp) * h.sigma1;
+    const Real foot_begin = h.up ? h.sigma2 + h.delay : Real(0);
+    const Real foot_end = h.up ? Real(1) : h.sigma1 - h.delay;
+    const Real ramp = h.ramp * (foot_end - foot_begin);
+    const Real lift = h.up ? h.sigma2 + h.share * (1 - h.sigma2) : h.sigma1 * (1 - h.share);
+    for (Real knot : {Real(0), Real(1), h.sigma1, h.sigma2, bump, h.sigma1 - bump, h.sigma2 + bump,
+                      1 - bump, foot_begin + ramp, foot_end - ramp, lift}) {
+      knots.push_back(static_cast<double>(h.begin + knot * h.T));
     }
   }
   std::sort(knots.begin(), knots.end());

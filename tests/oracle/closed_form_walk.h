@@ -47,6 +47,9 @@ struct WalkPlan {
   std::vector<double> zmp_shifts, zmp_bump_ramps, via_alongs;
   /// Of step j: its landing's place seen from where it is planned; empty: it is there.
   std::vector<FloorPose> footsteps;
+  /// Of half-step i: nine places of the support sole's frame that its sway is made of [m]; empty:
+  /// nothing sways.
+  std::vector<std::vector<Eigen::Vector2d>> sways;
 
   double via_lateral_of(size_t i) const {  ///< of half-step i
     return via_laterals.empty() ? via_lateral : via_laterals[i / 2];
@@ -71,7 +74,7 @@ struct WalkPlan {
   double lift_share_of(size_t i) const { return lift_shares.empty() ? lift_share : lift_shares[i]; }
 };
 
-/// The walk at one instant, in W [m, rad]; `rate` per second.
+/// The walk at one instant, in W [m, rad]; `rate` per second, `second` per second squared.
 struct WalkState {
   struct Values {
     Eigen::Vector2d com, zmp;
@@ -79,6 +82,7 @@ struct WalkState {
     std::array<Eigen::Vector4d, 2> feet;  ///< x, y, z, yaw
   };
   Values value, rate;
+  Values second;  ///< its ZMP is not told: 0
 };
 
 /// A stretch of time between two neighbouring knots. What it says holds on [begin, end], both ends
@@ -112,16 +116,19 @@ class ClosedFormWalk {
     bool up = true;
     int swing = 0;
     Real begin = 0, end = 0, T = 0;
-    Real sigma1 = 0, sigma2 = 0;          // between which the ZMP shifts
-    Real delay = 0, ramp = 0, share = 0;  // of the foot's motions, as the plan has them
+    Real sigma1 = 0, sigma2 = 0;                         // between which the ZMP shifts
+    Real delay = 0, ramp = 0, share = 0, bump_ramp = 1;  // as the plan has them
     Quantities from{}, change{};
+    std::vector<std::array<Real, 2>> sway = {};  // in W
     RestToRestClosedForm profile;
   };
   // Profiles of com, zmp, waist, foot, height and their rates.
   struct Fractions {
     Real com = 0, zmp = 0, waist = 0, foot = 0, height = 0;
   };
-  void Fractionize(const HalfStep& half_step, Real tau, Fractions* value, Fractions* rate) const;
+  using Jet = std::array<Fractions, 3>;  // value, rate, second
+  void Fractionize(const HalfStep& half_step, Real tau, Jet* jet) const;
+  static void AddSway(const HalfStep& half_step, Real tau, std::array<Quantities, 3>* walk);
   void CutIntoStretches();
   static Real Of(const Fractions& fractions, int quantity);
 

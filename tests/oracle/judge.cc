@@ -1,9 +1,10 @@
 #include "tests/oracle/judge.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
-#include <memory>
 
+#include "tests/oracle/project_side.h"
 #include "wpg/files/input_error.h"
 
 namespace halfstep::oracle {
@@ -11,25 +12,18 @@ namespace {
 
 // A slab's width falls short of a distance by at most this [m] (planner/collision/separation.h).
 constexpr double kSlab = 1e-6;
+// Distances beyond this are not compared: neither side tells them apart [m].
+constexpr double kNear = 0.02;
 
-Pose2 ToPose(const FloorPose& p) { return {p.x, p.y, p.yaw}; }
-
-Demands ToDemands(const MarginLimits& limits) {
-  Demands demands;
-  for (const MarginFamily family : AllMarginFamilies()) {
-    demands.margin[std::string(Name(family))] = limits.demanded_of(family);
-  }
-  demands.foot_speed = *limits.foot_speed;
-  demands.foot_yaw_rate = *limits.foot_yaw_rate;
-  demands.joint_speed_scale = limits.joint_speed_scale;
-  return demands;
+bool IsDistance(MarginFamily f) {
+  return f == MarginFamily::kClearance || f == MarginFamily::kSelfClearance;
 }
 
 MarginFamily FamilyNamed(const std::string& name) {
   for (const MarginFamily family : AllMarginFamilies()) {
     if (Name(family) == name) return family;
   }
-  return MarginFamily::kClearance;
+  throw std::logic_error("oracle: the project has no family " + name);
 }
 
 std::string Line(const char* what, const std::string& of, double value, double demanded, double t) {
@@ -41,44 +35,13 @@ std::string Line(const char* what, const std::string& of, double value, double d
 
 }  // namespace
 
-HalfStepSequence ToSequence(const WalkPlan& plan) {
-  std::vector<Footstep> footsteps;
-  for (const PlannedStep& step : plan.steps) {
-    footsteps.push_back({.side = step.foot == 0 ? Side::kLeft : Side::kRight,
-                         .X_WF = ToPose(step.landing),
-                         .via_height = step.via_height,
-                         .duration = step.duration});
-  }
-  return MakeSequence({ToPose(plan.start[0]), ToPose(plan.start[1])}, footsteps, plan.via_lateral,
-                      {.shift = plan.shift,
-                       .horizontal_delay = plan.horizontal_delay,
-                       .bump_ramp = plan.bump_ramp,
-                       .foot_ramp = plan.foot_ramp,
-                       .lift_share = plan.lift_share},
-                      {.com_height = plan.com_height});
-}
-
-HomotopyParameters ToParameters(const WalkPlan& plan) {
-  HomotopyParameters parameters;
-  parameters.overlaps = plan.overlaps;
-  parameters.height_scales = plan.height_scales;
-  parameters.durations = plan.durations;
-  parameters.support_points = plan.support_points;
-  for (size_t i = 0; i < plan.durations.size(); ++i) {
-    if (i % 2 == 0) parameters.via_laterals.push_back(plan.via_lateral_of(i));
-    if (i % 2 == 0) parameters.via_alongs.push_back(plan.via_along_of(i));
-    parameters.zmp_shifts.push_back(plan.shift_of(i));
-    parameters.zmp_bump_ramps.push_back(plan.bump_ramp_of(i));
-    parameters.foot_ramps.push_back(plan.foot_ramp_of(i));
-    parameters.foot_delays.push_back(plan.foot_delay_of(i));
-    parameters.lift_shares.push_back(plan.lift_share_of(i));
-    if (i % 2 == 1) continue;
-    const FloorPose move = plan.footsteps.empty() ? FloorPose{} : plan.footsteps[i / 2];
-    parameters.footstep_xs.push_back(move.x);
-    parameters.footstep_ys.push_back(move.y);
-    parameters.footstep_yaws.push_back(move.yaw);
-  }
-  return parameters;
+void FamilyTally::Add(const FamilyTally& other) {
+  statements += other.statements;
+  pushed += other.pushed;
+  falsified += other.falsified;
+  found += other.found;
+  least_spare = std::min(least_spare, other.least_spare);
+  disagreement = std::max(disagreement, other.disagreement);
 }
 
 void Tally::Add(const Tally& other) {
@@ -90,100 +53,201 @@ void Tally::Add(const Tally& other) {
   judged += other.judged;
   false_certified += other.false_certified;
   false_violated += other.false_violated;
-  least_clearance = std::min(least_clearance, other.least_clearance);
-  least_slack = std::min(least_slack, other.least_slack);
   instants += other.instants;
+  for (const auto& [name, family] : other.families) families[name].Add(family);
 }
 
 struct Judge::Case {
   std::string name;
+  WalkPlan plan;
   PlainScene plain_scene;
+  MarginLimits limits;
   std::unique_ptr<PlacedScene> placed;
   std::unique_ptr<MarginEvaluator> evaluator;
   std::vector<std::string>* falsehoods = nullptr;
+
+  void Tell(const std::string& what) const { falsehoods->push_back(name + ": " + what); }
+  // With overlaps of that share of what was drawn; rests stay.
+  void Overlap(const std::vector<double>& overlaps, double share) {
+    for (size_t i = 0; i < overlaps.size(); ++i) {
+      plan.overlaps[i] = overlaps[i] < 0 ? overlaps[i] : share * overlaps[i];
+    }
+  }
 };
 
 Judge::Judge(const std::string& robot_yaml, double tolerance)
     : plain_(robot_yaml), robot_(LoadRobot(robot_yaml)), tolerance_(tolerance) {}
 
-Feasibility Judge::Ask(const Case& drawn, const WalkPlan& plan, const MarginLimits& limits,
-                       Tally* tally) const {
+double Judge::ToleranceOf(MarginFamily family) const {
+  if (family == MarginFamily::kJointAcceleration) return 150 * tolerance_;
+  if (family == MarginFamily::kTorque) return plain_.mass * plain_.size() * tolerance_;
+  return tolerance_;
+}
+
+Feasibility Judge::Ask(const Case& drawn, const MarginLimits& limits,
+                       std::optional<MarginFamily> only) const {
   const MarginEvaluator evaluator = drawn.evaluator->WithLimits(limits);
-  const CertifiedFeasibility test(evaluator, {});
-  const SuperposedWalk walk(ToSequence(plan), ToParameters(plan));
+  CertificationScope scope;
+  if (only) scope.families = {*only};
+  const CertifiedFeasibility test(evaluator, {}, scope);
+  const SuperposedWalk walk(ToSequence(drawn.plan), ToParameters(drawn.plan));
   MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
-  const Feasibility answer = test.Check(walk, {0.0, walk.duration()}, &scratch);
+  return test.Check(walk, {0.0, walk.duration()}, &scratch);
+}
+
+void Judge::Count(const Feasibility& answer, Tally* tally) const {
   tally->certified += answer.verdict == Verdict::kFeasible;
   tally->violated += answer.verdict == Verdict::kViolated;
   tally->undecided += answer.verdict == Verdict::kUndecided;
-  if (answer.verdict == Verdict::kViolated) {
-    JudgeViolated(drawn, plan, limits, answer.witness, tally);
-  }
-  return answer;
 }
 
-void Judge::JudgeCertified(const Case& drawn, const WalkPlan& plan, const MarginLimits& limits,
+void Judge::JudgeCertified(const Case& drawn, const MarginLimits& limits,
+                           const std::map<std::string, TrueMargin>& least, const WalkTruth& truth,
                            Tally* tally) const {
-  const ClosedFormWalk walk(plan);
-  WalkTruth truth(plain_, walk, *drawn.placed, drawn.plain_scene.no_step, ToDemands(limits));
   ++tally->judged;
-  for (const auto& [name, least] : truth.Least()) {
+  for (const auto& [name, margin] : least) {
     const MarginFamily family = FamilyNamed(name);
-    if (Name(family) != name) continue;  // the project does not claim it
-    const double demanded = limits.demanded_of(family), slack = least.value - demanded;
-    if (family == MarginFamily::kClearance) {
-      tally->least_clearance = std::min(tally->least_clearance, slack);
-    }
-    tally->least_slack = std::min(tally->least_slack, slack / Scale(family));
-    if (!(slack >= -tolerance_)) {
+    const double demanded = limits.demanded_of(family), spare = margin.value - demanded;
+    FamilyTally& its = tally->families[name];
+    its.statements += truth.CountOf(name);
+    its.least_spare = std::min(its.least_spare, spare);
+    if (!(spare >= -ToleranceOf(family))) {
       ++tally->false_certified;
-      drawn.falsehoods->push_back(
-          drawn.name + ": " +
-          Line("certified", name + " of " + least.subject, least.value, demanded, least.t));
+      drawn.Tell(
+          Line("certified", name + " of " + margin.subject, margin.value, demanded, margin.t));
     }
   }
-  tally->instants += truth.instants();
 }
 
-void Judge::JudgeViolated(const Case& drawn, const WalkPlan& plan, const MarginLimits& limits,
-                          const Margin& witness, Tally* tally) const {
-  if (witness.family == MarginFamily::kZmpRobot) return;  // the oracle knows of no masses
-  const ClosedFormWalk walk(plan);
-  WalkTruth truth(plain_, walk, *drawn.placed, drawn.plain_scene.no_step, ToDemands(limits));
+void Judge::JudgeViolated(const Case& drawn, const MarginLimits& limits, const Margin& witness,
+                          WalkTruth* truth, Tally* tally) const {
   const std::string family(Name(witness.family));
-  const double t = walk.start_of(witness.at.half_step) + witness.at.tau;
-  const TrueMargin margin = truth.At(family, t, "");
-  const bool distance = family == "clearance" || family == "self_clearance";
+  const double t = truth->walk().start_of(witness.at.half_step) + witness.at.tau;
+  truth->Demand(ToDemands(limits, drawn.plain_scene.friction));
+  const TrueMargin margin = truth->At(family, t, "");
   const double demanded = limits.demanded_of(witness.family);
-  if (!(margin.lower < demanded + (distance ? kSlab : tolerance_))) {
-    ++tally->false_violated;
-    drawn.falsehoods->push_back(drawn.name + ": " +
-                                Line("violated", drawn.evaluator->Describe(witness) + "; truth",
-                                     margin.lower, demanded, t));
-  }
-  tally->instants += truth.instants();
+  const double may_differ = IsDistance(witness.family) ? kSlab : ToleranceOf(witness.family);
+  if (margin.lower < demanded + may_differ) return;
+  ++tally->false_violated;
+  drawn.Tell(
+      Line("violated", drawn.evaluator->Describe(witness) + "; truth", margin.lower, demanded, t));
 }
 
-// Raises what is demanded of one family until the certificate is refused, and judges the last
-// certified answer, which has next to nothing to spare.
-void Judge::PushDemands(const Case& drawn, const WalkPlan& plan, MarginLimits limits, Draw* draw,
-                        Tally* tally) const {
-  const auto families = drawn.evaluator->families();
-  MarginFamily family = MarginFamily::kClearance;
-  if (drawn.plain_scene.obstacles.empty() || draw->Chance(0.4)) {
-    family = families[static_cast<size_t>(draw->Below(static_cast<int>(families.size())))];
+// What both sides say at the middle of each stretch.
+void Judge::Compare(const Case& drawn, WalkTruth* truth, Tally* tally) const {
+  const SuperposedWalk walk(ToSequence(drawn.plan), ToParameters(drawn.plan));
+  MarginEvaluator::Scratch scratch = drawn.evaluator->MakeScratch();
+  for (const Stretch& stretch : truth->walk().stretches()) {
+    const double t = 0.5 * (stretch.begin + stretch.end);
+    const MarginSet margins = drawn.evaluator->At(walk, walk.Locate(t), &scratch);
+    for (const MarginFamily family : drawn.evaluator->families()) {
+      const std::string name(Name(family));
+      const TrueMargin margin = truth->At(name, t, "");
+      const double theirs = margins[static_cast<size_t>(family)].value;
+      const bool in_metres =
+          IsDistance(family) || family == MarginFamily::kGround || family == MarginFamily::kNoStep;
+      if (!std::isfinite(theirs) && theirs == margin.value) continue;
+      // Overlaps are told by their sign alone, and what is far away is not told apart.
+      if (in_metres && !(theirs > 0 && theirs < kNear)) continue;
+      FamilyTally& its = tally->families[name];
+      its.disagreement = std::max(its.disagreement, std::abs(theirs - margin.lower));
+    }
   }
-  double low = limits.demanded_of(family), high = low + 30 * Scale(family);
-  for (int k = 0; k < 14; ++k) {
-    const double middle = 0.5 * (low + high);
-    limits.demanded_of(family) = middle;
-    // The refused ones are judged when they are near the limit; the others tell the same again.
-    Tally unjudged;
-    Tally* const into = k > 9 ? tally : &unjudged;
-    (Ask(drawn, plan, limits, into).verdict == Verdict::kFeasible ? low : high) = middle;
+}
+
+// Raises what is demanded of one family to what the oracle finds least, nearly: the last certified
+// answer has next to nothing to spare, and a little more must be refused.
+void Judge::Push(const Case& drawn, MarginFamily family, WalkTruth* truth, Tally* tally) const {
+  const std::string name(Name(family));
+  MarginLimits limits = drawn.limits;
+  const auto least_at = [&](double demanded) {
+    limits.demanded_of(family) = demanded;
+    truth->Demand(ToDemands(limits, drawn.plain_scene.friction));
+    return truth->Least(name);
+  };
+  double value = least_at(limits.demanded_of(family))[name].value;
+  if (!std::isfinite(value) || (IsDistance(family) && value > kNear)) return;
+  value = least_at(value)[name].value;  // looked at closely there
+  for (const double spare : {-1e-6, 1e-4, 1e-3, 1e-2, 1e-1, 1.0}) {
+    const double demanded = value - spare * Scale(family);
+    if (demanded < drawn.limits.demanded_of(family)) return;
+    const auto least = least_at(demanded);
+    const Feasibility answer = Ask(drawn, limits, family);
+    Count(answer, tally);
+    if (answer.verdict == Verdict::kViolated) {
+      JudgeViolated(drawn, limits, answer.witness, truth, tally);
+    }
+    if (answer.verdict != Verdict::kFeasible) continue;
+    JudgeCertified(drawn, limits, least, *truth, tally);
+    FamilyTally& its = tally->families[name];
+    ++its.pushed;
+    // The same claim, falsified by a hundredth of the scale.
+    const double false_demand = value + 0.01 * Scale(family);
+    ++its.falsified;
+    its.found += least_at(false_demand)[name].value < false_demand - ToleranceOf(family);
+    return;
   }
-  limits.demanded_of(family) = low;
-  JudgeCertified(drawn, plan, limits, tally);
+}
+
+// Takes obstacles out of the planned way, and makes the plan calmer, until it is certified.
+bool Judge::FindFeasible(const std::string& folder, Case* drawn, Tally* tally) const {
+  const ClosedFormWalk walk(drawn->plan);
+  const Eigen::Vector4d middle = walk.At(Real(0.5 * walk.duration())).value.feet[0];
+  std::vector<double> overlaps = drawn->plan.overlaps;
+  int calmed = 0;
+  for (;;) {
+    const std::string path = WriteScene(drawn->plain_scene, folder);
+    try {
+      drawn->evaluator = std::make_unique<MarginEvaluator>(robot_, LoadScene(path), drawn->limits);
+    } catch (const InputError&) {
+      ++tally->refused;
+      return false;
+    }
+    drawn->placed =
+        std::make_unique<PlacedScene>(drawn->plain_scene, Eigen::Vector3d(middle[0], middle[1], 0));
+    drawn->Overlap(overlaps, 0);
+    const Feasibility answer = Ask(*drawn, drawn->limits, {});
+    Count(answer, tally);
+    if (answer.verdict == Verdict::kFeasible) break;
+    const Margin& witness = answer.witness;
+    const bool by_another = answer.verdict == Verdict::kViolated && witness.other >= 0;
+    if (by_another && witness.family == MarginFamily::kClearance) {
+      auto& obstacles = drawn->plain_scene.obstacles;
+      obstacles.erase(obstacles.begin() + witness.other);
+    } else if (by_another && witness.family == MarginFamily::kNoStep) {
+      auto& areas = drawn->plain_scene.no_step;
+      areas.erase(areas.begin() + witness.other);
+    } else if (++calmed <= 5) {
+      Calm(&drawn->plan);
+    } else {
+      return false;
+    }
+  }
+  for (size_t i = 0; i < overlaps.size(); ++i) {
+    overlaps[i] = std::min(overlaps[i], NaturalBound(drawn->plan, i));
+  }
+  drawn->plan.overlaps = overlaps;
+  return true;
+}
+
+// As large a share of the drawn overlaps as is certified, to a hundredth.
+void Judge::RaiseOverlaps(Case* drawn, Tally* tally) const {
+  const std::vector<double> overlaps = drawn->plan.overlaps;
+  double low = 0, high = 1;
+  for (double share = 1; high - low > 0.01; share = 0.5 * (low + high)) {
+    drawn->Overlap(overlaps, share);
+    const Feasibility answer = Ask(*drawn, drawn->limits, {});
+    Count(answer, tally);
+    (answer.verdict == Verdict::kFeasible ? low : high) = share;
+    if (low == 1) break;
+    if (answer.verdict == Verdict::kViolated && high - low < 0.05) {
+      const ClosedFormWalk walk(drawn->plan);
+      WalkTruth truth(plain_, walk, *drawn->placed, drawn->plain_scene.no_step,
+                      ToDemands(drawn->limits, drawn->plain_scene.friction));
+      JudgeViolated(*drawn, drawn->limits, answer.witness, &truth, tally);
+    }
+  }
+  drawn->Overlap(overlaps, low);
 }
 
 Tally Judge::JudgeOne(SceneKind kind, unsigned seed, const std::string& folder,
@@ -192,56 +256,34 @@ Tally Judge::JudgeOne(SceneKind kind, unsigned seed, const std::string& folder,
   Tally tally;
   tally.walks = 1;
   Case drawn;
-  drawn.name = std::string(NameOf(kind)) + ", seed " + std::to_string(seed);
+  drawn.name = robot_.name + ", " + NameOf(kind) + ", seed " + std::to_string(seed);
   drawn.falsehoods = falsehoods;
-  WalkPlan plan = DrawPlan(plain_, &draw);
-  drawn.plain_scene = DrawNastyScene(kind, plan, &draw);
-  MarginLimits limits;
-  limits.clearance_horizon = 0.05;
+  drawn.plan = DrawPlan(plain_, &draw);
+  drawn.plain_scene = DrawNastyScene(kind, drawn.plan, plain_.size(), &draw);
+  drawn.limits.clearance_horizon = 0.05;
   if (draw.Chance(0.5)) {
-    limits.demanded_of(MarginFamily::kClearance) = draw.Uniform(0, 0.02);
-    limits.demanded_of(MarginFamily::kFloor) = draw.Uniform(0, 0.02);
-    limits.joint_speed_scale = draw.Uniform(0.7, 1);
+    drawn.limits.demanded_of(MarginFamily::kClearance) = draw.Uniform(0, 0.02);
+    drawn.limits.demanded_of(MarginFamily::kFloor) = 0.01 * plain_.size() * draw.Uniform(0, 1);
+    drawn.limits.joint_speed_scale = draw.Uniform(0.7, 1);
   }
-  const ClosedFormWalk farthest(plan);
-  const Eigen::Vector4d middle = farthest.At(Real(0.5 * farthest.duration())).value.feet[0];
-  const std::vector<double> overlaps = plan.overlaps;
-  const auto overlap = [&](double share) {
-    for (size_t i = 0; i < overlaps.size(); ++i) plan.overlaps[i] = share * overlaps[i];
-  };
-  // As long as an obstacle stands in the planned way it is taken out, or not.
-  const bool clear_the_way = draw.Chance(0.8);
-  for (;;) {
-    const std::string path = WriteScene(drawn.plain_scene, folder);
-    try {
-      drawn.evaluator = std::make_unique<MarginEvaluator>(robot_, LoadScene(path), limits);
-    } catch (const InputError&) {
-      ++tally.refused;
-      return tally;
-    }
-    drawn.placed =
-        std::make_unique<PlacedScene>(drawn.plain_scene, Eigen::Vector3d(middle[0], middle[1], 0));
-    overlap(0);
-    const Feasibility answer = Ask(drawn, plan, limits, &tally);
-    if (answer.verdict == Verdict::kFeasible) break;
-    if (answer.witness.family != MarginFamily::kClearance || answer.witness.other < 0 ||
-        !clear_the_way) {
-      return tally;
-    }
-    auto& obstacles = drawn.plain_scene.obstacles;
-    obstacles.erase(obstacles.begin() + answer.witness.other);
-  }
-  overlap(1);
-  double low = 0, high = 1;
-  if (Ask(drawn, plan, limits, &tally).verdict == Verdict::kFeasible) low = 1;
-  while (high - low > 2e-3) {
-    const double share = 0.5 * (low + high);
-    overlap(share);
-    (Ask(drawn, plan, limits, &tally).verdict == Verdict::kFeasible ? low : high) = share;
-  }
-  overlap(low);
-  JudgeCertified(drawn, plan, limits, &tally);
-  PushDemands(drawn, plan, limits, &draw, &tally);
+  if (plain_.size() < 0.5) drawn.limits.demanded_of(MarginFamily::kFloor) *= plain_.size();
+  drawn.limits.demanded_of(MarginFamily::kZmp) = 0.01 * draw.Uniform(0, plain_.size());
+  drawn.limits.demanded_of(MarginFamily::kZmpRobot) = 0.01 * draw.Uniform(0, plain_.size());
+  drawn.limits.demanded_of(MarginFamily::kSelfClearance) = 0.005 * plain_.size();
+  if (!FindFeasible(folder, &drawn, &tally)) return tally;
+  RaiseOverlaps(&drawn, &tally);
+  const ClosedFormWalk walk(drawn.plan);
+  WalkTruth truth(plain_, walk, *drawn.placed, drawn.plain_scene.no_step,
+                  ToDemands(drawn.limits, drawn.plain_scene.friction));
+  JudgeCertified(drawn, drawn.limits, truth.Least(), truth, &tally);
+  Compare(drawn, &truth, &tally);
+  // The families that came last, one more, and often clearance.
+  std::vector<MarginFamily> pushed = {MarginFamily::kZmpRobot, MarginFamily::kTorque,
+                                      MarginFamily::kFriction, MarginFamily::kJointAcceleration};
+  pushed.push_back(static_cast<MarginFamily>(draw.Below(static_cast<int>(MarginFamily::kOwn))));
+  if (draw.Chance(0.6)) pushed.push_back(MarginFamily::kClearance);
+  for (const MarginFamily family : pushed) Push(drawn, family, &truth, &tally);
+  tally.instants += truth.instants();
   return tally;
 }
 

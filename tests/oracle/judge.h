@@ -2,6 +2,8 @@
 
 #include <array>
 #include <limits>
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,6 +16,17 @@
 
 namespace halfstep::oracle {
 
+/// What came out for one family of margins.
+struct FamilyTally {
+  long statements = 0;  ///< of certified answers that were sampled, each for a whole walk
+  long pushed = 0;      ///< certified with next to nothing to spare
+  long falsified = 0;   ///< claims that were made false on purpose
+  long found = 0;       ///< of these, by the oracle
+  double least_spare = std::numeric_limits<double>::infinity();  ///< over what was demanded [unit]
+  double disagreement = 0;  ///< of the oracle's and the project's value at an instant [unit]
+  void Add(const FamilyTally& other);
+};
+
 /// What came out for one kind of scene.
 struct Tally {
   long walks = 0;                                   ///< drawn, each asked several times
@@ -21,19 +34,19 @@ struct Tally {
   long certified = 0, violated = 0, undecided = 0;  ///< answers
   long judged = 0;                                  ///< certified answers that were sampled
   long false_certified = 0, false_violated = 0;
-  double least_clearance = std::numeric_limits<double>::infinity();  ///< over what was demanded [m]
-  double least_slack = std::numeric_limits<double>::infinity();      ///< of any family [its scale]
-  long instants = 0;                                                 ///< that the oracle looked at
+  long instants = 0;                            ///< that the oracle looked at
+  std::map<std::string, FamilyTally> families;  ///< by name
   void Add(const Tally& other);
 };
 
 /// Asks the project about drawn walks and judges its answers by the oracle. A certified walk is
 /// pushed to its limit: overlaps are raised until it is refused, then what is demanded of one
-/// family. The last certified and the refused answers are judged.
+/// family after the other. The last certified and the refused answers are judged.
 class Judge {
  public:
-  /// `tolerance` [the margin's unit]: what a sampled margin may fall short by; both sides round,
-  /// positions of 900 m to 1e-13 m, joint speeds near a stretched knee to 1e-11 rad/s.
+  /// `tolerance` [the margin's unit; of the limit where there is one]: what a sampled margin may
+  /// fall short by; both sides round, positions of 900 m to 1e-13 m, joint speeds near a stretched
+  /// knee to 1e-11 rad/s.
   explicit Judge(const std::string& robot_yaml, double tolerance = 1e-9);
 
   /// One walk in a scene of that kind. `folder` gets the scene's files. Falsehoods are described in
@@ -46,22 +59,23 @@ class Judge {
 
  private:
   struct Case;
-  void JudgeCertified(const Case& drawn, const WalkPlan& plan, const MarginLimits& limits,
+  bool FindFeasible(const std::string& folder, Case* drawn, Tally* tally) const;
+  void RaiseOverlaps(Case* drawn, Tally* tally) const;
+  void JudgeCertified(const Case& drawn, const MarginLimits& limits,
+                      const std::map<std::string, TrueMargin>& least, const WalkTruth& truth,
                       Tally* tally) const;
-  void JudgeViolated(const Case& drawn, const WalkPlan& plan, const MarginLimits& limits,
-                     const Margin& witness, Tally* tally) const;
-  Feasibility Ask(const Case& drawn, const WalkPlan& plan, const MarginLimits& limits,
-                  Tally* tally) const;
-  void PushDemands(const Case& drawn, const WalkPlan& plan, MarginLimits limits, Draw* draw,
-                   Tally* tally) const;
+  void JudgeViolated(const Case& drawn, const MarginLimits& limits, const Margin& witness,
+                     WalkTruth* truth, Tally* tally) const;
+  void Compare(const Case& drawn, WalkTruth* truth, Tally* tally) const;
+  Feasibility Ask(const Case& drawn, const MarginLimits& limits,
+                  std::optional<MarginFamily> only) const;
+  void Count(const Feasibility& answer, Tally* tally) const;
+  void Push(const Case& drawn, MarginFamily family, WalkTruth* truth, Tally* tally) const;
+  double ToleranceOf(MarginFamily family) const;
 
   PlainRobot plain_;
   RobotModel robot_;
   double tolerance_;
 };
-
-/// The plan as the project takes it.
-HalfStepSequence ToSequence(const WalkPlan& plan);
-HomotopyParameters ToParameters(const WalkPlan& plan);
 
 }  // namespace halfstep::oracle

@@ -170,35 +170,27 @@ PlainObstacle Small(SceneKind kind, Draw* draw) {
   return o;
 }
 
-// Somewhere about the feet and legs of a walk.
-Eigen::Vector3d NearTheWay(const ClosedFormWalk& walk, Draw* draw) {
-  const WalkState at = walk.At(Real(draw->Uniform(0, walk.duration())));
-  const Eigen::Vector4d& foot = at.value.feet[static_cast<size_t>(draw->Below(2))];
-  const double away = draw->Uniform(0, 0.3), towards = draw->Uniform(-3.15, 3.15);
-  const double z = draw->Chance(0.6) ? draw->Uniform(0, 0.15) : draw->Uniform(0, 0.7);
-  return {foot[0] + away * std::cos(towards), foot[1] + away * std::sin(towards), z};
-}
-
 // Triangles far larger than the robot, a plate's thickness away from where the feet pass.
-PlainObstacle Huge(const ClosedFormWalk& walk, Draw* draw) {
-  PlainObstacle o = MeshAbout(NearTheWay(walk, draw));
-  const double size = draw->Logarithmic(100, 1e5);
+PlainObstacle Huge(const ClosedFormWalk& walk, double size, Draw* draw) {
+  PlainObstacle o = MeshAbout(NearTheWay(walk, size, draw));
+  const double edge = draw->Logarithmic(100, 1e5);
   const bool level = draw->Chance(0.3);
   if (level) o.xyz.z() = draw->Chance(0.5) ? -draw->Uniform(0.006, 0.02) : draw->Uniform(1.6, 2);
   if (draw->Chance(0.5)) {  // one triangle, the origin well inside
-    o.vertices = {{size, -0.3 * size, 0}, {-0.8 * size, -0.5 * size, 0}, {0.1 * size, size, 0}};
+    o.vertices = {{edge, -0.3 * edge, 0}, {-0.8 * edge, -0.5 * edge, 0}, {0.1 * edge, edge, 0}};
     o.triangles = {{0, 1, 2}};
   } else {  // a corner, an edge far away
-    o.vertices = {{0, 0, 0}, {size, 0.1 * size, 0}, {size, -0.2 * size, 0}};
+    o.vertices = {{0, 0, 0}, {edge, 0.1 * edge, 0}, {edge, -0.2 * edge, 0}};
     o.triangles = {{0, 1, 2}};
   }
   if (!level) o.rpy_deg = {draw->Uniform(60, 120), 0, draw->Uniform(-360, 360)};
   return o;
 }
 
-PlainObstacle FarVertices(const ClosedFormWalk& walk, Draw* draw) {
-  PlainObstacle o = MeshAbout(NearTheWay(walk, draw));
-  AddBox({0, 0, 0}, {0.02, draw->Uniform(0.1, 0.5), draw->Uniform(0.05, 0.3)}, false, &o);
+PlainObstacle FarVertices(const ClosedFormWalk& walk, double size, Draw* draw) {
+  PlainObstacle o = MeshAbout(NearTheWay(walk, size, draw));
+  AddBox({0, 0, 0}, size * Eigen::Vector3d(0.02, draw->Uniform(0.1, 0.5), draw->Uniform(0.05, 0.3)),
+         false, &o);
   const double away = draw->Logarithmic(1e3, 1e15);
   const bool in_triangles = draw->Chance(0.5);
   for (int k = 0; k < 5; ++k) {
@@ -219,8 +211,8 @@ PlainObstacle FarVertices(const ClosedFormWalk& walk, Draw* draw) {
   return o;
 }
 
-PlainObstacle Nested(const ClosedFormWalk& walk, Draw* draw) {
-  Eigen::Vector3d middle = NearTheWay(walk, draw);
+PlainObstacle Nested(const ClosedFormWalk& walk, double size, Draw* draw) {
+  Eigen::Vector3d middle = NearTheWay(walk, size, draw);
   middle.z() = 0;
   PlainObstacle o = MeshAbout(middle);
   const int which = draw->Below(5);
@@ -233,25 +225,26 @@ PlainObstacle Nested(const ClosedFormWalk& walk, Draw* draw) {
     AddBox({0, 0, 0}, Eigen::Vector3d::Constant(room + 0.2), false, &o);
     AddBox({0, 0, 0}, Eigen::Vector3d::Constant(room), true, &o);
   } else {  // small solids in one another
-    const Eigen::Vector3d size = draw->Vector(0.05, 0.25);
+    const Eigen::Vector3d edges = size * draw->Vector(0.05, 0.25);
     for (double share = 1; share > 0.2; share -= draw->Uniform(0.1, 0.5)) {
-      AddBox({0, 0, 0}, share * size, draw->Chance(0.5), &o);
+      AddBox({0, 0, 0}, share * edges, draw->Chance(0.5), &o);
     }
-    o.xyz.z() = draw->Uniform(0, 0.3);
+    o.xyz.z() = size * draw->Uniform(0, 0.3);
     o.rpy_deg = AnyTurn(draw);
   }
   return o;
 }
 
-std::vector<Eigen::Vector2d> Area(const ClosedFormWalk& walk, Draw* draw) {
-  const Eigen::Vector2d at = NearTheWay(walk, draw).head<2>();
-  const double size = draw->Chance(0.3) ? draw->Uniform(0.002, 0.02) : draw->Uniform(0.02, 0.2);
+std::vector<Eigen::Vector2d> Area(const ClosedFormWalk& walk, double size, Draw* draw) {
+  const Eigen::Vector2d at = NearTheWay(walk, size, draw).head<2>();
+  const double across =
+      size * (draw->Chance(0.3) ? draw->Uniform(0.002, 0.02) : draw->Uniform(0.02, 0.2));
   const double first = draw->Uniform(0, 6.28);
   const int n = 3 + draw->Below(5);
   std::vector<Eigen::Vector2d> polygon;
   for (int k = 0; k < n; ++k) {
     const double angle = first + 2 * std::numbers::pi * k / n;
-    const double r = size * draw->Uniform(0.5, 1);
+    const double r = across * draw->Uniform(0.5, 1);
     polygon.push_back(at + r * Eigen::Vector2d(std::cos(angle), std::sin(angle)));
   }
   if (draw->Chance(0.5)) std::reverse(polygon.begin(), polygon.end());
@@ -260,38 +253,55 @@ std::vector<Eigen::Vector2d> Area(const ClosedFormWalk& walk, Draw* draw) {
 
 }  // namespace
 
+Eigen::Vector3d NearTheWay(const ClosedFormWalk& walk, double size, Draw* draw) {
+  const WalkState at = walk.At(Real(draw->Uniform(0, walk.duration())));
+  const Eigen::Vector4d& foot = at.value.feet[static_cast<size_t>(draw->Below(2))];
+  const double away = size * draw->Uniform(0, 0.3), towards = draw->Uniform(-3.15, 3.15);
+  const double z = size * (draw->Chance(0.6) ? draw->Uniform(0, 0.15) : draw->Uniform(0, 0.7));
+  return {foot[0] + away * std::cos(towards), foot[1] + away * std::sin(towards), z};
+}
+
 const char* NameOf(SceneKind kind) {
   constexpr std::array<const char*, kNumSceneKinds> kNames = {
       "thin plates",  "needles",        "tiny spheres",   "primitives", "closed meshes",
       "open meshes",  "flipped meshes", "doubled meshes", "degenerate", "huge meshes",
-      "far vertices", "nested solids",  "no-step areas",  "clouds"};
+      "far vertices", "nested solids",  "no-step areas",  "clouds",     "moving obstacles"};
   return kNames[static_cast<size_t>(kind)];
 }
 
-PlainScene DrawNastyScene(SceneKind kind, const WalkPlan& plan, Draw* draw) {
+PlainScene DrawNastyScene(SceneKind kind, const WalkPlan& plan, double size, Draw* draw) {
   const ClosedFormWalk walk(plan);
   PlainScene scene;
+  scene.friction = draw->Uniform(0.3, 1);
   int count = 1 + draw->Below(8);
   if (kind == SceneKind::kTinySpheres) count = 8 + draw->Below(25);
+  if (kind == SceneKind::kMoving) count = 1 + draw->Below(4);
   if (kind == SceneKind::kHugeMeshes || kind == SceneKind::kFarVertices) count = 1 + draw->Below(3);
   for (int k = 0; k < count; ++k) {
     if (kind == SceneKind::kNoStep) {
-      scene.no_step.push_back(Area(walk, draw));
+      scene.no_step.push_back(Area(walk, size, draw));
       continue;
     }
     PlainObstacle o;
     if (kind == SceneKind::kHugeMeshes) {
-      o = Huge(walk, draw);
+      o = Huge(walk, size, draw);
     } else if (kind == SceneKind::kFarVertices) {
-      o = FarVertices(walk, draw);
+      o = FarVertices(walk, size, draw);
     } else if (kind == SceneKind::kNested) {
-      o = Nested(walk, draw);
+      o = Nested(walk, size, draw);
     } else {
-      o = Small(kind, draw);
-      o.xyz = NearTheWay(walk, draw);
+      constexpr std::array<SceneKind, 5> kThatMove = {SceneKind::kThinPlates, SceneKind::kNeedles,
+                                                      SceneKind::kPrimitives,
+                                                      SceneKind::kClosedMeshes, SceneKind::kClouds};
+      o = Small(kind == SceneKind::kMoving ? kThatMove[static_cast<size_t>(draw->Below(5))] : kind,
+                draw);
+      o.size *= size;
+      for (Eigen::Vector3d& v : o.vertices) v *= size;
+      o.xyz = NearTheWay(walk, size, draw);
       o.rpy_deg =
           draw->Chance(0.4) ? Eigen::Vector3d(0, 0, draw->Uniform(-180, 180)) : AnyTurn(draw);
     }
+    if (kind == SceneKind::kMoving) AddMotion(walk, size, draw, &o);
     o.name = "o" + std::to_string(k);
     scene.obstacles.push_back(std::move(o));
   }

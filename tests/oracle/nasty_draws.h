@@ -26,8 +26,9 @@ enum class SceneKind : int {
   kNested,            ///< solids in solids, rooms and shells around the robot
   kNoStep,            ///< areas of the floor
   kClouds,            ///< points with balls of some centimetres
+  kMoving,            ///< obstacles that move by waypoints, or are known to some centimetres
 };
-constexpr int kNumSceneKinds = 14;
+constexpr int kNumSceneKinds = 15;
 const char* NameOf(SceneKind kind);
 
 /// Random numbers, reproducible from the seed.
@@ -49,12 +50,20 @@ class Draw {
   std::mt19937 random_;
 };
 
-/// A plan of one to three steps with random overlaps (up to `fullness` of their natural bounds),
-/// heights and durations; one in five is 900 m away with yaws of many turns.
+/// A plan of one to three steps with random values of every family of parameters; one in five is
+/// 900 m away with yaws of many turns. Half of the plans have a form a step or half-step, some of
+/// them rest at junctions, sway, or have footsteps that are moved.
 WalkPlan DrawPlan(const PlainRobot& robot, Draw* draw);
+/// A step towards a plan that is feasible: slower, forms nearer to the plain ones, less moved.
+void Calm(WalkPlan* plan);
 /// Largest overlap of junction i by smoothing/README.md, "Natural bounds" [s].
 double NaturalBound(const WalkPlan& plan, size_t junction);
 
-PlainScene DrawNastyScene(SceneKind kind, const WalkPlan& plan, Draw* draw);
+/// `size` of the robot: PlainRobot::size.
+PlainScene DrawNastyScene(SceneKind kind, const WalkPlan& plan, double size, Draw* draw);
+/// Somewhere about the feet and legs of a walk, in W [m].
+Eigen::Vector3d NearTheWay(const ClosedFormWalk& walk, double size, Draw* draw);
+/// Waypoints that lead an obstacle past the walk, or not, and how well its place is known.
+void AddMotion(const ClosedFormWalk& walk, double size, Draw* draw, PlainObstacle* obstacle);
 
 }  // namespace halfstep::oracle

@@ -1,62 +1,93 @@
-// Asks the project about nasty scenes and judges every answer by the oracle. Prints the table of
-// tests/oracle/README.md; exit status 1 when an answer was false.
-// Run: oracle_study [WALKS [SEED [KIND]]]
+// Asks the project about nasty walks and scenes and judges every answer by the oracle. Prints the
+// tables of tests/oracle/README.md; exit status 1 when an answer was false.
+// Run: oracle_study [WALKS [SEED [ROBOT|all [KIND]]]]
 
 #include <array>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "tests/oracle/judge.h"
+#include "tests/oracle/project_side.h"
 #include "tests/temporary_folder.h"
 
 namespace halfstep::oracle {
 namespace {
 
 void PrintRow(const char* name, const Tally& t) {
-  std::printf("| %-15s | %5ld | %4ld | %6ld | %6ld | %5ld | %6ld | %d | %d | %9.2g | %9.2g |\n",
-              name, t.walks, t.refused, t.certified, t.violated, t.undecided, t.judged,
-              static_cast<int>(t.false_certified), static_cast<int>(t.false_violated),
-              t.least_clearance, t.least_slack);
+  std::printf("| %-16s | %5ld | %4ld | %6ld | %6ld | %5ld | %6ld | %ld | %ld |\n", name, t.walks,
+              t.refused, t.certified, t.violated, t.undecided, t.judged, t.false_certified,
+              t.false_violated);
 }
 
-int Run(long walks, unsigned seed, int only) {
+void PrintFamilies(const Tally& all) {
+  std::printf(
+      "| family | statements | pushed to its limit | least spare [unit] | falsified, found | "
+      "largest disagreement [unit] | unit |\n|---|---|---|---|---|---|---|\n");
+  for (const MarginFamily family : AllMarginFamilies()) {
+    const std::string name(Name(family));
+    const auto found = all.families.find(name);
+    if (found == all.families.end()) continue;
+    const FamilyTally& t = found->second;
+    std::printf("| %-18s | %8ld | %5ld | %9.2g | %ld, %ld | %8.2g | %s |\n", name.c_str(),
+                t.statements, t.pushed, t.least_spare, t.falsified, t.found, t.disagreement,
+                std::string(Unit(family)).c_str());
+  }
+}
+
+int Run(long walks, unsigned seed, const std::string& only_robot, int only_kind) {
+  std::vector<std::string> names = {"hrp2", "bison", "wren"};
+  if (only_robot != "all") names = {only_robot};
   const TemporaryFolder folder;
-  const Judge judge(HALFSTEP_SOURCE_DIR "/wpg/robots/hrp2.yaml");
-  std::array<Tally, kNumSceneKinds> tallies;
+  std::vector<std::unique_ptr<Judge>> judges;
+  for (const std::string& name : names) {
+    judges.push_back(std::make_unique<Judge>(WriteJudgedRobot(name, folder.path().string())));
+  }
+  std::array<Tally, kNumSceneKinds> by_kind;
+  std::vector<Tally> by_robot(names.size());
   std::vector<std::string> falsehoods;
   size_t told = 0;
   const auto begin = std::chrono::steady_clock::now();
+  const auto seconds = [&begin] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  };
   for (long w = 0; w < walks; ++w) {
-    const int kind = only >= 0 ? only : static_cast<int>(w % kNumSceneKinds);
-    const unsigned its = seed * 1000000u + static_cast<unsigned>(w);
-    tallies[static_cast<size_t>(kind)].Add(
-        judge.JudgeOne(static_cast<SceneKind>(kind), its, folder.path().string(), &falsehoods));
+    const auto robot = static_cast<size_t>(w) % names.size();
+    const int kind = only_kind >= 0
+                         ? only_kind
+                         : static_cast<int>(w / static_cast<long>(names.size())) % kNumSceneKinds;
+    const Tally tally = judges[robot]->JudgeOne(static_cast<SceneKind>(kind),
+                                                seed * 1000000u + static_cast<unsigned>(w),
+                                                folder.path().string(), &falsehoods);
+    by_kind[static_cast<size_t>(kind)].Add(tally);
+    by_robot[robot].Add(tally);
     for (; told < falsehoods.size(); ++told) {
       std::printf("FALSE: %s\n", falsehoods[told].c_str());
       std::fflush(stdout);
     }
     if ((w + 1) % 100 == 0) {
-      const std::chrono::duration<double> so_far = std::chrono::steady_clock::now() - begin;
       std::fprintf(stderr, "%ld walks, %zu falsehoods, %.2f s a walk\n", w + 1, falsehoods.size(),
-                   so_far.count() / static_cast<double>(w + 1));
+                   seconds() / static_cast<double>(w + 1));
     }
   }
   std::printf(
-      "| scene | walks | refused | certified | violated | undecided | sampled | "
-      "false certified | false violated | least clearance over what is demanded [m] | "
-      "least slack [scale] |\n|---|---|---|---|---|---|---|---|---|---|---|\n");
+      "| scene or robot | walks | refused | certified | violated | undecided | sampled | "
+      "false certified | false violated |\n|---|---|---|---|---|---|---|---|---|\n");
   Tally all;
   for (int kind = 0; kind < kNumSceneKinds; ++kind) {
-    const Tally& tally = tallies[static_cast<size_t>(kind)];
+    const Tally& tally = by_kind[static_cast<size_t>(kind)];
     if (tally.walks == 0) continue;
     PrintRow(NameOf(static_cast<SceneKind>(kind)), tally);
     all.Add(tally);
   }
+  for (size_t r = 0; r < names.size(); ++r) PrintRow(names[r].c_str(), by_robot[r]);
   PrintRow("all", all);
+  PrintFamilies(all);
   std::printf("seed %u, %ld instants by the oracle\n", seed, all.instants);
+  std::fprintf(stderr, "%.0f s\n", seconds());
   return falsehoods.empty() ? 0 : 1;
 }
 
@@ -66,5 +97,6 @@ int Run(long walks, unsigned seed, int only) {
 int main(int argc, char** argv) {
   const long walks = argc > 1 ? std::atol(argv[1]) : 2000;
   const unsigned seed = argc > 2 ? static_cast<unsigned>(std::atoi(argv[2])) : 1;
-  return halfstep::oracle::Run(walks, seed, argc > 3 ? std::atoi(argv[3]) : -1);
+  const std::string robot = argc > 3 ? argv[3] : "all";
+  return halfstep::oracle::Run(walks, seed, robot, argc > 4 ? std::atoi(argv[4]) : -1);
 }

@@ -9,6 +9,7 @@
 
 #include "smoothing/walk/superposed_walk.h"
 #include "tests/oracle/judge.h"
+#include "tests/oracle/project_side.h"
 #include "tests/temporary_folder.h"
 #include "tests/wpg/shipped_robots.h"
 
@@ -148,7 +149,7 @@ TEST(PlainSceneTest, KnowsInsideFromOutside) {
   for (const SceneKind kind : {SceneKind::kClosedMeshes, SceneKind::kNested}) {
     const PlainRobot robot(kRobot);
     const WalkPlan plan = DrawPlan(robot, &draw);
-    for (const PlainObstacle& o : DrawNastyScene(kind, plan, &draw).obstacles) {
+    for (const PlainObstacle& o : DrawNastyScene(kind, plan, robot.size(), &draw).obstacles) {
       scene.obstacles.push_back(o);
     }
   }

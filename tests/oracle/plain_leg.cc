@@ -85,7 +85,8 @@ bool PlainRobot::SolveLeg(int leg, const Eigen::Isometry3d& X_BSole, Vector6* q)
     double length = std::min(1.0, 0.3 / step.cwiseAbs().maxCoeff());
     Vector6 next;
     bool better = false;
-    for (int halved = 0; halved < 12 && !better; ++halved, length *= 0.5) {
+    const int halvings = error.norm() < 1e-13 ? 1 : 12;  // where rounding decides, or the step
+    for (int halved = 0; halved < halvings && !better; ++halved, length *= 0.5) {
       next = at + length * step;
       const auto there = PlaceLeg(leg, next);
       const Vector6 left = Error(there[6], X_BSole);

@@ -20,6 +20,14 @@ std::string Between(const std::string& text, const std::string& from, const std:
   return text.substr(first, text.find_first_of(to, first) - first);
 }
 
+Eigen::Matrix3d Inertia(const XmlTag& tag) {
+  const auto of = [&tag](const char* key) { return std::stod(tag[key]); };
+  const double xy = of("ixy"), xz = of("ixz"), yz = of("iyz");
+  Eigen::Matrix3d I;
+  I << of("ixx"), xy, xz, xy, of("iyy"), yz, xz, yz, of("izz");
+  return I;
+}
+
 Eigen::Isometry3d Placed(const PlainRobot::Joint& joint, double q) {
   Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
   X.translation() = joint.xyz;
@@ -41,7 +49,6 @@ PlainRobot::PlainRobot(const std::string& yaml_path) {
   ChoosePairs();
   // What the model takes from the posture of standing.
   const std::vector<Eigen::Isometry3d> X = PlaceLinks({Standing(0), Standing(1)});
-  double mass = 0;
   Eigen::Vector3d moment(0, 0, 0);
   for (size_t i = 0; i < links.size(); ++i) {
     mass += links[i].mass;
@@ -79,6 +86,7 @@ void PlainRobot::ReadUrdf(const std::string& path) {
     if (tag.within == "robot/link/inertial") {
       if (tag.name == "mass") links.back().mass = std::stod(tag["value"]);
       if (tag.name == "origin") links.back().com = ThreeNumbers(tag["xyz"]);
+      if (tag.name == "inertia") links.back().inertia = Inertia(tag);
     }
     if (tag.within.starts_with("robot/link/collision")) {
       if (tag.name == "mesh" && links.back().mesh.empty() && tag.attributes.size() == 1) {
@@ -101,6 +109,8 @@ void PlainRobot::ReadUrdf(const std::string& path) {
         joint.lower = std::stod(tag["lower"]);
         joint.upper = std::stod(tag["upper"]);
         joint.speed = std::stod(tag["velocity"]);
+        const double effort = std::stod(tag["effort"]);
+        if (effort > 0) joint.effort = effort;
       }
     }
   }
@@ -135,6 +145,12 @@ void PlainRobot::ReadYaml(const std::string& path) {
       const std::vector<double> limits = NumbersIn(line.value);
       joint.lower = kDegree * limits.at(0);
       joint.upper = kDegree * limits.at(1);
+    }
+    if (line.indent > 0 &&
+        (section == "effort_limits_n_m" || section == "acceleration_limits_rad_s2")) {
+      Joint& joint = joints[static_cast<size_t>(JointNamed(line.key))];
+      (section[0] == 'e' ? joint.effort : joint.acceleration) =
+          line.value == "none" ? kUnknown : std::stod(line.value);
     }
     if (section == "excluded_self_pairs" && line.key.empty()) {
       excluded.push_back({Between(line.value, "links: [", ","), Between(line.value, ", ", "]")});

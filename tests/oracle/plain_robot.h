@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <array>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -13,18 +14,23 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 /// what HRP-2's files hold and no more: no rpy, mesh bodies only, three hip joints in one point,
 /// two ankle joints in one point. Anything else throws std::runtime_error.
 struct PlainRobot {
+  /// Of what no file limits.
+  static constexpr double kUnknown = std::numeric_limits<double>::infinity();
   struct Joint {
     std::string name, child, parent;
     bool turns = false;
     Eigen::Vector3d xyz{0, 0, 0}, axis{0, 0, 1};
     double lower = 0, upper = 0, speed = 0;  ///< [rad], [rad/s]
     double standing = 0;                     ///< angle while standing [rad]
+    double effort = kUnknown;                ///< that it gives either way [N m]
+    double acceleration = kUnknown;          ///< that it is allowed either way [rad/s²]
   };
   struct Link {
     std::string name, mesh;
     double mass = 0;
     Eigen::Vector3d com{0, 0, 0};
-    int joint = -1;  ///< that moves it
+    Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< about the CoM, axes of the link [kg m²]
+    int joint = -1;                                     ///< that moves it
     int parent = -1;
   };
   struct Body {
@@ -51,6 +57,10 @@ struct PlainRobot {
   Eigen::Vector2d sole_size{0, 0};                                         ///< [m]
   std::vector<std::array<std::string, 2>> excluded;  ///< links, as the YAML file names them
   std::vector<std::array<int, 2>> watched;           ///< pairs of bodies
+
+  double mass = 0;  ///< of all links [kg]
+  /// Height of the hips while standing, 0.7 m being 1: what drawn walks and scenes are scaled by.
+  double size() const { return (waist_height + HipInWaist(0).z()) / 0.7; }
 
   /// Poses of all links in the waist frame, legs at `q`, all else standing.
   std::vector<Eigen::Isometry3d> PlaceLinks(const std::array<Vector6, 2>& q) const;

@@ -125,6 +125,9 @@ PlacedScene::PlacedScene(const PlainScene& scene, const Eigen::Vector3d& center)
   for (const PlainObstacle& o : scene.obstacles) {
     Placed& placed = obstacles_.emplace_back();
     placed.name = o.name;
+    placed.motion = o;
+    placed.motion.vertices.clear();
+    placed.motion.triangles.clear();
     if (o.kind == PlainObstacle::Kind::kMesh) {
       AddMesh(o, &placed);
     } else if (o.kind == PlainObstacle::Kind::kPoints) {
@@ -168,8 +171,47 @@ PlacedScene::PlacedScene(const PlainScene& scene, const Eigen::Vector3d& center)
         piece.radius = std::max(piece.radius, (p - piece.center).norm());
       }
       piece.radius = (piece.radius + piece.set.disc + piece.set.ball) * (1 + 1e-9) + 1e-9;
+      placed.radius = std::max(placed.radius, (piece.center - o.xyz).norm() + piece.radius);
     }
   }
+}
+
+Eigen::Vector3d PlacedScene::AtStart(size_t obstacle, double t,
+                                     const Eigen::Vector3d& point) const {
+  const PlainObstacle& o = obstacles_[obstacle].motion;
+  if (o.waypoints.empty() || t <= 0) return point;
+  PlainObstacle::Waypoint from{.t = 0, .xyz = o.xyz, .yaw_deg = 0}, at = o.waypoints.back();
+  for (const PlainObstacle::Waypoint& to : o.waypoints) {
+    if (t < to.t) {
+      const double share = (t - from.t) / (to.t - from.t);
+      at.xyz = from.xyz + share * (to.xyz - from.xyz);
+      at.yaw_deg = from.yaw_deg + share * (to.yaw_deg - from.yaw_deg);
+      break;
+    }
+    from = to;
+  }
+  const double yaw = at.yaw_deg * std::numbers::pi / 180;
+  return o.xyz + Eigen::AngleAxisd(-yaw, Eigen::Vector3d::UnitZ()) * (point - at.xyz);
+}
+
+double PlacedScene::Uncertainty(size_t obstacle, double t) const {
+  const PlainObstacle& o = obstacles_[obstacle].motion;
+  double since = std::abs(t - o.measured_at);
+  if (o.horizon >= 0) since = std::min(since, o.horizon);
+  return o.error + o.speed * since;
+}
+
+double PlacedScene::speed(size_t obstacle) const {
+  const Placed& placed = obstacles_[obstacle];
+  double fastest = 0;
+  PlainObstacle::Waypoint from{.t = 0, .xyz = placed.motion.xyz, .yaw_deg = 0};
+  for (const PlainObstacle::Waypoint& to : placed.motion.waypoints) {
+    const double turn = std::abs(to.yaw_deg - from.yaw_deg) * std::numbers::pi / 180;
+    fastest =
+        std::max(fastest, ((to.xyz - from.xyz).norm() + turn * placed.radius) / (to.t - from.t));
+    from = to;
+  }
+  return fastest + placed.motion.speed;
 }
 
 // A cloud as planner/README.md has it: the cubes of edge r, of the lattice through the origin of

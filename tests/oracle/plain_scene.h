@@ -25,17 +25,29 @@ struct PlainObstacle {
   std::vector<std::array<int, 3>> triangles;
   double scale = 1;  ///< [m per unit]
   Eigen::Vector3d xyz{0, 0, 0}, rpy_deg{0, 0, 0};
+  /// planner/README.md, "Obstacles that move": known motion, and how well it is known.
+  struct Waypoint {
+    double t = 0;  ///< [s]
+    Eigen::Vector3d xyz{0, 0, 0};
+    double yaw_deg = 0;
+  };
+  std::vector<Waypoint> waypoints = {};
+  double error = 0, speed = 0, measured_at = 0;  ///< [m], [m/s], [s]
+  double horizon = -1;                           ///< [s]; below 0: none
+  bool has_motion() const { return !waypoints.empty() || error > 0 || speed > 0; }
 };
 
 struct PlainScene {
   std::vector<PlainObstacle> obstacles;
   std::vector<std::vector<Eigen::Vector2d>> no_step;  ///< polygons on the floor, in W [m]
+  double friction = 0.7;
 };
 
 /// Writes scene.yaml and the meshes into a folder that exists; returns the path of scene.yaml.
 std::string WriteScene(const PlainScene& scene, const std::string& folder);
 
-/// What stands near a walk, in W: obstacles as convex pieces. Meshes as their own triangles, cut in
+/// What stands near a walk, in W: obstacles as convex pieces, where they are at the start. A point
+/// that meets an obstacle at t is asked for AtStart. Meshes as their own triangles, cut in
 /// quadruple precision to a box of some metres, so that far corners cost no digits.
 class PlacedScene {
  public:
@@ -44,6 +56,12 @@ class PlacedScene {
 
   size_t size() const { return obstacles_.size(); }
   const std::string& name(size_t obstacle) const { return obstacles_[obstacle].name; }
+  /// Moves a point of W with the obstacle, from where this is at t [s] to where it is at the start.
+  Eigen::Vector3d AtStart(size_t obstacle, double t, const Eigen::Vector3d& point) const;
+  /// How far any point of the obstacle may be from where it is said to be at t [m].
+  double Uncertainty(size_t obstacle, double t) const;
+  /// No point of the obstacle is faster, what is uncertain included [m/s].
+  double speed(size_t obstacle) const;
   /// Distance of a convex set, with a ball around `center` that holds it, from the surface (mesh)
   /// or the solid (else). More than `enough` is not told apart [m].
   Bracket Distance(size_t obstacle, const ConvexSet& set, const Eigen::Vector3d& center,
@@ -76,6 +94,8 @@ class PlacedScene {
   using Triangle = std::array<Eigen::Vector3d, 3>;
   struct Placed {
     std::string name;
+    PlainObstacle motion;  // without its shape
+    double radius = 0;     // of its points about the origin of its frame [m]
     std::vector<Piece> pieces;
     std::vector<std::vector<Triangle>> components;  // in W, relative to the scene's center
     Eigen::AlignedBox3d bounds;                     // of these

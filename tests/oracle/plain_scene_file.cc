@@ -15,7 +15,7 @@ std::string WriteScene(const PlainScene& scene, const std::string& folder) {
   const auto three = [&](const Eigen::Vector3d& v) {
     return "[" + number(v[0]) + ", " + number(v[1]) + ", " + number(v[2]) + "]";
   };
-  std::string yaml = "name: drawn\n";
+  std::string yaml = "name: drawn\nfriction: " + number(scene.friction) + "\n";
   if (!scene.obstacles.empty()) yaml += "obstacles:\n";
   for (const PlainObstacle& o : scene.obstacles) {
     yaml += "  - name: " + o.name + "\n    ";
@@ -57,6 +57,17 @@ std::string WriteScene(const PlainScene& scene, const std::string& folder) {
       }
     }
     yaml += "\n    pose: {xyz: " + three(o.xyz) + ", rpy_deg: " + three(o.rpy_deg) + "}\n";
+    if (o.has_motion()) {
+      yaml += "    motion:\n      error_m: " + number(o.error) +
+              "\n      speed_m_s: " + number(o.speed) +
+              "\n      measured_at_s: " + number(o.measured_at) + "\n";
+      if (o.horizon >= 0) yaml += "      horizon_s: " + number(o.horizon) + "\n";
+      if (!o.waypoints.empty()) yaml += "      waypoints:\n";
+      for (const PlainObstacle::Waypoint& w : o.waypoints) {
+        yaml += "        - {t_s: " + number(w.t) + ", xyz: " + three(w.xyz) +
+                ", yaw_deg: " + number(w.yaw_deg) + "}\n";
+      }
+    }
   }
   if (!scene.no_step.empty()) yaml += "no_step:\n";
   for (size_t i = 0; i < scene.no_step.size(); ++i) {

@@ -26,4 +26,7 @@ inline Real Sin(Real x) { return std::sin(x); }
 inline Real Sqrt(Real x) { return std::sqrt(x); }
 #endif
 
+/// Of all that falls [m/s²].
+inline constexpr double kGravity = 9.81;
+
 }  // namespace halfstep::oracle

@@ -42,7 +42,7 @@ ComZmp RestToRestClosedForm::Piece::At(Real x) const {
   const Real c = Cosh(lambda * x), s = Sinh(lambda * x);
   return {Value(particular, x) + cosh * c + sinh * s,
           (Slope(particular, x) + lambda * (cosh * s + sinh * c)) / width, Value(zmp, x),
-          Slope(zmp, x) / width};
+          Slope(zmp, x) / width, 0};
 }
 
 // The piece whose CoM goes on from `at` where x = 0.
@@ -56,7 +56,7 @@ RestToRestClosedForm::Piece RestToRestClosedForm::Begun(Real theta, Real center,
 }
 
 RestToRestClosedForm::RestToRestClosedForm(Real theta, Real shift, Real bump_ramp)
-    : sigma1_((1 - shift) / 2), delta_(shift / 2) {
+    : theta_(theta), sigma1_((1 - shift) / 2), delta_(shift / 2) {
   // −B on its pieces, from rest at 0, and (15x − 10x³ + 3x⁵)/16, the shift less its centre ½.
   if (bump_ramp == 1) {
     bump_ = {Begun(theta, 0, sigma1_, {0, 0, 0, -64, 192, -192, 64}, {})};
@@ -97,11 +97,17 @@ RestToRestClosedForm::RestToRestClosedForm(Real theta, Real shift, Real bump_ram
 }
 
 ComZmp RestToRestClosedForm::At(Real sigma) const {
+  ComZmp at = ByPieces(sigma);
+  at.c_second = theta_ * theta_ * (at.c - at.p);
+  return at;
+}
+
+ComZmp RestToRestClosedForm::ByPieces(Real sigma) const {
   if (sigma <= 0) return {};
-  if (sigma >= 1) return {1, 0, 1, 0};
+  if (sigma >= 1) return {.c = 1, .p = 1};
   if (sigma > Real(1) / 2) {
-    const ComZmp mirrored = At(1 - sigma);
-    return {1 - mirrored.c, mirrored.c_rate, 1 - mirrored.p, mirrored.p_rate};
+    const ComZmp mirrored = ByPieces(1 - sigma);
+    return {1 - mirrored.c, mirrored.c_rate, 1 - mirrored.p, mirrored.p_rate, 0};
   }
   if (sigma >= sigma1_) {
     ComZmp at = shift_.At((sigma - shift_.center) / shift_.width);
@@ -112,7 +118,7 @@ ComZmp RestToRestClosedForm::At(Real sigma) const {
   size_t i = 0;
   while (i + 1 < bump_.size() && sigma >= bump_[i + 1].center) ++i;
   const ComZmp at = bump_[i].At((sigma - bump_[i].center) / bump_[i].width);
-  return {amplitude_ * at.c, amplitude_ * at.c_rate, amplitude_ * at.p, amplitude_ * at.p_rate};
+  return {amplitude_ * at.c, amplitude_ * at.c_rate, amplitude_ * at.p, amplitude_ * at.p_rate, 0};
 }
 
 }  // namespace halfstep::oracle

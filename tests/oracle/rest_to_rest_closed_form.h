@@ -10,6 +10,7 @@ namespace halfstep::oracle {
 /// CoM and ZMP of a half-step as fractions of their way, with derivatives in σ = τ/T.
 struct ComZmp {
   Real c = 0, c_rate = 0, p = 0, p_rate = 0;
+  Real c_second = 0;
 };
 
 /// The pair (c, p) of wpg/README.md, "Rest to rest", by hyperbolic functions: on each piece
@@ -23,6 +24,8 @@ class RestToRestClosedForm {
   ComZmp At(Real sigma) const;
 
  private:
+  ComZmp ByPieces(Real sigma) const;
+
   using Polynomial = std::array<Real, 7>;
   // A piece of σ, with x = (σ − center)/width.
   struct Piece {
@@ -36,7 +39,7 @@ class RestToRestClosedForm {
   static Polynomial Particular(const Polynomial& p, Real lambda);
   static Piece Begun(Real theta, Real center, Real width, const Polynomial& zmp, const ComZmp& at);
 
-  Real sigma1_, delta_;
+  Real theta_, sigma1_, delta_;
   std::vector<Piece> bump_;  // for amplitude 1
   Piece shift_;
   Real amplitude_ = 0;

@@ -2,41 +2,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tests/oracle/plain_soles.h"
 #include "tests/oracle/walk_truth.h"
 
 namespace halfstep::oracle {
 namespace {
 
 constexpr std::array<const char*, 2> kFeet = {"left foot", "right foot"};
-
-std::array<Eigen::Vector2d, 4> Corners(const Eigen::Vector4d& foot, const Eigen::Vector2d& size) {
-  const Eigen::Vector2d ahead(std::cos(foot[3]), std::sin(foot[3])), left(-ahead.y(), ahead.x());
-  const Eigen::Vector2d p = foot.head<2>();
-  const Eigen::Vector2d a = 0.5 * size.x() * ahead, b = 0.5 * size.y() * left;
-  return {p + a + b, p - a + b, p - a - b, p + a - b};
-}
-
-double Cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
-// Least signed distance to the lines of the hull's edges, positive inside: over all pairs of points
-// that have every other point on their left.
-double InsideHull(const std::vector<Eigen::Vector2d>& points, const Eigen::Vector2d& p) {
-  double least = kNever;
-  for (const Eigen::Vector2d& a : points) {
-    for (const Eigen::Vector2d& b : points) {
-      const double length = (b - a).norm();
-      if (length < 1e-9) continue;
-      const Eigen::Vector2d along = (b - a) / length;
-      const bool edge = std::all_of(points.begin(), points.end(), [&](const Eigen::Vector2d& c) {
-        return Cross(along, c - a) > -1e-12;
-      });
-      if (edge) least = std::min(least, Cross(along, p - a));
-    }
-  }
-  return least;
-}
 
 using Polygon = std::vector<Eigen::Vector2d>;
 
@@ -63,8 +35,8 @@ double Apart(const Polygon& outline, const Polygon& area) {
       if (a == b) continue;
       for (size_t i = 0; i < area.size(); ++i) {
         const Eigen::Vector2d &c = area[i], &d = area[(i + 1) % area.size()];
-        if (Cross(b - a, c - a) * Cross(b - a, d - a) < 0 &&
-            Cross(d - c, a - c) * Cross(d - c, b - c) < 0) {
+        if (Wedge(b - a, c - a) * Wedge(b - a, d - a) < 0 &&
+            Wedge(d - c, a - c) * Wedge(d - c, b - c) < 0) {
           return -1e-6;
         }
         least = std::min({least, FromSegment(a, b, c), FromSegment(c, d, a), FromSegment(c, d, b)});
@@ -122,7 +94,7 @@ void WalkTruth::AddGroundStatements() {
   for (size_t b = 0; b < robot_.bodies.size(); ++b) {
     const bool on_foot = leg_link_[b][1] == 5;
     statements_.push_back({"ground", robot_.bodies[b].name, 3.0,
-                           [this, b, on_foot, far = Far("ground")](Instant& at, const Stretch&) {
+                           [this, b, on_foot, &far = far_["ground"]](Instant& at, const Stretch&) {
                              if (!at.reaches) return Exactly(-kNever);
                              const double bound = at.centers[b].z() - robot_.bodies[b].radius;
                              if (bound > far) return Exactly(bound);
@@ -155,17 +127,21 @@ void WalkTruth::AddFootStatements() {
                              return Exactly(limit - std::abs(at.state.rate.feet[i][3]));
                            }});
   }
-  statements_.push_back({"zmp", "", 15.0, [this](Instant& at, const Stretch& s) {
-                           std::vector<Eigen::Vector2d> points;
-                           for (int foot = 0; foot < 2; ++foot) {
-                             if (s.in_air == foot) continue;
-                             const auto& place = at.state.value.feet[static_cast<size_t>(foot)];
-                             for (const auto& c : Corners(place, robot_.sole_size)) {
-                               points.push_back(c);
-                             }
-                           }
-                           return Exactly(InsideHull(points, at.state.value.zmp));
+  statements_.push_back({"zmp", "", 15.0 * robot_.size(), [this](Instant& at, const Stretch& s) {
+                           return Exactly(
+                               InsideHull(SupportCorners(at.state, s), at.state.value.zmp));
                          }});
+}
+
+std::vector<Eigen::Vector2d> WalkTruth::SupportCorners(const WalkState& state,
+                                                       const Stretch& s) const {
+  std::vector<Eigen::Vector2d> points;
+  for (int foot = 0; foot < 2; ++foot) {
+    if (s.in_air == foot) continue;
+    const auto& place = state.value.feet[static_cast<size_t>(foot)];
+    for (const auto& c : SoleCorners(place, robot_.sole_size)) points.push_back(c);
+  }
+  return points;
 }
 
 void WalkTruth::AddLegStatements() {

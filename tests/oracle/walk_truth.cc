@@ -6,7 +6,7 @@
 namespace halfstep::oracle {
 namespace {
 
-constexpr double kCoarse = 0.01, kFine = 5e-5;
+constexpr double kCoarse = 0.01, kFine = 2e-4;
 
 Eigen::Isometry3d Upright(double x, double y, double z, double yaw) {
   Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
@@ -49,12 +49,15 @@ WalkTruth::WalkTruth(const PlainRobot& robot, const ClosedFormWalk& walk, const 
   AddLegStatements();
   AddBodyStatements();
   AddObstacleStatements();
+  AddDynamicStatements();
+  Demand(demands);
 }
 
 WalkTruth::Instant& WalkTruth::At(double t, const std::array<Vector6, 2>& guess) {
   const auto [found, fresh] = instants_.try_emplace(t);
   Instant& at = found->second;
   if (!fresh) return at;
+  at.t = t;
   at.state = walk_.At(static_cast<Real>(t));
   const auto &x = at.state.value, &v = at.state.rate;
   // The CoM is com_x ahead of the waist's origin.
@@ -104,7 +107,10 @@ const ConvexSet& WalkTruth::BodyAt(Instant& at, size_t b) const {
   return at.bodies[b];
 }
 
-double WalkTruth::Far(const std::string& family) const { return Demanded(family) + 0.1; }
+void WalkTruth::Demand(const Demands& demands) {
+  demands_.margin = demands.margin;
+  for (auto& [family, far] : far_) far = Demanded(family) + 0.03;
+}
 
 double WalkTruth::Demanded(const std::string& family) const {
   const auto found = demands_.margin.find(family);
@@ -117,7 +123,7 @@ void WalkTruth::AddBodyStatements() {
     const double radii = robot_.bodies[a].radius + robot_.bodies[b].radius;
     statements_.push_back(
         {"self_clearance", robot_.bodies[a].name + " - " + robot_.bodies[b].name, 4.0,
-         [this, a, b, radii, far = Far("self_clearance")](Instant& at, const Stretch&) {
+         [this, a, b, radii, &far = far_["self_clearance"]](Instant& at, const Stretch&) {
            if (!at.reaches) return Exactly(-kNever);
            const double apart = (at.centers[a] - at.centers[b]).norm() - radii;
            if (apart > far) return Exactly(apart);
@@ -126,64 +132,125 @@ void WalkTruth::AddBodyStatements() {
   }
 }
 
+ConvexSet WalkTruth::SeenAtStart(size_t obstacle, double t, const ConvexSet& body) const {
+  ConvexSet seen = body;
+  for (Eigen::Vector3d& p : seen.points) p = scene_.AtStart(obstacle, t, p);
+  return seen;
+}
+
+int WalkTruth::CountOf(const std::string& family) const {
+  return static_cast<int>(std::count_if(statements_.begin(), statements_.end(),
+                                        [&](const Statement& s) { return s.family == family; }));
+}
+
 void WalkTruth::AddObstacleStatements() {
   for (size_t b = 0; b < robot_.bodies.size(); ++b) {
     for (size_t o = 0; o < scene_.size(); ++o) {
-      statements_.push_back({"clearance", robot_.bodies[b].name + " - " + scene_.name(o), 3.0,
-                             [this, b, o, far = Far("clearance")](Instant& at, const Stretch&) {
-                               if (!at.reaches) return Exactly(-kNever);
-                               const double radius = robot_.bodies[b].radius;
-                               // Without the body's points first: a piece's ball is often far
-                               // enough.
-                               const double quick = scene_.BallDistance(o, at.centers[b], radius);
-                               if (quick > far) return Exactly(quick);
-                               return scene_.Distance(o, BodyAt(at, b), at.centers[b], radius, far);
-                             }});
+      const double rate = 3.0 + scene_.speed(o);
+      statements_.push_back(
+          {"clearance", robot_.bodies[b].name + " - " + scene_.name(o), rate,
+           [this, b, o, &far = far_["clearance"]](Instant& at, const Stretch&) {
+             if (!at.reaches) return Exactly(-kNever);
+             const double radius = robot_.bodies[b].radius;
+             const double off = scene_.Uncertainty(o, at.t);
+             const Eigen::Vector3d center = scene_.AtStart(o, at.t, at.centers[b]);
+             // Without the body's points first: a piece's ball is often far
+             // enough.
+             const double quick = scene_.BallDistance(o, center, radius);
+             if (quick > far + off) return Exactly(quick - off);
+             Bracket apart =
+                 scene_.Distance(o, SeenAtStart(o, at.t, BodyAt(at, b)), center, radius, far + off);
+             apart.lower -= off;
+             apart.upper -= off;
+             return apart;
+           }});
     }
   }
 }
 
-void WalkTruth::Sample(const Statement& statement, const Stretch& stretch, double a,
+void WalkTruth::Sample(const Statement& statement, const Stretch& stretch, double rate, double a,
                        const Bracket& at_a, double b, const Bracket& at_b, TrueMargin* least) {
-  const double lowest = 0.5 * (at_a.upper + at_b.upper - statement.rate * (b - a));
+  const double lowest = 0.5 * (at_a.upper + at_b.upper - rate * (b - a));
   if (!(lowest < Demanded(statement.family)) || b - a < 1.01 * kFine) return;
   const double middle = 0.5 * (a + b);
   const Instant& before = instants_.at(a);
   const Bracket value = statement.value(At(middle, before.q), stretch);
   Lower(least, value, middle, statement.subject);
-  Sample(statement, stretch, a, at_a, middle, value, least);
-  Sample(statement, stretch, middle, value, b, at_b, least);
+  Sample(statement, stretch, rate, a, at_a, middle, value, least);
+  Sample(statement, stretch, rate, middle, value, b, at_b, least);
 }
 
-std::map<std::string, TrueMargin> WalkTruth::Least() {
+// One statement on one stretch, at the times of the grid and between.
+void WalkTruth::SampleStretch(const Statement& statement, const Stretch& stretch,
+                              const std::vector<Instant*>& grid, TrueMargin* least) {
+  std::vector<Bracket> values;
+  double steepest = 0;
+  const double before = least->value;
+  for (size_t k = 0; k < grid.size(); ++k) {
+    values.push_back(statement.value(*grid[k], stretch));
+    Lower(least, values[k], grid[k]->t, statement.subject);
+    if (k == 0) continue;
+    const double fall = std::abs(values[k].upper - values[k - 1].upper);
+    if (fall < kNever) steepest = std::max(steepest, fall / (grid[k]->t - grid[k - 1]->t));
+  }
+  const double rate = std::min(statement.rate, 4 * steepest + statement.rate / 40);
+  for (size_t k = 1; k < grid.size(); ++k) {
+    Sample(statement, stretch, rate, grid[k - 1]->t, values[k - 1], grid[k]->t, values[k], least);
+  }
+  if (least->value < before) {
+    Descend(statement, stretch, grid[1]->t - grid[0]->t, least);
+  }
+}
+
+// Golden section about the least margin that was found.
+void WalkTruth::Descend(const Statement& statement, const Stretch& stretch, double width,
+                        TrueMargin* least) {
+  const double golden = 0.5 * (std::sqrt(5.0) - 1);
+  double low = std::max(stretch.begin, least->t - width);
+  double high = std::min(stretch.end, least->t + width);
+  const std::array<Vector6, 2> guess = instants_.at(least->t).q;
+  const auto value = [&](double t) {
+    const Bracket found = statement.value(At(t, guess), stretch);
+    Lower(least, found, t, statement.subject);
+    return found.upper;
+  };
+  double a = high - golden * (high - low), b = low + golden * (high - low);
+  double at_a = value(a), at_b = value(b);
+  while (high - low > 1e-5) {
+    if (at_a < at_b) {
+      high = b, b = a, at_b = at_a;
+      a = high - golden * (high - low), at_a = value(a);
+    } else {
+      low = a, a = b, at_a = at_b;
+      b = low + golden * (high - low), at_b = value(b);
+    }
+  }
+}
+
+std::map<std::string, TrueMargin> WalkTruth::Least(const std::string& only) {
   std::map<std::string, TrueMargin> least;
   std::array<Vector6, 2> guess = {robot_.Standing(0), robot_.Standing(1)};
   for (const Stretch& stretch : walk_.stretches()) {
     const int n = std::max(1, static_cast<int>((stretch.end - stretch.begin) / kCoarse) + 1);
-    std::vector<double> times;
     std::vector<Instant*> instants;
     for (int k = 0; k <= n; ++k) {
-      times.push_back(k == n ? stretch.end : stretch.begin + (stretch.end - stretch.begin) * k / n);
-      instants.push_back(&At(times.back(), guess));
+      const double t = k == n ? stretch.end : stretch.begin + (stretch.end - stretch.begin) * k / n;
+      instants.push_back(&At(t, guess));
       if (instants.back()->reaches) guess = instants.back()->q;
     }
     for (const Statement& statement : statements_) {
-      TrueMargin& margin = least[statement.family];
-      Bracket before;
-      for (size_t k = 0; k < times.size(); ++k) {
-        const Bracket here = statement.value(*instants[k], stretch);
-        Lower(&margin, here, times[k], statement.subject);
-        if (k > 0) Sample(statement, stretch, times[k - 1], before, times[k], here, &margin);
-        before = here;
-      }
+      if (!only.empty() && statement.family != only) continue;
+      SampleStretch(statement, stretch, instants, &least[statement.family]);
     }
+    if (!only.empty() && only != "clearance") continue;
     // Being inside a mesh begins and ends at distance 0, which the sampling would see.
     Instant& first = *instants.front();
     for (size_t o = 0; o < scene_.size(); ++o) {
       for (size_t b = 0; b < robot_.bodies.size(); ++b) {
-        if (!first.reaches || !scene_.MightSurround(o, first.centers[b])) continue;
-        if (scene_.Around(o, BodyAt(first, b).points[0]).surely()) {
-          Lower(&least["clearance"], Exactly(-1), times.front(),
+        const auto seen = [&](const Eigen::Vector3d& p) { return scene_.AtStart(o, first.t, p); };
+        if (!first.reaches || !scene_.MightSurround(o, seen(first.centers[b]))) continue;
+        if (scene_.Around(o, seen(BodyAt(first, b).points[0])).surely()) {
+          Lower(&least["clearance"], Exactly(-1), first.t,
                 robot_.bodies[b].name + " inside " + scene_.name(o));
         }
       }
@@ -193,9 +260,16 @@ std::map<std::string, TrueMargin> WalkTruth::Least() {
 }
 
 TrueMargin WalkTruth::At(const std::string& family, double t, const std::string& subject) {
-  // From the start to t in steps, so that Newton's method stays in its branch.
   std::array<Vector6, 2> guess = {robot_.Standing(0), robot_.Standing(1)};
-  for (double s = 0; s < t; s += 3 * kCoarse) {
+  double nearest = 4 * kCoarse;  // of the instants that are known
+  for (const auto& [s, instant] : instants_) {
+    const double away = std::abs(s - t);
+    if (!instant.reaches || away >= nearest) continue;
+    nearest = away;
+    guess = instant.q;
+  }
+  // Else from the start to t in steps, so that Newton's method stays in its branch.
+  for (double s = 0; s < t && nearest == 4 * kCoarse; s += 3 * kCoarse) {
     const Instant& at = At(s, guess);
     if (at.reaches) guess = at.q;
   }
@@ -212,10 +286,11 @@ TrueMargin WalkTruth::At(const std::string& family, double t, const std::string&
   if (family == "clearance" && at.reaches) {
     for (size_t o = 0; o < scene_.size(); ++o) {
       for (size_t b = 0; b < robot_.bodies.size(); ++b) {
-        if (!scene_.MightSurround(o, at.centers[b])) continue;
+        const auto seen = [&](const Eigen::Vector3d& p) { return scene_.AtStart(o, t, p); };
+        if (!scene_.MightSurround(o, seen(at.centers[b]))) continue;
         const std::string name = robot_.bodies[b].name + " - " + scene_.name(o);
         if (!subject.empty() && name != subject) continue;
-        if (scene_.Around(o, BodyAt(at, b).points[0]).maybe()) {
+        if (scene_.Around(o, seen(BodyAt(at, b).points[0])).maybe()) {
           Lower(&least, Exactly(0), t, name + " (inside)");
         }
       }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "tests/oracle/closed_form_walk.h"
+#include "tests/oracle/plain_dynamics.h"
 #include "tests/oracle/plain_robot.h"
 #include "tests/oracle/plain_scene.h"
 
@@ -25,6 +26,7 @@ inline Bracket Exactly(double value) { return {value, value}; }
 struct Demands {
   std::map<std::string, double> margin;
   double foot_speed = 1, foot_yaw_rate = 2, joint_speed_scale = 1;
+  double friction = 0.7;  ///< of the scene
 };
 
 /// A margin by the oracle. Where a number is only bracketed (distances), `value` is its upper end,
@@ -43,22 +45,31 @@ class WalkTruth {
   WalkTruth(const PlainRobot& robot, const ClosedFormWalk& walk, const PlacedScene& scene,
             const std::vector<std::vector<Eigen::Vector2d>>& no_step, const Demands& demands);
 
-  /// The least margin of each family that the sampling met: every 10 ms, and by halves down to
-  /// 0.05 ms wherever a margin could fall below what is demanded at a generous rate of change.
-  std::map<std::string, TrueMargin> Least();
+  /// The least margin of each family that the sampling met, or of one alone: every 10 ms, and by
+  /// halves down to 0.2 ms wherever a margin could fall below what is demanded at a generous rate
+  /// of change: four times the fastest that its stretch shows, and a little. The least is descended
+  /// from to 10 µs.
+  std::map<std::string, TrueMargin> Least(const std::string& only = "");
 
   /// The least margin of a family at one instant, of the subjects whose name fits (empty: all).
   TrueMargin At(const std::string& family, double t, const std::string& subject);
 
+  /// Other demanded margins; limits stay.
+  void Demand(const Demands& demands);
+  const ClosedFormWalk& walk() const { return walk_; }
   long instants() const { return static_cast<long>(instants_.size()); }
+  /// How many statements a family makes at every instant.
+  int CountOf(const std::string& family) const;
 
  private:
   struct Instant {
+    double t = 0;  // [s]
     WalkState state;
     Eigen::Isometry3d X_WB;
     std::array<Eigen::Isometry3d, 2> X_WSole;
     std::array<Vector6, 2> q, speed;
     bool reaches = false;
+    std::optional<PlainDynamics> dynamics;
     std::vector<ConvexSet> bodies;  // in W
     std::vector<Eigen::Vector3d> centers;
     std::vector<bool> placed;
@@ -72,23 +83,32 @@ class WalkTruth {
   };
 
   Instant& At(double t, const std::array<Vector6, 2>& guess);
+  // A body as the obstacle of time t sees it, seen from where the obstacle is at the start.
+  ConvexSet SeenAtStart(size_t obstacle, double t, const ConvexSet& body) const;
   const ConvexSet& BodyAt(Instant& instant, size_t body) const;
   void AddFootStatements();
   void AddGroundStatements();
   void AddLegStatements();
   void AddBodyStatements();
   void AddObstacleStatements();
+  void AddDynamicStatements();
+  const PlainDynamics& DynamicsOf(Instant& instant) const;
+  std::array<Eigen::Vector3d, 2> FloorOn(size_t foot, Instant& at, const Stretch& stretch) const;
+  double FrictionNeeded(Instant& at, const Stretch& stretch) const;
+  std::vector<Eigen::Vector2d> SupportCorners(const WalkState& state, const Stretch& stretch) const;
   double Demanded(const std::string& family) const;
-  // Distances beyond this [m] are not told apart.
-  double Far(const std::string& family) const;
-  void Sample(const Statement& statement, const Stretch& stretch, double a, const Bracket& at_a,
-              double b, const Bracket& at_b, TrueMargin* least);
+  void Sample(const Statement& statement, const Stretch& stretch, double rate, double a,
+              const Bracket& at_a, double b, const Bracket& at_b, TrueMargin* least);
+  void Descend(const Statement& statement, const Stretch& stretch, double width, TrueMargin* least);
+  void SampleStretch(const Statement& statement, const Stretch& stretch,
+                     const std::vector<Instant*>& grid, TrueMargin* least);
 
   const PlainRobot& robot_;
   const ClosedFormWalk& walk_;
   const PlacedScene& scene_;
   const std::vector<std::vector<Eigen::Vector2d>>& no_step_;
   Demands demands_;
+  std::map<std::string, double> far_;  // distances beyond this [m] are not told apart; by family
   std::array<double, 2> longest_;
   std::vector<Eigen::Isometry3d> X_BUpper_;   // links that no leg moves
   std::vector<std::array<int, 2>> leg_link_;  // of each body: leg and place in it, or −1

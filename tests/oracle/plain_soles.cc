@@ -1,0 +1,76 @@
+#include "tests/oracle/plain_soles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace halfstep::oracle {
+
+double Wedge(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+std::array<Eigen::Vector2d, 4> SoleCorners(const Eigen::Vector4d& foot,
+                                           const Eigen::Vector2d& size) {
+  const Eigen::Vector2d ahead(std::cos(foot[3]), std::sin(foot[3])), left(-ahead.y(), ahead.x());
+  const Eigen::Vector2d p = foot.head<2>();
+  const Eigen::Vector2d a = 0.5 * size.x() * ahead, b = 0.5 * size.y() * left;
+  return {p + a + b, p - a + b, p - a - b, p + a - b};
+}
+
+std::vector<HullSide> HullSides(const std::vector<Eigen::Vector2d>& points) {
+  std::vector<HullSide> sides;
+  for (const Eigen::Vector2d& a : points) {
+    for (const Eigen::Vector2d& b : points) {
+      const double length = (b - a).norm();
+      if (length < 1e-9) continue;
+      const Eigen::Vector2d along = (b - a) / length;
+      const bool edge = std::all_of(points.begin(), points.end(), [&](const Eigen::Vector2d& c) {
+        return Wedge(along, c - a) > -1e-12;
+      });
+      const Eigen::Vector2d inwards(-along.y(), along.x());
+      if (edge) sides.push_back({along, inwards, inwards.dot(a)});
+    }
+  }
+  return sides;
+}
+
+double InsideHull(const std::vector<Eigen::Vector2d>& points, const Eigen::Vector2d& p) {
+  // Seen from the first point, so that a hull far away costs no digits.
+  std::vector<Eigen::Vector2d> seen;
+  for (const Eigen::Vector2d& q : points) seen.push_back(q - points[0]);
+  double least = std::numeric_limits<double>::infinity();
+  for (const HullSide& side : HullSides(seen)) {
+    least = std::min(least, side.inwards.dot(p - points[0]) - side.offset);
+  }
+  return least;
+}
+
+double FromSole(const Eigen::Vector4d& foot, const Eigen::Vector2d& size,
+                const Eigen::Vector2d& p) {
+  const Eigen::Vector2d ahead(std::cos(foot[3]), std::sin(foot[3])), left(-ahead.y(), ahead.x());
+  const Eigen::Vector2d away = p - foot.head<2>();
+  const double x = std::max(0.0, std::abs(ahead.dot(away)) - 0.5 * size.x());
+  const double y = std::max(0.0, std::abs(left.dot(away)) - 0.5 * size.y());
+  return std::hypot(x, y);
+}
+
+double LongestLever(const std::vector<Eigen::Vector2d>& points, const Eigen::Vector2d& p) {
+  std::vector<Eigen::Vector2d> seen;
+  for (const Eigen::Vector2d& q : points) seen.push_back(q - points[0]);
+  const std::vector<HullSide> sides = HullSides(seen);
+  double longest = -std::numeric_limits<double>::infinity();
+  for (const HullSide& line : sides) {
+    double lever = std::numeric_limits<double>::infinity();
+    for (const HullSide& side : sides) {
+      // Along the line, either way, a side comes nearer by at most this share of the way.
+      const double share = std::abs(side.inwards.dot(line.along));
+      const double apart = side.inwards.dot(p - points[0]) - side.offset;
+      if (share > 1e-12) lever = std::min(lever, apart / share);
+    }
+    longest = std::max(longest, lever);
+  }
+  return longest;
+}
+
+}  // namespace halfstep::oracle

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+namespace halfstep::oracle {
+
+double Wedge(const Eigen::Vector2d& a, const Eigen::Vector2d& b);
+
+/// Corners of a sole rectangle of that size [m] at a foot's x, y, z, yaw.
+std::array<Eigen::Vector2d, 4> SoleCorners(const Eigen::Vector4d& foot,
+                                           const Eigen::Vector2d& size);
+
+/// A side of a convex hull: hull points x have `inwards`·x ≥ `offset`.
+struct HullSide {
+  Eigen::Vector2d along, inwards;
+  double offset = 0;
+};
+/// All pairs of points that have every other point on their left.
+std::vector<HullSide> HullSides(const std::vector<Eigen::Vector2d>& points);
+
+/// Least signed distance to the lines of the hull's edges, positive inside [m].
+double InsideHull(const std::vector<Eigen::Vector2d>& points, const Eigen::Vector2d& p);
+
+/// Distance of a point from a sole rectangle, 0 inside [m].
+double FromSole(const Eigen::Vector4d& foot, const Eigen::Vector2d& size, const Eigen::Vector2d& p);
+
+/// Of all lines through p along a side of the hull: how far, at most, p is from the nearer one of
+/// the two points where the line leaves the hull [m]; below 0 outside.
+double LongestLever(const std::vector<Eigen::Vector2d>& points, const Eigen::Vector2d& p);
+
+}  // namespace halfstep::oracle

@@ -1,0 +1,96 @@
+#include "tests/oracle/project_side.h"
+
+#include <filesystem>
+#include <fstream>
+
+#include "tests/oracle/plain_files.h"
+
+namespace halfstep::oracle {
+namespace {
+
+Pose2 ToPose(const FloorPose& p) { return {p.x, p.y, p.yaw}; }
+
+}  // namespace
+
+HalfStepSequence ToSequence(const WalkPlan& plan) {
+  std::vector<Footstep> footsteps;
+  for (const PlannedStep& step : plan.steps) {
+    footsteps.push_back({.side = step.foot == 0 ? Side::kLeft : Side::kRight,
+                         .X_WF = ToPose(step.landing),
+                         .via_height = step.via_height,
+                         .duration = step.duration});
+  }
+  HalfStepSequence sequence =
+      MakeSequence({ToPose(plan.start[0]), ToPose(plan.start[1])}, footsteps, plan.via_lateral,
+                   {.shift = plan.shift,
+                    .horizontal_delay = plan.horizontal_delay,
+                    .bump_ramp = plan.bump_ramp,
+                    .foot_ramp = plan.foot_ramp,
+                    .lift_share = plan.lift_share},
+                   {.com_height = plan.com_height});
+  for (size_t i = 0; i < plan.sways.size(); ++i) {
+    sequence.half_steps[i].half_step.sway.controls = plan.sways[i];
+  }
+  return sequence;
+}
+
+HomotopyParameters ToParameters(const WalkPlan& plan) {
+  HomotopyParameters parameters;
+  parameters.overlaps = plan.overlaps;
+  parameters.height_scales = plan.height_scales;
+  parameters.durations = plan.durations;
+  parameters.support_points = plan.support_points;
+  for (size_t i = 0; i < plan.durations.size(); ++i) {
+    if (i % 2 == 0) parameters.via_laterals.push_back(plan.via_lateral_of(i));
+    if (i % 2 == 0) parameters.via_alongs.push_back(plan.via_along_of(i));
+    parameters.zmp_shifts.push_back(plan.shift_of(i));
+    parameters.zmp_bump_ramps.push_back(plan.bump_ramp_of(i));
+    parameters.foot_ramps.push_back(plan.foot_ramp_of(i));
+    parameters.foot_delays.push_back(plan.foot_delay_of(i));
+    parameters.lift_shares.push_back(plan.lift_share_of(i));
+    if (i % 2 == 1) continue;
+    const FloorPose move = plan.footsteps.empty() ? FloorPose{} : plan.footsteps[i / 2];
+    parameters.footstep_xs.push_back(move.x);
+    parameters.footstep_ys.push_back(move.y);
+    parameters.footstep_yaws.push_back(move.yaw);
+  }
+  return parameters;
+}
+
+Demands ToDemands(const MarginLimits& limits, double friction) {
+  Demands demands;
+  for (const MarginFamily family : AllMarginFamilies()) {
+    demands.margin[std::string(Name(family))] = limits.demanded_of(family);
+  }
+  demands.foot_speed = *limits.foot_speed;
+  demands.foot_yaw_rate = *limits.foot_yaw_rate;
+  demands.joint_speed_scale = limits.joint_speed_scale;
+  demands.friction = friction;
+  return demands;
+}
+
+std::string WriteJudgedRobot(const std::string& name, const std::string& folder) {
+  const std::filesystem::path robots = HALFSTEP_SOURCE_DIR "/wpg/robots", into = folder;
+  for (const std::string& part : {name, name + ".urdf"}) {
+    std::filesystem::create_symlink(robots / part, into / part);
+  }
+  std::string yaml = ReadPlainFile((robots / (name + ".yaml")).string());
+  // HRP-2's efforts are not published: these are for the oracle.
+  constexpr std::array<const char*, 6> kEfforts = {"70", "260", "220", "320", "170", "110"};
+  for (size_t at = 0; (at = yaml.find("_JOINT", at)) != std::string::npos; ++at) {
+    const size_t joint = static_cast<size_t>(yaml[at + 6] - '0');
+    if (yaml.compare(at + 7, 6, ": none") == 0) yaml.replace(at + 9, 4, kEfforts.at(joint));
+  }
+  yaml += "\nacceleration_limits_rad_s2:\n";
+  const PlainRobot robot((robots / (name + ".yaml")).string());
+  for (const PlainRobot::Leg& leg : robot.legs) {
+    for (const int joint : leg.joints) {
+      yaml += "  " + robot.joints[static_cast<size_t>(joint)].name + ": 150\n";
+    }
+  }
+  const std::string path = (into / (name + ".yaml")).string();
+  std::ofstream(path) << yaml;
+  return path;
+}
+
+}  // namespace halfstep::oracle
