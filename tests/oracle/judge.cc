@@ -41,7 +41,10 @@ void FamilyTally::Add(const FamilyTally& other) {
   falsified += other.falsified;
   found += other.found;
   least_spare = std::min(least_spare, other.least_spare);
-  disagreement = std::max(disagreement, other.disagreement);
+  if (other.disagreement > disagreement) {
+    disagreement = other.disagreement;
+    where = other.where;
+  }
 }
 
 void Tally::Add(const Tally& other) {
@@ -55,6 +58,7 @@ void Tally::Add(const Tally& other) {
   false_violated += other.false_violated;
   instants += other.instants;
   for (const auto& [name, family] : other.families) families[name].Add(family);
+  missed.insert(missed.end(), other.missed.begin(), other.missed.end());
 }
 
 struct Judge::Case {
@@ -75,8 +79,8 @@ struct Judge::Case {
   }
 };
 
-Judge::Judge(const std::string& robot_yaml, double tolerance)
-    : plain_(robot_yaml), robot_(LoadRobot(robot_yaml)), tolerance_(tolerance) {}
+Judge::Judge(const std::string& robot_yaml, const std::string& plain_yaml, double tolerance)
+    : plain_(plain_yaml), robot_(LoadRobot(robot_yaml)), tolerance_(tolerance) {}
 
 double Judge::ToleranceOf(MarginFamily family) const {
   if (family == MarginFamily::kJointAcceleration) return 150 * tolerance_;
@@ -150,7 +154,12 @@ void Judge::Compare(const Case& drawn, WalkTruth* truth, Tally* tally) const {
       // Overlaps are told by their sign alone, and what is far away is not told apart.
       if (in_metres && !(theirs > 0 && theirs < kNear)) continue;
       FamilyTally& its = tally->families[name];
-      its.disagreement = std::max(its.disagreement, std::abs(theirs - margin.lower));
+      if (const double apart = std::abs(theirs - margin.lower); apart > its.disagreement) {
+        its.disagreement = apart;
+        its.where = drawn.name + ": " +
+                    Line("theirs", std::to_string(theirs) + "; " + margin.subject, margin.lower,
+                         drawn.limits.demanded_of(family), t);
+      }
     }
   }
 }
@@ -167,7 +176,11 @@ void Judge::Push(const Case& drawn, MarginFamily family, WalkTruth* truth, Tally
   };
   double value = least_at(limits.demanded_of(family))[name].value;
   if (!std::isfinite(value) || (IsDistance(family) && value > kNear)) return;
-  value = least_at(value)[name].value;  // looked at closely there
+  // Looked at closely there; what was far away is told apart only then.
+  for (double before = -kNever; value - before > 0.1 * Scale(family);) {
+    before = value;
+    value = least_at(value)[name].value;
+  }
   for (const double spare : {-1e-6, 1e-4, 1e-3, 1e-2, 1e-1, 1.0}) {
     const double demanded = value - spare * Scale(family);
     if (demanded < drawn.limits.demanded_of(family)) return;
@@ -184,7 +197,14 @@ void Judge::Push(const Case& drawn, MarginFamily family, WalkTruth* truth, Tally
     // The same claim, falsified by a hundredth of the scale.
     const double false_demand = value + 0.01 * Scale(family);
     ++its.falsified;
-    its.found += least_at(false_demand)[name].value < false_demand - ToleranceOf(family);
+    const TrueMargin again = least_at(false_demand)[name];
+    const bool found = again.value < false_demand - ToleranceOf(family);
+    its.found += found;
+    if (!found) {
+      tally->missed.push_back(drawn.name + ": " +
+                              Line("before", name + " of " + least.at(name).subject, value,
+                                   false_demand, least.at(name).t));
+    }
     return;
   }
 }

@@ -24,6 +24,7 @@ struct FamilyTally {
   long found = 0;       ///< of these, by the oracle
   double least_spare = std::numeric_limits<double>::infinity();  ///< over what was demanded [unit]
   double disagreement = 0;  ///< of the oracle's and the project's value at an instant [unit]
+  std::string where;        ///< the largest of these is
   void Add(const FamilyTally& other);
 };
 
@@ -36,6 +37,7 @@ struct Tally {
   long false_certified = 0, false_violated = 0;
   long instants = 0;                            ///< that the oracle looked at
   std::map<std::string, FamilyTally> families;  ///< by name
+  std::vector<std::string> missed;              ///< falsified claims that the oracle did not find
   void Add(const Tally& other);
 };
 
@@ -47,7 +49,10 @@ class Judge {
   /// `tolerance` [the margin's unit; of the limit where there is one]: what a sampled margin may
   /// fall short by; both sides round, positions of 900 m to 1e-13 m, joint speeds near a stretched
   /// knee to 1e-11 rad/s.
-  explicit Judge(const std::string& robot_yaml, double tolerance = 1e-9);
+  explicit Judge(const std::string& robot_yaml, double tolerance = 1e-9)
+      : Judge(robot_yaml, robot_yaml, tolerance) {}
+  /// The oracle reads another file than the project: a control, for there are falsehoods then.
+  Judge(const std::string& robot_yaml, const std::string& plain_yaml, double tolerance);
 
   /// One walk in a scene of that kind. `folder` gets the scene's files. Falsehoods are described in
   /// `falsehoods`, enough to draw them again from the seed.

@@ -35,6 +35,7 @@ void PrintFamilies(const Tally& all) {
     std::printf("| %-18s | %8ld | %5ld | %9.2g | %ld, %ld | %8.2g | %s |\n", name.c_str(),
                 t.statements, t.pushed, t.least_spare, t.falsified, t.found, t.disagreement,
                 std::string(Unit(family)).c_str());
+    std::fprintf(stderr, "%s: %s\n", name.c_str(), t.where.c_str());
   }
 }
 
@@ -86,6 +87,7 @@ int Run(long walks, unsigned seed, const std::string& only_robot, int only_kind)
   for (size_t r = 0; r < names.size(); ++r) PrintRow(names[r].c_str(), by_robot[r]);
   PrintRow("all", all);
   PrintFamilies(all);
+  for (const std::string& line : all.missed) std::printf("not found: %s\n", line.c_str());
   std::printf("seed %u, %ld instants by the oracle\n", seed, all.instants);
   std::fprintf(stderr, "%.0f s\n", seconds());
   return falsehoods.empty() ? 0 : 1;
