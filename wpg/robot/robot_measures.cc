@@ -48,13 +48,9 @@ double Last(double begin, double end, int steps, const Does& does) {
 
 }  // namespace
 
-double LegLengthOf(const RobotModel& robot) {
-  const Leg& leg = robot.legs[0];
-  return LengthOfLeg(leg);
-}
+double LegLengthOf(const RobotModel& robot) { return LengthOfLeg(robot.legs[0]); }
 
 RobotMeasures MeasuresOf(const RobotModel& robot) {
-  const Leg& leg = robot.legs[0];
   RobotMeasures m{.leg_length = LegLengthOf(robot),
                   .standing_width = robot.standing_width,
                   .slowest_joint = std::numeric_limits<double>::infinity(),
