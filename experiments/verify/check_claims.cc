@@ -34,13 +34,15 @@ class Claims {
       return Quote(row.subject) + " does not bear the robot there";
     }
     if (row.margin == kNoLimit) {
-      if (row.family <= kFootYawRate && subject.first >= 0) return "a foot without a margin";
       if (MayBeLeftOut(row.family)) {
         if (certificate_.demanded[row.family] == kNotDemanded) return "";
         return IsOfDynamics(row.family) ? "the robot has a ZMP" : "the robot has limits";
       }
-      return row.family == kGround || row.family == kNoStep ? FaultOfNothing(row)
-                                                            : FaultOfUnwatched(row);
+      if (row.family == kGround || row.family == kNoStep) return FaultOfNothing(row);
+      const std::string fault = FaultOfUnwatched(row);
+      return fault.empty() && subject.first >= 0 && row.family <= kFootYawRate
+                 ? "a foot is named, and none has a margin"
+                 : fault;
     }
     if (row.family == kClearance || row.family == kSelfClearance) {
       return FaultOfDistance(row, subject);

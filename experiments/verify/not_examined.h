@@ -6,7 +6,8 @@
 
 namespace halfstep::verify {
 
-/// What `halfstep verify` does not look at of a run or an episode, beyond that the file is the one
+/// Not to be mixed up with NotCovered, which is what a certificate does not speak of: what
+/// `halfstep verify` does not look at of a run or an episode, beyond that the file is the one
 /// that the manifest lists. Whatever is in a folder and not named here is computed again, or
 /// compared with what is.
 struct NotExamined {

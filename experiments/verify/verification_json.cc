@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "experiments/tables/not_covered_json.h"
 #include "experiments/verify/not_examined.h"
 
 namespace halfstep::verify {
@@ -21,7 +22,10 @@ std::string VerificationJson(const std::vector<MethodVerification>& results) {
                        {"reasons", result.reasons},
                        {"disagreements", result.disagreements},
                        {"complaints", result.complaints},
-                       {"statement", result.statement}});
+                       {"statement", result.statement},
+                       {"not_examined", result.not_examined},
+                       {"remark", result.remark},
+                       {"not_covered", NotCoveredJson(result.not_covered)}});
   }
   for (const NotExamined& one : of_episode ? NotExaminedOfEpisode() : NotExaminedOfRun()) {
     not_examined.push_back({{"file", one.file}, {"name", one.name}, {"why", one.why}});

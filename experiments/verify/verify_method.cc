@@ -48,23 +48,26 @@ void CheckHash(const char* what, const std::string& bytes, const std::string& st
 // robot's size; where the config's robot is not to be had, the certificate's place of it serves.
 ExperimentConfig ReadConfig(const VerifyOptions& options, const std::string& path,
                             const std::string& text, const InputSearch& robot,
-                            Findings* findings) {
+                            const InputSearch& scene, Findings* findings) {
   const OwnNames own = FindOwnNames(path, text);
-  std::vector<YamlOverride> given = GivenFiles(options);
-  given.insert(given.end(), own.overrides.begin(), own.overrides.end());
+  std::vector<YamlOverride> overrides = GivenFiles(options);
+  overrides.insert(overrides.end(), own.overrides.begin(), own.overrides.end());
   ExperimentConfig config;
   try {
-    config = ParseConfig(path, text, given);
+    config = ParseConfig(path, text, overrides);
   } catch (const InputError& error) {
-    if (options.robot) throw;
-    std::error_code ignored;
-    if (!fs::is_regular_file(robot.places.front(), ignored)) {
-      std::vector<std::string> complaints = error.complaints();
-      complaints.push_back(NotFound(robot));
-      throw InputError(complaints);
+    std::vector<std::string> complaints = error.complaints();
+    for (const InputSearch* search : {&robot, &scene}) {
+      const fs::path& place = search->places.front();
+      std::error_code ignored;
+      if (place.filename() != "none" && !fs::is_regular_file(place, ignored)) {
+        complaints.push_back(NotFound(*search));
+      }
     }
-    given.push_back(NamedInstead("robot", robot.places.front().string()));
-    config = ParseConfig(path, text, given);
+    if (options.robot || complaints.size() > error.complaints().size())
+      throw InputError(complaints);
+    overrides.push_back(NamedInstead("robot", robot.places.front().string()));
+    config = ParseConfig(path, text, overrides);
   }
   if (own.methods) config.smoothing.methods = *own.methods;
   if (OwnMargins().empty()) {
@@ -208,8 +211,12 @@ VerifiedStatement VerifyMethod(const VerifyOptions& options, const RunManifest& 
                              .run = files.run,
                              .places = {files.run / certificate.robot},
                              .sha256 = manifest.robot_sha256};
-  const ExperimentConfig config =
-      ReadConfig(options, files.PathInRun("config.yaml"), config_bytes, of_robot, findings);
+  const InputSearch of_scene{.what = "scene",
+                             .run = files.run,
+                             .places = {files.run / certificate.scene},
+                             .sha256 = manifest.scene_sha256};
+  const ExperimentConfig config = ReadConfig(options, files.PathInRun("config.yaml"), config_bytes,
+                                             of_robot, of_scene, findings);
   const auto [robot, scene] = InputsOf(options, config, manifest, certificate, of_robot, findings);
 
   CheckHash("trajectory.csv", trajectory, certificate.trajectory_hash, findings);

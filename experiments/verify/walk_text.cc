@@ -72,11 +72,11 @@ std::vector<OverlapRow> ReadOverlaps(const std::string& path, const std::string&
     CheckIndex(csv, i);
     rows.push_back({.kind = Word(csv, i, 1, {"up_down", "down_up"}),
                     .overlap = csv.Number(i, 2),
-                    .upper_bound = csv.Number(i, 3),
                     .duration_before = csv.Number(i, 9),
                     .duration_after = csv.Number(i, 10),
                     .scale_before = csv.Number(i, 11),
-                    .scale_after = csv.Number(i, 12)});
+                    .scale_after = csv.Number(i, 12),
+                    .upper_bound = csv.Number(i, 3)});
   }
   return rows;
 }

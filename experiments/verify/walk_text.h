@@ -44,9 +44,9 @@ struct HalfStepRow {
 struct OverlapRow {
   std::string kind;        ///< up_down or down_up
   double overlap = 0;      ///< [s]
-  double upper_bound = 0;  ///< the largest that was allowed [s]
   /// Of the half-steps [s] and height scales on both sides.
   double duration_before = 0, duration_after = 0, scale_before = 0, scale_after = 0;
+  double upper_bound = 0;  ///< the largest overlap that was allowed [s]
 };
 
 /// A row of footsteps.csv.

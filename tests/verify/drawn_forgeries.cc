@@ -70,9 +70,8 @@ std::vector<NamedValue> ValuesOf(const fs::path& folder, const std::string& meth
         !method.empty() && slash != std::string::npos && file.substr(0, slash) != method;
     if (of_other || file.ends_with(".schema.json") || file.starts_with("inputs/")) continue;
     if (file.ends_with(".csv")) {
-      for (const std::string& column : TamperedRun::Cells(ReadText(folder / file)).front()) {
-        values.push_back({file, column});
-      }
+      const Table table = TamperedRun::Cells(ReadText(folder / file));
+      for (const std::string& column : table.front()) values.push_back({file, column});
     } else if (file.ends_with("manifest.json") || file.ends_with("certificate.json")) {
       const Json flat = Json::parse(ReadText(folder / file)).flatten();
       for (const auto& [pointer, value] : flat.items()) {
