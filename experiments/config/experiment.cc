@@ -77,7 +77,8 @@ ExperimentConfig MovedTo(const fs::path& folder, const ExperimentConfig& config)
 }
 
 Place LoadPlace(const ExperimentConfig& config) {
-  if (IsShipped(config.robot) && !fs::exists(RobotPath(config))) {
+  const bool is_special = IsShipped(config.robot) || config.robot.ends_with(".urdf");
+  if (is_special && !fs::exists(RobotPath(config))) {
     throw InputError({"robot: " + UnknownRobot(config.robot)});
   }
   Place place;

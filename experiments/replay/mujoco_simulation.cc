@@ -1,12 +1,15 @@
 #include <mujoco/mujoco.h>
 
+#include <clocale>
 #include <cstring>
+#include <locale>
 #include <map>
 #include <stdexcept>
 
 #include "experiments/replay/mujoco_model.h"
 #include "experiments/replay/simulation.h"
 #include "wpg/check.h"
+#include "wpg/files/plain_locale.h"
 
 namespace halfstep::replay {
 namespace {
@@ -25,8 +28,30 @@ void CatchErrors() {
   mju_user_warning = [](const char*) {};
 }
 
+// MuJoCo reads a model's numbers by strtod and by streams of the program's global locale. As long
+// as this lives, both are C's; a program whose streams are C's already is not touched.
+class ClassicStreams {
+ public:
+  ClassicStreams() : streams_(), locale_(std::setlocale(LC_ALL, nullptr)) {
+    if (streams_ != std::locale::classic()) std::locale::global(std::locale::classic());
+  }
+  ~ClassicStreams() {
+    if (streams_ == std::locale::classic()) return;
+    std::locale::global(streams_);
+    std::setlocale(LC_ALL, locale_.c_str());
+  }
+  ClassicStreams(const ClassicStreams&) = delete;
+  ClassicStreams& operator=(const ClassicStreams&) = delete;
+
+ private:
+  const std::locale streams_;
+  const std::string locale_;
+  const PlainLocale plain_;
+};
+
 std::shared_ptr<const mjModel> Compile(const std::string& mjcf) {
   CatchErrors();
+  const ClassicStreams classic;
   const auto files = std::make_unique<mjVFS>();
   mj_defaultVFS(files.get());
   mj_makeEmptyFileVFS(files.get(), "robot.xml", static_cast<int>(mjcf.size()));
