@@ -193,7 +193,7 @@ class Build:
         words[words.index("-o") + 1] = str(output)
         words[words.index("-c") + 1] = str(copy)
         words[1:1] = [f"-I{self.place}"]  # rewritten headers before the right ones
-        words += ["-w", "-O1", f"-I{HERE}"]  # a third of the time of -O2
+        words += ["-w", "-O1", f"-I{HERE}"]  # compiled once, run for seconds
         done = subprocess.run(words, cwd=unit.directory, capture_output=True, text=True)
         if done.returncode != 0:
             output.unlink(missing_ok=True)

@@ -141,6 +141,26 @@ TEST(CollisionWorld, EmptyAndFarWorldsAreFree) {
   EXPECT_FALSE(world.Clears(body, Isometry3d::Identity(), 0.0, 2.41, &scratch));
 }
 
+// What an obstacle may do in half of the interval counts where it is looked for, too: measured just
+// now, it may come 10 cm nearer in either half, from 5 cm away.
+TEST(CollisionWorld, FindsAnObstacleThatComesNearOnlyWithinTheInterval) {
+  Scene scene;
+  scene.obstacles.push_back(
+      {.name = "ball", .shape = Sphere{0.05}, .motion = {.speed = 2.0, .measured_at = 1.0}});
+  scene.obstacles.back().X_WO = Isometry3d(Eigen::Translation3d(1, 0, 0));
+  const CollisionWorld world(scene);
+  const CollisionShape body(Sphere{0.1});
+  const Isometry3d X_WB(Eigen::Translation3d(0.8, 0, 0));
+  CollisionWorld::Scratch scratch;
+  EXPECT_TRUE(world.Clears(body, X_WB, 1.0, 0.04, &scratch));
+  EXPECT_FALSE(world.Clears(body, X_WB, 1.0, 0.0, &scratch, 0.05));
+  EXPECT_TRUE(world.Clears(body, X_WB, 1.0, 0.0, &scratch, 0.02));
+  EXPECT_EQ(world.FindNearest(body, X_WB, 1.0, 0.02).obstacle, -1);
+  const CollisionWorld::Nearest nearest = world.FindNearest(body, X_WB, 1.0, 0.02, 0.05);
+  EXPECT_EQ(nearest.obstacle, 0);
+  EXPECT_NEAR(nearest.margin, 0.05, 1e-9);
+}
+
 TEST(CollisionWorld, PosesThatAreNotFiniteThrow) {
   std::mt19937 random(24);
   Scene scene = RandomRoom(3, &random);

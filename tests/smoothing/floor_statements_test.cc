@@ -122,6 +122,40 @@ TEST(LeastHeight, OfAnOverlapBeyondItsBoundIsBelowTheFloor) {
   EXPECT_GT(least, -kSoleRounding);
 }
 
+// The foot begins its horizontal motion, or ends it, a fifth of a millisecond of rise too low, and
+// is high enough everywhere else: no interval may hide that behind a midpoint at which the height
+// does not count.
+TEST(Floor, IsNotCertifiedWhereTheFootIsTooLowForAMoment) {
+  const RobotModel robot = Hrp2();
+  WalkDraw draw(607);
+  int certified = 0;
+  for (int i = 0; i < Draws(40); ++i) {
+    const HalfStepSequence sequence = TwoSteps(robot);
+    HomotopyParameters parameters = PlannedMotion(sequence);
+    for (double& T : parameters.durations) T *= draw.Uniform(0.9, 1.3);
+    // Of one half-step the delay is short, so that its height counts where it is least.
+    const size_t low = static_cast<size_t>(i % 4);
+    for (size_t k = 0; k < 4; ++k) parameters.foot_delays[k] = k == low ? 0.08 : 0.15;
+    const SuperposedWalk walk(sequence, parameters);
+    const HalfStepProfiles& p = walk.profiles(static_cast<int>(low));
+    const bool up = low % 2 == 0;
+    const double at =
+        walk.start_of(static_cast<int>(low)) + (up ? p.horizontal_begin() : p.horizontal_end());
+    const int z = FootIndex(walk.half_step(static_cast<int>(low)).swing()) + 2;
+    const double height = walk.At(at).value[z];
+    const double later = walk.At(at + (up ? 2e-4 : -2e-4)).value[z];
+    ASSERT_GT(later, height + 1e-7);
+    Certificate certificate;
+    EXPECT_NE(Certify(robot, {}, Only(MarginFamily::kFloor, later), walk, &certificate).verdict,
+              Verdict::kFeasible)
+        << "at " << at << " s";
+    certified +=
+        Certify(robot, {}, Only(MarginFamily::kFloor, 0.99 * height), walk, &certificate).verdict ==
+        Verdict::kFeasible;
+  }
+  EXPECT_EQ(certified, Draws(40));
+}
+
 TEST(Ground, IsTheHeightOfTheLowestPointOfBodiesThatAreOnNoFoot) {
   const RobotModel robot = WithBall("LLEG_LINK3", 0.03, 0.02);
   const MarginEvaluator evaluator(robot, {}, {});

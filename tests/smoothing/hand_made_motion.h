@@ -84,7 +84,7 @@ inline void WithoutMasses(RobotModel* robot) {
   for (auto& leg : robot->masses.links) leg.fill({});
 }
 
-/// A random motion in which few quantities move, each in one order of its derivatives.
+/// A random motion in which one or two quantities move, in some orders of their derivatives.
 inline HandMadeMotion DrawSparseMotion(const RobotModel& robot, double size, WalkDraw* draw) {
   HandMadeMotion motion{.mid = Standing(robot)};
   for (int q = 0; q < kNumQuantities; ++q) {
@@ -93,23 +93,18 @@ inline HandMadeMotion DrawSparseMotion(const RobotModel& robot, double size, Wal
     motion.mid.value[q] +=
         height ? size * draw->Uniform(0.0, 0.2) : (yaw ? 3.0 : size) * draw->Uniform(-0.15, 0.15);
   }
-  const int count = 1 + static_cast<int>(draw->Uniform(0, 3));
+  const int count = 1 + static_cast<int>(draw->Uniform(0, 2));
   for (int k = 0; k < count; ++k) {
     const int q = static_cast<int>(draw->Uniform(0, kNumQuantities));
     const double unit = q == kWaistYaw || q == kLeftYaw || q == kRightYaw ? 2.0 : size;
-    const double x =
-        unit * (draw->Uniform(0, 1) < 0.5 ? -1 : 1) * std::pow(30, draw->Uniform(-1, 0));
-    switch (static_cast<int>(draw->Uniform(0, 3))) {
-      case 0:
-        motion.mid.first[q] = 2 * x;
-        break;
-      case 1:
-        motion.mid.second[q] = 30 * x;
-        break;
-      default:
-        motion.third[q] = 2000 * x;
-        break;
-    }
+    const auto move = [&](double most) {
+      const double sign = draw->Uniform(0, 1) < 0.5 ? -1 : 1;
+      const double x = sign * unit * most * std::pow(30, draw->Uniform(-1, 0));
+      return draw->Uniform(0, 1) < 0.5 ? x : 0.0;
+    };
+    motion.mid.first[q] = move(2);
+    motion.mid.second[q] = move(30);
+    motion.third[q] = move(2000);
   }
   return motion;
 }

@@ -24,7 +24,7 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using testing::HasSubstr;
 
-Isometry3d Upright(const Eigen::Vector4d& xyz_yaw) {
+Isometry3d LevelSole(const Eigen::Vector4d& xyz_yaw) {
   Isometry3d X = Isometry3d::Identity();
   X.translation() = xyz_yaw.head<3>();
   X.rotate(Eigen::AngleAxisd(xyz_yaw[3], Vector3d::UnitZ()));
@@ -57,7 +57,7 @@ TEST_P(OffsetLegTest, BringsTheSoleWhereItIsAskedToBe) {
     ASSERT_FALSE(leg.closed_form());
     int solved = 0;
     for (int k = 0; k < 500; ++k) {
-      const Isometry3d X_BSole = Upright(DrawSole(leg));
+      const Isometry3d X_BSole = LevelSole(DrawSole(leg));
       const LegIkSolution solution = SolveLegIk(leg, X_BSole);
       EXPECT_EQ(solution.reach_margin < 0, solution.status == LegIkStatus::kOutOfReach);
       if (solution.status != LegIkStatus::kSolved) continue;
@@ -82,9 +82,9 @@ TEST_P(OffsetLegTest, BranchIsContinuousAlongWays) {
     int steps = 0;
     for (int way = 0; way < 10; ++way) {
       const Eigen::Vector4d from = DrawSole(leg), to = DrawSole(leg);
-      LegIkSolution last = SolveLegIk(leg, Upright(from));
+      LegIkSolution last = SolveLegIk(leg, LevelSole(from));
       for (int k = 1; k <= 200; ++k) {
-        const LegIkSolution here = SolveLegIk(leg, Upright(from + (to - from) * (k / 200.0)));
+        const LegIkSolution here = SolveLegIk(leg, LevelSole(from + (to - from) * (k / 200.0)));
         if (last.status == LegIkStatus::kSolved && here.status == LegIkStatus::kSolved) {
           ++steps;
           EXPECT_LT((here.q - last.q).cwiseAbs().maxCoeff(), 0.1);
@@ -100,10 +100,11 @@ TEST_P(OffsetLegTest, BranchIsContinuousAlongWays) {
 double DerivativeError(const Leg& leg, const Eigen::Matrix<double, 8, 1>& p, double wrong) {
   const double h = 1e-6;
   const auto solve = [&](const Eigen::Matrix<double, 8, 1>& at) {
-    return SolveLegIk(leg, Upright(at.head<4>()).inverse() * Upright(at.tail<4>()));
+    return SolveLegIk(leg, LevelSole(at.head<4>()).inverse() * LevelSole(at.tail<4>()));
   };
   Eigen::Matrix<double, 6, 8> dq;
-  EXPECT_TRUE(LegIkDerivative(leg, solve(p).q, Upright(p.head<4>()), Upright(p.tail<4>()), &dq));
+  EXPECT_TRUE(
+      LegIkDerivative(leg, solve(p).q, LevelSole(p.head<4>()), LevelSole(p.tail<4>()), &dq));
   dq(3, 6) *= wrong;  // the knee, by the height of the sole
   double worst = 0;
   for (int i = 0; i < 8; ++i) {
@@ -122,12 +123,12 @@ TEST_P(OffsetLegTest, DerivativeAgreesWithCentralDifferences) {
   int tried = 0;
   for (int k = 0; k < 100; ++k) {
     const Eigen::Vector4d sole = DrawSole(leg);
-    const LegIkSolution solution = SolveLegIk(leg, Upright(sole));
+    const LegIkSolution solution = SolveLegIk(leg, LevelSole(sole));
     if (solution.status != LegIkStatus::kSolved || solution.reach_margin < 0.01) continue;
     ++tried;
     Eigen::Matrix<double, 8, 1> p;  // waist x y z yaw, sole x y z yaw
     p << unit(random_), unit(random_), unit(random_), 3 * unit(random_), 0, 0, 0, 0;
-    p.segment<3>(4) = Upright(p.head<4>()) * sole.head<3>();
+    p.segment<3>(4) = LevelSole(p.head<4>()) * sole.head<3>();
     p[7] = p[3] + sole[3];
     EXPECT_LT(DerivativeError(leg, p, 1.0), 1e-5);
     EXPECT_GT(DerivativeError(leg, p, 1.001), 5e-5) << "a broken one must show";
@@ -139,7 +140,7 @@ TEST_P(OffsetLegTest, DerivativeAgreesWithCentralDifferences) {
 TEST_P(OffsetLegTest, ReachMarginIsOfThePointsOnThighAndShank) {
   for (const Leg& leg : robot_.legs) {
     for (int k = 0; k < 50; ++k) {
-      const LegIkSolution solution = SolveLegIk(leg, Upright(DrawSole(leg)));
+      const LegIkSolution solution = SolveLegIk(leg, LevelSole(DrawSole(leg)));
       if (solution.status != LegIkStatus::kSolved) continue;
       const LegFrames frames = PlaceLeg(leg, solution.q);
       const Vector3d hip = frames.X_BLink[2] * (leg.joints[2].X_BLink.inverse() * leg.hip_B);
@@ -165,7 +166,7 @@ TEST_P(OffsetLegTest, NeighbourhoodHoldsWhatItClaims) {
   std::uniform_real_distribution<> unit(-1, 1);
   double nearest = 0;
   for (int k = 0; k < 300; ++k) {
-    const LegIkSolution solution = SolveLegIk(leg, Upright(DrawSole(leg)));
+    const LegIkSolution solution = SolveLegIk(leg, LevelSole(DrawSole(leg)));
     if (solution.status != LegIkStatus::kSolved) continue;
     const auto near = LegNeighbourhood::Around(leg, solution.q);
     ASSERT_TRUE(near);
@@ -259,7 +260,7 @@ TEST_P(OffsetLegTest, NeighbourhoodHoldsWhatItClaimsOfFewJoints) {
   };
   double nearest = 0, nearest_bending = 0, nearest_pose = 0;
   for (int k = 0; k < 4000; ++k) {
-    const LegIkSolution solution = SolveLegIk(leg, Upright(DrawSole(leg)));
+    const LegIkSolution solution = SolveLegIk(leg, LevelSole(DrawSole(leg)));
     if (solution.status != LegIkStatus::kSolved) continue;
     const double share = k % 2 == 0 ? 1.0 : share_of(random_);
     const double other = k % 4 < 2 ? share : share_of(random_);
@@ -339,7 +340,7 @@ TEST_P(OffsetLegTest, WaysHoldWhatJointsDoAlongTheLift) {
   int proved = 0;
   double nearest = 0;
   for (int k = 0; k < 400; ++k) {
-    const LegIkSolution solution = SolveLegIk(leg, Upright(DrawSole(leg)));
+    const LegIkSolution solution = SolveLegIk(leg, LevelSole(DrawSole(leg)));
     if (solution.status != LegIkStatus::kSolved) continue;
     const bool by_share = k % 3 == 0, moves = k % 3 > 0 || k % 2 == 0;
     const double from = by_share ? share_of(random_) : 1.0;
@@ -469,8 +470,8 @@ TEST(OffsetLeg, WithoutOffsetIsTheClosedForm) {
       Eigen::Vector4d sole;
       sole << standing, 0.4 * unit(random);
       sole.head<3>() += 0.2 * Vector3d(unit(random), 0.5 * unit(random), 1 + unit(random));
-      const LegIkSolution closed = SolveLegIk(leg, Upright(sole));
-      const LegIkSolution other = SolveLegIk(continued, Upright(sole));
+      const LegIkSolution closed = SolveLegIk(leg, LevelSole(sole));
+      const LegIkSolution other = SolveLegIk(continued, LevelSole(sole));
       EXPECT_EQ(closed.status == LegIkStatus::kSolved, other.status == LegIkStatus::kSolved);
       if (closed.status != LegIkStatus::kSolved) continue;
       EXPECT_LT(AngleDifference(closed.q, other.q), 1e-12);
