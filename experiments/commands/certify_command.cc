@@ -10,6 +10,7 @@
 #include "experiments/run/complete_manifest.h"
 #include "experiments/run/interrupt.h"
 #include "experiments/run/smoothing_of.h"
+#include "experiments/tables/answer_words.h"
 #include "experiments/tables/certificate_files.h"
 #include "experiments/tables/csv_reader.h"
 #include "experiments/tables/json_file.h"
@@ -110,7 +111,7 @@ ExitStatus Certify(const CertifyCommand& command) {
     if (certified) {
       std::cout << ", " << walk.rows.size() << " rows for " << walk.duration << " s\n";
     } else {
-      std::cout << ": " << evaluator.Describe(walk.answer.witness) << '\n';
+      std::cout << ": " << AnswerWords(evaluator, test.options(), walk.answer) << '\n';
     }
   }
   if (interrupt.requested()) {

@@ -45,8 +45,14 @@ void WarnAboutCache(const CachedVolumes& cached) {
   }
 }
 
+// The footsteps as a config has them. Where none is needed there are none, and a config cannot say
+// that, so nothing is printed.
 void PrintPlan(const PlannedWalk& walk) {
   const PlanResult& plan = walk.plan;
+  if (plan.footsteps.empty()) {
+    std::cerr << "halfstep: " << plan.sentence << '\n';
+    return;
+  }
   std::cout << "# " << walk.config.planner.name << ": " << plan.sentence << ", " << plan.nodes
             << " nodes, " << plan.queries << " queries of " << walk.half_steps.size
             << " half-steps, " << std::fixed << std::setprecision(1) << 1e3 * plan.time << " ms\n"

@@ -79,6 +79,7 @@ bool Walk(const RobotFiles& files, bool quiet) {
                        .stop = interrupt.token()};
   ExperimentRun run(LoadConfig(files.walk.string(), {}), hooks);
   run.Smooth(hooks);
+  run.Explain(interrupt.token());
   run.Certify(interrupt.token());
   bar.reset();
   if (!quiet) {
@@ -90,8 +91,9 @@ bool Walk(const RobotFiles& files, bool quiet) {
   }
   const MethodRun& last = run.runs().back();
   if (last.certified.answer.verdict == Verdict::kFeasible) return true;
-  TellUnder("the robot file stands, but its six steps are not certified; worst first:",
-            InfeasiblePlanText(run, interrupt.token()));
+  std::vector<std::string> lines;
+  for (const InfeasibleWalk& walk : run.infeasible()) lines = InfeasibleText(run.problem(), walk);
+  TellUnder("the robot file stands, but its six steps are not certified; worst first:", lines);
   return false;
 }
 

@@ -12,7 +12,6 @@
 #include "experiments/run/experiment_run.h"
 #include "experiments/run/infeasible_plan.h"
 #include "experiments/run/interrupt.h"
-#include "experiments/run/missed_demands_text.h"
 #include "experiments/run/progress_bar.h"
 #include "experiments/run/run_screen.h"
 #include "wpg/files/input_error.h"
@@ -46,27 +45,24 @@ void TellRepaired(const ExperimentRun& run) {
   for (const std::string& sentence : run.repaired()) std::cerr << "halfstep: " << sentence << '\n';
 }
 
-// Why the plan is not feasible, and what would help.
-void TellMissed(const ExperimentRun& run, const std::stop_token& stop) {
-  if (!run.missed()) {
-    std::cerr << "halfstep: the plan is not feasible: " << run.runs().front().result.message
-              << '\n';
-    return;
+// Why the plan is not feasible, or the given walk, and what would help.
+void TellInfeasible(const ExperimentRun& run) {
+  bool told = !run.wants_plan() || run.runs().front().result.feasible;
+  for (const InfeasibleWalk& walk : run.infeasible()) {
+    const bool given = walk.method == "given";
+    told = told || !given;
+    TellUnder(given ? "the given walk is not feasible; worst first:"
+                    : "the plan is not feasible; worst first:",
+              InfeasibleText(run.problem(), walk));
   }
-  TellUnder("the plan is not feasible; worst first:", InfeasiblePlanText(run, stop));
+  if (told) return;  // else it was stopped before that was known
+  std::cerr << "halfstep: the plan is not feasible: " << run.runs().front().result.message << '\n';
 }
 
-// Why the given walk is not feasible.
-void TellGivenMissed(const ExperimentRun& run) {
-  TellUnder("the given walk is not feasible; worst first:",
-            MissedDemandsText(run.evaluator(), run.problem().sequence(), *run.given_missed()));
-}
-
-// Whether a method, or the user, wants the plan as a walk: `given` alone does not.
-bool WantsPlan(const ExperimentConfig& config) {
-  const std::vector<std::string>& methods = config.smoothing.methods;
-  return methods.empty() ||
-         std::ranges::any_of(methods, [](const std::string& method) { return method != "given"; });
+// Whether what the walk of the method `given` misses was told.
+bool TellsGiven(const ExperimentRun& run) {
+  return std::ranges::any_of(run.infeasible(),
+                             [](const InfeasibleWalk& walk) { return walk.method == "given"; });
 }
 
 // A sentence on standard error for each method that never searched or broke down.
@@ -75,7 +71,7 @@ bool TellWhatDidNotWork(const ExperimentRun& whole, bool wants_plan) {
   for (const MethodRun& run : whole.runs()) {
     if (!DidNotWork(run.result.ending) || (run.method == "raw" && !wants_plan)) continue;
     did_not = true;
-    if (run.method == "given" && whole.given_missed()) continue;  // told already
+    if (run.method == "given" && TellsGiven(whole)) continue;  // told already
     std::cerr << "halfstep: " << run.method << ": " << Name(run.result.ending) << ": "
               << run.result.message << '\n';
   }
@@ -102,11 +98,11 @@ ExitStatus Run(const RunCommand& command) {
   RunFolder folder(OutputFolder(command, config), command.overwrite);
   run.Smooth(hooks);
   bars.End();
-  const bool wants_plan = WantsPlan(config);
+  const bool wants_plan = run.wants_plan();
   const bool feasible = run.runs().front().result.feasible || !wants_plan;
   TellRepaired(run);
-  if (!feasible) TellMissed(run, interrupt.step_token());  // before the tables, which take longer
-  if (run.given_missed()) TellGivenMissed(run);
+  run.Explain(interrupt.step_token());
+  TellInfeasible(run);  // before the tables, which take longer
   // What smoothing had found when it was stopped is proved all the same.
   run.Certify(interrupt.requested() ? interrupt.proof_token() : interrupt.token());
   run.Write(&folder);
@@ -117,7 +113,7 @@ ExitStatus Run(const RunCommand& command) {
   TellWarnings(run.experiment().robot, run.experiment().scene);
   const std::string place = folder.path().string();
   if (command.json) {
-    std::cout << RunJson(run.evaluator(), run.runs(), place);
+    std::cout << RunJson(run.experiment(), run.problem(), run.runs(), run.infeasible(), place);
   } else if (!command.quiet) {
     std::cout << RunTable(run.experiment(), run.problem(), run.runs(),
                           {place, "not_covered in certificate.json"});

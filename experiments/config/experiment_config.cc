@@ -1,7 +1,10 @@
 #include "experiments/config/experiment_config.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <filesystem>
+#include <numbers>
 
 #include "experiments/config/data_folder.h"
 #include "experiments/config/experiment.h"
@@ -40,6 +43,43 @@ void DeclareFootstep(Fields& fields, FootstepConfig* step) {
       "duration_s", &step->duration,
       {.meaning = "instead of half_step.duration_s", .unit = "s", .min = 0.6, .max = 6});
 }
+
+// The yaw nearest to `beside` that is the same place of a sole as `yaw` [rad].
+double NearestTurn(double yaw, double beside) {
+  return yaw - 2.0 * std::numbers::pi * std::round((yaw - beside) / (2.0 * std::numbers::pi));
+}
+
+// What there is to say against a sole whose yaw is more than half a turn from that of the other
+// foot, since it has the same place with less; "" if nothing.
+std::string YawJump(double yaw, double beside, const char* other) {
+  constexpr double kDegrees = 180.0 / std::numbers::pi;
+  constexpr double kHalfTurn = std::numbers::pi * (1.0 + 1e-9);
+  if (!(std::abs(yaw - beside) > kHalfTurn)) return "";
+  return Formatted(
+      "%.6g is %.6g° from the yaw of the %s foot beside it: yaws are not wrapped (did you mean "
+      "%.6g?)",
+      kDegrees * yaw, kDegrees * std::abs(yaw - beside), other,
+      kDegrees * NearestTurn(yaw, beside));
+}
+
+// Declares footsteps, and complains about their yaws.
+class YawJumps {
+ public:
+  explicit YawJumps(const ExperimentConfig& config)
+      : yaws_{config.start_left.yaw, config.start_right.yaw} {}
+
+  void Declare(Fields& fields, FootstepConfig* step) {
+    DeclareFootstep(fields, step);
+    const size_t side = step->foot == "left" ? 0 : 1;
+    const double beside = yaws_[1 - side];
+    const std::string jump = YawJump(step->X_WF.yaw, beside, side == 0 ? "right" : "left");
+    if (!jump.empty()) fields.Complain("yaw_deg", jump);
+    yaws_[side] = NearestTurn(step->X_WF.yaw, beside);  // so that one turn too many is told once
+  }
+
+ private:
+  std::array<double, 2> yaws_;  // left and right, where they stand
+};
 
 void DeclareHalfStep(Fields& fields, HalfStepConfig* c) {
   fields.Number("duration_s", &c->duration,
@@ -100,6 +140,24 @@ void DeclareHalfStep(Fields& fields, HalfStepConfig* c) {
   if (chosen != kIterations.end()) c->compensation = static_cast<int>(chosen - kIterations.begin());
 }
 
+// Complains about a goal that is out of the planner's workspace: the last foot lands beside one
+// that carries, which stays inside.
+void ComplainOutsideWorkspace(Fields& fields, const ExperimentConfig& c) {
+  const std::vector<double>& w = c.planner.workspace;
+  if (!c.has_goal || w.size() != 4) return;
+  const HalfStepGrid& grid = c.half_step_grid;
+  const double step = std::hypot(std::max(std::abs(grid.x_min), std::abs(grid.x_max)),
+                                 std::max(std::abs(grid.y_min), std::abs(grid.y_max)));
+  const GoalRegion goal = c.goal.Region();
+  const double size = goal.box ? 0.5 * goal.box->norm() : goal.radius;
+  const Eigen::AlignedBox2d workspace(Eigen::Vector2d(w[0], w[1]), Eigen::Vector2d(w[2], w[3]));
+  const double outside = workspace.exteriorDistance(goal.X_WG.position());
+  if (outside <= size + step) return;
+  fields.Complain("goal", Formatted("lies %.3g m outside of planner.workspace_m, and a step of the "
+                                    "step_set is %.3g m long at most (valid: within its reach)",
+                                    outside, step));
+}
+
 // What there is to say against smoothing.fixed; the half-steps of a plan are not known before it.
 std::string ComplaintAboutFixed(const ExperimentConfig& config) {
   if (config.smoothing.fixed.empty()) return "";
@@ -133,6 +191,8 @@ void DeclareStart(Fields& fields, ExperimentConfig* c) {
                 [&](Fields& g) { DeclarePose(g, &c->start_left); });
         f.Group("right", {.meaning = "the right sole", .required = true},
                 [&](Fields& g) { DeclarePose(g, &c->start_right); });
+        const std::string jump = YawJump(c->start_right.yaw, c->start_left.yaw, "left");
+        if (!jump.empty()) f.Complain("right", "yaw_deg: " + jump);
       });
 }
 
@@ -158,10 +218,11 @@ void DeclareFields(Fields& fields, ExperimentConfig* c) {
       {.meaning =
            "where the walk shall end; planned in place of `footsteps`, one of them is required"},
       [&](Fields& f) { DeclareGoal(f, &c->goal); });
+  YawJumps jumps(*c);
   fields.List("footsteps",
               {.meaning = "in the order of stepping, at least one unless there is a `goal`",
                .max_items = 10000},
-              &c->footsteps, DeclareFootstep);
+              &c->footsteps, [&](Fields& f, FootstepConfig* step) { jumps.Declare(f, step); });
   if (c->footsteps.empty() && !c->has_goal) {
     fields.Complain("footsteps", "there are none (valid: at least one, or a `goal`)");
   }
@@ -173,6 +234,7 @@ void DeclareFields(Fields& fields, ExperimentConfig* c) {
   fields.Renamed("half_steps", "step_set");
   fields.Group("step_set", {.meaning = "places that the planner chooses from"},
                [&](Fields& f) { DeclareHalfStepSet(f, &c->half_step_grid); });
+  ComplainOutsideWorkspace(fields, *c);
   fields.Group("swept_volumes", {.meaning = "that are baked of them"},
                [&](Fields& f) { DeclareSweptVolumes(f, &c->swept_volumes); });
   fields.Group("half_step", {.meaning = "the isolated half-step"}, [&](Fields& f) {

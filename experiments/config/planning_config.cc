@@ -104,6 +104,12 @@ void DeclareGoal(Fields& fields, GoalConfig* c) {
     fields.Complain("box_m", "has " + std::to_string(c->box.size()) +
                                  " numbers (valid: [length, width], or [])");
   }
+  if (c->box.size() == 2 && (c->box[0] == 0.0 || c->box[1] == 0.0)) {
+    fields.Complain("box_m", "has an edge of 0: no sole lands exactly on a line (valid: > 0)");
+  }
+  if (c->box.empty() && c->radius == 0.0) {
+    fields.Complain("radius_m", "is 0: no sole lands exactly on a point (valid: > 0, or a box_m)");
+  }
   fields.OptionalNumber(
       "yaw_tolerance_deg", &c->yaw_tolerance,
       {.meaning = "either way; none: any yaw", .unit = "deg", .min = 0, .max = 180});

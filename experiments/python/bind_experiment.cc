@@ -11,6 +11,7 @@
 #include "experiments/python/long_call.h"
 #include "experiments/python/placed_experiment.h"
 #include "experiments/run/missed_demands_text.h"
+#include "experiments/run/plan_inputs.h"
 #include "experiments/run/planning.h"
 #include "experiments/run/smoothing_of.h"
 #include "experiments/tables/result_tables.h"
@@ -101,7 +102,7 @@ py::dict Smooth(const PlacedExperiment& placed, const std::string& method, const
   return ResultOf(setting, method, std::move(result));
 }
 
-// Sentences on what the planned motion misses, the worst first.
+// Sentences on what the inputs may have wrong and what the planned motion misses, the worst first.
 std::vector<std::string> Missed(const PlacedExperiment& placed) {
   const auto setting = placed.Setting();
   std::vector<std::string> lines;
@@ -112,8 +113,12 @@ std::vector<std::string> Missed(const PlacedExperiment& placed) {
     const SuperposedWalk walk(problem.sequence(), problem.Start());
     const Feasibility answer = problem.test().Check(walk, {0.0, walk.duration()}, &scratch);
     if (answer.verdict == Verdict::kFeasible || answer.stopped) return;
-    lines = MissedDemandsText(problem.evaluator(), problem.sequence(),
-                              FindMissedDemands(problem.evaluator(), walk, answer.witness));
+    lines = LookAtFootsteps(placed.experiment, problem.evaluator());
+    for (std::string& line :
+         MissedDemandsText(problem.evaluator(), problem.sequence(),
+                           FindMissedDemands(problem.evaluator(), walk, answer.witness))) {
+      lines.push_back(std::move(line));
+    }
   });
   return lines;
 }

@@ -38,6 +38,7 @@ std::pair<std::string, std::vector<std::string>> RunInto(const std::string& path
     RunFolder folder(out, overwrite);
     run.Smooth(hooks);
     if (call.stop.stop_requested()) return;  // nothing is written then
+    run.Explain(call.stop);
     run.Certify(call.stop);
     if (call.stop.stop_requested()) return;
     run.Write(&folder);

@@ -7,6 +7,7 @@
 #include "experiments/python/long_call.h"
 #include "experiments/python/walk_samples.h"
 #include "experiments/python/walk_setting.h"
+#include "experiments/tables/answer_words.h"
 #include "experiments/tables/certificate_files.h"
 #include "experiments/tables/parameter_tables.h"
 #include "smoothing/margins/not_covered_by.h"
@@ -110,11 +111,11 @@ py::tuple CertifyPlaced(const PlacedWalk& placed) {
     certified = CertifyWalk(test, problem.sequence(), placed.walk.parameters(), hooks.stop);
   });
   const bool holds = certified.answer.verdict == Verdict::kFeasible;
-  const std::string sentence = holds ? "every demanded margin is kept at every instant, by " +
-                                           std::to_string(certified.rows.size()) + " statements; " +
-                                           std::to_string(NotCoveredOfWalk(placed).size()) +
-                                           " things are not covered"
-                                     : problem.evaluator().Describe(certified.answer.witness);
+  const std::string sentence =
+      holds ? "every demanded margin is kept at every instant, by " +
+                  std::to_string(certified.rows.size()) + " statements; " +
+                  std::to_string(NotCoveredOfWalk(placed).size()) + " things are not covered"
+            : AnswerWords(problem.evaluator(), test.options(), certified.answer);
   return py::make_tuple(std::string(VerdictName(certified.answer.verdict)), sentence,
                         ToPython(CertificateCsv(problem.evaluator(), certified.rows)));
 }

@@ -253,6 +253,8 @@ std::string RunReport(const RobotModel& robot, const Scene& scene, const fs::pat
   AddClosedForm(robot, scene, folder, &one);
   const fs::path volumes = folder / "swept_volumes.json";
   if (fs::exists(volumes)) one["swept_volumes"] = ReadJsonObject(volumes);
+  const fs::path infeasible = folder / "infeasible.json";
+  if (fs::exists(infeasible)) one["infeasible"] = ReadJsonObject(infeasible);
   report["cases"].push_back(std::move(one));
   return ReportPage(report);
 }

@@ -8,6 +8,7 @@ import { filmedPage } from "./filmed.js";
 import { extentOf } from "./floor_marks.js";
 import { handWalk } from "./hand_walk.js";
 import { addLayerBoxes, layers, offerLayer } from "./layers.js";
+import { firstSentence, gravestInstant, infeasibleList, infeasibleOf } from "./infeasible.js";
 import { worstInstant } from "./least_margins.js";
 import { leastTable } from "./least_table.js";
 import { methodCharts } from "./method_charts.js";
@@ -106,7 +107,7 @@ function goTo({ t, pair }) {
 }
 
 const goToWorst = () => {
-  const worst = walks[0] && worstInstant(walks[0], report.families);
+  const worst = walks[0] && (gravestInstant(current, walks[0]) ?? worstInstant(walks[0], report.families));
   if (worst) goTo(worst);
 };
 
@@ -180,12 +181,13 @@ function chooseWalks() {
   stageWalks();
   plots.show(plotList(report.robots[current.robot], a.certificate, report.families), walks,
              squeezed ? "time [s], of the longer walk squeezed" : "time [s]");
+  infeasibleList(byId("infeasible"), current, walks[0], goTo);
   leastTable(byId("least"), walks[0], report.families, goTo);
   zmpMap.show(walks[0], current.footsteps, report.robots[current.robot].sole);
   timeline.setDuration(Math.max(...walks.map((walk) => walk.duration)));
   timeline.showPhases(walks);
   junctionTable(byId("junctions"), walks);
-  tellOutcome(a);
+  tellOutcome(a, firstSentence(infeasibleOf(current, a)));
 }
 
 // What an address asks for, of a case that is chosen.
@@ -230,6 +232,7 @@ function chooseCase(index) {
     ? `not drawn: ${current.not_drawn}`
     : `${report.robots[current.robot].name}, scene ${report.scenes[current.scene].name}, ` +
       `${halfSteps} half-steps, objective ${current.objective ?? report.objective}`;
+  byId("infeasible").hidden = true;
   if (drawn.length === 0) return;
   if (stage) {
     stage.setScene(report.scenes[current.scene]);

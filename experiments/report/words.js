@@ -33,11 +33,11 @@ export function tellInstant(walks, t) {
   }
 }
 
-/** The walk A in the page's head. */
-export function tellOutcome(a) {
+/** The walk A in the page's head; `why` says why it is not feasible, where the run tells. */
+export function tellOutcome(a, why) {
   const { duration_s: duration, speedup } = a.summary;
   byId("outcome").textContent = `A: ${duration.toFixed(3)} s` +
     (a.method === "raw" ? "" : `, ${speedup.toFixed(2)} × as fast as raw`) +
-    (a.certified ? ", proved for all t" : `, not proved: ${readable(a.certificate.message)}`);
+    (a.certified ? ", proved for all t" : `, not proved: ${why ?? readable(a.certificate.message)}`);
   byId("outcome").classList.toggle("no", !a.certified);
 }

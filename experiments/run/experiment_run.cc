@@ -157,6 +157,22 @@ MethodRun ExperimentRun::RunMethod(const std::string& name, const RunHooks& hook
   return run;
 }
 
+bool ExperimentRun::wants_plan() const {
+  const std::vector<std::string>& methods = config_.smoothing.methods;
+  return methods.empty() ||
+         std::ranges::any_of(methods, [](const std::string& method) { return method != "given"; });
+}
+
+void ExperimentRun::Explain(const std::stop_token& stop) {
+  infeasible_.clear();
+  if (missed_ && wants_plan()) {
+    infeasible_.push_back(ExplainPlan(*experiment_, *problem_, *missed_, stop));
+  }
+  if (given_missed_) {
+    infeasible_.push_back({.method = "given", .inputs = {}, .missed = *given_missed_, .help = {}});
+  }
+}
+
 void ExperimentRun::Certify(const std::stop_token& stop) {
   for (MethodRun& run : runs_) {
     SampleTrajectory(evaluator(), experiment_->sequence, RowPeriod(config_, run), &run);
@@ -198,6 +214,9 @@ void ExperimentRun::Write(RunFolder* folder) const {
     }
   }
   WriteCsv("footsteps", FootstepsCsv(experiment_->sequence), folder);
+  if (!infeasible_.empty()) {
+    folder->Write("infeasible.json", InfeasibleJsonText(*problem_, infeasible_));
+  }
   WriteCsv("summary", SummaryCsv(evaluator(), runs_), folder);
   folder->Write("manifest.json", ManifestJson(*experiment_, resolved,
                                               problem_->test().Description(), runs_, wall.count()));

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "experiments/config/experiment.h"
+#include "experiments/run/infeasible_plan.h"
 #include "experiments/run/planning.h"
 #include "experiments/tables/result_tables.h"
 #include "experiments/tables/run_folder.h"
@@ -50,6 +51,12 @@ class ExperimentRun {
   /// Runs every method. Precondition, as for all that follows: there is no refusal. All that
   /// follows needs Smooth() to have run.
   void Smooth(const RunHooks& hooks);
+  /// Whether a method, or the user, wants the plan as a walk: `given` alone does not.
+  bool wants_plan() const;
+
+  /// Finds out why walks are not feasible, and what would help; trying ends with `stop`. Where it
+  /// is not called, nothing of it is written.
+  void Explain(const std::stop_token& stop);
   /// Samples and certifies every walk; those whose turn comes after a stop are undecided. A method
   /// that says that it worked, and whose walk is not accepted now, has failed (JudgeAtTheEnd).
   /// Must be called before Write().
@@ -64,11 +71,9 @@ class ExperimentRun {
   /// One run for each method, "raw" first.
   const std::vector<MethodRun>& runs() const { return runs_; }
 
-  /// What the planned motion misses; none when it is feasible.
-  const std::optional<MissedDemands>& missed() const { return missed_; }
-
-  /// What the walk of the method `given` misses; none when it is feasible or not run.
-  const std::optional<MissedDemands>& given_missed() const { return given_missed_; }
+  /// What Explain() found of the planned motion, where it is wanted, and of the walk of the method
+  /// `given`: those of them that are not feasible, in this order.
+  const std::vector<InfeasibleWalk>& infeasible() const { return infeasible_; }
 
   /// What `smoothing.repair_plan` made of the plan: a sentence on each step that it changed, or
   /// could not make feasible. Empty: nothing was to repair, or nothing was asked for.
@@ -93,6 +98,7 @@ class ExperimentRun {
   std::optional<CertifiedFeasibility> certifier_;
   std::vector<MethodRun> runs_;
   std::optional<MissedDemands> missed_, given_missed_;
+  std::vector<InfeasibleWalk> infeasible_;
   std::optional<HomotopyParameters> given_;
   std::vector<std::string> repaired_;
 };

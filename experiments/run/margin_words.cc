@@ -80,13 +80,4 @@ std::string MissedWords(const MarginEvaluator& evaluator, const Margin& margin) 
   return words;
 }
 
-std::string PlaceInPlan(const HalfStepSequence& sequence, const Margin& margin) {
-  if (margin.t == 0.0) return "at the start";
-  const int i = margin.at.half_step;
-  const HalfStep& half_step = sequence.half_steps[static_cast<size_t>(i)].half_step;
-  return Formatted("footstep %d (%s), half-step %s, at %.2f s", i / 2 + 1,
-                   std::string(Name(half_step.swing())).c_str(), i % 2 == 0 ? "up" : "down",
-                   margin.t);
-}
-
 }  // namespace halfstep

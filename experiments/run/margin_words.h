@@ -4,7 +4,6 @@
 #include <string_view>
 
 #include "smoothing/margins/margin_evaluator.h"
-#include "wpg/motion/half_step_sequence.h"
 
 namespace halfstep {
 
@@ -17,9 +16,5 @@ std::string Amount(double value, std::string_view unit);
 /// "RLEG_LINK5 is 2.2 mm inside bar; 5 mm are demanded", "joint_speed of LLEG_JOINT3: 0.31 rad/s
 /// beyond its limit".
 std::string MissedWords(const MarginEvaluator& evaluator, const Margin& margin);
-
-/// Where in a plan a margin was found: "footstep 1 (right), half-step up, at 1.48 s", or
-/// "at the start".
-std::string PlaceInPlan(const HalfStepSequence& sequence, const Margin& margin);
 
 }  // namespace halfstep

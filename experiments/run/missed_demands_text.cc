@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "experiments/run/margin_words.h"
 #include "planner/scene/mesh_floor.h"
@@ -15,7 +16,7 @@ constexpr size_t kMost = 10;  // demands that are told, unless there are more fa
 
 std::string Demand(const MarginEvaluator& evaluator, const HalfStepSequence& sequence,
                    const MissedDemand& demand, int instants) {
-  return PlaceInPlan(sequence, demand.worst) + ": " + MissedWords(evaluator, demand.worst) +
+  return PlaceInPlan(sequence, demand) + ": " + MissedWords(evaluator, demand.worst) +
          (demand.instants > 0
               ? Formatted(" (at %d of %d instants)", demand.instants, instants)
               : Formatted(" (for a moment between the %d instants looked at)", instants));
@@ -77,25 +78,64 @@ std::vector<const MissedDemand*> Told(const std::vector<MissedDemand>& demands) 
 
 }  // namespace
 
+std::string PlaceInPlan(const HalfStepSequence& sequence, const MissedDemand& demand) {
+  const double t = demand.worst.t;
+  if (t == 0.0 || demand.footstep < 0) return "at the start";
+  const auto up = static_cast<size_t>(2 * demand.footstep);
+  const std::string foot(Name(sequence.half_steps[up].half_step.swing()));
+  const std::string name = Formatted("footstep %d (%s), ", demand.footstep + 1, foot.c_str());
+  if (demand.stands) return name + Formatted("where it stands, from %.2f s on", t);
+  const char* kind = demand.worst.at.half_step % 2 == 0 ? "up" : "down";
+  return name + Formatted("half-step %s, at %.2f s", kind, t);
+}
+
 std::vector<std::string> MissedDemandsText(const MarginEvaluator& evaluator,
                                            const HalfStepSequence& sequence,
                                            const MissedDemands& missed) {
   std::vector<std::string> lines;
-  std::vector<MarginFamily> families;
-  std::vector<std::string> remedies;
   for (const MissedDemand* demand : Told(missed.demands)) {
     lines.push_back(Demand(evaluator, sequence, *demand, missed.instants));
-    const MarginFamily family = demand->worst.family;
-    if (std::ranges::find(families, family) != families.end()) continue;
-    families.push_back(family);  // its worst demand
-    remedies.push_back(Remedy(evaluator, *demand));
   }
   if (missed.demands.size() > lines.size()) {
     lines.push_back(Formatted("and %zu more", missed.demands.size() - lines.size()));
   }
-  if (std::string hint = FloorHint(evaluator, missed); !hint.empty()) lines.push_back(hint);
-  lines.insert(lines.end(), remedies.begin(), remedies.end());
+  for (std::string& line : FamilyRemedies(evaluator, missed)) lines.push_back(std::move(line));
   return lines;
+}
+
+std::vector<std::string> FamilyRemedies(const MarginEvaluator& evaluator,
+                                        const MissedDemands& missed) {
+  std::vector<std::string> remedies;
+  if (std::string hint = FloorHint(evaluator, missed); !hint.empty()) remedies.push_back(hint);
+  std::vector<MarginFamily> families;
+  for (const MissedDemand& demand : missed.demands) {
+    const MarginFamily family = demand.worst.family;
+    if (std::ranges::find(families, family) != families.end()) continue;
+    families.push_back(family);  // its worst demand
+    remedies.push_back(Remedy(evaluator, demand));
+  }
+  return remedies;
+}
+
+nlohmann::ordered_json MissedDemandsJson(const MarginEvaluator& evaluator,
+                                         const HalfStepSequence& sequence,
+                                         const MissedDemands& missed) {
+  using nlohmann::ordered_json;
+  ordered_json list = ordered_json::array();
+  for (const MissedDemand& demand : missed.demands) {
+    const Margin& worst = demand.worst;
+    list.push_back(
+        {{"sentence", Demand(evaluator, sequence, demand, missed.instants)},
+         {"footstep", demand.footstep + 1},
+         {"half_step", worst.at.half_step + 1},
+         {"t_s", worst.t},
+         {"family", Name(worst.family)},
+         {"subject", evaluator.Subject(worst)},
+         {"margin", std::isfinite(worst.value) ? ordered_json(worst.value) : ordered_json(nullptr)},
+         {"demanded", evaluator.limits().demanded_of(worst.family)},
+         {"unit", Unit(worst.family)}});
+  }
+  return list;
 }
 
 }  // namespace halfstep

@@ -177,7 +177,8 @@ class Trials {
 std::vector<int> FootstepsThatMiss(const MissedDemands& missed) {
   std::vector<int> steps;
   for (const MissedDemand& demand : missed.demands) {
-    const int step = demand.worst.at.half_step / 2;
+    const int step = demand.footstep;
+    if (step < 0) continue;  // no footstep mends where a foot stands at the start
     if (std::ranges::find(steps, step) == steps.end()) steps.push_back(step);
   }
   return steps;

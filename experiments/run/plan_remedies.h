@@ -16,8 +16,9 @@ namespace halfstep {
 /// that it concerns are feasible by the problem's test; height and duration together where neither
 /// helps alone. Where several footsteps miss a demand, height and duration of all of them are tried
 /// as well. A sentence on each that was found, with the key to set, on each footstep for which
-/// nothing was, and whether the first of each footstep makes the whole plan feasible. Keys are those of `experiment.config`, whose plan `problem` holds. Among obstacles
-/// that move nothing is tried, since no step can be looked at by itself.
+/// nothing was, and whether the first of each footstep makes the whole plan feasible. Keys are
+/// those of `experiment.config`, whose plan `problem` holds. Among obstacles that move nothing is
+/// tried, since no step can be looked at by itself.
 std::vector<std::string> PlanRemedies(const Experiment& experiment, const WalkProblem& problem,
                                       const MissedDemands& missed, const std::stop_token& stop);
 

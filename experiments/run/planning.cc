@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/run/missed_demands_text.h"
+#include "experiments/run/plan_inputs.h"
 #include "experiments/tables/not_covered_json.h"
 #include "planner/search/planner_registry.h"
 #include "planner/swept/obstacle_places.h"
@@ -198,7 +199,13 @@ PlannedWalk PlanWalk(const ExperimentConfig& config, const Place& place,
   if (walk.plan.status == PlanStatus::kStartBlocked) {
     walk.plan.sentence += MissedInPlace(place.robot, place.scene, config);
   }
-  if (walk.plan.status != PlanStatus::kSolved) return walk;
+  if (walk.plan.status != PlanStatus::kSolved) {
+    if (walk.plan.status != PlanStatus::kInterrupted) walk.inputs = LookAtGoal(config, evaluator);
+    std::string looked;
+    for (const std::string& sentence : walk.inputs) looked += sentence + "; ";
+    walk.plan.sentence = looked + walk.plan.sentence;
+    return walk;
+  }
   walk.config.has_goal = false;
   walk.config.has_start = true;
   walk.config.start_left = request.start[0];
@@ -243,6 +250,7 @@ std::string PlanJson(const PlannedWalk& walk) {
       {"set_wall_s", walk.half_steps.set_wall},
       {"volumes_wall_s", walk.half_steps.wall},
       {"not_covered", NotCoveredJson(walk.not_covered)}};
+  if (!walk.inputs.empty()) json["inputs"] = walk.inputs;
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 

@@ -67,8 +67,11 @@ BakedHalfSteps BakeHalfSteps(const RobotModel& robot, const ExperimentConfig& co
 
 /// A plan and what it was made with.
 struct PlannedWalk {
-  ExperimentConfig config;    ///< with footsteps and start in place of the goal; when solved
-  PlanResult plan;            ///< status, footsteps and effort
+  ExperimentConfig config;  ///< with footsteps and start in place of the goal; when solved
+  PlanResult plan;          ///< status, footsteps and effort
+  /// Without a plan: what start and goal may have wrong (LookAtGoal), which `plan.sentence` begins
+  /// with.
+  std::vector<std::string> inputs = {};
   BakedHalfSteps half_steps;  ///< the set that was searched, with its swept volumes
   std::vector<NotCovered> not_covered = {};  ///< what no proof behind the plan speaks of
 };

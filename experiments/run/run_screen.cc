@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/run/margin_words.h"
+#include "experiments/tables/answer_words.h"
 #include "experiments/tables/not_covered_json.h"
 #include "smoothing/margins/not_covered_by.h"
 #include "smoothing/proof/sampled_feasibility.h"
@@ -19,6 +20,13 @@ const Margin& Of(const MethodRun& run, MarginFamily family) {
   return run.margins[static_cast<size_t>(family)];
 }
 
+// What refused a larger overlap: "clearance of RLEG_LINK5 - bar". It may have been refused because
+// the proof could not decide, which is no violation.
+std::string HolderWords(const MarginEvaluator& evaluator, const Margin& margin) {
+  return std::string(Name(margin.family)) + " of " + evaluator.Subject(margin) +
+         (std::isnan(margin.value) ? ", undecided" : "");
+}
+
 // "11 up_down overlaps: 0.412 s on average of 0.950 s, limited by clearance of RLEG_LINK5 - bar (2)
 // …"
 std::string Holders(const MarginEvaluator& evaluator, const MethodRun& run, JunctionKind kind) {
@@ -30,13 +38,12 @@ std::string Holders(const MarginEvaluator& evaluator, const MethodRun& run, Junc
     ++count;
     overlap += junction.overlap;
     bound += junction.upper_bound;
-    const std::string what =
-        junction.limited_by ? std::string(Name(junction.limited_by->family)) + " of " +
-                                  evaluator.Subject(*junction.limited_by)
-        : junction.fixed                                 ? "smoothing.fixed"
-        : run.method == "given"                          ? "what was given"
-        : junction.overlap < junction.upper_bound - 1e-9 ? "the balance of the program"
-                                                         : "their upper bound";
+    const std::string what = junction.limited_by     ? HolderWords(evaluator, *junction.limited_by)
+                             : junction.fixed        ? "smoothing.fixed"
+                             : run.method == "given" ? "what was given"
+                             : junction.overlap < junction.upper_bound - 1e-9
+                                 ? "the balance of the program"
+                                 : "their upper bound";
     ++holders[what];
   }
   if (count == 0) return "";
@@ -63,7 +70,11 @@ std::string Promise(const MarginLimits& limits, const JunctionResult& junction) 
       Amount(less, Unit(family)) + Formatted(" %s would save %.2g s",
                                              demanded > 0.0 ? "less demanded" : "beyond its limit",
                                              std::min(part * *junction.price, room));
-  if (junction.multiplier && *junction.multiplier > 0.0) {
+  if (junction.multiplier && std::isnan(*junction.multiplier)) {
+    text +=
+        "; with all parameters adapting it is not determined: the program's rows there hardly "
+        "depend on them";
+  } else if (junction.multiplier && *junction.multiplier > 0.0) {
     text += Formatted(" (%.2g s with all parameters adapting)", part * *junction.multiplier);
   }
   return text;
@@ -84,7 +95,7 @@ std::string Prices(const MarginEvaluator& evaluator, const MethodRun& run) {
     text += Formatted("  junction %zu (%s), %.3f s: ", dearest[k].second + 1,
                       junction.kind == JunctionKind::kUpDown ? "up→down" : "down→up",
                       junction.overlap) +
-            std::string(Name(limit.family)) + " of " + evaluator.Subject(limit) +
+            HolderWords(evaluator, limit) +
             Formatted(" at half-step %d, τ = %.2f s; ", limit.at.half_step + 1, limit.at.tau) +
             Promise(evaluator.limits(), junction);
     text += "\n";
@@ -94,6 +105,31 @@ std::string Prices(const MarginEvaluator& evaluator, const MethodRun& run) {
 
 std::vector<NotCovered> ListOf(const MarginEvaluator& evaluator) {
   return NotCoveredBy(evaluator.robot(), evaluator.scene(), evaluator.limits());
+}
+
+bool IsUndecided(const MethodRun& run) {
+  return run.certified.answer.verdict == Verdict::kUndecided;
+}
+
+// The least clearance at the rows of trajectory.csv, unless the proof could not decide it between.
+std::string ClearanceCell(const MarginEvaluator& evaluator, const MethodRun& run) {
+  const Margin& clearance = Of(run, MarginFamily::kClearance);
+  if (IsUndecided(run) && run.certified.answer.witness.family == MarginFamily::kClearance) {
+    return Formatted("%10s", "undecided");
+  }
+  if (!std::isfinite(clearance.value)) return Formatted("%10s", "-");
+  return clearance.other < 0
+             ? Formatted("   > %2.0f cm", 100.0 * evaluator.limits().clearance_horizon)
+             : Formatted("%7.1f cm", 100.0 * clearance.value);
+}
+
+std::string WorstCell(const MarginEvaluator& evaluator, const MethodRun& run) {
+  const Margin& worst = WorstOf(run.margins, evaluator.limits());
+  const std::string name(Name(worst.family));
+  if (!std::isfinite(worst.value)) return name + " cannot be told";
+  const bool same = worst.family == run.certified.answer.witness.family;
+  if (IsUndecided(run) && same) return name + " undecided";
+  return name + " " + Amount(worst.value, Unit(worst.family));
 }
 
 // Rows of a Pareto curve.
@@ -119,18 +155,17 @@ std::string RunTable(const Experiment& experiment, const WalkProblem& problem,
   out << Formatted("%-22s %-16s %-10s %10s %8s %9s %10s %s\n", "method", "status", "for all t",
                    "duration", "speed-up", "low apex", "clearance", "worst margin");
   for (const MethodRun& run : runs) {
-    const Margin& worst = WorstOf(run.margins, evaluator.limits());
-    const Margin& clearance = Of(run, MarginFamily::kClearance);
     out << Formatted("%-22s %-16s %-10s %8.3f s %7.2fx %6.1f cm ", run.method.c_str(),
                      std::string(Name(run.result.ending)).c_str(),
                      std::string(VerdictName(run.certified.answer.verdict)).c_str(), run.duration,
                      runs.front().duration / run.duration, 100.0 * run.lowest_apex)
-        << (!std::isfinite(clearance.value) ? Formatted("%10s", "-")
-            : clearance.other < 0
-                ? Formatted("   > %2.0f cm", 100.0 * evaluator.limits().clearance_horizon)
-                : Formatted("%7.1f cm", 100.0 * clearance.value))
-        << " " << Name(worst.family) << " "
-        << (std::isinf(worst.value) ? "cannot be kept" : Amount(worst.value, Unit(worst.family)))
+        << ClearanceCell(evaluator, run) << " " << WorstCell(evaluator, run) << "\n";
+  }
+  for (const MethodRun& run : runs) {
+    if (!IsUndecided(run)) continue;
+    out << "\n"
+        << run.method << ": undecided: "
+        << AnswerWords(evaluator, experiment.config.smoothing.certification, run.certified.answer)
         << "\n";
   }
   for (const MethodRun& run : runs) {
@@ -156,8 +191,10 @@ std::string RunTable(const Experiment& experiment, const WalkProblem& problem,
   return out.str();
 }
 
-std::string RunJson(const MarginEvaluator& evaluator, const std::vector<MethodRun>& runs,
-                    const std::string& folder) {
+std::string RunJson(const Experiment& experiment, const WalkProblem& problem,
+                    const std::vector<MethodRun>& runs,
+                    const std::vector<InfeasibleWalk>& infeasible, const std::string& folder) {
+  const MarginEvaluator& evaluator = problem.evaluator();
   nlohmann::ordered_json json = {{"folder", folder},
                                  {"not_covered", NotCoveredJson(ListOf(evaluator))}};
   for (const MethodRun& run : runs) {
@@ -172,6 +209,13 @@ std::string RunJson(const MarginEvaluator& evaluator, const std::vector<MethodRu
                                {"lowest_apex_m", run.lowest_apex},
                                {"worst_margin", worst.value},
                                {"worst_margin_name", Name(worst.family)}});
+    if (IsUndecided(run)) {
+      json["methods"].back()["undecided"] =
+          AnswerWords(evaluator, experiment.config.smoothing.certification, run.certified.answer);
+    }
+  }
+  for (const InfeasibleWalk& walk : infeasible) {
+    json["infeasible"][walk.method] = InfeasibleJson(problem, walk);
   }
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }

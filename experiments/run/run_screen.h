@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "experiments/config/experiment.h"
+#include "experiments/run/infeasible_plan.h"
 #include "experiments/tables/result_tables.h"
 #include "smoothing/methods/walk_problem.h"
 
@@ -20,8 +21,9 @@ struct RunPlaces {
 std::string RunTable(const Experiment& experiment, const WalkProblem& problem,
                      const std::vector<MethodRun>& runs, const RunPlaces& places);
 
-/// The same as one JSON object.
-std::string RunJson(const MarginEvaluator& evaluator, const std::vector<MethodRun>& runs,
-                    const std::string& folder);
+/// The same as one JSON object, with what is told of walks that are not feasible.
+std::string RunJson(const Experiment& experiment, const WalkProblem& problem,
+                    const std::vector<MethodRun>& runs,
+                    const std::vector<InfeasibleWalk>& infeasible, const std::string& folder);
 
 }  // namespace halfstep

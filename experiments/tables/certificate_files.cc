@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "experiments/tables/answer_words.h"
 #include "experiments/tables/csv_writer.h"
 #include "experiments/tables/not_covered_json.h"
 #include "smoothing/margins/not_covered_by.h"
@@ -81,9 +82,8 @@ std::string CertificateJson(const Experiment& experiment, const CertifiedFeasibi
   const ordered_json json = {
       {"format", 2},
       {"verdict", VerdictName(walk.answer.verdict)},
-      {"message", certified             ? "every demanded margin is kept at all times"
-                  : walk.answer.stopped ? "interrupted before all of it was proved"
-                                        : test.evaluator().Describe(walk.answer.witness)},
+      {"message", certified ? "every demanded margin is kept at all times"
+                            : AnswerWords(test.evaluator(), test.options(), walk.answer)},
       {"statement", CertificateStatement(robot)},
       {"duration_s", walk.duration},
       {"resolution_s", test.options().resolution},

@@ -1,6 +1,7 @@
 #include "experiments/tables/result_tables.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "experiments/tables/parameter_tables.h"
 #include "smoothing/proof/sampled_feasibility.h"
@@ -68,7 +69,8 @@ CsvColumns OverlapsColumns() {
        "how much shorter the walk for limit_scale less demanded, by this overlap alone, to first "
        "order; empty: it does not depend on it"},
       {"multiplier_s", kNumber, "s",
-       "the same, all parameters adapting, from the program; empty: none was solved"},
+       "the same, all parameters adapting, from the program; empty: none was solved, or the "
+       "margin hardly depends on them"},
       {"duration_before_s", kNumber, "s", "T of the half-step before"},
       {"duration_after_s", kNumber, "s", "T of the half-step after"},
       {"height_scale_before", kNumber, "1", "height scale of the step before"},
@@ -90,7 +92,8 @@ CsvFile OverlapsCsv(const MarginEvaluator& evaluator, const MethodRun& run) {
       csv.Cell("none").Empty();
     }
     junction.price ? csv.Cell(*junction.price) : csv.Empty();
-    junction.multiplier ? csv.Cell(*junction.multiplier) : csv.Empty();
+    const bool determined = junction.multiplier && std::isfinite(*junction.multiplier);
+    determined ? csv.Cell(*junction.multiplier) : csv.Empty();
     const size_t after = static_cast<size_t>(index), before = after - 1;
     csv.Cell(parameters.durations[before]).Cell(parameters.durations[after]);
     csv.Cell(parameters.height_scales[before / 2]).Cell(parameters.height_scales[after / 2]);

@@ -121,8 +121,9 @@ PlanResult PlanWith(const PlanRequest& request, const std::vector<int>& elements
   PlanResult result;
   if (!request.in_air && request.goal.ContainsStance(request.start)) {
     result.status = PlanStatus::kSolved;
-    result.sentence = "the start is a goal";
+    result.sentence = "the start is in the goal: nothing to plan";
     result.cost = 0.0;
+    if (request.clock) result.time = 0.0;
     result.exhausted = true;
     return result;
   }

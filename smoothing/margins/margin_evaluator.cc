@@ -85,6 +85,12 @@ std::string MarginEvaluator::Describe(const Margin& margin) const {
   out << Name(margin.family) << " of " << Subject(margin);
   if (std::isnan(margin.value)) {
     out << " could not be decided";
+  } else if (std::isinf(margin.value) && margin.value < 0.0) {
+    out << (margin.family == MarginFamily::kFriction || margin.family == MarginFamily::kZmpRobot
+                ? " cannot be told, since the soles cannot give what the motion needs or a leg "
+                  "does "
+                  "not reach,"
+                : " cannot be told, since a leg does not reach or is stretched,");
   } else {
     out << " " << margin.value << " " << Unit(margin.family) << " (demanded "
         << limits_.demanded_of(margin.family) << ")";

@@ -31,23 +31,55 @@ void AddPrices(const SuperposedWalk& walk, const MarginEvaluator& evaluator,
   }
 }
 
+namespace {
+
+// Rows nearer to their bound than this count as active [of their scale].
+constexpr double kActive = 0.05;
+
+// By how much each row changes at most within the bounds of the variables, to first order.
+Eigen::VectorXd ReachOfRows(const opt::Problem& problem, const std::vector<double>& jacobian) {
+  Eigen::VectorXd reach = Eigen::VectorXd::Zero(problem.num_constraints());
+  const Eigen::VectorXd widths = problem.upper() - problem.lower();
+  for (size_t k = 0; k < jacobian.size(); ++k) {
+    reach[problem.pattern().rows[k]] += std::abs(jacobian[k]) * widths[problem.pattern().cols[k]];
+  }
+  return reach;
+}
+
+}  // namespace
+
 void AddMultipliers(const OverlapProgram& program, const HomotopyParameters& parameters,
                     std::vector<JunctionResult>* junctions) {
-  constexpr double kActive = 0.05;
   const opt::Problem problem = program.MakeProblem();
   const Eigen::VectorXd x = program.ToVariables(parameters);
-  const opt::Stationarity at = opt::EstimateMultipliers(
-      problem, x, problem.Gradient(x), problem.Constraints(x), problem.Jacobian(x), kActive);
+  const Eigen::VectorXd rows = problem.Constraints(x);
+  std::vector<double> jacobian = problem.Jacobian(x);
+  // A row that stays where it is whatever the variables do holds nothing. Its derivatives are those
+  // of instants that hardly count in it, and what is left of the cost's gradient, divided by so
+  // little, would be its multiplier.
+  const Eigen::VectorXd reach = ReachOfRows(problem, jacobian);
+  for (size_t k = 0; k < jacobian.size(); ++k) {
+    if (!(reach[problem.pattern().rows[k]] >= kActive)) jacobian[k] = 0.0;
+  }
+  const opt::Stationarity at =
+      opt::EstimateMultipliers(problem, x, problem.Gradient(x), rows, jacobian, kActive);
   for (size_t j = 0; j < junctions->size(); ++j) {
     JunctionResult& junction = (*junctions)[j];
     if (!junction.limited_by) continue;
     double sum = 0.0;
+    bool active = false, moves = false;
     for (int row = 0; row < program.watched().rows(); ++row) {
       const int after = program.watched().half_step_of(row) - static_cast<int>(j);
       const bool same = WatchedInstants::family_of(row) == Traits(junction.limited_by->family).row;
-      if (same && (after == 0 || after == 1)) sum += std::abs(at.multipliers[row]);
+      if (!same || after < 0 || after > 1) continue;
+      sum += std::abs(at.multipliers[row]);
+      if (rows[row] - problem.constraint_lower()[row] > kActive) continue;
+      active = true;
+      moves = moves || reach[row] >= kActive;
     }
-    junction.multiplier = sum;
+    // No walk becomes shorter by more than it lasts.
+    const bool determined = (moves || !active) && sum <= DurationOf(parameters);
+    junction.multiplier = determined ? sum : std::numeric_limits<double>::quiet_NaN();
   }
 }
 

@@ -1,6 +1,7 @@
 #include "smoothing/methods/plan_repair.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -77,23 +78,10 @@ class Repair {
   Margin Worst(int step, double duration, double height) {
     const HalfStepSequence alone = Alone(step, duration, height);
     const SuperposedWalk walk(alone, PlannedMotion(alone));
-    return WorstOf(SampleMargins(test_.evaluator(), walk, kPeriod, &scratch_));
+    return WorstOf(SampleMargins(test_.evaluator(), walk, kPeriod, &scratch_),
+                   test_.evaluator().limits());
   }
 
-  // The least slack; one that says by how much it is missed, where there is one.
-  Margin WorstOf(const MarginSet& margins) const {
-    const auto before = [this](const Margin& a, const Margin& b) {
-      const bool endless_a = Slack(a) == -kUnlimited, endless_b = Slack(b) == -kUnlimited;
-      if (endless_a && !endless_b) return Slack(b) >= 0.0;
-      if (endless_b && !endless_a) return Slack(a) < 0.0;
-      return Slack(a) < Slack(b);
-    };
-    Margin worst = margins.front();
-    for (const Margin& margin : margins) {
-      if (before(margin, worst)) worst = margin;
-    }
-    return worst;
-  }
   double Slack(const Margin& margin) const { return test_.evaluator().limits().Slack(margin); }
 
   // What the robot misses where it stands at rest on both feet, before or after the step.
@@ -102,7 +90,8 @@ class Repair {
     const HalfStepSequence alone = Alone(step, half_step.duration, half_step.via_height);
     const SuperposedWalk walk(alone, PlannedMotion(alone));
     for (const double t : {0.0, walk.duration()}) {
-      const Margin worst = WorstOf(test_.evaluator().At(walk, walk.Locate(t), &scratch_));
+      const Margin worst = WorstOf(test_.evaluator().At(walk, walk.Locate(t), &scratch_),
+                                   test_.evaluator().limits());
       if (Slack(worst) < 0.0) return worst;
     }
     return std::nullopt;
@@ -142,11 +131,15 @@ class Repair {
     result_.failures.push_back(why.str());
   }
 
-  // "reach −0.031 m, 0 demanded"
+  // "reach of left leg −0.031 m, 0 demanded"
   std::string Told(const Margin& margin) const {
     PlainStream told;
-    told << Name(margin.family) << " of " << test_.evaluator().Subject(margin) << " "
-         << margin.value << " " << Unit(margin.family) << ", "
+    told << Name(margin.family) << " of " << test_.evaluator().Subject(margin) << " ";
+    if (!std::isfinite(margin.value)) {
+      told << "cannot be told, since a leg does not reach or is stretched";
+      return told.str();
+    }
+    told << margin.value << " " << Unit(margin.family) << ", "
          << test_.evaluator().limits().demanded_of(margin.family) << " demanded";
     return told.str();
   }

@@ -77,9 +77,21 @@ MarginSet SampleMargins(const MarginEvaluator& evaluator, const SuperposedWalk& 
 }
 
 const Margin& WorstOf(const MarginSet& margins, const MarginLimits& limits) {
-  return *std::min_element(margins.begin(), margins.end(), [&](const Margin& a, const Margin& b) {
-    return limits.Slack(a) < limits.Slack(b);
-  });
+  // Where a leg does not reach there is no motion, and other margins are −∞ or follow from it.
+  const Margin& reach = margins[static_cast<size_t>(MarginFamily::kReach)];
+  if (reach.value < 0.0) return reach;
+  const auto before = [&](const Margin& a, const Margin& b) {
+    const double slack_a = limits.Slack(a), slack_b = limits.Slack(b);
+    const bool endless_a = slack_a == -kUnlimited, endless_b = slack_b == -kUnlimited;
+    if (endless_a && !endless_b) return slack_b >= 0.0;
+    if (endless_b && !endless_a) return slack_a < 0.0;
+    return slack_a < slack_b;
+  };
+  const Margin* worst = &margins.front();
+  for (const Margin& margin : margins) {
+    if (before(margin, *worst)) worst = &margin;
+  }
+  return *worst;
 }
 
 }  // namespace halfstep

@@ -34,7 +34,8 @@ class SampledFeasibility : public FeasibilityTest {
 MarginSet SampleMargins(const MarginEvaluator& evaluator, const SuperposedWalk& walk, double period,
                         MarginEvaluator::Scratch* scratch);
 
-/// The margin with the least slack (MarginLimits::Slack).
+/// The margin with the least slack (MarginLimits::Slack), or `reach` where a leg does not reach.
+/// Where some are −∞, of which nothing can be told, a finite one that is missed comes before them.
 const Margin& WorstOf(const MarginSet& margins, const MarginLimits& limits);
 
 }  // namespace halfstep

@@ -113,7 +113,7 @@ TEST(PlanCommand, SaysWhyThereIsNoPlanAndWritesNothing) {
   const Outcome standing = Halfstep(place.path(), {"run", config, "--out", "run", "--set",
                                                    "goal.x_m=0", "--set", "goal.y_m=0.1"});
   EXPECT_EQ(standing.status, kFailed);
-  EXPECT_THAT(standing.err, HasSubstr("the start is a goal"));
+  EXPECT_THAT(standing.err, HasSubstr("no walk: the start is in the goal: nothing to plan"));
 }
 
 TEST(PlanCommand, BakesOnceAndListsTheHalfSteps) {

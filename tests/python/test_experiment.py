@@ -97,6 +97,13 @@ class Smoothing(unittest.TestCase):
         config = hs.load_config("fig3_two_half_steps", half_step__duration_s=0.7)
         self.assertGreater(len(hs.Experiment(config).missed()), 0)
 
+    def test_a_mistake_in_the_config_is_told_before_what_it_causes(self):
+        config = hs.load_config("fig3_two_half_steps")
+        config["start"] = {"left": {"x_m": 0, "y_m": -0.105}, "right": {"x_m": 0, "y_m": 0.105}}
+        told = hs.Experiment(config).missed()
+        self.assertRegex(told[0], "^start: the left foot is 0.21 m to the right of the right foot")
+        self.assertGreater(len(told), 2)
+
     def test_control_c_ends_a_search(self):
         threading.Timer(0.3, lambda: signal.raise_signal(signal.SIGINT)).start()
         begin = time.monotonic()

@@ -43,6 +43,10 @@ CALLS = [
     (INPUT, "methods", lambda: edited(smoothing__methods=["best"])),
     (INPUT, "footsteps", lambda: edited(footsteps=[])),
     (INPUT, "foot", lambda: edited(footsteps=[{"foot": "third", "x_m": 0, "y_m": 0}])),
+    (INPUT, "did you mean -10", lambda: edited(
+        footsteps=[{"foot": "left", "x_m": 0.1, "y_m": 0.1, "yaw_deg": 350}])),
+    (INPUT, "no sole lands exactly on a point", lambda: edited(
+        footsteps=[], goal={"x_m": 1, "y_m": 0, "radius_m": 0})),
     (INPUT, "robot", lambda: edited(robot="hrp3")),
     (INPUT, "scene", lambda: edited(scene="nowhere")),
     (INPUT, "robot", lambda: hs.Experiment({})),

@@ -114,7 +114,14 @@ export async function testInfeasible(browser, url) {
   const { t, a, b, outcome } = await state(browser);
   assert.ok(t > 0, "opens at the worst instant");
   assert.deepEqual([a, b], ["raw", "none"]);
-  assert.match(outcome, /not proved: clearance/);
+  assert.match(outcome, /not proved: footstep 1 \(right\), half-step \S+ at .* inside /);
+  const list = await browser.run(`
+    const section = document.getElementById("infeasible");
+    return { hidden: section.hidden, text: section.textContent,
+             first: section.querySelector("button.go").textContent };`);
+  assert.equal(list.hidden, false);
+  assert.match(list.text, /Why A, raw, is not feasible.*Missed, the worst first.*tried, and feasible/s);
+  assert.ok(Math.abs(Number.parseFloat(list.first) - t) < 0.011, "opens at the gravest");
   await browser.run(`[...document.querySelectorAll("#least tr")]
     .find((row) => /^[\\d.]+ sclearance/.test(row.textContent)).querySelector("button").click()`);
   assert.match((await state(browser)).pair, /nearest: .*LEG_LINK5 – /);

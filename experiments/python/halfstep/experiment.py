@@ -168,8 +168,9 @@ class Experiment:
             for name, values in given.items() if values is not None}))
 
     def missed(self) -> list[str]:
-        """What the planned motion misses of the demanded margins, as sentences, the worst first;
-        empty when it is feasible."""
+        """Sentences, empty when the planned motion is feasible: first what the config may have
+        wrong, such as left and right exchanged, then what is missed of the demanded margins, the
+        worst first."""
         return self._experiment.missed()
 
     def plan(self, progress: Progress | None = None) -> Plan:

@@ -99,6 +99,14 @@ class Run:
         """certificate.json of a method: verdict, statement, demands, what is not covered, hashes."""
         return self._json(self._place(method), "certificate.json")
 
+    @property
+    def infeasible(self) -> dict[str, Any]:
+        """infeasible.json: by the name of each walk that is not feasible ("raw", "given") what the
+        config may have wrong, what is missed, the worst first, and what would help; else empty."""
+        if not os.path.exists(os.path.join(self.folder, "infeasible.json")):
+            return {}
+        return self._json("infeasible.json")
+
     def verify(self, method: str | None = None, tolerance: float | None = None) -> list[Verification]:
         """Checks the certificates without the smoothing code, as ``halfstep verify``; one entry a
         method. ``tolerance``: how far the played motion may leave the certified walk [m]; None: 1 mm
