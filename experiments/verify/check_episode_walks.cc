@@ -42,6 +42,8 @@ HalfStepSequence SequenceOf(const std::vector<FootstepRow>& rows, const EpisodeW
       footsteps.push_back({side, row.X_WF, row.via_height, row.duration});
     } else if (static_cast<size_t>(Index(side)) != i || !Near(row.X_WF, frame.start[i])) {
       findings->Disagree(line + "the walk does not start where config.yaml says");
+    } else if (!Near(row.via_height, 0) || !Near(row.duration, 0)) {
+      findings->Disagree(line + "no step leads to a foot that stands at the start");
     }
   }
   return MakeSequence(frame.start, footsteps, frame.via_lateral, frame.shape,
