@@ -311,6 +311,13 @@ TEST_P(OracleTest, NoAnswerIsFalseAndFalsifiedOnesAreFound) {
   for (const std::string name : {"zmp_robot", "torque", "friction", "joint_acceleration"}) {
     EXPECT_GT(all.families[name].pushed, 1) << name;
   }
+  // No family is left out; obstacles and areas may all have stood in the way.
+  const std::set<MarginFamily> may_lack = {MarginFamily::kOwn, MarginFamily::kClearance,
+                                           MarginFamily::kNoStep};
+  for (const MarginFamily family : AllMarginFamilies()) {
+    if (may_lack.contains(family)) continue;
+    EXPECT_GT(all.families[std::string(Name(family))].statements, 0) << Name(family);
+  }
   for (const auto& [name, family] : all.families) {
     EXPECT_EQ(family.found, family.falsified) << name;
     EXPECT_LT(family.disagreement, name == "clearance" ? 1e-6 : 1e-8) << name;

@@ -109,6 +109,19 @@ TEST(FootFriction, IsNotExceededWhateverRatesAllow) {
   EXPECT_GT(grown.nearest, 0.99);
 }
 
+// The yaw moment grows while the points of the pressure go apart and the pull falls, so that most
+// is needed at the midpoint: 0.4, and 0.357 at both ends.
+TEST(FootFriction, ByRatesIsNotBelowWhatTheMidpointNeeds) {
+  AskingRobot asking;
+  const RobotDynamics now = asking.That({.zmp = {0, 0}, .pull = {100, 0}, .turn = 3, .push = 400});
+  const auto friction = FootFriction::Of(now, {Pose2{0.1, 0, 0}, {0.3, 0.08}});
+  ASSERT_TRUE(friction);
+  EXPECT_NEAR(friction->needed(), 0.4, 1e-9);
+  const ContactRate rate{
+      .half_width = 0.01, .moment = {{0, -800, 300}, 0}, .force = {{-4290, 0, 0}, 0}};
+  EXPECT_GE(friction->Drift(rate), 0.0);
+}
+
 // The robot at rest, with a drift of one body that could do what is said of it.
 struct AtRest {
   IntervalMotion motion;
