@@ -160,14 +160,6 @@ bool IsWithin(std::string_view entry, std::string_view name) {
          (name.starts_with(entry) && name.substr(entry.size()).starts_with('.'));
 }
 
-void AddRows(const char* of, std::span<const NotExamined> list, std::string* table) {
-  for (const NotExamined& one : list) {
-    *table += std::string("| ") + of + " | `" + std::string(one.file) + "` | " +
-              (one.name == "*" ? "all" : "`" + std::string(one.name) + "`") + " | " +
-              std::string(one.why) + " |\n";
-  }
-}
-
 }  // namespace
 
 std::span<const NotExamined> NotExaminedOfRun() { return kOfRun; }
@@ -189,14 +181,6 @@ std::string NotExaminedText(std::span<const NotExamined> list) {
             std::string(one.why) + "\n";
   }
   return text;
-}
-
-std::string NotExaminedMarkdown() {
-  std::string table =
-      "| of | file | column or key | what is not examined, or why |\n|---|---|---|---|\n";
-  AddRows("a run", NotExaminedOfRun(), &table);
-  AddRows("an episode", NotExaminedOfEpisode(), &table);
-  return table;
 }
 
 }  // namespace halfstep::verify

@@ -27,7 +27,5 @@ const NotExamined* FindNotExamined(std::span<const NotExamined> list, std::strin
 
 /// One line for each entry, "file: name: why".
 std::string NotExaminedText(std::span<const NotExamined> list);
-/// The table of both lists in experiments/README.md.
-std::string NotExaminedMarkdown();
 
 }  // namespace halfstep::verify

@@ -99,7 +99,7 @@ TEST(Examined, FormsMoveOnlyWhereTheConfigLetsThem) {
                                           "false)")));
 }
 
-TEST(Examined, TheListIsToldByTheCommandAndByThePage) {
+TEST(Examined, TheListIsToldByTheCommand) {
   const TamperedRun run;
   const Outcome verbose = run.Verify();
   EXPECT_THAT(verbose.out, HasSubstr("\nNot examined:\n"));
@@ -110,8 +110,6 @@ TEST(Examined, TheListIsToldByTheCommandAndByThePage) {
   EXPECT_EQ(json["methods"].size(), 2u);
   EXPECT_EQ(json["methods"][0]["verified"], true);
   EXPECT_EQ(json["not_examined"].size(), verify::NotExaminedOfRun().size());
-  EXPECT_THAT(ReadText(HALFSTEP_SOURCE_DIR "/experiments/README.md"),
-              HasSubstr(verify::NotExaminedMarkdown()));
 }
 
 }  // namespace
