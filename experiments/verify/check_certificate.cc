@@ -11,7 +11,7 @@ namespace halfstep::verify {
 namespace {
 
 // What a certificate says of a walk that it is about.
-constexpr char kCertified[] = "every margin is kept at all times";
+constexpr char kCertified[] = "every demanded margin is kept at all times";
 
 long CountOf(Family family, const RobotModel& robot) {
   switch (family) {
