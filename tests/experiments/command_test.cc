@@ -364,7 +364,9 @@ TEST(RunCommand, NoPriceIsMoreThanTheWalkAndUndecidedReadsSo) {
   }
   EXPECT_GE(determined, 1) << outcome.out;
   EXPECT_THAT(outcome.out, Not(testing::ContainsRegex("e\\+[0-9]+ s")));
-  if (undecided > 0) EXPECT_THAT(outcome.out, HasSubstr(", undecided"));
+  if (undecided > 0) {
+    EXPECT_THAT(outcome.out, HasSubstr(", undecided"));
+  }
 }
 
 TEST(RunCommand, FootstepOnANoStepAreaWritesNothing) {

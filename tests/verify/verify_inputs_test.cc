@@ -15,8 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Place {
-  Place() {
+struct CopiedConfig {
+  CopiedConfig() {
     const fs::path source(HALFSTEP_SOURCE_DIR);
     for (const char* file : {"configs/fig5_box.yaml", "scenes/box.yaml"}) {
       WriteText(folder / file, ReadText(source / "experiments" / file));
@@ -27,7 +27,7 @@ struct Place {
 };
 
 TEST(InputFiles, SceneEditedDuringARunIsNotTheOneOfTheCertificate) {
-  const Place place;
+  const CopiedConfig place;
   const std::string parsed = CombinedSha256(LoadScene(place.scene().string()).files);
   const RunHooks hooks{.progress = [](const std::string&, double) {}, .stop = {}};
   ExperimentRun run(LoadConfig((place.folder / "configs/fig5_box.yaml").string(),
