@@ -14,13 +14,12 @@ class ScaleAll : public Smoother {
   SmoothingResult Smooth(const WalkProblem& problem, const SmootherOptions&,
                          SmoothingMonitor& monitor) const override {
     if (!monitor.BeginFeasibly(problem, problem.Start())) return monitor.Refusal();
-    const ParameterTable table = problem.Parameters();  // overlaps are free, unless fixed
     double low = 0.0, high = 1.0;
     while (high - low > 0.01 && !monitor.stopped()) {
       const double part = 0.5 * (low + high);
       HomotopyParameters candidate = problem.Start();
-      for (const ParameterRow& row : table.rows()) {
-        if (!row.fixed) row.parameter.in(candidate) = row.start + part * (row.upper - row.start);
+      for (int i = 0; i < problem.sequence().num_junctions(); ++i) {
+        candidate.overlaps[static_cast<size_t>(i)] = part * NaturalOverlapBound(candidate, i);
       }
       (monitor.Propose(candidate) ? low : high) = part;
     }

@@ -49,7 +49,7 @@ void CompleteManifest(const RobotModel& robot, const Scene& scene, RunFolder* fo
   manifest["robot_sha256"] = CombinedSha256(robot.files);
   manifest["scene_sha256"] = CombinedSha256(scene.files);
   manifest["inputs"] = {{"robot", InputsJson(robot.files)}, {"scene", InputsJson(scene.files)}};
-  if (manifest["methods"].is_array()) TakeVerdicts(*folder, &manifest["methods"]);
+  if (manifest.contains("methods")) TakeVerdicts(*folder, &manifest["methods"]);
   if (!manifest["files"].is_object()) manifest["files"] = ordered_json::object();
   for (const auto& [name, file] : folder->written()) {
     if (name == kManifest) continue;

@@ -98,6 +98,10 @@ void CheckEpisodeTrajectory(const std::vector<PlayedRow>& rows, const EpisodeMan
 void CheckEpisodeEnding(const EpisodeText& episode, const EpisodeManifest& manifest,
                         const EpisodeWalks& all, const DescribedWalk& executed,
                         const GoalConfig& goal, Findings* findings) {
+  if (manifest.stopped &&
+      static_cast<int>(episode.begun.size()) >= all.walks.back().num_half_steps()) {
+    findings->Disagree("manifest.json: stopped: nothing of the last walk was left to be cut");
+  }
   constexpr std::array<const char*, 7> kOthers = {"stuck", "too_long", "ended",  "interrupted",
                                                   "fell",  "killed",   "no_plan"};
   findings->Say("ending: " + (manifest.ending.size() < 20 ? manifest.ending : "unknown") +

@@ -38,6 +38,10 @@ HalfStepSequence SequenceOf(const std::vector<FootstepRow>& rows, const EpisodeW
       return none;
     }
     const Side side = row.foot == "left" ? Side::kLeft : Side::kRight;
+    if (i >= 2 && !(row.duration > 0)) {
+      findings->Disagree(line + Formatted("duration_s: %.9g", row.duration));
+      return none;
+    }
     if (i >= 2) {
       footsteps.push_back({side, row.X_WF, row.via_height, row.duration});
     } else if (static_cast<size_t>(Index(side)) != i || !Near(row.X_WF, frame.start[i])) {

@@ -9,6 +9,7 @@ constexpr char kHow[] = "how it went, not what came of it";
 constexpr char kBuild[] = "of the program and the machine that wrote it";
 constexpr char kDescription[] = "describes what is there";
 constexpr char kPicture[] = "a picture of what is there";
+constexpr char kNeverBegan[] = "of steps that never began";
 constexpr char kBelieved[] = "what was measured is believed";
 
 constexpr NotExamined kOfRun[] = {
@@ -123,6 +124,13 @@ constexpr NotExamined kOfEpisode[] = {
     {"obstacles.csv", "qx", kBelieved},
     {"obstacles.csv", "qy", kBelieved},
     {"obstacles.csv", "qz", kBelieved},
+    {"walks/NNN/footsteps.csv", "x_m", kNeverBegan},
+    {"walks/NNN/footsteps.csv", "y_m", kNeverBegan},
+    {"walks/NNN/footsteps.csv", "yaw_rad", kNeverBegan},
+    {"walks/NNN/footsteps.csv", "via_height_m", kNeverBegan},
+    {"walks/NNN/footsteps.csv", "duration_s", "as planned; half_steps.csv says what it is"},
+    {"walks/NNN/half_steps.csv", "rows of half-steps that never began",
+     "but that they make a walk"},
     {"plans.csv", "kind", kHow},
     {"plans.csv", "asked_s", kHow},
     {"plans.csv", "measured_s", kHow},
@@ -148,6 +156,11 @@ constexpr NotExamined kOfEpisode[] = {
 bool IsOf(std::string_view entry, std::string_view file) {
   if (entry.starts_with('*')) return file.ends_with(entry.substr(1));
   if (entry.ends_with('*')) return file.starts_with(entry.substr(0, entry.size() - 1));
+  constexpr std::string_view kNumber = "NNN";
+  if (const size_t at = entry.find(kNumber); at != std::string_view::npos) {
+    return file.size() == entry.size() && file.starts_with(entry.substr(0, at)) &&
+           file.ends_with(entry.substr(at + kNumber.size()));
+  }
   constexpr std::string_view kMethod = "METHOD";
   if (!entry.starts_with(kMethod)) return entry == file;
   const size_t slash = file.find('/');

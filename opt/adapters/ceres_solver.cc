@@ -124,7 +124,7 @@ std::string SetOptions(SolveMonitor& monitor, InnerOptions* inner, int* max_oute
   if (std::string why; !inner->IsValid(&why)) return "ceres/auglag: " + why;
   monitor.Use("line_search_direction_type",
               ceres::LineSearchDirectionTypeToString(inner->line_search_direction_type));
-  for (const auto& [name, target] : numbers) monitor.Use(name, std::to_string(*target));
+  for (const auto& [name, target] : numbers) monitor.Use(name, TextOf(*target));
   for (const auto& [name, target] : integers) monitor.Use(name, std::to_string(*target));
   return "";
 }

@@ -135,7 +135,7 @@ class Settings {
       }
       values_[name] = *value;
     }
-    for (const auto& [name, value] : values_) monitor_->Use(name, std::to_string(value));
+    for (const auto& [name, value] : values_) monitor_->Use(name, TextOf(value));
     return "";
   }
 

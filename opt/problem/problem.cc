@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "opt/problem/plain_stream.h"
 #include "opt/problem/require.h"
 
 namespace halfstep::opt {
@@ -24,8 +25,10 @@ void RequireBounds(const std::string& name, const Eigen::VectorXd& lower,
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   for (Eigen::Index i = 0; i < size; ++i) {
     const bool ordered = lower[i] <= upper[i] && lower[i] < kInfinity && upper[i] > -kInfinity;
-    Require(ordered, name + "[" + std::to_string(i) + "]: bounds [" + std::to_string(lower[i]) +
-                         ", " + std::to_string(upper[i]) + "] hold nothing");
+    if (ordered) continue;
+    PlainStream told;
+    told << name << "[" << i << "]: bounds [" << lower[i] << ", " << upper[i] << "] hold nothing";
+    Require(false, told.str());
   }
 }
 

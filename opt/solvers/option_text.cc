@@ -1,6 +1,7 @@
 #include "opt/solvers/option_text.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -27,6 +28,11 @@ size_t EditDistance(const std::string& a, const std::string& b) {
 }
 
 }  // namespace
+
+std::string TextOf(double value) {
+  std::array<char, 32> text;
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
+}
 
 std::optional<double> ParseNumber(const std::string& text) {
   const bool has_plus = text.starts_with('+') && !text.starts_with("+-");

@@ -8,6 +8,8 @@ namespace halfstep::opt {
 
 /// The whole text as a number; nullopt when it is not one.
 std::optional<double> ParseNumber(const std::string& text);
+/// The shortest text that is read back as the same number.
+std::string TextOf(double value);
 /// The whole text as an integer; nullopt when it is not one.
 std::optional<int> ParseInteger(const std::string& text);
 

@@ -36,7 +36,9 @@ bool SolveMonitor::MayGoOn() {
   if (options_.stop.stop_requested()) {
     Stop(Ending::kInterrupted, "Stopped by request.");
   } else if (Wall() >= options_.deadline) {
-    Stop(Ending::kDeadline, "The deadline of " + std::to_string(options_.deadline) + " s passed.");
+    PlainStream told;
+    told << "The deadline of " << options_.deadline << " s passed.";
+    Stop(Ending::kDeadline, told.str());
   } else if (points_ > options_.max_evaluations) {
     Stop(Ending::kLimit,
          "max_evaluations = " + std::to_string(options_.max_evaluations) + " reached.");

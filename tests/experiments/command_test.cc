@@ -237,7 +237,7 @@ TEST(RunCommand, InfeasiblePlanIsWrittenAndFails) {
   const std::string heading = "halfstep: the plan is not feasible; worst first:\n";
   ASSERT_THAT(outcome.err, testing::StartsWith(heading + "  footstep "));
   EXPECT_THAT(outcome.err.substr(0, outcome.err.find('\n', heading.size())),
-              HasSubstr(" leg is 0.8 mm too short (for a moment "));
+              HasSubstr(" leg is 0.8 mm too short (at "));
   EXPECT_THAT(outcome.err, HasSubstr("  footstep 1 (right), half-step down, at 2.37 s: RLEG_LINK5 "
                                      "is 45.1 mm inside bar; 5.0 mm demanded (at "));
   EXPECT_THAT(outcome.err, HasSubstr("\n  what may help with clearance: a higher "

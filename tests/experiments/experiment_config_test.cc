@@ -218,9 +218,6 @@ TEST(ExperimentConfig, WhatIsDemandedOfJointAccelerationsIsWrittenWhereItIsNotTh
     EXPECT_THAT(text, testing::HasSubstr("joint_acceleration_rad_s2: " + value));
     EXPECT_EQ(Written(LoadConfig(WriteText(place / "again.yaml", text), {})), text);
   }
-  const auto warned = testing::Contains(testing::HasSubstr("the robot file states no limits"));
-  EXPECT_THAT(Prepare(config("1.6")).robot.warnings, warned);
-  EXPECT_THAT(Prepare(config("0")).robot.warnings, testing::Not(warned));
 }
 
 TEST(ExperimentConfig, DefaultsAreThoseOfTheReadme) {

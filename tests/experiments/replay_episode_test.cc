@@ -140,7 +140,7 @@ TEST_F(ReplayEpisodeTest, RefusesAScriptOfAnObstacleThatIsNotThere) {
   Tell("obstacle: box", "obstacle: chair");
   const Outcome outcome = Replay({});
   EXPECT_EQ(outcome.status, kBadInput);
-  EXPECT_THAT(outcome.err, HasSubstr("obstacle 'chair' is not in the scene"));
+  EXPECT_THAT(outcome.err, HasSubstr("live.script[1].obstacle: 'chair' is not in the scene"));
   EXPECT_EQ(outcome.out, "");
 }
 

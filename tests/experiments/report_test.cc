@@ -205,7 +205,8 @@ TEST_F(ReportTest, RefusesWhatIsNoLongerTheRun) {
   WriteText(place_ / "run/dichotomy/trajectory.csv", rows.substr(0, rows.size() - 9));
   EXPECT_THAT(refusal(), HasSubstr("trajectory.csv"));
   WriteText(place_ / "run/dichotomy/trajectory.csv", rows);
-  WriteText(place_ / "box.yaml", ReadText(place_ / "box.yaml") + "# changed\n");
+  const fs::path scene = place_ / "run/inputs/scene/box.yaml";
+  WriteText(scene, ReadText(scene) + "# changed\n");
   EXPECT_THAT(refusal(), HasSubstr("the files of the scene are not those of this run"));
   fs::remove(place_ / "run/manifest.json");
   EXPECT_THAT(refusal(), HasSubstr("run: no such run folder"));
@@ -217,7 +218,8 @@ TEST_F(ReportTest, ComparisonWithAnotherSceneKeepsItsTables) {
   const json drawn = DataOf(ReadText(place_ / "one/report.html"))["cases"][0];
   EXPECT_EQ(drawn["walks"].size(), 3u);
   EXPECT_TRUE(drawn["walks"][2].contains("columns"));
-  WriteText(place_ / "box.yaml", ReadText(place_ / "box.yaml") + "# changed\n");
+  const fs::path scene = place_ / "run/inputs/scene/box.yaml";
+  WriteText(scene, ReadText(scene) + "# changed\n");
   ASSERT_EQ(Halfstep(place_.path(), {"compare", "run", "--out", "two"}).status, kSuccess);
   const json tables = DataOf(ReadText(place_ / "two/report.html"))["cases"][0];
   EXPECT_THAT(tables["not_drawn"].get<std::string>(), HasSubstr("the files of the scene"));

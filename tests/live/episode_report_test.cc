@@ -128,7 +128,8 @@ TEST_F(WrittenEpisode, HoldsTheRecordAndCanBeWrittenAgain) {
 }
 
 TEST_F(WrittenEpisode, WithAnotherSceneIsRefused) {
-  WriteText(place_ / "bar.yaml", ReadText(place_ / "bar.yaml") + "\n# changed\n");
+  const fs::path scene = place_ / "one/inputs/scene/bar.yaml";
+  WriteText(scene, ReadText(scene) + "\n# changed\n");
   const Outcome outcome = Report();
   EXPECT_EQ(outcome.status, kBadInput);
   EXPECT_THAT(outcome.err, HasSubstr("the files of the scene are not those of this episode"));

@@ -95,8 +95,10 @@ TEST(TrueWorld, RefusesAScriptThatNamesWhatIsNotThere) {
     FAIL();
   } catch (const InputError& error) {
     EXPECT_THAT(error.complaints(),
-                testing::ElementsAre(testing::HasSubstr("obstacle 'chair' is not in the scene"),
-                                     testing::HasSubstr("area 2: the scene has 1")));
+                testing::ElementsAre("live.script[0].obstacle: 'chair' is not in the scene (valid: "
+                                     "a, b)",
+                                     testing::HasSubstr("live.script[1].area: 2: the scene has "
+                                                        "1 no-step areas")));
   }
 }
 

@@ -49,7 +49,7 @@ class Installed(unittest.TestCase):
             self.place / "run", "--quiet", cwd=self.place)
         run(self.halfstep, "verify", self.place / "run", cwd=self.place)
         config = (self.place / "run/config.yaml").read_text(encoding="utf-8")
-        self.assertIn("robot: hrp2", config)
+        self.assertIn("robot: inputs/robot/hrp2.yaml", config)
         manifest = (self.place / "run/manifest.json").read_text(encoding="utf-8")
         self.assertNotIn(str(SOURCE), manifest)
 

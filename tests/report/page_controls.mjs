@@ -114,7 +114,7 @@ export async function testInfeasible(browser, url) {
   const { t, a, b, outcome } = await state(browser);
   assert.ok(t > 0, "opens at the worst instant");
   assert.deepEqual([a, b], ["raw", "none"]);
-  assert.match(outcome, /not proved: footstep 1 \(right\), half-step \S+ at .* inside /);
+  assert.match(outcome, /not proved: footstep 1 \(right\), half-step \S+ at .*: the right leg is /);
   const list = await browser.run(`
     const section = document.getElementById("infeasible");
     return { hidden: section.hidden, text: section.textContent,

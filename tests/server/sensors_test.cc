@@ -81,7 +81,11 @@ TEST(SpareBoxes, TakeNoNameOfTheScene) {
   const LiveConfig config = ServedConfig();
   Scene scene;
   scene.obstacles = {Bar("spare_3", 0.0, 0.0)};
-  EXPECT_THROW(WithSpareBoxes(scene, config.live), InputError);
+  const std::vector<SceneMistake> mistakes =
+      MistakesOf(config.live, WithSpareBoxes(scene, config.live));
+  ASSERT_EQ(mistakes.size(), 1U);
+  EXPECT_EQ(mistakes[0].key, "spare_boxes");
+  EXPECT_THAT(mistakes[0].what, HasSubstr("'spare_3' is an obstacle of the scene already"));
 }
 
 TEST(SpareBoxes, AreRefusedWhenAllAreThere) {

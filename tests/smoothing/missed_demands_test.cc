@@ -168,8 +168,9 @@ TEST_F(MissedDemandsTest, AFootThatStartsInTheWayIsBlamedOnNoFootstep) {
   const HalfStepSequence sequence = StepsAhead(3, 0.1, 0.1);
   const SuperposedWalk walk(sequence, PlannedMotion(sequence));
   Scene scene;
-  scene.obstacles.push_back({.name = "plank", .shape = Box{{0.05, 0.1, 0.02}}});
-  scene.obstacles[0].X_WO = ToIsometry(Pose2{0.0, 0.085 + 0.118, 0}, 0.01);
+  // So thin that the foot is above it before it moves aside.
+  scene.obstacles.push_back({.name = "plank", .shape = Box{{0.05, 0.1, 0.004}}});
+  scene.obstacles[0].X_WO = ToIsometry(Pose2{0.0, 0.085 + 0.118, 0}, 0.002);
   const MarginEvaluator evaluator(robot_, scene, limits_);
   const MissedDemands missed = FindMissedDemands(evaluator, walk, WitnessOf(evaluator, walk));
   ASSERT_FALSE(missed.demands.empty());

@@ -41,7 +41,13 @@ std::string Accepted(const Tampered& tampered, const fs::path& folder, const std
     if (!method.empty() && value.pointer.starts_with("/methods/0/")) continue;
     const TemporaryFolder aside;
     fs::copy(folder, aside / "before", fs::copy_options::recursive);
-    const std::string what = Forge(folder, value, &random);
+    std::string what = Forge(folder, value, &random);
+    // Of raw verify is not asked, and its row is the first.
+    while (value.file == "summary.csv" && what.starts_with("row 1:")) {
+      fs::copy(aside / "before/summary.csv", folder / "summary.csv",
+               fs::copy_options::overwrite_existing);
+      what = Forge(folder, value, &random);
+    }
     if (what.empty()) continue;
     ++*tried;
     tampered.Rehash();

@@ -214,9 +214,10 @@ void EveryFile(StudyList* list) {
                      [=](TamperedRun& to) {
                        to.EditManifest([&](Json& manifest) { manifest["files"].erase(name); });
                      },
-                     name.starts_with("raw/") ? "verify is asked about the other method"
-                     : described              ? "told as not listed; no statement is about it"
-                                              : ""});
+                     name.starts_with("raw/")      ? "verify is asked about the other method"
+                     : name.starts_with("inputs/") ? "its hash stands beside robot and scene"
+                     : described                   ? "told as not listed; no statement is about it"
+                                                   : ""});
     if (described) {
       list->push_back(
           {"description changed", name,

@@ -112,7 +112,7 @@ class Run:
         method. ``tolerance``: how far the played motion may leave the certified walk [m]; None: 1 mm
         for HRP-2, and for other robots by the length of their legs."""
         name = None if method is None else self._place(method)
-        if not 0.0 <= number("tolerance", tolerance) <= 1.0:
+        if tolerance is not None and not 0.0 <= number("tolerance", tolerance) <= 1.0:
             raise InputError(f"tolerance: {tolerance} (valid: 0 ... 1 m)")
         return [Verification(*found) for found in _halfstep.verify(self.folder, name, tolerance)]
 
