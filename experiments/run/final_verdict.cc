@@ -9,14 +9,11 @@
 namespace halfstep {
 namespace {
 
-// By the problem's kind of judge, proving nothing twice.
+// By the problem's proof, proving nothing twice.
 Feasibility Judgement(const WalkProblem& problem, const CertifiedFeasibility& certifier,
                       const CertifiedWalk& certified, const SuperposedWalk& walk,
                       MarginEvaluator::Scratch* scratch) {
   const TimeWindow all{0.0, walk.duration()};
-  if (problem.test().evidence() == Evidence::kSampled) {
-    return problem.test().Check(walk, all, scratch);
-  }
   const StopBranches branches = problem.test().stop_branches();
   if (certified.answer.verdict != Verdict::kFeasible || branches == StopBranches::kNone) {
     return certified.answer;
@@ -30,6 +27,9 @@ Feasibility Judgement(const WalkProblem& problem, const CertifiedFeasibility& ce
 void JudgeAtTheEnd(const WalkProblem& problem, const CertifiedFeasibility& certifier,
                    const std::stop_token& stop, Workers* workers, MethodRun* run) {
   if (opt::DidNotWork(run->result.ending)) return;
+  // RunSmoother has asked the samples. Between these others may tell otherwise, as the certificate
+  // does.
+  if (problem.test().evidence() == Evidence::kSampled) return;
   MarginEvaluator::Scratch scratch = problem.evaluator().MakeScratch();
   scratch.stop = stop;
   scratch.workers = workers;

@@ -249,7 +249,7 @@ async function testStop(browser) {
   await browser.load(episode.address);
   await stateIs(browser, /half-step \d+ of \d+/);
   await click(browser, "stop");
-  await stateIs(browser, /^(interrupted|arrived)/);
+  await stateIs(browser, /^(ended|interrupted|arrived)/);
   await until(() => episode.ended !== null, "the end");
   assert.equal(await browser.run("return document.getElementById('stop').disabled"), true);
   assert.deepEqual(await browser.console(), []);
