@@ -24,9 +24,13 @@ Vector Least(const ConvexSet& set, const Vector& direction) {
   }
   Vector point = set.points[best].cast<Long>();
   if (set.disc > 0) {
-    const Vector axis = set.disc_axis.cast<Long>();
+    // Where the direction is along the axis, what rounding leaves across it may point anywhere,
+    // also along it: out of the disc, whose middle is as near then.
+    const Vector axis = set.disc_axis.cast<Long>().normalized();
     const Vector across = direction - axis * axis.dot(direction);
-    if (across.norm() > 0) point -= static_cast<Long>(set.disc) * across.normalized();
+    if (across.norm() > 1e-16L * direction.norm()) {
+      point -= static_cast<Long>(set.disc) * (across - axis * axis.dot(across)).normalized();
+    }
   }
   return point;
 }

@@ -66,7 +66,8 @@ void WalkTruth::AddDynamicStatements() {
                                  const auto [force, moment] = FloorOn(leg, at, s);
                                  return Exactly(joint.effort - std::abs(DynamicsOf(at).Torque(
                                                                    leg, j, force, moment)));
-                               }});
+                               },
+                               true});
       }
       if (joint.acceleration < kNever) {
         statements_.push_back({"joint_acceleration", joint.name, 5000.0,

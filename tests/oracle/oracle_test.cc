@@ -262,6 +262,22 @@ TEST(MinNormPointTest, BracketsTheDistanceOfBoxesAndNeedles) {
   }
 }
 
+TEST(MinNormPointTest, KnowsTheDistanceFromATiltedDisc) {
+  Draw draw(9);
+  for (int k = 0; k < 300; ++k) {
+    ConvexSet disc, point;
+    disc.disc_axis = draw.Vector(-1, 1).normalized();
+    disc.points = {draw.Vector(-1, 1)};
+    disc.disc = draw.Uniform(0.01, 0.03);
+    const double apart = draw.Uniform(0.002, 0.05), beside = draw.Uniform(0, 0.9) * disc.disc;
+    point.points = {disc.points[0] + apart * disc.disc_axis +
+                    beside * disc.disc_axis.unitOrthogonal()};
+    const Bracket found = DistanceOf(point, disc);
+    EXPECT_NEAR(found.lower, apart, 1e-12) << k;
+    EXPECT_NEAR(found.upper, apart, 1e-12) << k;
+  }
+}
+
 TEST(PlainSceneTest, KnowsInsideFromOutside) {
   Draw draw(7);
   PlainScene scene;

@@ -193,7 +193,9 @@ void WalkTruth::SampleStretch(const Statement& statement, const Stretch& stretch
     const double fall = std::abs(values[k].upper - values[k - 1].upper);
     if (fall < kNever) steepest = std::max(steepest, fall / (grid[k]->t - grid[k - 1]->t));
   }
-  const double rate = std::min(statement.rate, 4 * steepest + statement.rate / 40);
+  const double rate = statement.has_cusps
+                          ? statement.rate
+                          : std::min(statement.rate, 4 * steepest + statement.rate / 40);
   for (size_t k = 1; k < grid.size(); ++k) {
     Sample(statement, stretch, rate, grid[k - 1]->t, values[k - 1], grid[k]->t, values[k], least);
   }

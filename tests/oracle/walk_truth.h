@@ -47,8 +47,8 @@ class WalkTruth {
 
   /// The least margin of each family that the sampling met, or of one alone: every 10 ms, and by
   /// halves down to 0.2 ms wherever a margin could fall below what is demanded at a generous rate
-  /// of change: four times the fastest that its stretch shows, and a little. The least is descended
-  /// from to 10 µs.
+  /// of change: four times the fastest that its stretch shows, and a little, for torques always.
+  /// The least is descended from to 10 µs.
   std::map<std::string, TrueMargin> Least(const std::string& only = "");
 
   /// The least margin of a family at one instant, of the subjects whose name fits (empty: all).
@@ -80,6 +80,7 @@ class WalkTruth {
     std::string family, subject;
     double rate = 0;  // it hardly changes faster [1/s]
     std::function<Bracket(Instant&, const Stretch&)> value;
+    bool has_cusps = false;  // its steepest fall may be anywhere between two instants of the grid
   };
 
   Instant& At(double t, const std::array<Vector6, 2>& guess);
