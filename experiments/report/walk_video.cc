@@ -1,5 +1,7 @@
 #include "experiments/report/walk_video.h"
 
+#include <unistd.h>
+
 #include <chrono>
 #include <cstdint>
 #include <cstdlib>
@@ -13,7 +15,7 @@
 #include "experiments/report/headless_browser.h"
 #include "wpg/check.h"
 #include "wpg/files/input_error.h"
-#include "wpg/files/partial_sibling.h"
+#include "wpg/files/leftovers.h"
 #include "wpg/files/whole_file.h"
 
 namespace halfstep {
@@ -24,36 +26,36 @@ using nlohmann::json;
 
 constexpr int kFramesAtOnce = 10;  // between two looks at Ctrl-C
 
-// Where a folder for the page and the browser's profile is made. What a killed process left there
-// is removed, as a partial file's is.
-fs::path PlaceOfVideos() {
-  const fs::path place = fs::temp_directory_path() / "halfstep_video";
-  RemoveAbandonedSiblings(place.parent_path(), place.filename().string());
-  return place;
-}
-
-// Such a folder, which no other user reads, gone with this object.
+// A folder of its own for the page and the browser's profile, gone with this object, and when a
+// signal ends the process. Its name is short: Chromium does not start where the paths of its
+// sockets, below it, have more than 107 characters.
 class VideoFolder {
  public:
-  VideoFolder() : folder_(PlaceOfVideos(), PartialSibling::Kind::kFolder) {
-    fs::permissions(path(), fs::perms::owner_all);
+  VideoFolder() {
+    std::string name = (fs::temp_directory_path() / "halfstep_video_XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) {
+      throw std::system_error(errno, std::generic_category(), name);
+    }
+    path_ = name;
+    AddLeftover(path_);
   }
   ~VideoFolder() {
     // Again where the browser's last process has made a file meanwhile.
     std::error_code failed;
     for (int i = 0; i < 20; ++i) {
-      fs::remove_all(path(), failed);
-      if (!failed) return;
+      fs::remove_all(path_, failed);
+      if (!failed) break;
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
     }
+    ForgetLeftover(path_);
   }
   VideoFolder(const VideoFolder&) = delete;
   VideoFolder& operator=(const VideoFolder&) = delete;
 
-  const fs::path& path() const { return folder_.path(); }
+  const fs::path& path() const { return path_; }
 
  private:
-  PartialSibling folder_;
+  fs::path path_;
 };
 
 int Digit(char c) {
