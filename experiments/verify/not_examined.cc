@@ -124,6 +124,7 @@ constexpr NotExamined kOfEpisode[] = {
     {"obstacles.csv", "qx", kBelieved},
     {"obstacles.csv", "qy", kBelieved},
     {"obstacles.csv", "qz", kBelieved},
+    {"begun.csv", "grant", "which of those that allow the half-step"},
     {"walks/NNN/footsteps.csv", "x_m", kNeverBegan},
     {"walks/NNN/footsteps.csv", "y_m", kNeverBegan},
     {"walks/NNN/footsteps.csv", "yaw_rad", kNeverBegan},

@@ -161,6 +161,19 @@ TEST(CollisionWorld, FindsAnObstacleThatComesNearOnlyWithinTheInterval) {
   EXPECT_NEAR(nearest.margin, 0.05, 1e-9);
 }
 
+// Beyond its bounds by its error alone, which the cull of far obstacles must count.
+TEST(CollisionWorld, FindsAnObstacleThatIsNearByItsErrorAlone) {
+  Scene scene;
+  scene.obstacles.push_back({.name = "ball", .shape = Sphere{0.05}, .motion = {.error = 0.3}});
+  scene.obstacles.back().X_WO = Isometry3d(Eigen::Translation3d(1, 0, 0));
+  const CollisionWorld world(scene);
+  const CollisionShape body(Sphere{0.1});
+  const Isometry3d X_WB(Eigen::Translation3d(0.6, 0, 0));
+  CollisionWorld::Scratch scratch;
+  EXPECT_FALSE(world.Clears(body, X_WB, 0.0, 0.0, &scratch));
+  EXPECT_NEAR(world.FindNearest(body, X_WB, 0.0, 0.0).margin, -0.05, 1e-9);
+}
+
 TEST(CollisionWorld, PosesThatAreNotFiniteThrow) {
   std::mt19937 random(24);
   Scene scene = RandomRoom(3, &random);
