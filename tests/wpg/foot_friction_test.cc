@@ -110,16 +110,27 @@ TEST(FootFriction, IsNotExceededWhateverRatesAllow) {
 }
 
 // The yaw moment grows while the points of the pressure go apart and the pull falls, so that most
-// is needed at the midpoint: 0.4, and 0.357 at both ends.
+// is needed at the midpoint. The edge from which the ZMP goes away is steep to the line through
+// these points: they go apart three times as fast as the ZMP moves.
 TEST(FootFriction, ByRatesIsNotBelowWhatTheMidpointNeeds) {
   AskingRobot asking;
-  const RobotDynamics now = asking.That({.zmp = {0, 0}, .pull = {100, 0}, .turn = 3, .push = 400});
-  const auto friction = FootFriction::Of(now, {Pose2{0.1, 0, 0}, {0.3, 0.08}});
+  const Given at_m{.zmp = {0, 0}, .pull = {100, 0}, .turn = 3, .push = 400};
+  // The ZMP is on the line through the soles' centres, 3.2 cm from the left end of their hull.
+  const Pose2 one{-0.022, -0.066, 0}, other{one.x + 0.1, one.y + 0.3, 0};
+  const SupportPolygon hull(one, other, {0.02, 0.1});
+  const auto friction = FootFriction::Of(asking.That(at_m), hull);
   ASSERT_TRUE(friction);
-  EXPECT_NEAR(friction->needed(), 0.4, 1e-9);
+  constexpr double h = 0.01;
   const ContactRate rate{
-      .half_width = 0.01, .moment = {{0, -800, 300}, 0}, .force = {{-4290, 0, 0}, 0}};
+      .half_width = h, .moment = {{0, -400, 495}, 0}, .force = {{-4000, 0, 0}, 0}};
   EXPECT_GE(friction->Drift(rate), 0.0);
+  for (const double tau : {-h, h}) {
+    const RobotDynamics then =
+        asking.That(After(at_m, tau * rate.moment.center, tau * rate.force.center));
+    const auto needed = FootFriction::Of(then, hull);
+    ASSERT_TRUE(needed);
+    EXPECT_LT(needed->needed(), friction->needed() - 0.02);
+  }
 }
 
 // The robot at rest, with a drift of one body that could do what is said of it.
@@ -292,6 +303,77 @@ TEST(TorqueDrift, HoldsWhateverSharesAndAxesDo) {
   }
   EXPECT_LT(torque.excess, 1.0);
   EXPECT_GT(torque.nearest, 0.95);
+}
+
+// A foot that has no load at m takes some while what presses changes, while the axis turns, while
+// the push grows: products of two changes, of which each is alone here.
+TEST(TorqueDrift, HoldsWhatAFootTakesThatHadNone) {
+  const RobotModel robot = LoadRobot(kHrp2);
+  WalkJet still;
+  still.value[kLeftY] = 0.5 * robot.standing_width;
+  still.value[kRightY] = -0.5 * robot.standing_width;
+  constexpr double h = 0.01;
+  constexpr size_t kLeg = 1;
+  AtRest rest(robot, still, h);
+  const RobotDynamics& dynamics = rest.dynamics;
+  const Vector2d zmp = *dynamics.Zmp();
+  for (auto& leg : rest.drift.link_masses) leg.fill({});
+  Vector6d hung = Vector6d::Zero();
+  for (const RobotDynamics::Body& link : dynamics.leg(Side::kRight)) hung += link.force;
+  const auto point = [&](size_t joint) -> Vector3d {
+    return rest.motion.posture.X_WB * rest.motion.posture.frames[kLeg].point_B[joint] -
+           dynamics.O();
+  };
+  // The torque of a joint of the hip, bound and truth, when the ZMP goes from the left sole's edge
+  // through a share of the gap between soles, the waist goes `way` and is pushed by `push`.
+  const auto compare = [&](size_t joint, double width, double gap, double share,
+                           const Vector3d& way, const Vector3d& push, const Vector3d& turn) {
+    const Vector2d size(0.1, width);
+    const Pose2 left{zmp.x(), zmp.y() + 0.5 * width, 0}, right{zmp.x(), left.y - width - gap, 0};
+    const double moved = share * gap;
+    const FootLoads here = FootLoads::BothFeet(left, right, size, zmp),
+                    there = FootLoads::BothFeet(left, right, size, zmp - Vector2d(0, moved));
+    EXPECT_EQ(here.share(Side::kRight), 0.0);
+    EXPECT_NEAR(there.share(Side::kRight), share, 1e-9);
+    rest.drift.waist_mass = {.mass = 50.0, .com = point(joint), .velocity = way / h};
+    MassDrift& waist = rest.drift.waist_mass;
+    waist.p = way.norm(), waist.p2 = push.norm();
+    for (RigidDrift& link : rest.drift.legs[kLeg].links) link.turned = turn.norm();
+    rest.drift.waist.turned = turn.norm();
+    const double bound = TorqueDrift(rest.motion, rest.drift, dynamics, here, moved, kEarth)
+                             .Of(Side::kRight)[static_cast<Eigen::Index>(joint)];
+    const Vector3d force = waist.mass * push;
+    const Vector6d contact =
+        dynamics.contact() +
+        Spatial(way.cross(waist.mass * kEarth * Vector3d::UnitZ() + force) + waist.com.cross(force),
+                force);
+    const auto about_axis = [&](const Vector3d& axis, const FootLoads& of, const Vector6d& wrench) {
+      const Vector6d left_over = hung - of.On(Side::kRight, wrench);
+      return axis.dot(left_over.head<3>() - point(joint).cross(left_over.tail<3>()));
+    };
+    const Vector3d axis = dynamics.leg(Side::kRight)[joint].screw.head<3>();
+    const Vector3d turned =
+        turn.norm() > 0 ? Vector3d(Eigen::AngleAxisd(turn.norm(), turn.normalized()) * axis) : axis;
+    return std::pair(
+        std::abs(about_axis(turned, there, contact) - about_axis(axis, here, dynamics.contact())),
+        bound);
+  };
+  const auto nearest = [&](size_t joint, double width, double gap, double share,
+                           const Vector3d& way, const Vector3d& push, const Vector3d& turn) {
+    double nearest = 0.0;
+    for (const double sign : {-1.0, 1.0}) {
+      const auto [truth, bound] =
+          compare(joint, width, gap, share, sign * way, sign * push, sign * turn);
+      EXPECT_LE(truth, bound + 1e-9);
+      nearest = std::max(nearest, truth / bound);
+    }
+    return nearest;
+  };
+  const Vector3d none(0, 0, 0);
+  // Soles so narrow that their couple is nearly nothing.
+  EXPECT_GT(nearest(1, 1e-3, 1e-3, 1.0, {0, 0.3, 0}, none, none), 0.95);
+  EXPECT_GT(nearest(0, 1e-3, 1e-3, 1.0, none, none, {0.1, 0, 0}), 0.9);
+  EXPECT_GT(nearest(1, 0.1, 0.1, 0.5, none, {0, 0, 1000}, none), 0.3);
 }
 
 }  // namespace

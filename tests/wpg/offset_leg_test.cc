@@ -456,6 +456,14 @@ INSTANTIATE_TEST_SUITE_P(Robots, OffsetLegTest, testing::Range(0, 3), [](const a
   return OffsetRobots()[static_cast<size_t>(robot.param)].name;
 });
 
+// Levers of 30 cm, from the stretched leg on: the length's slope is zero there.
+TEST(LegLengthChange, HoldsOfAStretchedLeg) {
+  for (const double turn : {0.01, 0.1, 0.5}) {
+    const double shorter = 0.6 - 0.6 * std::cos(0.5 * turn);
+    EXPECT_LE(shorter, LegLengthChange({.distance = 0.6, .slope = 0.0, .product = 0.09}, turn));
+  }
+}
+
 // Continued from itself, a leg with closed form gives the closed form.
 TEST(OffsetLeg, WithoutOffsetIsTheClosedForm) {
   std::vector<Leg> legs = {LoadRobot(kHrp2).legs[0]};

@@ -215,6 +215,22 @@ TEST(MassDrift, OfTheInertiasMomentIsNotExceeded) {
   EXPECT_GT(moment.nearest, 0.5);
 }
 
+// No inertia is like this, but the bound is one for every symmetric matrix: here ω and I ω both
+// grow, each as much as it can, and what they do to ω × I ω adds up.
+TEST(MassDrift, HoldsForAMatrixThatIsNoInertia) {
+  RobotDynamics::Body body;
+  body.inertia.mass = 1.0;
+  body.inertia.about_com = Vector3d(1, -1, 0).asDiagonal();
+  State now, then;
+  now.turn = Vector3d(1, 1, 0).normalized(), then.turn = 1.1 * now.turn;
+  body.velocity = Spatial(now.turn, {0, 0, 0});
+  const MassDrift drift = MassDrift::Of(body, {.speed = 1.0, .turn = 0.1}, 9.81);
+  const Eigen::Matrix3d& I = body.inertia.about_com;
+  const double truth = (InertialMoment(I, then) - InertialMoment(I, now)).norm();
+  EXPECT_GT(truth, 1.3 * 0.1 * 1.1 * I.norm());  // what one of the two alone could do
+  EXPECT_LE(truth, drift.moment);
+}
+
 // The rate of m (r − p) × (a + g ẑ) + I ω̇ + ω × I ω.
 TEST(ContactRate, OfABodyHoldsAllThatItCanAsk) {
   AlgebraDraw draw(6);

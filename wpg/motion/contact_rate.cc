@@ -9,13 +9,14 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Products of a body's inertia about its CoM, which turns with it: ‖R I Rᵀ − I‖ ≤ ‖R − 1‖·‖I‖.
+// Products of a body's inertia about its CoM, which turns with it: ‖R I Rᵀ − I‖ ≤ ‖R − 1‖·‖I‖, and
+// R I Rᵀ has the norm of I.
 class TurnedInertia {
  public:
   TurnedInertia(const Eigen::Matrix3d& about_com, double turned)
       : I_(about_com), norm_(about_com.norm()), change_(std::min(turned, 2.0) * norm_) {}
   VectorBall operator*(const VectorBall& x) const {
-    return {I_ * x.center, norm_ * x.radius + change_ * x.most()};
+    return {I_ * x.center, norm_ * x.radius + change_ * x.center.norm()};
   }
 
  private:

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wpg/robot/bootstrap.h"
+
 namespace halfstep {
 
 using Eigen::Vector3d;
@@ -32,22 +34,6 @@ std::array<double, 6> LegAnchors::Levers(const RobotBody& body) const {
 }
 
 namespace {
-
-// Going outwards from m, `at_midpoint` + h·rate(assumed) would have to be passed first: when it is
-// below what was assumed, that holds. `rate` gives sups of rates as far as the assumed sups hold,
-// or nothing.
-template <typename Vector, typename Rate>
-std::optional<Vector> Bootstrap(const Vector& at_midpoint, double h, const Rate& rate) {
-  Vector assumed = at_midpoint;
-  for (int attempt = 0; attempt < 8; ++attempt) {
-    const std::optional<Vector> rates = rate(assumed);
-    if (!rates) return std::nullopt;
-    const Vector change = h * *rates;
-    if (((at_midpoint + change).array() < assumed.array()).all()) return at_midpoint + change;
-    assumed = at_midpoint + 1.2 * change + Vector::Constant(1e-9);
-  }
-  return std::nullopt;
-}
 
 // Seen from the sole, at m unless said. The knee turns the hip by −q̇3·c; Ω and Θ are the angular
 // velocities of shank and thigh.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wpg/robot/bootstrap.h"
 #include "wpg/robot/leg_neighbourhood.h"
 
 namespace halfstep {
@@ -72,20 +73,16 @@ std::optional<JointBounds> BoundOffsetJoints(const Leg& leg, const Vector6d& q,
   if (!near || !ContinueLeg(leg, X_BSole, drift).arrived) return std::nullopt;
   const double h = drift.half_width;
   const OffsetJoints joints(*near, drift.TwistRate(leg.hip_B, X_BSole.translation()), drift);
-  const Vector6d at_m = speeds.cwiseAbs();
-  Vector6d assumed = at_m;
-  for (int attempt = 0; attempt < 8; ++attempt) {
-    const auto accelerations = joints.Accelerations(assumed);
-    if (!accelerations) return std::nullopt;
-    const Vector6d change = h * *accelerations;
-    if (((at_m + change).array() < assumed.array()).all()) {
-      JointBounds bounds{.speed = at_m + change, .acceleration = *accelerations, .turns = {}};
-      bounds.turns = Turns(frames, speeds, bounds, h);
-      return bounds;
-    }
-    assumed = at_m + 1.2 * change + Vector6d::Constant(1e-9);
-  }
-  return std::nullopt;
+  Vector6d accelerations;
+  const auto most = Bootstrap<Vector6d>(speeds.cwiseAbs(), h, [&](const Vector6d& assumed) {
+    const auto given = joints.Accelerations(assumed);
+    if (given) accelerations = *given;
+    return given;
+  });
+  if (!most) return std::nullopt;
+  JointBounds bounds{.speed = *most, .acceleration = accelerations, .turns = {}};
+  bounds.turns = Turns(frames, speeds, bounds, h);
+  return bounds;
 }
 
 double LegLengthChange(const LegLength& length, double turn) {
