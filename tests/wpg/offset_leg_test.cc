@@ -16,6 +16,7 @@
 #include "wpg/robot/leg_continuation.h"
 #include "wpg/robot/leg_ik.h"
 #include "wpg/robot/leg_neighbourhood.h"
+#include "wpg/robot/offset_leg_bound.h"
 
 namespace halfstep {
 namespace {
@@ -457,7 +458,7 @@ INSTANTIATE_TEST_SUITE_P(Robots, OffsetLegTest, testing::Range(0, 3), [](const a
 });
 
 // Levers of 30 cm, from the stretched leg on: the length's slope is zero there.
-TEST(LegLengthChange, HoldsOfAStretchedLeg) {
+TEST(OffsetLeg, LengthChangesNoMoreThanItsBound) {
   for (const double turn : {0.01, 0.1, 0.5}) {
     const double shorter = 0.6 - 0.6 * std::cos(0.5 * turn);
     EXPECT_LE(shorter, LegLengthChange({.distance = 0.6, .slope = 0.0, .product = 0.09}, turn));
