@@ -129,7 +129,7 @@ TEST(FootFriction, ByRatesIsNotBelowWhatTheMidpointNeeds) {
         asking.That(After(at_m, tau * rate.moment.center, tau * rate.force.center));
     const auto needed = FootFriction::Of(then, hull);
     ASSERT_TRUE(needed);
-    EXPECT_LT(needed->needed(), friction->needed() - 0.02);
+    EXPECT_LT(needed->needed(), friction->needed() - 0.01);
   }
 }
 
@@ -333,7 +333,7 @@ TEST(TorqueDrift, HoldsWhatAFootTakesThatHadNone) {
     const double moved = share * gap;
     const FootLoads here = FootLoads::BothFeet(left, right, size, zmp),
                     there = FootLoads::BothFeet(left, right, size, zmp - Vector2d(0, moved));
-    EXPECT_EQ(here.share(Side::kRight), 0.0);
+    EXPECT_NEAR(here.share(Side::kRight), 0.0, 1e-9);
     EXPECT_NEAR(there.share(Side::kRight), share, 1e-9);
     rest.drift.waist_mass = {.mass = 50.0, .com = point(joint), .velocity = way / h};
     MassDrift& waist = rest.drift.waist_mass;
@@ -372,7 +372,7 @@ TEST(TorqueDrift, HoldsWhatAFootTakesThatHadNone) {
   const Vector3d none(0, 0, 0);
   // Soles so narrow that their couple is nearly nothing.
   EXPECT_GT(nearest(1, 1e-3, 1e-3, 1.0, {0, 0.3, 0}, none, none), 0.95);
-  EXPECT_GT(nearest(0, 1e-3, 1e-3, 1.0, none, none, {0.1, 0, 0}), 0.9);
+  EXPECT_GT(nearest(0, 1e-3, 1e-3, 1.0, none, none, {0, 0.1, 0}), 0.9);
   EXPECT_GT(nearest(1, 0.1, 0.1, 0.5, none, {0, 0, 1000}, none), 0.3);
 }
 
