@@ -115,8 +115,8 @@ TEST(FootFriction, IsNotExceededWhateverRatesAllow) {
 TEST(FootFriction, ByRatesIsNotBelowWhatTheMidpointNeeds) {
   AskingRobot asking;
   const Given at_m{.zmp = {0, 0}, .pull = {100, 0}, .turn = 3, .push = 400};
-  // The ZMP is on the line through the soles' centres, 3.2 cm from the left end of their hull.
-  const Pose2 one{-0.022, -0.066, 0}, other{one.x + 0.1, one.y + 0.3, 0};
+  // The ZMP is 3.2 cm from the left end of the soles' hull, and far from its lower one.
+  const Pose2 one{-0.022, -0.086, 0}, other{one.x + 0.1, one.y + 0.3, 0};
   const SupportPolygon hull(one, other, {0.02, 0.1});
   const auto friction = FootFriction::Of(asking.That(at_m), hull);
   ASSERT_TRUE(friction);
