@@ -105,9 +105,9 @@ CsvFile OverlapsCsv(const MarginEvaluator& evaluator, const MethodRun& run) {
 CsvFile ParetoCsv(const MarginEvaluator& evaluator, const HalfStepSequence& sequence,
                   const MethodRun& run) {
   constexpr double kPeriod = 0.005;
-  CsvColumns columns = {
-      {"duration_s", kNumber, "s", "of the walk"},
-      {"least_slack", kNumber, "1", "proved for all families but floor, of their scales"}};
+  CsvColumns columns = {{"duration_s", kNumber, "s", "of the walk"},
+                        {"least_slack", kNumber, "1",
+                         "proved for the families that `safest` raises, of their scales"}};
   for (const MarginFamily family : evaluator.families()) {
     columns.push_back({std::string(Traits(family).key), kNumber, std::string(Unit(family)),
                        "least margin of the family, sampled every 5 ms; inf: nowhere watched"});
