@@ -18,6 +18,37 @@ constexpr double kRounding = 4e-5;
 constexpr double kSteep = 0.01;
 constexpr int kRows = 4;  // that planes are left out of at once
 
+// Where columns begin, and how high a region is.
+struct Columns {
+  Eigen::Vector3d corner;  // of the first one [m]
+  double cell, rounding, lower_z, upper_z;
+};
+
+// The region's half-spaces, as what bounds z from above and from below in each column.
+void AddPlanes(const HalfSpaces& region, const Columns& columns, Ceiling* above, Ceiling* below) {
+  for (Eigen::Index p = 0; p < region.normals.cols(); ++p) {
+    const Eigen::Vector3d& n = region.normals.col(p);
+    // What the half-space leaves for n_z·z in the first column, at the best corner of its
+    // rectangle.
+    double room = region.offsets[p] -
+                  n.x() * (columns.corner.x() + (n.x() > 0 ? 0 : columns.cell)) -
+                  n.y() * (columns.corner.y() + (n.y() > 0 ? 0 : columns.cell));
+    double slope = n.z();
+    if (std::abs(n.z()) < kSteep) {
+      // room − min n_z·z ≥ 0 in each column that is met; so upper_z and more of it bounds z.
+      slope = kSteep;
+      room += slope * columns.upper_z - std::min(n.z() * columns.lower_z, n.z() * columns.upper_z);
+    }
+    const double at = room / slope + (slope > 0 ? columns.rounding : -columns.rounding);
+    const double per_x = -n.x() * columns.cell / slope, per_y = -n.y() * columns.cell / slope;
+    if (slope > 0) {
+      above->Add(at, per_x, per_y);
+    } else {
+      below->Add(-at, -per_x, -per_y);
+    }
+  }
+}
+
 }  // namespace
 
 VoxelGrid::VoxelGrid(const Eigen::Vector3d& lower, const Eigen::Vector3d& upper, double cell)
@@ -50,26 +81,7 @@ void VoxelGrid::Fill(const HalfSpaces& region) {
   const auto planes = static_cast<size_t>(region.normals.cols());
   Ceiling above(static_cast<float>(upper.z()), planes);
   Ceiling below(-static_cast<float>(lower.z()), planes);
-  for (Eigen::Index p = 0; p < region.normals.cols(); ++p) {
-    const Eigen::Vector3d& n = region.normals.col(p);
-    // What the half-space leaves for n_z·z in the first column, at the best corner of its
-    // rectangle.
-    double room = region.offsets[p] - n.x() * (corner.x() + (n.x() > 0 ? 0 : cell_)) -
-                  n.y() * (corner.y() + (n.y() > 0 ? 0 : cell_));
-    double slope = n.z();
-    if (std::abs(n.z()) < kSteep) {
-      // room − min n_z·z ≥ 0 in each column that is met; so upper.z and more of it bounds z.
-      slope = kSteep;
-      room += slope * upper.z() - std::min(n.z() * lower.z(), n.z() * upper.z());
-    }
-    const double at = room / slope + (slope > 0 ? rounding : -rounding);
-    const double per_x = -n.x() * cell_ / slope, per_y = -n.y() * cell_ / slope;
-    if (slope > 0) {
-      above.Add(at, per_x, per_y);
-    } else {
-      below.Add(-at, -per_x, -per_y);
-    }
-  }
+  AddPlanes(region, {corner, cell_, rounding, lower.z(), upper.z()}, &above, &below);
   const int columns = last.x() - first.x() + 1, rows = last.y() - first.y() + 1;
   const auto blocks = static_cast<size_t>((columns + 7) / 8);
   std::vector<float> from(8 * blocks), to(8 * blocks);
