@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
+#include <functional>
+#include <string_view>
 
 #include "experiments/config/experiment_config.h"
 #include "wpg/files/number_text.h"
+#include "wpg/files/number_visit.h"
 
 namespace halfstep {
 namespace {
@@ -88,80 +90,55 @@ std::string FormulaOf(Law law, const std::string& hrp2) {
 }
 
 struct ScaledDefault {
-  const char* key;
+  std::string_view key;
   Law law;
-  double* (*value)(ExperimentConfig* config);
-  double min, max;  // what the key may be
 };
 
-std::span<const ScaledDefault> ScaledDefaults() {
-  using C = ExperimentConfig;
-  static constexpr ScaledDefault kRows[] = {
-      {"half_step.duration_s", Law::kDuration, [](C* c) { return &c->half_step.duration; }, 0.6, 6},
-      {"half_step.zmp_shift_s", Law::kDuration, [](C* c) { return &c->half_step.zmp_shift; }, 0.02,
-       2},
-      {"half_step.via_height_m", Law::kHeight, [](C* c) { return &c->half_step.via_height; }, 0.01,
-       1},
-      {"half_step.horizontal_delay", Law::kDelay,
-       [](C* c) { return &c->half_step.horizontal_delay; }, 0, 0.2},
-      {"half_step.via_lateral_m", Law::kAside, [](C* c) { return &c->half_step.via_lateral; }, 0.01,
-       1},
-      {"half_step.support_offset_m", Law::kSupport,
-       [](C* c) { return &c->half_step.support_offset; }, -1, 1},
-      {"smoothing.optimizer.least_support_point_m", Law::kWidth,
-       [](C* c) { return &c->smoothing.optimizer.options.program.parameters.least_support_point; },
-       -1, 1},
-      {"smoothing.optimizer.most_support_point_m", Law::kWidth,
-       [](C* c) { return &c->smoothing.optimizer.options.program.parameters.most_support_point; },
-       -1, 1},
-      {"smoothing.optimizer.least_via_lateral_m", Law::kWidth,
-       [](C* c) { return &c->smoothing.optimizer.options.program.parameters.least_via_lateral; },
-       0.01, 1},
-      {"smoothing.optimizer.most_via_lateral_m", Law::kWidth,
-       [](C* c) { return &c->smoothing.optimizer.options.program.parameters.most_via_lateral; },
-       0.01, 1},
-      {"smoothing.optimizer.most_via_along_m", Law::kLength,
-       [](C* c) { return &c->smoothing.optimizer.options.program.parameters.most_via_along; }, 0,
-       0.5},
-      {"smoothing.optimizer.most_footstep_x_m", Law::kLength,
-       [](C* c) { return &c->smoothing.optimizer.options.program.parameters.most_footstep_x; }, 0,
-       0.5},
-      {"smoothing.optimizer.most_footstep_y_m", Law::kLength,
-       [](C* c) { return &c->smoothing.optimizer.options.program.parameters.most_footstep_y; }, 0,
-       0.5},
-      {"step_set.x_min_m", Law::kGrid, [](C* c) { return &c->half_step_grid.x_min; }, -2, 2},
-      {"step_set.x_max_m", Law::kGrid, [](C* c) { return &c->half_step_grid.x_max; }, -2, 2},
-      {"step_set.y_min_m", Law::kAcross, [](C* c) { return &c->half_step_grid.y_min; }, -2, 2},
-      {"step_set.y_max_m", Law::kAcross, [](C* c) { return &c->half_step_grid.y_max; }, -2, 2},
-      {"step_set.spacing_m", Law::kLength, [](C* c) { return &c->half_step_grid.spacing; }, 0.005,
-       1},
-      {"swept_volumes.cell_m", Law::kLength, [](C* c) { return &c->swept_volumes.options.cell; },
-       0.001, 0.1},
-      {"swept_volumes.displacement_m", Law::kLength,
-       [](C* c) { return &c->swept_volumes.options.displacement; }, 1e-4, 0.1},
-      {"planner.rrt.cell_m", Law::kLength,
-       [](C* c) { return &c->planner.options.rrt.cells.position; }, 0.002, 0.5},
-      {"planner.astar.cell_m", Law::kLength,
-       [](C* c) { return &c->planner.options.astar.cells.position; }, 0.002, 0.5},
-      {"planner.estimate.step_s", Law::kDuration,
-       [](C* c) { return &c->planner.estimate.step_time; }, 0.01, 100},
-      {"planner.bounding_box.length_m", Law::kLength,
-       [](C* c) { return &c->planner.options.bounding_box.box.length; }, 0.05, 5},
-      {"planner.bounding_box.width_m", Law::kLength,
-       [](C* c) { return &c->planner.options.bounding_box.box.width; }, 0.05, 5},
-      {"planner.bounding_box.height_m", Law::kLength,
-       [](C* c) { return &c->planner.options.bounding_box.box.height; }, 0.05, 5},
-      {"planner.bounding_box.feet_apart_m", Law::kWidth,
-       [](C* c) { return &c->planner.options.bounding_box.box.feet_apart; }, 0.05, 5},
-      {"planner.bounding_box.spacing_m", Law::kLength,
-       [](C* c) { return &c->planner.options.bounding_box.grid.spacing; }, 0.01, 1},
-      {"planner.bounding_box.corridor_m", Law::kLength,
-       [](C* c) { return &c->planner.options.bounding_box.corridor; }, 0.05, 5},
-  };
-  return kRows;
+constexpr ScaledDefault kScaledDefaults[] = {
+    {"half_step.duration_s", Law::kDuration},
+    {"half_step.zmp_shift_s", Law::kDuration},
+    {"half_step.via_height_m", Law::kHeight},
+    {"half_step.horizontal_delay", Law::kDelay},
+    {"half_step.via_lateral_m", Law::kAside},
+    {"half_step.support_offset_m", Law::kSupport},
+    {"smoothing.optimizer.least_support_point_m", Law::kWidth},
+    {"smoothing.optimizer.most_support_point_m", Law::kWidth},
+    {"smoothing.optimizer.least_via_lateral_m", Law::kWidth},
+    {"smoothing.optimizer.most_via_lateral_m", Law::kWidth},
+    {"smoothing.optimizer.most_via_along_m", Law::kLength},
+    {"smoothing.optimizer.most_footstep_x_m", Law::kLength},
+    {"smoothing.optimizer.most_footstep_y_m", Law::kLength},
+    {"step_set.x_min_m", Law::kGrid},
+    {"step_set.x_max_m", Law::kGrid},
+    {"step_set.y_min_m", Law::kAcross},
+    {"step_set.y_max_m", Law::kAcross},
+    {"step_set.spacing_m", Law::kLength},
+    {"swept_volumes.cell_m", Law::kLength},
+    {"swept_volumes.displacement_m", Law::kLength},
+    {"planner.rrt.cell_m", Law::kLength},
+    {"planner.astar.cell_m", Law::kLength},
+    {"planner.estimate.step_s", Law::kDuration},
+    {"planner.bounding_box.length_m", Law::kLength},
+    {"planner.bounding_box.width_m", Law::kLength},
+    {"planner.bounding_box.height_m", Law::kLength},
+    {"planner.bounding_box.feet_apart_m", Law::kWidth},
+    {"planner.bounding_box.spacing_m", Law::kLength},
+    {"planner.bounding_box.corridor_m", Law::kLength},
+};
+
+// Calls `visit` with each of these defaults: its row, where it is kept, its range.
+void VisitScaled(
+    ExperimentConfig* config,
+    const std::function<void(const ScaledDefault&, double*, const NumberSpec&)>& visit) {
+  VisitNumbers([config](Fields& fields) { DeclareFields(fields, config); },
+               [&visit](const std::string& path, double* value, const NumberSpec& spec) {
+                 for (const ScaledDefault& row : kScaledDefaults) {
+                   if (row.key == path) visit(row, value, spec);
+                 }
+               });
 }
 
-KeyDescription* Find(const std::string& path, std::vector<KeyDescription>* keys) {
+KeyDescription* Find(std::string_view path, std::vector<KeyDescription>* keys) {
   for (KeyDescription& key : *keys) {
     if (key.path == path) return &key;
     if (path.starts_with(key.path + ".")) return Find(path, &key.keys);
@@ -172,14 +149,13 @@ KeyDescription* Find(const std::string& path, std::vector<KeyDescription>* keys)
 }  // namespace
 
 void ScaleDefaults(const RobotMeasures& robot, ExperimentConfig* config) {
-  for (const ScaledDefault& row : ScaledDefaults()) {
-    double& value = *row.value(config);
-    value = std::clamp(Scaled(row.law, value, robot), row.min, row.max);
-  }
+  VisitScaled(config, [&](const ScaledDefault& row, double* value, const NumberSpec& spec) {
+    *value = std::clamp(Scaled(row.law, *value, robot), spec.min, spec.max);
+  });
 }
 
 void DescribeScaling(std::vector<KeyDescription>* keys) {
-  for (const ScaledDefault& row : ScaledDefaults()) {
+  for (const ScaledDefault& row : kScaledDefaults) {
     KeyDescription* const key = Find(row.key, keys);
     key->otherwise = FormulaOf(row.law, key->default_text);
   }
@@ -189,10 +165,9 @@ void DescribeScaling(const RobotMeasures& robot, std::vector<KeyDescription>* ke
   DescribeScaling(keys);
   ExperimentConfig scaled;
   ScaleDefaults(robot, &scaled);
-  for (const ScaledDefault& row : ScaledDefaults()) {
-    KeyDescription* const key = Find(row.key, keys);
-    key->otherwise += " = " + ShortestText(*row.value(&scaled));
-  }
+  VisitScaled(&scaled, [keys](const ScaledDefault& row, const double* value, const NumberSpec&) {
+    Find(row.key, keys)->otherwise += " = " + ShortestText(*value);
+  });
 }
 
 }  // namespace halfstep

@@ -176,6 +176,23 @@ TEST(ScaledDefaults, AreHrp2sForHrp2) {
   EXPECT_EQ(text(scaled), text(ExperimentConfig{}));
 }
 
+// A row whose key is no number of the config would scale nothing.
+TEST(ScaledDefaults, AreOfKeysThatThereAre) {
+  const std::vector<KeyDescription> formulas = ConfigKeys();
+  std::vector<KeyDescription> values = formulas;
+  DescribeScaling(MeasureRobot((kRobots / "hrp2.yaml").string()), &values);
+  int scaled = 0;
+  const std::function<void(const std::vector<KeyDescription>&, const std::vector<KeyDescription>&)>
+      count = [&](const auto& before, const auto& after) {
+        for (size_t i = 0; i < before.size(); ++i) {
+          if (before[i].otherwise != after[i].otherwise) ++scaled;
+          count(before[i].keys, after[i].keys);
+        }
+      };
+  count(formulas, values);
+  EXPECT_EQ(scaled, 29);
+}
+
 TEST(ScaledDefaults, GoByTheLegUnlessAKeySaysOtherwise) {
   RobotMeasures half = MeasureRobot((kRobots / "hrp2.yaml").string());
   half.leg_length *= 0.25;

@@ -9,6 +9,7 @@
 
 #include "tests/wpg/yaml_test_config.h"
 #include "wpg/files/number_text.h"
+#include "wpg/files/number_visit.h"
 
 namespace halfstep {
 namespace {
@@ -211,6 +212,19 @@ TEST(YamlFields, ComplainsAboutAValueOnce) {
                 ElementsAre("c.yaml:1:1: about the whole",
                             "c.yaml:1:4: x: not a number: 'abc' (valid: a finite number)"));
   }
+}
+
+TEST(VisitNumbers, VisitsNumbersOfGroupsWithTheirPaths) {
+  Config config;
+  std::vector<std::string> paths;
+  VisitNumbers([&config](Fields& fields) { DeclareFields(fields, &config); },
+               [&paths](const std::string& path, double* value, const NumberSpec& spec) {
+                 paths.push_back(path);
+                 if (path == "margins.clearance_m") *value = spec.max;
+               });
+  EXPECT_THAT(paths, ElementsAre("margins.clearance_m", "margins.lean_deg", "goal.x_m"));
+  EXPECT_EQ(config.clearance, 0.5);
+  EXPECT_FALSE(config.has_goal);
 }
 
 }  // namespace
