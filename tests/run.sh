@@ -19,7 +19,7 @@ esac
 
 experiments/install_dependencies.sh
 # For the tests of report, notebooks, replay and other locales: without them they are skipped.
-experiments/install_dependencies.sh chromium chromium-driver libmujoco-dev python3-nbconvert \
+experiments/install_dependencies.sh chromium chromium-driver doxygen libmujoco-dev python3-nbconvert \
   python3-ipykernel python3-pandas python3-matplotlib locales ||
   echo "Report, notebooks, replay or locales will not be tested" >&2
 mkdir -p build
