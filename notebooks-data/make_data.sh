@@ -91,12 +91,12 @@ make_sweep() {  # 200 cases of the box, by overlaps alone and with durations.
   keep sweep/runs.csv
 }
 
-make_methods() {  # Nine methods on six scenarios, over overlaps, heights and durations.
+make_methods() {  # Eight methods on six scenarios, over overlaps, heights and durations.
   runs=""
   for scenario in fig3_two_half_steps fig4_raw_sequence fig5_box bar_5cm bar_8cm bar_10cm; do
     "$halfstep" run "$configs/$scenario.yaml" --quiet --out "$work/$scenario" --set output.period_s=0.1 \
-      --set 'smoothing.methods=[dichotomy, dichotomy/published, dichotomy/uniform, coordinate, ipopt,
-             nlopt/ccsaq, nlopt/slsqp, halfstep/barrier, halfstep/sqp]' \
+      --set 'smoothing.methods=[dichotomy, dichotomy/published, dichotomy/uniform, ipopt, nlopt/ccsaq,
+             nlopt/slsqp, halfstep/barrier, halfstep/sqp]' \
       --set smoothing.optimizer.heights=true --set smoothing.optimizer.durations=true \
       --set smoothing.optimizer.deadline_s=5 || [ $? -eq 1 ]  # 1: a method failed
     runs="$runs $work/$scenario"

@@ -7,7 +7,6 @@
 #include "smoothing/margins/family_traits.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/text.h"
-#include "wpg/motion/compensation.h"
 
 namespace halfstep {
 namespace {
@@ -111,17 +110,6 @@ HalfStep PrototypeOf(const ExperimentConfig& config) {
   return prototype;
 }
 
-HalfStepSequence CompensatedAsAsked(const ExperimentConfig& config, const RobotModel& robot,
-                                    const HalfStepSequence& sequence) {
-  const int iterations = config.half_step.compensation;
-  if (iterations == 0) return sequence;
-  if (!robot.masses.known()) {
-    throw InputError({robot.name + ": half_step.compensation: its masses are not known: " +
-                      robot.masses.fault + " (valid: `none`)"});
-  }
-  return Compensated(robot, sequence, iterations);
-}
-
 Experiment Prepare(const ExperimentConfig& config) { return Prepare(config, LoadPlace(config)); }
 
 HalfStepSequence SequenceOf(const ExperimentConfig& config, const RobotModel& robot) {
@@ -134,10 +122,8 @@ HalfStepSequence SequenceOf(const ExperimentConfig& config, const RobotModel& ro
                          .via_height = step.via_height.value_or(config.half_step.via_height),
                          .duration = step.duration.value_or(config.half_step.duration)});
   }
-  return CompensatedAsAsked(
-      config, robot,
-      MakeSequence(StartOf(config, robot), footsteps, config.half_step.via_lateral,
-                   ShapeOf(config.half_step), lipm));
+  return MakeSequence(StartOf(config, robot), footsteps, config.half_step.via_lateral,
+                      ShapeOf(config.half_step), lipm);
 }
 
 Experiment Prepare(const ExperimentConfig& config, Place place) {

@@ -48,16 +48,9 @@ std::array<Footprint, 2> StartOf(const ExperimentConfig& config, const RobotMode
 /// The half-steps of a config without their place: duration, via point, shape.
 HalfStep PrototypeOf(const ExperimentConfig& config);
 
-/// The sequence with the compensation that `half_step.compensation` asks for. Throws InputError
-/// when that needs masses which are not known.
-HalfStepSequence CompensatedAsAsked(const ExperimentConfig& config, const RobotModel& robot,
-                                    const HalfStepSequence& sequence);
-
-/// The half-steps of a config's footsteps, compensated where it asks for that; empty without
-/// footsteps. Throws InputError as CompensatedAsAsked() does.
+/// The half-steps of a config's footsteps; empty without footsteps.
 HalfStepSequence SequenceOf(const ExperimentConfig& config, const RobotModel& robot);
-/// Makes the experiment in a place that is loaded; without footsteps its sequence is empty. Throws
-/// InputError as CompensatedAsAsked() does.
+/// Makes the experiment in a place that is loaded; without footsteps its sequence is empty.
 Experiment Prepare(const ExperimentConfig& config, Place place);
 /// The same, in the place that LoadPlace() loads. Throws InputError.
 Experiment Prepare(const ExperimentConfig& config);

@@ -130,14 +130,7 @@ void DeclareHalfStep(Fields& fields, HalfStepConfig* c) {
                  .unit = "m",
                  .min = -1,
                  .max = 1});
-  static const std::vector<std::string> kIterations = {"none", "one", "two"};
-  std::string compensation = kIterations[static_cast<size_t>(c->compensation)];
-  fields.Text("compensation", &compensation,
-              {.meaning = "iterations that move the waist so that the whole robot's ZMP comes near "
-                          "the planned one in each isolated half-step",
-               .choices = kIterations});
-  const auto chosen = std::find(kIterations.begin(), kIterations.end(), compensation);
-  if (chosen != kIterations.end()) c->compensation = static_cast<int>(chosen - kIterations.begin());
+  fields.Misplaced("compensation", "is gone, since it made no walk shorter (leave it out)");
 }
 
 // Complains about a goal that is out of the planner's workspace: the last foot lands beside one
@@ -237,14 +230,8 @@ void DeclareFields(Fields& fields, ExperimentConfig* c) {
   ComplainOutsideWorkspace(fields, *c);
   fields.Group("swept_volumes", {.meaning = "that are baked of them"},
                [&](Fields& f) { DeclareSweptVolumes(f, &c->swept_volumes); });
-  fields.Group("half_step", {.meaning = "the isolated half-step"}, [&](Fields& f) {
-    DeclareHalfStep(f, &c->half_step);
-    if (c->has_goal && c->half_step.compensation > 0) {
-      f.Complain("compensation",
-                 "swept volumes are of half-steps without it (valid: `none` with a "
-                 "`goal`)");
-    }
-  });
+  fields.Group("half_step", {.meaning = "the isolated half-step"},
+               [&](Fields& f) { DeclareHalfStep(f, &c->half_step); });
   fields.Group("smoothing", {.meaning = "the homotopy"}, [&](Fields& f) {
     DeclareSmoothing(f, &c->smoothing);
     const std::string complaint = ComplaintAboutFixed(*c);

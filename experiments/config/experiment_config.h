@@ -33,7 +33,6 @@ struct HalfStepConfig {
   double foot_ramp = 0.5;               ///< of the foot's horizontal motion
   double lift_share = 1.0;              ///< of the foot's flight
   double support_offset = 0.0;          ///< [m]
-  int compensation = 0;                 ///< iterations (Compensation)
 };
 
 /// Fractions of T, as half-steps have them.

@@ -128,13 +128,11 @@ void DeclareOptimizer(Fields& fields, OptimizerConfig* c) {
            "`halfstep/sqp`, 30 for others",
        .min = 0,
        .max = 100000});
-  fields.Number(
-      "deadline_s", &o->deadline,
-      {.meaning =
-           "of all solves of a method together; of `dichotomy/uniform`, `coordinate`, `reference`",
-       .unit = "s",
-       .min = 0.001,
-       .max = 86400});
+  fields.Number("deadline_s", &o->deadline,
+                {.meaning = "of all solves of a method together; of `dichotomy/uniform`",
+                 .unit = "s",
+                 .min = 0.001,
+                 .max = 86400});
 }
 
 void DeclareHorizon(Fields& fields, HorizonOptions* o) {

@@ -98,8 +98,7 @@ void DeclareBudget(Fields& fields, BudgetConfig* c) {
   time("check_s", &c->check, "what looking at the walk to come costs in lockstep");
   time("plan_s", &c->plan, "what planning anew costs in lockstep");
   time("smooth_s", &c->smooth, "what finding the overlaps of a few junctions costs in lockstep");
-  time("refine_s", &c->refine,
-       "what `refine` costs in lockstep, and how long it may take by the wall clock");
+  fields.Misplaced("refine_s", "is gone with `refine` (leave it out)");
 }
 
 void DeclareLive(Fields& fields, LiveOptions* c, double half_step, const Scene* scene) {
@@ -137,17 +136,14 @@ void DeclareLive(Fields& fields, LiveOptions* c, double half_step, const Scene* 
                  {.meaning = "overlaps are found so many junctions ahead", .min = 1, .max = 1000});
   fields.Number("tolerance_s", &c->tolerance,
                 {.meaning = "of these overlaps", .unit = "s", .min = 1e-4, .max = 0.5});
-  fields.Boolean("refine", &c->refine,
-                 {.meaning = "when nothing else is to be done, shorten the half-steps to come by a "
-                             "program over their overlaps, and over what smoothing.optimizer "
-                             "says is to be moved"});
+  fields.Misplaced("refine", "is gone, since it was not known to pay (leave it out)");
   fields.Group("sensing", {.meaning = "where measurements come from"},
                [&](Fields& f) { DeclareSensing(f, &c->sensing); });
   fields.Group("budget", {.meaning = "what thinking costs in lockstep"}, [&](Fields& f) {
     DeclareBudget(f, &c->budget);
     for (const auto& [key, value] :
          {std::pair{"check_s", c->budget.check}, std::pair{"plan_s", c->budget.plan},
-          std::pair{"smooth_s", c->budget.smooth}, std::pair{"refine_s", c->budget.refine}}) {
+          std::pair{"smooth_s", c->budget.smooth}}) {
       if (value >= half_step) {
         f.Complain(key,
                    "is no shorter than a half-step: nothing could be handed over in time "

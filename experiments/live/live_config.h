@@ -42,7 +42,6 @@ struct BudgetConfig {
   double check = 0.005;  ///< looking at what is to come
   double plan = 0.04;    ///< planning anew, and proving the result
   double smooth = 0.04;  ///< the overlaps of a few junctions
-  double refine = 0.2;   ///< a program over a few half-steps
 };
 
 /// How an episode goes.
@@ -58,10 +57,9 @@ struct LiveOptions {
   int spare_boxes = 0;     ///< not there until they appear
   int smooth_at_once = 3;  ///< junctions
   int smooth_ahead = 8;    ///< junctions behind the latest half-step that has begun
-  double tolerance = 0.02;  ///< of their overlaps [s]
-  bool refine = false;      ///< when nothing else is to be done: half-steps to come, by a program
-  SensingConfig sensing;    ///< how the world is measured
-  BudgetConfig budget;      ///< what computing costs in lockstep
+  double tolerance = 0.02;          ///< of their overlaps [s]
+  SensingConfig sensing;            ///< how the world is measured
+  BudgetConfig budget;              ///< what computing costs in lockstep
   std::vector<ScriptEvent> script;  ///< what happens to the world, in the order of time
 };
 

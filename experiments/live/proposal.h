@@ -47,16 +47,15 @@ std::string_view Name(ProposalKind kind);
 
 /// What a replanner found.
 struct Proposal {
-  ProposalKind kind = ProposalKind::kSafe;  ///< what is proposed
-  std::string reason = {};                  ///< in words
-  WalkPlan plan = {};                       ///< a successor, or the walk itself
-  std::vector<bool> smoothed = {};          ///< of `plan`, as in Situation
-  int robot_through = -1;                   ///< of `plan`, as in Situation
-  int first_changed = -1;                   ///< half-step; −1: none
-  bool refined = false;     ///< a program over half-steps to come was tried (Refine)
-  Grant grant = {};         ///< what is proved of `plan`
-  PlanResult planned = {};  ///< the last search
-  std::int64_t nodes = 0;   ///< of all searches
+  ProposalKind kind = ProposalKind::kSafe;             ///< what is proposed
+  std::string reason = {};                             ///< in words
+  WalkPlan plan = {};                                  ///< a successor, or the walk itself
+  std::vector<bool> smoothed = {};                     ///< of `plan`, as in Situation
+  int robot_through = -1;                              ///< of `plan`, as in Situation
+  int first_changed = -1;                              ///< half-step; −1: none
+  Grant grant = {};                                    ///< what is proved of `plan`
+  PlanResult planned = {};                             ///< the last search
+  std::int64_t nodes = 0;                              ///< of all searches
   double check_s = 0.0, plan_s = 0.0, smooth_s = 0.0;  ///< where the time went [s]
 };
 

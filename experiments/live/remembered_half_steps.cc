@@ -32,10 +32,6 @@ std::string KeyOf(const SuperposedWalk& walk, int j) {
                            shape.lift_share, shape.support_offset, walk.X_WS(i).height}) {
       add(x);
     }
-    for (const Eigen::Vector2d& control : half_step.sway.controls) {
-      add(control.x());
-      add(control.y());
-    }
   }
   return key;
 }

@@ -7,7 +7,6 @@
 #include "experiments/live/near_rest.h"
 #include "experiments/live/overlap_search.h"
 #include "experiments/live/prepared_world.h"
-#include "experiments/live/refinement.h"
 #include "experiments/run/planning.h"
 
 namespace halfstep {
@@ -202,12 +201,7 @@ Proposal Replanner::Propose(const Situation& s, const PreparedWorld& among,
     }
     proposal.smooth_s = SteadySeconds() - smooth;
     if (proposal.kind != ProposalKind::kSafe) return proposal;
-    if (s.shorten) {
-      Shorten(s, among, near, random, &proposal);
-    } else if (config_.live.refine && !s.stopped) {
-      Refine(among.safety, config_, s.hand_over, s.begun, &proposal);
-      proposal.smooth_s = SteadySeconds() - smooth;
-    }
+    if (s.shorten) Shorten(s, among, near, random, &proposal);
     return proposal;
   }
   proposal.reason =

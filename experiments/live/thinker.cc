@@ -18,9 +18,7 @@ void LockstepThinker::Ask(Situation situation) {
   proposal_ = replanner_.Propose(situation, worlds_.Of(situation.world), random_);
   const bool planned = proposal_->planned.status != PlanStatus::kNotRun;
   ready_ = situation.now + budget.check + (planned ? budget.plan : 0.0) +
-           (proposal_->refined                           ? budget.refine
-            : proposal_->kind == ProposalKind::kSmoothed ? budget.smooth
-                                                         : 0.0);
+           (proposal_->kind == ProposalKind::kSmoothed ? budget.smooth : 0.0);
 }
 
 std::optional<Proposal> LockstepThinker::Answer(double now) {

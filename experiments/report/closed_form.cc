@@ -25,10 +25,6 @@ json ShapeJson(const HalfStepShape& shape) {
 
 json HalfStepJson(const PlacedHalfStep& placed) {
   const HalfStep& half_step = placed.half_step;
-  json sway = json::array();
-  for (const Eigen::Vector2d& control : half_step.sway.controls) {
-    sway.push_back({Shortened(control.x(), 12), Shortened(control.y(), 12)});
-  }
   return {{"support", half_step.support == Side::kLeft ? "left" : "right"},
           {"kind", half_step.kind == HalfStepKind::kUp ? "up" : "down"},
           {"X_WS", PlaceJson(placed.X_WS)},
@@ -37,8 +33,7 @@ json HalfStepJson(const PlacedHalfStep& placed) {
           {"via_height_m", half_step.via_height},
           {"via_lateral_m", half_step.via_lateral},
           {"via_along_m", half_step.via_along},
-          {"shape", ShapeJson(half_step.shape)},
-          {"sway", std::move(sway)}};
+          {"shape", ShapeJson(half_step.shape)}};
 }
 
 }  // namespace

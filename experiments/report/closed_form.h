@@ -10,7 +10,7 @@ namespace halfstep {
 
 /// What the page needs to evaluate the closed form of walks on the same footsteps by itself:
 /// half-steps in S with their places X_WS [m, rad], the LIPM and the robot's posture over it.
-/// Places and sways to 12 digits.
+/// Places to 12 digits.
 nlohmann::json ClosedFormJson(const RobotModel& robot, const HalfStepSequence& sequence);
 
 /// The homotopy parameters of a method's folder, exactly as its half_steps.csv and overlaps.csv

@@ -112,14 +112,3 @@ export class RestToRest {
   com(sigma) { return at(this.comPieces, sigma); }
   zmp(sigma) { return at(this.zmpPieces, sigma); }
 }
-
-/** The small motion of the waist that a half-step may add, [x, y] at σ: cubic B-splines. */
-export function swayAt(controls, sigma) {
-  if (controls.length === 0 || sigma <= 0 || sigma >= 1) return [0, 0];
-  const piece = Math.min(11, Math.floor(12 * sigma));
-  const x = 12 * sigma - piece;
-  const y = 1 - x;
-  const weights = [y ** 3, 3 * x ** 3 - 6 * x * x + 4, 3 * y ** 3 - 6 * y * y + 4, x ** 3];
-  return [0, 1].map((axis) => weights.reduce((sum, weight, i) =>
-    sum + (weight * (controls[piece - 3 + i]?.[axis] ?? 0)) / 6, 0));
-}

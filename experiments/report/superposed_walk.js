@@ -1,6 +1,6 @@
 // A walk in closed form at any overlaps, durations, heights and support points, as the C++ has it.
 // Source: smoothing/README.md, "The homotopy".
-import { RestToRest, rampedStep, smoothstep, swayAt } from "./rest_to_rest.js";
+import { RestToRest, rampedStep, smoothstep } from "./rest_to_rest.js";
 
 // Quantities of a walk: com x y, zmp x y, waist yaw, and of each foot x y z yaw.
 const footAt = { left: 5, right: 9 };
@@ -75,8 +75,6 @@ class Piece {
     this.from = restState(half, this.up, height, supportPoint);
     const to = restState(half, !this.up, height, supportPoint);
     this.delta = to.map((value, q) => value - this.from[q]);
-    const [c, s] = [Math.cos(half.X_WS[2]), Math.sin(half.X_WS[2])];
-    this.sway = half.sway.map(([x, y]) => [c * x - s * y, s * x + c * y]);
   }
 
   addTo(state, tau) {
@@ -86,12 +84,9 @@ class Piece {
     const zmp = this.shift.zmp(sigma);
     const foot = rampedStep(sigma, ...this.foot, this.half.shape.foot_ramp);
     const height = smoothstep(sigma, ...this.lift);
-    const sway = swayAt(this.sway, sigma);
     const profiles = [com, com, zmp, zmp, smoothstep(sigma),
                       foot, foot, height, foot, foot, foot, height, foot];
     profiles.forEach((profile, q) => { state[q] += profile * delta[q]; });
-    state[0] += sway[0];
-    state[1] += sway[1];
   }
 }
 

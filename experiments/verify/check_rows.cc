@@ -139,8 +139,7 @@ void CheckConsistency(const PlayedMotion& motion, const DescribedWalk& walk, Fin
                          std::abs(row.waist[2] - robot.waist_height),
                          std::abs(row.com.z() - robot.com_height)}),
               here);
-    const Eigen::Vector2d residual =
-        k * row.com_acceleration - row.com.head<2>() + row.zmp + walk.SwayZmp(row.t);
+    const Eigen::Vector2d residual = k * row.com_acceleration - row.com.head<2>() + row.zmp;
     pendulum.Add(-residual.norm(), here);
     if (i == 0) continue;
     // Trapezoidal rule against the difference of the rows.
@@ -152,10 +151,8 @@ void CheckConsistency(const PlayedMotion& motion, const DescribedWalk& walk, Fin
     const double rounding = near.length + 1e-14 * near.size / dt;
     const double fourth = walk.ComFourthBound(last.t, row.t);
     const double jump = (row.com_acceleration - last.com_acceleration).norm();
-    // Sways are cubic between knots, where their third derivative jumps by twice its bound at most.
-    const double sway = walk.SwayThirdBound(last.t, row.t);
-    const double v_error = dt * jump / 12 + dt * dt * dt * fourth / 12 + dt * dt * sway / 6;
-    const double a_error = dt * dt * fourth / 12 + dt * sway / 4;
+    const double v_error = dt * jump / 12 + dt * dt * dt * fourth / 12;
+    const double a_error = dt * dt * fourth / 12;
     velocity.Add(rounding + v_error - (v - (row.com_velocity + last.com_velocity) / 2).norm(),
                  here);
     acceleration.Add(

@@ -42,13 +42,7 @@ DescribedWalk::DescribedWalk(const RobotModel& robot, const HalfStepSequence& pl
                        .profiles = {half_step.kind, half_step.shape, half_step.duration, lipm_},
                        .start = rows[i].start,
                        .from = from,
-                       .delta = Transformed(X_WS, half_step.End()) - from,
-                       .sway = {{}, half_step.duration}});
-    for (const Eigen::Vector2d& control : half_step.sway.controls) {
-      const double c = std::cos(X_WS.yaw), s = std::sin(X_WS.yaw);
-      pieces_.back().sway.control_points.emplace_back(c * control.x() - s * control.y(),
-                                                      s * control.x() + c * control.y());
-    }
+                       .delta = Transformed(X_WS, half_step.End()) - from});
   }
 }
 
@@ -81,9 +75,6 @@ WalkJet DescribedWalk::At(double t) const {
       jet.first[q] += p.first * piece.delta[q];
       jet.second[q] += p.second * piece.delta[q];
     }
-    jet.value.segment<2>(kComX) += piece.sway.Derivative(0, tau);
-    jet.first.segment<2>(kComX) += piece.sway.Derivative(1, tau);
-    jet.second.segment<2>(kComX) += piece.sway.Derivative(2, tau);
   }
   return jet;
 }
@@ -182,26 +173,6 @@ double WalkDynamics::LeastTorqueMargin(const RobotModel& robot) const {
     for (size_t j = 0; j < 6; ++j) least = std::min(least, TorqueMargin(robot, s, j));
   }
   return least;
-}
-
-Eigen::Vector2d DescribedWalk::SwayZmp(double t) const {
-  const double k = lipm_.com_height / lipm_.gravity;
-  Eigen::Vector2d moved(0, 0);
-  for (size_t i = 0; i < pieces_.size(); ++i) {
-    const DescribedSway& sway = pieces_[i].sway;
-    moved += sway.Derivative(0, Local(t, i)) - k * sway.Derivative(2, Local(t, i));
-  }
-  return moved;
-}
-
-double DescribedWalk::SwayThirdBound(double begin, double end) const {
-  double bound = 0;
-  for (size_t i = 0; i < pieces_.size(); ++i) {
-    const Piece& piece = pieces_[i];
-    if (Local(end, i) <= 0 || Local(begin, i) >= piece.profiles.duration()) continue;
-    bound += piece.sway.ThirdBound();
-  }
-  return bound;
 }
 
 double DescribedWalk::ComFourthBound(double begin, double end) const {

@@ -5,7 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include "experiments/verify/described_sway.h"
 #include "experiments/verify/played_motion.h"
 #include "experiments/verify/walk_text.h"
 #include "wpg/motion/half_step_sequence.h"
@@ -33,10 +32,9 @@ struct WalkDynamics {
 ///
 ///     f(t) = f_0(0) + Σ_i [ f_i(clamp(t − t_i, 0, T_i)) − f_i(0) ].
 ///
-/// The superposition, its compensation (DescribedSway), and which feet stand when are this class's
-/// own; the closed forms of a half-step and of a leg's inverse kinematics are wpg's, which the
-/// prover uses as well. Borrows the robot. Source: [Perrin2011] §IV; smoothing/README.md, "The
-/// homotopy".
+/// The superposition and which feet stand when are this class's own; the closed forms of a
+/// half-step and of a leg's inverse kinematics are wpg's, which the prover uses as well. Borrows
+/// the robot. Source: [Perrin2011] §IV; smoothing/README.md, "The homotopy".
 class DescribedWalk {
  public:
   /// Precondition: as many rows as half-steps, at least one, durations > 0.
@@ -74,12 +72,7 @@ class DescribedWalk {
   /// Whether a foot (Index(Side)) is in the air, and moves horizontally or may do so.
   bool MovesHorizontally(double t, int side) const;
 
-  /// How far the CoM's point-mass ZMP is from the planned one: Z of the sways under way [m].
-  Eigen::Vector2d SwayZmp(double t) const;
-  /// A bound of the |third derivative| of the sways over [begin, end] [m/s³].
-  double SwayThirdBound(double begin, double end) const;
-
-  /// An upper bound of |c⁗|, sways left out, over [begin, end] [m/s⁴]: c̈ = ω²(c − p) is
+  /// An upper bound of |c⁗| over [begin, end] [m/s⁴]: c̈ = ω²(c − p) is
   /// differentiated twice, and the closed-form bounds of all half-steps under way are added up.
   double ComFourthBound(double begin, double end) const;
 
@@ -89,7 +82,6 @@ class DescribedWalk {
     HalfStepProfiles profiles;
     double start = 0;
     WalkState from, delta;  // f_i(0), f_i(T_i) − f_i(0); in W
-    DescribedSway sway;     // in W
   };
   double Local(double t, size_t piece) const { return t - pieces_[piece].start; }
   // Whether the foot that half-step `up` raised stands again.

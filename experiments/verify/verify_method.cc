@@ -94,10 +94,8 @@ HalfStepSequence PlannedOf(const ExperimentConfig& config, const RobotModel& rob
                          .via_height = step.via_height.value_or(config.half_step.via_height),
                          .duration = step.duration.value_or(config.half_step.duration)});
   }
-  return CompensatedAsAsked(
-      config, robot,
-      MakeSequence(StartOf(config, robot), footsteps, config.half_step.via_lateral,
-                   ShapeOf(config.half_step), {.com_height = robot.com_height}));
+  return MakeSequence(StartOf(config, robot), footsteps, config.half_step.via_lateral,
+                      ShapeOf(config.half_step), {.com_height = robot.com_height});
 }
 
 // All files of one method, and of its run, as they were read.

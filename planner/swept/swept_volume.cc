@@ -126,7 +126,6 @@ std::optional<std::vector<SweptVolumeBaker::Placement>> SweptVolumeBaker::Cover(
     const HalfStepJet sup = profiles.SecondBounds(task.from, task.to);
     WalkState second;
     for (int q = 0; q < kNumQuantities; ++q) second[q] = change[q] * sup.of(q).second;
-    second.segment<2>(kComX) += half_step.sway.SecondBound(task.from, task.to, half_step.duration);
     // A little wider, for the rounding of the interval's ends.
     bounds_.Bound(Evaluate(half_step, profiles, mid), second, 0.5 * width * (1 + 1e-9), &motion);
     const bool last = width <= options_.shortest_interval;

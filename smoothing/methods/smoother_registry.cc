@@ -6,10 +6,8 @@
 #include <utility>
 
 #include "opt/adapters/solver_registry.h"
-#include "smoothing/methods/coordinate_ascent.h"
 #include "smoothing/methods/given_walk.h"
 #include "smoothing/methods/lipm_bound.h"
-#include "smoothing/methods/reference_search.h"
 #include "smoothing/methods/uniform_scan.h"
 #include "wpg/check.h"
 
@@ -77,28 +75,6 @@ SmoothingResult Uniform(const WalkProblem& problem, const SmootherOptions& optio
                      monitor);
 }
 
-SmoothingResult Coordinate(const WalkProblem& problem, const SmootherOptions& options,
-                           SmoothingMonitor& monitor) {
-  monitor.LimitTo(options.optimizer.deadline);
-  return CoordinateAscent(problem,
-                          {.parameters = options.optimizer.program.parameters,
-                           .tolerance = options.optimizer.tolerance},
-                          monitor);
-}
-
-SmoothingResult Reference(const WalkProblem& problem, const SmootherOptions& options,
-                          SmoothingMonitor& monitor) {
-  monitor.LimitTo(options.optimizer.deadline);
-  ReferenceOptions reference{.parameters = options.optimizer.program.parameters};
-  const bool more = reference.parameters.heights || reference.parameters.durations;
-  if (more && problem.scene().rests()) {
-    SmoothingMonitor uniform(monitor.Part(0.0, 0.0)), coordinate(monitor.Part(0.0, 0.0));
-    reference.starts = {Uniform(problem, options, uniform).parameters,
-                        Coordinate(problem, options, coordinate).parameters};
-  }
-  return ReferenceSearch(problem, reference, monitor);
-}
-
 SmoothingResult ByWindows(const WalkProblem& problem, const SmootherOptions& options,
                           SmoothingMonitor& monitor) {
   HorizonOptions horizon = options.horizon;
@@ -137,9 +113,6 @@ SmootherList MakeSmoothers() {
       DichotomyWith([](DichotomyOptions* d) { d->passes = 3; }));
   add("dichotomy/uniform", "dichotomy at the best uniform T and height of a grid", kOptimizer,
       Uniform);
-  add("coordinate", "passes over overlaps, heights and durations, each bisected in turn",
-      kOptimizer, Coordinate);
-  add("reference", "dynamic programming over a grid of parameters; slow", kOptimizer, Reference);
   add("reference/lipm", "a lower bound on every walk of a LIPM on the footsteps; finds no walk",
       kNone, [](const WalkProblem& problem, const SmootherOptions&, SmoothingMonitor& monitor) {
         return TellLipmBound(problem, monitor);

@@ -55,14 +55,13 @@ HalfStepSequence SequenceOf(const Part& part, const HalfStepSequence& walk,
 // By family and index in the part: whether a parameter is to stay.
 using Stays = std::array<std::vector<bool>, kNumParameterFamilies>;
 
-Stays WhatStays(const Part& part, const WalkProblem& problem, int first, int last,
-                bool keeps_begin) {
+Stays WhatStays(const Part& part, const WalkProblem& problem, int first, int last) {
   Stays stays;
   for (const ParameterFamily family : AllParameterFamilies()) {
     const ParameterFamilyTraits& traits = Traits(family);
     for (int i = 0; i < part.count_of(family); ++i) {
       const auto [from, to] = traits.half_steps(part.first_of(family) + i);
-      const bool before = traits.joins && to == first && !keeps_begin;
+      const bool before = traits.joins && to == first;
       stays[static_cast<size_t>(family)].push_back(to > last || (from < first && !before));
     }
   }
@@ -98,8 +97,7 @@ void KeepWhatBoundsOverlaps(const HalfStepSequence& sequence, const HomotopyPara
 
 }  // namespace
 
-WalkWindow WindowOf(const WalkProblem& problem, const HomotopyParameters& at, int first, int last,
-                    bool keeps_begin) {
+WalkWindow WindowOf(const WalkProblem& problem, const HomotopyParameters& at, int first, int last) {
   const int n = problem.sequence().size();
   HALFSTEP_CHECK(first >= 0 && first % 2 == 0 && last % 2 == 1 && first < last && last < n,
                  "half-steps " << first << " to " << last << " of " << n);
@@ -116,7 +114,7 @@ WalkWindow WindowOf(const WalkProblem& problem, const HomotopyParameters& at, in
     const auto from = at.of(family).begin() + part.first_of(family);
     parameters.of(family).assign(from, from + part.count_of(family));
   }
-  Stays stays = WhatStays(part, problem, first, last, keeps_begin);
+  Stays stays = WhatStays(part, problem, first, last);
   KeepWhatBoundsOverlaps(sequence, parameters, &stays);
   std::vector<FixedParameter> fixed;
   for (const ParameterFamily family : AllParameterFamilies()) {
@@ -130,7 +128,7 @@ WalkWindow WindowOf(const WalkProblem& problem, const HomotopyParameters& at, in
   // The last neighbour is there only so that the stretch before it ends where it does.
   const bool cut = part.end < n && !to_rest;
   return {.begin = part.begin,
-          .proved_first = std::max(0, first - part.begin - (keeps_begin ? 0 : 1)),
+          .proved_first = std::max(0, first - part.begin - 1),
           .proved_last = size - (cut ? 2 : 1),
           .parameters = parameters,
           .problem = WalkProblem(

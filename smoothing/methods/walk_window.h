@@ -27,11 +27,10 @@ struct WalkWindow {
 };
 
 /// The window of the half-steps first … last of the walk `at`: parameters of every family may change
-/// that belong to none but these, and unless `keeps_begin` the overlap before `first`; but nothing
-/// that `problem` fixes. A duration stays, too, beside an overlap that stays and is longer
-/// than the planned durations allow. Precondition (std::logic_error): first is even, last is odd,
-/// and they are half-steps of the problem.
-WalkWindow WindowOf(const WalkProblem& problem, const HomotopyParameters& at, int first, int last,
-                    bool keeps_begin = false);
+/// that belong to none but these, and the overlap before `first`; but nothing that `problem` fixes.
+/// A duration stays, too, beside an overlap that stays and is longer than the planned durations
+/// allow. Precondition (std::logic_error): first is even, last is odd, and they are half-steps of
+/// the problem.
+WalkWindow WindowOf(const WalkProblem& problem, const HomotopyParameters& at, int first, int last);
 
 }  // namespace halfstep

@@ -60,8 +60,7 @@ void SearchWindow(const WalkWindow& window, const WindowSearchOptions& options,
     if (remaining <= 0.0 || monitor.stopped()) return;
     const opt::Problem problem = program.MakeProblem();
     opt::SolverOptions solver_options =
-        RoundOptions(traits, options.program.kind,
-                     options.iterations > 0 ? options.iterations : traits.iterations);
+        RoundOptions(traits, options.program.kind, traits.iterations);
     solver_options.deadline = remaining;
     solver_options.stop = monitor.stop();
     solver_options.warm_start = solution.warm_start;

@@ -21,7 +21,6 @@ struct WindowSearchOptions {
   /// Where this is more than `rounds`, further solves follow up to this number, as long as the end
   /// of each costs at least 1 % less than the end before it.
   int most_rounds = 0;
-  int iterations = 0;  ///< of the solver in a round; 0: SolverTraits::iterations
 };
 
 /// Called with every new point of a window's part that was proved, and what it costs less than the

@@ -76,8 +76,7 @@ double OmegaSquared(const SuperposedWalk& walk) {
 
 }  // namespace
 
-WalkEffort EffortOf(const SuperposedWalk& compensated) {
-  const SuperposedWalk walk = compensated.WithoutSway();
+WalkEffort EffortOf(const SuperposedWalk& walk) {
   const double omega2 = OmegaSquared(walk);
   WalkEffort effort;
   ForEachNode(walk, [&](const LocalTime& at, double weight) {
@@ -89,9 +88,8 @@ WalkEffort EffortOf(const SuperposedWalk& compensated) {
   return effort;
 }
 
-double WeightedEffort(const SuperposedWalk& compensated, const EffortWeights& weights,
+double WeightedEffort(const SuperposedWalk& walk, const EffortWeights& weights,
                       ParameterGradient* gradient) {
-  const SuperposedWalk walk = compensated.WithoutSway();
   const double omega2 = OmegaSquared(walk);
   double value = 0.0;
   std::vector<WalkSensitivity> sensitivities;

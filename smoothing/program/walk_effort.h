@@ -19,7 +19,7 @@ struct EffortWeights {
   double foot_speed = 0.0;        ///< [s²/m²]
 };
 
-/// The integrals of a walk without its sways: c̈ = ω²(c − p), c⃛ = ω²(ċ − ṗ). On each stretch between
+/// The integrals of a walk: c̈ = ω²(c − p), c⃛ = ω²(ċ − ṗ). On each stretch between
 /// the ends of profiles' pieces the integrands are sums of polynomials and exponentials in closed
 /// form, and Gauss–Legendre quadrature with 10 nodes gives their integrals to about 1e-10
 /// (relative). Source: smoothing/README.md, "Overlap program".

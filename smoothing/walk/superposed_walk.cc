@@ -34,8 +34,7 @@ SuperposedWalk::SuperposedWalk(const HalfStepSequence& sequence,
                        .planned_height = planned_height,
                        .profiles = {half_step.kind, half_step.shape, half_step.duration, lipm_},
                        .from_W = from_W,
-                       .delta_W = Transformed(X_WS, half_step.End()) - from_W,
-                       .sway_W = half_step.sway.Turned(X_WS.rotation())});
+                       .delta_W = Transformed(X_WS, half_step.End()) - from_W});
   }
   UpdateStarts(1);
 }
@@ -56,12 +55,6 @@ void SuperposedWalk::SetOverlap(int junction, double overlap) {
       "overlap " << overlap << " s of junction " << junction << ", bound " << bound << " s");
   parameters_.overlaps[i] = overlap;
   UpdateStarts(junction + 1);
-}
-
-SuperposedWalk SuperposedWalk::WithoutSway() const {
-  SuperposedWalk plain = *this;
-  for (Piece& p : plain.pieces_) p.half_step.sway = p.sway_W = {};
-  return plain;
 }
 
 SuperposedWalk SuperposedWalk::StopBranch(int last) const {
@@ -110,9 +103,6 @@ WalkJet SuperposedWalk::At(const LocalTime& at) const {
       jet.first[q] += p.first * delta[q];
       jet.second[q] += p.second * delta[q];
     }
-    if (const WaistSway& sway = piece(i).sway_W; !sway.none()) {
-      AddSway(sway.At(LocalTo(i, at), piece(i).profiles.duration()), &jet);
-    }
   }
   return jet;
 }
@@ -126,8 +116,6 @@ WalkState SuperposedWalk::SecondBounds(double begin, double end) const {
     for (int q = 0; q < kNumQuantities; ++q) {
       bounds[q] += second.of(q).second * std::abs(p.delta_W[q]);
     }
-    bounds.segment<2>(kComX) +=
-        p.sway_W.SecondBound(begin - p.start, end - p.start, p.profiles.duration());
   }
   return bounds;
 }
@@ -144,11 +132,6 @@ WalkThirds SuperposedWalk::ThirdRanges(double begin, double end) const {
     };
     add(kComX, profiles.com);
     add(kComY, profiles.com);
-    const auto sway = p.sway_W.ThirdRange(begin - p.start, end - p.start, p.profiles.duration());
-    for (const int axis : {0, 1}) {
-      thirds.center[kComX + axis] += sway[static_cast<size_t>(axis)].center;
-      thirds.radius[kComX + axis] += sway[static_cast<size_t>(axis)].radius;
-    }
     add(kWaistYaw, profiles.yaw);
     for (const Side side : {Side::kLeft, Side::kRight}) {
       const int foot = FootIndex(side);

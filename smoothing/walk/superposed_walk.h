@@ -31,10 +31,9 @@ struct WalkSensitivity {
 ///
 ///     f(t) = f_0(0) + Σ_i [ f_i(clamp(t − t_i, 0, T_i)) − f_i(0) ].
 ///
-/// For all t: the walk is C², its CoM and ZMP satisfy the LIPM (but for what HalfStep::sway adds to
-/// the CoM), and Δ = 0 is the concatenation of the isolated half-steps. Starts and ends of
-/// half-steps are in order, whatever the overlaps. Source: [Perrin2011] §IV; smoothing/README.md,
-/// "The homotopy".
+/// For all t: the walk is C², its CoM and ZMP satisfy the LIPM, and Δ = 0 is the concatenation of
+/// the isolated half-steps. Starts and ends of half-steps are in order, whatever the overlaps.
+/// Source: [Perrin2011] §IV; smoothing/README.md, "The homotopy".
 class SuperposedWalk {
  public:
   /// Throws std::logic_error when the parameters are not in bounds (CheckParameters).
@@ -107,9 +106,6 @@ class SuperposedWalk {
   /// Source: smoothing/README.md, "Stop branches".
   SuperposedWalk StopBranch(int last) const;
 
-  /// The same walk, half-steps without their sways: the LIPM's.
-  SuperposedWalk WithoutSway() const;
-
   /// Changes one overlap [s]. Precondition: it is at least −kLongestRest, and exceeds
   /// NaturalOverlapBound by at most kOverlapTolerance (std::logic_error).
   void SetOverlap(int junction, double overlap);
@@ -123,7 +119,6 @@ class SuperposedWalk {
     HalfStepProfiles profiles;
     double start = 0.0;         // t_i
     WalkState from_W, delta_W;  // f_i(0) and f_i(T_i) − f_i(0)
-    WaistSway sway_W;           // half_step.sway in W
   };
   SuperposedWalk() = default;
   // The down half-step of a step; null in a stop branch that ends before it.

@@ -17,17 +17,6 @@ void AddProfileDerivative(const HalfStepJet& profiles, const WalkState& delta, d
   }
 }
 
-// The same of its sway.
-void AddSwayDerivative(const std::array<ProfileJet, 2>& sway, double dtau, double dT,
-                       WalkJet* jet) {
-  for (const int axis : {0, 1}) {
-    const ProfileJet& d = sway[static_cast<size_t>(axis)];
-    jet->value[kComX + axis] += d.first * dtau + d.value_T * dT;
-    jet->first[kComX + axis] += d.second * dtau + d.first_T * dT;
-    jet->second[kComX + axis] += d.third * dtau + d.second_T * dT;
-  }
-}
-
 // Derivative of quantity q of a half-step's contribution when q moves by `moved` in its state at
 // the via point. That is where an up half-step ends and a down half-step begins; `first`: the walk
 // is superposed from this half-step's start.
@@ -75,14 +64,6 @@ WalkState AtViaMoved(const HalfStep& h, const Eigen::Matrix2d& R_WS, const SoleM
   return x;
 }
 
-// A sway's derivative where it turns with the support sole.
-void AddTurnedSway(const std::array<ProfileJet, 2>& sway, WalkJet* jet) {
-  const auto turn = [](double x, double y) { return Eigen::Vector2d(-y, x); };
-  jet->value.segment<2>(kComX) += turn(sway[0].value, sway[1].value);
-  jet->first.segment<2>(kComX) += turn(sway[0].first, sway[1].first);
-  jet->second.segment<2>(kComX) += turn(sway[0].second, sway[1].second);
-}
-
 // What a half-step under way, its support sole at X_WS, has to do with the moves of footsteps.
 struct OnFootsteps {
   const HalfStep& half_step;
@@ -95,8 +76,7 @@ struct OnFootsteps {
 // Adds its derivatives along these moves; jet_of(parameter) is where a derivative is summed up.
 template <typename JetOf>
 void AddFootstepDerivatives(const OnFootsteps& p, const HalfStepJet& profiles,
-                            const std::array<ProfileJet, 2>& sway, const ParameterFilter& wanted,
-                            const JetOf& jet_of) {
+                            const ParameterFilter& wanted, const JetOf& jet_of) {
   using Family = ParameterFamily;
   const HalfStep& h = p.half_step;
   const Eigen::Matrix2d R_WS = p.X_WS.rotation();
@@ -124,8 +104,6 @@ void AddFootstepDerivatives(const OnFootsteps& p, const HalfStepJet& profiles,
         jet.first[q] += profile.first * (to[q] - from[q]);
         jet.second[q] += profile.second * (to[q] - from[q]);
       }
-      if (h.sway.none() || support.z() == 0.0) continue;
-      AddTurnedSway(sway, &jet);
     }
   }
 }
@@ -150,17 +128,11 @@ void SuperposedWalk::Sensitivities(const LocalTime& at, std::vector<WalkSensitiv
     const HalfStepJet profiles = p.profiles.At(LocalTo(i, at));
     // τ_i = τ + t_k − t_i, and every T_m − Δ_m between i and k moves it.
     const double sign = i < k ? 1.0 : -1.0;
-    const bool sways = !p.sway_W.none();
-    const auto sway = p.sway_W.At(LocalTo(i, at), p.profiles.duration());
     for (int m = std::min(i, k); m < std::max(i, k); ++m) {
       AddProfileDerivative(profiles, p.delta_W, -sign, 0.0, &jet_of({Family::kOverlap, m}));
       AddProfileDerivative(profiles, p.delta_W, sign, 0.0, &jet_of({Family::kDuration, m}));
-      if (!sways) continue;
-      AddSwayDerivative(sway, -sign, 0.0, &jet_of({Family::kOverlap, m}));
-      AddSwayDerivative(sway, sign, 0.0, &jet_of({Family::kDuration, m}));
     }
     AddProfileDerivative(profiles, p.delta_W, 0.0, 1.0, &jet_of({Family::kDuration, i}));
-    if (sways) AddSwayDerivative(sway, 0.0, 1.0, &jet_of({Family::kDuration, i}));
 
     const HalfStep& h = p.half_step;
     const auto is_wanted = [&wanted](const HomotopyParameter& parameter) {
@@ -195,8 +167,7 @@ void SuperposedWalk::Sensitivities(const LocalTime& at, std::vector<WalkSensitiv
         jet.second[q] += by.of(q).second * p.delta_W[q];
       }
     }
-    AddFootstepDerivatives({h, p.X_WS, p.on, parameters_, i == first}, profiles, sway, wanted,
-                           jet_of);
+    AddFootstepDerivatives({h, p.X_WS, p.on, parameters_, i == first}, profiles, wanted, jet_of);
   }
   if (wanted) {
     std::erase_if(*out, [&](const WalkSensitivity& s) { return !wanted(s.parameter); });

@@ -2,9 +2,8 @@
 //   live_study [FIRST [COUNT [POLICY [THREADS [MINUTES]]]]]
 //   live_study events SEED [POLICY]
 // Default: seeds 1 … 100, policy replan, one thread; no episode begins after so many minutes. The
-// policy `wall` is replan by the wall clock, `refine` is replan with `live.refine`. `events` prints
-// what happened in one episode. HRP-2's swept volumes from the user's cache, baked when they are
-// not there.
+// policy `wall` is replan by the wall clock. `events` prints what happened in one episode. HRP-2's
+// swept volumes from the user's cache, baked when they are not there.
 
 #include <cstdio>
 #include <map>
@@ -23,8 +22,7 @@ using namespace halfstep;
 LiveStudy MakeStudy(const std::string& policy) {
   LiveStudy study;
   study.base = LoadLiveConfig(HALFSTEP_SOURCE_DIR "/experiments/episodes/live_bar.yaml", {});
-  study.base.live.policy = policy == "wall" || policy == "refine" ? "replan" : policy;
-  study.base.live.refine = policy == "refine";
+  study.base.live.policy = policy == "wall" ? "replan" : policy;
   if (policy == "wall") study.base.live.clock = "wall";
   study.base.live.longest = 90.0;
   study.place = LoadPlace(study.base.experiment);

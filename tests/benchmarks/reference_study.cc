@@ -2,17 +2,21 @@
 // Run: reference_study CONFIG METHOD VARIABLES
 //      METHOD: uniform, coordinate, reference; VARIABLES: o, oh, ot or oht (overlaps, heights,
 //      durations)
+//      reference_study run CONFIG …: the command halfstep, with the methods `coordinate` and
+//      `reference`
 
 #include <cstdio>
 #include <string>
 
+#include "experiments/commands/run_experiment.h"
 #include "experiments/config/experiment.h"
-#include "smoothing/methods/coordinate_ascent.h"
 #include "smoothing/methods/dichotomy.h"
 #include "smoothing/methods/overlap_optimizer.h"
-#include "smoothing/methods/reference_search.h"
 #include "smoothing/methods/uniform_scan.h"
 #include "smoothing/proof/certified_feasibility.h"
+#include "tests/benchmarks/coordinate_ascent.h"
+#include "tests/benchmarks/reference_search.h"
+#include "tests/benchmarks/reference_smoothers.h"
 #include "tests/smoothing/smoothed.h"
 
 namespace halfstep {
@@ -61,8 +65,12 @@ void Study(const std::string& config, const std::string& method, const std::stri
 }  // namespace halfstep
 
 int main(int argc, char** argv) {
+  if (argc > 1 && std::string(argv[1]) == "run") {
+    halfstep::RegisterReferenceSmoothers();
+    return halfstep::RunExperiment(argc, argv);
+  }
   if (argc != 4) {
-    std::fprintf(stderr, "usage: reference_study CONFIG METHOD VARIABLES\n");
+    std::fprintf(stderr, "usage: reference_study CONFIG METHOD VARIABLES | run CONFIG...\n");
     return 2;
   }
   halfstep::Study(argv[1], argv[2], argv[3]);

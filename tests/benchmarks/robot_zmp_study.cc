@@ -1,6 +1,6 @@
 // What the whole robot's ZMP costs beside the other families, and how tight its bound is. Prints
 // the tables of notebooks-data/measurements.md, "The whole robot's ZMP". Not a test.
-// Run: robot_zmp_study cost CONFIG... | drift [INTERVALS [SEED [ROBOT]]] | compensation CONFIG... |
+// Run: robot_zmp_study cost CONFIG... | drift [INTERVALS [SEED [ROBOT]]] |
 //      replayed RUN METHOD_FOLDER
 
 #include <algorithm>
@@ -20,7 +20,6 @@
 #include "smoothing/proof/certified_feasibility.h"
 #include "tests/smoothing/certificate_draws.h"
 #include "tests/smoothing/smoothed.h"
-#include "wpg/motion/compensation.h"
 #include "wpg/motion/zmp_drift.h"
 
 namespace halfstep {
@@ -182,71 +181,6 @@ void Drift(long intervals, unsigned seed, const std::string& name) {
   }
 }
 
-// How far the robot's ZMP is from the planned one, every 2 ms.
-struct ZmpErrors {
-  double squares = 0, largest = 0;
-  long count = 0;
-
-  void Add(const RobotModel& robot, const WalkJet& jet) {
-    Posture posture = SolvePosture(robot, jet.value);
-    if (!posture.reachable || !SolveJointSpeeds(robot, jet, &posture)) return;
-    const auto zmp = RobotDynamics(robot, jet, posture, Lipm{}.gravity).Zmp();
-    if (!zmp) return;
-    const double error = (*zmp - jet.value.segment<2>(kZmpX)).norm();
-    squares += error * error;
-    largest = std::max(largest, error);
-    ++count;
-  }
-  void Print() const {
-    std::printf(" %8.1f %8.1f", 1e3 * std::sqrt(squares / static_cast<double>(count)),
-                1e3 * largest);
-  }
-};
-
-// Of all half-steps executed alone, at a fraction of their durations; root mean square and largest.
-void PrintIsolated(const RobotModel& robot, const HalfStepSequence& sequence, double fraction) {
-  ZmpErrors errors;
-  for (const PlacedHalfStep& placed : sequence.half_steps) {
-    HalfStep half_step = placed.half_step;
-    half_step.duration *= fraction;
-    const HalfStepProfiles profiles(half_step.kind, half_step.shape, half_step.duration,
-                                    sequence.lipm);
-    for (double tau = 0; tau <= half_step.duration; tau += 0.002) {
-      errors.Add(robot, Evaluate(half_step, profiles, tau));
-    }
-  }
-  errors.Print();
-}
-
-// What remains after 0, 1, 2 and 3 iterations: of the isolated half-steps, and of the walk that the
-// dichotomy makes of them.
-void PrintCompensation(const std::string& name) {
-  const Experiment e = Prepare(
-      LoadConfig(std::string(HALFSTEP_SOURCE_DIR "/experiments/configs/") + name + ".yaml", {}));
-  const MarginEvaluator evaluator(e.robot, e.scene, e.config.smoothing.limits);
-  const CertifiedFeasibility proof(evaluator, {});
-  for (const int iterations : {0, 1, 2, 3}) {
-    const HalfStepSequence sequence = Compensated(e.robot, e.sequence, iterations);
-    double most = 0;
-    for (const PlacedHalfStep& placed : sequence.half_steps) {
-      for (const Eigen::Vector2d& control : placed.half_step.sway.controls) {
-        most = std::max(most, control.norm());
-      }
-    }
-    std::printf("%-20s %2d %6.1f", name.c_str(), iterations, 1e3 * most);
-    PrintIsolated(e.robot, sequence, 1.0);
-    PrintIsolated(e.robot, sequence, 0.5);
-    const SmoothingResult smoothed =
-        Smoothed(Dichotomy, ProblemOf(sequence, proof), e.config.smoothing.dichotomy);
-    const SuperposedWalk walk(sequence, smoothed.parameters);
-    ZmpErrors errors;
-    for (double t = 0; t <= walk.duration(); t += 0.002) errors.Add(e.robot, walk.At(t));
-    errors.Print();
-    std::printf(" %9.4f s\n", walk.duration());
-    std::fflush(stdout);
-  }
-}
-
 // How much of what MuJoCo measures (`halfstep replay RUN --out`: replay.csv) beyond the planned ZMP
 // is the ZMP of the whole robot, both seen from the sole that carries more.
 void PrintReplayed(const std::string& run, const std::string& method) {
@@ -315,10 +249,6 @@ int main(int argc, char** argv) {
   if (part == "cost" && argc > 2) {
     std::printf("%-14s %-34s %12s %12s %6s\n", "config", "", "without", "with", "ratio");
     for (int i = 2; i < argc; ++i) halfstep::Cost(argv[i]);
-  } else if (part == "compensation" && argc > 2) {
-    std::printf("%-20s %2s %6s %17s %17s %17s\n", "rms, largest [mm]", "n", "sway", "alone, T",
-                "alone, T/2", "dichotomy");
-    for (int i = 2; i < argc; ++i) halfstep::PrintCompensation(argv[i]);
   } else if (part == "replayed" && argc == 4) {
     halfstep::PrintReplayed(argv[2], argv[3]);
   } else if (part == "drift") {
@@ -328,7 +258,7 @@ int main(int argc, char** argv) {
   } else {
     std::fprintf(stderr,
                  "usage: robot_zmp_study cost CONFIG... | drift [INTERVALS [SEED [ROBOT]]] | "
-                 "compensation CONFIG... | replayed RUN METHOD_FOLDER\n");
+                 "replayed RUN METHOD_FOLDER\n");
     return 2;
   }
 }

@@ -135,14 +135,16 @@ TEST_F(Endings, AnOldWordIsRefusedWithTheValidOnes) {
 
 TEST(EndingsAmongObstaclesThatMove, AMethodThatCannotRunSaysSo) {
   const TemporaryFolder place;
-  const Outcome run = Halfstep(place.path(), {"run", ShippedConfig("crossing"), "--out", "run",
-                                              "--set", "smoothing.methods=[dichotomy, reference]"});
+  const Outcome run =
+      Halfstep(place.path(), {"run", ShippedConfig("crossing"), "--out", "run", "--set",
+                              "smoothing.methods=[dichotomy, halfstep/horizon]", "--set",
+                              "smoothing.optimizer.program=safest"});
   EXPECT_EQ(run.status, kFailed);
-  EXPECT_THAT(run.err, HasSubstr("halfstep: reference: not_run: "));
-  EXPECT_THAT(run.err, HasSubstr("obstacles that move"));
+  EXPECT_THAT(run.err, HasSubstr("halfstep: halfstep/horizon: invalid_input: "));
+  EXPECT_THAT(run.err, HasSubstr("no program `safest`"));
   const ParsedCsv summary(ReadText(place / "run/summary.csv"));
   EXPECT_EQ(summary.Text(1, "status"), "converged");
-  EXPECT_EQ(summary.Text(2, "status"), "not_run");
+  EXPECT_EQ(summary.Text(2, "status"), "invalid_input");
   for (const char* format : {"csv", "hrpsys"}) {
     const Outcome exported = Halfstep(place.path(), {"export", "run", "--format", format, "--out",
                                                      format, "--method", "dichotomy"});

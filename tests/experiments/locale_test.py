@@ -58,7 +58,7 @@ def commands():
                  "nlopt/ccsaq, halfstep/sqp]", "--set", "smoothing.optimizer.heights=true"],
                 ["run", *walk, "smoothing.methods=[dichotomy]", "--set",
                  "smoothing.margins.clearance_m=0.0045", "--out", "bar"],
-                ["smooth", "fig3", "--method", "coordinate", "--given",
+                ["smooth", "fig3", "--method", "dichotomy/uniform", "--given",
                  "fig3/dichotomy/overlaps.csv", "--out", "smoothed"],
                 ["certify", "bar"], ["verify", "bar", "--tolerance", "0.0015"],
                 ["compare", "bar", "fig3", "--out", "compared"],

@@ -58,34 +58,6 @@ TEST(EpisodeTest, ArrivesWhereNothingHappens) {
   ExpectExecutedWhatWasHandedOver(played.episode);
 }
 
-// `refine`: when nothing else is to be done, a program moves what has not begun. Each of its walks
-// takes over without a change of what has begun, and is proved. It need not pay: on so short a way
-// the walk lasts as long.
-TEST(EpisodeTest, AProgramMayMoveTheHalfStepsToCome) {
-  LiveConfig config = SmallWorld::Get().config;
-  const PlayedEpisode plain = Play({}, config);
-  config.live.refine = true;
-  config.experiment.smoothing.optimizer.options.program.parameters.durations = true;
-  const PlayedEpisode refined = Play({}, config);
-  const Episode& episode = refined.episode;
-  EXPECT_EQ(episode.ending, EpisodeEnding::kArrived);
-  EXPECT_EQ(CountOf(episode, "stopped"), 0);
-  EXPECT_LT(episode.end, 1.05 * plain.episode.end);
-  ExpectExecutedWhatWasHandedOver(episode);
-  const SmallWorld& small = SmallWorld::Get();
-  const SafetyCheck safety(small.place.robot, {}, config.experiment);
-  const auto by_program = [](const ExecutedWalk& walk) {
-    return walk.reason.find("by a program") != std::string::npos;
-  };
-  EXPECT_TRUE(std::ranges::any_of(episode.walks, by_program));
-  EXPECT_TRUE(std::ranges::none_of(plain.episode.walks, by_program));
-  for (const ExecutedWalk& handed_over : episode.walks) {
-    const SuperposedWalk walk = handed_over.plan.Walk();
-    const Safety proved = safety.OfRobot(walk, 0, walk.num_half_steps() - 1);
-    EXPECT_EQ(proved.through, walk.num_half_steps() - 1) << handed_over.reason;
-  }
-}
-
 TEST(EpisodeTest, FindsAnotherWayWhenABarJumpsIntoIt) {
   const PlayedEpisode played = BarInTheWay();
   const Episode& episode = played.episode;

@@ -31,20 +31,6 @@ Real RampedSecond(Real x, Real r) {
   return x <= r ? 4 / (r * (15 - 14 * r)) * SmoothSecond(x / (2 * r)) : Real(0);
 }
 
-// The cubic B-spline on [0, 4] and two derivatives, as a sum of truncated powers.
-std::array<Real, 3> Spline(Real u) {
-  constexpr std::array<int, 5> kBinomial = {1, -4, 6, -4, 1};
-  std::array<Real, 3> b{};
-  if (u >= 4) return b;
-  for (int j = 0; j < 5 && u > j; ++j) {
-    const Real x = u - j, sign = kBinomial[static_cast<size_t>(j)];
-    b[0] += sign * x * x * x / 6;
-    b[1] += sign * x * x / 2;
-    b[2] += sign * x;
-  }
-  return b;
-}
-
 int FirstOf(int foot) { return 5 + 4 * foot; }
 
 }  // namespace
@@ -96,12 +82,6 @@ ClosedFormWalk::ClosedFormWalk(const WalkPlan& plan) {
     half_step.from = up ? on_floor : via;
     const Quantities& to = up ? via : on_floor;
     for (size_t q = 0; q < to.size(); ++q) half_step.change[q] = to[q] - half_step.from[q];
-    if (!plan.sways.empty()) {
-      const Real c = Cos(Real(support.yaw)), s = Sin(Real(support.yaw));
-      for (const Eigen::Vector2d& d : plan.sways[i]) {
-        half_step.sway.push_back({c * d.x() - s * d.y(), s * d.x() + c * d.y()});
-      }
-    }
     half_steps_.push_back(half_step);
     if (i < plan.overlaps.size()) begin += T - Real(plan.overlaps[i]);
   }
@@ -128,17 +108,6 @@ void ClosedFormWalk::Fractionize(const HalfStep& h, Real tau, Jet* jet) const {
                SmoothSecond(height) / (TT * height_window * height_window)};
 }
 
-void ClosedFormWalk::AddSway(const HalfStep& h, Real tau, std::array<Quantities, 3>* walk) {
-  if (tau <= 0 || tau >= h.T) return;
-  for (size_t k = 0; k < h.sway.size(); ++k) {
-    const std::array<Real, 3> b = Spline(12 * tau / h.T - static_cast<Real>(k));
-    Real rate = 1;
-    for (size_t d = 0; d < 3; ++d, rate *= 12 / h.T) {
-      for (size_t axis = 0; axis < 2; ++axis) (*walk)[d][axis] += h.sway[k][axis] * b[d] * rate;
-    }
-  }
-}
-
 Real ClosedFormWalk::Of(const Fractions& fractions, int quantity) {
   if (quantity < 2) return fractions.com;
   if (quantity < 4) return fractions.zmp;
@@ -162,7 +131,6 @@ WalkState ClosedFormWalk::At(Real t) const {
         walk[d][k] += h.change[k] * Of(jet[d], q);
       }
     }
-    AddSway(h, t - h.begin, &walk);
   }
   const auto pack = [](const Quantities& x) {
     const auto d = [&x](size_t q) { return static_cast<double>(x[q]); };

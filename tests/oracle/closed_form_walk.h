@@ -47,9 +47,6 @@ struct WalkPlan {
   std::vector<double> zmp_shifts, zmp_bump_ramps, via_alongs;
   /// Of step j: its landing's place seen from where it is planned; empty: it is there.
   std::vector<FloorPose> footsteps;
-  /// Of half-step i: nine places of the support sole's frame that its sway is made of [m]; empty:
-  /// nothing sways.
-  std::vector<std::vector<Eigen::Vector2d>> sways;
 
   double via_lateral_of(size_t i) const {  ///< of half-step i
     return via_laterals.empty() ? via_lateral : via_laterals[i / 2];
@@ -119,7 +116,6 @@ class ClosedFormWalk {
     Real sigma1 = 0, sigma2 = 0;                         // between which the ZMP shifts
     Real delay = 0, ramp = 0, share = 0, bump_ramp = 1;  // as the plan has them
     Quantities from{}, change{};
-    std::vector<std::array<Real, 2>> sway = {};  // in W
     RestToRestClosedForm profile;
   };
   // Profiles of com, zmp, waist, foot, height and their rates.
@@ -128,7 +124,6 @@ class ClosedFormWalk {
   };
   using Jet = std::array<Fractions, 3>;  // value, rate, second
   void Fractionize(const HalfStep& half_step, Real tau, Jet* jet) const;
-  static void AddSway(const HalfStep& half_step, Real tau, std::array<Quantities, 3>* walk);
   void CutIntoStretches();
   static Real Of(const Fractions& fractions, int quantity);
 

@@ -52,7 +52,7 @@ class Draw {
 
 /// A plan of one to three steps with random values of every family of parameters; one in five is
 /// 900 m away with yaws of many turns. Half of the plans have a form a step or half-step, some of
-/// them rest at junctions, sway, or have footsteps that are moved.
+/// them rest at junctions, or have footsteps that are moved.
 WalkPlan DrawPlan(const PlainRobot& robot, Draw* draw);
 /// A step towards a plan that is feasible: slower, forms nearer to the plain ones, less moved.
 void Calm(WalkPlan* plan);

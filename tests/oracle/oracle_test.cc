@@ -46,7 +46,7 @@ TEST(RestToRestClosedFormTest, KeepsTheLipmAndItsEnds) {
 
 TEST(ClosedFormWalkTest, AgreesWithTheProject) {
   const PlainRobot robot(kRobot);
-  for (unsigned seed = 0; seed < 30; ++seed) {  // with sways and rests among them
+  for (unsigned seed = 0; seed < 30; ++seed) {  // with rests among them
     Draw draw(seed);
     const WalkPlan plan = DrawPlan(robot, &draw);
     const ClosedFormWalk oracle(plan);

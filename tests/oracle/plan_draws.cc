@@ -20,7 +20,7 @@ double NaturalBound(const WalkPlan& plan, size_t i) {
 
 namespace {
 
-// Every half-step in a form of its own; footsteps that are moved; a waist that sways.
+// Every half-step in a form of its own; footsteps that are moved.
 void DrawForms(double width, Draw* draw, WalkPlan* plan) {
   const size_t n = plan->durations.size();
   if (draw->Chance(0.6)) {
@@ -39,15 +39,6 @@ void DrawForms(double width, Draw* draw, WalkPlan* plan) {
     for (size_t j = 0; j < n / 2; ++j) {
       plan->footsteps.push_back({draw->Uniform(-0.1, 0.1) * width,
                                  draw->Uniform(-0.05, 0.1) * width, draw->Uniform(-0.1, 0.1)});
-    }
-  }
-  if (draw->Chance(0.2)) {
-    for (size_t i = 0; i < n; ++i) {
-      auto& sway = plan->sways.emplace_back();
-      for (int k = 0; k < 9; ++k) {
-        const double x = draw->Uniform(-0.02, 0.02);
-        sway.emplace_back(width * x, width * draw->Uniform(-0.02, 0.02));
-      }
     }
   }
 }
@@ -129,9 +120,6 @@ void Calm(WalkPlan* plan) {
   towards(0.1, &plan->zmp_shifts);
   for (FloorPose& move : plan->footsteps) {
     move = {0.5 * move.x, 0.5 * move.y, 0.5 * move.yaw};
-  }
-  for (auto& sway : plan->sways) {
-    for (Eigen::Vector2d& d : sway) d *= 0.5;
   }
 }
 

@@ -20,18 +20,13 @@ HalfStepSequence ToSequence(const WalkPlan& plan) {
                          .via_height = step.via_height,
                          .duration = step.duration});
   }
-  HalfStepSequence sequence =
-      MakeSequence({ToPose(plan.start[0]), ToPose(plan.start[1])}, footsteps, plan.via_lateral,
-                   {.shift = plan.shift,
-                    .horizontal_delay = plan.horizontal_delay,
-                    .bump_ramp = plan.bump_ramp,
-                    .foot_ramp = plan.foot_ramp,
-                    .lift_share = plan.lift_share},
-                   {.com_height = plan.com_height});
-  for (size_t i = 0; i < plan.sways.size(); ++i) {
-    sequence.half_steps[i].half_step.sway.controls = plan.sways[i];
-  }
-  return sequence;
+  return MakeSequence({ToPose(plan.start[0]), ToPose(plan.start[1])}, footsteps, plan.via_lateral,
+                      {.shift = plan.shift,
+                       .horizontal_delay = plan.horizontal_delay,
+                       .bump_ramp = plan.bump_ramp,
+                       .foot_ramp = plan.foot_ramp,
+                       .lift_share = plan.lift_share},
+                      {.com_height = plan.com_height});
 }
 
 HomotopyParameters ToParameters(const WalkPlan& plan) {

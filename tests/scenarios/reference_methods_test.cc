@@ -6,14 +6,15 @@
 #include <cmath>
 #include <stop_token>
 
-#include "smoothing/methods/coordinate_ascent.h"
 #include "smoothing/methods/dichotomy.h"
-#include "smoothing/methods/dynamic_program.h"
-#include "smoothing/methods/reference_search.h"
 #include "smoothing/methods/smoother_registry.h"
 #include "smoothing/methods/uniform_scan.h"
 #include "smoothing/program/overlap_program.h"
 #include "smoothing/proof/certified_feasibility.h"
+#include "tests/benchmarks/coordinate_ascent.h"
+#include "tests/benchmarks/dynamic_program.h"
+#include "tests/benchmarks/reference_search.h"
+#include "tests/benchmarks/reference_smoothers.h"
 #include "tests/scenarios/load_experiment.h"
 #include "tests/smoothing/fake_feasibility.h"
 #include "tests/smoothing/smoothed.h"
@@ -137,6 +138,7 @@ TEST_F(ReferenceMethods, StoppedTheyKeepWhatWasFeasible) {
 // From the question on at which a stop is asked for, or the deadline has passed, no method asks
 // many more: it finishes what it is at.
 TEST_F(ReferenceMethods, StoppedInTheMiddleTheyAskLittleMore) {
+  RegisterReferenceSmoothers();
   SmootherOptions options;
   options.optimizer.program.parameters = {.heights = true, .durations = true};
   for (const char* name : {"coordinate", "dichotomy/uniform", "reference"}) {
@@ -166,6 +168,38 @@ TEST_F(ReferenceMethods, StoppedInTheMiddleTheyAskLittleMore) {
     EXPECT_NE(result.ending, opt::Ending::kConverged) << name << ": " << result.message;
     options.optimizer.deadline = 30.0;
   }
+}
+
+TEST_F(ReferenceMethods, TheyDoNotMoveWhatIsFixed) {
+  using Family = HomotopyParameter::Family;
+  const FakeFeasibility test = LowFeetMayHurry(0.8);
+  const HomotopyParameters planned = PlannedMotion(sequence_);
+  const WalkProblem problem = ProblemOf(
+      sequence_, test,
+      {{{Family::kOverlap, 2}, 0.1}, {{Family::kDuration, 0}}, {{Family::kHeightScale, 1}, 0.5}});
+  const ParameterChoice both{.heights = true, .durations = true};
+  ReferenceOptions grid{.parameters = both};
+  grid.period = 0.1;
+  grid.max_rounds = 2;
+  for (const SmoothingResult& result : {Smoothed(CoordinateAscent, problem, {.parameters = both}),
+                                        Smoothed(ReferenceSearch, problem, grid)}) {
+    EXPECT_TRUE(result.feasible) << result.message;
+    EXPECT_LT(result.cost, DurationOf(problem.Start()));
+    EXPECT_EQ(result.parameters.overlaps[2], 0.1);
+    EXPECT_EQ(result.parameters.durations[0], planned.durations[0]);
+    EXPECT_EQ(result.parameters.height_scales[1], 0.5);
+    EXPECT_TRUE(result.junctions[2].fixed);
+    EXPECT_FALSE(result.junctions[1].fixed);
+  }
+}
+
+// Stretches are looked at apart from each other.
+TEST(GridReferenceTest, DoesNotRunAmongObstaclesThatMove) {
+  const Experiment e = LoadExperiment("crossing");
+  const CertifiedFeasibility test(MarginEvaluator(e.robot, e.scene, e.config.smoothing.limits), {});
+  const SmoothingResult result = Smoothed(ReferenceSearch, ProblemOf(e.sequence, test), {});
+  EXPECT_EQ(result.ending, opt::Ending::kNotRun);
+  EXPECT_NE(result.message.find("obstacles that move"), std::string::npos) << result.message;
 }
 
 // Every combination of a few values, each looked at as a whole.

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "smoothing/methods/dichotomy.h"
-#include "smoothing/methods/reference_search.h"
 #include "smoothing/program/overlap_variables.h"
 #include "smoothing/proof/certified_feasibility.h"
 #include "smoothing/proof/stretch_proofs.h"
@@ -105,13 +104,6 @@ TEST_F(MovingObstacles, AnInstantDependsOnAllThatCameBefore) {
   const OverlapVariables resting(sequence, table), moving(sequence, table, false);
   EXPECT_EQ(moving.Band(0), resting.Band(0));
   EXPECT_EQ(moving.Band(8).size(), resting.Band(8).size() + 5 + 2 + 5);
-}
-
-TEST_F(MovingObstacles, AreRefusedByWhatCannotDealWithThem) {
-  const MarginEvaluator evaluator(Hrp2(), BallOf(0.1), {});
-  const FakeFeasibility test(evaluator,
-                             [](const HomotopyParameters&) { return Verdict::kFeasible; });
-  EXPECT_EQ(Smoothed(ReferenceSearch, ProblemOf(sequence_, test), {}).ending, opt::Ending::kNotRun);
 }
 
 }  // namespace

@@ -6,9 +6,7 @@
 #include <algorithm>
 #include <string>
 
-#include "smoothing/methods/coordinate_ascent.h"
 #include "smoothing/methods/dichotomy.h"
-#include "smoothing/methods/reference_search.h"
 #include "smoothing/methods/uniform_scan.h"
 #include "smoothing/program/overlap_variables.h"
 #include "tests/smoothing/fake_feasibility.h"
@@ -116,14 +114,9 @@ TEST_F(ParameterTableTest, NoMethodMovesWhatIsFixed) {
                                          {{Family::kDuration, 0}},
                                          {{Family::kHeightScale, 1}, 0.5},
                                          {{Family::kSupportPoint, 2}, 0.03}});
-  const ParameterChoice all{.heights = true, .durations = true};
-  ReferenceOptions reference{.parameters = all};
-  reference.period = 0.1;
-  reference.max_rounds = 2;
   for (const SmoothingResult& result :
-       {Smoothed(Dichotomy, problem, {}), Smoothed(CoordinateAscent, problem, {.parameters = all}),
-        Smoothed(UniformScan, problem, {.coarse = 0.1, .fine = 0.05}),
-        Smoothed(ReferenceSearch, problem, reference)}) {
+       {Smoothed(Dichotomy, problem, {}),
+        Smoothed(UniformScan, problem, {.coarse = 0.1, .fine = 0.05})}) {
     EXPECT_TRUE(result.feasible) << result.message;
     EXPECT_LT(result.cost, DurationOf(problem.Start()));
     EXPECT_EQ(result.parameters.overlaps[2], 0.1);

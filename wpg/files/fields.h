@@ -97,8 +97,8 @@ class Fields {
   /// Complains about `old_key`, the former name of `new_key`, where the file still has it. Ignored
   /// by visitors that do not read.
   virtual void Renamed(const char* /*old_key*/, const char* /*new_key*/) {}
-  /// Complains about `key`, which other files have and not this one, where it is there. Ignored by
-  /// visitors that do not read.
+  /// Complains about `key`, which other files or older versions have and not this one, where it is
+  /// there. Ignored by visitors that do not read.
   virtual void Misplaced(const char* /*key*/, const std::string& /*what*/) {}
   /// The keys that this group has in the file being read, known or not, in its order; none for
   /// visitors that do not read. For maps whose keys are names that the user chooses.

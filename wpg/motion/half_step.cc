@@ -61,7 +61,6 @@ HalfStep HalfStep::Mirrored() const {
   HalfStep mirrored = *this;
   mirrored.support = Opposite(support);
   mirrored.X_SF = X_SF.Mirrored();
-  mirrored.sway = sway.Mirrored();
   return mirrored;
 }
 
@@ -193,15 +192,6 @@ HalfStepThirds HalfStepProfiles::ThirdRanges(double from, double to) const {
           .height = to_time(height_.ThirdRange(a, b))};
 }
 
-void AddSway(const std::array<ProfileJet, 2>& sway, WalkJet* jet) {
-  for (const int axis : {0, 1}) {
-    const ProfileJet& d = sway[static_cast<size_t>(axis)];
-    jet->value[kComX + axis] += d.value;
-    jet->first[kComX + axis] += d.first;
-    jet->second[kComX + axis] += d.second;
-  }
-}
-
 WalkJet Evaluate(const HalfStep& half_step, const HalfStepProfiles& profiles, double tau) {
   const WalkState start = half_step.Start();
   const WalkState delta = half_step.End() - start;
@@ -212,7 +202,6 @@ WalkJet Evaluate(const HalfStep& half_step, const HalfStepProfiles& profiles, do
     x.first[q] = jet.of(q).first * delta[q];
     x.second[q] = jet.of(q).second * delta[q];
   }
-  if (!half_step.sway.none()) AddSway(half_step.sway.At(tau, half_step.duration), &x);
   return x;
 }
 

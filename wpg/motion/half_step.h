@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "wpg/geometry/footprint.h"
@@ -10,7 +9,6 @@
 #include "wpg/motion/ramped_step.h"
 #include "wpg/motion/rest_to_rest.h"
 #include "wpg/motion/smoothstep.h"
-#include "wpg/motion/waist_sway.h"
 #include "wpg/motion/walk_state.h"
 
 namespace halfstep {
@@ -63,7 +61,6 @@ struct HalfStep {
   double via_lateral = 0.24;  ///< distance of the via point from the support sole's centre [m].
   double via_along = 0.0;     ///< how far the via point is ahead of that centre, along its x [m]
   HalfStepShape shape;        ///< times and forms, as fractions of T
-  WaistSway sway = {};  ///< added to the CoM, and so to the waist; the ZMP stays the planned one.
 
   Side swing() const { return Opposite(support); }  ///< the foot that moves
   /// The pose X_SV of the via point seen from above: there the swing foot is between up and down.
@@ -141,9 +138,6 @@ class HalfStepProfiles {
   Smoothstep height_;
   RestToRest shift_;
 };
-
-/// Adds a sway to the CoM of `jet`; `sway` and `jet` in the same frame.
-void AddSway(const std::array<ProfileJet, 2>& sway, WalkJet* jet);
 
 /// All quantities of an isolated half-step at local time τ [s], clamped to [0, T], in S.
 WalkJet Evaluate(const HalfStep& half_step, const HalfStepProfiles& profiles, double tau);

@@ -13,10 +13,6 @@ struct Lipm {
 
   /// ω = √(g/z_c) [1/s].
   double omega() const { return std::sqrt(gravity / com_height); }
-  /// p = c − (z_c/g)·c̈ [m].
-  double Zmp(double com, double com_acceleration) const {
-    return com - com_height / gravity * com_acceleration;
-  }
 };
 
 }  // namespace halfstep

@@ -6,7 +6,7 @@
 
 namespace halfstep {
 
-/// Options of the method `coordinate`.
+/// Options of CoordinateAscent.
 struct CoordinateAscentOptions {
   ParameterChoice parameters;  ///< coordinates beside the overlaps; durations only fall
   int passes = 10;             ///< ≥ 1, at most

@@ -6,7 +6,7 @@
 
 namespace halfstep {
 
-/// Options of the methods `reference/…`.
+/// Options of ReferenceSearch.
 struct ReferenceOptions {
   ParameterChoice parameters;  ///< searched beside the overlaps
   double period = 0.01;        ///< between the instants at which the grid is checked [s] > 0

@@ -1,4 +1,4 @@
-#include "smoothing/methods/reference_search.h"
+#include "tests/benchmarks/reference_search.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,9 +8,9 @@
 
 #include "smoothing/methods/accepted_in_parts.h"
 #include "smoothing/methods/dichotomy.h"
-#include "smoothing/methods/dynamic_program.h"
 #include "smoothing/methods/incumbent.h"
 #include "smoothing/proof/stretch_proofs.h"
+#include "tests/benchmarks/dynamic_program.h"
 #include "wpg/check.h"
 #include "wpg/files/plain_locale.h"
 

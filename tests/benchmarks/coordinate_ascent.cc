@@ -1,4 +1,4 @@
-#include "smoothing/methods/coordinate_ascent.h"
+#include "tests/benchmarks/coordinate_ascent.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "smoothing/methods/dynamic_program.h"
+#include "tests/benchmarks/dynamic_program.h"
 #include "smoothing/walk/footstep_families.h"
 
 #include <algorithm>

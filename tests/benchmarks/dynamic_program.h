@@ -22,7 +22,18 @@ struct StretchChoice {
 /// k is up, k − 3; the foot before the last is down. So one pass over τ with the choices of these
 /// half-steps finds the longest stretch without a violation, whatever comes later, and with it
 /// which overlaps with k + 1 are allowed. Exact for the lists and the instants; nothing is claimed
-/// about other values or between instants. Source: smoothing/README.md, "References".
+/// about other values or between instants.
+///
+/// Why no more is under way: up → down overlaps are at most σ₁ of both durations, down → up ones at
+/// most the shorter duration. For an up half-step a that gives
+///
+///     t_{a+3} − e_a = (T_{a+1} − Δ_{a+1}) + (T_{a+2} − Δ_{a+2}) − Δ_a
+///                   ≥ (T_{a+1} − Δ_{a+1}) + σ₂T_{a+2} − σ₁T_{a+1},
+///
+/// which is at least (σ₂ − σ₁)T_{a+2}, whichever of T_{a+1} and T_{a+2} is the shorter: a has ended
+/// before a + 3 begins. A down half-step may still be under way then, and has ended before the one
+/// after. So the states are the choices of k − 3 … k, of the oldest its duration alone; walks that
+/// cannot become shorter than `duration` any more are dropped.
 class DynamicProgram {
  public:
   using Choices = std::vector<std::vector<StretchChoice>>;  ///< by half-step
