@@ -20,7 +20,8 @@ class Corridor {
   }
 
   StepsToGo operator()(const StepState& state) const {
-    const Pose2 X_WM = state.X_WS * Pose2{0.0, -0.5 * Sign(state.support) * feet_apart_, 0.0};
+    const Pose2 X_WM =
+        state.X_WS.Planar() * Pose2{0.0, -0.5 * Sign(state.support) * feet_apart_, 0.0};
     double least = std::numeric_limits<double>::infinity();
     size_t nearest = 0;
     for (size_t j = 0; j < path_.size(); ++j) {
@@ -53,7 +54,8 @@ PlanResult BoundingBoxPlanner::Plan(const PlanRequest& request, std::mt19937_64&
       [&](const std::vector<StepState>& starts, StepGraph* graph,
           PlanMonitor* monitor) -> SearchEnd {
         const BoxPath box =
-            FindBoxPath(world_, options_.grid, MidFeet(request.start[0], request.start[1]),
+            FindBoxPath(world_, options_.grid,
+                        MidFeet(request.start[0].LevelPose(), request.start[1].LevelPose()),
                         request.goal, graph->workspace(), monitor);
         if (box.stopped) return {.exhausted = false};
         if (box.start_blocked) return {true, "the box around the robot stands in an obstacle"};

@@ -16,7 +16,7 @@
 #include "planner/swept/box_tree_query.h"
 #include "planner/swept/obstacle_places.h"
 #include "planner/swept/swept_volumes.h"
-#include "wpg/geometry/footprint.h"
+#include "wpg/geometry/foothold.h"
 
 namespace halfstep {
 
@@ -36,15 +36,15 @@ class SweptVolumeQuery : public HalfStepQuery {
                    const Scene& scene, double no_step = 0.0,
                    double until = std::numeric_limits<double>::infinity());
 
-  bool DownIsFree(int i, Side support, const Footprint& X_WS) const override;
-  bool UpIsFree(int i, Side support, const Footprint& X_WS) const override;
+  bool DownIsFree(int i, Side support, const Foothold& X_WS) const override;
+  bool UpIsFree(int i, Side support, const Foothold& X_WS) const override;
 
   /// A distance [m] from the volume (so from the robot: the baked clearance more) that is free of
   /// obstacles in all directions of the axes; 0 when the half-step is not free. Found by halving to
   /// 1 mm; at most `horizon` [m]. No-step areas do not count.
-  double DownClearance(int i, Side support, const Footprint& X_WS, double horizon) const;
+  double DownClearance(int i, Side support, const Foothold& X_WS, double horizon) const;
   /// The same of the up half-step.
-  double UpClearance(int i, Side support, const Footprint& X_WS, double horizon) const;
+  double UpClearance(int i, Side support, const Foothold& X_WS, double horizon) const;
 
   /// Moves one obstacle of the scene; the others stay as they are prepared, and so does how far it
   /// is grown. Precondition: it has no waypoints (std::logic_error).
@@ -83,7 +83,7 @@ class SweptVolumeQuery : public HalfStepQuery {
     const std::optional<BoxTree>& volume;
     const Bounds& bounds;
     bool mirrored;
-    Footprint X_WS;
+    Foothold X_WS;
     double cos, sin;  // of its yaw
   };
 
@@ -93,8 +93,8 @@ class SweptVolumeQuery : public HalfStepQuery {
   void PlantTree(const std::vector<Upright>& cylinders);
   void Put(size_t slot, const Upright& cylinder);
   static std::vector<Bounds> BoundsOf(const std::vector<std::optional<BoxTree>>& volumes);
-  Placed Down(int i, Side support, const Footprint& X_WS) const;
-  Placed Up(int i, Side support, const Footprint& X_WS) const;
+  Placed Down(int i, Side support, const Foothold& X_WS) const;
+  Placed Up(int i, Side support, const Foothold& X_WS) const;
   bool IsFree(const Placed& placed, double extra) const;
   // By which a volume's bounds are widened, with what the rounding of float coordinates needs.
   double Slack(const Placed& placed, double extra) const;

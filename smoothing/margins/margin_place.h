@@ -10,7 +10,7 @@
 #include "smoothing/margins/body_clearances.h"
 #include "smoothing/margins/body_heights.h"
 #include "smoothing/margins/rounding.h"
-#include "wpg/geometry/footprint.h"
+#include "wpg/geometry/pose2.h"
 #include "wpg/robot/robot_model.h"
 #include "wpg/workers.h"
 
@@ -43,7 +43,7 @@ struct MarginPlace {
 struct MarginScratch {
   /// The no-step area that was nearest to a sole where it stood last.
   struct Standing {
-    Footprint X_WF;                ///< where the sole stood
+    Pose2 X_WF;                    ///< where the sole stood, seen from above
     NoStepAreas::Nearest nearest;  ///< the area nearest to it there
     bool known = false;            ///< whether it has stood
   };

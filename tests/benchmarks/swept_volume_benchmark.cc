@@ -94,7 +94,7 @@ Scene Room(Kind kind) {
 struct Asked {
   int element;
   Side support;
-  Footprint X_WS;
+  Foothold X_WS;
 };
 std::vector<Asked> Questions(int elements, int count) {
   SweptDraw draw(12);
@@ -102,7 +102,7 @@ std::vector<Asked> Questions(int elements, int count) {
   for (int i = 0; i < count; ++i) {
     const int element = draw.Index(elements);
     const Side support = draw.AnySide();
-    questions.push_back({element, support, draw.Floor(kRoom)});
+    questions.push_back({element, support, Foothold::Level(draw.Floor(kRoom))});
   }
   return questions;
 }

@@ -89,7 +89,7 @@ TEST(QueryOracle, AnswersAsTheSolidBoxesDo) {
       p -= (nearest - 0.5e-4) * way;
     }
     const bool mirrored = trial % 2 == 1;
-    const Footprint X_WS = draw.Floor(0.5);
+    const Foothold X_WS = Foothold::Level(draw.Floor(0.5));
     const auto ask = [&](const Vector3d& at) {
       Isometry3d X_SO = Posed(R, at);
       Obstacle placed{"near", shape, X_SO};

@@ -219,7 +219,8 @@ HalfStepSequence StraightWalk(const Experiment& e, int steps) {
   std::vector<Footstep> footsteps;
   for (int i = 1; i <= steps; ++i) {
     const Side side = i % 2 == 0 ? Side::kLeft : Side::kRight;
-    footsteps.push_back({.side = side, .X_WF = {0.1 * i, Sign(side) * 0.105, 0.0}});
+    footsteps.push_back(
+        {.side = side, .X_WF = Foothold::Level({0.1 * i, Sign(side) * 0.105, 0.0})});
   }
   const HalfStep& like = e.sequence.half_steps.front().half_step;
   return MakeSequence(StandingFeet(), footsteps, like.via_lateral, like.shape, e.sequence.lipm);

@@ -35,9 +35,10 @@ RobotModel WithBall(const std::string& body, double radius, double height) {
   RobotModel robot = Hrp2();
   const int of = BodyNamed(robot, body);
   const HalfStepSequence sequence = MakeSequence(
-      {Pose2{0, 0.5 * robot.standing_width, 0}, Pose2{0, -0.5 * robot.standing_width, 0}},
-      {{.side = Side::kRight, .X_WF = {0, -0.5 * robot.standing_width, 0}}}, 0.24, {},
-      {.com_height = robot.com_height});
+      {Foothold::Level({0, 0.5 * robot.standing_width, 0}),
+       Foothold::Level({0, -0.5 * robot.standing_width, 0})},
+      {{.side = Side::kRight, .X_WF = Foothold::Level({0, -0.5 * robot.standing_width, 0})}}, 0.24,
+      {}, {.com_height = robot.com_height});
   const SuperposedWalk standing(sequence, PlannedMotion(sequence));
   const Posture posture = SolvePosture(robot, standing.At(0.0).value);
   RobotBody ball = robot.bodies[static_cast<size_t>(of)];
@@ -54,10 +55,11 @@ RobotModel WithBall(const std::string& body, double radius, double height) {
 
 HalfStepSequence TwoSteps(const RobotModel& robot) {
   const double y = 0.5 * robot.standing_width;
-  return MakeSequence({Pose2{0, y, 0}, Pose2{0, -y, 0}},
-                      {{.side = Side::kRight, .X_WF = {0.2, -y, 0}, .duration = 1.2},
-                       {.side = Side::kLeft, .X_WF = {0.2, y, 0}, .duration = 1.2}},
-                      0.24, {}, {.com_height = robot.com_height});
+  return MakeSequence(
+      {Foothold::Level({0, y, 0}), Foothold::Level({0, -y, 0})},
+      {{.side = Side::kRight, .X_WF = Foothold::Level({0.2, -y, 0}), .duration = 1.2},
+       {.side = Side::kLeft, .X_WF = Foothold::Level({0.2, y, 0}), .duration = 1.2}},
+      0.24, {}, {.com_height = robot.com_height});
 }
 
 Feasibility Certify(const RobotModel& robot, const Scene& scene, const MarginLimits& limits,
@@ -337,7 +339,7 @@ TEST(Ground, RowsHaveDerivatives) {
 }
 
 // An area beside the place where the right foot lands, `gap` [m] ahead of what it touches there.
-Scene AheadOf(const RobotModel& robot, const Footprint& X_WF, double gap) {
+Scene AheadOf(const RobotModel& robot, const Foothold& X_WF, double gap) {
   Scene scene;
   Eigen::Matrix2Xd area(2, 4);
   const double x = X_WF.x + robot.sole_outline.row(0).maxCoeff() + gap;
@@ -404,9 +406,9 @@ TEST(NoStep, CountsForSolesThatStandOnly) {
   const RobotModel robot = Hrp2();
   const double y = 0.5 * robot.standing_width;
   const HalfStepSequence sequence =
-      MakeSequence({Pose2{0, y, 0}, Pose2{-0.2, -y, 0}},
-                   {{.side = Side::kRight, .X_WF = {0.2, -y, 0}, .duration = 2.0}}, 0.24, {},
-                   {.com_height = robot.com_height});
+      MakeSequence({Foothold::Level({0, y, 0}), Foothold::Level({-0.2, -y, 0})},
+                   {{.side = Side::kRight, .X_WF = Foothold::Level({0.2, -y, 0}), .duration = 2.0}},
+                   0.24, {}, {.com_height = robot.com_height});
   const SuperposedWalk walk(sequence, Overlapped(sequence, 0.3));
   Scene scene;
   Eigen::Matrix2Xd area(2, 4);

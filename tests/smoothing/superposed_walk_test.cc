@@ -142,9 +142,9 @@ TEST(SuperposedWalk, WithoutOverlapItIsTheConcatenationOfIsolatedHalfSteps) {
 TEST(SuperposedWalk, WithoutOverlapOnASupportSoleAtTheOriginItIsTheHalfStepBitForBit) {
   WalkDraw draw(25);
   for (int i = 0; i < 100; ++i) {
-    const std::array<Footprint, 2> start = {Pose2{}, Pose2{0, -0.21, 0}};
-    const Footprint X_WF{draw.Uniform(-0.1, 0.2), draw.Uniform(-0.3, -0.2),
-                         draw.Uniform(-0.3, 0.3)};
+    const std::array<Foothold, 2> start = {Foothold::Level({}), Foothold::Level({0, -0.21, 0})};
+    const Foothold X_WF = Foothold::Level(
+        {draw.Uniform(-0.1, 0.2), draw.Uniform(-0.3, -0.2), draw.Uniform(-0.3, 0.3)});
     const HalfStepSequence sequence =
         MakeSequence(start, {{.side = Side::kRight, .X_WF = X_WF}}, 0.24, {}, {});
     const SuperposedWalk walk(sequence, PlannedMotion(sequence));

@@ -145,7 +145,7 @@ TEST(WaistSway, MirrorsAndTurnsAsItsHalfStepDoes) {
   SequenceDraw draw(4);
   const Lipm lipm;
   HalfStep half_step;
-  half_step.X_SF = {0.1, -0.2, 0.1};
+  half_step.X_SF = Foothold::Level({0.1, -0.2, 0.1});
   half_step.sway = RandomSway(&draw);
   const HalfStepProfiles profiles(half_step.kind, half_step.shape, half_step.duration, lipm);
   HalfStep still = half_step;
@@ -185,7 +185,8 @@ TEST(Compensation, BringsTheZmpOfIsolatedHalfStepsNearer) {
   const Lipm lipm{.com_height = robot.com_height};
   for (const HalfStepKind kind : {HalfStepKind::kUp, HalfStepKind::kDown}) {
     const double ahead = kind == HalfStepKind::kUp ? -0.2 : 0.2;
-    HalfStep half_step{.kind = kind, .X_SF = {ahead, -0.21, 0.1}, .duration = 2.0, .shape = {}};
+    HalfStep half_step{
+        .kind = kind, .X_SF = Foothold::Level({ahead, -0.21, 0.1}), .duration = 2.0, .shape = {}};
     const WaistSway one = Compensation(robot, half_step, lipm, 1),
                     two = Compensation(robot, half_step, lipm, 2);
     ASSERT_FALSE(one.none());
@@ -212,7 +213,7 @@ TEST(Compensation, BringsTheZmpOfIsolatedHalfStepsNearer) {
 TEST(Compensation, OfAMirroredHalfStepIsMirrored) {
   const RobotModel robot = WithSymmetricMasses(Hrp2());
   const Lipm lipm{.com_height = robot.com_height};
-  const HalfStep half_step{.X_SF = {-0.1, -0.2, -0.1}, .shape = {}};
+  const HalfStep half_step{.X_SF = Foothold::Level({-0.1, -0.2, -0.1}), .shape = {}};
   const WaistSway sway = Compensation(robot, half_step, lipm, 2).Mirrored(),
                   mirrored = Compensation(robot, half_step.Mirrored(), lipm, 2);
   for (size_t k = 0; k < sway.controls.size(); ++k) {
@@ -224,7 +225,7 @@ TEST(Compensation, LeavesALegHalfOfWhatItHasLeft) {
   const RobotModel robot = Hrp2();
   const Lipm lipm{.com_height = robot.com_height};
   // The swing foot is so far behind that its leg is nearly stretched.
-  HalfStep half_step{.X_SF = {-0.274, -0.17, 0}, .duration = 2.0, .shape = {}};
+  HalfStep half_step{.X_SF = Foothold::Level({-0.274, -0.17, 0}), .duration = 2.0, .shape = {}};
   const auto least_reach = [&] {
     const HalfStepProfiles profiles(half_step.kind, half_step.shape, half_step.duration, lipm);
     double least = 1;
@@ -243,7 +244,8 @@ TEST(Compensation, LeavesALegHalfOfWhatItHasLeft) {
 TEST(Compensation, NeedsMassesAndIsNothingWithoutIterations) {
   RobotModel robot = Hrp2();
   const Lipm lipm{.com_height = robot.com_height};
-  EXPECT_TRUE(Compensation(robot, {.X_SF = {0, -0.2, 0}, .shape = {}}, lipm, 0).none());
+  EXPECT_TRUE(
+      Compensation(robot, {.X_SF = Foothold::Level({0, -0.2, 0}), .shape = {}}, lipm, 0).none());
   EXPECT_THROW((void)Compensation(robot, {}, lipm, -1), std::logic_error);
   robot.masses.fault = "no masses";
   EXPECT_THROW((void)Compensation(robot, {}, lipm, 1), std::logic_error);
