@@ -39,7 +39,7 @@ std::optional<SetElement> ElementOf(const HalfStep& half_step, const HalfStepSet
 
 bool IsolatedAndFree(const SuperposedWalk& walk, int j, const SweptVolumes& volumes,
                      const SweptVolumeQuery& query) {
-  if (!IsIsolated(walk, j) || walk.X_WS(j).height != 0.0) return false;
+  if (!IsIsolated(walk, j)) return false;
   const HalfStep& half_step = walk.half_step(j);
   const std::optional<SetElement> element = ElementOf(half_step, volumes.set);
   if (!element) return false;

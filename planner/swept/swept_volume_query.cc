@@ -67,11 +67,13 @@ SweptVolumeQuery::SweptVolumeQuery(const SweptVolumes& volumes,
     : volumes_(volumes),
       down_bounds_(BoundsOf(volumes.down)),
       up_bounds_(BoundsOf(volumes.up)),
+      level_(scene.ground->HeightEverywhere()),
       areas_(scene, sole_outline),
       no_step_(no_step) {
   const size_t size = static_cast<size_t>(volumes.set.size());
   HALFSTEP_CHECK(volumes.down.size() == size && volumes.up.size() == size,
                  volumes.down.size() << " and " << volumes.up.size() << " volumes of " << size);
+  for (const Foothold& X_SF : volumes.set.placements) X_SF.CheckLevel();
   CheckPlaces(scene, until);
   std::vector<ObstaclePlace> all;
   for (const Obstacle& obstacle : scene.obstacles) {
@@ -199,7 +201,7 @@ bool SweptVolumeQuery::MeetsObstacle(const BoxTree& tree, const Placed& placed,
 
 bool SweptVolumeQuery::IsFree(const Placed& placed, double extra) const {
   HALFSTEP_CHECK(placed.X_WS.AllFinite(), "the sole's pose is not finite");
-  if (!placed.volume) return false;
+  if (!placed.volume || placed.X_WS.height != level_) return false;
   __builtin_prefetch(placed.bounds.root);
   __builtin_prefetch(&*placed.volume);
   if (tree_.nodes.empty()) return true;

@@ -30,8 +30,9 @@ class SweptVolumeQuery : public HalfStepQuery {
  public:
   /// `volumes` is borrowed and must outlive this. A landing sole, of the outline
   /// RobotModel::sole_outline (2×k) [m], keeps `no_step` ≥ 0 [m] from the no-step areas and touches
-  /// none. Half-steps are executed at times of [0, until] [s]. Precondition: finite poses, volumes
-  /// for each element (std::logic_error). Throws InputError as PlacesOf.
+  /// none. Soles stand at the ground's one level: what does not is not free. Half-steps are
+  /// executed at times of [0, until] [s]. Precondition: finite poses, volumes for each element,
+  /// elements and ground of one level (std::logic_error). Throws InputError as PlacesOf.
   SweptVolumeQuery(const SweptVolumes& volumes, const Eigen::Matrix2Xd& sole_outline,
                    const Scene& scene, double no_step = 0.0,
                    double until = std::numeric_limits<double>::infinity());
@@ -114,6 +115,7 @@ class SweptVolumeQuery : public HalfStepQuery {
   std::vector<Cylinders> cylinders_;  // by slot / 4
   std::vector<int32_t> place_at_;     // by slot
   double farthest_ = 0.0;             // coordinate of an obstacle [m]
+  double level_;                      // of the ground [m]
   NoStepAreas areas_;
   double no_step_ = 0.0;
 };

@@ -300,7 +300,7 @@ void Exact(long questions) {
       double gap = 1e9;
       const Vector3d middle = 0.5 * (tree.Lower() + tree.Upper());
       for (const Obstacle& o : scene.obstacles) {
-        const Eigen::Isometry3d X_SO = ToIsometry(X_WS.Inverse(), 0.0) * o.X_WO;
+        const Eigen::Isometry3d X_SO = ToIsometry(X_WS.Inverse()) * o.X_WO;
         const Vector3d half = std::get<ConvexBody>(o.shape).vertices.rowwise().maxCoeff();
         const OrientedBox box{X_SO.translation(), half, X_SO.linear()};
         if (Gap(box, middle, tree.Upper() - middle) > 0) continue;

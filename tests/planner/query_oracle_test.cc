@@ -98,7 +98,7 @@ TEST(QueryOracle, AnswersAsTheSolidBoxesDo) {
         X_SO.linear() = (mirror * X_SO.linear() * mirror).eval();
         X_SO.translation().y() *= -1.0;
       }
-      placed.X_WO = ToIsometry(X_WS, 0.0) * X_SO;
+      placed.X_WO = ToIsometry(X_WS) * X_SO;
       Scene with = scene;
       with.obstacles.push_back(placed);
       const SweptVolumeQuery query(volumes, SoleCorners({}, {0.22, 0.14}), with);

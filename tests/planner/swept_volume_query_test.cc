@@ -212,6 +212,7 @@ TEST(SweptVolumeQueryTest, MirroredAndMovedScenesGiveTheSameAnswers) {
     X.translation() = flip.cwiseProduct(X.translation());
     moved.obstacles[i].X_WO = ToIsometry(X_VW) * scene.obstacles[i].X_WO;
   }
+  moved.ground = std::make_shared<const FlatGround>(X_VW.height);
   const SweptVolumes& volumes = CoarseVolumes();
   const SweptVolumeQuery query(volumes, kSole, scene), in_mirror(volumes, kSole, mirrored),
       elsewhere(volumes, kSole, moved);
@@ -223,6 +224,8 @@ TEST(SweptVolumeQueryTest, MirroredAndMovedScenesGiveTheSameAnswers) {
     EXPECT_EQ(in_mirror.UpIsFree(i, Opposite(support), X_WS.Mirrored()), up);
     EXPECT_EQ(elsewhere.DownIsFree(i, support, X_VW * X_WS), down);
     EXPECT_EQ(elsewhere.UpIsFree(i, support, X_VW * X_WS), up);
+    const Foothold above({X_WS.x, X_WS.y, X_WS.yaw}, 0.01);
+    EXPECT_FALSE(query.DownIsFree(i, support, above) || query.UpIsFree(i, support, above));
     free += down + up;
   }
   EXPECT_GT(free, 50);
@@ -346,7 +349,7 @@ TEST(SweptVolumeQueryTest, ClearanceIsFreeAndKnownToTheMillimetre) {
   EXPECT_NEAR(query.DownClearance(0, Side::kLeft, {}, 1.0), 0.2, 2e-3);
   EXPECT_LE(query.DownClearance(0, Side::kLeft, {}, 1.0), 0.2);
   EXPECT_EQ(query.DownClearance(0, Side::kLeft, {}, 0.1), 0.1);
-  EXPECT_EQ(query.DownClearance(0, Side::kLeft, {0.3, 0, 0}, 0.1), 0.0);
+  EXPECT_EQ(query.DownClearance(0, Side::kLeft, Foothold::Level({0.3, 0, 0}), 0.1), 0.0);
   // Of a wall that is known within 5 cm, 15 cm are left.
   Scene known = One(MakeBox({0.1, 4, 4}), X_WO);
   known.obstacles[0].motion.error = 0.05;
@@ -385,7 +388,8 @@ TEST(SweptVolumeQueryTest, AnElementWithoutVolumeIsNeverFree) {
 TEST(SweptVolumeQueryTest, PosesThatAreNotFiniteAreRefused) {
   SweptVolumeQuery query(CoarseVolumes(), kSole, One(MakeSphere(1), Isometry3d::Identity()));
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW((void)query.DownIsFree(0, Side::kLeft, {nan, 0, 0}), std::logic_error);
+  EXPECT_THROW((void)query.DownIsFree(0, Side::kLeft, Foothold::Level({nan, 0, 0})),
+               std::logic_error);
   Isometry3d X_WO = Isometry3d::Identity();
   X_WO.translation().x() = nan;
   EXPECT_THROW(query.SetObstaclePose(0, X_WO), std::logic_error);

@@ -184,7 +184,7 @@ class Stubborn : public CertifiedFeasibility {
   Feasibility Check(const SuperposedWalk& walk, const TimeWindow& window,
                     MarginEvaluator::Scratch* scratch) const override {
     for (int k = 0; k < walk.num_half_steps() && walk.num_half_steps() >= least_; ++k) {
-      const bool it = walk.X_WS(k).position() == half_step_.X_WS.position() &&
+      const bool it = walk.X_WS(k).Planar().position() == half_step_.X_WS.Planar().position() &&
                       walk.half_step(k).kind == half_step_.half_step.kind;
       const bool asked = walk.end_of(k) > window.begin && walk.start_of(k) < window.end;
       if (!it || !asked ||

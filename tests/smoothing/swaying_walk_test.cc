@@ -52,7 +52,7 @@ TEST(SwayingWalk, AddsTheSwaysOfTheHalfStepsUnderWayToTheComAlone) {
       for (int m = 0; m < walk.num_half_steps(); ++m) {
         const auto sway =
             walk.half_step(m).sway.At(t - walk.start_of(m), walk.profiles(m).duration());
-        const Eigen::Matrix2d R = walk.X_WS(m).rotation();
+        const Eigen::Matrix2d R = walk.X_WS(m).Planar().rotation();
         value += R * Eigen::Vector2d(sway[0].value, sway[1].value);
         second += R * Eigen::Vector2d(sway[0].second, sway[1].second);
       }

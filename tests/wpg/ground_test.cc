@@ -20,6 +20,7 @@ TEST(FlatGround, IsOneLevelEverywhere) {
     EXPECT_TRUE(ground.Solids().empty());
     ASSERT_EQ(ground.Levels().size(), 1u);
     EXPECT_EQ(ground.OnlyLevel(), ground.Levels().front());
+    EXPECT_EQ(ground.HeightEverywhere(), height);
     for (const Pose2& X_WF : {Pose2{}, Pose2{1e3, -1e3, 7.0}}) {
       const std::optional<GroundLevel> level = ground.LevelUnder(outline, X_WF, kAnywhere);
       ASSERT_TRUE(level.has_value());

@@ -6,6 +6,12 @@
 
 namespace halfstep {
 
+double Ground::HeightEverywhere() const {
+  const std::optional<GroundLevel> level = OnlyLevel();
+  HALFSTEP_CHECK(level.has_value(), Levels().size() << " levels, or borders");
+  return level->height;
+}
+
 FlatGround::FlatGround(double height) : levels_{{.number = 0, .height = height}} {
   HALFSTEP_CHECK(std::isfinite(height), "height = " << height << " m");
 }

@@ -56,6 +56,9 @@ class Ground {
   /// The one level that bears everywhere, so that whoever stands has its height and need not ask
   /// where; none where there are borders or more levels than one.
   virtual std::optional<GroundLevel> OnlyLevel() const = 0;
+
+  /// Its height [m], for what knows one level only. Precondition: there is one (std::logic_error).
+  double HeightEverywhere() const;
 };
 
 /// One level everywhere.
