@@ -81,7 +81,7 @@ struct PhysicalRobot {
 Episode Walk(const LiveConfig& config, const Replanner& replanner, const Place& place,
              Sensor* sensor, ServedEpisode* served, const EpisodeHooks& hooks) {
   const auto run = config.live.clock == "wall" ? RunWallClock : RunLockstep;
-  const std::array<Footprint, 2> start = StartOf(config.experiment, place.robot);
+  const std::array<Foothold, 2> start = StartOf(config.experiment, place.robot);
   if (served == nullptr) return run(replanner, sensor, start, hooks);
   const std::stop_callback end(hooks.stop, [served] { served->Stop(); });
   return run(replanner, &served->sensor(), start,

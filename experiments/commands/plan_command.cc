@@ -61,6 +61,7 @@ void PrintPlan(const PlannedWalk& walk) {
   std::vector<FootstepConfig> footsteps = walk.config.footsteps;
   std::cout << WriteYaml([&](Fields& fields) {
     fields.List("footsteps", {}, &footsteps, [](Fields& f, FootstepConfig* step) {
+      step->X_WF.CheckLevel();
       f.Text("foot", &step->foot, {});
       f.Number("x_m", &step->X_WF.x, {});
       f.Number("y_m", &step->X_WF.y, {});
@@ -142,7 +143,8 @@ ExitStatus ListHalfSteps(const PlanCommand& command) {
   const HalfStepSet set = CertifiedHalfSteps(LoadPlace(config).robot, config);
   if (command.json) {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
-    for (const Footprint& X_SF : set.placements) {
+    for (const Foothold& placement : set.placements) {
+      const Pose2 X_SF = placement.LevelPose();
       list.push_back({{"x_m", X_SF.x}, {"y_m", X_SF.y}, {"yaw_rad", X_SF.yaw}});
     }
     std::cout << list.dump(2) << '\n';
@@ -150,7 +152,7 @@ ExitStatus ListHalfSteps(const PlanCommand& command) {
   }
   std::cout << "half_step,x_m,y_m,yaw_rad\n";
   for (int i = 0; i < set.size(); ++i) {
-    const Footprint& X_SF = set.placements[static_cast<size_t>(i)];
+    const Pose2 X_SF = set.placements[static_cast<size_t>(i)].LevelPose();
     std::cout << i + 1 << ',' << X_SF.x << ',' << X_SF.y << ',' << X_SF.yaw << '\n';
   }
   return kSuccess;

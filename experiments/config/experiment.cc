@@ -27,12 +27,12 @@ void LeaveOutWhatIsUnknown(Experiment* experiment) {
   }
 }
 
-// Where the walk begins, steps and ends, on the floor.
+// Where the walk begins, steps and ends, seen from above.
 Eigen::AlignedBox2d WalkBounds(const ExperimentConfig& config, const RobotModel& robot) {
   Eigen::AlignedBox2d bounds;
   const auto extend = [&bounds](const Pose2& X) { bounds.extend(Eigen::Vector2d(X.x, X.y)); };
-  for (const Footprint& sole : StartOf(config, robot)) extend(sole);
-  for (const FootstepConfig& step : config.footsteps) extend(step.X_WF);
+  for (const Foothold& sole : StartOf(config, robot)) extend(sole.Planar());
+  for (const FootstepConfig& step : config.footsteps) extend(step.X_WF.Planar());
   if (config.has_goal) extend(config.goal.X_WG);
   return bounds;
 }
@@ -95,10 +95,10 @@ Place LoadPlace(const ExperimentConfig& config) {
   return place;
 }
 
-std::array<Footprint, 2> StartOf(const ExperimentConfig& config, const RobotModel& robot) {
+std::array<Foothold, 2> StartOf(const ExperimentConfig& config, const RobotModel& robot) {
   if (config.has_start) return {config.start_left, config.start_right};
   const double y = 0.5 * robot.standing_width;
-  return {Pose2{0.0, y, 0.0}, Pose2{0.0, -y, 0.0}};
+  return {Foothold::Level({0.0, y, 0.0}), Foothold::Level({0.0, -y, 0.0})};
 }
 
 HalfStep PrototypeOf(const ExperimentConfig& config) {
@@ -136,11 +136,11 @@ Experiment Prepare(const ExperimentConfig& config, Place place) {
   return experiment;
 }
 
-std::optional<std::string> FootprintOnNoStep(const Experiment& experiment) {
+std::optional<std::string> FootholdOnNoStep(const Experiment& experiment) {
   const NoStepAreas areas(experiment.scene, experiment.robot.sole_outline);
   const double apart = experiment.config.smoothing.limits.demanded_of(MarginFamily::kNoStep);
-  const auto touches = [&](const Footprint& X_WF) { return !areas.Clears(X_WF, apart); };
-  const std::array<Footprint, 2> start = StartOf(experiment.config, experiment.robot);
+  const auto touches = [&](const Foothold& X_WF) { return !areas.Clears(X_WF.Planar(), apart); };
+  const std::array<Foothold, 2> start = StartOf(experiment.config, experiment.robot);
   for (Side side : {Side::kLeft, Side::kRight}) {
     if (touches(start[static_cast<size_t>(Index(side))])) {
       return "the " + std::string(Name(side)) + " foot starts on a no-step area";

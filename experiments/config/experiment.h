@@ -9,7 +9,7 @@
 #include "experiments/config/experiment_config.h"
 #include "planner/scene/scene.h"
 #include "smoothing/margins/margin_evaluator.h"
-#include "wpg/geometry/footprint.h"
+#include "wpg/geometry/foothold.h"
 #include "wpg/motion/half_step_sequence.h"
 #include "wpg/robot/robot_model.h"
 
@@ -43,7 +43,7 @@ struct Place {
 /// Loads the robot and the scene. Throws InputError.
 Place LoadPlace(const ExperimentConfig& config);
 /// The soles at the start, by Index(Side).
-std::array<Footprint, 2> StartOf(const ExperimentConfig& config, const RobotModel& robot);
+std::array<Foothold, 2> StartOf(const ExperimentConfig& config, const RobotModel& robot);
 
 /// The half-steps of a config without their place: duration, via point, shape.
 HalfStep PrototypeOf(const ExperimentConfig& config);
@@ -55,8 +55,8 @@ Experiment Prepare(const ExperimentConfig& config, Place place);
 /// The same, in the place that LoadPlace() loads. Throws InputError.
 Experiment Prepare(const ExperimentConfig& config);
 
-/// The first footprint of the plan that touches a no-step polygon, as a sentence; none when no
-/// footprint does.
-std::optional<std::string> FootprintOnNoStep(const Experiment& experiment);
+/// The first foothold of the plan that touches a no-step polygon, as a sentence; none when no
+/// foothold does.
+std::optional<std::string> FootholdOnNoStep(const Experiment& experiment);
 
 }  // namespace halfstep

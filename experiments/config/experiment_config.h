@@ -9,7 +9,7 @@
 #include "wpg/files/fields.h"
 #include "wpg/files/key_description.h"
 #include "wpg/files/yaml_fields.h"
-#include "wpg/geometry/footprint.h"
+#include "wpg/geometry/foothold.h"
 #include "wpg/geometry/side.h"
 
 namespace halfstep {
@@ -17,7 +17,7 @@ namespace halfstep {
 /// One footstep of a config: a sole's place in the world, and what differs from `half_step`.
 struct FootstepConfig {
   std::string foot = "left";         ///< "left" or "right"
-  Footprint X_WF;                    ///< the sole's place in W
+  Foothold X_WF;                     ///< the sole's place in W
   std::optional<double> via_height;  ///< [m]
   std::optional<double> duration;    ///< [s]
 };
@@ -45,7 +45,7 @@ struct ExperimentConfig {
   std::string scene;  ///< a path; "none": empty floor
   /// Whether `start` is given; else the feet stand beside each other at the origin.
   bool has_start = false;
-  Footprint start_left, start_right;      ///< X_WF of the soles, when has_start
+  Foothold start_left, start_right;       ///< X_WF of the soles, when has_start
   bool has_goal = false;                  ///< else there are footsteps
   GoalConfig goal;                        ///< used when has_goal
   std::vector<FootstepConfig> footsteps;  ///< empty when has_goal

@@ -8,10 +8,11 @@ using namespace halfstep;
 int main() {
   const RobotModel robot = LoadRobot((RobotsFolder() / "hrp2.yaml").string());
   const double y = robot.standing_width / 2;
-  const std::array<Footprint, 2> start = {Footprint{0, y, 0}, Footprint{0, -y, 0}};
-  const std::vector<Footstep> footsteps = {{.side = Side::kLeft, .X_WF = {0.2, y, 0}},
-                                           {.side = Side::kRight, .X_WF = {0.4, -y, 0}},
-                                           {.side = Side::kLeft, .X_WF = {0.4, y, 0}}};
+  const std::array<Foothold, 2> start = {Foothold::Level({0, y, 0}), Foothold::Level({0, -y, 0})};
+  const std::vector<Footstep> footsteps = {
+      {.side = Side::kLeft, .X_WF = Foothold::Level({0.2, y, 0})},
+      {.side = Side::kRight, .X_WF = Foothold::Level({0.4, -y, 0})},
+      {.side = Side::kLeft, .X_WF = Foothold::Level({0.4, y, 0})}};
   const HalfStepSequence sequence =
       MakeSequence(start, footsteps, 0.24, {}, Lipm{.com_height = robot.com_height});
 

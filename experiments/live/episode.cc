@@ -33,7 +33,7 @@ SuperposedWalk Episode::Executed() const {
 }
 
 Episode RunLockstep(const Replanner& replanner, Sensor* sensor,
-                    const std::array<Footprint, 2>& start, const EpisodeHooks& hooks) {
+                    const std::array<Foothold, 2>& start, const EpisodeHooks& hooks) {
   const auto seed = static_cast<std::uint64_t>(replanner.config().experiment.seed);
   LockstepThinker thinker(replanner, seed);
   EpisodeClock clock;
@@ -41,7 +41,7 @@ Episode RunLockstep(const Replanner& replanner, Sensor* sensor,
 }
 
 Episode RunWallClock(const Replanner& replanner, Sensor* sensor,
-                     const std::array<Footprint, 2>& start, const EpisodeHooks& hooks) {
+                     const std::array<Foothold, 2>& start, const EpisodeHooks& hooks) {
   const auto seed = static_cast<std::uint64_t>(replanner.config().experiment.seed);
   ThreadThinker thinker(replanner, seed);
   WallClock clock;

@@ -112,10 +112,10 @@ struct EpisodeHooks {
 /// replanner computes, and its budget is charged. The robot waits until there is a safe walk. The
 /// same arguments give the same record, to the byte.
 Episode RunLockstep(const Replanner& replanner, Sensor* sensor,
-                    const std::array<Footprint, 2>& start, const EpisodeHooks& hooks);
+                    const std::array<Foothold, 2>& start, const EpisodeHooks& hooks);
 
 /// The same by the wall clock: the replanner computes in a thread while the robot walks.
 Episode RunWallClock(const Replanner& replanner, Sensor* sensor,
-                     const std::array<Footprint, 2>& start, const EpisodeHooks& hooks);
+                     const std::array<Foothold, 2>& start, const EpisodeHooks& hooks);
 
 }  // namespace halfstep

@@ -46,7 +46,7 @@ EpisodeLoop::EpisodeLoop(const Replanner& replanner, Sensor* sensor, Thinker* th
       hooks_(hooks),
       patience_(options_.budget.check + std::max(options_.budget.plan, options_.budget.smooth)) {}
 
-Episode EpisodeLoop::Run(const std::array<Footprint, 2>& start) {
+Episode EpisodeLoop::Run(const std::array<Foothold, 2>& start) {
   const Proposal first = Wait(start);
   if (first.kind == ProposalKind::kUnsafe) {
     record_.message = first.reason;
@@ -72,7 +72,7 @@ Episode EpisodeLoop::Run(const std::array<Footprint, 2>& start) {
   }
 }
 
-Proposal EpisodeLoop::Wait(const std::array<Footprint, 2>& start) {
+Proposal EpisodeLoop::Wait(const std::array<Foothold, 2>& start) {
   std::mt19937_64 random(static_cast<std::uint64_t>(replanner_.config().experiment.seed));
   std::vector<World> worlds;
   PastWorlds past;
@@ -264,7 +264,7 @@ bool EpisodeLoop::Ends(double now) {
   const bool at_rest = executor_->rests_from() <= now;
   const bool over = now >= options_.longest;
   const bool ended = at_rest && IsToEnd();
-  const std::array<Footprint, 2> stance =
+  const std::array<Foothold, 2> stance =
       StanceAfter(executor_->plan().sequence, executor_->begun());
   const bool on_both = executor_->begun() % 2 == 1;
   const bool arrived =

@@ -24,11 +24,11 @@ class EpisodeLoop {
               const EpisodeHooks& hooks);
 
   /// Runs an episode from soles at rest at `start` (X_WF, by Index(Side)) until it ends.
-  Episode Run(const std::array<Footprint, 2>& start);
+  Episode Run(const std::array<Foothold, 2>& start);
 
  private:
   // Measures until there is a walk, and until it begins, at the time that is t = 0 from then on.
-  Proposal Wait(const std::array<Footprint, 2>& start);
+  Proposal Wait(const std::array<Foothold, 2>& start);
   // Takes in the frames that have arrived by now.
   void Sense(double now);
   void Advance(double now);

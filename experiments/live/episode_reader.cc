@@ -135,11 +135,11 @@ WalkPlan ReadWalk(const Tables& tables, size_t walk, const LiveConfig& config, c
                             yaw = table.Numbers("yaw_rad"), via = table.Numbers("via_height_m"),
                             duration = table.Numbers("duration_s");
   constexpr std::array kSides = {Side::kLeft, Side::kRight};
-  std::array<Footprint, 2> start;
+  std::array<Foothold, 2> start;
   std::vector<Footstep> footsteps;
   for (size_t row = 0; row < feet.size(); ++row) {
     const Side side = Named(kSides, feet[row], table, row);
-    const Footprint X_WF{x[row], y[row], yaw[row]};
+    const Foothold X_WF = Foothold::Level({x[row], y[row], yaw[row]});
     if (row < 2) {
       start[static_cast<size_t>(Index(side))] = X_WF;
     } else {

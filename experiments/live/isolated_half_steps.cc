@@ -7,7 +7,7 @@ namespace {
 
 // Whether a place differs from that of an element by no more than the rounding of placing it in the
 // world.
-bool Same(const Footprint& a, const Footprint& b) {
+bool Same(const Foothold& a, const Foothold& b) {
   constexpr double kRounding = 1e-12;  // [m], [rad]
   return std::abs(a.x - b.x) <= kRounding && std::abs(a.y - b.y) <= kRounding &&
          std::abs(a.yaw - b.yaw) <= kRounding && a.height == b.height;
@@ -26,7 +26,7 @@ std::optional<SetElement> ElementOf(const HalfStep& half_step, const HalfStepSet
   const bool down = half_step.kind == HalfStepKind::kDown;
   // An element is told by the sole that supports its down half-step.
   const Side support = down ? half_step.support : half_step.swing();
-  const Footprint placement = down ? half_step.X_SF : half_step.X_SF.Inverse();
+  const Foothold placement = down ? half_step.X_SF : half_step.X_SF.Inverse();
   for (int i = 0; i < set.size(); ++i) {
     if (!Same(placement, set.Placement(i, support))) continue;
     HalfStep like = down ? set.Down(i, support) : set.Up(i, support);
@@ -39,7 +39,7 @@ std::optional<SetElement> ElementOf(const HalfStep& half_step, const HalfStepSet
 
 bool IsolatedAndFree(const SuperposedWalk& walk, int j, const SweptVolumes& volumes,
                      const SweptVolumeQuery& query) {
-  if (!IsIsolated(walk, j) || walk.X_WS(j).height != 0.0) return false;
+  if (!IsIsolated(walk, j)) return false;
   const HalfStep& half_step = walk.half_step(j);
   const std::optional<SetElement> element = ElementOf(half_step, volumes.set);
   if (!element) return false;

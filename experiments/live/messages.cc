@@ -42,7 +42,8 @@ json ObstacleJson(const Obstacle& obstacle) {
           {"horizon_s", OrNull(motion.horizon)}};
 }
 
-json FootstepJson(Side side, const Footprint& X_WF) {
+json FootstepJson(Side side, const Foothold& X_WF) {
+  X_WF.CheckLevel();
   return {{"foot", Name(side)}, {"x_m", X_WF.x}, {"y_m", X_WF.y}, {"yaw_rad", X_WF.yaw}};
 }
 

@@ -25,7 +25,7 @@ std::optional<NearRest> NearRest::Of(const Situation& s, const SuperposedWalk& w
 }
 
 std::optional<NearRest> NearRest::AtStart(const SafetyCheck& among, const ExperimentConfig& config,
-                                          const std::array<Footprint, 2>& start,
+                                          const std::array<Foothold, 2>& start,
                                           const HalfStep& like) {
   // Where a walk begins does not depend on where it goes.
   const Footstep in_place{.side = Side::kRight,

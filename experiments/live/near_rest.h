@@ -33,7 +33,7 @@ class NearRest {
   /// For the first half-step of any walk from the soles `start`, at t = 0. `like`: a half-step of
   /// the robot.
   static std::optional<NearRest> AtStart(const SafetyCheck& among, const ExperimentConfig& config,
-                                         const std::array<Footprint, 2>& start,
+                                         const std::array<Foothold, 2>& start,
                                          const HalfStep& like);
 
   int half_step() const { return half_step_; }  ///< for which the proofs are

@@ -17,21 +17,21 @@ class NearStartQuery : public HalfStepQuery {
                  const HalfStepCertifier& certifier, const Eigen::Vector2d& start)
       : volumes_(volumes), query_(query), certifier_(certifier), start_(start) {}
 
-  bool DownIsFree(int i, Side support, const Footprint& X_WS) const override {
+  bool DownIsFree(int i, Side support, const Foothold& X_WS) const override {
     return query_.DownIsFree(i, support, X_WS) ||
            Certifies(volumes_.set.Down(i, support), X_WS, X_WS);
   }
-  bool UpIsFree(int i, Side support, const Footprint& X_WS) const override {
+  bool UpIsFree(int i, Side support, const Foothold& X_WS) const override {
     if (query_.UpIsFree(i, support, X_WS)) return true;
-    const Footprint X_WF = X_WS * volumes_.set.Placement(i, support);
+    const Foothold X_WF = X_WS * volumes_.set.Placement(i, support);
     return Certifies(volumes_.set.Up(i, support), X_WF, X_WS);
   }
 
  private:
   // Of a half-step whose sole stands at `support`; `from` is where the robot comes from.
-  bool Certifies(const HalfStep& half_step, const Footprint& support, const Footprint& from) const {
+  bool Certifies(const HalfStep& half_step, const Foothold& support, const Foothold& from) const {
     constexpr double kNear = 0.25;  // [m]
-    if (left_ == 0 || (from.position() - start_).norm() > kNear) return false;
+    if (left_ == 0 || (from.Planar().position() - start_).norm() > kNear) return false;
     --left_;
     return certifier_.Certifies(half_step, support);
   }

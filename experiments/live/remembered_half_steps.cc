@@ -15,7 +15,7 @@ std::string KeyOf(const SuperposedWalk& walk, int j) {
     const auto rounded = static_cast<std::int64_t>(std::llround(x / kRounding));
     key.append(reinterpret_cast<const char*>(&rounded), sizeof rounded);
   };
-  const auto add_place = [&add](const Footprint& place) {
+  const auto add_place = [&add](const Foothold& place) {
     for (const double x : {place.x, place.y, place.yaw, place.height}) add(x);
   };
   const double begin = walk.start_of(j);

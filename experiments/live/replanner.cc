@@ -80,7 +80,7 @@ bool Replanner::Change(const Situation& s, const WalkPlan& plan, int junction,
   std::optional<StepState> in_air;
   if (half_step.kind == HalfStepKind::kUp) in_air = {X_WS, half_step.support};
   const std::int64_t left = config_.experiment.planner.max_nodes - proposal->nodes;
-  const std::array<Footprint, 2> stance = StanceAfter(plan.sequence, junction);
+  const std::array<Foothold, 2> stance = StanceAfter(plan.sequence, junction);
   // Other footsteps after another junction do not begin where the robot rests.
   const NearRest* from_rest = near && near->half_step() == junction + 1 ? near : nullptr;
   const bool rests =
@@ -226,7 +226,7 @@ Proposal Replanner::Propose(const Situation& s, const PreparedWorld& among,
   return proposal;
 }
 
-Proposal Replanner::Begin(const std::array<Footprint, 2>& start, const PreparedWorld& among,
+Proposal Replanner::Begin(const std::array<Foothold, 2>& start, const PreparedWorld& among,
                           int junctions, std::mt19937_64& random) const {
   Proposal proposal{.kind = ProposalKind::kUnsafe};
   const HalfStep like = PrototypeOf(config_.experiment);

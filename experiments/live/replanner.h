@@ -40,7 +40,7 @@ class Replanner {
 
   /// A walk from the soles `start` to the goal of the world, with `junctions` of its overlaps
   /// found; the proposal is kUnsafe without a plan.
-  Proposal Begin(const std::array<Footprint, 2>& start, const PreparedWorld& world, int junctions,
+  Proposal Begin(const std::array<Foothold, 2>& start, const PreparedWorld& world, int junctions,
                  std::mt19937_64& random) const;
 
   const RobotModel& robot() const { return robot_; }    ///< the robot that walks
@@ -50,10 +50,10 @@ class Replanner {
   bool Arrives(const WalkPlan& plan, const World& world) const;
   // `near`: of the first half-step, null: none. `rests`: before it the robot rests, so that there
   // is time to prove half-steps themselves where volumes are in the way.
-  PlanResult Plan(const std::array<Footprint, 2>& stance, const std::optional<StepState>& in_air,
+  PlanResult Plan(const std::array<Foothold, 2>& stance, const std::optional<StepState>& in_air,
                   const PreparedWorld& among, const NearRest* near, bool rests,
                   std::int64_t max_nodes, std::mt19937_64& random) const;
-  PlanResult Search(const std::array<Footprint, 2>& stance, const std::optional<StepState>& in_air,
+  PlanResult Search(const std::array<Foothold, 2>& stance, const std::optional<StepState>& in_air,
                     const PreparedWorld& among, const NearRest* near, const HalfStepQuery& query,
                     std::int64_t max_nodes, std::mt19937_64& random) const;
   // Proves the walk of the proposal up to half-step `last` as far as it is not proved yet, and

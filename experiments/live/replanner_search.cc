@@ -9,7 +9,7 @@
 
 namespace halfstep {
 
-PlanResult Replanner::Plan(const std::array<Footprint, 2>& stance,
+PlanResult Replanner::Plan(const std::array<Foothold, 2>& stance,
                            const std::optional<StepState>& in_air, const PreparedWorld& among,
                            const NearRest* near, bool rests, std::int64_t max_nodes,
                            std::mt19937_64& random) const {
@@ -17,14 +17,14 @@ PlanResult Replanner::Plan(const std::array<Footprint, 2>& stance,
   if (!rests || result.status != PlanStatus::kNoPlan) return result;
   // Where the robot rests near an obstacle, it may take more than one half-step to get away.
   const NearStartQuery query(volumes_, among.query, near ? near->certifier() : among.certifier,
-                             MidFeet(stance[0], stance[1]).position());
+                             MidFeet(stance[0].Planar(), stance[1].Planar()).position());
   const std::int64_t nodes = result.nodes;
   result = Search(stance, in_air, among, near, query, max_nodes - nodes, random);
   result.nodes += nodes;
   return result;
 }
 
-PlanResult Replanner::Search(const std::array<Footprint, 2>& stance,
+PlanResult Replanner::Search(const std::array<Foothold, 2>& stance,
                              const std::optional<StepState>& in_air, const PreparedWorld& among,
                              const NearRest* near, const HalfStepQuery& query,
                              std::int64_t max_nodes, std::mt19937_64& random) const {
@@ -38,7 +38,7 @@ PlanResult Replanner::Search(const std::array<Footprint, 2>& stance,
   if (const auto& w = options.workspace; !w.empty()) {
     request.workspace = {Eigen::Vector2d(w[0], w[1]), Eigen::Vector2d(w[2], w[3])};
   }
-  request.start_is_free = [&](const HalfStep& up, const Footprint& X_WS) {
+  request.start_is_free = [&](const HalfStep& up, const Foothold& X_WS) {
     return (near ? near->certifier() : among.certifier).Certifies(up, X_WS);
   };
   request.stop = AnyOf({AfterNodes(max_nodes), options.unimproved_nodes == 0

@@ -14,7 +14,7 @@ namespace halfstep {
 struct PlacedVolume {
   int volume = 0;         ///< of down half-steps from 0, of up half-steps after all of them
   bool mirrored = false;  ///< on a right support: the mirror image
-  Footprint X_WS;         ///< the support sole
+  Foothold X_WS;          ///< the support sole
 };
 
 /// By half-step of the walk; none for those that are in no set. Overlaps do not count: the volume

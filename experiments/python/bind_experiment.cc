@@ -41,10 +41,13 @@ py::tuple Plan(const PlacedExperiment& placed, const py::object& progress) {
   });
   py::list footsteps;
   for (const Footstep& step : walk.plan.footsteps) {
-    footsteps.append(
-        py::make_tuple(std::string(Name(step.side)), step.X_WF.x, step.X_WF.y, step.X_WF.yaw));
+    const Pose2 X = step.X_WF.LevelPose();
+    footsteps.append(py::make_tuple(std::string(Name(step.side)), X.x, X.y, X.yaw));
   }
-  const auto pose = [](const Footprint& X) { return py::make_tuple(X.x, X.y, X.yaw); };
+  const auto pose = [](const Foothold& X_WF) {
+    const Pose2 X = X_WF.LevelPose();
+    return py::make_tuple(X.x, X.y, X.yaw);
+  };
   const auto start = StartOf(placed.config, placed.experiment.robot);
   return py::make_tuple(std::string(Name(walk.plan.status)), walk.plan.sentence, footsteps,
                         py::make_tuple(pose(start[0]), pose(start[1])), walk.plan.time);
@@ -132,7 +135,7 @@ PlacedExperiment::PlacedExperiment(const std::string& file, const std::string& t
   if (scene != nullptr) place.scene = *scene;
   experiment = Prepare(config, std::move(place));
   config.smoothing.limits = experiment.config.smoothing.limits;
-  if (const auto stepped_on = FootprintOnNoStep(experiment)) {
+  if (const auto stepped_on = FootholdOnNoStep(experiment)) {
     throw std::invalid_argument("the plan is not feasible: " + *stepped_on);
   }
   if (config.has_goal) return;

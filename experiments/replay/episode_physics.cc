@@ -104,9 +104,10 @@ PhysicalOutcome EpisodePhysics::Finish(const Episode& episode) {
   const long periods = std::lround(options_.hold / options_.row_period);
   for (long i = 0; rests && i < periods && !fallen(); ++i) PlayPeriod(walk, player_->time());
   const GoalRegion goal = since_->GoalAt(episode.end);
-  std::array<Footprint, 2> feet;
+  std::array<Foothold, 2> feet;
   for (const Side side : {Side::kLeft, Side::kRight}) {
-    feet[static_cast<size_t>(Index(side))] = OnFloor(player_->robot().X_WSole(side));
+    const Eigen::Isometry3d X_WSole = player_->robot().X_WSole(side);
+    feet[static_cast<size_t>(Index(side))] = {OnFloor(X_WSole), X_WSole.translation().z()};
   }
   outcome.no_step = no_step_;
   outcome.in_goal = rests && !fallen() && goal.ContainsStance(feet);

@@ -11,7 +11,8 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-json PlaceJson(const Footprint& X) {
+json PlaceJson(const Foothold& X) {
+  X.CheckLevel();
   return {Shortened(X.x, 12), Shortened(X.y, 12), Shortened(X.yaw, 12)};
 }
 

@@ -84,7 +84,7 @@ ExperimentRun::ExperimentRun(const ExperimentConfig& config, const RunHooks& hoo
   }
   experiment_ = Prepare(config_, std::move(place));
   config_.smoothing.limits = experiment_->config.smoothing.limits;
-  if (const auto stepped_on = FootprintOnNoStep(*experiment_)) {
+  if (const auto stepped_on = FootholdOnNoStep(*experiment_)) {
     refusal_ = {"on_no_step_area", "the plan is not feasible: " + *stepped_on};
   }
   ReadGiven();

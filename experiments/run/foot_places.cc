@@ -22,8 +22,8 @@ Posture StandingPosture(const RobotModel& robot) {
 }
 
 // The same, moved so that one sole is at X_WF.
-Posture WithSoleAt(Posture posture, size_t side, const Footprint& X_WF) {
-  const Eigen::Isometry3d move = ToIsometry(X_WF, X_WF.height) * posture.X_WSole[side].inverse();
+Posture WithSoleAt(Posture posture, size_t side, const Foothold& X_WF) {
+  const Eigen::Isometry3d move = ToIsometry(X_WF) * posture.X_WSole[side].inverse();
   posture.X_WB = move * posture.X_WB;
   for (size_t s = 0; s < 2; ++s) {
     posture.X_WSole[s] = move * posture.X_WSole[s];
@@ -73,11 +73,11 @@ FootPlaces::FootPlaces(const MarginEvaluator& evaluator)
       areas_(evaluator.scene(), evaluator.robot().sole_outline),
       standing_(StandingPosture(evaluator.robot())) {}
 
-FootPlace FootPlaces::At(Side side, const Footprint& X_WF) const {
+FootPlace FootPlaces::At(Side side, const Foothold& X_WF) const {
   constexpr double kNear = 0.3;  // [m]
   const auto s = static_cast<size_t>(Index(side));
   FootPlace place{.clearance = std::numeric_limits<double>::infinity()};
-  place.on_area = !areas_.Clears(X_WF, limits().demanded_of(MarginFamily::kNoStep));
+  place.on_area = !areas_.Clears(X_WF.Planar(), limits().demanded_of(MarginFamily::kNoStep));
   if (standing_.reachable && scene().rests()) {
     const Posture posture = WithSoleAt(standing_, s, X_WF);
     MarginEvaluator::Scratch scratch = evaluator_.MakeScratch();
@@ -104,11 +104,11 @@ std::string GoalWithoutPlace(const GoalRegion& goal, const FootPlaces& places) {
     for (const double yaw : YawsOf(goal)) {
       bool free = goal.part == GoalPart::kMidFeet, on_area = false;
       for (const Side side : FeetOf(goal.part)) {
-        Footprint X_WF(point.x(), point.y(), yaw);
+        Pose2 X_WF{point.x(), point.y(), yaw};
         if (goal.part == GoalPart::kMidFeet) {
           X_WF = X_WF * Pose2{0.0, side == Side::kLeft ? half_width : -half_width, 0.0};
         }
-        const FootPlace place = places.At(side, X_WF);
+        const FootPlace place = places.At(side, Foothold::Level(X_WF));
         free = goal.part == GoalPart::kMidFeet ? free && place.free : free || place.free;
         on_area = on_area || place.on_area;
         if (!place.free && place.obstacle) ++obstacles[*place.obstacle];

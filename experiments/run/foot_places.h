@@ -29,7 +29,7 @@ class FootPlaces {
   const Scene& scene() const { return evaluator_.scene(); }           ///< of the evaluator
   const MarginLimits& limits() const { return evaluator_.limits(); }  ///< of the evaluator
   /// With the sole of `side` at X_WF.
-  FootPlace At(Side side, const Footprint& X_WF) const;
+  FootPlace At(Side side, const Foothold& X_WF) const;
 
  private:
   const MarginEvaluator& evaluator_;

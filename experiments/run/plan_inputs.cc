@@ -23,19 +23,19 @@ std::string StepName(size_t index, Side side) {
 // A footstep as it is taken.
 struct Taken {
   Side side;
-  Footprint X_SF;  // seen from the foot that carries
+  Foothold X_SF;  // seen from the foot that carries
 };
 
 Side SideOf(const FootstepConfig& footstep, bool exchanged) {
   return (footstep.foot == "left") != exchanged ? Side::kLeft : Side::kRight;
 }
 
-std::vector<Taken> StepsOf(const ExperimentConfig& config, std::array<Footprint, 2> feet,
+std::vector<Taken> StepsOf(const ExperimentConfig& config, std::array<Foothold, 2> feet,
                            bool exchanged) {
   std::vector<Taken> steps;
   for (const FootstepConfig& footstep : config.footsteps) {
     const Side side = SideOf(footstep, exchanged);
-    const Footprint& X_WS = feet[static_cast<size_t>(Index(Opposite(side)))];
+    const Foothold& X_WS = feet[static_cast<size_t>(Index(Opposite(side)))];
     steps.push_back({side, X_WS.Inverse() * footstep.X_WF});
     feet[static_cast<size_t>(Index(side))] = footstep.X_WF;
   }
@@ -43,20 +43,20 @@ std::vector<Taken> StepsOf(const ExperimentConfig& config, std::array<Footprint,
 }
 
 // How far on its own side of the other foot a foot is [m]; below 0 it is on the other's.
-double OwnSide(Side side, const Footprint& X_SF) { return side == Side::kLeft ? X_SF.y : -X_SF.y; }
+double OwnSide(Side side, const Foothold& X_SF) { return side == Side::kLeft ? X_SF.y : -X_SF.y; }
 
 // Feet on the wrong side, and whether exchanging left and right mends it.
 class Sides {
  public:
   Sides(const ExperimentConfig& config, const RobotModel& robot,
-        const std::array<Footprint, 2>& start)
+        const std::array<Foothold, 2>& start)
       : config_(config), robot_(robot), start_(start) {}
 
   std::string Sentence() const {
     const auto first = First(start_, /*exchanged=*/false);
     if (!first) return "";
     std::string text = *first;
-    const std::array<Footprint, 2> swapped = {start_[1], start_[0]};
+    const std::array<Foothold, 2> swapped = {start_[1], start_[0]};
     const char* mended = nullptr;
     if (!First(start_, true)) {
       mended = "`footsteps`";
@@ -73,7 +73,7 @@ class Sides {
 
  private:
   // The first foot on the wrong side of the other one, or in line with it.
-  std::optional<std::string> First(const std::array<Footprint, 2>& start, bool exchanged) const {
+  std::optional<std::string> First(const std::array<Foothold, 2>& start, bool exchanged) const {
     constexpr double kInLine = 0.3;  // of the standing width: no foot is set down so near
     const double least = kInLine * robot_.standing_width;
     const double apart = OwnSide(Side::kLeft, start[1].Inverse() * start[0]);
@@ -93,11 +93,11 @@ class Sides {
 
   const ExperimentConfig& config_;
   const RobotModel& robot_;
-  const std::array<Footprint, 2>& start_;
+  const std::array<Foothold, 2>& start_;
 };
 
 void AddSides(const ExperimentConfig& config, const RobotModel& robot,
-              const std::array<Footprint, 2>& start, std::vector<std::string>* lines) {
+              const std::array<Foothold, 2>& start, std::vector<std::string>* lines) {
   const std::string sentence = Sides(config, robot, start).Sentence();
   if (!sentence.empty()) lines->push_back(sentence);
 }
@@ -112,7 +112,7 @@ std::string UnitHint(double distance, double reach) {
   return "";
 }
 
-void AddReach(const Experiment& experiment, const std::array<Footprint, 2>& start,
+void AddReach(const Experiment& experiment, const std::array<Foothold, 2>& start,
               const std::vector<Taken>& steps, std::vector<std::string>* lines) {
   const RobotMeasures measures = MeasuresOf(experiment.robot);
   // Both legs stretched away from each other, which no walk does.
@@ -125,11 +125,13 @@ void AddReach(const Experiment& experiment, const std::array<Footprint, 2>& star
                      UnitHint(distance, reach));
     return true;
   };
-  if (add("start: the feet are", (start[0].position() - start[1].position()).norm())) return;
+  if (add("start: the feet are",
+          (start[0].Planar().position() - start[1].Planar().position()).norm()))
+    return;
   for (size_t i = 0; i < steps.size(); ++i) {
     const std::string who =
         StepName(i, steps[i].side) + " lands beside the " + FootName(Opposite(steps[i].side));
-    if (add(who, steps[i].X_SF.position().norm())) return;  // the next ones follow from it
+    if (add(who, steps[i].X_SF.Planar().position().norm())) return;  // the next ones follow from it
   }
 }
 
@@ -172,14 +174,14 @@ void AddRepeated(const std::vector<Taken>& steps, std::vector<std::string>* line
   }
 }
 
-void AddInside(const std::string& who, Side side, const Footprint& X_WF, const FootPlaces& places,
+void AddInside(const std::string& who, Side side, const Foothold& X_WF, const FootPlaces& places,
                std::vector<std::string>* lines) {
   const FootPlace place = places.At(side, X_WF);
   if (!place.obstacle || place.clearance >= 0.0) return;
   lines->push_back(who + " stands " + Amount(-place.clearance, "m") + " inside " + *place.obstacle);
 }
 
-void AddStartInside(const std::array<Footprint, 2>& start, const FootPlaces& places,
+void AddStartInside(const std::array<Foothold, 2>& start, const FootPlaces& places,
                     std::vector<std::string>* lines) {
   for (const Side side : {Side::kLeft, Side::kRight}) {
     AddInside("start: the " + FootName(side), side, start[static_cast<size_t>(Index(side))], places,
@@ -193,7 +195,7 @@ std::vector<std::string> LookAtFootsteps(const Experiment& experiment,
                                          const MarginEvaluator& evaluator) {
   std::vector<std::string> lines;
   const ExperimentConfig& config = experiment.config;
-  const std::array<Footprint, 2> start = StartOf(config, experiment.robot);
+  const std::array<Foothold, 2> start = StartOf(config, experiment.robot);
   const std::vector<Taken> steps = StepsOf(config, start, /*exchanged=*/false);
   AddReach(experiment, start, steps, &lines);
   const bool far = !lines.empty();  // then sides and turns say nothing more
@@ -214,7 +216,7 @@ std::vector<std::string> LookAtGoal(const ExperimentConfig& config,
                                     const MarginEvaluator& evaluator) {
   std::vector<std::string> lines;
   const FootPlaces places(evaluator);
-  const std::array<Footprint, 2> start = StartOf(config, evaluator.robot());
+  const std::array<Foothold, 2> start = StartOf(config, evaluator.robot());
   AddSides(config, evaluator.robot(), start, &lines);
   AddStartInside(start, places, &lines);
   const std::string goal = GoalWithoutPlace(config.goal.Region(), places);

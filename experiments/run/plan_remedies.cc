@@ -96,14 +96,14 @@ class Trials {
   // The landing, farther or nearer on its way; the two steps after it begin elsewhere then.
   std::optional<FoundRemedy> Landing(int step) {
     const PlacedHalfStep& up = problem_.sequence().half_steps[static_cast<size_t>(2 * step)];
-    const Footprint from = up.X_WS * up.half_step.X_SF;
+    const Foothold from = up.X_WS * up.half_step.X_SF;
     const FootstepConfig& planned = experiment_.config.footsteps[static_cast<size_t>(step)];
     const Eigen::Vector2d way(planned.X_WF.x - from.x, planned.X_WF.y - from.y);
     if (way.norm() < 0.01) return std::nullopt;  // it steps in place
     for (const double farther : kFarther) {
       const Eigen::Vector2d shift = farther * way.normalized();
       ExperimentConfig config = experiment_.config;
-      Footprint& landing = FootstepOf(step, &config).X_WF;
+      Foothold& landing = FootstepOf(step, &config).X_WF;
       landing.x = Rounded(landing.x + shift.x(), 0.001);
       landing.y = Rounded(landing.y + shift.y(), 0.001);
       if (!Feasible(config, step, 3)) continue;
@@ -156,7 +156,7 @@ class Trials {
     if (stopped()) return {};
     const double apart = problem_.limits().demanded_of(MarginFamily::kNoStep);
     if (!std::ranges::all_of(config.footsteps, [&](const FootstepConfig& footstep) {
-          return areas_.Clears(footstep.X_WF, apart);
+          return areas_.Clears(footstep.X_WF.Planar(), apart);
         })) {
       return {};
     }

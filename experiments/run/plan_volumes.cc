@@ -36,7 +36,8 @@ std::string PlanVolumesJson(const PlannedWalk& walk) {
   std::vector<const BoxTree*> volumes;
   std::map<const BoxTree*, size_t> known;
   json half_steps = json::array();
-  const auto add = [&](const std::optional<BoxTree>& volume, Side support, const Footprint& X_WS) {
+  const auto add = [&](const std::optional<BoxTree>& volume, Side support, const Foothold& X_WS) {
+    X_WS.CheckLevel();
     if (!volume) return half_steps.push_back(nullptr);
     const auto [at, is_new] = known.try_emplace(&*volume, volumes.size());
     if (is_new) volumes.push_back(&*volume);
@@ -44,8 +45,8 @@ std::string PlanVolumesJson(const PlannedWalk& walk) {
                           {"mirrored", support == Side::kRight},
                           {"X_WS", {X_WS.x, X_WS.y, X_WS.yaw}}});
   };
-  Footprint stands = Index(Opposite(plan.footsteps.front().side)) == 0 ? walk.config.start_left
-                                                                       : walk.config.start_right;
+  Foothold stands = Index(Opposite(plan.footsteps.front().side)) == 0 ? walk.config.start_left
+                                                                      : walk.config.start_right;
   for (size_t k = 0; k < plan.footsteps.size(); ++k) {
     const Side support = Opposite(plan.footsteps[k].side);
     if (k == 0) {

@@ -45,8 +45,8 @@ HalfStepCertifier::HalfStepCertifier(const MarginEvaluator& evaluator,
       feasibility_(evaluator, options) {}
 
 // The step in place that holds the half-step: up from its place, and down to it again.
-bool HalfStepCertifier::Certifies(const HalfStep& half_step, const Footprint& X_WS) const {
-  std::array<Footprint, 2> start;
+bool HalfStepCertifier::Certifies(const HalfStep& half_step, const Foothold& X_WS) const {
+  std::array<Foothold, 2> start;
   start[static_cast<size_t>(Index(half_step.support))] = X_WS;
   start[static_cast<size_t>(Index(half_step.swing()))] = X_WS * half_step.X_SF;
   const Footstep footstep{.side = half_step.swing(),
@@ -89,7 +89,7 @@ namespace {
 std::string MissedInPlace(const RobotModel& robot, const Scene& scene,
                           const ExperimentConfig& config) {
   const HalfStep prototype = PrototypeOf(config);
-  const std::array<Footprint, 2> start = StartOf(config, robot);
+  const std::array<Foothold, 2> start = StartOf(config, robot);
   const Footstep footstep{.side = Side::kLeft,
                           .X_WF = start[static_cast<size_t>(Index(Side::kLeft))],
                           .via_height = prototype.via_height,
@@ -162,7 +162,7 @@ PlannedWalk PlanWalk(const ExperimentConfig& config, const Place& place,
     walk.plan.sentence = "interrupted while half-steps were baked";
     return walk;
   }
-  if (const auto on_area = FootprintOnNoStep({config, place.robot, place.scene, {}})) {
+  if (const auto on_area = FootholdOnNoStep({config, place.robot, place.scene, {}})) {
     walk.plan.status = PlanStatus::kStartBlocked;
     walk.plan.sentence = *on_area;
     return walk;
@@ -183,7 +183,7 @@ PlannedWalk PlanWalk(const ExperimentConfig& config, const Place& place,
   if (const auto& w = config.planner.workspace; !w.empty()) {
     request.workspace = {Eigen::Vector2d(w[0], w[1]), Eigen::Vector2d(w[2], w[3])};
   }
-  request.start_is_free = [&](const HalfStep& up, const Footprint& X_WS) {
+  request.start_is_free = [&](const HalfStep& up, const Foothold& X_WS) {
     return certifier.Certifies(up, X_WS);
   };
   request.accepts = [&](const std::vector<Footstep>& footsteps) {

@@ -10,7 +10,7 @@
 #include "planner/search/footstep_planner.h"
 #include "planner/swept/swept_volume_cache.h"
 #include "smoothing/proof/certified_feasibility.h"
-#include "wpg/geometry/footprint.h"
+#include "wpg/geometry/foothold.h"
 #include "wpg/robot/not_covered.h"
 #include "wpg/robot/robot_model.h"
 
@@ -25,7 +25,7 @@ class HalfStepCertifier {
   /// The same with a robot and a scene that are prepared already.
   HalfStepCertifier(const MarginEvaluator& evaluator, const CertificationOptions& options);
   /// Whether it is proved; false as well when it is undecided.
-  bool Certifies(const HalfStep& half_step, const Footprint& X_WS) const;
+  bool Certifies(const HalfStep& half_step, const Foothold& X_WS) const;
 
  private:
   Lipm lipm_;
@@ -72,7 +72,7 @@ struct PlannedWalk {
   /// Without a plan: what start and goal may have wrong (LookAtGoal), which `plan.sentence` begins
   /// with.
   std::vector<std::string> inputs = {};
-  BakedHalfSteps half_steps;  ///< the set that was searched, with its swept volumes
+  BakedHalfSteps half_steps;                 ///< the set that was searched, with its swept volumes
   std::vector<NotCovered> not_covered = {};  ///< what no proof behind the plan speaks of
 };
 

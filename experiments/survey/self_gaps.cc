@@ -16,13 +16,14 @@ HalfStepSequence SixStepsOf(const RobotModel& robot, const HalfStep& prototype, 
   std::vector<Footstep> footsteps;
   for (int i = 0; i < 6; ++i) {
     const Side side = i % 2 == 0 ? Side::kRight : Side::kLeft;
-    footsteps.push_back({.side = side,
-                         .X_WF = Pose2{stride * std::min(i + 1, 5), Sign(side) * y, 0.0},
-                         .via_height = prototype.via_height,
-                         .duration = prototype.duration});
+    footsteps.push_back(
+        {.side = side,
+         .X_WF = Foothold::Level({stride * std::min(i + 1, 5), Sign(side) * y, 0.0}),
+         .via_height = prototype.via_height,
+         .duration = prototype.duration});
   }
-  return MakeSequence({Pose2{0, y, 0}, Pose2{0, -y, 0}}, footsteps, prototype.via_lateral,
-                      prototype.shape, Lipm{.com_height = robot.com_height});
+  return MakeSequence({Foothold::Level({0, y, 0}), Foothold::Level({0, -y, 0})}, footsteps,
+                      prototype.via_lateral, prototype.shape, Lipm{.com_height = robot.com_height});
 }
 
 // Postures of the planned motion at equal steps of each half-step; some may not be reachable.

@@ -40,8 +40,8 @@ CsvFile FootstepsCsv(const HalfStepSequence& sequence) {
       {"via_height_m", kNumber, "m", "height of the via point of the step there; 0 at the start"},
       {"duration_s", kNumber, "s", "T of each of the step's half-steps; 0 at the start"},
   });
-  const auto row = [&](int index, Side side, const Footprint& X_WF, double height,
-                       double duration) {
+  const auto row = [&](int index, Side side, const Foothold& X_WF, double height, double duration) {
+    X_WF.CheckLevel();
     csv.Cell(index).Cell(Name(side)).Cell(X_WF.x).Cell(X_WF.y).Cell(X_WF.yaw);
     csv.Cell(height).Cell(duration).EndRow();
   };

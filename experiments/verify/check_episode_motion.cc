@@ -122,8 +122,8 @@ void CheckEpisodeEnding(const EpisodeText& episode, const EpisodeManifest& manif
   }
   const auto& [down, X_WS] = all.planned.back().half_steps[begun - 1];
   std::array<Pose2, 2> feet;
-  feet[static_cast<size_t>(Index(down.support))] = X_WS;
-  feet[static_cast<size_t>(Index(down.swing()))] = X_WS * down.X_SF;
+  feet[static_cast<size_t>(Index(down.support))] = X_WS.Planar();
+  feet[static_cast<size_t>(Index(down.swing()))] = (X_WS * down.X_SF).Planar();
   if (!StandsInGoal(feet, goal, episode.worlds.back().goal)) {
     wrong(Formatted("its last stance is not in the goal of world %d", episode.worlds.back().world));
   }

@@ -17,6 +17,10 @@ bool Near(const Pose2& a, const Pose2& b) {
   return Near(a.x, b.x) && Near(a.y, b.y) && Near(a.yaw, b.yaw);
 }
 
+bool Near(const Foothold& a, const Foothold& b) {
+  return Near(a.Planar(), b.Planar()) && Near(a.height, b.height);
+}
+
 bool IsFinite(const FootstepRow& row) {
   return row.X_WF.AllFinite() && std::isfinite(row.via_height) && std::isfinite(row.duration);
 }
@@ -43,8 +47,9 @@ HalfStepSequence SequenceOf(const std::vector<FootstepRow>& rows, const EpisodeW
       return none;
     }
     if (i >= 2) {
-      footsteps.push_back({side, row.X_WF, row.via_height, row.duration});
-    } else if (static_cast<size_t>(Index(side)) != i || !Near(row.X_WF, frame.start[i])) {
+      footsteps.push_back({side, Foothold::Level(row.X_WF), row.via_height, row.duration});
+    } else if (static_cast<size_t>(Index(side)) != i ||
+               !Near(row.X_WF, frame.start[i].LevelPose())) {
       findings->Disagree(line + "the walk does not start where config.yaml says");
     } else if (!Near(row.via_height, 0) || !Near(row.duration, 0)) {
       findings->Disagree(line + "no step leads to a foot that stands at the start");

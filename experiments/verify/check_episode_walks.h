@@ -13,10 +13,10 @@ namespace halfstep::verify {
 
 /// What all walks of an episode have in common, by its config.
 struct EpisodeWalkFrame {
-  const RobotModel& robot;         ///< that walks
-  std::array<Footprint, 2> start;  ///< soles, by Index(Side)
-  double via_lateral = 0;          ///< [m]
-  HalfStepShape shape;             ///< of every half-step
+  const RobotModel& robot;        ///< that walks
+  std::array<Foothold, 2> start;  ///< soles, by Index(Side)
+  double via_lateral = 0;         ///< [m]
+  HalfStepShape shape;            ///< of every half-step
 };
 
 /// The walks of an episode, by number; those before the last only as rows. Borrows the robot.

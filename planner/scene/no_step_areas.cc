@@ -15,7 +15,7 @@ NoStepAreas::NoStepAreas(const Scene& scene, const Eigen::Matrix2Xd& sole_outlin
   }
 }
 
-NoStepAreas::Nearest NoStepAreas::NearestTo(const Footprint& X_WF) const {
+NoStepAreas::Nearest NoStepAreas::NearestTo(const Pose2& X_WF) const {
   Nearest nearest;
   if (empty()) return nearest;
   const Eigen::Matrix2Xd outline = (X_WF.rotation() * outline_).colwise() + X_WF.position();
@@ -30,7 +30,7 @@ NoStepAreas::Nearest NoStepAreas::NearestTo(const Footprint& X_WF) const {
   return nearest;
 }
 
-bool NoStepAreas::Clears(const Footprint& X_WF, double distance) const {
+bool NoStepAreas::Clears(const Pose2& X_WF, double distance) const {
   if (empty()) return true;
   const Eigen::Matrix2Xd outline = (X_WF.rotation() * outline_).colwise() + X_WF.position();
   return std::all_of(areas_.begin(), areas_.end(), [&](const Area& area) {

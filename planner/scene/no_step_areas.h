@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "planner/scene/scene.h"
-#include "wpg/geometry/footprint.h"
+#include "wpg/geometry/pose2.h"
 
 namespace halfstep {
 
@@ -28,10 +28,10 @@ class NoStepAreas {
   };
   /// The area that is nearest to a sole standing at X_WF. When the sole touches several areas, it
   /// is the one into which the sole reaches deepest.
-  Nearest NearestTo(const Footprint& X_WF) const;
+  Nearest NearestTo(const Pose2& X_WF) const;
 
   /// Whether a sole that stands at X_WF touches no area and keeps `distance` ≥ 0 [m] from all.
-  bool Clears(const Footprint& X_WF, double distance) const;
+  bool Clears(const Pose2& X_WF, double distance) const;
 
  private:
   struct Area {

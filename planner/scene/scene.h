@@ -2,12 +2,14 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "planner/scene/obstacle_motion.h"
 #include "planner/scene/shape.h"
 #include "wpg/files/input_file.h"
+#include "wpg/ground/ground.h"
 
 namespace halfstep {
 
@@ -30,18 +32,22 @@ struct Obstacle {
   bool rests() const { return motion.rests(); }
 };
 
-/// What the robot walks among. The floor z = 0 is no obstacle: the floor margin watches it.
+/// What the robot walks on and among. The ground is no obstacle: the floor and ground margins watch
+/// it.
 struct Scene {
   std::string name;                 ///< the file's stem, or "none"
   std::vector<InputFile> files;     ///< the YAML file, and one entry for each reading of a mesh.
   std::vector<Obstacle> obstacles;  ///< names differ
-  /// Simple polygons on the floor (2×n, counter-clockwise) that no sole may touch [m].
+  /// Simple polygons (2×n, counter-clockwise) that no sole may touch, seen from above, so on every
+  /// level [m].
   std::vector<Eigen::Matrix2Xd> no_step;
   /// Friction coefficient between soles and floor > 0.
   double friction = 0.7;
   /// What of the files was replaced by something larger, left out or is hard to believe, as
   /// "file: …", for the user.
   std::vector<std::string> warnings;
+  /// Not null. Flat at z = 0: no key of a scene file says otherwise yet.
+  std::shared_ptr<const Ground> ground = std::make_shared<const FlatGround>();
 
   /// Whether all obstacles rest, so that what holds at one time holds at every time.
   bool rests() const;

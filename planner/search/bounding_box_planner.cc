@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "planner/search/state_buckets.h"
+#include "wpg/check.h"
 
 namespace halfstep {
 namespace {
@@ -20,7 +21,8 @@ class Corridor {
   }
 
   StepsToGo operator()(const StepState& state) const {
-    const Pose2 X_WM = state.X_WS * Pose2{0.0, -0.5 * Sign(state.support) * feet_apart_, 0.0};
+    const Pose2 X_WM =
+        state.X_WS.Planar() * Pose2{0.0, -0.5 * Sign(state.support) * feet_apart_, 0.0};
     double least = std::numeric_limits<double>::infinity();
     size_t nearest = 0;
     for (size_t j = 0; j < path_.size(); ++j) {
@@ -48,13 +50,17 @@ class Corridor {
 }  // namespace
 
 PlanResult BoundingBoxPlanner::Plan(const PlanRequest& request, std::mt19937_64&) const {
+  for (const Foothold& sole : request.start) {
+    HALFSTEP_CHECK(sole.height == world_.level(),
+                   "a sole at " << sole.height << " m, the box at " << world_.level() << " m");
+  }
   return PlanWith(
       request, AllElements(request.set),
       [&](const std::vector<StepState>& starts, StepGraph* graph,
           PlanMonitor* monitor) -> SearchEnd {
-        const BoxPath box =
-            FindBoxPath(world_, options_.grid, MidFeet(request.start[0], request.start[1]),
-                        request.goal, graph->workspace(), monitor);
+        const BoxPath box = FindBoxPath(
+            world_, options_.grid, MidFeet(request.start[0].Planar(), request.start[1].Planar()),
+            request.goal, graph->workspace(), monitor);
         if (box.stopped) return {.exhausted = false};
         if (box.start_blocked) return {true, "the box around the robot stands in an obstacle"};
         if (box.path.empty()) return {true, "no way for the box around the robot"};

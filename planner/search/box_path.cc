@@ -128,12 +128,14 @@ class GridSearch {
 BoxWorld::BoxWorld(const Scene& scene, const RobotBox& box)
     : scene_(scene),
       box_(box),
+      level_(scene.ground->HeightEverywhere()),
       world_(scene),
       shape_(MakeBox({box.length, box.width, box.height})) {}
 
 bool BoxWorld::IsClear(const Pose2& X_WM) const {
   CollisionWorld::Scratch scratch;
-  if (!world_.Clears(shape_, ToIsometry(X_WM, 0.5 * box_.height), 0.0, 0.0, &scratch)) return false;
+  if (!world_.Clears(shape_, ToIsometry(X_WM, level_ + 0.5 * box_.height), 0.0, 0.0, &scratch))
+    return false;
   if (scene_.no_step.empty()) return true;
   const Eigen::Matrix2Xd ground = SoleCorners(X_WM, {box_.length, box_.width});
   for (const Eigen::Matrix2Xd& polygon : scene_.no_step) {

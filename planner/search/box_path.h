@@ -11,7 +11,7 @@
 namespace halfstep {
 
 /// A box that stands for the whole walking robot: centred on the middle of its feet and turned with
-/// them, on the floor.
+/// them, on the level where they stand.
 struct RobotBox {
   double length = 0.7;      ///< along x [m] > 0
   double width = 0.9;       ///< along y [m] > 0
@@ -28,15 +28,17 @@ struct BoxGrid {
 /// A box among the obstacles and the no-step areas of a scene, both of which it must not touch.
 class BoxWorld {
  public:
-  /// Borrows the scene. Precondition: a box and a grid as above (std::logic_error).
+  /// Borrows the scene. Precondition: a box as above, one level of the ground (std::logic_error).
   BoxWorld(const Scene& scene, const RobotBox& box);
   /// Whether the box, its middle of the feet at X_WM, touches nothing.
   bool IsClear(const Pose2& X_WM) const;
   const RobotBox& box() const { return box_; }  ///< as given
+  double level() const { return level_; }       ///< height on which the box stands [m]
 
  private:
   const Scene& scene_;
   RobotBox box_;
+  double level_;
   CollisionWorld world_;
   CollisionShape shape_;
 };

@@ -40,7 +40,7 @@ std::vector<int> ClassicSubset(const HalfStepSet& set) {
                                                                {0.4, 0.4, -0.5}}};
   constexpr double kMetresPerRadian = 0.3;
   double x_max = 0.0, yaw_max = 0.0, y_max = 0.0, y_min = std::numeric_limits<double>::infinity();
-  for (const Footprint& X_SF : set.placements) {
+  for (const Foothold& X_SF : set.placements) {
     x_max = std::max(x_max, std::fabs(X_SF.x));
     yaw_max = std::max(yaw_max, std::fabs(X_SF.yaw));
     y_max = std::max(y_max, std::fabs(X_SF.y));
@@ -51,13 +51,13 @@ std::vector<int> ClassicSubset(const HalfStepSet& set) {
   std::vector<int> subset;
   for (const auto& [ahead, aside, turned] : kClassic) {
     const Pose2 wanted{ahead * x_max, -(y_min + aside * (y_max - y_min)), -turned * yaw_max};
-    const auto off = [&](const Footprint& X_SF) {
-      return (X_SF.position() - wanted.position()).norm() +
+    const auto off = [&](const Foothold& X_SF) {
+      return (X_SF.Planar().position() - wanted.position()).norm() +
              kMetresPerRadian * std::fabs(X_SF.yaw - wanted.yaw);
     };
     const auto nearest =
         std::min_element(set.placements.begin(), set.placements.end(),
-                         [&off](const Pose2& a, const Pose2& b) { return off(a) < off(b); });
+                         [&off](const Foothold& a, const Foothold& b) { return off(a) < off(b); });
     subset.push_back(static_cast<int>(nearest - set.placements.begin()));
   }
   std::sort(subset.begin(), subset.end());

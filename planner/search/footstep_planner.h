@@ -17,7 +17,7 @@
 #include "planner/search/half_step_set.h"
 #include "planner/search/step_cost.h"
 #include "planner/search/termination.h"
-#include "wpg/geometry/footprint.h"
+#include "wpg/geometry/foothold.h"
 #include "wpg/motion/half_step_sequence.h"
 
 namespace halfstep {
@@ -33,14 +33,14 @@ struct Acceptance {
 
 /// The foot `support` stands at X_WS and carries, the other one is at its via point.
 struct StepState {
-  Footprint X_WS;              ///< where the foot that carries stands, in W
+  Foothold X_WS;               ///< where the foot that carries stands, in W
   Side support = Side::kLeft;  ///< that foot
   friend bool operator==(const StepState&, const StepState&) = default;
 };
 
 /// A planning problem. What it refers to is borrowed for the call of Plan.
 struct PlanRequest {
-  std::array<Footprint, 2> start;  ///< soles in W by Index(Side), standing
+  std::array<Foothold, 2> start;  ///< soles in W by Index(Side), standing
   /// Where a walk is replanned with one foot in the air: the walk begins here, and `start` only
   /// says what the default workspace is around. The first footstep is that foot's.
   std::optional<StepState> in_air = {};
@@ -52,7 +52,7 @@ struct PlanRequest {
   std::optional<Eigen::AlignedBox2d> workspace = {};
   /// Whether an up half-step from the start, which is in no set, is free: its support sole stands
   /// at X_WS. Empty: it always is.
-  std::function<bool(const HalfStep&, const Footprint& X_WS)> start_is_free = {};
+  std::function<bool(const HalfStep&, const Foothold& X_WS)> start_is_free = {};
   /// Asked about each plan before it is returned, best first. Empty: every plan is accepted.
   std::function<Acceptance(const std::vector<Footstep>&)> accepts = {};
   int max_refusals = 20;  ///< refusals after which planning ends with kRefused

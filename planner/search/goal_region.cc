@@ -29,22 +29,22 @@ bool GoalRegion::Contains(const Pose2& X_W) const {
   return Distance(X_W.position()) <= 0.0 && Turn(X_W.yaw) <= 0.0;
 }
 
-bool GoalRegion::ContainsStance(const std::array<Footprint, 2>& feet) const {
-  if (part == GoalPart::kMidFeet) return Contains(MidFeet(feet[0], feet[1]));
-  return (part != GoalPart::kRightFoot && Contains(feet[Index(Side::kLeft)])) ||
-         (part != GoalPart::kLeftFoot && Contains(feet[Index(Side::kRight)]));
+bool GoalRegion::ContainsStance(const std::array<Foothold, 2>& feet) const {
+  if (part == GoalPart::kMidFeet) return Contains(MidFeet(feet[0].Planar(), feet[1].Planar()));
+  return (part != GoalPart::kRightFoot && Contains(feet[Index(Side::kLeft)].Planar())) ||
+         (part != GoalPart::kLeftFoot && Contains(feet[Index(Side::kRight)].Planar()));
 }
 
-bool GoalRegion::ContainsLanding(Side side, const Footprint& X_WF, const Footprint& X_WS) const {
+bool GoalRegion::ContainsLanding(Side side, const Foothold& X_WF, const Foothold& X_WS) const {
   switch (part) {
     case GoalPart::kLeftFoot:
-      return side == Side::kLeft && Contains(X_WF);
+      return side == Side::kLeft && Contains(X_WF.Planar());
     case GoalPart::kRightFoot:
-      return side == Side::kRight && Contains(X_WF);
+      return side == Side::kRight && Contains(X_WF.Planar());
     case GoalPart::kEitherFoot:
-      return Contains(X_WF);
+      return Contains(X_WF.Planar());
     case GoalPart::kMidFeet:
-      return Contains(MidFeet(X_WF, X_WS));
+      return Contains(MidFeet(X_WF.Planar(), X_WS.Planar()));
   }
   return false;
 }

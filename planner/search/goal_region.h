@@ -4,7 +4,7 @@
 #include <array>
 #include <optional>
 
-#include "wpg/geometry/footprint.h"
+#include "wpg/geometry/foothold.h"
 #include "wpg/geometry/side.h"
 
 namespace halfstep {
@@ -13,8 +13,8 @@ namespace halfstep {
 /// positions and of their yaws.
 enum class GoalPart { kLeftFoot, kRightFoot, kEitherFoot, kMidFeet };
 
-/// Where a walk may end: a disc or a box on the floor, borders included, and optionally a range of
-/// yaw.
+/// Where a walk may end: seen from above, a disc or a box, borders included, and optionally a range
+/// of yaw.
 struct GoalRegion {
   GoalPart part = GoalPart::kEitherFoot;  ///< what has to lie in it
   Pose2 X_WG;           ///< centre; its yaw turns the box and is the middle of the range of yaw
@@ -31,13 +31,13 @@ struct GoalRegion {
   /// Whether a pose of the part that counts is in the region.
   bool Contains(const Pose2& X_W) const;
   /// Whether standing with the soles `feet`, by Index(Side), is a goal.
-  bool ContainsStance(const std::array<Footprint, 2>& feet) const;
+  bool ContainsStance(const std::array<Foothold, 2>& feet) const;
   /// The same for a foot `side` at X_WF that has just landed beside a support sole X_WS which was
   /// no goal already.
-  bool ContainsLanding(Side side, const Footprint& X_WF, const Footprint& X_WS) const;
+  bool ContainsLanding(Side side, const Foothold& X_WF, const Foothold& X_WS) const;
 };
 
-/// Middle of two soles: means of positions and of yaws.
+/// Middle of two soles seen from above: means of positions and of yaws.
 Pose2 MidFeet(const Pose2& X_WL, const Pose2& X_WR);
 
 }  // namespace halfstep

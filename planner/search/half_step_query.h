@@ -1,6 +1,6 @@
 #pragma once
 
-#include "wpg/geometry/footprint.h"
+#include "wpg/geometry/foothold.h"
 #include "wpg/geometry/side.h"
 
 namespace halfstep {
@@ -13,10 +13,10 @@ class HalfStepQuery {
 
   /// Whether the down half-step of element i on `support`, whose sole stands at X_WS, is free; the
   /// sole that lands keeps off no-step areas as well.
-  virtual bool DownIsFree(int i, Side support, const Footprint& X_WS) const = 0;
+  virtual bool DownIsFree(int i, Side support, const Foothold& X_WS) const = 0;
   /// Whether the up half-step that follows, on the foot that has landed, is free. X_WS is still the
   /// pose of the sole that supported before, as for DownIsFree.
-  virtual bool UpIsFree(int i, Side support, const Footprint& X_WS) const = 0;
+  virtual bool UpIsFree(int i, Side support, const Foothold& X_WS) const = 0;
 };
 
 }  // namespace halfstep

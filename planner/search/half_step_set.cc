@@ -6,8 +6,8 @@
 
 namespace halfstep {
 
-Footprint HalfStepSet::Placement(int i, Side support) const {
-  const Footprint& X_SF = placements[static_cast<size_t>(i)];
+Foothold HalfStepSet::Placement(int i, Side support) const {
+  const Foothold& X_SF = placements[static_cast<size_t>(i)];
   return support == Side::kLeft ? X_SF : X_SF.Mirrored();
 }
 
@@ -41,7 +41,7 @@ HalfStepSet MakeHalfStepSet(const HalfStepGrid& grid, const HalfStep& prototype,
     for (int iy = 0; iy < ny; ++iy) {
       for (double yaw : grid.yaws) {
         set.placements.push_back(
-            {grid.x_min + ix * grid.spacing, grid.y_min + iy * grid.spacing, yaw});
+            Foothold::Level({grid.x_min + ix * grid.spacing, grid.y_min + iy * grid.spacing, yaw}));
         const int last = set.size() - 1;
         if (!keeps(set.Down(last, Side::kLeft)) || !keeps(set.Up(last, Side::kLeft))) {
           set.placements.pop_back();

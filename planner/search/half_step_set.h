@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-#include "wpg/geometry/footprint.h"
+#include "wpg/geometry/foothold.h"
 #include "wpg/geometry/side.h"
 #include "wpg/motion/half_step.h"
 
@@ -18,17 +18,18 @@ struct HalfStepGrid {
   std::vector<double> yaws = {-0.5, -0.25, 0.0, 0.25, 0.5};  ///< [rad]
 };
 
-/// The discrete half-steps that planners choose from. An element i is one place X_SF of a foot
+/// The discrete half-steps that planners choose from: from level to level at the same height so
+/// far. An element i is one place X_SF of a foot
 /// beside the other. It serves two half-steps: *down*, where the support foot is S and the swing
 /// foot lands on X_SF; and *up*, where the foot F that has landed supports and the other one leaves
 /// its place X_FS = X_SF⁻¹ for the via point.
 struct HalfStepSet {
-  HalfStep prototype;                 ///< duration, via point and shape of all of them
-  std::vector<Footprint> placements;  ///< X_SF of each element, seen from a left support
+  HalfStep prototype;                ///< duration, via point and shape of all of them
+  std::vector<Foothold> placements;  ///< X_SF of each element, seen from a left support
 
   int size() const { return static_cast<int>(placements.size()); }  ///< number of elements
   /// X_SF of element i when `support` supports.
-  Footprint Placement(int i, Side support) const;
+  Foothold Placement(int i, Side support) const;
   /// The half-step on `support` that lands element i.
   HalfStep Down(int i, Side support) const;
   /// The half-step that follows it: on the foot that has landed, Opposite(support).

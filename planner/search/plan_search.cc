@@ -9,7 +9,7 @@ namespace halfstep {
 namespace {
 
 void CheckRequest(const PlanRequest& request) {
-  for (const Footprint& sole : request.start) {
+  for (const Foothold& sole : request.start) {
     HALFSTEP_CHECK(sole.AllFinite(), "start sole " << sole.x << ", " << sole.y << ", " << sole.yaw);
   }
   HALFSTEP_CHECK(!request.in_air || request.in_air->X_WS.AllFinite(), "start in the air");

@@ -39,12 +39,12 @@ std::optional<StepPlan> PlanStretch(const std::vector<StepState>& roots, const U
   for (const StepState& root : roots) {
     if (growth != StepTree::Growth::kArrived) growth = tree.AddRoot(root, path.costs[a]);
   }
-  Eigen::AlignedBox2d box(path.states[a].X_WS.position());
-  box.extend(path.states[b].X_WS.position());
+  Eigen::AlignedBox2d box(path.states[a].X_WS.Planar().position());
+  box.extend(path.states[b].X_WS.Planar().position());
   const int samples = 20 + 8 * static_cast<int>(b - a);
   for (int i = 0; i < samples && growth != StepTree::Growth::kArrived; ++i) {
     if (tree.IsExhausted() || monitor->Stop()) break;
-    TreeSample sample{.X_WF = path.states[b].X_WS,
+    TreeSample sample{.X_WF = path.states[b].X_WS.Planar(),
                       .side = path.states[b].support,
                       .yaw = to_goal ? TreeSample::Yaw::kFree : TreeSample::Yaw::kCountsWhenNear};
     if (i % 2 == 1) sample.side = Opposite(sample.side);
@@ -61,17 +61,17 @@ std::optional<StepPlan> PlanStretch(const std::vector<StepState>& roots, const U
 
 // From a state to the goal along old landings, each followed by the free element nearest to it.
 bool Follow(const Unrolled& path, size_t from, StepState state, StepGraph* graph, StepPlan* plan) {
-  std::vector<Footprint> landings;
+  std::vector<Foothold> landings;
   std::vector<std::pair<double, int>> order;
   for (size_t j = from + 1; j < path.states.size(); ++j) {
     const bool last = j + 1 == path.states.size();
     graph->Landings(state, &landings);
     order.clear();
     for (int k = 0; k < graph->size(); ++k) {
-      const Footprint& X_WF = landings[static_cast<size_t>(k)];
+      const Foothold& X_WF = landings[static_cast<size_t>(k)];
       if (last && !graph->IsGoal(state, X_WF)) continue;
-      if (!last && !graph->workspace().contains(X_WF.position())) continue;
-      order.emplace_back(StateDistance(X_WF, path.states[j].X_WS, true), k);
+      if (!last && !graph->workspace().contains(X_WF.Planar().position())) continue;
+      order.emplace_back(StateDistance(X_WF.Planar(), path.states[j].X_WS.Planar(), true), k);
     }
     std::sort(order.begin(), order.end());
     constexpr size_t kTries = 10;

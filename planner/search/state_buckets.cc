@@ -43,12 +43,12 @@ const std::vector<StateBuckets::Entry>& StateBuckets::At(const Eigen::Vector2i& 
 }
 
 void StateBuckets::Insert(int index, const StepState& state) {
-  At(CellOf(state.X_WS), state.support).push_back({index, state.X_WS});
+  At(CellOf(state.X_WS.Planar()), state.support).push_back({index, state.X_WS.Planar()});
   ++sizes_[static_cast<size_t>(Index(state.support))];
 }
 
 void StateBuckets::Remove(int index, const StepState& state) {
-  std::vector<Entry>& entries = At(CellOf(state.X_WS), state.support);
+  std::vector<Entry>& entries = At(CellOf(state.X_WS.Planar()), state.support);
   const auto entry = std::find_if(entries.begin(), entries.end(),
                                   [index](const Entry& e) { return e.index == index; });
   HALFSTEP_CHECK(entry != entries.end(), "index " << index);

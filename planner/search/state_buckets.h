@@ -5,15 +5,16 @@
 #include <vector>
 
 #include "planner/search/step_graph.h"
-#include "wpg/geometry/footprint.h"
+#include "wpg/geometry/pose2.h"
 
 namespace halfstep {
 
-/// Distance between poses of a foot [m]: that of their positions plus, `with_yaw`, 0.15 m per
-/// radian between their yaws (modulo 2π).
+/// Distance between poses of a foot seen from above [m]: that of their positions plus, `with_yaw`,
+/// 0.15 m per radian between their yaws (modulo 2π).
 double StateDistance(const Pose2& a, const Pose2& b, bool with_yaw);
 
-/// Indices of states, grouped by support foot and place to find the one nearest to a pose quickly.
+/// Indices of states, grouped by support foot and place seen from above, to find the one nearest to
+/// a pose quickly.
 class StateBuckets {
  public:
   /// Made for states in `area`, in W [m]; those outside are found more slowly.
@@ -32,7 +33,7 @@ class StateBuckets {
  private:
   struct Entry {
     int index;
-    Footprint X_WS;
+    Pose2 X_WS;
   };
   Eigen::Vector2i CellOf(const Pose2& X_W) const;  // clamped to the area
   std::vector<Entry>& At(const Eigen::Vector2i& cell, Side support);

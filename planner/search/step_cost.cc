@@ -15,7 +15,7 @@ std::vector<double> StepCost::OfElements(const HalfStepSet& set) const {
   for (int i = 0; i < set.size(); ++i) {
     double way = 0.0, turn = 0.0;
     for (const HalfStep& half_step : {set.Down(i, Side::kLeft), set.Up(i, Side::kLeft)}) {
-      way += (half_step.X_SF.position() - half_step.via().position()).norm();
+      way += (half_step.X_SF.Planar().position() - half_step.via().position()).norm();
       turn += std::fabs(half_step.X_SF.yaw);
     }
     costs[static_cast<size_t>(i)] = step_time + time_per_metre * way + time_per_radian * turn;
@@ -28,13 +28,13 @@ StepReach::StepReach(const HalfStepSet& set, const std::vector<int>& elements,
     : least_cost_(std::numeric_limits<double>::infinity()) {
   HALFSTEP_CHECK(!elements.empty(), "no elements");
   for (int i : elements) {
-    const Pose2 first = set.Placement(i, Side::kLeft);
+    const Pose2 first = set.Placement(i, Side::kLeft).Planar();
     const Eigen::Matrix2d turned = first.rotation();
     one_ = std::max(one_, first.position().norm());
     turn_ = std::max(turn_, std::fabs(first.yaw));
     least_cost_ = std::min(least_cost_, costs[static_cast<size_t>(i)]);
     for (int k : elements) {
-      const Eigen::Vector2d second = set.Placement(k, Side::kRight).position();
+      const Eigen::Vector2d second = set.Placement(k, Side::kRight).Planar().position();
       pair_ = std::max(pair_, (first.position() + turned * second).norm());
     }
   }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "wpg/check.h"
+
 namespace halfstep {
 namespace {
 
@@ -17,7 +19,7 @@ std::vector<double> Chosen(const std::vector<double>& all, const std::vector<int
 Eigen::AlignedBox2d DefaultWorkspace(const PlanRequest& request) {
   constexpr double kRoom = 2.0;
   Eigen::AlignedBox2d box(request.goal.X_WG.position());
-  for (const Footprint& sole : request.start) box.extend(sole.position());
+  for (const Foothold& sole : request.start) box.extend(sole.Planar().position());
   const Eigen::Vector2d room = Eigen::Vector2d::Constant(kRoom);
   return {box.min() - room, box.max() + room};
 }
@@ -30,8 +32,12 @@ StepGraph::StepGraph(const PlanRequest& request, std::vector<int> elements)
       costs_(Chosen(request.cost.OfElements(request.set), elements_)),
       reach_(request.set, elements_, request.cost.OfElements(request.set)),
       workspace_(request.workspace.value_or(DefaultWorkspace(request))) {
+  HALFSTEP_CHECK(request.start[0].height == request.start[1].height,
+                 "the soles stand at " << request.start[0].height << " m and "
+                                       << request.start[1].height << " m");
   for (Side support : {Side::kLeft, Side::kRight}) {
     for (int i : elements_) {
+      request.set.placements[static_cast<size_t>(i)].CheckLevel();
       placements_[static_cast<size_t>(Index(support))].push_back(request.set.Placement(i, support));
     }
   }
@@ -41,7 +47,7 @@ std::vector<StepState> StepGraph::FreeStarts() const {
   if (request_.in_air) return {*request_.in_air};
   std::vector<StepState> starts;
   for (Side support : {Side::kLeft, Side::kRight}) {
-    const Footprint& X_WS = request_.start[static_cast<size_t>(Index(support))];
+    const Foothold& X_WS = request_.start[static_cast<size_t>(Index(support))];
     HalfStep up = request_.set.prototype;
     up.support = support;
     up.kind = HalfStepKind::kUp;
@@ -53,16 +59,17 @@ std::vector<StepState> StepGraph::FreeStarts() const {
   return starts;
 }
 
-Footprint StepGraph::Landing(const StepState& from, int k) const {
+Foothold StepGraph::Landing(const StepState& from, int k) const {
   return from.X_WS * placements_[static_cast<size_t>(Index(from.support))][static_cast<size_t>(k)];
 }
 
-void StepGraph::Landings(const StepState& from, std::vector<Footprint>* X_WF) const {
+void StepGraph::Landings(const StepState& from, std::vector<Foothold>* X_WF) const {
   const double c = std::cos(from.X_WS.yaw), s = std::sin(from.X_WS.yaw);
   X_WF->clear();
-  for (const Footprint& X_SF : placements_[static_cast<size_t>(Index(from.support))]) {
-    X_WF->push_back({from.X_WS.x + c * X_SF.x - s * X_SF.y, from.X_WS.y + s * X_SF.x + c * X_SF.y,
-                     from.X_WS.yaw + X_SF.yaw});
+  for (const Foothold& X_SF : placements_[static_cast<size_t>(Index(from.support))]) {
+    X_WF->push_back({{from.X_WS.x + c * X_SF.x - s * X_SF.y, from.X_WS.y + s * X_SF.x + c * X_SF.y,
+                      from.X_WS.yaw + X_SF.yaw},
+                     from.X_WS.height + X_SF.height});
   }
 }
 
@@ -79,7 +86,8 @@ bool StepGraph::UpIsFree(const StepState& from, int k) {
 
 // The middle of the feet is at most half an element away from the foot that landed before the last.
 double StepGraph::SteadySteps(const StepState& from) const {
-  const double distance = goal().Distance(from.X_WS.position()), turn = goal().Turn(from.X_WS.yaw);
+  const double distance = goal().Distance(from.X_WS.Planar().position()),
+               turn = goal().Turn(from.X_WS.yaw);
   if (goal().part != GoalPart::kMidFeet) return reach_.Steps(distance, turn);
   const double before_last = reach_.Steps(distance - 0.5 * reach_.one(), 0.0);
   return std::max(before_last > 0.0 ? 1.0 + before_last : 0.0, reach_.Steps(0.0, turn));

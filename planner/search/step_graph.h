@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "planner/search/footstep_planner.h"
-#include "wpg/geometry/footprint.h"
+#include "wpg/geometry/foothold.h"
 
 namespace halfstep {
 
@@ -14,7 +14,8 @@ namespace halfstep {
 /// k is always the place of an element in elements().
 class StepGraph {
  public:
-  /// Uses only `elements` of the set. The request is borrowed.
+  /// Uses only `elements` of the set. The request is borrowed. Precondition: all is at one height,
+  /// because states are told apart by x, y and yaw (std::logic_error).
   StepGraph(const PlanRequest& request, std::vector<int> elements);
 
   /// Indices into the set; k counts in this list.
@@ -31,20 +32,20 @@ class StepGraph {
   std::vector<StepState> FreeStarts() const;
 
   /// Where element k lands from a state, X_WF; the state after its up half-step.
-  Footprint Landing(const StepState& from, int k) const;
+  Foothold Landing(const StepState& from, int k) const;
   /// The state after that landing and its up half-step.
   StepState After(const StepState& from, int k) const {
     return {Landing(from, k), Opposite(from.support)};
   }
   /// Landing() of all elements at once: exactly the same poses.
-  void Landings(const StepState& from, std::vector<Footprint>* X_WF) const;
+  void Landings(const StepState& from, std::vector<Foothold>* X_WF) const;
 
   /// Whether a half-step of element k is free; a forbidden down half-step is not.
   bool DownIsFree(const StepState& from, int k);
   /// The same of its up half-step, after landing.
   bool UpIsFree(const StepState& from, int k);
   /// Whether landing there ends the walk.
-  bool IsGoal(const StepState& from, const Footprint& X_WF) const {
+  bool IsGoal(const StepState& from, const Foothold& X_WF) const {
     return goal().ContainsLanding(Opposite(from.support), X_WF, from.X_WS);
   }
 
@@ -67,8 +68,8 @@ class StepGraph {
   };
   const PlanRequest& request_;
   std::vector<int> elements_;
-  std::vector<double> costs_;                         // by k
-  std::array<std::vector<Footprint>, 2> placements_;  // by support and k
+  std::vector<double> costs_;                        // by k
+  std::array<std::vector<Foothold>, 2> placements_;  // by support and k
   StepReach reach_;
   Eigen::AlignedBox2d workspace_;
   std::vector<Edge> forbidden_;

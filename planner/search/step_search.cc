@@ -61,11 +61,11 @@ class WeightedSearch {
   };
 
   // Of the edge from a node that lands at X_WF.
-  Promise Promises(const Node& node, int k, const Footprint& X_WF) const {
+  Promise Promises(const Node& node, int k, const Foothold& X_WF) const {
     const double cost = node.cost + graph_.cost(k);
     if (graph_.IsGoal(node.state, X_WF)) return {cost, 0.0, cost < monitor_.best_cost()};
     const StepState after{X_WF, Opposite(node.state.support)};
-    if (!graph_.workspace().contains(X_WF.position())) return {0.0, 0.0, false};
+    if (!graph_.workspace().contains(X_WF.Planar().position())) return {0.0, 0.0, false};
     const StepsToGo left = to_go_(after);
     const double each = graph_.reach().least_cost();
     return {cost + weight_ * each * left.guess, left.guess,
@@ -79,7 +79,7 @@ class WeightedSearch {
     graph_.Landings(node.state, &landings_);
     promises_.clear();
     for (int k = 0; k < graph_.size(); ++k) {
-      const Footprint& X_WF = landings_[static_cast<size_t>(k)];
+      const Foothold& X_WF = landings_[static_cast<size_t>(k)];
       promises_.push_back(Promises(node, k, X_WF));
       if (promises_.back().wanted) node.order.push_back(static_cast<std::uint32_t>(k));
     }
@@ -135,7 +135,7 @@ class WeightedSearch {
   std::vector<Node> nodes_;
   std::priority_queue<Waiting> open_;
   std::unordered_set<std::uint64_t> reached_;
-  std::vector<Footprint> landings_;
+  std::vector<Foothold> landings_;
   std::vector<Promise> promises_;
 };
 

@@ -24,17 +24,18 @@ StepTree::StepTree(const TreeTarget& target, const PoseCells& cells, StepGraph* 
       monitor_(*monitor),
       buckets_(graph->workspace()) {}
 
-bool StepTree::Hits(const StepState& from, const Footprint& X_WF) const {
+bool StepTree::Hits(const StepState& from, const Foothold& X_WF) const {
   if (!target_.state) return graph_.IsGoal(from, X_WF);
   return target_.state->support != from.support &&
-         StateDistance(X_WF, target_.state->X_WS, true) <= target_.near;
+         StateDistance(X_WF.Planar(), target_.state->X_WS.Planar(), true) <= target_.near;
 }
 
 double StepTree::LeastCostFrom(const StepState& state) const {
   const double each = graph_.reach().least_cost();
   if (!target_.state) return each * graph_.LeastSteps(state);
   const double left =
-      (state.X_WS.position() - target_.state->X_WS.position()).norm() - target_.near;
+      (state.X_WS.Planar().position() - target_.state->X_WS.Planar().position()).norm() -
+      target_.near;
   return each * std::max(1.0, graph_.reach().Steps(left, 0.0));
 }
 
@@ -49,7 +50,7 @@ void StepTree::Arrive(int index, int k) {
   std::reverse(arrival_.ks.begin(), arrival_.ks.end());
 }
 
-StepTree::Edge StepTree::Try(int index, int k, const Footprint& X_WF) {
+StepTree::Edge StepTree::Try(int index, int k, const Foothold& X_WF) {
   Node& node = nodes_[static_cast<size_t>(index)];
   if (node.tried[static_cast<size_t>(k)]) return Edge::kUseless;
   node.tried[static_cast<size_t>(k)] = true;
@@ -63,8 +64,8 @@ StepTree::Edge StepTree::Try(int index, int k, const Footprint& X_WF) {
     Arrive(index, k);
     return Edge::kArrived;
   }
-  if (!graph_.workspace().contains(X_WF.position()) || reached_.contains(cells_.KeyOf(after)) ||
-      cost + LeastCostFrom(after) >= target_.cost_limit) {
+  if (!graph_.workspace().contains(X_WF.Planar().position()) ||
+      reached_.contains(cells_.KeyOf(after)) || cost + LeastCostFrom(after) >= target_.cost_limit) {
     return Edge::kUseless;
   }
   if (!graph_.DownIsFree(from, k) || !graph_.UpIsFree(from, k)) return Edge::kBlocked;
@@ -88,13 +89,14 @@ StepTree::Growth StepTree::Add(const StepState& state, int parent, int k, double
 // Elements of a new node that land on the target. `landings_` may be in use by the caller.
 StepTree::Growth StepTree::LookForTarget(int index) {
   const StepState from = nodes_[static_cast<size_t>(index)].state;
-  const bool near = target_.state
-                        ? (from.X_WS.position() - target_.state->X_WS.position()).norm() <=
-                              graph_.reach().one() + target_.near
-                        : graph_.LeastSteps(from) <= 1;
+  const bool near =
+      target_.state
+          ? (from.X_WS.Planar().position() - target_.state->X_WS.Planar().position()).norm() <=
+                graph_.reach().one() + target_.near
+          : graph_.LeastSteps(from) <= 1;
   if (!near) return Growth::kAdded;
   for (int k = 0; k < graph_.size(); ++k) {
-    const Footprint X_WF = graph_.Landing(from, k);
+    const Foothold X_WF = graph_.Landing(from, k);
     if (Hits(from, X_WF) && Try(index, k, X_WF) == Edge::kArrived) return Growth::kArrived;
   }
   return Growth::kAdded;
@@ -106,7 +108,7 @@ StepTree::Growth StepTree::Grow(const TreeSample& sample) {
   if (index < 0) return Growth::kNothingLeft;
   const StepState from = nodes_[static_cast<size_t>(index)].state;
   Pose2 wanted = sample.X_WF;
-  const Eigen::Vector2d way = wanted.position() - from.X_WS.position();
+  const Eigen::Vector2d way = wanted.position() - from.X_WS.Planar().position();
   const bool face_forward = !counts && way.norm() > kFaceForwardBeyond;
   if (face_forward) wanted.yaw = std::atan2(way.y(), way.x());
   const bool with_yaw = face_forward || sample.yaw != TreeSample::Yaw::kFree;
@@ -116,7 +118,7 @@ StepTree::Growth StepTree::Grow(const TreeSample& sample) {
   for (size_t k = 0; k < landings_.size(); ++k) {
     distances_.push_back(nodes_[static_cast<size_t>(index)].tried[k]
                              ? kInfinity
-                             : StateDistance(landings_[k], wanted, with_yaw));
+                             : StateDistance(landings_[k].Planar(), wanted, with_yaw));
   }
   Growth growth = Growth::kTrapped;
   for (int blocked = 0; growth == Growth::kTrapped && blocked < kTriesPerSample;) {

@@ -8,7 +8,7 @@
 #include "planner/search/plan_search.h"
 #include "planner/search/pose_cells.h"
 #include "planner/search/state_buckets.h"
-#include "wpg/geometry/footprint.h"
+#include "wpg/geometry/foothold.h"
 
 namespace halfstep {
 
@@ -27,7 +27,7 @@ struct TreeSample {
     kCountsWhenNear,  ///< counts when the foot is near; facing the sample counts when it is far
     kFree,            ///< does not count; facing the sample counts when the foot is far
   };
-  Footprint X_WF;           ///< where the foot shall land, about
+  Pose2 X_WF;               ///< where the foot shall land, about, seen from above
   Side side = Side::kLeft;  ///< the foot that lands
   Yaw yaw = Yaw::kCounts;   ///< of X_WF
 };
@@ -68,9 +68,9 @@ class StepTree {
   };
   enum class Edge { kUseless, kBlocked, kAdded, kArrived };
 
-  bool Hits(const StepState& from, const Footprint& X_WF) const;
+  bool Hits(const StepState& from, const Foothold& X_WF) const;
   double LeastCostFrom(const StepState& state) const;
-  Edge Try(int index, int k, const Footprint& X_WF);
+  Edge Try(int index, int k, const Foothold& X_WF);
   Growth Add(const StepState& state, int parent, int k, double cost);
   Growth LookForTarget(int index);
   void Arrive(int index, int k);
@@ -83,7 +83,7 @@ class StepTree {
   StateBuckets buckets_;
   std::unordered_set<std::uint64_t> reached_;
   StepPlan arrival_;
-  std::vector<Footprint> landings_;
+  std::vector<Foothold> landings_;
   std::vector<double> distances_;
 };
 

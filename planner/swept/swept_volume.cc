@@ -193,6 +193,7 @@ bool SweptVolumeBaker::AddTwin(const Placement& placement, const Placement& twin
 }
 
 std::optional<BoxTree> SweptVolumeBaker::Bake(const HalfStep& half_step, const Lipm& lipm) const {
+  half_step.X_SF.CheckLevel();
   const auto placements = Cover(half_step, lipm), mirrored = Cover(half_step.Mirrored(), lipm);
   if (!placements || !mirrored) return std::nullopt;
   std::map<std::pair<size_t, double>, const Placement*> left;  // mirrored ones, by body and time

@@ -82,8 +82,10 @@ std::string DefaultCacheFolder() {
 std::string SweptVolumeProvenance(const RobotModel& robot, const Lipm& lipm, const HalfStepSet& set,
                                   const SweptVolumeOptions& options) {
   std::string placements;
-  for (const Footprint& X_SF : set.placements)
+  for (const Foothold& X_SF : set.placements) {
+    X_SF.CheckLevel();
     Append(Eigen::Vector3d(X_SF.x, X_SF.y, X_SF.yaw), &placements);
+  }
   std::string text = "swept volumes, format " + std::to_string(kFormat) + "\n";
   const auto line = [&](const char* key, const std::string& value) {
     text += std::string(key) + " " + value + "\n";

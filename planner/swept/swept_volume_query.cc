@@ -67,11 +67,13 @@ SweptVolumeQuery::SweptVolumeQuery(const SweptVolumes& volumes,
     : volumes_(volumes),
       down_bounds_(BoundsOf(volumes.down)),
       up_bounds_(BoundsOf(volumes.up)),
+      level_(scene.ground->HeightEverywhere()),
       areas_(scene, sole_outline),
       no_step_(no_step) {
   const size_t size = static_cast<size_t>(volumes.set.size());
   HALFSTEP_CHECK(volumes.down.size() == size && volumes.up.size() == size,
                  volumes.down.size() << " and " << volumes.up.size() << " volumes of " << size);
+  for (const Foothold& X_SF : volumes.set.placements) X_SF.CheckLevel();
   CheckPlaces(scene, until);
   std::vector<ObstaclePlace> all;
   for (const Obstacle& obstacle : scene.obstacles) {
@@ -177,7 +179,7 @@ bool SweptVolumeQuery::MeetsObstacle(const BoxTree& tree, const Placed& placed,
   const double c = placed.cos, s = placed.sin, sign = placed.mirrored ? -1.0 : 1.0;
   Matrix3d R;
   R << c, s, 0, -sign * s, sign * c, 0, 0, 0, 1;
-  const Vector3d p_WS(placed.X_WS.x, placed.X_WS.y, 0.0);
+  const Vector3d p_WS(placed.X_WS.x, placed.X_WS.y, placed.X_WS.height);
   const OrientedBox around{.center = R * (obstacle.around_W.center - p_WS),
                            .half = obstacle.around_W.half,
                            .axes = R * obstacle.around_W.axes};
@@ -199,14 +201,14 @@ bool SweptVolumeQuery::MeetsObstacle(const BoxTree& tree, const Placed& placed,
 
 bool SweptVolumeQuery::IsFree(const Placed& placed, double extra) const {
   HALFSTEP_CHECK(placed.X_WS.AllFinite(), "the sole's pose is not finite");
-  if (!placed.volume) return false;
+  if (!placed.volume || placed.X_WS.height != level_) return false;
   __builtin_prefetch(placed.bounds.root);
   __builtin_prefetch(&*placed.volume);
   if (tree_.nodes.empty()) return true;
   if (tree_.nodes[0].left < 0) return !MeetsLeaf(placed, tree_.nodes[0], extra);
   const double sign = placed.mirrored ? -1.0 : 1.0;
   const Vector3d middle(placed.bounds.middle.x(), sign * placed.bounds.middle.y(),
-                        placed.bounds.middle.z());
+                        placed.bounds.middle.z() + placed.X_WS.height);
   const Vector3d half = placed.bounds.half.array() + Slack(placed, extra);
   int32_t stack[BoundsTree::kDeepest];
   int top = 0;
@@ -232,7 +234,8 @@ bool SweptVolumeQuery::IsFree(const Placed& placed, double extra) const {
 }
 
 double SweptVolumeQuery::Slack(const Placed& placed, double extra) const {
-  return extra + 1e-6 * (1.0 + farthest_ + std::abs(placed.X_WS.x) + std::abs(placed.X_WS.y));
+  return extra + 1e-6 * (1.0 + farthest_ + std::abs(placed.X_WS.x) + std::abs(placed.X_WS.y) +
+                         std::abs(placed.X_WS.height));
 }
 
 bool SweptVolumeQuery::MeetsLeaf(const Placed& placed, const BoundsTree::Node& leaf,
@@ -243,7 +246,8 @@ bool SweptVolumeQuery::MeetsLeaf(const Placed& placed, const BoundsTree::Node& l
   const auto four = [](double value) { return Four(static_cast<float>(value)); };
   const Four X = four(placed.X_WS.x), Y = four(placed.X_WS.y), C = four(placed.cos),
              S = four(placed.sin);
-  const Four mx = four(middle.x()), my = four(sign * middle.y()), mz = four(middle.z());
+  const Four mx = four(middle.x()), my = four(sign * middle.y()),
+             mz = four(middle.z() + placed.X_WS.height);
   const Four hx = four(half.x()), hy = four(half.y()), hz = four(half.z());
   const size_t first =
       static_cast<size_t>(leaf_begins_[static_cast<size_t>(&leaf - tree_.nodes.data())]) / 4;
@@ -263,16 +267,16 @@ bool SweptVolumeQuery::MeetsLeaf(const Placed& placed, const BoundsTree::Node& l
   return false;
 }
 
-SweptVolumeQuery::Placed SweptVolumeQuery::Down(int i, Side support, const Footprint& X_WS) const {
+SweptVolumeQuery::Placed SweptVolumeQuery::Down(int i, Side support, const Foothold& X_WS) const {
   const size_t e = static_cast<size_t>(i);
   return {volumes_.down[e],   down_bounds_[e],   support == Side::kRight, X_WS,
           std::cos(X_WS.yaw), std::sin(X_WS.yaw)};
 }
 
-SweptVolumeQuery::Placed SweptVolumeQuery::Up(int i, Side support, const Footprint& X_WS) const {
+SweptVolumeQuery::Placed SweptVolumeQuery::Up(int i, Side support, const Foothold& X_WS) const {
   // The foot that has landed supports.
   const size_t e = static_cast<size_t>(i);
-  const Footprint X_WF = X_WS * volumes_.set.Placement(i, support);
+  const Foothold X_WF = X_WS * volumes_.set.Placement(i, support);
   return {volumes_.up[e], up_bounds_[e],      support == Side::kLeft,
           X_WF,           std::cos(X_WF.yaw), std::sin(X_WF.yaw)};
 }
@@ -294,12 +298,13 @@ std::vector<SweptVolumeQuery::Bounds> SweptVolumeQuery::BoundsOf(
   return all;
 }
 
-bool SweptVolumeQuery::DownIsFree(int i, Side support, const Footprint& X_WS) const {
+bool SweptVolumeQuery::DownIsFree(int i, Side support, const Foothold& X_WS) const {
   if (!IsFree(Down(i, support, X_WS), 0.0)) return false;
-  return areas_.empty() || areas_.Clears(X_WS * volumes_.set.Placement(i, support), no_step_);
+  return areas_.empty() ||
+         areas_.Clears((X_WS * volumes_.set.Placement(i, support)).Planar(), no_step_);
 }
 
-bool SweptVolumeQuery::UpIsFree(int i, Side support, const Footprint& X_WS) const {
+bool SweptVolumeQuery::UpIsFree(int i, Side support, const Foothold& X_WS) const {
   return IsFree(Up(i, support, X_WS), 0.0);
 }
 
@@ -315,12 +320,12 @@ double SweptVolumeQuery::Clearance(const Placed& placed, double horizon) const {
   return free;
 }
 
-double SweptVolumeQuery::DownClearance(int i, Side support, const Footprint& X_WS,
+double SweptVolumeQuery::DownClearance(int i, Side support, const Foothold& X_WS,
                                        double horizon) const {
   return Clearance(Down(i, support, X_WS), horizon);
 }
 
-double SweptVolumeQuery::UpClearance(int i, Side support, const Footprint& X_WS,
+double SweptVolumeQuery::UpClearance(int i, Side support, const Foothold& X_WS,
                                      double horizon) const {
   return Clearance(Up(i, support, X_WS), horizon);
 }

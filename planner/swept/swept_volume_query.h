@@ -16,7 +16,7 @@
 #include "planner/swept/box_tree_query.h"
 #include "planner/swept/obstacle_places.h"
 #include "planner/swept/swept_volumes.h"
-#include "wpg/geometry/footprint.h"
+#include "wpg/geometry/foothold.h"
 
 namespace halfstep {
 
@@ -30,21 +30,22 @@ class SweptVolumeQuery : public HalfStepQuery {
  public:
   /// `volumes` is borrowed and must outlive this. A landing sole, of the outline
   /// RobotModel::sole_outline (2×k) [m], keeps `no_step` ≥ 0 [m] from the no-step areas and touches
-  /// none. Half-steps are executed at times of [0, until] [s]. Precondition: finite poses, volumes
-  /// for each element (std::logic_error). Throws InputError as PlacesOf.
+  /// none. Soles stand at the ground's one level: what does not is not free. Half-steps are
+  /// executed at times of [0, until] [s]. Precondition: finite poses, volumes for each element,
+  /// elements and ground of one level (std::logic_error). Throws InputError as PlacesOf.
   SweptVolumeQuery(const SweptVolumes& volumes, const Eigen::Matrix2Xd& sole_outline,
                    const Scene& scene, double no_step = 0.0,
                    double until = std::numeric_limits<double>::infinity());
 
-  bool DownIsFree(int i, Side support, const Footprint& X_WS) const override;
-  bool UpIsFree(int i, Side support, const Footprint& X_WS) const override;
+  bool DownIsFree(int i, Side support, const Foothold& X_WS) const override;
+  bool UpIsFree(int i, Side support, const Foothold& X_WS) const override;
 
   /// A distance [m] from the volume (so from the robot: the baked clearance more) that is free of
   /// obstacles in all directions of the axes; 0 when the half-step is not free. Found by halving to
   /// 1 mm; at most `horizon` [m]. No-step areas do not count.
-  double DownClearance(int i, Side support, const Footprint& X_WS, double horizon) const;
+  double DownClearance(int i, Side support, const Foothold& X_WS, double horizon) const;
   /// The same of the up half-step.
-  double UpClearance(int i, Side support, const Footprint& X_WS, double horizon) const;
+  double UpClearance(int i, Side support, const Foothold& X_WS, double horizon) const;
 
   /// Moves one obstacle of the scene; the others stay as they are prepared, and so does how far it
   /// is grown. Precondition: it has no waypoints (std::logic_error).
@@ -83,7 +84,7 @@ class SweptVolumeQuery : public HalfStepQuery {
     const std::optional<BoxTree>& volume;
     const Bounds& bounds;
     bool mirrored;
-    Footprint X_WS;
+    Foothold X_WS;
     double cos, sin;  // of its yaw
   };
 
@@ -93,8 +94,8 @@ class SweptVolumeQuery : public HalfStepQuery {
   void PlantTree(const std::vector<Upright>& cylinders);
   void Put(size_t slot, const Upright& cylinder);
   static std::vector<Bounds> BoundsOf(const std::vector<std::optional<BoxTree>>& volumes);
-  Placed Down(int i, Side support, const Footprint& X_WS) const;
-  Placed Up(int i, Side support, const Footprint& X_WS) const;
+  Placed Down(int i, Side support, const Foothold& X_WS) const;
+  Placed Up(int i, Side support, const Foothold& X_WS) const;
   bool IsFree(const Placed& placed, double extra) const;
   // By which a volume's bounds are widened, with what the rounding of float coordinates needs.
   double Slack(const Placed& placed, double extra) const;
@@ -114,6 +115,7 @@ class SweptVolumeQuery : public HalfStepQuery {
   std::vector<Cylinders> cylinders_;  // by slot / 4
   std::vector<int32_t> place_at_;     // by slot
   double farthest_ = 0.0;             // coordinate of an obstacle [m]
+  double level_;                      // of the ground [m]
   NoStepAreas areas_;
   double no_step_ = 0.0;
 };

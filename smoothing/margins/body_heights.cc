@@ -4,15 +4,16 @@
 
 namespace halfstep {
 
-BodyHeights::BodyHeights(const RobotModel& robot)
-    : robot_(robot), of_waist_{.family = MarginFamily::kGround} {
+BodyHeights::BodyHeights(const RobotModel& robot, double floor)
+    : robot_(robot), floor_(floor), of_waist_{.family = MarginFamily::kGround} {
   for (int b = 0; b < static_cast<int>(robot.bodies.size()); ++b) {
     if (body(b).leg >= 0) {
       (IsOnFoot(body(b)) ? on_feet_ : of_legs_).push_back(b);
       continue;
     }
     // The waist is upright, at a constant height.
-    const double height = robot.waist_height - Support(body(b).shape, -Eigen::Vector3d::UnitZ());
+    const double height =
+        robot.waist_height - Support(body(b).shape, -Eigen::Vector3d::UnitZ()) - floor_;
     if (height < of_waist_.value) {
       of_waist_.value = height;
       of_waist_.subject = b;
@@ -28,11 +29,11 @@ Eigen::Vector3d BodyHeights::LowestPoint(int b, const Posture& posture) const {
 double BodyHeights::LowestPossible(int b, const Posture& posture) const {
   const Eigen::Isometry3d& X = posture.OfBody(body(b));
   const ConvexBody& shape = body(b).shape;
-  return X.linear().row(2).dot(shape.center) + X.translation().z() - shape.radius;
+  return X.linear().row(2).dot(shape.center) + X.translation().z() - shape.radius - floor_;
 }
 
 double BodyHeights::OnFoot(int b, const WalkState& x) const {
-  const double height = x[FootIndex(static_cast<Side>(body(b).leg)) + 2];
+  const double height = x[FootIndex(static_cast<Side>(body(b).leg)) + 2] - floor_;
   return height >= -kSoleRounding ? std::numeric_limits<double>::infinity() : height;
 }
 
@@ -46,7 +47,7 @@ Margin BodyHeights::Least(const Posture& posture, const WalkState& x, double eno
   for (int b : on_feet_) lower(b, OnFoot(b, x));
   for (int b : of_legs_) {
     if (LowestPossible(b, posture) >= std::min(enough, least.value)) continue;
-    lower(b, LowestPoint(b, posture).z());
+    lower(b, LowestPoint(b, posture).z() - floor_);
   }
   return least;
 }

@@ -21,14 +21,14 @@ inline constexpr double kSoleRounding = 1e-8;
 /// below the sole.
 inline bool IsOnFoot(const RobotBody& body) { return body.link == 5; }
 
-/// Heights of a robot's bodies above the floor z = 0 [m], as the family `ground` counts them. A
-/// body that is not on a foot has the height of its lowest point. A body on a foot may touch the
+/// Heights of a robot's bodies above the floor of a Ground [m], as the family `ground` counts them.
+/// A body that is not on a foot has the height of its lowest point. A body on a foot may touch the
 /// floor, so it has no limit and reads +∞, unless its sole is below the floor by more than
 /// kSoleRounding. Const and thread-safe.
 class BodyHeights {
  public:
-  /// `robot` is borrowed and must outlive this.
-  explicit BodyHeights(const RobotModel& robot);
+  /// `robot` is borrowed and must outlive this; `floor` is Ground::Floor [m].
+  BodyHeights(const RobotModel& robot, double floor);
 
   /// Bodies of the legs that are not on a foot, and bodies on a foot, as indices of
   /// RobotModel::bodies.
@@ -38,10 +38,11 @@ class BodyHeights {
   /// none.
   const Margin& of_waist() const { return of_waist_; }
 
-  /// The lowest point of a body of a leg, in W [m]; and a lower bound of its height [m], found with
-  /// less work.
+  /// z of the floor in W [m].
+  double floor() const { return floor_; }
+  /// The lowest point of a body of a leg, in W [m].
   Eigen::Vector3d LowestPoint(int body, const Posture& posture) const;
-  /// A lower bound of that point's height [m].
+  /// A lower bound of that point's height above the floor [m], found with less work.
   double LowestPossible(int body, const Posture& posture) const;
 
   /// The least margin of all bodies [m]. Bodies that are at `enough` [m] or higher may be left out,
@@ -55,6 +56,7 @@ class BodyHeights {
   const RobotBody& body(int b) const { return robot_.bodies[static_cast<size_t>(b)]; }
 
   const RobotModel& robot_;
+  double floor_;
   std::vector<int> of_legs_, on_feet_;
   Margin of_waist_;
 };

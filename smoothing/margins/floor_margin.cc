@@ -12,7 +12,7 @@ Margin FloorMargin::Least(Instant* at, double) const {
   Margin least = Of(kUnlimited, -1);
   const int step = at->step_in_air();
   if (step >= 0 && at->walk().MovesHorizontally(step, at->at())) {
-    Lower(Of(at->jet().value[FootIndex(at->swing()) + 2], Index(at->swing())), &least);
+    Lower(Of(at->jet().value[FootIndex(at->swing()) + 2] - floor_, Index(at->swing())), &least);
   }
   return least;
 }
@@ -21,7 +21,8 @@ void FloorMargin::AddRows(Instant* at, SlackSink* rows) const {
   const int step = at->step_in_air();
   if (step < 0 || !at->walk().MovesHorizontally(step, at->at())) return;
   const int z = FootIndex(at->swing()) + 2;
-  rows->Add(at->jet().value[z], [&](size_t i) { return rows->sensitivities[i].jet.value[z]; });
+  rows->Add(at->jet().value[z] - floor_,
+            [&](size_t i) { return rows->sensitivities[i].jet.value[z]; });
 }
 
 void FloorMargin::AddBounds(const MarginInterval& interval, TightestStatement* tightest) const {

@@ -26,8 +26,9 @@ class FloorMargin final : public WholeFamily {
       .row = MarginFamily::kFloor,
   };
 
-  /// Needs nothing of the place.
-  explicit FloorMargin(const MarginPlace&) : WholeFamily(kTraits) {}
+  /// Needs the height of the place's floor.
+  explicit FloorMargin(const MarginPlace& place)
+      : WholeFamily(kTraits), floor_(place.scene.ground->Floor()) {}
 
   int count() const override;
   std::string Subject(const Margin& margin) const override;
@@ -36,6 +37,9 @@ class FloorMargin final : public WholeFamily {
 
  protected:
   void AddBounds(const MarginInterval& interval, TightestStatement* tightest) const override;
+
+ private:
+  double floor_;  // [m]
 };
 
 }  // namespace halfstep

@@ -24,7 +24,7 @@ void GroundMargin::AddRows(Instant* at, SlackSink* rows) const {
     if (place_.heights.LowestPossible(b, posture) > rows->horizon()) continue;
     const RobotBody& body = place_.robot.bodies[static_cast<size_t>(b)];
     const Eigen::Vector3d lowest = place_.heights.LowestPoint(b, posture);
-    rows->Add(lowest.z(),
+    rows->Add(lowest.z() - place_.heights.floor(),
               [&](size_t i) { return PointTangent(body, posture, rows->tangents[i], lowest).z(); });
   }
 }
@@ -39,9 +39,10 @@ void GroundMargin::AddBounds(const MarginInterval& interval, TightestStatement* 
   for (int body : heights.on_feet()) {
     const Side side = static_cast<Side>(place_.robot.bodies[static_cast<size_t>(body)].leg);
     const int z = FootIndex(side) + 2;
-    double least = x[z] - motion.Change(z);
+    double least = x[z] - heights.floor() - motion.Change(z);
     if (step >= 0 && interval.mid.swing() == side) {
-      least = std::max(least, interval.mid.walk().LeastHeight(step, t - h, t + h));
+      least =
+          std::max(least, interval.mid.walk().LeastHeight(step, t - h, t + h) - heights.floor());
     }
     // On the floor or above it for all t, below it at the midpoint, or neither is known.
     const double margin = heights.OnFoot(body, x);
@@ -52,7 +53,8 @@ void GroundMargin::AddBounds(const MarginInterval& interval, TightestStatement* 
     const double change = motion.displacement[static_cast<size_t>(body)];
     const double possible = heights.LowestPossible(body, motion.posture);
     if (tightest->Pass(possible - change - rounding)) continue;
-    tightest->Add(Of(heights.LowestPoint(body, motion.posture).z(), body), change + rounding);
+    tightest->Add(Of(heights.LowestPoint(body, motion.posture).z() - heights.floor(), body),
+                  change + rounding);
   }
   tightest->Add(Of(heights.of_waist().value, heights.of_waist().subject), rounding);
   tightest->count = count();  // the lowest of the waist's bodies for all

@@ -10,7 +10,8 @@
 #include "smoothing/margins/body_clearances.h"
 #include "smoothing/margins/body_heights.h"
 #include "smoothing/margins/rounding.h"
-#include "wpg/geometry/footprint.h"
+#include "wpg/check.h"
+#include "wpg/geometry/pose2.h"
 #include "wpg/robot/robot_model.h"
 #include "wpg/workers.h"
 
@@ -19,14 +20,17 @@ namespace halfstep {
 /// A robot among the obstacles of a scene, prepared for the questions of all families. It cannot be
 /// moved, because its parts borrow from each other.
 struct MarginPlace {
-  /// Prepares both; takes as long as building the scene's trees.
+  /// Prepares both; takes as long as building the scene's trees. Precondition: nothing stands out
+  /// of the ground's floor, since no family keeps off solids yet (std::logic_error).
   MarginPlace(RobotModel r, Scene s)
       : robot(std::move(r)),
         scene(std::move(s)),
         clearances(robot, scene),
-        heights(robot),
+        heights(robot, scene.ground->Floor()),
         areas(scene, robot.sole_outline),
-        rounding(robot) {}
+        rounding(robot) {
+    HALFSTEP_CHECK(scene.ground->Solids().empty(), scene.ground->Solids().size() << " solids");
+  }
   MarginPlace(const MarginPlace&) = delete;
   MarginPlace& operator=(const MarginPlace&) = delete;
 
@@ -43,7 +47,7 @@ struct MarginPlace {
 struct MarginScratch {
   /// The no-step area that was nearest to a sole where it stood last.
   struct Standing {
-    Footprint X_WF;                ///< where the sole stood
+    Pose2 X_WF;                    ///< where the sole stood, seen from above
     NoStepAreas::Nearest nearest;  ///< the area nearest to it there
     bool known = false;            ///< whether it has stood
   };

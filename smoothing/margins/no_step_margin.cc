@@ -18,7 +18,7 @@ Margin NoStepMargin::OfSole(const Instant& at, Side side) const {
   Margin margin = Of(std::numeric_limits<double>::infinity(), Index(side));
   if (place_.areas.empty() || at.walk().InAir(at.at(), side)) return margin;
   MarginScratch::Standing& standing = at.scratch().standing[static_cast<size_t>(Index(side))];
-  const Footprint X_WF = FootPose(at.jet().value, side);
+  const Pose2 X_WF = FootPose(at.jet().value, side);
   if (!standing.known || standing.X_WF != X_WF) {
     standing = {X_WF, place_.areas.NearestTo(X_WF), true};
   }

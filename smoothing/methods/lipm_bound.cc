@@ -20,7 +20,7 @@ constexpr int kDirections = 72;  // in which the CoM's condition is looked at; a
 
 // A step: the soles that stand before and after, and the shortest time that its foot is in the air.
 struct Flight {
-  Footprint from, to, stance;
+  Pose2 from, to, stance;
   double least = 0.0;  // [s]
 };
 
@@ -41,14 +41,15 @@ std::vector<Flight> Flights(const WalkProblem& problem) {
   const double speed = Allowed(limits.foot_speed, limits.demanded_of(MarginFamily::kFootSpeed));
   const double rate = Allowed(limits.foot_yaw_rate, limits.demanded_of(MarginFamily::kFootYawRate));
   const double lift = std::max(0.0, limits.demanded_of(MarginFamily::kFloor));
-  std::array<Footprint, 2> soles = problem.sequence().start;
+  const std::array<Foothold, 2>& start = problem.sequence().start;
+  std::array<Pose2, 2> soles = {start[0].Planar(), start[1].Planar()};
   std::vector<Flight> flights;
   for (int step = 0; step < problem.sequence().num_steps(); ++step) {
     const PlacedHalfStep& down = problem.sequence().half_steps[static_cast<size_t>(2 * step + 1)];
     const Side swing = down.half_step.swing();
     Flight flight{.from = soles[static_cast<size_t>(Index(swing))],
-                  .to = down.X_WS * down.half_step.X_SF,
-                  .stance = down.X_WS};
+                  .to = (down.X_WS * down.half_step.X_SF).Planar(),
+                  .stance = down.X_WS.Planar()};
     const double way = std::hypot(flight.to.x - flight.from.x, flight.to.y - flight.from.y);
     const double path = way > 0.0 ? way + 2.0 * lift : 0.0;
     const double turn = std::abs(flight.to.yaw - flight.from.yaw);
@@ -61,15 +62,15 @@ std::vector<Flight> Flights(const WalkProblem& problem) {
 
 // How far a sole reaches along u, less what the ZMP has to stay inside of its edges at least. Along
 // a direction between two edges' normals the polygon that is left reaches less; more is sound.
-double Reach(const Footprint& sole, const Vector2d& size, double inside, const Vector2d& u) {
+double Reach(const Pose2& sole, const Vector2d& size, double inside, const Vector2d& u) {
   const Vector2d left = (size.array() - 2.0 * inside).max(0.0);
   return (u.transpose() * SoleCorners(sole, left)).maxCoeff();
 }
 
 // The least time that both soles of `both` stand before the CoM, at rest at x, may be left to the
 // sole `flight.stance` alone for flight.least, whatever comes afterwards on `all` soles.
-double LeastShift(const Vector2d& x, const std::array<Footprint, 2>& both, const Flight& flight,
-                  const std::vector<Footprint>& all, const WalkProblem& problem) {
+double LeastShift(const Vector2d& x, const std::array<Pose2, 2>& both, const Flight& flight,
+                  const std::vector<Pose2>& all, const WalkProblem& problem) {
   const double omega = problem.sequence().lipm.omega();
   const double demanded = problem.limits().demanded_of(MarginFamily::kZmp);
   const double inside = demanded == kNotDemanded ? 0.0 : demanded;
@@ -82,7 +83,7 @@ double LeastShift(const Vector2d& x, const std::array<Footprint, 2>& both, const
     // The hull of both soles is shrunk as a whole, by less along some directions: not at all here.
     const double two = std::max(Reach(both[0], size, 0.0, u), Reach(both[1], size, 0.0, u));
     double later = two;
-    for (const Footprint& sole : all) later = std::max(later, Reach(sole, size, 0.0, u));
+    for (const Pose2& sole : all) later = std::max(later, Reach(sole, size, 0.0, u));
     const double need = u.dot(x);
     const double lost = two - one - (later - one) * std::exp(-omega * flight.least);
     if (!(two > need) || lost <= two - need) continue;
@@ -100,14 +101,15 @@ LipmBound LowerBound(const WalkProblem& problem) {
   const auto com = [&walk](double t) -> Vector2d {
     return walk.At(walk.Locate(t)).value.segment<2>(kComX);
   };
-  std::vector<Footprint> all(sequence.start.begin(), sequence.start.end());
+  const std::array<Pose2, 2> start = {sequence.start[0].Planar(), sequence.start[1].Planar()};
+  std::vector<Pose2> all(start.begin(), start.end());
   LipmBound bound;
   for (const Flight& flight : flights) {
     all.push_back(flight.to);
     bound.feet += flight.least;
   }
   const Flight& last = flights.back();
-  bound.first = LeastShift(com(0.0), sequence.start, flights.front(), all, problem);
+  bound.first = LeastShift(com(0.0), start, flights.front(), all, problem);
   bound.last = LeastShift(com(walk.duration()), {last.stance, last.to}, last, all, problem);
   return bound;
 }

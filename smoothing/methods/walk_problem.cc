@@ -7,6 +7,15 @@
 #include "wpg/check.h"
 
 namespace halfstep {
+namespace {
+
+void CheckBorne(const Ground& ground, const Eigen::Matrix2Xd& outline, const Foothold& X_WF) {
+  const auto level = ground.LevelUnder(outline, X_WF.Planar(), X_WF.height);
+  HALFSTEP_CHECK(level && level->height == X_WF.height,
+                 "no level under a sole at " << X_WF.x << ", " << X_WF.y << ", " << X_WF.height);
+}
+
+}  // namespace
 
 WalkProblem::WalkProblem(RobotModel robot, Scene scene, HalfStepSequence sequence,
                          MarginLimits limits, std::vector<FixedParameter> fixed)
@@ -23,6 +32,10 @@ WalkProblem::WalkProblem(HalfStepSequence sequence, std::shared_ptr<const Feasib
       fixed_(std::move(fixed)) {
   const std::string complaint = ComplaintAbout(*sequence_, fixed_);
   HALFSTEP_CHECK(complaint.empty(), complaint);
+  for (const auto& [half_step, X_WS] : sequence_->half_steps) {
+    CheckBorne(*scene().ground, robot().sole_outline, X_WS);
+    CheckBorne(*scene().ground, robot().sole_outline, X_WS * half_step.X_SF);
+  }
 }
 
 }  // namespace halfstep

@@ -19,7 +19,8 @@ class WalkProblem {
   WalkProblem(RobotModel robot, Scene scene, HalfStepSequence sequence, MarginLimits limits,
               std::vector<FixedParameter> fixed = {});
   /// Robot, scene and limits are those of the test. Both constructors throw std::logic_error when
-  /// ComplaintAbout() complains about `fixed`.
+  /// ComplaintAbout() complains about `fixed`, or when the ground bears no sole where one is
+  /// planned.
   WalkProblem(HalfStepSequence sequence, std::shared_ptr<const FeasibilityTest> test,
               std::vector<FixedParameter> fixed = {});
 

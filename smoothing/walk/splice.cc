@@ -8,10 +8,8 @@
 namespace halfstep {
 namespace {
 
-bool SamePose(const Pose2& a, const Pose2& b) { return a.x == b.x && a.y == b.y && a.yaw == b.yaw; }
-
 // The shape of the half-steps that follow is that of those before.
-HalfStepSequence Following(const HalfStepSequence& sequence, const std::array<Footprint, 2>& feet,
+HalfStepSequence Following(const HalfStepSequence& sequence, const std::array<Foothold, 2>& feet,
                            const std::vector<Footstep>& footsteps) {
   const HalfStep& like = sequence.half_steps.front().half_step;
   return MakeSequence(feet, footsteps, like.via_lateral, like.shape, sequence.lipm);
@@ -27,7 +25,7 @@ void Append(const HalfStepSequence& tail, HalfStepSequence* sequence) {
 int CommonHalfSteps(const SuperposedWalk& a, const SuperposedWalk& b) {
   const int n = std::min(a.num_half_steps(), b.num_half_steps());
   int m = 0;
-  while (m < n && a.half_step(m) == b.half_step(m) && SamePose(a.X_WS(m), b.X_WS(m)) &&
+  while (m < n && a.half_step(m) == b.half_step(m) && a.X_WS(m) == b.X_WS(m) &&
          a.start_of(m) == b.start_of(m)) {
     ++m;
   }
@@ -43,10 +41,10 @@ double AgreeUntil(const SuperposedWalk& a, const SuperposedWalk& b) {
   return until;
 }
 
-std::array<Footprint, 2> StanceAfter(const HalfStepSequence& sequence, int last) {
+std::array<Foothold, 2> StanceAfter(const HalfStepSequence& sequence, int last) {
   HALFSTEP_CHECK(last >= 0 && last < sequence.size(), "half-step " << last);
   const auto& [down, X_WS] = sequence.half_steps[static_cast<size_t>(last / 2 * 2 + 1)];
-  std::array<Footprint, 2> feet;
+  std::array<Foothold, 2> feet;
   feet[static_cast<size_t>(Index(down.support))] = X_WS;
   feet[static_cast<size_t>(Index(down.swing()))] = X_WS * down.X_SF;
   return feet;
@@ -66,7 +64,7 @@ WalkPlan Changed(const WalkPlan& walk, int last, const std::vector<Footstep>& fo
   HalfStepSequence& sequence = changed.sequence;
   sequence.half_steps.resize(static_cast<size_t>(last + 1));
   auto next = footsteps.begin();
-  std::array<Footprint, 2> feet = StanceAfter(walk.sequence, last);
+  std::array<Foothold, 2> feet = StanceAfter(walk.sequence, last);
   if (last % 2 == 0) {
     PlacedHalfStep down = sequence.half_steps.back();
     const Side swing = down.half_step.swing();

@@ -29,7 +29,7 @@ double AgreeUntil(const SuperposedWalk& a, const SuperposedWalk& b);
 
 /// Where the feet stand, by Index(Side), when half-step `last` has ended; the swing foot of an up
 /// half-step stands where it will land as planned.
-std::array<Footprint, 2> StanceAfter(const HalfStepSequence& sequence, int last);
+std::array<Foothold, 2> StanceAfter(const HalfStepSequence& sequence, int last);
 
 /// The walk in which half-step `last` + 1 begins at `begin` [s], and everything after it as much
 /// later. It agrees with `walk` until the earlier of both beginnings. Throws std::logic_error

@@ -26,7 +26,9 @@ SuperposedWalk::SuperposedWalk(const HalfStepSequence& sequence,
       const ParameterFamilyTraits& traits = Traits(family);
       if (traits.shape != nullptr) half_step.shape.*traits.shape = parameters.of(family)[i];
     }
-    const Footprint& X_WS = placed[i].X_WS;
+    const Foothold& X_WS = placed[i].X_WS;
+    X_WS.CheckLevel();
+    half_step.X_SF.CheckLevel();
     const WalkState from_W = Transformed(X_WS, half_step.Start());
     pieces_.push_back({.half_step = half_step,
                        .X_WS = X_WS,
@@ -195,7 +197,7 @@ bool SuperposedWalk::InAir(const LocalTime& at, Side foot) const {
 SupportPolygon SupportAt(const SuperposedWalk& walk, const LocalTime& at, const WalkState& x,
                          const Eigen::Vector2d& sole_size) {
   const int step = walk.StepInAir(at);
-  if (step >= 0) return {walk.X_WS(2 * step), sole_size};
+  if (step >= 0) return {walk.X_WS(2 * step).Planar(), sole_size};
   return {FootPose(x, Side::kLeft), FootPose(x, Side::kRight), sole_size};
 }
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "smoothing/walk/homotopy_parameters.h"
-#include "wpg/geometry/footprint.h"
+#include "wpg/geometry/foothold.h"
 #include "wpg/geometry/support_polygon.h"
 #include "wpg/motion/half_step_sequence.h"
 #include "wpg/motion/moved_footsteps.h"
@@ -36,7 +36,8 @@ struct WalkSensitivity {
 /// Source: [Perrin2011] §IV; smoothing/README.md, "The homotopy".
 class SuperposedWalk {
  public:
-  /// Throws std::logic_error when the parameters are not in bounds (CheckParameters).
+  /// Throws std::logic_error when the parameters are not in bounds (CheckParameters), or when a
+  /// foot does not stand at height 0: the waist's height is no quantity of a walk yet.
   SuperposedWalk(const HalfStepSequence& sequence, const HomotopyParameters& parameters);
 
   int num_half_steps() const { return static_cast<int>(pieces_.size()); }  ///< n
@@ -50,8 +51,8 @@ class SuperposedWalk {
   /// Half-step i, with its own duration, heights, form and footsteps.
   const HalfStep& half_step(int i) const { return piece(i).half_step; }
   const HalfStepProfiles& profiles(int i) const { return piece(i).profiles; }  ///< its profiles
-  const Footprint& X_WS(int i) const { return piece(i).X_WS; }  ///< place of its support sole, in W
-  const Lipm& lipm() const { return lipm_; }                    ///< the same for all half-steps
+  const Foothold& X_WS(int i) const { return piece(i).X_WS; }  ///< place of its support sole, in W
+  const Lipm& lipm() const { return lipm_; }                   ///< the same for all half-steps
 
   /// The latest half-step that has begun at t [s] (clamped to the walk), and the time since.
   LocalTime Locate(double t) const;
@@ -113,7 +114,7 @@ class SuperposedWalk {
  private:
   struct Piece {
     HalfStep half_step;
-    Footprint X_WS;
+    Foothold X_WS;
     HalfStepFootsteps on;
     double planned_height = 0.0;  // before scaling [m]
     HalfStepProfiles profiles;

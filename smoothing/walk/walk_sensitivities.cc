@@ -67,7 +67,7 @@ WalkState AtViaMoved(const HalfStep& h, const Eigen::Matrix2d& R_WS, const SoleM
 // What a half-step under way, its support sole at X_WS, has to do with the moves of footsteps.
 struct OnFootsteps {
   const HalfStep& half_step;
-  const Footprint& X_WS;
+  const Foothold& X_WS;
   const HalfStepFootsteps& on;
   const HomotopyParameters& parameters;
   bool first;  // whether the walk is superposed from its start
@@ -79,7 +79,7 @@ void AddFootstepDerivatives(const OnFootsteps& p, const HalfStepJet& profiles,
                             const ParameterFilter& wanted, const JetOf& jet_of) {
   using Family = ParameterFamily;
   const HalfStep& h = p.half_step;
-  const Eigen::Matrix2d R_WS = p.X_WS.rotation();
+  const Eigen::Matrix2d R_WS = p.X_WS.Planar().rotation();
   const bool up = h.kind == HalfStepKind::kUp;
   for (const auto& [step, is_support] : {std::pair{p.on.support, true}, {p.on.swing, false}}) {
     if (step < 0) continue;
@@ -150,7 +150,7 @@ void SuperposedWalk::Sensitivities(const LocalTime& at, std::vector<WalkSensitiv
       AddViaDerivative(profiles, h.kind, i == first, p.planned_height, FootIndex(h.swing()) + 2,
                        &jet_of(height));
     }
-    const Eigen::Matrix2d R_WS = p.X_WS.rotation();
+    const Eigen::Matrix2d R_WS = p.X_WS.Planar().rotation();
     const Eigen::Vector2d aside = R_WS.col(1) * Sign(h.swing());
     move_via({Family::kSupportPoint, i / 2}, aside, kComX);
     move_via({Family::kSupportPoint, i / 2}, aside, kZmpX);

@@ -24,14 +24,15 @@ struct SmoothedWalk {
   explicit SmoothedWalk(int obstacles) {
     const RobotModel robot = Hrp2();
     const double y = 0.5 * robot.standing_width;
-    std::array<Footprint, 2> feet = {Pose2{0, y, 0}, Pose2{0, -y, 0}};
-    const std::array<Footprint, 2> start = feet;
+    std::array<Foothold, 2> feet = {Foothold::Level({0, y, 0}), Foothold::Level({0, -y, 0})};
+    const std::array<Foothold, 2> start = feet;
     std::vector<Footstep> footsteps;
     for (int i = 0; i < kHalfSteps / 2; ++i) {
       const Side side = i % 2 == 0 ? Side::kRight : Side::kLeft;
-      Footprint& foot = feet[static_cast<size_t>(Index(side))];
-      const Pose2& support = feet[static_cast<size_t>(Index(Opposite(side)))];
-      foot = support * Pose2{0.12, Sign(side) * 2 * y, side == Side::kLeft ? 0.05 : 0.0};
+      Foothold& foot = feet[static_cast<size_t>(Index(side))];
+      const Foothold& support = feet[static_cast<size_t>(Index(Opposite(side)))];
+      foot =
+          support * Foothold::Level({0.12, Sign(side) * 2 * y, side == Side::kLeft ? 0.05 : 0.0});
       footsteps.push_back({.side = side, .X_WF = foot, .via_height = 0.15, .duration = 2.0});
     }
     sequence = MakeSequence(start, footsteps, 0.24, {.shift = 0.05, .horizontal_delay = 0.1},

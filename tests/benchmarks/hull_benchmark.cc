@@ -94,7 +94,7 @@ void Bake(benchmark::State& state) {
   const RobotModel robot = DenseRobot(static_cast<int>(state.range(0)), 0.003, KindOf(state));
   const SweptVolumeBaker baker(robot, {});
   HalfStep half_step;
-  half_step.X_SF = {0.15, -0.21, 0.2};
+  half_step.X_SF = Foothold::Level({0.15, -0.21, 0.2});
   for (auto _ : state) {
     benchmark::DoNotOptimize(baker.Bake(half_step, {.com_height = robot.com_height}));
   }
@@ -108,8 +108,11 @@ void InfeasibleStart(benchmark::State& state) {
   const RobotModel robot = DenseRobot(static_cast<int>(state.range(0)), 0.03, KindOf(state));
   const double y = 0.5 * robot.standing_width;
   const HalfStepSequence sequence =
-      MakeSequence({Pose2{0, y, 0}, Pose2{0, -y, 0}},
-                   {{.side = Side::kLeft, .X_WF = {0.2, y, 0}, .via_height = 0.25, .duration = 2}},
+      MakeSequence({Foothold::Level({0, y, 0}), Foothold::Level({0, -y, 0})},
+                   {{.side = Side::kLeft,
+                     .X_WF = Foothold::Level({0.2, y, 0}),
+                     .via_height = 0.25,
+                     .duration = 2}},
                    0.24, {}, {.com_height = robot.com_height});
   const SuperposedWalk walk(sequence, PlannedMotion(sequence));
   const MarginEvaluator evaluator(robot, {}, {});

@@ -27,7 +27,7 @@ using namespace halfstep;
 // One problem; the seed draws what is random about it.
 struct Problem {
   Scene scene;
-  std::array<Footprint, 2> start;
+  std::array<Foothold, 2> start;
   GoalRegion goal;
   std::optional<Eigen::AlignedBox2d> workspace;
 };
@@ -152,7 +152,7 @@ void StudySwept(const Scenario& scenario, const std::string& planner, const Swep
     const SweptVolumeQuery query(volumes, robot.sole_outline, problem.scene);
     const HalfStepCertifier certifier(robot, problem.scene, config);
     PlanRequest request = RequestFor(problem, volumes.set, query);
-    request.start_is_free = [&](const HalfStep& up, const Footprint& X_WS) {
+    request.start_is_free = [&](const HalfStep& up, const Foothold& X_WS) {
       return certifier.Certifies(up, X_WS);
     };
     std::mt19937_64 random(static_cast<std::uint64_t>(seed));
@@ -175,7 +175,10 @@ void StudyFlat(const std::string& name, const FlatWorld& world, const Pose2& goa
                const std::vector<std::string>& planners, int runs) {
   const HalfStepSet set = PlausibleSet();
   const FlatQuery query(set, world);
-  Problem problem{world.ToScene(), {Pose2{0.0, 0.1, 0.0}, Pose2{0.0, -0.1, 0.0}}, {}, {}};
+  Problem problem{world.ToScene(),
+                  {Foothold::Level({0.0, 0.1, 0.0}), Foothold::Level({0.0, -0.1, 0.0})},
+                  {},
+                  {}};
   problem.goal.X_WG = goal;
   for (const std::string& planner : planners) {
     Row row;

@@ -81,12 +81,12 @@ int main(int argc, char** argv) {
       const int i = draw.Index(volumes.set.size());
       const bool down = draw.Index(2) == 0;
       const Side side = draw.AnySide();  // of the foot on which the element lands the other
-      const Footprint X_WS = draw.Floor(size * kReach);
-      const auto free_at = [&](const Pose2& at) {
+      const Foothold X_WS = Foothold::Level(draw.Floor(size * kReach));
+      const auto free_at = [&](const Foothold& at) {
         return down ? query.DownIsFree(i, side, at) : query.UpIsFree(i, side, at);
       };
       const HalfStep half_step = down ? volumes.set.Down(i, side) : volumes.set.Up(i, side);
-      const Pose2 X_WSupport = down ? X_WS : X_WS * volumes.set.Placement(i, side);
+      const Foothold X_WSupport = down ? X_WS : X_WS * volumes.set.Placement(i, side);
       ++n.asked;
       if (free_at(X_WS)) {
         ++n.free;
@@ -102,7 +102,8 @@ int main(int argc, char** argv) {
         n.certified_refused += certifier.Certifies(half_step, X_WSupport);
       }
       // A control: the same asked beside the place must be wrong now and then.
-      if (n.asked % 20 == 0 && free_at({X_WS.x + size * kDisplaced, X_WS.y, X_WS.yaw})) {
+      if (n.asked % 20 == 0 &&
+          free_at({{X_WS.x + size * kDisplaced, X_WS.y, X_WS.yaw}, X_WS.height})) {
         ++n.controls;
         n.refuted_controls += !certifier.Certifies(half_step, X_WSupport);
       }

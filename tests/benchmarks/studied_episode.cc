@@ -27,7 +27,7 @@ double ThreadSeconds() {
 // many junctions; 0: there is none. `exactly`: without what the robot must assume of errors and
 // speeds.
 double Clairvoyant(const Replanner& replanner, const TrueWorld& truth,
-                   const std::array<Footprint, 2>& start, std::uint64_t seed, bool exactly,
+                   const std::array<Foothold, 2>& start, std::uint64_t seed, bool exactly,
                    int junctions) {
   LiveOptions options = replanner.config().live;
   options.sensing.noise = 0.0;

@@ -17,7 +17,7 @@ struct LiveStudy {
   LiveConfig base;
   Place place;
   BakedHalfSteps baked;
-  std::array<Footprint, 2> start;
+  std::array<Foothold, 2> start;
   int stops = 100;  ///< at random times, for each episode
 };
 

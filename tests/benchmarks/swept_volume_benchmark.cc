@@ -94,7 +94,7 @@ Scene Room(Kind kind) {
 struct Asked {
   int element;
   Side support;
-  Footprint X_WS;
+  Foothold X_WS;
 };
 std::vector<Asked> Questions(int elements, int count) {
   SweptDraw draw(12);
@@ -102,7 +102,7 @@ std::vector<Asked> Questions(int elements, int count) {
   for (int i = 0; i < count; ++i) {
     const int element = draw.Index(elements);
     const Side support = draw.AnySide();
-    questions.push_back({element, support, draw.Floor(kRoom)});
+    questions.push_back({element, support, Foothold::Level(draw.Floor(kRoom))});
   }
   return questions;
 }
@@ -210,7 +210,7 @@ void BM_FclObbQuery(benchmark::State& state) {
     Vector3d middle = 0.5 * (tree.Lower() + tree.Upper());
     const Vector3d half = 0.5 * (tree.Upper() - tree.Lower());
     if (mirrored) middle.y() = -middle.y();
-    const Isometry3d X_SW = ToIsometry(q.X_WS.Inverse(), 0.0);
+    const Isometry3d X_SW = ToIsometry(q.X_WS.Inverse());
     for (size_t i = 0; i < shapes.size(); ++i) {
       const Isometry3d X_SO = X_SW * scene.obstacles[i].X_WO;
       const Vector3d off = (X_SO * shapes[i]->aabb_center - middle).cwiseAbs() - half;
@@ -259,7 +259,7 @@ void BM_SampledQuery(benchmark::State& state) {
   }
   const auto questions = Questions(volumes.set.size(), 1 << 15);
   const auto ask = [&](const Asked& q) {
-    const Isometry3d X_WS = ToIsometry(q.X_WS, 0.0);
+    const Isometry3d X_WS = ToIsometry(q.X_WS);
     std::vector<CollisionWorld::Scratch> scratch(bodies.size());
     const auto& posed = poses[{q.element, q.support}];
     for (size_t k = 0; k < posed.size(); ++k) {

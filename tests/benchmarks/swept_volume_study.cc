@@ -209,7 +209,7 @@ void Inflate(int points) {
 
 // Free by 300 instants of all bodies at the demanded clearance.
 bool SampledFree(const CollisionWorld& world, const std::vector<CollisionShape>& shapes,
-                 const HalfStep& half_step, const Footprint& X_WS, double clearance) {
+                 const HalfStep& half_step, const Foothold& X_WS, double clearance) {
   const RobotModel& robot = SweptRobot();
   const HalfStepProfiles profiles(half_step.kind, half_step.shape, half_step.duration,
                                   LipmOf(robot));
@@ -248,7 +248,7 @@ void Refuse(long draws) {
       for (int k = 0; k < 200 && done < draws; ++k, ++done) {
         const int i = draw.Index(few.size());
         const Side support = draw.AnySide();
-        const Footprint X_WS = draw.Floor(3.0);
+        const Foothold X_WS = Foothold::Level(draw.Floor(3.0));
         const bool said = query.DownIsFree(i, support, X_WS);
         const bool true_free =
             SampledFree(world, shapes, few.Down(i, support), X_WS, options.clearance);
@@ -294,13 +294,13 @@ void Exact(long questions) {
     const SweptVolumeQuery query(volumes, robot.sole_outline, scene);
     for (int k = 0; k < 200 && done < questions; ++k, ++done) {
       const int i = draw.Index(volumes.set.size());
-      const Footprint X_WS = draw.Floor(3.0);
+      const Foothold X_WS = Foothold::Level(draw.Floor(3.0));
       const BoxTree& tree = *volumes.down[static_cast<size_t>(i)];
       const bool said = query.DownIsFree(i, Side::kLeft, X_WS);
       double gap = 1e9;
       const Vector3d middle = 0.5 * (tree.Lower() + tree.Upper());
       for (const Obstacle& o : scene.obstacles) {
-        const Eigen::Isometry3d X_SO = ToIsometry(X_WS.Inverse(), 0.0) * o.X_WO;
+        const Eigen::Isometry3d X_SO = ToIsometry(X_WS.Inverse()) * o.X_WO;
         const Vector3d half = std::get<ConvexBody>(o.shape).vertices.rowwise().maxCoeff();
         const OrientedBox box{X_SO.translation(), half, X_SO.linear()};
         if (Gap(box, middle, tree.Upper() - middle) > 0) continue;

@@ -290,10 +290,13 @@ TEST(RunCommand, AnInfeasiblePlanTellsWhatHelps) {
 TEST(RunCommand, AnInfeasiblePlanTellsWhatItMissesForAMoment) {
   const RobotModel robot = LoadRobot(HALFSTEP_SOURCE_DIR "/wpg/robots/hrp2.yaml");
   const double y = 0.5 * robot.standing_width;
-  const HalfStepSequence sequence = MakeSequence(
-      {Pose2{0, y, 0}, Pose2{0, -y, 0}},
-      {{.side = Side::kLeft, .X_WF = {0.2, y, 0}, .via_height = 0.25, .duration = 2.0}}, 0.24, {},
-      {.com_height = robot.com_height});
+  const HalfStepSequence sequence =
+      MakeSequence({Foothold::Level({0, y, 0}), Foothold::Level({0, -y, 0})},
+                   {{.side = Side::kLeft,
+                     .X_WF = Foothold::Level({0.2, y, 0}),
+                     .via_height = 0.25,
+                     .duration = 2.0}},
+                   0.24, {}, {.com_height = robot.com_height});
   const SuperposedWalk walk(sequence, PlannedMotion(sequence));
   const MarginEvaluator evaluator(robot, Scene{}, MarginLimits{});
   const Margin witness{

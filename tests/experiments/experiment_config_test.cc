@@ -47,7 +47,7 @@ TEST_P(ShippedConfigTest, LoadsWithItsRobotAndScene) {
             config.scene == "none");
   EXPECT_NE(config.has_goal, !config.footsteps.empty());
   EXPECT_EQ(experiment.sequence.size(), static_cast<int>(2 * config.footsteps.size()));
-  EXPECT_EQ(FootprintOnNoStep(experiment), std::nullopt);
+  EXPECT_EQ(FootholdOnNoStep(experiment), std::nullopt);
 }
 
 // What a run writes as its config.yaml, read in the run's folder, is the same experiment.
@@ -105,8 +105,8 @@ TEST(ExperimentConfig, EveryKeyReachesItsField) {
   constexpr double kDegree = std::numbers::pi / 180;
   EXPECT_EQ(c.name, "everything");
   EXPECT_TRUE(c.has_start);
-  EXPECT_EQ(c.start_left, (Pose2{0.01, 0.11, 5 * kDegree}));
-  EXPECT_EQ(c.start_right, (Pose2{-0.01, -0.12, 0}));
+  EXPECT_EQ(c.start_left, Foothold::Level({0.01, 0.11, 5 * kDegree}));
+  EXPECT_EQ(c.start_right, Foothold::Level({-0.01, -0.12, 0}));
   ASSERT_EQ(c.footsteps.size(), 1u);
   EXPECT_EQ(c.footsteps[0].foot, "left");
   EXPECT_NEAR(c.footsteps[0].X_WF.yaw, -30 * kDegree, 1e-15);
@@ -231,7 +231,8 @@ TEST(ExperimentConfig, DefaultsAreThoseOfTheReadme) {
   EXPECT_THAT(c.smoothing.methods, testing::ElementsAre("dichotomy"));
   EXPECT_EQ(c.output_period, std::nullopt);
   const Experiment experiment = Prepare(c);
-  EXPECT_EQ(experiment.sequence.start[0], (Pose2{0, 0.5 * experiment.robot.standing_width, 0}));
+  EXPECT_EQ(experiment.sequence.start[0],
+            Foothold::Level({0, 0.5 * experiment.robot.standing_width, 0}));
   EXPECT_EQ(experiment.sequence.start[1], experiment.sequence.start[0].Mirrored());
 }
 

@@ -110,7 +110,7 @@ TEST_F(HalfStepProofsTest, ARobotThatRestsIsNotRefusedForWhatWouldComeNext) {
   WalkPlan delayed = Delayed(plan, 3, plan.Walk().end_of(3) + 2.0);
   delayed.parameters.overlaps[4] = NaturalOverlapBound(delayed.parameters, 4);
   const SuperposedWalk walk = delayed.Walk();
-  const Footprint ahead = walk.X_WS(5);
+  const Foothold ahead = walk.X_WS(5);
   world_.scene.obstacles = {Bar("bar", ahead.x + 0.2, ahead.y)};
   const auto among = replanner_.Prepare(world_);
   const double now = walk.end_of(3) + 1.0;

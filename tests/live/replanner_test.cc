@@ -56,7 +56,7 @@ double LeastClearance(const MarginEvaluator& evaluator, const SuperposedWalk& wa
 // it [m].
 Scene BesideLeftFoot(const WalkPlan& plan, const RobotModel& robot, const MarginLimits& limits,
                      double gap, int half_step = 1) {
-  const Footprint foot =
+  const Foothold foot =
       StanceAfter(plan.sequence, half_step)[static_cast<size_t>(Index(Side::kLeft))];
   const SuperposedWalk walk = plan.Walk();
   Obstacle box{.name = "box", .shape = Box{{0.05, 0.05, 0.04}}};
@@ -151,7 +151,7 @@ TEST(ReplannerTest, ItDrawsAwayBeforeAFirstWalkAndAfterAFinishedOne) {
                                            .hand_over = now + 0.1,
                                            .world = std::make_shared<const World>(world)},
                                           *replanner.Prepare(world), random);
-    const std::array<Footprint, 2> stance = StanceAfter(walked.plan.sequence, last);
+    const std::array<Foothold, 2> stance = StanceAfter(walked.plan.sequence, last);
     const Proposal anew = replanner.Begin(stance, *replanner.Prepare(world), 0, random);
     if (gap > limits.demanded_of(MarginFamily::kClearance)) {
       // Swept volumes, which are larger, leave no way.

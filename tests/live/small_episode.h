@@ -34,7 +34,7 @@ struct SmallWorld {
   LiveConfig config;
   Place place;
   BakedHalfSteps baked;
-  std::array<Footprint, 2> start;
+  std::array<Foothold, 2> start;
 
   static const SmallWorld& Get() {
     static const SmallWorld world = [] {

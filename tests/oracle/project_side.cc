@@ -8,7 +8,7 @@
 namespace halfstep::oracle {
 namespace {
 
-Pose2 ToPose(const FloorPose& p) { return {p.x, p.y, p.yaw}; }
+Foothold ToFoothold(const FloorPose& p) { return Foothold::Level({p.x, p.y, p.yaw}); }
 
 }  // namespace
 
@@ -16,11 +16,11 @@ HalfStepSequence ToSequence(const WalkPlan& plan) {
   std::vector<Footstep> footsteps;
   for (const PlannedStep& step : plan.steps) {
     footsteps.push_back({.side = step.foot == 0 ? Side::kLeft : Side::kRight,
-                         .X_WF = ToPose(step.landing),
+                         .X_WF = ToFoothold(step.landing),
                          .via_height = step.via_height,
                          .duration = step.duration});
   }
-  return MakeSequence({ToPose(plan.start[0]), ToPose(plan.start[1])}, footsteps, plan.via_lateral,
+  return MakeSequence({ToFoothold(plan.start[0]), ToFoothold(plan.start[1])}, footsteps, plan.via_lateral,
                       {.shift = plan.shift,
                        .horizontal_delay = plan.horizontal_delay,
                        .bump_ramp = plan.bump_ramp,

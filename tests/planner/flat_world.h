@@ -6,7 +6,7 @@
 #include "planner/scene/simple_polygon.h"
 #include "planner/search/half_step_query.h"
 #include "planner/search/half_step_set.h"
-#include "wpg/geometry/footprint.h"
+#include "wpg/geometry/foothold.h"
 #include "wpg/geometry/support_polygon.h"
 
 namespace halfstep {
@@ -51,23 +51,25 @@ class FlatQuery : public HalfStepQuery {
  public:
   FlatQuery(const HalfStepSet& set, const FlatWorld& world) : set_(set), world_(world) {}
 
-  bool DownIsFree(int i, Side support, const Footprint& X_WS) const override {
-    const Footprint X_WF = X_WS * set_.Placement(i, support);
-    return OffPoles(X_WF) && OffPoles(X_WS * set_.Down(i, support).via()) && OffAreas(X_WF);
+  bool DownIsFree(int i, Side support, const Foothold& X_WS) const override {
+    const Foothold X_WF = X_WS * set_.Placement(i, support);
+    return OffPoles(X_WF.Planar()) && OffPoles(X_WS.Planar() * set_.Down(i, support).via()) &&
+           OffAreas(X_WF.Planar());
   }
-  bool UpIsFree(int i, Side support, const Footprint& X_WS) const override {
-    const Footprint X_WF = X_WS * set_.Placement(i, support);
-    return OffPoles(X_WS) && OffPoles(X_WF * set_.Up(i, support).via());
+  bool UpIsFree(int i, Side support, const Foothold& X_WS) const override {
+    const Foothold X_WF = X_WS * set_.Placement(i, support);
+    return OffPoles(X_WS.Planar()) && OffPoles(X_WF.Planar() * set_.Up(i, support).via());
   }
   /// Of an up half-step from the start.
-  bool StartIsFree(const HalfStep& up, const Footprint& X_WS) const {
-    return OffPoles(X_WS) && OffPoles(X_WS * up.X_SF) && OffPoles(X_WS * up.via()) &&
-           OffAreas(X_WS) && OffAreas(X_WS * up.X_SF);
+  bool StartIsFree(const HalfStep& up, const Foothold& X_WS) const {
+    const Pose2 standing = X_WS.Planar(), lifted = (X_WS * up.X_SF).Planar();
+    return OffPoles(standing) && OffPoles(lifted) && OffPoles(standing * up.via()) &&
+           OffAreas(standing) && OffAreas(lifted);
   }
 
  private:
   static Eigen::Vector2d SoleSize() { return {0.24, 0.14}; }
-  bool OffPoles(const Footprint& X_WF) const {
+  bool OffPoles(const Pose2& X_WF) const {
     for (const FlatWorld::Pole& pole : world_.poles) {
       const Eigen::Vector2d from_sole = X_WF.Inverse() * pole.center;
       const Eigen::Vector2d outside = (from_sole.cwiseAbs() - 0.5 * SoleSize()).cwiseMax(0.0);
@@ -75,7 +77,7 @@ class FlatQuery : public HalfStepQuery {
     }
     return true;
   }
-  bool OffAreas(const Footprint& X_WF) const {
+  bool OffAreas(const Pose2& X_WF) const {
     if (world_.no_step.empty()) return true;
     const Eigen::Matrix2Xd sole = SoleCorners(X_WF, SoleSize());
     for (const Eigen::Matrix2Xd& polygon : world_.no_step) {
@@ -93,7 +95,7 @@ class FlatQuery : public HalfStepQuery {
 inline HalfStepSet PlausibleSet(double reach = 0.3) {
   return MakeHalfStepSet({.x_min = -0.3, .x_max = 0.3, .y_min = -0.34, .y_max = -0.14}, {},
                          [reach](const HalfStep& half_step) {
-                           const Footprint& X_SF = half_step.X_SF;
+                           const Foothold& X_SF = half_step.X_SF;
                            const double aside = Sign(half_step.swing()) * X_SF.y;
                            const double outwards = Sign(half_step.swing()) * X_SF.yaw;
                            return std::hypot(X_SF.x, 0.8 * (aside - 0.19)) <= reach &&

@@ -22,10 +22,11 @@ namespace halfstep {
 namespace {
 
 PlanRequest RequestTo(const Pose2& goal, const HalfStepSet& set, const HalfStepQuery& query) {
-  PlanRequest request{.start = {Pose2{0.0, 0.1, 0.0}, Pose2{0.0, -0.1, 0.0}},
-                      .goal = {},
-                      .set = set,
-                      .query = query};
+  PlanRequest request{
+      .start = {Foothold::Level({0.0, 0.1, 0.0}), Foothold::Level({0.0, -0.1, 0.0})},
+      .goal = {},
+      .set = set,
+      .query = query};
   request.goal.X_WG = goal;
   request.stop = AnyOf({AtFirstPlan(), AfterNodes(20000)});
   return request;
@@ -60,7 +61,8 @@ TEST(GoalRegion, AsksTheFootThatCounts) {
   GoalRegion goal;
   goal.X_WG = {0.0, 0.1, 0.0};
   goal.radius = 0.01;
-  const std::array<Footprint, 2> feet = {Pose2{0.0, 0.1, 0.0}, Pose2{0.0, -0.1, 0.0}};
+  const std::array<Foothold, 2> feet = {Foothold::Level({0.0, 0.1, 0.0}),
+                                        Foothold::Level({0.0, -0.1, 0.0})};
   const auto contains = [&](GoalPart part) {
     goal.part = part;
     return goal.ContainsStance(feet);
@@ -95,12 +97,12 @@ TEST(StepReach, NoSequenceOfElementsLeadsFarther) {
   std::mt19937_64 random(3);
   double nearest_to_bound = 0.0;
   for (int trial = 0; trial < 20000; ++trial) {
-    Footprint X_WS;
+    Foothold X_WS;
     Side support = Side::kLeft;
     for (int n = 1; n <= 6; ++n) {
       X_WS = X_WS * set.Placement(Pick(set.size(), random), support);
       support = Opposite(support);
-      const double distance = X_WS.position().norm();
+      const double distance = X_WS.Planar().position().norm();
       ASSERT_LE(distance, reach.Distance(n) + 1e-12);
       ASSERT_LE(reach.Steps(distance, std::fabs(X_WS.yaw)), n + 1e-9);
       nearest_to_bound = std::max(nearest_to_bound, distance / reach.Distance(n));
@@ -121,7 +123,7 @@ TEST(StateBuckets, FindTheNearestOfAll) {
     return Pose2{x, y, Uniform(-7, 7, random)};
   };
   for (int i = 0; i < 300; ++i) {
-    states.push_back({pose(), Pick(2, random) == 0 ? Side::kLeft : Side::kRight});
+    states.push_back({Foothold::Level(pose()), Pick(2, random) == 0 ? Side::kLeft : Side::kRight});
     there.push_back(true);
     buckets.Insert(i, states.back());
   }
@@ -132,9 +134,9 @@ TEST(StateBuckets, FindTheNearestOfAll) {
       for (int j = 0; j < 300; ++j) {
         const auto at = static_cast<size_t>(j);
         if (!there[at] || states[at].support != Side::kRight) continue;
-        if (nearest < 0 ||
-            StateDistance(states[at].X_WS, wanted, with_yaw) <
-                StateDistance(states[static_cast<size_t>(nearest)].X_WS, wanted, with_yaw)) {
+        if (nearest < 0 || StateDistance(states[at].X_WS.Planar(), wanted, with_yaw) <
+                               StateDistance(states[static_cast<size_t>(nearest)].X_WS.Planar(),
+                                             wanted, with_yaw)) {
           nearest = j;
         }
       }
@@ -152,9 +154,9 @@ TEST(StepGraph, LandsAllElementsWhereItLandsEach) {
   const FlatQuery query(set, {});
   const PlanRequest request = RequestTo({2.0, 0.0, 0.0}, set, query);
   const StepGraph graph(request, AllElements(set));
-  std::vector<Footprint> landings;
+  std::vector<Foothold> landings;
   for (Side support : {Side::kLeft, Side::kRight}) {
-    const StepState from{{0.3, -0.7, 1.234}, support};
+    const StepState from{{{0.3, -0.7, 1.234}, 0.15}, support};
     graph.Landings(from, &landings);
     ASSERT_EQ(landings.size(), set.placements.size());
     for (int k = 0; k < graph.size(); ++k) {
@@ -168,15 +170,15 @@ TEST(StepGraph, StartsFromBothFeetOfTheStance) {
   const HalfStepSet set = PlausibleSet();
   const FlatQuery query(set, {});
   PlanRequest request = RequestTo({2.0, 0.0, 0.0}, set, query);
-  request.start = {Pose2{0.03, 0.12, 0.1}, Pose2{-0.04, -0.11, -0.2}};
+  request.start = {Foothold::Level({0.03, 0.12, 0.1}), Foothold::Level({-0.04, -0.11, -0.2})};
   int asked = 0;
-  request.start_is_free = [&](const HalfStep& up, const Footprint& X_WS) {
+  request.start_is_free = [&](const HalfStep& up, const Foothold& X_WS) {
     ++asked;
-    const Pose2 &support = request.start[static_cast<size_t>(Index(up.support))],
-                &other = request.start[static_cast<size_t>(Index(up.swing()))];
+    const Foothold &support = request.start[static_cast<size_t>(Index(up.support))],
+                   &other = request.start[static_cast<size_t>(Index(up.swing()))];
     EXPECT_EQ(X_WS, support);
-    const Pose2 lifted = X_WS * up.X_SF;
-    EXPECT_LT((lifted.position() - other.position()).norm(), 1e-12);
+    const Foothold lifted = X_WS * up.X_SF;
+    EXPECT_LT((lifted.Planar().position() - other.Planar().position()).norm(), 1e-12);
     EXPECT_NEAR(lifted.yaw, other.yaw, 1e-12);
     return up.support == Side::kRight;
   };
@@ -307,15 +309,15 @@ TEST(FootstepRrt, DifferentSeedsFindDifferentWays) {
 // one state says nothing about another one near it.
 class CapriciousQuery : public HalfStepQuery {
  public:
-  bool DownIsFree(int i, Side support, const Footprint& X_WS) const override {
+  bool DownIsFree(int i, Side support, const Foothold& X_WS) const override {
     return IsFree(2 * i, support, X_WS);
   }
-  bool UpIsFree(int i, Side support, const Footprint& X_WS) const override {
+  bool UpIsFree(int i, Side support, const Foothold& X_WS) const override {
     return IsFree(2 * i + 1, support, X_WS);
   }
 
  private:
-  static bool IsFree(int what, Side support, const Footprint& X_WS) {
+  static bool IsFree(int what, Side support, const Foothold& X_WS) {
     std::uint64_t mixed = static_cast<std::uint64_t>(2 * what + Index(support)) + 1;
     for (const double value : {X_WS.x, X_WS.y, X_WS.yaw}) {
       mixed = (mixed ^ std::bit_cast<std::uint64_t>(value)) * 0x9e3779b97f4a7c15;

@@ -201,7 +201,7 @@ TEST(SweptVolumeQueryTest, AmongHundredsTheAnswerIsThatOfAllOneByOne) {
   for (int k = 0; k < 100; ++k) {
     const int element = draw.Index(CoarseVolumes().set.size());
     const Side support = draw.AnySide();
-    const Pose2 X_WS = draw.Floor(4);
+    const Foothold X_WS = Foothold::Level(draw.Floor(4));
     const bool all = std::ranges::all_of(singles, [&](const SweptVolumeQuery& single) {
       return single.DownIsFree(element, support, X_WS);
     });

@@ -95,7 +95,7 @@ TEST(NoStepAreas, NearestIsThatOfAllAreasAndClearsAgrees) {
   const NoStepAreas areas(scene, outline);
   int on = 0, beside = 0;
   for (int i = 0; i < 300; ++i) {
-    const Footprint X_WF{place(random), place(random), turn(random)};
+    const Pose2 X_WF{place(random), place(random), turn(random)};
     const Matrix2Xd sole = (X_WF.rotation() * outline).colwise() + X_WF.position();
     double least = std::numeric_limits<double>::infinity();
     size_t nearest = 0;

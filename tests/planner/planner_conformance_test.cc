@@ -23,13 +23,14 @@ struct Bench {
         planner(MakePlanner(name, scene)) {}
 
   PlanRequest Request(const Pose2& goal, double radius = 0.1) {
-    PlanRequest request{.start = {Pose2{0.0, 0.1, 0.0}, Pose2{0.0, -0.1, 0.0}},
-                        .goal = {},
-                        .set = set,
-                        .query = query};
+    PlanRequest request{
+        .start = {Foothold::Level({0.0, 0.1, 0.0}), Foothold::Level({0.0, -0.1, 0.0})},
+        .goal = {},
+        .set = set,
+        .query = query};
     request.goal.X_WG = goal;
     request.goal.radius = radius;
-    request.start_is_free = [this](const HalfStep& up, const Footprint& X_WS) {
+    request.start_is_free = [this](const HalfStep& up, const Foothold& X_WS) {
       return query.StartIsFree(up, X_WS);
     };
     request.stop = AnyOf({AtFirstPlan(), AfterNodes(20000)});
@@ -51,11 +52,11 @@ void CheckPlan(const PlanRequest& request, const FlatQuery& query, const PlanRes
   ASSERT_EQ(result.status, PlanStatus::kSolved) << result.sentence;
   ASSERT_FALSE(result.footsteps.empty());
   ASSERT_EQ(result.elements.size(), result.footsteps.size());
-  std::array<Footprint, 2> feet = request.start;
+  std::array<Foothold, 2> feet = request.start;
   for (size_t j = 0; j < result.footsteps.size(); ++j) {
     const Footstep& footstep = result.footsteps[j];
     const Side support = Opposite(footstep.side);
-    const Footprint X_WS = feet[static_cast<size_t>(Index(support))];
+    const Foothold X_WS = feet[static_cast<size_t>(Index(support))];
     if (j == 0) {
       HalfStep up = request.set.prototype;
       up.support = support;

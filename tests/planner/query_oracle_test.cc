@@ -89,7 +89,7 @@ TEST(QueryOracle, AnswersAsTheSolidBoxesDo) {
       p -= (nearest - 0.5e-4) * way;
     }
     const bool mirrored = trial % 2 == 1;
-    const Footprint X_WS = draw.Floor(0.5);
+    const Foothold X_WS = Foothold::Level(draw.Floor(0.5));
     const auto ask = [&](const Vector3d& at) {
       Isometry3d X_SO = Posed(R, at);
       Obstacle placed{"near", shape, X_SO};
@@ -98,7 +98,7 @@ TEST(QueryOracle, AnswersAsTheSolidBoxesDo) {
         X_SO.linear() = (mirror * X_SO.linear() * mirror).eval();
         X_SO.translation().y() *= -1.0;
       }
-      placed.X_WO = ToIsometry(X_WS, 0.0) * X_SO;
+      placed.X_WO = ToIsometry(X_WS) * X_SO;
       Scene with = scene;
       with.obstacles.push_back(placed);
       const SweptVolumeQuery query(volumes, SoleCorners({}, {0.22, 0.14}), with);

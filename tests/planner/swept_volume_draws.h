@@ -24,7 +24,8 @@ inline Lipm LipmOf(const RobotModel& robot) { return {.com_height = robot.com_he
 inline HalfStepSet FewHalfSteps() {
   HalfStepSet set;
   set.prototype.duration = 1.6;
-  set.placements = {{0.2, -0.2, 0.25}, {-0.15, -0.25, 0.0}, {0.05, -0.3, -0.25}};
+  set.placements = {Foothold::Level({0.2, -0.2, 0.25}), Foothold::Level({-0.15, -0.25, 0.0}),
+                    Foothold::Level({0.05, -0.3, -0.25})};
   return set;
 }
 /// Coarse, so that tests are quick; sound all the same.

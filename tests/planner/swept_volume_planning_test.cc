@@ -22,10 +22,11 @@ Scene TwoBoxes() {
 PlanResult PlanBetween(const SweptVolumes& volumes, const Scene& scene, const char* planner,
                        std::uint64_t seed) {
   const SweptVolumeQuery query(volumes, SweptRobot().sole_outline, scene);
-  PlanRequest request{.start = {Pose2{0.0, 0.1, 0.0}, Pose2{0.0, -0.1, 0.0}},
-                      .goal = {},
-                      .set = volumes.set,
-                      .query = query};
+  PlanRequest request{
+      .start = {Foothold::Level({0.0, 0.1, 0.0}), Foothold::Level({0.0, -0.1, 0.0})},
+      .goal = {},
+      .set = volumes.set,
+      .query = query};
   request.goal.X_WG = {1.1, 0.0, 0.0};
   request.goal.radius = 0.2;
   request.stop = AnyOf({AfterNodes(2000), WhenNotImprovedFor(300)});

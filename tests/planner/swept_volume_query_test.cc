@@ -33,12 +33,12 @@ Scene One(Shape shape, const Isometry3d& X_WO) {
 struct Asked {
   int element;
   Side support;
-  Footprint X_WS;
+  Foothold X_WS;
 };
 Asked DrawQuery(double reach, SweptDraw* draw) {
   const int element = draw->Index(CoarseVolumes().set.size());
   const Side support = draw->AnySide();
-  return {element, support, draw->Floor(reach)};
+  return {element, support, Foothold::Level(draw->Floor(reach))};
 }
 
 // Boxes, balls, capsules and cylinders.
@@ -75,7 +75,7 @@ TEST(SweptVolumeQueryTest, FreeHalfStepsKeepTheClearanceOnBothSidesUpAndDown) {
       }
       ++free;
       const HalfStep half_step = down ? volumes.set.Down(i, support) : volumes.set.Up(i, support);
-      const Pose2 X_WFoot = down ? X_WS : X_WS * volumes.set.Placement(i, support);
+      const Foothold X_WFoot = down ? X_WS : X_WS * volumes.set.Placement(i, support);
       const HalfStepProfiles profiles(half_step.kind, half_step.shape, half_step.duration,
                                       LipmOf(robot));
       for (int n = 0; n <= 4; ++n) {
@@ -202,7 +202,7 @@ TEST(SweptVolumeQueryTest, AnObstacleThatMayBeAnywhereIsRefusedByName) {
 TEST(SweptVolumeQueryTest, MirroredAndMovedScenesGiveTheSameAnswers) {
   SweptDraw draw(2);
   const Scene scene = DrawBoxes(20, 1.5, false, &draw);
-  const Pose2 X_VW = draw.Floor(2);
+  const Foothold X_VW(draw.Floor(2), 0.4);
   Scene mirrored = scene, moved = scene;
   const Eigen::Vector3d flip(1, -1, 1);
   for (size_t i = 0; i < scene.obstacles.size(); ++i) {
@@ -210,8 +210,9 @@ TEST(SweptVolumeQueryTest, MirroredAndMovedScenesGiveTheSameAnswers) {
     Isometry3d& X = mirrored.obstacles[i].X_WO;
     X.linear() = flip.asDiagonal() * X.linear() * flip.asDiagonal();
     X.translation() = flip.cwiseProduct(X.translation());
-    moved.obstacles[i].X_WO = ToIsometry(X_VW, 0) * scene.obstacles[i].X_WO;
+    moved.obstacles[i].X_WO = ToIsometry(X_VW) * scene.obstacles[i].X_WO;
   }
+  moved.ground = std::make_shared<const FlatGround>(X_VW.height);
   const SweptVolumes& volumes = CoarseVolumes();
   const SweptVolumeQuery query(volumes, kSole, scene), in_mirror(volumes, kSole, mirrored),
       elsewhere(volumes, kSole, moved);
@@ -223,6 +224,8 @@ TEST(SweptVolumeQueryTest, MirroredAndMovedScenesGiveTheSameAnswers) {
     EXPECT_EQ(in_mirror.UpIsFree(i, Opposite(support), X_WS.Mirrored()), up);
     EXPECT_EQ(elsewhere.DownIsFree(i, support, X_VW * X_WS), down);
     EXPECT_EQ(elsewhere.UpIsFree(i, support, X_VW * X_WS), up);
+    const Foothold above({X_WS.x, X_WS.y, X_WS.yaw}, 0.01);
+    EXPECT_FALSE(query.DownIsFree(i, support, above) || query.UpIsFree(i, support, above));
     free += down + up;
   }
   EXPECT_GT(free, 50);
@@ -332,7 +335,7 @@ TEST(SweptVolumeQueryTest, HugeObstaclesAreMetThoughTheirPlacesAreRounded) {
     Isometry3d X_WO = Isometry3d::Identity();
     X_WO.translation().z() = lowest + 1e-5 - 0.5 * height;
     const SweptVolumeQuery query(CoarseVolumes(), kSole, One(MakeBox({3, 3, height}), X_WO));
-    EXPECT_FALSE(query.DownIsFree(0, Side::kLeft, Pose2{})) << height;
+    EXPECT_FALSE(query.DownIsFree(0, Side::kLeft, {})) << height;
   }
 }
 
@@ -346,7 +349,7 @@ TEST(SweptVolumeQueryTest, ClearanceIsFreeAndKnownToTheMillimetre) {
   EXPECT_NEAR(query.DownClearance(0, Side::kLeft, {}, 1.0), 0.2, 2e-3);
   EXPECT_LE(query.DownClearance(0, Side::kLeft, {}, 1.0), 0.2);
   EXPECT_EQ(query.DownClearance(0, Side::kLeft, {}, 0.1), 0.1);
-  EXPECT_EQ(query.DownClearance(0, Side::kLeft, {0.3, 0, 0}, 0.1), 0.0);
+  EXPECT_EQ(query.DownClearance(0, Side::kLeft, Foothold::Level({0.3, 0, 0}), 0.1), 0.0);
   // Of a wall that is known within 5 cm, 15 cm are left.
   Scene known = One(MakeBox({0.1, 4, 4}), X_WO);
   known.obstacles[0].motion.error = 0.05;
@@ -362,11 +365,11 @@ TEST(SweptVolumeQueryTest, OnlyTheLandingSoleKeepsOffNoStepAreas) {
   scene.no_step.push_back(area);
   const SweptVolumeQuery query(volumes, kSole, scene);
   for (const Side support : {Side::kLeft, Side::kRight}) {
-    const Footprint X_SF = volumes.set.Placement(0, support);
+    const Foothold X_SF = volumes.set.Placement(0, support);
     EXPECT_FALSE(query.DownIsFree(0, support, X_SF.Inverse()));
     EXPECT_TRUE(query.UpIsFree(0, support, X_SF.Inverse()));
     EXPECT_TRUE(query.DownIsFree(0, support, {}));
-    const Pose2 beside = Pose2{0.5 * kSoleSize.x() + 0.03, 0, 0} * X_SF.Inverse();
+    const Foothold beside = Foothold::Level({0.5 * kSoleSize.x() + 0.03, 0, 0}) * X_SF.Inverse();
     EXPECT_TRUE(query.DownIsFree(0, support, beside));
     // 1 cm apart: not enough where 2 cm are demanded.
     EXPECT_TRUE(SweptVolumeQuery(volumes, kSole, scene, 0.009).DownIsFree(0, support, beside));
@@ -385,7 +388,8 @@ TEST(SweptVolumeQueryTest, AnElementWithoutVolumeIsNeverFree) {
 TEST(SweptVolumeQueryTest, PosesThatAreNotFiniteAreRefused) {
   SweptVolumeQuery query(CoarseVolumes(), kSole, One(MakeSphere(1), Isometry3d::Identity()));
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW((void)query.DownIsFree(0, Side::kLeft, {nan, 0, 0}), std::logic_error);
+  EXPECT_THROW((void)query.DownIsFree(0, Side::kLeft, Foothold::Level({nan, 0, 0})),
+               std::logic_error);
   Isometry3d X_WO = Isometry3d::Identity();
   X_WO.translation().x() = nan;
   EXPECT_THROW(query.SetObstaclePose(0, X_WO), std::logic_error);

@@ -46,7 +46,7 @@ TEST(SweptVolumeTest, ContainsOtherShippedRobots) {
     const SweptVolumeOptions options{.cell = 0.03 * size, .displacement = 0.01 * size};
     const SweptVolumeBaker baker(robot, options);
     HalfStep half_step = FewHalfSteps().Down(0, Side::kLeft);
-    half_step.X_SF = {0.2 * size, -robot.standing_width - 0.05 * size, 0.25};
+    half_step.X_SF = Foothold::Level({0.2 * size, -robot.standing_width - 0.05 * size, 0.25});
     half_step.via_height = 0.2 * size;
     half_step.via_lateral = 1.14 * robot.standing_width;
     const auto tree = baker.Bake(half_step, LipmOf(robot));
@@ -151,7 +151,7 @@ TEST(SweptVolumeTest, FinerBakesAreSmaller) {
 TEST(SweptVolumeTest, OutOfReachHasNone) {
   const SweptVolumeBaker baker(SweptRobot(), CoarseOptions());
   HalfStep half_step;
-  half_step.X_SF = {0.9, -0.2, 0.0};
+  half_step.X_SF = Foothold::Level({0.9, -0.2, 0.0});
   EXPECT_FALSE(baker.Bake(half_step, LipmOf(SweptRobot())).has_value());
 }
 

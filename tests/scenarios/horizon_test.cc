@@ -181,7 +181,7 @@ class Stubborn : public CertifiedFeasibility {
   Feasibility Check(const SuperposedWalk& walk, const TimeWindow& window,
                     MarginEvaluator::Scratch* scratch) const override {
     for (int k = 0; k < walk.num_half_steps() && walk.num_half_steps() >= least_; ++k) {
-      const bool it = walk.X_WS(k).position() == half_step_.X_WS.position() &&
+      const bool it = walk.X_WS(k).Planar().position() == half_step_.X_WS.Planar().position() &&
                       walk.half_step(k).kind == half_step_.half_step.kind;
       const bool asked = walk.end_of(k) > window.begin && walk.start_of(k) < window.end;
       if (!it || !asked ||
@@ -216,7 +216,8 @@ HalfStepSequence StraightWalk(const Experiment& e, int steps) {
   std::vector<Footstep> footsteps;
   for (int i = 1; i <= steps; ++i) {
     const Side side = i % 2 == 0 ? Side::kLeft : Side::kRight;
-    footsteps.push_back({.side = side, .X_WF = {0.1 * i, Sign(side) * 0.105, 0.0}});
+    footsteps.push_back(
+        {.side = side, .X_WF = Foothold::Level({0.1 * i, Sign(side) * 0.105, 0.0})});
   }
   const HalfStep& like = e.sequence.half_steps.front().half_step;
   return MakeSequence(StandingFeet(), footsteps, like.via_lateral, like.shape, e.sequence.lipm);

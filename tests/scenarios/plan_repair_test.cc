@@ -70,10 +70,11 @@ TEST_F(PlanRepairTest, AStepTooLowOverTheBarGoesHigher) {
 }
 
 TEST_F(PlanRepairTest, AFootstepOutOfReachCannotBeMadeAtAll) {
-  const Footprint left(0.0, 0.085, 0.0), right(0.0, -0.085, 0.0);
-  const HalfStepSequence far =
-      MakeSequence({left, right}, {{.side = Side::kRight, .X_WF = {1.0, -0.085, 0.0}}}, 0.24,
-                   e_.sequence.half_steps[0].half_step.shape, e_.sequence.lipm);
+  const Foothold left = Foothold::Level({0.0, 0.085, 0.0});
+  const Foothold right = Foothold::Level({0.0, -0.085, 0.0});
+  const HalfStepSequence far = MakeSequence(
+      {left, right}, {{.side = Side::kRight, .X_WF = Foothold::Level({1.0, -0.085, 0.0})}}, 0.24,
+      e_.sequence.half_steps[0].half_step.shape, e_.sequence.lipm);
   const PlanRepair repair = RepairPlan(far, test_, {}, {});
   EXPECT_TRUE(repair.steps.empty());
   ASSERT_EQ(repair.failures.size(), 1u);

@@ -209,8 +209,9 @@ TEST_F(SlackRows, OfTurningFeetAndUpperLimitsAgreeWithDifferences) {
 TEST_F(SlackRows, OutOfReachIsARow) {
   const double y = 0.5 * e_.robot.standing_width;
   const HalfStepSequence sequence =
-      MakeSequence({Pose2{0, y, 0}, Pose2{0, -y, 0}}, {{.side = Side::kLeft, .X_WF = {1.2, y, 0}}},
-                   0.24, {}, {.com_height = e_.robot.com_height});
+      MakeSequence({Foothold::Level({0, y, 0}), Foothold::Level({0, -y, 0})},
+                   {{.side = Side::kLeft, .X_WF = Foothold::Level({1.2, y, 0})}}, 0.24, {},
+                   {.com_height = e_.robot.com_height});
   const SuperposedWalk walk(sequence, PlannedMotion(sequence));
   SlackEvaluator slacks(evaluator_, 1.0);
   InstantSlacks instant;

@@ -9,7 +9,7 @@
 #include "tests/smoothing/test_walks.h"
 #include "tests/wpg/generated_robots.h"
 #include "tests/wpg/shipped_robots.h"
-#include "wpg/geometry/footprint.h"
+#include "wpg/geometry/foothold.h"
 
 namespace halfstep {
 
@@ -53,16 +53,17 @@ inline HalfStepSequence DrawSequence(const RobotModel& robot, int steps, const W
                                      WalkDraw* draw) {
   const double hips = robot.waist_height + robot.legs[0].hip_B.z();
   const double size = hips / 0.65, width = robot.standing_width;
-  std::array<Footprint, 2> feet = {Pose2{0, 0.5 * width, 0}, Pose2{0, -0.5 * width, 0}};
-  const std::array<Footprint, 2> start = feet;
+  std::array<Foothold, 2> feet = {Foothold::Level({0, 0.5 * width, 0}),
+                                  Foothold::Level({0, -0.5 * width, 0})};
+  const std::array<Foothold, 2> start = feet;
   Side side = draw->Uniform(0, 1) < 0.5 ? Side::kLeft : Side::kRight;
   std::vector<Footstep> footsteps;
   for (int i = 0; i < steps; ++i, side = Opposite(side)) {
     const double x = variety.stride * size * draw->Uniform(-0.15, 0.25);
     const double y = Sign(side) * (width + variety.stride * size * draw->Uniform(-0.02, 0.08));
     const double yaw = variety.stride * draw->Uniform(-0.3, 0.3);
-    Footprint& foot = feet[static_cast<size_t>(Index(side))];
-    foot = feet[static_cast<size_t>(Index(Opposite(side)))] * Pose2{x, y, yaw};
+    Foothold& foot = feet[static_cast<size_t>(Index(side))];
+    foot = feet[static_cast<size_t>(Index(Opposite(side)))] * Foothold::Level({x, y, yaw});
     const double height = size * draw->Uniform(variety.lowest, variety.highest);
     footsteps.push_back({.side = side,
                          .X_WF = foot,
@@ -87,7 +88,7 @@ inline Scene DrawScene(const SuperposedWalk& walk, SceneKind kind, int count, Wa
   for (int i = 0; i < count; ++i) {
     const WalkState x = walk.At(draw->Uniform(0.0, walk.duration())).value;
     const Side side = draw->Uniform(0, 1) < 0.5 ? Side::kLeft : Side::kRight;
-    const Footprint X_WF = FootPose(x, side);
+    const Pose2 X_WF = FootPose(x, side);
     const double r = size * draw->Uniform(0.0, 0.3), direction = draw->Uniform(-3.14, 3.14);
     const Pose2 X_FO{r * std::cos(direction), r * std::sin(direction), draw->Uniform(-3.14, 3.14)};
     Obstacle obstacle{.name = "o" + std::to_string(i), .shape = Sphere{0.01}};
@@ -134,8 +135,8 @@ struct WalkNearLimit {
 /// margin stops the way. The way leads along overlaps alone, or along `all` families of homotopy
 /// parameters, footsteps included.
 inline std::optional<WalkNearLimit> DrawNearLimit(const RobotModel& robot, SceneKind kind,
-                                              MarginLimits limits, double spare, WalkDraw* draw,
-                                              bool all = false) {
+                                                  MarginLimits limits, double spare, WalkDraw* draw,
+                                                  bool all = false) {
   for (MarginFamily family : AllMarginFamilies()) {
     limits.demanded_of(family) += spare * Scale(family);
   }

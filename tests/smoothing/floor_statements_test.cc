@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <stdexcept>
 
 #include "smoothing/margins/body_heights.h"
 #include "smoothing/margins/slack_evaluator.h"
+#include "smoothing/methods/walk_problem.h"
 #include "smoothing/proof/certified_feasibility.h"
 #include "smoothing/proof/sampled_feasibility.h"
 #include "tests/smoothing/test_walks.h"
@@ -35,9 +38,10 @@ RobotModel WithBall(const std::string& body, double radius, double height) {
   RobotModel robot = Hrp2();
   const int of = BodyNamed(robot, body);
   const HalfStepSequence sequence = MakeSequence(
-      {Pose2{0, 0.5 * robot.standing_width, 0}, Pose2{0, -0.5 * robot.standing_width, 0}},
-      {{.side = Side::kRight, .X_WF = {0, -0.5 * robot.standing_width, 0}}}, 0.24, {},
-      {.com_height = robot.com_height});
+      {Foothold::Level({0, 0.5 * robot.standing_width, 0}),
+       Foothold::Level({0, -0.5 * robot.standing_width, 0})},
+      {{.side = Side::kRight, .X_WF = Foothold::Level({0, -0.5 * robot.standing_width, 0})}}, 0.24,
+      {}, {.com_height = robot.com_height});
   const SuperposedWalk standing(sequence, PlannedMotion(sequence));
   const Posture posture = SolvePosture(robot, standing.At(0.0).value);
   RobotBody ball = robot.bodies[static_cast<size_t>(of)];
@@ -54,10 +58,11 @@ RobotModel WithBall(const std::string& body, double radius, double height) {
 
 HalfStepSequence TwoSteps(const RobotModel& robot) {
   const double y = 0.5 * robot.standing_width;
-  return MakeSequence({Pose2{0, y, 0}, Pose2{0, -y, 0}},
-                      {{.side = Side::kRight, .X_WF = {0.2, -y, 0}, .duration = 1.2},
-                       {.side = Side::kLeft, .X_WF = {0.2, y, 0}, .duration = 1.2}},
-                      0.24, {}, {.com_height = robot.com_height});
+  return MakeSequence(
+      {Foothold::Level({0, y, 0}), Foothold::Level({0, -y, 0})},
+      {{.side = Side::kRight, .X_WF = Foothold::Level({0.2, -y, 0}), .duration = 1.2},
+       {.side = Side::kLeft, .X_WF = Foothold::Level({0.2, y, 0}), .duration = 1.2}},
+      0.24, {}, {.com_height = robot.com_height});
 }
 
 Feasibility Certify(const RobotModel& robot, const Scene& scene, const MarginLimits& limits,
@@ -205,6 +210,41 @@ TEST(Ground, AFootThatTouchesTheFloorHasNoLimit) {
   EXPECT_EQ(evaluator.Subject(below), "RLEG_LINK5");
 }
 
+// Where the ground is lower than the soles, or higher, all heights above it are.
+TEST(Ground, HeightsCountFromItsFloor) {
+  const RobotModel robot = Hrp2();
+  const HalfStepSequence sequence = TwoSteps(robot);
+  const SuperposedWalk walk(sequence, Overlapped(sequence, 0.5));
+  const auto at_height = [](double height) {
+    Scene scene;
+    scene.ground = std::make_shared<const FlatGround>(height);
+    return scene;
+  };
+  const MarginLimits limits = Only(MarginFamily::kGround, 0.0);
+  const MarginEvaluator flat(robot, {}, limits), lower(robot, at_height(-0.02), limits);
+  MarginEvaluator::Scratch a = flat.MakeScratch(), b = lower.MakeScratch();
+  int moving = 0;
+  for (int n = 0; n <= 100; ++n) {
+    const LocalTime at = walk.Locate(walk.duration() * n / 100);
+    for (const MarginFamily family : {MarginFamily::kFloor, MarginFamily::kGround}) {
+      const Margin here = Of(flat.At(walk, at, &a), family),
+                   there = Of(lower.At(walk, at, &b), family);
+      EXPECT_EQ(here.subject, there.subject);
+      if (std::isinf(here.value)) continue;
+      EXPECT_NEAR(there.value, here.value + 0.02, 1e-15);
+      moving += family == MarginFamily::kFloor;
+    }
+  }
+  EXPECT_GT(moving, 20);
+  Certificate certificate;
+  const Feasibility sunk = Certify(robot, at_height(1e-3), limits, walk, &certificate);
+  EXPECT_EQ(sunk.verdict, Verdict::kViolated);
+  EXPECT_EQ(sunk.witness.family, MarginFamily::kGround);
+  for (const double height : {-1e-3, 1e-3}) {
+    EXPECT_THROW(WalkProblem(robot, at_height(height), sequence, limits), std::logic_error);
+  }
+}
+
 TEST(Ground, ABodyThatReachesBelowTheFloorIsAViolation) {
   // A tool that a hand holds, 1 mm into the floor all the time; 1 mm above it.
   for (double height : {-0.001, 0.001}) {
@@ -337,7 +377,7 @@ TEST(Ground, RowsHaveDerivatives) {
 }
 
 // An area beside the place where the right foot lands, `gap` [m] ahead of what it touches there.
-Scene AheadOf(const RobotModel& robot, const Footprint& X_WF, double gap) {
+Scene AheadOf(const RobotModel& robot, const Pose2& X_WF, double gap) {
   Scene scene;
   Eigen::Matrix2Xd area(2, 4);
   const double x = X_WF.x + robot.sole_outline.row(0).maxCoeff() + gap;
@@ -404,9 +444,9 @@ TEST(NoStep, CountsForSolesThatStandOnly) {
   const RobotModel robot = Hrp2();
   const double y = 0.5 * robot.standing_width;
   const HalfStepSequence sequence =
-      MakeSequence({Pose2{0, y, 0}, Pose2{-0.2, -y, 0}},
-                   {{.side = Side::kRight, .X_WF = {0.2, -y, 0}, .duration = 2.0}}, 0.24, {},
-                   {.com_height = robot.com_height});
+      MakeSequence({Foothold::Level({0, y, 0}), Foothold::Level({-0.2, -y, 0})},
+                   {{.side = Side::kRight, .X_WF = Foothold::Level({0.2, -y, 0}), .duration = 2.0}},
+                   0.24, {}, {.com_height = robot.com_height});
   const SuperposedWalk walk(sequence, Overlapped(sequence, 0.3));
   Scene scene;
   Eigen::Matrix2Xd area(2, 4);

@@ -15,10 +15,10 @@ constexpr std::array<ParameterFamily, 3> kMoves = {
     ParameterFamily::kFootstepX, ParameterFamily::kFootstepY, ParameterFamily::kFootstepYaw};
 
 // Where the soles stand when all half-steps are done, and before each of them.
-std::vector<std::array<Footprint, 2>> Stances(const HalfStepSequence& sequence) {
-  std::vector<std::array<Footprint, 2>> stances = {sequence.start};
+std::vector<std::array<Foothold, 2>> Stances(const HalfStepSequence& sequence) {
+  std::vector<std::array<Foothold, 2>> stances = {sequence.start};
   for (const auto& [half_step, X_WS] : sequence.half_steps) {
-    std::array<Footprint, 2> soles;
+    std::array<Foothold, 2> soles;
     soles[static_cast<size_t>(Index(half_step.support))] = X_WS;
     soles[static_cast<size_t>(Index(half_step.swing()))] = X_WS * half_step.X_SF;
     stances.push_back(soles);
@@ -46,7 +46,9 @@ TEST(MovedFootsteps, SolesStandWhereTheMovesSay) {
       const size_t swing = static_cast<size_t>(Index(sequence.half_steps[k].half_step.swing()));
       if (k % 2 == 1) by[swing] = moves[k / 2];
       for (const size_t foot : {0, 1}) {
-        EXPECT_LT(Apart(moved[k + 1][foot], planned[k + 1][foot] * by[foot]), 1e-13);
+        EXPECT_LT(
+            Apart(moved[k + 1][foot].LevelPose(), planned[k + 1][foot].LevelPose() * by[foot]),
+            1e-13);
       }
     }
   }
@@ -102,10 +104,11 @@ TEST(FootstepFamilies, AFootThatStepsTwiceStays) {
   std::vector<Footstep> footsteps;
   for (const Side side :
        {Side::kRight, Side::kLeft, Side::kLeft, Side::kRight, Side::kLeft, Side::kRight}) {
-    footsteps.push_back({.side = side, .X_WF = {0.0, 0.105 * Sign(side), 0.0}});
+    footsteps.push_back({.side = side, .X_WF = Foothold::Level({0.0, 0.105 * Sign(side), 0.0})});
   }
-  const HalfStepSequence sequence = MakeSequence({Footprint{0, 0.105, 0}, Footprint{0, -0.105, 0}},
-                                                 footsteps, 0.24, HalfStepShape{}, Lipm{});
+  const HalfStepSequence sequence =
+      MakeSequence({Foothold::Level({0, 0.105, 0}), Foothold::Level({0, -0.105, 0})}, footsteps,
+                   0.24, HalfStepShape{}, Lipm{});
   const ParameterTable table(sequence, {}, {.footsteps = true});
   const std::vector<bool> free = {false, false, true, true, false, false};
   for (int step = 0; step < 6; ++step) {

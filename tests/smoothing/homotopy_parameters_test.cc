@@ -17,9 +17,10 @@ using Family = HomotopyParameter::Family;
 
 // Three steps of 2.0, 1.0 and 3.0 s a half-step; t1 = 0.45 T, t2 = 0.55 T.
 HalfStepSequence ThreeSteps() {
-  std::vector<Footstep> footsteps = {{.side = Side::kRight, .X_WF = {0.2, -0.105, 0}},
-                                     {.side = Side::kLeft, .X_WF = {0.2, 0.105, 0}},
-                                     {.side = Side::kRight, .X_WF = {0.2, -0.105, 0}}};
+  std::vector<Footstep> footsteps = {
+      {.side = Side::kRight, .X_WF = Foothold::Level({0.2, -0.105, 0})},
+      {.side = Side::kLeft, .X_WF = Foothold::Level({0.2, 0.105, 0})},
+      {.side = Side::kRight, .X_WF = Foothold::Level({0.2, -0.105, 0})}};
   footsteps[1].duration = 1.0;
   footsteps[2].duration = 3.0;
   return MakeSequence(StandingFeet(), footsteps, 0.24, {.shift = 0.1, .support_offset = 0.02}, {});

@@ -21,7 +21,8 @@ namespace {
 
 // One step of the right foot, 0.2 m ahead.
 HalfStepSequence OneStep(const RobotModel& robot) {
-  return MakeSequence(StandingFeet(), {{.side = Side::kRight, .X_WF = {0.2, -0.105, 0.1}}}, 0.24,
+  return MakeSequence(StandingFeet(),
+                      {{.side = Side::kRight, .X_WF = Foothold::Level({0.2, -0.105, 0.1})}}, 0.24,
                       {}, {.com_height = robot.com_height});
 }
 
@@ -127,9 +128,9 @@ TEST_F(MarginEvaluatorTest, JointMarginsAreTheLeastOverAllTwelveJoints) {
 }
 
 TEST_F(MarginEvaluatorTest, OutOfReachEveryMarginOfTheBodyIsLost) {
-  const HalfStepSequence far =
-      MakeSequence(StandingFeet(), {{.side = Side::kRight, .X_WF = {0.9, -0.105, 0}}}, 0.24, {},
-                   {.com_height = robot_.com_height});
+  const HalfStepSequence far = MakeSequence(
+      StandingFeet(), {{.side = Side::kRight, .X_WF = Foothold::Level({0.9, -0.105, 0})}}, 0.24, {},
+      {.com_height = robot_.com_height});
   const SuperposedWalk walk(far, PlannedMotion(far));
   const MarginSet margins = At(walk, {1, 2.0});
   EXPECT_LT(Of(margins, MarginFamily::kReach).value, 0.0);

@@ -28,10 +28,13 @@ class MissedDemandsTest : public testing::Test {
   MarginEvaluator Evaluator() const { return {robot_, {}, limits_}; }
   SuperposedWalk Walk() const {
     const double y = 0.5 * robot_.standing_width;
-    const HalfStepSequence sequence = MakeSequence(
-        {Pose2{0, y, 0}, Pose2{0, -y, 0}},
-        {{.side = Side::kLeft, .X_WF = {0.2, y, 0}, .via_height = 0.25, .duration = 2.0}}, 0.24, {},
-        {.com_height = robot_.com_height});
+    const HalfStepSequence sequence =
+        MakeSequence({Foothold::Level({0, y, 0}), Foothold::Level({0, -y, 0})},
+                     {{.side = Side::kLeft,
+                       .X_WF = Foothold::Level({0.2, y, 0}),
+                       .via_height = 0.25,
+                       .duration = 2.0}},
+                     0.24, {}, {.com_height = robot_.com_height});
     return {sequence, PlannedMotion(sequence)};
   }
   // Footsteps of both feet in turn, the right one first, `apart` [m] ahead of each other, but for
@@ -44,12 +47,12 @@ class MissedDemandsTest : public testing::Test {
       x += i == long_after ? length : apart;
       const Side side = i % 2 == 0 ? Side::kRight : Side::kLeft;
       footsteps.push_back({.side = side,
-                           .X_WF = {x, side == Side::kLeft ? y : -y, 0},
+                           .X_WF = Foothold::Level({x, side == Side::kLeft ? y : -y, 0}),
                            .via_height = 0.25,
                            .duration = 2.0});
     }
-    return MakeSequence({Pose2{0, y, 0}, Pose2{0, -y, 0}}, footsteps, 0.24, {},
-                        {.com_height = robot_.com_height});
+    return MakeSequence({Foothold::Level({0, y, 0}), Foothold::Level({0, -y, 0})}, footsteps, 0.24,
+                        {}, {.com_height = robot_.com_height});
   }
   static Margin WitnessOf(const MarginEvaluator& evaluator, const SuperposedWalk& walk) {
     MarginEvaluator::Scratch scratch = evaluator.MakeScratch();

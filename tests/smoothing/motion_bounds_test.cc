@@ -251,10 +251,11 @@ TEST(MotionBounds, SpanKnotsAndBothEndsOfTheWalk) {
 TEST(MotionBounds, AreNoneWhereALegIsStretched) {
   const RobotModel robot = Hrp2();
   const double width = robot.standing_width;
-  const std::array<Footprint, 2> start = {Pose2{0, 0.5 * width, 0}, Pose2{0, -0.5 * width, 0}};
+  const std::array<Foothold, 2> start = {Foothold::Level({0, 0.5 * width, 0}),
+                                         Foothold::Level({0, -0.5 * width, 0})};
   const HalfStepSequence sequence =
-      MakeSequence(start, {{.side = Side::kLeft, .X_WF = {0.9, 0.5 * width, 0}}}, 0.24, {},
-                   {.com_height = robot.com_height});
+      MakeSequence(start, {{.side = Side::kLeft, .X_WF = Foothold::Level({0.9, 0.5 * width, 0})}},
+                   0.24, {}, {.com_height = robot.com_height});
   const SuperposedWalk walk(sequence, PlannedMotion(sequence));
   const MotionBounds bounds(robot);
   IntervalMotion motion;

@@ -13,15 +13,16 @@
 namespace halfstep {
 namespace {
 
-std::vector<Footstep> SomeFootsteps(Side first, const std::array<Footprint, 2>& from, int count,
+std::vector<Footstep> SomeFootsteps(Side first, const std::array<Foothold, 2>& from, int count,
                                     WalkDraw* draw) {
   std::vector<Footstep> footsteps;
-  std::array<Footprint, 2> feet = from;
+  std::array<Foothold, 2> feet = from;
   Side side = first;
   for (int i = 0; i < count; ++i) {
-    const Footprint& support = feet[static_cast<size_t>(Index(Opposite(side)))];
-    const Footprint landing =
-        support * Footprint{draw->Uniform(-0.1, 0.2), Sign(side) * draw->Uniform(0.2, 0.25), 0.0};
+    const Foothold& support = feet[static_cast<size_t>(Index(Opposite(side)))];
+    const Foothold landing =
+        support *
+        Foothold::Level({draw->Uniform(-0.1, 0.2), Sign(side) * draw->Uniform(0.2, 0.25), 0.0});
     footsteps.push_back({.side = side, .X_WF = landing, .via_height = 0.2, .duration = 1.5});
     feet[static_cast<size_t>(Index(side))] = landing;
     side = Opposite(side);

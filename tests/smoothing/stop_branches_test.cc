@@ -51,7 +51,7 @@ TEST(StopBranch, EndsAtRestOnOneFootOrOnBoth) {
       const WalkJet end = branch.At(branch.duration());
       EXPECT_LT(Largest(end.first), 1e-9);
       EXPECT_LT(Largest(end.second), 1e-8);
-      const Footprint& X_WS = walk.X_WS(k);
+      const Pose2 X_WS = walk.X_WS(k).Planar();
       const bool up = walk.half_step(k).kind == HalfStepKind::kUp;
       EXPECT_EQ(branch.StepInAir(branch.Locate(branch.duration())), up ? k / 2 : -1);
       if (up) {

@@ -130,8 +130,8 @@ TEST(SuperposedWalk, WithoutOverlapItIsTheConcatenationOfIsolatedHalfSteps) {
         const WalkJet isolated = Evaluate(h, profiles, tau), x = walk.At({k, tau});
         EXPECT_LT(Largest(x.value - Transformed(X_WS, isolated.value)), 4e-15);
         // The seams are where they are to 1e-15 s: third derivatives times that.
-        EXPECT_LT(Largest(x.first - Rotated(X_WS, isolated.first)), 1e-13);
-        EXPECT_LT(Largest(x.second - Rotated(X_WS, isolated.second)), 1e-11);
+        EXPECT_LT(Largest(x.first - Rotated(X_WS.Planar(), isolated.first)), 1e-13);
+        EXPECT_LT(Largest(x.second - Rotated(X_WS.Planar(), isolated.second)), 1e-11);
       }
       start += h.duration;
     }
@@ -142,9 +142,9 @@ TEST(SuperposedWalk, WithoutOverlapItIsTheConcatenationOfIsolatedHalfSteps) {
 TEST(SuperposedWalk, WithoutOverlapOnASupportSoleAtTheOriginItIsTheHalfStepBitForBit) {
   WalkDraw draw(25);
   for (int i = 0; i < 100; ++i) {
-    const std::array<Footprint, 2> start = {Pose2{}, Pose2{0, -0.21, 0}};
-    const Footprint X_WF{draw.Uniform(-0.1, 0.2), draw.Uniform(-0.3, -0.2),
-                         draw.Uniform(-0.3, 0.3)};
+    const std::array<Foothold, 2> start = {Foothold::Level({}), Foothold::Level({0, -0.21, 0})};
+    const Foothold X_WF = Foothold::Level(
+        {draw.Uniform(-0.1, 0.2), draw.Uniform(-0.3, -0.2), draw.Uniform(-0.3, 0.3)});
     const HalfStepSequence sequence =
         MakeSequence(start, {{.side = Side::kRight, .X_WF = X_WF}}, 0.24, {}, {});
     const SuperposedWalk walk(sequence, PlannedMotion(sequence));
@@ -211,8 +211,8 @@ TEST(SuperposedWalk, IsTheSumOverAllHalfSteps) {
         const WalkState from = Transformed(X_WS, h.Start());
         if (k == 0) sum.value = from;
         sum.value += Transformed(X_WS, own.value) - from;
-        sum.first += Rotated(X_WS, own.first);
-        sum.second += Rotated(X_WS, own.second);
+        sum.first += Rotated(X_WS.Planar(), own.first);
+        sum.second += Rotated(X_WS.Planar(), own.second);
       }
       EXPECT_LT(Largest(walk.At(t).value - sum.value), 1e-13);
       EXPECT_LT(Largest(walk.At(t).first - sum.first), 1e-11);
@@ -319,7 +319,7 @@ TEST(SuperposedWalk, FeetAreInTheAirAndMoveHorizontallyWhenTheHalfStepsSaySo) {
       const SupportPolygon polygon = SupportAt(walk, at, x, size);
       const SupportPolygon expected =
           step_in_air >= 0
-              ? SupportPolygon(walk.X_WS(2 * step_in_air), size)
+              ? SupportPolygon(walk.X_WS(2 * step_in_air).Planar(), size)
               : SupportPolygon(FootPose(x, Side::kLeft), FootPose(x, Side::kRight), size);
       const Eigen::Vector2d p = x.segment<2>(kZmpX);
       EXPECT_EQ(polygon.Margin(p), expected.Margin(p));

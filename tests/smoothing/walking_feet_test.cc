@@ -19,11 +19,11 @@ TEST(WalkingFeet, FeetLandExactlyOnTheFootstepsAndStayThere) {
         MakeSequence(StandingFeet(), footsteps, 0.24, {.shift = draw.Uniform(0.03, 0.3)}, {});
     const HomotopyParameters parameters = draw.ExtremeParameters(sequence);
     const SuperposedWalk walk(sequence, parameters);
-    std::array<Footprint, 2> feet = StandingFeet();
+    std::array<Foothold, 2> feet = StandingFeet();
     for (int step = 0; step < 5; ++step) {
       const Footstep& footstep = footsteps[static_cast<size_t>(step)];
       const auto at_rest = [&](const LocalTime& at, Side side) {
-        const Pose2& expected = feet[static_cast<size_t>(Index(side))];
+        const Pose2 expected = feet[static_cast<size_t>(Index(side))].LevelPose();
         const WalkJet x = walk.At(at);
         const Pose2 foot = FootPose(x.value, side);
         EXPECT_LT((foot.position() - expected.position()).norm(), 1e-13);
@@ -42,8 +42,8 @@ TEST(WalkingFeet, FeetLandExactlyOnTheFootstepsAndStayThere) {
       }
       const size_t j = static_cast<size_t>(step);
       feet[static_cast<size_t>(Index(footstep.side))] =
-          footstep.X_WF * Footprint(parameters.footstep_xs[j], parameters.footstep_ys[j],
-                                    parameters.footstep_yaws[j]);
+          footstep.X_WF * Foothold::Level({parameters.footstep_xs[j], parameters.footstep_ys[j],
+                                           parameters.footstep_yaws[j]});
       at_rest({down, walk.profiles(down).t1()}, footstep.side);
     }
   }
@@ -78,7 +78,8 @@ TEST(WalkingFeet, NoFootGoesBelowTheFloorAndAtMostOneIsInTheAir) {
 TEST(WalkingFeet, BeyondTheUpDownBoundTheFootWouldGoUnderTheFloor) {
   // So the bound is not only enough but needed: no further overlap can be offered.
   const HalfStepSequence sequence = MakeSequence(
-      StandingFeet(), {{.side = Side::kRight, .X_WF = {0.2, -0.105, 0}}}, 0.24, {}, {});
+      StandingFeet(), {{.side = Side::kRight, .X_WF = Foothold::Level({0.2, -0.105, 0})}}, 0.24, {},
+      {});
   const SuperposedWalk planned(sequence, PlannedMotion(sequence));
   const double T = planned.end_of(0);
   const double overlap = Overlapped(sequence, 1.0).overlaps[0] + 0.05;

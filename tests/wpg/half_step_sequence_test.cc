@@ -16,17 +16,20 @@ WalkState EndInW(const PlacedHalfStep& p) { return Transformed(p.X_WS, p.half_st
 double Difference(const WalkState& a, const WalkState& b) { return (a - b).cwiseAbs().maxCoeff(); }
 
 TEST(MakeSequence, OneStepByHand) {
-  const HalfStepSequence s = MakeSequence(
-      StandingFeet(),
-      {{.side = Side::kRight, .X_WF = {0.2, -0.125, 0.1}, .via_height = 0.2, .duration = 1.7}},
-      0.22, {.shift = 0.06, .horizontal_delay = 0.12}, {.com_height = 0.7});
+  const HalfStepSequence s =
+      MakeSequence(StandingFeet(),
+                   {{.side = Side::kRight,
+                     .X_WF = Foothold::Level({0.2, -0.125, 0.1}),
+                     .via_height = 0.2,
+                     .duration = 1.7}},
+                   0.22, {.shift = 0.06, .horizontal_delay = 0.12}, {.com_height = 0.7});
   ASSERT_EQ(s.size(), 2);
   EXPECT_EQ(s.num_steps(), 1);
   EXPECT_EQ(s.num_junctions(), 1);
   EXPECT_EQ(s.lipm.com_height, 0.7);
   for (const PlacedHalfStep& placed : s.half_steps) {
     const HalfStep& h = placed.half_step;
-    EXPECT_EQ(placed.X_WS, (Pose2{0, 0.105, 0}));
+    EXPECT_EQ(placed.X_WS, Foothold::Level({0, 0.105, 0}));
     EXPECT_EQ(h.support, Side::kLeft);
     EXPECT_EQ(h.duration, 1.7);
     EXPECT_EQ(h.via_height, 0.2);
@@ -35,7 +38,7 @@ TEST(MakeSequence, OneStepByHand) {
   }
   EXPECT_EQ(s.half_steps[0].half_step.kind, HalfStepKind::kUp);
   EXPECT_EQ(s.half_steps[1].half_step.kind, HalfStepKind::kDown);
-  EXPECT_EQ(s.half_steps[0].half_step.X_SF, (Pose2{0, -0.21, 0}));
+  EXPECT_EQ(s.half_steps[0].half_step.X_SF, Foothold::Level({0, -0.21, 0}));
   EXPECT_NEAR(s.half_steps[1].half_step.X_SF.y, -0.23, 1e-15);
   EXPECT_NEAR(s.half_steps[1].half_step.X_SF.x, 0.2, 1e-15);
   EXPECT_EQ(s.half_steps[1].half_step.X_SF.yaw, 0.1);
@@ -47,7 +50,7 @@ TEST(MakeSequence, EachHalfStepBeginsWhereTheOneBeforeEnds) {
     const std::vector<Footstep> footsteps = draw.Footsteps(6);
     const HalfStepSequence s = MakeSequence(StandingFeet(), footsteps, 0.24, {}, {});
     ASSERT_EQ(s.size(), 12);
-    std::array<Footprint, 2> feet = StandingFeet();
+    std::array<Foothold, 2> feet = StandingFeet();
     for (int k = 0; k < s.size(); ++k) {
       const PlacedHalfStep& now = s.half_steps[static_cast<size_t>(k)];
       EXPECT_EQ(now.half_step.kind, k % 2 == 0 ? HalfStepKind::kUp : HalfStepKind::kDown);
@@ -60,12 +63,13 @@ TEST(MakeSequence, EachHalfStepBeginsWhereTheOneBeforeEnds) {
         feet[static_cast<size_t>(Index(footstep.side))] = footstep.X_WF;
         const WalkState end = EndInW(now);
         for (Side side : {Side::kLeft, Side::kRight}) {
-          const Pose2 foot = FootPose(end, side), expected = feet[static_cast<size_t>(Index(side))];
+          const Pose2 foot = FootPose(end, side);
+          const Pose2 expected = feet[static_cast<size_t>(Index(side))].LevelPose();
           EXPECT_NEAR(foot.x, expected.x, 1e-15);
           EXPECT_NEAR(foot.y, expected.y, 1e-15);
           EXPECT_NEAR(foot.yaw, expected.yaw, 1e-15);
         }
-        const Pose2 left = feet[0], right = feet[1];
+        const Pose2 left = feet[0].LevelPose(), right = feet[1].LevelPose();
         EXPECT_NEAR(end[kComX], 0.5 * (left.x + right.x), 1e-15);
         EXPECT_NEAR(end[kWaistYaw], 0.5 * (left.yaw + right.yaw), 1e-15);
       }
@@ -75,9 +79,10 @@ TEST(MakeSequence, EachHalfStepBeginsWhereTheOneBeforeEnds) {
 
 TEST(MakeSequence, YawKeepsItsTurns) {
   // A foot that has turned by more than a full turn: the waist must not turn back.
-  const std::array<Footprint, 2> start = {Pose2{0, 0.105, 6.4}, Pose2{0, -0.105, 6.4}};
-  const HalfStepSequence s =
-      MakeSequence(start, {{.side = Side::kLeft, .X_WF = {0, 0.105, 6.6}}}, 0.24, {}, {});
+  const std::array<Foothold, 2> start = {Foothold::Level({0, 0.105, 6.4}),
+                                         Foothold::Level({0, -0.105, 6.4})};
+  const HalfStepSequence s = MakeSequence(
+      start, {{.side = Side::kLeft, .X_WF = Foothold::Level({0, 0.105, 6.6})}}, 0.24, {}, {});
   EXPECT_NEAR(EndInW(s.half_steps[1])[kWaistYaw], 6.5, 1e-14);
 }
 
@@ -93,12 +98,13 @@ TEST(SequenceSymmetry, MirroredAndMovedAreWhatTheMirroredAndMovedFootstepsGive) 
     for (size_t k = 0; k < footsteps.size(); ++k) {
       mirrored[k].side = Opposite(footsteps[k].side);
       mirrored[k].X_WF = footsteps[k].X_WF.Mirrored();
-      moved[k].X_WF = X_VW * footsteps[k].X_WF;
+      moved[k].X_WF = Foothold::Level(X_VW) * footsteps[k].X_WF;
     }
     const auto feet = StandingFeet();
     const HalfStepSequence plain = MakeSequence(feet, footsteps, 0.24, {}, {});
-    const std::array<Footprint, 2> feet_m = {feet[1].Mirrored(), feet[0].Mirrored()};
-    const std::array<Footprint, 2> feet_v = {X_VW * feet[0], X_VW * feet[1]};
+    const std::array<Foothold, 2> feet_m = {feet[1].Mirrored(), feet[0].Mirrored()};
+    const std::array<Foothold, 2> feet_v = {Foothold::Level(X_VW) * feet[0],
+                                            Foothold::Level(X_VW) * feet[1]};
     for (const auto& [a, b] :
          {std::pair{Mirrored(plain), MakeSequence(feet_m, mirrored, 0.24, {}, {})},
           std::pair{Moved(X_VW, plain), MakeSequence(feet_v, moved, 0.24, {}, {})}}) {
@@ -109,7 +115,7 @@ TEST(SequenceSymmetry, MirroredAndMovedAreWhatTheMirroredAndMovedFootstepsGive) 
         EXPECT_LT(Difference(EndInW(a.half_steps[k]), EndInW(b.half_steps[k])), 1e-14);
       }
       for (size_t f = 0; f < 2; ++f) {
-        EXPECT_LT((a.start[f].position() - b.start[f].position()).norm(), 1e-15);
+        EXPECT_LT((a.start[f].Planar().position() - b.start[f].Planar().position()).norm(), 1e-15);
       }
     }
   }

@@ -34,7 +34,7 @@ class HalfStepTest : public testing::Test {
     half_step.support = Uniform(0, 1) < 0.5 ? Side::kLeft : Side::kRight;
     half_step.kind = Uniform(0, 1) < 0.5 ? HalfStepKind::kUp : HalfStepKind::kDown;
     const double x = Uniform(-0.3, 0.3), y = Sign(half_step.swing()) * Uniform(0.16, 0.3);
-    half_step.X_SF = {x, y, Uniform(-0.5, 0.5)};
+    half_step.X_SF = Foothold::Level({x, y, Uniform(-0.5, 0.5)});
     half_step.duration = Uniform(1.0, 3.0);
     half_step.via_height = Uniform(0.05, 0.25);
     half_step.via_lateral = Uniform(0.19, 0.24);
@@ -104,7 +104,7 @@ TEST_F(HalfStepTest, DerivativesInTimeAndDuration) {
 
 TEST_F(HalfStepTest, OnePercentOrASignInOneDerivativeIsCaught) {
   HalfStep h;
-  h.X_SF = {0.2, -0.21, 0.2};
+  h.X_SF = Foothold::Level({0.2, -0.21, 0.2});
   const HalfStepProfiles profiles = Profiles(h, {});
   const double tau = 1.5;  // every profile but the ZMP's second rest moves
   const auto function = [&](const Eigen::VectorXd& d) {
@@ -149,7 +149,7 @@ TEST_F(HalfStepTest, RestsAtBothEnds) {
 
 TEST_F(HalfStepTest, GoesFromMidFeetToAboveTheSupportSoleAndBack) {
   HalfStep h;
-  h.X_SF = {0.1, -0.2, 0.4};
+  h.X_SF = Foothold::Level({0.1, -0.2, 0.4});
   h.via_height = 0.12;
   h.via_lateral = 0.22;
   WalkState floor, via;
@@ -166,7 +166,7 @@ TEST_F(HalfStepTest, GoesFromMidFeetToAboveTheSupportSoleAndBack) {
 TEST_F(HalfStepTest, RestsOnTheSupportPointOnTheSideOfTheSwingFoot) {
   HalfStep h;
   h.support = Side::kLeft;
-  h.X_SF = {0.1, -0.2, 0.4};
+  h.X_SF = Foothold::Level({0.1, -0.2, 0.4});
   h.shape.support_offset = 0.03;
   const WalkState centre = [&] {
     HalfStep plain = h;

@@ -8,13 +8,15 @@
 
 #include "tests/draws.h"
 #include "tests/wpg/hrp2.h"
-#include "wpg/geometry/footprint.h"
+#include "wpg/geometry/foothold.h"
 #include "wpg/motion/half_step_sequence.h"
 
 namespace halfstep {
 
 /// Soles side by side, 0.21 m apart.
-inline std::array<Footprint, 2> StandingFeet() { return {Pose2{0, 0.105, 0}, Pose2{0, -0.105, 0}}; }
+inline std::array<Foothold, 2> StandingFeet() {
+  return {Foothold::Level({0, 0.105, 0}), Foothold::Level({0, -0.105, 0})};
+}
 
 /// Random sequences of half-steps, reproducible from the seed.
 class SequenceDraw {
@@ -31,13 +33,13 @@ class SequenceDraw {
 
   /// Footsteps in turn, about where HRP-2 can put its feet; durations and heights differ.
   std::vector<Footstep> Footsteps(int count) {
-    std::array<Footprint, 2> feet = StandingFeet();
+    std::array<Foothold, 2> feet = StandingFeet();
     Side side = Uniform(0, 1) < 0.5 ? Side::kLeft : Side::kRight;
     std::vector<Footstep> footsteps;
     for (int i = 0; i < count; ++i, side = Opposite(side)) {
       const double x = Uniform(-0.15, 0.25), y = Sign(side) * Uniform(0.17, 0.28);
-      const Footprint X_SF{x, y, Uniform(-0.3, 0.3)};
-      Footprint& foot = feet[static_cast<size_t>(Index(side))];
+      const Foothold X_SF = Foothold::Level({x, y, Uniform(-0.3, 0.3)});
+      Foothold& foot = feet[static_cast<size_t>(Index(side))];
       foot = feet[static_cast<size_t>(Index(Opposite(side)))] * X_SF;
       const double height = Uniform(0.05, 0.25);
       footsteps.push_back(

@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "wpg/geometry/footprint.h"
+#include "wpg/geometry/pose2.h"
 
 namespace halfstep {
 namespace {
@@ -57,7 +57,7 @@ class SupportPolygonTest : public testing::Test {
     const double x = Uniform(-reach, reach), y = Uniform(-reach, reach);
     return {x, y, Uniform(-3, 3)};
   }
-  static std::vector<Vector2d> Corners(const std::vector<Footprint>& soles) {
+  static std::vector<Vector2d> Corners(const std::vector<Pose2>& soles) {
     std::vector<Vector2d> corners;
     for (const Pose2& X : soles) {
       const double x = kSole.x() / 2, y = kSole.y() / 2;
@@ -106,7 +106,7 @@ TEST_F(SupportPolygonTest, FeetSideBySideByHand) {
 
 TEST_F(SupportPolygonTest, OneSoleAgainstBruteForce) {
   for (int i = 0; i < 200; ++i) {
-    const Footprint X_WS = Pose(2);
+    const Pose2 X_WS = Pose(2);
     CheckMargins(SupportPolygon(X_WS, kSole), Corners({X_WS}));
   }
 }
@@ -130,7 +130,7 @@ TEST_F(SupportPolygonTest, AlignedSolesAtAnyYawAgainstBruteForce) {
     const Pose2 X_WL = Pose(1);
     for (const Pose2& X_LR :
          {Pose2{0, -0.2, 0}, Pose2{0.3, 0, 0}, Pose2{0, 0, 0}, Pose2{0, 0, 0.5 * M_PI * (i % 4)}}) {
-      const std::vector<Footprint> soles = {X_WL, X_WL * X_LR};
+      const std::vector<Pose2> soles = {X_WL, X_WL * X_LR};
       CheckMargins(SupportPolygon(soles[0], soles[1], kSole), Corners(soles));
     }
   }

@@ -8,8 +8,8 @@
 namespace halfstep {
 namespace {
 
-void SetFoot(Side side, const Footprint& X_SF, double z, WalkState* x) {
-  x->segment<4>(FootIndex(side)) = Eigen::Vector4d(X_SF.x, X_SF.y, z, X_SF.yaw);
+void SetFoot(Side side, const Foothold& X_SF, WalkState* x) {
+  x->segment<4>(FootIndex(side)) = Eigen::Vector4d(X_SF.x, X_SF.y, X_SF.height, X_SF.yaw);
 }
 
 // Horizontal motion of the foot: inside its flight by `horizontal_delay` at the floor's end.
@@ -44,16 +44,16 @@ ProfileJet InTime(const UnitJet& f, double rate, double duration) {
 
 WalkState HalfStep::OnFloor() const {
   WalkState x = WalkState::Zero();
-  x.segment<2>(kComX) = x.segment<2>(kZmpX) = 0.5 * X_SF.position();
+  x.segment<2>(kComX) = x.segment<2>(kZmpX) = 0.5 * X_SF.Planar().position();
   x[kWaistYaw] = 0.5 * X_SF.yaw;
-  SetFoot(swing(), X_SF, 0.0, &x);
+  SetFoot(swing(), X_SF, &x);
   return x;
 }
 
 WalkState HalfStep::AtVia() const {
   WalkState x = WalkState::Zero();
   x.segment<2>(kComX) = x.segment<2>(kZmpX) = support_point();
-  SetFoot(swing(), via(), via_height, &x);
+  SetFoot(swing(), {via(), via_height}, &x);
   return x;
 }
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "wpg/geometry/footprint.h"
+#include "wpg/geometry/foothold.h"
 #include "wpg/geometry/side.h"
 #include "wpg/motion/lipm.h"
 #include "wpg/motion/profile_jet.h"
@@ -55,7 +55,7 @@ struct HalfStepShape {
 struct HalfStep {
   Side support = Side::kLeft;             ///< the foot that stands
   HalfStepKind kind = HalfStepKind::kUp;  ///< up: towards the via point; down: from it
-  Footprint X_SF;             ///< the swing sole's place on the floor, seen from the support sole.
+  Foothold X_SF;              ///< where the swing sole stands, seen from the support sole.
   double duration = 2.0;      ///< T [s]
   double via_height = 0.25;   ///< [m] ≥ 0
   double via_lateral = 0.24;  ///< distance of the via point from the support sole's centre [m].

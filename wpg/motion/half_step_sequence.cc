@@ -4,16 +4,16 @@
 
 namespace halfstep {
 
-HalfStepSequence MakeSequence(const std::array<Footprint, 2>& start,
+HalfStepSequence MakeSequence(const std::array<Foothold, 2>& start,
                               const std::vector<Footstep>& footsteps, double via_lateral,
                               const HalfStepShape& shape, const Lipm& lipm) {
   HALFSTEP_CHECK(!footsteps.empty(), "no footsteps");
   HalfStepSequence sequence{.start = start, .half_steps = {}, .lipm = lipm};
-  std::array<Footprint, 2> feet = start;
+  std::array<Foothold, 2> feet = start;
   for (const Footstep& footstep : footsteps) {
     const Side swing = footstep.side;
-    const Footprint X_WS = feet[static_cast<size_t>(Index(Opposite(swing)))];
-    Footprint& foot = feet[static_cast<size_t>(Index(swing))];
+    const Foothold X_WS = feet[static_cast<size_t>(Index(Opposite(swing)))];
+    Foothold& foot = feet[static_cast<size_t>(Index(swing))];
     HalfStep half_step{.support = Opposite(swing),
                        .kind = HalfStepKind::kUp,
                        .X_SF = X_WS.Inverse() * foot,
@@ -41,8 +41,8 @@ HalfStepSequence Mirrored(const HalfStepSequence& sequence) {
 
 HalfStepSequence Moved(const Pose2& X_VW, const HalfStepSequence& sequence) {
   HalfStepSequence moved = sequence;
-  for (Footprint& sole : moved.start) sole = Footprint(X_VW) * sole;
-  for (PlacedHalfStep& placed : moved.half_steps) placed.X_WS = Footprint(X_VW) * placed.X_WS;
+  for (Foothold& sole : moved.start) sole = Foothold::Level(X_VW) * sole;
+  for (PlacedHalfStep& placed : moved.half_steps) placed.X_WS = Foothold::Level(X_VW) * placed.X_WS;
   return moved;
 }
 

@@ -3,17 +3,17 @@
 #include <array>
 #include <vector>
 
-#include "wpg/geometry/footprint.h"
+#include "wpg/geometry/foothold.h"
 #include "wpg/geometry/side.h"
 #include "wpg/motion/half_step.h"
 #include "wpg/motion/lipm.h"
 
 namespace halfstep {
 
-/// A foot's place on the floor, X_WF.
+/// Where a foot stands, X_WF.
 struct Footstep {
   Side side = Side::kLeft;  ///< the foot that stands there
-  Footprint X_WF;           ///< the sole's place, in W
+  Foothold X_WF;            ///< the sole's place, in W
   /// What follows holds for both half-steps of the step that leads here.
   double via_height = 0.25;  ///< [m]
   double duration = 2.0;     ///< T of each half-step [s]
@@ -22,13 +22,13 @@ struct Footstep {
 /// A half-step placed in the world: X_WS is the pose of its support sole.
 struct PlacedHalfStep {
   HalfStep half_step;  ///< seen from its support sole
-  Footprint X_WS;      ///< place of that sole, in W
+  Foothold X_WS;       ///< place of that sole, in W
 };
 
 /// A plan: half-steps 0 … n−1, alternately up and down, each beginning where the one before ends.
 /// Step j is made of half-steps 2j (up) and 2j + 1 (down).
 struct HalfStepSequence {
-  std::array<Footprint, 2> start;          ///< soles at the start, by Index(Side); yaws unwrapped.
+  std::array<Foothold, 2> start;           ///< soles at the start, by Index(Side); yaws unwrapped.
   std::vector<PlacedHalfStep> half_steps;  ///< n ≥ 2, even.
   Lipm lipm;                               ///< of all half-steps
 
@@ -39,13 +39,13 @@ struct HalfStepSequence {
 
 /// The sequence that takes the footsteps in their order from the soles `start`. `via_lateral` [m]
 /// and `shape` hold for all half-steps. Precondition: at least one footstep (std::logic_error).
-HalfStepSequence MakeSequence(const std::array<Footprint, 2>& start,
+HalfStepSequence MakeSequence(const std::array<Foothold, 2>& start,
                               const std::vector<Footstep>& footsteps, double via_lateral,
                               const HalfStepShape& shape, const Lipm& lipm);
 
-/// The same plan seen in a mirror (xz plane of W), and moved by X_VW.
+/// The same plan seen in a mirror (xz plane of W).
 HalfStepSequence Mirrored(const HalfStepSequence& sequence);
-/// The same plan moved by X_VW: frame W of the plan is placed in frame V.
+/// The same plan moved by X_VW, heights kept: frame W of the plan is placed in frame V.
 HalfStepSequence Moved(const Pose2& X_VW, const HalfStepSequence& sequence);
 
 }  // namespace halfstep

@@ -27,18 +27,18 @@ HalfStepSequence WithFootstepsMoved(const HalfStepSequence& sequence,
   HALFSTEP_CHECK(moves.size() == static_cast<size_t>(sequence.num_steps()),
                  moves.size() << " moves of " << sequence.num_steps() << " footsteps");
   HalfStepSequence result = sequence;
-  std::array<Footprint, 2> soles = sequence.start;
+  std::array<Foothold, 2> soles = sequence.start;
   std::array<bool, 2> moved = {false, false};
   for (size_t step = 0; step < moves.size(); ++step) {
     PlacedHalfStep &up = result.half_steps[2 * step], &down = result.half_steps[2 * step + 1];
     const size_t support = Of(up.half_step.support), swing = Of(up.half_step.swing());
     // By what is planned up to here alone, so that walks that begin alike are moved alike.
-    const Footprint planned = down.X_WS * down.half_step.X_SF;
+    const Foothold planned = down.X_WS * down.half_step.X_SF;
     if (!moved[support]) soles[support] = up.X_WS;
     up.X_WS = down.X_WS = soles[support];
     if (moved[support] || moved[swing]) up.half_step.X_SF = up.X_WS.Inverse() * soles[swing];
     moved[swing] = moves[step] != Pose2{};
-    soles[swing] = moved[swing] ? planned * Footprint(moves[step]) : planned;
+    soles[swing] = moved[swing] ? planned * Foothold::Level(moves[step]) : planned;
     if (moved[support] || moved[swing]) down.half_step.X_SF = down.X_WS.Inverse() * soles[swing];
   }
   return result;

@@ -16,9 +16,9 @@ struct HalfStepFootsteps {
 /// Those of each half-step of a sequence (n).
 std::vector<HalfStepFootsteps> FootstepsOf(const HalfStepSequence& sequence);
 
-/// The sequence in which footstep j stands at X_WF·moves[j], X_WF where it was. A half-step that
-/// stands on no moved footstep stays to the bit. Precondition: as many moves as steps
-/// (std::logic_error).
+/// The sequence in which footstep j stands at X_WF·moves[j], X_WF where it was, at the same height.
+/// A half-step that stands on no moved footstep stays to the bit. Precondition: as many moves as
+/// steps (std::logic_error).
 HalfStepSequence WithFootstepsMoved(const HalfStepSequence& sequence,
                                     const std::vector<Pose2>& moves);
 

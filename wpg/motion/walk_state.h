@@ -2,13 +2,14 @@
 
 #include <Eigen/Core>
 
+#include "wpg/geometry/foothold.h"
 #include "wpg/geometry/pose2.h"
 #include "wpg/geometry/side.h"
 
 namespace halfstep {
 
 /// The quantities that a walk is made of, in the order of WalkState. Lengths [m], yaws [rad].
-/// Feet: sole centres above the floor.
+/// Feet: sole centres; z is up from the plane z = 0 of the frame in which they are seen.
 enum Quantity : int {
   kComX,
   kComY,
@@ -39,7 +40,7 @@ struct WalkJet {
   WalkState second = WalkState::Zero();  ///< [unit/s²]
 };
 
-/// The pose of a foot on the floor, in the frame in which `x` is expressed.
+/// The pose of a foot seen from above, in the frame in which `x` is expressed.
 inline Pose2 FootPose(const WalkState& x, Side side) {
   const int i = FootIndex(side);
   return {x[i], x[i + 1], x[i + 3]};
@@ -52,6 +53,13 @@ inline WalkState Transformed(const Pose2& X_AS, const WalkState& x_S) {
     x_A.segment<2>(i) = X_AS * Eigen::Vector2d(x_S.segment<2>(i));
   }
   for (int i : {kWaistYaw, kLeftYaw, kRightYaw}) x_A[i] += X_AS.yaw;
+  return x_A;
+}
+
+/// The same quantities seen from A, S standing in it at a height.
+inline WalkState Transformed(const Foothold& X_AS, const WalkState& x_S) {
+  WalkState x_A = Transformed(X_AS.Planar(), x_S);
+  for (int i : {kLeftZ, kRightZ}) x_A[i] += X_AS.height;
   return x_A;
 }
 
