@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "experiments/config/experiment.h"
+#include "experiments/config/known_names.h"
 #include "experiments/verify/certificate_text.h"
 #include "experiments/verify/check_certificate.h"
 #include "experiments/verify/check_chosen.h"
@@ -27,7 +28,6 @@
 #include "experiments/verify/given_files.h"
 #include "experiments/verify/own_names.h"
 #include "experiments/verify/tolerances.h"
-#include "smoothing/margins/own_margin.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/sha256.h"
 
@@ -70,7 +70,7 @@ ExperimentConfig ReadConfig(const VerifyOptions& options, const std::string& pat
     config = ParseConfig(path, text, overrides);
   }
   if (own.methods) config.smoothing.methods = *own.methods;
-  if (OwnMargins().empty()) {
+  if (!NamesOfConfigs().has_own_margins) {
     config.smoothing.limits.demanded_of(MarginFamily::kOwn) =
         own.own_margin.value_or(verify::kNotDemanded);
   }
