@@ -92,17 +92,9 @@ std::string GapIn(const std::vector<const ClaimRow*>& rows, long count, double e
   return "";
 }
 
-}  // namespace
-
-std::optional<Family> FamilyNamed(const std::string& name, Findings* findings) {
-  const auto found = std::ranges::find(kFamilyNames, name);
-  if (found != kFamilyNames.end()) return static_cast<Family>(found - kFamilyNames.begin());
-  findings->Disagree("the family " + Quote(name) + " is not known here");
-  return std::nullopt;
-}
-
-void CheckArithmetic(const CertificateText& certificate, const std::vector<ClaimRow>& rows,
-                     const RobotModel& robot, double end, Findings* findings) {
+// What certificate.json says of the whole walk: verdict, statement, duration, limits and demands.
+void CheckHead(const CertificateText& certificate, const RobotModel& robot, double end,
+               Findings* findings) {
   if (certificate.verdict != "certified") {
     findings->Disagree("the certificate's verdict is " + Quote(certificate.verdict) + ": " +
                        Quote(certificate.message));
@@ -133,6 +125,20 @@ void CheckArithmetic(const CertificateText& certificate, const std::vector<Claim
       findings->Disagree(Formatted("a demanded margin is %.9g", demanded));
     }
   }
+}
+
+}  // namespace
+
+std::optional<Family> FamilyNamed(const std::string& name, Findings* findings) {
+  const auto found = std::ranges::find(kFamilyNames, name);
+  if (found != kFamilyNames.end()) return static_cast<Family>(found - kFamilyNames.begin());
+  findings->Disagree("the family " + Quote(name) + " is not known here");
+  return std::nullopt;
+}
+
+void CheckArithmetic(const CertificateText& certificate, const std::vector<ClaimRow>& rows,
+                     const RobotModel& robot, double end, Findings* findings) {
+  CheckHead(certificate, robot, end, findings);
   double smallest = std::numeric_limits<double>::infinity();
   std::string where;
   std::array<std::vector<const ClaimRow*>, kNumFamilies> by_family;

@@ -86,20 +86,6 @@ ExperimentConfig ReadConfig(const VerifyOptions& options, const std::string& pat
   return config;
 }
 
-HalfStepSequence PlannedOf(const ExperimentConfig& config, const RobotModel& robot) {
-  std::vector<Footstep> footsteps;
-  for (const FootstepConfig& step : config.footsteps) {
-    footsteps.push_back({.side = step.foot == "left" ? Side::kLeft : Side::kRight,
-                         .X_WF = step.X_WF,
-                         .via_height = step.via_height.value_or(config.half_step.via_height),
-                         .duration = step.duration.value_or(config.half_step.duration)});
-  }
-  return CompensatedAsAsked(
-      config, robot,
-      MakeSequence(StartOf(config, robot), footsteps, config.half_step.via_lateral,
-                   ShapeOf(config.half_step), {.com_height = robot.com_height}));
-}
-
 // All files of one method, and of its run, as they were read.
 struct MethodFiles {
   MethodFiles(const VerifyOptions& options, const std::string& folder_name)
@@ -118,7 +104,7 @@ struct MethodFiles {
 std::optional<DescribedWalk> WalkOf(const MethodFiles& files, const ExperimentConfig& config,
                                     const RobotModel& robot, const RunManifest::Method* of_method,
                                     Findings* findings) {
-  const HalfStepSequence planned = PlannedOf(config, robot);
+  const HalfStepSequence planned = SequenceOf(config, robot);
   CheckFootsteps(ReadFootsteps(files.PathInRun("footsteps.csv"), files.ReadOfRun("footsteps.csv")),
                  planned, findings);
   const auto half_steps =
@@ -197,6 +183,37 @@ bool IsFinite(const std::vector<ClaimRow>& rows) {
   });
 }
 
+// What the files of a method claim.
+struct MethodClaims {
+  const CertificateText& certificate;
+  const std::vector<ClaimRow>& claims;
+  const std::vector<PlayedRow>& rows;
+};
+
+// Whether rows, played motion and claims are true of the walk. No scene: these are not the
+// certificate's files, so that distances say nothing.
+void CheckMotion(const VerifyOptions& options, const ExperimentConfig& config,
+                 const MethodClaims& claimed, const DescribedWalk& walk, const Scene* scene,
+                 Findings* findings) {
+  const auto& [certificate, claims, rows] = claimed;
+  const PlayedMotion motion(walk.robot(), rows);
+  const double period = RowPeriodOf(config, rows[1].t);
+  const double tolerance = options.tolerance.value_or(Tolerances(walk.robot()).played);
+  CheckRowsOnWalk(rows, walk, period, walk.end(), findings);
+  CheckConsistency(motion, walk, findings);
+  if (scene == nullptr) {
+    findings->Say("clearances: not examined, for these are not the certificate's files");
+    return;
+  }
+  Distances distances(walk.robot(), *scene);
+  CheckPlayed(motion, walk, certificate, tolerance, &distances, findings);
+  CheckStopBranches(walk, {config.smoothing.stop_branches, period}, certificate, tolerance,
+                    &distances, findings);
+  CheckMarginColumns(rows, walk, certificate, &distances, findings);
+  if (IsFinite(claims)) CheckClaims(walk, certificate, claims, &distances, findings);
+  findings->Say("distances measured: " + Count(distances.queries()));
+}
+
 }  // namespace
 
 VerifiedStatement VerifyMethod(const VerifyOptions& options, const RunManifest& manifest,
@@ -255,22 +272,8 @@ VerifiedStatement VerifyMethod(const VerifyOptions& options, const RunManifest& 
   const std::optional<DescribedWalk> walk =
       WalkOf(files, config, robot, manifest.MethodOf(folder), findings);
   if (!CheckIsMotion(rows, findings) || !walk) return {certificate.statement, not_covered};
-  const PlayedMotion motion(robot, rows);
-  Distances distances(robot, scene);
-  const double period = RowPeriodOf(config, rows[1].t);
-  const double tolerance = options.tolerance.value_or(Tolerances(robot).played);
-  CheckRowsOnWalk(rows, *walk, period, walk->end(), findings);
-  CheckConsistency(motion, *walk, findings);
-  if (!same_files) {
-    findings->Say("clearances: not examined, for these are not the certificate's files");
-    return {certificate.statement, not_covered};
-  }
-  CheckPlayed(motion, *walk, certificate, tolerance, &distances, findings);
-  CheckStopBranches(*walk, {config.smoothing.stop_branches, period}, certificate, tolerance,
-                    &distances, findings);
-  CheckMarginColumns(rows, *walk, certificate, &distances, findings);
-  if (IsFinite(claimed)) CheckClaims(*walk, certificate, claimed, &distances, findings);
-  findings->Say("distances measured: " + Count(distances.queries()));
+  CheckMotion(options, config, {certificate, claimed, rows}, *walk, same_files ? &scene : nullptr,
+              findings);
   return {certificate.statement, not_covered};
 }
 
