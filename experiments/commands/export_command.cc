@@ -18,7 +18,7 @@
 #include "experiments/replay/mujoco_keyframes.h"
 #include "experiments/tables/certificate_files.h"
 #include "experiments/tables/csv_subset.h"
-#include "experiments/tables/parameter_tables.h"
+#include "experiments/tables/given_walk_file.h"
 #include "experiments/tables/result_tables.h"
 #include "experiments/tables/run_folder.h"
 #include "experiments/tables/trajectory_match.h"

@@ -1,10 +1,11 @@
+#include "experiments/commands/verify_command.h"
+
+#include <algorithm>
 #include <iostream>
 #include <memory>
 
 #include "experiments/commands/command_line.h"
-#include "experiments/run/exit_status.h"
 #include "experiments/verify/verification_json.h"
-#include "experiments/verify/verify_run.h"
 
 namespace halfstep {
 namespace {
@@ -14,7 +15,6 @@ enum class Telling { kErrors, kSummary, kEverything, kJson };
 // Nothing of the smoothing takes part.
 ExitStatus Verify(const verify::VerifyOptions& options, Telling telling) {
   const bool quiet = telling == Telling::kErrors;
-  ExitStatus status = kSuccess;
   std::vector<NotCovered> not_covered;  // by the certificates, which are of one robot and scene
   const std::vector<verify::MethodVerification> results = verify::VerifyRun(options);
   for (const verify::MethodVerification& result : results) {
@@ -33,15 +33,6 @@ ExitStatus Verify(const verify::VerifyOptions& options, Telling telling) {
     if (quiet && result.disagreements == 0 && !result.too_coarse.empty()) {
       std::cerr << result.method << ": too coarse to verify: " << result.too_coarse << '\n';
     }
-    // Of several methods the worst counts.
-    const ExitStatus of_method = !result.readable           ? kBadInput
-                                 : result.disagreements > 0 ? kNotVerified
-                                 : result.verified          ? kSuccess
-                                                            : kTooCoarse;
-    if (of_method == kBadInput || status == kSuccess ||
-        (status == kTooCoarse && of_method == kNotVerified)) {
-      status = of_method;
-    }
   }
   if (telling == Telling::kSummary) {
     std::cout << NotCoveredText(not_covered, "--verbose")
@@ -52,10 +43,18 @@ ExitStatus Verify(const verify::VerifyOptions& options, Telling telling) {
   } else if (telling == Telling::kJson) {
     std::cout << verify::VerificationJson(results);
   }
-  return status;
+  return StatusOf(results);
 }
 
 }  // namespace
+
+ExitStatus StatusOf(const std::vector<verify::MethodVerification>& results) {
+  using Result = verify::MethodVerification;
+  if (!std::ranges::all_of(results, &Result::readable)) return kBadInput;
+  const auto is_refused = [](const Result& one) { return one.disagreements > 0; };
+  if (std::ranges::any_of(results, is_refused)) return kNotVerified;
+  return std::ranges::all_of(results, &Result::verified) ? kSuccess : kTooCoarse;
+}
 
 CommandAction DeclareVerify(CLI::App* app) {
   const auto options = std::make_shared<verify::VerifyOptions>();

@@ -4,112 +4,28 @@
 #include <cmath>
 #include <optional>
 
-#include "experiments/tables/csv_places.h"
-#include "experiments/tables/csv_reader.h"
+#include "experiments/tables/given_table.h"
 #include "experiments/tables/parameter_tables.h"
 #include "experiments/tables/result_tables.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/number_text.h"
-#include "wpg/files/suggestion.h"
 #include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {
 
-constexpr double kSameAsWalk = 1e-9;      // columns that tell what the walk has anyway
-constexpr int kMostComplaintsAFile = 30;  // then one says that there are more
-
-// As spreadsheets write CSV files: lines may end in CR LF, and a mark of UTF-8 may come first.
-std::string PlainCsvText(const std::string& path) {
-  std::string text = ReadCsvText(path);
-  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
-  for (size_t at = 0; (at = text.find("\r\n", at)) != std::string::npos;) text.erase(at, 1);
-  return text;
-}
-
-std::string NamesOf(const CsvColumns& columns) {
-  std::string names;
-  for (const CsvColumn& column : columns) names += (names.empty() ? "" : ", ") + column.name;
-  return names;
-}
-
-bool HasColumn(const std::vector<std::string>& header, const std::string& name) {
-  return std::ranges::find(header, name) != header.end();
-}
-
-/// A table that is being read, and the complaints about it.
-class GivenTable {
- public:
-  /// `rows` is how many the sequence asks for, one for each of `what`.
-  GivenTable(const std::string& path, const CsvColumns& known, size_t rows, const std::string& what,
-             Complaints* complaints)
-      : text_(PlainCsvText(path)),
-        csv_(ParseCsv(text_, path)),
-        places_(CsvPlaces(text_)),
-        complaints_(complaints) {
-    CheckHeader(known);
-    if (csv_.rows.size() == rows) return;
-    Complain(0, 0,
-             std::to_string(csv_.rows.size()) + " rows for " + std::to_string(rows) + " " + what +
-                 " (valid: a row for each of them)");
-    fits_ = false;
-  }
-
-  bool fits() const { return fits_; }
-  size_t num_rows() const { return fits_ ? csv_.rows.size() : 0; }
-  std::optional<size_t> Find(const std::string& name) const {
-    const auto found = std::ranges::find(csv_.header, name);
-    if (found == csv_.header.end()) return std::nullopt;
-    return static_cast<size_t>(found - csv_.header.begin());
-  }
-  const std::string& Cell(size_t row, size_t column) const { return csv_.rows[row][column]; }
-
-  /// The number in a cell; none, after a complaint, when there is none.
-  std::optional<double> Number(size_t row, size_t column) {
-    const NumberText number = ParseNumber(Cell(row, column));
-    if (number.kind == NumberText::Kind::kNumber) return number.value;
-    const bool not_finite = number.kind == NumberText::Kind::kNotFinite;
-    Complain(row + 1, column,
-             Quote(Cell(row, column)) + (not_finite ? " is not finite" : " is not a number") +
-                 " (valid: a finite decimal number)");
-    return std::nullopt;
-  }
-
-  /// `row` counts from 0, the header.
-  void Complain(size_t row, size_t column, const std::string& what) {
-    if (++num_complaints_ > kMostComplaintsAFile + 1) return;
-    const CsvPlace& place = places_[row][column];
-    const bool last = num_complaints_ == kMostComplaintsAFile + 1;
-    complaints_->Add(csv_.path, place.line, place.column, csv_.header[column],
-                     last ? "and so on; the others are left out" : what);
-  }
-
- private:
-  void CheckHeader(const CsvColumns& known) {
-    std::vector<std::string> names;
-    for (const CsvColumn& column : known) names.push_back(column.name);
-    for (size_t c = 0; c < csv_.header.size(); ++c) {
-      const std::string& name = csv_.header[c];
-      if (Find(name) != c) Complain(0, c, "is there twice (valid: once)");
-      if (HasColumn(names, name)) continue;
-      Complain(0, c,
-               "no such column (" + DidYouMean(name, names) + "valid: " + NamesOf(known) + ")");
-    }
-  }
-
-  std::string text_;
-  CsvTable csv_;
-  std::vector<std::vector<CsvPlace>> places_;
-  Complaints* complaints_;
-  bool fits_ = true;
-  int num_complaints_ = 0;
-};
+constexpr double kSameAsWalk = 1e-9;  // columns that tell what the walk has anyway
 
 /// Reads the two tables into the parameters of a sequence.
 class GivenWalkReader {
  public:
-  GivenWalkReader(const HalfStepSequence& sequence, const std::vector<FixedParameter>& fixed)
-      : sequence_(sequence), fixed_(fixed), walk_(ParameterTable(sequence, fixed).Start()) {}
+  /// Of a run's tables: `whole`, none of the columns that every run writes may be left out.
+  GivenWalkReader(const HalfStepSequence& sequence, const std::vector<FixedParameter>& fixed,
+                  bool whole)
+      : sequence_(sequence),
+        fixed_(fixed),
+        whole_(whole),
+        walk_(ParameterTable(sequence, fixed).Start()) {}
 
   HomotopyParameters Read(const GivenWalkFiles& files) {
     if (!files.overlaps.empty()) {
@@ -167,8 +83,12 @@ class GivenWalkReader {
   }
 
   void ReadFamily(ParameterFamily family) {
-    if (!IsGiven(family)) return;
     const ParameterFamilyTraits& traits = Traits(family);
+    if (!IsGiven(family)) {
+      GivenTable* const left_out = whole_ && !traits.of_form ? TableOf(family) : nullptr;
+      if (left_out != nullptr) left_out->ComplainOfMissing(std::string(traits.column));
+      return;
+    }
     GivenTable& table = *TableOf(family);
     const size_t column = *table.Find(std::string(traits.column));
     int before = -1;
@@ -249,6 +169,7 @@ class GivenWalkReader {
 
   const HalfStepSequence& sequence_;
   const std::vector<FixedParameter>& fixed_;
+  const bool whole_;
   HomotopyParameters walk_;
   Complaints complaints_;
   std::optional<GivenTable> overlaps_, half_steps_;
@@ -258,7 +179,17 @@ class GivenWalkReader {
 
 HomotopyParameters ReadGivenWalk(const GivenWalkFiles& files, const HalfStepSequence& sequence,
                                  const std::vector<FixedParameter>& fixed) {
-  return GivenWalkReader(sequence, fixed).Read(files);
+  return GivenWalkReader(sequence, fixed, /*whole=*/false).Read(files);
+}
+
+HomotopyParameters ReadParameters(const std::filesystem::path& folder,
+                                  const HalfStepSequence& sequence) {
+  const auto found = [&folder](const char* table) {
+    return std::filesystem::exists(folder / table) ? (folder / table).string() : "";
+  };
+  const std::vector<FixedParameter> none;
+  return GivenWalkReader(sequence, none, /*whole=*/true)
+      .Read({.overlaps = found("overlaps.csv"), .half_steps = found("half_steps.csv")});
 }
 
 GivenWalkFiles SortGivenFiles(const std::vector<std::string>& paths) {
@@ -269,7 +200,7 @@ GivenWalkFiles SortGivenFiles(const std::vector<std::string>& paths) {
     // Most of a file's columns are those of its table.
     const auto is_like = [&header](const CsvColumns& columns) {
       const auto known = std::ranges::count_if(columns, [&header](const CsvColumn& column) {
-        return column.name != "kind" && HasColumn(header, column.name);
+        return column.name != "kind" && std::ranges::find(header, column.name) != header.end();
       });
       return 2 * known >= std::ssize(header);
     };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,11 @@ namespace halfstep {
 /// it, and values other than those of `fixed`.
 HomotopyParameters ReadGivenWalk(const GivenWalkFiles& files, const HalfStepSequence& sequence,
                                  const std::vector<FixedParameter>& fixed);
+
+/// The same from the tables of a method's folder, which have all columns that a run writes.
+/// Families whose table is not there, as overlaps.csv of the planned motion, are as planned.
+HomotopyParameters ReadParameters(const std::filesystem::path& folder,
+                                  const HalfStepSequence& sequence);
 
 /// Sorts files of the command line by their columns: the one with overlaps, and the one with rows
 /// of half-steps. Throws InputError for a file that is neither, and for two of a kind.

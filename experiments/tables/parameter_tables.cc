@@ -1,11 +1,7 @@
 #include "experiments/tables/parameter_tables.h"
 
 #include <algorithm>
-#include <stdexcept>
 #include <string>
-
-#include "experiments/tables/csv_reader.h"
-#include "wpg/files/input_error.h"
 
 namespace halfstep {
 
@@ -78,32 +74,6 @@ CsvFile HalfStepsCsv(const HalfStepSequence& sequence, const HomotopyParameters&
     if (i < parameters.overlaps.size()) start += parameters.durations[i] - parameters.overlaps[i];
   }
   return csv.file();
-}
-
-HomotopyParameters ReadParameters(const std::filesystem::path& folder,
-                                  const HalfStepSequence& sequence) {
-  HomotopyParameters parameters = PlannedMotion(sequence);
-  for (const ParameterFamily family : AllParameterFamilies()) {
-    const ParameterFamilyTraits& traits = Traits(family);
-    const std::filesystem::path path = folder / (std::string(traits.table) + ".csv");
-    if (!std::filesystem::exists(path)) continue;
-    const CsvTable table = ReadCsv(path.string());
-    if (traits.of_form && !table.Has(std::string(traits.column))) continue;
-    const std::vector<double> column = table.Numbers(std::string(traits.column));
-    std::vector<double>& values = parameters.of(family);
-    values.clear();
-    for (size_t row = 0; row < column.size(); ++row) {
-      const size_t index = static_cast<size_t>(traits.index_at(static_cast<int>(row)));
-      if (index == values.size()) values.push_back(column[row]);
-    }
-  }
-  try {
-    CheckParameters(sequence, parameters);
-  } catch (const std::logic_error& error) {
-    throw InputError({(folder / "overlaps.csv").string() +
-                      ": does not fit the run's config and half_steps.csv: " + error.what()});
-  }
-  return parameters;
 }
 
 }  // namespace halfstep

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <filesystem>
-#include <vector>
-
 #include "experiments/tables/csv_columns.h"
 #include "experiments/tables/csv_writer.h"
 #include "smoothing/walk/homotopy_parameters.h"
@@ -20,11 +17,5 @@ CsvColumns HalfStepsColumns(HalfStepsExtent extent);
 /// half_steps.csv: one row a half-step, with where the homotopy ended. The columns of forms and
 /// footsteps are there where one of their values is not the plan's.
 CsvFile HalfStepsCsv(const HalfStepSequence& sequence, const HomotopyParameters& parameters);
-
-/// The point of the homotopy in the tables of a method's folder. Families whose table is not there,
-/// as overlaps.csv of the planned motion, are as planned. Throws InputError for what does not fit
-/// the sequence.
-HomotopyParameters ReadParameters(const std::filesystem::path& folder,
-                                  const HalfStepSequence& sequence);
 
 }  // namespace halfstep

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/config/known_names.h"
 #include "experiments/tables/certificate_statement.h"
 #include "wpg/files/text.h"
 #include "wpg/robot/acceleration_limits.h"
@@ -91,10 +92,9 @@ std::string GapIn(const std::vector<const ClaimRow*>& rows, long count, double e
   return "";
 }
 
-}  // namespace
-
-void CheckArithmetic(const CertificateText& certificate, const std::vector<ClaimRow>& rows,
-                     const RobotModel& robot, double end, Findings* findings) {
+// What certificate.json says of the whole walk: verdict, statement, duration, limits and demands.
+void CheckHead(const CertificateText& certificate, const RobotModel& robot, double end,
+               Findings* findings) {
   if (certificate.verdict != "certified") {
     findings->Disagree("the certificate's verdict is " + Quote(certificate.verdict) + ": " +
                        Quote(certificate.message));
@@ -125,6 +125,20 @@ void CheckArithmetic(const CertificateText& certificate, const std::vector<Claim
       findings->Disagree(Formatted("a demanded margin is %.9g", demanded));
     }
   }
+}
+
+}  // namespace
+
+std::optional<Family> FamilyNamed(const std::string& name, Findings* findings) {
+  const auto found = std::ranges::find(kFamilyNames, name);
+  if (found != kFamilyNames.end()) return static_cast<Family>(found - kFamilyNames.begin());
+  findings->Disagree("the family " + Quote(name) + " is not known here");
+  return std::nullopt;
+}
+
+void CheckArithmetic(const CertificateText& certificate, const std::vector<ClaimRow>& rows,
+                     const RobotModel& robot, double end, Findings* findings) {
+  CheckHead(certificate, robot, end, findings);
   double smallest = std::numeric_limits<double>::infinity();
   std::string where;
   std::array<std::vector<const ClaimRow*>, kNumFamilies> by_family;
@@ -164,20 +178,13 @@ void CheckArithmetic(const CertificateText& certificate, const std::vector<Claim
 
 void CheckAgainstConfig(const CertificateText& certificate, const RobotModel& robot,
                         const MarginLimits& config, Findings* findings) {
-  std::vector<MarginFamily> families(AllMarginFamilies().begin(), AllMarginFamilies().end());
-  if (families.back() != MarginFamily::kOwn) families.push_back(MarginFamily::kOwn);
-  for (const MarginFamily family : families) {
-    if (family == MarginFamily::kJointAcceleration && !StatesAccelerationLimits(robot)) continue;
-    const auto name = std::find(kFamilyNames.begin(), kFamilyNames.end(), Name(family));
-    const double demanded = config.demanded_of(family);
-    if (name == kFamilyNames.end()) {
-      findings->Disagree("the family " + Quote(std::string(Name(family))) + " is not known here");
-      continue;
-    }
-    const double claimed = certificate.demanded[static_cast<size_t>(name - kFamilyNames.begin())];
-    if (claimed < demanded) {
-      findings->Disagree(Formatted("%s: the certificate demands %.9g, config.yaml %.9g", *name,
-                                   claimed, demanded));
+  for (const NamedDemand& of_config : NamedDemands(config)) {
+    const std::optional<Family> family = FamilyNamed(of_config.family, findings);
+    if (!family || (family == kJointAcceleration && !StatesAccelerationLimits(robot))) continue;
+    const double claimed = certificate.demanded[*family];
+    if (claimed < of_config.demanded) {
+      findings->Disagree(Formatted("%s: the certificate demands %.9g, config.yaml %.9g",
+                                   kFamilyNames[*family], claimed, of_config.demanded));
     }
   }
   const auto looser = [&](const char* name, const std::optional<double>& claimed,

@@ -1,11 +1,18 @@
 #pragma once
 
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/config/smoothing_config.h"
 #include "experiments/verify/certificate_text.h"
 #include "experiments/verify/findings.h"
-#include "smoothing/margins/margin.h"
 #include "wpg/robot/robot_model.h"
 
 namespace halfstep::verify {
+
+/// The family by that name; none, which is a disagreement, when it is not known here.
+std::optional<Family> FamilyNamed(const std::string& name, Findings* findings);
 
 /// Checks verdict and statement, limits and demands, the duration (`end` is the trajectory's [s]),
 /// the counts of statements, and every row by itself: begin < end, margin − bound ≥ demanded,

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <set>
 
+#include "experiments/config/known_names.h"
+#include "experiments/verify/check_certificate.h"
 #include "experiments/verify/check_clearance.h"
 #include "experiments/verify/check_episode_worlds.h"
 #include "experiments/verify/check_played.h"
@@ -65,14 +68,10 @@ Scene SceneFromRest(const DescribedWalk& walk, int half_step, Scene scene, doubl
 
 CertificateText DemandsOf(const MarginLimits& limits, Findings* findings) {
   CertificateText demands;
-  for (const MarginFamily family : AllMarginFamilies()) {
-    if (family == MarginFamily::kOwn) continue;  // its formula is not known here
-    const auto name = std::ranges::find(kFamilyNames, Name(family));
-    if (name == kFamilyNames.end()) {
-      findings->Disagree("the family " + Quote(std::string(Name(family))) + " is not known here");
-      continue;
-    }
-    demands.demanded[static_cast<size_t>(name - kFamilyNames.begin())] = limits.demanded_of(family);
+  for (const NamedDemand& of_config : NamedDemands(limits)) {
+    const std::optional<Family> family = FamilyNamed(of_config.family, findings);
+    // The formula of `own` is not known here.
+    if (family && family != kOwn) demands.demanded[*family] = of_config.demanded;
   }
   demands.foot_speed = limits.foot_speed;
   demands.foot_yaw_rate = limits.foot_yaw_rate;

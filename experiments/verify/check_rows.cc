@@ -90,6 +90,15 @@ double ReachMargin(const RobotModel& robot, const PlayedRow& row, int side) {
   return stretched - (ankle_at - hip_at).norm();
 }
 
+// Where the support changes between two rows: what supports the robot there is in both polygons.
+void AddChange(PlayedRow a, PlayedRow b, const RobotModel& robot, Check* change) {
+  if (a.support == b.support) return;
+  std::swap(a.support, b.support);
+  for (const PlayedRow* crossed : {&a, &b}) {
+    change->Add(ZmpMargin(*crossed, robot), [&] { return At(a.t); });
+  }
+}
+
 double JointMargin(const RobotModel& robot, const PlayedRow& row, int side, int joint) {
   const LegJoint& of = robot.legs[Of(side)].joints[Of(joint)];
   const double q = row.q[Of(side)][joint];
@@ -213,13 +222,7 @@ void CheckRowMargins(const PlayedMotion& motion, const CertificateText& certific
         floor.Add(std::max(row.soles[Of(side)][2], rows[i + 1].soles[Of(side)][2]), leg_at);
       }
     }
-    if (i + 1 == rows.size() || row.support == rows[i + 1].support) continue;
-    // What supports the robot between the rows is in both polygons.
-    PlayedRow a = row, b = rows[i + 1];
-    std::swap(a.support, b.support);
-    for (const PlayedRow* crossed : {&a, &b}) {
-      change.Add(ZmpMargin(*crossed, robot), [&] { return At(row.t); });
-    }
+    if (i + 1 < rows.size()) AddChange(row, rows[i + 1], robot, &change);
   }
   for (const Check* check :
        {&joint, &joint_speed, &reach, &above, &floor, &foot_speed, &foot_yaw_rate, &zmp, &change}) {

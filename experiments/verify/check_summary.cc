@@ -6,6 +6,8 @@
 #include <limits>
 #include <optional>
 
+#include "experiments/config/known_names.h"
+
 namespace halfstep::verify {
 namespace {
 
@@ -28,22 +30,21 @@ void CheckWorstMargin(const std::vector<SummaryRow>& summary, const std::string&
   double nearest = std::numeric_limits<double>::infinity(), named = nearest;
   std::string name;
   std::optional<double> least_named;
-  for (const MarginFamily family : AllMarginFamilies()) {
-    const std::string of(Name(family));
+  for (const auto& [of, demanded, scale] : NamedDemands(config)) {
     const auto column =
-        std::ranges::find_if(kFamilyOfColumn, [&](Family one) { return of == kFamilyNames[one]; });
+        std::ranges::find(kFamilyOfColumn, of, [](Family one) { return kFamilyNames[one]; });
     const bool has_column =
         column != kFamilyOfColumn.end() &&
         static_cast<size_t>(column - kFamilyOfColumn.begin()) < NumMarginColumns(robot);
     if (of == row->worst_family) {
-      named = (row->worst_margin - config.demanded_of(family)) / Scale(family);
+      named = (row->worst_margin - demanded) / scale;
     }
     if (!has_column || certificate.demanded[*column] == kNotDemanded) continue;
     const auto k = static_cast<size_t>(column - kFamilyOfColumn.begin());
     double least = std::numeric_limits<double>::infinity();
     for (const PlayedRow& played : rows) least = std::min(least, played.margins[k]);
     if (of == row->worst_family) least_named = least;
-    const double slack = (least - config.demanded_of(family)) / Scale(family);
+    const double slack = (least - demanded) / scale;
     if (slack < nearest) {
       nearest = slack;
       name = of;
@@ -55,7 +56,7 @@ void CheckWorstMargin(const std::vector<SummaryRow>& summary, const std::string&
                                  row->worst_margin, row->worst_family.c_str(), *least_named));
   }
   // The formula of a margin that another program registered is not known here.
-  const bool is_own = row->worst_family == Name(MarginFamily::kOwn);
+  const bool is_own = row->worst_family == kFamilyNames[kOwn];
   if (!is_own && !(named <= nearest + kRatioRounding)) {
     findings->Disagree("summary.csv: " + row->method + ": worst_margin_name is " +
                        Quote(row->worst_family) + ", but " + name + " is nearer to its limit");

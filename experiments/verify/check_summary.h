@@ -3,12 +3,12 @@
 #include <string>
 #include <vector>
 
+#include "experiments/config/smoothing_config.h"
 #include "experiments/verify/certificate_text.h"
 #include "experiments/verify/findings.h"
 #include "experiments/verify/played_motion.h"
 #include "experiments/verify/run_manifest.h"
 #include "experiments/verify/walk_text.h"
-#include "smoothing/margins/margin.h"
 
 namespace halfstep::verify {
 

@@ -5,6 +5,7 @@
 
 #include "experiments/verify/csv_text.h"
 #include "experiments/verify/json_text.h"
+#include "experiments/verify/run_manifest.h"
 #include "wpg/files/text.h"
 
 namespace halfstep::verify {
@@ -13,15 +14,6 @@ namespace {
 using nlohmann::json;
 
 constexpr long kMostWalks = 100000;
-
-InputFile ListedFile(const JsonMember& member, const std::string& name) {
-  const long bytes = member.Whole("bytes");
-  if (bytes < 0) member.Fail("bytes: is negative");
-  return {.name = name,
-          .path = "",
-          .bytes = static_cast<size_t>(bytes),
-          .sha256 = member.String("sha256")};
-}
 
 std::vector<InputFile> ListedInputs(const JsonMember& inputs, const std::string& key) {
   std::vector<InputFile> files;

@@ -2,10 +2,7 @@
 
 #include <algorithm>
 
-#include "planner/search/planner_registry.h"
-#include "smoothing/margins/family_traits.h"
-#include "smoothing/methods/smoother_registry.h"
-#include "smoothing/program/walk_cost.h"
+#include "experiments/config/known_names.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/number_text.h"
 #include "wpg/files/yaml_node.h"
@@ -34,10 +31,9 @@ std::string Quoted(const std::string& text) {
   return yaml + "'";
 }
 
-void FindMethods(const YamlNode& root, OwnNames* own) {
+void FindMethods(const YamlNode& root, const std::vector<std::string>& known, OwnNames* own) {
   const YamlNode* methods = At(root, {"smoothing", "methods"});
   if (methods == nullptr || methods->kind != Kind::kList) return;
-  const std::vector<std::string> known = SmootherNames();
   std::vector<std::string> all;
   std::string rest;
   for (const YamlNode& method : methods->items) {
@@ -87,26 +83,22 @@ OwnNames FindOwnNames(const std::string& path, const std::string& text) {
   } catch (const InputError&) {
     return own;
   }
-  FindMethods(root, &own);
+  const KnownNames known = NamesOfConfigs();
+  FindMethods(root, known.methods, &own);
   const YamlNode* planner = At(root, {"planner", "name"});
-  if (planner != nullptr && planner->kind == Kind::kScalar && !Has(PlannerNames(), planner->text)) {
+  if (planner != nullptr && planner->kind == Kind::kScalar && !Has(known.planners, planner->text)) {
     own.told.push_back("the planner " + planner->text);
-    own.overrides.push_back({"planner.name", PlannerNames().front()});
+    own.overrides.push_back({"planner.name", known.planners.front()});
   }
-  const auto families = AllMarginFamilies();
-  if (std::ranges::find(families, MarginFamily::kOwn) == families.end()) {
-    LeaveOut(root, {"smoothing", "margins"}, &own, [&own](const YamlNode& item) {
-      if (item.key != Traits(MarginFamily::kOwn).key) return false;
+  if (!known.has_own_margins) {
+    LeaveOut(root, {"smoothing", "margins"}, &own, [&](const YamlNode& item) {
+      if (item.key != known.own_margin) return false;
       own.own_margin = ParseNumber(item.text).value;
       return true;
     });
   }
-  LeaveOut(root, {"smoothing", "optimizer", "weights"}, &own, [&own](const YamlNode& item) {
-    if (Has({"com_acceleration", "com_jerk", "foot_speed"}, item.key) ||
-        std::ranges::any_of(WalkCosts(),
-                            [&](const auto& cost) { return cost->name() == item.key; })) {
-      return false;
-    }
+  LeaveOut(root, {"smoothing", "optimizer", "weights"}, &own, [&](const YamlNode& item) {
+    if (Has(known.weights, item.key)) return false;
     own.told.push_back("the weight " + item.key);
     return true;
   });

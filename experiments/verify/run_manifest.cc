@@ -11,7 +11,18 @@ namespace {
 
 using nlohmann::json;
 
-InputFile FileOf(const JsonMember& member, const std::string& name) {
+std::vector<InputFile> InputsOf(const std::string& path, const json& list) {
+  std::vector<InputFile> files;
+  for (const json& item : list) {
+    const JsonMember member(path, item, "inputs");
+    files.push_back(ListedFile(member, member.String("name")));
+  }
+  return files;
+}
+
+}  // namespace
+
+InputFile ListedFile(const JsonMember& member, const std::string& name) {
   const long bytes = member.Whole("bytes");
   if (bytes < 0) member.Fail("bytes: is negative");
   return {.name = name,
@@ -19,17 +30,6 @@ InputFile FileOf(const JsonMember& member, const std::string& name) {
           .bytes = static_cast<size_t>(bytes),
           .sha256 = member.String("sha256")};
 }
-
-std::vector<InputFile> InputsOf(const std::string& path, const json& list) {
-  std::vector<InputFile> files;
-  for (const json& item : list) {
-    const JsonMember member(path, item, "inputs");
-    files.push_back(FileOf(member, member.String("name")));
-  }
-  return files;
-}
-
-}  // namespace
 
 const RunManifest::Method* RunManifest::MethodOf(const std::string& folder) const {
   const auto found = std::find_if(methods.begin(), methods.end(), [&](const Method& method) {
@@ -70,7 +70,7 @@ RunManifest ReadManifest(const std::string& path, const std::string& text) {
   }
   const JsonMember files = root.Object("files");
   for (const auto& [name, item] : files.object().items()) {
-    m.files[name] = FileOf(files.Object(name), name);
+    m.files[name] = ListedFile(files.Object(name), name);
   }
   return m;
 }

@@ -10,6 +10,8 @@
 
 namespace halfstep::verify {
 
+class JsonMember;
+
 /// What manifest.json says of a run; nothing of it is believed.
 struct RunManifest {
   /// What it says of one method.
@@ -31,6 +33,8 @@ struct RunManifest {
   const Method* MethodOf(const std::string& folder) const;  ///< nullptr: none
 };
 
+/// The file `name` of which a manifest states length and hash, without a path. Throws InputError.
+InputFile ListedFile(const JsonMember& member, const std::string& name);
 /// Throws InputError for what is no manifest of a run.
 RunManifest ReadManifest(const std::string& path, const std::string& text);
 

@@ -2,7 +2,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "experiments/tables/not_covered_json.h"
 #include "experiments/verify/not_examined.h"
 
 namespace halfstep::verify {
@@ -13,6 +12,10 @@ std::string VerificationJson(const std::vector<MethodVerification>& results) {
   ordered_json methods = ordered_json::array(), not_examined = ordered_json::array();
   bool of_episode = false;
   for (const MethodVerification& result : results) {
+    ordered_json not_covered = ordered_json::array();
+    for (const auto& [kind, subject, sentence] : result.not_covered) {
+      not_covered.push_back({{"kind", Name(kind)}, {"subject", subject}, {"sentence", sentence}});
+    }
     of_episode = of_episode || result.of_episode;
     methods.push_back({{"method", result.method},
                        {"verified", result.verified},
@@ -25,7 +28,7 @@ std::string VerificationJson(const std::vector<MethodVerification>& results) {
                        {"statement", result.statement},
                        {"not_examined", result.not_examined},
                        {"remark", result.remark},
-                       {"not_covered", NotCoveredJson(result.not_covered)}});
+                       {"not_covered", not_covered}});
   }
   for (const NotExamined& one : of_episode ? NotExaminedOfEpisode() : NotExaminedOfRun()) {
     not_examined.push_back({{"file", one.file}, {"name", one.name}, {"why", one.why}});

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "experiments/config/experiment.h"
+#include "experiments/config/known_names.h"
 #include "experiments/live/live_config.h"
 #include "experiments/live/spare_boxes.h"
 #include "experiments/verify/check_episode_grants.h"
@@ -21,7 +22,6 @@
 #include "experiments/verify/found_inputs.h"
 #include "experiments/verify/given_files.h"
 #include "experiments/verify/tolerances.h"
-#include "smoothing/margins/own_margin.h"
 #include "wpg/files/sha256.h"
 
 namespace halfstep::verify {
@@ -136,7 +136,7 @@ std::vector<NotCovered> VerifyEpisode(const VerifyOptions& options,
   const LiveConfig config = LoadLiveConfig(config_path, GivenFiles(options));
   const Place place = PlaceOf(options, config, manifest);
   CheckEpisodeInputs(manifest, config, ReadBytes(config_path), place, findings);
-  if (!OwnMargins().empty()) {
+  if (NamesOfConfigs().has_own_margins) {
     findings->NotExamined("whether the family `own` holds: its formula is not known here");
   }
   const std::vector<NotCovered> not_covered = FindNotCovered(

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "experiments/config/experiment.h"
+#include "experiments/config/known_names.h"
 #include "experiments/verify/certificate_text.h"
 #include "experiments/verify/check_certificate.h"
 #include "experiments/verify/check_chosen.h"
@@ -27,7 +28,6 @@
 #include "experiments/verify/given_files.h"
 #include "experiments/verify/own_names.h"
 #include "experiments/verify/tolerances.h"
-#include "smoothing/margins/own_margin.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/sha256.h"
 
@@ -70,7 +70,7 @@ ExperimentConfig ReadConfig(const VerifyOptions& options, const std::string& pat
     config = ParseConfig(path, text, overrides);
   }
   if (own.methods) config.smoothing.methods = *own.methods;
-  if (OwnMargins().empty()) {
+  if (!NamesOfConfigs().has_own_margins) {
     config.smoothing.limits.demanded_of(MarginFamily::kOwn) =
         own.own_margin.value_or(verify::kNotDemanded);
   }
@@ -84,18 +84,6 @@ ExperimentConfig ReadConfig(const VerifyOptions& options, const std::string& pat
     throw InputError({path + ": footsteps: are missing (valid: the config.yaml of a run)"});
   }
   return config;
-}
-
-HalfStepSequence PlannedOf(const ExperimentConfig& config, const RobotModel& robot) {
-  std::vector<Footstep> footsteps;
-  for (const FootstepConfig& step : config.footsteps) {
-    footsteps.push_back({.side = step.foot == "left" ? Side::kLeft : Side::kRight,
-                         .X_WF = step.X_WF,
-                         .via_height = step.via_height.value_or(config.half_step.via_height),
-                         .duration = step.duration.value_or(config.half_step.duration)});
-  }
-  return MakeSequence(StartOf(config, robot), footsteps, config.half_step.via_lateral,
-                      ShapeOf(config.half_step), {.com_height = robot.com_height});
 }
 
 // All files of one method, and of its run, as they were read.
@@ -116,7 +104,7 @@ struct MethodFiles {
 std::optional<DescribedWalk> WalkOf(const MethodFiles& files, const ExperimentConfig& config,
                                     const RobotModel& robot, const RunManifest::Method* of_method,
                                     Findings* findings) {
-  const HalfStepSequence planned = PlannedOf(config, robot);
+  const HalfStepSequence planned = SequenceOf(config, robot);
   CheckFootsteps(ReadFootsteps(files.PathInRun("footsteps.csv"), files.ReadOfRun("footsteps.csv")),
                  planned, findings);
   const auto half_steps =
@@ -195,6 +183,37 @@ bool IsFinite(const std::vector<ClaimRow>& rows) {
   });
 }
 
+// What the files of a method claim.
+struct MethodClaims {
+  const CertificateText& certificate;
+  const std::vector<ClaimRow>& claims;
+  const std::vector<PlayedRow>& rows;
+};
+
+// Whether rows, played motion and claims are true of the walk. No scene: these are not the
+// certificate's files, so that distances say nothing.
+void CheckMotion(const VerifyOptions& options, const ExperimentConfig& config,
+                 const MethodClaims& claimed, const DescribedWalk& walk, const Scene* scene,
+                 Findings* findings) {
+  const auto& [certificate, claims, rows] = claimed;
+  const PlayedMotion motion(walk.robot(), rows);
+  const double period = RowPeriodOf(config, rows[1].t);
+  const double tolerance = options.tolerance.value_or(Tolerances(walk.robot()).played);
+  CheckRowsOnWalk(rows, walk, period, walk.end(), findings);
+  CheckConsistency(motion, walk, findings);
+  if (scene == nullptr) {
+    findings->Say("clearances: not examined, for these are not the certificate's files");
+    return;
+  }
+  Distances distances(walk.robot(), *scene);
+  CheckPlayed(motion, walk, certificate, tolerance, &distances, findings);
+  CheckStopBranches(walk, {config.smoothing.stop_branches, period}, certificate, tolerance,
+                    &distances, findings);
+  CheckMarginColumns(rows, walk, certificate, &distances, findings);
+  if (IsFinite(claims)) CheckClaims(walk, certificate, claims, &distances, findings);
+  findings->Say("distances measured: " + Count(distances.queries()));
+}
+
 }  // namespace
 
 VerifiedStatement VerifyMethod(const VerifyOptions& options, const RunManifest& manifest,
@@ -253,22 +272,8 @@ VerifiedStatement VerifyMethod(const VerifyOptions& options, const RunManifest& 
   const std::optional<DescribedWalk> walk =
       WalkOf(files, config, robot, manifest.MethodOf(folder), findings);
   if (!CheckIsMotion(rows, findings) || !walk) return {certificate.statement, not_covered};
-  const PlayedMotion motion(robot, rows);
-  Distances distances(robot, scene);
-  const double period = RowPeriodOf(config, rows[1].t);
-  const double tolerance = options.tolerance.value_or(Tolerances(robot).played);
-  CheckRowsOnWalk(rows, *walk, period, walk->end(), findings);
-  CheckConsistency(motion, *walk, findings);
-  if (!same_files) {
-    findings->Say("clearances: not examined, for these are not the certificate's files");
-    return {certificate.statement, not_covered};
-  }
-  CheckPlayed(motion, *walk, certificate, tolerance, &distances, findings);
-  CheckStopBranches(*walk, {config.smoothing.stop_branches, period}, certificate, tolerance,
-                    &distances, findings);
-  CheckMarginColumns(rows, *walk, certificate, &distances, findings);
-  if (IsFinite(claimed)) CheckClaims(*walk, certificate, claimed, &distances, findings);
-  findings->Say("distances measured: " + Count(distances.queries()));
+  CheckMotion(options, config, {certificate, claimed, rows}, *walk, same_files ? &scene : nullptr,
+              findings);
   return {certificate.statement, not_covered};
 }
 

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Fails on an include between folders that points backwards, and on a circle of folders.
+"""Fails on an include between folders that points backwards, on a circle of folders, and on what
+`halfstep verify` should know nothing of.
 
 A file of a top-level folder includes that folder and the ones below it: wpg below planner below
 smoothing below experiments; opt stands beside wpg and planner, below smoothing. No chain of
@@ -18,6 +19,30 @@ BELOW = {
     "planner": ["wpg"],
     "smoothing": ["planner", "opt", "wpg"],
     "experiments": ["smoothing", "planner", "opt", "wpg"],
+}
+
+# The independent checker reads files and configs. What else it includes is here, with the reason.
+VERIFY = "experiments/verify"
+OF_VERIFY = [VERIFY, "experiments/config", "wpg/files"]
+ALLOWED_IN_VERIFY = {
+    "experiments/live/live_config.h": "the reader of an episode's config",
+    "experiments/live/spare_boxes.h": "the obstacles that such a config adds to its scene",
+    "experiments/tables/certificate_statement.h": "the only statement that is accepted",
+    "planner/scene/scene.h": "the reader of scenes",
+    "wpg/check.h": "broken preconditions",
+    "wpg/geometry/convex_body.h": "the shapes of robots and scenes",
+    "wpg/geometry/pose2.h": "places of feet",
+    "wpg/geometry/support_polygon.h": "distances to the edges of soles",
+    "wpg/motion/half_step_sequence.h": "the closed forms of half-steps",
+    "wpg/motion/lipm.h": "the relation of CoM and ZMP",
+    "wpg/motion/moved_footsteps.h": "footsteps that a walk moves",
+    "wpg/motion/posture.h": "the closed form of a leg's inverse kinematics",
+    "wpg/motion/walk_state.h": "what that is of",
+    "wpg/robot/acceleration_limits.h": "what a robot file states of accelerations",
+    "wpg/robot/not_covered.h": "the words of what is not covered",
+    "wpg/robot/robot_measures.h": "the robot's size, by which tolerances go",
+    "wpg/robot/robot_model.h": "the reader of robots",
+    "wpg/robot/torque_limits.h": "what a robot file states of torques",
 }
 
 
@@ -44,6 +69,12 @@ def may_include(name, target):
     return to == top or to in BELOW[top]
 
 
+def verify_may_include(name, target):
+    """Whether a file, if it is of verify, may include another."""
+    return (folder_of(name) != VERIFY or folder_of(target) in OF_VERIFY or
+            target in ALLOWED_IN_VERIFY)
+
+
 def reached_from(folder, arrows):
     seen, open_ends = set(), [folder]
     while open_ends:
@@ -57,6 +88,7 @@ def reached_from(folder, arrows):
 def main():
     wrong = []
     arrows = {}  # folder -> folder -> one pair of files
+    of_verify = set()
     for top in [*BELOW, "tests"]:
         for path in sorted((ROOT / top).rglob("*")):
             if path.suffix not in (".h", ".cc"):
@@ -65,9 +97,15 @@ def main():
             for target in includes_of(path):
                 if not may_include(name, target):
                     wrong.append(f"{name} includes {target}: backwards")
+                if folder_of(name) == VERIFY:
+                    of_verify.add(target)
+                if not verify_may_include(name, target):
+                    wrong.append(f"{name} includes {target}: not for the independent checker")
                 if folder_of(name) != folder_of(target):
                     arrows.setdefault(folder_of(name), {}).setdefault(
                         folder_of(target), (name, target))
+    wrong += [f"{VERIFY} does not include {target} any more: it need not be allowed"
+              for target in ALLOWED_IN_VERIFY if target not in of_verify]
     reached = {folder: reached_from(folder, arrows) for folder in arrows}
     for folder, targets in sorted(arrows.items()):
         for target, (name, included) in sorted(targets.items()):

@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "tests/experiments/child_process.h"
 #include "tests/temporary_folder.h"
+#include "tests/verify/verified_here.h"
 #include "wpg/files/sha256.h"
 
 namespace halfstep {
@@ -57,9 +57,8 @@ class TamperedEpisode {
   }
 
   std::filesystem::path folder() const { return place_ / "walk/episode"; }
-  Outcome Verify() const {
-    return Halfstep(place_.path(), {"verify", "walk/episode", "--verbose"});
-  }
+  /// In this process.
+  Outcome Verify() const { return VerifiedHere({.run = folder().string()}); }
 
   void Rehash() const {
     const std::filesystem::path manifest = folder() / "manifest.json";

@@ -292,10 +292,12 @@ TEST(VerifyEpisode, AcceptsAnEpisodeThatWaits) {
   };
   EXPECT_EQ(
       live({"live.horizon_s=1", "live.longest_s=2", "live.sensing.rests_after_s=none"}).status, 1);
-  EXPECT_EQ(episode.Verify().status, 0) << episode.Verify().out;
-  EXPECT_THAT(episode.Verify().out, HasSubstr("ending: no walk"));
+  Outcome outcome = episode.Verify();
+  EXPECT_EQ(outcome.status, 0) << outcome.out;
+  EXPECT_THAT(outcome.out, HasSubstr("ending: no walk"));
   EXPECT_EQ(live({"live.horizon_s=1"}).status, 0);
-  EXPECT_EQ(episode.Verify().status, 0) << episode.Verify().out;
+  outcome = episode.Verify();
+  EXPECT_EQ(outcome.status, 0) << outcome.out;
   EXPECT_THAT(ReadText(episode.folder() / "worlds.csv"), HasSubstr("\n0,-1.0,-1.0,"));
 }
 
@@ -303,11 +305,12 @@ TEST(VerifyEpisode, ExitStatusTellsWhatIsWrong) {
   const TamperedEpisode episode;
   InLastRow("worlds.csv", "goal_x_m", CellPlus(0.3))(episode.folder());
   episode.Rehash();
-  EXPECT_EQ(episode.Verify().status, 3);
+  const auto verify = [&] { return Halfstep(episode.folder(), {"verify", "."}); };
+  EXPECT_EQ(verify().status, 3);
   TamperedRun::EditCsv(episode.folder() / "worlds.csv",
                        [](Table& table) { table.back().pop_back(); });
   episode.Rehash();
-  const Outcome outcome = episode.Verify();
+  const Outcome outcome = verify();
   EXPECT_EQ(outcome.status, 2);
   EXPECT_THAT(outcome.err, HasSubstr("6 cells (valid: 7)"));
   EXPECT_EQ(Halfstep(episode.folder(), {"verify", ".", "--method", "raw"}).status, 2);

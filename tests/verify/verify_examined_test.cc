@@ -110,7 +110,7 @@ TEST(Examined, FormsMoveOnlyWhereTheConfigLetsThem) {
 
 TEST(Examined, TheListIsToldByTheCommand) {
   const TamperedRun run;
-  const Outcome verbose = run.Verify();
+  const Outcome verbose = Halfstep(run.run(), {"verify", ".", "--verbose"});
   EXPECT_THAT(verbose.out, HasSubstr("\nNot examined:\n"));
   EXPECT_THAT(verbose.out, HasSubstr("METHOD/overlaps.csv: price_s: how it went"));
   const Outcome outcome = Halfstep(run.run(), {"verify", ".", "--json"});

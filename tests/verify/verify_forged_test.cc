@@ -205,28 +205,29 @@ TEST(StopBranches, AreCheckedWhenTheConfigDemandsThem) {
         {.overrides = {"smoothing.methods=[halfstep/sqp]", "smoothing.optimizer.heights=true",
                        "smoothing.optimizer.durations=true",
                        std::string("smoothing.stop_branches=") + demanded}});
-    const auto verify = [&] {
-      return Halfstep(run.run().parent_path(), {"verify", "run", "--verbose"});
-    };
-    EXPECT_EQ(verify().status, 0);
+    const auto verify = [&] { return VerifiedHere({.run = run.run().string()}); };
+    Outcome outcome = verify();
+    EXPECT_EQ(outcome.status, 0);
     if (demanded == std::string("all")) {
-      EXPECT_THAT(verify().out, HasSubstr("stop branches: 1 keep every margin to their end"));
+      EXPECT_THAT(outcome.out, HasSubstr("stop branches: 1 keep every margin to their end"));
       TamperedRun::Replace(run.run() / "config.yaml", "stop_branches: all",
                            "stop_branches: \"none\"");
       run.Rehash();
-      EXPECT_EQ(verify().status, 3);
-      EXPECT_THAT(verify().out, HasSubstr("smoothing.stop_branches: config.yaml has none, but by "
-                                          "manifest.json's acceptance it was all"));
+      outcome = verify();
+      EXPECT_EQ(outcome.status, 3);
+      EXPECT_THAT(outcome.out, HasSubstr("smoothing.stop_branches: config.yaml has none, but by "
+                                         "manifest.json's acceptance it was all"));
       continue;
     }
-    EXPECT_THAT(verify().out, testing::Not(HasSubstr("stop branches")));
+    EXPECT_THAT(outcome.out, testing::Not(HasSubstr("stop branches")));
     TamperedRun::Replace(run.run() / "config.yaml", "stop_branches: \"none\"",
                          "stop_branches: all");
     run.Rehash();
-    EXPECT_EQ(verify().status, 3);
-    EXPECT_THAT(verify().out, HasSubstr("stopped after half-step 1: "));
-    EXPECT_THAT(verify().out, HasSubstr("smoothing.stop_branches: config.yaml has all, but by "
-                                        "manifest.json's acceptance it was none"));
+    outcome = verify();
+    EXPECT_EQ(outcome.status, 3);
+    EXPECT_THAT(outcome.out, HasSubstr("stopped after half-step 1: "));
+    EXPECT_THAT(outcome.out, HasSubstr("smoothing.stop_branches: config.yaml has all, but by "
+                                       "manifest.json's acceptance it was none"));
   }
 }
 

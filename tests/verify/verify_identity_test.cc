@@ -80,7 +80,8 @@ TEST(Identity, ThePlaceThatACertificateNamesIsNotWhatItIsAbout) {
   TamperedRun run;
   run.EditJson([](nlohmann::ordered_json& j) { j["robot"] = "../robots/none.yaml"; });
   run.Rehash();
-  EXPECT_EQ(run.Verify().status, 0) << run.Verify().out;
+  const Outcome outcome = run.Verify();
+  EXPECT_EQ(outcome.status, 0) << outcome.out;
 }
 
 // A scene that is too large is not taken in; it is found by its hash where it was.

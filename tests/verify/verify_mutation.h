@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "planner/scene/scene.h"
-#include "tests/experiments/child_process.h"
 #include "tests/temporary_folder.h"
 #include "tests/verify/scaled_hrp2.h"
+#include "tests/verify/verified_here.h"
 #include "wpg/files/sha256.h"
 #include "wpg/robot/robot_model.h"
 
@@ -61,9 +61,8 @@ class TamperedRun {
   std::filesystem::path scene() const { return run() / "inputs/scene" / scene_; }
   std::filesystem::path urdf() const { return run() / "inputs/robot/hrp2.urdf"; }
 
-  Outcome Verify() const {
-    return Halfstep(place_.path(), {"verify", "run", "--method", "dichotomy", "--verbose"});
-  }
+  /// Of the dichotomy, in this process.
+  Outcome Verify() const { return VerifiedHere({.run = run().string(), .method = "dichotomy"}); }
 
   /// Cells of a CSV, the header first, and back.
   using Table = std::vector<std::vector<std::string>>;

@@ -37,13 +37,12 @@ struct Touched {
     outcome = Halfstep(place.path(), {"live", "small.yaml", "--out", "one"});
     manifest = ReadText(place / "one/manifest.json");
   }
-  Outcome Verify() const { return Halfstep(place.path(), {"verify", "one"}); }
   // Verifies the folder with another manifest.
   Outcome With(const std::function<void(Json*)>& change) const {
     Json json = Json::parse(manifest);
     change(&json);
     WriteText(place / "one/manifest.json", json.dump(2) + "\n");
-    Outcome changed = Verify();
+    Outcome changed = VerifiedHere({.run = (place / "one").string()});
     WriteText(place / "one/manifest.json", manifest);
     return changed;
   }
@@ -56,8 +55,8 @@ TEST(VerifyPromise, ATouchIsToldByEverythingAndNoRecordMayHideIt) {
   const Touched touched;
   EXPECT_EQ(touched.outcome.status, kFailed) << touched.outcome.err;
   EXPECT_THAT(touched.outcome.out,
-              testing::AllOf(HasSubstr("the robot touched 'crate'"),
-                             HasSubstr("NOT kept: 'crate'"), HasSubstr("touched      'crate'"),
+              testing::AllOf(HasSubstr("the robot touched 'crate'"), HasSubstr("NOT kept: 'crate'"),
+                             HasSubstr("touched      'crate'"),
                              HasSubstr("obstacles[crate].motion.speed_m_s: 0.")));
   EXPECT_THAT(ReadText(touched.place / "one/events.csv"),
               testing::ContainsRegex("contradicted.*crate: .* m are allowed"));
@@ -65,20 +64,19 @@ TEST(VerifyPromise, ATouchIsToldByEverythingAndNoRecordMayHideIt) {
     EXPECT_THAT(ReadText(touched.place / "one/report.html"),
                 HasSubstr("the robot touched 'crate'"));
   }
-  const Outcome verified = touched.Verify();
+  const Outcome verified = Halfstep(touched.place.path(), {"verify", "one"});
   EXPECT_EQ(verified.status, kSuccess) << verified.out << verified.err;
-  EXPECT_THAT(verified.out, testing::ContainsRegex(
-                                "verified .*, but the promise did not hold: .*'crate' \\(from "
-                                ".*; the robot touched 'crate'"));
+  EXPECT_THAT(verified.out,
+              testing::ContainsRegex("verified .*, but the promise did not hold: .*'crate' \\(from "
+                                     ".*; the robot touched 'crate'"));
 
   const auto refused = [&](const std::string& reason, const std::function<void(Json*)>& change) {
     const Outcome outcome = touched.With(change);
     EXPECT_EQ(outcome.status, kNotVerified) << reason << outcome.out << outcome.err;
     EXPECT_THAT(outcome.out, HasSubstr(reason));
   };
-  refused("it says nothing of 'crate', which did not keep r and v", [](Json* json) {
-    (*json)["promise"]["broken"] = Json::array();
-  });
+  refused("it says nothing of 'crate', which did not keep r and v",
+          [](Json* json) { (*json)["promise"]["broken"] = Json::array(); });
   refused("it does not say that the robot touches 'crate'", [](Json* json) {
     (*json)["promise"]["touched"] = Json::array();
     (*json)["promise"]["status"] = "not_kept";
@@ -96,9 +94,8 @@ TEST(VerifyPromise, ATouchIsToldByEverythingAndNoRecordMayHideIt) {
   refused("'crate': covered_by", [](Json* json) {
     (*json)["promise"]["broken"][0]["covered_by"][0] = "obstacles[crate].motion.speed_m_s: 0.1";
   });
-  refused("'crate': unproved_s", [](Json* json) {
-    (*json)["promise"]["broken"][0]["unproved_s"] = Json::array();
-  });
+  refused("'crate': unproved_s",
+          [](Json* json) { (*json)["promise"]["broken"][0]["unproved_s"] = Json::array(); });
   refused("the robot does not touch 'moon'", [](Json* json) {
     Json other = (*json)["promise"]["touched"][0];
     other["obstacle"] = "moon";

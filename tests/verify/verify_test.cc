@@ -336,9 +336,7 @@ std::vector<Mutation> Mutations() {
       {"NotCoveredMissing", InJson([](Json& j) { j.erase("not_covered"); }), "not_covered", false,
        kBadInput},
       {"NotCoveredOfTheManifestShortened",
-       [](TamperedRun& run) {
-         run.EditManifest([](Json& j) { LeaveOut("pair", j); });
-       },
+       [](TamperedRun& run) { run.EditManifest([](Json& j) { LeaveOut("pair", j); }); },
        "not_covered: manifest.json has "},
       {"DemandLowered", LowerDemand, "config.yaml 0.005"},
       {"FootSpeedLimitRaised", InJson([](Json& j) { j["limits"]["foot_speed_m_s"] = 2.0; }),
@@ -376,6 +374,10 @@ TEST(Verify, AcceptsARunAndSaysWhatIsGuaranteed) {
   EXPECT_EQ(outcome.status, kSuccess) << outcome.out << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("\n  verified\n"));
   EXPECT_THAT(outcome.out, HasSubstr("Guaranteed for every instant"));
+  const Outcome verbose =
+      Halfstep(run.run(), {"verify", ".", "--method", "dichotomy", "--verbose"});
+  EXPECT_EQ(verbose.status, kSuccess) << verbose.err;
+  EXPECT_EQ(verbose.out, outcome.out);
   const Outcome brief = Halfstep(run.run().parent_path(), {"verify", "run"});
   EXPECT_EQ(brief.status, kSuccess);
   EXPECT_THAT(brief.out, testing::ContainsRegex("^dichotomy +verified \\([0-9]+ checks\\)\n"));
@@ -449,6 +451,9 @@ TEST(Verify, BadInputIsStatusTwo) {
     EXPECT_EQ(outcome.status, kBadInput) << text.substr(0, 20);
     EXPECT_THAT(outcome.err, HasSubstr("certificate.json"));
   }
+  const Outcome told = Halfstep(run.run(), {"verify", ".", "--method", "dichotomy"});
+  EXPECT_EQ(told.status, kBadInput);
+  EXPECT_THAT(told.err, HasSubstr("certificate.json"));
   for (const auto& path : {run.json(), run.certificate()}) {
     std::filesystem::remove(path);
     EXPECT_EQ(run.Verify().status, kBadInput);
