@@ -9,7 +9,8 @@
 namespace halfstep {
 
 /// A lattice that tells states apart: two states in one cell count as the same, though each keeps
-/// its exact pose. Smaller cells: more states to search; larger ones: narrow ways are missed.
+/// its exact pose. All are at one height (StepGraph). Smaller cells: more states to search; larger
+/// ones: narrow ways are missed.
 struct PoseCells {
   double position = 0.02;  ///< edge [m] > 0
   double yaw = 0.05;       ///< edge [rad] > 0, modulo 2π
