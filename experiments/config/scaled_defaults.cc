@@ -5,6 +5,7 @@
 #include <span>
 
 #include "experiments/config/experiment_config.h"
+#include "smoothing/methods/solver_method_options.h"
 #include "wpg/files/number_text.h"
 
 namespace halfstep {
@@ -94,6 +95,10 @@ struct ScaledDefault {
   double min, max;  // what the key may be
 };
 
+ParameterChoice* ChoiceOf(ExperimentConfig* config) {
+  return &config->smoothing.options.Edit(OptimizerGroup()).options.program.parameters;
+}
+
 std::span<const ScaledDefault> ScaledDefaults() {
   using C = ExperimentConfig;
   static constexpr ScaledDefault kRows[] = {
@@ -109,26 +114,19 @@ std::span<const ScaledDefault> ScaledDefaults() {
       {"half_step.support_offset_m", Law::kSupport,
        [](C* c) { return &c->half_step.support_offset; }, -1, 1},
       {"smoothing.optimizer.least_support_point_m", Law::kWidth,
-       [](C* c) { return &c->smoothing.optimizer.options.program.parameters.least_support_point; },
-       -1, 1},
+       [](C* c) { return &ChoiceOf(c)->least_support_point; }, -1, 1},
       {"smoothing.optimizer.most_support_point_m", Law::kWidth,
-       [](C* c) { return &c->smoothing.optimizer.options.program.parameters.most_support_point; },
-       -1, 1},
+       [](C* c) { return &ChoiceOf(c)->most_support_point; }, -1, 1},
       {"smoothing.optimizer.least_via_lateral_m", Law::kWidth,
-       [](C* c) { return &c->smoothing.optimizer.options.program.parameters.least_via_lateral; },
-       0.01, 1},
+       [](C* c) { return &ChoiceOf(c)->least_via_lateral; }, 0.01, 1},
       {"smoothing.optimizer.most_via_lateral_m", Law::kWidth,
-       [](C* c) { return &c->smoothing.optimizer.options.program.parameters.most_via_lateral; },
-       0.01, 1},
+       [](C* c) { return &ChoiceOf(c)->most_via_lateral; }, 0.01, 1},
       {"smoothing.optimizer.most_via_along_m", Law::kLength,
-       [](C* c) { return &c->smoothing.optimizer.options.program.parameters.most_via_along; }, 0,
-       0.5},
+       [](C* c) { return &ChoiceOf(c)->most_via_along; }, 0, 0.5},
       {"smoothing.optimizer.most_footstep_x_m", Law::kLength,
-       [](C* c) { return &c->smoothing.optimizer.options.program.parameters.most_footstep_x; }, 0,
-       0.5},
+       [](C* c) { return &ChoiceOf(c)->most_footstep_x; }, 0, 0.5},
       {"smoothing.optimizer.most_footstep_y_m", Law::kLength,
-       [](C* c) { return &c->smoothing.optimizer.options.program.parameters.most_footstep_y; }, 0,
-       0.5},
+       [](C* c) { return &ChoiceOf(c)->most_footstep_y; }, 0, 0.5},
       {"step_set.x_min_m", Law::kGrid, [](C* c) { return &c->half_step_grid.x_min; }, -2, 2},
       {"step_set.x_max_m", Law::kGrid, [](C* c) { return &c->half_step_grid.x_max; }, -2, 2},
       {"step_set.y_min_m", Law::kAcross, [](C* c) { return &c->half_step_grid.y_min; }, -2, 2},
