@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "smoothing/methods/improve_ahead.h"
+#include "smoothing/methods/solver_method_options.h"
 #include "smoothing/proof/stoppable_feasibility.h"
 
 namespace halfstep {
@@ -25,7 +26,8 @@ void Refine(const SafetyCheck& safety, const LiveConfig& config, double from, in
                                              config.experiment.smoothing.certification),
       StopBranches::kAll);
   proposal->refined = true;
-  ParameterChoice choice = config.experiment.smoothing.optimizer.options.program.parameters;
+  ParameterChoice choice =
+      config.experiment.smoothing.options.Get(OptimizerGroup()).options.program.parameters;
   choice.footsteps = false;  // footsteps are the planner's while the world changes
   const auto found = ImproveAhead(proposal->plan, test, first, {.choice = choice}, monitor);
   if (!found) return;

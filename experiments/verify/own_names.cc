@@ -4,7 +4,6 @@
 
 #include "planner/search/planner_registry.h"
 #include "smoothing/margins/family_traits.h"
-#include "smoothing/methods/smoother_registry.h"
 #include "smoothing/program/walk_cost.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/number_text.h"
@@ -34,10 +33,9 @@ std::string Quoted(const std::string& text) {
   return yaml + "'";
 }
 
-void FindMethods(const YamlNode& root, OwnNames* own) {
+void FindMethods(const YamlNode& root, const std::vector<std::string>& known, OwnNames* own) {
   const YamlNode* methods = At(root, {"smoothing", "methods"});
   if (methods == nullptr || methods->kind != Kind::kList) return;
-  const std::vector<std::string> known = SmootherNames();
   std::vector<std::string> all;
   std::string rest;
   for (const YamlNode& method : methods->items) {
@@ -76,9 +74,22 @@ void LeaveOut(const YamlNode& root, std::initializer_list<const char*> keys, Own
   own->overrides.push_back({path, "{" + rest + "}"});
 }
 
+// Options of methods, of which one unknown leaves out all: none changes what is read here.
+void FindOwnOptions(const YamlNode& root, const Methods& known, OwnNames* own) {
+  const YamlNode* group = At(root, {"smoothing", "own"});
+  if (group == nullptr || group->kind != Kind::kMap) return;
+  std::vector<std::string> keys;
+  for (const DeclaredGroup& one : known.OwnGroups()) keys.push_back(one.key);
+  const size_t told = own->told.size();
+  for (const YamlNode& item : group->items) {
+    if (!Has(keys, item.key)) own->told.push_back("the options " + item.key);
+  }
+  if (own->told.size() > told) own->overrides.push_back({"smoothing.own", "{}"});
+}
+
 }  // namespace
 
-OwnNames FindOwnNames(const std::string& path, const std::string& text) {
+OwnNames FindOwnNames(const std::string& path, const std::string& text, const Methods& known) {
   OwnNames own;
   YamlNode root;
   try {
@@ -87,7 +98,8 @@ OwnNames FindOwnNames(const std::string& path, const std::string& text) {
   } catch (const InputError&) {
     return own;
   }
-  FindMethods(root, &own);
+  FindMethods(root, known.Names(), &own);
+  FindOwnOptions(root, known, &own);
   const YamlNode* planner = At(root, {"planner", "name"});
   if (planner != nullptr && planner->kind == Kind::kScalar && !Has(PlannerNames(), planner->text)) {
     own.told.push_back("the planner " + planner->text);

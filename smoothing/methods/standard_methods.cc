@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <functional>
+#include <stdexcept>
 #include <utility>
 
 #include "opt/adapters/solver_registry.h"
@@ -53,11 +55,12 @@ class NamedSmoother : public Smoother {
 constexpr const char* kPareto = "pareto";  // the program that is a ParetoCurve
 
 // The program by a solver, or a Pareto curve of programs.
-Search BySolver(const std::string& solver) {
-  return [solver](const WalkProblem& problem, const MethodOptions& options,
-                  SmoothingMonitor& monitor) {
+Search BySolver(const std::string& solver, const std::shared_ptr<const opt::Solver>& own = {}) {
+  return [solver, own](const WalkProblem& problem, const MethodOptions& options,
+                       SmoothingMonitor& monitor) {
     SolverMethodOptions all = options.Get(OptimizerGroup());
     all.options.solver = solver;
+    all.options.own_solver = own;
     if (all.program == kPareto) return ParetoCurve(problem, all.options, all.pareto, monitor);
     return OptimizeOverlaps(problem, all.options, monitor);
   };
@@ -145,6 +148,13 @@ void RequestGiven(Fields& fields, const MethodOptions&) {
   fields.Text("variables", &variables, {});
 }
 
+std::shared_ptr<const Smoother> SolverMethod(const std::string& solver,
+                                             const std::shared_ptr<const opt::Solver>& own = {}) {
+  return std::make_shared<NamedSmoother>(
+      solver, "smoothing.optimizer.program by this solver, from the dichotomy's result",
+      Groups{OptimizerGroup()}, BySolver(solver, own), RequestSolver);
+}
+
 }  // namespace
 
 Methods Methods::Standard() {
@@ -177,8 +187,7 @@ Methods Methods::Standard() {
       });
   for (const std::string& solver : opt::SolverNames()) {
     if (!opt::MakeSolver(solver)->available()) continue;
-    add(solver, "smoothing.optimizer.program by this solver, from the dichotomy's result",
-        optimizer, BySolver(solver), RequestSolver);
+    all.push_back(SolverMethod(solver));
   }
   add("halfstep/horizon",
       "the program of halfstep/sqp in short windows along the walk, for walks of any length",
@@ -190,6 +199,16 @@ Methods Methods::Standard() {
       },
       RequestGiven);
   return Methods(std::move(all));
+}
+
+void Methods::AddSolver(std::shared_ptr<const opt::Solver> solver) {
+  const std::string name = solver->name();
+  if (std::ranges::count(opt::SolverNames(), name) > 0) {
+    throw std::invalid_argument("solver `" + name + "` is built in");
+  }
+  Add(SolverMethod(name, solver));
+  std::erase_if(solvers_, [&](const auto& known) { return known->name() == name; });
+  solvers_.push_back(std::move(solver));
 }
 
 }  // namespace halfstep

@@ -59,8 +59,8 @@ void Cost(const std::string& name) {
   }
   const MarginEvaluator all(e.robot, e.scene, limits), some = all.WithLimits(without);
   const CertifiedFeasibility proof(all, {}), proof_without(some, {});
-  const SmoothingResult smoothed =
-      Smoothed(Dichotomy, ProblemOf(e.sequence, proof), e.config.smoothing.dichotomy);
+  const SmoothingResult smoothed = Smoothed(Dichotomy, ProblemOf(e.sequence, proof),
+                                            e.config.smoothing.options.Get(DichotomyGroup()));
   const SuperposedWalk walk(e.sequence, smoothed.parameters);
   const auto sampled = [&](const MarginEvaluator& evaluator) {
     return [&] {
@@ -89,7 +89,10 @@ void Cost(const std::string& name) {
     };
   };
   const auto dichotomy = [&](const CertifiedFeasibility& test) {
-    return [&] { Smoothed(Dichotomy, ProblemOf(e.sequence, test), e.config.smoothing.dichotomy); };
+    return [&] {
+      Smoothed(Dichotomy, ProblemOf(e.sequence, test),
+               e.config.smoothing.options.Get(DichotomyGroup()));
+    };
   };
   const auto print = [&](const char* what, const Pair& pair) {
     std::printf("%-14s %-34s %9.2f ms %9.2f ms %6.2f\n", name.c_str(), what, 1e3 * pair.without,
@@ -236,8 +239,8 @@ void PrintCompensation(const std::string& name) {
     std::printf("%-20s %2d %6.1f", name.c_str(), iterations, 1e3 * most);
     PrintIsolated(e.robot, sequence, 1.0);
     PrintIsolated(e.robot, sequence, 0.5);
-    const SmoothingResult smoothed =
-        Smoothed(Dichotomy, ProblemOf(sequence, proof), e.config.smoothing.dichotomy);
+    const SmoothingResult smoothed = Smoothed(Dichotomy, ProblemOf(sequence, proof),
+                                              e.config.smoothing.options.Get(DichotomyGroup()));
     const SuperposedWalk walk(sequence, smoothed.parameters);
     ZmpErrors errors;
     for (double t = 0; t <= walk.duration(); t += 0.002) errors.Add(e.robot, walk.At(t));

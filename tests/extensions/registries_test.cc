@@ -11,7 +11,8 @@
 #include "opt/adapters/solver_registry.h"
 #include "opt/problem/derivative_check.h"
 #include "planner/search/planner_registry.h"
-#include "smoothing/methods/smoother_registry.h"
+#include "smoothing/methods/methods.h"
+#include "smoothing/methods/solver_method_options.h"
 #include "smoothing/program/overlap_program.h"
 #include "smoothing/program/walk_cost.h"
 #include "tests/scenarios/load_experiment.h"
@@ -144,10 +145,12 @@ TEST(RegisterWalkCost, IsAWeightOfTheProgramSmooth) {
                                              {"smoothing.optimizer.weights.long_half_steps", "3"}};
   EXPECT_THROW(WithOptions(weighed), InputError);
   RegisterWalkCost(std::make_shared<LongHalfSteps>());
-  EXPECT_TRUE(WithOptions({}).smoothing.optimizer.options.program.own_costs.empty());
+  EXPECT_TRUE(
+      WithOptions({}).smoothing.options.Get(OptimizerGroup()).options.program.own_costs.empty());
   const Experiment experiment = Prepare(WithOptions(weighed));
   const WalkProblem walk = ProblemOf(experiment);
-  const ProgramOptions& options = experiment.config.smoothing.optimizer.options.program;
+  const ProgramOptions& options =
+      experiment.config.smoothing.options.Get(OptimizerGroup()).options.program;
   const OverlapProgram program(walk.sequence(), walk.evaluator(), options, 0.0);
   ProgramOptions without = options;
   without.own_costs.clear();

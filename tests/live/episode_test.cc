@@ -10,6 +10,7 @@
 #include "experiments/live/episode_loop.h"
 #include "experiments/live/episode_touch.h"
 #include "experiments/live/thinker.h"
+#include "smoothing/methods/solver_method_options.h"
 #include "smoothing/proof/certified_feasibility.h"
 #include "tests/live/small_episode.h"
 
@@ -65,7 +66,8 @@ TEST(EpisodeTest, AProgramMayMoveTheHalfStepsToCome) {
   LiveConfig config = SmallWorld::Get().config;
   const PlayedEpisode plain = Play({}, config);
   config.live.refine = true;
-  config.experiment.smoothing.optimizer.options.program.parameters.durations = true;
+  config.experiment.smoothing.options.Edit(OptimizerGroup()).options.program.parameters.durations =
+      true;
   const PlayedEpisode refined = Play({}, config);
   const Episode& episode = refined.episode;
   EXPECT_EQ(episode.ending, EpisodeEnding::kArrived);

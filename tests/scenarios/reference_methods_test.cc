@@ -9,8 +9,9 @@
 #include "smoothing/methods/coordinate_ascent.h"
 #include "smoothing/methods/dichotomy.h"
 #include "smoothing/methods/dynamic_program.h"
+#include "smoothing/methods/methods.h"
 #include "smoothing/methods/reference_search.h"
-#include "smoothing/methods/smoother_registry.h"
+#include "smoothing/methods/solver_method_options.h"
 #include "smoothing/methods/uniform_scan.h"
 #include "smoothing/program/overlap_program.h"
 #include "smoothing/proof/certified_feasibility.h"
@@ -137,8 +138,9 @@ TEST_F(ReferenceMethods, StoppedTheyKeepWhatWasFeasible) {
 // From the question on at which a stop is asked for, or the deadline has passed, no method asks
 // many more: it finishes what it is at.
 TEST_F(ReferenceMethods, StoppedInTheMiddleTheyAskLittleMore) {
-  SmootherOptions options;
-  options.optimizer.program.parameters = {.heights = true, .durations = true};
+  const Methods methods = Methods::Standard();
+  MethodOptions options;
+  options.Edit(OptimizerGroup()).options.program.parameters = {.heights = true, .durations = true};
   for (const char* name : {"coordinate", "dichotomy/uniform", "reference"}) {
     for (const size_t when : {20u, 100u}) {
       std::stop_source source;
@@ -151,7 +153,7 @@ TEST_F(ReferenceMethods, StoppedInTheMiddleTheyAskLittleMore) {
       });
       SmoothingMonitor monitor({.stop = source.get_token()});
       const SmoothingResult result =
-          FindSmoother(name).Smooth(ProblemOf(sequence_, stops), options, monitor);
+          methods.Find(name).Smooth(ProblemOf(sequence_, stops), options, monitor);
       EXPECT_GE(count, when) << name << ": never stopped";
       EXPECT_LE(count, when + 60) << name;
       EXPECT_NE(result.ending, opt::Ending::kConverged) << name;
@@ -161,7 +163,7 @@ TEST_F(ReferenceMethods, StoppedInTheMiddleTheyAskLittleMore) {
     FakeFeasibility late = LowFeetMayHurry(0.8);
     SmoothingMonitor monitor;
     const SmoothingResult result =
-        FindSmoother(name).Smooth(ProblemOf(sequence_, late), options, monitor);
+        methods.Find(name).Smooth(ProblemOf(sequence_, late), options, monitor);
     EXPECT_LE(late.questions.size(), 60u) << name;
     EXPECT_NE(result.ending, opt::Ending::kConverged) << name << ": " << result.message;
     options.optimizer.deadline = 30.0;
