@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "planner/scene/scene.h"
+#include "smoothing/methods/methods.h"
 #include "wpg/files/yaml_fields.h"
 
 namespace halfstep {
@@ -16,11 +17,12 @@ namespace halfstep {
 /// of commands.h.
 using CommandAction = std::function<int()>;
 
-/// A command of `halfstep`: its name, its help, and the function that declares its options.
+/// A command of `halfstep`: its name, its help, and the function that declares its options, for
+/// configs that may name `methods`.
 struct CommandEntry {
   const char* name;
   const char* help;
-  CommandAction (*declare)(CLI::App* app);
+  CommandAction (*declare)(CLI::App* app, const Methods& methods);
 };
 
 /// Every command. To add one, write its file with a Declare function and add a row in the source.
@@ -49,23 +51,23 @@ void TellWarnings(const RobotModel& robot, const Scene& scene = {});
 /// Lines under a heading, on standard error.
 void TellUnder(const std::string& heading, const std::vector<std::string>& lines);
 
-CommandAction DeclareInit(CLI::App* app);
-CommandAction DeclareRun(CLI::App* app);
-CommandAction DeclareSmooth(CLI::App* app);
-CommandAction DeclareCompare(CLI::App* app);
-CommandAction DeclarePlan(CLI::App* app);
-CommandAction DeclareBake(CLI::App* app);
-CommandAction DeclareDraw(CLI::App* app);
-CommandAction DeclareCertify(CLI::App* app);
-CommandAction DeclareVerify(CLI::App* app);
-CommandAction DeclareSweep(CLI::App* app);
-CommandAction DeclareExplain(CLI::App* app);
-CommandAction DeclareReport(CLI::App* app);
-CommandAction DeclareExport(CLI::App* app);
-CommandAction DeclareReplay(CLI::App* app);
-CommandAction DeclareList(CLI::App* app);
-CommandAction DeclareLive(CLI::App* app);
-CommandAction DeclareRecover(CLI::App* app);
-CommandAction DeclareRobot(CLI::App* app);
+CommandAction DeclareInit(CLI::App* app, const Methods& methods);
+CommandAction DeclareRun(CLI::App* app, const Methods& methods);
+CommandAction DeclareSmooth(CLI::App* app, const Methods& methods);
+CommandAction DeclareCompare(CLI::App* app, const Methods& methods);
+CommandAction DeclarePlan(CLI::App* app, const Methods& methods);
+CommandAction DeclareBake(CLI::App* app, const Methods& methods);
+CommandAction DeclareDraw(CLI::App* app, const Methods& methods);
+CommandAction DeclareCertify(CLI::App* app, const Methods& methods);
+CommandAction DeclareVerify(CLI::App* app, const Methods& methods);
+CommandAction DeclareSweep(CLI::App* app, const Methods& methods);
+CommandAction DeclareExplain(CLI::App* app, const Methods& methods);
+CommandAction DeclareReport(CLI::App* app, const Methods& methods);
+CommandAction DeclareExport(CLI::App* app, const Methods& methods);
+CommandAction DeclareReplay(CLI::App* app, const Methods& methods);
+CommandAction DeclareList(CLI::App* app, const Methods& methods);
+CommandAction DeclareLive(CLI::App* app, const Methods& methods);
+CommandAction DeclareRecover(CLI::App* app, const Methods& methods);
+CommandAction DeclareRobot(CLI::App* app, const Methods& methods);
 
 }  // namespace halfstep

@@ -72,9 +72,9 @@ void FindByMeaning(const std::vector<KeyDescription>& keys, const std::string& l
 }  // namespace
 
 ExitStatus ExplainConfig(const ExplainCommand& command) {
-  std::vector<KeyDescription> keys = ConfigKeys();
+  std::vector<KeyDescription> keys = ConfigKeys(command.methods);
   // The keys of an episode are searched by name only: a run has no `live`.
-  if (!command.key.empty()) keys = EpisodeKeys();
+  if (!command.key.empty()) keys = EpisodeKeys(command.methods);
   if (!command.robot.empty()) {
     ExperimentConfig config;
     config.robot = command.robot;
@@ -99,8 +99,9 @@ ExitStatus ExplainConfig(const ExplainCommand& command) {
   return kSuccess;
 }
 
-CommandAction DeclareExplain(CLI::App* app) {
+CommandAction DeclareExplain(CLI::App* app, const Methods& methods) {
   const auto command = std::make_shared<ExplainCommand>();
+  command->methods = methods;
   app->add_option("KEY", command->key,
                   "a key, its last part, or a word of what it means (default: all)");
   app->add_option("--robot", command->robot,

@@ -9,7 +9,7 @@
 #include "experiments/commands/commands.h"
 #include "experiments/config/data_folder.h"
 #include "opt/adapters/solver_registry.h"
-#include "smoothing/methods/smoother_registry.h"
+#include "smoothing/methods/methods.h"
 #include "wpg/files/input_error.h"
 
 namespace halfstep {
@@ -29,13 +29,14 @@ std::vector<Entry> FilesOf(const std::filesystem::path& folder) {
   return entries;
 }
 
-std::vector<Entry> Solvers() {
+std::vector<Entry> Solvers(const Methods& methods) {
   std::vector<Entry> entries;
   for (const std::string& name : opt::SolverNames()) {
     const std::unique_ptr<opt::Solver> solver = opt::MakeSolver(name);
     entries.push_back(
         {name, solver->available() ? "available" : solver->WhyUnavailable(), solver->available()});
   }
+  for (const auto& own : methods.own_solvers()) entries.push_back({own->name(), "available", true});
   return entries;
 }
 
@@ -46,14 +47,14 @@ std::vector<Entry> Planners() {
           {"bounding_box", "a box around the robot finds the way: a baseline"}};
 }
 
-std::vector<Entry> Entries(const std::string& what) {
+std::vector<Entry> Entries(const std::string& what, const Methods& methods) {
   if (what == "robots") return FilesOf(RobotsFolder());
   if (what == "scenes") return FilesOf(ScenesFolder());
   if (what == "configs") return FilesOf(DataFolder() / "configs");
-  if (what == "solvers") return Solvers();
+  if (what == "solvers") return Solvers(methods);
   if (what == "planners") return Planners();
   std::vector<Entry> entries;
-  for (const auto& smoother : Smoothers()) {
+  for (const auto& smoother : methods.all()) {
     entries.push_back({smoother->name(), smoother->meaning()});
   }
   return entries;
@@ -61,8 +62,8 @@ std::vector<Entry> Entries(const std::string& what) {
 
 }  // namespace
 
-ExitStatus List(const std::string& what, bool json) {
-  const std::vector<Entry> entries = Entries(what);
+ExitStatus List(const std::string& what, bool json, const Methods& methods) {
+  const std::vector<Entry> entries = Entries(what, methods);
   if (json) {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
     for (const Entry& entry : entries) {
@@ -81,7 +82,7 @@ ExitStatus List(const std::string& what, bool json) {
   return kSuccess;
 }
 
-CommandAction DeclareList(CLI::App* app) {
+CommandAction DeclareList(CLI::App* app, const Methods& methods) {
   struct Options {
     std::string what, config;
     bool json = false;
@@ -94,12 +95,13 @@ CommandAction DeclareList(CLI::App* app) {
           OneOf({"robots", "scenes", "configs", "solvers", "methods", "planners", "half-steps"}));
   app->add_option("CONFIG", options->config, "whose half-steps (half-steps only)");
   app->add_flag("--json", options->json, "print JSON");
-  return [options] {
-    if (options->what != "half-steps") return List(options->what, options->json);
+  return [options, methods] {
+    if (options->what != "half-steps") return List(options->what, options->json, methods);
     if (options->config.empty()) {
       throw InputError({"list half-steps: of which config? (valid: a YAML file)"});
     }
-    return ListHalfSteps({.config = options->config, .overrides = {}, .json = options->json});
+    return ListHalfSteps(
+        {.config = options->config, .overrides = {}, .json = options->json, .methods = methods});
   };
 }
 

@@ -52,7 +52,8 @@ struct Task {
 
 Task RunTask(const ReplayCommand& command) {
   const std::vector<std::string> methods = MethodsOfRun(command.run, command.method);
-  const ExperimentConfig config = LoadConfig((fs::path(command.run) / "config.yaml").string(), {});
+  const ExperimentConfig config =
+      LoadConfig((fs::path(command.run) / "config.yaml").string(), {}, command.methods);
   Task task{.robot = LoadWholeRobot(RobotPath(config).string()), .world = {}, .motions = {}};
   if (const auto scene = ScenePath(config)) {
     task.world = replay::ObstaclesOf(LoadScene(scene->string()));
@@ -69,7 +70,7 @@ Task EpisodeTask(const ReplayCommand& command) {
   if (command.method) {
     throw InputError({"--method: " + command.run + " is an episode, which has one walk"});
   }
-  replay::RecordedEpisode episode = replay::ReadEpisode(command.run);
+  replay::RecordedEpisode episode = replay::ReadEpisode(command.run, command.methods);
   Task task{.robot = std::move(episode.robot),
             .world = replay::ObstaclesOf(episode.truth),
             .motions = {}};
@@ -151,8 +152,9 @@ ExitStatus Replay(const ReplayCommand& command) {
   return stayed_up ? kSuccess : kFailed;
 }
 
-CommandAction DeclareReplay(CLI::App* app) {
+CommandAction DeclareReplay(CLI::App* app, const Methods& methods) {
   const auto command = std::make_shared<ReplayCommand>();
+  command->methods = methods;
   const auto engine = std::make_shared<std::string>("mujoco");
   app->add_option("RUN", command->run, "folder of a run or of an episode")->required();
   app->add_option("--engine", *engine, "mujoco")->check(OneOf({"mujoco"}));

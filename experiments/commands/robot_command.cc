@@ -113,7 +113,7 @@ ExitStatus SurveyRobotFile(const RobotCommand& command) {
   return Walk(files, command.quiet) ? kSuccess : kFailed;
 }
 
-CommandAction DeclareRobot(CLI::App* app) {
+CommandAction DeclareRobot(CLI::App* app, const Methods&) {
   const auto command = std::make_shared<RobotCommand>();
   struct Texts {
     std::string urdf;

@@ -88,7 +88,7 @@ ExitStatus Run(const RunCommand& command) {
       .stop = interrupt.token(),
       .stop_step = interrupt.step_token(),
       .keep = [&interrupt] { interrupt.Keep(); }};
-  const ExperimentConfig config = LoadConfig(command.config, command.overrides);
+  const ExperimentConfig config = LoadConfig(command.config, command.overrides, command.methods);
   ExperimentRun run(config, hooks);
   if (run.refusal()) {
     bars.End();
@@ -106,7 +106,7 @@ ExitStatus Run(const RunCommand& command) {
   // What smoothing had found when it was stopped is proved all the same.
   run.Certify(interrupt.requested() ? interrupt.proof_token() : interrupt.token());
   run.Write(&folder);
-  WriteReport(run.experiment().robot, run.experiment().scene, &folder);
+  WriteReport(run.experiment().robot, run.experiment().scene, &folder, command.methods);
   CompleteManifest(run.experiment().robot, run.experiment().scene, &folder);
   folder.Publish();
 
@@ -124,8 +124,9 @@ ExitStatus Run(const RunCommand& command) {
   return TellWhatDidNotWork(run, wants_plan) ? kFailed : kSuccess;
 }
 
-CommandAction DeclareRun(CLI::App* app) {
+CommandAction DeclareRun(CLI::App* app, const Methods& methods) {
   const auto command = std::make_shared<RunCommand>();
+  command->methods = methods;
   const auto sets = std::make_shared<std::vector<std::string>>();
   app->add_option("CONFIG", command->config, "experiment, a YAML file")->required();
   DeclareOverrides(app, "the config", sets.get());

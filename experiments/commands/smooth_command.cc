@@ -7,7 +7,7 @@
 #include "experiments/commands/commands.h"
 #include "experiments/config/experiment_config.h"
 #include "experiments/tables/given_walk_file.h"
-#include "smoothing/methods/smoother_registry.h"
+#include "smoothing/methods/methods.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/suggestion.h"
 #include "wpg/files/text.h"
@@ -18,8 +18,8 @@ namespace {
 namespace fs = std::filesystem;
 
 // "[dichotomy, ipopt]": the value of smoothing.methods.
-std::string MethodList(const std::vector<std::string>& methods) {
-  const std::vector<std::string> known = SmootherNames();
+std::string MethodList(const std::vector<std::string>& methods,
+                       const std::vector<std::string>& known) {
   std::string list;
   for (const std::string& method : methods) {
     if (std::find(known.begin(), known.end(), method) == known.end()) {
@@ -66,8 +66,9 @@ ExitStatus Smooth(const SmoothCommand& command) {
     if (std::ranges::find(methods, "given") == methods.end())
       methods.insert(methods.begin(), "given");
   }
-  if (!methods.empty()) run.overrides.push_back({"smoothing.methods", MethodList(methods)});
-  if (LoadConfig(run.config, run.overrides).has_goal) {
+  if (!methods.empty())
+    run.overrides.push_back({"smoothing.methods", MethodList(methods, run.methods.Names())});
+  if (LoadConfig(run.config, run.overrides, run.methods).has_goal) {
     throw InputError({run.config +
                       ": goal: there are no footsteps to smooth (valid: a config with "
                       "`footsteps`, or the folder of a run; `halfstep run` plans first)"});
@@ -75,8 +76,9 @@ ExitStatus Smooth(const SmoothCommand& command) {
   return Run(run);
 }
 
-CommandAction DeclareSmooth(CLI::App* app) {
+CommandAction DeclareSmooth(CLI::App* app, const Methods& methods) {
   const auto command = std::make_shared<SmoothCommand>();
+  command->run.methods = methods;
   const auto sets = std::make_shared<std::vector<std::string>>();
   app->add_option("CONFIG", command->run.config, "config with footsteps, or a run folder")
       ->required();

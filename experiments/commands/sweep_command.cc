@@ -169,7 +169,8 @@ int Sweep(const SweepCommand& command) {
   InterruptGuard interrupt;
   const bool all = command.one_case.empty() && command.range.empty();
   const SweepConfig sweep =
-      LoadSweep(command.sweep, command.overrides, all && !command.collect && !command.list_cases);
+      LoadSweep(command.sweep, command.overrides, all && !command.collect && !command.list_cases,
+                command.methods);
   if (command.check) {
     if (!command.quiet) std::cout << sweep.name << ": " << NumSweepCases(sweep) << " cases\n";
     return kSuccess;
@@ -192,8 +193,9 @@ int Sweep(const SweepCommand& command) {
   return kFailed;
 }
 
-CommandAction DeclareSweep(CLI::App* app) {
+CommandAction DeclareSweep(CLI::App* app, const Methods& methods) {
   const auto command = std::make_shared<SweepCommand>();
+  command->methods = methods;
   const auto sets = std::make_shared<std::vector<std::string>>();
   command->jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   app->add_option("SWEEP", command->sweep, "sweep, a YAML file")->required();

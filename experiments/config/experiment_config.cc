@@ -5,13 +5,13 @@
 #include <cmath>
 #include <filesystem>
 #include <numbers>
+#include <utility>
 
 #include "experiments/config/data_folder.h"
 #include "experiments/config/experiment.h"
 #include "experiments/config/folder_name.h"
 #include "experiments/config/scaled_defaults.h"
 #include "smoothing/margins/family_traits.h"
-#include "smoothing/methods/smoother_registry.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/text.h"
 #include "wpg/robot/robot_measures.h"
@@ -280,22 +280,25 @@ HalfStepShape ShapeOf(const HalfStepConfig& config) {
           .support_offset = config.support_offset};
 }
 
-std::vector<KeyDescription> ConfigKeys() {
+std::vector<KeyDescription> ConfigKeys(Methods methods) {
   ExperimentConfig config;
+  config.smoothing.known = std::move(methods);
   std::vector<KeyDescription> keys =
       DescribeKeys([&config](Fields& fields) { DeclareFields(fields, &config); });
   DescribeScaling(&keys);
   return keys;
 }
 
-ExperimentConfig LoadConfig(const std::string& path, const std::vector<YamlOverride>& overrides) {
-  return ParseConfig(path, ReadYamlFile(path), overrides);
+ExperimentConfig LoadConfig(const std::string& path, const std::vector<YamlOverride>& overrides,
+                            Methods methods) {
+  return ParseConfig(path, ReadYamlFile(path), overrides, std::move(methods));
 }
 
 ExperimentConfig ParseConfig(const std::string& path, const std::string& text,
-                             const std::vector<YamlOverride>& overrides) {
+                             const std::vector<YamlOverride>& overrides, Methods methods) {
   const std::filesystem::path file(path);
   ExperimentConfig config;
+  config.smoothing.known = std::move(methods);
   config.name = file.stem().string();
   ReadYamlText(text, path, file.parent_path().string(), overrides, [&](Fields& fields) {
     DeclareFields(fields, &config);

@@ -7,16 +7,17 @@
 
 namespace halfstep {
 
-/// The names that a config may use in this program: its own, and those that it registered.
+/// The names that a config may use in this program: its own, and those that it added.
 struct KnownNames {
-  std::vector<std::string> methods;   ///< of `smoothing.methods`
-  std::vector<std::string> planners;  ///< of `planner.name`
-  std::vector<std::string> weights;   ///< keys of `smoothing.optimizer.weights`
-  std::string own_margin;             ///< key under `smoothing.margins` of the family `own`
-  bool has_own_margins = false;       ///< whether a margin is registered, and that key is read
+  std::vector<std::string> methods;      ///< of `smoothing.methods`
+  std::vector<std::string> own_options;  ///< keys of `smoothing.own`
+  std::vector<std::string> planners;     ///< of `planner.name`
+  std::vector<std::string> weights;      ///< keys of `smoothing.optimizer.weights`
+  std::string own_margin;                ///< key under `smoothing.margins` of the family `own`
+  bool has_own_margins = false;          ///< whether a margin is registered, and that key is read
 };
-/// As they are now: programs register more while they run.
-KnownNames NamesOfConfigs();
+/// With these methods, and with what is registered now: programs register more while they run.
+KnownNames NamesOfConfigs(const Methods& methods = Methods::Standard());
 
 /// What a config demands of a margin family.
 struct NamedDemand {

@@ -3,34 +3,10 @@
 #include <algorithm>
 
 #include "smoothing/margins/family_traits.h"
-#include "smoothing/methods/smoother_registry.h"
 #include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {
-
-void DeclareDichotomy(Fields& fields, DichotomyOptions* o) {
-  fields.Number("tolerance_s", &o->tolerance,
-                {.meaning = "bisection of an overlap ends below this (published: 0.05)",
-                 .unit = "s",
-                 .min = 1e-6,
-                 .max = 1});
-  std::string order =
-      o->order == DichotomyOptions::Order::kLeftToRight ? "left_to_right" : "right_to_left";
-  fields.Text("order", &order,
-              {.meaning = "of the junctions", .choices = {"left_to_right", "right_to_left"}});
-  o->order = order == "left_to_right" ? DichotomyOptions::Order::kLeftToRight
-                                      : DichotomyOptions::Order::kRightToLeft;
-  fields.Integer("passes", &o->passes, {.meaning = "over all junctions", .min = 1, .max = 100});
-  fields.Number("up_down_cap", &o->up_down_cap,
-                {.meaning = "largest overlap as a fraction of its natural bound (published: 0.8)",
-                 .min = 0,
-                 .max = 1});
-  fields.Number("down_up_cap", &o->down_up_cap,
-                {.meaning = "largest overlap as a fraction of its natural bound (published: 0.76)",
-                 .min = 0,
-                 .max = 1});
-}
 
 void DeclareFixed(Fields& fields, FixedConfig* c) {
   std::vector<std::string> names;
@@ -94,12 +70,29 @@ void DeclareMargins(Fields& fields, MarginLimits* l) {
   }
 }
 
+void DeclareGroups(Fields& fields, const std::vector<DeclaredGroup>& groups,
+                   MethodOptions* options) {
+  for (const DeclaredGroup& group : groups) {
+    fields.Group(group.key.c_str(), {.meaning = group.meaning.c_str()},
+                 [&](Fields& f) { group.declare(f, options); });
+  }
+}
+
+// A program without methods of its own has no such key, but takes it where it is empty.
+void DeclareOwn(Fields& fields, SmoothingConfig* c) {
+  const std::vector<DeclaredGroup> own = c->known.OwnGroups();
+  const std::vector<std::string> keys = fields.Keys();
+  if (own.empty() && std::ranges::find(keys, "own") == keys.end()) return;
+  fields.Group("own", {.meaning = "options of methods that this program added"},
+               [&](Fields& f) { DeclareGroups(f, own, &c->options); });
+}
+
 }  // namespace
 
 void DeclareSmoothing(Fields& fields, SmoothingConfig* c) {
   fields.Texts("methods", &c->methods,
                {.meaning = "to run and compare, each once; `raw` is always written",
-                .choices = SmootherNames(),
+                .choices = c->known.Names(),
                 .listed_by = "halfstep list methods"});
   for (auto method = c->methods.begin(); method != c->methods.end(); ++method) {
     if (std::find(c->methods.begin(), method, *method) != method) {
@@ -131,22 +124,13 @@ void DeclareSmoothing(Fields& fields, SmoothingConfig* c) {
                              "a deadline ends the search",
                   .min = 1,
                   .max = 64});
-  fields.Group("dichotomy", {.meaning = "options of the method `dichotomy`"},
-               [&](Fields& f) { DeclareDichotomy(f, &c->dichotomy); });
-  fields.Group(
-      "optimizer",
-      {.meaning =
-           "options of the methods that are solvers (smoothing/README.md, \"Overlap program\")"},
-      [&](Fields& f) { DeclareOptimizer(f, &c->optimizer); });
-  fields.Group("horizon",
-               {.meaning = "windows of `halfstep/horizon`; its program, variables and deadline are "
-                           "those of `optimizer`"},
-               [&](Fields& f) { DeclareHorizon(f, &c->horizon); });
+  DeclareGroups(fields, c->known.BuiltInGroups(), &c->options);
   fields.List("fixed", {.meaning = "parameters that no method may move"}, &c->fixed, DeclareFixed);
   fields.OptionalGroup("given", &c->has_given,
                        {.meaning = "the walk of the method `given`, from tables with the columns "
                                    "of a run; parameters without a column are as planned"},
                        [&](Fields& f) { DeclareGiven(f, &c->given); });
+  DeclareOwn(fields, c);
   const bool takes_given = std::ranges::find(c->methods, "given") != c->methods.end();
   if (takes_given && !c->has_given) {
     fields.Complain("methods", "'given' without a walk (valid: with `smoothing.given`)");

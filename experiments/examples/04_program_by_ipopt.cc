@@ -17,7 +17,8 @@ int main() {
     return 0;
   }
   SmoothingMonitor monitor;
-  const SmoothingResult result = FindSmoother(solver).Smooth(problem, OptionsOf(config), monitor);
+  const SmoothingResult result =
+      Methods::Standard().Find(solver).Smooth(problem, OptionsOf(config), monitor);
   std::printf("%s: %s\n%.3f s, %s\n", solver.c_str(), result.message.c_str(), result.cost,
               std::string(Name(result.evidence)).c_str());
 }

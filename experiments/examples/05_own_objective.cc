@@ -34,7 +34,7 @@ int main() {
     const WalkProblem problem = ProblemOf(Prepare(config));
     SmoothingMonitor monitor;
     const SmoothingResult result =
-        FindSmoother("halfstep/sqp").Smooth(problem, OptionsOf(config), monitor);
+        Methods::Standard().Find("halfstep/sqp").Smooth(problem, OptionsOf(config), monitor);
     const SuperposedWalk walk(problem.sequence(), result.parameters);
     std::printf("weight %s s/m: %.3f s, feet lifted by %.3f m in all\n", weight, walk.duration(),
                 Lift().Evaluate(walk, nullptr));

@@ -20,15 +20,16 @@ Eigen::VectorXd Descend(opt::SolveMonitor& monitor, const Eigen::VectorXd& x0) {
 }
 
 int main(int argc, char** argv) {
-  opt::RegisterSolver([] { return opt::MakeFunctionSolver("mine/descent", Descend); });
-  if (argc > 1) return RunExperiment(argc, argv);  // configs may name mine/descent now
+  Methods methods = Methods::Standard();
+  methods.AddSolver(opt::MakeFunctionSolver("mine/descent", Descend));
+  if (argc > 1) return RunExperiment(argc, argv, methods);  // configs may name mine/descent now
   const ExperimentConfig config =
       LoadConfig((DataFolder() / "configs/bar_8cm.yaml").string(),
                  {{"smoothing.optimizer.durations", "true"}, {"smoothing.optimizer.rounds", "2"}});
   const WalkProblem problem = ProblemOf(Prepare(config));
   for (const char* method : {"dichotomy", "mine/descent"}) {
     SmoothingMonitor monitor;
-    const SmoothingResult result = FindSmoother(method).Smooth(problem, OptionsOf(config), monitor);
+    const SmoothingResult result = methods.Find(method).Smooth(problem, OptionsOf(config), monitor);
     std::printf("%-13s %.3f s\n", method, result.cost);
   }
 }

@@ -223,23 +223,27 @@ void DeclareFields(Fields& fields, LiveConfig* config, const Scene* scene) {
   }
 }
 
-std::vector<KeyDescription> EpisodeKeys() {
+std::vector<KeyDescription> EpisodeKeys(Methods methods) {
   LiveConfig config;
+  config.experiment.smoothing.known = std::move(methods);
   std::vector<KeyDescription> keys =
       DescribeKeys([&config](Fields& fields) { DeclareFields(fields, &config); });
   DescribeScaling(&keys);
   return keys;
 }
 
-LiveConfig LoadLiveConfig(const std::string& path, const std::vector<YamlOverride>& overrides) {
-  return ParseLiveConfig(path, ReadYamlFile(path), overrides);
+LiveConfig LoadLiveConfig(const std::string& path, const std::vector<YamlOverride>& overrides,
+                          Methods methods) {
+  return ParseLiveConfig(path, ReadYamlFile(path), overrides, nullptr, std::move(methods));
 }
 
 LiveConfig ParseLiveConfig(const std::string& path, const std::string& text,
-                           const std::vector<YamlOverride>& overrides, const Scene* scene) {
+                           const std::vector<YamlOverride>& overrides, const Scene* scene,
+                           Methods methods) {
   const std::filesystem::path file(path);
   LiveConfig config;
   config.experiment.name = file.stem().string();
+  config.experiment.smoothing.known = std::move(methods);
   ReadYamlText(text, path, file.parent_path().string(), overrides, [&](Fields& fields) {
     DeclareFields(fields, &config, scene);
     config.experiment.directory = fields.directory();

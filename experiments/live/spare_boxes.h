@@ -25,6 +25,7 @@ struct LoadedEpisode {
 /// Reads a config file, changes what it says, and loads what it names. Throws InputError with every
 /// complaint, those about what does not fit the scene at their places in the file.
 LoadedEpisode LoadEpisode(const std::string& path, const std::vector<YamlOverride>& overrides,
-                          const std::function<LiveConfig(LiveConfig)>& change);
+                          const std::function<LiveConfig(LiveConfig)>& change,
+                          const Methods& methods = Methods::Standard());
 
 }  // namespace halfstep

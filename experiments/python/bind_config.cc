@@ -10,7 +10,6 @@
 #include "experiments/python/bindings.h"
 #include "opt/adapters/solver_registry.h"
 #include "planner/search/planner_registry.h"
-#include "smoothing/methods/smoother_registry.h"
 #include "wpg/files/yaml_node.h"
 
 namespace py = pybind11;
@@ -93,55 +92,46 @@ py::dict Stems(const fs::path& folder) {
   return files;
 }
 
-py::dict SolverReasons() {
+py::dict SolverReasons(const Methods& known) {
   py::dict reasons;
   for (const std::string& name : opt::SolverNames()) {
     const auto solver = opt::MakeSolver(name);
     reasons[py::str(name)] = solver->available() ? "" : solver->WhyUnavailable();
   }
+  for (const auto& own : known.own_solvers()) reasons[py::str(own->name())] = "";
   return reasons;
 }
 
-py::dict Methods() {
+py::dict Meanings(const Methods& known) {
   py::dict methods;
-  for (const std::string& name : SmootherNames()) {
-    methods[py::str(name)] = FindSmoother(name).meaning();
-  }
+  for (const auto& method : known.all()) methods[py::str(method->name())] = method->meaning();
   return methods;
 }
 
 // The groups of `smoothing` that hold the options of a method.
-std::vector<std::string> OptionGroups(const std::string& method) {
-  switch (FindSmoother(method).options()) {
-    case OptionGroup::kNone:
-    case OptionGroup::kGiven:  // its files are `smoothing.given`, which need not be there
-      return {};
-    case OptionGroup::kDichotomy:
-      return {"dichotomy"};
-    case OptionGroup::kOptimizer:
-      return {"optimizer"};
-    case OptionGroup::kHorizon:
-      return {"horizon", "optimizer"};
-  }
-  return {};
+std::vector<std::string> OptionGroups(const Methods& known, const std::string& method) {
+  std::vector<std::string> keys;
+  for (const DeclaredGroup& group : known.Find(method).groups()) keys.push_back(group.key);
+  return keys;
 }
 
 }  // namespace
 
-void BindConfig(py::module_& module) {
-  module.def("load_config", [](const std::string& path, const Overrides& overrides) {
-    return Resolved(LoadConfig(path, ToOverrides(overrides)));
+void BindConfig(py::module_& module, const ModuleMethods& methods) {
+  module.def("load_config", [methods](const std::string& path, const Overrides& overrides) {
+    return Resolved(LoadConfig(path, ToOverrides(overrides), *methods));
   });
-  module.def("resolve_config", [](const std::string& path, const std::string& text) {
-    return Resolved(ParseConfig(path, text, {}));
+  module.def("resolve_config", [methods](const std::string& path, const std::string& text) {
+    return Resolved(ParseConfig(path, text, {}, *methods));
   });
   module.def("data_folder", [] { return DataFolder().string(); });
   module.def("robots", [] { return Stems(RobotsFolder()); });
   module.def("scenes", [] { return Stems(ScenesFolder()); });
   module.def("configs", [] { return Stems(DataFolder() / "configs"); });
-  module.def("methods", &Methods);
-  module.def("option_groups", &OptionGroups);
-  module.def("solvers", &SolverReasons);
+  module.def("methods", [methods] { return Meanings(*methods); });
+  module.def("option_groups",
+             [methods](const std::string& method) { return OptionGroups(*methods, method); });
+  module.def("solvers", [methods] { return SolverReasons(*methods); });
   module.def("planners", &PlannerNames);
 }
 

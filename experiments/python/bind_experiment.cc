@@ -18,7 +18,6 @@
 #include "smoothing/margins/not_covered_by.h"
 #include "smoothing/methods/overlap_prices.h"
 #include "smoothing/methods/run_smoother.h"
-#include "smoothing/methods/smoother_registry.h"
 #include "smoothing/proof/missed_demands.h"
 
 namespace py = pybind11;
@@ -87,12 +86,13 @@ py::dict ResultOf(const std::shared_ptr<const WalkSetting>& setting, const std::
   return dict;
 }
 
-py::dict Smooth(const PlacedExperiment& placed, const std::string& method, const std::string& text,
-                double deadline, const py::object& progress) {
+py::dict Smooth(const Methods& methods, const PlacedExperiment& placed, const std::string& method,
+                const std::string& text, double deadline, const py::object& progress) {
   const auto setting = placed.Setting();
-  const Smoother& smoother = FindSmoother(method);
-  const ExperimentConfig config = text.empty() ? placed.config : ParseConfig(placed.path, text, {});
-  const SmootherOptions options = OptionsOf(config);
+  const Smoother& smoother = methods.Find(method);
+  const ExperimentConfig config =
+      text.empty() ? placed.config : ParseConfig(placed.path, text, {}, methods);
+  const MethodOptions options = OptionsOf(config);
   SmoothingResult result;
   CallLong(progress, [&](const LongCallHooks& hooks) {
     SmoothingMonitor monitor({.progress = [&](double done) { hooks.progress(method, done); },
@@ -129,8 +129,8 @@ std::vector<std::string> Missed(const PlacedExperiment& placed) {
 }  // namespace
 
 PlacedExperiment::PlacedExperiment(const std::string& file, const std::string& text,
-                                   const Scene* scene)
-    : path(file), config(ParseConfig(file, text, {})) {
+                                   const Scene* scene, const Methods& methods)
+    : path(file), config(ParseConfig(file, text, {}, methods)) {
   Place place = LoadPlace(config);
   if (scene != nullptr) place.scene = *scene;
   experiment = Prepare(config, std::move(place));
@@ -151,12 +151,13 @@ std::shared_ptr<const WalkSetting> PlacedExperiment::Setting() const {
   return setting;
 }
 
-void BindExperiment(py::module_& module) {
+void BindExperiment(py::module_& module, const ModuleMethods& methods) {
   py::class_<PlacedExperiment, std::shared_ptr<PlacedExperiment>>(module, "Experiment")
-      .def(py::init([](const std::string& path, const std::string& text, const Scene* scene) {
-             return std::make_shared<PlacedExperiment>(path, text, scene);
-           }),
-           py::call_guard<py::gil_scoped_release>())
+      .def(
+          py::init([methods](const std::string& path, const std::string& text, const Scene* scene) {
+            return std::make_shared<PlacedExperiment>(path, text, scene, *methods);
+          }),
+          py::call_guard<py::gil_scoped_release>())
       .def_property_readonly("robot", [](const PlacedExperiment& p) { return p.experiment.robot; })
       .def_property_readonly("scene", [](const PlacedExperiment& p) { return p.experiment.scene; })
       .def_property_readonly("not_covered",
@@ -167,7 +168,11 @@ void BindExperiment(py::module_& module) {
       .def("walk", &WalkAt)
       .def("missed", &Missed)
       .def("plan", &Plan)
-      .def("smooth", &Smooth);
+      .def("smooth",
+           [methods](const PlacedExperiment& placed, const std::string& method,
+                     const std::string& text, double deadline, const py::object& progress) {
+             return Smooth(*methods, placed, method, text, deadline, progress);
+           });
 }
 
 }  // namespace halfstep::python

@@ -11,8 +11,7 @@
 #include "experiments/python/program_options.h"
 #include "experiments/python/python_smoother.h"
 #include "experiments/python/python_solver.h"
-#include "opt/adapters/solver_registry.h"
-#include "smoothing/methods/smoother_registry.h"
+#include "smoothing/methods/solver_method_options.h"
 
 namespace py = pybind11;
 
@@ -20,12 +19,12 @@ namespace halfstep::python {
 namespace {
 
 std::shared_ptr<HeldProgram> ProgramOf(const SmoothingTask& task, const py::dict& options) {
-  HeldProgramOptions own{.program = task.options().optimizer.program};
+  HeldProgramOptions own{.program = task.options().Get(OptimizerGroup()).options.program};
   if (options.size() > 0) own = ToProgramOptions(options);
   return std::make_shared<HeldProgram>(task.setting(), own);
 }
 
-// Searches read the registries without the GIL.
+// Searches read the methods without the GIL.
 void RequireNoSearch() {
   if (!LongCallUnderWay()) return;
   throw std::invalid_argument("a search is under way (valid: to register before it)");
@@ -85,7 +84,7 @@ void BindTasks(py::module_& module) {
 
 }  // namespace
 
-void BindExtension(py::module_& module) {
+void BindExtension(py::module_& module, const ModuleMethods& methods) {
   BindTasks(module);
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
@@ -95,15 +94,15 @@ void BindExtension(py::module_& module) {
       PyErr_SetString(type.ptr(), stop.what());
     }
   });
-  module.def("register_smoother",
-             [](const std::string& name, const std::string& meaning, const py::function& function) {
-               RequireNoSearch();
-               RegisterSmoother(MakePythonSmoother(name, meaning, function));
-             });
-  module.def("register_solver", [](const std::string& name, const py::function& function) {
+  module.def("register_smoother", [methods](const std::string& name, const std::string& meaning,
+                                            const py::function& function) {
+    RequireNoSearch();
+    methods->Add(MakePythonSmoother(name, meaning, function));
+  });
+  module.def("register_solver", [methods](const std::string& name, const py::function& function) {
     RequireNoSearch();
     const py::handle kept = function.inc_ref();  // for ever: solvers are never removed
-    opt::RegisterSolver([name, kept] { return MakePythonSolver(name, kept); });
+    methods->AddSolver(MakePythonSolver(name, kept));
   });
 }
 

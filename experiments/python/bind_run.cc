@@ -20,14 +20,15 @@ namespace {
 
 // As `halfstep run`: "" or why there is nothing to smooth, and a sentence on each method that
 // failed.
-std::pair<std::string, std::vector<std::string>> RunInto(const std::string& path,
+std::pair<std::string, std::vector<std::string>> RunInto(const Methods& methods,
+                                                         const std::string& path,
                                                          const std::string& text,
                                                          const std::string& out, bool overwrite,
                                                          const py::object& progress) {
   std::string refusal;
   std::vector<std::string> failed;
   const auto work = [&](const LongCallHooks& call) {
-    const ExperimentConfig config = ParseConfig(path, text, {});
+    const ExperimentConfig config = ParseConfig(path, text, {}, methods);
     const RunHooks hooks{
         .progress = call.progress, .stop = call.stop, .stop_step = call.stop, .keep = {}};
     ExperimentRun run(config, hooks);
@@ -42,7 +43,7 @@ std::pair<std::string, std::vector<std::string>> RunInto(const std::string& path
     run.Certify(call.stop);
     if (call.stop.stop_requested()) return;
     run.Write(&folder);
-    WriteReport(run.experiment().robot, run.experiment().scene, &folder);
+    WriteReport(run.experiment().robot, run.experiment().scene, &folder, methods);
     CompleteManifest(run.experiment().robot, run.experiment().scene, &folder);
     folder.Publish();
     for (const MethodRun& method : run.runs()) {
@@ -54,11 +55,13 @@ std::pair<std::string, std::vector<std::string>> RunInto(const std::string& path
   return {refusal, failed};
 }
 
-py::list VerifyFolder(const std::string& run, const std::optional<std::string>& method,
+py::list VerifyFolder(const Methods& methods, const std::string& run,
+                      const std::optional<std::string>& method,
                       const std::optional<double>& tolerance) {
   std::vector<verify::MethodVerification> results;
   CallLong(py::none(), [&](const LongCallHooks&) {
-    results = verify::VerifyRun({.run = run, .method = method, .tolerance = tolerance});
+    results = verify::VerifyRun(
+        {.run = run, .method = method, .tolerance = tolerance, .methods = methods});
   });
   py::list list;
   for (const verify::MethodVerification& result : results) {
@@ -70,9 +73,15 @@ py::list VerifyFolder(const std::string& run, const std::optional<std::string>& 
 
 }  // namespace
 
-void BindRun(py::module_& module) {
-  module.def("run", &RunInto);
-  module.def("verify", &VerifyFolder);
+void BindRun(py::module_& module, const ModuleMethods& methods) {
+  module.def("run", [methods](const std::string& path, const std::string& text,
+                              const std::string& out, bool overwrite, const py::object& progress) {
+    return RunInto(*methods, path, text, out, overwrite, progress);
+  });
+  module.def("verify", [methods](const std::string& run, const std::optional<std::string>& method,
+                                 const std::optional<double>& tolerance) {
+    return VerifyFolder(*methods, run, method, tolerance);
+  });
   module.def("method_folder", &MethodFolder);
 }
 

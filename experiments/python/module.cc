@@ -8,12 +8,13 @@ PYBIND11_MODULE(_halfstep, module) {
   module.doc() = "The compiled part of the package halfstep. Use `import halfstep`.";
   module.attr("version") = halfstep::kVersion;
   module.attr("commit") = halfstep::kCommit;
+  const auto methods = std::make_shared<halfstep::Methods>(halfstep::Methods::Standard());
   BindExceptions(module);
-  BindConfig(module);
+  BindConfig(module, methods);
   BindPlace(module);
   BindWalk(module);
-  BindExperiment(module);
+  BindExperiment(module, methods);
   BindProgram(module);
-  BindRun(module);
-  BindExtension(module);
+  BindRun(module, methods);
+  BindExtension(module, methods);
 }

@@ -6,12 +6,13 @@
 #include <utility>
 
 #include "experiments/python/long_call.h"
+#include "smoothing/methods/solver_method_options.h"
 
 namespace py = pybind11;
 
 namespace halfstep::python {
 
-SmoothingTask::SmoothingTask(const WalkProblem& problem, const SmootherOptions& options,
+SmoothingTask::SmoothingTask(const WalkProblem& problem, const MethodOptions& options,
                              SmoothingMonitor* monitor)
     : setting_(std::make_shared<const WalkSetting>(WalkSetting{problem, {}})),
       options_(options),
@@ -44,11 +45,14 @@ class PythonSmoother : public Smoother {
 
   std::string name() const override { return name_; }
   std::string meaning() const override { return meaning_; }
-  OptionGroup options() const override { return OptionGroup::kOptimizer; }
+  std::vector<DeclaredGroup> groups() const override { return {OptimizerGroup()}; }
+  void DeclareRequest(Fields& fields, MethodOptions options) const override {
+    DeclareSolverRequest(fields, options.Get(OptimizerGroup()));
+  }
 
-  SmoothingResult Smooth(const WalkProblem& problem, const SmootherOptions& options,
+  SmoothingResult Smooth(const WalkProblem& problem, const MethodOptions& options,
                          SmoothingMonitor& monitor) const override {
-    monitor.LimitTo(options.optimizer.deadline);
+    monitor.LimitTo(options.Get(OptimizerGroup()).options.deadline);
     if (!monitor.BeginFeasibly(problem, problem.Start())) return monitor.Refusal();
     const std::string failure = Call(problem, options, &monitor);
     if (monitor.stopped()) {
@@ -62,7 +66,7 @@ class PythonSmoother : public Smoother {
 
  private:
   // "" or what the function raised.
-  std::string Call(const WalkProblem& problem, const SmootherOptions& options,
+  std::string Call(const WalkProblem& problem, const MethodOptions& options,
                    SmoothingMonitor* monitor) const {
     const py::gil_scoped_acquire acquired;
     const auto task = std::make_shared<SmoothingTask>(problem, options, monitor);

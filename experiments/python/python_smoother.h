@@ -16,11 +16,11 @@ namespace halfstep::python {
 class SmoothingTask {
  public:
   /// `monitor` is borrowed until End().
-  SmoothingTask(const WalkProblem& problem, const SmootherOptions& options,
+  SmoothingTask(const WalkProblem& problem, const MethodOptions& options,
                 SmoothingMonitor* monitor);
 
   const std::shared_ptr<const WalkSetting>& setting() const { return setting_; }
-  const SmootherOptions& options() const { return options_; }
+  const MethodOptions& options() const { return options_; }
   bool running() const { return monitor_ != nullptr; }
   /// Whether the method is to end: by Ctrl-C, its deadline or because it has ended.
   bool stopped() const { return monitor_ == nullptr || monitor_->stopped(); }
@@ -37,7 +37,7 @@ class SmoothingTask {
   SmoothingMonitor& monitor() const;
 
   std::shared_ptr<const WalkSetting> setting_;
-  SmootherOptions options_;
+  MethodOptions options_;
   SmoothingMonitor* monitor_;
 };
 

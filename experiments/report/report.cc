@@ -194,10 +194,10 @@ json ProfilesJson(const Comparison& comparison) {
   return curves;
 }
 
-json CaseOf(const ComparedCase& one, double spacing, json* report) {
+json CaseOf(const ComparedCase& one, double spacing, const Methods& methods, json* report) {
   const fs::path run(one.methods.front().record.run);
   try {
-    const Place place = PlaceOfRun(run);
+    const Place place = PlaceOfRun(run, methods);
     std::vector<json> walks;
     for (const ComparedMethod& method : one.methods) {
       walks.push_back(DrawnWalk(place.robot, place.scene, FolderOf(method.record), spacing));
@@ -210,9 +210,10 @@ json CaseOf(const ComparedCase& one, double spacing, json* report) {
 }
 
 // Beside a run's walks what the page needs to move their parameters by itself.
-void AddClosedForm(const RobotModel& robot, const Scene& scene, const fs::path& folder, json* one) {
+void AddClosedForm(const RobotModel& robot, const Scene& scene, const fs::path& folder,
+                   const Methods& methods, json* one) {
   const Experiment experiment =
-      Prepare(LoadConfig((folder / "config.yaml").string(), {}), Place{robot, scene});
+      Prepare(LoadConfig((folder / "config.yaml").string(), {}, methods), Place{robot, scene});
   (*one)["closed_form"] = ClosedFormJson(experiment.robot, experiment.sequence);
   for (json& walk : (*one)["walks"]) {
     const auto method = walk["summary"].at("method").get<std::string>();
@@ -222,14 +223,15 @@ void AddClosedForm(const RobotModel& robot, const Scene& scene, const fs::path& 
 
 }  // namespace
 
-Place PlaceOfRun(const fs::path& run) {
-  Place place = LoadPlace(LoadConfig((run / "config.yaml").string(), {}));
+Place PlaceOfRun(const fs::path& run, const Methods& methods) {
+  Place place = LoadPlace(LoadConfig((run / "config.yaml").string(), {}, methods));
   CheckSame(place.robot.files, "robot", run);
   CheckSame(place.scene.files, "scene", run);
   return place;
 }
 
-std::string RunReport(const RobotModel& robot, const Scene& scene, const fs::path& folder) {
+std::string RunReport(const RobotModel& robot, const Scene& scene, const fs::path& folder,
+                      const Methods& methods) {
   const json manifest = ReadJsonObject(folder / "manifest.json");
   json report = EmptyReport("run");
   for (const char* key : {"name", "version", "commit", "objective", "acceptance"}) {
@@ -250,7 +252,7 @@ std::string RunReport(const RobotModel& robot, const Scene& scene, const fs::pat
     walk["summary"] = WithOwn(row, folder / "summary.csv");
     one["walks"].push_back(std::move(walk));
   }
-  AddClosedForm(robot, scene, folder, &one);
+  AddClosedForm(robot, scene, folder, methods, &one);
   const fs::path volumes = folder / "swept_volumes.json";
   if (fs::exists(volumes)) one["swept_volumes"] = ReadJsonObject(volumes);
   const fs::path infeasible = folder / "infeasible.json";
@@ -259,11 +261,13 @@ std::string RunReport(const RobotModel& robot, const Scene& scene, const fs::pat
   return ReportPage(report);
 }
 
-void WriteReport(const RobotModel& robot, const Scene& scene, RunFolder* folder) {
-  if (HasReport()) folder->Write("report.html", RunReport(robot, scene, folder->staging()));
+void WriteReport(const RobotModel& robot, const Scene& scene, RunFolder* folder,
+                 const Methods& methods) {
+  if (HasReport())
+    folder->Write("report.html", RunReport(robot, scene, folder->staging(), methods));
 }
 
-std::string ComparisonReport(const Comparison& comparison) {
+std::string ComparisonReport(const Comparison& comparison, const Methods& methods) {
   double total = 0.0;
   for (const ComparedCase& one : comparison.cases) {
     for (const ComparedMethod& method : one.methods) total += method.record.duration;
@@ -271,7 +275,7 @@ std::string ComparisonReport(const Comparison& comparison) {
   json report = EmptyReport("comparison");
   report["profiles"] = ProfilesJson(comparison);
   for (const ComparedCase& one : comparison.cases) {
-    report["cases"].push_back(CaseOf(one, SpacingFor(total), &report));
+    report["cases"].push_back(CaseOf(one, SpacingFor(total), methods, &report));
   }
   return ReportPage(report);
 }

@@ -11,10 +11,10 @@
 #include "experiments/tables/given_walk_file.h"
 #include "experiments/tables/parameter_tables.h"
 #include "experiments/tables/run_inputs.h"
+#include "smoothing/methods/given_walk.h"
 #include "smoothing/methods/overlap_prices.h"
 #include "smoothing/methods/plan_repair.h"
 #include "smoothing/methods/run_smoother.h"
-#include "smoothing/methods/smoother_registry.h"
 #include "wpg/files/text.h"
 
 namespace halfstep {
@@ -136,9 +136,9 @@ MethodRun ExperimentRun::RunMethod(const std::string& name, const RunHooks& hook
                             .stop = hooks.stop,
                             .stop_proof = hooks.stop_step,
                             .workers = workers_});
-  SmootherOptions options = OptionsOf(config_);
-  options.given = given_;
-  run.result = RunSmoother(FindSmoother(name), *problem_, options, monitor);
+  MethodOptions options = OptionsOf(config_);
+  options.Edit(GivenWalkGroup()) = given_;
+  run.result = RunSmoother(config_.smoothing.known.Find(name), *problem_, options, monitor);
   const SuperposedWalk walk(experiment_->sequence, run.result.parameters);
   if (missed_ && run.result.ending == opt::Ending::kNotRun &&
       run.result.parameters == runs_.front().result.parameters) {

@@ -9,9 +9,10 @@
 #include <thread>
 
 #include "experiments/build_info.h"
+#include "experiments/run/json_fields.h"
 #include "experiments/tables/not_covered_json.h"
 #include "smoothing/margins/not_covered_by.h"
-#include "smoothing/methods/smoother_registry.h"
+#include "smoothing/methods/solver_method_options.h"
 #include "smoothing/proof/sampled_feasibility.h"
 #include "wpg/files/sha256.h"
 
@@ -38,56 +39,11 @@ ordered_json Host() {
           {"cores", std::thread::hardware_concurrency()}};
 }
 
-// "overlaps+heights": the families that a method may move.
-std::string Variables(const ParameterChoice& choice) {
-  std::string names;
-  for (const ParameterFamily family : AllParameterFamilies()) {
-    const ParameterFamilyTraits& traits = Traits(family);
-    if (traits.key.empty() || (traits.chosen != nullptr && !(choice.*traits.chosen))) continue;
-    names += (names.empty() ? "" : "+") + std::string(traits.key);
-  }
-  return names;
-}
-
-// The options that a method was asked to work with; `raw` has none.
+// What a method was asked for; `raw` for nothing.
 ordered_json Requested(const std::string& method, const SmoothingConfig& config) {
   if (method == "raw") return ordered_json::object();
-  const DichotomyOptions& dichotomy = config.dichotomy;
-  const OptimizerOptions& optimizer = config.optimizer.options;
-  const ProgramOptions& program = optimizer.program;
-  switch (FindSmoother(method).options()) {
-    case OptionGroup::kNone:
-      break;
-    case OptionGroup::kDichotomy:
-      return {{"variables", "overlaps"},
-              {"tolerance_s", dichotomy.tolerance},
-              {"order", dichotomy.order == DichotomyOptions::Order::kLeftToRight ? "left_to_right"
-                                                                                 : "right_to_left"},
-              {"passes", dichotomy.passes},
-              {"up_down_cap", dichotomy.up_down_cap},
-              {"down_up_cap", dichotomy.down_up_cap}};
-    case OptionGroup::kOptimizer:
-      return {{"variables", Variables(program.parameters)},
-              {"objective", config.optimizer.program},
-              {"duration_limit_s", optimizer.duration_limit},
-              {"instants", program.watch.instants},
-              {"random_starts", optimizer.random_starts},
-              {"rounds", optimizer.rounds},
-              {"max_iterations", optimizer.max_iterations},
-              {"deadline_s", optimizer.deadline},
-              {"tolerance_s", optimizer.tolerance}};
-    case OptionGroup::kGiven:
-      return {{"variables", Variables(EveryFamily())}};
-    case OptionGroup::kHorizon:
-      return {{"variables", Variables(program.parameters)},
-              {"objective", config.optimizer.program},
-              {"window", config.horizon.window},
-              {"step", config.horizon.step},
-              {"passes", config.horizon.passes},
-              {"deadline_s", optimizer.deadline},
-              {"tolerance_s", optimizer.tolerance}};
-  }
-  return {{"variables", "overlaps"}};
+  const Smoother& smoother = config.known.Find(method);
+  return JsonOf([&](Fields& fields) { smoother.DeclareRequest(fields, config.options); });
 }
 
 ordered_json MethodJson(const MethodRun& run, const SmoothingConfig& config) {
@@ -106,23 +62,24 @@ ordered_json MethodJson(const MethodRun& run, const SmoothingConfig& config) {
 std::string ManifestJson(const Experiment& experiment, const std::string& resolved_config,
                          const std::string& acceptance, const std::vector<MethodRun>& runs,
                          double total_wall) {
-  ordered_json manifest = {{"format", 2},
-                           {"program", "halfstep"},
-                           {"version", kVersion},
-                           {"commit", kCommit},
-                           {"build_type", kBuildType},
-                           {"compiler", kCompiler},
-                           {"written", UtcNow()},
-                           {"name", experiment.config.name},
-                           {"config_sha256", Sha256(resolved_config)},
-                           {"seed", experiment.config.seed},
-                           {"robot", experiment.robot.name},
-                           {"scene", experiment.scene.name},
-                           {"half_steps", experiment.sequence.size()},
-                           {"objective", experiment.config.smoothing.optimizer.program},
-                           {"acceptance", acceptance},
-                           {"host", Host()},
-                           {"wall_s", total_wall}};
+  ordered_json manifest = {
+      {"format", 2},
+      {"program", "halfstep"},
+      {"version", kVersion},
+      {"commit", kCommit},
+      {"build_type", kBuildType},
+      {"compiler", kCompiler},
+      {"written", UtcNow()},
+      {"name", experiment.config.name},
+      {"config_sha256", Sha256(resolved_config)},
+      {"seed", experiment.config.seed},
+      {"robot", experiment.robot.name},
+      {"scene", experiment.scene.name},
+      {"half_steps", experiment.sequence.size()},
+      {"objective", experiment.config.smoothing.options.Get(OptimizerGroup()).program},
+      {"acceptance", acceptance},
+      {"host", Host()},
+      {"wall_s", total_wall}};
   manifest["not_covered"] = NotCoveredJson(
       NotCoveredBy(experiment.robot, experiment.scene, experiment.config.smoothing.limits));
   if (!experiment.scene.warnings.empty()) manifest["scene_warnings"] = experiment.scene.warnings;

@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "smoothing/methods/solver_method_options.h"
 #include "smoothing/proof/certified_feasibility.h"
 #include "smoothing/proof/sampled_feasibility.h"
 #include "smoothing/proof/stoppable_feasibility.h"
@@ -37,12 +38,9 @@ std::shared_ptr<Workers> WorkersOf(const ExperimentConfig& config) {
   return std::make_shared<Workers>(config.smoothing.threads);
 }
 
-SmootherOptions OptionsOf(const ExperimentConfig& config) {
-  const OptimizerConfig& optimizer = config.smoothing.optimizer;
-  SmootherOptions options{
-      config.smoothing.dichotomy, optimizer.options, {}, config.smoothing.horizon};
-  options.optimizer.seed = static_cast<unsigned>(config.seed);
-  if (optimizer.program == "pareto") options.pareto = optimizer.pareto;
+MethodOptions OptionsOf(const ExperimentConfig& config) {
+  MethodOptions options = config.smoothing.options;
+  options.Edit(OptimizerGroup()).options.seed = static_cast<unsigned>(config.seed);
   return options;
 }
 

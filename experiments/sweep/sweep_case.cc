@@ -53,8 +53,9 @@ void Publish(const SweepFolder& folder, const SweepCase& one, const ExperimentCo
   WriteCsv("timings", tables.timings, &place);
   WriteCsv("runs", tables.runs, &place);
   if (kept != nullptr) {
-    WriteReport(kept->experiment().robot, kept->experiment().scene, &place);
-    CompleteManifest(kept->experiment().robot, kept->experiment().scene, &place);
+    WriteReport(kept->experiment().robot, kept->experiment().scene, &place, folder.sweep().methods);
+    CompleteManifest(kept->experiment().robot, kept->experiment().scene, &place,
+                     folder.sweep().methods);
   }
   try {
     place.Publish();

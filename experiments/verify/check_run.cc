@@ -1,4 +1,5 @@
 #include "experiments/verify/check_run.h"
+#include "smoothing/methods/solver_method_options.h"
 
 #include "wpg/files/sha256.h"
 #include "wpg/files/text.h"
@@ -79,7 +80,7 @@ void CheckRun(const RunParts& parts, const std::string& config_bytes, Findings* 
   agree("config_sha256", manifest.config_sha256 == Sha256(config_bytes));
   agree("name", manifest.name == config.name);
   agree("seed", manifest.seed == config.seed);
-  agree("objective", manifest.objective == config.smoothing.optimizer.program);
+  agree("objective", manifest.objective == config.smoothing.options.Get(OptimizerGroup()).program);
   agree("half_steps", manifest.half_steps == 2 * std::ssize(config.footsteps));
   agree("robot", manifest.robot == parts.robot.name);
   agree("scene", manifest.scene == parts.scene.name);

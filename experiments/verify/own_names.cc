@@ -72,9 +72,20 @@ void LeaveOut(const YamlNode& root, std::initializer_list<const char*> keys, Own
   own->overrides.push_back({path, "{" + rest + "}"});
 }
 
+// Options of methods, of which one unknown leaves out all: none changes what is read here.
+void FindOwnOptions(const YamlNode& root, const std::vector<std::string>& known, OwnNames* own) {
+  const YamlNode* group = At(root, {"smoothing", "own"});
+  if (group == nullptr || group->kind != Kind::kMap) return;
+  const size_t told = own->told.size();
+  for (const YamlNode& item : group->items) {
+    if (!Has(known, item.key)) own->told.push_back("the options " + item.key);
+  }
+  if (own->told.size() > told) own->overrides.push_back({"smoothing.own", "{}"});
+}
+
 }  // namespace
 
-OwnNames FindOwnNames(const std::string& path, const std::string& text) {
+OwnNames FindOwnNames(const std::string& path, const std::string& text, const Methods& methods) {
   OwnNames own;
   YamlNode root;
   try {
@@ -83,8 +94,9 @@ OwnNames FindOwnNames(const std::string& path, const std::string& text) {
   } catch (const InputError&) {
     return own;
   }
-  const KnownNames known = NamesOfConfigs();
+  const KnownNames known = NamesOfConfigs(methods);
   FindMethods(root, known.methods, &own);
+  FindOwnOptions(root, known.own_options, &own);
   const YamlNode* planner = At(root, {"planner", "name"});
   if (planner != nullptr && planner->kind == Kind::kScalar && !Has(known.planners, planner->text)) {
     own.told.push_back("the planner " + planner->text);

@@ -20,7 +20,9 @@ struct OwnNames {
       own_margin;  ///< demanded of the family `own`; none: not known, or known here
 };
 
-/// Looks for them in the text of a config.yaml. What else is wrong with it is LoadConfig's to say.
-OwnNames FindOwnNames(const std::string& path, const std::string& text);
+/// Looks for them in the text of a config.yaml; `methods`: those of this program. What else is
+/// wrong with it is LoadConfig's to say.
+OwnNames FindOwnNames(const std::string& path, const std::string& text,
+                      const Methods& methods = Methods::Standard());
 
 }  // namespace halfstep::verify

@@ -28,6 +28,7 @@
 #include "experiments/verify/given_files.h"
 #include "experiments/verify/own_names.h"
 #include "experiments/verify/tolerances.h"
+#include "smoothing/methods/dichotomy.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/sha256.h"
 
@@ -49,12 +50,12 @@ void CheckHash(const char* what, const std::string& bytes, const std::string& st
 ExperimentConfig ReadConfig(const VerifyOptions& options, const std::string& path,
                             const std::string& text, const InputSearch& robot,
                             const InputSearch& scene, Findings* findings) {
-  const OwnNames own = FindOwnNames(path, text);
+  const OwnNames own = FindOwnNames(path, text, options.methods);
   std::vector<YamlOverride> overrides = GivenFiles(options);
   overrides.insert(overrides.end(), own.overrides.begin(), own.overrides.end());
   ExperimentConfig config;
   try {
-    config = ParseConfig(path, text, overrides);
+    config = ParseConfig(path, text, overrides, options.methods);
   } catch (const InputError& error) {
     std::vector<std::string> complaints = error.complaints();
     for (const InputSearch* search : {&robot, &scene}) {
@@ -67,7 +68,7 @@ ExperimentConfig ReadConfig(const VerifyOptions& options, const std::string& pat
     if (options.robot || complaints.size() > error.complaints().size())
       throw InputError(complaints);
     overrides.push_back(NamedInstead("robot", robot.places.front().string()));
-    config = ParseConfig(path, text, overrides);
+    config = ParseConfig(path, text, overrides, options.methods);
   }
   if (own.methods) config.smoothing.methods = *own.methods;
   if (!NamesOfConfigs().has_own_margins) {
@@ -117,7 +118,8 @@ std::optional<DescribedWalk> WalkOf(const MethodFiles& files, const ExperimentCo
   const std::string& method = of_method == nullptr ? "" : of_method->name;
   if (overlaps) {
     CheckFixed(half_steps, *overlaps, planned, config.smoothing.fixed, findings);
-    CheckUpperBounds(method, half_steps, *overlaps, planned, config.smoothing.dichotomy, findings);
+    CheckUpperBounds(method, half_steps, *overlaps, planned,
+                     config.smoothing.options.Get(DichotomyGroup()), findings);
     CheckChosen(method, half_steps, planned, config.smoothing, findings);
   }
   try {

@@ -20,14 +20,15 @@ struct VerifyOptions {
   std::optional<double> tolerance = {};    ///< see above; 0 … 1 [m]
   std::optional<std::string> robot = {};   ///< YAML instead of the certificate's
   std::optional<std::string> scene = {};   ///< YAML instead of the certificate's
+  Methods methods = Methods::Standard();   ///< that this program knows
 };
 
 /// What was found about one method of a run, or about an episode.
 struct MethodVerification {
-  std::string method;                   ///< its folder's name; of an episode "episode"
-  bool verified = false;                ///< whether it agrees in everything
-  bool readable = true;                 ///< false: `complaints` says what cannot be read
-  std::vector<std::string> lines;       ///< one for each check
+  std::string method;              ///< its folder's name; of an episode "episode"
+  bool verified = false;           ///< whether it agrees in everything
+  bool readable = true;            ///< false: `complaints` says what cannot be read
+  std::vector<std::string> lines;  ///< one for each check
   /// What no check could look at, with the reason: it is not part of `verified`.
   std::vector<std::string> not_examined;
   std::string too_coarse;               ///< why the rows cannot settle it; "": they can

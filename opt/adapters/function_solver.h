@@ -15,7 +15,7 @@ namespace halfstep::opt {
 /// functions return false.
 using Minimize = std::function<Eigen::VectorXd(SolveMonitor& monitor, const Eigen::VectorXd& x0)>;
 
-/// The solver that is this function, for RegisterSolver(). What it returns is evaluated and judged
+/// The solver that is this function. What it returns is evaluated and judged
 /// as any solver's end.
 std::unique_ptr<Solver> MakeFunctionSolver(const std::string& name, Minimize minimize);
 

@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 
+#include "smoothing/methods/method_options.h"
 #include "smoothing/methods/smoothing_monitor.h"
 
 namespace halfstep {
@@ -31,6 +32,11 @@ struct DichotomyOptions {
   /// largest. The overlaps found are the same, up to the tolerance.
   std::shared_ptr<const FeasibilityTest> cheaper = nullptr;
 };
+
+/// `smoothing.dichotomy`: tolerance, order, passes and caps.
+OptionGroup<DichotomyOptions> DichotomyGroup();
+/// Declares its keys.
+void DeclareFields(Fields& fields, DichotomyOptions* options);
 
 /// The paper's smoother: each junction's overlap in turn is bisected between the largest value
 /// found feasible and the smallest found infeasible, while the others stay. Only the stretch of the

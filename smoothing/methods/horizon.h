@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "smoothing/methods/method_options.h"
 #include "smoothing/methods/smoothing_monitor.h"
 #include "smoothing/program/overlap_program.h"
 
@@ -18,6 +19,11 @@ struct HorizonOptions {
   double deadline = 30.0;    ///< of all passes together [s]
   double tolerance = 0.001;  ///< of the dichotomies after them [s]
 };
+
+/// `smoothing.horizon`: window, step and passes; the rest is of `smoothing.optimizer`.
+OptionGroup<HorizonOptions> HorizonGroup();
+/// Declares its keys.
+void DeclareFields(Fields& fields, HorizonOptions* options);
 
 /// Smooths a walk of any length by programs over short windows of it, from the first half-step to
 /// the last, again and again until nothing is gained:

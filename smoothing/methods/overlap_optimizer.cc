@@ -223,7 +223,8 @@ class Optimization {
 
 SmoothingResult OptimizeOverlaps(const WalkProblem& problem, const OptimizerOptions& options,
                                  SmoothingMonitor& monitor) {
-  const std::unique_ptr<opt::Solver> solver = opt::MakeSolver(options.solver);
+  std::shared_ptr<const opt::Solver> solver = options.own_solver;
+  if (!solver) solver = opt::MakeSolver(options.solver);
   const opt::SolverTraits traits = solver->traits();
   OptimizerOptions own = options;
   own.program.watch = RowsFor(traits, problem.test(), kRowsInstants, own.program.watch);

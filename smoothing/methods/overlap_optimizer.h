@@ -1,8 +1,10 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 
+#include "opt/solvers/solver.h"
 #include "smoothing/methods/smoothing_monitor.h"
 #include "smoothing/program/overlap_program.h"
 
@@ -10,14 +12,16 @@ namespace halfstep {
 
 /// Options of the methods that are solvers.
 struct OptimizerOptions {
-  std::string solver = "ipopt";  ///< one of opt::SolverNames()
-  ProgramOptions program;        ///< what is solved, and over which parameters
+  std::string solver = "ipopt";  ///< one of opt::SolverNames(), or the name of `own_solver`
+  std::shared_ptr<const opt::Solver> own_solver = nullptr;  ///< where set: in its place
+  ProgramOptions program;  ///< what is solved, and over which parameters
   /// Where to begin, instead of at the dichotomy's result.
   std::optional<HomotopyParameters> start = std::nullopt;
   /// For `safest`, the most that D may be [s]; 0: the duration of the walk that it begins with.
   double duration_limit = 0.0;
-  /// Before it solves for the whole walk, `fastest` with forms or footsteps lets a solver that likes
-  /// many rows (SolverTraits::many_rows) go through walks of more than 6 half-steps in windows.
+  /// Before it solves for the whole walk, `fastest` with forms or footsteps lets a solver that
+  /// likes many rows (SolverTraits::many_rows) go through walks of more than 6 half-steps in
+  /// windows.
   bool windows = true;
   bool planned_start = true;  ///< solve also from the planned motion, for `fastest` shortened
   int random_starts = 0;      ///< and from random points of the variables' box

@@ -66,7 +66,7 @@ std::string UnprovedSentence(const WalkProblem& problem, const Feasibility& answ
 }
 
 SmoothingResult RunSmoother(const Smoother& smoother, const WalkProblem& problem,
-                            const SmootherOptions& options, SmoothingMonitor& monitor) {
+                            const MethodOptions& options, SmoothingMonitor& monitor) {
   SmoothingResult result;
   try {
     result = smoother.Smooth(problem, options, monitor);

@@ -12,8 +12,7 @@ namespace halfstep {
 /// where the problem's test refuses it, the result keeps it, is not feasible and kFailed, with the
 /// witness. Throws InputError where the smoother does, and nothing else of it.
 [[nodiscard]] SmoothingResult RunSmoother(const Smoother& smoother, const WalkProblem& problem,
-                                          const SmootherOptions& options,
-                                          SmoothingMonitor& monitor);
+                                          const MethodOptions& options, SmoothingMonitor& monitor);
 
 /// What is to be said of a result whose walk the test did not accept, but its method did not say
 /// so: the verdict with its witness, and the message that the result had.

@@ -1,30 +1,13 @@
 #pragma once
 
-#include <optional>
 #include <string>
+#include <vector>
 
-#include "smoothing/methods/dichotomy.h"
-#include "smoothing/methods/horizon.h"
-#include "smoothing/methods/overlap_optimizer.h"
-#include "smoothing/methods/pareto.h"
+#include "smoothing/methods/method_options.h"
 #include "smoothing/methods/smoothing_monitor.h"
 #include "smoothing/methods/walk_problem.h"
-#include "smoothing/walk/homotopy_parameters.h"
 
 namespace halfstep {
-
-/// The options of all methods; each takes those of its group.
-struct SmootherOptions {
-  DichotomyOptions dichotomy = {};  ///< of the dichotomy, and of methods that begin with it
-  OptimizerOptions optimizer = {};  ///< of methods that are solvers
-  std::optional<ParetoOptions> pareto = std::nullopt;  ///< when set, solvers make a ParetoCurve
-  HorizonOptions horizon = {};  ///< window, step and passes; the rest is `optimizer`'s
-  /// The walk of the method `given`; none: the one that the problem starts from.
-  std::optional<HomotopyParameters> given = std::nullopt;
-};
-
-/// The group of options that a method takes.
-enum class OptionGroup { kNone, kDichotomy, kOptimizer, kHorizon, kGiven };
 
 /// A method of smoothing a walk, behind the common interface. Immutable: may be called again and
 /// from several threads, with a monitor each.
@@ -34,13 +17,17 @@ class Smoother {
 
   virtual std::string name() const = 0;     ///< "dichotomy", "halfstep/sqp" …
   virtual std::string meaning() const = 0;  ///< one line, for `halfstep list methods`
-  virtual OptionGroup options() const = 0;  ///< which group of SmootherOptions it takes
+  /// The groups of options that it declares: its own, or those that it shares with other methods.
+  virtual std::vector<DeclaredGroup> groups() const { return {}; }
+  /// Declares what a run's manifest says that the method was asked for: in `variables` the families
+  /// that it may move, then its options. As it stands: the overlaps, and the keys of its groups.
+  virtual void DeclareRequest(Fields& fields, MethodOptions options) const;
 
   /// Smooths from the problem's start. Feasible means by the problem's test
   /// (SmoothingResult::evidence). How the search ended, also for want of a feasible start, is a
   /// status with a sentence, not an exception. Throws std::logic_error for impossible options.
   [[nodiscard]] virtual SmoothingResult Smooth(const WalkProblem& problem,
-                                               const SmootherOptions& options,
+                                               const MethodOptions& options,
                                                SmoothingMonitor& monitor) const = 0;
 };
 

@@ -149,7 +149,7 @@ void Dichotomies() {
     const MarginEvaluator evaluator(e.robot, e.scene, e.config.smoothing.limits);
     const SampledFeasibility sampled(evaluator, 0.005);
     const CertifiedFeasibility certified(evaluator, e.config.smoothing.certification);
-    const DichotomyOptions options = e.config.smoothing.dichotomy;
+    const DichotomyOptions options = e.config.smoothing.options.Get(DichotomyGroup());
     std::array<SmoothingResult, 2> results;
     std::array<double, 2> durations, walls;
     for (size_t k = 0; k < 2; ++k) {

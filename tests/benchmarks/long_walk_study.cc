@@ -17,7 +17,8 @@
 #include <vector>
 
 #include "experiments/config/experiment.h"
-#include "smoothing/methods/smoother_registry.h"
+#include "smoothing/methods/methods.h"
+#include "smoothing/methods/solver_method_options.h"
 #include "smoothing/proof/certified_feasibility.h"
 #include "tests/smoothing/smoothed.h"
 
@@ -58,9 +59,10 @@ void Study(const std::string& method, const std::string& variables, bool arc, in
   Experiment e = LongWalk(n, arc);
   AddBoxes(obstacles, &e.scene);
   const CertifiedFeasibility test({e.robot, e.scene, e.config.smoothing.limits}, {});
-  SmootherOptions options;
-  options.optimizer.deadline = 1e4;
-  ParameterChoice& choice = options.optimizer.program.parameters;
+  MethodOptions options;
+  OptimizerOptions& optimizer = options.Edit(OptimizerGroup()).options;
+  optimizer.deadline = 1e4;
+  ParameterChoice& choice = optimizer.program.parameters;
   choice.heights = variables.find('h') != std::string::npos;
   choice.durations = variables.find('t') != std::string::npos;
   choice.support_points = variables.find('s') != std::string::npos;
@@ -74,7 +76,7 @@ void Study(const std::string& method, const std::string& variables, bool arc, in
     gains.emplace_back(Processor() - begin, duration);
   }});
   const SmoothingResult result =
-      FindSmoother(method).Smooth(ProblemOf(e.sequence, test), options, monitor);
+      Methods::Standard().Find(method).Smooth(ProblemOf(e.sequence, test), options, monitor);
   const double end = Processor() - begin, D = DurationOf(result.parameters);
   const auto within = [&](double part) {
     for (const auto& [when, duration] : gains) {

@@ -20,8 +20,9 @@
 #include "opt/adapters/solver_registry.h"
 #include "opt/problem/problem_derivatives.h"
 #include "smoothing/methods/dichotomy.h"
+#include "smoothing/methods/methods.h"
 #include "smoothing/methods/overlap_optimizer.h"
-#include "smoothing/methods/smoother_registry.h"
+#include "smoothing/methods/solver_method_options.h"
 #include "smoothing/proof/certified_feasibility.h"
 #include "tests/smoothing/smoothed.h"
 
@@ -132,14 +133,16 @@ Case SolveCase(const Experiment& e, const MarginEvaluator& evaluator, const std:
   const CertifiedFeasibility test(evaluator, {});
   Case done{.method = method, .result = {}};
   std::vector<HomotopyParameters> incumbents;
-  SmootherOptions options;
-  options.optimizer.program.kind = KindOf(kind);
-  options.optimizer.program.parameters.heights = variables.find('h') != std::string::npos;
-  options.optimizer.program.parameters.durations = variables.find('t') != std::string::npos;
-  options.optimizer.deadline = deadline;
+  MethodOptions options;
+  OptimizerOptions& optimizer = options.Edit(OptimizerGroup()).options;
+  optimizer.program.kind = KindOf(kind);
+  optimizer.program.parameters.heights = variables.find('h') != std::string::npos;
+  optimizer.program.parameters.durations = variables.find('t') != std::string::npos;
+  optimizer.deadline = deadline;
   SmoothingMonitor monitor(
       {.on_incumbent = [&](const HomotopyParameters& p) { incumbents.push_back(p); }});
-  done.result = FindSmoother(method).Smooth(ProblemOf(e.sequence, test), options, monitor);
+  done.result =
+      Methods::Standard().Find(method).Smooth(ProblemOf(e.sequence, test), options, monitor);
   incumbents.push_back(done.result.parameters);
   for (const HomotopyParameters& p : incumbents) {
     const SuperposedWalk walk(e.sequence, p);
@@ -317,19 +320,20 @@ void Threads(const std::string& what, const std::string& method, int threads) {
   const Experiment e = LoadScene(what);
   const MarginEvaluator evaluator(e.robot, e.scene, e.config.smoothing.limits);
   const CertifiedFeasibility test(evaluator, {});
-  SmootherOptions options;
-  options.optimizer.program.parameters.heights = true;
-  options.optimizer.program.parameters.durations = true;
-  options.optimizer.rounds = 12;
-  options.optimizer.deadline = options.horizon.deadline = 1e4;
-  options.horizon.program = options.optimizer.program;
+  MethodOptions options;
+  OptimizerOptions& optimizer = options.Edit(OptimizerGroup()).options;
+  optimizer.program.parameters.heights = true;
+  optimizer.program.parameters.durations = true;
+  optimizer.rounds = 12;
+  optimizer.deadline = 1e4;
   std::vector<SmoothingResult> results;
   std::vector<double> proofs, own;
   for (const int n : {1, threads}) {
     const auto workers = std::make_shared<Workers>(n);
     SmoothingMonitor monitor({.workers = workers});
     const double started = OwnProcessor();
-    results.push_back(FindSmoother(method).Smooth(ProblemOf(e.sequence, test), options, monitor));
+    results.push_back(
+        Methods::Standard().Find(method).Smooth(ProblemOf(e.sequence, test), options, monitor));
     own.push_back(OwnProcessor() - started);
     const SuperposedWalk walk(e.sequence, results.back().parameters);
     MarginEvaluator::Scratch scratch = evaluator.MakeScratch();

@@ -66,8 +66,9 @@ void Study(const std::string& config, const std::string& method, const std::stri
 
 int main(int argc, char** argv) {
   if (argc > 1 && std::string(argv[1]) == "run") {
-    halfstep::RegisterReferenceSmoothers();
-    return halfstep::RunExperiment(argc, argv);
+    halfstep::Methods methods = halfstep::Methods::Standard();
+    halfstep::AddReferenceSmoothers(&methods);
+    return halfstep::RunExperiment(argc, argv, methods);
   }
   if (argc != 4) {
     std::fprintf(stderr, "usage: reference_study CONFIG METHOD VARIABLES | run CONFIG...\n");

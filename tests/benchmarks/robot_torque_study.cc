@@ -73,8 +73,8 @@ void Needs(const std::string& name, const std::vector<std::string>& durations) {
                     {"smoothing.margins.friction", "none"}}));
     const MarginEvaluator evaluator(e.robot, e.scene, e.config.smoothing.limits);
     const CertifiedFeasibility proof(evaluator, {});
-    const SmoothingResult smoothed =
-        Smoothed(Dichotomy, ProblemOf(e.sequence, proof), e.config.smoothing.dichotomy);
+    const SmoothingResult smoothed = Smoothed(Dichotomy, ProblemOf(e.sequence, proof),
+                                              e.config.smoothing.options.Get(DichotomyGroup()));
     const SuperposedWalk walk(e.sequence, smoothed.parameters);
     Vector6d most = Vector6d::Zero();
     double friction = 0;
@@ -131,8 +131,8 @@ void Cost(const std::string& name) {
   }
   const MarginEvaluator evaluator(robot, e.scene, none);
   const CertifiedFeasibility proof(evaluator, {});
-  const SmoothingResult smoothed =
-      Smoothed(Dichotomy, ProblemOf(e.sequence, proof), e.config.smoothing.dichotomy);
+  const SmoothingResult smoothed = Smoothed(Dichotomy, ProblemOf(e.sequence, proof),
+                                            e.config.smoothing.options.Get(DichotomyGroup()));
   const SuperposedWalk walk(e.sequence, smoothed.parameters);
   std::array<double, 2> first{};
   for (const int with : {0, 1, 2, 3}) {

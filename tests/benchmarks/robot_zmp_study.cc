@@ -58,8 +58,8 @@ void Cost(const std::string& name) {
   }
   const MarginEvaluator all(e.robot, e.scene, limits), some = all.WithLimits(without);
   const CertifiedFeasibility proof(all, {}), proof_without(some, {});
-  const SmoothingResult smoothed =
-      Smoothed(Dichotomy, ProblemOf(e.sequence, proof), e.config.smoothing.dichotomy);
+  const SmoothingResult smoothed = Smoothed(Dichotomy, ProblemOf(e.sequence, proof),
+                                            e.config.smoothing.options.Get(DichotomyGroup()));
   const SuperposedWalk walk(e.sequence, smoothed.parameters);
   const auto sampled = [&](const MarginEvaluator& evaluator) {
     return [&] {
@@ -88,7 +88,10 @@ void Cost(const std::string& name) {
     };
   };
   const auto dichotomy = [&](const CertifiedFeasibility& test) {
-    return [&] { Smoothed(Dichotomy, ProblemOf(e.sequence, test), e.config.smoothing.dichotomy); };
+    return [&] {
+      Smoothed(Dichotomy, ProblemOf(e.sequence, test),
+               e.config.smoothing.options.Get(DichotomyGroup()));
+    };
   };
   const auto print = [&](const char* what, const Pair& pair) {
     std::printf("%-14s %-34s %9.2f ms %9.2f ms %6.2f\n", name.c_str(), what, 1e3 * pair.without,

@@ -7,7 +7,7 @@
 
 #include "experiments/commands/commands.h"
 #include "opt/solvers/ending.h"
-#include "smoothing/methods/smoother_registry.h"
+#include "smoothing/methods/methods.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/run_check.h"
 #include "tests/temporary_folder.h"
@@ -21,7 +21,7 @@ using testing::Not;
 constexpr char kRefuses[] = "nlopt/bobyqa";  // knows no constraints
 
 bool IsThere(const std::string& method) {
-  const std::vector<std::string> names = SmootherNames();
+  const std::vector<std::string> names = Methods::Standard().Names();
   return std::find(names.begin(), names.end(), method) != names.end();
 }
 

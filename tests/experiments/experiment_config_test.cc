@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "experiments/config/experiment.h"
+#include "smoothing/methods/solver_method_options.h"
 #include "tests/fixture_check.h"
 #include "tests/temporary_folder.h"
 
@@ -159,7 +160,8 @@ TEST(ExperimentConfig, AllFamiliesAreVariablesUnlessToldNot) {
         "smoothing: {optimizer: {" +
         optimizer + "}}\n";
     return LoadConfig(WriteText(place / "c.yaml", text), {})
-        .smoothing.optimizer.options.program.parameters;
+        .smoothing.options.Get(OptimizerGroup())
+        .options.program.parameters;
   };
   const ParameterChoice all = choice_of("all_families: true, foot_ramps: false");
   for (const ParameterFamily family : AllParameterFamilies()) {
@@ -187,9 +189,9 @@ TEST(ExperimentConfig, AllFamiliesAreVariablesUnlessToldNot) {
       "smoothing: {optimizer: {all_families: true, heights: false, least_duration: 0.4}}\n";
   const ExperimentConfig config = LoadConfig(WriteText(place / "some.yaml", text), {});
   const ExperimentConfig again = LoadConfig(WriteText(place / "written.yaml", Written(config)), {});
-  EXPECT_EQ(again.smoothing.optimizer.options.program.parameters,
-            config.smoothing.optimizer.options.program.parameters);
-  EXPECT_FALSE(again.smoothing.optimizer.options.program.parameters.heights);
+  EXPECT_EQ(again.smoothing.options.Get(OptimizerGroup()).options.program.parameters,
+            config.smoothing.options.Get(OptimizerGroup()).options.program.parameters);
+  EXPECT_FALSE(again.smoothing.options.Get(OptimizerGroup()).options.program.parameters.heights);
 }
 
 TEST(ExperimentConfig, NothingNeedBeDemandedOfTheWholeRobotsZmp) {

@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "experiments/commands/commands.h"
-#include "smoothing/methods/smoother_registry.h"
+#include "smoothing/methods/methods.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/long_walk.h"
 #include "tests/experiments/run_check.h"
@@ -26,7 +26,7 @@ using std::chrono::steady_clock;
 // The optimizing methods of this build among those that the test wants.
 std::vector<std::string> OptimizingMethods() {
   std::vector<std::string> methods;
-  const std::vector<std::string> known = SmootherNames();
+  const std::vector<std::string> known = Methods::Standard().Names();
   for (const std::string wanted : {"ipopt", "halfstep/barrier"}) {
     if (std::find(known.begin(), known.end(), wanted) != known.end()) methods.push_back(wanted);
   }

@@ -9,7 +9,8 @@
 
 #include "experiments/run/smoothing_of.h"
 #include "opt/problem/derivative_check.h"
-#include "smoothing/methods/smoother_registry.h"
+#include "smoothing/methods/methods.h"
+#include "smoothing/methods/solver_method_options.h"
 #include "smoothing/program/overlap_program.h"
 #include "smoothing/proof/certified_feasibility.h"
 #include "tests/extensions/com_speed.h"
@@ -33,7 +34,8 @@ class OwnMarginTest : public testing::Test {
 
   SmoothingResult Smoothed(const std::string& method) const {
     SmoothingMonitor monitor;
-    return FindSmoother(method).Smooth(problem_, OptionsOf(experiment_.config), monitor);
+    return Methods::Standard().Find(method).Smooth(problem_, OptionsOf(experiment_.config),
+                                                   monitor);
   }
 };
 

@@ -16,8 +16,9 @@
 #include "experiments/run/complete_manifest.h"
 #include "experiments/run/experiment_run.h"
 #include "experiments/run/smoothing_of.h"
+#include "smoothing/methods/methods.h"
 #include "smoothing/methods/run_smoother.h"
-#include "smoothing/methods/smoother_registry.h"
+#include "smoothing/methods/solver_method_options.h"
 #include "smoothing/proof/certified_feasibility.h"
 #include "tests/scenarios/load_experiment.h"
 #include "wpg/files/input_error.h"
@@ -38,8 +39,7 @@ class Own : public Smoother {
   Own(std::string name, Search search) : name_(std::move(name)), search_(std::move(search)) {}
   std::string name() const override { return name_; }
   std::string meaning() const override { return "of a test"; }
-  OptionGroup options() const override { return OptionGroup::kNone; }
-  SmoothingResult Smooth(const WalkProblem& problem, const SmootherOptions&,
+  SmoothingResult Smooth(const WalkProblem& problem, const MethodOptions&,
                          SmoothingMonitor& monitor) const override {
     return search_(problem, monitor);
   }
@@ -187,16 +187,18 @@ TEST(OwnSmoother, ThatThrowsKeepsWhatWasAccepted) {
 
 // The whole of a run: what it writes of liars and of those that throw, beside what works.
 TEST(OwnSmoother, ALieOrAnExceptionShowsInTheRunAndTheOthersAreWritten) {
-  RegisterSmoother(std::make_shared<Own>("mine/lies", Lie));
-  RegisterSmoother(std::make_shared<Own>("mine/lax", AskALaxTest));
-  RegisterSmoother(std::make_shared<Own>(
-      "mine/throws", [](const WalkProblem&, SmoothingMonitor&) -> SmoothingResult {
-        throw std::runtime_error("no more");
-      }));
+  Methods methods = Methods::Standard();
+  methods.Add(std::make_shared<Own>("mine/lies", Lie));
+  methods.Add(std::make_shared<Own>("mine/lax", AskALaxTest));
+  methods.Add(std::make_shared<Own>("mine/throws",
+                                    [](const WalkProblem&, SmoothingMonitor&) -> SmoothingResult {
+                                      throw std::runtime_error("no more");
+                                    }));
   const std::string config = HALFSTEP_SOURCE_DIR "/experiments/configs/fig3_two_half_steps.yaml";
   const RunHooks hooks{.progress = [](const std::string&, double) {}, .stop = {}};
   ExperimentRun run(
-      LoadConfig(config, {{"smoothing.methods", "[mine/throws, mine/lies, mine/lax, dichotomy]"}}),
+      LoadConfig(config, {{"smoothing.methods", "[mine/throws, mine/lies, mine/lax, dichotomy]"}},
+                 methods),
       hooks);
   run.Smooth(hooks);
   run.Certify({});

@@ -1,4 +1,4 @@
-// What a program registers is named in configs beside what is built in.
+// What a program adds is named in configs beside what is built in.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,7 +11,8 @@
 #include "opt/adapters/solver_registry.h"
 #include "opt/problem/derivative_check.h"
 #include "planner/search/planner_registry.h"
-#include "smoothing/methods/smoother_registry.h"
+#include "smoothing/methods/methods.h"
+#include "smoothing/methods/solver_method_options.h"
 #include "smoothing/program/overlap_program.h"
 #include "smoothing/program/walk_cost.h"
 #include "tests/scenarios/load_experiment.h"
@@ -20,7 +21,6 @@
 namespace halfstep {
 namespace {
 
-using testing::Contains;
 using testing::HasSubstr;
 
 class PlanAsItIs : public Smoother {
@@ -28,8 +28,7 @@ class PlanAsItIs : public Smoother {
   explicit PlanAsItIs(std::string meaning) : meaning_(std::move(meaning)) {}
   std::string name() const override { return "mine/plan"; }
   std::string meaning() const override { return meaning_; }
-  OptionGroup options() const override { return OptionGroup::kNone; }
-  SmoothingResult Smooth(const WalkProblem& problem, const SmootherOptions&,
+  SmoothingResult Smooth(const WalkProblem& problem, const MethodOptions&,
                          SmoothingMonitor& monitor) const override {
     if (!monitor.BeginFeasibly(problem, problem.Start())) return monitor.Refusal();
     return monitor.Finish(opt::Ending::kConverged, "the plan");
@@ -39,22 +38,28 @@ class PlanAsItIs : public Smoother {
   const std::string meaning_;
 };
 
-ExperimentConfig WithOptions(const std::vector<YamlOverride>& overrides) {
-  return LoadConfig(HALFSTEP_SOURCE_DIR "/experiments/configs/fig3_two_half_steps.yaml", overrides);
+ExperimentConfig WithOptions(const std::vector<YamlOverride>& overrides,
+                             const Methods& methods = Methods::Standard()) {
+  return LoadConfig(HALFSTEP_SOURCE_DIR "/experiments/configs/fig3_two_half_steps.yaml", overrides,
+                    methods);
 }
 
-TEST(RegisterSmoother, MakesAMethodThatConfigsName) {
+TEST(OwnMethods, AreNamedByConfigs) {
   EXPECT_THROW(WithOptions({{"smoothing.methods", "[mine/plan]"}}), InputError);
-  RegisterSmoother(std::make_shared<PlanAsItIs>("first"));
-  const Experiment experiment = Prepare(WithOptions({{"smoothing.methods", "[mine/plan]"}}));
+  Methods methods = Methods::Standard();
+  methods.Add(std::make_shared<PlanAsItIs>("first"));
+  const Experiment experiment =
+      Prepare(WithOptions({{"smoothing.methods", "[mine/plan]"}}, methods));
   SmoothingMonitor monitor;
   const SmoothingResult result =
-      FindSmoother("mine/plan")
+      methods.Find("mine/plan")
           .Smooth(ProblemOf(experiment), OptionsOf(experiment.config), monitor);
   EXPECT_EQ(result.message, "the plan");
-  RegisterSmoother(std::make_shared<PlanAsItIs>("second"));
-  EXPECT_EQ(FindSmoother("mine/plan").meaning(), "second");
-  EXPECT_EQ(std::ranges::count(SmootherNames(), "mine/plan"), 1);
+  methods.Add(std::make_shared<PlanAsItIs>("second"));
+  EXPECT_EQ(methods.Find("mine/plan").meaning(), "second");
+  EXPECT_EQ(experiment.config.smoothing.known.Find("mine/plan").meaning(), "first");
+  EXPECT_EQ(std::ranges::count(methods.Names(), "mine/plan"), 1);
+  EXPECT_EQ(std::ranges::count(Methods::Standard().Names(), "mine/plan"), 0);
 }
 
 class Dichotomous : public PlanAsItIs {
@@ -63,30 +68,37 @@ class Dichotomous : public PlanAsItIs {
   std::string name() const override { return "dichotomy"; }
 };
 
-TEST(RegisterSmoother, RefusesTheNameOfOneThatIsBuiltIn) {
-  EXPECT_THROW(RegisterSmoother(std::make_shared<Dichotomous>("")), std::invalid_argument);
+TEST(OwnMethods, HaveNoNameOfOneThatIsBuiltIn) {
+  Methods methods = Methods::Standard();
+  EXPECT_THROW(methods.Add(std::make_shared<Dichotomous>("")), std::invalid_argument);
+  EXPECT_EQ(methods.Names(), Methods::Standard().Names());
 }
 
-TEST(RegisterSolver, MakesASolverAndAMethod) {
-  SmootherNames();  // those that are built in are there already
-  opt::RegisterSolver([] {
+TEST(OwnSolver, IsAMethod) {
+  const auto make = [] {
     return opt::MakeFunctionSolver(
         "mine/stay", [](opt::SolveMonitor&, const Eigen::VectorXd& x0) { return x0; });
-  });
-  EXPECT_THAT(opt::SolverNames(), Contains("mine/stay"));
+  };
+  Methods methods = Methods::Standard();
+  methods.AddSolver(make());
+  methods.AddSolver(make());
+  EXPECT_EQ(methods.own_solvers().size(), 1u);
+  EXPECT_EQ(std::ranges::count(methods.Names(), "mine/stay"), 1);
   const Experiment experiment = Prepare(WithOptions(
-      {{"smoothing.methods", "[mine/stay]"}, {"smoothing.optimizer.planned_start", "false"}}));
+      {{"smoothing.methods", "[mine/stay]"}, {"smoothing.optimizer.planned_start", "false"}},
+      methods));
   SmoothingMonitor monitor;
   const SmoothingResult result =
-      FindSmoother("mine/stay")
+      methods.Find("mine/stay")
           .Smooth(ProblemOf(experiment), OptionsOf(experiment.config), monitor);
   EXPECT_TRUE(result.feasible);
   EXPECT_EQ(result.ending, opt::Ending::kNoImprovement);
-  EXPECT_THROW(opt::RegisterSolver([] { return opt::MakeSolver("halfstep/sqp"); }),
-               std::invalid_argument);
+  for (const std::string& built_in : opt::SolverNames()) {
+    EXPECT_THROW(methods.AddSolver(opt::MakeSolver(built_in)), std::invalid_argument) << built_in;
+  }
 }
 
-TEST(RegisterSolver, WhatThrowsIsToldAndNotBelieved) {
+TEST(OwnSolver, WhatThrowsIsToldAndNotBelieved) {
   const auto solver = opt::MakeFunctionSolver(
       "mine/throws", [](opt::SolveMonitor&, const Eigen::VectorXd&) -> Eigen::VectorXd {
         throw std::runtime_error("no more");
@@ -144,10 +156,12 @@ TEST(RegisterWalkCost, IsAWeightOfTheProgramSmooth) {
                                              {"smoothing.optimizer.weights.long_half_steps", "3"}};
   EXPECT_THROW(WithOptions(weighed), InputError);
   RegisterWalkCost(std::make_shared<LongHalfSteps>());
-  EXPECT_TRUE(WithOptions({}).smoothing.optimizer.options.program.own_costs.empty());
+  EXPECT_TRUE(
+      WithOptions({}).smoothing.options.Get(OptimizerGroup()).options.program.own_costs.empty());
   const Experiment experiment = Prepare(WithOptions(weighed));
   const WalkProblem walk = ProblemOf(experiment);
-  const ProgramOptions& options = experiment.config.smoothing.optimizer.options.program;
+  const ProgramOptions& options =
+      experiment.config.smoothing.options.Get(OptimizerGroup()).options.program;
   const OverlapProgram program(walk.sequence(), walk.evaluator(), options, 0.0);
   ProgramOptions without = options;
   without.own_costs.clear();

@@ -2,13 +2,43 @@
 
 #include "planner/search/planner_registry.h"
 #include "smoothing/margins/own_margin.h"
-#include "smoothing/methods/smoother_registry.h"
+#include "smoothing/methods/dichotomy.h"
+#include "smoothing/methods/horizon.h"
+#include "smoothing/methods/methods.h"
+#include "smoothing/methods/solver_method_options.h"
 #include "smoothing/program/walk_cost.h"
 
 namespace halfstep {
 
-std::vector<std::string> SmootherNames() {
-  return {"dichotomy", "dichotomy/published", "halfstep/sqp", "halfstep/barrier"};
+namespace {
+
+using Groups = std::vector<DeclaredGroup>;
+
+class NoMethod : public Smoother {
+ public:
+  NoMethod(std::string name, Groups groups) : name_(std::move(name)), groups_(std::move(groups)) {}
+  std::string name() const override { return name_; }
+  std::string meaning() const override { return ""; }
+  Groups groups() const override { return groups_; }
+  SmoothingResult Smooth(const WalkProblem&, const MethodOptions&,
+                         SmoothingMonitor&) const override {
+    return {};
+  }
+
+ private:
+  std::string name_;
+  Groups groups_;
+};
+
+}  // namespace
+
+Methods Methods::Standard() {
+  return Methods(
+      {std::make_shared<NoMethod>("dichotomy", Groups{DichotomyGroup()}),
+       std::make_shared<NoMethod>("dichotomy/published", Groups{}),
+       std::make_shared<NoMethod>("halfstep/sqp", Groups{OptimizerGroup()}),
+       std::make_shared<NoMethod>("halfstep/barrier", Groups{OptimizerGroup()}),
+       std::make_shared<NoMethod>("halfstep/horizon", Groups{HorizonGroup(), OptimizerGroup()})});
 }
 
 std::vector<std::string> PlannerNames() { return {"rrt", "astar", "bounding_box"}; }

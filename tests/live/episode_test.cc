@@ -10,6 +10,7 @@
 #include "experiments/live/episode_loop.h"
 #include "experiments/live/episode_touch.h"
 #include "experiments/live/thinker.h"
+#include "smoothing/methods/solver_method_options.h"
 #include "smoothing/proof/certified_feasibility.h"
 #include "tests/live/small_episode.h"
 

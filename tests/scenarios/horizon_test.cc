@@ -11,8 +11,9 @@
 #include "opt/adapters/solver_registry.h"
 #include "smoothing/methods/accepted_in_parts.h"
 #include "smoothing/methods/dichotomy.h"
+#include "smoothing/methods/methods.h"
 #include "smoothing/methods/repeated_steps.h"
-#include "smoothing/methods/smoother_registry.h"
+#include "smoothing/methods/solver_method_options.h"
 #include "smoothing/methods/walk_window.h"
 #include "smoothing/methods/window_search.h"
 #include "smoothing/proof/certified_feasibility.h"
@@ -298,15 +299,16 @@ TEST(Horizon, RefusesAProgramThatBelongsToTheWholeWalk) {
   const Experiment e = LoadExperiment("fig3_two_half_steps");
   const CertifiedFeasibility test({e.robot, e.scene, e.config.smoothing.limits}, {});
   for (const bool curve : {false, true}) {
-    SmootherOptions options;
+    MethodOptions options;
     if (curve) {
-      options.pareto = ParetoOptions{};
+      options.Edit(OptimizerGroup()).program = "pareto";
     } else {
-      options.optimizer.program.kind = ProgramKind::kSafest;
+      options.Edit(OptimizerGroup()).options.program.kind = ProgramKind::kSafest;
     }
+    const Methods methods = Methods::Standard();
     SmoothingMonitor monitor;
     const SmoothingResult result =
-        FindSmoother("halfstep/horizon").Smooth(ProblemOf(e.sequence, test), options, monitor);
+        methods.Find("halfstep/horizon").Smooth(ProblemOf(e.sequence, test), options, monitor);
     EXPECT_EQ(result.ending, opt::Ending::kInvalidInput);
     EXPECT_THAT(result.message, testing::HasSubstr("(valid: fastest, smooth)"));
     EXPECT_TRUE(result.feasible);

@@ -12,7 +12,8 @@
 
 #include "smoothing/margins/slack_evaluator.h"
 #include "smoothing/methods/dichotomy.h"
-#include "smoothing/methods/smoother_registry.h"
+#include "smoothing/methods/methods.h"
+#include "smoothing/methods/solver_method_options.h"
 #include "smoothing/program/watched_instants.h"
 #include "smoothing/proof/certified_feasibility.h"
 #include "tests/scenarios/load_experiment.h"
@@ -36,18 +37,19 @@ TEST_P(EveryMethod, ReturnsACertifiedWalkAcrossABarThatMoves) {
   const Experiment e = LoadExperiment("crossing");
   const CertifiedFeasibility test(MarginEvaluator(e.robot, e.scene, e.config.smoothing.limits), {});
   SmoothingMonitor monitor({.deadline = 2.0});
-  SmootherOptions options;
-  options.optimizer.deadline = 2.0;
-  options.optimizer.program.parameters = {.heights = true, .durations = true};
+  MethodOptions options;
+  OptimizerOptions& optimizer = options.Edit(OptimizerGroup()).options;
+  optimizer.deadline = 2.0;
+  optimizer.program.parameters = {.heights = true, .durations = true};
   const SmoothingResult result =
-      FindSmoother(GetParam()).Smooth(ProblemOf(e.sequence, test), options, monitor);
+      Methods::Standard().Find(GetParam()).Smooth(ProblemOf(e.sequence, test), options, monitor);
   EXPECT_TRUE(result.feasible) << result.message;
   EXPECT_EQ(result.evidence, Evidence::kCertified);
   EXPECT_TRUE(IsCertified(e, e.scene, result.parameters));
   EXPECT_LE(DurationOf(result.parameters), DurationOf(PlannedMotion(e.sequence)));
 }
 
-INSTANTIATE_TEST_SUITE_P(All, EveryMethod, testing::ValuesIn(SmootherNames()),
+INSTANTIATE_TEST_SUITE_P(All, EveryMethod, testing::ValuesIn(Methods::Standard().Names()),
                          [](const testing::TestParamInfo<std::string>& method) {
                            std::string name = method.param;
                            std::replace(name.begin(), name.end(), '/', '_');

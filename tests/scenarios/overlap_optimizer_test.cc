@@ -14,6 +14,7 @@
 #include "smoothing/methods/dichotomy.h"
 #include "smoothing/methods/incumbent.h"
 #include "smoothing/methods/pareto.h"
+#include "smoothing/methods/solver_method_options.h"
 #include "smoothing/proof/certified_feasibility.h"
 #include "tests/scenarios/load_experiment.h"
 #include "tests/smoothing/fake_feasibility.h"
@@ -124,7 +125,7 @@ TEST(SlowArc, RowsWhoseMultipliersAreLargeAreKeptAllTheSame) {
   const Experiment e =
       Prepare(LoadConfig(HALFSTEP_SOURCE_DIR "/tests/fixtures/walk/slow_arc.yaml", {}));
   const CertifiedFeasibility test({e.robot, e.scene, e.config.smoothing.limits}, {});
-  OptimizerOptions options = e.config.smoothing.optimizer.options;
+  OptimizerOptions options = e.config.smoothing.options.Get(OptimizerGroup()).options;
   options.solver = "halfstep/sqp";
   options.deadline = 100.0;
   const SmoothingResult result = Smoothed(OptimizeOverlaps, ProblemOf(e.sequence, test), options);
@@ -138,7 +139,7 @@ TEST(Turn, ShortHalfStepsAreFoundWhereLongOnesAreALocalOptimum) {
   const Experiment e =
       Prepare(LoadConfig(HALFSTEP_SOURCE_DIR "/tests/fixtures/walk/turn.yaml", {}));
   const CertifiedFeasibility test({e.robot, e.scene, e.config.smoothing.limits}, {});
-  OptimizerOptions options = e.config.smoothing.optimizer.options;
+  OptimizerOptions options = e.config.smoothing.options.Get(OptimizerGroup()).options;
   options.solver = "halfstep/sqp";
   options.deadline = 100.0;
   const SmoothingResult result = Smoothed(OptimizeOverlaps, ProblemOf(e.sequence, test), options);

@@ -7,7 +7,8 @@
 #include <stop_token>
 
 #include "smoothing/methods/dichotomy.h"
-#include "smoothing/methods/smoother_registry.h"
+#include "smoothing/methods/methods.h"
+#include "smoothing/methods/solver_method_options.h"
 #include "smoothing/methods/uniform_scan.h"
 #include "smoothing/program/overlap_program.h"
 #include "smoothing/proof/certified_feasibility.h"
@@ -138,9 +139,10 @@ TEST_F(ReferenceMethods, StoppedTheyKeepWhatWasFeasible) {
 // From the question on at which a stop is asked for, or the deadline has passed, no method asks
 // many more: it finishes what it is at.
 TEST_F(ReferenceMethods, StoppedInTheMiddleTheyAskLittleMore) {
-  RegisterReferenceSmoothers();
-  SmootherOptions options;
-  options.optimizer.program.parameters = {.heights = true, .durations = true};
+  Methods methods = Methods::Standard();
+  AddReferenceSmoothers(&methods);
+  MethodOptions options;
+  options.Edit(OptimizerGroup()).options.program.parameters = {.heights = true, .durations = true};
   for (const char* name : {"coordinate", "dichotomy/uniform", "reference"}) {
     for (const size_t when : {20u, 100u}) {
       std::stop_source source;
@@ -153,20 +155,20 @@ TEST_F(ReferenceMethods, StoppedInTheMiddleTheyAskLittleMore) {
       });
       SmoothingMonitor monitor({.stop = source.get_token()});
       const SmoothingResult result =
-          FindSmoother(name).Smooth(ProblemOf(sequence_, stops), options, monitor);
+          methods.Find(name).Smooth(ProblemOf(sequence_, stops), options, monitor);
       EXPECT_GE(count, when) << name << ": never stopped";
       EXPECT_LE(count, when + 60) << name;
       EXPECT_NE(result.ending, opt::Ending::kConverged) << name;
       EXPECT_TRUE(result.feasible);
     }
-    options.optimizer.deadline = 1e-6;
+    options.Edit(OptimizerGroup()).options.deadline = 1e-6;
     FakeFeasibility late = LowFeetMayHurry(0.8);
     SmoothingMonitor monitor;
     const SmoothingResult result =
-        FindSmoother(name).Smooth(ProblemOf(sequence_, late), options, monitor);
+        methods.Find(name).Smooth(ProblemOf(sequence_, late), options, monitor);
     EXPECT_LE(late.questions.size(), 60u) << name;
     EXPECT_NE(result.ending, opt::Ending::kConverged) << name << ": " << result.message;
-    options.optimizer.deadline = 30.0;
+    options.Edit(OptimizerGroup()).options.deadline = 30.0;
   }
 }
 

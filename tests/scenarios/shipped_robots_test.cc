@@ -15,7 +15,8 @@ namespace {
 SmoothingResult SmoothedBy(const Experiment& e, const HalfStepSequence& sequence) {
   const MarginEvaluator evaluator(e.robot, e.scene, e.config.smoothing.limits);
   const CertifiedFeasibility test(evaluator, e.config.smoothing.certification);
-  return Smoothed(Dichotomy, ProblemOf(sequence, test), e.config.smoothing.dichotomy);
+  return Smoothed(Dichotomy, ProblemOf(sequence, test),
+                  e.config.smoothing.options.Get(DichotomyGroup()));
 }
 
 class OtherShippedRobot : public testing::TestWithParam<std::string> {};

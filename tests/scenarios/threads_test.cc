@@ -9,7 +9,10 @@
 #include <string>
 #include <tuple>
 
-#include "smoothing/methods/smoother_registry.h"
+#include "smoothing/methods/dichotomy.h"
+#include "smoothing/methods/horizon.h"
+#include "smoothing/methods/methods.h"
+#include "smoothing/methods/solver_method_options.h"
 #include "smoothing/proof/certified_feasibility.h"
 #include "tests/scenarios/load_experiment.h"
 #include "tests/smoothing/smoothed.h"
@@ -61,15 +64,15 @@ void ExpectSame(const SmoothingResult& a, const SmoothingResult& b) {
   }
 }
 
-SmootherOptions Few() {
-  SmootherOptions options;
-  options.dichotomy.tolerance = options.optimizer.tolerance = options.horizon.tolerance = 0.01;
-  options.optimizer.program.parameters = {.heights = true, .durations = true};
-  options.optimizer.rounds = 4;
-  options.optimizer.instants = 12;
-  options.optimizer.deadline = options.horizon.deadline = 1e4;
-  options.horizon.program = options.optimizer.program;
-  options.horizon.passes = 1;
+MethodOptions Few() {
+  MethodOptions options;
+  OptimizerOptions& optimizer = options.Edit(OptimizerGroup()).options;
+  options.Edit(DichotomyGroup()).tolerance = optimizer.tolerance = 0.01;
+  optimizer.program.parameters = {.heights = true, .durations = true};
+  optimizer.rounds = 4;
+  optimizer.instants = 12;
+  optimizer.deadline = 1e4;
+  options.Edit(HorizonGroup()).passes = 1;
   return options;
 }
 
@@ -93,7 +96,7 @@ TEST_P(ThreadsTest, FindWhatOneFinds) {
     const auto workers = threads > 0 ? std::make_shared<Workers>(threads) : nullptr;
     SmoothingMonitor monitor({.workers = workers});
     SmoothingResult result =
-        FindSmoother(GetParam()).Smooth(ProblemOf(e.sequence, test), Few(), monitor);
+        Methods::Standard().Find(GetParam()).Smooth(ProblemOf(e.sequence, test), Few(), monitor);
     const SuperposedWalk walk(e.sequence, result.parameters);
     MarginEvaluator::Scratch scratch = test.evaluator().MakeScratch();
     scratch.workers = workers.get();

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "smoothing/methods/smoother_registry.h"
+#include "smoothing/methods/methods.h"
 #include "tests/smoothing/fake_feasibility.h"
 #include "tests/smoothing/smoothed.h"
 #include "tests/smoothing/test_walks.h"
@@ -124,10 +124,11 @@ TEST_F(SmoothingMonitorTest, APartReportsItsShareAndStopsWithTheWhole) {
 TEST_F(SmoothingMonitorTest, EveryMethodKeepsTheStartWhenTheDeadlinePassedBefore) {
   const FakeFeasibility test = Always(Verdict::kFeasible);
   const WalkProblem problem = ProblemOf(sequence_, test);
-  for (const std::string& name : SmootherNames()) {
+  for (const auto& smoother : Methods::Standard().all()) {
+    const std::string name = smoother->name();
     SCOPED_TRACE(name);
     SmoothingMonitor monitor({.deadline = 0.0});
-    const SmoothingResult result = FindSmoother(name).Smooth(problem, {}, monitor);
+    const SmoothingResult result = smoother->Smooth(problem, {}, monitor);
     EXPECT_THAT(result.ending,
                 testing::AnyOf(Ending::kNotRun, Ending::kDeadline, Ending::kNoImprovement));
     EXPECT_THAT(result.message,

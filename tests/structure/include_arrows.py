@@ -29,6 +29,8 @@ ALLOWED_IN_VERIFY = {
     "experiments/live/spare_boxes.h": "the obstacles that such a config adds to its scene",
     "experiments/tables/certificate_statement.h": "the only statement that is accepted",
     "planner/scene/scene.h": "the reader of scenes",
+    "smoothing/methods/dichotomy.h": "options of the dichotomy, as a config has them",
+    "smoothing/methods/solver_method_options.h": "those of solvers",
     "wpg/check.h": "broken preconditions",
     "wpg/geometry/convex_body.h": "the shapes of robots and scenes",
     "wpg/geometry/pose2.h": "places of feet",

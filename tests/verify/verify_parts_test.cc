@@ -17,6 +17,7 @@
 #include "experiments/verify/floor_distances.h"
 #include "experiments/verify/own_names.h"
 #include "experiments/verify/played_motion.h"
+#include "smoothing/methods/solver_method_options.h"
 #include "smoothing/walk/superposed_walk.h"
 #include "tests/experiments/child_process.h"
 #include "wpg/files/input_error.h"
@@ -506,7 +507,7 @@ smoothing:
   const ExperimentConfig config = ParseConfig(path, text, own.overrides);
   EXPECT_EQ(config.smoothing.methods, std::vector<std::string>{"dichotomy"});
   EXPECT_EQ(config.smoothing.limits.demanded_of(MarginFamily::kZmp), 0.012);
-  EXPECT_EQ(config.smoothing.optimizer.options.program.weights.com_jerk, 0.5);
+  EXPECT_EQ(config.smoothing.options.Get(OptimizerGroup()).options.program.weights.com_jerk, 0.5);
 
   EXPECT_TRUE(FindOwnNames(path, shipped).overrides.empty());
   EXPECT_TRUE(FindOwnNames(path, "smoothing: [").told.empty());

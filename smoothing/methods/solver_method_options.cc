@@ -1,10 +1,8 @@
+#include "smoothing/methods/solver_method_options.h"
+
 #include <algorithm>
 #include <string>
 #include <vector>
-
-#include "experiments/config/smoothing_config.h"
-#include "smoothing/methods/smoother_registry.h"
-#include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {
@@ -54,7 +52,12 @@ void ChooseFamiliesOfHalfSteps(ParameterChoice* choice) {
 
 }  // namespace
 
-void DeclareOptimizer(Fields& fields, OptimizerConfig* c) {
+OptionGroup<SolverMethodOptions> OptimizerGroup() {
+  return {"optimizer",
+          "options of the methods that are solvers (smoothing/README.md, \"Overlap program\")"};
+}
+
+void DeclareFields(Fields& fields, SolverMethodOptions* c) {
   OptimizerOptions* o = &c->options;
   fields.Text("program", &c->program,
               {.meaning = "what is optimized: duration; duration and effort; the least slack for a "
@@ -135,23 +138,28 @@ void DeclareOptimizer(Fields& fields, OptimizerConfig* c) {
                  .max = 86400});
 }
 
-void DeclareHorizon(Fields& fields, HorizonOptions* o) {
-  const auto half_steps = [&](const char* key, int* count, const char* meaning) {
-    fields.Integer(key, count, {.meaning = meaning, .min = 2, .max = 1000});
-    if (*count % 2 == 0) return;
-    fields.Complain(key,
-                    std::to_string(*count) + " is odd (valid: whole steps, two half-steps each)");
-  };
-  half_steps("window", &o->window, "half-steps that are moved together");
-  half_steps("step", &o->step, "half-steps by which the next window lies further on");
-  if (o->step > o->window) {
-    fields.Complain("step", std::to_string(o->step) +
-                                " leaves half-steps between windows (valid: up to `window`, " +
-                                std::to_string(o->window) + ")");
+std::string VariableNames(const ParameterChoice& choice) {
+  std::string names;
+  for (const ParameterFamily family : AllParameterFamilies()) {
+    const ParameterFamilyTraits& traits = Traits(family);
+    if (traits.key.empty() || (traits.chosen != nullptr && !(choice.*traits.chosen))) continue;
+    names += (names.empty() ? "" : "+") + std::string(traits.key);
   }
-  fields.Integer(
-      "passes", &o->passes,
-      {.meaning = "over the walk at most; they end when nothing is gained", .min = 1, .max = 1000});
+  return names;
+}
+
+void DeclareSolverRequest(Fields& fields, SolverMethodOptions c) {
+  OptimizerOptions& o = c.options;
+  std::string variables = VariableNames(o.program.parameters);
+  fields.Text("variables", &variables, {});
+  fields.Text("objective", &c.program, {});
+  fields.Number("duration_limit_s", &o.duration_limit, {});
+  fields.Integer("instants", &o.program.watch.instants, {});
+  fields.Integer("random_starts", &o.random_starts, {});
+  fields.Integer("rounds", &o.rounds, {});
+  fields.Integer("max_iterations", &o.max_iterations, {});
+  fields.Number("deadline_s", &o.deadline, {});
+  fields.Number("tolerance_s", &o.tolerance, {});
 }
 
 }  // namespace halfstep

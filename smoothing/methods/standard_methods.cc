@@ -1,0 +1,185 @@
+#include <algorithm>
+#include <functional>
+#include <stdexcept>
+#include <utility>
+
+#include "opt/adapters/solver_registry.h"
+#include "smoothing/methods/dichotomy.h"
+#include "smoothing/methods/given_walk.h"
+#include "smoothing/methods/horizon.h"
+#include "smoothing/methods/lipm_bound.h"
+#include "smoothing/methods/methods.h"
+#include "smoothing/methods/solver_method_options.h"
+#include "smoothing/methods/uniform_scan.h"
+
+namespace halfstep {
+namespace {
+
+using Groups = std::vector<DeclaredGroup>;
+using Search =
+    std::function<SmoothingResult(const WalkProblem&, const MethodOptions&, SmoothingMonitor&)>;
+using Request = std::function<void(Fields&, const MethodOptions&)>;
+
+// A smoother that is a function. Without a request: the one that every smoother makes.
+class NamedSmoother : public Smoother {
+ public:
+  NamedSmoother(std::string name, std::string meaning, Groups groups, Search search,
+                Request request)
+      : name_(std::move(name)),
+        meaning_(std::move(meaning)),
+        groups_(std::move(groups)),
+        search_(std::move(search)),
+        request_(std::move(request)) {}
+
+  std::string name() const override { return name_; }
+  std::string meaning() const override { return meaning_; }
+  Groups groups() const override { return groups_; }
+  void DeclareRequest(Fields& fields, MethodOptions options) const override {
+    if (!request_) return Smoother::DeclareRequest(fields, std::move(options));
+    request_(fields, options);
+  }
+  SmoothingResult Smooth(const WalkProblem& problem, const MethodOptions& options,
+                         SmoothingMonitor& monitor) const override {
+    return search_(problem, options, monitor);
+  }
+
+ private:
+  std::string name_, meaning_;
+  Groups groups_;
+  Search search_;
+  Request request_;
+};
+
+constexpr const char* kPareto = "pareto";  // the program that is a ParetoCurve
+
+// The program by a solver, or a Pareto curve of programs.
+Search BySolver(const std::string& solver, const std::shared_ptr<const opt::Solver>& own = {}) {
+  return [solver, own](const WalkProblem& problem, const MethodOptions& options,
+                       SmoothingMonitor& monitor) {
+    SolverMethodOptions all = options.Get(OptimizerGroup());
+    all.options.solver = solver;
+    all.options.own_solver = own;
+    if (all.program == kPareto) return ParetoCurve(problem, all.options, all.pareto, monitor);
+    return OptimizeOverlaps(problem, all.options, monitor);
+  };
+}
+
+// The dichotomy with something changed.
+Search DichotomyWith(const std::function<void(DichotomyOptions*)>& change) {
+  return [change](const WalkProblem& problem, const MethodOptions& options,
+                  SmoothingMonitor& monitor) {
+    DichotomyOptions dichotomy = options.Get(DichotomyGroup());
+    change(&dichotomy);
+    return Dichotomy(problem, dichotomy, monitor);
+  };
+}
+
+// What other methods are compared with. The families are those of smoothing.optimizer; `uniform`
+// takes heights and durations both when it names neither. So is the deadline.
+SmoothingResult Uniform(const WalkProblem& problem, const MethodOptions& options,
+                        SmoothingMonitor& monitor) {
+  const OptimizerOptions optimizer = options.Get(OptimizerGroup()).options;
+  monitor.LimitTo(optimizer.deadline);
+  const ParameterChoice& choice = optimizer.program.parameters;
+  const bool neither = !choice.heights && !choice.durations;
+  return UniformScan(problem,
+                     {.heights = choice.heights || neither,
+                      .durations = choice.durations || neither,
+                      .fine = options.Get(DichotomyGroup()).tolerance},
+                     monitor);
+}
+
+SmoothingResult ByWindows(const WalkProblem& problem, const MethodOptions& options,
+                          SmoothingMonitor& monitor) {
+  HorizonOptions horizon = options.Get(HorizonGroup());
+  const SolverMethodOptions optimizer = options.Get(OptimizerGroup());
+  horizon.program = optimizer.options.program;
+  // A curve is made of programs that belong to the whole walk, as `safest` does.
+  if (optimizer.program == kPareto) horizon.program.kind = ProgramKind::kSafest;
+  horizon.deadline = optimizer.options.deadline;
+  horizon.tolerance = optimizer.options.tolerance;
+  return Horizon(problem, horizon, monitor);
+}
+
+void RequestSolver(Fields& fields, const MethodOptions& options) {
+  DeclareSolverRequest(fields, options.Get(OptimizerGroup()));
+}
+
+void RequestHorizon(Fields& fields, const MethodOptions& options) {
+  HorizonOptions horizon = options.Get(HorizonGroup());
+  SolverMethodOptions optimizer = options.Get(OptimizerGroup());
+  std::string variables = VariableNames(optimizer.options.program.parameters);
+  fields.Text("variables", &variables, {});
+  fields.Text("objective", &optimizer.program, {});
+  fields.Integer("window", &horizon.window, {});
+  fields.Integer("step", &horizon.step, {});
+  fields.Integer("passes", &horizon.passes, {});
+  fields.Number("deadline_s", &optimizer.options.deadline, {});
+  fields.Number("tolerance_s", &optimizer.options.tolerance, {});
+}
+
+void RequestGiven(Fields& fields, const MethodOptions&) {
+  std::string variables = VariableNames(EveryFamily());
+  fields.Text("variables", &variables, {});
+}
+
+std::shared_ptr<const Smoother> SolverMethod(const std::string& solver,
+                                             const std::shared_ptr<const opt::Solver>& own = {}) {
+  return std::make_shared<NamedSmoother>(
+      solver, "smoothing.optimizer.program by this solver, from the dichotomy's result",
+      Groups{OptimizerGroup()}, BySolver(solver, own), RequestSolver);
+}
+
+}  // namespace
+
+Methods Methods::Standard() {
+  std::vector<std::shared_ptr<const Smoother>> all;
+  const auto add = [&all](const std::string& name, const std::string& meaning, Groups groups,
+                          Search search, Request request = {}) {
+    all.push_back(std::make_shared<NamedSmoother>(name, meaning, std::move(groups),
+                                                  std::move(search), std::move(request)));
+  };
+  const Groups none, dichotomy = {DichotomyGroup()}, optimizer = {OptimizerGroup()};
+  add("dichotomy", "bisect each overlap in turn, with the options of smoothing.dichotomy",
+      dichotomy, DichotomyWith([](DichotomyOptions*) {}));
+  add("dichotomy/published", "the same as published: 0.05 s, one pass, caps 0.8 and 0.76", none,
+      DichotomyWith([](DichotomyOptions* d) {
+        *d = {.tolerance = 0.05, .up_down_cap = 0.8, .down_up_cap = 0.76};
+      }));
+  add("dichotomy/right_to_left", "dichotomy from the last junction to the first", dichotomy,
+      DichotomyWith([](DichotomyOptions* d) { d->order = DichotomyOptions::Order::kRightToLeft; }));
+  add("dichotomy/three_passes", "dichotomy three times over, onwards each time", dichotomy,
+      DichotomyWith([](DichotomyOptions* d) { d->passes = 3; }));
+  add("dichotomy/uniform", "dichotomy at the best uniform T and height of a grid", optimizer,
+      Uniform, RequestSolver);
+  add("reference/lipm", "a lower bound on every walk of a LIPM on the footsteps; finds no walk",
+      none, [](const WalkProblem& problem, const MethodOptions&, SmoothingMonitor& monitor) {
+        return TellLipmBound(problem, monitor);
+      });
+  for (const std::string& solver : opt::SolverNames()) {
+    if (!opt::MakeSolver(solver)->available()) continue;
+    all.push_back(SolverMethod(solver));
+  }
+  add("halfstep/horizon",
+      "the program of halfstep/sqp in short windows along the walk, for walks of any length",
+      {HorizonGroup(), OptimizerGroup()}, ByWindows, RequestHorizon);
+  add(
+      "given", "no search: the walk of smoothing.given, checked and certified like any other", none,
+      [](const WalkProblem& problem, const MethodOptions& options, SmoothingMonitor& monitor) {
+        return TakeGivenWalk(problem, options.Get(GivenWalkGroup()), monitor);
+      },
+      RequestGiven);
+  return Methods(std::move(all));
+}
+
+void Methods::AddSolver(std::shared_ptr<const opt::Solver> solver) {
+  const std::string name = solver->name();
+  if (std::ranges::count(opt::SolverNames(), name) > 0) {
+    throw std::invalid_argument("solver `" + name + "` is built in");
+  }
+  Add(SolverMethod(name, solver));
+  std::erase_if(solvers_, [&](const auto& known) { return known->name() == name; });
+  solvers_.push_back(std::move(solver));
+}
+
+}  // namespace halfstep
