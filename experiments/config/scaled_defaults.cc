@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
+#include <functional>
+#include <string>
+#include <vector>
 
 #include "experiments/config/experiment_config.h"
 #include "wpg/files/number_text.h"
@@ -88,15 +90,34 @@ std::string FormulaOf(Law law, const std::string& hrp2) {
 }
 
 struct ScaledDefault {
-  const char* key;
+  std::string key;
   Law law;
-  double* (*value)(ExperimentConfig* config);
+  std::function<double*(ExperimentConfig* config)> value;
   double min, max;  // what the key may be
 };
 
-std::span<const ScaledDefault> ScaledDefaults() {
+Law LawOf(ParameterScale scale) {
+  return scale == ParameterScale::kStanceWidth ? Law::kWidth : Law::kLength;
+}
+
+// The bounds of families of parameters.
+void AddBounds(std::vector<ScaledDefault>* rows) {
+  for (const ParameterFamily family : AllParameterFamilies()) {
+    const auto bounds = Traits(family).bounds();
+    for (size_t k = 0; k < bounds.size(); ++k) {
+      if (bounds[k].scale == ParameterScale::kNone) continue;
+      const auto value = [family, k](ExperimentConfig* c) {
+        return &c->smoothing.optimizer.options.program.parameters.bounds[family][k];
+      };
+      rows->push_back({"smoothing.optimizer." + std::string(bounds[k].key), LawOf(bounds[k].scale),
+                       value, bounds[k].min, bounds[k].max});
+    }
+  }
+}
+
+std::vector<ScaledDefault> ScaledDefaults() {
   using C = ExperimentConfig;
-  static constexpr ScaledDefault kRows[] = {
+  std::vector<ScaledDefault> rows = {
       {"half_step.duration_s", Law::kDuration, [](C* c) { return &c->half_step.duration; }, 0.6, 6},
       {"half_step.zmp_shift_s", Law::kDuration, [](C* c) { return &c->half_step.zmp_shift; }, 0.02,
        2},
@@ -108,27 +129,6 @@ std::span<const ScaledDefault> ScaledDefaults() {
        1},
       {"half_step.support_offset_m", Law::kSupport,
        [](C* c) { return &c->half_step.support_offset; }, -1, 1},
-      {"smoothing.optimizer.least_support_point_m", Law::kWidth,
-       [](C* c) { return &c->smoothing.optimizer.options.program.parameters.least_support_point; },
-       -1, 1},
-      {"smoothing.optimizer.most_support_point_m", Law::kWidth,
-       [](C* c) { return &c->smoothing.optimizer.options.program.parameters.most_support_point; },
-       -1, 1},
-      {"smoothing.optimizer.least_via_lateral_m", Law::kWidth,
-       [](C* c) { return &c->smoothing.optimizer.options.program.parameters.least_via_lateral; },
-       0.01, 1},
-      {"smoothing.optimizer.most_via_lateral_m", Law::kWidth,
-       [](C* c) { return &c->smoothing.optimizer.options.program.parameters.most_via_lateral; },
-       0.01, 1},
-      {"smoothing.optimizer.most_via_along_m", Law::kLength,
-       [](C* c) { return &c->smoothing.optimizer.options.program.parameters.most_via_along; }, 0,
-       0.5},
-      {"smoothing.optimizer.most_footstep_x_m", Law::kLength,
-       [](C* c) { return &c->smoothing.optimizer.options.program.parameters.most_footstep_x; }, 0,
-       0.5},
-      {"smoothing.optimizer.most_footstep_y_m", Law::kLength,
-       [](C* c) { return &c->smoothing.optimizer.options.program.parameters.most_footstep_y; }, 0,
-       0.5},
       {"step_set.x_min_m", Law::kGrid, [](C* c) { return &c->half_step_grid.x_min; }, -2, 2},
       {"step_set.x_max_m", Law::kGrid, [](C* c) { return &c->half_step_grid.x_max; }, -2, 2},
       {"step_set.y_min_m", Law::kAcross, [](C* c) { return &c->half_step_grid.y_min; }, -2, 2},
@@ -158,7 +158,8 @@ std::span<const ScaledDefault> ScaledDefaults() {
       {"planner.bounding_box.corridor_m", Law::kLength,
        [](C* c) { return &c->planner.options.bounding_box.corridor; }, 0.05, 5},
   };
-  return kRows;
+  AddBounds(&rows);
+  return rows;
 }
 
 KeyDescription* Find(const std::string& path, std::vector<KeyDescription>* keys) {

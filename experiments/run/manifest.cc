@@ -43,7 +43,7 @@ std::string Variables(const ParameterChoice& choice) {
   std::string names;
   for (const ParameterFamily family : AllParameterFamilies()) {
     const ParameterFamilyTraits& traits = Traits(family);
-    if (traits.key.empty() || (traits.chosen != nullptr && !(choice.*traits.chosen))) continue;
+    if (traits.key.empty() || !choice.moves(family)) continue;
     names += (names.empty() ? "" : "+") + std::string(traits.key);
   }
   return names;

@@ -24,7 +24,7 @@ std::vector<ParameterFamily> FamiliesOfHalfSteps(HalfStepsExtent extent) {
   std::vector<ParameterFamily> families;
   for (const ParameterFamily family : AllParameterFamilies()) {
     const ParameterFamilyTraits& traits = Traits(family);
-    if (traits.table == "half_steps" && ExtentOf(family) <= extent) families.push_back(family);
+    if (!traits.joins() && ExtentOf(family) <= extent) families.push_back(family);
   }
   std::ranges::stable_sort(families, {}, [](ParameterFamily f) { return Traits(f).rank; });
   return families;
@@ -85,7 +85,7 @@ HomotopyParameters ReadParameters(const std::filesystem::path& folder,
   HomotopyParameters parameters = PlannedMotion(sequence);
   for (const ParameterFamily family : AllParameterFamilies()) {
     const ParameterFamilyTraits& traits = Traits(family);
-    const std::filesystem::path path = folder / (std::string(traits.table) + ".csv");
+    const std::filesystem::path path = folder / (std::string(traits.table()) + ".csv");
     if (!std::filesystem::exists(path)) continue;
     const CsvTable table = ReadCsv(path.string());
     if (traits.of_form && !table.Has(std::string(traits.column))) continue;

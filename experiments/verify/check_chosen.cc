@@ -14,21 +14,20 @@ constexpr double kMoved = 1e-9;  // of a number that is written in two tables
 struct Form {
   const char* key;
   const char* name;
-  bool ParameterChoice::*chosen;
+  ParameterFamily family;
   double FormColumns::*value;
   bool of_step;
 };
 
 constexpr std::array<Form, 7> kForms = {{
-    {"via_laterals", "via_lateral", &ParameterChoice::via_laterals, &FormColumns::via_lateral,
-     true},
-    {"foot_ramps", "foot_ramp", &ParameterChoice::foot_ramps, &FormColumns::foot_ramp, false},
-    {"foot_delays", "foot_delay", &ParameterChoice::foot_delays, &FormColumns::foot_delay, false},
-    {"lift_shares", "lift_share", &ParameterChoice::lift_shares, &FormColumns::lift_share, false},
-    {"via_alongs", "via_along", &ParameterChoice::via_alongs, &FormColumns::via_along, true},
-    {"zmp_shifts", "zmp_shift", &ParameterChoice::zmp_shifts, &FormColumns::zmp_shift, false},
-    {"zmp_bump_ramps", "zmp_bump_ramp", &ParameterChoice::zmp_bump_ramps,
-     &FormColumns::zmp_bump_ramp, false},
+    {"via_laterals", "via_lateral", ParameterFamily::kViaLateral, &FormColumns::via_lateral, true},
+    {"foot_ramps", "foot_ramp", ParameterFamily::kFootRamp, &FormColumns::foot_ramp, false},
+    {"foot_delays", "foot_delay", ParameterFamily::kFootDelay, &FormColumns::foot_delay, false},
+    {"lift_shares", "lift_share", ParameterFamily::kLiftShare, &FormColumns::lift_share, false},
+    {"via_alongs", "via_along", ParameterFamily::kViaAlong, &FormColumns::via_along, true},
+    {"zmp_shifts", "zmp_shift", ParameterFamily::kZmpShift, &FormColumns::zmp_shift, false},
+    {"zmp_bump_ramps", "zmp_bump_ramp", ParameterFamily::kZmpBumpRamp, &FormColumns::zmp_bump_ramp,
+     false},
 }};
 
 }  // namespace
@@ -56,7 +55,7 @@ void CheckChosen(const std::string& method, const std::vector<HalfStepRow>& half
     const HalfStep& plan = planned.half_steps[i].half_step;
     const FormColumns is = half_steps[i].FormOf(plan), as_planned = HalfStepRow{}.FormOf(plan);
     for (const Form& form : kForms) {
-      if (choice.*form.chosen) continue;
+      if (choice.moves(form.family)) continue;
       look(i, form.key, form.name, form.of_step ? i / 2 : i, is.*form.value,
            as_planned.*form.value);
     }
