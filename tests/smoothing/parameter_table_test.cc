@@ -68,15 +68,16 @@ TEST_F(ParameterTableTest, WhatACallerFixesKeepsItsValueAndIsNoVariable) {
 }
 
 TEST_F(ParameterTableTest, TheRangeOfSupportPointsHoldsThePlannedOne) {
+  ParameterChoice choice{.support_points = true};
+  choice.bound("least_support_point_m") = 0.01;
+  choice.bound("most_support_point_m") = 0.03;
   for (const auto& [planned, lower, upper] :
        {std::array{-0.04, -0.04, 0.03}, {0.02, 0.01, 0.03}, {0.07, 0.01, 0.07}}) {
     HalfStepSequence sequence = sequence_;
     for (PlacedHalfStep& placed : sequence.half_steps) {
       placed.half_step.shape.support_offset = planned;
     }
-    const ParameterTable table(
-        sequence, {},
-        {.support_points = true, .least_support_point = 0.01, .most_support_point = 0.03});
+    const ParameterTable table(sequence, {}, choice);
     const ParameterRow& row = table.row({Family::kSupportPoint, 1});
     EXPECT_FALSE(row.fixed);
     EXPECT_EQ(row.start, planned);
