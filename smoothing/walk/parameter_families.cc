@@ -353,43 +353,6 @@ static_assert(CheckRows(std::make_index_sequence<kRows.size()>()));
 
 }  // namespace
 
-std::string_view ParameterFamilyTraits::table() const {
-  return joins() ? "overlaps" : "half_steps";
-}
-
-int ParameterFamilyTraits::count(const HalfStepSequence& sequence) const {
-  switch (of) {
-    case kJunction:
-      return sequence.num_junctions();
-    case kStep:
-      return sequence.num_steps();
-    case kHalfStep:
-      break;
-  }
-  return sequence.size();
-}
-
-double ParameterFamilyTraits::planned(const HalfStepSequence& sequence, int index) const {
-  if (number == nullptr && shape == nullptr) return unmoved;
-  const size_t first = static_cast<size_t>(half_steps(index).first);
-  const HalfStep& half_step = sequence.half_steps[first].half_step;
-  return number != nullptr ? half_step.*number : half_step.shape.*shape;
-}
-
-std::pair<int, int> ParameterFamilyTraits::half_steps(int index) const {
-  // The landing, the next step, whose support it is, and the half-step that leaves it.
-  if (part == ParameterPart::kFootstep) return {2 * index + 1, 2 * index + 4};
-  switch (of) {
-    case kJunction:
-      return {index, index + 1};
-    case kStep:
-      return {2 * index, 2 * index + 1};
-    case kHalfStep:
-      break;
-  }
-  return {index, index};
-}
-
 const ParameterFamilyTraits& Traits(ParameterFamily family) {
   return kRows[static_cast<size_t>(family)];
 }

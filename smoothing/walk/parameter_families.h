@@ -2,6 +2,7 @@
 
 #include <array>
 #include <span>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -102,6 +103,10 @@ struct ParameterFamilyTraits {
   }
 };
 
+/// "junction", "step" or "half_step".
+std::string_view Name(ParameterOf of);
+/// What the values of a family are called in Python and on pages: "overlaps".
+std::string PluralOf(const ParameterFamilyTraits& traits);
 /// The row of a family.
 const ParameterFamilyTraits& Traits(ParameterFamily family);
 
