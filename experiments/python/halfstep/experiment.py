@@ -137,7 +137,9 @@ class Experiment:
     def walk(self, *values: Sequence[float] | None, **named: Sequence[float] | None) -> Walk:
         """The walk at given parameters; what is not given is as planned.
 
-        For n half-steps: <families>
+        For n half-steps:
+
+        <families>
 
         Numbers of form are as the keys of ``half_step`` in configs say. An overlap beyond its
         natural bound is a ValueError. Whether the walk is feasible is for ``Walk.certify`` to say.

@@ -57,7 +57,9 @@ class SmoothingProblem:
     def walk(self, *values: Sequence[float] | None, **named: Sequence[float] | None) -> Walk:
         """The walk at given parameters; what is not given is the incumbent's.
 
-        For n half-steps: <families>
+        For n half-steps:
+
+        <families>
         """
         sizes = {name: len(row) for name, row in self.incumbent.parameters.items()}
         return Walk(self._task.walk({

@@ -122,7 +122,9 @@ class Walk:
     @property
     @describes
     def parameters(self) -> dict[str, np.ndarray]:
-        """All parameters of the n half-steps: <families>
+        """All parameters of the n half-steps:
+
+        <families>
         """
         return self._walk.parameters
 
