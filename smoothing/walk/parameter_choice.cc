@@ -20,6 +20,14 @@ bool ParameterChoice::moves(ParameterFamily family) const {
   return traits.chosen != nullptr ? this->*traits.chosen : others[family];
 }
 
+bool ParameterChoice::moves(std::string_view key) const {
+  for (const ParameterFamily family : AllParameterFamilies()) {
+    if (Traits(family).key == key) return moves(family);
+  }
+  HALFSTEP_CHECK(false, "no family " << key);
+  return false;
+}
+
 bool* ParameterChoice::flag(ParameterFamily family) {
   const ParameterFamilyTraits& traits = Traits(family);
   if (traits.always) return nullptr;

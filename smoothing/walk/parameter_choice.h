@@ -25,6 +25,8 @@ struct ParameterChoice {
 
   /// Whether methods may move the family; overlaps they always may.
   bool moves(ParameterFamily family) const;
+  /// The same by the key of its flag in configs, "heights"; std::logic_error when no family has it.
+  bool moves(std::string_view key) const;
   /// The flag that says so, which several families may share; null where they always may.
   bool* flag(ParameterFamily family);
   /// The number of a key such as "least_duration"; std::logic_error when no family has it.
