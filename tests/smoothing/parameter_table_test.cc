@@ -41,6 +41,32 @@ TEST_F(ParameterTableTest, HoldsEveryParameterOnceAndStartsAsPlanned) {
   }
 }
 
+TEST_F(ParameterTableTest, FamiliesAreChosenByThemselvesOrWithThoseThatShareTheirKey) {
+  for (const Family family : AllParameterFamilies()) {
+    const ParameterFamilyTraits& traits = Traits(family);
+    ParameterChoice choice;
+    EXPECT_EQ(choice.moves(family), traits.always) << traits.name;
+    bool* const flag = choice.flag(family);
+    ASSERT_EQ(flag == nullptr, traits.always) << traits.name;
+    if (flag == nullptr) continue;
+    *flag = true;
+    for (const Family other : AllParameterFamilies()) {
+      const bool both = traits.move != nullptr && Traits(other).move != nullptr;
+      EXPECT_EQ(choice.moves(other), other == family || both || Traits(other).always)
+          << traits.name << " and " << Traits(other).name;
+    }
+    if (!traits.key.empty()) EXPECT_TRUE(choice.moves(traits.key));
+    EXPECT_EQ(WithoutForms(choice) == choice, !traits.of_form) << traits.name;
+    for (const ParameterBoundKey& bound : traits.bounds()) {
+      EXPECT_EQ(choice.bound(bound.key), bound.initial);
+      EXPECT_LE(bound.min, bound.initial) << bound.key;
+      EXPECT_GE(bound.max, bound.initial) << bound.key;
+    }
+  }
+  EXPECT_THROW(ParameterChoice{}.bound("least_patience"), std::logic_error);
+  EXPECT_THROW((void)ParameterChoice{}.moves("patience"), std::logic_error);
+}
+
 TEST_F(ParameterTableTest, WhatACallerFixesKeepsItsValueAndIsNoVariable) {
   const double overlap = 0.5 * NaturalOverlapBound(planned_, 1);
   const ParameterTable table(sequence_,

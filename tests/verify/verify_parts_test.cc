@@ -8,6 +8,7 @@
 #include <random>
 
 #include "experiments/config/experiment.h"
+#include "experiments/tables/parameter_tables.h"
 #include "experiments/verify/check_clearance.h"
 #include "experiments/verify/check_overlaps.h"
 #include "experiments/verify/check_rows.h"
@@ -88,6 +89,27 @@ HomotopyParameters Drawn(const HalfStepSequence& sequence, double fullness, std:
     at.overlaps[i] = fullness * unit(*random) * NaturalOverlapBound(at, static_cast<int>(i));
   }
   return at;
+}
+
+// verify has its own list of the columns of forms.
+TEST(VerifyFormColumns, AreThoseOfTheFamilies) {
+  size_t k = 0;
+  const auto& columns = AllFormColumns();
+  for (const ParameterFamily family : FamiliesOfHalfSteps(HalfStepsExtent::kForms)) {
+    const ParameterFamilyTraits& traits = Traits(family);
+    if (!traits.of_form) continue;
+    ASSERT_LT(k, columns.size()) << traits.name;
+    const FormColumn& one = columns[k++];
+    EXPECT_EQ(one.name, traits.name);
+    EXPECT_EQ(one.key, traits.key);
+    EXPECT_EQ(one.column, traits.column);
+    EXPECT_EQ(one.of_step(), traits.of == ParameterOf::kStep);
+    EXPECT_EQ(one.least, traits.least);
+    EXPECT_EQ(one.most, traits.most);
+    EXPECT_EQ(one.number, traits.number);
+    EXPECT_EQ(one.shape, traits.shape);
+  }
+  EXPECT_EQ(k, columns.size());
 }
 
 TEST(DescribedWalk, IsTheWalkThatTheRowsWereMadeOf) {
