@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "experiments/config/experiment_config.h"
 #include "wpg/files/number_text.h"
@@ -90,49 +92,56 @@ std::string FormulaOf(Law law, const std::string& hrp2) {
 }
 
 struct ScaledDefault {
-  std::string_view key;
+  std::string key;
   Law law;
 };
 
-constexpr ScaledDefault kScaledDefaults[] = {
-    {"half_step.duration_s", Law::kDuration},
-    {"half_step.zmp_shift_s", Law::kDuration},
-    {"half_step.via_height_m", Law::kHeight},
-    {"half_step.horizontal_delay", Law::kDelay},
-    {"half_step.via_lateral_m", Law::kAside},
-    {"half_step.support_offset_m", Law::kSupport},
-    {"smoothing.optimizer.least_support_point_m", Law::kWidth},
-    {"smoothing.optimizer.most_support_point_m", Law::kWidth},
-    {"smoothing.optimizer.least_via_lateral_m", Law::kWidth},
-    {"smoothing.optimizer.most_via_lateral_m", Law::kWidth},
-    {"smoothing.optimizer.most_via_along_m", Law::kLength},
-    {"smoothing.optimizer.most_footstep_x_m", Law::kLength},
-    {"smoothing.optimizer.most_footstep_y_m", Law::kLength},
-    {"step_set.x_min_m", Law::kGrid},
-    {"step_set.x_max_m", Law::kGrid},
-    {"step_set.y_min_m", Law::kAcross},
-    {"step_set.y_max_m", Law::kAcross},
-    {"step_set.spacing_m", Law::kLength},
-    {"swept_volumes.cell_m", Law::kLength},
-    {"swept_volumes.displacement_m", Law::kLength},
-    {"planner.rrt.cell_m", Law::kLength},
-    {"planner.astar.cell_m", Law::kLength},
-    {"planner.estimate.step_s", Law::kDuration},
-    {"planner.bounding_box.length_m", Law::kLength},
-    {"planner.bounding_box.width_m", Law::kLength},
-    {"planner.bounding_box.height_m", Law::kLength},
-    {"planner.bounding_box.feet_apart_m", Law::kWidth},
-    {"planner.bounding_box.spacing_m", Law::kLength},
-    {"planner.bounding_box.corridor_m", Law::kLength},
-};
+Law LawOf(ParameterScale scale) {
+  return scale == ParameterScale::kStanceWidth ? Law::kWidth : Law::kLength;
+}
+
+std::vector<ScaledDefault> ScaledDefaults() {
+  std::vector<ScaledDefault> rows = {
+      {"half_step.duration_s", Law::kDuration},
+      {"half_step.zmp_shift_s", Law::kDuration},
+      {"half_step.via_height_m", Law::kHeight},
+      {"half_step.horizontal_delay", Law::kDelay},
+      {"half_step.via_lateral_m", Law::kAside},
+      {"half_step.support_offset_m", Law::kSupport},
+      {"step_set.x_min_m", Law::kGrid},
+      {"step_set.x_max_m", Law::kGrid},
+      {"step_set.y_min_m", Law::kAcross},
+      {"step_set.y_max_m", Law::kAcross},
+      {"step_set.spacing_m", Law::kLength},
+      {"swept_volumes.cell_m", Law::kLength},
+      {"swept_volumes.displacement_m", Law::kLength},
+      {"planner.rrt.cell_m", Law::kLength},
+      {"planner.astar.cell_m", Law::kLength},
+      {"planner.estimate.step_s", Law::kDuration},
+      {"planner.bounding_box.length_m", Law::kLength},
+      {"planner.bounding_box.width_m", Law::kLength},
+      {"planner.bounding_box.height_m", Law::kLength},
+      {"planner.bounding_box.feet_apart_m", Law::kWidth},
+      {"planner.bounding_box.spacing_m", Law::kLength},
+      {"planner.bounding_box.corridor_m", Law::kLength},
+  };
+  for (const ParameterFamily family : AllParameterFamilies()) {
+    for (const ParameterBoundKey& bound : Traits(family).bounds()) {
+      if (bound.scale == ParameterScale::kNone) continue;
+      rows.push_back({"smoothing.optimizer." + std::string(bound.key), LawOf(bound.scale)});
+    }
+  }
+  return rows;
+}
 
 // Calls `visit` with each of these defaults: its row, where it is kept, its range.
 void VisitScaled(
     ExperimentConfig* config,
     const std::function<void(const ScaledDefault&, double*, const NumberSpec&)>& visit) {
+  const std::vector<ScaledDefault> rows = ScaledDefaults();
   VisitNumbers([config](Fields& fields) { DeclareFields(fields, config); },
-               [&visit](const std::string& path, double* value, const NumberSpec& spec) {
-                 for (const ScaledDefault& row : kScaledDefaults) {
+               [&](const std::string& path, double* value, const NumberSpec& spec) {
+                 for (const ScaledDefault& row : rows) {
                    if (row.key == path) visit(row, value, spec);
                  }
                });
@@ -155,7 +164,7 @@ void ScaleDefaults(const RobotMeasures& robot, ExperimentConfig* config) {
 }
 
 void DescribeScaling(std::vector<KeyDescription>* keys) {
-  for (const ScaledDefault& row : kScaledDefaults) {
+  for (const ScaledDefault& row : ScaledDefaults()) {
     KeyDescription* const key = Find(row.key, keys);
     key->otherwise = FormulaOf(row.law, key->default_text);
   }

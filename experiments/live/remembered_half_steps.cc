@@ -21,17 +21,16 @@ std::string KeyOf(const SuperposedWalk& walk, int j) {
   const double begin = walk.start_of(j);
   for (int i = j; i >= 0 && (i == j || walk.end_of(i) > begin); --i) {
     const HalfStep& half_step = walk.half_step(i);
-    const HalfStepShape& shape = half_step.shape;
     key.push_back(half_step.support == Side::kLeft ? 'l' : 'r');
     key.push_back(half_step.kind == HalfStepKind::kUp ? 'u' : 'd');
     add_place(walk.X_WS(j).Inverse() * walk.X_WS(i));
     add_place(half_step.X_SF);
     for (const double x : {begin - walk.start_of(i), walk.profiles(i).duration(),
-                           half_step.via_height, half_step.via_lateral, half_step.via_along,
-                           shape.shift, shape.horizontal_delay, shape.bump_ramp, shape.foot_ramp,
-                           shape.lift_share, shape.support_offset, walk.X_WS(i).height}) {
+                           half_step.via_height, half_step.via_lateral, half_step.via_along}) {
       add(x);
     }
+    for (const double x : half_step.shape.numbers()) add(x);
+    add(walk.X_WS(i).height);
   }
   return key;
 }

@@ -105,9 +105,8 @@ HeldProgramOptions ToProgramOptions(const py::dict& options) {
   }
   take("overlaps", &result.overlaps);
   for (const ParameterFamily family : AllParameterFamilies()) {
-    const ParameterFamilyTraits& traits = Traits(family);
-    if (traits.chosen != nullptr && !traits.key.empty())
-      take(traits.key.data(), &(choice.*traits.chosen));
+    const std::string_view key = Traits(family).key;
+    if (bool* const flag = choice.flag(family); flag && !key.empty()) take(key.data(), flag);
   }
   take("instants", &result.program.watch.instants);
   take("sharpness", &result.program.watch.sharpness);

@@ -123,6 +123,7 @@ py::tuple CertifyPlaced(const PlacedWalk& placed) {
 }  // namespace
 
 void BindWalk(py::module_& module) {
+  module.def("parameter_families", &ParameterFamiliesForPython);
   py::class_<PlacedWalk, std::shared_ptr<PlacedWalk>>(module, "Walk")
       .def_property_readonly("duration", [](const PlacedWalk& p) { return p.walk.duration(); })
       .def_property_readonly("num_half_steps",

@@ -11,12 +11,6 @@
 namespace py = pybind11;
 
 namespace halfstep::python {
-namespace {
-
-std::string PluralOf(ParameterFamily family) { return std::string(Traits(family).name) + "s"; }
-
-}  // namespace
-
 py::list ToPython(const CsvColumns& columns) {
   static constexpr std::array<const char*, 4> kTypes = {"integer", "number", "boolean", "string"};
   py::list list;
@@ -31,13 +25,24 @@ py::tuple ToPython(const CsvFile& file) {
   return py::make_tuple(ToPython(file.columns), file.text);
 }
 
+py::list ParameterFamiliesForPython() {
+  py::list list;
+  for (const ParameterFamily family : AllParameterFamilies()) {
+    const ParameterFamilyTraits& traits = Traits(family);
+    list.append(py::make_tuple(PluralOf(traits), std::string(Name(traits.of)),
+                               std::string(traits.unit), std::string(traits.meaning),
+                               traits.always ? std::string() : std::string(traits.key)));
+  }
+  return list;
+}
+
 py::dict ToPython(const HomotopyParameters& parameters) {
   const auto array = [](const std::vector<double>& values) {
     return py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data());
   };
   py::dict dict;
   for (const ParameterFamily family : AllParameterFamilies()) {
-    dict[PluralOf(family).c_str()] = array(parameters.of(family));
+    dict[PluralOf(Traits(family)).c_str()] = array(parameters.of(family));
   }
   return dict;
 }
@@ -45,7 +50,7 @@ py::dict ToPython(const HomotopyParameters& parameters) {
 PlacedWalk WalkWith(const std::shared_ptr<const WalkSetting>& setting,
                     HomotopyParameters parameters, const py::dict& given) {
   for (const ParameterFamily family : AllParameterFamilies()) {
-    const std::string name = PluralOf(family);
+    const std::string name = PluralOf(Traits(family));
     if (!given.contains(name)) continue;
     parameters.of(family) = given[name.c_str()].cast<std::vector<double>>();
   }

@@ -32,9 +32,11 @@ pybind11::tuple ToPython(const CsvFile& file);
 /// The columns alone.
 pybind11::list ToPython(const CsvColumns& columns);
 
-/// A point of the homotopy as a dict of arrays, by the families' names in the plural: overlaps,
-/// height_scales, durations, support_points, via_laterals, foot_ramps, foot_delays, lift_shares,
-/// via_alongs, zmp_shifts, zmp_bump_ramps, footstep_xs, footstep_ys, footstep_yaws.
+/// The families of parameters, a tuple each: the name of its values, such as "overlaps"; what it
+/// has one of: "junction", "step" or "half_step"; unit, meaning; the key that lets methods move it
+/// or "".
+pybind11::list ParameterFamiliesForPython();
+/// A point of the homotopy as a dict of arrays, by the names of values in those tuples.
 pybind11::dict ToPython(const HomotopyParameters& parameters);
 /// The walk of `parameters`, but for the families that are in such a dict. Throws InputError where
 /// no walk of the setting has them.

@@ -1,8 +1,10 @@
 #include "experiments/report/closed_form.h"
 
+#include <string>
 #include <vector>
 
 #include "experiments/tables/csv_reader.h"
+#include "experiments/tables/parameter_tables.h"
 #include "wpg/files/number_text.h"
 
 namespace halfstep {
@@ -16,25 +18,32 @@ json PlaceJson(const Foothold& X) {
   return {Shortened(X.x, 12), Shortened(X.y, 12), Shortened(X.yaw, 12)};
 }
 
-json ShapeJson(const HalfStepShape& shape) {
-  return {{"shift", shape.shift},
-          {"horizontal_delay", shape.horizontal_delay},
-          {"bump_ramp", shape.bump_ramp},
-          {"foot_ramp", shape.foot_ramp},
-          {"lift_share", shape.lift_share}};
-}
-
 json HalfStepJson(const PlacedHalfStep& placed) {
   const HalfStep& half_step = placed.half_step;
-  return {{"support", half_step.support == Side::kLeft ? "left" : "right"},
-          {"kind", half_step.kind == HalfStepKind::kUp ? "up" : "down"},
-          {"X_WS", PlaceJson(placed.X_WS)},
-          {"X_SF", PlaceJson(half_step.X_SF)},
-          {"duration_s", half_step.duration},
-          {"via_height_m", half_step.via_height},
-          {"via_lateral_m", half_step.via_lateral},
-          {"via_along_m", half_step.via_along},
-          {"shape", ShapeJson(half_step.shape)}};
+  json numbers = {{"support", half_step.support == Side::kLeft ? "left" : "right"},
+                  {"kind", half_step.kind == HalfStepKind::kUp ? "up" : "down"},
+                  {"X_WS", PlaceJson(placed.X_WS)},
+                  {"X_SF", PlaceJson(half_step.X_SF)},
+                  {"via_height_m", half_step.via_height}};
+  for (const ParameterFamily family : AllParameterFamilies()) {
+    const ParameterFamilyTraits& traits = Traits(family);
+    const std::string column(traits.column);
+    if (traits.number != nullptr) numbers[column] = half_step.*traits.number;
+    if (traits.shape != nullptr) numbers[column] = half_step.shape.*traits.shape;
+  }
+  return numbers;
+}
+
+// What half_steps.csv has of the families: where a walk's values stand among its parameters, a
+// number for each step or half-step, and the column, which names the number of half-steps, too.
+json FamiliesJson() {
+  json families = json::array();
+  for (const ParameterFamily family : FamiliesOfHalfSteps(HalfStepsExtent::kFootsteps)) {
+    const ParameterFamilyTraits& traits = Traits(family);
+    families.push_back(
+        {{"values", PluralOf(traits)}, {"of", Name(traits.of)}, {"column", traits.column}});
+  }
+  return families;
 }
 
 }  // namespace
@@ -44,11 +53,9 @@ json ClosedFormJson(const RobotModel& robot, const HalfStepSequence& sequence) {
   for (const PlacedHalfStep& placed : sequence.half_steps) {
     half_steps.push_back(HalfStepJson(placed));
   }
-  return {{"half_steps", std::move(half_steps)},
-          {"com_height_m", sequence.lipm.com_height},
-          {"gravity_m_s2", sequence.lipm.gravity},
-          {"waist_height_m", robot.waist_height},
-          {"com_ahead_m", robot.com_x_B}};
+  return {{"half_steps", std::move(half_steps)},      {"families", FamiliesJson()},
+          {"com_height_m", sequence.lipm.com_height}, {"gravity_m_s2", sequence.lipm.gravity},
+          {"waist_height_m", robot.waist_height},     {"com_ahead_m", robot.com_x_B}};
 }
 
 json ParametersJson(const fs::path& folder, int size) {
@@ -57,32 +64,23 @@ json ParametersJson(const fs::path& folder, int size) {
   if (half_steps.rows.size() != count || count % 2 != 0) return nullptr;
   std::vector<double> overlaps(count - 1, 0.0);  // those of `raw`, which has no table
   if (const fs::path path = folder / "overlaps.csv"; fs::exists(path)) {
-    overlaps = ReadCsv(path.string()).Numbers("overlap_s");
+    overlaps =
+        ReadCsv(path.string()).Numbers(std::string(Traits(ParameterFamily::kOverlap).column));
     if (overlaps.size() != count - 1) return nullptr;
   }
-  const auto by_step = [&half_steps](const char* column) {
-    json values = json::array();
+  json parameters;
+  parameters[PluralOf(Traits(ParameterFamily::kOverlap))] = overlaps;
+  for (const ParameterFamily family : FamiliesOfHalfSteps(HalfStepsExtent::kFootsteps)) {
+    const ParameterFamilyTraits& traits = Traits(family);
+    const std::string column(traits.column);
+    if (traits.of_form && !half_steps.Has(column)) continue;
     const std::vector<double> rows = half_steps.Numbers(column);
-    for (size_t i = 0; i < rows.size(); i += 2) values.push_back(rows[i]);
-    return values;
-  };
-  json parameters = {{"overlaps", overlaps},
-                     {"durations", half_steps.Numbers("duration_s")},
-                     {"height_scales", by_step("height_scale")},
-                     {"support_points", by_step("support_point_m")}};
-  if (half_steps.Has("lift_share")) {
-    parameters["via_laterals"] = by_step("via_lateral_m");
-    parameters["foot_ramps"] = half_steps.Numbers("foot_ramp");
-    parameters["foot_delays"] = half_steps.Numbers("foot_delay");
-    parameters["lift_shares"] = half_steps.Numbers("lift_share");
-    parameters["via_alongs"] = by_step("via_along_m");
-    parameters["zmp_shifts"] = half_steps.Numbers("zmp_shift");
-    parameters["zmp_bump_ramps"] = half_steps.Numbers("zmp_bump_ramp");
-  }
-  if (half_steps.Has("footstep_x_m")) {
-    parameters["footstep_xs"] = by_step("footstep_x_m");
-    parameters["footstep_ys"] = by_step("footstep_y_m");
-    parameters["footstep_yaws"] = by_step("footstep_yaw_rad");
+    std::vector<double> values;
+    for (int i = 0; i < size; ++i) {
+      if (traits.index_at(i) < static_cast<int>(values.size())) continue;
+      values.push_back(rows[static_cast<size_t>(i)]);
+    }
+    parameters[PluralOf(traits)] = values;
   }
   return parameters;
 }

@@ -9,14 +9,15 @@
 namespace halfstep {
 
 /// What the page needs to evaluate the closed form of walks on the same footsteps by itself:
-/// half-steps in S with their places X_WS [m, rad], the LIPM and the robot's posture over it.
+/// half-steps in S with their places X_WS [m, rad], the families of half_steps.csv, the LIPM and
+/// the robot's posture over it. What a family is of a half-step stands there under its column.
 /// Places to 12 digits.
 nlohmann::json ClosedFormJson(const RobotModel& robot, const HalfStepSequence& sequence);
 
 /// The homotopy parameters of a method's folder, exactly as its half_steps.csv and overlaps.csv
-/// have them: overlaps [s], durations [s], height_scales, support_points [m], and those of forms
-/// where the walk has its own (via_laterals [m], foot_ramps, ...). Null where they are
-/// not those of `size` half-steps. Throws InputError for tables that cannot be read.
+/// have them, by PluralOf() of their families; those of forms and footsteps where the walk has its
+/// own. Null where they are not those of `size` half-steps. Throws InputError for tables that
+/// cannot be read.
 nlohmann::json ParametersJson(const std::filesystem::path& folder, int size);
 
 }  // namespace halfstep

@@ -3,7 +3,7 @@ import { element, table } from "./elements.js";
 import { rowsAt, sampled } from "./hand_walk.js";
 import { marginText } from "./least_margins.js";
 import { save } from "./saving.js";
-import { SuperposedWalk, naturalBound } from "./superposed_walk.js";
+import { SuperposedWalk, naturalBound, valueOf } from "./superposed_walk.js";
 
 const mostHalfSteps = 80; // of a walk that has sliders
 const longest = 2; // times the planned duration, and the planned height
@@ -18,25 +18,14 @@ const copyOf = (parameters) => Object.fromEntries(
 /** The two tables that `halfstep smooth --given` reads, {name: text}; numbers are exact. */
 export function givenTables(form, parameters) {
   const line = (cells) => `${cells.join(",")}\n`;
-  const forms = "lift_shares" in parameters;
-  const footsteps = "footstep_xs" in parameters;
-  const halfSteps = form.half_steps.map((half, i) => {
-    const step = Math.floor(i / 2);
-    return line([i + 1, half.kind, half.support, parameters.durations[i],
-                 parameters.height_scales[step], parameters.support_points[step],
-                 ...(forms ? [parameters.via_laterals[step], parameters.foot_ramps[i],
-                              parameters.foot_delays[i], parameters.lift_shares[i],
-                              parameters.via_alongs[step], parameters.zmp_shifts[i],
-                              parameters.zmp_bump_ramps[i]] : []),
-                 ...(footsteps ? [parameters.footstep_xs[step], parameters.footstep_ys[step],
-                                  parameters.footstep_yaws[step]] : [])]);
-  });
+  const families = form.families.filter(({ values }) => values in parameters);
+  const halfSteps = form.half_steps.map((half, i) =>
+    line([i + 1, half.kind, half.support, ...families.map((family) => valueOf(family, parameters, i))]));
   const overlaps = parameters.overlaps.map((overlap, i) =>
     line([i + 1, i % 2 === 0 ? "up_down" : "down_up", overlap]));
   return {
-    "half_steps.csv": "half_step,kind,support,duration_s,height_scale,support_point_m" +
-      (forms ? ",via_lateral_m,foot_ramp,foot_delay,lift_share,via_along_m,zmp_shift,zmp_bump_ramp" : "") +
-      (footsteps ? ",footstep_x_m,footstep_y_m,footstep_yaw_rad\n" : "\n") + halfSteps.join(""),
+    "half_steps.csv": line(["half_step", "kind", "support", ...families.map(({ column }) => column)]) +
+      halfSteps.join(""),
     "overlaps.csv": "junction,kind,overlap_s\n" + overlaps.join(""),
   };
 }

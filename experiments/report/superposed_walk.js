@@ -10,11 +10,11 @@ const moved = ([x, y, yaw], [px, py]) => [
 ];
 
 // The state at rest in W, on the floor or at the via point.
-function restState(half, onFloor, height, supportPoint) {
+function restState(half, onFloor, height) {
   const { support, X_WS: place, X_SF: foot } = half;
   const swing = support === "left" ? "right" : "left";
   const sign = swing === "left" ? 1 : -1;
-  const point = onFloor ? [0.5 * foot[0], 0.5 * foot[1]] : [0, sign * supportPoint];
+  const point = onFloor ? [0.5 * foot[0], 0.5 * foot[1]] : [0, sign * half.support_point_m];
   const sole = onFloor ? foot : [half.via_along_m, sign * half.via_lateral_m, 0];
   const state = new Float64Array(13);
   state.set([...moved(place, point), ...moved(place, point), place[2] + (onFloor ? 0.5 * foot[2] : 0)]);
@@ -47,33 +47,30 @@ function placed(halfSteps, { footstep_xs: xs, footstep_ys: ys, footstep_yaws: ya
   return all;
 }
 
-// The half-step with the form that the parameters give it, where they do.
-function formed(half, parameters, i) {
-  if (!parameters.lift_shares) return half;
-  return {
-    ...half, via_lateral_m: parameters.via_laterals[Math.floor(i / 2)],
-    via_along_m: parameters.via_alongs[Math.floor(i / 2)],
-    shape: { ...half.shape, foot_ramp: parameters.foot_ramps[i], lift_share: parameters.lift_shares[i],
-             horizontal_delay: parameters.foot_delays[i], shift: parameters.zmp_shifts[i],
-             bump_ramp: parameters.zmp_bump_ramps[i] },
-  };
+/** What half-step i has of a family, {values, of} in `families` of a report's closed form. */
+export const valueOf = ({ values, of }, parameters, i) =>
+  parameters[values][of === "step" ? Math.floor(i / 2) : i];
+
+// The half-step with the numbers that the parameters give it, where they do.
+function formed(half, families, parameters, i) {
+  const given = families.filter(({ values, column }) => column in half && values in parameters);
+  return { ...half, ...Object.fromEntries(given.map((family) => [family.column, valueOf(family, parameters, i)])) };
 }
 
 class Piece {
-  constructor(half, { duration, heightScale, supportPoint, omega }) {
-    const { shape } = half;
+  constructor(half, heightScale, omega) {
     this.half = half;
-    this.duration = duration;
+    this.duration = half.duration_s;
     this.up = half.kind === "up";
-    this.t1 = 0.5 - 0.5 * shape.shift;
-    this.t2 = 0.5 + 0.5 * shape.shift;
-    this.shift = new RestToRest(omega * duration, shape.shift, shape.bump_ramp);
-    this.foot = this.up ? [this.t2 + shape.horizontal_delay, 1] : [0, this.t1 - shape.horizontal_delay];
-    this.lift = this.up ? [this.t2, this.t2 + shape.lift_share * (1 - this.t2)]
-      : [this.t1 - shape.lift_share * this.t1, this.t1];
+    this.t1 = 0.5 - 0.5 * half.zmp_shift;
+    this.t2 = 0.5 + 0.5 * half.zmp_shift;
+    this.shift = new RestToRest(omega * this.duration, half.zmp_shift, half.zmp_bump_ramp);
+    this.foot = this.up ? [this.t2 + half.foot_delay, 1] : [0, this.t1 - half.foot_delay];
+    this.lift = this.up ? [this.t2, this.t2 + half.lift_share * (1 - this.t2)]
+      : [this.t1 - half.lift_share * this.t1, this.t1];
     const height = half.via_height_m * heightScale;
-    this.from = restState(half, this.up, height, supportPoint);
-    const to = restState(half, !this.up, height, supportPoint);
+    this.from = restState(half, this.up, height);
+    const to = restState(half, !this.up, height);
     this.delta = to.map((value, q) => value - this.from[q]);
   }
 
@@ -82,7 +79,7 @@ class Piece {
     const { delta } = this;
     const com = this.shift.com(sigma);
     const zmp = this.shift.zmp(sigma);
-    const foot = rampedStep(sigma, ...this.foot, this.half.shape.foot_ramp);
+    const foot = rampedStep(sigma, ...this.foot, this.half.foot_ramp);
     const height = smoothstep(sigma, ...this.lift);
     const profiles = [com, com, zmp, zmp, smoothstep(sigma),
                       foot, foot, height, foot, foot, foot, height, foot];
@@ -93,27 +90,22 @@ class Piece {
 /** min(before·T, after·T) [s], beyond which an overlap makes no walk. `junction`: from 0. */
 export function naturalBound(halfSteps, { durations, zmp_shifts: shifts }, junction) {
   if (junction % 2 === 1) return Math.min(durations[junction], durations[junction + 1]);
-  const shiftOf = (i) => shifts?.[i] ?? halfSteps[i].shape.shift;
+  const shiftOf = (i) => shifts?.[i] ?? halfSteps[i].zmp_shift;
   const t2 = 0.5 + 0.5 * shiftOf(junction);
   const t1 = 0.5 - 0.5 * shiftOf(junction + 1);
   return Math.min((1 - t2) * durations[junction], t1 * durations[junction + 1]);
 }
 
 export class SuperposedWalk {
-  /** `form`: closed_form of a report; `parameters`: overlaps, durations, height_scales, support_points,
-   * via_laterals, via_alongs, foot_ramps, foot_delays, lift_shares, zmp_shifts, zmp_bump_ramps where
-   * the walk has forms of its own, and
-   * footstep_xs, footstep_ys, footstep_yaws where footsteps are moved. */
+  /** `form`: closed_form of a report; `parameters`: overlaps and `values` of its `families`, those of
+   * forms and footsteps where the walk has its own. */
   constructor(form, parameters) {
     const omega = Math.sqrt(form.gravity_m_s2 / form.com_height_m);
     let start = 0;
     this.form = form;
     this.pieces = placed(form.half_steps, parameters).map((half, i) => {
-      const step = Math.floor(i / 2);
-      const piece = new Piece(formed(half, parameters, i), {
-        duration: parameters.durations[i], heightScale: parameters.height_scales[step],
-        supportPoint: parameters.support_points[step], omega,
-      });
+      const piece = new Piece(formed(half, form.families, parameters, i),
+        parameters.height_scales[Math.floor(i / 2)], omega);
       piece.start = start;
       start += piece.duration - (parameters.overlaps[i] ?? 0);
       return piece;

@@ -42,10 +42,18 @@ std::string ValueWords(const Margin& margin, const std::string& subject) {
     case MarginFamily::kFriction:
       return "what the " + subject + (missed ? " needs is " : " needs leaves ") + amount +
              (missed ? " above the floor's friction" : " of the floor's friction");
-    default:
-      return std::string(Name(margin.family)) + " of " + subject + ": " + amount +
-             (missed ? " beyond its limit" : " inside its limit");
+    case MarginFamily::kFootSpeed:
+    case MarginFamily::kFootYawRate:
+    case MarginFamily::kJoint:
+    case MarginFamily::kJointSpeed:
+    case MarginFamily::kNoStep:
+    case MarginFamily::kTorque:
+    case MarginFamily::kJointAcceleration:
+    case MarginFamily::kOwn:
+      break;
   }
+  return std::string(Name(margin.family)) + " of " + subject + ": " + amount +
+         (missed ? " beyond its limit" : " inside its limit");
 }
 
 }  // namespace

@@ -55,7 +55,7 @@ class GivenWalkReader {
 
  private:
   GivenTable* TableOf(ParameterFamily family) {
-    std::optional<GivenTable>& table = Traits(family).table == "overlaps" ? overlaps_ : half_steps_;
+    std::optional<GivenTable>& table = Traits(family).joins() ? overlaps_ : half_steps_;
     return table ? &*table : nullptr;
   }
   // Whether a table says the values of a family.

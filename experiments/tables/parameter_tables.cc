@@ -15,17 +15,6 @@ HalfStepsExtent ExtentOf(ParameterFamily family) {
   return traits.of_form ? HalfStepsExtent::kForms : HalfStepsExtent::kTimes;
 }
 
-// The families whose values stand in half_steps.csv, in the order of their columns.
-std::vector<ParameterFamily> FamiliesOfHalfSteps(HalfStepsExtent extent) {
-  std::vector<ParameterFamily> families;
-  for (const ParameterFamily family : AllParameterFamilies()) {
-    const ParameterFamilyTraits& traits = Traits(family);
-    if (traits.table == "half_steps" && ExtentOf(family) <= extent) families.push_back(family);
-  }
-  std::ranges::stable_sort(families, {}, [](ParameterFamily f) { return Traits(f).rank; });
-  return families;
-}
-
 // As far as values are not the plan's.
 HalfStepsExtent ExtentOf(const HalfStepSequence& sequence, const HomotopyParameters& parameters) {
   const HomotopyParameters planned = PlannedMotion(sequence);
@@ -37,6 +26,16 @@ HalfStepsExtent ExtentOf(const HalfStepSequence& sequence, const HomotopyParamet
 }
 
 }  // namespace
+
+std::vector<ParameterFamily> FamiliesOfHalfSteps(HalfStepsExtent extent) {
+  std::vector<ParameterFamily> families;
+  for (const ParameterFamily family : AllParameterFamilies()) {
+    const ParameterFamilyTraits& traits = Traits(family);
+    if (!traits.joins() && ExtentOf(family) <= extent) families.push_back(family);
+  }
+  std::ranges::stable_sort(families, {}, [](ParameterFamily f) { return Traits(f).rank; });
+  return families;
+}
 
 CsvColumn ColumnOf(ParameterFamily family) {
   const ParameterFamilyTraits& traits = Traits(family);

@@ -1,35 +1,12 @@
 #include "experiments/verify/check_chosen.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace halfstep::verify {
 namespace {
 
 constexpr double kMoved = 1e-9;  // of a number that is written in two tables
-
-// A form that each half-step or each step has, the key that lets methods move it, and its name in
-// smoothing.fixed.
-struct Form {
-  const char* key;
-  const char* name;
-  bool ParameterChoice::*chosen;
-  double FormColumns::*value;
-  bool of_step;
-};
-
-constexpr std::array<Form, 7> kForms = {{
-    {"via_laterals", "via_lateral", &ParameterChoice::via_laterals, &FormColumns::via_lateral,
-     true},
-    {"foot_ramps", "foot_ramp", &ParameterChoice::foot_ramps, &FormColumns::foot_ramp, false},
-    {"foot_delays", "foot_delay", &ParameterChoice::foot_delays, &FormColumns::foot_delay, false},
-    {"lift_shares", "lift_share", &ParameterChoice::lift_shares, &FormColumns::lift_share, false},
-    {"via_alongs", "via_along", &ParameterChoice::via_alongs, &FormColumns::via_along, true},
-    {"zmp_shifts", "zmp_shift", &ParameterChoice::zmp_shifts, &FormColumns::zmp_shift, false},
-    {"zmp_bump_ramps", "zmp_bump_ramp", &ParameterChoice::zmp_bump_ramps,
-     &FormColumns::zmp_bump_ramp, false},
-}};
 
 }  // namespace
 
@@ -54,10 +31,10 @@ void CheckChosen(const std::string& method, const std::vector<HalfStepRow>& half
   };
   for (size_t i = 0; i < half_steps.size(); ++i) {
     const HalfStep& plan = planned.half_steps[i].half_step;
-    const FormColumns is = half_steps[i].FormOf(plan), as_planned = HalfStepRow{}.FormOf(plan);
-    for (const Form& form : kForms) {
-      if (choice.*form.chosen) continue;
-      look(i, form.key, form.name, form.of_step ? i / 2 : i, is.*form.value,
+    const FormColumns is = half_steps[i].FormOf(plan), as_planned = PlannedForm(plan);
+    for (const FormColumn& form : AllFormColumns()) {
+      if (choice.moves(form.key)) continue;
+      look(i, form.key, form.name, form.of_step() ? i / 2 : i, is.*form.value,
            as_planned.*form.value);
     }
     if (!choice.support_points) {

@@ -100,10 +100,8 @@ bool CheckHalfSteps(const EpisodeWalkText& text, const HalfStepSequence& planned
 }
 
 bool NearForms(const FormColumns& a, const FormColumns& b) {
-  return Near(a.via_lateral, b.via_lateral) && Near(a.foot_ramp, b.foot_ramp) &&
-         Near(a.foot_delay, b.foot_delay) && Near(a.lift_share, b.lift_share) &&
-         Near(a.via_along, b.via_along) && Near(a.zmp_shift, b.zmp_shift) &&
-         Near(a.zmp_bump_ramp, b.zmp_bump_ramp);
+  return std::ranges::all_of(
+      AllFormColumns(), [&](const FormColumn& one) { return Near(a.*one.value, b.*one.value); });
 }
 
 // Whether half-step i is the same in two walks.

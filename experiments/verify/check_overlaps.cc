@@ -19,24 +19,20 @@ bool SameMove(const Pose2& a, const Pose2& b) {
 }
 
 bool Same(const FormColumns& a, const FormColumns& b) {
-  return Same(a.via_lateral, b.via_lateral) && Same(a.foot_ramp, b.foot_ramp) &&
-         Same(a.foot_delay, b.foot_delay) && Same(a.lift_share, b.lift_share) &&
-         Same(a.via_along, b.via_along) && Same(a.zmp_shift, b.zmp_shift) &&
-         Same(a.zmp_bump_ramp, b.zmp_bump_ramp) && SameMove(a.footstep, b.footstep);
+  return SameMove(a.footstep, b.footstep) &&
+         std::ranges::all_of(AllFormColumns(), [&](const FormColumn& one) {
+           return Same(a.*one.value, b.*one.value);
+         });
 }
 
 // What is wrong with a form, of whatever plan; "": nothing. Numbers that are not finite are out of
 // every range.
 std::string FaultOfForm(const FormColumns& form) {
   const auto within = [](double x, double least, double most) { return x >= least && x <= most; };
-  if (!within(form.via_lateral, 0.01, 1)) return Formatted("via point at %.9g", form.via_lateral);
-  if (!within(form.foot_ramp, 0.1, 0.5)) return Formatted("foot ramp %.9g", form.foot_ramp);
-  if (!within(form.foot_delay, 0, 0.2)) return Formatted("foot delay %.9g", form.foot_delay);
-  if (!within(form.lift_share, 0.2, 1)) return Formatted("lift share %.9g", form.lift_share);
-  if (!within(form.via_along, -0.5, 0.5)) return Formatted("via point %.9g ahead", form.via_along);
-  if (!within(form.zmp_shift, 0.01, 0.5)) return Formatted("ZMP's shift %.9g", form.zmp_shift);
-  if (!within(form.zmp_bump_ramp, 0.1, 1)) {
-    return Formatted("ZMP's bump ramp %.9g", form.zmp_bump_ramp);
+  for (const FormColumn& one : AllFormColumns()) {
+    const double value = form.*one.value;
+    if (within(value, one.least, one.most)) continue;
+    return one.before + Formatted("%.9g", value) + one.after;
   }
   const Pose2& move = form.footstep;
   if (!within(move.x, -0.5, 0.5) || !within(move.y, -0.5, 0.5) || !within(move.yaw, -1, 1)) {
@@ -54,8 +50,7 @@ std::string FaultOfRaw(const HalfStepRow& row, const HalfStep& planned) {
     return Formatted("support point %.9g, planned %.9g", row.support_point,
                      planned.shape.support_offset);
   }
-  const FormColumns as_planned = HalfStepRow{}.FormOf(planned);
-  if (!Same(row.FormOf(planned), as_planned)) return "a form that is not planned";
+  if (!Same(row.FormOf(planned), PlannedForm(planned))) return "a form that is not planned";
   return Same(row.height_scale, 1) ? ""
                                    : Formatted("height scale %.9g, planned 1", row.height_scale);
 }
@@ -84,14 +79,11 @@ std::string FaultOf(const OverlapRow& row, const HalfStepRow& before, const Half
   return "";
 }
 
-// The column of a parameter that each half-step has for itself.
-std::optional<double FormColumns::*> FormNamed(const std::string& parameter) {
-  if (parameter == "foot_ramp") return &FormColumns::foot_ramp;
-  if (parameter == "foot_delay") return &FormColumns::foot_delay;
-  if (parameter == "lift_share") return &FormColumns::lift_share;
-  if (parameter == "zmp_shift") return &FormColumns::zmp_shift;
-  if (parameter == "zmp_bump_ramp") return &FormColumns::zmp_bump_ramp;
-  return std::nullopt;
+// The column of a form; null: the parameter is none.
+const FormColumn* FormNamed(const std::string& parameter) {
+  const auto& all = AllFormColumns();
+  const auto found = std::ranges::find(all, parameter, &FormColumn::name);
+  return found != all.end() ? &*found : nullptr;
 }
 
 // The number of a footstep's move that a parameter is.
@@ -120,11 +112,10 @@ std::string FaultOfStep(const HalfStepRow& up, const HalfStepRow& down) {
   if (!Same(down.height_scale, up.height_scale)) {
     return "another height scale than the step's up half-step";
   }
-  if (up.form && down.form && !Same(down.form->via_lateral, up.form->via_lateral)) {
-    return "another via point than the step's up half-step";
-  }
-  if (up.form && down.form && !Same(down.form->via_along, up.form->via_along)) {
-    return "a via point elsewhere along than the step's up half-step";
+  for (const FormColumn& one : AllFormColumns()) {
+    if (!one.of_step() || !up.form || !down.form) continue;
+    if (Same(*down.form.*one.value, *up.form.*one.value)) continue;
+    return std::string(one.differs) + " than the step's up half-step";
   }
   if (up.form && down.form && !SameMove(down.form->footstep, up.form->footstep)) {
     return "another footstep than the step's up half-step";
@@ -222,20 +213,14 @@ void CheckFixed(const std::vector<HalfStepRow>& half_steps, const std::vector<Ov
     } else if (one.parameter == "support_point" && 2 * i < half_steps.size()) {
       is = half_steps[2 * i].support_point;
       demanded = planned.half_steps[2 * i].half_step.shape.support_offset;
-    } else if (one.parameter == "via_lateral" && 2 * i < half_steps.size()) {
-      const HalfStep& plan = planned.half_steps[2 * i].half_step;
-      is = half_steps[2 * i].FormOf(plan).via_lateral;
-      demanded = plan.via_lateral;
-    } else if (one.parameter == "via_along" && 2 * i < half_steps.size()) {
-      const HalfStep& plan = planned.half_steps[2 * i].half_step;
-      is = half_steps[2 * i].FormOf(plan).via_along;
-      demanded = plan.via_along;
     } else if (const auto move = MoveNamed(one.parameter); move && 2 * i < half_steps.size()) {
       is = half_steps[2 * i].FormOf(planned.half_steps[2 * i].half_step).footstep.**move;
-    } else if (const auto form = FormNamed(one.parameter); form && i < half_steps.size()) {
-      const HalfStep& plan = planned.half_steps[i].half_step;
-      is = half_steps[i].FormOf(plan).**form;
-      demanded = HalfStepRow{}.FormOf(plan).**form;
+    } else if (const auto* form = FormNamed(one.parameter);
+               form && (form->of_step() ? 2 * i : i) < half_steps.size()) {
+      const size_t row = form->of_step() ? 2 * i : i;
+      const HalfStep& plan = planned.half_steps[row].half_step;
+      is = half_steps[row].FormOf(plan).*form->value;
+      demanded = PlannedForm(plan).*form->value;
     } else {
       findings->Disagree("config.yaml: smoothing.fixed: " + one.parameter +
                          Formatted(" %d is not known here", one.index));

@@ -30,13 +30,7 @@ DescribedWalk::DescribedWalk(const RobotModel& robot, const HalfStepSequence& pl
     half_step.via_height *= rows[i].height_scale;
     half_step.shape.support_offset = rows[i].support_point;
     const FormColumns form = rows[i].FormOf(as_planned);
-    half_step.via_lateral = form.via_lateral;
-    half_step.shape.foot_ramp = form.foot_ramp;
-    half_step.shape.horizontal_delay = form.foot_delay;
-    half_step.shape.lift_share = form.lift_share;
-    half_step.via_along = form.via_along;
-    half_step.shape.shift = form.zmp_shift;
-    half_step.shape.bump_ramp = form.zmp_bump_ramp;
+    for (const FormColumn& one : AllFormColumns()) one.in(&half_step) = form.*one.value;
     const WalkState from = Transformed(X_WS, half_step.Start());
     pieces_.push_back({.half_step = half_step,
                        .profiles = {half_step.kind, half_step.shape, half_step.duration, lipm_},

@@ -30,10 +30,11 @@ std::vector<HalfStepRow> ReadHalfSteps(const std::string& path, const std::strin
                                       "duration_s", "height_scale", "support_point_m"};
   const std::string head = text.substr(0, text.find('\n'));
   const bool has_footsteps = head.ends_with(",footstep_yaw_rad");
-  const bool has_forms = has_footsteps || head.ends_with(",zmp_bump_ramp");
+  const auto& forms = AllFormColumns();
+  const bool has_forms = has_footsteps || head.ends_with("," + std::string(forms.back().column));
+  const size_t first = columns.size();
   if (has_forms) {
-    columns.insert(columns.end(), {"via_lateral_m", "foot_ramp", "foot_delay", "lift_share",
-                                   "via_along_m", "zmp_shift", "zmp_bump_ramp"});
+    for (const FormColumn& one : forms) columns.emplace_back(one.column);
   }
   if (has_footsteps) {
     columns.insert(columns.end(), {"footstep_x_m", "footstep_y_m", "footstep_yaw_rad"});
@@ -49,15 +50,11 @@ std::vector<HalfStepRow> ReadHalfSteps(const std::string& path, const std::strin
                     .height_scale = csv.Number(i, 5),
                     .support_point = csv.Number(i, 6)});
     if (!has_forms) continue;
-    rows.back().form = {.via_lateral = csv.Number(i, 7),
-                        .foot_ramp = csv.Number(i, 8),
-                        .foot_delay = csv.Number(i, 9),
-                        .lift_share = csv.Number(i, 10),
-                        .via_along = csv.Number(i, 11),
-                        .zmp_shift = csv.Number(i, 12),
-                        .zmp_bump_ramp = csv.Number(i, 13)};
+    FormColumns& form = rows.back().form.emplace();
+    for (size_t k = 0; k < forms.size(); ++k) form.*forms[k].value = csv.Number(i, first + k);
     if (!has_footsteps) continue;
-    rows.back().form->footstep = {csv.Number(i, 14), csv.Number(i, 15), csv.Number(i, 16)};
+    const size_t moves = first + forms.size();
+    form.footstep = {csv.Number(i, moves), csv.Number(i, moves + 1), csv.Number(i, moves + 2)};
   }
   return rows;
 }

@@ -4,19 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "wpg/motion/half_step_sequence.h"
+#include "experiments/verify/form_columns.h"
 
 namespace halfstep::verify {
-
-/// The columns of half_steps.csv that are there when half-steps have forms of their own, or
-/// footsteps are moved.
-struct FormColumns {
-  double via_lateral = 0;                                ///< [m]
-  double foot_ramp = 0, foot_delay = 0, lift_share = 0;  ///< as HalfStepShape has them
-  double via_along = 0;                                  ///< [m]
-  double zmp_shift = 0, zmp_bump_ramp = 0;               ///< shift and bump_ramp of HalfStepShape
-  Pose2 footstep = {};  ///< the step's, seen from where it is planned; as planned without columns
-};
 
 /// A row of half_steps.csv.
 struct HalfStepRow {
@@ -26,24 +16,14 @@ struct HalfStepRow {
   std::optional<FormColumns> form = {};              ///< none: as planned
 
   /// The form of the half-step whose plan is `planned`.
-  FormColumns FormOf(const HalfStep& planned) const {
-    const HalfStepShape& shape = planned.shape;
-    return form.value_or(FormColumns{planned.via_lateral,
-                                     shape.foot_ramp,
-                                     shape.horizontal_delay,
-                                     shape.lift_share,
-                                     planned.via_along,
-                                     shape.shift,
-                                     shape.bump_ramp,
-                                     {}});
-  }
+  FormColumns FormOf(const HalfStep& planned) const { return form.value_or(PlannedForm(planned)); }
 };
 
 /// A row of overlaps.csv; its columns about what holds the overlap and what that costs are not
 /// read: no statement is about them.
 struct OverlapRow {
-  std::string kind;        ///< up_down or down_up
-  double overlap = 0;      ///< [s]
+  std::string kind;    ///< up_down or down_up
+  double overlap = 0;  ///< [s]
   /// Of the half-steps [s] and height scales on both sides.
   double duration_before = 0, duration_after = 0, scale_before = 0, scale_after = 0;
   double upper_bound = 0;  ///< the largest overlap that was allowed [s]

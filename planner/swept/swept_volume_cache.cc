@@ -97,17 +97,18 @@ std::string SweptVolumeProvenance(const RobotModel& robot, const Lipm& lipm, con
   line("duration", Exactly(set.prototype.duration));
   line("via_height", Exactly(set.prototype.via_height));
   line("via_lateral", Exactly(set.prototype.via_lateral));
-  line("shift", Exactly(set.prototype.shape.shift));
-  line("horizontal_delay", Exactly(set.prototype.shape.horizontal_delay));
+  // All its numbers: one more does not compile before it is here.
+  const auto& [shift, delay, bump_ramp, foot_ramp, lift_share, support] = set.prototype.shape;
+  line("shift", Exactly(shift));
+  line("horizontal_delay", Exactly(delay));
   // Those that a shape has as always are left out, so that older files stay valid.
-  const HalfStepShape& shape = set.prototype.shape;
   const auto line_unless = [&](const char* key, double value, double always) {
     if (value != always) line(key, Exactly(value));
   };
-  line_unless("bump_ramp", shape.bump_ramp, 1.0);
-  line_unless("foot_ramp", shape.foot_ramp, 0.5);
-  line_unless("lift_share", shape.lift_share, 1.0);
-  line_unless("support_offset", shape.support_offset, 0.0);
+  line_unless("bump_ramp", bump_ramp, 1.0);
+  line_unless("foot_ramp", foot_ramp, 0.5);
+  line_unless("lift_share", lift_share, 1.0);
+  line_unless("support_offset", support, 0.0);
   line_unless("via_along", set.prototype.via_along, 0.0);
   line("elements", std::to_string(set.size()));
   line("placements", Sha256(placements));

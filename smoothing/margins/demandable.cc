@@ -6,18 +6,14 @@
 namespace halfstep {
 
 std::string WhyNotDemandable(MarginFamily family, const RobotModel& robot) {
-  switch (family) {
-    case MarginFamily::kZmpRobot:
-    case MarginFamily::kFriction:
-      return robot.masses.fault;
-    case MarginFamily::kTorque:
-      return TorqueFault(robot);
-    case MarginFamily::kJointAcceleration:
-      if (StatesAccelerationLimits(robot)) return "";
-      return "the robot file states no limits (`acceleration_limits_rad_s2`)";
-    default:
-      return "";
+  if (family == MarginFamily::kZmpRobot || family == MarginFamily::kFriction) {
+    return robot.masses.fault;
   }
+  if (family == MarginFamily::kTorque) return TorqueFault(robot);
+  if (family == MarginFamily::kJointAcceleration && !StatesAccelerationLimits(robot)) {
+    return "the robot file states no limits (`acceleration_limits_rad_s2`)";
+  }
+  return "";
 }
 
 MarginLimits Demandable(MarginLimits limits, const RobotModel& robot) {

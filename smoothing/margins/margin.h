@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "smoothing/walk/superposed_walk.h"
+#include "wpg/enumerators.h"
 
 namespace halfstep {
 
@@ -34,7 +35,7 @@ enum class MarginFamily : int {
   kOwn,  ///< what the program itself registered (own_margin.h), of its scale [1]
 };
 /// How many families there are.
-constexpr int kNumMarginFamilies = 16;
+inline constexpr int kNumMarginFamilies = NumEnumerators<MarginFamily>();
 
 std::string_view Name(MarginFamily family);  ///< "zmp", "joint_speed" … as in YAML and CSV
 std::string_view Unit(MarginFamily family);  ///< "m", "rad" …

@@ -33,7 +33,7 @@ void DeclareOwnCosts(Fields& fields, std::vector<WeightedWalkCost>* costs) {
 }
 
 bool OfHalfSteps(const ParameterFamilyTraits& traits) {
-  return traits.chosen != nullptr && traits.move == nullptr;
+  return !traits.always && traits.move == nullptr;
 }
 
 bool NamesFamilyOfHalfSteps(const std::vector<std::string>& keys) {
@@ -45,9 +45,9 @@ bool NamesFamilyOfHalfSteps(const std::vector<std::string>& keys) {
 
 void ChooseFamiliesOfHalfSteps(ParameterChoice* choice) {
   for (const ParameterFamily family : AllParameterFamilies()) {
-    if (OfHalfSteps(Traits(family))) choice->*Traits(family).chosen = true;
+    if (OfHalfSteps(Traits(family))) *choice->flag(family) = true;
   }
-  choice->least_duration = 0.2;
+  choice->bound("least_duration") = 0.2;
 }
 
 }  // namespace
@@ -69,20 +69,20 @@ void DeclareFields(Fields& fields, SolverMethodOptions* c) {
   ParameterChoice* const choice = &o->program.parameters;
   if (NamesFamilyOfHalfSteps(fields.Keys())) c->all_families = false;
   fields.Boolean("all_families", &c->all_families,
-                 {.meaning = "whichever of the next ten keys is not given is true, and "
-                             "`least_duration` is 0.2; false by default where one of the ten is "
-                             "given"});
+                 {.meaning = "whichever of the next keys but `footsteps` is not given is "
+                             "true, and `least_duration` is 0.2; false by default where one of "
+                             "these is given"});
   if (c->all_families && !c->families_chosen) ChooseFamiliesOfHalfSteps(choice);
   c->families_chosen = true;
   for (const ParameterFamily family : AllParameterFamilies()) {
     const ParameterFamilyTraits& traits = Traits(family);
-    if (traits.chosen == nullptr || traits.key.empty()) continue;
-    fields.Boolean(traits.key.data(), &(choice->*traits.chosen),
-                   {.meaning = traits.key_meaning.data()});
+    if (traits.always || traits.key.empty()) continue;
+    fields.Boolean(traits.key.data(), choice->flag(family), {.meaning = traits.key_meaning.data()});
   }
   for (const ParameterFamily family : AllParameterFamilies()) {
-    for (const ParameterBoundKey& bound : Traits(family).bounds) {
-      fields.Number(bound.key.data(), &(choice->*bound.value),
+    double* value = choice->bounds[family].data();
+    for (const ParameterBoundKey& bound : Traits(family).bounds()) {
+      fields.Number(bound.key.data(), value++,
                     {.meaning = bound.meaning.data(),
                      .unit = bound.unit.data(),
                      .min = bound.min,
@@ -142,7 +142,7 @@ std::string VariableNames(const ParameterChoice& choice) {
   std::string names;
   for (const ParameterFamily family : AllParameterFamilies()) {
     const ParameterFamilyTraits& traits = Traits(family);
-    if (traits.key.empty() || (traits.chosen != nullptr && !(choice.*traits.chosen))) continue;
+    if (traits.key.empty() || !choice.moves(family)) continue;
     names += (names.empty() ? "" : "+") + std::string(traits.key);
   }
   return names;

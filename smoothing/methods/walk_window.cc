@@ -25,7 +25,7 @@ struct Part {
   int first_of(ParameterFamily family) const { return Traits(family).index_at(begin); }
   int count_of(ParameterFamily family) const {
     const ParameterFamilyTraits& traits = Traits(family);
-    return traits.index_at(end - 1) + (traits.joins ? 0 : 1) - traits.index_at(begin);
+    return traits.index_at(end - 1) + (traits.joins() ? 0 : 1) - traits.index_at(begin);
   }
 };
 
@@ -61,7 +61,7 @@ Stays WhatStays(const Part& part, const WalkProblem& problem, int first, int las
     const ParameterFamilyTraits& traits = Traits(family);
     for (int i = 0; i < part.count_of(family); ++i) {
       const auto [from, to] = traits.half_steps(part.first_of(family) + i);
-      const bool before = traits.joins && to == first;
+      const bool before = traits.joins() && to == first;
       stays[static_cast<size_t>(family)].push_back(to > last || (from < first && !before));
     }
   }

@@ -72,17 +72,15 @@ HomotopyParameters OverlapVariables::ToParameters(const Eigen::VectorXd& x) cons
   HomotopyParameters parameters = start_;
   for (int v = size() - 1; v >= 0; --v) {  // what bounds overlaps before these
     double& value = at(v).in(parameters);
-    switch (at(v).family) {
-      case Family::kOverlap:
-        value = std::clamp(x[v], 0.0, 1.0) * OverlapBound(at(v).index, parameters).value;
-        break;
-      case Family::kDuration:  // some solvers leave bounds a little; fixed overlaps must fit
-        value = std::max(x[v], table_.row(at(v)).lower);
-        break;
-      default:
-        value = Traits(at(v).family).of_form
-                    ? std::clamp(x[v], table_.row(at(v)).lower, table_.row(at(v)).upper)
-                    : x[v];
+    if (at(v).family == Family::kOverlap) {
+      value = std::clamp(x[v], 0.0, 1.0) * OverlapBound(at(v).index, parameters).value;
+    } else if (at(v).family == Family::kDuration) {
+      // Some solvers leave bounds a little; fixed overlaps must fit.
+      value = std::max(x[v], table_.row(at(v)).lower);
+    } else {
+      value = Traits(at(v).family).of_form
+                  ? std::clamp(x[v], table_.row(at(v)).lower, table_.row(at(v)).upper)
+                  : x[v];
     }
   }
   return parameters;
@@ -96,7 +94,7 @@ std::vector<int> OverlapVariables::Band(int half_step) const {
     const auto [first, last] = traits.half_steps(at(v).index);
     const int from = resting_ ? half_step - kNear : 0, to = half_step + kNear;
     const bool inside = from <= first && last <= to, touches = from <= last && first <= to;
-    if (traits.joins ? inside : touches) band.push_back(v);
+    if (traits.joins() ? inside : touches) band.push_back(v);
   }
   return band;
 }

@@ -180,27 +180,18 @@ class Survey {
       const RobotBody& body = evaluator_.robot().bodies[static_cast<size_t>(index)];
       if (IsFoot(body)) add(static_cast<Side>(body.leg));
     };
-    switch (margin.family) {
-      case MarginFamily::kNoStep:
-        if (margin.subject >= 0) add(static_cast<Side>(margin.subject));
-        break;
-      case MarginFamily::kClearance: {
-        const auto& obstacles = evaluator_.scene().obstacles;
-        const bool rests =
-            margin.other >= 0 && obstacles[static_cast<size_t>(margin.other)].rests();
-        if (rests) add_body(margin.subject);
-        break;
-      }
-      case MarginFamily::kGround:
-        add_body(margin.subject);
-        break;
-      case MarginFamily::kSelfClearance:
-        add_body(margin.subject);
-        add_body(margin.other);
-        if (feet.size() < 2) feet.clear();  // the other body moves
-        break;
-      default:
-        break;
+    if (margin.family == MarginFamily::kNoStep) {
+      if (margin.subject >= 0) add(static_cast<Side>(margin.subject));
+    } else if (margin.family == MarginFamily::kClearance) {
+      const auto& obstacles = evaluator_.scene().obstacles;
+      const bool rests = margin.other >= 0 && obstacles[static_cast<size_t>(margin.other)].rests();
+      if (rests) add_body(margin.subject);
+    } else if (margin.family == MarginFamily::kGround) {
+      add_body(margin.subject);
+    } else if (margin.family == MarginFamily::kSelfClearance) {
+      add_body(margin.subject);
+      add_body(margin.other);
+      if (feet.size() < 2) feet.clear();  // the other body moves
     }
     return feet;
   }

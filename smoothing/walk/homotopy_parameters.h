@@ -10,6 +10,7 @@ namespace halfstep {
 
 /// A point of the smoothing homotopy of a sequence of n half-steps: the values of each family.
 struct HomotopyParameters {
+  // Of the families that algorithms name.
   /// Δ_i [s] of junction i, between half-steps i and i+1 (n−1). Below 0 it is a rest: half-step
   /// i+1 begins −Δ_i after half-step i has ended.
   std::vector<double> overlaps;
@@ -17,25 +18,23 @@ struct HomotopyParameters {
   std::vector<double> durations;      ///< T_i of half-step i [s] (n).
   /// Support offset of step j [m]: of both its half-steps, which share the support foot (n/2).
   std::vector<double> support_points;
-  std::vector<double> via_laterals;  ///< of the via point of step j from the support sole [m] (n/2)
-  // Of half-step i, as in its HalfStepShape (n).
-  std::vector<double> foot_ramps;   ///< foot_ramp
-  std::vector<double> foot_delays;  ///< horizontal_delay
-  std::vector<double> lift_shares;  ///< lift_share
-  std::vector<double>
-      via_alongs;  ///< of the via point of step j, ahead of the support sole [m] (n/2)
-  std::vector<double> zmp_shifts;      ///< shift of half-step i, as in its HalfStepShape (n)
-  std::vector<double> zmp_bump_ramps;  ///< bump_ramp of half-step i (n)
+  std::vector<double> zmp_shifts;  ///< shift of half-step i, as in its HalfStepShape (n)
   // Where the footstep of step j is, seen from where it is planned (n/2).
   std::vector<double> footstep_xs;    ///< [m]
   std::vector<double> footstep_ys;    ///< [m]
   std::vector<double> footstep_yaws;  ///< [rad]
+  /// Of the other families, a value for each junction, step or half-step as the family's row says.
+  ByParameterFamily<std::vector<double>> others;
 
   /// The values of a family.
-  std::vector<double>& of(ParameterFamily family) { return this->*Traits(family).values; }
+  std::vector<double>& of(ParameterFamily family) {
+    const auto named = Traits(family).values;
+    return named != nullptr ? this->*named : others[family];
+  }
   /// The same, to be read.
   const std::vector<double>& of(ParameterFamily family) const {
-    return this->*Traits(family).values;
+    const auto named = Traits(family).values;
+    return named != nullptr ? this->*named : others[family];
   }
 
   friend bool operator==(const HomotopyParameters&, const HomotopyParameters&) = default;

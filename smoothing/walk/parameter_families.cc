@@ -3,201 +3,358 @@
 #include <algorithm>
 #include <limits>
 
-#include "smoothing/walk/footstep_families.h"
-#include "smoothing/walk/form_families.h"
 #include "smoothing/walk/homotopy_parameters.h"
 
 namespace halfstep {
 namespace {
 
+using enum ParameterOf;
+
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-constexpr ParameterFamilyTraits kOverlap = {
-    .name = "overlap",
-    .unit = "s",
-    .table = "overlaps",
-    .column = "overlap_s",
-    .rank = 0,
-    .meaning = "how long both half-steps are under way; below 0: a rest between them",
-    .of_form = false,
-    .shape = nullptr,
-    .move = nullptr,
-    .values = &HomotopyParameters::overlaps,
-    .count = [](const HalfStepSequence& sequence) { return sequence.num_junctions(); },
-    .planned = [](const HalfStepSequence&, int) { return 0.0; },
-    .stays = nullptr,
-    .half_steps =
-        [](int i) {
-          return std::pair{i, i + 1};
-        },
-    .index_at = [](int half_step) { return half_step; },
-    .joins = true,
-    .least = -kLongestRest,
-    .least_itself = true,
-    .most = kInfinity,
-    .chosen = nullptr,
-    .key = "overlaps",
-    .key_meaning = "",
-    .bounds = {},
-    .range =
-        [](const ParameterChoice&, double) {
-          return std::pair{0.0, kInfinity};
-        },
-};
+using Row = ParameterFamilyTraits;
+using Bounds = std::array<double, 2>;
+using Choice = ParameterChoice;
+using Values = HomotopyParameters;
 
-constexpr ParameterBoundKey kHeightBounds[] = {{"least_height_scale", "of the planned height",
-                                                &ParameterChoice::least_height_scale, 0.01, 1, ""}};
+// Ranges of what methods choose from. The planned value is in all of them.
+std::pair<double, double> Unbounded(const Row&, const Bounds&, double) { return {0.0, kInfinity}; }
+std::pair<double, double> UpToPlanned(const Row&, const Bounds& bounds, double planned) {
+  return {bounds[0], planned};
+}
+std::pair<double, double> OfPlanned(const Row&, const Bounds& bounds, double planned) {
+  return {bounds[0] * planned, bounds[1] * planned};
+}
+std::pair<double, double> Between(const Row&, const Bounds& bounds, double planned) {
+  return {std::min(bounds[0], planned), std::max(bounds[1], planned)};
+}
+std::pair<double, double> UpToMost(const Row& row, const Bounds& bounds, double planned) {
+  return {std::min(bounds[0], planned), row.most};
+}
+std::pair<double, double> AboutPlanned(const Row& row, const Bounds& bounds, double planned) {
+  return {std::max(row.least, planned - bounds[0]), std::min(row.most, planned + bounds[0])};
+}
+std::pair<double, double> AboutZero(const Row&, const Bounds& bounds, double) {
+  return {-bounds[0], bounds[0]};
+}
 
-constexpr ParameterFamilyTraits kHeightScale = {
-    .name = "height_scale",
-    .unit = "",
-    .table = "half_steps",
-    .column = "height_scale",
-    .rank = 1,
-    .meaning = "scale of the foot's height in its step",
-    .of_form = false,
-    .shape = nullptr,
-    .move = nullptr,
-    .values = &HomotopyParameters::height_scales,
-    .count = [](const HalfStepSequence& sequence) { return sequence.num_steps(); },
-    .planned = [](const HalfStepSequence&, int) { return 1.0; },
-    .stays = nullptr,
-    .half_steps =
-        [](int j) {
-          return std::pair{2 * j, 2 * j + 1};
-        },
-    .index_at = [](int half_step) { return half_step / 2; },
-    .joins = false,
-    .least = 0.0,
-    .least_itself = true,
-    .most = 10.0,
-    .chosen = &ParameterChoice::heights,
-    .key = "heights",
-    .key_meaning = "foot-height scales are variables beside the overlaps",
-    .bounds = kHeightBounds,
-    .range =
-        [](const ParameterChoice& choice, double planned) {
-          return std::pair{choice.least_height_scale, planned};
-        },
-};
+// The last footstep of each foot stays, so that the walk ends where it was planned to end. So do
+// those that are not followed by one of the other and one of the same foot, because what they bear
+// on would not be the half-steps of half_steps().
+bool FootstepStays(const HalfStepSequence& sequence, int step) {
+  if (step + 2 >= sequence.num_steps()) return true;
+  const auto swing = [&sequence](int k) {
+    return sequence.half_steps[2 * static_cast<size_t>(k)].half_step.swing();
+  };
+  return swing(step + 1) == swing(step) || swing(step + 2) != swing(step);
+}
 
-constexpr ParameterBoundKey kDurationBounds[] = {
-    {"least_duration", "of the planned duration of a half-step", &ParameterChoice::least_duration,
-     0.2, 1, ""},
-    {"most_duration", "of the planned duration of a half-step", &ParameterChoice::most_duration, 1,
-     5, ""}};
+constexpr const char* kOfDuration = "of the planned duration of a half-step";
+constexpr const char* kOfSupport = "of the support sole's centre, towards the other foot";
+constexpr const char* kOfVia = "of the via point from the support sole's centre";
+constexpr const char* kOfDelay = "of T, between floor and horizontal motion";
+constexpr const char* kOfShift = "of T, in which the ZMP shifts";
+constexpr ParameterScale kWidth = ParameterScale::kStanceWidth;
+constexpr ParameterScale kLength = ParameterScale::kLegLength;
 
-constexpr ParameterFamilyTraits kDuration = {
-    .name = "duration",
-    .unit = "s",
-    .table = "half_steps",
-    .column = "duration_s",
-    .rank = 0,
-    .meaning = "T",
-    .of_form = false,
-    .shape = nullptr,
-    .move = nullptr,
-    .values = &HomotopyParameters::durations,
-    .count = [](const HalfStepSequence& sequence) { return sequence.size(); },
-    .planned = [](const HalfStepSequence& sequence,
-                  int i) { return sequence.half_steps[static_cast<size_t>(i)].half_step.duration; },
-    .stays = nullptr,
-    .half_steps =
-        [](int i) {
-          return std::pair{i, i};
-        },
-    .index_at = [](int half_step) { return half_step; },
-    .joins = false,
-    .least = 0.0,
-    .least_itself = false,
-    .most = 60.0,
-    .chosen = &ParameterChoice::durations,
-    .key = "durations",
-    .key_meaning = "durations of half-steps are variables beside the overlaps",
-    .bounds = kDurationBounds,
-    .range =
-        [](const ParameterChoice& choice, double planned) {
-          return std::pair{choice.least_duration * planned, choice.most_duration * planned};
-        },
-};
+constexpr std::array<Row, kNumParameterFamilies> kRows = {{
+    {.family = ParameterFamily::kOverlap,
+     .name = "overlap",
+     .unit = "s",
+     .of = kJunction,
+     .part = ParameterPart::kBegin,
+     .column = "overlap_s",
+     .rank = 0,
+     .meaning = "how long both half-steps are under way; below 0: a rest between them",
+     .values = &Values::overlaps,
+     .least = -kLongestRest,
+     .most = kInfinity,
+     .always = true,
+     .key = "overlaps",
+     .range_of = Unbounded},
+    {.family = ParameterFamily::kHeightScale,
+     .name = "height_scale",
+     .of = kStep,
+     .part = ParameterPart::kHeight,
+     .column = "height_scale",
+     .rank = 1,
+     .meaning = "scale of the foot's height in its step",
+     .unmoved = 1.0,
+     .values = &Values::height_scales,
+     .least = 0.0,
+     .most = 10.0,
+     .chosen = &Choice::heights,
+     .key = "heights",
+     .key_meaning = "foot-height scales are variables beside the overlaps",
+     .bound_keys = {{{"least_height_scale", "of the planned height", 0.2, 0.01, 1}}},
+     .range_of = UpToPlanned},
+    {.family = ParameterFamily::kDuration,
+     .name = "duration",
+     .unit = "s",
+     .of = kHalfStep,
+     .part = ParameterPart::kDuration,
+     .column = "duration_s",
+     .rank = 0,
+     .meaning = "T",
+     .number = &HalfStep::duration,
+     .values = &Values::durations,
+     .least = 0.0,
+     .least_itself = false,
+     .most = 60.0,
+     .chosen = &Choice::durations,
+     .key = "durations",
+     .key_meaning = "durations of half-steps are variables beside the overlaps",
+     .bound_keys = {{{"least_duration", kOfDuration, 0.5, 0.2, 1},
+                     {"most_duration", kOfDuration, 1.5, 1, 5}}},
+     .range_of = OfPlanned},
+    {.family = ParameterFamily::kSupportPoint,
+     .name = "support_point",
+     .unit = "m",
+     .of = kStep,
+     .part = ParameterPart::kSupportPoint,
+     .column = "support_point_m",
+     .rank = 2,
+     .meaning = "where CoM and ZMP rest on one foot, from its centre towards the other foot",
+     .shape = &HalfStepShape::support_offset,
+     .values = &Values::support_points,
+     .least = -1.0,
+     .most = 1.0,
+     .chosen = &Choice::support_points,
+     .key = "support_points",
+     .key_meaning = "support points are variables beside the overlaps",
+     .bound_keys = {{{"least_support_point_m", kOfSupport, -0.03, -1, 1, "m", kWidth},
+                     {"most_support_point_m", kOfSupport, 0.06, -1, 1, "m", kWidth}}},
+     .range_of = Between},
+    {.family = ParameterFamily::kViaLateral,
+     .name = "via_lateral",
+     .unit = "m",
+     .of = kStep,
+     .part = ParameterPart::kViaAside,
+     .column = "via_lateral_m",
+     .rank = 3,
+     .meaning = "of the via point from the support sole's centre",
+     .of_form = true,
+     .number = &HalfStep::via_lateral,
+     .least = 0.01,
+     .most = 1.0,
+     .key = "via_laterals",
+     .key_meaning = "distances of via points are variables beside the overlaps",
+     .bound_keys = {{{"least_via_lateral_m", kOfVia, 0.18, 0.01, 1, "m", kWidth},
+                     {"most_via_lateral_m", kOfVia, 0.3, 0.01, 1, "m", kWidth}}},
+     .range_of = Between},
+    {.family = ParameterFamily::kFootRamp,
+     .name = "foot_ramp",
+     .of = kHalfStep,
+     .part = ParameterPart::kProfile,
+     .column = "foot_ramp",
+     .rank = 4,
+     .meaning = "fraction of the foot's motion in which its speed rises, and falls",
+     .of_form = true,
+     .shape = &HalfStepShape::foot_ramp,
+     .least = 0.1,
+     .most = 0.5,
+     .key = "foot_ramps",
+     .key_meaning = "ramps of the foot's speed are variables beside the overlaps",
+     .bound_keys = {{{"least_foot_ramp", "of a foot's motion; at most it is 0.5", 0.2, 0.1, 0.5}}},
+     .range_of = UpToMost},
+    {.family = ParameterFamily::kFootDelay,
+     .name = "foot_delay",
+     .of = kHalfStep,
+     .part = ParameterPart::kProfile,
+     .column = "foot_delay",
+     .rank = 5,
+     .meaning = "fraction of T between take-off (landing) and the foot's horizontal motion",
+     .of_form = true,
+     .shape = &HalfStepShape::horizontal_delay,
+     .least = 0.0,
+     .most = 0.2,
+     .key = "foot_delays",
+     .key_meaning = "delays of the foot's horizontal motion are variables beside the overlaps",
+     .bound_keys = {{{"least_foot_delay", kOfDelay, 0.02, 0, 0.2},
+                     {"most_foot_delay", kOfDelay, 0.2, 0, 0.2}}},
+     .range_of = Between},
+    {.family = ParameterFamily::kLiftShare,
+     .name = "lift_share",
+     .of = kHalfStep,
+     .part = ParameterPart::kProfile,
+     .column = "lift_share",
+     .rank = 6,
+     .meaning = "fraction of the foot's flight in which it rises, or sinks",
+     .of_form = true,
+     .shape = &HalfStepShape::lift_share,
+     .least = 0.2,
+     .most = 1.0,
+     .key = "lift_shares",
+     .key_meaning = "how fast feet rise and sink are variables beside the overlaps",
+     .bound_keys = {{{"least_lift_share", "of a foot's flight; at most it is 1", 0.4, 0.2, 1}}},
+     .range_of = UpToMost},
+    {.family = ParameterFamily::kViaAlong,
+     .name = "via_along",
+     .unit = "m",
+     .of = kStep,
+     .part = ParameterPart::kViaAlong,
+     .column = "via_along_m",
+     .rank = 7,
+     .meaning = "of the via point ahead of the support sole's centre",
+     .of_form = true,
+     .number = &HalfStep::via_along,
+     .least = -0.5,
+     .most = 0.5,
+     .key = "via_alongs",
+     .key_meaning = "how far ahead via points are is variable beside the overlaps",
+     .bound_keys = {{{"most_via_along_m",
+                      "of the via point from where it is planned, along the support sole's x", 0.08,
+                      0, 0.5, "m", kLength}}},
+     .range_of = AboutPlanned},
+    {.family = ParameterFamily::kZmpShift,
+     .name = "zmp_shift",
+     .of = kHalfStep,
+     .part = ParameterPart::kProfile,
+     .column = "zmp_shift",
+     .rank = 8,
+     .meaning = "fraction of T in which the ZMP shifts",
+     .of_form = true,
+     .shape = &HalfStepShape::shift,
+     .values = &Values::zmp_shifts,
+     .least = 0.01,
+     .most = 0.5,
+     .key = "zmp_shifts",
+     .key_meaning = "how long ZMPs shift is variable beside the overlaps",
+     .bound_keys = {{{"least_zmp_shift", kOfShift, 0.02, 0.01, 0.3},
+                     {"most_zmp_shift", kOfShift, 0.1, 0.01, 0.3}}},
+     .range_of = Between},
+    {.family = ParameterFamily::kZmpBumpRamp,
+     .name = "zmp_bump_ramp",
+     .of = kHalfStep,
+     .part = ParameterPart::kProfile,
+     .column = "zmp_bump_ramp",
+     .rank = 9,
+     .meaning = "fraction of the ZMP's bump in which it rises, and falls; 1: it is round",
+     .of_form = true,
+     .shape = &HalfStepShape::bump_ramp,
+     .least = 0.1,
+     .most = 1.0,
+     .key = "zmp_bump_ramps",
+     .key_meaning = "ramps of ZMPs' bumps are variables beside the overlaps",
+     .bound_keys = {{{"least_zmp_bump_ramp", "of a ZMP's bump; at most it is 1, a round bump", 0.1,
+                      0.1, 1}}},
+     .range_of = UpToMost},
+    {.family = ParameterFamily::kFootstepX,
+     .name = "footstep_x",
+     .unit = "m",
+     .of = kStep,
+     .part = ParameterPart::kFootstep,
+     .column = "footstep_x_m",
+     .rank = 10,
+     .meaning = "how far the step's footstep is moved along its planned x",
+     .of_form = true,
+     .move = &Pose2::x,
+     .values = &Values::footstep_xs,
+     .stays = FootstepStays,
+     .least = -0.5,
+     .most = 0.5,
+     .chosen = &Choice::footsteps,
+     .key = "footsteps",
+     .key_meaning = "places and yaws of footsteps are variables, but of the last two",
+     .bound_keys = {{{"most_footstep_x_m", "of the move of a footstep along its x, to either side",
+                      0.05, 0, 0.5, "m", kLength}}},
+     .range_of = AboutZero},
+    {.family = ParameterFamily::kFootstepY,
+     .name = "footstep_y",
+     .unit = "m",
+     .of = kStep,
+     .part = ParameterPart::kFootstep,
+     .column = "footstep_y_m",
+     .rank = 11,
+     .meaning = "how far the step's footstep is moved along its planned y",
+     .of_form = true,
+     .move = &Pose2::y,
+     .values = &Values::footstep_ys,
+     .stays = FootstepStays,
+     .least = -0.5,
+     .most = 0.5,
+     .chosen = &Choice::footsteps,
+     .bound_keys = {{{"most_footstep_y_m", "of the move of a footstep along its y, to either side",
+                      0.03, 0, 0.5, "m", kLength}}},
+     .range_of = AboutZero},
+    {.family = ParameterFamily::kFootstepYaw,
+     .name = "footstep_yaw",
+     .unit = "rad",
+     .of = kStep,
+     .part = ParameterPart::kFootstep,
+     .column = "footstep_yaw_rad",
+     .rank = 12,
+     .meaning = "how far the step's footstep is turned",
+     .of_form = true,
+     .move = &Pose2::yaw,
+     .values = &Values::footstep_yaws,
+     .stays = FootstepStays,
+     .least = -1.0,
+     .most = 1.0,
+     .chosen = &Choice::footsteps,
+     .bound_keys = {{{"most_footstep_yaw_rad", "of the turn of a footstep, to either side", 0.1, 0,
+                      1, "rad"}}},
+     .range_of = AboutZero},
+}};
 
-constexpr ParameterBoundKey kSupportBounds[] = {
-    {"least_support_point_m", "of the support sole's centre, towards the other foot",
-     &ParameterChoice::least_support_point, -1, 1, "m"},
-    {"most_support_point_m", "of the support sole's centre, towards the other foot",
-     &ParameterChoice::most_support_point, -1, 1, "m"}};
+// The number of a half-step that a row is has to be told where its part has one, and nowhere else.
+constexpr bool TellsItsNumber(const Row& row) {
+  switch (row.part) {
+    case ParameterPart::kBegin:
+    case ParameterPart::kHeight:
+      return row.number == nullptr && row.shape == nullptr && row.move == nullptr;
+    case ParameterPart::kDuration:
+    case ParameterPart::kViaAside:
+    case ParameterPart::kViaAlong:
+      return row.number != nullptr && row.shape == nullptr && row.move == nullptr;
+    case ParameterPart::kSupportPoint:
+    case ParameterPart::kProfile:
+      return row.number == nullptr && row.shape != nullptr && row.move == nullptr;
+    case ParameterPart::kFootstep:
+      return row.number == nullptr && row.shape == nullptr && row.move != nullptr;
+  }
+  return false;
+}
 
-constexpr ParameterFamilyTraits kSupportPoint = {
-    .name = "support_point",
-    .unit = "m",
-    .table = "half_steps",
-    .column = "support_point_m",
-    .rank = 2,
-    .meaning = "where CoM and ZMP rest on one foot, from its centre towards the other foot",
-    .of_form = false,
-    .shape = nullptr,
-    .move = nullptr,
-    .values = &HomotopyParameters::support_points,
-    .count = [](const HalfStepSequence& sequence) { return sequence.num_steps(); },
-    .planned =
-        [](const HalfStepSequence& sequence, int j) {
-          return sequence.half_steps[2 * static_cast<size_t>(j)].half_step.shape.support_offset;
-        },
-    .stays = nullptr,
-    .half_steps =
-        [](int j) {
-          return std::pair{2 * j, 2 * j + 1};
-        },
-    .index_at = [](int half_step) { return half_step / 2; },
-    .joins = false,
-    .least = -1.0,
-    .least_itself = true,
-    .most = 1.0,
-    .chosen = &ParameterChoice::support_points,
-    .key = "support_points",
-    .key_meaning = "support points are variables beside the overlaps",
-    .bounds = kSupportBounds,
-    .range =
-        [](const ParameterChoice& choice, double planned) {
-          return std::pair{std::min(choice.least_support_point, planned),
-                           std::max(choice.most_support_point, planned)};
-        },
-};
+// Whether another row has the same name, column, key, place of values or of the flag.
+constexpr bool IsOneOfAKind(const Row& row) {
+  return std::ranges::all_of(kRows, [&row](const Row& other) {
+    if (other.family == row.family) return true;
+    const bool same_flag = row.chosen != nullptr && other.chosen == row.chosen;
+    return other.name != row.name && other.column != row.column &&
+           (other.rank != row.rank || (other.of == kJunction) != (row.of == kJunction)) &&
+           (row.key.empty() || other.key != row.key) &&
+           (row.values == nullptr || other.values != row.values) &&
+           (!same_flag || row.key.empty() || other.key.empty());
+  });
+}
+
+constexpr bool IsComplete(const Row& row) {
+  return !row.name.empty() && !row.column.empty() && !row.meaning.empty() && row.least < row.most &&
+         row.range_of != nullptr && TellsItsNumber(row) &&
+         (row.always || row.bounds().size() > 0) &&
+         (row.always || !row.key.empty() || row.chosen != nullptr) &&
+         (row.always || row.key.empty() || !row.key_meaning.empty());
+}
+
+constexpr bool StandsInItsPlace(size_t i) {
+  return kRows[i].family == static_cast<ParameterFamily>(i);
+}
+
+template <size_t... kIndex>
+constexpr bool CheckRows(std::index_sequence<kIndex...>) {
+  static_assert((StandsInItsPlace(kIndex) && ...),
+                "a family has no row, or the row is not in the order of ParameterFamily");
+  static_assert((IsComplete(kRows[kIndex]) && ...), "a row leaves out what it has to say");
+  static_assert((IsOneOfAKind(kRows[kIndex]) && ...), "two rows say the same");
+  return true;
+}
+static_assert(CheckRows(std::make_index_sequence<kRows.size()>()));
 
 }  // namespace
 
-ParameterChoice EveryFamily() {
-  ParameterChoice all;
-  for (const ParameterFamily family : AllParameterFamilies()) {
-    if (Traits(family).chosen != nullptr) all.*Traits(family).chosen = true;
-  }
-  return all;
-}
-
-ParameterChoice WithoutForms(ParameterChoice choice) {
-  for (const ParameterFamily family : AllParameterFamilies()) {
-    if (Traits(family).of_form) choice.*Traits(family).chosen = false;
-  }
-  return choice;
-}
-
 const ParameterFamilyTraits& Traits(ParameterFamily family) {
-  switch (family) {
-    case ParameterFamily::kOverlap:
-      return kOverlap;
-    case ParameterFamily::kHeightScale:
-      return kHeightScale;
-    case ParameterFamily::kDuration:
-      return kDuration;
-    case ParameterFamily::kSupportPoint:
-      return kSupportPoint;
-    case ParameterFamily::kFootstepX:
-    case ParameterFamily::kFootstepY:
-    case ParameterFamily::kFootstepYaw:
-      return FootstepTraits(family);
-    default:
-      return FormTraits(family);
-  }
+  return kRows[static_cast<size_t>(family)];
 }
 
 }  // namespace halfstep

@@ -28,11 +28,11 @@ ParameterTable::ParameterTable(const HalfStepSequence& sequence,
   HALFSTEP_CHECK(complaint.empty(), complaint);
   for (const ParameterFamily family : AllParameterFamilies()) {
     const ParameterFamilyTraits& traits = Traits(family);
-    first_[static_cast<size_t>(family)] = static_cast<int>(rows_.size());
+    first_[family] = static_cast<int>(rows_.size());
     for (int i = 0; i < traits.count(sequence); ++i) {
       const double planned = traits.planned(sequence, i);
-      const bool chosen = (traits.chosen == nullptr || choice.*traits.chosen) &&
-                          (traits.stays == nullptr || !traits.stays(sequence, i));
+      const bool chosen =
+          choice.moves(family) && (traits.stays == nullptr || !traits.stays(sequence, i));
       const auto [lower, upper] =
           chosen ? traits.range(choice, planned) : std::pair{planned, planned};
       rows_.push_back({{family, i}, planned, lower, upper, !chosen});

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -44,7 +43,7 @@ class ParameterTable {
   }
   /// Number of its row.
   int IndexOf(const HomotopyParameter& parameter) const {
-    return first_[static_cast<size_t>(parameter.family)] + parameter.index;
+    return first_[parameter.family] + parameter.index;
   }
   /// Whether methods may move it.
   bool free(const HomotopyParameter& parameter) const { return !row(parameter).fixed; }
@@ -58,7 +57,7 @@ class ParameterTable {
   void LeaveRoomFor(int junction, const HomotopyParameters& start);
 
   std::vector<ParameterRow> rows_;
-  std::array<int, kNumParameterFamilies> first_{};  // row of each family
+  ByParameterFamily<int> first_;  // row of each family
 };
 
 /// Why these parameters of a sequence cannot be fixed together at these values; "" when they can.

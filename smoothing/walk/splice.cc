@@ -87,7 +87,7 @@ WalkPlan Changed(const WalkPlan& walk, int last, const std::vector<Footstep>& fo
     const ParameterFamilyTraits& traits = Traits(family);
     // The step that `last` begins lands on a footstep of its own.
     const bool lands_anew = traits.move != nullptr && last % 2 == 0;
-    const int kept = traits.index_at(last) + (traits.joins || lands_anew ? 0 : 1);
+    const int kept = traits.index_at(last) + (traits.joins() || lands_anew ? 0 : 1);
     std::copy_n(old.of(family).begin(), kept, changed.parameters.of(family).begin());
   }
   return changed;
@@ -97,7 +97,7 @@ std::vector<FixedParameter> FixedByBeginning(const WalkPlan& walk, int last) {
   std::vector<FixedParameter> fixed;
   for (const ParameterFamily family : AllParameterFamilies()) {
     const ParameterFamilyTraits& traits = Traits(family);
-    const int count = last < 0 ? 0 : traits.index_at(last) + (traits.joins ? 0 : 1);
+    const int count = last < 0 ? 0 : traits.index_at(last) + (traits.joins() ? 0 : 1);
     for (int i = 0; i < count; ++i) {
       const HomotopyParameter parameter{family, i};
       fixed.push_back({parameter, parameter.in(walk.parameters)});

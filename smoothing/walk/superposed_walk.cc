@@ -16,15 +16,14 @@ SuperposedWalk::SuperposedWalk(const HalfStepSequence& sequence,
   pieces_.reserve(placed.size());
   for (size_t i = 0; i < placed.size(); ++i) {
     HalfStep half_step = placed[i].half_step;
-    half_step.duration = parameters.durations[i];
     const double planned_height = half_step.via_height;
     half_step.via_height *= parameters.height_scales[i / 2];
-    half_step.shape.support_offset = parameters.support_points[i / 2];
-    half_step.via_lateral = parameters.via_laterals[i / 2];
-    half_step.via_along = parameters.via_alongs[i / 2];
     for (const ParameterFamily family : AllParameterFamilies()) {
       const ParameterFamilyTraits& traits = Traits(family);
-      if (traits.shape != nullptr) half_step.shape.*traits.shape = parameters.of(family)[i];
+      if (traits.number == nullptr && traits.shape == nullptr) continue;
+      double& number =
+          traits.number != nullptr ? half_step.*traits.number : half_step.shape.*traits.shape;
+      number = HomotopyParameter{family, traits.index_at(static_cast<int>(i))}.in(parameters);
     }
     const Foothold& X_WS = placed[i].X_WS;
     X_WS.CheckLevel();
@@ -67,7 +66,7 @@ SuperposedWalk SuperposedWalk::StopBranch(int last) const {
   for (const ParameterFamily family : AllParameterFamilies()) {
     const ParameterFamilyTraits& traits = Traits(family);
     const std::vector<double>& all = parameters_.of(family);
-    const int count = traits.index_at(last) + (traits.joins ? 0 : 1);
+    const int count = traits.index_at(last) + (traits.joins() ? 0 : 1);
     branch.parameters_.of(family).assign(all.begin(), all.begin() + count);
   }
   return branch;

@@ -146,20 +146,38 @@ void SuperposedWalk::Sensitivities(const LocalTime& at, std::vector<WalkSensitiv
       AddViaDerivative(profiles, h.kind, i == first, by.x(), q, &jet);
       AddViaDerivative(profiles, h.kind, i == first, by.y(), q + 1, &jet);
     };
-    if (const HomotopyParameter height{Family::kHeightScale, i / 2}; is_wanted(height)) {
-      AddViaDerivative(profiles, h.kind, i == first, p.planned_height, FootIndex(h.swing()) + 2,
-                       &jet_of(height));
-    }
     const Eigen::Matrix2d R_WS = p.X_WS.Planar().rotation();
     const Eigen::Vector2d aside = R_WS.col(1) * Sign(h.swing());
-    move_via({Family::kSupportPoint, i / 2}, aside, kComX);
-    move_via({Family::kSupportPoint, i / 2}, aside, kZmpX);
-    move_via({Family::kViaLateral, i / 2}, aside, FootIndex(h.swing()));
-    move_via({Family::kViaAlong, i / 2}, R_WS.col(0), FootIndex(h.swing()));
     for (const Family family : AllParameterFamilies()) {
-      const auto number = Traits(family).shape;
-      if (number == nullptr || !is_wanted({family, i})) continue;
-      const HalfStepJet by = p.profiles.ByShape(number, LocalTo(i, at));
+      const ParameterFamilyTraits& traits = Traits(family);
+      const HomotopyParameter parameter{family, traits.index_at(i)};
+      switch (traits.part) {
+        case ParameterPart::kHeight:
+          if (!is_wanted(parameter)) break;
+          AddViaDerivative(profiles, h.kind, i == first, p.planned_height, FootIndex(h.swing()) + 2,
+                           &jet_of(parameter));
+          break;
+        case ParameterPart::kSupportPoint:
+          move_via(parameter, aside, kComX);
+          move_via(parameter, aside, kZmpX);
+          break;
+        case ParameterPart::kViaAside:
+          move_via(parameter, aside, FootIndex(h.swing()));
+          break;
+        case ParameterPart::kViaAlong:
+          move_via(parameter, R_WS.col(0), FootIndex(h.swing()));
+          break;
+        case ParameterPart::kBegin:
+        case ParameterPart::kDuration:
+        case ParameterPart::kProfile:
+        case ParameterPart::kFootstep:
+          break;
+      }
+    }
+    for (const Family family : AllParameterFamilies()) {
+      const ParameterFamilyTraits& traits = Traits(family);
+      if (traits.part != ParameterPart::kProfile || !is_wanted({family, i})) continue;
+      const HalfStepJet by = p.profiles.ByShape(traits.shape, LocalTo(i, at));
       WalkJet& jet = jet_of({family, i});
       for (int q = 0; q < kNumQuantities; ++q) {
         jet.value[q] += by.of(q).value * p.delta_W[q];

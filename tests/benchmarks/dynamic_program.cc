@@ -87,7 +87,7 @@ double DynamicProgram::Longest(int k, const State& state, double longest) {
   HomotopyParameters parameters = PlannedMotion(part);
   for (const ParameterFamily family : AllParameterFamilies()) {
     // Overlaps are chosen, and the part stands where its footsteps are moved to.
-    if (Traits(family).joins || Traits(family).move != nullptr) continue;
+    if (Traits(family).joins() || Traits(family).move != nullptr) continue;
     const auto first = start_.of(family).begin() + Traits(family).index_at(from);
     std::copy_n(first, parameters.of(family).size(), parameters.of(family).begin());
   }

@@ -166,23 +166,23 @@ TEST(ExperimentConfig, AllFamiliesAreVariablesUnlessToldNot) {
   const ParameterChoice all = choice_of("all_families: true, foot_ramps: false");
   for (const ParameterFamily family : AllParameterFamilies()) {
     const ParameterFamilyTraits& traits = Traits(family);
-    if (traits.chosen == nullptr) continue;
+    if (traits.always) continue;
     // Footsteps are told apart: where feet stand is no form of a half-step.
     const bool left_alone = family == ParameterFamily::kFootRamp || traits.move != nullptr;
-    EXPECT_EQ(all.*traits.chosen, !left_alone) << traits.key;
+    EXPECT_EQ(all.moves(family), !left_alone) << traits.key;
     // The default; a config that names some of them has these alone.
-    EXPECT_EQ(choice_of("").*traits.chosen, traits.move == nullptr) << traits.key;
-    EXPECT_EQ(choice_of("footsteps: true").*traits.chosen, true) << traits.key;
+    EXPECT_EQ(choice_of("").moves(family), traits.move == nullptr) << traits.key;
+    EXPECT_EQ(choice_of("footsteps: true").moves(family), true) << traits.key;
     const bool named =
         family == ParameterFamily::kHeightScale || family == ParameterFamily::kDuration;
-    EXPECT_EQ(choice_of("heights: true, durations: true").*traits.chosen, named) << traits.key;
-    EXPECT_FALSE(choice_of("all_families: false").*traits.chosen) << traits.key;
+    EXPECT_EQ(choice_of("heights: true, durations: true").moves(family), named) << traits.key;
+    EXPECT_FALSE(choice_of("all_families: false").moves(family)) << traits.key;
   }
   EXPECT_TRUE(choice_of("footsteps: true").footsteps);
-  EXPECT_EQ(all.least_duration, 0.2);
-  EXPECT_EQ(choice_of("").least_duration, 0.2);
-  EXPECT_EQ(choice_of("heights: true").least_duration, 0.5);
-  EXPECT_EQ(choice_of("all_families: true, least_duration: 0.4").least_duration, 0.4);
+  EXPECT_EQ(all.bound("least_duration"), 0.2);
+  EXPECT_EQ(choice_of("").bound("least_duration"), 0.2);
+  EXPECT_EQ(choice_of("heights: true").bound("least_duration"), 0.5);
+  EXPECT_EQ(choice_of("all_families: true, least_duration: 0.4").bound("least_duration"), 0.4);
   // What a config says is what is written of it.
   const std::string text =
       "robot: hrp2\nscene: none\nfootsteps: [{foot: right, x_m: 0.2, y_m: -0.105}]\n"

@@ -36,13 +36,13 @@ HomotopyParameters ToParameters(const WalkPlan& plan) {
   parameters.durations = plan.durations;
   parameters.support_points = plan.support_points;
   for (size_t i = 0; i < plan.durations.size(); ++i) {
-    if (i % 2 == 0) parameters.via_laterals.push_back(plan.via_lateral_of(i));
-    if (i % 2 == 0) parameters.via_alongs.push_back(plan.via_along_of(i));
+    if (i % 2 == 0) parameters.of(ParameterFamily::kViaLateral).push_back(plan.via_lateral_of(i));
+    if (i % 2 == 0) parameters.of(ParameterFamily::kViaAlong).push_back(plan.via_along_of(i));
     parameters.zmp_shifts.push_back(plan.shift_of(i));
-    parameters.zmp_bump_ramps.push_back(plan.bump_ramp_of(i));
-    parameters.foot_ramps.push_back(plan.foot_ramp_of(i));
-    parameters.foot_delays.push_back(plan.foot_delay_of(i));
-    parameters.lift_shares.push_back(plan.lift_share_of(i));
+    parameters.of(ParameterFamily::kZmpBumpRamp).push_back(plan.bump_ramp_of(i));
+    parameters.of(ParameterFamily::kFootRamp).push_back(plan.foot_ramp_of(i));
+    parameters.of(ParameterFamily::kFootDelay).push_back(plan.foot_delay_of(i));
+    parameters.of(ParameterFamily::kLiftShare).push_back(plan.lift_share_of(i));
     if (i % 2 == 1) continue;
     const FloorPose move = plan.footsteps.empty() ? FloorPose{} : plan.footsteps[i / 2];
     parameters.footstep_xs.push_back(move.x);

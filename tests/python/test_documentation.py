@@ -30,6 +30,18 @@ class Documentation(unittest.TestCase):
             text = inspect.getdoc(item.fget if isinstance(item, property) else item)
             self.assertRegex(text, r"\[(s|m|kg)\]|\((n|m|m×n)\)")
 
+    def test_families_of_parameters_are_named(self):
+        families = list(hs.Experiment("fig3_two_half_steps").planned.parameters)
+        for function in (hs.Experiment.walk, hs.SmoothingProblem.walk):
+            self.assertEqual(list(inspect.signature(function).parameters)[1:], families)
+        for item in (hs.Experiment.walk, hs.SmoothingProblem.walk, hs.Walk.parameters.fget):
+            for name in families:
+                self.assertRegex(inspect.getdoc(item), rf"(?m)^\s*{name} \(n")
+        flags = inspect.signature(hs.OverlapProgram).parameters
+        for name in ("heights", "footsteps"):
+            self.assertIn(name, flags)
+        self.assertNotIn("flags", flags)
+
     def test_public_functions_have_types(self):
         for name in hs.__all__:
             item = getattr(hs, name)

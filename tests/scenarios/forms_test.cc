@@ -95,9 +95,11 @@ TEST(FormsScenario, AFormThatIsFixedStays) {
     options.rounds = 2;
     if (free) options.program.parameters = EveryFamily();
     const SmoothingResult result = Smoothed(OptimizeOverlaps, problem, options);
-    EXPECT_EQ(result.parameters.foot_delays[1], 0.15);
-    EXPECT_EQ(result.parameters.lift_shares[0], 0.9);
-    EXPECT_EQ(result.parameters.foot_delays[0] != e.config.half_step.horizontal_delay, free);
+    EXPECT_EQ(result.parameters.of(ParameterFamily::kFootDelay)[1], 0.15);
+    EXPECT_EQ(result.parameters.of(ParameterFamily::kLiftShare)[0], 0.9);
+    EXPECT_EQ(
+        result.parameters.of(ParameterFamily::kFootDelay)[0] != e.config.half_step.horizontal_delay,
+        free);
   }
   EXPECT_EQ(ComplaintAbout(e.sequence, {{{ParameterFamily::kFootRamp, 1}, 0.6}}),
             "foot_ramp 2: 0.6  is too large (valid: up to 0.5)");

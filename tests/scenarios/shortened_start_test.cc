@@ -54,7 +54,9 @@ TEST_F(ShortenedStartTest, ADurationThatIsFixedStays) {
 
 TEST_F(ShortenedStartTest, WhereNoDurationIsFreeItIsTheWalkThatWasGiven) {
   EXPECT_EQ(Shortened({.heights = true}), planned_);
-  EXPECT_EQ(Shortened({.durations = true, .least_duration = 1.0}), planned_);
+  ParameterChoice no_shorter{.durations = true};
+  no_shorter.bound("least_duration") = 1.0;
+  EXPECT_EQ(Shortened(no_shorter), planned_);
 }
 
 }  // namespace

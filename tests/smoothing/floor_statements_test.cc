@@ -140,7 +140,8 @@ TEST(Floor, IsNotCertifiedWhereTheFootIsTooLowForAMoment) {
     for (double& T : parameters.durations) T *= draw.Uniform(0.9, 1.3);
     // Of one half-step the delay is short, so that its height counts where it is least.
     const size_t low = static_cast<size_t>(i % 4);
-    for (size_t k = 0; k < 4; ++k) parameters.foot_delays[k] = k == low ? 0.08 : 0.15;
+    for (size_t k = 0; k < 4; ++k)
+      parameters.of(ParameterFamily::kFootDelay)[k] = k == low ? 0.08 : 0.15;
     const SuperposedWalk walk(sequence, parameters);
     const HalfStepProfiles& p = walk.profiles(static_cast<int>(low));
     const bool up = low % 2 == 0;

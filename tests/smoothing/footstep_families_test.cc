@@ -89,7 +89,9 @@ TEST(MovedFootsteps, TurnAndMirrorWithThePlan) {
 TEST(FootstepFamilies, TheLastFootstepOfEachFootStays) {
   WalkDraw draw(73);
   const HalfStepSequence sequence = draw.Sequence(5);
-  const ParameterTable table(sequence, {}, {.footsteps = true, .most_footstep_y = 0.02});
+  ParameterChoice choice{.footsteps = true};
+  choice.bound("most_footstep_y_m") = 0.02;
+  const ParameterTable table(sequence, {}, choice);
   for (const ParameterFamily family : kMoves) {
     for (int step = 0; step < 5; ++step) EXPECT_EQ(table.free({family, step}), step < 3) << step;
   }

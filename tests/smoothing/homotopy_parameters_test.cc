@@ -32,9 +32,9 @@ TEST(HomotopyParameters, PlannedMotionHasNoOverlapFullHeightAndTheRestAsPlanned)
   EXPECT_EQ(planned.height_scales, std::vector<double>(3, 1.0));
   EXPECT_EQ(planned.durations, (std::vector<double>{2, 2, 1, 1, 3, 3}));
   EXPECT_EQ(planned.support_points, std::vector<double>(3, 0.02));
-  EXPECT_EQ(planned.via_alongs, std::vector<double>(3, 0.0));
+  EXPECT_EQ(planned.of(ParameterFamily::kViaAlong), std::vector<double>(3, 0.0));
   EXPECT_EQ(planned.zmp_shifts, std::vector<double>(6, 0.1));
-  EXPECT_EQ(planned.zmp_bump_ramps, std::vector<double>(6, 1.0));
+  EXPECT_EQ(planned.of(ParameterFamily::kZmpBumpRamp), std::vector<double>(6, 1.0));
 }
 
 TEST(HomotopyParameters, EachParameterIsNamedOnceAndReachesItsOwnValue) {
@@ -47,13 +47,14 @@ TEST(HomotopyParameters, EachParameterIsNamedOnceAndReachesItsOwnValue) {
   EXPECT_EQ(parameters.height_scales, (std::vector<double>{5, 6, 7}));
   EXPECT_EQ(parameters.durations, (std::vector<double>{8, 9, 10, 11, 12, 13}));
   EXPECT_EQ(parameters.support_points, (std::vector<double>{14, 15, 16}));
-  EXPECT_EQ(parameters.via_laterals, (std::vector<double>{17, 18, 19}));
-  EXPECT_EQ(parameters.foot_ramps, (std::vector<double>{20, 21, 22, 23, 24, 25}));
-  EXPECT_EQ(parameters.foot_delays.front(), 26);
-  EXPECT_EQ(parameters.lift_shares.back(), 37);
-  EXPECT_EQ(parameters.via_alongs, (std::vector<double>{38, 39, 40}));
+  EXPECT_EQ(parameters.of(ParameterFamily::kViaLateral), (std::vector<double>{17, 18, 19}));
+  EXPECT_EQ(parameters.of(ParameterFamily::kFootRamp),
+            (std::vector<double>{20, 21, 22, 23, 24, 25}));
+  EXPECT_EQ(parameters.of(ParameterFamily::kFootDelay).front(), 26);
+  EXPECT_EQ(parameters.of(ParameterFamily::kLiftShare).back(), 37);
+  EXPECT_EQ(parameters.of(ParameterFamily::kViaAlong), (std::vector<double>{38, 39, 40}));
   EXPECT_EQ(parameters.zmp_shifts.front(), 41);
-  EXPECT_EQ(parameters.zmp_bump_ramps.back(), 52);
+  EXPECT_EQ(parameters.of(ParameterFamily::kZmpBumpRamp).back(), 52);
   EXPECT_EQ(parameters.footstep_xs.front(), 53);
   EXPECT_EQ(parameters.footstep_ys, (std::vector<double>{56, 57, 58}));
   EXPECT_EQ(parameters.footstep_yaws.back(), 61);
@@ -129,16 +130,16 @@ TEST(CheckParameters, RefusesEachSingleFault) {
       [=](auto* p) { p->height_scales[1] = infinity; },
       [](auto* p) { p->support_points.pop_back(); },
       [](auto* p) { p->support_points[2] = -1.1; },
-      [](auto* p) { p->via_laterals[0] = 0.0; },
-      [](auto* p) { p->foot_ramps[5] = 0.51; },
-      [](auto* p) { p->foot_delays[1] = 0.21; },
-      [](auto* p) { p->lift_shares[3] = 0.19; },
-      [](auto* p) { p->lift_shares.pop_back(); },
-      [](auto* p) { p->via_alongs[2] = 0.51; },
+      [](auto* p) { p->of(ParameterFamily::kViaLateral)[0] = 0.0; },
+      [](auto* p) { p->of(ParameterFamily::kFootRamp)[5] = 0.51; },
+      [](auto* p) { p->of(ParameterFamily::kFootDelay)[1] = 0.21; },
+      [](auto* p) { p->of(ParameterFamily::kLiftShare)[3] = 0.19; },
+      [](auto* p) { p->of(ParameterFamily::kLiftShare).pop_back(); },
+      [](auto* p) { p->of(ParameterFamily::kViaAlong)[2] = 0.51; },
       [](auto* p) { p->zmp_shifts[4] = 0.009; },
       [](auto* p) { p->overlaps[0] = 0.9, p->zmp_shifts[1] = 0.12; },
-      [](auto* p) { p->zmp_bump_ramps[0] = 1.01; },
-      [](auto* p) { p->zmp_bump_ramps.pop_back(); },
+      [](auto* p) { p->of(ParameterFamily::kZmpBumpRamp)[0] = 1.01; },
+      [](auto* p) { p->of(ParameterFamily::kZmpBumpRamp).pop_back(); },
       [](auto* p) { p->footstep_xs[1] = 0.51; },
       [](auto* p) { p->footstep_ys[0] = -0.51; },
       [=](auto* p) { p->footstep_yaws[2] = nan; },

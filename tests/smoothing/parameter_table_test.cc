@@ -39,6 +39,32 @@ TEST_F(ParameterTableTest, HoldsEveryParameterOnceAndStartsAsPlanned) {
   }
 }
 
+TEST_F(ParameterTableTest, FamiliesAreChosenByThemselvesOrWithThoseThatShareTheirKey) {
+  for (const Family family : AllParameterFamilies()) {
+    const ParameterFamilyTraits& traits = Traits(family);
+    ParameterChoice choice;
+    EXPECT_EQ(choice.moves(family), traits.always) << traits.name;
+    bool* const flag = choice.flag(family);
+    ASSERT_EQ(flag == nullptr, traits.always) << traits.name;
+    if (flag == nullptr) continue;
+    *flag = true;
+    for (const Family other : AllParameterFamilies()) {
+      const bool both = traits.move != nullptr && Traits(other).move != nullptr;
+      EXPECT_EQ(choice.moves(other), other == family || both || Traits(other).always)
+          << traits.name << " and " << Traits(other).name;
+    }
+    if (!traits.key.empty()) EXPECT_TRUE(choice.moves(traits.key));
+    EXPECT_EQ(WithoutForms(choice) == choice, !traits.of_form) << traits.name;
+    for (const ParameterBoundKey& bound : traits.bounds()) {
+      EXPECT_EQ(choice.bound(bound.key), bound.initial);
+      EXPECT_LE(bound.min, bound.initial) << bound.key;
+      EXPECT_GE(bound.max, bound.initial) << bound.key;
+    }
+  }
+  EXPECT_THROW(ParameterChoice{}.bound("least_patience"), std::logic_error);
+  EXPECT_THROW((void)ParameterChoice{}.moves("patience"), std::logic_error);
+}
+
 TEST_F(ParameterTableTest, WhatACallerFixesKeepsItsValueAndIsNoVariable) {
   const double overlap = 0.5 * NaturalOverlapBound(planned_, 1);
   const ParameterTable table(sequence_,
@@ -66,15 +92,16 @@ TEST_F(ParameterTableTest, WhatACallerFixesKeepsItsValueAndIsNoVariable) {
 }
 
 TEST_F(ParameterTableTest, TheRangeOfSupportPointsHoldsThePlannedOne) {
+  ParameterChoice choice{.support_points = true};
+  choice.bound("least_support_point_m") = 0.01;
+  choice.bound("most_support_point_m") = 0.03;
   for (const auto& [planned, lower, upper] :
        {std::array{-0.04, -0.04, 0.03}, {0.02, 0.01, 0.03}, {0.07, 0.01, 0.07}}) {
     HalfStepSequence sequence = sequence_;
     for (PlacedHalfStep& placed : sequence.half_steps) {
       placed.half_step.shape.support_offset = planned;
     }
-    const ParameterTable table(
-        sequence, {},
-        {.support_points = true, .least_support_point = 0.01, .most_support_point = 0.03});
+    const ParameterTable table(sequence, {}, choice);
     const ParameterRow& row = table.row({Family::kSupportPoint, 1});
     EXPECT_FALSE(row.fixed);
     EXPECT_EQ(row.start, planned);

@@ -182,7 +182,7 @@ TEST(Successor, EqualWalksAgreeForEver) {
   EXPECT_EQ(CommonHalfSteps(plan.Walk(), aside.Walk()), 2);
   // Nor one of another form.
   WalkPlan later = plan;
-  later.parameters.foot_delays[3] += 0.01;
+  later.parameters.of(ParameterFamily::kFootDelay)[3] += 0.01;
   EXPECT_EQ(CommonHalfSteps(plan.Walk(), later.Walk()), 3);
 }
 

@@ -199,13 +199,14 @@ TEST(SuperposedWalk, IsTheSumOverAllHalfSteps) {
         h.duration = parameters.durations[static_cast<size_t>(k)];
         h.via_height *= parameters.height_scales[static_cast<size_t>(k / 2)];
         h.shape.support_offset = parameters.support_points[static_cast<size_t>(k / 2)];
-        h.via_lateral = parameters.via_laterals[static_cast<size_t>(k / 2)];
-        h.shape.foot_ramp = parameters.foot_ramps[static_cast<size_t>(k)];
-        h.shape.horizontal_delay = parameters.foot_delays[static_cast<size_t>(k)];
-        h.shape.lift_share = parameters.lift_shares[static_cast<size_t>(k)];
-        h.via_along = parameters.via_alongs[static_cast<size_t>(k / 2)];
+        h.via_lateral = parameters.of(ParameterFamily::kViaLateral)[static_cast<size_t>(k / 2)];
+        h.shape.foot_ramp = parameters.of(ParameterFamily::kFootRamp)[static_cast<size_t>(k)];
+        h.shape.horizontal_delay =
+            parameters.of(ParameterFamily::kFootDelay)[static_cast<size_t>(k)];
+        h.shape.lift_share = parameters.of(ParameterFamily::kLiftShare)[static_cast<size_t>(k)];
+        h.via_along = parameters.of(ParameterFamily::kViaAlong)[static_cast<size_t>(k / 2)];
         h.shape.shift = parameters.zmp_shifts[static_cast<size_t>(k)];
-        h.shape.bump_ramp = parameters.zmp_bump_ramps[static_cast<size_t>(k)];
+        h.shape.bump_ramp = parameters.of(ParameterFamily::kZmpBumpRamp)[static_cast<size_t>(k)];
         const HalfStepProfiles profiles(h.kind, h.shape, h.duration, sequence.lipm);
         const WalkJet own = Evaluate(h, profiles, t - walk.start_of(k));
         const WalkState from = Transformed(X_WS, h.Start());

@@ -34,15 +34,16 @@ class WalkDraw : public SequenceDraw {
     for (double& T : parameters.durations) T *= Uniform(0.8, 1.2);
     for (double& eta : parameters.height_scales) eta = Uniform(0.1, 1.0);
     for (double& offset : parameters.support_points) offset += Form(-0.03, 0.03);
-    for (double& via : parameters.via_laterals) via += Form(-0.02, 0.03);
-    for (double& ramp : parameters.foot_ramps) ramp = Form(0.3, 0.45);
-    for (double& delay : parameters.foot_delays) delay = Form(0.02, 0.18);
-    for (double& share : parameters.lift_shares) share = Form(0.6, 0.95);
-    for (size_t j = 0; j < parameters.via_alongs.size(); ++j) {
-      parameters.via_alongs[j] = Form(-0.1, 0.1) * parameters.via_laterals[j];
+    for (double& via : parameters.of(ParameterFamily::kViaLateral)) via += Form(-0.02, 0.03);
+    for (double& ramp : parameters.of(ParameterFamily::kFootRamp)) ramp = Form(0.3, 0.45);
+    for (double& delay : parameters.of(ParameterFamily::kFootDelay)) delay = Form(0.02, 0.18);
+    for (double& share : parameters.of(ParameterFamily::kLiftShare)) share = Form(0.6, 0.95);
+    for (size_t j = 0; j < parameters.of(ParameterFamily::kViaAlong).size(); ++j) {
+      parameters.of(ParameterFamily::kViaAlong)[j] =
+          Form(-0.1, 0.1) * parameters.of(ParameterFamily::kViaLateral)[j];
     }
     for (double& shift : parameters.zmp_shifts) shift = Form(0.03, 0.2);
-    for (double& ramp : parameters.zmp_bump_ramps) {
+    for (double& ramp : parameters.of(ParameterFamily::kZmpBumpRamp)) {
       ramp = Form(0, 1) < 0.5 ? Form(0.3, 0.45) : Form(0.55, 0.95);
     }
     for (size_t j = 0; j < parameters.footstep_xs.size(); ++j) {

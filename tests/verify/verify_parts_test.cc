@@ -8,6 +8,7 @@
 #include <random>
 
 #include "experiments/config/experiment.h"
+#include "experiments/tables/parameter_tables.h"
 #include "experiments/verify/check_clearance.h"
 #include "experiments/verify/check_overlaps.h"
 #include "experiments/verify/check_rows.h"
@@ -46,13 +47,13 @@ std::vector<HalfStepRow> RowsOf(const SuperposedWalk& walk) {
         {i % 2 == 0 ? "up" : "down", std::string(Name(walk.half_step(i).support)), walk.start_of(i),
          walk.parameters().durations[n], walk.parameters().height_scales[n / 2],
          walk.parameters().support_points[n / 2],
-         FormColumns{walk.parameters().via_laterals[n / 2],
-                     walk.parameters().foot_ramps[n],
-                     walk.parameters().foot_delays[n],
-                     walk.parameters().lift_shares[n],
-                     walk.parameters().via_alongs[n / 2],
+         FormColumns{walk.parameters().of(ParameterFamily::kViaLateral)[n / 2],
+                     walk.parameters().of(ParameterFamily::kFootRamp)[n],
+                     walk.parameters().of(ParameterFamily::kFootDelay)[n],
+                     walk.parameters().of(ParameterFamily::kLiftShare)[n],
+                     walk.parameters().of(ParameterFamily::kViaAlong)[n / 2],
                      walk.parameters().zmp_shifts[n],
-                     walk.parameters().zmp_bump_ramps[n],
+                     walk.parameters().of(ParameterFamily::kZmpBumpRamp)[n],
                      {walk.parameters().footstep_xs[n / 2], walk.parameters().footstep_ys[n / 2],
                       walk.parameters().footstep_yaws[n / 2]}}});
   }
@@ -75,13 +76,13 @@ HomotopyParameters Drawn(const HalfStepSequence& sequence, double fullness, std:
   for (double& duration : at.durations) duration *= 0.8 + 0.4 * unit(*random);
   for (double& scale : at.height_scales) scale = 0.5 + unit(*random);
   for (double& offset : at.support_points) offset = 0.05 * unit(*random);
-  for (double& via : at.via_laterals) via += 0.02 * unit(*random);
-  for (double& ramp : at.foot_ramps) ramp = 0.5 - 0.2 * unit(*random);
-  for (double& delay : at.foot_delays) delay = 0.05 + 0.1 * unit(*random);
-  for (double& share : at.lift_shares) share = 1 - 0.3 * unit(*random);
-  for (double& ahead : at.via_alongs) ahead = 0.05 * unit(*random);
+  for (double& via : at.of(ParameterFamily::kViaLateral)) via += 0.02 * unit(*random);
+  for (double& ramp : at.of(ParameterFamily::kFootRamp)) ramp = 0.5 - 0.2 * unit(*random);
+  for (double& delay : at.of(ParameterFamily::kFootDelay)) delay = 0.05 + 0.1 * unit(*random);
+  for (double& share : at.of(ParameterFamily::kLiftShare)) share = 1 - 0.3 * unit(*random);
+  for (double& ahead : at.of(ParameterFamily::kViaAlong)) ahead = 0.05 * unit(*random);
   for (double& shift : at.zmp_shifts) shift = 0.03 + 0.1 * unit(*random);
-  for (double& ramp : at.zmp_bump_ramps) ramp = 0.2 + 0.8 * unit(*random);
+  for (double& ramp : at.of(ParameterFamily::kZmpBumpRamp)) ramp = 0.2 + 0.8 * unit(*random);
   for (double& x : at.footstep_xs) x = 0.02 * unit(*random);
   for (double& y : at.footstep_ys) y = 0.01 * unit(*random);
   for (double& yaw : at.footstep_yaws) yaw = 0.1 * unit(*random);
@@ -89,6 +90,27 @@ HomotopyParameters Drawn(const HalfStepSequence& sequence, double fullness, std:
     at.overlaps[i] = fullness * unit(*random) * NaturalOverlapBound(at, static_cast<int>(i));
   }
   return at;
+}
+
+// verify has its own list of the columns of forms.
+TEST(VerifyFormColumns, AreThoseOfTheFamilies) {
+  size_t k = 0;
+  const auto& columns = AllFormColumns();
+  for (const ParameterFamily family : FamiliesOfHalfSteps(HalfStepsExtent::kForms)) {
+    const ParameterFamilyTraits& traits = Traits(family);
+    if (!traits.of_form) continue;
+    ASSERT_LT(k, columns.size()) << traits.name;
+    const FormColumn& one = columns[k++];
+    EXPECT_EQ(one.name, traits.name);
+    EXPECT_EQ(one.key, traits.key);
+    EXPECT_EQ(one.column, traits.column);
+    EXPECT_EQ(one.of_step(), traits.of == ParameterOf::kStep);
+    EXPECT_EQ(one.least, traits.least);
+    EXPECT_EQ(one.most, traits.most);
+    EXPECT_EQ(one.number, traits.number);
+    EXPECT_EQ(one.shape, traits.shape);
+  }
+  EXPECT_EQ(k, columns.size());
 }
 
 TEST(DescribedWalk, IsTheWalkThatTheRowsWereMadeOf) {
@@ -201,13 +223,13 @@ TEST(CheckFixed, NamesEveryParameterThatMoved) {
                        {"duration", 3, at.durations[2]},
                        {"height_scale", 2, at.height_scales[1]},
                        {"support_point", 2, at.support_points[1]},
-                       {"via_lateral", 1, at.via_laterals[0]},
-                       {"foot_ramp", 2, at.foot_ramps[1]},
-                       {"foot_delay", 3, at.foot_delays[2]},
-                       {"lift_share", 4, at.lift_shares[3]},
-                       {"via_along", 2, at.via_alongs[1]},
+                       {"via_lateral", 1, at.of(ParameterFamily::kViaLateral)[0]},
+                       {"foot_ramp", 2, at.of(ParameterFamily::kFootRamp)[1]},
+                       {"foot_delay", 3, at.of(ParameterFamily::kFootDelay)[2]},
+                       {"lift_share", 4, at.of(ParameterFamily::kLiftShare)[3]},
+                       {"via_along", 2, at.of(ParameterFamily::kViaAlong)[1]},
                        {"zmp_shift", 3, at.zmp_shifts[2]},
-                       {"zmp_bump_ramp", 1, at.zmp_bump_ramps[0]},
+                       {"zmp_bump_ramp", 1, at.of(ParameterFamily::kZmpBumpRamp)[0]},
                        {"footstep_x", 1, at.footstep_xs[0]},
                        {"footstep_y", 2, at.footstep_ys[1]},
                        {"footstep_yaw", 1, at.footstep_yaws[0]}}),

@@ -35,6 +35,11 @@ struct HalfStepShape {
   /// sole's centre, along its y, towards the swing foot [m]. Below 0: away from it.
   double support_offset = 0.0;
 
+  /// All of them, in this order; one that is left out does not compile.
+  std::array<double, 6> numbers() const {
+    const auto& [a, b, c, d, e, f] = *this;
+    return {a, b, c, d, e, f};
+  }
   double t1() const { return 0.5 - 0.5 * shift; }  ///< of T
   double t2() const { return 0.5 + 0.5 * shift; }  ///< of T
   friend bool operator==(const HalfStepShape&, const HalfStepShape&) = default;

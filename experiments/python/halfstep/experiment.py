@@ -14,6 +14,7 @@ import numpy as np
 from . import _halfstep
 from .config import load_config, methods, path_of_config, path_of_scene, to_document
 from .errors import InputError
+from .parameters import given_values, takes_values
 from .place import NotCovered, Robot, Scene
 from .result import Result
 from .tables import Table
@@ -132,40 +133,21 @@ class Experiment:
         """The planned motion: every half-step from rest to rest, one after the other."""
         return Walk(self._experiment.walk({}))
 
-    def walk(self, overlaps: Sequence[float] | None = None,
-             height_scales: Sequence[float] | None = None,
-             durations: Sequence[float] | None = None,
-             support_points: Sequence[float] | None = None,
-             via_laterals: Sequence[float] | None = None,
-             foot_ramps: Sequence[float] | None = None,
-             foot_delays: Sequence[float] | None = None,
-             lift_shares: Sequence[float] | None = None,
-             via_alongs: Sequence[float] | None = None,
-             zmp_shifts: Sequence[float] | None = None,
-             zmp_bump_ramps: Sequence[float] | None = None,
-             footstep_xs: Sequence[float] | None = None,
-             footstep_ys: Sequence[float] | None = None,
-             footstep_yaws: Sequence[float] | None = None) -> Walk:
+    @takes_values
+    def walk(self, *values: Sequence[float] | None, **named: Sequence[float] | None) -> Walk:
         """The walk at given parameters; what is not given is as planned.
 
-        For n half-steps: ``overlaps`` (n-1) [s], ``height_scales`` (n/2) of the planned heights,
-        ``durations`` (n) [s], ``support_points`` (n/2) [m]; and those of form: ``via_laterals``
-        and ``via_alongs`` (n/2) [m], ``foot_ramps`` (n), ``foot_delays`` (n), ``lift_shares`` (n)
-        and ``zmp_bump_ramps`` (n), as fractions of what the keys of ``half_step`` in configs say,
-        ``zmp_shifts`` (n), as fractions of the durations; and where each step's footstep is, seen
-        from where it is planned: ``footstep_xs``, ``footstep_ys`` (n/2) [m], ``footstep_yaws``
-        (n/2) [rad]. An overlap beyond its natural bound is a ValueError. Whether the walk is feasible is for ``Walk.certify`` to say.
+        For n half-steps:
+
+        <families>
+
+        Numbers of form are as the keys of ``half_step`` in configs say. An overlap beyond its
+        natural bound is a ValueError. Whether the walk is feasible is for ``Walk.certify`` to say.
         """
-        sizes = {name: len(values) for name, values in self.planned.parameters.items()}
-        given = {"overlaps": overlaps, "height_scales": height_scales, "durations": durations,
-                 "support_points": support_points, "via_laterals": via_laterals,
-                 "foot_ramps": foot_ramps, "foot_delays": foot_delays, "lift_shares": lift_shares,
-                 "via_alongs": via_alongs, "zmp_shifts": zmp_shifts,
-                 "zmp_bump_ramps": zmp_bump_ramps, "footstep_xs": footstep_xs,
-                 "footstep_ys": footstep_ys, "footstep_yaws": footstep_yaws}
+        sizes = {name: len(row) for name, row in self.planned.parameters.items()}
         return Walk(self._experiment.walk({
-            name: list(vector(name, values, sizes[name]))
-            for name, values in given.items() if values is not None}))
+            name: list(vector(name, row, sizes[name]))
+            for name, row in given_values(self.walk, values, named).items()}))
 
     def missed(self) -> list[str]:
         """Sentences, empty when the planned motion is feasible: first what the config may have

@@ -10,6 +10,7 @@ import numpy as np
 from . import _halfstep
 from .config import text
 from .errors import InputError, SolveStopped
+from .parameters import given_values, takes_values
 from .program import OverlapProgram, csr, program_options
 from .walk import Walk, number, vector
 
@@ -52,31 +53,18 @@ class SmoothingProblem:
         return OverlapProgram._of(self._task.program(
             program_options(program=program or "fastest", **options)))
 
-    def walk(self, overlaps: Sequence[float] | None = None,
-             height_scales: Sequence[float] | None = None,
-             durations: Sequence[float] | None = None,
-             support_points: Sequence[float] | None = None,
-             via_laterals: Sequence[float] | None = None,
-             foot_ramps: Sequence[float] | None = None,
-             foot_delays: Sequence[float] | None = None,
-             lift_shares: Sequence[float] | None = None,
-             via_alongs: Sequence[float] | None = None,
-             zmp_shifts: Sequence[float] | None = None,
-             zmp_bump_ramps: Sequence[float] | None = None,
-             footstep_xs: Sequence[float] | None = None,
-             footstep_ys: Sequence[float] | None = None,
-             footstep_yaws: Sequence[float] | None = None) -> Walk:
-        """The walk at given parameters; what is not given is the incumbent's."""
-        sizes = {name: len(values) for name, values in self.incumbent.parameters.items()}
-        given = {"overlaps": overlaps, "height_scales": height_scales, "durations": durations,
-                 "support_points": support_points, "via_laterals": via_laterals,
-                 "foot_ramps": foot_ramps, "foot_delays": foot_delays, "lift_shares": lift_shares,
-                 "via_alongs": via_alongs, "zmp_shifts": zmp_shifts,
-                 "zmp_bump_ramps": zmp_bump_ramps, "footstep_xs": footstep_xs,
-                 "footstep_ys": footstep_ys, "footstep_yaws": footstep_yaws}
+    @takes_values
+    def walk(self, *values: Sequence[float] | None, **named: Sequence[float] | None) -> Walk:
+        """The walk at given parameters; what is not given is the incumbent's.
+
+        For n half-steps:
+
+        <families>
+        """
+        sizes = {name: len(row) for name, row in self.incumbent.parameters.items()}
         return Walk(self._task.walk({
-            name: list(vector(name, values, sizes[name]))
-            for name, values in given.items() if values is not None}))
+            name: list(vector(name, row, sizes[name]))
+            for name, row in given_values(self.walk, values, named).items()}))
 
     def propose(self, walk: Walk) -> bool:
         """Proves a walk by the experiment's test, unless it lasts no shorter than the incumbent.

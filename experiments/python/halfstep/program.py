@@ -10,6 +10,7 @@ import numpy as np
 from . import _halfstep
 from .errors import InputError
 from .experiment import Experiment
+from .parameters import all_flags, takes_flags
 from .tables import Table
 from .walk import Walk, _flag, number, vector
 
@@ -51,8 +52,8 @@ class OverlapProgram:
     the last variable, with a duration of at most ``duration_limit`` [s]).
 
     The variables are the overlaps, each as a fraction of its natural bound, and on request the
-    foot heights of all steps (fractions of the planned ones), the durations of all half-steps [s]
-    and the support points [m]. Rows are slacks (margin less what is demanded, of the family's
+    other families of parameters, by their keys under ``smoothing.optimizer`` in configs: ``heights``
+    of all steps, ``durations`` of all half-steps and so on (``Walk.parameters``). Rows are slacks (margin less what is demanded, of the family's
     scale), gathered by half-step and family at ``instants`` times a half-step, smoothly
     (``sharpness``): at least 0 when every margin is met there. ``row_per_instant``: one row for
     each instant in place of one for each half-step.
@@ -71,23 +72,17 @@ class OverlapProgram:
     for solvers that look there. Not to be used from two threads at once.
     """
 
+    @takes_flags
     def __init__(self, experiment: Experiment, program: str = "fastest", *, overlaps: bool = True,
-                 heights: bool = False, durations: bool = False, support_points: bool = False,
-                 via_laterals: bool = False, foot_ramps: bool = False, foot_delays: bool = False,
-                 lift_shares: bool = False, via_alongs: bool = False, zmp_shifts: bool = False,
-                 zmp_bump_ramps: bool = False, footsteps: bool = False, instants: int = 32,
-                 sharpness: float = 60.0, row_per_instant: bool = False,
-                 duration_limit: float = 0.0,
-                 weights: Sequence[float] = (0.05, 0.0, 0.0)) -> None:
+                 instants: int = 32, sharpness: float = 60.0, row_per_instant: bool = False,
+                 duration_limit: float = 0.0, weights: Sequence[float] = (0.05, 0.0, 0.0),
+                 **flags: bool) -> None:
         if not isinstance(experiment, Experiment):
             raise TypeError(f"experiment: {type(experiment).__name__} (valid: an Experiment)")
         self._program = _halfstep.Program(experiment._experiment, program_options(
-            program=program, overlaps=overlaps, heights=heights, durations=durations,
-            support_points=support_points, via_laterals=via_laterals, foot_ramps=foot_ramps,
-            foot_delays=foot_delays, lift_shares=lift_shares, via_alongs=via_alongs,
-            zmp_shifts=zmp_shifts, zmp_bump_ramps=zmp_bump_ramps, footsteps=footsteps,
-            instants=instants, sharpness=sharpness, row_per_instant=row_per_instant,
-            duration_limit=duration_limit, weights=weights))
+            program=program, overlaps=overlaps, instants=instants, sharpness=sharpness,
+            row_per_instant=row_per_instant, duration_limit=duration_limit, weights=weights,
+            **all_flags(flags)))
         self._pattern: tuple[np.ndarray, np.ndarray, int] | None = None
 
     @classmethod

@@ -11,6 +11,7 @@ import numpy as np
 
 from . import _halfstep
 from .errors import InputError
+from .parameters import describes
 from .place import NotCovered, Robot
 from .tables import Table, of_arrays, of_text
 
@@ -119,12 +120,12 @@ class Walk:
         return self._walk.starts
 
     @property
+    @describes
     def parameters(self) -> dict[str, np.ndarray]:
-        """All parameters: ``overlaps`` (n-1) [s], ``height_scales`` (n/2) of the planned height,
-        ``durations`` (n) [s], ``support_points``, ``via_laterals`` and ``via_alongs`` (n/2) [m],
-        and fractions: ``foot_ramps``, ``foot_delays``, ``lift_shares``, ``zmp_shifts`` and
-        ``zmp_bump_ramps`` (n); and the moves of footsteps:
-        ``footstep_xs``, ``footstep_ys`` (n/2) [m], ``footstep_yaws`` (n/2) [rad]."""
+        """All parameters of the n half-steps:
+
+        <families>
+        """
         return self._walk.parameters
 
     @property
