@@ -53,7 +53,7 @@ TEST_F(ParameterTableTest, FamiliesAreChosenByThemselvesOrWithThoseThatShareThei
       EXPECT_EQ(choice.moves(other), other == family || both || Traits(other).always)
           << traits.name << " and " << Traits(other).name;
     }
-    if (!traits.key.empty()) EXPECT_TRUE(choice.moves(traits.key));
+    EXPECT_TRUE(traits.key.empty() || choice.moves(traits.key)) << traits.name;
     EXPECT_EQ(WithoutForms(choice) == choice, !traits.of_form) << traits.name;
     for (const ParameterBoundKey& bound : traits.bounds()) {
       EXPECT_EQ(choice.bound(bound.key), bound.initial);
