@@ -28,7 +28,6 @@
 #include "experiments/verify/own_names.h"
 #include "experiments/verify/tolerances.h"
 #include "smoothing/margins/own_margin.h"
-#include "smoothing/methods/dichotomy.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/sha256.h"
 

@@ -159,14 +159,14 @@ TEST_F(ReferenceMethods, StoppedInTheMiddleTheyAskLittleMore) {
       EXPECT_NE(result.ending, opt::Ending::kConverged) << name;
       EXPECT_TRUE(result.feasible);
     }
-    options.optimizer.deadline = 1e-6;
+    options.Edit(OptimizerGroup()).options.deadline = 1e-6;
     FakeFeasibility late = LowFeetMayHurry(0.8);
     SmoothingMonitor monitor;
     const SmoothingResult result =
         methods.Find(name).Smooth(ProblemOf(sequence_, late), options, monitor);
     EXPECT_LE(late.questions.size(), 60u) << name;
     EXPECT_NE(result.ending, opt::Ending::kConverged) << name << ": " << result.message;
-    options.optimizer.deadline = 30.0;
+    options.Edit(OptimizerGroup()).options.deadline = 30.0;
   }
 }
 
