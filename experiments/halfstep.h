@@ -11,6 +11,7 @@
 #include "opt/adapters/solver_registry.h"
 #include "planner/search/planner_registry.h"
 #include "smoothing/margins/own_margin.h"
+#include "smoothing/methods/dichotomy.h"
 #include "smoothing/methods/methods.h"
 #include "smoothing/methods/solver_method_options.h"
 #include "smoothing/program/walk_cost.h"

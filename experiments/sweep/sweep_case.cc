@@ -54,8 +54,7 @@ void Publish(const SweepFolder& folder, const SweepCase& one, const ExperimentCo
   WriteCsv("runs", tables.runs, &place);
   if (kept != nullptr) {
     WriteReport(kept->experiment().robot, kept->experiment().scene, &place, folder.sweep().methods);
-    CompleteManifest(kept->experiment().robot, kept->experiment().scene, &place,
-                     folder.sweep().methods);
+    CompleteManifest(kept->experiment().robot, kept->experiment().scene, &place);
   }
   try {
     place.Publish();

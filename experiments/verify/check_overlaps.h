@@ -7,6 +7,7 @@
 #include "experiments/config/experiment_config.h"
 #include "experiments/verify/findings.h"
 #include "experiments/verify/walk_text.h"
+#include "smoothing/methods/dichotomy.h"
 #include "wpg/motion/half_step_sequence.h"
 
 namespace halfstep::verify {

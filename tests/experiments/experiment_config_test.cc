@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "experiments/config/experiment.h"
+#include "smoothing/methods/dichotomy.h"
 #include "smoothing/methods/solver_method_options.h"
 #include "tests/fixture_check.h"
 #include "tests/temporary_folder.h"
@@ -121,11 +122,12 @@ TEST(ExperimentConfig, EveryKeyReachesItsField) {
   const SmoothingConfig& s = c.smoothing;
   EXPECT_THAT(s.methods, testing::ElementsAre("dichotomy/published"));
   EXPECT_EQ(s.sampling, 0.004);
-  EXPECT_EQ(s.dichotomy.tolerance, 0.002);
-  EXPECT_EQ(s.dichotomy.order, DichotomyOptions::Order::kRightToLeft);
-  EXPECT_EQ(s.dichotomy.passes, 3);
-  EXPECT_EQ(s.dichotomy.up_down_cap, 0.9);
-  EXPECT_EQ(s.dichotomy.down_up_cap, 0.7);
+  const DichotomyOptions dichotomy = s.options.Get(DichotomyGroup());
+  EXPECT_EQ(dichotomy.tolerance, 0.002);
+  EXPECT_EQ(dichotomy.order, DichotomyOptions::Order::kRightToLeft);
+  EXPECT_EQ(dichotomy.passes, 3);
+  EXPECT_EQ(dichotomy.up_down_cap, 0.9);
+  EXPECT_EQ(dichotomy.down_up_cap, 0.7);
   EXPECT_EQ(s.limits.foot_speed, std::nullopt);
   EXPECT_EQ(s.limits.foot_yaw_rate, 1.5);
   EXPECT_EQ(s.limits.joint_speed_scale, 0.75);

@@ -160,7 +160,7 @@ TEST(RegisterWalkCost, IsAWeightOfTheProgramSmooth) {
       WithOptions({}).smoothing.options.Get(OptimizerGroup()).options.program.own_costs.empty());
   const Experiment experiment = Prepare(WithOptions(weighed));
   const WalkProblem walk = ProblemOf(experiment);
-  const ProgramOptions& options =
+  const ProgramOptions options =
       experiment.config.smoothing.options.Get(OptimizerGroup()).options.program;
   const OverlapProgram program(walk.sequence(), walk.evaluator(), options, 0.0);
   ProgramOptions without = options;
