@@ -139,6 +139,13 @@ TEST(SuperposedWalk, WithoutOverlapItIsTheConcatenationOfIsolatedHalfSteps) {
   }
 }
 
+TEST(SuperposedWalk, RefusesFootholdsAtAnotherHeight) {
+  const HalfStepSequence sequence =
+      MakeSequence(StandingFeet(), {{.side = Side::kRight, .X_WF = {Pose2{0.2, -0.105, 0}, 0.01}}},
+                   0.24, {}, {});
+  EXPECT_THROW(SuperposedWalk(sequence, PlannedMotion(sequence)), std::logic_error);
+}
+
 TEST(SuperposedWalk, WithoutOverlapOnASupportSoleAtTheOriginItIsTheHalfStepBitForBit) {
   WalkDraw draw(25);
   for (int i = 0; i < 100; ++i) {

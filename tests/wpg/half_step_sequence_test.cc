@@ -86,6 +86,23 @@ TEST(MakeSequence, YawKeepsItsTurns) {
   EXPECT_NEAR(EndInW(s.half_steps[1])[kWaistYaw], 6.5, 1e-14);
 }
 
+TEST(MakeSequence, CarriesTheHeightsOfFootholds) {
+  const HalfStepSequence s =
+      MakeSequence(StandingFeet(),
+                   {{.side = Side::kRight, .X_WF = {Pose2{0.2, -0.105, 0}, 0.15}},
+                    {.side = Side::kLeft, .X_WF = {Pose2{0.4, 0.105, 0}, 0.25}}},
+                   0.24, {}, {});
+  const std::array<double, 4> support = {0.0, 0.0, 0.15, 0.15}, swing = {0.0, 0.15, 0.0, 0.25};
+  for (size_t k = 0; k < 4; ++k) {
+    const PlacedHalfStep& placed = s.half_steps[k];
+    EXPECT_EQ(placed.X_WS.height, support[k]);
+    EXPECT_EQ(placed.half_step.X_SF.height, swing[k] - support[k]);
+    const WalkState x = k % 2 == 0 ? StartInW(placed) : EndInW(placed);
+    EXPECT_EQ(x[FootIndex(placed.half_step.support) + 2], support[k]);
+    EXPECT_DOUBLE_EQ(x[FootIndex(placed.half_step.swing()) + 2], swing[k]);
+  }
+}
+
 TEST(MakeSequence, RefusesNoFootsteps) {
   EXPECT_THROW(MakeSequence(StandingFeet(), {}, 0.24, {}, {}), std::logic_error);
 }

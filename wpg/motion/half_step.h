@@ -72,7 +72,7 @@ struct HalfStep {
   Pose2 via() const { return {via_along, Sign(swing()) * via_lateral, 0.0}; }
   /// The support point, in S: CoM and ZMP are there while the swing foot is at the via point.
   Eigen::Vector2d support_point() const { return {0.0, Sign(swing()) * shape.support_offset}; }
-  /// The states at rest, in S: with both feet on the floor, and at the via point.
+  /// The states at rest, in S: with both feet standing, and at the via point.
   WalkState OnFloor() const;
   WalkState AtVia() const;  ///< with the swing foot at the via point
   /// Where the half-step begins.
