@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "smoothing/methods/solver_method_options.h"
+
 namespace halfstep::verify {
 namespace {
 
@@ -14,7 +16,7 @@ void CheckChosen(const std::string& method, const std::vector<HalfStepRow>& half
                  const HalfStepSequence& planned, const SmoothingConfig& config,
                  Findings* findings) {
   if (method == "given") return;
-  const ParameterChoice& choice = config.optimizer.options.program.parameters;
+  const ParameterChoice& choice = config.options.Get(OptimizerGroup()).options.program.parameters;
   const auto is_fixed = [&](const std::string& name, size_t index) {
     return std::ranges::any_of(config.fixed, [&](const FixedConfig& one) {
       return one.parameter == name && one.index == static_cast<int>(index) + 1;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/config/experiment_config.h"
 #include "wpg/robot/not_covered.h"
 
 namespace halfstep::verify {
