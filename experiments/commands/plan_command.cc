@@ -140,7 +140,7 @@ ExitStatus Bake(const PlanCommand& command) {
 
 ExitStatus ListHalfSteps(const PlanCommand& command) {
   const ExperimentConfig config = LoadConfig(command.config, command.overrides, command.methods);
-  const HalfStepSet set = CertifiedHalfSteps(LoadPlace(config).robot, config);
+  const StepSet set = CertifiedHalfSteps(LoadPlace(config).robot, config);
   if (command.json) {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
     for (const Foothold& placement : set.placements) {

@@ -93,6 +93,8 @@ void DeclareHalfStep(Fields& fields, HalfStepConfig* c) {
   if (c->zmp_shift < 0.01 * c->duration || c->zmp_shift > 0.5 * c->duration) {
     fields.Complain("zmp_shift_s", "does not fit duration_s (valid: 0.01 … 0.5 of it)");
   }
+  fields.Renamed("horizontal_delay", "foot_delay");
+  fields.Renamed("support_offset_m", "support_point_m");
   fields.Number("via_height_m", &c->via_height,
                 {.meaning = "height of the via point", .unit = "m", .min = 0.01, .max = 1});
   fields.Number("via_lateral_m", &c->via_lateral,
@@ -101,7 +103,7 @@ void DeclareHalfStep(Fields& fields, HalfStepConfig* c) {
                  .min = 0.01,
                  .max = 1});
   fields.Number(
-      "horizontal_delay", &c->horizontal_delay,
+      "foot_delay", &c->foot_delay,
       {.meaning = "fraction of T between take-off (landing) and the foot's horizontal motion",
        .min = 0,
        .max = 0.2});
@@ -124,7 +126,7 @@ void DeclareHalfStep(Fields& fields, HalfStepConfig* c) {
                   "floor",
        .min = 0.2,
        .max = 1});
-  fields.Number("support_offset_m", &c->support_offset,
+  fields.Number("support_point_m", &c->support_point,
                 {.meaning = "where CoM and ZMP rest on one foot: from the support sole's centre, "
                             "along its y, towards the other foot",
                  .unit = "m",
@@ -138,7 +140,7 @@ void DeclareHalfStep(Fields& fields, HalfStepConfig* c) {
 void ComplainOutsideWorkspace(Fields& fields, const ExperimentConfig& c) {
   const std::vector<double>& w = c.planner.workspace;
   if (!c.has_goal || w.size() != 4) return;
-  const HalfStepGrid& grid = c.half_step_grid;
+  const StepGrid& grid = c.step_set;
   const double step = std::hypot(std::max(std::abs(grid.x_min), std::abs(grid.x_max)),
                                  std::max(std::abs(grid.y_min), std::abs(grid.y_max)));
   const GoalRegion goal = c.goal.Region();
@@ -226,7 +228,7 @@ void DeclareFields(Fields& fields, ExperimentConfig* c) {
                [&](Fields& f) { DeclarePlanner(f, &c->planner); });
   fields.Renamed("half_steps", "step_set");
   fields.Group("step_set", {.meaning = "places that the planner chooses from"},
-               [&](Fields& f) { DeclareHalfStepSet(f, &c->half_step_grid); });
+               [&](Fields& f) { DeclareStepSet(f, &c->step_set); });
   ComplainOutsideWorkspace(fields, *c);
   fields.Group("swept_volumes", {.meaning = "that are baked of them"},
                [&](Fields& f) { DeclareSweptVolumes(f, &c->swept_volumes); });
@@ -273,11 +275,11 @@ void DeclareFilesThere(Fields& fields, const ExperimentConfig& config) {
 
 HalfStepShape ShapeOf(const HalfStepConfig& config) {
   return {.shift = config.zmp_shift / config.duration,
-          .horizontal_delay = config.horizontal_delay,
+          .foot_delay = config.foot_delay,
           .bump_ramp = config.zmp_bump_ramp.value_or(1.0),
           .foot_ramp = config.foot_ramp,
           .lift_share = config.lift_share,
-          .support_offset = config.support_offset};
+          .support_point = config.support_point};
 }
 
 std::vector<KeyDescription> ConfigKeys(Methods methods) {

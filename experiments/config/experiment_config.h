@@ -29,11 +29,11 @@ struct HalfStepConfig {
   double zmp_shift = 0.1;               ///< t2 − t1 at that T [s]; scales with the duration
   double via_height = 0.25;             ///< [m]
   double via_lateral = 0.24;            ///< [m]
-  double horizontal_delay = 0.1;        ///< of T
+  double foot_delay = 0.1;              ///< of T
   std::optional<double> zmp_bump_ramp;  ///< of the bump
   double foot_ramp = 0.5;               ///< of the foot's horizontal motion
   double lift_share = 1.0;              ///< of the foot's flight
-  double support_offset = 0.0;          ///< [m]
+  double support_point = 0.0;           ///< [m]
 };
 
 /// Fractions of T, as half-steps have them.
@@ -51,7 +51,7 @@ struct ExperimentConfig {
   GoalConfig goal;                        ///< used when has_goal
   std::vector<FootstepConfig> footsteps;  ///< empty when has_goal
   PlannerConfig planner;                  ///< used when has_goal
-  HalfStepGrid half_step_grid;            ///< the placements that planners choose from
+  StepGrid step_set;                      ///< the placements that planners choose from
   SweptVolumesConfig swept_volumes;       ///< of the planners that ask them
   HalfStepConfig half_step;               ///< of all half-steps
   SmoothingConfig smoothing;              ///< methods, limits and margins

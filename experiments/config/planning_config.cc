@@ -171,7 +171,7 @@ void DeclarePlanner(Fields& fields, PlannerConfig* c) {
                [&](Fields& f) { DeclareBoundingBox(f, &c->options.bounding_box); });
 }
 
-void DeclareHalfStepSet(Fields& fields, HalfStepGrid* g) {
+void DeclareStepSet(Fields& fields, StepGrid* g) {
   const auto bound = [&](const char* key, double* value, const char* meaning) {
     fields.Number(key, value, {.meaning = meaning, .unit = "m", .min = -2, .max = 2});
   };

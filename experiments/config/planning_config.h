@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "planner/search/half_step_set.h"
 #include "planner/search/planner_registry.h"
+#include "planner/search/step_set.h"
 #include "planner/swept/swept_volume.h"
 #include "wpg/files/fields.h"
 
@@ -50,7 +50,7 @@ void DeclareGoal(Fields& fields, GoalConfig* config);
 /// The keys of `planner`.
 void DeclarePlanner(Fields& fields, PlannerConfig* config);
 /// The keys of `step_set`.
-void DeclareHalfStepSet(Fields& fields, HalfStepGrid* grid);
+void DeclareStepSet(Fields& fields, StepGrid* grid);
 /// The keys of `swept_volumes`.
 void DeclareSweptVolumes(Fields& fields, SweptVolumesConfig* config);
 

@@ -63,7 +63,7 @@ double Scaled(Law law, double hrp2, const RobotMeasures& robot) {
     case Law::kDelay:
       return std::max(hrp2, Rounded(DelayToRise(kRise / Scaled(Law::kHeight, kViaHeight, robot))));
     case Law::kSupport:
-      return robot.support_offset;
+      return robot.support_point;
   }
   return hrp2;
 }
@@ -86,7 +86,7 @@ std::string FormulaOf(Law law, const std::string& hrp2) {
     case Law::kDelay:
       return "max(`" + hrp2 + "`, until the foot is 6 mm high)";
     case Law::kSupport:
-      return "`support_offset_m` of the robot";
+      return "`support_point_m` of the robot";
   }
   return hrp2;
 }
@@ -105,9 +105,9 @@ std::vector<ScaledDefault> ScaledDefaults() {
       {"half_step.duration_s", Law::kDuration},
       {"half_step.zmp_shift_s", Law::kDuration},
       {"half_step.via_height_m", Law::kHeight},
-      {"half_step.horizontal_delay", Law::kDelay},
+      {"half_step.foot_delay", Law::kDelay},
       {"half_step.via_lateral_m", Law::kAside},
-      {"half_step.support_offset_m", Law::kSupport},
+      {"half_step.support_point_m", Law::kSupport},
       {"step_set.x_min_m", Law::kGrid},
       {"step_set.x_max_m", Law::kGrid},
       {"step_set.y_min_m", Law::kAcross},

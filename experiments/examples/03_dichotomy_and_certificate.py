@@ -5,7 +5,7 @@ experiment = hs.Experiment("fig3_two_half_steps")
 result = experiment.smooth("dichotomy")
 print(f"{experiment.planned.duration:.3f} -> {result.duration:.3f} s, {result.status}")
 row = result.overlaps.row(0)
-print(f"the overlap of {row['overlap_s']:.3f} s is held by: {row['active']}")
+print(f"the overlap of {row['overlap_s']:.3f} s is held by: {row['limited_by']}")
 
 certificate = result.certify()
 print(f"{certificate.status}: {certificate.sentence}")

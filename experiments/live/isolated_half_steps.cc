@@ -22,7 +22,7 @@ bool IsIsolated(const SuperposedWalk& walk, int j) {
 
 }  // namespace
 
-std::optional<SetElement> ElementOf(const HalfStep& half_step, const HalfStepSet& set) {
+std::optional<SetElement> ElementOf(const HalfStep& half_step, const StepSet& set) {
   const bool down = half_step.kind == HalfStepKind::kDown;
   // An element is told by the sole that supports its down half-step.
   const Side support = down ? half_step.support : half_step.swing();

@@ -16,7 +16,7 @@ struct SetElement {
 
 /// The element whose down or up half-step this is; none when it is of no element, or lasts longer
 /// or goes higher than the set's.
-std::optional<SetElement> ElementOf(const HalfStep& half_step, const HalfStepSet& set);
+std::optional<SetElement> ElementOf(const HalfStep& half_step, const StepSet& set);
 
 /// Whether no other half-step of the walk is under way together with half-step j, this one is a
 /// half-step of the set, and its swept volume is free: then it keeps the clearance of the volumes

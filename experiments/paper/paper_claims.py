@@ -120,7 +120,7 @@ def apex(printed):
 def fig5(_):
     junction = rows("fig5_box/dichotomy/overlaps.csv")[0]
     clearance = min(column("fig5_box/dichotomy/trajectory.csv", "clearance_m"))
-    hold(junction["limit_family"] == "clearance", f"the overlap is held by {junction['active']}")
+    hold(junction["limited_by_family"] == "clearance", f"the overlap is held by {junction['limited_by']}")
     hold(duration("fig5_box") < duration("fig5_box", "raw") and clearance >= 0.005,
          f"{clearance} m from the box")
     overlap, bound = float(junction["overlap_s"]), float(junction["upper_bound_s"])
@@ -155,7 +155,7 @@ def sound(*_):
 
 @claim("half-steps of HRP-2 on a grid of 5 cm, 5 cm, 5 yaws", "276",
        f"halfstep list half-steps {CONFIGS}/island.yaml")
-def half_step_set(printed):
+def step_set(printed):
     number = len(printed.splitlines()) - 1
     hold(number >= 150, f"{number}")
     return f"{number}", ("differs: every one certified with margins; knees as in half-sitting "

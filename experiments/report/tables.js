@@ -86,7 +86,7 @@ export function junctionTable(parent, [a, b]) {
     }
     return [number(row.junction), row.kind === "up_down" ? "up → down" : "down → up", meter,
             seconds(row.overlap_s), seconds(row.upper_bound_s),
-            row.price_s === null ? "" : seconds(row.price_s), readable(row.active)];
+            row.price_s === null ? "" : seconds(row.price_s), readable(row.limited_by)];
   });
   parent.replaceChildren(title,
     table(["junction", "kind", "overlap and its bound", "overlap [s]", "bound [s]",

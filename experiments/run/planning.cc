@@ -62,11 +62,11 @@ bool HalfStepCertifier::Certifies(const HalfStep& half_step, const Foothold& X_W
          Verdict::kFeasible;
 }
 
-HalfStepSet CertifiedHalfSteps(const RobotModel& robot, const ExperimentConfig& config,
-                               const std::function<bool(double)>& progress) {
+StepSet CertifiedHalfSteps(const RobotModel& robot, const ExperimentConfig& config,
+                           const std::function<bool(double)>& progress) {
   const HalfStepCertifier certifier(robot, Scene{}, config);
-  return MakeHalfStepSet(
-      config.half_step_grid, PrototypeOf(config),
+  return MakeStepSet(
+      config.step_set, PrototypeOf(config),
       [&](const HalfStep& half_step) { return certifier.Certifies(half_step, {}); }, progress);
 }
 
@@ -124,7 +124,7 @@ BakedHalfSteps BakeHalfSteps(const RobotModel& robot, const ExperimentConfig& co
   };
   BakedHalfSteps baked;
   const double begin = SteadySeconds();
-  const HalfStepSet set = CertifiedHalfSteps(robot, config, progress("half-steps"));
+  const StepSet set = CertifiedHalfSteps(robot, config, progress("half-steps"));
   const double set_done = SteadySeconds();
   baked.set_wall = set_done - begin;
   baked.size = set.size();

@@ -35,8 +35,8 @@ class HalfStepCertifier {
 
 /// The half-steps of the config's grid that are certified, down and up, on an empty floor. Empty
 /// when `progress` returns false.
-HalfStepSet CertifiedHalfSteps(const RobotModel& robot, const ExperimentConfig& config,
-                               const std::function<bool(double)>& progress = {});
+StepSet CertifiedHalfSteps(const RobotModel& robot, const ExperimentConfig& config,
+                           const std::function<bool(double)>& progress = {});
 
 /// Whether the concatenation keeps every demanded margin for all t; a refusal names the footstep
 /// whose half-steps are to blame.

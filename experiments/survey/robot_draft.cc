@@ -154,9 +154,9 @@ std::string YamlOf(const RobotDraft& draft, const fs::path& folder) {
   if (draft.lift) {
     text += "# " + draft.why_lift + "\nlift_m: " + Decimal(*draft.lift, 3) + "\n";
   }
-  if (draft.support_offset != 0.0) {
+  if (draft.support_point != 0.0) {
     text +=
-        "# " + draft.why_support + "\nsupport_offset_m: " + Decimal(draft.support_offset, 3) + "\n";
+        "# " + draft.why_support + "\nsupport_point_m: " + Decimal(draft.support_point, 3) + "\n";
   }
   for (const std::string& joint : draft.legs.beyond) {
     text += "# " + joint + " is beyond the sixth joint: it is held still.\n";

@@ -34,7 +34,7 @@ struct RobotDraft {
   std::string why_width;                         ///< why the stance is so wide
   std::optional<double> lift;                    ///< RobotModel::largest_lift [m]
   std::string why_lift;                          ///< why there is one
-  double support_offset = 0.0;                   ///< RobotModel::support_offset [m]
+  double support_point = 0.0;                    ///< RobotModel::support_point [m]
   std::string why_support;                       ///< why it is not 0
   std::vector<double> posture;                   ///< by URDF joint index [rad]
   std::vector<ExcludedPair> excluded;  ///< pairs that are not checked for contact, and why

@@ -213,7 +213,7 @@ class StanceSearch {
   void Support(RobotModel* model) {
     const FoundSupport found = FindSupport(*model);
     if (found.offset == 0.0) return;
-    draft_.support_offset = model->support_offset = found.offset;
+    draft_.support_point = model->support_point = found.offset;
     draft_.why_support = Formatted(
         "Where the soles' centres carry, the robot's ZMP is %.1f mm inside the support polygon in "
         "six steps; so %.1f mm.",

@@ -36,17 +36,17 @@ FoundSupport FindSupport(RobotModel robot) {
   const auto zmp_of_robot = [&robot] {
     return LeastInSixSteps(robot, MarginFamily::kZmpRobot, kSupportPeriod);
   };
-  robot.support_offset = 0.0;
+  robot.support_point = 0.0;
   found.before = found.after = zmp_of_robot();
   if (found.before >= MarginLimits{}.demanded_of(MarginFamily::kZmpRobot)) return found;
   for (const double direction : {-1.0, 1.0}) {
     for (int i = 1; i * kSupportStep < 0.5 * robot.sole_size.y(); ++i) {
-      robot.support_offset = direction * i * kSupportStep;
+      robot.support_point = direction * i * kSupportStep;
       const double both =
           std::min(LeastInSixSteps(robot, MarginFamily::kZmp, kSupportPeriod), zmp_of_robot());
       if (!(both > found.after)) break;
       found.after = both;
-      found.offset = robot.support_offset;
+      found.offset = robot.support_point;
     }
     if (found.offset != 0.0) break;
   }

@@ -62,11 +62,12 @@ CsvColumns OverlapsColumns() {
       {"kind", kString, "", "up_down or down_up"},
       ColumnOf(ParameterFamily::kOverlap),
       {"upper_bound_s", kNumber, "s", "largest overlap that was allowed"},
-      {"active", kString, "", "what holds the overlap"},
-      {"limit_family", kString, "", "family of the margin that holds it, or none"},
-      {"limit_scale", kNumber, "", "that family's scale in its unit; empty: none limits"},
+      {"limited_by", kString, "", "what holds the overlap"},
+      {"limited_by_family", kString, "", "family of the margin that holds it, or none"},
+      {"limited_by_scale", kNumber, "", "that family's scale in its unit; empty: none limits"},
       {"price_s", kNumber, "s",
-       "how much shorter the walk for limit_scale less demanded, by this overlap alone, to first "
+       "how much shorter the walk for limited_by_scale less demanded, by this overlap alone, to "
+       "first "
        "order; empty: it does not depend on it"},
       {"multiplier_s", kNumber, "s",
        "the same, all parameters adapting, from the program; empty: none was solved, or the "
@@ -144,7 +145,7 @@ CsvFile IteratesCsv(const MethodRun& run) {
   int index = 0;
   for (const SmoothingIterate& iterate : run.result.iterates) {
     csv.Cell(++index).Cell(iterate.wall).Cell(iterate.instants).Cell(iterate.candidate_duration);
-    iterate.candidate_slack ? csv.Cell(*iterate.candidate_slack) : csv.Empty();
+    iterate.candidate_worst_margin ? csv.Cell(*iterate.candidate_worst_margin) : csv.Empty();
     csv.Cell(iterate.accepted).Cell(iterate.lambda).Cell(iterate.incumbent_duration);
     iterate.incumbent_slack ? csv.Cell(*iterate.incumbent_slack) : csv.Empty();
     csv.EndRow();

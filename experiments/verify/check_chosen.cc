@@ -41,7 +41,7 @@ void CheckChosen(const std::string& method, const std::vector<HalfStepRow>& half
     }
     if (!choice.support_points) {
       look(i, "support_points", "support_point", i / 2, half_steps[i].support_point,
-           plan.shape.support_offset);
+           plan.shape.support_point);
     }
     if (choice.footsteps) continue;
     look(i, "footsteps", "footstep_x", i / 2, is.footstep.x, 0);

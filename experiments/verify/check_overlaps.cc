@@ -46,9 +46,9 @@ std::string FaultOfRaw(const HalfStepRow& row, const HalfStep& planned) {
   if (!Same(row.duration, planned.duration)) {
     return Formatted("duration %.9g, planned %.9g", row.duration, planned.duration);
   }
-  if (!Same(row.support_point, planned.shape.support_offset)) {
+  if (!Same(row.support_point, planned.shape.support_point)) {
     return Formatted("support point %.9g, planned %.9g", row.support_point,
-                     planned.shape.support_offset);
+                     planned.shape.support_point);
   }
   if (!Same(row.FormOf(planned), PlannedForm(planned))) return "a form that is not planned";
   return Same(row.height_scale, 1) ? ""
@@ -212,7 +212,7 @@ void CheckFixed(const std::vector<HalfStepRow>& half_steps, const std::vector<Ov
       demanded = 1;
     } else if (one.parameter == "support_point" && 2 * i < half_steps.size()) {
       is = half_steps[2 * i].support_point;
-      demanded = planned.half_steps[2 * i].half_step.shape.support_offset;
+      demanded = planned.half_steps[2 * i].half_step.shape.support_point;
     } else if (const auto move = MoveNamed(one.parameter); move && 2 * i < half_steps.size()) {
       is = half_steps[2 * i].FormOf(planned.half_steps[2 * i].half_step).footstep.**move;
     } else if (const auto* form = FormNamed(one.parameter);

@@ -28,7 +28,7 @@ DescribedWalk::DescribedWalk(const RobotModel& robot, const HalfStepSequence& pl
     HalfStep half_step = as_planned;
     half_step.duration = rows[i].duration;
     half_step.via_height *= rows[i].height_scale;
-    half_step.shape.support_offset = rows[i].support_point;
+    half_step.shape.support_point = rows[i].support_point;
     const FormColumns form = rows[i].FormOf(as_planned);
     for (const FormColumn& one : AllFormColumns()) one.in(&half_step) = form.*one.value;
     const WalkState from = Transformed(X_WS, half_step.Start());

@@ -60,10 +60,11 @@ std::vector<HalfStepRow> ReadHalfSteps(const std::string& path, const std::strin
 }
 
 std::vector<OverlapRow> ReadOverlaps(const std::string& path, const std::string& text) {
-  const CsvText csv(path, text,
-                    {"junction", "kind", "overlap_s", "upper_bound_s", "active", "limit_family",
-                     "limit_scale", "price_s", "multiplier_s", "duration_before_s",
-                     "duration_after_s", "height_scale_before", "height_scale_after"});
+  const CsvText csv(
+      path, text,
+      {"junction", "kind", "overlap_s", "upper_bound_s", "limited_by", "limited_by_family",
+       "limited_by_scale", "price_s", "multiplier_s", "duration_before_s", "duration_after_s",
+       "height_scale_before", "height_scale_after"});
   std::vector<OverlapRow> rows;
   for (size_t i = 0; i < csv.size(); ++i) {
     CheckIndex(csv, i);

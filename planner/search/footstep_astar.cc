@@ -21,7 +21,7 @@ PlanResult FootstepAStar::Plan(const PlanRequest& request, std::mt19937_64&) con
       });
 }
 
-std::vector<int> ClassicSubset(const HalfStepSet& set) {
+std::vector<int> ClassicSubset(const StepSet& set) {
   if (set.size() == 0) return {};
   // As fractions of the largest |x|, of the least to the largest |y|, of the largest |yaw|.
   constexpr std::array<std::array<double, 3>, 14> kClassic = {{{1.0, 0.2, 0.0},

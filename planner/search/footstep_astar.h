@@ -29,6 +29,6 @@ class FootstepAStar : public FootstepPlanner {
 /// The elements of a set that are nearest to 14 classic steps: ahead far, half and none; back; to
 /// the side near, middle and far; each way round by half and in full; and the diagonals between.
 /// Fewer when two of them share an element. Sorted.
-std::vector<int> ClassicSubset(const HalfStepSet& set);
+std::vector<int> ClassicSubset(const StepSet& set);
 
 }  // namespace halfstep

@@ -14,8 +14,8 @@
 
 #include "planner/search/goal_region.h"
 #include "planner/search/half_step_query.h"
-#include "planner/search/half_step_set.h"
 #include "planner/search/step_cost.h"
+#include "planner/search/step_set.h"
 #include "planner/search/termination.h"
 #include "wpg/geometry/foothold.h"
 #include "wpg/motion/half_step_sequence.h"
@@ -45,7 +45,7 @@ struct PlanRequest {
   /// says what the default workspace is around. The first footstep is that foot's.
   std::optional<StepState> in_air = {};
   GoalRegion goal;             ///< where the walk shall end
-  const HalfStepSet& set;      ///< not empty
+  const StepSet& set;          ///< not empty
   const HalfStepQuery& query;  ///< of the same set
   StepCost cost = {};          ///< what is minimized
   /// Supporting soles' centres stay inside [m]. None: 2 m around the start and the goal.

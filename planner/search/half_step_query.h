@@ -5,7 +5,7 @@
 
 namespace halfstep {
 
-/// Answers whether a half-step of a HalfStepSet, placed in the world, keeps clear of a scene for
+/// Answers whether a half-step of a StepSet, placed in the world, keeps clear of a scene for
 /// all t. "Free" is proved; anything in doubt is not free. Const and thread-safe.
 class HalfStepQuery {
  public:

@@ -8,7 +8,7 @@
 
 namespace halfstep {
 
-std::vector<double> StepCost::OfElements(const HalfStepSet& set) const {
+std::vector<double> StepCost::OfElements(const StepSet& set) const {
   if (kind == CostKind::kSteps) return std::vector<double>(set.placements.size(), 1.0);
   std::vector<double> costs(set.placements.size(), 2.0 * set.prototype.duration);
   if (kind == CostKind::kRawDuration) return costs;
@@ -23,7 +23,7 @@ std::vector<double> StepCost::OfElements(const HalfStepSet& set) const {
   return costs;
 }
 
-StepReach::StepReach(const HalfStepSet& set, const std::vector<int>& elements,
+StepReach::StepReach(const StepSet& set, const std::vector<int>& elements,
                      const std::vector<double>& costs)
     : least_cost_(std::numeric_limits<double>::infinity()) {
   HALFSTEP_CHECK(!elements.empty(), "no elements");

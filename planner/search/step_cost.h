@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "planner/search/half_step_set.h"
+#include "planner/search/step_set.h"
 
 namespace halfstep {
 
@@ -22,15 +22,14 @@ struct StepCost {
 
   /// The cost of each element: 1, 2T [s] or the estimate [s]. An element's way is that of its down
   /// half-step and of the up half-step that follows it.
-  std::vector<double> OfElements(const HalfStepSet& set) const;
+  std::vector<double> OfElements(const StepSet& set) const;
 };
 
 /// How far the elements of a set can lead: bounds that no sequence of them exceeds.
 class StepReach {
  public:
   /// Bounds for the `elements` of the set that are used, at least one.
-  StepReach(const HalfStepSet& set, const std::vector<int>& elements,
-            const std::vector<double>& costs);
+  StepReach(const StepSet& set, const std::vector<int>& elements, const std::vector<double>& costs);
 
   /// No n footsteps take the landing foot farther than this from the first support [m].
   double Distance(int n) const;

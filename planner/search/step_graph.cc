@@ -112,7 +112,7 @@ bool StepGraph::IsForbidden(const StepState& from, int k) const {
   return std::find(forbidden_.begin(), forbidden_.end(), Edge{from, k}) != forbidden_.end();
 }
 
-std::vector<int> AllElements(const HalfStepSet& set) {
+std::vector<int> AllElements(const StepSet& set) {
   std::vector<int> all(static_cast<size_t>(set.size()));
   std::iota(all.begin(), all.end(), 0);
   return all;

@@ -77,6 +77,6 @@ class StepGraph {
 };
 
 /// Every element of a set.
-std::vector<int> AllElements(const HalfStepSet& set);
+std::vector<int> AllElements(const StepSet& set);
 
 }  // namespace halfstep

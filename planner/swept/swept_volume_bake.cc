@@ -11,8 +11,7 @@
 namespace halfstep {
 
 std::optional<SweptVolumes> BakeSweptVolumes(const RobotModel& robot, const Lipm& lipm,
-                                             const HalfStepSet& set,
-                                             const SweptVolumeOptions& options,
+                                             const StepSet& set, const SweptVolumeOptions& options,
                                              const BakeHooks& hooks) {
   const SweptVolumeBaker baker(robot, options);
   const int size = set.size();

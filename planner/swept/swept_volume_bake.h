@@ -31,8 +31,7 @@ struct BakeHooks {
 /// Bakes all elements of a set, or none when stopped. An exception of a hook ends the bake and is
 /// rethrown.
 std::optional<SweptVolumes> BakeSweptVolumes(const RobotModel& robot, const Lipm& lipm,
-                                             const HalfStepSet& set,
-                                             const SweptVolumeOptions& options,
+                                             const StepSet& set, const SweptVolumeOptions& options,
                                              const BakeHooks& hooks = {});
 
 }  // namespace halfstep

@@ -79,7 +79,7 @@ std::string DefaultCacheFolder() {
   return home != nullptr && *home == '/' ? std::string(home) + "/.cache/halfstep" : "";
 }
 
-std::string SweptVolumeProvenance(const RobotModel& robot, const Lipm& lipm, const HalfStepSet& set,
+std::string SweptVolumeProvenance(const RobotModel& robot, const Lipm& lipm, const StepSet& set,
                                   const SweptVolumeOptions& options) {
   std::string placements;
   for (const Foothold& X_SF : set.placements) {
@@ -100,7 +100,7 @@ std::string SweptVolumeProvenance(const RobotModel& robot, const Lipm& lipm, con
   // All its numbers: one more does not compile before it is here.
   const auto& [shift, delay, bump_ramp, foot_ramp, lift_share, support] = set.prototype.shape;
   line("shift", Exactly(shift));
-  line("horizontal_delay", Exactly(delay));
+  line("foot_delay", Exactly(delay));
   // Those that a shape has as always are left out, so that older files stay valid.
   const auto line_unless = [&](const char* key, double value, double always) {
     if (value != always) line(key, Exactly(value));
@@ -108,7 +108,7 @@ std::string SweptVolumeProvenance(const RobotModel& robot, const Lipm& lipm, con
   line_unless("bump_ramp", bump_ramp, 1.0);
   line_unless("foot_ramp", foot_ramp, 0.5);
   line_unless("lift_share", lift_share, 1.0);
-  line_unless("support_offset", support, 0.0);
+  line_unless("support_point", support, 0.0);
   line_unless("via_along", set.prototype.via_along, 0.0);
   line("elements", std::to_string(set.size()));
   line("placements", Sha256(placements));
@@ -126,7 +126,7 @@ std::string PartPath(const std::string& cache_path, int element) {
 namespace {
 
 // What a whole file holds: `result->volumes`, or why it was refused.
-void ReadVolumes(const std::string& provenance, const HalfStepSet& set, double cell,
+void ReadVolumes(const std::string& provenance, const StepSet& set, double cell,
                  CachedVolumes* result) {
   const CheckedFile file = ReadCheckedFile(result->path, provenance);
   result->refused = file.refused;
@@ -146,9 +146,9 @@ void ReadVolumes(const std::string& provenance, const HalfStepSet& set, double c
 
 }  // namespace
 
-CachedVolumes LoadOrBakeSweptVolumes(const RobotModel& robot, const Lipm& lipm,
-                                     const HalfStepSet& set, const SweptVolumeOptions& options,
-                                     const std::string& folder, BakeHooks hooks) {
+CachedVolumes LoadOrBakeSweptVolumes(const RobotModel& robot, const Lipm& lipm, const StepSet& set,
+                                     const SweptVolumeOptions& options, const std::string& folder,
+                                     BakeHooks hooks) {
   const std::string provenance = SweptVolumeProvenance(robot, lipm, set, options);
   CachedVolumes result;
   if (folder.empty()) {

@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "planner/search/half_step_set.h"
+#include "planner/search/step_set.h"
 #include "planner/swept/box_tree.h"
 
 namespace halfstep {
@@ -12,7 +12,7 @@ namespace halfstep {
 /// on a right one their mirror images.
 /// A half-step whose motion has no bound has no volume and is never free.
 struct SweptVolumes {
-  HalfStepSet set;                           ///< whose half-steps they are of
+  StepSet set;                               ///< whose half-steps they are of
   std::vector<std::optional<BoxTree>> down;  ///< of set.Down(i, Side::kLeft)
   std::vector<std::optional<BoxTree>> up;    ///< of set.Up(i, Side::kRight), on a left support
 };

@@ -18,7 +18,7 @@ class FloorMargin final : public WholeFamily {
       .unit = "m",
       .key = "floor_m",
       .meaning = "height of the sole while it moves horizontally",
-      .remedy = "a higher `half_step.via_height_m`, a longer `half_step.horizontal_delay`",
+      .remedy = "a higher `half_step.via_height_m`, a longer `half_step.foot_delay`",
       .scale = 0.01,
       .demanded = 0.005,
       .raised = false,

@@ -24,7 +24,7 @@ class ZmpRobotMargin final : public WholeFamily {
           "demanded",
       .remedy =
           "a longer `half_step.duration_s` or a lower `half_step.via_height_m` (the legs' momentum "
-          "moves the ZMP), or another `half_step.support_offset_m` where it is missed at rest on "
+          "moves the ZMP), or another `half_step.support_point_m` where it is missed at rest on "
           "one "
           "foot",
       .scale = 0.01,

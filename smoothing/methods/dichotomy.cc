@@ -111,7 +111,7 @@ class Bisection {
                              .accepted = accepted,
                              .lambda = accepted ? 1.0 : 0.0};
     if (answer.verdict == Verdict::kViolated) {
-      iterate.candidate_slack = problem_.limits().Slack(answer.witness);
+      iterate.candidate_worst_margin = problem_.limits().Slack(answer.witness);
     }
     monitor_.Record(std::move(iterate));
     if (accepted) return std::nullopt;

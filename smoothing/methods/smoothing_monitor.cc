@@ -94,7 +94,7 @@ bool SmoothingMonitor::Propose(const HomotopyParameters& candidate) {
     } else {
       ++result_.raw_infeasible;
       if (answer.verdict == Verdict::kViolated) {
-        record.candidate_slack = problem_->limits().Slack(answer.witness);
+        record.candidate_worst_margin = problem_->limits().Slack(answer.witness);
       }
     }
   }

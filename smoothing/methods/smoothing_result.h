@@ -41,7 +41,7 @@ struct SmoothingIterate {
   double wall = 0.0;                ///< since the method began [s]
   long instants = 0;                ///< instants evaluated so far
   double candidate_duration = 0.0;  ///< [s]
-  std::optional<double> candidate_slack =
+  std::optional<double> candidate_worst_margin =
       std::nullopt;  ///< MarginLimits::Slack where it was violated
   /// Whether the candidate, or a point on the way to it, became the incumbent.
   bool accepted = false;
@@ -65,7 +65,7 @@ struct SmoothingResult {
   Evidence evidence = Evidence::kSampled;  ///< how `feasible` was found
   /// The same walk as it was accepted; none unless `feasible`, which nobody believes without it.
   std::optional<AcceptedWalk> accepted = std::nullopt;
-  HomotopyParameters parameters;           ///< of the walk; the best that was proved
+  HomotopyParameters parameters;  ///< of the walk; the best that was proved
   /// Cost by the program [s]; for `safest` minus the proved least slack, +inf when no walk within
   /// its duration was proved.
   double cost = 0.0;

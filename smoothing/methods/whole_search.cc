@@ -205,7 +205,7 @@ class WholeSearch {
                             .accepted = lambda > 0.0,
                             .lambda = lambda,
                             .incumbent_slack = incumbent_slack_};
-    if (violation > 0.0) record.candidate_slack = -violation;
+    if (violation > 0.0) record.candidate_worst_margin = -violation;
     monitor_.Record(record);
   }
 

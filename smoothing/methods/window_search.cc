@@ -92,7 +92,7 @@ void SearchWindow(const WalkWindow& window, const WindowSearchOptions& options,
         .candidate_duration = monitor.duration() + DurationOf(end) - DurationOf(path.parameters()),
         .accepted = lambda > 0.0,
         .lambda = lambda};
-    if (violation > 0.0) record.candidate_slack = -violation;
+    if (violation > 0.0) record.candidate_worst_margin = -violation;
     monitor.Record(record);
     pace.Note(end_cost, before, path.cost());
     AdaptRows(tried, tried ? path.refusals() : std::vector<Margin>(), &program.watched());

@@ -17,7 +17,7 @@ constexpr double kInside = 1e-9;  // of T, from an event
 // Just inside the horizontal motion, next to the floor, as a fraction of T.
 double MotionEvent(const HalfStep& half_step) {
   const HalfStepShape& shape = half_step.shape;
-  const double delay = shape.horizontal_delay;
+  const double delay = shape.foot_delay;
   return half_step.kind == HalfStepKind::kUp ? shape.t2() + delay + kInside
                                              : shape.t1() - delay - kInside;
 }

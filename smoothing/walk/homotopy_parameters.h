@@ -16,7 +16,7 @@ struct HomotopyParameters {
   std::vector<double> overlaps;
   std::vector<double> height_scales;  ///< η_j of step j: multiplies its via height (n/2).
   std::vector<double> durations;      ///< T_i of half-step i [s] (n).
-  /// Support offset of step j [m]: of both its half-steps, which share the support foot (n/2).
+  /// Support point of step j [m]: of both its half-steps, which share the support foot (n/2).
   std::vector<double> support_points;
   std::vector<double> zmp_shifts;  ///< shift of half-step i, as in its HalfStepShape (n)
   // Where the footstep of step j is, seen from where it is planned (n/2).

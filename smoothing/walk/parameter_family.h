@@ -13,7 +13,7 @@ enum class ParameterFamily {
   kOverlap,       ///< Δ of a junction
   kHeightScale,   ///< η of a step
   kDuration,      ///< T of a half-step
-  kSupportPoint,  ///< support offset of a step
+  kSupportPoint,  ///< support point of a step
   kViaLateral,    ///< how far aside the via point of a step is
   kFootRamp,      ///< ramps of the swing foot's speed in a half-step
   kFootDelay,     ///< the fraction of a half-step between floor and horizontal motion

@@ -35,7 +35,7 @@ struct SmoothedWalk {
           support * Foothold::Level({0.12, Sign(side) * 2 * y, side == Side::kLeft ? 0.05 : 0.0});
       footsteps.push_back({.side = side, .X_WF = foot, .via_height = 0.15, .duration = 2.0});
     }
-    sequence = MakeSequence(start, footsteps, 0.24, {.shift = 0.05, .horizontal_delay = 0.1},
+    sequence = MakeSequence(start, footsteps, 0.24, {.shift = 0.05, .foot_delay = 0.1},
                             {.com_height = robot.com_height});
     const SuperposedWalk planned(sequence, PlannedMotion(sequence));
     WalkDraw draw(3);

@@ -105,7 +105,7 @@ void Solve(const std::string& config, const std::string& method, const std::stri
   for (const SmoothingIterate& i : result.iterates) {
     if (i.incumbent_cost == 0.0) continue;
     std::printf("  %7.3f s  D %7.4f  slack %9.5f  lambda %.3f  incumbent D %.4f  cost %.4f\n",
-                i.wall, i.candidate_duration, i.candidate_slack.value_or(0.0), i.lambda,
+                i.wall, i.candidate_duration, i.candidate_worst_margin.value_or(0.0), i.lambda,
                 i.incumbent_duration, i.incumbent_cost);
   }
   std::printf("%s %s %s %s: D %.4f cost %.4f, %.2f s, raw infeasible %ld, %s\n", config.c_str(),

@@ -122,7 +122,7 @@ void Print(const std::string& scenario, const std::string& planner, const Row& r
 }
 
 // Ends with the first plan, or after two seconds.
-PlanRequest RequestFor(const Problem& problem, const HalfStepSet& set, const HalfStepQuery& query) {
+PlanRequest RequestFor(const Problem& problem, const StepSet& set, const HalfStepQuery& query) {
   return {.start = problem.start,
           .goal = problem.goal,
           .set = set,
@@ -173,7 +173,7 @@ void StudySwept(const Scenario& scenario, const std::string& planner, const Swep
 
 void StudyFlat(const std::string& name, const FlatWorld& world, const Pose2& goal,
                const std::vector<std::string>& planners, int runs) {
-  const HalfStepSet set = PlausibleSet();
+  const StepSet set = PlausibleSet();
   const FlatQuery query(set, world);
   Problem problem{world.ToScene(),
                   {Foothold::Level({0.0, 0.1, 0.0}), Foothold::Level({0.0, -0.1, 0.0})},

@@ -36,8 +36,8 @@ const SweptVolumes& Volumes(double cell, bool few) {
   static std::map<std::pair<double, bool>, SweptVolumes> all;
   const auto known = all.find({cell, few});
   if (known != all.end()) return known->second;
-  static const HalfStepSet every = WalkableSet(SweptRobot());
-  HalfStepSet set = every;
+  static const StepSet every = WalkableSet(SweptRobot());
+  StepSet set = every;
   if (few) {
     set.placements.clear();
     for (int i = 0; i < kCompared; ++i) {
@@ -290,7 +290,7 @@ void BM_MoveOneObstacle(benchmark::State& state) {
 BENCHMARK(BM_MoveOneObstacle)->ArgName("room")->Arg(kBoxes)->Arg(kMeshes);
 
 void BM_BakeElement(benchmark::State& state) {
-  const HalfStepSet set = FewHalfSteps();
+  const StepSet set = FewHalfSteps();
   const SweptVolumeBaker baker(SweptRobot(), {.cell = 1e-3 * static_cast<double>(state.range(0))});
   for (auto _ : state) {
     benchmark::DoNotOptimize(baker.Bake(set.Down(0, Side::kLeft), LipmOf(SweptRobot())));

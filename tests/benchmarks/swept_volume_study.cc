@@ -37,7 +37,7 @@ double Quantile(std::vector<double> values, double fraction) {
   return values[k];
 }
 
-SweptVolumes Get(const HalfStepSet& set, const SweptVolumeOptions& options) {
+SweptVolumes Get(const StepSet& set, const SweptVolumeOptions& options) {
   const std::string folder =
       (std::filesystem::temp_directory_path() / "halfstep-swept-study").string();
   const double begin = Seconds();
@@ -170,8 +170,8 @@ Vector3d SurfaceOf(const BoxTree& tree, const std::vector<BoxTree::CellBox>& box
 
 void Inflate(int points) {
   const RobotModel& robot = SweptRobot();
-  const HalfStepSet all = WalkableSet(robot);
-  HalfStepSet few{.prototype = all.prototype, .placements = {}};
+  const StepSet all = WalkableSet(robot);
+  StepSet few{.prototype = all.prototype, .placements = {}};
   for (int i = 0; i < all.size(); i += std::max(1, all.size() / 12)) {
     few.placements.push_back(all.placements[static_cast<size_t>(i)]);
   }
@@ -229,8 +229,8 @@ bool SampledFree(const CollisionWorld& world, const std::vector<CollisionShape>&
 
 void Refuse(long draws) {
   const RobotModel& robot = SweptRobot();
-  const HalfStepSet all = WalkableSet(robot);
-  HalfStepSet few{.prototype = all.prototype, .placements = {}};
+  const StepSet all = WalkableSet(robot);
+  StepSet few{.prototype = all.prototype, .placements = {}};
   for (int i = 0; i < all.size(); i += std::max(1, all.size() / 24)) {
     few.placements.push_back(all.placements[static_cast<size_t>(i)]);
   }

@@ -89,10 +89,11 @@ TEST(RunCommand, WritesEveryFileAndColumn) {
             "q_RLEG_JOINT2_rad,q_RLEG_JOINT3_rad,q_RLEG_JOINT4_rad,q_RLEG_JOINT5_rad,"
             "zmp_margin_m,joint_margin_rad,joint_speed_margin_rad_s,foot_speed_margin_m_s,"
             "clearance_m,self_clearance_m,zmp_robot_margin_m,torque_margin_n_m,friction_margin");
-  EXPECT_EQ(Columns(run / "dichotomy/overlaps.csv"),
-            "junction,kind,overlap_s,upper_bound_s,active,limit_family,limit_scale,price_s,"
-            "multiplier_s,duration_before_s,duration_after_s,height_scale_before,"
-            "height_scale_after");
+  EXPECT_EQ(
+      Columns(run / "dichotomy/overlaps.csv"),
+      "junction,kind,overlap_s,upper_bound_s,limited_by,limited_by_family,limited_by_scale,price_s,"
+      "multiplier_s,duration_before_s,duration_after_s,height_scale_before,"
+      "height_scale_after");
   EXPECT_EQ(Columns(run / "dichotomy/iterates.csv"),
             "iteration,wall_s,instants,candidate_duration_s,candidate_worst_margin,accepted,"
             "lambda,incumbent_duration_s,incumbent_worst_margin");
@@ -350,7 +351,7 @@ TEST(RunCommand, NoPriceIsMoreThanTheWalkAndUndecidedReadsSo) {
             "robot: hrp2\nscene: cable.yaml\n"
             "start: {left: {x_m: 0, y_m: 0.085}, right: {x_m: 0, y_m: -0.085}}\n"
             "footsteps:\n  - {foot: right, x_m: 0.274, y_m: -0.085}\n"
-            "  - {foot: left, x_m: 0.274, y_m: 0.085}\nhalf_step: {horizontal_delay: 0.19}\n"
+            "  - {foot: left, x_m: 0.274, y_m: 0.085}\nhalf_step: {foot_delay: 0.19}\n"
             "smoothing: {methods: [halfstep/sqp],\n"
             "            optimizer: {heights: true, durations: true, rounds: 4}}\n");
   const Outcome outcome = Halfstep(place.path(), {"run", "over.yaml", "--out", "run"});
@@ -359,7 +360,8 @@ TEST(RunCommand, NoPriceIsMoreThanTheWalkAndUndecidedReadsSo) {
   const ParsedCsv summary(ReadText(place / "run/summary.csv"));
   int determined = 0, undecided = 0;
   for (size_t row = 0; row < overlaps.size(); ++row) {
-    const bool open = overlaps.Text(row, "active").find("could not be decided") < std::string::npos;
+    const bool open =
+        overlaps.Text(row, "limited_by").find("could not be decided") < std::string::npos;
     undecided += open;
     if (overlaps.Text(row, "multiplier_s").empty()) continue;
     ++determined;

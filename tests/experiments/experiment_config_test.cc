@@ -85,7 +85,7 @@ start:
 footsteps:
   - {foot: left, x_m: 0.2, y_m: 0.1, yaw_deg: -30, via_height_m: 0.2, duration_s: 1.5}
 half_step: {duration_s: 1.75, zmp_shift_s: 0.2, via_height_m: 0.22, via_lateral_m: 0.25,
-            horizontal_delay: 0.125}
+            foot_delay: 0.125}
 smoothing:
   methods: [dichotomy/published]
   acceptance: sampled
@@ -118,7 +118,7 @@ TEST(ExperimentConfig, EveryKeyReachesItsField) {
   EXPECT_EQ(c.half_step.zmp_shift, 0.2);
   EXPECT_EQ(c.half_step.via_height, 0.22);
   EXPECT_EQ(c.half_step.via_lateral, 0.25);
-  EXPECT_EQ(c.half_step.horizontal_delay, 0.125);
+  EXPECT_EQ(c.half_step.foot_delay, 0.125);
   const SmoothingConfig& s = c.smoothing;
   EXPECT_THAT(s.methods, testing::ElementsAre("dichotomy/published"));
   EXPECT_EQ(s.sampling, 0.004);

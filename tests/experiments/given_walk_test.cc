@@ -85,7 +85,7 @@ TEST_F(GivenWalkFile, TellsEveryMistakeAtItsPlace) {
             "o.csv:1:11: overlap_s: is there twice (valid: once)\n");
   EXPECT_EQ(Complaint("kind,overlap_s\ndown_up,0.25\n", ""),
             "o.csv:2:1: kind: 'down_up' is not what the footsteps make of it (valid: up_down)\n");
-  EXPECT_EQ(Complaint("active,overlap_s\n\"a, \"\"b\"\"\nc\",-4000\n", ""),
+  EXPECT_EQ(Complaint("limited_by,overlap_s\n\"a, \"\"b\"\"\nc\",-4000\n", ""),
             "o.csv:3:4: overlap_s: -4000 is too small (valid: from -3600)\n");
   EXPECT_THAT(Complaint("overlap_s\n0.96\n", ""),
               AllOf(StartsWith("o.csv:2:1: overlap_s: overlap 1 is 0.96 s, above its natural bound "

@@ -151,7 +151,7 @@ TEST_F(ReportTest, HoldsTheWalksOfTheRun) {
   const json& walk = data["cases"][0]["walks"][1];
   EXPECT_EQ(walk["summary"]["method"], "dichotomy");
   EXPECT_EQ(walk["certificate"]["verdict"], "certified");
-  EXPECT_THAT(walk["overlaps"][0]["active"].get<std::string>(), HasSubstr(obstacle));
+  EXPECT_THAT(walk["overlaps"][0]["limited_by"].get<std::string>(), HasSubstr(obstacle));
   // The nearest pair is that of the row with the least clearance.
   const json& nearest = walk["nearest"][0];
   EXPECT_EQ(nearest["family"], "clearance");

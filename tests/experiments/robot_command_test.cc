@@ -126,7 +126,7 @@ TEST(RobotSurvey, MovesTheSupportPointsOfNarrowSolesOnly) {
   EXPECT_NE(found.offset, 0.0);
   EXPECT_GT(found.after, found.before);
   // What the search left is what a config without numbers gets.
-  robot.support_offset = found.offset;
+  robot.support_point = found.offset;
   EXPECT_NEAR(std::min(LeastInSixSteps(robot, MarginFamily::kZmp, 0.01),
                        LeastInSixSteps(robot, MarginFamily::kZmpRobot, 0.01)),
               found.after, 1e-12);
@@ -206,14 +206,14 @@ TEST(ScaledDefaults, GoByTheLegUnlessAKeySaysOtherwise) {
   EXPECT_EQ(config.half_step.zmp_shift, 0.05);
   EXPECT_EQ(config.half_step.via_height, 0.0625);
   EXPECT_EQ(config.half_step.via_lateral, 0.12);
-  EXPECT_EQ(config.half_step.horizontal_delay, 0.115);  // 0.0625 m · S(0.115/0.475) = 6 mm
-  EXPECT_DOUBLE_EQ(config.half_step_grid.x_max, 7 * config.half_step_grid.spacing);
-  EXPECT_EQ(config.half_step.support_offset, 0.0);
-  half.support_offset = -0.011;
+  EXPECT_EQ(config.half_step.foot_delay, 0.115);  // 0.0625 m · S(0.115/0.475) = 6 mm
+  EXPECT_DOUBLE_EQ(config.step_set.x_max, 7 * config.step_set.spacing);
+  EXPECT_EQ(config.half_step.support_point, 0.0);
+  half.support_point = -0.011;
   half.slowest_joint = 1.7;  // [rad/s]
   ScaleDefaults(half, &(config = {}));
   EXPECT_EQ(config.half_step.duration, 4.0);
-  EXPECT_EQ(config.half_step.support_offset, -0.011);
+  EXPECT_EQ(config.half_step.support_point, -0.011);
   const TemporaryFolder place;
   const Outcome outcome =
       Halfstep(place.path(), {"explain-config", "via_height_m", "--robot", "hrp2"});

@@ -115,7 +115,7 @@ TEST(OwnSmoother, ProposesAndOnlyWhatIsProvedCounts) {
   EXPECT_TRUE(result.feasible);
   EXPECT_DOUBLE_EQ(result.cost, 3.9);
   ASSERT_EQ(result.iterates.size(), 3u);
-  EXPECT_TRUE(result.iterates[0].candidate_slack);
+  EXPECT_TRUE(result.iterates[0].candidate_worst_margin);
   EXPECT_TRUE(result.iterates[1].accepted);
 }
 

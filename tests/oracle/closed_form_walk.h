@@ -29,7 +29,7 @@ struct WalkPlan {
   std::vector<PlannedStep> steps;
   double via_lateral = 0;             ///< [m]
   double shift = 0;                   ///< (t2 − t1)/T
-  double horizontal_delay = 0;        ///< of T
+  double foot_delay = 0;              ///< of T
   double bump_ramp = 1;               ///< of the ZMP's bump; 1: it is round
   double foot_ramp = 0.5;             ///< of the foot's horizontal motion
   double lift_share = 1;              ///< of the foot's flight
@@ -53,7 +53,7 @@ struct WalkPlan {
   }
   double foot_ramp_of(size_t i) const { return foot_ramps.empty() ? foot_ramp : foot_ramps[i]; }
   double foot_delay_of(size_t i) const {  ///< of half-step i
-    return foot_delays.empty() ? horizontal_delay : foot_delays[i];
+    return foot_delays.empty() ? foot_delay : foot_delays[i];
   }
   FloorPose landing_of(size_t step) const {
     const FloorPose& planned = steps[step].landing;

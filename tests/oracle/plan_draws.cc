@@ -76,7 +76,7 @@ WalkPlan DrawPlan(const PlainRobot& robot, Draw* draw) {
   }
   plan.via_lateral = width * draw->Uniform(1.05, 1.25);
   plan.shift = draw->Uniform(0.03, 0.2);
-  plan.horizontal_delay = draw->Uniform(0.02, 0.2);
+  plan.foot_delay = draw->Uniform(0.02, 0.2);
   plan.com_height = robot.com_height;
   const bool varied = draw->Chance(0.75);
   for (const PlannedStep& step : plan.steps) {
@@ -109,7 +109,7 @@ void Calm(WalkPlan* plan) {
   };
   for (double& T : plan->durations) T *= 1.12;
   for (PlannedStep& step : plan->steps) step.via_height *= 1.15;
-  plan->horizontal_delay = 0.5 * (plan->horizontal_delay + 0.18);
+  plan->foot_delay = 0.5 * (plan->foot_delay + 0.18);
   towards(0, &plan->support_points);
   towards(plan->via_lateral, &plan->via_laterals);
   towards(0, &plan->via_alongs);

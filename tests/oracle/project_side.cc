@@ -20,9 +20,10 @@ HalfStepSequence ToSequence(const WalkPlan& plan) {
                          .via_height = step.via_height,
                          .duration = step.duration});
   }
-  return MakeSequence({ToFoothold(plan.start[0]), ToFoothold(plan.start[1])}, footsteps, plan.via_lateral,
+  return MakeSequence({ToFoothold(plan.start[0]), ToFoothold(plan.start[1])}, footsteps,
+                      plan.via_lateral,
                       {.shift = plan.shift,
-                       .horizontal_delay = plan.horizontal_delay,
+                       .foot_delay = plan.foot_delay,
                        .bump_ramp = plan.bump_ramp,
                        .foot_ramp = plan.foot_ramp,
                        .lift_share = plan.lift_share},

@@ -5,7 +5,7 @@
 #include "planner/scene/scene.h"
 #include "planner/scene/simple_polygon.h"
 #include "planner/search/half_step_query.h"
-#include "planner/search/half_step_set.h"
+#include "planner/search/step_set.h"
 #include "wpg/geometry/foothold.h"
 #include "wpg/geometry/support_polygon.h"
 
@@ -49,7 +49,7 @@ struct FlatWorld {
 /// point are off the poles, and the one that lands is off the areas.
 class FlatQuery : public HalfStepQuery {
  public:
-  FlatQuery(const HalfStepSet& set, const FlatWorld& world) : set_(set), world_(world) {}
+  FlatQuery(const StepSet& set, const FlatWorld& world) : set_(set), world_(world) {}
 
   bool DownIsFree(int i, Side support, const Foothold& X_WS) const override {
     const Foothold X_WF = X_WS * set_.Placement(i, support);
@@ -86,21 +86,21 @@ class FlatQuery : public HalfStepQuery {
     return true;
   }
 
-  const HalfStepSet& set_;
+  const StepSet& set_;
   FlatWorld world_;
 };
 
 /// A set for a robot of about HRP-2's size: feet 14 to 30 cm apart, steps up to `reach` [m] long,
 /// turned inwards less than outwards.
-inline HalfStepSet PlausibleSet(double reach = 0.3) {
-  return MakeHalfStepSet({.x_min = -0.3, .x_max = 0.3, .y_min = -0.34, .y_max = -0.14}, {},
-                         [reach](const HalfStep& half_step) {
-                           const Foothold& X_SF = half_step.X_SF;
-                           const double aside = Sign(half_step.swing()) * X_SF.y;
-                           const double outwards = Sign(half_step.swing()) * X_SF.yaw;
-                           return std::hypot(X_SF.x, 0.8 * (aside - 0.19)) <= reach &&
-                                  aside >= 0.13 && aside <= 0.36 && outwards >= -0.3;
-                         });
+inline StepSet PlausibleSet(double reach = 0.3) {
+  return MakeStepSet({.x_min = -0.3, .x_max = 0.3, .y_min = -0.34, .y_max = -0.14}, {},
+                     [reach](const HalfStep& half_step) {
+                       const Foothold& X_SF = half_step.X_SF;
+                       const double aside = Sign(half_step.swing()) * X_SF.y;
+                       const double outwards = Sign(half_step.swing()) * X_SF.yaw;
+                       return std::hypot(X_SF.x, 0.8 * (aside - 0.19)) <= reach && aside >= 0.13 &&
+                              aside <= 0.36 && outwards >= -0.3;
+                     });
 }
 
 inline Eigen::Matrix2Xd Rectangle(double x_min, double x_max, double y_min, double y_max) {

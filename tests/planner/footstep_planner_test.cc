@@ -21,7 +21,7 @@
 namespace halfstep {
 namespace {
 
-PlanRequest RequestTo(const Pose2& goal, const HalfStepSet& set, const HalfStepQuery& query) {
+PlanRequest RequestTo(const Pose2& goal, const StepSet& set, const HalfStepQuery& query) {
   PlanRequest request{
       .start = {Foothold::Level({0.0, 0.1, 0.0}), Foothold::Level({0.0, -0.1, 0.0})},
       .goal = {},
@@ -91,7 +91,7 @@ TEST(Termination, TheFirstReasonCounts) {
 }
 
 TEST(StepReach, NoSequenceOfElementsLeadsFarther) {
-  const HalfStepSet set = PlausibleSet();
+  const StepSet set = PlausibleSet();
   const std::vector<int> all = AllElements(set);
   const StepReach reach(set, all, StepCost{}.OfElements(set));
   std::mt19937_64 random(3);
@@ -150,7 +150,7 @@ TEST(StateBuckets, FindTheNearestOfAll) {
 }
 
 TEST(StepGraph, LandsAllElementsWhereItLandsEach) {
-  const HalfStepSet set = PlausibleSet();
+  const StepSet set = PlausibleSet();
   const FlatQuery query(set, {});
   const PlanRequest request = RequestTo({2.0, 0.0, 0.0}, set, query);
   const StepGraph graph(request, AllElements(set));
@@ -167,7 +167,7 @@ TEST(StepGraph, LandsAllElementsWhereItLandsEach) {
 
 // The first up half-step lifts the other foot from where it stands.
 TEST(StepGraph, StartsFromBothFeetOfTheStance) {
-  const HalfStepSet set = PlausibleSet();
+  const StepSet set = PlausibleSet();
   const FlatQuery query(set, {});
   PlanRequest request = RequestTo({2.0, 0.0, 0.0}, set, query);
   request.start = {Foothold::Level({0.03, 0.12, 0.1}), Foothold::Level({-0.04, -0.11, -0.2})};
@@ -189,7 +189,7 @@ TEST(StepGraph, StartsFromBothFeetOfTheStance) {
 }
 
 TEST(ClassicSubset, HasTwelveToSixteenElementsOfTheSet) {
-  const HalfStepSet set = PlausibleSet();
+  const StepSet set = PlausibleSet();
   const std::vector<int> classic = ClassicSubset(set);
   EXPECT_GE(classic.size(), 12u);
   EXPECT_LE(classic.size(), 16u);
@@ -218,7 +218,7 @@ int LeastByTrying(const PlanRequest& request, int most) {
 }
 
 TEST(FootstepAStar, EndsWithTheLeastNumberOfFootsteps) {
-  const HalfStepSet set = PlausibleSet();
+  const StepSet set = PlausibleSet();
   const FlatQuery query(set, {.poles = {{{0.35, 0.0}, 0.1}}, .no_step = {}});
   const FootstepAStar planner(FootstepAStar::Elements::kClassic, {});
   int tried = 0;
@@ -238,7 +238,7 @@ TEST(FootstepAStar, EndsWithTheLeastNumberOfFootsteps) {
 }
 
 TEST(FootstepAStar, LaterPlansAreCheaper) {
-  const HalfStepSet set = PlausibleSet();
+  const StepSet set = PlausibleSet();
   const FlatQuery query(set, WallWithGap(0.6, 0.6));
   const FootstepAStar planner(FootstepAStar::Elements::kClassic, {});
   PlanRequest request = RequestTo({1.6, 0.0, 0.0}, set, query);
@@ -252,7 +252,7 @@ TEST(FootstepAStar, LaterPlansAreCheaper) {
 }
 
 TEST(FootstepRrt, ShortensItsPlanWhenThereIsTime) {
-  const HalfStepSet set = PlausibleSet();
+  const StepSet set = PlausibleSet();
   const FlatQuery query(set, WallWithGap(0.8, 0.6));
   const FootstepRrt planner({});
   int shorter = 0;
@@ -272,7 +272,7 @@ TEST(FootstepRrt, ShortensItsPlanWhenThereIsTime) {
 }
 
 TEST(FootstepRrt, LeavesAnIslandWithEverySeed) {
-  const HalfStepSet set = PlausibleSet();
+  const StepSet set = PlausibleSet();
   const FlatQuery query(set, Island(0.35, 0.06));
   const FootstepRrt planner({});
   const PlanRequest request = RequestTo({1.2, 0.3, 0.0}, set, query);
@@ -283,7 +283,7 @@ TEST(FootstepRrt, LeavesAnIslandWithEverySeed) {
 }
 
 TEST(FootstepRrt, DoesNotLeaveARingThatIsTooWide) {
-  const HalfStepSet set = PlausibleSet();
+  const StepSet set = PlausibleSet();
   const FlatQuery query(set, Island(0.35, 0.5));
   const FootstepRrt planner({});
   PlanRequest request = RequestTo({1.5, 0.0, 0.0}, set, query);
@@ -293,7 +293,7 @@ TEST(FootstepRrt, DoesNotLeaveARingThatIsTooWide) {
 }
 
 TEST(FootstepRrt, DifferentSeedsFindDifferentWays) {
-  const HalfStepSet set = PlausibleSet();
+  const StepSet set = PlausibleSet();
   const FlatQuery query(set, {});
   const FootstepRrt planner({});
   const PlanRequest request = RequestTo({1.5, 0.5, 0.0}, set, query);
@@ -330,7 +330,7 @@ class CapriciousQuery : public HalfStepQuery {
 // Short-cuts go on along the old landings from a state that is only near the old one: there every
 // half-step must be asked about again.
 TEST(Shortcut, EveryHalfStepOfAShortenedPlanIsFree) {
-  const HalfStepSet set = PlausibleSet();
+  const StepSet set = PlausibleSet();
   const CapriciousQuery query;
   std::mt19937_64 random(11);
   int shortened = 0;
@@ -365,7 +365,7 @@ TEST(Shortcut, EveryHalfStepOfAShortenedPlanIsFree) {
 }
 
 TEST(FootstepAStar, EveryHalfStepOfAPlanIsFree) {
-  const HalfStepSet set = PlausibleSet();
+  const StepSet set = PlausibleSet();
   const CapriciousQuery query;
   const FootstepAStar planner(FootstepAStar::Elements::kClassic, {});
   std::mt19937_64 random(12);
@@ -386,13 +386,13 @@ TEST(FootstepAStar, EveryHalfStepOfAPlanIsFree) {
 }
 
 // An element is kept when both of its half-steps are.
-TEST(HalfStepSet, KeepsWhatIsKeptDownAndUp) {
-  const HalfStepGrid grid{.x_min = -0.1, .x_max = 0.1, .y_min = -0.3, .y_max = -0.2};
-  const int all = MakeHalfStepSet(grid, {}, [](const HalfStep&) { return true; }).size();
+TEST(StepSet, KeepsWhatIsKeptDownAndUp) {
+  const StepGrid grid{.x_min = -0.1, .x_max = 0.1, .y_min = -0.3, .y_max = -0.2};
+  const int all = MakeStepSet(grid, {}, [](const HalfStep&) { return true; }).size();
   ASSERT_GT(all, 0);
   for (const HalfStepKind refused : {HalfStepKind::kDown, HalfStepKind::kUp}) {
     const auto keeps = [&](const HalfStep& half_step) { return half_step.kind != refused; };
-    EXPECT_EQ(MakeHalfStepSet(grid, {}, keeps).size(), 0);
+    EXPECT_EQ(MakeStepSet(grid, {}, keeps).size(), 0);
   }
 }
 

@@ -41,7 +41,7 @@ struct Bench {
     return planner->Plan(request, random);
   }
 
-  HalfStepSet set;
+  StepSet set;
   FlatQuery query;
   Scene scene;
   std::unique_ptr<FootstepPlanner> planner;

@@ -36,8 +36,8 @@ const RobotModel& SmallRobot() {
   return robot;
 }
 
-HalfStepSet TwoHalfSteps() {
-  HalfStepSet set = FewHalfSteps();
+StepSet TwoHalfSteps() {
+  StepSet set = FewHalfSteps();
   set.placements.resize(2);
   return set;
 }
@@ -106,7 +106,7 @@ TEST_F(SweptVolumeCacheTest, AnyNumberOfThreadsBakesTheSame) {
 
 TEST_F(SweptVolumeCacheTest, OtherRobotOptionsOrPlacementsAreAnotherFile) {
   const std::string path = Get().path;
-  const auto provenance = [](const RobotModel& robot, const HalfStepSet& set) {
+  const auto provenance = [](const RobotModel& robot, const StepSet& set) {
     return SweptVolumeProvenance(robot, LipmOf(robot), set, kVeryCoarse);
   };
   RobotModel robot = SmallRobot();
@@ -286,7 +286,7 @@ TEST_F(SweptVolumeCacheTest, WhateverShapesAVolumeIsInItsKey) {
   struct Key {
     RobotModel robot = SmallRobot();
     Lipm lipm = LipmOf(SmallRobot());
-    HalfStepSet set = TwoHalfSteps();
+    StepSet set = TwoHalfSteps();
     SweptVolumeOptions options = kVeryCoarse;
     std::string Text() const { return SweptVolumeProvenance(robot, lipm, set, options); }
   };
@@ -299,11 +299,11 @@ TEST_F(SweptVolumeCacheTest, WhateverShapesAVolumeIsInItsKey) {
       {"via height", [&](Key* k) { more(k->set.prototype.via_height); }},
       {"via lateral", [&](Key* k) { more(k->set.prototype.via_lateral); }},
       {"shift", [&](Key* k) { more(k->set.prototype.shape.shift); }},
-      {"delay", [&](Key* k) { more(k->set.prototype.shape.horizontal_delay); }},
+      {"delay", [&](Key* k) { more(k->set.prototype.shape.foot_delay); }},
       {"bump", [&](Key* k) { k->set.prototype.shape.bump_ramp = 0.2; }},
       {"foot ramp", [&](Key* k) { more(k->set.prototype.shape.foot_ramp); }},
       {"lift share", [&](Key* k) { more(k->set.prototype.shape.lift_share); }},
-      {"support offset", [&](Key* k) { more(k->set.prototype.shape.support_offset); }},
+      {"support offset", [&](Key* k) { more(k->set.prototype.shape.support_point); }},
       {"x", [&](Key* k) { more(k->set.placements[1].x); }},
       {"y", [&](Key* k) { more(k->set.placements[1].y); }},
       {"yaw", [&](Key* k) { more(k->set.placements[1].yaw); }},

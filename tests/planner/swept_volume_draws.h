@@ -21,8 +21,8 @@ inline const RobotModel& SweptRobot() {
 inline Lipm LipmOf(const RobotModel& robot) { return {.com_height = robot.com_height}; }
 
 /// A few elements of HRP-2, to the front, aside, behind and turned.
-inline HalfStepSet FewHalfSteps() {
-  HalfStepSet set;
+inline StepSet FewHalfSteps() {
+  StepSet set;
   set.prototype.duration = 1.6;
   set.placements = {Foothold::Level({0.2, -0.2, 0.25}), Foothold::Level({-0.15, -0.25, 0.0}),
                     Foothold::Level({0.05, -0.3, -0.25})};
@@ -149,8 +149,8 @@ inline bool SeemsWalkable(const RobotModel& robot, const HalfStep& half_step) {
   return true;
 }
 /// Elements of the published grid that seem walkable and whose soles do not overlap.
-inline HalfStepSet WalkableSet(const RobotModel& robot) {
-  return MakeHalfStepSet(HalfStepGrid{}, HalfStep{}, [&](const HalfStep& half_step) {
+inline StepSet WalkableSet(const RobotModel& robot) {
+  return MakeStepSet(StepGrid{}, HalfStep{}, [&](const HalfStep& half_step) {
     return std::abs(half_step.X_SF.y) > 1.1 * robot.sole_size.y() &&
            SeemsWalkable(robot, half_step);
   });

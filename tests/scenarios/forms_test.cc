@@ -97,9 +97,8 @@ TEST(FormsScenario, AFormThatIsFixedStays) {
     const SmoothingResult result = Smoothed(OptimizeOverlaps, problem, options);
     EXPECT_EQ(result.parameters.of(ParameterFamily::kFootDelay)[1], 0.15);
     EXPECT_EQ(result.parameters.of(ParameterFamily::kLiftShare)[0], 0.9);
-    EXPECT_EQ(
-        result.parameters.of(ParameterFamily::kFootDelay)[0] != e.config.half_step.horizontal_delay,
-        free);
+    EXPECT_EQ(result.parameters.of(ParameterFamily::kFootDelay)[0] != e.config.half_step.foot_delay,
+              free);
   }
   EXPECT_EQ(ComplaintAbout(e.sequence, {{{ParameterFamily::kFootRamp, 1}, 0.6}}),
             "foot_ramp 2: 0.6  is too large (valid: up to 0.5)");

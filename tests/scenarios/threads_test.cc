@@ -49,7 +49,7 @@ void ExpectSame(const SmoothingResult& a, const SmoothingResult& b) {
   ASSERT_EQ(a.iterates.size(), b.iterates.size());
   for (size_t i = 0; i < a.iterates.size(); ++i) {
     const auto content = [](const SmoothingIterate& it) {
-      return std::tuple(it.instants, it.candidate_duration, it.candidate_slack, it.accepted,
+      return std::tuple(it.instants, it.candidate_duration, it.candidate_worst_margin, it.accepted,
                         it.lambda, it.incumbent_duration, it.incumbent_slack);
     };
     EXPECT_EQ(content(a.iterates[i]), content(b.iterates[i])) << i;

@@ -71,7 +71,7 @@ inline HalfStepSequence DrawSequence(const RobotModel& robot, int steps, const W
                          .duration = draw->Uniform(variety.shortest, variety.longest)});
   }
   const double shift = draw->Uniform(0.03, 0.2), delay = draw->Uniform(0.02, 0.2);
-  const HalfStepShape shape{.shift = shift, .horizontal_delay = delay};
+  const HalfStepShape shape{.shift = shift, .foot_delay = delay};
   const double via_lateral = width * draw->Uniform(1.05, 1.25);
   return Moved(draw->Pose(2.0, 3.0), MakeSequence(start, footsteps, via_lateral, shape,
                                                   {.com_height = robot.com_height}));

@@ -91,8 +91,7 @@ TEST_F(DichotomyTest, ACheaperTestSavesQuestionsAndChangesNothingElse) {
 TEST_F(DichotomyTest, AStartThatIsKnownToBeFeasibleIsNotChecked) {
   const FakeFeasibility nothing =
       Rule([](const HomotopyParameters&) { return Verdict::kViolated; });
-  const DichotomyOptions options{
-      .accepted_start = AcceptedInParts::Walk(PlannedMotion(sequence_))};
+  const DichotomyOptions options{.accepted_start = AcceptedInParts::Walk(PlannedMotion(sequence_))};
   const SmoothingResult result = Smoothed(Dichotomy, ProblemOf(sequence_, nothing), options);
   EXPECT_EQ(result.parameters, PlannedMotion(sequence_));
   EXPECT_EQ(result.ending, opt::Ending::kNoImprovement);
@@ -246,11 +245,11 @@ TEST_F(DichotomyTest, IteratesTellTheStoryAndTheIncumbentNeverGetsSlower) {
     if (iterate.accepted) {
       ++accepted;
       EXPECT_EQ(iterate.incumbent_duration, iterate.candidate_duration);
-      EXPECT_FALSE(iterate.candidate_slack);
+      EXPECT_FALSE(iterate.candidate_worst_margin);
     } else {
       EXPECT_NEAR(iterate.incumbent_duration, incumbent, 1e-12);
-      ASSERT_TRUE(iterate.candidate_slack);
-      EXPECT_NEAR(*iterate.candidate_slack, (-0.02 - 0.01) / 0.01, 1e-12);
+      ASSERT_TRUE(iterate.candidate_worst_margin);
+      EXPECT_NEAR(*iterate.candidate_worst_margin, (-0.02 - 0.01) / 0.01, 1e-12);
     }
     incumbent = iterate.incumbent_duration;
     wall = iterate.wall;

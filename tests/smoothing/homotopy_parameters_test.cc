@@ -23,7 +23,7 @@ HalfStepSequence ThreeSteps() {
       {.side = Side::kRight, .X_WF = Foothold::Level({0.2, -0.105, 0})}};
   footsteps[1].duration = 1.0;
   footsteps[2].duration = 3.0;
-  return MakeSequence(StandingFeet(), footsteps, 0.24, {.shift = 0.1, .support_offset = 0.02}, {});
+  return MakeSequence(StandingFeet(), footsteps, 0.24, {.shift = 0.1, .support_point = 0.02}, {});
 }
 
 TEST(HomotopyParameters, PlannedMotionHasNoOverlapFullHeightAndTheRestAsPlanned) {

@@ -99,7 +99,7 @@ TEST_F(ParameterTableTest, TheRangeOfSupportPointsHoldsThePlannedOne) {
        {std::array{-0.04, -0.04, 0.03}, {0.02, 0.01, 0.03}, {0.07, 0.01, 0.07}}) {
     HalfStepSequence sequence = sequence_;
     for (PlacedHalfStep& placed : sequence.half_steps) {
-      placed.half_step.shape.support_offset = planned;
+      placed.half_step.shape.support_point = planned;
     }
     const ParameterTable table(sequence, {}, choice);
     const ParameterRow& row = table.row({Family::kSupportPoint, 1});

@@ -205,11 +205,10 @@ TEST(SuperposedWalk, IsTheSumOverAllHalfSteps) {
         auto [h, X_WS] = placed.half_steps[static_cast<size_t>(k)];
         h.duration = parameters.durations[static_cast<size_t>(k)];
         h.via_height *= parameters.height_scales[static_cast<size_t>(k / 2)];
-        h.shape.support_offset = parameters.support_points[static_cast<size_t>(k / 2)];
+        h.shape.support_point = parameters.support_points[static_cast<size_t>(k / 2)];
         h.via_lateral = parameters.of(ParameterFamily::kViaLateral)[static_cast<size_t>(k / 2)];
         h.shape.foot_ramp = parameters.of(ParameterFamily::kFootRamp)[static_cast<size_t>(k)];
-        h.shape.horizontal_delay =
-            parameters.of(ParameterFamily::kFootDelay)[static_cast<size_t>(k)];
+        h.shape.foot_delay = parameters.of(ParameterFamily::kFootDelay)[static_cast<size_t>(k)];
         h.shape.lift_share = parameters.of(ParameterFamily::kLiftShare)[static_cast<size_t>(k)];
         h.via_along = parameters.of(ParameterFamily::kViaAlong)[static_cast<size_t>(k / 2)];
         h.shape.shift = parameters.zmp_shifts[static_cast<size_t>(k)];

@@ -181,7 +181,7 @@ void EveryKey(StudyList* list) {
     if (free_groups.contains(top) && key != "period_s") harmless = kHow;
     if (top == "smoothing" && !claimed.contains(second) && key != "program") harmless = kHow;
     // Where a search begins: half_steps.csv says where each step's support point is.
-    if (path == "half_step.support_offset_m") harmless = kHow;
+    if (path == "half_step.support_point_m") harmless = kHow;
     for (const double change : {1e-3, -1e-3}) {
       std::string why = harmless;
       const bool looser = second == "margins" ? change < 0 : change > 0;

@@ -22,7 +22,7 @@ TEST(MakeSequence, OneStepByHand) {
                      .X_WF = Foothold::Level({0.2, -0.125, 0.1}),
                      .via_height = 0.2,
                      .duration = 1.7}},
-                   0.22, {.shift = 0.06, .horizontal_delay = 0.12}, {.com_height = 0.7});
+                   0.22, {.shift = 0.06, .foot_delay = 0.12}, {.com_height = 0.7});
   ASSERT_EQ(s.size(), 2);
   EXPECT_EQ(s.num_steps(), 1);
   EXPECT_EQ(s.num_junctions(), 1);
@@ -34,7 +34,7 @@ TEST(MakeSequence, OneStepByHand) {
     EXPECT_EQ(h.duration, 1.7);
     EXPECT_EQ(h.via_height, 0.2);
     EXPECT_EQ(h.via_lateral, 0.22);
-    EXPECT_EQ(h.shape, (HalfStepShape{.shift = 0.06, .horizontal_delay = 0.12}));
+    EXPECT_EQ(h.shape, (HalfStepShape{.shift = 0.06, .foot_delay = 0.12}));
   }
   EXPECT_EQ(s.half_steps[0].half_step.kind, HalfStepKind::kUp);
   EXPECT_EQ(s.half_steps[1].half_step.kind, HalfStepKind::kDown);

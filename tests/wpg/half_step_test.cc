@@ -22,11 +22,11 @@ class HalfStepTest : public testing::Test {
   }
   HalfStepShape Shape() {
     return {.shift = Uniform(0.03, 0.4),
-            .horizontal_delay = Uniform(0.0, 0.2),
+            .foot_delay = Uniform(0.0, 0.2),
             .bump_ramp = Bump(),
             .foot_ramp = Uniform(0, 1) < 0.5 ? 0.5 : Uniform(0.1, 0.5),
             .lift_share = Uniform(0, 1) < 0.5 ? 1.0 : Uniform(0.2, 1.0),
-            .support_offset = Uniform(-0.03, 0.06)};
+            .support_point = Uniform(-0.03, 0.06)};
   }
   double Bump() { return Uniform(0, 1) < 0.5 ? 1.0 : Uniform(0.1, 1.0); }
   HalfStep Random() {
@@ -167,10 +167,10 @@ TEST_F(HalfStepTest, RestsOnTheSupportPointOnTheSideOfTheSwingFoot) {
   HalfStep h;
   h.support = Side::kLeft;
   h.X_SF = Foothold::Level({0.1, -0.2, 0.4});
-  h.shape.support_offset = 0.03;
+  h.shape.support_point = 0.03;
   const WalkState centre = [&] {
     HalfStep plain = h;
-    plain.shape.support_offset = 0.0;
+    plain.shape.support_point = 0.0;
     return plain.AtVia();
   }();
   WalkState moved = WalkState::Zero();
@@ -211,7 +211,7 @@ TEST_F(HalfStepTest, TheFootIsInTheAirOnlyWhileTheZmpRestsOnTheSupportSide) {
     // The delay is kept at the end on the floor.
     const double delay = up ? profiles.horizontal_begin() - profiles.t2()
                             : profiles.t1() - profiles.horizontal_end();
-    EXPECT_NEAR(delay, h.shape.horizontal_delay * h.duration, 1e-14);
+    EXPECT_NEAR(delay, h.shape.foot_delay * h.duration, 1e-14);
     EXPECT_NEAR(up ? profiles.horizontal_end() : profiles.horizontal_begin(), up ? h.duration : 0.0,
                 1e-15);
   }
@@ -248,7 +248,7 @@ TEST_F(HalfStepTest, LeftAndRightAreMirrorImagesExactly) {
 }
 
 TEST_F(HalfStepTest, AScaledDurationKeepsTheFractionsOfTime) {
-  const HalfStepShape shape{.shift = 0.05, .horizontal_delay = 0.1};
+  const HalfStepShape shape{.shift = 0.05, .foot_delay = 0.1};
   for (HalfStepKind kind : kKinds) {
     const HalfStepProfiles two(kind, shape, 2.0, {}), three(kind, shape, 3.0, {});
     EXPECT_NEAR(two.t1(), 0.95, 1e-15);
@@ -264,14 +264,13 @@ TEST_F(HalfStepTest, AScaledDurationKeepsTheFractionsOfTime) {
 TEST_F(HalfStepTest, RefusesADelayThatLeavesNoTimeToMove) {
   // The flight lasts t1: 0.25, 0.3 and 0.475 of T.
   for (const auto& [shift, delay] : {std::pair{0.5, 0.3}, {0.4, 0.3}, {0.05, 0.31}, {0.05, -0.1}}) {
-    const HalfStepShape shape{.shift = shift, .horizontal_delay = delay};
+    const HalfStepShape shape{.shift = shift, .foot_delay = delay};
     for (HalfStepKind kind : kKinds) {
       EXPECT_THROW(HalfStepProfiles(kind, shape, 2.0, {}), std::logic_error) << shift;
     }
   }
   // The longest one allowed still lets the foot arrive.
-  const HalfStepProfiles profiles(HalfStepKind::kUp, {.shift = 0.5, .horizontal_delay = 0.22}, 2.0,
-                                  {});
+  const HalfStepProfiles profiles(HalfStepKind::kUp, {.shift = 0.5, .foot_delay = 0.22}, 2.0, {});
   EXPECT_GT(profiles.horizontal_end(), profiles.horizontal_begin());
   EXPECT_NEAR(profiles.At(2.0 - 1e-6).foot.value, 1.0, 1e-9);
 }

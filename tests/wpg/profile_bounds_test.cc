@@ -126,7 +126,7 @@ TEST(ProfileBounds, HalfStepSecondsHoldInLocalTime) {
     const double shift = Uniform(random, 0.01, 0.5);
     const double longest = std::min(0.3, 0.9 * 0.5 * (1 - shift));
     const HalfStepShape shape{.shift = shift,
-                              .horizontal_delay = Uniform(random, 0.0, longest),
+                              .foot_delay = Uniform(random, 0.0, longest),
                               .bump_ramp = i % 3 == 0 ? 1.0 : Uniform(random, 0.1, 1.0),
                               .foot_ramp = Uniform(random, 0.1, 0.5),
                               .lift_share = Uniform(random, 0.2, 1.0)};
@@ -147,7 +147,7 @@ TEST(ProfileBounds, HalfStepSecondsHoldInLocalTime) {
 // Regression: an interval that ends at a knot took the piece beyond it along where rounding put its
 // end behind the knot.
 TEST(ProfileBounds, ThirdsOfAnIntervalThatEndsAtAKnotAreNotThoseBeyond) {
-  const HalfStepProfiles up(HalfStepKind::kUp, HalfStepShape{.horizontal_delay = 0.2}, 0.75, {});
+  const HalfStepProfiles up(HalfStepKind::kUp, HalfStepShape{.foot_delay = 0.2}, 0.75, {});
   const double knot = up.horizontal_begin();
   const auto farthest = [&](double to) {
     const Range foot = up.ThirdRanges(knot - 1e-4, to).foot;

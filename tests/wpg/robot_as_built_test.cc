@@ -73,9 +73,9 @@ TEST(RobotAsBuilt, HalfStepsByDefaultAreNoHigherThanTheFileSays) {
 
 TEST(RobotAsBuilt, SupportPointsByDefaultAreWhereTheFileSays) {
   const std::string text = ReadYamlFile(kHrp2);
-  EXPECT_EQ(MeasuresOf(Built(text, Hrp2Tree())).support_offset, 0.0);
-  const RobotModel outward = Built(text + "support_offset_m: -0.011\n", Hrp2Tree());
-  EXPECT_EQ(MeasuresOf(outward).support_offset, -0.011);
+  EXPECT_EQ(MeasuresOf(Built(text, Hrp2Tree())).support_point, 0.0);
+  const RobotModel outward = Built(text + "support_point_m: -0.011\n", Hrp2Tree());
+  EXPECT_EQ(MeasuresOf(outward).support_point, -0.011);
 }
 
 TEST(RobotAsBuilt, TheWaistFrameMayPointAnywhereInItsLink) {

@@ -52,11 +52,11 @@ class SequenceDraw {
   HalfStepSequence Sequence(int steps) {
     const double shift = Uniform(0.03, 0.4), delay = Uniform(0.0, 0.2);
     const HalfStepShape shape{.shift = shift,
-                              .horizontal_delay = delay,
+                              .foot_delay = delay,
                               .bump_ramp = Form(0, 1) < 0.5 ? 1.0 : Form(0.1, 1.0),
                               .foot_ramp = Form(0, 1) < 0.5 ? 0.5 : Form(0.1, 0.5),
                               .lift_share = Form(0, 1) < 0.5 ? 1.0 : Form(0.3, 1.0),
-                              .support_offset = Form(-0.03, 0.06)};
+                              .support_point = Form(-0.03, 0.06)};
     const Lipm lipm{.com_height = Uniform(0.6, 1.0)};
     return Moved(Pose(2.0, 3.0), MakeSequence(StandingFeet(), Footsteps(steps), 0.24, shape, lipm));
   }

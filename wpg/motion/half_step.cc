@@ -12,11 +12,11 @@ void SetFoot(Side side, const Foothold& X_SF, WalkState* x) {
   x->segment<4>(FootIndex(side)) = Eigen::Vector4d(X_SF.x, X_SF.y, X_SF.height, X_SF.yaw);
 }
 
-// Horizontal motion of the foot: inside its flight by `horizontal_delay` at the floor's end.
+// Horizontal motion of the foot: inside its flight by `foot_delay` at the floor's end.
 RampedStep FootWindow(HalfStepKind kind, const HalfStepShape& shape) {
   return kind == HalfStepKind::kUp
-             ? RampedStep{shape.t2() + shape.horizontal_delay, 1.0, shape.foot_ramp}
-             : RampedStep{0.0, shape.t1() - shape.horizontal_delay, shape.foot_ramp};
+             ? RampedStep{shape.t2() + shape.foot_delay, 1.0, shape.foot_ramp}
+             : RampedStep{0.0, shape.t1() - shape.foot_delay, shape.foot_ramp};
 }
 
 // Its motion up or down: the part of the flight next to the floor.
@@ -91,9 +91,9 @@ HalfStepProfiles::HalfStepProfiles(HalfStepKind kind, const HalfStepShape& shape
       height_(LiftWindow(kind, shape)),
       shift_(omega_ * duration, shape.shift, shape.bump_ramp) {
   // Of the flight, t1 long, a tenth at least must be left to move in.
-  HALFSTEP_CHECK(shape.horizontal_delay >= 0.0 && shape.horizontal_delay <= 0.3 &&
-                     shape.horizontal_delay <= 0.9 * shape.t1(),
-                 "horizontal_delay = " << shape.horizontal_delay << ", t1 = " << shape.t1());
+  HALFSTEP_CHECK(
+      shape.foot_delay >= 0.0 && shape.foot_delay <= 0.3 && shape.foot_delay <= 0.9 * shape.t1(),
+      "foot_delay = " << shape.foot_delay << ", t1 = " << shape.t1());
   HALFSTEP_CHECK(shape.foot_ramp >= 0.1 && shape.foot_ramp <= 0.5,
                  "foot_ramp = " << shape.foot_ramp);
   HALFSTEP_CHECK(shape.lift_share >= 0.2 && shape.lift_share <= 1.0,
@@ -142,7 +142,7 @@ HalfStepJet HalfStepProfiles::ByShape(double HalfStepShape::*number, double tau)
     jet.zmp = in_time(shift_.ZmpByBumpRamp(sigma), 1.0);
   } else if (number == &HalfStepShape::foot_ramp) {
     jet.foot = in_time(foot_.ByRamp(sigma), 1.0);
-  } else if (number == &HalfStepShape::horizontal_delay) {
+  } else if (number == &HalfStepShape::foot_delay) {
     jet.foot = up ? in_time(foot_.ByBegin(sigma), 1.0) : in_time(foot_.ByEnd(sigma), -1.0);
   } else {
     HALFSTEP_CHECK(number == &HalfStepShape::lift_share, "this number of the shape is not offered");

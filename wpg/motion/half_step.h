@@ -21,7 +21,7 @@ struct HalfStepShape {
   double shift = 0.05;  ///< (t2 − t1)/T: the ZMP shifts on [t1, t2], centred at T/2. ∈ [0.01, 0.5]
   /// The swing foot's horizontal motion begins this fraction of T after take-off and ends this
   /// fraction before landing. ∈ [0, 0.3], ≤ 0.9·t1
-  double horizontal_delay = 0.1;
+  double foot_delay = 0.1;
   /// The ZMP's bump rises, and falls, for this fraction of its length and is constant in between;
   /// from ½ on it has no flat top, and 1 is the round bump (RestToRest). ∈ [0.1, 1]
   double bump_ramp = 1.0;
@@ -33,7 +33,7 @@ struct HalfStepShape {
   double lift_share = 1.0;
   /// Where CoM and ZMP rest while the swing foot is at the via point: so far from the support
   /// sole's centre, along its y, towards the swing foot [m]. Below 0: away from it.
-  double support_offset = 0.0;
+  double support_point = 0.0;
 
   /// All of them, in this order; one that is left out does not compile.
   std::array<double, 6> numbers() const {
@@ -71,7 +71,7 @@ struct HalfStep {
   /// The pose X_SV of the via point seen from above: there the swing foot is between up and down.
   Pose2 via() const { return {via_along, Sign(swing()) * via_lateral, 0.0}; }
   /// The support point, in S: CoM and ZMP are there while the swing foot is at the via point.
-  Eigen::Vector2d support_point() const { return {0.0, Sign(swing()) * shape.support_offset}; }
+  Eigen::Vector2d support_point() const { return {0.0, Sign(swing()) * shape.support_point}; }
   /// The states at rest, in S: with both feet standing, and at the via point.
   WalkState OnFloor() const;
   WalkState AtVia() const;  ///< with the swing foot at the via point
@@ -108,7 +108,7 @@ class HalfStepProfiles {
   HalfStepJet At(double tau) const;
 
   /// Derivatives of value, first and second at τ with respect to shift, bump_ramp,
-  /// horizontal_delay, foot_ramp or lift_share of the shape (std::logic_error for another number).
+  /// foot_delay, foot_ramp or lift_share of the shape (std::logic_error for another number).
   /// At a knot: of one side.
   HalfStepJet ByShape(double HalfStepShape::*number, double tau) const;
 

@@ -191,7 +191,8 @@ void DeclareFields(Fields& fields, RobotFile* file) {
                                     "default; none: what the legs reach",
                          .unit = "m",
                          .min = 0.01});
-  fields.Number("support_offset_m", &file->support_offset,
+  fields.Renamed("support_offset_m", "support_point_m");
+  fields.Number("support_point_m", &file->support_point,
                 {.meaning = "where CoM and ZMP rest on one foot by default: from the support "
                             "sole's centre, along its y, towards the other foot",
                  .unit = "m",

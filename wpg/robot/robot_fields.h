@@ -40,7 +40,7 @@ struct RobotFile {
   /// Above the floor while standing [m]; none: found from the posture.
   std::optional<double> com_height;
   std::optional<double> lift;                   ///< RobotModel::largest_lift [m]
-  double support_offset = 0.0;                  ///< RobotModel::support_offset [m]
+  double support_point = 0.0;                   ///< RobotModel::support_point [m]
   std::array<LegFile, 2> legs;                  ///< by Index(Side)
   std::vector<double> sole_size;                ///< length and width [m]
   std::vector<double> posture_deg;              ///< by URDF joint index

@@ -186,7 +186,7 @@ class Builder {
     model_.waist_height = -(l.z() + r.z()) / 2;
     model_.standing_width = l.y() - r.y();
     if (file_.lift) model_.largest_lift = *file_.lift;
-    model_.support_offset = file_.support_offset;
+    model_.support_point = file_.support_point;
     if (model_.waist_height <= 0) {
       fields_.Complain("waist_link", "the waist is not above the soles in the standing posture");
     }

@@ -54,7 +54,7 @@ RobotMeasures MeasuresOf(const RobotModel& robot) {
   RobotMeasures m{.leg_length = LegLengthOf(robot),
                   .standing_width = robot.standing_width,
                   .slowest_joint = std::numeric_limits<double>::infinity(),
-                  .support_offset = robot.support_offset};
+                  .support_point = robot.support_point};
   for (const Leg& each : robot.legs) {
     for (const LegJoint& joint : each.joints) {
       m.slowest_joint = std::min(m.slowest_joint, joint.max_speed / ShareOf(joint));

@@ -19,7 +19,7 @@ struct RobotMeasures {
   /// within the joints' limits while the CoM is above the support sole [m]. At most 8/7 w; and half
   /// of ℓ and RobotModel::largest_lift.
   double aside = 0.0, lift = 0.0;  ///< both [m]
-  double support_offset = 0.0;     ///< RobotModel::support_offset [m]
+  double support_point = 0.0;      ///< RobotModel::support_point [m]
 };
 
 /// RobotMeasures::leg_length of the left leg [m].

@@ -105,7 +105,7 @@ struct RobotModel {
   double largest_lift = std::numeric_limits<double>::infinity();
   /// Where CoM and ZMP rest on one foot in half-steps by default: along the support sole's y from
   /// its centre, towards the other foot [m].
-  double support_offset = 0.0;
+  double support_point = 0.0;
   std::vector<InputFile> files;  ///< files read: YAML, URDF and meshes, one entry for each reading.
   /// All that may touch something, each on the waist or on a link of a leg.
   std::vector<RobotBody> bodies;

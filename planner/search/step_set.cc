@@ -1,4 +1,4 @@
-#include "planner/search/half_step_set.h"
+#include "planner/search/step_set.h"
 
 #include <cmath>
 
@@ -6,12 +6,12 @@
 
 namespace halfstep {
 
-Foothold HalfStepSet::Placement(int i, Side support) const {
+Foothold StepSet::Placement(int i, Side support) const {
   const Foothold& X_SF = placements[static_cast<size_t>(i)];
   return support == Side::kLeft ? X_SF : X_SF.Mirrored();
 }
 
-HalfStep HalfStepSet::Down(int i, Side support) const {
+HalfStep StepSet::Down(int i, Side support) const {
   HalfStep down = prototype;
   down.support = support;
   down.kind = HalfStepKind::kDown;
@@ -19,7 +19,7 @@ HalfStep HalfStepSet::Down(int i, Side support) const {
   return down;
 }
 
-HalfStep HalfStepSet::Up(int i, Side support) const {
+HalfStep StepSet::Up(int i, Side support) const {
   HalfStep up = prototype;
   up.support = Opposite(support);
   up.kind = HalfStepKind::kUp;
@@ -27,16 +27,16 @@ HalfStep HalfStepSet::Up(int i, Side support) const {
   return up;
 }
 
-HalfStepSet MakeHalfStepSet(const HalfStepGrid& grid, const HalfStep& prototype,
-                            const std::function<bool(const HalfStep&)>& keeps,
-                            const std::function<bool(double)>& progress) {
+StepSet MakeStepSet(const StepGrid& grid, const HalfStep& prototype,
+                    const std::function<bool(const HalfStep&)>& keeps,
+                    const std::function<bool(double)>& progress) {
   HALFSTEP_CHECK(grid.spacing > 0.0 && grid.x_min <= grid.x_max && grid.y_min <= grid.y_max,
                  "spacing = " << grid.spacing);
   const auto count = [&grid](double from, double to) {
     return static_cast<int>(std::floor((to - from) / grid.spacing + 1e-9)) + 1;
   };
   const int nx = count(grid.x_min, grid.x_max), ny = count(grid.y_min, grid.y_max);
-  HalfStepSet set{.prototype = prototype, .placements = {}};
+  StepSet set{.prototype = prototype, .placements = {}};
   for (int ix = 0; ix < nx; ++ix) {
     for (int iy = 0; iy < ny; ++iy) {
       for (double yaw : grid.yaws) {

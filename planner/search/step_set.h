@@ -11,7 +11,7 @@ namespace halfstep {
 
 /// Which places of the swing sole beside the support sole are tried, seen from a left support;
 /// mirrored for a right one. Published: 5 cm × 5 cm × 5 yaws.
-struct HalfStepGrid {
+struct StepGrid {
   double x_min = -0.35, x_max = 0.35;   ///< [m]
   double y_min = -0.37, y_max = -0.01;  ///< [m], negative: to the right of a left support
   double spacing = 0.05;                ///< of x and y [m], counted from (x_min, y_min)
@@ -23,7 +23,7 @@ struct HalfStepGrid {
 /// beside the other. It serves two half-steps: *down*, where the support foot is S and the swing
 /// foot lands on X_SF; and *up*, where the foot F that has landed supports and the other one leaves
 /// its place X_FS = X_SF⁻¹ for the via point.
-struct HalfStepSet {
+struct StepSet {
   HalfStep prototype;                ///< duration, via point and shape of all of them
   std::vector<Foothold> placements;  ///< X_SF of each element, seen from a left support
 
@@ -39,8 +39,8 @@ struct HalfStepSet {
 /// Every place of the grid for which `keeps` accepts both the down and the up half-step of a left
 /// support. `keeps` shall prove robot-only margins for all t. `progress` (may be empty) is called
 /// with the fraction done, and stops the search by returning false; then the set is empty.
-HalfStepSet MakeHalfStepSet(const HalfStepGrid& grid, const HalfStep& prototype,
-                            const std::function<bool(const HalfStep&)>& keeps,
-                            const std::function<bool(double)>& progress = {});
+StepSet MakeStepSet(const StepGrid& grid, const HalfStep& prototype,
+                    const std::function<bool(const HalfStep&)>& keeps,
+                    const std::function<bool(double)>& progress = {});
 
 }  // namespace halfstep
