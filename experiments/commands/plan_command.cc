@@ -12,6 +12,7 @@
 #include "experiments/run/planning.h"
 #include "experiments/run/progress_bar.h"
 #include "wpg/files/input_error.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -152,7 +153,7 @@ ExitStatus ListHalfSteps(const PlanCommand& command) {
   }
   std::cout << "half_step,x_m,y_m,yaw_rad\n";
   for (int i = 0; i < set.size(); ++i) {
-    const Pose2 X_SF = set.placements[static_cast<size_t>(i)].LevelPose();
+    const Pose2 X_SF = Nth(set.placements, i).LevelPose();
     std::cout << i + 1 << ',' << X_SF.x << ',' << X_SF.y << ',' << X_SF.yaw << '\n';
   }
   return kSuccess;

@@ -18,6 +18,7 @@
 #include "experiments/tables/run_record.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/number_text.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -117,8 +118,7 @@ ExitStatus Replay(const ReplayCommand& command) {
   const auto& [robot, tree] = task.robot;
   const std::vector<replay::SimulatedObstacle>& obstacles = task.world.obstacles;
   const replay::Simulation simulation(replay::MujocoModel(robot, tree, {}, obstacles), robot,
-                                      tree.urdf.links[static_cast<size_t>(tree.waist)].name,
-                                      obstacles);
+                                      Nth(tree.urdf.links, tree.waist).name, obstacles);
   const bool screen = !command.quiet && !command.json;
   std::vector<replay::Replayed> all;
   bool stayed_up = true;

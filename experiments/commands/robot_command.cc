@@ -17,6 +17,7 @@
 #include "wpg/files/input_error.h"
 #include "wpg/files/text.h"
 #include "wpg/files/whole_file.h"
+#include "wpg/nth.h"
 #include "wpg/robot/robot_measures.h"
 
 namespace halfstep {
@@ -63,7 +64,7 @@ void Tell(const RobotDraft& draft, const RobotModel& robot) {
                    robot.sole_size.x(), robot.sole_size.y(), robot.bodies.size(),
                    robot.self_pairs.size(), robot.unwatched_pairs.size());
   for (const auto& [joint, why] : draft.why_posture) {
-    std::cout << "  " << draft.urdf.joints[static_cast<size_t>(joint)].name << ": " << why << '\n';
+    std::cout << "  " << Nth(draft.urdf.joints, joint).name << ": " << why << '\n';
   }
   for (const ExcludedPair& pair : draft.excluded) {
     std::cout << "  " << pair.links[0] << " - " << pair.links[1] << " is not watched: " << pair.why

@@ -8,6 +8,7 @@
 #include "experiments/tables/csv_writer.h"
 #include "experiments/tables/not_covered_json.h"
 #include "wpg/files/text.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -108,7 +109,7 @@ CsvFile PerformanceProfileCsv(const Comparison& comparison) {
   });
   for (const ProfileCurve& curve : PerformanceProfiles(comparison)) {
     for (const auto& [ratio, fraction] : curve.points) {
-      csv.Cell(kTargets[static_cast<size_t>(curve.target)]);
+      csv.Cell(Nth(kTargets, curve.target));
       csv.Cell(curve.by_wall ? "wall_s" : "instants");
       csv.Cell(curve.method.name).Cell(OrNone(curve.method.variables)).Cell(curve.method.objective);
       csv.Cell(ratio).Cell(fraction).EndRow();

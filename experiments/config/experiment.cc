@@ -7,6 +7,7 @@
 #include "smoothing/margins/family_traits.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/text.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -142,7 +143,7 @@ std::optional<std::string> FootholdOnNoStep(const Experiment& experiment) {
   const auto touches = [&](const Foothold& X_WF) { return !areas.Clears(X_WF.Planar(), apart); };
   const std::array<Foothold, 2> start = StartOf(experiment.config, experiment.robot);
   for (Side side : {Side::kLeft, Side::kRight}) {
-    if (touches(start[static_cast<size_t>(Index(side))])) {
+    if (touches(Nth(start, Index(side)))) {
       return "the " + std::string(Name(side)) + " foot starts on a no-step area";
     }
   }

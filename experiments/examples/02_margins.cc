@@ -3,6 +3,8 @@
 
 #include <cstdio>
 
+#include "wpg/nth.h"
+
 using namespace halfstep;
 
 int main() {
@@ -16,7 +18,7 @@ int main() {
   const MarginSet margins = problem.evaluator().At(walk, walk.Locate(t), &scratch);
   std::printf("margins at t = %.1f s of %.1f s\n", t, walk.duration());
   for (const MarginFamily family : problem.evaluator().families()) {
-    const Margin& margin = margins[static_cast<size_t>(family)];
+    const Margin& margin = Nth(margins, family);
     std::printf("%-15s %9.4f %-6s %s\n", std::string(Name(family)).c_str(), margin.value,
                 std::string(Unit(family)).c_str(), problem.evaluator().Subject(margin).c_str());
   }

@@ -3,6 +3,8 @@
 
 #include <cstdio>
 
+#include "wpg/nth.h"
+
 using namespace halfstep;
 
 // The sum of the heights to which the feet are lifted [m].
@@ -14,7 +16,7 @@ class Lift : public WalkCost {
   double Evaluate(const SuperposedWalk& walk, ParameterGradient* gradient) const override {
     double sum = 0.0;
     for (int step = 0; 2 * step < walk.num_half_steps(); ++step) {
-      const double scale = walk.parameters().height_scales[static_cast<size_t>(step)];
+      const double scale = Nth(walk.parameters().height_scales, step);
       const double height = walk.half_step(2 * step).via_height;  // scaled
       sum += height;
       if (gradient) gradient->push_back({{ParameterFamily::kHeightScale, step}, height / scale});

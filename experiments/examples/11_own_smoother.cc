@@ -3,6 +3,8 @@
 
 #include <cstdio>
 
+#include "wpg/nth.h"
+
 using namespace halfstep;
 
 struct ScaleOptions {
@@ -32,7 +34,7 @@ class ScaleAll : public Smoother {
       const double part = 0.5 * (low + high);
       HomotopyParameters candidate = problem.Start();
       for (int i = 0; i < problem.sequence().num_junctions(); ++i) {
-        candidate.overlaps[static_cast<size_t>(i)] = part * NaturalOverlapBound(candidate, i);
+        Nth(candidate.overlaps, i) = part * NaturalOverlapBound(candidate, i);
       }
       (monitor.Propose(candidate) ? low : high) = part;
     }

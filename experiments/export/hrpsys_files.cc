@@ -6,6 +6,7 @@
 
 #include "wpg/files/input_error.h"
 #include "wpg/files/number_text.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -23,7 +24,7 @@ HrpsysFiles WriteHrpsys(const RobotModel& robot, const RobotTree& tree,
                         size_t stride, double period) {
   HrpsysFiles files;
   for (const int joint : joints) {
-    files.joints += tree.urdf.joints[static_cast<size_t>(joint)].name + "\n";
+    files.joints += Nth(tree.urdf.joints, joint).name + "\n";
   }
   const size_t last = rows.size() - 1;
   for (size_t line = 0;; ++line) {
@@ -32,7 +33,7 @@ HrpsysFiles WriteHrpsys(const RobotModel& robot, const RobotTree& tree,
     const std::vector<double> angles = JointAngles(robot, tree, row.q);
     Eigen::VectorXd q(static_cast<Eigen::Index>(joints.size()));
     for (size_t j = 0; j < joints.size(); ++j) {
-      q[static_cast<Eigen::Index>(j)] = angles[static_cast<size_t>(joints[j])];
+      q[static_cast<Eigen::Index>(j)] = Nth(angles, joints[j]);
     }
     Eigen::Matrix<double, 6, 1> waist;
     waist << row.waist.head<3>(), 0.0, 0.0, row.waist[3];
@@ -47,7 +48,7 @@ HrpsysFiles WriteHrpsys(const RobotModel& robot, const RobotTree& tree,
 std::vector<int> OrderedJoints(const RobotTree& tree, const std::vector<std::string>& patterns) {
   const std::vector<int> all = JointsInFileOrder(tree.urdf);
   if (patterns.empty()) return all;
-  const auto name = [&](int joint) { return tree.urdf.joints[static_cast<size_t>(joint)].name; };
+  const auto name = [&](int joint) { return Nth(tree.urdf.joints, joint).name; };
   Complaints complaints;
   std::vector<int> ordered;
   for (const std::string& pattern : patterns) {

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "wpg/files/number_text.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -23,7 +24,7 @@ std::string MessageFloat(double value) {
 std::string FloatList(const std::vector<double>& by_joint, const std::vector<int>& joints) {
   std::string text = "[";
   for (const int joint : joints) {
-    text += (text.size() == 1 ? "" : ", ") + MessageFloat(by_joint[static_cast<size_t>(joint)]);
+    text += (text.size() == 1 ? "" : ", ") + MessageFloat(Nth(by_joint, joint));
   }
   return text + "]";
 }
@@ -44,7 +45,7 @@ std::string JointTrajectoryYaml(const RobotModel& robot, const RobotTree& tree,
   std::string text = "header:\n  stamp: {sec: 0, nanosec: 0}\n  frame_id: \"\"\njoint_names:\n";
   for (const int joint : joints) {
     // A text of JSON is one of YAML.
-    const nlohmann::json name = tree.urdf.joints[static_cast<size_t>(joint)].name;
+    const nlohmann::json name = Nth(tree.urdf.joints, joint).name;
     text += "- " + name.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
   }
   text += "points:\n";

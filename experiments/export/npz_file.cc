@@ -10,6 +10,7 @@
 
 #include "experiments/tables/csv_reader.h"
 #include "wpg/files/input_error.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -57,7 +58,7 @@ std::u32string CodePoints(const std::string& text) {
     const int more = lead < 0xc0 ? 0 : lead < 0xe0 ? 1 : lead < 0xf0 ? 2 : 3;
     char32_t point = more == 0 ? lead : lead & (0x3f >> more);
     for (int k = 1; k <= more && i + static_cast<size_t>(k) < text.size(); ++k) {
-      point = (point << 6) | (static_cast<unsigned char>(text[i + static_cast<size_t>(k)]) & 0x3f);
+      point = (point << 6) | (static_cast<unsigned char>(Nth(text, i + k)) & 0x3f);
     }
     points += point;
     i += static_cast<size_t>(more) + 1;

@@ -14,6 +14,7 @@
 #include "wpg/files/input_error.h"
 #include "wpg/files/number_text.h"
 #include "wpg/files/text.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -141,7 +142,7 @@ WalkPlan ReadWalk(const Tables& tables, size_t walk, const LiveConfig& config, c
     const Side side = Named(kSides, feet[row], table, row);
     const Foothold X_WF = Foothold::Level({x[row], y[row], yaw[row]});
     if (row < 2) {
-      start[static_cast<size_t>(Index(side))] = X_WF;
+      Nth(start, Index(side)) = X_WF;
     } else {
       footsteps.push_back({side, X_WF, via[row], duration[row]});
     }

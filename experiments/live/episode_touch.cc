@@ -6,6 +6,7 @@
 
 #include "planner/collision/collision_world.h"
 #include "wpg/motion/posture.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -114,7 +115,7 @@ Approach NearestApproach(const Episode& episode, const TrueWorld& truth, const R
       if (found.obstacle < 0 || found.separation.distance >= nearest.distance) continue;
       nearest = {.distance = found.separation.distance,
                  .t = t,
-                 .obstacle = scene.obstacles[static_cast<size_t>(found.obstacle)].name,
+                 .obstacle = Nth(scene.obstacles, found.obstacle).name,
                  .body = robot.bodies[b].name};
     }
   }

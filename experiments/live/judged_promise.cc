@@ -9,12 +9,13 @@
 #include "experiments/live/past_worlds.h"
 #include "experiments/live/spare_boxes.h"
 #include "wpg/files/text.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
 
 constexpr double kRoundingOfLooks = 1e-9;  // [s], [m]
-constexpr double kFastestStated = 10.0;          // no obstacle is said to be faster [m/s]
+constexpr double kFastestStated = 10.0;    // no obstacle is said to be faster [m/s]
 constexpr double kLargestError = 0.5;      // that live.sensing.error_m may be [m]
 
 // To three digits, not less.
@@ -39,7 +40,7 @@ std::vector<UnderWay> HalfStepsOf(const Episode& episode) {
     const double begin = walk.start_of(begun.half_step);
     if (!all.empty()) all.back().time.end = std::min(all.back().time.end, begin);
     rests = std::max(rests, walk.end_of(begun.half_step));
-    const Grant& grant = episode.grants[static_cast<size_t>(begun.grant)].grant;
+    const Grant& grant = Nth(episode.grants, begun.grant).grant;
     all.push_back({{begin, std::min(rests, episode.end)}, grant.version});
   }
   return all;
@@ -100,7 +101,7 @@ class Judge {
       radii.push_back(RadiusAboutOrigin(one.shape));
     }
     for (const UnderWay& half_step : half_steps_) {
-      const World& world = episode_.worlds[static_cast<size_t>(half_step.version)];
+      const World& world = Nth(episode_.worlds, half_step.version);
       const auto [begin, end] = half_step.time;
       long i = std::lround(std::ceil((begin - kRoundingOfLooks) / kLook));
       for (; static_cast<double>(i) * kLook < end - kRoundingOfLooks; ++i) {

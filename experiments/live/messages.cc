@@ -9,6 +9,7 @@
 #include "experiments/report/report_place.h"
 #include "experiments/tables/result_tables.h"
 #include "wpg/geometry/side.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 
@@ -50,10 +51,10 @@ json FootstepJson(Side side, const Foothold& X_WF) {
 json FootstepsJson(const HalfStepSequence& sequence) {
   json footsteps = json::array();
   for (const Side side : {Side::kLeft, Side::kRight}) {
-    footsteps.push_back(FootstepJson(side, sequence.start[static_cast<size_t>(Index(side))]));
+    footsteps.push_back(FootstepJson(side, Nth(sequence.start, Index(side))));
   }
   for (int step = 0; step < sequence.num_steps(); ++step) {
-    const PlacedHalfStep& down = sequence.half_steps[static_cast<size_t>(2 * step + 1)];
+    const PlacedHalfStep& down = Nth(sequence.half_steps, 2 * step + 1);
     footsteps.push_back(FootstepJson(down.half_step.swing(), down.X_WS * down.half_step.X_SF));
   }
   return footsteps;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "wpg/nth.h"
+
 namespace halfstep {
 
 bool BeginsAtRest(const SuperposedWalk& walk, int half_step) {
@@ -28,8 +30,7 @@ std::optional<NearRest> NearRest::AtStart(const SafetyCheck& among, const Experi
                                           const std::array<Foothold, 2>& start,
                                           const HalfStep& like) {
   // Where a walk begins does not depend on where it goes.
-  const Footstep in_place{.side = Side::kRight,
-                          .X_WF = start[static_cast<size_t>(Index(Side::kRight))]};
+  const Footstep in_place{.side = Side::kRight, .X_WF = Nth(start, Index(Side::kRight))};
   WalkPlan plan;
   plan.sequence = MakeSequence(start, {in_place}, like.via_lateral, like.shape,
                                {.com_height = among.evaluator().robot().com_height});
@@ -49,13 +50,12 @@ std::optional<NearRest> NearRest::At(const SafetyCheck& among, const ExperimentC
   while (true) {
     const MarginEvaluator& evaluator = (safety ? *safety : among).evaluator();
     MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
-    const Margin margin =
-        evaluator.At(walk, at, &scratch)[static_cast<size_t>(MarginFamily::kClearance)];
+    const Margin margin = Nth(evaluator.At(walk, at, &scratch), MarginFamily::kClearance);
     if (margin.value >= demanded) break;
     if (!(margin.value >= 0.0) || margin.other < 0) return std::nullopt;
     nearest = std::min(nearest, margin.value);
     // To demand less of an obstacle is to know better where it is.
-    scene.obstacles[static_cast<size_t>(margin.other)].motion.error -=
+    Nth(scene.obstacles, margin.other).motion.error -=
         demanded - std::max(0.0, margin.value - kNearer);
     safety.emplace(evaluator.robot(), scene, config);
   }

@@ -7,6 +7,7 @@
 #include "smoothing/methods/dichotomy.h"
 #include "smoothing/proof/sampled_feasibility.h"
 #include "smoothing/proof/stoppable_feasibility.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -24,7 +25,7 @@ Next NextJunctions(const SuperposedWalk& walk, const LiveOptions& live, double f
   std::vector<int> next;
   double cap = 1.0;
   for (int j = begun; j < junctions && cap == 1.0; ++j) {
-    if (proposal.smoothed[static_cast<size_t>(j)]) continue;
+    if (Nth(proposal.smoothed, j)) continue;
     // Half-step j + 1 must not begin before `from`.
     const double room = walk.end_of(j) - from;
     if (walk.start_of(j + 1) <= from || room < kLeastRoom) continue;
@@ -81,7 +82,7 @@ bool FindOverlaps(const SafetyCheck& safety, const LiveConfig& config, double fr
                  .cheaper = sampled},
                 monitor);
   proposal->plan.parameters = result.parameters;
-  for (const int j : next) proposal->smoothed[static_cast<size_t>(j)] = true;
+  for (const int j : next) Nth(proposal->smoothed, j) = true;
   proposal->first_changed = next.front() + 1;
   return true;
 }

@@ -8,6 +8,7 @@
 #include "experiments/live/overlap_search.h"
 #include "experiments/live/prepared_world.h"
 #include "experiments/run/planning.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -76,7 +77,7 @@ bool Replanner::Change(const Situation& s, const WalkPlan& plan, int junction,
                        Proposal* proposal) const {
   constexpr int kProvedAtOnce = 4;  // half-steps behind the junction
   const double begin = SteadySeconds();
-  const auto& [half_step, X_WS] = plan.sequence.half_steps[static_cast<size_t>(junction)];
+  const auto& [half_step, X_WS] = Nth(plan.sequence.half_steps, junction);
   std::optional<StepState> in_air;
   if (half_step.kind == HalfStepKind::kUp) in_air = {X_WS, half_step.support};
   const std::int64_t left = config_.experiment.planner.max_nodes - proposal->nodes;
@@ -167,7 +168,7 @@ Proposal Replanner::Propose(const Situation& s, const PreparedWorld& among,
     proposal.plan =
         Delayed(s.plan, s.begun, std::max(s.hand_over, s.plan.Walk().start_of(s.begun + 1)));
     // The delay is no overlap that anybody found.
-    proposal.smoothed[static_cast<size_t>(s.begun)] = true;
+    Nth(proposal.smoothed, s.begun) = true;
   }
   const SuperposedWalk walk = proposal.plan.Walk();
   if (s.stopped) {

@@ -4,6 +4,7 @@
 
 #include "experiments/live/isolated_half_steps.h"
 #include "experiments/tables/volume_cells.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -15,8 +16,7 @@ constexpr int kMostMerged = 16;
 
 const std::optional<BoxTree>& VolumeAt(int volume, const SweptVolumes& volumes) {
   const int down = volumes.set.size();
-  return volume < down ? volumes.down[static_cast<size_t>(volume)]
-                       : volumes.up[static_cast<size_t>(volume - down)];
+  return volume < down ? Nth(volumes.down, volume) : Nth(volumes.up, volume - down);
 }
 
 }  // namespace
@@ -31,7 +31,7 @@ std::vector<std::optional<PlacedVolume>> VolumesOf(const SuperposedWalk& walk,
     const bool down = half_step.kind == HalfStepKind::kDown;
     const int volume = element->index + (down ? 0 : volumes.set.size());
     if (!VolumeAt(volume, volumes)) continue;
-    placed[static_cast<size_t>(i)] = {
+    Nth(placed, i) = {
         .volume = volume, .mirrored = half_step.support == Side::kRight, .X_WS = walk.X_WS(i)};
   }
   return placed;

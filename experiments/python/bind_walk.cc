@@ -12,6 +12,7 @@
 #include "experiments/tables/parameter_tables.h"
 #include "smoothing/margins/not_covered_by.h"
 #include "smoothing/margins/slack_evaluator.h"
+#include "wpg/nth.h"
 
 namespace py = pybind11;
 
@@ -55,7 +56,7 @@ py::tuple SensitivitiesAt(const PlacedWalk& placed, double t, bool hold_time) {
   RowMajor value(rows, kNumQuantities), first(rows, kNumQuantities), second(rows, kNumQuantities);
   py::list parameters;
   for (Eigen::Index i = 0; i < rows; ++i) {
-    const WalkSensitivity& s = all[static_cast<size_t>(i)];
+    const WalkSensitivity& s = Nth(all, i);
     parameters.append(ToPython(s.parameter));
     value.row(i) = s.jet.value.transpose();
     first.row(i) = s.jet.first.transpose();

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "smoothing/proof/stretch_proofs.h"
+#include "wpg/nth.h"
 
 namespace halfstep::python {
 namespace {
@@ -24,7 +25,7 @@ std::vector<FixedParameter> FixedBy(const WalkSetting& setting, bool overlaps) {
     return f.parameter.family == ParameterFamily::kOverlap;
   });
   for (int i = 0; i < setting.problem.sequence().num_junctions(); ++i) {
-    fixed.push_back({{ParameterFamily::kOverlap, i}, start.overlaps[static_cast<size_t>(i)]});
+    fixed.push_back({{ParameterFamily::kOverlap, i}, Nth(start.overlaps, i)});
   }
   return fixed;
 }

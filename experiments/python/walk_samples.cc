@@ -7,6 +7,7 @@
 
 #include "experiments/tables/result_tables.h"
 #include "smoothing/margins/family_traits.h"
+#include "wpg/nth.h"
 
 namespace py = pybind11;
 
@@ -134,7 +135,7 @@ py::tuple SampleMargins(const PlacedWalk& placed, const Times& times) {
       arrays(0, row) = at;
       size_t column = 1;
       for (const MarginFamily family : evaluator.families()) {
-        arrays(column++, row) = margins[static_cast<size_t>(family)].value;
+        arrays(column++, row) = Nth(margins, family).value;
       }
     }
   }

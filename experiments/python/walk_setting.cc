@@ -7,6 +7,7 @@
 
 #include "smoothing/walk/parameter_complaint.h"
 #include "wpg/files/input_error.h"
+#include "wpg/nth.h"
 
 namespace py = pybind11;
 
@@ -15,8 +16,8 @@ py::list ToPython(const CsvColumns& columns) {
   static constexpr std::array<const char*, 4> kTypes = {"integer", "number", "boolean", "string"};
   py::list list;
   for (const CsvColumn& column : columns) {
-    list.append(py::make_tuple(column.name, kTypes[static_cast<size_t>(column.type)], column.unit,
-                               column.description));
+    list.append(
+        py::make_tuple(column.name, Nth(kTypes, column.type), column.unit, column.description));
   }
   return list;
 }

@@ -7,6 +7,7 @@
 #include "experiments/replay/planned_row.h"
 #include "experiments/replay/simulated_obstacles.h"
 #include "planner/scene/no_step_areas.h"
+#include "wpg/nth.h"
 
 namespace halfstep::replay {
 namespace {
@@ -39,7 +40,7 @@ void EpisodePhysics::Begin(const ReferenceMotion& motion, double waited) {
   const std::vector<SimulatedObstacle> obstacles = ObstaclesOf(*since_).obstacles;
   const auto& [model, tree] = robot_;
   const Simulation simulation(MujocoModel(model, tree, model_, obstacles), model,
-                              tree.urdf.links[static_cast<size_t>(tree.waist)].name, obstacles);
+                              Nth(tree.urdf.links, tree.waist).name, obstacles);
   player_.emplace(simulation, motion, options_);
   worlds_ = {Pose2()};
 }
@@ -107,7 +108,7 @@ PhysicalOutcome EpisodePhysics::Finish(const Episode& episode) {
   std::array<Foothold, 2> feet;
   for (const Side side : {Side::kLeft, Side::kRight}) {
     const Eigen::Isometry3d X_WSole = player_->robot().X_WSole(side);
-    feet[static_cast<size_t>(Index(side))] = {OnFloor(X_WSole), X_WSole.translation().z()};
+    Nth(feet, Index(side)) = {OnFloor(X_WSole), X_WSole.translation().z()};
   }
   outcome.no_step = no_step_;
   outcome.in_goal = rests && !fallen() && goal.ContainsStance(feet);

@@ -1,5 +1,7 @@
 #include "experiments/replay/mass_model_zmp.h"
 
+#include "wpg/nth.h"
+
 namespace halfstep::replay {
 namespace {
 
@@ -10,7 +12,7 @@ constexpr double kGravity = 9.81;  // [m/s²]
 std::vector<Vector3d> LinkCentres(const RobotModel& robot, const RobotTree& tree,
                                   const TrajectoryRow& row) {
   const std::vector<Eigen::Isometry3d> X = tree.urdf.LinkPoses(JointAngles(robot, tree, row.q));
-  const Eigen::Isometry3d X_WRoot = row.X_WB() * X[static_cast<size_t>(tree.waist)].inverse();
+  const Eigen::Isometry3d X_WRoot = row.X_WB() * Nth(X, tree.waist).inverse();
   std::vector<Vector3d> centres;
   for (size_t i = 0; i < X.size(); ++i) centres.push_back(X_WRoot * X[i] * tree.urdf.links[i].com);
   return centres;

@@ -4,6 +4,7 @@
 
 #include "experiments/replay/mujoco_geoms.h"
 #include "wpg/files/number_text.h"
+#include "wpg/nth.h"
 
 namespace halfstep::replay {
 namespace {
@@ -36,7 +37,7 @@ class KeyWriter {
             const std::vector<SimulatedObstacle>& obstacles)
       : obstacles_(obstacles), leg_joints_(LegJointsInDepth(robot, tree, 0)) {
     // Nothing that moves lies between the root and the waist.
-    X_WaistRoot_ = tree.urdf.LinkPoses(tree.posture)[static_cast<size_t>(tree.waist)].inverse();
+    X_WaistRoot_ = Nth(tree.urdf.LinkPoses(tree.posture), tree.waist).inverse();
   }
 
   std::string Key(const JointMotion& motion) const {
@@ -68,7 +69,7 @@ class KeyWriter {
     for (size_t child = 0; child < tree.urdf.links.size(); ++child) {
       const int index = tree.urdf.links[child].joint;
       if (index < 0) continue;
-      const UrdfJoint& joint = tree.urdf.joints[static_cast<size_t>(index)];
+      const UrdfJoint& joint = Nth(tree.urdf.joints, index);
       if (joint.parent != link) continue;
       for (size_t side = 0; side < 2; ++side) {
         for (size_t j = 0; j < 6; ++j) {

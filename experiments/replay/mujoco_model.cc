@@ -5,6 +5,7 @@
 
 #include "experiments/replay/mujoco_geoms.h"
 #include "wpg/files/number_text.h"
+#include "wpg/nth.h"
 
 namespace halfstep::replay {
 namespace {
@@ -88,8 +89,7 @@ class Writer {
   // The link that joint `joint` of a leg moves; the waist for −1.
   int LinkOf(int leg, int joint) const {
     if (joint < 0) return tree_.waist;
-    const std::string& name =
-        robot_.legs[static_cast<size_t>(leg)].joints[static_cast<size_t>(joint)].name;
+    const std::string& name = Nth(Nth(robot_.legs, leg).joints, joint).name;
     for (const UrdfJoint& one : tree_.urdf.joints) {
       if (one.name == name) return one.child;
     }
@@ -126,12 +126,12 @@ class Writer {
   }
 
   void AddLink(int index, const std::string& indent) {
-    const UrdfLink& link = tree_.urdf.links[static_cast<size_t>(index)];
+    const UrdfLink& link = Nth(tree_.urdf.links, index);
     const std::string inner = indent + "  ";
     Isometry3d X = Isometry3d::Identity();
     std::string joint_text = "<freejoint/>";
     if (link.joint >= 0) {
-      const UrdfJoint& joint = tree_.urdf.joints[static_cast<size_t>(link.joint)];
+      const UrdfJoint& joint = Nth(tree_.urdf.joints, link.joint);
       X = joint.X_ParentChild;
       joint_text.clear();
       if (IsLegJoint(joint.name)) {
@@ -139,7 +139,7 @@ class Writer {
                      Attribute("axis", Numbers(joint.axis)) +
                      Attribute("armature", ShortestText(options_.armature)) + "/>";
       } else if (joint.kind == UrdfJoint::Kind::kRevolute) {
-        const double angle = tree_.posture[static_cast<size_t>(link.joint)];
+        const double angle = Nth(tree_.posture, link.joint);
         X.rotate(Eigen::AngleAxisd(angle, joint.axis));
       }
     }
@@ -152,7 +152,7 @@ class Writer {
     }
     for (size_t child = 0; child < tree_.urdf.links.size(); ++child) {
       const int joint = tree_.urdf.links[child].joint;
-      if (joint >= 0 && tree_.urdf.joints[static_cast<size_t>(joint)].parent == index) {
+      if (joint >= 0 && Nth(tree_.urdf.joints, joint).parent == index) {
         AddLink(static_cast<int>(child), inner);
       }
     }
@@ -179,7 +179,7 @@ class Writer {
 
   // On the link that the last joint of the leg moves. Its lower face is the sole.
   void AddSole(Side side, const std::string& indent) {
-    const Leg& leg = robot_.legs[static_cast<size_t>(Index(side))];
+    const Leg& leg = Nth(robot_.legs, Index(side));
     const Isometry3d X_LinkSole = leg.joints[5].X_BLink.inverse() * leg.X_BSole;
     const Isometry3d X = X_LinkSole * Eigen::Translation3d(0, 0, kSoleHalf);
     const Eigen::Vector3d half(robot_.sole_size.x() / 2, robot_.sole_size.y() / 2, kSoleHalf);

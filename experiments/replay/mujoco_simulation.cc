@@ -10,6 +10,7 @@
 #include "experiments/replay/simulation.h"
 #include "wpg/check.h"
 #include "wpg/files/plain_locale.h"
+#include "wpg/nth.h"
 
 namespace halfstep::replay {
 namespace {
@@ -139,7 +140,7 @@ Simulation::Simulation(const std::string& mjcf, const RobotModel& robot,
   layout.robot_bodies.assign(static_cast<size_t>(model.ngeom), -1);
   for (size_t i = 0; i < robot.bodies.size() && !obstacles.empty(); ++i) {
     const int geom = Find(model, mjOBJ_GEOM, "body_" + std::to_string(i));
-    layout.robot_bodies[static_cast<size_t>(geom)] = static_cast<int>(i);
+    Nth(layout.robot_bodies, geom) = static_cast<int>(i);
   }
   state_->data.reset(mj_makeData(&model));
   state_->layout = std::make_shared<const State::Layout>(std::move(layout));
@@ -273,7 +274,7 @@ std::vector<Touch> Simulation::touches() const {
     const int obstacle = state_->ObstacleOf(swapped ? contact.geom2 : contact.geom1);
     if (obstacle < 0) continue;
     const int geom = swapped ? contact.geom1 : contact.geom2;
-    const int body = state_->layout->robot_bodies[static_cast<size_t>(geom)];
+    const int body = Nth(state_->layout->robot_bodies, geom);
     const auto [at, is_new] = forces.try_emplace({body, obstacle}, Vector3d::Zero());
     at->second += swapped ? -state_->ForceOf(i) : state_->ForceOf(i);
   }
@@ -296,7 +297,7 @@ Eigen::Isometry3d Simulation::X_WObstacle(int index) const {
 }
 
 Eigen::Isometry3d Simulation::X_WSole(Side side) const {
-  const int geom = state_->layout->soles[static_cast<size_t>(Index(side))];
+  const int geom = Nth(state_->layout->soles, Index(side));
   const mjData& data = *state_->data;
   return Pose(data.geom_xpos + 3 * geom, data.geom_xmat + 9 * geom) *
          Eigen::Translation3d(0, 0, -state_->layout->sole_half);

@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "wpg/nth.h"
+
 namespace halfstep::replay {
 namespace {
 
@@ -39,7 +41,7 @@ Player::Player(const Simulation& robot, const ReferenceMotion& motion, const Pla
 }
 
 double Player::SlipOf(Side side, bool carries) {
-  std::optional<Eigen::Vector2d>& anchor = anchors_[static_cast<size_t>(Index(side))];
+  std::optional<Eigen::Vector2d>& anchor = Nth(anchors_, Index(side));
   const Eigen::Vector2d here = robot_.X_WSole(side).translation().head<2>();
   if (!carries) anchor.reset();
   if (carries && !anchor) anchor = here;
@@ -54,7 +56,7 @@ double Player::DriftFrom(const ReferenceMotion& motion) const {
 double Player::StrayFrom(const TrajectoryRow& planned, const Eigen::Vector3d& shift) const {
   double stray = (robot_.X_WB().translation() - planned.waist.head<3>() - shift).norm();
   for (const Side side : {Side::kLeft, Side::kRight}) {
-    const Eigen::Vector4d& sole = planned.soles[static_cast<size_t>(Index(side))];
+    const Eigen::Vector4d& sole = Nth(planned.soles, Index(side));
     stray = std::max(stray, (robot_.X_WSole(side).translation() - sole.head<3>() - shift).norm());
   }
   return stray;
@@ -96,23 +98,21 @@ ReplayRow Player::Advance(const ReferenceMotion& motion, const std::optional<Pus
   if (total > 0) {
     row.zmp_measured = moment / total;
     const Side side = row.vertical[0] >= row.vertical[1] ? Side::kLeft : Side::kRight;
-    const Eigen::Vector4d& sole = planned.soles[static_cast<size_t>(Index(side))];
+    const Eigen::Vector4d& sole = Nth(planned.soles, Index(side));
     row.zmp_error = SeenFrom(OnFloor(robot_.X_WSole(side)), row.zmp_measured) -
                     SeenFrom({sole[0], sole[1], sole[3]}, row.zmp_planned);
   }
   row.support_drift.setConstant(std::numeric_limits<double>::quiet_NaN());
   double most = 0.0;
   for (const Side side : {Side::kLeft, Side::kRight}) {
-    double& force = row.vertical[static_cast<size_t>(Index(side))];
+    double& force = Nth(row.vertical, Index(side));
     force /= static_cast<double>(steps);
-    const bool carries =
-        planned.stands[static_cast<size_t>(Index(side))] && force > kCarries * robot_.weight();
+    const bool carries = Nth(planned.stands, Index(side)) && force > kCarries * robot_.weight();
     row.slip = std::max(row.slip, SlipOf(side, carries));
     if (!carries || force <= most) continue;
     most = force;
     row.support = side;
-    row.support_drift =
-        DriftOfSole(planned.soles[static_cast<size_t>(Index(side))], OnFloor(robot_.X_WSole(side)));
+    row.support_drift = DriftOfSole(Nth(planned.soles, Index(side)), OnFloor(robot_.X_WSole(side)));
   }
   const Eigen::Vector3d shift(row.support_drift[0], row.support_drift[1], 0.0);
   row.stray = StrayFrom(motion.RowAt(t_), shift);

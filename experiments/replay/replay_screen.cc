@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "wpg/files/text.h"
+#include "wpg/nth.h"
 
 namespace halfstep::replay {
 
@@ -24,10 +25,10 @@ const char* DirectionName(double direction) {
 }
 
 const std::string& BodyName(const Replayed& replayed, const TouchRecord& touch) {
-  return replayed.bodies[static_cast<size_t>(touch.body)];
+  return Nth(replayed.bodies, touch.body);
 }
 const std::string& ObstacleName(const Replayed& replayed, const TouchRecord& touch) {
-  return replayed.obstacles[static_cast<size_t>(touch.obstacle)];
+  return Nth(replayed.obstacles, touch.obstacle);
 }
 
 std::vector<TouchRecord> TouchesOf(const Replayed& replayed, bool at_rest) {

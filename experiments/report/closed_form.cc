@@ -6,6 +6,7 @@
 #include "experiments/tables/csv_reader.h"
 #include "experiments/tables/parameter_tables.h"
 #include "wpg/files/number_text.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -78,7 +79,7 @@ json ParametersJson(const fs::path& folder, int size) {
     std::vector<double> values;
     for (int i = 0; i < size; ++i) {
       if (traits.index_at(i) < static_cast<int>(values.size())) continue;
-      values.push_back(rows[static_cast<size_t>(i)]);
+      values.push_back(Nth(rows, i));
     }
     parameters[PluralOf(traits)] = values;
   }

@@ -8,6 +8,8 @@
 #include <numbers>
 #include <vector>
 
+#include "wpg/nth.h"
+
 namespace halfstep {
 namespace {
 
@@ -69,16 +71,16 @@ TriangleMesh Joined(const TriangleMesh& mesh, double cell) {
   for (Eigen::Index i = 0; i < mesh.vertices.cols(); ++i) {
     std::array<long, 3> key{};
     for (int k = 0; k < 3; ++k) {
-      key[static_cast<size_t>(k)] = std::lround(mesh.vertices(k, i) / cell);
+      Nth(key, k) = std::lround(mesh.vertices(k, i) / cell);
     }
     const auto [entry, is_new] = cells.emplace(key, static_cast<int>(vertices.size()));
     if (is_new) vertices.emplace_back(mesh.vertices.col(i));
-    vertex_of[static_cast<size_t>(i)] = entry->second;
+    Nth(vertex_of, i) = entry->second;
   }
   std::vector<Eigen::Vector3i> triangles;
   for (Eigen::Index i = 0; i < mesh.triangles.cols(); ++i) {
-    const Eigen::Vector3i t = mesh.triangles.col(i).unaryExpr(
-        [&](int vertex) { return vertex_of[static_cast<size_t>(vertex)]; });
+    const Eigen::Vector3i t =
+        mesh.triangles.col(i).unaryExpr([&](int vertex) { return Nth(vertex_of, vertex); });
     if (t.x() != t.y() && t.y() != t.z() && t.z() != t.x()) triangles.push_back(t);
   }
   TriangleMesh joined;

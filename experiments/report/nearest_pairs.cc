@@ -10,6 +10,7 @@
 #include "smoothing/margins/body_clearances.h"
 #include "wpg/files/number_text.h"
 #include "wpg/motion/posture.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -57,7 +58,7 @@ class PairSearch {
     for (size_t body = 0; body < clearances_.num_bodies(); ++body) {
       const auto nearest = clearances_.NearestTo(body, posture, t, best.margin, &scratch_);
       if (nearest.obstacle < 0 || nearest.margin >= best.margin) continue;
-      const Obstacle& obstacle = scene_.obstacles[static_cast<size_t>(nearest.obstacle)];
+      const Obstacle& obstacle = Nth(scene_.obstacles, nearest.obstacle);
       best = {nearest.margin, {robot_.bodies[body].name, obstacle.name}, nearest.separation};
       found = best;
     }
@@ -71,10 +72,9 @@ class PairSearch {
       const Separation separation = clearances_.SeparationOf(pair, posture, &scratch_);
       if (separation.distance >= best.margin) continue;
       const auto [a, b] = robot_.self_pairs[pair];
-      best = {
-          separation.distance,
-          {robot_.bodies[static_cast<size_t>(a)].name, robot_.bodies[static_cast<size_t>(b)].name},
-          separation};
+      best = {separation.distance,
+              {Nth(robot_.bodies, a).name, Nth(robot_.bodies, b).name},
+              separation};
       found = best;
     }
     return found;

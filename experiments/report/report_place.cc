@@ -9,6 +9,7 @@
 
 #include "experiments/report/drawn_mesh.h"
 #include "wpg/files/number_text.h"
+#include "wpg/nth.h"
 #include "wpg/robot/robot_legs.h"
 
 namespace halfstep {
@@ -85,8 +86,8 @@ json RobotJson(const RobotModel& robot) {
   for (const RobotBody& body : robot.bodies) {
     Eigen::Isometry3d X_BBody = Eigen::Isometry3d::Identity();
     if (body.leg >= 0) {
-      const Leg& leg = robot.legs[static_cast<size_t>(body.leg)];
-      X_BBody = leg.joints[static_cast<size_t>(body.link)].X_BLink;
+      const Leg& leg = Nth(robot.legs, body.leg);
+      X_BBody = Nth(leg.joints, body.link).X_BLink;
     }
     json drawn = MeshJson(DrawnMesh(body.shape), X_BBody);
     drawn["name"] = body.name;

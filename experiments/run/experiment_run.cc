@@ -16,6 +16,7 @@
 #include "smoothing/methods/plan_repair.h"
 #include "smoothing/methods/run_smoother.h"
 #include "wpg/files/text.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -101,7 +102,7 @@ void ExperimentRun::Repair(const RunHooks& hooks) {
   const PlanRepair repair =
       RepairPlan(experiment_->sequence, ProblemOf(*experiment_).test(), {}, hooks.stop_step);
   for (const RepairedStep& step : repair.steps) {
-    FootstepConfig& footstep = config_.footsteps[static_cast<size_t>(step.step)];
+    FootstepConfig& footstep = Nth(config_.footsteps, step.step);
     const double duration = footstep.duration.value_or(config_.half_step.duration);
     const double height = footstep.via_height.value_or(config_.half_step.via_height);
     repaired_.push_back(

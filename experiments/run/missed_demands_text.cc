@@ -8,6 +8,7 @@
 #include "planner/scene/mesh_floor.h"
 #include "smoothing/margins/family_traits.h"
 #include "wpg/files/text.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -28,7 +29,7 @@ std::string FloorHint(const MarginEvaluator& evaluator, const MissedDemands& mis
   for (const MissedDemand& demand : missed.demands) {
     const Margin& worst = demand.worst;
     if (worst.family != MarginFamily::kClearance || worst.other < 0) continue;
-    const Obstacle& obstacle = evaluator.scene().obstacles[static_cast<size_t>(worst.other)];
+    const Obstacle& obstacle = Nth(evaluator.scene().obstacles, worst.other);
     const auto* mesh = std::get_if<TriangleMesh>(&obstacle.shape);
     if (mesh == nullptr || mesh->hollow) continue;
     const double area = FloorArea(*mesh, obstacle.X_WO, kFloorTolerance);

@@ -8,6 +8,7 @@
 #include "experiments/run/foot_places.h"
 #include "experiments/run/margin_words.h"
 #include "wpg/files/text.h"
+#include "wpg/nth.h"
 #include "wpg/robot/robot_measures.h"
 
 namespace halfstep {
@@ -35,9 +36,9 @@ std::vector<Taken> StepsOf(const ExperimentConfig& config, std::array<Foothold, 
   std::vector<Taken> steps;
   for (const FootstepConfig& footstep : config.footsteps) {
     const Side side = SideOf(footstep, exchanged);
-    const Foothold& X_WS = feet[static_cast<size_t>(Index(Opposite(side)))];
+    const Foothold& X_WS = Nth(feet, Index(Opposite(side)));
     steps.push_back({side, X_WS.Inverse() * footstep.X_WF});
-    feet[static_cast<size_t>(Index(side))] = footstep.X_WF;
+    Nth(feet, Index(side)) = footstep.X_WF;
   }
   return steps;
 }
@@ -184,8 +185,7 @@ void AddInside(const std::string& who, Side side, const Foothold& X_WF, const Fo
 void AddStartInside(const std::array<Foothold, 2>& start, const FootPlaces& places,
                     std::vector<std::string>* lines) {
   for (const Side side : {Side::kLeft, Side::kRight}) {
-    AddInside("start: the " + FootName(side), side, start[static_cast<size_t>(Index(side))], places,
-              lines);
+    AddInside("start: the " + FootName(side), side, Nth(start, Index(side)), places, lines);
   }
 }
 

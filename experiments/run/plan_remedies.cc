@@ -7,6 +7,7 @@
 #include "planner/scene/no_step_areas.h"
 #include "smoothing/walk/superposed_walk.h"
 #include "wpg/files/text.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -95,9 +96,9 @@ class Trials {
 
   // The landing, farther or nearer on its way; the two steps after it begin elsewhere then.
   std::optional<FoundRemedy> Landing(int step) {
-    const PlacedHalfStep& up = problem_.sequence().half_steps[static_cast<size_t>(2 * step)];
+    const PlacedHalfStep& up = Nth(problem_.sequence().half_steps, 2 * step);
     const Foothold from = up.X_WS * up.half_step.X_SF;
-    const FootstepConfig& planned = experiment_.config.footsteps[static_cast<size_t>(step)];
+    const FootstepConfig& planned = Nth(experiment_.config.footsteps, step);
     const Eigen::Vector2d way(planned.X_WF.x - from.x, planned.X_WF.y - from.y);
     if (way.norm() < 0.01) return std::nullopt;  // it steps in place
     for (const double farther : kFarther) {
@@ -125,14 +126,14 @@ class Trials {
 
  private:
   double HeightOf(int step) const {
-    return problem_.sequence().half_steps[static_cast<size_t>(2 * step)].half_step.via_height;
+    return Nth(problem_.sequence().half_steps, 2 * step).half_step.via_height;
   }
   double DurationOf(int step) const {
-    return problem_.sequence().half_steps[static_cast<size_t>(2 * step)].half_step.duration;
+    return Nth(problem_.sequence().half_steps, 2 * step).half_step.duration;
   }
 
   static FootstepConfig& FootstepOf(int step, ExperimentConfig* config) {
-    return config->footsteps[static_cast<size_t>(step)];
+    return Nth(config->footsteps, step);
   }
   static std::string Key(std::optional<int> step) {
     return step ? Formatted("footsteps.%d.", *step) : "half_step.";
@@ -141,7 +142,7 @@ class Trials {
   static FoundRemedy Found(const ExperimentConfig& config, std::optional<int> step,
                            std::string words) {
     FoundRemedy remedy{.words = std::move(words), .footstep = {}};
-    if (step) remedy.footstep = config.footsteps[static_cast<size_t>(*step)];
+    if (step) remedy.footstep = Nth(config.footsteps, *step);
     return remedy;
   }
 
@@ -220,7 +221,7 @@ std::vector<std::string> PlanRemedies(const Experiment& experiment, const WalkPr
                       "other heights and durations, and landings up to 8 cm off along its way");
       continue;
     }
-    together.footsteps[static_cast<size_t>(step)] = found.front().footstep;
+    Nth(together.footsteps, step) = found.front().footstep;
     if (!each || k + 1 < steps.size()) continue;
     const Feasibility whole = trials.Check(together);
     if (whole.verdict == Verdict::kFeasible) {

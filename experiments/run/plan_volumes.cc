@@ -7,6 +7,7 @@
 
 #include "experiments/tables/volume_cells.h"
 #include "wpg/check.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -52,9 +53,9 @@ std::string PlanVolumesJson(const PlannedWalk& walk) {
     if (k == 0) {
       half_steps.push_back(nullptr);
     } else {
-      add(all.up[static_cast<size_t>(plan.elements[k - 1])], support, stands);
+      add(Nth(all.up, plan.elements[k - 1]), support, stands);
     }
-    add(all.down[static_cast<size_t>(plan.elements[k])], support, stands);
+    add(Nth(all.down, plan.elements[k]), support, stands);
     stands = plan.footsteps[k].X_WF;
   }
   const double baked = volumes.empty() ? 0.0 : volumes.front()->cell;

@@ -12,6 +12,7 @@
 #include "smoothing/margins/not_covered_by.h"
 #include "wpg/check.h"
 #include "wpg/files/input_error.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -47,8 +48,8 @@ HalfStepCertifier::HalfStepCertifier(const MarginEvaluator& evaluator,
 // The step in place that holds the half-step: up from its place, and down to it again.
 bool HalfStepCertifier::Certifies(const HalfStep& half_step, const Foothold& X_WS) const {
   std::array<Foothold, 2> start;
-  start[static_cast<size_t>(Index(half_step.support))] = X_WS;
-  start[static_cast<size_t>(Index(half_step.swing()))] = X_WS * half_step.X_SF;
+  Nth(start, Index(half_step.support)) = X_WS;
+  Nth(start, Index(half_step.swing())) = X_WS * half_step.X_SF;
   const Footstep footstep{.side = half_step.swing(),
                           .X_WF = X_WS * half_step.X_SF,
                           .via_height = half_step.via_height,
@@ -91,7 +92,7 @@ std::string MissedInPlace(const RobotModel& robot, const Scene& scene,
   const HalfStep prototype = PrototypeOf(config);
   const std::array<Foothold, 2> start = StartOf(config, robot);
   const Footstep footstep{.side = Side::kLeft,
-                          .X_WF = start[static_cast<size_t>(Index(Side::kLeft))],
+                          .X_WF = Nth(start, Index(Side::kLeft)),
                           .via_height = prototype.via_height,
                           .duration = prototype.duration};
   const HalfStepSequence sequence = MakeSequence(start, {footstep}, prototype.via_lateral,

@@ -12,13 +12,12 @@
 #include "smoothing/proof/sampled_feasibility.h"
 #include "wpg/files/plain_locale.h"
 #include "wpg/files/text.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
 
-const Margin& Of(const MethodRun& run, MarginFamily family) {
-  return run.margins[static_cast<size_t>(family)];
-}
+const Margin& Of(const MethodRun& run, MarginFamily family) { return Nth(run.margins, family); }
 
 // What refused a larger overlap: "clearance of RLEG_LINK5 - bar". It may have been refused because
 // the proof could not decide, which is no violation.

@@ -9,6 +9,7 @@
 #include "wpg/files/nesting.h"
 #include "wpg/files/suggestion.h"
 #include "wpg/files/text.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 
@@ -97,7 +98,7 @@ Eigen::VectorXd MessageFields::Numbers(const std::string& key, int count, double
   }
   Eigen::VectorXd numbers(count);
   for (int i = 0; i < count; ++i) {
-    numbers[i] = NumberOf(list[static_cast<size_t>(i)]);
+    numbers[i] = NumberOf(Nth(list, i));
     if (!(numbers[i] >= min && numbers[i] <= max)) {
       Fail(key, Formatted("item %d is not such a number", i + 1) + valid);
     }

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "wpg/files/text.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -17,10 +18,9 @@ constexpr double kBeside = 0.02;  // a limb's centre of mass is farther from the
 // All joints at or below which a joint's child hangs: links of the limb that it moves.
 std::vector<bool> LinksBelow(const UrdfTree& urdf, int joint) {
   std::vector<bool> below(urdf.links.size(), false);
-  below[static_cast<size_t>(urdf.joints[static_cast<size_t>(joint)].child)] = true;
+  Nth(below, Nth(urdf.joints, joint).child) = true;
   for (size_t i = 1; i < urdf.links.size(); ++i) {
-    const auto parent =
-        static_cast<size_t>(urdf.joints[static_cast<size_t>(urdf.links[i].joint)].parent);
+    const auto parent = static_cast<size_t>(Nth(urdf.joints, urdf.links[i].joint).parent);
     if (below[parent]) below[i] = true;
   }
   return below;
@@ -34,7 +34,7 @@ class Limb {
       const RobotBody& body = robot.bodies[i];
       if (body.leg >= 0) continue;
       const int link = urdf.FindLink(body.name.substr(0, body.name.find('#')));
-      if (link < 0 || !below_[static_cast<size_t>(link)]) continue;
+      if (link < 0 || !Nth(below_, link)) continue;
       bodies_.push_back(static_cast<int>(i));
       links_.push_back(link);
     }
@@ -42,13 +42,13 @@ class Limb {
 
   int root() const { return root_; }
   const std::vector<int>& bodies() const { return bodies_; }
-  bool Has(int link) const { return below_[static_cast<size_t>(link)]; }
+  bool Has(int link) const { return Nth(below_, link); }
 
   std::vector<Isometry3d> PosesInB(const std::vector<double>& q) const {
     const std::vector<Isometry3d> X = urdf_.LinkPoses(q);
-    const Isometry3d X_BRoot = X[static_cast<size_t>(waist_)].inverse();
+    const Isometry3d X_BRoot = Nth(X, waist_).inverse();
     std::vector<Isometry3d> poses;
-    for (const int link : links_) poses.push_back(X_BRoot * X[static_cast<size_t>(link)]);
+    for (const int link : links_) poses.push_back(X_BRoot * Nth(X, link));
     return poses;
   }
 
@@ -64,7 +64,7 @@ class Limb {
   // Whether its mass is on one side of the plane of symmetry.
   bool IsBeside(const std::vector<double>& q) const {
     const std::vector<Isometry3d> X = urdf_.LinkPoses(q);
-    const Isometry3d X_BRoot = X[static_cast<size_t>(waist_)].inverse();
+    const Isometry3d X_BRoot = Nth(X, waist_).inverse();
     double mass = 0.0, moment = 0.0;
     for (size_t i = 0; i < below_.size(); ++i) {
       if (!below_[i]) continue;
@@ -89,7 +89,7 @@ std::vector<Limb> FindLimbs(const UrdfTree& urdf, int waist, const std::vector<d
   std::vector<Limb> limbs;
   for (size_t i = 1; i < urdf.links.size(); ++i) {
     const int joint = urdf.links[i].joint;
-    if (urdf.joints[static_cast<size_t>(joint)].kind != UrdfJoint::Kind::kRevolute) continue;
+    if (Nth(urdf.joints, joint).kind != UrdfJoint::Kind::kRevolute) continue;
     const bool within = std::any_of(limbs.begin(), limbs.end(), [&](const Limb& limb) {
       return limb.Has(static_cast<int>(i));
     });
@@ -106,7 +106,7 @@ std::vector<bool> BodiesOfLimbs(const UrdfTree& urdf, int waist, const std::vect
                                 const RobotModel& robot) {
   std::vector<bool> of_limb(robot.bodies.size(), false);
   for (const Limb& limb : FindLimbs(urdf, waist, posture, robot)) {
-    for (const int body : limb.bodies()) of_limb[static_cast<size_t>(body)] = true;
+    for (const int body : limb.bodies()) Nth(of_limb, body) = true;
   }
   return of_limb;
 }
@@ -123,7 +123,7 @@ std::vector<ArmTurn> KeepArmsOff(const UrdfTree& urdf, int waist,
     for (size_t i = 1; i < urdf.links.size() && joints.size() < 4; ++i) {
       const int joint = urdf.links[i].joint;
       if (limb.Has(static_cast<int>(i)) &&
-          urdf.joints[static_cast<size_t>(joint)].kind == UrdfJoint::Kind::kRevolute) {
+          Nth(urdf.joints, joint).kind == UrdfJoint::Kind::kRevolute) {
         joints.push_back(joint);
       }
     }

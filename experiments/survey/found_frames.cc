@@ -8,6 +8,7 @@
 
 #include "wpg/geometry/planar_hull.h"
 #include "wpg/geometry/side.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -132,8 +133,8 @@ Rectangle LargestRectangle(std::vector<Vector2d> points) {
   Rectangle best;
   for (int i = 0; i <= kPlaces; ++i) {
     for (int k = i + 1; k <= kPlaces; ++k) {
-      const auto& [low_i, high_i] = spans[static_cast<size_t>(i)];
-      const auto& [low_k, high_k] = spans[static_cast<size_t>(k)];
+      const auto& [low_i, high_i] = Nth(spans, i);
+      const auto& [low_k, high_k] = Nth(spans, k);
       const double low = std::max(low_i, low_k), high = std::min(high_i, high_k);
       const Vector2d size((k - i) * step, high - low);
       if (size.y() > 0 && size.prod() > best.size.prod()) {
@@ -177,9 +178,9 @@ FoundSole FindSole(const Leg& leg, const std::vector<const RobotBody*>& bodies) 
 
 Matrix3d FindWaistRotation(const UrdfTree& urdf, const FoundLegs& legs) {
   const auto X = urdf.LinkPoses(std::vector<double>(urdf.joints.size(), 0.0));
-  const Isometry3d X_WaistRoot = X[static_cast<size_t>(legs.waist)].inverse();
+  const Isometry3d X_WaistRoot = Nth(X, legs.waist).inverse();
   const auto origin = [&](int joint) {
-    const auto child = static_cast<size_t>(urdf.joints[static_cast<size_t>(joint)].child);
+    const auto child = static_cast<size_t>(Nth(urdf.joints, joint).child);
     return Vector3d(X_WaistRoot * X[child].translation());
   };
   const std::array<Vector3d, 2> hips{origin(legs.joints[0][2]), origin(legs.joints[1][2])};

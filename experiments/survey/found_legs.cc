@@ -9,6 +9,7 @@
 #include "wpg/files/suggestion.h"
 #include "wpg/files/text.h"
 #include "wpg/geometry/side.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -22,8 +23,8 @@ constexpr size_t kFewest = 5;  // moving joints of what may be a leg
 // Moving joints from the root to a link, the nearest to the root first.
 std::vector<int> JointsAbove(const UrdfTree& urdf, int link) {
   std::vector<int> joints;
-  for (int joint; (joint = urdf.links[static_cast<size_t>(link)].joint) >= 0;) {
-    const UrdfJoint& at = urdf.joints[static_cast<size_t>(joint)];
+  for (int joint; (joint = Nth(urdf.links, link).joint) >= 0;) {
+    const UrdfJoint& at = Nth(urdf.joints, joint);
     if (at.kind != UrdfJoint::Kind::kFixed) joints.push_back(joint);
     link = at.parent;
   }
@@ -36,7 +37,7 @@ std::vector<int> Ends(const UrdfTree& urdf) {
   std::vector<bool> is_end(urdf.links.size(), true);
   std::vector<int> ends;
   for (size_t link = urdf.links.size(); link-- > 1;) {
-    const UrdfJoint& joint = urdf.joints[static_cast<size_t>(urdf.links[link].joint)];
+    const UrdfJoint& joint = Nth(urdf.joints, urdf.links[link].joint);
     const auto parent = static_cast<size_t>(joint.parent);
     if (joint.kind != UrdfJoint::Kind::kFixed) {
       if (is_end[link]) ends.push_back(static_cast<int>(link));
@@ -52,7 +53,7 @@ std::vector<int> Ends(const UrdfTree& urdf) {
 int CommonLink(const UrdfTree& urdf, int a, int b) {
   while (a != b) {
     int& lower = a > b ? a : b;
-    lower = urdf.joints[static_cast<size_t>(urdf.links[static_cast<size_t>(lower)].joint)].parent;
+    lower = Nth(urdf.joints, Nth(urdf.links, lower).joint).parent;
   }
   return a;
 }
@@ -86,8 +87,7 @@ Limbs LowestPair(const UrdfTree& urdf) {
       Limbs limbs = LimbsOf(urdf, ends[i], ends[k]);
       const size_t n = limbs.joints[0].size();
       if (n < kFewest || n != limbs.joints[1].size()) continue;
-      const double height = X[static_cast<size_t>(ends[i])].translation().z() +
-                            X[static_cast<size_t>(ends[k])].translation().z();
+      const double height = Nth(X, ends[i]).translation().z() + Nth(X, ends[k]).translation().z();
       if (!(height < lowest)) continue;
       lowest = height;
       best = std::move(limbs);
@@ -130,7 +130,7 @@ FoundLegs FindLegs(const UrdfTree& urdf, const LegNames& names) {
   FoundLegs found;
   int left = named ? -1 : 0;
   const auto joint_at = [&](size_t limb, size_t i) -> const UrdfJoint& {
-    return urdf.joints[static_cast<size_t>(limbs.joints[limb][i])];
+    return Nth(urdf.joints, limbs.joints[limb][i]);
   };
   const size_t n = std::min(limbs.joints[0].size(), limbs.joints[1].size());
   if (n < 6) {
@@ -144,7 +144,7 @@ FoundLegs FindLegs(const UrdfTree& urdf, const LegNames& names) {
   found.sides_by_name = left != 0;
   if (left == 0) {
     const auto X = urdf.LinkPoses(std::vector<double>(urdf.joints.size(), 0.0));
-    const auto y = [&](int end) { return X[static_cast<size_t>(end)].translation().y(); };
+    const auto y = [&](int end) { return Nth(X, end).translation().y(); };
     left = y(limbs.ends[0]) > y(limbs.ends[1]) ? -1 : 1;
   }
   if (left > 0) std::swap(limbs.joints[0], limbs.joints[1]);

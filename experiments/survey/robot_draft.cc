@@ -6,6 +6,7 @@
 
 #include "wpg/files/text.h"
 #include "wpg/geometry/side.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -44,9 +45,7 @@ std::string Quoted(const std::string& text) {
   return "'" + quoted + "'";
 }
 
-std::string LinkName(const RobotDraft& draft, int link) {
-  return draft.urdf.links[static_cast<size_t>(link)].name;
-}
+std::string LinkName(const RobotDraft& draft, int link) { return Nth(draft.urdf.links, link).name; }
 
 std::string LegsText(const RobotDraft& draft) {
   const FoundSole& sole = draft.soles[0];
@@ -96,7 +95,7 @@ std::string LimitsText(const RobotDraft& draft) {
       "# Left and right have different limits in the URDF; both get what both have.\n"
       "joint_limits_deg:\n";
   for (const auto& [joint, range] : draft.limits) {
-    text += "  " + Quoted(draft.urdf.joints[static_cast<size_t>(joint)].name) + ": " +
+    text += "  " + Quoted(Nth(draft.urdf.joints, joint).name) + ": " +
             List(kDegrees * Eigen::Vector2d(range[0], range[1]), 9) + "\n";
   }
   return text;

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "wpg/files/text.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -63,8 +64,7 @@ class Drawing {
   void Frame(const Isometry3d& X_W, double length) {
     constexpr std::array<const char*, 3> kColours = {"#c1272d", "#1a7f37", "#0550ae"};
     for (int i = 0; i < 3; ++i) {
-      Line(X_W.translation(), X_W * (length * Vector3d::Unit(i)), kColours[static_cast<size_t>(i)],
-           2.5);
+      Line(X_W.translation(), X_W * (length * Vector3d::Unit(i)), Nth(kColours, i), 2.5);
     }
   }
 
@@ -90,11 +90,10 @@ struct Standing {
 void Draw(const RobotModel& robot, const Standing& standing, Drawing* drawing) {
   constexpr std::array<const char*, 2> kLegs = {"#8250df", "#bc4c00"};
   for (const RobotBody& body : robot.bodies) {
-    const Isometry3d X = body.leg < 0
-                             ? standing.X_WB
-                             : standing.X_WB * standing.legs[static_cast<size_t>(body.leg)]
-                                                   .X_BLink[static_cast<size_t>(body.link)];
-    drawing->Body(body.shape, X, body.leg < 0 ? "#57606a" : kLegs[static_cast<size_t>(body.leg)]);
+    const Isometry3d X =
+        body.leg < 0 ? standing.X_WB
+                     : standing.X_WB * Nth(standing.legs, body.leg) Nth(.X_BLink, body.link);
+    drawing->Body(body.shape, X, body.leg < 0 ? "#57606a" : Nth(kLegs, body.leg));
   }
   const double size = 0.1 * robot.waist_height;
   for (size_t leg = 0; leg < 2; ++leg) {
@@ -129,10 +128,9 @@ std::string RobotPicture(const RobotModel& robot) {
   }
   double top = robot.waist_height, reach = 0.5 * robot.standing_width;
   for (const RobotBody& body : robot.bodies) {
-    const Isometry3d X = body.leg < 0
-                             ? standing.X_WB
-                             : standing.X_WB * standing.legs[static_cast<size_t>(body.leg)]
-                                                   .X_BLink[static_cast<size_t>(body.link)];
+    const Isometry3d X =
+        body.leg < 0 ? standing.X_WB
+                     : standing.X_WB * Nth(standing.legs, body.leg) Nth(.X_BLink, body.link);
     const Vector3d centre = X * body.shape.center;
     top = std::max(top, centre.z() + body.shape.radius);
     reach = std::max(reach, centre.head<2>().cwiseAbs().maxCoeff() + body.shape.radius);

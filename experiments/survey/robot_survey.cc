@@ -13,6 +13,7 @@
 #include "planner/collision/separation.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/text.h"
+#include "wpg/nth.h"
 #include "wpg/robot/robot_bodies.h"
 #include "wpg/robot/robot_legs.h"
 
@@ -46,7 +47,7 @@ class Surveyor {
     const double scale = ScaleOf(model.legs[0]);
     for (const ArmTurn& turn : KeepArmsOff(draft_.urdf, draft_.legs.waist, draft_.posture, model,
                                            gaps, kArmsApart * scale)) {
-      draft_.posture[static_cast<size_t>(turn.joint)] = turn.angle;
+      Nth(draft_.posture, turn.joint) = turn.angle;
       draft_.why_posture[turn.joint] = turn.why;
     }
     return draft_;
@@ -145,7 +146,7 @@ class Surveyor {
     double sum = 0.0;
     for (const RobotBody& body : bodies) {
       if (body.leg < 0 || body.link > 4) continue;
-      const Leg& leg = legs_[static_cast<size_t>(body.leg)];
+      const Leg& leg = Nth(legs_, body.leg);
       const auto i = static_cast<size_t>(body.link);
       const CollisionShape shape(body.shape), point(MakeSphere(1e-3));
       for (const size_t joint : {i, i + 1}) {

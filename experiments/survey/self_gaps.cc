@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "smoothing/walk/superposed_walk.h"
+#include "wpg/nth.h"
 #include "wpg/robot/robot_measures.h"
 
 namespace halfstep {
@@ -81,8 +82,7 @@ SelfGaps::SelfGaps(const RobotModel& robot, std::vector<Posture> postures)
 
 double SelfGaps::Distance(int a, const Eigen::Isometry3d& X_Wa, int b,
                           const Eigen::Isometry3d& X_Wb, double enough) const {
-  const CollisionShape &first = shapes_[static_cast<size_t>(a)],
-                       &second = shapes_[static_cast<size_t>(b)];
+  const CollisionShape &first = Nth(shapes_, a), &second = Nth(shapes_, b);
   const double apart =
       (X_Wa * first.center() - X_Wb * second.center()).norm() - first.radius() - second.radius();
   return apart > enough ? enough : Separate(first, X_Wa, second, X_Wb).distance;
@@ -94,7 +94,7 @@ std::vector<SelfGap> SelfGaps::Nearer(double enough) const {
     SelfGap gap{a, b, enough, enough};
     for (size_t i = 0; i < postures_.size(); ++i) {
       const auto X = [&](int body) -> const Eigen::Isometry3d& {
-        return postures_[i].OfBody(robot_.bodies[static_cast<size_t>(body)]);
+        return postures_[i].OfBody(Nth(robot_.bodies, body));
       };
       const double distance = Distance(a, X(a), b, X(b), enough);
       if (i == 0) gap.standing = distance;

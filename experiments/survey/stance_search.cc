@@ -15,6 +15,7 @@
 #include "experiments/survey/touching_neighbours.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/text.h"
+#include "wpg/nth.h"
 #include "wpg/robot/robot_legs.h"
 #include "wpg/robot/robot_measures.h"
 #include "wpg/robot/torque_limits.h"
@@ -121,7 +122,7 @@ class StanceSearch {
         BodiesOfLimbs(draft_.urdf, draft_.legs.waist, draft_.posture, model);
     std::vector<SelfGap> gaps = SelfGaps(model, WalkedPostures(model)).Nearer(kTouchByDesign);
     std::erase_if(gaps, [&](const SelfGap& gap) {
-      if (of_limb[static_cast<size_t>(gap.a)] || of_limb[static_cast<size_t>(gap.b)]) return true;
+      if (Nth(of_limb, gap.a) || Nth(of_limb, gap.b)) return true;
       return !AreOfBothLegs(model, gap) &&
              LegJointsBetween(draft_.urdf, draft_.legs, model, gap) <= 2;
     });
@@ -131,8 +132,7 @@ class StanceSearch {
   using LinkPair = std::array<std::string, 2>;
 
   static LinkPair LinksOf(const RobotModel& model, const SelfGap& gap) {
-    return {LinkOf(model.bodies[static_cast<size_t>(gap.a)]),
-            LinkOf(model.bodies[static_cast<size_t>(gap.b)])};
+    return {LinkOf(Nth(model.bodies, gap.a)), LinkOf(Nth(model.bodies, gap.b))};
   }
 
   // Of these gaps, the links, not of both legs, whose bodies stand so near that they touch by
@@ -244,8 +244,7 @@ class StanceSearch {
               i == 0 ? "left" : "right", standing.width, 100 * standing.bend);
         }
         for (size_t k = 0; k < 6; ++k) {
-          draft_.posture[static_cast<size_t>(draft_.legs.joints[i][k])] =
-              (*q)[static_cast<Eigen::Index>(k)];
+          Nth(draft_.posture, draft_.legs.joints[i][k]) = (*q)[static_cast<Eigen::Index>(k)];
         }
       }
     }
@@ -255,7 +254,7 @@ class StanceSearch {
   // The CoM ahead of the waist in the present posture [m].
   double ComAhead() const {
     const std::vector<Eigen::Isometry3d> X = draft_.urdf.LinkPoses(draft_.posture);
-    const Eigen::Isometry3d X_BRoot = X[static_cast<size_t>(draft_.legs.waist)].inverse();
+    const Eigen::Isometry3d X_BRoot = Nth(X, draft_.legs.waist).inverse();
     double mass = 0.0, moment = 0.0;
     for (size_t i = 0; i < X.size(); ++i) {
       mass += draft_.urdf.links[i].mass;

@@ -4,6 +4,7 @@
 
 #include "experiments/survey/arm_posture.h"
 #include "wpg/files/text.h"
+#include "wpg/nth.h"
 #include "wpg/robot/self_pairs.h"
 
 namespace halfstep {
@@ -16,8 +17,8 @@ bool Names(const ExcludedPair& pair, const std::string& a, const std::string& b)
 }  // namespace
 
 bool AreOfBothLegs(const RobotModel& robot, const SelfGap& gap) {
-  const int a = robot.bodies[static_cast<size_t>(gap.a)].leg;
-  const int b = robot.bodies[static_cast<size_t>(gap.b)].leg;
+  const int a = Nth(robot.bodies, gap.a).leg;
+  const int b = Nth(robot.bodies, gap.b).leg;
   return a >= 0 && b >= 0 && a != b;
 }
 
@@ -25,9 +26,7 @@ std::string LinkOf(const RobotBody& body) { return body.name.substr(0, body.name
 
 int LegJointsBetween(const UrdfTree& urdf, const FoundLegs& legs, const RobotModel& robot,
                      const SelfGap& gap) {
-  const auto link = [&](int body) {
-    return urdf.FindLink(LinkOf(robot.bodies[static_cast<size_t>(body)]));
-  };
+  const auto link = [&](int body) { return urdf.FindLink(LinkOf(Nth(robot.bodies, body))); };
   int count = 0;
   for (const int joint : JointsBetween(urdf, link(gap.a), link(gap.b))) {
     for (const auto& leg : legs.joints) {

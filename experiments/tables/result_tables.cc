@@ -6,6 +6,7 @@
 #include "experiments/tables/parameter_tables.h"
 #include "smoothing/proof/sampled_feasibility.h"
 #include "smoothing/walk/footstep_families.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -46,10 +47,10 @@ CsvFile FootstepsCsv(const HalfStepSequence& sequence) {
     csv.Cell(height).Cell(duration).EndRow();
   };
   for (Side side : {Side::kLeft, Side::kRight}) {
-    row(0, side, sequence.start[static_cast<size_t>(Index(side))], 0.0, 0.0);
+    row(0, side, Nth(sequence.start, Index(side)), 0.0, 0.0);
   }
   for (int step = 0; step < sequence.num_steps(); ++step) {
-    const PlacedHalfStep& down = sequence.half_steps[static_cast<size_t>(2 * step + 1)];
+    const PlacedHalfStep& down = Nth(sequence.half_steps, 2 * step + 1);
     row(step + 1, down.half_step.swing(), down.X_WS * down.half_step.X_SF,
         down.half_step.via_height, down.half_step.duration);
   }
@@ -120,7 +121,7 @@ CsvFile ParetoCsv(const MarginEvaluator& evaluator, const HalfStepSequence& sequ
     const SuperposedWalk walk(sequence, point.parameters);
     const MarginSet margins = SampleMargins(evaluator, walk, kPeriod, &scratch);
     for (const MarginFamily family : evaluator.families()) {
-      csv.Cell(margins[static_cast<size_t>(family)].value);
+      csv.Cell(Nth(margins, family).value);
     }
     csv.EndRow();
   }

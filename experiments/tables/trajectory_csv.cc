@@ -6,6 +6,7 @@
 #include "experiments/tables/csv_writer.h"
 #include "experiments/tables/result_tables.h"
 #include "wpg/motion/posture.h"
+#include "wpg/nth.h"
 #include "wpg/robot/acceleration_limits.h"
 
 namespace halfstep {
@@ -59,7 +60,7 @@ void WriteRow(const MarginEvaluator& evaluator, const SuperposedWalk& walk, doub
     std::visit([csv](const auto& value) { csv->Cell(value); }, cell);
   }
   for (const auto& [family, column] : MarginColumnsOf(evaluator.robot())) {
-    csv->Cell(margins[static_cast<size_t>(family)].value);
+    csv->Cell(Nth(margins, family).value);
   }
   csv->EndRow();
 }
@@ -159,7 +160,7 @@ void SampleTrajectory(const MarginEvaluator& evaluator, const HalfStepSequence& 
     const int step = walk.StepInAir(at);
     if (step >= 0) {
       const int z = FootIndex(walk.half_step(2 * step).swing()) + 2;
-      double& highest = apex[static_cast<size_t>(step)];
+      double& highest = Nth(apex, step);
       highest = std::max(highest, walk.At(at).value[z]);
     }
     WriteRow(evaluator, walk, t, margins, &csv);

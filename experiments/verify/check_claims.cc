@@ -10,6 +10,7 @@
 #include "experiments/verify/joint_accelerations.h"
 #include "experiments/verify/tolerances.h"
 #include "wpg/files/text.h"
+#include "wpg/nth.h"
 
 namespace halfstep::verify {
 namespace {
@@ -50,7 +51,7 @@ class Claims {
     if (row.family <= kFootYawRate && subject.first < 0) return "no foot is named";
     if (row.family == kGround) {
       if (subject.first < 0) return "no body is named";
-      if (verify::IsOnFoot(robot_.bodies[static_cast<size_t>(subject.first)])) {
+      if (verify::IsOnFoot(Nth(robot_.bodies, subject.first))) {
         return "a foot may touch the floor: it has no margin";
       }
     }
@@ -146,13 +147,11 @@ class Claims {
                std::abs(walk_.JointSpeeds(t)[side][s.second]);
       }
       case kGround:
-        return LowestPoint(robot_.bodies[static_cast<size_t>(s.first)],
-                           PlaceRobot(robot_, walk_.Row(t)));
+        return LowestPoint(Nth(robot_.bodies, s.first), PlaceRobot(robot_, walk_.Row(t)));
       case kNoStep: {
         const PlayedRow row = walk_.Row(t);
         return row.Stands(s.first)
-                   ? FromArea(robot_, row.X_WS(s.first),
-                              distances_.scene().no_step[static_cast<size_t>(s.second)])
+                   ? FromArea(robot_, row.X_WS(s.first), Nth(distances_.scene().no_step, s.second))
                    : kNoLimit;
       }
       case kSelfClearance:

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "wpg/nth.h"
+
 namespace halfstep::verify {
 namespace {
 
@@ -104,10 +106,10 @@ bool CheckGrantNumbers(const EpisodeText& episode, const EpisodeWalks& all, Find
     const GrantRow& grant = episode.grants[g];
     if (grant.walk >= static_cast<int>(all.walks.size())) {
       grants.Add(LineOfGrant(g) + Formatted("there is no walk %d", grant.walk));
-    } else if (grant.through > all.walks[static_cast<size_t>(grant.walk)].num_half_steps()) {
-      grants.Add(LineOfGrant(g) +
-                 Formatted("through half-step %d, but walk %d has %d", grant.through, grant.walk,
-                           all.walks[static_cast<size_t>(grant.walk)].num_half_steps()));
+    } else if (grant.through > Nth(all.walks, grant.walk).num_half_steps()) {
+      grants.Add(LineOfGrant(g) + Formatted("through half-step %d, but walk %d has %d",
+                                            grant.through, grant.walk,
+                                            Nth(all.walks, grant.walk).num_half_steps()));
     }
     if (grant.world >= static_cast<int>(episode.worlds.size())) {
       grants.Add(LineOfGrant(g) + Formatted("there is no world %d", grant.world));
@@ -138,7 +140,7 @@ void CheckEpisodeGrants(const EpisodeText& episode, const EpisodeWalks& all, Fin
   for (size_t i = 0; i < episode.begun.size(); ++i) {
     const BegunRow& row = episode.begun[i];
     const std::string fault =
-        WhyNot(episode, all, static_cast<int>(i), episode.grants[static_cast<size_t>(row.grant)]);
+        WhyNot(episode, all, static_cast<int>(i), Nth(episode.grants, row.grant));
     if (fault.empty()) continue;
     findings->Disagree(Formatted("begun.csv:%zu: half-step %d: ", i + 2, row.half_step) + fault);
   }

@@ -7,6 +7,7 @@
 
 #include "experiments/verify/check_rows.h"
 #include "experiments/verify/check_walk.h"
+#include "wpg/nth.h"
 
 namespace halfstep::verify {
 namespace {
@@ -122,8 +123,8 @@ void CheckEpisodeEnding(const EpisodeText& episode, const EpisodeManifest& manif
   }
   const auto& [down, X_WS] = all.planned.back().half_steps[begun - 1];
   std::array<Pose2, 2> feet;
-  feet[static_cast<size_t>(Index(down.support))] = X_WS.Planar();
-  feet[static_cast<size_t>(Index(down.swing()))] = (X_WS * down.X_SF).Planar();
+  Nth(feet, Index(down.support)) = X_WS.Planar();
+  Nth(feet, Index(down.swing())) = (X_WS * down.X_SF).Planar();
   if (!StandsInGoal(feet, goal, episode.worlds.back().goal)) {
     wrong(Formatted("its last stance is not in the goal of world %d", episode.worlds.back().world));
   }

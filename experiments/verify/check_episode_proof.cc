@@ -12,6 +12,7 @@
 #include "experiments/verify/check_episode_worlds.h"
 #include "experiments/verify/check_played.h"
 #include "experiments/verify/distances.h"
+#include "wpg/nth.h"
 
 namespace halfstep::verify {
 namespace {
@@ -89,7 +90,7 @@ void CheckEpisodeProof(const EpisodeText& episode, const DescribedWalk& walk, co
   Reached nearest;
   nearest.spare = std::numeric_limits<double>::infinity();
   for (const BegunRow& begun : episode.begun) {
-    const GrantRow& grant = episode.grants[static_cast<size_t>(begun.grant)];
+    const GrantRow& grant = Nth(episode.grants, begun.grant);
     if (!world || grant.world != of_world) {
       world = std::make_unique<KnownWorld>(
           walk.robot(), SceneOfWorld(episode, scene, static_cast<size_t>(grant.world)));

@@ -5,6 +5,8 @@
 #include <map>
 #include <set>
 
+#include "wpg/nth.h"
+
 namespace halfstep::verify {
 namespace {
 
@@ -39,7 +41,7 @@ class Worlds {
       : episode_(episode), options_(options), scene_(scene), of_world_(episode.worlds.size()) {
     for (size_t i = 0; i < episode.obstacles.size(); ++i) {
       const ObstacleRow& row = episode.obstacles[i];
-      of_world_[static_cast<size_t>(row.world)][row.name] = i;
+      Nth(of_world_, row.world)[row.name] = i;
       radius_.try_emplace(row.name, RadiusAboutOrigin(Named(scene, row.name)->shape));
     }
   }
@@ -74,7 +76,7 @@ class Worlds {
         const auto stay = first.find(name);
         if (stay == first.end()) continue;
         const ObstacleRow& before = episode_.obstacles[stay->second];
-        const double since = episode_.worlds[static_cast<size_t>(before.world)].measured;
+        const double since = Nth(episode_.worlds, before.world).measured;
         const double stayed = episode_.worlds[w].measured - since;
         const double allowed = 2 * options_.sensing.error + options_.drift * stayed;
         if (Moved(before, row, radius_.at(name)) > allowed + kPlaceRounding) continue;

@@ -1,5 +1,7 @@
 #include "experiments/verify/claim_subjects.h"
 
+#include "wpg/nth.h"
+
 namespace halfstep::verify {
 
 ClaimSubjects::ClaimSubjects(const RobotModel& robot, const Distances& distances) {
@@ -9,8 +11,7 @@ ClaimSubjects::ClaimSubjects(const RobotModel& robot, const Distances& distances
     for (Family f : {kFloor, kFootSpeed, kFootYawRate}) subjects[f][side + " foot"] = {s, 0};
     subjects[kReach][side + " leg"] = {s, 0};
     for (int j = 0; j < 6; ++j) {
-      const std::string& name =
-          robot.legs[static_cast<size_t>(s)].joints[static_cast<size_t>(j)].name;
+      const std::string& name = Nth(Nth(robot.legs, s).joints, j).name;
       subjects[kJoint][name] = subjects[kJointSpeed][name] = subjects[kTorque][name] = {s, j};
       subjects[kJointAcceleration][name] = {s, j};
     }

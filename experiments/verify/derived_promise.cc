@@ -8,6 +8,7 @@
 #include "experiments/verify/check_episode_worlds.h"
 #include "experiments/verify/derived_touches.h"
 #include "wpg/files/text.h"
+#include "wpg/nth.h"
 
 namespace halfstep::verify {
 namespace {
@@ -33,8 +34,8 @@ std::vector<Stretch> StretchesOf(const PromiseRecord& record) {
       double& before = stretches.back().time.second;
       before = std::min(before, begin);
     }
-    stretches.push_back({{begin, std::min(rests, record.end)},
-                         record.episode.grants[static_cast<size_t>(begun.grant)].world});
+    stretches.push_back(
+        {{begin, std::min(rests, record.end)}, Nth(record.episode.grants, begun.grant).world});
   }
   return stretches;
 }

@@ -10,6 +10,7 @@
 #include "wpg/check.h"
 #include "wpg/motion/moved_footsteps.h"
 #include "wpg/motion/posture.h"
+#include "wpg/nth.h"
 
 namespace halfstep::verify {
 
@@ -47,7 +48,7 @@ DescribedWalk DescribedWalk::StopBranch(int last) const {
 }
 
 std::pair<double, double> DescribedWalk::WindowOf(int half_step) const {
-  const Piece& piece = pieces_[static_cast<size_t>(half_step)];
+  const Piece& piece = Nth(pieces_, half_step);
   return {piece.start, piece.start + piece.profiles.duration()};
 }
 
@@ -90,7 +91,7 @@ int DescribedWalk::StepInAir(double t) const {
 Support DescribedWalk::SupportAt(double t) const {
   const int step = StepInAir(t);
   if (step < 0) return Support::kBoth;
-  return static_cast<Support>(Index(pieces_[2 * static_cast<size_t>(step)].half_step.support));
+  return static_cast<Support>(Index(Nth(pieces_, 2 * step).half_step.support));
 }
 
 int DescribedWalk::HalfStepAt(double t) const {

@@ -8,6 +8,7 @@
 #include "experiments/verify/played_motion.h"
 #include "experiments/verify/walk_text.h"
 #include "wpg/motion/half_step_sequence.h"
+#include "wpg/nth.h"
 #include "wpg/robot/robot_model.h"
 
 namespace halfstep::verify {
@@ -48,7 +49,7 @@ class DescribedWalk {
   int num_half_steps() const { return static_cast<int>(pieces_.size()); }  ///< n
   /// Whether it is an up half-step, from 0.
   bool IsUp(int half_step) const {
-    return pieces_[static_cast<size_t>(half_step)].half_step.kind == HalfStepKind::kUp;
+    return Nth(pieces_, half_step).half_step.kind == HalfStepKind::kUp;
   }
   /// When a half-step, counted from 0, begins and ends [s].
   std::pair<double, double> WindowOf(int half_step) const;

@@ -6,6 +6,7 @@
 
 #include "experiments/verify/check_rows.h"
 #include "wpg/geometry/support_polygon.h"
+#include "wpg/nth.h"
 
 namespace halfstep::verify {
 namespace {
@@ -39,7 +40,7 @@ std::array<Push, 2> FootForces(const RobotModel& robot, const PlayedRow& row,
                                const RobotMomentum& momentum) {
   std::array<Push, 2> feet;
   if (row.support != Support::kBoth) {
-    feet[static_cast<size_t>(row.support)] = momentum.floor;
+    Nth(feet, row.support) = momentum.floor;
     return feet;
   }
   const Vector2d zmp = momentum.Zmp();

@@ -7,6 +7,7 @@
 #include "experiments/verify/tolerances.h"
 #include "wpg/files/text.h"
 #include "wpg/motion/posture.h"
+#include "wpg/nth.h"
 #include "wpg/robot/acceleration_limits.h"
 
 namespace halfstep::verify {
@@ -32,8 +33,7 @@ std::array<Vector6d, 2> JointAccelerations(const DescribedWalk& walk, double t) 
     const double s = k * step;
     const Posture posture =
         SolvePosture(walk.robot(), jet.value + s * jet.first + 0.5 * s * s * jet.second);
-    const double weight =
-        posture.reachable ? kWeights[static_cast<size_t>(std::abs(k))] : std::nan("");
+    const double weight = posture.reachable ? Nth(kWeights, std::abs(k)) : std::nan("");
     for (size_t side = 0; side < 2; ++side) sum[side] += weight * posture.ik[side].q;
   }
   for (Vector6d& of_leg : sum) of_leg /= step * step;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wpg/nth.h"
+
 namespace halfstep::verify {
 namespace {
 
@@ -57,7 +59,7 @@ struct Corral {
     const Eigen::Index n = static_cast<Eigen::Index>(points.size());
     if (n == 1) return {1};
     Eigen::Matrix<Long, 3, Eigen::Dynamic, 0, 3, 4> D(3, n - 1);
-    for (Eigen::Index i = 1; i < n; ++i) D.col(i - 1) = points[static_cast<size_t>(i)] - points[0];
+    for (Eigen::Index i = 1; i < n; ++i) D.col(i - 1) = Nth(points, i) - points[0];
     // Columns of length one, so that long and short edges count alike.
     const Eigen::Matrix<Long, Eigen::Dynamic, 1, 0, 4, 1> lengths = D.colwise().norm().transpose();
     for (Eigen::Index i = 0; i + 1 < n; ++i) D.col(i) /= lengths[i];
@@ -68,7 +70,7 @@ struct Corral {
     std::vector<Long> weights(points.size());
     weights[0] = 1;
     for (Eigen::Index i = 1; i < n; ++i) {
-      weights[static_cast<size_t>(i)] = y[i - 1] / lengths[i - 1];
+      Nth(weights, i) = y[i - 1] / lengths[i - 1];
       weights[0] -= y[i - 1] / lengths[i - 1];
     }
     return weights;

@@ -5,6 +5,7 @@
 
 #include "experiments/verify/csv_text.h"
 #include "wpg/check.h"
+#include "wpg/nth.h"
 #include "wpg/robot/acceleration_limits.h"
 
 namespace halfstep::verify {
@@ -78,7 +79,7 @@ std::pair<size_t, double> PlayedMotion::Locate(double t) const {
   const auto after = std::upper_bound(rows_.begin(), rows_.end(), t,
                                       [](double at, const PlayedRow& row) { return at < row.t; });
   const auto i = std::clamp<std::ptrdiff_t>(after - rows_.begin() - 1, 0, std::ssize(rows_) - 2);
-  const PlayedRow &a = rows_[static_cast<size_t>(i)], &b = rows_[static_cast<size_t>(i) + 1];
+  const PlayedRow &a = Nth(rows_, i), &b = rows_[static_cast<size_t>(i) + 1];
   return {static_cast<size_t>(i), std::clamp((t - a.t) / (b.t - a.t), 0.0, 1.0)};
 }
 
@@ -119,7 +120,7 @@ double FarthestFrom(const ConvexBody& body, const Eigen::Vector3d& point) {
 // Any point of a joint's axis serves; the one nearest to the hip keeps the sums small, for the
 // three hip axes meet there or pass near.
 std::array<double, 6> PlayedMotion::Radii(const RobotBody& body) const {
-  const Leg& leg = robot_.legs[static_cast<size_t>(body.leg)];
+  const Leg& leg = Nth(robot_.legs, body.leg);
   std::array<Eigen::Vector3d, 6> on_axis;  // at the zero posture, where links keep their distances
   for (size_t j = 0; j < 6; ++j) {
     const LegJoint& joint = leg.joints[j];
@@ -170,11 +171,10 @@ std::vector<double> PlayedMotion::PathInWorld(const RobotBody& body) const {
     }
     lever += body.shape.disc_radius + body.shape.ball_radius;
   } else {
-    const LegJoint& first = robot_.legs[static_cast<size_t>(body.leg)].joints[0];
+    const LegJoint& first = Nth(robot_.legs, body.leg).joints[0];
     const Eigen::Vector3d hip =
         first.point_B +
-        first.axis_B *
-            first.axis_B.dot(robot_.legs[static_cast<size_t>(body.leg)].hip_B - first.point_B);
+        first.axis_B * first.axis_B.dot(Nth(robot_.legs, body.leg).hip_B - first.point_B);
     lever = hip.head<2>().norm() + Radii(body)[0];
   }
   double waist = 0;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "wpg/geometry/pose2.h"
+#include "wpg/nth.h"
 #include "wpg/robot/robot_model.h"
 
 namespace halfstep::verify {
@@ -44,7 +45,7 @@ struct PlayedRow {
 
   /// Place of a sole, in W, seen from above.
   Pose2 X_WS(int side) const {
-    const Eigen::Vector4d& s = soles[static_cast<size_t>(side)];
+    const Eigen::Vector4d& s = Nth(soles, side);
     return {s[0], s[1], s[3]};
   }
   /// Whether the foot of that side carries.
@@ -72,8 +73,7 @@ struct Placement {
   }
   /// Pose of a body in the waist frame B.
   Eigen::Isometry3d OfBody_B(const RobotBody& body) const {
-    return body.leg < 0 ? Eigen::Isometry3d::Identity()
-                        : X_BLink[static_cast<size_t>(body.leg)][static_cast<size_t>(body.link)];
+    return body.leg < 0 ? Eigen::Isometry3d::Identity() : Nth(Nth(X_BLink, body.leg), body.link);
   }
 };
 

@@ -7,6 +7,8 @@
 #include <set>
 #include <utility>
 
+#include "wpg/nth.h"
+
 namespace halfstep::verify {
 namespace {
 
@@ -124,31 +126,31 @@ void Solid::FindParts(const TriangleMesh& mesh) {
     place.push_back(found->second);
   }
   const auto root = [&](int i) {
-    while (parent[static_cast<size_t>(i)] != i) {
-      int& up = parent[static_cast<size_t>(i)];
-      up = parent[static_cast<size_t>(up)];
+    while (Nth(parent, i) != i) {
+      int& up = Nth(parent, i);
+      up = Nth(parent, up);
       i = up;
     }
     return i;
   };
   for (const Eigen::Vector3i& t : mesh.triangles.colwise()) {
-    const int first = root(place[static_cast<size_t>(t[0])]);
-    parent[static_cast<size_t>(root(place[static_cast<size_t>(t[1])]))] = first;
-    parent[static_cast<size_t>(root(place[static_cast<size_t>(t[2])]))] = first;
+    const int first = root(Nth(place, t[0]));
+    Nth(parent, root(Nth(place, t[1]))) = first;
+    Nth(parent, root(Nth(place, t[2]))) = first;
   }
   std::map<int, size_t> part_of;
   std::set<std::array<int, 3>> seen;
   for (Eigen::Index i = 0; i < mesh.triangles.cols(); ++i) {
     std::array<int, 3> corners{};
     for (Eigen::Index k = 0; k < 3; ++k) {
-      corners[static_cast<size_t>(k)] = place[static_cast<size_t>(mesh.triangles(k, i))];
+      Nth(corners, k) = Nth(place, mesh.triangles(k, i));
     }
     std::ranges::sort(corners);
     if (!seen.insert(corners).second) continue;
-    const int its = root(place[static_cast<size_t>(mesh.triangles(0, i))]);
+    const int its = root(Nth(place, mesh.triangles(0, i)));
     const auto [found, fresh] = part_of.try_emplace(its, parts_.size());
     if (fresh) parts_.emplace_back();
-    parts_[found->second].triangles.push_back(triangles_[static_cast<size_t>(i)]);
+    parts_[found->second].triangles.push_back(Nth(triangles_, i));
   }
   std::vector<Eigen::AlignedBox3d> around;
   for (Part& part : parts_) {

@@ -12,6 +12,7 @@
 #include "experiments/verify/verify_method.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/text.h"
+#include "wpg/nth.h"
 
 namespace halfstep::verify {
 namespace {
@@ -128,7 +129,7 @@ std::string Summary(const MethodVerification& result) {
   text += "NOT verified\n";
   const std::ptrdiff_t told = std::min(kMost, std::ssize(result.reasons));
   for (std::ptrdiff_t i = 0; i < told; ++i) {
-    text += "  " + result.reasons[static_cast<size_t>(i)] + "\n";
+    text += "  " + Nth(result.reasons, i) + "\n";
   }
   const long more = result.disagreements - told;
   return text + (more > 0 ? "  … and " + Count(more) + " more\n" : "");

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "wpg/check.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 
@@ -30,8 +31,8 @@ BoundsTree::BoundsTree(const std::vector<Eigen::AlignedBox3d>& boxes, int32_t le
     const auto begin = order.begin() + task.first, end = begin + task.count;
     Eigen::AlignedBox3d around, of_middles;
     for (auto i = begin; i != end; ++i) {
-      around.extend(boxes[static_cast<size_t>(*i)]);
-      of_middles.extend(middles[static_cast<size_t>(*i)]);
+      around.extend(Nth(boxes, *i));
+      of_middles.extend(Nth(middles, *i));
     }
     Node node{.center = around.center(), .half = {}, .first = task.first, .count = task.count};
     // From the rounded centre, so that the box holds both ends.
@@ -41,8 +42,8 @@ BoundsTree::BoundsTree(const std::vector<Eigen::AlignedBox3d>& boxes, int32_t le
       of_middles.sizes().maxCoeff(&axis);
       const int32_t below = task.count / 2;
       std::nth_element(begin, begin + below, end, [&](int32_t a, int32_t b) {
-        const double at_a = middles[static_cast<size_t>(a)][axis];
-        const double at_b = middles[static_cast<size_t>(b)][axis];
+        const double at_a = Nth(middles, a)[axis];
+        const double at_b = Nth(middles, b)[axis];
         return at_a < at_b || (at_a == at_b && a < b);
       });
       node.left = static_cast<int32_t>(nodes.size());
@@ -51,7 +52,7 @@ BoundsTree::BoundsTree(const std::vector<Eigen::AlignedBox3d>& boxes, int32_t le
       tasks.push_back({node.left, task.first, below});
       tasks.push_back({node.left + 1, task.first + below, task.count - below});
     }
-    nodes[static_cast<size_t>(task.node)] = node;
+    Nth(nodes, task.node) = node;
   }
 }
 

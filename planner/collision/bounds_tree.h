@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "wpg/nth.h"
+
 namespace halfstep {
 
 /// A tree of boxes along the axes over items that are known by their own such boxes, so that a
@@ -41,7 +43,7 @@ struct BoundsTree {
     int top = 0;
     stack[top++] = 0;
     while (top > 0) {
-      const Node& node = nodes[static_cast<size_t>(stack[--top])];
+      const Node& node = Nth(nodes, stack[--top]);
       if (!(Gap(node, p) <= widened)) continue;
       if (node.left >= 0) {
         stack[top++] = node.left + 1;
@@ -49,7 +51,7 @@ struct BoundsTree {
         continue;
       }
       for (int32_t i = node.first; i < node.first + node.count; ++i) {
-        visit(order[static_cast<size_t>(i)]);
+        visit(Nth(order, i));
       }
     }
   }

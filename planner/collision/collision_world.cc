@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "wpg/check.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -65,7 +66,7 @@ CollisionWorld::CollisionWorld(const Scene& scene)
     entries_.push_back({obstacle.X_WO, obstacle.motion, obstacle.speed(), radius, still,
                         BoundsOf(obstacle.shape, obstacle.X_WO)});
     if (const auto* mesh = std::get_if<TriangleMesh>(&obstacle.shape)) {
-      shapes_->made[static_cast<size_t>(index)].emplace(*mesh);
+      Nth(shapes_->made, index).emplace(*mesh);
       shapes_->shapes.emplace_back();
     } else {
       shapes_->shapes.push_back(obstacle.shape);
@@ -107,7 +108,7 @@ CollisionWorld::Nearest CollisionWorld::FindNearest(const CollisionShape& body,
     if (bound < std::max(least, 0.0)) candidates.emplace(bound, is_obstacle, index);
   };
   const auto add_obstacle = [&](int i) {
-    const Entry& entry = entries_[static_cast<size_t>(i)];
+    const Entry& entry = Nth(entries_, i);
     add(ToBox(center_W, entry.bounds_W).norm() - body.radius() -
             (Moved(entry, t) + Taken(entry, t, half_width)),
         true, i);
@@ -115,7 +116,7 @@ CollisionWorld::Nearest CollisionWorld::FindNearest(const CollisionShape& body,
   const double taken = body.radius() + uncertainty_.Most(t, half_width) +
                        1e-12 * (1.0 + center_W.norm() + tree_.Farthest());
   const auto add_node = [&](int n) {
-    add(BoundsTree::Gap(tree_.nodes[static_cast<size_t>(n)], center_W) - taken, false, n);
+    add(BoundsTree::Gap(Nth(tree_.nodes, n), center_W) - taken, false, n);
   };
   for (const int i : on_the_way_) add_obstacle(i);
   if (!tree_.nodes.empty()) add_node(0);
@@ -124,18 +125,18 @@ CollisionWorld::Nearest CollisionWorld::FindNearest(const CollisionShape& body,
     if (bound >= std::max(least, 0.0)) break;
     candidates.pop();
     if (!is_obstacle) {
-      const BoundsTree::Node& node = tree_.nodes[static_cast<size_t>(i)];
+      const BoundsTree::Node& node = Nth(tree_.nodes, i);
       if (node.left >= 0) {
         add_node(node.left);
         add_node(node.left + 1);
         continue;
       }
       for (int32_t k = node.first; k < node.first + node.count; ++k) {
-        add_obstacle(in_tree_[static_cast<size_t>(tree_.order[static_cast<size_t>(k)])]);
+        add_obstacle(Nth(in_tree_, Nth(tree_.order, k)));
       }
       continue;
     }
-    const Entry& entry = entries_[static_cast<size_t>(i)];
+    const Entry& entry = Nth(entries_, i);
     const double off = Taken(entry, t, half_width);
     // Rounding must not make what is not looked at the nearest.
     const Separation separation =
@@ -158,10 +159,10 @@ bool CollisionWorld::Clears(const CollisionShape& body, const Eigen::Isometry3d&
   near = on_the_way_;
   tree_.ForEachNear(center_W,
                     std::max(body.radius() + clearance + uncertainty_.Most(t, half_width), 0.0),
-                    [&](int32_t i) { near.push_back(in_tree_[static_cast<size_t>(i)]); });
+                    [&](int32_t i) { near.push_back(Nth(in_tree_, i)); });
   std::sort(near.begin(), near.end());
   for (const int i : near) {
-    const Entry& entry = entries_[static_cast<size_t>(i)];
+    const Entry& entry = Nth(entries_, i);
     const double distance = clearance + Taken(entry, t, half_width);
     const double reach = body.radius() + distance + Moved(entry, t);
     const double distance2 = ToBox(center_W, entry.bounds_W).squaredNorm();

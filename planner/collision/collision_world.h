@@ -8,6 +8,7 @@
 #include "planner/collision/bounds_tree.h"
 #include "planner/collision/separation.h"
 #include "planner/scene/scene.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 
@@ -40,7 +41,7 @@ class CollisionWorld {
 
   int num_obstacles() const { return static_cast<int>(entries_.size()); }  ///< those of the scene
   /// The margin of an obstacle changes at no more than this speed [m/s] (Obstacle::speed).
-  double speed(int obstacle) const { return entries_[static_cast<size_t>(obstacle)].speed; }
+  double speed(int obstacle) const { return Nth(entries_, obstacle).speed; }
 
   /// The obstacle with the least margin to the body at X_WB at the worst of the times [t −
   /// half_width, t + half_width] as its speed bounds it, among those where that is below `horizon`

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "wpg/geometry/triangle_weights.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -43,8 +44,7 @@ struct Simplex {
 
   Vector3d Nearest() const {
     Vector3d v = Vector3d::Zero();
-    for (int i = 0; i < size; ++i)
-      v += weight[static_cast<size_t>(i)] * corner[static_cast<size_t>(i)].w;
+    for (int i = 0; i < size; ++i) v += Nth(weight, i) * Nth(corner, i).w;
     return v;
   }
   void Keep(std::array<int, 3> which, std::array<double, 3> weights) {
@@ -52,8 +52,8 @@ struct Simplex {
     int n = 0;
     for (size_t i = 0; i < 3; ++i) {
       if (which[i] < 0 || !(weights[i] > 0)) continue;
-      kept[static_cast<size_t>(n)] = corner[static_cast<size_t>(which[i])];
-      weight[static_cast<size_t>(n++)] = weights[i];
+      Nth(kept, n) = Nth(corner, which[i]);
+      Nth(weight, n++) = weights[i];
     }
     std::copy(kept.begin(), kept.begin() + n, corner.begin());
     size = n;
@@ -78,8 +78,8 @@ bool Reduce(Simplex* s) {
     std::array<int, 3> best_face{};
     std::array<double, 3> best_weights{};
     for (const auto& face : kFaces) {
-      const Vector3d &a = p[static_cast<size_t>(face[0])].w, &b = p[static_cast<size_t>(face[1])].w;
-      const Vector3d &c = p[static_cast<size_t>(face[2])].w, &d = p[static_cast<size_t>(face[3])].w;
+      const Vector3d &a = Nth(p, face[0]).w, &b = Nth(p, face[1]).w;
+      const Vector3d &c = Nth(p, face[2]).w, &d = Nth(p, face[3]).w;
       const Vector3d normal = (b - a).cross(c - a);
       const double here = -normal.dot(a), there = normal.dot(d - a);
       if (here * there > 0) continue;  // the origin lies on the inner side
@@ -140,7 +140,7 @@ class Search {
       if (distance - slab_ < kConverged) break;
       if (slab_ - balls_ >= enough || distance - balls_ < enough) break;
       Simplex next = simplex;
-      next.corner[static_cast<size_t>(next.size++)] = corner;
+      Nth(next.corner, next.size++) = corner;
       if (!Reduce(&next)) {
         apart = false;
         break;

@@ -14,6 +14,7 @@
 #include "planner/collision/triangle_tree.h"
 #include "planner/scene/voxel_set.h"
 #include "wpg/check.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -88,10 +89,8 @@ MeshInterior::Patches::Patches(const TriangleMesh& mesh) {
   for (size_t n = areas.size(); n-- > 0;) {
     const BoundsTree::Node& node = of_open.nodes[n];
     const size_t left = static_cast<size_t>(node.left);
-    areas[n] =
-        node.left >= 0
-            ? areas[left] + areas[left + 1]
-            : open_areas[static_cast<size_t>(of_open.order[static_cast<size_t>(node.first)])];
+    areas[n] = node.left >= 0 ? areas[left] + areas[left + 1]
+                              : Nth(open_areas, Nth(of_open.order, node.first));
   }
 }
 
@@ -99,7 +98,7 @@ MeshInterior::Patches::Patches(const TriangleMesh& mesh) {
 bool MeshInterior::Patches::ClosedContain(const Eigen::Vector3d& point) const {
   bool inside = false;
   of_closed.ForEachNear(point, 0.0, [&](int32_t i) {
-    inside = inside || !(std::abs(closed[static_cast<size_t>(i)].WindingAt(point)) <= kInside);
+    inside = inside || !(std::abs(Nth(closed, i).WindingAt(point)) <= kInside);
   });
   return inside;
 }
@@ -113,10 +112,10 @@ bool MeshInterior::Patches::OpenContain(const Eigen::Vector3d& point) const {
   double bounds = 0;             // of those that are not
   std::priority_queue<std::pair<double, int32_t>> unknown;
   const auto add = [&](int32_t n) {
-    const double far = BoundsTree::Gap(of_open.nodes[static_cast<size_t>(n)], point);
+    const double far = BoundsTree::Gap(Nth(of_open.nodes, n), point);
     // One of 1 is enough to look on; a larger one would leave rounding when it is taken off.
-    const double bound = std::min(
-        areas[static_cast<size_t>(n)] / (4 * std::numbers::pi * std::max(far * far, 1e-12)), 1.0);
+    const double bound =
+        std::min(Nth(areas, n) / (4 * std::numbers::pi * std::max(far * far, 1e-12)), 1.0);
     unknown.emplace(bound, n);
     bounds += bound;
   };
@@ -126,14 +125,14 @@ bool MeshInterior::Patches::OpenContain(const Eigen::Vector3d& point) const {
     const auto [bound, n] = unknown.top();
     unknown.pop();
     bounds = unknown.empty() ? 0.0 : bounds - bound;
-    const BoundsTree::Node& node = of_open.nodes[static_cast<size_t>(n)];
+    const BoundsTree::Node& node = Nth(of_open.nodes, n);
     if (node.left >= 0) {
       add(node.left);
       add(node.left + 1);
       continue;
     }
-    const int32_t patch = of_open.order[static_cast<size_t>(node.first)];
-    const double winding = open[static_cast<size_t>(patch)].WindingAt(point);
+    const int32_t patch = Nth(of_open.order, node.first);
+    const double winding = Nth(open, patch).WindingAt(point);
     if (!(std::abs(winding) <= kInside)) return true;
     sum += winding;
     absolute += std::abs(winding);
@@ -167,7 +166,7 @@ bool MeshInterior::AnyPatch(const Eigen::Vector3d& center, double radius,
                             const std::function<bool(const Eigen::Vector3d&)>& holds) const {
   bool any = false;
   patches().of_points.ForEachNear(center, radius, [&](int32_t i) {
-    const Eigen::Vector3d& point = patches().points[static_cast<size_t>(i)];
+    const Eigen::Vector3d& point = Nth(patches().points, i);
     any = any || ((point - center).norm() <= radius && holds(point));
   });
   return any;

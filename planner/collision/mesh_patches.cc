@@ -9,6 +9,8 @@
 #include <unordered_map>
 #include <utility>
 
+#include "wpg/nth.h"
+
 namespace halfstep {
 namespace {
 
@@ -25,8 +27,7 @@ std::vector<int32_t> Welded(const Eigen::Matrix3Xd& vertices) {
   std::vector<int32_t> welded(order.size());
   for (size_t i = 0; i < order.size(); ++i) {
     const bool again = i > 0 && key(order[i]) == key(order[i - 1]);
-    welded[static_cast<size_t>(order[i])] =
-        again ? welded[static_cast<size_t>(order[i - 1])] : order[i];
+    Nth(welded, order[i]) = again ? Nth(welded, order[i - 1]) : order[i];
   }
   return welded;
 }
@@ -38,7 +39,7 @@ std::vector<Corners> DifferentTriangles(const TriangleMesh& mesh) {
   for (const Eigen::Vector3i& t : mesh.triangles.colwise()) {
     Corners corners{};
     for (int k = 0; k < 3; ++k) {
-      corners[static_cast<size_t>(k)] = welded[static_cast<size_t>(t[k])];
+      Nth(corners, k) = Nth(welded, t[k]);
     }
     Corners sorted = corners;
     std::sort(sorted.begin(), sorted.end());
@@ -85,8 +86,8 @@ std::vector<std::array<Neighbour, 3>> FindNeighbours(const std::vector<Corners>&
     if (end - i != 2) continue;
     const HalfEdge &a = edges[i], &b = edges[i + 1];
     const bool turned = a.upwards == b.upwards;
-    neighbours[static_cast<size_t>(a.triangle)][static_cast<size_t>(a.side)] = {b.triangle, turned};
-    neighbours[static_cast<size_t>(b.triangle)][static_cast<size_t>(b.side)] = {a.triangle, turned};
+    Nth(Nth(neighbours, a.triangle), a.side) = {b.triangle, turned};
+    Nth(Nth(neighbours, b.triangle), b.side) = {a.triangle, turned};
   }
   return neighbours;
 }

@@ -7,6 +7,8 @@
 #include <numbers>
 #include <utility>
 
+#include "wpg/nth.h"
+
 namespace halfstep {
 namespace {
 
@@ -50,7 +52,7 @@ MeshWinding::MeshWinding(const TriangleTree& tree) {
     if (node.left < 0) {
       triangles[n] = node.count;
       for (int32_t i = node.first; i < node.first + node.count; ++i) {
-        const Eigen::Matrix3d& t = tree.triangles[static_cast<size_t>(i)];
+        const Eigen::Matrix3d& t = Nth(tree.triangles, i);
         const int32_t k[3] = {corner(t.col(0)), corner(t.col(1)), corner(t.col(2))};
         for (int e = 0; e < 3; ++e) count(&pending[n], k[e], k[(e + 1) % 3], 1);
       }
@@ -73,7 +75,7 @@ MeshWinding::MeshWinding(const TriangleTree& tree) {
 
 double MeshWinding::At(const TriangleTree& tree, const Vector3d& point) const {
   const auto seen = [&](int32_t corner) -> Vector3d {
-    const Corner& p = corners_[static_cast<size_t>(corner)];
+    const Corner& p = Nth(corners_, corner);
     return Vector3d(p[0], p[1], p[2]) - point;
   };
   double half_angles = 0.0;
@@ -87,7 +89,7 @@ double MeshWinding::At(const TriangleTree& tree, const Vector3d& point) const {
     if (outside && border.count >= 0) {
       if (border.count == 0) continue;
       // The cap: a fan over the border, in the hull of the part.
-      const Edge* edges = &edges_[static_cast<size_t>(border.first)];
+      const Edge* edges = &Nth(edges_, border.first);
       const Vector3d tip = seen(edges[0].from);
       for (int32_t e = 0; e < border.count; ++e) {
         if (edges[e].from == edges[0].from || edges[e].to == edges[0].from) continue;
@@ -98,7 +100,7 @@ double MeshWinding::At(const TriangleTree& tree, const Vector3d& point) const {
       stack.push_back(node.left + 1);
     } else {
       for (int32_t i = node.first; i < node.first + node.count; ++i) {
-        const Eigen::Matrix3d t = tree.triangles[static_cast<size_t>(i)].colwise() - point;
+        const Eigen::Matrix3d t = Nth(tree.triangles, i).colwise() - point;
         half_angles += HalfAngle(t.col(0), t.col(1), t.col(2));
       }
     }

@@ -15,6 +15,7 @@
 #include "planner/collision/mesh_interior.h"
 #include "planner/collision/triangle_surface.h"
 #include "wpg/check.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -66,7 +67,7 @@ ConvexBody MakeCore(const ConvexBody& body) {
   const Eigen::Index n = static_cast<Eigen::Index>(around.size());
   Eigen::Matrix3Xd points(3, n * body.vertices.cols());
   for (Eigen::Index i = 0; i < points.cols(); ++i) {
-    points.col(i) = body.vertices.col(i / n) + around[static_cast<size_t>(i % n)];
+    points.col(i) = body.vertices.col(i / n) + Nth(around, i % n);
   }
   return MakeHull(points);
 }

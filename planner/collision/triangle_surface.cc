@@ -14,6 +14,7 @@
 #include "planner/collision/bounds_tree.h"
 #include "planner/collision/triangle_tree.h"
 #include "wpg/check.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -99,8 +100,7 @@ std::optional<TriangleSurface::Nearest> TriangleSurface::Distance(
   using Bound = std::pair<double, int32_t>;
   std::priority_queue<Bound, std::vector<Bound>, std::greater<>> open;
   const auto add = [&](int32_t n) {
-    const double bound =
-        BoundsTree::Gap(tree.nodes[static_cast<size_t>(n)], center) - radius - rounding;
+    const double bound = BoundsTree::Gap(Nth(tree.nodes, n), center) - radius - rounding;
     if (bound < result.min_distance) open.emplace(bound, n);
   };
   add(0);
@@ -108,7 +108,7 @@ std::optional<TriangleSurface::Nearest> TriangleSurface::Distance(
     const auto [bound, n] = open.top();
     open.pop();
     if (bound >= result.min_distance) break;
-    const BoundsTree::Node& node = tree.nodes[static_cast<size_t>(n)];
+    const BoundsTree::Node& node = Nth(tree.nodes, n);
     if (node.left >= 0) {
       add(node.left);
       add(node.left + 1);

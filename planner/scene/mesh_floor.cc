@@ -4,6 +4,8 @@
 #include <limits>
 #include <vector>
 
+#include "wpg/nth.h"
+
 namespace halfstep {
 namespace {
 
@@ -58,7 +60,7 @@ CutMesh CutFloor(const TriangleMesh& mesh, const Eigen::Isometry3d& X_WO, double
   for (size_t i = 0; i < kept.size(); ++i) {
     for (int k = 0; k < 3; ++k) {
       const int corner = mesh.triangles(k, kept[i]);
-      int& number = own[static_cast<size_t>(corner)];
+      int& number = Nth(own, corner);
       if (number < 0) {
         number = static_cast<int>(used.size());
         used.push_back(corner);

@@ -11,6 +11,7 @@
 #include "planner/scene/simple_polygon.h"
 #include "wpg/check.h"
 #include "wpg/geometry/support_polygon.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -33,7 +34,7 @@ class GridSearch {
       }
       const auto [key, index] = open_.top();
       open_.pop();
-      const Node node = nodes_[static_cast<size_t>(index)];
+      const Node node = Nth(nodes_, index);
       if (node.cost > best_.at(KeyOf(node.cell))) continue;  // reached more cheaply since
       monitor->CountNode();
       const Pose2 X = PoseOf(node.cell);
@@ -42,8 +43,8 @@ class GridSearch {
         continue;
       }
       if (AtGoal(X)) {
-        for (int i = index; i >= 0; i = nodes_[static_cast<size_t>(i)].parent) {
-          result.path.push_back(PoseOf(nodes_[static_cast<size_t>(i)].cell));
+        for (int i = index; i >= 0; i = Nth(nodes_, i).parent) {
+          result.path.push_back(PoseOf(Nth(nodes_, i).cell));
         }
         std::reverse(result.path.begin(), result.path.end());
         return result;

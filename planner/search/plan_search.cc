@@ -4,6 +4,7 @@
 
 #include "wpg/check.h"
 #include "wpg/files/plain_locale.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -51,7 +52,7 @@ void Solve(const PlanRequest& request, const StepGraph& graph, const StepPlan& p
            PlanResult* result) {
   result->status = PlanStatus::kSolved;
   result->footsteps = FootstepsOf(request, graph, plan);
-  for (int k : plan.ks) result->elements.push_back(graph.elements()[static_cast<size_t>(k)]);
+  for (int k : plan.ks) result->elements.push_back(Nth(graph.elements(), k));
   result->cost = plan.cost;
   PlainStream sentence;
   sentence << plan.ks.size() << (plan.ks.size() == 1 ? " footstep" : " footsteps");

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "planner/search/step_tree.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -68,7 +69,7 @@ bool Follow(const Unrolled& path, size_t from, StepState state, StepGraph* graph
     graph->Landings(state, &landings);
     order.clear();
     for (int k = 0; k < graph->size(); ++k) {
-      const Foothold& X_WF = landings[static_cast<size_t>(k)];
+      const Foothold& X_WF = Nth(landings, k);
       if (last && !graph->IsGoal(state, X_WF)) continue;
       if (!last && !graph->workspace().contains(X_WF.Planar().position())) continue;
       order.emplace_back(StateDistance(X_WF.Planar(), path.states[j].X_WS.Planar(), true), k);
@@ -83,7 +84,7 @@ bool Follow(const Unrolled& path, size_t from, StepState state, StepGraph* graph
     if (free == order.end()) return false;
     plan->ks.push_back(free->second);
     plan->cost += graph->cost(free->second);
-    state = {landings[static_cast<size_t>(free->second)], Opposite(state.support)};
+    state = {Nth(landings, free->second), Opposite(state.support)};
   }
   return true;
 }

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "wpg/check.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 
@@ -32,19 +33,17 @@ Eigen::Vector2i StateBuckets::CellOf(const Pose2& X_W) const {
 }
 
 std::vector<StateBuckets::Entry>& StateBuckets::At(const Eigen::Vector2i& cell, Side support) {
-  return cells_[static_cast<size_t>(Index(support))]
-               [static_cast<size_t>(cell.y() * count_.x() + cell.x())];
+  return Nth(cells_, Index(support))[static_cast<size_t>(cell.y() * count_.x() + cell.x())];
 }
 
 const std::vector<StateBuckets::Entry>& StateBuckets::At(const Eigen::Vector2i& cell,
                                                          Side support) const {
-  return cells_[static_cast<size_t>(Index(support))]
-               [static_cast<size_t>(cell.y() * count_.x() + cell.x())];
+  return Nth(cells_, Index(support))[static_cast<size_t>(cell.y() * count_.x() + cell.x())];
 }
 
 void StateBuckets::Insert(int index, const StepState& state) {
   At(CellOf(state.X_WS.Planar()), state.support).push_back({index, state.X_WS.Planar()});
-  ++sizes_[static_cast<size_t>(Index(state.support))];
+  ++Nth(sizes_, Index(state.support));
 }
 
 void StateBuckets::Remove(int index, const StepState& state) {
@@ -53,7 +52,7 @@ void StateBuckets::Remove(int index, const StepState& state) {
                                   [index](const Entry& e) { return e.index == index; });
   HALFSTEP_CHECK(entry != entries.end(), "index " << index);
   entries.erase(entry);
-  --sizes_[static_cast<size_t>(Index(state.support))];
+  --Nth(sizes_, Index(state.support));
 }
 
 int StateBuckets::FindNearest(const Pose2& X_W, Side support, bool with_yaw) const {

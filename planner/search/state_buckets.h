@@ -6,6 +6,7 @@
 
 #include "planner/search/step_graph.h"
 #include "wpg/geometry/pose2.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 
@@ -28,7 +29,7 @@ class StateBuckets {
   /// −1: there is none.
   int FindNearest(const Pose2& X_W, Side support, bool with_yaw) const;
   /// States supported by that foot.
-  int size(Side support) const { return sizes_[static_cast<size_t>(Index(support))]; }
+  int size(Side support) const { return Nth(sizes_, Index(support)); }
 
  private:
   struct Entry {

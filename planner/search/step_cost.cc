@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "wpg/check.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 
@@ -18,7 +19,7 @@ std::vector<double> StepCost::OfElements(const StepSet& set) const {
       way += (half_step.X_SF.Planar().position() - half_step.via().position()).norm();
       turn += std::fabs(half_step.X_SF.yaw);
     }
-    costs[static_cast<size_t>(i)] = step_time + time_per_metre * way + time_per_radian * turn;
+    Nth(costs, i) = step_time + time_per_metre * way + time_per_radian * turn;
   }
   return costs;
 }
@@ -32,7 +33,7 @@ StepReach::StepReach(const StepSet& set, const std::vector<int>& elements,
     const Eigen::Matrix2d turned = first.rotation();
     one_ = std::max(one_, first.position().norm());
     turn_ = std::max(turn_, std::fabs(first.yaw));
-    least_cost_ = std::min(least_cost_, costs[static_cast<size_t>(i)]);
+    least_cost_ = std::min(least_cost_, Nth(costs, i));
     for (int k : elements) {
       const Eigen::Vector2d second = set.Placement(k, Side::kRight).Planar().position();
       pair_ = std::max(pair_, (first.position() + turned * second).norm());

@@ -5,13 +5,14 @@
 #include <numeric>
 
 #include "wpg/check.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
 
 std::vector<double> Chosen(const std::vector<double>& all, const std::vector<int>& elements) {
   std::vector<double> chosen;
-  for (int i : elements) chosen.push_back(all[static_cast<size_t>(i)]);
+  for (int i : elements) chosen.push_back(Nth(all, i));
   return chosen;
 }
 
@@ -37,8 +38,8 @@ StepGraph::StepGraph(const PlanRequest& request, std::vector<int> elements)
                                        << request.start[1].height << " m");
   for (Side support : {Side::kLeft, Side::kRight}) {
     for (int i : elements_) {
-      request.set.placements[static_cast<size_t>(i)].CheckLevel();
-      placements_[static_cast<size_t>(Index(support))].push_back(request.set.Placement(i, support));
+      Nth(request.set.placements, i).CheckLevel();
+      Nth(placements_, Index(support)).push_back(request.set.Placement(i, support));
     }
   }
 }
@@ -47,11 +48,11 @@ std::vector<StepState> StepGraph::FreeStarts() const {
   if (request_.in_air) return {*request_.in_air};
   std::vector<StepState> starts;
   for (Side support : {Side::kLeft, Side::kRight}) {
-    const Foothold& X_WS = request_.start[static_cast<size_t>(Index(support))];
+    const Foothold& X_WS = Nth(request_.start, Index(support));
     HalfStep up = request_.set.prototype;
     up.support = support;
     up.kind = HalfStepKind::kUp;
-    up.X_SF = X_WS.Inverse() * request_.start[static_cast<size_t>(Index(Opposite(support)))];
+    up.X_SF = X_WS.Inverse() * Nth(request_.start, Index(Opposite(support)));
     if (!request_.start_is_free || request_.start_is_free(up, X_WS)) {
       starts.push_back({X_WS, support});
     }
@@ -60,13 +61,13 @@ std::vector<StepState> StepGraph::FreeStarts() const {
 }
 
 Foothold StepGraph::Landing(const StepState& from, int k) const {
-  return from.X_WS * placements_[static_cast<size_t>(Index(from.support))][static_cast<size_t>(k)];
+  return from.X_WS * Nth(Nth(placements_, Index(from.support)), k);
 }
 
 void StepGraph::Landings(const StepState& from, std::vector<Foothold>* X_WF) const {
   const double c = std::cos(from.X_WS.yaw), s = std::sin(from.X_WS.yaw);
   X_WF->clear();
-  for (const Foothold& X_SF : placements_[static_cast<size_t>(Index(from.support))]) {
+  for (const Foothold& X_SF : Nth(placements_, Index(from.support))) {
     X_WF->push_back({{from.X_WS.x + c * X_SF.x - s * X_SF.y, from.X_WS.y + s * X_SF.x + c * X_SF.y,
                       from.X_WS.yaw + X_SF.yaw},
                      from.X_WS.height + X_SF.height});
@@ -76,12 +77,12 @@ void StepGraph::Landings(const StepState& from, std::vector<Foothold>* X_WF) con
 bool StepGraph::DownIsFree(const StepState& from, int k) {
   if (IsForbidden(from, k)) return false;
   ++queries_;
-  return request_.query.DownIsFree(elements_[static_cast<size_t>(k)], from.support, from.X_WS);
+  return request_.query.DownIsFree(Nth(elements_, k), from.support, from.X_WS);
 }
 
 bool StepGraph::UpIsFree(const StepState& from, int k) {
   ++queries_;
-  return request_.query.UpIsFree(elements_[static_cast<size_t>(k)], from.support, from.X_WS);
+  return request_.query.UpIsFree(Nth(elements_, k), from.support, from.X_WS);
 }
 
 // The middle of the feet is at most half an element away from the foot that landed before the last.

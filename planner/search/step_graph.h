@@ -6,6 +6,7 @@
 
 #include "planner/search/footstep_planner.h"
 #include "wpg/geometry/foothold.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 
@@ -20,10 +21,10 @@ class StepGraph {
 
   /// Indices into the set; k counts in this list.
   const std::vector<int>& elements() const { return elements_; }
-  int size() const { return static_cast<int>(elements_.size()); }      ///< number of elements
-  double cost(int k) const { return costs_[static_cast<size_t>(k)]; }  ///< of one step by element k
-  const StepReach& reach() const { return reach_; }                    ///< how far steps go
-  const GoalRegion& goal() const { return request_.goal; }             ///< of the request
+  int size() const { return static_cast<int>(elements_.size()); }  ///< number of elements
+  double cost(int k) const { return Nth(costs_, k); }              ///< of one step by element k
+  const StepReach& reach() const { return reach_; }                ///< how far steps go
+  const GoalRegion& goal() const { return request_.goal; }         ///< of the request
   /// Where supporting soles stay, in W [m].
   const Eigen::AlignedBox2d& workspace() const { return workspace_; }
 

@@ -6,6 +6,8 @@
 #include <tuple>
 #include <unordered_set>
 
+#include "wpg/nth.h"
+
 namespace halfstep {
 namespace {
 
@@ -47,7 +49,7 @@ class WeightedSearch {
       if (monitor_.Stop()) return End::kStopped;
       const Waiting next = open_.top();
       open_.pop();
-      const int k = nodes_[static_cast<size_t>(next.node)].order[static_cast<size_t>(next.rank)];
+      const int k = Nth(Nth(nodes_, next.node).order, next.rank);
       Enqueue(next.node, next.rank + 1);
       if (Follow(next.node, k)) return End::kFound;
     }
@@ -79,7 +81,7 @@ class WeightedSearch {
     graph_.Landings(node.state, &landings_);
     promises_.clear();
     for (int k = 0; k < graph_.size(); ++k) {
-      const Foothold& X_WF = landings_[static_cast<size_t>(k)];
+      const Foothold& X_WF = Nth(landings_, k);
       promises_.push_back(Promises(node, k, X_WF));
       if (promises_.back().wanted) node.order.push_back(static_cast<std::uint32_t>(k));
     }
@@ -92,19 +94,19 @@ class WeightedSearch {
   }
 
   void Enqueue(int index, int rank) {
-    Node& node = nodes_[static_cast<size_t>(index)];
+    Node& node = Nth(nodes_, index);
     if (rank >= static_cast<int>(node.order.size())) {
       node.order = {};
       return;
     }
-    const int k = node.order[static_cast<size_t>(rank)];
+    const int k = Nth(node.order, rank);
     const Promise promise = Promises(node, k, graph_.Landing(node.state, k));
     open_.push({promise.key, promise.guess, index, rank});
   }
 
   // Takes the edge if it is free; whether it ended in a plan.
   bool Follow(int index, int k) {
-    const Node& node = nodes_[static_cast<size_t>(index)];
+    const Node& node = Nth(nodes_, index);
     const StepState from = node.state, after = graph_.After(from, k);
     const double cost = node.cost + graph_.cost(k);
     if (graph_.IsGoal(from, after.X_WS)) {
@@ -118,8 +120,8 @@ class WeightedSearch {
 
   StepPlan PlanTo(int index, int last, double cost) const {
     StepPlan plan{.start = {}, .ks = {last}, .cost = cost};
-    for (; index >= 0; index = nodes_[static_cast<size_t>(index)].parent) {
-      const Node& node = nodes_[static_cast<size_t>(index)];
+    for (; index >= 0; index = Nth(nodes_, index).parent) {
+      const Node& node = Nth(nodes_, index);
       plan.start = node.state;
       if (node.k >= 0) plan.ks.push_back(node.k);
     }

@@ -3,11 +3,12 @@
 #include <cmath>
 
 #include "wpg/check.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 
 Foothold StepSet::Placement(int i, Side support) const {
-  const Foothold& X_SF = placements[static_cast<size_t>(i)];
+  const Foothold& X_SF = Nth(placements, i);
   return support == Side::kLeft ? X_SF : X_SF.Mirrored();
 }
 

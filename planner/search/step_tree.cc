@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "wpg/nth.h"
+
 namespace halfstep {
 namespace {
 
@@ -41,9 +43,9 @@ double StepTree::LeastCostFrom(const StepState& state) const {
 
 void StepTree::Arrive(int index, int k) {
   arrival_ = {.start = {}, .ks = {k}, .cost = 0.0};
-  arrival_.cost = nodes_[static_cast<size_t>(index)].cost + graph_.cost(k);
-  for (; index >= 0; index = nodes_[static_cast<size_t>(index)].parent) {
-    const Node& node = nodes_[static_cast<size_t>(index)];
+  arrival_.cost = Nth(nodes_, index).cost + graph_.cost(k);
+  for (; index >= 0; index = Nth(nodes_, index).parent) {
+    const Node& node = Nth(nodes_, index);
     arrival_.start = node.state;
     if (node.k >= 0) arrival_.ks.push_back(node.k);
   }
@@ -51,9 +53,9 @@ void StepTree::Arrive(int index, int k) {
 }
 
 StepTree::Edge StepTree::Try(int index, int k, const Foothold& X_WF) {
-  Node& node = nodes_[static_cast<size_t>(index)];
-  if (node.tried[static_cast<size_t>(k)]) return Edge::kUseless;
-  node.tried[static_cast<size_t>(k)] = true;
+  Node& node = Nth(nodes_, index);
+  if (Nth(node.tried, k)) return Edge::kUseless;
+  Nth(node.tried, k) = true;
   --node.untried;
   const StepState from = node.state, after{X_WF, Opposite(from.support)};
   const double cost = node.cost + graph_.cost(k);
@@ -88,7 +90,7 @@ StepTree::Growth StepTree::Add(const StepState& state, int parent, int k, double
 
 // Elements of a new node that land on the target. `landings_` may be in use by the caller.
 StepTree::Growth StepTree::LookForTarget(int index) {
-  const StepState from = nodes_[static_cast<size_t>(index)].state;
+  const StepState from = Nth(nodes_, index).state;
   const bool near =
       target_.state
           ? (from.X_WS.Planar().position() - target_.state->X_WS.Planar().position()).norm() <=
@@ -106,7 +108,7 @@ StepTree::Growth StepTree::Grow(const TreeSample& sample) {
   const bool counts = sample.yaw == TreeSample::Yaw::kCounts;
   const int index = buckets_.FindNearest(sample.X_WF, Opposite(sample.side), counts);
   if (index < 0) return Growth::kNothingLeft;
-  const StepState from = nodes_[static_cast<size_t>(index)].state;
+  const StepState from = Nth(nodes_, index).state;
   Pose2 wanted = sample.X_WF;
   const Eigen::Vector2d way = wanted.position() - from.X_WS.Planar().position();
   const bool face_forward = !counts && way.norm() > kFaceForwardBeyond;
@@ -116,7 +118,7 @@ StepTree::Growth StepTree::Grow(const TreeSample& sample) {
   graph_.Landings(from, &landings_);
   distances_.clear();
   for (size_t k = 0; k < landings_.size(); ++k) {
-    distances_.push_back(nodes_[static_cast<size_t>(index)].tried[k]
+    distances_.push_back(Nth(nodes_, index).tried[k]
                              ? kInfinity
                              : StateDistance(landings_[k].Planar(), wanted, with_yaw));
   }
@@ -126,7 +128,7 @@ StepTree::Growth StepTree::Grow(const TreeSample& sample) {
     if (*best == kInfinity) break;
     *best = kInfinity;
     const auto k = static_cast<int>(best - distances_.begin());
-    switch (Try(index, k, landings_[static_cast<size_t>(k)])) {
+    switch (Try(index, k, Nth(landings_, k))) {
       case Edge::kUseless:
         break;
       case Edge::kBlocked:
@@ -140,7 +142,7 @@ StepTree::Growth StepTree::Grow(const TreeSample& sample) {
         break;
     }
   }
-  if (nodes_[static_cast<size_t>(index)].untried == 0) buckets_.Remove(index, from);
+  if (Nth(nodes_, index).untried == 0) buckets_.Remove(index, from);
   return growth;
 }
 

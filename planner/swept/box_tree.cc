@@ -2,6 +2,8 @@
 
 #include <limits>
 
+#include "wpg/nth.h"
+
 namespace halfstep {
 namespace {
 
@@ -22,8 +24,8 @@ bool BoxTree::IsSound() const {
   std::vector<bool> named(nodes.size(), false);
   std::vector<int> level(nodes.size(), 1);
   for (int i = 0; i < count; ++i) {
-    if (i > 0 && !named[static_cast<size_t>(i)]) return false;
-    const BoxNode& node = nodes[static_cast<size_t>(i)];
+    if (i > 0 && !Nth(named, i)) return false;
+    const BoxNode& node = Nth(nodes, i);
     for (int c = 0; c < 4; ++c) {
       const int32_t child = node.child[c];
       const CellBox box = ChildBox(node, c);
@@ -34,12 +36,12 @@ bool BoxTree::IsSound() const {
       }
       if (turned) return false;
       if (child == BoxNode::kSolid) continue;
-      if (child <= i || child >= count || named[static_cast<size_t>(child)]) return false;
-      named[static_cast<size_t>(child)] = true;
-      level[static_cast<size_t>(child)] = level[static_cast<size_t>(i)] + 1;
-      if (3 * level[static_cast<size_t>(child)] + 1 > kStack) return false;
+      if (child <= i || child >= count || Nth(named, child)) return false;
+      Nth(named, child) = true;
+      Nth(level, child) = Nth(level, i) + 1;
+      if (3 * Nth(level, child) + 1 > kStack) return false;
       for (int g = 0; g < 4; ++g) {
-        const BoxNode& inner = nodes[static_cast<size_t>(child)];
+        const BoxNode& inner = Nth(nodes, child);
         if (inner.child[g] == BoxNode::kAbsent) continue;
         const CellBox inside = ChildBox(inner, g);
         if ((inside.lower.array() < box.lower.array()).any() ||
@@ -89,7 +91,7 @@ bool BoxTree::Contains(const Vector3d& p) const {
   std::vector<int32_t> stack;
   if (!nodes.empty()) stack.push_back(0);
   while (!stack.empty()) {
-    const BoxNode& node = nodes[static_cast<size_t>(stack.back())];
+    const BoxNode& node = Nth(nodes, stack.back());
     stack.pop_back();
     for (int c = 0; c < 4; ++c) {
       const CellBox box = ChildBox(node, c);

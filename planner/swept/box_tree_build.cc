@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "planner/swept/box_tree.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -49,8 +50,8 @@ class Builder {
     CellBox left = box, right = box;
     left.upper[axis] = right.lower[axis] = at;
     const int l = Split(left, depth + 1), r = Split(right, depth + 1);
-    branches_[static_cast<size_t>(index)].left = l;
-    branches_[static_cast<size_t>(index)].right = r;
+    Nth(branches_, index).left = l;
+    Nth(branches_, index).right = r;
     return index;
   }
 
@@ -85,13 +86,13 @@ class Builder {
     for (size_t c = 0; c < open.size(); ++c) {
       if (At(open[c]).left < 0) continue;
       const int child = Emit(open[c], nodes);
-      (*nodes)[static_cast<size_t>(index)].child[c] = child;
+      Nth(*nodes, index).child[c] = child;
     }
     return index;
   }
 
  private:
-  const Branch& At(int i) const { return branches_[static_cast<size_t>(i)]; }
+  const Branch& At(int i) const { return Nth(branches_, i); }
 
   // Calls visit(number) for each bit that is set.
   template <typename Visit>
@@ -107,7 +108,7 @@ class Builder {
     Slices slices;
     const Vector3i size = box.upper - box.lower;
     for (int a = 0; a < 3; ++a) {
-      slices.of[static_cast<size_t>(a)].assign(static_cast<size_t>(size[a]), kNothing);
+      Nth(slices.of, a).assign(static_cast<size_t>(size[a]), kNothing);
     }
     const int words = grid_.words_per_column();
     // Union of the columns over y for each x, and over x for each y.
@@ -115,7 +116,7 @@ class Builder {
     std::vector<uint64_t> along_x(static_cast<size_t>(words * size.y()), 0);
     std::vector<uint64_t> mask(static_cast<size_t>(words), 0);
     for (int k = box.lower.z(); k < box.upper.z(); ++k) {
-      mask[static_cast<size_t>(k / 64)] |= uint64_t{1} << (k % 64);
+      Nth(mask, k / 64) |= uint64_t{1} << (k % 64);
     }
     const auto grow = [](CellBox* slice, int x, int y, int z) {
       const Vector3i cell(x, y, z);
@@ -123,10 +124,10 @@ class Builder {
       slice->upper = slice->upper.cwiseMax(cell + Vector3i::Ones());
     };
     for (int x = box.lower.x(); x < box.upper.x(); ++x) {
-      CellBox& slice_x = slices.of[0][static_cast<size_t>(x - box.lower.x())];
+      CellBox& slice_x = Nth(slices.of[0], x - box.lower.x());
       std::fill(along_y.begin(), along_y.end(), 0);
       for (int y = box.lower.y(); y < box.upper.y(); ++y) {
-        CellBox& slice_y = slices.of[1][static_cast<size_t>(y - box.lower.y())];
+        CellBox& slice_y = Nth(slices.of[1], y - box.lower.y());
         const uint64_t* column = grid_.Column(x, y);
         int low = -1, high = -1;
         for (int w = 0; w < words; ++w) {
@@ -135,7 +136,7 @@ class Builder {
           if (bits == 0) continue;
           slices.occupied += std::popcount(bits);
           along_y[i] |= bits;
-          along_x[static_cast<size_t>((y - box.lower.y()) * words + w)] |= bits;
+          Nth(along_x, (y - box.lower.y()) * words + w) |= bits;
           if (low < 0) low = 64 * w + std::countr_zero(bits);
           high = 64 * w + 63 - std::countl_zero(bits);
         }
@@ -146,7 +147,7 @@ class Builder {
         }
       }
       ForEachBit(along_y.data(), words, [&](int k) {
-        CellBox& slice = slices.of[2][static_cast<size_t>(k - box.lower.z())];
+        CellBox& slice = Nth(slices.of[2], k - box.lower.z());
         slice.lower.x() = std::min(slice.lower.x(), x);
         slice.upper.x() = x + 1;
         slice.lower.z() = k;
@@ -154,8 +155,8 @@ class Builder {
       });
     }
     for (int y = box.lower.y(); y < box.upper.y(); ++y) {
-      ForEachBit(&along_x[static_cast<size_t>((y - box.lower.y()) * words)], words, [&](int k) {
-        CellBox& slice = slices.of[2][static_cast<size_t>(k - box.lower.z())];
+      ForEachBit(&Nth(along_x, (y - box.lower.y()) * words), words, [&](int k) {
+        CellBox& slice = Nth(slices.of[2], k - box.lower.z());
         slice.lower.y() = std::min(slice.lower.y(), y);
         slice.upper.y() = y + 1;
       });
@@ -177,7 +178,7 @@ class Builder {
     int64_t least = std::numeric_limits<int64_t>::max();
     int evenness = 0;
     for (int axis = 0; axis < 3; ++axis) {
-      const auto& of = slices.of[static_cast<size_t>(axis)];
+      const auto& of = Nth(slices.of, axis);
       std::vector<int64_t> above(of.size() + 1, 0);
       CellBox rest = kNothing;
       for (size_t i = of.size(); i-- > 0;) {
@@ -216,9 +217,9 @@ std::vector<Vector3d> FindParts(const BoxTree& tree, const Vector3i& size) {
   std::vector<int> owner(index(size.x(), 0, 0), -1), parent(boxes.size());
   std::iota(parent.begin(), parent.end(), 0);
   const auto root = [&](int i) {
-    while (parent[static_cast<size_t>(i)] != i) {
-      int& up = parent[static_cast<size_t>(i)];
-      i = up = parent[static_cast<size_t>(up)];
+    while (Nth(parent, i) != i) {
+      int& up = Nth(parent, i);
+      i = up = Nth(parent, up);
     }
     return i;
   };
@@ -233,7 +234,7 @@ std::vector<Vector3d> FindParts(const BoxTree& tree, const Vector3i& size) {
   }
   const auto join = [&](size_t cell, size_t next) {
     if (owner[cell] < 0 || owner[next] < 0 || owner[cell] == owner[next]) return;
-    parent[static_cast<size_t>(root(owner[cell]))] = root(owner[next]);
+    Nth(parent, root(owner[cell])) = root(owner[next]);
   };
   for (int x = 0; x < size.x(); ++x) {
     for (int y = 0; y < size.y(); ++y) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "wpg/files/text.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -87,7 +88,7 @@ std::string BoxTreeObj(const BoxTree& tree) {
             if (run < j) {
               std::array<Vector3i, 4> corners;
               for (int k = 0; k < 4; ++k) {
-                Vector3i& corner = corners[static_cast<size_t>(upper ? k : 3 - k)];
+                Vector3i& corner = Nth(corners, upper ? k : 3 - k);
                 corner[axis] = upper ? box.upper[axis] : box.lower[axis];
                 corner[u] = i + (k == 1 || k == 2 ? 1 : 0);
                 corner[v] = k >= 2 ? j : run;

@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "wpg/nth.h"
+
 namespace halfstep {
 namespace {
 
@@ -20,13 +22,13 @@ bool Descend(const BoxTree& tree, const LatticeBoxTest& test, const Accept& acce
   int top = 0;
   stack[top++] = 0;
   while (top > 0) {
-    const BoxNode& node = tree.nodes[static_cast<size_t>(stack[--top])];
+    const BoxNode& node = Nth(tree.nodes, stack[--top]);
     for (int hits = test.Hits(node); hits != 0; hits &= hits - 1) {
       const int c = std::countr_zero(static_cast<unsigned>(hits));
       const int32_t child = node.child[c];
       if (child >= 0) {
         stack[top++] = child;
-        __builtin_prefetch(&tree.nodes[static_cast<size_t>(child)]);
+        __builtin_prefetch(&Nth(tree.nodes, child));
       } else if (child == BoxNode::kSolid && accept(node, c)) {
         return true;
       }
@@ -100,8 +102,7 @@ bool Meets(const BoxTree& tree, const TriangleTree& mesh, const Vector3d& origin
     const Vector3d middle = 0.5 * (box.lower + box.upper);
     const Vector3d half = 0.5 * (box.upper - box.lower).array() + 1e-9;
     for (int32_t i = leaf.first; i < leaf.first + leaf.count; ++i) {
-      const Matrix3d corners =
-          (axes * mesh.triangles[static_cast<size_t>(i)]).colwise() + (origin - middle);
+      const Matrix3d corners = (axes * Nth(mesh.triangles, i)).colwise() + (origin - middle);
       if (TriangleMeetsBox(corners, half)) return true;
     }
     return false;
@@ -113,8 +114,8 @@ bool Meets(const BoxTree& tree, const TriangleTree& mesh, const Vector3d& origin
   while (!stack.empty()) {
     const auto [m, n] = stack.back();
     stack.pop_back();
-    const TriangleTree::Node& part = mesh.nodes[static_cast<size_t>(m)];
-    const BoxNode& node = tree.nodes[static_cast<size_t>(n)];
+    const TriangleTree::Node& part = Nth(mesh.nodes, m);
+    const BoxNode& node = Nth(tree.nodes, n);
     test.Place(origin + axes * part.center, part.half);
     const int hits = test.Hits(node);
     bool solid = false;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "wpg/check.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -77,7 +78,7 @@ SweptVolumeBaker::SweptVolumeBaker(const RobotModel& robot, const SweptVolumeOpt
 std::optional<SweptVolumeBaker::Twin> SweptVolumeBaker::FindTwin(size_t body) const {
   const auto X_BLink = [&](const RobotBody& of) -> Isometry3d {
     if (of.leg < 0) return Isometry3d::Identity();
-    return robot_.legs[static_cast<size_t>(of.leg)].joints[static_cast<size_t>(of.link)].X_BLink;
+    return Nth(Nth(robot_.legs, of.leg).joints, of.link).X_BLink;
   };
   const RobotBody& own = robot_.bodies[body];
   const Outline& outline = outlines_[body];

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "wpg/nth.h"
+
 namespace halfstep {
 
 std::optional<SweptVolumes> BakeSweptVolumes(const RobotModel& robot, const Lipm& lipm,
@@ -39,8 +41,8 @@ std::optional<SweptVolumes> BakeSweptVolumes(const RobotModel& robot, const Lipm
         if (hooks.stop.stop_requested()) stopped = true;
         if (stopped) break;
         ElementVolumes element = bake(i);
-        volumes.down[static_cast<size_t>(i)] = std::move(element.down);
-        volumes.up[static_cast<size_t>(i)] = std::move(element.up);
+        Nth(volumes.down, i) = std::move(element.down);
+        Nth(volumes.up, i) = std::move(element.up);
         const std::lock_guard lock(mutex);
         ++done;
         if (!stopped && hooks.progress && !hooks.progress(static_cast<double>(done) / size)) {

@@ -8,6 +8,7 @@
 
 #include "planner/swept/four_floats.h"
 #include "wpg/check.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -111,8 +112,8 @@ void SweptVolumeQuery::PlantTree(const std::vector<Upright>& cylinders) {
     if (node.left >= 0) continue;
     leaf_begins_[n] = static_cast<int32_t>(place_at_.size());
     for (int32_t i = node.first; i < node.first + node.count; ++i) {
-      const int32_t place = tree_.order[static_cast<size_t>(i)];
-      slots_[static_cast<size_t>(place)] = static_cast<int32_t>(place_at_.size());
+      const int32_t place = Nth(tree_.order, i);
+      Nth(slots_, place) = static_cast<int32_t>(place_at_.size());
       place_at_.push_back(place);
     }
     place_at_.resize((place_at_.size() + 3) / 4 * 4, -1);
@@ -126,15 +127,15 @@ void SweptVolumeQuery::PlantTree(const std::vector<Upright>& cylinders) {
 void SweptVolumeQuery::SetObstaclePose(int obstacle, const Isometry3d& X_WO) {
   HALFSTEP_CHECK(obstacle >= 0 && obstacle < static_cast<int>(only_places_.size()),
                  "obstacle " << obstacle);
-  const int place = only_places_[static_cast<size_t>(obstacle)];
+  const int place = Nth(only_places_, obstacle);
   HALFSTEP_CHECK(place >= 0, "obstacle " << obstacle << " has waypoints");
   const Upright cylinder = Move(static_cast<size_t>(place), X_WO);
-  const int32_t slot = slots_[static_cast<size_t>(place)];
+  const int32_t slot = Nth(slots_, place);
   Put(static_cast<size_t>(slot), cylinder);
   // It stays in its leaf, and all nodes above grow around it.
   const auto at = std::find(tree_.order.begin(), tree_.order.end(), place) - tree_.order.begin();
   for (int32_t n = 0; n >= 0;) {
-    BoundsTree::Node& node = tree_.nodes[static_cast<size_t>(n)];
+    BoundsTree::Node& node = Nth(tree_.nodes, n);
     const Vector3d half(cylinder.radius, cylinder.radius, cylinder.half_height);
     node.half = node.half.cwiseMax((cylinder.center - node.center).cwiseAbs() + half);
     n = node.left;
@@ -214,7 +215,7 @@ bool SweptVolumeQuery::IsFree(const Placed& placed, double extra) const {
   int top = 0;
   stack[top++] = 0;
   while (top > 0) {
-    const BoundsTree::Node& node = tree_.nodes[static_cast<size_t>(stack[--top])];
+    const BoundsTree::Node& node = Nth(tree_.nodes, stack[--top]);
     // The upright cylinder around the node's box.
     const double x = node.center.x() - placed.X_WS.x, y = node.center.y() - placed.X_WS.y;
     const double radius = node.half.head<2>().norm();
@@ -249,8 +250,7 @@ bool SweptVolumeQuery::MeetsLeaf(const Placed& placed, const BoundsTree::Node& l
   const Four mx = four(middle.x()), my = four(sign * middle.y()),
              mz = four(middle.z() + placed.X_WS.height);
   const Four hx = four(half.x()), hy = four(half.y()), hz = four(half.z());
-  const size_t first =
-      static_cast<size_t>(leaf_begins_[static_cast<size_t>(&leaf - tree_.nodes.data())]) / 4;
+  const size_t first = static_cast<size_t>(Nth(leaf_begins_, &leaf - tree_.nodes.data())) / 4;
   const size_t end = first + (static_cast<size_t>(leaf.count) + 3) / 4;
   for (size_t block = first; block < end; ++block) {
     const Cylinders& o = cylinders_[block];
@@ -260,7 +260,7 @@ bool SweptVolumeQuery::MeetsLeaf(const Placed& placed, const BoundsTree::Node& l
                (Four::Load(o.z) - mz).Abs().Within(hz + Four::Load(o.half_height));
     for (; near != 0; near &= near - 1) {
       const size_t k = static_cast<size_t>(std::countr_zero(static_cast<unsigned>(near)));
-      const Prepared& place = places_[static_cast<size_t>(place_at_[4 * block + k])];
+      const Prepared& place = Nth(places_, place_at_[4 * block + k]);
       if (MeetsObstacle(*placed.volume, placed, place, extra + place.extra)) return true;
     }
   }

@@ -6,6 +6,7 @@
 #include "planner/swept/ceiling.h"
 #include "planner/swept/four_floats.h"
 #include "wpg/check.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -95,8 +96,8 @@ void VoxelGrid::Fill(const HalfSpaces& region) {
     above.Row(row, blocks, to.data());
     below.Row(row, blocks, from.data());
     for (int i = 0; i < columns; i += 4) {
-      const Eigen::Array4f up = Eigen::Map<const Eigen::Array4f>(&to[static_cast<size_t>(i)]);
-      const Eigen::Array4f down = -Eigen::Map<const Eigen::Array4f>(&from[static_cast<size_t>(i)]);
+      const Eigen::Array4f up = Eigen::Map<const Eigen::Array4f>(&Nth(to, i));
+      const Eigen::Array4f down = -Eigen::Map<const Eigen::Array4f>(&Nth(from, i));
       const Eigen::Array4d low = (down.cast<double>() - rounding - origin_.z()) / cell_;
       const Eigen::Array4d high = (up.cast<double>() + rounding - origin_.z()) / cell_;
       const Eigen::Array4i begin = low.max(0.0).min(highest).cast<int>();

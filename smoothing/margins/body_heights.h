@@ -6,6 +6,7 @@
 
 #include "smoothing/margins/margin.h"
 #include "wpg/motion/posture.h"
+#include "wpg/nth.h"
 #include "wpg/robot/robot_model.h"
 
 namespace halfstep {
@@ -53,7 +54,7 @@ class BodyHeights {
   double OnFoot(int body, const WalkState& x) const;
 
  private:
-  const RobotBody& body(int b) const { return robot_.bodies[static_cast<size_t>(b)]; }
+  const RobotBody& body(int b) const { return Nth(robot_.bodies, b); }
 
   const RobotModel& robot_;
   double floor_;

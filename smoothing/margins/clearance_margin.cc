@@ -4,15 +4,15 @@
 #include <cmath>
 #include <limits>
 
+#include "wpg/nth.h"
+
 namespace halfstep {
 
 int ClearanceMargin::count() const { return static_cast<int>(place_.robot.bodies.size()); }
 
 std::string ClearanceMargin::Subject(const Margin& margin) const {
   const std::string body = BodyName(place_.robot, margin.subject);
-  return margin.other < 0
-             ? body
-             : body + " - " + place_.scene.obstacles[static_cast<size_t>(margin.other)].name;
+  return margin.other < 0 ? body : body + " - " + Nth(place_.scene.obstacles, margin.other).name;
 }
 
 Margin ClearanceMargin::Least(Instant* at, double enough) const {
@@ -52,7 +52,7 @@ void ClearanceMargin::AddRows(Instant* at, SlackSink* rows) const {
           PointTangent(place_.robot.bodies[b], posture, rows->tangents[i], gap.point_a_W));
     };
     // As time goes on the obstacle moves, and what is known of it changes.
-    const Obstacle& obstacle = place_.scene.obstacles[static_cast<size_t>(nearest.obstacle)];
+    const Obstacle& obstacle = Nth(place_.scene.obstacles, nearest.obstacle);
     const Eigen::Vector3d velocity =
         obstacle.motion.VelocityAt(obstacle.X_WO, at->t(), gap.point_b_W);
     const double rate = -gap.normal_W.dot(velocity) - obstacle.motion.UncertaintyRateAt(at->t());

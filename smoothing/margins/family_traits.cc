@@ -4,12 +4,11 @@
 #include <vector>
 
 #include "smoothing/margins/all_families.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 
-const FamilyTraits& Traits(MarginFamily family) {
-  return AllFamilies::kTraits[static_cast<size_t>(family)];
-}
+const FamilyTraits& Traits(MarginFamily family) { return Nth(AllFamilies::kTraits, family); }
 
 std::string_view Name(MarginFamily family) { return Traits(family).name; }
 std::string_view Unit(MarginFamily family) { return Traits(family).unit; }
@@ -18,7 +17,7 @@ double Scale(MarginFamily family) { return Traits(family).scale; }
 std::array<double, kNumMarginFamilies> DefaultDemands() {
   std::array<double, kNumMarginFamilies> demands{};
   for (const FamilyTraits& traits : AllFamilies::kTraits) {
-    demands[static_cast<size_t>(traits.family)] = traits.demanded;
+    Nth(demands, traits.family) = traits.demanded;
   }
   return demands;
 }
@@ -26,7 +25,7 @@ std::array<double, kNumMarginFamilies> DefaultDemands() {
 std::span<const MarginFamily> AllMarginFamilies() {
   static constexpr std::array<MarginFamily, kNumMarginFamilies> kAll = [] {
     std::array<MarginFamily, kNumMarginFamilies> all{};
-    for (int i = 0; i < kNumMarginFamilies; ++i) all[static_cast<size_t>(i)] = MarginFamily{i};
+    for (int i = 0; i < kNumMarginFamilies; ++i) Nth(all, i) = MarginFamily{i};
     return all;
   }();
   static_assert(kAll.back() == MarginFamily::kOwn);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "wpg/nth.h"
+
 namespace halfstep {
 
 int GroundMargin::count() const { return static_cast<int>(place_.robot.bodies.size()); }
@@ -22,7 +24,7 @@ void GroundMargin::AddRows(Instant* at, SlackSink* rows) const {
   const Posture& posture = at->posture();
   for (int b : place_.heights.of_legs()) {
     if (place_.heights.LowestPossible(b, posture) > rows->horizon()) continue;
-    const RobotBody& body = place_.robot.bodies[static_cast<size_t>(b)];
+    const RobotBody& body = Nth(place_.robot.bodies, b);
     const Eigen::Vector3d lowest = place_.heights.LowestPoint(b, posture);
     rows->Add(lowest.z() - place_.heights.floor(),
               [&](size_t i) { return PointTangent(body, posture, rows->tangents[i], lowest).z(); });
@@ -37,7 +39,7 @@ void GroundMargin::AddBounds(const MarginInterval& interval, TightestStatement* 
   const double rounding = interval.mid.rounding();
   const int step = interval.mid.step_in_air();
   for (int body : heights.on_feet()) {
-    const Side side = static_cast<Side>(place_.robot.bodies[static_cast<size_t>(body)].leg);
+    const Side side = static_cast<Side>(Nth(place_.robot.bodies, body).leg);
     const int z = FootIndex(side) + 2;
     double least = x[z] - heights.floor() - motion.Change(z);
     if (step >= 0 && interval.mid.swing() == side) {
@@ -50,7 +52,7 @@ void GroundMargin::AddBounds(const MarginInterval& interval, TightestStatement* 
     tightest->Add(Of(open ? std::nan("") : margin, body), rounding);
   }
   for (int body : heights.of_legs()) {
-    const double change = motion.displacement[static_cast<size_t>(body)];
+    const double change = Nth(motion.displacement, body);
     const double possible = heights.LowestPossible(body, motion.posture);
     if (tightest->Pass(possible - change - rounding)) continue;
     tightest->Add(Of(heights.LowestPoint(body, motion.posture).z() - heights.floor(), body),

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "wpg/motion/dynamics_slope.h"
+#include "wpg/nth.h"
 #include "wpg/robot/acceleration_limits.h"
 
 namespace halfstep {
@@ -37,9 +38,7 @@ std::string JointAccelerationMargin::Subject(const Margin& margin) const {
 }
 
 double JointAccelerationMargin::Limit(Side side, Eigen::Index joint) const {
-  return place_.robot.legs[static_cast<size_t>(Index(side))]
-      .joints[static_cast<size_t>(joint)]
-      .max_acceleration;
+  return Nth(place_.robot.legs, Index(side)) Nth(.joints, joint).max_acceleration;
 }
 
 Margin JointAccelerationMargin::Least(Instant* at, double) const {
@@ -67,7 +66,7 @@ void JointAccelerationMargin::AddRows(Instant* at, SlackSink* rows) const {
       const double sign = accelerations[j] < 0.0 ? -1.0 : 1.0;
       rows->Add(Limit(side, j) - std::abs(accelerations[j]), [&](size_t i) {
         if (slopes.empty()) slopes = AccelerationSlopes(at, *rows);
-        return -sign * slopes[i][static_cast<size_t>(Index(side))][j];
+        return -sign * Nth(slopes[i], Index(side))[j];
       });
     }
   }
@@ -90,8 +89,7 @@ void JointAccelerationMargin::AddBounds(const MarginInterval& interval,
     const Vector6d& accelerations = mid.motion()->accelerations(side);
     for (Eigen::Index j = 0; j < 6; ++j) {
       const double here = std::abs(accelerations[j]);
-      const double drift =
-          interval.drift().legs[s].joints[static_cast<size_t>(j)].acceleration_drift;
+      const double drift = Nth(interval.drift().legs[s].joints, j).acceleration_drift;
       // |q̈| grows by no more than q̈ drifts, and to no more than it can be.
       const double rise = interval.motion.joints[s].acceleration[j] - here;
       tightest->Add(Of(Limit(side, j) - here, AccelerationSubject(side, j)),

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wpg/nth.h"
+
 namespace halfstep {
 
 int JointMargin::count() const { return 12; }
@@ -14,14 +16,14 @@ std::string JointMargin::Subject(const Margin& margin) const {
 Margin JointMargin::Least(Instant* at, double) const {
   Margin least = Of(kUnlimited, -1);
   for (int s = 0; s < 2; ++s) {
-    const Leg& leg = place_.robot.legs[static_cast<size_t>(s)];
-    const LegIkSolution& ik = at->posture().ik[static_cast<size_t>(s)];
+    const Leg& leg = Nth(place_.robot.legs, s);
+    const LegIkSolution& ik = Nth(at->posture().ik, s);
     if (ik.status != LegIkStatus::kSolved) {
       Lower(Of(-kUnlimited, 6 * s + 3), &least);
       continue;
     }
     for (int j = 0; j < 6; ++j) {
-      const LegJoint& joint = leg.joints[static_cast<size_t>(j)];
+      const LegJoint& joint = Nth(leg.joints, j);
       Lower(Of(std::min(ik.q[j] - joint.lower, joint.upper - ik.q[j]), 6 * s + j), &least);
     }
   }
@@ -32,7 +34,7 @@ void JointMargin::AddRows(Instant* at, SlackSink* rows) const {
   if (!at->regular()) return;
   for (size_t s = 0; s < 2; ++s) {
     for (int j = 0; j < 6; ++j) {
-      const LegJoint& joint = place_.robot.legs[s].joints[static_cast<size_t>(j)];
+      const LegJoint& joint = Nth(place_.robot.legs[s].joints, j);
       const double q = at->posture().ik[s].q[j];
       rows->Add(q - joint.lower, [&](size_t i) { return rows->tangents[i].q[s][j]; });
       rows->Add(joint.upper - q, [&](size_t i) { return -rows->tangents[i].q[s][j]; });
@@ -48,7 +50,7 @@ void JointMargin::AddBounds(const MarginInterval& interval, TightestStatement* t
     const Vector6d& speed = motion.posture.speeds[i];
     const Vector6d& acceleration = motion.joints[i].acceleration;
     for (int j = 0; j < 6; ++j) {
-      const LegJoint& joint = place_.robot.legs[i].joints[static_cast<size_t>(j)];
+      const LegJoint& joint = Nth(place_.robot.legs[i].joints, j);
       const double q = motion.posture.ik[i].q[j];
       tightest->Add(Of(std::min(q - joint.lower, joint.upper - q), 6 * s + j),
                     h * (std::abs(speed[j]) + 0.5 * h * acceleration[j]) + interval.mid.rounding());

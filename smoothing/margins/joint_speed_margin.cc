@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "wpg/nth.h"
+
 namespace halfstep {
 
 int JointSpeedMargin::count() const { return 12; }
@@ -15,9 +17,8 @@ Margin JointSpeedMargin::Least(Instant* at, double) const {
   Margin least = Of(kUnlimited, -1);
   for (int s = 0; s < 2; ++s) {
     for (int j = 0; j < 6; ++j) {
-      const LegJoint& joint =
-          place_.robot.legs[static_cast<size_t>(s)].joints[static_cast<size_t>(j)];
-      const double speed = std::abs(at->posture().speeds[static_cast<size_t>(s)][j]);
+      const LegJoint& joint = Nth(Nth(place_.robot.legs, s).joints, j);
+      const double speed = std::abs(Nth(at->posture().speeds, s)[j]);
       Lower(Of(at->limits().joint_speed_scale * joint.max_speed - speed, 6 * s + j), &least);
     }
   }
@@ -28,7 +29,7 @@ void JointSpeedMargin::AddRows(Instant* at, SlackSink* rows) const {
   if (!at->regular()) return;
   for (size_t s = 0; s < 2; ++s) {
     for (int j = 0; j < 6; ++j) {
-      const LegJoint& joint = place_.robot.legs[s].joints[static_cast<size_t>(j)];
+      const LegJoint& joint = Nth(place_.robot.legs[s].joints, j);
       const double limit = at->limits().joint_speed_scale * joint.max_speed;
       const double speed = at->posture().speeds[s][j];
       const double sign = speed < 0.0 ? -1.0 : 1.0;
@@ -44,7 +45,7 @@ void JointSpeedMargin::AddBounds(const MarginInterval& interval,
   for (int s = 0; s < 2; ++s) {
     const size_t i = static_cast<size_t>(s);
     for (int j = 0; j < 6; ++j) {
-      const LegJoint& joint = place_.robot.legs[i].joints[static_cast<size_t>(j)];
+      const LegJoint& joint = Nth(place_.robot.legs[i].joints, j);
       const double limit = interval.mid.limits().joint_speed_scale * joint.max_speed;
       tightest->Add(Of(limit - std::abs(motion.posture.speeds[i][j]), 6 * s + j),
                     motion.half_width * motion.joints[i].acceleration[j] + interval.mid.rounding());

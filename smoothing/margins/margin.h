@@ -9,6 +9,7 @@
 
 #include "smoothing/walk/superposed_walk.h"
 #include "wpg/enumerators.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 
@@ -83,9 +84,9 @@ struct MarginLimits {
   double clearance_horizon = 0.3;
 
   /// What is demanded of a family [its unit]; kNotDemanded: nothing.
-  double demanded_of(MarginFamily f) const { return demanded[static_cast<size_t>(f)]; }
+  double demanded_of(MarginFamily f) const { return Nth(demanded, f); }
   /// The same, to be set.
-  double& demanded_of(MarginFamily f) { return demanded[static_cast<size_t>(f)]; }
+  double& demanded_of(MarginFamily f) { return Nth(demanded, f); }
   /// (value − demanded) / Scale: negative when infeasible; comparable between families. +∞ where
   /// nothing is demanded.
   double Slack(const Margin& margin) const {

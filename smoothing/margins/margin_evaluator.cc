@@ -8,13 +8,14 @@
 #include "smoothing/margins/all_families.h"
 #include "smoothing/margins/demandable.h"
 #include "wpg/files/plain_locale.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 
 MarginEvaluator::Shared::Shared(RobotModel robot, Scene scene)
     : place(std::move(robot), std::move(scene)), statements(AllFamilies::Make(place)) {
   for (const MarginFamily family : AllMarginFamilies()) {
-    if (statements[static_cast<size_t>(family)]->present()) families.push_back(family);
+    if (Nth(statements, family)->present()) families.push_back(family);
   }
 }
 
@@ -35,7 +36,7 @@ MarginSet MarginEvaluator::At(const SuperposedWalk& walk, const LocalTime& at,
   MarginSet margins;
   margins.back().family = MarginFamily::kOwn;  // where nothing is registered: without a limit
   for (const MarginFamily family : AllMarginFamilies()) {
-    Margin& margin = margins[static_cast<size_t>(family)];
+    Margin& margin = Nth(margins, family);
     margin = statements(family).Least(&instant, std::numeric_limits<double>::infinity());
     margin.at = at;
     margin.t = instant.t();

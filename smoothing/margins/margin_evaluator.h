@@ -9,6 +9,7 @@
 
 #include "smoothing/margins/margin_statements.h"
 #include "smoothing/walk/superposed_walk.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 
@@ -40,7 +41,7 @@ class MarginEvaluator {
   std::span<const MarginFamily> families() const { return shared_->families; }
   /// All statements of a family.
   const MarginStatements& statements(MarginFamily family) const {
-    return *shared_->statements[static_cast<size_t>(family)];
+    return *Nth(shared_->statements, family);
   }
 
   /// All margins at an instant. When a leg does not reach, those of joints, joint speeds, ground,

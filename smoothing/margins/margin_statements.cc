@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "wpg/nth.h"
+
 namespace halfstep {
 
 void TightestStatement::Add(const Margin& added, double change) {
@@ -48,12 +50,12 @@ std::string MarginStatements::FootName(const Margin& margin) {
 
 std::string MarginStatements::JointName(const RobotModel& robot, const Margin& margin) {
   if (margin.subject < 0) return "legs";
-  const Leg& leg = robot.legs[static_cast<size_t>(margin.subject / 6)];
-  return leg.joints[static_cast<size_t>(margin.subject % 6)].name;
+  const Leg& leg = Nth(robot.legs, margin.subject / 6);
+  return Nth(leg.joints, margin.subject % 6).name;
 }
 
 std::string MarginStatements::BodyName(const RobotModel& robot, int body) {
-  return body < 0 ? "robot" : robot.bodies[static_cast<size_t>(body)].name;
+  return body < 0 ? "robot" : Nth(robot.bodies, body).name;
 }
 
 double MarginStatements::ClearanceHorizon(const MarginLimits& limits) {

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "wpg/nth.h"
+
 namespace halfstep {
 
 int NoStepMargin::count() const { return 2; }
@@ -17,7 +19,7 @@ std::string NoStepMargin::Subject(const Margin& margin) const {
 Margin NoStepMargin::OfSole(const Instant& at, Side side) const {
   Margin margin = Of(std::numeric_limits<double>::infinity(), Index(side));
   if (place_.areas.empty() || at.walk().InAir(at.at(), side)) return margin;
-  MarginScratch::Standing& standing = at.scratch().standing[static_cast<size_t>(Index(side))];
+  MarginScratch::Standing& standing = Nth(at.scratch().standing, Index(side));
   const Pose2 X_WF = FootPose(at.jet().value, side);
   if (!standing.known || standing.X_WF != X_WF) {
     standing = {X_WF, place_.areas.NearestTo(X_WF), true};

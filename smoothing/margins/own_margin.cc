@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "wpg/nth.h"
+
 namespace halfstep {
 namespace {
 
@@ -37,7 +39,7 @@ int OwnMargin::count() const { return static_cast<int>(OwnMargins().size()); }
 
 std::string OwnMargin::Subject(const Margin& margin) const {
   const auto& all = OwnMargins();
-  if (margin.subject >= 0) return all[static_cast<size_t>(margin.subject)]->name();
+  if (margin.subject >= 0) return Nth(all, margin.subject)->name();
   std::string names;  // where it is not known which one
   for (const auto& own : all) names += (names.empty() ? "" : ", ") + own->name();
   return names;

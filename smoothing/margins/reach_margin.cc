@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "wpg/nth.h"
+
 namespace halfstep {
 
 int ReachMargin::count() const { return 2; }
@@ -14,7 +16,7 @@ std::string ReachMargin::Subject(const Margin& margin) const {
 Margin ReachMargin::Least(Instant* at, double) const {
   Margin least = Of(std::numeric_limits<double>::infinity(), -1);
   for (int s = 0; s < 2; ++s) {
-    Lower(Of(at->posture().ik[static_cast<size_t>(s)].reach_margin, 6 * s + 3), &least);
+    Lower(Of(Nth(at->posture().ik, s).reach_margin, 6 * s + 3), &least);
   }
   return least;
 }

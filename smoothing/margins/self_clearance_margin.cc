@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "wpg/nth.h"
+
 namespace halfstep {
 
 int SelfClearanceMargin::count() const { return static_cast<int>(place_.clearances.num_pairs()); }
@@ -44,8 +46,8 @@ void SelfClearanceMargin::AddRows(Instant* at, SlackSink* rows) const {
     if (clearances.PairClears(p, posture, rows->horizon(), &scratch)) continue;
     const Separation gap = clearances.SeparationOf(p, posture, &scratch);
     const auto [a, b] = place_.robot.self_pairs[p];
-    const RobotBody& first = place_.robot.bodies[static_cast<size_t>(a)];
-    const RobotBody& second = place_.robot.bodies[static_cast<size_t>(b)];
+    const RobotBody& first = Nth(place_.robot.bodies, a);
+    const RobotBody& second = Nth(place_.robot.bodies, b);
     rows->Add(gap.distance, [&](size_t i) {
       const PostureTangent& tangent = rows->tangents[i];
       return gap.normal_W.dot(PointTangent(first, posture, tangent, gap.point_a_W) -

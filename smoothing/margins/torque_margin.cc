@@ -6,6 +6,7 @@
 
 #include "wpg/motion/leg_torques.h"
 #include "wpg/motion/torque_drift.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -41,7 +42,7 @@ std::vector<std::array<Vector6d, 2>> SlopesAt(Instant* at, const FootLoads& load
     const Eigen::Vector2d zmp = dynamics.ZmpSlope(slope.contact());
     auto& of_legs = slopes.emplace_back();
     for (const Side side : {Side::kLeft, Side::kRight}) {
-      of_legs[static_cast<size_t>(Index(side))] =
+      Nth(of_legs, Index(side)) =
           LegTorqueSlopes(dynamics, slope, side, loads.On(side, contact),
                           loads.SlopeOn(side, contact, slope.contact(), zmp));
     }
@@ -58,9 +59,7 @@ std::string TorqueMargin::Subject(const Margin& margin) const {
 }
 
 double TorqueMargin::Limit(Side side, Eigen::Index joint) const {
-  return place_.robot.legs[static_cast<size_t>(Index(side))]
-      .joints[static_cast<size_t>(joint)]
-      .max_torque;
+  return Nth(place_.robot.legs, Index(side)) Nth(.joints, joint).max_torque;
 }
 
 Margin TorqueMargin::Least(Instant* at, double) const {
@@ -90,7 +89,7 @@ void TorqueMargin::AddRows(Instant* at, SlackSink* rows) const {
       const double sign = torques[j] < 0.0 ? -1.0 : 1.0;
       rows->Add(Limit(side, j) - std::abs(torques[j]), [&](size_t i) {
         if (slopes.empty()) slopes = SlopesAt(at, *loads, *rows);
-        return -sign * slopes[i][static_cast<size_t>(Index(side))][j];
+        return -sign * Nth(slopes[i], Index(side))[j];
       });
     }
   }

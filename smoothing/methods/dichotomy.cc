@@ -9,6 +9,7 @@
 #include "smoothing/walk/superposed_walk.h"
 #include "wpg/check.h"
 #include "wpg/files/text.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -87,7 +88,7 @@ class Bisection {
       }
     }
     walk_.SetOverlap(junction, feasible);
-    monitor_.result().junctions[static_cast<size_t>(junction)].limited_by = refused;
+    Nth(monitor_.result().junctions, junction).limited_by = refused;
     return feasible;
   }
 

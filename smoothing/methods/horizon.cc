@@ -13,6 +13,7 @@
 #include "smoothing/methods/whole_proof.h"
 #include "smoothing/methods/window_passes.h"
 #include "wpg/check.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -84,14 +85,13 @@ class HorizonSearch {
         monitor_.result().iterates.push_back(iterate);
       }
       for (int j = std::max(0, first - 1); j < last; ++j) {
-        std::optional<Margin> limit =
-            part.junctions[static_cast<size_t>(j - window.begin)].limited_by;
+        std::optional<Margin> limit = Nth(part.junctions, j - window.begin).limited_by;
         if (limit) {
           limit->at.half_step += window.begin;
           limit->t += begins;
           if (limit->stop_after >= 0) limit->stop_after += window.begin;
         }
-        monitor_.result().junctions[static_cast<size_t>(j)].limited_by = limit;
+        Nth(monitor_.result().junctions, j).limited_by = limit;
       }
       window.Paste(part.parameters, &at_);
       cost = DurationOf(at_);

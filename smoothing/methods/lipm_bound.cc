@@ -10,6 +10,7 @@
 #include "smoothing/walk/superposed_walk.h"
 #include "wpg/files/plain_locale.h"
 #include "wpg/geometry/support_polygon.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -45,16 +46,16 @@ std::vector<Flight> Flights(const WalkProblem& problem) {
   std::array<Pose2, 2> soles = {start[0].Planar(), start[1].Planar()};
   std::vector<Flight> flights;
   for (int step = 0; step < problem.sequence().num_steps(); ++step) {
-    const PlacedHalfStep& down = problem.sequence().half_steps[static_cast<size_t>(2 * step + 1)];
+    const PlacedHalfStep& down = Nth(problem.sequence().half_steps, 2 * step + 1);
     const Side swing = down.half_step.swing();
-    Flight flight{.from = soles[static_cast<size_t>(Index(swing))],
+    Flight flight{.from = Nth(soles, Index(swing)),
                   .to = (down.X_WS * down.half_step.X_SF).Planar(),
                   .stance = down.X_WS.Planar()};
     const double way = std::hypot(flight.to.x - flight.from.x, flight.to.y - flight.from.y);
     const double path = way > 0.0 ? way + 2.0 * lift : 0.0;
     const double turn = std::abs(flight.to.yaw - flight.from.yaw);
     flight.least = std::max(AtLeast(path, speed), AtLeast(turn, rate));
-    soles[static_cast<size_t>(Index(swing))] = flight.to;
+    Nth(soles, Index(swing)) = flight.to;
     flights.push_back(flight);
   }
   return flights;

@@ -9,6 +9,7 @@
 #include "smoothing/proof/sampled_feasibility.h"
 #include "smoothing/walk/superposed_walk.h"
 #include "wpg/files/plain_locale.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -56,8 +57,8 @@ class Repair {
     const auto first = plan_.half_steps.begin() + 2 * step;
     alone.half_steps.assign(first, first + 2);
     const PlacedHalfStep& up = alone.half_steps.front();
-    alone.start[static_cast<size_t>(Index(up.half_step.support))] = up.X_WS;
-    alone.start[static_cast<size_t>(Index(up.half_step.swing()))] = up.X_WS * up.half_step.X_SF;
+    Nth(alone.start, Index(up.half_step.support)) = up.X_WS;
+    Nth(alone.start, Index(up.half_step.swing())) = up.X_WS * up.half_step.X_SF;
     Change(duration, height, &alone.half_steps[0]);
     Change(duration, height, &alone.half_steps[1]);
     return alone;
@@ -86,7 +87,7 @@ class Repair {
 
   // What the robot misses where it stands at rest on both feet, before or after the step.
   std::optional<Margin> MissedAtRest(int step) {
-    const HalfStep& half_step = plan_.half_steps[static_cast<size_t>(2 * step)].half_step;
+    const HalfStep& half_step = Nth(plan_.half_steps, 2 * step).half_step;
     const HalfStepSequence alone = Alone(step, half_step.duration, half_step.via_height);
     const SuperposedWalk walk(alone, PlannedMotion(alone));
     for (const double t : {0.0, walk.duration()}) {
@@ -98,7 +99,7 @@ class Repair {
   }
 
   void RepairStep(int step) {
-    const HalfStep& planned = plan_.half_steps[static_cast<size_t>(2 * step)].half_step;
+    const HalfStep& planned = Nth(plan_.half_steps, 2 * step).half_step;
     if (Proved(step, planned.duration, planned.via_height) || Stopped()) return;
     PlainStream why;
     why << "footstep " << step + 1;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "wpg/nth.h"
+
 namespace halfstep {
 namespace {
 
@@ -17,7 +19,7 @@ std::vector<double> LeastRows(const OverlapProgram& program, const Eigen::Vector
   watched.Evaluate(x, &values, nullptr);
   std::vector<double> least(static_cast<size_t>(program.variables().sequence().size()), 1.0);
   for (int row = 0; row < watched.rows(); ++row) {
-    double& of_half_step = least[static_cast<size_t>(watched.half_step_of(row))];
+    double& of_half_step = Nth(least, watched.half_step_of(row));
     of_half_step = std::min(of_half_step, values[row]);
   }
   return least;
@@ -34,7 +36,7 @@ HomotopyParameters ShortenedStart(const OverlapProgram& program, const HomotopyP
     Eigen::VectorXd x = begin;
     for (int v = 0; v < variables.size(); ++v) {
       if (variables.at(v).family != ParameterFamily::kDuration) continue;
-      x[v] = std::max(lower[v], begin[v] * factors[static_cast<size_t>(variables.at(v).index)]);
+      x[v] = std::max(lower[v], begin[v] * Nth(factors, variables.at(v).index));
     }
     return x;
   };

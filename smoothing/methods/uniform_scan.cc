@@ -8,6 +8,7 @@
 #include "smoothing/methods/dichotomy.h"
 #include "wpg/check.h"
 #include "wpg/files/plain_locale.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -76,8 +77,7 @@ class Scan {
       }
     }
     for (int i = 0; i < problem_.sequence().num_junctions(); ++i) {  // fixed ones may not fit
-      if (start.overlaps[static_cast<size_t>(i)] >
-          NaturalOverlapBound(start, i) + kOverlapTolerance) {
+      if (Nth(start.overlaps, i) > NaturalOverlapBound(start, i) + kOverlapTolerance) {
         return;
       }
     }

@@ -10,6 +10,7 @@
 #include "smoothing/walk/splice.h"
 #include "wpg/check.h"
 #include "wpg/motion/moved_footsteps.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -62,14 +63,14 @@ Stays WhatStays(const Part& part, const WalkProblem& problem, int first, int las
     for (int i = 0; i < part.count_of(family); ++i) {
       const auto [from, to] = traits.half_steps(part.first_of(family) + i);
       const bool before = traits.joins() && to == first;
-      stays[static_cast<size_t>(family)].push_back(to > last || (from < first && !before));
+      Nth(stays, family).push_back(to > last || (from < first && !before));
     }
   }
   for (const FixedParameter& one : problem.fixed()) {
     const ParameterFamily family = one.parameter.family;
     const int i = one.parameter.index - part.first_of(family);
     if (i < 0 || i >= part.count_of(family)) continue;
-    stays[static_cast<size_t>(family)][static_cast<size_t>(i)] = true;
+    Nth(Nth(stays, family), i) = true;
   }
   return stays;
 }
@@ -78,9 +79,9 @@ Stays WhatStays(const Part& part, const WalkProblem& problem, int first, int las
 // durations, these stay, too.
 void KeepWhatBoundsOverlaps(const HalfStepSequence& sequence, const HomotopyParameters& at,
                             Stays* stays) {
-  std::vector<bool>& durations = (*stays)[static_cast<size_t>(ParameterFamily::kDuration)];
-  std::vector<bool>& shifts = (*stays)[static_cast<size_t>(ParameterFamily::kZmpShift)];
-  const std::vector<bool>& overlaps = (*stays)[static_cast<size_t>(ParameterFamily::kOverlap)];
+  std::vector<bool>& durations = Nth(*stays, ParameterFamily::kDuration);
+  std::vector<bool>& shifts = Nth(*stays, ParameterFamily::kZmpShift);
+  const std::vector<bool>& overlaps = Nth(*stays, ParameterFamily::kOverlap);
   const std::vector<double> planned = PlannedMotion(sequence).durations;
   for (size_t i = 0; i < overlaps.size(); ++i) {
     if (!overlaps[i]) continue;
@@ -102,7 +103,7 @@ WalkWindow WindowOf(const WalkProblem& problem, const HomotopyParameters& at, in
   HALFSTEP_CHECK(first >= 0 && first % 2 == 0 && last % 2 == 1 && first < last && last < n,
                  "half-steps " << first << " to " << last << " of " << n);
   // Where the window ends at rest, nothing behind it depends on it.
-  const bool to_rest = last + 1 == n || at.overlaps[static_cast<size_t>(last)] <= 0.0;
+  const bool to_rest = last + 1 == n || Nth(at.overlaps, last) <= 0.0;
   const bool local = problem.scene().rests();
   const Part part = {
       local ? std::max(0, first - kNeighbours) : 0,
@@ -119,7 +120,7 @@ WalkWindow WindowOf(const WalkProblem& problem, const HomotopyParameters& at, in
   std::vector<FixedParameter> fixed;
   for (const ParameterFamily family : AllParameterFamilies()) {
     for (int i = 0; i < part.count_of(family); ++i) {
-      if (!stays[static_cast<size_t>(family)][static_cast<size_t>(i)]) continue;
+      if (!Nth(Nth(stays, family), i)) continue;
       const HomotopyParameter parameter{family, i};
       fixed.push_back({parameter, parameter.in(parameters)});
     }

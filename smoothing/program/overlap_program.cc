@@ -7,6 +7,7 @@
 
 #include "smoothing/program/overlap_costs.h"
 #include "smoothing/program/overlap_rows.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -26,7 +27,7 @@ WatchOptions Seeing(const ProgramOptions& options) {
 std::array<bool, kNumMarginFamilies> Raised() {
   std::array<bool, kNumMarginFamilies> raised{};
   for (const MarginFamily family : AllMarginFamilies()) {
-    raised[static_cast<size_t>(family)] = Traits(family).raised;
+    Nth(raised, family) = Traits(family).raised;
   }
   return raised;
 }

@@ -6,6 +6,7 @@
 
 #include "smoothing/program/overlap_costs.h"
 #include "smoothing/program/overlap_program.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -86,10 +87,10 @@ class DurationRow : public opt::ConstraintBlock {
     const Eigen::VectorXd x = variables.ToVariables(start);
     for (const auto& [parameter, slope] : DurationGradient(variables.sequence())) {
       variables.Pull(parameter, slope, x, start,
-                     [&met](int variable, double) { met[static_cast<size_t>(variable)] = true; });
+                     [&met](int variable, double) { Nth(met, variable) = true; });
     }
     for (int v = 0; v < variables.size(); ++v) {
-      if (!met[static_cast<size_t>(v)]) continue;
+      if (!Nth(met, v)) continue;
       pattern_.rows.push_back(0);
       pattern_.cols.push_back(v);
     }

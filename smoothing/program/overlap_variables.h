@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "smoothing/walk/parameter_table.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 
@@ -27,9 +28,7 @@ class OverlapVariables {
   const HalfStepSequence& sequence() const { return sequence_; }    ///< whose parameters they are
   int size() const { return static_cast<int>(variables_.size()); }  ///< n
   /// The parameter that is x[variable].
-  const HomotopyParameter& at(int variable) const {
-    return variables_[static_cast<size_t>(variable)];
-  }
+  const HomotopyParameter& at(int variable) const { return Nth(variables_, variable); }
   /// Of all parameters, fixed ones included.
   const ParameterTable& table() const { return table_; }
 
@@ -40,7 +39,7 @@ class OverlapVariables {
 
   /// Index of a parameter's variable; −1 when it is not a variable.
   int IndexOf(const HomotopyParameter& parameter) const {
-    return index_[static_cast<size_t>(table_.IndexOf(parameter))];
+    return Nth(index_, table_.IndexOf(parameter));
   }
   /// The simple bounds of x (n).
   Eigen::VectorXd lower() const;

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "smoothing/margins/family_traits.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 
@@ -24,12 +25,12 @@ int RowOf(MarginFamily family) {
     for (const MarginFamily of : AllMarginFamilies()) {
       const auto& own = Traits(of).row;
       const auto found = own ? std::ranges::find(RowFamilies(), *own) : RowFamilies().end();
-      rows[static_cast<size_t>(of)] =
+      Nth(rows, of) =
           found == RowFamilies().end() ? -1 : static_cast<int>(found - RowFamilies().begin());
     }
     return rows;
   }();
-  return kRows[static_cast<size_t>(family)];
+  return Nth(kRows, family);
 }
 
 }  // namespace halfstep

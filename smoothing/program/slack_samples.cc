@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wpg/nth.h"
+
 namespace halfstep {
 
 std::vector<LeastSlacks> SampledSlacks(const SuperposedWalk& walk, const MarginEvaluator& evaluator,
@@ -16,14 +18,14 @@ std::vector<LeastSlacks> SampledSlacks(const SuperposedWalk& walk, const MarginE
   RunWith(workers, n / kAtOnce + 1, [&](int part, int thread) {
     InstantSlacks instant;
     for (int i = part * kAtOnce; i <= std::min(n, part * kAtOnce + kAtOnce - 1); ++i) {
-      LeastSlacks& sample = samples[static_cast<size_t>(i)];
+      LeastSlacks& sample = Nth(samples, i);
       sample.fill(options.cutoff);
       const double t = std::min(options.begin + i * options.period, walk.duration());
       const LocalTime at = walk.Locate(t);
       if (!range.contains(at.half_step)) continue;
-      slacks[static_cast<size_t>(thread)].At(walk, at, {}, false, &instant);
+      Nth(slacks, thread).At(walk, at, {}, false, &instant);
       for (const SlackRow& row : instant.rows) {
-        double& least = sample[static_cast<size_t>(row.family)];
+        double& least = Nth(sample, row.family);
         least = std::min(least, row.slack);
       }
     }

@@ -5,6 +5,7 @@
 
 #include "smoothing/program/row_order.h"
 #include "smoothing/program/soft_minimum.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -46,7 +47,7 @@ WatchedInstants::WatchedInstants(const OverlapVariables& variables,
     for (int m = 0; looked_at && m < options.instants; ++m) {
       instants.push_back({(m + 0.5) / options.instants, Instant::Of::kStretch});
     }
-    const HalfStep& planned = variables.sequence().half_steps[static_cast<size_t>(k)].half_step;
+    const HalfStep& planned = Nth(variables.sequence().half_steps, k).half_step;
     const bool flight_moves = variables.IndexOf({Family::kZmpShift, k}) >= 0;
     const bool motion_moves = flight_moves || variables.IndexOf({Family::kFootDelay, k}) >= 0;
     if (looked_at) {  // just inside where a statement begins or ends to count, in order of time
@@ -82,7 +83,7 @@ void WatchedInstants::SetReserves(double times) {
 bool WatchedInstants::WatchesBranch(int k) const {
   const std::vector<PlacedHalfStep>& half_steps = variables_.sequence().half_steps;
   return k + 1 < variables_.sequence().size() && options_.range.contains(k) &&
-         Demands(options_.stop_branches, half_steps[static_cast<size_t>(k)].half_step.kind);
+         Demands(options_.stop_branches, Nth(half_steps, k).half_step.kind);
 }
 
 void WatchedInstants::CountRows() {
@@ -98,7 +99,7 @@ void WatchedInstants::CountRows() {
 int WatchedInstants::NumRowFamilies() { return static_cast<int>(RowFamilies().size()); }
 
 MarginFamily WatchedInstants::family_of(int row) {
-  return RowFamilies()[static_cast<size_t>(row % NumRowFamilies())];
+  return Nth(RowFamilies(), row % NumRowFamilies());
 }
 
 int WatchedInstants::half_step_of(int row) const {
@@ -158,10 +159,10 @@ void WatchedInstants::EvaluateHalfStep(const SuperposedWalk& walk, const Eigen::
   const Eigen::Index width = static_cast<Eigen::Index>(columns.size());
   const SoftMinimum nothing{options_.cutoff, 1.0, Eigen::VectorXd::Zero(nonzeros ? width : 0)};
   std::vector<SoftMinimum> minima(static_cast<size_t>(NumRowFamilies()), nothing);
-  double* value = values->data() + first_rows_[static_cast<size_t>(k)];
+  double* value = values->data() + Nth(first_rows_, k);
   const auto write = [&] {
     for (int row = 0; row < NumRowFamilies(); ++row) {
-      SoftMinimum& minimum = minima[static_cast<size_t>(row)];
+      SoftMinimum& minimum = Nth(minima, row);
       *value++ = minimum.least - std::log(minimum.sum) / rho - reserves_.of(k, row);
       for (Eigen::Index c = 0; nonzeros && c < width; ++c) {
         *nonzeros++ = minimum.gradient[c] / minimum.sum;
@@ -175,7 +176,7 @@ void WatchedInstants::EvaluateHalfStep(const SuperposedWalk& walk, const Eigen::
   if (WatchesBranch(k)) branch = walk.StopBranch(k);
   Eigen::MatrixXd pull;   // ∂parameter/∂x on the band (parameters × width)
   Eigen::VectorXd later;  // ∂t/∂x on the band (width); empty where obstacles rest
-  for (const Instant& where : instants_[static_cast<size_t>(k)]) {
+  for (const Instant& where : Nth(instants_, k)) {
     if (where.far) continue;
     const LocalTime at = At(walk, k, where, &moving);
     const bool of_branch = where.of == Instant::Of::kBranch;
@@ -196,7 +197,7 @@ void WatchedInstants::EvaluateHalfStep(const SuperposedWalk& walk, const Eigen::
     }
     for (size_t r = 0; r < instant.rows.size(); ++r) {
       const int place = RowOf(instant.rows[r].family);
-      SoftMinimum& minimum = minima[static_cast<size_t>(place)];
+      SoftMinimum& minimum = Nth(minima, place);
       const double weight = minimum.Add(instant.rows[r].slack, rho);
       if (!nonzeros || weight < 1e-9) continue;
       minimum.gradient.noalias() +=
@@ -228,8 +229,8 @@ void WatchedInstants::EvaluateOn(const SuperposedWalk& walk, const Eigen::Vector
                     bands_[k].size() * static_cast<size_t>(first_rows_[k + 1] - first_rows_[k]));
   }
   RunWith(workers_, walk.num_half_steps(), [&](int k, int thread) {
-    EvaluateHalfStep(walk, x, k, &slacks[static_cast<size_t>(thread)], values,
-                     nonzeros ? nonzeros->data() + first[static_cast<size_t>(k)] : nullptr);
+    EvaluateHalfStep(walk, x, k, &Nth(slacks, thread), values,
+                     nonzeros ? nonzeros->data() + Nth(first, k) : nullptr);
     return true;
   });
 }
@@ -246,7 +247,7 @@ double WatchedInstants::LeastSlack(const HomotopyParameters& parameters,
   std::vector<SlackEvaluator> slacks = Evaluators(options_.cutoff, nullptr);
   std::vector<double> least(bands_.size(), options_.cutoff);
   RunWith(workers_, walk.num_half_steps(), [&](int k, int thread) {
-    least[static_cast<size_t>(k)] = LeastSlackOf(walk, k, of, &slacks[static_cast<size_t>(thread)]);
+    Nth(least, k) = LeastSlackOf(walk, k, of, &Nth(slacks, thread));
     return true;
   });
   return std::ranges::min(least);
@@ -260,11 +261,11 @@ double WatchedInstants::LeastSlackOf(const SuperposedWalk& walk, int k,
   std::vector<std::pair<HomotopyParameter, double>> moving;
   std::optional<SuperposedWalk> branch;
   if (WatchesBranch(k)) branch = walk.StopBranch(k);
-  for (const Instant& where : instants_[static_cast<size_t>(k)]) {
+  for (const Instant& where : Nth(instants_, k)) {
     const bool of_branch = where.of == Instant::Of::kBranch;
     slacks->At(of_branch ? *branch : walk, At(walk, k, where, &moving), moving, false, &instant);
     for (const SlackRow& row : instant.rows) {
-      if (of[static_cast<size_t>(row.family)]) least = std::min(least, row.slack);
+      if (Nth(of, row.family)) least = std::min(least, row.slack);
     }
   }
   return least;

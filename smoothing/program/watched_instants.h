@@ -11,6 +11,7 @@
 #include "smoothing/program/slack_samples.h"
 #include "smoothing/walk/stop_branches.h"
 #include "smoothing/walk/stretch_range.h"
+#include "wpg/nth.h"
 #include "wpg/workers.h"
 
 namespace halfstep {
@@ -53,9 +54,7 @@ class WatchedInstants {
   static MarginFamily family_of(int row);
   static int NumRowFamilies();  ///< how many families have a row of their own
   /// The variables on which the rows of a half-step depend (OverlapVariables::Band).
-  const std::vector<int>& band(int half_step) const {
-    return bands_[static_cast<size_t>(half_step)];
-  }
+  const std::vector<int>& band(int half_step) const { return Nth(bands_, half_step); }
   /// Number of entries of the Jacobian: every row has those of its band.
   size_t num_nonzeros() const;
 

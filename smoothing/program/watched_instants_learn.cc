@@ -6,6 +6,7 @@
 #include "smoothing/program/row_order.h"
 #include "smoothing/program/slack_samples.h"
 #include "smoothing/program/watched_instants.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -32,7 +33,7 @@ bool WatchedInstants::Look(const SuperposedWalk& walk, const LocalTime& at, bool
     const double stretch = StretchOf(walk, at.half_step);
     fraction = stretch < T ? (at.tau - stretch) / (T - stretch) : 1.0;
   }
-  std::vector<Instant>& instants = instants_[static_cast<size_t>(at.half_step)];
+  std::vector<Instant>& instants = Nth(instants_, at.half_step);
   for (const Instant& known : instants) {
     if (known.of == of && !known.far && std::abs(known.fraction - fraction) < kSame) return false;
   }
@@ -66,13 +67,11 @@ double WatchedInstants::FocusOn(const SuperposedWalk& walk, std::optional<int> b
       SampledSlacks(branch ? walk.StopBranch(*branch) : walk, evaluator_, options_.range,
                     {.begin = begin, .period = period, .cutoff = far}, workers_);
   const int last = static_cast<int>(samples.size()) - 1;
-  const auto lowest = [&samples](int i) {
-    return std::ranges::min(samples[static_cast<size_t>(i)]);
-  };
+  const auto lowest = [&samples](int i) { return std::ranges::min(Nth(samples, i)); };
   std::vector<std::pair<HomotopyParameter, double>> moving;
   const int from = branch.value_or(0), to = branch.value_or(walk.num_half_steps() - 1);
   for (int k = from; options_.row_per_instant && k <= to; ++k) {
-    for (Instant& instant : instants_[static_cast<size_t>(k)]) {
+    for (Instant& instant : Nth(instants_, k)) {
       if ((instant.of == Instant::Of::kBranch) != branch.has_value()) continue;
       const double t = walk.start_of(k) + At(walk, k, instant, &moving).tau;
       const int i = std::clamp(static_cast<int>((t - begin) / period), 0, last);
@@ -84,8 +83,7 @@ double WatchedInstants::FocusOn(const SuperposedWalk& walk, std::optional<int> b
     least = std::min(least, lowest(i));
     if (options_.row_per_instant) {
       const double t = std::min(begin + i * period, end);
-      NoteSample(branch ? *branch : walk.Locate(t).half_step, samples[static_cast<size_t>(i)],
-                 level);
+      NoteSample(branch ? *branch : walk.Locate(t).half_step, Nth(samples, i), level);
     }
     const double minimum = LocalMinimum(samples, i, far);
     if (minimum >= far) continue;
@@ -108,7 +106,7 @@ void WatchedInstants::NoteRows(const SuperposedWalk& walk, double level) {
   seen_.samples.assign(seen_.rows.size(), kFar);
   for (int k = 0, row = 0; k < walk.num_half_steps(); ++k) {
     for (; row < first_rows_[static_cast<size_t>(k) + 1]; ++row) {
-      double& least = seen_.rows[static_cast<size_t>(k * families + row % families)];
+      double& least = Nth(seen_.rows, k * families + row % families);
       least = std::min(least, values[row] - level);
     }
   }
@@ -117,9 +115,8 @@ void WatchedInstants::NoteRows(const SuperposedWalk& walk, double level) {
 void WatchedInstants::NoteSample(int half_step, const LeastSlacks& slacks, double level) {
   for (const MarginFamily family : AllMarginFamilies()) {
     if (RowOf(family) < 0) continue;
-    double& least =
-        seen_.samples[static_cast<size_t>(half_step * NumRowFamilies() + RowOf(family))];
-    least = std::min(least, slacks[static_cast<size_t>(family)] - level);
+    double& least = Nth(seen_.samples, half_step * NumRowFamilies() + RowOf(family));
+    least = std::min(least, Nth(slacks, family) - level);
   }
 }
 

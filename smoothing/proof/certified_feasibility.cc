@@ -8,6 +8,7 @@
 
 #include "wpg/check.h"
 #include "wpg/files/plain_locale.h"
+#include "wpg/nth.h"
 #include "wpg/workers.h"
 
 namespace halfstep {
@@ -159,8 +160,8 @@ int CertifiedFeasibility::ProveOpen(const SuperposedWalk& walk, const std::stop_
   const long instants = scratch->instants, queries = scratch->bodies.queries;
   const int met =
       RunWith(scratch->workers, static_cast<int>(open->size()), [&](int index, int thread) {
-        Open& now = (*open)[static_cast<size_t>(index)];
-        Settled& found = (*settled)[static_cast<size_t>(index)];
+        Open& now = Nth(*open, index);
+        Settled& found = Nth(*settled, index);
         if (stop.stop_requested()) {
           found.stopped = true;
           return false;

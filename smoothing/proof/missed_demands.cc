@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "smoothing/margins/instant.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -177,14 +178,14 @@ class Survey {
     };
     const auto add_body = [&](int index) {
       if (index < 0) return;
-      const RobotBody& body = evaluator_.robot().bodies[static_cast<size_t>(index)];
+      const RobotBody& body = Nth(evaluator_.robot().bodies, index);
       if (IsFoot(body)) add(static_cast<Side>(body.leg));
     };
     if (margin.family == MarginFamily::kNoStep) {
       if (margin.subject >= 0) add(static_cast<Side>(margin.subject));
     } else if (margin.family == MarginFamily::kClearance) {
       const auto& obstacles = evaluator_.scene().obstacles;
-      const bool rests = margin.other >= 0 && obstacles[static_cast<size_t>(margin.other)].rests();
+      const bool rests = margin.other >= 0 && Nth(obstacles, margin.other).rests();
       if (rests) add_body(margin.subject);
     } else if (margin.family == MarginFamily::kGround) {
       add_body(margin.subject);

@@ -6,6 +6,7 @@
 
 #include "wpg/check.h"
 #include "wpg/files/plain_locale.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -78,7 +79,7 @@ MarginSet SampleMargins(const MarginEvaluator& evaluator, const SuperposedWalk& 
 
 const Margin& WorstOf(const MarginSet& margins, const MarginLimits& limits) {
   // Where a leg does not reach there is no motion, and other margins are −∞ or follow from it.
-  const Margin& reach = margins[static_cast<size_t>(MarginFamily::kReach)];
+  const Margin& reach = Nth(margins, MarginFamily::kReach);
   if (reach.value < 0.0) return reach;
   const auto before = [&](const Margin& a, const Margin& b) {
     const double slack_a = limits.Slack(a), slack_b = limits.Slack(b);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "wpg/nth.h"
+
 namespace halfstep {
 namespace {
 
@@ -29,7 +31,7 @@ std::vector<double> StretchParameters(const SuperposedWalk& walk, int half_step)
     // The half-step stands on the footsteps of the two steps before its own.
     for (int step = i / 2 - 1; step >= std::max(0, i / 2 - 2); --step) {
       for (const ParameterFamily family : AllParameterFamilies()) {
-        if (Traits(family).move != nullptr) key.push_back(p.of(family)[static_cast<size_t>(step)]);
+        if (Traits(family).move != nullptr) key.push_back(Nth(p.of(family), step));
       }
     }
   }
@@ -56,7 +58,7 @@ void StretchProofs::Keep(Key key, Stretch* stretch) {
 void StretchProofs::Remember(const SuperposedWalk& walk) {
   for (int k = 0; k < walk.num_half_steps(); ++k) {
     if (!range_.contains(k)) continue;
-    Keep(KeyOf(walk, k), &stretches_[static_cast<size_t>(k)]);
+    Keep(KeyOf(walk, k), &Nth(stretches_, k));
   }
 }
 
@@ -65,7 +67,7 @@ std::vector<Margin> StretchProofs::Refusals(const SuperposedWalk& walk,
   std::vector<Margin> refusals;
   for (int k = 0; k < walk.num_half_steps(); ++k) {
     if (!range_.contains(k)) continue;
-    Stretch& stretch = stretches_[static_cast<size_t>(k)];
+    Stretch& stretch = Nth(stretches_, k);
     Key key = KeyOf(walk, k);
     if (std::find(stretch.proved.begin(), stretch.proved.end(), key) != stretch.proved.end()) {
       continue;

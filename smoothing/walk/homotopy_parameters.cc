@@ -6,6 +6,7 @@
 
 #include "smoothing/walk/parameter_complaint.h"
 #include "wpg/check.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 
@@ -48,8 +49,8 @@ void CheckParameters(const HalfStepSequence& sequence, const HomotopyParameters&
 
 void ClampOverlaps(const HomotopyParameters& rests, HomotopyParameters* parameters) {
   for (int i = 0; i < static_cast<int>(parameters->overlaps.size()); ++i) {
-    const double least = std::min(0.0, rests.overlaps[static_cast<size_t>(i)]);
-    double& overlap = parameters->overlaps[static_cast<size_t>(i)];
+    const double least = std::min(0.0, Nth(rests.overlaps, i));
+    double& overlap = Nth(parameters->overlaps, i);
     overlap = std::clamp(overlap, least, NaturalOverlapBound(*parameters, i));
   }
 }

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "smoothing/walk/homotopy_parameters.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -44,7 +45,7 @@ std::pair<double, double> AboutZero(const Row&, const Bounds& bounds, double) {
 bool FootstepStays(const HalfStepSequence& sequence, int step) {
   if (step + 2 >= sequence.num_steps()) return true;
   const auto swing = [&sequence](int k) {
-    return sequence.half_steps[2 * static_cast<size_t>(k)].half_step.swing();
+    return Nth(sequence.half_steps, 2 * k).half_step.swing();
   };
   return swing(step + 1) == swing(step) || swing(step + 2) != swing(step);
 }
@@ -353,8 +354,6 @@ static_assert(CheckRows(std::make_index_sequence<kRows.size()>()));
 
 }  // namespace
 
-const ParameterFamilyTraits& Traits(ParameterFamily family) {
-  return kRows[static_cast<size_t>(family)];
-}
+const ParameterFamilyTraits& Traits(ParameterFamily family) { return Nth(kRows, family); }
 
 }  // namespace halfstep

@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "wpg/enumerators.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 
@@ -41,11 +42,9 @@ struct ByParameterFamily {
   std::array<T, kNumParameterFamilies> values{};  ///< in the order of ParameterFamily
 
   /// That of a family.
-  constexpr T& operator[](ParameterFamily family) { return values[static_cast<size_t>(family)]; }
+  constexpr T& operator[](ParameterFamily family) { return Nth(values, family); }
   /// The same, to be read.
-  constexpr const T& operator[](ParameterFamily family) const {
-    return values[static_cast<size_t>(family)];
-  }
+  constexpr const T& operator[](ParameterFamily family) const { return Nth(values, family); }
   friend bool operator==(const ByParameterFamily&, const ByParameterFamily&) = default;
 };
 

@@ -6,6 +6,7 @@
 
 #include "wpg/check.h"
 #include "wpg/files/plain_locale.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -39,7 +40,7 @@ ParameterTable::ParameterTable(const HalfStepSequence& sequence,
     }
   }
   for (const FixedParameter& one : fixed) {
-    ParameterRow& row = rows_[static_cast<size_t>(IndexOf(one.parameter))];
+    ParameterRow& row = Nth(rows_, IndexOf(one.parameter));
     row.start = row.lower = row.upper = one.value.value_or(row.start);
     row.fixed = true;
   }
@@ -50,10 +51,10 @@ ParameterTable::ParameterTable(const HalfStepSequence& sequence,
 }
 
 void ParameterTable::LeaveRoomFor(int junction, const HomotopyParameters& start) {
-  const double overlap = start.overlaps[static_cast<size_t>(junction)];
+  const double overlap = Nth(start.overlaps, junction);
   if (overlap <= 0.0) return;
   const auto row_of = [this](ParameterFamily family, int half_step) -> ParameterRow& {
-    return rows_[static_cast<size_t>(IndexOf({family, half_step}))];
+    return Nth(rows_, IndexOf({family, half_step}));
   };
   const auto [before, after] = NaturalBoundOf(start, junction);
   for (const auto& [half_step, fraction] : {std::pair{junction, before}, {junction + 1, after}}) {
@@ -104,8 +105,8 @@ std::string ComplaintAbout(const HalfStepSequence& sequence,
   const HomotopyParameters start = StartOf(sequence, fixed);
   for (int i = 0; i < sequence.num_junctions(); ++i) {
     const double bound = NaturalOverlapBound(start, i);
-    if (start.overlaps[static_cast<size_t>(i)] <= bound + kOverlapTolerance) continue;
-    text << "overlap " << i + 1 << ": " << start.overlaps[static_cast<size_t>(i)]
+    if (Nth(start.overlaps, i) <= bound + kOverlapTolerance) continue;
+    text << "overlap " << i + 1 << ": " << Nth(start.overlaps, i)
          << " s is above its natural bound (valid: up to " << bound << " s)";
     return text.str();
   }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "smoothing/walk/homotopy_parameters.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 
@@ -39,7 +40,7 @@ class ParameterTable {
   const std::vector<ParameterRow>& rows() const&& = delete;  // of a temporary: `for` would dangle
   /// The row of a parameter, and its number. Precondition: the sequence has it.
   const ParameterRow& row(const HomotopyParameter& parameter) const {
-    return rows_[static_cast<size_t>(IndexOf(parameter))];
+    return Nth(rows_, IndexOf(parameter));
   }
   /// Number of its row.
   int IndexOf(const HomotopyParameter& parameter) const {

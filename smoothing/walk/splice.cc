@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "wpg/check.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -43,17 +44,17 @@ double AgreeUntil(const SuperposedWalk& a, const SuperposedWalk& b) {
 
 std::array<Foothold, 2> StanceAfter(const HalfStepSequence& sequence, int last) {
   HALFSTEP_CHECK(last >= 0 && last < sequence.size(), "half-step " << last);
-  const auto& [down, X_WS] = sequence.half_steps[static_cast<size_t>(last / 2 * 2 + 1)];
+  const auto& [down, X_WS] = Nth(sequence.half_steps, last / 2 * 2 + 1);
   std::array<Foothold, 2> feet;
-  feet[static_cast<size_t>(Index(down.support))] = X_WS;
-  feet[static_cast<size_t>(Index(down.swing()))] = X_WS * down.X_SF;
+  Nth(feet, Index(down.support)) = X_WS;
+  Nth(feet, Index(down.swing())) = X_WS * down.X_SF;
   return feet;
 }
 
 WalkPlan Delayed(const WalkPlan& walk, int last, double begin) {
   HALFSTEP_CHECK(last >= 0 && last + 1 < walk.sequence.size(), "half-step " << last);
   WalkPlan delayed = walk;
-  delayed.parameters.overlaps[static_cast<size_t>(last)] = walk.Walk().end_of(last) - begin;
+  Nth(delayed.parameters.overlaps, last) = walk.Walk().end_of(last) - begin;
   CheckParameters(delayed.sequence, delayed.parameters);
   return delayed;
 }
@@ -74,7 +75,7 @@ WalkPlan Changed(const WalkPlan& walk, int last, const std::vector<Footstep>& fo
     down.half_step.X_SF = down.X_WS.Inverse() * next->X_WF;
     down.half_step.duration = next->duration;
     sequence.half_steps.push_back(down);
-    feet[static_cast<size_t>(Index(swing))] = next->X_WF;
+    Nth(feet, Index(swing)) = next->X_WF;
     ++next;
   }
   if (next != footsteps.end()) {

@@ -10,6 +10,7 @@
 #include "wpg/motion/moved_footsteps.h"
 #include "wpg/motion/walk_state.h"
 #include "wpg/motion/walk_thirds.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 
@@ -126,7 +127,7 @@ class SuperposedWalk {
   const Piece* DownOf(int step) const {
     return 2 * step + 1 < num_half_steps() ? &piece(2 * step + 1) : nullptr;
   }
-  const Piece& piece(int i) const { return pieces_[static_cast<size_t>(i)]; }
+  const Piece& piece(int i) const { return Nth(pieces_, i); }
   // First and last half-step under way at `at`.
   int FirstActive(const LocalTime& at) const;
   int LastActive(const LocalTime& at) const;

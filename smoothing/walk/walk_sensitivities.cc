@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "smoothing/walk/superposed_walk.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -83,7 +84,7 @@ void AddFootstepDerivatives(const OnFootsteps& p, const HalfStepJet& profiles,
   const bool up = h.kind == HalfStepKind::kUp;
   for (const auto& [step, is_support] : {std::pair{p.on.support, true}, {p.on.swing, false}}) {
     if (step < 0) continue;
-    const double turned = p.parameters.footstep_yaws[static_cast<size_t>(step)];
+    const double turned = Nth(p.parameters.footstep_yaws, step);
     const double yaw = p.X_WS.yaw + (is_support ? 0.0 : h.X_SF.yaw);
     const Eigen::Matrix2d planned = Eigen::Rotation2Dd(yaw - turned).toRotationMatrix();
     const std::array<std::pair<Family, SoleMove>, 3> moves = {

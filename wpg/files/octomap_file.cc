@@ -14,6 +14,7 @@
 #include "wpg/files/mesh_text.h"
 #include "wpg/files/regular_file.h"
 #include "wpg/files/text.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -91,8 +92,7 @@ void CheckTree(const std::string& path, std::string_view bytes, const Header& he
       need(2);
       for (int i = 0; i < 8; ++i) {
         const int pair =
-            (static_cast<unsigned char>(bytes[at + static_cast<size_t>(i / 4)]) >> (2 * (i % 4))) &
-            3;
+            (static_cast<unsigned char>(Nth(bytes, at + (i / 4))) >> (2 * (i % 4))) & 3;
         children += pair != 0 ? 1 : 0;
         inner += pair == 3 ? 1 : 0;
       }

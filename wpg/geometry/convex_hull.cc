@@ -1,4 +1,5 @@
 #include "wpg/geometry/convex_body.h"
+#include "wpg/nth.h"
 
 extern "C" {  // its C++ interface does not compile as C++20
 #include <libqhull_r/libqhull_r.h>
@@ -145,7 +146,7 @@ ConvexBody MakeHull(const Eigen::Matrix3Xd& points) {
   for (Eigen::Vector3i triangle : faces.triangles) {
     for (int& corner : triangle) {
       const auto [place, fresh] = renumbered.try_emplace(corner, static_cast<int>(vertices.size()));
-      if (fresh) vertices.push_back(merged[static_cast<size_t>(corner)]);
+      if (fresh) vertices.push_back(Nth(merged, corner));
       corner = place->second;
     }
     body.triangles.push_back(triangle);

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "wpg/check.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -40,19 +41,19 @@ List Farthest(const Points& points, const List& among,
   const auto n = static_cast<Eigen::Index>(among.size());
   Eigen::Matrix<double, 4, Eigen::Dynamic> reach(4, n);
   for (Eigen::Index i = 0; i < n; ++i) {
-    const Eigen::Vector3d point = points.col(among[static_cast<size_t>(i)]);
-    for (int k = 0; k < 4; ++k) reach(k, i) = corners[static_cast<size_t>(k)].dot(point);
+    const Eigen::Vector3d point = points.col(Nth(among, i));
+    for (int k = 0; k < 4; ++k) reach(k, i) = Nth(corners, k).dot(point);
   }
   // The farthest in the middle and at the corners are compared with all.
   std::array<Eigen::Index, 5> rivals{};
-  for (int k = 0; k < 4; ++k) reach.row(k).maxCoeff(&rivals[static_cast<size_t>(k)]);
+  for (int k = 0; k < 4; ++k) reach.row(k).maxCoeff(&Nth(rivals, k));
   reach.colwise().sum().maxCoeff(&rivals[4]);
   List left;
   for (Eigen::Index i = 0; i < n; ++i) {
     const bool exceeded = std::any_of(rivals.begin(), rivals.end(), [&](Eigen::Index rival) {
       return ((reach.col(rival) - reach.col(i)).array() > beyond).all();
     });
-    if (!exceeded) left.push_back(among[static_cast<size_t>(i)]);
+    if (!exceeded) left.push_back(Nth(among, i));
   }
   return left;
 }
@@ -81,7 +82,7 @@ class FaceLists {
          Through(face_, at(i), at(j + width)), Through(face_, at(i + width), at(j + width))},
         beyond_);
     if (width == 1) {
-      lists_[static_cast<size_t>(i * squares_ + j)] = std::move(left);
+      Nth(lists_, i * squares_ + j) = std::move(left);
       return;
     }
     const int half = width / 2;

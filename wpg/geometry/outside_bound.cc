@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "wpg/nth.h"
+
 namespace halfstep {
 namespace {
 
@@ -60,7 +62,7 @@ class Outside {
 
  private:
   Eigen::Matrix3d Corners(Eigen::Index face) const {
-    const Eigen::Vector3i& t = body_.triangles[static_cast<size_t>(face)];
+    const Eigen::Vector3i& t = Nth(body_.triangles, face);
     Eigen::Matrix3d corners;
     for (int k = 0; k < 3; ++k) corners.col(k) = body_.vertices.col(t[k]) - center_;
     return corners;
@@ -68,7 +70,7 @@ class Outside {
   // Distance of a point to one of the tetrahedron of a face and the centre.
   double OverFace(Eigen::Index face, const Eigen::Vector3d& point) const {
     double nearest = std::numeric_limits<double>::infinity();
-    for (const int corner : body_.triangles[static_cast<size_t>(face)]) {
+    for (const int corner : Nth(body_.triangles, face)) {
       nearest = std::min(nearest, (body_.vertices.col(corner) - point).norm());
     }
     if (nearest == 0) return 0;

@@ -13,6 +13,7 @@
 #include "wpg/geometry/distinct_normals.h"
 #include "wpg/geometry/outside_bound.h"
 #include "wpg/geometry/triangle_weights.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -173,7 +174,7 @@ std::vector<int> DeepestOutside(const ConvexBody& hull, const ConvexBody& inner)
     Eigen::Index face = 0;
     const double depth =
         (inner.normals.transpose() * hull.vertices.col(i) - heights).maxCoeff(&face);
-    auto& known = deepest[static_cast<size_t>(face)];
+    auto& known = Nth(deepest, face);
     if (depth > known.first) known = {depth, i};
   }
   std::ranges::stable_sort(deepest, std::ranges::greater{}, &std::pair<double, int>::first);

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "wpg/geometry/planar_hull.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -29,12 +30,12 @@ SupportPolygon::SupportPolygon(const Pose2& X_WL, const Pose2& X_WR,
   std::array<Eigen::Vector2d, 8> points;
   const auto left = SoleCorners(X_WL, sole_size), right = SoleCorners(X_WR, sole_size);
   for (int i = 0; i < 4; ++i) {
-    points[static_cast<size_t>(i)] = left.col(i);
-    points[static_cast<size_t>(i + 4)] = right.col(i);
+    Nth(points, i) = left.col(i);
+    Nth(points, i + 4) = right.col(i);
   }
   std::array<Eigen::Vector2d, 17> hull;
   size_ = static_cast<int>(PlanarHull(points, hull));
-  for (int i = 0; i < size_; ++i) corners_.col(i) = hull[static_cast<size_t>(i)];
+  for (int i = 0; i < size_; ++i) corners_.col(i) = Nth(hull, i);
 }
 
 double SupportPolygon::Margin(const Eigen::Vector2d& p_W) const {

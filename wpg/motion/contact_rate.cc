@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "wpg/motion/leg_motion.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -53,7 +54,7 @@ std::optional<ContactRate> ContactRate::Over(const RobotModel& robot, const Inte
   const RigidMotion waist = MotionOfWaist(robot, motion, thirds);
   add(at_m.waist(), waist);
   for (const Side side : {Side::kLeft, Side::kRight}) {
-    const LegDrift& drift = of_robot.legs[static_cast<size_t>(Index(side))];
+    const LegDrift& drift = Nth(of_robot.legs, Index(side));
     const auto leg =
         LegMotion::Over(side, motion, waist, MotionOfSole(motion, thirds, side), drift, at_m);
     if (!leg) return std::nullopt;

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "wpg/motion/robot_dynamics.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 
@@ -30,13 +31,9 @@ class DynamicsSlope {
                 const RobotDynamics& dynamics, const DynamicsTangent& tangent);
 
   /// Its six links, from the hip down.
-  const std::array<Link, 6>& leg(Side side) const {
-    return legs_[static_cast<size_t>(Index(side))];
-  }
+  const std::array<Link, 6>& leg(Side side) const { return Nth(legs_, Index(side)); }
   /// Of RobotDynamics::accelerations [rad/s² per unit].
-  const Vector6d& accelerations(Side side) const {
-    return accelerations_[static_cast<size_t>(Index(side))];
-  }
+  const Vector6d& accelerations(Side side) const { return Nth(accelerations_, Index(side)); }
   const Vector6d& contact() const { return contact_; }  ///< of RobotDynamics::contact
 
  private:

@@ -1,6 +1,7 @@
 #include "wpg/motion/half_step_sequence.h"
 
 #include "wpg/check.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 
@@ -12,8 +13,8 @@ HalfStepSequence MakeSequence(const std::array<Foothold, 2>& start,
   std::array<Foothold, 2> feet = start;
   for (const Footstep& footstep : footsteps) {
     const Side swing = footstep.side;
-    const Foothold X_WS = feet[static_cast<size_t>(Index(Opposite(swing)))];
-    Foothold& foot = feet[static_cast<size_t>(Index(swing))];
+    const Foothold X_WS = Nth(feet, Index(Opposite(swing)));
+    Foothold& foot = Nth(feet, Index(swing));
     HalfStep half_step{.support = Opposite(swing),
                        .kind = HalfStepKind::kUp,
                        .X_SF = X_WS.Inverse() * foot,

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "wpg/motion/knee_match.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -17,11 +18,11 @@ class Chain {
         const RobotDynamics& at_m)
       : waist_(waist),
         sole_(sole),
-        turns_(motion.joints[static_cast<size_t>(Index(side))].turns),
+        turns_(Nth(motion.joints, Index(side)).turns),
         h_(motion.half_width),
         knee_(motion, side),
         waist_point_(motion.posture.X_WB.translation()),
-        sole_point_(motion.posture.X_WSole[static_cast<size_t>(Index(side))].translation()) {
+        sole_point_(Nth(motion.posture.X_WSole, Index(side)).translation()) {
     for (size_t j = 0; j < 6; ++j) {
       const RobotDynamics::Body& link = at_m.leg(side)[j];
       speed_[j] = link.velocity.head<3>().norm();

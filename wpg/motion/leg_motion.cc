@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "wpg/motion/knee_match.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -114,7 +115,7 @@ std::optional<LegMotion> LegMotion::Over(Side side, const IntervalMotion& motion
                                          const RigidMotion& waist, const RigidMotion& sole,
                                          const LegDrift& drift, const RobotDynamics& at_m) {
   const double h = motion.half_width;
-  const Vector6d& speeds = motion.posture.speeds[static_cast<size_t>(Index(side))];
+  const Vector6d& speeds = Nth(motion.posture.speeds, Index(side));
   const KneeMatch knee(motion, side);
   LinkChain chain(side, h, waist, sole, drift, at_m, knee);
   std::array<JointRates, 6> joints;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "wpg/check.h"
+#include "wpg/nth.h"
 #include "wpg/robot/offset_leg_bound.h"
 
 namespace halfstep {
@@ -28,7 +29,7 @@ MotionBounds::MotionBounds(const RobotModel& robot)
     : robot_(robot), anchors_{LegAnchors(robot.legs[0]), LegAnchors(robot.legs[1])} {
   for (const RobotBody& body : robot.bodies) {
     levers_.push_back(body.leg < 0 ? std::array<double, 6>{}
-                                   : anchors_[static_cast<size_t>(body.leg)].Levers(body));
+                                   : Nth(anchors_, body.leg).Levers(body));
   }
 }
 
@@ -219,9 +220,9 @@ void MotionBounds::Bound(const WalkJet& mid, const WalkState& second, double hal
   const BaseRates waist = WaistRates(*motion);
   std::array<LegRates, 2> legs;
   for (Side side : {Side::kLeft, Side::kRight}) {
-    LegRates& leg = legs[static_cast<size_t>(Index(side))];
+    LegRates& leg = Nth(legs, Index(side));
     leg = RatesOfLeg(*motion, side, waist);
-    motion->bounded = robot_.legs[static_cast<size_t>(Index(side))].closed_form()
+    motion->bounded = Nth(robot_.legs, Index(side)).closed_form()
                           ? BoundLeg(side, waist, leg, motion)
                           : BoundOffsetLeg(side, leg, motion);
     if (!motion->bounded) return;

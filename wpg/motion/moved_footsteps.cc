@@ -1,6 +1,7 @@
 #include "wpg/motion/moved_footsteps.h"
 
 #include "wpg/check.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -13,7 +14,7 @@ std::vector<HalfStepFootsteps> FootstepsOf(const HalfStepSequence& sequence) {
   std::vector<HalfStepFootsteps> all;
   std::array<int, 2> last = {-1, -1};
   for (int step = 0; step < sequence.num_steps(); ++step) {
-    const HalfStep& up = sequence.half_steps[2 * static_cast<size_t>(step)].half_step;
+    const HalfStep& up = Nth(sequence.half_steps, 2 * step).half_step;
     const int support = last[Of(up.support)];
     all.push_back({support, last[Of(up.swing())]});
     all.push_back({support, step});

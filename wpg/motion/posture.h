@@ -4,6 +4,7 @@
 #include <array>
 
 #include "wpg/motion/walk_state.h"
+#include "wpg/nth.h"
 #include "wpg/robot/leg_ik.h"
 #include "wpg/robot/robot_model.h"
 
@@ -23,8 +24,7 @@ struct Posture {
 
   /// The pose in W of one of the robot's bodies.
   const Eigen::Isometry3d& OfBody(const RobotBody& body) const {
-    return body.leg < 0 ? X_WB
-                        : X_WLink[static_cast<size_t>(body.leg)][static_cast<size_t>(body.link)];
+    return body.leg < 0 ? X_WB : Nth(Nth(X_WLink, body.leg), body.link);
   }
 };
 

@@ -6,6 +6,7 @@
 
 #include "wpg/motion/posture.h"
 #include "wpg/motion/spatial.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 
@@ -36,11 +37,9 @@ class RobotDynamics {
   const Eigen::Vector3d& O() const { return O_; }  ///< in W [m]
   const Body& waist() const { return waist_; }  ///< the waist's body and all that is rigid with it
   /// Of that leg.
-  const LegBodies& leg(Side side) const { return legs_[static_cast<size_t>(Index(side))]; }
+  const LegBodies& leg(Side side) const { return Nth(legs_, Index(side)); }
   /// q̈ [rad/s²].
-  const Vector6d& accelerations(Side side) const {
-    return accelerations_[static_cast<size_t>(Index(side))];
-  }
+  const Vector6d& accelerations(Side side) const { return Nth(accelerations_, Index(side)); }
   /// What the floor gives: moment about O [N m], and force [N].
   const Vector6d& contact() const { return contact_; }
   /// Where the floor's force has no horizontal moment, in W [m]; none where it does not push.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wpg/nth.h"
+
 namespace halfstep {
 namespace {
 
@@ -83,7 +85,7 @@ double TorqueDrift::OfJoint(Side side, size_t joint) const {
   for (const Side other : {Side::kLeft, Side::kRight}) {
     for (size_t j = 0; j < 6; ++j) {
       const bool hangs = other == side && j >= joint;
-      add(drift_.link_masses[static_cast<size_t>(Index(other))][j], (hangs ? 1.0 : 0.0) - share);
+      add(Nth(drift_.link_masses, Index(other))[j], (hangs ? 1.0 : 0.0) - share);
       if (hangs) hung += at_m_.leg(other)[j].force;
     }
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "wpg/check.h"
+#include "wpg/nth.h"
 #include "wpg/robot/paden_kahan.h"
 
 namespace halfstep {
@@ -102,7 +103,7 @@ Matrix6d LegNeighbourhood::Change(const Vector6d& radius, double share) const {
     turn += radius[j - 1];
     swing += radius[j - 1] * lever_[j - 1];
     const double half = 0.5 * turn * turn;
-    const double line = share * 2.0 * turn * offset_[static_cast<size_t>(j)];
+    const double line = share * 2.0 * turn * Nth(offset_, j);
     change.col(j) += half * angular_ + (half * lever_[j] + turn * swing + line) * linear_;
     for (int l = 0; l < j; ++l) change.col(j) += radius[l] * brackets_.col(Pair(l, j)).cwiseAbs();
   }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "wpg/nth.h"
+
 namespace halfstep {
 
 std::vector<LinkAnchor> FindAnchors(const UrdfTree& urdf, int waist,
@@ -9,14 +11,14 @@ std::vector<LinkAnchor> FindAnchors(const UrdfTree& urdf, int waist,
                                     const std::vector<double>& posture) {
   std::vector<double> q = posture;
   for (const auto& joints : leg_joints) {
-    for (const int joint : joints) q[static_cast<size_t>(joint)] = 0.0;
+    for (const int joint : joints) Nth(q, joint) = 0.0;
   }
   const std::vector<Eigen::Isometry3d> X = urdf.LinkPoses(q);
   std::vector<LinkAnchor> anchors(urdf.links.size());
   anchors[0].urdf_link = waist;
   for (size_t i = 1; i < urdf.links.size(); ++i) {
     const int joint = urdf.links[i].joint;
-    anchors[i] = anchors[static_cast<size_t>(urdf.joints[static_cast<size_t>(joint)].parent)];
+    anchors[i] = Nth(anchors, Nth(urdf.joints, joint).parent);
     for (size_t leg = 0; leg < 2; ++leg) {
       const auto found = std::find(leg_joints[leg].begin(), leg_joints[leg].end(), joint);
       if (found == leg_joints[leg].end()) continue;

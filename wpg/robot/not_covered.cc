@@ -1,6 +1,7 @@
 #include "wpg/robot/not_covered.h"
 
 #include "wpg/files/text.h"
+#include "wpg/nth.h"
 #include "wpg/robot/placeholder_limits.h"
 #include "wpg/robot/torque_limits.h"
 
@@ -47,7 +48,7 @@ void AddMassWithoutBodies(const RobotModel& robot, std::vector<NotCovered>* list
 }
 
 void AddPairs(const RobotModel& robot, std::vector<NotCovered>* list) {
-  const auto name = [&robot](int body) { return robot.bodies[static_cast<size_t>(body)].name; };
+  const auto name = [&robot](int body) { return Nth(robot.bodies, body).name; };
   for (const UnwatchedPair& pair : robot.unwatched_pairs) {
     const std::string subject = name(pair.a) + " - " + name(pair.b);
     list->push_back({NotCoveredKind::kPair, subject, subject + ": not watched: " + pair.why});
@@ -56,7 +57,7 @@ void AddPairs(const RobotModel& robot, std::vector<NotCovered>* list) {
 
 }  // namespace
 
-std::string_view Name(NotCoveredKind kind) { return kKinds[static_cast<size_t>(kind)].name; }
+std::string_view Name(NotCoveredKind kind) { return Nth(kKinds, kind).name; }
 
 std::optional<NotCoveredKind> NotCoveredKindOf(std::string_view name) {
   for (const KindWords& kind : kKinds) {

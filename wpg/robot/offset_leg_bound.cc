@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wpg/nth.h"
 #include "wpg/robot/bootstrap.h"
 #include "wpg/robot/leg_neighbourhood.h"
 
@@ -36,7 +37,7 @@ Vector3d LinkTurn(const LegFrames& frames, const Vector6d& speeds, int link) {
   const bool from_waist = LegAnchors::OnHip(link);
   Vector3d turn(0, 0, 0);
   for (int j = from_waist ? 0 : link + 1; j < (from_waist ? link + 1 : 6); ++j) {
-    turn += speeds[j] * frames.axis_B[static_cast<size_t>(j)];
+    turn += speeds[j] * Nth(frames.axis_B, j);
   }
   return turn;
 }
@@ -52,7 +53,7 @@ std::array<TurnBound, 6> Turns(const LegFrames& frames, const Vector6d& at_m,
       const double speed = bounds.speed[j];
       so_far.acceleration += bounds.acceleration[j] + so_far.speed * speed;
       so_far.speed += speed;
-      turns[static_cast<size_t>(link)] = {
+      Nth(turns, link) = {
           std::min(so_far.speed, LinkTurn(frames, at_m, link).norm() + h * so_far.acceleration),
           so_far.acceleration};
     }

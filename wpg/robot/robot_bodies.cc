@@ -15,6 +15,7 @@
 #include "wpg/files/text.h"
 #include "wpg/geometry/convex_parts.h"
 #include "wpg/geometry/simplified_hull.h"
+#include "wpg/nth.h"
 #include "wpg/robot/link_anchors.h"
 
 namespace halfstep {
@@ -153,7 +154,7 @@ std::vector<ConvexBody> ShapesOf(const UrdfCollision& collision, const Isometry3
 void Simplify(const BodyRequest& request, RobotBody* body) {
   Eigen::Matrix3Xd kept(3, 0);
   if (body->leg >= 0 && body->link == 5) {
-    const Eigen::Matrix3d& R = request.R_FootSole[static_cast<size_t>(body->leg)];
+    const Eigen::Matrix3d& R = Nth(request.R_FootSole, body->leg);
     kept.resize(3, 6);
     kept << R, -R;
   }

@@ -11,6 +11,7 @@
 #include "wpg/files/number_text.h"
 #include "wpg/files/text.h"
 #include "wpg/files/yaml_fields.h"
+#include "wpg/nth.h"
 #include "wpg/robot/link_anchors.h"
 #include "wpg/robot/robot_bodies.h"
 #include "wpg/robot/robot_fields.h"
@@ -194,7 +195,7 @@ class Builder {
 
   void Weigh() {
     const std::vector<Isometry3d> X = urdf_.LinkPoses(leg_.posture);
-    const Isometry3d X_BRoot = X[static_cast<size_t>(leg_.waist)].inverse();
+    const Isometry3d X_BRoot = Nth(X, leg_.waist).inverse();
     Vector3d moment = Vector3d::Zero();
     for (size_t i = 0; i < urdf_.links.size(); ++i) {
       model_.mass += urdf_.links[i].mass;

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "wpg/files/text.h"
+#include "wpg/nth.h"
 #include "wpg/robot/leg_continuation.h"
 #include "wpg/robot/leg_ik.h"
 #include "wpg/robot/leg_neighbourhood.h"
@@ -48,7 +49,7 @@ class LegChecker {
   bool ok() const { return ok_; }
 
   void Complain(size_t joint, const std::string& what) {
-    const UrdfJoint& at = urdf_.joints[static_cast<size_t>(indices_[joint])];
+    const UrdfJoint& at = Nth(urdf_.joints, indices_[joint]);
     complaints_->Add(urdf_.file, at.place.line, at.place.column, at.name, what);
     ok_ = false;
   }
@@ -111,17 +112,17 @@ bool CanFollow(const Leg& leg) {
 
 std::optional<std::array<int, 6>> FindLegJoints(const UrdfTree& urdf, int waist, int foot,
                                                 Complaints* complaints) {
-  const UrdfLink& foot_link = urdf.links[static_cast<size_t>(foot)];
+  const UrdfLink& foot_link = Nth(urdf.links, foot);
   std::vector<int> found;
   bool ok = true;
   for (int link = foot; link != waist;) {
-    const int index = urdf.links[static_cast<size_t>(link)].joint;
+    const int index = Nth(urdf.links, link).joint;
     if (index < 0) {
       complaints->Add(urdf.file, foot_link.place.line, foot_link.place.column, foot_link.name,
-                      "does not hang on " + urdf.links[static_cast<size_t>(waist)].name);
+                      "does not hang on " + Nth(urdf.links, waist).name);
       return std::nullopt;
     }
-    const UrdfJoint& joint = urdf.joints[static_cast<size_t>(index)];
+    const UrdfJoint& joint = Nth(urdf.joints, index);
     if (!joint.faults.empty()) {
       complaints->Add(joint.faults);
       ok = false;
@@ -157,14 +158,14 @@ double LengthOfLeg(const Leg& leg) {
 std::optional<Leg> LegGeometry(const UrdfTree& urdf, const LegRequest& request,
                                const std::array<int, 6>& indices, Complaints* complaints) {
   const std::vector<Isometry3d> X = urdf.LinkPoses(std::vector<double>(urdf.joints.size(), 0.0));
-  const Isometry3d X_BRoot = X[static_cast<size_t>(request.waist)].inverse();
+  const Isometry3d X_BRoot = Nth(X, request.waist).inverse();
   Leg leg;
   for (size_t i = 0; i < 6; ++i) {
     const auto index = static_cast<size_t>(indices[i]);
     const UrdfJoint& joint = urdf.joints[index];
     LegJoint& out = leg.joints[i];
     out.name = joint.name;
-    out.X_BLink = X_BRoot * X[static_cast<size_t>(joint.child)];
+    out.X_BLink = X_BRoot * Nth(X, joint.child);
     out.axis_B = (out.X_BLink.linear() * joint.axis).normalized();
     out.point_B = out.X_BLink.translation();
     out.lower = request.lower[index];
@@ -180,7 +181,7 @@ std::optional<Leg> LegGeometry(const UrdfTree& urdf, const LegRequest& request,
     out.max_acceleration = request.acceleration[index];
     leg.standing_q[static_cast<Eigen::Index>(i)] = request.posture[index];
   }
-  leg.X_BSole = X_BRoot * X[static_cast<size_t>(request.foot)] * request.X_FootSole;
+  leg.X_BSole = X_BRoot * Nth(X, request.foot) * request.X_FootSole;
 
   LegChecker check(urdf, indices, complaints);
   leg.hip_B = check.NearestPointOf(&leg, 0, 3, "hip");

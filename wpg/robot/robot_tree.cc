@@ -5,6 +5,7 @@
 
 #include "wpg/files/number_text.h"
 #include "wpg/files/yaml_fields.h"
+#include "wpg/nth.h"
 #include "wpg/robot/robot_fields.h"
 
 namespace halfstep {
@@ -42,7 +43,7 @@ std::vector<int> JointsInFileOrder(const UrdfTree& urdf) {
     if (urdf.joints[i].kind == UrdfJoint::Kind::kRevolute) joints.push_back(static_cast<int>(i));
   }
   const auto place = [&](int joint) {
-    const UrdfPlace& at = urdf.joints[static_cast<size_t>(joint)].place;
+    const UrdfPlace& at = Nth(urdf.joints, joint).place;
     return std::pair(at.line, at.column);
   };
   std::sort(joints.begin(), joints.end(), [&](int a, int b) { return place(a) < place(b); });

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wpg/nth.h"
+
 namespace halfstep {
 namespace {
 
@@ -45,7 +47,7 @@ std::string WhyNotWatched(const UrdfTree& urdf, const std::vector<ExcludedPair>&
     }
   }
   const std::vector<int> joints = JointsBetween(urdf, a, b);
-  const auto name = [&](size_t i) { return urdf.joints[static_cast<size_t>(joints[i])].name; };
+  const auto name = [&](size_t i) { return Nth(urdf.joints, joints[i]).name; };
   if (joints.size() == 1) return "joined by " + name(0);
   if (joints.size() != 2) return "";
   const std::string point = MeetingPoint(joints, leg_joints);
@@ -59,8 +61,8 @@ std::vector<int> JointsBetween(const UrdfTree& urdf, int a, int b) {
   std::vector<int> joints;
   while (a != b) {
     int& lower = a > b ? a : b;
-    const int index = urdf.links[static_cast<size_t>(lower)].joint;
-    const UrdfJoint& joint = urdf.joints[static_cast<size_t>(index)];
+    const int index = Nth(urdf.links, lower).joint;
+    const UrdfJoint& joint = Nth(urdf.joints, index);
     if (joint.kind != UrdfJoint::Kind::kFixed) joints.push_back(index);
     lower = joint.parent;
   }

@@ -8,6 +8,7 @@
 
 #include "wpg/geometry/planar_hull.h"
 #include "wpg/geometry/support_polygon.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -69,7 +70,7 @@ Eigen::Matrix2Xd SoleOutline(const RobotModel& robot) {
   std::vector<Eigen::Vector2d> points(rectangle.colwise().begin(), rectangle.colwise().end());
   for (const RobotBody& body : robot.bodies) {
     if (body.leg < 0 || body.link != 5) continue;
-    AddBody(body.shape, FootInSole(robot.legs[static_cast<size_t>(body.leg)]), &points);
+    AddBody(body.shape, FootInSole(Nth(robot.legs, body.leg)), &points);
   }
   std::vector<Eigen::Vector2d> hull(2 * points.size() + 1);
   hull.resize(PlanarHull(points, hull));
@@ -79,7 +80,7 @@ Eigen::Matrix2Xd SoleOutline(const RobotModel& robot) {
 }
 
 double DepthBelowSole(const RobotModel& robot, Side side) {
-  const Eigen::Isometry3d X_SoleFoot = FootInSole(robot.legs[static_cast<size_t>(Index(side))]);
+  const Eigen::Isometry3d X_SoleFoot = FootInSole(Nth(robot.legs, Index(side)));
   const Eigen::Vector3d down = -X_SoleFoot.linear().row(2).transpose();
   double depth = -std::numeric_limits<double>::infinity();
   for (const RobotBody& body : robot.bodies) {

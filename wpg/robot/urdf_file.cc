@@ -6,6 +6,7 @@
 #include <mutex>
 
 #include "wpg/files/regular_file.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -122,7 +123,7 @@ int AddLink(const urdf::Link& link, int joint, const UrdfFindings& found, UrdfTr
   out.name = link.name;
   out.joint = joint;
   out.place = found.links.at(link.name);
-  if (joint >= 0) tree->joints[static_cast<size_t>(joint)].child = index;
+  if (joint >= 0) Nth(tree->joints, joint).child = index;
   if (link.inertial) {
     out.mass = link.inertial->mass;
     out.com = ToEigen(link.inertial->origin.position);
@@ -215,7 +216,7 @@ int UrdfTree::FindLink(const std::string& name) const {
 
 void UrdfTree::TurnFrame(int link, const Eigen::Matrix3d& R_OldNew) {
   const Eigen::Matrix3d R_NewOld = R_OldNew.transpose();
-  UrdfLink& turned = links[static_cast<size_t>(link)];
+  UrdfLink& turned = Nth(links, link);
   turned.com = R_NewOld * turned.com;
   turned.inertia = R_NewOld * turned.inertia * R_OldNew;
   for (UrdfCollision& collision : turned.collisions) {
@@ -235,7 +236,7 @@ std::vector<Isometry3d> UrdfTree::LinkPoses(const std::vector<double>& q) const 
   for (size_t i = 1; i < links.size(); ++i) {
     const auto j = static_cast<size_t>(links[i].joint);
     const UrdfJoint& joint = joints[j];
-    X[i] = X[static_cast<size_t>(joint.parent)] * joint.X_ParentChild;
+    X[i] = Nth(X, joint.parent) * joint.X_ParentChild;
     if (joint.kind == UrdfJoint::Kind::kRevolute) {
       X[i].rotate(Eigen::AngleAxisd(q[j], joint.axis));
     }

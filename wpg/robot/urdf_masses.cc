@@ -7,6 +7,7 @@
 #include "wpg/files/input_error.h"
 #include "wpg/files/text.h"
 #include "wpg/geometry/side.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -88,7 +89,7 @@ RobotMasses AddUpMasses(const UrdfTree& urdf, const std::vector<LinkAnchor>& anc
   masses.fault.clear();
   const auto body_of = [&](const LinkAnchor& anchor) -> BodyMass& {
     if (anchor.leg < 0) return masses.waist;
-    return masses.links[static_cast<size_t>(anchor.leg)][static_cast<size_t>(anchor.link)];
+    return Nth(Nth(masses.links, anchor.leg), anchor.link);
   };
   for (size_t i = 0; i < urdf.links.size(); ++i) {
     const UrdfLink& link = urdf.links[i];
@@ -108,7 +109,7 @@ RobotMasses AddUpMasses(const UrdfTree& urdf, const std::vector<LinkAnchor>& anc
     const std::string leg = "the " + std::string(Name(side)) + " leg";
     double mass = 0.0;
     Matrix3d inertia = Matrix3d::Zero();
-    for (const BodyMass& link : masses.links[static_cast<size_t>(Index(side))]) {
+    for (const BodyMass& link : Nth(masses.links, Index(side))) {
       mass += link.mass;
       inertia += link.inertia;
     }

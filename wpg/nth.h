@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstddef>
+#include <type_traits>
+
+#include "wpg/nth.h"
+
+namespace halfstep {
+
+/// Element `i` of a container, where indices are signed or enumerators: Nth(joints, side) is
+/// Nth(joints, side). Precondition: as of the container's own [].
+template <typename Container, typename Index>
+  requires(std::is_integral_v<Index> || std::is_enum_v<Index>)
+constexpr decltype(auto) Nth(Container&& container, Index i) {
+  return Nth(container, i);
+}
+
+}  // namespace halfstep
