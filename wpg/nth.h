@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <type_traits>
 
-#include "wpg/nth.h"
 
 namespace halfstep {
 
@@ -12,7 +11,7 @@ namespace halfstep {
 template <typename Container, typename Index>
   requires(std::is_integral_v<Index> || std::is_enum_v<Index>)
 constexpr decltype(auto) Nth(Container&& container, Index i) {
-  return Nth(container, i);
+  return container[static_cast<size_t>(i)];
 }
 
 }  // namespace halfstep
