@@ -3,11 +3,10 @@
 #include <cstddef>
 #include <type_traits>
 
-
 namespace halfstep {
 
-/// Element `i` of a container, where indices are signed or enumerators: Nth(joints, side) is
-/// Nth(joints, side). Precondition: as of the container's own [].
+/// Element `i` of a container, where indices are signed or enumerators. Precondition: as of the
+/// container's own [].
 template <typename Container, typename Index>
   requires(std::is_integral_v<Index> || std::is_enum_v<Index>)
 constexpr decltype(auto) Nth(Container&& container, Index i) {
