@@ -98,7 +98,8 @@ class WalkDrawing {
   // there when none of some does.
   void AddObstacle(int i) {
     for (int k = 0; k < 40; ++k) {
-      const Pose2& middle = Nth(middles_, Between(0.0, static_cast<double>(middles_.size())));
+      const Pose2& middle =
+          middles_[static_cast<size_t>(Between(0.0, static_cast<double>(middles_.size())))];
       const Pose2 at = middle * Pose2{scale_ * Between(-0.2, 0.3), scale_ * Between(-0.6, 0.6), 0};
       const double height = scale_ * 0.02 * std::pow(50.0, Between(0.0, 1.0));
       std::string shape;

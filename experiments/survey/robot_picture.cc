@@ -90,9 +90,9 @@ struct Standing {
 void Draw(const RobotModel& robot, const Standing& standing, Drawing* drawing) {
   constexpr std::array<const char*, 2> kLegs = {"#8250df", "#bc4c00"};
   for (const RobotBody& body : robot.bodies) {
-    const Isometry3d X =
-        body.leg < 0 ? standing.X_WB
-                     : standing.X_WB * Nth(standing.legs, body.leg) Nth(.X_BLink, body.link);
+    const Isometry3d X = body.leg < 0
+                             ? standing.X_WB
+                             : standing.X_WB * Nth(Nth(standing.legs, body.leg).X_BLink, body.link);
     drawing->Body(body.shape, X, body.leg < 0 ? "#57606a" : Nth(kLegs, body.leg));
   }
   const double size = 0.1 * robot.waist_height;
@@ -128,9 +128,9 @@ std::string RobotPicture(const RobotModel& robot) {
   }
   double top = robot.waist_height, reach = 0.5 * robot.standing_width;
   for (const RobotBody& body : robot.bodies) {
-    const Isometry3d X =
-        body.leg < 0 ? standing.X_WB
-                     : standing.X_WB * Nth(standing.legs, body.leg) Nth(.X_BLink, body.link);
+    const Isometry3d X = body.leg < 0
+                             ? standing.X_WB
+                             : standing.X_WB * Nth(Nth(standing.legs, body.leg).X_BLink, body.link);
     const Vector3d centre = X * body.shape.center;
     top = std::max(top, centre.z() + body.shape.radius);
     reach = std::max(reach, centre.head<2>().cwiseAbs().maxCoeff() + body.shape.radius);

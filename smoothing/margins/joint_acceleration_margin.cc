@@ -38,7 +38,7 @@ std::string JointAccelerationMargin::Subject(const Margin& margin) const {
 }
 
 double JointAccelerationMargin::Limit(Side side, Eigen::Index joint) const {
-  return Nth(place_.robot.legs, Index(side)) Nth(.joints, joint).max_acceleration;
+  return Nth(Nth(place_.robot.legs, Index(side)).joints, joint).max_acceleration;
 }
 
 Margin JointAccelerationMargin::Least(Instant* at, double) const {

@@ -59,7 +59,7 @@ std::string TorqueMargin::Subject(const Margin& margin) const {
 }
 
 double TorqueMargin::Limit(Side side, Eigen::Index joint) const {
-  return Nth(place_.robot.legs, Index(side)) Nth(.joints, joint).max_torque;
+  return Nth(Nth(place_.robot.legs, Index(side)).joints, joint).max_torque;
 }
 
 Margin TorqueMargin::Least(Instant* at, double) const {
