@@ -124,7 +124,8 @@ TEST_F(SmoothingMonitorTest, APartReportsItsShareAndStopsWithTheWhole) {
 TEST_F(SmoothingMonitorTest, EveryMethodKeepsTheStartWhenTheDeadlinePassedBefore) {
   const FakeFeasibility test = Always(Verdict::kFeasible);
   const WalkProblem problem = ProblemOf(sequence_, test);
-  for (const auto& smoother : Methods::Standard().all()) {
+  const Methods methods = Methods::Standard();
+  for (const auto& smoother : methods.all()) {
     const std::string name = smoother->name();
     SCOPED_TRACE(name);
     SmoothingMonitor monitor({.deadline = 0.0});
