@@ -31,9 +31,10 @@ class Methods {
   void AddSolver(std::shared_ptr<const opt::Solver> solver);
 
   /// The solvers that were added.
-  const std::vector<std::shared_ptr<const opt::Solver>>& own_solvers() const { return solvers_; }
+  const std::vector<std::shared_ptr<const opt::Solver>>& own_solvers() const& { return solvers_; }
   /// All methods, those that were added last.
-  const std::vector<std::shared_ptr<const Smoother>>& all() const { return all_; }
+  const std::vector<std::shared_ptr<const Smoother>>& all() const& { return all_; }
+  const std::vector<std::shared_ptr<const Smoother>>& all() const&& = delete;  // `for` would dangle
   std::vector<std::string> Names() const;  ///< in the same order
   /// The method of that name. Throws std::logic_error when there is none, since configs are checked
   /// when they are read.

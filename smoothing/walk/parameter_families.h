@@ -35,11 +35,11 @@ enum class ParameterScale { kNone, kLegLength, kStanceWidth };
 
 /// A number that limits how far methods may move a family, and its key in configs.
 struct ParameterBoundKey {
-  std::string_view key = {};                     ///< in configs
-  std::string_view meaning = {};                 ///< one line, for `halfstep explain-config`
+  std::string_view key = "";                     ///< in configs
+  std::string_view meaning = "";                 ///< one line, for `halfstep explain-config`
   double initial = 0.0;                          ///< by default
   double min = 0.0, max = 0.0;                   ///< valid range
-  std::string_view unit = {};                    ///< "m"; "": a number
+  std::string_view unit = "";                    ///< "m"; "": a number
   ParameterScale scale = ParameterScale::kNone;  ///< of the default
 };
 
@@ -47,7 +47,7 @@ struct ParameterBoundKey {
 struct ParameterFamilyTraits {
   ParameterFamily family;      ///< whose row it is
   std::string_view name;       ///< in YAML and messages: "overlap"
-  std::string_view unit = {};  ///< "s"; "": a number
+  std::string_view unit = "";  ///< "s"; "": a number
   ParameterOf of;              ///< what its index counts
   ParameterPart part;          ///< what it is of half-steps
   std::string_view column;     ///< of its values in the CSV `table()`
@@ -73,7 +73,7 @@ struct ParameterFamilyTraits {
   bool ParameterChoice::*chosen = nullptr;
   /// The flag's key in configs ("heights"), and what it means. "" where another family's key is for
   /// both.
-  std::string_view key = {}, key_meaning = {};
+  std::string_view key = "", key_meaning = "";
   std::array<ParameterBoundKey, 2> bound_keys = {};  ///< those without a key: there is none
   /// The range that methods choose from, given the numbers of `bounds()` and the planned value.
   /// Overlaps have their natural bounds besides.
