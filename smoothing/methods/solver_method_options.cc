@@ -43,6 +43,16 @@ bool NamesFamilyOfHalfSteps(const std::vector<std::string>& keys) {
   });
 }
 
+// What an earlier declaration chose, which did not read, is nothing that a file says.
+void ForgetFamiliesOfHalfSteps(SolverMethodOptions* c) {
+  ParameterChoice* const choice = &c->options.program.parameters;
+  for (const ParameterFamily family : AllParameterFamilies()) {
+    if (OfHalfSteps(Traits(family))) *choice->flag(family) = false;
+  }
+  choice->bound("least_duration") = ParameterChoice().bound("least_duration");
+  c->families_chosen = false;
+}
+
 void ChooseFamiliesOfHalfSteps(ParameterChoice* choice) {
   for (const ParameterFamily family : AllParameterFamilies()) {
     if (OfHalfSteps(Traits(family))) *choice->flag(family) = true;
@@ -67,7 +77,9 @@ void DeclareFields(Fields& fields, SolverMethodOptions* c) {
     if (c->program == Name(kind)) o->program.kind = kind;
   }
   ParameterChoice* const choice = &o->program.parameters;
-  if (NamesFamilyOfHalfSteps(fields.Keys())) c->all_families = false;
+  const std::vector<std::string> keys = fields.Keys();
+  if (!keys.empty()) ForgetFamiliesOfHalfSteps(c);
+  if (NamesFamilyOfHalfSteps(keys)) c->all_families = false;
   fields.Boolean("all_families", &c->all_families,
                  {.meaning = "whichever of the next keys but `footsteps` is not given is "
                              "true, and `least_duration` is 0.2; false by default where one of "
