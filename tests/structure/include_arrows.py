@@ -40,6 +40,7 @@ ALLOWED_IN_VERIFY = {
     "wpg/motion/moved_footsteps.h": "footsteps that a walk moves",
     "wpg/motion/posture.h": "the closed form of a leg's inverse kinematics",
     "wpg/motion/walk_state.h": "what that is of",
+    "wpg/nth.h": "elements by signed indices",
     "wpg/robot/acceleration_limits.h": "what a robot file states of accelerations",
     "wpg/robot/not_covered.h": "the words of what is not covered",
     "wpg/robot/robot_measures.h": "the robot's size, by which tolerances go",
