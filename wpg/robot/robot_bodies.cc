@@ -5,7 +5,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <numbers>
-#include <ranges>
 #include <set>
 #include <stdexcept>
 #include <string_view>
@@ -46,8 +45,10 @@ std::string PackageOf(const std::string& mesh) {
 std::string FindPackage(const std::string& package, const std::string& urdf_file) {
   std::vector<fs::path> places;
   if (const char* paths = std::getenv("ROS_PACKAGE_PATH")) {
-    for (const auto path : std::views::split(std::string_view(paths), ':')) {
-      if (!path.empty()) places.emplace_back(path.begin(), path.end());
+    for (std::string_view rest = paths; !rest.empty();) {
+      const size_t end = std::min(rest.find(':'), rest.size());
+      if (end > 0) places.emplace_back(rest.substr(0, end));
+      rest.remove_prefix(std::min(end + 1, rest.size()));
     }
   }
   std::error_code ignored;
