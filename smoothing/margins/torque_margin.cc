@@ -7,6 +7,7 @@
 #include "wpg/motion/leg_torques.h"
 #include "wpg/motion/torque_drift.h"
 #include "wpg/nth.h"
+#include "wpg/robot/gravity.h"
 
 namespace halfstep {
 namespace {
@@ -112,7 +113,7 @@ void TorqueMargin::AddBounds(const MarginInterval& interval, TightestStatement* 
   }
   const bool both = mid.step_in_air() < 0;
   const TorqueDrift drift(interval.motion, interval.drift(), *mid.dynamics(), *loads,
-                          both ? interval.zmp_drift().Most() : 0.0, mid.walk().lipm().gravity);
+                          both ? interval.zmp_drift().Most() : 0.0, kGravity);
   for (const Side side : {Side::kLeft, Side::kRight}) {
     const Vector6d torques = TorquesAt(&mid, *loads, side), drifts = drift.Of(side);
     for (Eigen::Index j = 0; j < 6; ++j) {
