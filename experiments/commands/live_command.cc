@@ -81,7 +81,8 @@ struct PhysicalRobot {
 Episode Walk(const LiveConfig& config, const Replanner& replanner, const Place& place,
              Sensor* sensor, ServedEpisode* served, const EpisodeHooks& hooks) {
   const auto run = config.live.clock == "wall" ? RunWallClock : RunLockstep;
-  const std::array<Foothold, 2> start = StartOf(config.experiment, place.robot);
+  const std::array<Foothold, 2> start =
+      StartOf(config.experiment, place.robot, *place.scene.ground);
   if (served == nullptr) return run(replanner, sensor, start, hooks);
   const std::stop_callback end(hooks.stop, [served] { served->Stop(); });
   return run(replanner, &served->sensor(), start,
@@ -161,7 +162,7 @@ ExitStatus Live(const LiveCommand& command) {
   }
   const std::shared_ptr<const SweptVolumes> volumes(baked, &*baked->cached.volumes);
   if (served) served->Prepare(volumes);
-  const Replanner replanner(place.robot, config, *volumes);
+  const Replanner replanner(place, config, *volumes);
   RunFolder folder(OutputFolder(command.run, config.experiment), command.run.overwrite);
   std::optional<ProgressBar> bar;
   bar.emplace("episode", silent);

@@ -62,7 +62,6 @@ void PrintPlan(const PlannedWalk& walk) {
   std::vector<FootstepConfig> footsteps = walk.config.footsteps;
   std::cout << WriteYaml([&](Fields& fields) {
     fields.List("footsteps", {}, &footsteps, [](Fields& f, FootstepConfig* step) {
-      step->X_WF.CheckLevel();
       f.Text("foot", &step->foot, {});
       f.Number("x_m", &step->X_WF.x, {});
       f.Number("y_m", &step->X_WF.y, {});

@@ -29,12 +29,19 @@ void LeaveOutWhatIsUnknown(Experiment* experiment) {
   }
 }
 
+// The soles at the start, by Index(Side), seen from above.
+std::array<Pose2, 2> StartFromAbove(const ExperimentConfig& config, const RobotModel& robot) {
+  if (config.has_start) return {config.start_left, config.start_right};
+  const double y = 0.5 * robot.standing_width;
+  return {Pose2{0.0, y, 0.0}, Pose2{0.0, -y, 0.0}};
+}
+
 // Where the walk begins, steps and ends, seen from above.
 Eigen::AlignedBox2d WalkBounds(const ExperimentConfig& config, const RobotModel& robot) {
   Eigen::AlignedBox2d bounds;
   const auto extend = [&bounds](const Pose2& X) { bounds.extend(Eigen::Vector2d(X.x, X.y)); };
-  for (const Foothold& sole : StartOf(config, robot)) extend(sole.Planar());
-  for (const FootstepConfig& step : config.footsteps) extend(step.X_WF.Planar());
+  for (const Pose2& sole : StartFromAbove(config, robot)) extend(sole);
+  for (const FootstepConfig& step : config.footsteps) extend(step.X_WF);
   if (config.has_goal) extend(config.goal.X_WG);
   return bounds;
 }
@@ -97,10 +104,33 @@ Place LoadPlace(const ExperimentConfig& config) {
   return place;
 }
 
-std::array<Foothold, 2> StartOf(const ExperimentConfig& config, const RobotModel& robot) {
-  if (config.has_start) return {config.start_left, config.start_right};
-  const double y = 0.5 * robot.standing_width;
-  return {Foothold::Level({0.0, y, 0.0}), Foothold::Level({0.0, -y, 0.0})};
+Foothold OnGround(const Ground& ground, const RobotModel& robot, const Pose2& X_WF,
+                  const std::string& who) {
+  const std::optional<Foothold> stands = ground.Standing(robot.sole_outline, X_WF);
+  if (stands) return *stands;
+  throw InputError({who + Formatted(": the ground does not bear a sole at x = %.6g m, y = %.6g m "
+                                    "(valid: all of it on one level)",
+                                    X_WF.x, X_WF.y)});
+}
+
+std::array<Foothold, 2> StartOf(const ExperimentConfig& config, const RobotModel& robot,
+                                const Ground& ground) {
+  const auto [left, right] = StartFromAbove(config, robot);
+  return {OnGround(ground, robot, left, "start.left"),
+          OnGround(ground, robot, right, "start.right")};
+}
+
+std::vector<Footstep> FootstepsOf(const ExperimentConfig& config, const RobotModel& robot,
+                                  const Ground& ground) {
+  std::vector<Footstep> footsteps;
+  for (const FootstepConfig& step : config.footsteps) {
+    const std::string who = "footsteps[" + std::to_string(footsteps.size()) + "]";
+    footsteps.push_back({.side = step.foot == "left" ? Side::kLeft : Side::kRight,
+                         .X_WF = OnGround(ground, robot, step.X_WF, who),
+                         .via_height = step.via_height.value_or(config.half_step.via_height),
+                         .duration = step.duration.value_or(config.half_step.duration)});
+  }
+  return footsteps;
 }
 
 HalfStep PrototypeOf(const ExperimentConfig& config) {
@@ -118,16 +148,11 @@ std::shared_ptr<const MotionModel> MotionModelOf(const RobotModel& robot) {
   return std::make_shared<Lipm>(robot.com_height);
 }
 
-HalfStepSequence SequenceOf(const ExperimentConfig& config, const RobotModel& robot) {
-  if (config.footsteps.empty()) return {StartOf(config, robot), {}, MotionModelOf(robot)};
-  std::vector<Footstep> footsteps;
-  for (const FootstepConfig& step : config.footsteps) {
-    footsteps.push_back({.side = step.foot == "left" ? Side::kLeft : Side::kRight,
-                         .X_WF = step.X_WF,
-                         .via_height = step.via_height.value_or(config.half_step.via_height),
-                         .duration = step.duration.value_or(config.half_step.duration)});
-  }
-  return MakeSequence(StartOf(config, robot), footsteps, config.half_step.via_lateral,
+HalfStepSequence SequenceOf(const ExperimentConfig& config, const RobotModel& robot,
+                            const Ground& ground) {
+  const std::array<Foothold, 2> start = StartOf(config, robot, ground);
+  if (config.footsteps.empty()) return {start, {}, MotionModelOf(robot)};
+  return MakeSequence(start, FootstepsOf(config, robot, ground), config.half_step.via_lateral,
                       ShapeOf(config.half_step), MotionModelOf(robot));
 }
 
@@ -137,15 +162,15 @@ Experiment Prepare(const ExperimentConfig& config, Place place) {
                         .scene = std::move(place.scene),
                         .sequence = {}};
   LeaveOutWhatIsUnknown(&experiment);
-  experiment.sequence = SequenceOf(config, experiment.robot);
+  experiment.sequence = SequenceOf(config, experiment.robot, *experiment.scene.ground);
   return experiment;
 }
 
 std::optional<std::string> FootholdOnNoStep(const Experiment& experiment) {
   const NoStepAreas areas(experiment.scene, experiment.robot.sole_outline);
   const double apart = experiment.config.smoothing.limits.demanded_of(MarginFamily::kNoStep);
-  const auto touches = [&](const Foothold& X_WF) { return !areas.Clears(X_WF.Planar(), apart); };
-  const std::array<Foothold, 2> start = StartOf(experiment.config, experiment.robot);
+  const auto touches = [&](const Pose2& X_WF) { return !areas.Clears(X_WF, apart); };
+  const std::array<Pose2, 2> start = StartFromAbove(experiment.config, experiment.robot);
   for (Side side : {Side::kLeft, Side::kRight}) {
     if (touches(Nth(start, Index(side)))) {
       return "the " + std::string(Name(side)) + " foot starts on a no-step area";

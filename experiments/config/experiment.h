@@ -11,6 +11,7 @@
 #include "planner/scene/scene.h"
 #include "smoothing/margins/margin_evaluator.h"
 #include "wpg/geometry/foothold.h"
+#include "wpg/ground/ground.h"
 #include "wpg/motion/half_step_sequence.h"
 #include "wpg/robot/robot_model.h"
 
@@ -43,8 +44,18 @@ struct Place {
 };
 /// Loads the robot and the scene. Throws InputError.
 Place LoadPlace(const ExperimentConfig& config);
-/// The soles at the start, by Index(Side).
-std::array<Foothold, 2> StartOf(const ExperimentConfig& config, const RobotModel& robot);
+/// The place of a sole at X_WF, seen from above, on the ground's level there: all that files say of
+/// soles becomes footholds here. Throws InputError, which begins with `who`, where the ground does
+/// not bear the sole.
+Foothold OnGround(const Ground& ground, const RobotModel& robot, const Pose2& X_WF,
+                  const std::string& who);
+
+/// The soles at the start, by Index(Side). Throws InputError as OnGround, as do the next ones.
+std::array<Foothold, 2> StartOf(const ExperimentConfig& config, const RobotModel& robot,
+                                const Ground& ground);
+/// The config's footsteps; its own via heights and durations where they have none.
+std::vector<Footstep> FootstepsOf(const ExperimentConfig& config, const RobotModel& robot,
+                                  const Ground& ground);
 
 /// The half-steps of a config without their place: duration, via point, shape.
 HalfStep PrototypeOf(const ExperimentConfig& config);
@@ -53,7 +64,8 @@ HalfStep PrototypeOf(const ExperimentConfig& config);
 std::shared_ptr<const MotionModel> MotionModelOf(const RobotModel& robot);
 
 /// The half-steps of a config's footsteps; empty without footsteps.
-HalfStepSequence SequenceOf(const ExperimentConfig& config, const RobotModel& robot);
+HalfStepSequence SequenceOf(const ExperimentConfig& config, const RobotModel& robot,
+                            const Ground& ground);
 /// Makes the experiment in a place that is loaded; without footsteps its sequence is empty.
 Experiment Prepare(const ExperimentConfig& config, Place place);
 /// The same, in the place that LoadPlace() loads. Throws InputError.

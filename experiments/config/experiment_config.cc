@@ -19,23 +19,23 @@
 namespace halfstep {
 namespace {
 
-void DeclareFoothold(Fields& fields, Foothold* foothold) {
+void DeclareSole(Fields& fields, Pose2* X_WF) {
   const NumberSpec position{.meaning = "of the sole's centre in the world",
                             .unit = "m",
                             .min = -1000,
                             .max = 1000,
                             .required = true};
-  fields.Number("x_m", &foothold->x, position);
-  fields.Number("y_m", &foothold->y, position);
+  fields.Number("x_m", &X_WF->x, position);
+  fields.Number("y_m", &X_WF->y, position);
   fields.Number(
-      "yaw_deg", &foothold->yaw,
+      "yaw_deg", &X_WF->yaw,
       {.meaning = "not wrapped: 350 is not −10", .unit = "deg", .min = -3600, .max = 3600});
 }
 
 void DeclareFootstep(Fields& fields, FootstepConfig* step) {
   fields.Text("foot", &step->foot,
               {.meaning = "the foot that steps", .required = true, .choices = {"left", "right"}});
-  DeclareFoothold(fields, &step->X_WF);
+  DeclareSole(fields, &step->X_WF);
   fields.OptionalNumber(
       "via_height_m", &step->via_height,
       {.meaning = "instead of half_step.via_height_m", .unit = "m", .min = 0.01, .max = 1});
@@ -183,9 +183,9 @@ void DeclareStart(Fields& fields, ExperimentConfig* c) {
            "feet side by side about the origin, `standing_width` apart (HRP-2: y = ±0.105 m)"},
       [&](Fields& f) {
         f.Group("left", {.meaning = "the left sole", .required = true},
-                [&](Fields& g) { DeclareFoothold(g, &c->start_left); });
+                [&](Fields& g) { DeclareSole(g, &c->start_left); });
         f.Group("right", {.meaning = "the right sole", .required = true},
-                [&](Fields& g) { DeclareFoothold(g, &c->start_right); });
+                [&](Fields& g) { DeclareSole(g, &c->start_right); });
         const std::string jump = YawJump(c->start_right.yaw, c->start_left.yaw, "left");
         if (!jump.empty()) f.Complain("right", "yaw_deg: " + jump);
       });

@@ -10,15 +10,16 @@
 #include "wpg/files/fields.h"
 #include "wpg/files/key_description.h"
 #include "wpg/files/yaml_fields.h"
-#include "wpg/geometry/foothold.h"
+#include "wpg/geometry/pose2.h"
 #include "wpg/geometry/side.h"
 
 namespace halfstep {
 
 /// One footstep of a config: a sole's place in the world, and what differs from `half_step`.
+/// Configs say no heights: these follow from the ground (StartOf, FootstepsOf).
 struct FootstepConfig {
   std::string foot = "left";         ///< "left" or "right"
-  Foothold X_WF;                     ///< the sole's place in W
+  Pose2 X_WF;                        ///< the sole's place in W, seen from above
   std::optional<double> via_height;  ///< [m]
   std::optional<double> duration;    ///< [s]
 };
@@ -46,7 +47,7 @@ struct ExperimentConfig {
   std::string scene;  ///< a path; "none": empty floor
   /// Whether `start` is given; else the feet stand beside each other at the origin.
   bool has_start = false;
-  Foothold start_left, start_right;       ///< X_WF of the soles, when has_start
+  Pose2 start_left, start_right;          ///< X_WF of the soles, when has_start
   bool has_goal = false;                  ///< else there are footsteps
   GoalConfig goal;                        ///< used when has_goal
   std::vector<FootstepConfig> footsteps;  ///< empty when has_goal

@@ -85,7 +85,7 @@ void ReadWorlds(const Tables& tables, const LiveConfig& config, const Place& pla
     world.goal = config.experiment.goal.Region();
     world.goal.X_WG.x = x[k];
     world.goal.X_WG.y = y[k];
-    world.scene.name = place.scene.name;
+    world.scene = place.scene.Emptied();
     for (const auto word : std::views::split(areas[k], ' ')) {
       const std::string_view text(word.begin(), word.end());
       if (text == "none") break;
@@ -140,7 +140,8 @@ WalkPlan ReadWalk(const Tables& tables, size_t walk, const LiveConfig& config, c
   std::vector<Footstep> footsteps;
   for (size_t row = 0; row < feet.size(); ++row) {
     const Side side = Named(kSides, feet[row], table, row);
-    const Foothold X_WF = Foothold::Level({x[row], y[row], yaw[row]});
+    const Foothold X_WF = OnGround(*place.scene.ground, place.robot, {x[row], y[row], yaw[row]},
+                                   table.path + Formatted(":%zu", row + 2));
     if (row < 2) {
       Nth(start, Index(side)) = X_WF;
     } else {

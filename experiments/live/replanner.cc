@@ -17,11 +17,11 @@ constexpr int kMostNear = 4;  // half-steps one after the other that keep less t
 
 }  // namespace
 
-Replanner::Replanner(const RobotModel& robot, const LiveConfig& config, const SweptVolumes& volumes)
-    : robot_(robot),
+Replanner::Replanner(const Place& place, const LiveConfig& config, const SweptVolumes& volumes)
+    : robot_(place.robot),
       config_(config),
       volumes_(volumes),
-      alone_(robot, Scene{}, config.experiment) {}
+      alone_(place.robot, place.scene.Emptied(), config.experiment) {}
 
 std::shared_ptr<const PreparedWorld> Replanner::Prepare(const World& world) const {
   return std::make_shared<const PreparedWorld>(world, robot_, config_.experiment, volumes_);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/config/experiment.h"
 #include "experiments/live/live_config.h"
 #include "experiments/live/proposal.h"
 #include "experiments/live/remembered_half_steps.h"
@@ -28,8 +29,9 @@ struct PreparedWorld;
 /// `random` give the same proposal.
 class Replanner {
  public:
-  /// `volumes` is borrowed. Clearances of volumes are those that the config demands.
-  Replanner(const RobotModel& robot, const LiveConfig& config, const SweptVolumes& volumes);
+  /// Of the place the robot and the ground count; what worlds hold is measured. `volumes` is
+  /// borrowed. Clearances of volumes are those that the config demands.
+  Replanner(const Place& place, const LiveConfig& config, const SweptVolumes& volumes);
 
   /// What questions about a world need, ready to be asked by several threads.
   std::shared_ptr<const PreparedWorld> Prepare(const World& world) const;

@@ -8,9 +8,10 @@
 namespace halfstep {
 
 Scene WithSpareBoxes(Scene scene, const LiveOptions& options) {
+  const double floor = scene.ground->HeightEverywhere();
   for (const std::string& name : SpareNames(options)) {
     Obstacle box{.name = name, .shape = Box{{0.2, 0.2, 0.1}}};
-    box.X_WO.translation().z() = 0.05;
+    box.X_WO.translation().z() = floor + 0.05;
     scene.obstacles.push_back(std::move(box));
   }
   return scene;

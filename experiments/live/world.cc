@@ -99,7 +99,7 @@ World Measure(const TrueWorld& truth, double t, const LiveOptions& options,
   World frame;
   frame.measured_at = t;
   frame.goal = truth.GoalAt(t);
-  frame.scene.name = truth.scene().name;
+  frame.scene = truth.scene().Emptied();
   for (size_t i = 0; i < truth.scene().obstacles.size(); ++i) {
     // Drawn for all, so that what one obstacle does changes nothing for the others.
     const Eigen::Vector3d off = InBall(options.sensing.noise, random);

@@ -47,7 +47,8 @@ py::tuple Plan(const PlacedExperiment& placed, const py::object& progress) {
     const Pose2 X = X_WF.LevelPose();
     return py::make_tuple(X.x, X.y, X.yaw);
   };
-  const auto start = StartOf(placed.config, placed.experiment.robot);
+  const auto start =
+      StartOf(placed.config, placed.experiment.robot, *placed.experiment.scene.ground);
   return py::make_tuple(std::string(Name(walk.plan.status)), walk.plan.sentence, footsteps,
                         py::make_tuple(pose(start[0]), pose(start[1])), walk.plan.time);
 }

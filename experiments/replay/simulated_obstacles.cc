@@ -37,6 +37,7 @@ void Add(const Obstacle& obstacle, PoseOverTime pose, SimulatedObstacles* all) {
 }  // namespace
 
 SimulatedObstacles ObstaclesOf(const Scene& scene) {
+  scene.ground->CheckIsZeroEverywhere();
   SimulatedObstacles all;
   for (const Obstacle& obstacle : scene.obstacles) {
     const auto pose = [X_WO = obstacle.X_WO, motion = obstacle.motion](double t) {
@@ -48,6 +49,7 @@ SimulatedObstacles ObstaclesOf(const Scene& scene) {
 }
 
 SimulatedObstacles ObstaclesOf(const TrueWorld& truth) {
+  truth.scene().ground->CheckIsZeroEverywhere();
   SimulatedObstacles all;
   const auto shared = std::make_shared<const TrueWorld>(truth);
   for (size_t i = 0; i < truth.scene().obstacles.size(); ++i) {

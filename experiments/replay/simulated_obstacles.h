@@ -27,7 +27,8 @@ struct SimulatedObstacles {
   std::vector<std::string> notes;
 };
 
-/// The obstacles of a scene, which move as the scene says.
+/// The obstacles of a scene, which move as the scene says. Here and below: MujocoModel's floor is
+/// the plane z = 0, so the ground is that (std::logic_error).
 SimulatedObstacles ObstaclesOf(const Scene& scene);
 /// The obstacles of an episode, which move and are there as the script says, not as was measured.
 SimulatedObstacles ObstaclesOf(const TrueWorld& truth);

@@ -126,6 +126,7 @@ std::vector<const Obstacle*> NearestObstacles(const Scene& scene, const Eigen::V
 }  // namespace
 
 json SceneJson(const Scene& scene, const Eigen::Vector2d& middle_W) {
+  scene.ground->CheckIsZeroEverywhere();
   json obstacles = json::array(), areas = json::array();
   const std::vector<const Obstacle*> drawn_ones = NearestObstacles(scene, middle_W);
   const auto meshes = std::count_if(drawn_ones.begin(), drawn_ones.end(), [](const Obstacle* o) {

@@ -98,6 +98,7 @@ FootPlace FootPlaces::At(Side side, const Foothold& X_WF) const {
 std::string GoalWithoutPlace(const GoalRegion& goal, const FootPlaces& places) {
   if (places.scene().obstacles.empty() && places.scene().no_step.empty()) return "";
   const double half_width = 0.5 * places.robot().standing_width;
+  const double height = places.scene().ground->HeightEverywhere();
   int tried = 0;
   bool all_on_area = true;
   std::map<std::string, int> obstacles;
@@ -109,7 +110,7 @@ std::string GoalWithoutPlace(const GoalRegion& goal, const FootPlaces& places) {
         if (goal.part == GoalPart::kMidFeet) {
           X_WF = X_WF * Pose2{0.0, side == Side::kLeft ? half_width : -half_width, 0.0};
         }
-        const FootPlace place = places.At(side, Foothold::Level(X_WF));
+        const FootPlace place = places.At(side, {X_WF, height});
         free = goal.part == GoalPart::kMidFeet ? free && place.free : free || place.free;
         on_area = on_area || place.on_area;
         if (!place.free && place.obstacle) ++obstacles[*place.obstacle];

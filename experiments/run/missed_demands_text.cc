@@ -32,12 +32,13 @@ std::string FloorHint(const MarginEvaluator& evaluator, const MissedDemands& mis
     const Obstacle& obstacle = Nth(evaluator.scene().obstacles, worst.other);
     const auto* mesh = std::get_if<TriangleMesh>(&obstacle.shape);
     if (mesh == nullptr || mesh->hollow) continue;
-    const double area = FloorArea(*mesh, obstacle.X_WO, kFloorTolerance);
+    const double floor = evaluator.scene().ground->Floor();
+    const double area = FloorArea(*mesh, obstacle.X_WO, floor, kFloorTolerance);
     if (area < kFootprint) continue;
     return Formatted(
-        "%s has %.3g m² of floor at z = 0, which are in the way like all of it; if the robot is to "
-        "stand on them, say `floor: in_mesh` in its `mesh`",
-        obstacle.name.c_str(), area);
+        "%s has %.3g m² of floor at z = %.3g, which are in the way like all of it; if the robot is "
+        "to stand on them, say `floor: in_mesh` in its `mesh`",
+        obstacle.name.c_str(), area, floor);
   }
   return "";
 }

@@ -27,15 +27,11 @@ struct Taken {
   Foothold X_SF;  // seen from the foot that carries
 };
 
-Side SideOf(const FootstepConfig& footstep, bool exchanged) {
-  return (footstep.foot == "left") != exchanged ? Side::kLeft : Side::kRight;
-}
-
-std::vector<Taken> StepsOf(const ExperimentConfig& config, std::array<Foothold, 2> feet,
+std::vector<Taken> StepsOf(const std::vector<Footstep>& footsteps, std::array<Foothold, 2> feet,
                            bool exchanged) {
   std::vector<Taken> steps;
-  for (const FootstepConfig& footstep : config.footsteps) {
-    const Side side = SideOf(footstep, exchanged);
+  for (const Footstep& footstep : footsteps) {
+    const Side side = exchanged ? Opposite(footstep.side) : footstep.side;
     const Foothold& X_WS = Nth(feet, Index(Opposite(side)));
     steps.push_back({side, X_WS.Inverse() * footstep.X_WF});
     Nth(feet, Index(side)) = footstep.X_WF;
@@ -49,9 +45,9 @@ double OwnSide(Side side, const Foothold& X_SF) { return side == Side::kLeft ? X
 // Feet on the wrong side, and whether exchanging left and right mends it.
 class Sides {
  public:
-  Sides(const ExperimentConfig& config, const RobotModel& robot,
+  Sides(const std::vector<Footstep>& footsteps, const RobotModel& robot,
         const std::array<Foothold, 2>& start)
-      : config_(config), robot_(robot), start_(start) {}
+      : footsteps_(footsteps), robot_(robot), start_(start) {}
 
   std::string Sentence() const {
     const auto first = First(start_, /*exchanged=*/false);
@@ -79,7 +75,7 @@ class Sides {
     const double least = kInLine * robot_.standing_width;
     const double apart = OwnSide(Side::kLeft, start[1].Inverse() * start[0]);
     if (apart < least) return "start: the left foot is " + Where(Side::kLeft, apart);
-    const std::vector<Taken> steps = StepsOf(config_, start, exchanged);
+    const std::vector<Taken> steps = StepsOf(footsteps_, start, exchanged);
     for (size_t i = 0; i < steps.size(); ++i) {
       const double own = OwnSide(steps[i].side, steps[i].X_SF);
       if (own < least) return StepName(i, steps[i].side) + " is " + Where(steps[i].side, own);
@@ -92,14 +88,14 @@ class Sides {
     return Formatted("%.3g m to the %s of ", std::abs(own), hand.c_str()) + other;
   }
 
-  const ExperimentConfig& config_;
+  const std::vector<Footstep>& footsteps_;
   const RobotModel& robot_;
   const std::array<Foothold, 2>& start_;
 };
 
-void AddSides(const ExperimentConfig& config, const RobotModel& robot,
+void AddSides(const std::vector<Footstep>& footsteps, const RobotModel& robot,
               const std::array<Foothold, 2>& start, std::vector<std::string>* lines) {
-  const std::string sentence = Sides(config, robot, start).Sentence();
+  const std::string sentence = Sides(footsteps, robot, start).Sentence();
   if (!sentence.empty()) lines->push_back(sentence);
 }
 
@@ -194,20 +190,21 @@ void AddStartInside(const std::array<Foothold, 2>& start, const FootPlaces& plac
 std::vector<std::string> LookAtFootsteps(const Experiment& experiment,
                                          const MarginEvaluator& evaluator) {
   std::vector<std::string> lines;
-  const ExperimentConfig& config = experiment.config;
-  const std::array<Foothold, 2> start = StartOf(config, experiment.robot);
-  const std::vector<Taken> steps = StepsOf(config, start, /*exchanged=*/false);
+  const Ground& ground = *experiment.scene.ground;
+  const std::array<Foothold, 2> start = StartOf(experiment.config, experiment.robot, ground);
+  const std::vector<Footstep> footsteps = FootstepsOf(experiment.config, experiment.robot, ground);
+  const std::vector<Taken> steps = StepsOf(footsteps, start, /*exchanged=*/false);
   AddReach(experiment, start, steps, &lines);
   const bool far = !lines.empty();  // then sides and turns say nothing more
   AddRepeated(steps, &lines);
   if (!far) {
-    AddSides(config, experiment.robot, start, &lines);
+    AddSides(footsteps, experiment.robot, start, &lines);
     AddTurns(experiment.robot, steps, &lines);
   }
   const FootPlaces places(evaluator);
   AddStartInside(start, places, &lines);
   for (size_t i = 0; i < steps.size(); ++i) {
-    AddInside(StepName(i, steps[i].side), steps[i].side, config.footsteps[i].X_WF, places, &lines);
+    AddInside(StepName(i, steps[i].side), steps[i].side, footsteps[i].X_WF, places, &lines);
   }
   return lines;
 }
@@ -216,8 +213,9 @@ std::vector<std::string> LookAtGoal(const ExperimentConfig& config,
                                     const MarginEvaluator& evaluator) {
   std::vector<std::string> lines;
   const FootPlaces places(evaluator);
-  const std::array<Foothold, 2> start = StartOf(config, evaluator.robot());
-  AddSides(config, evaluator.robot(), start, &lines);
+  const std::array<Foothold, 2> start =
+      StartOf(config, evaluator.robot(), *evaluator.scene().ground);
+  AddSides({}, evaluator.robot(), start, &lines);
   AddStartInside(start, places, &lines);
   const std::string goal = GoalWithoutPlace(config.goal.Region(), places);
   if (!goal.empty()) lines.push_back(goal);

@@ -104,7 +104,7 @@ class Trials {
     for (const double farther : kFarther) {
       const Eigen::Vector2d shift = farther * way.normalized();
       ExperimentConfig config = experiment_.config;
-      Foothold& landing = FootstepOf(step, &config).X_WF;
+      Pose2& landing = FootstepOf(step, &config).X_WF;
       landing.x = Rounded(landing.x + shift.x(), 0.001);
       landing.y = Rounded(landing.y + shift.y(), 0.001);
       if (!Feasible(config, step, 3)) continue;
@@ -156,12 +156,15 @@ class Trials {
   Feasibility Check(const ExperimentConfig& config, int step, int steps) {
     if (stopped()) return {};
     const double apart = problem_.limits().demanded_of(MarginFamily::kNoStep);
+    const RobotModel& robot = experiment_.robot;
+    const Ground& ground = *experiment_.scene.ground;
     if (!std::ranges::all_of(config.footsteps, [&](const FootstepConfig& footstep) {
-          return areas_.Clears(footstep.X_WF.Planar(), apart);
+          return areas_.Clears(footstep.X_WF, apart) &&
+                 ground.Standing(robot.sole_outline, footstep.X_WF);
         })) {
       return {};
     }
-    const HalfStepSequence sequence = SequenceOf(config, experiment_.robot);
+    const HalfStepSequence sequence = SequenceOf(config, robot, ground);
     const SuperposedWalk walk(sequence, PlannedMotion(sequence));
     const int last = std::min(step + steps, sequence.num_steps()) - 1;
     return problem_.test().Check(walk, {walk.start_of(2 * step), walk.end_of(2 * last + 1)},

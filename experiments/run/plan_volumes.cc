@@ -37,8 +37,7 @@ std::string PlanVolumesJson(const PlannedWalk& walk) {
   std::vector<const BoxTree*> volumes;
   std::map<const BoxTree*, size_t> known;
   json half_steps = json::array();
-  const auto add = [&](const std::optional<BoxTree>& volume, Side support, const Foothold& X_WS) {
-    X_WS.CheckLevel();
+  const auto add = [&](const std::optional<BoxTree>& volume, Side support, const Pose2& X_WS) {
     if (!volume) return half_steps.push_back(nullptr);
     const auto [at, is_new] = known.try_emplace(&*volume, volumes.size());
     if (is_new) volumes.push_back(&*volume);
@@ -46,8 +45,8 @@ std::string PlanVolumesJson(const PlannedWalk& walk) {
                           {"mirrored", support == Side::kRight},
                           {"X_WS", {X_WS.x, X_WS.y, X_WS.yaw}}});
   };
-  Foothold stands = Index(Opposite(plan.footsteps.front().side)) == 0 ? walk.config.start_left
-                                                                      : walk.config.start_right;
+  Pose2 stands = Index(Opposite(plan.footsteps.front().side)) == 0 ? walk.config.start_left
+                                                                   : walk.config.start_right;
   for (size_t k = 0; k < plan.footsteps.size(); ++k) {
     const Side support = Opposite(plan.footsteps[k].side);
     if (k == 0) {
@@ -56,7 +55,7 @@ std::string PlanVolumesJson(const PlannedWalk& walk) {
       add(Nth(all.up, plan.elements[k - 1]), support, stands);
     }
     add(Nth(all.down, plan.elements[k]), support, stands);
-    stands = plan.footsteps[k].X_WF;
+    stands = plan.footsteps[k].X_WF.LevelPose();
   }
   const double baked = volumes.empty() ? 0.0 : volumes.front()->cell;
   int merged = 1;

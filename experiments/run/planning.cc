@@ -17,10 +17,18 @@
 namespace halfstep {
 namespace {
 
-FootstepConfig ToConfig(const Footstep& footstep) {
+// As a config says it, where the ground gives the height back.
+Pose2 SaidInConfig(const Foothold& X_WF, const Place& place) {
+  const Foothold again = OnGround(*place.scene.ground, place.robot, X_WF.Planar(), "plan");
+  HALFSTEP_CHECK(again == X_WF,
+                 "a sole at " << X_WF.height << " m, above " << again.height << " m");
+  return X_WF.Planar();
+}
+
+FootstepConfig ToConfig(const Footstep& footstep, const Place& place) {
   FootstepConfig config;
   config.foot = Name(footstep.side);
-  config.X_WF = footstep.X_WF;
+  config.X_WF = SaidInConfig(footstep.X_WF, place);
   return config;
 }
 
@@ -90,7 +98,7 @@ namespace {
 std::string MissedInPlace(const RobotModel& robot, const Scene& scene,
                           const ExperimentConfig& config) {
   const HalfStep prototype = PrototypeOf(config);
-  const std::array<Foothold, 2> start = StartOf(config, robot);
+  const std::array<Foothold, 2> start = StartOf(config, robot, *scene.ground);
   const Footstep footstep{.side = Side::kLeft,
                           .X_WF = Nth(start, Index(Side::kLeft)),
                           .via_height = prototype.via_height,
@@ -176,7 +184,7 @@ PlannedWalk PlanWalk(const ExperimentConfig& config, const Place& place,
   const CertifiedFeasibility test(evaluator, config.smoothing.certification);
   const HalfStep prototype = PrototypeOf(config);
 
-  PlanRequest request{.start = StartOf(config, place.robot),
+  PlanRequest request{.start = StartOf(config, place.robot, *place.scene.ground),
                       .goal = config.goal.Region(),
                       .set = volumes.set,
                       .query = query,
@@ -209,10 +217,10 @@ PlannedWalk PlanWalk(const ExperimentConfig& config, const Place& place,
   }
   walk.config.has_goal = false;
   walk.config.has_start = true;
-  walk.config.start_left = request.start[0];
-  walk.config.start_right = request.start[1];
+  walk.config.start_left = SaidInConfig(request.start[0], place);
+  walk.config.start_right = SaidInConfig(request.start[1], place);
   for (const Footstep& footstep : walk.plan.footsteps) {
-    walk.config.footsteps.push_back(ToConfig(footstep));
+    walk.config.footsteps.push_back(ToConfig(footstep, place));
   }
   return walk;
 }

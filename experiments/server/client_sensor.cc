@@ -45,7 +45,7 @@ World ClientSensor::WorldOf(const MeasuredFrame& measured, double t) {
   World frame;
   frame.measured_at = t;
   frame.goal = goal_;
-  frame.scene.name = scene_.name;
+  frame.scene = scene_.Emptied();
   for (const MeasuredFrame::Seen& seen : measured.seen) {
     frame.scene.obstacles.push_back(
         Measured(scene_.obstacles[seen.obstacle], seen.X_WO, t, options_));

@@ -118,7 +118,7 @@ class Claims {
     const int foot = s.first == 0 ? kLeftX : kRightX;
     switch (family) {
       case kFloor:
-        return walk_.At(t).value[foot + 2];
+        return walk_.floor().Above(walk_.At(t).value[foot + 2]);
       case kFootSpeed:
         return certificate_.foot_speed.value_or(kNoLimit) -
                walk_.At(t).first.segment<3>(foot).norm();
@@ -147,7 +147,8 @@ class Claims {
                std::abs(walk_.JointSpeeds(t)[side][s.second]);
       }
       case kGround:
-        return LowestPoint(Nth(robot_.bodies, s.first), PlaceRobot(robot_, walk_.Row(t)));
+        return walk_.floor().Above(
+            LowestPoint(Nth(robot_.bodies, s.first), PlaceRobot(robot_, walk_.Row(t))));
       case kNoStep: {
         const PlayedRow row = walk_.Row(t);
         return row.Stands(s.first)

@@ -33,6 +33,7 @@ HalfStepSequence SequenceOf(const std::vector<FootstepRow>& rows, const EpisodeW
     findings->Disagree(path + ": no footstep");
     return none;
   }
+  const FlatFloor floor(none);
   std::vector<Footstep> footsteps;
   for (size_t i = 0; i < rows.size(); ++i) {
     const FootstepRow& row = rows[i];
@@ -47,9 +48,8 @@ HalfStepSequence SequenceOf(const std::vector<FootstepRow>& rows, const EpisodeW
       return none;
     }
     if (i >= 2) {
-      footsteps.push_back({side, Foothold::Level(row.X_WF), row.via_height, row.duration});
-    } else if (static_cast<size_t>(Index(side)) != i ||
-               !Near(row.X_WF, frame.start[i].LevelPose())) {
+      footsteps.push_back({side, floor.Sole(row.X_WF), row.via_height, row.duration});
+    } else if (static_cast<size_t>(Index(side)) != i || !Near(row.X_WF, frame.start[i].Planar())) {
       findings->Disagree(line + "the walk does not start where config.yaml says");
     } else if (!Near(row.via_height, 0) || !Near(row.duration, 0)) {
       findings->Disagree(line + "no step leads to a foot that stands at the start");

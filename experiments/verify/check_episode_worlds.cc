@@ -201,8 +201,7 @@ void CheckEpisodeWorlds(const EpisodeText& episode, const LiveOptions& options, 
 }
 
 Scene SceneOfWorld(const EpisodeText& episode, const Scene& scene, size_t version) {
-  Scene known;
-  known.name = scene.name;
+  Scene known = scene.Emptied();
   const WorldRow& world = episode.worlds[version];
   for (const ObstacleRow& row : episode.obstacles) {
     if (row.world != world.world) continue;

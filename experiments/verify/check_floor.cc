@@ -7,8 +7,8 @@
 #include "experiments/verify/tolerances.h"
 
 namespace halfstep::verify {
-void CheckFloor(const PlayedMotion& motion, const Scene& scene, const CertificateText& certificate,
-                double tolerance, Findings* findings) {
+void CheckFloor(const PlayedMotion& motion, const FlatFloor& floor, const Scene& scene,
+                const CertificateText& certificate, double tolerance, Findings* findings) {
   const RobotModel& robot = motion.robot();
   const std::vector<PlayedRow>& rows = motion.rows();
   const Tolerances near(robot);
@@ -23,7 +23,7 @@ void CheckFloor(const PlayedMotion& motion, const Scene& scene, const Certificat
     const auto when = [&row] { return Formatted(" at t = %.6g s", row.t); };
     for (size_t b = 0; b < robot.bodies.size(); ++b) {
       const RobotBody& body = robot.bodies[b];
-      const double height = LowestPoint(body, at);
+      const double height = floor.Above(LowestPoint(body, at));
       const auto where = [&] { return body.name + when(); };
       if (verify::IsOnFoot(body)) {
         feet.Add(height, where);

@@ -243,12 +243,13 @@ void CheckFootsteps(const std::vector<FootstepRow>& rows, const HalfStepSequence
   }
   for (size_t i = 0; i < rows.size(); ++i) {
     Side side = i == 0 ? Side::kLeft : Side::kRight;
-    Pose2 X_WF = planned.start[std::min<size_t>(i, 1)].LevelPose();
+    // footsteps.csv says no heights: these follow from the ground, as config.yaml's do.
+    Pose2 X_WF = planned.start[std::min<size_t>(i, 1)].Planar();
     double height = 0, duration = 0;
     if (i >= 2) {
       const PlacedHalfStep& down = planned.half_steps[2 * (i - 2) + 1];
       side = down.half_step.swing();
-      X_WF = (down.X_WS * down.half_step.X_SF).LevelPose();
+      X_WF = (down.X_WS * down.half_step.X_SF).Planar();
       height = down.half_step.via_height;
       duration = down.half_step.duration;
     }

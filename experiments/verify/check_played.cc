@@ -14,10 +14,10 @@ void CheckPlayed(const PlayedMotion& motion, const DescribedWalk& walk,
                  const CertificateText& certificate, double tolerance, Distances* distances,
                  Findings* findings) {
   const auto check = [&](const PlayedMotion& of, Findings* into) {
-    CheckRowMargins(of, certificate, tolerance, into);
+    CheckRowMargins(of, walk.floor(), certificate, tolerance, into);
     CheckDynamics(of.rows(), walk, distances->scene().friction, certificate, into);
     CheckJointAccelerations(of.rows(), walk, certificate, into);
-    CheckFloor(of, distances->scene(), certificate, tolerance, into);
+    CheckFloor(of, walk.floor(), distances->scene(), certificate, tolerance, into);
     CheckClearances(of, certificate, tolerance, distances, into);
   };
   Findings played;

@@ -136,7 +136,7 @@ void CheckConsistency(const PlayedMotion& motion, const DescribedWalk& walk, Fin
       const auto where = [&] { return std::string(SideName(side)) + " foot " + At(row.t); };
       soles.Add(-std::max(apart, turned), where);
       if (!row.Stands(side)) continue;
-      standing.Add(-std::abs(row.soles[Of(side)][2]), where);
+      standing.Add(-std::abs(walk.floor().Above(row.soles[Of(side)][2])), where);
       if (i > 0 && rows[i - 1].Stands(side)) {
         const Eigen::Vector4d slid = row.soles[Of(side)] - rows[i - 1].soles[Of(side)];
         standing.Add(-slid.cwiseAbs().maxCoeff(), where);
@@ -172,8 +172,8 @@ void CheckConsistency(const PlayedMotion& motion, const DescribedWalk& walk, Fin
   }
 }
 
-void CheckRowMargins(const PlayedMotion& motion, const CertificateText& certificate,
-                     double tolerance, Findings* findings) {
+void CheckRowMargins(const PlayedMotion& motion, const FlatFloor& floor,
+                     const CertificateText& certificate, double tolerance, Findings* findings) {
   const RobotModel& robot = motion.robot();
   const std::vector<PlayedRow>& rows = motion.rows();
   const auto make = [&](Family family, const char* name, double slack) {
@@ -183,7 +183,7 @@ void CheckRowMargins(const PlayedMotion& motion, const CertificateText& certific
   Check joint = make(kJoint, "joint limits", near.length);
   Check joint_speed = make(kJointSpeed, "joint speeds", near.joint_speed);
   Check reach = make(kReach, "leg reach", near.length);
-  Check floor = make(kFloor, "height of a moving sole", tolerance);
+  Check moving = make(kFloor, "height of a moving sole", tolerance);
   Check foot_speed = make(kFootSpeed, "foot speed", near.foot_speed);
   Check foot_yaw_rate = make(kFootYawRate, "foot yaw rate", near.joint_speed);
   Check zmp = make(kZmp, "ZMP", near.length);
@@ -196,7 +196,7 @@ void CheckRowMargins(const PlayedMotion& motion, const CertificateText& certific
     for (int side = 0; side < 2; ++side) {
       const auto leg_at = [&] { return std::string(SideName(side)) + " leg " + At(row.t); };
       reach.Add(ReachMargin(robot, row, side), leg_at);
-      above.Add(row.soles[Of(side)][2], leg_at);
+      above.Add(floor.Above(row.soles[Of(side)][2]), leg_at);
       const bool paired = i + 1 < rows.size();
       // Rounded angles say little over a short last interval.
       const double rounding = paired ? 1e-12 / (rows[i + 1].t - row.t) : 0;
@@ -219,13 +219,14 @@ void CheckRowMargins(const PlayedMotion& motion, const CertificateText& certific
       }
       // The horizontal motion may begin or end between the rows: then the higher one counts.
       if (MovesHorizontally(motion, i, side)) {
-        floor.Add(std::max(row.soles[Of(side)][2], rows[i + 1].soles[Of(side)][2]), leg_at);
+        const double highest = std::max(row.soles[Of(side)][2], rows[i + 1].soles[Of(side)][2]);
+        moving.Add(floor.Above(highest), leg_at);
       }
     }
     if (i + 1 < rows.size()) AddChange(row, rows[i + 1], robot, &change);
   }
-  for (const Check* check :
-       {&joint, &joint_speed, &reach, &above, &floor, &foot_speed, &foot_yaw_rate, &zmp, &change}) {
+  for (const Check* check : {&joint, &joint_speed, &reach, &above, &moving, &foot_speed,
+                             &foot_yaw_rate, &zmp, &change}) {
     check->Conclude(findings);
   }
 }

@@ -27,9 +27,10 @@ bool CheckIsMotion(const std::vector<PlayedRow>& rows, Findings* findings);
 void CheckConsistency(const PlayedMotion& motion, const DescribedWalk& walk, Findings* findings);
 
 /// Whether the rows keep what `certificate` demands of joint limits and speeds, reach, foot speed
-/// and yaw rate, the height of a moving sole and the ZMP. `tolerance` [m]: VerifyOptions.
-void CheckRowMargins(const PlayedMotion& motion, const CertificateText& certificate,
-                     double tolerance, Findings* findings);
+/// and yaw rate, the height of a moving sole above the floor and the ZMP. `tolerance` [m]:
+/// VerifyOptions.
+void CheckRowMargins(const PlayedMotion& motion, const FlatFloor& floor,
+                     const CertificateText& certificate, double tolerance, Findings* findings);
 
 /// Whether the whole robot's ZMP, its joint torques and the friction that it needs (WalkDynamics)
 /// keep what is demanded at the rows' times, by the walk on a floor of that friction coefficient;
@@ -40,8 +41,8 @@ void CheckDynamics(const std::vector<PlayedRow>& rows, const DescribedWalk& walk
 /// Whether bodies stay above the floor, those on a foot at each row and all others at and between
 /// rows, and whether standing soles keep off the no-step areas of the scene. `tolerance` [m] is
 /// granted to the bodies that are not on a foot.
-void CheckFloor(const PlayedMotion& motion, const Scene& scene, const CertificateText& certificate,
-                double tolerance, Findings* findings);
+void CheckFloor(const PlayedMotion& motion, const FlatFloor& floor, const Scene& scene,
+                const CertificateText& certificate, double tolerance, Findings* findings);
 
 /// What supports the robot at a row.
 SupportPolygon PolygonOf(const PlayedRow& row, const RobotModel& robot);

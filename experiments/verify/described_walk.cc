@@ -17,7 +17,7 @@ namespace halfstep::verify {
 
 DescribedWalk::DescribedWalk(const RobotModel& robot, const HalfStepSequence& planned,
                              const std::vector<HalfStepRow>& rows)
-    : robot_(robot), lipm_(robot.com_height) {
+    : robot_(robot), lipm_(robot.com_height), floor_(planned) {
   HALFSTEP_CHECK(!rows.empty() && rows.size() == planned.half_steps.size(),
                  rows.size() << " rows, " << planned.half_steps.size() << " half-steps");
   std::vector<Pose2> moves;
@@ -133,10 +133,10 @@ WalkDynamics DescribedWalk::DynamicsAt(double t) const {
   const auto momentum = RobotMomentum::Of(robot_, At(t), kGravity);
   if (!momentum) return dynamics;
   PlayedRow row = Row(t);
-  row.zmp = momentum->Zmp();
+  row.zmp = momentum->Zmp(floor_);
   dynamics.zmp = ZmpMargin(row, robot_);
-  dynamics.torques = JointTorques(robot_, row, *momentum);
-  dynamics.friction = FrictionNeeded(robot_, row, *momentum);
+  dynamics.torques = JointTorques(robot_, row, *momentum, floor_);
+  dynamics.friction = FrictionNeeded(robot_, row, *momentum, floor_);
   return dynamics;
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "experiments/verify/flat_floor.h"
 #include "experiments/verify/played_motion.h"
 #include "experiments/verify/walk_text.h"
 #include "wpg/motion/half_step_sequence.h"
@@ -40,7 +41,7 @@ struct WalkDynamics {
 /// the robot. Source: [Perrin2011] §IV; smoothing/README.md, "The homotopy".
 class DescribedWalk {
  public:
-  /// Precondition: as many rows as half-steps, at least one, durations > 0.
+  /// Precondition: as many rows as half-steps, at least one, durations > 0; a plan on one level.
   DescribedWalk(const RobotModel& robot, const HalfStepSequence& planned,
                 const std::vector<HalfStepRow>& rows);
 
@@ -48,6 +49,7 @@ class DescribedWalk {
   DescribedWalk StopBranch(int last) const;
 
   const RobotModel& robot() const { return robot_; }                       ///< that walks
+  const FlatFloor& floor() const { return floor_; }                        ///< on which it walks
   int num_half_steps() const { return static_cast<int>(pieces_.size()); }  ///< n
   /// Whether it is an up half-step, from 0.
   bool IsUp(int half_step) const {
@@ -93,6 +95,7 @@ class DescribedWalk {
 
   const RobotModel& robot_;
   Lipm lipm_;
+  FlatFloor floor_;
   std::vector<Piece> pieces_;
 };
 

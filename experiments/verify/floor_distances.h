@@ -6,7 +6,7 @@
 
 namespace halfstep::verify {
 
-/// Height of a body's lowest point above the floor z = 0 [m].
+/// z of a body's lowest point in W [m].
 double LowestPoint(const RobotBody& body, const Placement& at);
 
 /// Whether a body is rigid with a foot, which may touch the floor.

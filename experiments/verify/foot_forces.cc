@@ -19,8 +19,6 @@ double FromSole(const RobotModel& robot, const Pose2& X_WF, const Vector2d& p_W)
   return (p_F - p_F.cwiseMax(-half).cwiseMin(half)).norm();
 }
 
-Vector3d OnFloor(const Vector2d& p) { return {p.x(), p.y(), 0.0}; }
-
 // How far one may go from p along u, both ways, before the polygon ends.
 double WayBothWays(const SupportPolygon& polygon, const Vector2d& p, const Vector2d& u) {
   double way = std::numeric_limits<double>::infinity();
@@ -37,13 +35,13 @@ double WayBothWays(const SupportPolygon& polygon, const Vector2d& p, const Vecto
 }  // namespace
 
 std::array<Push, 2> FootForces(const RobotModel& robot, const PlayedRow& row,
-                               const RobotMomentum& momentum) {
+                               const RobotMomentum& momentum, const FlatFloor& floor) {
   std::array<Push, 2> feet;
   if (row.support != Support::kBoth) {
     Nth(feet, row.support) = momentum.floor;
     return feet;
   }
-  const Vector2d zmp = momentum.Zmp();
+  const Vector2d zmp = momentum.Zmp(floor);
   const std::array<Pose2, 2> soles = {row.X_WS(0), row.X_WS(1)};
   const std::array<double, 2> away = {FromSole(robot, soles[0], zmp),
                                       FromSole(robot, soles[1], zmp)};
@@ -51,12 +49,12 @@ std::array<Push, 2> FootForces(const RobotModel& robot, const PlayedRow& row,
   const std::array<double, 2> shares = {sum > 0 ? away[1] / sum : 0.5,
                                         sum > 0 ? away[0] / sum : 0.5};
   const Vector2d off = zmp - shares[0] * soles[0].position() - shares[1] * soles[1].position();
-  const double turn = momentum.floor.About(OnFloor(zmp)).z();
+  const double turn = momentum.floor.About(floor.Point(zmp)).z();
   for (size_t s = 0; s < 2; ++s) {
-    const Vector3d at = OnFloor(soles[s].position() + off);
+    const Vector3d at = floor.Point(soles[s].position() + off);
     const Vector3d& force = momentum.floor.force;
     // The yaw moment of the robot's ZMP, seen from this foot's.
-    const double yaw = turn + (OnFloor(zmp) - at).cross(force).z();
+    const double yaw = turn + (floor.Point(zmp) - at).cross(force).z();
     feet[s].force = shares[s] * force;
     feet[s].moment = at.cross(feet[s].force) + shares[s] * yaw * Vector3d::UnitZ();
   }
@@ -64,8 +62,8 @@ std::array<Push, 2> FootForces(const RobotModel& robot, const PlayedRow& row,
 }
 
 std::array<Vector6d, 2> JointTorques(const RobotModel& robot, const PlayedRow& row,
-                                     const RobotMomentum& momentum) {
-  const std::array<Push, 2> feet = FootForces(robot, row, momentum);
+                                     const RobotMomentum& momentum, const FlatFloor& floor) {
+  const std::array<Push, 2> feet = FootForces(robot, row, momentum, floor);
   std::array<Vector6d, 2> torques;
   for (size_t s = 0; s < 2; ++s) {
     for (size_t j = 0; j < 6; ++j) {
@@ -78,10 +76,10 @@ std::array<Vector6d, 2> JointTorques(const RobotModel& robot, const PlayedRow& r
   return torques;
 }
 
-double FrictionNeeded(const RobotModel& robot, const PlayedRow& row,
-                      const RobotMomentum& momentum) {
+double FrictionNeeded(const RobotModel& robot, const PlayedRow& row, const RobotMomentum& momentum,
+                      const FlatFloor& floor) {
   const SupportPolygon polygon = PolygonOf(row, robot);
-  const Vector2d zmp = momentum.Zmp();
+  const Vector2d zmp = momentum.Zmp(floor);
   if (!(polygon.Margin(zmp) > 0)) return std::numeric_limits<double>::infinity();
   double way = 0;
   for (int i = 0; i < polygon.size(); ++i) {
@@ -90,7 +88,7 @@ double FrictionNeeded(const RobotModel& robot, const PlayedRow& row,
     way = std::max(way, WayBothWays(polygon, zmp, edge.normalized()));
   }
   const Vector3d& force = momentum.floor.force;
-  const double turn = momentum.floor.About(OnFloor(zmp)).z();
+  const double turn = momentum.floor.About(floor.Point(zmp)).z();
   return (force.head<2>().norm() + std::abs(turn) / way) / force.z();
 }
 

@@ -75,8 +75,9 @@ std::optional<RobotMomentum> RobotMomentum::Of(const RobotModel& robot, const Wa
   return all;
 }
 
-Eigen::Vector2d RobotMomentum::Zmp() const {
-  return Eigen::Vector2d(-floor.moment.y(), floor.moment.x()) / floor.force.z();
+Eigen::Vector2d RobotMomentum::Zmp(const FlatFloor& on) const {
+  const Eigen::Vector3d moment = floor.About(on.Point({0, 0}));
+  return Eigen::Vector2d(-moment.y(), moment.x()) / floor.force.z();
 }
 
 }  // namespace halfstep::verify

@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 
+#include "experiments/verify/flat_floor.h"
 #include "wpg/motion/walk_state.h"
 #include "wpg/robot/robot_model.h"
 
@@ -32,8 +33,8 @@ struct RobotMomentum {
   static std::optional<RobotMomentum> Of(const RobotModel& robot, const WalkJet& jet,
                                          double gravity);
 
-  /// Where the floor's force has no horizontal moment, in W [m].
-  Eigen::Vector2d Zmp() const;
+  /// The point of the floor about which its force has no horizontal moment, in W [m].
+  Eigen::Vector2d Zmp(const FlatFloor& on) const;
 };
 
 }  // namespace halfstep::verify

@@ -98,12 +98,13 @@ void CheckEpisodeWalking(const VerifyOptions& options, const EpisodeText& episod
                          const EpisodeManifest& manifest, const LiveConfig& config,
                          const Place& place, const EpisodePromise& promise, Findings* findings) {
   const ExperimentConfig& experiment = config.experiment;
-  const EpisodeWalks all = CheckEpisodeWalks(episode,
-                                             {.robot = place.robot,
-                                              .start = StartOf(experiment, place.robot),
-                                              .via_lateral = experiment.half_step.via_lateral,
-                                              .shape = ShapeOf(experiment.half_step)},
-                                             findings);
+  const EpisodeWalks all =
+      CheckEpisodeWalks(episode,
+                        {.robot = place.robot,
+                         .start = StartOf(experiment, place.robot, *place.scene.ground),
+                         .via_lateral = experiment.half_step.via_lateral,
+                         .shape = ShapeOf(experiment.half_step)},
+                        findings);
   const std::string path = (fs::path(options.run) / "trajectory.csv").string();
   const std::vector<PlayedRow> rows = ReadTrajectory(path, ReadBytes(path), place.robot);
   if (all.walks.size() != episode.walks.size()) return;

@@ -103,9 +103,9 @@ struct MethodFiles {
 
 // The walk that half_steps.csv and overlaps.csv describe; none when they do not fit.
 std::optional<DescribedWalk> WalkOf(const MethodFiles& files, const ExperimentConfig& config,
-                                    const RobotModel& robot, const RunManifest::Method* of_method,
-                                    Findings* findings) {
-  const HalfStepSequence planned = SequenceOf(config, robot);
+                                    const RobotModel& robot, const Ground& ground,
+                                    const RunManifest::Method* of_method, Findings* findings) {
+  const HalfStepSequence planned = SequenceOf(config, robot, ground);
   CheckFootsteps(ReadFootsteps(files.PathInRun("footsteps.csv"), files.ReadOfRun("footsteps.csv")),
                  planned, findings);
   const auto half_steps =
@@ -272,7 +272,7 @@ VerifiedStatement VerifyMethod(const VerifyOptions& options, const RunManifest& 
                   FindNotCovered(DemandsOf(config.smoothing.limits, findings), robot, scene),
                   findings);
   const std::optional<DescribedWalk> walk =
-      WalkOf(files, config, robot, manifest.MethodOf(folder), findings);
+      WalkOf(files, config, robot, *scene.ground, manifest.MethodOf(folder), findings);
   if (!CheckIsMotion(rows, findings) || !walk) return {certificate.statement, not_covered};
   CheckMotion(options, config, {certificate, claimed, rows}, *walk, same_files ? &scene : nullptr,
               findings);

@@ -41,15 +41,15 @@ void Read(Fields& fields, const std::string& file, const Load& load) {
 
 class FloorTest {
  public:
-  FloorTest(const Eigen::Isometry3d& X_WO, std::optional<double> below)
-      : up_O_(X_WO.linear().row(2)), height_(X_WO.translation().z()), below_(below) {}
+  FloorTest(const Eigen::Isometry3d& X_WO, double floor, std::optional<double> below)
+      : up_O_(X_WO.linear().row(2)), height_(X_WO.translation().z() - floor), below_(below) {}
   bool IsFloor(const Eigen::Vector3d& p) const {
     return below_ && up_O_.dot(p) + height_ <= *below_;
   }
 
  private:
   Eigen::Vector3d up_O_;
-  double height_;
+  double height_;  // of the origin of O above the floor [m]
   std::optional<double> below_;
 };
 
@@ -142,18 +142,19 @@ void DeclareOctomap(Fields& fields, CloudFields* cloud) {
   });
 }
 
-TriangleMesh MeshOfCloud(Fields& obstacle, const Eigen::Isometry3d& X_WO, CloudFields* cloud) {
+TriangleMesh MeshOfCloud(Fields& obstacle, const Eigen::Isometry3d& X_WO, double floor,
+                         CloudFields* cloud) {
   const bool is_map = cloud->map.has_value();
   const char* const key = is_map ? "octomap" : "points";
-  const FloorTest floor(X_WO, cloud->floor_below);
+  const FloorTest test(X_WO, floor, cloud->floor_below);
   VoxelSet cells(is_map ? cloud->map->resolution : cloud->radius);
   long of_floor = 0;
   bool fits = true;
   if (is_map) {
-    fits = AddCells(*cloud, floor, &cells, &of_floor);
+    fits = AddCells(*cloud, test, &cells, &of_floor);
   } else if (cloud->radius > 0.0) {
     for (const Eigen::Vector3d& p : cloud->points->points.colwise()) {
-      if (floor.IsFloor(p)) {
+      if (test.IsFloor(p)) {
         ++of_floor;
       } else if (!(fits = cells.AddBall(p, cloud->radius) && !cells.full())) {
         break;
@@ -186,7 +187,7 @@ TriangleMesh MeshOfCloud(Fields& obstacle, const Eigen::Isometry3d& X_WO, CloudF
   }
   if (of_floor > 0) {
     cloud->told.push_back(Formatted("%ld %s at or below z = %.3g m are floor", of_floor,
-                                    is_map ? "cells" : "points", *cloud->floor_below));
+                                    is_map ? "cells" : "points", floor + *cloud->floor_below));
   }
   if (!is_map && cloud->points->invalid > 0) {
     cloud->told.push_back(

@@ -18,7 +18,7 @@ struct CloudFields {
   double radius = 0.0;                 ///< of the ball around each point [m]
   std::optional<LoadedOctomap> map;    ///< none: there is no `octomap`
   bool unknown_is_occupied = false;    ///< whether cells of which nothing is known are obstacles
-  std::optional<double> floor_below;   ///< what is not higher in the world is floor [m]
+  std::optional<double> floor_below;   ///< what is not higher above the floor is floor [m]
   std::vector<std::string> told;       ///< for the user: what was left out
 
   bool any() const { return points || map; }  ///< whether either is there
@@ -31,8 +31,9 @@ void DeclarePoints(Fields& fields, CloudFields* cloud);
 void DeclareOctomap(Fields& fields, CloudFields* cloud);
 
 /// The surface of a cloud at X_WO. Every ball around a point, or every cube that is occupied, is
-/// inside it, but for what is floor. `obstacle` is the group around the cloud, for complaints; with
-/// one the mesh is empty.
-TriangleMesh MeshOfCloud(Fields& obstacle, const Eigen::Isometry3d& X_WO, CloudFields* cloud);
+/// inside it, but for what is floor, by the floor's height `floor` in W [m]. `obstacle` is the
+/// group around the cloud, for complaints; with one the mesh is empty.
+TriangleMesh MeshOfCloud(Fields& obstacle, const Eigen::Isometry3d& X_WO, double floor,
+                         CloudFields* cloud);
 
 }  // namespace halfstep

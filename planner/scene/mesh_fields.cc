@@ -102,7 +102,8 @@ void DeclareMesh(Fields& fields, MeshFields* mesh) {
   }
 }
 
-void TakeFloor(Fields& obstacle, const Eigen::Isometry3d& X_WO, bool rests, MeshFields* mesh) {
+void TakeFloor(Fields& obstacle, const Eigen::Isometry3d& X_WO, double floor, bool rests,
+               MeshFields* mesh) {
   if (!mesh->brings_floor || mesh->mesh.triangles.cols() == 0) return;
   if (!rests) {
     obstacle.Complain("mesh",
@@ -111,7 +112,7 @@ void TakeFloor(Fields& obstacle, const Eigen::Isometry3d& X_WO, bool rests, Mesh
     return;
   }
   const double tolerance = mesh->floor_tolerance;
-  CutMesh cut = CutFloor(mesh->mesh, X_WO, tolerance);
+  CutMesh cut = CutFloor(mesh->mesh, X_WO, floor, tolerance);
   if (cut.rest.triangles.cols() == 0) {
     obstacle.Complain("mesh",
                       "nothing of it sticks out of the floor (valid: a mesh with something "
@@ -121,7 +122,7 @@ void TakeFloor(Fields& obstacle, const Eigen::Isometry3d& X_WO, bool rests, Mesh
   std::string told = Formatted(
       "floor: in_mesh: %d of %d triangles lie at or below z = %.3g mm and are floor (%.3g m² of it "
       "level%s); the other %d are in the way, what they surround is room",
-      cut.floor, static_cast<int>(mesh->mesh.triangles.cols()), 1e3 * tolerance, cut.area,
+      cut.floor, static_cast<int>(mesh->mesh.triangles.cols()), 1e3 * (floor + tolerance), cut.area,
       cut.floor == 0 ? "" : Formatted(", up to %.3g mm", 1e3 * cut.highest).c_str(),
       static_cast<int>(cut.rest.triangles.cols()));
   if (cut.deep > 0) {

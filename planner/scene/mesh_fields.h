@@ -25,8 +25,9 @@ struct MeshFields {
 /// Declares the keys of a mesh and reads its file, relative to the scene's folder.
 void DeclareMesh(Fields& fields, MeshFields* mesh);
 
-/// Takes the floor out of a mesh at X_WO that brings it along. `obstacle` is the group around
-/// `mesh`, for complaints.
-void TakeFloor(Fields& obstacle, const Eigen::Isometry3d& X_WO, bool rests, MeshFields* mesh);
+/// Takes the floor, at z = `floor` [m], out of a mesh at X_WO that brings it along. `obstacle` is
+/// the group around `mesh`, for complaints.
+void TakeFloor(Fields& obstacle, const Eigen::Isometry3d& X_WO, double floor, bool rests,
+               MeshFields* mesh);
 
 }  // namespace halfstep

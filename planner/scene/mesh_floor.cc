@@ -13,9 +13,11 @@ constexpr double kNearlyHorizontal = 0.985;  // cosine of 10°
 
 struct Placed {
   Eigen::Matrix3d corners_W;  // in columns
+  double floor;               // its height in W [m]
 
-  double top() const { return corners_W.row(2).maxCoeff(); }
-  double bottom() const { return corners_W.row(2).minCoeff(); }
+  // Above the floor.
+  double top() const { return corners_W.row(2).maxCoeff() - floor; }
+  double bottom() const { return corners_W.row(2).minCoeff() - floor; }
   // If it is nearly horizontal and within the tolerance of the floor, else 0 [m²].
   double FloorArea(double tolerance) const {
     const Eigen::Vector3d doubled =
@@ -26,8 +28,9 @@ struct Placed {
   }
 };
 
-Placed Place(const TriangleMesh& mesh, const Eigen::Isometry3d& X_WO, Eigen::Index triangle) {
-  Placed placed;
+Placed Place(const TriangleMesh& mesh, const Eigen::Isometry3d& X_WO, double floor,
+             Eigen::Index triangle) {
+  Placed placed{.corners_W = {}, .floor = floor};
   for (int k = 0; k < 3; ++k) {
     placed.corners_W.col(k) =
         X_WO * Eigen::Vector3d(mesh.vertices.col(mesh.triangles(k, triangle)));
@@ -37,12 +40,13 @@ Placed Place(const TriangleMesh& mesh, const Eigen::Isometry3d& X_WO, Eigen::Ind
 
 }  // namespace
 
-CutMesh CutFloor(const TriangleMesh& mesh, const Eigen::Isometry3d& X_WO, double tolerance) {
+CutMesh CutFloor(const TriangleMesh& mesh, const Eigen::Isometry3d& X_WO, double floor,
+                 double tolerance) {
   CutMesh cut;
   cut.highest = -std::numeric_limits<double>::infinity();
   std::vector<Eigen::Index> kept;
   for (Eigen::Index i = 0; i < mesh.triangles.cols(); ++i) {
-    const Placed placed = Place(mesh, X_WO, i);
+    const Placed placed = Place(mesh, X_WO, floor, i);
     if (placed.top() > tolerance) {
       kept.push_back(i);
       continue;
@@ -75,10 +79,11 @@ CutMesh CutFloor(const TriangleMesh& mesh, const Eigen::Isometry3d& X_WO, double
   return cut;
 }
 
-double FloorArea(const TriangleMesh& mesh, const Eigen::Isometry3d& X_WO, double tolerance) {
+double FloorArea(const TriangleMesh& mesh, const Eigen::Isometry3d& X_WO, double floor,
+                 double tolerance) {
   double area = 0.0;
   for (Eigen::Index i = 0; i < mesh.triangles.cols(); ++i) {
-    area += Place(mesh, X_WO, i).FloorArea(tolerance);
+    area += Place(mesh, X_WO, floor, i).FloorArea(tolerance);
   }
   return area;
 }

@@ -131,7 +131,8 @@ void CheckReach(Fields& fields, const ObstacleFields& obstacle) {
                             farthest));
 }
 
-void DeclareObstacle(Fields& fields, ObstacleFields* obstacle) {
+// `floor`: its height in W [m].
+void DeclareObstacle(Fields& fields, double floor, ObstacleFields* obstacle) {
   DeclareShape(fields, obstacle);
   fields.Group("pose", {.meaning = "of the shape in the world"}, [&](Fields& pose) {
     pose.Numbers(
@@ -146,10 +147,12 @@ void DeclareObstacle(Fields& fields, ObstacleFields* obstacle) {
   fields.Group("motion", {.meaning = "what it does while the robot walks"},
                [&](Fields& motion) { DeclareMotion(motion, &obstacle->motion); });
   const Eigen::Isometry3d X_WO = MakePose(obstacle->xyz, obstacle->rpy);
-  if (obstacle->cloud.any()) obstacle->mesh.mesh = MeshOfCloud(fields, X_WO, &obstacle->cloud);
+  if (obstacle->cloud.any()) {
+    obstacle->mesh.mesh = MeshOfCloud(fields, X_WO, floor, &obstacle->cloud);
+  }
   CheckReach(fields, *obstacle);
   const bool rests = obstacle->motion.rests() && obstacle->motion.error == 0.0;
-  TakeFloor(fields, X_WO, rests, &obstacle->mesh);
+  TakeFloor(fields, X_WO, floor, rests, &obstacle->mesh);
 }
 
 void DeclareNoStep(Fields& fields, NoStepFields* area) {
@@ -183,6 +186,14 @@ double Obstacle::speed() const {
   return by_waypoints + motion.speed;
 }
 
+Scene Scene::Emptied() const {
+  Scene empty;
+  empty.name = name;
+  empty.friction = friction;
+  empty.ground = ground;
+  return empty;
+}
+
 bool Scene::rests() const {
   return std::all_of(obstacles.begin(), obstacles.end(),
                      [](const Obstacle& obstacle) { return obstacle.rests(); });
@@ -214,7 +225,7 @@ Scene ParseScene(const std::string& yaml_path, const std::string& text) {
                       const auto index = obstacle - obstacles.data();
                       DeclareName(item, &obstacle->name, true,
                                   "obstacles[" + std::to_string(index) + "]", &obstacle_names);
-                      DeclareObstacle(item, obstacle);
+                      DeclareObstacle(item, scene.ground->Floor(), obstacle);
                     });
         fields.List("no_step", {.meaning = "areas of the floor that no sole may touch"}, &areas,
                     [&](Fields& item, NoStepFields* area) {

@@ -49,6 +49,8 @@ struct Scene {
   /// Not null. Flat at z = 0: no key of a scene file says otherwise yet.
   std::shared_ptr<const Ground> ground = std::make_shared<const FlatGround>();
 
+  /// Its ground and friction under its name: no obstacles, no areas, nothing of files.
+  Scene Emptied() const;
   /// Whether all obstacles rest, so that what holds at one time holds at every time.
   bool rests() const;
   /// Whether from time `since` [s] on no obstacle is nearer at an earlier time than at a later one:

@@ -36,6 +36,8 @@ StepGraph::StepGraph(const PlanRequest& request, std::vector<int> elements)
   HALFSTEP_CHECK(request.start[0].height == request.start[1].height,
                  "the soles stand at " << request.start[0].height << " m and "
                                        << request.start[1].height << " m");
+  HALFSTEP_CHECK(!request.in_air || request.in_air->X_WS.height == request.start[0].height,
+                 "on one foot at " << request.in_air->X_WS.height << " m");
   for (Side support : {Side::kLeft, Side::kRight}) {
     for (int i : elements_) {
       Nth(request.set.placements, i).CheckLevel();

@@ -10,8 +10,7 @@ namespace halfstep {
 namespace {
 
 void CheckBorne(const Ground& ground, const Eigen::Matrix2Xd& outline, const Foothold& X_WF) {
-  const auto level = ground.LevelUnder(outline, X_WF.Planar(), X_WF.height);
-  HALFSTEP_CHECK(level && level->height == X_WF.height,
+  HALFSTEP_CHECK(ground.Standing(outline, X_WF.Planar(), X_WF.height) == X_WF,
                  "no level under a sole at " << X_WF.x << ", " << X_WF.y << ", " << X_WF.height);
 }
 

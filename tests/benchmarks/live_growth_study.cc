@@ -83,7 +83,7 @@ void PrintRow(LiveConfig config, int obstacles, double way) {
   config.experiment.goal.X_WG = {way, 0.0, 0.0};
   const Place place = LoadPlace(config.experiment);
   const BakedHalfSteps baked = BakeHalfSteps(place.robot, config.experiment, {});
-  const Replanner replanner(place.robot, config, *baked.cached.volumes);
+  const Replanner replanner(place, config, *baked.cached.volumes);
   const TrueWorld truth(Boxes(obstacles, way), config.experiment.goal, config.live);
   std::mt19937_64 random(1);
   const Known known = Watch(truth, config.live, random);
@@ -92,7 +92,7 @@ void PrintRow(LiveConfig config, int obstacles, double way) {
     measured = Updated(known.last, known.past, std::move(measured), config.live).world;
   });
   const double prepare = Median([&] { (void)replanner.Prepare(known.last); });
-  const auto start = StartOf(config.experiment, place.robot);
+  const auto start = StartOf(config.experiment, place.robot, *place.scene.ground);
   const Proposal walk = replanner.Begin(start, *replanner.Prepare(known.last), 0, random);
   if (walk.kind != ProposalKind::kChanged) {
     std::printf("no walk: %s\n", walk.reason.c_str());

@@ -27,7 +27,7 @@ LiveStudy MakeStudy(const std::string& policy) {
   study.base.live.longest = 90.0;
   study.place = LoadPlace(study.base.experiment);
   study.baked = BakeHalfSteps(study.place.robot, study.base.experiment, {});
-  study.start = StartOf(study.base.experiment, study.place.robot);
+  study.start = StartOf(study.base.experiment, study.place.robot, *study.place.scene.ground);
   return study;
 }
 

@@ -36,7 +36,7 @@ Experiment LongWalk(int half_steps, bool arc) {
     FootstepConfig step;
     step.foot = i % 2 == 0 ? "left" : "right";
     middle = middle * Pose2{0.0, 0.0, arc ? 5.0 * M_PI / 180.0 : 0.0} * Pose2{0.1, 0.0, 0.0};
-    step.X_WF = Foothold::Level(middle * Pose2{0.0, (i % 2 == 0 ? 0.105 : -0.105), 0.0});
+    step.X_WF = middle * Pose2{0.0, (i % 2 == 0 ? 0.105 : -0.105), 0.0};
     e.config.footsteps.push_back(step);
   }
   return Prepare(e.config);

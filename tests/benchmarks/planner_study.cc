@@ -44,7 +44,8 @@ Problem Shipped(const std::string& name) {
   const ExperimentConfig config =
       LoadConfig(HALFSTEP_SOURCE_DIR "/experiments/configs/" + name + ".yaml", {});
   const Place place = LoadPlace(config);
-  Problem problem{place.scene, StartOf(config, place.robot), config.goal.Region(), {}};
+  Problem problem{
+      place.scene, StartOf(config, place.robot, *place.scene.ground), config.goal.Region(), {}};
   if (const auto& w = config.planner.workspace; !w.empty()) {
     problem.workspace = {Eigen::Vector2d(w[0], w[1]), Eigen::Vector2d(w[2], w[3])};
   }

@@ -161,7 +161,7 @@ StudiedEpisode WalkEpisode(const LiveStudy& study, std::uint64_t seed) {
   const RandomEpisode drawn = DrawEpisode(study.base, seed);
   const LiveOptions& live = drawn.config.live;
   const TrueWorld truth(drawn.scene, drawn.config.experiment.goal, live);
-  const Replanner replanner(study.place.robot, drawn.config, *study.baked.cached.volumes);
+  const Replanner replanner(study.place, drawn.config, *study.baked.cached.volumes);
   StandInSensor sensor(truth, live, static_cast<std::uint64_t>(drawn.config.experiment.seed) + 1);
   StudiedEpisode studied;
   studied.seed = seed;

@@ -12,6 +12,7 @@
 #include "smoothing/methods/solver_method_options.h"
 #include "tests/fixture_check.h"
 #include "tests/temporary_folder.h"
+#include "wpg/files/input_error.h"
 
 namespace halfstep {
 namespace {
@@ -22,6 +23,51 @@ const fs::path kConfigs = fs::path(HALFSTEP_SOURCE_DIR) / "experiments" / "confi
 
 std::string Written(ExperimentConfig config) {
   return WriteYaml([&config](Fields& fields) { DeclareFields(fields, &config); });
+}
+
+// A step across x = 1 m, 0.15 m high; a sole whose outline lies on both sides stands on neither.
+class OneStair final : public Ground {
+ public:
+  double Floor() const override { return 0.0; }
+  const std::vector<GroundSolid>& Solids() const override { return solids_; }
+  const std::vector<GroundLevel>& Levels() const override { return levels_; }
+  std::optional<GroundLevel> LevelUnder(const Eigen::Matrix2Xd& outline, const Pose2& X_WF,
+                                        double) const override {
+    const Eigen::RowVectorXd x = (X_WF.rotation() * outline).row(0).array() + X_WF.x;
+    if (x.maxCoeff() < 1.0) return levels_[0];
+    return x.minCoeff() > 1.0 ? std::optional(levels_[1]) : std::nullopt;
+  }
+  std::optional<GroundLevel> OnlyLevel() const override { return std::nullopt; }
+
+ private:
+  std::vector<GroundLevel> levels_ = {{.number = 0, .height = 0.0}, {.number = 1, .height = 0.15}};
+  std::vector<GroundSolid> solids_;
+};
+
+TEST(Footholds, HaveTheHeightOfTheGroundUnderThem) {
+  ExperimentConfig config;
+  config.robot = "hrp2";
+  config.scene = "none";
+  config.footsteps = {{"left", {0.5, 0.1, 0.0}, {}, {}}, {"right", {1.5, -0.1, 0.2}, {}, 1.5}};
+  const RobotModel robot = LoadPlace(config).robot;
+  const OneStair stair;
+  for (const Foothold& sole : StartOf(config, robot, stair)) EXPECT_EQ(sole.height, 0.0);
+  const std::vector<Footstep> footsteps = FootstepsOf(config, robot, stair);
+  ASSERT_EQ(footsteps.size(), 2u);
+  EXPECT_EQ(footsteps[0].X_WF, Foothold({0.5, 0.1, 0.0}, 0.0));
+  EXPECT_EQ(footsteps[1].side, Side::kRight);
+  EXPECT_EQ(footsteps[1].X_WF, Foothold({1.5, -0.1, 0.2}, 0.15));
+  EXPECT_EQ(footsteps[0].duration, config.half_step.duration);
+  EXPECT_EQ(footsteps[1].duration, 1.5);
+  config.footsteps[1].X_WF.x = 1.0;
+  try {
+    (void)SequenceOf(config, robot, stair);
+    FAIL() << "a sole on the edge";
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(),
+                 "footsteps[1]: the ground does not bear a sole at x = 1 m, y = -0.1 m (valid: all "
+                 "of it on one level)");
+  }
 }
 
 class RefusedConfig : public testing::TestWithParam<std::string> {};
@@ -107,8 +153,8 @@ TEST(ExperimentConfig, EveryKeyReachesItsField) {
   constexpr double kDegree = std::numbers::pi / 180;
   EXPECT_EQ(c.name, "everything");
   EXPECT_TRUE(c.has_start);
-  EXPECT_EQ(c.start_left, Foothold::Level({0.01, 0.11, 5 * kDegree}));
-  EXPECT_EQ(c.start_right, Foothold::Level({-0.01, -0.12, 0}));
+  EXPECT_EQ(c.start_left, (Pose2{0.01, 0.11, 5 * kDegree}));
+  EXPECT_EQ(c.start_right, (Pose2{-0.01, -0.12, 0}));
   ASSERT_EQ(c.footsteps.size(), 1u);
   EXPECT_EQ(c.footsteps[0].foot, "left");
   EXPECT_NEAR(c.footsteps[0].X_WF.yaw, -30 * kDegree, 1e-15);

@@ -1,5 +1,5 @@
-#include "experiments/config/data_folder.h"
 #include "experiments/replay/episode_physics.h"
+#include "experiments/config/data_folder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -36,7 +36,7 @@ PlayedInPhysics PlayInPhysics(const Scene& scene, const LiveConfig& config,
                               const ModelOptions& model = {}, bool feedback = true) {
   const SmallWorld& small = SmallWorld::Get();
   const TrueWorld truth(scene, config.experiment.goal, config.live);
-  const Replanner replanner(small.place.robot, config, *small.baked.cached.volumes);
+  const Replanner replanner(small.place, config, *small.baked.cached.volumes);
   EpisodePhysics physics(Hrp2(), truth, config.live, model);
   StandInSensor sensor(feedback ? physics.SeenByRobot() : truth, config.live, 1);
   PlayedInPhysics played;

@@ -207,7 +207,7 @@ TEST(EpisodeTest, ASlowMachineArrivesToo) {
   scene.obstacles = {Bar("bar", 0.75, 2.0)};
   const SmallWorld& small = SmallWorld::Get();
   const TrueWorld truth(scene, config.experiment.goal, config.live);
-  const Replanner replanner(small.place.robot, config, *small.baked.cached.volumes);
+  const Replanner replanner(small.place, config, *small.baked.cached.volumes);
   SlowThinker thinker(replanner, 1);
   StandInSensor sensor(truth, config.live, 1);
   EpisodeClock clock;
@@ -244,7 +244,7 @@ TEST(EpisodeTest, ASlowSearchAtTheBeginningIsForgotten) {
   scene.obstacles = {Bar("bar", 0.75, 2.0)};
   scene.obstacles[0].motion.speed = 0.05;
   const TrueWorld truth(scene, small.config.experiment.goal, small.config.live);
-  const Replanner replanner(small.place.robot, small.config, *small.baked.cached.volumes);
+  const Replanner replanner(small.place, small.config, *small.baked.cached.volumes);
   LockstepThinker thinker(replanner, 1);
   StandInSensor sensor(truth, small.config.live, 1);
   SlowOnceClock clock;

@@ -23,7 +23,7 @@ class HalfStepProofsTest : public testing::Test {
   }
 
   const SmallWorld& small_ = SmallWorld::Get();
-  const Replanner replanner_{small_.place.robot, small_.config, *small_.baked.cached.volumes};
+  const Replanner replanner_{small_.place, small_.config, *small_.baked.cached.volumes};
   World world_;
 };
 

@@ -13,7 +13,7 @@ namespace {
 // A walk whose goal has gone where the search cannot get.
 TEST(ReplannerTest, AllSearchesOfAProposalShareTheNodes) {
   const SmallWorld& small = SmallWorld::Get();
-  const Replanner replanner(small.place.robot, small.config, *small.baked.cached.volumes);
+  const Replanner replanner(small.place, small.config, *small.baked.cached.volumes);
   std::mt19937_64 random(1);
   World world;
   world.goal.X_WG = {1.2, 0.0, 0.0};
@@ -35,6 +35,22 @@ TEST(ReplannerTest, AllSearchesOfAProposalShareTheNodes) {
     EXPECT_EQ(proposal.kind, ProposalKind::kUnsafe);
     EXPECT_EQ(proposal.planned.status, PlanStatus::kBudget);
     EXPECT_EQ(proposal.nodes, small.config.experiment.planner.max_nodes);
+  }
+}
+
+TEST(ReplannerTest, ProvesByTheFrictionOfItsPlace) {
+  const SmallWorld& small = SmallWorld::Get();
+  for (const double friction : {0.7, 0.001}) {
+    Place place = small.place;
+    place.scene.friction = friction;
+    const Replanner replanner(place, small.config, *small.baked.cached.volumes);
+    std::mt19937_64 random(1);
+    World world;
+    world.scene = place.scene.Emptied();
+    world.goal.X_WG = {1.2, 0.0, 0.0};
+    world.goal.radius = 0.15;
+    const Proposal walk = replanner.Begin(small.start, *replanner.Prepare(world), 0, random);
+    EXPECT_EQ(walk.kind, friction == 0.7 ? ProposalKind::kChanged : ProposalKind::kUnsafe);
   }
 }
 
@@ -93,7 +109,7 @@ void ExpectDrawsAway(const Proposal& proposal, const Scene& scene, int first) {
 // that, by 1 mm, as long as it touches nothing.
 TEST(ReplannerTest, ARobotThatStandsTooNearDrawsAway) {
   const SmallWorld& small = SmallWorld::Get();
-  const Replanner replanner(small.place.robot, small.config, *small.baked.cached.volumes);
+  const Replanner replanner(small.place, small.config, *small.baked.cached.volumes);
   const MarginLimits& limits = small.config.experiment.smoothing.limits;
   std::mt19937_64 random(1);
   World world;
@@ -128,7 +144,7 @@ TEST(ReplannerTest, ARobotThatStandsTooNearDrawsAway) {
 // Nothing was stopped: the walk has ended, or there was none.
 TEST(ReplannerTest, ItDrawsAwayBeforeAFirstWalkAndAfterAFinishedOne) {
   const SmallWorld& small = SmallWorld::Get();
-  const Replanner replanner(small.place.robot, small.config, *small.baked.cached.volumes);
+  const Replanner replanner(small.place, small.config, *small.baked.cached.volumes);
   const MarginLimits& limits = small.config.experiment.smoothing.limits;
   std::mt19937_64 random(1);
   World world;

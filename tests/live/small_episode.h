@@ -42,7 +42,7 @@ struct SmallWorld {
       made.config = ParseLiveConfig("small.yaml", kSmallConfig, {});
       made.place = LoadPlace(made.config.experiment);
       made.baked = BakeHalfSteps(made.place.robot, made.config.experiment, {});
-      made.start = StartOf(made.config.experiment, made.place.robot);
+      made.start = StartOf(made.config.experiment, made.place.robot, *made.place.scene.ground);
       return made;
     }();
     return world;
@@ -79,8 +79,7 @@ inline PlayedEpisode Play(const Scene& scene, const LiveConfig& config,
   const SmallWorld& small = SmallWorld::Get();
   PlayedEpisode played{.config = config, .truth = nullptr, .replanner = nullptr, .episode = {}};
   played.truth = std::make_unique<TrueWorld>(scene, config.experiment.goal, config.live);
-  played.replanner =
-      std::make_unique<Replanner>(small.place.robot, config, *small.baked.cached.volumes);
+  played.replanner = std::make_unique<Replanner>(small.place, config, *small.baked.cached.volumes);
   const auto run = config.live.clock == "wall" ? RunWallClock : RunLockstep;
   StandInSensor sensor(*played.truth, config.live,
                        static_cast<std::uint64_t>(config.experiment.seed) + 1);

@@ -42,6 +42,19 @@ TEST(World, AnObstacleContradictsBeyondErrorsAndSpeed) {
   EXPECT_EQ(After(jumped.world, Frame(1.4, 0.13, 0.5), {}).world.sound_since, 1);
 }
 
+// Of a scene what does not move is there unmeasured.
+TEST(World, HasTheGroundAndTheFrictionOfItsScene) {
+  const SmallWorld& small = SmallWorld::Get();
+  Scene scene = small.place.scene;
+  scene.friction = 0.3;
+  scene.ground = std::make_shared<const FlatGround>(0.1);
+  const TrueWorld truth(scene, small.config.experiment.goal, small.config.live);
+  std::mt19937_64 random(1);
+  const World world = Measure(truth, 0.5, small.config.live, random);
+  EXPECT_EQ(world.scene.friction, 0.3);
+  EXPECT_EQ(world.scene.ground, scene.ground);
+}
+
 TEST(World, ATurnMovesTheFarEnds) {
   const World before = Frame(1.0, 0.0, 0.0);
   World turned = Frame(1.2, 0.0, 0.0);

@@ -100,19 +100,37 @@ TEST_F(MeshFloor, WhatMakesNoSenseIsRefused) {
               HasSubstr("nothing of it sticks out of the floor"));
 }
 
-TEST(FloorArea, CountsWhatIsLevelAndNearZero) {
+// Of 1 × 1 m, level.
+TriangleMesh Square() {
   TriangleMesh square;
   square.vertices.resize(3, 4);
   square.vertices << 0, 1, 1, 0, 0, 0, 1, 1, 0, 0, 0, 0;
   square.triangles.resize(3, 2);
   square.triangles << 0, 0, 1, 2, 2, 3;
+  return square;
+}
+
+TEST(CutFloor, GoesByTheFloorsHeight) {
   Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
-  EXPECT_NEAR(FloorArea(square, X, 0.005), 1.0, 1e-12);
+  X.translation().z() = 0.104;
+  const CutMesh cut = CutFloor(Square(), X, 0.1, 0.005);
+  EXPECT_EQ(cut.floor, 2);
+  EXPECT_NEAR(cut.highest, 0.004, 1e-12);
+  EXPECT_EQ(cut.deep, 0);
+  EXPECT_EQ(CutFloor(Square(), X, 0.0, 0.005).floor, 0);
+  EXPECT_EQ(CutFloor(Square(), X, 0.2, 0.005).deep, 2);
+}
+
+TEST(FloorArea, CountsWhatIsLevelAndNearTheFloor) {
+  const TriangleMesh square = Square();
+  Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
+  EXPECT_NEAR(FloorArea(square, X, 0.0, 0.005), 1.0, 1e-12);
   X.translation().z() = 0.006;
-  EXPECT_EQ(FloorArea(square, X, 0.005), 0.0);
+  EXPECT_EQ(FloorArea(square, X, 0.0, 0.005), 0.0);
+  EXPECT_NEAR(FloorArea(square, X, 0.002, 0.005), 1.0, 1e-12) << "above the floor, wherever it is";
   X.translation().z() = 0;
   X.linear() = Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitX()).toRotationMatrix();
-  EXPECT_EQ(FloorArea(square, X, 2.0), 0.0) << "a ramp is no floor";
+  EXPECT_EQ(FloorArea(square, X, 0.0, 2.0), 0.0) << "a ramp is no floor";
 }
 
 }  // namespace

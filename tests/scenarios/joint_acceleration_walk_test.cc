@@ -75,7 +75,7 @@ Experiment ThreeSteps() {
        {std::tuple{"right", 0.15, -0.105}, {"left", 0.3, 0.105}, {"right", 0.3, -0.105}}) {
     FootstepConfig step;
     step.foot = foot;
-    step.X_WF = Foothold::Level({x, y, 0.0});
+    step.X_WF = {x, y, 0.0};
     config.footsteps.push_back(step);
   }
   return Prepare(config);

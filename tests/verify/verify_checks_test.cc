@@ -86,10 +86,10 @@ Findings FindingsOf(Of check, const Material& m) {
   const PlayedMotion motion(m.robot, m.rows);
   switch (check) {
     case Of::kRows:
-      CheckRowMargins(motion, m.certificate, 0.001, &findings);
+      CheckRowMargins(motion, walk.floor(), m.certificate, 0.001, &findings);
       break;
     case Of::kFloor:
-      CheckFloor(motion, m.scene, m.certificate, 0.001, &findings);
+      CheckFloor(motion, walk.floor(), m.scene, m.certificate, 0.001, &findings);
       break;
     case Of::kConsistency:
       CheckConsistency(motion, walk, &findings);

@@ -18,6 +18,7 @@
 #include "experiments/verify/floor_distances.h"
 #include "experiments/verify/own_names.h"
 #include "experiments/verify/played_motion.h"
+#include "experiments/verify/robot_momentum.h"
 #include "smoothing/methods/solver_method_options.h"
 #include "smoothing/walk/superposed_walk.h"
 #include "tests/experiments/child_process.h"
@@ -412,6 +413,33 @@ TEST(CheckClearances, SeesTwoLegsThatPassWithinAMillimetre) {
   }
 }
 
+// A plan that stands, its soles at these heights.
+HalfStepSequence StandingAt(double left, double right) {
+  return {{Foothold({0, 0.1, 0}, left), Foothold({0, -0.1, 0}, right)}, {}, {}};
+}
+
+TEST(FlatFloor, IsTheOneLevelOfAPlan) {
+  const FlatFloor floor(StandingAt(0.2, 0.2));
+  EXPECT_NEAR(floor.Above(0.25), 0.05, 1e-15);
+  EXPECT_EQ(floor.Point({1, 2}), Eigen::Vector3d(1, 2, 0.2));
+  EXPECT_EQ(floor.Sole({0, 0.1, 0}), StandingAt(0.2, 0.2).start[0]);
+  EXPECT_THROW(FlatFloor{StandingAt(0.2, 0)}, std::logic_error);
+  HalfStepSequence climbs = Fig5().sequence;
+  climbs.half_steps.back().X_WS.height = 0.15;
+  EXPECT_THROW(FlatFloor{climbs}, std::logic_error);
+}
+
+// The force that the floor gives, seen from where its points are.
+TEST(RobotMomentum, ItsZmpIsAPointOfTheFloor) {
+  RobotMomentum momentum;
+  momentum.floor = {.force = {3, -5, 100}, .moment = {20, 30, 7}};
+  for (const double height : {0.0, 0.2}) {
+    const FlatFloor floor(StandingAt(height, height));
+    const Eigen::Vector3d moment = momentum.floor.About(floor.Point(momentum.Zmp(floor)));
+    EXPECT_LT(moment.head<2>().norm(), 1e-12) << height;
+  }
+}
+
 TEST(CheckFloor, SeesABodyThatIsLowestBetweenTwoRows) {
   RobotModel robot = WithoutBodies();
   std::vector<PlayedRow> rows = TwoRows();
@@ -431,7 +459,7 @@ TEST(CheckFloor, SeesABodyThatIsLowestBetweenTwoRows) {
     CertificateText certificate;
     certificate.demanded.fill(demanded);
     Findings findings;
-    CheckFloor(motion, {}, certificate, 0, &findings);
+    CheckFloor(motion, FlatFloor(StandingAt(0, 0)), {}, certificate, 0, &findings);
     EXPECT_EQ(findings.disagreements() > 0, demanded > middle);
   }
 }

@@ -27,9 +27,13 @@ TEST(FlatGround, IsOneLevelEverywhere) {
       EXPECT_EQ(*level, (GroundLevel{.number = 0, .height = height}));
       EXPECT_EQ(ground.LevelUnder(outline, X_WF, height), level);
       EXPECT_EQ(ground.LevelUnder(outline, X_WF, height - 1e-3), std::nullopt);
+      EXPECT_EQ(ground.Standing(outline, X_WF), Foothold(X_WF, height));
+      EXPECT_EQ(ground.Standing(outline, X_WF, height - 1e-3), std::nullopt);
     }
   }
   EXPECT_EQ(FlatGround().Floor(), 0.0);
+  EXPECT_NO_THROW(FlatGround().CheckIsZeroEverywhere());
+  EXPECT_THROW(FlatGround(0.1).CheckIsZeroEverywhere(), std::logic_error);
   EXPECT_THROW(FlatGround{kAnywhere}, std::logic_error);
 }
 

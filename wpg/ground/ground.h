@@ -1,10 +1,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "wpg/geometry/foothold.h"
 #include "wpg/geometry/pose2.h"
 
 namespace halfstep {
@@ -57,8 +59,16 @@ class Ground {
   /// where; none where there are borders or more levels than one.
   virtual std::optional<GroundLevel> OnlyLevel() const = 0;
 
-  /// Its height [m], for what knows one level only. Precondition: there is one (std::logic_error).
+  /// The place in W of a sole that stands at X_WF, seen from above: on the level under it, as
+  /// LevelUnder finds it; none where that finds none.
+  std::optional<Foothold> Standing(const Eigen::Matrix2Xd& outline, const Pose2& X_WF,
+                                   double below = std::numeric_limits<double>::infinity()) const;
+
+  /// The height of the only level [m], for what knows one only. Precondition: there is one
+  /// (std::logic_error).
   double HeightEverywhere() const;
+  /// Precondition of what knows the plane z = 0 alone: that is the only level (std::logic_error).
+  void CheckIsZeroEverywhere() const;
 };
 
 /// One level everywhere.
