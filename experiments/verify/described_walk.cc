@@ -6,38 +6,31 @@
 
 #include "experiments/verify/check_rows.h"
 #include "experiments/verify/foot_forces.h"
+#include "experiments/verify/robot_momentum.h"
+#include "experiments/verify/robot_numbers.h"
 #include "experiments/verify/tolerances.h"
 #include "wpg/check.h"
-#include "wpg/motion/moved_footsteps.h"
-#include "wpg/motion/posture.h"
 #include "wpg/nth.h"
 
 namespace halfstep::verify {
 
-DescribedWalk::DescribedWalk(const RobotModel& robot, const HalfStepSequence& planned,
+DescribedWalk::DescribedWalk(const RobotModel& robot, const WalkPlan& planned,
                              const std::vector<HalfStepRow>& rows)
-    : robot_(robot), lipm_(planned.lipm) {
+    : robot_(robot) {
   HALFSTEP_CHECK(!rows.empty() && rows.size() == planned.half_steps.size(),
                  rows.size() << " rows, " << planned.half_steps.size() << " half-steps");
   std::vector<Pose2> moves;
   for (size_t i = 0; i < rows.size(); i += 2) {
     moves.push_back(rows[i].FormOf(planned.half_steps[i].half_step).footstep);
   }
-  const std::vector<PlacedHalfStep> placed = WithFootstepsMoved(planned, moves).half_steps;
+  WalkPlan plan = Moved(planned, moves);
   for (size_t i = 0; i < rows.size(); ++i) {
-    const auto& [as_planned, X_WS] = placed[i];
-    HalfStep half_step = as_planned;
+    HalfStep& half_step = plan.half_steps[i].half_step;
     half_step.duration = rows[i].duration;
     half_step.via_height *= rows[i].height_scale;
-    half_step.shape.support_point = rows[i].support_point;
-    const FormColumns form = rows[i].FormOf(as_planned);
-    for (const FormColumn& one : AllFormColumns()) one.in(&half_step) = form.*one.value;
-    const WalkState from = Transformed(X_WS, half_step.Start());
-    pieces_.push_back({.half_step = half_step,
-                       .profiles = {half_step.kind, half_step.shape, half_step.duration, lipm_},
-                       .start = rows[i].start,
-                       .from = from,
-                       .delta = Transformed(X_WS, half_step.End()) - from});
+    half_step.support_point = rows[i].support_point;
+    half_step.form = rows[i].FormOf(half_step);
+    pieces_.push_back({{plan.half_steps[i], PendulumRate(robot)}, rows[i].start});
   }
 }
 
@@ -49,39 +42,24 @@ DescribedWalk DescribedWalk::StopBranch(int last) const {
 
 std::pair<double, double> DescribedWalk::WindowOf(int half_step) const {
   const Piece& piece = Nth(pieces_, half_step);
-  return {piece.start, piece.start + piece.profiles.duration()};
+  return {piece.start, piece.start + piece.motion.duration()};
 }
 
-WalkJet DescribedWalk::At(double t) const {
-  WalkJet jet;
-  jet.value = pieces_.front().from;
-  for (size_t i = 0; i < pieces_.size(); ++i) {
-    const Piece& piece = pieces_[i];
-    const double tau = Local(t, i);
-    if (tau <= 0) continue;
-    if (tau >= piece.profiles.duration()) {
-      jet.value += piece.delta;
-      continue;
-    }
-    const HalfStepJet profiles = piece.profiles.At(tau);
-    for (int q = 0; q < kNumQuantities; ++q) {
-      const ProfileJet& p = profiles.of(q);
-      jet.value[q] += p.value * piece.delta[q];
-      jet.first[q] += p.first * piece.delta[q];
-      jet.second[q] += p.second * piece.delta[q];
-    }
-  }
-  return jet;
+WalkInstant DescribedWalk::At(double t) const {
+  WalkInstant at;
+  at.value = pieces_.front().motion.start();
+  for (const Piece& piece : pieces_) piece.motion.AddAt(t - piece.start, &at);
+  return at;
 }
 
 bool DescribedWalk::HasLanded(double t, size_t up) const {
   const size_t down = up + 1;
-  return down < pieces_.size() && Local(t, down) > pieces_[down].profiles.t1();
+  return down < pieces_.size() && Local(t, down) > pieces_[down].motion.t1();
 }
 
 int DescribedWalk::StepInAir(double t) const {
   for (size_t up = 0; up < pieces_.size(); up += 2) {
-    if (Local(t, up) >= pieces_[up].profiles.t2() && !HasLanded(t, up)) {
+    if (Local(t, up) >= pieces_[up].motion.t2() && !HasLanded(t, up)) {
       return static_cast<int>(up / 2);
     }
   }
@@ -91,7 +69,7 @@ int DescribedWalk::StepInAir(double t) const {
 Support DescribedWalk::SupportAt(double t) const {
   const int step = StepInAir(t);
   if (step < 0) return Support::kBoth;
-  return static_cast<Support>(Index(Nth(pieces_, 2 * step).half_step.support));
+  return static_cast<Support>(Index(Nth(pieces_, 2 * step).motion.half_step().support));
 }
 
 int DescribedWalk::HalfStepAt(double t) const {
@@ -106,47 +84,44 @@ bool DescribedWalk::MovesHorizontally(double t, int side) const {
   const int step = StepInAir(t);
   if (step < 0) return false;
   const size_t up = 2 * static_cast<size_t>(step), down = up + 1;
-  if (Index(pieces_[up].half_step.swing()) != side) return false;
-  const HalfStepProfiles& rise = pieces_[up].profiles;
-  const bool begun = Local(t, up) >= rise.horizontal_begin();
+  if (Index(pieces_[up].motion.half_step().swing()) != side) return false;
+  const HalfStepMotion& rise = pieces_[up].motion;
+  const bool begun = Local(t, up) >= rise.foot_begin();
   const bool rises = Local(t, up) <= rise.duration();
   if (down == pieces_.size()) return begun && rises;
   return (begun || Local(t, down) >= 0) &&
-         (Local(t, down) <= pieces_[down].profiles.horizontal_end() || rises);
+         (Local(t, down) <= pieces_[down].motion.foot_end() || rises);
 }
 
 PlayedRow DescribedWalk::Row(double t) const {
-  const WalkJet jet = At(t);
-  const Posture posture = SolvePosture(robot_, jet.value);
+  const WalkInstant at = At(t);
+  const RobotPosture posture = PostureOf(robot_, at.value);
   PlayedRow row;
   row.t = t;
   row.half_step = HalfStepAt(t);
   row.support = SupportAt(t);
-  row.com << jet.value.segment<2>(kComX), lipm_.com_height;
-  row.com_velocity = jet.first.segment<2>(kComX);
-  row.com_acceleration = jet.second.segment<2>(kComX);
-  row.zmp = jet.value.segment<2>(kZmpX);
-  row.waist << posture.X_WB.translation(), jet.value[kWaistYaw];
-  row.soles = {jet.value.segment<4>(kLeftX), jet.value.segment<4>(kRightX)};
-  for (size_t s = 0; s < 2; ++s) {
-    row.q[s] = posture.ik[s].q;
-    if (posture.ik[s].status != LegIkStatus::kSolved) row.q[s].setConstant(std::nan(""));
-  }
+  row.com << at.value.segment<2>(kComX), robot_.com_height;
+  row.com_velocity = at.first.segment<2>(kComX);
+  row.com_acceleration = at.second.segment<2>(kComX);
+  row.zmp = at.value.segment<2>(kZmpX);
+  row.waist << posture.X_WB.translation(), at.value[kWaistYaw];
+  row.soles = {at.value.segment<4>(kLeftX), at.value.segment<4>(kRightX)};
+  row.q = posture.q;
   return row;
 }
 
 std::array<Vector6d, 2> DescribedWalk::JointSpeeds(double t) const {
   const double half = Tolerances(robot_).speed_step;
   const double from = std::max(t - half, 0.0), to = std::min(t + half, end());
-  const Posture a = SolvePosture(robot_, At(from).value), b = SolvePosture(robot_, At(to).value);
+  const RobotPosture a = PostureOf(robot_, At(from).value), b = PostureOf(robot_, At(to).value);
   std::array<Vector6d, 2> speeds;
-  for (size_t s = 0; s < 2; ++s) speeds[s] = (b.ik[s].q - a.ik[s].q) / (to - from);
+  for (size_t s = 0; s < 2; ++s) speeds[s] = (b.q[s] - a.q[s]) / (to - from);
   return speeds;
 }
 
 WalkDynamics DescribedWalk::DynamicsAt(double t) const {
   WalkDynamics dynamics;
-  const auto momentum = RobotMomentum::Of(robot_, At(t), lipm_.gravity);
+  const auto momentum = RobotMomentum::Of(robot_, At(t));
   if (!momentum) return dynamics;
   PlayedRow row = Row(t);
   row.zmp = momentum->Zmp();
@@ -171,15 +146,11 @@ double WalkDynamics::LeastTorqueMargin(const RobotModel& robot) const {
 }
 
 double DescribedWalk::ComFourthBound(double begin, double end) const {
-  Eigen::Vector2d com{0, 0}, zmp{0, 0};
-  for (size_t i = 0; i < pieces_.size(); ++i) {
-    const Piece& piece = pieces_[i];
-    if (Local(end, i) <= 0 || Local(begin, i) >= piece.profiles.duration()) continue;
-    const HalfStepJet second = piece.profiles.SecondBounds(Local(begin, i), Local(end, i));
-    com += second.com.second * piece.delta.segment<2>(kComX).cwiseAbs();
-    zmp += second.zmp.second * piece.delta.segment<2>(kZmpX).cwiseAbs();
+  Eigen::Vector2d seconds{0, 0};
+  for (const Piece& piece : pieces_) {
+    seconds += piece.motion.SecondBounds(begin - piece.start, end - piece.start);
   }
-  return lipm_.omega() * lipm_.omega() * (com + zmp).norm();
+  return std::pow(PendulumRate(robot_), 2) * seconds.norm();
 }
 
 }  // namespace halfstep::verify

@@ -22,6 +22,7 @@
 #include "experiments/verify/check_stop_branches.h"
 #include "experiments/verify/check_summary.h"
 #include "experiments/verify/check_walk.h"
+#include "experiments/verify/config_plan.h"
 #include "experiments/verify/csv_text.h"
 #include "experiments/verify/described_walk.h"
 #include "experiments/verify/found_inputs.h"
@@ -105,7 +106,7 @@ struct MethodFiles {
 std::optional<DescribedWalk> WalkOf(const MethodFiles& files, const ExperimentConfig& config,
                                     const RobotModel& robot, const RunManifest::Method* of_method,
                                     Findings* findings) {
-  const HalfStepSequence planned = SequenceOf(config, robot);
+  const WalkPlan planned = PlanOf(config, robot);
   CheckFootsteps(ReadFootsteps(files.PathInRun("footsteps.csv"), files.ReadOfRun("footsteps.csv")),
                  planned, findings);
   const auto half_steps =
