@@ -5,8 +5,8 @@
 
 #include "experiments/config/known_names.h"
 #include "experiments/tables/certificate_statement.h"
+#include "experiments/verify/robot_numbers.h"
 #include "wpg/files/text.h"
-#include "wpg/robot/acceleration_limits.h"
 
 namespace halfstep::verify {
 namespace {
@@ -24,7 +24,7 @@ long CountOf(Family family, const RobotModel& robot) {
     case kTorque:
       return std::ssize(robot.legs[0].joints) + std::ssize(robot.legs[1].joints);
     case kJointAcceleration:
-      return StatesAccelerationLimits(robot) ? CountOf(kJoint, robot) : 0;
+      return LimitsAccelerations(robot) ? CountOf(kJoint, robot) : 0;
     case kSelfClearance:
       return std::ssize(robot.self_pairs);
     case kClearance:
@@ -180,7 +180,7 @@ void CheckAgainstConfig(const CertificateText& certificate, const RobotModel& ro
                         const MarginLimits& config, Findings* findings) {
   for (const NamedDemand& of_config : NamedDemands(config)) {
     const std::optional<Family> family = FamilyNamed(of_config.family, findings);
-    if (!family || (family == kJointAcceleration && !StatesAccelerationLimits(robot))) continue;
+    if (!family || (family == kJointAcceleration && !LimitsAccelerations(robot))) continue;
     const double claimed = certificate.demanded[*family];
     if (claimed < of_config.demanded) {
       findings->Disagree(Formatted("%s: the certificate demands %.9g, config.yaml %.9g",

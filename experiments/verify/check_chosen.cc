@@ -13,8 +13,7 @@ constexpr double kMoved = 1e-9;  // of a number that is written in two tables
 }  // namespace
 
 void CheckChosen(const std::string& method, const std::vector<HalfStepRow>& half_steps,
-                 const HalfStepSequence& planned, const SmoothingConfig& config,
-                 Findings* findings) {
+                 const WalkPlan& planned, const SmoothingConfig& config, Findings* findings) {
   if (method == "given") return;
   const ParameterChoice& choice = config.options.Get(OptimizerGroup()).options.program.parameters;
   const auto is_fixed = [&](const std::string& name, size_t index) {
@@ -33,15 +32,15 @@ void CheckChosen(const std::string& method, const std::vector<HalfStepRow>& half
   };
   for (size_t i = 0; i < half_steps.size(); ++i) {
     const HalfStep& plan = planned.half_steps[i].half_step;
-    const FormColumns is = half_steps[i].FormOf(plan), as_planned = PlannedForm(plan);
-    for (const FormColumn& form : AllFormColumns()) {
+    const FormColumns is = half_steps[i].FormOf(plan), as_planned = plan.form;
+    for (const FormColumn& form : kFormColumns) {
       if (choice.moves(form.key)) continue;
       look(i, form.key, form.name, form.of_step() ? i / 2 : i, is.*form.value,
            as_planned.*form.value);
     }
     if (!choice.support_points) {
       look(i, "support_points", "support_point", i / 2, half_steps[i].support_point,
-           plan.shape.support_point);
+           plan.support_point);
     }
     if (choice.footsteps) continue;
     look(i, "footsteps", "footstep_x", i / 2, is.footstep.x, 0);

@@ -6,7 +6,6 @@
 #include "experiments/config/experiment_config.h"
 #include "experiments/verify/findings.h"
 #include "experiments/verify/walk_text.h"
-#include "wpg/motion/half_step_sequence.h"
 
 namespace halfstep::verify {
 
@@ -15,7 +14,6 @@ namespace halfstep::verify {
 /// value. The method `given` moves whatever it was given; heights and durations some methods move
 /// whatever these keys say, so they are not looked at. Precondition: CheckOverlaps() returned true.
 void CheckChosen(const std::string& method, const std::vector<HalfStepRow>& half_steps,
-                 const HalfStepSequence& planned, const SmoothingConfig& config,
-                 Findings* findings);
+                 const WalkPlan& planned, const SmoothingConfig& config, Findings* findings);
 
 }  // namespace halfstep::verify

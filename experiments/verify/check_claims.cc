@@ -92,10 +92,9 @@ class Claims {
     if (row.family == kFootYawRate && !certificate_.foot_yaw_rate) return "";
     for (const double t : Instants(row)) {
       for (int side = 0; side < 2; ++side) {
-        const bool moves =
-            row.family == kFloor
-                ? MovesAround(t, side)
-                : walk_.At(t).first.segment<4>(side == 0 ? kLeftX : kRightX).norm() > near_.claim;
+        const bool moves = row.family == kFloor
+                               ? MovesAround(t, side)
+                               : walk_.At(t).first.segment<4>(SoleX(side)).norm() > near_.claim;
         if (moves) return Formatted("a foot moves at t = %.6g s", t);
       }
     }
@@ -115,7 +114,7 @@ class Claims {
 
   // Margin of a row's subject at an instant; nan: the family has none of this kind.
   double Scalar(Family family, ClaimSubject s, double t) const {
-    const int foot = s.first == 0 ? kLeftX : kRightX;
+    const int foot = SoleX(s.first);
     switch (family) {
       case kFloor:
         return walk_.floor().Above(walk_.At(t).value[foot + 2]);

@@ -25,16 +25,16 @@ bool IsFinite(const FootstepRow& row) {
   return row.X_WF.AllFinite() && std::isfinite(row.via_height) && std::isfinite(row.duration);
 }
 
-// The sequence of footsteps.csv; of no half-steps when it is none.
-HalfStepSequence SequenceOf(const std::vector<FootstepRow>& rows, const EpisodeWalkFrame& frame,
-                            const std::string& path, Findings* findings) {
-  HalfStepSequence none{.start = frame.start, .half_steps = {}, .model = std::make_shared<Lipm>()};
+// The plan of footsteps.csv; of no half-steps when it is none.
+WalkPlan PlanOf(const std::vector<FootstepRow>& rows, const EpisodeWalkFrame& frame,
+                const std::string& path, Findings* findings) {
+  WalkPlan none{.start = frame.start, .half_steps = {}};
   if (rows.size() < 3) {
     findings->Disagree(path + ": no footstep");
     return none;
   }
   const FlatFloor floor(none);
-  std::vector<Footstep> footsteps;
+  std::vector<PlannedFootstep> footsteps;
   for (size_t i = 0; i < rows.size(); ++i) {
     const FootstepRow& row = rows[i];
     const std::string line = path + Formatted(":%zu: ", i + 2);
@@ -55,13 +55,12 @@ HalfStepSequence SequenceOf(const std::vector<FootstepRow>& rows, const EpisodeW
       findings->Disagree(line + "no step leads to a foot that stands at the start");
     }
   }
-  return MakeSequence(frame.start, footsteps, frame.via_lateral, frame.shape,
-                      std::make_shared<Lipm>(frame.robot.com_height));
+  return PlanOf(frame.start, footsteps, frame.half_step);
 }
 
 // Whether the rows of half_steps.csv make a walk of the half-steps.
-bool CheckHalfSteps(const EpisodeWalkText& text, const HalfStepSequence& planned,
-                    const std::string& folder, Findings* findings) {
+bool CheckHalfSteps(const EpisodeWalkText& text, const WalkPlan& planned, const std::string& folder,
+                    Findings* findings) {
   const std::vector<HalfStepRow>& rows = text.half_steps;
   const std::string path = folder + "/half_steps.csv";
   if (rows.size() != planned.half_steps.size()) {
@@ -83,7 +82,7 @@ bool CheckHalfSteps(const EpisodeWalkText& text, const HalfStepSequence& planned
     if (fault.empty() && i % 2 == 1) fault = FaultOfStep(rows[i - 1], rows[i]);
     if (fault.empty() && i > 0) {
       const double overlap = rows[i - 1].start + rows[i - 1].duration - rows[i].start;
-      fault = FaultOfOverlap(overlap, rows[i - 1], rows[i], half_step.shape);
+      fault = FaultOfOverlap(overlap, rows[i - 1], rows[i], half_step);
       if (fault.empty() && !Near(overlap, text.overlaps[i - 1])) {
         fault = Formatted("overlap %.9g by starts and durations, %.9g in overlaps.csv", overlap,
                           text.overlaps[i - 1]);
@@ -101,7 +100,7 @@ bool CheckHalfSteps(const EpisodeWalkText& text, const HalfStepSequence& planned
 
 bool NearForms(const FormColumns& a, const FormColumns& b) {
   return std::ranges::all_of(
-      AllFormColumns(), [&](const FormColumn& one) { return Near(a.*one.value, b.*one.value); });
+      kFormColumns, [&](const FormColumn& one) { return Near(a.*one.value, b.*one.value); });
 }
 
 // Whether half-step i is the same in two walks.
@@ -110,7 +109,7 @@ bool SameHalfStep(const EpisodeText& episode, const EpisodeWalks& all, size_t a,
   const HalfStepRow &x = episode.walks[a].half_steps[i], &y = episode.walks[b].half_steps[i];
   const auto& [p, X_WS] = all.planned[a].half_steps[i];
   const auto& [q, Y_WS] = all.planned[b].half_steps[i];
-  return p.kind == q.kind && p.support == q.support && Near(X_WS, Y_WS) && Near(p.X_SF, q.X_SF) &&
+  return p.up == q.up && p.support == q.support && Near(X_WS, Y_WS) && Near(p.X_SF, q.X_SF) &&
          Near(p.via_height, q.via_height) && Near(x.start, y.start) &&
          Near(x.duration, y.duration) && Near(x.height_scale, y.height_scale) &&
          Near(x.support_point, y.support_point) && NearForms(x.FormOf(p), y.FormOf(q));
@@ -143,8 +142,7 @@ EpisodeWalks CheckEpisodeWalks(const EpisodeText& episode, const EpisodeWalkFram
       findings->Disagree(line + "the walks are not handed over in order, the first at 0");
     }
     const std::string folder = FolderOfWalk(k);
-    const HalfStepSequence planned =
-        SequenceOf(text.footsteps, frame, folder + "/footsteps.csv", findings);
+    const WalkPlan planned = PlanOf(text.footsteps, frame, folder + "/footsteps.csv", findings);
     if (planned.half_steps.empty() || !CheckHalfSteps(text, planned, folder, findings)) {
       return all;
     }

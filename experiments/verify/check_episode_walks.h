@@ -6,7 +6,6 @@
 #include "experiments/verify/described_walk.h"
 #include "experiments/verify/episode_text.h"
 #include "experiments/verify/findings.h"
-#include "wpg/motion/half_step_sequence.h"
 #include "wpg/robot/robot_model.h"
 
 namespace halfstep::verify {
@@ -15,14 +14,13 @@ namespace halfstep::verify {
 struct EpisodeWalkFrame {
   const RobotModel& robot;        ///< that walks
   std::array<Foothold, 2> start;  ///< soles, by Index(Side)
-  double via_lateral = 0;         ///< [m]
-  HalfStepShape shape;            ///< of every half-step
+  HalfStep half_step;             ///< what all have in common
 };
 
 /// The walks of an episode, by number; those before the last only as rows. Borrows the robot.
 struct EpisodeWalks {
-  std::vector<HalfStepSequence> planned;  ///< by number
-  std::vector<DescribedWalk> walks;       ///< by number
+  std::vector<WalkPlan> planned;     ///< by number
+  std::vector<DescribedWalk> walks;  ///< by number
 };
 
 /// Makes the walks that walks/NNN/footsteps.csv and half_steps.csv describe, and checks that they

@@ -30,7 +30,7 @@ double JointSpeedMarginAt(const DescribedWalk& walk, double t, double scale) {
 double FootSpeedMarginAt(const DescribedWalk& walk, const PlayedRow& row,
                          const std::optional<double>& limit) {
   if (row.support == Support::kBoth || !limit) return kNoLimit;
-  const int foot = FootIndex(row.support == Support::kLeft ? Side::kRight : Side::kLeft);
+  const int foot = SoleX(row.support == Support::kLeft ? 1 : 0);
   return *limit - walk.At(row.t).first.segment<3>(foot).norm();
 }
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <string>
 
+#include "experiments/verify/robot_numbers.h"
 #include "wpg/files/text.h"
-#include "wpg/robot/acceleration_limits.h"
 #include "wpg/robot/torque_limits.h"
 
 namespace halfstep::verify {
@@ -16,7 +16,7 @@ constexpr double kAssumedFriction = 0.7;  // of a scene that states none
 std::string WhyUnknown(Family family, const RobotModel& robot) {
   if (IsOfDynamics(family) && !robot.masses.known()) return robot.masses.fault;
   if (family == kTorque) return TorqueFault(robot);
-  if (family != kJointAcceleration || StatesAccelerationLimits(robot)) return "";
+  if (family != kJointAcceleration || LimitsAccelerations(robot)) return "";
   return "the robot file states no limits (`acceleration_limits_rad_s2`)";
 }
 

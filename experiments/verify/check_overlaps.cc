@@ -20,16 +20,15 @@ bool SameMove(const Pose2& a, const Pose2& b) {
 
 bool Same(const FormColumns& a, const FormColumns& b) {
   return SameMove(a.footstep, b.footstep) &&
-         std::ranges::all_of(AllFormColumns(), [&](const FormColumn& one) {
-           return Same(a.*one.value, b.*one.value);
-         });
+         std::ranges::all_of(
+             kFormColumns, [&](const FormColumn& one) { return Same(a.*one.value, b.*one.value); });
 }
 
 // What is wrong with a form, of whatever plan; "": nothing. Numbers that are not finite are out of
 // every range.
 std::string FaultOfForm(const FormColumns& form) {
   const auto within = [](double x, double least, double most) { return x >= least && x <= most; };
-  for (const FormColumn& one : AllFormColumns()) {
+  for (const FormColumn& one : kFormColumns) {
     const double value = form.*one.value;
     if (within(value, one.least, one.most)) continue;
     return one.before + Formatted("%.9g", value) + one.after;
@@ -46,31 +45,29 @@ std::string FaultOfRaw(const HalfStepRow& row, const HalfStep& planned) {
   if (!Same(row.duration, planned.duration)) {
     return Formatted("duration %.9g, planned %.9g", row.duration, planned.duration);
   }
-  if (!Same(row.support_point, planned.shape.support_point)) {
-    return Formatted("support point %.9g, planned %.9g", row.support_point,
-                     planned.shape.support_point);
+  if (!Same(row.support_point, planned.support_point)) {
+    return Formatted("support point %.9g, planned %.9g", row.support_point, planned.support_point);
   }
-  if (!Same(row.FormOf(planned), PlannedForm(planned))) return "a form that is not planned";
+  if (!Same(row.FormOf(planned), planned.form)) return "a form that is not planned";
   return Same(row.height_scale, 1) ? ""
                                    : Formatted("height scale %.9g, planned 1", row.height_scale);
 }
 
 // Largest overlap that the homotopy allows at a junction [s].
 // Source: smoothing/README.md, "Natural bounds".
-double NaturalBound(const HalfStepRow& before, const HalfStepRow& after,
-                    const HalfStepShape& planned) {
+double NaturalBound(const HalfStepRow& before, const HalfStepRow& after, const HalfStep& planned) {
   if (before.kind == "down") return std::min(before.duration, after.duration);
   const auto flight = [&planned](const HalfStepRow& row) {
-    const double shift = row.form ? row.form->zmp_shift : planned.shift;
+    const double shift = row.form ? row.form->zmp_shift : planned.form.zmp_shift;
     return row.duration * (1 - shift) / 2;
   };
   return std::min(flight(before), flight(after));
 }
 
 std::string FaultOf(const OverlapRow& row, const HalfStepRow& before, const HalfStepRow& after,
-                    const HalfStepShape& shape) {
+                    const HalfStep& planned) {
   if (row.kind != (before.kind == "up" ? "up_down" : "down_up")) return "kind " + row.kind;
-  const std::string fault = FaultOfOverlap(row.overlap, before, after, shape);
+  const std::string fault = FaultOfOverlap(row.overlap, before, after, planned);
   if (!fault.empty()) return fault;
   if (!Same(row.duration_before, before.duration) || !Same(row.duration_after, after.duration) ||
       !Same(row.scale_before, before.height_scale) || !Same(row.scale_after, after.height_scale)) {
@@ -81,9 +78,8 @@ std::string FaultOf(const OverlapRow& row, const HalfStepRow& before, const Half
 
 // The column of a form; null: the parameter is none.
 const FormColumn* FormNamed(const std::string& parameter) {
-  const auto& all = AllFormColumns();
-  const auto found = std::ranges::find(all, parameter, &FormColumn::name);
-  return found != all.end() ? &*found : nullptr;
+  const auto* found = std::ranges::find(kFormColumns, parameter, &FormColumn::name);
+  return found != kFormColumns.end() ? found : nullptr;
 }
 
 // The number of a footstep's move that a parameter is.
@@ -97,7 +93,7 @@ std::optional<double Pose2::*> MoveNamed(const std::string& parameter) {
 }  // namespace
 
 std::string FaultOfHalfStep(const HalfStepRow& row, const HalfStep& planned) {
-  if (row.kind != (planned.kind == HalfStepKind::kUp ? "up" : "down")) return "kind " + row.kind;
+  if (row.kind != (planned.up ? "up" : "down")) return "kind " + row.kind;
   if (row.support != Name(planned.support)) return "support " + row.support;
   if (!std::isfinite(row.start) || !std::isfinite(row.duration) ||
       !std::isfinite(row.height_scale) || !std::isfinite(row.support_point)) {
@@ -112,7 +108,7 @@ std::string FaultOfStep(const HalfStepRow& up, const HalfStepRow& down) {
   if (!Same(down.height_scale, up.height_scale)) {
     return "another height scale than the step's up half-step";
   }
-  for (const FormColumn& one : AllFormColumns()) {
+  for (const FormColumn& one : kFormColumns) {
     if (!one.of_step() || !up.form || !down.form) continue;
     if (Same(*down.form.*one.value, *up.form.*one.value)) continue;
     return std::string(one.differs) + " than the step's up half-step";
@@ -126,15 +122,15 @@ std::string FaultOfStep(const HalfStepRow& up, const HalfStepRow& down) {
 }
 
 std::string FaultOfOverlap(double overlap, const HalfStepRow& before, const HalfStepRow& after,
-                           const HalfStepShape& shape) {
-  const double bound = NaturalBound(before, after, shape);
+                           const HalfStep& planned) {
+  const double bound = NaturalBound(before, after, planned);
   if (overlap >= -kLongestRest && overlap <= bound + kTwiceRounding) return "";
   return Formatted("overlap %.9g, natural bound %.9g", overlap, bound);
 }
 
 bool CheckOverlaps(const std::vector<HalfStepRow>& half_steps,
-                   const std::optional<std::vector<OverlapRow>>& overlaps,
-                   const HalfStepSequence& planned, Findings* findings) {
+                   const std::optional<std::vector<OverlapRow>>& overlaps, const WalkPlan& planned,
+                   Findings* findings) {
   const long before = findings->disagreements();
   const size_t n = planned.half_steps.size();
   findings->Say("half_steps.csv: " + Count(std::ssize(half_steps)) + " half-steps, " +
@@ -167,7 +163,7 @@ bool CheckOverlaps(const std::vector<HalfStepRow>& half_steps,
     start += row.duration - (overlaps ? (*overlaps)[i].overlap : 0);
     if (!overlaps) continue;
     const std::string overlap_fault =
-        FaultOf((*overlaps)[i], row, half_steps[i + 1], planned.half_steps[i].half_step.shape);
+        FaultOf((*overlaps)[i], row, half_steps[i + 1], planned.half_steps[i].half_step);
     if (!overlap_fault.empty()) {
       findings->Disagree(Formatted("overlaps.csv:%zu: ", i + 2) + overlap_fault);
     }
@@ -176,7 +172,7 @@ bool CheckOverlaps(const std::vector<HalfStepRow>& half_steps,
 }
 
 void CheckUpperBounds(const std::string& method, const std::vector<HalfStepRow>& half_steps,
-                      const std::vector<OverlapRow>& overlaps, const HalfStepSequence& planned,
+                      const std::vector<OverlapRow>& overlaps, const WalkPlan& planned,
                       const DichotomyOptions& config, Findings* findings) {
   const bool published = method == "dichotomy/published";
   const bool capped = method == "dichotomy" || method == "dichotomy/right_to_left" ||
@@ -188,7 +184,7 @@ void CheckUpperBounds(const std::string& method, const std::vector<HalfStepRow>&
                        : capped  ? (up ? config.up_down_cap : config.down_up_cap)
                                  : 1;
     const double bound =
-        cap * NaturalBound(half_steps[i], half_steps[i + 1], planned.half_steps[i].half_step.shape);
+        cap * NaturalBound(half_steps[i], half_steps[i + 1], planned.half_steps[i].half_step);
     if (Same(overlaps[i].upper_bound, bound)) continue;
     faults.Add(Formatted("overlaps.csv:%zu: upper_bound_s is %.9g, but %.9g by half_steps.csv",
                          i + 2, overlaps[i].upper_bound, bound));
@@ -197,7 +193,7 @@ void CheckUpperBounds(const std::string& method, const std::vector<HalfStepRow>&
 }
 
 void CheckFixed(const std::vector<HalfStepRow>& half_steps, const std::vector<OverlapRow>& overlaps,
-                const HalfStepSequence& planned, const std::vector<FixedConfig>& fixed,
+                const WalkPlan& planned, const std::vector<FixedConfig>& fixed,
                 Findings* findings) {
   for (const FixedConfig& one : fixed) {
     const size_t i = static_cast<size_t>(one.index - 1);
@@ -212,7 +208,7 @@ void CheckFixed(const std::vector<HalfStepRow>& half_steps, const std::vector<Ov
       demanded = 1;
     } else if (one.parameter == "support_point" && 2 * i < half_steps.size()) {
       is = half_steps[2 * i].support_point;
-      demanded = planned.half_steps[2 * i].half_step.shape.support_point;
+      demanded = planned.half_steps[2 * i].half_step.support_point;
     } else if (const auto move = MoveNamed(one.parameter); move && 2 * i < half_steps.size()) {
       is = half_steps[2 * i].FormOf(planned.half_steps[2 * i].half_step).footstep.**move;
     } else if (const auto* form = FormNamed(one.parameter);
@@ -220,7 +216,7 @@ void CheckFixed(const std::vector<HalfStepRow>& half_steps, const std::vector<Ov
       const size_t row = form->of_step() ? 2 * i : i;
       const HalfStep& plan = planned.half_steps[row].half_step;
       is = half_steps[row].FormOf(plan).*form->value;
-      demanded = PlannedForm(plan).*form->value;
+      demanded = plan.form.*form->value;
     } else {
       findings->Disagree("config.yaml: smoothing.fixed: " + one.parameter +
                          Formatted(" %d is not known here", one.index));
@@ -233,7 +229,7 @@ void CheckFixed(const std::vector<HalfStepRow>& half_steps, const std::vector<Ov
   }
 }
 
-void CheckFootsteps(const std::vector<FootstepRow>& rows, const HalfStepSequence& planned,
+void CheckFootsteps(const std::vector<FootstepRow>& rows, const WalkPlan& planned,
                     Findings* findings) {
   const size_t steps = planned.half_steps.size() / 2;
   findings->Say(Formatted("footsteps.csv: %zu footsteps", steps));

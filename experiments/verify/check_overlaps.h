@@ -8,7 +8,6 @@
 #include "experiments/verify/findings.h"
 #include "experiments/verify/walk_text.h"
 #include "smoothing/methods/dichotomy.h"
-#include "wpg/motion/half_step_sequence.h"
 
 namespace halfstep::verify {
 
@@ -24,7 +23,7 @@ std::string FaultOfStep(const HalfStepRow& up, const HalfStepRow& down);
 /// What is wrong with the overlap of two neighbours by what the homotopy allows [s]; "": nothing.
 /// Source: smoothing/README.md, "Natural bounds".
 std::string FaultOfOverlap(double overlap, const HalfStepRow& before, const HalfStepRow& after,
-                           const HalfStepShape& shape);
+                           const HalfStep& planned);
 
 /// Whether half_steps.csv and overlaps.csv describe one walk of the footsteps that `planned` was
 /// made of: kinds and supports as planned, starts that follow from durations and overlaps,
@@ -33,25 +32,24 @@ std::string FaultOfOverlap(double overlap, const HalfStepRow& before, const Half
 /// walk is the planned motion: no overlap, durations and support points as planned, scale 1.
 /// Returns false when they describe none; then no DescribedWalk may be made of them.
 bool CheckOverlaps(const std::vector<HalfStepRow>& half_steps,
-                   const std::optional<std::vector<OverlapRow>>& overlaps,
-                   const HalfStepSequence& planned, Findings* findings);
+                   const std::optional<std::vector<OverlapRow>>& overlaps, const WalkPlan& planned,
+                   Findings* findings);
 
 /// Whether `upper_bound_s` of overlaps.csv is the largest overlap that was allowed: the natural
 /// bound, times the caps of the dichotomy that `method` is, if it is one. Precondition:
 /// CheckOverlaps() returned true.
 void CheckUpperBounds(const std::string& method, const std::vector<HalfStepRow>& half_steps,
-                      const std::vector<OverlapRow>& overlaps, const HalfStepSequence& planned,
+                      const std::vector<OverlapRow>& overlaps, const WalkPlan& planned,
                       const DichotomyOptions& config, Findings* findings);
 
 /// Whether each parameter in smoothing.fixed has the value that is given there, or else the planned
 /// one. A family that is not known here is a disagreement. Precondition: CheckOverlaps() returned
 /// true.
 void CheckFixed(const std::vector<HalfStepRow>& half_steps, const std::vector<OverlapRow>& overlaps,
-                const HalfStepSequence& planned, const std::vector<FixedConfig>& fixed,
-                Findings* findings);
+                const WalkPlan& planned, const std::vector<FixedConfig>& fixed, Findings* findings);
 
 /// Whether footsteps.csv has the config's footsteps, which `planned` was made of.
-void CheckFootsteps(const std::vector<FootstepRow>& rows, const HalfStepSequence& planned,
+void CheckFootsteps(const std::vector<FootstepRow>& rows, const WalkPlan& planned,
                     Findings* findings);
 
 }  // namespace halfstep::verify

@@ -5,9 +5,8 @@
 #include <functional>
 #include <utility>
 
+#include "experiments/verify/robot_numbers.h"
 #include "experiments/verify/tolerances.h"
-#include "wpg/geometry/support_polygon.h"
-#include "wpg/robot/gravity.h"
 
 namespace halfstep::verify {
 namespace {
@@ -66,28 +65,21 @@ double FootYawRate(const PlayedMotion& motion, size_t i, int side) {
   return std::abs(b.soles[Of(side)][3] - a.soles[Of(side)][3]) / (b.t - a.t);
 }
 
-SupportPolygon PolygonOf(const PlayedRow& row, const RobotModel& robot) {
-  if (row.support == Support::kBoth) return {row.X_WS(0), row.X_WS(1), robot.sole_size};
-  return {row.X_WS(static_cast<int>(row.support)), robot.sole_size};
+SolePolygon PolygonOf(const PlayedRow& row, const RobotModel& robot) {
+  if (row.support == Support::kBoth) return {{row.X_WS(0), row.X_WS(1)}, robot.sole_size};
+  return {{row.X_WS(static_cast<int>(row.support))}, robot.sole_size};
 }
 
 double ZmpMargin(const PlayedRow& row, const RobotModel& robot) {
   return PolygonOf(row, robot).Margin(row.zmp);
 }
 
-// Hip (a point of the thigh), knee axis and ankle (a point of the shank): stretched when both lie
-// in one half-plane pair of the knee axis.
 double ReachMargin(const RobotModel& robot, const PlayedRow& row, int side) {
   const Leg& leg = robot.legs[Of(side)];
-  const LegJoint& knee = leg.joints[3];
-  const Eigen::Vector3d hip = leg.hip_B - knee.point_B, ankle = leg.ankle_B - knee.point_B;
-  const double along = knee.axis_B.dot(ankle - hip);
-  const double stretched =
-      std::hypot(knee.axis_B.cross(hip).norm() + knee.axis_B.cross(ankle).norm(), along);
-  const auto frames = LegForwardKinematics(leg, row.q[Of(side)]);
+  const auto frames = PlaceLegAt(leg, row.q[Of(side)]).X_BLink;
   const Eigen::Vector3d hip_at = frames[2] * (leg.joints[2].X_BLink.inverse() * leg.hip_B);
   const Eigen::Vector3d ankle_at = frames[3] * (leg.joints[3].X_BLink.inverse() * leg.ankle_B);
-  return stretched - (ankle_at - hip_at).norm();
+  return StretchedLength(leg) - (ankle_at - hip_at).norm();
 }
 
 // Where the support changes between two rows: what supports the robot there is in both polygons.

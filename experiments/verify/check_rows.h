@@ -6,8 +6,8 @@
 #include "experiments/verify/described_walk.h"
 #include "experiments/verify/findings.h"
 #include "experiments/verify/played_motion.h"
+#include "experiments/verify/sole_polygon.h"
 #include "planner/scene/scene.h"
-#include "wpg/geometry/support_polygon.h"
 
 namespace halfstep::verify {
 
@@ -45,7 +45,7 @@ void CheckFloor(const PlayedMotion& motion, const FlatFloor& floor, const Scene&
                 const CertificateText& certificate, double tolerance, Findings* findings);
 
 /// What supports the robot at a row.
-SupportPolygon PolygonOf(const PlayedRow& row, const RobotModel& robot);
+SolePolygon PolygonOf(const PlayedRow& row, const RobotModel& robot);
 /// Margins at a row: of the ZMP [m], of a leg's reach [m], of a joint's limits [rad]; and of a
 /// joint's speed between row i and the next one [rad/s], with `scale` times the robot's limit.
 /// `side` is Index(Side).

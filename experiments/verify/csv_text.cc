@@ -101,4 +101,18 @@ int CsvText::Whole(size_t row, size_t column, int least) const {
   return value;
 }
 
+const std::string& CsvText::Word(size_t row, size_t column,
+                                 const std::vector<std::string>& words) const {
+  std::string valid;
+  for (const std::string& word : words) {
+    if (Cell(row, column) == word) return Cell(row, column);
+    valid += (valid.empty() ? "" : ", ") + word;
+  }
+  Refuse(row, column, "is not valid (valid: " + valid + ")");
+}
+
+void CsvText::CheckFirst(size_t row, int number) const {
+  if (Number(row, 0) != number) Refuse(row, 0, "is not " + std::to_string(number));
+}
+
 }  // namespace halfstep::verify

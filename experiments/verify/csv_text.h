@@ -25,6 +25,10 @@ class CsvText {
   int Positive(size_t row, size_t column) const { return Whole(row, column, 1); }
   /// A whole number in [least, 1e9]. Throws InputError.
   int Whole(size_t row, size_t column, int least) const;
+  /// One of a few words. Throws InputError.
+  const std::string& Word(size_t row, size_t column, const std::vector<std::string>& words) const;
+  /// Throws InputError unless the first cell of a row is that number.
+  void CheckFirst(size_t row, int number) const;
   /// Throws InputError about a cell.
   [[noreturn]] void Refuse(size_t row, size_t column, const std::string& what) const;
 

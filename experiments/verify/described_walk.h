@@ -6,11 +6,10 @@
 #include <vector>
 
 #include "experiments/verify/flat_floor.h"
+#include "experiments/verify/half_step_motion.h"
 #include "experiments/verify/played_motion.h"
+#include "experiments/verify/robot_posture.h"
 #include "experiments/verify/walk_text.h"
-#include "wpg/motion/half_step_sequence.h"
-#include "wpg/motion/half_step_tracks.h"
-#include "wpg/motion/lipm.h"
 #include "wpg/nth.h"
 #include "wpg/robot/robot_model.h"
 
@@ -36,13 +35,13 @@ struct WalkDynamics {
 ///
 ///     f(t) = f_0(0) + Σ_i [ f_i(clamp(t − t_i, 0, T_i)) − f_i(0) ].
 ///
-/// The superposition and which feet stand when are this class's own; the closed forms of a
-/// half-step and of a leg's inverse kinematics are wpg's, which the prover uses as well. Borrows
-/// the robot. Source: [Perrin2011] §IV; smoothing/README.md, "The homotopy".
+/// Nothing of it is the prover's. Borrows the robot. Source: [Perrin2011] §IV; smoothing/README.md,
+/// "The homotopy".
 class DescribedWalk {
  public:
-  /// Precondition: as many rows as half-steps, at least one, durations > 0; a plan on one level.
-  DescribedWalk(const RobotModel& robot, const HalfStepSequence& planned,
+  /// Precondition: as many rows as half-steps, at least one, durations > 0, each a half-step that
+  /// there can be (HalfStepMotion); a plan on one level.
+  DescribedWalk(const RobotModel& robot, const WalkPlan& planned,
                 const std::vector<HalfStepRow>& rows);
 
   /// The walk that ends with half-step `last`, from 0. Precondition: there is one.
@@ -52,15 +51,13 @@ class DescribedWalk {
   const FlatFloor& floor() const { return floor_; }                        ///< on which it walks
   int num_half_steps() const { return static_cast<int>(pieces_.size()); }  ///< n
   /// Whether it is an up half-step, from 0.
-  bool IsUp(int half_step) const {
-    return Nth(pieces_, half_step).half_step.kind == HalfStepKind::kUp;
-  }
+  bool IsUp(int half_step) const { return Nth(pieces_, half_step).motion.half_step().up; }
   /// When a half-step, counted from 0, begins and ends [s].
   std::pair<double, double> WindowOf(int half_step) const;
   /// Duration of the walk [s].
-  double end() const { return pieces_.back().start + pieces_.back().tracks.duration(); }
+  double end() const { return pieces_.back().start + pieces_.back().motion.duration(); }
   /// All quantities and two time derivatives at t [s], in W.
-  WalkJet At(double t) const;
+  WalkInstant At(double t) const;
 
   /// All that a row of trajectory.csv says at t [s], but for the margins. Joint angles are nan
   /// where a leg does not reach.
@@ -83,9 +80,8 @@ class DescribedWalk {
 
  private:
   struct Piece {
-    HalfStep half_step;
-    HalfStepTracks tracks;  // in W
-    double start = 0;
+    HalfStepMotion motion;
+    double start = 0;  // t_i
   };
   double Local(double t, size_t piece) const { return t - pieces_[piece].start; }
   // Whether the foot that half-step `up` raised stands again.
@@ -94,7 +90,6 @@ class DescribedWalk {
   int StepInAir(double t) const;
 
   const RobotModel& robot_;
-  Lipm lipm_;
   FlatFloor floor_;
   std::vector<Piece> pieces_;
 };

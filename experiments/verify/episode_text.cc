@@ -89,9 +89,8 @@ std::vector<PlanRow> ReadPlans(const std::filesystem::path& folder) {
                              "first_changed", "footsteps", "duration_s", "reason"});
   std::vector<PlanRow> rows;
   for (size_t i = 0; i < csv.size(); ++i) {
-    if (csv.Whole(i, 0, 0) != static_cast<int>(i)) {
-      csv.Refuse(i, 0, "is not " + std::to_string(i));
-    }
+    (void)csv.Whole(i, 0, 0);
+    csv.CheckFirst(i, static_cast<int>(i));
     rows.push_back({.handed_over = csv.Number(i, 1),
                     .footsteps = csv.Positive(i, 6),
                     .duration = csv.Number(i, 7)});
@@ -105,9 +104,8 @@ std::vector<GrantRow> ReadGrants(const std::filesystem::path& folder) {
             {"grant", "t_s", "walk", "world", "proved_from_s", "through", "valid_until_s"});
   std::vector<GrantRow> rows;
   for (size_t i = 0; i < csv.size(); ++i) {
-    if (csv.Whole(i, 0, 0) != static_cast<int>(i)) {
-      csv.Refuse(i, 0, "is not " + std::to_string(i));
-    }
+    (void)csv.Whole(i, 0, 0);
+    csv.CheckFirst(i, static_cast<int>(i));
     rows.push_back({.t = csv.Number(i, 1),
                     .walk = csv.Whole(i, 2, 0),
                     .world = csv.Whole(i, 3, 0),
@@ -157,27 +155,23 @@ EpisodeManifest ReadEpisodeManifest(const std::string& path, const std::string& 
     root.Fail("stopped: is not true or false");
   }
   const JsonMember inputs = root.Object("inputs");
-  EpisodeManifest m{.name = root.String("name"),
-                    .config_sha256 = root.String("config_sha256"),
-                    .robot_sha256 = root.String("robot_sha256"),
-                    .scene_sha256 = root.String("scene_sha256"),
-                    .clock = root.String("clock"),
-                    .policy = root.String("policy"),
-                    .ending = root.String("ending"),
-                    .robot_files = ListedInputs(inputs, "robot"),
-                    .scene_files = ListedInputs(inputs, "scene"),
-                    .files = {},
-                    .seed = root.Whole("seed"),
-                    .walks = root.Whole("walks"),
-                    .waited = root.Number("waited_s"),
-                    .end = root.Number("end_s"),
-                    .stopped = document["stopped"].get<bool>(),
-                    .not_covered = NotCoveredItems(root)};
+  const EpisodeManifest m{.name = root.String("name"),
+                          .config_sha256 = root.String("config_sha256"),
+                          .robot_sha256 = root.String("robot_sha256"),
+                          .scene_sha256 = root.String("scene_sha256"),
+                          .clock = root.String("clock"),
+                          .policy = root.String("policy"),
+                          .ending = root.String("ending"),
+                          .robot_files = ListedInputs(inputs, "robot"),
+                          .scene_files = ListedInputs(inputs, "scene"),
+                          .files = ListedFiles(root),
+                          .seed = root.Whole("seed"),
+                          .walks = root.Whole("walks"),
+                          .waited = root.Number("waited_s"),
+                          .end = root.Number("end_s"),
+                          .stopped = document["stopped"].get<bool>(),
+                          .not_covered = NotCoveredItems(root)};
   if (m.walks < 0 || m.walks > kMostWalks) root.Fail("walks: out of range (valid: 0 … 100000)");
-  const JsonMember files = root.Object("files");
-  for (const auto& [name, item] : files.object().items()) {
-    m.files[name] = ListedFile(files.Object(name), name);
-  }
   return m;
 }
 
@@ -192,12 +186,13 @@ EpisodeText ReadEpisode(const std::filesystem::path& folder, size_t walks) {
                    .events = ReadEvents(folder),
                    .walks = {}};
   for (size_t k = 0; k < walks; ++k) {
-    const std::string footsteps = (folder / FolderOfWalk(k) / "footsteps.csv").string();
-    const std::string half_steps = (folder / FolderOfWalk(k) / "half_steps.csv").string();
-    const std::string overlaps = (folder / FolderOfWalk(k) / "overlaps.csv").string();
-    text.walks.push_back({.footsteps = ReadFootsteps(footsteps, ReadBytes(footsteps)),
-                          .half_steps = ReadHalfSteps(half_steps, ReadBytes(half_steps)),
-                          .overlaps = ReadOverlapsOfEpisode(overlaps, ReadBytes(overlaps))});
+    const auto read = [&](const char* file, const auto& reader) {
+      const std::string path = (folder / FolderOfWalk(k) / file).string();
+      return reader(path, ReadBytes(path));
+    };
+    text.walks.push_back({.footsteps = read("footsteps.csv", ReadFootsteps),
+                          .half_steps = read("half_steps.csv", ReadHalfSteps),
+                          .overlaps = read("overlaps.csv", ReadOverlapsOfEpisode)});
   }
   return text;
 }

@@ -2,8 +2,8 @@
 
 #include <Eigen/Core>
 
+#include "experiments/verify/walk_plan.h"
 #include "wpg/check.h"
-#include "wpg/motion/half_step_sequence.h"
 
 namespace halfstep::verify {
 
@@ -12,7 +12,7 @@ namespace halfstep::verify {
 class FlatFloor {
  public:
   /// On which every sole of a plan stands. Precondition: there is one height (std::logic_error).
-  explicit FlatFloor(const HalfStepSequence& planned) : height_(planned.start[0].height) {
+  explicit FlatFloor(const WalkPlan& planned) : height_(planned.start[0].height) {
     CheckOn(planned.start[1]);
     for (const auto& [half_step, X_WS] : planned.half_steps) {
       CheckOn(X_WS);

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "experiments/verify/check_rows.h"
-#include "wpg/geometry/support_polygon.h"
 #include "wpg/nth.h"
 
 namespace halfstep::verify {
@@ -17,19 +16,6 @@ using Eigen::Vector3d;
 double FromSole(const RobotModel& robot, const Pose2& X_WF, const Vector2d& p_W) {
   const Vector2d p_F = X_WF.Inverse() * p_W, half = 0.5 * robot.sole_size;
   return (p_F - p_F.cwiseMax(-half).cwiseMin(half)).norm();
-}
-
-// How far one may go from p along u, both ways, before the polygon ends.
-double WayBothWays(const SupportPolygon& polygon, const Vector2d& p, const Vector2d& u) {
-  double way = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < polygon.size(); ++i) {
-    const Vector2d a = polygon.corner(i), edge = polygon.corner((i + 1) % polygon.size()) - a;
-    const double along = u.x() * edge.y() - u.y() * edge.x();
-    if (std::abs(along) < 1e-9 * edge.norm() || edge.norm() < 1e-9) continue;
-    const Vector2d to = a - p;
-    way = std::min(way, std::abs((to.x() * edge.y() - to.y() * edge.x()) / along));
-  }
-  return way;
 }
 
 }  // namespace
@@ -78,18 +64,12 @@ std::array<Vector6d, 2> JointTorques(const RobotModel& robot, const PlayedRow& r
 
 double FrictionNeeded(const RobotModel& robot, const PlayedRow& row, const RobotMomentum& momentum,
                       const FlatFloor& floor) {
-  const SupportPolygon polygon = PolygonOf(row, robot);
+  const SolePolygon polygon = PolygonOf(row, robot);
   const Vector2d zmp = momentum.Zmp(floor);
   if (!(polygon.Margin(zmp) > 0)) return std::numeric_limits<double>::infinity();
-  double way = 0;
-  for (int i = 0; i < polygon.size(); ++i) {
-    const Vector2d edge = polygon.corner((i + 1) % polygon.size()) - polygon.corner(i);
-    if (edge.norm() < 1e-9) continue;
-    way = std::max(way, WayBothWays(polygon, zmp, edge.normalized()));
-  }
   const Vector3d& force = momentum.floor.force;
   const double turn = momentum.floor.About(floor.Point(zmp)).z();
-  return (force.head<2>().norm() + std::abs(turn) / way) / force.z();
+  return (force.head<2>().norm() + std::abs(turn) / polygon.LongestWay(zmp)) / force.z();
 }
 
 }  // namespace halfstep::verify

@@ -4,11 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include "experiments/verify/robot_numbers.h"
 #include "experiments/verify/tolerances.h"
 #include "wpg/files/text.h"
-#include "wpg/motion/posture.h"
 #include "wpg/nth.h"
-#include "wpg/robot/acceleration_limits.h"
 
 namespace halfstep::verify {
 namespace {
@@ -26,15 +25,15 @@ double MarginOf(const RobotModel& robot, const std::array<Vector6d, 2>& accelera
 }  // namespace
 
 std::array<Vector6d, 2> JointAccelerations(const DescribedWalk& walk, double t) {
-  const WalkJet jet = walk.At(t);
+  const WalkInstant at = walk.At(t);
   const double step = Tolerances(walk.robot()).acceleration_step;
   std::array<Vector6d, 2> sum = {Vector6d::Zero(), Vector6d::Zero()};
   for (int k = -4; k <= 4; ++k) {
     const double s = k * step;
-    const Posture posture =
-        SolvePosture(walk.robot(), jet.value + s * jet.first + 0.5 * s * s * jet.second);
-    const double weight = posture.reachable ? Nth(kWeights, std::abs(k)) : std::nan("");
-    for (size_t side = 0; side < 2; ++side) sum[side] += weight * posture.ik[side].q;
+    const RobotPosture posture =
+        PostureOf(walk.robot(), at.value + s * at.first + 0.5 * s * s * at.second);
+    const double weight = posture.reached ? Nth(kWeights, std::abs(k)) : std::nan("");
+    for (size_t side = 0; side < 2; ++side) sum[side] += weight * posture.q[side];
   }
   for (Vector6d& of_leg : sum) of_leg /= step * step;
   return sum;
@@ -46,7 +45,7 @@ double JointAccelerationMargin(const DescribedWalk& walk, double t, size_t side,
 
 double LeastJointAccelerationMargin(const DescribedWalk& walk, double t) {
   double least = kInfinity;
-  if (!StatesAccelerationLimits(walk.robot())) return least;
+  if (!LimitsAccelerations(walk.robot())) return least;
   const std::array<Vector6d, 2> accelerations = JointAccelerations(walk, t);
   for (size_t side = 0; side < 2; ++side) {
     for (size_t joint = 0; joint < 6; ++joint) {
@@ -58,7 +57,7 @@ double LeastJointAccelerationMargin(const DescribedWalk& walk, double t) {
 
 void CheckJointAccelerations(const std::vector<PlayedRow>& rows, const DescribedWalk& walk,
                              const CertificateText& certificate, Findings* findings) {
-  if (!StatesAccelerationLimits(walk.robot())) return;
+  if (!LimitsAccelerations(walk.robot())) return;
   const double demanded = certificate.demanded[kJointAcceleration];
   if (demanded == kNotDemanded) {
     findings->Say("joint accelerations: nothing is demanded");

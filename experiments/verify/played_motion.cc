@@ -4,9 +4,10 @@
 #include <cmath>
 
 #include "experiments/verify/csv_text.h"
+#include "experiments/verify/leg_angles.h"
+#include "experiments/verify/robot_numbers.h"
 #include "wpg/check.h"
 #include "wpg/nth.h"
-#include "wpg/robot/acceleration_limits.h"
 
 namespace halfstep::verify {
 
@@ -17,7 +18,7 @@ bool PlayedRow::AllFinite() const {
 }
 
 size_t NumMarginColumns(const RobotModel& robot) {
-  return StatesAccelerationLimits(robot) ? kNumMarginColumns : kNumMarginColumns - 1;
+  return LimitsAccelerations(robot) ? kNumMarginColumns : kNumMarginColumns - 1;
 }
 
 std::vector<std::string> TrajectoryHeader(const RobotModel& robot) {
@@ -103,9 +104,9 @@ PlayedRow PlayedMotion::At(double t) const {
 
 Placement PlaceRobot(const RobotModel& robot, const PlayedRow& row) {
   const Eigen::Vector4d& w = row.waist;
-  return {ToIsometry({w[0], w[1], w[3]}, w[2]),
-          {LegForwardKinematics(robot.legs[0], row.q[0]),
-           LegForwardKinematics(robot.legs[1], row.q[1])}};
+  return {
+      ToIsometry({w[0], w[1], w[3]}, w[2]),
+      {PlaceLegAt(robot.legs[0], row.q[0]).X_BLink, PlaceLegAt(robot.legs[1], row.q[1]).X_BLink}};
 }
 
 double FarthestFrom(const ConvexBody& body, const Eigen::Vector3d& point) {

@@ -4,8 +4,9 @@
 #include <array>
 #include <cmath>
 
+#include "experiments/verify/robot_numbers.h"
+#include "experiments/verify/robot_posture.h"
 #include "experiments/verify/tolerances.h"
-#include "wpg/motion/posture.h"
 
 namespace halfstep::verify {
 namespace {
@@ -31,15 +32,14 @@ Points PointsOf(const BodyMass& body) {
 
 }  // namespace
 
-std::optional<RobotMomentum> RobotMomentum::Of(const RobotModel& robot, const WalkJet& jet,
-                                               double gravity) {
+std::optional<RobotMomentum> RobotMomentum::Of(const RobotModel& robot, const WalkInstant& at) {
   if (!robot.masses.known()) return std::nullopt;
   const double step = Tolerances(robot).momentum_step;
-  std::array<Posture, 9> postures;
+  std::array<RobotPosture, 9> postures;
   for (size_t k = 0; k < postures.size(); ++k) {
     const double t = step * (static_cast<double>(k) - 4);
-    postures[k] = SolvePosture(robot, jet.value + t * jet.first + 0.5 * t * t * jet.second);
-    if (!postures[k].reachable) return std::nullopt;
+    postures[k] = PostureOf(robot, at.value + t * at.first + 0.5 * t * t * at.second);
+    if (!postures[k].reached) return std::nullopt;
   }
   RobotMomentum all;
   const auto push_on = [&](const BodyMass& body, const auto& pose) {
@@ -53,7 +53,8 @@ std::optional<RobotMomentum> RobotMomentum::Of(const RobotModel& robot, const Wa
     }
     a /= step * step;
     for (Eigen::Index i = 0; i < 6; ++i) {
-      const Eigen::Vector3d force = body.mass / 6 * (a.col(i) + gravity * Eigen::Vector3d::UnitZ());
+      const Eigen::Vector3d force =
+          body.mass / 6 * (a.col(i) + kGravity * Eigen::Vector3d::UnitZ());
       push.force += force;
       push.moment += here.col(i).cross(force);
     }
@@ -61,14 +62,14 @@ std::optional<RobotMomentum> RobotMomentum::Of(const RobotModel& robot, const Wa
     all.floor.moment += push.moment;
     return push;
   };
-  push_on(robot.masses.waist, [](const Posture& posture) { return posture.X_WB; });
-  const Posture& now = postures[4];
+  push_on(robot.masses.waist, [](const RobotPosture& posture) { return posture.X_WB; });
+  const RobotPosture& now = postures[4];
   for (size_t s = 0; s < 2; ++s) {
     for (size_t j = 0; j < 6; ++j) {
       all.links[s][j] = push_on(robot.masses.links[s][j],
-                                [&](const Posture& posture) { return posture.X_WLink[s][j]; });
-      all.points[s][j] = now.X_WB * now.frames[s].point_B[j];
-      all.axes[s][j] = now.X_WB.linear() * now.frames[s].axis_B[j];
+                                [&](const RobotPosture& posture) { return posture.OfLink(s, j); });
+      all.points[s][j] = now.X_WB * now.legs[s].points[j];
+      all.axes[s][j] = now.X_WB.linear() * now.legs[s].axes[j];
     }
   }
   if (!(all.floor.force.z() > 0)) return std::nullopt;

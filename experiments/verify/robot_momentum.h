@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "experiments/verify/flat_floor.h"
-#include "wpg/motion/walk_state.h"
+#include "experiments/verify/half_step_motion.h"
 #include "wpg/robot/robot_model.h"
 
 namespace halfstep::verify {
@@ -21,7 +21,7 @@ struct Push {
 /// What moves the robot's bodies against gravity when the walk's quantities have these values and
 /// derivatives. Every body counts as six point masses with its mass, centre and inertia; their
 /// accelerations are differences of eighth order of the places that inverse and forward kinematics
-/// give them while the quantities go along the parabola of `jet`. Nothing of the dynamics that the
+/// give them while the quantities go along the parabola of `at`. Nothing of the dynamics that the
 /// prover uses.
 struct RobotMomentum {
   Push floor;                                            ///< on the whole robot
@@ -30,8 +30,7 @@ struct RobotMomentum {
   std::array<std::array<Eigen::Vector3d, 6>, 2> axes;    ///< unit vectors in W
 
   /// None where masses are not known, a leg does not reach or the floor does not push.
-  static std::optional<RobotMomentum> Of(const RobotModel& robot, const WalkJet& jet,
-                                         double gravity);
+  static std::optional<RobotMomentum> Of(const RobotModel& robot, const WalkInstant& at);
 
   /// The point of the floor about which its force has no horizontal moment, in W [m].
   Eigen::Vector2d Zmp(const FlatFloor& on) const;

@@ -31,6 +31,15 @@ InputFile ListedFile(const JsonMember& member, const std::string& name) {
           .sha256 = member.String("sha256")};
 }
 
+std::map<std::string, InputFile> ListedFiles(const JsonMember& root) {
+  const JsonMember files = root.Object("files");
+  std::map<std::string, InputFile> listed;
+  for (const auto& [name, item] : files.object().items()) {
+    listed[name] = ListedFile(files.Object(name), name);
+  }
+  return listed;
+}
+
 const RunManifest::Method* RunManifest::MethodOf(const std::string& folder) const {
   const auto found = std::find_if(methods.begin(), methods.end(), [&](const Method& method) {
     return FolderOfMethod(method.name) == folder;
@@ -57,7 +66,7 @@ RunManifest ReadManifest(const std::string& path, const std::string& text) {
                 .half_steps = root.Whole("half_steps"),
                 .methods = {},
                 .not_covered = NotCoveredItems(root),
-                .files = {}};
+                .files = ListedFiles(root)};
   for (const json& item : root.List("methods")) {
     const JsonMember method(path, item, "methods");
     m.methods.push_back({method.String("name"), method.String("status"),
@@ -67,10 +76,6 @@ RunManifest ReadManifest(const std::string& path, const std::string& text) {
     if (name.empty() || name.front() == '.' || !NameMistake(name).empty()) {
       method.Fail("name: unfit: " + Quote(name));
     }
-  }
-  const JsonMember files = root.Object("files");
-  for (const auto& [name, item] : files.object().items()) {
-    m.files[name] = ListedFile(files.Object(name), name);
   }
   return m;
 }

@@ -35,6 +35,8 @@ struct RunManifest {
 
 /// The file `name` of which a manifest states length and hash, without a path. Throws InputError.
 InputFile ListedFile(const JsonMember& member, const std::string& name);
+/// Those of a manifest's member `files`, by relative path. Throws InputError.
+std::map<std::string, InputFile> ListedFiles(const JsonMember& root);
 /// Throws InputError for what is no manifest of a run.
 RunManifest ReadManifest(const std::string& path, const std::string& text);
 

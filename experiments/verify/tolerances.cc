@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "wpg/robot/gravity.h"
-#include "wpg/robot/robot_measures.h"
+#include "experiments/verify/robot_numbers.h"
 
 namespace halfstep::verify {
 namespace {
@@ -24,7 +23,7 @@ double LeastLimit(const RobotModel& robot, double LegJoint::*limit) {
 }  // namespace
 
 Tolerances::Tolerances(const RobotModel& robot)
-    : size(LegLengthOf(robot) / kLegLength),
+    : size(LegLength(robot) / kLegLength),
       time(std::sqrt(size)),
       played(1e-3 * size),
       length(1e-9 * size),
@@ -37,7 +36,7 @@ Tolerances::Tolerances(const RobotModel& robot)
       joint_speed(1e-6 / time),
       foot_speed(1e-6 * time),
       momentum(1e-7 * size),
-      torque(std::min(kOfWeight * robot.mass * kGravity * LegLengthOf(robot),
+      torque(std::min(kOfWeight * robot.mass * kGravity * LegLength(robot),
                       kOfLeastLimit * LeastLimit(robot, &LegJoint::max_torque))),
       friction(1e-6),
       acceleration(

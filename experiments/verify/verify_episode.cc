@@ -17,6 +17,7 @@
 #include "experiments/verify/check_files.h"
 #include "experiments/verify/check_not_covered.h"
 #include "experiments/verify/check_run.h"
+#include "experiments/verify/config_plan.h"
 #include "experiments/verify/csv_text.h"
 #include "experiments/verify/episode_text.h"
 #include "experiments/verify/found_inputs.h"
@@ -98,13 +99,11 @@ void CheckEpisodeWalking(const VerifyOptions& options, const EpisodeText& episod
                          const EpisodeManifest& manifest, const LiveConfig& config,
                          const Place& place, const EpisodePromise& promise, Findings* findings) {
   const ExperimentConfig& experiment = config.experiment;
-  const EpisodeWalks all =
-      CheckEpisodeWalks(episode,
-                        {.robot = place.robot,
-                         .start = StartOf(experiment, place.robot, *place.scene.ground),
-                         .via_lateral = experiment.half_step.via_lateral,
-                         .shape = ShapeOf(experiment.half_step)},
-                        findings);
+  const EpisodeWalks all = CheckEpisodeWalks(episode,
+                                             {.robot = place.robot,
+                                              .start = StartSoles(experiment, place.robot),
+                                              .half_step = HalfStepOf(experiment.half_step)},
+                                             findings);
   const std::string path = (fs::path(options.run) / "trajectory.csv").string();
   const std::vector<PlayedRow> rows = ReadTrajectory(path, ReadBytes(path), place.robot);
   if (all.walks.size() != episode.walks.size()) return;

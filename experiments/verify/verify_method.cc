@@ -22,6 +22,7 @@
 #include "experiments/verify/check_stop_branches.h"
 #include "experiments/verify/check_summary.h"
 #include "experiments/verify/check_walk.h"
+#include "experiments/verify/config_plan.h"
 #include "experiments/verify/csv_text.h"
 #include "experiments/verify/described_walk.h"
 #include "experiments/verify/found_inputs.h"
@@ -103,9 +104,9 @@ struct MethodFiles {
 
 // The walk that half_steps.csv and overlaps.csv describe; none when they do not fit.
 std::optional<DescribedWalk> WalkOf(const MethodFiles& files, const ExperimentConfig& config,
-                                    const RobotModel& robot, const Ground& ground,
-                                    const RunManifest::Method* of_method, Findings* findings) {
-  const HalfStepSequence planned = SequenceOf(config, robot, ground);
+                                    const RobotModel& robot, const RunManifest::Method* of_method,
+                                    Findings* findings) {
+  const WalkPlan planned = PlanOf(config, robot);
   CheckFootsteps(ReadFootsteps(files.PathInRun("footsteps.csv"), files.ReadOfRun("footsteps.csv")),
                  planned, findings);
   const auto half_steps =
@@ -272,7 +273,7 @@ VerifiedStatement VerifyMethod(const VerifyOptions& options, const RunManifest& 
                   FindNotCovered(DemandsOf(config.smoothing.limits, findings), robot, scene),
                   findings);
   const std::optional<DescribedWalk> walk =
-      WalkOf(files, config, robot, *scene.ground, manifest.MethodOf(folder), findings);
+      WalkOf(files, config, robot, manifest.MethodOf(folder), findings);
   if (!CheckIsMotion(rows, findings) || !walk) return {certificate.statement, not_covered};
   CheckMotion(options, config, {certificate, claimed, rows}, *walk, same_files ? &scene : nullptr,
               findings);

@@ -3,38 +3,16 @@
 #include "experiments/verify/csv_text.h"
 
 namespace halfstep::verify {
-namespace {
-
-// A column that holds one of a few words.
-std::string Word(const CsvText& csv, size_t row, size_t column,
-                 const std::vector<std::string>& words) {
-  const std::string& cell = csv.Cell(row, column);
-  std::string valid;
-  for (const std::string& word : words) {
-    if (cell == word) return cell;
-    valid += (valid.empty() ? "" : ", ") + word;
-  }
-  csv.Refuse(row, column, "is not valid (valid: " + valid + ")");
-}
-
-void CheckIndex(const CsvText& csv, size_t row) {
-  if (csv.Number(row, 0) != static_cast<double>(row + 1)) {
-    csv.Refuse(row, 0, "is not " + std::to_string(row + 1));
-  }
-}
-
-}  // namespace
-
 std::vector<HalfStepRow> ReadHalfSteps(const std::string& path, const std::string& text) {
   std::vector<std::string> columns = {"half_step",  "kind",         "support",        "start_s",
                                       "duration_s", "height_scale", "support_point_m"};
   const std::string head = text.substr(0, text.find('\n'));
   const bool has_footsteps = head.ends_with(",footstep_yaw_rad");
-  const auto& forms = AllFormColumns();
-  const bool has_forms = has_footsteps || head.ends_with("," + std::string(forms.back().column));
+  const bool has_forms =
+      has_footsteps || head.ends_with("," + std::string(kFormColumns.back().column));
   const size_t first = columns.size();
   if (has_forms) {
-    for (const FormColumn& one : forms) columns.emplace_back(one.column);
+    for (const FormColumn& one : kFormColumns) columns.emplace_back(one.column);
   }
   if (has_footsteps) {
     columns.insert(columns.end(), {"footstep_x_m", "footstep_y_m", "footstep_yaw_rad"});
@@ -42,18 +20,19 @@ std::vector<HalfStepRow> ReadHalfSteps(const std::string& path, const std::strin
   const CsvText csv(path, text, columns);
   std::vector<HalfStepRow> rows;
   for (size_t i = 0; i < csv.size(); ++i) {
-    CheckIndex(csv, i);
-    rows.push_back({.kind = Word(csv, i, 1, {"up", "down"}),
-                    .support = Word(csv, i, 2, {"left", "right"}),
+    csv.CheckFirst(i, static_cast<int>(i) + 1);
+    rows.push_back({.kind = csv.Word(i, 1, {"up", "down"}),
+                    .support = csv.Word(i, 2, {"left", "right"}),
                     .start = csv.Number(i, 3),
                     .duration = csv.Number(i, 4),
                     .height_scale = csv.Number(i, 5),
                     .support_point = csv.Number(i, 6)});
     if (!has_forms) continue;
     FormColumns& form = rows.back().form.emplace();
-    for (size_t k = 0; k < forms.size(); ++k) form.*forms[k].value = csv.Number(i, first + k);
+    for (size_t k = 0; k < kFormColumns.size(); ++k)
+      form.*kFormColumns[k].value = csv.Number(i, first + k);
     if (!has_footsteps) continue;
-    const size_t moves = first + forms.size();
+    const size_t moves = first + kFormColumns.size();
     form.footstep = {csv.Number(i, moves), csv.Number(i, moves + 1), csv.Number(i, moves + 2)};
   }
   return rows;
@@ -67,8 +46,8 @@ std::vector<OverlapRow> ReadOverlaps(const std::string& path, const std::string&
        "height_scale_before", "height_scale_after"});
   std::vector<OverlapRow> rows;
   for (size_t i = 0; i < csv.size(); ++i) {
-    CheckIndex(csv, i);
-    rows.push_back({.kind = Word(csv, i, 1, {"up_down", "down_up"}),
+    csv.CheckFirst(i, static_cast<int>(i) + 1);
+    rows.push_back({.kind = csv.Word(i, 1, {"up_down", "down_up"}),
                     .overlap = csv.Number(i, 2),
                     .duration_before = csv.Number(i, 9),
                     .duration_after = csv.Number(i, 10),
@@ -83,7 +62,7 @@ std::vector<double> ReadOverlapsOfEpisode(const std::string& path, const std::st
   const CsvText csv(path, text, {"junction", "overlap_s"});
   std::vector<double> overlaps;
   for (size_t i = 0; i < csv.size(); ++i) {
-    CheckIndex(csv, i);
+    csv.CheckFirst(i, static_cast<int>(i) + 1);
     overlaps.push_back(csv.Number(i, 1));
   }
   return overlaps;
@@ -95,9 +74,9 @@ std::vector<FootstepRow> ReadFootsteps(const std::string& path, const std::strin
   std::vector<FootstepRow> rows;
   for (size_t i = 0; i < csv.size(); ++i) {
     const int footstep = i < 2 ? 0 : static_cast<int>(i) - 1;
-    if (csv.Number(i, 0) != footstep) csv.Refuse(i, 0, "is not " + std::to_string(footstep));
+    csv.CheckFirst(i, footstep);
     rows.push_back({.footstep = footstep,
-                    .foot = Word(csv, i, 1, {"left", "right"}),
+                    .foot = csv.Word(i, 1, {"left", "right"}),
                     .X_WF = {csv.Number(i, 2), csv.Number(i, 3), csv.Number(i, 4)},
                     .via_height = csv.Number(i, 5),
                     .duration = csv.Number(i, 6)});
@@ -128,7 +107,7 @@ std::vector<SummaryRow> ReadSummary(const std::string& path, const std::string& 
     SummaryRow row{.method = csv.Cell(i, 0),
                    .status = csv.Cell(i, 1),
                    .worst_family = csv.Cell(i, 7),
-                   .certified = Word(csv, i, 2, {"true", "false"}) == "true",
+                   .certified = csv.Word(i, 2, {"true", "false"}) == "true",
                    .duration = csv.Number(i, 3),
                    .speedup = csv.Number(i, 4),
                    .cost = csv.Number(i, 5),

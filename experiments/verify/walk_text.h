@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/verify/form_columns.h"
+#include "experiments/verify/walk_plan.h"
 
 namespace halfstep::verify {
 
@@ -16,7 +16,7 @@ struct HalfStepRow {
   std::optional<FormColumns> form = {};              ///< none: as planned
 
   /// The form of the half-step whose plan is `planned`.
-  FormColumns FormOf(const HalfStep& planned) const { return form.value_or(PlannedForm(planned)); }
+  FormColumns FormOf(const HalfStep& planned) const { return form.value_or(planned.form); }
 };
 
 /// A row of overlaps.csv; its columns about what holds the overlap and what that costs are not

@@ -16,6 +16,7 @@
 #include "experiments/verify/check_overlaps.h"
 #include "experiments/verify/check_rows.h"
 #include "experiments/verify/check_walk.h"
+#include "tests/verify/plan_of.h"
 #include "tests/verify/verify_mutation.h"
 
 namespace halfstep::verify {
@@ -28,7 +29,7 @@ using testing::IsEmpty;
 struct Material {
   RobotModel robot;
   Scene scene;
-  HalfStepSequence planned;
+  WalkPlan planned;
   CertificateText certificate;
   std::vector<ClaimRow> claims;
   std::vector<PlayedRow> rows;
@@ -45,7 +46,7 @@ const Material& Original() {
     const Experiment experiment = Prepare(LoadConfig((run.run() / "config.yaml").string(), {}));
     m.robot = experiment.robot;
     m.scene = experiment.scene;
-    m.planned = experiment.sequence;
+    m.planned = PlanOf(experiment.sequence);
     m.certificate = ReadCertificateJson("json", read("dichotomy/certificate.json"));
     m.claims = ReadCertificateCsv("csv", read("dichotomy/certificate.csv"));
     m.rows = ReadTrajectory("csv", read("dichotomy/trajectory.csv"), m.robot);
