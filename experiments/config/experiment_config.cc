@@ -191,6 +191,38 @@ void DeclareStart(Fields& fields, ExperimentConfig* c) {
       });
 }
 
+// Where the walk leads: a goal, or footsteps.
+void DeclareWay(Fields& fields, ExperimentConfig* c) {
+  fields.OptionalGroup(
+      "goal", &c->has_goal,
+      {.meaning =
+           "where the walk shall end; planned in place of `footsteps`, one of them is required"},
+      [&](Fields& f) { DeclareGoal(f, &c->goal); });
+  YawJumps jumps(*c);
+  fields.List("footsteps",
+              {.meaning = "in the order of stepping, at least one unless there is a `goal`",
+               .max_items = 10000},
+              &c->footsteps, [&](Fields& f, FootstepConfig* step) { jumps.Declare(f, step); });
+  if (c->footsteps.empty() && !c->has_goal) {
+    fields.Complain("footsteps", "there are none (valid: at least one, or a `goal`)");
+  }
+  if (!c->footsteps.empty() && c->has_goal) {
+    fields.Complain("goal", "there are footsteps as well (valid: either of them)");
+  }
+}
+
+void DeclareOutput(Fields& fields, ExperimentConfig* c) {
+  fields.Text("directory", &c->output_directory,
+              {.meaning = "the run folder, relative to the config",
+               .otherwise = "`runs/NAME` in the working directory"});
+  fields.OptionalNumber("period_s", &c->output_period,
+                        {.meaning = "between rows of trajectory.csv; none: 0.005, and 0.001 of a "
+                                    "walk whose ZMP shifts in less than 0.025 s",
+                         .unit = "s",
+                         .min = 1e-4,
+                         .max = 1});
+}
+
 }  // namespace
 
 void DeclareFields(Fields& fields, ExperimentConfig* c) {
@@ -208,22 +240,7 @@ void DeclareFields(Fields& fields, ExperimentConfig* c) {
   fields.Text("scene", &c->scene,
               {.meaning = "path of a scene file, or `none`: an empty floor", .required = true});
   DeclareStart(fields, c);
-  fields.OptionalGroup(
-      "goal", &c->has_goal,
-      {.meaning =
-           "where the walk shall end; planned in place of `footsteps`, one of them is required"},
-      [&](Fields& f) { DeclareGoal(f, &c->goal); });
-  YawJumps jumps(*c);
-  fields.List("footsteps",
-              {.meaning = "in the order of stepping, at least one unless there is a `goal`",
-               .max_items = 10000},
-              &c->footsteps, [&](Fields& f, FootstepConfig* step) { jumps.Declare(f, step); });
-  if (c->footsteps.empty() && !c->has_goal) {
-    fields.Complain("footsteps", "there are none (valid: at least one, or a `goal`)");
-  }
-  if (!c->footsteps.empty() && c->has_goal) {
-    fields.Complain("goal", "there are footsteps as well (valid: either of them)");
-  }
+  DeclareWay(fields, c);
   fields.Group("planner", {.meaning = "of the way to the goal"},
                [&](Fields& f) { DeclarePlanner(f, &c->planner); });
   fields.Renamed("half_steps", "step_set");
@@ -243,17 +260,7 @@ void DeclareFields(Fields& fields, ExperimentConfig* c) {
                  "plans to a goal are of steps that were proved (valid: `false` with a `goal`)");
     }
   });
-  fields.Group("output", {.meaning = "what is written"}, [&](Fields& f) {
-    f.Text("directory", &c->output_directory,
-           {.meaning = "the run folder, relative to the config",
-            .otherwise = "`runs/NAME` in the working directory"});
-    f.OptionalNumber("period_s", &c->output_period,
-                     {.meaning = "between rows of trajectory.csv; none: 0.005, and 0.001 of a walk "
-                                 "whose ZMP shifts in less than 0.025 s",
-                      .unit = "s",
-                      .min = 1e-4,
-                      .max = 1});
-  });
+  fields.Group("output", {.meaning = "what is written"}, [&](Fields& f) { DeclareOutput(f, c); });
   fields.Integer("seed", &c->seed,
                  {.meaning = "of the planner's random numbers and of random starts",
                   .min = 0,

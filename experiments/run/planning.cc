@@ -149,6 +149,33 @@ BakedHalfSteps BakeHalfSteps(const RobotModel& robot, const ExperimentConfig& co
   return baked;
 }
 
+namespace {
+
+// The config with the footsteps in place of its goal.
+ExperimentConfig WithFootsteps(ExperimentConfig config, const std::array<Foothold, 2>& start,
+                               const std::vector<Footstep>& footsteps) {
+  config.has_goal = false;
+  config.has_start = true;
+  config.start_left = start[0];
+  config.start_right = start[1];
+  for (const Footstep& footstep : footsteps) config.footsteps.push_back(ToConfig(footstep));
+  return config;
+}
+
+// Adds why there is no plan, as far as that can be seen.
+void Explain(const Place& place, const MarginEvaluator& evaluator, PlannedWalk* walk) {
+  PlanResult& plan = walk->plan;
+  if (plan.status == PlanStatus::kStartBlocked) {
+    plan.sentence += MissedInPlace(place.robot, place.scene, walk->config);
+  }
+  if (plan.status != PlanStatus::kInterrupted) walk->inputs = LookAtGoal(walk->config, evaluator);
+  std::string looked;
+  for (const std::string& sentence : walk->inputs) looked += sentence + "; ";
+  plan.sentence = looked + plan.sentence;
+}
+
+}  // namespace
+
 PlannedWalk PlanWalk(const ExperimentConfig& config, const Place& place,
                      const PlanningHooks& hooks) {
   HALFSTEP_CHECK(config.has_goal, "no goal");
@@ -197,22 +224,10 @@ PlannedWalk PlanWalk(const ExperimentConfig& config, const Place& place,
   std::mt19937_64 random(static_cast<std::uint64_t>(config.seed));
   walk.plan =
       MakePlanner(config.planner.name, place.scene, config.planner.options)->Plan(request, random);
-  if (walk.plan.status == PlanStatus::kStartBlocked) {
-    walk.plan.sentence += MissedInPlace(place.robot, place.scene, config);
-  }
-  if (walk.plan.status != PlanStatus::kSolved) {
-    if (walk.plan.status != PlanStatus::kInterrupted) walk.inputs = LookAtGoal(config, evaluator);
-    std::string looked;
-    for (const std::string& sentence : walk.inputs) looked += sentence + "; ";
-    walk.plan.sentence = looked + walk.plan.sentence;
-    return walk;
-  }
-  walk.config.has_goal = false;
-  walk.config.has_start = true;
-  walk.config.start_left = request.start[0];
-  walk.config.start_right = request.start[1];
-  for (const Footstep& footstep : walk.plan.footsteps) {
-    walk.config.footsteps.push_back(ToConfig(footstep));
+  if (walk.plan.status == PlanStatus::kSolved) {
+    walk.config = WithFootsteps(config, request.start, walk.plan.footsteps);
+  } else {
+    Explain(place, evaluator, &walk);
   }
   return walk;
 }
