@@ -163,7 +163,7 @@ ExperimentConfig WithFootsteps(ExperimentConfig config, const std::array<Foothol
 }
 
 // Adds why there is no plan, as far as that can be seen.
-void Explain(const Place& place, const MarginEvaluator& evaluator, PlannedWalk* walk) {
+void ExplainNoPlan(const Place& place, const MarginEvaluator& evaluator, PlannedWalk* walk) {
   PlanResult& plan = walk->plan;
   if (plan.status == PlanStatus::kStartBlocked) {
     plan.sentence += MissedInPlace(place.robot, place.scene, walk->config);
@@ -227,7 +227,7 @@ PlannedWalk PlanWalk(const ExperimentConfig& config, const Place& place,
   if (walk.plan.status == PlanStatus::kSolved) {
     walk.config = WithFootsteps(config, request.start, walk.plan.footsteps);
   } else {
-    Explain(place, evaluator, &walk);
+    ExplainNoPlan(place, evaluator, &walk);
   }
   return walk;
 }

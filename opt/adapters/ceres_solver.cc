@@ -146,8 +146,8 @@ InnerOptions Defaults(const SolveMonitor& monitor) {
 using Summary = ceres::GradientProblemSolver::Summary;
 
 // Minimizes z → L(x(z)) from z on. The problem is made anew, since the function has changed.
-Summary Minimize(const InnerOptions& options, const AugmentedLagrangian& lagrangian,
-                 const BoxTransform& box, Eigen::VectorXd* z) {
+Summary MinimizeInner(const InnerOptions& options, const AugmentedLagrangian& lagrangian,
+                      const BoxTransform& box, Eigen::VectorXd* z) {
   const ceres::GradientProblem problem(
       std::make_unique<InnerFunction>(lagrangian, box, static_cast<int>(z->size())).release());
   Summary summary;
@@ -186,7 +186,7 @@ SolverEnd RunCeres(SolveMonitor& monitor, const Eigen::VectorXd& start) {
     Eigen::VectorXd gradient;
     if (!lagrangian.Evaluate(x, &value, &gradient)) break;
     z = box.FromBox(box.OffTheBounds(x, gradient, kOffTheBounds));
-    const Summary summary = Minimize(inner, lagrangian, box, &z);
+    const Summary summary = MinimizeInner(inner, lagrangian, box, &z);
     if (!monitor.MayGoOn()) break;
     x = box.ToBox(z);
     failures = summary.iterations.size() <= 1 && summary.termination_type == ceres::FAILURE
