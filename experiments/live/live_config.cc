@@ -188,7 +188,7 @@ std::vector<std::string> SpareNames(const LiveOptions& options) {
 
 std::vector<SceneMistake> MistakesOf(const ScriptEvent& event, const Scene& scene) {
   std::vector<SceneMistake> mistakes;
-  if (event.what == "forbid" && static_cast<size_t>(event.area) > scene.no_step.size()) {
+  if (event.what == "forbid" && event.area > std::ssize(scene.no_step)) {
     mistakes.push_back(
         {"area", Formatted("%d: the scene has %zu no-step areas (valid: one of these)", event.area,
                            scene.no_step.size())});

@@ -71,7 +71,7 @@ SweptVolumeQuery::SweptVolumeQuery(const SweptVolumes& volumes,
       level_(scene.ground->HeightEverywhere()),
       areas_(scene, sole_outline),
       no_step_(no_step) {
-  const size_t size = static_cast<size_t>(volumes.set.size());
+  const size_t size = volumes.set.placements.size();
   HALFSTEP_CHECK(volumes.down.size() == size && volumes.up.size() == size,
                  volumes.down.size() << " and " << volumes.up.size() << " volumes of " << size);
   for (const Foothold& X_SF : volumes.set.placements) X_SF.CheckLevel();
@@ -87,7 +87,7 @@ SweptVolumeQuery::SweptVolumeQuery(const SweptVolumes& volumes,
     }
   }
   std::vector<Upright> cylinders;
-  for (size_t i = 0; i < all.size(); ++i) cylinders.push_back(Move(i, all[i].X_WO));
+  for (int i = 0; i < std::ssize(all); ++i) cylinders.push_back(Move(i, Nth(all, i).X_WO));
   PlantTree(cylinders);
 }
 
@@ -119,9 +119,7 @@ void SweptVolumeQuery::PlantTree(const std::vector<Upright>& cylinders) {
     place_at_.resize((place_at_.size() + 3) / 4 * 4, -1);
   }
   cylinders_.assign(place_at_.size() / 4, nothing);
-  for (size_t i = 0; i < cylinders.size(); ++i) {
-    Put(static_cast<size_t>(slots_[i]), cylinders[i]);
-  }
+  for (size_t i = 0; i < cylinders.size(); ++i) Put(slots_[i], cylinders[i]);
 }
 
 void SweptVolumeQuery::SetObstaclePose(int obstacle, const Isometry3d& X_WO) {
@@ -129,9 +127,8 @@ void SweptVolumeQuery::SetObstaclePose(int obstacle, const Isometry3d& X_WO) {
                  "obstacle " << obstacle);
   const int place = Nth(only_places_, obstacle);
   HALFSTEP_CHECK(place >= 0, "obstacle " << obstacle << " has waypoints");
-  const Upright cylinder = Move(static_cast<size_t>(place), X_WO);
-  const int32_t slot = Nth(slots_, place);
-  Put(static_cast<size_t>(slot), cylinder);
+  const Upright cylinder = Move(place, X_WO);
+  Put(Nth(slots_, place), cylinder);
   // It stays in its leaf, and all nodes above grow around it.
   const auto at = std::find(tree_.order.begin(), tree_.order.end(), place) - tree_.order.begin();
   for (int32_t n = 0; n >= 0;) {
@@ -139,13 +136,13 @@ void SweptVolumeQuery::SetObstaclePose(int obstacle, const Isometry3d& X_WO) {
     const Vector3d half(cylinder.radius, cylinder.radius, cylinder.half_height);
     node.half = node.half.cwiseMax((cylinder.center - node.center).cwiseAbs() + half);
     n = node.left;
-    if (n >= 0 && at >= tree_.nodes[static_cast<size_t>(n) + 1].first) ++n;
+    if (n >= 0 && at >= Nth(tree_.nodes, n + 1).first) ++n;
   }
 }
 
-SweptVolumeQuery::Upright SweptVolumeQuery::Move(size_t index, const Isometry3d& X_WO) {
+SweptVolumeQuery::Upright SweptVolumeQuery::Move(int index, const Isometry3d& X_WO) {
   HALFSTEP_CHECK(X_WO.matrix().allFinite(), "place " << index << " at\n" << X_WO.matrix());
-  Prepared& o = places_[index];
+  Prepared& o = Nth(places_, index);
   o.X_WO = X_WO;
   o.around_W = {.center = X_WO * o.around.center,
                 .half = o.around.half,
@@ -164,9 +161,9 @@ SweptVolumeQuery::Upright SweptVolumeQuery::Move(size_t index, const Isometry3d&
   return {o.around_W.center, radius + o.extra, reach.row(2).sum() + o.extra};
 }
 
-void SweptVolumeQuery::Put(size_t slot, const Upright& cylinder) {
-  Cylinders& four = cylinders_[slot / 4];
-  const size_t k = slot % 4;
+void SweptVolumeQuery::Put(int32_t slot, const Upright& cylinder) {
+  Cylinders& four = Nth(cylinders_, slot / 4);
+  const int32_t k = slot % 4;
   four.x[k] = static_cast<float>(cylinder.center.x());
   four.y[k] = static_cast<float>(cylinder.center.y());
   four.z[k] = static_cast<float>(cylinder.center.z());
@@ -268,17 +265,15 @@ bool SweptVolumeQuery::MeetsLeaf(const Placed& placed, const BoundsTree::Node& l
 }
 
 SweptVolumeQuery::Placed SweptVolumeQuery::Down(int i, Side support, const Foothold& X_WS) const {
-  const size_t e = static_cast<size_t>(i);
-  return {volumes_.down[e],   down_bounds_[e],   support == Side::kRight, X_WS,
-          std::cos(X_WS.yaw), std::sin(X_WS.yaw)};
+  return {Nth(volumes_.down, i), Nth(down_bounds_, i), support == Side::kRight, X_WS,
+          std::cos(X_WS.yaw),    std::sin(X_WS.yaw)};
 }
 
 SweptVolumeQuery::Placed SweptVolumeQuery::Up(int i, Side support, const Foothold& X_WS) const {
   // The foot that has landed supports.
-  const size_t e = static_cast<size_t>(i);
   const Foothold X_WF = X_WS * volumes_.set.Placement(i, support);
-  return {volumes_.up[e], up_bounds_[e],      support == Side::kLeft,
-          X_WF,           std::cos(X_WF.yaw), std::sin(X_WF.yaw)};
+  return {Nth(volumes_.up, i), Nth(up_bounds_, i), support == Side::kLeft, X_WF,
+          std::cos(X_WF.yaw),  std::sin(X_WF.yaw)};
 }
 
 std::vector<SweptVolumeQuery::Bounds> SweptVolumeQuery::BoundsOf(

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "wpg/nth.h"
+
 namespace halfstep {
 namespace {
 
@@ -39,8 +41,7 @@ Eigen::VectorXd OverlapVariables::upper() const {
 OverlapVariables::Bound OverlapVariables::OverlapBound(int junction,
                                                        const HomotopyParameters& at) const {
   const auto [a, b] = NaturalBoundOf(at, junction);
-  const size_t i = static_cast<size_t>(junction);
-  const double u = a * at.durations[i], v = b * at.durations[i + 1];
+  const double u = a * Nth(at.durations, junction), v = b * Nth(at.durations, junction + 1);
   const bool shifts = KindOfJunction(junction) == JunctionKind::kUpDown;
   const auto moves = [&](int half_step) {
     return table_.free({Family::kDuration, half_step}) ||

@@ -128,8 +128,7 @@ class Builder {
     for (size_t side = 0; side < 2; ++side) {
       const Leg& leg = model_.legs[side];
       if (leg.closed_form()) continue;
-      const auto joint = static_cast<size_t>(body_.leg_joints[side][0]);
-      const UrdfJoint& first = urdf_.joints[joint];
+      const UrdfJoint& first = Nth(urdf_.joints, body_.leg_joints[side][0]);
       Complaints told;
       told.Add(urdf_.file, first.place.line, first.place.column, first.name,
                leg.offsets +
