@@ -140,7 +140,7 @@ std::vector<ArmTurn> KeepArmsOff(const UrdfTree& urdf, int waist,
               gaps.FromLegs(limb.bodies(), limb.Displacements(posture, turned), apart);
           if (distance <= farthest) continue;
           farthest = distance;
-          best = {joint, turned[j],
+          best = {joint, angle,
                   Formatted("keeps the limb %.0f mm off the legs (%.0f mm without)", 1e3 * distance,
                             1e3 * is)};
         }

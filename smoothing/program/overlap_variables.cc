@@ -4,8 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "wpg/nth.h"
-
 namespace halfstep {
 namespace {
 
@@ -41,7 +39,8 @@ Eigen::VectorXd OverlapVariables::upper() const {
 OverlapVariables::Bound OverlapVariables::OverlapBound(int junction,
                                                        const HomotopyParameters& at) const {
   const auto [a, b] = NaturalBoundOf(at, junction);
-  const double u = a * Nth(at.durations, junction), v = b * Nth(at.durations, junction + 1);
+  const size_t i = static_cast<size_t>(junction);
+  const double u = a * at.durations[i], v = b * at.durations[i + 1];
   const bool shifts = KindOfJunction(junction) == JunctionKind::kUpDown;
   const auto moves = [&](int half_step) {
     return table_.free({Family::kDuration, half_step}) ||
