@@ -81,60 +81,6 @@ class YawJumps {
   std::array<double, 2> yaws_;  // left and right, where they stand
 };
 
-void DeclareHalfStep(Fields& fields, HalfStepConfig* c) {
-  fields.Number("duration_s", &c->duration,
-                {.meaning = "T of an isolated half-step", .unit = "s", .min = 0.6, .max = 6});
-  fields.Number("zmp_shift_s", &c->zmp_shift,
-                {.meaning = "t2 − t1, the ZMP's shift, at that T: 0.01 … 0.5 of `duration_s`; a "
-                            "footstep's own `duration_s` scales it",
-                 .unit = "s",
-                 .min = 0.02,
-                 .max = 2});
-  if (c->zmp_shift < 0.01 * c->duration || c->zmp_shift > 0.5 * c->duration) {
-    fields.Complain("zmp_shift_s", "does not fit duration_s (valid: 0.01 … 0.5 of it)");
-  }
-  fields.Renamed("horizontal_delay", "foot_delay");
-  fields.Renamed("support_offset_m", "support_point_m");
-  fields.Number("via_height_m", &c->via_height,
-                {.meaning = "height of the via point", .unit = "m", .min = 0.01, .max = 1});
-  fields.Number("via_lateral_m", &c->via_lateral,
-                {.meaning = "distance of the via point from the support sole's centre",
-                 .unit = "m",
-                 .min = 0.01,
-                 .max = 1});
-  fields.Number(
-      "foot_delay", &c->foot_delay,
-      {.meaning = "fraction of T between take-off (landing) and the foot's horizontal motion",
-       .min = 0,
-       .max = 0.2});
-  fields.OptionalNumber(
-      "zmp_bump_ramp", &c->zmp_bump_ramp,
-      {.meaning =
-           "fraction of the ZMP's bump in which it rises, and in which it falls; constant in "
-           "between; from 0.5 on it has no flat top, and 1 or `none` is a round bump",
-       .min = 0.1,
-       .max = 1});
-  fields.Number(
-      "foot_ramp", &c->foot_ramp,
-      {.meaning = "fraction of the foot's horizontal motion in which its speed rises, and "
-                  "in which it falls; constant in between",
-       .min = 0.1,
-       .max = 0.5});
-  fields.Number(
-      "lift_share", &c->lift_share,
-      {.meaning = "fraction of the foot's flight in which it rises, or sinks, next to the "
-                  "floor",
-       .min = 0.2,
-       .max = 1});
-  fields.Number("support_point_m", &c->support_point,
-                {.meaning = "where CoM and ZMP rest on one foot: from the support sole's centre, "
-                            "along its y, towards the other foot",
-                 .unit = "m",
-                 .min = -1,
-                 .max = 1});
-  fields.Misplaced("compensation", "is gone, since it made no walk shorter (leave it out)");
-}
-
 // Complains about a goal that is out of the planner's workspace: the last foot lands beside one
 // that carries, which stays inside.
 void ComplainOutsideWorkspace(Fields& fields, const ExperimentConfig& c) {
@@ -191,6 +137,38 @@ void DeclareStart(Fields& fields, ExperimentConfig* c) {
       });
 }
 
+// Where the walk leads: a goal, or footsteps.
+void DeclareWay(Fields& fields, ExperimentConfig* c) {
+  fields.OptionalGroup(
+      "goal", &c->has_goal,
+      {.meaning =
+           "where the walk shall end; planned in place of `footsteps`, one of them is required"},
+      [&](Fields& f) { DeclareGoal(f, &c->goal); });
+  YawJumps jumps(*c);
+  fields.List("footsteps",
+              {.meaning = "in the order of stepping, at least one unless there is a `goal`",
+               .max_items = 10000},
+              &c->footsteps, [&](Fields& f, FootstepConfig* step) { jumps.Declare(f, step); });
+  if (c->footsteps.empty() && !c->has_goal) {
+    fields.Complain("footsteps", "there are none (valid: at least one, or a `goal`)");
+  }
+  if (!c->footsteps.empty() && c->has_goal) {
+    fields.Complain("goal", "there are footsteps as well (valid: either of them)");
+  }
+}
+
+void DeclareOutput(Fields& fields, ExperimentConfig* c) {
+  fields.Text("directory", &c->output_directory,
+              {.meaning = "the run folder, relative to the config",
+               .otherwise = "`runs/NAME` in the working directory"});
+  fields.OptionalNumber("period_s", &c->output_period,
+                        {.meaning = "between rows of trajectory.csv; none: 0.005, and 0.001 of a "
+                                    "walk whose ZMP shifts in less than 0.025 s",
+                         .unit = "s",
+                         .min = 1e-4,
+                         .max = 1});
+}
+
 }  // namespace
 
 void DeclareFields(Fields& fields, ExperimentConfig* c) {
@@ -208,22 +186,7 @@ void DeclareFields(Fields& fields, ExperimentConfig* c) {
   fields.Text("scene", &c->scene,
               {.meaning = "path of a scene file, or `none`: an empty floor", .required = true});
   DeclareStart(fields, c);
-  fields.OptionalGroup(
-      "goal", &c->has_goal,
-      {.meaning =
-           "where the walk shall end; planned in place of `footsteps`, one of them is required"},
-      [&](Fields& f) { DeclareGoal(f, &c->goal); });
-  YawJumps jumps(*c);
-  fields.List("footsteps",
-              {.meaning = "in the order of stepping, at least one unless there is a `goal`",
-               .max_items = 10000},
-              &c->footsteps, [&](Fields& f, FootstepConfig* step) { jumps.Declare(f, step); });
-  if (c->footsteps.empty() && !c->has_goal) {
-    fields.Complain("footsteps", "there are none (valid: at least one, or a `goal`)");
-  }
-  if (!c->footsteps.empty() && c->has_goal) {
-    fields.Complain("goal", "there are footsteps as well (valid: either of them)");
-  }
+  DeclareWay(fields, c);
   fields.Group("planner", {.meaning = "of the way to the goal"},
                [&](Fields& f) { DeclarePlanner(f, &c->planner); });
   fields.Renamed("half_steps", "step_set");
@@ -243,17 +206,7 @@ void DeclareFields(Fields& fields, ExperimentConfig* c) {
                  "plans to a goal are of steps that were proved (valid: `false` with a `goal`)");
     }
   });
-  fields.Group("output", {.meaning = "what is written"}, [&](Fields& f) {
-    f.Text("directory", &c->output_directory,
-           {.meaning = "the run folder, relative to the config",
-            .otherwise = "`runs/NAME` in the working directory"});
-    f.OptionalNumber("period_s", &c->output_period,
-                     {.meaning = "between rows of trajectory.csv; none: 0.005, and 0.001 of a walk "
-                                 "whose ZMP shifts in less than 0.025 s",
-                      .unit = "s",
-                      .min = 1e-4,
-                      .max = 1});
-  });
+  fields.Group("output", {.meaning = "what is written"}, [&](Fields& f) { DeclareOutput(f, c); });
   fields.Integer("seed", &c->seed,
                  {.meaning = "of the planner's random numbers and of random starts",
                   .min = 0,
@@ -271,15 +224,6 @@ void DeclareFilesThere(Fields& fields, const ExperimentConfig& config) {
                                  NearestFile(*scene) +
                                  "valid: `none`, or a path relative to this file)");
   }
-}
-
-HalfStepShape ShapeOf(const HalfStepConfig& config) {
-  return {.shift = config.zmp_shift / config.duration,
-          .foot_delay = config.foot_delay,
-          .bump_ramp = config.zmp_bump_ramp.value_or(1.0),
-          .foot_ramp = config.foot_ramp,
-          .lift_share = config.lift_share,
-          .support_point = config.support_point};
 }
 
 std::vector<KeyDescription> ConfigKeys(Methods methods) {

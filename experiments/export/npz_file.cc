@@ -55,13 +55,13 @@ std::u32string CodePoints(const std::string& text) {
   std::u32string points;
   for (size_t i = 0; i < text.size();) {
     const auto lead = static_cast<unsigned char>(text[i]);
-    const int more = lead < 0xc0 ? 0 : lead < 0xe0 ? 1 : lead < 0xf0 ? 2 : 3;
+    const size_t more = lead < 0xc0 ? 0 : lead < 0xe0 ? 1 : lead < 0xf0 ? 2 : 3;
     char32_t point = more == 0 ? lead : lead & (0x3f >> more);
-    for (int k = 1; k <= more && i + static_cast<size_t>(k) < text.size(); ++k) {
-      point = (point << 6) | (static_cast<unsigned char>(Nth(text, i + k)) & 0x3f);
+    for (size_t k = 1; k <= more && i + k < text.size(); ++k) {
+      point = (point << 6) | (static_cast<unsigned char>(text[i + k]) & 0x3f);
     }
     points += point;
-    i += static_cast<size_t>(more) + 1;
+    i += more + 1;
   }
   return points;
 }

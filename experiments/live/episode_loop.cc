@@ -17,23 +17,6 @@ constexpr double kLongestRetry = 3.2;  // the same when the robot rests in much 
 constexpr double kPause = 1.0;  // the same before the walk, when the world is much the same [s]
 constexpr double kAhead = 0.3;  // proofs are renewed so long before they are needed [s]
 
-bool SameGoal(const GoalRegion& a, const GoalRegion& b) {
-  return a.X_WG.x == b.X_WG.x && a.X_WG.y == b.X_WG.y;
-}
-
-// Whether the world is so different from the one that was looked at last that it has to be looked
-// at again, although nothing is void.
-bool DiffersClearly(const World& a, const World& b) {
-  constexpr double kClear = 0.01;  // [m]
-  if (!SameGoal(a.goal, b.goal) || a.areas != b.areas) return true;
-  return !std::ranges::equal(
-      a.scene.obstacles, b.scene.obstacles, [](const Obstacle& x, const Obstacle& y) {
-        const double moved = (x.X_WO.translation() - y.X_WO.translation()).norm();
-        return x.name == y.name && x.motion.speed == y.motion.speed &&
-               moved <= x.motion.error + y.motion.error + kClear;
-      });
-}
-
 }  // namespace
 
 EpisodeLoop::EpisodeLoop(const Replanner& replanner, Sensor* sensor, Thinker* thinker,

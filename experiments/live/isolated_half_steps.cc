@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "wpg/nth.h"
+
 namespace halfstep {
 namespace {
 
@@ -16,8 +18,8 @@ bool Same(const Foothold& a, const Foothold& b) {
 // Whether half-step j is executed from rest to rest.
 bool IsIsolated(const SuperposedWalk& walk, int j) {
   const std::vector<double>& overlaps = walk.parameters().overlaps;
-  const auto i = static_cast<size_t>(j);
-  return (i == 0 || overlaps[i - 1] <= 0.0) && (i == overlaps.size() || overlaps[i] <= 0.0);
+  return (j == 0 || Nth(overlaps, j - 1) <= 0.0) &&
+         (j == std::ssize(overlaps) || Nth(overlaps, j) <= 0.0);
 }
 
 }  // namespace

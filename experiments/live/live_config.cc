@@ -91,7 +91,8 @@ void DeclareSensing(Fields& fields, SensingConfig* c) {
                 {.meaning = "part of the frames that never arrives", .min = 0, .max = 1});
 }
 
-void DeclareBudget(Fields& fields, BudgetConfig* c) {
+// `half_step`: its duration [s].
+void DeclareBudget(Fields& fields, BudgetConfig* c, double half_step) {
   const auto time = [&](const char* key, double* value, const char* meaning) {
     fields.Number(key, value, {.meaning = meaning, .unit = "s", .min = 0, .max = 10});
   };
@@ -99,6 +100,39 @@ void DeclareBudget(Fields& fields, BudgetConfig* c) {
   time("plan_s", &c->plan, "what planning anew costs in lockstep");
   time("smooth_s", &c->smooth, "what finding the overlaps of a few junctions costs in lockstep");
   fields.Misplaced("refine_s", "is gone with `refine` (leave it out)");
+  for (const auto& [key, value] : {std::pair{"check_s", c->check}, std::pair{"plan_s", c->plan},
+                                   std::pair{"smooth_s", c->smooth}}) {
+    if (value >= half_step) {
+      fields.Complain(key,
+                      "is no shorter than a half-step: nothing could be handed over in time "
+                      "(valid: below half_step.duration_s)");
+    }
+  }
+}
+
+// `scene`: what the script is about; null: not known yet.
+void DeclareScript(Fields& fields, LiveOptions* c, const Scene* scene) {
+  fields.List("script", {.meaning = "what happens, in the order of time", .max_items = 10000},
+              &c->script, [scene](Fields& f, ScriptEvent* event) {
+                DeclareEvent(f, event);
+                if (scene == nullptr) return;
+                for (const SceneMistake& one : MistakesOf(*event, *scene)) {
+                  f.Complain(one.key.c_str(), one.what);
+                }
+              });
+  if (scene != nullptr) {
+    for (const SceneMistake& one : MistakesOf(*c, *scene)) {
+      fields.Complain(one.key.c_str(), one.what);
+    }
+  }
+  if (c->sensing.source == "client" && !c->script.empty()) {
+    fields.Complain("script",
+                    "says what happens, but clients say what is measured (valid: [], or "
+                    "sensing.source: stand_in)");
+  }
+  if (!std::ranges::is_sorted(c->script, {}, &ScriptEvent::at)) {
+    fields.Complain("script", "is not in the order of time (valid: at_s that do not fall)");
+  }
 }
 
 void DeclareLive(Fields& fields, LiveOptions* c, double half_step, const Scene* scene) {
@@ -139,39 +173,9 @@ void DeclareLive(Fields& fields, LiveOptions* c, double half_step, const Scene* 
   fields.Misplaced("refine", "is gone, since it was not known to pay (leave it out)");
   fields.Group("sensing", {.meaning = "where measurements come from"},
                [&](Fields& f) { DeclareSensing(f, &c->sensing); });
-  fields.Group("budget", {.meaning = "what thinking costs in lockstep"}, [&](Fields& f) {
-    DeclareBudget(f, &c->budget);
-    for (const auto& [key, value] :
-         {std::pair{"check_s", c->budget.check}, std::pair{"plan_s", c->budget.plan},
-          std::pair{"smooth_s", c->budget.smooth}}) {
-      if (value >= half_step) {
-        f.Complain(key,
-                   "is no shorter than a half-step: nothing could be handed over in time "
-                   "(valid: below half_step.duration_s)");
-      }
-    }
-  });
-  fields.List("script", {.meaning = "what happens, in the order of time", .max_items = 10000},
-              &c->script, [c, scene](Fields& f, ScriptEvent* event) {
-                DeclareEvent(f, event);
-                if (scene == nullptr) return;
-                for (const SceneMistake& one : MistakesOf(*event, *scene)) {
-                  f.Complain(one.key.c_str(), one.what);
-                }
-              });
-  if (scene != nullptr) {
-    for (const SceneMistake& one : MistakesOf(*c, *scene)) {
-      fields.Complain(one.key.c_str(), one.what);
-    }
-  }
-  if (c->sensing.source == "client" && !c->script.empty()) {
-    fields.Complain("script",
-                    "says what happens, but clients say what is measured (valid: [], or "
-                    "sensing.source: stand_in)");
-  }
-  if (!std::ranges::is_sorted(c->script, {}, &ScriptEvent::at)) {
-    fields.Complain("script", "is not in the order of time (valid: at_s that do not fall)");
-  }
+  fields.Group("budget", {.meaning = "what thinking costs in lockstep"},
+               [&](Fields& f) { DeclareBudget(f, &c->budget, half_step); });
+  DeclareScript(fields, c, scene);
 }
 
 }  // namespace
@@ -184,7 +188,7 @@ std::vector<std::string> SpareNames(const LiveOptions& options) {
 
 std::vector<SceneMistake> MistakesOf(const ScriptEvent& event, const Scene& scene) {
   std::vector<SceneMistake> mistakes;
-  if (event.what == "forbid" && static_cast<size_t>(event.area) > scene.no_step.size()) {
+  if (event.what == "forbid" && event.area > std::ssize(scene.no_step)) {
     mistakes.push_back(
         {"area", Formatted("%d: the scene has %zu no-step areas (valid: one of these)", event.area,
                            scene.no_step.size())});

@@ -15,6 +15,27 @@ namespace {
 
 constexpr int kMostNear = 4;  // half-steps one after the other that keep less than demanded
 
+// Whether the robot waits before half-steps that are planned.
+bool GoesOn(const Situation& s) { return s.stopped && s.begun + 1 < s.plan.sequence.size(); }
+
+// The walk in execution, delayed until it is handed over where the robot stopped.
+Proposal WalkOf(const Situation& s) {
+  Proposal proposal{
+      .plan = s.plan, .smoothed = s.smoothed, .robot_through = s.robot_through, .grant = s.grant};
+  if (GoesOn(s)) {
+    proposal.plan =
+        Delayed(s.plan, s.begun, std::max(s.hand_over, s.plan.Walk().start_of(s.begun + 1)));
+    // The delay is no overlap that anybody found.
+    Nth(proposal.smoothed, s.begun) = true;
+  }
+  if (s.stopped) {
+    proposal.grant.through = std::min(proposal.grant.through, s.begun - 1);
+    // After a delay half-steps are together that were not when the robot's margins were proved.
+    proposal.robot_through = std::min(proposal.robot_through, s.begun - 1);
+  }
+  return proposal;
+}
+
 }  // namespace
 
 Replanner::Replanner(const Place& place, const LiveConfig& config, const SweptVolumes& volumes)
@@ -160,23 +181,10 @@ std::vector<int> Replanner::Junctions(const Situation& s, const SuperposedWalk& 
 
 Proposal Replanner::Propose(const Situation& s, const PreparedWorld& among,
                             std::mt19937_64& random) const {
-  Proposal proposal{
-      .plan = s.plan, .smoothed = s.smoothed, .robot_through = s.robot_through, .grant = s.grant};
   const double begin = SteadySeconds();
-  const bool more = s.begun + 1 < s.plan.sequence.size();
-  if (s.stopped && more) {
-    proposal.plan =
-        Delayed(s.plan, s.begun, std::max(s.hand_over, s.plan.Walk().start_of(s.begun + 1)));
-    // The delay is no overlap that anybody found.
-    Nth(proposal.smoothed, s.begun) = true;
-  }
+  Proposal proposal = WalkOf(s);
   const SuperposedWalk walk = proposal.plan.Walk();
-  if (s.stopped) {
-    proposal.grant.through = std::min(proposal.grant.through, s.begun - 1);
-    // After a delay half-steps are together that were not when the robot's margins were proved.
-    proposal.robot_through = std::min(proposal.robot_through, s.begun - 1);
-  }
-  if (s.stopped && more && walk.end_of(s.begun + 1) > among.world.valid_until()) {
+  if (GoesOn(s) && walk.end_of(s.begun + 1) > among.world.valid_until()) {
     proposal.kind = ProposalKind::kUnsafe;
     proposal.reason = "the latest measurement is too old for another half-step";
     return proposal;
@@ -188,21 +196,7 @@ Proposal Replanner::Propose(const Situation& s, const PreparedWorld& among,
   const bool arrives = Arrives(proposal.plan, among.world);
   proposal.check_s = SteadySeconds() - begin;
   if (!refused && arrives) {
-    if (s.stopped && more) {
-      proposal.kind = ProposalKind::kResumed;
-      proposal.reason = "nothing is in the way any more";
-      proposal.first_changed = s.begun + 1;
-      return proposal;
-    }
-    const double smooth = SteadySeconds();
-    if (FindOverlaps(among.safety, config_, s.hand_over, s.begun, config_.live.smooth_ahead,
-                     &proposal)) {
-      proposal.kind = ProposalKind::kSmoothed;
-      proposal.reason = "overlaps";
-    }
-    proposal.smooth_s = SteadySeconds() - smooth;
-    if (proposal.kind != ProposalKind::kSafe) return proposal;
-    if (s.shorten) Shorten(s, among, near, random, &proposal);
+    Improve(s, among, near, random, &proposal);
     return proposal;
   }
   proposal.reason =
@@ -211,20 +205,45 @@ Proposal Replanner::Propose(const Situation& s, const PreparedWorld& among,
     // Nothing more begins but what brings the foot that is in the air back to the floor.
     proposal.grant.through = std::min(proposal.grant.through, s.begun / 2 * 2 + 1);
   }
-  const WalkPlan plan = proposal.plan;
-  for (const int junction : Junctions(s, walk, proposal.grant.through, arrives)) {
-    if (proposal.nodes >= config_.experiment.planner.max_nodes) break;
-    if (Change(s, plan, junction, among, near, random, &proposal)) {
-      proposal.kind = ProposalKind::kChanged;
-      return proposal;
-    }
-    const std::string why = proposal.planned.status == PlanStatus::kSolved
-                                ? "a plan was refused"
-                                : proposal.planned.sentence;
-    if (!proposal.reason.ends_with(why)) proposal.reason += "; " + why;
-  }
-  proposal.kind = ProposalKind::kUnsafe;
+  ChangeAnywhere(s, Junctions(s, walk, proposal.grant.through, arrives), among, near, random,
+                 &proposal);
   return proposal;
+}
+
+void Replanner::Improve(const Situation& s, const PreparedWorld& among, const NearRest* near,
+                        std::mt19937_64& random, Proposal* proposal) const {
+  if (GoesOn(s)) {
+    proposal->kind = ProposalKind::kResumed;
+    proposal->reason = "nothing is in the way any more";
+    proposal->first_changed = s.begun + 1;
+    return;
+  }
+  const double smooth = SteadySeconds();
+  if (FindOverlaps(among.safety, config_, s.hand_over, s.begun, config_.live.smooth_ahead,
+                   proposal)) {
+    proposal->kind = ProposalKind::kSmoothed;
+    proposal->reason = "overlaps";
+  }
+  proposal->smooth_s = SteadySeconds() - smooth;
+  if (proposal->kind == ProposalKind::kSafe && s.shorten) Shorten(s, among, near, random, proposal);
+}
+
+void Replanner::ChangeAnywhere(const Situation& s, const std::vector<int>& junctions,
+                               const PreparedWorld& among, const NearRest* near,
+                               std::mt19937_64& random, Proposal* proposal) const {
+  const WalkPlan plan = proposal->plan;
+  for (const int junction : junctions) {
+    if (proposal->nodes >= config_.experiment.planner.max_nodes) break;
+    if (Change(s, plan, junction, among, near, random, proposal)) {
+      proposal->kind = ProposalKind::kChanged;
+      return;
+    }
+    const std::string why = proposal->planned.status == PlanStatus::kSolved
+                                ? "a plan was refused"
+                                : proposal->planned.sentence;
+    if (!proposal->reason.ends_with(why)) proposal->reason += "; " + why;
+  }
+  proposal->kind = ProposalKind::kUnsafe;
 }
 
 Proposal Replanner::Begin(const std::array<Foothold, 2>& start, const PreparedWorld& among,

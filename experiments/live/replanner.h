@@ -64,6 +64,13 @@ class Replanner {
   std::optional<Margin> Prove(const Situation& situation, const SuperposedWalk& walk, int last,
                               const PreparedWorld& among, const NearRest* near,
                               Proposal* proposal) const;
+  // Of a walk that is safe and arrives: going on, overlaps, or fewer footsteps.
+  void Improve(const Situation& situation, const PreparedWorld& among, const NearRest* near,
+               std::mt19937_64& random, Proposal* proposal) const;
+  // Other footsteps after the first of the junctions where there are safe ones.
+  void ChangeAnywhere(const Situation& situation, const std::vector<int>& junctions,
+                      const PreparedWorld& among, const NearRest* near, std::mt19937_64& random,
+                      Proposal* proposal) const;
   // Other footsteps after half-step `junction`; false when there are none that are safe.
   bool Change(const Situation& situation, const WalkPlan& plan, int junction,
               const PreparedWorld& among, const NearRest* near, std::mt19937_64& random,

@@ -22,6 +22,10 @@ std::optional<size_t> Find(const std::vector<Obstacle>& obstacles, const std::st
   return static_cast<size_t>(it - obstacles.begin());
 }
 
+bool SameGoal(const GoalRegion& a, const GoalRegion& b) {
+  return a.X_WG.x == b.X_WG.x && a.X_WG.y == b.X_WG.y;
+}
+
 Eigen::Vector3d InBall(double radius, std::mt19937_64& random) {
   std::uniform_real_distribution<double> side(-1.0, 1.0);
   while (true) {
@@ -40,6 +44,17 @@ double World::valid_until() const {
     if (motion.speed > 0.0) until = std::min(until, motion.measured_at + motion.horizon);
   }
   return until;
+}
+
+bool DiffersClearly(const World& a, const World& b) {
+  constexpr double kClear = 0.01;  // [m]
+  if (!SameGoal(a.goal, b.goal) || a.areas != b.areas) return true;
+  return !std::ranges::equal(
+      a.scene.obstacles, b.scene.obstacles, [](const Obstacle& x, const Obstacle& y) {
+        const double moved = (x.X_WO.translation() - y.X_WO.translation()).norm();
+        return x.name == y.name && x.motion.speed == y.motion.speed &&
+               moved <= x.motion.error + y.motion.error + kClear;
+      });
 }
 
 std::string Contradiction::Text() const {

@@ -36,6 +36,10 @@ struct World {
   double valid_until() const;
 };
 
+/// Whether the world `b` is so different from `a`, which was looked at, that it has to be looked
+/// at, although nothing is void.
+bool DiffersClearly(const World& a, const World& b);
+
 class PastWorlds;
 
 /// An obstacle or a no-step area that is not as a past world said: the latest such world.

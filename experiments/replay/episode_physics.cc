@@ -57,8 +57,8 @@ void EpisodePhysics::PlayPeriod(const SuperposedWalk& walk, double begin) {
   const ReplayRow& row = rows_.emplace_back(player_->Advance(motion, std::nullopt));
   worlds_.push_back(worlds_.back());
   if (!row.support) return;
-  const auto side = static_cast<size_t>(Index(*row.support));
-  const Eigen::Vector4d sole = motion.RowAt(row.t - options_.row_period / 2).soles[side];
+  const Eigen::Vector4d sole =
+      Nth(motion.RowAt(row.t - options_.row_period / 2).soles, *row.support);
   const Pose2 X_WS{sole[0], sole[1], sole[3]};
   const Pose2 X_US{sole[0] + row.support_drift[0], sole[1] + row.support_drift[1],
                    sole[3] + row.support_drift[2]};

@@ -135,7 +135,7 @@ Simulation::Simulation(const std::string& mjcf, const RobotModel& robot,
   layout.sole_half = model.geom_size[3 * layout.soles[0] + 2];
   layout.stiffness = model.actuator_gainprm[0];
   layout.damping = -model.actuator_biasprm[2];
-  HALFSTEP_CHECK(static_cast<size_t>(model.nmocap) == obstacles.size(), "obstacles of a model");
+  HALFSTEP_CHECK(model.nmocap == std::ssize(obstacles), "obstacles of a model");
   layout.obstacles = obstacles;
   layout.robot_bodies.assign(static_cast<size_t>(model.ngeom), -1);
   for (size_t i = 0; i < robot.bodies.size() && !obstacles.empty(); ++i) {

@@ -2,6 +2,7 @@
 
 #include "wpg/check.h"
 #include "wpg/motion/posture.h"
+#include "wpg/nth.h"
 
 namespace halfstep::replay {
 
@@ -17,10 +18,9 @@ TrajectoryRow PlannedRow(const RobotModel& robot, const SuperposedWalk& walk, do
   row.waist = {p_WB.x(), p_WB.y(), p_WB.z(), x[kWaistYaw]};
   const int step = walk.StepInAir(at);
   for (const Side side : {Side::kLeft, Side::kRight}) {
-    const auto s = static_cast<size_t>(Index(side));
-    row.stands[s] = step < 0 || walk.half_step(2 * step).support == side;
-    row.soles[s] = x.segment<4>(FootIndex(side));
-    row.q[s] = posture.ik[s].q;
+    Nth(row.stands, side) = step < 0 || walk.half_step(2 * step).support == side;
+    Nth(row.soles, side) = x.segment<4>(FootIndex(side));
+    Nth(row.q, side) = Nth(posture.ik, side).q;
   }
   return row;
 }

@@ -83,8 +83,7 @@ std::vector<const MissedDemand*> Told(const std::vector<MissedDemand>& demands) 
 std::string PlaceInPlan(const HalfStepSequence& sequence, const MissedDemand& demand) {
   const double t = demand.worst.t;
   if (t == 0.0 || demand.footstep < 0) return "at the start";
-  const auto up = static_cast<size_t>(2 * demand.footstep);
-  const std::string foot(Name(sequence.half_steps[up].half_step.swing()));
+  const std::string foot(Name(Nth(sequence.half_steps, 2 * demand.footstep).half_step.swing()));
   const std::string name = Formatted("footstep %d (%s), ", demand.footstep + 1, foot.c_str());
   if (demand.stands) return name + Formatted("where it stands, from %.2f s on", t);
   const char* kind = demand.worst.at.half_step % 2 == 0 ? "up" : "down";

@@ -157,6 +157,35 @@ BakedHalfSteps BakeHalfSteps(const RobotModel& robot, const ExperimentConfig& co
   return baked;
 }
 
+namespace {
+
+// The config with the footsteps in place of its goal.
+ExperimentConfig WithFootsteps(ExperimentConfig config, const std::array<Foothold, 2>& start,
+                               const std::vector<Footstep>& footsteps, const Place& place) {
+  config.has_goal = false;
+  config.has_start = true;
+  config.start_left = SaidInConfig(start[0], place);
+  config.start_right = SaidInConfig(start[1], place);
+  for (const Footstep& footstep : footsteps) {
+    config.footsteps.push_back(ToConfig(footstep, place));
+  }
+  return config;
+}
+
+// Adds why there is no plan, as far as that can be seen.
+void ExplainNoPlan(const Place& place, const MarginEvaluator& evaluator, PlannedWalk* walk) {
+  PlanResult& plan = walk->plan;
+  if (plan.status == PlanStatus::kStartBlocked) {
+    plan.sentence += MissedInPlace(place.robot, place.scene, walk->config);
+  }
+  if (plan.status != PlanStatus::kInterrupted) walk->inputs = LookAtGoal(walk->config, evaluator);
+  std::string looked;
+  for (const std::string& sentence : walk->inputs) looked += sentence + "; ";
+  plan.sentence = looked + plan.sentence;
+}
+
+}  // namespace
+
 PlannedWalk PlanWalk(const ExperimentConfig& config, const Place& place,
                      const PlanningHooks& hooks) {
   HALFSTEP_CHECK(config.has_goal, "no goal");
@@ -205,22 +234,10 @@ PlannedWalk PlanWalk(const ExperimentConfig& config, const Place& place,
   std::mt19937_64 random(static_cast<std::uint64_t>(config.seed));
   walk.plan =
       MakePlanner(config.planner.name, place.scene, config.planner.options)->Plan(request, random);
-  if (walk.plan.status == PlanStatus::kStartBlocked) {
-    walk.plan.sentence += MissedInPlace(place.robot, place.scene, config);
-  }
-  if (walk.plan.status != PlanStatus::kSolved) {
-    if (walk.plan.status != PlanStatus::kInterrupted) walk.inputs = LookAtGoal(config, evaluator);
-    std::string looked;
-    for (const std::string& sentence : walk.inputs) looked += sentence + "; ";
-    walk.plan.sentence = looked + walk.plan.sentence;
-    return walk;
-  }
-  walk.config.has_goal = false;
-  walk.config.has_start = true;
-  walk.config.start_left = SaidInConfig(request.start[0], place);
-  walk.config.start_right = SaidInConfig(request.start[1], place);
-  for (const Footstep& footstep : walk.plan.footsteps) {
-    walk.config.footsteps.push_back(ToConfig(footstep, place));
+  if (walk.plan.status == PlanStatus::kSolved) {
+    walk.config = WithFootsteps(config, request.start, walk.plan.footsteps, place);
+  } else {
+    ExplainNoPlan(place, evaluator, &walk);
   }
   return walk;
 }

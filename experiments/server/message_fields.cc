@@ -93,7 +93,7 @@ double MessageFields::Number(const std::string& key, double min, double max,
 Eigen::VectorXd MessageFields::Numbers(const std::string& key, int count, double min, double max) {
   const json& list = Of(key);
   const std::string valid = Formatted(" (valid: %d numbers ", count) + RangeText(min, max) + ")";
-  if (!list.is_array() || list.size() != static_cast<size_t>(count)) {
+  if (!list.is_array() || std::ssize(list) != count) {
     Fail(key, Formatted("is no list of %d", count) + valid);
   }
   Eigen::VectorXd numbers(count);

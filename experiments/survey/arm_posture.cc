@@ -20,8 +20,7 @@ std::vector<bool> LinksBelow(const UrdfTree& urdf, int joint) {
   std::vector<bool> below(urdf.links.size(), false);
   Nth(below, Nth(urdf.joints, joint).child) = true;
   for (size_t i = 1; i < urdf.links.size(); ++i) {
-    const auto parent = static_cast<size_t>(Nth(urdf.joints, urdf.links[i].joint).parent);
-    if (below[parent]) below[i] = true;
+    if (Nth(below, Nth(urdf.joints, urdf.links[i].joint).parent)) below[i] = true;
   }
   return below;
 }
@@ -132,15 +131,16 @@ std::vector<ArmTurn> KeepArmsOff(const UrdfTree& urdf, int waist,
     for (int step = 1; step <= 18 && farthest < apart; ++step) {
       for (const int joint : joints) {
         for (const double sign : {1.0, -1.0}) {
-          const auto j = static_cast<size_t>(joint);
           std::vector<double> turned = posture;
-          turned[j] += sign * step * kTurnStep;
-          if (turned[j] < urdf.joints[j].lower || turned[j] > urdf.joints[j].upper) continue;
+          double& angle = Nth(turned, joint);
+          angle += sign * step * kTurnStep;
+          const UrdfJoint& limits = Nth(urdf.joints, joint);
+          if (angle < limits.lower || angle > limits.upper) continue;
           const double distance =
               gaps.FromLegs(limb.bodies(), limb.Displacements(posture, turned), apart);
           if (distance <= farthest) continue;
           farthest = distance;
-          best = {joint, turned[j],
+          best = {joint, angle,
                   Formatted("keeps the limb %.0f mm off the legs (%.0f mm without)", 1e3 * distance,
                             1e3 * is)};
         }

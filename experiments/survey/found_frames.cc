@@ -180,8 +180,7 @@ Matrix3d FindWaistRotation(const UrdfTree& urdf, const FoundLegs& legs) {
   const auto X = urdf.LinkPoses(std::vector<double>(urdf.joints.size(), 0.0));
   const Isometry3d X_WaistRoot = Nth(X, legs.waist).inverse();
   const auto origin = [&](int joint) {
-    const auto child = static_cast<size_t>(Nth(urdf.joints, joint).child);
-    return Vector3d(X_WaistRoot * X[child].translation());
+    return Vector3d(X_WaistRoot * Nth(X, Nth(urdf.joints, joint).child).translation());
   };
   const std::array<Vector3d, 2> hips{origin(legs.joints[0][2]), origin(legs.joints[1][2])};
   const std::array<Vector3d, 2> feet{origin(legs.joints[0][5]), origin(legs.joints[1][5])};

@@ -38,12 +38,11 @@ std::vector<int> Ends(const UrdfTree& urdf) {
   std::vector<int> ends;
   for (size_t link = urdf.links.size(); link-- > 1;) {
     const UrdfJoint& joint = Nth(urdf.joints, urdf.links[link].joint);
-    const auto parent = static_cast<size_t>(joint.parent);
     if (joint.kind != UrdfJoint::Kind::kFixed) {
       if (is_end[link]) ends.push_back(static_cast<int>(link));
-      is_end[parent] = false;
+      Nth(is_end, joint.parent) = false;
     } else if (!is_end[link]) {
-      is_end[parent] = false;
+      Nth(is_end, joint.parent) = false;
     }
   }
   return ends;

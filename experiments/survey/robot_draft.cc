@@ -58,10 +58,9 @@ std::string LegsText(const RobotDraft& draft) {
   }
   text += "legs:\n";
   for (const Side side : {Side::kLeft, Side::kRight}) {
-    const auto i = static_cast<size_t>(Index(side));
-    const Eigen::Isometry3d& X = draft.soles[i].X_FootSole;
+    const Eigen::Isometry3d& X = Nth(draft.soles, side).X_FootSole;
     text += "  " + std::string(Name(side)) +
-            ":\n    foot_link: " + Quoted(LinkName(draft, draft.legs.feet[i])) +
+            ":\n    foot_link: " + Quoted(LinkName(draft, Nth(draft.legs.feet, side))) +
             "\n    sole_xyz: " + List(X.translation(), 7) + "\n";
     const Eigen::Vector3d rpy = RpyOf(X.linear());
     if (rpy.cwiseAbs().maxCoeff() > 1e-9) text += "    sole_rpy_deg: " + List(rpy, 9) + "\n";

@@ -147,12 +147,12 @@ class Surveyor {
     for (const RobotBody& body : bodies) {
       if (body.leg < 0 || body.link > 4) continue;
       const Leg& leg = Nth(legs_, body.leg);
-      const auto i = static_cast<size_t>(body.link);
       const CollisionShape shape(body.shape), point(MakeSphere(1e-3));
-      for (const size_t joint : {i, i + 1}) {
+      for (const int joint : {body.link, body.link + 1}) {
         Isometry3d X_BPoint = Isometry3d::Identity();
-        X_BPoint.translation() = leg.joints[joint].point_B;
-        sum += std::max(0.0, Separate(shape, leg.joints[i].X_BLink, point, X_BPoint).distance);
+        X_BPoint.translation() = Nth(leg.joints, joint).point_B;
+        sum += std::max(
+            0.0, Separate(shape, Nth(leg.joints, body.link).X_BLink, point, X_BPoint).distance);
       }
     }
     return sum;

@@ -158,8 +158,7 @@ class StanceSearch {
     }
     const auto cut = [&](const LinkPair& links, double gap) {
       for (const size_t i : {size_t{0}, size_t{1}}) {
-        const auto link = static_cast<size_t>(draft_.urdf.FindLink(links[i]));
-        if (!HasMesh(draft_.urdf.links[link])) continue;
+        if (!HasMesh(Nth(draft_.urdf.links, draft_.urdf.FindLink(links[i])))) continue;
         draft_.mesh_parts[links[i]] = kParts;
         draft_.why_parts[links[i]] =
             "as one hull it " + NearnessText(gap) + " " + links[1 - i] + " in six steps";
@@ -233,18 +232,18 @@ class StanceSearch {
     for (int round = 0; round < 4; ++round) {
       standing.x = ComAhead();
       for (const Side side : {Side::kLeft, Side::kRight}) {
-        const auto i = static_cast<size_t>(Index(side));
-        const auto q = FindStanding(legs_[i], side, standing);
+        const auto q = FindStanding(Nth(legs_, side), side, standing);
         if (!q) {
           return Formatted(
               "the %s foot cannot stand level below the CoM, %.3f m from the other, hip and ankle "
               "%.0f %% of the stretched leg apart, within the joints' limits (valid: another "
               "--bend "
               "or --width)",
-              i == 0 ? "left" : "right", standing.width, 100 * standing.bend);
+              side == Side::kLeft ? "left" : "right", standing.width, 100 * standing.bend);
         }
         for (size_t k = 0; k < 6; ++k) {
-          Nth(draft_.posture, draft_.legs.joints[i][k]) = (*q)[static_cast<Eigen::Index>(k)];
+          Nth(draft_.posture, Nth(draft_.legs.joints, side)[k]) =
+              (*q)[static_cast<Eigen::Index>(k)];
         }
       }
     }

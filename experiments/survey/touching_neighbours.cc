@@ -47,14 +47,15 @@ std::vector<ExcludedPair> NeighboursThatTouch(const UrdfTree& urdf, const FoundL
   const std::vector<bool> of_limb = BodiesOfLimbs(urdf, legs.waist, posture, robot);
   std::vector<ExcludedPair> excluded;
   for (const SelfGap& gap : gaps.Nearer(kTouchByDesign)) {
-    const auto a = static_cast<size_t>(gap.a), b = static_cast<size_t>(gap.b);
-    if (AreOfBothLegs(robot, gap) || of_limb[a] || of_limb[b]) continue;
-    const auto link = [&](size_t body) { return LinkOf(robot.bodies[body]); };
+    if (AreOfBothLegs(robot, gap) || Nth(of_limb, gap.a) || Nth(of_limb, gap.b)) continue;
+    const auto link = [&](int body) { return LinkOf(Nth(robot.bodies, body)); };
     const int joints = LegJointsBetween(urdf, legs, robot, gap);
     if (joints > 2 && gap.standing >= kTouchByDesign) continue;
-    const auto is_there = [&](const ExcludedPair& pair) { return Names(pair, link(a), link(b)); };
+    const auto is_there = [&](const ExcludedPair& pair) {
+      return Names(pair, link(gap.a), link(gap.b));
+    };
     if (std::any_of(excluded.begin(), excluded.end(), is_there)) continue;
-    excluded.push_back({{link(a), link(b)},
+    excluded.push_back({{link(gap.a), link(gap.b)},
                         Formatted("%d joints apart, %.1f mm standing, %.1f mm in six steps", joints,
                                   1e3 * gap.standing, 1e3 * gap.least)});
   }

@@ -51,7 +51,7 @@ void RunWorkers(const std::vector<std::vector<std::string>>& arguments, int jobs
   bool go_on = true, told = false;
   while (true) {
     go_on = go_on && !stop.stop_requested();
-    while (go_on && next < arguments.size() && workers.size() < static_cast<size_t>(jobs)) {
+    while (go_on && next < arguments.size() && std::ssize(workers) < jobs) {
       workers.push_back({Start(arguments[next]), next, std::chrono::steady_clock::now()});
       ++next;
     }

@@ -96,9 +96,9 @@ CsvFile OverlapsCsv(const MarginEvaluator& evaluator, const MethodRun& run) {
     junction.price ? csv.Cell(*junction.price) : csv.Empty();
     const bool determined = junction.multiplier && std::isfinite(*junction.multiplier);
     determined ? csv.Cell(*junction.multiplier) : csv.Empty();
-    const size_t after = static_cast<size_t>(index), before = after - 1;
-    csv.Cell(parameters.durations[before]).Cell(parameters.durations[after]);
-    csv.Cell(parameters.height_scales[before / 2]).Cell(parameters.height_scales[after / 2]);
+    csv.Cell(Nth(parameters.durations, index - 1)).Cell(Nth(parameters.durations, index));
+    csv.Cell(Nth(parameters.height_scales, (index - 1) / 2));
+    csv.Cell(Nth(parameters.height_scales, index / 2));
     csv.EndRow();
   }
   return csv.file();

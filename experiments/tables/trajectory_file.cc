@@ -7,6 +7,7 @@
 #include "experiments/tables/run_record.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/text.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -54,12 +55,14 @@ std::vector<TrajectoryRow> Rows(const CsvTable& table, const RobotModel& robot) 
   ReadPlace(
       table, "waist", [](TrajectoryRow * row) -> auto& { return row->waist; }, &rows);
   for (const Side side : {Side::kLeft, Side::kRight}) {
-    const auto s = static_cast<size_t>(Index(side));
-    const auto sole = [s](TrajectoryRow * row) -> auto& { return row->soles[s]; };
+    const auto sole = [side](TrajectoryRow * row) -> auto& { return Nth(row->soles, side); };
     ReadPlace(table, std::string(Name(side)) + "_foot", sole, &rows);
     for (size_t j = 0; j < 6; ++j) {
-      const std::vector<double> q = Finite(table, "q_" + robot.legs[s].joints[j].name + "_rad");
-      for (size_t i = 0; i < rows.size(); ++i) rows[i].q[s][static_cast<Eigen::Index>(j)] = q[i];
+      const std::vector<double> q =
+          Finite(table, "q_" + Nth(robot.legs, side).joints[j].name + "_rad");
+      for (size_t i = 0; i < rows.size(); ++i) {
+        Nth(rows[i].q, side)[static_cast<Eigen::Index>(j)] = q[i];
+      }
     }
   }
   return rows;

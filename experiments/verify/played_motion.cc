@@ -80,7 +80,7 @@ std::pair<size_t, double> PlayedMotion::Locate(double t) const {
   const auto after = std::upper_bound(rows_.begin(), rows_.end(), t,
                                       [](double at, const PlayedRow& row) { return at < row.t; });
   const auto i = std::clamp<std::ptrdiff_t>(after - rows_.begin() - 1, 0, std::ssize(rows_) - 2);
-  const PlayedRow &a = Nth(rows_, i), &b = rows_[static_cast<size_t>(i) + 1];
+  const PlayedRow &a = Nth(rows_, i), &b = Nth(rows_, i + 1);
   return {static_cast<size_t>(i), std::clamp((t - a.t) / (b.t - a.t), 0.0, 1.0)};
 }
 
@@ -140,9 +140,8 @@ std::vector<double> PlayedMotion::PathInWaist(const RobotBody& body) const {
   std::vector<double> path(rows_.size(), 0.0);
   if (body.leg < 0) return path;
   const std::array<double, 6> radii = Radii(body);
-  const size_t side = static_cast<size_t>(body.leg);
   for (size_t i = 1; i < rows_.size(); ++i) {
-    const Vector6d turned = (rows_[i].q[side] - rows_[i - 1].q[side]).cwiseAbs();
+    const Vector6d turned = (Nth(rows_[i].q, body.leg) - Nth(rows_[i - 1].q, body.leg)).cwiseAbs();
     path[i] = path[i - 1] + turned.dot(Vector6d(radii.data()));
   }
   return path;
@@ -151,8 +150,7 @@ std::vector<double> PlayedMotion::PathInWaist(const RobotBody& body) const {
 double PlayedMotion::Sag(const RobotBody& body, size_t i) const {
   if (body.leg < 0) return 0;
   const std::array<double, 6> radii = Radii(body);
-  const size_t side = static_cast<size_t>(body.leg);
-  const Vector6d turned = (rows_[i + 1].q[side] - rows_[i].q[side]).cwiseAbs();
+  const Vector6d turned = (Nth(rows_[i + 1].q, body.leg) - Nth(rows_[i].q, body.leg)).cwiseAbs();
   double second = 0;
   for (size_t j = 0; j < 6; ++j) {
     for (size_t k = 0; k < 6; ++k) {

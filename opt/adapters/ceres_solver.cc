@@ -143,6 +143,18 @@ InnerOptions Defaults(const SolveMonitor& monitor) {
   return inner;
 }
 
+using Summary = ceres::GradientProblemSolver::Summary;
+
+// Minimizes z → L(x(z)) from z on. The problem is made anew, since the function has changed.
+Summary MinimizeInner(const InnerOptions& options, const AugmentedLagrangian& lagrangian,
+                      const BoxTransform& box, Eigen::VectorXd* z) {
+  const ceres::GradientProblem problem(
+      std::make_unique<InnerFunction>(lagrangian, box, static_cast<int>(z->size())).release());
+  Summary summary;
+  ceres::Solve(options, problem, z->data(), &summary);
+  return summary;
+}
+
 SolverEnd RunCeres(SolveMonitor& monitor, const Eigen::VectorXd& start) {
   constexpr double kOffTheBounds = 1e-3;  // of the width; a start on a bound would stay there
   constexpr int kMostFailures = 5;        // inner minimizations without any step, in a row
@@ -174,11 +186,7 @@ SolverEnd RunCeres(SolveMonitor& monitor, const Eigen::VectorXd& start) {
     Eigen::VectorXd gradient;
     if (!lagrangian.Evaluate(x, &value, &gradient)) break;
     z = box.FromBox(box.OffTheBounds(x, gradient, kOffTheBounds));
-    // Fresh each time: the function behind it has changed.
-    const ceres::GradientProblem inner_problem(
-        std::make_unique<InnerFunction>(lagrangian, box, problem.num_variables()).release());
-    ceres::GradientProblemSolver::Summary summary;
-    ceres::Solve(inner, inner_problem, z.data(), &summary);
+    const Summary summary = MinimizeInner(inner, lagrangian, box, &z);
     if (!monitor.MayGoOn()) break;
     x = box.ToBox(z);
     failures = summary.iterations.size() <= 1 && summary.termination_type == ceres::FAILURE

@@ -8,13 +8,13 @@ namespace halfstep::opt {
 
 ScaledRows::ScaledRows(const Problem& problem, const std::vector<double>& jacobian)
     : problem_(problem) {
-  std::vector<double> slope(static_cast<size_t>(problem.num_constraints()), 1.0);
+  Eigen::VectorXd slope = Eigen::VectorXd::Ones(problem.num_constraints());
   for (size_t k = 0; k < jacobian.size(); ++k) {
-    double& most = slope[static_cast<size_t>(problem.pattern().rows[k])];
+    double& most = slope[problem.pattern().rows[k]];
     most = std::max(most, std::abs(jacobian[k]));
   }
   for (int row = 0; row < problem.num_constraints(); ++row) {
-    const double scale = 1.0 / slope[static_cast<size_t>(row)];
+    const double scale = 1.0 / slope[row];
     const double lower = problem.constraint_lower()[row], upper = problem.constraint_upper()[row];
     first_sides_.push_back(sides_.size());
     if (std::isfinite(lower)) sides_.push_back({row, scale, lower});
@@ -25,16 +25,16 @@ ScaledRows::ScaledRows(const Problem& problem, const std::vector<double>& jacobi
   for (size_t k = 0; k < jacobian.size(); ++k) {
     columns[static_cast<size_t>(problem.pattern().rows[k])].push_back(problem.pattern().cols[k]);
   }
-  std::map<std::vector<int>, int> known;
+  std::map<std::vector<int>, size_t> known;
   for (const Side& side : sides_) {
     std::vector<int>& own = columns[static_cast<size_t>(side.row)];
     if (!std::is_sorted(own.begin(), own.end())) std::sort(own.begin(), own.end());
     // Neighbours often are of the same group.
-    if (!groups_.empty() && variables_[static_cast<size_t>(groups_.back())] == own) {
+    if (!groups_.empty() && variables_[groups_.back()] == own) {
       groups_.push_back(groups_.back());
       continue;
     }
-    const auto [at, added] = known.try_emplace(own, static_cast<int>(variables_.size()));
+    const auto [at, added] = known.try_emplace(own, variables_.size());
     if (added) variables_.push_back(own);
     groups_.push_back(at->second);
   }
@@ -42,10 +42,8 @@ ScaledRows::ScaledRows(const Problem& problem, const std::vector<double>& jacobi
 
 Eigen::VectorXd ScaledRows::Values(const Eigen::VectorXd& values) const {
   Eigen::VectorXd c(size());
-  for (Eigen::Index i = 0; i < size(); ++i) {
-    const Side& side = sides_[static_cast<size_t>(i)];
-    c[i] = side.factor * (values[side.row] - side.bound);
-  }
+  Eigen::Index i = 0;
+  for (const Side& side : sides_) c[i++] = side.factor * (values[side.row] - side.bound);
   return c;
 }
 

@@ -19,7 +19,7 @@ class ScaledRows {
   /// Number of one-sided rows, m.
   Eigen::Index size() const { return static_cast<Eigen::Index>(sides_.size()); }
   /// The group of each row (m): rows with derivatives along the same variables form one.
-  const std::vector<int>& groups() const { return groups_; }
+  const std::vector<size_t>& groups() const { return groups_; }
   /// The variables of each group, in ascending order.
   const std::vector<std::vector<int>>& variables() const { return variables_; }
   /// c (m) for the values g(x) of the problem's rows.
@@ -37,7 +37,7 @@ class ScaledRows {
   const Problem& problem_;
   std::vector<Side> sides_;
   std::vector<size_t> first_sides_;  // of each row, and the number of all
-  std::vector<int> groups_;
+  std::vector<size_t> groups_;
   std::vector<std::vector<int>> variables_;
 };
 

@@ -33,14 +33,14 @@ bool BarrierTerms::AnyOutside(const VectorXd& values) const {
 VectorXd BarrierTerms::CentralMultipliers(const VectorXd& values, double mu) const {
   VectorXd central(multipliers_.size());
   for (Eigen::Index i = 0; i < central.size(); ++i) {
-    central[i] = mu / std::max(sides_[static_cast<size_t>(i)].Slack(values), least_);
+    central[i] = mu / std::max(SideAt(i).Slack(values), least_);
   }
   return central;
 }
 
 void BarrierTerms::ClampMultipliers(const VectorXd& values, double mu) {
   for (Eigen::Index i = 0; i < multipliers_.size(); ++i) {
-    const double central = mu / std::max(sides_[static_cast<size_t>(i)].Slack(values), kInside);
+    const double central = mu / std::max(SideAt(i).Slack(values), kInside);
     multipliers_[i] = std::clamp(multipliers_[i], central / kDualRange, central * kDualRange);
   }
 }
@@ -48,7 +48,7 @@ void BarrierTerms::ClampMultipliers(const VectorXd& values, double mu) {
 void BarrierTerms::AdvanceMultipliers(const VectorXd& values, const VectorXd& change, double mu,
                                       double alpha) {
   for (Eigen::Index i = 0; i < multipliers_.size(); ++i) {
-    const Side& side = sides_[static_cast<size_t>(i)];
+    const Side& side = SideAt(i);
     const double slack = std::max(side.Slack(values), kInside);
     double& z = multipliers_[i];
     const double step = mu / slack - z - z / slack * side.sign * change[side.index];
@@ -59,14 +59,14 @@ void BarrierTerms::AdvanceMultipliers(const VectorXd& values, const VectorXd& ch
 void BarrierTerms::AddGradient(const VectorXd& values, const VectorXd& multipliers,
                                VectorXd* gradient) const {
   for (Eigen::Index i = 0; i < multipliers.size(); ++i) {
-    const Side& side = sides_[static_cast<size_t>(i)];
+    const Side& side = SideAt(i);
     (*gradient)[side.index] -= side.sign * (IsOutside(side, values) ? 1.0 : multipliers[i]);
   }
 }
 
 void BarrierTerms::AddCurvature(const VectorXd& values, VectorXd* diagonal) const {
   for (Eigen::Index i = 0; i < multipliers_.size(); ++i) {
-    const Side& side = sides_[static_cast<size_t>(i)];
+    const Side& side = SideAt(i);
     if (IsOutside(side, values)) continue;
     (*diagonal)[side.index] += multipliers_[i] / side.Slack(values);
   }
@@ -75,7 +75,7 @@ void BarrierTerms::AddCurvature(const VectorXd& values, VectorXd* diagonal) cons
 double BarrierTerms::ComplementarityError(const VectorXd& values, double mu) const {
   double error = 0.0;
   for (Eigen::Index i = 0; i < multipliers_.size(); ++i) {
-    const Side& side = sides_[static_cast<size_t>(i)];
+    const Side& side = SideAt(i);
     if (IsOutside(side, values)) continue;
     error = std::max(error, std::abs(side.Slack(values) * multipliers_[i] - mu));
   }

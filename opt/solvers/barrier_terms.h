@@ -51,6 +51,7 @@ class BarrierTerms {
     double Slack(const Eigen::VectorXd& values) const { return sign * (values[index] - bound); }
   };
 
+  const Side& SideAt(Eigen::Index i) const { return sides_[static_cast<size_t>(i)]; }
   bool IsOutside(const Side& side, const Eigen::VectorXd& values) const {
     return side.Slack(values) < least_;
   }

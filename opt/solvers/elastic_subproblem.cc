@@ -105,12 +105,13 @@ class InteriorPoint {
     const Eigen::Index n = d_.size();
     K_.resize(n, n);
     std::vector<Eigen::Index> rows;
-    std::vector<Eigen::Index> met(static_cast<size_t>(n), -1);  // the last column that has it
+    // The last column that has an entry in each row.
+    Eigen::VectorX<Eigen::Index> met = Eigen::VectorX<Eigen::Index>::Constant(n, -1);
     for (Eigen::Index b = 0; b < n; ++b) {
       rows.assign(1, b);
-      met[static_cast<size_t>(b)] = b;
+      met[b] = b;
       ForColumn(b, [&](Eigen::Index j, Eigen::Index, double) {
-        if (std::exchange(met[static_cast<size_t>(j)], b) != b) rows.push_back(j);
+        if (std::exchange(met[j], b) != b) rows.push_back(j);
       });
       std::sort(rows.begin(), rows.end());
       K_.startVec(b);

@@ -34,9 +34,7 @@ class RowPenalties {
                 const std::vector<double>& most);
 
   /// The group of a row.
-  size_t GroupOf(Eigen::Index row) const {
-    return static_cast<size_t>(rows_->groups()[static_cast<size_t>(row)]);
-  }
+  size_t GroupOf(Eigen::Index row) const { return rows_->groups()[static_cast<size_t>(row)]; }
   double Of(size_t group) const { return penalties_[group]; }  ///< ν_k
   /// Every group's ν, for a later problem.
   Memory Remembered() const;

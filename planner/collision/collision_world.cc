@@ -83,11 +83,11 @@ CollisionWorld::CollisionWorld(const Scene& scene)
 }
 
 const CollisionShape& CollisionWorld::ShapeOf(int obstacle) const {
-  const size_t i = static_cast<size_t>(obstacle);
-  std::call_once(shapes_->once[i], [&] {
-    if (!shapes_->made[i]) shapes_->made[i].emplace(shapes_->shapes[i]);
+  auto& made = Nth(shapes_->made, obstacle);
+  std::call_once(Nth(shapes_->once, obstacle), [&] {
+    if (!made) made.emplace(Nth(shapes_->shapes, obstacle));
   });
-  return *shapes_->made[i];
+  return *made;
 }
 
 CollisionWorld::Nearest CollisionWorld::FindNearest(const CollisionShape& body,

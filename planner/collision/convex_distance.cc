@@ -164,9 +164,9 @@ class Search {
   }
   ConvexDistance Apart(const Simplex& simplex) const {
     Vector3d a = Vector3d::Zero(), b = Vector3d::Zero();
-    for (size_t i = 0; i < static_cast<size_t>(simplex.size); ++i) {
-      a += simplex.weight[i] * simplex.corner[i].a;
-      b += simplex.weight[i] * simplex.corner[i].b;
+    for (int i = 0; i < simplex.size; ++i) {
+      a += Nth(simplex.weight, i) * Nth(simplex.corner, i).a;
+      b += Nth(simplex.weight, i) * Nth(simplex.corner, i).b;
     }
     ConvexDistance result = Result(a, b);
     result.upper = std::max(upper_ - balls_, 0.0);

@@ -88,8 +88,7 @@ MeshInterior::Patches::Patches(const TriangleMesh& mesh) {
   areas.resize(of_open.nodes.size());
   for (size_t n = areas.size(); n-- > 0;) {
     const BoundsTree::Node& node = of_open.nodes[n];
-    const size_t left = static_cast<size_t>(node.left);
-    areas[n] = node.left >= 0 ? areas[left] + areas[left + 1]
+    areas[n] = node.left >= 0 ? Nth(areas, node.left) + Nth(areas, node.left + 1)
                               : Nth(open_areas, Nth(of_open.order, node.first));
   }
 }

@@ -166,9 +166,9 @@ std::vector<Eigen::Vector3d> CornerOfEachPart(const TriangleMesh& mesh) {
   std::vector<Eigen::Vector3d> corners;
   std::vector<bool> told(static_cast<size_t>(mesh.vertices.cols()), false);
   for (const Eigen::Vector3i& t : mesh.triangles.colwise()) {
-    const auto part = static_cast<size_t>(parts.find_set(t[0]));
-    if (!told[part]) corners.emplace_back(mesh.vertices.col(t[0]));
-    told[part] = true;
+    const int part = parts.find_set(t[0]);
+    if (!Nth(told, part)) corners.emplace_back(mesh.vertices.col(t[0]));
+    Nth(told, part) = true;
   }
   return corners;
 }

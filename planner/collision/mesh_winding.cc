@@ -57,17 +57,17 @@ MeshWinding::MeshWinding(const TriangleTree& tree) {
         for (int e = 0; e < 3; ++e) count(&pending[n], k[e], k[(e + 1) % 3], 1);
       }
     } else {
-      const size_t left = static_cast<size_t>(node.left), right = left + 1;
-      triangles[n] = triangles[left] + triangles[right];
-      if (pending[left].size() < pending[right].size()) std::swap(pending[left], pending[right]);
-      pending[n] = std::move(pending[left]);
-      for (const auto& [edge, times] : pending[right]) {
+      Counts &left = Nth(pending, node.left), &right = Nth(pending, node.left + 1);
+      triangles[n] = Nth(triangles, node.left) + Nth(triangles, node.left + 1);
+      if (left.size() < right.size()) std::swap(left, right);
+      pending[n] = std::move(left);
+      for (const auto& [edge, times] : right) {
         count(&pending[n], edge.first, edge.second, times);
       }
-      pending[right].clear();
+      right.clear();
     }
     // A cap as large as the part itself gains nothing.
-    if (2 * pending[n].size() >= static_cast<size_t>(triangles[n])) continue;
+    if (2 * std::ssize(pending[n]) >= triangles[n]) continue;
     borders_[n] = {static_cast<int32_t>(edges_.size()), static_cast<int32_t>(pending[n].size())};
     for (const auto& [edge, times] : pending[n]) edges_.push_back({edge.first, edge.second, times});
   }
@@ -81,9 +81,8 @@ double MeshWinding::At(const TriangleTree& tree, const Vector3d& point) const {
   double half_angles = 0.0;
   std::vector<int32_t> stack = {0};
   while (!stack.empty()) {
-    const size_t n = static_cast<size_t>(stack.back());
-    const TriangleTree::Node& node = tree.nodes[n];
-    const Border& border = borders_[n];
+    const TriangleTree::Node& node = Nth(tree.nodes, stack.back());
+    const Border& border = Nth(borders_, stack.back());
     stack.pop_back();
     const bool outside = ((point - node.center).cwiseAbs().array() > node.half.array()).any();
     if (outside && border.count >= 0) {

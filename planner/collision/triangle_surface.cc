@@ -55,14 +55,14 @@ struct TriangleSurface::Impl {
 
   // Of a leaf of the tree.
   const Bvh& BvhOf(int32_t leaf) {
-    const size_t n = static_cast<size_t>(leaf);
-    std::call_once(once[n], [&] {
-      const BoundsTree::Node& node = tree.nodes[n];
+    std::unique_ptr<const Bvh>& bvh = Nth(bvhs, leaf);
+    std::call_once(Nth(once, leaf), [&] {
+      const BoundsTree::Node& node = Nth(tree.nodes, leaf);
       const auto first = tree.order.begin() + node.first;
-      bvhs[n] = MakeBvh(mesh, {first, first + node.count});
+      bvh = MakeBvh(mesh, {first, first + node.count});
       ++built;
     });
-    return *bvhs[n];
+    return *bvh;
   }
 
   const TriangleMesh mesh;

@@ -41,8 +41,8 @@ const StepPlan* FirstAccepted(const PlanRequest& request, const PlanMonitor& mon
     if (answer.accepted) return &*plan;
     const int last = static_cast<int>(plan->ks.size()) - 1;
     const bool named = answer.refused_footstep >= 0 && answer.refused_footstep <= last;
-    const auto at = static_cast<size_t>(named ? answer.refused_footstep : last);
-    graph->Forbid(states[at], plan->ks[at]);
+    const int at = named ? answer.refused_footstep : last;
+    graph->Forbid(Nth(states, at), Nth(plan->ks, at));
     if (++*refusals >= request.max_refusals) break;
   }
   return nullptr;

@@ -33,12 +33,12 @@ Eigen::Vector2i StateBuckets::CellOf(const Pose2& X_W) const {
 }
 
 std::vector<StateBuckets::Entry>& StateBuckets::At(const Eigen::Vector2i& cell, Side support) {
-  return Nth(cells_, Index(support))[static_cast<size_t>(cell.y() * count_.x() + cell.x())];
+  return Nth(Nth(cells_, Index(support)), cell.y() * count_.x() + cell.x());
 }
 
 const std::vector<StateBuckets::Entry>& StateBuckets::At(const Eigen::Vector2i& cell,
                                                          Side support) const {
-  return Nth(cells_, Index(support))[static_cast<size_t>(cell.y() * count_.x() + cell.x())];
+  return Nth(Nth(cells_, Index(support)), cell.y() * count_.x() + cell.x());
 }
 
 void StateBuckets::Insert(int index, const StepState& state) {

@@ -131,11 +131,10 @@ class Builder {
         const uint64_t* column = grid_.Column(x, y);
         int low = -1, high = -1;
         for (int w = 0; w < words; ++w) {
-          const size_t i = static_cast<size_t>(w);
-          const uint64_t bits = column[w] & mask[i];
+          const uint64_t bits = column[w] & Nth(mask, w);
           if (bits == 0) continue;
           slices.occupied += std::popcount(bits);
-          along_y[i] |= bits;
+          Nth(along_y, w) |= bits;
           Nth(along_x, (y - box.lower.y()) * words + w) |= bits;
           if (low < 0) low = 64 * w + std::countr_zero(bits);
           high = 64 * w + 63 - std::countl_zero(bits);
@@ -187,10 +186,10 @@ class Builder {
       }
       CellBox below = kNothing;
       for (int at = within.lower[axis] + 1; at < within.upper[axis]; ++at) {
-        const size_t i = static_cast<size_t>(at - within.lower[axis]);
-        below = Join(below, of[i - 1]);
+        const int i = at - within.lower[axis];
+        below = Join(below, Nth(of, i - 1));
         if (at <= box.lower[axis] || at >= box.upper[axis]) continue;
-        const int64_t cells = below.Cells() + above[i];
+        const int64_t cells = below.Cells() + Nth(above, i);
         const int even = std::min(at - box.lower[axis], box.upper[axis] - at);
         if (cells < least || (cells == least && even > evenness)) {
           least = cells;
@@ -210,9 +209,7 @@ class Builder {
 std::vector<Vector3d> FindParts(const BoxTree& tree, const Vector3i& size) {
   const std::vector<CellBox> boxes = tree.SolidBoxes();
   const auto index = [&](int x, int y, int z) {
-    return (static_cast<size_t>(x) * static_cast<size_t>(size.y()) + static_cast<size_t>(y)) *
-               static_cast<size_t>(size.z()) +
-           static_cast<size_t>(z);
+    return static_cast<size_t>((int64_t{x} * size.y() + y) * size.z() + z);
   };
   std::vector<int> owner(index(size.x(), 0, 0), -1), parent(boxes.size());
   std::iota(parent.begin(), parent.end(), 0);

@@ -31,10 +31,7 @@ class Occupied {
 
  private:
   size_t Index(const Vector3i& cell) const {
-    return (static_cast<size_t>(cell.x()) * static_cast<size_t>(size_.y()) +
-            static_cast<size_t>(cell.y())) *
-               static_cast<size_t>(size_.z()) +
-           static_cast<size_t>(cell.z());
+    return static_cast<size_t>((int64_t{cell.x()} * size_.y() + cell.y()) * size_.z() + cell.z());
   }
   Vector3i size_ = Vector3i::Zero();
   std::vector<bool> cells_;

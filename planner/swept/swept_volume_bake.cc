@@ -18,8 +18,8 @@ std::optional<SweptVolumes> BakeSweptVolumes(const RobotModel& robot, const Moti
   const SweptVolumeBaker baker(robot, options);
   const int size = set.size();
   SweptVolumes volumes{.set = set, .down = {}, .up = {}};
-  volumes.down.resize(static_cast<size_t>(size));
-  volumes.up.resize(static_cast<size_t>(size));
+  volumes.down.resize(set.placements.size());
+  volumes.up.resize(set.placements.size());
 
   std::mutex mutex;  // of what follows
   int done = 0;

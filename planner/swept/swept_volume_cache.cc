@@ -130,7 +130,7 @@ void ReadVolumes(const std::string& provenance, const StepSet& set, double cell,
   const CheckedFile file = ReadCheckedFile(result->path, provenance);
   result->refused = file.refused;
   if (!file.body) return;
-  const size_t size = static_cast<size_t>(set.size());
+  const size_t size = set.placements.size();
   auto volumes = ParseVolumes(*file.body, 2 * size, cell);
   if (!volumes) {
     result->refused = result->path + ": refused: its volumes make no sense";

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
-#include <utility>
 
 #include "planner/swept/four_floats.h"
 #include "wpg/check.h"
@@ -13,54 +11,10 @@
 namespace halfstep {
 namespace {
 
-using Eigen::Isometry3d;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// Axis-aligned bounds of a convex body in its own frame.
-OrientedBox Around(const ConvexBody& body) {
-  const Vector3d sides(body.disc_radius, body.disc_radius, 0.0);
-  const Vector3d lower = body.vertices.rowwise().minCoeff(),
-                 upper = body.vertices.rowwise().maxCoeff();
-  return {.center = 0.5 * (lower + upper),
-          .half = (0.5 * (upper - lower) + sides).array() + body.ball_radius};
-}
-
 }  // namespace
-
-void SweptVolumeQuery::Prepared::BeMesh(const TriangleMesh& mesh) {
-  auto shared = std::make_shared<Mesh>(mesh);
-  const TriangleTree::Node& root = shared->triangles.nodes[0];
-  around = {.center = root.center, .half = root.half};
-  shape = std::shared_ptr<const Mesh>(std::move(shared));
-}
-
-SweptVolumeQuery::Prepared SweptVolumeQuery::Prepare(const Obstacle& obstacle) {
-  Prepared prepared;
-  const auto round = [&prepared](const auto& of, const RoundBody& body) {
-    prepared.around = Around(BodyOf(of));
-    prepared.shape = body;
-  };
-  if (const auto* box = std::get_if<Box>(&obstacle.shape)) {
-    prepared.around = Around(BodyOf(*box));
-  } else if (const auto* sphere = std::get_if<Sphere>(&obstacle.shape)) {
-    round(*sphere, {.ball_radius = sphere->radius});
-  } else if (const auto* cylinder = std::get_if<Cylinder>(&obstacle.shape)) {
-    round(*cylinder, {.half_length = 0.5 * cylinder->length, .disc_radius = cylinder->radius});
-  } else if (const auto* capsule = std::get_if<Capsule>(&obstacle.shape)) {
-    round(*capsule, {.half_length = 0.5 * capsule->length, .ball_radius = capsule->radius});
-  } else if (const auto* mesh = std::get_if<TriangleMesh>(&obstacle.shape)) {
-    prepared.BeMesh(*mesh);
-  } else {
-    const ConvexBody& body = std::get<ConvexBody>(obstacle.shape);
-    prepared.around = Around(body);  // all that there is of a body with a disc
-    if (body.disc_radius == 0 && !body.triangles.empty()) {
-      prepared.BeMesh(FacesOf(body));
-      prepared.extra = body.ball_radius;
-    }
-  }
-  return prepared;
-}
 
 SweptVolumeQuery::SweptVolumeQuery(const SweptVolumes& volumes,
                                    const Eigen::Matrix2Xd& sole_outline, const Scene& scene,
@@ -71,7 +25,7 @@ SweptVolumeQuery::SweptVolumeQuery(const SweptVolumes& volumes,
       level_(scene.ground->HeightEverywhere()),
       areas_(scene, sole_outline),
       no_step_(no_step) {
-  const size_t size = static_cast<size_t>(volumes.set.size());
+  const size_t size = volumes.set.placements.size();
   HALFSTEP_CHECK(volumes.down.size() == size && volumes.up.size() == size,
                  volumes.down.size() << " and " << volumes.up.size() << " volumes of " << size);
   for (const Foothold& X_SF : volumes.set.placements) X_SF.CheckLevel();
@@ -87,91 +41,8 @@ SweptVolumeQuery::SweptVolumeQuery(const SweptVolumes& volumes,
     }
   }
   std::vector<Upright> cylinders;
-  for (size_t i = 0; i < all.size(); ++i) cylinders.push_back(Move(i, all[i].X_WO));
+  for (int i = 0; i < std::ssize(all); ++i) cylinders.push_back(Move(i, Nth(all, i).X_WO));
   PlantTree(cylinders);
-}
-
-void SweptVolumeQuery::PlantTree(const std::vector<Upright>& cylinders) {
-  constexpr int32_t kLeaf = 64;  // so many are looked at as fast as a few nodes
-  std::vector<Eigen::AlignedBox3d> boxes;
-  for (const Upright& cylinder : cylinders) {
-    const Vector3d half(cylinder.radius, cylinder.radius, cylinder.half_height);
-    boxes.emplace_back(cylinder.center - half, cylinder.center + half);
-  }
-  tree_ = BoundsTree(boxes, kLeaf);
-  leaf_begins_.assign(tree_.nodes.size(), -1);
-  slots_.resize(cylinders.size());
-  // Unused slots hold nothing: no cylinder reaches from there.
-  Cylinders nothing;
-  for (int k = 0; k < 4; ++k) {
-    nothing.x[k] = nothing.y[k] = nothing.z[k] = std::numeric_limits<float>::infinity();
-    nothing.radius[k] = nothing.half_height[k] = 0.0f;
-  }
-  for (size_t n = 0; n < tree_.nodes.size(); ++n) {
-    const BoundsTree::Node& node = tree_.nodes[n];
-    if (node.left >= 0) continue;
-    leaf_begins_[n] = static_cast<int32_t>(place_at_.size());
-    for (int32_t i = node.first; i < node.first + node.count; ++i) {
-      const int32_t place = Nth(tree_.order, i);
-      Nth(slots_, place) = static_cast<int32_t>(place_at_.size());
-      place_at_.push_back(place);
-    }
-    place_at_.resize((place_at_.size() + 3) / 4 * 4, -1);
-  }
-  cylinders_.assign(place_at_.size() / 4, nothing);
-  for (size_t i = 0; i < cylinders.size(); ++i) {
-    Put(static_cast<size_t>(slots_[i]), cylinders[i]);
-  }
-}
-
-void SweptVolumeQuery::SetObstaclePose(int obstacle, const Isometry3d& X_WO) {
-  HALFSTEP_CHECK(obstacle >= 0 && obstacle < static_cast<int>(only_places_.size()),
-                 "obstacle " << obstacle);
-  const int place = Nth(only_places_, obstacle);
-  HALFSTEP_CHECK(place >= 0, "obstacle " << obstacle << " has waypoints");
-  const Upright cylinder = Move(static_cast<size_t>(place), X_WO);
-  const int32_t slot = Nth(slots_, place);
-  Put(static_cast<size_t>(slot), cylinder);
-  // It stays in its leaf, and all nodes above grow around it.
-  const auto at = std::find(tree_.order.begin(), tree_.order.end(), place) - tree_.order.begin();
-  for (int32_t n = 0; n >= 0;) {
-    BoundsTree::Node& node = Nth(tree_.nodes, n);
-    const Vector3d half(cylinder.radius, cylinder.radius, cylinder.half_height);
-    node.half = node.half.cwiseMax((cylinder.center - node.center).cwiseAbs() + half);
-    n = node.left;
-    if (n >= 0 && at >= tree_.nodes[static_cast<size_t>(n) + 1].first) ++n;
-  }
-}
-
-SweptVolumeQuery::Upright SweptVolumeQuery::Move(size_t index, const Isometry3d& X_WO) {
-  HALFSTEP_CHECK(X_WO.matrix().allFinite(), "place " << index << " at\n" << X_WO.matrix());
-  Prepared& o = places_[index];
-  o.X_WO = X_WO;
-  o.around_W = {.center = X_WO * o.around.center,
-                .half = o.around.half,
-                .axes = X_WO.linear() * o.around.axes};
-  // A box lying on a side stands upright all the same: the vertical axis last.
-  if (std::holds_alternative<std::monostate>(o.shape)) {
-    int vertical = 0;
-    o.around_W.axes.row(2).cwiseAbs().maxCoeff(&vertical);
-    o.around_W.axes.col(2).swap(o.around_W.axes.col(vertical));
-    std::swap(o.around_W.half[2], o.around_W.half[vertical]);
-  }
-  const Matrix3d reach = o.around_W.axes.cwiseAbs() * o.around_W.half.asDiagonal();
-  const bool upright = o.around_W.axes.row(2).head<2>().isZero(1e-12);
-  const double radius = upright ? o.around_W.half.head<2>().norm() : o.around_W.half.norm();
-  farthest_ = std::max(farthest_, o.around_W.center.cwiseAbs().maxCoeff() + o.around_W.half.sum());
-  return {o.around_W.center, radius + o.extra, reach.row(2).sum() + o.extra};
-}
-
-void SweptVolumeQuery::Put(size_t slot, const Upright& cylinder) {
-  Cylinders& four = cylinders_[slot / 4];
-  const size_t k = slot % 4;
-  four.x[k] = static_cast<float>(cylinder.center.x());
-  four.y[k] = static_cast<float>(cylinder.center.y());
-  four.z[k] = static_cast<float>(cylinder.center.z());
-  four.radius[k] = static_cast<float>(cylinder.radius);
-  four.half_height[k] = static_cast<float>(cylinder.half_height);
 }
 
 bool SweptVolumeQuery::MeetsObstacle(const BoxTree& tree, const Placed& placed,
@@ -268,17 +139,15 @@ bool SweptVolumeQuery::MeetsLeaf(const Placed& placed, const BoundsTree::Node& l
 }
 
 SweptVolumeQuery::Placed SweptVolumeQuery::Down(int i, Side support, const Foothold& X_WS) const {
-  const size_t e = static_cast<size_t>(i);
-  return {volumes_.down[e],   down_bounds_[e],   support == Side::kRight, X_WS,
-          std::cos(X_WS.yaw), std::sin(X_WS.yaw)};
+  return {Nth(volumes_.down, i), Nth(down_bounds_, i), support == Side::kRight, X_WS,
+          std::cos(X_WS.yaw),    std::sin(X_WS.yaw)};
 }
 
 SweptVolumeQuery::Placed SweptVolumeQuery::Up(int i, Side support, const Foothold& X_WS) const {
   // The foot that has landed supports.
-  const size_t e = static_cast<size_t>(i);
   const Foothold X_WF = X_WS * volumes_.set.Placement(i, support);
-  return {volumes_.up[e], up_bounds_[e],      support == Side::kLeft,
-          X_WF,           std::cos(X_WF.yaw), std::sin(X_WF.yaw)};
+  return {Nth(volumes_.up, i), Nth(up_bounds_, i), support == Side::kLeft, X_WF,
+          std::cos(X_WF.yaw),  std::sin(X_WF.yaw)};
 }
 
 std::vector<SweptVolumeQuery::Bounds> SweptVolumeQuery::BoundsOf(

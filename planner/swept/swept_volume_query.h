@@ -90,9 +90,9 @@ class SweptVolumeQuery : public HalfStepQuery {
 
   static Prepared Prepare(const Obstacle& obstacle);
   // Moves a place, and returns what is around it.
-  Upright Move(size_t place, const Eigen::Isometry3d& X_WO);
+  Upright Move(int place, const Eigen::Isometry3d& X_WO);
   void PlantTree(const std::vector<Upright>& cylinders);
-  void Put(size_t slot, const Upright& cylinder);
+  void Put(int32_t slot, const Upright& cylinder);
   static std::vector<Bounds> BoundsOf(const std::vector<std::optional<BoxTree>>& volumes);
   Placed Down(int i, Side support, const Foothold& X_WS) const;
   Placed Up(int i, Side support, const Foothold& X_WS) const;

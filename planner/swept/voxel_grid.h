@@ -27,13 +27,12 @@ class VoxelGrid {
   void Fill(const HalfSpaces& region);
   /// Occupies one cell.
   void Occupy(int i, int j, int k) {
-    words_[Word(i, j) + static_cast<size_t>(k / 64)] |= uint64_t{1} << (k % 64);
+    uint64_t* column = &words_[Word(i, j)];
+    column[k / 64] |= uint64_t{1} << (k % 64);
   }
 
   /// Whether the cell is occupied.
-  bool Occupied(int i, int j, int k) const {
-    return (words_[Word(i, j) + static_cast<size_t>(k / 64)] >> (k % 64)) & 1;
-  }
+  bool Occupied(int i, int j, int k) const { return (Column(i, j)[k / 64] >> (k % 64)) & 1; }
   /// The bits of column (i, j): cell k is bit k % 64 of word k / 64.
   const uint64_t* Column(int i, int j) const { return &words_[Word(i, j)]; }
   int words_per_column() const { return words_per_column_; }  ///< number of words, each of 64 cells
@@ -43,8 +42,7 @@ class VoxelGrid {
 
  private:
   size_t Word(int i, int j) const {
-    return (static_cast<size_t>(i) * static_cast<size_t>(size_.y()) + static_cast<size_t>(j)) *
-           static_cast<size_t>(words_per_column_);
+    return static_cast<size_t>((int64_t{i} * size_.y() + j) * words_per_column_);
   }
   // Cells from … to of a column.
   void OccupyRange(int i, int j, int from, int to) {

@@ -58,14 +58,13 @@ class Bisection {
 
   // False when the search is to end.
   bool BisectJunction(int junction) {
-    const size_t i = static_cast<size_t>(junction);
     const HomotopyParameters& at = walk_.parameters();
-    const double feasible = at.overlaps[i];
+    const double feasible = Nth(at.overlaps, junction);
     double highest = CapOf(junction) * NaturalOverlapBound(at, junction);
     if (feasible >= highest || !table_.free({ParameterFamily::kOverlap, junction})) {
       return !monitor_.stopped();
     }
-    monitor_.result().junctions[i].limited_by.reset();
+    Nth(monitor_.result().junctions, junction).limited_by.reset();
     if (options_.cheaper) highest = Bisect(junction, feasible, highest, *options_.cheaper);
     if (highest > feasible) Bisect(junction, feasible, highest, problem_.test());
     return !monitor_.stopped();

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "smoothing/methods/dichotomy.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 
@@ -17,14 +18,14 @@ FineDichotomies RunFineDichotomies(const WalkProblem& problem, double tolerance,
   const bool shared = monitor.workers() != nullptr && starts.size() > 1;
   std::array<SmoothingResult, 2> results;
   RunWith(monitor.workers(), static_cast<int>(starts.size()), [&](int index, int) {
-    const size_t i = static_cast<size_t>(index);
     MonitorOptions part = monitor.Part(0.9, 1.0);
     if (shared) {
       part.workers = nullptr;
       part.progress = {};
     }
     SmoothingMonitor within(std::move(part));
-    results[i] = Dichotomy(problem, {.tolerance = tolerance, .start = starts[i]}, within);
+    Nth(results, index) =
+        Dichotomy(problem, {.tolerance = tolerance, .start = Nth(starts, index)}, within);
     return true;
   });
   FineDichotomies found{.from_incumbent = std::move(results[0]), .from_start = std::nullopt};

@@ -48,72 +48,94 @@ SmoothingResult BeginWithDichotomy(const WalkProblem& problem, double tolerance,
   return dichotomy;
 }
 
+// Solves one after the other; they share what is left of the deadline evenly, and what one does not
+// need others have.
+class CurveSolves {
+ public:
+  // Of at most `count` solves; all is borrowed.
+  CurveSolves(const WalkProblem& problem, const OptimizerOptions& options, int count,
+              SmoothingMonitor& monitor)
+      : problem_(problem), options_(options), monitor_(monitor), count_(count) {}
+
+  SmoothingResult Solve(ProgramKind kind, double limit, const HomotopyParameters& start) {
+    OptimizerOptions with = options_;
+    with.program.kind = kind;
+    with.duration_limit = limit;
+    with.start = start;
+    const double begun = monitor_.Seconds();
+    SmoothingMonitor within(monitor_.Part(done_ / count_, (done_ + 1) / count_));
+    within.LimitTo(std::max(0.0, Share()));
+    SmoothingResult result = OptimizeOverlaps(problem_, with, within);
+    ++done_;
+    if (opt::HasOwnResult(result.ending)) weakest_ = std::max(weakest_, result.ending);
+    monitor_.Count(result);
+    monitor_.result().raw_infeasible += result.raw_infeasible;
+    for (SmoothingIterate iterate : result.iterates) {
+      iterate.wall += begun;
+      monitor_.result().iterates.push_back(iterate);
+    }
+    if (kind == ProgramKind::kSafest && std::isfinite(result.cost)) {
+      monitor_.result().pareto.push_back(
+          {DurationOf(result.parameters), -result.cost, result.parameters});
+    }
+    return result;
+  }
+
+  bool over() const { return monitor_.stopped() || Share() <= 0.0; }
+  opt::Ending weakest() const { return weakest_; }  // of the solves that found something
+
+ private:
+  double Share() const {
+    return (options_.deadline - monitor_.Seconds()) / std::max(1.0, count_ - done_);
+  }
+
+  const WalkProblem& problem_;
+  const OptimizerOptions& options_;
+  SmoothingMonitor& monitor_;
+  double count_;
+  int done_ = 0;
+  opt::Ending weakest_ = opt::Ending::kConverged;
+};
+
 }  // namespace
 
 SmoothingResult ParetoCurve(const WalkProblem& problem, const OptimizerOptions& options,
                             const ParetoOptions& pareto, SmoothingMonitor& monitor) {
   HALFSTEP_CHECK(pareto.points >= 2 && pareto.most_duration > 0.0, "points = " << pareto.points);
-  const double parts = pareto.points + 2.0;
-  int part = 0;
   const double planned = DurationOf(problem.Start());
   const SmoothingResult dichotomy = BeginWithDichotomy(problem, options.tolerance, monitor);
   if (!dichotomy.feasible || monitor.stopped()) {
     return monitor.Finish(opt::Ending::kNotRun, dichotomy.message);
   }
   const double own = DurationOf(dichotomy.parameters);
-  // The solves share what is left of the deadline evenly; what one does not need others have.
-  const auto share = [&] {
-    return (options.deadline - monitor.Seconds()) / std::max(1.0, parts - part);
-  };
-  const auto over = [&] { return monitor.stopped() || share() <= 0.0; };
-
-  std::vector<ParetoPoint>& points = monitor.result().pareto;
-  opt::Ending weakest = opt::Ending::kConverged;  // of the solves that found something
-  const auto solve = [&](ProgramKind kind, double limit, const HomotopyParameters& start) {
-    OptimizerOptions with = options;
-    with.program.kind = kind;
-    with.duration_limit = limit;
-    with.start = start;
-    const double begun = monitor.Seconds();
-    SmoothingMonitor within(monitor.Part(part / parts, (part + 1) / parts));
-    within.LimitTo(std::max(0.0, share()));
-    SmoothingResult result = OptimizeOverlaps(problem, with, within);
-    ++part;
-    if (opt::HasOwnResult(result.ending)) weakest = std::max(weakest, result.ending);
-    monitor.Count(result);
-    monitor.result().raw_infeasible += result.raw_infeasible;
-    for (SmoothingIterate iterate : result.iterates) {
-      iterate.wall += begun;
-      monitor.result().iterates.push_back(iterate);
-    }
-    if (kind == ProgramKind::kSafest && std::isfinite(result.cost)) {
-      points.push_back({DurationOf(result.parameters), -result.cost, result.parameters});
-    }
-    return result;
-  };
-  const SmoothingResult fastest = solve(ProgramKind::kFastest, 0.0, dichotomy.parameters);
-  const SmoothingResult same = solve(ProgramKind::kSafest, own, dichotomy.parameters);
+  CurveSolves solves(problem, options, pareto.points + 2, monitor);
+  const SmoothingResult fastest = solves.Solve(ProgramKind::kFastest, 0.0, dichotomy.parameters);
+  const SmoothingResult same = solves.Solve(ProgramKind::kSafest, own, dichotomy.parameters);
   if (same.accepted) monitor.Adopt(*same.accepted, same.cost, DurationOf(same.parameters));
   monitor.result().junctions = same.junctions;
 
+  std::vector<ParetoPoint>& points = monitor.result().pareto;
   const double least = DurationOf(fastest.parameters);
   const double most = std::max(least, pareto.most_duration * planned);
   HomotopyParameters start = fastest.parameters;
-  for (int i = 0; i < pareto.points && !over(); ++i) {
+  for (int i = 0; i < pareto.points && !solves.over(); ++i) {
     const double duration = least * std::pow(most / least, i / (pareto.points - 1.0));
     // From the safer one of the walk before and the one at the dichotomy's duration.
     const bool from_same =
         own <= duration && !points.empty() && (i == 0 || -same.cost > points.back().least_slack);
-    start = solve(ProgramKind::kSafest, duration, from_same ? same.parameters : start).parameters;
+    start = solves.Solve(ProgramKind::kSafest, duration, from_same ? same.parameters : start)
+                .parameters;
   }
   std::stable_sort(points.begin(), points.end(), [](const ParetoPoint& a, const ParetoPoint& b) {
     return a.duration < b.duration;
   });
   points = Undominated(points);
-  if (over()) weakest = std::max(weakest, monitor.StopEnding());
-  const opt::Ending ending = opt::HasOwnResult(same.ending) ? weakest : same.ending;
-  const std::string late = over() ? monitor.StopReason() + "; " : "";
-  return monitor.Finish(ending, late + Sentence(options.solver, points.size(), least, most, same));
+  const bool late = solves.over();
+  const opt::Ending weakest =
+      late ? std::max(solves.weakest(), monitor.StopEnding()) : solves.weakest();
+  return monitor.Finish(opt::HasOwnResult(same.ending) ? weakest : same.ending,
+                        (late ? monitor.StopReason() + "; " : "") +
+                            Sentence(options.solver, points.size(), least, most, same));
 }
 
 }  // namespace halfstep

@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include "wpg/nth.h"
+
 namespace halfstep {
 namespace {
 
@@ -20,9 +22,9 @@ HomotopyParameters RepeatSteps(const HalfStepSequence& sequence, const HomotopyP
     for (size_t i = 0; i < values.size(); ++i) {
       const auto [from, to] = traits.half_steps(static_cast<int>(i));
       if (to < first || to > last || from < kStride) continue;
-      const size_t before = static_cast<size_t>(traits.index_at(from - kStride));
-      values[i] = values[before];
-      if (family == ParameterFamily::kDuration) values[i] *= planned[i] / planned[before];
+      const int before = traits.index_at(from - kStride);
+      values[i] = Nth(values, before);
+      if (family == ParameterFamily::kDuration) values[i] *= planned[i] / Nth(planned, before);
     }
   }
   return like;

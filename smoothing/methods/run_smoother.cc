@@ -13,8 +13,8 @@ namespace {
 
 // "" where there is a walk of the problem with the result's parameters and tables can tell of it.
 std::string Misfit(const WalkProblem& problem, const SmoothingResult& result) {
-  const size_t junctions = static_cast<size_t>(problem.sequence().num_junctions());
-  if (result.junctions.size() != junctions) {
+  const int junctions = problem.sequence().num_junctions();
+  if (std::ssize(result.junctions) != junctions) {
     return std::to_string(result.junctions.size()) + " junctions where the walk has " +
            std::to_string(junctions);
   }

@@ -6,6 +6,7 @@
 #include "smoothing/walk/parameter_complaint.h"
 #include "smoothing/walk/superposed_walk.h"
 #include "wpg/files/text.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 
@@ -146,9 +147,8 @@ SmoothingResult SmoothingMonitor::Finish(Ending ending, const std::string& messa
   const ParameterTable table = problem_->Parameters();
   result_.junctions.resize(static_cast<size_t>(problem_->sequence().num_junctions()));
   for (int i = 0; i < problem_->sequence().num_junctions(); ++i) {
-    const size_t at = static_cast<size_t>(i);
-    JunctionResult& junction = result_.junctions[at];
-    junction.overlap = result_.parameters.overlaps[at];
+    JunctionResult& junction = Nth(result_.junctions, i);
+    junction.overlap = Nth(result_.parameters.overlaps, i);
     junction.upper_bound = NaturalOverlapBound(result_.parameters, i);
     junction.fixed = !table.free({ParameterFamily::kOverlap, i});
   }

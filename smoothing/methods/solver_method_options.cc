@@ -60,23 +60,19 @@ void ChooseFamiliesOfHalfSteps(ParameterChoice* choice) {
   choice->bound("least_duration") = 0.2;
 }
 
-}  // namespace
-
-OptionGroup<SolverMethodOptions> OptimizerGroup() {
-  return {"optimizer",
-          "options of the methods that are solvers (smoothing/README.md, \"Overlap program\")"};
-}
-
-void DeclareFields(Fields& fields, SolverMethodOptions* c) {
-  OptimizerOptions* o = &c->options;
+void DeclareProgram(Fields& fields, SolverMethodOptions* c) {
   fields.Text("program", &c->program,
               {.meaning = "what is optimized: duration; duration and effort; the least slack for a "
                           "duration; that for a range of durations",
                .choices = {"fastest", "smooth", "safest", "pareto"}});
   for (ProgramKind kind : {ProgramKind::kFastest, ProgramKind::kSmooth, ProgramKind::kSafest}) {
-    if (c->program == Name(kind)) o->program.kind = kind;
+    if (c->program == Name(kind)) c->options.program.kind = kind;
   }
-  ParameterChoice* const choice = &o->program.parameters;
+}
+
+// Which parameters move, and within what.
+void DeclareFamilies(Fields& fields, SolverMethodOptions* c) {
+  ParameterChoice* const choice = &c->options.program.parameters;
   const std::vector<std::string> keys = fields.Keys();
   if (!keys.empty()) ForgetFamiliesOfHalfSteps(c);
   if (NamesFamilyOfHalfSteps(keys)) c->all_families = false;
@@ -101,6 +97,11 @@ void DeclareFields(Fields& fields, SolverMethodOptions* c) {
                      .max = bound.max});
     }
   }
+}
+
+// What `safest`, `pareto` and `smooth` ask beside the duration.
+void DeclareObjective(Fields& fields, SolverMethodOptions* c) {
+  OptimizerOptions* const o = &c->options;
   fields.Number("duration_s", &o->duration_limit,
                 {.meaning = "`safest`: of the walk at most; 0: the dichotomy's own",
                  .unit = "s",
@@ -117,6 +118,10 @@ void DeclareFields(Fields& fields, SolverMethodOptions* c) {
                  DeclareWeights(f, &o->program.weights);
                  DeclareOwnCosts(f, &o->program.own_costs);
                });
+}
+
+// Where the search looks, begins and ends.
+void DeclareSearch(Fields& fields, OptimizerOptions* o) {
   fields.Integer(
       "instants", &o->instants,
       {.meaning = "per half-step at which the program looks; 0: 24 for `halfstep/sqp`, 32 for "
@@ -148,6 +153,20 @@ void DeclareFields(Fields& fields, SolverMethodOptions* c) {
                  .unit = "s",
                  .min = 0.001,
                  .max = 86400});
+}
+
+}  // namespace
+
+OptionGroup<SolverMethodOptions> OptimizerGroup() {
+  return {"optimizer",
+          "options of the methods that are solvers (smoothing/README.md, \"Overlap program\")"};
+}
+
+void DeclareFields(Fields& fields, SolverMethodOptions* c) {
+  DeclareProgram(fields, c);
+  DeclareFamilies(fields, c);
+  DeclareObjective(fields, c);
+  DeclareSearch(fields, &c->options);
 }
 
 std::string VariableNames(const ParameterChoice& choice) {

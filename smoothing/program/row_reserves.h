@@ -36,8 +36,7 @@ class RowReserves {
 
  private:
   size_t Index(Place place) const {
-    return static_cast<size_t>(place.first) * static_cast<size_t>(families_) +
-           static_cast<size_t>(place.second);
+    return static_cast<size_t>(place.first * families_ + place.second);
   }
 
   int families_;

@@ -35,12 +35,11 @@ std::vector<LeastSlacks> SampledSlacks(const SuperposedWalk& walk, const MarginE
 }
 
 double LocalMinimum(const std::vector<LeastSlacks>& samples, int i, double otherwise) {
-  const size_t at = static_cast<size_t>(i);
   double lowest = otherwise;
   for (size_t f = 0; f < kNumMarginFamilies; ++f) {
-    const double slack = samples[at][f];
-    const bool falls = i == 0 || slack < samples[at - 1][f];
-    const bool rises = at + 1 == samples.size() || slack <= samples[at + 1][f];
+    const double slack = Nth(samples, i)[f];
+    const bool falls = i == 0 || slack < Nth(samples, i - 1)[f];
+    const bool rises = i + 1 == std::ssize(samples) || slack <= Nth(samples, i + 1)[f];
     if (falls && rises) lowest = std::min(lowest, slack);
   }
   return lowest;

@@ -105,7 +105,7 @@ void WatchedInstants::NoteRows(const SuperposedWalk& walk, double level) {
   seen_.rows.assign(instants_.size() * static_cast<size_t>(families), kFar);
   seen_.samples.assign(seen_.rows.size(), kFar);
   for (int k = 0, row = 0; k < walk.num_half_steps(); ++k) {
-    for (; row < first_rows_[static_cast<size_t>(k) + 1]; ++row) {
+    for (; row < Nth(first_rows_, k + 1); ++row) {
       double& least = Nth(seen_.rows, k * families + row % families);
       least = std::min(least, values[row] - level);
     }

@@ -123,20 +123,20 @@ Feasibility CertifiedFeasibility::Decide(const SuperposedWalk& walk, const TimeW
   while (!open.empty()) {
     std::vector<Settled> settled(open.size());
     const int met = ProveOpen(walk, stop, &open, scratch, certificate != nullptr, &settled);
-    for (size_t i = 0; i <= static_cast<size_t>(met) && i < open.size(); ++i) {
-      scratch->instants += settled[i].instants;
-      scratch->bodies.queries += settled[i].queries;
+    for (int i = 0; i <= met && i < std::ssize(open); ++i) {
+      const Settled& one = Nth(settled, i);
+      scratch->instants += one.instants;
+      scratch->bodies.queries += one.queries;
       if (certificate == nullptr) continue;
-      certificate->insert(certificate->end(), settled[i].rows.begin(), settled[i].rows.end());
+      certificate->insert(certificate->end(), one.rows.begin(), one.rows.end());
     }
     if (met < static_cast<int>(open.size())) {
-      const size_t i = static_cast<size_t>(met);
-      if (settled[i].violated) {
-        return {Verdict::kViolated, Evidence::kCertified, *settled[i].violated};
-      }
-      const Margin undecided = OpenStatement(open[i].groups.front(),
-                                             0.5 * (open[i].begin + open[i].end), evaluator_, walk);
-      return {Verdict::kUndecided, Evidence::kCertified, undecided, settled[i].stopped};
+      const Settled& last = Nth(settled, met);
+      if (last.violated) return {Verdict::kViolated, Evidence::kCertified, *last.violated};
+      const Open& still = Nth(open, met);
+      const Margin undecided =
+          OpenStatement(still.groups.front(), 0.5 * (still.begin + still.end), evaluator_, walk);
+      return {Verdict::kUndecided, Evidence::kCertified, undecided, last.stopped};
     }
     std::vector<Open> halves;
     for (Open& now : open) {
@@ -153,8 +153,7 @@ Feasibility CertifiedFeasibility::Decide(const SuperposedWalk& walk, const TimeW
 int CertifiedFeasibility::ProveOpen(const SuperposedWalk& walk, const std::stop_token& stop,
                                     std::vector<Open>* open, MarginEvaluator::Scratch* scratch,
                                     bool with_rows, std::vector<Settled>* settled) const {
-  const size_t others = static_cast<size_t>(NumThreads(scratch->workers) - 1);
-  while (scratch->of_others.size() < others) {
+  while (std::ssize(scratch->of_others) < NumThreads(scratch->workers) - 1) {
     scratch->of_others.push_back(evaluator_.MakeScratch());
   }
   const long instants = scratch->instants, queries = scratch->bodies.queries;
@@ -167,7 +166,7 @@ int CertifiedFeasibility::ProveOpen(const SuperposedWalk& walk, const std::stop_
           return false;
         }
         MarginEvaluator::Scratch& own =
-            thread == 0 ? *scratch : scratch->of_others[static_cast<size_t>(thread) - 1];
+            thread == 0 ? *scratch : Nth(scratch->of_others, thread - 1);
         const long instants_before = own.instants, queries_before = own.bodies.queries;
         found.violated = statements_.Prove(walk, now.begin, now.end, &now.groups, &own,
                                            with_rows ? &found.rows : nullptr);

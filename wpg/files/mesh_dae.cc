@@ -16,6 +16,7 @@
 #include "wpg/files/mesh_text.h"
 #include "wpg/files/nesting.h"
 #include "wpg/files/text.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -197,17 +198,17 @@ class DaeReader {
   }
 
   // Where among the indices of a corner its vertex stands, and how many a corner has.
-  std::pair<size_t, size_t> VertexInput(const Element& polygons, const Element** vertices) const {
-    size_t offset = 0, stride = 0;
+  std::pair<int, int> VertexInput(const Element& polygons, const Element** vertices) const {
+    int offset = 0, stride = 0;
     for (auto* e = polygons.FirstChildElement("input"); e != nullptr;
          e = e->NextSiblingElement("input")) {
       int at = 0;
       if (e->QueryIntAttribute("offset", &at) != TIXML_SUCCESS || at < 0 || at > 1000) {
         Fail(*e, "has no offset (valid: 0 to 1000)");
       }
-      stride = std::max(stride, static_cast<size_t>(at) + 1);
+      stride = std::max(stride, at + 1);
       if (AttributeOf(*e, "semantic") != "VERTEX") continue;
-      offset = static_cast<size_t>(at);
+      offset = at;
       *vertices = &Referred(*e, "source", "vertices");
     }
     if (*vertices == nullptr) Fail(polygons, "has no <input> of the semantic VERTEX");
@@ -256,7 +257,7 @@ class DaeReader {
     return static_cast<size_t>(value);
   }
 
-  void AddPolygons(const Element& polygons, size_t offset, size_t stride, int first, int count) {
+  void AddPolygons(const Element& polygons, int offset, int stride, int first, int count) {
     const std::string& kind = polygons.ValueStr();
     std::vector<int> corners_of;
     if (kind == "polylist") {
@@ -266,28 +267,28 @@ class DaeReader {
     }
     for (auto* p = polygons.FirstChildElement("p"); p != nullptr; p = p->NextSiblingElement("p")) {
       const std::vector<int> indices = Numbers<int>(*p);
-      const size_t corners = indices.size() / stride;
-      const auto corner = [&](size_t i) {
-        const int index = indices[i * stride + offset];
+      const std::ptrdiff_t corners = std::ssize(indices) / stride;
+      const auto corner = [&](std::ptrdiff_t i) {
+        const int index = Nth(indices, i * stride + offset);
         if (index >= 0 && index < count) return first + index;
         Fail(*p, Formatted("index %d: there are %d points", index, count));
       };
-      if (kind == "triangles") corners_of.assign(corners / 3, 3);
+      if (kind == "triangles") corners_of.assign(static_cast<size_t>(corners) / 3, 3);
       if (kind == "polygons") corners_of.assign(1, static_cast<int>(corners));
-      size_t at = 0;
+      std::ptrdiff_t at = 0;
       for (const int number : corners_of) {
-        if (number < 3 || static_cast<size_t>(number) > corners - at) {
+        if (number < 3 || number > corners - at) {
           Fail(*p, "a polygon of fewer than three corners, or of more than are listed");
         }
-        for (size_t i = 2; i < static_cast<size_t>(number); ++i) {
-          if (corners_.size() == 3 * static_cast<size_t>(kMaxMeshTriangles)) {
+        for (int i = 2; i < number; ++i) {
+          if (std::ssize(corners_) == 3 * kMaxMeshTriangles) {
             Fail(*p, "too many triangles (valid: at most 5 million)");
           }
           corners_.insert(corners_.end(), {corner(at), corner(at + i - 1), corner(at + i)});
         }
-        at += static_cast<size_t>(number);
+        at += number;
       }
-      if (at * stride != indices.size()) Fail(*p, "does not end with a whole polygon");
+      if (at * stride != std::ssize(indices)) Fail(*p, "does not end with a whole polygon");
     }
   }
 

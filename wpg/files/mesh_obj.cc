@@ -56,7 +56,7 @@ class ObjReader {
     }
     if (polygon.size() < 3) text_.Fail(statement, "a face of fewer than three corners");
     for (size_t i = 2; i < polygon.size(); ++i) {
-      if (corners_.size() == 3 * static_cast<size_t>(kMaxMeshTriangles)) {
+      if (std::ssize(corners_) == 3 * kMaxMeshTriangles) {
         text_.Fail(statement, "too many triangles (valid: at most 5 million)");
       }
       corners_.insert(corners_.end(), {polygon[0], polygon[i - 1], polygon[i]});

@@ -52,7 +52,7 @@ std::string FlowList(const Values& values, const ToText& to_text) {
 // Writes one map in block style, its lines indented.
 class YamlWriter : public Fields {
  public:
-  explicit YamlWriter(int indentation) : indentation_(indentation) {}
+  explicit YamlWriter(size_t indentation) : indentation_(indentation) {}
 
   const std::string& text() const { return text_; }
 
@@ -106,7 +106,7 @@ class YamlWriter : public Fields {
     for (size_t i = 0; i < size; ++i) {
       YamlWriter writer(indentation_ + 4);
       declare(writer, i);
-      const std::string dash = std::string(static_cast<size_t>(indentation_) + 2, ' ') + "- ";
+      const std::string dash = std::string(indentation_ + 2, ' ') + "- ";
       text_ += writer.text_.empty() ? dash + "{}\n" : dash + writer.text_.substr(dash.size());
     }
   }
@@ -115,11 +115,11 @@ class YamlWriter : public Fields {
 
  private:
   void Line(const std::string& key, const std::string& value) {
-    text_ += std::string(static_cast<size_t>(indentation_), ' ') + key + ":";
+    text_ += std::string(indentation_, ' ') + key + ":";
     text_ += value.empty() ? "\n" : " " + value + "\n";
   }
 
-  const int indentation_;
+  const size_t indentation_;
   std::string text_;
 };
 

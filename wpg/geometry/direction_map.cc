@@ -128,8 +128,9 @@ std::span<const int32_t> DirectionMap::Along(const Eigen::Vector3d& direction) c
   };
   const int face = 2 * axis + (direction[axis] > 0 ? 0 : 1);
   const int i = square(direction[(axis + 1) % 3]), j = square(direction[(axis + 2) % 3]);
-  const auto place = static_cast<size_t>((face * squares_ + i) * squares_ + j);
-  return {&points_[starts_[place]], starts_[place + 1] - starts_[place]};
+  const int place = (face * squares_ + i) * squares_ + j;
+  const uint32_t begin = Nth(starts_, place);
+  return {&points_[begin], Nth(starts_, place + 1) - begin};
 }
 
 }  // namespace halfstep

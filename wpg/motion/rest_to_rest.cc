@@ -1,133 +1,19 @@
 #include "wpg/motion/rest_to_rest.h"
 
-#include <Eigen/Core>
+#include <algorithm>
+#include <array>
 #include <cmath>
-#include <unsupported/Eigen/AutoDiff>
+#include <utility>
 
 #include "wpg/check.h"
+#include "wpg/motion/pre_bump.h"
 #include "wpg/motion/smoothstep.h"
 
 namespace halfstep {
 namespace {
 
-// A number with its derivatives with respect to θ and to the shift's fraction.
-using Dual = Eigen::AutoDiffScalar<Eigen::Vector2d>;
-using Series = std::vector<Dual>;
-
-// −B(y) = −64y³(1 − y)³ in powers of y = σ/σ₁.
-constexpr std::array<double, 7> kPreBump = {0, 0, 0, -64, 192, -192, 64};
-// Those of a flat top: −S(x), −1 and −(1 − S(x)) on their pieces.
-constexpr std::array<double, 6> kPreBumpRise = {0, 0, 0, -10, 15, -6};
-constexpr std::array<double, 1> kPreBumpTop = {-1};
-constexpr std::array<double, 6> kPreBumpFall = {-1, 0, 0, 10, -15, 6};
-// The two halves of the round one, each in powers of its own x, and derivatives: of a flat top's
-// ramps with respect to r, times r, and of the mixture with respect to r.
-constexpr std::array<double, 7> kRoundRise = {0, 0, 0, -8, 12, -6, 1};
-constexpr std::array<double, 7> kRoundFall = {-1, 0, 3, 0, -3, 0, 1};
-constexpr std::array<double, 6> kRiseByRamp = {0, 0, 0, 30, -60, 30};
-constexpr std::array<double, 6> kFallByRamp = {0, 0, 30, -90, 90, -30};
-constexpr std::array<double, 7> kRiseByMixture = {0, 0, 0, 4, -6, 0, 2};
-constexpr std::array<double, 7> kFallByMixture = {0, 0, 6, -20, 24, -12, 2};
 // ½ + (15x − 10x³ + 3x⁵)/16 in powers of x = (σ − ½)/δ.
 constexpr std::array<double, 6> kShift = {0.5, 15.0 / 16, 0, -10.0 / 16, 0, 3.0 / 16};
-
-// Power series of the solution of c_xx = λ²·(c − p): (k+2)(k+1)·c_{k+2} = λ²·(c_k − p_k), summed
-// until what is left out is below rounding on |x| ≤ 1.
-template <size_t n>
-Series Solve(const Dual& lambda, const std::array<double, n>& p, const Dual& c0, const Dual& c1) {
-  Series c = {c0, c1};
-  for (size_t k = 0; k < n || std::abs(c[k].value()) + std::abs(c[k + 1].value()) >
-                                  1e-22 * (1.0 + std::abs(c[0].value()));
-       ++k) {
-    const double p_k = k < n ? p[k] : 0.0;
-    c.push_back(lambda * lambda * (c[k] - p_k) / static_cast<double>((k + 2) * (k + 1)));
-  }
-  return c;
-}
-
-// Σ c_k·x^k and Σ k·c_k·x^{k−1} at x = ±1.
-std::array<Dual, 2> Ends(const Series& c, double x) {
-  Dual value(0.0), slope(0.0);
-  double power = 1.0;
-  for (size_t k = 0; k < c.size(); ++k) {
-    value = value + c[k] * power;
-    slope = slope + c[k] * (power * x * static_cast<double>(k));
-    power *= x;
-  }
-  return {value, slope};
-}
-
-// A piece of the pre-bump of amplitude 1, and the CoM's motion under it.
-struct UnitPiece {
-  Dual center, width;
-  Series com;
-  std::vector<double> zmp;
-};
-
-// Goes on from rest, or from where the last piece ends.
-template <size_t n>
-void AddPiece(const Dual& theta, const Dual& center, const Dual& width,
-              const std::array<double, n>& zmp, std::vector<UnitPiece>* pieces) {
-  Dual value(0.0), slope(0.0);
-  if (!pieces->empty()) {
-    const UnitPiece& before = pieces->back();
-    const auto [end, end_slope] = Ends(before.com, 1.0);
-    value = end;
-    slope = end_slope * (width / before.width);
-  }
-  pieces->push_back({center, width, Solve(Dual(theta * width), zmp, value, slope),
-                     std::vector<double>(zmp.begin(), zmp.end())});
-}
-
-// w·a + (1 − w)·b.
-std::array<double, 7> Mixed(double w, const std::array<double, 7>& a,
-                            const std::array<double, 6>& b) {
-  std::array<double, 7> mixed;
-  for (size_t k = 0; k < 7; ++k) mixed[k] = w * a[k] + (k < 6 ? (1.0 - w) * b[k] : 0.0);
-  return mixed;
-}
-
-// The unit pre-bump on [0, σ₁], from rest.
-std::vector<UnitPiece> PreBump(const Dual& theta, const Dual& first, double r) {
-  std::vector<UnitPiece> bump;
-  const auto extend = [&](const Dual& center, const Dual& width, const auto& zmp) {
-    AddPiece(theta, center, width, zmp, &bump);
-  };
-  if (r == 1.0) {
-    extend(Dual(0.0), first, kPreBump);
-    return bump;
-  }
-  const Dual ramp = std::min(r, 0.5) * first;
-  if (r > 0.5) {
-    extend(Dual(0.0), ramp, Mixed(2.0 * r - 1.0, kRoundRise, kPreBumpRise));
-    extend(Dual(first - ramp), ramp, Mixed(2.0 * r - 1.0, kRoundFall, kPreBumpFall));
-    return bump;
-  }
-  extend(Dual(0.0), ramp, kPreBumpRise);
-  if (r < 0.5) extend(ramp, Dual(first - 2.0 * ramp), kPreBumpTop);
-  extend(Dual(first - ramp), ramp, kPreBumpFall);
-  return bump;
-}
-
-// Its derivative with respect to r, which is from rest, too.
-std::vector<UnitPiece> PreBumpByRamp(const Dual& theta, const Dual& first, double r) {
-  std::vector<UnitPiece> slope;
-  const Dual ramp = std::min(r, 0.5) * first;
-  if (r > 0.5) {
-    AddPiece(theta, Dual(0.0), ramp, kRiseByMixture, &slope);
-    AddPiece(theta, Dual(first - ramp), ramp, kFallByMixture, &slope);
-    return slope;
-  }
-  const auto over_r = [r](std::array<double, 6> p) {
-    for (double& c : p) c /= r;
-    return p;
-  };
-  AddPiece(theta, Dual(0.0), ramp, over_r(kRiseByRamp), &slope);
-  const std::array<double, 1> none = {0.0};
-  if (r < 0.5) AddPiece(theta, ramp, Dual(first - 2.0 * ramp), none, &slope);
-  AddPiece(theta, Dual(first - ramp), ramp, over_r(kFallByRamp), &slope);
-  return slope;
-}
 
 // F(σ) = 1 − F(1 − σ).
 UnitJet Reflected(const UnitJet& f) {
@@ -143,6 +29,66 @@ UnitJet Reflected(const UnitJet& f) {
 // The same of a derivative of F with respect to a parameter.
 UnitJet ReflectedSlope(const UnitJet& f) { return {.value = -f.value, .s = f.s, .ss = -f.ss}; }
 
+// RestToRest on [0, ½], and its derivative with respect to the bump's ramp.
+struct UnitMotion {
+  UnitDual bump;  // a
+  std::vector<UnitPiece> pieces;
+  double bump_by_ramp;             // a'/a
+  std::vector<UnitPiece> by_ramp;  // but for what a' multiplies
+};
+
+void Scale(const UnitDual& amplitude, std::vector<UnitPiece>* pieces) {
+  for (UnitPiece& piece : *pieces) {
+    for (UnitDual& c : piece.com) c = amplitude * c;
+    for (UnitDual& p : piece.zmp) p = amplitude * p;
+  }
+}
+
+UnitMotion SolveMotion(const UnitDual& theta, const UnitDual& fraction, double bump_ramp) {
+  const UnitDual delta = 0.5 * fraction, first = 0.5 - UnitDual(0.5 * fraction);
+  // From rest under the unit pre-bump, piece by piece; through (½, ½) with slope γ: c = forced +
+  // γ·free.
+  std::vector<UnitPiece> bump = PreBump(theta, first, bump_ramp);
+  const UnitPiece& last = bump.back();
+  const UnitDual lambda = theta * delta;
+  const UnitSeries forced = SolveLipm(lambda, kShift, UnitDual(0.5), UnitDual(0.0));
+  const UnitSeries free =
+      SolveLipm(lambda, std::array<double, 1>{0.0}, UnitDual(0.0), UnitDual(1.0));
+
+  // Value and slope continuous at σ₁: a·F = P + γ·H,  a·F'/σ₁ = (P' + γ·H')/δ.
+  const auto [f, f_slope] = Ends(last.com, 1.0);
+  const auto [p, p_slope] = Ends(forced, -1.0);
+  const auto [h, h_slope] = Ends(free, -1.0);
+  const UnitDual s = f_slope * (delta / last.width);
+  const UnitDual determinant = f * h_slope - s * h;
+  const UnitDual a = (p * h_slope - p_slope * h) / determinant;
+  const UnitDual gamma = (s * p - f * p_slope) / determinant;
+  UnitPiece shift{UnitDual(0.5), delta, {}, UnitSeries(kShift.begin(), kShift.end())};
+  for (size_t k = 0; k < forced.size() || k < free.size(); ++k) {
+    UnitDual c(0.0);
+    if (k < forced.size()) c = c + forced[k];
+    if (k < free.size()) c = c + gamma * free[k];
+    shift.com.push_back(c);
+  }
+
+  // With F and F' changed by dF and dF', a and γ change so that both equations still hold.
+  std::vector<UnitPiece> slope = PreBumpByRamp(theta, first, bump_ramp);
+  const auto [df, df_slope] = Ends(slope.back().com, 1.0);
+  const UnitDual ds = df_slope * (delta / slope.back().width);
+  const double relative = UnitDual((df * h_slope - ds * h) / determinant).value();
+  const double gamma_by_ramp =
+      UnitDual((ds * p - df * p_slope) / determinant).value() - gamma.value() * relative;
+  UnitPiece shift_by_ramp{UnitDual(0.5), delta, {}, {}};
+  for (const UnitDual& c : free) shift_by_ramp.com.emplace_back(gamma_by_ramp * c.value());
+
+  Scale(a, &bump);
+  bump.push_back(std::move(shift));
+  Scale(a, &slope);
+  slope.push_back(std::move(shift_by_ramp));
+  return {
+      .bump = a, .pieces = std::move(bump), .bump_by_ramp = -relative, .by_ramp = std::move(slope)};
+}
+
 }  // namespace
 
 RestToRest::RestToRest(double theta, double shift_fraction, double bump_ramp)
@@ -151,71 +97,37 @@ RestToRest::RestToRest(double theta, double shift_fraction, double bump_ramp)
   HALFSTEP_CHECK(shift_fraction >= 0.01 && shift_fraction <= 0.5,
                  "shift_fraction = " << shift_fraction);
   HALFSTEP_CHECK(bump_ramp >= 0.1 && bump_ramp <= 1.0, "bump_ramp = " << bump_ramp);
-  const Dual th(theta, 2, 0), fraction(shift_fraction, 2, 1);
-  const Dual delta = 0.5 * fraction, first = 0.5 - Dual(0.5 * fraction);
   const double round = std::max(0.0, 2.0 * bump_ramp - 1.0), ramp = std::min(bump_ramp, 0.5);
   bump_second_ = round * 24.0 + (1.0 - round) * 10.0 / (std::sqrt(3.0) * ramp * ramp);
 
-  // From rest under the unit pre-bump, piece by piece; through (½, ½) with slope γ: c = forced +
-  // γ·free.
-  const std::vector<UnitPiece> bump = PreBump(th, first, bump_ramp);
-  const UnitPiece& last = bump.back();
-  const Series forced = Solve(Dual(th * delta), kShift, Dual(0.5), Dual(0.0));
-  const Series free = Solve(Dual(th * delta), std::array<double, 1>{0.0}, Dual(0.0), Dual(1.0));
-
-  // Value and slope continuous at σ₁: a·F = P + γ·H,  a·F'/σ₁ = (P' + γ·H')/δ.
-  const auto [f, f_slope] = Ends(last.com, 1.0);
-  const auto [p, p_slope] = Ends(forced, -1.0);
-  const auto [h, h_slope] = Ends(free, -1.0);
-  const Dual s = f_slope * (delta / last.width);
-  const Dual determinant = f * h_slope - s * h;
-  const Dual a = (p * h_slope - p_slope * h) / determinant;
-  const Dual gamma = (s * p - f * p_slope) / determinant;
-
-  const auto coefficient = [](const Dual& x) {
+  const UnitMotion motion =
+      SolveMotion(UnitDual(theta, 2, 0), UnitDual(shift_fraction, 2, 1), bump_ramp);
+  const auto coefficient = [](const UnitDual& x) {
     return Coefficient{x.value(), x.derivatives()[0], x.derivatives()[1]};
   };
-  const auto piece_on = [](const Dual& center, const Dual& width, double end) {
-    return Piece{center.value(),          width.value(),          end,
-                 center.derivatives()[1], width.derivatives()[1], {}};
+  const auto add = [&](const UnitPiece& of, double end, const UnitSeries& series,
+                       std::vector<Piece>* pieces) {
+    Piece piece{of.center.value(),          of.width.value(),          end,
+                of.center.derivatives()[1], of.width.derivatives()[1], {}};
+    piece.coefficients.reserve(series.size());
+    for (const UnitDual& c : series) piece.coefficients.push_back(coefficient(c));
+    pieces->push_back(std::move(piece));
   };
-  const auto add = [&](const std::vector<UnitPiece>& pieces, std::vector<Piece>* com,
-                       std::vector<Piece>* zmp) {
-    for (const UnitPiece& piece : pieces) {
-      const double end =
-          &piece == &pieces.back() ? first_ : piece.center.value() + piece.width.value();
-      com->push_back(piece_on(piece.center, piece.width, end));
-      zmp->push_back(com->back());
-      for (const Dual& c : piece.com) com->back().coefficients.push_back(coefficient(a * c));
-      for (double b : piece.zmp) zmp->back().coefficients.push_back(coefficient(a * b));
+  // The bump's pieces end at σ₁, the shift's at ½.
+  const auto add_all = [&](const std::vector<UnitPiece>& of, std::vector<Piece>* com,
+                           std::vector<Piece>* zmp) {
+    for (size_t i = 0; i < of.size(); ++i) {
+      const double end = i + 1 == of.size()   ? 0.5
+                         : i + 2 == of.size() ? first_
+                                              : of[i].center.value() + of[i].width.value();
+      add(of[i], end, of[i].com, com);
+      add(of[i], end, of[i].zmp, zmp);
     }
   };
-  bump_ = coefficient(a);
-  add(bump, &com_, &zmp_);
-  com_.push_back(piece_on(Dual(0.5), delta, 0.5));
-  zmp_.push_back(com_.back());
-  for (size_t k = 0; k < forced.size() || k < free.size(); ++k) {
-    Dual c(0.0);
-    if (k < forced.size()) c = c + forced[k];
-    if (k < free.size()) c = c + gamma * free[k];
-    com_.back().coefficients.push_back(coefficient(c));
-  }
-  for (double c : kShift) zmp_.back().coefficients.push_back({c, 0.0, 0.0});
-
-  // With F and F' changed by dF and dF', a and γ change so that both equations still hold.
-  const std::vector<UnitPiece> slope = PreBumpByRamp(th, first, bump_ramp);
-  const auto [df, df_slope] = Ends(slope.back().com, 1.0);
-  const Dual ds = df_slope * (delta / slope.back().width);
-  const double relative = Dual((df * h_slope - ds * h) / determinant).value();
-  bump_by_ramp_ = -relative;
-  const double gamma_by_ramp =
-      Dual((ds * p - df * p_slope) / determinant).value() - gamma.value() * relative;
-  add(slope, &com_by_ramp_, &zmp_by_ramp_);
-  com_by_ramp_.push_back(piece_on(Dual(0.5), delta, 0.5));
-  zmp_by_ramp_.push_back(com_by_ramp_.back());
-  for (const Dual& c : free) {
-    com_by_ramp_.back().coefficients.push_back({gamma_by_ramp * c.value(), 0.0, 0.0});
-  }
+  bump_ = coefficient(motion.bump);
+  bump_by_ramp_ = motion.bump_by_ramp;
+  add_all(motion.pieces, &com_, &zmp_);
+  add_all(motion.by_ramp, &com_by_ramp_, &zmp_by_ramp_);
 }
 
 UnitJet RestToRest::Piece::At(double sigma) const {

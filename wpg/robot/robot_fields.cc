@@ -154,23 +154,16 @@ void DeclareMeshParts(Fields& fields, RobotFile* file) {
                });
 }
 
-}  // namespace
-
-void DeclareFields(Fields& fields, RobotFile* file) {
-  fields.Text("name", &file->name, {.meaning = "name of the robot", .required = true});
-  if (const std::string mistake = NameMistake(file->name); !mistake.empty()) {
-    fields.Complain("name", mistake);
-  }
+// Also reads the URDF, which other keys are about.
+void DeclareUrdf(Fields& fields, RobotFile* file) {
   fields.Text("urdf", &file->urdf_path, {.meaning = "URDF file", .required = true});
   if (!file->urdf && !file->urdf_path.empty()) {
     file->urdf = ReadUrdf((std::filesystem::path(fields.directory()) / file->urdf_path).string());
     file->urdf->source.name = file->urdf_path;
   }
-  const std::vector<std::string> links = LinkNames(*file);
-  DeclarePackages(fields, file);
-  fields.Text("dae_up_axis", &file->dae_up_axis,
-              {.meaning = "whether meshes in DAE are turned by their `up_axis`, as some viewers do",
-               .choices = {"ignored", "applied"}});
+}
+
+void DeclareWaist(Fields& fields, const std::vector<std::string>& links, RobotFile* file) {
   fields.Text(
       "waist_link", &file->waist_link,
       {.meaning = "link whose frame, turned by waist_rpy_deg, is the waist frame: x forward, "
@@ -181,6 +174,22 @@ void DeclareFields(Fields& fields, RobotFile* file) {
                  {.meaning = "waist frame in the frame of that link: roll, pitch, yaw about fixed "
                              "axes",
                   .unit = "deg"});
+}
+
+}  // namespace
+
+void DeclareFields(Fields& fields, RobotFile* file) {
+  fields.Text("name", &file->name, {.meaning = "name of the robot", .required = true});
+  if (const std::string mistake = NameMistake(file->name); !mistake.empty()) {
+    fields.Complain("name", mistake);
+  }
+  DeclareUrdf(fields, file);
+  const std::vector<std::string> links = LinkNames(*file);
+  DeclarePackages(fields, file);
+  fields.Text("dae_up_axis", &file->dae_up_axis,
+              {.meaning = "whether meshes in DAE are turned by their `up_axis`, as some viewers do",
+               .choices = {"ignored", "applied"}});
+  DeclareWaist(fields, links, file);
   fields.OptionalNumber("com_height_m", &file->com_height,
                         {.meaning = "height of the CoM while walking; none: that of the model in "
                                     "the standing posture",

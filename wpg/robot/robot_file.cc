@@ -3,10 +3,8 @@
 #include <filesystem>
 #include <functional>
 #include <limits>
-#include <map>
 #include <numbers>
 #include <optional>
-#include <string_view>
 
 #include "wpg/files/number_text.h"
 #include "wpg/files/text.h"
@@ -17,6 +15,7 @@
 #include "wpg/robot/robot_fields.h"
 #include "wpg/robot/robot_legs.h"
 #include "wpg/robot/robot_model.h"
+#include "wpg/robot/robot_warnings.h"
 #include "wpg/robot/self_pairs.h"
 #include "wpg/robot/sole_outline.h"
 #include "wpg/robot/urdf_masses.h"
@@ -126,33 +125,14 @@ class Builder {
       model_.warnings.push_back(file_.name + ": " + warning);
     }
     for (size_t side = 0; side < 2; ++side) {
-      const Leg& leg = model_.legs[side];
-      if (leg.closed_form()) continue;
-      const auto joint = static_cast<size_t>(body_.leg_joints[side][0]);
-      const UrdfJoint& first = urdf_.joints[joint];
-      Complaints told;
-      told.Add(urdf_.file, first.place.line, first.place.column, first.name,
-               leg.offsets +
-                   ": the closed form does not apply; joint angles are those of a leg whose "
-                   "axes meet, continued with proof to this one, which takes longer");
-      for (const std::string& line : told.lines()) model_.warnings.push_back(line);
+      const UrdfJoint& first = Nth(urdf_.joints, body_.leg_joints[side][0]);
+      Tell(OffsetWarnings(model_.legs[side], first, urdf_.file));
     }
-    TellHeldJoints();
+    Tell(HeldJointWarnings(urdf_));
   }
 
-  // Joints with the same fault, such as the fingers of a hand, share a line.
-  void TellHeldJoints() {
-    std::map<std::string, size_t> told;  // fault → its warning
-    for (const UrdfJoint& joint : urdf_.joints) {
-      for (const std::string& line : joint.faults) {
-        std::string_view fault = std::string_view(line).substr(line.find(": ", urdf_.file.size()));
-        if (fault.substr(2).starts_with(joint.name)) fault.remove_prefix(2 + joint.name.size());
-        const auto [known, first] = told.try_emplace(std::string(fault), model_.warnings.size());
-        if (first) model_.warnings.push_back(line + "; it is held still");
-        std::string& warning = model_.warnings[known->second];
-        if (!first) warning += (warning.ends_with("still") ? ", so are " : ", ") + joint.name;
-      }
-    }
+  void Tell(const std::vector<std::string>& warnings) {
+    model_.warnings.insert(model_.warnings.end(), warnings.begin(), warnings.end());
   }
 
   // Waist height and width of stance; complains about feet that do not stand side by side.
@@ -209,7 +189,7 @@ class Builder {
     model_.masses =
         AddUpMasses(urdf_, FindAnchors(urdf_, leg_.waist, body_.leg_joints, leg_.posture),
                     2 * model_.waist_height);
-    for (const std::string& warning : MassWarnings(urdf_)) model_.warnings.push_back(warning);
+    Tell(MassWarnings(urdf_));
     model_.com_x_B = moment.x() / model_.mass;
     model_.com_height = file_.com_height.value_or(model_.waist_height + moment.z() / model_.mass);
   }
@@ -232,7 +212,7 @@ class Builder {
     model_.unwatched_pairs = std::move(pairs.unwatched);
     model_.bodies = std::move(all.bodies);
     FindBareLinks(all.links);
-    TellSimplified();
+    Tell(SimplifiedWarnings(urdf_, model_.bodies, file_.hull_vertices));
     model_.files = std::move(all.meshes);
     model_.sole_outline = SoleOutline(model_);
     CheckSoles();
@@ -246,23 +226,6 @@ class Builder {
       model_.bare_links.push_back({link.name, link.mass});
     }
     std::ranges::stable_sort(model_.bare_links, std::ranges::greater(), &BareLink::mass);
-  }
-
-  void TellSimplified() {
-    int count = 0;
-    const RobotBody* largest = nullptr;
-    for (const RobotBody& body : model_.bodies) {
-      if (body.mesh_vertices == 0) continue;
-      ++count;
-      if (largest == nullptr || body.excess > largest->excess) largest = &body;
-    }
-    if (count == 0) return;
-    model_.warnings.push_back(
-        urdf_.file + ": " + std::to_string(count) + " of " + std::to_string(model_.bodies.size()) +
-        " bodies are meshes whose hull has more than " + std::to_string(file_.hull_vertices) +
-        " vertices; they get simpler hulls around these, at most " +
-        Formatted("%.2g", 1e3 * largest->excess) + " mm larger (" + largest->name + ", " +
-        std::to_string(largest->mesh_vertices) + " vertices; `hull_vertices` of the robot file)");
   }
 
   void CheckSoles() {

@@ -161,15 +161,15 @@ std::optional<Leg> LegGeometry(const UrdfTree& urdf, const LegRequest& request,
   const Isometry3d X_BRoot = Nth(X, request.waist).inverse();
   Leg leg;
   for (size_t i = 0; i < 6; ++i) {
-    const auto index = static_cast<size_t>(indices[i]);
-    const UrdfJoint& joint = urdf.joints[index];
+    const int index = indices[i];
+    const UrdfJoint& joint = Nth(urdf.joints, index);
     LegJoint& out = leg.joints[i];
     out.name = joint.name;
     out.X_BLink = X_BRoot * Nth(X, joint.child);
     out.axis_B = (out.X_BLink.linear() * joint.axis).normalized();
     out.point_B = out.X_BLink.translation();
-    out.lower = request.lower[index];
-    out.upper = request.upper[index];
+    out.lower = Nth(request.lower, index);
+    out.upper = Nth(request.upper, index);
     if (out.upper - out.lower > 2.0 * std::numbers::pi + 1e-9) {
       complaints->Add(urdf.file, joint.place.line, joint.place.column, joint.name,
                       "its limits are more than a turn apart (valid: at most 360 deg, where need "
@@ -177,9 +177,9 @@ std::optional<Leg> LegGeometry(const UrdfTree& urdf, const LegRequest& request,
       return std::nullopt;
     }
     out.max_speed = joint.max_speed;
-    out.max_torque = request.torque[index];
-    out.max_acceleration = request.acceleration[index];
-    leg.standing_q[static_cast<Eigen::Index>(i)] = request.posture[index];
+    out.max_torque = Nth(request.torque, index);
+    out.max_acceleration = Nth(request.acceleration, index);
+    leg.standing_q[static_cast<Eigen::Index>(i)] = Nth(request.posture, index);
   }
   leg.X_BSole = X_BRoot * Nth(X, request.foot) * request.X_FootSole;
 

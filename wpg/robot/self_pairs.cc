@@ -25,13 +25,13 @@ std::string MeetingPoint(const std::vector<int>& joints, const LegJoints& leg_jo
   for (size_t side = 0; side < 2; ++side) {
     const std::array<int, 6>& leg = leg_joints.indices[side];
     const auto index = [&](int joint) {
-      return static_cast<size_t>(std::find(leg.begin(), leg.end(), joint) - leg.begin());
+      return std::find(leg.begin(), leg.end(), joint) - leg.begin();
     };
-    const size_t a = index(joints[0]), b = index(joints[1]);
+    const std::ptrdiff_t a = index(joints[0]), b = index(joints[1]);
     const bool hip = a < 3 && b < 3, ankle = a >= 4 && a < 6 && b >= 4 && b < 6;
     if (!hip && !ankle) continue;
     const Leg& of = leg_joints.legs[side];
-    if (!of.closed_form() && !Meet(of.joints[a], of.joints[b])) return "";
+    if (!of.closed_form() && !Meet(Nth(of.joints, a), Nth(of.joints, b))) return "";
     return hip ? "hip" : "ankle";
   }
   return "";

@@ -234,11 +234,11 @@ void UrdfTree::TurnFrame(int link, const Eigen::Matrix3d& R_OldNew) {
 std::vector<Isometry3d> UrdfTree::LinkPoses(const std::vector<double>& q) const {
   std::vector<Isometry3d> X(links.size(), Isometry3d::Identity());
   for (size_t i = 1; i < links.size(); ++i) {
-    const auto j = static_cast<size_t>(links[i].joint);
-    const UrdfJoint& joint = joints[j];
+    const int j = links[i].joint;
+    const UrdfJoint& joint = Nth(joints, j);
     X[i] = Nth(X, joint.parent) * joint.X_ParentChild;
     if (joint.kind == UrdfJoint::Kind::kRevolute) {
-      X[i].rotate(Eigen::AngleAxisd(q[j], joint.axis));
+      X[i].rotate(Eigen::AngleAxisd(Nth(q, j), joint.axis));
     }
   }
   return X;
