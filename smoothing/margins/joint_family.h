@@ -53,6 +53,7 @@ class JointFamily : public WholeFamily {
 template <typename Family>
 class JointSizeFamily : public JointFamily {
  public:
+  /// Traits and place of the class.
   using JointFamily::JointFamily;
 
   Margin Least(Instant* at, double) const final {

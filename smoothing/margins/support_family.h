@@ -11,6 +11,7 @@ namespace halfstep {
 /// air, or −1.
 class SupportFamily : public WholeFamily {
  public:
+  /// The traits of the class.
   using WholeFamily::WholeFamily;
   int count() const final { return 1; }
   std::string Subject(const Margin& margin) const final {

@@ -12,10 +12,11 @@ namespace halfstep {
 ///   - `bool Watches(const Instant&)`: whether there is something to watch of a foot in the air;
 ///   - `double Value(const Instant&)`: the margin, and `AddRow(Instant*, SlackSink*)`: its row;
 ///   - `double Change(const MarginInterval&)`: how much it changes at most.
-/// All three are asked only where it watches.
+/// All but the first are asked only where it watches.
 template <typename Family>
 class SwingFootFamily : public WholeFamily {
  public:
+  /// The traits of the class.
   using WholeFamily::WholeFamily;
   int count() const final { return 1; }
   std::string Subject(const Margin& margin) const final { return FootName(margin); }

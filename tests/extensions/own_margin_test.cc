@@ -114,8 +114,7 @@ TEST_F(OwnMarginTest, RowsHaveItsDerivatives) {
 
 TEST_F(OwnMarginTest, IsThereOnlyForThoseWhoAddIt) {
   const std::vector<YamlOverride> demanded = {{"smoothing.margins.own", "2"}};
-  EXPECT_EQ(
-      Load(demanded, WithComSpeed()).smoothing.limits.demanded_of(MarginFamily::kOwn), 2.0);
+  EXPECT_EQ(Load(demanded, WithComSpeed()).smoothing.limits.demanded_of(MarginFamily::kOwn), 2.0);
   EXPECT_THROW(Load(demanded, Methods::Standard()), InputError);
   const WalkProblem without = ProblemOf(Prepare(Load({}, Methods::Standard())));
   EXPECT_THAT(without.evaluator().families(), testing::Not(testing::Contains(MarginFamily::kOwn)));
